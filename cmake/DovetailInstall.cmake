@@ -1,0 +1,1 @@
+# Installation and package files: filled in by the packaging step.

@@ -1,0 +1,38 @@
+# One library target per folder of src: dovetail_<name>, alias dovetail::<name>.
+
+# dovetail_add_module(<name> SOURCES file… [DEPENDS module…])
+# Headers live in include/dovetail/<name>; a module sees only those of the modules it depends on.
+function(dovetail_add_module name)
+  cmake_parse_arguments(MODULE "" "" "SOURCES;DEPENDS" ${ARGN})
+  set(target dovetail_${name})
+  add_library(${target} ${MODULE_SOURCES})
+  add_library(dovetail::${name} ALIAS ${target})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:include>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  dovetail_set_warnings(${target})
+  foreach(dependency ${MODULE_DEPENDS})
+    target_link_libraries(${target} PUBLIC dovetail::${dependency})
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY DOVETAIL_MODULES ${name})
+  set_property(GLOBAL PROPERTY DOVETAIL_DEPENDS_${name} "${MODULE_DEPENDS}")
+endfunction()
+
+# dovetail_add_test(<name> SOURCES file… DEPENDS module…): one GoogleTest program per folder of tests.
+function(dovetail_add_test name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(test_${name} ${TEST_SOURCES})
+  foreach(dependency ${TEST_DEPENDS})
+    target_link_libraries(test_${name} PRIVATE dovetail::${dependency})
+  endforeach()
+  target_link_libraries(test_${name} PRIVATE GTest::gtest_main)
+  dovetail_set_warnings(test_${name})
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
+endfunction()
+
+function(dovetail_set_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                         -Wno-psabi $<$<BOOL:${DOVETAIL_WARNINGS_AS_ERRORS}>:-Werror>)
+endfunction()

@@ -1,0 +1,50 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "dovetail/core/ledger.hpp"
+
+namespace dovetail {
+namespace {
+
+TEST(EnergyLedger, ResidualIsZeroWhenEveryJouleIsBooked) {
+  EnergyLedger ledger;
+  const auto kinetic = ledger.addStored("kinetic");
+  const auto dashpot = ledger.addBooked("dashpot");
+  ledger.set(kinetic, 5.0);
+  ledger.open();
+  ledger.set(kinetic, 3.5);
+  ledger.add(dashpot, 1.5);
+  ledger.close();
+  EXPECT_DOUBLE_EQ(ledger.residual(), 0.0);
+  EXPECT_DOUBLE_EQ(ledger.largestDrift(), 1.5);
+}
+
+TEST(EnergyLedger, UnbookedLossShowsInTheResidualWithItsSign) {
+  EnergyLedger ledger;
+  const auto kinetic = ledger.addStored("kinetic");
+  ledger.set(kinetic, 5.0);
+  ledger.open();
+  ledger.set(kinetic, 4.0);
+  ledger.close();
+  ledger.set(kinetic, 5.0);
+  ledger.close();
+  EXPECT_DOUBLE_EQ(ledger.residual(), 0.0);
+  EXPECT_DOUBLE_EQ(ledger.largestResidual(), 1.0);
+  EXPECT_DOUBLE_EQ(ledger.storedMin(), 4.0);
+  EXPECT_DOUBLE_EQ(ledger.storedMax(), 5.0);
+}
+
+TEST(EnergyLedger, PrintsEveryChannelAndTheResidual) {
+  EnergyLedger ledger;
+  ledger.addStored("kinetic, particles");
+  ledger.addBooked("dashpot");
+  std::ostringstream text;
+  text << ledger;
+  EXPECT_NE(text.str().find("kinetic, particles"), std::string::npos);
+  EXPECT_NE(text.str().find("dashpot [booked]"), std::string::npos);
+  EXPECT_NE(text.str().find("residual"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dovetail
