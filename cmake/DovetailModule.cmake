@@ -1,4 +1,5 @@
 # One library target per folder of src: dovetail_<name>, alias dovetail::<name>.
+include(GNUInstallDirs)
 
 # dovetail_add_module(<name> SOURCES file… [DEPENDS module…])
 # Headers live in include/dovetail/<name>; a module sees only those of the modules it depends on.
@@ -9,9 +10,12 @@ function(dovetail_add_module name)
   add_library(dovetail::${name} ALIAS ${target})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-    $<INSTALL_INTERFACE:include>)
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    INSTALL_RPATH "\$ORIGIN")
   dovetail_set_warnings(${target})
   foreach(dependency ${MODULE_DEPENDS})
     target_link_libraries(${target} PUBLIC dovetail::${dependency})

@@ -1,0 +1,158 @@
+#include "model.hpp"
+
+#include <cmath>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/fem/stable_step.hpp"
+
+namespace dovetail::cantilever {
+
+namespace {
+
+constexpr Vec3 lowerCorner{-0.4, 0.0, -0.4}, upperCorner{0.4, 12.0, 0.4};
+
+double contactStiffness(const Settings& settings) {
+  const Case beam;
+  return settings.stiffnessRatio * beam.youngsModulus * beam.particleDiameter;
+}
+
+dem::Particles makeParticles(const Settings& settings) {
+  const Case beam;
+  const double radius = 0.5 * beam.particleDiameter;
+  const double overlap = particleMass(beam) * beam.gravity / contactStiffness(settings);
+  if (overlap >= radius)
+    throw InputError("the particles sink by " + formatNumber(overlap) + " m under their own weight", "--stiffness-ratio",
+                     "give at least " + formatNumber(2.0 * overlap / radius * settings.stiffnessRatio));
+  dem::Particles particles;
+  for (double x : {beam.startX, -beam.startX})
+    dem::addParticle(particles, {x, beam.startY, 0.5 * beam.side + radius - overlap}, {0.0, beam.startVelocity, 0.0},
+                     radius, dem::Density{beam.particleDensity});
+  return particles;
+}
+
+fem::Material makeMaterial(const Settings& settings) {
+  const Case beam;
+  if (settings.metric == Metric::deformed)
+    return fem::DeformedMetricHooke{beam.youngsModulus, beam.poissonRatio, beam.density};
+  return fem::StVenantKirchhoff{beam.youngsModulus, beam.poissonRatio, beam.density};
+}
+
+cg::SurfaceKernel makeKernel(const Settings& settings) {
+  const auto shape = settings.kernel == KernelName::gauss ? cg::KernelShape::gauss : cg::KernelShape::lucy;
+  const auto correction =
+      settings.correction == Correction::linear ? cg::KernelCorrection::linear : cg::KernelCorrection::none;
+  return {{shape, 2, settings.cgWidth * Case{}.particleDiameter}, correction};
+}
+
+surface::Skin makeCarryingSkin(const Settings& settings, const fem::Mesh& mesh) {
+  surface::Skin skin = surface::makeSkin(mesh.X, mesh.faceSets.at("skin"));
+  if (settings.transfer == Transfer::adjoint) surface::coarseGrain(skin, makeKernel(settings));
+  return skin;
+}
+
+surface::Coupling makeSeam(const Settings& settings, const fem::Mesh& mesh) {
+  surface::CouplingOptions options;
+  options.edges = settings.edges == EdgeHandling::paper ? dem::EdgeRule::paper : dem::EdgeRule::projected;
+  surface::Coupling seam(makeCarryingSkin(settings, mesh), options);
+  if (settings.transfer == Transfer::spread)
+    seam.spreadLoad(surface::SpreadLoad(makeKernel(settings), mesh.X, seam.skin(), mesh.faceSets.at("skin")));
+  seam.bookWallWork(couplingIsUnbalanced(settings));
+  return seam;
+}
+
+surface::SmoothCoupling makeSmoothSeam(const Settings& settings, const fem::Mesh& mesh) {
+  surface::Skin skin = makeCarryingSkin(settings, mesh);
+  if (settings.cgWidth == 0.0) surface::splitAtSharpEdges(skin);
+  return surface::SmoothCoupling(surface::makeSmoothSurface(skin));
+}
+
+template <class Seam>
+surface::CoupledModel<Seam> makeModel(const Settings& settings, const fem::Mesh& mesh, Seam seam) {
+  const auto type = settings.element == "hybrid8" ? fem::ElementType::hybrid8 : fem::ElementType::hex8;
+  surface::CoupledModel<Seam> model{makeParticles(settings),
+                                    {},
+                                    {},
+                                    {},
+                                    {0.0, 0.0, -Case{}.gravity},
+                                    fem::makeNodes(mesh),
+                                    fem::makeElements(mesh, type, makeMaterial(settings)),
+                                    std::move(seam),
+                                    0.0,
+                                    {}};
+  fem::addLumpedMass(model.elements, model.nodes);
+  fem::fix(model.nodes, mesh.nodeSets.at("y-"));
+  const dem::LinearSpringDashpot normal{contactStiffness(settings), settings.restitution};
+  model.pairLaw.normal = normal;
+  model.wallLaw.normal = normal;
+  dem::findPairs(model.particles, 0.5 * Case{}.particleDiameter, model.pairs);
+  return model;
+}
+
+}  // namespace
+
+std::array<int, 3> elementCounts(const Settings& settings) {
+  std::array<int, 3> counts = settings.mesh.value_or(Case{}.elements);
+  for (int& count : counts) count *= settings.refine;
+  return counts;
+}
+
+fem::Mesh makeMesh(const Settings& settings) { return fem::boxMesh(elementCounts(settings), lowerCorner, upperCorner); }
+
+FlatModel makeFlatModel(const Settings& settings, const fem::Mesh& mesh) {
+  return makeModel(settings, mesh, makeSeam(settings, mesh));
+}
+
+SmoothModel makeSmoothModel(const Settings& settings, const fem::Mesh& mesh) {
+  return makeModel(settings, mesh, makeSmoothSeam(settings, mesh));
+}
+
+StepLimit criticalStep(const Settings& settings, const fem::ElementBlock& elements, const fem::Nodes& nodes,
+                       const cg::Projection& carrier) {
+  double mobility = 0.0;
+  for (int row = 0; row < carrier.rows(); ++row) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < carrier.rowColumns(row).size(); ++k) {
+      const int node = carrier.rowColumns(row)[k];
+      const double weight = carrier.rowWeights(row)[k];
+      if (nodes.fixed[node] != fem::allComponents) sum += weight * weight / nodes.mass[node];
+    }
+    mobility = std::max(mobility, sum);
+  }
+  const double contact = std::sqrt(contactStiffness(settings) * (1.0 / particleMass(Case{}) + mobility));
+  if (settings.fem == FemStepper::newmark) return {2.0 / contact, "contact of a particle with the skin"};
+  const fem::StableStep solid = fem::stableStep(elements);
+  const double element = 2.0 / solid.dt;
+  const std::string name = "element " + std::to_string(solid.element);
+  const int K = settings.femEvery;
+  if (K == 1) return {2.0 / std::hypot(contact, element), name + " with a contact on it"};
+  if (2.0 / contact < solid.dt / K) return {2.0 / contact, "contact of a particle with the skin"};
+  return {solid.dt / K, name + " (stepped every " + std::to_string(K) + ")"};
+}
+
+double chooseStep(const Settings& settings, const StepLimit& limit) {
+  if (settings.dtAuto) return 0.9 * limit.dt;
+  const double dt = settings.dtFactor * contactTime(Case{});
+  if (dt > limit.dt)
+    throw InputError("the time step " + formatNumber(dt) + " s is above the critical step " + formatNumber(limit.dt) +
+                         " s, set by " + limit.setter,
+                     "--dt-factor " + formatNumber(settings.dtFactor),
+                     "give at most " + formatNumber(std::floor(1e4 * limit.dt / contactTime(Case{})) / 1e4) +
+                         ", or --dt auto");
+  return dt;
+}
+
+BeamCase beamCase(const Settings& settings) {
+  BeamCase beam;
+  beam.contactStiffness = contactStiffness(settings);
+  return beam;
+}
+
+double lockingFactor(const Settings& settings) {
+  if (settings.element != "hex8") return 1.0;
+  const auto counts = elementCounts(settings);
+  const double hy = Case{}.length / counts[1], hz = Case{}.side / counts[2];
+  return 1.0 + hy * hy / (hz * hz) / (2.0 * counts[2] * counts[2]);
+}
+
+}  // namespace dovetail::cantilever

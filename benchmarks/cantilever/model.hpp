@@ -1,0 +1,49 @@
+// Builds the cantilever and its particles from the settings.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "dovetail/fem/newmark.hpp"
+#include "dovetail/surface/coupling.hpp"
+#include "dovetail/surface/smooth_coupling.hpp"
+#include "dovetail/surface/stepper.hpp"
+#include "reference/beam_case.hpp"
+#include "settings.hpp"
+
+namespace dovetail::cantilever {
+
+using FlatModel = surface::CoupledModel<surface::Coupling>;
+using SmoothModel = surface::CoupledModel<surface::SmoothCoupling>;
+
+/// Elements along x, y, z after refinement.
+std::array<int, 3> elementCounts(const Settings& settings);
+
+/// The model at rest with the particles at their static overlap. Axes: x across, y from the clamp, z up, z = 0 on the
+/// beam's axis.
+/// @throws InputError for impossible settings
+FlatModel makeFlatModel(const Settings& settings, const fem::Mesh& mesh);
+SmoothModel makeSmoothModel(const Settings& settings, const fem::Mesh& mesh);
+fem::Mesh makeMesh(const Settings& settings);
+
+/// The largest stable step and who sets it.
+struct StepLimit {
+  double dt;        ///< critical DEM step, s
+  std::string setter;
+};
+
+/// Bounds for the chosen integrators: contacts 2/ω_c with ω_c² = k (1/m_p + max_v Σ S_vi²/m_i); explicit solid 2/ω_e of
+/// its worst element, divided by K; both act together if K = 1: ω² = ω_c² + ω_e².
+StepLimit criticalStep(const Settings& settings, const fem::ElementBlock& elements, const fem::Nodes& nodes,
+                       const cg::Projection& carrier);
+
+/// The DEM step asked for. @throws InputError if it exceeds the critical one
+double chooseStep(const Settings& settings, const StepLimit& limit);
+
+/// The same case for the beam references; bendingFactor 1.
+BeamCase beamCase(const Settings& settings);
+/// Bending stiffness of hex8 over the exact one, 1 + (h_y/h_z)²/(2 n_z²) for ν = 0 (parasitic shear); 1 for other elements.
+double lockingFactor(const Settings& settings);
+
+}  // namespace dovetail::cantilever

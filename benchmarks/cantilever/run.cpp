@@ -1,0 +1,330 @@
+#include "run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/core/clock.hpp"
+#include "dovetail/core/progress.hpp"
+#include "model.hpp"
+
+namespace dovetail::cantilever {
+
+namespace {
+
+constexpr double sampleInterval = 1e-3;      // s, energies and contact
+constexpr double trajectoryInterval = 5e-3;  // s
+constexpr double seriesInterval = 2e-2;      // s
+constexpr double longestRun = 100.0;         // s, where nobody leaves
+
+const std::vector<std::string> seriesNames{
+    "time_s",           "x1_m",                "y1_m",
+    "z1_m",             "vx1_m_per_s",         "vy1_m_per_s",
+    "vz1_m_per_s",      "x2_m",                "y2_m",
+    "z2_m",             "vx2_m_per_s",         "vy2_m_per_s",
+    "vz2_m_per_s",      "mass_particles_kg",   "mass_beam_kg",
+    "momentum_particles_x_Ns", "momentum_particles_y_Ns", "momentum_particles_z_Ns",
+    "momentum_beam_x_Ns", "momentum_beam_y_Ns", "momentum_beam_z_Ns",
+    "kinetic_particles_J", "elastic_contacts_J", "gravity_particles_J",
+    "kinetic_beam_J",   "elastic_beam_J",      "energy_total_J",
+    "dashpots_J",       "made_by_coupling_J",  "ledger_residual_J",
+    "tip_dx_m",         "tip_dy_m",            "tip_dz_m"};
+
+/// Steps that pass between two things that happen every `interval`, in windows of `window` seconds.
+std::int64_t every(double interval, double window) {
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(interval / window)));
+}
+
+std::string moment(double time, std::int64_t step) {
+  return "t = " + formatNumber(time) + " s, step " + std::to_string(step);
+}
+
+/// Runs one model and gathers its figures.
+template <class Model>
+class Runner {
+public:
+  Runner(const Settings& settings, const fem::Mesh& mesh, Model model, const Observer& observer)
+      : mesh_(mesh), model_(std::move(model)), observer_(observer) {
+    result_.settings = settings;
+    result_.profile = Profile(settings.profile);
+    result_.series = io::TimeSeries(seriesNames);
+    prepareStep();
+    prepareLedger();
+    tipNode_ = mesh_.nodeSets.at("y+").back();
+  }
+
+  RunResult run() {
+    try {
+      loop();
+      figures().finished = true;
+    } catch (const NumericalError& error) {
+      figures().failure = error.what();
+    }
+    close();
+    return std::move(result_);
+  }
+
+private:
+  RunFigures& figures() { return result_.figures; }
+  const Settings& settings() const { return result_.settings; }
+
+  void prepareStep() {
+    const auto& carrier = [&]() -> const cg::Projection& {
+      if constexpr (requires { model_.seam.skin(); })
+        return model_.seam.skin().carrier;
+      else
+        return model_.seam.surface().carrier;
+    }();
+    const StepLimit limit = criticalStep(settings(), model_.elements, model_.nodes, carrier);
+    figures().criticalDt = limit.dt;
+    figures().criticalSetter = limit.setter;
+    clock_.dt = figures().dt = chooseStep(settings(), limit);
+    clock_.substepsPerWindow = settings().femEvery;
+    scheme_.booksCoupling = couplingIsUnbalanced(settings());
+    scheme_.extrapolateSkin = settings().skinExtrapolated;
+    if (settings().fem == FemStepper::newmark) {
+      fem::NewmarkOptions options;
+      options.consistentShare = settings().mass == MassMatrix::consistent ? 1.0 : 0.0;
+      newmark_ = std::make_unique<fem::NewmarkSolver>(model_.elements, model_.nodes, clock_.coarseStep(), options);
+    }
+  }
+
+  void prepareLedger() {
+    EnergyLedger& ledger = result_.ledger;
+    kineticParticles_ = ledger.addStored("kinetic, particles");
+    elasticContacts_ = ledger.addStored("elastic, contacts");
+    gravity_ = ledger.addStored("gravity, particles");
+    kineticBeam_ = ledger.addStored("kinetic, beam");
+    elasticBeam_ = ledger.addStored("elastic, beam");
+    dashpots_ = ledger.addBooked("dashpots");
+    coupling_ = ledger.addBooked("coupling (minus what it made)");
+  }
+
+  double kineticBeam() const {
+    return newmark_ ? newmark_->kineticEnergy(model_.nodes) : fem::kineticEnergy(model_.nodes);
+  }
+
+  void setLedger() {
+    EnergyLedger& ledger = result_.ledger;
+    double height = 0.0;
+    for (std::size_t i = 0; i < model_.particles.size(); ++i)
+      height += model_.particles.mass[i] * (model_.particles.x[i].z - startZ_);
+    ledger.set(kineticParticles_, dem::kineticEnergy(model_.particles));
+    ledger.set(elasticContacts_, model_.contact.storedEnergy());
+    ledger.set(gravity_, -model_.gravity.z * height);
+    ledger.set(kineticBeam_, kineticBeam());
+    ledger.set(elasticBeam_, model_.strainEnergy);
+  }
+
+  surface::WindowSums stepWindow(bool withEnergy) {
+    const int K = clock_.substepsPerWindow;
+    if (settings().lag)
+      return surface::stepStaggered(model_, newmark_.get(), clock_.dt, K, scheme_, withEnergy, result_.profile);
+    if (newmark_)
+      return surface::stepImplicit(model_, *newmark_, clock_.dt, K, scheme_, withEnergy, result_.profile);
+    return surface::stepExplicit(model_, clock_.dt, K, scheme_, withEnergy, result_.profile);
+  }
+
+  void loop() {
+    const auto begin = std::chrono::steady_clock::now();
+    startZ_ = model_.particles.x[0].z;
+    surface::start(model_, clock_.dt, result_.profile);
+    setLedger();
+    result_.ledger.open();
+    sampleTrajectory();
+    sampleSeries();
+    observe();
+
+    const double end = settings().until.value_or(longestRun);
+    const std::int64_t sampleEvery = every(sampleInterval, clock_.coarseStep());
+    const double sampled = clock_.coarseStep() * static_cast<double>(sampleEvery);
+    const std::int64_t trajectoryEvery = every(trajectoryInterval, sampled);
+    const std::int64_t seriesEvery = every(seriesInterval, sampled);
+    const std::int64_t frameEvery = every(settings().outputInterval, sampled);
+    Progress progress("cantilever", 1.0, !settings().quiet);
+    for (std::int64_t sample = 1; !done(end); ++sample) {
+      for (std::int64_t w = 1; w <= sampleEvery && !done(end); ++w) advance(w == sampleEvery);
+      if (figures().left && !settings().until) break;
+      sampleEnergy();
+      if (sample % trajectoryEvery == 0) sampleTrajectory();
+      if (sample % seriesEvery == 0) {
+        fem::requireValid(model_.elements, model_.nodes, moment(clock_.time(), clock_.step));
+        sampleSeries();
+        const double y = model_.particles.x[0].y / Case{}.length;
+        progress.update(settings().until ? clock_.time() / end : 1.0 - std::sqrt(std::max(0.0, 1.0 - y)),
+                        "t = " + formatNumber(std::round(100.0 * clock_.time()) / 100.0) + " s");
+      }
+      if (observer_ && sample % frameEvery == 0) observe();
+    }
+    sampleTrajectory();
+    figures().wallSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (!settings().until && !figures().left)
+      throw NumericalError("particle 0 has not left the beam", moment(clock_.time(), clock_.step),
+                           "look at the trajectory, or give --until");
+  }
+
+  bool done(double end) const {
+    return clock_.time() >= end * (1.0 - 1e-12) || (result_.figures.left && !settings().until);
+  }
+
+  void advance(bool withEnergy) {
+    const double yBefore = model_.particles.x[0].y;
+    const surface::WindowSums sums = stepWindow(withEnergy);
+    result_.ledger.add(dashpots_, sums.dissipated);
+    result_.ledger.add(coupling_, -sums.madeByCoupling);
+    clock_.advanceWindow();
+    if (figures().left) return;
+    stepsWithoutContact_ += sums.stepsWithoutContact;
+    stepsOnBeam_ += clock_.substepsPerWindow;
+    const double y = model_.particles.x[0].y, length = Case{}.length;
+    if (y <= length) return;
+    figures().left = true;
+    figures().leaveTime = clock_.time() - clock_.coarseStep() * (y - length) / (y - yBefore);
+  }
+
+  void sampleEnergy() {
+    dem::requireFinite(model_.particles, moment(clock_.time(), clock_.step));
+    requireFinite(model_.nodes.v, "node", "velocity", moment(clock_.time(), clock_.step));
+    setLedger();
+    if (figures().left) return;
+    result_.ledger.close();
+    const auto& channels = result_.ledger.channels();
+    const double workOfGravity = channels[gravity_].joulesAtOpening - channels[gravity_].joules;
+    const double mechanical = result_.ledger.stored() - channels[gravity_].joules;
+    const double allowed = result_.ledger.storedAtOpening() + std::max(0.0, workOfGravity);
+    figures().largestExcess = std::max(figures().largestExcess, mechanical / allowed);
+    const Case beam;
+    figures().lateralDrift = std::max({figures().lateralDrift, std::abs(model_.particles.x[0].x - beam.startX),
+                                       std::abs(model_.particles.x[1].x + beam.startX)});
+    sampleBalance();
+  }
+
+  /// Forces and moments of the contacts on particles and nodes together must vanish.
+  void sampleBalance() {
+    Vec3 force, about;
+    double size = 0.0;
+    for (std::size_t i = 0; i < model_.particles.size(); ++i) {
+      const Vec3 contact = model_.particles.f[i] - model_.particles.mass[i] * model_.gravity;
+      force += contact;
+      about += cross(model_.particles.x[i], contact);
+      size += norm(contact);
+    }
+    const surface::NodalLoad& load = model_.seam.load();
+    for (int node : load.touched) {
+      force += load.force[node];
+      about += cross(model_.nodes.X[node] + model_.nodes.u[node], load.force[node]);
+    }
+    if (size == 0.0) return;
+    figures().forceResidual = std::max(figures().forceResidual, norm(force) / size);
+    figures().momentResidual = std::max(figures().momentResidual, norm(about) / (size * Case{}.length));
+  }
+
+  void sampleTrajectory() {
+    result_.samples.push_back({clock_.time(), {model_.particles.x[0], model_.particles.x[1]}});
+  }
+
+  void sampleSeries() {
+    std::vector<double> row{clock_.time()};
+    const auto push = [&](const Vec3& value) { row.insert(row.end(), {value.x, value.y, value.z}); };
+    for (int i = 0; i < 2; ++i) {
+      push(model_.particles.x[i]);
+      push(model_.particles.v[i]);
+    }
+    double massParticles = 0.0, massBeam = 0.0;
+    for (double mass : model_.particles.mass) massParticles += mass;
+    for (double mass : model_.nodes.mass) massBeam += mass;
+    row.insert(row.end(), {massParticles, massBeam});
+    push(dem::momentum(model_.particles));
+    push(fem::momentum(model_.nodes));
+    const auto& channels = result_.ledger.channels();
+    for (EnergyLedger::Id id : {kineticParticles_, elasticContacts_, gravity_, kineticBeam_, elasticBeam_})
+      row.push_back(channels[id].joules);
+    row.push_back(result_.ledger.stored());
+    row.push_back(channels[dashpots_].joules);
+    row.push_back(-channels[coupling_].joules);
+    row.push_back(result_.ledger.residual());
+    push(model_.nodes.u[tipNode_]);
+    result_.series.append(row);
+  }
+
+  void observe() {
+    if (!observer_) return;
+    const auto energies = fem::elementEnergies(model_.elements, model_.nodes);
+    observer_({clock_.time(), mesh_, model_.nodes, model_.particles, model_.seam.load().force, energies});
+  }
+
+  void close() {
+    RunFigures& f = figures();
+    const EnergyLedger& ledger = result_.ledger;
+    f.steps = clock_.step;
+    f.endTime = clock_.time();
+    f.energyInitial = ledger.storedAtOpening();
+    f.energyMin = ledger.storedMin();
+    f.energyMax = ledger.storedMax();
+    f.energyDrift = ledger.largestDrift() / f.energyInitial;
+    f.ledgerResidual = ledger.largestResidual() / f.energyInitial;
+    f.noContactShare = stepsOnBeam_ > 0 ? static_cast<double>(stepsWithoutContact_) / static_cast<double>(stepsOnBeam_) : 0.0;
+    f.stable = f.finished && f.largestExcess <= 1.5;
+    f.lockingFactor = lockingFactor(settings());
+  }
+
+  const fem::Mesh& mesh_;
+  Model model_;
+  Observer observer_;
+  RunResult result_;
+  Clock clock_;
+  surface::Scheme scheme_;
+  std::unique_ptr<fem::NewmarkSolver> newmark_;
+  EnergyLedger::Id kineticParticles_, elasticContacts_, gravity_, kineticBeam_, elasticBeam_, dashpots_, coupling_;
+  double startZ_ = 0.0;
+  int tipNode_ = 0;
+  std::int64_t stepsWithoutContact_ = 0, stepsOnBeam_ = 0;
+};
+
+}  // namespace
+
+RunResult run(const Settings& settings, const Observer& observer) {
+  validate(settings);
+  setThreads(settings.threads);
+  const fem::Mesh mesh = makeMesh(settings);
+  if (settings.surface == Surface::smooth)
+    return Runner(settings, mesh, makeSmoothModel(settings, mesh), observer).run();
+  return Runner(settings, mesh, makeFlatModel(settings, mesh), observer).run();
+}
+
+const DynamicReference& dynamicReference(const Settings& settings, double bendingFactor) {
+  struct Entry {
+    double stiffness, factor;
+    DynamicReference reference;
+  };
+  static std::vector<std::unique_ptr<Entry>> kept;
+  BeamCase beam = beamCase(settings);
+  beam.bendingFactor = bendingFactor;
+  for (const auto& entry : kept)
+    if (entry->stiffness == beam.contactStiffness && entry->factor == bendingFactor) return entry->reference;
+  kept.push_back(std::make_unique<Entry>(
+      Entry{beam.contactStiffness, bendingFactor, simulateMovingMassBeam(beam, ModalSettings{})}));
+  return kept.back()->reference;
+}
+
+void compareWithReferences(RunResult& result) {
+  RunFigures& f = result.figures;
+  if (result.samples.size() < 2) return;
+  const BeamCase beam = beamCase(result.settings);
+  f.errorStatic = errorFromStatic(result.samples, beam).mean;
+  f.errorStaticAuthors = errorFromStatic(result.samples, beam, {.armOrigin = Case{}.startY}).mean;
+  const DynamicReference& exact = dynamicReference(result.settings, 1.0);
+  f.referenceLeaveTime = exact.leaveTime;
+  f.errorDynamic = errorFromDynamicAtTime(result.samples, beam, exact).mean;
+  f.errorDynamicAtY = errorFromDynamicAtY(result.samples, beam, exact).mean;
+  f.errorDynamicLocked = f.lockingFactor == 1.0
+                             ? f.errorDynamic
+                             : errorFromDynamicAtTime(result.samples, beam,
+                                                      dynamicReference(result.settings, f.lockingFactor)).mean;
+}
+
+}  // namespace dovetail::cantilever

@@ -1,0 +1,79 @@
+// One coupled run and its figures.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dovetail/core/ledger.hpp"
+#include "dovetail/core/profile.hpp"
+#include "dovetail/dem/particles.hpp"
+#include "dovetail/fem/mesh.hpp"
+#include "dovetail/fem/nodes.hpp"
+#include "dovetail/io/time_series.hpp"
+#include "reference/error_norms.hpp"
+#include "settings.hpp"
+
+namespace dovetail::cantilever {
+
+/// What an observer sees of a frame.
+struct Frame {
+  double time;
+  const fem::Mesh& mesh;
+  const fem::Nodes& nodes;
+  const dem::Particles& particles;
+  const std::vector<Vec3>& contactLoad;  ///< contact forces on the nodes, N
+  const std::vector<double>& elementEnergy;  ///< J
+};
+using Observer = std::function<void(const Frame&)>;
+
+struct RunFigures {
+  bool finished = false;    ///< reached the end it was told
+  bool left = false;        ///< particle 1 has passed the free end
+  bool stable = false;      ///< finished, no NaN, K + U never above 1.5 (initial + work of gravity)
+  std::string failure;      ///< what broke down, when and where
+
+  std::int64_t steps = 0;   ///< DEM steps
+  double endTime = 0.0;     ///< s
+  double wallSeconds = 0.0; ///< loop only
+  double dt = 0.0, criticalDt = 0.0;
+  std::string criticalSetter;
+
+  double leaveTime = 0.0;   ///< s, 0 if not left
+  double energyInitial = 0.0, energyMin = 0.0, energyMax = 0.0;  ///< J, until leaving
+  double energyDrift = 0.0, ledgerResidual = 0.0;                ///< relative to the initial energy
+  double lateralDrift = 0.0;     ///< m
+  double momentResidual = 0.0;   ///< |moments of particle and nodal loads together| / (Σ|f| × beam length)
+  double forceResidual = 0.0;    ///< |particle and nodal loads together| / Σ|f|
+  double noContactShare = 0.0;
+  double largestExcess = 0.0;    ///< max (K + U) / (initial + work of gravity)
+
+  double errorStatic = 0.0, errorStaticAuthors = 0.0;  ///< m, true arm and the authors' arm
+  double errorDynamic = 0.0, errorDynamicAtY = 0.0;    ///< m, moving-mass beam with the exact EI
+  double errorDynamicLocked = 0.0;                     ///< m, the same with EI × locking factor
+  double lockingFactor = 1.0;
+  double referenceLeaveTime = 0.0;                     ///< s, moving-mass beam with the exact EI
+};
+
+struct RunResult {
+  Settings settings;
+  RunFigures figures;
+  EnergyLedger ledger;
+  Profile profile;
+  std::vector<PairSample> samples;  ///< trajectory until the end
+  io::TimeSeries series{{"time_s"}};
+};
+
+/// Runs the case. Breakdowns are reported in figures.failure, with the state so far.
+/// @param observer  called at t = 0 and every outputInterval; may be empty
+/// @throws InputError for impossible settings, before anything is computed
+RunResult run(const Settings& settings, const Observer& observer = {});
+
+/// Fills in the errors against the static and dynamic references. The dynamic ones are computed once per case.
+void compareWithReferences(RunResult& result);
+
+/// The moving-mass beam for the settings' contact stiffness and the given bending factor; kept after the first call.
+const DynamicReference& dynamicReference(const Settings& settings, double bendingFactor);
+
+}  // namespace dovetail::cantilever

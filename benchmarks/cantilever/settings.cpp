@@ -1,0 +1,106 @@
+#include "settings.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+
+namespace dovetail::cantilever {
+
+double particleMass(const Case& beam) {
+  return beam.particleDensity * std::numbers::pi / 6.0 * std::pow(beam.particleDiameter, 3);
+}
+
+double contactTime(const Case& beam) {
+  const double stiffness = beam.youngsModulus * beam.particleDiameter;
+  return std::numbers::pi * std::sqrt(0.5 * particleMass(beam) / stiffness);
+}
+
+void applyScheme(Settings& settings, Scheme scheme) {
+  const bool paper = scheme == Scheme::paper;
+  settings.scheme = scheme;
+  settings.lag = paper;
+  settings.transfer = paper ? Transfer::spread : Transfer::adjoint;
+  settings.edges = paper ? EdgeHandling::paper : EdgeHandling::projected;
+  settings.metric = paper ? Metric::deformed : Metric::reference;
+  settings.fem = paper ? FemStepper::newmark : FemStepper::explicitDifferences;
+  settings.mass = paper ? MassMatrix::consistent : MassMatrix::lumped;
+  settings.restitution = paper ? 0.99 : 1.0;
+}
+
+bool couplingIsUnbalanced(const Settings& settings) { return settings.lag || settings.transfer == Transfer::spread; }
+
+namespace {
+
+void checkRange(bool good, const std::string& option, const std::string& value, const std::string& remedy) {
+  if (!good) throw InputError("the value " + value + " is not possible", option, remedy);
+}
+
+void checkNumber(double value, bool good, const std::string& option, const std::string& remedy) {
+  checkRange(std::isfinite(value) && good, option, formatNumber(value), remedy);
+}
+
+}  // namespace
+
+void validate(const Settings& s) {
+  checkNumber(s.cgWidth, s.cgWidth >= 0.0, "--cg-width", "give 0 (local) or a positive number of particle diameters");
+  checkNumber(s.dtFactor, s.dtFactor > 0.0, "--dt-factor", "give a positive share of the contact time, or --dt auto");
+  checkNumber(s.restitution, s.restitution > 0.0 && s.restitution <= 1.0, "--restitution",
+              "give a number above 0 and up to 1");
+  checkNumber(s.stiffnessRatio, s.stiffnessRatio > 0.0, "--stiffness-ratio", "give a positive number");
+  if (s.until) checkNumber(*s.until, *s.until > 0.0, "--until", "give a positive time in seconds");
+  checkNumber(s.outputInterval, s.outputInterval > 0.0, "--output-interval", "give a positive time in seconds");
+  checkRange(s.refine >= 1 && s.refine <= 16, "--refine", std::to_string(s.refine), "give a whole number from 1 to 16");
+  checkRange(s.femEvery >= 1 && s.femEvery <= 1000, "--fem-every", std::to_string(s.femEvery),
+             "give a whole number from 1 to 1000");
+  checkRange(s.threads >= 1 && s.threads <= 1024, "--threads", std::to_string(s.threads),
+             "give a whole number from 1 to 1024");
+  if (s.mesh)
+    for (int count : *s.mesh)
+      checkRange(count >= 1 && count <= 2000, "--mesh", std::to_string(count), "give three counts of at least 1, as in 2,30,2");
+  if (s.metric == Metric::deformed && s.element != "hex8")
+    throw InputError("element " + s.element + " has no deformed metric", "--metric deformed",
+                     "take --element hex8, or --metric reference");
+  if (s.mass == MassMatrix::consistent && !(s.lag && s.fem == FemStepper::newmark))
+    throw InputError("a consistent mass needs an implicit step that carries the load", "--mass consistent",
+                     "add --fem newmark --lag on, or take --mass lumped");
+  if (s.surface == Surface::smooth && s.transfer == Transfer::spread)
+    throw InputError("the smooth surface carries its loads by its own weights", "--surface smooth",
+                     "take --transfer adjoint, or --surface flat");
+  if (s.surface == Surface::smooth && s.edges == EdgeHandling::paper)
+    throw InputError("the smooth surface has no facet edges", "--surface smooth",
+                     "take --edges projected, or --surface flat");
+  if (s.transfer == Transfer::spread && s.correction == Correction::linear)
+    throw InputError("the kernel correction is made for the adjoint transfer", "--kernel-correction linear",
+                     "take --transfer adjoint, or --kernel-correction none");
+}
+
+std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
+  const auto text = [](double value) { return formatNumber(value); };
+  std::vector<std::pair<std::string, std::string>> rows{
+      {"scheme", s.scheme == Scheme::paper ? "paper" : "conservative"},
+      {"lag", s.lag ? "on" : "off"},
+      {"transfer", s.transfer == Transfer::spread ? "spread" : "adjoint"},
+      {"edges", s.edges == EdgeHandling::paper ? "paper" : "projected"},
+      {"metric", s.metric == Metric::deformed ? "deformed" : "reference"},
+      {"fem", s.fem == FemStepper::newmark ? "newmark" : "explicit"},
+      {"mass", s.mass == MassMatrix::consistent ? "consistent" : "lumped"},
+      {"restitution", text(s.restitution)},
+      {"cg_width_diameters", text(s.cgWidth)},
+      {"kernel", s.kernel == KernelName::gauss ? "gauss" : "lucy"},
+      {"kernel_correction", s.correction == Correction::linear ? "linear" : "none"},
+      {"surface", s.surface == Surface::smooth ? "smooth" : "flat"},
+      {"element", s.element},
+      {"refine", std::to_string(s.refine)},
+      {"dt_factor", s.dtAuto ? "auto" : text(s.dtFactor)},
+      {"fem_every", std::to_string(s.femEvery)},
+      {"until_s", s.until ? text(*s.until) : "leaving"},
+      {"stiffness_ratio", text(s.stiffnessRatio)},
+      {"threads", std::to_string(s.threads)}};
+  const std::array<int, 3> mesh = s.mesh.value_or(Case{}.elements);
+  rows.emplace_back("mesh", std::to_string(mesh[0]) + "," + std::to_string(mesh[1]) + "," + std::to_string(mesh[2]));
+  return rows;
+}
+
+}  // namespace dovetail::cantilever

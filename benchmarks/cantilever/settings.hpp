@@ -1,0 +1,81 @@
+// Everything a cantilever run can be told, with the published case as the default.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::cantilever {
+
+/// The fixed data of the published case (Cheng et al. 2023, Table 1 and Fig. 11), SI.
+struct Case {
+  double length = 12.0, side = 0.8;             // m
+  std::array<int, 3> elements{2, 30, 2};        // along x, y (axis), z
+  double youngsModulus = 1e8, poissonRatio = 0.0, density = 1309.0;
+  double particleDiameter = 0.2, particleDensity = 2e4;
+  double gravity = 9.81;
+  double startX = 0.2, startY = 0.2, startVelocity = 0.1;
+};
+
+/// A particle pair's contact time t_c = π √(m_eff / k_n), s, with k_n = E d and m_eff = m / 2: the unit of --dt-factor.
+double contactTime(const Case& beam);
+double particleMass(const Case& beam);
+
+enum class Scheme { conservative, paper };
+enum class Transfer { adjoint, spread };          ///< adjoint pair, or kernel at the contact with a local gap (14–15)
+enum class EdgeHandling { projected, paper };     ///< one projection, or the authors' face rule
+enum class Metric { reference, deformed };        ///< St Venant–Kirchhoff, or the authors' Eq. (34)
+enum class MassMatrix { lumped, consistent };
+enum class FemStepper { explicitDifferences, newmark };
+enum class Surface { flat, smooth };
+enum class KernelName { lucy, gauss };
+enum class Correction { none, linear };
+enum class Study { none, widths, pareto, stability, ablation };
+
+struct Settings {
+  Scheme scheme = Scheme::conservative;
+  // The parts in which the two schemes differ; each can be switched on its own.
+  bool lag = false;                               ///< staggered: load frozen over a step, skin one step old
+  Transfer transfer = Transfer::adjoint;
+  EdgeHandling edges = EdgeHandling::projected;
+  Metric metric = Metric::reference;
+  FemStepper fem = FemStepper::explicitDifferences;
+  bool skinExtrapolated = false;                  ///< with lag: the skin goes on with its velocity during a DEM step
+  MassMatrix mass = MassMatrix::lumped;
+  double restitution = 1.0;
+
+  double cgWidth = 0.0;                           ///< particle diameters
+  KernelName kernel = KernelName::lucy;
+  Correction correction = Correction::none;
+  Surface surface = Surface::flat;
+  std::string element = "hex8";
+  int refine = 1;
+  std::optional<std::array<int, 3>> mesh;         ///< elements along x, y, z before refinement
+  double dtFactor = 0.05;                         ///< of the contact time
+  bool dtAuto = false;                            ///< 0.9 of the critical step
+  int femEvery = 1;
+  std::optional<double> until;                    ///< s; default: until particle 1 has left
+  double stiffnessRatio = 1.0;                    ///< k_n over E d
+  int threads = 1;
+
+  std::string out, summary, reference;
+  double outputInterval = 0.25;                   ///< s between pictures in --out
+  Study study = Study::none;
+  bool profile = false, quiet = false;
+};
+
+/// Sets the scheme's parts: everything for `paper`, the defaults for `conservative`.
+void applyScheme(Settings& settings, Scheme scheme);
+
+/// @throws InputError naming the option, what is wrong with it and what to write instead
+void validate(const Settings& settings);
+
+/// Whether the contacts and the solid exchange work that is not the same on both sides, so that it must be booked.
+bool couplingIsUnbalanced(const Settings& settings);
+
+/// Option names and values as text, for provenance and the summary.
+std::vector<std::pair<std::string, std::string>> describe(const Settings& settings);
+
+}  // namespace dovetail::cantilever

@@ -1,0 +1,15 @@
+// The compliance of hybrid8's stress modes.
+#pragma once
+
+#include <array>
+
+#include "brick.hpp"
+#include "dovetail/fem/materials.hpp"
+
+namespace dovetail::fem {
+
+/// H⁻¹ with H = ∫ Pᵀ C⁻¹ P dV, row-major 18 × 18, where P are the modes pushed forward by the Jacobian at the centre,
+/// S = J0 Ŝ J0ᵀ.
+std::array<double, 324> hybridStiffness(const BrickCorners& corners, const Material& material);
+
+}  // namespace dovetail::fem

@@ -1,0 +1,43 @@
+// Square sparse matrices by columns, and their factorisation.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace dovetail::fem {
+
+/// Compressed columns; rows ascend within a column. For nodes, component c of node n is row 3n + c.
+struct SparseMatrix {
+  int size = 0;
+  std::vector<int> offsets{0};  ///< size + 1 entries
+  std::vector<int> row;
+  std::vector<double> value;
+};
+
+/// y = A x.
+std::vector<double> multiply(const SparseMatrix& A, std::span<const double> x);
+
+/// Owns the factorisation of a symmetric positive definite matrix (CHOLMOD if it was built in, else Eigen's LDLᵀ).
+/// Results do not depend on the number of threads: the BLAS is held to one while it works.
+class SparseCholesky {
+public:
+  SparseCholesky();
+  ~SparseCholesky();
+  SparseCholesky(SparseCholesky&&) noexcept;
+  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+
+  /// Reads the lower triangle only; the symbolic analysis is reused while the pattern stays.
+  /// @return false if the matrix is not positive definite (then solve() must not be called)
+  bool factor(const SparseMatrix& A);
+  /// Overwrites b by A⁻¹ b.
+  void solve(std::span<double> b);
+  /// "CHOLMOD" or "Eigen LDLT".
+  static const char* name();
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dovetail::fem

@@ -1,0 +1,23 @@
+// The largest stable step of the explicit integrator.
+#pragma once
+
+#include "dovetail/fem/elements.hpp"
+
+namespace dovetail::fem {
+
+struct StableStep {
+  double dt;    ///< s
+  int element;  ///< the one that sets the limit
+};
+
+/// 2/ω of the stiffest single element (its tangent at rest, its lumped mass): never above the limit of the assembled
+/// mesh at small displacement, because the largest eigenvalue of an assembly is bounded by that of its parts.
+StableStep stableStep(const ElementBlock& block);
+
+/// 2/ω of the assembled mesh at the present displacement with the nodes' lumped mass and held components, by Lanczos
+/// iteration. The bound on the error of ω² is added to it, so that the step errs on the small side.
+/// @param accuracy  relative, of ω²
+/// @throws NumericalError if it does not settle within 400 iterations; InputError for nodes without mass
+double assembledStableStep(const ElementBlock& block, const Nodes& nodes, double accuracy = 1e-4);
+
+}  // namespace dovetail::fem

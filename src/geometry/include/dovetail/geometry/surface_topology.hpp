@@ -1,0 +1,70 @@
+// Triangulated surfaces: adjacency, dihedral angles, smooth patches, quality.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "dovetail/core/vec3.hpp"
+
+namespace dovetail::geometry {
+
+/// Vertex numbers, counter-clockwise seen from the side the normal points to.
+using Facet = std::array<int, 3>;
+
+/// Who touches whom. Edge k of a facet runs from its vertex k to its vertex (k + 1) mod 3.
+struct SurfaceTopology {
+  /// [facet][edge]: the facet across the edge, −1 at a boundary and where more than two facets share the edge
+  std::vector<std::array<int, 3>> neighbours;
+  /// CSR: the facets at vertex v are vertexFacets[vertexFacetOffsets[v] … vertexFacetOffsets[v + 1] − 1], ascending
+  std::vector<int> vertexFacetOffsets, vertexFacets;
+
+  std::span<const int> facetsAtVertex(int v) const {
+    const auto begin = static_cast<std::size_t>(vertexFacetOffsets[static_cast<std::size_t>(v)]);
+    const auto end = static_cast<std::size_t>(vertexFacetOffsets[static_cast<std::size_t>(v) + 1]);
+    return std::span<const int>(vertexFacets).subspan(begin, end - begin);
+  }
+};
+
+/// Vertices are the same where their numbers are the same: coincident points are not merged.
+/// Two facets that share an edge but run through it in the same sense (one of them flipped) still are neighbours.
+/// @throws InputError on a vertex number outside [0, vertexCount) or a facet that repeats a vertex, naming the facet
+SurfaceTopology makeTopology(std::span<const Facet> facets, int vertexCount);
+
+/// Number, in facet b, of the edge that b shares with edge `edge` of facet a; −1 if there is none.
+int sharedEdge(std::span<const Facet> facets, int a, int edge, int b);
+
+/// Angle (rad) between the normals of a facet and of its neighbour across an edge: 0 = flat, > 0 convex (a ridge seen
+/// from the side the facet's normal points to), < 0 concave (a valley), π folded back upon itself.
+/// The neighbour's normal is taken as if both ran through the edge in opposite senses, so a flipped neighbour does
+/// not change the answer. 0 if a normal vanishes.
+/// @throws InputError if the edge has no neighbour
+double edgeAngle(std::span<const Vec3> x, std::span<const Facet> facets, int facet, int edge,
+                 const SurfaceTopology& topology);
+
+/// Patch number (0, 1, … in the order of each patch's first facet) per facet. Two facets are in one patch when a chain
+/// of neighbours joins them, none of whose edges is sharper than `sharpAngle` (rad, |edgeAngle| > sharpAngle).
+/// A facet without area joins no patch but its own, so that it cannot bridge a sharp edge.
+std::vector<int> smoothPatches(std::span<const Vec3> x, std::span<const Facet> facets, const SurfaceTopology& topology,
+                               double sharpAngle);
+
+/// Facets that contact search treats as an edge or a point, and edges that spoil a closed oriented skin.
+struct SurfaceDefects {
+  std::vector<int> repeatedVertex;  ///< facets that name a vertex twice
+  std::vector<int> zeroArea;        ///< facets whose area is zero to round-off (height ≤ 1e-14 longest edge)
+  std::vector<int> needle;          ///< further facets whose height is below `needleRatio` of their longest edge
+  std::vector<std::array<int, 2>> boundary;     ///< {facet, edge} that no other facet shares
+  std::vector<std::array<int, 2>> nonManifold;  ///< {facet, edge} shared by more than two facets
+  std::vector<std::array<int, 2>> flipped;      ///< {facet, edge} that the neighbour runs through in the same sense
+
+  bool badFacets() const { return !repeatedVertex.empty() || !zeroArea.empty() || !needle.empty(); }
+  bool closedAndOriented() const { return boundary.empty() && nonManifold.empty() && flipped.empty(); }
+};
+
+/// Reports, and changes nothing. Each list is ascending. Takes facets that makeTopology would refuse for a repeated
+/// vertex (their edges then count as they stand).
+/// @param needleRatio height / longest edge below which a facet counts as a needle
+/// @throws InputError on a vertex number outside the range of x
+SurfaceDefects checkSurface(std::span<const Vec3> x, std::span<const Facet> facets, double needleRatio = 1e-6);
+
+}  // namespace dovetail::geometry

@@ -1,0 +1,117 @@
+#include "dovetail/io_vtk/vtu_series.hpp"
+
+#include <cmath>
+#include <set>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/io/names.hpp"
+#include "dovetail/io/output_folder.hpp"
+#include "vtu_text.hpp"
+
+namespace dovetail::io {
+
+namespace {
+
+/// Checks that every field has its own usable name and the right number of values.
+class FieldCheck {
+public:
+  FieldCheck(const char* item, std::size_t count) : item_(item), count_(count) {}
+
+  void operator()(const std::string& name, std::size_t size) {
+    requirePlainName(name, std::string("fields per ") + item_);
+    if (!seen_.insert(name).second)
+      throw InputError("the field '" + name + "' occurs twice", std::string("fields per ") + item_,
+                       "give each field its own name");
+    if (size != count_)
+      throw InputError("the field '" + name + "' has " + std::to_string(size) + " values",
+                       std::string("fields per ") + item_, "give " + std::to_string(count_) + ", one per " + item_);
+  }
+
+  template <class Field>
+  void all(const std::vector<Field>& fields) {
+    for (const Field& field : fields) (*this)(field.name, field.values.size());
+  }
+
+private:
+  const char* item_;
+  std::size_t count_;
+  std::set<std::string> seen_;
+};
+
+void requireConsistent(const HexFrame& frame) {
+  for (std::size_t cell = 0; cell < frame.cells.size(); ++cell)
+    for (const int node : frame.cells[cell])
+      if (node < 0 || static_cast<std::size_t>(node) >= frame.points.size())
+        throw InputError("cell " + std::to_string(cell) + " names point " + std::to_string(node), "frame",
+                         "use 0 to " + std::to_string(frame.points.size()) + " (excluded)");
+  FieldCheck perPoint("point", frame.points.size());
+  perPoint.all(frame.pointVectors);
+  perPoint.all(frame.pointScalars);
+  FieldCheck("cell", frame.cells.size()).all(frame.cellScalars);
+}
+
+void requireConsistent(const ParticleFrame& frame) {
+  const std::size_t count = frame.position.size();
+  FieldCheck perParticle("particle", count);
+  perParticle("radius", frame.radius.size());
+  perParticle("velocity", frame.velocity.empty() ? count : frame.velocity.size());
+  perParticle("force", frame.force.empty() ? count : frame.force.size());
+  perParticle("id", frame.id.empty() ? count : frame.id.size());
+  perParticle.all(frame.vectors);
+  perParticle.all(frame.scalars);
+}
+
+std::string fileName(const std::string& series, std::size_t frame) {
+  const std::string number = std::to_string(frame);
+  return series + "_" + std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number + ".vtu";
+}
+
+}  // namespace
+
+VtuSeries::VtuSeries(const std::filesystem::path& folder, std::string name, KeyValues provenance)
+    : folder_(folder), name_(std::move(name)), provenance_(withMark(std::move(provenance))) {
+  requirePlainName(name_, "VTU series");
+  prepareOutputFolder(folder_, {name_ + ".pvd"});
+  prepareOutputFolder(folder_ / name_);
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / name_)) {
+    const std::string file = entry.path().filename().string();
+    if (file.rfind(name_ + "_", 0) == 0 && entry.path().extension() == ".vtu") requireFreeOrOurs(entry.path());
+  }
+}
+
+std::filesystem::path VtuSeries::framePath(std::size_t frame) const { return folder_ / name_ / fileName(name_, frame); }
+
+void VtuSeries::write(double time, const HexFrame& frame) {
+  requireLater(time);
+  requireConsistent(frame);
+  commit(time, vtuText(time, frame, provenance_));
+}
+
+void VtuSeries::write(double time, const ParticleFrame& frame) {
+  requireLater(time);
+  requireConsistent(frame);
+  commit(time, vtuText(time, frame, provenance_));
+}
+
+void VtuSeries::requireLater(double time) const {
+  if (!std::isfinite(time) || (!times_.empty() && time <= times_.back()))
+    throw InputError("a frame's time is " + formatNumber(time) + " s", pvdPath().string(),
+                     times_.empty() ? "give a finite time"
+                                    : "give one after " + formatNumber(times_.back()) + " s, the last frame's");
+}
+
+void VtuSeries::commit(double time, const std::string& vtu) {
+  writeFileAtomically(framePath(frames()), vtu);
+  std::string text = "<?xml version=\"1.0\"?>\n<!-- dovetail " + buildInfo().version +
+                     " -->\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+  std::vector<double> times = times_;
+  times.push_back(time);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    text += "    <DataSet timestep=\"" + formatNumber(times[i]) + "\" group=\"\" part=\"0\" file=\"" + name_ + "/" +
+            fileName(name_, i) + "\"/>\n";
+  writeFileAtomically(pvdPath(), text + "  </Collection>\n</VTKFile>\n");
+  times_ = std::move(times);
+}
+
+}  // namespace dovetail::io

@@ -1,0 +1,15 @@
+// A frame as the text of a VTU file; the only part that knows VTK.
+#pragma once
+
+#include <string>
+
+#include "dovetail/io_vtk/vtu_series.hpp"
+
+namespace dovetail::io {
+
+/// The frames must be checked: sizes of fields and indices of cells are taken as they are.
+/// @throws Error if VTK fails
+std::string vtuText(double time, const HexFrame& frame, const KeyValues& provenance);
+std::string vtuText(double time, const ParticleFrame& frame, const KeyValues& provenance);
+
+}  // namespace dovetail::io

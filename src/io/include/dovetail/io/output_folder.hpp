@@ -1,0 +1,35 @@
+// Files of a run: checked before the run, replaced as a whole, and never at the cost of anybody else's files.
+//
+// The rule. A file is ours if it is a regular file whose first 64 KiB hold the mark "dovetail <version>", which every
+// file with a provenance() has. A file of ours with the same name, from an earlier run, is replaced in one rename
+// when the new one is complete. Everything else in a folder is left as it is: no function here deletes or overwrites
+// a file without the mark, and none follows a symbolic link to replace what it points to.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dovetail::io {
+
+/// Makes `folder` (with its parents) if it is not there, and proves before a long run that a file can be written,
+/// by writing one and removing it. `fileNames` are the names the run will write in it: they must be free or ours.
+/// @return the folder
+/// @throws InputError if the path is empty or a file, if nothing can be written there, or if a name is taken
+std::filesystem::path prepareOutputFolder(const std::filesystem::path& folder,
+                                          const std::vector<std::string>& fileNames = {});
+
+/// Writes `text` under a temporary name beside `path` and renames it. The text should carry the mark (see above), or
+/// a later run will not replace it.
+/// @throws InputError if nothing can be written there, or if `path` is taken by something that is not ours: the text
+///         then stays under its temporary name, which the error gives
+/// @throws Error if writing breaks off (disk full); what was there is intact
+void writeFileAtomically(const std::filesystem::path& path, const std::string& text);
+
+/// True if `path` is a file of an earlier run of ours, by the rule above.
+bool isOurs(const std::filesystem::path& path);
+
+/// @throws InputError if something that is not ours is at `path`
+void requireFreeOrOurs(const std::filesystem::path& path);
+
+}  // namespace dovetail::io

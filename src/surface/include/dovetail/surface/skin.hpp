@@ -1,0 +1,65 @@
+// The skin: the boundary of a mesh as a moving triangulated wall that particles can touch.
+#pragma once
+
+#include <array>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "dovetail/cg/projection.hpp"
+#include "dovetail/cg/surface_kernel.hpp"
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/dem/wall.hpp"
+
+namespace dovetail::surface {
+
+using Quad = std::array<int, 4>;
+
+/// Edges whose facet normals differ by more than this are sharp: no kernel crosses them.
+inline constexpr double defaultSharpAngle = std::numbers::pi / 3.0;
+
+/// How a quadrilateral face becomes triangles: two, or four that meet at the mean of its corners (paper, sec. 5.1).
+enum class QuadSplit { two, four };
+
+/// The triangulated boundary of a mesh and the linear map that ties it to the mesh nodes.
+///
+/// Every vertex v moves as x_v = X_v + Σ_i S_vi u_i, where the rows of S (`carrier`) sum to one. Its transpose carries
+/// vertex forces to nodes: f_i = Σ_v S_vi f_v. Because one matrix serves both ways, the pair is adjoint: the power
+/// that the particles spend on the skin is the power the nodes receive, for any kernel width.
+/// The skin of a closed face set is a closed wall. Where kernels of two smooth patches meet at a sharp edge, each patch
+/// has its own vertices there (splitAtSharpEdges), because each has its own weights.
+struct Skin {
+  dem::TriangulatedWall wall;     ///< present positions, m, and velocities, m/s; facets counter-clockwise from outside
+  std::vector<Vec3> X;            ///< reference position per vertex, m
+  std::vector<Quad> quads;        ///< the faces by skin vertex
+  std::vector<int> patchOfFacet;  ///< smooth patch per facet
+  std::vector<int> facetQuad;     ///< face from which a facet was cut
+  cg::Projection localMap;        ///< vertices × nodes: interpolation on the face
+  cg::Projection carrier;         ///< vertices × nodes: the map in use (localMap unless coarse-grained)
+};
+
+/// Cuts boundary faces of a mesh into triangles.
+/// @param X      reference positions of all mesh nodes, m
+/// @param faces  node numbers, counter-clockwise seen from outside
+/// @throws InputError for no faces, a node number out of range, or a face without area (named)
+Skin makeSkin(std::span<const Vec3> X, std::span<const Quad> faces, QuadSplit split = QuadSplit::four,
+              double sharpAngle = defaultSharpAngle);
+
+/// Gives every smooth patch its own copies of the vertices on sharp edges.
+void splitAtSharpEdges(Skin& skin);
+
+/// Replaces the carrier by kernel weights: S_vi = Σ_q w_q W(|X_q − X_v|) ψ_i(X_q) / Σ_q w_q W (paper, Eqs. 14 and 15,
+/// with the kernel at the skin's vertices on the reference surface), after splitAtSharpEdges. Width 0 gives the local
+/// map and splits nothing. Rows sum to one; with linear correction Σ_i S_vi X_i = X_v as well, so that moments balance
+/// too.
+void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel);
+
+/// Moves the given vertices: wall.x = X + S u, wall.v = S v.
+void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> vertices);
+/// Moves all vertices.
+void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v);
+
+/// Largest row sum of |S|: no vertex moves faster than this times the fastest node.
+double carrierGain(const Skin& skin);
+
+}  // namespace dovetail::surface

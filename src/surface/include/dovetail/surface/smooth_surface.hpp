@@ -1,0 +1,53 @@
+// A smooth stand-in for the flat facets of a skin: one bicubic B-spline patch per face.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "dovetail/cg/projection.hpp"
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/surface/skin.hpp"
+
+namespace dovetail::surface {
+
+/// Uniform bicubic B-spline surface whose control points are the corners of the skin's faces; curvature is continuous
+/// across faces of one smooth patch. At the rim of a patch the control net is continued linearly, so that the surface
+/// ends on the rim and linear fields are reproduced exactly. It approximates: a node of curvature κ on faces of size h
+/// lies off the surface by κ h²/6.
+///
+/// Positions are linear in the node displacements (x_c = X_c + Σ_i S_ci u_i), so a contact at the closest point
+/// s(ξ*) = Σ_c B_c(ξ*) x_c with the energy ½ k ⟨R − |x − s(ξ*)|⟩² has nodal forces Sᵀ (B_c(ξ*) f): one potential.
+struct SmoothSurface {
+  std::vector<std::array<int, 16>> control;  ///< per face: control point (i, j) at index i + 4 j, i and j = −1 … 2
+  std::vector<std::array<int, 4>> across;    ///< per face and edge: the face across it in the same patch, or −1
+  cg::Projection carrier;                    ///< control points × nodes
+  std::vector<Vec3> X, x, v;                 ///< control points: reference and present position, m; velocity, m/s
+};
+
+/// @throws InputError naming the face if a vertex inside a smooth patch has other than four faces: such meshes need
+///         the flat surface.
+SmoothSurface makeSmoothSurface(const Skin& skin);
+
+/// Moves the given control points: x = X + S u, v = S v.
+void place(SmoothSurface& surface, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> controls);
+
+/// The point of one face's patch closest to p; parameters in [0, 1]².
+struct PatchPoint {
+  std::array<double, 2> parameter{};
+  std::array<double, 16> weight{};  ///< B-spline weights of the face's control points; sum to one
+  Vec3 point;
+  int edge = -1;  ///< edge of the face on which the point lies (0 … 3), −1 inside
+  double squaredDistance = 0.0;
+};
+PatchPoint closestPointOnPatch(const SmoothSurface& surface, int face, const Vec3& p, std::array<double, 2> start);
+
+/// Whether the distance to p still falls when the foot leaves the face through the edge it lies on.
+bool leavesThrough(const SmoothSurface& surface, int face, const PatchPoint& foot, const Vec3& p);
+/// Unit normal at a point of the patch, outward for faces counter-clockwise from outside.
+Vec3 patchNormal(const SmoothSurface& surface, int face, const PatchPoint& at);
+
+/// Weights of the 16 control points at (ξ, η).
+std::array<double, 16> patchWeights(double xi, double eta);
+
+}  // namespace dovetail::surface

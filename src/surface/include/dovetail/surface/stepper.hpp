@@ -1,0 +1,232 @@
+// Time steps of particles and a solid coupled through a surface.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "dovetail/core/profile.hpp"
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/dem/contact_work.hpp"
+#include "dovetail/dem/laws.hpp"
+#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/pairs.hpp"
+#include "dovetail/dem/particles.hpp"
+#include "dovetail/fem/elements.hpp"
+#include "dovetail/fem/newmark.hpp"
+#include "dovetail/fem/nodes.hpp"
+#include "dovetail/surface/nodal_load.hpp"
+
+namespace dovetail::surface {
+
+/// Particles, a solid and their seam. `Seam` is Coupling or SmoothCoupling.
+template <class Seam, class Law = dem::ElasticLaw>
+struct CoupledModel {
+  dem::Particles particles;
+  dem::PairList pairs;
+  Law pairLaw, wallLaw;
+  Vec3 gravity;               ///< on the particles, m/s²
+  fem::Nodes nodes;           ///< f holds the internal forces of the last FEM step
+  fem::ElementBlock elements;
+  Seam seam;
+
+  double strainEnergy = 0.0;  ///< J, at the end of the last window that asked for it
+  dem::ContactWork contact;   ///< of the last force evaluation
+};
+
+/// What a window did, to be booked.
+struct WindowSums {
+  double dissipated = 0.0;     ///< J, dashpots and friction, trapezoidal
+  double madeByCoupling = 0.0; ///< J, work of the loads on the nodes minus work of the contacts on the skin; 0 for an
+                               ///< adjoint pair at the same instant
+  int stepsWithoutContact = 0; ///< of the DEM steps
+};
+
+/// v += f/m dt on the touched nodes; held components stay.
+void kickTouched(const NodalLoad& load, fem::Nodes& nodes, double dt);
+/// Σ f · du over the touched nodes, J.
+double workOf(const NodalLoad& load, std::span<const Vec3> displacement, double scale);
+
+/// The places at which the schemes differ.
+struct Scheme {
+  bool booksCoupling = false;   ///< the pair is not adjoint, or not at the same instant
+  bool extrapolateSkin = false; ///< staggered: between FEM steps the skin goes on with its velocity
+};
+
+namespace detail {
+
+/// Forces on the particles and load on the nodes at the present positions.
+template <class Model>
+void evaluateContacts(Model& model, std::span<const Vec3> u, std::span<const Vec3> v, double dt, WindowSums& sums,
+                      Profile& profile) {
+  const double lostBefore = model.contact.lostPower();
+  {
+    Profile::Stage stage(profile, "particle contacts");
+    dem::clearForces(model.particles);
+    dem::applyGravity(model.particles, model.gravity);
+    dem::updatePairs(model.particles, model.pairs);
+    model.contact = dem::collide(model.particles, model.pairs, model.pairLaw, dt);
+  }
+  Profile::Stage stage(profile, "surface contacts");
+  model.contact += model.seam.exchange(model.particles, u, v, model.wallLaw, dt);
+  sums.dissipated += 0.5 * dt * (lostBefore + model.contact.lostPower());
+  sums.stepsWithoutContact += model.seam.inContact() ? 0 : 1;
+}
+
+template <class Model>
+double wallWork(const Model& model) {
+  if constexpr (requires { model.seam.wallWork(); })
+    return model.seam.wallWork();
+  else
+    return 0.0;
+}
+
+}  // namespace detail
+
+/// Forces at the start; call once before the first window.
+template <class Model>
+void start(Model& model, double dt, Profile& profile) {
+  WindowSums ignored;
+  fem::clearForces(model.nodes);
+  model.strainEnergy = fem::addInternalForces(model.elements, model.nodes, true);
+  detail::evaluateContacts(model, model.nodes.u, model.nodes.v, dt, ignored, profile);
+  model.contact.dissipatedPower = 0.0;
+}
+
+/// One window of K DEM steps and one explicit FEM step, all forces at the same instant (impulse multiple-time-step
+/// velocity Verlet; Tuckerman, Berne & Martyna, J. Chem. Phys. 97, 1992): the elastic forces kick the nodes at the
+/// ends of the window, the contacts kick nodes and particles at every DEM step. Symplectic for every K, so the pair
+/// creates no energy; K dt must stay below the limit of the mesh, and away from half the period of the contacts.
+template <class Model>
+WindowSums stepExplicit(Model& model, double dt, int K, const Scheme& scheme, bool withEnergy, Profile& profile) {
+  WindowSums sums;
+  const double before = detail::wallWork(model);
+  fem::Nodes& nodes = model.nodes;
+  {
+    Profile::Stage stage(profile, "solid kick and drift");
+    fem::kick(nodes, 0.5 * K * dt);
+  }
+  for (int k = 0; k < K; ++k) {
+    {
+      Profile::Stage stage(profile, "solid kick and drift");
+      dem::kick(model.particles, 0.5 * dt);
+      dem::drift(model.particles, dt);
+      kickTouched(model.seam.load(), nodes, 0.5 * dt);
+      fem::drift(nodes, dt);
+    }
+    if (scheme.booksCoupling) sums.madeByCoupling += workOf(model.seam.load(), nodes.v, 0.5 * dt);
+    detail::evaluateContacts(model, nodes.u, nodes.v, dt, sums, profile);
+    if (scheme.booksCoupling) sums.madeByCoupling += workOf(model.seam.load(), nodes.v, 0.5 * dt);
+    dem::kick(model.particles, 0.5 * dt);
+    kickTouched(model.seam.load(), nodes, 0.5 * dt);
+  }
+  {
+    Profile::Stage stage(profile, "solid internal forces");
+    fem::clearForces(nodes);
+    const double energy = fem::addInternalForces(model.elements, nodes, withEnergy);
+    if (withEnergy) model.strainEnergy = energy;
+  }
+  Profile::Stage stage(profile, "solid kick and drift");
+  fem::kick(nodes, 0.5 * K * dt);
+  if (scheme.booksCoupling) sums.madeByCoupling -= detail::wallWork(model) - before;
+  return sums;
+}
+
+namespace detail {
+
+/// Particles and contacts for `steps` DEM steps on a skin that stands still; the nodes only gather momentum.
+template <class Model>
+void holdSkinAndStep(Model& model, double dt, int steps, WindowSums& sums, Profile& profile) {
+  for (int k = 0; k < steps; ++k) {
+    dem::kick(model.particles, 0.5 * dt);
+    kickTouched(model.seam.load(), model.nodes, 0.5 * dt);
+    dem::drift(model.particles, dt);
+    evaluateContacts(model, model.nodes.u, model.nodes.v, dt, sums, profile);
+    dem::kick(model.particles, 0.5 * dt);
+    kickTouched(model.seam.load(), model.nodes, 0.5 * dt);
+  }
+}
+
+}  // namespace detail
+
+/// One window of K DEM steps and one implicit FEM step of K dt, all forces at the same instant (Strang splitting). K = 1:
+/// half kick · particles drift and solid moves freely by Newmark · contacts · half kick. K > 1: K/2 DEM steps on the
+/// standing skin · solid · the other DEM steps. Every part conserves the energy it splits off.
+template <class Model>
+WindowSums stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, const Scheme& scheme,
+                        bool withEnergy, Profile& profile) {
+  WindowSums sums;
+  const double before = detail::wallWork(model);
+  fem::Nodes& nodes = model.nodes;
+  if (K > 1) {
+    detail::holdSkinAndStep(model, dt, K / 2, sums, profile);
+  } else {
+    dem::kick(model.particles, 0.5 * dt);
+    kickTouched(model.seam.load(), nodes, 0.5 * dt);
+    dem::drift(model.particles, dt);
+  }
+  std::vector<Vec3> moved;
+  if (scheme.booksCoupling) moved = nodes.u;
+  {
+    Profile::Stage stage(profile, "solid implicit step");
+    newmark.step(nodes, {});
+  }
+  if (scheme.booksCoupling) {
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = nodes.u[i] - moved[i];
+    sums.madeByCoupling += workOf(model.seam.load(), moved, 0.5);
+  }
+  const double stepOfThisEvaluation = K > 1 ? 0.0 : dt;  // for K > 1 the skin has moved but no DEM time has passed
+  detail::evaluateContacts(model, nodes.u, nodes.v, stepOfThisEvaluation, sums, profile);
+  if (K > 1) sums.stepsWithoutContact -= model.seam.inContact() ? 0 : 1;
+  if (scheme.booksCoupling) sums.madeByCoupling += workOf(model.seam.load(), moved, 0.5);
+  if (K > 1) {
+    detail::holdSkinAndStep(model, dt, K - K / 2, sums, profile);
+  } else {
+    dem::kick(model.particles, 0.5 * dt);
+    kickTouched(model.seam.load(), nodes, 0.5 * dt);
+  }
+  if (withEnergy) model.strainEnergy = fem::strainEnergy(model.elements, nodes);
+  if (scheme.booksCoupling) sums.madeByCoupling -= detail::wallWork(model) - before;
+  return sums;
+}
+
+/// The staggered window (paper, Fig. 8): the solid makes its step under the load of the last contact evaluation, frozen;
+/// the particles make theirs on the skin as it was before. What the lag creates is returned in madeByCoupling.
+/// @param newmark  null: the solid steps explicitly
+template <class Model>
+WindowSums stepStaggered(Model& model, fem::NewmarkSolver* newmark, double dt, int K, const Scheme& scheme,
+                         bool withEnergy, Profile& profile) {
+  WindowSums sums;
+  const double before = detail::wallWork(model);
+  fem::Nodes& nodes = model.nodes;
+  std::vector<Vec3> skinU = nodes.u;
+  const std::vector<Vec3> skinV = nodes.v;
+  {
+    Profile::Stage stage(profile, "solid step, load frozen");
+    if (newmark) {
+      newmark->step(nodes, model.seam.load().force);
+    } else {
+      fem::kick(nodes, 0.5 * K * dt);
+      kickTouched(model.seam.load(), nodes, 0.5 * K * dt);
+      fem::drift(nodes, K * dt);
+      fem::clearForces(nodes);
+      fem::addInternalForces(model.elements, nodes);
+      fem::kick(nodes, 0.5 * K * dt);
+      kickTouched(model.seam.load(), nodes, 0.5 * K * dt);
+    }
+  }
+  for (int node : model.seam.load().touched)
+    sums.madeByCoupling += dot(model.seam.load().force[node], nodes.u[node] - skinU[node]);
+  for (int k = 0; k < K; ++k) {
+    dem::kick(model.particles, 0.5 * dt);
+    dem::drift(model.particles, dt);
+    if (scheme.extrapolateSkin)
+      for (std::size_t i = 0; i < skinU.size(); ++i) skinU[i] += dt * skinV[i];
+    detail::evaluateContacts(model, skinU, skinV, dt, sums, profile);
+    dem::kick(model.particles, 0.5 * dt);
+  }
+  if (withEnergy) model.strainEnergy = fem::strainEnergy(model.elements, nodes);
+  sums.madeByCoupling -= detail::wallWork(model) - before;
+  return sums;
+}
+
+}  // namespace dovetail::surface

@@ -1,0 +1,163 @@
+#include "dovetail/surface/smooth_coupling.hpp"
+
+#include <algorithm>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/geometry/hierarchical_grid.hpp"
+
+namespace dovetail::surface {
+
+namespace {
+
+double rowGain(const cg::Projection& map) {
+  double gain = 0.0;
+  for (int row = 0; row < map.rows(); ++row) {
+    double sum = 0.0;
+    for (double weight : map.rowWeights(row)) sum += std::abs(weight);
+    gain = std::max(gain, sum);
+  }
+  return gain;
+}
+
+void sortUnique(std::vector<int>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// A B-spline patch lies in the box of its control points.
+geometry::Box controlBox(const SmoothSurface& surface, int face, double margin) {
+  geometry::Box box{surface.x[surface.control[face][0]], surface.x[surface.control[face][0]]};
+  for (int c : surface.control[face])
+    for (int k = 0; k < 3; ++k) {
+      box.lower[k] = std::min(box.lower[k], surface.x[c][k]);
+      box.upper[k] = std::max(box.upper[k], surface.x[c][k]);
+    }
+  const Vec3 inflate{margin, margin, margin};
+  return {box.lower - inflate, box.upper + inflate};
+}
+
+}  // namespace
+
+void SmoothContacts::clear() {
+  particle.clear();
+  face.clear();
+  weight.clear();
+  normal.clear();
+  overlap.clear();
+  engagement.clear();
+  force.clear();
+}
+
+SmoothCoupling::SmoothCoupling(SmoothSurface surface, double margin)
+    : surface_(std::move(surface)),
+      margin_(margin),
+      load_(static_cast<std::size_t>(surface_.carrier.columns)),
+      surfaceNodes_(surface_.carrier.column),
+      gain_(rowGain(surface_.carrier)) {
+  requireNonNegative(margin, "the candidate margin");
+  sortUnique(surfaceNodes_);
+}
+
+void SmoothCoupling::locate(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v) {
+  if (particlesAtBuild_.size() == particles.size() && !nodesAtBuild_.empty()) {
+    double particleTravel = 0.0, nodeTravel = 0.0;
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      particleTravel = std::max(particleTravel, squaredNorm(particles.x[i] - particlesAtBuild_[i]));
+    for (std::size_t k = 0; k < surfaceNodes_.size(); ++k)
+      nodeTravel = std::max(nodeTravel, squaredNorm(u[surfaceNodes_[k]] - nodesAtBuild_[k]));
+    if (std::sqrt(particleTravel) + gain_ * std::sqrt(nodeTravel) <= margin0_) return;
+  }
+  margin0_ = margin_;
+  if (margin0_ == 0.0 && particles.size() > 0)
+    margin0_ = 0.5 * *std::min_element(particles.radius.begin(), particles.radius.end());
+  std::vector<int> all(surface_.X.size());
+  for (std::size_t c = 0; c < all.size(); ++c) all[c] = static_cast<int>(c);
+  place(surface_, u, v, all);
+
+  geometry::HierarchicalGrid grid;
+  grid.build(particles.x, particles.radius);
+  std::vector<std::vector<int>> facesOf(particles.size());
+  for (std::size_t face = 0; face < surface_.control.size(); ++face)
+    grid.query(controlBox(surface_, static_cast<int>(face), margin0_),
+               [&](int particle) { facesOf[particle].push_back(static_cast<int>(face)); });
+  offsets_.assign(1, 0);
+  candidate_.clear();
+  active_.clear();
+  for (const auto& faces : facesOf) {
+    candidate_.insert(candidate_.end(), faces.begin(), faces.end());
+    offsets_.push_back(static_cast<int>(candidate_.size()));
+    for (int face : faces) active_.insert(active_.end(), surface_.control[face].begin(), surface_.control[face].end());
+  }
+  sortUnique(active_);
+  start_.assign(candidate_.size(), {0.5, 0.5});
+  particlesAtBuild_ = particles.x;
+  nodesAtBuild_.clear();
+  for (int node : surfaceNodes_) nodesAtBuild_.push_back(u[node]);
+}
+
+void SmoothCoupling::findHits(const Vec3& x, double radius, std::span<const int> faces) {
+  hits_.clear();
+  auto* start = start_.data() + (faces.data() - candidate_.data());
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const PatchPoint at = closestPointOnPatch(surface_, faces[k], x, start[k]);
+    start[k] = at.parameter;
+    if (at.squaredDistance >= radius * radius) continue;
+    // The search ran into a side that another face continues: the true foot lies there.
+    if (at.edge >= 0 && surface_.across[faces[k]][at.edge] >= 0 && leavesThrough(surface_, faces[k], at, x)) continue;
+    const double distance = std::sqrt(at.squaredDistance);
+    const Vec3 normal = distance > 1e-12 * radius ? (x - at.point) / distance : patchNormal(surface_, faces[k], at);
+    hits_.push_back({faces[k], at, normal, radius - distance, 0.0});
+  }
+  std::stable_sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) { return a.overlap > b.overlap; });
+}
+
+/// Shares of the overlap: max over λ ≥ 0 of δᵀλ − ½ λᵀGλ with G_ij = max(0, n_i · n_j), as for facets. A foot on a common
+/// edge is found by both faces; the first takes it all, because the second adds the same normal.
+void SmoothCoupling::resolveHits() {
+  for (int sweep = 0; sweep < 60; ++sweep) {
+    double change = 0.0;
+    for (std::size_t i = 0; i < hits_.size(); ++i) {
+      double rest = hits_[i].overlap;
+      for (std::size_t j = 0; j < hits_.size(); ++j)
+        if (j != i) rest -= std::max(0.0, dot(hits_[i].normal, hits_[j].normal)) * hits_[j].share;
+      rest = std::max(0.0, rest);
+      change = std::max(change, std::abs(rest - hits_[i].share));
+      hits_[i].share = rest;
+    }
+    if (hits_.size() < 2 || change <= 1e-15 * hits_[0].overlap) break;
+  }
+}
+
+void SmoothCoupling::findContacts(const dem::Particles& particles) {
+  contacts_.clear();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const std::span<const int> faces{candidate_.data() + offsets_[p],
+                                     static_cast<std::size_t>(offsets_[p + 1] - offsets_[p])};
+    findHits(particles.x[p], particles.radius[p], faces);
+    resolveHits();
+    for (const Hit& hit : hits_) {
+      if (hit.share <= 0.0) continue;
+      contacts_.particle.push_back(static_cast<int>(p));
+      contacts_.face.push_back(hit.face);
+      contacts_.weight.push_back(hit.at.weight);
+      contacts_.normal.push_back(hit.normal);
+      contacts_.overlap.push_back(hit.share);
+      contacts_.engagement.push_back(hit.share / hit.overlap);
+      contacts_.force.emplace_back();
+    }
+  }
+}
+
+void SmoothCoupling::transfer() {
+  load_.clear();
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    for (std::size_t k = 0; k < 16; ++k) {
+      const int control = surface_.control[contacts_.face[c]][k];
+      const auto column = surface_.carrier.rowColumns(control);
+      const auto share = surface_.carrier.rowWeights(control);
+      const Vec3 force = -contacts_.weight[c][k] * contacts_.force[c];
+      for (std::size_t i = 0; i < column.size(); ++i) load_.add(column[i], share[i] * force);
+    }
+}
+
+}  // namespace dovetail::surface

@@ -1,0 +1,22 @@
+#include "dovetail/surface/stepper.hpp"
+
+namespace dovetail::surface {
+
+void kickTouched(const NodalLoad& load, fem::Nodes& nodes, double dt) {
+  for (int node : load.touched) {
+    const double scale = dt / nodes.mass[node];
+    const unsigned held = nodes.fixed[node];
+    const Vec3& f = load.force[node];
+    if (!(held & fem::componentX)) nodes.v[node].x += scale * f.x;
+    if (!(held & fem::componentY)) nodes.v[node].y += scale * f.y;
+    if (!(held & fem::componentZ)) nodes.v[node].z += scale * f.z;
+  }
+}
+
+double workOf(const NodalLoad& load, std::span<const Vec3> displacement, double scale) {
+  double work = 0.0;
+  for (int node : load.touched) work += dot(load.force[node], displacement[node]);
+  return scale * work;
+}
+
+}  // namespace dovetail::surface

@@ -1,0 +1,103 @@
+// Candidate facets: never one too few, and cheap to keep.
+#include <gtest/gtest.h>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/geometry/triangle.hpp"
+#include "wall_scenes.hpp"
+
+namespace dovetail::dem {
+namespace {
+
+void expectComplete(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates) {
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    for (std::size_t t = 0; t < wall.facets.size(); ++t) {
+      const auto corner = [&](std::size_t k) { return wall.x[static_cast<std::size_t>(wall.facets[t][k])]; };
+      const Vec3 c = geometry::closestPointOnTriangle(particles.x[i], corner(0), corner(1), corner(2)).point;
+      if (norm(particles.x[i] - c) >= particles.radius[i]) continue;
+      const auto listed = std::lower_bound(candidates.particle.begin(), candidates.particle.end(), static_cast<int>(i));
+      ASSERT_TRUE(listed != candidates.particle.end() && *listed == static_cast<int>(i));
+      const auto k = static_cast<std::size_t>(listed - candidates.particle.begin());
+      const auto first = candidates.facet.begin() + candidates.offsets[k];
+      ASSERT_TRUE(std::binary_search(first, candidates.facet.begin() + candidates.offsets[k + 1], static_cast<int>(t)));
+    }
+}
+
+TEST(WallCandidates, NoFacetInReachIsMissingWhileAllMove) {
+  Random random(1);
+  auto wall = squares(10, 10, 0.2);
+  for (Vec3& v : wall.v) v = random.vector(0.5);
+  Particles particles;
+  for (int i = 0; i < 60; ++i)
+    addParticle(particles, {random(0, 2), random(0, 2), random(-0.3, 0.3)}, random.vector(1.0),
+                i % 2 == 0 ? 0.02 : random(0.1, 0.4), Mass{1.0});
+  WallCandidates scanned, bounded;
+  scanned.skin = bounded.skin = 0.05;
+  double travel = 0.0;
+  for (int step = 0; step < 200; ++step) {
+    const double dt = 1e-3;
+    drift(particles, dt);
+    for (std::size_t v = 0; v < wall.x.size(); ++v) wall.x[v] += dt * wall.v[v];
+    travel += dt * 0.5 * std::sqrt(3.0);
+    updateWallCandidates(particles, wall, scanned);
+    if (updateWallCandidates(particles, wall, bounded, travel)) travel = 0.0;
+    if (step % 10 != 0) continue;
+    expectComplete(particles, wall, scanned);
+    expectComplete(particles, wall, bounded);
+  }
+  EXPECT_GT(scanned.builds, 3);
+  EXPECT_LT(scanned.builds, 60);
+  EXPECT_EQ(scanned.lateBuilds, 0);
+}
+
+TEST(WallCandidates, AWallAtRestIsNotSearchedAgain) {
+  const auto wall = squares(4, 4, 0.5);
+  Particles particles;
+  addParticle(particles, {1, 1, 0.1}, {}, 0.1, Mass{1.0});
+  WallCandidates candidates;
+  candidates.skin = 0.02;
+  EXPECT_TRUE(updateWallCandidates(particles, wall, candidates));
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(updateWallCandidates(particles, wall, candidates));
+  particles.x[0].x += 0.021;
+  EXPECT_TRUE(updateWallCandidates(particles, wall, candidates, 0.0));
+  addParticle(particles, {1.5, 1, 0.1}, {}, 0.1, Mass{1.0});
+  EXPECT_TRUE(updateWallCandidates(particles, wall, candidates));
+  EXPECT_EQ(candidates.builds, 3);
+}
+
+TEST(WallCandidates, AWallThatJumpsIsFoundAndCounted) {
+  auto wall = squares(4, 4, 0.5);
+  Particles particles;
+  addParticle(particles, {1, 1, 0.5}, {}, 0.1, Mass{1.0});
+  WallCandidates candidates;
+  candidates.skin = 0.02;
+  for (int i = 0; i < 300; ++i) updateWallCandidates(particles, wall, candidates);
+  for (Vec3& x : wall.x) x.z = 0.45;
+  for (int i = 0; i < 64; ++i) updateWallCandidates(particles, wall, candidates);
+  EXPECT_EQ(candidates.lateBuilds, 1);
+  expectComplete(particles, wall, candidates);
+}
+
+TEST(WallCandidates, EmptyScenesAndBadInput) {
+  WallCandidates candidates;
+  WallContacts contacts;
+  const auto wall = squares(2, 2, 1.0);
+  findWallCandidates({}, wall, 0.1, candidates);
+  findWallContacts({}, wall, candidates, EdgeRule::projected, contacts);
+  EXPECT_EQ(contacts.size(), 0u);
+  Particles particles;
+  addParticle(particles, {1, 1, 0}, {}, 0.1, Mass{1.0});
+  const TriangulatedWall nothing = makeWall({}, {});
+  findWallCandidates(particles, nothing, 0.1, candidates);
+  for (const EdgeRule rule : {EdgeRule::projected, EdgeRule::paper}) {
+    findWallContacts(particles, nothing, candidates, rule, contacts);
+    EXPECT_EQ(contacts.size(), 0u);
+    EXPECT_EQ(collideWithWall(particles, nothing, contacts, ElasticLaw{{1.0}}).storedEnergy(), 0.0);
+  }
+  EXPECT_THROW(findWallCandidates(particles, wall, -0.1, candidates), InputError);
+  findWallCandidates(particles, wall, 0.1, candidates);
+  particles.x[0].x = NAN;
+  EXPECT_THROW(updateWallCandidates(particles, wall, candidates), NumericalError);
+}
+
+}  // namespace
+}  // namespace dovetail::dem

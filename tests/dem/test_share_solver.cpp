@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "share_solver.hpp"
+#include "wall_scenes.hpp"
+
+namespace dovetail::dem {
+namespace {
+
+/// Largest breach of λ ≥ 0, δ − Gλ ≤ 0 and λ (δ − Gλ) = 0.
+double optimalityError(const std::vector<Share>& shares) {
+  double worst = 0.0;
+  for (const Share& a : shares) {
+    double left = a.overlap - a.carried;
+    for (const Share& b : shares)
+      if (&a != &b) left -= coupling(dot(a.normal, b.normal)) * b.carried;
+    worst = std::max({worst, -a.carried, left, a.carried > 0.0 ? std::abs(left) : 0.0});
+  }
+  return worst;
+}
+
+TEST(ShareSolver, SatisfiesTheOptimalityConditions) {
+  Random random(1);
+  for (int trial = 0; trial < 3000; ++trial) {
+    std::vector<Share> shares(static_cast<std::size_t>(1 + trial % 9));
+    const double spread = random(0.05, 1.0);
+    for (Share& s : shares) {
+      s.normal = normalized(Vec3{0, 0, 1} + random.vector(spread));
+      s.overlap = random(-0.2, 1.0);
+    }
+    if (shares.size() > 2) shares[1] = shares[0];  // the same edge seen by two facets
+    ShareSolver().solve(shares, 1e-13);
+    ASSERT_LE(optimalityError(shares), 1e-9) << "trial " << trial;
+  }
+}
+
+TEST(ShareSolver, TwoWallsInClosedForm) {
+  std::vector<Share> shares(2);
+  for (const double g : {0.3, 0.6, 0.9}) {
+    shares[0] = {{1, 0, 0}, 1.0, 0.0};
+    shares[1] = {{g, std::sqrt(1 - g * g), 0}, 0.95, 0.0};
+    ShareSolver().solve(shares, 1e-13);
+    EXPECT_NEAR(shares[0].carried, (1.0 - 0.95 * g) / (1 - g * g), 1e-12);
+    EXPECT_NEAR(shares[1].carried, (0.95 - g) / (1 - g * g), 1e-12);
+  }
+}
+
+TEST(ShareSolver, NearlyParallelWallsStayBounded) {
+  for (const double angle : {1e-3, 1e-5, 1e-7, 1e-9, 0.0}) {
+    std::vector<Share> shares{{{0, 0, 1}, 1.0, 0.0}, {{std::sin(angle), 0, std::cos(angle)}, 1.0, 0.0}};
+    ShareSolver().solve(shares, 1e-13);
+    EXPECT_NEAR(shares[0].carried + shares[1].carried, 1.0, 1e-6);
+  }
+}
+
+TEST(ShareSolver, TheCouplingHasAContinuousSlope) {
+  for (double g = -0.3; g < 0.5; g += 0.0103) {
+    const double h = 1e-6;
+    EXPECT_NEAR((coupling(g + h) - coupling(g - h)) / (2 * h), couplingSlope(g), 1e-4);
+    EXPECT_GE(coupling(g), 0.0);
+  }
+  EXPECT_EQ(coupling(couplingBlend), couplingBlend);
+  EXPECT_EQ(couplingSlope(couplingBlend), 1.0);
+}
+
+}  // namespace
+}  // namespace dovetail::dem

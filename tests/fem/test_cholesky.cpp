@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include "helpers.hpp"
+
+namespace dovetail::fem {
+namespace {
+
+/// Tridiagonal matrix with the given diagonal and −1 beside it.
+SparseMatrix chain(int size, double diagonal) {
+  SparseMatrix A;
+  A.size = size;
+  for (int column = 0; column < size; ++column) {
+    for (int row = std::max(0, column - 1); row <= std::min(size - 1, column + 1); ++row) {
+      A.row.push_back(row);
+      A.value.push_back(row == column ? diagonal : -1.0);
+    }
+    A.offsets.push_back(static_cast<int>(A.row.size()));
+  }
+  return A;
+}
+
+TEST(SparseCholesky, SolvesAndReusesItsAnalysis) {
+  SparseCholesky cholesky;
+  for (const double diagonal : {2.0, 3.0, 2.5}) {
+    const SparseMatrix A = chain(50, diagonal);
+    ASSERT_TRUE(cholesky.factor(A));
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      std::vector<double> x(50);
+      for (std::size_t i = 0; i < 50; ++i) x[i] = std::sin(static_cast<double>(i + 1));
+      std::vector<double> b = multiply(A, x);
+      cholesky.solve(b);
+      for (std::size_t i = 0; i < 50; ++i) EXPECT_NEAR(b[i], x[i], 1e-12);
+    }
+  }
+  ASSERT_TRUE(cholesky.factor(chain(7, 2.0)));
+  std::vector<double> b = multiply(chain(7, 2.0), std::vector<double>(7, 1.0));
+  cholesky.solve(b);
+  for (const double value : b) EXPECT_NEAR(value, 1.0, 1e-13);
+}
+
+TEST(SparseCholesky, IndefiniteMatricesAreReported) {
+  SparseCholesky cholesky;
+  EXPECT_FALSE(cholesky.factor(chain(20, 1.0)));
+  EXPECT_FALSE(cholesky.factor(chain(20, -3.0)));
+  EXPECT_TRUE(cholesky.factor(chain(20, 2.0)));
+}
+
+}  // namespace
+}  // namespace dovetail::fem

@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/io/output_folder.hpp"
+#include "dovetail/io/provenance.hpp"
+#include "scratch_folder.hpp"
+
+namespace dovetail::io {
+namespace {
+
+namespace fs = std::filesystem;
+using test::messageOf;
+using test::readText;
+using test::ScratchFolder;
+using test::writeText;
+
+std::string marked(const std::string& text) { return provenanceLines(withMark({})) + text; }
+
+/// One line that ends with a remedy after the place.
+void expectOneClearLine(const std::string& message, const std::string& place) {
+  EXPECT_NE(message.find("[" + place), std::string::npos) << message;
+  EXPECT_NE(message.find("]: "), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+TEST(OutputFolder, IsMadeWithItsParentsAndLeftEmpty) {
+  const ScratchFolder scratch;
+  EXPECT_EQ(prepareOutputFolder(scratch / "a/b"), scratch / "a/b");
+  EXPECT_EQ(scratch.content(), (std::set<std::string>{"a", "a/b"}));
+}
+
+TEST(OutputFolder, KeepsWhatIsThere) {
+  const ScratchFolder scratch;
+  writeText(scratch / "notes.txt", "mine");
+  prepareOutputFolder(scratch.path(), {"energies.csv"});
+  EXPECT_EQ(scratch.content(), std::set<std::string>{"notes.txt"});
+  EXPECT_EQ(readText(scratch / "notes.txt"), "mine");
+}
+
+TEST(OutputFolder, RefusesAFileAndAPathBelowOne) {
+  const ScratchFolder scratch;
+  writeText(scratch / "file", "mine");
+  for (const fs::path& path : {scratch / "file", scratch / "file/out"})
+    expectOneClearLine(messageOf<InputError>([&] { prepareOutputFolder(path); }), path.string());
+  EXPECT_EQ(readText(scratch / "file"), "mine");
+  EXPECT_EQ(scratch.content(), std::set<std::string>{"file"});
+  EXPECT_THROW(prepareOutputFolder(""), InputError);
+}
+
+TEST(OutputFolder, RefusesPlacesWhereNothingCanBeWritten) {
+  if (!fs::exists("/proc/self")) GTEST_SKIP() << "there is no /proc here";
+  expectOneClearLine(messageOf<InputError>([] { prepareOutputFolder("/proc"); }), "/proc");  // a folder, but no files
+  expectOneClearLine(messageOf<InputError>([] { prepareOutputFolder("/proc/out"); }), "/proc/out");
+}
+
+TEST(OutputFolder, RefusesAFolderWithoutPermission) {
+  if (::geteuid() == 0) GTEST_SKIP() << "permissions do not stop root";
+  const ScratchFolder scratch;
+  fs::permissions(scratch.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_THROW(prepareOutputFolder(scratch.path()), InputError);
+  fs::permissions(scratch.path(), fs::perms::owner_all);
+}
+
+TEST(OutputFolder, RefusesAFullDisk) {
+  const ScratchFolder scratch;
+  const test::FullDisk full(0);
+  EXPECT_THROW(prepareOutputFolder(scratch.path()), InputError);
+  EXPECT_TRUE(scratch.content().empty());
+}
+
+TEST(OutputFolder, RefusesNamesTakenByOthersBeforeTheRun) {
+  const ScratchFolder scratch;
+  writeText(scratch / "energies.csv", "mine");
+  writeText(scratch / "summary.json", marked("{}"));
+  EXPECT_NO_THROW(prepareOutputFolder(scratch.path(), {"summary.json", "new.csv"}));
+  const std::string message = messageOf<InputError>([&] {
+    prepareOutputFolder(scratch.path(), {"summary.json", "energies.csv"});
+  });
+  expectOneClearLine(message, (scratch / "energies.csv").string());
+  EXPECT_EQ(readText(scratch / "energies.csv"), "mine");
+}
+
+TEST(OwnFiles, AreKnownByTheirMark) {
+  const ScratchFolder scratch;
+  const auto check = [&](const std::string& text) {
+    writeText(scratch / "file", text);
+    return isOurs(scratch / "file");
+  };
+  EXPECT_TRUE(check(marked("")));
+  EXPECT_TRUE(check("dovetail joints, dovetail 2"));
+  EXPECT_FALSE(check("dovetail joints"));
+  EXPECT_FALSE(check("dovetail "));
+  EXPECT_FALSE(check(""));
+  EXPECT_FALSE(check(std::string(70000, 'x') + marked("")));
+  EXPECT_FALSE(isOurs(scratch / "absent"));
+  EXPECT_FALSE(isOurs(scratch.path()));
+}
+
+TEST(WriteFile, WritesAndReplacesItsOwn) {
+  const ScratchFolder scratch;
+  const std::string first = marked("one"), second = marked(std::string(100000, 'x') + '\0' + "two");
+  writeFileAtomically(scratch / "file", first);
+  EXPECT_EQ(readText(scratch / "file"), first);
+  writeFileAtomically(scratch / "file", second);
+  EXPECT_EQ(readText(scratch / "file"), second);
+  EXPECT_EQ(scratch.content(), std::set<std::string>{"file"});
+}
+
+TEST(WriteFile, NeverOverwritesOthersAndLosesNoResult) {
+  const ScratchFolder scratch;
+  writeText(scratch / "file", "mine");
+  const std::string message = messageOf<InputError>([&] { writeFileAtomically(scratch / "file", marked("result")); });
+  expectOneClearLine(message, (scratch / "file").string());
+  EXPECT_EQ(readText(scratch / "file"), "mine");
+  std::set<std::string> content = scratch.content();
+  ASSERT_EQ(content.size(), 2u);
+  content.erase("file");
+  EXPECT_EQ(readText(scratch / *content.begin()), marked("result"));
+  EXPECT_NE(message.find(*content.begin()), std::string::npos) << message;
+}
+
+TEST(WriteFile, DoesNotReplaceThroughALink) {
+  const ScratchFolder scratch;
+  writeText(scratch / "target", marked("old"));
+  fs::create_symlink("target", scratch / "link");
+  EXPECT_THROW(writeFileAtomically(scratch / "link", marked("new")), InputError);
+  EXPECT_TRUE(fs::is_symlink(scratch / "link"));
+  EXPECT_EQ(readText(scratch / "target"), marked("old"));
+}
+
+TEST(WriteFile, KeepsTheOldFileWhenTheDiskIsFull) {
+  const ScratchFolder scratch;
+  const std::string old = marked("old");
+  writeFileAtomically(scratch / "file", old);
+  {
+    const test::FullDisk full(1000);
+    EXPECT_THROW(writeFileAtomically(scratch / "file", marked(std::string(5000, 'x'))), Error);
+  }
+  EXPECT_EQ(readText(scratch / "file"), old);
+  EXPECT_EQ(scratch.content(), std::set<std::string>{"file"});
+}
+
+TEST(WriteFile, RefusesAFolderThatIsNotThere) {
+  const ScratchFolder scratch;
+  EXPECT_THROW(writeFileAtomically(scratch / "absent/file", "text"), InputError);
+  EXPECT_TRUE(scratch.content().empty());
+}
+
+}  // namespace
+}  // namespace dovetail::io

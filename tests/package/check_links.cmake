@@ -1,0 +1,13 @@
+# Runs PROGRAM and fails if it loads a library that a program of particles alone must not need.
+execute_process(COMMAND "./${PROGRAM}" COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ldd "./${PROGRAM}" OUTPUT_VARIABLE libraries COMMAND_ERROR_IS_FATAL ANY)
+string(TOLOWER "${libraries}" lower)
+if(NOT lower MATCHES "libstdc\\+\\+|libc\\+\\+")
+  message(FATAL_ERROR "ldd does not list the C++ library; its output is not understood:\n${libraries}")
+endif()
+foreach(name vtk hdf5 cgal fcl ceres cholmod blas)
+  if(lower MATCHES "lib[a-z_]*${name}")
+    message(FATAL_ERROR "${PROGRAM} loads ${name}:\n${libraries}")
+  endif()
+endforeach()
+message(STATUS "${PROGRAM} loads:\n${libraries}")
