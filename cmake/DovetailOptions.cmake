@@ -6,7 +6,11 @@ option(DOVETAIL_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
 option(DOVETAIL_FP_CONTRACT "Let the compiler fuse a*b+c; faster, but digits then differ from other builds" OFF)
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
-  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+  if(PROJECT_IS_TOP_LEVEL)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+  else()
+    set(CMAKE_BUILD_TYPE Release)  # for our folders only; the embedding project keeps its own
+  endif()
 endif()
 if(PROJECT_IS_TOP_LEVEL)
   set(CMAKE_EXPORT_COMPILE_COMMANDS ON)

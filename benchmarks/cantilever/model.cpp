@@ -79,7 +79,8 @@ surface::CoupledModel<Seam> makeModel(const Settings& settings, const fem::Mesh&
                                     fem::makeElements(mesh, type, makeMaterial(settings)),
                                     std::move(seam),
                                     0.0,
-                                    {}};
+                                    {},
+                                    surface::NodalLoad{}};
   fem::addLumpedMass(model.elements, model.nodes);
   fem::fix(model.nodes, mesh.nodeSets.at("y-"));
   const dem::LinearSpringDashpot normal{contactStiffness(settings), settings.restitution};

@@ -23,7 +23,7 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Enum& target, con
 
 /// What of the scheme's parts was written on the command line and so wins over --scheme.
 struct WrittenParts {
-  std::string lag;
+  Lag lag{};
   Transfer transfer{};
   EdgeHandling edges{};
   Metric metric{};
@@ -34,8 +34,9 @@ struct WrittenParts {
 };
 
 void addPartOptions(CLI::App& app, WrittenParts& w) {
-  w.lagOption = app.add_option("--lag", w.lag, "freeze the load over a step and let the particles see the last skin")
-                    ->check(CLI::IsMember({"on", "off"}).description(""))->option_text("on|off");
+  w.lagOption = addChoice<Lag>(app, "--lag", w.lag,
+      {{"none", Lag::none}, {"load", Lag::load}, {"load-and-skin", Lag::loadAndSkin}},
+      "staggered steps: the load, or load and skin, one step old");
   w.transferOption = addChoice<Transfer>(app, "--transfer", w.transfer,
       {{"adjoint", Transfer::adjoint}, {"spread", Transfer::spread}},
       "gap and load by the same weights, or the load alone spread over the kernel (14-15)");
@@ -46,19 +47,19 @@ void addPartOptions(CLI::App& app, WrittenParts& w) {
   w.femOption = addChoice<FemStepper>(app, "--fem", w.fem,
       {{"explicit", FemStepper::explicitDifferences}, {"newmark", FemStepper::newmark}}, "time integration of the beam");
   w.massOption = addChoice<MassMatrix>(app, "--mass", w.mass,
-      {{"lumped", MassMatrix::lumped}, {"consistent", MassMatrix::consistent}}, "of the beam; consistent with --fem newmark --lag on only");
+      {{"lumped", MassMatrix::lumped}, {"consistent", MassMatrix::consistent}}, "of the beam; consistent with --fem newmark --lag load only");
   w.restitutionOption = app.add_option("--restitution", w.restitution, "of a particle on a rigid wall, 0 < e <= 1")->option_text("E");
 }
 
 void mergeParts(const WrittenParts& w, Settings& s) {
   applyScheme(s, s.scheme);
-  if (w.lagOption->count() > 0) s.lag = w.lag == "on";
+  if (w.lagOption->count() > 0) s.lag = w.lag;
   if (w.transferOption->count() > 0) s.transfer = w.transfer;
   if (w.edgesOption->count() > 0) s.edges = w.edges;
   if (w.metricOption->count() > 0) s.metric = w.metric;
   if (w.femOption->count() > 0) s.fem = w.fem;
   if (w.massOption->count() > 0) s.mass = w.mass;
-  else if (!(s.lag && s.fem == FemStepper::newmark)) s.mass = MassMatrix::lumped;
+  else if (!(s.lag != Lag::none && s.fem == FemStepper::newmark)) s.mass = MassMatrix::lumped;
   if (w.restitutionOption->count() > 0) s.restitution = w.restitution;
 }
 

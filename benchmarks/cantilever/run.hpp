@@ -50,8 +50,9 @@ struct RunFigures {
   double largestExcess = 0.0;    ///< max (K + U) / (initial + work of gravity)
 
   double errorStatic = 0.0, errorStaticAuthors = 0.0;  ///< m, true arm and the authors' arm
-  double errorDynamic = 0.0, errorDynamicAtY = 0.0;    ///< m, moving-mass beam with the exact EI
-  double errorDynamicLocked = 0.0;                     ///< m, the same with EI × locking factor
+  // Against the moving-mass beam: at the particle's own y, as the static formula, or at the same time.
+  double errorDynamic = 0.0, errorDynamicSameTime = 0.0;              ///< m, exact EI
+  double errorDynamicLocked = 0.0, errorDynamicLockedSameTime = 0.0;  ///< m, EI × locking factor
   double lockingFactor = 1.0;
   double referenceLeaveTime = 0.0;                     ///< s, moving-mass beam with the exact EI
 };

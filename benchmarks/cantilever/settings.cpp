@@ -20,7 +20,7 @@ double contactTime(const Case& beam) {
 void applyScheme(Settings& settings, Scheme scheme) {
   const bool paper = scheme == Scheme::paper;
   settings.scheme = scheme;
-  settings.lag = paper;
+  settings.lag = paper ? Lag::load : Lag::none;
   settings.transfer = paper ? Transfer::spread : Transfer::adjoint;
   settings.edges = paper ? EdgeHandling::paper : EdgeHandling::projected;
   settings.metric = paper ? Metric::deformed : Metric::reference;
@@ -29,7 +29,7 @@ void applyScheme(Settings& settings, Scheme scheme) {
   settings.restitution = paper ? 0.99 : 1.0;
 }
 
-bool couplingIsUnbalanced(const Settings& settings) { return settings.lag || settings.transfer == Transfer::spread; }
+bool couplingIsUnbalanced(const Settings& settings) { return settings.lag != Lag::none || settings.transfer == Transfer::spread; }
 
 namespace {
 
@@ -62,9 +62,9 @@ void validate(const Settings& s) {
   if (s.metric == Metric::deformed && s.element != "hex8")
     throw InputError("element " + s.element + " has no deformed metric", "--metric deformed",
                      "take --element hex8, or --metric reference");
-  if (s.mass == MassMatrix::consistent && !(s.lag && s.fem == FemStepper::newmark))
+  if (s.mass == MassMatrix::consistent && !(s.lag != Lag::none && s.fem == FemStepper::newmark))
     throw InputError("a consistent mass needs an implicit step that carries the load", "--mass consistent",
-                     "add --fem newmark --lag on, or take --mass lumped");
+                     "add --fem newmark --lag load, or take --mass lumped");
   if (s.surface == Surface::smooth && s.transfer == Transfer::spread)
     throw InputError("the smooth surface carries its loads by its own weights", "--surface smooth",
                      "take --transfer adjoint, or --surface flat");
@@ -80,7 +80,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
   const auto text = [](double value) { return formatNumber(value); };
   std::vector<std::pair<std::string, std::string>> rows{
       {"scheme", s.scheme == Scheme::paper ? "paper" : "conservative"},
-      {"lag", s.lag ? "on" : "off"},
+      {"lag", s.lag == Lag::none ? "none" : s.lag == Lag::load ? "load" : "load-and-skin"},
       {"transfer", s.transfer == Transfer::spread ? "spread" : "adjoint"},
       {"edges", s.edges == EdgeHandling::paper ? "paper" : "projected"},
       {"metric", s.metric == Metric::deformed ? "deformed" : "reference"},

@@ -24,6 +24,9 @@ double contactTime(const Case& beam);
 double particleMass(const Case& beam);
 
 enum class Scheme { conservative, paper };
+/// Staggered steps: the load on the solid is that of the last contact evaluation (load), and the particles see the skin
+/// as it was before the solid's step (loadAndSkin).
+enum class Lag { none, load, loadAndSkin };
 enum class Transfer { adjoint, spread };          ///< adjoint pair, or kernel at the contact with a local gap (14–15)
 enum class EdgeHandling { projected, paper };     ///< one projection, or the authors' face rule
 enum class Metric { reference, deformed };        ///< St Venant–Kirchhoff, or the authors' Eq. (34)
@@ -37,12 +40,11 @@ enum class Study { none, widths, pareto, stability, ablation };
 struct Settings {
   Scheme scheme = Scheme::conservative;
   // The parts in which the two schemes differ; each can be switched on its own.
-  bool lag = false;                               ///< staggered: load frozen over a step, skin one step old
+  Lag lag = Lag::none;
   Transfer transfer = Transfer::adjoint;
   EdgeHandling edges = EdgeHandling::projected;
   Metric metric = Metric::reference;
   FemStepper fem = FemStepper::explicitDifferences;
-  bool skinExtrapolated = false;                  ///< with lag: the skin goes on with its velocity during a DEM step
   MassMatrix mass = MassMatrix::lumped;
   double restitution = 1.0;
 

@@ -23,13 +23,25 @@ struct FacetView {
 };
 
 /// The vertices of a facet seen from an origin near by: differences keep their digits far from the global origin.
-struct FacetCorners {
+class FacetCorners {
+public:
   Vec3 a, b, c;
   FacetCorners(const TriangulatedWall& wall, int facet, const Vec3& origin) {
     const auto& vertex = wall.facets[static_cast<std::size_t>(facet)];
     a = wall.x[static_cast<std::size_t>(vertex[0])] - origin;
     b = wall.x[static_cast<std::size_t>(vertex[1])] - origin;
     c = wall.x[static_cast<std::size_t>(vertex[2])] - origin;
+  }
+
+  /// Whether even the bounding box is farther than reach from the origin: spares most facets the closer look.
+  bool beyond(double reach) const {
+    const Vec3 d{gap(a.x, b.x, c.x), gap(a.y, b.y, c.y), gap(a.z, b.z, c.z)};
+    return squaredNorm(d) >= reach * reach;
+  }
+
+private:
+  static double gap(double p, double q, double r) {
+    return std::max(std::max(std::min(std::min(p, q), r), -std::max(std::max(p, q), r)), 0.0);
   }
 };
 

@@ -18,13 +18,17 @@ void paperContacts(int particle, const Vec3& x, double radius, const Triangulate
   touches.clear();
   std::size_t largest = 0;
   for (const int facet : facets) {
-    const FacetView view = viewFacet({}, FacetCorners(wall, facet, x), radius, radius, wall.oneSided);
+    const FacetCorners corners(wall, facet, x);
+    if (corners.beyond(radius)) continue;
+    const FacetView view = viewFacet({}, corners, radius, radius, wall.oneSided);
     if (!(view.distance < radius)) continue;
     touches.push_back({facet, view});
     if (view.distance < touches[largest].view.distance) largest = touches.size() - 1;
   }
   if (touches.empty()) return;
-  const auto kept = [&](std::size_t i) { return i == largest || (touches[largest].view.face() && touches[i].view.face()); };
+  const auto kept = [&](std::size_t i) {
+    return i == largest || (touches[largest].view.face() && touches[i].view.face());
+  };
   double sum = 0.0;
   for (std::size_t i = 0; i < touches.size(); ++i)
     if (kept(i)) sum += radius - touches[i].view.distance;

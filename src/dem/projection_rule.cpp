@@ -10,7 +10,7 @@ namespace dovetail::dem {
 
 namespace {
 
-constexpr double tolerance = 1e-13;    // of the radius
+constexpr double tolerance = 1e-13;     // of the radius
 constexpr int largestIterations = 200;  // contraction is about overlap/radius per iteration
 
 /// One facet in reach. Positions are relative to the particle's centre x.
@@ -73,7 +73,9 @@ private:
     double least = reach;
     Candidate sunk{-1, {}, {}};
     for (const int facet : facets_) {
-      const FacetView seen = view(facet, {}, reach);
+      const FacetCorners corners(wall_, facet, x_);
+      if (corners.beyond(reach)) continue;
+      const FacetView seen = viewFacet({}, corners, radius_, reach, wall_.oneSided);
       if (seen.sunk > 0.0 && (sunk.facet < 0 || seen.sunk < sunk.view.sunk)) sunk = {facet, seen, {}};
       if (!(seen.distance < reach)) continue;
       if (seen.distance < least) {

@@ -16,8 +16,8 @@ Vec3 gaussPoint(int p) {
 std::array<double, 8> shapeValues(const Vec3& xi) {
   std::array<double, 8> value{};
   for (std::size_t a = 0; a < 8; ++a)
-    value[a] = 0.125 * (1.0 + parentSign[a][0] * xi.x) * (1.0 + parentSign[a][1] * xi.y) *
-               (1.0 + parentSign[a][2] * xi.z);
+    value[a] =
+        0.125 * (1.0 + parentSign[a][0] * xi.x) * (1.0 + parentSign[a][1] * xi.y) * (1.0 + parentSign[a][2] * xi.z);
   return value;
 }
 

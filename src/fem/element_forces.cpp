@@ -128,10 +128,9 @@ void requireValid(const ElementBlock& block, const Nodes& nodes, const std::stri
     for (int lane = 0; lane < cache.batches[b].count; ++lane)
       for (const Lane& value : determinant)
         if (!(value[lane] > 0.0))
-          throw NumericalError(
-              "element " + std::to_string(detail::laneCount * b + static_cast<std::size_t>(lane)) +
-                  " is inverted (det F = " + formatNumber(value[lane]) + ")",
-              when, "take a smaller step, a finer mesh or a smaller load");
+          throw NumericalError("element " + std::to_string(detail::laneCount * b + static_cast<std::size_t>(lane)) +
+                                   " is inverted (det F = " + formatNumber(value[lane]) + ")",
+                               when, "take a smaller step, a finer mesh or a smaller load");
   }
 }
 

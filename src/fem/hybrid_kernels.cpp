@@ -36,8 +36,8 @@ struct BoxModes {
   std::array<std::array<Lane, 2>, 3> shear;
 };
 
-/// Stress coefficients times the weight of a Gauss point, from the sums of 2E. In a box the modes decouple: constants by
-/// Hooke's law, the two normal stresses that share a linear mode by that of plane stress, the rest one by one.
+/// Stress coefficients times the weight of a Gauss point, from the sums of 2E. In a box the modes decouple: constants
+/// by Hooke's law, the two normal stresses that share a linear mode by that of plane stress, the rest one by one.
 DOVETAIL_INLINE BoxModes stiffen(const LawConstants& law, Lane weight, const BoxModes& sums) {
   const Lane w = 0.125 * weight;
   const Lane mu = law.mu * w, plane = law.halfPlane * w, young = law.halfYoung * w;
@@ -79,7 +79,7 @@ DOVETAIL_INLINE Tensor valueAt(const PlanarField& field) {
 
 }  // namespace
 
-void hybridBoxForces(const LawConstants& law, const BoxGeometry& geometry, const Batch& batch, const Vec3* u,
+DOVETAIL_KERNEL void hybridBoxForces(const LawConstants& law, const BoxGeometry& geometry, const Batch& batch, const Vec3* u,
                      BatchForces& forces, Lane* energy) {
   PlanarField gradient;
   planarGradient(batch, u, geometry.gradientScale, gradient);
@@ -190,7 +190,7 @@ DOVETAIL_INLINE Coefficients solveModes(const HybridGeometry& hybrid, const Coef
 
 }  // namespace
 
-void hybridGeneralForces(const HybridGeometry& hybrid, const GeneralGeometry& geometry, const Batch& batch,
+DOVETAIL_KERNEL void hybridGeneralForces(const HybridGeometry& hybrid, const GeneralGeometry& geometry, const Batch& batch,
                          const Vec3* u, BatchForces& forces, Lane* energy) {
   const std::array<Lane, 9>& J0 = hybrid.centreJacobian;
   PlanarField gradient;

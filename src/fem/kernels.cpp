@@ -23,7 +23,7 @@ DOVETAIL_INLINE Tensor valueAt(const PlanarField& field) {
 }
 
 template <Law law, bool withEnergy>
-void boxForces(const LawConstants& constants, const BoxGeometry& geometry, const Batch& batch, const Vec3* u,
+DOVETAIL_INLINE void boxForces(const LawConstants& constants, const BoxGeometry& geometry, const Batch& batch, const Vec3* u,
                BatchForces& forces, Lane* energy) {
   PlanarField gradient;
   planarGradient(batch, u, geometry.gradientScale, gradient);
@@ -54,7 +54,7 @@ DOVETAIL_INLINE Tensor mapped(const Tensor& parent, const std::array<Lane, 9>& m
 }
 
 template <Law law, bool withEnergy>
-void generalForces(const LawConstants& constants, const GeneralGeometry& geometry, const Batch& batch, const Vec3* u,
+DOVETAIL_INLINE void generalForces(const LawConstants& constants, const GeneralGeometry& geometry, const Batch& batch, const Vec3* u,
                    BatchForces& forces, Lane* energy) {
   PlanarField gradient;
   planarGradient(batch, u, parentScale(), gradient);
@@ -78,7 +78,7 @@ void generalForces(const LawConstants& constants, const GeneralGeometry& geometr
 }
 
 template <Law law>
-void pointwiseForces(const ElementCache& cache, const Batch& batch, const Vec3* u, BatchForces& forces, Lane* energy) {
+DOVETAIL_INLINE void pointwiseForces(const ElementCache& cache, const Batch& batch, const Vec3* u, BatchForces& forces, Lane* energy) {
   const auto place = static_cast<std::size_t>(batch.geometry);
   if (batch.box)
     energy ? boxForces<law, true>(cache.constants, cache.boxes[place], batch, u, forces, energy)
@@ -95,7 +95,7 @@ DOVETAIL_INLINE Lane determinantOfOnePlus(const Tensor& H) {
 }
 
 /// Inverse of J0 times determinant, for hybrid8, whose map is ∂ξ/∂X · J0.
-Tensor inverseJacobian(const std::array<Lane, 9>& m) {
+DOVETAIL_INLINE Tensor inverseJacobian(const std::array<Lane, 9>& m) {
   const Lane c0 = m[4] * m[8] - m[5] * m[7], c1 = m[5] * m[6] - m[3] * m[8], c2 = m[3] * m[7] - m[4] * m[6];
   const Lane s = 1.0 / (m[0] * c0 + m[1] * c1 + m[2] * c2);
   return {{{s * c0, s * (m[2] * m[7] - m[1] * m[8]), s * (m[1] * m[5] - m[2] * m[4])},
@@ -105,11 +105,13 @@ Tensor inverseJacobian(const std::array<Lane, 9>& m) {
 
 }  // namespace
 
-void batchForces(const ElementCache& cache, const Batch& batch, const Vec3* u, BatchForces& forces, Lane* energy) {
+DOVETAIL_KERNEL void batchForces(const ElementCache& cache, const Batch& batch, const Vec3* u, BatchForces& forces, Lane* energy) {
   const auto place = static_cast<std::size_t>(batch.geometry);
   switch (cache.law) {
-    case Law::stVenantKirchhoff: return pointwiseForces<Law::stVenantKirchhoff>(cache, batch, u, forces, energy);
-    case Law::deformedMetric: return pointwiseForces<Law::deformedMetric>(cache, batch, u, forces, energy);
+    case Law::stVenantKirchhoff:
+      return pointwiseForces<Law::stVenantKirchhoff>(cache, batch, u, forces, energy);
+    case Law::deformedMetric:
+      return pointwiseForces<Law::deformedMetric>(cache, batch, u, forces, energy);
     case Law::hybrid:
       if (batch.box) return hybridBoxForces(cache.constants, cache.boxes[place], batch, u, forces, energy);
       const GeneralGeometry& geometry = cache.general[place];
@@ -118,18 +120,18 @@ void batchForces(const ElementCache& cache, const Batch& batch, const Vec3* u, B
   }
 }
 
-std::array<Lane, 8> batchDeterminants(const ElementCache& cache, const Batch& batch, const Vec3* u) {
+DOVETAIL_KERNEL std::array<Lane, 8> batchDeterminants(const ElementCache& cache, const Batch& batch, const Vec3* u) {
   const auto place = static_cast<std::size_t>(batch.geometry);
   PlanarField gradient;
   std::array<Lane, 8> determinant{};
   if (batch.box) {
     planarGradient(batch, u, cache.boxes[place].gradientScale, gradient);
-    forEachPoint([&](auto p) { determinant[p] = determinantOfOnePlus(valueAt<decltype(p)::value>(gradient)); });
+    forEachPoint([&](auto p) __attribute__((always_inline)) { determinant[p] = determinantOfOnePlus(valueAt<decltype(p)::value>(gradient)); });
     return determinant;
   }
   const GeneralGeometry& geometry = cache.general[place];
   planarGradient(batch, u, parentScale(), gradient);
-  forEachPoint([&](auto p) {
+  forEachPoint([&](auto p) __attribute__((always_inline)) {
     Tensor H = mapped(valueAt<decltype(p)::value>(gradient), geometry.map[p]);
     if (cache.law == Law::hybrid) {
       const Tensor K = inverseJacobian(cache.hybrid[static_cast<std::size_t>(geometry.hybrid)].centreJacobian);

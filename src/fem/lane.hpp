@@ -17,6 +17,22 @@ using Lane [[gnu::vector_size(8 * laneCount)]] = double;
 
 #define DOVETAIL_INLINE [[gnu::always_inline]] inline
 
+// A build for any x86-64 machine holds the kernels twice, and the loader takes the one with wide registers where there are
+// any. The digits are the same unless DOVETAIL_FP_CONTRACT is on. Sanitizers cannot follow such functions.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define DOVETAIL_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define DOVETAIL_SANITIZED
+#endif
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__AVX2__) && !defined(DOVETAIL_SANITIZED)
+#define DOVETAIL_KERNEL [[gnu::target_clones("arch=haswell", "default")]]
+#else
+#define DOVETAIL_KERNEL
+#endif
+
 DOVETAIL_INLINE Lane splat(double value) { return Lane{value, value, value, value}; }
 
 /// Four consecutive elements. Corners in binary order: bit 0, 1, 2 of the corner set means +ξ, +η, +ζ.

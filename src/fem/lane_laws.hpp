@@ -31,20 +31,20 @@ DOVETAIL_INLINE Symmetric commutingProduct(const Symmetric& a, const Symmetric& 
 DOVETAIL_INLINE Symmetric inverseOf(const Symmetric& c) {
   const Lane c00 = c[1] * c[2] - c[4] * c[4], c01 = c[5] * c[4] - c[3] * c[2], c02 = c[3] * c[4] - c[5] * c[1];
   const Lane s = 1.0 / (c[0] * c00 + c[3] * c01 + c[5] * c02);
-  return {s * c00,
-          s * (c[0] * c[2] - c[5] * c[5]),
-          s * (c[0] * c[1] - c[3] * c[3]),
-          s * c01,
-          s * (c[3] * c[5] - c[0] * c[4]),
-          s * c02};
+  return {s * c00, s * (c[0] * c[2] - c[5] * c[5]), s * (c[0] * c[1] - c[3] * c[3]),
+          s * c01, s * (c[3] * c[5] - c[0] * c[4]), s * c02};
 }
 
 /// weight · (λ tr(E) 1 + 2μ E).
 DOVETAIL_INLINE Symmetric kirchhoffStress(const LawConstants& law, Lane weight, const Symmetric& strain) {
   const Lane mu = law.mu * weight;
   const Lane pressure = law.halfLambda * weight * (strain[0] + strain[1] + strain[2]);
-  return {pressure + mu * strain[0], pressure + mu * strain[1], pressure + mu * strain[2],
-          mu * strain[3],            mu * strain[4],            mu * strain[5]};
+  return {pressure + mu * strain[0],
+          pressure + mu * strain[1],
+          pressure + mu * strain[2],
+          mu * strain[3],
+          mu * strain[4],
+          mu * strain[5]};
 }
 
 /// weight · (λ tr(C⁻¹E) C⁻¹ + 2μ C⁻¹EC⁻¹); C⁻¹ and E commute because C = 1 + 2E.

@@ -25,10 +25,14 @@ void addElementsAndFaces(Mesh& mesh, const GridIndex& grid) {
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) {
-        const std::array<int, 8> element = {grid.node(i, j, k),         grid.node(i + 1, j, k),
-                                            grid.node(i + 1, j + 1, k), grid.node(i, j + 1, k),
-                                            grid.node(i, j, k + 1),     grid.node(i + 1, j, k + 1),
-                                            grid.node(i + 1, j + 1, k + 1), grid.node(i, j + 1, k + 1)};
+        const std::array<int, 8> element = {grid.node(i, j, k),
+                                            grid.node(i + 1, j, k),
+                                            grid.node(i + 1, j + 1, k),
+                                            grid.node(i, j + 1, k),
+                                            grid.node(i, j, k + 1),
+                                            grid.node(i + 1, j, k + 1),
+                                            grid.node(i + 1, j + 1, k + 1),
+                                            grid.node(i, j + 1, k + 1)};
         mesh.elements.push_back(element);
         const std::array<bool, 6> outside = {i == 0, i == nx - 1, j == 0, j == ny - 1, k == 0, k == nz - 1};
         for (std::size_t side = 0; side < 6; ++side) {

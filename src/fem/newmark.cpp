@@ -19,7 +19,8 @@ void validate(const NewmarkOptions& options) {
     throw InputError("consistentShare is " + formatNumber(options.consistentShare), "NewmarkOptions",
                      "give 0 (lumped) to 1 (consistent)");
   if (options.maxIterations < 1 || options.refactorAfter < 1)
-    throw InputError("no iterations are allowed", "NewmarkOptions", "give maxIterations and refactorAfter of 1 or more");
+    throw InputError("no iterations are allowed", "NewmarkOptions",
+                     "give maxIterations and refactorAfter of 1 or more");
 }
 
 /// share · (M − its row sums on the diagonal).
@@ -53,17 +54,16 @@ NewmarkSolver::NewmarkSolver(const ElementBlock& block, const Nodes& nodes, doub
     freeRow_.push_back(nodes.fixed[dof / 3] >> dof % 3 & 1 ? -1 : rows++);
   }
   residual_.resize(static_cast<std::size_t>(rows));
-  if (options.consistentShare > 0.0)
-    massCorrection_ = scaledCorrection(consistentMass(block), options.consistentShare);
+  if (options.consistentShare > 0.0) massCorrection_ = scaledCorrection(consistentMass(block), options.consistentShare);
 }
 
 void NewmarkSolver::checkInput(const Nodes& nodes, std::span<const Vec3> externalForce) const {
   if (3 * nodes.u.size() != mass_.size())
     throw InputError("the nodes are not those of the solver", "NewmarkSolver::step", "use the nodes it was made with");
   if (!externalForce.empty() && externalForce.size() != nodes.u.size())
-    throw InputError("there are " + std::to_string(externalForce.size()) + " loads for " +
-                         std::to_string(nodes.u.size()) + " nodes",
-                     "NewmarkSolver::step", "give one per node, or none");
+    throw InputError(
+        "there are " + std::to_string(externalForce.size()) + " loads for " + std::to_string(nodes.u.size()) + " nodes",
+        "NewmarkSolver::step", "give one per node, or none");
 }
 
 void NewmarkSolver::fail(const std::string& problem, int iteration, double residual) const {
@@ -106,8 +106,8 @@ void NewmarkSolver::evaluateForces(Nodes& nodes) const {
 }
 
 std::vector<double> NewmarkSolver::inertia(std::span<const double> field) const {
-  std::vector<double> result = massCorrection_.size > 0 ? multiply(massCorrection_, field)
-                                                        : std::vector<double>(field.size(), 0.0);
+  std::vector<double> result =
+      massCorrection_.size > 0 ? multiply(massCorrection_, field) : std::vector<double>(field.size(), 0.0);
   for (std::size_t dof = 0; dof < field.size(); ++dof) result[dof] += mass_[dof] * field[dof];
   return result;
 }
@@ -131,7 +131,8 @@ double NewmarkSolver::balance(const Nodes& nodes, std::span<const Vec3> load) {
     displacementSum += nodes.u[n][c] * nodes.u[n][c];
   }
   // Displacements are known to a relative ε, hence forces to no better than ε K u.
-  const double resolution = 2.0 * std::numeric_limits<double>::epsilon() * largestStiffness_ * std::sqrt(displacementSum);
+  const double resolution =
+      2.0 * std::numeric_limits<double>::epsilon() * largestStiffness_ * std::sqrt(displacementSum);
   tolerance_ = options_.relativeTolerance * std::sqrt(std::max({loadSum, startSum, forceSum, inertiaSum})) +
                options_.absoluteTolerance + resolution;
   return norm(residual_);

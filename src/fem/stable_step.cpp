@@ -56,7 +56,8 @@ public:
   Eigen::VectorXd start() const {
     Eigen::VectorXd x(static_cast<Eigen::Index>(scale_.size()));
     for (std::size_t i = 0; i < scale_.size(); ++i)
-      x[static_cast<Eigen::Index>(i)] = scale_[i] > 0.0 ? std::sin(1.0 + 1.7 * static_cast<double>(i * i % 10007)) : 0.0;
+      x[static_cast<Eigen::Index>(i)] =
+          scale_[i] > 0.0 ? std::sin(1.0 + 1.7 * static_cast<double>(i * i % 10007)) : 0.0;
     return x.normalized();
   }
 

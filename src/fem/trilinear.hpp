@@ -24,7 +24,8 @@ template <class Body>
 DOVETAIL_INLINE void forEachPoint(Body&& body) {
   [&]<int... P>(std::integer_sequence<int, P...>) __attribute__((always_inline)) {
     (body(std::integral_constant<int, P>{}), ...);
-  }(std::make_integer_sequence<int, 8>{});
+  }
+  (std::make_integer_sequence<int, 8>{});
 }
 
 /// s ((a + g b) ± g (c + g d)) and s ((a − g b) ± g (c − g d)).

@@ -1,5 +1,6 @@
 # Writes the commit of ROOT as a C string to OUTPUT, and only if it changed.
 # GIT: the git program, may be empty. ARCHIVED: a file that `git archive` has filled with the commit.
+cmake_minimum_required(VERSION 3.25)
 
 # A repository further up (this library unpacked inside another project) is not ours.
 set(commit "unknown")

@@ -148,7 +148,7 @@ TEST(Pairs, NobodyAndOneParticle) {
 template <class Law>
 Particles run(int threadCount, const Law& law) {
   setThreads(threadCount);
-  Particles particles = cloud(3000, 0.6, 5);
+  Particles particles = cloud(1500, 0.6, 5);
   switchOnRotation(particles);
   const auto wall = [] {
     auto ground = squares(20, 20, 0.06);
@@ -160,7 +160,7 @@ Particles run(int threadCount, const Law& law) {
   WallCandidates candidates;
   candidates.skin = 0.02;
   WallContacts contacts;
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 10; ++i) {
     const double dt = 1e-4;
     kick(particles, 0.5 * dt);
     drift(particles, dt);
@@ -172,7 +172,7 @@ Particles run(int threadCount, const Law& law) {
     collideWithWall(particles, wall, contacts, law, dt);
     kick(particles, 0.5 * dt);
   }
-  EXPECT_GT(contacts.size(), 300u);
+  EXPECT_GT(contacts.size(), 150u);
   setThreads(1);
   return particles;
 }

@@ -98,7 +98,8 @@ inline double solveStatics(const ElementBlock& block, Nodes& nodes, const std::v
     if (i == iterations) break;
     const Eigen::VectorXd step = dense(tangent(block, nodes))(dofs, dofs).ldlt().solve(residual);
     for (std::size_t k = 0; k < dofs.size(); ++k)
-      nodes.u[static_cast<std::size_t>(dofs[k] / 3)][static_cast<int>(dofs[k] % 3)] += step[static_cast<Eigen::Index>(k)];
+      nodes.u[static_cast<std::size_t>(dofs[k] / 3)][static_cast<int>(dofs[k] % 3)] +=
+          step[static_cast<Eigen::Index>(k)];
   }
   return last / first;
 }

@@ -78,8 +78,8 @@ Eigen::Matrix3d deformedMetricStress(const Eigen::Matrix3d& F, double poisson) {
     for (int j = 0; j < 3; ++j)
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
-          S(i, j) += (constants.mu * (G(i, k) * G(j, l) + G(i, l) * G(j, k)) + constants.lambda * G(i, j) * G(k, l)) *
-                     E(k, l);
+          S(i, j) +=
+              (constants.mu * (G(i, k) * G(j, l) + G(i, l) * G(j, k)) + constants.lambda * G(i, j) * G(k, l)) * E(k, l);
   return S;
 }
 
@@ -88,8 +88,7 @@ TEST(DeformedMetricHooke, StressIsEquation34) {
   F << 1.2, 0.3, -0.1, 0.1, 0.9, 0.2, -0.2, 0.15, 1.1;
   for (const double poisson : {0.0, 0.3})
     for (const bool distorted : {false, true}) {
-      const Eigen::Matrix3d P =
-          stressAt(F, ElementType::hex8, DeformedMetricHooke{young, poisson, 1.0}, distorted);
+      const Eigen::Matrix3d P = stressAt(F, ElementType::hex8, DeformedMetricHooke{young, poisson, 1.0}, distorted);
       EXPECT_LT((P - F * deformedMetricStress(F, poisson)).norm(), 1e-12 * young);
     }
 }

@@ -113,6 +113,26 @@ TEST(HierarchicalGrid, TouchingSpheresOnCellFacesAreFound) {
   EXPECT_EQ(gridPairs(lattice(7, 0.5, {-1.5, 0.0, 2.5}), 0.0, periodicity).size(), 3u * 7 * 7 * 7);
 }
 
+TEST(HierarchicalGrid, PairsThatJustTouchFromBelowOneCellFaceToBeyondTheNextAreFound) {
+  std::mt19937_64 engine(29);
+  std::uniform_real_distribution<double> scale(0.5, 1.0);
+  std::size_t touching = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const double diameter = scale(engine);
+    HierarchicalGrid grid;
+    grid.build(std::vector<Vec3>(1), std::vector<double>{0.5 * diameter});
+    Cloud cloud{{{0, 0, 0}}, {0.5 * diameter}};
+    for (int n = 1; n < 40; ++n) {
+      const double x = std::nextafter(n * grid.cellSize(0), 0.0);
+      cloud.x.insert(cloud.x.end(), {{x, 3.0 * n * diameter, 0}, {x + diameter, 3.0 * n * diameter, 0}});
+      cloud.radius.insert(cloud.radius.end(), 2, 0.5 * diameter);
+    }
+    expectAllPairs(cloud, 0);
+    touching += allPairs(cloud).size();
+  }
+  EXPECT_GT(touching, 2000u);
+}
+
 TEST(HierarchicalGrid, RadiiAtTheBoundsOfLevels) {
   Cloud cloud = randomCloud(1200, 1.0, 1.0, -15.0, 15.0, 30);
   for (std::size_t i = 0; i < cloud.x.size(); ++i) {

@@ -168,10 +168,15 @@ TEST(Triangle, NeedlesOfAnyHeightAgreeWithTheirFaceOrEdgeToOneInAHundredMillion)
   int faces = 0, edges = 0;
   for (double height = 1e-2; height > 1e-20; height *= 0.1)
     for (int trial = 0; trial < 50; ++trial) {
-      const Triangle cap{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{random.uniform(0.1, 0.9), height, 0}};
-      const Triangle needle{Vec3{0, 0, 0}, Vec3{1, -0.5 * height, 0}, Vec3{1, 0.5 * height, 0}};
+      const Vec3 origin = random.vector(1.0), e = normalized(random.vector(1.0));
+      const Vec3 f = normalized(cross(e, random.vector(1.0))), g = cross(e, f);
+      const auto place = [&](double along, double across, double above) {
+        return origin + along * e + across * f + above * g;
+      };
+      const Triangle cap{origin, place(1, 0, 0), place(random.uniform(0.1, 0.9), height, 0)};
+      const Triangle needle{origin, place(1, -0.5 * height, 0), place(1, 0.5 * height, 0)};
       for (const Triangle& t : {cap, needle}) {
-        const Vec3 p{random.uniform(-0.2, 1.2), random.uniform(-1.5, 1.5) * height, random.uniform(-1, 1)};
+        const Vec3 p = place(random.uniform(-0.2, 1.2), random.uniform(-1.5, 1.5) * height, random.uniform(-1, 1));
         const ClosestPoint r = closestPointOnTriangle(p, t[0], t[1], t[2]);
         expectValid(r, t, 1.0);
         (r.feature == Feature::face ? faces : edges) += 1;

@@ -69,9 +69,11 @@ void findWallContacts(const Particles& particles, const TriangulatedWall& wall, 
 ///   V = k max_{λ ≥ 0} Σ λᵢ δᵢ − ½ Σ λᵢ λⱼ s(nᵢ·nⱼ),   δᵢ = R − nᵢ·(x − cᵢ),
 /// where nᵢ, cᵢ are normal and foot of facet i seen from yᵢ = x + Σ s′(nᵢ·nⱼ) λⱼ nⱼ. With s(g) = g this is the dual of
 /// V = ½k min |y − x|² under |y − facet i| ≥ R, and yᵢ = y. Facets that face each other (g ≤ 0) are uncoupled, s = 0:
-/// their forces add, where the projection would diverge; s joins the two with a continuous slope over 0 < g < 0.1.
-/// V has a continuous gradient as long as the overlaps stay well below R/2. Contact i carries λᵢ at cᵢ: by the envelope
-/// theorem k λᵢ nᵢ = −∂V/∂x and −k λᵢ weight nᵢ = −∂V/∂(vertex), so force, moment and energy balance.
+/// their forces add, where the projection would diverge; s joins the two with a continuous slope over 0 < g < 0.2, that
+/// is in valleys of 90° to 101.5°. Contact i carries λᵢ at cᵢ: by the envelope theorem k λᵢ nᵢ = −∂V/∂x and
+/// −k λᵢ weight nᵢ = −∂V/∂(vertex), so force, moment and energy balance.
+/// Where several minima compete V may jump: not on ground as rough as 0.2 R up to overlaps of 0.4 R, but from 0.15 R on
+/// among spikes, and from 0.025 R on between two separate edges that are seen under a right angle.
 /// V = Σ ½k λ²/engagement (LinearSpringDashpot::Prepared::energy).
 void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                          WallContacts& contacts);

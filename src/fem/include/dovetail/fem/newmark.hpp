@@ -32,9 +32,9 @@ struct NewmarkReport {
 /// steps for as long as it converges well.
 ///
 /// The load is constant over the step, and so is the state between steps just u and v: in the average-acceleration
-/// form M (v₁ − v₀) = dt [f_ext − ½(f_int(u₀) + f_int(u₁))], u₁ − u₀ = ½dt (v₀ + v₁). For a linear solid the energy then
-/// changes by exactly f_ext · (u₁ − u₀). For second order in time the caller gives the mean load of the step.
-/// Held components move with their velocity.
+/// form M (v₁ − v₀) = dt [f_ext − ½(f_int(u₀) + f_int(u₁))], u₁ − u₀ = ½dt (v₀ + v₁). For a linear solid the energy
+/// then changes by exactly f_ext · (u₁ − u₀). For second order in time the caller gives the mean load of the step. Held
+/// components move with their velocity.
 class NewmarkSolver {
 public:
   /// The block is shared (see ElementBlock). Which components are held is read here, once.
@@ -73,10 +73,10 @@ private:
   std::vector<int> freeRow_;     // per dof: row among the free ones, −1 if held
   SparseCholesky cholesky_;
   bool factored_ = false;
-  double largestStiffness_ = 0.0;         // on the diagonal, N/m
-  std::vector<Vec3> startForce_;          // −f_int(u₀)
-  std::vector<double> correction_;        // per dof: u₁ − u₀ − dt v₀
-  std::vector<double> residual_;          // per free dof
+  double largestStiffness_ = 0.0;   // on the diagonal, N/m
+  std::vector<Vec3> startForce_;    // −f_int(u₀)
+  std::vector<double> correction_;  // per dof: u₁ − u₀ − dt v₀
+  std::vector<double> residual_;    // per free dof
   double tolerance_ = 0.0;
   std::int64_t steps_ = 0, factorisations_ = 0;
 };

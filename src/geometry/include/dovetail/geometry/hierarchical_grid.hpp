@@ -50,10 +50,9 @@ public:
   /// @param x      N centres, m; along periodic axes they may lie outside the box
   /// @param radius N radii, m
   /// @param skin   ≥ 0, m: every sphere counts as if its radius were radius + skin/2, here and in the searches below
-  /// @throws InputError naming the particle whose position is not finite or whose radius is not finite and > 0; if x
-  /// and
-  ///         radius differ in length; if a periodic length is below twice the largest inflated diameter (a pair could
-  ///         then meet through two images)
+  /// @throws InputError naming the particle whose position is not finite or whose radius is not finite and > 0;
+  ///         if x and radius differ in length; if a periodic length is below twice the largest inflated diameter,
+  ///         where a pair could meet through two images
   void build(std::span<const Vec3> x, std::span<const double> radius, double skin = 0.0);
 
   /// All pairs i < j with |xi − xj| ≤ hi + hj, h = radius + skin/2, through the nearest image; sorted by i, then j.

@@ -31,6 +31,7 @@ struct CoupledModel {
 
   double strainEnergy = 0.0;  ///< J, at the end of the last window that asked for it
   dem::ContactWork contact;   ///< of the last force evaluation
+  NodalLoad loadBefore{};     ///< staggered steps only: the load of the evaluation before the last
 };
 
 /// What a window did, to be booked.
@@ -49,7 +50,7 @@ double workOf(const NodalLoad& load, std::span<const Vec3> displacement, double 
 /// The places at which the schemes differ.
 struct Scheme {
   bool booksCoupling = false;   ///< the pair is not adjoint, or not at the same instant
-  bool extrapolateSkin = false; ///< staggered: between FEM steps the skin goes on with its velocity
+  bool skinLags = false;        ///< staggered: the particles see the skin as it was before the solid's step
 };
 
 namespace detail {
@@ -90,6 +91,7 @@ void start(Model& model, double dt, Profile& profile) {
   model.strainEnergy = fem::addInternalForces(model.elements, model.nodes, true);
   detail::evaluateContacts(model, model.nodes.u, model.nodes.v, dt, ignored, profile);
   model.contact.dissipatedPower = 0.0;
+  model.loadBefore = model.seam.load();
 }
 
 /// One window of K DEM steps and one explicit FEM step, all forces at the same instant (impulse multiple-time-step
@@ -189,8 +191,38 @@ WindowSums stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, in
   return sums;
 }
 
-/// The staggered window (paper, Fig. 8): the solid makes its step under the load of the last contact evaluation, frozen;
-/// the particles make theirs on the skin as it was before. What the lag creates is returned in madeByCoupling.
+namespace detail {
+
+/// The solid's equation of motion at the end of a step holds with the load of the last contact evaluation, that at its
+/// start with the load of the evaluation before: over the step this is the mean of the two, one step late.
+template <class Model>
+NodalLoad laggingLoad(const Model& model) {
+  NodalLoad load(model.nodes.X.size());
+  for (const NodalLoad* part : {&model.loadBefore, &model.seam.load()})
+    for (int node : part->touched) load.add(node, 0.5 * part->force[node]);
+  return load;
+}
+
+template <class Model>
+void stepSolid(Model& model, fem::NewmarkSolver* newmark, const NodalLoad& load, double dt) {
+  if (newmark) {
+    newmark->step(model.nodes, load.force);
+    return;
+  }
+  fem::kick(model.nodes, 0.5 * dt);
+  kickTouched(load, model.nodes, 0.5 * dt);
+  fem::drift(model.nodes, dt);
+  fem::clearForces(model.nodes);
+  fem::addInternalForces(model.elements, model.nodes);
+  fem::kick(model.nodes, 0.5 * dt);
+  kickTouched(load, model.nodes, 0.5 * dt);
+}
+
+}  // namespace detail
+
+/// The staggered window (paper, Fig. 8): the solid makes its step under a load one step old (detail::laggingLoad), then
+/// the particles make K steps on the skin that moves from its old to its new place, or stays at the old one
+/// (Scheme::skinLags). A load that lags acts like negative damping; what it creates is returned in madeByCoupling.
 /// @param newmark  null: the solid steps explicitly
 template <class Model>
 WindowSums stepStaggered(Model& model, fem::NewmarkSolver* newmark, double dt, int K, const Scheme& scheme,
@@ -198,30 +230,22 @@ WindowSums stepStaggered(Model& model, fem::NewmarkSolver* newmark, double dt, i
   WindowSums sums;
   const double before = detail::wallWork(model);
   fem::Nodes& nodes = model.nodes;
-  std::vector<Vec3> skinU = nodes.u;
-  const std::vector<Vec3> skinV = nodes.v;
+  const std::vector<Vec3> oldU = nodes.u;
+  const NodalLoad load = detail::laggingLoad(model);
+  model.loadBefore = model.seam.load();
   {
-    Profile::Stage stage(profile, "solid step, load frozen");
-    if (newmark) {
-      newmark->step(nodes, model.seam.load().force);
-    } else {
-      fem::kick(nodes, 0.5 * K * dt);
-      kickTouched(model.seam.load(), nodes, 0.5 * K * dt);
-      fem::drift(nodes, K * dt);
-      fem::clearForces(nodes);
-      fem::addInternalForces(model.elements, nodes);
-      fem::kick(nodes, 0.5 * K * dt);
-      kickTouched(model.seam.load(), nodes, 0.5 * K * dt);
-    }
+    Profile::Stage stage(profile, "solid step, load one step old");
+    detail::stepSolid(model, newmark, load, K * dt);
   }
-  for (int node : model.seam.load().touched)
-    sums.madeByCoupling += dot(model.seam.load().force[node], nodes.u[node] - skinU[node]);
+  for (int node : load.touched) sums.madeByCoupling += dot(load.force[node], nodes.u[node] - oldU[node]);
+  std::vector<Vec3> skin = oldU;
   for (int k = 0; k < K; ++k) {
     dem::kick(model.particles, 0.5 * dt);
     dem::drift(model.particles, dt);
-    if (scheme.extrapolateSkin)
-      for (std::size_t i = 0; i < skinU.size(); ++i) skinU[i] += dt * skinV[i];
-    detail::evaluateContacts(model, skinU, skinV, dt, sums, profile);
+    if (!scheme.skinLags)
+      for (std::size_t i = 0; i < skin.size(); ++i)
+        skin[i] = oldU[i] + (static_cast<double>(k + 1) / K) * (nodes.u[i] - oldU[i]);
+    detail::evaluateContacts(model, skin, nodes.v, dt, sums, profile);
     dem::kick(model.particles, 0.5 * dt);
   }
   if (withEnergy) model.strainEnergy = fem::strainEnergy(model.elements, nodes);

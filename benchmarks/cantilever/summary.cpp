@@ -1,0 +1,75 @@
+#include "summary.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "dovetail/io/output_folder.hpp"
+#include "dovetail/io/provenance.hpp"
+
+namespace dovetail::cantilever {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json figures(const RunFigures& f) {
+  Json json;
+  json["finished"] = f.finished;
+  json["stable"] = f.stable;
+  json["left"] = f.left;
+  json["failure"] = f.failure;
+  json["steps"] = f.steps;
+  json["end_time_s"] = f.endTime;
+  json["wall_seconds"] = f.wallSeconds;
+  json["seconds_per_step"] = f.steps > 0 ? f.wallSeconds / static_cast<double>(f.steps) : 0.0;
+  json["dt_s"] = f.dt;
+  json["dt_critical_s"] = f.criticalDt;
+  json["dt_critical_set_by"] = f.criticalSetter;
+  json["leave_time_s"] = f.left ? Json(f.leaveTime) : Json(nullptr);
+  json["energy_initial_J"] = f.energyInitial;
+  json["energy_min_J"] = f.energyMin;
+  json["energy_max_J"] = f.energyMax;
+  json["energy_drift_relative"] = f.energyDrift;
+  json["ledger_residual_relative"] = f.ledgerResidual;
+  json["largest_energy_over_available"] = f.largestExcess;
+  json["lateral_drift_m"] = f.lateralDrift;
+  json["force_residual_relative"] = f.forceResidual;
+  json["moment_residual_relative"] = f.momentResidual;
+  json["time_mean_error_m"] = f.errorStatic;
+  json["time_mean_error_authors_arm_m"] = f.errorStaticAuthors;
+  json["time_mean_error_dynamic_m"] = f.errorDynamic;
+  json["time_mean_error_dynamic_same_time_m"] = f.errorDynamicSameTime;
+  json["time_mean_error_dynamic_locked_m"] = f.errorDynamicLocked;
+  json["time_mean_error_dynamic_locked_same_time_m"] = f.errorDynamicLockedSameTime;
+  json["locking_factor"] = f.lockingFactor;
+  json["leave_time_dynamic_reference_s"] = f.referenceLeaveTime;
+  json["no_contact_share"] = f.noContactShare;
+  return json;
+}
+
+Json object(const io::KeyValues& rows) {
+  Json json = Json::object();
+  for (const auto& [key, value] : rows) json[key] = value;
+  return json;
+}
+
+}  // namespace
+
+void writeSummary(const std::string& file, const RunResult& result) {
+  Json json = figures(result.figures);
+  Json channels = Json::array();
+  for (const auto& channel : result.ledger.channels())
+    channels.push_back({{"channel", channel.name},
+                        {"kind", channel.kind == EnergyLedger::Kind::booked ? "booked" : "stored"},
+                        {"at_opening_J", channel.joulesAtOpening},
+                        {"at_end_J", channel.joules}});
+  json["ledger"] = channels;
+  if (!result.profile.rows().empty()) {
+    for (const auto& row : result.profile.rows())
+      json["profile"].push_back({{"stage", row.name}, {"seconds", row.seconds}, {"calls", row.calls}});
+  }
+  json["settings"] = object(describe(result.settings));
+  json["provenance"] = object(io::provenance());
+  io::writeFileAtomically(file, json.dump(2) + "\n");
+}
+
+}  // namespace dovetail::cantilever
