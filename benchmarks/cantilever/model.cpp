@@ -22,7 +22,8 @@ dem::Particles makeParticles(const Settings& settings) {
   const double radius = 0.5 * beam.particleDiameter;
   const double overlap = particleMass(beam) * beam.gravity / contactStiffness(settings);
   if (overlap >= radius)
-    throw InputError("the particles sink by " + formatNumber(overlap) + " m under their own weight", "--stiffness-ratio",
+    throw InputError("the particles sink by " + formatNumber(overlap) + " m under their own weight",
+                     "--stiffness-ratio",
                      "give at least " + formatNumber(2.0 * overlap / radius * settings.stiffnessRatio));
   dem::Particles particles;
   for (double x : {beam.startX, -beam.startX})
@@ -133,13 +134,14 @@ StepLimit criticalStep(const Settings& settings, const fem::ElementBlock& elemen
 
 double chooseStep(const Settings& settings, const StepLimit& limit) {
   if (settings.dtAuto) return 0.9 * limit.dt;
-  const double dt = settings.dtFactor * contactTime(Case{});
-  if (dt > limit.dt)
-    throw InputError("the time step " + formatNumber(dt) + " s is above the critical step " + formatNumber(limit.dt) +
-                         " s, set by " + limit.setter,
-                     "--dt-factor " + formatNumber(settings.dtFactor),
-                     "give at most " + formatNumber(std::floor(1e4 * limit.dt / contactTime(Case{})) / 1e4) +
-                         ", or --dt auto");
+  const double dt =
+      settings.shareOfCritical ? *settings.shareOfCritical * limit.dt : settings.dtFactor * contactTime(Case{});
+  if (dt > limit.dt && !settings.beyondCritical)
+    throw InputError(
+        "the time step " + formatNumber(dt) + " s is above the critical step " + formatNumber(limit.dt) +
+            " s, set by " + limit.setter,
+        "--dt-factor " + formatNumber(dt / contactTime(Case{})),
+        "give at most " + formatNumber(std::floor(1e4 * limit.dt / contactTime(Case{})) / 1e4) + ", or --dt auto");
   return dt;
 }
 

@@ -29,7 +29,7 @@ fem::Mesh makeMesh(const Settings& settings);
 
 /// The largest stable step and who sets it.
 struct StepLimit {
-  double dt;        ///< critical DEM step, s
+  double dt;  ///< critical DEM step, s
   std::string setter;
 };
 
@@ -43,7 +43,8 @@ double chooseStep(const Settings& settings, const StepLimit& limit);
 
 /// The same case for the beam references; bendingFactor 1.
 BeamCase beamCase(const Settings& settings);
-/// Bending stiffness of hex8 over the exact one, 1 + (h_y/h_z)²/(2 n_z²) for ν = 0 (parasitic shear); 1 for other elements.
+/// Bending stiffness of hex8 over the exact one, 1 + (h_y/h_z)²/(2 n_z²) for ν = 0 (parasitic shear); 1 for other
+/// elements.
 double lockingFactor(const Settings& settings);
 
 }  // namespace dovetail::cantilever

@@ -16,9 +16,8 @@ public:
     points_.resize(frame.nodes.X.size());
     for (std::size_t i = 0; i < points_.size(); ++i) points_[i] = frame.nodes.X[i] + frame.nodes.u[i];
     io::HexFrame beam{points_, frame.mesh.elements, {}, {}, {}};
-    beam.pointVectors = {{"displacement_m", frame.nodes.u},
-                         {"velocity_m_per_s", frame.nodes.v},
-                         {"contact_load_N", frame.contactLoad}};
+    beam.pointVectors = {
+        {"displacement_m", frame.nodes.u}, {"velocity_m_per_s", frame.nodes.v}, {"contact_load_N", frame.contactLoad}};
     beam.cellScalars = {{"strain_energy_J", frame.elementEnergy}};
     beam_.write(frame.time, beam);
     const dem::Particles& p = frame.particles;

@@ -45,8 +45,9 @@ Columns readColumns(const std::string& file) {
     const auto fields = split(line);
     const std::string where = file + ", line " + std::to_string(row);
     if (fields.size() != names.size())
-      throw InputError("the line has " + std::to_string(fields.size()) + " fields instead of " +
-                       std::to_string(names.size()), where, "restore the file");
+      throw InputError(
+          "the line has " + std::to_string(fields.size()) + " fields instead of " + std::to_string(names.size()), where,
+          "restore the file");
     for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(parseNumber(fields[k], where));
   }
   return columns;
@@ -58,8 +59,8 @@ ReferenceCurve readCurve(const std::string& file, double width) {
     if (!columns.contains(name)) throw InputError("column " + name + " is missing", file, "restore the file");
     return columns[name];
   };
-  ReferenceCurve curve{width, take("t_s"), take("x1_m"), take("y1_m"), take("z1_m"), take("x2_m"), take("y2_m"),
-                       take("z2_m"), take("Etot_J"), take("Eel_DE_J")};
+  ReferenceCurve curve{width,        take("t_s"),  take("x1_m"), take("y1_m"),   take("z1_m"),
+                       take("x2_m"), take("y2_m"), take("z2_m"), take("Etot_J"), take("Eel_DE_J")};
   const double midSpan = 0.5 * Case{}.length;
   for (double& y : curve.y1) y += midSpan;
   for (double& y : curve.y2) y += midSpan;
@@ -78,7 +79,8 @@ std::vector<ReferenceCurve> readReferenceCurves(const std::string& folder) {
     curves.push_back(readCurve(entry.path().string(), parseNumber(number, entry.path().string())));
   }
   if (curves.empty())
-    throw InputError("no cantilever_c*d.csv in " + folder, "--reference", "name the folder that holds the published curves");
+    throw InputError("no cantilever_c*d.csv in " + folder, "--reference",
+                     "name the folder that holds the published curves");
   std::sort(curves.begin(), curves.end(), [](const auto& a, const auto& b) { return a.cgWidth < b.cgWidth; });
   return curves;
 }

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <memory>
 
+#include "dovetail/core/clock.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/core/clock.hpp"
 #include "dovetail/core/progress.hpp"
 #include "model.hpp"
 
@@ -21,18 +21,39 @@ constexpr double trajectoryInterval = 5e-3;  // s
 constexpr double seriesInterval = 2e-2;      // s
 constexpr double longestRun = 100.0;         // s, where nobody leaves
 
-const std::vector<std::string> seriesNames{
-    "time_s",           "x1_m",                "y1_m",
-    "z1_m",             "vx1_m_per_s",         "vy1_m_per_s",
-    "vz1_m_per_s",      "x2_m",                "y2_m",
-    "z2_m",             "vx2_m_per_s",         "vy2_m_per_s",
-    "vz2_m_per_s",      "mass_particles_kg",   "mass_beam_kg",
-    "momentum_particles_x_Ns", "momentum_particles_y_Ns", "momentum_particles_z_Ns",
-    "momentum_beam_x_Ns", "momentum_beam_y_Ns", "momentum_beam_z_Ns",
-    "kinetic_particles_J", "elastic_contacts_J", "gravity_particles_J",
-    "kinetic_beam_J",   "elastic_beam_J",      "energy_total_J",
-    "dashpots_J",       "made_by_coupling_J",  "ledger_residual_J",
-    "tip_dx_m",         "tip_dy_m",            "tip_dz_m"};
+const std::vector<std::string> seriesNames{"time_s",
+                                           "x1_m",
+                                           "y1_m",
+                                           "z1_m",
+                                           "vx1_m_per_s",
+                                           "vy1_m_per_s",
+                                           "vz1_m_per_s",
+                                           "x2_m",
+                                           "y2_m",
+                                           "z2_m",
+                                           "vx2_m_per_s",
+                                           "vy2_m_per_s",
+                                           "vz2_m_per_s",
+                                           "mass_particles_kg",
+                                           "mass_beam_kg",
+                                           "momentum_particles_x_Ns",
+                                           "momentum_particles_y_Ns",
+                                           "momentum_particles_z_Ns",
+                                           "momentum_beam_x_Ns",
+                                           "momentum_beam_y_Ns",
+                                           "momentum_beam_z_Ns",
+                                           "kinetic_particles_J",
+                                           "elastic_contacts_J",
+                                           "gravity_particles_J",
+                                           "kinetic_beam_J",
+                                           "elastic_beam_J",
+                                           "energy_total_J",
+                                           "dashpots_J",
+                                           "made_by_coupling_J",
+                                           "ledger_residual_J",
+                                           "tip_dx_m",
+                                           "tip_dy_m",
+                                           "tip_dz_m"};
 
 /// Steps that pass between two things that happen every `interval`, in windows of `window` seconds.
 std::int64_t every(double interval, double window) {
@@ -124,8 +145,7 @@ private:
     const int K = clock_.substepsPerWindow;
     if (settings().lag != Lag::none)
       return surface::stepStaggered(model_, newmark_.get(), clock_.dt, K, scheme_, withEnergy, result_.profile);
-    if (newmark_)
-      return surface::stepImplicit(model_, *newmark_, clock_.dt, K, scheme_, withEnergy, result_.profile);
+    if (newmark_) return surface::stepImplicit(model_, *newmark_, clock_.dt, K, scheme_, withEnergy, result_.profile);
     return surface::stepExplicit(model_, clock_.dt, K, scheme_, withEnergy, result_.profile);
   }
 
@@ -267,7 +287,8 @@ private:
     f.energyMax = ledger.storedMax();
     f.energyDrift = ledger.largestDrift() / f.energyInitial;
     f.ledgerResidual = ledger.largestResidual() / f.energyInitial;
-    f.noContactShare = stepsOnBeam_ > 0 ? static_cast<double>(stepsWithoutContact_) / static_cast<double>(stepsOnBeam_) : 0.0;
+    f.noContactShare =
+        stepsOnBeam_ > 0 ? static_cast<double>(stepsWithoutContact_) / static_cast<double>(stepsOnBeam_) : 0.0;
     f.stable = f.finished && f.largestExcess <= 1.5;
     f.lockingFactor = lockingFactor(settings());
   }

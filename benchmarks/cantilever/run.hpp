@@ -23,38 +23,38 @@ struct Frame {
   const fem::Mesh& mesh;
   const fem::Nodes& nodes;
   const dem::Particles& particles;
-  const std::vector<Vec3>& contactLoad;  ///< contact forces on the nodes, N
+  const std::vector<Vec3>& contactLoad;      ///< contact forces on the nodes, N
   const std::vector<double>& elementEnergy;  ///< J
 };
 using Observer = std::function<void(const Frame&)>;
 
 struct RunFigures {
-  bool finished = false;    ///< reached the end it was told
-  bool left = false;        ///< particle 1 has passed the free end
-  bool stable = false;      ///< finished, no NaN, K + U never above 1.5 (initial + work of gravity)
-  std::string failure;      ///< what broke down, when and where
+  bool finished = false;  ///< reached the end it was told
+  bool left = false;      ///< particle 1 has passed the free end
+  bool stable = false;    ///< finished, no NaN, K + U never above 1.5 (initial + work of gravity)
+  std::string failure;    ///< what broke down, when and where
 
-  std::int64_t steps = 0;   ///< DEM steps
-  double endTime = 0.0;     ///< s
-  double wallSeconds = 0.0; ///< loop only
+  std::int64_t steps = 0;    ///< DEM steps
+  double endTime = 0.0;      ///< s
+  double wallSeconds = 0.0;  ///< loop only
   double dt = 0.0, criticalDt = 0.0;
   std::string criticalSetter;
 
-  double leaveTime = 0.0;   ///< s, 0 if not left
+  double leaveTime = 0.0;                                        ///< s, 0 if not left
   double energyInitial = 0.0, energyMin = 0.0, energyMax = 0.0;  ///< J, until leaving
   double energyDrift = 0.0, ledgerResidual = 0.0;                ///< relative to the initial energy
-  double lateralDrift = 0.0;     ///< m
-  double momentResidual = 0.0;   ///< |moments of particle and nodal loads together| / (Σ|f| × beam length)
-  double forceResidual = 0.0;    ///< |particle and nodal loads together| / Σ|f|
+  double lateralDrift = 0.0;                                     ///< m
+  double momentResidual = 0.0;  ///< |moments of particle and nodal loads together| / (Σ|f| × beam length)
+  double forceResidual = 0.0;   ///< |particle and nodal loads together| / Σ|f|
   double noContactShare = 0.0;
-  double largestExcess = 0.0;    ///< max (K + U) / (initial + work of gravity)
+  double largestExcess = 0.0;  ///< max (K + U) / (initial + work of gravity)
 
   double errorStatic = 0.0, errorStaticAuthors = 0.0;  ///< m, true arm and the authors' arm
   // Against the moving-mass beam: at the particle's own y, as the static formula, or at the same time.
   double errorDynamic = 0.0, errorDynamicSameTime = 0.0;              ///< m, exact EI
   double errorDynamicLocked = 0.0, errorDynamicLockedSameTime = 0.0;  ///< m, EI × locking factor
   double lockingFactor = 1.0;
-  double referenceLeaveTime = 0.0;                     ///< s, moving-mass beam with the exact EI
+  double referenceLeaveTime = 0.0;  ///< s, moving-mass beam with the exact EI
 };
 
 struct RunResult {

@@ -20,16 +20,19 @@ double contactTime(const Case& beam) {
 void applyScheme(Settings& settings, Scheme scheme) {
   const bool paper = scheme == Scheme::paper;
   settings.scheme = scheme;
-  settings.lag = paper ? Lag::load : Lag::none;
+  settings.lag = paper ? Lag::loadAndSkin : Lag::none;
   settings.transfer = paper ? Transfer::spread : Transfer::adjoint;
   settings.edges = paper ? EdgeHandling::paper : EdgeHandling::projected;
   settings.metric = paper ? Metric::deformed : Metric::reference;
   settings.fem = paper ? FemStepper::newmark : FemStepper::explicitDifferences;
-  settings.mass = paper ? MassMatrix::consistent : MassMatrix::lumped;
+  settings.mass = MassMatrix::lumped;
   settings.restitution = paper ? 0.99 : 1.0;
+  settings.correction = paper ? Correction::none : Correction::linear;
 }
 
-bool couplingIsUnbalanced(const Settings& settings) { return settings.lag != Lag::none || settings.transfer == Transfer::spread; }
+bool couplingIsUnbalanced(const Settings& settings) {
+  return settings.lag != Lag::none || settings.transfer == Transfer::spread;
+}
 
 namespace {
 
@@ -58,7 +61,8 @@ void validate(const Settings& s) {
              "give a whole number from 1 to 1024");
   if (s.mesh)
     for (int count : *s.mesh)
-      checkRange(count >= 1 && count <= 2000, "--mesh", std::to_string(count), "give three counts of at least 1, as in 2,30,2");
+      checkRange(count >= 1 && count <= 2000, "--mesh", std::to_string(count),
+                 "give three counts of at least 1, as in 2,30,2");
   if (s.metric == Metric::deformed && s.element != "hex8")
     throw InputError("element " + s.element + " has no deformed metric", "--metric deformed",
                      "take --element hex8, or --metric reference");
@@ -80,7 +84,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
   const auto text = [](double value) { return formatNumber(value); };
   std::vector<std::pair<std::string, std::string>> rows{
       {"scheme", s.scheme == Scheme::paper ? "paper" : "conservative"},
-      {"lag", s.lag == Lag::none ? "none" : s.lag == Lag::load ? "load" : "load-and-skin"},
+      {"lag", s.lag == Lag::none   ? "none"
+              : s.lag == Lag::load ? "load"
+                                   : "load-and-skin"},
       {"transfer", s.transfer == Transfer::spread ? "spread" : "adjoint"},
       {"edges", s.edges == EdgeHandling::paper ? "paper" : "projected"},
       {"metric", s.metric == Metric::deformed ? "deformed" : "reference"},
@@ -93,7 +99,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
       {"surface", s.surface == Surface::smooth ? "smooth" : "flat"},
       {"element", s.element},
       {"refine", std::to_string(s.refine)},
-      {"dt_factor", s.dtAuto ? "auto" : text(s.dtFactor)},
+      {"dt_factor", s.dtAuto            ? "auto"
+                    : s.shareOfCritical ? text(*s.shareOfCritical) + " of critical"
+                                        : text(s.dtFactor)},
       {"fem_every", std::to_string(s.femEvery)},
       {"until_s", s.until ? text(*s.until) : "leaving"},
       {"stiffness_ratio", text(s.stiffnessRatio)},

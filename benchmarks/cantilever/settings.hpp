@@ -11,8 +11,8 @@ namespace dovetail::cantilever {
 
 /// The fixed data of the published case (Cheng et al. 2023, Table 1 and Fig. 11), SI.
 struct Case {
-  double length = 12.0, side = 0.8;             // m
-  std::array<int, 3> elements{2, 30, 2};        // along x, y (axis), z
+  double length = 12.0, side = 0.8;       // m
+  std::array<int, 3> elements{2, 30, 2};  // along x, y (axis), z
   double youngsModulus = 1e8, poissonRatio = 0.0, density = 1309.0;
   double particleDiameter = 0.2, particleDensity = 2e4;
   double gravity = 9.81;
@@ -27,9 +27,9 @@ enum class Scheme { conservative, paper };
 /// Staggered steps: the load on the solid is that of the last contact evaluation (load), and the particles see the skin
 /// as it was before the solid's step (loadAndSkin).
 enum class Lag { none, load, loadAndSkin };
-enum class Transfer { adjoint, spread };          ///< adjoint pair, or kernel at the contact with a local gap (14–15)
-enum class EdgeHandling { projected, paper };     ///< one projection, or the authors' face rule
-enum class Metric { reference, deformed };        ///< St Venant–Kirchhoff, or the authors' Eq. (34)
+enum class Transfer { adjoint, spread };       ///< adjoint pair, or kernel at the contact with a local gap (14–15)
+enum class EdgeHandling { projected, paper };  ///< one projection, or the authors' face rule
+enum class Metric { reference, deformed };     ///< St Venant–Kirchhoff, or the authors' Eq. (34)
 enum class MassMatrix { lumped, consistent };
 enum class FemStepper { explicitDifferences, newmark };
 enum class Surface { flat, smooth };
@@ -48,22 +48,24 @@ struct Settings {
   MassMatrix mass = MassMatrix::lumped;
   double restitution = 1.0;
 
-  double cgWidth = 0.0;                           ///< particle diameters
+  double cgWidth = 0.0;  ///< particle diameters
   KernelName kernel = KernelName::lucy;
-  Correction correction = Correction::none;
+  Correction correction = Correction::linear;
   Surface surface = Surface::flat;
   std::string element = "hex8";
   int refine = 1;
-  std::optional<std::array<int, 3>> mesh;         ///< elements along x, y, z before refinement
-  double dtFactor = 0.05;                         ///< of the contact time
-  bool dtAuto = false;                            ///< 0.9 of the critical step
+  std::optional<std::array<int, 3>> mesh;  ///< elements along x, y, z before refinement
+  double dtFactor = 0.05;                  ///< of the contact time
+  bool dtAuto = false;                     ///< 0.9 of the critical step
+  std::optional<double> shareOfCritical;   ///< dt over the critical step, wins over dtFactor (studies)
+  bool beyondCritical = false;             ///< do not refuse a step above the critical one (studies)
   int femEvery = 1;
-  std::optional<double> until;                    ///< s; default: until particle 1 has left
-  double stiffnessRatio = 1.0;                    ///< k_n over E d
+  std::optional<double> until;  ///< s; default: until particle 1 has left
+  double stiffnessRatio = 1.0;  ///< k_n over E d
   int threads = 1;
 
   std::string out, summary, reference;
-  double outputInterval = 0.25;                   ///< s between pictures in --out
+  double outputInterval = 0.25;  ///< s between pictures in --out
   Study study = Study::none;
   bool profile = false, quiet = false;
 };

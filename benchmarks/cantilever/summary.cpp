@@ -11,7 +11,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json figures(const RunFigures& f) {
+Json object(const io::KeyValues& rows) {
+  Json json = Json::object();
+  for (const auto& [key, value] : rows) json[key] = value;
+  return json;
+}
+
+}  // namespace
+
+Json figuresAsJson(const RunFigures& f) {
   Json json;
   json["finished"] = f.finished;
   json["stable"] = f.stable;
@@ -46,16 +54,8 @@ Json figures(const RunFigures& f) {
   return json;
 }
 
-Json object(const io::KeyValues& rows) {
-  Json json = Json::object();
-  for (const auto& [key, value] : rows) json[key] = value;
-  return json;
-}
-
-}  // namespace
-
 void writeSummary(const std::string& file, const RunResult& result) {
-  Json json = figures(result.figures);
+  Json json = figuresAsJson(result.figures);
   Json channels = Json::array();
   for (const auto& channel : result.ledger.channels())
     channels.push_back({{"channel", channel.name},

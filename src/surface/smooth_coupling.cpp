@@ -111,8 +111,8 @@ void SmoothCoupling::findHits(const Vec3& x, double radius, std::span<const int>
   std::stable_sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) { return a.overlap > b.overlap; });
 }
 
-/// Shares of the overlap: max over λ ≥ 0 of δᵀλ − ½ λᵀGλ with G_ij = max(0, n_i · n_j), as for facets. A foot on a common
-/// edge is found by both faces; the first takes it all, because the second adds the same normal.
+/// Shares of the overlap: max over λ ≥ 0 of δᵀλ − ½ λᵀGλ with G_ij = max(0, n_i · n_j), as for facets. A foot on a
+/// common edge is found by both faces; the first takes it all, because the second adds the same normal.
 void SmoothCoupling::resolveHits() {
   for (int sweep = 0; sweep < 60; ++sweep) {
     double change = 0.0;

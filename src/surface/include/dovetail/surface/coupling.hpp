@@ -36,16 +36,16 @@ public:
   /// @throws InputError if the margin is negative or not finite
   explicit Coupling(Skin skin, const CouplingOptions& options = {});
 
-  /// The paper's transfer (Eqs. 14 and 15) in place of the adjoint one: the gap stays that of the local skin, the load is
-  /// spread by the kernel at the contact point. Forces still balance; power does not (see wallWork).
+  /// The paper's transfer (Eqs. 14 and 15) in place of the adjoint one: the gap stays that of the local skin, the load
+  /// is spread by the kernel at the contact point. Forces still balance; power does not (see wallWork).
   void spreadLoad(SpreadLoad spread) { spread_ = std::move(spread); }
 
   /// Place the skin, find contacts, add their forces to the particles, and set load() to the reaction on the nodes.
   /// @param u, v  displacement, m, and velocity, m/s, of all nodes of the solid
   /// @param dt    DEM step, s (for laws with history)
   template <class Law>
-  dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
-                            const Law& law, double dt) {
+  dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v, const Law& law,
+                            double dt) {
     if (booksWork_) previous_ = skin_.wall.x;
     locate(particles, u, v);
     placeActive(u, v);
@@ -83,13 +83,13 @@ private:
   dem::WallCandidates candidates_;
   dem::WallContacts contacts_;
   NodalLoad load_;
-  std::vector<int> active_;             // vertices of candidate facets
-  std::vector<int> surfaceNodes_;       // nodes that carry the skin
-  std::vector<Vec3> nodesAtBuild_;      // their u when the candidates were found
+  std::vector<int> active_;         // vertices of candidate facets
+  std::vector<int> surfaceNodes_;   // nodes that carry the skin
+  std::vector<Vec3> nodesAtBuild_;  // their u when the candidates were found
   double gain_;
   bool booksWork_ = false;
   double wallWork_ = 0.0;
-  std::vector<Vec3> previous_;          // skin at the last exchange, only if work is booked
+  std::vector<Vec3> previous_;  // skin at the last exchange, only if work is booked
 };
 
 }  // namespace dovetail::surface

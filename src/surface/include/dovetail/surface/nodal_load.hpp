@@ -12,8 +12,8 @@ namespace dovetail::surface {
 /// Forces on nodes, N, of which only `touched` differ from zero: clearing and kicking cost what the contacts touch and
 /// not what the mesh holds.
 struct NodalLoad {
-  std::vector<Vec3> force;            ///< one per node
-  std::vector<int> touched;           ///< nodes with a force, in the order of their first contact
+  std::vector<Vec3> force;   ///< one per node
+  std::vector<int> touched;  ///< nodes with a force, in the order of their first contact
   std::vector<std::uint8_t> isTouched;
 
   explicit NodalLoad(std::size_t nodes = 0) : force(nodes), isTouched(nodes, 0) {}

@@ -35,8 +35,8 @@ public:
 
   /// As Coupling::exchange; laws without history only.
   template <class Law>
-  dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
-                            const Law& law, double /*dt*/) {
+  dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v, const Law& law,
+                            double /*dt*/) {
     static_assert(!Law::hasHistory, "tangential springs are not carried on the smooth surface");
     locate(particles, u, v);
     place(surface_, u, v, active_);
@@ -73,7 +73,7 @@ private:
   std::vector<int> active_, offsets_, candidate_;  // control points in use; candidate faces per particle (CSR)
   std::vector<int> surfaceNodes_;
   std::vector<Vec3> particlesAtBuild_, nodesAtBuild_;
-  std::vector<std::array<double, 2>> start_;       // per candidate: where the last search ended
+  std::vector<std::array<double, 2>> start_;  // per candidate: where the last search ended
   std::vector<Hit> hits_;
   double gain_, margin0_ = 0.0;
 };

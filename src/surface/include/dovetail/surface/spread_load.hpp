@@ -10,8 +10,8 @@
 
 namespace dovetail::surface {
 
-/// f_i = ∫ t ψ_i dA with the traction t(x) = −f W(x − x_c) (Cheng et al. 2023, Eqs. 14 and 15), 2 × 2 Gauss points a face
-/// and the kernel normalised by them; f_i = −f ψ_i(x_c) (Eq. 16) where no point lies within the width.
+/// f_i = ∫ t ψ_i dA with the traction t(x) = −f W(x − x_c) (Cheng et al. 2023, Eqs. 14 and 15), 2 × 2 Gauss points a
+/// face and the kernel normalised by them; f_i = −f ψ_i(x_c) (Eq. 16) where no point lies within the width.
 class SpreadLoad {
 public:
   /// @param X      reference positions of all nodes, m

@@ -24,8 +24,8 @@ struct CoupledModel {
   dem::Particles particles;
   dem::PairList pairs;
   Law pairLaw, wallLaw;
-  Vec3 gravity;               ///< on the particles, m/s²
-  fem::Nodes nodes;           ///< f holds the internal forces of the last FEM step
+  Vec3 gravity;      ///< on the particles, m/s²
+  fem::Nodes nodes;  ///< f holds the internal forces of the last FEM step
   fem::ElementBlock elements;
   Seam seam;
 
@@ -36,10 +36,10 @@ struct CoupledModel {
 
 /// What a window did, to be booked.
 struct WindowSums {
-  double dissipated = 0.0;     ///< J, dashpots and friction, trapezoidal
-  double madeByCoupling = 0.0; ///< J, work of the loads on the nodes minus work of the contacts on the skin; 0 for an
-                               ///< adjoint pair at the same instant
-  int stepsWithoutContact = 0; ///< of the DEM steps
+  double dissipated = 0.0;      ///< J, dashpots and friction, trapezoidal
+  double madeByCoupling = 0.0;  ///< J, work of the loads on the nodes minus work of the contacts on the skin; 0 for an
+                                ///< adjoint pair at the same instant
+  int stepsWithoutContact = 0;  ///< of the DEM steps
 };
 
 /// v += f/m dt on the touched nodes; held components stay.
@@ -49,8 +49,8 @@ double workOf(const NodalLoad& load, std::span<const Vec3> displacement, double 
 
 /// The places at which the schemes differ.
 struct Scheme {
-  bool booksCoupling = false;   ///< the pair is not adjoint, or not at the same instant
-  bool skinLags = false;        ///< staggered: the particles see the skin as it was before the solid's step
+  bool booksCoupling = false;  ///< the pair is not adjoint, or not at the same instant
+  bool skinLags = false;       ///< staggered: the particles see the skin as it was before the solid's step
 };
 
 namespace detail {
@@ -150,8 +150,8 @@ void holdSkinAndStep(Model& model, double dt, int steps, WindowSums& sums, Profi
 
 }  // namespace detail
 
-/// One window of K DEM steps and one implicit FEM step of K dt, all forces at the same instant (Strang splitting). K = 1:
-/// half kick · particles drift and solid moves freely by Newmark · contacts · half kick. K > 1: K/2 DEM steps on the
+/// One window of K DEM steps and one implicit FEM step of K dt, all forces at the same instant (Strang splitting). K =
+/// 1: half kick · particles drift and solid moves freely by Newmark · contacts · half kick. K > 1: K/2 DEM steps on the
 /// standing skin · solid · the other DEM steps. Every part conserves the energy it splits off.
 template <class Model>
 WindowSums stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, const Scheme& scheme,
