@@ -1,6 +1,7 @@
 #include "options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <map>
 
@@ -13,13 +14,14 @@ namespace {
 template <class Enum>
 CLI::Option* addChoice(CLI::App& app, const std::string& name, Enum& target, const std::map<std::string, Enum>& names,
                        const std::string& help) {
-  return app.add_option(name, target, help)
-      ->transform(CLI::CheckedTransformer(names).description(""))
-      ->option_text([&] {
-        std::string list;
-        for (const auto& [key, value] : names) list += (list.empty() ? "" : "|") + key;
-        return list;
-      }());
+  std::string list;
+  for (const auto& [key, value] : names) list += (list.empty() ? "" : "|") + key;
+  // Not CLI::CheckedTransformer, which would also take the enum's numbers.
+  return app
+      .add_option_function<std::string>(
+          name, [&target, names](const std::string& key) { target = names.at(key); }, help)
+      ->check(CLI::IsMember(names).description(""))
+      ->option_text(list);
 }
 
 /// What of the scheme's parts was written on the command line and so wins over --scheme.
@@ -31,6 +33,7 @@ struct WrittenParts {
   FemStepper fem{};
   MassMatrix mass{};
   Correction correction{};
+  Surface surface{};
   double restitution{};
   CLI::Option *lagOption, *transferOption, *edgesOption, *metricOption, *femOption, *massOption, *correctionOption,
       *restitutionOption;
@@ -58,6 +61,9 @@ void addPartOptions(CLI::App& app, WrittenParts& w) {
   w.correctionOption = addChoice<Correction>(
       app, "--kernel-correction", w.correction, {{"none", Correction::none}, {"linear", Correction::linear}},
       "linear (conservative scheme) restores first moments, so that moments balance");
+  w.surfaceOption =
+      addChoice<Surface>(app, "--surface", w.surface, {{"flat", Surface::flat}, {"smooth", Surface::smooth}},
+                         "flat facets (default for width 0) or B-spline patches (default for a kernel)");
   w.restitutionOption =
       app.add_option("--restitution", w.restitution, "of a particle on a rigid wall, 0 < e <= 1")->option_text("E");
 }
@@ -69,10 +75,11 @@ void mergeParts(const WrittenParts& w, Settings& s) {
   if (w.edgesOption->count() > 0) s.edges = w.edges;
   if (w.metricOption->count() > 0) s.metric = w.metric;
   if (w.femOption->count() > 0) s.fem = w.fem;
-  if (w.correctionOption->count() > 0)
-    s.correction = w.correction;
-  else if (s.transfer == Transfer::spread)
-    s.correction = Correction::none;
+  if (w.correctionOption->count() > 0) s.correction = w.correction;
+  if (w.surfaceOption->count() > 0)
+    s.surface = w.surface;
+  else if (s.transfer == Transfer::spread || s.edges == EdgeHandling::paper)
+    s.surface = Surface::flat;
   if (w.massOption->count() > 0)
     s.mass = w.mass;
   else if (!(s.lag != Lag::none && s.fem == FemStepper::newmark))
@@ -86,8 +93,6 @@ void addModelOptions(CLI::App& app, Settings& s) {
   app.add_option("--cg-width", s.cgWidth, "kernel width c in particle diameters, 0 = local")->option_text("X");
   addChoice<KernelName>(app, "--kernel", s.kernel, {{"lucy", KernelName::lucy}, {"gauss", KernelName::gauss}},
                         "kernel shape");
-  addChoice<Surface>(app, "--surface", s.surface, {{"flat", Surface::flat}, {"smooth", Surface::smooth}},
-                     "facets or B-spline patches");
   app.add_option("--element", s.element, "hex8 (as the paper) or hybrid8 (locking-free)")
       ->check(CLI::IsMember({"hex8", "hybrid8"}).description(""))
       ->option_text("hex8|hybrid8");
@@ -131,6 +136,13 @@ void addRunOptions(CLI::App& app, Settings& s, std::string& dt) {
   app.add_flag("--quiet", s.quiet, "print nothing but errors");
 }
 
+void refuseEmptyValues(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& value : option->results())
+      if (value.empty())
+        throw InputError("the value is empty", option->get_name(), "give one, or leave the option out");
+}
+
 }  // namespace
 
 bool parseOptions(int argc, char** argv, Settings& settings) {
@@ -152,6 +164,7 @@ bool parseOptions(int argc, char** argv, Settings& settings) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     throw InputError(text, "command line", "see cantilever --help for the options and their values");
   }
+  refuseEmptyValues(app);
   settings.dtAuto = dt == "auto";
   mergeParts(written, settings);
   validate(settings);

@@ -20,7 +20,7 @@ using Columns = std::map<std::string, std::vector<double>>;
 double parseNumber(const std::string& text, const std::string& where) {
   double value = 0.0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size())
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !std::isfinite(value))
     throw InputError("'" + text + "' is no number", where, "give comma-separated numbers below one header line");
   return value;
 }
@@ -50,6 +50,7 @@ Columns readColumns(const std::string& file) {
           "restore the file");
     for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(parseNumber(fields[k], where));
   }
+  if (columns.empty()) throw InputError("there are no rows", file, "restore the file");
   return columns;
 }
 
@@ -95,7 +96,7 @@ CurveFigures figuresOf(const ReferenceCurve& curve) {
   std::size_t rows = 0, without = 0;
   figures.leaveTime = curve.t.back();
   for (; rows < curve.t.size(); ++rows) {
-    if (curve.y1[rows] > beam.length) {
+    if (rows > 0 && curve.y1[rows] > beam.length) {
       const double share = (beam.length - curve.y1[rows - 1]) / (curve.y1[rows] - curve.y1[rows - 1]);
       figures.leaveTime = curve.t[rows - 1] + share * (curve.t[rows] - curve.t[rows - 1]);
       break;

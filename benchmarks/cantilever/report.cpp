@@ -44,6 +44,7 @@ void printErrors(std::ostream& out, const RunFigures& f) {
   const auto line = [&](const char* what, double metres) { out << format("  %-66s %9.3f mm\n", what, 1e3 * metres); };
   out << "Error: time mean until leaving of the root of the summed squares of dx and dz of both particles\n";
   line("static Euler-Bernoulli, arm from the clamp", f.errorStatic);
+  line("  dz alone", f.errorStaticVertical);
   line("static Euler-Bernoulli, arm from the start point (as the authors)", f.errorStaticAuthors);
   line("moving-mass Timoshenko beam, at the particle's own y", f.errorDynamic);
   line("moving-mass Timoshenko beam, at the same time", f.errorDynamicSameTime);

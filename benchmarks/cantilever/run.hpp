@@ -50,6 +50,7 @@ struct RunFigures {
   double largestExcess = 0.0;  ///< max (K + U) / (initial + work of gravity)
 
   double errorStatic = 0.0, errorStaticAuthors = 0.0;  ///< m, true arm and the authors' arm
+  double errorStaticVertical = 0.0;                    ///< m, true arm, Δz alone: what lateral drift does not touch
   // Against the moving-mass beam: at the particle's own y, as the static formula, or at the same time.
   double errorDynamic = 0.0, errorDynamicSameTime = 0.0;              ///< m, exact EI
   double errorDynamicLocked = 0.0, errorDynamicLockedSameTime = 0.0;  ///< m, EI × locking factor
@@ -71,7 +72,8 @@ struct RunResult {
 /// @throws InputError for impossible settings, before anything is computed
 RunResult run(const Settings& settings, const Observer& observer = {});
 
-/// Fills in the errors against the static and dynamic references. The dynamic ones are computed once per case.
+/// Fills in the errors against the static and dynamic references. The dynamic ones are computed once per case; NaN
+/// where there is no reference (a contact too stiff for it) or the run went where the reference never was.
 void compareWithReferences(RunResult& result);
 
 /// The moving-mass beam for the settings' contact stiffness and the given bending factor; kept after the first call.

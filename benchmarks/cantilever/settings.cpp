@@ -19,15 +19,17 @@ double contactTime(const Case& beam) {
 
 void applyScheme(Settings& settings, Scheme scheme) {
   const bool paper = scheme == Scheme::paper;
+  const bool paperAtAPoint = paper && settings.cgWidth == 0.0;
   settings.scheme = scheme;
-  settings.lag = paper ? Lag::loadAndSkin : Lag::none;
+  settings.lag = paperAtAPoint ? Lag::load : Lag::none;
+  settings.mass = paperAtAPoint ? MassMatrix::consistent : MassMatrix::lumped;
   settings.transfer = paper ? Transfer::spread : Transfer::adjoint;
   settings.edges = paper ? EdgeHandling::paper : EdgeHandling::projected;
   settings.metric = paper ? Metric::deformed : Metric::reference;
   settings.fem = paper ? FemStepper::newmark : FemStepper::explicitDifferences;
-  settings.mass = MassMatrix::lumped;
   settings.restitution = paper ? 0.99 : 1.0;
-  settings.correction = paper ? Correction::none : Correction::linear;
+  settings.correction = Correction::none;
+  settings.surface = paper || settings.cgWidth == 0.0 ? Surface::flat : Surface::smooth;
 }
 
 bool couplingIsUnbalanced(const Settings& settings) {
@@ -63,6 +65,18 @@ void validate(const Settings& s) {
     for (int count : *s.mesh)
       checkRange(count >= 1 && count <= 2000, "--mesh", std::to_string(count),
                  "give three counts of at least 1, as in 2,30,2");
+  if (s.element != "hex8" && s.element != "hybrid8")
+    throw InputError("there is no element " + s.element, "--element", "take hex8 or hybrid8");
+  const std::array<int, 3> mesh = s.mesh.value_or(Case{}.elements);
+  const double elements = 1.0 * mesh[0] * mesh[1] * mesh[2] * std::pow(s.refine, 3);
+  if (elements > 4e6)
+    throw InputError(formatNumber(elements) + " elements are too many", "--mesh and --refine",
+                     "give fewer, at most 4 million together");
+  if (s.study != Study::none && !s.summary.empty())
+    throw InputError("a study writes its own summary", "--summary", "take --out DIR, which gets <study>.json");
+  if (s.study != Study::none && !s.reference.empty())
+    throw InputError("a study is not compared with the published curves", "--reference",
+                     "leave out --study or --reference");
   if (s.metric == Metric::deformed && s.element != "hex8")
     throw InputError("element " + s.element + " has no deformed metric", "--metric deformed",
                      "take --element hex8, or --metric reference");

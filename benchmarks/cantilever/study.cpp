@@ -103,8 +103,8 @@ void printRow(const StudyRow& row) {
   }
   std::printf(" %8.3f s  drift %9.2e  E %9.3g ... %9.3g J", f.wallSeconds, f.energyDrift, f.energyMin, f.energyMax);
   if (f.left)
-    std::printf("  leaves %7.3f s  error %8.3f mm static %8.3f mm dynamic", f.leaveTime, 1e3 * f.errorStatic,
-                1e3 * f.errorDynamic);
+    std::printf("  leaves %7.3f s  error %8.3f mm static (%.3f mm in z) %8.3f mm dynamic", f.leaveTime,
+                1e3 * f.errorStatic, 1e3 * f.errorStaticVertical, 1e3 * f.errorDynamic);
   if (!row.message.empty()) std::printf("  %s", row.message.c_str());
   std::printf("\n");
   std::fflush(stdout);
@@ -115,7 +115,8 @@ void writeStudy(const std::string& folder, const std::string& name, const std::v
   csv << io::provenanceLines(io::provenance(), "# ");
   csv << "label,outcome,message,wall_seconds,steps,dt_s,leave_time_s,energy_initial_J,energy_min_J,energy_max_J,"
          "energy_drift_relative,ledger_residual_relative,made_by_coupling_J,dashpots_J,lateral_drift_m,"
-         "moment_residual_relative,no_contact_share,time_mean_error_m,time_mean_error_authors_arm_m,"
+         "moment_residual_relative,no_contact_share,time_mean_error_m,time_mean_error_vertical_m,time_mean_error_"
+         "authors_arm_m,"
          "time_mean_error_dynamic_m,time_mean_error_dynamic_same_time_m,on_error_front,on_drift_front";
   for (const auto& [key, value] : describe(Settings{})) csv << ',' << key;
   csv << '\n';
@@ -125,10 +126,10 @@ void writeStudy(const std::string& folder, const std::string& name, const std::v
   for (const StudyRow& row : rows) {
     const RunFigures& f = row.figures;
     csv << quoted(row.label) << ',' << row.outcome << ',' << quoted(row.message);
-    for (double value :
-         {f.wallSeconds, static_cast<double>(f.steps), f.dt, f.leaveTime, f.energyInitial, f.energyMin, f.energyMax,
-          f.energyDrift, f.ledgerResidual, row.madeByCoupling, row.lostToDashpots, f.lateralDrift, f.momentResidual,
-          f.noContactShare, f.errorStatic, f.errorStaticAuthors, f.errorDynamic, f.errorDynamicSameTime})
+    for (double value : {f.wallSeconds, static_cast<double>(f.steps), f.dt, f.leaveTime, f.energyInitial, f.energyMin,
+                         f.energyMax, f.energyDrift, f.ledgerResidual, row.madeByCoupling, row.lostToDashpots,
+                         f.lateralDrift, f.momentResidual, f.noContactShare, f.errorStatic, f.errorStaticVertical,
+                         f.errorStaticAuthors, f.errorDynamic, f.errorDynamicSameTime})
       csv << ',' << formatNumber(value);
     csv << ',' << row.onErrorFront << ',' << row.onDriftFront;
     nlohmann::ordered_json entry = figuresAsJson(f);

@@ -20,20 +20,23 @@ Settings withScheme(Settings settings, Scheme scheme) {
 }  // namespace
 
 std::vector<StudyRow> widthsPlan(const Settings& base) {
+  struct Variant {
+    const char* name;
+    Scheme scheme;
+    Correction correction;
+  };
   std::vector<StudyRow> rows;
-  for (Scheme scheme : {Scheme::conservative, Scheme::paper}) {
-    Settings settings = withScheme(base, scheme);
-    if (scheme == Scheme::paper) {
-      settings.dtFactor = 0.02;
-      settings.correction = Correction::none;
-    }
+  for (const Variant& variant : {Variant{"conservative", Scheme::conservative, Correction::none},
+                                 Variant{"conservative, linear", Scheme::conservative, Correction::linear},
+                                 Variant{"paper", Scheme::paper, Correction::none}})
     for (double width : {0.0, 2.0, 4.0, 6.0, 10.0, 15.0, 20.0}) {
+      Settings settings = base;
       settings.cgWidth = width;
-      rows.push_back(planned(
-          std::string(scheme == Scheme::paper ? "paper" : "conservative") + ", c = " + formatNumber(width) + " d",
-          settings));
+      applyScheme(settings, variant.scheme);
+      settings.correction = variant.correction;
+      if (variant.scheme == Scheme::paper) settings.dtFactor = 0.02;
+      rows.push_back(planned(std::string(variant.name) + ", c = " + formatNumber(width) + " d", settings));
     }
-  }
   return rows;
 }
 
@@ -65,6 +68,7 @@ std::vector<StudyRow> stabilityPlan(const Settings& base) {
   std::vector<StudyRow> rows;
   Settings settings = base;
   settings.until = base.until.value_or(2.0);
+  settings.dtAuto = false;
   for (double share : {0.5, 0.9, 0.99, 1.01, 1.2, 1.4, 1.5, 2.0}) {
     settings.shareOfCritical = share;
     rows.push_back(planned("dt at " + formatNumber(share) + " of the critical step", settings));
@@ -85,6 +89,7 @@ std::vector<StudyRow> stabilityPlan(const Settings& base) {
   for (double width : {0.01, 1.0, 10.0, 20.0, 40.0})
     for (KernelName kernel : {KernelName::lucy, KernelName::gauss}) {
       settings.cgWidth = width;
+      applyScheme(settings, settings.scheme);
       settings.kernel = kernel;
       rows.push_back(
           planned("width " + formatNumber(width) + " d, " + (kernel == KernelName::lucy ? "Lucy" : "Gauss"), settings));
@@ -96,8 +101,10 @@ std::vector<StudyRow> ablationPlan(const Settings& base) {
   std::vector<StudyRow> rows;
   for (double width : {0.0, 10.0}) {
     const std::string at = ", c = " + formatNumber(width) + " d";
-    Settings plain = withScheme(base, Scheme::conservative);
+    Settings plain = base;
     plain.cgWidth = width;
+    applyScheme(plain, Scheme::conservative);
+    plain.surface = Surface::flat;
     plain.dtFactor = 0.02;
     plain.correction = Correction::none;
     rows.push_back(planned("conservative" + at, plain));

@@ -43,6 +43,7 @@ Json figuresAsJson(const RunFigures& f) {
   json["force_residual_relative"] = f.forceResidual;
   json["moment_residual_relative"] = f.momentResidual;
   json["time_mean_error_m"] = f.errorStatic;
+  json["time_mean_error_vertical_m"] = f.errorStaticVertical;
   json["time_mean_error_authors_arm_m"] = f.errorStaticAuthors;
   json["time_mean_error_dynamic_m"] = f.errorDynamic;
   json["time_mean_error_dynamic_same_time_m"] = f.errorDynamicSameTime;

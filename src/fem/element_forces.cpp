@@ -26,11 +26,10 @@ void requireSameNodes(const ElementBlock& block, const Nodes& nodes) {
                      "elements", "use the nodes of the same mesh");
 }
 
-/// The kernels only write to memory, so that no compiler fuses a product of theirs with the sum over elements: one
-/// thread and many then add the very same numbers.
-[[gnu::noinline]] void evaluate(const ElementCache& cache, const Batch& batch, const Vec3* u, BatchForces& forces,
-                                Lane* energy) {
-  detail::batchForces(cache, batch, u, forces, energy);
+/// The kernels are called through a pointer and write to memory, so that no compiler fuses a product of theirs with the
+/// sum over elements: one thread and many then add the very same numbers.
+void evaluate(const ElementCache& cache, const Batch& batch, const Nodes& nodes, bool withEnergy, BatchForces& forces) {
+  detail::kernels().forces(cache, batch, nodes.u.data(), withEnergy, forces);
 }
 
 double sumOfLanes(const Lane& lane) { return (lane[0] + lane[1]) + (lane[2] + lane[3]); }
@@ -68,12 +67,11 @@ double addInternalForces(const ElementBlock& block, Nodes& nodes, bool withEnerg
   const auto body = [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     BatchForces local;
-    Lane energy{};
     for (std::size_t b = begin; b < end; ++b) {
       BatchForces& forces = manyThreads ? cache.forces[b] : local;
-      evaluate(cache, cache.batches[b], nodes.u.data(), forces, withEnergy ? &energy : nullptr);
+      evaluate(cache, cache.batches[b], nodes, withEnergy, forces);
       if (!manyThreads) scatter(cache.batches[b], forces, nodes.f);
-      sum += sumOfLanes(energy);
+      if (withEnergy) sum += sumOfLanes(forces.energy);
     }
     return sum;
   };
@@ -94,11 +92,10 @@ double strainEnergy(const ElementBlock& block, const Nodes& nodes) {
   const ElementCache& cache = block.cache();
   return parallelSum(cache.batches.size(), batchGrain, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
-    BatchForces unused;
-    Lane energy{};
+    BatchForces forces;
     for (std::size_t b = begin; b < end; ++b) {
-      evaluate(cache, cache.batches[b], nodes.u.data(), unused, &energy);
-      sum += sumOfLanes(energy);
+      evaluate(cache, cache.batches[b], nodes, true, forces);
+      sum += sumOfLanes(forces.energy);
     }
     return sum;
   });
@@ -109,12 +106,11 @@ std::vector<double> elementEnergies(const ElementBlock& block, const Nodes& node
   const ElementCache& cache = block.cache();
   std::vector<double> energies(cache.elements.size());
   parallelFor(cache.batches.size(), batchGrain, [&](std::size_t begin, std::size_t end) {
-    BatchForces unused;
-    Lane energy{};
+    BatchForces forces;
     for (std::size_t b = begin; b < end; ++b) {
-      evaluate(cache, cache.batches[b], nodes.u.data(), unused, &energy);
+      evaluate(cache, cache.batches[b], nodes, true, forces);
       for (int lane = 0; lane < cache.batches[b].count; ++lane)
-        energies[detail::laneCount * b + static_cast<std::size_t>(lane)] = energy[lane];
+        energies[detail::laneCount * b + static_cast<std::size_t>(lane)] = forces.energy[lane];
     }
   });
   return energies;
@@ -123,10 +119,11 @@ std::vector<double> elementEnergies(const ElementBlock& block, const Nodes& node
 void requireValid(const ElementBlock& block, const Nodes& nodes, const std::string& when) {
   requireSameNodes(block, nodes);
   const ElementCache& cache = block.cache();
+  detail::BatchDeterminants determinants;
   for (std::size_t b = 0; b < cache.batches.size(); ++b) {
-    const std::array<Lane, 8> determinant = detail::batchDeterminants(cache, cache.batches[b], nodes.u.data());
+    detail::kernels().determinants(cache, cache.batches[b], nodes.u.data(), determinants);
     for (int lane = 0; lane < cache.batches[b].count; ++lane)
-      for (const Lane& value : determinant)
+      for (const Lane& value : determinants.value)
         if (!(value[lane] > 0.0))
           throw NumericalError("element " + std::to_string(detail::laneCount * b + static_cast<std::size_t>(lane)) +
                                    " is inverted (det F = " + formatNumber(value[lane]) + ")",

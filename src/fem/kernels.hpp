@@ -1,21 +1,26 @@
 // The force kernels: one batch of four elements per call.
+//
+// The kernels are written once, in headers whose namespace is the macro DOVETAIL_KERNELS, and compiled twice: for the
+// processor that the build is for (kernels_portable.cpp), and for x86-64 with AVX2 (kernels_wide.cpp). The one that
+// fits is taken at run time. Their digits are the same unless DOVETAIL_FP_CONTRACT is on.
 #pragma once
 
 #include "lane.hpp"
 
 namespace dovetail::fem::detail {
 
-/// ∂U/∂u of a batch; per-element energies to `energy` unless it is null.
-/// @param u  displacement of all nodes, m
-void batchForces(const ElementCache& cache, const Batch& batch, const Vec3* u, BatchForces& forces, Lane* energy);
+struct KernelSet {
+  /// ∂U/∂u of a batch, and its energy if asked for.
+  /// @param u  displacement of all nodes, m
+  void (*forces)(const ElementCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces);
+  void (*determinants)(const ElementCache& cache, const Batch& batch, const Vec3* u, BatchDeterminants& result);
+};
 
-/// Kernels of hybrid8.
-void hybridBoxForces(const LawConstants& law, const BoxGeometry& geometry, const Batch& batch, const Vec3* u,
-                     BatchForces& forces, Lane* energy);
-void hybridGeneralForces(const HybridGeometry& hybrid, const GeneralGeometry& geometry, const Batch& batch,
-                         const Vec3* u, BatchForces& forces, Lane* energy);
+KernelSet portableKernels();
+/// @return false if the build or the processor has none
+bool wideKernels(KernelSet& kernels);
 
-/// det F at the eight Gauss points.
-std::array<Lane, 8> batchDeterminants(const ElementCache& cache, const Batch& batch, const Vec3* u);
+/// The fastest kernels for this processor.
+const KernelSet& kernels();
 
 }  // namespace dovetail::fem::detail

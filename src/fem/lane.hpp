@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,28 +13,12 @@
 namespace dovetail::fem::detail {
 
 inline constexpr int laneCount = 4;
-/// One double of each of four elements. Compilers without vector registers of this width split it.
-using Lane [[gnu::vector_size(8 * laneCount)]] = double;
+inline constexpr std::size_t laneBytes = 8 * laneCount;
+/// One double of each of four elements. Compilers without vector registers of this width split it,
+/// and may align it to less: the structures below therefore state their alignment.
+using Lane [[gnu::vector_size(laneBytes)]] = double;
 
 #define DOVETAIL_INLINE [[gnu::always_inline]] inline
-
-// A build for any x86-64 machine holds the kernels twice, and the loader takes the one with wide registers where there are
-// any. The digits are the same unless DOVETAIL_FP_CONTRACT is on. Sanitizers cannot follow such functions.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define DOVETAIL_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define DOVETAIL_SANITIZED
-#endif
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__AVX2__) && !defined(DOVETAIL_SANITIZED)
-#define DOVETAIL_KERNEL [[gnu::target_clones("arch=haswell", "default")]]
-#else
-#define DOVETAIL_KERNEL
-#endif
-
-DOVETAIL_INLINE Lane splat(double value) { return Lane{value, value, value, value}; }
 
 /// Four consecutive elements. Corners in binary order: bit 0, 1, 2 of the corner set means +ξ, +η, +ζ.
 /// A batch that is not full repeats its last element with zero weight.
@@ -45,20 +30,20 @@ struct Batch {
 };
 
 /// Boxes along the axes: ∂ξ/∂X is diagonal and constant.
-struct BoxGeometry {
+struct alignas(laneBytes) BoxGeometry {
   std::array<Lane, 3> gradientScale;  ///< ∂ξ_j/∂X_j / 8
   Lane weight;                        ///< det ∂X/∂ξ, m³
 };
 
 /// Any bricks: map[p] is ∂ξ/∂X at Gauss point p, row-major, or ∂ξ/∂X · J0 for hybrid8.
-struct GeneralGeometry {
+struct alignas(laneBytes) GeneralGeometry {
   std::array<std::array<Lane, 9>, 8> map;
   std::array<Lane, 8> weight;  ///< det ∂X/∂ξ, m³
   std::int32_t hybrid;         ///< place in ElementCache::hybrid
 };
 
 /// Bricks of hybrid8 that are no boxes.
-struct HybridGeometry {
+struct alignas(laneBytes) HybridGeometry {
   std::array<Lane, 9> centreJacobian;  ///< J0 = ∂X/∂ξ at the centre, row-major, m
   std::array<Lane, 171> stiffness;     ///< H⁻¹, upper triangle by rows
 };
@@ -73,9 +58,15 @@ struct LawConstants {
   double poisson;
 };
 
-/// ∂U/∂u of a batch, N: [component][corner].
-struct BatchForces {
+/// ∂U/∂u of a batch, N: [component][corner], and its strain energy, J.
+struct alignas(laneBytes) BatchForces {
   std::array<std::array<Lane, 8>, 3> f;
+  Lane energy;  ///< only if asked for
+};
+
+/// det F of a batch at its Gauss points.
+struct alignas(laneBytes) BatchDeterminants {
+  std::array<Lane, 8> value;
 };
 
 struct ElementCache {

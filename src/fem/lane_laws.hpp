@@ -4,7 +4,7 @@
 
 #include "trilinear.hpp"
 
-namespace dovetail::fem::detail {
+namespace dovetail::fem::detail::DOVETAIL_KERNELS {
 
 using Symmetric = std::array<Lane, 6>;
 
@@ -72,4 +72,4 @@ DOVETAIL_INLINE std::array<Lane, 3> firstStressRow(const std::array<Lane, 3>& h,
   return row;
 }
 
-}  // namespace dovetail::fem::detail
+}  // namespace dovetail::fem::detail::DOVETAIL_KERNELS

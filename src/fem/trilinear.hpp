@@ -9,7 +9,7 @@
 #include "brick.hpp"
 #include "lane.hpp"
 
-namespace dovetail::fem::detail {
+namespace dovetail::fem::detail::DOVETAIL_KERNELS {
 
 using Tensor = std::array<std::array<Lane, 3>, 3>;
 /// [component][direction][point of the face]
@@ -98,7 +98,29 @@ DOVETAIL_INLINE void planarForces(const PlanarField& sums, const std::array<Lane
   for (std::size_t c = 0; c < 3; ++c) transposedGradient(sums[c], scale, out.f[c]);
 }
 
-/// Scale of gradientOf for ∂/∂ξ.
-DOVETAIL_INLINE std::array<Lane, 3> parentScale() { return {splat(0.125), splat(0.125), splat(0.125)}; }
+/// The gradient at Gauss point P.
+template <int P>
+DOVETAIL_INLINE Tensor valueAt(const PlanarField& field) {
+  Tensor value;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) value[i][j] = field[i][j][inFace<P>[j]];
+  return value;
+}
 
-}  // namespace dovetail::fem::detail
+/// parent · map.
+DOVETAIL_INLINE Tensor mapped(const Tensor& parent, const std::array<Lane, 9>& map) {
+  Tensor H;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      H[i][j] = parent[i][0] * map[j] + parent[i][1] * map[3 + j] + parent[i][2] * map[6 + j];
+  return H;
+}
+
+/// Scale of gradientOf for ∂/∂ξ.
+DOVETAIL_INLINE std::array<Lane, 3> parentScale() {
+  constexpr double eighth = 0.125;
+  const Lane scale = {eighth, eighth, eighth, eighth};
+  return {scale, scale, scale};
+}
+
+}  // namespace dovetail::fem::detail::DOVETAIL_KERNELS

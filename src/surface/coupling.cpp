@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dovetail/core/finite.hpp"
+#include "travel.hpp"
 
 namespace dovetail::surface {
 
@@ -28,22 +29,19 @@ Coupling::Coupling(Skin skin, const CouplingOptions& options)
 
 bool Coupling::marginUsed(const dem::Particles& particles, std::span<const Vec3> u) const {
   if (particles.size() != candidates_.particleAtBuild.size()) return true;
-  double particleTravel = 0.0, nodeTravel = 0.0;
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    particleTravel = std::max(particleTravel, squaredNorm(particles.x[i] - candidates_.particleAtBuild[i]));
-  for (std::size_t k = 0; k < surfaceNodes_.size(); ++k)
-    nodeTravel = std::max(nodeTravel, squaredNorm(u[surfaceNodes_[k]] - nodesAtBuild_[k]));
-  return std::sqrt(particleTravel) + gain_ * std::sqrt(nodeTravel) > candidates_.skin;
+  const double travel =
+      largestTravel(particles.x, candidates_.particleAtBuild) + gain_ * largestTravel(u, surfaceNodes_, nodesAtBuild_);
+  return !(travel <= candidates_.skin);  // so that a NaN asks for a new search, which names the culprit
 }
 
 void Coupling::locate(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v) {
   if (candidates_.builds > 0 && !marginUsed(particles, u)) return;
+  requireFinite(u, "node", "displacement", "contact search with the skin");
   place(skin_, u, v);
   double margin = options_.margin;
   if (margin == 0.0 && particles.size() > 0)
     margin = 0.5 * *std::min_element(particles.radius.begin(), particles.radius.end());
   dem::findWallCandidates(particles, skin_.wall, margin, candidates_);
-  if (candidates_.particleAtBuild.size() != particles.size()) candidates_.particleAtBuild = particles.x;
   nodesAtBuild_.clear();
   for (int node : surfaceNodes_) nodesAtBuild_.push_back(u[node]);
   active_.clear();
@@ -52,13 +50,17 @@ void Coupling::locate(const dem::Particles& particles, std::span<const Vec3> u, 
   active_ = sortedUnique(std::move(active_));
 }
 
-void Coupling::placeActive(std::span<const Vec3> u, std::span<const Vec3> v) {
-  place(skin_, u, v, active_);
-  if (booksWork_) wallWork_ += 0.5 * contactWorkSinceLast();
+void Coupling::placeSkin(std::span<const Vec3> u, std::span<const Vec3> v) {
+  if (!booksWork_) return place(skin_, u, v, active_);
+  place(skin_, u, v);
+  if (previous_.empty()) previous_ = skin_.wall.x;
+  wallWork_ += 0.5 * contactWorkSinceLast();
 }
 
 void Coupling::bookNewContacts() {
-  if (booksWork_) wallWork_ += 0.5 * contactWorkSinceLast();
+  if (!booksWork_) return;
+  wallWork_ += 0.5 * contactWorkSinceLast();
+  previous_ = skin_.wall.x;
 }
 
 double Coupling::contactWorkSinceLast() const {

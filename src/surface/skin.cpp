@@ -13,6 +13,8 @@ namespace dovetail::surface {
 
 namespace {
 
+constexpr double roundOffArea = 1e-14;  // of the squared diagonals
+
 void checkFaces(std::span<const Vec3> X, std::span<const Quad> faces) {
   if (faces.empty())
     throw InputError("the coupling surface has no faces", "makeSkin", "name a face set of the mesh that is not empty");
@@ -22,8 +24,11 @@ void checkFaces(std::span<const Vec3> X, std::span<const Quad> faces) {
       if (node < 0 || node >= static_cast<int>(X.size()))
         throw InputError("node " + std::to_string(node) + " does not exist", where,
                          "use node numbers from 0 to " + std::to_string(X.size() - 1));
-    const Vec3 area = cross(X[faces[f][2]] - X[faces[f][0]], X[faces[f][3]] - X[faces[f][1]]);
-    if (!(norm(area) > 0.0))
+    const Vec3 first = X[faces[f][2]] - X[faces[f][0]], second = X[faces[f][3]] - X[faces[f][1]];
+    Quad sorted = faces[f];
+    std::sort(sorted.begin(), sorted.end());
+    const bool repeats = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+    if (repeats || !(norm(cross(first, second)) > roundOffArea * (squaredNorm(first) + squaredNorm(second))))
       throw InputError("the face has no area", where, "give four different corners in order around the face");
   }
 }
@@ -158,7 +163,12 @@ void splitAtSharpEdges(Skin& skin) {
 }
 
 void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel) {
-  if (kernel.kernel.width > 0.0) splitAtSharpEdges(skin);
+  cg::requireValid(kernel.kernel, true);
+  if (kernel.kernel.width == 0.0) {
+    skin.carrier = skin.localMap;
+    return;
+  }
+  splitAtSharpEdges(skin);
   const int vertexCount = static_cast<int>(skin.X.size());
   cg::Projection carrier;
   carrier.columns = skin.localMap.columns;

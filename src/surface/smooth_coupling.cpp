@@ -1,9 +1,11 @@
 #include "dovetail/surface/smooth_coupling.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/geometry/hierarchical_grid.hpp"
+#include "travel.hpp"
 
 namespace dovetail::surface {
 
@@ -36,6 +38,12 @@ geometry::Box controlBox(const SmoothSurface& surface, int face, double margin) 
   return {box.lower - inflate, box.upper + inflate};
 }
 
+void placeAll(SmoothSurface& surface, std::span<const Vec3> u, std::span<const Vec3> v) {
+  std::vector<int> all(surface.X.size());
+  std::iota(all.begin(), all.end(), 0);
+  place(surface, u, v, all);
+}
+
 }  // namespace
 
 void SmoothContacts::clear() {
@@ -60,19 +68,16 @@ SmoothCoupling::SmoothCoupling(SmoothSurface surface, double margin)
 
 void SmoothCoupling::locate(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v) {
   if (particlesAtBuild_.size() == particles.size() && !nodesAtBuild_.empty()) {
-    double particleTravel = 0.0, nodeTravel = 0.0;
-    for (std::size_t i = 0; i < particles.size(); ++i)
-      particleTravel = std::max(particleTravel, squaredNorm(particles.x[i] - particlesAtBuild_[i]));
-    for (std::size_t k = 0; k < surfaceNodes_.size(); ++k)
-      nodeTravel = std::max(nodeTravel, squaredNorm(u[surfaceNodes_[k]] - nodesAtBuild_[k]));
-    if (std::sqrt(particleTravel) + gain_ * std::sqrt(nodeTravel) <= margin0_) return;
+    const double travel =
+        largestTravel(particles.x, particlesAtBuild_) + gain_ * largestTravel(u, surfaceNodes_, nodesAtBuild_);
+    if (travel <= margin0_) return;
   }
+  requireFinite(particles.x, "particle", "position", "contact search with the smooth surface");
+  requireFinite(u, "node", "displacement", "contact search with the smooth surface");
   margin0_ = margin_;
   if (margin0_ == 0.0 && particles.size() > 0)
     margin0_ = 0.5 * *std::min_element(particles.radius.begin(), particles.radius.end());
-  std::vector<int> all(surface_.X.size());
-  for (std::size_t c = 0; c < all.size(); ++c) all[c] = static_cast<int>(c);
-  place(surface_, u, v, all);
+  placeAll(surface_, u, v);
 
   geometry::HierarchicalGrid grid;
   grid.build(particles.x, particles.radius);
@@ -146,6 +151,29 @@ void SmoothCoupling::findContacts(const dem::Particles& particles) {
       contacts_.force.emplace_back();
     }
   }
+}
+
+void SmoothCoupling::placeSurface(std::span<const Vec3> u, std::span<const Vec3> v) {
+  if (!booksWork_) return place(surface_, u, v, active_);
+  placeAll(surface_, u, v);
+  if (previous_.empty()) previous_ = surface_.x;
+  wallWork_ += 0.5 * contactWorkSinceLast();
+}
+
+void SmoothCoupling::bookNewContacts() {
+  if (!booksWork_) return;
+  wallWork_ += 0.5 * contactWorkSinceLast();
+  previous_ = surface_.x;
+}
+
+double SmoothCoupling::contactWorkSinceLast() const {
+  double work = 0.0;
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    for (std::size_t k = 0; k < 16; ++k) {
+      const int control = surface_.control[contacts_.face[c]][k];
+      work -= contacts_.weight[c][k] * dot(contacts_.force[c], surface_.x[control] - previous_[control]);
+    }
+  return work;
 }
 
 void SmoothCoupling::transfer() {

@@ -200,7 +200,9 @@ double newtonStep(const PatchJet& jet, const Vec3& p, std::array<double, 2>& par
 
 }  // namespace
 
-SmoothSurface makeSmoothSurface(const Skin& skin) {
+SmoothSurface makeSmoothSurface(const Skin& whole) {
+  Skin skin = whole;
+  splitAtSharpEdges(skin);  // changes nothing if it has been done
   const auto crossings = makeCrossings(skin.quads);
   const NetBuilder builder(skin.quads, crossings);
   SmoothSurface surface;

@@ -19,4 +19,17 @@ double workOf(const NodalLoad& load, std::span<const Vec3> displacement, double 
   return scale * work;
 }
 
+double splittingEnergy(const fem::Nodes& nodes, const NodalLoad& contact, double h) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < nodes.X.size(); ++i) {
+    const unsigned held = nodes.fixed[i];
+    for (int c = 0; c < 3; ++c) {
+      if (held & (1u << c)) continue;
+      const double elastic = nodes.f[i][c];
+      sum += elastic * (contact.force[i][c] / 12.0 + elastic / 24.0) / nodes.mass[i];
+    }
+  }
+  return -h * h * sum;
+}
+
 }  // namespace dovetail::surface

@@ -133,6 +133,27 @@ TEST(HierarchicalGrid, PairsThatJustTouchFromBelowOneCellFaceToBeyondTheNextAreF
   EXPECT_GT(touching, 2000u);
 }
 
+TEST(HierarchicalGrid, SmallSpheresThatJustTouchLargeOnesBeyondACellFaceAreFound) {
+  std::mt19937_64 engine(28);
+  std::uniform_real_distribution<double> scale(0.5, 1.0);
+  std::size_t touching = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const double large = scale(engine), small = large / 16.0, reach = small + large;
+    HierarchicalGrid grid;
+    grid.build(std::vector<Vec3>(1), std::vector<double>{large});
+    Cloud cloud{{{0, 0, 0}}, {large}};
+    for (int n = 2; n < 40; ++n) {
+      const double face = n * grid.cellSize(0), y = 6.0 * n * large;
+      const double x = n % 2 == 0 ? face : std::nextafter(face, 0.0);
+      cloud.x.insert(cloud.x.end(), {{x, y, 0}, {n % 2 == 0 ? x - reach : x + reach, y, 0}});
+      cloud.radius.insert(cloud.radius.end(), {large, small});
+    }
+    expectAllPairs(cloud, 0);
+    touching += allPairs(cloud).size();
+  }
+  EXPECT_GT(touching, 2000u);
+}
+
 TEST(HierarchicalGrid, RadiiAtTheBoundsOfLevels) {
   Cloud cloud = randomCloud(1200, 1.0, 1.0, -15.0, 15.0, 30);
   for (std::size_t i = 0; i < cloud.x.size(); ++i) {

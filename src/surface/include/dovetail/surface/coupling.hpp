@@ -46,9 +46,8 @@ public:
   template <class Law>
   dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v, const Law& law,
                             double dt) {
-    if (booksWork_) previous_ = skin_.wall.x;
     locate(particles, u, v);
-    placeActive(u, v);
+    placeSkin(u, v);
     dem::findWallContacts(particles, skin_.wall, candidates_, options_.edges, contacts_);
     const dem::ContactWork work = dem::collideWithWall(particles, skin_.wall, contacts_, law, dt);
     bookNewContacts();
@@ -60,10 +59,13 @@ public:
   const NodalLoad& load() const { return load_; }
   bool inContact() const { return contacts_.size() > 0; }
 
-  /// Work the contacts did on the moving skin, J, since bookWallWork(true): trapezoidal between exchanges. With the
-  /// adjoint pair it equals the work of load() on the nodes.
+  /// Work the contacts did on the moving skin, J, from the first exchange after bookWallWork(true): trapezoidal between
+  /// exchanges. With the adjoint pair it equals the work of load() on the nodes.
   double wallWork() const { return wallWork_; }
-  void bookWallWork(bool on) { booksWork_ = on; }
+  void bookWallWork(bool on) {
+    booksWork_ = on;
+    previous_.clear();
+  }
 
   const Skin& skin() const { return skin_; }
   const dem::WallContacts& contacts() const { return contacts_; }
@@ -72,7 +74,7 @@ public:
 private:
   void locate(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v);
   bool marginUsed(const dem::Particles& particles, std::span<const Vec3> u) const;
-  void placeActive(std::span<const Vec3> u, std::span<const Vec3> v);
+  void placeSkin(std::span<const Vec3> u, std::span<const Vec3> v);
   void bookNewContacts();
   double contactWorkSinceLast() const;
   void transfer();

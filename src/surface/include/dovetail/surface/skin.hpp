@@ -41,7 +41,8 @@ struct Skin {
 /// Cuts boundary faces of a mesh into triangles.
 /// @param X      reference positions of all mesh nodes, m
 /// @param faces  node numbers, counter-clockwise seen from outside
-/// @throws InputError for no faces, a node number out of range, or a face without area (named)
+/// @throws InputError for no faces, a node number out of range, or a face without area or with a repeated node
+///         (named)
 Skin makeSkin(std::span<const Vec3> X, std::span<const Quad> faces, QuadSplit split = QuadSplit::four,
               double sharpAngle = defaultSharpAngle);
 
@@ -52,6 +53,7 @@ void splitAtSharpEdges(Skin& skin);
 /// with the kernel at the skin's vertices on the reference surface), after splitAtSharpEdges. Width 0 gives the local
 /// map and splits nothing. Rows sum to one; with linear correction Σ_i S_vi X_i = X_v as well, so that moments balance
 /// too.
+/// @throws InputError for a width that is negative or not finite, before the skin is changed
 void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel);
 
 /// Moves the given vertices: wall.x = X + S u, wall.v = S v.

@@ -39,15 +39,24 @@ public:
                             double /*dt*/) {
     static_assert(!Law::hasHistory, "tangential springs are not carried on the smooth surface");
     locate(particles, u, v);
-    place(surface_, u, v, active_);
+    placeSurface(u, v);
     findContacts(particles);
     const dem::ContactWork work = collide(particles, law.normal);
+    bookNewContacts();
     transfer();
     return work;
   }
 
   const NodalLoad& load() const { return load_; }
   bool inContact() const { return contacts_.size() > 0; }
+
+  /// As Coupling::wallWork.
+  double wallWork() const { return wallWork_; }
+  void bookWallWork(bool on) {
+    booksWork_ = on;
+    previous_.clear();
+  }
+
   const SmoothSurface& surface() const { return surface_; }
   const SmoothContacts& contacts() const { return contacts_; }
 
@@ -59,11 +68,14 @@ private:
     double overlap, share;
   };
   void locate(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v);
+  void placeSurface(std::span<const Vec3> u, std::span<const Vec3> v);
   void findContacts(const dem::Particles& particles);
   void findHits(const Vec3& x, double radius, std::span<const int> faces);
   void resolveHits();
   template <class Normal>
   dem::ContactWork collide(dem::Particles& particles, const Normal& normal);
+  void bookNewContacts();
+  double contactWorkSinceLast() const;
   void transfer();
 
   SmoothSurface surface_;
@@ -76,6 +88,9 @@ private:
   std::vector<std::array<double, 2>> start_;  // per candidate: where the last search ended
   std::vector<Hit> hits_;
   double gain_, margin0_ = 0.0;
+  bool booksWork_ = false;
+  double wallWork_ = 0.0;
+  std::vector<Vec3> previous_;  // control points at the last exchange, only if work is booked
 };
 
 template <class Normal>

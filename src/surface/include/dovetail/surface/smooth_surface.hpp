@@ -25,6 +25,7 @@ struct SmoothSurface {
   std::vector<Vec3> X, x, v;                 ///< control points: reference and present position, m; velocity, m/s
 };
 
+/// Smooth patches end at sharp edges, whether or not the skin was split there.
 /// @throws InputError naming the face if a vertex inside a smooth patch has other than four faces: such meshes need
 ///         the flat surface.
 SmoothSurface makeSmoothSurface(const Skin& skin);

@@ -47,6 +47,14 @@ void kickTouched(const NodalLoad& load, fem::Nodes& nodes, double dt);
 /// Σ f · du over the touched nodes, J.
 double workOf(const NodalLoad& load, std::span<const Vec3> displacement, double scale);
 
+/// What the impulses of a window of K > 1 DEM steps store, J: the leading term that does not vanish at rest of the
+/// energy that the multiple-time-step scheme conserves in place of the exact one,
+///   −h² Σ_i [ g_s·g_c / 12 + g_s·g_s / 24 ] / m_i,   h = K dt,
+/// with g_s and g_c the gradients of strain and contact energy at node i. (From the Baker–Campbell–Hausdorff series of
+/// half kick · fast steps · half kick; the term in the velocities, h² v·V''v / 12, is left out.) A state function: it
+/// comes back when the load goes. Elastic forces are those in nodes.f.
+double splittingEnergy(const fem::Nodes& nodes, const NodalLoad& contact, double h);
+
 /// The places at which the schemes differ.
 struct Scheme {
   bool booksCoupling = false;  ///< the pair is not adjoint, or not at the same instant

@@ -1,10 +1,11 @@
 // hybrid8: the stress is β-linear in 18 modes; β = H⁻¹ ∫PᵀE dV makes ½∫S:E dV stationary (Pian & Tong 1986).
+// See kernels.hpp for DOVETAIL_KERNELS.
+#pragma once
+
 #include "kernels.hpp"
 #include "lane_laws.hpp"
 
-namespace dovetail::fem::detail {
-
-namespace {
+namespace dovetail::fem::detail::DOVETAIL_KERNELS {
 
 /// Sums of a field at the Gauss points against 1, s, t, st, where s and t are the signs (bits S and T of the point).
 template <int S, int T>
@@ -69,18 +70,8 @@ DOVETAIL_INLINE BoxModes boxSums(const StrainField& e) {
           {lineSums<2>(e[3]), lineSums<0>(e[4]), lineSums<1>(e[5])}};
 }
 
-template <int P>
-DOVETAIL_INLINE Tensor valueAt(const PlanarField& field) {
-  Tensor value;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) value[i][j] = field[i][j][inFace<P>[j]];
-  return value;
-}
-
-}  // namespace
-
-DOVETAIL_KERNEL void hybridBoxForces(const LawConstants& law, const BoxGeometry& geometry, const Batch& batch, const Vec3* u,
-                     BatchForces& forces, Lane* energy) {
+static void hybridBoxForces(const LawConstants& law, const BoxGeometry& geometry, const Batch& batch, const Vec3* u,
+                            bool withEnergy, BatchForces& forces) {
   PlanarField gradient;
   planarGradient(batch, u, geometry.gradientScale, gradient);
   StrainField strain;
@@ -90,7 +81,7 @@ DOVETAIL_KERNEL void hybridBoxForces(const LawConstants& law, const BoxGeometry&
   });
   const BoxModes sums = boxSums(strain);
   const BoxModes stress = stiffen(law, geometry.weight, sums);
-  if (energy) *energy = 0.25 * modeEnergy(stress, sums);
+  if (withEnergy) forces.energy = 0.25 * modeEnergy(stress, sums);
 
   std::array<std::array<Lane, 4>, 3> normal;
   std::array<std::array<Lane, 2>, 3> shear;
@@ -110,17 +101,6 @@ DOVETAIL_KERNEL void hybridBoxForces(const LawConstants& law, const BoxGeometry&
     }
   });
   planarForces(total, geometry.gradientScale, forces);
-}
-
-namespace {
-
-/// ∂u/∂ξ · map per Gauss point.
-DOVETAIL_INLINE Tensor mapped(const Tensor& parent, const std::array<Lane, 9>& map) {
-  Tensor H;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      H[i][j] = parent[i][0] * map[j] + parent[i][1] * map[3 + j] + parent[i][2] * map[6 + j];
-  return H;
 }
 
 /// 2 J0ᵀ E J0 from Ĥ = ∂u/∂X · J0 and F̂ = J0 + Ĥ: ĤᵀJ0 + F̂ᵀĤ.
@@ -188,10 +168,8 @@ DOVETAIL_INLINE Coefficients solveModes(const HybridGeometry& hybrid, const Coef
   return beta;
 }
 
-}  // namespace
-
-DOVETAIL_KERNEL void hybridGeneralForces(const HybridGeometry& hybrid, const GeneralGeometry& geometry, const Batch& batch,
-                         const Vec3* u, BatchForces& forces, Lane* energy) {
+static void hybridGeneralForces(const HybridGeometry& hybrid, const GeneralGeometry& geometry, const Batch& batch,
+                                const Vec3* u, bool withEnergy, BatchForces& forces) {
   const std::array<Lane, 9>& J0 = hybrid.centreJacobian;
   PlanarField gradient;
   planarGradient(batch, u, parentScale(), gradient);
@@ -206,9 +184,9 @@ DOVETAIL_KERNEL void hybridGeneralForces(const HybridGeometry& hybrid, const Gen
     addMoments<p>(parentStrain(H, F, J0), geometry.weight[p], moments);
   });
   const Coefficients beta = solveModes(hybrid, moments);
-  if (energy) {
-    *energy = Lane{};
-    for (std::size_t i = 0; i < 18; ++i) *energy += 0.25 * beta[i] * moments[i];
+  if (withEnergy) {
+    forces.energy = Lane{};
+    for (std::size_t i = 0; i < 18; ++i) forces.energy += 0.25 * beta[i] * moments[i];
   }
   PlanarField total{};
   forEachPoint([&](auto point) __attribute__((always_inline)) {
@@ -227,4 +205,4 @@ DOVETAIL_KERNEL void hybridGeneralForces(const HybridGeometry& hybrid, const Gen
   planarForces(total, parentScale(), forces);
 }
 
-}  // namespace dovetail::fem::detail
+}  // namespace dovetail::fem::detail::DOVETAIL_KERNELS

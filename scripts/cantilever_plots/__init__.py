@@ -1,0 +1,1 @@
+"""Figures of the cantilever benchmark; see scripts/plot_cantilever.py."""
