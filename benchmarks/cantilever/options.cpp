@@ -36,7 +36,7 @@ struct WrittenParts {
   Surface surface{};
   double restitution{};
   CLI::Option *lagOption, *transferOption, *edgesOption, *metricOption, *femOption, *massOption, *correctionOption,
-      *restitutionOption;
+      *surfaceOption, *restitutionOption;
 };
 
 void addPartOptions(CLI::App& app, WrittenParts& w) {

@@ -139,6 +139,30 @@ TEST(Program, AContactTooStiffForTheBeamReferenceIsNoReasonToLoseTheRun) {
   EXPECT_TRUE(nlohmann::json::parse(readText(summary)).at("time_mean_error_dynamic_m").is_null());
 }
 
+TEST(Program, ABreakdownSaysWhereAndWhenAndKeepsWhatThereIs) {
+  const ScratchFolder folder;
+  const std::string summary = (folder / "summary.json").string();
+  // A staggered, stiff contact on light nodes: unstable at any step that is worth taking.
+  const Outcome outcome =
+      runProgram({"--lag", "load-and-skin", "--stiffness-ratio", "1000", "--mesh", "8,60,8", "--dt", "auto", "--until",
+                  "0.2", "--quiet", "--out", (folder / "out").string(), "--summary", summary});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  const bool names = outcome.err.find("element ") != std::string::npos ||
+                     outcome.err.find("node ") != std::string::npos ||
+                     outcome.err.find("particle ") != std::string::npos;
+  EXPECT_TRUE(outcome.err.starts_with("cantilever: ") && names) << outcome.err;
+  EXPECT_NE(outcome.err.find("t = "), std::string::npos) << outcome.err;
+  const auto json = nlohmann::json::parse(readText(summary));
+  EXPECT_EQ(json.at("finished"), false);
+  EXPECT_EQ(json.at("stable"), false);
+  EXPECT_EQ("cantilever: " + json.at("failure").get<std::string>() + "\n", outcome.err);
+  EXPECT_GT(json.at("wall_seconds").get<double>(), 0.0);
+  EXPECT_LT(json.at("end_time_s").get<double>(), 0.2);
+  EXPECT_FALSE(readText(folder / "out/series.csv").empty());
+}
+
 TEST(Program, AStudyWritesOneRowPerRun) {
   const ScratchFolder folder;
   const Outcome outcome =
