@@ -18,6 +18,7 @@ namespace dovetail::cantilever {
 namespace {
 
 constexpr double sampleInterval = 1e-3;      // s, energies and contact
+constexpr std::int64_t stepsPerSample = 4;   // at least: a sample costs about half a step
 constexpr double trajectoryInterval = 5e-3;  // s
 constexpr double seriesInterval = 2e-2;      // s
 constexpr double longestRun = 100.0;         // s, where nobody leaves
@@ -168,7 +169,7 @@ private:
     observe();
 
     const double end = settings().until.value_or(longestRun);
-    const std::int64_t sampleEvery = every(sampleInterval, clock_.coarseStep());
+    const std::int64_t sampleEvery = std::max(stepsPerSample, every(sampleInterval, clock_.coarseStep()));
     const double sampled = clock_.coarseStep() * static_cast<double>(sampleEvery);
     const std::int64_t trajectoryEvery = every(trajectoryInterval, sampled);
     const std::int64_t seriesEvery = every(seriesInterval, sampled);
@@ -347,6 +348,12 @@ void compareWithReferences(RunResult& result) {
   const BeamCase beam = beamCase(result.settings);
   f.errorStatic = errorFromStatic(result.samples, beam).mean;
   f.errorStaticAuthors = errorFromStatic(result.samples, beam, {.armOrigin = Case{}.startY}).mean;
+  std::vector<PairSample> straight = result.samples;
+  for (PairSample& sample : straight) {
+    sample.x[0].x = Case{}.startX;
+    sample.x[1].x = -Case{}.startX;
+  }
+  f.errorStaticVertical = errorFromStatic(straight, beam).mean;
   const auto compare = [&](double bendingFactor, double& atY, double& atTime) {
     atY = atTime = std::numeric_limits<double>::quiet_NaN();
     try {

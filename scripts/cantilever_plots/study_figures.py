@@ -6,7 +6,8 @@ import numpy
 from .data import PUBLISHED_ERROR, PUBLISHED_PEAK, PUBLISHED_SECONDS, START_ENERGY, numbers, read_table
 from .style import BLACK, BLUE, GREY, ORANGE, SKY, VERMILLION, save
 
-SCHEMES = {"conservative": (BLUE, "o", "conservative"), "paper": (VERMILLION, "s", "paper, as rebuilt here")}
+VARIANTS = {"conservative": (BLUE, "o", "conservative"), "conservative, linear": (SKY, "^", "with linear correction"),
+            "paper": (VERMILLION, "s", "paper, as rebuilt here")}
 
 
 class Study:
@@ -52,8 +53,10 @@ def draw_widths(source, path):
                ("lateral_drift_m", 1e3, 1e-7, "largest sideways drift (mm)"))
     for axes, (column, scale, floor, title) in zip(panels, columns):
         zeros = False
-        for scheme, (colour, marker, name) in SCHEMES.items():
-            rows = study.where("scheme", scheme) & study.ran
+        for variant, (colour, marker, name) in VARIANTS.items():
+            rows = numpy.array([label.rsplit(", c =", 1)[0] == variant for label in study.label]) & study.ran
+            if not rows.any():
+                continue
             zeros |= _log_with_zeros(axes, study["cg_width_diameters"][rows], scale * study[column][rows], floor,
                                      color=colour, marker=marker, label=name, zorder=3)
         published = {"time_mean_error_m": {c: scale * e for c, e in PUBLISHED_ERROR.items()},

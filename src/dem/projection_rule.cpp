@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "dovetail/dem/share_solver.hpp"
 #include "facet_view.hpp"
-#include "share_solver.hpp"
 #include "wall_sweep.hpp"
 
 namespace dovetail::dem {

@@ -1,4 +1,4 @@
-#include "share_solver.hpp"
+#include "dovetail/dem/share_solver.hpp"
 
 #include <algorithm>
 #include <cmath>

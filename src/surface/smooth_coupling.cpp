@@ -11,6 +11,9 @@ namespace dovetail::surface {
 
 namespace {
 
+constexpr double tolerance = 1e-13;  // of the radius
+constexpr int largestIterations = 200;
+
 double rowGain(const cg::Projection& map) {
   double gain = 0.0;
   for (int row = 0; row < map.rows(); ++row) {
@@ -100,36 +103,65 @@ void SmoothCoupling::locate(const dem::Particles& particles, std::span<const Vec
   for (int node : surfaceNodes_) nodesAtBuild_.push_back(u[node]);
 }
 
-void SmoothCoupling::findHits(const Vec3& x, double radius, std::span<const int> faces) {
+/// Patches closer than reach, the nearest first.
+void SmoothCoupling::findHits(const Vec3& x, double radius, double reach, std::span<const int> faces) {
   hits_.clear();
   auto* start = start_.data() + (faces.data() - candidate_.data());
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const PatchPoint at = closestPointOnPatch(surface_, faces[k], x, start[k]);
     start[k] = at.parameter;
-    if (at.squaredDistance >= radius * radius) continue;
+    if (!(at.squaredDistance < reach * reach)) continue;
     // The search ran into a side that another face continues: the true foot lies there.
     if (at.edge >= 0 && surface_.across[faces[k]][at.edge] >= 0 && leavesThrough(surface_, faces[k], at, x)) continue;
     const double distance = std::sqrt(at.squaredDistance);
     const Vec3 normal = distance > 1e-12 * radius ? (x - at.point) / distance : patchNormal(surface_, faces[k], at);
-    hits_.push_back({faces[k], at, normal, radius - distance, 0.0});
+    hits_.push_back({faces[k], at, normal, radius - distance, radius - distance, {}});
   }
   std::stable_sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) { return a.overlap > b.overlap; });
 }
 
-/// Shares of the overlap: max over λ ≥ 0 of δᵀλ − ½ λᵀGλ with G_ij = max(0, n_i · n_j), as for facets. A foot on a
-/// common edge is found by both faces; the first takes it all, because the second adds the same normal.
-void SmoothCoupling::resolveHits() {
-  for (int sweep = 0; sweep < 60; ++sweep) {
-    double change = 0.0;
-    for (std::size_t i = 0; i < hits_.size(); ++i) {
-      double rest = hits_[i].overlap;
-      for (std::size_t j = 0; j < hits_.size(); ++j)
-        if (j != i) rest -= std::max(0.0, dot(hits_[i].normal, hits_[j].normal)) * hits_[j].share;
-      rest = std::max(0.0, rest);
-      change = std::max(change, std::abs(rest - hits_[i].share));
-      hits_[i].share = rest;
+/// A patch as seen from y: δ = R − n·(x − c). The foot may have moved on to a neighbour.
+void SmoothCoupling::lookFrom(const Vec3& x, double radius, Hit& hit) const {
+  const Vec3 y = x + hit.position;
+  hit.at = closestPointOnPatch(surface_, hit.face, y, hit.at.parameter);
+  for (int hop = 0; hop < 4; ++hop) {
+    const int edge = hit.at.edge;
+    if (edge < 0 || surface_.across[hit.face][edge] < 0 || !leavesThrough(surface_, hit.face, hit.at, y)) break;
+    hit.face = surface_.across[hit.face][edge];
+    hit.at = closestPointOnPatch(surface_, hit.face, y, {0.5, 0.5});
+  }
+  const double distance = std::sqrt(hit.at.squaredDistance);
+  if (distance > 1e-12 * radius) hit.normal = (y - hit.at.point) / distance;
+  hit.overlap = radius - dot(hit.normal, x - hit.at.point);
+}
+
+/// yᵢ = x + Σ s′(nᵢ·nⱼ) λⱼ nⱼ; returns the largest change where a contact is active, m.
+double SmoothCoupling::moveHits() {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    hits_[i].share = shares_[i].carried;
+    Vec3 position;
+    for (const dem::Share& other : shares_)
+      if (other.carried > 0.0)
+        position += dem::couplingSlope(dot(shares_[i].normal, other.normal)) * other.carried * other.normal;
+    if (hits_[i].share > 0.0) largest = std::max(largest, squaredNorm(position - hits_[i].position));
+    hits_[i].position = position;
+  }
+  return std::sqrt(largest);
+}
+
+/// The potential of dem::projectWallContacts with patches in place of facets.
+void SmoothCoupling::shareOverlap(const Vec3& x, double radius) {
+  const Vec3 step = hits_[0].overlap * hits_[0].normal;
+  for (Hit& hit : hits_) hit.position = dot(hit.normal, step) >= 0.0 ? step : Vec3{};
+  for (int iteration = 0; iteration < largestIterations; ++iteration) {
+    shares_.clear();
+    for (Hit& hit : hits_) {
+      lookFrom(x, radius, hit);
+      shares_.push_back({hit.normal, hit.overlap, 0.0});
     }
-    if (hits_.size() < 2 || change <= 1e-15 * hits_[0].overlap) break;
+    solver_.solve(shares_, tolerance * radius);
+    if (moveHits() <= tolerance * radius) break;
   }
 }
 
@@ -138,16 +170,21 @@ void SmoothCoupling::findContacts(const dem::Particles& particles) {
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const std::span<const int> faces{candidate_.data() + offsets_[p],
                                      static_cast<std::size_t>(offsets_[p + 1] - offsets_[p])};
-    findHits(particles.x[p], particles.radius[p], faces);
-    resolveHits();
+    const Vec3& x = particles.x[p];
+    const double radius = particles.radius[p];
+    findHits(x, radius, radius, faces);
+    if (hits_.size() > 1) {
+      findHits(x, radius, radius + hits_[0].overlap, faces);
+      shareOverlap(x, radius);
+    }
     for (const Hit& hit : hits_) {
-      if (hit.share <= 0.0) continue;
+      if (!(hit.share > 0.0)) continue;
       contacts_.particle.push_back(static_cast<int>(p));
       contacts_.face.push_back(hit.face);
       contacts_.weight.push_back(hit.at.weight);
       contacts_.normal.push_back(hit.normal);
       contacts_.overlap.push_back(hit.share);
-      contacts_.engagement.push_back(hit.share / hit.overlap);
+      contacts_.engagement.push_back(std::min(1.0, hit.share / hit.overlap));
       contacts_.force.emplace_back();
     }
   }

@@ -38,6 +38,7 @@ TEST(Conservation, EveryWidthAndKernelKeepsEnergyAndForce) {
       Settings settings = shortSettings(0.3);
       settings.kernel = kernel;
       settings.cgWidth = width;
+      settings.correction = Correction::linear;
       const RunResult result = run(settings);
       const RunFigures& f = result.figures;
       EXPECT_TRUE(f.finished && f.stable) << f.failure;

@@ -175,7 +175,10 @@ TEST(Settings, ImpossibleOnesAreRefusedByTheirOptions) {
   check("--mesh", [](Settings& s) { s.mesh = {2000, 2000, 2000}; });
   check("--restitution", [](Settings& s) { s.restitution = 0.0; });
   check("--output-interval", [](Settings& s) { s.outputInterval = 0.0; });
-  check("--kernel-correction", [](Settings& s) { s.transfer = Transfer::spread; });
+  check("--kernel-correction", [](Settings& s) {
+    s.transfer = Transfer::spread;
+    s.correction = Correction::linear;
+  });
   check("--surface", [](Settings& s) {
     applyScheme(s, Scheme::paper);
     s.transfer = Transfer::adjoint;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "share_solver.hpp"
+#include "dovetail/dem/share_solver.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

@@ -100,7 +100,8 @@ TEST(CoarseGrainCorrection, RefusesABadWidthAndLeavesTheSkin) {
   const auto vertices = skin.X.size();
   EXPECT_THROW(coarseGrain(skin, {{cg::KernelShape::lucy, 2, -1.0}, {}}), InputError);
   EXPECT_THROW(coarseGrain(skin, {{cg::KernelShape::lucy, 2, std::nan("")}, {}}), InputError);
-  EXPECT_THROW(coarseGrain(skin, {{cg::KernelShape::lucy, 2, std::numeric_limits<double>::infinity()}, {}}), InputError);
+  EXPECT_THROW(coarseGrain(skin, {{cg::KernelShape::lucy, 2, std::numeric_limits<double>::infinity()}, {}}),
+               InputError);
   EXPECT_EQ(skin.X.size(), vertices);
 }
 

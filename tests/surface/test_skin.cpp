@@ -94,15 +94,20 @@ TEST(Skin, SharpEdgesSplitTheBoxIntoSixPatchesWithTheirOwnVertices) {
 
 /// Two unit squares that share an edge, the second turned up by `angle`.
 std::vector<Vec3> fold(double angle) {
-  return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-          {1 + std::cos(angle), 0, std::sin(angle)}, {1 + std::cos(angle), 1, std::sin(angle)}};
+  return {{0, 0, 0},
+          {1, 0, 0},
+          {1, 1, 0},
+          {0, 1, 0},
+          {1 + std::cos(angle), 0, std::sin(angle)},
+          {1 + std::cos(angle), 1, std::sin(angle)}};
 }
 const std::vector<Quad> foldFaces{{0, 1, 2, 3}, {1, 4, 5, 2}};
 
 TEST(Skin, AnEdgeIsSharpBeyondTheSharpAngle) {
   const double degree = std::numbers::pi / 180.0;
   for (double sign : {-1.0, 1.0}) {
-    Skin blunt = makeSkin(fold(sign * 59.9 * degree), foldFaces), sharp = makeSkin(fold(sign * 60.1 * degree), foldFaces);
+    Skin blunt = makeSkin(fold(sign * 59.9 * degree), foldFaces),
+         sharp = makeSkin(fold(sign * 60.1 * degree), foldFaces);
     splitAtSharpEdges(blunt);
     splitAtSharpEdges(sharp);
     EXPECT_EQ(blunt.X.size(), 8u);

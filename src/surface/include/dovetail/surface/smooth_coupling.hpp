@@ -10,6 +10,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/contact_work.hpp"
 #include "dovetail/dem/particles.hpp"
+#include "dovetail/dem/share_solver.hpp"
 #include "dovetail/surface/nodal_load.hpp"
 #include "dovetail/surface/smooth_surface.hpp"
 
@@ -27,7 +28,8 @@ struct SmoothContacts {
   void clear();
 };
 
-/// Conservative coupling on a SmoothSurface (see there for the potential).
+/// Conservative coupling on a SmoothSurface (see there for the potential). Patches that a particle touches at once, in
+/// the valleys of sharp edges, share the overlap as facets do (dem::projectWallContacts).
 class SmoothCoupling {
 public:
   /// @param margin  as CouplingOptions::margin
@@ -65,13 +67,17 @@ private:
     int face;
     PatchPoint at;
     Vec3 normal;
-    double overlap, share;
+    double overlap;  ///< m; < 0 where the patch is farther than the radius
+    double share;    ///< m
+    Vec3 position;   ///< y − x, the place from which the patch is seen
   };
   void locate(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v);
   void placeSurface(std::span<const Vec3> u, std::span<const Vec3> v);
   void findContacts(const dem::Particles& particles);
-  void findHits(const Vec3& x, double radius, std::span<const int> faces);
-  void resolveHits();
+  void findHits(const Vec3& x, double radius, double reach, std::span<const int> faces);
+  void shareOverlap(const Vec3& x, double radius);
+  void lookFrom(const Vec3& x, double radius, Hit& hit) const;
+  double moveHits();
   template <class Normal>
   dem::ContactWork collide(dem::Particles& particles, const Normal& normal);
   void bookNewContacts();
@@ -87,6 +93,8 @@ private:
   std::vector<Vec3> particlesAtBuild_, nodesAtBuild_;
   std::vector<std::array<double, 2>> start_;  // per candidate: where the last search ended
   std::vector<Hit> hits_;
+  std::vector<dem::Share> shares_;
+  dem::ShareSolver solver_;
   double gain_, margin0_ = 0.0;
   bool booksWork_ = false;
   double wallWork_ = 0.0;

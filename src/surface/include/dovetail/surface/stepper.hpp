@@ -158,18 +158,20 @@ void holdSkinAndStep(Model& model, double dt, int steps, WindowSums& sums, Profi
 
 }  // namespace detail
 
-/// One window of K DEM steps and one implicit FEM step of K dt, all forces at the same instant (Strang splitting). K =
-/// 1: half kick · particles drift and solid moves freely by Newmark · contacts · half kick. K > 1: K/2 DEM steps on the
-/// standing skin · solid · the other DEM steps. Every part conserves the energy it splits off.
+/// One window of K DEM steps and one implicit FEM step of K dt, all forces at the same instant (Strang splitting):
+/// ⌊K/2⌋ DEM steps on the standing skin · solid moves freely by Newmark · ⌊K/2⌋ DEM steps on the standing skin. For odd
+/// K the solid moves inside the middle DEM step, together with the particles' drift and between the halves of its kick.
+/// The window is symmetric in time for every K, so the energy error is second order. Even K needs one more contact
+/// evaluation, in which no DEM time passes: laws with history refuse it, they need odd K.
 template <class Model>
 WindowSums stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, const Scheme& scheme,
                         bool withEnergy, Profile& profile) {
   WindowSums sums;
   const double before = detail::wallWork(model);
   fem::Nodes& nodes = model.nodes;
-  if (K > 1) {
-    detail::holdSkinAndStep(model, dt, K / 2, sums, profile);
-  } else {
+  const bool insideStep = K % 2 == 1;
+  detail::holdSkinAndStep(model, dt, K / 2, sums, profile);
+  if (insideStep) {
     dem::kick(model.particles, 0.5 * dt);
     kickTouched(model.seam.load(), nodes, 0.5 * dt);
     dem::drift(model.particles, dt);
@@ -184,16 +186,15 @@ WindowSums stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, in
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = nodes.u[i] - moved[i];
     sums.madeByCoupling += workOf(model.seam.load(), moved, 0.5);
   }
-  const double stepOfThisEvaluation = K > 1 ? 0.0 : dt;  // for K > 1 the skin has moved but no DEM time has passed
-  detail::evaluateContacts(model, nodes.u, nodes.v, stepOfThisEvaluation, sums, profile);
-  if (K > 1) sums.stepsWithoutContact -= model.seam.inContact() ? 0 : 1;
+  detail::evaluateContacts(model, nodes.u, nodes.v, insideStep ? dt : 0.0, sums, profile);
   if (scheme.booksCoupling) sums.madeByCoupling += workOf(model.seam.load(), moved, 0.5);
-  if (K > 1) {
-    detail::holdSkinAndStep(model, dt, K - K / 2, sums, profile);
-  } else {
+  if (insideStep) {
     dem::kick(model.particles, 0.5 * dt);
     kickTouched(model.seam.load(), nodes, 0.5 * dt);
+  } else {
+    sums.stepsWithoutContact -= model.seam.inContact() ? 0 : 1;  // no DEM step of its own
   }
+  detail::holdSkinAndStep(model, dt, K / 2, sums, profile);
   if (withEnergy) model.strainEnergy = fem::strainEnergy(model.elements, nodes);
   if (scheme.booksCoupling) sums.madeByCoupling -= detail::wallWork(model) - before;
   return sums;
@@ -230,7 +231,9 @@ void stepSolid(Model& model, fem::NewmarkSolver* newmark, const NodalLoad& load,
 
 /// The staggered window (paper, Fig. 8): the solid makes its step under a load one step old (detail::laggingLoad), then
 /// the particles make K steps on the skin that moves from its old to its new place, or stays at the old one
-/// (Scheme::skinLags). A load that lags acts like negative damping; what it creates is returned in madeByCoupling.
+/// (Scheme::skinLags). A load that lags gives energy to a solid that gives way as a mass, and takes it from one that gives
+/// way as a spring; what it makes, first order in the step, is returned in madeByCoupling, for which the seam must book
+/// its wall work.
 /// @param newmark  null: the solid steps explicitly
 template <class Model>
 WindowSums stepStaggered(Model& model, fem::NewmarkSolver* newmark, double dt, int K, const Scheme& scheme,

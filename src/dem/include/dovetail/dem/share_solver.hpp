@@ -1,4 +1,4 @@
-// How several facets share the overlap with one particle: the small quadratic programme of EdgeRule::projected.
+// How several facets or patches share the overlap with one particle: the small quadratic programme of projectWallContacts.
 #pragma once
 
 #include <array>
