@@ -126,7 +126,7 @@ std::vector<StudyRow> ablationPlan(const Settings& base) {
       s.mass = MassMatrix::consistent;
     });
     Settings paper = withScheme(plain, Scheme::paper);
-    rows.push_back(planned("paper: all of them" + at, paper));
+    rows.push_back(planned("the paper's scheme" + at, paper));
   }
   return rows;
 }
