@@ -65,7 +65,9 @@ surface::Coupling makeSeam(const Settings& settings, const fem::Mesh& mesh) {
 surface::SmoothCoupling makeSmoothSeam(const Settings& settings, const fem::Mesh& mesh) {
   surface::Skin skin = makeCarryingSkin(settings, mesh);
   if (settings.cgWidth == 0.0) surface::splitAtSharpEdges(skin);
-  return surface::SmoothCoupling(surface::makeSmoothSurface(skin));
+  surface::SmoothCoupling seam(surface::makeSmoothSurface(skin));
+  seam.bookWallWork(couplingIsUnbalanced(settings));
+  return seam;
 }
 
 template <class Seam>
