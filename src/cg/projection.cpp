@@ -100,6 +100,24 @@ Projection product(const Projection& a, const Projection& b) {
   return fromRows(b.columns, rows);
 }
 
+Projection transposed(const Projection& map) {
+  Projection result;
+  result.columns = map.rows();
+  result.offsets.assign(static_cast<std::size_t>(map.columns) + 1, 0);
+  for (const int column : map.column) ++result.offsets[column + 1];
+  for (int column = 0; column < map.columns; ++column) result.offsets[column + 1] += result.offsets[column];
+  result.column.resize(map.column.size());
+  result.weight.resize(map.weight.size());
+  std::vector<int> next(result.offsets.begin(), result.offsets.end() - 1);
+  for (int row = 0; row < map.rows(); ++row)
+    for (int k = map.offsets[row]; k < map.offsets[row + 1]; ++k) {
+      const int place = next[map.column[k]]++;
+      result.column[place] = row;
+      result.weight[place] = map.weight[k];
+    }
+  return result;
+}
+
 void requireValid(const Projection& map) {
   if (map.columns < 0)
     throw InputError("the number of columns is " + std::to_string(map.columns), "projection", "give 0 or more");

@@ -10,8 +10,8 @@ constexpr double pi = std::numbers::pi;
 }
 
 LinearSpringDashpot::Prepared LinearSpringDashpot::prepare() const {
-  if (restitution == 1.0) return {stiffness, 0.0, tension};
-  return {stiffness, damping(1.0), tension};
+  if (restitution == 1.0) return {stiffness, 0.0, tension || bonded, bonded};
+  return {stiffness, damping(1.0), tension || bonded, bonded};
 }
 
 double LinearSpringDashpot::contactTime(double effectiveMass) const {

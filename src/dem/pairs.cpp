@@ -62,6 +62,7 @@ void findPairs(const Particles& particles, double skin, PairList& list) {
   if (springs) keepStretch(oldPairs, list.stretch, list);
   makeIncidence(particles.size(), list);
   list.positionAtBuild = particles.x;
+  list.scale.clear();
   ++list.builds;
 }
 

@@ -59,14 +59,27 @@ Matrix3 product(const Matrix3& a, const Matrix3& b) {
   return c;
 }
 
-std::array<GaussData, 8> gaussData(const BrickCorners& corners) {
+CornerValues cornerValues(const std::array<int, 8>& element, std::span<const double> field) {
+  CornerValues values;
+  for (std::size_t a = 0; a < 8; ++a) values[a] = field.empty() ? 1.0 : field[static_cast<std::size_t>(element[a])];
+  return values;
+}
+
+double interpolated(const CornerValues& values, const Vec3& xi) {
+  const CornerValues psi = shapeValues(xi);
+  double sum = values[0];
+  for (std::size_t a = 1; a < 8; ++a) sum += psi[a] * (values[a] - values[0]);
+  return sum;
+}
+
+std::array<GaussData, 8> gaussData(const BrickCorners& corners, const CornerValues& share) {
   std::array<GaussData, 8> data{};
   for (int p = 0; p < 8; ++p) {
     const Matrix3 J = jacobian(corners, gaussPoint(p));
     const Matrix3 K = inverse(J);
     const std::array<Vec3, 8> parent = parentGradients(gaussPoint(p));
     GaussData& point = data[static_cast<std::size_t>(p)];
-    point.weight = determinant(J);
+    point.weight = interpolated(share, gaussPoint(p)) * determinant(J);
     for (std::size_t a = 0; a < 8; ++a)
       for (int j = 0; j < 3; ++j) {
         const auto c = static_cast<std::size_t>(j);
@@ -76,22 +89,22 @@ std::array<GaussData, 8> gaussData(const BrickCorners& corners) {
   return data;
 }
 
-std::array<double, 8> nodalVolumes(const BrickCorners& corners) {
+std::array<double, 8> nodalVolumes(const BrickCorners& corners, const CornerValues& share) {
   std::array<double, 8> volume{};
-  const std::array<double, 64> products = shapeProducts(corners);
+  const std::array<double, 64> products = shapeProducts(corners, share);
   for (std::size_t a = 0; a < 8; ++a)
     for (std::size_t b = 0; b < 8; ++b) volume[a] += products[8 * a + b];
   return volume;
 }
 
-std::array<double, 64> shapeProducts(const BrickCorners& corners) {
+std::array<double, 64> shapeProducts(const BrickCorners& corners, const CornerValues& share) {
   const double outer = std::sqrt(0.6);
   const std::array<double, 3> point = {-outer, 0.0, outer}, weight = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
   std::array<double, 64> products{};
   for (std::size_t i = 0; i < 27; ++i) {
     const std::size_t x = i % 3, y = i / 3 % 3, z = i / 9;
     const Vec3 xi = {point[x], point[y], point[z]};
-    const double w = weight[x] * weight[y] * weight[z] * determinant(jacobian(corners, xi));
+    const double w = weight[x] * weight[y] * weight[z] * interpolated(share, xi) * determinant(jacobian(corners, xi));
     const std::array<double, 8> psi = shapeValues(xi);
     for (std::size_t a = 0; a < 8; ++a)
       for (std::size_t b = 0; b < 8; ++b) products[8 * a + b] += w * psi[a] * psi[b];

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dovetail/core/vec3.hpp"
+#include "dovetail/fem/shape.hpp"
 
 namespace dovetail::fem {
 
@@ -24,27 +25,31 @@ inline constexpr std::array<std::array<int, 3>, 8> parentSign = {
 BrickCorners cornersOf(const std::array<int, 8>& element, std::span<const Vec3> X);
 /// Parent coordinates of Gauss point p: bit 0, 1, 2 of p set means +ξ, +η, +ζ.
 Vec3 gaussPoint(int p);
-/// ψ_a(ξ) of the eight nodes.
-std::array<double, 8> shapeValues(const Vec3& xi);
-/// ∂ψ_a/∂ξ_j of the eight nodes.
-std::array<Vec3, 8> parentGradients(const Vec3& xi);
 /// ∂X_i/∂ξ_j.
 Matrix3 jacobian(const BrickCorners& corners, const Vec3& xi);
 double determinant(const Matrix3& m);
 Matrix3 inverse(const Matrix3& m);
 Matrix3 product(const Matrix3& a, const Matrix3& b);
 
+/// A field at the eight local nodes of a brick.
+using CornerValues = std::array<double, 8>;
+/// Values of the element's corners of a nodal field; ones if the field is empty.
+CornerValues cornerValues(const std::array<int, 8>& element, std::span<const double> field);
+/// The trilinear interpolation of corner values at ξ; exact where they are all the same.
+double interpolated(const CornerValues& values, const Vec3& xi);
+
 /// What a Gauss point of a brick needs: ∂ψ_a/∂X and the weight det ∂X/∂ξ, m³.
 struct GaussData {
   std::array<Vec3, 8> gradient;
   double weight;
 };
-std::array<GaussData, 8> gaussData(const BrickCorners& corners);
+/// @param share  weight of the integrand at the corners, interpolated
+std::array<GaussData, 8> gaussData(const BrickCorners& corners, const CornerValues& share);
 
-/// ∫ψ_a dV, m³.
-std::array<double, 8> nodalVolumes(const BrickCorners& corners);
-/// ∫ψ_a ψ_b dV, row-major, m³; 3×3×3 Gauss points, exact for any trilinear brick.
-std::array<double, 64> shapeProducts(const BrickCorners& corners);
+/// ∫w ψ_a dV, m³, w interpolated from `share`.
+std::array<double, 8> nodalVolumes(const BrickCorners& corners, const CornerValues& share);
+/// ∫w ψ_a ψ_b dV, row-major, m³; 3×3×3 Gauss points, exact for parallelepipeds.
+std::array<double, 64> shapeProducts(const BrickCorners& corners, const CornerValues& share);
 
 /// Values of the 18 stress modes of Pian & Tong (1986) at ξ, as a row-major 6 × 18 matrix with rows
 /// 11, 22, 33, 12, 23, 31 along the parent axes: 11: 1 η ζ ηζ; 22: 1 ξ ζ ξζ; 33: 1 ξ η ξη; 12: 1 ζ; 23: 1 ξ; 31: 1 η.

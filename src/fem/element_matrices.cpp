@@ -106,9 +106,10 @@ void addGeometricStiffness(const GaussData& point, const Vector6& stress, Matrix
     }
 }
 
-Matrix24 pointwiseTangent(const BrickCorners& corners, const BrickCorners& u, const Material& material) {
+Matrix24 pointwiseTangent(const BrickCorners& corners, const CornerValues& share, const BrickCorners& u,
+                          const Material& material) {
   Matrix24 K = Matrix24::Zero();
-  for (const GaussData& point : gaussData(corners)) {
+  for (const GaussData& point : gaussData(corners, share)) {
     const Eigen::Matrix3d F = deformationGradient(point, u);
     const StrainMatrix B = strainMatrix(point, F);
     Matrix6 D;
@@ -132,11 +133,12 @@ ModeMatrix pushedModes(const Matrix3& J0, const Vec3& xi) {
   return pushed;
 }
 
-Matrix24 hybridTangent(const BrickCorners& corners, const BrickCorners& u, const Material& material) {
+Matrix24 hybridTangent(const BrickCorners& corners, const CornerValues& share, const BrickCorners& u,
+                       const Material& material) {
   const Matrix3 J0 = jacobian(corners, {0.0, 0.0, 0.0});
-  const std::array<double, 324> raw = hybridStiffness(corners, material);
+  const std::array<double, 324> raw = hybridStiffness(corners, share, material);
   const Eigen::Map<const Eigen::Matrix<double, 18, 18>> stiffness(raw.data());
-  const std::array<GaussData, 8> points = gaussData(corners);
+  const std::array<GaussData, 8> points = gaussData(corners, share);
   std::array<ModeMatrix, 8> modes;
   Eigen::Matrix<double, 18, 24> L = Eigen::Matrix<double, 18, 24>::Zero();
   Eigen::Matrix<double, 18, 1> moments = Eigen::Matrix<double, 18, 1>::Zero();
@@ -157,13 +159,14 @@ Matrix24 hybridTangent(const BrickCorners& corners, const BrickCorners& u, const
 
 }  // namespace
 
-std::array<double, 324> hybridStiffness(const BrickCorners& corners, const Material& material) {
+std::array<double, 324> hybridStiffness(const BrickCorners& corners, const CornerValues& share,
+                                        const Material& material) {
   const Matrix3 J0 = jacobian(corners, {0.0, 0.0, 0.0});
   const Matrix6 C = compliance(material);
   Eigen::Matrix<double, 18, 18> H = Eigen::Matrix<double, 18, 18>::Zero();
   for (int p = 0; p < 8; ++p) {
     const ModeMatrix P = pushedModes(J0, gaussPoint(p));
-    H += determinant(jacobian(corners, gaussPoint(p))) * P.transpose() * C * P;
+    H += interpolated(share, gaussPoint(p)) * determinant(jacobian(corners, gaussPoint(p))) * P.transpose() * C * P;
   }
   std::array<double, 324> result{};
   Eigen::Map<Eigen::Matrix<double, 18, 18>> inverse(result.data());
@@ -177,8 +180,9 @@ std::array<double, 576> elementTangent(const ElementBlock& block, const Nodes& n
   const BrickCorners corners = cornersOf(numbers, block.X()), u = cornersOf(numbers, nodes.u);
   std::array<double, 576> result{};
   Eigen::Map<Eigen::Matrix<double, 24, 24, Eigen::RowMajor>> K(result.data());
-  K = block.type() == ElementType::hybrid8 ? hybridTangent(corners, u, block.material())
-                                           : pointwiseTangent(corners, u, block.material());
+  const CornerValues share = cornerValues(numbers, block.nodalWeight());
+  K = block.type() == ElementType::hybrid8 ? hybridTangent(corners, share, u, block.material())
+                                           : pointwiseTangent(corners, share, u, block.material());
   return result;
 }
 
@@ -194,7 +198,8 @@ void addLumpedMass(const ElementBlock& block, Nodes& nodes) {
   if (nodes.mass.size() != block.nodeCount())
     throw InputError("the nodes are not those of the elements", "addLumpedMass", "use the nodes of the same mesh");
   for (const auto& element : block.elements()) {
-    const std::array<double, 8> volume = nodalVolumes(cornersOf(element, block.X()));
+    const std::array<double, 8> volume =
+        nodalVolumes(cornersOf(element, block.X()), cornerValues(element, block.nodalWeight()));
     for (std::size_t a = 0; a < 8; ++a)
       nodes.mass[static_cast<std::size_t>(element[a])] += density(block.material()) * volume[a];
   }
@@ -203,7 +208,8 @@ void addLumpedMass(const ElementBlock& block, Nodes& nodes) {
 SparseMatrix consistentMass(const ElementBlock& block) {
   NodePattern pattern(block.elements(), block.nodeCount());
   for (const auto& element : block.elements()) {
-    const std::array<double, 64> products = shapeProducts(cornersOf(element, block.X()));
+    const std::array<double, 64> products =
+        shapeProducts(cornersOf(element, block.X()), cornerValues(element, block.nodalWeight()));
     std::array<double, 576> M{};
     for (std::size_t a = 0; a < 8; ++a)
       for (std::size_t b = 0; b < 8; ++b)

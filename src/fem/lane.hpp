@@ -74,6 +74,7 @@ struct ElementCache {
   LawConstants constants;
   std::vector<std::array<int, 8>> elements;
   std::vector<Vec3> X;
+  std::vector<double> nodalWeight;  ///< of the integrand; empty = 1
   std::vector<Batch> batches;
   std::vector<BoxGeometry> boxes;
   std::vector<GeneralGeometry> general;

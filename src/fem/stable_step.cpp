@@ -17,7 +17,8 @@ namespace {
 double largestEigenvalue(const ElementBlock& block, const Nodes& rest, std::size_t element) {
   const std::array<double, 576> raw = elementTangent(block, rest, element);
   Eigen::Matrix<double, 24, 24> K = Eigen::Map<const Eigen::Matrix<double, 24, 24>>(raw.data());
-  const std::array<double, 8> volume = nodalVolumes(cornersOf(block.elements()[element], block.X()));
+  const std::array<double, 8> volume = nodalVolumes(cornersOf(block.elements()[element], block.X()),
+                                                    cornerValues(block.elements()[element], block.nodalWeight()));
   Eigen::Matrix<double, 24, 1> scale;
   for (int i = 0; i < 24; ++i)
     scale[i] = 1.0 / std::sqrt(density(block.material()) * volume[static_cast<std::size_t>(i / 3)]);
@@ -26,14 +27,16 @@ double largestEigenvalue(const ElementBlock& block, const Nodes& rest, std::size
   return solver.eigenvalues()[23];
 }
 
-using Shape = std::array<long long, 21>;
+using Shape = std::array<long long, 29>;
 
-/// Edges from the first corner in units of `quantum`: equal for elements that are copies of each other.
-Shape shapeOf(const BrickCorners& corners, double quantum) {
+/// Edges from the first corner in units of `quantum`, and the weights: equal for elements that are copies of each
+/// other.
+Shape shapeOf(const BrickCorners& corners, const CornerValues& share, double quantum) {
   Shape shape{};
   for (std::size_t a = 1; a < 8; ++a)
     for (int c = 0; c < 3; ++c)
       shape[3 * (a - 1) + static_cast<std::size_t>(c)] = std::llround((corners[a][c] - corners[0][c]) / quantum);
+  for (std::size_t a = 0; a < 8; ++a) shape[21 + a] = std::llround(1e12 * share[a]);
   return shape;
 }
 
@@ -77,7 +80,10 @@ StableStep stableStep(const ElementBlock& block) {
   StableStep limit{0.0, -1};
   double largest = 0.0;
   for (std::size_t e = 0; e < block.size(); ++e) {
-    const auto [entry, isNew] = known.try_emplace(shapeOf(cornersOf(block.elements()[e], block.X()), quantum), 0.0);
+    const auto [entry, isNew] =
+        known.try_emplace(shapeOf(cornersOf(block.elements()[e], block.X()),
+                                  cornerValues(block.elements()[e], block.nodalWeight()), quantum),
+                          0.0);
     if (!isNew) continue;
     entry->second = largestEigenvalue(block, rest, e);
     if (entry->second > largest) {

@@ -38,6 +38,9 @@ Projection identityProjection(int size);
 /// @throws InputError if a.columns != b.rows()
 Projection product(const Projection& a, const Projection& b);
 
+/// Pᵀ by rows: its `apply` gathers what applyTransposed(P) scatters.
+Projection transposed(const Projection& map);
+
 /// @throws InputError if the arrays disagree in length, columns are out of range or not ascending, or a weight is not
 ///         finite (names the row)
 void requireValid(const Projection& map);

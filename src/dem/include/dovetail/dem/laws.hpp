@@ -21,12 +21,15 @@ struct LinearSpringDashpot {
   double stiffness = 0.0;    ///< k, N/m
   double restitution = 1.0;  ///< e, in (0, 1]; 1 = no dashpot
   bool tension = true;       ///< whether the dashpot may pull while the overlap closes
+  bool bonded = false;  ///< pairs only: every pair of the list holds together, F = k δ for δ < 0 too. The list is
+                        ///< then made once, with the pairs that are to be bonds, and kept
 
   /// What the contact loop uses: logarithm and root are taken once per list.
   struct Prepared {
     double stiffness;
     double dampingPerRootMass;  ///< c/√m
     bool tension;
+    bool bonded;
 
     /// @param overlap    λ ≥ 0, m, the part of the overlap that the contact carries
     /// @param separating n·(v_particle − v_other), m/s, > 0 while the overlap closes

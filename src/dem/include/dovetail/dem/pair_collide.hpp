@@ -42,11 +42,12 @@ ContactWork pairForce(const Particles& particles, PairList& list, std::size_t p,
                       double dt) {
   const auto i = static_cast<std::size_t>(list.pairs[p][0]), j = static_cast<std::size_t>(list.pairs[p][1]);
   const PairContact contact = pairContact(particles, i, j);
+  const double scale = list.scale.empty() ? 1.0 : list.scale[p];
   ContactWork work;
   list.force[p] = {};
-  if (!(contact.overlap > 0.0)) {
+  if (!(contact.overlap > 0.0) && !normal.bonded) {
     if constexpr (Law::hasHistory) {
-      work.frictionPower = 0.5 * law.tangential.stiffness * squaredNorm(list.stretch[p]) / dt;
+      work.frictionPower = 0.5 * scale * law.tangential.stiffness * squaredNorm(list.stretch[p]) / dt;
       list.stretch[p] = {};
     }
     return work;
@@ -56,16 +57,20 @@ ContactWork pairForce(const Particles& particles, PairList& list, std::size_t p,
     if (particles.rotates())
       velocity += cross(particles.omega[i], contact.armI) - cross(particles.omega[j], contact.armJ);
   const double separating = dot(contact.normal, velocity);
-  const double rootMass = std::sqrt(particles.mass[i] * (particles.mass[j] / (particles.mass[i] + particles.mass[j])));
+  // Masses carry the scale too, so it is divided out of the effective one.
+  const double rootMass =
+      normal.dampingPerRootMass > 0.0 && scale > 0.0
+          ? std::sqrt(particles.mass[i] * (particles.mass[j] / (particles.mass[i] + particles.mass[j])) / scale)
+          : 0.0;
   const double pressure = normal.force(contact.overlap, separating, 1.0, rootMass);
-  list.force[p] = pressure * contact.normal;
-  work.elasticEnergy = normal.energy(contact.overlap, 1.0);
-  work.dissipatedPower = (normal.elasticForce(contact.overlap) - pressure) * separating;
+  list.force[p] = scale * pressure * contact.normal;
+  work.elasticEnergy = scale * normal.energy(contact.overlap, 1.0);
+  work.dissipatedPower = scale * (normal.elasticForce(contact.overlap) - pressure) * separating;
   if constexpr (Law::hasHistory) {
     const auto grip = law.tangential.respond(list.stretch[p], contact.normal, velocity, pressure, dt);
-    list.force[p] += grip.force;
-    work.tangentialEnergy = grip.energy;
-    work.frictionPower = grip.slipWork / dt;
+    list.force[p] += scale * grip.force;
+    work.tangentialEnergy = scale * grip.energy;
+    work.frictionPower = scale * grip.slipWork / dt;
   }
   return work;
 }

@@ -16,6 +16,9 @@ struct PairList {
   std::vector<std::array<int, 2>> pairs;  ///< i < j, sorted
   std::int64_t builds = 0;
 
+  /// Per pair: factor on its force and energies, such as the particles' share of an overlap; empty = 1. A new list has
+  /// none; whoever set it sets it again when `builds` has changed.
+  std::vector<double> scale;
   std::vector<Vec3> positionAtBuild;
   std::vector<Vec3> force;    ///< per pair, on particle i, N; set by collide
   std::vector<Vec3> stretch;  ///< per pair, tangential spring, m; empty unless the law has one

@@ -42,6 +42,8 @@ public:
   std::span<const std::array<int, 8>> elements() const;
   /// Reference positions of the nodes, m.
   std::span<const Vec3> X() const;
+  /// Weight of the integrand at the nodes; empty = 1 throughout.
+  std::span<const double> nodalWeight() const;
   /// Elements that use the faster kernel for boxes along the axes.
   std::size_t boxes() const;
   detail::ElementCache& cache() const { return *cache_; }
@@ -52,8 +54,13 @@ private:
   std::shared_ptr<detail::ElementCache> cache_;
 };
 
-/// @throws InputError for an invalid mesh or material, or hybrid8 with another law than StVenantKirchhoff
-ElementBlock makeElements(const Mesh& mesh, ElementType type, const Material& material);
+/// @param nodalWeight  per node, 0 … 1, interpolated to the Gauss points: every integral below (energy, force, mass,
+///        tangent) is weighted by it, as the solid's share of an overlap is. Empty = 1 throughout.
+/// @throws InputError for an invalid mesh or material, weights that are not one per node or not within 0 … 1, or
+/// hybrid8
+///         with another law than StVenantKirchhoff
+ElementBlock makeElements(const Mesh& mesh, ElementType type, const Material& material,
+                          std::span<const double> nodalWeight = {});
 
 /// f −= ∂U/∂u (for DeformedMetricHooke: f −= ∫ δEᵀS). Bitwise the same for any number of threads.
 /// @return the strain energy, J, if `withEnergy`, else 0

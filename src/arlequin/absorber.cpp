@@ -1,0 +1,63 @@
+#include "dovetail/arlequin/absorber.hpp"
+
+#include "dovetail/core/finite.hpp"
+
+namespace dovetail::arlequin {
+
+namespace {
+
+/// Φ with the gap's rows for columns; weights of nodes without a row are left out and the rest made to sum to one.
+cg::Projection onRows(const cg::Projection& interpolation, const std::vector<int>& node) {
+  std::vector<int> row(static_cast<std::size_t>(interpolation.columns), -1);
+  for (std::size_t r = 0; r < node.size(); ++r) row[static_cast<std::size_t>(node[r])] = static_cast<int>(r);
+  std::vector<cg::ProjectionRow> rows(static_cast<std::size_t>(interpolation.rows()));
+  for (int k = 0; k < interpolation.rows(); ++k) {
+    double sum = 0.0;
+    for (int e = interpolation.offsets[k]; e < interpolation.offsets[k + 1]; ++e)
+      if (row[interpolation.column[e]] >= 0) sum += interpolation.weight[e];
+    for (int e = interpolation.offsets[k]; e < interpolation.offsets[k + 1]; ++e)
+      if (row[interpolation.column[e]] >= 0 && sum > 0.0)
+        rows[static_cast<std::size_t>(k)].emplace_back(row[interpolation.column[e]], interpolation.weight[e] / sum);
+  }
+  return cg::fromRows(static_cast<int>(node.size()), rows);
+}
+
+}  // namespace
+
+Absorber::Absorber(const Overlap& overlap, const GapOperator& gap, const cg::Projection& interpolation,
+                   std::span<const double> particleMass, double rate)
+    : overlap_(overlap),
+      coarse_(gap.particles),
+      coarseBack_(gap.particlesBack),
+      fine_(onRows(interpolation, gap.node)),
+      fineBack_(cg::transposed(fine_)) {
+  requirePositive(rate, "absorber");
+  for (std::size_t k = 0; k < overlap.size(); ++k)
+    damping_.push_back(rate * (1.0 - overlap.weight[k]) * particleMass[overlap.particle[k]]);
+  force_.assign(overlap.size(), {});
+  forceBefore_ = here_ = back_ = force_;
+  rows_.resize(gap.rows());
+}
+
+void Absorber::apply(std::span<const Vec3> v, std::span<Vec3> f) {
+  forceBefore_.swap(force_);
+  for (std::size_t k = 0; k < here_.size(); ++k) here_[k] = v[overlap_.particle[k]];
+  cg::apply(coarse_, here_, rows_);
+  cg::apply(fine_, rows_, back_);
+  for (std::size_t k = 0; k < here_.size(); ++k) here_[k] = damping_[k] * (here_[k] - back_[k]);  // D R v
+  cg::apply(fineBack_, here_, rows_);
+  cg::apply(coarseBack_, rows_, back_);
+  for (std::size_t k = 0; k < here_.size(); ++k) {
+    force_[k] = back_[k] - here_[k];
+    f[overlap_.particle[k]] += force_[k];
+  }
+}
+
+double Absorber::workOfStep(std::span<const Vec3> v, double dt) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < force_.size(); ++k)
+    sum -= 0.5 * dt * dot(force_[k] + forceBefore_[k], v[overlap_.particle[k]]);
+  return sum;
+}
+
+}  // namespace dovetail::arlequin

@@ -1,0 +1,125 @@
+#include "dovetail/arlequin/coupling.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+
+namespace dovetail::arlequin {
+
+namespace {
+
+/// Edge of a cube with the volume of the first element of the overlap, m.
+double elementSize(const Solid& solid, const Overlap& overlap) {
+  const auto& element = solid.mesh.elements[static_cast<std::size_t>(overlap.elements.front())];
+  Vec3 lower = solid.mesh.X[static_cast<std::size_t>(element[0])], upper = lower;
+  for (const int n : element)
+    for (int c = 0; c < 3; ++c) {
+      lower[c] = std::min(lower[c], solid.mesh.X[static_cast<std::size_t>(n)][c]);
+      upper[c] = std::max(upper[c], solid.mesh.X[static_cast<std::size_t>(n)][c]);
+    }
+  return std::cbrt((upper.x - lower.x) * (upper.y - lower.y) * (upper.z - lower.z));
+}
+
+/// w must fall from 1 to 0 over at least one whole element.
+void requireWidth(const Overlap& overlap, const Solid& solid) {
+  for (const int e : overlap.elements) {
+    double least = 1.0, most = 0.0;
+    for (const int n : solid.mesh.elements[static_cast<std::size_t>(e)]) {
+      least = std::min(least, overlap.nodalWeight[static_cast<std::size_t>(n)]);
+      most = std::max(most, overlap.nodalWeight[static_cast<std::size_t>(n)]);
+    }
+    if (most - least < 1.0 - 1e-12) return;
+  }
+  throw InputError("the overlap is narrower than an element: the weights fall from 1 to 0 within one", "overlap",
+                   "widen the overlap or refine the mesh there");
+}
+
+std::unique_ptr<Constraint> makeConstraint(const Coupling& c, const dem::Particles& particles, const Solid& solid) {
+  const CouplingOptions& o = c.options;
+  const double automatic =
+      automaticPenalty(fem::youngsModulus(solid.elements.material()), elementSize(solid, c.overlap));
+  switch (o.constraint) {
+    case ConstraintKind::penalty:
+    case ConstraintKind::stress:
+      return makePenalty(c.gap, o.penalty == 0.0 ? automatic : o.penalty);
+    case ConstraintKind::dashpot:
+      return makeDashpot(c.gap, o.penalty, o.consistentDashpot);
+    case ConstraintKind::multiplier:
+      return makeMultiplier(c.gap, c.overlap, particles.mass, solid.nodes, solid.mass ? &*solid.mass : nullptr);
+  }
+  throw InputError("there is no such constraint", "coupling", "take penalty, multiplier, dashpot or stress");
+}
+
+/// The mesh where its nodes are now.
+fem::Mesh movedMesh(const Solid& solid) {
+  fem::Mesh mesh = solid.mesh;
+  for (std::size_t n = 0; n < mesh.X.size(); ++n) mesh.X[n] = solid.nodes.X[n] + solid.nodes.u[n];
+  return mesh;
+}
+
+void setUp(Coupling& c, dem::Particles& particles, dem::PairList& pairs, const Solid& solid) {
+  weighMass(c.overlap, c.fullMass, particles);
+  weighContacts(particles, solid.mesh.elements, solid.nodes, c.overlap, pairs);
+  c.gap = makeGapOperator(c.overlap, movedMesh(solid), particles, c.fullMass, c.options.form, c.options.projection);
+  c.constraint = makeConstraint(c, particles, solid);
+  if (c.options.absorberRate > 0.0)
+    c.absorber = std::make_unique<Absorber>(
+        c.overlap, c.gap, interpolationAtParticles(c.overlap, solid.mesh.elements, solid.mesh.X.size()), particles.mass,
+        c.options.absorberRate);
+  if (c.options.constraint == ConstraintKind::stress) {
+    const fem::Material& material = solid.elements.material();
+    c.stress = std::make_unique<StressTerm>(c.overlap, solid.mesh, solid.nodes, particles, pairs,
+                                            requirePositive(c.options.contactStiffness, "contact stiffness"),
+                                            fem::youngsModulus(material), fem::poissonRatio(material),
+                                            c.options.stressPenalty);
+  }
+  c.increment.assign(c.rows(), {});
+  c.nodeForce.assign(solid.nodes.X.size(), {});
+}
+
+}  // namespace
+
+double Coupling::storedEnergy() const { return constraint->storedEnergy(gapNow) + (stress ? stress->energy() : 0.0); }
+
+Coupling makeCoupling(dem::Particles& particles, dem::PairList& pairs, const Solid& solid,
+                      std::span<const double> nodalWeight, const CouplingOptions& options) {
+  requireNonNegative(options.penalty, "penalty");
+  requireNonNegative(options.absorberRate, "absorber");
+  Coupling c;
+  c.options = options;
+  c.fullMass = particles.mass;
+  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes, nodalWeight);
+  requireWidth(c.overlap, solid);
+  setUp(c, particles, pairs, solid);
+  c.gapNow.assign(c.rows(), {});
+  c.lambda.assign(c.rows(), {});
+  c.lambdaBefore = c.lambda;
+  return c;
+}
+
+Handover renew(Coupling& c, dem::Particles& particles, dem::PairList& pairs, const Solid& solid) {
+  const std::vector<int> oldNode = c.gap.node;
+  const std::vector<Vec3> oldGap = c.gapNow, oldLambda = c.lambda;
+  Handover handover;
+  handover.energy = dem::kineticEnergy(particles) + c.storedEnergy();
+  handover.momentum = dem::momentum(particles);
+  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes, c.overlap.nodalWeight);
+  setUp(c, particles, pairs, solid);
+  std::map<int, std::size_t> rowOf;
+  for (std::size_t r = 0; r < oldNode.size(); ++r) rowOf[oldNode[r]] = r;
+  c.gapNow.assign(c.rows(), {});
+  c.lambda.assign(c.rows(), {});
+  for (std::size_t r = 0; r < c.rows(); ++r)
+    if (const auto found = rowOf.find(c.gap.node[r]); found != rowOf.end()) {
+      c.gapNow[r] = oldGap[found->second];
+      c.lambda[r] = oldLambda[found->second];
+    }
+  c.lambdaBefore = c.lambda;
+  handover.energy -= dem::kineticEnergy(particles) + c.storedEnergy();
+  handover.momentum -= dem::momentum(particles);
+  return handover;
+}
+
+}  // namespace dovetail::arlequin

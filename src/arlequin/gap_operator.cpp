@@ -1,0 +1,227 @@
+#include "dovetail/arlequin/gap_operator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/shape.hpp"
+
+namespace dovetail::arlequin {
+
+namespace {
+
+constexpr std::size_t grain = 256;
+using Rows = std::vector<cg::ProjectionRow>;
+
+/// A point of a quadrature in a brick: shape functions, place and weight (m³).
+struct QuadraturePoint {
+  std::array<double, 8> shape;
+  Vec3 x;
+  double weight;
+};
+
+double volumeFactor(const fem::Mesh& mesh, const std::array<int, 8>& element, const Vec3& xi) {
+  const std::array<Vec3, 8> gradient = fem::parentGradients(xi);
+  std::array<Vec3, 3> J;  // column j = ∂X/∂ξ_j
+  for (std::size_t a = 0; a < 8; ++a)
+    for (int j = 0; j < 3; ++j)
+      J[static_cast<std::size_t>(j)] += gradient[a][j] * mesh.X[static_cast<std::size_t>(element[a])];
+  return dot(J[0], cross(J[1], J[2]));
+}
+
+/// Points of a brick cut into cells³ parts with 2×2×2 Gauss points each.
+std::vector<QuadraturePoint> quadrature(const fem::Mesh& mesh, const std::array<int, 8>& element, int cells) {
+  const double gauss = 1.0 / std::sqrt(3.0), size = 1.0 / cells;
+  std::vector<double> line;
+  for (int c = 0; c < cells; ++c)
+    for (const double side : {-gauss, gauss}) line.push_back(-1.0 + size * (2.0 * c + 1.0 + side));
+  std::vector<QuadraturePoint> points;
+  for (const double z : line)
+    for (const double y : line)
+      for (const double x : line) {
+        QuadraturePoint point{fem::shapeValues({x, y, z}), {}, size * size * size};
+        point.weight *= volumeFactor(mesh, element, {x, y, z});
+        for (std::size_t a = 0; a < 8; ++a) point.x += point.shape[a] * mesh.X[static_cast<std::size_t>(element[a])];
+        points.push_back(point);
+      }
+  return points;
+}
+
+/// Row of each node of the overlap's elements, −1 elsewhere.
+std::vector<int> numberRows(const Overlap& overlap, const fem::Mesh& mesh, std::vector<int>& node) {
+  std::vector<int> row(mesh.X.size(), -1);
+  for (const int e : overlap.elements)
+    for (const int n : mesh.elements[static_cast<std::size_t>(e)]) row[n] = 0;
+  for (std::size_t n = 0; n < row.size(); ++n)
+    if (row[n] == 0) {
+      row[n] = static_cast<int>(node.size());
+      node.push_back(static_cast<int>(n));
+    }
+  return row;
+}
+
+void addLocalRows(const Overlap& overlap, const fem::Mesh& mesh, std::span<const double> mass,
+                  const std::vector<int>& row, Rows& rows) {
+  for (std::size_t k = 0; k < overlap.size(); ++k) {
+    if (!(overlap.weight[k] > 0.0)) continue;
+    const auto& element = mesh.elements[static_cast<std::size_t>(overlap.place[k].element)];
+    for (std::size_t a = 0; a < 8; ++a) {
+      const double value = mass[static_cast<std::size_t>(overlap.particle[k])] * overlap.place[k].shape[a];
+      if (value > 0.0) rows[static_cast<std::size_t>(row[element[a]])].emplace_back(static_cast<int>(k), value);
+    }
+  }
+}
+
+double elementSize(const fem::Mesh& mesh, int element) {
+  double volume = 0.0;
+  for (const QuadraturePoint& point : quadrature(mesh, mesh.elements[static_cast<std::size_t>(element)], 1))
+    volume += point.weight;
+  return std::cbrt(volume);
+}
+
+/// Dense in the reach of the kernel: every row gathers by element, in the order of the elements.
+void addKernelRows(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
+                   std::span<const double> mass, const ProjectionOptions& options, const std::vector<int>& row,
+                   Rows& rows) {
+  const cg::Kernel kernel{options.kernel, 3, options.width};
+  std::vector<std::vector<double>> dense(rows.size(), std::vector<double>(overlap.size(), 0.0));
+  for (const int e : overlap.elements) {
+    const auto& element = mesh.elements[static_cast<std::size_t>(e)];
+    const double size = elementSize(mesh, e);
+    const int cells = std::clamp(static_cast<int>(std::ceil(1.5 * size / options.width)), 1, 8);
+    const std::vector<QuadraturePoint> points = quadrature(mesh, element, cells);
+    parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        if (!(overlap.weight[k] > 0.0)) continue;
+        const auto i = static_cast<std::size_t>(overlap.particle[k]);
+        std::array<double, 8> sum{};
+        for (const QuadraturePoint& point : points) {
+          const double distance = norm(point.x - particles.x[i]);
+          if (distance >= options.width) continue;
+          const double value = point.weight * kernel(distance);
+          for (std::size_t a = 0; a < 8; ++a) sum[a] += value * point.shape[a];
+        }
+        for (std::size_t a = 0; a < 8; ++a) dense[static_cast<std::size_t>(row[element[a]])][k] += mass[i] * sum[a];
+      }
+    });
+  }
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (std::size_t k = 0; k < overlap.size(); ++k)
+      if (dense[r][k] > 0.0) rows[r].emplace_back(static_cast<int>(k), dense[r][k]);
+}
+
+void normalise(Rows& rows) {
+  for (cg::ProjectionRow& row : rows) {
+    double sum = 0.0;
+    for (const auto& entry : row) sum += entry.second;
+    for (auto& entry : row) entry.second /= sum;
+  }
+}
+
+/// Leaves out rows without a particle.
+void dropEmptyRows(Rows& rows, std::vector<int>& node) {
+  std::size_t kept = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (rows[r].empty()) continue;
+    if (kept != r) {
+      rows[kept] = std::move(rows[r]);
+      node[kept] = node[r];
+    }
+    ++kept;
+  }
+  rows.resize(kept);
+  node.resize(kept);
+}
+
+/// Volumes and ∫ψ_iψ_j of the rows.
+void addVolumes(const Overlap& overlap, const fem::Mesh& mesh, GapOperator& gap) {
+  std::vector<int> row(mesh.X.size(), -1);
+  for (std::size_t r = 0; r < gap.node.size(); ++r) row[static_cast<std::size_t>(gap.node[r])] = static_cast<int>(r);
+  gap.volume.assign(gap.rows(), 0.0);
+  Rows products(gap.rows());
+  for (const int e : overlap.elements) {
+    const auto& element = mesh.elements[static_cast<std::size_t>(e)];
+    for (const QuadraturePoint& point : quadrature(mesh, element, 1))
+      for (std::size_t a = 0; a < 8; ++a) {
+        const int i = row[element[a]];
+        if (i < 0) continue;
+        gap.volume[i] += point.weight * point.shape[a];
+        for (std::size_t b = 0; b < 8; ++b)
+          if (row[element[b]] >= 0)
+            products[i].emplace_back(row[element[b]], point.weight * point.shape[a] * point.shape[b]);
+      }
+  }
+  gap.volumeProducts = cg::fromRows(static_cast<int>(gap.rows()), products);
+}
+
+/// Bᵀ by the nodes that it touches.
+void addNodesBack(GapOperator& gap) {
+  const cg::Projection all = cg::transposed(gap.nodes);
+  Rows rows;
+  for (int n = 0; n < all.rows(); ++n) {
+    if (all.rowColumns(n).empty()) continue;
+    gap.coupledNode.push_back(n);
+    rows.emplace_back();
+    for (int k = all.offsets[n]; k < all.offsets[n + 1]; ++k) rows.back().emplace_back(all.column[k], all.weight[k]);
+  }
+  gap.nodesBack = cg::fromRows(all.columns, rows);
+}
+
+}  // namespace
+
+GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
+                            std::span<const double> mass, GapForm form, const ProjectionOptions& options) {
+  requireNonNegative(options.width, "coarse-graining width");
+  GapOperator gap;
+  const std::vector<int> row = numberRows(overlap, mesh, gap.node);
+  Rows rows(gap.node.size());
+  if (options.width == 0.0)
+    addLocalRows(overlap, mesh, mass, row, rows);
+  else
+    addKernelRows(overlap, mesh, particles, mass, options, row, rows);
+  dropEmptyRows(rows, gap.node);
+  normalise(rows);
+  gap.particles = cg::fromRows(static_cast<int>(overlap.size()), rows);
+  gap.particlesBack = cg::transposed(gap.particles);
+  if (form == GapForm::atParticles) {
+    gap.nodes = cg::product(gap.particles, interpolationAtParticles(overlap, mesh.elements, mesh.X.size()));
+  } else {
+    Rows unit;
+    for (const int n : gap.node) unit.push_back({{n, 1.0}});
+    gap.nodes = cg::fromRows(static_cast<int>(mesh.X.size()), unit);
+  }
+  addNodesBack(gap);
+  addVolumes(overlap, mesh, gap);
+  return gap;
+}
+
+void gapOf(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> particles, std::span<const Vec3> nodes,
+           std::span<Vec3> out) {
+  parallelFor(gap.rows(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r) {
+      Vec3 sum;
+      for (int k = gap.particles.offsets[r]; k < gap.particles.offsets[r + 1]; ++k)
+        sum += gap.particles.weight[k] * particles[overlap.particle[gap.particles.column[k]]];
+      for (int k = gap.nodes.offsets[r]; k < gap.nodes.offsets[r + 1]; ++k)
+        sum -= gap.nodes.weight[k] * nodes[gap.nodes.column[k]];
+      out[r] = sum;
+    }
+  });
+}
+
+void pullParticles(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> lambda,
+                   std::span<Vec3> particleForce) {
+  parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      particleForce[overlap.particle[k]] -= cg::applyRow(gap.particlesBack, static_cast<int>(k), lambda);
+  });
+}
+
+void pullNodes(const GapOperator& gap, std::span<const Vec3> lambda, std::span<Vec3> nodeForce) {
+  for (std::size_t n = 0; n < gap.coupledNode.size(); ++n)
+    nodeForce[gap.coupledNode[n]] += cg::applyRow(gap.nodesBack, static_cast<int>(n), lambda);
+}
+
+}  // namespace dovetail::arlequin

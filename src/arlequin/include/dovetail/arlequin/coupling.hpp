@@ -1,0 +1,88 @@
+// A volume coupling: overlap, projection and constraint, made together and renewed on events.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dovetail/arlequin/absorber.hpp"
+#include "dovetail/arlequin/constraint.hpp"
+#include "dovetail/arlequin/gap_operator.hpp"
+#include "dovetail/arlequin/overlap.hpp"
+#include "dovetail/arlequin/stress_term.hpp"
+#include "dovetail/fem/blended_mass.hpp"
+#include "dovetail/fem/elements.hpp"
+#include "dovetail/fem/mesh.hpp"
+
+namespace dovetail::arlequin {
+
+enum class ConstraintKind {
+  penalty,     ///< on the accumulated gap, energy-storing (default)
+  multiplier,  ///< workless
+  dashpot,     ///< the paper's penalty on increments; loses what it damps
+  stress       ///< experimental: the penalty, and a second one on the difference of the stresses
+};
+
+struct CouplingOptions {
+  GapForm form = GapForm::atParticles;
+  ProjectionOptions projection;
+  ConstraintKind constraint = ConstraintKind::penalty;
+  double penalty = 0.0;            ///< p, or ε of the dashpot, Pa/m²; 0 = automaticPenalty (dashpot: none)
+  bool consistentDashpot = false;  ///< ∫ψ_iψ_j instead of its row sums
+  double stressPenalty = 0.05;     ///< of the stress constraint: its energy is this share of ∫|Δσ|²/2E
+  double contactStiffness = 0.0;   ///< k of the contacts, N/m; of use to the stress constraint only
+  double absorberRate = 0.0;       ///< 1/s; 0 = no absorber
+};
+
+/// The solid of a volume coupling.
+struct Solid {
+  fem::Mesh mesh;
+  fem::Nodes nodes;                      ///< lumped masses weighted by 1 − w
+  fem::ElementBlock elements;            ///< weighted by 1 − w
+  std::optional<fem::BlendedMass> mass;  ///< absent = lumped
+
+  std::vector<Vec3> internalForce;     ///< N, of the last FEM evaluation (gravity included)
+  std::vector<Vec3> acceleration;      ///< m/s², of the forces that act at every step
+  std::vector<Vec3> slowAcceleration;  ///< m/s², of those that act at the ends of a window of several steps
+  double strainEnergy = 0.0;           ///< J, if asked for
+};
+
+/// The state of a coupling. Arrays over the rows of `gap`.
+struct Coupling {
+  CouplingOptions options;
+  Overlap overlap;
+  GapOperator gap;
+  std::unique_ptr<Constraint> constraint;
+  std::unique_ptr<Absorber> absorber;  ///< absent = nothing is absorbed
+  std::unique_ptr<StressTerm> stress;  ///< absent unless the constraint is `stress`
+
+  std::vector<Vec3> gapNow;                ///< accumulated since the start, m
+  std::vector<Vec3> increment;             ///< of the last step, m
+  std::vector<Vec3> lambda, lambdaBefore;  ///< N, of the last two evaluations
+  std::vector<Vec3> nodeForce;             ///< Bᵀλ of all nodes, N
+  std::vector<double> fullMass;            ///< of all particles, kg
+
+  double storedEnergy() const;
+  std::size_t rows() const { return gap.rows(); }
+};
+
+/// Weighs the masses of the particles, their contacts (pairs must be made) and sets up projection and constraint.
+/// The solid must have been made with 1 − nodalWeight.
+/// @param particles  with full masses; weighted on return
+/// @throws InputError as the parts do, or if the overlap is narrower than an element
+Coupling makeCoupling(dem::Particles& particles, dem::PairList& pairs, const Solid& solid,
+                      std::span<const double> nodalWeight, const CouplingOptions& options);
+
+/// What a renewal changed, to be booked.
+struct Handover {
+  double energy = 0.0;  ///< J: kinetic (of the particles) and coupling energy that left with the change of weights
+  Vec3 momentum;        ///< kg m/s, that left with it
+};
+
+/// Locates the particles anew and renews weights, projection and constraint; the accumulated gap is kept by node, so
+/// that λ does not jump. Call it when particles have moved relative to the mesh.
+/// Contact energy changes with pairs.scale; the caller books the difference of its sum.
+Handover renew(Coupling& coupling, dem::Particles& particles, dem::PairList& pairs, const Solid& solid);
+
+}  // namespace dovetail::arlequin

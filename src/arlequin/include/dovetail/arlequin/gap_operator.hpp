@@ -1,0 +1,63 @@
+// What is compared: the gap between particles and solid at the coarse nodes of the overlap, as one linear map.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dovetail/arlequin/overlap.hpp"
+#include "dovetail/cg/kernel.hpp"
+#include "dovetail/cg/projection.hpp"
+#include "dovetail/fem/mesh.hpp"
+
+namespace dovetail::arlequin {
+
+enum class GapForm {
+  /// g = Π (v_DE − Φ v_FE): the solid's field is taken at the particles. Linear fields make no gap, for any Π whose
+  /// rows
+  /// sum to one; forces and moments balance.
+  atParticles,
+  /// g = Π v_DE − v_FE (Cheng et al. 2023, Eqs. 27 and 32): Π x_α is not X_i at one-sided nodes, so rotation and strain
+  /// make a false gap there.
+  nodal
+};
+
+struct ProjectionOptions {
+  double width = 0.0;  ///< c, m; 0 = local, Π_iα ∝ m_α ψ_i(x_α)
+  cg::KernelShape kernel = cg::KernelShape::lucy;
+};
+
+/// The gap at row i is Σ Π_ik v(overlap particle k) − Σ B_in v(node n); λ_i (N) pulls the particles back by −Πᵀλ and
+/// the nodes along by Bᵀλ: the adjoint, so that the power lost by one side is gained by the other, up to what the gap
+/// does.
+struct GapOperator {
+  std::vector<int> node;          ///< coarse node of each row, ascending
+  std::vector<double> volume;     ///< ∫ψ_i dV over the overlap's elements, m³
+  cg::Projection particles;       ///< Π; columns are the rows of Overlap
+  cg::Projection nodes;           ///< B = ΠΦ, or the identity on the rows' nodes; columns are nodes
+  cg::Projection particlesBack;   ///< Πᵀ, by particles
+  cg::Projection nodesBack;       ///< Bᵀ, by coupled nodes
+  std::vector<int> coupledNode;   ///< nodes that B touches, ascending: the rows of nodesBack
+  cg::Projection volumeProducts;  ///< ∫ψ_i ψ_j dV over the overlap's elements, m³; rows and columns are gap rows
+
+  std::size_t rows() const { return node.size(); }
+};
+
+/// Π for c = 0: Π_iα = m_α ψ_i(x_α) / Σ; for c > 0: ∫ m_α W(x − x_α) ψ_i dx / Σ over the overlap's elements (Eq. 27),
+/// by Gauss points as fine as the kernel asks for, normalised by the quadrature itself. Rows without a particle are
+/// left out.
+/// @param mass  full masses of all particles, kg
+/// @throws InputError for a width that is negative or not finite
+GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
+                            std::span<const double> mass, GapForm form, const ProjectionOptions& options);
+
+/// out_i = Π v_particles − B v_nodes per row.
+/// @param particles  values of all particles   @param nodes  values of all nodes
+void gapOf(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> particles, std::span<const Vec3> nodes,
+           std::span<Vec3> out);
+/// particleForce −= Πᵀλ (all particles).
+void pullParticles(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> lambda,
+                   std::span<Vec3> particleForce);
+/// nodeForce += Bᵀλ (all nodes).
+void pullNodes(const GapOperator& gap, std::span<const Vec3> lambda, std::span<Vec3> nodeForce);
+
+}  // namespace dovetail::arlequin

@@ -1,0 +1,53 @@
+// The overlap: which particles lie in which brick, and what share of everything they carry.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "dovetail/arlequin/locate.hpp"
+#include "dovetail/cg/projection.hpp"
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/dem/pairs.hpp"
+#include "dovetail/dem/particles.hpp"
+#include "dovetail/fem/nodes.hpp"
+
+namespace dovetail::arlequin {
+
+/// Particles within the mesh. Row k of every array is particle `particle[k]`.
+struct Overlap {
+  std::vector<int> particle;        ///< ascending
+  std::vector<Place> place;         ///< host element, parent coordinates, shape functions
+  std::vector<double> weight;       ///< w at the centre
+  std::vector<int> elements;        ///< that host a particle in the overlap proper (w > 0 somewhere), ascending
+  std::vector<double> nodalWeight;  ///< w at every node of the mesh
+
+  std::size_t size() const { return particle.size(); }
+};
+
+/// Finds the particles that lie within the mesh as it is now (X + u).
+/// @param nodalWeight  w per node, 0 … 1
+/// @throws InputError if no particle lies in an element with w > 0 somewhere, if no element has one, or if weights are
+///         not one per node; NumericalError naming a particle whose position is not finite
+Overlap locateOverlap(const dem::Particles& particles, std::span<const std::array<int, 8>> elements,
+                      const fem::Nodes& nodes, std::span<const double> nodalWeight);
+
+/// w of every particle: 1 outside of the mesh.
+std::vector<double> particleWeights(const Overlap& overlap, std::size_t particles);
+
+/// particles.mass = w · fullMass; so inertia, weight and kinetic energy are weighted.
+/// @throws InputError naming the particle whose weight is zero: it would be without mass
+void weighMass(const Overlap& overlap, std::span<const double> fullMass, dem::Particles& particles);
+
+/// pairs.scale = w at the middle of each pair's contact, 1 outside of the mesh.
+void weighContacts(const dem::Particles& particles, std::span<const std::array<int, 8>> elements,
+                   const fem::Nodes& nodes, const Overlap& overlap, dem::PairList& pairs);
+
+/// 1 − w per node, for fem::makeElements.
+std::vector<double> solidWeights(std::span<const double> nodalWeight);
+
+/// Φ: velocities of the nodes → of the solid at the centres of the overlap's particles. Rows sum to one.
+cg::Projection interpolationAtParticles(const Overlap& overlap, std::span<const std::array<int, 8>> elements,
+                                        std::size_t nodes);
+
+}  // namespace dovetail::arlequin

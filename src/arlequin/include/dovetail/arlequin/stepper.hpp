@@ -1,0 +1,95 @@
+// Time steps of particles and a solid that share an overlap volume.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "dovetail/arlequin/coupling.hpp"
+#include "dovetail/core/profile.hpp"
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/dem/contact_work.hpp"
+#include "dovetail/dem/laws.hpp"
+#include "dovetail/dem/pairs.hpp"
+#include "dovetail/dem/particles.hpp"
+#include "dovetail/fem/newmark.hpp"
+
+namespace dovetail::arlequin {
+
+using PairLaw = std::variant<dem::ElasticLaw, dem::FrictionalLaw>;
+
+/// Particles that follow a prescribed path.
+struct Drive {
+  std::vector<int> particles;                ///< ascending
+  std::function<Vec3(double)> displacement;  ///< of time (s) since the start, m; smooth enough for `velocity`
+  std::function<Vec3(double)> velocity;      ///< its derivative, m/s
+};
+
+/// All parts but the particles may be absent; an absent part costs nothing.
+struct Model {
+  dem::Particles particles;  ///< masses weighted where there is a coupling
+  dem::PairList pairs;       ///< made by the caller; renewed in a step unless the law is bonded
+  PairLaw law = dem::ElasticLaw{};
+  Vec3 gravity;  ///< on particles and solid, m/s²
+  std::optional<Solid> solid;
+  std::optional<Coupling> coupling;
+  std::optional<Drive> drive;
+
+  double time = 0.0;               ///< s
+  dem::ContactWork contact;        ///< of the last force evaluation
+  std::vector<Vec3> slowForce;     ///< on the particles, N; only with multipliers and windows of several steps
+  std::int64_t weighedBuilds = 0;  ///< builds of the pair list whose contacts have been weighed
+};
+
+/// What steps did, to be booked. Work in J, impulses in kg m/s; sums over the steps since the object was made.
+struct StepSums {
+  double dissipated = 0.0;    ///< by contacts: dashpots, friction; trapezoidal
+  double couplingWork = 0.0;  ///< of the coupling forces on both models together; minus the gain of the stored energy
+                              ///< it is what the coupling lost or made
+  double absorbed = 0.0;      ///< by the absorber
+  double externalWork = 0.0;  ///< of the drive
+  double handedOver = 0.0;    ///< left with changes of the weights
+  Vec3 supportImpulse;        ///< of held nodes and driven particles
+  Vec3 handedMomentum;        ///< left with changes of the weights
+};
+
+/// Forces at the start; call once. With multipliers, velocities are made to comply with the constraint.
+/// @throws InputError if particles and coupling disagree
+void start(Model& model, double dt, Profile& profile);
+
+/// K steps of velocity Verlet with explicit FEM every K-th (impulse multiple time stepping: elastic forces kick the
+/// nodes at the ends of the window; contacts and coupling act at every step, and the nodes drift with the particles).
+/// Symplectic for a penalty and for multipliers.
+void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnergy, Profile& profile);
+
+/// K steps of velocity Verlet of the particles and one Newmark step of K dt of the solid; the coupling kicks both at
+/// the ends of the window. Work of multipliers, which act on velocities at those instants only, is booked.
+void stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, StepSums& sums, bool withEnergy,
+                  Profile& profile);
+
+/// What the paper's authors ran: coupling forces from the increments of the last step, frozen; the solid's Newmark
+/// step; then the particles' step.
+void stepStaggered(Model& model, fem::NewmarkSolver& newmark, double dt, StepSums& sums, bool withEnergy,
+                   Profile& profile);
+
+/// Locates particles anew (see renew) and books what leaves.
+void relocate(Model& model, StepSums& sums);
+
+/// Stored energies of a model, J.
+struct Energies {
+  double kineticParticles = 0.0, elasticContacts = 0.0, kineticSolid = 0.0, elasticSolid = 0.0, coupling = 0.0,
+         gravity = 0.0;
+  double total() const { return kineticParticles + elasticContacts + kineticSolid + elasticSolid + coupling + gravity; }
+};
+/// At full-step velocities. The solid's strain energy is that of the last step with `withEnergy`.
+/// @param newmark  if the solid is stepped by it: its mass matrix counts
+Energies energies(const Model& model, const fem::NewmarkSolver* newmark = nullptr);
+/// Weighted momentum of both models, kg m/s.
+Vec3 momentum(const Model& model);
+
+/// @throws NumericalError naming the particle or node that is not finite
+void requireFinite(const Model& model, const std::string& when);
+
+}  // namespace dovetail::arlequin

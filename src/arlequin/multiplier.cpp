@@ -1,0 +1,105 @@
+#include <Eigen/Eigenvalues>
+#include <string>
+
+#include "dovetail/arlequin/constraint.hpp"
+#include "dovetail/core/error.hpp"
+
+namespace dovetail::arlequin {
+
+namespace {
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+constexpr std::size_t mostRows = 4000;
+
+/// A⁺ of a symmetric, positive semidefinite matrix, scaled to a unit diagonal before its eigenvalues are judged.
+Matrix pseudoInverse(Matrix A, double rankTolerance) {
+  Eigen::VectorXd scale = A.diagonal();
+  for (Eigen::Index i = 0; i < scale.size(); ++i) scale[i] = scale[i] > 0.0 ? 1.0 / std::sqrt(scale[i]) : 0.0;
+  A = scale.asDiagonal() * A * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(A);
+  Eigen::VectorXd inverse = spectrum.eigenvalues();
+  const double least = rankTolerance * inverse[inverse.size() - 1];
+  for (Eigen::Index i = 0; i < inverse.size(); ++i) inverse[i] = inverse[i] > least ? 1.0 / inverse[i] : 0.0;
+  const Eigen::MatrixXd& Q = spectrum.eigenvectors();
+  return scale.asDiagonal() * (Q * inverse.asDiagonal() * Q.transpose()) * scale.asDiagonal();
+}
+
+/// A for one component; nodes that are held in it do not yield.
+Matrix compliance(const GapOperator& gap, const Overlap& overlap, std::span<const double> particleMass,
+                  const fem::Nodes& nodes, const fem::BlendedMass* mass, int component) {
+  const auto rows = static_cast<Eigen::Index>(gap.rows());
+  Matrix A = Matrix::Zero(rows, rows);
+  const cg::Projection& back = gap.particlesBack;
+  for (int k = 0; k < back.rows(); ++k) {
+    const double yield = 1.0 / particleMass[overlap.particle[k]];
+    for (int a = back.offsets[k]; a < back.offsets[k + 1]; ++a)
+      for (int b = back.offsets[k]; b < back.offsets[k + 1]; ++b)
+        A(back.column[a], back.column[b]) += yield * back.weight[a] * back.weight[b];
+  }
+  std::vector<Vec3> response(nodes.mass.size());
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    std::fill(response.begin(), response.end(), Vec3{});
+    for (int k = gap.nodes.offsets[row]; k < gap.nodes.offsets[row + 1]; ++k)
+      response[gap.nodes.column[k]][component] = gap.nodes.weight[k];
+    if (mass)
+      mass->solve(response);
+    else
+      for (std::size_t n = 0; n < response.size(); ++n)
+        response[n] *= (nodes.fixed[n] >> component & 1) != 0 ? 0.0 : 1.0 / nodes.mass[n];
+    for (Eigen::Index other = 0; other < rows; ++other)
+      for (int k = gap.nodes.offsets[other]; k < gap.nodes.offsets[other + 1]; ++k)
+        A(other, row) += gap.nodes.weight[k] * response[gap.nodes.column[k]][component];
+  }
+  return 0.5 * (A + A.transpose());
+}
+
+class Multiplier final : public Constraint {
+public:
+  Multiplier(const GapOperator& gap, const Overlap& overlap, std::span<const double> particleMass,
+             const fem::Nodes& nodes, const fem::BlendedMass* mass, double rankTolerance)
+      : rows_(gap.rows()) {
+    const auto sameHeld = [&](int a, int b) {
+      for (const std::uint8_t held : nodes.fixed)
+        if ((held >> a & 1) != (held >> b & 1)) return false;
+      return true;
+    };
+    for (int c = 0; c < 3; ++c) {
+      int first = 0;
+      while (first < c && !sameHeld(first, c)) ++first;
+      systemOf_[static_cast<std::size_t>(c)] = first < c ? systemOf_[static_cast<std::size_t>(first)] : systems_.size();
+      if (first == c)
+        systems_.push_back(pseudoInverse(compliance(gap, overlap, particleMass, nodes, mass, c), rankTolerance));
+    }
+  }
+  void evaluate(const GapRates& rates, std::span<Vec3> lambda) const override {
+    std::vector<Vec3> load(rows_);
+    for (std::size_t r = 0; r < rows_; ++r) load[r] = rates.acceleration[r] + (1.0 / rates.dt) * rates.velocity[r];
+    for (std::size_t s = 0; s < systems_.size(); ++s)
+      for (std::size_t r = 0; r < rows_; ++r) {
+        const double* row = systems_[s].data() + r * rows_;
+        Vec3 sum;
+        for (std::size_t j = 0; j < rows_; ++j) sum += row[j] * load[j];
+        for (std::size_t c = 0; c < 3; ++c)
+          if (systemOf_[c] == s) lambda[r][static_cast<int>(c)] = sum[static_cast<int>(c)];
+      }
+  }
+  bool needsRates() const override { return true; }
+
+private:
+  std::size_t rows_;
+  std::vector<Matrix> systems_;  // A⁺ of the distinct sets of held nodes
+  std::array<std::size_t, 3> systemOf_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Constraint> makeMultiplier(const GapOperator& gap, const Overlap& overlap,
+                                           std::span<const double> particleMass, const fem::Nodes& nodes,
+                                           const fem::BlendedMass* mass, double rankTolerance) {
+  if (gap.rows() > mostRows)
+    throw InputError(std::to_string(gap.rows()) + " coupled nodes are too many for a dense solve", "multiplier",
+                     "take the penalty, which needs no solve, or a coarser mesh (at most 4000 coupled nodes)");
+  return std::make_unique<Multiplier>(gap, overlap, particleMass, nodes, mass, rankTolerance);
+}
+
+}  // namespace dovetail::arlequin

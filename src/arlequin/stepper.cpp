@@ -1,0 +1,173 @@
+#include "dovetail/arlequin/stepper.hpp"
+
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/pair_collide.hpp"
+#include "forces.hpp"
+
+namespace dovetail::arlequin {
+
+using namespace detail;
+
+namespace {
+
+/// Acceleration of the solid by the forces that act at every step: all of them, or the coupling alone.
+void accelerateSolid(Model& model, bool withInternal) {
+  Solid& solid = *model.solid;
+  if (withInternal)
+    solid.acceleration = solid.internalForce;
+  else
+    solid.acceleration.assign(solid.nodes.X.size(), {});
+  if (model.coupling && model.coupling->stress)
+    for (std::size_t n = 0; n < solid.acceleration.size(); ++n) solid.acceleration[n] += model.coupling->nodeForce[n];
+  else if (model.coupling)
+    for (const int n : model.coupling->gap.coupledNode)
+      solid.acceleration[static_cast<std::size_t>(n)] += model.coupling->nodeForce[static_cast<std::size_t>(n)];
+  solid.nodes.f = solid.acceleration;
+  accelerate(solid, solid.acceleration);
+}
+
+/// Elastic acceleration of a window of several steps; with multipliers it is made to comply with the constraint, which
+/// moves particles too.
+void accelerateSlowly(Model& model, double window) {
+  Solid& solid = *model.solid;
+  solid.slowAcceleration = solid.internalForce;
+  if (model.coupling && model.coupling->constraint->needsRates()) {
+    Coupling& c = *model.coupling;
+    std::vector<Vec3> acceleration(c.rows()), none(c.rows()), lambda(c.rows());
+    std::vector<Vec3> still(model.particles.size()), ofNodes = solid.internalForce;
+    accelerate(solid, ofNodes);
+    gapOf(c.gap, c.overlap, still, ofNodes, acceleration);
+    c.constraint->evaluate({c.gapNow, none, none, acceleration, window}, lambda);
+    model.slowForce.assign(model.particles.size(), {});
+    pullParticles(c.gap, c.overlap, lambda, model.slowForce);
+    pullNodes(c.gap, lambda, solid.slowAcceleration);
+  }
+  accelerate(solid, solid.slowAcceleration);
+}
+
+void kickSlowly(Model& model, double dt, StepSums& sums) {
+  kickSolid(*model.solid, model.solid->slowAcceleration, dt);
+  sums.supportImpulse += supportImpulse(*model.solid, model.solid->slowAcceleration, model.solid->internalForce, dt);
+  for (std::size_t i = 0; i < model.slowForce.size(); ++i)
+    model.particles.v[i] += (dt / model.particles.mass[i]) * model.slowForce[i];
+}
+
+void kickAll(Model& model, double dt, bool firstHalf, StepSums& sums, Profile& profile) {
+  Profile::Stage stage(profile, "kick and drift");
+  kickParticles(model, dt, firstHalf, sums);
+  if (!model.solid) return;
+  kickSolid(*model.solid, model.solid->acceleration, dt);
+  sums.supportImpulse += supportImpulse(*model.solid, model.solid->acceleration, model.solid->nodes.f, dt);
+}
+
+void driftAll(Model& model, double dt, Profile& profile) {
+  Profile::Stage stage(profile, "kick and drift");
+  driftParticles(model, dt);
+  if (model.solid) fem::drift(model.solid->nodes, dt);
+  model.time += dt;
+}
+
+void bookCoupling(Model& model, double dt, StepSums& sums) {
+  sums.couplingWork += couplingWorkOfStep(*model.coupling);
+  if (model.coupling->absorber) sums.absorbed += model.coupling->absorber->workOfStep(model.particles.v, dt);
+}
+
+}  // namespace
+
+void start(Model& model, double dt, Profile& profile) {
+  if (model.coupling && !model.solid)
+    throw InputError("there is a coupling but no solid", "start", "give the solid, or leave the coupling out");
+  if (model.coupling && model.coupling->fullMass.size() != model.particles.size())
+    throw InputError("the coupling was made for " + std::to_string(model.coupling->fullMass.size()) +
+                         " particles and there are " + std::to_string(model.particles.size()),
+                     "start", "make the coupling after the last particle was added");
+  StepSums ignored;
+  model.weighedBuilds = model.pairs.builds;
+  particleForces(model, dt, ignored, profile);
+  if (!model.solid) return;
+  internalForces(model, true, profile);
+  if (model.coupling) couplingForces(model, dt, model.solid->internalForce, profile);
+  accelerateSolid(model, true);
+}
+
+void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnergy, Profile& profile) {
+  const bool windows = model.solid && K > 1;
+  if (windows) {
+    accelerateSlowly(model, K * dt);
+    accelerateSolid(model, false);
+    kickSlowly(model, 0.5 * K * dt, sums);
+  }
+  for (int k = 0; k < K; ++k) {
+    const bool last = k == K - 1;
+    kickAll(model, 0.5 * dt, true, sums, profile);
+    driftAll(model, dt, profile);
+    if (model.coupling) {
+      Profile::Stage stage(profile, "coupling");
+      advanceGap(model, dt, model.particles.v, model.solid->nodes.v);
+    }
+    particleForces(model, dt, sums, profile);
+    if (model.solid && last) internalForces(model, withEnergy, profile);
+    if (model.coupling) {
+      couplingForces(model, dt, windows ? std::span<const Vec3>{} : model.solid->internalForce, profile);
+      bookCoupling(model, dt, sums);
+    }
+    if (model.solid) {
+      Profile::Stage stage(profile, "solid mass");
+      accelerateSolid(model, !windows);
+    }
+    kickAll(model, 0.5 * dt, false, sums, profile);
+  }
+  if (windows) {
+    accelerateSlowly(model, K * dt);
+    kickSlowly(model, 0.5 * K * dt, sums);
+  }
+}
+
+void relocate(Model& model, StepSums& sums) {
+  if (!model.coupling) return;
+  const double elastic = model.contact.storedEnergy();
+  const Handover handover = renew(*model.coupling, model.particles, model.pairs, *model.solid);
+  model.weighedBuilds = model.pairs.builds;
+  dem::Particles copy = model.particles;
+  dem::PairList pairs = model.pairs;
+  const auto contact = std::visit(
+      [&](const auto& law) { return dem::collide(copy, pairs, dem::ElasticLaw{law.normal}, 1.0); }, model.law);
+  model.contact.elasticEnergy = contact.elasticEnergy;
+  sums.handedOver += handover.energy + elastic - model.contact.storedEnergy();
+  sums.handedMomentum += handover.momentum;
+}
+
+Energies energies(const Model& model, const fem::NewmarkSolver* newmark) {
+  Energies e;
+  e.kineticParticles = dem::kineticEnergy(model.particles);
+  e.elasticContacts = model.contact.storedEnergy();
+  for (std::size_t i = 0; i < model.particles.size(); ++i)
+    e.gravity -= model.particles.mass[i] * dot(model.gravity, model.particles.x[i]);
+  if (model.solid) {
+    const fem::Nodes& nodes = model.solid->nodes;
+    e.kineticSolid = newmark             ? newmark->kineticEnergy(nodes)
+                     : model.solid->mass ? model.solid->mass->kineticEnergy(nodes.v)
+                                         : fem::kineticEnergy(nodes);
+    e.elasticSolid = model.solid->strainEnergy;
+    for (std::size_t n = 0; n < nodes.X.size(); ++n)
+      e.gravity -= nodes.mass[n] * dot(model.gravity, nodes.X[n] + nodes.u[n]);
+  }
+  if (model.coupling) e.coupling = model.coupling->storedEnergy();
+  return e;
+}
+
+Vec3 momentum(const Model& model) {
+  Vec3 sum = dem::momentum(model.particles);
+  if (model.solid) sum += fem::momentum(model.solid->nodes);
+  return sum;
+}
+
+void requireFinite(const Model& model, const std::string& when) {
+  dem::requireFinite(model.particles, when);
+  if (model.solid) dovetail::requireFinite(model.solid->nodes.v, "node", "velocity", when);
+}
+
+}  // namespace dovetail::arlequin
