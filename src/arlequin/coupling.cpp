@@ -36,14 +36,25 @@ void requireWidth(const Overlap& overlap, const Solid& solid) {
                    "widen the overlap or refine the mesh there");
 }
 
+/// By rows for the local map; wide kernels need the metric of their rows.
+std::unique_ptr<Constraint> penaltyFor(const Coupling& c, double penalty) {
+  if (c.options.projection.width == 0.0) return makePenalty(c.gap, penalty);
+  double mass = 0.0, volume = 0.0;
+  for (const int i : c.overlap.particle) mass += c.fullMass[static_cast<std::size_t>(i)];
+  for (const double v : c.gap.volume) volume += v;
+  std::vector<double> share;
+  for (const int i : c.overlap.particle) share.push_back(volume * c.fullMass[static_cast<std::size_t>(i)] / mass);
+  return makeMetricPenalty(c.gap, share, penalty);
+}
+
 std::unique_ptr<Constraint> makeConstraint(const Coupling& c, const dem::Particles& particles, const Solid& solid) {
   const CouplingOptions& o = c.options;
-  const double automatic =
-      automaticPenalty(fem::youngsModulus(solid.elements.material()), elementSize(solid, c.overlap));
+  const double automatic = automaticPenalty(fem::youngsModulus(solid.elements.material()),
+                                            elementSize(solid, c.overlap), c.options.projection.width == 0.0);
   switch (o.constraint) {
     case ConstraintKind::penalty:
     case ConstraintKind::stress:
-      return makePenalty(c.gap, o.penalty == 0.0 ? automatic : o.penalty);
+      return penaltyFor(c, o.penalty == 0.0 ? automatic : o.penalty);
     case ConstraintKind::dashpot:
       return makeDashpot(c.gap, o.penalty, o.consistentDashpot);
     case ConstraintKind::multiplier:

@@ -33,13 +33,11 @@ Vec3 supportImpulse(const Solid& solid, std::span<const Vec3> acceleration, std:
   return sum;
 }
 
-void kickParticles(Model& model, double dt, bool firstHalf, StepSums& sums) {
+namespace {
+
+void followDrive(Model& model, const Drive& drive, double dt, bool firstHalf, std::span<const Vec3> before,
+                 StepSums& sums) {
   dem::Particles& particles = model.particles;
-  if (!model.drive) return dem::kick(particles, dt);
-  const Drive& drive = *model.drive;
-  std::vector<Vec3> before;
-  for (const int i : drive.particles) before.push_back(particles.v[static_cast<std::size_t>(i)]);
-  dem::kick(particles, dt);
   const double step = 2.0 * dt;
   const Vec3 prescribed = firstHalf
                               ? (1.0 / step) * (drive.displacement(model.time + step) - drive.displacement(model.time))
@@ -53,6 +51,18 @@ void kickParticles(Model& model, double dt, bool firstHalf, StepSums& sums) {
     sums.supportImpulse += impulse;
     particles.v[i] = prescribed;
   }
+}
+
+}  // namespace
+
+void kickParticles(Model& model, double dt, bool firstHalf, StepSums& sums) {
+  std::vector<std::vector<Vec3>> before;
+  for (const Drive& drive : model.drives) {
+    before.emplace_back();
+    for (const int i : drive.particles) before.back().push_back(model.particles.v[static_cast<std::size_t>(i)]);
+  }
+  dem::kick(model.particles, dt);
+  for (std::size_t d = 0; d < before.size(); ++d) followDrive(model, model.drives[d], dt, firstHalf, before[d], sums);
 }
 
 void driftParticles(Model& model, double dt) { dem::drift(model.particles, dt); }

@@ -49,27 +49,49 @@ std::vector<QuadraturePoint> quadrature(const fem::Mesh& mesh, const std::array<
   return points;
 }
 
-/// Row of each node of the overlap's elements, −1 elsewhere.
-std::vector<int> numberRows(const Overlap& overlap, const fem::Mesh& mesh, std::vector<int>& node) {
-  std::vector<int> row(mesh.X.size(), -1);
-  for (const int e : overlap.elements)
-    for (const int n : mesh.elements[static_cast<std::size_t>(e)]) row[n] = 0;
-  for (std::size_t n = 0; n < row.size(); ++n)
-    if (row[n] == 0) {
-      row[n] = static_cast<int>(node.size());
-      node.push_back(static_cast<int>(n));
+/// Gap rows of the corners of the overlap's elements.
+struct RowNumbers {
+  std::vector<int> place;                  // of each element of the mesh among the overlap's, −1 elsewhere
+  std::vector<std::array<int, 8>> corner;  // row of each corner of those elements
+
+  const std::array<int, 8>& of(int element) const {
+    return corner[static_cast<std::size_t>(place[static_cast<std::size_t>(element)])];
+  }
+};
+
+/// One row per node, or one per element and corner.
+RowNumbers numberRows(const Overlap& overlap, const fem::Mesh& mesh, bool perElement, std::vector<int>& node) {
+  RowNumbers rows{std::vector<int>(mesh.elements.size(), -1), {}};
+  std::vector<int> ofNode(mesh.X.size(), -1);
+  if (!perElement) {
+    for (const int e : overlap.elements)
+      for (const int n : mesh.elements[static_cast<std::size_t>(e)]) ofNode[n] = 0;
+    for (std::size_t n = 0; n < ofNode.size(); ++n)
+      if (ofNode[n] == 0) {
+        ofNode[n] = static_cast<int>(node.size());
+        node.push_back(static_cast<int>(n));
+      }
+  }
+  for (const int e : overlap.elements) {
+    rows.place[static_cast<std::size_t>(e)] = static_cast<int>(rows.corner.size());
+    std::array<int, 8> corner;
+    for (std::size_t a = 0; a < 8; ++a) {
+      const int n = mesh.elements[static_cast<std::size_t>(e)][a];
+      corner[a] = perElement ? static_cast<int>(node.size()) : ofNode[n];
+      if (perElement) node.push_back(n);
     }
-  return row;
+    rows.corner.push_back(corner);
+  }
+  return rows;
 }
 
-void addLocalRows(const Overlap& overlap, const fem::Mesh& mesh, std::span<const double> mass,
-                  const std::vector<int>& row, Rows& rows) {
+void addLocalRows(const Overlap& overlap, std::span<const double> mass, const RowNumbers& row, Rows& rows) {
   for (std::size_t k = 0; k < overlap.size(); ++k) {
     if (!(overlap.weight[k] > 0.0)) continue;
-    const auto& element = mesh.elements[static_cast<std::size_t>(overlap.place[k].element)];
     for (std::size_t a = 0; a < 8; ++a) {
       const double value = mass[static_cast<std::size_t>(overlap.particle[k])] * overlap.place[k].shape[a];
-      if (value > 0.0) rows[static_cast<std::size_t>(row[element[a]])].emplace_back(static_cast<int>(k), value);
+      if (value > 0.0)
+        rows[static_cast<std::size_t>(row.of(overlap.place[k].element)[a])].emplace_back(static_cast<int>(k), value);
     }
   }
 }
@@ -81,35 +103,60 @@ double elementSize(const fem::Mesh& mesh, int element) {
   return std::cbrt(volume);
 }
 
-/// Dense in the reach of the kernel: every row gathers by element, in the order of the elements.
-void addKernelRows(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
-                   std::span<const double> mass, const ProjectionOptions& options, const std::vector<int>& row,
-                   Rows& rows) {
+/// ∫W(x − x_α) ψ_i dx per row and particle over the overlap's elements, dense in the reach of the kernel.
+std::vector<std::vector<double>> kernelIntegrals(const Overlap& overlap, const fem::Mesh& mesh,
+                                                 const dem::Particles& particles, const ProjectionOptions& options,
+                                                 const RowNumbers& row, std::size_t rows) {
   const cg::Kernel kernel{options.kernel, 3, options.width};
-  std::vector<std::vector<double>> dense(rows.size(), std::vector<double>(overlap.size(), 0.0));
+  std::vector<std::vector<double>> dense(rows, std::vector<double>(overlap.size(), 0.0));
   for (const int e : overlap.elements) {
     const auto& element = mesh.elements[static_cast<std::size_t>(e)];
-    const double size = elementSize(mesh, e);
-    const int cells = std::clamp(static_cast<int>(std::ceil(1.5 * size / options.width)), 1, 8);
+    const int cells = std::clamp(static_cast<int>(std::ceil(1.5 * elementSize(mesh, e) / options.width)), 1, 8);
     const std::vector<QuadraturePoint> points = quadrature(mesh, element, cells);
     parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         if (!(overlap.weight[k] > 0.0)) continue;
-        const auto i = static_cast<std::size_t>(overlap.particle[k]);
+        const Vec3& x = particles.x[static_cast<std::size_t>(overlap.particle[k])];
         std::array<double, 8> sum{};
         for (const QuadraturePoint& point : points) {
-          const double distance = norm(point.x - particles.x[i]);
+          const double distance = norm(point.x - x);
           if (distance >= options.width) continue;
           const double value = point.weight * kernel(distance);
           for (std::size_t a = 0; a < 8; ++a) sum[a] += value * point.shape[a];
         }
-        for (std::size_t a = 0; a < 8; ++a) dense[static_cast<std::size_t>(row[element[a]])][k] += mass[i] * sum[a];
+        for (std::size_t a = 0; a < 8; ++a) dense[static_cast<std::size_t>(row.of(e)[a])][k] += sum[a];
       }
     });
   }
+  return dense;
+}
+
+/// What each particle's kernel amounts to within the overlap; 1 for all if the kernels are not normalised there.
+std::vector<double> kernelSums(const std::vector<std::vector<double>>& dense, std::size_t particles, bool normalised) {
+  std::vector<double> sum(particles, normalised ? 0.0 : 1.0);
+  if (normalised)
+    for (const std::vector<double>& row : dense)
+      for (std::size_t k = 0; k < particles; ++k) sum[k] += row[k];
+  return sum;
+}
+
+void addKernelRows(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
+                   std::span<const double> mass, const ProjectionOptions& options, const RowNumbers& row, Rows& rows) {
+  const auto dense = kernelIntegrals(overlap, mesh, particles, options, row, rows.size());
+  const std::vector<double> whole = kernelSums(dense, overlap.size(), options.normaliseKernels);
+  Rows local(rows.size());
+  addLocalRows(overlap, mass, row, local);
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t k = 0; k < overlap.size(); ++k)
-      if (dense[r][k] > 0.0) rows[r].emplace_back(static_cast<int>(k), dense[r][k]);
+      if (dense[r][k] > 0.0)
+        rows[r].emplace_back(static_cast<int>(k),
+                             mass[static_cast<std::size_t>(overlap.particle[k])] * dense[r][k] / whole[k]);
+  // A kernel so narrow that it falls between the points of the quadrature is the local map.
+  for (std::size_t k = 0; k < overlap.size(); ++k)
+    if (whole[k] == 0.0)
+      for (std::size_t r = 0; r < rows.size(); ++r)
+        for (const auto& entry : local[r])
+          if (entry.first == static_cast<int>(k)) rows[r].push_back(entry);
 }
 
 void normalise(Rows& rows) {
@@ -121,7 +168,8 @@ void normalise(Rows& rows) {
 }
 
 /// Leaves out rows without a particle.
-void dropEmptyRows(Rows& rows, std::vector<int>& node) {
+void dropEmptyRows(Rows& rows, std::vector<int>& node, RowNumbers& numbers) {
+  std::vector<int> renumbered(rows.size(), -1);
   std::size_t kept = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (rows[r].empty()) continue;
@@ -129,28 +177,28 @@ void dropEmptyRows(Rows& rows, std::vector<int>& node) {
       rows[kept] = std::move(rows[r]);
       node[kept] = node[r];
     }
-    ++kept;
+    renumbered[r] = static_cast<int>(kept++);
   }
   rows.resize(kept);
   node.resize(kept);
+  for (std::array<int, 8>& corner : numbers.corner)
+    for (int& row : corner) row = renumbered[static_cast<std::size_t>(row)];
 }
 
 /// Volumes and ∫ψ_iψ_j of the rows.
-void addVolumes(const Overlap& overlap, const fem::Mesh& mesh, GapOperator& gap) {
-  std::vector<int> row(mesh.X.size(), -1);
-  for (std::size_t r = 0; r < gap.node.size(); ++r) row[static_cast<std::size_t>(gap.node[r])] = static_cast<int>(r);
+void addVolumes(const Overlap& overlap, const fem::Mesh& mesh, const RowNumbers& row, GapOperator& gap) {
   gap.volume.assign(gap.rows(), 0.0);
   Rows products(gap.rows());
   for (const int e : overlap.elements) {
     const auto& element = mesh.elements[static_cast<std::size_t>(e)];
+    const std::array<int, 8>& corner = row.of(e);
     for (const QuadraturePoint& point : quadrature(mesh, element, 1))
       for (std::size_t a = 0; a < 8; ++a) {
-        const int i = row[element[a]];
-        if (i < 0) continue;
-        gap.volume[i] += point.weight * point.shape[a];
+        if (corner[a] < 0) continue;
+        gap.volume[corner[a]] += point.weight * point.shape[a];
         for (std::size_t b = 0; b < 8; ++b)
-          if (row[element[b]] >= 0)
-            products[i].emplace_back(row[element[b]], point.weight * point.shape[a] * point.shape[b]);
+          if (corner[b] >= 0)
+            products[corner[a]].emplace_back(corner[b], point.weight * point.shape[a] * point.shape[b]);
       }
   }
   gap.volumeProducts = cg::fromRows(static_cast<int>(gap.rows()), products);
@@ -175,13 +223,13 @@ GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const
                             std::span<const double> mass, GapForm form, const ProjectionOptions& options) {
   requireNonNegative(options.width, "coarse-graining width");
   GapOperator gap;
-  const std::vector<int> row = numberRows(overlap, mesh, gap.node);
+  RowNumbers row = numberRows(overlap, mesh, options.perElement, gap.node);
   Rows rows(gap.node.size());
   if (options.width == 0.0)
-    addLocalRows(overlap, mesh, mass, row, rows);
+    addLocalRows(overlap, mass, row, rows);
   else
     addKernelRows(overlap, mesh, particles, mass, options, row, rows);
-  dropEmptyRows(rows, gap.node);
+  dropEmptyRows(rows, gap.node, row);
   normalise(rows);
   gap.particles = cg::fromRows(static_cast<int>(overlap.size()), rows);
   gap.particlesBack = cg::transposed(gap.particles);
@@ -193,7 +241,7 @@ GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const
     gap.nodes = cg::fromRows(static_cast<int>(mesh.X.size()), unit);
   }
   addNodesBack(gap);
-  addVolumes(overlap, mesh, gap);
+  addVolumes(overlap, mesh, row, gap);
   return gap;
 }
 

@@ -1,28 +1,13 @@
-#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <string>
 
 #include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/core/error.hpp"
+#include "pseudo_inverse.hpp"
 
 namespace dovetail::arlequin {
 
 namespace {
-
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-constexpr std::size_t mostRows = 4000;
-
-/// A⁺ of a symmetric, positive semidefinite matrix, scaled to a unit diagonal before its eigenvalues are judged.
-Matrix pseudoInverse(Matrix A, double rankTolerance) {
-  Eigen::VectorXd scale = A.diagonal();
-  for (Eigen::Index i = 0; i < scale.size(); ++i) scale[i] = scale[i] > 0.0 ? 1.0 / std::sqrt(scale[i]) : 0.0;
-  A = scale.asDiagonal() * A * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(A);
-  Eigen::VectorXd inverse = spectrum.eigenvalues();
-  const double least = rankTolerance * inverse[inverse.size() - 1];
-  for (Eigen::Index i = 0; i < inverse.size(); ++i) inverse[i] = inverse[i] > least ? 1.0 / inverse[i] : 0.0;
-  const Eigen::MatrixXd& Q = spectrum.eigenvectors();
-  return scale.asDiagonal() * (Q * inverse.asDiagonal() * Q.transpose()) * scale.asDiagonal();
-}
 
 /// A for one component; nodes that are held in it do not yield.
 Matrix compliance(const GapOperator& gap, const Overlap& overlap, std::span<const double> particleMass,
@@ -96,9 +81,7 @@ private:
 std::unique_ptr<Constraint> makeMultiplier(const GapOperator& gap, const Overlap& overlap,
                                            std::span<const double> particleMass, const fem::Nodes& nodes,
                                            const fem::BlendedMass* mass, double rankTolerance) {
-  if (gap.rows() > mostRows)
-    throw InputError(std::to_string(gap.rows()) + " coupled nodes are too many for a dense solve", "multiplier",
-                     "take the penalty, which needs no solve, or a coarser mesh (at most 4000 coupled nodes)");
+  requireFewRows(gap.rows(), "multiplier");
   return std::make_unique<Multiplier>(gap, overlap, particleMass, nodes, mass, rankTolerance);
 }
 

@@ -1,6 +1,7 @@
 // Constraints without a solve: the penalty on the accumulated gap, and the dashpot on its increments.
 #include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/core/finite.hpp"
+#include "pseudo_inverse.hpp"
 
 namespace dovetail::arlequin {
 
@@ -19,10 +20,43 @@ public:
     for (std::size_t r = 0; r < gap.size(); ++r) sum += 0.5 * stiffness_[r] * squaredNorm(gap[r]);
     return sum;
   }
-  double stiffness(std::size_t row) const override { return stiffness_[row]; }
+  void applyStiffness(std::span<const Vec3> gap, std::span<Vec3> lambda) const override {
+    for (std::size_t r = 0; r < gap.size(); ++r) lambda[r] = stiffness_[r] * gap[r];
+  }
 
 private:
   std::vector<double> stiffness_;  // p V_i, N/m
+};
+
+class MetricPenalty final : public Constraint {
+public:
+  MetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty, double rankTolerance)
+      : rows_(static_cast<Eigen::Index>(gap.rows())), metric_(Matrix::Zero(rows_, rows_)) {
+    const cg::Projection& back = gap.particlesBack;
+    for (int k = 0; k < back.rows(); ++k)
+      for (int a = back.offsets[k]; a < back.offsets[k + 1]; ++a)
+        for (int b = back.offsets[k]; b < back.offsets[k + 1]; ++b)
+          metric_(back.column[a], back.column[b]) += back.weight[a] * back.weight[b] / volume[k];
+    metric_ = penalty * pseudoInverse(metric_, rankTolerance);
+  }
+  void evaluate(const GapRates& rates, std::span<Vec3> lambda) const override { apply(rates.gap, lambda); }
+  double storedEnergy(std::span<const Vec3> gap) const override {
+    std::vector<Vec3> lambda(gap.size());
+    apply(gap, lambda);
+    double sum = 0.0;
+    for (std::size_t r = 0; r < gap.size(); ++r) sum += 0.5 * dot(gap[r], lambda[r]);
+    return sum;
+  }
+  void applyStiffness(std::span<const Vec3> gap, std::span<Vec3> lambda) const override { apply(gap, lambda); }
+
+private:
+  void apply(std::span<const Vec3> gap, std::span<Vec3> lambda) const {
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> in(&gap[0].x, rows_, 3);
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> out(&lambda[0].x, rows_, 3);
+    out.noalias() = metric_ * in;
+  }
+  Eigen::Index rows_;
+  Matrix metric_;  // N/m
 };
 
 class Dashpot final : public Constraint {
@@ -51,12 +85,18 @@ std::unique_ptr<Constraint> makePenalty(const GapOperator& gap, double penalty) 
   return std::make_unique<Penalty>(gap, requirePositive(penalty, "penalty"));
 }
 
+std::unique_ptr<Constraint> makeMetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty,
+                                              double rankTolerance) {
+  requireFewRows(gap.rows(), "penalty with kernels");
+  return std::make_unique<MetricPenalty>(gap, volume, requirePositive(penalty, "penalty"), rankTolerance);
+}
+
 std::unique_ptr<Constraint> makeDashpot(const GapOperator& gap, double penalty, bool consistent) {
   return std::make_unique<Dashpot>(gap, requirePositive(penalty, "penalty"), consistent);
 }
 
-double automaticPenalty(double youngsModulus, double elementSize) {
-  return 5.0 * requirePositive(youngsModulus, "Young's modulus") /
+double automaticPenalty(double youngsModulus, double elementSize, bool local) {
+  return (local ? 32.0 : 25.0) * requirePositive(youngsModulus, "Young's modulus") /
          (requirePositive(elementSize, "element size") * elementSize);
 }
 

@@ -24,13 +24,19 @@ enum class GapForm {
 struct ProjectionOptions {
   double width = 0.0;  ///< c, m; 0 = local, Π_iα ∝ m_α ψ_i(x_α)
   cg::KernelShape kernel = cg::KernelShape::lucy;
+  /// Whether each particle's kernel is normalised over the overlap: the part that would reach beyond a border is then
+  /// not lost, and an even load on the nodes is an even load on the particles. The paper's Eq. 27 does without.
+  bool normaliseKernels = true;
+  /// One row per element and corner, from the particles of that element alone (with a kernel: from its part of the
+  /// integral), in place of one per node. Every element then is one-sided at all its nodes.
+  bool perElement = false;
 };
 
 /// The gap at row i is Σ Π_ik v(overlap particle k) − Σ B_in v(node n); λ_i (N) pulls the particles back by −Πᵀλ and
 /// the nodes along by Bᵀλ: the adjoint, so that the power lost by one side is gained by the other, up to what the gap
 /// does.
 struct GapOperator {
-  std::vector<int> node;          ///< coarse node of each row, ascending
+  std::vector<int> node;          ///< coarse node of each row; ascending unless the rows are per element
   std::vector<double> volume;     ///< ∫ψ_i dV over the overlap's elements, m³
   cg::Projection particles;       ///< Π; columns are the rows of Overlap
   cg::Projection nodes;           ///< B = ΠΦ, or the identity on the rows' nodes; columns are nodes

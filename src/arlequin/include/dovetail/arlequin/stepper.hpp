@@ -20,7 +20,7 @@ namespace dovetail::arlequin {
 
 using PairLaw = std::variant<dem::ElasticLaw, dem::FrictionalLaw>;
 
-/// Particles that follow a prescribed path.
+/// Particles that follow a prescribed path; those of zero displacement are held.
 struct Drive {
   std::vector<int> particles;                ///< ascending
   std::function<Vec3(double)> displacement;  ///< of time (s) since the start, m; smooth enough for `velocity`
@@ -35,7 +35,7 @@ struct Model {
   Vec3 gravity;  ///< on particles and solid, m/s²
   std::optional<Solid> solid;
   std::optional<Coupling> coupling;
-  std::optional<Drive> drive;
+  std::vector<Drive> drives;
 
   double time = 0.0;               ///< s
   dem::ContactWork contact;        ///< of the last force evaluation

@@ -1,0 +1,128 @@
+// A coupled run beside particles alone over the whole length.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "dovetail/dem/pair_collide.hpp"
+#include "run.hpp"
+
+namespace dovetail::wave {
+
+namespace {
+
+/// Settings of the run of particles alone; those that do not concern it are set to one value.
+Settings particlesAlone(const Settings& settings, double dt) {
+  Settings alone;
+  alone.fullDem = true;
+  alone.particlesPerEdge = settings.particlesPerEdge;
+  alone.demLength = settings.demLength;
+  alone.overlap = settings.overlap;
+  alone.femLength = solidElements(settings) * Case{}.elementSize;
+  alone.lengthen = false;
+  alone.tension = settings.tension;
+  alone.signal = settings.signal;
+  alone.pulseElements = settings.pulseElements;
+  alone.cycles = settings.cycles;
+  alone.amplitude = settings.amplitude;
+  alone.until = endTime(settings);
+  alone.dtFactor = dt / contactTime(settings) * (1.0 + 1e-12);
+  alone.threads = settings.threads;
+  alone.quiet = settings.quiet;
+  return alone;
+}
+
+const RunResult& keptRun(const Settings& alone) {
+  static std::vector<std::unique_ptr<RunResult>> kept;
+  for (const auto& result : kept)
+    if (describe(result->settings) == describe(alone)) return *result;
+  constexpr std::size_t most = 16;
+  if (kept.size() == most) kept.erase(kept.begin());
+  kept.push_back(std::make_unique<RunResult>(run(alone)));
+  return *kept.back();
+}
+
+/// Mean velocity of each layer, m/s; that of the wall's layer mirrored, so that the bar's end has none.
+std::vector<Vec3> layerMeans(const Settings& s, const dem::Particles& particles) {
+  const auto perLayer = static_cast<std::size_t>(particlesPerLayer(s));
+  std::vector<Vec3> mean(particles.size() / perLayer);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    mean[i / perLayer] += (1.0 / static_cast<double>(perLayer)) * particles.v[i];
+  mean.back() = -mean[mean.size() - 2];
+  return mean;
+}
+
+/// Natural cubic spline through values at the places 0, 1, 2 …
+class CubicSpline {
+public:
+  explicit CubicSpline(std::vector<Vec3> value) : value_(std::move(value)), curvature_(value_.size()) {
+    const std::size_t n = value_.size();
+    std::vector<double> pivot(n, 4.0);
+    for (std::size_t i = 1; i + 1 < n; ++i) curvature_[i] = 6.0 * (value_[i - 1] - 2.0 * value_[i] + value_[i + 1]);
+    for (std::size_t i = 2; i + 1 < n; ++i) {
+      pivot[i] -= 1.0 / pivot[i - 1];
+      curvature_[i] -= (1.0 / pivot[i - 1]) * curvature_[i - 1];
+    }
+    for (std::size_t i = n - 2; i > 0; --i) curvature_[i] = (1.0 / pivot[i]) * (curvature_[i] - curvature_[i + 1]);
+  }
+  Vec3 operator()(double place) const {
+    const double first = std::clamp(std::floor(place), 0.0, static_cast<double>(value_.size() - 2));
+    const auto i = static_cast<std::size_t>(first);
+    const double b = place - first, a = 1.0 - b;
+    return a * value_[i] + b * value_[i + 1] +
+           (1.0 / 6.0) * ((a * a * a - a) * curvature_[i] + (b * b * b - b) * curvature_[i + 1]);
+  }
+
+private:
+  std::vector<Vec3> value_, curvature_;  // second derivatives, 0 at both ends
+};
+
+void compareSolid(RunResult& result, const RunResult& alone) {
+  const Settings& s = result.settings;
+  const CubicSpline layer(layerMeans(s, alone.particles));  // layer l lies at (l + ½) d
+  double error = 0.0, size = 0.0;
+  for (std::size_t n = 0; n < result.nodePosition.size(); ++n) {
+    if (result.nodePosition[n].y <= s.demLength + 1e-9) continue;
+    const Vec3 reference = layer(result.nodePosition[n].y / particleDiameter(s) - 0.5);
+    error += squaredNorm(result.nodeVelocity[n] - reference);
+    size += squaredNorm(reference);
+  }
+  result.figures.waveformErrorFem = std::sqrt(error / size);
+}
+
+/// Particles outside of the mesh, which carry everything alone.
+void compareParticles(RunResult& result, const RunResult& alone) {
+  const Settings& s = result.settings;
+  const auto count = static_cast<std::size_t>(particlesPerLayer(s) * layers(s, s.demLength - s.overlap));
+  const double m = particleMass(s), k = Case{}.youngsModulus * particleDiameter(s);
+  double difference = 0.0, size = 0.0, energy = 0.0;
+  for (std::size_t i = 0; i < alone.particles.size(); ++i) size += squaredNorm(alone.particles.v[i]);
+  for (std::size_t i = 0; i < count; ++i) difference += squaredNorm(result.particles.v[i] - alone.particles.v[i]);
+  energy = 0.5 * m * difference;
+  for (const auto& pair : result.pairs.pairs) {
+    const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
+    if (i >= count || j >= count) continue;
+    double here = dem::pairContact(result.particles, i, j).overlap,
+           there = dem::pairContact(alone.particles, i, j).overlap;
+    if (!s.tension) {
+      here = std::max(here, 0.0);
+      there = std::max(there, 0.0);
+    }
+    energy += 0.5 * k * (here - there) * (here - there);
+  }
+  result.figures.waveformErrorDem = std::sqrt(difference / size);
+  result.figures.reflectedShare = energy / result.figures.energyInput;
+}
+
+}  // namespace
+
+void compareWithParticles(RunResult& result) {
+  if (result.settings.fullDem || !result.figures.finished) return;
+  const RunResult& alone = keptRun(particlesAlone(result.settings, result.figures.dt));
+  if (!alone.figures.finished) return;
+  compareSolid(result, alone);
+  compareParticles(result, alone);
+  result.figures.speedRatio = result.figures.wallSeconds / alone.figures.wallSeconds;
+  result.figures.compared = true;
+}
+
+}  // namespace dovetail::wave

@@ -1,0 +1,171 @@
+#include "model.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "dovetail/arlequin/weights.hpp"
+
+namespace dovetail::wave {
+
+double barLength(const Settings& s) { return s.demLength - s.overlap + solidElements(s) * Case{}.elementSize; }
+
+int particlesPerLayer(const Settings& s) {
+  const int across = static_cast<int>(std::lround(Case{}.side / particleDiameter(s)));
+  return across * across;
+}
+
+int layers(const Settings& s, double length) { return static_cast<int>(std::lround(length / particleDiameter(s))); }
+
+namespace {
+
+dem::Particles makeLattice(const Settings& s, double length) {
+  const double d = particleDiameter(s), first = 0.5 * (d - Case{}.side);
+  const int across = static_cast<int>(std::lround(Case{}.side / d));
+  dem::Particles particles;
+  for (int layer = 0; layer < layers(s, length); ++layer)
+    for (int k = 0; k < across; ++k)
+      for (int i = 0; i < across; ++i)
+        dem::addParticle(particles, {first + i * d, (layer + 0.5) * d, first + k * d}, {}, 0.5 * d,
+                         dem::Mass{particleMass(s)});
+  return particles;
+}
+
+std::vector<int> layerOf(const Settings& s, int layer) {
+  std::vector<int> numbers;
+  for (int i = 0; i < particlesPerLayer(s); ++i) numbers.push_back(layer * particlesPerLayer(s) + i);
+  return numbers;
+}
+
+/// The raised cosine v = v0 (1 − cos ωt) for its time, then held.
+arlequin::Drive raisedCosine(const Settings& s) {
+  const double omega = angularFrequency(s), end = driveTime(s), v0 = s.amplitude * Case{}.cosineVelocity;
+  arlequin::Drive drive;
+  drive.particles = layerOf(s, 0);
+  drive.displacement = [=](double t) {
+    const double within = std::min(t, end);
+    return Vec3{0.0, v0 * (within - std::sin(omega * within) / omega), 0.0};
+  };
+  drive.velocity = [=](double t) { return Vec3{0.0, t < end ? v0 * (1.0 - std::cos(omega * t)) : 0.0, 0.0}; };
+  return drive;
+}
+
+void excite(const Settings& s, arlequin::Model& model) {
+  if (s.signal == Signal::cosine) {
+    model.drives.push_back(raisedCosine(s));
+    return;
+  }
+  for (const int i : layerOf(s, 0))
+    model.particles.v[static_cast<std::size_t>(i)].y = s.amplitude * Case{}.velocity * s.particlesPerEdge;
+}
+
+arlequin::Model makeParticles(const Settings& s, double length) {
+  arlequin::Model model;
+  model.particles = makeLattice(s, length);
+  dem::findPairs(model.particles, 0.1 * particleDiameter(s), model.pairs);
+  dem::ElasticLaw law;
+  law.normal.stiffness = Case{}.youngsModulus * particleDiameter(s);
+  law.normal.bonded = s.tension;
+  model.law = law;
+  excite(s, model);
+  return model;
+}
+
+fem::Mesh makeMesh(const Settings& s) {
+  const double half = 0.5 * Case{}.side, start = s.demLength - s.overlap;
+  const int across = static_cast<int>(std::lround(Case{}.side / Case{}.elementSize)), along = solidElements(s);
+  return fem::boxMesh({across, along, across}, {-half, start, -half}, {half, start + along * Case{}.elementSize, half});
+}
+
+/// w per node from the distances to the mesh's end within the particles and to the particles' end within the mesh.
+std::vector<double> makeWeights(const Settings& s, const fem::Mesh& mesh) {
+  const double half = 0.5 * Case{}.side, end = s.demLength;
+  const std::array<Vec3, 4> corner = {
+      Vec3{-half, end, -half}, {half, end, -half}, {half, end, half}, {-half, end, half}};
+  const std::vector<arlequin::Triangle> particleBorder = {{corner[0], corner[1], corner[2]},
+                                                          {corner[0], corner[2], corner[3]}};
+  std::vector<double> place =
+      arlequin::distanceCoordinate(mesh.X, arlequin::triangles(mesh, fem::faceSet(mesh, "y-")), particleBorder);
+  for (std::size_t n = 0; n < place.size(); ++n)
+    if (mesh.X[n].y > end + 1e-9) place[n] = arlequin::beyondOverlap;
+  const auto profile = s.weightProfile == WeightProfile::linear   ? arlequin::WeightProfile::linear
+                       : s.weightProfile == WeightProfile::smooth ? arlequin::WeightProfile::smooth
+                                                                  : arlequin::WeightProfile::halfCosine;
+  return arlequin::nodalWeights(place, {profile, s.weightFloor});
+}
+
+double massShare(const Settings& s) {
+  switch (s.mass) {
+    case Mass::lumped:
+      return 0.0;
+    case Mass::consistent:
+      return 1.0;
+    case Mass::matched:
+      return fem::matchedShare(particleDiameter(s), Case{}.elementSize);
+  }
+  return 0.0;
+}
+
+arlequin::Solid makeSolid(const Settings& s, const std::vector<double>& weight) {
+  fem::Mesh mesh = makeMesh(s);
+  fem::Nodes nodes = fem::makeNodes(mesh);
+  fem::fix(nodes, fem::nodeSet(mesh, "y+"));
+  fem::ElementBlock elements =
+      fem::makeElements(mesh, fem::ElementType::hex8,
+                        fem::StVenantKirchhoff{Case{}.youngsModulus * s.stiffnessRatio, Case{}.poissonRatio,
+                                               bulkDensity() * s.densityRatio},
+                        arlequin::solidWeights(weight));
+  fem::addLumpedMass(elements, nodes);
+  arlequin::Solid solid{std::move(mesh), std::move(nodes), std::move(elements), std::nullopt, {}, {}, {}, 0.0};
+  if (massShare(s) > 0.0) solid.mass.emplace(solid.elements, solid.nodes, massShare(s));
+  return solid;
+}
+
+arlequin::CouplingOptions couplingOptions(const Settings& s) {
+  arlequin::CouplingOptions o;
+  o.form = s.gap == Gap::nodal ? arlequin::GapForm::nodal : arlequin::GapForm::atParticles;
+  o.projection = {s.cgWidth * Case{}.elementSize,
+                  s.kernel == Kernel::gauss ? cg::KernelShape::gauss : cg::KernelShape::lucy, s.normaliseKernels,
+                  s.rows == Rows::perElement};
+  o.constraint = static_cast<arlequin::ConstraintKind>(s.constraint);
+  o.penalty = s.penalty;
+  if (s.constraint == Constraint::dashpot && s.penalty == 0.0) o.penalty = publishedPenalty(s.particlesPerEdge);
+  o.consistentDashpot = s.dashpotMatrix == DashpotMatrix::consistent;
+  o.contactStiffness = Case{}.youngsModulus * particleDiameter(s);
+  o.absorberRate = s.absorber * waveSpeed() / Case{}.elementSize;
+  return o;
+}
+
+}  // namespace
+
+arlequin::Model makeCoupledBar(const Settings& s) {
+  arlequin::Model model = makeParticles(s, s.demLength);
+  const std::vector<double> weight = makeWeights(s, makeMesh(s));
+  model.solid.emplace(makeSolid(s, weight));
+  model.coupling.emplace(
+      arlequin::makeCoupling(model.particles, model.pairs, *model.solid, weight, couplingOptions(s)));
+  return model;
+}
+
+arlequin::Model makeParticleBar(const Settings& s) {
+  const int count = layers(s, barLength(s));
+  // The last layer is the wall: held, and tied by bonds of twice the stiffness, it fixes the point midway.
+  arlequin::Model model = makeParticles(s, barLength(s) + particleDiameter(s));
+  arlequin::Drive held;
+  held.particles = layerOf(s, count);
+  held.displacement = [](double) { return Vec3{}; };
+  held.velocity = held.displacement;
+  model.pairs.scale.assign(model.pairs.pairs.size(), 1.0);
+  for (std::size_t p = 0; p < model.pairs.pairs.size(); ++p)
+    if (model.pairs.pairs[p][1] >= held.particles.front() && model.pairs.pairs[p][0] < held.particles.front())
+      model.pairs.scale[p] = 2.0;
+  model.drives.push_back(std::move(held));
+  return model;
+}
+
+fem::NewmarkSolver makeNewmark(const Settings& s, const arlequin::Model& model, double dt) {
+  fem::NewmarkOptions options;
+  options.consistentShare = massShare(s);
+  return fem::NewmarkSolver(model.solid->elements, model.solid->nodes, dt, options);
+}
+
+}  // namespace dovetail::wave

@@ -1,0 +1,28 @@
+// Builds the bar from the settings: particles and solid with an overlap, or particles alone.
+//
+// y runs along the bar from the end that is struck. Particles fill 0 ≤ y ≤ dem length, the solid goes on from
+// dem length − overlap. Particles are numbered layer by layer along y.
+#pragma once
+
+#include "dovetail/arlequin/stepper.hpp"
+#include "settings.hpp"
+
+namespace dovetail::wave {
+
+/// Length of the whole bar, m.
+double barLength(const Settings& settings);
+/// Particles in a layer, and layers of a bar of that length.
+int particlesPerLayer(const Settings& settings);
+int layers(const Settings& settings, double length);
+
+/// Particles and solid coupled in the overlap.
+/// @throws InputError for impossible settings
+arlequin::Model makeCoupledBar(const Settings& settings);
+/// Particles over the whole length and one layer more, which is the wall at the end: held, it fixes the bar's last
+/// point.
+arlequin::Model makeParticleBar(const Settings& settings);
+
+/// Newmark for the solid of a coupled bar, with the mass matrix of the settings.
+fem::NewmarkSolver makeNewmark(const Settings& settings, const arlequin::Model& model, double dt);
+
+}  // namespace dovetail::wave

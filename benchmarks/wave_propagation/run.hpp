@@ -1,0 +1,74 @@
+// Runs a bar and gathers its figures.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dovetail/arlequin/critical_step.hpp"
+#include "dovetail/core/ledger.hpp"
+#include "dovetail/core/profile.hpp"
+#include "dovetail/io/time_series.hpp"
+#include "model.hpp"
+#include "settings.hpp"
+
+namespace dovetail::wave {
+
+struct RunFigures {
+  bool finished = false, stable = false;
+  std::string failure;
+  std::int64_t steps = 0;
+  std::size_t particles = 0, overlapParticles = 0, elements = 0, coupledNodes = 0;
+  double wallSeconds = 0.0;  ///< of the loop, sampling included
+  double dt = 0.0, endTime = 0.0;
+  arlequin::CriticalStep critical{};
+  double penalty = 0.0;  ///< in use, Pa/m²
+
+  double energyInput = 0.0, energyFinal = 0.0;  ///< J; final without booked channels
+  double lostShare = 0.0, absorbedShare = 0.0, couplingWorkShare = 0.0;
+  double ledgerResidual = 0.0, momentumResidual = 0.0, massResidual = 0.0;
+  double largestExcess = 0.0;  ///< kinetic + elastic energy over what was put in
+  double overlapMismatch = 0.0, gapMax = 0.0;
+  double paperDissipatedShare = 0.0;
+
+  bool compared = false;  ///< with a run of particles alone
+  double waveformErrorFem = 0.0, waveformErrorDem = 0.0, reflectedShare = 0.0, speedRatio = 0.0;
+};
+
+/// Energy without booked channels, at the samples.
+struct EnergySample {
+  double t, joules;
+};
+
+/// What the models look like at some time.
+struct Frame {
+  double time;
+  const arlequin::Model& model;
+};
+using Observer = std::function<void(const Frame&)>;
+
+struct RunResult {
+  Settings settings;
+  RunFigures figures;
+  EnergyLedger ledger;
+  Profile profile;
+  io::TimeSeries series{{"t_s"}};
+  std::vector<EnergySample> energy;
+  dem::Particles particles;  ///< at the end
+  std::vector<double> contactScale;
+  dem::PairList pairs;
+  std::vector<Vec3> nodePosition, nodeVelocity;  ///< at the end; empty without a solid
+};
+
+/// @throws InputError for impossible settings. A run that breaks down returns with `failure`.
+RunResult run(const Settings& settings, const Observer& observer = {});
+
+/// Compares a coupled run with particles alone over the whole length, which is run once for settings that agree in all
+/// that concerns it and kept.
+void compareWithParticles(RunResult& result);
+
+/// Energy at time t, linear between samples, J; NaN outside.
+double energyAt(const std::vector<EnergySample>& energy, double t);
+
+}  // namespace dovetail::wave
