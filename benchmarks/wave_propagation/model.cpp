@@ -124,8 +124,11 @@ arlequin::CouplingOptions couplingOptions(const Settings& s) {
   arlequin::CouplingOptions o;
   o.form = s.gap == Gap::nodal ? arlequin::GapForm::nodal : arlequin::GapForm::atParticles;
   o.projection = {s.cgWidth * Case{}.elementSize,
-                  s.kernel == Kernel::gauss ? cg::KernelShape::gauss : cg::KernelShape::lucy, s.normaliseKernels,
-                  s.rows == Rows::perElement};
+                  s.kernel == Kernel::gauss ? cg::KernelShape::gauss : cg::KernelShape::lucy,
+                  s.normaliseKernels,
+                  s.rows == Rows::perElement,
+                  s.kernelReach == KernelReach::outside,
+                  s.rows == Rows::perElement ? 1 : 0};
   o.constraint = static_cast<arlequin::ConstraintKind>(s.constraint);
   o.penalty = s.penalty;
   if (s.constraint == Constraint::dashpot && s.penalty == 0.0) o.penalty = publishedPenalty(s.particlesPerEdge);

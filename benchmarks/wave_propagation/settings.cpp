@@ -60,6 +60,7 @@ void applyScheme(Settings& s, Scheme scheme) {
   s.dashpotMatrix = DashpotMatrix::lumped;
   s.rows = paper ? Rows::perElement : Rows::perNode;
   s.normaliseKernels = !paper;
+  s.kernelReach = paper ? KernelReach::outside : KernelReach::overlap;
   s.staggered = paper;
   s.dtFactor = paper ? 0.01 : 0.02;
   s.signal = paper ? Signal::impulse : Signal::cosine;
@@ -107,6 +108,9 @@ void checkCombinations(const Settings& s) {
   if (s.staggered && (s.fem != FemStepper::newmark || s.constraint != Constraint::dashpot))
     throw InputError("staggered steps are made for the dashpot and an implicit solid", "--order staggered",
                      "add --constraint dashpot --fem newmark, or take --order symmetric");
+  if (s.kernelReach == KernelReach::outside && s.gap == Gap::atParticles)
+    throw InputError("particles outside of the mesh have no solid to be compared with", "--kernel-reach outside",
+                     "take --gap nodal, or --kernel-reach overlap");
   if (s.staggered && s.femEvery != 1)
     throw InputError("staggered steps take the solid along at every step", "--fem-every", "take 1");
   if (s.absorber > 0.0 && (s.fem == FemStepper::newmark))
@@ -163,6 +167,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
           {"dashpot_matrix", pick(static_cast<int>(s.dashpotMatrix), {"lumped", "consistent"})},
           {"rows", pick(static_cast<int>(s.rows), {"per-node", "per-element"})},
           {"kernel_normalisation", s.normaliseKernels ? "on" : "off"},
+          {"kernel_reach", pick(static_cast<int>(s.kernelReach), {"overlap", "outside"})},
           {"order", s.staggered ? "staggered" : "symmetric"},
           {"cg_width_elements", text(s.cgWidth)},
           {"kernel", pick(static_cast<int>(s.kernel), {"lucy", "gauss"})},

@@ -27,6 +27,7 @@ enum class Mass { lumped, consistent, matched };
 enum class FemStepper { explicitDifferences, newmark };
 enum class DashpotMatrix { lumped, consistent };
 enum class Rows { perNode, perElement };
+enum class KernelReach { overlap, outside };
 enum class Study { none, widths, pareto, stability, constraints };
 
 struct Settings {
@@ -45,6 +46,7 @@ struct Settings {
   DashpotMatrix dashpotMatrix = DashpotMatrix::lumped;
   Rows rows = Rows::perNode;
   bool normaliseKernels = true;
+  KernelReach kernelReach = KernelReach::overlap;
   bool staggered = false;  ///< coupling forces of the last step's increments, frozen over the step
 
   double cgWidth = 0.0;  ///< element sizes

@@ -63,6 +63,9 @@ std::unique_ptr<Constraint> makeConstraint(const Coupling& c, const dem::Particl
   throw InputError("there is no such constraint", "coupling", "take penalty, multiplier, dashpot or stress");
 }
 
+/// How far outside of the mesh particles take part, m.
+double reachOf(const CouplingOptions& o) { return o.projection.reachOut ? o.projection.width : 0.0; }
+
 /// The mesh where its nodes are now.
 fem::Mesh movedMesh(const Solid& solid) {
   fem::Mesh mesh = solid.mesh;
@@ -101,7 +104,7 @@ Coupling makeCoupling(dem::Particles& particles, dem::PairList& pairs, const Sol
   Coupling c;
   c.options = options;
   c.fullMass = particles.mass;
-  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes, nodalWeight);
+  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes, nodalWeight, reachOf(options));
   requireWidth(c.overlap, solid);
   setUp(c, particles, pairs, solid);
   c.gapNow.assign(c.rows(), {});
@@ -116,7 +119,7 @@ Handover renew(Coupling& c, dem::Particles& particles, dem::PairList& pairs, con
   Handover handover;
   handover.energy = dem::kineticEnergy(particles) + c.storedEnergy();
   handover.momentum = dem::momentum(particles);
-  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes, c.overlap.nodalWeight);
+  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes, c.overlap.nodalWeight, reachOf(c.options));
   setUp(c, particles, pairs, solid);
   std::map<int, std::size_t> rowOf;
   for (std::size_t r = 0; r < oldNode.size(); ++r) rowOf[oldNode[r]] = r;

@@ -49,6 +49,16 @@ std::vector<QuadraturePoint> quadrature(const fem::Mesh& mesh, const std::array<
   return points;
 }
 
+/// Elements with a weight above 0, with or without particles.
+std::vector<int> weightedElements(const Overlap& overlap, const fem::Mesh& mesh) {
+  std::vector<int> elements;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    if (std::any_of(mesh.elements[e].begin(), mesh.elements[e].end(),
+                    [&](int n) { return overlap.nodalWeight[static_cast<std::size_t>(n)] > 0.0; }))
+      elements.push_back(static_cast<int>(e));
+  return elements;
+}
+
 /// Gap rows of the corners of the overlap's elements.
 struct RowNumbers {
   std::vector<int> place;                  // of each element of the mesh among the overlap's, −1 elsewhere
@@ -60,11 +70,12 @@ struct RowNumbers {
 };
 
 /// One row per node, or one per element and corner.
-RowNumbers numberRows(const Overlap& overlap, const fem::Mesh& mesh, bool perElement, std::vector<int>& node) {
+RowNumbers numberRows(const std::vector<int>& elements, const fem::Mesh& mesh, bool perElement,
+                      std::vector<int>& node) {
   RowNumbers rows{std::vector<int>(mesh.elements.size(), -1), {}};
   std::vector<int> ofNode(mesh.X.size(), -1);
   if (!perElement) {
-    for (const int e : overlap.elements)
+    for (const int e : elements)
       for (const int n : mesh.elements[static_cast<std::size_t>(e)]) ofNode[n] = 0;
     for (std::size_t n = 0; n < ofNode.size(); ++n)
       if (ofNode[n] == 0) {
@@ -72,7 +83,7 @@ RowNumbers numberRows(const Overlap& overlap, const fem::Mesh& mesh, bool perEle
         node.push_back(static_cast<int>(n));
       }
   }
-  for (const int e : overlap.elements) {
+  for (const int e : elements) {
     rows.place[static_cast<std::size_t>(e)] = static_cast<int>(rows.corner.size());
     std::array<int, 8> corner;
     for (std::size_t a = 0; a < 8; ++a) {
@@ -87,7 +98,7 @@ RowNumbers numberRows(const Overlap& overlap, const fem::Mesh& mesh, bool perEle
 
 void addLocalRows(const Overlap& overlap, std::span<const double> mass, const RowNumbers& row, Rows& rows) {
   for (std::size_t k = 0; k < overlap.size(); ++k) {
-    if (!(overlap.weight[k] > 0.0)) continue;
+    if (!(overlap.weight[k] > 0.0) || overlap.place[k].element < 0) continue;
     for (std::size_t a = 0; a < 8; ++a) {
       const double value = mass[static_cast<std::size_t>(overlap.particle[k])] * overlap.place[k].shape[a];
       if (value > 0.0)
@@ -96,10 +107,9 @@ void addLocalRows(const Overlap& overlap, std::span<const double> mass, const Ro
   }
 }
 
-double elementSize(const fem::Mesh& mesh, int element) {
+double elementSize(const fem::Mesh& mesh, const std::array<int, 8>& element) {
   double volume = 0.0;
-  for (const QuadraturePoint& point : quadrature(mesh, mesh.elements[static_cast<std::size_t>(element)], 1))
-    volume += point.weight;
+  for (const QuadraturePoint& point : quadrature(mesh, element, 1)) volume += point.weight;
   return std::cbrt(volume);
 }
 
@@ -109,9 +119,11 @@ std::vector<std::vector<double>> kernelIntegrals(const Overlap& overlap, const f
                                                  const RowNumbers& row, std::size_t rows) {
   const cg::Kernel kernel{options.kernel, 3, options.width};
   std::vector<std::vector<double>> dense(rows, std::vector<double>(overlap.size(), 0.0));
-  for (const int e : overlap.elements) {
-    const auto& element = mesh.elements[static_cast<std::size_t>(e)];
-    const int cells = std::clamp(static_cast<int>(std::ceil(1.5 * elementSize(mesh, e) / options.width)), 1, 8);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    if (row.place[e] < 0) continue;
+    const auto& element = mesh.elements[e];
+    const int fine = std::clamp(static_cast<int>(std::ceil(1.5 * elementSize(mesh, element) / options.width)), 1, 8);
+    const int cells = options.kernelCells > 0 ? options.kernelCells : fine;
     const std::vector<QuadraturePoint> points = quadrature(mesh, element, cells);
     parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
@@ -124,7 +136,8 @@ std::vector<std::vector<double>> kernelIntegrals(const Overlap& overlap, const f
           const double value = point.weight * kernel(distance);
           for (std::size_t a = 0; a < 8; ++a) sum[a] += value * point.shape[a];
         }
-        for (std::size_t a = 0; a < 8; ++a) dense[static_cast<std::size_t>(row.of(e)[a])][k] += sum[a];
+        for (std::size_t a = 0; a < 8; ++a)
+          dense[static_cast<std::size_t>(row.of(static_cast<int>(e))[a])][k] += sum[a];
       }
     });
   }
@@ -186,10 +199,10 @@ void dropEmptyRows(Rows& rows, std::vector<int>& node, RowNumbers& numbers) {
 }
 
 /// Volumes and ∫ψ_iψ_j of the rows.
-void addVolumes(const Overlap& overlap, const fem::Mesh& mesh, const RowNumbers& row, GapOperator& gap) {
+void addVolumes(const std::vector<int>& elements, const fem::Mesh& mesh, const RowNumbers& row, GapOperator& gap) {
   gap.volume.assign(gap.rows(), 0.0);
   Rows products(gap.rows());
-  for (const int e : overlap.elements) {
+  for (const int e : elements) {
     const auto& element = mesh.elements[static_cast<std::size_t>(e)];
     const std::array<int, 8>& corner = row.of(e);
     for (const QuadraturePoint& point : quadrature(mesh, element, 1))
@@ -223,7 +236,9 @@ GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const
                             std::span<const double> mass, GapForm form, const ProjectionOptions& options) {
   requireNonNegative(options.width, "coarse-graining width");
   GapOperator gap;
-  RowNumbers row = numberRows(overlap, mesh, options.perElement, gap.node);
+  const std::vector<int> elements =
+      options.reachOut && options.width > 0.0 ? weightedElements(overlap, mesh) : overlap.elements;
+  RowNumbers row = numberRows(elements, mesh, options.perElement, gap.node);
   Rows rows(gap.node.size());
   if (options.width == 0.0)
     addLocalRows(overlap, mass, row, rows);
@@ -241,7 +256,7 @@ GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const
     gap.nodes = cg::fromRows(static_cast<int>(mesh.X.size()), unit);
   }
   addNodesBack(gap);
-  addVolumes(overlap, mesh, row, gap);
+  addVolumes(elements, mesh, row, gap);
   return gap;
 }
 

@@ -1,6 +1,7 @@
 #include "dovetail/arlequin/overlap.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "dovetail/core/error.hpp"
@@ -25,6 +26,30 @@ double weightAt(const Place& place, std::span<const std::array<int, 8>> elements
   return std::clamp(weight, 0.0, 1.0);
 }
 
+/// Around the nodes of elements with a weight above 0.
+geometry::Box boxOfWeights(std::span<const std::array<int, 8>> elements, const fem::Nodes& nodes,
+                           std::span<const double> weight) {
+  constexpr double far = std::numeric_limits<double>::max();
+  geometry::Box box{{far, far, far}, {-far, -far, -far}};
+  for (const auto& element : elements) {
+    const bool weighted =
+        std::any_of(element.begin(), element.end(), [&](int n) { return weight[static_cast<std::size_t>(n)] > 0.0; });
+    for (const int n : element)
+      for (int c = 0; weighted && c < 3; ++c) {
+        const double x = (nodes.X[static_cast<std::size_t>(n)] + nodes.u[static_cast<std::size_t>(n)])[c];
+        box.lower[c] = std::min(box.lower[c], x);
+        box.upper[c] = std::max(box.upper[c], x);
+      }
+  }
+  return box;
+}
+
+bool contains(const geometry::Box& box, const Vec3& x) {
+  for (int c = 0; c < 3; ++c)
+    if (x[c] < box.lower[c] || x[c] > box.upper[c]) return false;
+  return true;
+}
+
 void requireOverlap(const Overlap& overlap, std::span<const std::array<int, 8>> elements) {
   bool anyElement = false;
   for (const auto& element : elements)
@@ -39,7 +64,7 @@ void requireOverlap(const Overlap& overlap, std::span<const std::array<int, 8>> 
 }  // namespace
 
 Overlap locateOverlap(const dem::Particles& particles, std::span<const std::array<int, 8>> elements,
-                      const fem::Nodes& nodes, std::span<const double> nodalWeight) {
+                      const fem::Nodes& nodes, std::span<const double> nodalWeight, double reach) {
   if (nodalWeight.size() != nodes.X.size())
     throw InputError(
         "there are " + std::to_string(nodalWeight.size()) + " weights for " + std::to_string(nodes.X.size()) + " nodes",
@@ -48,9 +73,16 @@ Overlap locateOverlap(const dem::Particles& particles, std::span<const std::arra
   const ElementLocator locator(elements, currentPositions(nodes));
   Overlap overlap;
   overlap.nodalWeight.assign(nodalWeight.begin(), nodalWeight.end());
+  const geometry::Box reached = geometry::expanded(boxOfWeights(elements, nodes, nodalWeight), reach);
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const auto place = locator.find(particles.x[i]);
-    if (!place) continue;
+    if (!place && (reach == 0.0 || !contains(reached, particles.x[i]))) continue;
+    if (!place) {
+      overlap.particle.push_back(static_cast<int>(i));
+      overlap.place.push_back({-1, {}, {}});
+      overlap.weight.push_back(1.0);
+      continue;
+    }
     overlap.particle.push_back(static_cast<int>(i));
     overlap.place.push_back(*place);
     overlap.weight.push_back(weightAt(*place, elements, nodalWeight));
@@ -104,6 +136,9 @@ cg::Projection interpolationAtParticles(const Overlap& overlap, std::span<const 
   std::vector<cg::ProjectionRow> rows(overlap.size());
   for (std::size_t k = 0; k < overlap.size(); ++k) {
     const Place& place = overlap.place[k];
+    if (place.element < 0)
+      throw InputError("particle " + std::to_string(overlap.particle[k]) + " is outside of the mesh",
+                       "interpolationAtParticles", "locate the overlap without a reach");
     for (std::size_t a = 0; a < 8; ++a)
       rows[k].emplace_back(elements[static_cast<std::size_t>(place.element)][a], place.shape[a]);
   }

@@ -30,6 +30,11 @@ struct ProjectionOptions {
   /// One row per element and corner, from the particles of that element alone (with a kernel: from its part of the
   /// integral), in place of one per node. Every element then is one-sided at all its nodes.
   bool perElement = false;
+  /// Whether kernels also reach the elements without a particle in which w falls to 0, and particles outside of the
+  /// mesh that the overlap was located with. For the nodal form.
+  bool reachOut = false;
+  /// Kernels are integrated over elements cut into kernelCells³ parts of 2×2×2 Gauss points; 0 = as many as they need.
+  int kernelCells = 0;
 };
 
 /// The gap at row i is Σ Π_ik v(overlap particle k) − Σ B_in v(node n); λ_i (N) pulls the particles back by −Πᵀλ and
@@ -52,6 +57,7 @@ struct GapOperator {
 /// by Gauss points as fine as the kernel asks for, normalised by the quadrature itself. Rows without a particle are
 /// left out.
 /// @param mass  full masses of all particles, kg
+/// @param mesh  in the configuration in which the overlap was located
 /// @throws InputError for a width that is negative or not finite
 GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
                             std::span<const double> mass, GapForm form, const ProjectionOptions& options);

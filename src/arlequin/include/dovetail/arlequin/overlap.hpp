@@ -14,10 +14,11 @@
 
 namespace dovetail::arlequin {
 
-/// Particles within the mesh. Row k of every array is particle `particle[k]`.
+/// Particles within the mesh, and those outside of it that kernels reach. Row k of every array is particle
+/// `particle[k]`.
 struct Overlap {
   std::vector<int> particle;        ///< ascending
-  std::vector<Place> place;         ///< host element, parent coordinates, shape functions
+  std::vector<Place> place;         ///< host element (−1 outside of the mesh), parent coordinates, shape functions
   std::vector<double> weight;       ///< w at the centre
   std::vector<int> elements;        ///< that host a particle in the overlap proper (w > 0 somewhere), ascending
   std::vector<double> nodalWeight;  ///< w at every node of the mesh
@@ -27,10 +28,11 @@ struct Overlap {
 
 /// Finds the particles that lie within the mesh as it is now (X + u).
 /// @param nodalWeight  w per node, 0 … 1
+/// @param reach  m: particles outside are taken in up to this distance from the box around the elements with w > 0
 /// @throws InputError if no particle lies in an element with w > 0 somewhere, if no element has one, or if weights are
 ///         not one per node; NumericalError naming a particle whose position is not finite
 Overlap locateOverlap(const dem::Particles& particles, std::span<const std::array<int, 8>> elements,
-                      const fem::Nodes& nodes, std::span<const double> nodalWeight);
+                      const fem::Nodes& nodes, std::span<const double> nodalWeight, double reach = 0.0);
 
 /// w of every particle: 1 outside of the mesh.
 std::vector<double> particleWeights(const Overlap& overlap, std::size_t particles);
@@ -47,6 +49,7 @@ void weighContacts(const dem::Particles& particles, std::span<const std::array<i
 std::vector<double> solidWeights(std::span<const double> nodalWeight);
 
 /// Φ: velocities of the nodes → of the solid at the centres of the overlap's particles. Rows sum to one.
+/// @throws InputError for a particle outside of the mesh
 cg::Projection interpolationAtParticles(const Overlap& overlap, std::span<const std::array<int, 8>> elements,
                                         std::size_t nodes);
 
