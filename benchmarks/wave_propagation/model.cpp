@@ -115,7 +115,7 @@ arlequin::Solid makeSolid(const Settings& s, const std::vector<double>& weight) 
                                                bulkDensity() * s.densityRatio},
                         arlequin::solidWeights(weight));
   fem::addLumpedMass(elements, nodes);
-  arlequin::Solid solid{std::move(mesh), std::move(nodes), std::move(elements), std::nullopt, {}, {}, {}, 0.0};
+  arlequin::Solid solid{std::move(mesh), std::move(nodes), std::move(elements), std::nullopt, {}, {}, {}};
   if (massShare(s) > 0.0) solid.mass.emplace(solid.elements, solid.nodes, massShare(s));
   return solid;
 }

@@ -46,6 +46,7 @@ struct Solid {
   std::vector<Vec3> acceleration;      ///< m/s², of the forces that act at every step
   std::vector<Vec3> slowAcceleration;  ///< m/s², of those that act at the ends of a window of several steps
   double strainEnergy = 0.0;           ///< J, if asked for
+  double splittingEnergy = 0.0;        ///< J, if asked for: see stepExplicit
 };
 
 /// The state of a coupling. Arrays over the rows of `gap`.
