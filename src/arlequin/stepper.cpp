@@ -83,6 +83,7 @@ double splittingEnergy(const Solid& solid, std::span<const Vec3> forceBefore, st
 
 void bookCoupling(Model& model, double dt, StepSums& sums) {
   sums.couplingWork += couplingWorkOfStep(*model.coupling);
+  if (model.coupling->stress) sums.couplingWork += model.coupling->stress->workOfStep();
   if (model.coupling->absorber) sums.absorbed += model.coupling->absorber->workOfStep(model.particles.v, dt);
 }
 

@@ -35,6 +35,9 @@ struct CouplingOptions {
   double absorberRate = 0.0;       ///< 1/s; 0 = no absorber
 };
 
+/// Whether the penalty is one of rows (makePenalty); else it is makeMetricPenalty.
+bool penaltyIsLocal(const CouplingOptions& options);
+
 /// The solid of a volume coupling.
 struct Solid {
   fem::Mesh mesh;
