@@ -98,13 +98,7 @@ private:
   const Settings& settings() const { return result_.settings; }
 
   void prepareStep() {
-    const auto& carrier = [&]() -> const cg::Projection& {
-      if constexpr (requires { model_.seam.skin(); })
-        return model_.seam.skin().carrier;
-      else
-        return model_.seam.surface().carrier;
-    }();
-    const StepLimit limit = criticalStep(settings(), model_.elements, model_.nodes, carrier);
+    const StepLimit limit = criticalStep(settings(), model_.elements, largestMobility(model_.seam, model_.nodes));
     figures().criticalDt = limit.dt;
     figures().criticalSetter = limit.setter;
     clock_.dt = figures().dt = chooseStep(settings(), limit);

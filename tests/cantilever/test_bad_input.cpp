@@ -70,12 +70,18 @@ TEST(BadInput, Meshes) {
 
 TEST(BadInput, WordsThatAreNoChoice) {
   const std::map<std::string, Words> choices{
-      {"--scheme", {"conservative", "paper"}},     {"--kernel", {"lucy", "gauss"}},
-      {"--kernel-correction", {"none", "linear"}}, {"--surface", {"flat", "smooth"}},
-      {"--element", {"hex8", "hybrid8"}},          {"--lag", {"none", "load", "load-and-skin"}},
-      {"--transfer", {"adjoint", "spread"}},       {"--edges", {"projected", "paper"}},
-      {"--metric", {"reference", "deformed"}},     {"--fem", {"explicit", "newmark"}},
-      {"--mass", {"lumped", "consistent"}},        {"--study", {"widths", "pareto", "stability", "ablation"}},
+      {"--scheme", {"conservative", "paper"}},
+      {"--kernel", {"lucy", "gauss"}},
+      {"--kernel-correction", {"none", "linear", "symmetric"}},
+      {"--surface", {"flat", "smooth"}},
+      {"--element", {"hex8", "hybrid8"}},
+      {"--lag", {"none", "load", "load-and-skin"}},
+      {"--transfer", {"adjoint", "spread"}},
+      {"--edges", {"projected", "paper"}},
+      {"--metric", {"reference", "deformed"}},
+      {"--fem", {"explicit", "newmark"}},
+      {"--mass", {"lumped", "consistent"}},
+      {"--study", {"widths", "pareto", "stability", "ablation"}},
   };
   for (const auto& [option, names] : choices) {
     Words parts = names;
