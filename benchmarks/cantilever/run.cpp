@@ -22,6 +22,7 @@ constexpr std::int64_t stepsPerSample = 4;   // at least: a sample costs about h
 constexpr double trajectoryInterval = 5e-3;  // s
 constexpr double seriesInterval = 2e-2;      // s
 constexpr double longestRun = 100.0;         // s, where nobody leaves
+constexpr double mostSteps = 1e10;           // days of computing
 
 const std::vector<std::string> seriesNames{"time_s",
                                            "x1_m",
@@ -70,8 +71,7 @@ std::string moment(double time, std::int64_t step) {
 template <class Model>
 class Runner {
 public:
-  Runner(const Settings& settings, const fem::Mesh& mesh, Model model, const Observer& observer)
-      : mesh_(mesh), model_(std::move(model)), observer_(observer) {
+  Runner(const Settings& settings, const fem::Mesh& mesh, Model model) : mesh_(mesh), model_(std::move(model)) {
     result_.settings = settings;
     result_.profile = Profile(settings.profile);
     result_.series = io::TimeSeries(seriesNames);
@@ -80,7 +80,8 @@ public:
     tipNode_ = mesh_.nodeSets.at("y+").back();
   }
 
-  RunResult run() {
+  RunResult run(const Observer& observer) {
+    observer_ = observer;
     const auto begin = std::chrono::steady_clock::now();
     try {
       loop();
@@ -102,6 +103,7 @@ private:
     figures().criticalDt = limit.dt;
     figures().criticalSetter = limit.setter;
     clock_.dt = figures().dt = chooseStep(settings(), limit);
+    requireFeasible(settings().until.value_or(longestRun) / clock_.dt);
     clock_.substepsPerWindow = settings().femEvery;
     scheme_.booksCoupling = couplingIsUnbalanced(settings());
     scheme_.skinLags = settings().lag == Lag::loadAndSkin;
@@ -110,6 +112,12 @@ private:
       options.consistentShare = settings().mass == MassMatrix::consistent ? 1.0 : 0.0;
       newmark_ = std::make_unique<fem::NewmarkSolver>(model_.elements, model_.nodes, clock_.coarseStep(), options);
     }
+  }
+
+  static void requireFeasible(double steps) {
+    if (steps > mostSteps)
+      throw InputError("up to " + formatNumber(std::round(steps)) + " steps are too many", "--until and the time step",
+                       "give a softer contact (--stiffness-ratio), a larger step (--dt-factor) or an earlier end");
   }
 
   void prepareLedger() {
@@ -312,14 +320,19 @@ private:
 
 }  // namespace
 
-RunResult run(const Settings& settings, const Observer& observer) {
+PreparedRun prepareRun(const Settings& settings) {
   validate(settings);
   setThreads(settings.threads);
-  const fem::Mesh mesh = makeMesh(settings);
-  if (settings.surface == Surface::smooth)
-    return Runner(settings, mesh, makeSmoothModel(settings, mesh), observer).run();
-  return Runner(settings, mesh, makeFlatModel(settings, mesh), observer).run();
+  const auto mesh = std::make_shared<const fem::Mesh>(makeMesh(settings));
+  const auto prepare = [&](auto model) -> PreparedRun {
+    const auto runner = std::make_shared<Runner<decltype(model)>>(settings, *mesh, std::move(model));
+    return [mesh, runner](const Observer& observer) { return runner->run(observer); };
+  };
+  if (settings.surface == Surface::smooth) return prepare(makeSmoothModel(settings, *mesh));
+  return prepare(makeFlatModel(settings, *mesh));
 }
+
+RunResult run(const Settings& settings, const Observer& observer) { return prepareRun(settings)(observer); }
 
 const DynamicReference& dynamicReference(const Settings& settings, double bendingFactor) {
   struct Entry {
@@ -336,6 +349,8 @@ const DynamicReference& dynamicReference(const Settings& settings, double bendin
   return kept.back()->reference;
 }
 
+bool comparesWithBeam(const RunResult& result) { return result.figures.left || !result.settings.until; }
+
 void compareWithReferences(RunResult& result) {
   RunFigures& f = result.figures;
   if (result.samples.size() < 2) return;
@@ -350,6 +365,7 @@ void compareWithReferences(RunResult& result) {
   f.errorStaticVertical = errorFromStatic(straight, beam).mean;
   const auto compare = [&](double bendingFactor, double& atY, double& atTime) {
     atY = atTime = std::numeric_limits<double>::quiet_NaN();
+    if (!comparesWithBeam(result)) return atY;
     try {
       const DynamicReference& reference = dynamicReference(result.settings, bendingFactor);
       atY = errorFromDynamicAtY(result.samples, beam, reference).mean;

@@ -4,9 +4,11 @@ import matplotlib.pyplot as plt
 import numpy
 
 from .data import PUBLISHED_ERROR, PUBLISHED_PEAK, PUBLISHED_SECONDS, START_ENERGY, numbers, read_table
-from .style import BLACK, BLUE, GREY, ORANGE, SKY, VERMILLION, save
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, SKY, VERMILLION, save
 
-VARIANTS = {"conservative": (BLUE, "o", "conservative"), "conservative, linear": (SKY, "^", "with linear correction"),
+VARIANTS = {"conservative": (BLUE, "o", "conservative (symmetric kernel)"),
+            "conservative, linear": (SKY, "^", "linear correction instead"),
+            "conservative, no correction": (GREEN, "v", "no correction instead"),
             "paper": (VERMILLION, "s", "paper, as rebuilt here")}
 
 
@@ -106,6 +108,7 @@ def draw_pareto(source, path):
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xlim(right=3 * PUBLISHED_SECONDS)
+        axes.set_ylim(top=max(axes.get_ylim()[1], 3 * published))
         axes.set_xlabel("run time, one thread (s)")
         axes.set_title(title)
     _legend_below(figure, panels[0], 4)
