@@ -128,8 +128,8 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
       {"refine", std::to_string(s.refine)},
       {"dt_factor", s.dtAuto            ? "auto"
                     : s.shareOfCritical ? text(*s.shareOfCritical) + " of critical"
-                    : s.dtCapped        ? text(s.dtFactor) + ", at most a third of critical"
                                         : text(s.dtFactor)},
+      {"dt_capped", s.dtCapped ? "yes" : "no"},
       {"fem_every", std::to_string(s.femEvery)},
       {"until_s", s.until ? text(*s.until) : "leaving"},
       {"stiffness_ratio", text(s.stiffnessRatio)},

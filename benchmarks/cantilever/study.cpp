@@ -122,6 +122,7 @@ void writeStudy(const std::string& folder, const std::string& name, const std::v
   csv << '\n';
   nlohmann::ordered_json json;
   json["study"] = name;
+  for (const auto& [key, value] : io::provenance()) json["provenance"][key] = value;  // early: it marks the file as ours
   json["published_code"] = {{"seconds_per_step", publishedSecondsPerStep}, {"dt_factor", publishedDtFactor}};
   for (const StudyRow& row : rows) {
     const RunFigures& f = row.figures;
@@ -147,7 +148,6 @@ void writeStudy(const std::string& folder, const std::string& name, const std::v
     csv << '\n';
     json["runs"].push_back(entry);
   }
-  for (const auto& [key, value] : io::provenance()) json["provenance"][key] = value;
   const std::filesystem::path where = folder.empty() ? "." : folder;
   io::writeFileAtomically(where / (name + ".csv"), csv.str());
   io::writeFileAtomically(where / (name + ".json"), json.dump(2) + "\n");
