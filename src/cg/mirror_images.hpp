@@ -63,8 +63,8 @@ inline Rectangle asRectangle(std::span<const Vec3> X, std::span<const std::array
   return {origin + lower[0] * axes[0] + lower[1] * axes[1], {axes[0], axes[1]}, {a, b}};
 }
 
-/// Offsets from a point of the rectangle to itself and its images up to the given width outside, m. Where more than 64
-/// images would lie in a row the side is so far below the width that the kernel is even over it: none are taken there.
+/// Offsets from a point of the rectangle to itself and its images up to the given width outside, m; two coincide for a
+/// point on a side. Across a side shorter than 1/64 of the width the kernel is even, so no images are taken there.
 inline std::vector<Vec3> mirrorImages(const Rectangle& rectangle, const Vec3& point, double width) {
   std::array<std::vector<double>, 2> steps;
   for (int k = 0; k < 2; ++k) {

@@ -20,6 +20,10 @@ namespace dovetail::cg {
 /// stays even (Σ_v A_v P_vi = ∫ ψ_i dA), weights stay non-negative, and the widest kernel is the mean over the patch.
 /// First moments near a rim are not kept, as without correction.
 ///
+/// On a patch that is a flat rectangle, W is summed over the mirror images of the centre in its sides. Then g is even
+/// up to the mesh, and the second moment along one side is the same wherever one stands along the other: a
+/// cylindrically bent face stays a cylinder.
+///
 /// g is found by the fixed point g ← √(g / ∫ W g dA') (scaling of a symmetric matrix to given row sums: Sinkhorn &
 /// Knopp, Pacific J. Math. 21, 1967; as a fixed point with the root: Knight, Ruiz & Uçar, SIAM J. Matrix Anal. Appl.
 /// 35, 2014). W between two vertices is the root of the product of their rows A_v P_vl and A_l P_lv without correction,
