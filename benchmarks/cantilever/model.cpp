@@ -165,6 +165,14 @@ double chooseStep(const Settings& settings, const StepLimit& limit) {
   return dt;
 }
 
+void requireFeasible(const Settings& settings, double dt) {
+  constexpr double mostSteps = 1e10;
+  const double steps = settings.until.value_or(longestRun) / dt;
+  if (steps > mostSteps)
+    throw InputError("up to " + formatNumber(std::round(steps)) + " steps are too many", "--until and the time step",
+                     "give a softer contact (--stiffness-ratio), a larger step (--dt-factor) or an earlier end");
+}
+
 BeamCase beamCase(const Settings& settings) {
   BeamCase beam;
   beam.contactStiffness = contactStiffness(settings);

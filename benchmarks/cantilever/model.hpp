@@ -44,6 +44,10 @@ StepLimit criticalStep(const Settings& settings, const fem::ElementBlock& elemen
 /// The DEM step asked for. @throws InputError if it exceeds the critical one
 double chooseStep(const Settings& settings, const StepLimit& limit);
 
+inline constexpr double longestRun = 100.0;  ///< s, where nobody leaves
+/// @throws InputError if steps of dt would take days to the end of the run
+void requireFeasible(const Settings& settings, double dt);
+
 /// The same case for the beam references; bendingFactor 1.
 BeamCase beamCase(const Settings& settings);
 /// Bending stiffness of hex8 over the exact one, 1 + (h_y/h_z)²/(2 n_z²) for ν = 0 (parasitic shear); 1 for other

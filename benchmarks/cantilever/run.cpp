@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "dovetail/core/clock.hpp"
@@ -12,6 +11,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
 #include "model.hpp"
+#include "series_names.hpp"
 
 namespace dovetail::cantilever {
 
@@ -21,42 +21,6 @@ constexpr double sampleInterval = 1e-3;      // s, energies and contact
 constexpr std::int64_t stepsPerSample = 4;   // at least: a sample costs about half a step
 constexpr double trajectoryInterval = 5e-3;  // s
 constexpr double seriesInterval = 2e-2;      // s
-constexpr double longestRun = 100.0;         // s, where nobody leaves
-constexpr double mostSteps = 1e10;           // days of computing
-
-const std::vector<std::string> seriesNames{"time_s",
-                                           "x1_m",
-                                           "y1_m",
-                                           "z1_m",
-                                           "vx1_m_per_s",
-                                           "vy1_m_per_s",
-                                           "vz1_m_per_s",
-                                           "x2_m",
-                                           "y2_m",
-                                           "z2_m",
-                                           "vx2_m_per_s",
-                                           "vy2_m_per_s",
-                                           "vz2_m_per_s",
-                                           "mass_particles_kg",
-                                           "mass_beam_kg",
-                                           "momentum_particles_x_Ns",
-                                           "momentum_particles_y_Ns",
-                                           "momentum_particles_z_Ns",
-                                           "momentum_beam_x_Ns",
-                                           "momentum_beam_y_Ns",
-                                           "momentum_beam_z_Ns",
-                                           "kinetic_particles_J",
-                                           "elastic_contacts_J",
-                                           "gravity_particles_J",
-                                           "kinetic_beam_J",
-                                           "elastic_beam_J",
-                                           "energy_total_J",
-                                           "dashpots_J",
-                                           "made_by_coupling_J",
-                                           "ledger_residual_J",
-                                           "tip_dx_m",
-                                           "tip_dy_m",
-                                           "tip_dz_m"};
 
 /// Steps that pass between two things that happen every `interval`, in windows of `window` seconds.
 std::int64_t every(double interval, double window) {
@@ -103,7 +67,7 @@ private:
     figures().criticalDt = limit.dt;
     figures().criticalSetter = limit.setter;
     clock_.dt = figures().dt = chooseStep(settings(), limit);
-    requireFeasible(settings().until.value_or(longestRun) / clock_.dt);
+    requireFeasible(settings(), clock_.dt);
     clock_.substepsPerWindow = settings().femEvery;
     scheme_.booksCoupling = couplingIsUnbalanced(settings());
     scheme_.skinLags = settings().lag == Lag::loadAndSkin;
@@ -112,12 +76,6 @@ private:
       options.consistentShare = settings().mass == MassMatrix::consistent ? 1.0 : 0.0;
       newmark_ = std::make_unique<fem::NewmarkSolver>(model_.elements, model_.nodes, clock_.coarseStep(), options);
     }
-  }
-
-  static void requireFeasible(double steps) {
-    if (steps > mostSteps)
-      throw InputError("up to " + formatNumber(std::round(steps)) + " steps are too many", "--until and the time step",
-                       "give a softer contact (--stiffness-ratio), a larger step (--dt-factor) or an earlier end");
   }
 
   void prepareLedger() {
@@ -333,50 +291,5 @@ PreparedRun prepareRun(const Settings& settings) {
 }
 
 RunResult run(const Settings& settings, const Observer& observer) { return prepareRun(settings)(observer); }
-
-const DynamicReference& dynamicReference(const Settings& settings, double bendingFactor) {
-  struct Entry {
-    double stiffness, factor;
-    DynamicReference reference;
-  };
-  static std::vector<std::unique_ptr<Entry>> kept;
-  BeamCase beam = beamCase(settings);
-  beam.bendingFactor = bendingFactor;
-  for (const auto& entry : kept)
-    if (entry->stiffness == beam.contactStiffness && entry->factor == bendingFactor) return entry->reference;
-  kept.push_back(std::make_unique<Entry>(
-      Entry{beam.contactStiffness, bendingFactor, simulateMovingMassBeam(beam, ModalSettings{})}));
-  return kept.back()->reference;
-}
-
-bool comparesWithBeam(const RunResult& result) { return result.figures.left || !result.settings.until; }
-
-void compareWithReferences(RunResult& result) {
-  RunFigures& f = result.figures;
-  if (result.samples.size() < 2) return;
-  const BeamCase beam = beamCase(result.settings);
-  f.errorStatic = errorFromStatic(result.samples, beam).mean;
-  f.errorStaticAuthors = errorFromStatic(result.samples, beam, {.armOrigin = Case{}.startY}).mean;
-  std::vector<PairSample> straight = result.samples;
-  for (PairSample& sample : straight) {
-    sample.x[0].x = Case{}.startX;
-    sample.x[1].x = -Case{}.startX;
-  }
-  f.errorStaticVertical = errorFromStatic(straight, beam).mean;
-  const auto compare = [&](double bendingFactor, double& atY, double& atTime) {
-    atY = atTime = std::numeric_limits<double>::quiet_NaN();
-    if (!comparesWithBeam(result)) return atY;
-    try {
-      const DynamicReference& reference = dynamicReference(result.settings, bendingFactor);
-      atY = errorFromDynamicAtY(result.samples, beam, reference).mean;
-      atTime = errorFromDynamicAtTime(result.samples, beam, reference).mean;
-      return reference.leaveTime;
-    } catch (const Error&) {  // the contact is too stiff for the reference, or a blown-up run is where it never was
-      return std::numeric_limits<double>::quiet_NaN();
-    }
-  };
-  f.referenceLeaveTime = compare(1.0, f.errorDynamic, f.errorDynamicSameTime);
-  compare(f.lockingFactor, f.errorDynamicLocked, f.errorDynamicLockedSameTime);
-}
 
 }  // namespace dovetail::cantilever

@@ -122,7 +122,8 @@ void writeStudy(const std::string& folder, const std::string& name, const std::v
   csv << '\n';
   nlohmann::ordered_json json;
   json["study"] = name;
-  for (const auto& [key, value] : io::provenance()) json["provenance"][key] = value;  // early: it marks the file as ours
+  for (const auto& [key, value] : io::provenance())
+    json["provenance"][key] = value;  // early: it marks the file as ours
   json["published_code"] = {{"seconds_per_step", publishedSecondsPerStep}, {"dt_factor", publishedDtFactor}};
   for (const StudyRow& row : rows) {
     const RunFigures& f = row.figures;
