@@ -43,7 +43,7 @@ std::string moment(double time, std::int64_t step) {
 double penaltyOf(const Settings& s) {
   if (s.penalty > 0.0) return s.penalty;
   if (s.constraint == Constraint::dashpot) return publishedPenalty(s.particlesPerEdge);
-  return arlequin::automaticPenalty(Case{}.youngsModulus * s.stiffnessRatio, Case{}.elementSize, s.cgWidth == 0.0 || s.gap == Gap::nodal);
+  return arlequin::automaticPenalty(Case{}.youngsModulus * s.stiffnessRatio, Case{}.elementSize);
 }
 
 /// With a solid that is stepped every K-th time the automatic penalty is softened as far as its oscillations ask for
