@@ -44,6 +44,7 @@ StressTerm::StressTerm(const Overlap& overlap, const fem::Mesh& mesh, const fem:
     for (std::size_t a = 0; a < 8; ++a) cell.gradient[a] = toVec3(toSpace * toEigen(parent[a]));
     volume.push_back(8.0 * J.determinant());
     cell.factor = share * volume.back() / youngsModulus;
+    cell.difference.setZero();
     cells_.push_back(cell);
   }
   std::vector<Vec3> position(nodes.X.size());
