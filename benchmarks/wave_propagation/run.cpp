@@ -173,7 +173,7 @@ private:
       step(now);
       if (!now) continue;
       sample();
-      if (++samples % frameEvery == 0) observe();
+      if (++samples % frameEvery == 0 || w == windows_) observe();
       progress.update(model_.time / end, "t = " + formatNumber(std::round(1e5 * model_.time) / 1e5) + " s");
     }
   }
@@ -249,10 +249,8 @@ private:
     f.largestExcess = largestStored_ / mostInput_;
     f.stable = f.finished && f.largestExcess <= stableFactor;
     f.overlapMismatch = speedSquared_ > 0.0 ? std::sqrt(mismatchSquared_ / speedSquared_) : 0.0;
-    const double t1 = settings().particlesPerEdge == 1 ? 19.3e-3 : 19.9e-3,
-                 t2 = settings().particlesPerEdge == 1 ? 60.8e-3 : 81.7e-3;
     f.paperDissipatedShare = settings().signal == Signal::impulse
-                                 ? 1.0 - energyAt(result_.energy, t2) / energyAt(result_.energy, t1)
+                                 ? dissipatedShare(result_.energy, settings().particlesPerEdge)
                                  : std::numeric_limits<double>::quiet_NaN();
     result_.pairs = std::move(model_.pairs);
     result_.particles = std::move(model_.particles);
@@ -285,6 +283,11 @@ double energyAt(const std::vector<EnergySample>& energy, double t) {
   if (after == energy.end() || after == energy.begin()) return std::numeric_limits<double>::quiet_NaN();
   const EnergySample &a = *(after - 1), &b = *after;
   return a.joules + (b.joules - a.joules) * (t - a.t) / (b.t - a.t);
+}
+
+double dissipatedShare(const std::vector<EnergySample>& energy, int particlesPerEdge) {
+  const bool one = particlesPerEdge == 1;
+  return 1.0 - energyAt(energy, one ? 60.8e-3 : 81.7e-3) / energyAt(energy, one ? 19.3e-3 : 19.9e-3);
 }
 
 RunResult run(const Settings& settings, const Observer& observer) {
