@@ -39,6 +39,7 @@ CLI::Option* addPart(App& app, WrittenParts& written, const std::string& name, d
 const std::map<std::string, bool> onOrOff{{"on", true}, {"off", false}};
 
 void addBarOptions(App& app, Settings& s) {
+  app.option_defaults()->group("Bar");
   app.add_option("--particles-per-edge", s.particlesPerEdge, "n: an element holds n^3 particles; 1 to 8")
       ->option_text("N");
   app.add_option("--dem-length", s.demLength, "of the part with particles, m")->option_text("L");
@@ -52,6 +53,7 @@ void addBarOptions(App& app, Settings& s) {
 }
 
 void addSchemeOptions(App& app, WrittenParts& w, Settings& s) {
+  app.option_defaults()->group("Parts of the scheme");
   addChoice<Scheme>(app, "--scheme", s.scheme, {{"conservative", Scheme::conservative}, {"paper", Scheme::paper}},
                     "all parts at once, signal and dt factor included; what is given wins");
   addPart<Constraint>(app, w, "--constraint", &Settings::constraint,
@@ -89,6 +91,7 @@ void addSchemeOptions(App& app, WrittenParts& w, Settings& s) {
 }
 
 void addCouplingOptions(App& app, Settings& s) {
+  app.option_defaults()->group("Kernel, penalty, absorber");
   app.add_option("--cg-width", s.cgWidth, "kernel width c in element sizes, 0 = local")->option_text("X");
   addChoice<Kernel>(app, "--kernel", s.kernel, {{"lucy", Kernel::lucy}, {"gauss", Kernel::gauss}}, "kernel shape");
   app.add_option("--penalty", s.penalty, "Pa/m2; default: from E and the element size (dashpot: as published)")
@@ -98,6 +101,7 @@ void addCouplingOptions(App& app, Settings& s) {
 }
 
 void addSignalOptions(App& app, WrittenParts& w, Settings& s) {
+  app.option_defaults()->group("Signal");
   addPart<Signal>(app, w, "--signal", &Settings::signal, {{"impulse", Signal::impulse}, {"cosine", Signal::cosine}},
                   "velocity of the first layer at t = 0, or raised cosine");
   auto* length = app.add_option("--pulse-elements", s.pulseElements, "length of a cycle in elements")->option_text("L");
@@ -117,6 +121,7 @@ void addSignalOptions(App& app, WrittenParts& w, Settings& s) {
 }
 
 void addTimeOptions(App& app, WrittenParts& w, Settings& s, std::string& dt) {
+  app.option_defaults()->group("Time");
   auto* factor = addPart(app, w, "--dt-factor", &Settings::dtFactor, "time step over the contact time", "F");
   app.add_option("--dt", dt, "auto: 0.5 of the critical step")
       ->check(CLI::IsMember({"auto"}).description(""))
@@ -130,6 +135,7 @@ void addTimeOptions(App& app, WrittenParts& w, Settings& s, std::string& dt) {
 }
 
 void addOutputOptions(App& app, Settings& s) {
+  app.option_defaults()->group("Output, studies");
   app.add_option("--out", s.out, "folder for VTU, PVD, CSV and HDF5 files")->option_text("DIR");
   app.add_option("--output-interval", s.outputInterval, "time between frames and velocity profiles, s")
       ->option_text("T");

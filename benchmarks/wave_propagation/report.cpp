@@ -123,7 +123,7 @@ void printComparison(std::ostream& out, const RunResult& result, const std::vect
     return format("n = %d, %s", n, width ? ("c = " + formatNumber(*width)).c_str() : "particles alone");
   };
   const auto row = [&](const std::string& who, double share, double difference) {
-    out << format("  %-34s %19.4f", who.c_str(), share);
+    out << format("  %-34s %19.4f", who.c_str(), std::abs(share) < 5e-5 ? 0.0 : share);
     out << (std::isfinite(difference) ? format(" %24.3e\n", difference) : std::string("\n"));
   };
   out << "Beside the authors' deposited curves (impulse)\n"

@@ -38,6 +38,10 @@ std::string moment(double time, std::int64_t step) {
   return "t = " + formatNumber(time) + " s, step " + std::to_string(step);
 }
 
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 class Runner {
 public:
   Runner(const Settings& settings, const Observer& observer)
@@ -58,7 +62,7 @@ public:
     } catch (const NumericalError& error) {
       figures().failure = error.what();
     }
-    figures().wallSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    figures().wallSeconds = secondsSince(begin) - observerSeconds_;
     close();
     return std::move(result_);
   }
@@ -227,7 +231,10 @@ private:
   }
 
   void observe() {
-    if (observer_) observer_({model_.time, model_});
+    if (!observer_) return;
+    const auto begin = std::chrono::steady_clock::now();
+    observer_({model_.time, model_});
+    observerSeconds_ += secondsSince(begin);
   }
 
   std::int64_t steps() const { return std::llround(model_.time / dt_); }
@@ -272,23 +279,10 @@ private:
   double dt_ = 0.0;
   Vec3 momentumStart_;
   double largestMomentum_ = 0.0, largestMomentumGap_ = 0.0, largestStored_ = 0.0, mostInput_ = 0.0;
-  double mismatchSquared_ = 0.0, speedSquared_ = 0.0;
+  double mismatchSquared_ = 0.0, speedSquared_ = 0.0, observerSeconds_ = 0.0;
 };
 
 }  // namespace
-
-double energyAt(const std::vector<EnergySample>& energy, double t) {
-  const auto after =
-      std::lower_bound(energy.begin(), energy.end(), t, [](const EnergySample& s, double time) { return s.t < time; });
-  if (after == energy.end() || after == energy.begin()) return std::numeric_limits<double>::quiet_NaN();
-  const EnergySample &a = *(after - 1), &b = *after;
-  return a.joules + (b.joules - a.joules) * (t - a.t) / (b.t - a.t);
-}
-
-double dissipatedShare(const std::vector<EnergySample>& energy, int particlesPerEdge) {
-  const bool one = particlesPerEdge == 1;
-  return 1.0 - energyAt(energy, one ? 60.8e-3 : 81.7e-3) / energyAt(energy, one ? 19.3e-3 : 19.9e-3);
-}
 
 RunResult run(const Settings& settings, const Observer& observer) {
   validate(settings);

@@ -20,7 +20,7 @@ struct RunFigures {
   std::string failure;
   std::int64_t steps = 0;
   std::size_t particles = 0, overlapParticles = 0, elements = 0, coupledNodes = 0;
-  double wallSeconds = 0.0;  ///< of the loop, sampling included
+  double wallSeconds = 0.0;  ///< of the loop, sampling included, writing of frames not
   double dt = 0.0, endTime = 0.0;
   arlequin::CriticalStep critical{};
   double penalty = 0.0;  ///< in use, Pa/m²
