@@ -27,6 +27,9 @@ double parseNumber(const std::string& text, const std::string& where) {
 
 std::vector<EnergySample> readEnergy(const std::filesystem::path& file) {
   const io::TimeSeries table = io::readCsv(file);
+  for (const char* name : {"t_s", "Etot_J"})
+    if (std::find(table.names().begin(), table.names().end(), name) == table.names().end())
+      throw InputError(std::string("column ") + name + " is missing", file.string(), "restore the file");
   const auto t = table.column("t_s"), energy = table.column("Etot_J");
   if (table.rows() == 0) throw InputError("there are no rows", file.string(), "restore the file");
   std::vector<EnergySample> samples;

@@ -8,6 +8,7 @@
 #include "common/fronts.hpp"
 #include "common/json.hpp"
 #include "common/outputs.hpp"
+#include "common/text.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/io/output_folder.hpp"
@@ -49,6 +50,8 @@ void runRow(StudyRow& row) {
     row.figures = result.figures;
     row.outcome = result.figures.finished ? (result.figures.stable ? "finished" : "not stable") : "broke down";
     row.message = result.figures.failure;
+    if (row.outcome == "not stable")
+      row.message = benchmark::format("energy reached %.3g times what was put in", result.figures.largestExcess);
   } catch (const InputError& error) {
     row.outcome = "refused";
     row.message = error.what();

@@ -3,6 +3,7 @@
 #include "common/json.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/provenance.hpp"
+#include "report.hpp"
 
 namespace dovetail::wave {
 
@@ -53,6 +54,7 @@ Json figuresAsJson(const RunFigures& f) {
   json["critical_step_s"] = {{"particles", numberOrNull(f.critical.particles)},
                              {"solid", numberOrNull(f.critical.solid)},
                              {"together", numberOrNull(f.critical.together)}};
+  json["critical_step_set_by"] = criticalSetter(f.critical);
   json["penalty_used_Pa_m2"] = numberOrNull(f.penalty);
   addShares(json, f);
   addComparison(json, f);
