@@ -60,7 +60,7 @@ TEST(BadInput, TimeSteps) {
   expectRefused({"--dt-factor", "0.05", "--dt", "auto"}, {"--dt-factor", "--dt"});
   expectRefused({"--dt", "0.001"}, {"--dt", "auto"});
   expectRefused({"--penalty", "1e13"}, {"above the critical one", "--dt auto"});
-  expectRefused({"--until", "100", "--dt-factor", "1e-9"}, {"--until", "steps"});
+  expectRefused({"--until", "0.1", "--dt-factor", "1e-9"}, {"--until", "steps"});
 }
 
 TEST(BadInput, WordsThatAreNoChoice) {
