@@ -15,7 +15,8 @@ from cantilever_plots.data import DataError
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", metavar="DIR", type=Path, help="what wave_propagation --out wrote; the PNGs go there too")
+    parser.add_argument("folder", metavar="DIR", type=Path,
+                        help="what wave_propagation --out wrote; the PNGs go there too")
     parser.add_argument("--beside", metavar="DIR", type=Path, help="another run, whose total energy is drawn as well")
     parser.add_argument("--image", metavar="FILE.png", type=Path, help="another place for overview.png")
     return parser.parse_args()

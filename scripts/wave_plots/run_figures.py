@@ -2,12 +2,12 @@
 
 import matplotlib.pyplot as plt
 import numpy
-from cantilever_plots.style import BLACK, BLUE, GREY, LIGHT, ORANGE, SKY, VERMILLION, save
+from cantilever_plots.style import BLACK, BLUE, LIGHT, ORANGE, SKY, VERMILLION, save
 
 from .data import ALONE, NODES, PARTICLES
 
-CHANNELS = (("particles, kinetic", "kinetic_particles_J", ORANGE), ("contacts, elastic", "elastic_contacts_J", "#F3CE7A"),
-            ("solid, kinetic", "kinetic_solid_J", BLUE), ("solid, elastic", "elastic_solid_J", SKY))
+CHANNELS = (("particles, kinetic", "kinetic_particles_J", ORANGE),
+            ("contacts, elastic", "elastic_contacts_J", "#F3CE7A"), ("solid, kinetic", "kinetic_solid_J", BLUE), ("solid, elastic", "elastic_solid_J", SKY))
 
 
 def _instants(run):
@@ -69,18 +69,20 @@ def draw_overview(run, beside, path):
     for axes, time in zip(panels, instants):
         _draw_pulse(axes, run, time, time == instants[-1])
         axes.set_xlim(0, end)
-        axes.sharey(panels[0])
         axes.set_ylabel("v (mm/s)")
         if time != instants[-1]:
             axes.tick_params(labelbottom=False)
+    limits = numpy.array([axes.get_ylim() for axes in panels[:3]])
+    for axes in panels[:3]:
+        axes.set_ylim(limits[:, 0].min(), limits[:, 1].max())
     panels[2].set_xlabel("y along the bar (m); grey: overlap, where particles hand over to the solid")
     panels[2].legend(loc="upper left", bbox_to_anchor=(0.0, 1.04))
     panels[0].set_title(f"A pulse goes from particles into an elastic solid: {run.name}")
     _draw_energy(panels[3], run, beside)
     error = run.summary.get("waveform_error_fem")
     lost = run.summary.get("energy_lost_share") or 0.0
-    text = f"Energy: lost {100 * lost:.2g} %"
+    text = f"Energy: {abs(lost):.1e} of the input " + ("lost" if lost > 0 else "gained")
     if error is not None:
-        text += f"; waveform error in the solid {100 * error:.2g} %"
+        text += f"; the wave in the solid differs by {100 * error:.2g} % from that of particles alone"
     panels[3].set_title(text)
     return save(figure, path)

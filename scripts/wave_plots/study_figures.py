@@ -32,13 +32,14 @@ def draw_widths(source, path):
             axes.plot(width[rows], numpy.abs(study[column][rows]), color=colour, marker=marker, label=name,
                       markersize=8 if name == "penalty" else 5)
         rows = paper & study.finished
-        axes.plot(width[rows], study[column][rows], color=VERMILLION, marker="s", label="paper, as rebuilt here")
+        axes.plot(width[rows], study[column][rows], color=VERMILLION, marker="s",
+                  label="paper, as rebuilt here (impulse)")
         axes.set(yscale="log", title=title, xlabel="kernel width c / element")
     rows = paper & study.finished
     panels[2].plot(width[rows], study["paper_dissipated_share"][rows], color=VERMILLION, marker="s")
     panels[2].plot(width[rows], study["published_dissipated_share"][rows], color=BLACK, marker="x", linestyle="none",
                    markersize=8, label="authors' output")
-    panels[2].set(title="share dissipated (impulse)", xlabel="kernel width c / element", ylim=(0, None))
+    panels[2].set(title="share dissipated (impulse)", xlabel="kernel width c / element", ylim=(0, 0.7))
     handles, labels = panels[0].get_legend_handles_labels()
     more = panels[2].get_legend_handles_labels()
     _legend_below(figure, handles + more[0], labels + more[1], 4)
@@ -48,17 +49,18 @@ def draw_widths(source, path):
 def draw_constraints(source, path):
     study = Study(source)
     figure, panels = plt.subplots(2, 2, figsize=(10, 7.2), sharex=True)
-    columns = (("waveform_error_fem", 1, "waveform error in the solid"), ("energy_lost_share", 1, "|energy lost| / input"),
-               ("reflected_energy_share", 1, "reflected energy / input"), ("wall_seconds", 1, "run time (s)"))
+    columns = (("waveform_error_fem", "waveform error in the solid"), ("energy_lost_share", "|energy lost| / input"),
+               ("reflected_energy_share", "reflected energy / input"), ("wall_seconds", "run time (s)"))
     forms = {"at-grains": ("gap at the particles", "-", True), "nodal": ("nodal gap", ":", False)}
-    for axes, (column, scale, title) in zip(panels.flat, columns):
-        values = numpy.abs(scale * study[column])
+    for axes, (column, title) in zip(panels.flat, columns):
+        values = numpy.abs(study[column])
         for gap, (form, line, full) in forms.items():
             for name, (colour, marker) in CONSTRAINTS.items():
                 rows = study.where("constraint", name) & study.where("gap", gap) & study.finished
                 style = {"color": colour, "linestyle": line, "label": f"{name}, {form}"}
                 if name == "multiplier":
-                    axes.plot([1e7, 1e12], 2 * [values[rows].max(initial=numpy.nan)], **style)
+                    if rows.any():
+                        axes.plot([1e7, 1e12], 2 * [values[rows][0]], **style)
                     continue
                 axes.plot(study["penalty_used_Pa_m2"][rows], values[rows], marker=marker,
                           markerfacecolor=colour if full else "white", **style)
@@ -126,7 +128,8 @@ def _draw_group(axes, study, head, word, automatic):
 
 def draw_stability(source, path):
     study = Study(source)
-    words = (("dt at", "time step / critical step", "linear"), ("weight floor", "weight floor (0 at the left end)", "log"),
+    words = (("dt at", "time step / critical step", "linear"),
+             ("weight floor", "weight floor (0 at the left end)", "log"),
              ("stiffness ratio", "E of the solid / E of the particles", "log"),
              ("density ratio", "density of the solid / particles", "log"), ("penalty", "penalty (Pa/m²)", "log"))
     figure, panels = plt.subplots(2, 5, figsize=(13, 5.6), sharey=True, sharex="col")
