@@ -18,13 +18,12 @@ using namespace dovetail::cantilever;
 int runOnce(const Settings& settings) {
   std::vector<ReferenceCurve> curves;
   if (!settings.reference.empty()) curves = readReferenceCurves(settings.reference);
-  prepareOutputs(settings);
-  std::unique_ptr<FrameWriter> frames;
-  if (!settings.out.empty()) frames = makeFrameWriter(settings.out, settings);
+  const PreparedRun compute = prepareRun(settings);  // refuses before a folder is made
+  const std::unique_ptr<FrameWriter> frames = prepareOutputs(settings);
   Observer observer;
   if (frames) observer = [&](const Frame& frame) { frames->write(frame); };
 
-  RunResult result = run(settings, observer);
+  RunResult result = compute(observer);
   compareWithReferences(result);
   if (!settings.quiet) printReport(std::cout, result);
   if (!settings.quiet && !curves.empty()) printComparison(std::cout, result, curves);

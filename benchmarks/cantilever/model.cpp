@@ -41,8 +41,9 @@ fem::Material makeMaterial(const Settings& settings) {
 
 cg::SurfaceKernel makeKernel(const Settings& settings) {
   const auto shape = settings.kernel == KernelName::gauss ? cg::KernelShape::gauss : cg::KernelShape::lucy;
-  const auto correction =
-      settings.correction == Correction::linear ? cg::KernelCorrection::linear : cg::KernelCorrection::none;
+  const auto correction = settings.correction == Correction::linear      ? cg::KernelCorrection::linear
+                          : settings.correction == Correction::symmetric ? cg::KernelCorrection::symmetric
+                                                                         : cg::KernelCorrection::none;
   return {{shape, 2, settings.cgWidth * Case{}.particleDiameter}, correction};
 }
 
@@ -93,6 +94,13 @@ surface::CoupledModel<Seam> makeModel(const Settings& settings, const fem::Mesh&
   return model;
 }
 
+std::vector<double> inverseMasses(const fem::Nodes& nodes) {
+  std::vector<double> inverse(nodes.mass.size(), 0.0);
+  for (std::size_t i = 0; i < inverse.size(); ++i)
+    if (nodes.fixed[i] != fem::allComponents) inverse[i] = 1.0 / nodes.mass[i];
+  return inverse;
+}
+
 }  // namespace
 
 std::array<int, 3> elementCounts(const Settings& settings) {
@@ -111,18 +119,26 @@ SmoothModel makeSmoothModel(const Settings& settings, const fem::Mesh& mesh) {
   return makeModel(settings, mesh, makeSmoothSeam(settings, mesh));
 }
 
-StepLimit criticalStep(const Settings& settings, const fem::ElementBlock& elements, const fem::Nodes& nodes,
-                       const cg::Projection& carrier) {
-  double mobility = 0.0;
+double largestMobility(const surface::Coupling& seam, const fem::Nodes& nodes) {
+  const cg::Projection& carrier = seam.skin().carrier;
+  const std::vector<double> inverseMass = inverseMasses(nodes);
+  double largest = 0.0;
   for (int row = 0; row < carrier.rows(); ++row) {
     double sum = 0.0;
     for (std::size_t k = 0; k < carrier.rowColumns(row).size(); ++k) {
-      const int node = carrier.rowColumns(row)[k];
       const double weight = carrier.rowWeights(row)[k];
-      if (nodes.fixed[node] != fem::allComponents) sum += weight * weight / nodes.mass[node];
+      sum += weight * weight * inverseMass[carrier.rowColumns(row)[k]];
     }
-    mobility = std::max(mobility, sum);
+    largest = std::max(largest, sum);
   }
+  return largest;
+}
+
+double largestMobility(const surface::SmoothCoupling& seam, const fem::Nodes& nodes) {
+  return surface::largestMobility(seam.surface(), inverseMasses(nodes));
+}
+
+StepLimit criticalStep(const Settings& settings, const fem::ElementBlock& elements, double mobility) {
   const double contact = std::sqrt(contactStiffness(settings) * (1.0 / particleMass(Case{}) + mobility));
   if (settings.fem == FemStepper::newmark) return {2.0 / contact, "contact of a particle with the skin"};
   const fem::StableStep solid = fem::stableStep(elements);
@@ -136,6 +152,8 @@ StepLimit criticalStep(const Settings& settings, const fem::ElementBlock& elemen
 
 double chooseStep(const Settings& settings, const StepLimit& limit) {
   if (settings.dtAuto) return 0.9 * limit.dt;
+  if (settings.dtCapped && !settings.shareOfCritical)
+    return std::min(settings.dtFactor * contactTime(Case{}), limit.dt / 3.0);
   const double dt =
       settings.shareOfCritical ? *settings.shareOfCritical * limit.dt : settings.dtFactor * contactTime(Case{});
   if (dt > limit.dt && !settings.beyondCritical)
@@ -145,6 +163,14 @@ double chooseStep(const Settings& settings, const StepLimit& limit) {
         "--dt-factor " + formatNumber(dt / contactTime(Case{})),
         "give at most " + formatNumber(std::floor(1e4 * limit.dt / contactTime(Case{})) / 1e4) + ", or --dt auto");
   return dt;
+}
+
+void requireFeasible(const Settings& settings, double dt) {
+  constexpr double mostSteps = 1e10;
+  const double steps = settings.until.value_or(longestRun) / dt;
+  if (steps > mostSteps)
+    throw InputError("up to " + formatNumber(std::round(steps)) + " steps are too many", "--until and the time step",
+                     "give a softer contact (--stiffness-ratio), a larger step (--dt-factor) or an earlier end");
 }
 
 BeamCase beamCase(const Settings& settings) {

@@ -33,13 +33,20 @@ struct StepLimit {
   std::string setter;
 };
 
-/// Bounds for the chosen integrators: contacts 2/ω_c with ω_c² = k (1/m_p + max_v Σ S_vi²/m_i); explicit solid 2/ω_e of
-/// its worst element, divided by K; both act together if K = 1: ω² = ω_c² + ω_e².
-StepLimit criticalStep(const Settings& settings, const fem::ElementBlock& elements, const fem::Nodes& nodes,
-                       const cg::Projection& carrier);
+/// The largest Σ_i S_i²/m_i of any point of the skin, 1/kg (an upper bound on the smooth surface).
+double largestMobility(const surface::Coupling& seam, const fem::Nodes& nodes);
+double largestMobility(const surface::SmoothCoupling& seam, const fem::Nodes& nodes);
+
+/// Bounds for the chosen integrators: contacts 2/ω_c with ω_c² = k (1/m_p + mobility); explicit solid 2/ω_e of its
+/// worst element, divided by K; both act together if K = 1: ω² = ω_c² + ω_e².
+StepLimit criticalStep(const Settings& settings, const fem::ElementBlock& elements, double mobility);
 
 /// The DEM step asked for. @throws InputError if it exceeds the critical one
 double chooseStep(const Settings& settings, const StepLimit& limit);
+
+inline constexpr double longestRun = 100.0;  ///< s, where nobody leaves
+/// @throws InputError if steps of dt would take days to the end of the run
+void requireFeasible(const Settings& settings, double dt);
 
 /// The same case for the beam references; bendingFactor 1.
 BeamCase beamCase(const Settings& settings);

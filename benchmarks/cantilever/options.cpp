@@ -59,8 +59,9 @@ void addPartOptions(CLI::App& app, WrittenParts& w) {
                                        {{"lumped", MassMatrix::lumped}, {"consistent", MassMatrix::consistent}},
                                        "of the beam; consistent with --fem newmark --lag load only");
   w.correctionOption = addChoice<Correction>(
-      app, "--kernel-correction", w.correction, {{"none", Correction::none}, {"linear", Correction::linear}},
-      "linear (conservative scheme) restores first moments, so that moments balance");
+      app, "--kernel-correction", w.correction,
+      {{"none", Correction::none}, {"linear", Correction::linear}, {"symmetric", Correction::symmetric}},
+      "for the adjoint transfer: linear keeps moments, symmetric keeps even loads even (default)");
   w.surfaceOption =
       addChoice<Surface>(app, "--surface", w.surface, {{"flat", Surface::flat}, {"smooth", Surface::smooth}},
                          "flat facets (default for width 0) or B-spline patches (default for a kernel)");
@@ -75,7 +76,10 @@ void mergeParts(const WrittenParts& w, Settings& s) {
   if (w.edgesOption->count() > 0) s.edges = w.edges;
   if (w.metricOption->count() > 0) s.metric = w.metric;
   if (w.femOption->count() > 0) s.fem = w.fem;
-  if (w.correctionOption->count() > 0) s.correction = w.correction;
+  if (w.correctionOption->count() > 0)
+    s.correction = w.correction;
+  else if (s.transfer == Transfer::spread)
+    s.correction = Correction::none;
   if (w.surfaceOption->count() > 0)
     s.surface = w.surface;
   else if (s.transfer == Transfer::spread || s.edges == EdgeHandling::paper)
@@ -110,8 +114,14 @@ void addModelOptions(CLI::App& app, Settings& s) {
 }
 
 void addRunOptions(CLI::App& app, Settings& s, std::string& dt) {
-  auto* factor =
-      app.add_option("--dt-factor", s.dtFactor, "time step over the contact time, 4.5465 ms")->option_text("F");
+  auto* factor = app.add_option_function<double>(
+                        "--dt-factor",
+                        [&s](double f) {
+                          s.dtFactor = f;
+                          s.dtCapped = false;
+                        },
+                        "time step over the contact time, 4.5465 ms; default 0.05 or a third of the critical step")
+                     ->option_text("F");
   app.add_option("--dt", dt, "auto: 0.9 of the critical step")
       ->check(CLI::IsMember({"auto"}).description(""))
       ->option_text("auto")
@@ -150,6 +160,7 @@ bool parseOptions(int argc, char** argv, Settings& settings) {
                "cantilever"};
   app.get_formatter()->column_width(42);
   std::string dt;
+  settings.dtCapped = true;
   WrittenParts written{};
   addModelOptions(app, settings);
   addPartOptions(app, written);
@@ -166,6 +177,7 @@ bool parseOptions(int argc, char** argv, Settings& settings) {
   }
   refuseEmptyValues(app);
   settings.dtAuto = dt == "auto";
+  settings.dtCapped = settings.dtCapped && !settings.dtAuto && settings.femEvery == 1;
   mergeParts(written, settings);
   validate(settings);
   return true;

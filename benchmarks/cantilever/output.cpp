@@ -9,29 +9,43 @@ namespace dovetail::cantilever {
 
 namespace {
 
-/// Prepares a folder; what is wrong with it is told under the name of the option.
-void prepareFor(const std::string& option, const std::filesystem::path& folder, const std::vector<std::string>& names) {
+/// What is wrong with a place is told under the name of the option.
+template <class Prepare>
+auto underName(const std::string& option, Prepare prepare) {
   try {
-    io::prepareOutputFolder(folder.empty() ? "." : folder, names);
+    return prepare();
   } catch (const InputError& error) {
     throw InputError(option + ": " + error.what(), "", "");
   }
 }
 
-}  // namespace
-
-void prepareOutputs(const Settings& settings) {
+void requireDistinctSummary(const Settings& settings) {
+  if (settings.out.empty() || settings.summary.empty()) return;
   const std::filesystem::path folder(settings.out), file(settings.summary);
-  if (!settings.out.empty()) prepareFor("--out", folder, {"series.csv", "series.h5"});
-  if (settings.summary.empty()) return;
   const auto plain = [](const std::filesystem::path& path) {
     return std::filesystem::absolute(path).lexically_normal();
   };
   for (const char* name : {"series.csv", "series.h5", "beam.pvd", "particles.pvd"})
-    if (!settings.out.empty() && plain(file) == plain(folder / name))
+    if (plain(file) == plain(folder / name))
       throw InputError("the folder of --out gets a file of this name", "--summary " + file.string(),
                        "give another name, such as summary.json");
-  prepareFor("--summary", file.parent_path(), {file.filename().string()});
+}
+
+}  // namespace
+
+std::unique_ptr<FrameWriter> prepareOutputs(const Settings& settings) {
+  requireDistinctSummary(settings);
+  std::unique_ptr<FrameWriter> frames;
+  if (!settings.out.empty())
+    frames = underName("--out", [&] {
+      io::prepareOutputFolder(settings.out, {"series.csv", "series.h5"});
+      return makeFrameWriter(settings.out, settings);
+    });
+  if (settings.summary.empty()) return frames;
+  const std::filesystem::path file(settings.summary), parent = file.parent_path();
+  underName("--summary",
+            [&] { return io::prepareOutputFolder(parent.empty() ? "." : parent, {file.filename().string()}); });
+  return frames;
 }
 
 std::vector<std::string> writeSeries(const RunResult& result) {

@@ -22,8 +22,10 @@ std::unique_ptr<FrameWriter> makeFrameWriter(const std::filesystem::path& folder
 /// Does nothing in builds without HDF5 and returns false.
 bool writeSeriesHdf5(const std::filesystem::path& file, const RunResult& result);
 
-/// Checks folder and file names before the run. @throws InputError with what to write instead
-void prepareOutputs(const Settings& settings);
+/// Makes the folders and checks file names before the run.
+/// @return the writer of frames; null without --out
+/// @throws InputError naming the option, with what to write instead
+std::unique_ptr<FrameWriter> prepareOutputs(const Settings& settings);
 /// Time series and energy ledger into --out. Returns the names of the files written.
 std::vector<std::string> writeSeries(const RunResult& result);
 

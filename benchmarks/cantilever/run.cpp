@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "dovetail/core/clock.hpp"
@@ -12,6 +11,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
 #include "model.hpp"
+#include "series_names.hpp"
 
 namespace dovetail::cantilever {
 
@@ -21,41 +21,6 @@ constexpr double sampleInterval = 1e-3;      // s, energies and contact
 constexpr std::int64_t stepsPerSample = 4;   // at least: a sample costs about half a step
 constexpr double trajectoryInterval = 5e-3;  // s
 constexpr double seriesInterval = 2e-2;      // s
-constexpr double longestRun = 100.0;         // s, where nobody leaves
-
-const std::vector<std::string> seriesNames{"time_s",
-                                           "x1_m",
-                                           "y1_m",
-                                           "z1_m",
-                                           "vx1_m_per_s",
-                                           "vy1_m_per_s",
-                                           "vz1_m_per_s",
-                                           "x2_m",
-                                           "y2_m",
-                                           "z2_m",
-                                           "vx2_m_per_s",
-                                           "vy2_m_per_s",
-                                           "vz2_m_per_s",
-                                           "mass_particles_kg",
-                                           "mass_beam_kg",
-                                           "momentum_particles_x_Ns",
-                                           "momentum_particles_y_Ns",
-                                           "momentum_particles_z_Ns",
-                                           "momentum_beam_x_Ns",
-                                           "momentum_beam_y_Ns",
-                                           "momentum_beam_z_Ns",
-                                           "kinetic_particles_J",
-                                           "elastic_contacts_J",
-                                           "gravity_particles_J",
-                                           "kinetic_beam_J",
-                                           "elastic_beam_J",
-                                           "energy_total_J",
-                                           "dashpots_J",
-                                           "made_by_coupling_J",
-                                           "ledger_residual_J",
-                                           "tip_dx_m",
-                                           "tip_dy_m",
-                                           "tip_dz_m"};
 
 /// Steps that pass between two things that happen every `interval`, in windows of `window` seconds.
 std::int64_t every(double interval, double window) {
@@ -70,8 +35,7 @@ std::string moment(double time, std::int64_t step) {
 template <class Model>
 class Runner {
 public:
-  Runner(const Settings& settings, const fem::Mesh& mesh, Model model, const Observer& observer)
-      : mesh_(mesh), model_(std::move(model)), observer_(observer) {
+  Runner(const Settings& settings, const fem::Mesh& mesh, Model model) : mesh_(mesh), model_(std::move(model)) {
     result_.settings = settings;
     result_.profile = Profile(settings.profile);
     result_.series = io::TimeSeries(seriesNames);
@@ -80,7 +44,8 @@ public:
     tipNode_ = mesh_.nodeSets.at("y+").back();
   }
 
-  RunResult run() {
+  RunResult run(const Observer& observer) {
+    observer_ = observer;
     const auto begin = std::chrono::steady_clock::now();
     try {
       loop();
@@ -98,16 +63,11 @@ private:
   const Settings& settings() const { return result_.settings; }
 
   void prepareStep() {
-    const auto& carrier = [&]() -> const cg::Projection& {
-      if constexpr (requires { model_.seam.skin(); })
-        return model_.seam.skin().carrier;
-      else
-        return model_.seam.surface().carrier;
-    }();
-    const StepLimit limit = criticalStep(settings(), model_.elements, model_.nodes, carrier);
+    const StepLimit limit = criticalStep(settings(), model_.elements, largestMobility(model_.seam, model_.nodes));
     figures().criticalDt = limit.dt;
     figures().criticalSetter = limit.setter;
     clock_.dt = figures().dt = chooseStep(settings(), limit);
+    requireFeasible(settings(), clock_.dt);
     clock_.substepsPerWindow = settings().femEvery;
     scheme_.booksCoupling = couplingIsUnbalanced(settings());
     scheme_.skinLags = settings().lag == Lag::loadAndSkin;
@@ -318,55 +278,18 @@ private:
 
 }  // namespace
 
-RunResult run(const Settings& settings, const Observer& observer) {
+PreparedRun prepareRun(const Settings& settings) {
   validate(settings);
   setThreads(settings.threads);
-  const fem::Mesh mesh = makeMesh(settings);
-  if (settings.surface == Surface::smooth)
-    return Runner(settings, mesh, makeSmoothModel(settings, mesh), observer).run();
-  return Runner(settings, mesh, makeFlatModel(settings, mesh), observer).run();
+  const auto mesh = std::make_shared<const fem::Mesh>(makeMesh(settings));
+  const auto prepare = [&](auto model) -> PreparedRun {
+    const auto runner = std::make_shared<Runner<decltype(model)>>(settings, *mesh, std::move(model));
+    return [mesh, runner](const Observer& observer) { return runner->run(observer); };
+  };
+  if (settings.surface == Surface::smooth) return prepare(makeSmoothModel(settings, *mesh));
+  return prepare(makeFlatModel(settings, *mesh));
 }
 
-const DynamicReference& dynamicReference(const Settings& settings, double bendingFactor) {
-  struct Entry {
-    double stiffness, factor;
-    DynamicReference reference;
-  };
-  static std::vector<std::unique_ptr<Entry>> kept;
-  BeamCase beam = beamCase(settings);
-  beam.bendingFactor = bendingFactor;
-  for (const auto& entry : kept)
-    if (entry->stiffness == beam.contactStiffness && entry->factor == bendingFactor) return entry->reference;
-  kept.push_back(std::make_unique<Entry>(
-      Entry{beam.contactStiffness, bendingFactor, simulateMovingMassBeam(beam, ModalSettings{})}));
-  return kept.back()->reference;
-}
-
-void compareWithReferences(RunResult& result) {
-  RunFigures& f = result.figures;
-  if (result.samples.size() < 2) return;
-  const BeamCase beam = beamCase(result.settings);
-  f.errorStatic = errorFromStatic(result.samples, beam).mean;
-  f.errorStaticAuthors = errorFromStatic(result.samples, beam, {.armOrigin = Case{}.startY}).mean;
-  std::vector<PairSample> straight = result.samples;
-  for (PairSample& sample : straight) {
-    sample.x[0].x = Case{}.startX;
-    sample.x[1].x = -Case{}.startX;
-  }
-  f.errorStaticVertical = errorFromStatic(straight, beam).mean;
-  const auto compare = [&](double bendingFactor, double& atY, double& atTime) {
-    atY = atTime = std::numeric_limits<double>::quiet_NaN();
-    try {
-      const DynamicReference& reference = dynamicReference(result.settings, bendingFactor);
-      atY = errorFromDynamicAtY(result.samples, beam, reference).mean;
-      atTime = errorFromDynamicAtTime(result.samples, beam, reference).mean;
-      return reference.leaveTime;
-    } catch (const Error&) {  // the contact is too stiff for the reference, or a blown-up run is where it never was
-      return std::numeric_limits<double>::quiet_NaN();
-    }
-  };
-  f.referenceLeaveTime = compare(1.0, f.errorDynamic, f.errorDynamicSameTime);
-  compare(f.lockingFactor, f.errorDynamicLocked, f.errorDynamicLockedSameTime);
-}
+RunResult run(const Settings& settings, const Observer& observer) { return prepareRun(settings)(observer); }
 
 }  // namespace dovetail::cantilever

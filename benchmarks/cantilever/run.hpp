@@ -67,13 +67,23 @@ struct RunResult {
   io::TimeSeries series{{"time_s"}};
 };
 
-/// Runs the case. Breakdowns are reported in figures.failure, with the state so far.
-/// @param observer  called at t = 0 and every outputInterval; may be empty
-/// @throws InputError for impossible settings, before anything is computed
+/// A run that nothing stands in the way of; to be called once. The observer is called at t = 0 and every
+/// outputInterval; it may be empty. Breakdowns are reported in figures.failure, with the state so far.
+using PreparedRun = std::function<RunResult(const Observer& observer)>;
+
+/// Builds the model and chooses the step. @throws InputError for impossible settings
+PreparedRun prepareRun(const Settings& settings);
+
+/// Prepares and runs.
 RunResult run(const Settings& settings, const Observer& observer = {});
 
+/// Whether the run is set beside the moving-mass beam: not if it was told to end before a particle left, because the
+/// beam is computed until leaving.
+bool comparesWithBeam(const RunResult& result);
+
 /// Fills in the errors against the static and dynamic references. The dynamic ones are computed once per case; NaN
-/// where there is no reference (a contact too stiff for it) or the run went where the reference never was.
+/// where they were not compared, where there is no reference (a contact too stiff for it), or where the run went where
+/// the reference never was.
 void compareWithReferences(RunResult& result);
 
 /// The moving-mass beam for the settings' contact stiffness and the given bending factor; kept after the first call.

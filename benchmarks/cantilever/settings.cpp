@@ -28,7 +28,7 @@ void applyScheme(Settings& settings, Scheme scheme) {
   settings.metric = paper ? Metric::deformed : Metric::reference;
   settings.fem = paper ? FemStepper::newmark : FemStepper::explicitDifferences;
   settings.restitution = paper ? 0.99 : 1.0;
-  settings.correction = Correction::none;
+  settings.correction = paper || settings.cgWidth == 0.0 ? Correction::none : Correction::symmetric;
   settings.surface = paper || settings.cgWidth == 0.0 ? Surface::flat : Surface::smooth;
 }
 
@@ -89,9 +89,22 @@ void validate(const Settings& s) {
   if (s.surface == Surface::smooth && s.edges == EdgeHandling::paper)
     throw InputError("the smooth surface has no facet edges", "--surface smooth",
                      "take --edges projected, or --surface flat");
-  if (s.transfer == Transfer::spread && s.correction == Correction::linear)
-    throw InputError("the kernel correction is made for the adjoint transfer", "--kernel-correction linear",
+  if (s.transfer == Transfer::spread && s.correction != Correction::none)
+    throw InputError("kernel corrections are made for the adjoint transfer",
+                     std::string("--kernel-correction ") + nameOf(s.correction),
                      "take --transfer adjoint, or --kernel-correction none");
+}
+
+const char* nameOf(Correction correction) {
+  switch (correction) {
+    case Correction::linear:
+      return "linear";
+    case Correction::symmetric:
+      return "symmetric";
+    case Correction::none:
+      break;
+  }
+  return "none";
 }
 
 std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
@@ -109,13 +122,14 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
       {"restitution", text(s.restitution)},
       {"cg_width_diameters", text(s.cgWidth)},
       {"kernel", s.kernel == KernelName::gauss ? "gauss" : "lucy"},
-      {"kernel_correction", s.correction == Correction::linear ? "linear" : "none"},
+      {"kernel_correction", nameOf(s.correction)},
       {"surface", s.surface == Surface::smooth ? "smooth" : "flat"},
       {"element", s.element},
       {"refine", std::to_string(s.refine)},
       {"dt_factor", s.dtAuto            ? "auto"
                     : s.shareOfCritical ? text(*s.shareOfCritical) + " of critical"
                                         : text(s.dtFactor)},
+      {"dt_capped", s.dtCapped ? "yes" : "no"},
       {"fem_every", std::to_string(s.femEvery)},
       {"until_s", s.until ? text(*s.until) : "leaving"},
       {"stiffness_ratio", text(s.stiffnessRatio)},

@@ -34,7 +34,7 @@ enum class MassMatrix { lumped, consistent };
 enum class FemStepper { explicitDifferences, newmark };
 enum class Surface { flat, smooth };
 enum class KernelName { lucy, gauss };
-enum class Correction { none, linear };
+enum class Correction { none, linear, symmetric };
 enum class Study { none, widths, pareto, stability, ablation };
 
 struct Settings {
@@ -56,6 +56,7 @@ struct Settings {
   int refine = 1;
   std::optional<std::array<int, 3>> mesh;  ///< elements along x, y, z before refinement
   double dtFactor = 0.05;                  ///< of the contact time
+  bool dtCapped = false;                   ///< but no more than a third of the critical step (the program's default)
   bool dtAuto = false;                     ///< 0.9 of the critical step
   std::optional<double> shareOfCritical;   ///< dt over the critical step, wins over dtFactor (studies)
   bool beyondCritical = false;             ///< do not refuse a step above the critical one (studies)
@@ -72,10 +73,11 @@ struct Settings {
 
 /// Sets the scheme's parts for the settings' kernel width.
 ///
-/// conservative: adjoint pair at the same instant, explicit; flat facets for width 0, the smooth surface for a kernel.
-/// paper: load spread by Eqs. 14 and 15 (16 for width 0), gap of the local facets, the authors' face rule, deformed
-/// metric, implicit FEM, restitution 0.99. The lag and the consistent mass go with width 0 only: there they reproduce
-/// the deposited growth to thousands of joules; the deposited run at 10 d gains so little that no lag can have acted.
+/// conservative: adjoint pair at the same instant, explicit; flat facets for width 0, the smooth surface and the
+/// symmetric correction for a kernel. paper: load spread by Eqs. 14 and 15 (16 for width 0), gap of the local facets,
+/// the authors' face rule, deformed metric, implicit FEM, restitution 0.99. The lag and the consistent mass go with
+/// width 0 only: there they reproduce the deposited growth to thousands of joules; the deposited run at 10 d gains so
+/// little that no lag can have acted.
 void applyScheme(Settings& settings, Scheme scheme);
 
 /// @throws InputError naming the option, what is wrong with it and what to write instead
@@ -85,6 +87,7 @@ void validate(const Settings& settings);
 bool couplingIsUnbalanced(const Settings& settings);
 
 /// Option names and values as text, for provenance and the summary.
+const char* nameOf(Correction correction);
 std::vector<std::pair<std::string, std::string>> describe(const Settings& settings);
 
 }  // namespace dovetail::cantilever

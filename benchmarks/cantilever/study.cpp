@@ -51,7 +51,7 @@ std::vector<StudyRow> planOf(const Settings& settings) {
 void runRow(StudyRow& row) {
   try {
     RunResult result = run(row.settings);
-    if (!row.settings.until) compareWithReferences(result);
+    compareWithReferences(result);
     row.figures = result.figures;
     row.outcome = result.figures.finished ? (result.figures.stable ? "finished" : "not stable") : "broke down";
     row.message = result.figures.failure;
@@ -122,6 +122,8 @@ void writeStudy(const std::string& folder, const std::string& name, const std::v
   csv << '\n';
   nlohmann::ordered_json json;
   json["study"] = name;
+  for (const auto& [key, value] : io::provenance())
+    json["provenance"][key] = value;  // early: it marks the file as ours
   json["published_code"] = {{"seconds_per_step", publishedSecondsPerStep}, {"dt_factor", publishedDtFactor}};
   for (const StudyRow& row : rows) {
     const RunFigures& f = row.figures;
@@ -147,7 +149,6 @@ void writeStudy(const std::string& folder, const std::string& name, const std::v
     csv << '\n';
     json["runs"].push_back(entry);
   }
-  for (const auto& [key, value] : io::provenance()) json["provenance"][key] = value;
   const std::filesystem::path where = folder.empty() ? "." : folder;
   io::writeFileAtomically(where / (name + ".csv"), csv.str());
   io::writeFileAtomically(where / (name + ".json"), json.dump(2) + "\n");

@@ -12,6 +12,11 @@ StudyRow planned(std::string label, const Settings& settings) {
   return row;
 }
 
+void setFactor(Settings& settings, double factor) {
+  settings.dtFactor = factor;
+  settings.dtCapped = false;
+}
+
 Settings withScheme(Settings settings, Scheme scheme) {
   applyScheme(settings, scheme);
   return settings;
@@ -26,15 +31,16 @@ std::vector<StudyRow> widthsPlan(const Settings& base) {
     Correction correction;
   };
   std::vector<StudyRow> rows;
-  for (const Variant& variant : {Variant{"conservative", Scheme::conservative, Correction::none},
+  for (const Variant& variant : {Variant{"conservative", Scheme::conservative, Correction::symmetric},
                                  Variant{"conservative, linear", Scheme::conservative, Correction::linear},
+                                 Variant{"conservative, no correction", Scheme::conservative, Correction::none},
                                  Variant{"paper", Scheme::paper, Correction::none}})
     for (double width : {0.0, 2.0, 4.0, 6.0, 10.0, 15.0, 20.0}) {
       Settings settings = base;
       settings.cgWidth = width;
       applyScheme(settings, variant.scheme);
       settings.correction = variant.correction;
-      if (variant.scheme == Scheme::paper) settings.dtFactor = 0.02;
+      if (variant.scheme == Scheme::paper) setFactor(settings, 0.02);
       rows.push_back(planned(std::string(variant.name) + ", c = " + formatNumber(width) + " d", settings));
     }
   return rows;
@@ -54,7 +60,7 @@ std::vector<StudyRow> paretoPlan(const Settings& base) {
           settings.element = element;
           settings.mesh = mesh.elements;
           settings.dtAuto = factor == 0.0;
-          settings.dtFactor = settings.dtAuto ? 0.05 : factor;
+          setFactor(settings, settings.dtAuto ? 0.05 : factor);
           settings.femEvery = every;
           rows.push_back(planned(std::string(element) + ", " + mesh.name + ", dt " +
                                      (settings.dtAuto ? "auto" : formatNumber(factor)) + ", FEM every " +
@@ -105,7 +111,7 @@ std::vector<StudyRow> ablationPlan(const Settings& base) {
     plain.cgWidth = width;
     applyScheme(plain, Scheme::conservative);
     plain.surface = Surface::flat;
-    plain.dtFactor = 0.02;
+    setFactor(plain, 0.02);
     plain.correction = Correction::none;
     rows.push_back(planned("conservative" + at, plain));
     const auto add = [&](const char* part, auto change) {

@@ -1,20 +1,30 @@
-// Output folders of the benchmark programs.
+// Output places of the benchmark programs.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "dovetail/core/error.hpp"
+
 namespace dovetail::benchmark {
 
-/// io::prepareOutputFolder; what is wrong with the folder (empty: the current one) is told under the option's name.
-/// @throws InputError
-void prepareFolder(const std::string& option, const std::filesystem::path& folder,
-                   const std::vector<std::string>& names);
+/// Returns prepare(); what it refuses is told under the name of the option.
+template <class Prepare>
+auto underName(const std::string& option, Prepare prepare) {
+  try {
+    return prepare();
+  } catch (const InputError& error) {
+    throw InputError(option + ": " + error.what(), "", "");
+  }
+}
 
-/// Prepares --summary FILE. @param taken  names that the run writes in `outFolder` itself
-/// @throws InputError if the file cannot be written, or would be one of those
-void prepareSummary(const std::filesystem::path& file, const std::filesystem::path& outFolder,
-                    const std::vector<std::string>& taken);
+/// @throws InputError if --summary FILE is one of the names that the run writes in `outFolder` itself. Either may be
+///         empty.
+void requireOtherName(const std::filesystem::path& summary, const std::filesystem::path& outFolder,
+                      const std::vector<std::string>& taken);
+
+/// Makes the folder of --summary FILE and checks that the file can be written. @throws InputError
+void prepareSummary(const std::filesystem::path& summary);
 
 }  // namespace dovetail::benchmark

@@ -19,19 +19,17 @@ using namespace dovetail::wave;
 int runOnce(const Settings& settings) {
   std::vector<ReferenceCurve> curves;
   if (!settings.reference.empty()) curves = readReferenceCurves(settings.reference);
-  prepareOutputs(settings);
-  std::unique_ptr<FrameWriter> frames;
+  const PreparedRun compute = prepareRun(settings);  // refuses before a folder is made
+  const std::unique_ptr<FrameWriter> frames = prepareOutputs(settings);
   io::TimeSeries profile = emptyProfile();
   Observer observer;
-  if (!settings.out.empty()) {
-    frames = makeFrameWriter(settings.out, settings);
+  if (!settings.out.empty())
     observer = [&](const Frame& frame) {
       if (frames) frames->write(frame);
       appendProfile(profile, settings, frame);
     };
-  }
 
-  RunResult result = run(settings, observer);
+  RunResult result = compute(observer);
   if (settings.compare) compareWithParticles(result);
   if (!settings.quiet) printReport(std::cout, result);
   if (!settings.quiet && !curves.empty()) printComparison(std::cout, result, curves);

@@ -1,16 +1,23 @@
 #include "output.hpp"
 
 #include "common/outputs.hpp"
+#include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "dovetail/io/time_series.hpp"
 
 namespace dovetail::wave {
 
-void prepareOutputs(const Settings& settings) {
-  const std::filesystem::path folder(settings.out), file(settings.summary);
-  if (!settings.out.empty()) benchmark::prepareFolder("--out", folder, {"series.csv", "series.h5", "profile.csv"});
-  if (!settings.summary.empty())
-    benchmark::prepareSummary(file, folder, {"series.csv", "series.h5", "profile.csv", "solid.pvd", "particles.pvd"});
+std::unique_ptr<FrameWriter> prepareOutputs(const Settings& settings) {
+  benchmark::requireOtherName(settings.summary, settings.out,
+                              {"series.csv", "series.h5", "profile.csv", "solid.pvd", "particles.pvd"});
+  std::unique_ptr<FrameWriter> frames;
+  if (!settings.out.empty())
+    frames = benchmark::underName("--out", [&] {
+      io::prepareOutputFolder(settings.out, {"series.csv", "series.h5", "profile.csv"});
+      return makeFrameWriter(settings.out, settings);
+    });
+  if (!settings.summary.empty()) benchmark::prepareSummary(settings.summary);
+  return frames;
 }
 
 void writeTables(const RunResult& result, const io::TimeSeries& profile) {

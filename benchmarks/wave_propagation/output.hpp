@@ -20,8 +20,9 @@ std::unique_ptr<FrameWriter> makeFrameWriter(const std::filesystem::path& folder
 /// Does nothing in builds without HDF5 and returns false.
 bool writeSeriesHdf5(const std::filesystem::path& file, const RunResult& result);
 
-/// Checks folder and file names before the run. @throws InputError with what to write instead
-void prepareOutputs(const Settings& settings);
+/// Checks folder and file names before the run. Null without --out, and in builds without VTK.
+/// @throws InputError with what to write instead
+std::unique_ptr<FrameWriter> prepareOutputs(const Settings& settings);
 /// Time series (series.csv, series.h5) and velocity profiles (profile.csv) into --out.
 void writeTables(const RunResult& result, const io::TimeSeries& profile);
 

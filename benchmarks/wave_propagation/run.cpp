@@ -44,8 +44,7 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
 
 class Runner {
 public:
-  Runner(const Settings& settings, const Observer& observer)
-      : model_(settings.fullDem ? makeParticleBar(settings) : makeCoupledBar(settings)), observer_(observer) {
+  explicit Runner(const Settings& settings) : penalty_(penaltyOf(settings)), model_(makeBar(settings, penalty_)) {
     result_.settings = settings;
     result_.profile = Profile(settings.profile);
     result_.series = io::TimeSeries(seriesNames);
@@ -54,7 +53,8 @@ public:
     countParts();
   }
 
-  RunResult run() {
+  RunResult run(const Observer& observer) {
+    observer_ = observer;
     const auto begin = std::chrono::steady_clock::now();
     try {
       loop();
@@ -107,6 +107,7 @@ private:
       stored_ = ledger.addStored("stored in the coupling");
       coupling_ = ledger.addBooked("lost in the coupling");
     }
+    if (model_.solid && K_ > 1 && !newmark_) splitting_ = ledger.addStored("time splitting");
     if (settings().absorber > 0.0 && model_.solid) absorbed_ = ledger.addBooked("absorber");
     if (!model_.drives.empty()) external_ = ledger.addBooked("drive (minus its work)");
   }
@@ -125,12 +126,7 @@ private:
       f.overlapParticles = model_.coupling->overlap.size();
       f.coupledNodes = model_.coupling->rows();
       for (const double m : model_.solid->nodes.mass) mass += m;
-      f.penalty = settings().penalty;
-      if (f.penalty == 0.0 && settings().constraint == Constraint::dashpot)
-        f.penalty = publishedPenalty(settings().particlesPerEdge);
-      else if (f.penalty == 0.0)
-        f.penalty = arlequin::automaticPenalty(Case{}.youngsModulus * settings().stiffnessRatio, Case{}.elementSize,
-                                               settings().cgWidth == 0.0);
+      f.penalty = penalty_;
     }
     const double side = Case{}.side, exact = bulkDensity() * side * side * barLength(settings());
     f.massResidual = std::abs(mass - exact) / exact;
@@ -156,6 +152,7 @@ private:
       ledger.set(stored_, e.coupling);
       ledger.set(coupling_, -sums_.couplingWork - e.coupling);
     }
+    if (splitting_) ledger.set(*splitting_, e.splitting);
     if (absorbed_) ledger.set(*absorbed_, sums_.absorbed);
     if (external_) ledger.set(*external_, -sums_.externalWork);
   }
@@ -266,6 +263,7 @@ private:
     result_.nodeVelocity = model_.solid->nodes.v;
   }
 
+  double penalty_;
   arlequin::Model model_;
   Observer observer_;
   RunResult result_;
@@ -273,7 +271,7 @@ private:
   std::unique_ptr<fem::NewmarkSolver> newmark_;
   EnergyLedger::Id kineticParticles_ = 0, elasticContacts_ = 0, kineticSolid_ = 0, elasticSolid_ = 0, stored_ = 0,
                    coupling_ = 0;
-  std::optional<EnergyLedger::Id> absorbed_, external_;
+  std::optional<EnergyLedger::Id> splitting_, absorbed_, external_;
   int K_ = 1;
   std::int64_t windows_ = 0;
   double dt_ = 0.0;
@@ -284,10 +282,13 @@ private:
 
 }  // namespace
 
-RunResult run(const Settings& settings, const Observer& observer) {
+PreparedRun prepareRun(const Settings& settings) {
   validate(settings);
   setThreads(settings.threads);
-  return Runner(settings, observer).run();
+  const auto runner = std::make_shared<Runner>(settings);
+  return [runner](const Observer& observer) { return runner->run(observer); };
 }
+
+RunResult run(const Settings& settings, const Observer& observer) { return prepareRun(settings)(observer); }
 
 }  // namespace dovetail::wave

@@ -62,7 +62,14 @@ struct RunResult {
   std::vector<Vec3> aloneVelocity;  ///< mean of each layer of particles alone at the end, m/s; empty if not compared
 };
 
-/// @throws InputError for impossible settings. A run that breaks down returns with `failure`.
+/// A run that nothing stands in the way of; to be called once. The observer may be empty. A run that breaks down
+/// returns with `failure`.
+using PreparedRun = std::function<RunResult(const Observer& observer)>;
+
+/// Builds the model and chooses the step. @throws InputError for impossible settings
+PreparedRun prepareRun(const Settings& settings);
+
+/// Prepares and runs.
 RunResult run(const Settings& settings, const Observer& observer = {});
 
 /// Compares a coupled run with particles alone over the whole length, which is run once for settings that agree in all

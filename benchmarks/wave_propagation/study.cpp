@@ -117,7 +117,9 @@ void writeStudy(const std::filesystem::path& folder, const std::string& name, co
 std::vector<StudyRow> runStudy(const Settings& settings) {
   auto [name, rows] = planOf(settings);
   const std::filesystem::path folder = settings.out.empty() ? "." : settings.out;
-  benchmark::prepareFolder("--out", folder, {name + std::string(".csv"), name + std::string(".json")});
+  benchmark::underName("--out", [&, base = std::string(name)] {
+    return io::prepareOutputFolder(folder, {base + ".csv", base + ".json"});
+  });
   Progress progress(std::string("study ") + name, static_cast<double>(rows.size()), !settings.quiet);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].settings.quiet = true;

@@ -4,9 +4,11 @@ import matplotlib.pyplot as plt
 import numpy
 
 from .data import PUBLISHED_ERROR, PUBLISHED_PEAK, PUBLISHED_SECONDS, START_ENERGY, numbers, read_table
-from .style import BLACK, BLUE, GREY, ORANGE, SKY, VERMILLION, save
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, SKY, VERMILLION, save
 
-VARIANTS = {"conservative": (BLUE, "o", "conservative"), "conservative, linear": (SKY, "^", "with linear correction"),
+VARIANTS = {"conservative": (BLUE, "o", "conservative (symmetric kernel)"),
+            "conservative, linear": (SKY, "^", "linear correction instead"),
+            "conservative, no correction": (GREEN, "v", "no correction instead"),
             "paper": (VERMILLION, "s", "paper, as rebuilt here")}
 
 
@@ -48,7 +50,7 @@ def _legend_below(figure, axes, columns):
 def draw_widths(source, path):
     study = Study(source)
     figure, panels = plt.subplots(1, 3, figsize=(10, 3.9))
-    columns = (("time_mean_error_m", 1e3, 1e-1, "error against the static formula (mm)"),
+    columns = (("time_mean_error_m", 1e3, 1, "error against the static formula (mm)"),
                ("energy_drift_relative", 1, 1e-6, "largest |E − E(0)| / E(0)"),
                ("lateral_drift_m", 1e3, 1e-7, "largest sideways drift (mm)"))
     for axes, (column, scale, floor, title) in zip(panels, columns):
@@ -63,10 +65,12 @@ def draw_widths(source, path):
                      "energy_drift_relative": {c: e / START_ENERGY - 1 for c, e in PUBLISHED_PEAK.items()}}
         if column in published:
             axes.plot(*zip(*published[column].items()), color=BLACK, marker="x", linestyle="none", markersize=7,
-                      label="authors' output")
+                      label="authors' output", zorder=5)
         axes.set_yscale("log")
         axes.set_ylim(bottom=0.6 * floor)
-        axes.set_title(title + ("\nhollow: 0" if zeros else "\n"))
+        axes.set_title(title)
+        if zeros:
+            axes.text(0.98, 0.03, "hollow: 0", transform=axes.transAxes, ha="right", color=GREY, fontsize=9)
         axes.set_xlabel("kernel width c / d")
         axes.set_xlim(left=-0.8)
     _legend_below(figure, panels[0], 3)
@@ -106,6 +110,7 @@ def draw_pareto(source, path):
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xlim(right=3 * PUBLISHED_SECONDS)
+        axes.set_ylim(top=max(axes.get_ylim()[1], 3 * published))
         axes.set_xlabel("run time, one thread (s)")
         axes.set_title(title)
     _legend_below(figure, panels[0], 4)

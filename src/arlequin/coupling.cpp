@@ -36,9 +36,9 @@ void requireWidth(const Overlap& overlap, const Solid& solid) {
                    "widen the overlap or refine the mesh there");
 }
 
-/// By rows for the local map; wide kernels need the metric of their rows.
+/// By rows for the local map and for the nodal form; wide kernels at the particles need the metric of their rows.
 std::unique_ptr<Constraint> penaltyFor(const Coupling& c, double penalty) {
-  if (c.options.projection.width == 0.0) return makePenalty(c.gap, penalty);
+  if (penaltyIsLocal(c.options)) return makePenalty(c.gap, penalty);
   double mass = 0.0, volume = 0.0;
   for (const int i : c.overlap.particle) mass += c.fullMass[static_cast<std::size_t>(i)];
   for (const double v : c.gap.volume) volume += v;
@@ -50,7 +50,7 @@ std::unique_ptr<Constraint> penaltyFor(const Coupling& c, double penalty) {
 std::unique_ptr<Constraint> makeConstraint(const Coupling& c, const dem::Particles& particles, const Solid& solid) {
   const CouplingOptions& o = c.options;
   const double automatic = automaticPenalty(fem::youngsModulus(solid.elements.material()),
-                                            elementSize(solid, c.overlap), c.options.projection.width == 0.0);
+                                            elementSize(solid, c.overlap), penaltyIsLocal(c.options));
   switch (o.constraint) {
     case ConstraintKind::penalty:
     case ConstraintKind::stress:
@@ -66,17 +66,12 @@ std::unique_ptr<Constraint> makeConstraint(const Coupling& c, const dem::Particl
 /// How far outside of the mesh particles take part, m.
 double reachOf(const CouplingOptions& o) { return o.projection.reachOut ? o.projection.width : 0.0; }
 
-/// The mesh where its nodes are now.
-fem::Mesh movedMesh(const Solid& solid) {
-  fem::Mesh mesh = solid.mesh;
-  for (std::size_t n = 0; n < mesh.X.size(); ++n) mesh.X[n] = solid.nodes.X[n] + solid.nodes.u[n];
-  return mesh;
-}
-
 void setUp(Coupling& c, dem::Particles& particles, dem::PairList& pairs, const Solid& solid) {
   weighMass(c.overlap, c.fullMass, particles);
   weighContacts(particles, solid.mesh.elements, solid.nodes, c.overlap, pairs);
-  c.gap = makeGapOperator(c.overlap, movedMesh(solid), particles, c.fullMass, c.options.form, c.options.projection);
+  std::vector<Vec3> position(solid.nodes.X.size());
+  for (std::size_t n = 0; n < position.size(); ++n) position[n] = solid.nodes.X[n] + solid.nodes.u[n];
+  c.gap = makeGapOperator(c.overlap, solid.mesh, particles, c.fullMass, c.options.form, c.options.projection, position);
   c.constraint = makeConstraint(c, particles, solid);
   if (c.options.absorberRate > 0.0)
     c.absorber = std::make_unique<Absorber>(
@@ -94,6 +89,10 @@ void setUp(Coupling& c, dem::Particles& particles, dem::PairList& pairs, const S
 }
 
 }  // namespace
+
+bool penaltyIsLocal(const CouplingOptions& options) {
+  return options.projection.width == 0.0 || options.form == GapForm::nodal;
+}
 
 double Coupling::storedEnergy() const { return constraint->storedEnergy(gapNow) + (stress ? stress->energy() : 0.0); }
 

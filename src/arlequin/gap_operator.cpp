@@ -22,17 +22,17 @@ struct QuadraturePoint {
   double weight;
 };
 
-double volumeFactor(const fem::Mesh& mesh, const std::array<int, 8>& element, const Vec3& xi) {
+double volumeFactor(std::span<const Vec3> X, const std::array<int, 8>& element, const Vec3& xi) {
   const std::array<Vec3, 8> gradient = fem::parentGradients(xi);
   std::array<Vec3, 3> J;  // column j = ∂X/∂ξ_j
   for (std::size_t a = 0; a < 8; ++a)
     for (int j = 0; j < 3; ++j)
-      J[static_cast<std::size_t>(j)] += gradient[a][j] * mesh.X[static_cast<std::size_t>(element[a])];
+      J[static_cast<std::size_t>(j)] += gradient[a][j] * X[static_cast<std::size_t>(element[a])];
   return dot(J[0], cross(J[1], J[2]));
 }
 
 /// Points of a brick cut into cells³ parts with 2×2×2 Gauss points each.
-std::vector<QuadraturePoint> quadrature(const fem::Mesh& mesh, const std::array<int, 8>& element, int cells) {
+std::vector<QuadraturePoint> quadrature(std::span<const Vec3> X, const std::array<int, 8>& element, int cells) {
   const double gauss = 1.0 / std::sqrt(3.0), size = 1.0 / cells;
   std::vector<double> line;
   for (int c = 0; c < cells; ++c)
@@ -42,8 +42,8 @@ std::vector<QuadraturePoint> quadrature(const fem::Mesh& mesh, const std::array<
     for (const double y : line)
       for (const double x : line) {
         QuadraturePoint point{fem::shapeValues({x, y, z}), {}, size * size * size};
-        point.weight *= volumeFactor(mesh, element, {x, y, z});
-        for (std::size_t a = 0; a < 8; ++a) point.x += point.shape[a] * mesh.X[static_cast<std::size_t>(element[a])];
+        point.weight *= volumeFactor(X, element, {x, y, z});
+        for (std::size_t a = 0; a < 8; ++a) point.x += point.shape[a] * X[static_cast<std::size_t>(element[a])];
         points.push_back(point);
       }
   return points;
@@ -109,14 +109,15 @@ void addLocalRows(const Overlap& overlap, std::span<const double> mass, const Ro
 
 double elementSize(const fem::Mesh& mesh, const std::array<int, 8>& element) {
   double volume = 0.0;
-  for (const QuadraturePoint& point : quadrature(mesh, element, 1)) volume += point.weight;
+  for (const QuadraturePoint& point : quadrature(mesh.X, element, 1)) volume += point.weight;
   return std::cbrt(volume);
 }
 
 /// ∫W(x − x_α) ψ_i dx per row and particle over the overlap's elements, dense in the reach of the kernel.
 std::vector<std::vector<double>> kernelIntegrals(const Overlap& overlap, const fem::Mesh& mesh,
-                                                 const dem::Particles& particles, const ProjectionOptions& options,
-                                                 const RowNumbers& row, std::size_t rows) {
+                                                 std::span<const Vec3> position, const dem::Particles& particles,
+                                                 const ProjectionOptions& options, const RowNumbers& row,
+                                                 std::size_t rows) {
   const cg::Kernel kernel{options.kernel, 3, options.width};
   std::vector<std::vector<double>> dense(rows, std::vector<double>(overlap.size(), 0.0));
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
@@ -124,7 +125,7 @@ std::vector<std::vector<double>> kernelIntegrals(const Overlap& overlap, const f
     const auto& element = mesh.elements[e];
     const int fine = std::clamp(static_cast<int>(std::ceil(1.5 * elementSize(mesh, element) / options.width)), 1, 8);
     const int cells = options.kernelCells > 0 ? options.kernelCells : fine;
-    const std::vector<QuadraturePoint> points = quadrature(mesh, element, cells);
+    const std::vector<QuadraturePoint> points = quadrature(position, element, cells);
     parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         if (!(overlap.weight[k] > 0.0)) continue;
@@ -153,9 +154,10 @@ std::vector<double> kernelSums(const std::vector<std::vector<double>>& dense, st
   return sum;
 }
 
-void addKernelRows(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
-                   std::span<const double> mass, const ProjectionOptions& options, const RowNumbers& row, Rows& rows) {
-  const auto dense = kernelIntegrals(overlap, mesh, particles, options, row, rows.size());
+void addKernelRows(const Overlap& overlap, const fem::Mesh& mesh, std::span<const Vec3> position,
+                   const dem::Particles& particles, std::span<const double> mass, const ProjectionOptions& options,
+                   const RowNumbers& row, Rows& rows) {
+  const auto dense = kernelIntegrals(overlap, mesh, position, particles, options, row, rows.size());
   const std::vector<double> whole = kernelSums(dense, overlap.size(), options.normaliseKernels);
   Rows local(rows.size());
   addLocalRows(overlap, mass, row, local);
@@ -205,7 +207,7 @@ void addVolumes(const std::vector<int>& elements, const fem::Mesh& mesh, const R
   for (const int e : elements) {
     const auto& element = mesh.elements[static_cast<std::size_t>(e)];
     const std::array<int, 8>& corner = row.of(e);
-    for (const QuadraturePoint& point : quadrature(mesh, element, 1))
+    for (const QuadraturePoint& point : quadrature(mesh.X, element, 1))
       for (std::size_t a = 0; a < 8; ++a) {
         if (corner[a] < 0) continue;
         gap.volume[corner[a]] += point.weight * point.shape[a];
@@ -233,7 +235,8 @@ void addNodesBack(GapOperator& gap) {
 }  // namespace
 
 GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
-                            std::span<const double> mass, GapForm form, const ProjectionOptions& options) {
+                            std::span<const double> mass, GapForm form, const ProjectionOptions& options,
+                            std::span<const Vec3> position) {
   requireNonNegative(options.width, "coarse-graining width");
   GapOperator gap;
   const std::vector<int> elements =
@@ -243,7 +246,8 @@ GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const
   if (options.width == 0.0)
     addLocalRows(overlap, mass, row, rows);
   else
-    addKernelRows(overlap, mesh, particles, mass, options, row, rows);
+    addKernelRows(overlap, mesh, position.empty() ? std::span<const Vec3>(mesh.X) : position, particles, mass, options,
+                  row, rows);
   dropEmptyRows(rows, gap.node, row);
   normalise(rows);
   gap.particles = cg::fromRows(static_cast<int>(overlap.size()), rows);

@@ -79,6 +79,7 @@ void stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, S
   advanceGap(model, 1.0, difference(model.particles.x, x), difference(model.solid->nodes.u, u));
   separateCouplingForces(model, K * dt, profile);
   sums.couplingWork += couplingWorkOfStep(*model.coupling);
+  if (model.coupling->stress) sums.couplingWork += model.coupling->stress->workOfStep();
   kickByCoupling(model, 0.5 * K * dt, sums);
 }
 

@@ -1,4 +1,5 @@
 // s of an overlap of any shape from Laplace's equation.
+#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>

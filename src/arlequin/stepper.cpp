@@ -70,8 +70,20 @@ void driftAll(Model& model, double dt, Profile& profile) {
   model.time += dt;
 }
 
+/// See stepExplicit; V''v by the difference of the forces over the window.
+double splittingEnergy(const Solid& solid, std::span<const Vec3> forceBefore, std::span<const Vec3> uBefore, double h) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < uBefore.size(); ++n) {
+    const Vec3& force = solid.internalForce[n];
+    sum -= dot(force - forceBefore[n], solid.nodes.u[n] - uBefore[n]) / 12.0;
+    sum -= h * h * dot(force, solid.acceleration[n] / 12.0 + solid.slowAcceleration[n] / 24.0);
+  }
+  return sum;
+}
+
 void bookCoupling(Model& model, double dt, StepSums& sums) {
   sums.couplingWork += couplingWorkOfStep(*model.coupling);
+  if (model.coupling->stress) sums.couplingWork += model.coupling->stress->workOfStep();
   if (model.coupling->absorber) sums.absorbed += model.coupling->absorber->workOfStep(model.particles.v, dt);
 }
 
@@ -95,7 +107,10 @@ void start(Model& model, double dt, Profile& profile) {
 
 void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnergy, Profile& profile) {
   const bool windows = model.solid && K > 1;
+  std::vector<Vec3> forceBefore, uBefore;
   if (windows) {
+    if (withEnergy) forceBefore = model.solid->internalForce;
+    if (withEnergy) uBefore = model.solid->nodes.u;
     accelerateSlowly(model, K * dt);
     accelerateSolid(model, false);
     kickSlowly(model, 0.5 * K * dt, sums);
@@ -123,6 +138,7 @@ void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnerg
   if (windows) {
     accelerateSlowly(model, K * dt);
     kickSlowly(model, 0.5 * K * dt, sums);
+    if (withEnergy) model.solid->splittingEnergy = splittingEnergy(*model.solid, forceBefore, uBefore, K * dt);
   }
 }
 
@@ -152,6 +168,7 @@ Energies energies(const Model& model, const fem::NewmarkSolver* newmark) {
                      : model.solid->mass ? model.solid->mass->kineticEnergy(nodes.v)
                                          : fem::kineticEnergy(nodes);
     e.elasticSolid = model.solid->strainEnergy;
+    e.splitting = model.solid->splittingEnergy;
     for (std::size_t n = 0; n < nodes.X.size(); ++n)
       e.gravity -= nodes.mass[n] * dot(model.gravity, nodes.X[n] + nodes.u[n]);
   }

@@ -87,6 +87,7 @@ double StressTerm::apply(const dem::Particles& particles, const fem::Nodes& node
                                                               particles.x[static_cast<std::size_t>(b.j)]);
     cells_[static_cast<std::size_t>(b.cell)].difference += overlap * b.stressPerStretch;
   }
+  energyBefore_ = energy_;
   energy_ = 0.0;
   for (const Cell& cell : cells_) {
     energy_ += 0.5 * cell.factor * cell.difference.squaredNorm();

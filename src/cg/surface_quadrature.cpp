@@ -80,7 +80,7 @@ struct SurfaceKernelQuadrature::Scratch {
 
 SurfaceKernelQuadrature::SurfaceKernelQuadrature(const SurfaceKernel& kernel, SurfacePoints points)
     : kernel_(kernel), points_(std::move(points)) {
-  requireValid(kernel.kernel, true);
+  requireRowwise(kernel);
   requireMatching(points_);
   scratch_ = std::make_unique<Scratch>();
   scratch_->nodeSum = SparseSum(static_cast<std::size_t>(points_.shape.columns));

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "dovetail/cg/symmetric_kernel.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/geometry/surface_topology.hpp"
 
@@ -169,6 +170,10 @@ void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel) {
     return;
   }
   splitAtSharpEdges(skin);
+  if (kernel.correction == cg::KernelCorrection::symmetric) {
+    skin.carrier = cg::symmetricKernelMap(kernel.kernel, skin.X, skin.wall.facets, skin.patchOfFacet, skin.localMap);
+    return;
+  }
   const int vertexCount = static_cast<int>(skin.X.size());
   cg::Projection carrier;
   carrier.columns = skin.localMap.columns;

@@ -130,23 +130,30 @@ private:
   std::map<Row, int> numbers_;
 };
 
-std::array<double, 4> cubic(double t) {
-  const double s = 1.0 - t, t2 = t * t, s2 = s * s;
-  return {s2 * s / 6.0, (3.0 * t2 * t - 6.0 * t2 + 4.0) / 6.0, (3.0 * s2 * s - 6.0 * s2 + 4.0) / 6.0, t2 * t / 6.0};
+/// The uniform quadratic B-spline has its knots in the middles of the faces: left of the middle it takes the first
+/// three of the four control points, from there on the last three.
+std::array<double, 4> placed(const std::array<double, 3>& three, double t) {
+  return t < 0.5 ? std::array<double, 4>{three[0], three[1], three[2], 0.0}
+                 : std::array<double, 4>{0.0, three[0], three[1], three[2]};
 }
-std::array<double, 4> cubicSlope(double t) {
-  const double s = 1.0 - t;
-  return {-0.5 * s * s, 1.5 * t * t - 2.0 * t, -1.5 * s * s + 2.0 * s, 0.5 * t * t};
+double sinceKnot(double t) { return t < 0.5 ? t + 0.5 : t - 0.5; }
+std::array<double, 4> spline(double t) {
+  const double s = sinceKnot(t);
+  return placed({0.5 * (1.0 - s) * (1.0 - s), 0.5 + s * (1.0 - s), 0.5 * s * s}, t);
 }
-std::array<double, 4> cubicCurvature(double t) { return {1.0 - t, 3.0 * t - 2.0, 1.0 - 3.0 * t, t}; }
+std::array<double, 4> splineSlope(double t) {
+  const double s = sinceKnot(t);
+  return placed({s - 1.0, 1.0 - 2.0 * s, s}, t);
+}
+std::array<double, 4> splineCurvature(double t) { return placed({1.0, -2.0, 1.0}, t); }
 
 struct PatchJet {
   Vec3 s, sXi, sEta, sXiXi, sXiEta, sEtaEta;
 };
 
 PatchJet evaluate(const SmoothSurface& surface, int face, double xi, double eta) {
-  const auto b = cubic(xi), db = cubicSlope(xi), ddb = cubicCurvature(xi);
-  const auto c = cubic(eta), dc = cubicSlope(eta), ddc = cubicCurvature(eta);
+  const auto b = spline(xi), db = splineSlope(xi), ddb = splineCurvature(xi);
+  const auto c = spline(eta), dc = splineSlope(eta), ddc = splineCurvature(eta);
   PatchJet jet;
   for (int j = 0; j < 4; ++j) {
     Vec3 line, slope, curvature;
@@ -252,7 +259,7 @@ void place(SmoothSurface& surface, std::span<const Vec3> u, std::span<const Vec3
 }
 
 std::array<double, 16> patchWeights(double xi, double eta) {
-  const auto b = cubic(xi), c = cubic(eta);
+  const auto b = spline(xi), c = spline(eta);
   std::array<double, 16> weight{};
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) weight[i + 4 * j] = b[i] * c[j];

@@ -57,6 +57,20 @@ TEST(BadInput, TimeSteps) {
   expectRefused({"--fem-every", "500"}, {"stepped every 500", "give at most"});
 }
 
+TEST(BadInput, RunsThatWouldNotEnd) {
+  expectRefused({"--dt-factor", "1e-9"}, {"steps are too many", "--dt-factor", "--until"});
+  expectRefused({"--stiffness-ratio", "1e300", "--dt", "auto"}, {"steps are too many", "--stiffness-ratio"});
+  expectRefused({"--stiffness-ratio", "1e20", "--until", "1"}, {"steps are too many", "--stiffness-ratio"});
+}
+
+TEST(BadInput, ARefusedRunLeavesNoFolder) {
+  const ScratchFolder folder;
+  const std::string out = (folder / "new").string();
+  expectRefused({"--dt-factor", "5", "--out", out, "--summary", out + "/summary.json"}, {"--dt-factor"});
+  expectRefused({"--stiffness-ratio", "1e-9", "--out", out}, {"--stiffness-ratio"});
+  EXPECT_TRUE(everyByte(folder).empty());
+}
+
 TEST(BadInput, Meshes) {
   expectRefused({"--mesh", "0,30,2"}, {"--mesh", "2,30,2"});
   expectRefused({"--mesh", "2,-30,2"}, {"--mesh", "2,30,2"});
@@ -70,12 +84,18 @@ TEST(BadInput, Meshes) {
 
 TEST(BadInput, WordsThatAreNoChoice) {
   const std::map<std::string, Words> choices{
-      {"--scheme", {"conservative", "paper"}},     {"--kernel", {"lucy", "gauss"}},
-      {"--kernel-correction", {"none", "linear"}}, {"--surface", {"flat", "smooth"}},
-      {"--element", {"hex8", "hybrid8"}},          {"--lag", {"none", "load", "load-and-skin"}},
-      {"--transfer", {"adjoint", "spread"}},       {"--edges", {"projected", "paper"}},
-      {"--metric", {"reference", "deformed"}},     {"--fem", {"explicit", "newmark"}},
-      {"--mass", {"lumped", "consistent"}},        {"--study", {"widths", "pareto", "stability", "ablation"}},
+      {"--scheme", {"conservative", "paper"}},
+      {"--kernel", {"lucy", "gauss"}},
+      {"--kernel-correction", {"none", "linear", "symmetric"}},
+      {"--surface", {"flat", "smooth"}},
+      {"--element", {"hex8", "hybrid8"}},
+      {"--lag", {"none", "load", "load-and-skin"}},
+      {"--transfer", {"adjoint", "spread"}},
+      {"--edges", {"projected", "paper"}},
+      {"--metric", {"reference", "deformed"}},
+      {"--fem", {"explicit", "newmark"}},
+      {"--mass", {"lumped", "consistent"}},
+      {"--study", {"widths", "pareto", "stability", "ablation"}},
   };
   for (const auto& [option, names] : choices) {
     Words parts = names;
@@ -150,7 +170,8 @@ TEST(BadInput, WhatOthersWroteIsNotOverwritten) {
     const ScratchFolder folder;
     writeText(folder / name, "somebody else's");
     const std::string out = folder.path().string();
-    expectRefused({"--until", "1000", "--out", out, "--summary", (folder / "summary.json").string()}, {name});
+    expectRefused({"--until", "1000", "--out", out, "--summary", (folder / "summary.json").string()},
+                  {name, name == "summary.json" ? "--summary" : "--out"});
     const auto after = everyByte(folder);
     for (const auto& [file, bytes] : after)  // folders may have been made, files not
       EXPECT_TRUE(file == name ? bytes == "somebody else's" : std::filesystem::is_directory(folder / file)) << file;

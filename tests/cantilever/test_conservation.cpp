@@ -62,6 +62,27 @@ TEST(Conservation, TheLinearCorrectionIsWhatBalancesMoments) {
   EXPECT_LE(f.energyDrift, 1e-3);
 }
 
+/// The symmetric kernel is the default; without correction the particles drift off sideways.
+TEST(Conservation, TheSymmetricKernelKeepsTheParticlesInLine) {
+  const auto figuresWith = [](double width, Correction correction) {
+    Settings settings = shortSettings(1.0);
+    settings.cgWidth = width;
+    applyScheme(settings, Scheme::conservative);
+    EXPECT_EQ(settings.correction, Correction::symmetric);
+    settings.correction = correction;
+    return run(settings).figures;
+  };
+  for (double width : {2.0, 4.0, 10.0, 20.0}) {
+    SCOPED_TRACE(width);
+    const RunFigures f = figuresWith(width, Correction::symmetric);
+    EXPECT_TRUE(f.finished && f.stable) << f.failure;
+    EXPECT_LE(f.energyDrift, 1e-3);
+    EXPECT_LE(f.forceResidual, roundOff);
+    EXPECT_LE(f.lateralDrift, 1e-8);
+  }
+  EXPECT_GE(figuresWith(10.0, Correction::none).lateralDrift, 1e-6);
+}
+
 TEST(Conservation, TheSmoothSurfaceKeepsEnergyAndForce) {
   for (double width : {0.0, 4.0}) {
     SCOPED_TRACE(width);

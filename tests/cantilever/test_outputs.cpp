@@ -58,15 +58,15 @@ TEST(Program, HelpListsEveryOption) {
 
 void expectSummary(const std::filesystem::path& file) {
   const auto json = nlohmann::json::parse(readText(file));
-  for (const char* key :
-       {"steps", "wall_seconds", "seconds_per_step", "energy_initial_J", "energy_min_J", "energy_max_J",
-        "energy_drift_relative", "ledger_residual_relative", "lateral_drift_m", "moment_residual_relative",
-        "time_mean_error_m", "time_mean_error_dynamic_m", "no_contact_share"}) {
+  for (const char* key : {"steps", "wall_seconds", "seconds_per_step", "energy_initial_J", "energy_min_J",
+                          "energy_max_J", "energy_drift_relative", "ledger_residual_relative", "lateral_drift_m",
+                          "moment_residual_relative", "time_mean_error_m", "no_contact_share"}) {
     ASSERT_TRUE(json.contains(key)) << key;
     EXPECT_TRUE(json[key].is_number()) << key << ": " << json[key];
   }
   ASSERT_TRUE(json.contains("leave_time_s"));
-  EXPECT_TRUE(json["leave_time_s"].is_null());  // has not left
+  EXPECT_TRUE(json["leave_time_s"].is_null());                  // has not left
+  EXPECT_TRUE(json.at("time_mean_error_dynamic_m").is_null());  // and so is not set beside the beam
   EXPECT_EQ(json.at("stable"), true);
   EXPECT_EQ(json.at("settings").at("cg_width_diameters"), "2");
   EXPECT_EQ(json.at("settings").at("scheme"), "conservative");
@@ -179,6 +179,16 @@ TEST(Program, AStudyWritesOneRowPerRun) {
   std::size_t lines = 0;
   for (std::string line; std::getline(stream, line);) lines += line.starts_with("#") ? 0 : 1;
   EXPECT_EQ(lines, 21u);
+}
+
+TEST(Program, AStudyReplacesItsOwnFilesHoweverLong) {
+  const ScratchFolder folder;
+  for (int i = 0; i < 2; ++i) {
+    const Outcome outcome =
+        runProgram({"--study", "pareto", "--until", "0.002", "--quiet", "--out", folder.path().string()});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  EXPECT_GT(std::filesystem::file_size(folder / "pareto.json"), 64u * 1024u);
 }
 
 }  // namespace

@@ -177,13 +177,24 @@ TEST(Settings, ImpossibleOnesAreRefusedByTheirOptions) {
   check("--output-interval", [](Settings& s) { s.outputInterval = 0.0; });
   check("--kernel-correction", [](Settings& s) {
     s.transfer = Transfer::spread;
-    s.correction = Correction::linear;
+    s.correction = Correction::symmetric;
   });
   check("--surface", [](Settings& s) {
     applyScheme(s, Scheme::paper);
     s.transfer = Transfer::adjoint;
     s.surface = Surface::smooth;
   });
+}
+
+TEST(Settings, TheCappedStepIsAThirdOfTheCriticalOnAFineMesh) {
+  Settings settings;
+  settings.dtCapped = true;
+  const double wanted = settings.dtFactor * contactTime(Case{});
+  EXPECT_EQ(chooseStep(settings, {4.0 * wanted, "an element"}), wanted);
+  EXPECT_EQ(chooseStep(settings, {1.5 * wanted, "an element"}), 0.5 * wanted);
+  EXPECT_EQ(chooseStep(settings, {0.3 * wanted, "an element"}), 0.1 * wanted);
+  settings.dtCapped = false;
+  EXPECT_THROW(chooseStep(settings, {0.3 * wanted, "an element"}), InputError);
 }
 
 TEST(Settings, TheConservativeSchemeUndoesThePapers) {

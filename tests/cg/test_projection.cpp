@@ -146,5 +146,17 @@ TEST(Projection, ResultsDoNotDependOnTheNumberOfThreads) {
   setThreads(1);
 }
 
+TEST(Projection, TheTransposedMapGathersWhatTheMapScatters) {
+  const std::vector<ProjectionRow> rows{{{2, 0.5}, {0, 0.25}}, {}, {{1, 1.0}, {2, -0.5}}};
+  const Projection map = fromRows(4, rows), back = transposed(map);
+  requireValid(back);
+  const std::vector<double> in{1.0, 2.0, 3.0};
+  std::vector<double> scattered(4, 0.0), gathered(4);
+  applyTransposed(map, in, scattered);
+  apply(back, in, gathered);
+  EXPECT_EQ(scattered, gathered);
+  EXPECT_EQ(transposed(back).weight, map.weight);
+}
+
 }  // namespace
 }  // namespace dovetail::cg

@@ -52,7 +52,9 @@ inline std::vector<Variant> flatVariants() {
           {"lucyLinear", 1.3, lucy, KernelCorrection::linear},
           {"gaussLinear", 1.3, gauss, KernelCorrection::linear},
           {"wide", 6.0},
-          {"wideLinear", 6.0, lucy, KernelCorrection::linear}};
+          {"wideLinear", 6.0, lucy, KernelCorrection::linear},
+          {"symmetric", 1.3, lucy, KernelCorrection::symmetric},
+          {"wideSymmetric", 6.0, lucy, KernelCorrection::symmetric}};
 }
 
 inline std::vector<Variant> allVariants() {

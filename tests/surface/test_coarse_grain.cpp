@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(Variants, CoarseGrain, ::testing::ValuesIn(flatVariants
 TEST(CoarseGrainLimits, WidthZeroIsTheLocalMapBitForBit) {
   const fem::Mesh mesh = unitBlock();
   const Skin local = makeSkin(mesh.X, mesh.faceSets.at("skin"));
-  for (auto correction : {cg::KernelCorrection::none, cg::KernelCorrection::linear}) {
+  for (auto correction : {cg::KernelCorrection::none, cg::KernelCorrection::linear, cg::KernelCorrection::symmetric}) {
     const Skin skin = carriedSkin(mesh, {"zero", 0.0, cg::KernelShape::lucy, correction});
     EXPECT_EQ(skin.carrier.offsets, local.localMap.offsets);
     EXPECT_EQ(skin.carrier.column, local.localMap.column);

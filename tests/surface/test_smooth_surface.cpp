@@ -144,6 +144,35 @@ TEST(SmoothSurface, ClosestPointAgainstBruteForce) {
   }
 }
 
+TEST(SmoothSurface, TheMobilityBoundHoldsEverywhereAndIsMetAtACorner) {
+  const fem::Mesh mesh = unitBlock();
+  Random random(6);
+  std::vector<double> inverseMass;
+  for (std::size_t i = 0; i < mesh.X.size(); ++i) inverseMass.push_back(random(0.1, 1.0));
+  for (double width : {0.0, 1.3}) {
+    const SmoothSurface surface = makeSmoothSurface(carriedSkin(mesh, {"", width}));
+    const double bound = largestMobility(surface, inverseMass);
+    double largest = 0.0;
+    std::vector<double> row(mesh.X.size());
+    for (int face = 0; face < static_cast<int>(surface.control.size()); ++face)
+      for (double xi : {0.0, 0.2, 0.5, 0.9, 1.0})
+        for (double eta : {0.0, 0.3, 0.5, 0.7, 1.0}) {
+          std::fill(row.begin(), row.end(), 0.0);
+          const auto weight = patchWeights(xi, eta);
+          for (std::size_t k = 0; k < 16; ++k) {
+            const int c = surface.control[face][k];
+            for (std::size_t i = 0; i < surface.carrier.rowColumns(c).size(); ++i)
+              row[surface.carrier.rowColumns(c)[i]] += weight[k] * surface.carrier.rowWeights(c)[i];
+          }
+          double mobility = 0.0;
+          for (std::size_t i = 0; i < row.size(); ++i) mobility += row[i] * row[i] * inverseMass[i];
+          largest = std::max(largest, mobility);
+        }
+    EXPECT_LE(largest, bound * (1.0 + 1e-14)) << width;
+    EXPECT_GE(largest, 0.8 * bound) << width;
+  }
+}
+
 /// Three faces that meet in the middle of a hexagon.
 TEST(SmoothSurface, RefusesAnIrregularMeshByFace) {
   std::vector<Vec3> X{{0, 0, 0}};
@@ -194,7 +223,8 @@ TEST(SmoothSurface, CoplanarFacesActAsOnePlane) {
   EXPECT_EQ(forceAt(seam, {2.0, 2.0, 0.3501}, mesh.X.size()), Vec3{});
 }
 
-/// On a surface of curvature κ cut into faces of size h, a node lies κ h²/6 off the surface.
+/// On a surface of curvature κ cut into faces of size h, a node lies κ h²/8 off the surface; the middle of a face lies
+/// on it, as on the bilinear face.
 TEST(SmoothSurface, ApproximatesWithTheStatedOffset) {
   const fem::Mesh mesh = unitBlock();
   SmoothSurface surface = makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("z+")));
@@ -203,7 +233,9 @@ TEST(SmoothSurface, ApproximatesWithTheStatedOffset) {
   for (const Vec3& X : mesh.X) u.push_back({0, 0, 0.5 * curvature * (X.x - 2.0) * (X.x - 2.0)});
   placeAll(surface, u);
   const PatchPoint foot = closestPointOnPatch(surface, 5, {2.0, 2.0, 0.0}, {0.5, 0.5});
-  EXPECT_NEAR(foot.point.z, curvature / 6.0, 1e-14);
+  EXPECT_NEAR(foot.point.z, curvature / 8.0, 1e-14);
+  const PatchPoint middle = pointAt(surface, 5, {0.5, 0.5});
+  EXPECT_NEAR(middle.point.z, 0.5 * curvature * 0.5 * (0.0 + 1.0), 1e-14);
 }
 
 }  // namespace

@@ -63,6 +63,19 @@ TEST(BadInput, TimeSteps) {
   expectRefused({"--until", "0.1", "--dt-factor", "1e-9"}, {"--until", "steps"});
 }
 
+TEST(BadInput, BarsTooLarge) {
+  expectRefused({"--until", "100", "--particles-per-edge", "8"}, {"are too many", "--until", "at most"});
+  expectRefused({"--dem-length", "4000", "--particles-per-edge", "8"}, {"are too many", "the lengths"});
+}
+
+TEST(BadInput, ARefusedRunLeavesNoFolder) {
+  const ScratchFolder folder;
+  const std::string out = (folder / "new").string();
+  expectRefused({"--dt-factor", "5", "--out", out, "--summary", out + "/summary.json"}, {"--dt-factor"});
+  expectRefused({"--penalty", "1e13", "--out", out}, {"above the critical one"});
+  EXPECT_TRUE(everyByte(folder).empty());
+}
+
 TEST(BadInput, WordsThatAreNoChoice) {
   const std::map<std::string, Words> choices{{"--scheme", {"conservative", "paper"}},
                                              {"--constraint", {"penalty", "multiplier", "dashpot", "stress"}},
@@ -138,7 +151,8 @@ TEST(BadInput, WhatOthersWroteIsNotOverwritten) {
     const ScratchFolder folder;
     writeText(folder / name, "somebody else's");
     const std::string out = folder.path().string();
-    expectRefused({"--out", out, "--summary", (folder / "summary.json").string()}, {name});
+    expectRefused({"--out", out, "--summary", (folder / "summary.json").string()},
+                  {name, name == "summary.json" ? "--summary" : "--out"});
     const auto after = everyByte(folder);
     for (const auto& [file, bytes] : after)  // folders may have been made, files not
       EXPECT_TRUE(file == name ? bytes == "somebody else's" : std::filesystem::is_directory(folder / file)) << file;

@@ -199,6 +199,16 @@ TEST(Program, ABreakdownSaysWhereAndWhenAndKeepsWhatThereIs) {
   EXPECT_FALSE(readText(folder / "out/series.csv").empty());
 }
 
+TEST(Program, AStudyReplacesItsOwnFilesHoweverLong) {
+  const ScratchFolder folder;
+  for (int i = 0; i < 2; ++i) {
+    const Outcome outcome =
+        runShort({"--study", "constraints", "--until", "0.0005", "--quiet", "--out", folder.path().string()});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  EXPECT_GT(std::filesystem::file_size(folder / "constraints.json"), 64u * 1024u);
+}
+
 TEST(Program, StudiesWriteOneRowPerRun) {
   const std::map<std::string, std::size_t> studies{{"widths", 24}, {"constraints", 38}, {"stability", 132}};
   for (const auto& [name, runs] : studies) {

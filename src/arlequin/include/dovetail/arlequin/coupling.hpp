@@ -35,6 +35,9 @@ struct CouplingOptions {
   double absorberRate = 0.0;       ///< 1/s; 0 = no absorber
 };
 
+/// Whether the penalty is one of rows (makePenalty); else it is makeMetricPenalty.
+bool penaltyIsLocal(const CouplingOptions& options);
+
 /// The solid of a volume coupling.
 struct Solid {
   fem::Mesh mesh;
@@ -46,6 +49,7 @@ struct Solid {
   std::vector<Vec3> acceleration;      ///< m/s², of the forces that act at every step
   std::vector<Vec3> slowAcceleration;  ///< m/s², of those that act at the ends of a window of several steps
   double strainEnergy = 0.0;           ///< J, if asked for
+  double splittingEnergy = 0.0;        ///< J, if asked for: see stepExplicit
 };
 
 /// The state of a coupling. Arrays over the rows of `gap`.

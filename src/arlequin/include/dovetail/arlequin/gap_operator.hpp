@@ -57,10 +57,12 @@ struct GapOperator {
 /// by Gauss points as fine as the kernel asks for, normalised by the quadrature itself. Rows without a particle are
 /// left out.
 /// @param mass  full masses of all particles, kg
-/// @param mesh  in the configuration in which the overlap was located
+/// @param mesh  reference configuration: volumes are counted there
+/// @param position  of the nodes when the overlap was located, for kernels, m; empty = mesh.X
 /// @throws InputError for a width that is negative or not finite
 GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
-                            std::span<const double> mass, GapForm form, const ProjectionOptions& options);
+                            std::span<const double> mass, GapForm form, const ProjectionOptions& options,
+                            std::span<const Vec3> position = {});
 
 /// out_i = Π v_particles − B v_nodes per row.
 /// @param particles  values of all particles   @param nodes  values of all nodes

@@ -62,6 +62,12 @@ void start(Model& model, double dt, Profile& profile);
 /// K steps of velocity Verlet with explicit FEM every K-th (impulse multiple time stepping: elastic forces kick the
 /// nodes at the ends of the window; contacts and coupling act at every step, and the nodes drift with the particles).
 /// Symplectic for a penalty and for multipliers.
+///
+/// For K > 1 the energy that the scheme conserves differs from the exact one by, to leading order in h = K dt,
+///   h² [ v·V''v/12 − g·M⁻¹g_f/12 − g·M⁻¹g/24 ],
+/// V the strain energy, g and g_f the gradients of V and of the energy that acts at every step
+/// (Baker–Campbell–Hausdorff series of half kick · fast steps · half kick). It is a state function, kept in
+/// solid.splittingEnergy.
 void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnergy, Profile& profile);
 
 /// K steps of velocity Verlet of the particles and one Newmark step of K dt of the solid; the coupling kicks both at
@@ -80,8 +86,10 @@ void relocate(Model& model, StepSums& sums);
 /// Stored energies of a model, J.
 struct Energies {
   double kineticParticles = 0.0, elasticContacts = 0.0, kineticSolid = 0.0, elasticSolid = 0.0, coupling = 0.0,
-         gravity = 0.0;
-  double total() const { return kineticParticles + elasticContacts + kineticSolid + elasticSolid + coupling + gravity; }
+         gravity = 0.0, splitting = 0.0;
+  double total() const {
+    return kineticParticles + elasticContacts + kineticSolid + elasticSolid + coupling + gravity + splitting;
+  }
 };
 /// At full-step velocities. The solid's strain energy is that of the last step with `withEnergy`.
 /// @param newmark  if the solid is stepped by it: its mass matrix counts

@@ -29,6 +29,9 @@ public:
   double apply(const dem::Particles& particles, const fem::Nodes& nodes, std::span<Vec3> particleForce,
                std::span<Vec3> nodeForce);
   double energy() const { return energy_; }
+  /// Energy at the last evaluation but one less that at the last, J: the work of the forces over a step, which are
+  /// linear.
+  double workOfStep() const { return energyBefore_ - energy_; }
 
 private:
   struct Branch {
@@ -47,7 +50,7 @@ private:
 
   std::vector<Branch> branches_;
   std::vector<Cell> cells_;
-  double lambda_, mu_, energy_ = 0.0;
+  double lambda_, mu_, energy_ = 0.0, energyBefore_ = 0.0;
 };
 
 }  // namespace dovetail::arlequin

@@ -13,14 +13,19 @@
 namespace dovetail::cg {
 
 enum class KernelCorrection {
-  none,   ///< P_i = Σ_q w_q W ψ_i / Σ_q w_q W: non-negative, conserves force
-  linear  ///< W times (1 + β·(X_q − X_c)), so that Σ P_i X_i = X_c: conserves moments too; weights may be negative
+  none,      ///< P_i = Σ_q w_q W ψ_i / Σ_q w_q W: non-negative, conserves force
+  linear,    ///< W times (1 + β·(X_q − X_c)), so that Σ P_i X_i = X_c: conserves moments too; weights change sign
+  symmetric  ///< g(x) W g(x'), so that even tractions stay even (see symmetric_kernel.hpp); for whole surfaces only
 };
 
 struct SurfaceKernel {
   Kernel kernel;  ///< only shape and width matter, because the quadrature normalises; width 0 is the local map
   KernelCorrection correction = KernelCorrection::none;
 };
+
+/// @throws InputError for a kernel whose rows cannot be found one by one: a width that is negative or not finite, or
+///         the symmetric correction
+void requireRowwise(const SurfaceKernel& kernel);
 
 /// Appends the weights by which a point load at the centre X_c goes to the nodes (Cheng et al. 2023, Eqs. 14 and 15):
 ///
@@ -42,8 +47,8 @@ struct SurfaceKernel {
 /// @param localMap      vertices × nodes, rows sum to one
 /// @param facet, barycentric  the centre: facet number and its three weights, which sum to one
 /// @param column, weight      one row is appended: nodes ascending, weights that sum to one
-/// @throws InputError for a width that is negative or not finite, a facet out of range, sizes that do not match, or
-///         barycentric weights that are not finite
+/// @throws InputError as requireRowwise, for a facet out of range, sizes that do not match, or barycentric weights that
+///         are not finite
 void surfaceKernelRow(const SurfaceKernel& kernel, std::span<const Vec3> vertices,
                       std::span<const std::array<int, 3>> facets, std::span<const int> patchOfFacet,
                       const Projection& localMap, int facet, std::array<double, 3> barycentric,
@@ -66,6 +71,9 @@ public:
   SurfaceKernelRows& operator=(SurfaceKernelRows&&) noexcept;
 
   void row(int facet, const std::array<double, 3>& barycentric, std::vector<int>& column, std::vector<double>& weight);
+  /// The row of the sum of the kernels around the facet's point moved by each of the given offsets, m.
+  void row(int facet, const std::array<double, 3>& barycentric, std::span<const Vec3> images, std::vector<int>& column,
+           std::vector<double>& weight);
 
 private:
   struct Cache;

@@ -33,7 +33,7 @@ SurfacePoints gaussPointsOnQuads(std::span<const Vec3> X, std::span<const std::a
 /// (which makes width → 0 the local map), and row() says so.
 class SurfaceKernelQuadrature {
 public:
-  /// @throws InputError for a width that is negative or not finite, or points whose arrays do not match
+  /// @throws InputError as requireRowwise, or for points whose arrays do not match
   SurfaceKernelQuadrature(const SurfaceKernel& kernel, SurfacePoints points);
   ~SurfaceKernelQuadrature();
   SurfaceKernelQuadrature(SurfaceKernelQuadrature&&) noexcept;

@@ -52,7 +52,7 @@ void splitAtSharpEdges(Skin& skin);
 /// Replaces the carrier by kernel weights: S_vi = Σ_q w_q W(|X_q − X_v|) ψ_i(X_q) / Σ_q w_q W (paper, Eqs. 14 and 15,
 /// with the kernel at the skin's vertices on the reference surface), after splitAtSharpEdges. Width 0 gives the local
 /// map and splits nothing. Rows sum to one; with linear correction Σ_i S_vi X_i = X_v as well, so that moments balance
-/// too.
+/// too, and with the symmetric one even tractions stay even (cg/symmetric_kernel.hpp).
 /// @throws InputError for a width that is negative or not finite, before the skin is changed
 void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel);
 

@@ -1,4 +1,4 @@
-// A smooth stand-in for the flat facets of a skin: one bicubic B-spline patch per face.
+// A smooth stand-in for the flat facets of a skin: one biquadratic B-spline patch per face.
 #pragma once
 
 #include <array>
@@ -11,10 +11,11 @@
 
 namespace dovetail::surface {
 
-/// Uniform bicubic B-spline surface whose control points are the corners of the skin's faces; curvature is continuous
-/// across faces of one smooth patch. At the rim of a patch the control net is continued linearly, so that the surface
-/// ends on the rim and linear fields are reproduced exactly. It approximates: a node of curvature κ on faces of size h
-/// lies off the surface by κ h²/6.
+/// Uniform biquadratic B-spline surface whose control points are the corners of the skin's faces; the tangent plane is
+/// continuous within a smooth patch. It touches the bilinear faces in their middles, where loads therefore go to the
+/// nodes by the face's own shape functions. At the rim of a patch the control net is continued linearly, so that the
+/// surface ends on the rim and linear fields are reproduced exactly. It approximates: a node of curvature κ on faces of
+/// size h lies off the surface by κ h²/8.
 ///
 /// Positions are linear in the node displacements (x_c = X_c + Σ_i S_ci u_i), so a contact at the closest point
 /// s(ξ*) = Σ_c B_c(ξ*) x_c with the energy ½ k ⟨R − |x − s(ξ*)|⟩² has nodal forces Sᵀ (B_c(ξ*) f): one potential.
@@ -47,6 +48,12 @@ PatchPoint closestPointOnPatch(const SmoothSurface& surface, int face, const Vec
 bool leavesThrough(const SmoothSurface& surface, int face, const PatchPoint& foot, const Vec3& p);
 /// Unit normal at a point of the patch, outward for faces counter-clockwise from outside.
 Vec3 patchNormal(const SmoothSurface& surface, int face, const PatchPoint& at);
+
+/// An upper bound of Σ_i S_i² / m_i over the surface, 1/kg, where S_i are the weights of a point's nodes: what the mass
+/// of the solid contributes to the stiffest contact, ω² = k (1/m_particle + Σ S_i²/m_i). It is the largest value at the
+/// Bézier points of the patches (the sum is convex), and so exact at the corners of a rim.
+/// @param inverseMass  per node, 1/kg; 0 for a held node
+double largestMobility(const SmoothSurface& surface, std::span<const double> inverseMass);
 
 /// Weights of the 16 control points at (ξ, η).
 std::array<double, 16> patchWeights(double xi, double eta);

@@ -98,7 +98,6 @@ void start(Model& model, double dt, Profile& profile) {
   fem::clearForces(model.nodes);
   model.strainEnergy = fem::addInternalForces(model.elements, model.nodes, true);
   detail::evaluateContacts(model, model.nodes.u, model.nodes.v, dt, ignored, profile);
-  model.contact.dissipatedPower = 0.0;
   model.loadBefore = model.seam.load();
 }
 

@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include "dovetail/arlequin/constraint.hpp"
+#include "dovetail/core/error.hpp"
+#include "scenes.hpp"
+
+namespace dovetail::arlequin {
+namespace {
+
+using namespace test;
+
+struct Setting {
+  ConstraintKind kind;
+  double width;
+};
+
+Model barWith(ConstraintKind kind, double width, double massShare = 0.0) {
+  SceneOptions o;
+  o.coupling.constraint = kind;
+  o.coupling.projection.width = width;
+  o.coupling.penalty = kind == ConstraintKind::dashpot ? 1e8 : 0.0;
+  o.massShare = massShare;
+  return makeBar(o);
+}
+
+std::vector<Vec3> randomRows(const Coupling& c, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<Vec3> rows(c.rows());
+  for (Vec3& v : rows) v = randomVector(random, 1e-3);
+  return rows;
+}
+
+TEST(Constraint, ThePenaltyIsTheGradientOfItsEnergy) {
+  for (const double width : {0.0, 0.9}) {
+    const Model model = barWith(ConstraintKind::penalty, width);
+    const Coupling& c = *model.coupling;
+    std::vector<Vec3> gap = randomRows(c, 4), lambda(c.rows()), tangent(c.rows());
+    c.constraint->evaluate({gap, {}, {}, {}, 1.0}, lambda);
+    c.constraint->applyStiffness(gap, tangent);
+    for (const std::size_t r : {std::size_t{0}, c.rows() / 2, c.rows() - 1})
+      for (int k = 0; k < 3; ++k) {
+        const double before = gap[r][k], step = 1e-5;
+        gap[r][k] = before + step;
+        const double above = c.constraint->storedEnergy(gap);
+        gap[r][k] = before - step;
+        const double below = c.constraint->storedEnergy(gap);
+        gap[r][k] = before;
+        EXPECT_NEAR(lambda[r][k], (above - below) / (2.0 * step), 1e-6 * norm(lambda[r]) + 1e-9);
+        EXPECT_NEAR(tangent[r][k], lambda[r][k], 1e-12 * norm(lambda[r])) << "linear: λ is its own tangent";
+      }
+    EXPECT_GT(c.constraint->storedEnergy(gap), 0.0);
+  }
+}
+
+TEST(Constraint, MultipliersTakeTheGapsAccelerationAway) {
+  for (const double share : {0.0, 0.4})
+    for (const double width : {0.0, 0.9}) {
+      Model model = barWith(ConstraintKind::multiplier, width, share);
+      Coupling& c = *model.coupling;
+      Solid& solid = *model.solid;
+      std::mt19937 random(8);
+      std::vector<Vec3> f(model.particles.size()), g(solid.nodes.X.size());
+      for (auto* forces : {&f, &g})
+        for (Vec3& v : *forces) v = randomVector(random, 1.0);
+      const auto accelerations = [&](std::vector<Vec3> onParticles, std::vector<Vec3> onNodes) {
+        for (std::size_t i = 0; i < onParticles.size(); ++i) onParticles[i] *= 1.0 / model.particles.mass[i];
+        if (solid.mass)
+          solid.mass->solve(onNodes);
+        else
+          for (std::size_t n = 0; n < onNodes.size(); ++n)
+            onNodes[n] *= solid.nodes.fixed[n] ? 0.0 : 1.0 / solid.nodes.mass[n];
+        std::vector<Vec3> gap(c.rows());
+        gapOf(c.gap, c.overlap, onParticles, onNodes, gap);
+        return gap;
+      };
+      const std::vector<Vec3> before = accelerations(f, g), none(c.rows());
+      std::vector<Vec3> lambda(c.rows());
+      c.constraint->evaluate({none, none, none, before, 1.0}, lambda);
+      pullParticles(c.gap, c.overlap, lambda, f);
+      pullNodes(c.gap, lambda, g);
+      const std::vector<Vec3> after = accelerations(f, g);
+      double left = 0.0, size = 0.0;
+      for (std::size_t r = 0; r < c.rows(); ++r) {
+        left = std::max(left, norm(after[r]));
+        size = std::max(size, norm(before[r]));
+      }
+      EXPECT_LT(left, 1e-6 * size) << "width " << width << ", share " << share;
+    }
+}
+
+TEST(Constraint, DashpotsLoseWhateverTheIncrement) {
+  const Model model = barWith(ConstraintKind::dashpot, 0.0);
+  const Coupling& c = *model.coupling;
+  for (const bool consistent : {false, true}) {
+    const auto dashpot = makeDashpot(c.gap, 1e8, consistent);
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      const std::vector<Vec3> increment = randomRows(c, seed);
+      std::vector<Vec3> lambda(c.rows());
+      dashpot->evaluate({{}, increment, {}, {}, 1.0}, lambda);
+      double lost = 0.0;
+      for (std::size_t r = 0; r < c.rows(); ++r) lost += dot(lambda[r], increment[r]);
+      EXPECT_GT(lost, 0.0);
+      EXPECT_EQ(dashpot->storedEnergy(increment), 0.0);
+    }
+  }
+}
+
+TEST(Constraint, LumpedDashpotsAreTheRowSumsOfConsistentOnes) {
+  const Model model = barWith(ConstraintKind::dashpot, 0.0);
+  const Coupling& c = *model.coupling;
+  const std::vector<Vec3> same(c.rows(), Vec3{1e-4, 2e-4, -1e-4});
+  std::vector<Vec3> lumped(c.rows()), consistent(c.rows());
+  makeDashpot(c.gap, 1e8, false)->evaluate({{}, same, {}, {}, 1.0}, lumped);
+  makeDashpot(c.gap, 1e8, true)->evaluate({{}, same, {}, {}, 1.0}, consistent);
+  for (std::size_t r = 0; r < c.rows(); ++r) EXPECT_LT(norm(lumped[r] - consistent[r]), 1e-12 * norm(lumped[r]));
+}
+
+TEST(Constraint, ImpossiblePenaltiesAreRefused) {
+  const Model model = barWith(ConstraintKind::penalty, 0.0);
+  for (const double p : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(makePenalty(model.coupling->gap, p), InputError);
+    EXPECT_THROW(makeDashpot(model.coupling->gap, p, false), InputError);
+  }
+}
+
+TEST(StressTerm, ItsForcesAreMinusTheGradientOfItsEnergyAndSumToZeroOnEachModel) {
+  SceneOptions o;
+  o.coupling.constraint = ConstraintKind::stress;
+  Model model = makeBar(o);
+  StressTerm& term = *model.coupling->stress;
+  std::mt19937 random(9);
+  for (Vec3& x : model.particles.x) x.y += 1e-3 * randomVector(random, 1.0).y;
+  for (Vec3& u : model.solid->nodes.u) u = randomVector(random, 1e-3);
+  std::vector<Vec3> onParticles(model.particles.size()), onNodes(model.solid->nodes.X.size());
+  term.apply(model.particles, model.solid->nodes, onParticles, onNodes);
+  Vec3 sum, other;
+  double size = 0.0;
+  for (const Vec3& f : onParticles) sum += f, size += norm(f);
+  for (const Vec3& f : onNodes) other += f, size += norm(f);
+  EXPECT_LT(norm(sum), 1e-12 * size);
+  EXPECT_LT(norm(other), 1e-12 * size);
+  const auto energy = [&] {
+    std::vector<Vec3> a(onParticles.size()), b(onNodes.size());
+    return term.apply(model.particles, model.solid->nodes, a, b);
+  };
+  const auto check = [&](double& place, double force) {
+    const double before = place, step = 1e-6;
+    place = before + step;
+    const double above = energy();
+    place = before - step;
+    const double below = energy();
+    place = before;
+    EXPECT_NEAR(force, -(above - below) / (2.0 * step), 1e-5 * std::abs(force) + 1e-7 * size);
+  };
+  for (const int i : {model.coupling->overlap.particle.front(), model.coupling->overlap.particle[17]})
+    check(model.particles.x[static_cast<std::size_t>(i)].y, onParticles[static_cast<std::size_t>(i)].y);
+  for (const std::size_t n : {std::size_t{4}, std::size_t{13}})
+    for (int k = 0; k < 3; ++k) check(model.solid->nodes.u[n][k], onNodes[n][k]);
+}
+
+}  // namespace
+}  // namespace dovetail::arlequin

@@ -1,0 +1,338 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "dovetail/arlequin/critical_step.hpp"
+#include "dovetail/arlequin/stepper.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/pair_collide.hpp"
+#include "scenes.hpp"
+
+namespace dovetail::arlequin {
+namespace {
+
+using namespace test;
+
+SceneOptions sceneOf(ConstraintKind kind, GapForm form = GapForm::atParticles, double width = 0.0) {
+  SceneOptions o;
+  o.coupling.constraint = kind;
+  o.coupling.form = form;
+  o.coupling.projection.width = width;
+  if (kind == ConstraintKind::dashpot) o.coupling.penalty = 2e8;
+  o.massShare = 0.375;
+  return o;
+}
+
+/// A pulse that runs from the particles into the solid, oblique to the bar.
+void excite(Model& model) {
+  for (std::size_t i = 0; i < model.particles.size(); ++i) {
+    const double y = model.particles.x[i].y;
+    if (y < 0.5) model.particles.v[i] = {0.002 * y, 0.1 * std::sin(2.0 * 3.14159265 * y), 0.001};
+  }
+}
+
+struct Outcome {
+  Model model;
+  StepSums sums;
+  double before, worstResidual = 0.0, worstMomentum = 0.0;
+};
+
+Outcome runScene(const SceneOptions& o, double dt, double time, int K = 1) {
+  Outcome out{makeBar(o), {}, 0.0};
+  Model& model = out.model;
+  excite(model);
+  Profile profile;
+  start(model, dt, profile);
+  out.before = energies(model).total();
+  const Vec3 p0 = momentum(model);
+  const int windows = static_cast<int>(std::lround(time / (K * dt)));
+  for (int w = 0; w < windows; ++w) {
+    stepExplicit(model, dt, K, out.sums, true, profile);
+    const Energies e = energies(model);
+    const double booked = -out.sums.couplingWork - e.coupling + out.sums.absorbed + out.sums.dissipated;
+    out.worstResidual = std::max(out.worstResidual, std::abs(e.total() + booked - out.before));
+    out.worstMomentum = std::max(out.worstMomentum, norm(momentum(model) - p0 - out.sums.supportImpulse) / norm(p0));
+  }
+  return out;
+}
+
+class EveryConstraint : public ::testing::TestWithParam<ConstraintKind> {};
+
+TEST_P(EveryConstraint, MomentumIsKeptAndTheLedgerClosesAtSecondOrder) {
+  const SceneOptions o = sceneOf(GetParam());
+  const Outcome coarse = runScene(o, 2e-4, 0.06), fine = runScene(o, 1e-4, 0.06);
+  EXPECT_LT(coarse.worstMomentum, 1e-12);
+  EXPECT_LT(fine.worstResidual, 2e-2 * fine.before);
+  EXPECT_NEAR(std::log2(coarse.worstResidual / fine.worstResidual), 2.0, 0.5);
+}
+
+TEST_P(EveryConstraint, AUniformVelocityGoesOnForEver) {
+  SceneOptions o = sceneOf(GetParam());
+  o.holdEnd = false;
+  Model model = makeBar(o);
+  const Vec3 v{0.3, -0.2, 0.1};
+  for (Vec3& each : model.particles.v) each = v;
+  for (Vec3& each : model.solid->nodes.v) each = v;
+  Profile profile;
+  StepSums sums;
+  start(model, 2e-4, profile);
+  for (int s = 0; s < 200; ++s) stepExplicit(model, 2e-4, 1, sums, false, profile);
+  for (const Vec3& each : model.particles.v) EXPECT_LT(norm(each - v), 1e-9);
+  for (const Vec3& each : model.solid->nodes.v) EXPECT_LT(norm(each - v), 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryConstraint,
+                         ::testing::Values(ConstraintKind::penalty, ConstraintKind::multiplier, ConstraintKind::dashpot,
+                                           ConstraintKind::stress));
+
+TEST(Stepper, PenaltyAndMultipliersDoNoNetWork) {
+  for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier})
+    for (const GapForm form : {GapForm::atParticles, GapForm::nodal})
+      for (const double width : {0.0, 0.9})
+        for (const int K : {1, 4}) {
+          const Outcome out = runScene(sceneOf(kind, form, width), 1e-4 / K, 0.04, K);
+          EXPECT_LT(std::abs(out.sums.couplingWork + out.model.coupling->storedEnergy()), 1e-9 * out.before)
+              << static_cast<int>(kind) << static_cast<int>(form) << ' ' << width << ' ' << K;
+        }
+}
+
+TEST(Stepper, DashpotsLoseAndBookIt) {
+  const Outcome out = runScene(sceneOf(ConstraintKind::dashpot), 1e-4, 0.06);
+  EXPECT_LT(out.sums.couplingWork, -0.01 * out.before);
+}
+
+TEST(Stepper, MultipliersKeepTheGapClosed) {
+  const Outcome out = runScene(sceneOf(ConstraintKind::multiplier), 2e-4, 0.06);
+  for (const Vec3& g : out.model.coupling->gapNow) EXPECT_LT(norm(g), 1e-13);
+}
+
+TEST(Stepper, TheAbsorberTakesFluctuationsAndKeepsMomentum) {
+  SceneOptions o = sceneOf(ConstraintKind::penalty);
+  o.coupling.absorberRate = 100.0;
+  const Outcome out = runScene(o, 1e-4, 0.06), without = runScene(sceneOf(ConstraintKind::penalty), 1e-4, 0.06);
+  EXPECT_GT(out.sums.absorbed, 1e-4 * out.before);
+  EXPECT_LT(out.worstMomentum, 1e-12);
+  EXPECT_LT(out.worstResidual, 2.0 * without.worstResidual + 1e-4 * out.before);
+}
+
+TEST(Stepper, SubStepsConserveWithTheirSplittingEnergy) {
+  for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier}) {
+    SceneOptions o = sceneOf(kind);
+    o.coupling.penalty = kind == ConstraintKind::penalty ? 2.0 * modulus / (edge * edge) : 0.0;
+    const Outcome out = runScene(o, 1e-4, 0.06, 4);
+    EXPECT_LT(out.worstResidual, 2e-2 * out.before);
+    EXPECT_LT(out.worstMomentum, 1e-12);
+  }
+}
+
+TEST(Stepper, ImplicitSolidsKeepEnergyWithAPenaltyAndMomentumAlways) {
+  for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier}) {
+    SceneOptions o = sceneOf(kind);
+    Model model = makeBar(o);
+    excite(model);
+    const double dt = 1e-4;
+    fem::NewmarkOptions options;
+    options.consistentShare = o.massShare;
+    fem::NewmarkSolver newmark(model.solid->elements, model.solid->nodes, dt, options);
+    Profile profile;
+    StepSums sums;
+    start(model, dt, profile);
+    const double before = energies(model, &newmark).total();
+    const Vec3 p0 = momentum(model);
+    for (int s = 0; s < 300; ++s) stepImplicit(model, newmark, dt, 1, sums, true, profile);
+    const Energies e = energies(model, &newmark);
+    EXPECT_NEAR(e.total() - sums.couplingWork - e.coupling, before, 1e-2 * before);
+    if (kind == ConstraintKind::penalty) {
+      EXPECT_LT(std::abs(sums.couplingWork + e.coupling), 1e-9 * before);
+    }
+    EXPECT_LT(norm(momentum(model) - p0 - sums.supportImpulse), 1e-10 * norm(p0));
+  }
+}
+
+TEST(Stepper, ResultsAreTheSameForAnyNumberOfThreads) {
+  const SceneOptions o = sceneOf(ConstraintKind::penalty, GapForm::atParticles, 0.9);
+  const Outcome one = runScene(o, 2e-4, 0.02);
+  setThreads(2);
+  const Outcome two = runScene(o, 2e-4, 0.02);
+  setThreads(1);
+  const Outcome again = runScene(o, 2e-4, 0.02);
+  EXPECT_TRUE(one.model.particles.v == two.model.particles.v);
+  EXPECT_TRUE(one.model.solid->nodes.v == two.model.solid->nodes.v);
+  EXPECT_TRUE(one.model.particles.v == again.model.particles.v);
+}
+
+/// Energy after many steps at a share of the critical step, over that at the start.
+double growth(double share) {
+  SceneOptions o = sceneOf(ConstraintKind::penalty);
+  Model model = makeBar(o);
+  std::mt19937 random(1);
+  for (Vec3& v : model.particles.v) v = randomVector(random, 1e-4);
+  const double dt = share * criticalStep(model).together;
+  Profile profile;
+  StepSums sums;
+  start(model, dt, profile);
+  const double before = energies(model).total();
+  for (int s = 0; s < 3000; ++s) {
+    stepExplicit(model, dt, 1, sums, s == 2999, profile);
+    if (!std::isfinite(model.particles.v[0].y) || norm(model.particles.v[0]) > 1e3) return 1e30;
+  }
+  return energies(model).total() / before;
+}
+
+TEST(CriticalStep, VerletIsBoundedBelowAndGrowsAboveIt) {
+  EXPECT_LT(growth(0.98), 50.0);
+  EXPECT_GT(growth(1.02), 1e6);
+}
+
+TEST(CriticalStep, TheDashpotsLimitWithUniformSharesIsTwo) {
+  // No stiffness, w = ½ everywhere: stable for ε dt²/(ρ w (1 − w)) < 2.
+  const auto endSpeed = [](double number) {
+    SceneOptions o;
+    o.across = 1;
+    o.particlesPerEdge = 1;
+    Model model;
+    model.particles = lattice({0, 0, 0}, {edge, 4 * edge, edge}, 1);
+    for (Vec3& v : model.particles.v) v.y = 1.0;
+    dem::ElasticLaw law;
+    law.normal.stiffness = 1e-9;
+    model.law = law;
+    dem::findPairs(model.particles, 0.0, model.pairs);
+    fem::Mesh mesh = fem::boxMesh({1, 4, 1}, {0, 0, 0}, {edge, 4 * edge, edge});
+    const std::vector<double> weight(mesh.X.size(), 0.5);
+    fem::Nodes nodes = fem::makeNodes(mesh);
+    fem::ElementBlock elements =
+        fem::makeElements(mesh, fem::ElementType::hex8, fem::StVenantKirchhoff{1e-9, 0.0, bulk}, solidWeights(weight));
+    fem::addLumpedMass(elements, nodes);
+    model.solid.emplace(Solid{std::move(mesh), std::move(nodes), std::move(elements), std::nullopt, {}, {}, {}});
+    const double dt = 1e-3;
+    CouplingOptions coupling;
+    coupling.constraint = ConstraintKind::dashpot;
+    coupling.penalty = number * bulk * 0.25 / (dt * dt);
+    model.coupling.emplace(makeCoupling(model.particles, model.pairs, *model.solid, weight, coupling));
+    Profile profile;
+    StepSums sums;
+    start(model, dt, profile);
+    for (int s = 0; s < 2000; ++s) stepExplicit(model, dt, 1, sums, false, profile);
+    return norm(model.particles.v[1]);
+  };
+  EXPECT_LT(endSpeed(1.99), 2.0);
+  EXPECT_GT(endSpeed(2.01), 1e3);
+}
+
+/// The step as a linear map of (x, v, u, v_FE, last increments) of a one-brick-wide bar along y, column by column.
+Eigen::MatrixXd stepMatrix(double epsilon, double dt) {
+  SceneOptions o;
+  o.across = 1;
+  o.particlesPerEdge = 1;
+  o.particleElements = 4;
+  o.overlapElements = 3;
+  o.solidElements = 4;
+  o.weights.floor = 0.1;
+  o.coupling.constraint = ConstraintKind::dashpot;
+  o.coupling.penalty = epsilon;
+  const auto slots = [](Model& m) {
+    std::vector<double*> place;
+    for (Vec3& v : m.particles.v) place.push_back(&v.y);
+    for (Vec3& u : m.solid->nodes.u) place.push_back(&u.y);
+    for (Vec3& v : m.solid->nodes.v) place.push_back(&v.y);
+    for (Vec3& d : m.coupling->increment) place.push_back(&d.y);
+    for (Vec3& x : m.particles.x) place.push_back(&x.y);
+    return place;
+  };
+  Profile profile;
+  constexpr double small = 1e-7;
+  const auto advanced = [&](int column) {
+    Model model = makeBar(o);
+    std::vector<double> before;
+    for (double* value : slots(model)) before.push_back(*value);
+    if (column >= 0) *slots(model)[static_cast<std::size_t>(column)] += small;
+    StepSums sums;
+    start(model, dt, profile);
+    stepExplicit(model, dt, 1, sums, false, profile);
+    std::vector<double> after;
+    const auto places = slots(model);
+    for (std::size_t k = 0; k < places.size(); ++k) after.push_back(*places[k] - before[k]);
+    return after;
+  };
+  const std::vector<double> rest = advanced(-1);
+  const auto size = static_cast<Eigen::Index>(rest.size());
+  Eigen::MatrixXd step(size, size);
+  for (Eigen::Index column = 0; column < size; ++column) {
+    const std::vector<double> moved = advanced(static_cast<int>(column));
+    for (Eigen::Index row = 0; row < size; ++row)
+      step(row, column) = (moved[static_cast<std::size_t>(row)] - rest[static_cast<std::size_t>(row)]) / small;
+  }
+  return step;
+}
+
+/// Largest growth of the velocities of the overlap in many steps.
+double dashpotGrowth(double epsilon, double dt) {
+  SceneOptions o;
+  o.across = 1;
+  o.particlesPerEdge = 1;
+  o.particleElements = 4;
+  o.overlapElements = 3;
+  o.solidElements = 4;
+  o.weights.floor = 0.1;
+  o.coupling.constraint = ConstraintKind::dashpot;
+  o.coupling.penalty = epsilon;
+  Model model = makeBar(o);
+  std::mt19937 random(3);
+  for (Vec3& v : model.particles.v) v.y = 1e-6 * randomVector(random, 1.0).y;
+  Profile profile;
+  StepSums sums;
+  start(model, dt, profile);
+  double speed = 0.0;
+  for (int s = 0; s < 3000 && speed < 1.0; ++s) {
+    stepExplicit(model, dt, 1, sums, false, profile);
+    speed = 0.0;
+    for (const Vec3& v : model.particles.v) speed = std::max(speed, norm(v));
+  }
+  return speed / 1e-6;
+}
+
+TEST(CriticalStep, OnABarTheDashpotFailsWhereTheSpectralRadiusOfItsStepPassesOne) {
+  const double dt = 5e-4;
+  const auto radius = [&](double epsilon) {
+    return Eigen::EigenSolver<Eigen::MatrixXd>(stepMatrix(epsilon, dt), false).eigenvalues().cwiseAbs().maxCoeff();
+  };
+  double stable = 1e6, unstable = 1e11;
+  while (unstable / stable > 1.005) {
+    const double middle = std::sqrt(stable * unstable);
+    (radius(middle) < 1.0 + 1e-5 ? stable : unstable) = middle;
+  }
+  EXPECT_LT(dashpotGrowth(0.98 * stable, dt), 10.0);
+  EXPECT_GT(dashpotGrowth(1.02 * stable, dt), 1e3);
+  RecordProperty("epsilon_dt2_over_rho_w_1_minus_w_at_the_limit", std::to_string(stable * dt * dt / (bulk * 0.09)));
+}
+
+TEST(Stepper, ACouplingThatDoesNotFitIsRefused) {
+  Profile profile;
+  Model model = makeBar({});
+  dem::addParticle(model.particles, {0, 0, 0}, {}, 0.1, dem::Mass{1.0});
+  EXPECT_THROW(start(model, 1e-4, profile), InputError);
+  Model alone = makeBar({});
+  alone.solid.reset();
+  EXPECT_THROW(start(alone, 1e-4, profile), InputError);
+}
+
+TEST(Stepper, ParticlesAloneNeedNoOtherPart) {
+  Model model;
+  model.particles = lattice({0, 0, 0}, {0.5, 2, 0.5}, 2);
+  dem::findPairs(model.particles, 0.01, model.pairs);
+  dem::ElasticLaw law;
+  law.normal.stiffness = 1e5;
+  law.normal.bonded = true;
+  model.law = law;
+  model.particles.v[0].y = 0.1;
+  Profile profile;
+  StepSums sums;
+  start(model, 1e-4, profile);
+  const double before = energies(model).total();
+  for (int s = 0; s < 1000; ++s) stepExplicit(model, 1e-4, 1, sums, false, profile);
+  EXPECT_NEAR(energies(model).total(), before, 1e-3 * before);
+}
+
+}  // namespace
+}  // namespace dovetail::arlequin
