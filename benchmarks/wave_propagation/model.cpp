@@ -107,15 +107,18 @@ double massShare(const Settings& s) {
   return 0.0;
 }
 
+fem::Material makeMaterial(const Settings& s) {
+  const double young = Case{}.youngsModulus * s.stiffnessRatio, density = bulkDensity() * s.densityRatio;
+  if (s.material == Material::springs) return fem::AxialSprings{young, density};
+  return fem::StVenantKirchhoff{young, Case{}.poissonRatio, density};
+}
+
 arlequin::Solid makeSolid(const Settings& s, const std::vector<double>& weight) {
   fem::Mesh mesh = makeMesh(s);
   fem::Nodes nodes = fem::makeNodes(mesh);
   fem::fix(nodes, fem::nodeSet(mesh, "y+"));
   fem::ElementBlock elements =
-      fem::makeElements(mesh, fem::ElementType::hex8,
-                        fem::StVenantKirchhoff{Case{}.youngsModulus * s.stiffnessRatio, Case{}.poissonRatio,
-                                               bulkDensity() * s.densityRatio},
-                        arlequin::solidWeights(weight));
+      fem::makeElements(mesh, fem::ElementType::hex8, makeMaterial(s), arlequin::solidWeights(weight));
   fem::addLumpedMass(elements, nodes);
   arlequin::Solid solid{std::move(mesh), std::move(nodes), std::move(elements), std::nullopt, {}, {}, {}};
   if (massShare(s) > 0.0) solid.mass.emplace(solid.elements, solid.nodes, massShare(s));
@@ -170,8 +173,7 @@ arlequin::Model makeParticleBar(const Settings& s) {
 double penaltyOf(const Settings& s) {
   if (s.penalty > 0.0) return s.penalty;
   if (s.constraint == Constraint::dashpot) return publishedPenalty(s.particlesPerEdge);
-  return arlequin::automaticPenalty(Case{}.youngsModulus * s.stiffnessRatio, Case{}.elementSize,
-                                    s.cgWidth == 0.0 || s.gap == Gap::nodal);
+  return arlequin::automaticPenalty(Case{}.youngsModulus * s.stiffnessRatio, Case{}.elementSize);
 }
 
 arlequin::Model makeBar(const Settings& s, double& penalty) {

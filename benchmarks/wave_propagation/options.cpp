@@ -71,6 +71,9 @@ void addSchemeOptions(App& app, WrittenParts& w, Settings& s) {
                          "share of the particles across the overlap");
   addPart(app, w, "--weight-floor", &Settings::weightFloor, "least share of either model in the overlap", "W");
   addPart<bool>(app, w, "--tension", &Settings::tension, onOrOff, "contacts that also pull");
+  addPart<Material>(app, w, "--material", &Settings::material,
+                    {{"springs", Material::springs}, {"kirchhoff", Material::kirchhoff}},
+                    "of the solid: the lattice's continuum, or St Venant-Kirchhoff");
   addPart<Mass>(app, w, "--mass", &Settings::mass,
                 {{"lumped", Mass::lumped}, {"consistent", Mass::consistent}, {"matched", Mass::matched}},
                 "of the solid; matched: with the dispersion of the lattice");

@@ -61,6 +61,7 @@ void applyScheme(Settings& s, Scheme scheme) {
   s.rows = paper ? Rows::perElement : Rows::perNode;
   s.normaliseKernels = !paper;
   s.kernelReach = paper ? KernelReach::outside : KernelReach::overlap;
+  s.material = paper ? Material::kirchhoff : Material::springs;
   s.staggered = paper;
   s.dtFactor = paper ? 0.01 : 0.02;
   s.signal = paper ? Signal::impulse : Signal::cosine;
@@ -180,6 +181,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
           {"rows", pick(static_cast<int>(s.rows), {"per-node", "per-element"})},
           {"kernel_normalisation", s.normaliseKernels ? "on" : "off"},
           {"kernel_reach", pick(static_cast<int>(s.kernelReach), {"overlap", "outside"})},
+          {"material", pick(static_cast<int>(s.material), {"springs", "kirchhoff"})},
           {"order", s.staggered ? "staggered" : "symmetric"},
           {"cg_width_elements", text(s.cgWidth)},
           {"kernel", pick(static_cast<int>(s.kernel), {"lucy", "gauss"})},

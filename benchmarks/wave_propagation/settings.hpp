@@ -28,6 +28,7 @@ enum class FemStepper { explicitDifferences, newmark };
 enum class DashpotMatrix { lumped, consistent };
 enum class Rows { perNode, perElement };
 enum class KernelReach { overlap, outside };
+enum class Material { springs, kirchhoff };
 enum class Study { none, widths, pareto, stability, constraints };
 
 struct Settings {
@@ -47,6 +48,7 @@ struct Settings {
   Rows rows = Rows::perNode;
   bool normaliseKernels = true;
   KernelReach kernelReach = KernelReach::overlap;
+  Material material = Material::springs;
   bool staggered = false;  ///< coupling forces of the last step's increments, frozen over the step
 
   double cgWidth = 0.0;  ///< element sizes

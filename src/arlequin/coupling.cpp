@@ -49,8 +49,8 @@ std::unique_ptr<Constraint> penaltyFor(const Coupling& c, double penalty) {
 
 std::unique_ptr<Constraint> makeConstraint(const Coupling& c, const dem::Particles& particles, const Solid& solid) {
   const CouplingOptions& o = c.options;
-  const double automatic = automaticPenalty(fem::youngsModulus(solid.elements.material()),
-                                            elementSize(solid, c.overlap), penaltyIsLocal(c.options));
+  const double automatic =
+      automaticPenalty(fem::youngsModulus(solid.elements.material()), elementSize(solid, c.overlap));
   switch (o.constraint) {
     case ConstraintKind::penalty:
     case ConstraintKind::stress:

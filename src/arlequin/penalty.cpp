@@ -95,8 +95,8 @@ std::unique_ptr<Constraint> makeDashpot(const GapOperator& gap, double penalty, 
   return std::make_unique<Dashpot>(gap, requirePositive(penalty, "penalty"), consistent);
 }
 
-double automaticPenalty(double youngsModulus, double elementSize, bool local) {
-  return (local ? 32.0 : 25.0) * requirePositive(youngsModulus, "Young's modulus") /
+double automaticPenalty(double youngsModulus, double elementSize) {
+  return 20.0 * requirePositive(youngsModulus, "Young's modulus") /
          (requirePositive(elementSize, "element size") * elementSize);
 }
 

@@ -57,6 +57,17 @@ Vector6 stressAndModuli(const Material& material, const Eigen::Matrix3d& F, Matr
     strain.tail<3>() *= 2.0;
     return D * strain;
   }
+  if (std::holds_alternative<AxialSprings>(material)) {
+    const double young = youngsModulus(material);
+    D = hooke(material);
+    Vector6 stress = D * toVector(2.0 * E);  // the shears; D is diagonal for ν = 0
+    for (int i = 0; i < 3; ++i) {
+      const double stretch = std::sqrt(C(i, i));
+      stress[i] = young * 2.0 * E(i, i) / (stretch * (1.0 + stretch));
+      D(i, i) = young / (stretch * stretch * stretch);
+    }
+    return stress;
+  }
   // With B = C⁻¹: C⁻¹E = ½(1 − B), hence S = ½λ tr(1 − B) B + μ (B − B²), and dB = −2 B dE B.
   const LameConstants lame = lameConstants(youngsModulus(material), poissonRatio(material));
   const Eigen::Matrix3d B = C.inverse();

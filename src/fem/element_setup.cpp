@@ -134,6 +134,7 @@ void requireWeights(std::span<const double> nodalWeight, std::size_t nodes) {
 
 Law lawOf(ElementType type, const Material& material) {
   const bool kirchhoff = std::holds_alternative<StVenantKirchhoff>(material);
+  if (type == ElementType::hex8 && std::holds_alternative<AxialSprings>(material)) return Law::axialSprings;
   if (type == ElementType::hex8) return kirchhoff ? Law::stVenantKirchhoff : Law::deformedMetric;
   if (!kirchhoff)
     throw InputError("hybrid8 assumes the stress of StVenantKirchhoff", "material", "use that law, or hex8");

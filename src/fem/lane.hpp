@@ -48,7 +48,7 @@ struct alignas(laneBytes) HybridGeometry {
   std::array<Lane, 171> stiffness;     ///< H⁻¹, upper triangle by rows
 };
 
-enum class Law { stVenantKirchhoff, deformedMetric, hybrid };
+enum class Law { stVenantKirchhoff, deformedMetric, axialSprings, hybrid };
 
 /// What the laws need of λ, μ, E and ν, for strains 2E.
 struct LawConstants {

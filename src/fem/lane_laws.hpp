@@ -58,6 +58,35 @@ DOVETAIL_INLINE Symmetric deformedMetricStress(const LawConstants& law, Lane wei
   return stress;
 }
 
+DOVETAIL_INLINE Lane rootOf(Lane x) {
+  Lane root;
+  for (int lane = 0; lane < laneCount; ++lane) root[lane] = __builtin_sqrt(x[lane]);
+  return root;
+}
+
+/// weight · (E (1 − 1/λ_i) on the diagonal, 2μ E_ij beside it), λ_i² = 1 + 2E_ii; written without cancellation.
+DOVETAIL_INLINE Symmetric springStress(const LawConstants& law, Lane weight, const Symmetric& strain) {
+  const Lane young = 2.0 * law.halfYoung * weight, mu = law.mu * weight;
+  Symmetric stress;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Lane stretch = rootOf(1.0 + strain[i]);
+    stress[i] = young * strain[i] / (stretch * (1.0 + stretch));
+    stress[3 + i] = mu * strain[3 + i];
+  }
+  return stress;
+}
+
+/// Four times the energy of springStress.
+DOVETAIL_INLINE Lane springEnergy(const LawConstants& law, Lane weight, const Symmetric& strain) {
+  Lane normal{}, shear{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Lane elongation = strain[i] / (1.0 + rootOf(1.0 + strain[i]));
+    normal += elongation * elongation;
+    shear += strain[3 + i] * strain[3 + i];
+  }
+  return weight * (4.0 * law.halfYoung * normal + 2.0 * law.mu * shear);
+}
+
 /// S : 2E.
 DOVETAIL_INLINE Lane contraction(const Symmetric& s, const Symmetric& strain) {
   return s[0] * strain[0] + s[1] * strain[1] + s[2] * strain[2] +

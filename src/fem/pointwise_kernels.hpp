@@ -9,8 +9,20 @@ template <Law law>
 DOVETAIL_INLINE Symmetric stressOf(const LawConstants& constants, Lane weight, const Symmetric& strain) {
   if constexpr (law == Law::stVenantKirchhoff)
     return kirchhoffStress(constants, weight, strain);
+  else if constexpr (law == Law::axialSprings)
+    return springStress(constants, weight, strain);
   else
     return deformedMetricStress(constants, weight, strain);
+}
+
+/// Four times the strain energy.
+template <Law law>
+DOVETAIL_INLINE Lane energyOf(const LawConstants& constants, Lane weight, const Symmetric& stress,
+                              const Symmetric& strain) {
+  if constexpr (law == Law::axialSprings)
+    return springEnergy(constants, weight, strain);
+  else
+    return contraction(stress, strain);
 }
 
 template <Law law, bool withEnergy>
@@ -25,7 +37,7 @@ static void boxForces(const LawConstants& constants, const BoxGeometry& geometry
     const Tensor H = valueAt<p>(gradient);
     const Symmetric strain = doubleStrain(H);
     const Symmetric stress = stressOf<law>(constants, geometry.weight, strain);
-    if constexpr (withEnergy) twice += contraction(stress, strain);
+    if constexpr (withEnergy) twice += energyOf<law>(constants, geometry.weight, stress, strain);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::array<Lane, 3> row = firstStressRow(H[i], i, stress);
       for (std::size_t j = 0; j < 3; ++j) sums[i][j][inFace<p>[j]] += row[j];
@@ -48,7 +60,7 @@ static void generalForces(const LawConstants& constants, const GeneralGeometry& 
     const Tensor H = mapped(valueAt<p>(gradient), map);
     const Symmetric strain = doubleStrain(H);
     const Symmetric stress = stressOf<law>(constants, geometry.weight[p], strain);
-    if constexpr (withEnergy) twice += contraction(stress, strain);
+    if constexpr (withEnergy) twice += energyOf<law>(constants, geometry.weight[p], stress, strain);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::array<Lane, 3> row = firstStressRow(H[i], i, stress);
       for (std::size_t j = 0; j < 3; ++j)
@@ -103,6 +115,8 @@ static void batchForces(const ElementCache& cache, const Batch& batch, const Vec
   switch (cache.law) {
     case Law::stVenantKirchhoff:
       return pointwiseForces<Law::stVenantKirchhoff>(cache, batch, u, withEnergy, forces);
+    case Law::axialSprings:
+      return pointwiseForces<Law::axialSprings>(cache, batch, u, withEnergy, forces);
     case Law::deformedMetric:
       return pointwiseForces<Law::deformedMetric>(cache, batch, u, withEnergy, forces);
     case Law::hybrid:

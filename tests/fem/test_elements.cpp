@@ -28,6 +28,7 @@ std::vector<Material> lawsOf(ElementType type) {
   std::vector<Material> laws = {StVenantKirchhoff{young, 0.0, 1.0}, StVenantKirchhoff{young, 0.3, 1.0}};
   if (type == ElementType::hex8) {
     laws.push_back(DeformedMetricHooke{young, 0.0, 1.0});
+    laws.push_back(AxialSprings{young, 1.0});
     laws.push_back(DeformedMetricHooke{young, 0.3, 1.0});
   }
   return laws;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -81,6 +82,29 @@ Eigen::Matrix3d deformedMetricStress(const Eigen::Matrix3d& F, double poisson) {
           S(i, j) +=
               (constants.mu * (G(i, k) * G(j, l) + G(i, l) * G(j, k)) + constants.lambda * G(i, j) * G(k, l)) * E(k, l);
   return S;
+}
+
+TEST(AxialSprings, AStretchAlongAnAxisIsLinearAndRotationsDoNothing) {
+  for (const bool distorted : {false, true})
+    for (const double stretch : {0.7, 1.0 + 1e-6, 1.4}) {
+      const Eigen::Matrix3d F = diagonal(1.0, stretch, 1.0);
+      const Eigen::Matrix3d expected = diagonal(0.0, young * (stretch - 1.0), 0.0);
+      EXPECT_LT((stressAt(F, ElementType::hex8, AxialSprings{young, 1.0}, distorted) - expected).norm(), 1e-12 * young);
+      const Eigen::Matrix3d R = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
+      EXPECT_LT((stressAt(R * F, ElementType::hex8, AxialSprings{young, 1.0}, distorted) - R * expected).norm(),
+                1e-12 * young);
+    }
+}
+
+TEST(AxialSprings, DiffersFromStVenantKirchhoffBySecondOrder) {
+  const auto difference = [](double size) {
+    Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+    F += size * (Eigen::Matrix3d() << 1.0, 0.4, -0.2, 0.3, -0.7, 0.5, 0.1, 0.6, 0.2).finished();
+    return (stressAt(F, ElementType::hex8, AxialSprings{young, 1.0}, false) -
+            stressAt(F, ElementType::hex8, StVenantKirchhoff{young, 0.0, 1.0}, false))
+        .norm();
+  };
+  EXPECT_NEAR(std::log2(difference(2e-3) / difference(1e-3)), 2.0, 0.02);
 }
 
 TEST(DeformedMetricHooke, StressIsEquation34) {

@@ -82,6 +82,7 @@ TEST(BadInput, WordsThatAreNoChoice) {
                                              {"--gap", {"at-grains", "nodal"}},
                                              {"--weight-profile", {"half-cosine", "linear", "smooth"}},
                                              {"--tension", {"on", "off"}},
+                                             {"--material", {"springs", "kirchhoff"}},
                                              {"--mass", {"lumped", "consistent", "matched"}},
                                              {"--fem", {"explicit", "newmark"}},
                                              {"--dashpot-matrix", {"lumped", "consistent"}},

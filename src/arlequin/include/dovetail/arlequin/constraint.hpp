@@ -66,9 +66,8 @@ std::unique_ptr<Constraint> makeMultiplier(const GapOperator& gap, const Overlap
                                            std::span<const double> particleMass, const fem::Nodes& nodes,
                                            const fem::BlendedMass* mass, double rankTolerance = 1e-10);
 
-/// 32 E/h² for the local map, 25 E/h² for kernels (makeMetricPenalty), Pa/m²: the waveform is then within a tenth of a
-/// percentage point of the multipliers', and the critical step of cubes with a weight floor of 1e-3 is still a
-/// twentieth of h over the wave speed or more.
-double automaticPenalty(double youngsModulus, double elementSize, bool local);
+/// 20 E/h², Pa/m²: the waveform is then within a tenth of a percentage point of the multipliers', and the critical step
+/// of cubes with a weight floor of 1e-3 is a seventeenth of h over the wave speed or more.
+double automaticPenalty(double youngsModulus, double elementSize);
 
 }  // namespace dovetail::arlequin

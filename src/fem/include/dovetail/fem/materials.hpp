@@ -24,7 +24,18 @@ struct DeformedMetricHooke {
   double density;        ///< reference, kg/m³
 };
 
-using Material = std::variant<StVenantKirchhoff, DeformedMetricHooke>;
+/// Linear springs along the reference axes, with shear: W = ½ E Σ_i (|F e_i| − 1)² + 2μ Σ_{i<j} E_ij², μ = E/2.
+///
+/// What a cubic lattice of linear springs does when it is stretched along its axes, P = E (λ − 1): a continuum that is
+/// to go with such particles takes it in place of StVenantKirchhoff, with which it agrees to first order for ν = 0, and
+/// whose P = E λ (λ² − 1)/2 is 3/2 ε² off. Objective; derives from its potential.
+struct AxialSprings {
+  double youngsModulus;  ///< E, Pa
+  double density;        ///< reference, kg/m³
+  static constexpr double poissonRatio = 0.0;
+};
+
+using Material = std::variant<StVenantKirchhoff, DeformedMetricHooke, AxialSprings>;
 
 /// λ and μ, Pa.
 struct LameConstants {
