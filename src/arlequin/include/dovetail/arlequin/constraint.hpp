@@ -48,7 +48,7 @@ std::unique_ptr<Constraint> makePenalty(const GapOperator& gap, double penalty);
 /// inverse volumes of the particles. It does not depend on the width as long as no direction is lost to round-off.
 /// @param volume  of each overlap particle, m³   @throws InputError as makeMultiplier
 std::unique_ptr<Constraint> makeMetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty,
-                                              double rankTolerance = 1e-10);
+                                              double rankTolerance = 1e-8);
 
 /// λ_i = ε V_i Δg_i on the increments of one step, or ε Σ_j ∫ψ_iψ_j Δg_j (`consistent`) (Cheng et al. 2023, Eqs.
 /// 29–32). It acts as a dashpot of ε dt V: halving dt halves it, and it loses what it damps. Stable, with shares w and
@@ -64,7 +64,7 @@ std::unique_ptr<Constraint> makeDashpot(const GapOperator& gap, double penalty, 
 /// @throws InputError for more than 4000 rows (take the penalty, which needs no solve)
 std::unique_ptr<Constraint> makeMultiplier(const GapOperator& gap, const Overlap& overlap,
                                            std::span<const double> particleMass, const fem::Nodes& nodes,
-                                           const fem::BlendedMass* mass, double rankTolerance = 1e-10);
+                                           const fem::BlendedMass* mass, double rankTolerance = 1e-8);
 
 /// 20 E/h², Pa/m²: the waveform is then within a tenth of a percentage point of the multipliers', and the critical step
 /// of cubes with a weight floor of 1e-3 is a seventeenth of h over the wave speed or more.
