@@ -78,7 +78,8 @@ private:
 
 void compareSolid(RunResult& result, const RunResult& alone) {
   const Settings& s = result.settings;
-  const CubicSpline layer(layerMeans(s, alone.particles));  // layer l lies at (l + ½) d
+  result.aloneVelocity = layerMeans(s, alone.particles);
+  const CubicSpline layer(result.aloneVelocity);  // layer l lies at (l + ½) d
   double error = 0.0, size = 0.0;
   for (std::size_t n = 0; n < result.nodePosition.size(); ++n) {
     if (result.nodePosition[n].y <= s.demLength + 1e-9) continue;
@@ -86,6 +87,7 @@ void compareSolid(RunResult& result, const RunResult& alone) {
     error += squaredNorm(result.nodeVelocity[n] - reference);
     size += squaredNorm(reference);
   }
+  result.aloneVelocity.pop_back();  // the wall's
   result.figures.waveformErrorFem = std::sqrt(error / size);
 }
 

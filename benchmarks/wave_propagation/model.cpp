@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
+#include "dovetail/arlequin/critical_step.hpp"
 #include "dovetail/arlequin/weights.hpp"
 
 namespace dovetail::wave {
@@ -166,6 +168,29 @@ arlequin::Model makeParticleBar(const Settings& s) {
       model.pairs.scale[p] = 2.0;
   model.drives.push_back(std::move(held));
   return model;
+}
+
+double penaltyOf(const Settings& s) {
+  if (s.penalty > 0.0) return s.penalty;
+  if (s.constraint == Constraint::dashpot) return publishedPenalty(s.particlesPerEdge);
+  return arlequin::automaticPenalty(Case{}.youngsModulus * s.stiffnessRatio, Case{}.elementSize);
+}
+
+arlequin::Model makeBar(const Settings& s, double& penalty) {
+  if (s.fullDem) return makeParticleBar(s);
+  Settings used = s;
+  used.penalty = penalty;
+  arlequin::Model model = makeCoupledBar(used);
+  const bool stores = s.constraint == Constraint::penalty || s.constraint == Constraint::stress;
+  if (s.femEvery == 1 || s.penalty > 0.0 || !stores) return model;
+  const double critical = arlequin::criticalStep(model).together;
+  const double dt = s.dtAuto            ? 0.5 * critical
+                    : s.shareOfCritical ? *s.shareOfCritical * critical
+                                        : s.dtFactor * contactTime(s);
+  const double most = (s.fem == FemStepper::newmark ? 0.9 : 0.45 * std::numbers::pi) * critical;
+  if (s.femEvery * dt <= most) return model;
+  used.penalty = penalty *= std::pow(most / (s.femEvery * dt), 2);
+  return makeCoupledBar(used);
 }
 
 fem::NewmarkSolver makeNewmark(const Settings& s, const arlequin::Model& model, double dt) {

@@ -22,6 +22,15 @@ arlequin::Model makeCoupledBar(const Settings& settings);
 /// point.
 arlequin::Model makeParticleBar(const Settings& settings);
 
+/// What the constraint gets: as asked for, the published ε of the dashpot, or automatic, Pa/m².
+double penaltyOf(const Settings& settings);
+/// Either bar, with that penalty. With a solid that is stepped every K-th time the automatic penalty is softened as far
+/// as its oscillations ask for it: impulses every K dt must not meet them in resonance (K dt < π/ω), and a coupling
+/// that acts every K dt only must be stable (K dt < 2/ω).
+/// @param penalty  what is used on return
+/// @throws InputError for impossible settings
+arlequin::Model makeBar(const Settings& settings, double& penalty);
+
 /// Newmark for the solid of a coupled bar, with the mass matrix of the settings.
 fem::NewmarkSolver makeNewmark(const Settings& settings, const arlequin::Model& model, double dt);
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 
 #include "dovetail/core/clock.hpp"
 #include "dovetail/core/error.hpp"
@@ -39,37 +38,13 @@ std::string moment(double time, std::int64_t step) {
   return "t = " + formatNumber(time) + " s, step " + std::to_string(step);
 }
 
-/// What the constraint gets: as asked for, the published ε of the dashpot, or automatic, Pa/m².
-double penaltyOf(const Settings& s) {
-  if (s.penalty > 0.0) return s.penalty;
-  if (s.constraint == Constraint::dashpot) return publishedPenalty(s.particlesPerEdge);
-  return arlequin::automaticPenalty(Case{}.youngsModulus * s.stiffnessRatio, Case{}.elementSize);
-}
-
-/// With a solid that is stepped every K-th time the automatic penalty is softened as far as its oscillations ask for
-/// it: impulses every K dt must not meet them in resonance (K dt < π/ω), and a coupling that acts every K dt only must
-/// be stable (K dt < 2/ω).
-arlequin::Model makeModel(const Settings& s, double& penalty) {
-  if (s.fullDem) return makeParticleBar(s);
-  Settings used = s;
-  used.penalty = penalty;
-  arlequin::Model model = makeCoupledBar(used);
-  const bool stores = s.constraint == Constraint::penalty || s.constraint == Constraint::stress;
-  if (s.femEvery == 1 || s.penalty > 0.0 || !stores) return model;
-  const double critical = arlequin::criticalStep(model).together;
-  const double dt = s.dtAuto            ? 0.5 * critical
-                    : s.shareOfCritical ? *s.shareOfCritical * critical
-                                        : s.dtFactor * contactTime(s);
-  const double most = (s.fem == FemStepper::newmark ? 0.9 : 0.45 * std::numbers::pi) * critical;
-  if (s.femEvery * dt <= most) return model;
-  used.penalty = penalty *= std::pow(most / (s.femEvery * dt), 2);
-  return makeCoupledBar(used);
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 class Runner {
 public:
-  Runner(const Settings& settings, const Observer& observer)
-      : penalty_(penaltyOf(settings)), model_(makeModel(settings, penalty_)), observer_(observer) {
+  explicit Runner(const Settings& settings) : penalty_(penaltyOf(settings)), model_(makeBar(settings, penalty_)) {
     result_.settings = settings;
     result_.profile = Profile(settings.profile);
     result_.series = io::TimeSeries(seriesNames);
@@ -78,7 +53,8 @@ public:
     countParts();
   }
 
-  RunResult run() {
+  RunResult run(const Observer& observer) {
+    observer_ = observer;
     const auto begin = std::chrono::steady_clock::now();
     try {
       loop();
@@ -86,7 +62,7 @@ public:
     } catch (const NumericalError& error) {
       figures().failure = error.what();
     }
-    figures().wallSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    figures().wallSeconds = secondsSince(begin) - observerSeconds_;
     close();
     return std::move(result_);
   }
@@ -198,7 +174,7 @@ private:
       step(now);
       if (!now) continue;
       sample();
-      if (++samples % frameEvery == 0) observe();
+      if (++samples % frameEvery == 0 || w == windows_) observe();
       progress.update(model_.time / end, "t = " + formatNumber(std::round(1e5 * model_.time) / 1e5) + " s");
     }
   }
@@ -252,7 +228,10 @@ private:
   }
 
   void observe() {
-    if (observer_) observer_({model_.time, model_});
+    if (!observer_) return;
+    const auto begin = std::chrono::steady_clock::now();
+    observer_({model_.time, model_});
+    observerSeconds_ += secondsSince(begin);
   }
 
   std::int64_t steps() const { return std::llround(model_.time / dt_); }
@@ -274,10 +253,8 @@ private:
     f.largestExcess = largestStored_ / mostInput_;
     f.stable = f.finished && f.largestExcess <= stableFactor;
     f.overlapMismatch = speedSquared_ > 0.0 ? std::sqrt(mismatchSquared_ / speedSquared_) : 0.0;
-    const double t1 = settings().particlesPerEdge == 1 ? 19.3e-3 : 19.9e-3,
-                 t2 = settings().particlesPerEdge == 1 ? 60.8e-3 : 81.7e-3;
     f.paperDissipatedShare = settings().signal == Signal::impulse
-                                 ? 1.0 - energyAt(result_.energy, t2) / energyAt(result_.energy, t1)
+                                 ? dissipatedShare(result_.energy, settings().particlesPerEdge)
                                  : std::numeric_limits<double>::quiet_NaN();
     result_.pairs = std::move(model_.pairs);
     result_.particles = std::move(model_.particles);
@@ -300,23 +277,18 @@ private:
   double dt_ = 0.0;
   Vec3 momentumStart_;
   double largestMomentum_ = 0.0, largestMomentumGap_ = 0.0, largestStored_ = 0.0, mostInput_ = 0.0;
-  double mismatchSquared_ = 0.0, speedSquared_ = 0.0;
+  double mismatchSquared_ = 0.0, speedSquared_ = 0.0, observerSeconds_ = 0.0;
 };
 
 }  // namespace
 
-double energyAt(const std::vector<EnergySample>& energy, double t) {
-  const auto after =
-      std::lower_bound(energy.begin(), energy.end(), t, [](const EnergySample& s, double time) { return s.t < time; });
-  if (after == energy.end() || after == energy.begin()) return std::numeric_limits<double>::quiet_NaN();
-  const EnergySample &a = *(after - 1), &b = *after;
-  return a.joules + (b.joules - a.joules) * (t - a.t) / (b.t - a.t);
-}
-
-RunResult run(const Settings& settings, const Observer& observer) {
+PreparedRun prepareRun(const Settings& settings) {
   validate(settings);
   setThreads(settings.threads);
-  return Runner(settings, observer).run();
+  const auto runner = std::make_shared<Runner>(settings);
+  return [runner](const Observer& observer) { return runner->run(observer); };
 }
+
+RunResult run(const Settings& settings, const Observer& observer) { return prepareRun(settings)(observer); }
 
 }  // namespace dovetail::wave

@@ -100,6 +100,17 @@ void checkLengths(const Settings& s) {
                      "give less than --dem-length and --fem-length");
 }
 
+void checkSize(const Settings& s) {
+  constexpr double most = 4e6;
+  const double h = Case{}.elementSize, solid = solidElements(s) * h;
+  const double withParticles = s.fullDem || s.compare ? s.demLength - s.overlap + solid : s.demLength;
+  const double particles = 4.0 * withParticles / h * std::pow(s.particlesPerEdge, 3);
+  if (std::max(particles, 4.0 * solid / h) > most)
+    throw InputError("up to " + formatNumber(std::round(particles)) + " particles and " +
+                         formatNumber(std::round(4.0 * solid / h)) + " elements are too many",
+                     "--particles-per-edge, --until and the lengths", "make them fewer, at most 4 million of each");
+}
+
 void checkCombinations(const Settings& s) {
   if (s.study != Study::none && !s.summary.empty())
     throw InputError("a study writes its own summary", "--summary", "take --out DIR, which gets <study>.json");
@@ -145,6 +156,7 @@ void validate(const Settings& s) {
         "give a whole number from 1 to 1000");
   check(s.threads >= 1 && s.threads <= 1024, "--threads", std::to_string(s.threads),
         "give a whole number from 1 to 1024");
+  checkSize(s);
   checkCombinations(s);
 }
 

@@ -1,0 +1,175 @@
+#include <cmath>
+
+#include "dovetail/core/finite.hpp"
+#include "study.hpp"
+
+namespace dovetail::wave {
+
+namespace {
+
+const char* nameOf(Constraint constraint) {
+  switch (constraint) {
+    case Constraint::penalty:
+      return "penalty";
+    case Constraint::multiplier:
+      return "multiplier";
+    case Constraint::dashpot:
+      return "dashpot";
+    case Constraint::stress:
+      return "stress";
+  }
+  return "";
+}
+
+StudyRow planned(std::string label, const Settings& settings) {
+  StudyRow row;
+  row.label = std::move(label);
+  row.settings = settings;
+  return row;
+}
+
+/// The settings as they are if they are of that scheme already.
+Settings withScheme(Settings settings, Scheme scheme) {
+  if (settings.scheme != scheme) applyScheme(settings, scheme);
+  return settings;
+}
+
+/// The paper's scheme on the bar, with the signal and up to the time of `plain`.
+Settings paperUnderTheSignalOf(const Settings& plain) {
+  Settings paper = withScheme(plain, Scheme::paper);
+  paper.signal = plain.signal;
+  paper.until = endTime(plain);
+  paper.femLength = solidElements(plain) * Case{}.elementSize;
+  return paper;
+}
+
+}  // namespace
+
+std::vector<StudyRow> widthsPlan(const Settings& base) {
+  std::vector<StudyRow> rows;
+  const auto label = [](const char* what, double width) {
+    return std::string(what) + ", c = " + formatNumber(width) + " elements";
+  };
+  Settings settings = withScheme(base, Scheme::conservative);
+  for (const Constraint constraint : {Constraint::penalty, Constraint::multiplier})
+    for (const double width : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 5.0, 7.5, 10.0}) {
+      settings.constraint = constraint;
+      settings.cgWidth = width;
+      rows.push_back(planned(label(nameOf(constraint), width), settings));
+    }
+  settings = withScheme(base, Scheme::paper);
+  for (const double width : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5}) {
+    settings.cgWidth = width;
+    rows.push_back(planned(label("paper", width), settings));
+  }
+  return rows;
+}
+
+std::vector<StudyRow> constraintsPlan(const Settings& base) {
+  std::vector<StudyRow> rows;
+  const Settings plain = withScheme(base, Scheme::conservative);
+  for (const Gap gap : {Gap::atParticles, Gap::nodal}) {
+    const std::string form = gap == Gap::nodal ? ", nodal gap" : ", gap at the particles";
+    Settings settings = plain;
+    settings.gap = gap;
+    settings.constraint = Constraint::multiplier;
+    rows.push_back(planned("multiplier" + form, settings));
+    for (const Constraint constraint : {Constraint::penalty, Constraint::stress, Constraint::dashpot})
+      for (const double penalty : {1e7, 1e8, 1e9, 1e10, 1e11, 1e12}) {
+        settings.constraint = constraint;
+        settings.penalty = penalty;
+        // A stiff spring asks for a shorter step; a dashpot for a floor that leaves both models mass to damp.
+        settings.shareOfCritical.reset();
+        if (constraint != Constraint::dashpot && penalty > 1e10) settings.shareOfCritical = 0.9;
+        settings.weightFloor = constraint == Constraint::dashpot ? 0.1 : plain.weightFloor;
+        rows.push_back(
+            planned(std::string(nameOf(constraint)) + form + ", " + formatNumber(penalty) + " Pa/m2", settings));
+      }
+  }
+  return rows;
+}
+
+std::vector<StudyRow> paretoPlan(const Settings& base) {
+  std::vector<StudyRow> rows;
+  Settings settings = withScheme(base, Scheme::conservative);
+  for (const int n : {1, 2, 4}) {
+    settings.particlesPerEdge = n;
+    const std::string start = "n = " + std::to_string(n);
+    for (const double width : {0.0, 1.5})
+      for (const Constraint constraint : {Constraint::penalty, Constraint::multiplier})
+        for (const double factor : {0.0, 0.02, 0.005}) {
+          settings.cgWidth = width;
+          settings.constraint = constraint;
+          settings.dtAuto = factor == 0.0;
+          settings.dtFactor = settings.dtAuto ? 0.02 : factor;
+          rows.push_back(planned(start + ", " + nameOf(constraint) + ", c = " + formatNumber(width) + ", dt " +
+                                     (settings.dtAuto ? "auto" : formatNumber(factor)),
+                                 settings));
+        }
+    settings.cgWidth = 0.0;
+    settings.dtAuto = false;
+    rows.push_back(planned(start + ", the paper's scheme, c = 0, dt 0.01", paperUnderTheSignalOf(settings)));
+  }
+  return rows;
+}
+
+namespace {
+
+void planSteps(const Settings& base, std::vector<StudyRow>& rows) {
+  for (const Constraint constraint : {Constraint::penalty, Constraint::multiplier}) {
+    Settings settings = base;
+    settings.constraint = constraint;
+    const std::string start = std::string(nameOf(constraint)) + ", dt at ";
+    for (const double share : {0.5, 0.9, 0.99, 1.01, 1.05, 1.2, 1.5, 2.0}) {
+      settings.shareOfCritical = share;
+      settings.beyondCritical = false;
+      rows.push_back(planned(start + formatNumber(share) + " of the critical step", settings));
+      settings.beyondCritical = true;
+      if (share > 1.0)
+        rows.push_back(planned(start + formatNumber(share) + " of the critical step, insisted on", settings));
+    }
+  }
+}
+
+/// With the step as it comes, and with an automatic one.
+template <class Change>
+void planDecades(const Settings& base, Constraint constraint, const std::string& what,
+                 const std::vector<double>& values, Change change, std::vector<StudyRow>& rows) {
+  for (const double value : values)
+    for (const bool automatic : {false, true}) {
+      Settings settings = base;
+      settings.constraint = constraint;
+      settings.dtAuto = automatic;
+      change(settings, value);
+      rows.push_back(planned(
+          std::string(nameOf(constraint)) + ", " + what + " " + formatNumber(value) + (automatic ? ", dt auto" : ""),
+          settings));
+    }
+}
+
+}  // namespace
+
+std::vector<StudyRow> stabilityPlan(const Settings& base) {
+  std::vector<StudyRow> rows;
+  Settings plain = withScheme(base, Scheme::conservative);
+  plain.compare = false;
+  plain.dtAuto = false;
+  planSteps(plain, rows);
+  const std::vector<double> ratios{1e-3, 1e-2, 1e-1, 1.0, 1e1, 1e2, 1e3};
+  for (const Constraint constraint : {Constraint::penalty, Constraint::multiplier}) {
+    planDecades(
+        plain, constraint, "weight floor", {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0},
+        [](Settings& s, double value) { s.weightFloor = value; }, rows);
+    planDecades(
+        plain, constraint, "stiffness ratio", ratios, [](Settings& s, double value) { s.stiffnessRatio = value; },
+        rows);
+    planDecades(
+        plain, constraint, "density ratio", ratios, [](Settings& s, double value) { s.densityRatio = value; }, rows);
+  }
+  planDecades(
+      plain, Constraint::penalty, "penalty", {1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13},
+      [](Settings& s, double value) { s.penalty = value; }, rows);
+  return rows;
+}
+
+}  // namespace dovetail::wave

@@ -1,0 +1,1 @@
+"""Figures of the wave benchmark; see scripts/plot_wave.py."""

@@ -1,0 +1,165 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "../cantilever/program.hpp"
+
+namespace dovetail::wave {
+namespace {
+
+using cantilever::test::everyByte;
+using cantilever::test::Outcome;
+using cantilever::test::runProgram;
+using io::test::readText;
+using io::test::ScratchFolder;
+using io::test::writeText;
+
+using Words = std::vector<std::string>;
+
+/// The program refuses the words in one line that has the parts: the option, and what to write instead.
+void expectRefused(const Words& words, const Words& parts) {
+  std::string line;
+  for (const std::string& word : words) line += " '" + word + "'";
+  SCOPED_TRACE("wave_propagation" + line);
+  const Outcome outcome = runProgram(words);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_TRUE(outcome.err.starts_with("wave_propagation: ") && outcome.err.ends_with("\n")) << outcome.err;
+  for (const std::string& part : parts)
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << '"' << part << "\" is not in: " << outcome.err;
+}
+
+TEST(BadInput, NumbersOutsideTheirRange) {
+  const std::map<std::string, Words> values{{"--particles-per-edge", {"0", "9", "-1"}},
+                                            {"--dem-length", {"0", "-1", "12.1", "nan", "inf", "5000"}},
+                                            {"--fem-length", {"0", "-1", "12.1", "nan", "inf", "5000"}},
+                                            {"--overlap", {"0", "-1", "0.4", "1.1", "nan", "inf", "12"}},
+                                            {"--stiffness-ratio", {"0", "-1", "nan", "inf"}},
+                                            {"--density-ratio", {"0", "-1", "nan", "inf"}},
+                                            {"--weight-floor", {"-0.1", "0.5", "nan"}},
+                                            {"--cg-width", {"-1", "nan", "inf", "101"}},
+                                            {"--penalty", {"-1", "nan", "inf"}},
+                                            {"--absorber", {"-1", "nan", "inf"}},
+                                            {"--pulse-elements", {"0", "-1", "nan", "inf"}},
+                                            {"--omega", {"0", "-1", "nan", "inf"}},
+                                            {"--cycles", {"0", "101"}},
+                                            {"--amplitude", {"0", "-1", "nan", "101"}},
+                                            {"--dt-factor", {"0", "-1", "nan", "5"}},
+                                            {"--fem-every", {"0", "1001"}},
+                                            {"--until", {"0", "-1", "nan", "inf"}},
+                                            {"--threads", {"0", "1025"}},
+                                            {"--output-interval", {"0", "-1", "nan"}}};
+  for (const auto& [option, bad] : values)
+    for (const std::string& value : bad) expectRefused({option, value}, {option});
+}
+
+TEST(BadInput, TimeSteps) {
+  expectRefused({"--dt-factor", "0.1"}, {"above the critical one", "solid", "give at most", "--dt auto"});
+  expectRefused({"--dt-factor", "0.05", "--dt", "auto"}, {"--dt-factor", "--dt"});
+  expectRefused({"--dt", "0.001"}, {"--dt", "auto"});
+  expectRefused({"--penalty", "1e13"}, {"above the critical one", "--dt auto"});
+  expectRefused({"--until", "0.1", "--dt-factor", "1e-9"}, {"--until", "steps"});
+}
+
+TEST(BadInput, BarsTooLarge) {
+  expectRefused({"--until", "100", "--particles-per-edge", "8"}, {"are too many", "--until", "at most"});
+  expectRefused({"--dem-length", "4000", "--particles-per-edge", "8"}, {"are too many", "the lengths"});
+}
+
+TEST(BadInput, ARefusedRunLeavesNoFolder) {
+  const ScratchFolder folder;
+  const std::string out = (folder / "new").string();
+  expectRefused({"--dt-factor", "5", "--out", out, "--summary", out + "/summary.json"}, {"--dt-factor"});
+  expectRefused({"--penalty", "1e13", "--out", out}, {"above the critical one"});
+  EXPECT_TRUE(everyByte(folder).empty());
+}
+
+TEST(BadInput, WordsThatAreNoChoice) {
+  const std::map<std::string, Words> choices{{"--scheme", {"conservative", "paper"}},
+                                             {"--constraint", {"penalty", "multiplier", "dashpot", "stress"}},
+                                             {"--gap", {"at-grains", "nodal"}},
+                                             {"--weight-profile", {"half-cosine", "linear", "smooth"}},
+                                             {"--tension", {"on", "off"}},
+                                             {"--material", {"springs", "kirchhoff"}},
+                                             {"--mass", {"lumped", "consistent", "matched"}},
+                                             {"--fem", {"explicit", "newmark"}},
+                                             {"--dashpot-matrix", {"lumped", "consistent"}},
+                                             {"--rows", {"per-node", "per-element"}},
+                                             {"--kernel-normalisation", {"on", "off"}},
+                                             {"--kernel-reach", {"overlap", "outside"}},
+                                             {"--order", {"symmetric", "staggered"}},
+                                             {"--kernel", {"lucy", "gauss"}},
+                                             {"--signal", {"impulse", "cosine"}},
+                                             {"--study", {"widths", "pareto", "stability", "constraints"}}};
+  for (const auto& [option, names] : choices) {
+    Words parts = names;
+    parts.push_back(option);
+    expectRefused({option, names.front() + "x"}, parts);
+    expectRefused({option, "0"}, parts);  // not the number behind a name either
+  }
+}
+
+TEST(BadInput, WordsThatAreNoOptionAndEmptyValues) {
+  expectRefused({"--cgwidth", "2"}, {"--cgwidth", "--help"});
+  expectRefused({"leftover"}, {"leftover", "wave_propagation --help"});
+  expectRefused({"--cg-width"}, {"--cg-width", "--help"});
+  expectRefused({"--cg-width", "two"}, {"--cg-width", "two"});
+  expectRefused({"--cycles", "1.5"}, {"--cycles", "1.5"});
+  expectRefused({"--threads", "99999999999"}, {"--threads", "99999999999"});
+  expectRefused({"--cg-width", "2", "--cg-width", "3"}, {"--cg-width"});
+  for (const char* option : {"--cg-width", "--constraint", "--weight-floor", "--until", "--omega", "--out", "--summary",
+                             "--reference", "--dt-factor", "--study"})
+    expectRefused({option, "", "--quiet"}, {option});
+}
+
+TEST(BadInput, ThingsThatDoNotGoTogether) {
+  expectRefused({"--order", "staggered"}, {"--order staggered", "--constraint dashpot --fem newmark"});
+  expectRefused({"--scheme", "paper", "--fem", "explicit"}, {"--order staggered", "--order symmetric"});
+  expectRefused({"--scheme", "paper", "--gap", "at-grains"}, {"--kernel-reach outside", "--gap nodal"});
+  expectRefused({"--scheme", "paper", "--fem-every", "2"}, {"--fem-every", "take 1"});
+  expectRefused({"--absorber", "1", "--fem", "newmark"}, {"--absorber", "--fem explicit"});
+  expectRefused({"--omega", "0.5", "--pulse-elements", "8"}, {"--omega", "--pulse-elements"});
+  expectRefused({"--dem-length", "4", "--overlap", "4"}, {"--overlap", "--dem-length"});
+  expectRefused({"--study", "widths", "--summary", "x.json"}, {"--summary", "--out DIR"});
+  expectRefused({"--study", "widths", "--reference", "x"}, {"--reference", "leave out"});
+}
+
+TEST(BadInput, PlacesThatCannotBeWritten) {
+  const ScratchFolder folder;
+  writeText(folder / "file", "mine");
+  const std::string file = (folder / "file").string();
+  const auto before = everyByte(folder);
+  expectRefused({"--out", file}, {"--out", file, "give a folder"});
+  expectRefused({"--out", file + "/below"}, {"--out", file, "give a folder"});
+  expectRefused({"--study", "widths", "--out", file}, {"--out", file, "give a folder"});
+  expectRefused({"--summary", "/proc/x"}, {"--summary", "/proc", "give a folder"});
+  expectRefused({"--summary", file + "/x.json"}, {"--summary", file, "give a folder"});
+  expectRefused({"--summary", folder.path().string()}, {"--summary", folder.path().string()});
+  for (const char* name : {"series.csv", "profile.csv", "solid.pvd"})
+    expectRefused({"--out", folder.path().string(), "--summary", (folder / name).string()},
+                  {"--summary", name, "another name"});
+  expectRefused({"--reference", folder.path().string()}, {"--reference", "wave_*P_c*dX.csv", "name the folder"});
+  EXPECT_EQ(everyByte(folder), before);
+}
+
+TEST(BadInput, WhatOthersWroteIsNotOverwritten) {
+  Words names{"series.csv", "profile.csv", "summary.json"};
+  if (TEST_WITH_HDF5) names.push_back("series.h5");
+  if (TEST_WITH_VTK) names.insert(names.end(), {"solid.pvd", "particles.pvd", "solid", "particles"});
+  for (const std::string& name : names) {
+    const ScratchFolder folder;
+    writeText(folder / name, "somebody else's");
+    const std::string out = folder.path().string();
+    expectRefused({"--out", out, "--summary", (folder / "summary.json").string()},
+                  {name, name == "summary.json" ? "--summary" : "--out"});
+    const auto after = everyByte(folder);
+    for (const auto& [file, bytes] : after)  // folders may have been made, files not
+      EXPECT_TRUE(file == name ? bytes == "somebody else's" : std::filesystem::is_directory(folder / file)) << file;
+    EXPECT_TRUE(after.contains(name));
+  }
+}
+
+}  // namespace
+}  // namespace dovetail::wave
