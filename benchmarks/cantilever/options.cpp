@@ -1,28 +1,12 @@
 #include "options.hpp"
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <iostream>
-#include <map>
-
-#include "dovetail/core/error.hpp"
+#include "common/command_line.hpp"
 
 namespace dovetail::cantilever {
 
 namespace {
 
-template <class Enum>
-CLI::Option* addChoice(CLI::App& app, const std::string& name, Enum& target, const std::map<std::string, Enum>& names,
-                       const std::string& help) {
-  std::string list;
-  for (const auto& [key, value] : names) list += (list.empty() ? "" : "|") + key;
-  // Not CLI::CheckedTransformer, which would also take the enum's numbers.
-  return app
-      .add_option_function<std::string>(
-          name, [&target, names](const std::string& key) { target = names.at(key); }, help)
-      ->check(CLI::IsMember(names).description(""))
-      ->option_text(list);
-}
+using benchmark::addChoice;
 
 /// What of the scheme's parts was written on the command line and so wins over --scheme.
 struct WrittenParts {
@@ -146,13 +130,6 @@ void addRunOptions(CLI::App& app, Settings& s, std::string& dt) {
   app.add_flag("--quiet", s.quiet, "print nothing but errors");
 }
 
-void refuseEmptyValues(const CLI::App& app) {
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& value : option->results())
-      if (value.empty())
-        throw InputError("the value is empty", option->get_name(), "give one, or leave the option out");
-}
-
 }  // namespace
 
 bool parseOptions(int argc, char** argv, Settings& settings) {
@@ -165,17 +142,7 @@ bool parseOptions(int argc, char** argv, Settings& settings) {
   addModelOptions(app, settings);
   addPartOptions(app, written);
   addRunOptions(app, settings, dt);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::cout << app.help();
-    return false;
-  } catch (const CLI::ParseError& error) {
-    std::string text = error.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    throw InputError(text, "command line", "see cantilever --help for the options and their values");
-  }
-  refuseEmptyValues(app);
+  if (!benchmark::parseCommandLine(app, argc, argv)) return false;
   settings.dtAuto = dt == "auto";
   settings.dtCapped = settings.dtCapped && !settings.dtAuto && settings.femEvery == 1;
   mergeParts(written, settings);

@@ -1,10 +1,9 @@
 #include "report.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <ostream>
 
+#include "common/text.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "model.hpp"
@@ -12,14 +11,9 @@
 
 namespace dovetail::cantilever {
 
-namespace {
+using benchmark::format;
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 256> text;
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
+namespace {
 
 void printCase(std::ostream& out, const RunResult& result) {
   const Settings& s = result.settings;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "common/text.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/progress.hpp"
@@ -78,11 +79,7 @@ void markFront(std::vector<StudyRow>& rows, Measure measure, Mark mark) {
   }
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
-}
+using benchmark::quoted;
 
 }  // namespace
 

@@ -1,23 +1,12 @@
 #include "summary.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include "common/json.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/provenance.hpp"
 
 namespace dovetail::cantilever {
 
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json object(const io::KeyValues& rows) {
-  Json json = Json::object();
-  for (const auto& [key, value] : rows) json[key] = value;
-  return json;
-}
-
-}  // namespace
+using benchmark::Json;
 
 Json figuresAsJson(const RunFigures& f) {
   Json json;
@@ -57,19 +46,10 @@ Json figuresAsJson(const RunFigures& f) {
 
 void writeSummary(const std::string& file, const RunResult& result) {
   Json json = figuresAsJson(result.figures);
-  Json channels = Json::array();
-  for (const auto& channel : result.ledger.channels())
-    channels.push_back({{"channel", channel.name},
-                        {"kind", channel.kind == EnergyLedger::Kind::booked ? "booked" : "stored"},
-                        {"at_opening_J", channel.joulesAtOpening},
-                        {"at_end_J", channel.joules}});
-  json["ledger"] = channels;
-  if (!result.profile.rows().empty()) {
-    for (const auto& row : result.profile.rows())
-      json["profile"].push_back({{"stage", row.name}, {"seconds", row.seconds}, {"calls", row.calls}});
-  }
-  json["settings"] = object(describe(result.settings));
-  json["provenance"] = object(io::provenance());
+  json["ledger"] = benchmark::ledgerAsJson(result.ledger);
+  if (!result.profile.rows().empty()) json["profile"] = benchmark::profileAsJson(result.profile);
+  json["settings"] = benchmark::objectOf(describe(result.settings));
+  json["provenance"] = benchmark::objectOf(io::provenance());
   io::writeFileAtomically(file, json.dump(2) + "\n");
 }
 
