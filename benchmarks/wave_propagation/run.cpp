@@ -78,8 +78,9 @@ private:
     double dt = s.dtFactor * contactTime(s);
     if (s.dtAuto) dt = 0.5 * critical;
     if (s.shareOfCritical) dt = *s.shareOfCritical * critical;
-    const bool limited = s.fem == FemStepper::explicitDifferences || s.fullDem;
-    if (limited && dt > critical && !s.beyondCritical)
+    const bool implicit = s.fem == FemStepper::newmark && !s.fullDem;
+    if (implicit) refuseLooseCoupling(dt);
+    if (!implicit && dt > critical && !s.beyondCritical)
       throw InputError("a step of " + formatNumber(dt) + " s is above the critical one, " + formatNumber(critical) +
                            " s (particles " + formatNumber(figures().critical.particles) + ", solid " +
                            formatNumber(figures().critical.solid) + ")",
@@ -95,6 +96,22 @@ private:
     figures().dt = dt_ = end / static_cast<double>(windows_ * K_);
     if (!s.fullDem && s.fem == FemStepper::newmark)
       newmark_ = std::make_unique<fem::NewmarkSolver>(makeNewmark(s, model_, K_ * dt_));
+  }
+
+  /// With an implicit solid, contacts limit the particles' step, and the coupling's stiffness that of the solid.
+  void refuseLooseCoupling(double dt) const {
+    const Settings& s = settings();
+    if (s.beyondCritical) return;
+    const arlequin::CriticalStep& critical = result_.figures.critical;
+    const bool stores = s.constraint == Constraint::penalty || s.constraint == Constraint::stress;
+    if (dt > critical.particles)
+      throw InputError("a step of " + formatNumber(dt) + " s is above that of the contacts, " +
+                           formatNumber(critical.particles) + " s",
+                       "--dt-factor", "give at most " + formatNumber(0.9 * critical.particles / contactTime(s)));
+    if (stores && s.femEvery * dt > critical.together)
+      throw InputError("the coupling acts every " + formatNumber(s.femEvery * dt) +
+                           " s, more than its critical step of " + formatNumber(critical.together) + " s",
+                       "--penalty", "give a softer one, a smaller --dt-factor or --fem-every, or leave it out");
   }
 
   void prepareLedger() {

@@ -61,7 +61,8 @@ public:
     for (std::size_t i = 0; i < scale_.size(); ++i)
       x[static_cast<Eigen::Index>(i)] =
           scale_[i] > 0.0 ? std::sin(1.0 + 1.7 * static_cast<double>(i * i % 10007)) : 0.0;
-    return x.normalized();
+    x /= x.norm();
+    return x;
   }
 
 private:

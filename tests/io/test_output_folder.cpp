@@ -98,7 +98,10 @@ TEST(OwnFiles, AreKnownByTheirMark) {
 
 TEST(WriteFile, WritesAndReplacesItsOwn) {
   const ScratchFolder scratch;
-  const std::string first = marked("one"), second = marked(std::string(100000, 'x') + '\0' + "two");
+  std::string longer(100000, 'x');
+  longer.push_back('\0');
+  longer += "two";
+  const std::string first = marked("one"), second = marked(longer);
   writeFileAtomically(scratch / "file", first);
   EXPECT_EQ(readText(scratch / "file"), first);
   writeFileAtomically(scratch / "file", second);
