@@ -6,6 +6,7 @@
 
 #include "dovetail/arlequin/critical_step.hpp"
 #include "dovetail/arlequin/weights.hpp"
+#include "step_plan.hpp"
 
 namespace dovetail::wave {
 
@@ -184,9 +185,7 @@ arlequin::Model makeBar(const Settings& s, double& penalty) {
   const bool stores = s.constraint == Constraint::penalty || s.constraint == Constraint::stress;
   if (s.femEvery == 1 || s.penalty > 0.0 || !stores) return model;
   const double critical = arlequin::criticalStep(model).together;
-  const double dt = s.dtAuto            ? 0.5 * critical
-                    : s.shareOfCritical ? *s.shareOfCritical * critical
-                                        : s.dtFactor * contactTime(s);
+  const double dt = requestedStep(s, critical);
   const double most = (s.fem == FemStepper::newmark ? 0.9 : 0.45 * std::numbers::pi) * critical;
   if (s.femEvery * dt <= most) return model;
   used.penalty = penalty *= std::pow(most / (s.femEvery * dt), 2);

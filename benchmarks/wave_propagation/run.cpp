@@ -6,11 +6,11 @@
 #include <limits>
 #include <memory>
 
-#include "dovetail/core/clock.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
+#include "step_plan.hpp"
 
 namespace dovetail::wave {
 
@@ -72,46 +72,14 @@ private:
   const Settings& settings() const { return result_.settings; }
 
   void prepareStep() {
-    figures().critical = arlequin::criticalStep(model_);
     const Settings& s = settings();
-    const double critical = figures().critical.together;
-    double dt = s.dtFactor * contactTime(s);
-    if (s.dtAuto) dt = 0.5 * critical;
-    if (s.shareOfCritical) dt = *s.shareOfCritical * critical;
-    const bool implicit = s.fem == FemStepper::newmark && !s.fullDem;
-    if (implicit) refuseLooseCoupling(dt);
-    if (!implicit && dt > critical && !s.beyondCritical)
-      throw InputError("a step of " + formatNumber(dt) + " s is above the critical one, " + formatNumber(critical) +
-                           " s (particles " + formatNumber(figures().critical.particles) + ", solid " +
-                           formatNumber(figures().critical.solid) + ")",
-                       "--dt-factor",
-                       "give at most " + formatNumber(0.9 * critical / contactTime(s)) + ", or --dt auto");
-    K_ = s.fullDem ? 1 : s.femEvery;
-    // Whole windows that end at the end time.
-    const double end = endTime(s);
-    if (end / dt > 1e10)
-      throw InputError("the run would take " + formatNumber(end / dt) + " steps", "--until and --dt-factor",
-                       "give a shorter time or a longer step");
-    windows_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(end / (K_ * dt) - 1e-9)));
-    figures().dt = dt_ = end / static_cast<double>(windows_ * K_);
+    figures().critical = arlequin::criticalStep(model_);
+    const StepPlan plan = planSteps(s, figures().critical);
+    K_ = plan.stepsPerWindow;
+    windows_ = plan.windows;
+    figures().dt = dt_ = plan.dt;
     if (!s.fullDem && s.fem == FemStepper::newmark)
       newmark_ = std::make_unique<fem::NewmarkSolver>(makeNewmark(s, model_, K_ * dt_));
-  }
-
-  /// With an implicit solid, contacts limit the particles' step, and the coupling's stiffness that of the solid.
-  void refuseLooseCoupling(double dt) const {
-    const Settings& s = settings();
-    if (s.beyondCritical) return;
-    const arlequin::CriticalStep& critical = result_.figures.critical;
-    const bool stores = s.constraint == Constraint::penalty || s.constraint == Constraint::stress;
-    if (dt > critical.particles)
-      throw InputError("a step of " + formatNumber(dt) + " s is above that of the contacts, " +
-                           formatNumber(critical.particles) + " s",
-                       "--dt-factor", "give at most " + formatNumber(0.9 * critical.particles / contactTime(s)));
-    if (stores && s.femEvery * dt > critical.together)
-      throw InputError("the coupling acts every " + formatNumber(s.femEvery * dt) +
-                           " s, more than its critical step of " + formatNumber(critical.together) + " s",
-                       "--penalty", "give a softer one, a smaller --dt-factor or --fem-every, or leave it out");
   }
 
   void prepareLedger() {
