@@ -1,6 +1,5 @@
 #include "dovetail/arlequin/coupling.hpp"
 
-#include <cmath>
 #include <map>
 
 #include "dovetail/core/error.hpp"
@@ -9,18 +8,6 @@
 namespace dovetail::arlequin {
 
 namespace {
-
-/// Edge of a cube with the volume of the first element of the overlap, m.
-double elementSize(const Solid& solid, const Overlap& overlap) {
-  const auto& element = solid.mesh.elements[static_cast<std::size_t>(overlap.elements.front())];
-  Vec3 lower = solid.mesh.X[static_cast<std::size_t>(element[0])], upper = lower;
-  for (const int n : element)
-    for (int c = 0; c < 3; ++c) {
-      lower[c] = std::min(lower[c], solid.mesh.X[static_cast<std::size_t>(n)][c]);
-      upper[c] = std::max(upper[c], solid.mesh.X[static_cast<std::size_t>(n)][c]);
-    }
-  return std::cbrt((upper.x - lower.x) * (upper.y - lower.y) * (upper.z - lower.z));
-}
 
 /// w must fall from 1 to 0 over at least one whole element.
 void requireWidth(const Overlap& overlap, const Solid& solid) {
@@ -49,8 +36,9 @@ std::unique_ptr<Constraint> penaltyFor(const Coupling& c, double penalty) {
 
 std::unique_ptr<Constraint> makeConstraint(const Coupling& c, const dem::Particles& particles, const Solid& solid) {
   const CouplingOptions& o = c.options;
-  const double automatic =
-      automaticPenalty(fem::youngsModulus(solid.elements.material()), elementSize(solid, c.overlap));
+  const double automatic = automaticPenalty(
+      fem::youngsModulus(solid.elements.material()),
+      elementSize(solid.mesh, solid.mesh.elements[static_cast<std::size_t>(c.overlap.elements.front())]));
   switch (o.constraint) {
     case ConstraintKind::penalty:
     case ConstraintKind::stress:
@@ -113,6 +101,8 @@ Coupling makeCoupling(dem::Particles& particles, dem::PairList& pairs, const Sol
 }
 
 Handover renew(Coupling& c, dem::Particles& particles, dem::PairList& pairs, const Solid& solid) {
+  if (c.options.projection.perElement)
+    throw InputError("rows per element are not followed through a renewal", "renew", "take one row per node");
   const std::vector<int> oldNode = c.gap.node;
   const std::vector<Vec3> oldGap = c.gapNow, oldLambda = c.lambda;
   Handover handover;

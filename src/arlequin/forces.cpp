@@ -65,8 +65,6 @@ void kickParticles(Model& model, double dt, bool firstHalf, StepSums& sums) {
   for (std::size_t d = 0; d < before.size(); ++d) followDrive(model, model.drives[d], dt, firstHalf, before[d], sums);
 }
 
-void driftParticles(Model& model, double dt) { dem::drift(model.particles, dt); }
-
 void particleForces(Model& model, double dt, StepSums& sums, Profile& profile) {
   Profile::Stage stage(profile, "particle contacts");
   const double lostBefore = model.contact.lostPower();

@@ -15,7 +15,6 @@ Vec3 supportImpulse(const Solid& solid, std::span<const Vec3> acceleration, std:
 /// Half a kick of all particles; driven ones get the mean velocity of the step that begins (first half) or the
 /// prescribed one (second half).
 void kickParticles(Model& model, double dt, bool firstHalf, StepSums& sums);
-void driftParticles(Model& model, double dt);
 
 /// Contacts and gravity → particles.f.
 void particleForces(Model& model, double dt, StepSums& sums, Profile& profile);

@@ -107,12 +107,6 @@ void addLocalRows(const Overlap& overlap, std::span<const double> mass, const Ro
   }
 }
 
-double elementSize(const fem::Mesh& mesh, const std::array<int, 8>& element) {
-  double volume = 0.0;
-  for (const QuadraturePoint& point : quadrature(mesh.X, element, 1)) volume += point.weight;
-  return std::cbrt(volume);
-}
-
 /// ∫W(x − x_α) ψ_i dx per row and particle over the overlap's elements, dense in the reach of the kernel.
 std::vector<std::vector<double>> kernelIntegrals(const Overlap& overlap, const fem::Mesh& mesh,
                                                  std::span<const Vec3> position, const dem::Particles& particles,
@@ -233,6 +227,12 @@ void addNodesBack(GapOperator& gap) {
 }
 
 }  // namespace
+
+double elementSize(const fem::Mesh& mesh, const std::array<int, 8>& element) {
+  double volume = 0.0;
+  for (const QuadraturePoint& point : quadrature(mesh.X, element, 1)) volume += point.weight;
+  return std::cbrt(volume);
+}
 
 GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
                             std::span<const double> mass, GapForm form, const ProjectionOptions& options,

@@ -43,7 +43,7 @@ void separateCouplingForces(Model& model, double dt, Profile& profile) {
 void stepParticles(Model& model, double dt, int K, StepSums& sums, Profile& profile) {
   for (int k = 0; k < K; ++k) {
     kickParticles(model, 0.5 * dt, true, sums);
-    driftParticles(model, dt);
+    dem::drift(model.particles, dt);
     model.time += dt;
     particleForces(model, dt, sums, profile);
     kickParticles(model, 0.5 * dt, false, sums);

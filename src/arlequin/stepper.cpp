@@ -65,7 +65,7 @@ void kickAll(Model& model, double dt, bool firstHalf, StepSums& sums, Profile& p
 
 void driftAll(Model& model, double dt, Profile& profile) {
   Profile::Stage stage(profile, "kick and drift");
-  driftParticles(model, dt);
+  dem::drift(model.particles, dt);
   if (model.solid) fem::drift(model.solid->nodes, dt);
   model.time += dt;
 }

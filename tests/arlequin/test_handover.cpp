@@ -1,6 +1,7 @@
 // Particles that enter, leave and cross, gravity across the overlap, irregular packings.
 #include <gtest/gtest.h>
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/dem/pair_collide.hpp"
 #include "scenes.hpp"
 
@@ -106,6 +107,14 @@ double stressOfElement(const Solid& solid, std::size_t element) {
     share += 0.125 * solid.elements.nodalWeight()[n];
   }
   return share * modulus * (strain + 1.5 * strain * strain);
+}
+
+TEST(Handover, RowsPerElementAreNotRenewed) {
+  SceneOptions o;
+  o.coupling.projection.perElement = true;
+  Model model = makeBar(o);
+  StepSums sums;
+  EXPECT_THROW(relocate(model, sums), InputError);
 }
 
 TEST(Gravity, StressIsContinuousAcrossTheOverlapOfAColumn) {

@@ -1,6 +1,7 @@
 // What is compared: the gap between particles and solid at the coarse nodes of the overlap, as one linear map.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -13,8 +14,7 @@ namespace dovetail::arlequin {
 
 enum class GapForm {
   /// g = Π (v_DE − Φ v_FE): the solid's field is taken at the particles. Linear fields make no gap, for any Π whose
-  /// rows
-  /// sum to one; forces and moments balance.
+  /// rows sum to one; forces and moments balance.
   atParticles,
   /// g = Π v_DE − v_FE (Cheng et al. 2023, Eqs. 27 and 32): Π x_α is not X_i at one-sided nodes, so rotation and strain
   /// make a false gap there.
@@ -52,6 +52,9 @@ struct GapOperator {
 
   std::size_t rows() const { return node.size(); }
 };
+
+/// Cube root of a brick's volume, m.
+double elementSize(const fem::Mesh& mesh, const std::array<int, 8>& element);
 
 /// Π for c = 0: Π_iα = m_α ψ_i(x_α) / Σ; for c > 0: ∫ m_α W(x − x_α) ψ_i dx / Σ over the overlap's elements (Eq. 27),
 /// by Gauss points as fine as the kernel asks for, normalised by the quadrature itself. Rows without a particle are

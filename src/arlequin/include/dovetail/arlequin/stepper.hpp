@@ -70,9 +70,9 @@ void start(Model& model, double dt, Profile& profile);
 /// solid.splittingEnergy.
 void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnergy, Profile& profile);
 
-/// K steps of velocity Verlet of the particles and one Newmark step of K dt of the solid; the coupling kicks both at the
-/// ends of the window. Multipliers keep the gap's rate at zero at those instants and are reversible; their trapezoidal
-/// work is of second order in K dt without trend, and booked.
+/// K steps of velocity Verlet of the particles and one Newmark step of K dt of the solid; the coupling kicks both at
+/// the ends of the window. Multipliers keep the gap's rate at zero at those instants and are reversible; their
+/// trapezoidal work is of second order in K dt without trend, and booked.
 void stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, StepSums& sums, bool withEnergy,
                   Profile& profile);
 
