@@ -17,6 +17,7 @@ void Profile::add(const char* name, double seconds) {
 }
 
 std::ostream& operator<<(std::ostream& out, const Profile& profile) {
+  if (profile.rows().empty()) return out;
   double total = 0.0;
   for (const auto& row : profile.rows()) total += row.seconds;
   const auto flags = out.flags();

@@ -47,6 +47,7 @@ private:
   std::vector<Row> rows_;
 };
 
+/// A table, a row per stage; nothing at all if no stage ran.
 std::ostream& operator<<(std::ostream& out, const Profile& profile);
 
 }  // namespace dovetail
