@@ -1,5 +1,7 @@
 #include "dovetail/dem/laws.hpp"
 
+#include <limits>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 
@@ -10,8 +12,9 @@ constexpr double pi = std::numbers::pi;
 }
 
 LinearSpringDashpot::Prepared LinearSpringDashpot::prepare() const {
-  if (restitution == 1.0) return {stiffness, 0.0, tension || bonded, bonded};
-  return {stiffness, damping(1.0), tension || bonded, bonded};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {stiffness, restitution == 1.0 ? 0.0 : damping(1.0), tension || bonded ? -infinity : 0.0,
+          bonded ? infinity : 0.0};
 }
 
 double LinearSpringDashpot::contactTime(double effectiveMass) const {

@@ -5,13 +5,22 @@ namespace dovetail::dem::detail {
 
 namespace {
 
-void gatherGeometry(const Particles& particles, const PairList& list, std::size_t first, std::size_t n,
+void gatherGeometry(const Particles& particles, const PairList& list, std::size_t first, std::size_t n, bool spins,
                     ContactBlock& block) {
   const Vec3 *const x = particles.x.data(), *const v = particles.v.data();
   const double* const radius = particles.radius.data();
   const auto* const pairs = list.pairs.data() + first;
+  const std::size_t last = list.size() - 1 - first;
   for (std::size_t l = 0; l < n; ++l) {
     const auto i = static_cast<std::size_t>(pairs[l][0]), j = static_cast<std::size_t>(pairs[l][1]);
+    const auto next = static_cast<std::size_t>(pairs[std::min(l + blockSize, last)][1]);
+    __builtin_prefetch(x + next);
+    __builtin_prefetch(v + next);
+    if (spins) {
+      __builtin_prefetch(particles.omega.data() + j);
+      __builtin_prefetch(particles.torque.data() + j, 1);
+    }
+    __builtin_prefetch(particles.f.data() + j, 1);
     block.separation.set(l, x[i] - x[j]);
     block.velocity.set(l, v[i] - v[j]);
     block.armI[l] = radius[i];
@@ -19,8 +28,7 @@ void gatherGeometry(const Particles& particles, const PairList& list, std::size_
   }
   if (list.image.empty()) return;
   for (std::size_t l = 0; l < n; ++l)
-    if (list.image[first + l] != std::array<std::int8_t, 4>{})
-      block.separation.set(l, block.separation.at(l) + list.shift(first + l));
+    if (list.image[first + l] != 0) block.separation.set(l, block.separation.at(l) + list.shift(first + l));
 }
 
 void gatherSpins(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, ContactBlock& block) {
@@ -38,14 +46,11 @@ void gatherSpins(const Particles& particles, const std::array<int, 2>* pairs, st
   }
 }
 
-/// Masses carry the scale too, so it is divided out of the effective one.
 void gatherVaried(const Particles& particles, const PairList& list, std::size_t first, std::size_t n, int materials,
-                  bool mass, ContactBlock& block) {
+                  ContactBlock& block) {
   for (std::size_t l = 0; l < n; ++l) {
     const auto& pair = list.pairs[first + l];
-    const double scale = list.scale.empty() ? 1.0 : list.scale[first + l];
-    block.scale[l] = scale;
-    if (mass) block.mass[l] = scale > 0.0 ? block.mass[l] / scale : 0.0;
+    block.scale[l] = list.scale.empty() ? 1.0 : list.scale[first + l];
     const auto material = [&](int i) {
       return particles.material.empty() ? 0 : static_cast<int>(particles.material[static_cast<std::size_t>(i)]);
     };
@@ -104,21 +109,19 @@ void scatterForces(Particles& particles, PairList& list, std::size_t chunkEnd, s
 
 void gatherPairs(const Particles& particles, const PairList& list, std::size_t first, std::size_t n,
                  const GatherRows& rows, int materials, ContactBlock& block) {
-  gatherGeometry(particles, list, first, n, block);
+  gatherGeometry(particles, list, first, n, rows.spins && particles.rotates(), block);
   const auto* const pairs = list.pairs.data() + first;
-  const auto harmonic = [&](const std::vector<double>& of, ContactBlock::Row& row) {
+  if (rows.mass) {
     for (std::size_t l = 0; l < n; ++l) {
-      const double a = of[static_cast<std::size_t>(pairs[l][0])], b = of[static_cast<std::size_t>(pairs[l][1])];
-      row[l] = a * (b / (a + b));
+      block.massI[l] = particles.mass[static_cast<std::size_t>(pairs[l][0])];
+      block.massJ[l] = particles.mass[static_cast<std::size_t>(pairs[l][1])];
     }
-  };
-  if (rows.mass)
-    harmonic(particles.mass, block.mass);
-  else
-    std::fill_n(block.mass.begin(), n, 0.0);
-  if (rows.radius) harmonic(particles.radius, block.radius);
+  } else {
+    std::fill_n(block.massI.begin(), n, 0.0);
+    std::fill_n(block.massJ.begin(), n, 1.0);
+  }
   if (rows.spins) gatherSpins(particles, pairs, n, block);
-  if (rows.varied) gatherVaried(particles, list, first, n, materials, rows.mass, block);
+  if (rows.varied) gatherVaried(particles, list, first, n, materials, block);
   for (int c = 0; c < rows.memory; ++c)
     std::copy_n(list.memory.data() + static_cast<std::size_t>(c) * list.size() + first, n,
                 block.memory[static_cast<std::size_t>(c)].begin());

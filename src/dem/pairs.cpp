@@ -40,7 +40,7 @@ void keepMemory(const Pairs& old, PairList& list) {
 void findImages(const Particles& particles, PairList& list) {
   list.image.clear();
   if (!list.periodicity.any()) return;
-  list.image.resize(list.size());
+  list.image.assign(list.size(), 0);
   for (std::size_t p = 0; p < list.size(); ++p) {
     const auto [i, j] = list.pairs[p];
     const Vec3 d = particles.x[static_cast<std::size_t>(i)] - particles.x[static_cast<std::size_t>(j)];
@@ -50,7 +50,7 @@ void findImages(const Particles& particles, PairList& list) {
       if (!(std::abs(periods) <= 127.0))
         throw InputError("the particles are more than 127 periods apart",
                          "pair " + std::to_string(i) + ", " + std::to_string(j), "call wrapPositions now and then");
-      list.image[p][static_cast<std::size_t>(k)] = static_cast<std::int8_t>(periods);
+      list.image[p] |= (static_cast<int>(periods) & 0xff) << (8 * k);
     }
   }
 }

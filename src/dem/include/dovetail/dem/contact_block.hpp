@@ -26,13 +26,14 @@ struct ContactBlock {
       z[l] = v.z;
     }
   };
-  Rows3 separation;      ///< in: x_particle − x_partner (pairs) or the unit normal (walls); out: n × force
-  Rows3 velocity;        ///< in: v_particle − v_partner; out: force on the particle
-  Rows3 spinI;           ///< in: ω of the particle; out: couple on the particle
-  Rows3 spinJ;           ///< in: ω of the partner
-  alignas(64) Row armI;  ///< in: radius of the particle; out: distance of its centre from the contact
-  alignas(64) Row armJ;  ///< the same of the partner; walls: in: overlap
-  alignas(64) Row mass, radius, scale;
+  Rows3 separation;              ///< in: x_particle − x_partner (pairs) or the unit normal (walls); out: n × force
+  Rows3 velocity;                ///< in: v_particle − v_partner; out: force on the particle
+  Rows3 spinI;                   ///< in: ω of the particle; out: couple on the particle
+  Rows3 spinJ;                   ///< in: ω of the partner
+  alignas(64) Row armI;          ///< in: radius of the particle; out: distance of its centre from the contact
+  alignas(64) Row armJ;          ///< the same of the partner; walls: in: overlap
+  alignas(64) Row massI, massJ;  ///< of particle and partner, kg
+  alignas(64) Row scale;
   alignas(64) std::array<int, blockSize> kind;  ///< row of the law table
   alignas(64) std::array<Row, 8> memory;        ///< of the law, by component
   alignas(64) std::array<Row, channels> work;   ///< channels of ContactWork
@@ -89,7 +90,7 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
       armI -= 0.5 * overlap;
       armJ -= 0.5 * overlap;
     }
-    const bool touches = overlap > 0.0 || law.reaches();
+    const bool touches = overlap > -law.reach();
     Vec3 velocity = block.velocity.at(l);
     if constexpr (options.spins) {
       const Vec3 spinI = block.spinI.at(l), spinJ = block.spinJ.at(l);
@@ -102,14 +103,22 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
     contact.separating = dot(normal, velocity);
     if constexpr (Law::needsSlip) contact.slip = velocity - contact.separating * normal;
     const double scale = options.varied ? block.scale[l] : 1.0;
-    if constexpr (Law::needsMass) contact.effectiveMass = block.mass[l];
-    if constexpr (Law::needsRadius) contact.effectiveRadius = block.radius[l];
+    if constexpr (options.wall) {
+      contact.effectiveMass = block.massI[l];
+      contact.effectiveRadius = block.armI[l];
+    } else {
+      const double radiusI = block.armI[l], radiusJ = block.armJ[l];
+      contact.effectiveRadius = radiusI * (radiusJ / (radiusI + radiusJ));
+      // Masses carry the scale too, so it is divided out of the effective one.
+      const double mass = block.massI[l] * (block.massJ[l] / (block.massI[l] + block.massJ[l]));
+      contact.effectiveMass = options.varied ? (scale > 0.0 ? mass / (scale > 0.0 ? scale : 1.0) : 0.0) : mass;
+    }
     contact.dt = dt;
-    std::array<double, static_cast<std::size_t>(Law::memory) + 1> memory{};
-    loadMemory(block, l, memory.data(), components);
+    double memory[Law::memory + 1];
+    loadMemory(block, l, memory, components);
     ContactWork ended;
-    if constexpr (Law::memory > 0 && options.booked) ended = law.ended(memory.data(), dt);
-    const ContactResponse response = law.respond(contact, memory.data());
+    if constexpr (Law::memory > 0 && options.booked) ended = law.ended(memory, dt);
+    const ContactResponse response = law.respond(contact, memory);
     const Vec3 force{touches ? scale * response.force.x : 0.0, touches ? scale * response.force.y : 0.0,
                      touches ? scale * response.force.z : 0.0};
     block.velocity.set(l, force);
@@ -120,7 +129,7 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
       block.spinI.set(l, {touches ? scale * response.couple.x : 0.0, touches ? scale * response.couple.y : 0.0,
                           touches ? scale * response.couple.z : 0.0});
     }
-    storeMemory(block, l, memory.data(), touches, components);
+    storeMemory(block, l, memory, touches, components);
     if constexpr (options.booked) storeWork(block, l, response.work, ended, touches, scale);
   }
 }

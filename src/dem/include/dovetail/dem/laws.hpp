@@ -41,8 +41,8 @@ struct LinearSpringDashpot {
   struct Prepared {
     double stiffness;
     double dampingPerRootMass;  ///< c/√m
-    bool tension;
-    bool bonded;
+    double leastForce;          ///< N; −∞ if the contact may pull
+    double range;               ///< m; ∞ if bonded
 
     /// @param overlap    λ ≥ 0, m, the part of the overlap that the contact carries
     /// @param separating n·(v_particle − v_other), m/s, > 0 while the overlap closes
@@ -50,7 +50,7 @@ struct LinearSpringDashpot {
     /// @return force along n on the particle, N
     double force(double overlap, double separating, double engagement, double rootMass) const {
       const double f = stiffness * overlap - dampingPerRootMass * rootMass * engagement * separating;
-      return !tension && f < 0.0 ? 0.0 : f;
+      return f < leastForce ? leastForce : f;
     }
     /// J; `engagement` = overlap / overlap of the two alone (see WallContacts)
     double energy(double overlap, double engagement) const { return 0.5 * stiffness * overlap * overlap / engagement; }
@@ -60,15 +60,15 @@ struct LinearSpringDashpot {
       const double damping = dampingPerRootMass * std::sqrt(contact.effectiveMass);
       const double elastic = stiffness * contact.overlap;
       const double whole = elastic - damping * contact.separating;
-      const double force = !tension && whole < 0.0 ? 0.0 : whole;
+      const double force = whole < leastForce ? leastForce : whole;
       return {.force = force,
               .stiffness = stiffness,
               .damping = damping,
               .energy = 0.5 * elastic * contact.overlap,
               .dashpotPower = (elastic - force) * contact.separating};
     }
-    /// Whether contacts of no overlap answer too.
-    bool reaches() const { return bonded; }
+    /// Contacts act while overlap > −reach, m.
+    double reach() const { return range; }
     bool usesMass() const { return dampingPerRootMass > 0.0; }
     double remembered(const double*) const { return 0.0; }
   };
@@ -97,13 +97,13 @@ struct NoTangential {
 };
 
 /// Turns a remembered tangential vector with the pair since the last step: into today's contact plane, and about the
-/// normal by the mean spin of both. Its length stays.
+/// normal by the mean spin of both. Its length stays (to the fourth power of the angle of one step).
 inline Vec3 carried(Vec3 remembered, const Contact& contact) {
   const double before = squaredNorm(remembered);
   remembered += (contact.dt * contact.twist) * cross(contact.normal, remembered);
   remembered -= dot(remembered, contact.normal) * contact.normal;
-  const double after = squaredNorm(remembered);
-  return (after > 0.0 ? std::sqrt(before / (after > 0.0 ? after : 1.0)) : 1.0) * remembered;
+  const double ratio = squaredNorm(remembered) / (before > 0.0 ? before : 1.0);
+  return (1.5 - 0.5 * ratio) * remembered;  // 1/√ratio for a ratio near 1, and bounded for any
 }
 
 /// Tangential part: spring of stiffness k_t stretched by the relative tangential motion (Cundall & Strack 1979), with a
@@ -195,7 +195,7 @@ struct ContactLaw {
     [[no_unique_address]] typename Rolling::Prepared rolling;
     [[no_unique_address]] typename Adhesion::Prepared adhesion;
 
-    bool reaches() const { return normal.reaches(); }
+    double reach() const { return normal.reach(); }
     bool usesMass() const { return normal.usesMass(); }
 
     /// Answers of all parts; those of the normal part's memory come first, then the tangential one's, then the rolling

@@ -40,7 +40,7 @@ void requireStep(double dt);
 
 /// Which rows of a block a law reads.
 struct GatherRows {
-  bool spins, mass, radius, varied;
+  bool spins, mass, varied;
   int memory;
 };
 /// Fills the block with pairs first … first + n − 1.
@@ -104,7 +104,7 @@ ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law
   if (list.pairs.empty()) return work;
   if constexpr (Law::rotates) list.chunks.torque.resize(list.chunks.force.size());
   const bool varied = !list.scale.empty() || laws.materials > 1;
-  const detail::GatherRows rows{Law::rotates, Law::needsMass && laws.usesMass(), Law::needsRadius, varied, Law::memory};
+  const detail::GatherRows rows{Law::rotates, Law::needsMass && laws.usesMass(), varied, Law::memory};
   constexpr bool spins = Law::rotates;
   const bool booked = booking == Booking::on;
   if (varied && booked)

@@ -32,8 +32,8 @@ struct PairList {
 
   /// Axes along which space repeats; set before the list is made. Positions need not lie in the box.
   geometry::Periodicity periodicity;
-  /// Per pair: periods to be added to x_i − x_j (the fourth number is unused); empty without periodic axes.
-  std::vector<std::array<std::int8_t, 4>> image;
+  /// Per pair: periods to be added to x_i − x_j, a signed byte per axis, x in the lowest; empty without periodic axes.
+  std::vector<std::int32_t> image;
 
   /// Per pair: factor on its force and energies, such as the particles' share of an overlap; empty = 1. A new list has
   /// none; whoever set it sets it again when `builds` has changed.
@@ -55,8 +55,8 @@ struct PairList {
   /// Vector to be added to x_i − x_j of a pair, m; zero without periodic axes.
   Vec3 shift(std::size_t pair) const {
     if (image.empty()) return {};
-    const auto& n = image[pair];
-    return {n[0] * periodicity.length(0), n[1] * periodicity.length(1), n[2] * periodicity.length(2)};
+    const auto periods = [&](int axis) { return static_cast<std::int8_t>(image[pair] >> (8 * axis)); };
+    return {periods(0) * periodicity.length(0), periods(1) * periodicity.length(1), periods(2) * periodicity.length(2)};
   }
 };
 

@@ -28,9 +28,9 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
     const auto i = static_cast<std::size_t>(contacts.particle[c]);
     block.separation.set(l, contacts.normal[c]);
     block.velocity.set(l, velocity(c));
-    block.armI[l] = block.radius[l] = particles.radius[i];
+    block.armI[l] = particles.radius[i];
     block.armJ[l] = contacts.overlap[c] / contacts.engagement[c];
-    block.mass[l] = particles.mass[i];
+    block.massI[l] = particles.mass[i];
     block.scale[l] = contacts.engagement[c];
     block.kind[l] = laws.materials > 1 ? materialOf(particles, i) * laws.materials + wallMaterial : 0;
     if constexpr (Law::rotates) {
