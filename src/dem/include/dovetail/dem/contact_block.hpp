@@ -35,7 +35,7 @@ struct ContactBlock {
   alignas(64) Row massI, massJ;  ///< of particle and partner, kg
   alignas(64) Row scale;
   alignas(64) std::array<int, blockSize> kind;  ///< row of the law table
-  alignas(64) std::array<Row, 8> memory;        ///< of the law, by component
+  alignas(64) std::array<Row, 12> memory;       ///< of the law, by component
   alignas(64) std::array<Row, channels> work;   ///< channels of ContactWork
 };
 

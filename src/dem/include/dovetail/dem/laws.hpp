@@ -8,6 +8,7 @@
 //   Prepared::respond(contact, …, memory)   the answer; advances the memory by contact.dt. Straight-line code with
 //                                       selections instead of branches, so that the loop over contacts vectorises
 //   Prepared::remembered(memory)        J stored in the memory of a contact that ends, booked as lost
+//   Prepared::slope(contact, normal)    stiffness and damping now, of all parts but the normal one and adhesion
 #pragma once
 
 #include <cmath>
@@ -91,6 +92,7 @@ struct NoTangential {
   static constexpr bool needsSlip = false;
   struct Prepared {
     TangentialResponse respond(const Contact&, const NormalResponse&, double*) const { return {}; }
+    Slope slope(const Contact&, const NormalResponse&) const { return {}; }
     double remembered(const double*) const { return 0.0; }
   };
   Prepared prepare() const { return {}; }
@@ -135,6 +137,9 @@ struct TangentialSpring {
               .energy = 0.5 * stiffness * squaredNorm(stretch),
               .slipPower = slipWork / contact.dt + damping * squaredNorm(contact.slip)};
     }
+    Slope slope(const Contact&, const NormalResponse& normal) const {
+      return {stiffness, dampingRatio * normal.damping};
+    }
     double remembered(const double* memory) const {
       return 0.5 * stiffness * (memory[0] * memory[0] + memory[1] * memory[1] + memory[2] * memory[2]);
     }
@@ -146,9 +151,10 @@ struct TangentialSpring {
 struct NoRolling {
   static constexpr int memory = 0;
   static constexpr unsigned turns = 0;
-  static constexpr bool needsSpin = false;
+  static constexpr bool needsSpin = false, needsRadius = false;
   struct Prepared {
     RollingResponse respond(const Contact&, const NormalResponse&, double*) const { return {}; }
+    Slope slope(const Contact&, const NormalResponse&) const { return {}; }
     double remembered(const double*) const { return 0.0; }
   };
   Prepared prepare() const { return {}; }
@@ -180,10 +186,11 @@ struct ContactLaw {
   [[no_unique_address]] Adhesion adhesion = {};
 
   static constexpr int memory = Normal::memory + Tangential::memory + Rolling::memory;
+  static_assert(memory <= 12, "a block of contacts has rows for twelve numbers");
   static constexpr unsigned turns =
       Normal::turns | Tangential::turns << Normal::memory | Rolling::turns << (Normal::memory + Tangential::memory);
   static constexpr bool needsMass = Normal::needsMass;
-  static constexpr bool needsRadius = Normal::needsRadius || Adhesion::needsRadius;
+  static constexpr bool needsRadius = Normal::needsRadius || Rolling::needsRadius || Adhesion::needsRadius;
   static constexpr bool needsSlip = Tangential::needsSlip;
   static constexpr bool needsSpin = Rolling::needsSpin;
   /// Whether contacts exert torques, so that particles spin.
@@ -214,6 +221,12 @@ struct ContactLaw {
       response.work.rollingEnergy = r.energy;
       response.work.rollingPower = r.lostPower;
       return response;
+    }
+
+    /// Stiffness and damping of all parts now; `memory` is advanced.
+    ContactSlopes slopes(const Contact& contact, double* memory) const {
+      const NormalResponse n = normal.respond(contact, memory);
+      return {{n.stiffness, n.damping}, tangential.slope(contact, n), rolling.slope(contact, n)};
     }
 
     /// What a contact that has ended takes with it.
