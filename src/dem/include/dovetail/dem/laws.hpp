@@ -108,6 +108,29 @@ inline Vec3 carried(Vec3 remembered, const Contact& contact) {
   return (1.5 - 0.5 * ratio) * remembered;  // 1/√ratio for a ratio near 1, and bounded for any
 }
 
+/// A spring, a dashpot beside it, and a slider before both.
+struct Slider {
+  Vec3 stretch, force;        ///< of the spring, and of both, along the stretch
+  double energy = 0.0;        ///< J stored
+  double slipWork = 0.0;      ///< J lost to sliding in this step
+  double dampingPower = 0.0;  ///< W lost to the dashpot, ≥ 0
+
+  /// The spring alone keeps below the limit; the dashpot adds what the limit leaves. (The other way round, a dashpot
+  /// above the limit would stretch the spring backwards, with energy from nowhere.)
+  Slider(const Vec3& stretched, const Vec3& rate, double stiffness, double damping, double limit) {
+    const double size = stiffness * norm(stretched);
+    const bool slides = size > limit;
+    stretch = (slides ? limit / (slides ? size : 1.0) : 1.0) * stretched;
+    const Vec3 spring = stiffness * stretch, both = spring + damping * rate;
+    const double whole = norm(both);
+    const bool cut = damping > 0.0 ? whole > limit : false;
+    force = (cut ? limit / (cut ? whole : 1.0) : 1.0) * both;
+    energy = 0.5 * dot(spring, stretch);
+    slipWork = dot(spring, stretched - stretch);
+    dampingPower = dot(force - spring, rate);
+  }
+};
+
 /// Tangential part: spring of stiffness k_t stretched by the relative tangential motion (Cundall & Strack 1979), with a
 /// dashpot if asked for; the force is limited to μ times the repulsion of the normal part (Coulomb).
 struct TangentialSpring {
@@ -119,23 +142,16 @@ struct TangentialSpring {
   double dampingRatio = 0.0;  ///< coefficient of the tangential dashpot over that of the normal one
 
   struct Prepared {
-    double stiffness, compliance, friction, dampingRatio;
+    double stiffness, friction, dampingRatio;
 
     TangentialResponse respond(const Contact& contact, const NormalResponse& normal, double* memory) const {
-      const double damping = dampingRatio * normal.damping;
       const Vec3 stretched = carried({memory[0], memory[1], memory[2]}, contact) + contact.dt * contact.slip;
-      const Vec3 trial = stiffness * stretched + damping * contact.slip;
-      const double size = norm(trial), limit = normal.force > 0.0 ? friction * normal.force : 0.0;
-      const bool slides = size > limit;
-      const Vec3 force = (slides ? limit / (slides ? size : 1.0) : 1.0) * trial;
-      const Vec3 stretch = slides ? compliance * (force - damping * contact.slip) : stretched;
-      memory[0] = stretch.x;
-      memory[1] = stretch.y;
-      memory[2] = stretch.z;
-      const double slipWork = stiffness * dot(stretch, stretched - stretch);
-      return {.force = -force,
-              .energy = 0.5 * stiffness * squaredNorm(stretch),
-              .slipPower = slipWork / contact.dt + damping * squaredNorm(contact.slip)};
+      const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
+      const Slider now(stretched, contact.slip, stiffness, dampingRatio * normal.damping, limit);
+      memory[0] = now.stretch.x;
+      memory[1] = now.stretch.y;
+      memory[2] = now.stretch.z;
+      return {.force = -now.force, .energy = now.energy, .slipPower = now.slipWork / contact.dt + now.dampingPower};
     }
     Slope slope(const Contact&, const NormalResponse& normal) const {
       return {stiffness, dampingRatio * normal.damping};
@@ -144,7 +160,7 @@ struct TangentialSpring {
       return 0.5 * stiffness * (memory[0] * memory[0] + memory[1] * memory[1] + memory[2] * memory[2]);
     }
   };
-  Prepared prepare() const { return {stiffness, 1.0 / stiffness, friction, dampingRatio}; }
+  Prepared prepare() const { return {stiffness, friction, dampingRatio}; }
 };
 
 /// No resistance to rolling and twisting.

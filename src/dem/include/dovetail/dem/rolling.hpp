@@ -14,20 +14,13 @@ inline RollingResponse springAndSlider(const Vec3& old, const Vec3& rate, double
   const double before = memory[3];
   const bool grows = stiffness > before;
   const Vec3 kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old;
-  const Vec3 turned = kept + dt * rate;
-  const double size = stiffness * norm(turned);
-  const bool slides = size > limit;
-  const Vec3 angle = (slides ? limit / (slides ? size : 1.0) : 1.0) * turned;
-  const Vec3 spring = stiffness * angle, both = spring + damping * rate;
-  const double whole = norm(both);
-  const bool cut = whole > limit;
-  const Vec3 couple = (cut ? limit / (cut ? whole : 1.0) : 1.0) * both;
-  memory[0] = angle.x;
-  memory[1] = angle.y;
-  memory[2] = angle.z;
+  const Slider now(kept + dt * rate, rate, stiffness, damping, limit);
+  memory[0] = now.stretch.x;
+  memory[1] = now.stretch.y;
+  memory[2] = now.stretch.z;
   memory[3] = stiffness;
-  const double lost = dot(spring, turned - angle) + 0.5 * (before * squaredNorm(old) - stiffness * squaredNorm(kept));
-  return {.couple = -couple, .energy = 0.5 * dot(spring, angle), .lostPower = lost / dt + dot(couple - spring, rate)};
+  const double change = 0.5 * (before * squaredNorm(old) - stiffness * squaredNorm(kept));
+  return {.couple = -now.force, .energy = now.energy, .lostPower = (now.slipWork + change) / dt + now.dampingPower};
 }
 
 }  // namespace detail
