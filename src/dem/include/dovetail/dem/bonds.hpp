@@ -87,7 +87,7 @@ void muteBonded(const Bonds& bonds, PairList& list);
 
 /// Safe bound on the stable step of velocity Verlet with these bonds alone, s; infinite without any. Every particle
 /// shares its mass and inertia among its bonds by what they ask for; the whole is then no faster than the fastest bond.
-/// Exact for a pair; on the safe side by up to √3 where bonds go all ways. With contacts: 1/dt² adds up.
+/// Exact for two equal particles; on the safe side by up to √3 where bonds go all ways. With contacts: 1/dt² adds up.
 double criticalStep(const Particles& particles, const Bonds& bonds);
 
 /// @throws InputError naming the field
