@@ -30,11 +30,11 @@ struct ElasticPlastic {
     double leastElastic;          ///< N; 0 without cohesion, else −∞
     double dampingPerRootMass;    ///< c/√m
 
-    NormalResponse respond(const Contact& contact, double* memory) const {
-      const double before = memory[0], least = lower * contact.overlap, most = upper * contact.overlap;
+    NormalResponse respond(const Contact& contact, double* held) const {
+      const double before = held[0], least = lower * contact.overlap, most = upper * contact.overlap;
       const double raised = before < least ? least : before;
       const double plastic = raised > most ? most : raised;
-      memory[0] = plastic;
+      held[0] = plastic;
       const double spring = stiffness * (contact.overlap - plastic);
       const double elastic = spring < leastElastic ? leastElastic : spring;
       const double damping = dampingPerRootMass * std::sqrt(contact.effectiveMass);
@@ -53,7 +53,7 @@ struct ElasticPlastic {
     double reach() const { return 0.0; }
     bool usesMass() const { return dampingPerRootMass > 0.0; }
     /// What closing the rest of the dent along −k_c δ takes.
-    double remembered(const double* memory) const { return 0.5 * yieldCohesion * memory[0] * memory[0]; }
+    double remembered(const double* held) const { return 0.5 * yieldCohesion * held[0] * held[0]; }
   };
   Prepared prepare() const;
 

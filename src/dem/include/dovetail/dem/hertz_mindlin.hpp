@@ -73,17 +73,17 @@ struct MindlinSpring {
   struct Prepared {
     double stiffnessRatio, friction, dampingRatio;
 
-    TangentialResponse respond(const Contact& contact, const NormalResponse& normal, double* memory) const {
-      const double stiffness = stiffnessRatio * normal.stiffness, before = memory[3];
-      const Vec3 old = carried({memory[0], memory[1], memory[2]}, contact);
+    TangentialResponse respond(const Contact& contact, const NormalResponse& normal, double* held) const {
+      const double stiffness = stiffnessRatio * normal.stiffness, before = held[3];
+      const Vec3 old = carried({held[0], held[1], held[2]}, contact);
       const bool grows = stiffness > before;
       const Vec3 kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old;
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
       const Slider now(kept + contact.dt * contact.slip, contact.slip, stiffness, dampingRatio * normal.damping, limit);
-      memory[0] = now.stretch.x;
-      memory[1] = now.stretch.y;
-      memory[2] = now.stretch.z;
-      memory[3] = stiffness;
+      held[0] = now.stretch.x;
+      held[1] = now.stretch.y;
+      held[2] = now.stretch.z;
+      held[3] = stiffness;
       const double change = 0.5 * (before * squaredNorm(old) - stiffness * squaredNorm(kept));
       return {.force = -now.force,
               .energy = now.energy,
@@ -92,8 +92,8 @@ struct MindlinSpring {
     Slope slope(const Contact&, const NormalResponse& normal) const {
       return {stiffnessRatio * normal.stiffness, dampingRatio * normal.damping};
     }
-    double remembered(const double* memory) const {
-      return 0.5 * memory[3] * (memory[0] * memory[0] + memory[1] * memory[1] + memory[2] * memory[2]);
+    double remembered(const double* held) const {
+      return 0.5 * held[3] * (held[0] * held[0] + held[1] * held[1] + held[2] * held[2]);
     }
   };
   Prepared prepare() const { return {stiffnessRatio, friction, dampingRatio}; }

@@ -5,9 +5,9 @@
 //   static constexpr unsigned turns     bit c is set if number c changes its sign when the two particles change roles
 //   static constexpr bool needs…        what of `Contact` it reads beyond overlap, separation, normal and dt
 //   prepare()                           what the loop over contacts uses; roots, logarithms and checks are done here
-//   Prepared::respond(contact, …, memory)   the answer; advances the memory by contact.dt. Straight-line code with
+//   Prepared::respond(contact, …, held) the answer; advances the memory by contact.dt. Straight-line code with
 //                                       selections instead of branches, so that the loop over contacts vectorises
-//   Prepared::remembered(memory)        J stored in the memory of a contact that ends, booked as lost
+//   Prepared::remembered(held)          J stored in the memory of a contact that ends, booked as lost
 //   Prepared::slope(contact, normal)    stiffness and damping now, of all parts but the normal one and adhesion
 #pragma once
 
@@ -144,20 +144,20 @@ struct TangentialSpring {
   struct Prepared {
     double stiffness, friction, dampingRatio;
 
-    TangentialResponse respond(const Contact& contact, const NormalResponse& normal, double* memory) const {
-      const Vec3 stretched = carried({memory[0], memory[1], memory[2]}, contact) + contact.dt * contact.slip;
+    TangentialResponse respond(const Contact& contact, const NormalResponse& normal, double* held) const {
+      const Vec3 stretched = carried({held[0], held[1], held[2]}, contact) + contact.dt * contact.slip;
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
       const Slider now(stretched, contact.slip, stiffness, dampingRatio * normal.damping, limit);
-      memory[0] = now.stretch.x;
-      memory[1] = now.stretch.y;
-      memory[2] = now.stretch.z;
+      held[0] = now.stretch.x;
+      held[1] = now.stretch.y;
+      held[2] = now.stretch.z;
       return {.force = -now.force, .energy = now.energy, .slipPower = now.slipWork / contact.dt + now.dampingPower};
     }
     Slope slope(const Contact&, const NormalResponse& normal) const {
       return {stiffness, dampingRatio * normal.damping};
     }
-    double remembered(const double* memory) const {
-      return 0.5 * stiffness * (memory[0] * memory[0] + memory[1] * memory[1] + memory[2] * memory[2]);
+    double remembered(const double* held) const {
+      return 0.5 * stiffness * (held[0] * held[0] + held[1] * held[1] + held[2] * held[2]);
     }
   };
   Prepared prepare() const { return {stiffness, friction, dampingRatio}; }
@@ -223,10 +223,10 @@ struct ContactLaw {
 
     /// Answers of all parts; those of the normal part's memory come first, then the tangential one's, then the rolling
     /// one's.
-    ContactResponse respond(const Contact& contact, double* memory) const {
-      const NormalResponse n = normal.respond(contact, memory);
-      const TangentialResponse t = tangential.respond(contact, n, memory + Normal::memory);
-      const RollingResponse r = rolling.respond(contact, n, memory + Normal::memory + Tangential::memory);
+    ContactResponse respond(const Contact& contact, double* held) const {
+      const NormalResponse n = normal.respond(contact, held);
+      const TangentialResponse t = tangential.respond(contact, n, held + Normal::memory);
+      const RollingResponse r = rolling.respond(contact, n, held + Normal::memory + Tangential::memory);
       const AdhesionResponse a = adhesion.respond(contact, n);
       ContactResponse response{.force = (n.force + a.force) * contact.normal + t.force, .couple = r.couple, .work = {}};
       response.work.elasticEnergy = n.energy + a.energy;
@@ -239,18 +239,18 @@ struct ContactLaw {
       return response;
     }
 
-    /// Stiffness and damping of all parts now; `memory` is advanced.
-    ContactSlopes slopes(const Contact& contact, double* memory) const {
-      const NormalResponse n = normal.respond(contact, memory);
+    /// Stiffness and damping of all parts now; what is held is advanced.
+    ContactSlopes slopes(const Contact& contact, double* held) const {
+      const NormalResponse n = normal.respond(contact, held);
       return {{n.stiffness, n.damping}, tangential.slope(contact, n), rolling.slope(contact, n)};
     }
 
     /// What a contact that has ended takes with it.
-    ContactWork ended(const double* memory, double dt) const {
+    ContactWork ended(const double* held, double dt) const {
       ContactWork work;
-      work.plasticPower = normal.remembered(memory) / dt;
-      work.frictionPower = tangential.remembered(memory + Normal::memory) / dt;
-      work.rollingPower = rolling.remembered(memory + Normal::memory + Tangential::memory) / dt;
+      work.plasticPower = normal.remembered(held) / dt;
+      work.frictionPower = tangential.remembered(held + Normal::memory) / dt;
+      work.rollingPower = rolling.remembered(held + Normal::memory + Tangential::memory) / dt;
       return work;
     }
   };

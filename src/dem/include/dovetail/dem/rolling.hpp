@@ -8,17 +8,17 @@ namespace dovetail::dem {
 namespace detail {
 
 /// A spring of stiffness k that remembers its angle; as k changes, no energy appears (see MindlinSpring).
-/// @param memory angle (three numbers), k of the last step
+/// @param held angle (three numbers), k of the last step
 inline RollingResponse springAndSlider(const Vec3& old, const Vec3& rate, double stiffness, double damping,
-                                       double limit, double dt, double* memory) {
-  const double before = memory[3];
+                                       double limit, double dt, double* held) {
+  const double before = held[3];
   const bool grows = stiffness > before;
   const Vec3 kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old;
   const Slider now(kept + dt * rate, rate, stiffness, damping, limit);
-  memory[0] = now.stretch.x;
-  memory[1] = now.stretch.y;
-  memory[2] = now.stretch.z;
-  memory[3] = stiffness;
+  held[0] = now.stretch.x;
+  held[1] = now.stretch.y;
+  held[2] = now.stretch.z;
+  held[3] = stiffness;
   const double change = 0.5 * (before * squaredNorm(old) - stiffness * squaredNorm(kept));
   return {.couple = -now.force, .energy = now.energy, .lostPower = (now.slipWork + change) / dt + now.dampingPower};
 }
@@ -39,19 +39,19 @@ struct RollingResistance {
   struct Prepared {
     double friction, stiffnessRatio, dampingRatio;
 
-    RollingResponse respond(const Contact& contact, const NormalResponse& normal, double* memory) const {
+    RollingResponse respond(const Contact& contact, const NormalResponse& normal, double* held) const {
       const Slope now = slope(contact, normal);
       const Vec3 rate = contact.spin - dot(contact.spin, contact.normal) * contact.normal;
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
-      return detail::springAndSlider(carried({memory[0], memory[1], memory[2]}, contact), rate, now.stiffness,
-                                     now.damping, limit, contact.dt, memory);
+      return detail::springAndSlider(carried({held[0], held[1], held[2]}, contact), rate, now.stiffness, now.damping,
+                                     limit, contact.dt, held);
     }
     Slope slope(const Contact& contact, const NormalResponse& normal) const {
       const double squared = contact.effectiveRadius * contact.effectiveRadius;
       return {stiffnessRatio * normal.stiffness * squared, dampingRatio * normal.damping * squared};
     }
-    double remembered(const double* memory) const {
-      return 0.5 * memory[3] * (memory[0] * memory[0] + memory[1] * memory[1] + memory[2] * memory[2]);
+    double remembered(const double* held) const {
+      return 0.5 * held[3] * (held[0] * held[0] + held[1] * held[1] + held[2] * held[2]);
     }
   };
   Prepared prepare() const { return {friction, stiffnessRatio, dampingRatio}; }
@@ -69,15 +69,15 @@ struct TwistingResistance {
   struct Prepared {
     double friction, stiffnessRatio, dampingRatio;
 
-    RollingResponse respond(const Contact& contact, const NormalResponse& normal, double* memory) const {
+    RollingResponse respond(const Contact& contact, const NormalResponse& normal, double* held) const {
       const Slope now = slope(contact, normal);
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
-      double remembered[4] = {memory[0], 0.0, 0.0, memory[1]};
+      double spring[4] = {held[0], 0.0, 0.0, held[1]};
       RollingResponse response =
-          detail::springAndSlider({memory[0], 0.0, 0.0}, {dot(contact.spin, contact.normal), 0.0, 0.0}, now.stiffness,
-                                  now.damping, limit, contact.dt, remembered);
-      memory[0] = remembered[0];
-      memory[1] = remembered[3];
+          detail::springAndSlider({held[0], 0.0, 0.0}, {dot(contact.spin, contact.normal), 0.0, 0.0}, now.stiffness,
+                                  now.damping, limit, contact.dt, spring);
+      held[0] = spring[0];
+      held[1] = spring[3];
       response.couple = response.couple.x * contact.normal;
       return response;
     }
@@ -85,7 +85,7 @@ struct TwistingResistance {
       const double squared = contact.effectiveRadius * contact.effectiveRadius;
       return {stiffnessRatio * normal.stiffness * squared, dampingRatio * normal.damping * squared};
     }
-    double remembered(const double* memory) const { return 0.5 * memory[1] * memory[0] * memory[0]; }
+    double remembered(const double* held) const { return 0.5 * held[1] * held[0] * held[0]; }
   };
   Prepared prepare() const { return {friction, stiffnessRatio, dampingRatio}; }
 };
@@ -102,17 +102,17 @@ struct RollingAndTwisting {
     RollingResistance::Prepared rolling;
     TwistingResistance::Prepared twisting;
 
-    RollingResponse respond(const Contact& contact, const NormalResponse& normal, double* memory) const {
-      const RollingResponse a = rolling.respond(contact, normal, memory);
-      const RollingResponse b = twisting.respond(contact, normal, memory + RollingResistance::memory);
+    RollingResponse respond(const Contact& contact, const NormalResponse& normal, double* held) const {
+      const RollingResponse a = rolling.respond(contact, normal, held);
+      const RollingResponse b = twisting.respond(contact, normal, held + RollingResistance::memory);
       return {a.couple + b.couple, a.energy + b.energy, a.lostPower + b.lostPower};
     }
     Slope slope(const Contact& contact, const NormalResponse& normal) const {
       const Slope a = rolling.slope(contact, normal), b = twisting.slope(contact, normal);
       return {a.stiffness > b.stiffness ? a.stiffness : b.stiffness, a.damping > b.damping ? a.damping : b.damping};
     }
-    double remembered(const double* memory) const {
-      return rolling.remembered(memory) + twisting.remembered(memory + RollingResistance::memory);
+    double remembered(const double* held) const {
+      return rolling.remembered(held) + twisting.remembered(held + RollingResistance::memory);
     }
   };
   Prepared prepare() const { return {rolling.prepare(), twisting.prepare()}; }
