@@ -14,7 +14,7 @@ struct ConstantCohesion {
   static constexpr bool needsRadius = false;
   struct Prepared {
     double force;
-    AdhesionResponse respond(const Contact& contact, const NormalResponse&) const {
+    [[gnu::always_inline]] AdhesionResponse respond(const Contact& contact, const NormalResponse&) const {
       return {-force, -force * contact.overlap};
     }
   };
@@ -29,7 +29,7 @@ struct LinearCohesion {
   static constexpr bool needsRadius = true;
   struct Prepared {
     double stiffness, pressureTimesPi;
-    AdhesionResponse respond(const Contact& contact, const NormalResponse&) const {
+    [[gnu::always_inline]] AdhesionResponse respond(const Contact& contact, const NormalResponse&) const {
       const double force = -(stiffness + pressureTimesPi * contact.effectiveRadius) * contact.overlap;
       return {force, 0.5 * force * contact.overlap};
     }
@@ -44,7 +44,7 @@ struct DmtAdhesion {
   static constexpr bool needsRadius = true;
   struct Prepared {
     double forcePerRadius;
-    AdhesionResponse respond(const Contact& contact, const NormalResponse&) const {
+    [[gnu::always_inline]] AdhesionResponse respond(const Contact& contact, const NormalResponse&) const {
       const double force = -forcePerRadius * contact.effectiveRadius;
       return {force, force * contact.overlap};
     }

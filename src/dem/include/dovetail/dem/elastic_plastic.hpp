@@ -30,7 +30,7 @@ struct ElasticPlastic {
     double leastElastic;          ///< N; 0 without cohesion, else −∞
     double dampingPerRootMass;    ///< c/√m
 
-    NormalResponse respond(const Contact& contact, double* held) const {
+    [[gnu::always_inline]] NormalResponse respond(const Contact& contact, double* held) const {
       const double before = held[0], least = lower * contact.overlap, most = upper * contact.overlap;
       const double raised = before < least ? least : before;
       const double plastic = raised > most ? most : raised;

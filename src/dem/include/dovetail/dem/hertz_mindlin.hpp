@@ -28,7 +28,7 @@ struct HertzDashpot {
     double dampingFactor;  ///< c/√(m k_n)
     double leastForce;     ///< N; −∞ if the contact may pull
 
-    NormalResponse respond(const Contact& contact, double*) const {
+    [[gnu::always_inline]] NormalResponse respond(const Contact& contact, double*) const {
       const double stiffness = twiceModulus * std::sqrt(contact.effectiveRadius * contact.overlap);
       const double damping = dampingFactor * std::sqrt(contact.effectiveMass * stiffness);
       const double elastic = (2.0 / 3.0) * stiffness * contact.overlap;
@@ -73,7 +73,8 @@ struct MindlinSpring {
   struct Prepared {
     double stiffnessRatio, friction, dampingRatio;
 
-    TangentialResponse respond(const Contact& contact, const NormalResponse& normal, double* held) const {
+    [[gnu::always_inline]] TangentialResponse respond(const Contact& contact, const NormalResponse& normal,
+                                                      double* held) const {
       const double stiffness = stiffnessRatio * normal.stiffness, before = held[3];
       const Vec3 old = carried({held[0], held[1], held[2]}, contact);
       const bool grows = stiffness > before;

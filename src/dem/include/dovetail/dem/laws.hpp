@@ -6,7 +6,8 @@
 //   static constexpr bool needs…        what of `Contact` it reads beyond overlap, separation, normal and dt
 //   prepare()                           what the loop over contacts uses; roots, logarithms and checks are done here
 //   Prepared::respond(contact, …, held) the answer; advances the memory by contact.dt. Straight-line code with
-//                                       selections instead of branches, so that the loop over contacts vectorises
+//                                       selections instead of branches, and inlined into the loop over contacts
+//                                       whatever the compiler thinks of its size, so that the loop vectorises
 //   Prepared::remembered(held)          J stored in the memory of a contact that ends, booked as lost
 //   Prepared::slope(contact, normal)    stiffness and damping now, of all parts but the normal one and adhesion
 #pragma once
@@ -57,7 +58,7 @@ struct LinearSpringDashpot {
     double energy(double overlap, double engagement) const { return 0.5 * stiffness * overlap * overlap / engagement; }
     double elasticForce(double overlap) const { return stiffness * overlap; }
 
-    NormalResponse respond(const Contact& contact, double*) const {
+    [[gnu::always_inline]] NormalResponse respond(const Contact& contact, double*) const {
       const double damping = dampingPerRootMass * std::sqrt(contact.effectiveMass);
       const double elastic = stiffness * contact.overlap;
       const double whole = elastic - damping * contact.separating;
@@ -91,7 +92,9 @@ struct NoTangential {
   static constexpr unsigned turns = 0;
   static constexpr bool needsSlip = false;
   struct Prepared {
-    TangentialResponse respond(const Contact&, const NormalResponse&, double*) const { return {}; }
+    [[gnu::always_inline]] TangentialResponse respond(const Contact&, const NormalResponse&, double*) const {
+      return {};
+    }
     Slope slope(const Contact&, const NormalResponse&) const { return {}; }
     double remembered(const double*) const { return 0.0; }
   };
@@ -100,7 +103,7 @@ struct NoTangential {
 
 /// Turns a remembered tangential vector with the pair since the last step: into today's contact plane, and about the
 /// normal by the mean spin of both. Its length stays (to the fourth power of the angle of one step).
-inline Vec3 carried(Vec3 remembered, const Contact& contact) {
+[[gnu::always_inline]] inline Vec3 carried(Vec3 remembered, const Contact& contact) {
   const double before = squaredNorm(remembered);
   remembered += (contact.dt * contact.twist) * cross(contact.normal, remembered);
   remembered -= dot(remembered, contact.normal) * contact.normal;
@@ -117,7 +120,8 @@ struct Slider {
 
   /// The spring alone keeps below the limit; the dashpot adds what the limit leaves. (The other way round, a dashpot
   /// above the limit would stretch the spring backwards, with energy from nowhere.)
-  Slider(const Vec3& stretched, const Vec3& rate, double stiffness, double damping, double limit) {
+  [[gnu::always_inline]] Slider(const Vec3& stretched, const Vec3& rate, double stiffness, double damping,
+                                double limit) {
     const double size = stiffness * norm(stretched);
     const bool slides = size > limit;
     stretch = (slides ? limit / (slides ? size : 1.0) : 1.0) * stretched;
@@ -144,7 +148,8 @@ struct TangentialSpring {
   struct Prepared {
     double stiffness, friction, dampingRatio;
 
-    TangentialResponse respond(const Contact& contact, const NormalResponse& normal, double* held) const {
+    [[gnu::always_inline]] TangentialResponse respond(const Contact& contact, const NormalResponse& normal,
+                                                      double* held) const {
       const Vec3 stretched = carried({held[0], held[1], held[2]}, contact) + contact.dt * contact.slip;
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
       const Slider now(stretched, contact.slip, stiffness, dampingRatio * normal.damping, limit);
@@ -169,7 +174,7 @@ struct NoRolling {
   static constexpr unsigned turns = 0;
   static constexpr bool needsSpin = false, needsRadius = false;
   struct Prepared {
-    RollingResponse respond(const Contact&, const NormalResponse&, double*) const { return {}; }
+    [[gnu::always_inline]] RollingResponse respond(const Contact&, const NormalResponse&, double*) const { return {}; }
     Slope slope(const Contact&, const NormalResponse&) const { return {}; }
     double remembered(const double*) const { return 0.0; }
   };
@@ -180,7 +185,7 @@ struct NoRolling {
 struct NoAdhesion {
   static constexpr bool needsRadius = false;
   struct Prepared {
-    AdhesionResponse respond(const Contact&, const NormalResponse&) const { return {}; }
+    [[gnu::always_inline]] AdhesionResponse respond(const Contact&, const NormalResponse&) const { return {}; }
   };
   Prepared prepare() const { return {}; }
 };
@@ -223,7 +228,7 @@ struct ContactLaw {
 
     /// Answers of all parts; those of the normal part's memory come first, then the tangential one's, then the rolling
     /// one's.
-    ContactResponse respond(const Contact& contact, double* held) const {
+    [[gnu::always_inline]] ContactResponse respond(const Contact& contact, double* held) const {
       const NormalResponse n = normal.respond(contact, held);
       const TangentialResponse t = tangential.respond(contact, n, held + Normal::memory);
       const RollingResponse r = rolling.respond(contact, n, held + Normal::memory + Tangential::memory);

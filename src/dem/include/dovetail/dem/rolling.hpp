@@ -9,8 +9,8 @@ namespace detail {
 
 /// A spring of stiffness k that remembers its angle; as k changes, no energy appears (see MindlinSpring).
 /// @param held angle (three numbers), k of the last step
-inline RollingResponse springAndSlider(const Vec3& old, const Vec3& rate, double stiffness, double damping,
-                                       double limit, double dt, double* held) {
+[[gnu::always_inline]] inline RollingResponse springAndSlider(const Vec3& old, const Vec3& rate, double stiffness,
+                                                              double damping, double limit, double dt, double* held) {
   const double before = held[3];
   const bool grows = stiffness > before;
   const Vec3 kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old;
@@ -39,7 +39,8 @@ struct RollingResistance {
   struct Prepared {
     double friction, stiffnessRatio, dampingRatio;
 
-    RollingResponse respond(const Contact& contact, const NormalResponse& normal, double* held) const {
+    [[gnu::always_inline]] RollingResponse respond(const Contact& contact, const NormalResponse& normal,
+                                                   double* held) const {
       const Slope now = slope(contact, normal);
       const Vec3 rate = contact.spin - dot(contact.spin, contact.normal) * contact.normal;
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
@@ -69,7 +70,8 @@ struct TwistingResistance {
   struct Prepared {
     double friction, stiffnessRatio, dampingRatio;
 
-    RollingResponse respond(const Contact& contact, const NormalResponse& normal, double* held) const {
+    [[gnu::always_inline]] RollingResponse respond(const Contact& contact, const NormalResponse& normal,
+                                                   double* held) const {
       const Slope now = slope(contact, normal);
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
       double spring[4] = {held[0], 0.0, 0.0, held[1]};
@@ -102,7 +104,8 @@ struct RollingAndTwisting {
     RollingResistance::Prepared rolling;
     TwistingResistance::Prepared twisting;
 
-    RollingResponse respond(const Contact& contact, const NormalResponse& normal, double* held) const {
+    [[gnu::always_inline]] RollingResponse respond(const Contact& contact, const NormalResponse& normal,
+                                                   double* held) const {
       const RollingResponse a = rolling.respond(contact, normal, held);
       const RollingResponse b = twisting.respond(contact, normal, held + RollingResistance::memory);
       return {a.couple + b.couple, a.energy + b.energy, a.lostPower + b.lostPower};
