@@ -116,5 +116,15 @@ TEST(EnergySweep, Adhesion) {
   sweep("linear cohesion", law, hertzTime(law), 2e-3);
 }
 
+TEST(EnergySweep, DmtAdhesion) {
+  // The pull sets in at once, so that one step's work of it is in doubt when they touch and when they part.
+  ContactLaw<HertzDashpot, MindlinSpring, NoRolling, DmtAdhesion> law;
+  const auto base = hertzMindlin(glass, glass, {0.8, 0.4});
+  law.normal = base.normal;
+  law.tangential = base.tangential;
+  law.adhesion = {0.02};
+  sweep("DMT", law, hertzTime(law), 4e-3);
+}
+
 }  // namespace
 }  // namespace dovetail::dem

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "dovetail/dem/elastic_plastic.hpp"
 #include "impact_scenes.hpp"
 
 namespace dovetail::dem {
@@ -73,6 +74,19 @@ TEST(Impacts, ANominalRestitutionCutOffReboundsHigherAsInClosedForm) {
     law.normal.nominal = true;
     EXPECT_NEAR(rebound(law, 1.0, 4000), restitutionWithoutTension(e), 1e-3);
   }
+}
+
+TEST(Impacts, PlasticContactsReboundByTheRootOfTheirStiffnesses) {
+  for (const double e : {0.1, 0.5, 0.9, 1.0})
+    for (const double speed : {0.01, 1.0}) {
+      const ContactLaw<ElasticPlastic> law{{1e6, 1e6 / (e * e)}};
+      EXPECT_NEAR(law.normal.restitution(), e, 1e-14);
+      Impact impact(aboveWall(0.01, 2500.0, {0, 0, -speed}), law, true);
+      const double time = pi * std::sqrt(impact.particles.mass[0] / 1e6);
+      impact.run(time / 4000, 1.2 * time);
+      EXPECT_NEAR(impact.particles.v[0].z / speed, e, 1e-3);
+      EXPECT_NEAR(impact.lost, (1.0 - e * e) * impact.start, 1e-3 * impact.start);
+    }
 }
 
 TEST(Impacts, ObliqueImpactsSlideByTheClosedForm) {

@@ -98,8 +98,8 @@ TEST(LawParts, PlasticContactsBookWhatTheyTake) {
     EXPECT_NEAR(coarse.worst / fine.worst, 4.0, 2.5);  // only the trapezoidal rule errs, at the kinks
     EXPECT_GE(fine.leastLoss, 0.0);
     EXPECT_GE(fine.stored, 0.0);
-    EXPECT_EQ(fine.leastForce < -1.0, cohesion > 0.0);
-    EXPECT_EQ(fine.leastForce < 0.0, cohesion > 0.0);
+    EXPECT_EQ(fine.leastForce<-1.0, cohesion> 0.0);
+    EXPECT_EQ(fine.leastForce<0.0, cohesion> 0.0);
   }
 }
 
@@ -259,6 +259,15 @@ TEST(LawParts, BadParametersAreRefusedWithFieldAndRemedy) {
   EXPECT_THROW(hertzMindlin({1e9, 0.3, -1.0}, good, {}), InputError);
   EXPECT_THROW(hertzMindlin(rigid, rigid, {}), InputError);
   EXPECT_THROW(hertzMindlin(good, rigid, {0.0, 0.1}), InputError);
+  EXPECT_THROW(prepare(HertzLaw{{1e9, 0.0}}), InputError);
+  LawTable<HertzLaw> table(3, HertzLaw{{1e9}});
+  table.set(2, 1, HertzLaw{{1e9, 1.5}});
+  try {
+    prepare(table);
+    ADD_FAILURE() << "a restitution of 1.5 was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("[law between materials 1 and 2]"), std::string::npos) << error.what();
+  }
   EXPECT_THROW(hertzMindlinTable(std::vector<Material>{good}, {}), InputError);
   EXPECT_THROW(hertzMindlinTable(std::vector<Material>{rigid}, std::vector<Surface>{{}}), InputError);
 }
