@@ -1,0 +1,252 @@
+// Clumps and walls on bodies: placed right, forces gathered adjointly, energy counted once.
+#include <gtest/gtest.h>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/clumps.hpp"
+#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/rigid_wall.hpp"
+#include "dovetail/dem/wall_collide.hpp"
+#include "wall_scenes.hpp"
+
+namespace dovetail::dem {
+namespace {
+
+const std::vector<Vec3> rod{{0, 0, 0}, {0.06, 0, 0}, {0.12, 0.02, 0}};
+const std::vector<double> rodRadius{0.05, 0.04, 0.05};
+
+struct Scene {
+  Particles particles;
+  Bodies bodies;
+  Clumps clumps;
+  PairList list;
+};
+
+/// Rods and single spheres that fly about.
+Scene gas(bool spinning) {
+  Scene scene;
+  Random random(8);
+  const ClumpShape shape = makeClumpShape(rod, rodRadius, Density{1000.0});
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 x{0.25 * (i % 4), 0.25 * (i / 4 % 4), 0.25 * (i / 16)};
+    if (i % 3 == 0) {
+      addParticle(scene.particles, x, random.vector(1.0), 0.05, Density{1000.0});
+    } else {
+      addClump(scene.particles, scene.bodies, scene.clumps, shape, x, fromRotationVector(random.vector(3.0)),
+               random.vector(1.0), random.vector(5.0));
+    }
+  }
+  if (spinning) switchOnRotation(scene.particles);
+  placeMembers(scene.bodies, scene.clumps, scene.particles);
+  findPairs(scene.particles, 0.02, scene.list);
+  muteMemberPairs(scene.clumps, scene.list);
+  return scene;
+}
+
+template <class Law>
+ContactWork step(Scene& s, const Law& law, double dt) {
+  kick(s.particles, 0.5 * dt);
+  kickBodies(s.bodies, 0.5 * dt);
+  drift(s.particles, dt);
+  driftBodies(s.bodies, dt);
+  placeMembers(s.bodies, s.clumps, s.particles);
+  if (updatePairs(s.particles, s.list)) muteMemberPairs(s.clumps, s.list);
+  clearForces(s.particles);
+  clearForces(s.bodies);
+  const ContactWork work = collide(s.particles, s.list, law, dt);
+  gatherForces(s.particles, s.clumps, s.bodies);
+  kick(s.particles, 0.5 * dt);
+  kickBodies(s.bodies, 0.5 * dt);
+  placeMembers(s.bodies, s.clumps, s.particles);
+  return work;
+}
+
+Vec3 totalMomentum(const Scene& s, Vec3* angular) {
+  Vec3 linear = momentum(s.bodies);
+  *angular = angularMomentum(s.bodies);
+  std::vector<char> member(s.particles.size(), 0);
+  for (const int i : s.clumps.particle) member[i] = 1;
+  for (std::size_t i = 0; i < s.particles.size(); ++i) {
+    if (member[i]) continue;
+    linear += s.particles.mass[i] * s.particles.v[i];
+    *angular += s.particles.mass[i] * cross(s.particles.x[i], s.particles.v[i]);
+    if (s.particles.rotates()) *angular += momentOfInertia(s.particles, int(i)) * s.particles.omega[i];
+  }
+  return linear;
+}
+
+TEST(Clumps, MembersLieAndMoveWithTheirBody) {
+  Particles particles;
+  Bodies bodies;
+  Clumps clumps;
+  const ClumpShape shape = makeClumpShape(rod, rodRadius, Density{1000.0});
+  const Quaternion turn = normalized(Quaternion{0.2, 1.0, -0.3, 0.5});
+  const Vec3 x{1, 2, 3}, v{0.1, 0.2, 0.3}, omega{3, -2, 1};
+  EXPECT_EQ(addClump(particles, bodies, clumps, shape, x, turn, v, omega), 0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 arm = rotate(turn, rod[k] - shape.properties.centre);
+    EXPECT_LE(norm(particles.x[k] - x - arm), 1e-15);
+    EXPECT_LE(norm(particles.v[k] - v - cross(omega, arm)), 1e-15);
+    EXPECT_EQ(particles.radius[k], rodRadius[k]);
+    EXPECT_EQ(particles.mass[k], shape.properties.mass);
+  }
+  const std::vector<Vec3> before = particles.x;
+  particles.x.assign(3, {});
+  placeMembers(bodies, clumps, particles);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(norm(particles.x[k] - before[k]), 1e-15);
+  EXPECT_GT(makeClumpShape(rod, rodRadius, Density{1000.0}, Overlap::everySphere).properties.mass,
+            1.05 * shape.properties.mass);
+}
+
+TEST(Clumps, PlacingAndGatheringAreAdjoint) {
+  Scene scene = gas(true);
+  Random random(4);
+  double power = 0.0;
+  for (std::size_t m = 0; m < scene.clumps.size(); ++m) {
+    const auto i = static_cast<std::size_t>(scene.clumps.particle[m]);
+    scene.particles.f[i] = random.vector(1.0);
+    scene.particles.torque[i] = random.vector(0.1);
+    power += dot(scene.particles.f[i], scene.particles.v[i]) + dot(scene.particles.torque[i], scene.particles.omega[i]);
+  }
+  clearForces(scene.bodies);
+  gatherForces(scene.particles, scene.clumps, scene.bodies);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    power -= dot(scene.bodies.f[b], scene.bodies.v[b]) +
+             dot(scene.bodies.torque[b], angularVelocity(scene.bodies, static_cast<int>(b)));
+  EXPECT_NEAR(power, 0.0, 1e-12);
+  applyGravity(scene.particles, {0, 0, -9.81});
+  clearForces(scene.bodies);
+  gatherForces(scene.particles, scene.clumps, scene.bodies, {0, 0, -9.81});
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    EXPECT_NEAR(scene.bodies.f[b].z, -9.81 * scene.bodies.mass[b], 1e-12);
+    EXPECT_LE(norm(scene.bodies.torque[b]), 1e-14);
+  }
+}
+
+TEST(Clumps, AGasOfRodsAndSpheresKeepsMomentumAndEnergy) {
+  Scene scene = gas(false);
+  const ElasticLaw law{{.stiffness = 2e4}};
+  Vec3 spin, spinNow;
+  const Vec3 linear = totalMomentum(scene, &spin);
+  clearForces(scene.particles);
+  const double energy = kineticEnergy(scene.particles, scene.bodies, scene.clumps) +
+                        collide(scene.particles, scene.list, law).storedEnergy();
+  gatherForces(scene.particles, scene.clumps, scene.bodies);
+  double worst = 0.0, mostStored = 0.0;
+  for (int k = 0; k < 6000; ++k) {
+    const double stored = step(scene, law, 2e-5).storedEnergy();
+    mostStored = std::max(mostStored, stored);
+    worst = std::max(worst, std::abs(kineticEnergy(scene.particles, scene.bodies, scene.clumps) + stored - energy));
+  }
+  EXPECT_GT(mostStored, 0.01 * energy);
+  EXPECT_LE(worst, 2e-4 * energy);
+  EXPECT_LE(norm(totalMomentum(scene, &spinNow) - linear), 1e-12 * 60);
+  EXPECT_LE(norm(spinNow - spin), 1e-12 * 60);
+  EXPECT_GT(scene.list.builds, 3);
+}
+
+TEST(Clumps, WithFrictionAndDampingMomentumStaysAndTheThreadsDoNotMatter) {
+  const FrictionalLaw law{{.stiffness = 2e4, .restitution = 0.7}, {.stiffness = 6e3, .friction = 0.4}};
+  std::vector<Vec3> first;
+  for (const int count : {1, 2}) {
+    setThreads(count);
+    Scene scene = gas(true);
+    Vec3 spin, spinNow;
+    const Vec3 linear = totalMomentum(scene, &spin);
+    for (int k = 0; k < 2500; ++k) step(scene, law, 4e-5);
+    EXPECT_LE(norm(totalMomentum(scene, &spinNow) - linear), 1e-12 * 60);
+    EXPECT_LE(norm(spinNow - spin), 1e-12 * 60);
+    if (count == 1) first = scene.particles.x;
+    EXPECT_EQ(scene.particles.x, first);
+  }
+  setThreads(1);
+}
+
+/// A closed box as a wall.
+TriangulatedWall boxWall(const Vec3& lower, const Vec3& size) {
+  std::vector<Vec3> x;
+  for (int c = 0; c < 8; ++c)
+    x.push_back(lower + Vec3{c & 1 ? size.x : 0.0, c & 2 ? size.y : 0.0, c & 4 ? size.z : 0.0});
+  return makeWall(x,
+                  {{0, 2, 3},
+                   {0, 3, 1},
+                   {4, 5, 7},
+                   {4, 7, 6},
+                   {0, 1, 5},
+                   {0, 5, 4},
+                   {2, 6, 7},
+                   {2, 7, 3},
+                   {0, 4, 6},
+                   {0, 6, 2},
+                   {1, 3, 7},
+                   {1, 7, 5}},
+                  true);
+}
+
+TEST(RigidWall, AFreeBoxHitByBallsKeepsMomentumAndEnergy) {
+  TriangulatedWall wall = boxWall({-0.2, -0.15, -0.1}, {0.4, 0.3, 0.2});
+  Bodies bodies;
+  const WallOnBody carrier = addWallBody(bodies, wall, Density{500.0}, {}, {0.5, 1.0, -2.0});
+  EXPECT_NEAR(bodies.mass[0], 12.0, 1e-12);
+  Particles balls;
+  Random random(5);
+  for (int i = 0; i < 30; ++i) {
+    const Vec3 way = normalized(random.vector(1.0));
+    addParticle(balls, (0.35 + 0.06 * i) * way, -2.0 * way + random.vector(0.1), 0.05, Density{1000.0});
+  }
+  const ElasticLaw law{{.stiffness = 1e5}};
+  WallCandidates candidates;
+  WallContacts contacts;
+  findWallCandidates(balls, wall, 0.03, candidates);
+  const Vec3 linear = momentum(bodies) + momentum(balls), spin = angularMomentum(bodies) + angularMomentum(balls);
+  const double energy = kineticEnergy(bodies) + kineticEnergy(balls), dt = 2e-5;
+  double worst = 0.0, mostStored = 0.0;
+  for (int k = 0; k < 40000; ++k) {
+    kick(balls, 0.5 * dt);
+    kickBodies(bodies, 0.5 * dt);
+    drift(balls, dt);
+    driftBodies(bodies, dt);
+    placeWall(bodies, carrier, wall);
+    updateWallCandidates(balls, wall, candidates);
+    findWallContacts(balls, wall, candidates, EdgeRule::projected, contacts);
+    clearForces(balls);
+    clearForces(bodies);
+    clearForces(wall);
+    const double stored = collideWithWall(balls, wall, contacts, law).storedEnergy();
+    addWallForces(contacts, wall);
+    gatherForces(wall, carrier, bodies);
+    ASSERT_NEAR(forcePower(wall), dot(bodies.f[0], bodies.v[0]) + dot(bodies.torque[0], angularVelocity(bodies, 0)),
+                1e-9);
+    kick(balls, 0.5 * dt);
+    kickBodies(bodies, 0.5 * dt);
+    placeWall(bodies, carrier, wall);
+    mostStored = std::max(mostStored, stored);
+    worst = std::max(worst, std::abs(kineticEnergy(bodies) + kineticEnergy(balls) + stored - energy));
+  }
+  EXPECT_GT(mostStored, 0.01 * energy);
+  EXPECT_LE(worst, 2e-4 * energy);
+  EXPECT_LE(norm(momentum(bodies) + momentum(balls) - linear), 1e-10);
+  EXPECT_LE(norm(angularMomentum(bodies) + angularMomentum(balls) - spin), 1e-10);
+  EXPECT_GT(norm(bodies.v[0]), 0.01);
+}
+
+TEST(RigidWall, PrescribedMotionsGiveVelocitiesThatAreTheirRates) {
+  TriangulatedWall wall = boxWall({0, 0, 0}, {1, 2, 3});
+  const std::vector<Vec3> offset = vertexOffsets(wall, {0.5, 0.5, 0.5});
+  const RigidMotion start{{1, 0, 0}, normalized(Quaternion{1, 0.3, 0, 0}), {0.4, 0, -0.2}, {0.3, 2.0, 1.0}};
+  for (const PrescribedMotion& motion : {steadyMotion(start), vibration(start, {0.1, 0, 0.2}, 3.0, 0.4)}) {
+    const double h = 1e-6, t = 0.7;
+    placeWall(motion(t - h), offset, wall);
+    const std::vector<Vec3> before = wall.x;
+    placeWall(motion(t + h), offset, wall);
+    const std::vector<Vec3> after = wall.x;
+    placeWall(motion(t), offset, wall);
+    for (std::size_t k = 0; k < 8; ++k)
+      EXPECT_LE(norm((after[k] - before[k]) / (2.0 * h) - wall.v[k]), 1e-8 * (1.0 + norm(wall.v[k])));
+    EXPECT_NEAR(norm(wall.x[7] - wall.x[0]), std::sqrt(14.0), 1e-14);
+  }
+  EXPECT_THROW(placeWall(start, {}, wall), InputError);
+}
+
+}  // namespace
+}  // namespace dovetail::dem
