@@ -1,5 +1,7 @@
 #include "dovetail/dem/laws.hpp"
 
+#include <limits>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 
@@ -10,8 +12,9 @@ constexpr double pi = std::numbers::pi;
 }
 
 LinearSpringDashpot::Prepared LinearSpringDashpot::prepare() const {
-  if (restitution == 1.0) return {stiffness, 0.0, tension || bonded, bonded};
-  return {stiffness, damping(1.0), tension || bonded, bonded};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {stiffness, restitution == 1.0 ? 0.0 : damping(1.0), tension || bonded ? -infinity : 0.0,
+          bonded ? infinity : 0.0};
 }
 
 double LinearSpringDashpot::contactTime(double effectiveMass) const {
@@ -28,25 +31,6 @@ double restitutionWithoutTension(double restitution) {
   return std::pow(restitution, 1.0 - 2.0 / pi * std::atan(slope));
 }
 
-TangentialSpring::Result TangentialSpring::respond(Vec3& stretch, const Vec3& normal, const Vec3& velocity,
-                                                   double normalForce, double dt) const {
-  // The contact plane has turned since the last step: lay the stretch into it without changing its length.
-  const double before = squaredNorm(stretch);
-  stretch -= dot(stretch, normal) * normal;
-  const double after = squaredNorm(stretch);
-  if (after > 0.0) stretch *= std::sqrt(before / after);
-
-  stretch += dt * (velocity - dot(velocity, normal) * normal);
-  const double trial = norm(stretch);
-  const double limit = normalForce > 0.0 ? friction * normalForce / stiffness : 0.0;
-  double slipWork = 0.0;
-  if (trial > limit) {
-    stretch *= limit / trial;
-    slipWork = stiffness * limit * (trial - limit);
-  }
-  return {-stiffness * stretch, 0.5 * stiffness * squaredNorm(stretch), slipWork};
-}
-
 void validate(const LinearSpringDashpot& part) {
   requirePositive(part.stiffness, "contact stiffness");
   if (!(part.restitution > 0.0 && part.restitution <= 1.0))
@@ -57,6 +41,7 @@ void validate(const LinearSpringDashpot& part) {
 void validate(const TangentialSpring& part) {
   requirePositive(part.stiffness, "tangential stiffness");
   requireNonNegative(part.friction, "friction coefficient");
+  requireNonNegative(part.dampingRatio, "damping ratio of the tangential spring");
 }
 
 }  // namespace dovetail::dem

@@ -1,53 +1,107 @@
 #include "dovetail/dem/pairs.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/pair_collide.hpp"
 
 namespace dovetail::dem {
 
 namespace {
 
-constexpr std::size_t grain = 1024;
+using Pairs = std::vector<std::array<int, 2>>;
 
-/// Springs of pairs that are in both lists; both are sorted.
-void keepStretch(const std::vector<std::array<int, 2>>& oldPairs, const std::vector<Vec3>& oldStretch, PairList& list) {
-  std::vector<Vec3> stretch(list.pairs.size());
+std::size_t chunkSize(std::size_t particles) { return std::clamp<std::size_t>(particles / 32, 1024, 4096); }
+
+/// Memories of pairs that are in both lists; both are sorted. Takes the new list's place in `list`.
+void keepMemory(const Pairs& old, PairList& list) {
+  if (list.memory.empty()) return;
+  const std::size_t components = list.memory.size() / std::max<std::size_t>(old.size(), 1);
+  std::vector<double> memory(components * list.size());
+  const auto remembered = [&](std::size_t c, std::size_t o) { return list.memory[c * old.size() + o]; };
   std::size_t p = 0;
-  for (std::size_t o = 0; o < oldPairs.size(); ++o) {
-    while (p < list.pairs.size() && list.pairs[p] < oldPairs[o]) ++p;
-    if (p < list.pairs.size() && list.pairs[p] == oldPairs[o])
-      stretch[p] = oldStretch[o];
-    else
-      list.endedStretch += squaredNorm(oldStretch[o]);
+  for (std::size_t o = 0; o < old.size(); ++o) {
+    while (p < list.size() && list.pairs[p] < old[o]) ++p;
+    if (p < list.size() && list.pairs[p] == old[o]) {
+      for (std::size_t c = 0; c < components; ++c) memory[c * list.size() + p] = remembered(c, o);
+      continue;
+    }
+    bool anything = false;
+    for (std::size_t c = 0; c < components; ++c) anything = anything || remembered(c, o) != 0.0;
+    for (std::size_t c = 0; anything && c < components; ++c) list.ended.push_back(remembered(c, o));
   }
-  list.stretch = std::move(stretch);
+  list.memory = std::move(memory);
 }
 
-void makeIncidence(std::size_t particles, PairList& list) {
-  list.offsets.assign(particles + 1, 0);
-  for (const auto& pair : list.pairs)
-    for (const int i : pair) ++list.offsets[static_cast<std::size_t>(i) + 1];
-  for (std::size_t i = 0; i < particles; ++i) list.offsets[i + 1] += list.offsets[i];
-  list.incident.resize(2 * list.pairs.size());
-  std::vector<int> next(list.offsets.begin(), list.offsets.end() - 1);
-  for (std::size_t p = 0; p < list.pairs.size(); ++p)
-    for (const int i : list.pairs[p])
-      list.incident[static_cast<std::size_t>(next[static_cast<std::size_t>(i)]++)] = static_cast<int>(p);
+void findImages(const Particles& particles, PairList& list) {
+  list.image.clear();
+  if (!list.periodicity.any()) return;
+  list.image.assign(list.size(), 0);
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    const auto [i, j] = list.pairs[p];
+    const Vec3 d = particles.x[static_cast<std::size_t>(i)] - particles.x[static_cast<std::size_t>(j)];
+    for (int k = 0; k < 3; ++k) {
+      if (!list.periodicity.axes[static_cast<std::size_t>(k)]) continue;
+      const double periods = -std::round(d[k] / list.periodicity.length(k));
+      if (!(std::abs(periods) <= 127.0))
+        throw InputError("the particles are more than 127 periods apart",
+                         "pair " + std::to_string(i) + ", " + std::to_string(j), "call wrapPositions now and then");
+      list.image[p] |= (static_cast<int>(periods) & 0xff) << (8 * k);
+    }
+  }
 }
 
-void addTo(Particles& particles, const PairList& list, std::size_t p, bool first, bool withTorque) {
-  const auto i = static_cast<std::size_t>(list.pairs[p][0]), j = static_cast<std::size_t>(list.pairs[p][1]);
-  if (first)
-    particles.f[i] += list.force[p];
-  else
-    particles.f[j] -= list.force[p];
-  if (!withTorque) return;
-  const PairContact contact = pairContact(particles, i, j);
-  if (first)
-    particles.torque[i] += cross(contact.armI, list.force[p]);
-  else
-    particles.torque[j] -= cross(contact.armJ, list.force[p]);
+void countCrossings(const PairList& list, std::size_t particles, PairChunks& chunks) {
+  const std::size_t count = (particles + chunks.size - 1) / chunks.size;
+  chunks.begin.assign(count + 1, list.size());
+  chunks.crosses.assign(count + 1, 0);
+  chunks.arrives.assign(count + 1, 0);
+  std::size_t p = 0;
+  for (std::size_t c = 0; c < count; ++c) {
+    chunks.begin[c] = p;
+    chunks.crosses[c + 1] = chunks.crosses[c];
+    for (const auto end = (c + 1) * chunks.size; p < list.size() && static_cast<std::size_t>(list.pairs[p][0]) < end;
+         ++p)
+      if (const auto j = static_cast<std::size_t>(list.pairs[p][1]); j >= end) {
+        ++chunks.crosses[c + 1];
+        ++chunks.arrives[j / chunks.size + 1];
+      }
+  }
+  for (std::size_t c = 0; c < count; ++c) chunks.arrives[c + 1] += chunks.arrives[c];
+}
+
+void makeChunks(std::size_t particles, PairList& list) {
+  PairChunks& chunks = list.chunks;
+  chunks.size = chunkSize(particles);
+  countCrossings(list, particles, chunks);
+  const std::size_t crossings = chunks.crosses.back();
+  chunks.force.resize(crossings);
+  chunks.torque.clear();
+  chunks.arriving.resize(crossings);
+  std::vector<std::size_t> next(chunks.arrives.begin(), chunks.arrives.end() - 1);
+  int crossing = 0;
+  for (std::size_t c = 0; c + 1 < chunks.begin.size(); ++c)
+    for (std::size_t p = chunks.begin[c]; p < chunks.begin[c + 1]; ++p)
+      if (const auto j = static_cast<std::size_t>(list.pairs[p][1]); j >= (c + 1) * chunks.size)
+        chunks.arriving[next[j / chunks.size]++] = {crossing++, list.pairs[p][1]};
+}
+
+/// Largest displacement since the list was made, m; NaN if a position is not finite.
+double largestTravel(const Particles& particles, const PairList& list) {
+  double squared = 0.0;
+  for (std::size_t i = 0; i < particles.size() && !std::isnan(squared); ++i) {
+    const double d2 = squaredNorm(particles.x[i] - list.positionAtBuild[i]);
+    if (!(d2 <= squared)) squared = d2;
+  }
+  return std::sqrt(squared);
+}
+
+bool fits(const Particles& particles, const PairList& list) {
+  return list.builds > 0 && list.positionAtBuild.size() == particles.size();
 }
 
 }  // namespace
@@ -55,47 +109,69 @@ void addTo(Particles& particles, const PairList& list, std::size_t p, bool first
 void findPairs(const Particles& particles, double skin, PairList& list) {
   list.skin = requireNonNegative(skin, "skin of the pair list");
   requireFinite(particles.x, "particle", "position", "search for pairs");
-  const bool springs = !list.stretch.empty();
-  const auto oldPairs = springs ? list.pairs : std::vector<std::array<int, 2>>{};
+  Pairs old;
+  if (!list.memory.empty()) old.swap(list.pairs);
+  if (list.periodicity != list.grid.periodicity()) list.grid = geometry::HierarchicalGrid(list.periodicity);
   list.grid.build(particles.x, particles.radius, skin);
   list.grid.pairs(list.pairs);
-  if (springs) keepStretch(oldPairs, list.stretch, list);
-  makeIncidence(particles.size(), list);
+  keepMemory(old, list);
+  findImages(particles, list);
+  makeChunks(particles.size(), list);
   list.positionAtBuild = particles.x;
+  list.travel = 0.0;
   list.scale.clear();
   ++list.builds;
 }
 
+// Comparisons are written so that a NaN asks for a new list, which then names the culprit.
 bool updatePairs(const Particles& particles, PairList& list) {
-  if (list.builds > 0 && list.positionAtBuild.size() == particles.size()) {
-    const double limit = 0.25 * list.skin * list.skin;
-    bool near = true;
-    // Written so that a NaN asks for a new list, which then names the culprit.
-    for (std::size_t i = 0; near && i < particles.size(); ++i)
-      near = squaredNorm(particles.x[i] - list.positionAtBuild[i]) <= limit;
-    if (near) return false;
+  return updatePairs(particles, list, std::numeric_limits<double>::infinity());
+}
+
+bool updatePairs(const Particles& particles, PairList& list, double step) {
+  if (fits(particles, list)) {
+    list.travel += step;
+    if (list.travel <= 0.5 * list.skin) return false;
+    list.travel = largestTravel(particles, list);
+    if (list.travel <= 0.5 * list.skin) return false;
   }
   findPairs(particles, list.skin, list);
   return true;
 }
 
-namespace detail {
-
-void addPairForces(Particles& particles, const PairList& list, bool withTorque) {
-  if (threads() == 1) {
-    for (std::size_t p = 0; p < list.pairs.size(); ++p)
-      for (const bool first : {true, false}) addTo(particles, list, p, first, withTorque);
-    return;
+void wrapPositions(Particles& particles, const geometry::Periodicity& periodicity) {
+  for (int k = 0; k < 3; ++k) {
+    if (!periodicity.axes[static_cast<std::size_t>(k)]) continue;
+    const double length = periodicity.length(k), lower = periodicity.box.lower[k];
+    for (Vec3& x : particles.x) x[k] -= length * std::floor((x[k] - lower) / length);
   }
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      for (int k = list.offsets[i]; k < list.offsets[i + 1]; ++k) {
-        const auto p = static_cast<std::size_t>(list.incident[static_cast<std::size_t>(k)]);
-        addTo(particles, list, p, list.pairs[p][0] == static_cast<int>(i), withTorque);
-      }
-  });
 }
 
-}  // namespace detail
+void renumber(PairList& list, std::span<const int> newNumber) {
+  const Pairs old = std::move(list.pairs);
+  const std::size_t components = old.empty() ? 0 : list.memory.size() / old.size();
+  struct Entry {
+    std::array<int, 2> pair;
+    std::size_t from;
+    bool swapped;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(old.size());
+  for (std::size_t p = 0; p < old.size(); ++p) {
+    const int i = newNumber[static_cast<std::size_t>(old[p][0])], j = newNumber[static_cast<std::size_t>(old[p][1])];
+    if (i >= 0 && j >= 0) entries.push_back({{std::min(i, j), std::max(i, j)}, p, i > j});
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.pair < b.pair; });
+  const std::vector<double> memory = std::move(list.memory);
+  list.memory.assign(components * entries.size(), 0.0);
+  list.pairs.clear();
+  for (const Entry& e : entries) {
+    for (std::size_t c = 0; c < components; ++c) {
+      const bool turns = e.swapped && (list.turns >> c & 1u) != 0;
+      list.memory[c * entries.size() + list.pairs.size()] = (turns ? -1.0 : 1.0) * memory[c * old.size() + e.from];
+    }
+    list.pairs.push_back(e.pair);
+  }
+}
 
 }  // namespace dovetail::dem

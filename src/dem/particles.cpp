@@ -1,6 +1,8 @@
 #include "dovetail/dem/particles.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
@@ -46,6 +48,8 @@ int addParticle(Particles& particles, const Vec3& x, const Vec3& v, double radiu
     particles.omega.emplace_back();
     particles.torque.emplace_back();
   }
+  if (!particles.material.empty()) particles.material.push_back(0);
+  if (!particles.id.empty()) particles.id.push_back(1 + *std::max_element(particles.id.begin(), particles.id.end()));
   particles.x.push_back(x);
   particles.v.push_back(v);
   particles.f.emplace_back();
@@ -71,6 +75,8 @@ void validate(const Particles& particles) {
   checkLength(particles.f.size(), n, "force");
   checkLength(particles.radius.size(), n, "radius");
   checkLength(particles.mass.size(), n, "mass");
+  if (!particles.material.empty()) checkLength(particles.material.size(), n, "material");
+  if (!particles.id.empty()) checkLength(particles.id.size(), n, "id");
   if (particles.rotates() || !particles.torque.empty()) {
     checkLength(particles.omega.size(), n, "angular velocity");
     checkLength(particles.torque.size(), n, "torque");
@@ -115,6 +121,56 @@ void kick(Particles& particles, double dt) {
 void drift(Particles& particles, double dt) {
   parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) particles.x[i] += dt * particles.v[i];
+  });
+}
+
+namespace {
+
+/// One particle's half kick and drift; returns the squared displacement, m².
+template <bool spins>
+double advance(Particles& particles, std::size_t i, double dt) {
+  const double half = 0.5 * dt / particles.mass[i];
+  const Vec3 v = particles.v[i] + half * particles.f[i];
+  particles.v[i] = v;
+  particles.x[i] += dt * v;
+  if constexpr (spins)
+    particles.omega[i] += (0.5 * dt / momentOfInertia(particles, static_cast<int>(i))) * particles.torque[i];
+  return squaredNorm(v) * (dt * dt);
+}
+
+struct Largest {
+  double value = 0.0;
+  Largest& operator+=(const Largest& b) {
+    if (!(b.value <= value)) value = b.value;
+    return *this;
+  }
+};
+
+}  // namespace
+
+double kickAndDrift(Particles& particles, double dt) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto sweep = [&](std::size_t begin, std::size_t end) {
+    double largest = 0.0;
+    bool finite = true;
+    const auto take = [&](double d2) {
+      finite = finite && d2 < infinity;
+      largest = d2 > largest ? d2 : largest;
+    };
+    if (particles.rotates())
+      for (std::size_t i = begin; i < end; ++i) take(advance<true>(particles, i, dt));
+    else
+      for (std::size_t i = begin; i < end; ++i) take(advance<false>(particles, i, dt));
+    return Largest{finite ? largest : infinity};
+  };
+  return std::sqrt(parallelSum(particles.size(), grain, sweep).value);
+}
+
+void startForces(Particles& particles, const Vec3& g) {
+  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) particles.f[i] = particles.mass[i] * g;
+    if (particles.rotates())
+      for (std::size_t i = begin; i < end; ++i) particles.torque[i] = {};
   });
 }
 

@@ -35,11 +35,13 @@ std::size_t bestMatch(const WallContacts& contacts, const TriangulatedWall& wall
 
 }  // namespace
 
-void requireStep(double dt) { requirePositive(dt, "time step of a law with tangential springs"); }
+void requireStep(double dt) { requirePositive(dt, "time step of a law that remembers"); }
 
-double carrySprings(WallContacts& contacts, const TriangulatedWall& wall) {
+const std::vector<double>& carrySprings(WallContacts& contacts, const TriangulatedWall& wall, int memory) {
   WallSprings& springs = contacts.springs;
-  springs.next.assign(contacts.size(), Vec3{});
+  const auto components = static_cast<std::size_t>(memory);
+  springs.memory.resize(components * springs.particle.size());
+  springs.next.assign(components * contacts.size(), 0.0);
   springs.taken.assign(springs.particle.size(), 0);
   std::size_t begin = 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -48,13 +50,15 @@ double carrySprings(WallContacts& contacts, const TriangulatedWall& wall) {
     while (end < springs.particle.size() && springs.particle[end] == contacts.particle[c]) ++end;
     const std::size_t match = bestMatch(contacts, wall, c, begin, end);
     if (match == end) continue;
-    springs.next[c] = springs.stretch[match];
+    for (std::size_t m = 0; m < components; ++m)
+      springs.next[c * components + m] = springs.memory[match * components + m];
     springs.taken[match] = 1;
   }
-  double lost = 0.0;
+  springs.ended.clear();
   for (std::size_t o = 0; o < springs.particle.size(); ++o)
-    if (!springs.taken[o]) lost += squaredNorm(springs.stretch[o]);
-  return lost;
+    for (std::size_t m = 0; !springs.taken[o] && m < components; ++m)
+      springs.ended.push_back(springs.memory[o * components + m]);
+  return springs.ended;
 }
 
 void keepSprings(WallContacts& contacts) {
@@ -62,7 +66,26 @@ void keepSprings(WallContacts& contacts) {
   springs.particle = contacts.particle;
   springs.facet = contacts.facet;
   springs.normal = contacts.normal;
-  springs.stretch.swap(springs.next);
+  springs.memory.swap(springs.next);
+}
+
+Vec3 relativeVelocity(const Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts,
+                      std::size_t c, bool spins) {
+  const auto i = static_cast<std::size_t>(contacts.particle[c]);
+  Vec3 velocity = particles.v[i] - wallVelocity(contacts, wall, c);
+  if (spins && particles.rotates())
+    velocity += cross(particles.omega[i], contactPoint(contacts, wall, c) - particles.x[i]);
+  return velocity;
+}
+
+void addToParticles(Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts, bool spins) {
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto i = static_cast<std::size_t>(contacts.particle[c]);
+    particles.f[i] += contacts.force[c];
+    if (spins)
+      particles.torque[i] +=
+          cross(contactPoint(contacts, wall, c) - particles.x[i], contacts.force[c]) + contacts.couple[c];
+  }
 }
 
 }  // namespace dovetail::dem::detail

@@ -1,10 +1,19 @@
 // Contact laws, composed of parts. An absent part takes no memory and no instruction.
+//
+// A part is a plain structure of parameters with
+//   static constexpr int memory         numbers (doubles) that a contact remembers for it; all zero in a new contact
+//   static constexpr unsigned turns     bit c is set if number c changes its sign when the two particles change roles
+//   static constexpr bool needs…        what of `Contact` it reads beyond overlap, separation, normal and dt
+//   prepare()                           what the loop over contacts uses; roots, logarithms and checks are done here
+//   Prepared::respond(contact, …, memory)   the answer; advances the memory by contact.dt. Straight-line code with
+//                                       selections instead of branches, so that the loop over contacts vectorises
+//   Prepared::remembered(memory)        J stored in the memory of a contact that ends, booked as lost
 #pragma once
 
 #include <cmath>
 #include <numbers>
 
-#include "dovetail/core/vec3.hpp"
+#include "dovetail/dem/contact.hpp"
 
 namespace dovetail::dem {
 
@@ -24,12 +33,16 @@ struct LinearSpringDashpot {
   bool bonded = false;  ///< pairs only: every pair of the list holds together, F = k δ for δ < 0 too. The list is
                         ///< then made once, with the pairs that are to be bonds, and kept
 
+  static constexpr int memory = 0;
+  static constexpr unsigned turns = 0;
+  static constexpr bool needsMass = true, needsRadius = false;
+
   /// What the contact loop uses: logarithm and root are taken once per list.
   struct Prepared {
     double stiffness;
     double dampingPerRootMass;  ///< c/√m
-    bool tension;
-    bool bonded;
+    double leastForce;          ///< N; −∞ if the contact may pull
+    double range;               ///< m; ∞ if bonded
 
     /// @param overlap    λ ≥ 0, m, the part of the overlap that the contact carries
     /// @param separating n·(v_particle − v_other), m/s, > 0 while the overlap closes
@@ -37,11 +50,27 @@ struct LinearSpringDashpot {
     /// @return force along n on the particle, N
     double force(double overlap, double separating, double engagement, double rootMass) const {
       const double f = stiffness * overlap - dampingPerRootMass * rootMass * engagement * separating;
-      return !tension && f < 0.0 ? 0.0 : f;
+      return f < leastForce ? leastForce : f;
     }
     /// J; `engagement` = overlap / overlap of the two alone (see WallContacts)
     double energy(double overlap, double engagement) const { return 0.5 * stiffness * overlap * overlap / engagement; }
     double elasticForce(double overlap) const { return stiffness * overlap; }
+
+    NormalResponse respond(const Contact& contact, double*) const {
+      const double damping = dampingPerRootMass * std::sqrt(contact.effectiveMass);
+      const double elastic = stiffness * contact.overlap;
+      const double whole = elastic - damping * contact.separating;
+      const double force = whole < leastForce ? leastForce : whole;
+      return {.force = force,
+              .stiffness = stiffness,
+              .damping = damping,
+              .energy = 0.5 * elastic * contact.overlap,
+              .dashpotPower = (elastic - force) * contact.separating};
+    }
+    /// Contacts act while overlap > −reach, m.
+    double reach() const { return range; }
+    bool usesMass() const { return dampingPerRootMass > 0.0; }
+    double remembered(const double*) const { return 0.0; }
   };
   Prepared prepare() const;
 
@@ -55,48 +84,159 @@ struct LinearSpringDashpot {
 /// (Schwager & Pöschel, Granular Matter 9, 2007).
 double restitutionWithoutTension(double restitution);
 
-/// No tangential force.
+/// No tangential force; particles need not spin.
 struct NoTangential {
-  static constexpr bool hasHistory = false;
-};
-
-/// Tangential part: spring of stiffness k_t stretched by the relative tangential motion, limited to μ times the normal
-/// force (Coulomb). Contacts remember their stretch (Cundall & Strack 1979).
-struct TangentialSpring {
-  static constexpr bool hasHistory = true;
-  double stiffness = 0.0;  ///< k_t, N/m
-  double friction = 0.0;   ///< μ
-
-  struct Result {
-    Vec3 force;       ///< on the particle, N
-    double energy;    ///< stored, J
-    double slipWork;  ///< lost to sliding in this step, J
+  static constexpr int memory = 0;
+  static constexpr unsigned turns = 0;
+  static constexpr bool needsSlip = false;
+  struct Prepared {
+    TangentialResponse respond(const Contact&, const NormalResponse&, double*) const { return {}; }
+    double remembered(const double*) const { return 0.0; }
   };
-  /// @param stretch     m; on entry that of the last step, turned into the tangent plane and stretched here
-  /// @param normal      unit
-  /// @param velocity    v_particle − v_other at the contact, m/s; its tangential part stretches the spring
-  /// @param normalForce N; tension (< 0) counts as zero
-  Result respond(Vec3& stretch, const Vec3& normal, const Vec3& velocity, double normalForce, double dt) const;
+  Prepared prepare() const { return {}; }
 };
 
-template <class Normal, class Tangential = NoTangential>
+/// Turns a remembered tangential vector with the pair since the last step: into today's contact plane, and about the
+/// normal by the mean spin of both. Its length stays (to the fourth power of the angle of one step).
+inline Vec3 carried(Vec3 remembered, const Contact& contact) {
+  const double before = squaredNorm(remembered);
+  remembered += (contact.dt * contact.twist) * cross(contact.normal, remembered);
+  remembered -= dot(remembered, contact.normal) * contact.normal;
+  const double ratio = squaredNorm(remembered) / (before > 0.0 ? before : 1.0);
+  return (1.5 - 0.5 * ratio) * remembered;  // 1/√ratio for a ratio near 1, and bounded for any
+}
+
+/// Tangential part: spring of stiffness k_t stretched by the relative tangential motion (Cundall & Strack 1979), with a
+/// dashpot if asked for; the force is limited to μ times the repulsion of the normal part (Coulomb).
+struct TangentialSpring {
+  static constexpr int memory = 3;  // stretch, m
+  static constexpr unsigned turns = 0b111;
+  static constexpr bool needsSlip = true;
+  double stiffness = 0.0;     ///< k_t, N/m
+  double friction = 0.0;      ///< μ
+  double dampingRatio = 0.0;  ///< coefficient of the tangential dashpot over that of the normal one
+
+  struct Prepared {
+    double stiffness, compliance, friction, dampingRatio;
+
+    TangentialResponse respond(const Contact& contact, const NormalResponse& normal, double* memory) const {
+      const double damping = dampingRatio * normal.damping;
+      const Vec3 stretched = carried({memory[0], memory[1], memory[2]}, contact) + contact.dt * contact.slip;
+      const Vec3 trial = stiffness * stretched + damping * contact.slip;
+      const double size = norm(trial), limit = normal.force > 0.0 ? friction * normal.force : 0.0;
+      const bool slides = size > limit;
+      const Vec3 force = (slides ? limit / (slides ? size : 1.0) : 1.0) * trial;
+      const Vec3 stretch = slides ? compliance * (force - damping * contact.slip) : stretched;
+      memory[0] = stretch.x;
+      memory[1] = stretch.y;
+      memory[2] = stretch.z;
+      const double slipWork = stiffness * dot(stretch, stretched - stretch);
+      return {.force = -force,
+              .energy = 0.5 * stiffness * squaredNorm(stretch),
+              .slipPower = slipWork / contact.dt + damping * squaredNorm(contact.slip)};
+    }
+    double remembered(const double* memory) const {
+      return 0.5 * stiffness * (memory[0] * memory[0] + memory[1] * memory[1] + memory[2] * memory[2]);
+    }
+  };
+  Prepared prepare() const { return {stiffness, 1.0 / stiffness, friction, dampingRatio}; }
+};
+
+/// No resistance to rolling and twisting.
+struct NoRolling {
+  static constexpr int memory = 0;
+  static constexpr unsigned turns = 0;
+  static constexpr bool needsSpin = false;
+  struct Prepared {
+    RollingResponse respond(const Contact&, const NormalResponse&, double*) const { return {}; }
+    double remembered(const double*) const { return 0.0; }
+  };
+  Prepared prepare() const { return {}; }
+};
+
+/// Nothing pulls.
+struct NoAdhesion {
+  static constexpr bool needsRadius = false;
+  struct Prepared {
+    AdhesionResponse respond(const Contact&, const NormalResponse&) const { return {}; }
+  };
+  Prepared prepare() const { return {}; }
+};
+
+/// @throws InputError: stiffness not finite and > 0; restitution outside (0, 1]; friction, damping ratio or k_t not
+/// finite and ≥ 0
+void validate(const LinearSpringDashpot& part);
+void validate(const TangentialSpring& part);
+inline void validate(const NoTangential&) {}
+inline void validate(const NoRolling&) {}
+inline void validate(const NoAdhesion&) {}
+
+/// A law for one pair of materials.
+template <class Normal, class Tangential = NoTangential, class Rolling = NoRolling, class Adhesion = NoAdhesion>
 struct ContactLaw {
   Normal normal;
   [[no_unique_address]] Tangential tangential = {};
-  static constexpr bool hasHistory = Tangential::hasHistory;
+  [[no_unique_address]] Rolling rolling = {};
+  [[no_unique_address]] Adhesion adhesion = {};
+
+  static constexpr int memory = Normal::memory + Tangential::memory + Rolling::memory;
+  static constexpr unsigned turns =
+      Normal::turns | Tangential::turns << Normal::memory | Rolling::turns << (Normal::memory + Tangential::memory);
+  static constexpr bool needsMass = Normal::needsMass;
+  static constexpr bool needsRadius = Normal::needsRadius || Adhesion::needsRadius;
+  static constexpr bool needsSlip = Tangential::needsSlip;
+  static constexpr bool needsSpin = Rolling::needsSpin;
+  /// Whether contacts exert torques, so that particles spin.
+  static constexpr bool rotates = needsSlip || needsSpin;
+
+  struct Prepared {
+    typename Normal::Prepared normal;
+    [[no_unique_address]] typename Tangential::Prepared tangential;
+    [[no_unique_address]] typename Rolling::Prepared rolling;
+    [[no_unique_address]] typename Adhesion::Prepared adhesion;
+
+    double reach() const { return normal.reach(); }
+    bool usesMass() const { return normal.usesMass(); }
+
+    /// Answers of all parts; those of the normal part's memory come first, then the tangential one's, then the rolling
+    /// one's.
+    ContactResponse respond(const Contact& contact, double* memory) const {
+      const NormalResponse n = normal.respond(contact, memory);
+      const TangentialResponse t = tangential.respond(contact, n, memory + Normal::memory);
+      const RollingResponse r = rolling.respond(contact, n, memory + Normal::memory + Tangential::memory);
+      const AdhesionResponse a = adhesion.respond(contact, n);
+      ContactResponse response{.force = (n.force + a.force) * contact.normal + t.force, .couple = r.couple, .work = {}};
+      response.work.elasticEnergy = n.energy + a.energy;
+      response.work.dissipatedPower = n.dashpotPower;
+      response.work.plasticPower = n.plasticPower;
+      response.work.tangentialEnergy = t.energy;
+      response.work.frictionPower = t.slipPower;
+      response.work.rollingEnergy = r.energy;
+      response.work.rollingPower = r.lostPower;
+      return response;
+    }
+
+    /// What a contact that has ended takes with it.
+    ContactWork ended(const double* memory, double dt) const {
+      ContactWork work;
+      work.plasticPower = normal.remembered(memory) / dt;
+      work.frictionPower = tangential.remembered(memory + Normal::memory) / dt;
+      work.rollingPower = rolling.remembered(memory + Normal::memory + Tangential::memory) / dt;
+      return work;
+    }
+  };
+  Prepared prepare() const { return {normal.prepare(), tangential.prepare(), rolling.prepare(), adhesion.prepare()}; }
 };
 
 using ElasticLaw = ContactLaw<LinearSpringDashpot>;
 using FrictionalLaw = ContactLaw<LinearSpringDashpot, TangentialSpring>;
 
-/// @throws InputError: stiffness not finite and > 0; restitution outside (0, 1]; friction or k_t not finite and ≥ 0
-void validate(const LinearSpringDashpot& part);
-void validate(const TangentialSpring& part);
-inline void validate(const NoTangential&) {}
-template <class Normal, class Tangential>
-void validate(const ContactLaw<Normal, Tangential>& law) {
+template <class Normal, class Tangential, class Rolling, class Adhesion>
+void validate(const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law) {
   validate(law.normal);
   validate(law.tangential);
+  validate(law.rolling);
+  validate(law.adhesion);
 }
 
 }  // namespace dovetail::dem

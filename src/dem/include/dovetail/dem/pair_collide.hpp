@@ -1,12 +1,12 @@
 // Forces between particles.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/contact_work.hpp"
-#include "dovetail/dem/laws.hpp"
+#include "dovetail/dem/contact_block.hpp"
+#include "dovetail/dem/law_table.hpp"
 #include "dovetail/dem/pairs.hpp"
 
 namespace dovetail::dem {
@@ -20,8 +20,9 @@ struct PairContact {
 };
 
 /// Where centres coincide, particle i (the lower number) is pushed towards +x.
-inline PairContact pairContact(const Particles& particles, std::size_t i, std::size_t j) {
-  const Vec3 d = particles.x[i] - particles.x[j];
+/// @param shift added to x_i − x_j, m: for periodic images, see PairList::shift
+inline PairContact pairContact(const Particles& particles, std::size_t i, std::size_t j, const Vec3& shift = {}) {
+  const Vec3 d = particles.x[i] - particles.x[j] + shift;
   const double distance = norm(d);
   const Vec3 normal = distance > 0.0 ? d / distance : Vec3{1.0, 0.0, 0.0};
   const double overlap = particles.radius[i] + particles.radius[j] - distance;
@@ -29,80 +30,98 @@ inline PairContact pairContact(const Particles& particles, std::size_t i, std::s
   return {normal, overlap, armI, armI + d};
 }
 
+/// Whether collide reports energies and losses; without them they cost nothing.
+enum class Booking { on, off };
+
 namespace detail {
 
 /// @throws InputError unless dt is finite and > 0
 void requireStep(double dt);
-/// Adds the pair forces to the particles in the order of the list, whatever the number of threads.
-void addPairForces(Particles& particles, const PairList& list, bool withTorque);
 
-/// Force of one pair; writes to places of this pair only.
-template <class Law, class Normal>
-ContactWork pairForce(const Particles& particles, PairList& list, std::size_t p, const Law& law, const Normal& normal,
-                      double dt) {
-  const auto i = static_cast<std::size_t>(list.pairs[p][0]), j = static_cast<std::size_t>(list.pairs[p][1]);
-  const PairContact contact = pairContact(particles, i, j);
-  const double scale = list.scale.empty() ? 1.0 : list.scale[p];
+/// Which rows of a block a law reads.
+struct GatherRows {
+  bool spins, mass, varied;
+  int memory;
+};
+/// Fills the block with pairs first … first + n − 1.
+void gatherPairs(const Particles& particles, const PairList& list, std::size_t first, std::size_t n,
+                 const GatherRows& rows, int materials, ContactBlock& block);
+/// Adds the block's forces to particles of the chunk, keeps those for others, and stores the memories.
+/// @param crossing number of the next crossing pair, advanced
+void scatterPairs(Particles& particles, PairList& list, std::size_t chunk, std::size_t first, std::size_t n,
+                  const GatherRows& rows, const ContactBlock& block, std::size_t& crossing);
+/// Adds what pairs of other chunks do to particles.
+void addCrossing(Particles& particles, const PairList& list, bool spins);
+/// Makes room for memories of the given size.
+void prepareMemory(PairList& list, int memory, unsigned turns);
+
+template <class Law, BlockOptions options>
+ContactWork collideChunk(Particles& particles, PairList& list, std::size_t chunk, const GatherRows& rows,
+                         const PreparedLaws<Law>& laws, double dt) {
+  ContactBlock block;
   ContactWork work;
-  list.force[p] = {};
-  if (!(contact.overlap > 0.0) && !normal.bonded) {
-    if constexpr (Law::hasHistory) {
-      work.frictionPower = 0.5 * scale * law.tangential.stiffness * squaredNorm(list.stretch[p]) / dt;
-      list.stretch[p] = {};
-    }
-    return work;
+  std::size_t crossing = list.chunks.crosses[chunk];
+  const std::size_t end = list.chunks.begin[chunk + 1];
+  for (std::size_t first = list.chunks.begin[chunk]; first < end; first += blockSize) {
+    const std::size_t n = std::min(blockSize, end - first);
+    gatherPairs(particles, list, first, n, rows, laws.materials, block);
+    answer<Law, options>(block, n, laws.table.data(), dt);
+    scatterPairs(particles, list, chunk, first, n, rows, block, crossing);
+    if constexpr (options.booked) work += sumWork(block, n);
   }
-  Vec3 velocity = particles.v[i] - particles.v[j];
-  if constexpr (Law::hasHistory)
-    if (particles.rotates())
-      velocity += cross(particles.omega[i], contact.armI) - cross(particles.omega[j], contact.armJ);
-  const double separating = dot(contact.normal, velocity);
-  // Masses carry the scale too, so it is divided out of the effective one.
-  const double rootMass =
-      normal.dampingPerRootMass > 0.0 && scale > 0.0
-          ? std::sqrt(particles.mass[i] * (particles.mass[j] / (particles.mass[i] + particles.mass[j])) / scale)
-          : 0.0;
-  const double pressure = normal.force(contact.overlap, separating, 1.0, rootMass);
-  list.force[p] = scale * pressure * contact.normal;
-  work.elasticEnergy = scale * normal.energy(contact.overlap, 1.0);
-  work.dissipatedPower = scale * (normal.elasticForce(contact.overlap) - pressure) * separating;
-  if constexpr (Law::hasHistory) {
-    const auto grip = law.tangential.respond(list.stretch[p], contact.normal, velocity, pressure, dt);
-    list.force[p] += scale * grip.force;
-    work.tangentialEnergy = scale * grip.energy;
-    work.frictionPower = scale * grip.slipWork / dt;
-  }
+  return work;
+}
+
+template <class Law, BlockOptions options>
+ContactWork collideChunks(Particles& particles, PairList& list, const GatherRows& rows, const PreparedLaws<Law>& laws,
+                          double dt) {
+  const ContactWork work = parallelSum(list.chunks.count(), 1, [&](std::size_t chunk, std::size_t) {
+    return collideChunk<Law, options>(particles, list, chunk, rows, laws, dt);
+  });
+  addCrossing(particles, list, options.spins && particles.rotates());
   return work;
 }
 
 }  // namespace detail
 
-/// Sets list.force and adds it to particles.f, equal and opposite (and torques, if the law has friction and the
-/// particles spin). Bitwise the same for any number of threads. Call once per step if the law has friction.
-/// @param dt  step over which tangential springs stretch, s; of no concern to other laws
-/// @throws InputError if the law has friction and dt is not finite and > 0
-template <class Normal, class Tangential>
-ContactWork collide(Particles& particles, PairList& list, const ContactLaw<Normal, Tangential>& law, double dt = 0.0) {
-  using Law = ContactLaw<Normal, Tangential>;
-  constexpr std::size_t grain = 512;
+/// Adds the pair forces to particles.f, equal and opposite (and torques, if the law exerts them and the particles
+/// spin). Bitwise the same for any number of threads. Call once per step if the law remembers.
+/// @param laws  one law, or a table for pairs of materials (see LawTable)
+/// @param dt    step over which memories advance, s; of no concern to laws without memory
+/// @throws InputError if the law remembers and dt is not finite and > 0
+template <class Law>
+ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law>& laws, double dt,
+                    Booking booking = Booking::on) {
+  using detail::BlockOptions;
   ContactWork work;
-  if constexpr (Law::hasHistory) {
+  if constexpr (Law::memory > 0) {
     detail::requireStep(dt);
-    work.frictionPower = 0.5 * law.tangential.stiffness * std::exchange(list.endedStretch, 0.0) / dt;
+    for (std::size_t m = 0; m + Law::memory <= list.ended.size(); m += Law::memory)
+      work += laws.table[0].ended(list.ended.data() + m, dt);
+    list.ended.clear();
+    detail::prepareMemory(list, Law::memory, Law::turns);
   }
-  const std::size_t n = list.pairs.size();
-  if (n == 0) return work;
-  list.force.resize(n);
-  if constexpr (Law::hasHistory) list.stretch.resize(n);
-  const auto normal = law.normal.prepare();
-  const auto forces = [&](std::size_t begin, std::size_t end) {
-    ContactWork sum;
-    for (std::size_t p = begin; p < end; ++p) sum += detail::pairForce(particles, list, p, law, normal, dt);
-    return sum;
-  };
-  work += n <= grain ? forces(0, n) : parallelSum(n, grain, forces);
-  detail::addPairForces(particles, list, Law::hasHistory && particles.rotates());
+  if (list.pairs.empty()) return work;
+  if constexpr (Law::rotates) list.chunks.torque.resize(list.chunks.force.size());
+  const bool varied = !list.scale.empty() || laws.materials > 1;
+  const detail::GatherRows rows{Law::rotates, Law::needsMass && laws.usesMass(), varied, Law::memory};
+  constexpr bool spins = Law::rotates;
+  const bool booked = booking == Booking::on;
+  if (varied && booked)
+    work += detail::collideChunks<Law, BlockOptions{spins, false, true, true}>(particles, list, rows, laws, dt);
+  else if (varied)
+    detail::collideChunks<Law, BlockOptions{spins, false, true, false}>(particles, list, rows, laws, dt);
+  else if (booked)
+    work += detail::collideChunks<Law, BlockOptions{spins, false, false, true}>(particles, list, rows, laws, dt);
+  else
+    detail::collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, list, rows, laws, dt);
   return work;
+}
+
+template <class Normal, class Tangential, class Rolling, class Adhesion>
+ContactWork collide(Particles& particles, PairList& list, const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law,
+                    double dt = 0.0, Booking booking = Booking::on) {
+  return collide(particles, list, prepare(law), dt, booking);
 }
 
 }  // namespace dovetail::dem

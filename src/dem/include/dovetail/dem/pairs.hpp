@@ -1,8 +1,9 @@
-// Particle–particle contacts: which pairs are near, and what they do to each other.
+// Particle–particle contacts: which pairs are near, and what they remember.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dovetail/dem/particles.hpp"
@@ -10,29 +11,78 @@
 
 namespace dovetail::dem {
 
+/// Particles are worked on in chunks of successive numbers, one thread each. A pair belongs to the chunk of its first
+/// particle; what it does to a particle of another chunk (it `crosses`) is kept and added afterwards in a fixed order.
+/// Chunks depend on the number of particles only, so results do not depend on the number of threads.
+struct PairChunks {
+  std::size_t size = 0;              ///< particles per chunk
+  std::vector<std::size_t> begin;    ///< chunk c holds pairs begin[c] … begin[c + 1] − 1
+  std::vector<std::size_t> crosses;  ///< its crossing pairs are crosses[c] … crosses[c + 1] − 1 of those below
+  std::vector<Vec3> force, torque;   ///< on the second particle of each crossing pair, N, N m
+  std::vector<std::size_t> arrives;  ///< chunk c receives arriving[arrives[c]] … arriving[arrives[c + 1] − 1]
+  std::vector<std::array<int, 2>> arriving;  ///< crossing pair, particle
+  std::size_t count() const { return begin.empty() ? 0 : begin.size() - 1; }
+};
+
 /// Pairs closer than the sum of their radii + skin when the list was made.
 struct PairList {
   double skin = 0.0;                      ///< m
   std::vector<std::array<int, 2>> pairs;  ///< i < j, sorted
   std::int64_t builds = 0;
 
+  /// Axes along which space repeats; set before the list is made. Positions need not lie in the box.
+  geometry::Periodicity periodicity;
+  /// Per pair: periods to be added to x_i − x_j, a signed byte per axis, x in the lowest; empty without periodic axes.
+  std::vector<std::int32_t> image;
+
   /// Per pair: factor on its force and energies, such as the particles' share of an overlap; empty = 1. A new list has
   /// none; whoever set it sets it again when `builds` has changed.
   std::vector<double> scale;
+  /// What the contacts remember, by component: number c of pair p is memory[c * pairs.size() + p]. A tangential spring
+  /// takes three numbers, its stretch, m. Empty unless the law remembers something.
+  std::vector<double> memory;
+  unsigned turns = 0;  ///< of the law that last used the memory: see laws.hpp
+  /// Memories (one after the other) of pairs that left the list while they remembered something; the next collide books
+  /// them as lost.
+  std::vector<double> ended;
+
   std::vector<Vec3> positionAtBuild;
-  std::vector<Vec3> force;    ///< per pair, on particle i, N; set by collide
-  std::vector<Vec3> stretch;  ///< per pair, tangential spring, m; empty unless the law has one
-  double endedStretch = 0.0;  ///< Σ|stretch|² of pairs that left the list with a spring, m²; booked by the next collide
-  std::vector<int> offsets, incident;  ///< CSR: pairs of each particle, ascending
+  double travel = 0.0;  ///< bound on how far any particle has moved since then, m; only kept by the second updatePairs
+  PairChunks chunks;
   geometry::HierarchicalGrid grid;
+
+  std::size_t size() const { return pairs.size(); }
+  /// Vector to be added to x_i − x_j of a pair, m; zero without periodic axes.
+  Vec3 shift(std::size_t pair) const {
+    if (image.empty()) return {};
+    const auto periods = [&](int axis) { return static_cast<std::int8_t>(image[pair] >> (8 * axis)); };
+    return {periods(0) * periodicity.length(0), periods(1) * periodicity.length(1), periods(2) * periodicity.length(2)};
+  }
 };
 
-/// Makes the list anew; springs of pairs that stay are kept.
-/// @throws InputError if skin is not finite and ≥ 0; NumericalError naming a particle whose position is not finite
+/// Makes the list anew; memories of pairs that stay are kept.
+/// @throws InputError if skin is not finite and ≥ 0, if a periodic box is too small for two particles and the skin, or
+///         if two particles have drifted apart by more than 127 periods (see wrapPositions); NumericalError naming a
+///         particle whose position is not finite
 void findPairs(const Particles& particles, double skin, PairList& list);
 
 /// Makes the list anew if some particle has moved more than skin/2 since it was made, or their number changed.
 /// Returns whether it did.
 bool updatePairs(const Particles& particles, PairList& list);
+/// The same without looking at every particle at every step.
+/// @param step bound on how far any particle has moved since the last call, m, as `drift` returns it
+bool updatePairs(const Particles& particles, PairList& list, double step);
+
+/// Moves positions by whole periods into the periodic box. Lists made before are made anew at their next update.
+void wrapPositions(Particles& particles, const geometry::Periodicity& periodicity);
+
+/// Gives the pairs the new numbers of their particles, memories included, and sorts them; pairs of particles that are
+/// gone (new number < 0) leave. For particles that have been sorted, removed or added since the list was made.
+/// @param newNumber one per particle of the list
+void renumber(PairList& list, std::span<const int> newNumber);
+
+/// Sorts the particles such that near in number means near in space, which makes large scenes faster, and the list with
+/// them. Returns old number → new number, for whatever else refers to particles.
+std::vector<int> sortParticles(Particles& particles, PairList& list);
 
 }  // namespace dovetail::dem

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct Particles {
   std::vector<double> mass;    ///< kg
   std::vector<Vec3> omega;     ///< angular velocities, rad/s; empty = particles do not spin
   std::vector<Vec3> torque;    ///< torques about the centre, N m; as long as omega
+
+  std::vector<std::uint8_t> material;  ///< row of a LawTable; empty = all are of material 0
+  std::vector<std::int64_t> id;        ///< names that stay when particles are sorted or removed; empty = never sorted
 
   std::size_t size() const { return x.size(); }
   bool rotates() const { return !omega.empty(); }
@@ -57,6 +61,11 @@ void applyGravity(Particles& particles, const Vec3& g);
 void kick(Particles& particles, double dt);
 /// x += v dt. (A sphere looks the same from every side: no orientation is kept.)
 void drift(Particles& particles, double dt);
+/// kick(dt/2) and drift(dt) in one sweep. Returns the largest displacement of a particle, m; infinite if some position
+/// or velocity is not finite.
+double kickAndDrift(Particles& particles, double dt);
+/// f = m g and torque = 0 in one sweep: clearForces and applyGravity.
+void startForces(Particles& particles, const Vec3& g);
 
 /// ½ Σ m v² (+ ½ Σ I ω²), J.
 double kineticEnergy(const Particles& particles);

@@ -1,4 +1,5 @@
-// How several facets or patches share the overlap with one particle: the small quadratic programme of projectWallContacts.
+// How several facets or patches share the overlap with one particle: the small quadratic programme of
+// projectWallContacts.
 #pragma once
 
 #include <array>

@@ -21,6 +21,7 @@ struct TriangulatedWall {
   /// end of all contact, so take this for closed skins only.
   /// false: a sheet that pushes to the side on which the centre lies.
   bool oneSided = false;
+  int material = 0;  ///< row of a LawTable
 };
 
 /// A wall at rest.

@@ -22,13 +22,13 @@ enum class EdgeRule {
   paper,
 };
 
-/// Tangential springs of the last step. Empty unless the law has a tangential part.
+/// What the contacts of the last step remember. Empty unless the law remembers something.
 struct WallSprings {
   std::vector<int> particle, facet;
   std::vector<Vec3> normal;
-  std::vector<Vec3> stretch;  ///< m, tangential
+  std::vector<double> memory;  ///< of the law, contact by contact; a tangential spring takes three, its stretch, m
 
-  std::vector<Vec3> next;  // those of this step, while they are being worked out
+  std::vector<double> next, ended;  // those of this step, while they are being worked out; those that found no heir
   std::vector<char> taken;
 };
 
@@ -40,6 +40,7 @@ struct WallContacts {
   std::vector<double> overlap;                ///< λ, the part of the overlap that this contact carries, m, > 0
   std::vector<double> engagement;             ///< λ / overlap of the two alone, 0 … 1
   std::vector<Vec3> force;                    ///< on the particle, N; set by collideWithWall
+  std::vector<Vec3> couple;                   ///< on the particle beyond arm × force, N m; if the law exerts torques
   WallSprings springs;
 
   std::size_t size() const { return particle.size(); }

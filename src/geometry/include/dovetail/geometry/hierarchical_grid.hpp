@@ -23,6 +23,7 @@ struct Periodicity {
   Box box;
   std::array<bool, 3> axes{false, false, false};
 
+  friend bool operator==(const Periodicity&, const Periodicity&) = default;
   bool any() const { return axes[0] || axes[1] || axes[2]; }
   double length(int axis) const { return box.upper[axis] - box.lower[axis]; }
   /// The shortest periodic image of a separation d (m) of two points.
@@ -88,6 +89,7 @@ public:
   /// The same, ascending.
   std::vector<int> query(const Box& box) const;
 
+  const Periodicity& periodicity() const { return periodicity_; }
   std::size_t size() const { return id_.size(); }
   std::size_t levels() const { return levels_.size(); }
   /// Edge of the cells of a level (0 = finest), m; along periodic axes the cells may be larger.

@@ -39,7 +39,7 @@ public:
   template <class Law>
   dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v, const Law& law,
                             double /*dt*/) {
-    static_assert(!Law::hasHistory, "tangential springs are not carried on the smooth surface");
+    static_assert(!Law::rotates && Law::memory == 0, "tangential springs are not carried on the smooth surface");
     locate(particles, u, v);
     placeSurface(u, v);
     findContacts(particles);
