@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "dovetail/core/quadrature.hpp"
 #include "volume_moments.hpp"
 
 namespace dovetail::dem {
@@ -163,22 +164,6 @@ private:
   std::span<const double> radius_;
 };
 
-/// Gauss–Legendre points and weights on [−1, 1].
-std::vector<std::pair<double, double>> gaussLegendre(int n) {
-  std::vector<std::pair<double, double>> rule;
-  for (int i = 0; i < n; ++i) {
-    double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1.0;
-    for (int step = 0; step < 20; ++step) {
-      double p = 1.0, previous = 0.0;
-      for (int k = 0; k < n; ++k) previous = std::exchange(p, ((2 * k + 1) * x * p - k * previous) / (k + 1));
-      slope = n * (x * p - previous) / (x * x - 1.0);
-      x -= p / slope;
-    }
-    rule.emplace_back(x, 2.0 / ((1.0 - x * x) * slope * slope));
-  }
-  return rule;
-}
-
 void addSlice(std::span<const Vec3> centre, std::span<const double> radius, double z, double weight,
               std::vector<Disc>& discs, VolumeMoments& sum) {
   discs.clear();
@@ -202,16 +187,8 @@ VolumeMoments unionMoments(std::span<const Vec3> centre, std::span<const double>
   const Events events(centre, radius);
   VolumeMoments sum;
   std::vector<Disc> discs;
-  for (std::size_t e = 1; e < events.heights.size(); ++e) {
-    const double low = events.heights[e - 1], length = events.heights[e] - low;
-    if (!(length > 0.0)) continue;
-    // z = low + length (1 − cos θ)/2: roots that start or end at an event become smooth in θ.
-    for (const auto& [point, weight] : rule) {
-      const double theta = 0.5 * std::numbers::pi * (1.0 + point),
-                   z = low + length * std::pow(std::sin(0.5 * theta), 2);
-      addSlice(centre, radius, z, 0.25 * std::numbers::pi * weight * length * std::sin(theta), discs, sum);
-    }
-  }
+  integrateBetween(events.heights, rule,
+                   [&](double z, double weight) { addSlice(centre, radius, z, weight, discs, sum); });
   return sum;
 }
 
