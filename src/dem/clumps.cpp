@@ -1,5 +1,7 @@
 #include "dovetail/dem/clumps.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include "dovetail/core/parallel.hpp"
 
 namespace dovetail::dem {
@@ -7,6 +9,15 @@ namespace dovetail::dem {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Largest (r × n)·I⁻¹(r × n) over unit vectors n; r in the principal frame. 1/kg
+double turnability(const Vec3& r, const Vec3& inertia) {
+  Eigen::Matrix3d arm;
+  arm << 0.0, -r.z, r.y, r.z, 0.0, -r.x, -r.y, r.x, 0.0;
+  const Eigen::Vector3d inverse(1.0 / inertia.x, 1.0 / inertia.y, 1.0 / inertia.z);
+  const Eigen::Matrix3d form = arm.transpose() * inverse.asDiagonal() * arm;
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(form, Eigen::EigenvaluesOnly).eigenvalues()[2];
+}
 
 }  // namespace
 
@@ -75,6 +86,19 @@ void muteMemberPairs(const Clumps& clumps, PairList& list) {
     const int body = bodyOf[at(list.pairs[p][0])];
     if (body >= 0 && body == bodyOf[at(list.pairs[p][1])]) list.scale[p] = 0.0;
   }
+}
+
+CriticalStep criticalStep(const Bodies& bodies, const Clumps& clumps, const LinearSpringDashpot& normal,
+                          Partners partners, int contacts) {
+  Particles members;
+  for (std::size_t m = 0; m < clumps.size(); ++m) {
+    const std::size_t b = at(clumps.body[m]);
+    const double mass = 1.0 / (1.0 / bodies.mass[b] + turnability(clumps.offset[m], bodies.inertia[b]));
+    addParticle(members, {}, {}, 1.0, Mass{mass});
+  }
+  CriticalStep step = criticalStep(members, normal, partners, contacts);
+  if (step.particle >= 0) step.particle = clumps.particle[at(step.particle)];
+  return step;
 }
 
 double freeKineticEnergy(const Particles& particles, const Clumps& clumps) {

@@ -4,6 +4,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/clumps.hpp"
+#include "dovetail/dem/insertion.hpp"
 #include "dovetail/dem/pair_collide.hpp"
 #include "dovetail/dem/rigid_wall.hpp"
 #include "dovetail/dem/wall_collide.hpp"
@@ -160,6 +161,49 @@ TEST(Clumps, WithFrictionAndDampingMomentumStaysAndTheThreadsDoNotMatter) {
     EXPECT_EQ(scene.particles.x, first);
   }
   setThreads(1);
+}
+
+TEST(Clumps, AreStableUpToTheirCriticalStepAndNotBeyond) {
+  Particles particles;
+  Bodies bodies;
+  Clumps clumps;
+  const std::vector<Vec3> centre{{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}};
+  const ClumpShape shape = makeClumpShape(centre, std::vector<double>{0.05, 0.05, 0.05}, Density{1000.0});
+  addClump(particles, bodies, clumps, shape, {});
+  const double k = 1e4;
+  const CriticalStep limit = criticalStep(bodies, clumps, {.stiffness = k}, Partners::walls);
+  EXPECT_TRUE(limit.particle == 0 || limit.particle == 2);
+  // A spring of stiffness k across the rod at its first member, small motion.
+  const auto largest = [&](double dt) {
+    Bodies b = bodies;
+    Particles p = particles;
+    b.v[0] = {0, 1e-6, 0};
+    double far = 0.0;
+    for (int step = 0; step < 400; ++step) {
+      driftBodies(b, dt);
+      placeMembers(b, clumps, p);
+      clearForces(b);
+      clearForces(p);
+      p.f[0].y = -k * p.x[0].y;
+      gatherForces(p, clumps, b);
+      kickBodies(b, dt);
+      far = std::max(far, std::abs(p.x[0].y));
+    }
+    return far;
+  };
+  EXPECT_LT(largest(0.99 * limit.dt), 1e-7);
+  EXPECT_GT(largest(1.01 * limit.dt), 1e-4);
+}
+
+TEST(Clumps, StayTogetherWhenParticlesAreSorted) {
+  Scene scene = gas(true);
+  const std::vector<Vec3> before = scene.particles.x;
+  const std::vector<int> number = sortParticles(scene.particles, scene.list);
+  renumber(scene.clumps, number);
+  const std::vector<Vec3> sorted = scene.particles.x;
+  placeMembers(scene.bodies, scene.clumps, scene.particles);
+  EXPECT_NE(sorted, before);
+  for (std::size_t i = 0; i < sorted.size(); ++i) EXPECT_LE(norm(scene.particles.x[i] - sorted[i]), 1e-15);
 }
 
 /// A closed box as a wall.

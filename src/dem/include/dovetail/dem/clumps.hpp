@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "dovetail/dem/bodies.hpp"
+#include "dovetail/dem/critical_step.hpp"
 #include "dovetail/dem/pairs.hpp"
 #include "dovetail/dem/particles.hpp"
 
@@ -64,6 +65,12 @@ void gatherForces(Particles& particles, const Clumps& clumps, Bodies& bodies, co
 /// Factor 0 (PairList::scale) on the pairs within one body, so that members that overlap make no force and store no
 /// energy. To be called when `list.builds` has changed, after whoever else sets the factors.
 void muteMemberPairs(const Clumps& clumps, PairList& list);
+
+/// As criticalStep of single particles (critical_step.hpp), for the member that is easiest to move: a force n at a
+/// member with the arm r moves it as if it had the mass 1/(1/m + (r × n)·I⁻¹(r × n)), here for the worst n.
+/// @throws InputError as criticalStep of single particles
+CriticalStep criticalStep(const Bodies& bodies, const Clumps& clumps, const LinearSpringDashpot& normal,
+                          Partners partners, int contacts = 1);
 
 /// ½ Σ m v² (+ ½ Σ I ω²) of the particles that are no members, J.
 double freeKineticEnergy(const Particles& particles, const Clumps& clumps);
