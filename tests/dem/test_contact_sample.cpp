@@ -50,27 +50,37 @@ TEST(ContactSample, GivesTheForcesThatCollideHasAdded) {
   for (std::size_t i = 0; i < f.size(); ++i) EXPECT_LE(norm(f[i] - particles.f[i]), 1e-9 * size) << i;
 }
 
+/// What each bond of a touching lattice becomes under a strain, from a double loop: V σ and how many there are.
+struct Bonds {
+  Matrix3d stress = Matrix3d::Zero();
+  int count = 0;
+};
+template <class Strained>
+Bonds bondsOf(const Packing& block, const Strained& strained, double stiffness) {
+  Bonds bonds;
+  for (std::size_t i = 0; i < block.centre.size(); ++i)
+    for (std::size_t j = i + 1; j < block.centre.size(); ++j) {
+      const Vec3 d = block.space.minimumImage(block.centre[i] - block.centre[j]);
+      const double diameter = 2.0 * block.radius[0];
+      if (norm(d) > diameter * (1.0 + 1e-9)) continue;
+      const Vec3 l = strained(d);
+      const Eigen::Vector3d branch(l.x, l.y, l.z);
+      bonds.stress -= stiffness * (diameter - norm(l)) / norm(l) * branch * branch.transpose();
+      ++bonds.count;
+    }
+  return bonds;
+}
+
 TEST(LoveWeberStress, OfALatticeUnderAKnownStrainIsTheAnalyticOne) {
   for (const Lattice lattice : {Lattice::simpleCubic, Lattice::bodyCentred, Lattice::faceCentred, Lattice::hexagonal}) {
     const double k = 1e5, r = 0.05;
     Packing block = latticeBlock(lattice, {4, 3, 3}, r, 2.0 * r);
     const Vec3 stretch{0.99, 0.995, 0.985};  // affine compression along the axes
     const auto strained = [&](const Vec3& x) { return Vec3{stretch.x * x.x, stretch.y * x.y, stretch.z * x.z}; };
-    // What each bond of the reference lattice becomes, from a double loop.
-    Matrix3d wanted = Matrix3d::Zero();
-    int bonds = 0;
-    for (std::size_t i = 0; i < block.centre.size(); ++i)
-      for (std::size_t j = i + 1; j < block.centre.size(); ++j) {
-        const Vec3 d = block.space.minimumImage(block.centre[i] - block.centre[j]);
-        if (norm(d) > 2.0 * r * (1.0 + 1e-9)) continue;
-        const Vec3 l = strained(d);
-        const Eigen::Vector3d branch(l.x, l.y, l.z);
-        wanted -= k * (2.0 * r - norm(l)) / norm(l) * branch * branch.transpose();
-        ++bonds;
-      }
+    const Bonds bonds = bondsOf(block, strained, k);
     for (Vec3& x : block.centre) x = strained(x);
     block.space.box.upper = strained(block.space.box.upper);
-    wanted /= block.volume();
+    const Matrix3d wanted = bonds.stress / block.volume();
     Particles particles;
     addPacking(particles, block, Density{1000.0}, {3, 2, 1});
     PairList list;
@@ -79,7 +89,7 @@ TEST(LoveWeberStress, OfALatticeUnderAKnownStrainIsTheAnalyticOne) {
     const ElasticLaw law{{.stiffness = k}};
     collide(particles, list, law);
     const ContactSample sample = samplePairs(particles, list, law);
-    EXPECT_EQ(static_cast<int>(sample.size()), bonds);
+    EXPECT_EQ(static_cast<int>(sample.size()), bonds.count);
     const cg::AverageStress stress = cg::loveWeberStress(branches(sample), view(particles), block.volume());
     EXPECT_LE((stress.contact - wanted).norm(), 1e-12 * wanted.norm());
     EXPECT_LE(stress.kinetic.norm(), 1e-12);  // a common velocity is no pressure
@@ -92,9 +102,28 @@ TEST(LoveWeberStress, OfALatticeUnderAKnownStrainIsTheAnalyticOne) {
     }
     const cg::Coordination c = cg::coordination(sample.first, sample.second, static_cast<int>(particles.size()));
     EXPECT_EQ(c.rattlers, 0);
-    EXPECT_DOUBLE_EQ(c.mean, 2.0 * bonds / static_cast<double>(particles.size()));
+    EXPECT_DOUBLE_EQ(c.mean, 2.0 * bonds.count / static_cast<double>(particles.size()));
     EXPECT_NEAR(cg::fabric(sample.normal).trace(), 1.0, 1e-12);
   }
+}
+
+/// The box of a packing as a sheet.
+TriangulatedWall wallsOf(const Packing& packing) {
+  const Vec3 a = packing.space.box.lower, b = packing.space.box.upper;
+  std::vector<Vec3> x;
+  for (int c = 0; c < 8; ++c) x.push_back({c & 1 ? b.x : a.x, c & 2 ? b.y : a.y, c & 4 ? b.z : a.z});
+  return makeWall(x, {{0, 3, 2},
+                      {0, 1, 3},
+                      {4, 7, 5},
+                      {4, 6, 7},
+                      {0, 5, 1},
+                      {0, 4, 5},
+                      {2, 7, 6},
+                      {2, 3, 7},
+                      {0, 6, 4},
+                      {0, 2, 6},
+                      {1, 7, 3},
+                      {1, 5, 7}});
 }
 
 TEST(LoveWeberStress, OfARestingPackingIsWhatItsWallsPressBack) {
@@ -103,21 +132,7 @@ TEST(LoveWeberStress, OfARestingPackingIsWhatItsWallsPressBack) {
                                 {.solidFraction = 0.5, .seed = 9}, report);
   report = compressToPressure(packing, {.stiffness = 1e5, .pressure = 2000.0});
   ASSERT_TRUE(report.reached);
-  const Vec3 a = packing.space.box.lower, b = packing.space.box.upper;
-  std::vector<Vec3> x;
-  for (int c = 0; c < 8; ++c) x.push_back({c & 1 ? b.x : a.x, c & 2 ? b.y : a.y, c & 4 ? b.z : a.z});
-  const TriangulatedWall wall = makeWall(x, {{0, 3, 2},
-                                             {0, 1, 3},
-                                             {4, 7, 5},
-                                             {4, 6, 7},
-                                             {0, 5, 1},
-                                             {0, 4, 5},
-                                             {2, 7, 6},
-                                             {2, 3, 7},
-                                             {0, 6, 4},
-                                             {0, 2, 6},
-                                             {1, 7, 3},
-                                             {1, 5, 7}});
+  const TriangulatedWall wall = wallsOf(packing);
   Particles particles;
   addPacking(particles, packing, Density{1000.0});
   const ElasticLaw law{{.stiffness = 1e5}};
@@ -142,7 +157,8 @@ TEST(LoveWeberStress, OfARestingPackingIsWhatItsWallsPressBack) {
   const cg::Coordination c = cg::coordination(sample.first, sample.second, static_cast<int>(particles.size()));
   EXPECT_GT(c.withoutRattlers, 4.0);
   EXPECT_GE(c.withoutRattlers, c.mean);
-  EXPECT_NEAR(cg::solidFraction(packing.centre, packing.radius, {a, b}), report.solidFraction, 2e-3);
+  EXPECT_NEAR(cg::solidFraction(packing.centre, packing.radius, {packing.space.box.lower, packing.space.box.upper}),
+              report.solidFraction, 2e-3);
 }
 
 }  // namespace
