@@ -39,13 +39,15 @@ template <class Law>
 ContactSample samplePairs(const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws) {
   detail::requireMemory(list, Law::memory);
   const bool varied = !list.scale.empty() || laws.materials > 1;
-  const detail::GatherRows rows{Law::rotates, Law::needsMass && laws.usesMass(), varied, Law::memory};
+  const detail::PairRows rows{Law::rotates, Law::needsMass && laws.usesMass(), varied, Law::memory, laws.materials};
   constexpr double noTime = 1e-100;  // so short a step that no memory advances
   ContactSample sample;
   detail::ContactBlock block;
-  for (std::size_t first = 0; first < list.size(); first += detail::blockSize) {
-    const std::size_t n = std::min(detail::blockSize, list.size() - first);
-    detail::gatherPairs(particles, list, first, n, rows, laws.materials, block);
+  detail::shareMass(particles, rows, block);
+  detail::PairCursor cursor{0, 0, list.size(), 0, 0};
+  while (cursor.pair < cursor.end) {
+    const std::size_t first = cursor.pair, n = detail::gatherPairs(particles, list, rows, cursor, block);
+    cursor.pair += n;
     if (varied)
       detail::answer<Law, detail::BlockOptions{Law::rotates, false, true, false}>(block, n, laws.table.data(), noTime);
     else
