@@ -136,11 +136,15 @@ void findUniform(const Particles& particles, PairRows& rows) {
   rows.oneMass = rows.mass && uniform(particles.mass);
 }
 
-void shareMass(const Particles& particles, const PairRows& rows, ContactBlock& block) {
+void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block) {
   if (!rows.mass)
     block.rootMass.fill(0.0);
   else if (rows.oneMass)
     block.rootMass.fill(std::sqrt(0.5 * particles.mass[0]));
+  if (!rows.radius)
+    block.radius.fill(0.0);
+  else if (rows.oneRadius)
+    block.radius.fill(0.5 * particles.radius[0]);
 }
 
 PairCursor startOfChunk(const PairList& list, std::size_t chunk) {
@@ -160,6 +164,7 @@ std::size_t gatherPairs(const Particles& particles, const PairList& list, const 
   }
   gatherRadii(particles, pairs, n, rows.oneRadius, block);
   if (rows.mass && !rows.oneMass) gatherMasses(particles, {pairs, n}, block);
+  if (rows.radius && !rows.oneRadius) makeRadii(n, block);
   if (rows.spins) gatherSpins(particles, pairs, n, block);
   if (rows.varied) gatherVaried(particles, list, first, rows.materials, n, block);
   for (std::size_t c = 0; c < static_cast<std::size_t>(rows.memory); ++c)

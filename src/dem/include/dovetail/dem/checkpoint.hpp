@@ -31,9 +31,9 @@ template <class Archive, class Mesh>
 void archiveMesh(Archive& archive, Mesh& m) {
   auto& s = m.contacts.springs;
   auto& c = m.candidates;
-  archive(m.wall.x, m.wall.v, m.wall.f, s.particle, s.facet, s.normal, s.memory, c.particle, c.offsets, c.facet,
-          c.builds, c.lateBuilds, c.particleAtBuild, c.vertexAtBuild, c.facetsAtBuild, c.vertexTravel,
-          c.updatesSinceBuild, c.nextScan);
+  archive(m.wall.x, m.wall.v, m.wall.f, s.particle, s.facet, s.normal, s.memory, c.particle, c.offsets, c.facet, c.flat,
+          c.lastFacet, c.builds, c.lateBuilds, c.particleAtBuild, c.particleTravel, c.vertexAtBuild, c.facetsAtBuild,
+          c.vertexTravel, c.updatesSinceBuild, c.nextScan);
 }
 
 template <class Archive, class M>

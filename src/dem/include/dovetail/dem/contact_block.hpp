@@ -33,6 +33,7 @@ struct ContactBlock {
   alignas(64) Row armI;      ///< in: radius of the particle; out: distance of its centre from the contact
   alignas(64) Row armJ;      ///< the same of the partner; walls: in: overlap
   alignas(64) Row rootMass;  ///< √ of the effective mass, kg^½
+  alignas(64) Row radius;    ///< effective, m
   alignas(64) Row scale;
   alignas(64) std::array<int, blockSize> kind;  ///< row of the law table
   alignas(64) std::array<Row, 12> memory;       ///< of the law, by component
@@ -108,8 +109,7 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
                   !options.wall)  // masses carry the scale too, so it is divided out of the effective one
       contact.rootMass = scale > 0.0 ? contact.rootMass / std::sqrt(scale > 0.0 ? scale : 1.0) : 0.0;
     contact.effectiveMass = contact.rootMass * contact.rootMass;
-    const double radiusI = block.armI[l], radiusJ = options.wall ? 0.0 : block.armJ[l];
-    contact.effectiveRadius = options.wall ? radiusI : radiusI * (radiusJ / (radiusI + radiusJ));
+    contact.effectiveRadius = block.radius[l];
     contact.dt = dt;
     double memory[Law::memory + 1];
     loadMemory(block, l, memory, components);

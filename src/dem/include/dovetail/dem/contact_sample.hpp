@@ -39,11 +39,12 @@ template <class Law>
 ContactSample samplePairs(const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws) {
   detail::requireMemory(list, Law::memory);
   const bool varied = !list.scale.empty() || laws.materials > 1;
-  const detail::PairRows rows{Law::rotates, Law::needsMass && laws.usesMass(), varied, Law::memory, laws.materials};
+  const detail::PairRows rows{Law::rotates,  Law::needsMass && laws.usesMass(), Law::needsRadius, varied, Law::memory,
+                              laws.materials};
   constexpr double noTime = 1e-100;  // so short a step that no memory advances
   ContactSample sample;
   detail::ContactBlock block;
-  detail::shareMass(particles, rows, block);
+  detail::shareSizes(particles, rows, block);
   detail::PairCursor cursor{0, 0, list.size(), 0, 0};
   while (cursor.pair < cursor.end) {
     const std::size_t first = cursor.pair, n = detail::gatherPairs(particles, list, rows, cursor, block);

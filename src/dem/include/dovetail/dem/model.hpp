@@ -134,10 +134,11 @@ ContactWork collideWithWalls(Model<Law>& m, double moved, double dt) {
   }
   for (MeshWall& mesh : m.meshes) {
     clearForces(mesh.wall);
+    mesh.wall.rigid = true;
     if (mesh.motion)
       updateWallCandidates(m.particles, mesh.wall, mesh.candidates);
     else
-      updateWallCandidates(m.particles, mesh.wall, mesh.candidates, 0.0);
+      updateWallCandidates(m.particles, mesh.wall, mesh.candidates, 0.0, moved);
     findWallContacts(m.particles, mesh.wall, mesh.candidates, mesh.rule, mesh.contacts);
     work += collideWithWall(m.particles, mesh.wall, mesh.contacts, m.laws, dt);
     addWallForces(mesh.contacts, mesh.wall);

@@ -40,7 +40,7 @@ void requireStep(double dt);
 
 /// What a law asks for, and what all particles share.
 struct PairRows {
-  bool spins, mass, varied;
+  bool spins, mass, radius, varied;
   int memory, materials;
   bool oneRadius = false;  ///< all particles have the same
   bool oneMass = false;
@@ -52,9 +52,11 @@ struct PairCursor {
 /// Looks whether all particles have one radius and one mass, which saves gathering them.
 void findUniform(const Particles& particles, PairRows& rows);
 PairCursor startOfChunk(const PairList& list, std::size_t chunk);
-/// Fills the row of masses once for all pairs, if they share it or nobody asks for it.
-void shareMass(const Particles& particles, const PairRows& rows, ContactBlock& block);
+/// Fills the rows of effective masses and radii once for all pairs, if they share them or nobody asks for them.
+void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block);
 void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>> pairs, ContactBlock& block);
+/// Effective radii from the arms.
+void makeRadii(std::size_t n, ContactBlock& block);
 /// Fills the block with the next pairs; returns how many.
 std::size_t gatherPairs(const Particles& particles, const PairList& list, const PairRows& rows, PairCursor& cursor,
                         ContactBlock& block);
@@ -70,7 +72,7 @@ template <class Law, BlockOptions options>
 ContactWork collideChunk(Particles& particles, PairList& list, std::size_t chunk, const PairRows& rows,
                          const PreparedLaws<Law>& laws, double dt) {
   ContactBlock block;
-  shareMass(particles, rows, block);
+  shareSizes(particles, rows, block);
   ContactWork work;
   PairCursor cursor = startOfChunk(list, chunk);
   while (cursor.pair < cursor.end) {
@@ -109,7 +111,8 @@ ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law
     detail::prepareMemory(list, Law::memory, Law::turns);
   }
   const bool varied = !list.scale.empty() || laws.materials > 1;
-  detail::PairRows rows{Law::rotates, Law::needsMass && laws.usesMass(), varied, Law::memory, laws.materials};
+  detail::PairRows rows{Law::rotates,  Law::needsMass && laws.usesMass(), Law::needsRadius, varied, Law::memory,
+                        laws.materials};
   detail::findUniform(particles, rows);
   constexpr bool spins = Law::rotates;
   if constexpr (spins) list.chunks.torque.resize(list.chunks.force.size());

@@ -29,7 +29,7 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
     const auto i = static_cast<std::size_t>(contacts.particle[c]);
     block.separation.set(l, contacts.normal[c]);
     block.velocity.set(l, velocity(c));
-    block.armI[l] = particles.radius[i];
+    block.armI[l] = block.radius[l] = particles.radius[i];
     block.armJ[l] = contacts.overlap[c] / contacts.engagement[c];
     block.rootMass[l] = std::sqrt(particles.mass[i]);
     block.scale[l] = contacts.engagement[c];
