@@ -82,7 +82,9 @@ ContactWork exchangeBonds(Particles& particles, Bonds& bonds, double dt);
 /// @param newNumber one per particle with which the bonds were last used
 void renumber(Bonds& bonds, std::span<const int> newNumber);
 
-/// Sets PairList::scale to 0 for bonded pairs, so that only the bond acts between them. Again for every new list.
+/// Sets PairList::scale to 0 for bonded pairs, so that only the bond acts between them. Again for every new list, and
+/// when bonds have broken. (A law that wakes up between overlapping particles brings energy from nowhere: bond
+/// particles that touch and leave the law on, or mute those that overlap and do not break.)
 void muteBonded(const Bonds& bonds, PairList& list);
 
 /// Safe bound on the stable step of velocity Verlet with these bonds alone, s; infinite without any. Every particle
