@@ -50,5 +50,6 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/dovetailConfig.cmake.in
   NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/dovetailConfig.cmake" "${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake"
-              "${CMAKE_CURRENT_LIST_DIR}/FindCholmod.cmake" DESTINATION "${package_folder}")
+              "${CMAKE_CURRENT_LIST_DIR}/FindCholmod.cmake" "${CMAKE_CURRENT_LIST_DIR}/FindFcl.cmake"
+        DESTINATION "${package_folder}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

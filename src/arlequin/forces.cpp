@@ -72,10 +72,10 @@ void particleForces(Model& model, double dt, StepSums& sums, Profile& profile) {
   if (squaredNorm(model.gravity) > 0.0) dem::applyGravity(model.particles, model.gravity);
   const bool bonded = std::visit([](const auto& law) { return law.normal.bonded; }, model.law);
   if (!bonded) dem::updatePairs(model.particles, model.pairs);
-  if (model.coupling && model.weighedBuilds != model.pairs.builds) {
+  if (model.coupling && model.weighedRevision != model.pairs.revision) {
     weighContacts(model.particles, model.solid->mesh.elements, model.solid->nodes, model.coupling->overlap,
                   model.pairs);
-    model.weighedBuilds = model.pairs.builds;
+    model.weighedRevision = model.pairs.revision;
   }
   model.contact =
       std::visit([&](const auto& law) { return dem::collide(model.particles, model.pairs, law, dt); }, model.law);

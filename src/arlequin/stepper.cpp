@@ -97,7 +97,7 @@ void start(Model& model, double dt, Profile& profile) {
                          " particles and there are " + std::to_string(model.particles.size()),
                      "start", "make the coupling after the last particle was added");
   StepSums ignored;
-  model.weighedBuilds = model.pairs.builds;
+  model.weighedRevision = model.pairs.revision;
   particleForces(model, dt, ignored, profile);
   if (!model.solid) return;
   internalForces(model, true, profile);
@@ -146,7 +146,7 @@ void relocate(Model& model, StepSums& sums) {
   if (!model.coupling) return;
   const double elastic = model.contact.storedEnergy();
   const Handover handover = renew(*model.coupling, model.particles, model.pairs, *model.solid);
-  model.weighedBuilds = model.pairs.builds;
+  model.weighedRevision = model.pairs.revision;
   dem::Particles copy = model.particles;
   dem::PairList pairs = model.pairs;
   const auto contact = std::visit(

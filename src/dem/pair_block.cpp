@@ -5,30 +5,47 @@ namespace dovetail::dem::detail {
 
 namespace {
 
-void gatherGeometry(const Particles& particles, const PairList& list, std::size_t first, std::size_t n, bool spins,
-                    ContactBlock& block) {
+/// Pairs between asking the cache for a particle and using it.
+constexpr std::size_t lookAhead = 128;
+
+/// Asks the cache for what will be read of the particles some pairs later.
+void announce(const Particles& particles, const PairList& list, std::size_t first, std::size_t n, bool spins) {
+  const std::size_t begin = std::min(first + lookAhead, list.size()), end = std::min(begin + n, list.size());
+  const Vec3 *const x = particles.x.data(), *const v = particles.v.data(), *const f = particles.f.data();
+  const Vec3 *const omega = particles.omega.data(), *const torque = particles.torque.data();
+  for (std::size_t p = begin; p < end; ++p) {
+    const int j = list.pairs[p][1];
+    __builtin_prefetch(x + j);
+    __builtin_prefetch(v + j);
+    __builtin_prefetch(f + j, 1);
+    if (!spins) continue;
+    __builtin_prefetch(omega + j);
+    __builtin_prefetch(torque + j, 1);
+  }
+}
+
+/// Separations and velocities.
+void gatherCentres(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, ContactBlock& block) {
   const Vec3 *const x = particles.x.data(), *const v = particles.v.data();
-  const double* const radius = particles.radius.data();
-  const auto* const pairs = list.pairs.data() + first;
-  const std::size_t last = list.size() - 1 - first;
   for (std::size_t l = 0; l < n; ++l) {
-    const auto i = static_cast<std::size_t>(pairs[l][0]), j = static_cast<std::size_t>(pairs[l][1]);
-    const auto next = static_cast<std::size_t>(pairs[std::min(l + blockSize, last)][1]);
-    __builtin_prefetch(x + next);
-    __builtin_prefetch(v + next);
-    if (spins) {
-      __builtin_prefetch(particles.omega.data() + j);
-      __builtin_prefetch(particles.torque.data() + j, 1);
-    }
-    __builtin_prefetch(particles.f.data() + j, 1);
+    const int i = pairs[l][0], j = pairs[l][1];
     block.separation.set(l, x[i] - x[j]);
     block.velocity.set(l, v[i] - v[j]);
-    block.armI[l] = radius[i];
-    block.armJ[l] = radius[j];
   }
-  if (list.image.empty()) return;
-  for (std::size_t l = 0; l < n; ++l)
-    if (list.image[first + l] != 0) block.separation.set(l, block.separation.at(l) + list.shift(first + l));
+}
+
+void gatherRadii(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, bool same,
+                 ContactBlock& block) {
+  const double* const radius = particles.radius.data();
+  if (same) {
+    std::fill_n(block.armI.begin(), n, radius[0]);
+    std::fill_n(block.armJ.begin(), n, radius[0]);
+    return;
+  }
+  for (std::size_t l = 0; l < n; ++l) {
+    block.armI[l] = radius[pairs[l][0]];
+    block.armJ[l] = radius[pairs[l][1]];
+  }
 }
 
 void gatherSpins(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, ContactBlock& block) {
@@ -46,44 +63,43 @@ void gatherSpins(const Particles& particles, const std::array<int, 2>* pairs, st
   }
 }
 
-void gatherVaried(const Particles& particles, const PairList& list, std::size_t first, std::size_t n, int materials,
+void gatherVaried(const Particles& particles, const PairList& list, std::size_t first, int materials, std::size_t n,
                   ContactBlock& block) {
+  const auto material = [&](int i) {
+    return particles.material.empty() ? 0 : static_cast<int>(particles.material[static_cast<std::size_t>(i)]);
+  };
   for (std::size_t l = 0; l < n; ++l) {
     const auto& pair = list.pairs[first + l];
     block.scale[l] = list.scale.empty() ? 1.0 : list.scale[first + l];
-    const auto material = [&](int i) {
-      return particles.material.empty() ? 0 : static_cast<int>(particles.material[static_cast<std::size_t>(i)]);
-    };
     block.kind[l] = materials > 1 ? material(pair[0]) * materials + material(pair[1]) : 0;
   }
 }
 
 /// Force and torque of one side, gathered over the successive pairs of one particle.
+template <bool spins>
 struct Sum {
   std::size_t particle;
   Vec3 force, torque;
+  Sum(const Particles& particles, std::size_t i)
+      : particle(i), force(particles.f[i]), torque(spins ? particles.torque[i] : Vec3{}) {}
+  void store(Particles& particles) const {
+    particles.f[particle] = force;
+    if constexpr (spins) particles.torque[particle] = torque;
+  }
 };
 
-void add(Particles& particles, const Sum& sum, bool spins) {
-  particles.f[sum.particle] = sum.force;
-  if (spins) particles.torque[sum.particle] = sum.torque;
-}
-
 template <bool spins>
-void scatterForces(Particles& particles, PairList& list, std::size_t chunkEnd, std::size_t first, std::size_t n,
-                   const ContactBlock& block, std::size_t& crossing) {
-  const auto* const pairs = list.pairs.data() + first;
+void scatterForces(Particles& particles, PairList& list, PairCursor& cursor, std::size_t n, const ContactBlock& block) {
+  const auto* const pairs = list.pairs.data() + cursor.pair;
   Vec3 *const f = particles.f.data(), *const torque = particles.torque.data();
-  const auto start = [&](int i) {
-    const auto k = static_cast<std::size_t>(i);
-    return Sum{k, f[k], spins ? torque[k] : Vec3{}};
-  };
-  Sum sum = start(pairs[0][0]);
+  const std::size_t chunkEnd = (cursor.chunk + 1) * list.chunks.size;
+  std::size_t crossing = cursor.crossing;
+  Sum<spins> sum(particles, static_cast<std::size_t>(pairs[0][0]));
   for (std::size_t l = 0; l < n; ++l) {
     const auto i = static_cast<std::size_t>(pairs[l][0]), j = static_cast<std::size_t>(pairs[l][1]);
     if (i != sum.particle) {
-      add(particles, sum, spins);
-      sum = start(pairs[l][0]);
+      sum.store(particles);
+      sum = Sum<spins>(particles, i);
     }
     const Vec3 force = block.velocity.at(l);
     sum.force += force;
@@ -102,41 +118,64 @@ void scatterForces(Particles& particles, PairList& list, std::size_t chunkEnd, s
       ++crossing;
     }
   }
-  add(particles, sum, spins);
+  sum.store(particles);
+  cursor.crossing = crossing;
 }
 
 }  // namespace
 
-void gatherPairs(const Particles& particles, const PairList& list, std::size_t first, std::size_t n,
-                 const GatherRows& rows, int materials, ContactBlock& block) {
-  gatherGeometry(particles, list, first, n, rows.spins && particles.rotates(), block);
-  const auto* const pairs = list.pairs.data() + first;
-  if (rows.mass) {
-    for (std::size_t l = 0; l < n; ++l) {
-      block.massI[l] = particles.mass[static_cast<std::size_t>(pairs[l][0])];
-      block.massJ[l] = particles.mass[static_cast<std::size_t>(pairs[l][1])];
-    }
-  } else {
-    std::fill_n(block.massI.begin(), n, 0.0);
-    std::fill_n(block.massJ.begin(), n, 1.0);
-  }
-  if (rows.spins) gatherSpins(particles, pairs, n, block);
-  if (rows.varied) gatherVaried(particles, list, first, n, materials, block);
-  for (int c = 0; c < rows.memory; ++c)
-    std::copy_n(list.memory.data() + static_cast<std::size_t>(c) * list.size() + first, n,
-                block.memory[static_cast<std::size_t>(c)].begin());
+void findUniform(const Particles& particles, PairRows& rows) {
+  const auto uniform = [](const std::vector<double>& values) {
+    if (values.empty()) return false;
+    const double first = values[0];
+    double differs = 0.0;
+    for (const double value : values) differs += value != first ? 1.0 : 0.0;
+    return differs == 0.0;
+  };
+  rows.oneRadius = uniform(particles.radius);
+  rows.oneMass = rows.mass && uniform(particles.mass);
 }
 
-void scatterPairs(Particles& particles, PairList& list, std::size_t chunk, std::size_t first, std::size_t n,
-                  const GatherRows& rows, const ContactBlock& block, std::size_t& crossing) {
-  for (int c = 0; c < rows.memory; ++c)
-    std::copy_n(block.memory[static_cast<std::size_t>(c)].begin(), n,
-                list.memory.data() + static_cast<std::size_t>(c) * list.size() + first);
-  const std::size_t chunkEnd = (chunk + 1) * list.chunks.size;
+void shareMass(const Particles& particles, const PairRows& rows, ContactBlock& block) {
+  if (!rows.mass)
+    block.rootMass.fill(0.0);
+  else if (rows.oneMass)
+    block.rootMass.fill(std::sqrt(0.5 * particles.mass[0]));
+}
+
+PairCursor startOfChunk(const PairList& list, std::size_t chunk) {
+  return {chunk, list.chunks.begin[chunk], list.chunks.begin[chunk + 1], list.chunks.crosses[chunk],
+          list.chunks.images[chunk]};
+}
+
+std::size_t gatherPairs(const Particles& particles, const PairList& list, const PairRows& rows, PairCursor& cursor,
+                        ContactBlock& block) {
+  const std::size_t first = cursor.pair, n = std::min(blockSize, cursor.end - first);
+  const auto* const pairs = list.pairs.data() + first;
+  announce(particles, list, first, n, rows.spins && particles.rotates());
+  gatherCentres(particles, pairs, n, block);
+  for (; cursor.image < list.images.size() && list.images[cursor.image].pair < first + n; ++cursor.image) {
+    const auto& [pair, shift] = list.images[cursor.image];
+    block.separation.set(pair - first, block.separation.at(pair - first) + shift);
+  }
+  gatherRadii(particles, pairs, n, rows.oneRadius, block);
+  if (rows.mass && !rows.oneMass) gatherMasses(particles, {pairs, n}, block);
+  if (rows.spins) gatherSpins(particles, pairs, n, block);
+  if (rows.varied) gatherVaried(particles, list, first, rows.materials, n, block);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(rows.memory); ++c)
+    std::copy_n(list.memory.data() + c * list.size() + first, n, block.memory[c].begin());
+  return n;
+}
+
+void scatterPairs(Particles& particles, PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
+                  const ContactBlock& block) {
+  for (std::size_t c = 0; c < static_cast<std::size_t>(rows.memory); ++c)
+    std::copy_n(block.memory[c].begin(), n, list.memory.data() + c * list.size() + cursor.pair);
   if (rows.spins && particles.rotates())
-    scatterForces<true>(particles, list, chunkEnd, first, n, block, crossing);
+    scatterForces<true>(particles, list, cursor, n, block);
   else
-    scatterForces<false>(particles, list, chunkEnd, first, n, block, crossing);
+    scatterForces<false>(particles, list, cursor, n, block);
+  cursor.pair += n;
 }
 
 void addCrossing(Particles& particles, const PairList& list, bool spins) {

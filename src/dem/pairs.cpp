@@ -38,20 +38,16 @@ void keepMemory(const Pairs& old, PairList& list) {
 }
 
 void findImages(const Particles& particles, PairList& list) {
-  list.image.clear();
+  list.images.clear();
   if (!list.periodicity.any()) return;
-  list.image.assign(list.size(), 0);
   for (std::size_t p = 0; p < list.size(); ++p) {
     const auto [i, j] = list.pairs[p];
     const Vec3 d = particles.x[static_cast<std::size_t>(i)] - particles.x[static_cast<std::size_t>(j)];
-    for (int k = 0; k < 3; ++k) {
-      if (!list.periodicity.axes[static_cast<std::size_t>(k)]) continue;
-      const double periods = -std::round(d[k] / list.periodicity.length(k));
-      if (!(std::abs(periods) <= 127.0))
-        throw InputError("the particles are more than 127 periods apart",
-                         "pair " + std::to_string(i) + ", " + std::to_string(j), "call wrapPositions now and then");
-      list.image[p] |= (static_cast<int>(periods) & 0xff) << (8 * k);
-    }
+    Vec3 shift;
+    for (int k = 0; k < 3; ++k)
+      if (list.periodicity.axes[static_cast<std::size_t>(k)])
+        shift[k] = -list.periodicity.length(k) * std::round(d[k] / list.periodicity.length(k));
+    if (squaredNorm(shift) > 0.0) list.images.push_back({p, shift});
   }
 }
 
@@ -81,6 +77,12 @@ void makeChunks(std::size_t particles, PairList& list) {
   const std::size_t crossings = chunks.crosses.back();
   chunks.force.resize(crossings);
   chunks.torque.clear();
+  chunks.images.assign(1, 0);
+  for (std::size_t c = 0; c < chunks.count(); ++c) {
+    std::size_t k = chunks.images.back();
+    while (k < list.images.size() && list.images[k].pair < chunks.begin[c + 1]) ++k;
+    chunks.images.push_back(k);
+  }
   chunks.arriving.resize(crossings);
   std::vector<std::size_t> next(chunks.arrives.begin(), chunks.arrives.end() - 1);
   int crossing = 0;
@@ -106,21 +108,75 @@ bool fits(const Particles& particles, const PairList& list) {
 
 }  // namespace
 
-void findPairs(const Particles& particles, double skin, PairList& list) {
-  list.skin = requireNonNegative(skin, "skin of the pair list");
-  requireFinite(particles.x, "particle", "position", "search for pairs");
-  Pairs old;
-  if (!list.memory.empty()) old.swap(list.pairs);
-  if (list.periodicity != list.grid.periodicity()) list.grid = geometry::HierarchicalGrid(list.periodicity);
-  list.grid.build(particles.x, particles.radius, skin);
-  list.grid.pairs(list.pairs);
+Vec3 PairList::shift(std::size_t pair) const {
+  const auto found = std::lower_bound(images.begin(), images.end(), pair,
+                                      [](const PairImage& image, std::size_t p) { return image.pair < p; });
+  return found != images.end() && found->pair == pair ? found->shift : Vec3{};
+}
+
+namespace {
+
+/// Puts `pairs` in the place of the list's, and makes anew what hangs on them.
+void take(const Particles& particles, Pairs&& pairs, PairList& list) {
+  const Pairs old = std::exchange(list.pairs, std::move(pairs));
   keepMemory(old, list);
   findImages(particles, list);
   makeChunks(particles.size(), list);
+  list.scale.clear();
+  ++list.revision;
+}
+
+Pairs closerThan(double gap, const Particles& particles, const PairList& list) {
+  Pairs close;
+  close.reserve(list.pairs.size() + list.pairs.size() / 16);
+  for (const auto& pair : list.candidates) {
+    const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
+    Vec3 d = particles.x[i] - particles.x[j];
+    if (list.periodicity.any()) d = list.periodicity.minimumImage(d);
+    const double reach = particles.radius[i] + particles.radius[j] + gap;
+    if (squaredNorm(d) <= reach * reach) close.push_back(pair);
+  }
+  return close;
+}
+
+/// A pruning should last a few tens of steps: longer lists cost at every step, picking costs now.
+void adaptInnerSkin(PairList& list) {
+  constexpr double smallest = 0.05, largest = 0.8, first = 0.25;  // of the skin
+  if (list.innerSkin <= 0.0)
+    list.innerSkin = first * list.skin;
+  else if (list.updatesSincePruning < 15)
+    list.innerSkin *= 1.5;
+  else if (list.updatesSincePruning > 60)
+    list.innerSkin *= 0.75;
+  list.innerSkin = std::clamp(list.innerSkin, smallest * list.skin, largest * list.skin);
+}
+
+void prune(const Particles& particles, PairList& list) {
+  adaptInnerSkin(list);
+  list.innerTravel = 0.0;
+  list.updatesSincePruning = 0;
+  take(particles, closerThan(list.innerSkin, particles, list), list);
+}
+
+}  // namespace
+
+void findPairs(const Particles& particles, double skin, PairList& list) {
+  list.skin = requireNonNegative(skin, "skin of the pair list");
+  requireFinite(particles.x, "particle", "position", "search for pairs");
+  if (list.periodicity != list.grid.periodicity()) list.grid = geometry::HierarchicalGrid(list.periodicity);
+  list.grid.build(particles.x, particles.radius, skin);
   list.positionAtBuild = particles.x;
   list.travel = 0.0;
-  list.scale.clear();
   ++list.builds;
+  Pairs found;
+  list.grid.pairs(found);
+  list.candidates.clear();
+  list.innerSkin = found.size() < PairList::pruneFrom || skin == 0.0 ? skin
+                   : list.innerSkin < skin                           ? list.innerSkin
+                                                                     : 0.0;
+  if (list.innerSkin == skin) return take(particles, std::move(found), list);
+  list.candidates = std::move(found);
+  prune(particles, list);
 }
 
 // Comparisons are written so that a NaN asks for a new list, which then names the culprit.
@@ -129,13 +185,23 @@ bool updatePairs(const Particles& particles, PairList& list) {
 }
 
 bool updatePairs(const Particles& particles, PairList& list, double step) {
-  if (fits(particles, list)) {
-    list.travel += step;
-    if (list.travel <= 0.5 * list.skin) return false;
-    list.travel = largestTravel(particles, list);
-    if (list.travel <= 0.5 * list.skin) return false;
+  if (!fits(particles, list)) {
+    findPairs(particles, list.skin, list);
+    return true;
   }
-  findPairs(particles, list.skin, list);
+  const bool pruned = list.innerSkin < list.skin;
+  list.travel += step;
+  list.innerTravel += step;
+  ++list.updatesSincePruning;
+  if (!(list.travel <= 0.5 * list.skin)) {
+    list.travel = largestTravel(particles, list);
+    if (!(list.travel <= 0.5 * list.skin)) {
+      findPairs(particles, list.skin, list);
+      return true;
+    }
+  }
+  if (!pruned || list.innerTravel <= 0.5 * list.innerSkin) return false;
+  prune(particles, list);
   return true;
 }
 

@@ -126,16 +126,34 @@ void drift(Particles& particles, double dt) {
 
 namespace {
 
-/// One particle's half kick and drift; returns the squared displacement, m².
+/// What one sweep does to a particle.
+struct Sweep {
+  double dt;
+  int halfKicks;      // before the drift
+  bool startsForces;  // after it
+  Vec3 g;
+};
+
+/// Half kicks and drift of one particle; returns the squared displacement, m². Two half kicks are made one after the
+/// other, so that the digits are those of two sweeps.
 template <bool spins>
-double advance(Particles& particles, std::size_t i, double dt) {
-  const double half = 0.5 * dt / particles.mass[i];
-  const Vec3 v = particles.v[i] + half * particles.f[i];
+double advance(Particles& particles, std::size_t i, const Sweep& sweep) {
+  const double half = 0.5 * sweep.dt / particles.mass[i];
+  Vec3 v = particles.v[i];
+  for (int k = 0; k < sweep.halfKicks; ++k) v += half * particles.f[i];
   particles.v[i] = v;
-  particles.x[i] += dt * v;
-  if constexpr (spins)
-    particles.omega[i] += (0.5 * dt / momentOfInertia(particles, static_cast<int>(i))) * particles.torque[i];
-  return squaredNorm(v) * (dt * dt);
+  particles.x[i] += sweep.dt * v;
+  if constexpr (spins) {
+    const double halfSpin = 0.5 * sweep.dt / momentOfInertia(particles, static_cast<int>(i));
+    Vec3 omega = particles.omega[i];
+    for (int k = 0; k < sweep.halfKicks; ++k) omega += halfSpin * particles.torque[i];
+    particles.omega[i] = omega;
+  }
+  if (sweep.startsForces) {
+    particles.f[i] = particles.mass[i] * sweep.g;
+    if constexpr (spins) particles.torque[i] = {};
+  }
+  return squaredNorm(v) * (sweep.dt * sweep.dt);
 }
 
 struct Largest {
@@ -146,11 +164,9 @@ struct Largest {
   }
 };
 
-}  // namespace
-
-double kickAndDrift(Particles& particles, double dt) {
+double sweepAll(Particles& particles, const Sweep& sweep) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto sweep = [&](std::size_t begin, std::size_t end) {
+  const auto part = [&](std::size_t begin, std::size_t end) {
     double largest = 0.0;
     bool finite = true;
     const auto take = [&](double d2) {
@@ -158,13 +174,21 @@ double kickAndDrift(Particles& particles, double dt) {
       largest = d2 > largest ? d2 : largest;
     };
     if (particles.rotates())
-      for (std::size_t i = begin; i < end; ++i) take(advance<true>(particles, i, dt));
+      for (std::size_t i = begin; i < end; ++i) take(advance<true>(particles, i, sweep));
     else
-      for (std::size_t i = begin; i < end; ++i) take(advance<false>(particles, i, dt));
+      for (std::size_t i = begin; i < end; ++i) take(advance<false>(particles, i, sweep));
     return Largest{finite ? largest : infinity};
   };
-  return std::sqrt(parallelSum(particles.size(), grain, sweep).value);
+  return std::sqrt(parallelSum(particles.size(), grain, part).value);
 }
+
+}  // namespace
+
+double kickAndDrift(Particles& particles, double dt) { return sweepAll(particles, {dt, 1, false, {}}); }
+
+double startStep(Particles& particles, double dt, const Vec3& g) { return sweepAll(particles, {dt, 1, true, g}); }
+
+double turnStep(Particles& particles, double dt, const Vec3& g) { return sweepAll(particles, {dt, 2, true, g}); }
 
 void startForces(Particles& particles, const Vec3& g) {
   parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {

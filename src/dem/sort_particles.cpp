@@ -1,5 +1,6 @@
 // Near in number means near in space.
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "dovetail/dem/pairs.hpp"
@@ -17,32 +18,28 @@ void permute(std::vector<T>& values, std::span<const int> order) {
   values = std::move(sorted);
 }
 
-/// Bits of a 21-bit number spread to every third place.
-std::uint64_t spread(std::uint64_t bits) {
-  bits = (bits | bits << 32) & 0x1f00000000ffff;
-  bits = (bits | bits << 16) & 0x1f0000ff0000ff;
-  bits = (bits | bits << 8) & 0x100f00f00f00f00f;
-  bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
-  return (bits | bits << 2) & 0x1249249249249249;
-}
-
-/// Numbers of the particles along a space-filling curve (Morton's) through cells of about the smallest diameter.
-std::vector<int> curveOrder(const Particles& particles) {
+/// Numbers of the particles in the order of cells about as large as a mean particle, row by row, layer by layer. Layers
+/// lie across the longest axis, so that as few particles as possible lie between neighbours.
+std::vector<int> layerOrder(const Particles& particles) {
   Vec3 lower = particles.x[0], upper = lower;
-  for (const Vec3& x : particles.x) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vec3& x = particles.x[i];
     lower = {std::min(lower.x, x.x), std::min(lower.y, x.y), std::min(lower.z, x.z)};
     upper = {std::max(upper.x, x.x), std::max(upper.y, x.y), std::max(upper.z, x.z)};
+    sum += particles.radius[i];
   }
-  const double smallest = 2.0 * *std::min_element(particles.radius.begin(), particles.radius.end());
   const Vec3 extent = upper - lower;
-  constexpr double cells = 1 << 21;
-  const double edge = std::max(smallest, std::max({extent.x, extent.y, extent.z}) / (cells - 1.0));
-  std::vector<std::uint64_t> key(particles.size());
-  for (std::size_t i = 0; i < key.size(); ++i) {
-    const Vec3 d = (particles.x[i] - lower) / edge;
-    key[i] = spread(static_cast<std::uint64_t>(d.x)) | spread(static_cast<std::uint64_t>(d.y)) << 1 |
-             spread(static_cast<std::uint64_t>(d.z)) << 2;
-  }
+  std::array<int, 3> axis{0, 1, 2};
+  std::stable_sort(axis.begin(), axis.end(), [&](int a, int b) { return extent[a] < extent[b]; });
+  constexpr double mostCells = 1 << 20;
+  const double edge = std::max(2.0 * sum / static_cast<double>(particles.size()), extent[axis[2]] / mostCells);
+  std::vector<std::uint64_t> key(particles.size(), 0);
+  for (std::size_t i = 0; i < key.size(); ++i)
+    for (int k = 2; k >= 0; --k) {
+      const int a = axis[static_cast<std::size_t>(k)];
+      key[i] = key[i] << 21 | static_cast<std::uint64_t>((particles.x[i][a] - lower[a]) / edge);
+    }
   std::vector<int> order(particles.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
@@ -58,7 +55,7 @@ std::vector<int> sortParticles(Particles& particles, PairList& list) {
     particles.id.resize(particles.size());
     std::iota(particles.id.begin(), particles.id.end(), std::int64_t{0});
   }
-  const std::vector<int> order = curveOrder(particles);
+  const std::vector<int> order = layerOrder(particles);
   permute(particles.x, order);
   permute(particles.v, order);
   permute(particles.f, order);

@@ -7,55 +7,11 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/geometry/triangle.hpp"
+#include "half_edges.hpp"
 
 namespace dovetail::geometry {
 
 namespace {
-
-constexpr double roundOffHeight = 1e-14;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-int tail(const Facet& facet, int edge) { return facet[at(edge)]; }
-int head(const Facet& facet, int edge) { return facet[at((edge + 1) % 3)]; }
-
-bool repeatsVertex(const Facet& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
-
-void checkIndices(std::span<const Facet> facets, int vertexCount) {
-  for (std::size_t i = 0; i < facets.size(); ++i)
-    for (int v : facets[i])
-      if (v < 0 || v >= vertexCount)
-        throw InputError("vertex number " + std::to_string(v) + " does not exist", "facet " + std::to_string(i),
-                         "use numbers from 0 to " + std::to_string(vertexCount - 1));
-}
-
-struct HalfEdge {
-  int low, high, facet, edge;
-  auto vertices() const { return std::pair(low, high); }
-};
-
-/// All facet edges, sorted so that those between the same two vertices are adjacent.
-std::vector<HalfEdge> sortedEdges(std::span<const Facet> facets) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * facets.size());
-  for (std::size_t i = 0; i < facets.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      const int a = tail(facets[i], k), b = head(facets[i], k);
-      edges.push_back({std::min(a, b), std::max(a, b), static_cast<int>(i), k});
-    }
-  std::stable_sort(edges.begin(), edges.end(),
-                   [](const HalfEdge& a, const HalfEdge& b) { return a.vertices() < b.vertices(); });
-  return edges;
-}
-
-/// Calls visit(first, last) for each group of edges between the same two vertices.
-template <class Visit>
-void forEachEdgeGroup(const std::vector<HalfEdge>& edges, Visit&& visit) {
-  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    while (end < edges.size() && edges[end].vertices() == edges[begin].vertices()) ++end;
-    visit(std::span<const HalfEdge>(edges).subspan(begin, end - begin));
-  }
-}
 
 void listFacetsAtVertices(std::span<const Facet> facets, int vertexCount, SurfaceTopology& topology) {
   auto& offsets = topology.vertexFacetOffsets;
@@ -71,12 +27,6 @@ void listFacetsAtVertices(std::span<const Facet> facets, int vertexCount, Surfac
 
 Vec3 areaNormal(std::span<const Vec3> x, const Facet& f) {
   return triangleAreaNormal(x[at(f[0])], x[at(f[1])], x[at(f[2])]);
-}
-
-/// Height over the longest edge, as a share of that edge; 0 for a point.
-double relativeHeight(std::span<const Vec3> x, const Facet& f) {
-  const double longest2 = longestEdgeSquared(x[at(f[0])], x[at(f[1])], x[at(f[2])]);
-  return longest2 > 0.0 ? norm(areaNormal(x, f)) / longest2 : 0.0;
 }
 
 }  // namespace
@@ -146,33 +96,6 @@ std::vector<int> smoothPatches(std::span<const Vec3> x, std::span<const Facet> f
     ++count;
   }
   return patch;
-}
-
-SurfaceDefects checkSurface(std::span<const Vec3> x, std::span<const Facet> facets, double needleRatio) {
-  checkIndices(facets, static_cast<int>(x.size()));
-  SurfaceDefects defects;
-  for (std::size_t i = 0; i < facets.size(); ++i) {
-    const int facet = static_cast<int>(i);
-    const double height = relativeHeight(x, facets[i]);
-    if (repeatsVertex(facets[i]))
-      defects.repeatedVertex.push_back(facet);
-    else if (!(height > roundOffHeight))
-      defects.zeroArea.push_back(facet);
-    else if (height < needleRatio)
-      defects.needle.push_back(facet);
-  }
-  const auto edges = sortedEdges(facets);
-  forEachEdgeGroup(edges, [&](std::span<const HalfEdge> group) {
-    const bool flipped = group.size() == 2 && tail(facets[at(group[0].facet)], group[0].edge) ==
-                                                  tail(facets[at(group[1].facet)], group[1].edge);
-    for (const HalfEdge& e : group) {
-      if (group.size() == 1) defects.boundary.push_back({e.facet, e.edge});
-      if (group.size() > 2) defects.nonManifold.push_back({e.facet, e.edge});
-      if (flipped) defects.flipped.push_back({e.facet, e.edge});
-    }
-  });
-  for (auto* list : {&defects.boundary, &defects.nonManifold, &defects.flipped}) std::sort(list->begin(), list->end());
-  return defects;
 }
 
 }  // namespace dovetail::geometry

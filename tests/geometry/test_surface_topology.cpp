@@ -7,6 +7,7 @@
 #include <string>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/geometry/surface_checks.hpp"
 #include "dovetail/geometry/surface_topology.hpp"
 #include "dovetail/geometry/triangle.hpp"
 

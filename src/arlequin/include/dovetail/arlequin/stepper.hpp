@@ -40,7 +40,7 @@ struct Model {
   double time = 0.0;               ///< s
   dem::ContactWork contact;        ///< of the last force evaluation
   std::vector<Vec3> slowForce;     ///< on the particles, N; only with multipliers and windows of several steps
-  std::int64_t weighedBuilds = 0;  ///< builds of the pair list whose contacts have been weighed
+  std::int64_t weighedRevision = 0;  ///< builds of the pair list whose contacts have been weighed
 };
 
 /// What steps did, to be booked. Work in J, impulses in kg m/s; sums over the steps since the object was made.

@@ -11,6 +11,7 @@ struct Contact {
   double overlap = 0.0;          ///< δ, m; > 0 while they touch
   double separating = 0.0;       ///< n·velocity, m/s; > 0 while the overlap closes
   double effectiveMass = 0.0;    ///< m₁m₂/(m₁ + m₂), kg; only where a part has `needsMass`
+  double rootMass = 0.0;         ///< its square root, kg^½
   double effectiveRadius = 0.0;  ///< R₁R₂/(R₁ + R₂), m; only where a part has `needsRadius`
   Vec3 normal;                   ///< unit, from the partner to the particle
   Vec3 slip;                     ///< tangential velocity of the particle relative to the partner at the contact, m/s

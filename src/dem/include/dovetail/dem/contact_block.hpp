@@ -26,13 +26,13 @@ struct ContactBlock {
       z[l] = v.z;
     }
   };
-  Rows3 separation;              ///< in: x_particle − x_partner (pairs) or the unit normal (walls); out: n × force
-  Rows3 velocity;                ///< in: v_particle − v_partner; out: force on the particle
-  Rows3 spinI;                   ///< in: ω of the particle; out: couple on the particle
-  Rows3 spinJ;                   ///< in: ω of the partner
-  alignas(64) Row armI;          ///< in: radius of the particle; out: distance of its centre from the contact
-  alignas(64) Row armJ;          ///< the same of the partner; walls: in: overlap
-  alignas(64) Row massI, massJ;  ///< of particle and partner, kg
+  Rows3 separation;          ///< in: x_particle − x_partner (pairs) or the unit normal (walls); out: n × force
+  Rows3 velocity;            ///< in: v_particle − v_partner; out: force on the particle
+  Rows3 spinI;               ///< in: ω of the particle; out: couple on the particle
+  Rows3 spinJ;               ///< in: ω of the partner
+  alignas(64) Row armI;      ///< in: radius of the particle; out: distance of its centre from the contact
+  alignas(64) Row armJ;      ///< the same of the partner; walls: in: overlap
+  alignas(64) Row rootMass;  ///< √ of the effective mass, kg^½
   alignas(64) Row scale;
   alignas(64) std::array<int, blockSize> kind;  ///< row of the law table
   alignas(64) std::array<Row, 12> memory;       ///< of the law, by component
@@ -103,16 +103,13 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
     contact.separating = dot(normal, velocity);
     if constexpr (Law::needsSlip) contact.slip = velocity - contact.separating * normal;
     const double scale = options.varied ? block.scale[l] : 1.0;
-    if constexpr (options.wall) {
-      contact.effectiveMass = block.massI[l];
-      contact.effectiveRadius = block.armI[l];
-    } else {
-      const double radiusI = block.armI[l], radiusJ = block.armJ[l];
-      contact.effectiveRadius = radiusI * (radiusJ / (radiusI + radiusJ));
-      // Masses carry the scale too, so it is divided out of the effective one.
-      const double mass = block.massI[l] * (block.massJ[l] / (block.massI[l] + block.massJ[l]));
-      contact.effectiveMass = options.varied ? (scale > 0.0 ? mass / (scale > 0.0 ? scale : 1.0) : 0.0) : mass;
-    }
+    contact.rootMass = block.rootMass[l];
+    if constexpr (options.varied &&
+                  !options.wall)  // masses carry the scale too, so it is divided out of the effective one
+      contact.rootMass = scale > 0.0 ? contact.rootMass / std::sqrt(scale > 0.0 ? scale : 1.0) : 0.0;
+    contact.effectiveMass = contact.rootMass * contact.rootMass;
+    const double radiusI = block.armI[l], radiusJ = options.wall ? 0.0 : block.armJ[l];
+    contact.effectiveRadius = options.wall ? radiusI : radiusI * (radiusJ / (radiusI + radiusJ));
     contact.dt = dt;
     double memory[Law::memory + 1];
     loadMemory(block, l, memory, components);

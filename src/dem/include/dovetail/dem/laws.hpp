@@ -59,7 +59,7 @@ struct LinearSpringDashpot {
     double elasticForce(double overlap) const { return stiffness * overlap; }
 
     [[gnu::always_inline]] NormalResponse respond(const Contact& contact, double*) const {
-      const double damping = dampingPerRootMass * std::sqrt(contact.effectiveMass);
+      const double damping = dampingPerRootMass * contact.rootMass;
       const double elastic = stiffness * contact.overlap;
       const double whole = elastic - damping * contact.separating;
       const double force = whole < leastForce ? leastForce : whole;

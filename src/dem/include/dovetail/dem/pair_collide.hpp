@@ -38,42 +38,52 @@ namespace detail {
 /// @throws InputError unless dt is finite and > 0
 void requireStep(double dt);
 
-/// Which rows of a block a law reads.
-struct GatherRows {
+/// What a law asks for, and what all particles share.
+struct PairRows {
   bool spins, mass, varied;
-  int memory;
+  int memory, materials;
+  bool oneRadius = false;  ///< all particles have the same
+  bool oneMass = false;
 };
-/// Fills the block with pairs first … first + n − 1.
-void gatherPairs(const Particles& particles, const PairList& list, std::size_t first, std::size_t n,
-                 const GatherRows& rows, int materials, ContactBlock& block);
-/// Adds the block's forces to particles of the chunk, keeps those for others, and stores the memories.
-/// @param crossing number of the next crossing pair, advanced
-void scatterPairs(Particles& particles, PairList& list, std::size_t chunk, std::size_t first, std::size_t n,
-                  const GatherRows& rows, const ContactBlock& block, std::size_t& crossing);
+/// Where a sweep over the pairs of a chunk stands.
+struct PairCursor {
+  std::size_t chunk, pair, end, crossing, image;
+};
+/// Looks whether all particles have one radius and one mass, which saves gathering them.
+void findUniform(const Particles& particles, PairRows& rows);
+PairCursor startOfChunk(const PairList& list, std::size_t chunk);
+/// Fills the row of masses once for all pairs, if they share it or nobody asks for it.
+void shareMass(const Particles& particles, const PairRows& rows, ContactBlock& block);
+void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>> pairs, ContactBlock& block);
+/// Fills the block with the next pairs; returns how many.
+std::size_t gatherPairs(const Particles& particles, const PairList& list, const PairRows& rows, PairCursor& cursor,
+                        ContactBlock& block);
+/// Adds the block's forces to particles of the chunk, keeps those for others, and stores the memories; moves on.
+void scatterPairs(Particles& particles, PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
+                  const ContactBlock& block);
 /// Adds what pairs of other chunks do to particles.
 void addCrossing(Particles& particles, const PairList& list, bool spins);
 /// Makes room for memories of the given size.
 void prepareMemory(PairList& list, int memory, unsigned turns);
 
 template <class Law, BlockOptions options>
-ContactWork collideChunk(Particles& particles, PairList& list, std::size_t chunk, const GatherRows& rows,
+ContactWork collideChunk(Particles& particles, PairList& list, std::size_t chunk, const PairRows& rows,
                          const PreparedLaws<Law>& laws, double dt) {
   ContactBlock block;
+  shareMass(particles, rows, block);
   ContactWork work;
-  std::size_t crossing = list.chunks.crosses[chunk];
-  const std::size_t end = list.chunks.begin[chunk + 1];
-  for (std::size_t first = list.chunks.begin[chunk]; first < end; first += blockSize) {
-    const std::size_t n = std::min(blockSize, end - first);
-    gatherPairs(particles, list, first, n, rows, laws.materials, block);
+  PairCursor cursor = startOfChunk(list, chunk);
+  while (cursor.pair < cursor.end) {
+    const std::size_t n = gatherPairs(particles, list, rows, cursor, block);
     answer<Law, options>(block, n, laws.table.data(), dt);
-    scatterPairs(particles, list, chunk, first, n, rows, block, crossing);
+    scatterPairs(particles, list, rows, n, cursor, block);
     if constexpr (options.booked) work += sumWork(block, n);
   }
   return work;
 }
 
 template <class Law, BlockOptions options>
-ContactWork collideChunks(Particles& particles, PairList& list, const GatherRows& rows, const PreparedLaws<Law>& laws,
+ContactWork collideChunks(Particles& particles, PairList& list, const PairRows& rows, const PreparedLaws<Law>& laws,
                           double dt) {
   const ContactWork work = parallelSum(list.chunks.count(), 1, [&](std::size_t chunk, std::size_t) {
     return collideChunk<Law, options>(particles, list, chunk, rows, laws, dt);
@@ -96,16 +106,13 @@ ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law
   ContactWork work;
   if constexpr (Law::memory > 0) {
     detail::requireStep(dt);
-    for (std::size_t m = 0; m + Law::memory <= list.ended.size(); m += Law::memory)
-      work += laws.table[0].ended(list.ended.data() + m, dt);
-    list.ended.clear();
     detail::prepareMemory(list, Law::memory, Law::turns);
   }
-  if (list.pairs.empty()) return work;
-  if constexpr (Law::rotates) list.chunks.torque.resize(list.chunks.force.size());
   const bool varied = !list.scale.empty() || laws.materials > 1;
-  const detail::GatherRows rows{Law::rotates, Law::needsMass && laws.usesMass(), varied, Law::memory};
+  detail::PairRows rows{Law::rotates, Law::needsMass && laws.usesMass(), varied, Law::memory, laws.materials};
+  detail::findUniform(particles, rows);
   constexpr bool spins = Law::rotates;
+  if constexpr (spins) list.chunks.torque.resize(list.chunks.force.size());
   const bool booked = booking == Booking::on;
   if (varied && booked)
     work += detail::collideChunks<Law, BlockOptions{spins, false, true, true}>(particles, list, rows, laws, dt);
@@ -115,6 +122,11 @@ ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law
     work += detail::collideChunks<Law, BlockOptions{spins, false, false, true}>(particles, list, rows, laws, dt);
   else
     detail::collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, list, rows, laws, dt);
+  if constexpr (Law::memory > 0) {  // pairs that left the list
+    for (std::size_t m = 0; booked && m + Law::memory <= list.ended.size(); m += Law::memory)
+      work += laws.table[0].ended(list.ended.data() + m, dt);
+    list.ended.clear();
+  }
   return work;
 }
 

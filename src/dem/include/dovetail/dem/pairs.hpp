@@ -21,22 +21,40 @@ struct PairChunks {
   std::vector<Vec3> force, torque;   ///< on the second particle of each crossing pair, N, N m
   std::vector<std::size_t> arrives;  ///< chunk c receives arriving[arrives[c]] … arriving[arrives[c + 1] − 1]
   std::vector<std::array<int, 2>> arriving;  ///< crossing pair, particle
+  std::vector<std::size_t> images;           ///< chunk c has images[c] … images[c + 1] − 1 of PairList::images
   std::size_t count() const { return begin.empty() ? 0 : begin.size() - 1; }
 };
 
+/// A pair that meets through a periodic image.
+struct PairImage {
+  std::size_t pair;
+  Vec3 shift;  ///< to be added to x_i − x_j, m
+};
+
 /// Pairs closer than the sum of their radii + skin when the list was made.
+///
+/// Two lists stand behind each other (Páll & Hess, Comput. Phys. Commun. 184, 2013, call it pruning): `candidates` come
+/// from the grid and last while nobody has moved more than skin/2; of those, `pairs` are closer than the sum of their
+/// radii + innerSkin, and are picked anew whenever somebody may have moved more than innerSkin/2. The inner skin adapts
+/// itself such that picking is rare. Lists of less than pruneFrom pairs are not pruned: innerSkin = skin.
 struct PairList {
   double skin = 0.0;                      ///< m
   std::vector<std::array<int, 2>> pairs;  ///< i < j, sorted
-  std::int64_t builds = 0;
+  std::int64_t builds = 0;                ///< how often the grid was asked
+  std::int64_t revision = 0;              ///< how often `pairs` has changed
+
+  static constexpr std::size_t pruneFrom = 4096;
+  double innerSkin = 0.0;                      ///< m
+  std::vector<std::array<int, 2>> candidates;  ///< i < j, sorted; empty unless pruned
+  double innerTravel = 0.0;                    ///< bound on how far any particle has moved since the last pruning, m
+  std::int64_t updatesSincePruning = 0;
 
   /// Axes along which space repeats; set before the list is made. Positions need not lie in the box.
   geometry::Periodicity periodicity;
-  /// Per pair: periods to be added to x_i − x_j, a signed byte per axis, x in the lowest; empty without periodic axes.
-  std::vector<std::int32_t> image;
+  std::vector<PairImage> images;  ///< of the pairs that meet across a period, ascending
 
   /// Per pair: factor on its force and energies, such as the particles' share of an overlap; empty = 1. A new list has
-  /// none; whoever set it sets it again when `builds` has changed.
+  /// none; whoever set it sets it again when `revision` has changed.
   std::vector<double> scale;
   /// What the contacts remember, by component: number c of pair p is memory[c * pairs.size() + p]. A tangential spring
   /// takes three numbers, its stretch, m. Empty unless the law remembers something.
@@ -52,24 +70,19 @@ struct PairList {
   geometry::HierarchicalGrid grid;
 
   std::size_t size() const { return pairs.size(); }
-  /// Vector to be added to x_i − x_j of a pair, m; zero without periodic axes.
-  Vec3 shift(std::size_t pair) const {
-    if (image.empty()) return {};
-    const auto periods = [&](int axis) { return static_cast<std::int8_t>(image[pair] >> (8 * axis)); };
-    return {periods(0) * periodicity.length(0), periods(1) * periodicity.length(1), periods(2) * periodicity.length(2)};
-  }
+  /// Vector to be added to x_i − x_j of a pair, m; zero without periodic axes. O(log n).
+  Vec3 shift(std::size_t pair) const;
 };
 
 /// Makes the list anew; memories of pairs that stay are kept.
-/// @throws InputError if skin is not finite and ≥ 0, if a periodic box is too small for two particles and the skin, or
-///         if two particles have drifted apart by more than 127 periods (see wrapPositions); NumericalError naming a
-///         particle whose position is not finite
+/// @throws InputError if skin is not finite and ≥ 0, or if a periodic box is too small for two particles and the skin;
+///         NumericalError naming a particle whose position is not finite
 void findPairs(const Particles& particles, double skin, PairList& list);
 
 /// Makes the list anew if some particle has moved more than skin/2 since it was made, or their number changed.
-/// Returns whether it did.
+/// Returns whether `pairs` has changed.
 bool updatePairs(const Particles& particles, PairList& list);
-/// The same without looking at every particle at every step.
+/// The same without looking at every particle at every step, and with pruning.
 /// @param step bound on how far any particle has moved since the last call, m, as `drift` returns it
 bool updatePairs(const Particles& particles, PairList& list, double step);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "dovetail/core/parallel.hpp"
@@ -30,7 +31,7 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
     block.velocity.set(l, velocity(c));
     block.armI[l] = particles.radius[i];
     block.armJ[l] = contacts.overlap[c] / contacts.engagement[c];
-    block.massI[l] = particles.mass[i];
+    block.rootMass[l] = std::sqrt(particles.mass[i]);
     block.scale[l] = contacts.engagement[c];
     block.kind[l] = laws.materials > 1 ? materialOf(particles, i) * laws.materials + wallMaterial : 0;
     if constexpr (Law::rotates) {

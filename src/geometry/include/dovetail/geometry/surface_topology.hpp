@@ -1,4 +1,4 @@
-// Triangulated surfaces: adjacency, dihedral angles, smooth patches, quality.
+// Triangulated surfaces: adjacency, dihedral angles, smooth patches.
 #pragma once
 
 #include <array>
@@ -47,24 +47,5 @@ double edgeAngle(std::span<const Vec3> x, std::span<const Facet> facets, int fac
 /// A facet without area joins no patch but its own, so that it cannot bridge a sharp edge.
 std::vector<int> smoothPatches(std::span<const Vec3> x, std::span<const Facet> facets, const SurfaceTopology& topology,
                                double sharpAngle);
-
-/// Facets that contact search treats as an edge or a point, and edges that spoil a closed oriented skin.
-struct SurfaceDefects {
-  std::vector<int> repeatedVertex;  ///< facets that name a vertex twice
-  std::vector<int> zeroArea;        ///< facets whose area is zero to round-off (height ≤ 1e-14 longest edge)
-  std::vector<int> needle;          ///< further facets whose height is below `needleRatio` of their longest edge
-  std::vector<std::array<int, 2>> boundary;     ///< {facet, edge} that no other facet shares
-  std::vector<std::array<int, 2>> nonManifold;  ///< {facet, edge} shared by more than two facets
-  std::vector<std::array<int, 2>> flipped;      ///< {facet, edge} that the neighbour runs through in the same sense
-
-  bool badFacets() const { return !repeatedVertex.empty() || !zeroArea.empty() || !needle.empty(); }
-  bool closedAndOriented() const { return boundary.empty() && nonManifold.empty() && flipped.empty(); }
-};
-
-/// Reports, and changes nothing. Each list is ascending. Takes facets that makeTopology would refuse for a repeated
-/// vertex (their edges then count as they stand).
-/// @param needleRatio height / longest edge below which a facet counts as a needle
-/// @throws InputError on a vertex number outside the range of x
-SurfaceDefects checkSurface(std::span<const Vec3> x, std::span<const Facet> facets, double needleRatio = 1e-6);
 
 }  // namespace dovetail::geometry

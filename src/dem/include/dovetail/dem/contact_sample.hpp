@@ -1,0 +1,70 @@
+// The contacts of a state one by one, for fields, averages and files.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/wall_contacts.hpp"
+
+namespace dovetail::dem {
+
+/// Contacts that carry a force; all arrays have one entry per contact.
+struct ContactSample {
+  std::vector<int> first;   ///< particle
+  std::vector<int> second;  ///< particle, or −1 for a wall
+  std::vector<Vec3> from;   ///< centre of the first, m
+  std::vector<Vec3>
+      to;  ///< centre of the second (its image next to the first one), or the contact point on the wall, m
+  std::vector<Vec3> point;   ///< middle of the overlap, or the contact point on the wall, m
+  std::vector<Vec3> normal;  ///< unit, from the second to the first
+  std::vector<Vec3> force;   ///< on the first, N
+
+  std::size_t size() const { return first.size(); }
+};
+
+namespace detail {
+/// Appends what the block, answered, says of the pairs from `first` on. Leaves out those without a force.
+void appendPairs(const Particles& particles, const PairList& list, std::size_t first, std::size_t n,
+                 const ContactBlock& block, ContactSample& sample);
+/// @throws InputError unless the list has as many memories as a law asks for
+void requireMemory(const PairList& list, int memory);
+}  // namespace detail
+
+/// Pairs with their forces as collide last made them: nothing is changed, and what contacts remember is taken as it is.
+/// @param list that of the last collide, with the same particles
+/// @throws InputError if the law remembers something and the list has not been through collide with it
+template <class Law>
+ContactSample samplePairs(const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws) {
+  detail::requireMemory(list, Law::memory);
+  const bool varied = !list.scale.empty() || laws.materials > 1;
+  const detail::PairRows rows{Law::rotates, Law::needsMass && laws.usesMass(), varied, Law::memory, laws.materials};
+  constexpr double noTime = 1e-100;  // so short a step that no memory advances
+  ContactSample sample;
+  detail::ContactBlock block;
+  detail::shareMass(particles, rows, block);
+  detail::PairCursor cursor{0, 0, list.size(), 0, 0};
+  while (cursor.pair < cursor.end) {
+    const std::size_t first = cursor.pair, n = detail::gatherPairs(particles, list, rows, cursor, block);
+    cursor.pair += n;
+    if (varied)
+      detail::answer<Law, detail::BlockOptions{Law::rotates, false, true, false}>(block, n, laws.table.data(), noTime);
+    else
+      detail::answer<Law, detail::BlockOptions{Law::rotates, false, false, false}>(block, n, laws.table.data(), noTime);
+    detail::appendPairs(particles, list, first, n, block, sample);
+  }
+  return sample;
+}
+
+template <class Normal, class Tangential, class Rolling, class Adhesion>
+ContactSample samplePairs(const Particles& particles, const PairList& list,
+                          const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law) {
+  return samplePairs(particles, list, prepare(law));
+}
+
+/// Appends the contacts with a wall, with the forces that collideWithWall has set.
+void addWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts,
+                     ContactSample& sample);
+
+}  // namespace dovetail::dem

@@ -1,0 +1,63 @@
+#include <algorithm>
+
+#include "dovetail/mesh_io/surface_files.hpp"
+#include "text_scanner.hpp"
+
+namespace dovetail::mesh_io {
+
+namespace {
+
+/// Lines that say nothing about the surface's shape.
+constexpr std::string_view passedOver[] = {"vt",     "vn",         "g",         "o",     "s",        "mg",
+                                           "usemtl", "mtllib",     "l",         "p",     "lod",      "usemap",
+                                           "maplib", "shadow_obj", "trace_obj", "bevel", "c_interp", "d_interp"};
+
+/// Number of the vertex in "i", "i/t", "i//n" or "i/t/n".
+int corner(const TextScanner& text, std::string_view word, std::size_t vertices) {
+  const long index = text.integer(word.substr(0, word.find('/')));
+  const long count = static_cast<long>(vertices), number = index < 0 ? count + index : index - 1;
+  if (index == 0 || number < 0 || number >= count)
+    text.refuse("vertex " + std::to_string(index) + " is named after " + std::to_string(count) + " vertices",
+                "use 1 to " + std::to_string(count) + ", or -1 to -" + std::to_string(count));
+  return static_cast<int>(number);
+}
+
+void readFace(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners) {
+  corners.clear();
+  for (std::string_view word = text.wordOnLine(); !word.empty(); word = text.wordOnLine()) {
+    if (word.front() == '#') break;
+    if (word == "\\") {
+      text.nextLine();
+      continue;
+    }
+    corners.push_back(corner(text, word, mesh.x.size()));
+  }
+  if (corners.size() < 3) text.refuse("a face has " + std::to_string(corners.size()) + " vertices", "give 3 or more");
+  addFan(corners, mesh);
+}
+
+}  // namespace
+
+TriangleMesh readObj(const std::filesystem::path& path) {
+  const std::string bytes = readWhole(path);
+  TextScanner text(bytes, path);
+  TriangleMesh mesh;
+  std::vector<int> corners;
+  do {
+    const std::string_view word = text.wordOnLine();
+    if (word.empty() || word.front() == '#') continue;
+    if (word == "v") {
+      Vec3 x;
+      for (int k = 0; k < 3; ++k) x[k] = text.number(text.wordOnLine());
+      mesh.x.push_back(x);
+    } else if (word == "f") {
+      readFace(text, mesh, corners);
+    } else if (std::find(std::begin(passedOver), std::end(passedOver), word) == std::end(passedOver)) {
+      text.refuse("a line starts with " + shown(word), "give an OBJ file of vertices (v) and faces (f)");
+    }
+  } while (text.nextLine());
+  requireFacets(mesh, path);
+  return mesh;
+}
+
+}  // namespace dovetail::mesh_io

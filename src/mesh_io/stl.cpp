@@ -1,0 +1,142 @@
+#include <cmath>
+#include <limits>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/geometry/triangle.hpp"
+#include "dovetail/io/output_folder.hpp"
+#include "dovetail/io/provenance.hpp"
+#include "dovetail/mesh_io/surface_files.hpp"
+#include "little_endian.hpp"
+#include "text_scanner.hpp"
+
+namespace dovetail::mesh_io {
+
+namespace {
+
+constexpr std::size_t headerBytes = 84, facetBytes = 50;
+
+/// Length of the binary file that the number at byte 80 announces; 0 if the file ends before it.
+std::uint64_t announcedBytes(std::string_view bytes) {
+  return bytes.size() < headerBytes ? 0 : headerBytes + facetBytes * littleEndian(bytes, 80, 4);
+}
+
+TriangleMesh readBinary(std::string_view bytes, const std::filesystem::path& path) {
+  TriangleMesh mesh;
+  const std::size_t facets = (bytes.size() - headerBytes) / facetBytes;
+  if (facets > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 3)
+    refuse(path, "byte 80", "the file holds too many facets", "cut the surface into several files");
+  mesh.x.reserve(3 * facets);
+  for (std::size_t f = 0; f < facets; ++f) {
+    const int first = static_cast<int>(mesh.x.size());
+    for (std::size_t v = 0; v < 3; ++v) {
+      const std::size_t at = headerBytes + facetBytes * f + 12 * (v + 1);
+      const Vec3 x{floatAt(bytes, at), floatAt(bytes, at + 4), floatAt(bytes, at + 8)};
+      if (!isFinite(x))
+        refuse(path, "facet " + std::to_string(f) + " at byte " + std::to_string(at), "a coordinate is NaN or infinite",
+               "give finite numbers");
+      mesh.x.push_back(x);
+    }
+    mesh.facets.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+void expect(TextScanner& text, const char* wanted) {
+  const std::string_view word = text.word();
+  if (lower(word) != wanted)
+    text.refuse("there is " + shown(word) + " where '" + wanted + "' should be",
+                "give a complete STL file; a binary one has 84 + 50 bytes per facet");
+}
+
+/// From after the word "facet" to "endfacet".
+void readFacet(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners) {
+  expect(text, "normal");
+  for (int k = 0; k < 3; ++k) text.word();
+  expect(text, "outer");
+  expect(text, "loop");
+  corners.clear();
+  std::string word = lower(text.word());
+  for (; word == "vertex"; word = lower(text.word())) {
+    Vec3 x;
+    for (int k = 0; k < 3; ++k) x[k] = text.number(text.word());
+    corners.push_back(static_cast<int>(mesh.x.size()));
+    mesh.x.push_back(x);
+  }
+  if (word != "endloop")
+    text.refuse("there is " + shown(word) + " where 'vertex' or 'endloop' should be", "give a complete STL file");
+  if (corners.size() < 3) text.refuse("a facet has " + std::to_string(corners.size()) + " vertices", "give 3 or more");
+  addFan(corners, mesh);
+  expect(text, "endfacet");
+}
+
+TriangleMesh readAscii(std::string_view bytes, const std::filesystem::path& path) {
+  TextScanner text(bytes, path);
+  TriangleMesh mesh;
+  std::vector<int> corners;
+  for (std::string word = lower(text.word()); !word.empty(); word = lower(text.word())) {
+    if (word != "solid")
+      text.refuse("there is " + shown(word) + " where 'solid' should be", "give a complete STL file");
+    text.nextLine();  // the rest of the line is a name
+    for (word = lower(text.word()); word == "facet"; word = lower(text.word())) readFacet(text, mesh, corners);
+    if (word != "endsolid")
+      text.refuse("there is " + shown(word) + " where 'facet' or 'endsolid' should be", "give a complete STL file");
+    text.nextLine();
+  }
+  return mesh;
+}
+
+std::uint32_t floatBits(double value, const std::string& where) {
+  if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
+    throw InputError("a coordinate is " + formatNumber(value), where, "give numbers that 32-bit numbers can hold");
+  return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+}
+
+}  // namespace
+
+TriangleMesh readStl(const std::filesystem::path& path, double tolerance) {
+  requireNonNegative(tolerance, "tolerance of the welding");
+  const std::string bytes = readWhole(path);
+  const std::uint64_t announced = announcedBytes(bytes);
+  TriangleMesh mesh;
+  if (announced == bytes.size()) {
+    mesh = readBinary(bytes, path);
+  } else if (const std::string start = lower(bytes.substr(0, 256));
+             start.find_first_not_of(" \t\r\n") == start.find("solid") && start.find("solid") != std::string::npos) {
+    mesh = readAscii(bytes, path);
+  } else {
+    refuse(path, "byte " + std::to_string(std::min(bytes.size(), headerBytes - 4)),
+           announced == 0
+               ? "the file is neither a text that starts with 'solid' nor long enough for a binary STL"
+               : "the file has " + std::to_string(bytes.size()) + " bytes, but " +
+                     std::to_string(littleEndian(bytes, 80, 4)) + " facets need " + std::to_string(announced),
+           "give a complete STL file");
+  }
+  requireFacets(mesh, path);
+  geometry::weldVertices(mesh, tolerance);
+  return mesh;
+}
+
+void writeStl(const std::filesystem::path& path, std::span<const Vec3> x, std::span<const geometry::Facet> facets) {
+  geometry::makeTopology(facets, static_cast<int>(x.size()));
+  if (facets.empty() || facets.size() > std::numeric_limits<std::uint32_t>::max())
+    throw InputError("a surface has " + std::to_string(facets.size()) + " facets", path.string(),
+                     "give at least one and at most 4294967295");
+  std::string bytes = "binary STL, " + io::withMark({})[0].second;
+  bytes.resize(80, ' ');
+  appendLittleEndian(bytes, facets.size(), 4);
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const std::string where = "vertex of facet " + std::to_string(f);
+    std::array<Vec3, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = x[static_cast<std::size_t>(facets[f][k])];
+    std::array<std::uint32_t, 9> number{};
+    for (std::size_t k = 0; k < 9; ++k) number[k] = floatBits(corner[k / 3][static_cast<int>(k % 3)], where);
+    const Vec3 normal = geometry::triangleNormal(corner[0], corner[1], corner[2]);
+    for (int k = 0; k < 3; ++k) appendLittleEndian(bytes, floatBits(isFinite(normal) ? normal[k] : 0.0, where), 4);
+    for (const std::uint32_t n : number) appendLittleEndian(bytes, n, 4);
+    appendLittleEndian(bytes, 0, 2);
+  }
+  io::writeFileAtomically(path, bytes);
+}
+
+}  // namespace dovetail::mesh_io

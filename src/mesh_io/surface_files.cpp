@@ -1,0 +1,15 @@
+#include "dovetail/mesh_io/surface_files.hpp"
+
+#include "text_scanner.hpp"
+
+namespace dovetail::mesh_io {
+
+TriangleMesh readSurface(const std::filesystem::path& path) {
+  const std::string ending = lower(path.extension().string());
+  if (ending == ".stl") return readStl(path);
+  if (ending == ".obj") return readObj(path);
+  if (ending == ".ply") return readPly(path);
+  refuse(path, "", "the ending " + shown(ending) + " is not known", "give a file ending in .stl, .obj or .ply");
+}
+
+}  // namespace dovetail::mesh_io

@@ -1,0 +1,110 @@
+#include "text_scanner.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "dovetail/core/error.hpp"
+
+namespace dovetail::mesh_io {
+
+namespace {
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+template <class Value>
+bool parse(std::string_view word, Value& value) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+  return result.ec == std::errc{} && result.ptr == word.data() + word.size();
+}
+
+}  // namespace
+
+std::string readWhole(const std::filesystem::path& path) {
+  std::error_code error;
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path, error)) file.open(path, std::ios::binary | std::ios::ate);
+  if (!file.is_open())
+    throw InputError("a surface cannot be read", path.string(), "give a file that exists and may be read");
+  std::string text(static_cast<std::size_t>(file.tellg()), '\0');
+  file.seekg(0);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (static_cast<std::size_t>(file.gcount()) != text.size())
+    throw InputError("reading a surface broke off", path.string(), "check the disk");
+  if (text.empty()) throw InputError("the file is empty", path.string(), "give a file with a surface");
+  return text;
+}
+
+void refuse(const std::filesystem::path& path, const std::string& place, const std::string& problem,
+            const std::string& remedy) {
+  throw InputError(problem, place.empty() ? path.string() : path.string() + ", " + place, remedy);
+}
+
+void requireFacets(const geometry::TriangleMesh& mesh, const std::filesystem::path& path) {
+  if (mesh.facets.empty()) refuse(path, "", "the file holds no facets", "give a file with a surface of triangles");
+  if (mesh.x.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    refuse(path, "", "the file holds too many vertices", "cut the surface into several files");
+}
+
+void addFan(const std::vector<int>& corners, geometry::TriangleMesh& mesh) {
+  for (std::size_t k = 2; k < corners.size(); ++k) mesh.facets.push_back({corners[0], corners[k - 1], corners[k]});
+}
+
+std::string_view TextScanner::wordOnLine() {
+  while (at_ < text_.size() && isBlank(text_[at_])) ++at_;
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && !isBlank(text_[at_]) && text_[at_] != '\n') ++at_;
+  return text_.substr(begin, at_ - begin);
+}
+
+std::string_view TextScanner::word() {
+  std::string_view found = wordOnLine();
+  while (found.empty() && nextLine()) found = wordOnLine();
+  return found;
+}
+
+bool TextScanner::nextLine() {
+  at_ = text_.find('\n', at_);
+  if (at_ == std::string_view::npos || at_ + 1 >= text_.size()) {
+    at_ = text_.size();
+    return false;
+  }
+  ++at_;
+  ++line_;
+  return true;
+}
+
+double TextScanner::number(std::string_view word) const {
+  double value = 0.0;
+  if (!parse(word, value)) refuse(shown(word) + " is not a number", "write a number such as 1.5e-3");
+  if (!std::isfinite(value)) refuse("a coordinate is " + shown(word), "give finite numbers");
+  return value;
+}
+
+int TextScanner::integer(std::string_view word) const {
+  int value = 0;
+  if (!parse(word, value)) refuse(shown(word) + " is not a whole number", "write one such as 12");
+  return value;
+}
+
+void TextScanner::refuse(const std::string& problem, const std::string& remedy) const {
+  mesh_io::refuse(path_, "line " + std::to_string(line_), problem, remedy);
+}
+
+std::string shown(std::string_view word) {
+  if (word.empty()) return "nothing";
+  std::string text = "'";
+  for (const char c : word.substr(0, 24)) text += c >= ' ' && c <= '~' ? c : '?';
+  return text + (word.size() > 24 ? "…'" : "'");
+}
+
+std::string lower(std::string_view word) {
+  std::string text(word);
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+}  // namespace dovetail::mesh_io

@@ -1,0 +1,208 @@
+// Clumps: placed right, forces gathered adjointly, energy counted once.
+#include <gtest/gtest.h>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/clumps.hpp"
+#include "dovetail/dem/insertion.hpp"
+#include "dovetail/dem/pair_collide.hpp"
+#include "wall_scenes.hpp"
+
+namespace dovetail::dem {
+namespace {
+
+const std::vector<Vec3> rod{{0, 0, 0}, {0.06, 0, 0}, {0.12, 0.02, 0}};
+const std::vector<double> rodRadius{0.05, 0.04, 0.05};
+
+struct Scene {
+  Particles particles;
+  Bodies bodies;
+  Clumps clumps;
+  PairList list;
+};
+
+/// Rods and single spheres that fly about.
+Scene gas(bool spinning) {
+  Scene scene;
+  Random random(8);
+  const ClumpShape shape = makeClumpShape(rod, rodRadius, Density{1000.0});
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 x{0.25 * (i % 4), 0.25 * (i / 4 % 4), 0.25 * (i / 16)};
+    if (i % 3 == 0) {
+      addParticle(scene.particles, x, random.vector(1.0), 0.05, Density{1000.0});
+    } else {
+      addClump(scene.particles, scene.bodies, scene.clumps, shape, x, fromRotationVector(random.vector(3.0)),
+               random.vector(1.0), random.vector(5.0));
+    }
+  }
+  if (spinning) switchOnRotation(scene.particles);
+  placeMembers(scene.bodies, scene.clumps, scene.particles);
+  findPairs(scene.particles, 0.02, scene.list);
+  muteMemberPairs(scene.clumps, scene.list);
+  return scene;
+}
+
+template <class Law>
+ContactWork step(Scene& s, const Law& law, double dt) {
+  kick(s.particles, 0.5 * dt);
+  kickBodies(s.bodies, 0.5 * dt);
+  drift(s.particles, dt);
+  driftBodies(s.bodies, dt);
+  placeMembers(s.bodies, s.clumps, s.particles);
+  if (updatePairs(s.particles, s.list)) muteMemberPairs(s.clumps, s.list);
+  clearForces(s.particles);
+  clearForces(s.bodies);
+  const ContactWork work = collide(s.particles, s.list, law, dt);
+  gatherForces(s.particles, s.clumps, s.bodies);
+  kick(s.particles, 0.5 * dt);
+  kickBodies(s.bodies, 0.5 * dt);
+  placeMembers(s.bodies, s.clumps, s.particles);
+  return work;
+}
+
+Vec3 totalMomentum(const Scene& s, Vec3* angular) {
+  Vec3 linear = momentum(s.bodies);
+  *angular = angularMomentum(s.bodies);
+  std::vector<char> member(s.particles.size(), 0);
+  for (const int i : s.clumps.particle) member[i] = 1;
+  for (std::size_t i = 0; i < s.particles.size(); ++i) {
+    if (member[i]) continue;
+    linear += s.particles.mass[i] * s.particles.v[i];
+    *angular += s.particles.mass[i] * cross(s.particles.x[i], s.particles.v[i]);
+    if (s.particles.rotates()) *angular += momentOfInertia(s.particles, int(i)) * s.particles.omega[i];
+  }
+  return linear;
+}
+
+TEST(Clumps, MembersLieAndMoveWithTheirBody) {
+  Particles particles;
+  Bodies bodies;
+  Clumps clumps;
+  const ClumpShape shape = makeClumpShape(rod, rodRadius, Density{1000.0});
+  const Quaternion turn = normalized(Quaternion{0.2, 1.0, -0.3, 0.5});
+  const Vec3 x{1, 2, 3}, v{0.1, 0.2, 0.3}, omega{3, -2, 1};
+  EXPECT_EQ(addClump(particles, bodies, clumps, shape, x, turn, v, omega), 0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 arm = rotate(turn, rod[k] - shape.properties.centre);
+    EXPECT_LE(norm(particles.x[k] - x - arm), 1e-15);
+    EXPECT_LE(norm(particles.v[k] - v - cross(omega, arm)), 1e-15);
+    EXPECT_EQ(particles.radius[k], rodRadius[k]);
+    EXPECT_EQ(particles.mass[k], shape.properties.mass);
+  }
+  const std::vector<Vec3> before = particles.x;
+  particles.x.assign(3, {});
+  placeMembers(bodies, clumps, particles);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(norm(particles.x[k] - before[k]), 1e-15);
+  EXPECT_GT(makeClumpShape(rod, rodRadius, Density{1000.0}, Overlap::everySphere).properties.mass,
+            1.05 * shape.properties.mass);
+}
+
+TEST(Clumps, PlacingAndGatheringAreAdjoint) {
+  Scene scene = gas(true);
+  Random random(4);
+  double power = 0.0;
+  for (std::size_t m = 0; m < scene.clumps.size(); ++m) {
+    const auto i = static_cast<std::size_t>(scene.clumps.particle[m]);
+    scene.particles.f[i] = random.vector(1.0);
+    scene.particles.torque[i] = random.vector(0.1);
+    power += dot(scene.particles.f[i], scene.particles.v[i]) + dot(scene.particles.torque[i], scene.particles.omega[i]);
+  }
+  clearForces(scene.bodies);
+  gatherForces(scene.particles, scene.clumps, scene.bodies);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    power -= dot(scene.bodies.f[b], scene.bodies.v[b]) +
+             dot(scene.bodies.torque[b], angularVelocity(scene.bodies, static_cast<int>(b)));
+  EXPECT_NEAR(power, 0.0, 1e-12);
+  applyGravity(scene.particles, {0, 0, -9.81});
+  clearForces(scene.bodies);
+  gatherForces(scene.particles, scene.clumps, scene.bodies, {0, 0, -9.81});
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    EXPECT_NEAR(scene.bodies.f[b].z, -9.81 * scene.bodies.mass[b], 1e-12);
+    EXPECT_LE(norm(scene.bodies.torque[b]), 1e-14);
+  }
+}
+
+TEST(Clumps, AGasOfRodsAndSpheresKeepsMomentumAndEnergy) {
+  Scene scene = gas(false);
+  const ElasticLaw law{{.stiffness = 2e4}};
+  Vec3 spin, spinNow;
+  const Vec3 linear = totalMomentum(scene, &spin);
+  clearForces(scene.particles);
+  const double energy = kineticEnergy(scene.particles, scene.bodies, scene.clumps) +
+                        collide(scene.particles, scene.list, law).storedEnergy();
+  gatherForces(scene.particles, scene.clumps, scene.bodies);
+  double worst = 0.0, mostStored = 0.0;
+  for (int k = 0; k < 6000; ++k) {
+    const double stored = step(scene, law, 2e-5).storedEnergy();
+    mostStored = std::max(mostStored, stored);
+    worst = std::max(worst, std::abs(kineticEnergy(scene.particles, scene.bodies, scene.clumps) + stored - energy));
+  }
+  EXPECT_GT(mostStored, 0.01 * energy);
+  EXPECT_LE(worst, 2e-4 * energy);
+  EXPECT_LE(norm(totalMomentum(scene, &spinNow) - linear), 1e-12 * 60);
+  EXPECT_LE(norm(spinNow - spin), 1e-12 * 60);
+  EXPECT_GT(scene.list.builds, 3);
+}
+
+TEST(Clumps, WithFrictionAndDampingMomentumStaysAndTheThreadsDoNotMatter) {
+  const FrictionalLaw law{{.stiffness = 2e4, .restitution = 0.7}, {.stiffness = 6e3, .friction = 0.4}};
+  std::vector<Vec3> first;
+  for (const int count : {1, 2}) {
+    setThreads(count);
+    Scene scene = gas(true);
+    Vec3 spin, spinNow;
+    const Vec3 linear = totalMomentum(scene, &spin);
+    for (int k = 0; k < 2500; ++k) step(scene, law, 4e-5);
+    EXPECT_LE(norm(totalMomentum(scene, &spinNow) - linear), 1e-12 * 60);
+    EXPECT_LE(norm(spinNow - spin), 1e-12 * 60);
+    if (count == 1) first = scene.particles.x;
+    EXPECT_EQ(scene.particles.x, first);
+  }
+  setThreads(1);
+}
+
+TEST(Clumps, AreStableUpToTheirCriticalStepAndNotBeyond) {
+  Particles particles;
+  Bodies bodies;
+  Clumps clumps;
+  const std::vector<Vec3> centre{{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}};
+  const ClumpShape shape = makeClumpShape(centre, std::vector<double>{0.05, 0.05, 0.05}, Density{1000.0});
+  addClump(particles, bodies, clumps, shape, {});
+  const double k = 1e4;
+  const CriticalStep limit = criticalStep(bodies, clumps, {.stiffness = k}, Partners::walls);
+  EXPECT_TRUE(limit.particle == 0 || limit.particle == 2);
+  // A spring of stiffness k across the rod at its first member, small motion.
+  const auto largest = [&](double dt) {
+    Bodies b = bodies;
+    Particles p = particles;
+    b.v[0] = {0, 1e-6, 0};
+    double far = 0.0;
+    for (int step = 0; step < 400; ++step) {
+      driftBodies(b, dt);
+      placeMembers(b, clumps, p);
+      clearForces(b);
+      clearForces(p);
+      p.f[0].y = -k * p.x[0].y;
+      gatherForces(p, clumps, b);
+      kickBodies(b, dt);
+      far = std::max(far, std::abs(p.x[0].y));
+    }
+    return far;
+  };
+  EXPECT_LT(largest(0.99 * limit.dt), 1e-7);
+  EXPECT_GT(largest(1.01 * limit.dt), 1e-4);
+}
+
+TEST(Clumps, StayTogetherWhenParticlesAreSorted) {
+  Scene scene = gas(true);
+  const std::vector<Vec3> before = scene.particles.x;
+  const std::vector<int> number = sortParticles(scene.particles, scene.list);
+  renumber(scene.clumps, number);
+  const std::vector<Vec3> sorted = scene.particles.x;
+  placeMembers(scene.bodies, scene.clumps, scene.particles);
+  EXPECT_NE(sorted, before);
+  for (std::size_t i = 0; i < sorted.size(); ++i) EXPECT_LE(norm(scene.particles.x[i] - sorted[i]), 1e-15);
+}
+
+}  // namespace
+}  // namespace dovetail::dem

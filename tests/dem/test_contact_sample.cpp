@@ -1,0 +1,165 @@
+// Contacts one by one, and the averages over them, against known strains and wall forces.
+#include <gtest/gtest.h>
+
+#include "dovetail/cg/averages.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/dem/contact_sample.hpp"
+#include "dovetail/dem/packing.hpp"
+#include "dovetail/dem/wall_collide.hpp"
+#include "wall_scenes.hpp"
+
+namespace dovetail::dem {
+namespace {
+
+using Eigen::Matrix3d;
+
+cg::BranchView branches(const ContactSample& sample) { return {sample.from, sample.to, sample.force}; }
+cg::ParticleView view(const Particles& particles) { return {particles.x, particles.v, particles.mass}; }
+
+TEST(ContactSample, GivesTheForcesThatCollideHasAdded) {
+  const FrictionalLaw law{{.stiffness = 2e4, .restitution = 0.6}, {.stiffness = 6e3, .friction = 0.4}};
+  Random random(2);
+  Particles particles;
+  for (int i = 0; i < 300; ++i) addParticle(particles, random.vector(0.3), random.vector(1.0), 0.06, Density{1000.0});
+  switchOnRotation(particles);
+  for (Vec3& w : particles.omega) w = random.vector(10.0);
+  PairList list;
+  findPairs(particles, 0.01, list);
+  EXPECT_THROW(samplePairs(particles, list, law), InputError);
+  for (int step = 0; step < 20; ++step) {
+    drift(particles, 1e-4);
+    updatePairs(particles, list);
+    clearForces(particles);
+    collide(particles, list, law, 1e-4);
+  }
+  const std::vector<double> memory = list.memory;
+  const ContactSample sample = samplePairs(particles, list, law);
+  EXPECT_EQ(list.memory, memory);
+  std::vector<Vec3> f(particles.size());
+  double largest = 0.0;
+  for (std::size_t c = 0; c < sample.size(); ++c) {
+    f[sample.first[c]] += sample.force[c];
+    f[sample.second[c]] -= sample.force[c];
+    EXPECT_NEAR(norm(sample.normal[c]), 1.0, 1e-14);
+    EXPECT_LE(norm(cross(sample.normal[c], sample.from[c] - sample.to[c])), 1e-14);
+    largest = std::max(largest, norm(sample.force[c] - dot(sample.force[c], sample.normal[c]) * sample.normal[c]));
+  }
+  EXPECT_GT(largest, 1.0);  // friction is among them
+  double size = 0.0;
+  for (const Vec3& force : particles.f) size += norm(force) / static_cast<double>(f.size());
+  for (std::size_t i = 0; i < f.size(); ++i) EXPECT_LE(norm(f[i] - particles.f[i]), 1e-9 * size) << i;
+}
+
+/// What each bond of a touching lattice becomes under a strain, from a double loop: V σ and how many there are.
+struct Bonds {
+  Matrix3d stress = Matrix3d::Zero();
+  int count = 0;
+};
+template <class Strained>
+Bonds bondsOf(const Packing& block, const Strained& strained, double stiffness) {
+  Bonds bonds;
+  for (std::size_t i = 0; i < block.centre.size(); ++i)
+    for (std::size_t j = i + 1; j < block.centre.size(); ++j) {
+      const Vec3 d = block.space.minimumImage(block.centre[i] - block.centre[j]);
+      const double diameter = 2.0 * block.radius[0];
+      if (norm(d) > diameter * (1.0 + 1e-9)) continue;
+      const Vec3 l = strained(d);
+      const Eigen::Vector3d branch(l.x, l.y, l.z);
+      bonds.stress -= stiffness * (diameter - norm(l)) / norm(l) * branch * branch.transpose();
+      ++bonds.count;
+    }
+  return bonds;
+}
+
+TEST(LoveWeberStress, OfALatticeUnderAKnownStrainIsTheAnalyticOne) {
+  for (const Lattice lattice : {Lattice::simpleCubic, Lattice::bodyCentred, Lattice::faceCentred, Lattice::hexagonal}) {
+    const double k = 1e5, r = 0.05;
+    Packing block = latticeBlock(lattice, {4, 3, 3}, r, 2.0 * r);
+    const Vec3 stretch{0.99, 0.995, 0.985};  // affine compression along the axes
+    const auto strained = [&](const Vec3& x) { return Vec3{stretch.x * x.x, stretch.y * x.y, stretch.z * x.z}; };
+    const Bonds bonds = bondsOf(block, strained, k);
+    for (Vec3& x : block.centre) x = strained(x);
+    block.space.box.upper = strained(block.space.box.upper);
+    const Matrix3d wanted = bonds.stress / block.volume();
+    Particles particles;
+    addPacking(particles, block, Density{1000.0}, {3, 2, 1});
+    PairList list;
+    list.periodicity = block.space;
+    findPairs(particles, 0.1 * r, list);
+    const ElasticLaw law{{.stiffness = k}};
+    collide(particles, list, law);
+    const ContactSample sample = samplePairs(particles, list, law);
+    EXPECT_EQ(static_cast<int>(sample.size()), bonds.count);
+    const cg::AverageStress stress = cg::loveWeberStress(branches(sample), view(particles), block.volume());
+    EXPECT_LE((stress.contact - wanted).norm(), 1e-12 * wanted.norm());
+    EXPECT_LE(stress.kinetic.norm(), 1e-12);  // a common velocity is no pressure
+    if (lattice == Lattice::simpleCubic) {
+      const double edge = 2.0 * r;
+      for (int a = 0; a < 3; ++a) {
+        const double area = edge * edge * stretch[(a + 1) % 3] * stretch[(a + 2) % 3];
+        EXPECT_NEAR(stress.contact(a, a), -k * edge * (1.0 - stretch[a]) / area, 1e-9 * wanted.norm());
+      }
+    }
+    const cg::Coordination c = cg::coordination(sample.first, sample.second, static_cast<int>(particles.size()));
+    EXPECT_EQ(c.rattlers, 0);
+    EXPECT_DOUBLE_EQ(c.mean, 2.0 * bonds.count / static_cast<double>(particles.size()));
+    EXPECT_NEAR(cg::fabric(sample.normal).trace(), 1.0, 1e-12);
+  }
+}
+
+/// The box of a packing as a sheet.
+TriangulatedWall wallsOf(const Packing& packing) {
+  const Vec3 a = packing.space.box.lower, b = packing.space.box.upper;
+  std::vector<Vec3> x;
+  for (int c = 0; c < 8; ++c) x.push_back({c & 1 ? b.x : a.x, c & 2 ? b.y : a.y, c & 4 ? b.z : a.z});
+  return makeWall(x, {{0, 3, 2},
+                      {0, 1, 3},
+                      {4, 7, 5},
+                      {4, 6, 7},
+                      {0, 5, 1},
+                      {0, 4, 5},
+                      {2, 7, 6},
+                      {2, 3, 7},
+                      {0, 6, 4},
+                      {0, 2, 6},
+                      {1, 7, 3},
+                      {1, 5, 7}});
+}
+
+TEST(LoveWeberStress, OfARestingPackingIsWhatItsWallsPressBack) {
+  PackingReport report;
+  Packing packing = growPacking(UniformSizes{0.08, 0.12}, {{{0, 0, 0}, {1, 1, 1}}, {false, false, false}},
+                                {.solidFraction = 0.5, .seed = 9}, report);
+  report = compressToPressure(packing, {.stiffness = 1e5, .pressure = 2000.0});
+  ASSERT_TRUE(report.reached);
+  const TriangulatedWall wall = wallsOf(packing);
+  Particles particles;
+  addPacking(particles, packing, Density{1000.0});
+  const ElasticLaw law{{.stiffness = 1e5}};
+  PairList list;
+  findPairs(particles, 0.01, list);
+  collide(particles, list, law);
+  WallCandidates candidates;
+  WallContacts contacts;
+  findWallCandidates(particles, wall, 0.01, candidates);
+  findWallContacts(particles, wall, candidates, EdgeRule::projected, contacts);
+  collideWithWall(particles, wall, contacts, law);
+  ContactSample sample = samplePairs(particles, list, law);
+  addWallContacts(particles, wall, contacts, sample);
+  const Matrix3d stress = cg::loveWeberStress(branches(sample), view(particles), packing.volume()).total();
+  EXPECT_NEAR(-stress.trace() / 3.0, 2000.0, 10.0);
+  Matrix3d fromWalls = Matrix3d::Zero();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Vec3 p = contactPoint(contacts, wall, c), f = contacts.force[c];
+    fromWalls += Eigen::Vector3d(f.x, f.y, f.z) * Eigen::RowVector3d(p.x, p.y, p.z) / packing.volume();
+  }
+  EXPECT_LE((stress - fromWalls).norm(), 1e-3 * stress.norm());
+  const cg::Coordination c = cg::coordination(sample.first, sample.second, static_cast<int>(particles.size()));
+  EXPECT_GT(c.withoutRattlers, 4.0);
+  EXPECT_GE(c.withoutRattlers, c.mean);
+  EXPECT_NEAR(cg::solidFraction(packing.centre, packing.radius, {packing.space.box.lower, packing.space.box.upper}),
+              report.solidFraction, 2e-3);
+}
+
+}  // namespace
+}  // namespace dovetail::dem

@@ -1,0 +1,116 @@
+// STL, OBJ and PLY: what is written is read back, and every format gives the same cube.
+#include <gtest/gtest.h>
+
+#include "cube_files.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/geometry/surface_checks.hpp"
+#include "dovetail/mesh_io/surface_files.hpp"
+
+namespace dovetail::mesh_io {
+namespace {
+
+using namespace test;
+using geometry::Facet;
+
+/// The same triangles in the same order with corners at the same places.
+void expectSameTriangles(const TriangleMesh& a, const TriangleMesh& b) {
+  ASSERT_EQ(a.facets.size(), b.facets.size());
+  for (std::size_t f = 0; f < a.facets.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(a.x[a.facets[f][k]], b.x[b.facets[f][k]]) << f << " " << k;
+}
+
+void expectCube(const TriangleMesh& mesh) {
+  EXPECT_EQ(mesh.x.size(), 8u);
+  expectSameTriangles(mesh, cube());
+  EXPECT_TRUE(geometry::checkSurface(mesh.x, mesh.facets).none());
+  EXPECT_DOUBLE_EQ(geometry::signedVolume(mesh.x, mesh.facets), 1.0);
+}
+
+TEST(SurfaceFiles, EveryFormatGivesTheCube) {
+  const ScratchFolder folder;
+  const TriangleMesh wanted = cube();
+  writeStl(folder / "binary.stl", wanted.x, wanted.facets);
+  writeText(folder / "ascii.STL", asciiStl(wanted));
+  writeText(folder / "cube.obj", cubeObj());
+  writeText(folder / "ascii.ply", asciiPly());
+  writeText(folder / "binary.ply", binaryPly());
+  for (const char* name : {"binary.stl", "ascii.STL", "cube.obj", "ascii.ply", "binary.ply"}) {
+    SCOPED_TRACE(name);
+    expectCube(readSurface(folder / name));
+  }
+  EXPECT_NE(messageOf<InputError>([&] { readSurface(folder / "cube.step"); }).find(".stl, .obj or .ply"),
+            std::string::npos);
+}
+
+TEST(SurfaceFiles, BinaryStlKeepsThirtyTwoBitCoordinatesToTheBit) {
+  std::mt19937_64 random(5);
+  TriangleMesh mesh;
+  for (int v = 0; v < 300; ++v) {
+    float value[3];
+    for (float& f : value) do {
+        f = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+      } while (!std::isfinite(f));
+    mesh.x.push_back({value[0], value[1], value[2]});
+  }
+  for (int f = 0; f < 500; ++f) {
+    const int a = static_cast<int>(random() % 100);
+    mesh.facets.push_back({a, a + 100, a + 200});
+  }
+  const ScratchFolder folder;
+  writeStl(folder / "random.stl", mesh.x, mesh.facets);
+  expectSameTriangles(readStl(folder / "random.stl"), mesh);
+  EXPECT_EQ(readText(folder / "random.stl").size(), 84u + 50u * 500u);
+  writeStl(folder / "random.stl", mesh.x, std::span(mesh.facets).first(1));  // an earlier file of ours is replaced
+  EXPECT_EQ(readStl(folder / "random.stl").facets.size(), 1u);
+}
+
+TEST(SurfaceFiles, AsciiStlKeepsDoublesAndTakesSeveralSolidsAndPolygons) {
+  TriangleMesh mesh = cube();
+  for (Vec3& x : mesh.x) x = 0.1 * x + Vec3{1.0 / 3.0, 1e-9, -7.1e12};
+  const ScratchFolder folder;
+  writeText(folder / "two.stl", "\n " + asciiStl(mesh) + asciiStl(cube()));
+  const TriangleMesh both = readStl(folder / "two.stl");
+  TriangleMesh wanted = mesh;
+  for (const Vec3& x : cube().x) wanted.x.push_back(x);
+  for (const Facet& f : cube().facets) wanted.facets.push_back({f[0] + 8, f[1] + 8, f[2] + 8});
+  expectSameTriangles(both, wanted);
+  writeText(
+      folder / "quad.stl",
+      "SOLID\nFACET NORMAL nan nan nan OUTER LOOP\nVERTEX 0 0 0 VERTEX 1 0 0\nVERTEX 1 1 0\nVERTEX 0 1 0\nENDLOOP\n"
+      "ENDFACET\nENDSOLID quad");
+  EXPECT_EQ(readStl(folder / "quad.stl").facets, (std::vector<Facet>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(SurfaceFiles, WeldingJoinsVerticesWithinTheToleranceOnly) {
+  TriangleMesh mesh;
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> shift(-0.4e-3, 0.4e-3);
+  for (const Facet& f : cube().facets) {
+    const int first = static_cast<int>(mesh.x.size());
+    for (const int v : f) mesh.x.push_back(corner(v) + Vec3{shift(random), shift(random), shift(random)});
+    mesh.facets.push_back({first, first + 1, first + 2});
+  }
+  const ScratchFolder folder;
+  writeStl(folder / "loose.stl", mesh.x, mesh.facets);
+  EXPECT_EQ(readStl(folder / "loose.stl").x.size(), 36u);
+  const TriangleMesh welded = readStl(folder / "loose.stl", 2e-3);
+  EXPECT_EQ(welded.x.size(), 8u);
+  EXPECT_TRUE(geometry::checkSurface(welded.x, welded.facets).closedAndOriented());
+  EXPECT_NE(messageOf<InputError>([&] { readStl(folder / "loose.stl", -1.0); }), "");
+}
+
+TEST(SurfaceFiles, TheWriterRefusesWhatTheFormatCannotHold) {
+  const ScratchFolder folder;
+  const std::vector<Vec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1e39, 0}};
+  const std::vector<Facet> facets{{0, 1, 2}}, wrong{{0, 1, 3}};
+  EXPECT_NE(messageOf<InputError>([&] { writeStl(folder / "a.stl", x, facets); }).find("facet 0"), std::string::npos);
+  EXPECT_NE(messageOf<InputError>([&] { writeStl(folder / "a.stl", x, wrong); }).find("facet 0"), std::string::npos);
+  EXPECT_NE(messageOf<InputError>([&] { writeStl(folder / "a.stl", x, {}); }), "");
+  EXPECT_TRUE(folder.content().empty());
+  writeText(folder / "a.stl", "somebody else's");
+  EXPECT_NE(messageOf<InputError>([&] { writeStl(folder / "a.stl", cube().x, cube().facets); }), "");
+  EXPECT_EQ(readText(folder / "a.stl"), "somebody else's");
+}
+
+}  // namespace
+}  // namespace dovetail::mesh_io
