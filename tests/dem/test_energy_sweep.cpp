@@ -32,7 +32,12 @@ Outcome impactAt(const Law& law, bool wall, double degrees, double speed, double
   }
   who.omega[0] = (0.3 * speed / radius) * Vec3{1, 2, -1};
   Impact impact(who, law, wall);
+  const Vec3 linear = momentum(impact.particles), angular = angularMomentum(impact.particles);
   impact.run(time / steps, 2.5 * time);
+  if (!wall) {
+    EXPECT_LE(norm(momentum(impact.particles) - linear), 1e-13 * norm(linear));
+    EXPECT_LE(norm(angularMomentum(impact.particles) - angular), 1e-12 * norm(linear) * radius);
+  }
   return {impact.worstResidual / impact.start, impact.worstGain / impact.start, impact.leastPower * time / impact.start,
           (kineticEnergy(impact.particles) + impact.stored) / impact.start};
 }
