@@ -161,6 +161,18 @@ TEST(ContactStep, OfASceneCountsPairsAndAllItsWalls) {
   EXPECT_NEAR(step.twoBody, 2.0 / std::sqrt(1e5 / 0.5 + 1e5 / 0.3), 1e-13);
 }
 
+TEST(ContactStep, UsesTheLawOfTheMaterialsAndRefusesThoseWithoutOne) {
+  Particles particles = squeezed(1.0);
+  particles.material = {0, 1};
+  PairList list;
+  findPairs(particles, 0.01, list);
+  LawTable<ElasticLaw> table(2, ElasticLaw{{1e5}});
+  table.set(0, 1, ElasticLaw{{4e5}});
+  EXPECT_NEAR(criticalStep(particles, list, prepare(table)).dt, 2.0 / std::sqrt(4e5 / 0.15), 1e-14);
+  particles.material = {0, 2};
+  EXPECT_THROW(criticalStep(particles, list, prepare(table)), InputError);
+}
+
 TEST(MassScaling, MakesTheStepStableAndSaysWhatItDid) {
   for (const double e : {1.0, 0.5}) {
     Particles particles = packing(true);
