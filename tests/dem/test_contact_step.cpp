@@ -5,7 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/elastic_plastic.hpp"
-#include "dovetail/dem/model_step.hpp"
+#include "dovetail/dem/model.hpp"
 #include "dovetail/dem/rolling.hpp"
 #include "impact_scenes.hpp"
 
