@@ -1,4 +1,5 @@
 // Pairs in and out of blocks.
+#include "dovetail/core/error.hpp"
 #include "dovetail/dem/pair_collide.hpp"
 
 namespace dovetail::dem::detail {
@@ -124,7 +125,17 @@ void scatterForces(Particles& particles, PairList& list, PairCursor& cursor, std
 
 }  // namespace
 
+void requireMaterials(const Particles& particles, int materials) {
+  if (materials == 1) return;
+  for (std::size_t i = 0; i < particles.material.size(); ++i)
+    if (particles.material[i] >= materials)
+      throw InputError("material " + std::to_string(particles.material[i]) + " has no law",
+                       "particle " + std::to_string(i) + ", material",
+                       "give materials from 0 to " + std::to_string(materials - 1) + ", or a larger table of laws");
+}
+
 void findUniform(const Particles& particles, PairRows& rows) {
+  requireMaterials(particles, rows.materials);
   const auto uniform = [](const std::vector<double>& values) {
     if (values.empty()) return false;
     const double first = values[0];

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <utility>
 
 #include "dovetail/dem/contact.hpp"
@@ -72,14 +74,29 @@ inline void storeWork(ContactBlock& block, std::size_t l, const ContactWork& now
   put(7, now.fracturePower, 0.0);
 }
 
+template <class Prepared, std::size_t... C>
+[[gnu::always_inline]] inline Prepared fromRows(const double (*rows)[blockSize], std::size_t l,
+                                                std::index_sequence<C...>) {
+  return std::bit_cast<Prepared>(std::array<double, sizeof...(C)>{rows[C][l]...});
+}
+
 /// Forces of the first n contacts of the block.
 template <class Law, BlockOptions options>
 void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* laws, double dt) {
   using Prepared = typename Law::Prepared;
   constexpr auto components = std::make_index_sequence<static_cast<std::size_t>(Law::memory)>{};
   const Prepared single = laws[0];  // a copy nobody else can write to
+  constexpr std::size_t parameters = sizeof(Prepared) / sizeof(double);
+  alignas(64) double rows[options.varied ? parameters : 1][blockSize];
+  if constexpr (options.varied)
+    for (std::size_t l = 0; l < n; ++l) {
+      double v[parameters];
+      std::memcpy(v, laws + block.kind[l], sizeof v);
+      for (std::size_t c = 0; c < parameters; ++c) rows[c][l] = v[c];
+    }
   for (std::size_t l = 0; l < n; ++l) {
-    const Prepared& law = options.varied ? laws[block.kind[l]] : single;
+    Prepared law = single;
+    if constexpr (options.varied) law = fromRows<Prepared>(rows, l, std::make_index_sequence<parameters>{});
     Contact contact;
     Vec3 normal = block.separation.at(l);
     double armI = block.armI[l], armJ = block.armJ[l], overlap = armJ;

@@ -50,6 +50,7 @@ struct PairCursor {
   std::size_t chunk, pair, end, crossing, image;
 };
 /// Looks whether all particles have one radius and one mass, which saves gathering them.
+/// @throws InputError naming a particle whose material has no law
 void findUniform(const Particles& particles, PairRows& rows);
 PairCursor startOfChunk(const PairList& list, std::size_t chunk);
 /// Fills the rows of effective masses and radii once for all pairs, if they share them or nobody asks for them.
@@ -126,8 +127,12 @@ ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law
   else
     detail::collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, list, rows, laws, dt);
   if constexpr (Law::memory > 0) {  // pairs that left the list
-    for (std::size_t m = 0; booked && m + Law::memory <= list.ended.size(); m += Law::memory)
-      work += laws.table[0].ended(list.ended.data() + m, dt);
+    for (std::size_t k = 0; booked && k < list.endedMaterials.size(); ++k) {
+      const auto [a, b] = list.endedMaterials[k];
+      if (a < laws.materials && b < laws.materials)
+        work += laws.at(a, b).ended(list.ended.data() + k * static_cast<std::size_t>(Law::memory), dt);
+    }
+    list.endedMaterials.clear();
     list.ended.clear();
   }
   return work;
