@@ -90,8 +90,8 @@ TEST(Clumps, MembersLieAndMoveWithTheirBody) {
     EXPECT_EQ(particles.mass[k], shape.properties.mass);
   }
   const std::vector<Vec3> before = particles.x;
-  particles.x.assign(3, {});
-  placeMembers(bodies, clumps, particles);
+  particles.x[1] += Vec3{0.3, 0, 0.4};
+  EXPECT_NEAR(placeMembers(bodies, clumps, particles), 0.5, 1e-12);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(norm(particles.x[k] - before[k]), 1e-15);
   EXPECT_GT(makeClumpShape(rod, rodRadius, Density{1000.0}, Overlap::everySphere).properties.mass,
             1.05 * shape.properties.mass);
