@@ -46,6 +46,15 @@ struct RollingResponse {
   double lostPower = 0.0;  ///< W lost, average of this step
 };
 
+/// How steeply a part of a law answers now; what limits the time step (see contact_step.hpp).
+struct Slope {
+  double stiffness = 0.0;  ///< N/m (rolling: N m/rad), of the spring
+  double damping = 0.0;    ///< N s/m (rolling: N m s/rad), of the dashpot
+};
+struct ContactSlopes {
+  Slope normal, tangential, rolling;
+};
+
 /// What the whole law answers.
 struct ContactResponse {
   Vec3 force;   ///< N on the particle

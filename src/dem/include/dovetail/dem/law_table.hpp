@@ -51,14 +51,29 @@ private:
   std::vector<Law> laws_;
 };
 
+/// Checks a law and takes its roots and logarithms.
+/// @throws InputError as validate does
 template <class Normal, class Tangential, class Rolling, class Adhesion>
 auto prepare(const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law) {
+  validate(law);
   return PreparedLaws<ContactLaw<Normal, Tangential, Rolling, Adhesion>>{1, {law.prepare()}};
 }
+/// @throws InputError as validate does, naming the materials
 template <class Law>
 PreparedLaws<Law> prepare(const LawTable<Law>& laws) {
   PreparedLaws<Law> prepared{laws.materials(), {}};
-  for (const Law& law : laws.laws()) prepared.table.push_back(law.prepare());
+  for (const Law& law : laws.laws()) {
+    try {
+      validate(law);
+    } catch (const InputError& error) {
+      const auto entry = static_cast<int>(prepared.table.size());
+      throw InputError(error.what(),
+                       "law between materials " + std::to_string(entry / laws.materials()) + " and " +
+                           std::to_string(entry % laws.materials()),
+                       "");
+    }
+    prepared.table.push_back(law.prepare());
+  }
   return prepared;
 }
 

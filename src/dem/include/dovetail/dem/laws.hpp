@@ -5,9 +5,11 @@
 //   static constexpr unsigned turns     bit c is set if number c changes its sign when the two particles change roles
 //   static constexpr bool needs…        what of `Contact` it reads beyond overlap, separation, normal and dt
 //   prepare()                           what the loop over contacts uses; roots, logarithms and checks are done here
-//   Prepared::respond(contact, …, memory)   the answer; advances the memory by contact.dt. Straight-line code with
-//                                       selections instead of branches, so that the loop over contacts vectorises
-//   Prepared::remembered(memory)        J stored in the memory of a contact that ends, booked as lost
+//   Prepared::respond(contact, …, held) the answer; advances the memory by contact.dt. Straight-line code with
+//                                       selections instead of branches, and inlined into the loop over contacts
+//                                       whatever the compiler thinks of its size, so that the loop vectorises
+//   Prepared::remembered(held)          J stored in the memory of a contact that ends, booked as lost
+//   Prepared::slope(contact, normal)    stiffness and damping now, of all parts but the normal one and adhesion
 #pragma once
 
 #include <cmath>
@@ -56,7 +58,7 @@ struct LinearSpringDashpot {
     double energy(double overlap, double engagement) const { return 0.5 * stiffness * overlap * overlap / engagement; }
     double elasticForce(double overlap) const { return stiffness * overlap; }
 
-    NormalResponse respond(const Contact& contact, double*) const {
+    [[gnu::always_inline]] NormalResponse respond(const Contact& contact, double*) const {
       const double damping = dampingPerRootMass * contact.rootMass;
       const double elastic = stiffness * contact.overlap;
       const double whole = elastic - damping * contact.separating;
@@ -90,7 +92,10 @@ struct NoTangential {
   static constexpr unsigned turns = 0;
   static constexpr bool needsSlip = false;
   struct Prepared {
-    TangentialResponse respond(const Contact&, const NormalResponse&, double*) const { return {}; }
+    [[gnu::always_inline]] TangentialResponse respond(const Contact&, const NormalResponse&, double*) const {
+      return {};
+    }
+    Slope slope(const Contact&, const NormalResponse&) const { return {}; }
     double remembered(const double*) const { return 0.0; }
   };
   Prepared prepare() const { return {}; }
@@ -98,13 +103,37 @@ struct NoTangential {
 
 /// Turns a remembered tangential vector with the pair since the last step: into today's contact plane, and about the
 /// normal by the mean spin of both. Its length stays (to the fourth power of the angle of one step).
-inline Vec3 carried(Vec3 remembered, const Contact& contact) {
+[[gnu::always_inline]] inline Vec3 carried(Vec3 remembered, const Contact& contact) {
   const double before = squaredNorm(remembered);
   remembered += (contact.dt * contact.twist) * cross(contact.normal, remembered);
   remembered -= dot(remembered, contact.normal) * contact.normal;
   const double ratio = squaredNorm(remembered) / (before > 0.0 ? before : 1.0);
   return (1.5 - 0.5 * ratio) * remembered;  // 1/√ratio for a ratio near 1, and bounded for any
 }
+
+/// A spring, a dashpot beside it, and a slider before both.
+struct Slider {
+  Vec3 stretch, force;        ///< of the spring, and of both, along the stretch
+  double energy = 0.0;        ///< J stored
+  double slipWork = 0.0;      ///< J lost to sliding in this step
+  double dampingPower = 0.0;  ///< W lost to the dashpot, ≥ 0
+
+  /// The spring alone keeps below the limit; the dashpot adds what the limit leaves. (The other way round, a dashpot
+  /// above the limit would stretch the spring backwards, with energy from nowhere.)
+  [[gnu::always_inline]] Slider(const Vec3& stretched, const Vec3& rate, double stiffness, double damping,
+                                double limit) {
+    const double size = stiffness * norm(stretched);
+    const bool slides = size > limit;
+    stretch = (slides ? limit / (slides ? size : 1.0) : 1.0) * stretched;
+    const Vec3 spring = stiffness * stretch, both = spring + damping * rate;
+    const double whole = norm(both);
+    const bool cut = damping > 0.0 ? whole > limit : false;
+    force = (cut ? limit / (cut ? whole : 1.0) : 1.0) * both;
+    energy = 0.5 * dot(spring, stretch);
+    slipWork = dot(spring, stretched - stretch);
+    dampingPower = dot(force - spring, rate);
+  }
+};
 
 /// Tangential part: spring of stiffness k_t stretched by the relative tangential motion (Cundall & Strack 1979), with a
 /// dashpot if asked for; the force is limited to μ times the repulsion of the normal part (Coulomb).
@@ -117,38 +146,36 @@ struct TangentialSpring {
   double dampingRatio = 0.0;  ///< coefficient of the tangential dashpot over that of the normal one
 
   struct Prepared {
-    double stiffness, compliance, friction, dampingRatio;
+    double stiffness, friction, dampingRatio;
 
-    TangentialResponse respond(const Contact& contact, const NormalResponse& normal, double* memory) const {
-      const double damping = dampingRatio * normal.damping;
-      const Vec3 stretched = carried({memory[0], memory[1], memory[2]}, contact) + contact.dt * contact.slip;
-      const Vec3 trial = stiffness * stretched + damping * contact.slip;
-      const double size = norm(trial), limit = normal.force > 0.0 ? friction * normal.force : 0.0;
-      const bool slides = size > limit;
-      const Vec3 force = (slides ? limit / (slides ? size : 1.0) : 1.0) * trial;
-      const Vec3 stretch = slides ? compliance * (force - damping * contact.slip) : stretched;
-      memory[0] = stretch.x;
-      memory[1] = stretch.y;
-      memory[2] = stretch.z;
-      const double slipWork = stiffness * dot(stretch, stretched - stretch);
-      return {.force = -force,
-              .energy = 0.5 * stiffness * squaredNorm(stretch),
-              .slipPower = slipWork / contact.dt + damping * squaredNorm(contact.slip)};
+    [[gnu::always_inline]] TangentialResponse respond(const Contact& contact, const NormalResponse& normal,
+                                                      double* held) const {
+      const Vec3 stretched = carried({held[0], held[1], held[2]}, contact) + contact.dt * contact.slip;
+      const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
+      const Slider now(stretched, contact.slip, stiffness, dampingRatio * normal.damping, limit);
+      held[0] = now.stretch.x;
+      held[1] = now.stretch.y;
+      held[2] = now.stretch.z;
+      return {.force = -now.force, .energy = now.energy, .slipPower = now.slipWork / contact.dt + now.dampingPower};
     }
-    double remembered(const double* memory) const {
-      return 0.5 * stiffness * (memory[0] * memory[0] + memory[1] * memory[1] + memory[2] * memory[2]);
+    Slope slope(const Contact&, const NormalResponse& normal) const {
+      return {stiffness, dampingRatio * normal.damping};
+    }
+    double remembered(const double* held) const {
+      return 0.5 * stiffness * (held[0] * held[0] + held[1] * held[1] + held[2] * held[2]);
     }
   };
-  Prepared prepare() const { return {stiffness, 1.0 / stiffness, friction, dampingRatio}; }
+  Prepared prepare() const { return {stiffness, friction, dampingRatio}; }
 };
 
 /// No resistance to rolling and twisting.
 struct NoRolling {
   static constexpr int memory = 0;
   static constexpr unsigned turns = 0;
-  static constexpr bool needsSpin = false;
+  static constexpr bool needsSpin = false, needsRadius = false;
   struct Prepared {
-    RollingResponse respond(const Contact&, const NormalResponse&, double*) const { return {}; }
+    [[gnu::always_inline]] RollingResponse respond(const Contact&, const NormalResponse&, double*) const { return {}; }
+    Slope slope(const Contact&, const NormalResponse&) const { return {}; }
     double remembered(const double*) const { return 0.0; }
   };
   Prepared prepare() const { return {}; }
@@ -158,7 +185,7 @@ struct NoRolling {
 struct NoAdhesion {
   static constexpr bool needsRadius = false;
   struct Prepared {
-    AdhesionResponse respond(const Contact&, const NormalResponse&) const { return {}; }
+    [[gnu::always_inline]] AdhesionResponse respond(const Contact&, const NormalResponse&) const { return {}; }
   };
   Prepared prepare() const { return {}; }
 };
@@ -180,10 +207,11 @@ struct ContactLaw {
   [[no_unique_address]] Adhesion adhesion = {};
 
   static constexpr int memory = Normal::memory + Tangential::memory + Rolling::memory;
+  static_assert(memory <= 12, "a block of contacts has rows for twelve numbers");
   static constexpr unsigned turns =
       Normal::turns | Tangential::turns << Normal::memory | Rolling::turns << (Normal::memory + Tangential::memory);
   static constexpr bool needsMass = Normal::needsMass;
-  static constexpr bool needsRadius = Normal::needsRadius || Adhesion::needsRadius;
+  static constexpr bool needsRadius = Normal::needsRadius || Rolling::needsRadius || Adhesion::needsRadius;
   static constexpr bool needsSlip = Tangential::needsSlip;
   static constexpr bool needsSpin = Rolling::needsSpin;
   /// Whether contacts exert torques, so that particles spin.
@@ -200,10 +228,10 @@ struct ContactLaw {
 
     /// Answers of all parts; those of the normal part's memory come first, then the tangential one's, then the rolling
     /// one's.
-    ContactResponse respond(const Contact& contact, double* memory) const {
-      const NormalResponse n = normal.respond(contact, memory);
-      const TangentialResponse t = tangential.respond(contact, n, memory + Normal::memory);
-      const RollingResponse r = rolling.respond(contact, n, memory + Normal::memory + Tangential::memory);
+    [[gnu::always_inline]] ContactResponse respond(const Contact& contact, double* held) const {
+      const NormalResponse n = normal.respond(contact, held);
+      const TangentialResponse t = tangential.respond(contact, n, held + Normal::memory);
+      const RollingResponse r = rolling.respond(contact, n, held + Normal::memory + Tangential::memory);
       const AdhesionResponse a = adhesion.respond(contact, n);
       ContactResponse response{.force = (n.force + a.force) * contact.normal + t.force, .couple = r.couple, .work = {}};
       response.work.elasticEnergy = n.energy + a.energy;
@@ -216,12 +244,18 @@ struct ContactLaw {
       return response;
     }
 
+    /// Stiffness and damping of all parts now; what is held is advanced.
+    ContactSlopes slopes(const Contact& contact, double* held) const {
+      const NormalResponse n = normal.respond(contact, held);
+      return {{n.stiffness, n.damping}, tangential.slope(contact, n), rolling.slope(contact, n)};
+    }
+
     /// What a contact that has ended takes with it.
-    ContactWork ended(const double* memory, double dt) const {
+    ContactWork ended(const double* held, double dt) const {
       ContactWork work;
-      work.plasticPower = normal.remembered(memory) / dt;
-      work.frictionPower = tangential.remembered(memory + Normal::memory) / dt;
-      work.rollingPower = rolling.remembered(memory + Normal::memory + Tangential::memory) / dt;
+      work.plasticPower = normal.remembered(held) / dt;
+      work.frictionPower = tangential.remembered(held + Normal::memory) / dt;
+      work.rollingPower = rolling.remembered(held + Normal::memory + Tangential::memory) / dt;
       return work;
     }
   };
