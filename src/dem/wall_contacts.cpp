@@ -1,5 +1,8 @@
 #include "dovetail/dem/wall_contacts.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace dovetail::dem {
 
 void findWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
@@ -9,6 +12,23 @@ void findWallContacts(const Particles& particles, const TriangulatedWall& wall, 
       return projectWallContacts(particles, wall, candidates, contacts);
     case EdgeRule::paper:
       return paperWallContacts(particles, wall, candidates, contacts);
+  }
+}
+
+void renumber(WallContacts& contacts, std::span<const int> newNumber) {
+  WallSprings& springs = contacts.springs;
+  const WallSprings old = std::move(springs);
+  springs = {};
+  const std::size_t count = old.particle.size(), components = count == 0 ? 0 : old.memory.size() / count;
+  std::vector<std::pair<int, std::size_t>> kept;
+  for (std::size_t c = 0; c < count; ++c)
+    if (const int i = newNumber[static_cast<std::size_t>(old.particle[c])]; i >= 0) kept.emplace_back(i, c);
+  std::sort(kept.begin(), kept.end());
+  for (const auto& [i, c] : kept) {
+    springs.particle.push_back(i);
+    springs.facet.push_back(old.facet[c]);
+    springs.normal.push_back(old.normal[c]);
+    for (std::size_t m = 0; m < components; ++m) springs.memory.push_back(old.memory[c * components + m]);
   }
 }
 

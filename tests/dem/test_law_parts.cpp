@@ -20,6 +20,7 @@ Contact contactAt(double overlap) {
   Contact contact;
   contact.overlap = overlap;
   contact.effectiveMass = 0.3;
+  contact.rootMass = std::sqrt(0.3);
   contact.effectiveRadius = 0.02;
   contact.normal = {0, 0, 1};
   contact.dt = 1e-4;

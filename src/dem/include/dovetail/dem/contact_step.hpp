@@ -62,6 +62,7 @@ void addDemand(ContactDemand& demand, const Particles& particles, const PairList
     Contact contact;
     contact.overlap = std::max(overlap, leastOverlap);
     contact.effectiveMass = mi * mj / (mi + mj) / scale;
+    contact.rootMass = std::sqrt(contact.effectiveMass);
     contact.effectiveRadius = ri * rj / (ri + rj);
     contact.normal = {1.0, 0.0, 0.0};
     contact.dt = 1.0;
@@ -85,6 +86,7 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
     Contact contact;
     contact.overlap = contacts.overlap[c] / contacts.engagement[c];
     contact.effectiveMass = particles.mass[i];
+    contact.rootMass = std::sqrt(contact.effectiveMass);
     contact.effectiveRadius = particles.radius[i];
     contact.normal = {0.0, 0.0, 1.0};
     contact.dt = 1.0;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "dovetail/dem/particles.hpp"
@@ -28,17 +30,19 @@ struct PrimitiveContacts {
 struct PrimitiveWall {
   enum class Shape { plane, cylinder, sphere };
   Shape shape = Shape::plane;
-  Vec3 point;             ///< on the plane or the cylinder's axis, or the sphere's centre, m
-  Vec3 axis{0, 0, 1};     ///< unit: normal of the plane, towards the particles, or axis of the cylinder
-  double radius = 0.0;    ///< m
-  bool inside = true;     ///< particles are inside the cylinder or sphere
-  Vec3 velocity;          ///< of `point`, m/s
-  Vec3 angularVelocity;   ///< about `point`, rad/s
-  int material = 0;       ///< row of a LawTable
-  double skin = 0.0;      ///< m: particles closer than their radius + skin are looked at; 0 = all, at every step
+  Vec3 point;            ///< on the plane or the cylinder's axis, or the sphere's centre, m
+  Vec3 axis{0, 0, 1};    ///< unit: normal of the plane, towards the particles, or axis of the cylinder
+  double radius = 0.0;   ///< m
+  bool inside = true;    ///< particles are inside the cylinder or sphere
+  Vec3 velocity;         ///< of `point`, m/s
+  Vec3 angularVelocity;  ///< about `point`, rad/s
+  int material = 0;      ///< row of a LawTable
+  /// Sets velocity and angularVelocity for the step that ends at `time`, s; empty: they stay.
+  std::function<void(double time, PrimitiveWall& wall)> motion;
+  double skin = 0.0;  ///< m: particles closer than their radius + skin are looked at; 0 = all, at every step
 
   PrimitiveContacts contacts;
-  Vec3 force, torque;     ///< of the last collide on the wall, N; about `point`, N m
+  Vec3 force, torque;  ///< of the last collide on the wall, N; about `point`, N m
 
   std::vector<int> near;  ///< particles looked at
   double travel = 0.0;    ///< how far particles and wall may have moved since `near` was made, m

@@ -87,6 +87,9 @@ void projectWallContacts(const Particles& particles, const TriangulatedWall& wal
 void paperWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                        WallContacts& contacts);
 
+/// Gives what contacts remember the new numbers of their particles (< 0: gone).
+void renumber(WallContacts& contacts, std::span<const int> newNumber);
+
 /// f[vertex] −= weight × force for all contacts: the reaction on the wall, N.
 void addWallForces(const WallContacts& contacts, std::span<const geometry::Facet> facets, std::span<Vec3> f);
 inline void addWallForces(const WallContacts& contacts, TriangulatedWall& wall) {
