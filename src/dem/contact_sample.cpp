@@ -72,4 +72,16 @@ void addWallContacts(const Particles& particles, const TriangulatedWall& wall, c
   }
 }
 
+void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps& clumps, ContactSample& sample) {
+  std::vector<Vec3> toCentre(particles.size());
+  for (std::size_t m = 0; m < clumps.size(); ++m) {
+    const auto i = static_cast<std::size_t>(clumps.particle[m]), b = static_cast<std::size_t>(clumps.body[m]);
+    toCentre[i] = bodies.x[b] - particles.x[i];
+  }
+  for (std::size_t c = 0; c < sample.size(); ++c) {
+    sample.from[c] += toCentre[static_cast<std::size_t>(sample.first[c])];
+    if (sample.second[c] >= 0) sample.to[c] += toCentre[static_cast<std::size_t>(sample.second[c])];
+  }
+}
+
 }  // namespace dovetail::dem

@@ -204,5 +204,35 @@ TEST(Clumps, StayTogetherWhenParticlesAreSorted) {
   for (std::size_t i = 0; i < sorted.size(); ++i) EXPECT_LE(norm(scene.particles.x[i] - sorted[i]), 1e-15);
 }
 
+TEST(Clumps, OneSphereAloneIsASpinningParticle) {
+  const FrictionalLaw law{{.stiffness = 2e4, .restitution = 0.8}, {.stiffness = 6e3, .friction = 0.3}};
+  const ClumpShape ball = makeClumpShape(std::vector<Vec3>{{0, 0, 0}}, std::vector<double>{0.05}, Density{1000.0});
+  Scene alone, clumped;
+  Random random(11);
+  for (int i = 0; i < 27; ++i) {
+    const Vec3 x{0.11 * (i % 3), 0.11 * (i / 3 % 3), 0.11 * (i / 9)}, v = random.vector(1.0),
+                                                                      omega = random.vector(20.0);
+    addParticle(alone.particles, x, v, 0.05, Density{1000.0});
+    switchOnRotation(alone.particles);
+    alone.particles.omega.back() = omega;
+    addClump(clumped.particles, clumped.bodies, clumped.clumps, ball, x, fromRotationVector(random.vector(3.0)), v,
+             omega);
+  }
+  switchOnRotation(clumped.particles);
+  placeMembers(clumped.bodies, clumped.clumps, clumped.particles);
+  for (Scene* scene : {&alone, &clumped}) findPairs(scene->particles, 0.02, scene->list);
+  double hit = 0.0;
+  for (int k = 0; k < 1500; ++k) {
+    hit = std::max(hit, step(alone, law, 4e-5).storedEnergy());
+    step(clumped, law, 4e-5);
+  }
+  EXPECT_GT(hit, 0.01);
+  for (std::size_t i = 0; i < 27; ++i) {
+    EXPECT_LE(norm(alone.particles.x[i] - clumped.particles.x[i]), 1e-10);
+    EXPECT_LE(norm(alone.particles.v[i] - clumped.particles.v[i]), 1e-8);
+    EXPECT_LE(norm(alone.particles.omega[i] - clumped.particles.omega[i]), 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace dovetail::dem

@@ -161,5 +161,36 @@ TEST(LoveWeberStress, OfARestingPackingIsWhatItsWallsPressBack) {
               report.solidFraction, 2e-3);
 }
 
+TEST(JoinMembers, TheStressOfASqueezedClumpIsWhatSqueezesIt) {
+  // A rod of three spheres, and a ball that presses on either end, along the rod but beside its axis.
+  Particles particles;
+  Bodies bodies;
+  Clumps clumps;
+  const std::vector<Vec3> centre{{0, 0, 0}, {0.08, 0, 0}, {0.2, 0, 0}};
+  addClump(particles, bodies, clumps, makeClumpShape(centre, std::vector<double>(3, 0.05), Density{1000.0}),
+           {0.1, 0, 0});
+  const Vec3 shift = particles.x[0];
+  addParticle(particles, shift + Vec3{-0.095, 0.01, 0}, {}, 0.05, Mass{1.0});
+  addParticle(particles, shift + Vec3{0.295, -0.01, 0}, {}, 0.05, Mass{1.0});
+  PairList list;
+  findPairs(particles, 0.0, list);
+  muteMemberPairs(clumps, list);
+  const ElasticLaw law{{.stiffness = 1e5}};
+  ContactSample sample = samplePairs(particles, list, law);
+  ASSERT_EQ(sample.size(), 2u);
+  // Hands that hold the balls push back with the opposite force, at their centres.
+  Matrix3d wanted = Matrix3d::Zero();
+  for (std::size_t c = 0; c < 2; ++c) {
+    const Vec3 f = sample.force[c], p = sample.to[c];  // balls have the higher numbers
+    wanted += Eigen::Vector3d(f.x, f.y, f.z) * Eigen::RowVector3d(p.x, p.y, p.z);
+  }
+  const double volume = 0.01;
+  EXPECT_GT((cg::loveWeberStress(branches(sample), {}, volume).contact - wanted / volume).norm(), 0.1 * wanted.norm());
+  joinMembers(particles, bodies, clumps, sample);
+  EXPECT_LE((cg::loveWeberStress(branches(sample), {}, volume).contact - wanted / volume).norm(),
+            1e-12 * wanted.norm() / volume);
+  EXPECT_LT(wanted(0, 0), 0.0);
+}
+
 }  // namespace
 }  // namespace dovetail::dem

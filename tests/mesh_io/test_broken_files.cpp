@@ -52,7 +52,7 @@ TEST(BrokenFiles, WithFlippedBitsTheyGiveAnErrorOrAWholeMesh) {
   std::mt19937_64 random(3);
   for (const auto& [name, good] : goodFiles(folder)) {
     int refused = 0;
-    for (int round = 0; round < 1500; ++round) {
+    for (int round = 0; round < 600; ++round) {
       std::string bad = good;
       for (int flips = 1 + round % 3; flips > 0; --flips)
         bad[random() % bad.size()] ^= static_cast<char>(1 << random() % 8);
@@ -67,7 +67,7 @@ TEST(BrokenFiles, WithFlippedBitsTheyGiveAnErrorOrAWholeMesh) {
         ++refused;
       }
     }
-    EXPECT_GT(refused, 50) << name;
+    EXPECT_GT(refused, 20) << name;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/dem/clumps.hpp"
 #include "dovetail/dem/pair_collide.hpp"
 #include "dovetail/dem/wall_contacts.hpp"
 
@@ -66,5 +67,11 @@ ContactSample samplePairs(const Particles& particles, const PairList& list,
 /// Appends the contacts with a wall, with the forces that collideWithWall has set.
 void addWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts,
                      ContactSample& sample);
+
+/// Moves the ends of branches from members of clumps to the centres of their bodies: forces run through a rigid body,
+/// and the stress of an assembly of bodies is a sum over branches between their centres. Points, normals, forces and
+/// the numbers of the particles stay. For the kinetic part of a stress take bodies instead of their members.
+/// @param particles, bodies as they were when the sample was taken
+void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps& clumps, ContactSample& sample);
 
 }  // namespace dovetail::dem
