@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/dem/checkpoint.hpp"
 #include "dovetail/dem/damping.hpp"
 #include "dovetail/dem/insertion.hpp"
 
@@ -108,6 +109,27 @@ void bookLosses(Energies& booked, const ContactWork& work, double dt) {
   booked.lost.rollingPower += dt * work.rollingPower;
   booked.lost.plasticPower += dt * work.plasticPower;
   booked.lost.fracturePower += dt * work.fracturePower;
+}
+
+void requireSame(const WallCounts& saved, const WallCounts& here, const std::filesystem::path& path) {
+  if (saved.walls != here.walls || saved.meshes != here.meshes)
+    throw InputError("the checkpoint has " + std::to_string(saved.walls) + " primitive and " +
+                         std::to_string(saved.meshes) + " triangulated walls, the model " + std::to_string(here.walls) +
+                         " and " + std::to_string(here.meshes),
+                     path.string(), "set the model up as it was when the checkpoint was written");
+  if (saved.memory != here.memory)
+    throw InputError("contacts in the checkpoint remember " + std::to_string(saved.memory) +
+                         " numbers, under this law " + std::to_string(here.memory),
+                     path.string(), "read it with the law that wrote it");
+}
+
+void requireBelow(const ContactStep& limit, double dt) {
+  if (dt <= limit.dt) return;
+  const std::string partner = limit.partner < 0 ? "a wall" : "particle " + std::to_string(limit.partner);
+  throw InputError(
+      "dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) +
+          " s that the contact of particle " + std::to_string(limit.particle) + " with " + partner + " sets",
+      "time step", "take a fifth of the limit or less, softer contacts, or scaleMasses for quasi-static scenes");
 }
 
 double applyDamping(Particles& particles, double viscousRate, double local) {

@@ -205,6 +205,10 @@ bool updatePairs(const Particles& particles, PairList& list, double step) {
   return true;
 }
 
+void restoreChunks(const Particles& particles, PairList& list) {
+  if (list.builds > 0) makeChunks(particles.size(), list);
+}
+
 void wrapPositions(Particles& particles, const geometry::Periodicity& periodicity) {
   for (int k = 0; k < 3; ++k) {
     if (!periodicity.axes[static_cast<std::size_t>(k)]) continue;

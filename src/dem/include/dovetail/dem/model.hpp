@@ -9,6 +9,7 @@
 
 #include "dovetail/core/profile.hpp"
 #include "dovetail/dem/common_laws.hpp"
+#include "dovetail/dem/contact_step.hpp"
 #include "dovetail/dem/primitive_wall.hpp"
 #include "dovetail/dem/rigid_wall.hpp"
 
@@ -145,6 +146,7 @@ ContactWork collideWithWalls(Model<Law>& m, double moved, double dt) {
   return work;
 }
 
+void requireBelow(const ContactStep& limit, double dt);
 void bookLosses(Energies& booked, const ContactWork& work, double dt);
 double applyDamping(Particles& particles, double viscousRate, double local);
 
@@ -186,6 +188,25 @@ template <class Law>
 void run(Model<Law>& m, double dt, std::int64_t n) {
   for (std::int64_t i = 0; i < n; ++i) advance(m, dt);
   finish(m, dt);
+}
+
+/// The largest stable step with the contacts as they are now, and who sets it (see ContactDemand). A scene that is yet
+/// to collide has none: take `leastOverlap` then, the overlap to be expected, m.
+template <class Law>
+ContactStep criticalStep(const Model<Law>& m, double leastOverlap = 0.0) {
+  ContactDemand demand;
+  addDemand(demand, m.particles, m.pairs, m.laws, leastOverlap);
+  for (const PrimitiveWall& wall : m.walls)
+    if (wall.contacts.size() > 0) addWallDemand(demand, m.particles, wall.contacts, m.laws, wall.material);
+  for (const MeshWall& mesh : m.meshes)
+    if (mesh.contacts.size() > 0) addWallDemand(demand, m.particles, mesh.contacts, m.laws, mesh.wall.material);
+  return criticalStep(demand, m.particles);
+}
+
+/// @throws InputError naming the contact that sets the limit if dt is beyond it
+template <class Law>
+void requireStableStep(const Model<Law>& m, double dt, double leastOverlap = 0.0) {
+  detail::requireBelow(criticalStep(m, leastOverlap), dt);
 }
 
 /// Energies now; contact energies and losses need booking. Gravity counts from the origin.

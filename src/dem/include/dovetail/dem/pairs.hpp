@@ -94,6 +94,9 @@ void wrapPositions(Particles& particles, const geometry::Periodicity& periodicit
 /// @param newNumber one per particle of the list
 void renumber(PairList& list, std::span<const int> newNumber);
 
+/// Makes the chunks of a list whose other parts have been read from a file.
+void restoreChunks(const Particles& particles, PairList& list);
+
 /// Sorts the particles such that near in number means near in space, which makes large scenes faster, and the list with
 /// them. Returns old number → new number, for whatever else refers to particles.
 std::vector<int> sortParticles(Particles& particles, PairList& list);
