@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dovetail/core/profile.hpp"
+#include "dovetail/dem/bonds.hpp"
 #include "dovetail/dem/common_laws.hpp"
 #include "dovetail/dem/contact_step.hpp"
 #include "dovetail/dem/primitive_wall.hpp"
@@ -63,6 +64,7 @@ struct Model {
   Vec3 gravity;  ///< m/s²
   std::vector<PrimitiveWall> walls;
   std::vector<MeshWall> meshes;
+  Bonds bonds;  ///< between particles; they need particles that spin
   std::optional<Domain> domain;
   double viscousRate = 0.0;   ///< see applyViscousDamping, 1/s
   double localDamping = 0.0;  ///< see applyLocalDamping
@@ -117,10 +119,14 @@ void renewPairs(Model<Law>& m, double moved) {
   updatePairs(m.particles, m.pairs, moved);
   if (m.pairs.builds == builds) return;
   const auto gone = checkDomain(m.particles, m.pairs, m.domain, m.gravity, m.escaped, when(m.time, m.steps));
-  if (!gone.empty()) renumberWalls(m.walls, m.meshes, gone);
+  if (!gone.empty()) {
+    renumberWalls(m.walls, m.meshes, gone);
+    renumber(m.bonds, gone);
+  }
   if (m.sortEvery > 0 && m.pairs.builds % m.sortEvery == 1) {
     const auto sorted = sortParticles(m.particles, m.pairs);
     renumberWalls(m.walls, m.meshes, sorted);
+    renumber(m.bonds, sorted);
   }
 }
 
@@ -134,10 +140,11 @@ ContactWork collideWithWalls(Model<Law>& m, double moved, double dt) {
   }
   for (MeshWall& mesh : m.meshes) {
     clearForces(mesh.wall);
+    mesh.wall.rigid = true;
     if (mesh.motion)
       updateWallCandidates(m.particles, mesh.wall, mesh.candidates);
     else
-      updateWallCandidates(m.particles, mesh.wall, mesh.candidates, 0.0);
+      updateWallCandidates(m.particles, mesh.wall, mesh.candidates, 0.0, moved);
     findWallContacts(m.particles, mesh.wall, mesh.candidates, mesh.rule, mesh.contacts);
     work += collideWithWall(m.particles, mesh.wall, mesh.contacts, m.laws, dt);
     addWallForces(mesh.contacts, mesh.wall);
@@ -153,7 +160,7 @@ double applyDamping(Particles& particles, double viscousRate, double local);
 }  // namespace detail
 
 /// One step of velocity Verlet up to the forces; the last half kick is left to the next advance or to finish:
-///   half kick · half kick · drift · walls · pairs · contacts · damping
+///   half kick · half kick · drift · walls · pairs · contacts · bonds · damping
 /// @throws NumericalError naming a particle that is not finite, moved farther than its own radius in this step (it
 /// could
 ///         pass through walls and others unseen), or escaped, with the time
@@ -170,6 +177,8 @@ void advance(Model<Law>& m, double dt) {
   m.work = timed(m.profile, "pairs", [&] { return collide(m.particles, m.pairs, m.laws, dt, m.booking); });
   if (!m.walls.empty() || !m.meshes.empty())
     timed(m.profile, "walls", [&] { m.work += detail::collideWithWalls(m, moved, dt); });
+  if (m.bonds.size() > 0 || m.bonds.ended > 0.0)
+    timed(m.profile, "bonds", [&] { m.work += exchangeBonds(m.particles, m.bonds, dt); });
   if (m.viscousRate > 0.0 || m.localDamping > 0.0)
     m.booked.damping += dt * detail::applyDamping(m.particles, m.viscousRate, m.localDamping);
   if (m.booking == Booking::on) detail::bookLosses(m.booked, m.work, dt);
