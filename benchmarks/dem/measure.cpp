@@ -15,8 +15,8 @@ Rates ratesOf(std::vector<double> millions) {
 std::size_t bytesHeld(const dem::Particles& p, const dem::PairList& l) {
   const auto bytes = [](const auto&... arrays) { return ((arrays.capacity() * sizeof(arrays[0])) + ... + 0); };
   return bytes(p.x, p.v, p.f, p.radius, p.mass, p.omega, p.torque, p.material, p.id) +
-         bytes(l.pairs, l.candidates, l.images, l.scale, l.memory, l.ended, l.positionAtBuild, l.chunks.begin,
-               l.chunks.crosses, l.chunks.force, l.chunks.torque, l.chunks.arrives, l.chunks.arriving);
+         bytes(l.pairs, l.candidates, l.images, l.scale, l.memory, l.ended, l.positionAtBuild, l.positionAtPruning,
+               l.chunks.begin, l.chunks.crosses, l.chunks.force, l.chunks.torque, l.chunks.arrives, l.chunks.arriving);
 }
 
 double bytesMovedPerStep(const dem::Particles& p, const dem::PairList& l, bool mass, bool oneSize) {

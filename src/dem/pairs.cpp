@@ -99,11 +99,11 @@ void makeChunks(std::size_t particles, PairList& list) {
         chunks.arriving[next[j / chunks.size]++] = {crossing++, list.pairs[p][1]};
 }
 
-/// Largest displacement since the list was made, m; NaN if a position is not finite.
-double largestTravel(const Particles& particles, const PairList& list) {
+/// Largest displacement, m; NaN if a position is not finite.
+double largestTravel(const Particles& particles, const std::vector<Vec3>& from) {
   double squared = 0.0;
   for (std::size_t i = 0; i < particles.size() && !std::isnan(squared); ++i) {
-    const double d2 = squaredNorm(particles.x[i] - list.positionAtBuild[i]);
+    const double d2 = squaredNorm(particles.x[i] - from[i]);
     if (!(d2 <= squared)) squared = d2;
   }
   return std::sqrt(squared);
@@ -161,6 +161,7 @@ void adaptInnerSkin(PairList& list) {
 void prune(const Particles& particles, PairList& list) {
   adaptInnerSkin(list);
   list.innerTravel = 0.0;
+  list.positionAtPruning = particles.x;
   list.updatesSincePruning = 0;
   take(particles, closerThan(list.innerSkin, particles, list), list);
 }
@@ -178,6 +179,7 @@ void findPairs(const Particles& particles, double skin, PairList& list) {
   Pairs found;
   grid.pairs(found);
   list.candidates.clear();
+  list.positionAtPruning.clear();
   list.innerSkin = found.size() < PairList::pruneFrom || skin == 0.0 ? skin
                    : list.innerSkin < skin                           ? list.innerSkin
                                                                      : 0.0;
@@ -201,13 +203,15 @@ bool updatePairs(const Particles& particles, PairList& list, double step) {
   list.innerTravel += step;
   ++list.updatesSincePruning;
   if (!(list.travel <= 0.5 * list.skin)) {
-    list.travel = largestTravel(particles, list);
+    list.travel = largestTravel(particles, list.positionAtBuild);
     if (!(list.travel <= 0.5 * list.skin)) {
       findPairs(particles, list.skin, list);
       return true;
     }
   }
   if (!pruned || list.innerTravel <= 0.5 * list.innerSkin) return false;
+  list.innerTravel = largestTravel(particles, list.positionAtPruning);
+  if (list.innerTravel <= 0.5 * list.innerSkin) return false;
   prune(particles, list);
   return true;
 }

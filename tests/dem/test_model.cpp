@@ -239,6 +239,33 @@ TEST(PrimitiveWalls, BadOnesAreRefused) {
   EXPECT_THROW(makeSphere({NAN, 0, 0}, 1.0), InputError);
 }
 
+TEST(Pairs, PeriodicImagesMakeNoDifference) {
+  const auto end = [](const Vec3& moved) {
+    Model<FrictionalLaw> model;
+    model.laws = prepare(law);
+    Random random(11);
+    model.pairs.periodicity = {{{0, 0, 0}, {0.8, 0.8, 0.8}}, {true, true, true}};
+    for (int i = 0; i < 400; ++i) {
+      const Vec3 at{0.1 * (i % 8) + 0.05, 0.1 * (i / 8 % 8) + 0.05, 0.1 * (i / 64) + 0.05};
+      addParticle(model.particles, at + moved, random.vector(1.0), 0.05, Density{1000.0});
+    }
+    switchOnRotation(model.particles);
+    wrapPositions(model.particles, model.pairs.periodicity);
+    model.pairs.skin = 0.02;
+    model.sortEvery = 0;
+    run(model, 1e-4, 300);
+    for (Vec3& x : model.particles.x) x -= moved;
+    wrapPositions(model.particles, model.pairs.periodicity);
+    return model;
+  };
+  const auto here = end({}), there = end({0.37, 0.21, 0.55});
+  EXPECT_GT(here.pairs.images.size(), 50u);
+  const double speed = std::sqrt(2.0 * kineticEnergy(here.particles));
+  EXPECT_LT(norm(momentum(here.particles) - momentum(end({}).particles)), 1e-14 * speed);
+  for (std::size_t i = 0; i < 400; ++i)
+    EXPECT_LT(norm(here.pairs.periodicity.minimumImage(here.particles.x[i] - there.particles.x[i])), 1e-8);
+}
+
 TEST(Pairs, PruningChangesNothing) {
   const auto end = [](double skin) {
     auto model = pile(3000);

@@ -16,8 +16,9 @@ void archiveParticles(Archive& archive, P& p) {
 /// All of a list but what follows from it.
 template <class Archive, class List>
 void archivePairs(Archive& archive, List& l) {
-  archive(l.skin, l.pairs, l.builds, l.revision, l.innerSkin, l.candidates, l.innerTravel, l.updatesSincePruning,
-          l.images, l.scale, l.memory, l.turns, l.ended, l.endedMaterials, l.positionAtBuild, l.travel);
+  archive(l.skin, l.pairs, l.builds, l.revision, l.innerSkin, l.candidates, l.innerTravel, l.positionAtPruning,
+          l.updatesSincePruning, l.images, l.scale, l.memory, l.turns, l.ended, l.endedMaterials, l.positionAtBuild,
+          l.travel);
 }
 
 template <class Archive, class Wall>

@@ -35,7 +35,7 @@ struct PairImage {
 ///
 /// Two lists stand behind each other (Páll & Hess, Comput. Phys. Commun. 184, 2013, call it pruning): `candidates` come
 /// from the grid and last while nobody has moved more than skin/2; of those, `pairs` are closer than the sum of their
-/// radii + innerSkin, and are picked anew whenever somebody may have moved more than innerSkin/2. The inner skin adapts
+/// radii + innerSkin, and are picked anew when somebody has moved more than innerSkin/2. The inner skin adapts
 /// itself such that picking is rare. Lists of less than pruneFrom pairs are not pruned: innerSkin = skin.
 struct PairList {
   double skin = 0.0;                      ///< m
@@ -46,6 +46,7 @@ struct PairList {
   static constexpr std::size_t pruneFrom = 4096;
   double innerSkin = 0.0;                      ///< m
   std::vector<std::array<int, 2>> candidates;  ///< i < j, sorted; empty unless pruned
+  std::vector<Vec3> positionAtPruning;         ///< empty unless pruned
   double innerTravel = 0.0;                    ///< bound on how far any particle has moved since the last pruning, m
   std::int64_t updatesSincePruning = 0;
 
