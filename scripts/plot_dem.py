@@ -65,12 +65,12 @@ def draw_drum(folder, figure):
     left.set_title(f"surface at {angle:.1f}°")
     right.plot(series["time_s"], series["surface_deg"], color=RUN, label="slope of the surface")
     right.plot(series["time_s"], series["centre_of_mass_deg"], color="tab:blue", label="centre of mass")
-    right.axvspan(0.4 * series["time_s"][-1], series["time_s"][-1], color="0.92", label="averaged")
+    right.axvspan(0.4 * series["time_s"][-1], series["time_s"][-1], color="0.88", label="averaged")
     right.set_xlabel("time (s)")
     right.set_ylabel("angle (degrees)")
     right.set_ylim(numpy.min(series["surface_deg"]) - 6, None)
-    right.legend(frameon=False, loc="lower right")
-    inset = right.inset_axes([0.1, 0.07, 0.4, 0.34])
+    right.legend(loc="lower right", framealpha=1)
+    inset = right.inset_axes([0.1, 0.1, 0.33, 0.3])
     inset.plot(layers["speed_m_per_s"], layers["depth_m"] / DIAMETER, ".-", color=RUN, markersize=3)
     inset.axvline(0.0, color="0.7", linewidth=0.8)
     inset.set_ylim(12, 0)
@@ -114,15 +114,19 @@ def draw_column(folder, figure):
     names = sorted(path.name[:-len("_start.csv")] for path in folder.glob("column_*_start.csv"))
     if not names:
         raise DataError(f"{folder} holds no column_*_start.csv")
-    grid = figure.add_gridspec(2, 2, width_ratios=[1.5, 1])
+    grid = figure.add_gridspec(2, 2, height_ratios=[1, 1.1])
     reach = 1.35e3 * numpy.max(series["radius_m"])
-    for row, suffix in enumerate(("_start", "")):
-        beads, axes = read(folder, names[-1] + suffix), figure.add_subplot(grid[row, 0])
-        colour = beads["z_m"] / DIAMETER if row == 0 else numpy.hypot(beads["x_m"], beads["y_m"]) / DIAMETER
-        draw_beads(axes, beads, numpy.abs(beads["y_m"]) < DIAMETER, colour)
-        axes.set_xlim(-reach, reach)
-        axes.set_title(("standing" if row == 0 else "after the collapse") + f", a = {table['aspect'][-1]:.2f}", fontsize=10)
-    axes = figure.add_subplot(grid[0, 1])
+    start, end, axes = read(folder, names[-1] + "_start"), read(folder, names[-1]), figure.add_subplot(grid[0, :])
+    for beads, colours in ((start, "Greys"), (end, "viridis")):
+        front = numpy.abs(beads["y_m"]) < DIAMETER
+        discs = draw_beads(axes, beads, front, numpy.hypot(beads["x_m"], beads["y_m"]) / DIAMETER)
+        discs.set_cmap(colours)
+        if beads is start:
+            discs.set_clim(-12, 36)
+    axes.set_xlim(-reach, reach)
+    axes.set_title(f"slice through the middle, a = {table['aspect'][-1]:.2f}: standing (grey) and after the collapse",
+                   fontsize=10)
+    axes = figure.add_subplot(grid[1, 0])
     for aspect in table["aspect"]:
         mine = series["aspect"] == aspect
         axes.plot(series["time_s"][mine], 1e3 * series["radius_m"][mine], label=f"a = {aspect:.2f}")
@@ -159,6 +163,7 @@ def main():
     draw, size = FIGURES[arguments.example]
     image = arguments.image or arguments.folder / f"{arguments.example}.png"
     figure = pyplot.figure(figsize=size, layout="constrained")
+    figure.get_layout_engine().set(wspace=0.06)
     try:
         draw(arguments.folder, figure)
         figure.savefig(image, dpi=100)

@@ -20,9 +20,12 @@ using Scene = dem::Model<SlidingLaw>;
 
 const Beads beads;
 const double d = beads.diameter, tau = beads.fallTime(), dt = beads.step();
-const double width = 6.0 * d;     // period along the axis y: an endless drum without end walls
 constexpr double froude = 0.002;  // ω² R/g; rolling regime: 1e-4 … 1e-2 (Mellmann, Powder Technol. 118, 2001)
 constexpr double degree = std::numbers::pi / 180.0;
+
+struct Size {
+  double radius, width;  // of the drum and of its period along the axis y, m: it is endless, without end walls
+};
 
 /// Friction of dense flows of glass beads, μ(I) = μ_s + (μ_2 − μ_s)/(1 + I0/I): Jop, Forterre & Pouliquen, Nature 441,
 /// 2006. I = (rate of shear) d/√(pressure/density of a bead).
@@ -33,9 +36,10 @@ double frictionOfFlow(double inertialNumber) {
 
 /// Half a drum of beads at rest, with the surface already inclined by about 24 degrees: gravity is inclined while they
 /// settle.
-Scene halfFilledDrum(double radius, Profile& profile) {
+Scene halfFilledDrum(const Size& size, Profile& profile) {
+  const double radius = size.radius;
   Scene drum = emptyModel(beads, SlidingLaw{beads.normal(), beads.tangential()}, profile);
-  drum.pairs.periodicity = {{{-radius, 0.0, -radius}, {radius, width, radius}}, {false, true, false}};
+  drum.pairs.periodicity = {{{-radius, 0.0, -radius}, {radius, size.width, radius}}, {false, true, false}};
   const Vec3 down = normalized(Vec3{-std::tan(24.0 * degree), 0.0, -1.0});
   const dem::Packing block = looseBeads(beads, drum.pairs.periodicity, 1);
   for (std::size_t i = 0; i < block.centre.size(); ++i) {
@@ -55,10 +59,10 @@ Scene halfFilledDrum(double radius, Profile& profile) {
 
 /// Slope of a straight line through the highest beads in the middle of the drum, in columns one bead wide: tan(angle),
 /// and the height of the line at x = 0, m. The slope goes down towards +x.
-std::array<double, 2> surfaceLine(const dem::Particles& particles, double radius) {
-  const double half = 0.5 * radius;
+std::array<double, 2> surfaceLine(const dem::Particles& particles, const Size& size) {
+  const double half = 0.5 * size.radius, width = size.width;
   const auto columns = static_cast<std::size_t>(2.0 * half / d), rows = static_cast<std::size_t>(width / d);
-  std::vector<double> top(columns * rows, -radius);
+  std::vector<double> top(columns * rows, -size.radius);
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Vec3& x = particles.x[i];
     if (std::abs(x.x) >= half) continue;
@@ -131,14 +135,14 @@ struct Measured {
 };
 
 /// Turns the drum; the last 60 % count.
-Measured turn(Scene& drum, double radius, double speed, double angle, int samples) {
+Measured turn(Scene& drum, const Size& size, double speed, double angle, int samples) {
   Measured m;
   Progress progress("drum", samples);
   drum.walls[0].angularVelocity = {0, speed, 0};
   const double start = drum.time;
   double n = 0.0, squares = 0.0;
   runAndWatch(drum, dt, angle / speed, samples, [&](const Scene& now) {
-    const auto [slope, height] = surfaceLine(now.particles, radius);
+    const auto [slope, height] = surfaceLine(now.particles, size);
     m.time.push_back(now.time - start);
     m.angle.push_back(std::atan(slope));
     m.angleOfMass.push_back(angleOfMass(now.particles));
@@ -170,13 +174,14 @@ void write(const Options& options, const Measured& m, const Scene& drum) {
 
 bool run(const Options& options) {
   if (!options.out.empty()) io::prepareOutputFolder(options.out, {"drum.csv", "drum_layers.csv", "drum_particles.csv"});
-  const double radius = (options.quick ? 14.0 : 20.0) * d, speed = std::sqrt(froude * beads.gravity / radius);
+  const Size size = options.quick ? Size{14.0 * d, 4.0 * d} : Size{20.0 * d, 6.0 * d};
+  const double speed = std::sqrt(froude * beads.gravity / size.radius);
   Profile profile(true);
-  Scene drum = halfFilledDrum(radius, profile);
-  std::cout << drum.particles.size() << " beads of " << d << " m in a drum of radius " << radius << " m, "
+  Scene drum = halfFilledDrum(size, profile);
+  std::cout << drum.particles.size() << " beads of " << d << " m in a drum of radius " << size.radius << " m, "
             << speed * 30.0 / std::numbers::pi << " turns a minute, Froude number " << froude << '\n';
   ModelLedger ledger(dem::energies(drum));
-  const Measured m = turn(drum, radius, speed, options.quick ? 0.35 : 0.9, options.quick ? 60 : 200);
+  const Measured m = turn(drum, size, speed, options.quick ? 0.3 : 0.9, options.quick ? 60 : 200);
   ledger.set(dem::energies(drum));
   printStep(std::cout, dt, safeStep(drum), drum.particles);
   std::cout << '\n'
@@ -184,7 +189,7 @@ bool run(const Options& options) {
             << profile;
   const double inertial = m.profile.inertialNumber(m.meanAngle);
   const double law = std::atan(frictionOfFlow(inertial)) / degree, angle = m.meanAngle / degree;
-  const double tolerance = options.quick ? 4.0 : 2.0;
+  const double tolerance = options.quick ? 6.0 : 2.0;
   std::printf("\nangle of the surface %.1f +- %.1f degrees, of the centre of mass %.1f\n", angle, m.deviation / degree,
               m.meanOfMass / degree);
   std::printf("flowing layer %.1f d thick, inertial number %.3f\n", m.profile.thickness() / d, inertial);

@@ -62,7 +62,7 @@ Scene filledSilo(const Size& size, Profile& profile) {
   silo.walls = {dem::makeCylinder({}, {0, 0, 1}, r), dem::makePlane({}, {0, 0, 1})};
   for (auto& wall : silo.walls) wall.skin = 0.2 * d;
   silo.domain = dem::Domain{{{-2 * r, -2 * r, -2 * d}, {2 * r, 2 * r, 2 * loose}}, dem::EscapePolicy::remove};
-  dem::run(silo, dt, static_cast<std::int64_t>(10.0 * tau / dt));
+  dem::run(silo, dt, static_cast<std::int64_t>((4.0 + 0.375 * size.height / d) * tau / dt));
   return silo;
 }
 
@@ -165,9 +165,9 @@ bool compare(const std::vector<Outflow>& flows, double density, bool quick) {
 
 bool run(const Options& options) {
   if (!options.out.empty()) io::prepareOutputFolder(options.out, {"hopper.csv", "hopper_particles.csv"});
-  const std::vector<double> holes = options.quick ? std::vector{6.0, 7.0, 8.0} : std::vector{5.0, 6.0, 7.0, 8.0};
-  const Size size = options.quick ? Size{8.0 * d, 10.0 * d} : Size{9.0 * d, 16.0 * d};
-  const double duration = (options.quick ? 7.0 : 15.0) * tau;
+  const std::vector<double> holes = options.quick ? std::vector{6.0, 8.0} : std::vector{5.0, 6.0, 7.0, 8.0};
+  const Size size = options.quick ? Size{8.0 * d, 9.0 * d} : Size{9.0 * d, 16.0 * d};
+  const double duration = (options.quick ? 6.0 : 15.0) * tau;
   Profile profile(true);
   Progress progress("hopper", 60.0 * static_cast<double>(holes.size()));
   progress.update(0.0, "filling");
