@@ -122,7 +122,6 @@ Outflow openHole(Scene& silo, double hole, double duration, Progress& progress, 
 
 void write(const Options& options, const std::vector<Outflow>& flows, const Scene& last) {
   const io::KeyValues origin = io::provenance({{"quick", options.quick ? "yes" : "no"}});
-  io::prepareOutputFolder(options.out, {"hopper.csv", "hopper_rates.csv"});
   io::TimeSeries series({"hole_m", "time_s", "discharged_kg"}), rates({"hole_m", "rate_kg_per_s"});
   for (const Outflow& flow : flows) {
     rates.append({flow.hole, flow.rate});
@@ -164,7 +163,8 @@ bool compare(const std::vector<Outflow>& flows, double density, bool quick) {
 }
 
 bool run(const Options& options) {
-  if (!options.out.empty()) io::prepareOutputFolder(options.out, {"hopper.csv", "hopper_particles.csv"});
+  if (!options.out.empty())
+    io::prepareOutputFolder(options.out, {"hopper.csv", "hopper_rates.csv", "hopper_particles.csv"});
   const std::vector<double> holes = options.quick ? std::vector{6.0, 8.0} : std::vector{5.0, 6.0, 7.0, 8.0};
   const Size size = options.quick ? Size{8.0 * d, 9.0 * d} : Size{9.0 * d, 16.0 * d};
   const double duration = (options.quick ? 6.0 : 15.0) * tau;
