@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
@@ -126,12 +127,23 @@ void scatter(Particles& particles, Bonds& bonds, bool breaks) {
   bonds.utilised.resize(kept);
 }
 
+void checkNumbers(const Particles& particles, Bonds& bonds) {
+  if (!particles.rotates()) throw InputError("the particles do not spin", "bonds", "call switchOnRotation before");
+  if (bonds.particles == particles.size()) return;
+  const auto count = static_cast<int>(particles.size());
+  for (std::size_t b = 0; b < bonds.size(); ++b)
+    for (const int k : {bonds.bonds[b].i, bonds.bonds[b].j})
+      if (k < 0 || k >= count)
+        throw InputError("there is no particle " + std::to_string(k), "bond " + std::to_string(b),
+                         "call renumber when particles have been removed");
+  bonds.particles = particles.size();
+}
+
 }  // namespace
 
 ContactWork exchangeBonds(Particles& particles, Bonds& bonds, double dt) {
   requireNonNegative(dt, "time step of bonds");
-  if (!particles.rotates() && bonds.size() > 0)
-    throw InputError("the particles do not spin", "bonds", "call switchOnRotation before");
+  if (bonds.size() > 0) checkNumbers(particles, bonds);
   bonds.forces.resize(bonds.size());
   bonds.energy.resize(bonds.size());
   bonds.utilised.resize(bonds.size());

@@ -78,6 +78,7 @@ int addBond(Bonds& bonds, const Particles& particles, int i, int j, const BondMa
   bond.directionJ = -bond.directionI;
   bond.acrossI = bond.acrossJ = anyAcross(bond.directionI);
   bonds.bonds.push_back(bond);
+  bonds.particles = 0;
   return static_cast<int>(bonds.size()) - 1;
 }
 
@@ -97,6 +98,7 @@ int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list,
 
 void renumber(Bonds& bonds, std::span<const int> newNumber) {
   std::size_t kept = 0;
+  bonds.particles = 0;
   bonds.energy.resize(bonds.size(), 0.0);
   for (std::size_t b = 0; b < bonds.size(); ++b) {
     Bond bond = bonds.bonds[b];

@@ -1,6 +1,9 @@
 #include "dovetail/dem/clumps.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "dovetail/core/parallel.hpp"
 
@@ -47,18 +50,26 @@ int addClump(Particles& particles, Bodies& bodies, Clumps& clumps, const ClumpSh
   return body;
 }
 
-void placeMembers(const Bodies& bodies, const Clumps& clumps, Particles& particles) {
+double placeMembers(const Bodies& bodies, const Clumps& clumps, Particles& particles) {
+  constexpr std::size_t grain = 1024;
   std::vector<Vec3> omega(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) omega[b] = angularVelocity(bodies, static_cast<int>(b));
-  parallelFor(clumps.size(), 1024, [&](std::size_t begin, std::size_t end) {
+  std::vector<double> squared((clumps.size() + grain - 1) / grain, 0.0);
+  parallelFor(clumps.size(), grain, [&](std::size_t begin, std::size_t end) {
+    double& largest = squared[begin / grain];
     for (std::size_t m = begin; m < end; ++m) {
       const std::size_t b = at(clumps.body[m]), i = at(clumps.particle[m]);
-      const Vec3 arm = rotate(bodies.orientation[b], clumps.offset[m]);
-      particles.x[i] = bodies.x[b] + arm;
+      const Vec3 arm = rotate(bodies.orientation[b], clumps.offset[m]), x = bodies.x[b] + arm;
+      const double moved = squaredNorm(x - particles.x[i]);
+      if (!(moved <= largest)) largest = std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
+      particles.x[i] = x;
       particles.v[i] = bodies.v[b] + cross(omega[b], arm);
       if (particles.rotates()) particles.omega[i] = omega[b];
     }
   });
+  double largest = 0.0;
+  for (const double s : squared) largest = std::max(largest, s);
+  return std::sqrt(largest);
 }
 
 void gatherForces(Particles& particles, const Clumps& clumps, Bodies& bodies, const Vec3& gravity) {

@@ -123,6 +123,15 @@ void requireSame(const WallCounts& saved, const WallCounts& here, const std::fil
                      path.string(), "read it with the law that wrote it");
 }
 
+void requireBelow(const ContactStep& limit, double dt) {
+  if (dt <= limit.dt) return;
+  const std::string partner = limit.partner < 0 ? "a wall" : "particle " + std::to_string(limit.partner);
+  throw InputError(
+      "dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) +
+          " s that the contact of particle " + std::to_string(limit.particle) + " with " + partner + " sets",
+      "time step", "take a fifth of the limit or less, softer contacts, or scaleMasses for quasi-static scenes");
+}
+
 double applyDamping(Particles& particles, double viscousRate, double local) {
   double power = 0.0;
   if (viscousRate > 0.0) power += applyViscousDamping(particles, viscousRate);

@@ -23,13 +23,18 @@ void checkSpace(const geometry::Periodicity& space) {
   }
 }
 
-void checkFit(double diameter, const geometry::Periodicity& space) {
+/// Whether the box, shrunk by the factor, still is wide enough. Along a periodic axis two spheres must not meet through
+/// two images.
+bool fits(double factor, double diameter, const geometry::Periodicity& space) {
   for (int k = 0; k < 3; ++k)
-    // Along a periodic axis two spheres must not meet through two images.
-    if ((space.axes[static_cast<std::size_t>(k)] ? 2.0 : 1.0) * diameter > space.length(k))
-      throw InputError("a sphere of diameter " + formatNumber(diameter) + " m does not fit into the box along axis " +
-                           std::to_string(k),
-                       "packing", "make the box larger (along a periodic axis, two diameters), or the spheres smaller");
+    if ((space.axes[static_cast<std::size_t>(k)] ? 2.0 : 1.0) * diameter > factor * space.length(k)) return false;
+  return true;
+}
+
+void checkFit(double diameter, const geometry::Periodicity& space) {
+  if (fits(1.0, diameter, space)) return;
+  throw InputError("a sphere of diameter " + formatNumber(diameter) + " m does not fit into the box", "packing",
+                   "make the box larger (along a periodic axis, two diameters), or the spheres smaller");
 }
 
 std::vector<double> drawRadii(const Sizes& sizes, double volume, RandomStream& random) {
@@ -44,9 +49,11 @@ std::vector<double> drawRadii(const Sizes& sizes, double volume, RandomStream& r
 }
 
 void fillReport(Packing& packing, PackingReport& report) {
-  const Overlaps overlaps = Relaxation(packing).measure(1e-6);
+  Relaxation state(packing);
+  const Overlaps overlaps = state.measure(1e-6);
   report.solidFraction = solidFraction(packing);
   report.largestOverlap = overlaps.largest;
+  report.unbalanced = state.unbalanced();
   report.coordination = static_cast<double>(overlaps.contacts) / static_cast<double>(packing.centre.size());
 }
 
@@ -140,17 +147,23 @@ PackingReport compressToPressure(Packing& packing, const CompressionSettings& se
     throw InputError("the packing has " + std::to_string(packing.centre.size()) + " centres and " +
                          std::to_string(packing.radius.size()) + " radii",
                      "packing", "give one of each per sphere, and at least one");
-  checkFit(2.0 * *std::max_element(packing.radius.begin(), packing.radius.end()), packing.space);
+  const double widest = 2.0 * *std::max_element(packing.radius.begin(), packing.radius.end());
+  checkFit(widest, packing.space);
   PackingReport report;
   Relaxation relaxation(packing);
   // Secant steps, with the guess for a packing that does not press yet that it is as stiff as it will be when it does;
   // never longer than `longest`, which is halved whenever a step has gone too far.
   double bulk = 0.2 * settings.stiffness / meanRadius(packing), longest = 0.02, strain = 0.0;
-  while (report.iterations < settings.iterations) {
+  const double negligible = 1e-3 * settings.pressure * meanRadius(packing) / settings.stiffness;
+  const auto relaxed = [&](double balance) {
     report.iterations +=
-        relaxation.run(0.0, 1e-5, std::min<std::int64_t>(5000, settings.iterations - report.iterations));
-    const double before =
-        std::exchange(report.pressure, settings.stiffness * relaxation.measure().virial / (3.0 * packing.volume()));
+        relaxation.run(negligible, balance, std::min<std::int64_t>(5000, settings.iterations - report.iterations));
+    return settings.stiffness * relaxation.measure().virial / (3.0 * packing.volume());
+  };
+  while (report.iterations < settings.iterations) {
+    const double before = std::exchange(report.pressure, relaxed(1e-2));
+    // Far from the pressure wanted, rest is not waited for.
+    if (std::abs(settings.pressure - report.pressure) < 0.5 * settings.pressure) report.pressure = relaxed(1e-4);
     const double missing = settings.pressure - report.pressure;
     report.reached = std::abs(missing) <= settings.tolerance * settings.pressure;
     if (report.reached) break;
@@ -160,6 +173,7 @@ PackingReport compressToPressure(Packing& packing, const CompressionSettings& se
     const bool loose = report.pressure < 0.01 * settings.pressure;
     strain = loose ? longest : std::clamp(missing / bulk, -longest, longest);
     const double factor = std::cbrt(1.0 - strain);
+    if (!fits(factor, widest, packing.space)) break;
     const Vec3 corner = packing.space.box.lower;
     packing.space.box.upper = corner + factor * (packing.space.box.upper - corner);
     for (Vec3& x : packing.centre) x = corner + factor * (x - corner);

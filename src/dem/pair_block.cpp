@@ -1,4 +1,5 @@
 // Pairs in and out of blocks.
+#include "dovetail/core/error.hpp"
 #include "dovetail/dem/pair_collide.hpp"
 
 namespace dovetail::dem::detail {
@@ -124,7 +125,17 @@ void scatterForces(Particles& particles, PairList& list, PairCursor& cursor, std
 
 }  // namespace
 
+void requireMaterials(const Particles& particles, int materials) {
+  if (materials == 1) return;
+  for (std::size_t i = 0; i < particles.material.size(); ++i)
+    if (particles.material[i] >= materials)
+      throw InputError("material " + std::to_string(particles.material[i]) + " has no law",
+                       "particle " + std::to_string(i) + ", material",
+                       "give materials from 0 to " + std::to_string(materials - 1) + ", or a larger table of laws");
+}
+
 void findUniform(const Particles& particles, PairRows& rows) {
+  requireMaterials(particles, rows.materials);
   const auto uniform = [](const std::vector<double>& values) {
     if (values.empty()) return false;
     const double first = values[0];
@@ -136,11 +147,15 @@ void findUniform(const Particles& particles, PairRows& rows) {
   rows.oneMass = rows.mass && uniform(particles.mass);
 }
 
-void shareMass(const Particles& particles, const PairRows& rows, ContactBlock& block) {
+void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block) {
   if (!rows.mass)
     block.rootMass.fill(0.0);
   else if (rows.oneMass)
     block.rootMass.fill(std::sqrt(0.5 * particles.mass[0]));
+  if (!rows.radius)
+    block.radius.fill(0.0);
+  else if (rows.oneRadius)
+    block.radius.fill(0.5 * particles.radius[0]);
 }
 
 PairCursor startOfChunk(const PairList& list, std::size_t chunk) {
@@ -160,6 +175,7 @@ std::size_t gatherPairs(const Particles& particles, const PairList& list, const 
   }
   gatherRadii(particles, pairs, n, rows.oneRadius, block);
   if (rows.mass && !rows.oneMass) gatherMasses(particles, {pairs, n}, block);
+  if (rows.radius && !rows.oneRadius) makeRadii(n, block);
   if (rows.spins) gatherSpins(particles, pairs, n, block);
   if (rows.varied) gatherVaried(particles, list, first, rows.materials, n, block);
   for (std::size_t c = 0; c < static_cast<std::size_t>(rows.memory); ++c)

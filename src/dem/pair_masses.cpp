@@ -1,4 +1,4 @@
-// Effective masses of pairs: a file of its own, because this loop gains from vectors where the others lose.
+// Effective masses and radii of pairs: a file of its own, because these loops gain from vectors where the others lose.
 #include "dovetail/dem/pair_collide.hpp"
 
 namespace dovetail::dem::detail {
@@ -11,6 +11,11 @@ void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>
     b[l] = mass[pairs[l][1]];
   }
   for (std::size_t l = 0; l < pairs.size(); ++l) block.rootMass[l] = std::sqrt(a[l] * (b[l] / (a[l] + b[l])));
+}
+
+void makeRadii(std::size_t n, ContactBlock& block) {
+  for (std::size_t l = 0; l < n; ++l)
+    block.radius[l] = block.armI[l] * (block.armJ[l] / (block.armI[l] + block.armJ[l]));
 }
 
 }  // namespace dovetail::dem::detail

@@ -17,8 +17,13 @@ using Pairs = std::vector<std::array<int, 2>>;
 
 std::size_t chunkSize(std::size_t particles) { return std::clamp<std::size_t>(particles / 32, 1024, 4096); }
 
+std::uint8_t materialOf(const Particles& particles, int i) {
+  const auto k = static_cast<std::size_t>(i);
+  return k < particles.material.size() ? particles.material[k] : std::uint8_t{0};
+}
+
 /// Memories of pairs that are in both lists; both are sorted. Takes the new list's place in `list`.
-void keepMemory(const Pairs& old, PairList& list) {
+void keepMemory(const Particles& particles, const Pairs& old, PairList& list) {
   if (list.memory.empty()) return;
   const std::size_t components = list.memory.size() / std::max<std::size_t>(old.size(), 1);
   std::vector<double> memory(components * list.size());
@@ -32,7 +37,9 @@ void keepMemory(const Pairs& old, PairList& list) {
     }
     bool anything = false;
     for (std::size_t c = 0; c < components; ++c) anything = anything || remembered(c, o) != 0.0;
-    for (std::size_t c = 0; anything && c < components; ++c) list.ended.push_back(remembered(c, o));
+    if (!anything) continue;
+    for (std::size_t c = 0; c < components; ++c) list.ended.push_back(remembered(c, o));
+    list.endedMaterials.push_back({materialOf(particles, old[o][0]), materialOf(particles, old[o][1])});
   }
   list.memory = std::move(memory);
 }
@@ -119,7 +126,7 @@ namespace {
 /// Puts `pairs` in the place of the list's, and makes anew what hangs on them.
 void take(const Particles& particles, Pairs&& pairs, PairList& list) {
   const Pairs old = std::exchange(list.pairs, std::move(pairs));
-  keepMemory(old, list);
+  keepMemory(particles, old, list);
   findImages(particles, list);
   makeChunks(particles.size(), list);
   list.scale.clear();
@@ -163,13 +170,13 @@ void prune(const Particles& particles, PairList& list) {
 void findPairs(const Particles& particles, double skin, PairList& list) {
   list.skin = requireNonNegative(skin, "skin of the pair list");
   requireFinite(particles.x, "particle", "position", "search for pairs");
-  if (list.periodicity != list.grid.periodicity()) list.grid = geometry::HierarchicalGrid(list.periodicity);
-  list.grid.build(particles.x, particles.radius, skin);
+  geometry::HierarchicalGrid grid(list.periodicity);  // not kept: it takes as much memory as the list
+  grid.build(particles.x, particles.radius, skin);
   list.positionAtBuild = particles.x;
   list.travel = 0.0;
   ++list.builds;
   Pairs found;
-  list.grid.pairs(found);
+  grid.pairs(found);
   list.candidates.clear();
   list.innerSkin = found.size() < PairList::pruneFrom || skin == 0.0 ? skin
                    : list.innerSkin < skin                           ? list.innerSkin

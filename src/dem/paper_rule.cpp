@@ -44,7 +44,7 @@ void paperContacts(int particle, const Vec3& x, double radius, const Triangulate
 
 void paperWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                        WallContacts& contacts) {
-  sweepParticles(candidates, contacts, [&](int particle, std::span<const int> facets, WallContacts& into) {
+  sweepParticles(candidates, contacts, [&](std::size_t, int particle, std::span<const int> facets, WallContacts& into) {
     thread_local std::vector<Touch> touches;
     const auto i = static_cast<std::size_t>(particle);
     paperContacts(particle, particles.x[i], particles.radius[i], wall, facets, touches, into);

@@ -128,11 +128,11 @@ void renumber(PrimitiveWall& wall, std::span<const int> newNumber) {
 
 namespace detail {
 
-std::vector<double> carryMemory(PrimitiveContacts& contacts, int memory) {
+EndedMemories carryMemory(PrimitiveContacts& contacts, int memory) {
   const auto components = static_cast<std::size_t>(memory);
   contacts.oldMemory.resize(components * contacts.oldParticle.size());
   contacts.memory.assign(components * contacts.size(), 0.0);
-  std::vector<double> ended;
+  EndedMemories ended;
   std::size_t c = 0;
   for (std::size_t o = 0; o < contacts.oldParticle.size(); ++o) {
     while (c < contacts.size() && contacts.particle[c] < contacts.oldParticle[o]) ++c;
@@ -142,8 +142,9 @@ std::vector<double> carryMemory(PrimitiveContacts& contacts, int memory) {
       if (stays)
         contacts.memory[c * components + m] = number;
       else
-        ended.push_back(number);
+        ended.memory.push_back(number);
     }
+    if (!stays) ended.particle.push_back(contacts.oldParticle[o]);
   }
   return ended;
 }

@@ -59,6 +59,24 @@ public:
     appendShares(contacts);
   }
 
+  /// The contact with facets that all lie in one plane, if the foot is on one of them: then it is the nearest, and the
+  /// others add nothing. False if it is on none.
+  /// @param last where to look first, and where the foot was found
+  bool appendFlat(int& last, WallContacts& contacts) const {
+    const auto tryFacet = [&](int facet) {
+      const FacetView seen = view(facet, {}, FacetView::unseen);
+      if (!seen.face()) return false;
+      last = facet;
+      if (seen.distance < radius_)
+        addContact(contacts, particle_, facet, seen.weight, seen.normal, radius_ - seen.distance, 1.0);
+      return true;
+    };
+    if (last >= 0 && tryFacet(last)) return true;
+    for (const int facet : facets_)
+      if (facet != last && tryFacet(facet)) return true;
+    return false;
+  }
+
 private:
   FacetView view(int facet, const Vec3& position, double reach) const {
     return viewFacet(position, FacetCorners(wall_, facet, x_), radius_, reach, wall_.oneSided);
@@ -170,11 +188,15 @@ private:
 
 void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                          WallContacts& contacts) {
-  sweepParticles(candidates, contacts, [&](int particle, std::span<const int> facets, WallContacts& into) {
-    thread_local Scratch scratch;
-    const auto i = static_cast<std::size_t>(particle);
-    Projection(particle, particles.x[i], particles.radius[i], wall, facets, scratch).appendTo(into);
-  });
+  sweepParticles(
+      candidates, contacts, [&](std::size_t k, int particle, std::span<const int> facets, WallContacts& into) {
+        thread_local Scratch scratch;
+        const auto i = static_cast<std::size_t>(particle);
+        Projection projection(particle, particles.x[i], particles.radius[i], wall, facets, scratch);
+        if (!candidates.flat.empty() && candidates.flat[k] && projection.appendFlat(candidates.lastFacet[k], into))
+          return;
+        projection.appendTo(into);
+      });
 }
 
 }  // namespace dovetail::dem

@@ -113,7 +113,7 @@ Overlaps Relaxation::measure(double gap) {
 std::int64_t Relaxation::run(double overlap, double balance, std::int64_t steps) {
   // FIRE with the parameters of Bitzek et al. Large spheres, which have many contacts, get a mass that goes with their
   // surface, so that one longest step is stable for all of them.
-  constexpr double longest = 0.3, mixAtStart = 0.1;
+  constexpr double longest = 0.6, mixAtStart = 0.1;
   double dt = 0.1, mix = mixAtStart;
   int good = 0;
   const std::size_t n = packing_.centre.size();

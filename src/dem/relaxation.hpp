@@ -29,6 +29,8 @@ public:
   std::int64_t run(double overlap, double balance, std::int64_t steps);
   /// As the spheres lie now; contacts are those with δ > −gap × smaller radius.
   Overlaps measure(double gap = 0.0);
+  /// Mean force on a sphere over the mean contact force when last measured; 0 without contacts.
+  double unbalanced() const { return contactForce_ > 0.0 ? residual_ / contactForce_ : 0.0; }
 
 private:
   void forces();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/geometry/triangle.hpp"
@@ -54,6 +55,40 @@ void makeLists(WallCandidates& candidates) {
   candidates.offsets.push_back(static_cast<int>(candidates.facet.size()));
 }
 
+/// Whether the facets lie in one plane, to round-off, and push the same way.
+bool inOnePlane(const TriangulatedWall& wall, std::span<const int> facets) {
+  const auto corner = [&](int facet, std::size_t k) -> const Vec3& {
+    return wall.x[static_cast<std::size_t>(wall.facets[static_cast<std::size_t>(facet)][k])];
+  };
+  const auto areaNormal = [&](int facet) {
+    return geometry::triangleAreaNormal(corner(facet, 0), corner(facet, 1), corner(facet, 2));
+  };
+  const Vec3 first = areaNormal(facets[0]);
+  if (!(squaredNorm(first) > 0.0)) return false;
+  const Vec3 normal = first / norm(first);
+  const double size = std::sqrt(norm(first));
+  for (const int facet : facets) {
+    const Vec3 other = areaNormal(facet);
+    if (norm(cross(other, normal)) > 1e-12 * norm(other) || (wall.oneSided && dot(other, normal) <= 0.0)) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::abs(dot(corner(facet, k) - corner(facets[0], 0), normal)) > 1e-12 * size) return false;
+  }
+  return true;
+}
+
+void markFlat(const TriangulatedWall& wall, WallCandidates& candidates) {
+  candidates.flat.clear();
+  candidates.lastFacet.clear();
+  if (!wall.rigid) return;
+  const std::span<const int> facets(candidates.facet);
+  for (std::size_t k = 0; k < candidates.particle.size(); ++k) {
+    const auto first = static_cast<std::size_t>(candidates.offsets[k]);
+    const auto last = static_cast<std::size_t>(candidates.offsets[k + 1]);
+    candidates.flat.push_back(inOnePlane(wall, facets.subspan(first, last - first)) ? 1 : 0);
+  }
+  candidates.lastFacet.assign(candidates.particle.size(), -1);
+}
+
 /// Scans the vertices when it is time, and plans the next scan. Returns the travel to reckon with.
 double scannedTravel(const TriangulatedWall& wall, double particleTravel, WallCandidates& candidates) {
   ++candidates.updatesSinceBuild;
@@ -80,6 +115,8 @@ void findWallCandidates(const Particles& particles, const TriangulatedWall& wall
   candidates.grid.build(particles.x, particles.radius, 2.0 * skin);
   collectPairs(particles, wall, candidates);
   makeLists(candidates);
+  markFlat(wall, candidates);
+  candidates.particleTravel = 0.0;
   candidates.particleAtBuild = particles.x;
   candidates.vertexAtBuild = wall.x;
   candidates.facetsAtBuild = wall.facets.size();
@@ -90,11 +127,16 @@ void findWallCandidates(const Particles& particles, const TriangulatedWall& wall
 }
 
 bool updateWallCandidates(const Particles& particles, const TriangulatedWall& wall, WallCandidates& candidates,
-                          std::optional<double> wallTravel) {
+                          std::optional<double> wallTravel, std::optional<double> particleStep) {
   bool rebuild = candidates.builds == 0 || particles.size() != candidates.particleAtBuild.size() ||
                  wall.x.size() != candidates.vertexAtBuild.size() || wall.facets.size() != candidates.facetsAtBuild;
   if (!rebuild) {
+    if (particleStep) {
+      candidates.particleTravel += *particleStep;
+      if (wallTravel && candidates.particleTravel + *wallTravel <= candidates.skin) return false;
+    }
     const double particleTravel = largestTravel(particles.x, candidates.particleAtBuild);
+    candidates.particleTravel = particleTravel;
     // Written so that a NaN asks for a rebuild, which then names the culprit.
     if (wallTravel) {
       rebuild = !(particleTravel + *wallTravel <= candidates.skin);

@@ -37,7 +37,7 @@ std::size_t bestMatch(const WallContacts& contacts, const TriangulatedWall& wall
 
 void requireStep(double dt) { requirePositive(dt, "time step of a law that remembers"); }
 
-const std::vector<double>& carrySprings(WallContacts& contacts, const TriangulatedWall& wall, int memory) {
+EndedMemories carrySprings(WallContacts& contacts, const TriangulatedWall& wall, int memory) {
   WallSprings& springs = contacts.springs;
   const auto components = static_cast<std::size_t>(memory);
   springs.memory.resize(components * springs.particle.size());
@@ -54,11 +54,13 @@ const std::vector<double>& carrySprings(WallContacts& contacts, const Triangulat
       springs.next[c * components + m] = springs.memory[match * components + m];
     springs.taken[match] = 1;
   }
-  springs.ended.clear();
-  for (std::size_t o = 0; o < springs.particle.size(); ++o)
-    for (std::size_t m = 0; !springs.taken[o] && m < components; ++m)
-      springs.ended.push_back(springs.memory[o * components + m]);
-  return springs.ended;
+  EndedMemories ended;
+  for (std::size_t o = 0; o < springs.particle.size(); ++o) {
+    if (springs.taken[o]) continue;
+    ended.particle.push_back(springs.particle[o]);
+    for (std::size_t m = 0; m < components; ++m) ended.memory.push_back(springs.memory[o * components + m]);
+  }
+  return ended;
 }
 
 void keepSprings(WallContacts& contacts) {

@@ -34,7 +34,7 @@ inline void appendContacts(WallContacts& contacts, const WallContacts& more) {
                more.engagement[c]);
 }
 
-/// rule(particle, facets, contacts) appends the contacts of one particle.
+/// rule(k, particle, facets, contacts) appends the contacts of one particle, number k of the list.
 template <class Rule>
 void sweepParticles(const WallCandidates& candidates, WallContacts& contacts, Rule&& rule) {
   constexpr std::size_t grain = 64;
@@ -43,7 +43,7 @@ void sweepParticles(const WallCandidates& candidates, WallContacts& contacts, Ru
     for (std::size_t k = begin; k < end; ++k) {
       const auto first = static_cast<std::size_t>(candidates.offsets[k]);
       const auto last = static_cast<std::size_t>(candidates.offsets[k + 1]);
-      rule(candidates.particle[k], std::span<const int>(candidates.facet).subspan(first, last - first), into);
+      rule(k, candidates.particle[k], std::span<const int>(candidates.facet).subspan(first, last - first), into);
     }
   };
   clearContacts(contacts);

@@ -89,6 +89,7 @@ void HierarchicalGrid::build(std::span<const Vec3> x, std::span<const double> ra
   key_.resize(x.size());
   sphere_.resize(x.size());
   if (!x.empty()) makeLevels(x, radius);
+  unsorted_ = {};  // as large as the list of spheres, and of no use until the next build
 }
 
 void HierarchicalGrid::makeLevels(std::span<const Vec3> x, std::span<const double> radius) {

@@ -42,17 +42,21 @@ struct Impact {
     start = kineticEnergy(particles);
   }
 
-  void step(double dt, const Vec3& g = {}) {
-    kick(particles, 0.5 * dt);
-    drift(particles, dt);
+  /// Forces of all contacts, after drift.
+  void exchange(double dt, const Vec3& g = {}) {
     updatePairs(particles, list);
     startForces(particles, g);
     work = collide(particles, list, law, dt);
-    if (againstWall) {
-      updateWallCandidates(particles, wall, candidates);
-      findWallContacts(particles, wall, candidates, EdgeRule::projected, contacts);
-      work += collideWithWall(particles, wall, contacts, law, dt);
-    }
+    if (!againstWall) return;
+    updateWallCandidates(particles, wall, candidates);
+    findWallContacts(particles, wall, candidates, EdgeRule::projected, contacts);
+    work += collideWithWall(particles, wall, contacts, law, dt);
+  }
+
+  void step(double dt, const Vec3& g = {}) {
+    kick(particles, 0.5 * dt);
+    drift(particles, dt);
+    exchange(dt, g);
     kick(particles, 0.5 * dt);
     book(dt);
   }

@@ -264,6 +264,11 @@ TEST(BeamBonds, BadInputIsRefused) {
   switchOnRotation(scene.particles);
   EXPECT_THROW(exchangeBonds(scene.particles, scene.bonds, -1.0), InputError);
   EXPECT_NO_THROW(exchangeBonds(scene.particles, scene.bonds, 0.0));
+  scene.bonds.bonds[0].j = 2;
+  Particles fewer;
+  addParticle(fewer, {}, {}, 0.1, Mass{1.0});
+  switchOnRotation(fewer);
+  EXPECT_THROW(exchangeBonds(fewer, scene.bonds, 0.0), InputError);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "beam_scenes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "impact_scenes.hpp"
 
 namespace dovetail::dem {
 namespace {
@@ -67,6 +68,54 @@ TEST(BeamRows, ForcesAreBitwiseTheSameForAnyNumberOfThreads) {
     return scene.particles.f;
   };
   EXPECT_TRUE(run(1) == run(3));
+}
+
+/// A bonded block thrown onto a wall: everything that went in, less what is booked, over what went in.
+struct Smash {
+  double residual, fractured;
+  std::size_t broken;
+};
+
+Smash smash(int stepsPerContact) {
+  Impact<FrictionalLaw> scene(
+      [] {
+        Particles block;
+        for (int i = 0; i < 4; ++i)
+          for (int j = 0; j < 4; ++j)
+            for (int k = 0; k < 4; ++k)
+              addParticle(block, {0.1 * i - 0.11, 0.1 * j - 0.13, 0.1 * k + 0.0501}, {1.0, 0, -3.0}, 0.05,
+                          Density{2000.0});
+        return block;
+      }(),
+      FrictionalLaw{{1e6, 0.8}, {7e5, 0.4}}, true);
+  Bonds bonds;
+  BondMaterial material = unbreakable(1e7);
+  material.tensileStrength = material.shearStrength = 2e5;
+  material.dampingTime = 1e-6;
+  bondTouching(bonds, scene.particles, scene.list, 1e-6, material);
+  const std::size_t before = bonds.size();
+  const double dt = pi * std::sqrt(scene.particles.mass[0] / 1e6) / stepsPerContact;
+  double fractured = 0.0;
+  for (double t = 0.0; t < 0.05; t += dt) {
+    kick(scene.particles, 0.5 * dt);
+    drift(scene.particles, dt);
+    scene.exchange(dt);
+    const ContactWork held = exchangeBonds(scene.particles, bonds, dt);
+    fractured += held.fracturePower * dt;
+    scene.work += held;
+    kick(scene.particles, 0.5 * dt);
+    scene.book(dt);
+  }
+  return {scene.worstResidual / scene.start, fractured / scene.start, before - bonds.size()};
+}
+
+TEST(BeamRows, ABlockThatShattersKeepsItsLedger) {
+  const Smash coarse = smash(50), fine = smash(200);
+  EXPECT_GT(fine.broken, 20u);
+  EXPECT_LT(fine.broken, 144u);
+  EXPECT_GT(fine.fractured, 0.01);
+  EXPECT_LE(coarse.residual, 4e-3);
+  EXPECT_LE(fine.residual, 0.4 * coarse.residual);
 }
 
 TEST(Damping, TakesWhatItSays) {

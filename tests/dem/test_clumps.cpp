@@ -90,8 +90,8 @@ TEST(Clumps, MembersLieAndMoveWithTheirBody) {
     EXPECT_EQ(particles.mass[k], shape.properties.mass);
   }
   const std::vector<Vec3> before = particles.x;
-  particles.x.assign(3, {});
-  placeMembers(bodies, clumps, particles);
+  particles.x[1] += Vec3{0.3, 0, 0.4};
+  EXPECT_NEAR(placeMembers(bodies, clumps, particles), 0.5, 1e-12);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(norm(particles.x[k] - before[k]), 1e-15);
   EXPECT_GT(makeClumpShape(rod, rodRadius, Density{1000.0}, Overlap::everySphere).properties.mass,
             1.05 * shape.properties.mass);
@@ -202,6 +202,36 @@ TEST(Clumps, StayTogetherWhenParticlesAreSorted) {
   placeMembers(scene.bodies, scene.clumps, scene.particles);
   EXPECT_NE(sorted, before);
   for (std::size_t i = 0; i < sorted.size(); ++i) EXPECT_LE(norm(scene.particles.x[i] - sorted[i]), 1e-15);
+}
+
+TEST(Clumps, OneSphereAloneIsASpinningParticle) {
+  const FrictionalLaw law{{.stiffness = 2e4, .restitution = 0.8}, {.stiffness = 6e3, .friction = 0.3}};
+  const ClumpShape ball = makeClumpShape(std::vector<Vec3>{{0, 0, 0}}, std::vector<double>{0.05}, Density{1000.0});
+  Scene alone, clumped;
+  Random random(11);
+  for (int i = 0; i < 27; ++i) {
+    const Vec3 x{0.11 * (i % 3), 0.11 * (i / 3 % 3), 0.11 * (i / 9)}, v = random.vector(1.0),
+                                                                      omega = random.vector(20.0);
+    addParticle(alone.particles, x, v, 0.05, Density{1000.0});
+    switchOnRotation(alone.particles);
+    alone.particles.omega.back() = omega;
+    addClump(clumped.particles, clumped.bodies, clumped.clumps, ball, x, fromRotationVector(random.vector(3.0)), v,
+             omega);
+  }
+  switchOnRotation(clumped.particles);
+  placeMembers(clumped.bodies, clumped.clumps, clumped.particles);
+  for (Scene* scene : {&alone, &clumped}) findPairs(scene->particles, 0.02, scene->list);
+  double hit = 0.0;
+  for (int k = 0; k < 1500; ++k) {
+    hit = std::max(hit, step(alone, law, 4e-5).storedEnergy());
+    step(clumped, law, 4e-5);
+  }
+  EXPECT_GT(hit, 0.01);
+  for (std::size_t i = 0; i < 27; ++i) {
+    EXPECT_LE(norm(alone.particles.x[i] - clumped.particles.x[i]), 1e-10);
+    EXPECT_LE(norm(alone.particles.v[i] - clumped.particles.v[i]), 1e-8);
+    EXPECT_LE(norm(alone.particles.omega[i] - clumped.particles.omega[i]), 1e-6);
+  }
 }
 
 }  // namespace

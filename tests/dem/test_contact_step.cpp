@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/contact_step.hpp"
 #include "dovetail/dem/elastic_plastic.hpp"
+#include "dovetail/dem/model.hpp"
 #include "dovetail/dem/rolling.hpp"
 #include "impact_scenes.hpp"
 
@@ -144,6 +144,33 @@ TEST(ContactStep, WallsCountAndSoDoContactsYetToCome) {
   EXPECT_EQ(criticalStep(apart, list, hertz).dt, std::numeric_limits<double>::infinity());
   EXPECT_EQ(criticalStep(apart, list, hertz).particle, -1);
   EXPECT_NEAR(criticalStep(apart, list, hertz, 0.01).dt, 2.0 / std::sqrt(2e7 * std::sqrt(0.05 * 0.01) / 0.15), 1e-12);
+}
+
+TEST(ContactStep, OfASceneCountsPairsAndAllItsWalls) {
+  Model<ElasticLaw> model;
+  model.laws = prepare(ElasticLaw{{1e5}});
+  addParticle(model.particles, {0, 0, 0.099}, {}, 0.1, Mass{0.5});
+  addParticle(model.particles, {0.199, 0, 0.101}, {}, 0.1, Mass{0.3});
+  model.pairs.skin = 0.02;
+  model.walls = {makePlane({0, 0, 0}, {0, 0, 1}), makePlane({-0.0995, 0, 0}, {1, 0, 0})};
+  run(model, 1e-7, 1);
+  const ContactStep step = criticalStep(model);  // three contacts on the first sphere, one on the second
+  EXPECT_NEAR(step.dt, 2.0 / std::sqrt(3.0 * 1e5 / 0.5 + 1e5 / 0.3), 1e-13);
+  EXPECT_EQ(step.particle, 0);
+  EXPECT_EQ(step.partner, 1);
+  EXPECT_NEAR(step.twoBody, 2.0 / std::sqrt(1e5 / 0.5 + 1e5 / 0.3), 1e-13);
+}
+
+TEST(ContactStep, UsesTheLawOfTheMaterialsAndRefusesThoseWithoutOne) {
+  Particles particles = squeezed(1.0);
+  particles.material = {0, 1};
+  PairList list;
+  findPairs(particles, 0.01, list);
+  LawTable<ElasticLaw> table(2, ElasticLaw{{1e5}});
+  table.set(0, 1, ElasticLaw{{4e5}});
+  EXPECT_NEAR(criticalStep(particles, list, prepare(table)).dt, 2.0 / std::sqrt(4e5 / 0.15), 1e-14);
+  particles.material = {0, 2};
+  EXPECT_THROW(criticalStep(particles, list, prepare(table)), InputError);
 }
 
 TEST(MassScaling, MakesTheStepStableAndSaysWhatItDid) {

@@ -32,7 +32,12 @@ Outcome impactAt(const Law& law, bool wall, double degrees, double speed, double
   }
   who.omega[0] = (0.3 * speed / radius) * Vec3{1, 2, -1};
   Impact impact(who, law, wall);
+  const Vec3 linear = momentum(impact.particles), angular = angularMomentum(impact.particles);
   impact.run(time / steps, 2.5 * time);
+  if (!wall) {
+    EXPECT_LE(norm(momentum(impact.particles) - linear), 1e-13 * norm(linear));
+    EXPECT_LE(norm(angularMomentum(impact.particles) - angular), 1e-12 * norm(linear) * radius);
+  }
   return {impact.worstResidual / impact.start, impact.worstGain / impact.start, impact.leastPower * time / impact.start,
           (kineticEnergy(impact.particles) + impact.stored) / impact.start};
 }
@@ -124,6 +129,31 @@ TEST(EnergySweep, DmtAdhesion) {
   law.tangential = base.tangential;
   law.adhesion = {0.02};
   sweep("DMT", law, hertzTime(law), 4e-3);
+}
+
+TEST(EnergySweep, ASphereAThousandTimesLargerActsAsAWall) {
+  ContactLaw<HertzDashpot, MindlinSpring, RollingAndTwisting> law;
+  const auto base = hertzMindlin(glass, glass, {0.8, 0.4, 1.0});
+  law.normal = base.normal;
+  law.tangential = base.tangential;
+  law.rolling = {{0.1, 0.4, 0.5}, {0.1, 0.4, 0.5}};
+  const double time = law.normal.contactTime(mass, radius, 1.0);
+  const auto meet = [&](bool wall, int steps) {
+    const Vec3 v{0.8, 0.0, -1.0}, omega = (1.0 / radius) * Vec3{0.3, 0.6, -0.3};
+    Particles who = aboveWall(radius, density, v, omega, 1e-6);
+    if (!wall) {
+      who = headOn(radius, 1000.0 * radius, density, {0, 0, -1}, v, {}, 1e-9);
+      who.omega[0] = omega;
+    }
+    Impact impact(who, law, wall);
+    impact.run(time / steps, 2.5 * time);
+    EXPECT_LE(impact.worstResidual, 2e-3 * impact.start);
+    return std::array<Vec3, 2>{impact.particles.v[0], radius * impact.particles.omega[0]};
+  };
+  const auto wall = meet(true, 2000), pair = meet(false, 2000);
+  // The small sphere weighs 1e-9 of the large one and is a thousand times more curved; arms differ by half the overlap.
+  EXPECT_LE(norm(wall[0] - pair[0]), 4e-3);
+  EXPECT_LE(norm(wall[1] - pair[1]), 4e-3);
 }
 
 }  // namespace

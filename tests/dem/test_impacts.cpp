@@ -134,6 +134,28 @@ TEST(Impacts, BeyondSevenTheContactSlidesThroughout) {
   }
 }
 
+TEST(Impacts, TwoSpheresSlideAsOneOnAPlane) {
+  // Mirror images: each meets the plane between them. Relative speeds are twice those of one sphere.
+  const Material steel{208e9, 0.30, 7850.0};
+  const double mu = 0.3, radius = 1e-5, vn = 5e-4;  // slow: the plane between them turns by their overlap
+  for (const double psi : {7.5, 12.0}) {
+    const Vec3 v{vn, psi * mu * vn, 0.0};
+    const auto law = hertzMindlin(steel, steel, {1.0, mu});
+    Impact impact(headOn(radius, radius, steel.density, {1, 0, 0}, v, -v), law, false);
+    const double time = law.normal.contactTime(0.5 * impact.particles.mass[0], 0.5 * radius, 2.0 * vn);
+    const Vec3 angular = angularMomentum(impact.particles);
+    impact.run(time / 1000, 1.1 * time);
+    for (const int i : {0, 1}) {
+      const auto k = static_cast<std::size_t>(i);
+      const double side = i == 0 ? 1.0 : -1.0, spin = radius * impact.particles.omega[k].z / (mu * vn);
+      EXPECT_NEAR(spin, -5.0, 1e-3);
+      EXPECT_NEAR(side * impact.particles.v[k].y / (mu * vn), psi - 2.0, 1e-3);
+    }
+    EXPECT_LE(norm(angularMomentum(impact.particles) - angular), 1e-13 * norm(angular));
+    EXPECT_LE(norm(momentum(impact.particles)), 1e-15 * impact.particles.mass[0] * norm(v));
+  }
+}
+
 TEST(Impacts, ASpinningSphereKicksOff) {
   const Material alloy{70e9, 0.33, 2700.0};
   const double mu = 0.4, e = 0.5, vn = 0.2, radius = 0.1;

@@ -112,6 +112,26 @@ TEST(MassProperties, DoNotDependOnHowTheSlicesLie) {
   }
 }
 
+TEST(MassProperties, CentresOnALatticeAreAsGoodAsAnyOthers) {
+  // Slices through poles, circles that lie flat or touch, and points where many spheres meet.
+  std::mt19937_64 random(6);
+  for (int round = 0; round < 12; ++round) {
+    Spheres s;
+    const int count = 2 + round;
+    for (int i = 0; i < count; ++i) {
+      const auto whole = [&] { return 0.5 * static_cast<double>(random() % 4); };
+      s.centre.push_back({whole(), whole(), whole()});
+      s.radius.push_back(0.5 * static_cast<double>(1 + random() % 2));
+    }
+    const MassProperties a = unionOf(s);
+    const Quaternion q = randomTurn(random);
+    const MassProperties b = unionOf(turned(s, q, {}));
+    EXPECT_NEAR(b.mass, a.mass, 1e-10 * a.mass) << round;
+    EXPECT_LE(norm(b.centre - rotate(q, a.centre)), 1e-10) << round;
+    EXPECT_LE(norm(b.inertia - a.inertia), 1e-10 * norm(a.inertia)) << round;
+  }
+}
+
 TEST(MassProperties, LatticesOfSpheresAndHiddenOnesAreNoSpecialCase) {
   // Coplanar, touching and repeated spheres, and one that is wholly inside: what they add is known.
   const MassProperties ball = unionOf({{{0, 0, 0}}, {1.0}});

@@ -161,6 +161,7 @@ TEST(CompressToPressure, PressesWithThePressureWantedAndIsNearIsostatic) {
     const Contacts contacts = contactsOf(packing);
     EXPECT_NEAR(stiffness * contacts.virial / (3.0 * packing.volume()), pressure, 2e-3 * pressure);
     EXPECT_NEAR(report.coordination, 2.0 * contacts.count / static_cast<double>(packing.centre.size()), 0.1);
+    EXPECT_LT(report.unbalanced, 0.01);
     EXPECT_GT(report.coordination, 5.3);  // frictionless spheres that press: 6 without those that rattle
     EXPECT_LT(report.coordination, 7.0);
     EXPECT_GT(report.solidFraction, std::max(0.62, fraction));

@@ -64,6 +64,13 @@ TEST(SurfaceFiles, BinaryStlKeepsThirtyTwoBitCoordinatesToTheBit) {
   EXPECT_EQ(readStl(folder / "random.stl").facets.size(), 1u);
 }
 
+TEST(SurfaceFiles, ABinaryStlMayCallItselfSolid) {
+  const ScratchFolder folder;
+  writeStl(folder / "cube.stl", cube().x, cube().facets);
+  writeText(folder / "solid.stl", "solid" + readText(folder / "cube.stl").substr(5));
+  expectCube(readStl(folder / "solid.stl"));
+}
+
 TEST(SurfaceFiles, AsciiStlKeepsDoublesAndTakesSeveralSolidsAndPolygons) {
   TriangleMesh mesh = cube();
   for (Vec3& x : mesh.x) x = 0.1 * x + Vec3{1.0 / 3.0, 1e-9, -7.1e12};

@@ -194,5 +194,32 @@ TEST(Vtp, BadFilesAreRefusedByName) {
   EXPECT_NE(messageOf<InputError>([&] { readVtp(folder / "not_there.vtp"); }).find("not_there"), std::string::npos);
 }
 
+TEST(Vtp, WithFlippedBitsItGivesAnErrorOrAWholeMesh) {
+  const ScratchFolder folder;
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetFileName((folder / "good.vtp").c_str());
+  writer->SetDataModeToAscii();
+  writer->SetInputData(polyData(cube()));
+  writer->Write();
+  const std::string good = readText(folder / "good.vtp");
+  std::mt19937_64 random(3);
+  int refused = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::string bad = good;
+    bad[random() % bad.size()] ^= static_cast<char>(1 << random() % 8);
+    writeText(folder / "bad.vtp", bad);
+    try {
+      const TriangleMesh mesh = readVtp(folder / "bad.vtp");
+      ASSERT_FALSE(mesh.facets.empty());
+      for (const Facet& f : mesh.facets)
+        for (const int v : f) ASSERT_TRUE(v >= 0 && v < static_cast<int>(mesh.x.size()));
+      for (const Vec3& x : mesh.x) ASSERT_TRUE(isFinite(x));
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 30);
+}
+
 }  // namespace
 }  // namespace dovetail::mesh_io

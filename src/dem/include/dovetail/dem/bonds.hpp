@@ -50,6 +50,7 @@ struct Bonds {
   std::vector<Forces> forces;    ///< of the last step: force on j (the opposite on i), torques on both, N, N m
   std::vector<double> utilised;  ///< of the last step: largest stress over strength
   std::vector<double> energy;    ///< of the last step: J stored in each
+  std::size_t particles = 0;     ///< how many there were when their numbers were last checked
 
   std::size_t size() const { return bonds.size(); }
 };
@@ -74,7 +75,8 @@ int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list,
 ///   σ = N/A + β M r/I (r the cylinder's radius, M the larger end's bending moment), τ = Q/A + β T r/J;
 /// a bond breaks where σ > tensileStrength or τ > shearStrength. What it held is booked as fracture.
 /// Results do not depend on the number of threads.
-/// @throws InputError if the particles do not spin, or dt is not finite and ≥ 0
+/// @throws InputError if the particles do not spin, if a bond refers to a particle that is not there (see renumber), or
+///         dt is not finite and ≥ 0
 ContactWork exchangeBonds(Particles& particles, Bonds& bonds, double dt);
 
 /// Gives the bonds the new numbers of their particles (see sortParticles); bonds of particles that are gone (< 0)
@@ -82,7 +84,9 @@ ContactWork exchangeBonds(Particles& particles, Bonds& bonds, double dt);
 /// @param newNumber one per particle with which the bonds were last used
 void renumber(Bonds& bonds, std::span<const int> newNumber);
 
-/// Sets PairList::scale to 0 for bonded pairs, so that only the bond acts between them. Again for every new list.
+/// Sets PairList::scale to 0 for bonded pairs, so that only the bond acts between them. Again for every new list, and
+/// when bonds have broken. (A law that wakes up between overlapping particles brings energy from nowhere: bond
+/// particles that touch and leave the law on, or mute those that overlap and do not break.)
 void muteBonded(const Bonds& bonds, PairList& list);
 
 /// Safe bound on the stable step of velocity Verlet with these bonds alone, s; infinite without any. Every particle

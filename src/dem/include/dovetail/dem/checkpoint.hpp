@@ -17,7 +17,7 @@ void archiveParticles(Archive& archive, P& p) {
 template <class Archive, class List>
 void archivePairs(Archive& archive, List& l) {
   archive(l.skin, l.pairs, l.builds, l.revision, l.innerSkin, l.candidates, l.innerTravel, l.updatesSincePruning,
-          l.images, l.scale, l.memory, l.turns, l.ended, l.positionAtBuild, l.travel);
+          l.images, l.scale, l.memory, l.turns, l.ended, l.endedMaterials, l.positionAtBuild, l.travel);
 }
 
 template <class Archive, class Wall>
@@ -31,9 +31,9 @@ template <class Archive, class Mesh>
 void archiveMesh(Archive& archive, Mesh& m) {
   auto& s = m.contacts.springs;
   auto& c = m.candidates;
-  archive(m.wall.x, m.wall.v, m.wall.f, s.particle, s.facet, s.normal, s.memory, c.particle, c.offsets, c.facet,
-          c.builds, c.lateBuilds, c.particleAtBuild, c.vertexAtBuild, c.facetsAtBuild, c.vertexTravel,
-          c.updatesSinceBuild, c.nextScan);
+  archive(m.wall.x, m.wall.v, m.wall.f, s.particle, s.facet, s.normal, s.memory, c.particle, c.offsets, c.facet, c.flat,
+          c.lastFacet, c.builds, c.lateBuilds, c.particleAtBuild, c.particleTravel, c.vertexAtBuild, c.facetsAtBuild,
+          c.vertexTravel, c.updatesSinceBuild, c.nextScan);
 }
 
 template <class Archive, class M>
@@ -42,6 +42,7 @@ void archiveModel(Archive& archive, M& m) {
   archivePairs(archive, m.pairs);
   for (auto& wall : m.walls) archiveWall(archive, wall);
   for (auto& mesh : m.meshes) archiveMesh(archive, mesh);
+  archive(m.bonds.bonds, m.bonds.ended, m.bonds.particles);
   archive(m.time, m.steps, m.open, m.work, m.booked, m.escaped, m.smallestRadius);
 }
 

@@ -54,8 +54,10 @@ struct Clumps {
 int addClump(Particles& particles, Bodies& bodies, Clumps& clumps, const ClumpShape& shape, const Vec3& x,
              const Quaternion& turn = {}, const Vec3& v = {}, const Vec3& omega = {});
 
-/// Writes x, v (and omega, if particles spin) of all members.
-void placeMembers(const Bodies& bodies, const Clumps& clumps, Particles& particles);
+/// Writes x, v (and omega, if particles spin) of all members. Returns the largest distance by which a member was moved,
+/// m (infinite if a place is not finite): what is to be added to the displacement that kickAndDrift returns, where
+/// updatePairs is given a bound.
+double placeMembers(const Bodies& bodies, const Clumps& clumps, Particles& particles);
 
 /// f += Σ fᵢ, torque += Σ (xᵢ − x) × fᵢ + torqueᵢ over each body's members; then their forces and torques are zero.
 /// @param gravity what applyGravity(particles, gravity) has given to the members, m/s²; the body gets its own weight
@@ -63,7 +65,7 @@ void placeMembers(const Bodies& bodies, const Clumps& clumps, Particles& particl
 void gatherForces(Particles& particles, const Clumps& clumps, Bodies& bodies, const Vec3& gravity = {});
 
 /// Factor 0 (PairList::scale) on the pairs within one body, so that members that overlap make no force and store no
-/// energy. To be called when `list.builds` has changed, after whoever else sets the factors.
+/// energy. To be called when `list.revision` has changed, after whoever else sets the factors.
 void muteMemberPairs(const Clumps& clumps, PairList& list);
 
 /// As criticalStep of single particles (critical_step.hpp), for the member that is easiest to move: a force n at a

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <utility>
 
 #include "dovetail/dem/contact.hpp"
@@ -33,6 +35,7 @@ struct ContactBlock {
   alignas(64) Row armI;      ///< in: radius of the particle; out: distance of its centre from the contact
   alignas(64) Row armJ;      ///< the same of the partner; walls: in: overlap
   alignas(64) Row rootMass;  ///< √ of the effective mass, kg^½
+  alignas(64) Row radius;    ///< effective, m
   alignas(64) Row scale;
   alignas(64) std::array<int, blockSize> kind;  ///< row of the law table
   alignas(64) std::array<Row, 12> memory;       ///< of the law, by component
@@ -71,14 +74,29 @@ inline void storeWork(ContactBlock& block, std::size_t l, const ContactWork& now
   put(7, now.fracturePower, 0.0);
 }
 
+template <class Prepared, std::size_t... C>
+[[gnu::always_inline]] inline Prepared fromRows(const double (*rows)[blockSize], std::size_t l,
+                                                std::index_sequence<C...>) {
+  return std::bit_cast<Prepared>(std::array<double, sizeof...(C)>{rows[C][l]...});
+}
+
 /// Forces of the first n contacts of the block.
 template <class Law, BlockOptions options>
 void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* laws, double dt) {
   using Prepared = typename Law::Prepared;
   constexpr auto components = std::make_index_sequence<static_cast<std::size_t>(Law::memory)>{};
   const Prepared single = laws[0];  // a copy nobody else can write to
+  constexpr std::size_t parameters = sizeof(Prepared) / sizeof(double);
+  alignas(64) double rows[options.varied ? parameters : 1][blockSize];
+  if constexpr (options.varied)
+    for (std::size_t l = 0; l < n; ++l) {
+      double v[parameters];
+      std::memcpy(v, laws + block.kind[l], sizeof v);
+      for (std::size_t c = 0; c < parameters; ++c) rows[c][l] = v[c];
+    }
   for (std::size_t l = 0; l < n; ++l) {
-    const Prepared& law = options.varied ? laws[block.kind[l]] : single;
+    Prepared law = single;
+    if constexpr (options.varied) law = fromRows<Prepared>(rows, l, std::make_index_sequence<parameters>{});
     Contact contact;
     Vec3 normal = block.separation.at(l);
     double armI = block.armI[l], armJ = block.armJ[l], overlap = armJ;
@@ -108,8 +126,7 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
                   !options.wall)  // masses carry the scale too, so it is divided out of the effective one
       contact.rootMass = scale > 0.0 ? contact.rootMass / std::sqrt(scale > 0.0 ? scale : 1.0) : 0.0;
     contact.effectiveMass = contact.rootMass * contact.rootMass;
-    const double radiusI = block.armI[l], radiusJ = options.wall ? 0.0 : block.armJ[l];
-    contact.effectiveRadius = options.wall ? radiusI : radiusI * (radiusJ / (radiusI + radiusJ));
+    contact.effectiveRadius = block.radius[l];
     contact.dt = dt;
     double memory[Law::memory + 1];
     loadMemory(block, l, memory, components);

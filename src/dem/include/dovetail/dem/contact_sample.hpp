@@ -1,10 +1,11 @@
 // The contacts of a state one by one, for fields, averages and files.
 #pragma once
 
-#include <limits>
+#include <array>
 #include <vector>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/dem/clumps.hpp"
 #include "dovetail/dem/pair_collide.hpp"
 #include "dovetail/dem/wall_contacts.hpp"
 
@@ -25,34 +26,34 @@ struct ContactSample {
 };
 
 namespace detail {
-/// Appends what the block, answered, says of the pairs from `first` on. Leaves out those without a force.
-void appendPairs(const Particles& particles, const PairList& list, std::size_t first, std::size_t n,
-                 const ContactBlock& block, ContactSample& sample);
+/// One pair out of a list, as a system of its own.
+struct LonePair {
+  Particles particles;
+  PairList list;
+  LonePair();
+  /// @param memory numbers that the law remembers per contact
+  void set(const Particles& particles, const PairList& list, std::size_t pair, int memory);
+};
+/// Appends the pair with the force on its first particle.
+void appendPair(const LonePair& lone, const std::array<int, 2>& pair, ContactSample& sample);
 /// @throws InputError unless the list has as many memories as a law asks for
 void requireMemory(const PairList& list, int memory);
 }  // namespace detail
 
 /// Pairs with their forces as collide last made them: nothing is changed, and what contacts remember is taken as it is.
+/// Pairs without a force are left out. For output, not for every step.
 /// @param list that of the last collide, with the same particles
 /// @throws InputError if the law remembers something and the list has not been through collide with it
 template <class Law>
 ContactSample samplePairs(const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws) {
   detail::requireMemory(list, Law::memory);
-  const bool varied = !list.scale.empty() || laws.materials > 1;
-  const detail::PairRows rows{Law::rotates, Law::needsMass && laws.usesMass(), varied, Law::memory, laws.materials};
   constexpr double noTime = 1e-100;  // so short a step that no memory advances
   ContactSample sample;
-  detail::ContactBlock block;
-  detail::shareMass(particles, rows, block);
-  detail::PairCursor cursor{0, 0, list.size(), 0, 0};
-  while (cursor.pair < cursor.end) {
-    const std::size_t first = cursor.pair, n = detail::gatherPairs(particles, list, rows, cursor, block);
-    cursor.pair += n;
-    if (varied)
-      detail::answer<Law, detail::BlockOptions{Law::rotates, false, true, false}>(block, n, laws.table.data(), noTime);
-    else
-      detail::answer<Law, detail::BlockOptions{Law::rotates, false, false, false}>(block, n, laws.table.data(), noTime);
-    detail::appendPairs(particles, list, first, n, block, sample);
+  detail::LonePair lone;
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    lone.set(particles, list, p, Law::memory);
+    collide(lone.particles, lone.list, laws, noTime, Booking::off);
+    detail::appendPair(lone, list.pairs[p], sample);
   }
   return sample;
 }
@@ -66,5 +67,11 @@ ContactSample samplePairs(const Particles& particles, const PairList& list,
 /// Appends the contacts with a wall, with the forces that collideWithWall has set.
 void addWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts,
                      ContactSample& sample);
+
+/// Moves the ends of branches from members of clumps to the centres of their bodies: forces run through a rigid body,
+/// and the stress of an assembly of bodies is a sum over branches between their centres. Points, normals, forces and
+/// the numbers of the particles stay. For the kinetic part of a stress take bodies instead of their members.
+/// @param particles, bodies as they were when the sample was taken
+void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps& clumps, ContactSample& sample);
 
 }  // namespace dovetail::dem

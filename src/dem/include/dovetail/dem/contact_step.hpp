@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "dovetail/dem/law_table.hpp"
@@ -35,6 +36,18 @@ namespace detail {
 /// Largest dt with a dt² + 2 b dt ≤ 4; a in 1/s², b in 1/s.
 inline double verletLimit(double a, double b) { return 4.0 / (b + std::sqrt(b * b + 4.0 * a)); }
 
+/// The law of a pair of materials.
+/// @throws InputError if the table has no such pair
+template <class Law>
+const typename Law::Prepared& lawOf(const PreparedLaws<Law>& laws, int a, int b) {
+  if (laws.materials == 1) return laws.table[0];
+  const int larger = std::max(a, b);
+  if (larger >= laws.materials)
+    throw InputError("there is no law for material " + std::to_string(larger), "contact laws",
+                     "make the table as large as Particles::material and the walls' materials ask for");
+  return laws.table[static_cast<std::size_t>(a * laws.materials + b)];
+}
+
 /// Adds one contact; partner −1 for a wall.
 void addContact(ContactDemand& demand, const Particles& particles, int particle, int partner,
                 const ContactSlopes& slopes, double scale, double effectiveMass);
@@ -52,8 +65,7 @@ void addDemand(ContactDemand& demand, const Particles& particles, const PairList
   const auto material = [&](std::size_t i) { return particles.material.empty() ? 0 : int{particles.material[i]}; };
   for (std::size_t p = 0; p < list.size(); ++p) {
     const auto i = static_cast<std::size_t>(list.pairs[p][0]), j = static_cast<std::size_t>(list.pairs[p][1]);
-    const int kind = laws.materials > 1 ? material(i) * laws.materials + material(j) : 0;
-    const auto& law = laws.table[static_cast<std::size_t>(kind)];
+    const auto& law = detail::lawOf(laws, material(i), material(j));
     const double ri = particles.radius[i], rj = particles.radius[j], mi = particles.mass[i], mj = particles.mass[j];
     const double overlap = ri + rj - norm(particles.x[i] - particles.x[j] + list.shift(p));
     if (!(overlap > -law.reach()) && !(leastOverlap > 0.0)) continue;
@@ -81,8 +93,7 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
   for (std::size_t c = 0; c < contacts.particle.size(); ++c) {
     const auto i = static_cast<std::size_t>(contacts.particle[c]);
     const int material = particles.material.empty() ? 0 : int{particles.material[i]};
-    const auto& law =
-        laws.table[static_cast<std::size_t>(laws.materials > 1 ? material * laws.materials + wallMaterial : 0)];
+    const auto& law = detail::lawOf(laws, material, wallMaterial);
     Contact contact;
     contact.overlap = contacts.overlap[c] / contacts.engagement[c];
     contact.effectiveMass = particles.mass[i];

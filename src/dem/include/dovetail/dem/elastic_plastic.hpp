@@ -37,7 +37,7 @@ struct ElasticPlastic {
       held[0] = plastic;
       const double spring = stiffness * (contact.overlap - plastic);
       const double elastic = spring < leastElastic ? leastElastic : spring;
-      const double damping = dampingPerRootMass * std::sqrt(contact.effectiveMass);
+      const double damping = dampingPerRootMass * contact.rootMass;
       const double whole = elastic - damping * contact.separating;
       // The dashpot alone neither pulls nor deepens the pull.
       const double floor = elastic < 0.0 ? elastic : 0.0;

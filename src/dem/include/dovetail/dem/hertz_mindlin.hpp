@@ -30,7 +30,7 @@ struct HertzDashpot {
 
     [[gnu::always_inline]] NormalResponse respond(const Contact& contact, double*) const {
       const double stiffness = twiceModulus * std::sqrt(contact.effectiveRadius * contact.overlap);
-      const double damping = dampingFactor * std::sqrt(contact.effectiveMass * stiffness);
+      const double damping = dampingFactor * contact.rootMass * std::sqrt(stiffness);
       const double elastic = (2.0 / 3.0) * stiffness * contact.overlap;
       const double whole = elastic - damping * contact.separating;
       const double force = whole < leastForce ? leastForce : whole;

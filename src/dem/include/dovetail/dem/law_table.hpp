@@ -15,6 +15,7 @@ template <class Law>
 struct PreparedLaws {
   int materials = 1;
   std::vector<typename Law::Prepared> table;  ///< materials², symmetric
+  const typename Law::Prepared& at(int a, int b) const { return table[static_cast<std::size_t>(a * materials + b)]; }
   bool usesMass() const {
     for (const auto& law : table)
       if (law.usesMass()) return true;

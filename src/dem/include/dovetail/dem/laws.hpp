@@ -10,6 +10,7 @@
 //                                       whatever the compiler thinks of its size, so that the loop vectorises
 //   Prepared::remembered(held)          J stored in the memory of a contact that ends, booked as lost
 //   Prepared::slope(contact, normal)    stiffness and damping now, of all parts but the normal one and adhesion
+// and, beside it, validate(part), which throws InputError for parameters that make no sense.
 #pragma once
 
 #include <cmath>
@@ -265,12 +266,16 @@ struct ContactLaw {
 using ElasticLaw = ContactLaw<LinearSpringDashpot>;
 using FrictionalLaw = ContactLaw<LinearSpringDashpot, TangentialSpring>;
 
+/// Checks all parts for which there is a validate(part), in this namespace or the part's own.
 template <class Normal, class Tangential, class Rolling, class Adhesion>
 void validate(const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law) {
-  validate(law.normal);
-  validate(law.tangential);
-  validate(law.rolling);
-  validate(law.adhesion);
+  const auto check = [](const auto& part) {
+    if constexpr (requires { validate(part); }) validate(part);
+  };
+  check(law.normal);
+  check(law.tangential);
+  check(law.rolling);
+  check(law.adhesion);
 }
 
 }  // namespace dovetail::dem

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "dovetail/core/profile.hpp"
+#include "dovetail/dem/bonds.hpp"
 #include "dovetail/dem/common_laws.hpp"
+#include "dovetail/dem/contact_step.hpp"
 #include "dovetail/dem/primitive_wall.hpp"
 #include "dovetail/dem/rigid_wall.hpp"
 
@@ -62,6 +64,7 @@ struct Model {
   Vec3 gravity;  ///< m/s²
   std::vector<PrimitiveWall> walls;
   std::vector<MeshWall> meshes;
+  Bonds bonds;  ///< between particles; they need particles that spin
   std::optional<Domain> domain;
   double viscousRate = 0.0;   ///< see applyViscousDamping, 1/s
   double localDamping = 0.0;  ///< see applyLocalDamping
@@ -116,10 +119,14 @@ void renewPairs(Model<Law>& m, double moved) {
   updatePairs(m.particles, m.pairs, moved);
   if (m.pairs.builds == builds) return;
   const auto gone = checkDomain(m.particles, m.pairs, m.domain, m.gravity, m.escaped, when(m.time, m.steps));
-  if (!gone.empty()) renumberWalls(m.walls, m.meshes, gone);
+  if (!gone.empty()) {
+    renumberWalls(m.walls, m.meshes, gone);
+    renumber(m.bonds, gone);
+  }
   if (m.sortEvery > 0 && m.pairs.builds % m.sortEvery == 1) {
     const auto sorted = sortParticles(m.particles, m.pairs);
     renumberWalls(m.walls, m.meshes, sorted);
+    renumber(m.bonds, sorted);
   }
 }
 
@@ -133,10 +140,11 @@ ContactWork collideWithWalls(Model<Law>& m, double moved, double dt) {
   }
   for (MeshWall& mesh : m.meshes) {
     clearForces(mesh.wall);
+    mesh.wall.rigid = true;
     if (mesh.motion)
       updateWallCandidates(m.particles, mesh.wall, mesh.candidates);
     else
-      updateWallCandidates(m.particles, mesh.wall, mesh.candidates, 0.0);
+      updateWallCandidates(m.particles, mesh.wall, mesh.candidates, 0.0, moved);
     findWallContacts(m.particles, mesh.wall, mesh.candidates, mesh.rule, mesh.contacts);
     work += collideWithWall(m.particles, mesh.wall, mesh.contacts, m.laws, dt);
     addWallForces(mesh.contacts, mesh.wall);
@@ -145,13 +153,14 @@ ContactWork collideWithWalls(Model<Law>& m, double moved, double dt) {
   return work;
 }
 
+void requireBelow(const ContactStep& limit, double dt);
 void bookLosses(Energies& booked, const ContactWork& work, double dt);
 double applyDamping(Particles& particles, double viscousRate, double local);
 
 }  // namespace detail
 
 /// One step of velocity Verlet up to the forces; the last half kick is left to the next advance or to finish:
-///   half kick · half kick · drift · walls · pairs · contacts · damping
+///   half kick · half kick · drift · walls · pairs · contacts · bonds · damping
 /// @throws NumericalError naming a particle that is not finite, moved farther than its own radius in this step (it
 /// could
 ///         pass through walls and others unseen), or escaped, with the time
@@ -168,6 +177,8 @@ void advance(Model<Law>& m, double dt) {
   m.work = timed(m.profile, "pairs", [&] { return collide(m.particles, m.pairs, m.laws, dt, m.booking); });
   if (!m.walls.empty() || !m.meshes.empty())
     timed(m.profile, "walls", [&] { m.work += detail::collideWithWalls(m, moved, dt); });
+  if (m.bonds.size() > 0 || m.bonds.ended > 0.0)
+    timed(m.profile, "bonds", [&] { m.work += exchangeBonds(m.particles, m.bonds, dt); });
   if (m.viscousRate > 0.0 || m.localDamping > 0.0)
     m.booked.damping += dt * detail::applyDamping(m.particles, m.viscousRate, m.localDamping);
   if (m.booking == Booking::on) detail::bookLosses(m.booked, m.work, dt);
@@ -186,6 +197,25 @@ template <class Law>
 void run(Model<Law>& m, double dt, std::int64_t n) {
   for (std::int64_t i = 0; i < n; ++i) advance(m, dt);
   finish(m, dt);
+}
+
+/// The largest stable step with the contacts as they are now, and who sets it (see ContactDemand). A scene that is yet
+/// to collide has none: take `leastOverlap` then, the overlap to be expected, m.
+template <class Law>
+ContactStep criticalStep(const Model<Law>& m, double leastOverlap = 0.0) {
+  ContactDemand demand;
+  addDemand(demand, m.particles, m.pairs, m.laws, leastOverlap);
+  for (const PrimitiveWall& wall : m.walls)
+    if (wall.contacts.size() > 0) addWallDemand(demand, m.particles, wall.contacts, m.laws, wall.material);
+  for (const MeshWall& mesh : m.meshes)
+    if (mesh.contacts.size() > 0) addWallDemand(demand, m.particles, mesh.contacts, m.laws, mesh.wall.material);
+  return criticalStep(demand, m.particles);
+}
+
+/// @throws InputError naming the contact that sets the limit if dt is beyond it
+template <class Law>
+void requireStableStep(const Model<Law>& m, double dt, double leastOverlap = 0.0) {
+  detail::requireBelow(criticalStep(m, leastOverlap), dt);
 }
 
 /// Energies now; contact energies and losses need booking. Gravity counts from the origin.

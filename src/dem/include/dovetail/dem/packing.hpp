@@ -47,6 +47,7 @@ struct PackingReport {
   double scale = 1.0;           ///< of the radii, < 1 where growth jammed before the sizes asked for
   double largestOverlap = 0.0;  ///< over the smaller radius of the two (or the sphere's, at a wall)
   double coordination = 0.0;  ///< mean number of contacts per sphere, walls included; touching counts up to 1e-6 radii
+  double unbalanced = 0.0;    ///< mean force on a sphere over the mean contact force; 0 without contacts
   double pressure = 0.0;      ///< Pa, by compressToPressure only
   std::int64_t iterations = 0;  ///< steps of the relaxation
 };
@@ -76,7 +77,9 @@ struct CompressionSettings {
 };
 
 /// Changes the size of the box, isotropically and the spheres' places with it, until frictionless spheres at rest press
-/// with the pressure wanted: a servo, which takes the bulk stiffness it divides by from the last two states.
+/// with the pressure wanted: a servo, which takes the bulk stiffness it divides by from the last two states. Just above
+/// jamming, where the pressure is below about 1e-4 stiffness/diameter, spheres come to rest slowly: see
+/// PackingReport::unbalanced. Gives up where a periodic box would become narrower than two diameters.
 /// @throws InputError if a setting or the packing is not valid
 PackingReport compressToPressure(Packing& packing, const CompressionSettings& settings);
 

@@ -40,7 +40,7 @@ void requireStep(double dt);
 
 /// What a law asks for, and what all particles share.
 struct PairRows {
-  bool spins, mass, varied;
+  bool spins, mass, radius, varied;
   int memory, materials;
   bool oneRadius = false;  ///< all particles have the same
   bool oneMass = false;
@@ -50,11 +50,14 @@ struct PairCursor {
   std::size_t chunk, pair, end, crossing, image;
 };
 /// Looks whether all particles have one radius and one mass, which saves gathering them.
+/// @throws InputError naming a particle whose material has no law
 void findUniform(const Particles& particles, PairRows& rows);
 PairCursor startOfChunk(const PairList& list, std::size_t chunk);
-/// Fills the row of masses once for all pairs, if they share it or nobody asks for it.
-void shareMass(const Particles& particles, const PairRows& rows, ContactBlock& block);
+/// Fills the rows of effective masses and radii once for all pairs, if they share them or nobody asks for them.
+void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block);
 void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>> pairs, ContactBlock& block);
+/// Effective radii from the arms.
+void makeRadii(std::size_t n, ContactBlock& block);
 /// Fills the block with the next pairs; returns how many.
 std::size_t gatherPairs(const Particles& particles, const PairList& list, const PairRows& rows, PairCursor& cursor,
                         ContactBlock& block);
@@ -70,7 +73,7 @@ template <class Law, BlockOptions options>
 ContactWork collideChunk(Particles& particles, PairList& list, std::size_t chunk, const PairRows& rows,
                          const PreparedLaws<Law>& laws, double dt) {
   ContactBlock block;
-  shareMass(particles, rows, block);
+  shareSizes(particles, rows, block);
   ContactWork work;
   PairCursor cursor = startOfChunk(list, chunk);
   while (cursor.pair < cursor.end) {
@@ -109,7 +112,8 @@ ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law
     detail::prepareMemory(list, Law::memory, Law::turns);
   }
   const bool varied = !list.scale.empty() || laws.materials > 1;
-  detail::PairRows rows{Law::rotates, Law::needsMass && laws.usesMass(), varied, Law::memory, laws.materials};
+  detail::PairRows rows{Law::rotates,  Law::needsMass && laws.usesMass(), Law::needsRadius, varied, Law::memory,
+                        laws.materials};
   detail::findUniform(particles, rows);
   constexpr bool spins = Law::rotates;
   if constexpr (spins) list.chunks.torque.resize(list.chunks.force.size());
@@ -123,8 +127,12 @@ ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law
   else
     detail::collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, list, rows, laws, dt);
   if constexpr (Law::memory > 0) {  // pairs that left the list
-    for (std::size_t m = 0; booked && m + Law::memory <= list.ended.size(); m += Law::memory)
-      work += laws.table[0].ended(list.ended.data() + m, dt);
+    for (std::size_t k = 0; booked && k < list.endedMaterials.size(); ++k) {
+      const auto [a, b] = list.endedMaterials[k];
+      if (a < laws.materials && b < laws.materials)
+        work += laws.at(a, b).ended(list.ended.data() + k * static_cast<std::size_t>(Law::memory), dt);
+    }
+    list.endedMaterials.clear();
     list.ended.clear();
   }
   return work;

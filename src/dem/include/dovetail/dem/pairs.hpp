@@ -63,11 +63,11 @@ struct PairList {
   /// Memories (one after the other) of pairs that left the list while they remembered something; the next collide books
   /// them as lost.
   std::vector<double> ended;
+  std::vector<std::array<std::uint8_t, 2>> endedMaterials;  ///< of the particles, per memory in `ended`
 
   std::vector<Vec3> positionAtBuild;
   double travel = 0.0;  ///< bound on how far any particle has moved since then, m; only kept by the second updatePairs
   PairChunks chunks;
-  geometry::HierarchicalGrid grid;
 
   std::size_t size() const { return pairs.size(); }
   /// Vector to be added to x_i − x_j of a pair, m; zero without periodic axes. O(log n).

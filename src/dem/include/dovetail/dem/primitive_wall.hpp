@@ -78,8 +78,8 @@ void findContacts(const Particles& particles, PrimitiveWall& wall, double step);
 void renumber(PrimitiveWall& wall, std::span<const int> newNumber);
 
 namespace detail {
-/// Memories from the last step to this one; returns those whose contact has ended, one after the other.
-std::vector<double> carryMemory(PrimitiveContacts& contacts, int memory);
+/// Memories from the last step to this one; returns those whose contact has ended.
+EndedMemories carryMemory(PrimitiveContacts& contacts, int memory);
 void addToParticles(Particles& particles, PrimitiveWall& wall, bool spins);
 }  // namespace detail
 
@@ -94,9 +94,9 @@ ContactWork collide(Particles& particles, PrimitiveWall& wall, const PreparedLaw
   if constexpr (Law::rotates) contacts.couple.assign(contacts.size(), Vec3{});
   if constexpr (Law::memory > 0) {
     detail::requireStep(dt);
-    const std::vector<double> ended = detail::carryMemory(contacts, Law::memory);
-    for (std::size_t m = 0; m + Law::memory <= ended.size(); m += Law::memory)
-      work += laws.table[0].ended(ended.data() + m, dt);
+    const detail::EndedMemories ended = detail::carryMemory(contacts, Law::memory);
+    detail::requireMaterials(particles, laws.materials);
+    work += detail::bookEnded<Law>(particles, ended, laws, wall.material, dt);
   }
   work += detail::answerWall<Law>(particles, contacts, contacts.memory, laws, wall.material, dt, [&](std::size_t c) {
     const auto i = static_cast<std::size_t>(contacts.particle[c]);

@@ -22,6 +22,9 @@ struct TriangulatedWall {
   /// false: a sheet that pushes to the side on which the centre lies.
   bool oneSided = false;
   int material = 0;  ///< row of a LawTable
+  /// Whoever moves it moves it as a rigid body, or not at all: facets that lie in one plane stay so, which spares most
+  /// of the work over them.
+  bool rigid = false;
 };
 
 /// A wall at rest.

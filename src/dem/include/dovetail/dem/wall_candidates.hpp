@@ -20,12 +20,16 @@ struct WallCandidates {
   std::vector<int> particle;  ///< ascending
   std::vector<int> offsets;   ///< facets of particle[k]: facet[offsets[k]] … facet[offsets[k + 1] − 1]
   std::vector<int> facet;     ///< ascending for each particle
+  /// Rigid walls only, else empty: per listed particle, whether all its facets lie in one plane and face the same way.
+  std::vector<char> flat;
+  mutable std::vector<int> lastFacet;  ///< the same length: where the contact was, as a place to look first
 
   std::int64_t builds = 0;      ///< how often the lists were made
   std::int64_t lateBuilds = 0;  ///< how often a scan of the wall found the skin used up before the scan; see below
 
   // Where everybody was when the lists were made.
   std::vector<Vec3> particleAtBuild, vertexAtBuild;
+  double particleTravel = 0.0;  ///< bound on how far any particle has moved since, m; if `particleStep` is given
   std::size_t facetsAtBuild = 0;
   double vertexTravel = 0.0;  ///< largest displacement of a vertex at the last scan, m
   std::int64_t updatesSinceBuild = 0, nextScan = 0;
@@ -46,7 +50,10 @@ void findWallCandidates(const Particles& particles, const TriangulatedWall& wall
 ///   per vertex. Without it particles and vertices get half of the skin each, and the vertices are scanned, not at
 ///   every call but so often (1, 2, 4 … at most 64 calls apart) that a vertex four times as fast as the fastest so far
 ///   is still caught in time. Should a scan come too late all the same, `lateBuilds` counts it.
+/// @param particleStep a bound, m, on how far any particle has moved since the last call: then not every particle is
+///   looked at
 bool updateWallCandidates(const Particles& particles, const TriangulatedWall& wall, WallCandidates& candidates,
-                          std::optional<double> wallTravel = std::nullopt);
+                          std::optional<double> wallTravel = std::nullopt,
+                          std::optional<double> particleStep = std::nullopt);
 
 }  // namespace dovetail::dem

@@ -9,8 +9,8 @@ namespace dovetail::dem {
 namespace detail {
 
 /// Fills contacts.springs.next with the memories carried over from the last step: from the same facet or one that
-/// shares a vertex, the nearest normal first. Returns the memories of contacts that have ended, one after the other.
-const std::vector<double>& carrySprings(WallContacts& contacts, const TriangulatedWall& wall, int memory);
+/// shares a vertex, the nearest normal first. Returns those of contacts that have ended.
+EndedMemories carrySprings(WallContacts& contacts, const TriangulatedWall& wall, int memory);
 /// Remembers the contacts and what they remember for the next step.
 void keepSprings(WallContacts& contacts);
 
@@ -38,9 +38,9 @@ ContactWork collideWithWall(Particles& particles, const TriangulatedWall& wall, 
   ContactWork work;
   if constexpr (Law::memory > 0) {
     detail::requireStep(dt);
-    const auto& ended = detail::carrySprings(contacts, wall, Law::memory);
-    for (std::size_t m = 0; m + Law::memory <= ended.size(); m += Law::memory)
-      work += laws.table[0].ended(ended.data() + m, dt);
+    const detail::EndedMemories ended = detail::carrySprings(contacts, wall, Law::memory);
+    detail::requireMaterials(particles, laws.materials);
+    work += detail::bookEnded<Law>(particles, ended, laws, wall.material, dt);
   }
   if constexpr (Law::rotates) contacts.couple.assign(contacts.size(), Vec3{});
   work += detail::answerWall<Law>(

@@ -28,7 +28,7 @@ struct WallSprings {
   std::vector<Vec3> normal;
   std::vector<double> memory;  ///< of the law, contact by contact; a tangential spring takes three, its stretch, m
 
-  std::vector<double> next, ended;  // those of this step, while they are being worked out; those that found no heir
+  std::vector<double> next;  // those of this step, while they are being worked out
   std::vector<char> taken;
 };
 

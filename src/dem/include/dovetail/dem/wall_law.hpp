@@ -15,8 +15,31 @@ namespace dovetail::dem::detail {
 /// @throws InputError unless dt is finite and > 0
 void requireStep(double dt);
 
+/// @throws InputError naming a particle whose material has no law
+void requireMaterials(const Particles& particles, int materials);
+
 inline int materialOf(const Particles& particles, std::size_t i) {
   return particles.material.empty() ? 0 : static_cast<int>(particles.material[i]);
+}
+
+/// Memories, one after the other, of contacts that have ended, and whose they were.
+struct EndedMemories {
+  std::vector<double> memory;
+  std::vector<int> particle;
+};
+
+/// What ended contacts take with them.
+template <class Law>
+ContactWork bookEnded(const Particles& particles, const EndedMemories& ended, const PreparedLaws<Law>& laws,
+                      int wallMaterial, double dt) {
+  ContactWork work;
+  for (std::size_t k = 0; k < ended.particle.size(); ++k) {
+    const auto i = static_cast<std::size_t>(ended.particle[k]);
+    const int material = laws.materials > 1 && i < particles.size() ? materialOf(particles, i) : 0;
+    work += laws.at(material, laws.materials > 1 ? wallMaterial : 0)
+                .ended(ended.memory.data() + k * static_cast<std::size_t>(Law::memory), dt);
+  }
+  return work;
 }
 
 /// Contacts first … first + n − 1 into a block.
@@ -29,7 +52,7 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
     const auto i = static_cast<std::size_t>(contacts.particle[c]);
     block.separation.set(l, contacts.normal[c]);
     block.velocity.set(l, velocity(c));
-    block.armI[l] = particles.radius[i];
+    block.armI[l] = block.radius[l] = particles.radius[i];
     block.armJ[l] = contacts.overlap[c] / contacts.engagement[c];
     block.rootMass[l] = std::sqrt(particles.mass[i]);
     block.scale[l] = contacts.engagement[c];
@@ -64,6 +87,7 @@ ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vect
   };
   const std::size_t count = contacts.particle.size();
   if (count == 0) return {};
+  requireMaterials(particles, std::max(laws.materials, 1));
   return count <= blockSize ? answerBlock(0, count) : parallelSum(count, blockSize, answerBlock);
 }
 

@@ -1,0 +1,56 @@
+#include <iostream>
+#include <map>
+
+#include "common/command_line.hpp"
+#include "common/outputs.hpp"
+#include "studies.hpp"
+
+namespace {
+
+using namespace dovetail;
+using namespace dovetail::dem_benchmark;
+
+bool parse(int argc, char** argv, Settings& s) {
+  CLI::App app{"Times the particle engine, and checks it on stiff and extreme cases.", "dem"};
+  app.add_option("--study", s.study, "what to do")
+      ->check(CLI::IsMember({"throughput", "leaving-out", "scaling", "threads", "stability"}).description(""))
+      ->option_text("throughput|leaving-out|scaling|threads|stability");
+  app.add_option("--bed", s.bed, "spheres of a settled bed, lines 'x y z diameter'; without it one is settled first");
+  app.add_option("--write", s.write, "write the scenes into this folder, for other programs, and stop");
+  app.add_option("--summary", s.summary, "write the figures as JSON");
+  app.add_option("--steps", s.steps, "steps per timing")->check(CLI::Range(2, 1000000));
+  app.add_option("--warm-up", s.warmUp, "steps before the timings")->check(CLI::Range(1, 1000000));
+  app.add_option("--repeat", s.repeats, "timings, of which the median counts")->check(CLI::Range(1, 1000));
+  app.add_option("--threads", s.threads, "threads")->check(CLI::Range(1, 256));
+  app.add_flag("--quick", s.quick, "small scenes: to see whether all runs, not to time");
+  return benchmark::parseCommandLine(app, argc, argv);
+}
+
+}  // namespace
+
+/// Exit code 0: done; 1: a case of the stability study neither stayed bounded nor was refused; 2: the request was
+/// refused.
+int main(int argc, char** argv) {
+  try {
+    Settings s;
+    if (!parse(argc, argv, s)) return 0;
+    if (!s.summary.empty()) benchmark::prepareSummary(s.summary);
+    if (!s.write.empty()) {
+      writeScenes(s, std::cout);
+      return 0;
+    }
+    if (s.study == "stability") return studyStability(s, std::cout) ? 0 : 1;
+    const std::map<std::string, void (*)(const Settings&, std::ostream&)> studies{{"throughput", studyThroughput},
+                                                                                  {"leaving-out", studyLeavingOut},
+                                                                                  {"scaling", studyScaling},
+                                                                                  {"threads", studyThreads}};
+    studies.at(s.study)(s, std::cout);
+    return 0;
+  } catch (const InputError& error) {
+    std::cerr << "dem: " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "dem: " << error.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,33 @@
+// Studies: sets of scenes and the tables they make.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+
+namespace dovetail::dem_benchmark {
+
+struct Settings {
+  std::string study = "throughput";
+  std::filesystem::path bed;    ///< spheres of a settled bed, 20 × 20 wide; empty: settle one
+  std::filesystem::path write;  ///< folder: writes the scenes for other programs, and stops
+  std::filesystem::path summary;
+  int steps = 100, warmUp = 300, repeats = 5, threads = 1;
+  bool quick = false;  ///< small scenes, few steps: to see whether all runs
+};
+
+/// Frictional bed (linear and Hertz), frictionless lattice, big spheres among small ones, box of planes and of
+/// triangles.
+void studyThroughput(const Settings& settings, std::ostream& out);
+/// What an absent feature costs.
+void studyLeavingOut(const Settings& settings, std::ostream& out);
+/// Cost against number and size ratio.
+void studyScaling(const Settings& settings, std::ostream& out);
+/// One thread against two.
+void studyThreads(const Settings& settings, std::ostream& out);
+/// Stiff and extreme cases: bounded, or refused with a reason. Returns whether every row is one or the other.
+bool studyStability(const Settings& settings, std::ostream& out);
+/// Writes the scenes as sphere lists and inputs of LAMMPS.
+void writeScenes(const Settings& settings, std::ostream& out);
+
+}  // namespace dovetail::dem_benchmark

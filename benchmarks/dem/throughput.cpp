@@ -1,0 +1,245 @@
+// Throughput, scaling, threads and leaving out.
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <ostream>
+
+#include "common/json.hpp"
+#include "common/text.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "measure.hpp"
+#include "scenes.hpp"
+#include "studies.hpp"
+
+namespace dovetail::dem_benchmark {
+
+namespace {
+
+using benchmark::format;
+
+struct Table {
+  std::ostream& out;
+  std::vector<Figures> rows;
+  void header() const {
+    out << format("%-34s %9s %6s %6s %9s %15s %7s %7s %7s %6s %6s\n", "scene", "particles", "pairs", "cont.",
+                  "M steps/s", "lowest-highest", "ns", "B held", "B moved", "builds", "prunes");
+  }
+  const Figures& add(Figures f) {
+    const auto n = static_cast<double>(f.particles);
+    out << format("%-34s %9zu %6.2f %6.2f %9.2f %7.2f-%7.2f %7.1f %7.0f %7.0f %6lld %6lld\n", f.name.c_str(),
+                  f.particles, static_cast<double>(f.pairs) / n, static_cast<double>(f.contacts) / n, f.rates.median,
+                  f.rates.lowest, f.rates.highest, f.nanoseconds(), f.bytesHeld, f.bytesMoved,
+                  static_cast<long long>(f.builds), static_cast<long long>(f.prunings))
+        << std::flush;
+    rows.push_back(std::move(f));
+    return rows.back();
+  }
+};
+
+void writeSummary(const Settings& s, const std::vector<Figures>& rows, double triad) {
+  if (s.summary.empty()) return;
+  benchmark::Json json;
+  json["study"] = s.study;
+  json["triad_GB_per_s"] = triad;
+  for (const Figures& f : rows)
+    json["scenes"].push_back({{"name", f.name},
+                              {"particles", f.particles},
+                              {"million_steps_per_s", f.rates.median},
+                              {"lowest", f.rates.lowest},
+                              {"highest", f.rates.highest},
+                              {"bytes_held_per_particle", f.bytesHeld},
+                              {"bytes_moved_per_step", f.bytesMoved}});
+  std::ofstream(s.summary) << json.dump(2) << '\n';
+}
+
+Spheres bedOf(const Settings& s) {
+  if (!s.bed.empty()) return readSpheres(s.bed);
+  return settledBed(20, s.quick ? 4 : 50);
+}
+
+Spheres polydisperse(const Settings& s) {
+  return s.quick ? bigAmongSmall(24.0, 4, 10.0, 1) : bigAmongSmall(44.0, 50, 10.0, 1);
+}
+
+geometry::Periodicity cube(double edge) { return {{{0, 0, 0}, {edge, edge, edge}}, {true, true, true}}; }
+
+FrictionlessModel waveLattice(int nx, int ny, int nz) {
+  auto model = makeModel(lattice(nx, ny, nz, 1.01), dem::ElasticLaw{{stiffness}},
+                         {{{0, 0, 0}, {double(nx), double(ny), double(nz)}}, {true, true, true}}, {});
+  for (std::size_t i = 0; i < model.particles.size(); ++i)
+    model.particles.v[i].x = 0.01 * std::sin(2.0 * 3.14159265358979324 * model.particles.x[i].x / nx);
+  return model;
+}
+
+/// The bed in an open box a little wider than itself; let fall against the walls first.
+template <class Walls>
+Figures boxFigures(const Settings& s, const Spheres& bed, const std::string& name, const Walls& walls) {
+  constexpr double edge = 21.0;
+  Spheres inside = bed;
+  for (Vec3& x : inside.x) x += Vec3{0.5, 0.5, 0.0};
+  auto model = makeModel(inside, frictionalLaw(), {}, {0, 0, -1});
+  walls(model, edge);
+  model.viscousRate = 2.0;
+  run(model, timeStep, s.quick ? 100 : 4000);
+  model.viscousRate = 0.0;
+  return measure(name, model, timeStep, s.warmUp, s.steps, s.repeats);
+}
+
+}  // namespace
+
+void studyThroughput(const Settings& s, std::ostream& out) {
+  setThreads(s.threads);
+  Table table{out, {}};
+  table.header();
+  const Spheres bed = bedOf(s), wide = s.quick ? bed : repeated(bed, 5, 20.0);
+  const double width = s.quick ? 20.0 : 100.0;
+  {
+    auto model = bedModel(wide, frictionalLaw(), width);
+    table.add(measure("bed, linear + friction", model, timeStep, 3 * s.warmUp, s.steps, s.repeats));
+    model.booking = dem::Booking::on;
+    table.add(measure("the same, energies booked", model, timeStep, 10, s.steps, s.repeats));
+  }
+  {
+    auto model = bedModel(wide, hertzLaw(), width);
+    table.add(measure("bed, Hertz-Mindlin", model, timeStep, 3 * s.warmUp, s.steps, s.repeats));
+  }
+  {
+    auto model = waveLattice(50, 50, s.quick ? 4 : 40);
+    table.add(measure("lattice, frictionless", model, timeStep, s.warmUp, s.steps, s.repeats));
+  }
+  {
+    auto model = makeModel(polydisperse(s), frictionalLaw(), cube(s.quick ? 24.0 : 44.0), {});
+    table.add(measure("1:10, list made every 50 steps", model, timeStep, 100, s.steps, s.repeats, 50));
+  }
+  const auto planes = [](auto& model, double edge) { model.walls = boxOfPlanes(edge, listSkin); };
+  const auto triangles = [](auto& model, double edge) {
+    model.meshes.push_back(boxOfTriangles(edge, 50.0, 23, listSkin));
+  };
+  const double ofPlanes = table.add(boxFigures(s, bed, "box of 5 planes", planes)).nanoseconds();
+  const double ofTriangles = table.add(boxFigures(s, bed, "box of 11 000 triangles", triangles)).nanoseconds();
+  out << format("\ntriangles instead of planes: %+.1f %% per step\n", 100.0 * (ofTriangles / ofPlanes - 1.0));
+  const double triad = triadBandwidth(s.threads);
+  out << format("triad: %.1f GB/s; the bed moves %.1f GB/s (%.0f %%), the lattice %.1f GB/s (%.0f %%)\n", triad,
+                1e-3 * table.rows[0].bytesMoved * table.rows[0].rates.median,
+                0.1 * table.rows[0].bytesMoved * table.rows[0].rates.median / triad,
+                1e-3 * table.rows[3].bytesMoved * table.rows[3].rates.median,
+                0.1 * table.rows[3].bytesMoved * table.rows[3].rates.median / triad);
+  writeSummary(s, table.rows, triad);
+}
+
+void studyLeavingOut(const Settings& s, std::ostream& out) {
+  Table table{out, {}};
+  table.header();
+  const int nz = s.quick ? 4 : 40;
+  const auto time = [&](const std::string& name, auto&& change) {
+    auto model = waveLattice(50, 50, nz);
+    change(model);
+    return table.add(measure(name, model, timeStep, 50, s.steps, s.repeats)).nanoseconds();
+  };
+  const double bare = time("frictionless lattice", [](auto&) {});
+  const double again = time("the same again", [](auto&) {});
+  const double wall = time("with a wall that nobody touches", [](auto& m) {
+    m.walls.push_back(dem::makePlane({0, 0, -100}, {0, 0, 1}));
+    m.walls.back().skin = listSkin;
+  });
+  const double booked = time("with energies booked", [](auto& m) { m.booking = dem::Booking::on; });
+  const double damped = time("with viscous damping", [](auto& m) { m.viscousRate = 1e-6; });
+  const double open = time("without periodicity", [](auto& m) {
+    m.pairs.periodicity = {};
+    findPairs(m.particles, listSkin, m.pairs);
+  });
+  auto frictional = makeModel(lattice(50, 50, nz, 1.01), frictionalLaw(),
+                              {{{0, 0, 0}, {50, 50, double(nz)}}, {true, true, true}}, {});
+  const double friction =
+      table.add(measure("with friction and spin", frictional, timeStep, 50, s.steps, s.repeats)).nanoseconds();
+  const auto cost = [&](double ns) { return 100.0 * (ns / std::min(bare, again) - 1.0); };
+  out << format(
+      "\ncost over the bare lattice: the same again %+.1f %%, idle wall %+.1f %%, booking %+.1f %%, damping %+.1f %%, "
+      "no periodicity %+.1f %%, friction %+.1f %%\n",
+      cost(std::max(bare, again)), cost(wall), cost(booked), cost(damped), cost(open), cost(friction));
+  out << format("bytes held per particle: %.0f without friction, %.0f with\n", table.rows[0].bytesHeld,
+                table.rows.back().bytesHeld);
+  writeSummary(s, table.rows, 0.0);
+}
+
+void studyScaling(const Settings& s, std::ostream& out) {
+  Table table{out, {}};
+  table.header();
+  // One tenth of the volume in big spheres, the rest a lattice of small ones.
+  std::vector<double> edges = s.quick ? std::vector<double>{22.0} : std::vector<double>{22.0, 46.0, 100.0};
+  for (const double edge : edges) {
+    const int bigOnes = std::max(1, static_cast<int>(0.3 * edge * edge * edge / 1000.0));
+    auto model = makeModel(bigAmongSmall(edge, bigOnes, 10.0, 1), frictionalLaw(), cube(edge), {});
+    table.add(measure("ratio 10", model, timeStep, 20, s.steps / 2, s.repeats));
+  }
+  const double edge = s.quick ? 24.0 : 48.0;
+  for (const double ratio : {1.0, 10.0, 100.0}) {
+    // The same lattice of small spheres; the others stand in for the same number of contacts or fewer.
+    auto small = lattice(int(edge), int(edge), int(edge), 1.02);
+    Spheres all;
+    const Vec3 centre{0.5 * edge, 0.5 * edge, 0.5 * edge - 0.45 * ratio};
+    for (std::size_t i = 0; i < small.size(); ++i)
+      if (ratio == 1.0 || norm(small.x[i] - centre) > 0.5 * ratio + 0.5) {
+        all.x.push_back(small.x[i]);
+        all.diameter.push_back(1.02);
+      }
+    if (ratio > 1.0) {
+      all.x.push_back(centre);
+      all.diameter.push_back(ratio);
+    }
+    auto model = makeModel(all, frictionalLaw(), {}, {});
+    table.add(measure(format("ratio %.0f, one big sphere", ratio), model, timeStep, 20, s.steps / 2, s.repeats, 50));
+  }
+  const auto perContact = [&](std::size_t row) {
+    const Figures& f = table.rows[row];
+    return f.nanoseconds() * static_cast<double>(f.particles) / static_cast<double>(f.pairs);
+  };
+  const std::size_t n = edges.size();
+  out << format("\ncost per particle step, largest over smallest number: %.2f\n",
+                table.rows[n - 1].nanoseconds() / table.rows[0].nanoseconds());
+  out << format("cost per pair, ratio 100 over ratio 1: %.2f\n", perContact(n + 2) / perContact(n));
+  writeSummary(s, table.rows, 0.0);
+}
+
+void studyThreads(const Settings& s, std::ostream& out) {
+  Table table{out, {}};
+  table.header();
+  const Spheres bed = bedOf(s), wide = s.quick ? bed : repeated(bed, 5, 20.0);
+  auto model = bedModel(wide, frictionalLaw(), s.quick ? 20.0 : 100.0);
+  run(model, timeStep, 3 * s.warmUp);
+  for (const int count : {1, 2}) {
+    setThreads(count);
+    table.add(
+        measure(format("bed, %d thread%s", count, count > 1 ? "s" : ""), model, timeStep, 10, s.steps, s.repeats));
+  }
+  for (const int count : {1, 2}) {
+    setThreads(count);
+    auto wave = waveLattice(50, 50, s.quick ? 4 : 40);
+    table.add(
+        measure(format("lattice, %d thread%s", count, count > 1 ? "s" : ""), wave, timeStep, 50, s.steps, s.repeats));
+  }
+  setThreads(1);
+  const double one = triadBandwidth(1), two = triadBandwidth(2);
+  for (std::size_t row : {1u, 3u})
+    out << format("%s over one: %.2f; %.1f GB/s of the triad's %.1f (one thread: %.1f)\n", table.rows[row].name.c_str(),
+                  table.rows[row].rates.median / table.rows[row - 1].rates.median,
+                  1e-3 * table.rows[row].bytesMoved * table.rows[row].rates.median, two, one);
+  writeSummary(s, table.rows, two);
+}
+
+void writeScenes(const Settings& s, std::ostream& out) {
+  const Spheres bed = bedOf(s);
+  double top = 0.0;
+  for (const Vec3& x : bed.x) top = std::max(top, x.z);
+  std::filesystem::create_directories(s.write);
+  writeSpheres(s.write / "bed.txt", bed);
+  writeLammpsData(s.write / "bed.data", bed, {{0, 0, 0}, {20, 20, std::ceil(top) + 2.0}});
+  const Spheres mixed = polydisperse(s);
+  const double edge = s.quick ? 24.0 : 44.0;
+  writeSpheres(s.write / "poly.txt", mixed);
+  writeLammpsData(s.write / "poly.data", mixed, cube(edge).box);
+  out << bed.size() << " spheres in bed.txt and bed.data, " << mixed.size() << " in poly.txt and poly.data, in "
+      << s.write.string() << '\n';
+}
+
+}  // namespace dovetail::dem_benchmark
