@@ -1,5 +1,4 @@
 // Beads run out of a flat-bottomed silo through a round hole, for several holes. Beverloo's law says how fast.
-#include <array>
 #include <cstdio>
 #include <iostream>
 
