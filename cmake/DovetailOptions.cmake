@@ -1,6 +1,7 @@
 # Options and optional packages. AUTO takes a package if it is there, ON insists on it, OFF leaves it out.
 option(DOVETAIL_TESTS "Build the tests (needs GoogleTest)" ${PROJECT_IS_TOP_LEVEL})
 option(DOVETAIL_BENCHMARKS "Build the benchmark programs" ${PROJECT_IS_TOP_LEVEL})
+option(DOVETAIL_EXAMPLES "Build the examples" ${PROJECT_IS_TOP_LEVEL})
 option(DOVETAIL_INSTALL "Install the libraries, headers and package files" ${PROJECT_IS_TOP_LEVEL})
 option(DOVETAIL_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
 option(DOVETAIL_FP_CONTRACT "Let the compiler fuse a*b+c; faster, but digits then differ from other builds" OFF)

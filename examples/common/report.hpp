@@ -1,0 +1,51 @@
+// What every example prints about its run, and the files it writes.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+
+#include "dovetail/core/ledger.hpp"
+#include "dovetail/dem/contact_step.hpp"
+#include "dovetail/dem/model.hpp"
+#include "dovetail/io/provenance.hpp"
+
+namespace dovetail::example {
+
+/// The energies of a model as a ledger; open() it with those at the start, then set those at the end.
+class ModelLedger {
+public:
+  explicit ModelLedger(const dem::Energies& start);
+  void set(const dem::Energies& now);
+  const EnergyLedger& ledger() const { return ledger_; }
+  /// |residual| over what has been lost.
+  double relativeResidual() const;
+
+private:
+  EnergyLedger ledger_;
+};
+
+/// The safe step with the contacts as they are now.
+template <class Law>
+dem::ContactStep safeStep(const dem::Model<Law>& model) {
+  dem::ContactDemand demand;
+  dem::addDemand(demand, model.particles, model.pairs, model.laws);
+  for (const auto& wall : model.walls)
+    dem::addWallDemand(demand, model.particles, wall.contacts, model.laws, wall.material);
+  for (const auto& mesh : model.meshes)
+    dem::addWallDemand(demand, model.particles, mesh.contacts, model.laws, mesh.wall.material);
+  return dem::criticalStep(demand, model.particles);
+}
+
+/// dt beside the safe step and who sets that.
+void printStep(std::ostream& out, double dt, const dem::ContactStep& safe, const dem::Particles& particles);
+
+/// Positions, radii and speeds as <folder>/<name>.csv, and as frame 0 of <name>.pvd if the build has VTK.
+void writeParticles(const std::filesystem::path& folder, const std::string& name, double time,
+                    const dem::Particles& particles, const io::KeyValues& provenance);
+
+/// Does nothing in a build without VTK.
+void writeVtu(const std::filesystem::path& folder, const std::string& name, double time,
+              const dem::Particles& particles, const io::KeyValues& provenance);
+
+}  // namespace dovetail::example
