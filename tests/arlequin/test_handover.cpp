@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/dem/contact_sample.hpp"
 #include "dovetail/dem/pair_collide.hpp"
 #include "scenes.hpp"
 
@@ -138,14 +139,15 @@ TEST(Gravity, StressIsContinuousAcrossTheOverlapOfAColumn) {
   }
   // The stress that the models carry together, w σ_DE + (1 − w) σ_FE, at the elements' centres, against the weight
   // below.
+  const dem::ContactSample contacts =
+      std::visit([&](const auto& law) { return dem::samplePairs(model.particles, model.pairs, law); }, model.law);
   double worst = 0.0;
   for (int e = 0; e + 1 < o.particleElements - o.overlapElements + o.solidElements; ++e) {
     const double y = (e + 0.5) * edge;
     double stress = 0.0;
-    for (std::size_t p = 0; p < model.pairs.pairs.size(); ++p) {
-      const Vec3 &a = model.particles.x[static_cast<std::size_t>(model.pairs.pairs[p][0])],
-                 &b = model.particles.x[static_cast<std::size_t>(model.pairs.pairs[p][1])];
-      if ((a.y - y) * (b.y - y) < 0.0) stress += (a.y < y ? 1.0 : -1.0) * model.pairs.force[p].y / (edge * edge);
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const Vec3 &a = contacts.from[c], &b = contacts.to[c];
+      if ((a.y - y) * (b.y - y) < 0.0) stress += (a.y < y ? 1.0 : -1.0) * contacts.force[c].y / (edge * edge);
     }
     if (y > solidStart(o))
       stress += stressOfElement(*model.solid, static_cast<std::size_t>((y - solidStart(o)) / edge));
