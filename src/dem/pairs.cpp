@@ -240,7 +240,13 @@ void renumber(PairList& list, std::span<const int> newNumber) {
   entries.reserve(old.size());
   for (std::size_t p = 0; p < old.size(); ++p) {
     const int i = newNumber[static_cast<std::size_t>(old[p][0])], j = newNumber[static_cast<std::size_t>(old[p][1])];
-    if (i >= 0 && j >= 0) entries.push_back({{std::min(i, j), std::max(i, j)}, p, i > j});
+    if (i >= 0 && j >= 0) {
+      entries.push_back({{std::min(i, j), std::max(i, j)}, p, i > j});
+      continue;
+    }
+    // Whose material it was is not known any more: booked as of material 0.
+    for (std::size_t c = 0; c < components; ++c) list.ended.push_back(list.memory[c * old.size() + p]);
+    if (components > 0) list.endedMaterials.push_back({0, 0});
   }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.pair < b.pair; });
   const std::vector<double> memory = std::move(list.memory);
