@@ -218,8 +218,8 @@ void requireStableStep(const Model<Law>& m, double dt, double leastOverlap = 0.0
   detail::requireBelow(criticalStep(m, leastOverlap), dt);
 }
 
-/// Energies now; contact energies and losses need booking. Gravity counts from the origin.
-/// @throws InputError between advance and finish
+/// Energies now, J; contact energies and losses need booking. Gravity counts from the origin. Call after finish:
+/// between advance and finish velocities lag by half a step, and so does the kinetic energy.
 template <class Law>
 Energies energies(const Model<Law>& m) {
   Energies e = m.booked;

@@ -84,14 +84,16 @@ void findPairs(const Particles& particles, double skin, PairList& list);
 /// Returns whether `pairs` has changed.
 bool updatePairs(const Particles& particles, PairList& list);
 /// The same without looking at every particle at every step, and with pruning.
-/// @param step bound on how far any particle has moved since the last call, m, as `drift` returns it
+/// @param step bound on how far any particle has moved since the last call, m, as kickAndDrift, startStep and turnStep
+/// return it
 bool updatePairs(const Particles& particles, PairList& list, double step);
 
 /// Moves positions by whole periods into the periodic box. Lists made before are made anew at their next update.
 void wrapPositions(Particles& particles, const geometry::Periodicity& periodicity);
 
 /// Gives the pairs the new numbers of their particles, memories included, and sorts them; pairs of particles that are
-/// gone (new number < 0) leave. For particles that have been sorted, removed or added since the list was made.
+/// gone (new number < 0) leave, and what they remember is booked as lost by the next collide. For particles that have
+/// been sorted, removed or added since the list was made.
 /// @param newNumber one per particle of the list
 void renumber(PairList& list, std::span<const int> newNumber);
 

@@ -91,11 +91,6 @@ public:
 
   const Periodicity& periodicity() const { return periodicity_; }
   std::size_t size() const { return id_.size(); }
-  /// Memory held, bytes.
-  std::size_t bytes() const {
-    return id_.capacity() * sizeof(int) + key_.capacity() * sizeof(Key) + sphere_.capacity() * sizeof(sphere_[0]) +
-           index_.capacity() * sizeof(int) + unsorted_.capacity() * sizeof(unsorted_[0]);
-  }
   std::size_t levels() const { return levels_.size(); }
   /// Edge of the cells of a level (0 = finest), m; along periodic axes the cells may be larger.
   double cellSize(std::size_t level) const { return levels_[level].size; }
