@@ -1,0 +1,57 @@
+// Square matrices of 3 × 3 blocks, one for every pair of nodes that a term couples.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "dovetail/core/vec3.hpp"
+
+namespace dovetail::fem {
+
+/// Groups of nodes that share a term's tangent.
+class Couplings {
+public:
+  explicit Couplings(std::size_t nodes) : neighbours_(nodes) {}
+  /// Couples all nodes of the group with each other.
+  void add(std::span<const int> group);
+  std::size_t nodes() const { return neighbours_.size(); }
+
+private:
+  friend class BlockMatrix;
+  std::vector<std::vector<int>> neighbours_;
+};
+
+/// Compressed rows of blocks, columns ascending; every node is coupled with itself.
+class BlockMatrix {
+public:
+  BlockMatrix() = default;
+  explicit BlockMatrix(Couplings couplings);
+
+  std::size_t nodes() const { return offsets_.empty() ? 0 : offsets_.size() - 1; }
+  /// Distinguishes patterns, so that terms may keep the places of their blocks.
+  std::size_t patternId() const { return patternId_; }
+  std::span<const int> offsets() const { return offsets_; }
+  std::span<const int> columns() const { return columns_; }
+  std::span<const double> values() const { return values_; }
+  std::span<double> values() { return values_; }
+
+  void setZero();
+  /// Place of block (row, column) in columns(); its nine values start at nine times that.
+  /// @throws InputError if the pair is not coupled
+  std::size_t place(int row, int column) const;
+  /// Adds a row-major (3n × 3n) matrix, rows 3a + c for nodes[a].
+  void add(std::span<const int> nodes, std::span<const double> matrix);
+  /// Adds a row-major 3 × 3 block.
+  void addBlock(int row, int column, std::span<const double, 9> block);
+
+  /// y = A x, in the order of the rows: the same digits for any number of threads.
+  void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
+
+private:
+  std::vector<int> offsets_, columns_;
+  std::vector<double> values_;
+  std::size_t patternId_ = 0;
+};
+
+}  // namespace dovetail::fem
