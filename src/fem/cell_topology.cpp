@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "shapes.hpp"
+
 namespace dovetail::fem {
 
 namespace {
@@ -9,46 +11,13 @@ namespace {
 constexpr std::array<std::array<int, 2>, 12> brickEdges = {
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
 constexpr std::array<std::array<int, 2>, 6> tetEdges = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-constexpr std::array<std::array<int, 4>, 6> brickFaces = {
-    {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};
-constexpr std::array<std::array<int, 3>, 4> tetFaces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
-constexpr int firstMidFace = 20;
-
 bool isBrick(CellShape shape) { return shape != CellShape::tet4 && shape != CellShape::tet10; }
-bool isSecondOrder(CellShape shape) { return shape != CellShape::hex8 && shape != CellShape::tet4; }
-
-/// The node between two corners.
-int midNode(CellShape shape, int a, int b) {
-  const auto edges = edgesOf(shape);
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    if ((edges[e][0] == a && edges[e][1] == b) || (edges[e][0] == b && edges[e][1] == a))
-      return cornersOf(shape) + static_cast<int>(e);
-  return -1;
-}
-
-FaceShape faceShape(CellShape shape) {
-  constexpr std::array<FaceShape, 5> shapes = {FaceShape::quad4, FaceShape::quad8, FaceShape::quad9, FaceShape::tri3,
-                                               FaceShape::tri6};
-  return shapes[static_cast<std::size_t>(shape)];
-}
-
-Face makeFace(CellShape shape, std::span<const int> corners, std::size_t side) {
-  Face face{faceShape(shape), {}};
-  face.node.fill(-1);
-  const std::size_t n = corners.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    face.node[k] = corners[k];
-    if (isSecondOrder(shape)) face.node[n + k] = midNode(shape, corners[k], corners[(k + 1) % n]);
-  }
-  if (face.shape == FaceShape::quad9) face.node[8] = firstMidFace + static_cast<int>(side);
-  return face;
-}
 
 std::vector<Face> makeFaces(CellShape shape) {
-  std::vector<Face> faces;
-  for (std::size_t side = 0; side < (isBrick(shape) ? 6u : 4u); ++side)
-    faces.push_back(isBrick(shape) ? makeFace(shape, brickFaces[side], side) : makeFace(shape, tetFaces[side], side));
-  return faces;
+  const detail::CellFaces& faces = detail::facesOf(shape);
+  std::vector<Face> result;
+  for (const auto& nodes : faces.node) result.push_back({faces.shape, nodes});
+  return result;
 }
 
 }  // namespace

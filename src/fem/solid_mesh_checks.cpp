@@ -1,12 +1,58 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include "cell_jacobian.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/cell_topology.hpp"
+#include "shapes.hpp"
 
 namespace dovetail::fem {
 
+namespace detail {
+
+const std::vector<Vec3>& nodalGradients(CellShape shape) {
+  static const auto all = [] {
+    std::array<std::vector<Vec3>, 5> gradients;
+    for (std::size_t s = 0; s < 5; ++s) {
+      const auto each = static_cast<CellShape>(s);
+      const auto n = static_cast<std::size_t>(nodesOf(each));
+      gradients[s].resize(n * n);
+      std::vector<double> value(n);
+      for (std::size_t b = 0; b < n; ++b)
+        shapeFunctions(each, parentNodes(each)[b], value, std::span(gradients[s]).subspan(n * b, n));
+    }
+    return gradients;
+  }();
+  return all[static_cast<std::size_t>(shape)];
+}
+
+std::string listed(const char* item, std::span<const int> numbers) {
+  constexpr std::size_t most = 10;
+  if (numbers.size() == 1) return std::string(item) + " " + std::to_string(numbers[0]);
+  std::string text = std::string(item) + "s ";
+  for (std::size_t k = 0; k < std::min(most, numbers.size()); ++k)
+    text += (k == 0 ? "" : ", ") + std::to_string(numbers[k]);
+  return numbers.size() > most ? text + " and " + std::to_string(numbers.size() - most) + " more" : text;
+}
+
+}  // namespace detail
+
 namespace {
+
+/// Least det ∂X/∂ξ at the nodes and quadrature points.
+double leastDeterminant(CellShape shape, std::span<const int> nodes, std::span<const Vec3> X) {
+  const std::size_t n = nodes.size();
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::vector<Vec3>* gradients : {&detail::nodalGradients(shape), &detail::forceRule(shape).gradient})
+    for (std::size_t at = 0; at < gradients->size(); at += n) {
+      const double det = detail::determinant(detail::jacobianAt(X, nodes, std::span(*gradients).subspan(at, n)));
+      if (std::isnan(det)) return det;
+      least = std::min(least, det);
+    }
+  return least;
+}
 
 void requireNodes(std::span<const int> nodes, std::size_t count, const std::string& where) {
   for (const int node : nodes)
@@ -59,6 +105,8 @@ void validate(const SolidMesh& mesh) {
     if (!isFinite(mesh.X[node]))
       throw InputError("a position is not finite", "node " + std::to_string(node), "give three numbers");
   std::size_t number = 0;
+  std::vector<int> bad;
+  double worst = std::numeric_limits<double>::infinity();
   for (const CellGroup& group : mesh.groups) {
     const auto perElement = static_cast<std::size_t>(nodesOf(group.shape));
     if (group.node.size() % perElement != 0)
@@ -70,8 +118,14 @@ void validate(const SolidMesh& mesh) {
       const auto nodes = std::span(group.node).subspan(perElement * e, perElement);
       requireNodes(nodes, mesh.X.size(), where);
       requireDistinctNodes(nodes, where);
+      const double least = leastDeterminant(group.shape, nodes, mesh.X);
+      if (!(least > 0.0)) bad.push_back(static_cast<int>(number));
+      worst = std::min(worst, least);
     }
   }
+  if (!bad.empty())
+    throw InputError("flat, inverted or too distorted (least det dX/dxi = " + formatNumber(worst) + " m3)",
+                     detail::listed("element", bad), "order the nodes as in solid_mesh.hpp and move them apart");
   requireSets(mesh);
 }
 

@@ -159,5 +159,63 @@ TEST(SolidMesh, BadBoxesAreRefused) {
                InputError);
 }
 
+TEST(SolidMesh, BadElementsAreRefusedByNumber) {
+  for (const CellShape shape : allShapes) {
+    const SolidMesh mesh = testBox(shape);
+    const auto n = static_cast<std::size_t>(nodesOf(shape));
+    SolidMesh inverted = mesh;
+    std::swap(inverted.groups[0].node[n], inverted.groups[0].node[n + 2]);
+    EXPECT_NE(messageOf(inverted).find("[element 1]"), std::string::npos) << messageOf(inverted);
+    SolidMesh flat = mesh;
+    for (Vec3& X : flat.X) X.z = 0.0;
+    const std::string all = cornersOf(shape) == 8 ? "[elements 0, 1, 2, 3, 4, 5]" : "8, 9 and 26 more]";
+    EXPECT_NE(messageOf(flat).find(all), std::string::npos) << messageOf(flat);
+    SolidMesh wrongNode = mesh;
+    wrongNode.groups[0].node[2 * n + 1] = 999;
+    EXPECT_NE(messageOf(wrongNode).find("node 999 does not exist [element 2]"), std::string::npos);
+    SolidMesh twice = mesh;
+    twice.groups[0].node[2 * n + 1] = twice.groups[0].node[2 * n + 3];
+    EXPECT_NE(messageOf(twice).find("occurs twice in it [element 2]"), std::string::npos) << messageOf(twice);
+    SolidMesh part = mesh;
+    part.groups[0].node.pop_back();
+    EXPECT_NE(messageOf(part).find(name(shape)), std::string::npos) << messageOf(part);
+    SolidMesh notFinite = mesh;
+    notFinite.X[3].y = std::numeric_limits<double>::infinity();
+    EXPECT_NE(messageOf(notFinite).find("node 3"), std::string::npos);
+    SolidMesh huge = mesh;
+    for (Vec3& X : huge.X) X *= 1e200;
+    EXPECT_NE(messageOf(huge), "");
+  }
+  EXPECT_NE(messageOf(SolidMesh{}), "");
+}
+
+TEST(SolidMesh, MidNodesOutOfPlaceAreFound) {
+  for (const CellShape shape : {CellShape::hex20, CellShape::hex27, CellShape::tet10}) {
+    SolidMesh mesh = boxOf(shape, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+    const CellGroup& group = mesh.groups[0];
+    const int mid = group.node[static_cast<std::size_t>(cornersOf(shape))], end = group.node[1];
+    mesh.X[static_cast<std::size_t>(mid)] += 0.3 * (mesh.X[static_cast<std::size_t>(end)] - mesh.X[0]);
+    EXPECT_NE(messageOf(mesh).find("element"), std::string::npos) << name(shape);
+  }
+}
+
+TEST(SolidMesh, BadSetsAreRefusedByName) {
+  SolidMesh mesh = testBox(CellShape::hex20);
+  mesh.nodeSets["mine"] = {-1};
+  EXPECT_NE(messageOf(mesh).find("\"mine\""), std::string::npos);
+  mesh.nodeSets["mine"] = {4, 3};
+  EXPECT_NE(messageOf(mesh).find("\"mine\""), std::string::npos);
+  mesh.nodeSets["mine"] = {3, 4};
+  EXPECT_EQ(messageOf(mesh), "");
+  mesh.elementSets["grains"] = {0, 6};
+  EXPECT_NE(messageOf(mesh).find("\"grains\""), std::string::npos);
+  mesh.elementSets["grains"] = {2, 2};
+  EXPECT_NE(messageOf(mesh).find("\"grains\""), std::string::npos);
+  mesh.elementSets["grains"] = {2, 5};
+  EXPECT_EQ(messageOf(mesh), "");
+  mesh.faceSets["x-"][0].node[7] = -1;
+  EXPECT_NE(messageOf(mesh).find("\"x-\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace dovetail::fem
