@@ -2,18 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/fem/nodes.hpp"
+#include "dovetail/fem/time_functions.hpp"
 
 namespace dovetail::fem {
-
-/// A number as a function of time, s.
-using TimeFunction = std::function<double(double)>;
 
 /// u_dof = Σ factor_k u_(3 node_k + component_k) + offset + motion(t).
 struct Tie {
