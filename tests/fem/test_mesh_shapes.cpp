@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/fem/cell_topology.hpp"
+#include "dovetail/fem/mesh_quality.hpp"
+#include "dovetail/fem/mesh_shapes.hpp"
+#include "face_integrals.hpp"
+
+namespace dovetail::fem {
+namespace {
+
+const CellShape allShapes[] = {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet4, CellShape::tet10};
+const CellShape bricks[] = {CellShape::hex8, CellShape::hex20, CellShape::hex27};
+bool isSecondOrder(CellShape shape) { return nodesOf(shape) > cornersOf(shape); }
+
+double volumeOf(const SolidMesh& mesh) { return measureQuality(mesh).shapes.at(0).volume; }
+
+/// Sound in every respect; the skin is the boundary.
+void expectSound(const SolidMesh& mesh, const std::string& what) {
+  EXPECT_NO_THROW(validate(mesh)) << what;
+  EXPECT_NO_THROW(requireConnected(mesh)) << what;
+  EXPECT_NO_THROW(requireConforming(mesh)) << what;
+  EXPECT_EQ(faceSet(mesh, "skin").size(), boundaryFaces(mesh).size()) << what;
+  const FaceIntegrals skin = integrateFaces(mesh, faceSet(mesh, "skin"));
+  EXPECT_NEAR(skin.volume, volumeOf(mesh), 1e-12 * skin.volume) << what;
+}
+
+TEST(MeshShapes, CylinderSectorsApproachTheirVolume) {
+  const double exact = 0.5 * (4.0 - 1.0) * std::numbers::pi / 2.0 * 0.5;
+  for (const CellShape shape : allShapes) {
+    const SolidMesh coarse = cylinderSector(shape, {2, 4, 1}, 1.0, 2.0, std::numbers::pi / 2.0, 0.5);
+    const SolidMesh fine = cylinderSector(shape, {4, 8, 2}, 1.0, 2.0, std::numbers::pi / 2.0, 0.5);
+    expectSound(coarse, name(shape));
+    for (const int n : nodeSet(fine, "outer")) {
+      const Vec3& X = fine.X[static_cast<std::size_t>(n)];
+      EXPECT_NEAR(std::hypot(X.x, X.y), 2.0, 1e-14);
+    }
+    const double order = std::log2(std::abs(volumeOf(coarse) - exact) / std::abs(volumeOf(fine) - exact));
+    EXPECT_NEAR(order, isSecondOrder(shape) ? 4.0 : 2.0, 0.1) << name(shape);
+  }
+}
+
+TEST(MeshShapes, FullRingsClose) {
+  for (const CellShape shape : allShapes) {
+    const SolidMesh ring = cylinderSector(shape, {1, 6, 2}, 1.0, 1.5, 2.0 * std::numbers::pi, 1.0);
+    expectSound(ring, name(shape));
+    EXPECT_FALSE(ring.faceSets.contains("start"));
+    EXPECT_EQ(ring.faceSets.size(), 5u);
+    std::size_t faces = 0;
+    for (const char* side : {"inner", "outer", "z-", "z+"}) faces += faceSet(ring, side).size();
+    EXPECT_EQ(faces, faceSet(ring, "skin").size());
+  }
+  EXPECT_THROW(cylinderSector(CellShape::hex8, {1, 2, 1}, 1.0, 2.0, 2.0 * std::numbers::pi, 1.0), InputError);
+  EXPECT_THROW(cylinderSector(CellShape::hex8, {1, 2, 1}, 2.0, 1.0, 1.0, 1.0), InputError);
+  EXPECT_THROW(cylinderSector(CellShape::hex8, {1, 2, 1}, 1.0, 2.0, 7.0, 1.0), InputError);
+}
+
+TEST(MeshShapes, RoundBarsAreRoundAndOfGoodShape) {
+  for (const CellShape shape : bricks) {
+    const SolidMesh coarse = roundBar(shape, {4, 2, 3}, 0.5, 2.0), fine = roundBar(shape, {8, 4, 3}, 0.5, 2.0);
+    expectSound(coarse, name(shape));
+    const double exact = std::numbers::pi * 0.25 * 2.0;
+    const double order = std::log2(std::abs(volumeOf(coarse) - exact) / std::abs(volumeOf(fine) - exact));
+    EXPECT_NEAR(order, isSecondOrder(shape) ? 4.0 : 2.0, 0.1) << name(shape);
+    EXPECT_EQ(coarse.elementCount(), (16u + 4u * 8u) * 3u);
+    EXPECT_EQ(faceSet(coarse, "side").size(), 16u * 3u);
+    EXPECT_GT(measureQuality(fine).shapes[0].worstJacobian, 0.6);
+  }
+  EXPECT_THROW(roundBar(CellShape::tet4, {2, 1, 1}, 1.0, 1.0), InputError);
+  EXPECT_THROW(roundBar(CellShape::hex8, {0, 1, 1}, 1.0, 1.0), InputError);
+}
+
+TEST(MeshShapes, CooksMembraneHasItsCorners) {
+  for (const CellShape shape : allShapes) {
+    const SolidMesh mesh = cookMembrane(shape, {4, 3});
+    expectSound(mesh, name(shape));
+    EXPECT_NEAR(volumeOf(mesh), 0.5 * (0.044 + 0.016) * 0.048 * 0.001, 1e-18);
+    EXPECT_EQ(nodeSet(mesh, "tip").size(),
+              shape == CellShape::hex27 || shape == CellShape::tet10 || shape == CellShape::hex20 ? 3u : 2u);
+    for (const int n : nodeSet(mesh, "tip")) {
+      EXPECT_NEAR(mesh.X[static_cast<std::size_t>(n)].x, 0.048, 1e-16);
+      EXPECT_NEAR(mesh.X[static_cast<std::size_t>(n)].y, 0.060, 1e-16);
+    }
+    EXPECT_EQ(faceSet(mesh, "loaded").size(), cornersOf(shape) == 8 ? 3u : 6u);
+  }
+}
+
+TEST(MeshShapes, TheRootOfTheBeamIsAnArc) {
+  for (const CellShape shape : allShapes) {
+    const SolidMesh mesh = arcClampedBeam(shape, {8, 2, 1});
+    expectSound(mesh, name(shape));
+    for (const int n : nodeSet(mesh, "clamped")) {
+      const Vec3& X = mesh.X[static_cast<std::size_t>(n)];
+      EXPECT_NEAR(std::hypot(X.x - 0.2, X.y - 0.2), 0.05, 1e-15);
+    }
+    for (const int n : nodeSet(mesh, "tip")) {
+      EXPECT_NEAR(mesh.X[static_cast<std::size_t>(n)].x, 0.6, 1e-15);
+      EXPECT_NEAR(mesh.X[static_cast<std::size_t>(n)].y, 0.2, 1e-15);
+    }
+    // The beam without the segment of the circle beyond x = 0.2 + √(r² − h²/4).
+    const double half = 0.01, r = 0.05, angle = 2.0 * std::asin(half / r);
+    const double area = 0.02 * (0.4 - std::sqrt(r * r - half * half)) - 0.5 * r * r * (angle - std::sin(angle));
+    // Straight edges leave two smaller segments to the beam.
+    const double chords = r * r * (0.5 * angle - std::sin(0.5 * angle));
+    if (isSecondOrder(shape))
+      EXPECT_NEAR(volumeOf(mesh) / (area * 0.01), 1.0, 1e-6) << name(shape);
+    else
+      EXPECT_NEAR(volumeOf(mesh) / ((area + chords) * 0.01), 1.0, 1e-12) << name(shape);
+  }
+  EXPECT_FALSE(arcClampedBeam(CellShape::hex8, {4, 1, 1}).nodeSets.contains("tip"));
+  EXPECT_THROW(arcClampedBeam(CellShape::hex8, {4, 1, 1}, {.end = 0.24}), InputError);
+  EXPECT_THROW(arcClampedBeam(CellShape::hex8, {4, 1, 1}, {.radius = 0.009}), InputError);
+}
+
+TEST(MeshShapes, MapsThatTurnElementsInsideOutAreRefused) {
+  EXPECT_THROW(mappedBox(CellShape::hex8, {2, 1, 1}, {}, {1.0, 1.0, 1.0},
+                         [](const Vec3& X) {
+                           return Vec3{-X.x, X.y, X.z};
+                         }),
+               InputError);
+}
+
+TEST(MeshShapes, JoinedPartsShareNodesAndKeepTheirSets) {
+  for (const CellShape shape : allShapes) {
+    SolidMesh parts[] = {boxOf(shape, {2, 2, 1}, {}, {2.0, 1.0, 1.0}),
+                         boxOf(shape, {1, 2, 1}, {2.0, 0.0, 0.0}, {3.0, 1.0, 1.0})};
+    parts[1].elementSets["second"] = {0, 1};
+    const SolidMesh joined = joinMeshes(parts, 1e-6), whole = boxOf(shape, {3, 2, 1}, {}, {3.0, 1.0, 1.0});
+    EXPECT_EQ(joined.X.size(), whole.X.size());
+    EXPECT_EQ(joined.elementCount(), whole.elementCount());
+    EXPECT_EQ(joined.groups.size(), 1u);
+    expectSound(joined, name(shape));
+    EXPECT_EQ(elementSet(joined, "second")[0], static_cast<int>(parts[0].elementCount()));
+    EXPECT_EQ(faceSet(joined, "x+").size(), faceSet(whole, "x+").size());
+  }
+  const SolidMesh box[] = {boxOf(CellShape::hex8, {2, 1, 1}, {}, {1.0, 1.0, 1.0})};
+  EXPECT_THROW(joinMeshes(box, 0.6), InputError);
+  EXPECT_THROW(joinMeshes(box, 0.0), InputError);
+}
+
+}  // namespace
+}  // namespace dovetail::fem

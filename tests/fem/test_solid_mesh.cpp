@@ -1,0 +1,221 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <set>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/fem/cell_topology.hpp"
+#include "face_integrals.hpp"
+
+namespace dovetail::fem {
+namespace {
+
+const CellShape allShapes[] = {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet4, CellShape::tet10};
+constexpr Vec3 lower{0.1, -0.2, 0.3}, upper{1.0, 0.9, 1.0};
+constexpr double boxVolume = 0.9 * 1.1 * 0.7;
+
+SolidMesh testBox(CellShape shape) { return boxOf(shape, {2, 3, 1}, lower, upper); }
+
+/// A smooth map with curved faces.
+void bend(SolidMesh& mesh) {
+  for (Vec3& X : mesh.X) X = {X.x + 0.1 * X.y * X.y, X.y + 0.2 * X.x * X.z, X.z * (1.0 + 0.2 * X.x) - 0.1 * X.x * X.y};
+}
+
+std::string messageOf(const SolidMesh& mesh) {
+  try {
+    validate(mesh);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SolidMesh, BoxesHaveTheNodesAndElementsOfTheirShape) {
+  const std::map<CellShape, std::size_t> nodes = {{CellShape::hex8, 24},
+                                                  {CellShape::hex20, 24 + 16 + 18 + 12},
+                                                  {CellShape::hex27, 5 * 7 * 3},
+                                                  {CellShape::tet4, 24},
+                                                  {CellShape::tet10, 5 * 7 * 3}};
+  for (const CellShape shape : allShapes) {
+    const SolidMesh mesh = testBox(shape);
+    EXPECT_EQ(mesh.X.size(), nodes.at(shape)) << name(shape);
+    EXPECT_EQ(mesh.elementCount(), cornersOf(shape) == 8 ? 6u : 36u) << name(shape);
+    EXPECT_EQ(messageOf(mesh), "") << name(shape);
+    std::set<std::array<double, 3>> places;
+    for (const Vec3& X : mesh.X) places.insert({X.x, X.y, X.z});
+    EXPECT_EQ(places.size(), mesh.X.size()) << name(shape) << ": a node occurs twice";
+    const std::set<int> used(mesh.groups[0].node.begin(), mesh.groups[0].node.end());
+    EXPECT_EQ(used.size(), mesh.X.size()) << name(shape) << ": a node is not used";
+  }
+}
+
+TEST(SolidMesh, MidNodesLieBetweenTheirCorners) {
+  for (const CellShape shape : allShapes) {
+    if (nodesOf(shape) == cornersOf(shape)) continue;
+    const SolidMesh mesh = testBox(shape);
+    const CellGroup& group = mesh.groups[0];
+    for (std::size_t e = 0; e < group.size(); ++e) {
+      const auto X = [&](std::size_t a) {
+        return mesh.X[static_cast<std::size_t>(group.node[e * static_cast<std::size_t>(nodesOf(shape)) + a])];
+      };
+      const auto edges = edgesOf(shape);
+      for (std::size_t k = 0; k < edges.size(); ++k) {
+        const Vec3 middle = 0.5 * (X(static_cast<std::size_t>(edges[k][0])) + X(static_cast<std::size_t>(edges[k][1])));
+        EXPECT_LT(norm(X(static_cast<std::size_t>(cornersOf(shape)) + k) - middle), 1e-15) << name(shape);
+      }
+    }
+    for (const Face& face : boundaryFaces(mesh))
+      if (face.shape == FaceShape::quad9) {
+        Vec3 centre;
+        for (std::size_t k = 0; k < 4; ++k) centre += 0.25 * mesh.X[static_cast<std::size_t>(face.node[k])];
+        EXPECT_LT(norm(mesh.X[static_cast<std::size_t>(face.node[8])] - centre), 1e-15);
+      }
+  }
+}
+
+TEST(SolidMesh, FacesPointOutwardAndCloseTheBody) {
+  for (const CellShape shape : allShapes) {
+    const SolidMesh mesh = testBox(shape);
+    const std::vector<Face> boundary = boundaryFaces(mesh);
+    EXPECT_EQ(boundary.size(), (cornersOf(shape) == 8 ? 1u : 2u) * 2u * (6u + 3u + 2u)) << name(shape);
+    EXPECT_EQ(faceSet(mesh, "skin").size(), boundary.size());
+    const FaceIntegrals all = integrateFaces(mesh, boundary);
+    EXPECT_LT(norm(all.area), 1e-15) << name(shape);
+    EXPECT_NEAR(all.volume, boxVolume, 1e-14) << name(shape);
+    const std::map<std::string, Vec3> sides = {{"x-", {-0.77, 0, 0}}, {"x+", {0.77, 0, 0}},  {"y-", {0, -0.63, 0}},
+                                               {"y+", {0, 0.63, 0}},  {"z-", {0, 0, -0.99}}, {"z+", {0, 0, 0.99}}};
+    for (const auto& [side, area] : sides)
+      EXPECT_LT(norm(integrateFaces(mesh, faceSet(mesh, side)).area - area), 1e-14) << name(shape) << side;
+  }
+}
+
+TEST(SolidMesh, EveryFaceOfEveryElementPointsOutOfIt) {
+  for (const CellShape shape : allShapes) {
+    SolidMesh mesh = testBox(shape);
+    bend(mesh);
+    ASSERT_EQ(messageOf(mesh), "") << name(shape);
+    const CellGroup& group = mesh.groups[0];
+    double sum = 0.0;
+    for (std::size_t e = 0; e < group.size(); ++e) {
+      std::vector<Face> faces;
+      for (std::size_t side = 0; side < localFacesOf(shape).size(); ++side) faces.push_back(faceOf(group, e, side));
+      const FaceIntegrals own = integrateFaces(mesh, faces);
+      EXPECT_LT(norm(own.area), 1e-15) << name(shape) << " element " << e;
+      EXPECT_GT(own.volume, 0.0) << name(shape) << " element " << e;
+      sum += own.volume;
+      Vec3 centre;
+      const auto n = static_cast<std::size_t>(nodesOf(shape));
+      for (std::size_t a = 0; a < n; ++a)
+        centre += mesh.X[static_cast<std::size_t>(group.node[e * n + a])] / static_cast<double>(n);
+      for (const Face& face : faces)
+        EXPECT_GT(dot(integrateFaces(mesh, {face}).area, mesh.X[static_cast<std::size_t>(face.node[0])] - centre), 0.0)
+            << name(shape) << " element " << e;
+    }
+    EXPECT_NEAR(integrateFaces(mesh, boundaryFaces(mesh)).volume, sum, 1e-14) << name(shape);
+  }
+}
+
+TEST(SolidMesh, BricksGoThereAndBack) {
+  const Mesh bricks = boxMesh({2, 3, 1}, lower, upper);
+  const SolidMesh solid = solidMesh(bricks), box = testBox(CellShape::hex8);
+  EXPECT_EQ(solid.X, box.X);
+  EXPECT_EQ(solid.groups[0].node, box.groups[0].node);
+  EXPECT_EQ(solid.nodeSets, box.nodeSets);
+  ASSERT_EQ(solid.faceSets.size(), box.faceSets.size());
+  for (const auto& [set, faces] : solid.faceSets) {
+    ASSERT_EQ(faces.size(), faceSet(box, set).size());
+    for (std::size_t f = 0; f < faces.size(); ++f) EXPECT_EQ(faces[f].node, faceSet(box, set)[f].node) << set;
+  }
+  const Mesh back = brickMesh(solid);
+  EXPECT_EQ(back.X, bricks.X);
+  EXPECT_EQ(back.elements, bricks.elements);
+  EXPECT_EQ(back.nodeSets, bricks.nodeSets);
+  EXPECT_EQ(back.faceSets, bricks.faceSets);
+  EXPECT_THROW(brickMesh(testBox(CellShape::hex20)), InputError);
+  EXPECT_THROW(brickMesh(testBox(CellShape::tet4)), InputError);
+}
+
+TEST(SolidMesh, UnknownSetsListTheKnownOnes) {
+  SolidMesh mesh = testBox(CellShape::tet4);
+  mesh.elementSets["matrix"] = {0, 1};
+  EXPECT_EQ(elementSet(mesh, "matrix").size(), 2u);
+  for (const auto& ask : std::vector<std::function<void()>>{
+           [&] { nodeSet(mesh, "top"); }, [&] { faceSet(mesh, "top"); }, [&] { elementSet(mesh, "top"); }}) {
+    try {
+      ask();
+      FAIL();
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_TRUE(text.find("\"z+\"") != std::string::npos || text.find("\"matrix\"") != std::string::npos) << text;
+    }
+  }
+}
+
+TEST(SolidMesh, BadBoxesAreRefused) {
+  EXPECT_THROW(boxOf(CellShape::tet10, {0, 1, 1}, {}, {1.0, 1.0, 1.0}), InputError);
+  EXPECT_THROW(boxOf(CellShape::hex8, {1, 1, 1}, {}, {1.0, 0.0, 1.0}), InputError);
+  EXPECT_THROW(boxOf(CellShape::hex27, {1, 1, 1}, {}, {1.0, std::numeric_limits<double>::quiet_NaN(), 1.0}),
+               InputError);
+}
+
+TEST(SolidMesh, BadElementsAreRefusedByNumber) {
+  for (const CellShape shape : allShapes) {
+    const SolidMesh mesh = testBox(shape);
+    const auto n = static_cast<std::size_t>(nodesOf(shape));
+    SolidMesh inverted = mesh;
+    std::swap(inverted.groups[0].node[n], inverted.groups[0].node[n + 2]);
+    EXPECT_NE(messageOf(inverted).find("[element 1]"), std::string::npos) << messageOf(inverted);
+    SolidMesh flat = mesh;
+    for (Vec3& X : flat.X) X.z = 0.0;
+    const std::string all = cornersOf(shape) == 8 ? "[elements 0, 1, 2, 3, 4, 5]" : "8, 9 and 26 more]";
+    EXPECT_NE(messageOf(flat).find(all), std::string::npos) << messageOf(flat);
+    SolidMesh wrongNode = mesh;
+    wrongNode.groups[0].node[2 * n + 1] = 999;
+    EXPECT_NE(messageOf(wrongNode).find("node 999 does not exist [element 2]"), std::string::npos);
+    SolidMesh twice = mesh;
+    twice.groups[0].node[2 * n + 1] = twice.groups[0].node[2 * n + 3];
+    EXPECT_NE(messageOf(twice).find("occurs twice in it [element 2]"), std::string::npos) << messageOf(twice);
+    SolidMesh part = mesh;
+    part.groups[0].node.pop_back();
+    EXPECT_NE(messageOf(part).find(name(shape)), std::string::npos) << messageOf(part);
+    SolidMesh notFinite = mesh;
+    notFinite.X[3].y = std::numeric_limits<double>::infinity();
+    EXPECT_NE(messageOf(notFinite).find("node 3"), std::string::npos);
+    SolidMesh huge = mesh;
+    for (Vec3& X : huge.X) X *= 1e200;
+    EXPECT_NE(messageOf(huge), "");
+  }
+  EXPECT_NE(messageOf(SolidMesh{}), "");
+}
+
+TEST(SolidMesh, MidNodesOutOfPlaceAreFound) {
+  for (const CellShape shape : {CellShape::hex20, CellShape::hex27, CellShape::tet10}) {
+    SolidMesh mesh = boxOf(shape, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+    const CellGroup& group = mesh.groups[0];
+    const int mid = group.node[static_cast<std::size_t>(cornersOf(shape))], end = group.node[1];
+    mesh.X[static_cast<std::size_t>(mid)] += 0.3 * (mesh.X[static_cast<std::size_t>(end)] - mesh.X[0]);
+    EXPECT_NE(messageOf(mesh).find("element"), std::string::npos) << name(shape);
+  }
+}
+
+TEST(SolidMesh, BadSetsAreRefusedByName) {
+  SolidMesh mesh = testBox(CellShape::hex20);
+  mesh.nodeSets["mine"] = {-1};
+  EXPECT_NE(messageOf(mesh).find("\"mine\""), std::string::npos);
+  mesh.nodeSets["mine"] = {4, 3};
+  EXPECT_NE(messageOf(mesh).find("\"mine\""), std::string::npos);
+  mesh.nodeSets["mine"] = {3, 4};
+  EXPECT_EQ(messageOf(mesh), "");
+  mesh.elementSets["grains"] = {0, 6};
+  EXPECT_NE(messageOf(mesh).find("\"grains\""), std::string::npos);
+  mesh.elementSets["grains"] = {2, 2};
+  EXPECT_NE(messageOf(mesh).find("\"grains\""), std::string::npos);
+  mesh.elementSets["grains"] = {2, 5};
+  EXPECT_EQ(messageOf(mesh), "");
+  mesh.faceSets["x-"][0].node[7] = -1;
+  EXPECT_NE(messageOf(mesh).find("\"x-\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dovetail::fem
