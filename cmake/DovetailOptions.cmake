@@ -59,6 +59,7 @@ dovetail_optional(vtk "VTU and PVD files" VTK COMPONENTS CommonCore CommonDataMo
 dovetail_optional(hdf5 "HDF5 time series" HDF5 COMPONENTS C)
 dovetail_optional(fcl "overlap audit of set-ups by an independent library" Fcl)
 dovetail_optional(cgal "repair of surfaces by CGAL (GPL, a component that nothing else links)" CGAL 5.4)
+dovetail_optional(muparser "expressions as functions of time and place" muparser)
 if(DOVETAIL_BENCHMARKS)
   dovetail_optional(cli11 "the benchmarks' command lines" CLI11)
   dovetail_optional(json "the benchmarks' summaries" nlohmann_json)

@@ -48,6 +48,9 @@ public:
   virtual bool isSymmetric() const { return true; }
   /// A NaN in the stress means that the law has no answer for F; elements report the point.
   virtual void evaluate(const PointBatch& batch) const = 0;
+  /// Why the answer for F (nine numbers, row-major) cannot be trusted, and what to do; empty if it can. Says more than
+  /// a NaN does: a law may be past its limit point and still have a stress. Elements ask it of accepted states.
+  virtual std::string whyInvalid(const double* F) const;
 };
 
 }  // namespace dovetail::fem

@@ -28,7 +28,7 @@ const char* name(Formulation formulation);
 
 struct SolidOptions {
   Formulation formulation = Formulation::standard;
-  std::string elementSet;  ///< empty = all elements of the mesh
+  std::string elementSet{};  ///< empty = all elements of the mesh
   std::string name = "elastic";
   double hourglassShare = 0.05;  ///< of the shear stiffness, for `reduced`
 };

@@ -1,0 +1,85 @@
+#include "dovetail/expressions/expressions.hpp"
+
+#include <muParser.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+
+namespace dovetail::expressions {
+
+namespace {
+
+/// Parser and the variables that it refers to.
+class Expression {
+public:
+  Expression(const std::string& text, bool withPlace) : text_(text) {
+    try {
+      parser_.DefineConst("pi", std::numbers::pi);
+      parser_.DefineVar("t", &t_);
+      if (withPlace) {
+        parser_.DefineVar("x", &X_.x);
+        parser_.DefineVar("y", &X_.y);
+        parser_.DefineVar("z", &X_.z);
+      }
+      parser_.SetExpr(text);
+      parser_.Eval();
+    } catch (const mu::Parser::exception_type& error) {
+      refuse(error);
+    }
+    if (parser_.GetNumResults() != 1)
+      throw InputError("the expression has " + std::to_string(parser_.GetNumResults()) + " values", quoted(),
+                       "write one expression, without commas outside of functions");
+  }
+  Expression(const Expression&) = delete;
+  Expression& operator=(const Expression&) = delete;
+
+  double at(const Vec3& X, double t) {
+    X_ = X;
+    t_ = t;
+    const double value = parser_.Eval();
+    if (!std::isfinite(value))
+      throw NumericalError("the expression gives " + formatNumber(value),
+                           quoted() + " at t = " + formatNumber(t) + " s",
+                           "write one that is finite at all times and places it is used");
+    return value;
+  }
+
+private:
+  std::string quoted() const { return "\"" + text_ + "\""; }
+  [[noreturn]] void refuse(const mu::Parser::exception_type& error) const {
+    const auto place = static_cast<std::size_t>(error.GetPos());
+    const std::size_t cut = place < text_.size() ? place : text_.size();
+    throw InputError("the expression cannot be read: " + error.GetMsg(),
+                     "\"" + text_.substr(0, cut) + " >>> " + text_.substr(cut) + "\"",
+                     "correct it at the arrows, character " + std::to_string(cut + 1));
+  }
+
+  std::string text_;
+  mu::Parser parser_;
+  Vec3 X_;
+  double t_ = 0.0;
+};
+
+}  // namespace
+
+std::function<double(double)> timeFunction(const std::string& expression) {
+  return [parsed = std::make_shared<Expression>(expression, false)](double t) { return parsed->at({}, t); };
+}
+
+std::function<double(const Vec3&, double)> fieldFunction(const std::string& expression) {
+  return
+      [parsed = std::make_shared<Expression>(expression, true)](const Vec3& X, double t) { return parsed->at(X, t); };
+}
+
+std::function<Vec3(const Vec3&, double)> vectorField(const std::array<std::string, 3>& expressions) {
+  return [x = fieldFunction(expressions[0]), y = fieldFunction(expressions[1]), z = fieldFunction(expressions[2])](
+             const Vec3& X, double t) {
+    return Vec3{x(X, t), y(X, t), z(X, t)};
+  };
+}
+
+}  // namespace dovetail::expressions

@@ -1,0 +1,45 @@
+#include "faces.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "dovetail/core/error.hpp"
+
+namespace dovetail::fem {
+
+void requireFaces(std::span<const Face> faces, std::size_t nodeCount, const char* where) {
+  if (faces.empty()) throw InputError("there are no faces", where, "give at least one");
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (const int node : nodesOf(faces[i]))
+      if (node < 0 || static_cast<std::size_t>(node) >= nodeCount)
+        throw InputError("face " + std::to_string(i) + " names node " + std::to_string(node) + ", which does not exist",
+                         where, "use 0 to " + std::to_string(nodeCount - 1));
+}
+
+std::vector<int> rimNodes(std::span<const Face> faces) {
+  struct Edge {
+    int count = 0, middle = -1;
+  };
+  std::map<std::pair<int, int>, Edge> edges;
+  for (const Face& face : faces) {
+    const int corners = cornersOf(face.shape);
+    for (int k = 0; k < corners; ++k) {
+      const auto [low, high] =
+          std::minmax(face.node[static_cast<std::size_t>(k)], face.node[static_cast<std::size_t>((k + 1) % corners)]);
+      Edge& edge = edges[{low, high}];
+      ++edge.count;
+      if (nodesOf(face.shape) > corners) edge.middle = face.node[static_cast<std::size_t>(corners + k)];
+    }
+  }
+  std::vector<int> rim;
+  for (const auto& [corners, edge] : edges) {
+    if (edge.count == 2) continue;
+    rim.insert(rim.end(), {corners.first, corners.second});
+    if (edge.middle >= 0) rim.push_back(edge.middle);
+  }
+  std::sort(rim.begin(), rim.end());
+  rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
+  return rim;
+}
+
+}  // namespace dovetail::fem

@@ -1,0 +1,211 @@
+#include "solid_base.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+
+namespace dovetail::fem::detail {
+
+namespace {
+
+constexpr std::size_t batchGrain = 64;
+constexpr std::size_t nodeGrain = 1024;
+constexpr std::size_t parallelNodes = 4096;  // below this many nodes of batches threads cost more than they bring
+
+double sumOfLanes(const Lane& lane) { return (lane[0] + lane[1]) + (lane[2] + lane[3]); }
+
+}  // namespace
+
+SolidBase::SolidBase(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options)
+    : cells_(std::move(cells)),
+      material_(std::move(material)),
+      options_(options),
+      rule_(&forceRule(cells_.shape)),
+      geometry_(geometryAt(cells_, *rule_)) {
+  listEntries();
+  colourBatches();
+}
+
+void SolidBase::requireSameNodes(const Nodes& nodes) const {
+  if (nodes.u.size() != cells_.X.size())
+    throw InputError("there are " + std::to_string(nodes.u.size()) + " nodes for elements of a mesh with " +
+                         std::to_string(cells_.X.size()),
+                     options_.name, "use the nodes of the same mesh");
+}
+
+/// Fills the history on first use, when the number of points is known.
+void SolidBase::startHistory() {
+  const std::size_t size = material_->historySize(), lanes = cells_.batches() * points() * laneCount;
+  if (size == 0 || !history_.empty()) return;
+  history_.resize(lanes * size);
+  for (std::size_t p = 0; p < lanes; ++p) material_->startHistory(std::span(history_).subspan(p * size, size));
+  newHistory_ = history_;
+}
+
+void SolidBase::load(ByteReader& archive) {
+  startHistory();
+  const std::size_t expected = history_.size();
+  archive(history_);
+  if (history_.size() != expected)
+    throw InputError("the checkpoint has the history of another solid", options_.name,
+                     "load it into the model that wrote it");
+}
+
+void SolidBase::evaluate(const BatchTask& task, const Lane* F, Lane* P, Lane* tangent, Lane* energy, Lane* dissipated) {
+  const std::size_t size = material_->historySize(), offset = task.batch * points() * laneCount * size;
+  PointBatch batch{};
+  batch.groups = points();
+  batch.F = reinterpret_cast<const double*>(F);
+  batch.P = reinterpret_cast<double*>(P);
+  batch.tangent = reinterpret_cast<double*>(tangent);
+  batch.energy = reinterpret_cast<double*>(energy);
+  batch.dissipated = reinterpret_cast<double*>(dissipated);
+  if (size > 0) {
+    batch.history = history_.data() + offset;
+    batch.newHistory = newHistory_.data() + offset;
+  }
+  batch.dt = task.dt;
+  material_->evaluate(batch);
+}
+
+BatchTask SolidBase::taskOf(std::size_t batch, const Nodes& nodes, const Instant& now, const Vec3* start) const {
+  return {batch, nodes.u.data(), start, now.dt, false, false};
+}
+
+void SolidBase::addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f) {
+  requireSameNodes(nodes);
+  startHistory();
+  const std::size_t count = cells_.batches(), perBatch = cells_.nodes;
+  const auto body = [&](std::size_t b, BatchResult& result) { forces(taskOf(b, nodes, now, start), result); };
+  if (threads() == 1 || count * perBatch < parallelNodes) {
+    BatchResult result;
+    for (std::size_t b = 0; b < count; ++b) {
+      body(b, result);
+      for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane)
+        for (std::size_t a = 0; a < perBatch; ++a) {
+          Vec3& node = f[static_cast<std::size_t>(cells_.batchNode[b * perBatch + a][lane])];
+          for (int i = 0; i < 3; ++i) node[i] -= result.f[3 * a + static_cast<std::size_t>(i)][lane];
+        }
+    }
+    return;
+  }
+  results_.resize(count);
+  parallelFor(count, batchGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) body(b, results_[b]);
+  });
+  parallelFor(f.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      for (std::uint32_t k = nodeOffsets_[n]; k < nodeOffsets_[n + 1]; ++k) {
+        const std::uint64_t entry = nodeEntries_[k], lane = entry % laneCount, place = entry / laneCount;
+        const BatchResult& result = results_[place / perBatch];
+        const std::size_t a = place % perBatch;
+        for (int i = 0; i < 3; ++i) f[n][i] -= result.f[3 * a + static_cast<std::size_t>(i)][static_cast<int>(lane)];
+      }
+  });
+}
+
+void SolidBase::addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) { addAll(nodes, now, nullptr, f); }
+
+bool SolidBase::addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
+                                    std::span<Vec3> f) {
+  if (!conserves()) return false;
+  addAll(nodes, now, u0.data(), f);
+  return true;
+}
+
+std::array<double, 2> SolidBase::totals(const Nodes& nodes, const Instant& now, bool wantEnergy, bool wantDissipation) {
+  requireSameNodes(nodes);
+  startHistory();
+  struct Sum {
+    double energy = 0.0, dissipated = 0.0;
+    Sum& operator+=(const Sum& other) {
+      energy += other.energy;
+      dissipated += other.dissipated;
+      return *this;
+    }
+  };
+  const Sum sum = parallelSum(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
+    Sum part;
+    BatchResult result;
+    for (std::size_t b = begin; b < end; ++b) {
+      BatchTask task = taskOf(b, nodes, now);
+      task.wantEnergy = wantEnergy;
+      task.wantDissipation = wantDissipation;
+      forces(task, result);
+      if (wantEnergy) part.energy += sumOfLanes(result.energy);
+      if (wantDissipation) part.dissipated += sumOfLanes(result.dissipated);
+    }
+    return part;
+  });
+  return {sum.energy, sum.dissipated};
+}
+
+double SolidBase::energy(const Nodes& nodes, const Instant& now) { return totals(nodes, now, true, false)[0]; }
+
+double SolidBase::commit(const Nodes& nodes, const Instant& now) {
+  if (material_->historySize() == 0) return 0.0;
+  const double dissipated = totals(nodes, now, false, true)[1];
+  history_.swap(newHistory_);
+  return dissipated;
+}
+
+void SolidBase::requireValid(const Nodes& nodes, const std::string& when) const {
+  requireSameNodes(nodes);
+  std::vector<Lane> F(9 * points());
+  for (std::size_t b = 0; b < cells_.batches(); ++b) {
+    deformation({b, nodes.u.data(), nullptr, 0.0, false, false}, F.data());
+    for (std::size_t q = 0; q < points(); ++q)
+      for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane) {
+        std::array<double, 9> here;
+        for (std::size_t k = 0; k < 9; ++k) here[k] = F[9 * q + k][lane];
+        const std::string reason = material_->whyInvalid(here.data());
+        if (reason.empty()) continue;
+        throw NumericalError("element " + std::to_string(cells_.number[laneCount * b + lane]) + " of \"" +
+                                 options_.name + "\": " + reason,
+                             when, "take a smaller step, a finer mesh or a smaller load");
+      }
+  }
+}
+
+std::size_t SolidBase::memory() const {
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return bytes(cells_.node) + bytes(cells_.X) + bytes(cells_.batchNode) + bytes(geometry_) + bytes(history_) +
+         bytes(newHistory_) + bytes(results_) + bytes(nodeOffsets_) + bytes(nodeEntries_) + bytes(places_);
+}
+
+Solid::Sample SolidBase::sample(const Nodes& nodes, const Instant& now) {
+  requireSameNodes(nodes);
+  startHistory();
+  const std::size_t n = cells_.nodes, q = points(), size = material_->historySize();
+  std::vector<Lane> F(9 * q), P(9 * q), energy(q);
+  Sample sample;
+  for (std::size_t b = 0; b < cells_.batches(); ++b) {
+    const BatchTask task = taskOf(b, nodes, now);
+    deformation(task, F.data());
+    evaluate(task, F.data(), P.data(), nullptr, energy.data(), nullptr);
+    const CellRule& rule = q == static_cast<std::size_t>(rule_->points) ? *rule_ : centreRule(cells_.shape);
+    for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane)
+      for (std::size_t p = 0; p < q; ++p) {
+        sample.element.push_back(cells_.number[laneCount * b + lane]);
+        Vec3 X;
+        for (std::size_t a = 0; a < n; ++a)
+          X += rule.value[n * p + a] * cells_.X[static_cast<std::size_t>(cells_.batchNode[n * b + a][lane])];
+        sample.X.push_back(X);
+        sample.volume.push_back(geometry_[b * q + p].weight[lane]);
+        for (std::size_t k = 0; k < 9; ++k) {
+          sample.F.push_back(F[9 * p + k][lane]);
+          sample.P.push_back(P[9 * p + k][lane]);
+        }
+        sample.energy.push_back(energy[p][lane]);
+        const std::size_t point = (b * q + p) * laneCount + lane;
+        sample.history.insert(sample.history.end(), history_.begin() + static_cast<std::ptrdiff_t>(point * size),
+                              history_.begin() + static_cast<std::ptrdiff_t>((point + 1) * size));
+      }
+  }
+  return sample;
+}
+
+}  // namespace dovetail::fem::detail

@@ -1,0 +1,120 @@
+// Displacement elements of all shapes.
+#include "conserving.hpp"
+#include "dovetail/core/error.hpp"
+
+namespace dovetail::fem::detail {
+
+namespace {
+
+template <int N, int Q>
+class StandardSolid final : public SolidBase {
+public:
+  using SolidBase::SolidBase;
+
+private:
+  using Tensors = std::array<Lane, 9 * Q>;
+
+  const Vec3* gradients(std::size_t q) const { return &rule_->gradient[N * q]; }
+
+  void deformationOf(std::size_t batch, const Vec3* u, Lane* F) const {
+    Lane U[3 * N];
+    gatherNodes<N>(cells_, batch, u, U);
+    for (std::size_t q = 0; q < Q; ++q) {
+      displacementGradient<N>(U, gradients(q), geometry_[batch * Q + q].map, F + 9 * q);
+      addIdentity(F + 9 * q);
+    }
+  }
+
+  void deformation(const BatchTask& task, Lane* F) const override { deformationOf(task.batch, task.u, F); }
+  bool conserves() const override { return material_->isElastic(); }
+
+  void forces(const BatchTask& task, BatchResult& result) override {
+    Tensors F, P;
+    deformationOf(task.batch, task.u, F.data());
+    std::array<Lane, Q> energy{}, dissipated{};
+    if (task.start != nullptr)
+      conservingStress(task, F, P, nullptr);
+    else
+      evaluate(task, F.data(), P.data(), nullptr, task.wantEnergy ? energy.data() : nullptr,
+               task.wantDissipation ? dissipated.data() : nullptr);
+    for (std::size_t k = 0; k < 3 * N; ++k) result.f[k] = Lane{};
+    result.energy = result.dissipated = Lane{};
+    for (std::size_t q = 0; q < Q; ++q) {
+      const PointGeometry& point = geometry_[task.batch * Q + q];
+      addStressForces<N>(&P[9 * q], gradients(q), point, result.f.data());
+      result.energy += point.weight * energy[q];
+      result.dissipated += point.weight * dissipated[q];
+    }
+  }
+
+  void tangent(const BatchTask& task, Lane* K) override {
+    Tensors F, P;
+    std::array<Lane, 81 * Q> A;
+    deformationOf(task.batch, task.u, F.data());
+    if (task.start != nullptr)
+      conservingStress(task, F, P, A.data());
+    else
+      evaluate(task, F.data(), P.data(), A.data(), nullptr, nullptr);
+    std::fill(K, K + 9 * N * N, Lane{});
+    const bool symmetric = material_->isSymmetric();
+    Lane parent[81];
+    for (std::size_t q = 0; q < Q; ++q) {
+      parentModuli(&A[81 * q], geometry_[task.batch * Q + q], parent);
+      if (symmetric)
+        addParentTangent<N, true>(parent, gradients(q), K);
+      else
+        addParentTangent<N, false>(parent, gradients(q), K);
+    }
+    if (symmetric) mirror<N>(K);
+  }
+
+  /// P = F̄ S_alg for the step from task.start to F; its moduli if A is not null.
+  void conservingStress(const BatchTask& task, const Tensors& F1, Tensors& P, Lane* A) {
+    Tensors F0, U, meanP;
+    std::array<Lane, Q> W0, W1;
+    deformationOf(task.batch, task.start, F0.data());
+    evaluate(task, F0.data(), P.data(), nullptr, W0.data(), nullptr);
+    evaluate(task, F1.data(), P.data(), nullptr, W1.data(), nullptr);
+    Lane C0[9 * Q], C1[9 * Q];
+    for (std::size_t q = 0; q < Q; ++q) {
+      rightCauchyGreen(&F0[9 * q], C0 + 9 * q);
+      rightCauchyGreen(&F1[9 * q], C1 + 9 * q);
+      Lane mean[9];
+      for (std::size_t k = 0; k < 9; ++k) mean[k] = 0.5 * (C0[9 * q + k] + C1[9 * q + k]);
+      factorMetric(mean, &U[9 * q]);
+    }
+    evaluate(task, U.data(), meanP.data(), A, nullptr, nullptr);
+    for (std::size_t q = 0; q < Q; ++q) {
+      Lane S[9], meanS[9], mean[9];
+      for (std::size_t k = 0; k < 9; ++k) S[k] = meanP[9 * q + k], mean[k] = 0.5 * (F0[9 * q + k] + F1[9 * q + k]);
+      solveUpper(&U[9 * q], S);
+      for (std::size_t k = 0; k < 9; ++k) meanS[k] = S[k];
+      correctStress(C0 + 9 * q, C1 + 9 * q, W0[q], W1[q], S);
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t J = 0; J < 3; ++J)
+          P[9 * q + 3 * i + J] = mean[3 * i] * S[J] + mean[3 * i + 1] * S[3 + J] + mean[3 * i + 2] * S[6 + J];
+      if (A != nullptr) conservingModuli(&U[9 * q], mean, meanS, S, A + 81 * q);
+    }
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<Solid> makeStandardSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material,
+                                         const SolidOptions& options) {
+  switch (cells.shape) {
+    case CellShape::hex8:
+      return std::make_shared<StandardSolid<8, 8>>(std::move(cells), std::move(material), options);
+    case CellShape::hex20:
+      return std::make_shared<StandardSolid<20, 27>>(std::move(cells), std::move(material), options);
+    case CellShape::hex27:
+      return std::make_shared<StandardSolid<27, 27>>(std::move(cells), std::move(material), options);
+    case CellShape::tet4:
+      return std::make_shared<StandardSolid<4, 1>>(std::move(cells), std::move(material), options);
+    case CellShape::tet10:
+      return std::make_shared<StandardSolid<10, 4>>(std::move(cells), std::move(material), options);
+  }
+  throw InputError("the shape of the elements is not known", "makeSolid", "use one of CellShape");
+}
+
+}  // namespace dovetail::fem::detail
