@@ -54,7 +54,7 @@ void SolidBase::listEntries() {
   for (std::size_t e = 0; e < cells_.size(); ++e)
     for (std::size_t a = 0; a < n; ++a)
       nodeEntries_[next[static_cast<std::size_t>(cells_.node[n * e + a])]++] =
-          ((e / laneCount) * n + a) * laneCount + e % laneCount;
+          3 * ((e / laneCount) * n + a) * laneCount + e % laneCount;
 }
 
 /// Greedy: the first colour that none of the batch's nodes has.

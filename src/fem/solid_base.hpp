@@ -110,15 +110,16 @@ private:
   void scatter(std::size_t batch, const Lane* matrix, BlockMatrix& K) const;
 
   std::vector<double> history_, newHistory_;
-  std::vector<BatchResult> results_;                 // for more than one thread
-  std::vector<std::uint32_t> nodeOffsets_;           // entries of each node in results_, ascending elements
-  std::vector<std::uint64_t> nodeEntries_;           // ((batch · nodes + a) · 4 + lane)
+  std::vector<Lane> results_;               // forces of all batches, [3 nodes b + 3 a + i], for more than one thread
+  std::vector<std::uint32_t> nodeOffsets_;  // entries of each node in results_, ascending elements
+  std::vector<std::uint64_t> nodeEntries_;  // place of their first component, in doubles
   std::vector<std::vector<std::uint32_t>> colours_;  // batches of a colour share no node
   std::vector<std::uint32_t> places_;                // of the blocks (a, b) of each element in a matrix
   std::size_t placesOf_ = 0;                         // its pattern
 };
 
 std::shared_ptr<Solid> makeStandardSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
+std::shared_ptr<Solid> makeAssumedStressSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
 std::shared_ptr<Solid> makeMeanDilatationSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
 std::shared_ptr<Solid> makeEnhancedSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
 std::shared_ptr<Solid> makeReducedSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
