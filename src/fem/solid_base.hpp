@@ -75,6 +75,7 @@ public:
   std::size_t size() const override { return cells_.size(); }
   std::size_t memory() const override;
   const PointMaterial& material() const override { return *material_; }
+  StableStep stableStep(const Nodes& nodes) override;
   int number(std::size_t e) const override { return cells_.number[e]; }
   Sample sample(const Nodes& nodes, const Instant& now) override;
 
@@ -99,6 +100,8 @@ protected:
   std::vector<PointGeometry> geometry_;
 
 private:
+  std::vector<double> elementMasses(std::size_t element, const CellRule& rule,
+                                    std::span<const PointGeometry> geometry) const;
   BatchTask taskOf(std::size_t batch, const Nodes& nodes, const Instant& now, const Vec3* start = nullptr) const;
   void addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f);
   void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, BlockMatrix& K);
