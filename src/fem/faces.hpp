@@ -4,14 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "dovetail/fem/cell_topology.hpp"
 #include "dovetail/fem/solid_mesh.hpp"
 #include "shapes.hpp"
 
 namespace dovetail::fem {
-
-/// Corners, which come first among the nodes of a face; edge k goes from corner k to the next, with node
-/// corners + k on it if the face is of second order.
-constexpr int cornersOf(FaceShape shape) { return shape == FaceShape::tri3 || shape == FaceShape::tri6 ? 3 : 4; }
 
 /// The nodes of a face, without the −1 at the end.
 inline std::span<const int> nodesOf(const Face& face) {

@@ -17,10 +17,6 @@ constexpr std::size_t parallelNodes = 4096;  // below this many nodes of batches
 
 double sumOfLanes(const Lane& lane) { return (lane[0] + lane[1]) + (lane[2] + lane[3]); }
 
-Lane determinantOf(const Lane* F) {
-  return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
-}
-
 }  // namespace
 
 SolidBase::SolidBase(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options)
@@ -161,15 +157,16 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when) const 
   std::vector<Lane> F(9 * points());
   for (std::size_t b = 0; b < cells_.batches(); ++b) {
     deformation({b, nodes.u.data(), nullptr, 0.0, false, false}, F.data());
-    for (std::size_t q = 0; q < points(); ++q) {
-      const Lane J = determinantOf(&F[9 * q]);
+    for (std::size_t q = 0; q < points(); ++q)
       for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane) {
-        if (J[lane] > 0.0) continue;
+        std::array<double, 9> here;
+        for (std::size_t k = 0; k < 9; ++k) here[k] = F[9 * q + k][lane];
+        const std::string reason = material_->whyInvalid(here.data());
+        if (reason.empty()) continue;
         throw NumericalError("element " + std::to_string(cells_.number[laneCount * b + lane]) + " of \"" +
-                                 options_.name + "\" is inverted (det F = " + formatNumber(J[lane]) + ")",
+                                 options_.name + "\": " + reason,
                              when, "take a smaller step, a finer mesh or a smaller load");
       }
-    }
   }
 }
 

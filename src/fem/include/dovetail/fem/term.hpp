@@ -59,6 +59,8 @@ public:
   virtual double commit(const Nodes&, const Instant&) { return 0.0; }
   /// Called after convergence; @return true if it changed its multipliers and the step must be solved again
   virtual bool augment(const Nodes&, const Instant&) { return false; }
+  /// The step is given up: multipliers are again those of the last commit.
+  virtual void revert() {}
 
   /// mass += its lumped masses, kg.
   virtual void addMass(std::span<double>) const {}
