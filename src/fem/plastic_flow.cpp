@@ -18,7 +18,7 @@ double solveBracketed(double upper, Function&& function) {
     (value > 0.0 ? lower : upper) = x;
     double next = x - value / slope;
     if (!(next > lower && next < upper)) next = 0.5 * (lower + upper);
-    if (value == 0.0 || std::abs(next - x) <= 1e-16 * std::abs(next)) return x;
+    if (value == 0.0 || std::abs(next - x) <= 1e-15 * std::abs(next)) return x;
     x = next;
   }
   return x;

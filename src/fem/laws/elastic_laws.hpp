@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dovetail/fem/point_law.hpp"
+#include "green_moduli.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -83,6 +84,7 @@ struct StVenantKirchhoffLaw {
   StVenantKirchhoff constants;
   double lambda, mu;
 
+  Material brickLaw() const { return constants; }
   std::string whyInvalid(const double* F) const;
 
   template <class T>
@@ -91,24 +93,12 @@ struct StVenantKirchhoffLaw {
     Tensor<T> S = scaled(2.0 * mu, E);
     for (const std::size_t i : {0, 4, 8}) S[i] += lambda * trace(E);
     P = product(F, S);
-    if (tangent) writeTangent(F, S, *tangent);
+    if (tangent)
+      forGreenModuli(F, S, T(lambda), T(mu), [&](std::size_t r, std::size_t c, const T& entry) {
+        tangent->set(r, c, entry);
+        tangent->set(c, r, entry);
+      });
     return 0.5 * contraction(S, E);
-  }
-
-private:
-  /// δ_ik S_JL + λ F_iJ F_kL + μ (b_ik δ_JL + F_iL F_kJ).
-  template <class T>
-  void writeTangent(const Tensor<T>& F, const Tensor<T>& S, const TangentOut<T>& tangent) const {
-    const Tensor<T> b = gram(transposed(F));
-    for (std::size_t r = 0; r < 9; ++r)
-      for (std::size_t c = r; c < 9; ++c) {
-        const std::size_t i = r / 3, J = r % 3, k = c / 3, L = c % 3;
-        T entry = lambda * F[r] * F[c] + mu * F[3 * i + L] * F[3 * k + J];
-        if (i == k) entry += S[3 * J + L];
-        if (J == L) entry += mu * b[3 * i + k];
-        tangent.set(r, c, entry);
-        if (c != r) tangent.set(c, r, entry);
-      }
   }
 };
 
