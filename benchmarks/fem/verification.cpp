@@ -33,6 +33,10 @@ void membranes(double poissonRatio, verification::Sides sides, const char* title
   std::printf("\nCook's membrane, nu = %g, %s: u_y of the tip, mm, by cells per edge\n", poissonRatio, title);
   std::printf("%-22s %9d %9d %9d %9d\n", "element", 4, 8, 16, 32);
   for (const ElementKind& kind : verification::allKinds()) {
+    // A plate with free sides is beyond its lateral buckling load; tetrahedra, which are not symmetric about the middle
+    // plane, leave it.
+    const bool symmetric = fem::nodesOf(kind.shape) != 4 && fem::nodesOf(kind.shape) != 10;
+    if (sides == verification::Sides::free && !symmetric) continue;
     std::printf("%-22s", kind.label().c_str());
     for (const int n : {4, 8, 16, 32})
       std::printf(" %9.4f", 1e3 * verification::cooksMembrane(kind, n, poissonRatio, sides).tip);
