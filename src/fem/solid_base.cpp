@@ -92,17 +92,23 @@ void SolidBase::addAll(const Nodes& nodes, const Instant& now, const Vec3* start
     }
     return;
   }
-  results_.resize(count);
+  const std::size_t size = 3 * perBatch;
+  results_.resize(count * size);
   parallelFor(count, batchGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) body(b, results_[b]);
+    BatchResult result;
+    for (std::size_t b = begin; b < end; ++b) {
+      body(b, result);
+      std::copy_n(result.f.begin(), size, results_.begin() + static_cast<std::ptrdiff_t>(b * size));
+    }
   });
+  const auto* const values = reinterpret_cast<const double*>(results_.data());
   parallelFor(f.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
       for (std::uint32_t k = nodeOffsets_[n]; k < nodeOffsets_[n + 1]; ++k) {
-        const std::uint64_t entry = nodeEntries_[k], lane = entry % laneCount, place = entry / laneCount;
-        const BatchResult& result = results_[place / perBatch];
-        const std::size_t a = place % perBatch;
-        for (int i = 0; i < 3; ++i) f[n][i] -= result.f[3 * a + static_cast<std::size_t>(i)][static_cast<int>(lane)];
+        const double* const value = values + nodeEntries_[k];
+        f[n].x -= value[0];
+        f[n].y -= value[laneCount];
+        f[n].z -= value[2 * laneCount];
       }
   });
 }

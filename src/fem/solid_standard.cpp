@@ -1,4 +1,5 @@
 // Displacement elements of all shapes.
+#include "brick_kernels.hpp"
 #include "conserving.hpp"
 #include "dovetail/core/error.hpp"
 
@@ -9,7 +10,11 @@ namespace {
 template <int N, int Q>
 class StandardSolid final : public SolidBase {
 public:
-  using SolidBase::SolidBase;
+  StandardSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options)
+      : SolidBase(std::move(cells), std::move(material), options) {
+    if constexpr (N == 8)
+      if (const auto law = material_->brickLaw()) kernels_.emplace(cells_, ElementType::hex8, *law);
+  }
 
 private:
   using Tensors = std::array<Lane, 9 * Q>;
@@ -29,6 +34,7 @@ private:
   bool conserves() const override { return material_->isElastic(); }
 
   void forces(const BatchTask& task, BatchResult& result) override {
+    if (kernels_ && task.start == nullptr) return kernels_->forces(task, result);
     Tensors F, P;
     deformationOf(task.batch, task.u, F.data());
     std::array<Lane, Q> energy{}, dissipated{};
@@ -96,6 +102,8 @@ private:
       if (A != nullptr) conservingModuli(&U[9 * q], mean, meanS, S, A + 81 * q);
     }
   }
+
+  std::optional<BrickKernels> kernels_;  // for laws that they know
 };
 
 }  // namespace

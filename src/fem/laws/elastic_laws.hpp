@@ -84,6 +84,7 @@ struct StVenantKirchhoffLaw {
   StVenantKirchhoff constants;
   double lambda, mu;
 
+  Material brickLaw() const { return constants; }
   std::string whyInvalid(const double* F) const;
 
   template <class T>

@@ -163,6 +163,12 @@ public:
     if (batch.dissipated)
       for (std::size_t point = 0; point < pointLanes * batch.groups; ++point) batch.dissipated[point] = 0.0;
   }
+  std::optional<Material> brickLaw() const override {
+    if constexpr (requires { law_.brickLaw(); })
+      return law_.brickLaw();
+    else
+      return {};
+  }
   std::string whyInvalid(const double* F) const override {
     std::string reason = PointMaterial::whyInvalid(F);
     if constexpr (SaysWhyInvalid<Law>)
