@@ -104,9 +104,9 @@ struct J2Step {
 
 }  // namespace
 
-FlowAnswer J2Flow::advance(const LogStrain& frame, std::span<const double> history, std::span<double> newHistory,
+FlowAnswer J2Flow::advance(const TrialStrain& frame, std::span<const double> history, std::span<double> newHistory,
                            bool withStiffness) const {
-  const Six strain = frame.strain();
+  const Six& strain = frame.strain;
   FlowAnswer answer = elasticAnswer(elasticity, strain, withStiffness);
   std::copy(history.begin(), history.end(), newHistory.begin());
   Six backStrain{};
@@ -137,9 +137,9 @@ FlowAnswer J2Flow::advance(const LogStrain& frame, std::span<const double> histo
   return answer;
 }
 
-FlowAnswer DruckerPragerFlow::advance(const LogStrain& frame, std::span<const double> history,
+FlowAnswer DruckerPragerFlow::advance(const TrialStrain& frame, std::span<const double> history,
                                       std::span<double> newHistory, bool withStiffness) const {
-  const Six strain = frame.strain();
+  const Six& strain = frame.strain;
   FlowAnswer answer = elasticAnswer(elasticity, strain, withStiffness);
   newHistory[0] = history[0];
   const double mu = elasticity.mu, kappa = elasticity.kappa;
