@@ -7,6 +7,9 @@ namespace dovetail::fem::detail {
 namespace {
 
 const double rootThreeHalves = std::sqrt(1.5);
+/// Relative distance from the yield surface, inside it, up to which the stiffness is that of flow. A point that has
+/// just flowed lies there by chance on either side; the first guess of the next step needs the stiffness of going on.
+constexpr double onSurface = 1e-9;
 
 /// The zero of a function that is positive at 0 and negative at `upper`: Newton's method kept inside the bracket.
 /// function(x) gives value and slope.
@@ -101,9 +104,9 @@ struct J2Step {
 
 }  // namespace
 
-FlowAnswer J2Flow::advance(const LogStrain& frame, std::span<const double> history, std::span<double> newHistory,
+FlowAnswer J2Flow::advance(const TrialStrain& frame, std::span<const double> history, std::span<double> newHistory,
                            bool withStiffness) const {
-  const Six strain = frame.strain();
+  const Six& strain = frame.strain;
   FlowAnswer answer = elasticAnswer(elasticity, strain, withStiffness);
   std::copy(history.begin(), history.end(), newHistory.begin());
   Six backStrain{};
@@ -113,7 +116,10 @@ FlowAnswer J2Flow::advance(const LogStrain& frame, std::span<const double> histo
   }
   const double modulus = 2.0 / 3.0 * kinematic;
   const J2Step step{*this, deviator(answer.stress), times(modulus, backStrain), history[0]};
-  if (step.at(0.0).residual > 0.0) {
+  const Return start = step.at(0.0);
+  if (withStiffness && start.residual > -onSurface * yield.stress(history[0]))
+    answer.stiffness = step.stiffness(start, times(1.0 / start.size, start.relative));
+  if (start.residual > 0.0) {
     const Return state = step.solve();
     const Six direction = times(1.0 / state.size, state.relative);
     const Six flow = times(rootThreeHalves * state.increment, direction);
@@ -131,18 +137,21 @@ FlowAnswer J2Flow::advance(const LogStrain& frame, std::span<const double> histo
   return answer;
 }
 
-FlowAnswer DruckerPragerFlow::advance(const LogStrain& frame, std::span<const double> history,
+FlowAnswer DruckerPragerFlow::advance(const TrialStrain& frame, std::span<const double> history,
                                       std::span<double> newHistory, bool withStiffness) const {
-  const Six strain = frame.strain();
+  const Six& strain = frame.strain;
   FlowAnswer answer = elasticAnswer(elasticity, strain, withStiffness);
   newHistory[0] = history[0];
   const double mu = elasticity.mu, kappa = elasticity.kappa;
   const Six s = deviator(answer.stress);
   const double norm = std::sqrt(dot(s, s)), root = norm / std::numbers::sqrt2, p = trace(answer.stress) / 3.0;
   const double excess = root + cone.friction * p - cone.strength;
-  if (!(excess > 0.0)) return answer;
-
   const double gain = 1.0 / (mu + kappa * cone.friction * cone.dilatancy), multiplier = excess * gain;
+  if (!(excess > 0.0)) {
+    if (withStiffness && root > 0.0 && excess > -onSurface * (root + cone.strength))
+      answer.stiffness = coneStiffness(times(1.0 / norm, s), 1.0, gain);
+    return answer;
+  }
   const double left = 1.0 - mu * multiplier / root;
   const bool onCone = left >= 0.0;
   const double pressure = onCone ? p - kappa * cone.dilatancy * multiplier : cone.strength / cone.friction;

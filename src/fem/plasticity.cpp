@@ -115,15 +115,13 @@ std::shared_ptr<const PointMaterial> pointMaterial(const J2Plasticity& law) {
   if (!(3.0 * elasticity.mu + law.yield.slope(0.0) > 0.0))
     throw InputError("the yield curve falls faster than the shear modulus allows", "J2Plasticity",
                      "keep its slope above -3 times the shear modulus");
-  return historyMaterial(
-      "J2 plasticity", law.density,
-      detail::LogPlasticLaw<detail::J2Flow>{{elasticity, law.yield, law.kinematicModulus, law.recovery}});
+  return detail::plasticMaterial(law.density,
+                                 detail::J2Flow{elasticity, law.yield, law.kinematicModulus, law.recovery});
 }
 
 std::shared_ptr<const PointMaterial> pointMaterial(const DruckerPrager& law) {
   const detail::HenckyElasticity elasticity = elasticityOf(law.youngsModulus, law.poissonRatio, law.density);
-  return historyMaterial("Drucker-Prager", law.density,
-                         detail::LogPlasticLaw<detail::DruckerPragerFlow>{{elasticity, coneConstants(law)}});
+  return detail::plasticMaterial(law.density, detail::DruckerPragerFlow{elasticity, coneConstants(law)});
 }
 
 double hardeningEnergy(const J2Plasticity& law, std::span<const double> history) {

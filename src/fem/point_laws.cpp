@@ -7,9 +7,21 @@
 namespace dovetail::fem {
 namespace detail {
 
+/// Enough for stiffnessLeft > 0: λ s sᵀ is never negative, and no eigenvalue of C is below 1 − |C − 1|.
+bool surelyStiff(double lambda, double mu, const Tensor<double>& C) {
+  double doubleTrace = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const double strain = C[k] - (k % 4 == 0 ? 1.0 : 0.0);
+    squares += strain * strain;
+    if (k % 4 == 0) doubleTrace += strain;
+  }
+  return squares < 0.4 && 0.5 * lambda * doubleTrace + mu * (2.0 - 3.0 * std::sqrt(squares)) > 0.0;
+}
+
 std::string StVenantKirchhoffLaw::whyInvalid(const double* F) const {
+  if (surelyStiff(lambda, mu, gram(asTensor(F)))) return {};
   if (stiffnessLeft(constants, F) > 0.0) return {};
-  const Spectrum C = spectrum(gram(asTensor(F)));
+  const Spectrum<double> C = spectrum(gram(asTensor(F)));
   std::string text = "St Venant-Kirchhoff is past its limit point at the stretches";
   for (const double square : C.value) text.append(1, ' ').append(formatNumber(std::sqrt(square)));
   return text + " (a bar softens below 1/sqrt(3) = 0.577): use a neo-Hookean law";
@@ -19,7 +31,7 @@ std::string StVenantKirchhoffLaw::whyInvalid(const double* F) const {
 
 double stiffnessLeft(const StVenantKirchhoff& law, const double* F) {
   const LameConstants lame = lameConstants(law.youngsModulus, law.poissonRatio);
-  const detail::Spectrum C = detail::spectrum(gram(detail::asTensor(F)));
+  const detail::Spectrum<double> C = detail::spectrum(gram(detail::asTensor(F)));
   const double doubleTrace = C.value[0] + C.value[1] + C.value[2] - 3.0;
   Tensor<double> hessian;
   for (std::size_t a = 0; a < 3; ++a)

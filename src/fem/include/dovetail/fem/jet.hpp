@@ -62,7 +62,11 @@ struct Jet {
   }
   friend Jet operator*(const Jet& a, double s) { return s * a; }
   friend Jet operator/(const Jet& a, double s) { return (1.0 / s) * a; }
-  friend Jet operator+(Jet a, double s) { return a.value += s, a; }
+  friend Jet operator+(const Jet& a, double s) {
+    Jet b = a;
+    b.value = b.value + s;
+    return b;
+  }
   friend Jet operator+(double s, const Jet& a) { return a + s; }
   friend Jet operator-(const Jet& a, double s) { return a + (-s); }
   friend Jet operator-(double s, const Jet& a) { return -a + s; }

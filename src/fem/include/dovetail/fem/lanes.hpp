@@ -10,74 +10,72 @@ namespace dovetail::fem {
 
 #define DOVETAIL_ALWAYS_INLINE [[gnu::always_inline]] inline
 
-/// Arithmetic and functions act on each lane; a double stands for four equal ones.
-struct Four {
+/// Arithmetic and functions act on each lane; a double stands for four equal ones. In memory it is an array, so that
+/// how functions hand it over does not depend on the processor that a program is compiled for.
+struct alignas(32) Four {
   using Register [[gnu::vector_size(32)]] = double;
   using Bits [[gnu::vector_size(32)]] = std::int64_t;
-  Register v;
+  double v[4];
 
   Four() = default;
   DOVETAIL_ALWAYS_INLINE Four(double x) : v{x, x, x, x} {}
-  DOVETAIL_ALWAYS_INLINE explicit Four(const Register& r) : v(r) {}
+  DOVETAIL_ALWAYS_INLINE explicit Four(const Register& r) { std::memcpy(v, &r, sizeof v); }
+  DOVETAIL_ALWAYS_INLINE explicit Four(const Bits& b) { std::memcpy(v, &b, sizeof v); }
 
   DOVETAIL_ALWAYS_INLINE static Four load(const double* p) {
     Four x;
-    std::memcpy(&x.v, p, sizeof x.v);
+    std::memcpy(x.v, p, sizeof x.v);
     return x;
   }
-  DOVETAIL_ALWAYS_INLINE void store(double* p) const { std::memcpy(p, &v, sizeof v); }
+  DOVETAIL_ALWAYS_INLINE void store(double* p) const { std::memcpy(p, v, sizeof v); }
 
-  DOVETAIL_ALWAYS_INLINE Four& operator+=(const Four& b) { return v += b.v, *this; }
-  DOVETAIL_ALWAYS_INLINE Four& operator-=(const Four& b) { return v -= b.v, *this; }
-  DOVETAIL_ALWAYS_INLINE Four& operator*=(const Four& b) { return v *= b.v, *this; }
-  DOVETAIL_ALWAYS_INLINE Four& operator/=(const Four& b) { return v /= b.v, *this; }
-  DOVETAIL_ALWAYS_INLINE friend Four operator+(Four a, const Four& b) { return a += b; }
-  DOVETAIL_ALWAYS_INLINE friend Four operator-(Four a, const Four& b) { return a -= b; }
-  DOVETAIL_ALWAYS_INLINE friend Four operator*(Four a, const Four& b) { return a *= b; }
-  DOVETAIL_ALWAYS_INLINE friend Four operator/(Four a, const Four& b) { return a /= b; }
-  DOVETAIL_ALWAYS_INLINE friend Four operator-(const Four& a) { return Four(-a.v); }
+  DOVETAIL_ALWAYS_INLINE Four& operator+=(const Four& b) { return *this = *this + b; }
+  DOVETAIL_ALWAYS_INLINE Four& operator-=(const Four& b) { return *this = *this - b; }
+  DOVETAIL_ALWAYS_INLINE Four& operator*=(const Four& b) { return *this = *this * b; }
+  DOVETAIL_ALWAYS_INLINE Four& operator/=(const Four& b) { return *this = *this / b; }
+  DOVETAIL_ALWAYS_INLINE friend Four operator+(const Four& a, const Four& b) { return Four(In(a).r + In(b).r); }
+  DOVETAIL_ALWAYS_INLINE friend Four operator-(const Four& a, const Four& b) { return Four(In(a).r - In(b).r); }
+  DOVETAIL_ALWAYS_INLINE friend Four operator*(const Four& a, const Four& b) { return Four(In(a).r * In(b).r); }
+  DOVETAIL_ALWAYS_INLINE friend Four operator/(const Four& a, const Four& b) { return Four(In(a).r / In(b).r); }
+  DOVETAIL_ALWAYS_INLINE friend Four operator-(const Four& a) { return Four(-In(a).r); }
+
+  /// The lanes in a register, within one expression.
+  struct In {
+    Register r;
+    DOVETAIL_ALWAYS_INLINE explicit In(const Four& x) { std::memcpy(&r, x.v, sizeof r); }
+  };
+  struct BitsIn {
+    Bits b;
+    DOVETAIL_ALWAYS_INLINE explicit BitsIn(const Four& x) { std::memcpy(&b, x.v, sizeof b); }
+  };
 };
 
 /// x > 0 ? a : b in each lane; NaN counts as not positive.
 DOVETAIL_ALWAYS_INLINE Four wherePositive(const Four& x, const Four& a, const Four& b) {
-  return Four(x.v > 0.0 ? a.v : b.v);
+  return Four(Four::In(x).r > 0.0 ? Four::In(a).r : Four::In(b).r);
 }
 DOVETAIL_ALWAYS_INLINE double wherePositive(double x, double a, double b) { return x > 0.0 ? a : b; }
 
 DOVETAIL_ALWAYS_INLINE Four sqrt(const Four& x) {
-  Four root;
-  for (int lane = 0; lane < 4; ++lane) root.v[lane] = __builtin_sqrt(x.v[lane]);
-  return root;
+  Four::In root(x);
+  for (int lane = 0; lane < 4; ++lane) root.r[lane] = __builtin_sqrt(root.r[lane]);
+  return Four(root.r);
 }
 
 namespace detail {
-
 // Adding this to a double below 2^51 leaves the rounded integer in the low bits of the sum.
 inline constexpr double integerShift = 6755399441055744.0;
-
-DOVETAIL_ALWAYS_INLINE Four asDouble(const Four::Bits& bits) {
-  Four x;
-  std::memcpy(&x.v, &bits, sizeof bits);
-  return x;
-}
-DOVETAIL_ALWAYS_INLINE Four::Bits asBits(const Four& x) {
-  Four::Bits bits;
-  std::memcpy(&bits, &x.v, sizeof bits);
-  return bits;
-}
-
 }  // namespace detail
 
 /// Natural logarithm of normal positive numbers, within one unit in the last place; NaN for x ≤ 0. The polynomial is
 /// that of FreeBSD's msun, e_log.c.
 DOVETAIL_ALWAYS_INLINE Four log(const Four& x) {
-  using detail::asBits;
-  using detail::asDouble;
+  using BitsIn = Four::BitsIn;
   // x = 2^k (1 + f) with 1 + f between √½ and √2.
-  const Four::Bits bits = asBits(x), rootHalf = asBits(Four(0.70710678118654752));
-  const Four::Bits k = (bits - rootHalf) >> 52;
-  const Four f = asDouble(bits - (k << 52)) - 1.0;
-  const Four exponent = asDouble(k + asBits(Four(detail::integerShift))) - detail::integerShift;
+  const BitsIn bits(x), rootHalf(Four(0.70710678118654752)), shift{Four(detail::integerShift)};
+  const Four::Bits k = (bits.b - rootHalf.b) >> 52;
+  const Four f = Four(bits.b - (k << 52)) - 1.0;
+  const Four exponent = Four(k + shift.b) - detail::integerShift;
   const Four s = f / (2.0 + f), z = s * s, w = z * z;
   const Four even = w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01));
   const Four odd = z * (6.666666666666735130e-01 +
@@ -90,10 +88,8 @@ DOVETAIL_ALWAYS_INLINE Four log(const Four& x) {
 
 /// eˣ for |x| < 700, within two units in the last place; beyond it the ends' values. The rational approximation is that
 /// of FreeBSD's msun, e_exp.c.
-DOVETAIL_ALWAYS_INLINE Four exp(Four x) {
-  using detail::asBits;
-  using detail::asDouble;
-  x = wherePositive(x - 700.0, 700.0, x);
+DOVETAIL_ALWAYS_INLINE Four exp(const Four& exponent) {
+  Four x = wherePositive(exponent - 700.0, 700.0, exponent);
   x = wherePositive(-700.0 - x, -700.0, x);
   const Four shifted = x * 1.44269504088896338700 + detail::integerShift;
   const Four k = shifted - detail::integerShift;
@@ -105,7 +101,7 @@ DOVETAIL_ALWAYS_INLINE Four exp(Four x) {
            t * (-2.77777777770155933842e-03 +
                 t * (6.61375632143793436117e-05 + t * (-1.65339022054652515390e-06 + t * 4.13813679705723846039e-08))));
   const Four y = 1.0 - ((low - (r * c) / (2.0 - c)) - high);
-  return asDouble(asBits(y) + (asBits(shifted) << 52));
+  return Four(Four::BitsIn(y).b + (Four::BitsIn(shifted).b << 52));
 }
 
 /// x^p for x > 0.
