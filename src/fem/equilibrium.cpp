@@ -32,6 +32,23 @@ double product(std::span<const double> a, std::span<const double> b) {
   return sum;
 }
 
+/// F = 1 + ∂u/∂X is known to ε, however small ∂u/∂X is: as if every node were off by ε times its distance from the
+/// others. What that does to the forces, N.
+double strainResolution(const BlockMatrix& K, std::span<const Vec3> X) {
+  double squares = 0.0;
+  for (std::size_t n = 0; n < K.nodes(); ++n) {
+    double sum = 0.0;
+    for (int k = K.offsets()[n]; k < K.offsets()[n + 1]; ++k) {
+      const double* const block = &K.values()[9 * static_cast<std::size_t>(k)];
+      const double largest = *std::max_element(block, block + 9), least = *std::min_element(block, block + 9);
+      const Vec3& other = X[static_cast<std::size_t>(K.columns()[static_cast<std::size_t>(k)])];
+      sum += std::max(largest, -least) * norm(X[n] - other);
+    }
+    squares += sum * sum;
+  }
+  return std::numeric_limits<double>::epsilon() * std::sqrt(squares);
+}
+
 BlockMatrix patternOf(const Model& model) {
   Couplings couplings(model.nodes.X.size());
   for (const auto& term : model.terms) term->addCouplings(couplings);
@@ -79,8 +96,9 @@ double Equilibrium::evaluate(double t) {
   }
   dofs_.reduce(forces_, residual_);
   // Displacements are known to a relative ε, hence forces to no better than ε K u.
-  const double resolution =
+  const double ofDisplacement =
       2.0 * std::numeric_limits<double>::epsilon() * solver_.largestDiagonal() * normOf(model_.nodes.u);
+  const double resolution = std::max(ofDisplacement, ofStrain_);
   tolerance_ = options_.relativeTolerance * largest + options_.absoluteTolerance + resolution;
   assemblySeconds_ += since(start);
   return normOf(residual_);
@@ -90,6 +108,7 @@ bool Equilibrium::factor(double t) {
   const auto start = Clock::now();
   K_.setZero();
   for (const auto& term : model_.terms) term->addTangent(model_.nodes, {t, 0.0}, K_);
+  ofStrain_ = strainResolution(K_, model_.nodes.X);
   assemblySeconds_ += since(start);
   const auto middle = Clock::now();
   const bool done = solver_.factor(K_, symmetric());

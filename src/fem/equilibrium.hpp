@@ -42,7 +42,7 @@ private:
   BlockMatrix K_;
   std::vector<Vec3> forces_, loads_, scratch_;
   std::vector<double> residual_;
-  double tolerance_ = 0.0, assemblySeconds_ = 0.0, solverSeconds_ = 0.0;
+  double tolerance_ = 0.0, ofStrain_ = 0.0, assemblySeconds_ = 0.0, solverSeconds_ = 0.0;
 };
 
 void validate(const NewtonOptions& options);

@@ -7,7 +7,19 @@
 namespace dovetail::fem {
 namespace detail {
 
+/// Enough for stiffnessLeft > 0: λ s sᵀ is never negative, and no eigenvalue of C is below 1 − |C − 1|.
+bool surelyStiff(double lambda, double mu, const Tensor<double>& C) {
+  double doubleTrace = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const double strain = C[k] - (k % 4 == 0 ? 1.0 : 0.0);
+    squares += strain * strain;
+    if (k % 4 == 0) doubleTrace += strain;
+  }
+  return lambda >= 0.0 && squares < 0.4 && 0.5 * lambda * doubleTrace + mu * (2.0 - 3.0 * std::sqrt(squares)) > 0.0;
+}
+
 std::string StVenantKirchhoffLaw::whyInvalid(const double* F) const {
+  if (surelyStiff(lambda, mu, gram(asTensor(F)))) return {};
   if (stiffnessLeft(constants, F) > 0.0) return {};
   const Spectrum<double> C = spectrum(gram(asTensor(F)));
   std::string text = "St Venant-Kirchhoff is past its limit point at the stretches";

@@ -12,7 +12,8 @@
 namespace dovetail::fem {
 
 struct NewtonOptions {
-  /// Of the largest Euclidean norm of a term's forces. The resolution of those forces (ε K u) is added.
+  /// Of the largest Euclidean norm of a term's forces. The resolution of those forces (ε K u, and that of
+  /// strains, which are known to ε) is added.
   double relativeTolerance = 1e-9;
   double absoluteTolerance = 0.0;  ///< added to it, N
   int maxIterations = 25;          ///< per step
