@@ -187,8 +187,13 @@ std::array<double, 324> hybridStiffness(const BrickCorners& corners, const Corne
 }
 
 std::array<double, 576> elementTangent(const ElementBlock& block, const Nodes& nodes, std::size_t element) {
+  return elementTangent(block, nodes.u, element);
+}
+
+std::array<double, 576> elementTangent(const ElementBlock& block, std::span<const Vec3> displacement,
+                                       std::size_t element) {
   const auto& numbers = block.elements()[element];
-  const BrickCorners corners = cornersOf(numbers, block.X()), u = cornersOf(numbers, nodes.u);
+  const BrickCorners corners = cornersOf(numbers, block.X()), u = cornersOf(numbers, displacement);
   std::array<double, 576> result{};
   Eigen::Map<Eigen::Matrix<double, 24, 24, Eigen::RowMajor>> K(result.data());
   const CornerValues share = cornerValues(numbers, block.nodalWeight());

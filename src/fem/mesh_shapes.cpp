@@ -1,5 +1,6 @@
 #include "dovetail/fem/mesh_shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -40,6 +41,14 @@ void addLine(SolidMesh& mesh, const std::string& name, const std::string& side, 
     if (std::hypot(X.x - x, X.y - y) <= tolerance) found.push_back(n);
   }
   if (!found.empty()) mesh.nodeSets[name] = found;
+}
+
+/// A map of (0, 1) taken at the ends of n equal cells and linear within them: mid nodes stay in the middle, without
+/// which elements of second order do not hold quadratic fields.
+template <class Map>
+double cellwise(Map&& map, double s, int n) {
+  const double cell = std::min(std::floor(s * n + 1e-9), n - 1.0), share = s * n - cell;
+  return (1.0 - share) * map(cell / n) + share * map((cell + 1.0) / n);
 }
 
 /// The core of the O-grid under (x, y) in (−1, 1)²: a square whose sides bulge towards the circle, which keeps the
@@ -136,12 +145,19 @@ SolidMesh arcClampedBeam(CellShape shape, std::array<int, 3> cells, const ArcBea
   if (!(beam.end > beam.centre.x + beam.radius) || !std::isfinite(beam.end))
     throw InputError("the beam ends at x = " + formatNumber(beam.end) + " m, inside the cylinder", "arcClampedBeam",
                      "give more than " + formatNumber(beam.centre.x + beam.radius) + " m");
-  const double halfHeight = 0.5 * beam.height;
-  SolidMesh mesh =
-      mappedBox(shape, cells, {0.0, -halfHeight, 0.0}, {1.0, halfHeight, beam.thickness}, [&](const Vec3& p) {
-        const double root = beam.centre.x + std::sqrt(beam.radius * beam.radius - p.y * p.y);
-        return Vec3{root + p.x * (beam.end - root), beam.centre.y + p.y, beam.centre.z + p.z};
-      });
+  if (!(beam.grading >= 1.0 && beam.grading <= 1e6) || !(beam.sideGrading >= 0.0 && beam.sideGrading <= 0.9))
+    throw InputError("a grading is out of range", "arcClampedBeam", "give 1 to 1e6 along and 0 to 0.9 across");
+  const double growth = std::log(beam.grading);
+  const auto along = [&](double s) { return growth > 0.0 ? std::expm1(growth * s) / std::expm1(growth) : s; };
+  const auto across = [&](double s) {
+    const double sine = 0.5 - 0.5 * std::cos(std::numbers::pi * s);
+    return s + beam.sideGrading * (sine - s);
+  };
+  SolidMesh mesh = mappedBox(shape, cells, {}, {1.0, 1.0, beam.thickness}, [&](const Vec3& p) {
+    const double y = beam.height * (cellwise(across, p.y, cells[1]) - 0.5);
+    const double root = beam.centre.x + std::sqrt(beam.radius * beam.radius - y * y);
+    return Vec3{root + cellwise(along, p.x, cells[0]) * (beam.end - root), beam.centre.y + y, beam.centre.z + p.z};
+  });
   renameSides(mesh, {{"x-", "clamped"}});
   addLine(mesh, "tip", "x+", beam.end, beam.centre.y, 1e-9 * beam.height);
   return mesh;

@@ -54,7 +54,24 @@ NewmarkSolver::NewmarkSolver(const ElementBlock& block, const Nodes& nodes, doub
     freeRow_.push_back(nodes.fixed[dof / 3] >> dof % 3 & 1 ? -1 : rows++);
   }
   residual_.resize(static_cast<std::size_t>(rows));
-  if (options.consistentShare > 0.0) massCorrection_ = scaledCorrection(consistentMass(block), options.consistentShare);
+  if (options.consistentShare > 0.0) {
+    massCorrection_ = scaledCorrection(consistentMass(block), options.consistentShare);
+    listNodalMass();
+  }
+}
+
+/// The same for each component: one number per pair of nodes is enough for products.
+void NewmarkSolver::listNodalMass() {
+  nodalMass_.offsets.assign(1, 0);
+  for (std::size_t column = 0; column < mass_.size(); column += 3) {
+    for (int k = massCorrection_.offsets[column]; k < massCorrection_.offsets[column + 1]; ++k)
+      if (massCorrection_.row[k] % 3 == 0) {
+        nodalMass_.row.push_back(massCorrection_.row[k] / 3);
+        nodalMass_.value.push_back(massCorrection_.value[k]);
+      }
+    nodalMass_.offsets.push_back(static_cast<int>(nodalMass_.row.size()));
+  }
+  nodalMass_.size = static_cast<int>(mass_.size() / 3);
 }
 
 void NewmarkSolver::checkInput(const Nodes& nodes, std::span<const Vec3> externalForce) const {
@@ -106,9 +123,16 @@ void NewmarkSolver::evaluateForces(Nodes& nodes) const {
 }
 
 std::vector<double> NewmarkSolver::inertia(std::span<const double> field) const {
-  std::vector<double> result =
-      massCorrection_.size > 0 ? multiply(massCorrection_, field) : std::vector<double>(field.size(), 0.0);
-  for (std::size_t dof = 0; dof < field.size(); ++dof) result[dof] += mass_[dof] * field[dof];
+  std::vector<double> result(field.size());
+  for (std::size_t dof = 0; dof < field.size(); ++dof) result[dof] = mass_[dof] * field[dof];
+  for (std::size_t n = 0; n < static_cast<std::size_t>(nodalMass_.size); ++n) {
+    Vec3 sum;  // the matrix is symmetric: columns are rows
+    for (int k = nodalMass_.offsets[n]; k < nodalMass_.offsets[n + 1]; ++k) {
+      const double* const other = &field[3 * static_cast<std::size_t>(nodalMass_.row[k])];
+      sum += nodalMass_.value[k] * Vec3{other[0], other[1], other[2]};
+    }
+    for (int c = 0; c < 3; ++c) result[3 * n + static_cast<std::size_t>(c)] += sum[c];
+  }
   return result;
 }
 

@@ -62,7 +62,7 @@ detail::SolidCells cellsOf(const SolidMesh& mesh, const std::string& set) {
 }  // namespace
 
 const char* name(Formulation formulation) {
-  constexpr std::array names = {"standard", "mean dilatation", "enhanced", "reduced"};
+  constexpr std::array names = {"standard", "mean dilatation", "enhanced", "assumed stress", "reduced"};
   return names[static_cast<std::size_t>(formulation)];
 }
 
@@ -80,6 +80,8 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const Po
       return detail::makeMeanDilatationSolid(std::move(cells), std::move(material), options);
     case Formulation::enhanced:
       return detail::makeEnhancedSolid(std::move(cells), std::move(material), options);
+    case Formulation::assumedStress:
+      return detail::makeAssumedStressSolid(std::move(cells), std::move(material), options);
     case Formulation::reduced:
       requireNonNegative(options.hourglassShare, "hourglassShare");
       return detail::makeReducedSolid(std::move(cells), std::move(material), options);

@@ -1,5 +1,7 @@
 // Set-up of the batches, and the parallel assembly of their matrices.
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -54,7 +56,7 @@ void SolidBase::listEntries() {
   for (std::size_t e = 0; e < cells_.size(); ++e)
     for (std::size_t a = 0; a < n; ++a)
       nodeEntries_[next[static_cast<std::size_t>(cells_.node[n * e + a])]++] =
-          ((e / laneCount) * n + a) * laneCount + e % laneCount;
+          3 * ((e / laneCount) * n + a) * laneCount + e % laneCount;
 }
 
 /// Greedy: the first colour that none of the batch's nodes has.
@@ -155,28 +157,62 @@ void SolidBase::addConsistentMass(BlockMatrix& M) const {
 }
 
 /// Row sums, or for hex20 and tet10, whose row sums are negative at corners, the diagonal scaled to the element's mass
-/// (Hinton, Rock & Zienkiewicz 1976).
-void SolidBase::addMass(std::span<double> mass) const {
+/// (Hinton, Rock & Zienkiewicz 1976); kg per node of an element.
+std::vector<double> SolidBase::elementMasses(std::size_t element, const CellRule& rule,
+                                             std::span<const PointGeometry> geometry) const {
   const std::size_t n = cells_.nodes;
   const bool scaled = cells_.shape == CellShape::hex20 || cells_.shape == CellShape::tet10;
+  std::vector<double> share(n, 0.0);
+  double volume = 0.0, sum = 0.0;
+  for (std::size_t q = 0; q < rule.point.size(); ++q) {
+    const double weight = geometry[element / laneCount * rule.point.size() + q].weight[element % laneCount];
+    volume += weight;
+    for (std::size_t a = 0; a < n; ++a) {
+      const double value = rule.value[n * q + a];
+      share[a] += weight * (scaled ? value * value : value);
+    }
+  }
+  for (const double value : share) sum += value;
+  for (double& value : share) value *= material_->density() * (volume / sum);
+  return share;
+}
+
+void SolidBase::addMass(std::span<double> mass) const {
+  const std::size_t n = cells_.nodes;
   const CellRule& rule = massRule(cells_.shape);
   const std::vector<PointGeometry> geometry = geometryAt(cells_, rule);
-  std::vector<double> share(n);
   for (std::size_t e = 0; e < cells_.size(); ++e) {
-    std::fill(share.begin(), share.end(), 0.0);
-    double volume = 0.0, sum = 0.0;
-    for (std::size_t q = 0; q < rule.point.size(); ++q) {
-      const double weight = geometry[e / laneCount * rule.point.size() + q].weight[e % laneCount];
-      volume += weight;
-      for (std::size_t a = 0; a < n; ++a) {
-        const double value = rule.value[n * q + a];
-        share[a] += weight * (scaled ? value * value : value);
+    const std::vector<double> own = elementMasses(e, rule, geometry);
+    for (std::size_t a = 0; a < n; ++a) mass[static_cast<std::size_t>(cells_.node[n * e + a])] += own[a];
+  }
+}
+
+StableStep SolidBase::stableStep(const Nodes& nodes) {
+  requireSameNodes(nodes);
+  startHistory();
+  const std::size_t n = cells_.nodes, size = 3 * n;
+  const CellRule& rule = massRule(cells_.shape);
+  const std::vector<PointGeometry> geometry = geometryAt(cells_, rule);
+  std::vector<double> largest(cells_.size());
+  parallelFor(cells_.batches(), 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<Lane> matrix(size * size);
+    Eigen::MatrixXd K(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
+    for (std::size_t b = begin; b < end; ++b) {
+      tangent(taskOf(b, nodes, {}), matrix.data());
+      for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane) {
+        const std::size_t e = laneCount * b + lane;
+        const std::vector<double> mass = elementMasses(e, rule, geometry);
+        for (std::size_t r = 0; r < size; ++r)
+          for (std::size_t c = 0; c < size; ++c)
+            K(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
+                0.5 * (matrix[size * r + c][static_cast<int>(lane)] + matrix[size * c + r][static_cast<int>(lane)]) /
+                std::sqrt(mass[r / 3] * mass[c / 3]);
+        largest[e] = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues().tail(1)[0];
       }
     }
-    for (const double value : share) sum += value;
-    for (std::size_t a = 0; a < n; ++a)
-      mass[static_cast<std::size_t>(cells_.node[n * e + a])] += material_->density() * share[a] * (volume / sum);
-  }
+  });
+  const auto worst = std::max_element(largest.begin(), largest.end());
+  return {2.0 / std::sqrt(*worst), cells_.number[static_cast<std::size_t>(worst - largest.begin())]};
 }
 
 }  // namespace dovetail::fem::detail

@@ -17,10 +17,6 @@ constexpr std::size_t parallelNodes = 4096;  // below this many nodes of batches
 
 double sumOfLanes(const Lane& lane) { return (lane[0] + lane[1]) + (lane[2] + lane[3]); }
 
-Lane determinantOf(const Lane* F) {
-  return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
-}
-
 }  // namespace
 
 SolidBase::SolidBase(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options)
@@ -96,17 +92,23 @@ void SolidBase::addAll(const Nodes& nodes, const Instant& now, const Vec3* start
     }
     return;
   }
-  results_.resize(count);
+  const std::size_t size = 3 * perBatch;
+  results_.resize(count * size);
   parallelFor(count, batchGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) body(b, results_[b]);
+    BatchResult result;
+    for (std::size_t b = begin; b < end; ++b) {
+      body(b, result);
+      std::copy_n(result.f.begin(), size, results_.begin() + static_cast<std::ptrdiff_t>(b * size));
+    }
   });
+  const auto* const values = reinterpret_cast<const double*>(results_.data());
   parallelFor(f.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
       for (std::uint32_t k = nodeOffsets_[n]; k < nodeOffsets_[n + 1]; ++k) {
-        const std::uint64_t entry = nodeEntries_[k], lane = entry % laneCount, place = entry / laneCount;
-        const BatchResult& result = results_[place / perBatch];
-        const std::size_t a = place % perBatch;
-        for (int i = 0; i < 3; ++i) f[n][i] -= result.f[3 * a + static_cast<std::size_t>(i)][static_cast<int>(lane)];
+        const double* const value = values + nodeEntries_[k];
+        f[n].x -= value[0];
+        f[n].y -= value[laneCount];
+        f[n].z -= value[2 * laneCount];
       }
   });
 }
@@ -161,15 +163,16 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when) const 
   std::vector<Lane> F(9 * points());
   for (std::size_t b = 0; b < cells_.batches(); ++b) {
     deformation({b, nodes.u.data(), nullptr, 0.0, false, false}, F.data());
-    for (std::size_t q = 0; q < points(); ++q) {
-      const Lane J = determinantOf(&F[9 * q]);
+    for (std::size_t q = 0; q < points(); ++q)
       for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane) {
-        if (J[lane] > 0.0) continue;
+        std::array<double, 9> here;
+        for (std::size_t k = 0; k < 9; ++k) here[k] = F[9 * q + k][lane];
+        const std::string reason = material_->whyInvalid(here.data());
+        if (reason.empty()) continue;
         throw NumericalError("element " + std::to_string(cells_.number[laneCount * b + lane]) + " of \"" +
-                                 options_.name + "\" is inverted (det F = " + formatNumber(J[lane]) + ")",
+                                 options_.name + "\": " + reason,
                              when, "take a smaller step, a finer mesh or a smaller load");
       }
-    }
   }
 }
 

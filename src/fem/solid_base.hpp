@@ -75,6 +75,7 @@ public:
   std::size_t size() const override { return cells_.size(); }
   std::size_t memory() const override;
   const PointMaterial& material() const override { return *material_; }
+  StableStep stableStep(const Nodes& nodes) override;
   int number(std::size_t e) const override { return cells_.number[e]; }
   Sample sample(const Nodes& nodes, const Instant& now) override;
 
@@ -99,6 +100,8 @@ protected:
   std::vector<PointGeometry> geometry_;
 
 private:
+  std::vector<double> elementMasses(std::size_t element, const CellRule& rule,
+                                    std::span<const PointGeometry> geometry) const;
   BatchTask taskOf(std::size_t batch, const Nodes& nodes, const Instant& now, const Vec3* start = nullptr) const;
   void addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f);
   void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, BlockMatrix& K);
@@ -110,15 +113,16 @@ private:
   void scatter(std::size_t batch, const Lane* matrix, BlockMatrix& K) const;
 
   std::vector<double> history_, newHistory_;
-  std::vector<BatchResult> results_;                 // for more than one thread
-  std::vector<std::uint32_t> nodeOffsets_;           // entries of each node in results_, ascending elements
-  std::vector<std::uint64_t> nodeEntries_;           // ((batch · nodes + a) · 4 + lane)
+  std::vector<Lane> results_;               // forces of all batches, [3 nodes b + 3 a + i], for more than one thread
+  std::vector<std::uint32_t> nodeOffsets_;  // entries of each node in results_, ascending elements
+  std::vector<std::uint64_t> nodeEntries_;  // place of their first component, in doubles
   std::vector<std::vector<std::uint32_t>> colours_;  // batches of a colour share no node
   std::vector<std::uint32_t> places_;                // of the blocks (a, b) of each element in a matrix
   std::size_t placesOf_ = 0;                         // its pattern
 };
 
 std::shared_ptr<Solid> makeStandardSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
+std::shared_ptr<Solid> makeAssumedStressSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
 std::shared_ptr<Solid> makeMeanDilatationSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
 std::shared_ptr<Solid> makeEnhancedSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
 std::shared_ptr<Solid> makeReducedSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);

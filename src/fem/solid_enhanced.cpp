@@ -1,6 +1,6 @@
-// hex8 with enhanced deformation gradient: F = F_u + F₀ Ĥ, Ĥ = Σ α_ij (j₀/j) ξ_i p_i ⊗ q_j with p_i = J₀ e_i, q_j =
-// J₀⁻ᵀ e_j, F₀ that of the displacements at the centre (Glaser & Armero 1997, transposed Wilson modes). U = min over α
-// of ∫W(F): α is solved for in every element, so force and tangent are the derivatives of U.
+// hex8 with enhanced deformation gradient: F = F_u + F₀ Ĥ, Ĥ = Σ α_ij (j₀/j) ξ_i q_i ⊗ q_j with q_j = J₀⁻ᵀ e_j and F₀
+// that of the displacements at the centre (Glaser & Armero 1997, transposed Wilson modes). U = min over α of ∫W(F): α is
+// solved for in every element, so force and tangent are the derivatives of U.
 #include <cmath>
 #include <limits>
 
@@ -21,7 +21,7 @@ using Tensors = std::array<Lane, 9 * Q>;
 using Modes = std::array<Lane, M>;
 
 struct alignas(laneBytes) EnhancedGeometry {
-  std::array<Lane, 9> J0, map0;      ///< ∂X/∂ξ and its inverse at the centre
+  std::array<Lane, 9> map0, left;    ///< J₀⁻¹ = ∂ξ/∂X at the centre, J₀⁻ᵀ
   std::array<Lane, Q> ratio;         ///< j₀/j
   std::array<Lane, 3 * N> gradient;  ///< ∂ψ_a/∂X at the centre, [3 a + J]
 };
@@ -29,7 +29,7 @@ struct alignas(laneBytes) EnhancedGeometry {
 /// State of a batch at given u and α.
 struct State {
   Tensors F, P;
-  Lane F0[9], F0J0[9];      ///< F₀; F₀ J₀
+  Lane F0[9], F0left[9];    ///< F₀; F₀ J₀⁻ᵀ
   Lane enhancement[9 * Q];  ///< Ĥ
 };
 
@@ -89,7 +89,10 @@ private:
   void setGeometry(std::size_t b, const PointGeometry& centre) {
     EnhancedGeometry& g = enhanced_[b];
     g.map0 = centre.map;
-    const Lane inverseJ0 = inverseOf(centre.map.data(), g.J0.data());
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t i = 0; i < 3; ++i) g.left[3 * r + i] = g.map0[3 * i + r];
+    Lane J0[9];
+    const Lane inverseJ0 = inverseOf(centre.map.data(), J0);
     for (std::size_t q = 0; q < Q; ++q) {
       Lane unused[9];
       g.ratio[q] = inverseOf(point(b, q).map.data(), unused) / inverseJ0;
@@ -109,7 +112,7 @@ private:
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t J = 0; J < 3; ++J) s.F0[3 * i + J] += U[3 * a + i] * g.gradient[3 * a + J];
     addIdentity(s.F0);
-    multiply(s.F0, g.J0.data(), s.F0J0);
+    multiply(s.F0, g.left.data(), s.F0left);
     for (std::size_t q = 0; q < Q; ++q) {
       Lane *const F = &s.F[9 * q], *const H = s.enhancement + 9 * q;
       displacementGradient<N>(U, gradients(q), point(b, q).map, F);
@@ -119,7 +122,7 @@ private:
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) parent[3 * i + j] = g.ratio[q] * xi[static_cast<int>(i)] * alpha[3 * i + j];
       Lane half[9], change[9];
-      multiply(g.J0.data(), parent, half);
+      multiply(g.left.data(), parent, half);
       multiply(half, g.map0.data(), H);
       multiply(s.F0, H, change);
       for (std::size_t k = 0; k < 9; ++k) F[k] += change[k];
@@ -132,12 +135,12 @@ private:
         result[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
   }
 
-  /// ∂F/∂α_ij at a point: column i of F₀J₀ times row j of J₀⁻¹, scaled.
+  /// ∂F/∂α_ij at a point: column i of F₀J₀⁻ᵀ times row j of J₀⁻¹, scaled.
   void modeTensor(const EnhancedGeometry& g, const State& s, std::size_t q, std::size_t mode, Lane* B) const {
     const std::size_t i = mode / 3, j = mode % 3;
     const Lane scale = g.ratio[q] * rule_->point[q][static_cast<int>(i)];
     for (std::size_t r = 0; r < 3; ++r)
-      for (std::size_t J = 0; J < 3; ++J) B[3 * r + J] = scale * s.F0J0[3 * r + i] * g.map0[3 * j + J];
+      for (std::size_t J = 0; J < 3; ++J) B[3 * r + J] = scale * s.F0left[3 * r + i] * g.map0[3 * j + J];
   }
 
   /// r_m = Σ weight P : ∂F/∂α_m, and what of it counts as zero.
@@ -335,7 +338,7 @@ private:
       const EnhancedGeometry& e = enhanced_[task.batch];
       for (std::size_t r = 0; r < 3; ++r)
         for (std::size_t J = 0; J < 3; ++J)
-          G[3 * r + J] = e.ratio[q] * rule_->point[q][static_cast<int>(i0)] * e.J0[3 * r + i0] * e.map0[3 * j0 + J];
+          G[3 * r + J] = e.ratio[q] * rule_->point[q][static_cast<int>(i0)] * e.left[3 * r + i0] * e.map0[3 * j0 + J];
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k)
           geometric[3 * i + k] = s.P[9 * q + 3 * i] * G[3 * k] + s.P[9 * q + 3 * i + 1] * G[3 * k + 1] +

@@ -8,6 +8,8 @@
 #include "brick.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/fem/block_matrix.hpp"
+#include "dovetail/fem/solid.hpp"
 
 namespace dovetail::fem {
 
@@ -56,14 +58,7 @@ public:
     for (std::size_t i = 0; i < y.size(); ++i) result[static_cast<Eigen::Index>(i)] = scale_[i] * y[i];
     return result;
   }
-  Eigen::VectorXd start() const {
-    Eigen::VectorXd x(static_cast<Eigen::Index>(scale_.size()));
-    for (std::size_t i = 0; i < scale_.size(); ++i)
-      x[static_cast<Eigen::Index>(i)] =
-          scale_[i] > 0.0 ? std::sin(1.0 + 1.7 * static_cast<double>(i * i % 10007)) : 0.0;
-    x /= x.norm();
-    return x;
-  }
+  Eigen::VectorXd start() const;
 
 private:
   SparseMatrix K_;
@@ -95,10 +90,11 @@ StableStep stableStep(const ElementBlock& block) {
   return limit;
 }
 
-double assembledStableStep(const ElementBlock& block, const Nodes& nodes, double accuracy) {
-  requirePositive(accuracy, "accuracy");
-  requireMass(nodes);
-  const ScaledStiffness A(block, nodes);
+namespace {
+
+/// 2/ω of the largest eigenvalue ω² of A by Lanczos' iteration with full orthogonalisation.
+template <class Operator>
+double stepByLanczos(const Operator& A, double accuracy) {
   std::vector<Eigen::VectorXd> basis{A.start()};
   std::vector<double> diagonal, offDiagonal;
   constexpr std::size_t maxSteps = 400;
@@ -120,6 +116,86 @@ double assembledStableStep(const ElementBlock& block, const Nodes& nodes, double
   }
   throw NumericalError("the Lanczos iteration did not settle in 400 steps", "assembledStableStep",
                        "ask for less accuracy, or use stableStep");
+}
+
+/// A start vector that no symmetry of a mesh is orthogonal to.
+Eigen::VectorXd startVector(const std::vector<double>& scale) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(scale.size()));
+  for (std::size_t i = 0; i < scale.size(); ++i)
+    x[static_cast<Eigen::Index>(i)] = scale[i] > 0.0 ? std::sin(1.0 + 1.7 * static_cast<double>(i * i % 10007)) : 0.0;
+  return x / x.norm();
+}
+
+/// M^(−½) TᵀKT M^(−½) of a model, M the row sums of Tᵀ(lumped mass)T.
+class ScaledModel {
+public:
+  ScaledModel(Model& model, const Instant& now)
+      : dofs_(model.constraints, model.nodes),
+        K_(patternOf(model)),
+        full_(model.nodes.X.size()),
+        pushed_(full_.size()) {
+    for (const auto& term : model.terms) term->addTangent(model.nodes, now, K_);
+    scale_.resize(dofs_.size());
+    std::vector<double> mass(dofs_.size());
+    for (std::size_t i = 0; i < mass.size(); ++i)
+      mass[i] = model.nodes.mass[static_cast<std::size_t>(dofs_.freeDofs()[i] / 3)];
+    for (const Tie& tie : dofs_.ties())
+      for (const Tie::Master& master : tie.masters)
+        mass[static_cast<std::size_t>(dofs_.freeRow()[static_cast<std::size_t>(3 * master.node + master.component)])] +=
+            master.factor * model.nodes.mass[static_cast<std::size_t>(tie.node)];
+    for (std::size_t i = 0; i < mass.size(); ++i) scale_[i] = 1.0 / std::sqrt(mass[i]);
+  }
+  Eigen::VectorXd operator()(const Eigen::VectorXd& x) const {
+    std::vector<double> scaled(scale_.size());
+    for (std::size_t i = 0; i < scaled.size(); ++i) scaled[i] = scale_[i] * x[static_cast<Eigen::Index>(i)];
+    std::fill(full_.begin(), full_.end(), Vec3{});
+    dofs_.addIncrement(scaled, full_);
+    K_.multiply(full_, pushed_);
+    dofs_.reduce(pushed_, scaled);
+    Eigen::VectorXd result(x.size());
+    for (std::size_t i = 0; i < scaled.size(); ++i) result[static_cast<Eigen::Index>(i)] = scale_[i] * scaled[i];
+    return result;
+  }
+  Eigen::VectorXd start() const { return startVector(scale_); }
+
+private:
+  static BlockMatrix patternOf(const Model& model) {
+    Couplings couplings(model.nodes.X.size());
+    for (const auto& term : model.terms) term->addCouplings(couplings);
+    return BlockMatrix(std::move(couplings));
+  }
+  DofMap dofs_;
+  BlockMatrix K_;
+  std::vector<double> scale_;
+  mutable std::vector<Vec3> full_, pushed_;
+};
+
+}  // namespace
+
+Eigen::VectorXd ScaledStiffness::start() const { return startVector(scale_); }
+
+double assembledStableStep(const ElementBlock& block, const Nodes& nodes, double accuracy) {
+  requirePositive(accuracy, "accuracy");
+  requireMass(nodes);
+  return stepByLanczos(ScaledStiffness(block, nodes), accuracy);
+}
+
+double assembledStableStep(Model& model, double accuracy) {
+  requirePositive(accuracy, "accuracy");
+  requireMass(model.nodes);
+  return stepByLanczos(ScaledModel(model, {model.t, 0.0}), accuracy);
+}
+
+ModelStableStep stableStep(Model& model) {
+  ModelStableStep limit{0.0, -1, {}};
+  for (const auto& term : model.terms)
+    if (auto* const solid = dynamic_cast<Solid*>(term.get())) {
+      const StableStep own = solid->stableStep(model.nodes);
+      if (limit.element < 0 || own.dt < limit.dt) limit = {own.dt, own.element, solid->name()};
+    }
+  if (limit.element < 0)
+    throw InputError("the model has no solid", "stableStep", "add one with makeSolid, or ask assembledStableStep");
+  return limit;
 }
 
 }  // namespace dovetail::fem

@@ -86,5 +86,8 @@ SparseMatrix tangent(const ElementBlock& block, const Nodes& nodes);
 
 /// Row-major 24 × 24 tangent of one element, rows 3a + c for its node a, N/m.
 std::array<double, 576> elementTangent(const ElementBlock& block, const Nodes& nodes, std::size_t element);
+/// The same from the displacements of all nodes, m.
+std::array<double, 576> elementTangent(const ElementBlock& block, std::span<const Vec3> displacement,
+                                       std::size_t element);
 
 }  // namespace dovetail::fem

@@ -51,9 +51,13 @@ struct ArcBeam {
   double height = 0.02;           ///< of the beam, m; its middle line is at the height of the centre
   double end = 0.6;               ///< x of the free end, m
   double thickness = 0.01;        ///< along z, m
+  /// ≥ 1: cells grow geometrically along the beam, by this factor from the root to the end.
+  double grading = 1.0;
+  /// 0 to 0.9: share of cosine spacing across, which makes cells smaller at the upper and lower side.
+  double sideGrading = 0.0;
 };
 /// @param cells  along the beam, across it, and along z
-/// @throws InputError if the beam is not thinner than the cylinder or ends inside it
+/// @throws InputError if the beam is not thinner than the cylinder or ends inside it, or a grading is out of range
 SolidMesh arcClampedBeam(CellShape shape, std::array<int, 3> cells, const ArcBeam& beam = {});
 
 }  // namespace dovetail::fem

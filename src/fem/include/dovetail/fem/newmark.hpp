@@ -56,6 +56,7 @@ public:
 
 private:
   void checkInput(const Nodes& nodes, std::span<const Vec3> externalForce) const;
+  void listNodalMass();
   void factorAt(const Nodes& nodes);
   void evaluateForces(Nodes& nodes) const;
   std::vector<double> inertia(std::span<const double> field) const;
@@ -70,6 +71,7 @@ private:
   NewmarkOptions options_;
   std::vector<double> mass_;     // per dof
   SparseMatrix massCorrection_;  // share · (M_consistent − its row sums); empty if lumped
+  SparseMatrix nodalMass_;       // the same per node
   std::vector<int> freeRow_;     // per dof: row among the free ones, −1 if held
   SparseCholesky cholesky_;
   bool factored_ = false;

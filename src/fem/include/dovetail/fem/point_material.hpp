@@ -3,8 +3,11 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+
+#include "dovetail/fem/materials.hpp"
 
 namespace dovetail::fem {
 
@@ -46,6 +49,8 @@ public:
   virtual bool isElastic() const { return historySize() == 0; }
   /// Whether the tangent has the symmetry (iJ)(kL); if not, solvers factorise without it.
   virtual bool isSymmetric() const { return true; }
+  /// The law, if it is one that the hand-written kernels of bricks know (elements.hpp).
+  virtual std::optional<Material> brickLaw() const { return {}; }
   /// A NaN in the stress means that the law has no answer for F; elements report the point.
   virtual void evaluate(const PointBatch& batch) const = 0;
   /// Why the answer for F (nine numbers, row-major) cannot be trusted, and what to do; empty if it can. Says more than

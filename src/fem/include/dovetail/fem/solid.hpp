@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/fem/critical_element.hpp"
 #include "dovetail/fem/point_material.hpp"
 #include "dovetail/fem/solid_mesh.hpp"
 #include "dovetail/fem/term.hpp"
@@ -21,6 +22,9 @@ enum class Formulation {
   /// F_u + F_α. Bends without locking and does not lock as ν → ½; the transposition takes away the hourglass modes in
   /// compression of the older enhanced bricks.
   enhanced,
+  /// hex8 and StVenantKirchhoff only: assumed stress (hybrid8 of elements.hpp; Pian & Tong 1986). As exact in bending
+  /// as `enhanced` for a tenth of the time. Samples show the stress of the displacements, not the assumed one.
+  assumedStress,
   /// hex8 only: one point and hourglass stiffness; its energy is reported on its own.
   reduced
 };
@@ -42,6 +46,9 @@ public:
   virtual const PointMaterial& material() const = 0;
   /// Energy in hourglass stiffness alone, J (part of energy()).
   virtual double hourglassEnergy(const Nodes&) { return 0.0; }
+  /// 2/ω of the stiffest single element at the present displacement, with its lumped mass: never above the limit of the
+  /// assembled solid. Names the element by its number in the mesh.
+  virtual StableStep stableStep(const Nodes& nodes) = 0;
   /// Number in the mesh of element e.
   virtual int number(std::size_t e) const = 0;
 

@@ -1,14 +1,11 @@
 // The largest stable step of the explicit integrator.
 #pragma once
 
+#include "dovetail/fem/critical_element.hpp"
 #include "dovetail/fem/elements.hpp"
+#include "dovetail/fem/model.hpp"
 
 namespace dovetail::fem {
-
-struct StableStep {
-  double dt;    ///< s
-  int element;  ///< the one that sets the limit
-};
 
 /// 2/ω of the stiffest single element (its tangent at rest, its lumped mass): never above the limit of the assembled
 /// mesh at small displacement, because the largest eigenvalue of an assembly is bounded by that of its parts.
@@ -19,5 +16,18 @@ StableStep stableStep(const ElementBlock& block);
 /// @param accuracy  relative, of ω²
 /// @throws NumericalError if it does not settle within 400 iterations; InputError for nodes without mass
 double assembledStableStep(const ElementBlock& block, const Nodes& nodes, double accuracy = 1e-4);
+
+/// The same for a model, and who sets it.
+struct ModelStableStep {
+  double dt;          ///< s
+  int element;        ///< number in its mesh
+  std::string solid;  ///< name of its term
+};
+/// 2/ω of the stiffest single element of all solids at the present displacement, with its lumped mass. Never above the
+/// limit of the assembled solids; springs and contact planes are not looked at (assembledStableStep does).
+/// @throws InputError if the model has no solid
+ModelStableStep stableStep(Model& model);
+/// 2/ω of all terms and constraints at the present state by Lanczos' iteration, as above.
+double assembledStableStep(Model& model, double accuracy = 1e-4);
 
 }  // namespace dovetail::fem

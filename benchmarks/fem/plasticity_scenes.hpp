@@ -1,0 +1,71 @@
+// Bodies of plastic metal with known limits: a thick tube under pressure and a bar that necks.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "dovetail/fem/plasticity.hpp"
+#include "dovetail/fem/solid.hpp"
+
+namespace dovetail::fem {
+
+/// A tube held in plane strain whose bore is pushed outwards, perfectly plastic, with so small an elastic strain that
+/// the geometry does not change. Bore 1 m, outer radius 2 m.
+struct Tube {
+  static constexpr double inner = 1.0, outer = 2.0, young = 1e12, yieldStress = 1e8;
+  CellShape shape = CellShape::hex8;
+  Formulation formulation = Formulation::meanDilatation;
+  double poissonRatio = 0.3;
+  int radial = 10, around = 6;  ///< cells; one in z
+  int steps = 12;
+
+  /// (2/√3) σ_y ln(b/a), Pa: the limit of the pressure (Hill 1950, The Mathematical Theory of Plasticity, ch. V).
+  static double limitPressure();
+};
+
+struct TubeResult {
+  std::vector<double> displacement;  ///< of the bore, m
+  std::vector<double> pressure;      ///< on it, Pa
+  std::int64_t iterations;
+  double seconds;
+};
+TubeResult pressurise(const Tube& tube);
+
+/// The necking bar of Simo & Hughes (Computational Inelasticity, 1998, section 9.3; Simo 1988, Comput. Methods Appl.
+/// Mech. Engng 68): one eighth of it, the middle section in z = 0, 1.8 % thinner there.
+struct NeckingBar {
+  static constexpr double radius = 6.413e-3, halfLength = 26.667e-3, thinning = 0.018;  // m
+  Formulation formulation = Formulation::meanDilatation;
+  int across = 2, around = 2, along = 10;  ///< cells of the core of the O-grid, of its rim, and along the half length
+  double elongation = 7e-3;                ///< of the half length, m
+  double largestStep = 0.25e-3;            ///< m
+
+  static J2Plasticity material();
+  /// Greatest force of an even bar of the nominal section, N: A₀ max σ_y(a) e^(−ε) (Considère 1885).
+  static double considereForce();
+};
+
+struct NeckingStep {
+  double elongation;     ///< of the half length, m
+  double force;          ///< on the whole section, N
+  double neckRadius;     ///< m
+  double neckCurve;      ///< 1/m: curvature of the profile there
+  double flowStress;     ///< σ_y in the neck, averaged over its section, Pa
+  double deepestStrain;  ///< largest accumulated plastic strain
+};
+struct NeckingResult {
+  std::vector<NeckingStep> steps;
+  std::size_t cells;
+  std::int64_t iterations;
+  int cuts;
+  double seconds;
+  double energyResidual;  ///< share of the work
+};
+NeckingResult stretch(const NeckingBar& bar);
+
+/// Force over area and flow stress in a neck of radius a and curvature 1/R: (1 + 2R/a) ln(1 + a/2R)
+/// (Bridgman 1952, Studies in Large Plastic Flow and Fracture).
+double bridgmanFactor(double radius, double curvature);
+
+}  // namespace dovetail::fem

@@ -1,0 +1,153 @@
+// Time of what a step of a solid consists of: forces and tangent per element, and implicit steps of two beams.
+//
+// usage: fem_speed [--threads N] [--beams] [--elements]
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/block_matrix.hpp"
+#include "dovetail/fem/model.hpp"
+#include "dovetail/fem/newmark.hpp"
+#include "dovetail/fem/point_laws.hpp"
+#include "dovetail/fem/solid.hpp"
+
+namespace {
+
+using namespace dovetail;
+using namespace dovetail::fem;
+
+/// Median time of `samples` calls, s, after one that is not counted.
+double median(int samples, const std::function<void()>& call) {
+  call();
+  std::vector<double> seconds;
+  for (int s = 0; s < samples; ++s) {
+    const auto start = std::chrono::steady_clock::now();
+    call();
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + samples / 2, seconds.end());
+  return seconds[static_cast<std::size_t>(samples / 2)];
+}
+
+struct Kind {
+  CellShape shape;
+  Formulation formulation;
+  std::array<int, 3> cells;
+};
+
+void bend(Nodes& nodes) {
+  for (std::size_t n = 0; n < nodes.X.size(); ++n) {
+    const Vec3& X = nodes.X[n];
+    nodes.u[n] = 1e-3 * Vec3{std::sin(3.0 * X.z), std::cos(2.0 * X.z), std::sin(X.x)};
+  }
+}
+
+void timeElements(int threadCount) {
+  const std::vector<Kind> kinds = {{CellShape::hex8, Formulation::standard, {10, 10, 150}},
+                                   {CellShape::hex8, Formulation::assumedStress, {10, 10, 150}},
+                                   {CellShape::hex8, Formulation::enhanced, {10, 10, 150}},
+                                   {CellShape::hex8, Formulation::meanDilatation, {10, 10, 150}},
+                                   {CellShape::hex8, Formulation::reduced, {10, 10, 150}},
+                                   {CellShape::hex20, Formulation::standard, {5, 5, 75}},
+                                   {CellShape::hex27, Formulation::standard, {5, 5, 75}},
+                                   {CellShape::tet4, Formulation::standard, {10, 10, 50}},
+                                   {CellShape::tet10, Formulation::standard, {5, 5, 40}}};
+  std::printf("%-6s %-16s %-22s %8s | forces, ns: 1 thread, %d, ratio | tangent, ns: 1 thread, %d, ratio | bytes\n",
+              "shape", "formulation", "law", "elements", threadCount, threadCount);
+  for (const Kind& kind : kinds)
+    for (const bool rubber : {false, true}) {
+      if (rubber && kind.formulation == Formulation::assumedStress) continue;
+      const SolidMesh mesh = boxOf(kind.shape, kind.cells, {}, {1.0, 1.0, 15.0});
+      const auto law = rubber ? pointMaterial(neoHookean(1e6, 0.3, 1000.0))
+                              : pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0}));
+      const auto solid = makeSolid(mesh, law, {.formulation = kind.formulation});
+      Model model = makeModel(mesh);
+      bend(model.nodes);
+      Couplings couplings(mesh.X.size());
+      solid->addCouplings(couplings);
+      BlockMatrix K(std::move(couplings));
+      double forces[2], tangent[2];
+      for (int run = 0; run < 2; ++run) {
+        setThreads(run == 0 ? 1 : threadCount);
+        const double scale = 1e9 / static_cast<double>(solid->size());
+        forces[run] = scale * median(15, [&] { solid->addForces(model.nodes, {}, model.nodes.f); });
+        tangent[run] = scale * median(5, [&] { solid->addTangent(model.nodes, {}, K); });
+      }
+      std::printf("%-6s %-16s %-22s %8zu | %8.1f %8.1f %5.2f | %9.0f %9.0f %5.2f | %.0f\n", name(kind.shape),
+                  name(kind.formulation), law->name().c_str(), solid->size(), forces[0], forces[1],
+                  forces[0] / forces[1], tangent[0], tangent[1], tangent[0] / tangent[1],
+                  static_cast<double>(solid->memory()) / static_cast<double>(solid->size()));
+    }
+}
+
+/// Implicit steps of a cantilever under a sudden force at its tip: E 1 MPa, ν 0.3, ρ 1000 kg/m³, width 1 m.
+void timeBeam(std::array<int, 3> cells, ElementType type, double tolerance, int steps) {
+  const double length = static_cast<double>(cells[2]) / cells[0];
+  const Mesh mesh = boxMesh(cells, {}, {1.0, 1.0, length});
+  const ElementBlock block = makeElements(mesh, type, StVenantKirchhoff{1e6, 0.3, 1000.0});
+  Nodes nodes = makeNodes(mesh);
+  addLumpedMass(block, nodes);
+  fix(nodes, nodeSet(mesh, "z-"));
+  std::vector<Vec3> load(mesh.X.size());
+  const std::vector<int>& tip = nodeSet(mesh, "z+");
+  for (const int node : tip) load[static_cast<std::size_t>(node)].x = 2000.0 / static_cast<double>(tip.size());
+  NewmarkSolver solver(block, nodes, 1e-2, {.consistentShare = 1.0, .relativeTolerance = tolerance});
+  std::vector<double> seconds;
+  int iterations = 0;
+  double atTen = 0.0;
+  for (int step = 0; step < steps; ++step) {
+    const auto start = std::chrono::steady_clock::now();
+    iterations += solver.step(nodes, load).iterations;
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    if (step == 9) atTen = nodes.u[static_cast<std::size_t>(tip[0])].x;
+  }
+  double total = 0.0;
+  for (const double s : seconds) total += s;
+  std::vector<double> sorted(seconds.begin() + 1, seconds.end());
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  std::printf(
+      "beam %dx%dx%d %s tolerance %.0e: mean %.3f ms/step, median %.3f ms, first %.1f ms, %.1f iterations, %lld "
+      "factorisations, tip u_x after 10 steps %.6e m\n",
+      cells[0], cells[1], cells[2], type == ElementType::hex8 ? "hex8" : "hybrid8", tolerance,
+      1e3 * total / static_cast<double>(steps), 1e3 * sorted[sorted.size() / 2], 1e3 * seconds[0],
+      static_cast<double>(iterations) / steps, static_cast<long long>(solver.factorisationsDone()), atTen);
+}
+
+void timeBeams() {
+  for (const ElementType type : {ElementType::hex8, ElementType::hybrid8})
+    for (const double tolerance : {1e-5, 1e-10}) timeBeam({2, 2, 30}, type, tolerance, 110);
+  for (const double tolerance : {1e-5, 1e-10}) timeBeam({10, 10, 150}, ElementType::hex8, tolerance, 20);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int threadCount = 2;
+  bool beams = false, elements = false;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--beams") == 0)
+      beams = true;
+    else if (std::strcmp(argv[i], "--elements") == 0)
+      elements = true;
+    else if (std::strcmp(argv[i], "--threads") == 0 && i + 1 < argc && std::atoi(argv[i + 1]) >= 1)
+      threadCount = std::atoi(argv[++i]);
+    else {
+      std::fprintf(stderr, "fem_speed: \"%s\" is not known; use --threads N (1 or more), --beams, --elements\n",
+                   argv[i]);
+      return 2;
+    }
+  }
+  if (elements || !beams) timeElements(threadCount);
+  if (beams || !elements) {
+    setThreads(1);
+    std::printf("one thread, %s\n", SparseCholesky::name());
+    timeBeams();
+  }
+}

@@ -1,0 +1,48 @@
+// The assumed-stress brick as a term of a model.
+#include "brick_kernels.hpp"
+#include "cell_kernels.hpp"
+#include "dovetail/core/error.hpp"
+
+namespace dovetail::fem::detail {
+
+namespace {
+
+class AssumedStressSolid final : public SolidBase {
+public:
+  AssumedStressSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options,
+                     const Material& law)
+      : SolidBase(std::move(cells), std::move(material), options), kernels_(cells_, ElementType::hybrid8, law) {}
+
+private:
+  void deformation(const BatchTask& task, Lane* F) const override {
+    Lane U[24];
+    gatherNodes<8>(cells_, task.batch, task.u, U);
+    for (std::size_t q = 0; q < 8; ++q) {
+      displacementGradient<8>(U, &rule_->gradient[8 * q], geometry_[task.batch * 8 + q].map, F + 9 * q);
+      addIdentity(F + 9 * q);
+    }
+  }
+  void forces(const BatchTask& task, BatchResult& result) override { kernels_.forces(task, result); }
+  void tangent(const BatchTask& task, Lane* K) override {
+    const std::span<const Vec3> u(task.u, cells_.X.size());
+    for (std::size_t lane = 0; lane < cells_.inUse(task.batch); ++lane) {
+      const std::array<double, 576> matrix = elementTangent(kernels_.block(), u, laneCount * task.batch + lane);
+      for (std::size_t k = 0; k < 576; ++k) K[k][static_cast<int>(lane)] = matrix[k];
+    }
+  }
+
+  BrickKernels kernels_;
+};
+
+}  // namespace
+
+std::shared_ptr<Solid> makeAssumedStressSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material,
+                                              const SolidOptions& options) {
+  const auto law = material->brickLaw();
+  if (!law)
+    throw InputError("assumed stress is for St Venant-Kirchhoff, not for " + material->name(), "makeSolid",
+                     "use Formulation::enhanced, which takes any material");
+  return std::make_shared<AssumedStressSolid>(std::move(cells), std::move(material), options, *law);
+}
+
+}  // namespace dovetail::fem::detail

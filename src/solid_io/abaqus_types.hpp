@@ -1,0 +1,26 @@
+// Element types and faces of Abaqus.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "dovetail/fem/solid_mesh.hpp"
+
+namespace dovetail::solid_io {
+
+struct AbaqusType {
+  int dimension;         ///< 3 volumes, 2 faces, 1 lines
+  fem::CellShape shape;  ///< of volumes
+  int nodes, corners;
+};
+/// Empty for types that we do not take.
+std::optional<AbaqusType> abaqusType(const std::string& type);
+const char* abaqusName(fem::CellShape shape);
+/// Entry k: the place in an Abaqus element of our node k. Only C3D27 differs: its centre comes first, then faces S1 …
+/// S6.
+int abaqusPlace(fem::CellShape shape, int k);
+/// Our side of face S`face` (from 1); −1 if there is none.
+int sideOfFace(fem::CellShape shape, int face);
+
+}  // namespace dovetail::solid_io

@@ -1,0 +1,44 @@
+// Solids of all shapes in VTU files (VTK's XML format of unstructured grids), for ParaView and back.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/io/provenance.hpp"
+#include "dovetail/solid_io/solid_files.hpp"
+
+namespace dovetail::solid_io {
+
+/// Values of a field, side by side: `components` per point or cell. Three are a vector, nine a tensor (row-major).
+struct VtuField {
+  std::string name;
+  std::span<const double> values;
+  int components = 1;
+};
+struct VtuFields {
+  std::vector<VtuField> perPoint{}, perCell{};
+  std::span<const Vec3> displacement{};  ///< m; written as point field "displacement"; empty = none
+};
+
+/// The file's bytes: appended raw binary, compressed, doubles. Points are the reference positions; warp by
+/// "displacement" to see the deformed solid. Cells come in the order of the elements, as VTK's types 12, 25, 29, 10
+/// and 24. Node sets and element sets become arrays of zeros and ones under their names; face sets are not written.
+/// @throws InputError as fem::validate; for a field of another size than the mesh, an empty name or one that occurs
+///         twice (names of sets count)
+std::string vtuText(const fem::SolidMesh& mesh, const VtuFields& fields = {}, const io::KeyValues& provenance = {});
+/// The same into a file; other people's files are not replaced (io/output_folder.hpp).
+void writeVtu(const std::filesystem::path& path, const fem::SolidMesh& mesh, const VtuFields& fields = {},
+              const io::KeyValues& provenance = {});
+
+/// A solid from a VTU file, by the rules of solid_files.hpp: cells of types 12, 25, 29, 10 and 24 are elements; of
+/// types 5, 22, 9, 23 and 28 names for faces, of 1, 3 and 21 names for nodes. Arrays of whole numbers with one
+/// component become sets: of zeros and ones, a set of the array's name where it is one; of other numbers, a set "name
+/// number" for each (arrays with more than 100 different numbers, such as identifiers, are passed over). Numbers of
+/// nodes and elements are those of points and cells from 0.
+/// @throws InputError as the readers of solid_files.hpp, naming the cell instead of a line
+SolidFile readVtu(const std::filesystem::path& path);
+
+}  // namespace dovetail::solid_io

@@ -1,0 +1,47 @@
+// Cards of an INP file: a line with a star, a keyword and parameters, and data lines up to the next.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "source.hpp"
+
+namespace dovetail::solid_io {
+
+class InpCards {
+public:
+  explicit InpCards(Source& source) : source_(source) {}
+
+  /// Goes to the next card; false at the end of the file.
+  bool next();
+  /// The keyword in lower case, without blanks: "node".
+  const std::string& keyword() const { return keyword_; }
+  std::size_t place() const { return place_; }
+  /// Value of a parameter without its quotes, null if it is not given; names are compared without regard to case.
+  const std::string* parameter(const std::string& name) const;
+  bool has(const std::string& name) const { return parameter(name) != nullptr; }
+  /// @throws InputError if it is not given or empty
+  const std::string& required(const std::string& name) const;
+
+  /// The fields of the next data line of this card; false at its end.
+  bool data(std::vector<std::string_view>& fields);
+  std::size_t dataPlace() const { return dataPlace_; }
+  [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const;
+  [[noreturn]] void refuseData(const std::string& problem, const std::string& remedy) const;
+
+private:
+  /// The next line that is no comment and not empty; false at the end.
+  bool peek(std::string_view& line);
+  void readCardLine(std::string_view line);
+
+  Source& source_;
+  std::string keyword_;
+  std::vector<std::pair<std::string, std::string>> parameters_;
+  std::size_t place_ = 0, dataPlace_ = 0, peekPlace_ = 0;
+  std::string_view peeked_;
+  bool hasPeeked_ = false;
+};
+
+}  // namespace dovetail::solid_io

@@ -1,0 +1,269 @@
+#include "mesh_builder.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/fem/cell_topology.hpp"
+#include "dovetail/fem/mesh_quality.hpp"
+#include "face_finder.hpp"
+
+namespace dovetail::solid_io {
+
+namespace {
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+void sortUnique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+}  // namespace
+
+void MeshBuilder::addNode(Label label, const Vec3& X, std::size_t place) {
+  if (!nodes_.emplace(label, X_.size()).second)
+    source_.refuseAt(place, "node " + std::to_string(label) + " occurs twice", "give each node a number of its own");
+  if (X_.size() >= static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    source_.refuseAt(place, "the file holds too many nodes", "cut the mesh into several files");
+  X_.push_back(X);
+  nodeLabel_.push_back(label);
+}
+
+void MeshBuilder::requireNew(Label label, std::size_t place) const {
+  if (hasElement(label))
+    source_.refuseAt(place, "element " + std::to_string(label) + " occurs twice",
+                     "give each element a number of its own");
+}
+
+void MeshBuilder::addLine(Label label, std::span<const Label> nodes, std::size_t place) {
+  requireNew(label, place);
+  lines_[label].assign(nodes.begin(), nodes.end());
+}
+
+void MeshBuilder::nameNodesOfLines() {
+  for (const auto& [name, references] : elementSets_)
+    for (const Reference& reference : references)
+      if (const auto line = lines_.find(reference.label); line != lines_.end())
+        for (const Label node : line->second) addNodeToSet(name, node, reference.place);
+}
+
+void MeshBuilder::addCell(Label label, fem::CellShape shape, std::span<const Label> nodes, std::size_t place) {
+  requireNew(label, place);
+  cells_.emplace(label, cell_.size());
+  cell_.push_back({label, shape, cellNode_.size(), place});
+  cellNode_.insert(cellNode_.end(), nodes.begin(), nodes.end());
+}
+
+void MeshBuilder::addFace(Label label, std::span<const Label> corners, std::size_t place, bool mustFit) {
+  requireNew(label, place);
+  faces_.emplace(label, face_.size());
+  face_.push_back({label, {corners.begin(), corners.end()}, place, mustFit});
+}
+
+void MeshBuilder::addNodeToSet(const std::string& name, Label node, std::size_t place) {
+  nodeSets_[name].push_back({node, 0, place});
+}
+void MeshBuilder::addElementToSet(const std::string& name, Label element, std::size_t place) {
+  elementSets_[name].push_back({element, 0, place});
+}
+void MeshBuilder::addSideToSet(const std::string& name, Label element, int side, std::size_t place) {
+  sideSets_[name].push_back({element, side, place});
+}
+
+fem::CellShape MeshBuilder::shapeOf(Label label, std::size_t place) const {
+  const auto found = cells_.find(label);
+  if (found == cells_.end())
+    source_.refuseAt(place, "there is no volume element " + std::to_string(label), "name one that the file defines");
+  return cell_[found->second].shape;
+}
+
+int MeshBuilder::nodeIndex(Label label, std::size_t place) const {
+  const auto found = nodes_.find(label);
+  if (found == nodes_.end())
+    source_.refuseAt(place, "node " + std::to_string(label) + " does not exist", "name nodes that the file defines");
+  return static_cast<int>(found->second);
+}
+
+std::vector<char> MeshBuilder::usedNodes() {
+  std::vector<char> used(X_.size(), 0);
+  for (const Cell& cell : cell_)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(fem::nodesOf(cell.shape)); ++a)
+      used[static_cast<std::size_t>(nodeIndex(cellNode_[cell.firstNode + a], cell.place))] = 1;
+  return used;
+}
+
+void MeshBuilder::numberNodes(SolidFile& file) {
+  const std::vector<char> used = usedNodes();
+  newNumber_.assign(X_.size(), -1);
+  std::size_t dropped = 0;
+  std::set<std::array<double, 3>> places;
+  for (std::size_t n = 0; n < X_.size(); ++n) {
+    if (!used[n]) {
+      ++dropped;
+      continue;
+    }
+    newNumber_[n] = static_cast<int>(file.mesh.X.size());
+    file.mesh.X.push_back(X_[n]);
+    file.nodeNumber.push_back(nodeLabel_[n]);
+    places.insert({X_[n].x, X_[n].y, X_[n].z});
+  }
+  if (dropped > 0)
+    note(counted(dropped, "node that no volume element uses was", "nodes that no volume element uses were") +
+         " dropped.");
+  if (const std::size_t twice = file.mesh.X.size() - places.size(); twice > 0)
+    note(counted(twice, "node lies", "nodes lie") + " exactly where an earlier one does; they stay apart.");
+}
+
+void MeshBuilder::dropDuplicates() {
+  std::map<std::vector<Label>, std::size_t> seen;
+  std::vector<Cell> kept;
+  std::size_t dropped = 0;
+  for (const Cell& cell : cell_) {
+    const auto begin = cellNode_.begin() + static_cast<std::ptrdiff_t>(cell.firstNode);
+    std::vector<Label> nodes(begin, begin + fem::nodesOf(cell.shape));
+    std::sort(nodes.begin(), nodes.end());
+    if (const auto twice = std::adjacent_find(nodes.begin(), nodes.end()); twice != nodes.end())
+      source_.refuseAt(cell.place,
+                       "element " + std::to_string(cell.label) + " names node " + std::to_string(*twice) + " twice",
+                       "give elements whose nodes all differ (collapsed bricks are not taken)");
+    const auto [entry, isNew] = seen.emplace(std::move(nodes), kept.size());
+    cells_[cell.label] = entry->second;
+    if (isNew) kept.push_back(cell);
+    dropped += !isNew;
+  }
+  cell_ = std::move(kept);
+  if (dropped > 0)
+    note(counted(dropped, "element with the nodes of an earlier one was",
+                 "elements with the nodes of earlier ones were") +
+         " dropped; sets of theirs hold the earlier ones.");
+}
+
+void MeshBuilder::fillGroups(SolidFile& file) {
+  for (const Cell& cell : cell_)
+    if (std::none_of(file.mesh.groups.begin(), file.mesh.groups.end(),
+                     [&](const fem::CellGroup& group) { return group.shape == cell.shape; }))
+      file.mesh.groups.push_back({cell.shape, {}});
+  for (fem::CellGroup& group : file.mesh.groups)
+    for (Cell& cell : cell_) {
+      if (cell.shape != group.shape) continue;
+      cell.number = static_cast<int>(file.elementNumber.size());
+      file.elementNumber.push_back(cell.label);
+      for (std::size_t a = 0; a < static_cast<std::size_t>(fem::nodesOf(cell.shape)); ++a)
+        group.node.push_back(
+            newNumber_[static_cast<std::size_t>(nodeIndex(cellNode_[cell.firstNode + a], cell.place))]);
+    }
+}
+
+void MeshBuilder::fillNodeSets(SolidFile& file) {
+  for (const auto& [name, references] : nodeSets_) {
+    std::vector<int> numbers;
+    for (const Reference& reference : references) {
+      const int number = newNumber_[static_cast<std::size_t>(nodeIndex(reference.label, reference.place))];
+      if (number >= 0) numbers.push_back(number);
+    }
+    sortUnique(numbers);
+    if (numbers.empty())
+      note("The node set \"" + name + "\" is left out: no volume element uses its nodes.");
+    else
+      file.mesh.nodeSets[name] = numbers;
+  }
+}
+
+void MeshBuilder::fillElementSets(SolidFile& file) {
+  for (const auto& [name, references] : elementSets_) {
+    std::vector<int> numbers;
+    for (const Reference& reference : references) {
+      if (const auto cell = cells_.find(reference.label); cell != cells_.end())
+        numbers.push_back(cell_[cell->second].number);
+      else if (!hasElement(reference.label))
+        source_.refuseAt(reference.place, "element " + std::to_string(reference.label) + " does not exist",
+                         "name elements that the file defines");
+    }
+    sortUnique(numbers);
+    if (!numbers.empty()) file.mesh.elementSets[name] = numbers;
+  }
+}
+
+bool MeshBuilder::placeFace(const FaceFinder& finder, const SurfaceElement& element, fem::Face& face) const {
+  std::vector<int> corners;
+  for (const Label label : element.corners)
+    corners.push_back(newNumber_[static_cast<std::size_t>(nodeIndex(label, element.place))]);
+  const bool all = std::find(corners.begin(), corners.end(), -1) == corners.end();
+  const Side side = all ? finder.find(corners) : Side{-1, -1};
+  if (side.element < 0 && element.mustFit)
+    source_.refuseAt(element.place,
+                     "surface element " + std::to_string(element.label) + " is no face of a volume element",
+                     "mesh the volume behind it, or take it out of its set");
+  if (side.element >= 0) face = finder.face(side);
+  return side.element >= 0;
+}
+
+void MeshBuilder::fillFaceSets(SolidFile& file, bool alwaysNodes) {
+  if (face_.empty() && sideSets_.empty()) return;
+  const FaceFinder finder(file.mesh);
+  std::vector<fem::Face> placed(face_.size());
+  std::vector<char> fits(face_.size());
+  for (std::size_t f = 0; f < face_.size(); ++f) fits[f] = placeFace(finder, face_[f], placed[f]);
+  std::map<std::string, std::vector<fem::Face>>& sets = file.mesh.faceSets;
+  for (const auto& [name, references] : elementSets_)
+    for (const Reference& reference : references)
+      if (const auto face = faces_.find(reference.label); face != faces_.end() && fits[face->second])
+        sets[name].push_back(placed[face->second]);
+  for (const auto& [name, references] : sideSets_)
+    for (const Reference& reference : references) {
+      shapeOf(reference.label, reference.place);
+      sets[name].push_back(finder.face({cell_[cells_.at(reference.label)].number, reference.side}));
+    }
+  for (const auto& [name, faces] : sets) {
+    if (!alwaysNodes && file.mesh.nodeSets.contains(name)) continue;
+    std::vector<int>& nodes = file.mesh.nodeSets[name];
+    for (const fem::Face& face : faces)
+      nodes.insert(nodes.end(), face.node.begin(), face.node.begin() + fem::nodesOf(face.shape));
+    sortUnique(nodes);
+  }
+  const auto loose = static_cast<std::size_t>(std::count(fits.begin(), fits.end(), 0));
+  if (loose > 0)
+    note(counted(loose, "surface element that is no face of a volume element was",
+                 "surface elements that are no faces of volume elements were") +
+         " passed over.");
+}
+
+void MeshBuilder::requireSound(const SolidFile& file) const {
+  const fem::MeshQuality quality = fem::measureQuality(file.mesh);
+  std::vector<std::size_t> bad;
+  for (std::size_t e = 0; e < quality.element.size(); ++e)
+    if (!(quality.element[e].scaledJacobian > 0.0)) bad.push_back(e);
+  if (bad.empty()) return fem::validate(file.mesh);
+  std::string numbers;
+  for (std::size_t k = 0; k < std::min<std::size_t>(10, bad.size()); ++k)
+    numbers += (k == 0 ? "" : ", ") + std::to_string(file.elementNumber[bad[k]]);
+  if (bad.size() > 10) numbers += " and " + std::to_string(bad.size() - 10) + " more";
+  const auto first = std::find_if(cell_.begin(), cell_.end(),
+                                  [&](const Cell& cell) { return cell.number == static_cast<int>(bad[0]); });
+  source_.refuseAt(first->place,
+                   counted(bad.size(), "element is", "elements are") + " flat, inside out or too distorted: " + numbers,
+                   "mend the mesh where it was made; if all are named, their nodes run the wrong way round");
+}
+
+SolidFile MeshBuilder::finish(bool alwaysNodesOfFaces) {
+  SolidFile file;
+  if (cell_.empty())
+    throw InputError("the file holds no volume elements", source_.name(),
+                     "give hexahedra or tetrahedra of first or second order");
+  nameNodesOfLines();
+  numberNodes(file);
+  dropDuplicates();
+  fillGroups(file);
+  fillNodeSets(file);
+  fillElementSets(file);
+  fillFaceSets(file, alwaysNodesOfFaces);
+  requireSound(file);
+  file.notes = notes_;
+  return file;
+}
+
+}  // namespace dovetail::solid_io

@@ -1,0 +1,94 @@
+// Gathers what a file says, by the file's own numbers, and makes a mesh of it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "dovetail/solid_io/solid_files.hpp"
+#include "source.hpp"
+
+namespace dovetail::solid_io {
+
+using Label = std::int64_t;
+
+/// `place` is always an offset in the source, for errors that only show at the end.
+class MeshBuilder {
+public:
+  explicit MeshBuilder(const Source& source) : source_(source) {}
+
+  void addNode(Label label, const Vec3& X, std::size_t place);
+  /// @param nodes  in our order
+  void addCell(Label label, fem::CellShape shape, std::span<const Label> nodes, std::size_t place);
+  /// A surface element by its corners, in order around it. If `mustFit`, it has to be a face of a volume element.
+  void addFace(Label label, std::span<const Label> corners, std::size_t place, bool mustFit = true);
+
+  /// An element that only names its nodes.
+  void addLine(Label label, std::span<const Label> nodes, std::size_t place);
+
+  void addNodeToSet(const std::string& name, Label node, std::size_t place);
+  /// Volume elements go to element sets, surface elements to face sets, nodes of lines to node sets.
+  void addElementToSet(const std::string& name, Label element, std::size_t place);
+  /// Face `side` of fem::localFacesOf.
+  void addSideToSet(const std::string& name, Label element, int side, std::size_t place);
+  void note(const std::string& sentence) { notes_.push_back(sentence); }
+
+  bool hasElement(Label label) const {
+    return cells_.contains(label) || faces_.contains(label) || lines_.contains(label);
+  }
+  /// Shape of a volume element; refuses other numbers.
+  fem::CellShape shapeOf(Label label, std::size_t place) const;
+
+  /// Nodes of faces join node sets: always, or only where there is no node set of that name.
+  SolidFile finish(bool alwaysNodesOfFaces);
+
+private:
+  struct Cell {
+    Label label;
+    fem::CellShape shape;
+    std::size_t firstNode, place;
+    int number = -1;
+  };
+  struct SurfaceElement {
+    Label label;
+    std::vector<Label> corners;
+    std::size_t place;
+    bool mustFit;
+  };
+  struct Reference {
+    Label label;
+    int side;
+    std::size_t place;
+  };
+  using References = std::map<std::string, std::vector<Reference>>;
+
+  int nodeIndex(Label label, std::size_t place) const;
+  void requireNew(Label label, std::size_t place) const;
+  void nameNodesOfLines();
+  std::vector<char> usedNodes();
+  void numberNodes(SolidFile& file);
+  void dropDuplicates();
+  void fillGroups(SolidFile& file);
+  void fillNodeSets(SolidFile& file);
+  void fillElementSets(SolidFile& file);
+  void fillFaceSets(SolidFile& file, bool alwaysNodes);
+  bool placeFace(const class FaceFinder& finder, const SurfaceElement& element, fem::Face& face) const;
+  void requireSound(const SolidFile& file) const;
+
+  const Source& source_;
+  std::vector<Vec3> X_;
+  std::vector<Label> nodeLabel_;
+  std::vector<int> newNumber_;  ///< of each node of the file, −1 if dropped
+  std::unordered_map<Label, std::size_t> nodes_, cells_, faces_;
+  std::vector<Cell> cell_;
+  std::vector<Label> cellNode_;
+  std::vector<SurfaceElement> face_;
+  std::unordered_map<Label, std::vector<Label>> lines_;
+  References nodeSets_, elementSets_, sideSets_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace dovetail::solid_io

@@ -1,0 +1,35 @@
+#include "dovetail/solid_io/solid_files.hpp"
+
+#include <sstream>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/io/output_folder.hpp"
+#include "source.hpp"
+
+namespace dovetail::solid_io {
+
+namespace {
+
+[[noreturn]] void refuseEnding(const std::filesystem::path& path) {
+  throw InputError("the ending of the name is " + shown(path.extension().string()), path.string(),
+                   "use .msh (Gmsh) or .inp (Abaqus)");
+}
+
+}  // namespace
+
+SolidFile readSolid(const std::filesystem::path& path) {
+  const std::string ending = lower(path.extension().string());
+  if (ending == ".msh") return readGmsh(path);
+  if (ending == ".inp") return readAbaqus(path);
+  refuseEnding(path);
+}
+
+void writeSolid(const fem::SolidMesh& mesh, const std::filesystem::path& path) {
+  const std::string ending = lower(path.extension().string());
+  if (ending != ".msh" && ending != ".inp") refuseEnding(path);
+  std::ostringstream text;
+  ending == ".msh" ? writeGmsh(mesh, text) : writeAbaqus(mesh, text);
+  io::writeFileAtomically(path, text.str());
+}
+
+}  // namespace dovetail::solid_io

@@ -1,0 +1,155 @@
+#include "source.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "dovetail/core/error.hpp"
+
+namespace dovetail::solid_io {
+
+namespace {
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f' || c == '\n'; }
+
+template <class Value>
+bool parse(std::string_view word, Value& value) {
+  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
+  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+  return result.ec == std::errc{} && result.ptr == word.data() + word.size();
+}
+
+}  // namespace
+
+std::string readWhole(const std::filesystem::path& path) {
+  std::error_code error;
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path, error)) file.open(path, std::ios::binary | std::ios::ate);
+  if (!file.is_open())
+    throw InputError("a mesh cannot be read", path.string(), "give a file that exists and may be read");
+  std::string text(static_cast<std::size_t>(file.tellg()), '\0');
+  file.seekg(0);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (static_cast<std::size_t>(file.gcount()) != text.size())
+    throw InputError("reading a mesh broke off", path.string(), "check the disk");
+  return text;
+}
+
+std::string shown(std::string_view word) {
+  if (word.empty()) return "nothing";
+  std::string text = "'";
+  for (const char c : word.substr(0, 24)) text += c >= ' ' && c <= '~' ? c : '?';
+  return text + (word.size() > 24 ? "…'" : "'");
+}
+
+std::string lower(std::string_view word) {
+  std::string text(word);
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view Source::line() {
+  last_ = at_;
+  const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+  const std::string_view text = bytes_.substr(at_, end - at_);
+  at_ = std::min(end + 1, bytes_.size());
+  return text;
+}
+
+std::string_view Source::word() {
+  while (at_ < bytes_.size() && isBlank(bytes_[at_])) ++at_;
+  last_ = at_;
+  while (at_ < bytes_.size() && !isBlank(bytes_[at_])) ++at_;
+  return bytes_.substr(last_, at_ - last_);
+}
+
+void Source::endLine() { at_ = std::min(std::min(bytes_.find('\n', at_), bytes_.size()) + 1, bytes_.size()); }
+
+std::string_view Source::take(std::size_t size) {
+  last_ = at_;
+  if (remaining() < size) refuse("the file breaks off", "give a complete file");
+  at_ += size;
+  return bytes_.substr(last_, size);
+}
+
+std::int64_t Source::integer(std::size_t size) {
+  if (!binary) return parseInteger(word());
+  if (size == 4) {
+    std::int32_t value = 0;
+    std::memcpy(&value, take(4).data(), 4);
+    return value;
+  }
+  std::int64_t value = 0;
+  std::memcpy(&value, take(8).data(), 8);
+  return value;
+}
+
+double Source::real() {
+  if (!binary) return parseReal(word());
+  double value = 0.0;
+  std::memcpy(&value, take(8).data(), 8);
+  if (!std::isfinite(value)) refuse("a number is NaN or infinite", "give finite numbers");
+  return value;
+}
+
+std::size_t Source::count(std::size_t size, std::size_t bytesEach) {
+  const std::int64_t value = integer(size);
+  if (value < 0 || static_cast<std::uint64_t>(value) > remaining() / bytesEach)
+    refuse("it announces " + std::to_string(value) + " entries, which the rest of the file cannot hold",
+           "give a complete file");
+  return static_cast<std::size_t>(value);
+}
+
+void Source::skipBehindLine(const std::string& text) {
+  const std::size_t begin = at_;
+  for (std::size_t at = bytes_.find(text, at_); at != std::string_view::npos; at = bytes_.find(text, at + 1)) {
+    const std::size_t end = at + text.size();
+    const bool starts = at == 0 || bytes_[at - 1] == '\n', ends = end >= bytes_.size() || isBlank(bytes_[end]);
+    if (!starts || !ends) continue;
+    at_ = end;
+    endLine();
+    return;
+  }
+  refuseAt(begin, "there is no line " + text + " after this", "give a complete file");
+}
+
+std::int64_t Source::parseInteger(std::string_view word) const {
+  std::int64_t value = 0;
+  if (word.empty()) refuse("the file breaks off where a whole number should be", "give a complete file");
+  if (!parse(word, value)) refuse(shown(word) + " is not a whole number", "write one such as 12");
+  return value;
+}
+
+double Source::parseReal(std::string_view word) const {
+  if (word.empty()) refuse("the file breaks off where a number should be", "give a complete file");
+  double value = 0.0;
+  std::string fortran;
+  if (const std::size_t d = word.find_first_of("dD"); d != std::string_view::npos) {  // 1.5D-3
+    fortran = std::string(word);
+    fortran[d] = 'e';
+    word = fortran;
+  }
+  if (!parse(word, value)) refuse(shown(word) + " is not a number", "write a number such as 1.5e-3");
+  if (!std::isfinite(value)) refuse("a number is " + shown(word), "give finite numbers");
+  return value;
+}
+
+void Source::refuseAt(std::size_t offset, const std::string& problem, const std::string& remedy) const {
+  const std::string_view before = bytes_.substr(0, std::min(offset, bytes_.size()));
+  const std::string place = binary || placesInBytes
+                                ? "byte " + std::to_string(offset)
+                                : "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n'));
+  throw InputError(problem, name_ + ", " + place, remedy);
+}
+
+}  // namespace dovetail::solid_io

@@ -1,0 +1,64 @@
+// Text and binary numbers of a file, with the place at hand for errors.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace dovetail::solid_io {
+
+/// @throws InputError if it is no file, cannot be read, or is empty
+std::string readWhole(const std::filesystem::path& path);
+
+/// A word for an error message: short, and printable.
+std::string shown(std::string_view word);
+/// Lower case, ASCII only.
+std::string lower(std::string_view word);
+std::string_view trimmed(std::string_view text);
+
+/// A file's bytes, and a place in them. Numbers are words between blanks, or bytes where `binary` is set.
+class Source {
+public:
+  Source(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
+
+  bool binary = false;
+  bool placesInBytes = false;  ///< errors name bytes, not lines
+
+  std::size_t offset() const { return at_; }
+  std::size_t remaining() const { return bytes_.size() - at_; }
+  bool atEnd() const { return at_ >= bytes_.size(); }
+
+  /// The rest of this line without its end, and on to the next line.
+  std::string_view line();
+  /// The next word on whatever line; empty at the end.
+  std::string_view word();
+  /// Passes over the rest of the line.
+  void endLine();
+  /// A whole number: the next word, or `size` bytes.
+  std::int64_t integer(std::size_t size);
+  double real();
+  /// A count of things that take at least `bytesEach` bytes; one that the file cannot hold is refused.
+  std::size_t count(std::size_t size, std::size_t bytesEach);
+  /// Goes behind the next line that is `text`; refuses if there is none.
+  void skipBehindLine(const std::string& text);
+
+  std::int64_t parseInteger(std::string_view word) const;
+  double parseReal(std::string_view word) const;
+
+  /// @throws InputError naming the line (the byte, in binary parts) of the given place, by default of the last word
+  [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const {
+    refuseAt(last_, problem, remedy);
+  }
+  [[noreturn]] void refuseAt(std::size_t offset, const std::string& problem, const std::string& remedy) const;
+  const std::string& name() const { return name_; }
+
+private:
+  std::string_view take(std::size_t size);
+
+  std::string_view bytes_;
+  std::string name_;
+  std::size_t at_ = 0, last_ = 0;
+};
+
+}  // namespace dovetail::solid_io

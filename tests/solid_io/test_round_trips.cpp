@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "mesh_files.hpp"
+
+namespace dovetail::solid_io {
+namespace {
+
+void expectSame(const fem::SolidMesh& a, const fem::SolidMesh& b, const std::string& what) {
+  EXPECT_EQ(a.X, b.X) << what;
+  ASSERT_EQ(a.groups.size(), b.groups.size()) << what;
+  for (std::size_t g = 0; g < a.groups.size(); ++g) {
+    EXPECT_EQ(a.groups[g].shape, b.groups[g].shape) << what;
+    EXPECT_EQ(a.groups[g].node, b.groups[g].node) << what;
+  }
+  EXPECT_EQ(a.nodeSets, b.nodeSets) << what;
+  EXPECT_EQ(a.elementSets, b.elementSets) << what;
+  ASSERT_EQ(a.faceSets.size(), b.faceSets.size()) << what;
+  for (const auto& [name, faces] : a.faceSets)
+    EXPECT_EQ(sortedFaces(faces), sortedFaces(fem::faceSet(b, name))) << what << " " << name;
+}
+
+TEST(SolidFiles, MeshesOfAllShapesGoToGmshAndBack) {
+  for (const fem::CellShape shape : allShapes) {
+    const fem::SolidMesh mesh = testMesh(shape);
+    std::ostringstream text;
+    writeGmsh(mesh, text);
+    const SolidFile back = gmshFromText(text.str(), "test.msh");
+    expectSame(mesh, back.mesh, fem::name(shape));
+    ASSERT_EQ(back.notes.size(), 1u);  // elements of two sets are written twice
+    EXPECT_NE(back.notes[0].find("2 elements"), std::string::npos) << back.notes[0];
+  }
+}
+
+TEST(SolidFiles, MeshesOfAllShapesGoToAbaqusAndBack) {
+  for (const fem::CellShape shape : allShapes) {
+    const fem::SolidMesh mesh = testMesh(shape);
+    std::ostringstream text;
+    writeAbaqus(mesh, text);
+    const SolidFile back = abaqusFromText(text.str(), "test.inp");
+    expectSame(mesh, back.mesh, fem::name(shape));
+    EXPECT_TRUE(back.notes.empty());
+  }
+}
+
+TEST(SolidFiles, MixedMeshesGoThereAndBack) {
+  fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex20, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+  const fem::SolidMesh tets = fem::boxOf(fem::CellShape::tet10, {1, 1, 1}, {2.0, 0.0, 0.0}, {3.0, 1.0, 1.0});
+  const int first = static_cast<int>(mesh.X.size());
+  mesh.X.insert(mesh.X.end(), tets.X.begin(), tets.X.end());
+  mesh.groups.push_back(tets.groups[0]);
+  for (int& node : mesh.groups[1].node) node += first;
+  mesh.faceSets["end"] = tets.faceSets.at("x+");
+  for (fem::Face& face : mesh.faceSets["end"])
+    for (int& node : face.node)
+      if (node >= 0) node += first;
+  mesh.nodeSets["end"] = tets.nodeSets.at("x+");
+  for (int& node : mesh.nodeSets["end"]) node += first;
+  mesh.elementSets["both"] = {0, 1, 2};
+  std::ostringstream gmsh, abaqus;
+  writeGmsh(mesh, gmsh);
+  writeAbaqus(mesh, abaqus);
+  expectSame(mesh, gmshFromText(gmsh.str(), "test.msh").mesh, "Gmsh");
+  expectSame(mesh, abaqusFromText(abaqus.str(), "test.inp").mesh, "Abaqus");
+}
+
+TEST(SolidFiles, FilesAreToldApartByTheirEnding) {
+  const auto folder = std::filesystem::temp_directory_path() / "dovetail_solid_files";
+  std::filesystem::create_directories(folder);
+  const fem::SolidMesh mesh = testMesh(fem::CellShape::tet10);
+  for (const char* name : {"a.msh", "a.inp"}) {
+    writeSolid(mesh, folder / name);
+    writeSolid(mesh, folder / name);  // our own files are replaced
+    expectSame(mesh, readSolid(folder / name).mesh, name);
+  }
+  EXPECT_THROW(writeSolid(mesh, folder / "a.stl"), InputError);
+  EXPECT_THROW(readSolid(folder / "a.stl"), InputError);
+  EXPECT_THROW(readSolid(folder / "none.msh"), InputError);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(SolidFiles, WhatCannotBeWrittenIsRefused) {
+  std::ostringstream out;
+  fem::SolidMesh quote = testMesh(fem::CellShape::hex8);
+  quote.nodeSets["a\"b"] = {0};
+  EXPECT_THROW(writeGmsh(quote, out), InputError);
+  EXPECT_THROW(writeAbaqus(quote, out), InputError);
+  fem::SolidMesh cases = testMesh(fem::CellShape::hex8);
+  cases.nodeSets["top"] = cases.nodeSets["Top"] = {0};
+  EXPECT_NO_THROW(writeGmsh(cases, out));
+  EXPECT_NE(messageOf([&] { writeAbaqus(cases, out); }).find("case"), std::string::npos);
+  fem::SolidMesh strange = testMesh(fem::CellShape::hex8);
+  strange.faceSets["strange"] = {{fem::FaceShape::quad4, {0, 1, 2, 3, -1, -1, -1, -1, -1}}};
+  EXPECT_NE(messageOf([&] { writeGmsh(strange, out); }).find("\"strange\""), std::string::npos);
+  EXPECT_NE(messageOf([&] { writeAbaqus(strange, out); }).find("\"strange\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dovetail::solid_io

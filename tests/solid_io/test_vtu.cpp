@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "dovetail/solid_io_vtk/solid_vtu.hpp"
+#include "mesh_files.hpp"
+
+namespace dovetail::solid_io {
+namespace {
+
+class Vtu : public testing::Test {
+protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path write(const std::string& text) const {
+    const auto path = folder_ / "test.vtu";
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "dovetail_solid_vtu";
+};
+
+/// A grid in ASCII with one tetrahedron of four points.
+std::string asciiTet(const std::string& connectivity, const std::string& offsets, const std::string& types,
+                     const std::string& arrays = "") {
+  return "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>"
+         "<Piece NumberOfPoints=\"5\" NumberOfCells=\"2\"><Points><DataArray type=\"Float64\" "
+         "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 1 7 7 7</DataArray></Points><Cells>"
+         "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">" +
+         connectivity + "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" + offsets +
+         "</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">" + types +
+         "</DataArray></Cells><CellData>" + arrays + "</CellData></Piece></UnstructuredGrid></VTKFile>\n";
+}
+
+TEST_F(Vtu, SolidsOfAllShapesGoThereAndBack) {
+  for (const fem::CellShape shape : allShapes) {
+    const fem::SolidMesh mesh = testMesh(shape);
+    const std::vector<Vec3> u(mesh.X.size(), Vec3{1.0, 2.0, 3.0});
+    const std::vector<double> stress(9 * mesh.elementCount(), 5.0), heat(mesh.X.size(), 1.0);
+    const auto path = folder_ / (std::string(fem::name(shape)) + ".vtu");
+    writeVtu(path, mesh, {.perPoint = {{"heat", heat}}, .perCell = {{"stress", stress, 9}}, .displacement = u});
+    writeVtu(path, mesh);  // our own files are replaced
+    const SolidFile back = readVtu(path);
+    EXPECT_EQ(back.mesh.X, mesh.X);
+    ASSERT_EQ(back.mesh.groups.size(), 1u);
+    EXPECT_EQ(back.mesh.groups[0].shape, shape);
+    EXPECT_EQ(back.mesh.groups[0].node, mesh.groups[0].node);
+    EXPECT_EQ(back.mesh.nodeSets, mesh.nodeSets);
+    EXPECT_EQ(back.mesh.elementSets, mesh.elementSets);
+    EXPECT_TRUE(back.notes.empty());
+  }
+}
+
+TEST_F(Vtu, WholeNumbersAndSurfaceCellsAreSets) {
+  const auto path = write(asciiTet("0 1 2 3 0 1 2", "4 7", "10 5",
+                                   "<DataArray type=\"Int32\" Name=\"material\" format=\"ascii\">3 8</DataArray>"
+                                   "<DataArray type=\"Float64\" Name=\"p\" format=\"ascii\">1 1</DataArray>"));
+  const SolidFile file = readVtu(path);
+  EXPECT_EQ(fem::elementSet(file.mesh, "material 3"), std::vector<int>{0});
+  EXPECT_EQ(fem::faceSet(file.mesh, "material 8").at(0).node, (std::array<int, 9>{0, 2, 1, -1, -1, -1, -1, -1, -1}));
+  EXPECT_EQ(file.mesh.X.size(), 4u);
+  EXPECT_EQ(file.mesh.elementSets.size() + file.mesh.faceSets.size(), 2u);
+}
+
+TEST_F(Vtu, BadFilesAreRefused) {
+  const std::pair<std::string, std::string> broken[] = {
+      {"nonsense", "no complete VTU file"},
+      {asciiTet("0 1 2 3 0 1 2", "4 7", "10 13"), "type 13"},
+      {asciiTet("0 1 2 9 0 1 2", "4 7", "10 5"), "point that does not exist"},
+      {asciiTet("0 1 2 3 0 1 2", "3 7", "10 5"), "cell 0"},
+      {asciiTet("0 2 1 3 0 1 2", "4 7", "10 5"), "inside out or too distorted: 0"},
+      {asciiTet("0 1 2 0 1 2", "3 6", "5 5"), "no volume elements"}};
+  for (const auto& [text, wanted] : broken) {
+    const auto path = write(text);
+    EXPECT_NE(messageOf([&] { readVtu(path); }).find(wanted), std::string::npos)
+        << wanted << " not in: " << messageOf([&] { readVtu(path); });
+  }
+  EXPECT_THROW(readVtu(folder_ / "none.vtu"), InputError);
+}
+
+TEST_F(Vtu, TruncatedFilesAreRefused) {
+  const std::string text = vtuText(testMesh(fem::CellShape::tet10));
+  for (std::size_t end = 0; end + 20 < text.size(); end += 1 + text.size() / 60) {
+    const auto path = write(text.substr(0, end));
+    EXPECT_THROW(readVtu(path), InputError) << end;
+  }
+}
+
+TEST_F(Vtu, FieldsThatDoNotFitAreRefused) {
+  const fem::SolidMesh mesh = testMesh(fem::CellShape::hex8);
+  const std::vector<double> values(mesh.X.size());
+  EXPECT_THROW(vtuText(mesh, {.perCell = {{"a", values}}}), InputError);
+  EXPECT_THROW(vtuText(mesh, {.perPoint = {{"a", values}, {"a", values}}}), InputError);
+  EXPECT_THROW(vtuText(mesh, {.perPoint = {{"x-", values}}}), InputError);
+  EXPECT_THROW(vtuText(mesh, {.perPoint = {{"", values}}}), InputError);
+  const std::vector<Vec3> few(3);
+  EXPECT_THROW(vtuText(mesh, {.displacement = few}), InputError);
+}
+
+}  // namespace
+}  // namespace dovetail::solid_io
