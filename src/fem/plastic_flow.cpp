@@ -7,9 +7,12 @@ namespace dovetail::fem::detail {
 namespace {
 
 const double rootThreeHalves = std::sqrt(1.5);
-/// Relative distance from the yield surface, inside it, up to which the stiffness is that of flow. A point that has
-/// just flowed lies there by chance on either side; the first guess of the next step needs the stiffness of going on.
-constexpr double onSurface = 1e-9;
+/// Distance from the yield surface, inside it, up to which the stiffness is that of flow: a share of the yield stress,
+/// and what round-off of F does. A point that has just flowed lies there by chance on either side; the first guess of
+/// the next step needs the stiffness of going on.
+double nearSurface(const HenckyElasticity& elasticity, double yieldStress) {
+  return 1e-9 * yieldStress + 1e-14 * (elasticity.kappa + elasticity.mu);
+}
 
 /// The zero of a function that is positive at 0 and negative at `upper`: Newton's method kept inside the bracket.
 /// function(x) gives value and slope.
@@ -117,7 +120,7 @@ FlowAnswer J2Flow::advance(const TrialStrain& frame, std::span<const double> his
   const double modulus = 2.0 / 3.0 * kinematic;
   const J2Step step{*this, deviator(answer.stress), times(modulus, backStrain), history[0]};
   const Return start = step.at(0.0);
-  if (withStiffness && start.residual > -onSurface * yield.stress(history[0]))
+  if (withStiffness && start.residual > -nearSurface(elasticity, yield.stress(history[0])))
     answer.stiffness = step.stiffness(start, times(1.0 / start.size, start.relative));
   if (start.residual > 0.0) {
     const Return state = step.solve();
@@ -147,9 +150,14 @@ FlowAnswer DruckerPragerFlow::advance(const TrialStrain& frame, std::span<const 
   const double norm = std::sqrt(dot(s, s)), root = norm / std::numbers::sqrt2, p = trace(answer.stress) / 3.0;
   const double excess = root + cone.friction * p - cone.strength;
   const double gain = 1.0 / (mu + kappa * cone.friction * cone.dilatancy), multiplier = excess * gain;
+  // Near the apex only rounding tells the direction of what shear is left.
+  const double near = nearSurface(elasticity, root + cone.strength), shearless = 100.0 * near;
+  const auto stiffness = [&](double left) {
+    return left * root > shearless ? coneStiffness(times(1.0 / norm, s), left, gain) : SixBySix{};
+  };
   if (!(excess > 0.0)) {
-    if (withStiffness && root > 0.0 && excess > -onSurface * (root + cone.strength))
-      answer.stiffness = coneStiffness(times(1.0 / norm, s), 1.0, gain);
+    // Soil without cohesion begins at its apex and could not carry the first load with the stiffness there.
+    if (withStiffness && excess > -near && (root > shearless || cone.strength > 0.0)) answer.stiffness = stiffness(1.0);
     return answer;
   }
   const double left = 1.0 - mu * multiplier / root;
@@ -161,7 +169,7 @@ FlowAnswer DruckerPragerFlow::advance(const TrialStrain& frame, std::span<const 
   const Six flow = plus(strain, -1.0, elastic), shape = deviator(flow);
   newHistory[0] += std::sqrt(dot(shape, shape)) / rootThreeHalves;
   answer.dissipated = std::max(0.0, dot(answer.stress, flow));
-  if (withStiffness) answer.stiffness = onCone ? coneStiffness(times(1.0 / norm, s), left, gain) : SixBySix{};
+  if (withStiffness) answer.stiffness = stiffness(left);
   return answer;
 }
 
