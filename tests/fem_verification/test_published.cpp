@@ -68,5 +68,17 @@ TEST(Published, CooksMembraneInPlaneStrainConverges) {
   }
 }
 
+/// ν = 0.4999. The converged tip is that of hex27 with mean dilatation, which 8 and 16 cells per edge agree on.
+TEST(Published, CooksMembraneNearlyIncompressibleNeitherLocksNorAlternates) {
+  const ElementKind best{CellShape::hex27, Formulation::meanDilatation};
+  const Membrane fine = cooksMembrane(best, 16, 0.4999), coarse = cooksMembrane(best, 8, 0.4999);
+  expectWithin(coarse.tip, fine.tip, 2e-3, "8 and 16 cells");
+  for (const Membrane& membrane : {fine, coarse}) EXPECT_LT(pressureSteps(membrane, 12e-3).checkerboard, 0.05);
+  const Membrane hex20Means = cooksMembrane({CellShape::hex20, Formulation::meanDilatation}, 16, 0.4999);
+  expectWithin(hex20Means.tip, fine.tip, 1e-2, "hex20 mean dilatation");
+  EXPECT_LT(pressureSteps(hex20Means, 12e-3).checkerboard, 0.05);
+  expectWithin(cooksMembrane(meanDilatation, 16, 0.4999).tip, fine.tip, 2e-2, "hex8 mean dilatation");
+}
+
 }  // namespace
 }  // namespace dovetail::verification
