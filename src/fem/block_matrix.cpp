@@ -75,6 +75,19 @@ void BlockMatrix::addBlock(int row, int column, std::span<const double, 9> block
   for (std::size_t k = 0; k < 9; ++k) target[k] += block[k];
 }
 
+void BlockMatrix::symmetrise() {
+  for (std::size_t n = 0; n < nodes(); ++n)
+    for (int k = offsets_[n]; k < offsets_[n + 1]; ++k) {
+      const int column = columns_[static_cast<std::size_t>(k)];
+      if (column < static_cast<int>(n)) continue;
+      double* const upper = &values_[9 * static_cast<std::size_t>(k)];
+      double* const lower = &values_[9 * place(column, static_cast<int>(n))];
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t d = column == static_cast<int>(n) ? c : 0; d < 3; ++d)
+          upper[3 * c + d] = lower[3 * d + c] = 0.5 * (upper[3 * c + d] + lower[3 * d + c]);
+    }
+}
+
 void BlockMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
   parallelFor(nodes(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {

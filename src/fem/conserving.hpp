@@ -40,31 +40,53 @@ DOVETAIL_INLINE void solveUpper(const Lane* U, Lane* x) {
   }
 }
 
+/// S = U⁻¹ P, row-major.
+DOVETAIL_INLINE void secondStress(const Lane* U, const Lane* P, Lane* S) {
+  for (std::size_t k = 0; k < 9; ++k) S[k] = P[k];
+  solveUpper(U, S);
+}
+
+/// Below this |ΔC| the work of S on the straight path from C₀ to C₁ by three Gauss points, the mean metric among them,
+/// is as exact as W₁ − W₀ (its error is of seventh order), and free of the cancellation of that difference.
+inline constexpr double shortPath = 1e-2;
+/// The places of the first and the last point on the path.
+inline constexpr double pathPoints[2] = {0.11270166537925831148, 0.88729833462074168852};
+
+/// ΔC:ΔC.
+DOVETAIL_INLINE Lane squaredChange(const Lane* C0, const Lane* C1) {
+  Lane square{};
+  for (std::size_t k = 0; k < 9; ++k) square += (C1[k] - C0[k]) * (C1[k] - C0[k]);
+  return square;
+}
+
 /// Turns S̄ into S_alg.
-/// @param S  S̄ at the mean metric, row-major; overwritten
-inline void correctStress(const Lane* C0, const Lane* C1, Lane W0, Lane W1, Lane* S) {
-  Lane work{}, square{}, strain{};
+/// @param W0, W1  stored energies, for lanes with a longer path
+/// @param Sa, Sb  stresses at pathPoints, for lanes with a short one
+/// @param S       S̄ at the mean metric, row-major; overwritten
+inline void correctStress(const Lane* C0, const Lane* C1, Lane W0, Lane W1, const Lane* Sa, const Lane* Sb, Lane* S) {
+  const Lane square = squaredChange(C0, C1);
+  Lane work{}, pathGap{};
   Lane change[9];
   for (std::size_t k = 0; k < 9; ++k) {
     change[k] = C1[k] - C0[k];
-    const Lane unit = k % 4 == 0 ? Lane{} + 1.0 : Lane{};
     work += S[k] * change[k];
-    square += change[k] * change[k];
-    strain += (C1[k] - unit) * (C1[k] - unit) + (C0[k] - unit) * (C0[k] - unit);
+    pathGap += 5.0 / 18.0 * ((Sa[k] - S[k]) + (Sb[k] - S[k])) * change[k];
   }
-  // Where the change is so small against the strain, what is corrected is below the rounding of W and the quotient
-  // would only be noise.
-  constexpr double negligible = 1e-8;
   for (int lane = 0; lane < laneCount; ++lane) {
-    if (!(square[lane] > negligible * strain[lane])) continue;
-    const double factor = (2.0 * (W1[lane] - W0[lane]) - work[lane]) / square[lane];
+    if (!(square[lane] > 0.0)) continue;
+    const bool isShort = square[lane] < shortPath * shortPath;
+    const double factor = (isShort ? pathGap[lane] : 2.0 * (W1[lane] - W0[lane]) - work[lane]) / square[lane];
     for (std::size_t k = 0; k < 9; ++k) S[k][lane] += factor * change[k][lane];
   }
 }
 
-/// The moduli ½(1 ⊗ S + F̄ D F̄), D = 2 ∂S/∂C at the mean metric, from A = ∂P/∂F at U.
-/// @param A  overwritten
-inline void conservingModuli(const Lane* U, const Lane* mean, const Lane* meanStress, const Lane* S, Lane* A) {
+/// The moduli ∂P/∂F₁ = ½(1 ⊗ S + F̄ D F₁), D = 2 ∂S/∂C at the mean metric, from A = ∂P/∂F at U. The second leg is the
+/// gradient at the end: without it rigid turns in a step would seem stiff. Not symmetric, therefore; what the
+/// correction adds is left out, a share |ΔC| of D.
+/// @param mean, end  F̄ and F₁
+/// @param A          overwritten
+inline void conservingModuli(const Lane* U, const Lane* mean, const Lane* end, const Lane* meanStress, const Lane* S,
+                             Lane* A) {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t J = 0; J < 3; ++J)
       for (std::size_t L = 0; L < 3; ++L) A[9 * (3 * i + J) + 3 * i + L] -= meanStress[3 * J + L];
@@ -72,10 +94,12 @@ inline void conservingModuli(const Lane* U, const Lane* mean, const Lane* meanSt
   Lane inverse[9] = {};
   addIdentity(inverse);
   solveUpper(U, inverse);
-  Lane B[9];
+  Lane B[9], E[9];
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
+    for (std::size_t j = 0; j < 3; ++j) {
       B[3 * i + j] = mean[3 * i] * inverse[j] + mean[3 * i + 1] * inverse[3 + j] + mean[3 * i + 2] * inverse[6 + j];
+      E[3 * i + j] = end[3 * i] * inverse[j] + end[3 * i + 1] * inverse[3 + j] + end[3 * i + 2] * inverse[6 + j];
+    }
   Lane half[81];
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t J = 0; J < 3; ++J)
@@ -85,8 +109,8 @@ inline void conservingModuli(const Lane* U, const Lane* mean, const Lane* meanSt
   for (std::size_t p = 0; p < 9; ++p)
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t L = 0; L < 3; ++L)
-        A[9 * p + 3 * k + L] = 0.5 * (B[3 * k] * half[9 * p + L] + B[3 * k + 1] * half[9 * p + 3 + L] +
-                                      B[3 * k + 2] * half[9 * p + 6 + L]);
+        A[9 * p + 3 * k + L] = 0.5 * (E[3 * k] * half[9 * p + L] + E[3 * k + 1] * half[9 * p + 3 + L] +
+                                      E[3 * k + 2] * half[9 * p + 6 + L]);
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t J = 0; J < 3; ++J)
       for (std::size_t L = 0; L < 3; ++L) A[9 * (3 * i + J) + 3 * i + L] += 0.5 * S[3 * J + L];

@@ -1,5 +1,6 @@
 #include "dovetail/fem/constraints.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -100,6 +101,11 @@ DofMap::DofMap(const Constraints& constraints, const Nodes& nodes)
     }
 }
 
+bool DofMap::hasMotion() const {
+  return std::ranges::any_of(prescribed_, [](const auto& p) { return static_cast<bool>(p.displacement); }) ||
+         std::ranges::any_of(ties_, [](const Tie& tie) { return static_cast<bool>(tie.motion); });
+}
+
 void DofMap::reduce(std::span<const Vec3> f, std::span<double> r) const {
   parallelFor(size(), dofGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) r[i] = f[static_cast<std::size_t>(freeDofs_[i] / 3)][freeDofs_[i] % 3];
@@ -149,6 +155,12 @@ void DofMap::apply(double t, std::span<Vec3> u) const {
 void DofMap::applyVelocity(double t, double dt, std::span<Vec3> v) const {
   setConstrained(v, false, [=](const TimeFunction& motion) {
     return dt > 0.0 ? (motion(t + 0.5 * dt) - motion(t - 0.5 * dt)) / dt : 0.0;
+  });
+}
+
+void DofMap::applyAcceleration(double t, double dt, std::span<Vec3> a) const {
+  setConstrained(a, false, [=](const TimeFunction& motion) {
+    return (motion(t + dt) - 2.0 * motion(t) + motion(t - dt)) / (dt * dt);
   });
 }
 

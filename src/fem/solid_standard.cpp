@@ -62,7 +62,7 @@ private:
     else
       evaluate(task, F.data(), P.data(), A.data(), nullptr, nullptr);
     std::fill(K, K + 9 * N * N, Lane{});
-    const bool symmetric = material_->isSymmetric();
+    const bool symmetric = material_->isSymmetric() && task.start == nullptr;
     Lane parent[81];
     for (std::size_t q = 0; q < Q; ++q) {
       parentModuli(&A[81 * q], geometry_[task.batch * Q + q], parent);
@@ -74,32 +74,54 @@ private:
     if (symmetric) mirror<N>(K);
   }
 
+  /// Metrics C₀ + share ΔC of all points as deformation gradients.
+  static void metricsBetween(const Tensors& C0, const Tensors& C1, double share, Tensors& U) {
+    for (std::size_t q = 0; q < Q; ++q) {
+      Lane C[9];
+      for (std::size_t k = 0; k < 9; ++k) C[k] = C0[9 * q + k] + share * (C1[9 * q + k] - C0[9 * q + k]);
+      factorMetric(C, &U[9 * q]);
+    }
+  }
+  /// S on the path between two metrics.
+  void stressBetween(const BatchTask& task, const Tensors& C0, const Tensors& C1, double share, Tensors& S) {
+    Tensors U, P;
+    metricsBetween(C0, C1, share, U);
+    evaluate(task, U.data(), P.data(), nullptr, nullptr, nullptr);
+    for (std::size_t q = 0; q < Q; ++q) secondStress(&U[9 * q], &P[9 * q], &S[9 * q]);
+  }
+
   /// P = F̄ S_alg for the step from task.start to F; its moduli if A is not null.
   void conservingStress(const BatchTask& task, const Tensors& F1, Tensors& P, Lane* A) {
-    Tensors F0, U, meanP;
-    std::array<Lane, Q> W0, W1;
+    Tensors F0, C0, C1, U, meanP, Sa{}, Sb{};
+    std::array<Lane, Q> W0{}, W1{};
     deformationOf(task.batch, task.start, F0.data());
-    evaluate(task, F0.data(), P.data(), nullptr, W0.data(), nullptr);
-    evaluate(task, F1.data(), P.data(), nullptr, W1.data(), nullptr);
-    Lane C0[9 * Q], C1[9 * Q];
+    bool anyShort = false, anyLong = false;
     for (std::size_t q = 0; q < Q; ++q) {
-      rightCauchyGreen(&F0[9 * q], C0 + 9 * q);
-      rightCauchyGreen(&F1[9 * q], C1 + 9 * q);
-      Lane mean[9];
-      for (std::size_t k = 0; k < 9; ++k) mean[k] = 0.5 * (C0[9 * q + k] + C1[9 * q + k]);
-      factorMetric(mean, &U[9 * q]);
+      rightCauchyGreen(&F0[9 * q], &C0[9 * q]);
+      rightCauchyGreen(&F1[9 * q], &C1[9 * q]);
+      const Lane square = squaredChange(&C0[9 * q], &C1[9 * q]);
+      for (int lane = 0; lane < laneCount; ++lane) (square[lane] < shortPath * shortPath ? anyShort : anyLong) = true;
     }
+    if (anyLong) {
+      evaluate(task, F0.data(), P.data(), nullptr, W0.data(), nullptr);
+      evaluate(task, F1.data(), P.data(), nullptr, W1.data(), nullptr);
+    }
+    if (anyShort) {
+      stressBetween(task, C0, C1, pathPoints[0], Sa);
+      stressBetween(task, C0, C1, pathPoints[1], Sb);
+    }
+    metricsBetween(C0, C1, 0.5, U);
     evaluate(task, U.data(), meanP.data(), A, nullptr, nullptr);
     for (std::size_t q = 0; q < Q; ++q) {
       Lane S[9], meanS[9], mean[9];
-      for (std::size_t k = 0; k < 9; ++k) S[k] = meanP[9 * q + k], mean[k] = 0.5 * (F0[9 * q + k] + F1[9 * q + k]);
-      solveUpper(&U[9 * q], S);
-      for (std::size_t k = 0; k < 9; ++k) meanS[k] = S[k];
-      correctStress(C0 + 9 * q, C1 + 9 * q, W0[q], W1[q], S);
+      for (std::size_t k = 0; k < 9; ++k) mean[k] = 0.5 * (F0[9 * q + k] + F1[9 * q + k]);
+      secondStress(&U[9 * q], &meanP[9 * q], meanS);
+      for (std::size_t k = 0; k < 9; ++k) S[k] = meanS[k];
+      correctStress(&C0[9 * q], &C1[9 * q], W0[q], W1[q], &Sa[9 * q], &Sb[9 * q], S);
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t J = 0; J < 3; ++J)
           P[9 * q + 3 * i + J] = mean[3 * i] * S[J] + mean[3 * i + 1] * S[3 + J] + mean[3 * i + 2] * S[6 + J];
-      if (A != nullptr) conservingModuli(&U[9 * q], mean, meanS, S, A + 81 * q);
+      if (A != nullptr) conservingModuli(&U[9 * q], mean, &F1[9 * q], meanS, S, A + 81 * q);
     }
   }
 

@@ -88,6 +88,7 @@ StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& option
     const NewtonResult result = solveStep(equilibrium, t, options);
     if (!result.failure.empty()) {
       model.nodes.u = u0;
+      for (const auto& term : model.terms) term->revert();
       equilibrium.solver().drop();
       step = 0.4 * std::min(step, left);
       ++report.cuts;

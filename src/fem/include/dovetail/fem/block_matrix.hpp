@@ -45,6 +45,9 @@ public:
   /// Adds a row-major 3 × 3 block.
   void addBlock(int row, int column, std::span<const double, 9> block);
 
+  /// A = ½(A + Aᵀ).
+  void symmetrise();
+
   /// y = A x, in the order of the rows: the same digits for any number of threads.
   void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
 

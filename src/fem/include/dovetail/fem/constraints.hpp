@@ -55,6 +55,8 @@ public:
   std::size_t size() const { return freeDofs_.size(); }  ///< entries of q
   std::size_t nodes() const { return nodes_; }
   bool hasTies() const { return !ties_.empty(); }
+  /// Whether anything is a function of time.
+  bool hasMotion() const;
   /// Entry of q that is component dof % 3 of node dof / 3, −1 if it is not free.
   std::span<const int> freeRow() const { return freeRow_; }
   /// Its inverse.
@@ -71,6 +73,8 @@ public:
   /// Sets the same components of a velocity; motions by the central difference of their function over dt (0 if dt is
   /// 0).
   void applyVelocity(double t, double dt, std::span<Vec3> v) const;
+  /// Sets the same components of an acceleration, m/s²; motions by the second central difference over dt > 0.
+  void applyAcceleration(double t, double dt, std::span<Vec3> a) const;
 
 private:
   enum class State : std::uint8_t { free, fixed, held, prescribed, tied };

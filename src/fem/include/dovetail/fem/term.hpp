@@ -52,7 +52,7 @@ public:
   virtual bool addConservingForces(const Nodes&, std::span<const Vec3> /*u0*/, const Instant&, std::span<Vec3> /*f*/) {
     return false;
   }
-  /// K += −∂f/∂u of it, or close to that.
+  /// K += −∂f/∂u of it, or close to that; not symmetric in general.
   virtual void addConservingTangent(const Nodes&, std::span<const Vec3> /*u0*/, const Instant&, BlockMatrix&) {}
 
   /// The step is accepted at this state: adopts new history. @return energy dissipated in the step, J

