@@ -130,7 +130,8 @@ private:
   void addElement(const AbaqusType& type, std::span<const Label> numbers, std::size_t place) {
     const auto nodes = numbers.subspan(1);
     if (type.dimension == 1) return builder_.addLine(numbers[0], nodes, place);
-    if (type.dimension == 2) return builder_.addFace(numbers[0], nodes.first(static_cast<std::size_t>(type.corners)), place);
+    if (type.dimension == 2)
+      return builder_.addFace(numbers[0], nodes.first(static_cast<std::size_t>(type.corners)), place);
     std::vector<Label> ours;
     for (int k = 0; k < type.nodes; ++k) ours.push_back(nodes[static_cast<std::size_t>(abaqusPlace(type.shape, k))]);
     builder_.addCell(numbers[0], type.shape, ours, place);

@@ -39,11 +39,12 @@ SolidFile readGmsh(const std::filesystem::path& path);
 SolidFile gmshFromText(std::string_view bytes, const std::string& name);
 
 /// Abaqus INP: *NODE, *ELEMENT of types C3D8, C3D20, C3D27, C3D4, C3D10 with any suffix of R, I, H, M, S, and shells,
-/// membranes, surface and plane elements of three to nine nodes as faces, trusses and beams as names for nodes, *NSET and *ELSET (GENERATE, names of other sets),
-/// *SURFACE of faces (sets or elements with S1 … S6) or nodes. One *PART with one *INSTANCE that is not moved is read
-/// as if it were flat. Cards of materials, steps and so on are passed over, cards that make or move nodes and elements
-/// elsewhere (*INCLUDE, *NGEN, *ELGEN, *SYSTEM …) are refused. Names are compared without regard to case, outside
-/// quotes, and kept as first written. A surface gives a node set too, unless there is one of that name.
+/// membranes, surface and plane elements of three to nine nodes as faces, trusses and beams as names for nodes, *NSET
+/// and *ELSET (GENERATE, names of other sets), *SURFACE of faces (sets or elements with S1 … S6) or nodes. One *PART
+/// with one *INSTANCE that is not moved is read as if it were flat. Cards of materials, steps and so on are passed
+/// over, cards that make or move nodes and elements elsewhere (*INCLUDE, *NGEN, *ELGEN, *SYSTEM …) are refused. Names
+/// are compared without regard to case, outside quotes, and kept as first written. A surface gives a node set too,
+/// unless there is one of that name.
 SolidFile readAbaqus(const std::filesystem::path& path);
 SolidFile abaqusFromText(std::string_view bytes, const std::string& name);
 
