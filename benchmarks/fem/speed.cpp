@@ -1,6 +1,6 @@
 // Time of what a step of a solid consists of: forces and tangent per element, and implicit steps of two beams.
 //
-// usage: fem_speed [--threads N] [--beams] [--elements]
+// usage: fem_speed [--threads N] [--beams] [--elements] [--leaving-out]
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,10 +13,13 @@
 
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/block_matrix.hpp"
+#include "dovetail/fem/dynamics.hpp"
+#include "dovetail/fem/loads.hpp"
 #include "dovetail/fem/model.hpp"
 #include "dovetail/fem/newmark.hpp"
 #include "dovetail/fem/point_laws.hpp"
 #include "dovetail/fem/solid.hpp"
+#include "dovetail/fem/viscosity.hpp"
 
 namespace {
 
@@ -126,28 +129,98 @@ void timeBeams() {
   for (const double tolerance : {1e-5, 1e-10}) timeBeam({10, 10, 150}, ElementType::hex8, tolerance, 20);
 }
 
+/// Explicit steps of an elastic beam: the verbs alone, a model of nothing but the solid, and what each part costs that
+/// is present but idle.
+void timeLeavingOut() {
+  const SolidMesh mesh = boxOf(CellShape::hex8, {10, 10, 150}, {}, {1.0, 1.0, 15.0});
+  const StVenantKirchhoff law{1e6, 0.3, 1000.0};
+  const double dt = 1e-4;
+  constexpr int steps = 40, samples = 15;
+  struct Scene {
+    std::string label;
+    std::function<void()> steps;
+    std::vector<double> seconds;
+  };
+  std::vector<Scene> scenes;
+  const ElementBlock block = makeElements(brickMesh(mesh), ElementType::hex8, law);
+  Nodes bare = makeNodes(brickMesh(mesh));
+  addLumpedMass(block, bare);
+  bend(bare);
+  scenes.push_back({"verbs: kick, drift, addInternalForces",
+                    [&] {
+                      for (int step = 0; step < steps; ++step) {
+                        kick(bare, 0.5 * dt);
+                        drift(bare, dt);
+                        clearForces(bare);
+                        addInternalForces(block, bare);
+                        kick(bare, 0.5 * dt);
+                      }
+                    },
+                    {}});
+  std::vector<std::unique_ptr<Model>> models;
+  std::vector<std::unique_ptr<ExplicitIntegrator>> integrators;
+  const auto addScene = [&](const std::string& label, const std::shared_ptr<const PointMaterial>& material,
+                            const std::shared_ptr<Term>& extra) {
+    models.push_back(std::make_unique<Model>(makeModel(mesh)));
+    Model& model = *models.back();
+    model.add(makeSolid(mesh, material));
+    if (extra) model.add(extra);
+    addMass(model);
+    bend(model.nodes);
+    integrators.push_back(
+        std::make_unique<ExplicitIntegrator>(model, dt, ExplicitOptions{.energyEvery = 0, .checkEvery = 0}));
+    scenes.push_back({label, [integrator = integrators.back().get()] { integrator->run(steps); }, {}});
+  };
+  const auto elastic = pointMaterial(Material(law));
+  addScene("model, elastic", elastic, nullptr);
+  addScene("model, elastic, again", elastic, nullptr);
+  addScene("model, with mass damping", elastic, massDamping(1.0));
+  addScene("model, with viscosity", pointMaterial(kelvinVoigt(elastic, 1e-6, 1e6, 0.3)), nullptr);
+  addScene("model, neo-Hookean", pointMaterial(neoHookean(1e6, 0.3, 1000.0)), nullptr);
+  for (int sample = 0; sample < samples; ++sample)
+    for (Scene& scene : scenes) {
+      const auto start = std::chrono::steady_clock::now();
+      scene.steps();
+      scene.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+  std::printf("explicit steps of %zu bricks, one thread, turn by turn\n", mesh.elementCount());
+  double reference = 0.0;
+  for (Scene& scene : scenes) {
+    std::nth_element(scene.seconds.begin(), scene.seconds.begin() + samples / 2, scene.seconds.end());
+    const double each = 1e9 * scene.seconds[samples / 2] / steps / static_cast<double>(mesh.elementCount());
+    if (reference == 0.0) reference = each;
+    std::printf("%-40s %7.1f ns per element and step, %+6.1f %%\n", scene.label.c_str(), each,
+                100.0 * (each / reference - 1.0));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   int threadCount = 2;
-  bool beams = false, elements = false;
+  bool beams = false, elements = false, leavingOut = false;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--beams") == 0)
       beams = true;
     else if (std::strcmp(argv[i], "--elements") == 0)
       elements = true;
+    else if (std::strcmp(argv[i], "--leaving-out") == 0)
+      leavingOut = true;
     else if (std::strcmp(argv[i], "--threads") == 0 && i + 1 < argc && std::atoi(argv[i + 1]) >= 1)
       threadCount = std::atoi(argv[++i]);
     else {
-      std::fprintf(stderr, "fem_speed: \"%s\" is not known; use --threads N (1 or more), --beams, --elements\n",
+      std::fprintf(stderr,
+                   "fem_speed: \"%s\" is not known; use --threads N (1 or more), --beams, --elements, --leaving-out\n",
                    argv[i]);
       return 2;
     }
   }
-  if (elements || !beams) timeElements(threadCount);
-  if (beams || !elements) {
-    setThreads(1);
+  const bool all = !beams && !elements && !leavingOut;
+  if (elements || all) timeElements(threadCount);
+  setThreads(1);
+  if (beams || all) {
     std::printf("one thread, %s\n", SparseCholesky::name());
     timeBeams();
   }
+  if (leavingOut || all) timeLeavingOut();
 }

@@ -67,7 +67,8 @@ void addPressures(Membrane& result, const fem::Solid::Sample& sample, std::size_
 }  // namespace
 
 std::string ElementKind::label() const {
-  return std::string(name(shape)) + (shape == CellShape::hex8 ? std::string(" ") + name(formulation) : "");
+  return std::string(name(shape)) +
+         (shape == CellShape::hex8 || formulation != Formulation::standard ? std::string(" ") + name(formulation) : "");
 }
 
 const std::vector<ElementKind>& allKinds() {
@@ -77,6 +78,8 @@ const std::vector<ElementKind>& allKinds() {
                                                  {CellShape::hex8, Formulation::reduced},
                                                  {CellShape::hex20},
                                                  {CellShape::hex27},
+                                                 {CellShape::hex20, Formulation::meanDilatation},
+                                                 {CellShape::hex27, Formulation::meanDilatation},
                                                  {CellShape::tet4},
                                                  {CellShape::tet10}};
   return kinds;

@@ -50,7 +50,7 @@ struct ExplicitIntegrator::Impl {
   ModelMass mass;
   detail::ForceSum forces;
   detail::EnergyBook book;
-  std::vector<Vec3> a, middle;
+  std::vector<Vec3> a, middle, halfway;
   bool moving;
   std::int64_t steps = 0;
   Profile profile{true};
@@ -64,6 +64,7 @@ struct ExplicitIntegrator::Impl {
         forces(m),
         book(m),
         a(m.nodes.u.size()),
+        halfway(m.nodes.v),
         moving(supportsMove(m, dofs)) {
     dofs.apply(model.t, model.nodes.u);
     dofs.applyVelocity(model.t, dt, model.nodes.v);
@@ -109,14 +110,15 @@ struct ExplicitIntegrator::Impl {
 
   void step() {
     halfKick(model.t + 0.5 * dt);
-    const std::vector<Vec3> halfway = model.nodes.v;
     drift(model.nodes, dt);
     model.t += dt;
     dofs.apply(model.t, model.nodes.u);
-    for (std::size_t n = 0; n < a.size(); ++n) model.nodes.v[n] += 0.5 * dt * a[n];
+    // Forces see a guess of the velocity at the end of the step.
+    halfway.swap(model.nodes.v);
+    for (std::size_t n = 0; n < a.size(); ++n) model.nodes.v[n] = halfway[n] + 0.5 * dt * a[n];
     dofs.applyVelocity(model.t, dt, model.nodes.v);
     evaluate();
-    model.nodes.v = halfway;
+    halfway.swap(model.nodes.v);
     halfKick(model.t);
     ++steps;
     check();

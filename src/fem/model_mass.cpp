@@ -67,7 +67,20 @@ void ModelMass::addTo(BlockMatrix& S, double factor) const {
   for (std::size_t k = 0; k < S.values().size(); ++k) S.values()[k] += factor * consistent_.values()[k];
 }
 
+/// a = f/m of the free components where nothing couples them.
+void ModelMass::accelerateEach(std::span<const Vec3> f, std::span<Vec3> a) const {
+  const std::span<const int> row = dofs_->freeRow();
+  parallelFor(a.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      if (row[3 * n] >= 0) a[n].x = f[n].x / lumped_[n];
+      if (row[3 * n + 1] >= 0) a[n].y = f[n].y / lumped_[n];
+      if (row[3 * n + 2] >= 0) a[n].z = f[n].z / lumped_[n];
+    }
+  });
+}
+
 void ModelMass::accelerate(std::span<const Vec3> f, std::span<Vec3> a) {
+  if (diagonal_ && !dofs_->hasTies()) return accelerateEach(f, a);
   const std::span<const int> free = dofs_->freeDofs();
   parallelFor(free.size(), 3 * nodeGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) a[static_cast<std::size_t>(free[i] / 3)][free[i] % 3] = 0.0;

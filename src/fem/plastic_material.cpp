@@ -82,8 +82,9 @@ private:
     const std::size_t size = historySize(), point = pointLanes * group + static_cast<std::size_t>(lane);
     const std::span<const double> history(batch.history + point * size, size);
     const std::span<double> newHistory(batch.newHistory + point * size, size);
-    const FlowAnswer answer =
-        flow_.advance(trial, history.subspan(tensorSize), newHistory.subspan(tensorSize), batch.tangent != nullptr);
+    SixBySix stiffness;
+    const FlowAnswer answer = flow_.advance(trial, history.subspan(tensorSize), newHistory.subspan(tensorSize),
+                                            batch.tangent ? &stiffness : nullptr);
     if (answer.flows) {
       const Tensor<double> inverse = plasticInverse(frame, lane, answer.elasticStrain);
       std::copy(inverse.begin(), inverse.end(), newHistory.begin());
@@ -92,7 +93,7 @@ private:
     }
     for (std::size_t i = 0; i < 6; ++i) answers.stress[i].v[lane] = answer.stress[i];
     if (batch.tangent)
-      for (std::size_t i = 0; i < 36; ++i) answers.stiffness[i].v[lane] = answer.stiffness[i];
+      for (std::size_t i = 0; i < 36; ++i) answers.stiffness[i].v[lane] = stiffness[i];
     if (batch.energy) batch.energy[point] = answer.stored;
     if (batch.dissipated) batch.dissipated[point] = answer.dissipated;
   }

@@ -15,7 +15,7 @@ bool surelyStiff(double lambda, double mu, const Tensor<double>& C) {
     squares += strain * strain;
     if (k % 4 == 0) doubleTrace += strain;
   }
-  return squares < 0.4 && 0.5 * lambda * doubleTrace + mu * (2.0 - 3.0 * std::sqrt(squares)) > 0.0;
+  return lambda >= 0.0 && squares < 0.4 && 0.5 * lambda * doubleTrace + mu * (2.0 - 3.0 * std::sqrt(squares)) > 0.0;
 }
 
 std::string StVenantKirchhoffLaw::whyInvalid(const double* F) const {

@@ -71,7 +71,8 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const Po
   if (material == nullptr) throw InputError("there is no material", "makeSolid", "give one, for instance neoHookean()");
   validate(mesh);
   detail::SolidCells cells = cellsOf(mesh, options.elementSet);
-  if (options.formulation != Formulation::standard && cells.shape != CellShape::hex8)
+  if (options.formulation != Formulation::standard && options.formulation != Formulation::meanDilatation &&
+      cells.shape != CellShape::hex8)
     throw InputError(
         std::string("the formulation \"") + name(options.formulation) + "\" is for hex8, not for " + name(cells.shape),
         "makeSolid", "use Formulation::standard, or a mesh of hex8");

@@ -162,7 +162,7 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when) const 
   requireSameNodes(nodes);
   std::vector<Lane> F(9 * points());
   for (std::size_t b = 0; b < cells_.batches(); ++b) {
-    deformation({b, nodes.u.data(), nullptr, 0.0, false, false}, F.data());
+    compatibleDeformation({b, nodes.u.data(), nullptr, 0.0, false, false}, F.data());
     for (std::size_t q = 0; q < points(); ++q)
       for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane) {
         std::array<double, 9> here;

@@ -87,6 +87,8 @@ protected:
   virtual void tangent(const BatchTask& task, Lane* K) = 0;
   /// F at the points of a batch, [9 q + 3i + J].
   virtual void deformation(const BatchTask& task, Lane* F) const = 0;
+  /// The same without what the formulation replaces: what tells whether an element is inverted.
+  virtual void compatibleDeformation(const BatchTask& task, Lane* F) const { deformation(task, F); }
   /// Calls the material for a batch whose F is given; any of tangent, energy, dissipated may be null.
   void evaluate(const BatchTask& task, const Lane* F, Lane* P, Lane* tangent, Lane* energy, Lane* dissipated);
   void requireSameNodes(const Nodes& nodes) const;

@@ -49,10 +49,11 @@ struct SolidKind {
 
 inline const std::vector<SolidKind>& allSolidKinds() {
   static const std::vector<SolidKind> kinds = {
-      {CellShape::hex8, Formulation::standard},  {CellShape::hex8, Formulation::meanDilatation},
-      {CellShape::hex8, Formulation::enhanced},  {CellShape::hex8, Formulation::reduced},
-      {CellShape::hex20, Formulation::standard}, {CellShape::hex27, Formulation::standard},
-      {CellShape::tet4, Formulation::standard},  {CellShape::tet10, Formulation::standard}};
+      {CellShape::hex8, Formulation::standard},        {CellShape::hex8, Formulation::meanDilatation},
+      {CellShape::hex8, Formulation::enhanced},        {CellShape::hex8, Formulation::reduced},
+      {CellShape::hex20, Formulation::standard},       {CellShape::hex27, Formulation::standard},
+      {CellShape::tet4, Formulation::standard},        {CellShape::tet10, Formulation::standard},
+      {CellShape::hex20, Formulation::meanDilatation}, {CellShape::hex27, Formulation::meanDilatation}};
   return kinds;
 }
 

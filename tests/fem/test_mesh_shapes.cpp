@@ -140,5 +140,46 @@ TEST(MeshShapes, JoinedPartsShareNodesAndKeepTheirSets) {
   EXPECT_THROW(joinMeshes(box, 0.0), InputError);
 }
 
+/// Positions of a node set, sorted.
+std::vector<std::array<double, 3>> places(const SolidMesh& mesh, const std::vector<int>& nodes) {
+  std::vector<std::array<double, 3>> result;
+  for (const int n : nodes) {
+    const Vec3& X = mesh.X[static_cast<std::size_t>(n)];
+    result.push_back({X.x, X.y, X.z});
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+TEST(MeshShapes, BoxesOfSecondOrderAreThoseMadeAsSuch) {
+  const std::pair<CellShape, CellShape> pairs[] = {
+      {CellShape::hex8, CellShape::hex20}, {CellShape::hex8, CellShape::hex27}, {CellShape::tet4, CellShape::tet10}};
+  for (const auto& [first, second] : pairs) {
+    const SolidMesh from = boxOf(first, {2, 1, 3}, {}, {2.0, 1.0, 3.0}),
+                    to = boxOf(second, {2, 1, 3}, {}, {2.0, 1.0, 3.0});
+    const SolidMesh raised = secondOrder(from, second == CellShape::hex27);
+    expectSound(raised, name(second));
+    ASSERT_EQ(raised.groups[0].shape, second);
+    ASSERT_EQ(raised.X.size(), to.X.size());
+    for (std::size_t k = 0; k < to.groups[0].node.size(); ++k) {
+      const auto a = static_cast<std::size_t>(raised.groups[0].node[k]),
+                 b = static_cast<std::size_t>(to.groups[0].node[k]);
+      EXPECT_EQ(raised.X[a], to.X[b]) << name(second);
+    }
+    for (const auto& [set, nodes] : to.nodeSets)
+      EXPECT_EQ(places(raised, nodeSet(raised, set)), places(to, nodes)) << set;
+    for (const auto& [set, faces] : to.faceSets) {
+      ASSERT_EQ(faceSet(raised, set).size(), faces.size());
+      for (std::size_t f = 0; f < faces.size(); ++f) {
+        const Face& face = faceSet(raised, set)[f];
+        EXPECT_EQ(face.shape, faces[f].shape);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(nodesOf(face.shape)); ++k)
+          EXPECT_EQ(raised.X[static_cast<std::size_t>(face.node[k])], to.X[static_cast<std::size_t>(faces[f].node[k])]);
+      }
+    }
+    EXPECT_THROW(secondOrder(raised), InputError);
+  }
+}
+
 }  // namespace
 }  // namespace dovetail::fem

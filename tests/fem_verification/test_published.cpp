@@ -36,7 +36,7 @@ TEST(Published, SlenderCantileversFollowTheElastica) {
 }
 
 TEST(Published, TheBeamBehindTheCylinderHangsAsPublished) {
-  const std::pair<ElementKind, std::array<int, 2>> meshes[] = {{enhanced, {80, 8}}, {hex20, {40, 4}}, {hex27, {40, 4}}};
+  const std::pair<ElementKind, std::array<int, 2>> meshes[] = {{enhanced, {40, 4}}, {hex20, {40, 4}}, {hex27, {40, 4}}};
   for (const auto& [kind, cells] : meshes) {
     const Vec3 soft = beamBehindCylinder(kind, cells, 0.5e6), stiff = beamBehindCylinder(kind, cells, 2e6);
     expectWithin(soft.x, -7.18777e-3, 1e-3, kind.label());
@@ -54,8 +54,8 @@ TEST(Published, CooksMembraneGivesThePublishedTables) {
     EXPECT_NEAR(1e3 * cooksMembrane({CellShape::hex8}, perEdge, 0.3, Sides::free).tip, tips[0], 0.005) << perEdge;
     EXPECT_NEAR(1e3 * cooksMembrane(hex27, perEdge, 0.3, Sides::free).tip, tips[1], 0.005) << perEdge;
   }
-  EXPECT_NEAR(1e3 * cooksMembrane(hex20, 16, 0.3, Sides::free).tip, 14.33, 0.1);
-  EXPECT_NEAR(1e3 * cooksMembrane(meanDilatation, 16, 0.3, Sides::free).tip, 14.33, 0.1);
+  for (const ElementKind& kind : {enhanced, meanDilatation, hex20})
+    EXPECT_NEAR(1e3 * cooksMembrane(kind, 16, 0.3, Sides::free).tip, 14.33, 0.1) << kind.label();
 }
 
 /// In plane strain all elements go to one value, here that of hex27 with 32 cells per edge.
@@ -63,7 +63,7 @@ TEST(Published, CooksMembraneInPlaneStrainConverges) {
   for (const ElementKind& kind : {enhanced, meanDilatation, hex20, hex27, tet10}) {
     const double error8 = std::abs(1e3 * cooksMembrane(kind, 8, 0.3).tip - 13.773);
     const double error16 = std::abs(1e3 * cooksMembrane(kind, 16, 0.3).tip - 13.773);
-    EXPECT_LT(error16, 0.16) << kind.label();
+    EXPECT_LT(error16, 0.1) << kind.label();
     EXPECT_LT(error16, 0.5 * error8) << kind.label();
   }
 }

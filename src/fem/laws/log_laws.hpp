@@ -32,11 +32,11 @@ struct TrialStrain {
   Six fromFrame(const Six& a) const { return sixOf(product(vectors, product(tensorOf(a), transposed(vectors)))); }
 };
 
-/// What a flow rule makes of the trial strain, all in its frame.
+/// What a flow rule makes of the trial strain, all in its frame. Flow rules also write ∂stress/∂(trial strain) unless
+/// the pointer to it is null.
 struct FlowAnswer {
   bool flows = false;
   Six elasticStrain{}, stress{};
-  SixBySix stiffness{};  ///< ∂stress/∂trial strain; only if asked for
   double stored = 0.0, dissipated = 0.0;
 };
 
@@ -51,7 +51,7 @@ struct J2Flow {
   /// Whether the stress has the axes of the trial strain.
   bool isCoaxial() const { return !(kinematic > 0.0); }
   FlowAnswer advance(const TrialStrain& trial, std::span<const double> history, std::span<double> newHistory,
-                     bool withStiffness) const;
+                     SixBySix* stiffness) const;
 };
 
 struct DruckerPragerFlow {
@@ -63,7 +63,7 @@ struct DruckerPragerFlow {
   bool isSymmetric() const { return cone.friction == cone.dilatancy; }
   bool isCoaxial() const { return true; }
   FlowAnswer advance(const TrialStrain& trial, std::span<const double> history, std::span<double> newHistory,
-                     bool withStiffness) const;
+                     SixBySix* stiffness) const;
 
 private:
   /// ∂stress/∂strain on the cone: shear stress along `direction`, of which the return left the share `left`.

@@ -14,7 +14,8 @@ namespace dovetail::fem {
 /// how functions hand it over does not depend on the processor that a program is compiled for.
 struct alignas(32) Four {
   using Register [[gnu::vector_size(32)]] = double;
-  using Bits [[gnu::vector_size(32)]] = std::int64_t;
+  using Bits [[gnu::vector_size(32)]] = std::uint64_t;
+  using Integers [[gnu::vector_size(32)]] = std::int64_t;
   double v[4];
 
   Four() = default;
@@ -73,7 +74,7 @@ DOVETAIL_ALWAYS_INLINE Four log(const Four& x) {
   using BitsIn = Four::BitsIn;
   // x = 2^k (1 + f) with 1 + f between √½ and √2.
   const BitsIn bits(x), rootHalf(Four(0.70710678118654752)), shift{Four(detail::integerShift)};
-  const Four::Bits k = (bits.b - rootHalf.b) >> 52;
+  const Four::Bits k = reinterpret_cast<Four::Bits>(reinterpret_cast<Four::Integers>(bits.b - rootHalf.b) >> 52);
   const Four f = Four(bits.b - (k << 52)) - 1.0;
   const Four exponent = Four(k + shift.b) - detail::integerShift;
   const Four s = f / (2.0 + f), z = s * s, w = z * z;

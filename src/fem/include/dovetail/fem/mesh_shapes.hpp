@@ -23,6 +23,13 @@ SolidMesh mappedBox(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 
 /// @throws InputError if the tolerance is not > 0, or an element loses a node by it
 SolidMesh joinMeshes(std::span<const SolidMesh> parts, double tolerance);
 
+/// The same mesh of second order with straight edges: tet4 becomes tet10, hex8 hex20, or hex27 if `fullBricks`.
+/// Elements and corner nodes keep their numbers. Faces of sets get their nodes. A node set gets the nodes between its
+/// members: on an edge if both ends belong to it, in a face or brick if all corners do; between nodes of the skin only
+/// where the edge or face lies on the skin itself.
+/// @throws InputError as validate, and for elements of second order
+SolidMesh secondOrder(const SolidMesh& mesh, bool fullBricks = false);
+
 /// A sector of a hollow cylinder about z, from the x axis by `angle` ≤ 2π towards y; a full ring closes on itself.
 /// Sets: "inner", "outer", "start" (θ = 0) and "end" (not for a full ring), "z-", "z+", "skin".
 /// @param cells  along r, θ and z; the full ring takes 3 or more along θ

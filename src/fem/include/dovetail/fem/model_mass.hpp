@@ -33,6 +33,7 @@ public:
   static BlockMatrix patternOf(const Model& model);
 
 private:
+  void accelerateEach(std::span<const Vec3> f, std::span<Vec3> a) const;
   const DofMap* dofs_;
   double share_;
   bool diagonal_;

@@ -15,8 +15,9 @@ namespace dovetail::fem {
 enum class Formulation {
   /// Displacements alone; hex8 2×2×2, hex20 and hex27 3×3×3, tet4 1, tet10 4 points.
   standard,
-  /// hex8 only: mean dilatation (Simo, Taylor & Pister 1985), F̄ = (θ/J)^⅓ F with θ the element's mean of J. Does not
-  /// lock as ν → ½; bends like `standard`. Derives from the potential ∫W(F̄).
+  /// Bricks: the dilatation is a field of its own, constant in hex8 (Simo, Taylor & Pister 1985), linear in hex20 and
+  /// hex27; F̄ = (θ/J)^⅓ F with θ the projection of J. Does not lock as ν → ½; hex8 bends like `standard`. Derives from
+  /// the potential ∫W(F̄). Samples show F̄ and P(F̄).
   meanDilatation,
   /// hex8 only: enhanced strain with transposed Wilson modes (Glaser & Armero 1997): nine modes in each element, F =
   /// F_u + F_α. Bends without locking and does not lock as ν → ½; the transposition takes away the hourglass modes in
