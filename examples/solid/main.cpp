@@ -79,10 +79,10 @@ struct Range {
 };
 
 bool flyIntoTheWall(const example::Options& options) {
-  const std::array<int, 3> cells = options.quick ? std::array{2, 2, 18} : std::array{3, 3, 36};
+  const std::array<int, 3> cells = options.quick ? std::array{2, 2, 12} : std::array{2, 2, 18};
   Bar bar = makeBar(cells);
-  // Elements are pressed to a third of their height: the step must suit them then.
-  const double dt = 0.3 * stableStep(bar.model).dt;
+  // Elements at the wall are pressed flat: the step must suit them then.
+  const double dt = 0.2 * stableStep(bar.model).dt;
   const auto steps = static_cast<std::int64_t>(std::ceil(duration / dt));
   ExplicitIntegrator integrator(bar.model, duration / static_cast<double>(steps), {.energyEvery = 50});
   std::printf("%zu bricks, %lld steps\n", bar.solid->size(), static_cast<long long>(steps));
