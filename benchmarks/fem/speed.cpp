@@ -1,6 +1,6 @@
 // Time of what a step of a solid consists of: forces and tangent per element, and implicit steps of two beams.
 //
-// usage: fem_speed [--threads N] [--beams] [--elements] [--leaving-out]
+// usage: fem_speed [--threads N] [--beams] [--elements] [--leaving-out] [--solvers]
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,6 +14,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/block_matrix.hpp"
 #include "dovetail/fem/dynamics.hpp"
+#include "dovetail/fem/linear_solver.hpp"
 #include "dovetail/fem/loads.hpp"
 #include "dovetail/fem/model.hpp"
 #include "dovetail/fem/newmark.hpp"
@@ -194,11 +195,45 @@ void timeLeavingOut() {
   }
 }
 
+/// One linear system of a cube that is pressed on one side: factorisation against iteration.
+void timeSolvers() {
+  std::printf("%-10s %9s | direct: set-up, s  solution, s | conjugate gradients: set-up, s  solution, s\n", "cube",
+              "unknowns");
+  for (const int n : {8, 16, 24, 32}) {
+    const SolidMesh mesh = boxOf(CellShape::hex8, {n, n, n}, {}, {1.0, 1.0, 1.0});
+    Model model = makeModel(mesh);
+    Solid& solid = model.add(makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.3, 1000.0))));
+    model.constraints.hold(nodeSet(mesh, "z-"));
+    const DofMap dofs(model.constraints, model.nodes);
+    Couplings couplings(mesh.X.size());
+    solid.addCouplings(couplings);
+    BlockMatrix K(std::move(couplings));
+    solid.addTangent(model.nodes, {}, K);
+    std::vector<Vec3> load(mesh.X.size());
+    for (const int node : nodeSet(mesh, "z+")) load[static_cast<std::size_t>(node)] = {1.0, 0.0, -2.0};
+    std::vector<double> r(dofs.size()), x(dofs.size());
+    dofs.reduce(load, r);
+    double seconds[4];
+    for (const LinearMethod method : {LinearMethod::direct, LinearMethod::conjugateGradients}) {
+      LinearSolver solver(dofs, {.method = method});
+      double* const times = seconds + (method == LinearMethod::direct ? 0 : 2);
+      const auto start = std::chrono::steady_clock::now();
+      if (!solver.factor(K, true)) std::printf("the matrix is singular\n");
+      const auto middle = std::chrono::steady_clock::now();
+      solver.solve(r, x);
+      times[0] = std::chrono::duration<double>(middle - start).count();
+      times[1] = std::chrono::duration<double>(std::chrono::steady_clock::now() - middle).count();
+    }
+    std::printf("%2dx%2dx%2d   %9zu | %18.3f %11.4f | %31.3f %11.3f\n", n, n, n, dofs.size(), seconds[0], seconds[1],
+                seconds[2], seconds[3]);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   int threadCount = 2;
-  bool beams = false, elements = false, leavingOut = false;
+  bool beams = false, elements = false, leavingOut = false, solvers = false;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--beams") == 0)
       beams = true;
@@ -206,16 +241,19 @@ int main(int argc, char** argv) {
       elements = true;
     else if (std::strcmp(argv[i], "--leaving-out") == 0)
       leavingOut = true;
+    else if (std::strcmp(argv[i], "--solvers") == 0)
+      solvers = true;
     else if (std::strcmp(argv[i], "--threads") == 0 && i + 1 < argc && std::atoi(argv[i + 1]) >= 1)
       threadCount = std::atoi(argv[++i]);
     else {
       std::fprintf(stderr,
-                   "fem_speed: \"%s\" is not known; use --threads N (1 or more), --beams, --elements, --leaving-out\n",
+                   "fem_speed: \"%s\" is not known; use --threads N (1 or more), --beams, --elements, --leaving-out, "
+                   "--solvers\n",
                    argv[i]);
       return 2;
     }
   }
-  const bool all = !beams && !elements && !leavingOut;
+  const bool all = !beams && !elements && !leavingOut && !solvers;
   if (elements || all) timeElements(threadCount);
   setThreads(1);
   if (beams || all) {
@@ -223,4 +261,5 @@ int main(int argc, char** argv) {
     timeBeams();
   }
   if (leavingOut || all) timeLeavingOut();
+  if (solvers || all) timeSolvers();
 }
