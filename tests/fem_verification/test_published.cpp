@@ -68,5 +68,17 @@ TEST(Published, CooksMembraneInPlaneStrainConverges) {
   }
 }
 
+/// ν = 0.4999. The tip converges to 11.48 mm: that of hex27 with mean dilatation and 16 cells per edge.
+TEST(Published, CooksMembraneNearlyIncompressibleNeitherLocksNorAlternates) {
+  constexpr double converged = 11.4818e-3;
+  const Membrane best = cooksMembrane({CellShape::hex27, Formulation::meanDilatation}, 8, 0.4999);
+  expectWithin(best.tip, converged, 2e-3, "hex27 mean dilatation");
+  EXPECT_LT(pressureSteps(best, 12e-3).checkerboard, 0.05);
+  const Membrane hex20Means = cooksMembrane({CellShape::hex20, Formulation::meanDilatation}, 16, 0.4999);
+  expectWithin(hex20Means.tip, converged, 1e-2, "hex20 mean dilatation");
+  EXPECT_LT(pressureSteps(hex20Means, 12e-3).checkerboard, 0.05);
+  expectWithin(cooksMembrane(meanDilatation, 16, 0.4999).tip, converged, 2e-2, "hex8 mean dilatation");
+}
+
 }  // namespace
 }  // namespace dovetail::verification
