@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/contact_plane.hpp"
 #include "dovetail/fem/ties.hpp"
 #include "dynamics_helpers.hpp"
@@ -209,6 +210,24 @@ TEST(Checkpoints, OfOtherModelsAreRefused) {
   ByteReader first(writer.bytes()), second(writer.bytes());
   EXPECT_THROW(two.load(first), InputError);
   EXPECT_THROW(three.load(second), InputError);
+}
+
+TEST(Threads, DoNotChangeADigit) {
+  const SolidMesh mesh = boxOf(CellShape::hex8, {16, 12, 12}, {}, {0.27, 0.2, 0.2});
+  const int before = threads();
+  std::vector<std::vector<Vec3>> ends;
+  for (const int count : {1, 3}) {
+    setThreads(count);
+    Model model = fallingBlock(mesh, 0.3), other = fallingBlock(mesh, 0.3);
+    ExplicitIntegrator(model, 0.002 * crossing, {.checkStep = false}).run(20);
+    ImplicitIntegrator(other, 0.1 * crossing).run(1);
+    ends.push_back(model.nodes.u);
+    ends.push_back(other.nodes.u);
+  }
+  setThreads(before);
+  EXPECT_GT(largestDifference(ends[0], std::vector<Vec3>(ends[0].size())), 1e-6);
+  EXPECT_EQ(ends[0], ends[2]);
+  EXPECT_EQ(ends[1], ends[3]);
 }
 
 TEST(Failure, StepsThatDoNotConvergeAreCut) {
