@@ -122,7 +122,7 @@ void SolidBase::assemble(const Nodes& nodes, const Instant& now, const Vec3* sta
   findPlaces(K);
   const std::size_t size = 9 * cells_.nodes * cells_.nodes;
   for (const std::vector<std::uint32_t>& colour : colours_)
-    parallelFor(colour.size(), 16, [&](std::size_t begin, std::size_t end) {
+    parallelFor(colour.size(), cells_.nodes > 10 ? 2 : 8, [&](std::size_t begin, std::size_t end) {
       std::vector<Lane> matrix(size);
       for (std::size_t k = begin; k < end; ++k) {
         tangent(taskOf(colour[k], nodes, now, start), matrix.data());

@@ -11,7 +11,7 @@ namespace dovetail::fem::detail {
 
 namespace {
 
-constexpr std::size_t batchGrain = 64;
+constexpr std::size_t batchGrain = 16;
 constexpr std::size_t nodeGrain = 1024;
 constexpr std::size_t parallelNodes = 4096;  // below this many nodes of batches threads cost more than they bring
 

@@ -1,6 +1,6 @@
 // hex8 with enhanced deformation gradient: F = F_u + F₀ Ĥ, Ĥ = Σ α_ij (j₀/j) ξ_i q_i ⊗ q_j with q_j = J₀⁻ᵀ e_j and F₀
-// that of the displacements at the centre (Glaser & Armero 1997, transposed Wilson modes). U = min over α of ∫W(F): α is
-// solved for in every element, so force and tangent are the derivatives of U.
+// that of the displacements at the centre (Glaser & Armero 1997, transposed Wilson modes). U = min over α of ∫W(F): α
+// is solved for in every element, so force and tangent are the derivatives of U.
 #include <cmath>
 #include <limits>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int N = 8;
 constexpr std::size_t Q = 8, M = 9;  // points, modes: α_ij is mode 3 i + j
-constexpr int maxIterations = 25;
+constexpr int maxIterations = 40;
 constexpr double relativeTolerance = 1e-10;
 using Tensors = std::array<Lane, 9 * Q>;
 using Modes = std::array<Lane, M>;
@@ -184,32 +184,64 @@ private:
         for (std::size_t n = 0; n < M; ++n) K[M * m + n][static_cast<int>(lane)] = m == n ? 1.0 : 0.0;
   }
 
-  /// Bits of the lanes whose residual is not yet zero.
-  static unsigned openLanes(const Modes& residual, const Modes& tolerance) {
-    unsigned open = 0;
+  /// Largest share of the residual in its tolerance, per lane; ≤ 1 is zero.
+  static Lane excess(const Modes& residual, const Modes& tolerance) {
+    Lane worst{};
     for (std::size_t m = 0; m < M; ++m)
-      for (int lane = 0; lane < laneCount; ++lane)
-        if (!(std::abs(residual[m][lane]) <= tolerance[m][lane])) open |= 1u << lane;
+      for (int lane = 0; lane < laneCount; ++lane) {
+        const double share = std::abs(residual[m][lane]) / std::max(tolerance[m][lane], 1e-300);
+        if (!(share <= worst[lane])) worst[lane] = share;  // NaN stays
+      }
+    return worst;
+  }
+
+  /// Bits of the lanes whose residual is not yet zero.
+  static unsigned openLanes(const Lane& excess) {
+    unsigned open = 0;
+    for (int lane = 0; lane < laneCount; ++lane)
+      if (!(excess[lane] <= 1.0)) open |= 1u << lane;
     return open;
   }
+
+  /// Newton's step of a lane, and half of it where that made things much worse.
+  struct Search {
+    Modes base{}, step{};
+    Lane before{};
+
+    void advance(Modes& alpha, const Modes& newton, const Lane& now, unsigned open, int iteration) {
+      const double patience = iteration < maxIterations / 2 ? 100.0 : 1.0;  // κ ≫ μ: the first step overshoots
+      for (int lane = 0; lane < laneCount; ++lane) {
+        if (!(open >> lane & 1)) continue;
+        const bool worse = iteration > 0 && !(now[lane] <= patience * before[lane]);
+        for (std::size_t m = 0; m < M; ++m) {
+          if (!worse) base[m][lane] = alpha[m][lane];
+          step[m][lane] = worse ? 0.5 * step[m][lane] : newton[m][lane];
+          alpha[m][lane] = base[m][lane] - step[m][lane];
+        }
+        if (!worse) before[lane] = now[lane];
+      }
+    }
+  };
 
   /// Solves for α of the batch; on return s is its state, with the moduli in A if it is not null.
   void equilibrate(const BatchTask& task, const Lane* U, State& s, Lane* A) {
     Modes& alpha = alpha_[task.batch];
     std::array<Lane, 81 * Q> own;
     Modes residual, tolerance;
+    Search search;
     bool restarted = false;
     for (int iteration = 0;; ++iteration) {
       kinematics(task.batch, U, alpha, s);
       Lane* const moduli = A != nullptr ? A : (iteration > 0 ? own.data() : nullptr);
       evaluate(task, s.F.data(), s.P.data(), moduli, nullptr, nullptr);
       modeResidual(task.batch, s, residual, tolerance);
-      const unsigned open = openLanes(residual, tolerance);
+      const Lane now = excess(residual, tolerance);
+      const unsigned open = openLanes(now);
       if (open == 0) return;
-      if (iteration >= maxIterations) {
+      if (iteration >= maxIterations || (iteration == 0 && !restarted && hasNaN(now))) {
         if (restarted) return giveUp(open, alpha, s);
         restarted = true;
-        iteration = 0;
+        iteration = -1;
         setLanes(open, alpha);
         continue;
       }
@@ -217,10 +249,12 @@ private:
       std::array<Lane, M * M> K;
       modeStiffness(task.batch, s, moduli == nullptr ? own.data() : moduli, K);
       solveModes(K, residual);
-      for (std::size_t m = 0; m < M; ++m)
-        for (int lane = 0; lane < laneCount; ++lane)
-          if (open >> lane & 1) alpha[m][lane] -= residual[m][lane];
+      search.advance(alpha, residual, now, open, iteration);
     }
+  }
+
+  static bool hasNaN(const Lane& x) {
+    return std::isnan(x[0]) || std::isnan(x[1]) || std::isnan(x[2]) || std::isnan(x[3]);
   }
 
   static void setLanes(unsigned lanes, Modes& alpha) {
