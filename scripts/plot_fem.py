@@ -36,7 +36,7 @@ def main():
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    figure, axes = pyplot.subplots(2, 2, figsize=(11, 8.2), constrained_layout=True)
+    figure, axes = pyplot.subplots(2, 2, figsize=(11, 8.6))
     for panel, (case, elements) in zip(axes.flat, cases.items()):
         for element, points in elements.items():
             shape = "o" if element.startswith("hex8") else "s" if element.startswith("hex") else "^"
@@ -46,7 +46,8 @@ def main():
         panel.set_xlabel("time to solution (s)")
         panel.set_ylabel("error (%)")
         panel.grid(True, which="major", alpha=0.3)
-    figure.legend(*axes.flat[0].get_legend_handles_labels(), loc="outside lower center", ncols=5, frameon=False)
+    figure.legend(*axes.flat[0].get_legend_handles_labels(), loc="lower center", ncol=5, frameon=False)
+    figure.tight_layout(rect=(0, 0.06, 1, 1))
     figure.savefig(arguments.out, dpi=130)
 
 
