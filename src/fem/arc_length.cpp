@@ -158,13 +158,7 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
     const double growth = std::sqrt(static_cast<double>(options.iterationTarget) / result.iterations);
     arc = std::min(largestArc, arc * std::clamp(growth, 0.5, 2.0));
   }
-  report.storedAfter = storedEnergy(model, {model.t, 0.0});
-  report.factorisations = equilibrium.solver().factorisations();
-  report.solver = equilibrium.solver().method();
-  report.assemblySeconds = equilibrium.assemblySeconds();
-  report.solverSeconds = equilibrium.solverSeconds();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  model.nodes.f.assign(equilibrium.forces().begin(), equilibrium.forces().end());
+  detail::finishReport(equilibrium, start, report);
   return report;
 }
 

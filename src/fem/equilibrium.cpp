@@ -216,4 +216,15 @@ void bookWork(const Equilibrium& equilibrium, const Model& model, std::span<cons
   }
 }
 
+void finishReport(Equilibrium& equilibrium, std::chrono::steady_clock::time_point start, StaticReport& report) {
+  Model& model = equilibrium.model();
+  report.storedAfter = storedEnergy(model, {model.t, 0.0});
+  report.factorisations = equilibrium.solver().factorisations();
+  report.solver = equilibrium.solver().method();
+  report.assemblySeconds = equilibrium.assemblySeconds();
+  report.solverSeconds = equilibrium.solverSeconds();
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  model.nodes.f.assign(equilibrium.forces().begin(), equilibrium.forces().end());
+}
+
 }  // namespace dovetail::fem::detail

@@ -1,6 +1,7 @@
 // Out-of-balance forces and tangent of a model for the implicit solvers.
 #pragma once
 
+#include <chrono>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,5 +61,8 @@ NewtonResult iterate(Equilibrium& equilibrium, double t, const NewtonOptions& op
 /// Books the work of a step from (f0, u0) to the present forces and displacement by the trapezoidal rule.
 void bookWork(const Equilibrium& equilibrium, const Model& model, std::span<const Vec3> f0,
               std::span<const Vec3> loads0, std::span<const Vec3> u0, StaticReport& report);
+
+/// Fills in what a report says at the end of a solution, and leaves the forces in nodes.f.
+void finishReport(Equilibrium& equilibrium, std::chrono::steady_clock::time_point start, StaticReport& report);
 
 }  // namespace dovetail::fem::detail

@@ -55,17 +55,6 @@ NewtonResult solveStep(Equilibrium& equilibrium, double t, const StaticOptions& 
   return result;
 }
 
-void finish(Equilibrium& equilibrium, std::chrono::steady_clock::time_point start, StaticReport& report) {
-  Model& model = equilibrium.model();
-  report.storedAfter = storedEnergy(model, {model.t, 0.0});
-  report.factorisations = equilibrium.solver().factorisations();
-  report.solver = equilibrium.solver().method();
-  report.assemblySeconds = equilibrium.assemblySeconds();
-  report.solverSeconds = equilibrium.solverSeconds();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  model.nodes.f.assign(equilibrium.forces().begin(), equilibrium.forces().end());
-}
-
 }  // namespace
 
 StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& options, const StaticObserver& observer) {
@@ -93,7 +82,7 @@ StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& option
       step = 0.4 * std::min(step, left);
       ++report.cuts;
       if (step >= options.smallestStep) continue;
-      finish(equilibrium, start, report);
+      detail::finishReport(equilibrium, start, report);
       throw NumericalError(
           result.failure, "solveStatics, " + when(t),
           "the last equilibrium is at " + when(model.t) + "; a limit point of the load can be passed by followPath");
@@ -109,7 +98,7 @@ StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& option
     const double growth = std::sqrt(static_cast<double>(options.iterationTarget) / std::max(1, result.iterations));
     step = std::min(options.largestStep, step * std::clamp(growth, 0.5, 2.0));
   }
-  finish(equilibrium, start, report);
+  detail::finishReport(equilibrium, start, report);
   return report;
 }
 
