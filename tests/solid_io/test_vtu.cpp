@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../io/scratch_folder.hpp"
 #include "dovetail/solid_io_vtk/solid_vtu.hpp"
 #include "mesh_files.hpp"
 
@@ -11,14 +12,13 @@ namespace {
 
 class Vtu : public testing::Test {
 protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path write(const std::string& text) const {
     const auto path = folder_ / "test.vtu";
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
-  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "dovetail_solid_vtu";
+  io::test::ScratchFolder scratch_;  // tests run side by side
+  std::filesystem::path folder_ = scratch_.path();
 };
 
 /// A grid in ASCII with one tetrahedron of four points.
