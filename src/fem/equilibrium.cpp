@@ -7,6 +7,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "newton_tools.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -14,23 +15,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-double normOf(std::span<const double> x) {
-  double sum = 0.0;
-  for (const double value : x) sum += value * value;
-  return std::sqrt(sum);
-}
-double normOf(std::span<const Vec3> x) {
-  double sum = 0.0;
-  for (const Vec3& value : x) sum += squaredNorm(value);
-  return std::sqrt(sum);
-}
-
-double product(std::span<const double> a, std::span<const double> b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
 
 /// F = 1 + ∂u/∂X is known to ε, however small ∂u/∂X is: as if every node were off by ε times its distance from the
 /// others. What that does to the forces, N.
@@ -49,12 +33,6 @@ double strainResolution(const BlockMatrix& K, std::span<const Vec3> X) {
   return std::numeric_limits<double>::epsilon() * std::sqrt(squares);
 }
 
-BlockMatrix patternOf(const Model& model) {
-  Couplings couplings(model.nodes.X.size());
-  for (const auto& term : model.terms) term->addCouplings(couplings);
-  return BlockMatrix(std::move(couplings));
-}
-
 }  // namespace
 
 void validate(const NewtonOptions& options) {
@@ -70,7 +48,7 @@ Equilibrium::Equilibrium(Model& model, const NewtonOptions& options)
       options_(options),
       dofs_(model.constraints, model.nodes),
       solver_(dofs_, options.linear),
-      K_(patternOf(model)),
+      K_(couplingPattern(model)),
       forces_(model.nodes.X.size()),
       loads_(forces_.size()),
       scratch_(forces_.size()),
@@ -159,15 +137,13 @@ double search(Equilibrium& equilibrium, double t, std::span<const Vec3> start, s
     equilibrium.dofs().addIncrement(part, model.nodes.u);
     return equilibrium.evaluate(t);
   };
-  double low = 0.0, slopeLow = slopeAtStart, share = 1.0, norm = moveTo(1.0);
+  double share = 1.0, norm = moveTo(1.0);
   for (int trial = 0; trial < 8; ++trial) {
     const double slope = product(equilibrium.residual(), step);
     if (std::isfinite(norm) && (std::abs(slope) <= 0.8 * std::abs(slopeAtStart) || norm <= equilibrium.tolerance()))
       return norm;
-    if (std::isfinite(norm) && slope * slopeLow > 0.0) return norm;  // still downhill: a full step is as good
-    share = std::isfinite(norm) && slope != slopeLow ? std::clamp(low - slopeLow * (share - low) / (slope - slopeLow),
-                                                                  low + 0.1 * (share - low), low + 0.8 * (share - low))
-                                                     : low + 0.25 * (share - low);
+    if (std::isfinite(norm) && slope * slopeAtStart > 0.0) return norm;  // still downhill: a full step is as good
+    share = shorterShare(share, slopeAtStart, slope);
     norm = moveTo(share);
   }
   return norm;

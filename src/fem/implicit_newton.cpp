@@ -4,18 +4,9 @@
 
 #include "dovetail/core/finite.hpp"
 #include "implicit_step.hpp"
+#include "newton_tools.hpp"
 
 namespace dovetail::fem::detail {
-
-namespace {
-
-double product(std::span<const double> a, std::span<const double> b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-}  // namespace
 
 /// The state that the correction says, its forces and their balance; returns the norm.
 double ImplicitStep::trial(double h) {
@@ -28,14 +19,12 @@ double ImplicitStep::trial(double h) {
 /// start (Matthies & Strang 1979). The state is at the full increment, with the norm given; returns that of the share
 /// found.
 double ImplicitStep::search(double h, double norm, double slopeAtStart) {
-  double low = 0.0, slopeLow = slopeAtStart, share = 1.0;
+  double share = 1.0;
   for (int round = 0; round < 8; ++round) {
     const double slope = product(residual_, increment_);
     const bool finite = std::isfinite(norm);
-    if (finite && (std::abs(slope) <= 0.8 * std::abs(slopeAtStart) || slope * slopeLow > 0.0)) return norm;
-    const double next = finite ? std::clamp(low - slopeLow * (share - low) / (slope - slopeLow),
-                                            low + 0.1 * (share - low), low + 0.8 * (share - low))
-                               : low + 0.25 * (share - low);
+    if (finite && (std::abs(slope) <= 0.8 * std::abs(slopeAtStart) || slope * slopeAtStart > 0.0)) return norm;
+    const double next = shorterShare(share, slopeAtStart, slope);
     part_ = increment_;
     for (double& value : part_) value *= next - share;
     dofs_.addIncrement(part_, correction_);

@@ -6,21 +6,11 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "newton_tools.hpp"
 
 namespace dovetail::fem::detail {
 
 namespace {
-
-double normOf(std::span<const Vec3> x) {
-  double sum = 0.0;
-  for (const Vec3& value : x) sum += squaredNorm(value);
-  return std::sqrt(sum);
-}
-double normOf(std::span<const double> x) {
-  double sum = 0.0;
-  for (const double value : x) sum += value * value;
-  return std::sqrt(sum);
-}
 
 /// Between nodes that share an element, m.
 double meanSpacing(const Nodes& nodes, const BlockMatrix& pattern) {
@@ -53,7 +43,7 @@ ImplicitStep::ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, co
       options_(options),
       profile_(profile),
       solver_(dofs, options.linear),
-      matrix_(ModelMass::patternOf(model)),
+      matrix_(couplingPattern(model)),
       start_(model),
       end_(model),
       conserves_(model.terms.size(), 0),

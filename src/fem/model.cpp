@@ -3,8 +3,15 @@
 #include <algorithm>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/fem/block_matrix.hpp"
 
 namespace dovetail::fem {
+
+BlockMatrix couplingPattern(const Model& model) {
+  Couplings couplings(model.nodes.X.size());
+  for (const auto& term : model.terms) term->addCouplings(couplings);
+  return BlockMatrix(std::move(couplings));
+}
 
 Model makeModel(const SolidMesh& mesh) {
   const std::size_t n = mesh.X.size();

@@ -12,12 +12,6 @@ namespace {
 constexpr std::size_t nodeGrain = 4096;
 }
 
-BlockMatrix ModelMass::patternOf(const Model& model) {
-  Couplings couplings(model.nodes.X.size());
-  for (const auto& term : model.terms) term->addCouplings(couplings);
-  return BlockMatrix(std::move(couplings));
-}
-
 ModelMass::ModelMass(const Model& model, const DofMap& dofs, double share)
     : dofs_(&dofs), share_(share), diagonal_(share == 0.0 && !dofs.hasTies()), solver_(dofs), reduced_(dofs.size()) {
   if (!(share >= 0.0 && share <= 1.0))
@@ -29,7 +23,7 @@ ModelMass::ModelMass(const Model& model, const DofMap& dofs, double share)
   }
   work_.resize(lumped_.size());
   if (share == 0.0) return;
-  consistent_ = patternOf(model);
+  consistent_ = couplingPattern(model);
   consistent_.setZero();
   for (const auto& term : model.terms) term->addConsistentMass(consistent_);
   for (double& value : consistent_.values()) value *= share;
@@ -63,7 +57,8 @@ void ModelMass::addTo(BlockMatrix& S, double factor) const {
   if (share_ == 0.0) return;
   if (!std::ranges::equal(S.columns(), consistent_.columns()) ||
       !std::ranges::equal(S.offsets(), consistent_.offsets()))
-    throw InputError("the matrix has another pattern", "ModelMass::addTo", "use patternOf the same model");
+    throw InputError("the matrix has another pattern", "ModelMass::addTo",
+                     "make it with couplingPattern of the same model");
   for (std::size_t k = 0; k < S.values().size(); ++k) S.values()[k] += factor * consistent_.values()[k];
 }
 

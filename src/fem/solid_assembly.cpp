@@ -5,23 +5,10 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "small_tensors.hpp"
 #include "solid_base.hpp"
 
 namespace dovetail::fem::detail {
-
-namespace {
-
-/// 3 × 3 inverse of J (row-major) and its determinant, lane by lane.
-Lane invert(const std::array<Lane, 9>& J, std::array<Lane, 9>& inverse) {
-  const Lane a = J[4] * J[8] - J[5] * J[7], b = J[5] * J[6] - J[3] * J[8], c = J[3] * J[7] - J[4] * J[6];
-  const Lane determinant = J[0] * a + J[1] * b + J[2] * c, s = 1.0 / determinant;
-  inverse = {s * a, s * (J[2] * J[7] - J[1] * J[8]), s * (J[1] * J[5] - J[2] * J[4]),
-             s * b, s * (J[0] * J[8] - J[2] * J[6]), s * (J[2] * J[3] - J[0] * J[5]),
-             s * c, s * (J[1] * J[6] - J[0] * J[7]), s * (J[0] * J[4] - J[1] * J[3])};
-  return determinant;
-}
-
-}  // namespace
 
 std::vector<PointGeometry> geometryAt(const SolidCells& cells, const CellRule& rule) {
   const std::size_t n = cells.nodes, q = rule.point.size();
@@ -39,7 +26,7 @@ std::vector<PointGeometry> geometryAt(const SolidCells& cells, const CellRule& r
         }
       }
       PointGeometry& point = geometry[b * q + p];
-      point.weight = rule.weight[p] * invert(J, point.map);
+      point.weight = rule.weight[p] * inverseOf(J.data(), point.map.data());
       for (std::size_t lane = cells.inUse(b); lane < laneCount; ++lane) point.weight[lane] = 0.0;
     }
   return geometry;

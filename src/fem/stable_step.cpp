@@ -131,7 +131,7 @@ class ScaledModel {
 public:
   ScaledModel(Model& model, const Instant& now)
       : dofs_(model.constraints, model.nodes),
-        K_(patternOf(model)),
+        K_(couplingPattern(model)),
         full_(model.nodes.X.size()),
         pushed_(full_.size()) {
     for (const auto& term : model.terms) term->addTangent(model.nodes, now, K_);
@@ -159,11 +159,6 @@ public:
   Eigen::VectorXd start() const { return startVector(scale_); }
 
 private:
-  static BlockMatrix patternOf(const Model& model) {
-    Couplings couplings(model.nodes.X.size());
-    for (const auto& term : model.terms) term->addCouplings(couplings);
-    return BlockMatrix(std::move(couplings));
-  }
   DofMap dofs_;
   BlockMatrix K_;
   std::vector<double> scale_;

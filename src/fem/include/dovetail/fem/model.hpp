@@ -31,6 +31,9 @@ Model makeModel(const SolidMesh& mesh);
 /// Sets nodes.mass from the terms. @throws InputError naming a node that no term gives a mass
 void addMass(Model& model);
 
+/// A matrix with a block for every pair of nodes that a term couples; all zero.
+BlockMatrix couplingPattern(const Model& model);
+
 /// f = Σ forces of the terms at nodes.u, v.
 void evaluateForces(Model& model, const Instant& now);
 /// Σ energies of the terms that store one, J.

@@ -29,8 +29,6 @@ public:
   /// @param a  holds a_g, the accelerations of prescribed motion, at components that are not free; overwritten
   /// @throws NumericalError if the matrix is singular
   void accelerate(std::span<const Vec3> f, std::span<Vec3> a);
-  /// The pattern of the couplings of a model's terms.
-  static BlockMatrix patternOf(const Model& model);
 
 private:
   void accelerateEach(std::span<const Vec3> f, std::span<Vec3> a) const;
