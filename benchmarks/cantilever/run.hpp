@@ -8,7 +8,7 @@
 
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/core/profile.hpp"
-#include "dovetail/dem/particles.hpp"
+#include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/fem/mesh.hpp"
 #include "dovetail/fem/nodes.hpp"
 #include "dovetail/io/time_series.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dovetail/dem/model.hpp"
+#include "dovetail/dem/model/model.hpp"
 
 namespace dovetail::dem_benchmark {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "dovetail/dem/common_laws.hpp"
-#include "dovetail/dem/model.hpp"
+#include "dovetail/dem/laws/common_laws.hpp"
+#include "dovetail/dem/model/model.hpp"
 
 namespace dovetail::dem_benchmark {
 

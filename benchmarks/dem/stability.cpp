@@ -6,7 +6,7 @@
 
 #include "common/text.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/model.hpp"
+#include "dovetail/dem/model/model.hpp"
 #include "studies.hpp"
 
 namespace dovetail::dem_benchmark {

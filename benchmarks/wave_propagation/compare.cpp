@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
 #include "run.hpp"
 
 namespace dovetail::wave {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <numbers>
 
-#include "dovetail/dem/model.hpp"
-#include "dovetail/dem/packing.hpp"
-#include "dovetail/dem/rolling.hpp"
+#include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/setup/packing.hpp"
+#include "dovetail/dem/laws/rolling.hpp"
 
 namespace dovetail::example {
 

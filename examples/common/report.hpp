@@ -6,8 +6,8 @@
 #include <string>
 
 #include "dovetail/core/ledger.hpp"
-#include "dovetail/dem/contact_step.hpp"
-#include "dovetail/dem/model.hpp"
+#include "dovetail/dem/model/contact_step.hpp"
+#include "dovetail/dem/model/model.hpp"
 #include "dovetail/io/provenance.hpp"
 
 namespace dovetail::example {

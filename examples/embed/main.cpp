@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "dovetail/core/ledger.hpp"
-#include "dovetail/dem/laws.hpp"
-#include "dovetail/dem/particles.hpp"
+#include "dovetail/dem/laws/laws.hpp"
+#include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/surface/coupling.hpp"
 
 using dovetail::Vec3;

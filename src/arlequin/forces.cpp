@@ -5,7 +5,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
 
 namespace dovetail::arlequin::detail {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "dovetail/core/finite.hpp"
-#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
 #include "dovetail/fem/materials.hpp"
 #include "dovetail/fem/shape.hpp"
 

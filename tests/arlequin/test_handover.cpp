@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/contact_sample.hpp"
-#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/pairs/contact_sample.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
 #include "scenes.hpp"
 
 namespace dovetail::arlequin {

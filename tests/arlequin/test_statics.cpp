@@ -1,7 +1,7 @@
 // Constant stress through the overlap, and holding it.
 #include <gtest/gtest.h>
 
-#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
 #include "scenes.hpp"
 
 namespace dovetail::arlequin {

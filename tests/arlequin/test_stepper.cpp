@@ -3,7 +3,7 @@
 #include "dovetail/arlequin/stepper.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
 #include "scenes.hpp"
 
 namespace dovetail::arlequin {

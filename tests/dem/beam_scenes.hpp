@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "dovetail/dem/bonds.hpp"
-#include "dovetail/dem/damping.hpp"
+#include "dovetail/dem/bonds/bonds.hpp"
+#include "dovetail/dem/particles/damping.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

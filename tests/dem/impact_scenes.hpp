@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dovetail/dem/common_laws.hpp"
-#include "dovetail/dem/materials.hpp"
+#include "dovetail/dem/laws/common_laws.hpp"
+#include "dovetail/dem/laws/materials.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/bodies.hpp"
+#include "dovetail/dem/bodies/bodies.hpp"
 
 namespace dovetail::dem {
 namespace {

@@ -1,7 +1,7 @@
 // Bonded pairs, and pairs that count by a share.
 #include <gtest/gtest.h>
 
-#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

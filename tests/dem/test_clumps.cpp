@@ -3,9 +3,9 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/clumps.hpp"
-#include "dovetail/dem/insertion.hpp"
-#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/bodies/clumps.hpp"
+#include "dovetail/dem/setup/insertion.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

@@ -4,9 +4,9 @@
 #include "dovetail/cg/averages.hpp"
 #include "dovetail/cg/images.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/contact_sample.hpp"
-#include "dovetail/dem/packing.hpp"
-#include "dovetail/dem/wall_collide.hpp"
+#include "dovetail/dem/pairs/contact_sample.hpp"
+#include "dovetail/dem/setup/packing.hpp"
+#include "dovetail/dem/walls/wall_collide.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

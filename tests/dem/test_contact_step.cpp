@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/elastic_plastic.hpp"
-#include "dovetail/dem/model.hpp"
-#include "dovetail/dem/rolling.hpp"
+#include "dovetail/dem/laws/elastic_plastic.hpp"
+#include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/laws/rolling.hpp"
 #include "impact_scenes.hpp"
 
 namespace dovetail::dem {

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "dovetail/dem/adhesion.hpp"
-#include "dovetail/dem/elastic_plastic.hpp"
-#include "dovetail/dem/rolling.hpp"
+#include "dovetail/dem/laws/adhesion.hpp"
+#include "dovetail/dem/laws/elastic_plastic.hpp"
+#include "dovetail/dem/laws/rolling.hpp"
 #include "impact_scenes.hpp"
 
 namespace dovetail::dem {

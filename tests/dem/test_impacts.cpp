@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "dovetail/dem/elastic_plastic.hpp"
+#include "dovetail/dem/laws/elastic_plastic.hpp"
 #include "impact_scenes.hpp"
 
 namespace dovetail::dem {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/insertion.hpp"
+#include "dovetail/dem/setup/insertion.hpp"
 
 namespace dovetail::dem {
 namespace {

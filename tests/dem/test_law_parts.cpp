@@ -4,11 +4,11 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/adhesion.hpp"
-#include "dovetail/dem/elastic_plastic.hpp"
-#include "dovetail/dem/materials.hpp"
-#include "dovetail/dem/restitution.hpp"
-#include "dovetail/dem/rolling.hpp"
+#include "dovetail/dem/laws/adhesion.hpp"
+#include "dovetail/dem/laws/elastic_plastic.hpp"
+#include "dovetail/dem/laws/materials.hpp"
+#include "dovetail/dem/laws/restitution.hpp"
+#include "dovetail/dem/laws/rolling.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/critical_step.hpp"
-#include "dovetail/dem/laws.hpp"
+#include "dovetail/dem/model/critical_step.hpp"
+#include "dovetail/dem/laws/laws.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

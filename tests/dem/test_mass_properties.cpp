@@ -5,7 +5,7 @@
 #include <random>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/mass_properties.hpp"
+#include "dovetail/dem/bodies/mass_properties.hpp"
 
 namespace dovetail::dem {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/checkpoint.hpp"
-#include "dovetail/dem/model.hpp"
+#include "dovetail/dem/model/checkpoint.hpp"
+#include "dovetail/dem/model/model.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/packing.hpp"
+#include "dovetail/dem/setup/packing.hpp"
 
 namespace dovetail::dem {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/particles.hpp"
+#include "dovetail/dem/particles/particles.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

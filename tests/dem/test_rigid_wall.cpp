@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/rigid_wall.hpp"
-#include "dovetail/dem/wall_collide.hpp"
+#include "dovetail/dem/walls/rigid_wall.hpp"
+#include "dovetail/dem/walls/wall_collide.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

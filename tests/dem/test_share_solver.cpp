@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "dovetail/dem/share_solver.hpp"
+#include "dovetail/dem/walls/share_solver.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "dovetail/dem/particles.hpp"
-#include "dovetail/dem/wall_candidates.hpp"
-#include "dovetail/dem/wall_collide.hpp"
-#include "dovetail/dem/wall_contacts.hpp"
+#include "dovetail/dem/particles/particles.hpp"
+#include "dovetail/dem/walls/wall_candidates.hpp"
+#include "dovetail/dem/walls/wall_collide.hpp"
+#include "dovetail/dem/walls/wall_contacts.hpp"
 
 namespace dovetail::dem {
 

@@ -1,8 +1,8 @@
 // Two particles fly into each other and apart again.
 #include <iostream>
 
-#include "dovetail/dem/laws.hpp"
-#include "dovetail/dem/pair_collide.hpp"
+#include "dovetail/dem/laws/laws.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
 
 using namespace dovetail;
 

@@ -8,8 +8,8 @@
 #include "dovetail/arlequin/locate.hpp"
 #include "dovetail/cg/projection.hpp"
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/dem/pairs.hpp"
-#include "dovetail/dem/particles.hpp"
+#include "dovetail/dem/pairs/pairs.hpp"
+#include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/fem/nodes.hpp"
 
 namespace dovetail::arlequin {

@@ -10,10 +10,10 @@
 #include "dovetail/arlequin/coupling.hpp"
 #include "dovetail/core/profile.hpp"
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/dem/contact_work.hpp"
-#include "dovetail/dem/laws.hpp"
-#include "dovetail/dem/pairs.hpp"
-#include "dovetail/dem/particles.hpp"
+#include "dovetail/dem/laws/contact_work.hpp"
+#include "dovetail/dem/laws/laws.hpp"
+#include "dovetail/dem/pairs/pairs.hpp"
+#include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/fem/newmark.hpp"
 
 namespace dovetail::arlequin {

@@ -7,8 +7,8 @@
 
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/dem/pairs.hpp"
-#include "dovetail/dem/particles.hpp"
+#include "dovetail/dem/pairs/pairs.hpp"
+#include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/fem/mesh.hpp"
 #include "dovetail/fem/nodes.hpp"
 

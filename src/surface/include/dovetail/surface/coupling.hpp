@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "dovetail/cg/surface_kernel.hpp"
-#include "dovetail/dem/particles.hpp"
-#include "dovetail/dem/wall_candidates.hpp"
-#include "dovetail/dem/wall_collide.hpp"
-#include "dovetail/dem/wall_contacts.hpp"
+#include "dovetail/dem/particles/particles.hpp"
+#include "dovetail/dem/walls/wall_candidates.hpp"
+#include "dovetail/dem/walls/wall_collide.hpp"
+#include "dovetail/dem/walls/wall_contacts.hpp"
 #include "dovetail/surface/nodal_load.hpp"
 #include "dovetail/surface/skin.hpp"
 #include "dovetail/surface/spread_load.hpp"

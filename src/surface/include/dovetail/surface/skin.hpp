@@ -9,7 +9,7 @@
 #include "dovetail/cg/projection.hpp"
 #include "dovetail/cg/surface_kernel.hpp"
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/dem/wall.hpp"
+#include "dovetail/dem/walls/wall.hpp"
 
 namespace dovetail::surface {
 

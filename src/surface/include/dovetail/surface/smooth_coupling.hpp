@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/contact_work.hpp"
-#include "dovetail/dem/particles.hpp"
-#include "dovetail/dem/share_solver.hpp"
+#include "dovetail/dem/laws/contact_work.hpp"
+#include "dovetail/dem/particles/particles.hpp"
+#include "dovetail/dem/walls/share_solver.hpp"
 #include "dovetail/surface/nodal_load.hpp"
 #include "dovetail/surface/smooth_surface.hpp"
 

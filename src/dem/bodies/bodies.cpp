@@ -1,0 +1,134 @@
+#include "dovetail/dem/bodies/bodies.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+constexpr std::size_t grain = 512;
+
+void checkVector(const Vec3& value, const std::string& where) {
+  if (!isFinite(value)) throw InputError("not a finite vector", where, "give three finite numbers");
+}
+
+void checkProperties(const MassProperties& p, const std::string& body) {
+  requirePositive(p.mass, "mass of " + body);
+  for (int k = 0; k < 3; ++k) {
+    requirePositive(p.inertia[k], "principal moment of " + body);
+    if (p.inertia[k] > (1.0 + 1e-12) * (p.inertia[(k + 1) % 3] + p.inertia[(k + 2) % 3]))
+      throw InputError("the principal moment " + formatNumber(p.inertia[k]) + " is larger than the sum of the others",
+                       "inertia of " + body, "give the moments of a body, which no mass distribution exceeds");
+  }
+}
+
+Vec3 overInertia(const Vec3& l, const Vec3& inertia) { return {l.x / inertia.x, l.y / inertia.y, l.z / inertia.z}; }
+
+/// Turn about principal axis k for the time h.
+Quaternion turnAbout(int k, double h, const Quaternion& q, const Vec3& l, const Vec3& inertia) {
+  Vec3 axis;
+  axis[k] = 1.0;
+  const double speed = dot(rotate(q, axis), l) / inertia[k];
+  axis[k] = h * speed;
+  return q * fromRotationVector(axis);
+}
+
+}  // namespace
+
+int addBody(Bodies& bodies, const MassProperties& properties, const Vec3& x, const Quaternion& turn, const Vec3& v,
+            const Vec3& omega) {
+  const int number = static_cast<int>(bodies.size());
+  const std::string body = "body " + std::to_string(number);
+  checkProperties(properties, body);
+  checkVector(x, body + ", position");
+  checkVector(v, body + ", velocity");
+  checkVector(omega, body + ", angular velocity");
+  if (const double length = norm(turn); !(std::isfinite(length) && length > 0.0))
+    throw InputError("the quaternion has the length " + formatNumber(length), body + ", orientation",
+                     "give one that can be made a unit quaternion");
+  bodies.x.push_back(x);
+  bodies.v.push_back(v);
+  bodies.f.emplace_back();
+  bodies.mass.push_back(properties.mass);
+  bodies.inertia.push_back(properties.inertia);
+  bodies.orientation.push_back(normalized(normalized(turn) * properties.axes));
+  bodies.angularMomentum.emplace_back();
+  bodies.torque.emplace_back();
+  setAngularVelocity(bodies, number, omega);
+  return number;
+}
+
+Vec3 angularVelocity(const Bodies& bodies, int body) {
+  const auto b = static_cast<std::size_t>(body);
+  const Quaternion& q = bodies.orientation[b];
+  return rotate(q, overInertia(rotateBack(q, bodies.angularMomentum[b]), bodies.inertia[b]));
+}
+
+void setAngularVelocity(Bodies& bodies, int body, const Vec3& omega) {
+  const auto b = static_cast<std::size_t>(body);
+  const Quaternion& q = bodies.orientation[b];
+  const Vec3 w = rotateBack(q, omega), &i = bodies.inertia[b];
+  bodies.angularMomentum[b] = rotate(q, {i.x * w.x, i.y * w.y, i.z * w.z});
+}
+
+void clearForces(Bodies& bodies) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) bodies.f[b] = bodies.torque[b] = {};
+}
+
+void applyGravity(Bodies& bodies, const Vec3& g) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) bodies.f[b] += bodies.mass[b] * g;
+}
+
+void kickBodies(Bodies& bodies, double dt) {
+  parallelFor(bodies.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      bodies.v[b] += (dt / bodies.mass[b]) * bodies.f[b];
+      bodies.angularMomentum[b] += dt * bodies.torque[b];
+    }
+  });
+}
+
+void driftBodies(Bodies& bodies, double dt) {
+  parallelFor(bodies.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      bodies.x[b] += dt * bodies.v[b];
+      Quaternion q = bodies.orientation[b];
+      const Vec3 &l = bodies.angularMomentum[b], &inertia = bodies.inertia[b];
+      for (const int k : {0, 1}) q = turnAbout(k, 0.5 * dt, q, l, inertia);
+      q = turnAbout(2, dt, q, l, inertia);
+      for (const int k : {1, 0}) q = turnAbout(k, 0.5 * dt, q, l, inertia);
+      bodies.orientation[b] = normalized(q);
+    }
+  });
+}
+
+double kineticEnergy(const Bodies& bodies) {
+  return parallelSum(bodies.size(), grain, [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t b = begin; b < end; ++b) {
+      const Vec3 l = rotateBack(bodies.orientation[b], bodies.angularMomentum[b]);
+      sum += 0.5 * (bodies.mass[b] * squaredNorm(bodies.v[b]) + dot(l, overInertia(l, bodies.inertia[b])));
+    }
+    return sum;
+  });
+}
+
+Vec3 momentum(const Bodies& bodies) {
+  Vec3 sum;
+  for (std::size_t b = 0; b < bodies.size(); ++b) sum += bodies.mass[b] * bodies.v[b];
+  return sum;
+}
+
+Vec3 angularMomentum(const Bodies& bodies) {
+  Vec3 sum;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    sum += bodies.mass[b] * cross(bodies.x[b], bodies.v[b]) + bodies.angularMomentum[b];
+  return sum;
+}
+
+}  // namespace dovetail::dem

@@ -1,0 +1,164 @@
+// What bonds exert, and which of them break.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/bonds/bonds.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+/// Turns v by the rotation of Cayley, of angle 2 atan(|h|): lengths and angles stay to round-off.
+void turn(Vec3& v, const Vec3& h, double factor) {
+  const Vec3 first = cross(h, v);
+  v += factor * (first + cross(h, first));
+}
+
+void turnEnds(Bond& bond, const Vec3& omegaI, const Vec3& omegaJ, double dt) {
+  const Vec3 hI = (0.5 * dt) * omegaI, hJ = (0.5 * dt) * omegaJ;
+  const double factorI = 2.0 / (1.0 + squaredNorm(hI)), factorJ = 2.0 / (1.0 + squaredNorm(hJ));
+  turn(bond.directionI, hI, factorI);
+  turn(bond.acrossI, hI, factorI);
+  turn(bond.directionJ, hJ, factorJ);
+  turn(bond.acrossJ, hJ, factorJ);
+}
+
+struct Line {
+  Vec3 e;  // unit, from i to j
+  double length;
+};
+
+Bonds::Forces elasticForces(const Bond& bond, const Line& line, double& energy) {
+  const Vec3 &nI = bond.directionI, &nJ = bond.directionJ, &mI = bond.acrossI, &mJ = bond.acrossJ;
+  const Vec3 lI = cross(nI, mI), lJ = -cross(nJ, mJ);
+  const double stretch = line.length - bond.length, slide = bond.shear * bond.length * bond.length;
+  const double mixed = bond.bending - 0.25 * slide - 0.5 * bond.twisting;
+  const Vec3 w = nJ - nI, across = w - dot(w, line.e) * line.e;
+  energy = 0.5 * bond.normal * stretch * stretch +
+           0.25 * slide * (squaredNorm(nI - line.e) + squaredNorm(nJ + line.e)) + 0.5 * mixed * squaredNorm(nI + nJ) +
+           0.25 * bond.twisting * (squaredNorm(mI - mJ) + squaredNorm(lI - lJ));
+  Bonds::Forces f;
+  f.force = -(bond.normal * stretch) * line.e - (0.5 * slide / line.length) * across;
+  const Vec3 pair = (0.5 * bond.twisting) * (cross(mI, mJ) + cross(lI, lJ)) - mixed * cross(nI, nJ);
+  f.torqueI = (0.5 * slide) * cross(nI, line.e) + pair;
+  f.torqueJ = -(0.5 * slide) * cross(nJ, line.e) - pair;
+  return f;
+}
+
+/// Largest stress over strength.
+double utilisation(const Bond& bond, const Line& line, const Bonds::Forces& f) {
+  const double area = std::numbers::pi * bond.radius * bond.radius;
+  const double perMoment = bond.momentContribution * 4.0 / (area * bond.radius);  // r/I; r/J is half of it
+  const double tension = -dot(f.force, line.e), twist = dot(f.torqueI, line.e);
+  const double bending = std::max(norm(f.torqueI - twist * line.e), norm(f.torqueJ - dot(f.torqueJ, line.e) * line.e));
+  const double shear = norm(f.force + tension * line.e);
+  return std::max((tension / area + perMoment * bending) / bond.tensileStrength,
+                  (shear / area + 0.5 * perMoment * std::abs(twist)) / bond.shearStrength);
+}
+
+/// Adds the dashpots' forces; returns the power they lose, W.
+double addDamping(const Bond& bond, const Line& line, const Vec3& velocity, const Vec3& omegaI, const Vec3& omegaJ,
+                  Bonds::Forces& f) {
+  const double along = dot(velocity, line.e);
+  const Vec3 mean = 0.5 * (omegaI + omegaJ), relative = omegaJ - omegaI;
+  const Vec3 sliding = mean - dot(mean, line.e) * line.e - cross(line.e, velocity) / line.length;
+  const Vec3 moment = (bond.dampingTime * bond.shear * bond.length * bond.length) * sliding;
+  const Vec3 twisting = dot(relative, line.e) * line.e;
+  const Vec3 couple = bond.dampingTime * (bond.bending * (relative - twisting) + bond.twisting * twisting);
+  const double axial = bond.dampingTime * bond.normal * along;
+  f.force += cross(moment, line.e) / line.length - axial * line.e;
+  f.torqueI += couple - 0.5 * moment;
+  f.torqueJ -= couple + 0.5 * moment;
+  return axial * along + dot(moment, sliding) + dot(couple, relative);
+}
+
+ContactWork answerBond(const Particles& particles, Bonds& bonds, std::size_t b, double dt) {
+  Bond& bond = bonds.bonds[b];
+  const auto i = static_cast<std::size_t>(bond.i), j = static_cast<std::size_t>(bond.j);
+  const Vec3 omegaI = particles.omega[i], omegaJ = particles.omega[j];
+  turnEnds(bond, omegaI, omegaJ, dt);
+  const Vec3 d = bonds.periodicity.minimumImage(particles.x[j] - particles.x[i]);
+  const double length = norm(d);
+  const Line line{length > 0.0 ? d / length : bond.directionI, length > 0.0 ? length : bond.length};
+  ContactWork work;
+  double& energy = bonds.energy[b];
+  Bonds::Forces& f = bonds.forces[b];
+  f = elasticForces(bond, line, energy);
+  bonds.utilised[b] = utilisation(bond, line, f);
+  if (dt > 0.0 && bonds.utilised[b] > 1.0) {
+    f = {};
+    work.fracturePower = energy / dt;
+    return work;
+  }
+  work.elasticEnergy = energy;
+  if (bond.dampingTime > 0.0)
+    work.dissipatedPower = addDamping(bond, line, particles.v[j] - particles.v[i], omegaI, omegaJ, f);
+  return work;
+}
+
+/// Forces to the particles, in the order of the bonds; broken bonds leave.
+void scatter(Particles& particles, Bonds& bonds, bool breaks) {
+  std::size_t kept = 0;
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    if (breaks && bonds.utilised[b] > 1.0) continue;
+    const Bond& bond = bonds.bonds[b];
+    const auto i = static_cast<std::size_t>(bond.i), j = static_cast<std::size_t>(bond.j);
+    const Bonds::Forces& f = bonds.forces[b];
+    particles.f[i] -= f.force;
+    particles.f[j] += f.force;
+    particles.torque[i] += f.torqueI;
+    particles.torque[j] += f.torqueJ;
+    if (kept != b) {
+      bonds.bonds[kept] = bond;
+      bonds.forces[kept] = f;
+      bonds.energy[kept] = bonds.energy[b];
+      bonds.utilised[kept] = bonds.utilised[b];
+    }
+    ++kept;
+  }
+  bonds.bonds.resize(kept);
+  bonds.forces.resize(kept);
+  bonds.energy.resize(kept);
+  bonds.utilised.resize(kept);
+}
+
+void checkNumbers(const Particles& particles, Bonds& bonds) {
+  if (!particles.rotates()) throw InputError("the particles do not spin", "bonds", "call switchOnRotation before");
+  if (bonds.particles == particles.size()) return;
+  const auto count = static_cast<int>(particles.size());
+  for (std::size_t b = 0; b < bonds.size(); ++b)
+    for (const int k : {bonds.bonds[b].i, bonds.bonds[b].j})
+      if (k < 0 || k >= count)
+        throw InputError("there is no particle " + std::to_string(k), "bond " + std::to_string(b),
+                         "call renumber when particles have been removed");
+  bonds.particles = particles.size();
+}
+
+}  // namespace
+
+ContactWork exchangeBonds(Particles& particles, Bonds& bonds, double dt) {
+  requireNonNegative(dt, "time step of bonds");
+  if (bonds.size() > 0) checkNumbers(particles, bonds);
+  bonds.forces.resize(bonds.size());
+  bonds.energy.resize(bonds.size());
+  bonds.utilised.resize(bonds.size());
+  ContactWork work;
+  if (dt > 0.0) {
+    work.fracturePower = bonds.ended / dt;
+    bonds.ended = 0.0;
+  }
+  work += parallelSum(bonds.size(), 512, [&](std::size_t begin, std::size_t end) {
+    ContactWork sum;
+    for (std::size_t b = begin; b < end; ++b) sum += answerBond(particles, bonds, b, dt);
+    return sum;
+  });
+  scatter(particles, bonds, dt > 0.0);
+  return work;
+}
+
+}  // namespace dovetail::dem

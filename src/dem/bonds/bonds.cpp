@@ -1,0 +1,151 @@
+#include "dovetail/dem/bonds/bonds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+void requirePositiveOrInfinite(double value, const std::string& field) {
+  if (!(value > 0.0))
+    throw InputError(field + " is " + formatNumber(value), field,
+                     "give a number greater than zero; infinite: never breaks");
+}
+
+Vec3 anyAcross(const Vec3& direction) {
+  const Vec3 axis = std::abs(direction.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  return normalized(cross(direction, axis));
+}
+
+}  // namespace
+
+void validate(const BondMaterial& material) {
+  requirePositive(material.youngsModulus, "Young's modulus of bonds");
+  if (!(material.poissonRatio > -1.0 && material.poissonRatio <= 0.5))
+    throw InputError("Poisson's ratio is " + formatNumber(material.poissonRatio), "Poisson's ratio of bonds",
+                     "give −1 < ν ≤ 0.5");
+  requirePositive(material.radiusRatio, "radius ratio of bonds");
+  requireNonNegative(material.shearCorrection, "shear correction of bonds");
+  requirePositiveOrInfinite(material.tensileStrength, "tensile strength of bonds");
+  requirePositiveOrInfinite(material.shearStrength, "shear strength of bonds");
+  if (!(material.momentContribution >= 0.0 && material.momentContribution <= 1.0))
+    throw InputError("the share of the moments is " + formatNumber(material.momentContribution),
+                     "moment contribution of bonds", "give a number from 0 to 1");
+  requireNonNegative(material.dampingTime, "damping time of bonds");
+}
+
+int addBond(Bonds& bonds, const Particles& particles, int i, int j, const BondMaterial& material) {
+  validate(material);
+  const auto exists = [&](int k) { return k >= 0 && static_cast<std::size_t>(k) < particles.size(); };
+  const std::string where = "bond between particles " + std::to_string(i) + " and " + std::to_string(j);
+  if (!exists(i) || !exists(j) || i == j)
+    throw InputError("these are not two particles", where,
+                     "give two numbers below " + std::to_string(particles.size()));
+  const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+  const Vec3 d = bonds.periodicity.minimumImage(particles.x[b] - particles.x[a]);
+  const double length = norm(d), r = material.radiusRatio * std::min(particles.radius[a], particles.radius[b]);
+  if (!(length > 0.0) || !std::isfinite(length))
+    throw InputError("the centres are " + formatNumber(length) + " m apart", where,
+                     "bond particles at different places");
+  const double E = material.youngsModulus, G = 0.5 * E / (1.0 + material.poissonRatio);
+  const double area = pi * r * r, inertia = 0.25 * area * r * r;
+  const double flexibility =  // Φ: bending over shear
+      material.shearCorrection > 0.0 ? 12.0 * E * inertia / (material.shearCorrection * G * area * length * length)
+                                     : 0.0;
+  Bond bond;
+  bond.i = i;
+  bond.j = j;
+  bond.length = length;
+  bond.normal = E * area / length;
+  bond.shear = 12.0 * E * inertia / (length * length * length * (1.0 + flexibility));
+  bond.bending = E * inertia / length;
+  bond.twisting = 2.0 * G * inertia / length;
+  bond.radius = r;
+  bond.tensileStrength = material.tensileStrength;
+  bond.shearStrength = material.shearStrength;
+  bond.momentContribution = material.momentContribution;
+  bond.dampingTime = material.dampingTime;
+  bond.directionI = d / length;
+  bond.directionJ = -bond.directionI;
+  bond.acrossI = bond.acrossJ = anyAcross(bond.directionI);
+  bonds.bonds.push_back(bond);
+  bonds.particles = 0;
+  return static_cast<int>(bonds.size()) - 1;
+}
+
+int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list, double gap,
+                 const BondMaterial& material) {
+  int count = 0;
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    const auto [i, j] = list.pairs[p];
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const double distance = norm(particles.x[a] - particles.x[b] + list.shift(p));
+    if (distance > particles.radius[a] + particles.radius[b] + gap) continue;
+    addBond(bonds, particles, i, j, material);
+    ++count;
+  }
+  return count;
+}
+
+void renumber(Bonds& bonds, std::span<const int> newNumber) {
+  std::size_t kept = 0;
+  bonds.particles = 0;
+  bonds.energy.resize(bonds.size(), 0.0);
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    Bond bond = bonds.bonds[b];
+    bond.i = newNumber[static_cast<std::size_t>(bond.i)];
+    bond.j = newNumber[static_cast<std::size_t>(bond.j)];
+    if (bond.i < 0 || bond.j < 0) {
+      bonds.ended += bonds.energy[b];
+      continue;
+    }
+    bonds.energy[kept] = bonds.energy[b];
+    bonds.bonds[kept++] = bond;
+  }
+  bonds.bonds.resize(kept);
+  bonds.energy.resize(kept);
+}
+
+void muteBonded(const Bonds& bonds, PairList& list) {
+  if (list.scale.empty()) list.scale.assign(list.size(), 1.0);
+  for (const Bond& bond : bonds.bonds) {
+    const std::array<int, 2> pair{std::min(bond.i, bond.j), std::max(bond.i, bond.j)};
+    const auto found = std::lower_bound(list.pairs.begin(), list.pairs.end(), pair);
+    if (found != list.pairs.end() && *found == pair)
+      list.scale[static_cast<std::size_t>(found - list.pairs.begin())] = 0.0;
+  }
+}
+
+double criticalStep(const Particles& particles, const Bonds& bonds) {
+  // What a bond asks of a particle, 1/s²: the largest of its axial, twisting and bending shares.
+  const auto demand = [&](const Bond& bond, int k) {
+    const double mass = particles.mass[static_cast<std::size_t>(k)], inertia = momentOfInertia(particles, k);
+    const double lever = 0.25 * bond.length * bond.length;
+    return std::max({bond.normal / mass, bond.twisting / inertia,
+                     bond.shear / mass + (bond.shear * lever + bond.bending) / inertia});
+  };
+  std::vector<double> stiff(particles.size(), 0.0), damped(particles.size(), 0.0);
+  for (const Bond& bond : bonds.bonds)
+    for (const int k : {bond.i, bond.j}) {
+      stiff[static_cast<std::size_t>(k)] += demand(bond, k);
+      damped[static_cast<std::size_t>(k)] += bond.dampingTime * demand(bond, k);
+    }
+  double least = std::numeric_limits<double>::infinity();
+  for (const Bond& bond : bonds.bonds) {
+    const auto i = static_cast<std::size_t>(bond.i), j = static_cast<std::size_t>(bond.j);
+    const double largest = stiff[i] + stiff[j], damping = damped[i] + damped[j];  // ω², 2 ζ ω
+    least = std::min(least, 4.0 / (damping + std::sqrt(damping * damping + 4.0 * largest)));
+  }
+  return least;
+}
+
+}  // namespace dovetail::dem

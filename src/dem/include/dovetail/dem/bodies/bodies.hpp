@@ -1,0 +1,63 @@
+// Rigid bodies: their state, and the verbs of their time step.
+#pragma once
+
+#include <vector>
+
+#include "dovetail/core/quaternion.hpp"
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/dem/bodies/mass_properties.hpp"
+
+namespace dovetail::dem {
+
+/// Rigid bodies as a structure of arrays, one entry per body each.
+///
+/// The rotation's state is the angular momentum, which no free motion changes; the angular velocity follows from it and
+/// the orientation.
+struct Bodies {
+  std::vector<Vec3> x;                  ///< centres of mass, m
+  std::vector<Vec3> v;                  ///< their velocities, m/s
+  std::vector<Vec3> f;                  ///< forces, N
+  std::vector<double> mass;             ///< kg
+  std::vector<Vec3> inertia;            ///< principal moments, kg m²
+  std::vector<Quaternion> orientation;  ///< turns the principal frame into space
+  std::vector<Vec3> angularMomentum;    ///< about the centre of mass, in space, kg m²/s
+  std::vector<Vec3> torque;             ///< about the centre of mass, in space, N m
+
+  std::size_t size() const { return x.size(); }
+};
+
+/// Appends a body, turned by `turn` about its centre of mass from how its mass properties were described, with the
+/// centre at x. Returns its number.
+/// @param v m/s @param omega rad/s, in space
+/// @throws InputError naming the body and the field if a value is not finite, mass or a principal moment not > 0, one
+/// of
+///   these larger than the sum of the others, or `turn` of length 0
+int addBody(Bodies& bodies, const MassProperties& properties, const Vec3& x, const Quaternion& turn = {},
+            const Vec3& v = {}, const Vec3& omega = {});
+
+/// rad/s, in space.
+Vec3 angularVelocity(const Bodies& bodies, int body);
+void setAngularVelocity(Bodies& bodies, int body, const Vec3& omega);
+
+/// Forces and torques to zero.
+void clearForces(Bodies& bodies);
+/// f += m g, g in m/s².
+void applyGravity(Bodies& bodies, const Vec3& g);
+
+/// v += f/m dt, angular momentum += torque dt.
+void kickBodies(Bodies& bodies, double dt);
+
+/// x += v dt, and the free rotation: the splitting into turns about the principal axes of Dullweber, Leimkuhler &
+/// McLachlan (J. Chem. Phys. 107, 1997), symmetric. Together with kickBodies as in velocity Verlet it is of second
+/// order, reversible in time and symplectic: the energy of a free body oscillates without drift, its angular momentum
+/// does not change at all, and orientations stay unit quaternions to round-off.
+void driftBodies(Bodies& bodies, double dt);
+
+/// ½ Σ m v² + ½ Σ ω·L, J.
+double kineticEnergy(const Bodies& bodies);
+/// Σ m v, kg m/s.
+Vec3 momentum(const Bodies& bodies);
+/// Σ m x × v + Σ L about the origin, kg m²/s.
+Vec3 angularMomentum(const Bodies& bodies);
+
+}  // namespace dovetail::dem

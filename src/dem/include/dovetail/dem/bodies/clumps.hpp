@@ -1,0 +1,84 @@
+// Clumps: particles that are slaved to a rigid body.
+//
+// Members are ordinary particles to the search for contacts and to every contact law. Their motion is the body's:
+//
+//     kick(particles, dt/2)    kickBodies(bodies, dt/2)
+//     drift(particles, dt)     driftBodies(bodies, dt)      placeMembers
+//     clearForces(particles)   clearForces(bodies)          contacts …      gatherForces
+//     kick(particles, dt/2)    kickBodies(bodies, dt/2)     placeMembers
+//
+// What kick and drift do to members is overwritten by placeMembers. A member's mass is that of its body, which is what
+// a dashpot in its contact should be made for; sums over the particles therefore count clumps wrongly, and are put
+// right by kineticEnergy(particles, bodies, clumps) and gatherForces' parameter for gravity. criticalStep(particles)
+// knows nothing of the lever arms, by which a contact meets less than a body's whole mass: take a tenth of it as for
+// single particles.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dovetail/dem/bodies/bodies.hpp"
+#include "dovetail/dem/model/critical_step.hpp"
+#include "dovetail/dem/pairs/pairs.hpp"
+#include "dovetail/dem/particles/particles.hpp"
+
+namespace dovetail::dem {
+
+/// A kind of clump.
+struct ClumpShape {
+  MassProperties properties;
+  std::vector<Vec3> offset;    ///< centres from the centre of mass, in the frame of the description, m
+  std::vector<double> radius;  ///< m
+};
+
+enum class Overlap {
+  once,        ///< matter counts once where spheres overlap (unionOfSpheres)
+  everySphere  ///< as often as there are spheres (sumOfSpheres)
+};
+
+/// @param centre, radius one of each per sphere, m
+/// @throws InputError as unionOfSpheres
+ClumpShape makeClumpShape(std::span<const Vec3> centre, std::span<const double> radius, Density density,
+                          Overlap overlap = Overlap::once);
+
+/// Which particles belong to which bodies; the three arrays have one entry per member.
+struct Clumps {
+  std::vector<int> particle, body;  ///< by body, ascending
+  std::vector<Vec3> offset;         ///< from the body's centre, in its principal frame, m
+  std::size_t size() const { return particle.size(); }
+};
+
+/// Appends a body and its members, one particle per sphere, with the centre of mass at x, turned by `turn` from how the
+/// shape was described. Returns the body's number.
+/// @throws InputError as addBody and addParticle
+int addClump(Particles& particles, Bodies& bodies, Clumps& clumps, const ClumpShape& shape, const Vec3& x,
+             const Quaternion& turn = {}, const Vec3& v = {}, const Vec3& omega = {});
+
+/// Writes x, v (and omega, if particles spin) of all members. Returns the largest distance by which a member was moved,
+/// m (infinite if a place is not finite): what is to be added to the displacement that kickAndDrift returns, where
+/// updatePairs is given a bound.
+double placeMembers(const Bodies& bodies, const Clumps& clumps, Particles& particles);
+
+/// f += Σ fᵢ, torque += Σ (xᵢ − x) × fᵢ + torqueᵢ over each body's members; then their forces and torques are zero.
+/// @param gravity what applyGravity(particles, gravity) has given to the members, m/s²; the body gets its own weight
+///   instead, at its centre of mass
+void gatherForces(Particles& particles, const Clumps& clumps, Bodies& bodies, const Vec3& gravity = {});
+
+/// Factor 0 (PairList::scale) on the pairs within one body, so that members that overlap make no force and store no
+/// energy. To be called when `list.revision` has changed, after whoever else sets the factors.
+void muteMemberPairs(const Clumps& clumps, PairList& list);
+
+/// As criticalStep of single particles (critical_step.hpp), for the member that is easiest to move: a force n at a
+/// member with the arm r moves it as if it had the mass 1/(1/m + (r × n)·I⁻¹(r × n)), here for the worst n.
+/// @throws InputError as criticalStep of single particles
+CriticalStep criticalStep(const Bodies& bodies, const Clumps& clumps, const LinearSpringDashpot& normal,
+                          Partners partners, int contacts = 1);
+
+/// ½ Σ m v² (+ ½ Σ I ω²) of the particles that are no members, J.
+double freeKineticEnergy(const Particles& particles, const Clumps& clumps);
+/// Of bodies and free particles together, J; each counted once.
+inline double kineticEnergy(const Particles& particles, const Bodies& bodies, const Clumps& clumps) {
+  return freeKineticEnergy(particles, clumps) + kineticEnergy(bodies);
+}
+
+}  // namespace dovetail::dem

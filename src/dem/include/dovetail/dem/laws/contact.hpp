@@ -1,0 +1,65 @@
+// A contact as the parts of a law see it, and what they answer.
+#pragma once
+
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/dem/laws/contact_work.hpp"
+
+namespace dovetail::dem {
+
+/// Two bodies in contact: particle and partner (a particle, or a wall that counts as infinitely heavy and flat).
+struct Contact {
+  double overlap = 0.0;          ///< δ, m; > 0 while they touch
+  double separating = 0.0;       ///< n·velocity, m/s; > 0 while the overlap closes
+  double effectiveMass = 0.0;    ///< m₁m₂/(m₁ + m₂), kg; only where a part has `needsMass`
+  double rootMass = 0.0;         ///< its square root, kg^½
+  double effectiveRadius = 0.0;  ///< R₁R₂/(R₁ + R₂), m; only where a part has `needsRadius`
+  Vec3 normal;                   ///< unit, from the partner to the particle
+  Vec3 slip;                     ///< tangential velocity of the particle relative to the partner at the contact, m/s
+  Vec3 spin;                     ///< angular velocity of the particle minus the partner's, rad/s
+  double twist = 0.0;            ///< mean angular velocity of both about the normal, rad/s
+  double dt = 0.0;               ///< step over which memories advance, s
+};
+
+struct NormalResponse {
+  double force = 0.0;         ///< N along the normal on the particle; > 0 pushes apart
+  double stiffness = 0.0;     ///< N/m, slope of the elastic force, > 0; other parts scale with it
+  double damping = 0.0;       ///< N s/m, of the dashpot; other parts scale with it
+  double energy = 0.0;        ///< J that can be had back
+  double dashpotPower = 0.0;  ///< W
+  double plasticPower = 0.0;  ///< W, average of this step
+};
+
+struct AdhesionResponse {
+  double force = 0.0;   ///< N along the normal on the particle; < 0 pulls together
+  double energy = 0.0;  ///< J; < 0
+};
+
+struct TangentialResponse {
+  Vec3 force;              ///< N on the particle
+  double energy = 0.0;     ///< J stored
+  double slipPower = 0.0;  ///< W lost, average of this step
+};
+
+struct RollingResponse {
+  Vec3 couple;             ///< N m on the particle, the opposite on the partner
+  double energy = 0.0;     ///< J stored
+  double lostPower = 0.0;  ///< W lost, average of this step
+};
+
+/// How steeply a part of a law answers now; what limits the time step (see contact_step.hpp).
+struct Slope {
+  double stiffness = 0.0;  ///< N/m (rolling: N m/rad), of the spring
+  double damping = 0.0;    ///< N s/m (rolling: N m s/rad), of the dashpot
+};
+struct ContactSlopes {
+  Slope normal, tangential, rolling;
+};
+
+/// What the whole law answers.
+struct ContactResponse {
+  Vec3 force;   ///< N on the particle
+  Vec3 couple;  ///< N m on the particle beyond arm × force
+  ContactWork work;
+};
+
+}  // namespace dovetail::dem

@@ -1,0 +1,132 @@
+// Resistance to rolling and twisting.
+#pragma once
+
+#include "dovetail/dem/laws/laws.hpp"
+
+namespace dovetail::dem {
+
+namespace detail {
+
+/// A spring of stiffness k that remembers its angle; as k changes, no energy appears (see MindlinSpring).
+/// @param held angle (three numbers), k of the last step
+[[gnu::always_inline]] inline RollingResponse springAndSlider(const Vec3& old, const Vec3& rate, double stiffness,
+                                                              double damping, double limit, double dt, double* held) {
+  const double before = held[3];
+  const bool grows = stiffness > before;
+  const Vec3 kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old;
+  const Slider now(kept + dt * rate, rate, stiffness, damping, limit);
+  held[0] = now.stretch.x;
+  held[1] = now.stretch.y;
+  held[2] = now.stretch.z;
+  held[3] = stiffness;
+  const double change = 0.5 * (before * squaredNorm(old) - stiffness * squaredNorm(kept));
+  return {.couple = -now.force, .energy = now.energy, .lostPower = (now.slipWork + change) / dt + now.dampingPower};
+}
+
+}  // namespace detail
+
+/// Rolling resistance of spring, dashpot and slider (Iwashita & Oda, J. Eng. Mech. 124, 1998; model C of Ai et al.,
+/// Powder Technol. 206, 2011): a couple against the relative spin about axes in the contact plane, k_r = ratio · k_n
+/// R*², limited to μ_r R* times the repulsion of the normal part.
+struct RollingResistance {
+  static constexpr int memory = 4;  // angle, rad; k_r of the last step, N m/rad
+  static constexpr unsigned turns = 0b0111;
+  static constexpr bool needsSpin = true, needsRadius = true;
+  double friction = 0.0;        ///< μ_r
+  double stiffnessRatio = 0.0;  ///< k_r/(k_n R*²); Ai et al. take 2.25 μ_r²
+  double dampingRatio = 0.0;    ///< coefficient of the dashpot over that of the normal one times R*²
+
+  struct Prepared {
+    double friction, stiffnessRatio, dampingRatio;
+
+    [[gnu::always_inline]] RollingResponse respond(const Contact& contact, const NormalResponse& normal,
+                                                   double* held) const {
+      const Slope now = slope(contact, normal);
+      const Vec3 rate = contact.spin - dot(contact.spin, contact.normal) * contact.normal;
+      const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
+      return detail::springAndSlider(carried({held[0], held[1], held[2]}, contact), rate, now.stiffness, now.damping,
+                                     limit, contact.dt, held);
+    }
+    Slope slope(const Contact& contact, const NormalResponse& normal) const {
+      const double squared = contact.effectiveRadius * contact.effectiveRadius;
+      return {stiffnessRatio * normal.stiffness * squared, dampingRatio * normal.damping * squared};
+    }
+    double remembered(const double* held) const {
+      return 0.5 * held[3] * (held[0] * held[0] + held[1] * held[1] + held[2] * held[2]);
+    }
+  };
+  Prepared prepare() const { return {friction, stiffnessRatio, dampingRatio}; }
+};
+
+/// The same about the normal: a couple against drilling, k_o = ratio · k_n R*², limited to μ_o R* times the repulsion.
+struct TwistingResistance {
+  static constexpr int memory = 2;      // angle, rad; k_o of the last step, N m/rad
+  static constexpr unsigned turns = 0;  // relative spin and normal turn together
+  static constexpr bool needsSpin = true, needsRadius = true;
+  double friction = 0.0;        ///< μ_o
+  double stiffnessRatio = 0.0;  ///< k_o/(k_n R*²)
+  double dampingRatio = 0.0;    ///< coefficient of the dashpot over that of the normal one times R*²
+
+  struct Prepared {
+    double friction, stiffnessRatio, dampingRatio;
+
+    [[gnu::always_inline]] RollingResponse respond(const Contact& contact, const NormalResponse& normal,
+                                                   double* held) const {
+      const Slope now = slope(contact, normal);
+      const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
+      double spring[4] = {held[0], 0.0, 0.0, held[1]};
+      RollingResponse response =
+          detail::springAndSlider({held[0], 0.0, 0.0}, {dot(contact.spin, contact.normal), 0.0, 0.0}, now.stiffness,
+                                  now.damping, limit, contact.dt, spring);
+      held[0] = spring[0];
+      held[1] = spring[3];
+      response.couple = response.couple.x * contact.normal;
+      return response;
+    }
+    Slope slope(const Contact& contact, const NormalResponse& normal) const {
+      const double squared = contact.effectiveRadius * contact.effectiveRadius;
+      return {stiffnessRatio * normal.stiffness * squared, dampingRatio * normal.damping * squared};
+    }
+    double remembered(const double* held) const { return 0.5 * held[1] * held[0] * held[0]; }
+  };
+  Prepared prepare() const { return {friction, stiffnessRatio, dampingRatio}; }
+};
+
+/// Both.
+struct RollingAndTwisting {
+  RollingResistance rolling;
+  TwistingResistance twisting;
+  static constexpr int memory = RollingResistance::memory + TwistingResistance::memory;
+  static constexpr unsigned turns = RollingResistance::turns | TwistingResistance::turns << RollingResistance::memory;
+  static constexpr bool needsSpin = true, needsRadius = true;
+
+  struct Prepared {
+    RollingResistance::Prepared rolling;
+    TwistingResistance::Prepared twisting;
+
+    [[gnu::always_inline]] RollingResponse respond(const Contact& contact, const NormalResponse& normal,
+                                                   double* held) const {
+      const RollingResponse a = rolling.respond(contact, normal, held);
+      const RollingResponse b = twisting.respond(contact, normal, held + RollingResistance::memory);
+      return {a.couple + b.couple, a.energy + b.energy, a.lostPower + b.lostPower};
+    }
+    Slope slope(const Contact& contact, const NormalResponse& normal) const {
+      const Slope a = rolling.slope(contact, normal), b = twisting.slope(contact, normal);
+      return {a.stiffness > b.stiffness ? a.stiffness : b.stiffness, a.damping > b.damping ? a.damping : b.damping};
+    }
+    double remembered(const double* held) const {
+      return rolling.remembered(held) + twisting.remembered(held + RollingResistance::memory);
+    }
+  };
+  Prepared prepare() const { return {rolling.prepare(), twisting.prepare()}; }
+};
+
+/// @throws InputError: stiffness ratio not finite and > 0; friction or damping ratio not finite and ≥ 0
+void validate(const RollingResistance& part);
+void validate(const TwistingResistance& part);
+inline void validate(const RollingAndTwisting& part) {
+  validate(part.rolling);
+  validate(part.twisting);
+}
+
+}  // namespace dovetail::dem

@@ -1,0 +1,143 @@
+// The largest stable step of velocity Verlet with the contacts as they are now, under any law; and mass scaling.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "dovetail/dem/laws/law_table.hpp"
+#include "dovetail/dem/pairs/pairs.hpp"
+
+namespace dovetail::dem {
+
+/// What the contacts ask of each particle. Pairs and walls add to it (addDemand), then criticalStep reads it.
+struct ContactDemand {
+  std::vector<double> stiffness;                             ///< N/m, per particle: sum over its contacts
+  std::vector<double> damping;                               ///< N s/m, the same of the dashpots
+  std::vector<std::array<int, 2>> contacts;                  ///< particle and partner, −1 for a wall
+  double twoBody = std::numeric_limits<double>::infinity();  ///< see ContactStep
+};
+
+/// A step and who sets it.
+struct ContactStep {
+  double dt = std::numeric_limits<double>::infinity();  ///< s, safe; infinite without contacts
+  int particle = -1, partner = -1;                      ///< of the contact that sets it; partner −1: a wall
+  /// s; the exact limit 2/ω (√(1 + ζ²) − ζ) of the fastest contact if it were alone and acted along its normal only.
+  /// For information: with several contacts per particle it is not safe.
+  double twoBody = std::numeric_limits<double>::infinity();
+};
+
+namespace detail {
+
+/// Largest dt with a dt² + 2 b dt ≤ 4; a in 1/s², b in 1/s.
+inline double verletLimit(double a, double b) { return 4.0 / (b + std::sqrt(b * b + 4.0 * a)); }
+
+/// The law of a pair of materials.
+/// @throws InputError if the table has no such pair
+template <class Law>
+const typename Law::Prepared& lawOf(const PreparedLaws<Law>& laws, int a, int b) {
+  if (laws.materials == 1) return laws.table[0];
+  const int larger = std::max(a, b);
+  if (larger >= laws.materials)
+    throw InputError("there is no law for material " + std::to_string(larger), "contact laws",
+                     "make the table as large as Particles::material and the walls' materials ask for");
+  return laws.table[static_cast<std::size_t>(a * laws.materials + b)];
+}
+
+/// Adds one contact; partner −1 for a wall.
+void addContact(ContactDemand& demand, const Particles& particles, int particle, int partner,
+                const ContactSlopes& slopes, double scale, double effectiveMass);
+
+}  // namespace detail
+
+/// Adds the pairs that touch, with the stiffness and the dashpot that the law has at their overlap.
+/// @param leastOverlap m; if > 0, all pairs of the list count, with this overlap at least: for a scene that is yet to
+///        collide, under laws that stiffen
+template <class Law>
+void addDemand(ContactDemand& demand, const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws,
+               double leastOverlap = 0.0) {
+  constexpr auto numbers = static_cast<std::size_t>(Law::memory);
+  const bool remembers = list.memory.size() == numbers * list.size();
+  const auto material = [&](std::size_t i) { return particles.material.empty() ? 0 : int{particles.material[i]}; };
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    const auto i = static_cast<std::size_t>(list.pairs[p][0]), j = static_cast<std::size_t>(list.pairs[p][1]);
+    const auto& law = detail::lawOf(laws, material(i), material(j));
+    const double ri = particles.radius[i], rj = particles.radius[j], mi = particles.mass[i], mj = particles.mass[j];
+    const double overlap = ri + rj - norm(particles.x[i] - particles.x[j] + list.shift(p));
+    if (!(overlap > -law.reach()) && !(leastOverlap > 0.0)) continue;
+    const double scale = list.scale.empty() ? 1.0 : list.scale[p];
+    if (!(scale > 0.0)) continue;
+    Contact contact;
+    contact.overlap = std::max(overlap, leastOverlap);
+    contact.effectiveMass = mi * mj / (mi + mj) / scale;
+    contact.rootMass = std::sqrt(contact.effectiveMass);
+    contact.effectiveRadius = ri * rj / (ri + rj);
+    contact.normal = {1.0, 0.0, 0.0};
+    contact.dt = 1.0;
+    double memory[numbers + 1] = {};
+    for (std::size_t c = 0; remembers && c < numbers; ++c) memory[c] = list.memory[c * list.size() + p];
+    detail::addContact(demand, particles, list.pairs[p][0], list.pairs[p][1], law.slopes(contact, memory), scale,
+                       mi * mj / (mi + mj));
+  }
+}
+
+/// The same for contacts with a wall, which counts as infinitely heavy.
+/// @param contacts arrays particle, overlap, engagement, such as WallContacts after findWallContacts
+template <class Law, class Contacts>
+void addWallDemand(ContactDemand& demand, const Particles& particles, const Contacts& contacts,
+                   const PreparedLaws<Law>& laws, int wallMaterial = 0) {
+  for (std::size_t c = 0; c < contacts.particle.size(); ++c) {
+    const auto i = static_cast<std::size_t>(contacts.particle[c]);
+    const int material = particles.material.empty() ? 0 : int{particles.material[i]};
+    const auto& law = detail::lawOf(laws, material, wallMaterial);
+    Contact contact;
+    contact.overlap = contacts.overlap[c] / contacts.engagement[c];
+    contact.effectiveMass = particles.mass[i];
+    contact.rootMass = std::sqrt(contact.effectiveMass);
+    contact.effectiveRadius = particles.radius[i];
+    contact.normal = {0.0, 0.0, 1.0};
+    contact.dt = 1.0;
+    double memory[static_cast<std::size_t>(Law::memory) + 1] = {};
+    detail::addContact(demand, particles, contacts.particle[c], -1, law.slopes(contact, memory), 1.0,
+                       particles.mass[i]);
+  }
+}
+
+/// A safe step: every particle shares its mass (and inertia) among its contacts by what they ask for, so that contact
+/// (i, j) alone has ω² = K_i/m_i + K_j/m_j and 2ζω = C_i/m_i + C_j/m_j, K and C being the sums of stiffness and damping
+/// over the contacts of a particle; the whole is no faster than its fastest part. Exact for one contact along its
+/// normal. Dashpots act on the velocity of the half step, as in kick · drift · forces · kick. A contact's stiffness is
+/// the larger of its normal one and, where particles spin, 7/2 of the tangential one with the rolling one over 2/5 R².
+/// Take 0.2 of it or less for accuracy.
+ContactStep criticalStep(const ContactDemand& demand, const Particles& particles);
+
+/// For pairs alone.
+template <class Law>
+ContactStep criticalStep(const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws,
+                         double leastOverlap = 0.0) {
+  ContactDemand demand;
+  addDemand(demand, particles, list, laws, leastOverlap);
+  return criticalStep(demand, particles);
+}
+
+/// What scaleMasses did.
+struct MassScaling {
+  std::size_t count = 0;       ///< particles made heavier
+  double largestFactor = 1.0;  ///< largest new mass over old mass
+  double addedMass = 0.0;      ///< kg
+  double massBefore = 0.0;     ///< kg, of all
+};
+
+/// Makes particles heavier (with their inertia), none lighter, until dt is stable with these contacts. For quasi-static
+/// scenes only: momentum, weight and every wave change with the mass, so look at the answer. Nothing in this library
+/// scales masses unless this is called. Dashpots that depend on the mass grow with it: with damping, make the demand
+/// anew and repeat until count = 0.
+/// @param dt wanted, s
+/// @throws InputError unless dt is finite and > 0
+MassScaling scaleMasses(Particles& particles, const ContactDemand& demand, double dt);
+
+}  // namespace dovetail::dem

@@ -1,0 +1,77 @@
+// The contacts of a state one by one, for fields, averages and files.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/dem/bodies/clumps.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
+#include "dovetail/dem/walls/wall_contacts.hpp"
+
+namespace dovetail::dem {
+
+/// Contacts that carry a force; all arrays have one entry per contact.
+struct ContactSample {
+  std::vector<int> first;   ///< particle
+  std::vector<int> second;  ///< particle, or −1 for a wall
+  std::vector<Vec3> from;   ///< centre of the first, m
+  std::vector<Vec3>
+      to;  ///< centre of the second (its image next to the first one), or the contact point on the wall, m
+  std::vector<Vec3> point;   ///< middle of the overlap, or the contact point on the wall, m
+  std::vector<Vec3> normal;  ///< unit, from the second to the first
+  std::vector<Vec3> force;   ///< on the first, N
+
+  std::size_t size() const { return first.size(); }
+};
+
+namespace detail {
+/// One pair out of a list, as a system of its own.
+struct LonePair {
+  Particles particles;
+  PairList list;
+  LonePair();
+  /// @param memory numbers that the law remembers per contact
+  void set(const Particles& particles, const PairList& list, std::size_t pair, int memory);
+};
+/// Appends the pair with the force on its first particle.
+void appendPair(const LonePair& lone, const std::array<int, 2>& pair, ContactSample& sample);
+/// @throws InputError unless the list has as many memories as a law asks for
+void requireMemory(const PairList& list, int memory);
+}  // namespace detail
+
+/// Pairs with their forces as collide last made them: nothing is changed, and what contacts remember is taken as it is.
+/// Pairs without a force are left out. For output, not for every step.
+/// @param list that of the last collide, with the same particles
+/// @throws InputError if the law remembers something and the list has not been through collide with it
+template <class Law>
+ContactSample samplePairs(const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws) {
+  detail::requireMemory(list, Law::memory);
+  constexpr double noTime = 1e-100;  // so short a step that no memory advances
+  ContactSample sample;
+  detail::LonePair lone;
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    lone.set(particles, list, p, Law::memory);
+    collide(lone.particles, lone.list, laws, noTime, Booking::off);
+    detail::appendPair(lone, list.pairs[p], sample);
+  }
+  return sample;
+}
+
+template <class Normal, class Tangential, class Rolling, class Adhesion>
+ContactSample samplePairs(const Particles& particles, const PairList& list,
+                          const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law) {
+  return samplePairs(particles, list, prepare(law));
+}
+
+/// Appends the contacts with a wall, with the forces that collideWithWall has set.
+void addWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts,
+                     ContactSample& sample);
+
+/// Moves the ends of branches from members of clumps to the centres of their bodies: forces run through a rigid body,
+/// and the stress of an assembly of bodies is a sum over branches between their centres. Points, normals, forces and
+/// the numbers of the particles stay. For the kinetic part of a stress take bodies instead of their members.
+/// @param particles, bodies as they were when the sample was taken
+void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps& clumps, ContactSample& sample);
+
+}  // namespace dovetail::dem

@@ -1,0 +1,147 @@
+// Forces between particles.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/laws/contact_block.hpp"
+#include "dovetail/dem/laws/law_table.hpp"
+#include "dovetail/dem/pairs/pairs.hpp"
+
+namespace dovetail::dem {
+
+/// Two spheres that may touch.
+struct PairContact {
+  Vec3 normal;     ///< unit, from particle j to particle i
+  double overlap;  ///< m, > 0 when touching
+  Vec3 armI;       ///< from the centre of i to the middle of the overlap, m
+  Vec3 armJ;       ///< from the centre of j, m
+};
+
+/// Where centres coincide, particle i (the lower number) is pushed towards +x.
+/// @param shift added to x_i − x_j, m: for periodic images, see PairList::shift
+inline PairContact pairContact(const Particles& particles, std::size_t i, std::size_t j, const Vec3& shift = {}) {
+  const Vec3 d = particles.x[i] - particles.x[j] + shift;
+  const double distance = norm(d);
+  const Vec3 normal = distance > 0.0 ? d / distance : Vec3{1.0, 0.0, 0.0};
+  const double overlap = particles.radius[i] + particles.radius[j] - distance;
+  const Vec3 armI = -(particles.radius[i] - 0.5 * overlap) * normal;
+  return {normal, overlap, armI, armI + d};
+}
+
+/// Whether collide reports energies and losses; without them they cost nothing.
+enum class Booking { on, off };
+
+namespace detail {
+
+/// @throws InputError unless dt is finite and > 0
+void requireStep(double dt);
+
+/// What a law asks for, and what all particles share.
+struct PairRows {
+  bool spins, mass, radius, varied;
+  int memory, materials;
+  bool oneRadius = false;  ///< all particles have the same
+  bool oneMass = false;
+};
+/// Where a sweep over the pairs of a chunk stands.
+struct PairCursor {
+  std::size_t chunk, pair, end, crossing, image;
+};
+/// Looks whether all particles have one radius and one mass, which saves gathering them.
+/// @throws InputError naming a particle whose material has no law
+void findUniform(const Particles& particles, PairRows& rows);
+PairCursor startOfChunk(const PairList& list, std::size_t chunk);
+/// Fills the rows of effective masses and radii once for all pairs, if they share them or nobody asks for them.
+void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block);
+void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>> pairs, ContactBlock& block);
+/// Effective radii from the arms.
+void makeRadii(std::size_t n, ContactBlock& block);
+/// Fills the block with the next pairs; returns how many.
+std::size_t gatherPairs(const Particles& particles, const PairList& list, const PairRows& rows, PairCursor& cursor,
+                        ContactBlock& block);
+/// Adds the block's forces to particles of the chunk, keeps those for others, and stores the memories; moves on.
+void scatterPairs(Particles& particles, PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
+                  const ContactBlock& block);
+/// Adds what pairs of other chunks do to particles.
+void addCrossing(Particles& particles, const PairList& list, bool spins);
+/// Makes room for memories of the given size.
+void prepareMemory(PairList& list, int memory, unsigned turns);
+
+template <class Law, BlockOptions options>
+ContactWork collideChunk(Particles& particles, PairList& list, std::size_t chunk, const PairRows& rows,
+                         const PreparedLaws<Law>& laws, double dt) {
+  ContactBlock block;
+  shareSizes(particles, rows, block);
+  ContactWork work;
+  PairCursor cursor = startOfChunk(list, chunk);
+  while (cursor.pair < cursor.end) {
+    const std::size_t n = gatherPairs(particles, list, rows, cursor, block);
+    answer<Law, options>(block, n, laws.table.data(), dt);
+    scatterPairs(particles, list, rows, n, cursor, block);
+    if constexpr (options.booked) work += sumWork(block, n);
+  }
+  return work;
+}
+
+template <class Law, BlockOptions options>
+ContactWork collideChunks(Particles& particles, PairList& list, const PairRows& rows, const PreparedLaws<Law>& laws,
+                          double dt) {
+  const ContactWork work = parallelSum(list.chunks.count(), 1, [&](std::size_t chunk, std::size_t) {
+    return collideChunk<Law, options>(particles, list, chunk, rows, laws, dt);
+  });
+  addCrossing(particles, list, options.spins && particles.rotates());
+  return work;
+}
+
+}  // namespace detail
+
+/// Adds the pair forces to particles.f, equal and opposite (and torques, if the law exerts them and the particles
+/// spin). Bitwise the same for any number of threads. Call once per step if the law remembers.
+/// @param laws  one law, or a table for pairs of materials (see LawTable)
+/// @param dt    step over which memories advance, s; of no concern to laws without memory
+/// @throws InputError if the law remembers and dt is not finite and > 0
+template <class Law>
+ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law>& laws, double dt,
+                    Booking booking = Booking::on) {
+  using detail::BlockOptions;
+  ContactWork work;
+  if constexpr (Law::memory > 0) {
+    detail::requireStep(dt);
+    detail::prepareMemory(list, Law::memory, Law::turns);
+  }
+  const bool varied = !list.scale.empty() || laws.materials > 1;
+  detail::PairRows rows{Law::rotates,  Law::needsMass && laws.usesMass(), Law::needsRadius, varied, Law::memory,
+                        laws.materials};
+  detail::findUniform(particles, rows);
+  constexpr bool spins = Law::rotates;
+  if constexpr (spins) list.chunks.torque.resize(list.chunks.force.size());
+  const bool booked = booking == Booking::on;
+  if (varied && booked)
+    work += detail::collideChunks<Law, BlockOptions{spins, false, true, true}>(particles, list, rows, laws, dt);
+  else if (varied)
+    detail::collideChunks<Law, BlockOptions{spins, false, true, false}>(particles, list, rows, laws, dt);
+  else if (booked)
+    work += detail::collideChunks<Law, BlockOptions{spins, false, false, true}>(particles, list, rows, laws, dt);
+  else
+    detail::collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, list, rows, laws, dt);
+  if constexpr (Law::memory > 0) {  // pairs that left the list
+    for (std::size_t k = 0; booked && k < list.endedMaterials.size(); ++k) {
+      const auto [a, b] = list.endedMaterials[k];
+      if (a < laws.materials && b < laws.materials)
+        work += laws.at(a, b).ended(list.ended.data() + k * static_cast<std::size_t>(Law::memory), dt);
+    }
+    list.endedMaterials.clear();
+    list.ended.clear();
+  }
+  return work;
+}
+
+template <class Normal, class Tangential, class Rolling, class Adhesion>
+ContactWork collide(Particles& particles, PairList& list, const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law,
+                    double dt = 0.0, Booking booking = Booking::on) {
+  return collide(particles, list, prepare(law), dt, booking);
+}
+
+}  // namespace dovetail::dem

@@ -1,0 +1,60 @@
+// Forces of the contacts between particles and a triangulated wall.
+#pragma once
+
+#include "dovetail/dem/walls/wall_contacts.hpp"
+#include "dovetail/dem/walls/wall_law.hpp"
+
+namespace dovetail::dem {
+
+namespace detail {
+
+/// Fills contacts.springs.next with the memories carried over from the last step: from the same facet or one that
+/// shares a vertex, the nearest normal first. Returns those of contacts that have ended.
+EndedMemories carrySprings(WallContacts& contacts, const TriangulatedWall& wall, int memory);
+/// Remembers the contacts and what they remember for the next step.
+void keepSprings(WallContacts& contacts);
+
+/// Velocity of the particle relative to the wall at the contact, m/s.
+Vec3 relativeVelocity(const Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts,
+                      std::size_t c, bool spins);
+/// Adds the contact forces (and torques) to the particles.
+void addToParticles(Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts, bool spins);
+
+}  // namespace detail
+
+/// Sets contacts.force and adds it to particles.f (and its torque, if the law exerts torques and the particles spin).
+/// The wall counts as infinitely heavy and flat: effective mass and radius are the particle's. Where facets share a
+/// contact, each answers with its share (engagement) of what the law says to the overlap of particle and facet alone.
+/// Call once per step if the law remembers.
+///
+/// Wall velocities enter with the weights that carry the force, so power balances: Σ force·(v_particle − v_wall)
+/// = −d(elastic energy)/dt − dissipated power. The moment of elastic forces balances to round-off; that of a dashpot
+/// does in a single contact, and where facets share a contact up to (dashpot force) × (overlap).
+/// @param dt  step over which memories advance, s; of no concern to laws without memory
+/// @throws InputError if the law remembers and dt is not finite and > 0
+template <class Law>
+ContactWork collideWithWall(Particles& particles, const TriangulatedWall& wall, WallContacts& contacts,
+                            const PreparedLaws<Law>& laws, double dt) {
+  ContactWork work;
+  if constexpr (Law::memory > 0) {
+    detail::requireStep(dt);
+    const detail::EndedMemories ended = detail::carrySprings(contacts, wall, Law::memory);
+    detail::requireMaterials(particles, laws.materials);
+    work += detail::bookEnded<Law>(particles, ended, laws, wall.material, dt);
+  }
+  if constexpr (Law::rotates) contacts.couple.assign(contacts.size(), Vec3{});
+  work += detail::answerWall<Law>(
+      particles, contacts, contacts.springs.next, laws, wall.material, dt,
+      [&](std::size_t c) { return detail::relativeVelocity(particles, wall, contacts, c, Law::rotates); });
+  detail::addToParticles(particles, wall, contacts, Law::rotates && particles.rotates());
+  if constexpr (Law::memory > 0) detail::keepSprings(contacts);
+  return work;
+}
+
+template <class Normal, class Tangential, class Rolling, class Adhesion>
+ContactWork collideWithWall(Particles& particles, const TriangulatedWall& wall, WallContacts& contacts,
+                            const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law, double dt = 0.0) {
+  return collideWithWall(particles, wall, contacts, prepare(law), dt);
+}
+
+}  // namespace dovetail::dem

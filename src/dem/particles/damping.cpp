@@ -1,0 +1,59 @@
+#include "dovetail/dem/particles/damping.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+constexpr std::size_t grain = 4096;
+
+/// Takes α |f| sign(v) off every component; returns its power.
+double resist(Vec3& force, const Vec3& velocity, double alpha) {
+  double power = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double v = velocity[k], size = alpha * std::abs(force[k]);
+    force[k] -= v > 0.0 ? size : (v < 0.0 ? -size : 0.0);
+    power += size * std::abs(v);
+  }
+  return power;
+}
+
+}  // namespace
+
+double applyViscousDamping(Particles& particles, double rate) {
+  requireNonNegative(rate, "damping rate");
+  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    double power = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 force = (rate * particles.mass[i]) * particles.v[i];
+      particles.f[i] -= force;
+      power += dot(force, particles.v[i]);
+      if (!particles.rotates()) continue;
+      const Vec3 torque = (rate * momentOfInertia(particles, static_cast<int>(i))) * particles.omega[i];
+      particles.torque[i] -= torque;
+      power += dot(torque, particles.omega[i]);
+    }
+    return power;
+  });
+}
+
+double applyLocalDamping(Particles& particles, double alpha) {
+  if (!(alpha >= 0.0 && alpha < 1.0))
+    throw InputError("the local damping is " + formatNumber(alpha), "local damping", "give 0 ≤ α < 1, such as 0.7");
+  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    double power = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      power += resist(particles.f[i], particles.v[i], alpha);
+      if (particles.rotates()) power += resist(particles.torque[i], particles.omega[i], alpha);
+    }
+    return power;
+  });
+}
+
+}  // namespace dovetail::dem

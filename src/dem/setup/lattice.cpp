@@ -1,0 +1,94 @@
+// Regular packings.
+#include <cmath>
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/setup/packing.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+/// Edges of a right-angled cell and the centres in it, as shares of the edges, for a nearest distance of one.
+struct Cell {
+  Vec3 edge;
+  std::vector<Vec3> place;
+};
+
+Cell cellOf(Lattice lattice) {
+  switch (lattice) {
+    case Lattice::simpleCubic:
+      return {{1.0, 1.0, 1.0}, {{0.0, 0.0, 0.0}}};
+    case Lattice::bodyCentred: {
+      const double a = 2.0 / std::sqrt(3.0);
+      return {{a, a, a}, {{0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}}};
+    }
+    case Lattice::faceCentred: {
+      const double a = std::sqrt(2.0);
+      return {{a, a, a}, {{0.0, 0.0, 0.0}, {0.5, 0.5, 0.0}, {0.5, 0.0, 0.5}, {0.0, 0.5, 0.5}}};
+    }
+    case Lattice::hexagonal:
+      return {{1.0, std::sqrt(3.0), std::sqrt(8.0 / 3.0)},
+              {{0.0, 0.0, 0.0}, {0.5, 0.5, 0.0}, {0.5, 1.0 / 6.0, 0.5}, {0.0, 2.0 / 3.0, 0.5}}};
+  }
+  throw InputError("the lattice is not known", "lattice", "give one of the enumeration");
+}
+
+template <class Place>
+void forEachPlace(const Cell& cell, const std::array<int, 3>& cells, double distance, Place&& place) {
+  for (int k = 0; k < cells[2]; ++k)
+    for (int j = 0; j < cells[1]; ++j)
+      for (int i = 0; i < cells[0]; ++i)
+        for (const Vec3& p : cell.place)
+          place(distance * Vec3{(i + p.x) * cell.edge.x, (j + p.y) * cell.edge.y, (k + p.z) * cell.edge.z});
+}
+
+}  // namespace
+
+Packing latticeBlock(Lattice lattice, const std::array<int, 3>& cells, double radius, double distance) {
+  requirePositive(radius, "radius of a lattice");
+  requirePositive(distance, "distance of a lattice");
+  const Cell cell = cellOf(lattice);
+  Packing packing;
+  packing.space.axes = {true, true, true};
+  for (int k = 0; k < 3; ++k) {
+    const int count = cells[static_cast<std::size_t>(k)];
+    if (count < 1)
+      throw InputError("a block has " + std::to_string(count) + " cells along axis " + std::to_string(k), "lattice",
+                       "give 1 or more");
+    packing.space.box.upper[k] = count * cell.edge[k] * distance;
+  }
+  forEachPlace(cell, cells, distance, [&](const Vec3& x) { packing.centre.push_back(x); });
+  packing.radius.assign(packing.centre.size(), radius);
+  return packing;
+}
+
+Packing fillWithLattice(Lattice lattice, const geometry::Box& box, double radius, double distance) {
+  requirePositive(radius, "radius of a lattice");
+  requirePositive(distance, "distance of a lattice");
+  const Cell cell = cellOf(lattice);
+  Packing packing{{}, {}, {box, {false, false, false}}};
+  const double slack = 1e-9 * distance;  // so that a box made for a whole number of spheres holds them
+  std::array<int, 3> cells{};
+  Vec3 room;
+  for (int k = 0; k < 3; ++k) {
+    room[k] = box.upper[k] - box.lower[k] - 2.0 * radius;
+    if (!(std::isfinite(box.lower[k]) && std::isfinite(room[k]) && room[k] >= -slack))
+      throw InputError("no sphere fits between the walls along axis " + std::to_string(k), "lattice",
+                       "give a finite box of at least one diameter");
+    const double count = std::floor(room[k] / (cell.edge[k] * distance) + 1e-9) + 1.0;
+    if (count > 1e6) throw InputError("the box is too large for the lattice", "lattice", "give a smaller box");
+    cells[static_cast<std::size_t>(k)] = static_cast<int>(count);
+  }
+  const Vec3 first = box.lower + Vec3{radius, radius, radius};
+  forEachPlace(cell, cells, distance, [&](const Vec3& x) {
+    for (int k = 0; k < 3; ++k)
+      if (x[k] > room[k] + slack) return;
+    packing.centre.push_back(first + x);
+  });
+  packing.radius.assign(packing.centre.size(), radius);
+  return packing;
+}
+
+}  // namespace dovetail::dem

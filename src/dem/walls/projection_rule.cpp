@@ -1,0 +1,202 @@
+// EdgeRule::projected: contacts with a wall as the gradient of one potential.
+#include <algorithm>
+#include <vector>
+
+#include "dovetail/dem/walls/share_solver.hpp"
+#include "facet_view.hpp"
+#include "wall_sweep.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+constexpr double tolerance = 1e-13;     // of the radius
+constexpr int largestIterations = 200;  // contraction is about overlap/radius per iteration
+
+/// One facet in reach. Positions are relative to the particle's centre x.
+struct Candidate {
+  int facet;
+  FacetView view;  // from `position`
+  Vec3 position;   // yᵢ − x
+};
+
+/// Whether an edge, or a facet at a vertex, has no neighbour there: the end of an open surface.
+bool onRim(const TriangulatedWall& wall, int facet, geometry::Feature feature) {
+  const auto open = [&](int f) {
+    const auto& neighbours = wall.topology.neighbours[static_cast<std::size_t>(f)];
+    return std::find(neighbours.begin(), neighbours.end(), -1) != neighbours.end();
+  };
+  if (!geometry::isVertex(feature)) return open(facet);
+  const auto corner = static_cast<std::size_t>(feature) - static_cast<std::size_t>(geometry::Feature::vertex0);
+  const auto around = wall.topology.facetsAtVertex(wall.facets[static_cast<std::size_t>(facet)][corner]);
+  return std::any_of(around.begin(), around.end(), open);
+}
+
+/// Memory that is kept between particles and steps.
+struct Scratch {
+  std::vector<Candidate> candidates;
+  std::vector<Share> shares;
+  ShareSolver solver;
+};
+
+/// One particle against one wall.
+class Projection {
+public:
+  Projection(int particle, const Vec3& x, double radius, const TriangulatedWall& wall, std::span<const int> facets,
+             Scratch& scratch)
+      : particle_(particle), x_(x), radius_(radius), wall_(wall), facets_(facets), scratch_(scratch) {}
+
+  void appendTo(WallContacts& contacts) {
+    if (!collect(radius_)) return;
+    if (nearestSuffices()) return appendNearest(contacts);
+    collect(radius_ + nearestOverlap());
+    guess();
+    for (int i = 0; i < largestIterations; ++i) {
+      linearise();
+      scratch_.solver.solve(scratch_.shares, tolerance * radius_);
+      if (move() <= tolerance * radius_) break;
+    }
+    appendShares(contacts);
+  }
+
+  /// The contact with facets that all lie in one plane, if the foot is on one of them: then it is the nearest, and the
+  /// others add nothing. False if it is on none.
+  /// @param last where to look first, and where the foot was found
+  bool appendFlat(int& last, WallContacts& contacts) const {
+    const auto tryFacet = [&](int facet) {
+      const FacetView seen = view(facet, {}, FacetView::unseen);
+      if (!seen.face()) return false;
+      last = facet;
+      if (seen.distance < radius_)
+        addContact(contacts, particle_, facet, seen.weight, seen.normal, radius_ - seen.distance, 1.0);
+      return true;
+    };
+    if (last >= 0 && tryFacet(last)) return true;
+    for (const int facet : facets_)
+      if (facet != last && tryFacet(facet)) return true;
+    return false;
+  }
+
+private:
+  FacetView view(int facet, const Vec3& position, double reach) const {
+    return viewFacet(position, FacetCorners(wall_, facet, x_), radius_, reach, wall_.oneSided);
+  }
+  const Candidate& nearest() const { return scratch_.candidates[nearest_]; }
+  double nearestOverlap() const { return radius_ - nearest().view.distance; }
+
+  /// Facets closer than reach; false if there are none.
+  bool collect(double reach) {
+    scratch_.candidates.clear();
+    nearest_ = 0;
+    double least = reach;
+    Candidate sunk{-1, {}, {}};
+    for (const int facet : facets_) {
+      const FacetCorners corners(wall_, facet, x_);
+      if (corners.beyond(reach)) continue;
+      const FacetView seen = viewFacet({}, corners, radius_, reach, wall_.oneSided);
+      if (seen.sunk > 0.0 && (sunk.facet < 0 || seen.sunk < sunk.view.sunk)) sunk = {facet, seen, {}};
+      if (!(seen.distance < reach)) continue;
+      if (seen.distance < least) {
+        least = seen.distance;
+        nearest_ = scratch_.candidates.size();
+      }
+      scratch_.candidates.push_back({facet, seen, {}});
+    }
+    if (scratch_.candidates.empty() && sunk.facet >= 0 && !onRim(wall_, sunk.facet, sunk.view.feature)) {
+      // Inside the skin, where an edge (of a valley) is nearer than any face.
+      sunk.view.distance = -sunk.view.sunk;
+      scratch_.candidates.push_back(sunk);
+    }
+    return !scratch_.candidates.empty();
+  }
+
+  /// Whether stepping out of the nearest facet clears all others. Distance to a facet is a convex function, so that
+  /// being clear of its tangent plane suffices; if that fails, look again from there.
+  bool nearestSuffices() const {
+    const Vec3& normal = nearest().view.normal;
+    const double depth = nearestOverlap(), slack = tolerance * radius_;
+    for (std::size_t i = 0; i < scratch_.candidates.size(); ++i) {
+      const Candidate& other = scratch_.candidates[i];
+      const double g = dot(other.view.normal, normal);
+      if (i == nearest_ || coupling(g) * depth >= radius_ - other.view.distance - slack) continue;
+      if (g <= 0.0) return false;
+      const FacetView after = view(other.facet, depth * normal, FacetView::unseen);
+      if (after.distance == FacetView::unseen) continue;
+      if (after.distance < radius_ - slack || dot(after.normal, normal) < couplingBlend) return false;
+    }
+    return true;
+  }
+
+  void appendNearest(WallContacts& contacts) const {
+    addContact(contacts, particle_, nearest().facet, nearest().view.weight, nearest().view.normal, nearestOverlap(),
+               1.0);
+  }
+
+  /// First guess of the yᵢ: clear of the nearest facet, for those that do not face it.
+  void guess() {
+    scratch_.shares.assign(scratch_.candidates.size(), Share{});
+    const Vec3 step = nearestOverlap() * nearest().view.normal;
+    for (Candidate& c : scratch_.candidates) c.position = dot(c.view.normal, step) >= 0.0 ? step : Vec3{};
+  }
+
+  /// The facets as seen from the yᵢ: δᵢ = R − nᵢ·(x − cᵢ).
+  void linearise() {
+    for (std::size_t i = 0; i < scratch_.candidates.size(); ++i) {
+      Candidate& c = scratch_.candidates[i];
+      c.view = view(c.facet, c.position, FacetView::unseen);
+      scratch_.shares[i].normal = c.view.normal;
+      scratch_.shares[i].overlap =
+          c.view.distance == FacetView::unseen ? 0.0 : radius_ + dot(c.view.normal, c.view.foot);
+    }
+  }
+
+  /// yᵢ = x + Σ s′(nᵢ·nⱼ) λⱼ nⱼ; returns the largest change where a contact is active, m.
+  double move() {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < scratch_.candidates.size(); ++i) {
+      const Vec3& normal = scratch_.shares[i].normal;
+      Vec3 position;
+      for (const Share& other : scratch_.shares)
+        if (other.carried > 0.0) position += couplingSlope(dot(normal, other.normal)) * other.carried * other.normal;
+      if (scratch_.shares[i].carried > 0.0)
+        largest = std::max(largest, squaredNorm(position - scratch_.candidates[i].position));
+      scratch_.candidates[i].position = position;
+    }
+    return std::sqrt(largest);
+  }
+
+  void appendShares(WallContacts& contacts) const {
+    for (std::size_t i = 0; i < scratch_.shares.size(); ++i) {
+      const Share& share = scratch_.shares[i];
+      if (!(share.carried > 0.0)) continue;
+      const double engagement = std::min(1.0, share.carried / share.overlap);
+      addContact(contacts, particle_, scratch_.candidates[i].facet, scratch_.candidates[i].view.weight, share.normal,
+                 share.carried, engagement);
+    }
+  }
+
+  int particle_;
+  Vec3 x_;
+  double radius_;
+  const TriangulatedWall& wall_;
+  std::span<const int> facets_;
+  Scratch& scratch_;
+  std::size_t nearest_ = 0;
+};
+
+}  // namespace
+
+void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
+                         WallContacts& contacts) {
+  sweepParticles(
+      candidates, contacts, [&](std::size_t k, int particle, std::span<const int> facets, WallContacts& into) {
+        thread_local Scratch scratch;
+        const auto i = static_cast<std::size_t>(particle);
+        Projection projection(particle, particles.x[i], particles.radius[i], wall, facets, scratch);
+        if (!candidates.flat.empty() && candidates.flat[k] && projection.appendFlat(candidates.lastFacet[k], into))
+          return;
+        projection.appendTo(into);
+      });
+}
+
+}  // namespace dovetail::dem
