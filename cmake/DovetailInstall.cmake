@@ -52,4 +52,11 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/dovetailConfigVersion.cm
 install(FILES "${PROJECT_BINARY_DIR}/dovetailConfig.cmake" "${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/FindCholmod.cmake" "${CMAKE_CURRENT_LIST_DIR}/FindFcl.cmake"
         DESTINATION "${package_folder}")
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+# The documents lie as in the source tree, so that their links hold.
+foreach(file README.md CONTRIBUTING.md LICENSE)
+  install(FILES "${PROJECT_SOURCE_DIR}/${file}" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+endforeach()
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/benchmarks" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+        FILES_MATCHING PATTERN "*.md")

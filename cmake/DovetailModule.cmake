@@ -24,26 +24,45 @@ function(dovetail_add_module name)
   set_property(GLOBAL PROPERTY DOVETAIL_DEPENDS_${name} "${MODULE_DEPENDS}")
 endfunction()
 
-# dovetail_add_test(<name> SOURCES file… DEPENDS module…): one GoogleTest program per folder of tests. They share one
-# precompiled header and are optimised lightly, which halves the time to build them; the libraries are not.
+# dovetail_add_test(<name> [EIGEN] SOURCES file… DEPENDS module…): one GoogleTest program per folder of tests. They share
+# a precompiled header, those that use Eigen another, and are optimised lightly, which halves the time to build them; the
+# libraries are not. ctest runs several of them at once, so each runs on one thread where the test does not ask for more.
 function(dovetail_add_test name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;DEPENDS" ${ARGN})
-  if(NOT TARGET dovetail_test_headers)
-    file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/test_headers.cpp" CONTENT "")
-    add_library(dovetail_test_headers OBJECT "${PROJECT_BINARY_DIR}/test_headers.cpp")
-    target_link_libraries(dovetail_test_headers PRIVATE GTest::gtest)
-    dovetail_set_test_options(dovetail_test_headers)
-    target_precompile_headers(dovetail_test_headers PRIVATE
-      <gtest/gtest.h> <algorithm> <array> <cmath> <functional> <random> <span> <string> <vector>)
-  endif()
+  cmake_parse_arguments(TEST "EIGEN" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(test_${name} ${TEST_SOURCES})
   foreach(dependency ${TEST_DEPENDS})
     target_link_libraries(test_${name} PRIVATE dovetail::${dependency})
   endforeach()
   target_link_libraries(test_${name} PRIVATE GTest::gtest_main)
   dovetail_set_test_options(test_${name})
-  target_precompile_headers(test_${name} REUSE_FROM dovetail_test_headers)
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
+  if(TEST_EIGEN)
+    dovetail_reuse_headers(test_${name} dovetail_eigen_test_headers)
+    target_link_libraries(test_${name} PRIVATE dovetail_eigen_test_headers Eigen3::Eigen)
+  else()
+    dovetail_reuse_headers(test_${name} dovetail_test_headers)
+  endif()
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+                       PROPERTIES ENVIRONMENT "OMP_NUM_THREADS=1")
+endfunction()
+
+# dovetail_reuse_headers(<target> <headers>): compiles with the precompiled header of an object library, which the first
+# call makes: GoogleTest, the standard library, and for dovetail_eigen_test_headers Eigen.
+function(dovetail_reuse_headers target headers)
+  if(NOT TARGET ${headers})
+    set(source "${PROJECT_BINARY_DIR}/test_headers.cpp")
+    set(more "")
+    file(CONFIGURE OUTPUT "${source}" CONTENT "")
+    if(headers STREQUAL dovetail_eigen_test_headers)
+      set(source "${PROJECT_SOURCE_DIR}/tests/dense_algebra.cpp")
+      set(more "${PROJECT_SOURCE_DIR}/tests/dense_algebra.hpp")
+    endif()
+    add_library(${headers} OBJECT "${source}")
+    target_link_libraries(${headers} PRIVATE GTest::gtest Eigen3::Eigen)
+    dovetail_set_test_options(${headers})
+    target_precompile_headers(${headers} PRIVATE
+      <gtest/gtest.h> <algorithm> <array> <cmath> <functional> <random> <span> <string> <vector> ${more})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${headers})
 endfunction()
 
 function(dovetail_set_test_options target)

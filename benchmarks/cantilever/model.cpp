@@ -74,23 +74,21 @@ surface::SmoothCoupling makeSmoothSeam(const Settings& settings, const fem::Mesh
 template <class Seam>
 surface::CoupledModel<Seam> makeModel(const Settings& settings, const fem::Mesh& mesh, Seam seam) {
   const auto type = settings.element == "hybrid8" ? fem::ElementType::hybrid8 : fem::ElementType::hex8;
-  surface::CoupledModel<Seam> model{makeParticles(settings),
-                                    {},
-                                    {},
-                                    {},
-                                    {0.0, 0.0, -Case{}.gravity},
-                                    fem::makeNodes(mesh),
-                                    fem::makeElements(mesh, type, makeMaterial(settings)),
-                                    std::move(seam),
-                                    0.0,
-                                    {},
-                                    surface::NodalLoad{}};
+  const dem::LinearSpringDashpot normal{contactStiffness(settings), settings.restitution, true};
+  surface::CoupledModel<Seam> model{.discrete = {},
+                                    .wallLaw = {normal},
+                                    .nodes = fem::makeNodes(mesh),
+                                    .elements = fem::makeElements(mesh, type, makeMaterial(settings)),
+                                    .seam = std::move(seam),
+                                    .contact = {}};
+  model.discrete.particles = makeParticles(settings);
+  model.discrete.laws = dem::makeContactLaws(dem::ElasticLaw{normal});
+  model.discrete.gravity = {0.0, 0.0, -Case{}.gravity};
+  model.discrete.pairs.skin = 0.5 * Case{}.particleDiameter;
+  model.discrete.sortEvery = 0;
+  model.discrete.refusesUnstableSteps = false;  // chooseStep has refused them, with the skin's share
   fem::addLumpedMass(model.elements, model.nodes);
   fem::fix(model.nodes, mesh.nodeSets.at("y-"));
-  const dem::LinearSpringDashpot normal{contactStiffness(settings), settings.restitution};
-  model.pairLaw.normal = normal;
-  model.wallLaw.normal = normal;
-  dem::findPairs(model.particles, 0.5 * Case{}.particleDiameter, model.pairs);
   return model;
 }
 

@@ -100,11 +100,11 @@ private:
   void setLedger() {
     EnergyLedger& ledger = result_.ledger;
     double height = 0.0;
-    for (std::size_t i = 0; i < model_.particles.size(); ++i)
-      height += model_.particles.mass[i] * (model_.particles.x[i].z - startZ_);
-    ledger.set(kineticParticles_, dem::kineticEnergy(model_.particles));
+    for (std::size_t i = 0; i < model_.discrete.particles.size(); ++i)
+      height += model_.discrete.particles.mass[i] * (model_.discrete.particles.x[i].z - startZ_);
+    ledger.set(kineticParticles_, dem::kineticEnergy(model_.discrete.particles));
     ledger.set(elasticContacts_, model_.contact.storedEnergy());
-    ledger.set(gravity_, -model_.gravity.z * height);
+    ledger.set(gravity_, -model_.discrete.gravity.z * height);
     ledger.set(kineticBeam_, kineticBeam());
     ledger.set(elasticBeam_, model_.strainEnergy);
     if (multirate())
@@ -120,7 +120,7 @@ private:
   }
 
   void loop() {
-    startZ_ = model_.particles.x[0].z;
+    startZ_ = model_.discrete.particles.x[0].z;
     surface::start(model_, clock_.dt, result_.profile);
     setLedger();
     result_.ledger.open();
@@ -144,7 +144,7 @@ private:
       if (sample % seriesEvery == 0) {
         fem::requireValid(model_.elements, model_.nodes, moment(clock_.time(), clock_.step));
         sampleSeries();
-        const double y = model_.particles.x[0].y / Case{}.length;
+        const double y = model_.discrete.particles.x[0].y / Case{}.length;
         progress.update(settings().until ? clock_.time() / end : 1.0 - std::sqrt(std::max(0.0, 1.0 - y)),
                         "t = " + formatNumber(std::round(100.0 * clock_.time()) / 100.0) + " s");
       }
@@ -161,7 +161,7 @@ private:
   }
 
   void advance(bool withEnergy) {
-    const double yBefore = model_.particles.x[0].y;
+    const double yBefore = model_.discrete.particles.x[0].y;
     const surface::WindowSums sums = stepWindow(withEnergy);
     result_.ledger.add(dashpots_, sums.dissipated);
     result_.ledger.add(coupling_, -sums.madeByCoupling);
@@ -169,14 +169,14 @@ private:
     if (figures().left) return;
     stepsWithoutContact_ += sums.stepsWithoutContact;
     stepsOnBeam_ += clock_.substepsPerWindow;
-    const double y = model_.particles.x[0].y, length = Case{}.length;
+    const double y = model_.discrete.particles.x[0].y, length = Case{}.length;
     if (y <= length) return;
     figures().left = true;
     figures().leaveTime = clock_.time() - clock_.coarseStep() * (y - length) / (y - yBefore);
   }
 
   void sampleEnergy() {
-    dem::requireFinite(model_.particles, moment(clock_.time(), clock_.step));
+    dem::requireFinite(model_.discrete.particles, moment(clock_.time(), clock_.step));
     requireFinite(model_.nodes.v, "node", "velocity", moment(clock_.time(), clock_.step));
     setLedger();
     if (figures().left) return;
@@ -187,8 +187,8 @@ private:
     const double allowed = result_.ledger.storedAtOpening() + std::max(0.0, workOfGravity);
     figures().largestExcess = std::max(figures().largestExcess, mechanical / allowed);
     const Case beam;
-    figures().lateralDrift = std::max({figures().lateralDrift, std::abs(model_.particles.x[0].x - beam.startX),
-                                       std::abs(model_.particles.x[1].x + beam.startX)});
+    figures().lateralDrift = std::max({figures().lateralDrift, std::abs(model_.discrete.particles.x[0].x - beam.startX),
+                                       std::abs(model_.discrete.particles.x[1].x + beam.startX)});
     sampleBalance();
   }
 
@@ -196,10 +196,10 @@ private:
   void sampleBalance() {
     Vec3 force, about;
     double size = 0.0;
-    for (std::size_t i = 0; i < model_.particles.size(); ++i) {
-      const Vec3 contact = model_.particles.f[i] - model_.particles.mass[i] * model_.gravity;
+    for (std::size_t i = 0; i < model_.discrete.particles.size(); ++i) {
+      const Vec3 contact = model_.discrete.particles.f[i] - model_.discrete.particles.mass[i] * model_.discrete.gravity;
       force += contact;
-      about += cross(model_.particles.x[i], contact);
+      about += cross(model_.discrete.particles.x[i], contact);
       size += norm(contact);
     }
     const surface::NodalLoad& load = model_.seam.load();
@@ -213,21 +213,21 @@ private:
   }
 
   void sampleTrajectory() {
-    result_.samples.push_back({clock_.time(), {model_.particles.x[0], model_.particles.x[1]}});
+    result_.samples.push_back({clock_.time(), {model_.discrete.particles.x[0], model_.discrete.particles.x[1]}});
   }
 
   void sampleSeries() {
     std::vector<double> row{clock_.time()};
     const auto push = [&](const Vec3& value) { row.insert(row.end(), {value.x, value.y, value.z}); };
     for (int i = 0; i < 2; ++i) {
-      push(model_.particles.x[i]);
-      push(model_.particles.v[i]);
+      push(model_.discrete.particles.x[i]);
+      push(model_.discrete.particles.v[i]);
     }
     double massParticles = 0.0, massBeam = 0.0;
-    for (double mass : model_.particles.mass) massParticles += mass;
+    for (double mass : model_.discrete.particles.mass) massParticles += mass;
     for (double mass : model_.nodes.mass) massBeam += mass;
     row.insert(row.end(), {massParticles, massBeam});
-    push(dem::momentum(model_.particles));
+    push(dem::momentum(model_.discrete.particles));
     push(fem::momentum(model_.nodes));
     const auto& channels = result_.ledger.channels();
     for (EnergyLedger::Id id : {kineticParticles_, elasticContacts_, gravity_, kineticBeam_, elasticBeam_})
@@ -243,7 +243,7 @@ private:
   void observe() {
     if (!observer_) return;
     const auto energies = fem::elementEnergies(model_.elements, model_.nodes);
-    observer_({clock_.time(), mesh_, model_.nodes, model_.particles, model_.seam.load().force, energies});
+    observer_({clock_.time(), mesh_, model_.nodes, model_.discrete.particles, model_.seam.load().force, energies});
   }
 
   void close() {

@@ -3,6 +3,7 @@
 
 #include "common/command_line.hpp"
 #include "common/outputs.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "studies.hpp"
 
 namespace {
@@ -13,11 +14,17 @@ using namespace dovetail::dem_benchmark;
 bool parse(int argc, char** argv, Settings& s) {
   CLI::App app{"Times the particle engine, and checks it on stiff and extreme cases.", "dem"};
   app.add_option("--study", s.study, "what to do")
-      ->check(CLI::IsMember({"throughput", "leaving-out", "scaling", "threads", "stability"}).description(""))
-      ->option_text("throughput|leaving-out|scaling|threads|stability");
-  app.add_option("--bed", s.bed, "spheres of a settled bed, lines 'x y z diameter'; without it one is settled first");
+      ->check(CLI::IsMember({"throughput", "peers", "leaving-out", "scaling", "threads", "stability"}).description(""))
+      ->option_text("throughput|peers|leaving-out|scaling|threads|stability");
+  app.add_option("--bed", s.bed,
+                 "spheres of a settled bed, lines 'x y z diameter'; without it one is settled first; peers: the folder "
+                 "of --write");
   app.add_option("--write", s.write, "write the scenes into this folder, for other programs, and stop");
   app.add_option("--summary", s.summary, "write the figures as JSON");
+  app.add_option("--scene", s.scenes, "peers: what to time")
+      ->check(CLI::IsMember({"bed", "hertz", "lattice", "polydisperse", "drum"}).description(""))
+      ->option_text("bed|hertz|lattice|polydisperse|drum ...");
+  app.add_option("--copies", s.copies, "peers: beds or drums side by side")->check(CLI::Range(1, 1000));
   app.add_option("--steps", s.steps, "steps per timing")->check(CLI::Range(2, 1000000));
   app.add_option("--warm-up", s.warmUp, "steps before the timings")->check(CLI::Range(1, 1000000));
   app.add_option("--repeat", s.repeats, "timings, of which the median counts")->check(CLI::Range(1, 1000));
@@ -34,6 +41,7 @@ int main(int argc, char** argv) {
   try {
     Settings s;
     if (!parse(argc, argv, s)) return 0;
+    setThreads(s.threads);
     if (!s.summary.empty()) benchmark::prepareSummary(s.summary);
     if (!s.write.empty()) {
       writeScenes(s, std::cout);
@@ -41,6 +49,7 @@ int main(int argc, char** argv) {
     }
     if (s.study == "stability") return studyStability(s, std::cout) ? 0 : 1;
     const std::map<std::string, void (*)(const Settings&, std::ostream&)> studies{{"throughput", studyThroughput},
+                                                                                  {"peers", studyPeers},
                                                                                   {"leaving-out", studyLeavingOut},
                                                                                   {"scaling", studyScaling},
                                                                                   {"threads", studyThreads}};

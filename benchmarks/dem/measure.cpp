@@ -1,6 +1,7 @@
 #include "measure.hpp"
 
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
 
 namespace dovetail::dem_benchmark {
 
@@ -16,7 +17,8 @@ std::size_t bytesHeld(const dem::Particles& p, const dem::PairList& l) {
   const auto bytes = [](const auto&... arrays) { return ((arrays.capacity() * sizeof(arrays[0])) + ... + 0); };
   return bytes(p.x, p.v, p.f, p.radius, p.mass, p.omega, p.torque, p.material, p.id) +
          bytes(l.pairs, l.candidates, l.images, l.scale, l.memory, l.ended, l.positionAtBuild, l.positionAtPruning,
-               l.chunks.begin, l.chunks.crosses, l.chunks.force, l.chunks.torque, l.chunks.arrives, l.chunks.arriving);
+               l.chunks.begin, l.chunks.crosses, l.chunks.force, l.chunks.torque, l.chunks.arrives, l.chunks.arriving,
+               l.endedPairs);
 }
 
 double bytesMovedPerStep(const dem::Particles& p, const dem::PairList& l, bool mass, bool oneSize) {

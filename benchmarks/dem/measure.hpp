@@ -39,9 +39,8 @@ std::size_t touching(const dem::Particles& particles, const dem::PairList& list)
 double triadBandwidth(int threads);
 
 /// @param warmUp steps before the clock starts @param forced list made anew at every so many steps; 0 = when needed
-template <class Law>
-Figures measure(const std::string& name, dem::Model<Law>& model, double dt, int warmUp, int steps, int repeats,
-                int forced = 0) {
+inline Figures measure(const std::string& name, dem::Model& model, double dt, int warmUp, int steps, int repeats,
+                       int forced = 0) {
   const auto goOn = [&](int count) {
     for (int s = 0; s < count; ++s) {
       if (forced > 0 && model.steps % forced == 0) findPairs(model.particles, model.pairs.skin, model.pairs);
@@ -56,7 +55,7 @@ Figures measure(const std::string& name, dem::Model<Law>& model, double dt, int 
     goOn(steps);
     millions.push_back(1e-6 * steps * static_cast<double>(model.particles.size()) / (now() - start));
   }
-  finish(model, dt);
+  close(model);
   Figures f{.name = name,
             .particles = model.particles.size(),
             .pairs = model.pairs.size(),
@@ -69,7 +68,7 @@ Figures measure(const std::string& name, dem::Model<Law>& model, double dt, int 
   const auto [smallest, largest] = std::minmax_element(model.particles.radius.begin(), model.particles.radius.end());
   const auto n = static_cast<double>(f.particles);
   f.bytesHeld = static_cast<double>(bytesHeld(model.particles, model.pairs)) / n;
-  f.bytesMoved = bytesMovedPerStep(model.particles, model.pairs, model.laws.usesMass(), *smallest == *largest) / n;
+  f.bytesMoved = bytesMovedPerStep(model.particles, model.pairs, true, *smallest == *largest) / n;
   return f;
 }
 

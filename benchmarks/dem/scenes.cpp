@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/dem/model/loads.hpp"
 
 namespace dovetail::dem_benchmark {
 
@@ -45,15 +46,25 @@ Spheres readSpheres(const std::filesystem::path& path) {
                        "give four numbers, the last one greater than zero");
     spheres.x.push_back(x);
     spheres.diameter.push_back(diameter);
+    Vec3 v, omega;
+    if (!(fields >> v.x >> v.y >> v.z >> omega.x >> omega.y >> omega.z)) continue;
+    spheres.v.push_back(v);
+    spheres.omega.push_back(omega);
   }
+  if (!spheres.v.empty() && spheres.v.size() != spheres.size())
+    throw InputError("some lines have velocities and others have none", path.string(), "give them to all or to none");
   if (spheres.size() == 0) throw InputError("no spheres", path.string(), "give lines 'x y z diameter'");
   return spheres;
 }
 
 void writeSpheres(const std::filesystem::path& path, const Spheres& spheres) {
   auto out = openForWriting(path);
-  for (std::size_t i = 0; i < spheres.size(); ++i)
-    out << spheres.x[i].x << ' ' << spheres.x[i].y << ' ' << spheres.x[i].z << ' ' << spheres.diameter[i] << '\n';
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    out << spheres.x[i].x << ' ' << spheres.x[i].y << ' ' << spheres.x[i].z << ' ' << spheres.diameter[i];
+    if (!spheres.v.empty())
+      for (const Vec3& a : {spheres.v[i], spheres.omega[i]}) out << ' ' << a.x << ' ' << a.y << ' ' << a.z;
+    out << '\n';
+  }
 }
 
 void writeLammpsData(const std::filesystem::path& path, const Spheres& spheres, const geometry::Box& box) {
@@ -68,13 +79,20 @@ void writeLammpsData(const std::filesystem::path& path, const Spheres& spheres, 
   for (std::size_t i = 0; i < spheres.size(); ++i)
     out << i + 1 << ' ' << (spheres.diameter[i] > 2.0 * smallest ? 2 : 1) << ' ' << spheres.diameter[i]
         << " 1.9098593171 " << spheres.x[i].x << ' ' << spheres.x[i].y << ' ' << spheres.x[i].z << '\n';
+  if (spheres.v.empty()) return;
+  out << "\nVelocities\n\n";
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    out << i + 1;
+    for (const Vec3& a : {spheres.v[i], spheres.omega[i]}) out << ' ' << a.x << ' ' << a.y << ' ' << a.z;
+    out << '\n';
+  }
 }
 
 dem::FrictionalLaw frictionalLaw() {
   // c = γ m* and ω² = k/m* give e = exp(−γ/2 π/√(k/m* − γ²/4)); for m* = 1/2 kg.
   constexpr double pi = 3.14159265358979324, rate = 50.0, effectiveMass = 0.5;
   const double e = std::exp(-0.5 * rate * pi / std::sqrt(stiffness / effectiveMass - 0.25 * rate * rate));
-  return {{stiffness, e}, {2.0 / 7.0 * stiffness, 0.5, 0.5}};
+  return {{stiffness, e, true}, {2.0 / 7.0 * stiffness, 0.5, 0.5}};
 }
 
 dem::HertzMindlinLaw hertzLaw() {
@@ -98,6 +116,36 @@ Spheres lattice(int nx, int ny, int nz, double diameter) {
   return spheres;
 }
 
+dem::Model makeModel(const Spheres& spheres, std::shared_ptr<const dem::ContactLaws> laws,
+                     const geometry::Periodicity& periodicity, const Vec3& gravity) {
+  dem::Model model;
+  model.laws = std::move(laws);
+  model.gravity = gravity;
+  model.booking = dem::Booking::off;
+  model.sortEvery = 0;
+  constexpr double density = 1.9098593171;  // a sphere of diameter 1 m has 1 kg
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+    addParticle(model.particles, spheres.x[i], {}, 0.5 * spheres.diameter[i], dem::Density{density});
+  const bool rotates = model.laws->rotates();
+  if (rotates) switchOnRotation(model.particles);
+  for (std::size_t i = 0; i < spheres.v.size(); ++i) {
+    model.particles.v[i] = spheres.v[i];
+    if (rotates) model.particles.omega[i] = spheres.omega[i];
+  }
+  model.pairs.periodicity = periodicity;
+  model.pairs.skin = listSkin;
+  findPairs(model.particles, listSkin, model.pairs);
+  sortParticles(model.particles, model.pairs);
+  return model;
+}
+
+dem::Model bedModel(const Spheres& bed, std::shared_ptr<const dem::ContactLaws> laws, double width) {
+  geometry::Periodicity sideways{{{0, 0, 0}, {width, 20, 1}}, {true, true, false}};
+  auto model = makeModel(bed, std::move(laws), sideways, {0, 0, -1});
+  dem::addWall(model, dem::makePlane({}, {0, 0, 1})).skin = listSkin;
+  return model;
+}
+
 Spheres settledBed(int width, int layers) {
   std::mt19937_64 random(4711);
   Spheres spheres = lattice(width, width, layers, 1.0);
@@ -109,7 +157,7 @@ Spheres settledBed(int width, int layers) {
   findPairs(model.particles, listSkin, model.pairs);
   // A soft landing, then the breathing of the column.
   for (const auto& [rate, steps] : {std::pair{1.0, 2000}, {0.1, 4000}, {2.0, 5000}}) {
-    model.viscousRate = rate;
+    dem::damping(model).viscousRate = rate;
     run(model, timeStep, steps);
   }
   spheres.x = model.particles.x;
@@ -118,12 +166,46 @@ Spheres settledBed(int width, int layers) {
   return spheres;
 }
 
-Spheres repeated(const Spheres& bed, int copies, double width) {
+Spheres flowingDrum() {
+  std::mt19937_64 random(4711);
+  Spheres spheres;
+  const double inside = drumRadius - 0.6;
+  for (double z = 0.5; z < drumWidth; z += 1.0)
+    for (double y = -drumRadius; y < 0.12 * drumRadius; y += 1.03)
+      for (double x = -drumRadius; x < drumRadius; x += 1.03) {
+        const Vec3 at{x + jitter(random, 0.01), y + jitter(random, 0.01), z + jitter(random, 0.01)};
+        if (at.x * at.x + at.y * at.y > inside * inside) continue;
+        spheres.x.push_back(at);
+        spheres.diameter.push_back(1.0);
+      }
+  auto model = drumModel(spheres, drumWidth);
+  run(model, timeStep, 30000);
+  wrapPositions(model.particles, model.pairs.periodicity);
+  spheres.x = model.particles.x;
+  spheres.v = model.particles.v;
+  spheres.omega = model.particles.omega;
+  return spheres;
+}
+
+dem::Model drumModel(const Spheres& spheres, double length) {
+  const double r = drumRadius;
+  auto model = makeModel(spheres, frictionalLaw(), {{{-r, -r, 0}, {r, r, length}}, {false, false, true}}, {0, -1, 0});
+  dem::PrimitiveWall& wall = dem::addWall(model, dem::makeCylinder({}, {0, 0, 1}, drumRadius));
+  wall.skin = listSkin;
+  wall.angularVelocity = {0, 0, drumSpeed};
+  return model;
+}
+
+Spheres repeated(const Spheres& spheres, int copies, double width, int axis) {
   Spheres all;
   for (int c = 0; c < copies; ++c)
-    for (std::size_t i = 0; i < bed.size(); ++i) {
-      all.x.push_back(bed.x[i] + Vec3{c * width, 0, 0});
-      all.diameter.push_back(bed.diameter[i]);
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      all.x.push_back(spheres.x[i]);
+      all.x.back()[axis] += c * width;
+      all.diameter.push_back(spheres.diameter[i]);
+      if (spheres.v.empty()) continue;
+      all.v.push_back(spheres.v[i]);
+      all.omega.push_back(spheres.omega[i]);
     }
   return all;
 }
@@ -154,6 +236,14 @@ Spheres bigAmongSmall(double edge, int bigOnes, double bigDiameter, unsigned see
         spheres.diameter.push_back(1.02);
       }
   return spheres;
+}
+
+dem::Model waveLattice(int nx, int ny, int nz) {
+  auto model = makeModel(lattice(nx, ny, nz, 1.01), dem::ElasticLaw{{stiffness}},
+                         {{{0, 0, 0}, {double(nx), double(ny), double(nz)}}, {true, true, true}}, {});
+  for (std::size_t i = 0; i < model.particles.size(); ++i)
+    model.particles.v[i].x = 0.01 * std::sin(2.0 * 3.14159265358979324 * model.particles.x[i].x / nx);
+  return model;
 }
 
 std::vector<dem::PrimitiveWall> boxOfPlanes(double edge, double skin) {

@@ -6,18 +6,19 @@
 #include <vector>
 
 #include "dovetail/dem/laws/common_laws.hpp"
-#include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/model/walls.hpp"
 
 namespace dovetail::dem_benchmark {
 
-/// Centres and diameters, m.
+/// Centres and diameters, m; velocities, m/s, and spins, rad/s, unless all are at rest.
 struct Spheres {
   std::vector<Vec3> x;
   std::vector<double> diameter;
+  std::vector<Vec3> v, omega;
   std::size_t size() const { return x.size(); }
 };
 
-/// One line per sphere: x y z diameter.
+/// One line per sphere: x y z diameter, and, in all lines or none, velocity and spin.
 /// @throws InputError naming file and line
 Spheres readSpheres(const std::filesystem::path& path);
 void writeSpheres(const std::filesystem::path& path, const Spheres& spheres);
@@ -27,18 +28,17 @@ void writeLammpsData(const std::filesystem::path& path, const Spheres& spheres, 
 /// A packed bed: 20 × 20 × about 43 spheres on a floor, periodic sideways, settled from a jittered lattice. Takes about
 /// a minute for the 20 000 of `layers` = 50.
 Spheres settledBed(int width = 20, int layers = 50);
-/// `copies` beds side by side along x.
-Spheres repeated(const Spheres& bed, int copies, double width);
+/// A slice, 8 wide, of a drum half full that has turned until its grains flow: 20 000 spheres. Takes half a minute.
+Spheres flowingDrum();
+/// `copies` side by side along an axis.
+Spheres repeated(const Spheres& spheres, int copies, double width, int axis = 0);
 /// Cubic lattice of unit spacing in a periodic box.
 Spheres lattice(int nx, int ny, int nz, double diameter);
 /// Big spheres of ten diameters at random in a cubic lattice of small ones, periodic.
 Spheres bigAmongSmall(double edge, int bigOnes, double bigDiameter, unsigned seed);
 
-using FrictionlessModel = dem::Model<dem::ElasticLaw>;
-using FrictionalModel = dem::Model<dem::FrictionalLaw>;
-using HertzModel = dem::Model<dem::HertzMindlinLaw>;
-
 inline constexpr double stiffness = 2000.0, timeStep = 1e-3, listSkin = 0.1;
+inline constexpr double drumRadius = 38.0, drumWidth = 8.0, drumSpeed = 0.05;  ///< m, m, rad/s
 
 /// Laws of the bed: k, k_t = 2/7 k, μ = 0.5, and dashpots as γ_n = 50/s, γ_t = 25/s per effective mass.
 dem::FrictionalLaw frictionalLaw();
@@ -46,46 +46,29 @@ dem::FrictionalLaw frictionalLaw();
 dem::HertzMindlinLaw hertzLaw();
 
 /// Puts the spheres into a model with the list made and particles sorted.
+dem::Model makeModel(const Spheres& spheres, std::shared_ptr<const dem::ContactLaws> laws,
+                     const geometry::Periodicity& periodicity, const Vec3& gravity);
 template <class Law>
-dem::Model<Law> makeModel(const Spheres& spheres, const Law& law, const geometry::Periodicity& periodicity,
-                          const Vec3& gravity);
+dem::Model makeModel(const Spheres& spheres, const Law& law, const geometry::Periodicity& periodicity,
+                     const Vec3& gravity) {
+  return makeModel(spheres, dem::makeContactLaws(law), periodicity, gravity);
+}
 
 /// Bed periodic in x and y on a floor at z = 0.
+dem::Model bedModel(const Spheres& bed, std::shared_ptr<const dem::ContactLaws> laws, double width);
 template <class Law>
-dem::Model<Law> bedModel(const Spheres& bed, const Law& law, double width);
+dem::Model bedModel(const Spheres& bed, const Law& law, double width) {
+  return bedModel(bed, dem::makeContactLaws(law), width);
+}
+
+/// Slightly squeezed spheres without friction on a periodic lattice, with a wave running through.
+dem::Model waveLattice(int nx, int ny, int nz);
+
+/// Drum of the given length about z, periodic along it, turning; gravity pulls along −y.
+dem::Model drumModel(const Spheres& spheres, double length);
 
 /// Five inner faces of an open box, [0, edge]² × [0, height], as planes or meshed with right triangles.
 std::vector<dem::PrimitiveWall> boxOfPlanes(double edge, double skin);
 dem::MeshWall boxOfTriangles(double edge, double height, int cells, double skin);
-
-// -- templates
-
-template <class Law>
-dem::Model<Law> makeModel(const Spheres& spheres, const Law& law, const geometry::Periodicity& periodicity,
-                          const Vec3& gravity) {
-  dem::Model<Law> model;
-  model.laws = prepare(law);
-  model.gravity = gravity;
-  model.booking = dem::Booking::off;
-  model.sortEvery = 0;
-  constexpr double density = 1.9098593171;  // a sphere of diameter 1 m has 1 kg
-  for (std::size_t i = 0; i < spheres.size(); ++i)
-    addParticle(model.particles, spheres.x[i], {}, 0.5 * spheres.diameter[i], dem::Density{density});
-  if (Law::rotates) switchOnRotation(model.particles);
-  model.pairs.periodicity = periodicity;
-  model.pairs.skin = listSkin;
-  findPairs(model.particles, listSkin, model.pairs);
-  sortParticles(model.particles, model.pairs);
-  return model;
-}
-
-template <class Law>
-dem::Model<Law> bedModel(const Spheres& bed, const Law& law, double width) {
-  geometry::Periodicity sideways{{{0, 0, 0}, {width, 20, 1}}, {true, true, false}};
-  auto model = makeModel(bed, law, sideways, {0, 0, -1});
-  model.walls.push_back(dem::makePlane({}, {0, 0, 1}));
-  model.walls.back().skin = listSkin;
-  return model;
-}
 
 }  // namespace dovetail::dem_benchmark

@@ -6,7 +6,7 @@
 
 #include "common/text.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/model/walls.hpp"
 #include "studies.hpp"
 
 namespace dovetail::dem_benchmark {
@@ -17,30 +17,21 @@ using benchmark::format;
 using dem::Mass;
 
 template <class Law>
-dem::Model<Law> sceneOf(const Law& law, double skin = 0.1) {
-  dem::Model<Law> model;
-  model.laws = prepare(law);
+dem::Model sceneOf(const Law& law, double skin = 0.1) {
+  dem::Model model;
+  model.laws = dem::makeContactLaws(law);
   model.pairs.skin = skin;
   return model;
 }
 
-/// Contact energies at the start: forces too, so that the first half kick has them.
-template <class Law>
-dem::ContactWork collideOnce(dem::Model<Law>& model, double dt) {
-  findPairs(model.particles, model.pairs.skin, model.pairs);
-  clearForces(model.particles);
-  return collide(model.particles, model.pairs, model.laws, dt);
-}
-
 /// Largest departure of the balance from its start, relative to `scale` J, over n steps.
-template <class Law>
-double drift(dem::Model<Law>& model, double dt, int n, double scale) {
-  model.work = collideOnce(model, dt);
+double drift(dem::Model& model, double dt, int n, double scale) {
+  dem::findForces(model);
   const double start = energies(model).balance();
   double worst = 0.0;
   for (int s = 0; s < n; ++s) {
     advance(model, dt);
-    finish(model, dt);
+    close(model);
     worst = std::max(worst, std::abs(energies(model).balance() - start) / scale);
   }
   return worst;
@@ -66,8 +57,8 @@ double impact(double massRatio, double sizeRatio, double stiffness, double stepS
 double stiffNeighbours() {
   dem::LawTable<dem::ElasticLaw> laws(2, dem::ElasticLaw{{1e3}});
   laws.set(1, 1, dem::ElasticLaw{{1e9}});
-  dem::Model<dem::ElasticLaw> model;
-  model.laws = prepare(laws);
+  dem::Model model;
+  model.laws = dem::makeContactLaws(laws);
   model.pairs.skin = 0.01;
   for (int i = 0; i < 3; ++i) addParticle(model.particles, {0.999 * i, 0, 0}, {}, 0.5, Mass{1.0});
   model.particles.x[2].x = 1.9999;
@@ -115,7 +106,7 @@ double frictionalPress(double stiffness) {
   addParticle(model.particles, {0, 0, 0.5 + 1e-9}, {0.1, 0, 0}, 0.5, Mass{1.0});
   switchOnRotation(model.particles);
   model.gravity = {0, 0, -10};
-  model.walls.push_back(dem::makePlane({}, {0, 0, 1}));
+  dem::addWall(model, dem::makePlane({}, {0, 0, 1}));
   return drift(model, 0.05 / std::sqrt(stiffness), 20000, 10.0);
 }
 

@@ -4,21 +4,25 @@
 #include <filesystem>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace dovetail::dem_benchmark {
 
 struct Settings {
   std::string study = "throughput";
-  std::filesystem::path bed;    ///< spheres of a settled bed, 20 × 20 wide; empty: settle one
+  std::filesystem::path bed;    ///< spheres of a settled bed, 20 × 20 wide; empty: settle one; peers: folder of scenes
   std::filesystem::path write;  ///< folder: writes the scenes for other programs, and stops
   std::filesystem::path summary;
-  int steps = 100, warmUp = 300, repeats = 5, threads = 1;
+  std::vector<std::string> scenes{"bed"};  ///< of the study of peers
+  int steps = 100, warmUp = 300, repeats = 5, threads = 1, copies = 5;
   bool quick = false;  ///< small scenes, few steps: to see whether all runs
 };
 
 /// Frictional bed (linear and Hertz), frictionless lattice, big spheres among small ones, box of planes and of
 /// triangles.
 void studyThroughput(const Settings& settings, std::ostream& out);
+/// Chosen scenes, from the folder that writeScenes has filled.
+void studyPeers(const Settings& settings, std::ostream& out);
 /// What an absent feature costs.
 void studyLeavingOut(const Settings& settings, std::ostream& out);
 /// Cost against number and size ratio.

@@ -1,56 +1,21 @@
 // Throughput, scaling, threads and leaving out.
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <ostream>
 
-#include "common/json.hpp"
 #include "common/text.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/model/loads.hpp"
 #include "measure.hpp"
 #include "scenes.hpp"
 #include "studies.hpp"
+#include "tables.hpp"
 
 namespace dovetail::dem_benchmark {
 
 namespace {
 
 using benchmark::format;
-
-struct Table {
-  std::ostream& out;
-  std::vector<Figures> rows;
-  void header() const {
-    out << format("%-34s %9s %6s %6s %9s %15s %7s %7s %7s %6s %6s\n", "scene", "particles", "pairs", "cont.",
-                  "M steps/s", "lowest-highest", "ns", "B held", "B moved", "builds", "prunes");
-  }
-  const Figures& add(Figures f) {
-    const auto n = static_cast<double>(f.particles);
-    out << format("%-34s %9zu %6.2f %6.2f %9.2f %7.2f-%7.2f %7.1f %7.0f %7.0f %6lld %6lld\n", f.name.c_str(),
-                  f.particles, static_cast<double>(f.pairs) / n, static_cast<double>(f.contacts) / n, f.rates.median,
-                  f.rates.lowest, f.rates.highest, f.nanoseconds(), f.bytesHeld, f.bytesMoved,
-                  static_cast<long long>(f.builds), static_cast<long long>(f.prunings))
-        << std::flush;
-    rows.push_back(std::move(f));
-    return rows.back();
-  }
-};
-
-void writeSummary(const Settings& s, const std::vector<Figures>& rows, double triad) {
-  if (s.summary.empty()) return;
-  benchmark::Json json;
-  json["study"] = s.study;
-  json["triad_GB_per_s"] = triad;
-  for (const Figures& f : rows)
-    json["scenes"].push_back({{"name", f.name},
-                              {"particles", f.particles},
-                              {"million_steps_per_s", f.rates.median},
-                              {"lowest", f.rates.lowest},
-                              {"highest", f.rates.highest},
-                              {"bytes_held_per_particle", f.bytesHeld},
-                              {"bytes_moved_per_step", f.bytesMoved}});
-  std::ofstream(s.summary) << json.dump(2) << '\n';
-}
 
 Spheres bedOf(const Settings& s) {
   if (!s.bed.empty()) return readSpheres(s.bed);
@@ -63,33 +28,28 @@ Spheres polydisperse(const Settings& s) {
 
 geometry::Periodicity cube(double edge) { return {{{0, 0, 0}, {edge, edge, edge}}, {true, true, true}}; }
 
-FrictionlessModel waveLattice(int nx, int ny, int nz) {
-  auto model = makeModel(lattice(nx, ny, nz, 1.01), dem::ElasticLaw{{stiffness}},
-                         {{{0, 0, 0}, {double(nx), double(ny), double(nz)}}, {true, true, true}}, {});
-  for (std::size_t i = 0; i < model.particles.size(); ++i)
-    model.particles.v[i].x = 0.01 * std::sin(2.0 * 3.14159265358979324 * model.particles.x[i].x / nx);
-  return model;
-}
-
 /// The bed in an open box a little wider than itself; let fall against the walls first.
 template <class Walls>
-FrictionalModel boxModel(const Settings& s, const Spheres& bed, const Walls& walls) {
+dem::Model boxModel(const Settings& s, const Spheres& bed, const Walls& walls) {
   constexpr double edge = 21.0;
   Spheres inside = bed;
   for (Vec3& x : inside.x) x += Vec3{0.5, 0.5, 0.0};
   auto model = makeModel(inside, frictionalLaw(), {}, {0, 0, -1});
   walls(model, edge);
-  model.viscousRate = 2.0;
+  auto& damping = dem::damping(model);
+  damping.viscousRate = 2.0;
   run(model, timeStep, s.quick ? 100 : 4000);
-  model.viscousRate = 0.0;
+  model.terms.remove(damping);
   return model;
 }
 
 /// Planes and triangles turn by turn; cost of the latter over the former, median of the turns.
 double compareBoxes(const Settings& s, const Spheres& bed, Table& table) {
-  auto planes = boxModel(s, bed, [](auto& m, double edge) { m.walls = boxOfPlanes(edge, listSkin); });
+  auto planes = boxModel(s, bed, [](auto& m, double edge) {
+    for (auto& wall : boxOfPlanes(edge, listSkin)) dem::addWall(m, wall);
+  });
   auto triangles =
-      boxModel(s, bed, [](auto& m, double edge) { m.meshes.push_back(boxOfTriangles(edge, 50.0, 23, listSkin)); });
+      boxModel(s, bed, [](auto& m, double edge) { dem::addWall(m, boxOfTriangles(edge, 50.0, 23, listSkin)); });
   std::vector<double> costs;
   Figures first, second;
   std::vector<double> ratesFirst, ratesSecond;
@@ -157,11 +117,10 @@ void studyLeavingOut(const Settings& s, std::ostream& out) {
   const double bare = time("frictionless lattice", [](auto&) {});
   const double again = time("the same again", [](auto&) {});
   const double wall = time("with a wall that nobody touches", [](auto& m) {
-    m.walls.push_back(dem::makePlane({0, 0, -100}, {0, 0, 1}));
-    m.walls.back().skin = listSkin;
+    dem::addWall(m, dem::makeSphere({}, 0.1, false)).skin = listSkin;  // between the spheres of the lattice
   });
   const double booked = time("with energies booked", [](auto& m) { m.booking = dem::Booking::on; });
-  const double damped = time("with viscous damping", [](auto& m) { m.viscousRate = 1e-6; });
+  const double damped = time("with viscous damping", [](auto& m) { dem::damping(m).viscousRate = 1e-6; });
   // Without overlap and at rest: an open lattice of squeezed spheres would fly apart.
   const auto still = [&](const std::string& name, bool periodic) {
     auto model = makeModel(lattice(50, 50, nz, 1.0), dem::ElasticLaw{{stiffness}},
@@ -263,8 +222,14 @@ void writeScenes(const Settings& s, std::ostream& out) {
   const double edge = s.quick ? 24.0 : 44.0;
   writeSpheres(s.write / "poly.txt", mixed);
   writeLammpsData(s.write / "poly.data", mixed, cube(edge).box);
-  out << bed.size() << " spheres in bed.txt and bed.data, " << mixed.size() << " in poly.txt and poly.data, in "
-      << s.write.string() << '\n';
+  Spheres drum = s.quick ? Spheres{} : flowingDrum();
+  if (!s.quick) {
+    writeSpheres(s.write / "drum.txt", drum);
+    constexpr double r = drumRadius + 1.0;
+    writeLammpsData(s.write / "drum.data", drum, {{-r, -r, 0}, {r, r, drumWidth}});
+  }
+  out << bed.size() << " spheres in bed.txt and bed.data, " << mixed.size() << " in poly.txt and poly.data, "
+      << drum.size() << " in drum.txt and drum.data, in " << s.write.string() << '\n';
 }
 
 }  // namespace dovetail::dem_benchmark

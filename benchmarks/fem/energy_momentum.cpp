@@ -8,6 +8,7 @@
 #include <exception>
 #include <vector>
 
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/dynamics.hpp"
 #include "dovetail/fem/loads.hpp"
 #include "dovetail/fem/point_laws.hpp"
@@ -69,6 +70,7 @@ Result run(const Nodes& start, double dt, double tolerance, long long steps) {
 }  // namespace
 
 int main(int argc, char** argv) try {
+  setThreads(1);
   const long long steps = argc > 1 ? std::atoll(argv[1]) : 100000;
   Model model = makeBar();
   const double critical = assembledStableStep(model);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/point_laws.hpp"
 #include "plasticity_scenes.hpp"
 #include "verification_cases.hpp"
@@ -118,6 +119,7 @@ int usage(const char* word) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  setThreads(1);
   bool quick = false;
   std::FILE* csv = nullptr;
   for (int i = 1; i < argc; ++i) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/dynamics.hpp"
 #include "dovetail/fem/loads.hpp"
 #include "dovetail/fem/point_laws.hpp"
@@ -317,6 +318,7 @@ void guarded(Table& table, void (*study)(Table&)) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  setThreads(1);
   const bool quick = argc == 2 && std::strcmp(argv[1], "--quick") == 0;
   if (argc > 1 && !quick) {
     std::fprintf(stderr, "fem_extremes: \"%s\" is not known; use --quick or nothing\n", argv[1]);

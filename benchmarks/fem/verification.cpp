@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "dovetail/core/parallel.hpp"
 #include "verification_cases.hpp"
 
 namespace {
@@ -75,6 +76,7 @@ void cantilevers() {
 }  // namespace
 
 int main() {
+  setThreads(1);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   try {
     cantilevers();

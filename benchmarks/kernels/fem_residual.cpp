@@ -86,7 +86,7 @@ void timeNewmark(std::array<int, 3> counts, double share, double dt) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1) setThreads(std::atoi(argv[1]));
+  setThreads(argc > 1 ? std::atoi(argv[1]) : 1);
   std::printf("%d thread(s)\n", threads());
   const StVenantKirchhoff kirchhoff{1e8, 0.3, 1309.0};
   for (const std::array<int, 3> counts : {std::array{2, 2, 30}, std::array{10, 10, 150}}) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/plasticity.hpp"
 #include "dovetail/fem/point_law.hpp"
 #include "dovetail/fem/viscosity.hpp"
@@ -70,6 +71,7 @@ void report(const std::string& name, const std::shared_ptr<const PointMaterial>&
 }  // namespace
 
 int main() {
+  dovetail::setThreads(1);
   const NeoHookean rubber = neoHookean(3e6, 0.3, 1000.0);
   const J2Plasticity steel{200e9, 0.3, 7800.0, saturatingYield(0.4e9, 0.1e9, 0.7e9, 17.0)};
   J2Plasticity kinematic = steel;

@@ -6,6 +6,7 @@
 
 #include "dovetail/arlequin/critical_step.hpp"
 #include "dovetail/arlequin/weights.hpp"
+#include "dovetail/dem/model/loads.hpp"
 #include "step_plan.hpp"
 
 namespace dovetail::wave {
@@ -33,42 +34,43 @@ dem::Particles makeLattice(const Settings& s, double length) {
   return particles;
 }
 
-std::vector<int> layerOf(const Settings& s, int layer) {
-  std::vector<int> numbers;
+/// Ids of the particles, which are their numbers: nothing is sorted.
+std::vector<std::int64_t> layerOf(const Settings& s, int layer) {
+  std::vector<std::int64_t> numbers;
   for (int i = 0; i < particlesPerLayer(s); ++i) numbers.push_back(layer * particlesPerLayer(s) + i);
   return numbers;
 }
 
 /// The raised cosine v = v0 (1 − cos ωt) for its time, then held.
-arlequin::Drive raisedCosine(const Settings& s) {
+dem::DriveTerm raisedCosine(const Settings& s) {
   const double omega = angularFrequency(s), end = driveTime(s), v0 = s.amplitude * Case{}.cosineVelocity;
-  arlequin::Drive drive;
-  drive.particles = layerOf(s, 0);
-  drive.displacement = [=](double t) {
+  const auto displacement = [=](double t) {
     const double within = std::min(t, end);
     return Vec3{0.0, v0 * (within - std::sin(omega * within) / omega), 0.0};
   };
-  drive.velocity = [=](double t) { return Vec3{0.0, t < end ? v0 * (1.0 - std::cos(omega * t)) : 0.0, 0.0}; };
-  return drive;
+  const auto velocity = [=](double t) { return Vec3{0.0, t < end ? v0 * (1.0 - std::cos(omega * t)) : 0.0, 0.0}; };
+  return {layerOf(s, 0), displacement, velocity};
 }
 
 void excite(const Settings& s, arlequin::Model& model) {
   if (s.signal == Signal::cosine) {
-    model.drives.push_back(raisedCosine(s));
+    model.discrete.terms.add(raisedCosine(s));
     return;
   }
-  for (const int i : layerOf(s, 0))
-    model.particles.v[static_cast<std::size_t>(i)].y = s.amplitude * Case{}.velocity * s.particlesPerEdge;
+  for (const std::int64_t i : layerOf(s, 0))
+    model.discrete.particles.v[static_cast<std::size_t>(i)].y = s.amplitude * Case{}.velocity * s.particlesPerEdge;
 }
 
 arlequin::Model makeParticles(const Settings& s, double length) {
   arlequin::Model model;
-  model.particles = makeLattice(s, length);
-  dem::findPairs(model.particles, 0.1 * particleDiameter(s), model.pairs);
+  model.discrete.particles = makeLattice(s, length);
+  dem::findPairs(model.discrete.particles, 0.1 * particleDiameter(s), model.discrete.pairs);
   dem::ElasticLaw law;
   law.normal.stiffness = Case{}.youngsModulus * particleDiameter(s);
   law.normal.bonded = s.tension;
-  model.law = law;
+  model.discrete.laws = dem::makeContactLaws(law);
+  model.discrete.sortEvery = 0;
+  model.discrete.refusesUnstableSteps = false;  // arlequin::criticalStep knows the whole
   excite(s, model);
   return model;
 }
@@ -151,7 +153,7 @@ arlequin::Model makeCoupledBar(const Settings& s) {
   const std::vector<double> weight = makeWeights(s, makeMesh(s));
   model.solid.emplace(makeSolid(s, weight));
   model.coupling.emplace(
-      arlequin::makeCoupling(model.particles, model.pairs, *model.solid, weight, couplingOptions(s)));
+      arlequin::makeCoupling(model.discrete.particles, model.discrete.pairs, *model.solid, weight, couplingOptions(s)));
   return model;
 }
 
@@ -159,15 +161,13 @@ arlequin::Model makeParticleBar(const Settings& s) {
   const int count = layers(s, barLength(s));
   // The last layer is the wall: held, and tied by bonds of twice the stiffness, it fixes the point midway.
   arlequin::Model model = makeParticles(s, barLength(s) + particleDiameter(s));
-  arlequin::Drive held;
-  held.particles = layerOf(s, count);
-  held.displacement = [](double) { return Vec3{}; };
-  held.velocity = held.displacement;
-  model.pairs.scale.assign(model.pairs.pairs.size(), 1.0);
-  for (std::size_t p = 0; p < model.pairs.pairs.size(); ++p)
-    if (model.pairs.pairs[p][1] >= held.particles.front() && model.pairs.pairs[p][0] < held.particles.front())
-      model.pairs.scale[p] = 2.0;
-  model.drives.push_back(std::move(held));
+  const std::vector<std::int64_t> held = layerOf(s, count);
+  const auto nothing = [](double) { return Vec3{}; };
+  model.discrete.pairs.scale.assign(model.discrete.pairs.pairs.size(), 1.0);
+  for (std::size_t p = 0; p < model.discrete.pairs.pairs.size(); ++p)
+    if (model.discrete.pairs.pairs[p][1] >= held.front() && model.discrete.pairs.pairs[p][0] < held.front())
+      model.discrete.pairs.scale[p] = 2.0;
+  model.discrete.terms.add(dem::DriveTerm(held, nothing, nothing));
   return model;
 }
 

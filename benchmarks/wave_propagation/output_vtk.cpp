@@ -17,7 +17,7 @@ public:
 
   void write(const Frame& frame) override {
     if (solid_ && frame.model.solid) writeSolid(frame);
-    const dem::Particles& p = frame.model.particles;
+    const dem::Particles& p = frame.model.discrete.particles;
     share_.resize(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) share_[i] = p.mass[i] / particleMass_;
     particles_.write(frame.time, io::ParticleFrame{p.x, p.radius, p.v, p.f, {}, {}, {{"particles_share", share_}}});

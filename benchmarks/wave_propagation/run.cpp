@@ -94,14 +94,14 @@ private:
     }
     if (model_.solid && K_ > 1 && !newmark_) splitting_ = ledger.addStored("time splitting");
     if (settings().absorber > 0.0 && model_.solid) absorbed_ = ledger.addBooked("absorber");
-    if (!model_.drives.empty()) external_ = ledger.addBooked("drive (minus its work)");
+    if (!model_.discrete.terms.empty()) external_ = ledger.addBooked("drive (minus its work)");
   }
 
   void countParts() {
     RunFigures& f = figures();
-    f.particles = model_.particles.size();
+    f.particles = model_.discrete.particles.size();
     double mass = 0.0;
-    for (const double m : model_.particles.mass) mass += m;
+    for (const double m : model_.discrete.particles.mass) mass += m;
     if (settings().fullDem) {  // without the wall
       f.particles -= static_cast<std::size_t>(particlesPerLayer(settings()));
       mass -= particlesPerLayer(settings()) * particleMass(settings());
@@ -160,18 +160,18 @@ private:
       if (!now) continue;
       sample();
       if (++samples % frameEvery == 0 || w == windows_) observe();
-      progress.update(model_.time / end, "t = " + formatNumber(std::round(1e5 * model_.time) / 1e5) + " s");
+      progress.update(model_.discrete.time / end, "t = " + formatNumber(std::round(1e5 * model_.discrete.time) / 1e5) + " s");
     }
   }
 
   void sample() {
-    arlequin::requireFinite(model_, moment(model_.time, steps()));
+    arlequin::requireFinite(model_, moment(model_.discrete.time, steps()));
     setLedger();
     result_.ledger.close();
     const double booked = sums_.externalWork + result_.ledger.storedAtOpening();
     largestStored_ = std::max(largestStored_, result_.ledger.stored());
     mostInput_ = std::max(mostInput_, booked);
-    if (model_.time >= driveTime(settings()) * (1.0 - 1e-12) && figures().energyInput == 0.0)
+    if (model_.discrete.time >= driveTime(settings()) * (1.0 - 1e-12) && figures().energyInput == 0.0)
       figures().energyInput = booked;
     const Vec3 momentum = arlequin::momentum(model_);
     largestMomentum_ = std::max(largestMomentum_, norm(momentum));
@@ -180,17 +180,17 @@ private:
     if (model_.coupling) sampleGap();
     double stored = result_.ledger.stored();
     if (model_.solid) stored -= result_.ledger.channels()[stored_].joules;
-    result_.energy.push_back({model_.time, stored});
+    result_.energy.push_back({model_.discrete.time, stored});
     sampleSeries();
   }
 
   void sampleGap() {
     const arlequin::Coupling& c = *model_.coupling;
     std::vector<Vec3> rate(c.rows());
-    arlequin::gapOf(c.gap, c.overlap, model_.particles.v, model_.solid->nodes.v, rate);
+    arlequin::gapOf(c.gap, c.overlap, model_.discrete.particles.v, model_.solid->nodes.v, rate);
     double mismatch = 0.0, speed = 0.0;
     for (const Vec3& v : rate) mismatch += squaredNorm(v);
-    for (const int i : c.overlap.particle) speed += squaredNorm(model_.particles.v[static_cast<std::size_t>(i)]);
+    for (const int i : c.overlap.particle) speed += squaredNorm(model_.discrete.particles.v[static_cast<std::size_t>(i)]);
     mismatchSquared_ += mismatch / static_cast<double>(c.rows());
     speedSquared_ += speed / static_cast<double>(c.overlap.size());
     for (const Vec3& g : c.gapNow) figures().gapMax = std::max(figures().gapMax, norm(g));
@@ -198,7 +198,7 @@ private:
 
   void sampleSeries() {
     double massParticles = 0.0, massSolid = 0.0, momentumSolid = 0.0;
-    for (const double m : model_.particles.mass) massParticles += m;
+    for (const double m : model_.discrete.particles.mass) massParticles += m;
     if (model_.solid) {
       for (const double m : model_.solid->nodes.mass) massSolid += m;
       momentumSolid = fem::momentum(model_.solid->nodes).y;
@@ -206,7 +206,7 @@ private:
     const auto& channels = result_.ledger.channels();
     const auto joules = [&](EnergyLedger::Id id) { return model_.solid ? channels[id].joules : 0.0; };
     result_.series.append(
-        std::vector<double>{model_.time, massParticles, massSolid, dem::momentum(model_.particles).y, momentumSolid,
+        std::vector<double>{model_.discrete.time, massParticles, massSolid, dem::momentum(model_.discrete.particles).y, momentumSolid,
                             channels[kineticParticles_].joules, channels[elasticContacts_].joules,
                             joules(kineticSolid_), joules(elasticSolid_), joules(stored_), result_.ledger.stored(),
                             sums_.couplingWork, sums_.absorbed, sums_.externalWork, result_.ledger.residual()});
@@ -215,17 +215,17 @@ private:
   void observe() {
     if (!observer_) return;
     const auto begin = std::chrono::steady_clock::now();
-    observer_({model_.time, model_});
+    observer_({model_.discrete.time, model_});
     observerSeconds_ += secondsSince(begin);
   }
 
-  std::int64_t steps() const { return std::llround(model_.time / dt_); }
+  std::int64_t steps() const { return std::llround(model_.discrete.time / dt_); }
 
   void close() {
     RunFigures& f = figures();
     const EnergyLedger& ledger = result_.ledger;
     f.steps = steps();
-    f.endTime = model_.time;
+    f.endTime = model_.discrete.time;
     if (f.energyInput == 0.0) f.energyInput = mostInput_;
     const double input = f.energyInput;
     f.energyFinal = ledger.stored();
@@ -241,8 +241,8 @@ private:
     f.paperDissipatedShare = settings().signal == Signal::impulse
                                  ? dissipatedShare(result_.energy, settings().particlesPerEdge)
                                  : std::numeric_limits<double>::quiet_NaN();
-    result_.pairs = std::move(model_.pairs);
-    result_.particles = std::move(model_.particles);
+    result_.pairs = std::move(model_.discrete.pairs);
+    result_.particles = std::move(model_.discrete.particles);
     if (!model_.solid) return;
     result_.nodePosition = model_.solid->nodes.X;
     result_.nodeVelocity = model_.solid->nodes.v;

@@ -44,7 +44,7 @@ io::TimeSeries emptyProfile() {
 void appendProfile(io::TimeSeries& table, const Settings& s, const Frame& frame) {
   if (frame.model.solid) appendNodes(table, frame.time, frame.model);
   const auto perLayer = static_cast<std::size_t>(particlesPerLayer(s));
-  const dem::Particles& p = frame.model.particles;
+  const dem::Particles& p = frame.model.discrete.particles;
   const std::size_t count = p.size() / perLayer - (s.fullDem ? 1 : 0);  // without the wall
   for (std::size_t l = 0; l < count; ++l) {
     LayerSum layer;

@@ -14,7 +14,7 @@ namespace {
 
 using namespace dovetail;
 using namespace dovetail::example;
-using Scene = dem::Model<RollingLaw>;
+using Scene = dem::Model;
 
 /// Sand, salt and rice do not roll as spheres do; a little resistance stands for that. Its size is tuned: see README.
 const Beads beads{.rolling = 0.03};
@@ -23,7 +23,7 @@ const double d = beads.diameter, tau = beads.fallTime(), dt = beads.step();
 /// Lube, Huppert, Sparks & Hallworth, J. Fluid Mech. 508, 2004: (r∞ − r0)/r0 of a column of height a r0.
 double lawOfLube(double a) { return a < 1.7 ? 1.24 * a : 1.6 * std::sqrt(a); }
 
-/// A column at rest: walls[0] is the ground, walls[1] the cylinder around it.
+/// A column at rest: its first wall is the ground, its second the cylinder around it.
 Scene standingColumn(double r, double aspect, Profile& profile) {
   Scene column = emptyModel(beads, RollingLaw{beads.normal(), beads.tangential(), beads.rollingResistance()}, profile);
   const double loose = 1.2 * aspect * r;  // settles to about aspect r
@@ -32,8 +32,8 @@ Scene standingColumn(double r, double aspect, Profile& profile) {
     if (std::hypot(block.centre[i].x, block.centre[i].y) + block.radius[i] < r)
       dem::addParticle(column.particles, block.centre[i], {}, block.radius[i], dem::Density{beads.density});
   dem::switchOnRotation(column.particles);
-  column.walls = {dem::makePlane({}, {0, 0, 1}), dem::makeCylinder({}, {0, 0, 1}, r)};
-  for (auto& wall : column.walls) wall.skin = 0.2 * d;
+  for (const auto& wall : {dem::makePlane({}, {0, 0, 1}), dem::makeCylinder({}, {0, 0, 1}, r)})
+    dem::addWall(column, wall).skin = 0.2 * d;
   dem::run(column, dt, static_cast<std::int64_t>(8.0 * tau / dt));
   return column;
 }
@@ -81,8 +81,9 @@ double heightAtAxis(const dem::Particles& particles) {
 
 /// Takes the cylinder away and waits until the beads have come to rest.
 Collapse collapse(Scene& column, Progress& progress, double& done) {
-  const double r = column.walls.back().radius;
-  column.walls.pop_back();
+  const dem::PrimitiveWall& cylinder = dem::primitiveWall(column, 1);
+  const double r = cylinder.radius;
+  dem::removeWall(column, cylinder);
   Collapse result;
   const double start = column.time, height = heightOf(column.particles);
   result.aspect = height / r;
@@ -139,7 +140,7 @@ bool run(const Options& options) {
   std::vector<ModelLedger> ledgers;
   for (const double aspect : aspects) {
     Scene column = standingColumn(radius, aspect, profile);
-    const auto safe = safeStep(column);
+    const auto safe = dem::criticalStep(column);
     const std::string name = "column_" + std::to_string(aspect).substr(0, 3);
     if (!options.out.empty()) writeParticles(options.out, name + "_start", column.time, column.particles, {});
     ledgers.emplace_back(dem::energies(column));

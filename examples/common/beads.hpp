@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/setup/packing.hpp"
 #include "dovetail/dem/laws/rolling.hpp"
 
@@ -27,7 +27,7 @@ struct Beads {
   double fallTime() const { return std::sqrt(diameter / gravity); }
   dem::UniformSizes sizes() const { return {0.45 * diameter, 0.55 * diameter}; }
 
-  dem::LinearSpringDashpot normal() const { return {stiffness(), restitution, false}; }
+  dem::LinearSpringDashpot normal() const { return {stiffness(), restitution, false, false, true}; }
   dem::TangentialSpring tangential() const { return {2.0 / 7.0 * stiffness(), friction}; }
   /// Spring of the rolling resistance as Ai et al. 2011 take it.
   dem::RollingResistance rollingResistance() const { return {rolling, 2.25 * rolling * rolling}; }
@@ -50,9 +50,9 @@ inline dem::Packing looseBeads(const Beads& beads, const geometry::Periodicity& 
 
 /// A model of beads that knows its law and gravity, but has neither beads nor walls.
 template <class Law>
-dem::Model<Law> emptyModel(const Beads& beads, const Law& law, Profile& profile) {
-  dem::Model<Law> model;
-  model.laws = dem::prepare(law);
+dem::Model emptyModel(const Beads& beads, const Law& law, Profile& profile) {
+  dem::Model model;
+  model.laws = dem::makeContactLaws(law);
   model.gravity = {0.0, 0.0, -beads.gravity};
   model.pairs.skin = 0.2 * beads.diameter;
   model.profile = &profile;
@@ -60,8 +60,8 @@ dem::Model<Law> emptyModel(const Beads& beads, const Law& law, Profile& profile)
 }
 
 /// Runs on; calls watch(model) `samples` times at even distances, the last time at the end.
-template <class Law, class Watch>
-void runAndWatch(dem::Model<Law>& model, double dt, double duration, int samples, Watch&& watch) {
+template <class Watch>
+void runAndWatch(dem::Model& model, double dt, double duration, int samples, Watch&& watch) {
   const auto steps = static_cast<std::int64_t>(duration / dt / samples + 0.5);
   for (int s = 0; s < samples; ++s) {
     dem::run(model, dt, steps);

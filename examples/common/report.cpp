@@ -27,7 +27,7 @@ void ModelLedger::set(const dem::Energies& now) {
   ledger_.set(dashpots, now.lost.dissipatedPower);
   ledger_.set(sliding, now.lost.frictionPower);
   ledger_.set(rolling, now.lost.rollingPower);
-  ledger_.set(escaped, now.escaped);
+  ledger_.set(escaped, now.left - now.entered);
   ledger_.set(walls, -now.walls);
 }
 

@@ -25,18 +25,6 @@ private:
   EnergyLedger ledger_;
 };
 
-/// The safe step with the contacts as they are now.
-template <class Law>
-dem::ContactStep safeStep(const dem::Model<Law>& model) {
-  dem::ContactDemand demand;
-  dem::addDemand(demand, model.particles, model.pairs, model.laws);
-  for (const auto& wall : model.walls)
-    dem::addWallDemand(demand, model.particles, wall.contacts, model.laws, wall.material);
-  for (const auto& mesh : model.meshes)
-    dem::addWallDemand(demand, model.particles, mesh.contacts, model.laws, mesh.wall.material);
-  return dem::criticalStep(demand, model.particles);
-}
-
 /// dt beside the safe step and who sets that.
 void printStep(std::ostream& out, double dt, const dem::ContactStep& safe, const dem::Particles& particles);
 

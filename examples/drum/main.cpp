@@ -16,7 +16,7 @@ namespace {
 
 using namespace dovetail;
 using namespace dovetail::example;
-using Scene = dem::Model<SlidingLaw>;
+using Scene = dem::Model;
 
 const Beads beads;
 const double d = beads.diameter, tau = beads.fallTime(), dt = beads.step();
@@ -48,8 +48,7 @@ Scene halfFilledDrum(const Size& size, Profile& profile) {
       dem::addParticle(drum.particles, x, {}, block.radius[i], dem::Density{beads.density});
   }
   dem::switchOnRotation(drum.particles);
-  drum.walls.push_back(dem::makeCylinder({}, {0, 1, 0}, radius));
-  drum.walls[0].skin = 0.2 * d;
+  dem::addWall(drum, dem::makeCylinder({}, {0, 1, 0}, radius)).skin = 0.2 * d;
   const Vec3 gravity = drum.gravity;
   drum.gravity = beads.gravity * down;
   dem::run(drum, dt, static_cast<std::int64_t>(6.0 * tau / dt));
@@ -138,7 +137,7 @@ struct Measured {
 Measured turn(Scene& drum, const Size& size, double speed, double angle, int samples) {
   Measured m;
   Progress progress("drum", samples);
-  drum.walls[0].angularVelocity = {0, speed, 0};
+  dem::primitiveWall(drum, 0).angularVelocity = {0, speed, 0};
   const double start = drum.time;
   double n = 0.0, squares = 0.0;
   runAndWatch(drum, dt, angle / speed, samples, [&](const Scene& now) {
@@ -183,7 +182,7 @@ bool run(const Options& options) {
   ModelLedger ledger(dem::energies(drum));
   const Measured m = turn(drum, size, speed, options.quick ? 0.3 : 0.9, options.quick ? 60 : 200);
   ledger.set(dem::energies(drum));
-  printStep(std::cout, dt, safeStep(drum), drum.particles);
+  printStep(std::cout, dt, dem::criticalStep(drum), drum.particles);
   std::cout << '\n'
             << ledger.ledger() << "  residual: " << ledger.relativeResidual() << " of what was lost\n\n"
             << profile;

@@ -14,7 +14,7 @@ namespace {
 
 using namespace dovetail;
 using namespace dovetail::example;
-using Scene = dem::Model<SlidingLaw>;
+using Scene = dem::Model;
 
 const Beads beads;
 const double d = beads.diameter, tau = beads.fallTime(), dt = beads.step();
@@ -48,7 +48,7 @@ dem::MeshWall bottomWithHole(double holeDiameter, double siloRadius) {
   return bottom;
 }
 
-/// Beads at rest in the closed silo: walls[0] is its side, walls[1] its bottom.
+/// Beads at rest in the closed silo: its first wall is the side, its second the bottom.
 Scene filledSilo(const Size& size, Profile& profile) {
   const double r = size.radius;
   Scene silo = emptyModel(beads, SlidingLaw{beads.normal(), beads.tangential()}, profile);
@@ -58,8 +58,8 @@ Scene filledSilo(const Size& size, Profile& profile) {
     if (std::hypot(block.centre[i].x, block.centre[i].y) + block.radius[i] < r)
       dem::addParticle(silo.particles, block.centre[i], {}, block.radius[i], dem::Density{beads.density});
   dem::switchOnRotation(silo.particles);
-  silo.walls = {dem::makeCylinder({}, {0, 0, 1}, r), dem::makePlane({}, {0, 0, 1})};
-  for (auto& wall : silo.walls) wall.skin = 0.2 * d;
+  for (const auto& wall : {dem::makeCylinder({}, {0, 0, 1}, r), dem::makePlane({}, {0, 0, 1})})
+    dem::addWall(silo, wall).skin = 0.2 * d;
   silo.domain = dem::Domain{{{-2 * r, -2 * r, -2 * d}, {2 * r, 2 * r, 2 * loose}}, dem::EscapePolicy::remove};
   dem::run(silo, dt, static_cast<std::int64_t>((4.0 + 0.375 * size.height / d) * tau / dt));
   return silo;
@@ -75,7 +75,7 @@ double bulkDensity(const Scene& silo, const Size& size) {
 
 /// kg below the bottom, those that have left the scene included.
 double discharged(const Scene& silo) {
-  double mass = silo.escaped.mass;
+  double mass = silo.left.mass;
   for (std::size_t i = 0; i < silo.particles.size(); ++i)
     if (silo.particles.x[i].z < 0.0) mass += silo.particles.mass[i];
   return mass;
@@ -101,8 +101,8 @@ struct Outflow {
 
 /// Opens a hole in a copy of the filled silo and weighs what comes out; `silo` is then as it was at the end.
 Outflow openHole(Scene& silo, double hole, double duration, Progress& progress, double& done) {
-  silo.walls.pop_back();  // the closed bottom
-  silo.meshes.push_back(bottomWithHole(hole, silo.walls[0].radius));
+  dem::removeWall(silo, dem::primitiveWall(silo, 1));  // the closed bottom
+  dem::addWall(silo, bottomWithHole(hole, dem::primitiveWall(silo, 0).radius));
   Outflow flow{.hole = hole, .time = {}, .mass = {}};
   const double start = silo.time;
   std::vector<double> steadyTime, steadyMass;
@@ -187,7 +187,7 @@ bool run(const Options& options) {
     residual = std::max(residual, ledgers.back().relativeResidual());
   }
   progress.finish();
-  printStep(std::cout, dt, safeStep(silo), silo.particles);
+  printStep(std::cout, dt, dem::criticalStep(silo), silo.particles);
   std::cout << "\nenergy of the last run\n"
             << ledgers.back().ledger() << "  largest residual of all runs: " << residual << " of what was lost\n\n"
             << profile;

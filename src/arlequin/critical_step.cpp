@@ -6,7 +6,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/dem/pairs/pair_collide.hpp"
+#include "dovetail/dem/model/loads.hpp"
 #include "forces.hpp"
 
 namespace dovetail::arlequin {
@@ -28,15 +28,16 @@ class Operator {
 public:
   Operator(const Model& model, Parts parts) : model_(model), parts_(parts) {
     if (parts.solid) tangent_ = fem::tangent(model.solid->elements, model.solid->nodes);
-    stiffness_ = std::visit([](const auto& law) { return law.normal.stiffness; }, model.law);
-    held_.assign(model.particles.size(), false);
-    for (const Drive& drive : model.drives)
-      for (const int i : drive.particles) held_[static_cast<std::size_t>(i)] = true;
+    if (parts.particles) model.discrete.laws->addDemand(demand_, model.discrete.particles, model.discrete.pairs, touch);
+    held_.assign(model.discrete.particles.size(), false);
+    for (const auto* drive : model.discrete.terms.all<dem::DriveTerm>())
+      for (const std::int64_t id : drive->ids())
+        held_[static_cast<std::size_t>(dem::find(model.discrete.particles, id))] = true;
   }
 
   Field start() const {
     Field field;
-    if (parts_.particles) field.particles.resize(model_.particles.size());
+    if (parts_.particles) field.particles.resize(model_.discrete.particles.size());
     if (parts_.solid) field.nodes.resize(model_.solid->nodes.X.size());
     double phase = 0.3;
     for (auto* values : {&field.particles, &field.nodes})
@@ -52,7 +53,7 @@ public:
     if (parts_.particles) addContacts(q, force);
     if (parts_.solid) addElements(q, force);
     if (parts_.particles && parts_.solid && model_.coupling) addCoupling(q, force);
-    for (std::size_t i = 0; i < force.particles.size(); ++i) force.particles[i] *= 1.0 / model_.particles.mass[i];
+    for (std::size_t i = 0; i < force.particles.size(); ++i) force.particles[i] *= 1.0 / model_.discrete.particles.mass[i];
     if (parts_.solid) accelerate(*model_.solid, force.nodes);
     hold(force);
     return force;
@@ -62,7 +63,7 @@ public:
   double product(const Field& a, const Field& b) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.particles.size(); ++i)
-      sum += model_.particles.mass[i] * dot(a.particles[i], b.particles[i]);
+      sum += model_.discrete.particles.mass[i] * dot(a.particles[i], b.particles[i]);
     if (!parts_.solid) return sum;
     if (model_.solid->mass) {
       const std::vector<Vec3> Mb = model_.solid->mass->multiply(b.nodes);
@@ -83,12 +84,11 @@ private:
   }
 
   void addContacts(const Field& q, Field& force) const {
-    const dem::PairList& list = model_.pairs;
-    for (std::size_t p = 0; p < list.pairs.size(); ++p) {
-      const auto i = static_cast<std::size_t>(list.pairs[p][0]), j = static_cast<std::size_t>(list.pairs[p][1]);
-      const Vec3 n = dem::pairContact(model_.particles, i, j).normal;
-      const double scale = list.scale.empty() ? 1.0 : list.scale[p];
-      const Vec3 f = scale * stiffness_ * dot(n, q.particles[i] - q.particles[j]) * n;
+    const auto& x = model_.discrete.particles.x;
+    for (const auto& link : demand_.links) {
+      const auto i = static_cast<std::size_t>(link.particle), j = static_cast<std::size_t>(link.partner);
+      const Vec3 n = normalized(model_.discrete.pairs.periodicity.minimumImage(x[i] - x[j]));
+      const Vec3 f = link.stiffness * dot(n, q.particles[i] - q.particles[j]) * n;
       force.particles[i] += f;
       force.particles[j] -= f;
     }
@@ -114,7 +114,8 @@ private:
   const Model& model_;
   Parts parts_;
   fem::SparseMatrix tangent_;
-  double stiffness_;
+  static constexpr double touch = 1e-300;  // m: all pairs of the list count, those apart as if they just touched
+  dem::ContactDemand demand_;
   std::vector<bool> held_;
 };
 
@@ -165,7 +166,7 @@ double limitOf(const Model& model, Parts parts) {
 CriticalStep criticalStep(const Model& model) {
   constexpr double none = std::numeric_limits<double>::infinity();
   CriticalStep limit{none, none, none};
-  if (!model.pairs.pairs.empty()) limit.particles = limitOf(model, {true, false});
+  if (!model.discrete.pairs.pairs.empty()) limit.particles = limitOf(model, {true, false});
   if (model.solid) limit.solid = limitOf(model, {false, true});
   limit.together = model.solid ? limitOf(model, {true, true}) : limit.particles;
   return limit;

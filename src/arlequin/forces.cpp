@@ -5,7 +5,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/pairs/pair_collide.hpp"
+#include "dovetail/dem/model/loads.hpp"
 
 namespace dovetail::arlequin::detail {
 
@@ -33,53 +33,32 @@ Vec3 supportImpulse(const Solid& solid, std::span<const Vec3> acceleration, std:
   return sum;
 }
 
-namespace {
-
-void followDrive(Model& model, const Drive& drive, double dt, bool firstHalf, std::span<const Vec3> before,
-                 StepSums& sums) {
-  dem::Particles& particles = model.particles;
-  const double step = 2.0 * dt;
-  const Vec3 prescribed = firstHalf
-                              ? (1.0 / step) * (drive.displacement(model.time + step) - drive.displacement(model.time))
-                              : drive.velocity(model.time);
-  for (std::size_t k = 0; k < drive.particles.size(); ++k) {
-    const auto i = static_cast<std::size_t>(drive.particles[k]);
-    const Vec3 impulse = particles.mass[i] * (prescribed - particles.v[i]);
-    // Over a step both halves act while the particle moves at the mean velocity, which is that of the first half's end
-    // and of the second half's beginning.
-    sums.externalWork += dot(impulse, firstHalf ? prescribed : before[k]);
-    sums.supportImpulse += impulse;
-    particles.v[i] = prescribed;
-  }
+void weighNewContacts(Model& model) {
+  if (!model.coupling || model.weighedRevision == model.discrete.pairs.revision) return;
+  weighContacts(model.discrete.particles, model.solid->mesh.elements, model.solid->nodes, model.coupling->overlap,
+                model.discrete.pairs);
+  model.weighedRevision = model.discrete.pairs.revision;
 }
 
-}  // namespace
+Driven driven(const Model& model) {
+  Driven sum{model.discrete.booked.walls, {}};
+  for (const auto* drive : model.discrete.terms.all<dem::DriveTerm>()) sum.impulse += drive->supportImpulse;
+  return sum;
+}
 
-void kickParticles(Model& model, double dt, bool firstHalf, StepSums& sums) {
-  std::vector<std::vector<Vec3>> before;
-  for (const Drive& drive : model.drives) {
-    before.emplace_back();
-    for (const int i : drive.particles) before.back().push_back(model.particles.v[static_cast<std::size_t>(i)]);
-  }
-  dem::kick(model.particles, dt);
-  for (std::size_t d = 0; d < before.size(); ++d) followDrive(model, model.drives[d], dt, firstHalf, before[d], sums);
+void bookDrives(const Model& model, const Driven& before, StepSums& sums) {
+  const Driven now = driven(model);
+  sums.externalWork += now.work - before.work;
+  sums.supportImpulse += now.impulse - before.impulse;
 }
 
 void particleForces(Model& model, double dt, StepSums& sums, Profile& profile) {
   Profile::Stage stage(profile, "particle contacts");
-  const double lostBefore = model.contact.lostPower();
-  dem::clearForces(model.particles);
-  if (squaredNorm(model.gravity) > 0.0) dem::applyGravity(model.particles, model.gravity);
-  const bool bonded = std::visit([](const auto& law) { return law.normal.bonded; }, model.law);
-  if (!bonded) dem::updatePairs(model.particles, model.pairs);
-  if (model.coupling && model.weighedRevision != model.pairs.revision) {
-    weighContacts(model.particles, model.solid->mesh.elements, model.solid->nodes, model.coupling->overlap,
-                  model.pairs);
-    model.weighedRevision = model.pairs.revision;
-  }
-  model.contact =
-      std::visit([&](const auto& law) { return dem::collide(model.particles, model.pairs, law, dt); }, model.law);
-  sums.dissipated += 0.5 * dt * (lostBefore + model.contact.lostPower());
+  const double lostBefore = model.discrete.work.lostPower();
+  dem::renew(model.discrete);
+  weighNewContacts(model);
+  dem::addForces(model.discrete);
+  sums.dissipated += 0.5 * dt * (lostBefore + model.discrete.work.lostPower());
 }
 
 void internalForces(Model& model, bool withEnergy, Profile& profile) {
@@ -87,8 +66,8 @@ void internalForces(Model& model, bool withEnergy, Profile& profile) {
   Solid& solid = *model.solid;
   fem::Nodes& nodes = solid.nodes;
   fem::clearForces(nodes);
-  if (squaredNorm(model.gravity) > 0.0)
-    for (std::size_t n = 0; n < nodes.f.size(); ++n) nodes.f[n] = nodes.mass[n] * model.gravity;
+  if (squaredNorm(model.discrete.gravity) > 0.0)
+    for (std::size_t n = 0; n < nodes.f.size(); ++n) nodes.f[n] = nodes.mass[n] * model.discrete.gravity;
   const double energy = fem::addInternalForces(solid.elements, nodes, withEnergy);
   if (withEnergy) solid.strainEnergy = energy;
   solid.internalForce = nodes.f;
@@ -107,16 +86,16 @@ void couplingForces(Model& model, double dt, std::span<const Vec3> solidForce, P
   Profile::Stage stage(profile, "coupling");
   Coupling& c = *model.coupling;
   Solid& solid = *model.solid;
-  if (c.absorber) c.absorber->apply(model.particles.v, model.particles.f);
+  if (c.absorber) c.absorber->apply(model.discrete.particles.v, model.discrete.particles.f);
   std::vector<Vec3> velocity, acceleration;
   if (c.constraint->needsRates()) {
     velocity.resize(c.rows());
     acceleration.resize(c.rows());
-    gapOf(c.gap, c.overlap, model.particles.v, solid.nodes.v, velocity);
-    std::vector<Vec3> ofParticles(model.particles.size());
+    gapOf(c.gap, c.overlap, model.discrete.particles.v, solid.nodes.v, velocity);
+    std::vector<Vec3> ofParticles(model.discrete.particles.size());
     for (const int i : c.overlap.particle)
       ofParticles[static_cast<std::size_t>(i)] =
-          (1.0 / model.particles.mass[static_cast<std::size_t>(i)]) * model.particles.f[static_cast<std::size_t>(i)];
+          (1.0 / model.discrete.particles.mass[static_cast<std::size_t>(i)]) * model.discrete.particles.f[static_cast<std::size_t>(i)];
     std::vector<Vec3> ofNodes(solidForce.begin(), solidForce.end());
     if (ofNodes.empty())
       ofNodes.assign(solid.nodes.X.size(), {});
@@ -126,11 +105,11 @@ void couplingForces(Model& model, double dt, std::span<const Vec3> solidForce, P
   }
   c.lambdaBefore.swap(c.lambda);
   c.constraint->evaluate({c.gapNow, c.increment, velocity, acceleration, dt}, c.lambda);
-  pullParticles(c.gap, c.overlap, c.lambda, model.particles.f);
+  pullParticles(c.gap, c.overlap, c.lambda, model.discrete.particles.f);
   for (const int n : c.gap.coupledNode) c.nodeForce[static_cast<std::size_t>(n)] = {};
   if (c.stress) std::fill(c.nodeForce.begin(), c.nodeForce.end(), Vec3{});
   pullNodes(c.gap, c.lambda, c.nodeForce);
-  if (c.stress) c.stress->apply(model.particles, solid.nodes, model.particles.f, c.nodeForce);
+  if (c.stress) c.stress->apply(model.discrete.particles, solid.nodes, model.discrete.particles.f, c.nodeForce);
 }
 
 double couplingWorkOfStep(const Coupling& c) {

@@ -12,10 +12,17 @@ void accelerate(const Solid& solid, std::span<Vec3> f);
 /// Impulse of the supports over dt.
 Vec3 supportImpulse(const Solid& solid, std::span<const Vec3> acceleration, std::span<const Vec3> force, double dt);
 
-/// Half a kick of all particles; driven ones get the mean velocity of the step that begins (first half) or the
-/// prescribed one (second half).
-void kickParticles(Model& model, double dt, bool firstHalf, StepSums& sums);
+/// What drives have done so far: work, J, and impulse on the particles, kg m/s.
+struct Driven {
+  double work;
+  Vec3 impulse;
+};
+Driven driven(const Model& model);
+/// Adds what drives have done since `before`.
+void bookDrives(const Model& model, const Driven& before, StepSums& sums);
 
+/// Gives the contacts of a new list their weights.
+void weighNewContacts(Model& model);
 /// Contacts and gravity → particles.f.
 void particleForces(Model& model, double dt, StepSums& sums, Profile& profile);
 /// Elastic forces and gravity → solid.internalForce.

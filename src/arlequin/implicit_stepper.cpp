@@ -9,8 +9,8 @@ namespace {
 
 std::vector<Vec3> gravityLoad(const Model& model) {
   std::vector<Vec3> load;
-  if (squaredNorm(model.gravity) == 0.0) return load;
-  for (const double mass : model.solid->nodes.mass) load.push_back(mass * model.gravity);
+  if (squaredNorm(model.discrete.gravity) == 0.0) return load;
+  for (const double mass : model.solid->nodes.mass) load.push_back(mass * model.discrete.gravity);
   return load;
 }
 
@@ -24,7 +24,7 @@ std::vector<Vec3> difference(std::span<const Vec3> now, std::span<const Vec3> be
 void kickByCoupling(Model& model, double dt, StepSums& sums) {
   Solid& solid = *model.solid;
   for (std::size_t i = 0; i < model.slowForce.size(); ++i)
-    model.particles.v[i] += (dt / model.particles.mass[i]) * model.slowForce[i];
+    model.discrete.particles.v[i] += (dt / model.discrete.particles.mass[i]) * model.slowForce[i];
   solid.acceleration = model.coupling->nodeForce;
   accelerate(solid, solid.acceleration);
   kickSolid(solid, solid.acceleration, dt);
@@ -34,20 +34,20 @@ void kickByCoupling(Model& model, double dt, StepSums& sums) {
 /// Coupling forces into model.slowForce and coupling.nodeForce, leaving particles.f alone. Multipliers see half of dt:
 /// half a kick by them then takes the whole of the gap's rate, which so vanishes at full steps.
 void separateCouplingForces(Model& model, double dt, Profile& profile) {
-  model.slowForce.assign(model.particles.size(), {});
-  model.particles.f.swap(model.slowForce);
+  model.slowForce.assign(model.discrete.particles.size(), {});
+  model.discrete.particles.f.swap(model.slowForce);
   couplingForces(model, 0.5 * dt, {}, profile);
-  model.particles.f.swap(model.slowForce);
+  model.discrete.particles.f.swap(model.slowForce);
 }
 
 void stepParticles(Model& model, double dt, int K, StepSums& sums, Profile& profile) {
+  const Driven before = driven(model);
   for (int k = 0; k < K; ++k) {
-    kickParticles(model, 0.5 * dt, true, sums);
-    dem::drift(model.particles, dt);
-    model.time += dt;
+    dem::move(model.discrete, dt);
     particleForces(model, dt, sums, profile);
-    kickParticles(model, 0.5 * dt, false, sums);
+    dem::close(model.discrete);
   }
+  bookDrives(model, before, sums);
 }
 
 /// One Newmark step; what the supports gave is read off the change of momentum.
@@ -68,16 +68,16 @@ void stepSolid(Model& model, fem::NewmarkSolver& newmark, std::span<const Vec3> 
 void stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, StepSums& sums, bool withEnergy,
                   Profile& profile) {
   const std::vector<Vec3> load = gravityLoad(model);
-  if (model.coupling && model.slowForce.size() != model.particles.size()) {
+  if (model.coupling && model.slowForce.size() != model.discrete.particles.size()) {
     particleForces(model, dt, sums, profile);  // start() left the coupling's share in the particles' forces
     separateCouplingForces(model, K * dt, profile);
   }
   if (model.coupling) kickByCoupling(model, 0.5 * K * dt, sums);
-  const std::vector<Vec3> x = model.particles.x, u = model.solid->nodes.u;
+  const std::vector<Vec3> x = model.discrete.particles.x, u = model.solid->nodes.u;
   stepParticles(model, dt, K, sums, profile);
   stepSolid(model, newmark, load, withEnergy, sums, profile);
   if (!model.coupling) return;
-  advanceGap(model, 1.0, difference(model.particles.x, x), difference(model.solid->nodes.u, u));
+  advanceGap(model, 1.0, difference(model.discrete.particles.x, x), difference(model.solid->nodes.u, u));
   separateCouplingForces(model, K * dt, profile);
   sums.couplingWork += couplingWorkOfStep(*model.coupling);
   if (model.coupling->stress) sums.couplingWork += model.coupling->stress->workOfStep();
@@ -87,21 +87,21 @@ void stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, S
 void stepStaggered(Model& model, fem::NewmarkSolver& newmark, double dt, StepSums& sums, bool withEnergy,
                    Profile& profile) {
   Coupling& c = *model.coupling;
-  if (model.slowForce.size() != model.particles.size()) particleForces(model, dt, sums, profile);
+  if (model.slowForce.size() != model.discrete.particles.size()) particleForces(model, dt, sums, profile);
   separateCouplingForces(model, dt, profile);  // of the last step's increments
-  const std::vector<Vec3> x = model.particles.x, u = model.solid->nodes.u;
+  const std::vector<Vec3> x = model.discrete.particles.x, u = model.solid->nodes.u;
   std::vector<Vec3> load = gravityLoad(model);
   load.resize(u.size());
   for (std::size_t n = 0; n < load.size(); ++n) load[n] += c.nodeForce[n];
   stepSolid(model, newmark, load, withEnergy, sums, profile);
   const auto kickByFrozen = [&] {
     for (std::size_t i = 0; i < model.slowForce.size(); ++i)
-      model.particles.v[i] += (0.5 * dt / model.particles.mass[i]) * model.slowForce[i];
+      model.discrete.particles.v[i] += (0.5 * dt / model.discrete.particles.mass[i]) * model.slowForce[i];
   };
   kickByFrozen();
   stepParticles(model, dt, 1, sums, profile);
   kickByFrozen();
-  advanceGap(model, 1.0, difference(model.particles.x, x), difference(model.solid->nodes.u, u));
+  advanceGap(model, 1.0, difference(model.discrete.particles.x, x), difference(model.solid->nodes.u, u));
   for (std::size_t r = 0; r < c.rows(); ++r) sums.couplingWork -= dot(c.lambda[r], c.increment[r]);
 }
 

@@ -4,7 +4,6 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/dem/pairs/pair_collide.hpp"
 #include "forces.hpp"
 
 namespace dovetail::arlequin {
@@ -37,11 +36,11 @@ void accelerateSlowly(Model& model, double window) {
   if (model.coupling && model.coupling->constraint->needsRates()) {
     Coupling& c = *model.coupling;
     std::vector<Vec3> acceleration(c.rows()), none(c.rows()), lambda(c.rows());
-    std::vector<Vec3> still(model.particles.size()), ofNodes = solid.internalForce;
+    std::vector<Vec3> still(model.discrete.particles.size()), ofNodes = solid.internalForce;
     accelerate(solid, ofNodes);
     gapOf(c.gap, c.overlap, still, ofNodes, acceleration);
     c.constraint->evaluate({c.gapNow, none, none, acceleration, window}, lambda);
-    model.slowForce.assign(model.particles.size(), {});
+    model.slowForce.assign(model.discrete.particles.size(), {});
     pullParticles(c.gap, c.overlap, lambda, model.slowForce);
     pullNodes(c.gap, lambda, solid.slowAcceleration);
   }
@@ -52,22 +51,26 @@ void kickSlowly(Model& model, double dt, StepSums& sums) {
   kickSolid(*model.solid, model.solid->slowAcceleration, dt);
   sums.supportImpulse += supportImpulse(*model.solid, model.solid->slowAcceleration, model.solid->internalForce, dt);
   for (std::size_t i = 0; i < model.slowForce.size(); ++i)
-    model.particles.v[i] += (dt / model.particles.mass[i]) * model.slowForce[i];
+    model.discrete.particles.v[i] += (dt / model.discrete.particles.mass[i]) * model.slowForce[i];
 }
 
-void kickAll(Model& model, double dt, bool firstHalf, StepSums& sums, Profile& profile) {
-  Profile::Stage stage(profile, "kick and drift");
-  kickParticles(model, dt, firstHalf, sums);
+void kickSolidByAll(Model& model, double dt, StepSums& sums) {
   if (!model.solid) return;
   kickSolid(*model.solid, model.solid->acceleration, dt);
   sums.supportImpulse += supportImpulse(*model.solid, model.solid->acceleration, model.solid->nodes.f, dt);
 }
 
-void driftAll(Model& model, double dt, Profile& profile) {
+void moveAll(Model& model, double dt, StepSums& sums, Profile& profile) {
   Profile::Stage stage(profile, "kick and drift");
-  dem::drift(model.particles, dt);
+  dem::move(model.discrete, dt);
+  kickSolidByAll(model, 0.5 * dt, sums);
   if (model.solid) fem::drift(model.solid->nodes, dt);
-  model.time += dt;
+}
+
+void closeAll(Model& model, double dt, StepSums& sums, Profile& profile) {
+  Profile::Stage stage(profile, "kick and drift");
+  dem::close(model.discrete);
+  kickSolidByAll(model, 0.5 * dt, sums);
 }
 
 /// See stepExplicit; V''v by the difference of the forces over the window.
@@ -84,7 +87,7 @@ double splittingEnergy(const Solid& solid, std::span<const Vec3> forceBefore, st
 void bookCoupling(Model& model, double dt, StepSums& sums) {
   sums.couplingWork += couplingWorkOfStep(*model.coupling);
   if (model.coupling->stress) sums.couplingWork += model.coupling->stress->workOfStep();
-  if (model.coupling->absorber) sums.absorbed += model.coupling->absorber->workOfStep(model.particles.v, dt);
+  if (model.coupling->absorber) sums.absorbed += model.coupling->absorber->workOfStep(model.discrete.particles.v, dt);
 }
 
 }  // namespace
@@ -92,13 +95,13 @@ void bookCoupling(Model& model, double dt, StepSums& sums) {
 void start(Model& model, double dt, Profile& profile) {
   if (model.coupling && !model.solid)
     throw InputError("there is a coupling but no solid", "start", "give the solid, or leave the coupling out");
-  if (model.coupling && model.coupling->fullMass.size() != model.particles.size())
+  if (model.coupling && model.coupling->fullMass.size() != model.discrete.particles.size())
     throw InputError("the coupling was made for " + std::to_string(model.coupling->fullMass.size()) +
-                         " particles and there are " + std::to_string(model.particles.size()),
+                         " particles and there are " + std::to_string(model.discrete.particles.size()),
                      "start", "make the coupling after the last particle was added");
-  StepSums ignored;
-  model.weighedRevision = model.pairs.revision;
-  particleForces(model, dt, ignored, profile);
+  dem::requirePlain(model.discrete, "volume coupling");
+  model.weighedRevision = model.discrete.pairs.revision;
+  dem::findForces(model.discrete);
   if (!model.solid) return;
   internalForces(model, true, profile);
   if (model.coupling) couplingForces(model, dt, model.solid->internalForce, profile);
@@ -115,13 +118,13 @@ void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnerg
     accelerateSolid(model, false);
     kickSlowly(model, 0.5 * K * dt, sums);
   }
+  const Driven before = driven(model);
   for (int k = 0; k < K; ++k) {
     const bool last = k == K - 1;
-    kickAll(model, 0.5 * dt, true, sums, profile);
-    driftAll(model, dt, profile);
+    moveAll(model, dt, sums, profile);
     if (model.coupling) {
       Profile::Stage stage(profile, "coupling");
-      advanceGap(model, dt, model.particles.v, model.solid->nodes.v);
+      advanceGap(model, dt, model.discrete.particles.v, model.solid->nodes.v);
     }
     particleForces(model, dt, sums, profile);
     if (model.solid && last) internalForces(model, withEnergy, profile);
@@ -133,8 +136,9 @@ void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnerg
       Profile::Stage stage(profile, "solid mass");
       accelerateSolid(model, !windows);
     }
-    kickAll(model, 0.5 * dt, false, sums, profile);
+    closeAll(model, dt, sums, profile);
   }
+  bookDrives(model, before, sums);
   if (windows) {
     accelerateSlowly(model, K * dt);
     kickSlowly(model, 0.5 * K * dt, sums);
@@ -144,24 +148,24 @@ void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnerg
 
 void relocate(Model& model, StepSums& sums) {
   if (!model.coupling) return;
-  const double elastic = model.contact.storedEnergy();
-  const Handover handover = renew(*model.coupling, model.particles, model.pairs, *model.solid);
-  model.weighedRevision = model.pairs.revision;
-  dem::Particles copy = model.particles;
-  dem::PairList pairs = model.pairs;
-  const auto contact = std::visit(
-      [&](const auto& law) { return dem::collide(copy, pairs, dem::ElasticLaw{law.normal}, 1.0); }, model.law);
-  model.contact.elasticEnergy = contact.elasticEnergy;
-  sums.handedOver += handover.energy + elastic - model.contact.storedEnergy();
+  const double elastic = model.discrete.work.storedEnergy();
+  const Handover handover = renew(*model.coupling, model.discrete.particles, model.discrete.pairs, *model.solid);
+  model.weighedRevision = model.discrete.pairs.revision;
+  constexpr double noTime = 1e-100;  // s: memories stay
+  dem::Particles particles = model.discrete.particles;
+  dem::PairList pairs = model.discrete.pairs;
+  const auto contact = model.discrete.laws->pairs(particles, pairs, noTime, dem::Booking::on);
+  model.discrete.work.elasticEnergy = contact.elasticEnergy;
+  sums.handedOver += handover.energy + elastic - model.discrete.work.storedEnergy();
   sums.handedMomentum += handover.momentum;
 }
 
 Energies energies(const Model& model, const fem::NewmarkSolver* newmark) {
   Energies e;
-  e.kineticParticles = dem::kineticEnergy(model.particles);
-  e.elasticContacts = model.contact.storedEnergy();
-  for (std::size_t i = 0; i < model.particles.size(); ++i)
-    e.gravity -= model.particles.mass[i] * dot(model.gravity, model.particles.x[i]);
+  e.kineticParticles = dem::kineticEnergy(model.discrete.particles);
+  e.elasticContacts = model.discrete.work.storedEnergy();
+  for (std::size_t i = 0; i < model.discrete.particles.size(); ++i)
+    e.gravity -= model.discrete.particles.mass[i] * dot(model.discrete.gravity, model.discrete.particles.x[i]);
   if (model.solid) {
     const fem::Nodes& nodes = model.solid->nodes;
     e.kineticSolid = newmark             ? newmark->kineticEnergy(nodes)
@@ -170,20 +174,20 @@ Energies energies(const Model& model, const fem::NewmarkSolver* newmark) {
     e.elasticSolid = model.solid->strainEnergy;
     e.splitting = model.solid->splittingEnergy;
     for (std::size_t n = 0; n < nodes.X.size(); ++n)
-      e.gravity -= nodes.mass[n] * dot(model.gravity, nodes.X[n] + nodes.u[n]);
+      e.gravity -= nodes.mass[n] * dot(model.discrete.gravity, nodes.X[n] + nodes.u[n]);
   }
   if (model.coupling) e.coupling = model.coupling->storedEnergy();
   return e;
 }
 
 Vec3 momentum(const Model& model) {
-  Vec3 sum = dem::momentum(model.particles);
+  Vec3 sum = dem::momentum(model.discrete.particles);
   if (model.solid) sum += fem::momentum(model.solid->nodes);
   return sum;
 }
 
 void requireFinite(const Model& model, const std::string& when) {
-  dem::requireFinite(model.particles, when);
+  dem::requireFinite(model.discrete.particles, when);
   if (model.solid) dovetail::requireFinite(model.solid->nodes.v, "node", "velocity", when);
 }
 

@@ -1,8 +1,7 @@
 // Restores the first moments of kernel weights (a reproducing-kernel correction of first order).
 #pragma once
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
+#include <Eigen/Core>
 
 #include "dovetail/core/vec3.hpp"
 
@@ -32,20 +31,6 @@ struct LinearFactor {
 /// Finds the factor for which Σ w (a + β·d) = 1 and Σ w (a + β·d) d = 0: the least-norm, least-squares solution on the
 /// directions in which the points are thicker than 1e-5 of their extent.
 /// The caller still divides by the sum: with too few points the two conditions cannot both hold.
-inline LinearFactor linearFactor(const PointMoments& moments) {
-  const double extent = std::sqrt(moments.second.trace() / moments.sum);
-  if (!(extent > 0.0)) return {};
-  Eigen::Matrix4d system;
-  system << moments.sum, moments.first.transpose() / extent, moments.first / extent, moments.second / (extent * extent);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> modes(system / moments.sum);
-  Eigen::Vector4d solution = Eigen::Vector4d::Zero();
-  for (int m = 0; m < 4; ++m) {
-    const double eigenvalue = modes.eigenvalues()[m];
-    if (eigenvalue > 1e-10 * modes.eigenvalues()[3])
-      solution += (modes.eigenvectors()(0, m) / eigenvalue) * modes.eigenvectors().col(m);
-  }
-  const double scale = 1.0 / extent;
-  return {solution[0], {solution[1] * scale, solution[2] * scale, solution[3] * scale}};
-}
+LinearFactor linearFactor(const PointMoments& moments);
 
 }  // namespace dovetail::cg

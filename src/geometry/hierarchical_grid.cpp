@@ -5,8 +5,10 @@
 #include <string>
 #include <tuple>
 
+#include "dovetail/core/distribute.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "grid_cells.hpp"
 
 namespace dovetail::geometry {
@@ -24,6 +26,7 @@ constexpr std::size_t bucketsPerSphere = 4;
 /// cell; 3 was fastest, or nearly so, for 1 : 10 and 1 : 100 packings with equal volume or equal number per size.
 constexpr double classWidth = 3.0;
 constexpr std::size_t sizeClasses = 32;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Upper bounds of the classes of inflated radii, largest first; the last class holds all smaller ones too.
 std::array<double, sizeClasses> classBounds(double largest) {
@@ -38,7 +41,35 @@ std::size_t classOf(double inflated, const std::array<double, sizeClasses>& boun
   return c;
 }
 
+/// Spheres per task.
+constexpr std::size_t grain = 8192;
+
+struct Largest {
+  double value = 0.0;
+  Largest& operator+=(const Largest& b) {
+    value = std::max(value, b.value);
+    return *this;
+  }
+};
+
+/// Extent and mean position, the latter as a sum.
+struct Extent {
+  Vec3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity}, sum;
+  Extent& operator+=(const Extent& b) {
+    lower = {std::min(lower.x, b.lower.x), std::min(lower.y, b.lower.y), std::min(lower.z, b.lower.z)};
+    upper = {std::max(upper.x, b.upper.x), std::max(upper.y, b.upper.y), std::max(upper.z, b.upper.z)};
+    sum += b.sum;
+    return *this;
+  }
+};
+
 std::string particle(std::size_t i) { return "particle " + std::to_string(i); }
+
+void checkSphere(const Vec3& x, double radius, std::size_t i) {
+  if (!isFinite(x)) throw InputError("a position is not finite", particle(i), "give finite coordinates");
+  if (!(radius > 0.0) || !std::isfinite(radius))
+    throw InputError("a radius is " + formatNumber(radius), particle(i), "give a finite radius greater than zero");
+}
 
 }  // namespace
 
@@ -58,13 +89,14 @@ void HierarchicalGrid::checkSpheres(std::span<const Vec3> x, std::span<const dou
     throw InputError("too many particles: " + std::to_string(x.size()), "hierarchical grid",
                      "give at most " + std::to_string(std::numeric_limits<int>::max() / 8));
   requireNonNegative(skin, "skin");
-  double largest = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!isFinite(x[i])) throw InputError("a position is not finite", particle(i), "give finite coordinates");
-    if (!(radius[i] > 0.0) || !std::isfinite(radius[i]))
-      throw InputError("a radius is " + formatNumber(radius[i]), particle(i), "give a finite radius greater than zero");
-    largest = std::max(largest, radius[i]);
-  }
+  const double largest = parallelSum(x.size(), grain, [&](std::size_t begin, std::size_t end) {
+                           Largest part;
+                           for (std::size_t i = begin; i < end; ++i) {
+                             checkSphere(x[i], radius[i], i);
+                             part += Largest{radius[i]};
+                           }
+                           return part;
+                         }).value;
   for (int k = 0; k < 3; ++k)
     if (periodicity_.axes[static_cast<std::size_t>(k)] && periodicity_.length(k) < 4.0 * (largest + 0.5 * skin))
       throw InputError("the periodic length " + formatNumber(periodicity_.length(k)) +
@@ -89,44 +121,57 @@ void HierarchicalGrid::build(std::span<const Vec3> x, std::span<const double> ra
   key_.resize(x.size());
   sphere_.resize(x.size());
   if (!x.empty()) makeLevels(x, radius);
-  unsorted_ = {};  // as large as the list of spheres, and of no use until the next build
 }
 
 void HierarchicalGrid::makeLevels(std::span<const Vec3> x, std::span<const double> radius) {
   const double half = 0.5 * skin_;
-  const auto bounds = classBounds(*std::max_element(radius.begin(), radius.end()) + half);
-  std::array<std::size_t, sizeClasses> members{}, next{};
-  for (double r : radius) ++members[classOf(r + half, bounds)];
-  for (std::size_t c = sizeClasses - 1; c > 0; --c) next[c - 1] = next[c] + members[c];
-  for (std::size_t i = 0; i < x.size(); ++i) id_[next[classOf(radius[i] + half, bounds)]++] = static_cast<int>(i);
-  for (std::size_t c = sizeClasses; c-- > 0;) {
-    if (members[c] == 0) continue;
+  const auto largest = [&](std::size_t count, auto&& at) {
+    return parallelSum(count, grain,
+                       [&](std::size_t begin, std::size_t end) {
+                         Largest part;
+                         for (std::size_t i = begin; i < end; ++i) part += Largest{radius[at(i)] + half};
+                         return part;
+                       })
+        .value;
+  };
+  const auto bounds = classBounds(largest(x.size(), [](std::size_t i) { return i; }));
+  // The finest class comes first.
+  const auto classes = distribute<int>((x.size() + grain - 1) / grain, sizeClasses, [&](std::size_t task, auto&& sink) {
+    for (std::size_t i = task * grain; i < std::min(x.size(), (task + 1) * grain); ++i)
+      sink(sizeClasses - 1 - classOf(radius[i] + half, bounds), static_cast<int>(i));
+  });
+  for (std::size_t c = 0; c < sizeClasses; ++c) {
+    const auto members = classes[c];
+    if (members.empty()) continue;
     Level& level = levels_.emplace_back();
-    level.begin = next[c] - members[c];
-    level.end = next[c];
-    for (std::size_t s = level.begin; s < level.end; ++s)
-      level.largest = std::max(level.largest, radius[static_cast<std::size_t>(id_[s])] + half);
-    layCells(level, x);
-    sortLevel(level, x);
+    level.begin = classes.begin[c];
+    level.end = classes.begin[c + 1];
+    level.largest = largest(members.size(), [&](std::size_t s) { return static_cast<std::size_t>(members[s]); });
+    layCells(level, members, x);
+    sortLevel(level, members, x);
   }
-  for (std::size_t s = 0; s < x.size(); ++s) {
-    const auto i = static_cast<std::size_t>(id_[s]);
-    const Vec3 p = wrapped(x[i]);
-    sphere_[s] = {p.x, p.y, p.z, radius[i] + half};
-  }
+  parallelFor(x.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const auto i = static_cast<std::size_t>(id_[s]);
+      const Vec3 p = wrapped(x[i]);
+      sphere_[s] = {p.x, p.y, p.z, radius[i] + half};
+    }
+  });
 }
 
 /// Chooses the cells of a level: as large as its largest sphere, over the bounding box of its members.
-void HierarchicalGrid::layCells(Level& level, std::span<const Vec3> x) const {
+void HierarchicalGrid::layCells(Level& level, std::span<const int> members, std::span<const Vec3> x) const {
   level.size = 2.0 * level.largest * (1.0 + cellMargin);
-  Vec3 lower = x[static_cast<std::size_t>(id_[level.begin])], upper = lower, mean;
-  const double share = 1.0 / static_cast<double>(level.end - level.begin);
-  for (std::size_t s = level.begin; s < level.end; ++s) {
-    const Vec3& p = x[static_cast<std::size_t>(id_[s])];
-    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
-    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
-    mean += share * p;
-  }
+  const Extent extent = parallelSum(members.size(), grain, [&](std::size_t begin, std::size_t end) {
+    Extent part;
+    for (std::size_t s = begin; s < end; ++s) {
+      const Vec3& p = x[static_cast<std::size_t>(members[s])];
+      part += Extent{p, p, p};
+    }
+    return part;
+  });
+  const Vec3 &lower = extent.lower, &upper = extent.upper;
+  const Vec3 mean = extent.sum / static_cast<double>(members.size());
   for (int axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
     double edge = level.size;
@@ -143,45 +188,65 @@ void HierarchicalGrid::layCells(Level& level, std::span<const Vec3> x) const {
   }
 }
 
-/// Sorts a level's spheres by key, equal keys by number: a counting sort into buckets of successive keys, whose starts
-/// remain as the index, then a small sort within the buckets unless each holds a single key.
-void HierarchicalGrid::sortLevel(Level& level, std::span<const Vec3> x) {
-  const std::size_t members = level.end - level.begin;
+/// Sorts a level's spheres by key, equal keys by number, and makes the index of buckets of successive keys: first into
+/// ranges of buckets, which threads then sort on their own.
+void HierarchicalGrid::sortLevel(Level& level, std::span<const int> members, std::span<const Vec3> x) {
   const Key lastKey = detail::keyAt(level.count, level.count[0] - 1, level.count[1] - 1, level.count[2] - 1);
-  while (lastKey >> level.shift >= bucketsPerSphere * members + 64) ++level.shift;
+  while (lastKey >> level.shift >= bucketsPerSphere * members.size() + 64) ++level.shift;
   level.buckets = static_cast<std::size_t>(lastKey >> level.shift) + 1;
   level.index = index_.size();
-  index_.resize(level.index + level.buckets + 2, 0);
-  int* const start = index_.data() + level.index;
-  unsorted_.resize(members);
-  for (std::size_t s = 0; s < members; ++s) {
-    const int id = id_[level.begin + s];
-    const Vec3 p = wrapped(x[static_cast<std::size_t>(id)]);
-    const Key key = detail::keyAt(level.count, detail::cellOf(level, 0, p.x), detail::cellOf(level, 1, p.y),
-                                  detail::cellOf(level, 2, p.z));
-    unsorted_[s] = {key, id};
-    ++start[(key >> level.shift) + 2];
-  }
-  start[0] = start[1] = static_cast<int>(level.begin);
-  for (std::size_t b = 2; b < level.buckets + 2; ++b) start[b] += start[b - 1];
-  for (const auto& [key, id] : unsorted_) {
-    const auto s = static_cast<std::size_t>(start[(key >> level.shift) + 1]++);
-    key_[s] = key;
-    id_[s] = id;
-  }
-  if (level.shift > 0) sortBuckets(level);
+  index_.resize(level.index + level.buckets + 2, static_cast<int>(level.end));
+  const std::size_t tasks = (members.size() + grain - 1) / grain,
+                    perRange = level.buckets / std::min<std::size_t>(tasks, 512) + 1;
+  const std::size_t ranges = (level.buckets + perRange - 1) / perRange;
+  const auto sorted = distribute<Keyed>(tasks, ranges, [&](std::size_t task, auto&& sink) {
+    for (std::size_t s = task * grain; s < std::min(members.size(), (task + 1) * grain); ++s) {
+      const Vec3 p = wrapped(x[static_cast<std::size_t>(members[s])]);
+      const Key key = detail::keyAt(level.count, detail::cellOf(level, 0, p.x), detail::cellOf(level, 1, p.y),
+                                    detail::cellOf(level, 2, p.z));
+      sink(static_cast<std::size_t>(key >> level.shift) / perRange, Keyed{key, members[s]});
+    }
+  });
+  parallelFor(ranges, 1, [&](std::size_t range, std::size_t) {
+    sortRange(level, sorted[range], level.begin + sorted.begin[range], range * perRange,
+              std::min(level.buckets, (range + 1) * perRange));
+  });
 }
 
-void HierarchicalGrid::sortBuckets(const Level& level) {
-  for (std::size_t b = 0; b < level.buckets; ++b) {
-    const auto begin = static_cast<std::size_t>(index_[level.index + b]);
-    const auto end = static_cast<std::size_t>(index_[level.index + b + 1]);
-    if (end - begin < 2) continue;
-    unsorted_.clear();
-    for (std::size_t s = begin; s < end; ++s) unsorted_.emplace_back(key_[s], id_[s]);
-    std::sort(unsorted_.begin(), unsorted_.end());
-    for (std::size_t s = begin; s < end; ++s) std::tie(key_[s], id_[s]) = unsorted_[s - begin];
+/// A counting sort into the buckets [first, last), then a small sort within the buckets unless each holds a single key.
+void HierarchicalGrid::sortRange(const Level& level, std::span<const Keyed> members, std::size_t begin,
+                                 std::size_t first, std::size_t last) {
+  std::vector<int> next(last - first + 1, 0);
+  const auto bucketOf = [&](const Keyed& m) { return static_cast<std::size_t>(m.key >> level.shift) - first; };
+  for (const Keyed& m : members) ++next[bucketOf(m) + 1];
+  next[0] = static_cast<int>(begin);
+  for (std::size_t b = 1; b < next.size(); ++b) next[b] += next[b - 1];
+  std::copy(next.begin(), next.end() - 1, index_.begin() + static_cast<std::ptrdiff_t>(level.index + first));
+  for (const Keyed& m : members) {
+    const auto s = static_cast<std::size_t>(next[bucketOf(m)]++);
+    key_[s] = m.key;
+    id_[s] = m.id;
   }
+  if (level.shift > 0) sortBuckets(level, first, last, begin + members.size());
+}
+
+void HierarchicalGrid::sortBuckets(const Level& level, std::size_t first, std::size_t last, std::size_t stop) {
+  std::vector<std::pair<Key, int>> unsorted;
+  for (std::size_t b = first; b < last; ++b) {
+    const auto begin = static_cast<std::size_t>(index_[level.index + b]);
+    const auto end = b + 1 < last ? static_cast<std::size_t>(index_[level.index + b + 1]) : stop;
+    if (end - begin < 2) continue;
+    unsorted.clear();
+    for (std::size_t s = begin; s < end; ++s) unsorted.emplace_back(key_[s], id_[s]);
+    std::sort(unsorted.begin(), unsorted.end());
+    for (std::size_t s = begin; s < end; ++s) std::tie(key_[s], id_[s]) = unsorted[s - begin];
+  }
+}
+
+void HierarchicalGrid::renumber(std::span<const int> newNumber) {
+  parallelFor(id_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) id_[s] = newNumber[static_cast<std::size_t>(id_[s])];
+  });
 }
 
 }  // namespace dovetail::geometry

@@ -2,6 +2,7 @@
 #include <limits>
 #include <utility>
 
+#include "dovetail/core/distribute.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/geometry/hierarchical_grid.hpp"
 #include "grid_cells.hpp"
@@ -12,23 +13,29 @@ namespace {
 
 using Pairs = std::vector<std::array<int, 2>>;
 
-/// Sorts by i through a counting sort, then each particle's few partners.
-void sortByParticle(const std::vector<Pairs>& found, std::size_t particles, Pairs& sorted) {
-  std::vector<std::size_t> next(particles + 1, 0);
-  std::size_t count = 0;
-  for (const Pairs& list : found) {
-    count += list.size();
-    for (const auto& pair : list) ++next[static_cast<std::size_t>(pair[0]) + 1];
-  }
-  for (std::size_t i = 1; i <= particles; ++i) next[i] += next[i - 1];
-  sorted.resize(count);
-  for (const Pairs& list : found)
-    for (const auto& pair : list) sorted[next[static_cast<std::size_t>(pair[0])]++] = pair;
-  for (std::size_t i = 0, begin = 0; i < particles; begin = next[i++])
-    if (next[i] - begin > 1)
-      std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
-                sorted.begin() + static_cast<std::ptrdiff_t>(next[i]),
-                [](const auto& a, const auto& b) { return a[1] < b[1]; });
+/// Sorts by i, then j: into ranges of i first, which threads then sort on their own.
+void sortByParticle(std::vector<Pairs>& found, std::size_t particles, Pairs& sorted) {
+  const std::size_t rows = std::max<std::size_t>(1024, particles / 512), ranges = particles / rows + 1;
+  const auto parts = distribute<std::array<int, 2>>(found.size(), ranges, [&](std::size_t task, auto&& sink) {
+    for (const auto& pair : found[task]) sink(static_cast<std::size_t>(pair[0]) / rows, pair);
+  });
+  found.clear();
+  sorted.resize(parts.size());
+  parallelFor(ranges, 1, [&](std::size_t range, std::size_t) {
+    const auto pairs = parts[range];
+    const std::size_t first = range * rows;
+    std::vector<std::size_t> next(rows + 1, 0);
+    for (const auto& pair : pairs) ++next[static_cast<std::size_t>(pair[0]) - first + 1];
+    next[0] = parts.begin[range];
+    for (std::size_t i = 1; i <= rows; ++i) next[i] += next[i - 1];
+    for (const auto& pair : pairs) sorted[next[static_cast<std::size_t>(pair[0]) - first]++] = pair;
+    std::size_t begin = parts.begin[range];
+    for (std::size_t i = 0; i < rows; begin = next[i++])
+      if (next[i] - begin > 1)
+        std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
+                  sorted.begin() + static_cast<std::ptrdiff_t>(next[i]),
+                  [](const auto& a, const auto& b) { return a[1] < b[1]; });
+  });
 }
 
 }  // namespace

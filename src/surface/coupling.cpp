@@ -28,10 +28,10 @@ Coupling::Coupling(Skin skin, const CouplingOptions& options)
 }
 
 bool Coupling::marginUsed(const dem::Particles& particles, std::span<const Vec3> u) const {
-  if (particles.size() != candidates_.particleAtBuild.size()) return true;
+  if (particles.revision != candidates_.particleRevision) return true;
   const double travel =
-      largestTravel(particles.x, candidates_.particleAtBuild) + gain_ * largestTravel(u, surfaceNodes_, nodesAtBuild_);
-  return !(travel <= candidates_.skin);  // so that a NaN asks for a new search, which names the culprit
+      largestTravel(particles.x, particlesAtBuild_) + gain_ * largestTravel(u, surfaceNodes_, nodesAtBuild_);
+  return !(travel <= candidates_.margin);  // so that a NaN asks for a new search, which names the culprit
 }
 
 void Coupling::locate(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v) {
@@ -42,6 +42,7 @@ void Coupling::locate(const dem::Particles& particles, std::span<const Vec3> u, 
   if (margin == 0.0 && particles.size() > 0)
     margin = 0.5 * *std::min_element(particles.radius.begin(), particles.radius.end());
   dem::findWallCandidates(particles, skin_.wall, margin, candidates_);
+  particlesAtBuild_ = particles.x;
   nodesAtBuild_.clear();
   for (int node : surfaceNodes_) nodesAtBuild_.push_back(u[node]);
   active_.clear();

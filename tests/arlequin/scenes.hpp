@@ -68,19 +68,21 @@ inline Solid makeSolid(fem::Mesh mesh, std::span<const double> weight, const Sce
 inline Model makeBar(const SceneOptions& o) {
   const double half = 0.5 * o.across * edge, d = edge / o.particlesPerEdge;
   Model model;
-  model.particles = lattice({-half, 0.0, -half}, {half, particleEnd(o), half}, o.particlesPerEdge);
-  dem::findPairs(model.particles, 0.1 * d, model.pairs);
+  model.discrete.particles = lattice({-half, 0.0, -half}, {half, particleEnd(o), half}, o.particlesPerEdge);
+  dem::findPairs(model.discrete.particles, 0.1 * d, model.discrete.pairs);
   dem::ElasticLaw law;
   law.normal.stiffness = modulus * d;
   law.normal.bonded = true;
-  model.law = law;
+  model.discrete.laws = dem::makeContactLaws(law);
+  model.discrete.sortEvery = 0;
+  model.discrete.refusesUnstableSteps = false;  // criticalStep knows the whole
   fem::Mesh mesh = fem::boxMesh({o.across, o.solidElements, o.across}, {-half, solidStart(o), -half},
                                 {half, solidStart(o) + o.solidElements * edge, half});
   const std::vector<double> weight = barWeights(mesh, o);
   model.solid.emplace(makeSolid(std::move(mesh), weight, o));
   CouplingOptions coupling = o.coupling;
   coupling.contactStiffness = modulus * d;
-  model.coupling.emplace(makeCoupling(model.particles, model.pairs, *model.solid, weight, coupling));
+  model.coupling.emplace(makeCoupling(model.discrete.particles, model.discrete.pairs, *model.solid, weight, coupling));
   return model;
 }
 

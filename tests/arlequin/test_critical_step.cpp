@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "dovetail/arlequin/critical_step.hpp"
+#include "dovetail/core/error.hpp"
 #include "scenes.hpp"
 
 namespace dovetail::arlequin {
@@ -16,15 +17,19 @@ double growth(double share) {
   o.massShare = 0.375;
   Model model = makeBar(o);
   std::mt19937 random(1);
-  for (Vec3& v : model.particles.v) v = randomVector(random, 1e-4);
+  for (Vec3& v : model.discrete.particles.v) v = randomVector(random, 1e-4);
   const double dt = share * criticalStep(model).together;
   Profile profile;
   StepSums sums;
   start(model, dt, profile);
   const double before = energies(model).total();
-  for (int s = 0; s < 3000; ++s) {
-    stepExplicit(model, dt, 1, sums, s == 2999, profile);
-    if (!std::isfinite(model.particles.v[0].y) || norm(model.particles.v[0]) > 1e3) return 1e30;
+  try {
+    for (int s = 0; s < 3000; ++s) {
+      stepExplicit(model, dt, 1, sums, s == 2999, profile);
+      if (!std::isfinite(model.discrete.particles.v[0].y) || norm(model.discrete.particles.v[0]) > 1e3) return 1e30;
+    }
+  } catch (const NumericalError&) {  // farther than its radius in one step
+    return 1e30;
   }
   return energies(model).total() / before;
 }
@@ -41,12 +46,13 @@ TEST(CriticalStep, TheDashpotsLimitWithUniformSharesIsTwo) {
     o.across = 1;
     o.particlesPerEdge = 1;
     Model model;
-    model.particles = lattice({0, 0, 0}, {edge, 4 * edge, edge}, 1);
-    for (Vec3& v : model.particles.v) v.y = 1.0;
+    model.discrete.particles = lattice({0, 0, 0}, {edge, 4 * edge, edge}, 1);
+    for (Vec3& v : model.discrete.particles.v) v.y = 1.0;
     dem::ElasticLaw law;
     law.normal.stiffness = 1e-9;
-    model.law = law;
-    dem::findPairs(model.particles, 0.0, model.pairs);
+    model.discrete.laws = dem::makeContactLaws(law);
+    model.discrete.sortEvery = 0;
+    dem::findPairs(model.discrete.particles, 0.0, model.discrete.pairs);
     fem::Mesh mesh = fem::boxMesh({1, 4, 1}, {0, 0, 0}, {edge, 4 * edge, edge});
     const std::vector<double> weight(mesh.X.size(), 0.5);
     fem::Nodes nodes = fem::makeNodes(mesh);
@@ -58,15 +64,19 @@ TEST(CriticalStep, TheDashpotsLimitWithUniformSharesIsTwo) {
     CouplingOptions coupling;
     coupling.constraint = ConstraintKind::dashpot;
     coupling.penalty = number * bulk * 0.25 / (dt * dt);
-    model.coupling.emplace(makeCoupling(model.particles, model.pairs, *model.solid, weight, coupling));
+    model.coupling.emplace(makeCoupling(model.discrete.particles, model.discrete.pairs, *model.solid, weight, coupling));
     Profile profile;
     StepSums sums;
     start(model, dt, profile);
-    for (int s = 0; s < 2000; ++s) stepExplicit(model, dt, 1, sums, false, profile);
-    return norm(model.particles.v[1]);
+    try {
+      for (int s = 0; s < 2000; ++s) stepExplicit(model, dt, 1, sums, false, profile);
+    } catch (const NumericalError&) {  // farther than its radius in one step
+      return edge / dt;
+    }
+    return norm(model.discrete.particles.v[1]);
   };
   EXPECT_LT(endSpeed(1.99), 2.0);
-  EXPECT_GT(endSpeed(2.01), 1e3);
+  EXPECT_GT(endSpeed(2.01), 1e2);
 }
 
 SceneOptions dashpotScene(double epsilon) {
@@ -87,11 +97,11 @@ Eigen::MatrixXd stepMatrix(double epsilon, double dt) {
   const SceneOptions o = dashpotScene(epsilon);
   const auto slots = [](Model& m) {
     std::vector<double*> place;
-    for (Vec3& v : m.particles.v) place.push_back(&v.y);
+    for (Vec3& v : m.discrete.particles.v) place.push_back(&v.y);
     for (Vec3& u : m.solid->nodes.u) place.push_back(&u.y);
     for (Vec3& v : m.solid->nodes.v) place.push_back(&v.y);
     for (Vec3& d : m.coupling->increment) place.push_back(&d.y);
-    for (Vec3& x : m.particles.x) place.push_back(&x.y);
+    for (Vec3& x : m.discrete.particles.x) place.push_back(&x.y);
     return place;
   };
   Profile profile;
@@ -125,7 +135,7 @@ double dashpotGrowth(double epsilon, double dt) {
   const SceneOptions o = dashpotScene(epsilon);
   Model model = makeBar(o);
   std::mt19937 random(3);
-  for (Vec3& v : model.particles.v) v.y = 1e-6 * randomVector(random, 1.0).y;
+  for (Vec3& v : model.discrete.particles.v) v.y = 1e-6 * randomVector(random, 1.0).y;
   Profile profile;
   StepSums sums;
   start(model, dt, profile);
@@ -133,7 +143,7 @@ double dashpotGrowth(double epsilon, double dt) {
   for (int s = 0; s < 3000 && speed < 1.0; ++s) {
     stepExplicit(model, dt, 1, sums, false, profile);
     speed = 0.0;
-    for (const Vec3& v : model.particles.v) speed = std::max(speed, norm(v));
+    for (const Vec3& v : model.discrete.particles.v) speed = std::max(speed, norm(v));
   }
   return speed / 1e-6;
 }

@@ -17,26 +17,27 @@ Model looseParticles(ConstraintKind kind, double penalty) {
   o.across = 1;
   o.weights = {WeightProfile::halfCosine, 0.01};
   Model model;
-  model.particles = lattice({-0.25, 0, -0.25}, {0.25, 2.5, 0.25}, 2);
-  for (double& radius : model.particles.radius) radius *= 0.8;
-  dem::findPairs(model.particles, 0.02, model.pairs);
+  model.discrete.particles = lattice({-0.25, 0, -0.25}, {0.25, 2.5, 0.25}, 2);
+  for (double& radius : model.discrete.particles.radius) radius *= 0.8;
+  dem::findPairs(model.discrete.particles, 0.02, model.discrete.pairs);
   dem::ElasticLaw law;
   law.normal.stiffness = modulus * 0.25;
-  model.law = law;
+  model.discrete.laws = dem::makeContactLaws(law);
+  model.discrete.sortEvery = 0;
   fem::Mesh mesh = fem::boxMesh({1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
   const std::vector<double> weight = barWeights(mesh, o);
   model.solid.emplace(makeSolid(std::move(mesh), weight, o));
   CouplingOptions coupling;
   coupling.constraint = kind;
   coupling.penalty = penalty;
-  model.coupling.emplace(makeCoupling(model.particles, model.pairs, *model.solid, weight, coupling));
+  model.coupling.emplace(makeCoupling(model.discrete.particles, model.discrete.pairs, *model.solid, weight, coupling));
   return model;
 }
 
 TEST(Handover, ParticlesThatEnterLoseNoMomentumUnbooked) {
   for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier}) {
     Model model = looseParticles(kind, 2e4);
-    for (Vec3& v : model.particles.v) v.y = 0.05;
+    for (Vec3& v : model.discrete.particles.v) v.y = 0.05;
     Profile profile;
     StepSums sums;
     const double dt = 2e-4;
@@ -57,7 +58,7 @@ TEST(Handover, ParticlesThatEnterLoseNoMomentumUnbooked) {
 
 TEST(Handover, ForcesDoNotJumpWhenParticlesAreLocatedAnew) {
   Model model = looseParticles(ConstraintKind::penalty, 1e5);
-  for (std::size_t i = 0; i < model.particles.size(); ++i) model.particles.v[i].y = 0.05;
+  for (std::size_t i = 0; i < model.discrete.particles.size(); ++i) model.discrete.particles.v[i].y = 0.05;
   Profile profile;
   StepSums sums;
   const double dt = 1e-4;
@@ -85,7 +86,7 @@ TEST(Handover, BothModelsMovingTogetherChangeNothing) {
   o.holdEnd = false;
   Model model = makeBar(o);
   const Vec3 v{0.1, 0.5, -0.2};
-  for (Vec3& each : model.particles.v) each = v;
+  for (Vec3& each : model.discrete.particles.v) each = v;
   for (Vec3& each : model.solid->nodes.v) each = v;
   Profile profile;
   StepSums sums;
@@ -96,7 +97,7 @@ TEST(Handover, BothModelsMovingTogetherChangeNothing) {
   }
   EXPECT_NEAR(sums.handedOver, 0.0, 1e-6 * energies(model).kineticParticles);
   EXPECT_LT(norm(sums.handedMomentum), 1e-9 * norm(momentum(model)));
-  for (const Vec3& each : model.particles.v) EXPECT_LT(norm(each - v), 1e-8);
+  for (const Vec3& each : model.discrete.particles.v) EXPECT_LT(norm(each - v), 1e-8);
 }
 
 /// (1 − w) σ at the centre of an element of a one-element-wide bar along y, Pa.
@@ -126,7 +127,7 @@ TEST(Gravity, StressIsContinuousAcrossTheOverlapOfAColumn) {
   o.overlapElements = 10;
   o.solidElements = 14;
   Model model = makeBar(o);  // hangs from the solid's held end
-  model.gravity = {0.0, -2.0, 0.0};
+  model.discrete.gravity = {0.0, -2.0, 0.0};
   const double dt = 2e-4;
   Profile profile;
   StepSums sums;
@@ -134,13 +135,12 @@ TEST(Gravity, StressIsContinuousAcrossTheOverlapOfAColumn) {
   for (int s = 0; s < 20000; ++s) {
     stepExplicit(model, dt, 1, sums, false, profile);
     if (s % 10) continue;  // let it come to rest
-    for (Vec3& v : model.particles.v) v *= 0.99;
+    for (Vec3& v : model.discrete.particles.v) v *= 0.99;
     for (Vec3& v : model.solid->nodes.v) v *= 0.99;
   }
   // The stress that the models carry together, w σ_DE + (1 − w) σ_FE, at the elements' centres, against the weight
   // below.
-  const dem::ContactSample contacts =
-      std::visit([&](const auto& law) { return dem::samplePairs(model.particles, model.pairs, law); }, model.law);
+  const dem::ContactSample contacts = model.discrete.laws->sample(model.discrete.particles, model.discrete.pairs);
   double worst = 0.0;
   for (int e = 0; e + 1 < o.particleElements - o.overlapElements + o.solidElements; ++e) {
     const double y = (e + 0.5) * edge;
@@ -163,17 +163,16 @@ TEST(Packing, RandomPlacesOfTheSameDensityAreCoupledWithoutLoss) {
     Model model = makeBar(o);
     std::mt19937 random(17);
     // Disorder the bonds' ends, take the distances as they are then for rest lengths, and couple anew.
-    dem::Particles particles = model.particles;
+    dem::Particles particles = model.discrete.particles;
     particles.mass = model.coupling->fullMass;
     for (Vec3& x : particles.x) x += randomVector(random, 0.02);
     Model rough;
-    rough.particles = particles;
-    rough.law = model.law;
-    rough.pairs = model.pairs;
-    rough.pairs.scale.clear();
+    rough.discrete = model.discrete;
+    rough.discrete.particles = particles;
+    rough.discrete.pairs.scale.clear();
     rough.solid.emplace(makeSolid(model.solid->mesh, model.coupling->overlap.nodalWeight, o));
     rough.coupling.emplace(
-        makeCoupling(rough.particles, rough.pairs, *rough.solid, model.coupling->overlap.nodalWeight, o.coupling));
+        makeCoupling(rough.discrete.particles, rough.discrete.pairs, *rough.solid, model.coupling->overlap.nodalWeight, o.coupling));
     Profile profile;
     StepSums sums;
     start(rough, 5e-5, profile);
@@ -183,8 +182,8 @@ TEST(Packing, RandomPlacesOfTheSameDensityAreCoupledWithoutLoss) {
     for (int s = 0; s < 400; ++s) {
       stepExplicit(rough, 5e-5, 1, sums, true, profile);
       double speed = 0.0;
-      for (std::size_t i = 0; i < rough.particles.size(); ++i)
-        speed += rough.particles.mass[i] * norm(rough.particles.v[i]);
+      for (std::size_t i = 0; i < rough.discrete.particles.size(); ++i)
+        speed += rough.discrete.particles.mass[i] * norm(rough.discrete.particles.v[i]);
       scale = std::max(scale, speed);
     }
     EXPECT_NEAR(energies(rough).total(), before, 1e-3 * before);

@@ -1,7 +1,7 @@
 // Constant stress through the overlap, and holding it.
 #include <gtest/gtest.h>
 
-#include "dovetail/dem/pairs/pair_collide.hpp"
+#include "dovetail/dem/model/loads.hpp"
 #include "scenes.hpp"
 
 namespace dovetail::arlequin {
@@ -17,7 +17,7 @@ Model strainedBar(SceneOptions o) {
   Model model = makeBar(o);
   // The stretch of the lattice whose springs carry the stress; the bricks' St Venant-Kirchhoff law differs by 3/2 ε².
   const double strain = stress / modulus;
-  for (Vec3& x : model.particles.x) x.y *= 1.0 + strain;
+  for (Vec3& x : model.discrete.particles.x) x.y *= 1.0 + strain;
   for (std::size_t n = 0; n < model.solid->nodes.X.size(); ++n)
     model.solid->nodes.u[n].y = strain * model.solid->nodes.X[n].y;
   return model;
@@ -25,18 +25,18 @@ Model strainedBar(SceneOptions o) {
 
 /// Forces without the coupling, the outer load on the first layer included.
 void innerForces(Model& model, int particlesPerEdge) {
-  dem::clearForces(model.particles);
-  std::visit([&](const auto& law) { dem::collide(model.particles, model.pairs, law, 1.0); }, model.law);
+  dem::clearForces(model.discrete.particles);
+  model.discrete.laws->pairs(model.discrete.particles, model.discrete.pairs, 1.0, dem::Booking::on);
   const double d = edge / particlesPerEdge;
-  for (std::size_t i = 0; i < model.particles.size(); ++i)
-    if (model.particles.x[i].y < 0.9 * d) model.particles.f[i].y -= stress * d * d;
+  for (std::size_t i = 0; i < model.discrete.particles.size(); ++i)
+    if (model.discrete.particles.x[i].y < 0.9 * d) model.discrete.particles.f[i].y -= stress * d * d;
   fem::clearForces(model.solid->nodes);
   fem::addInternalForces(model.solid->elements, model.solid->nodes);
 }
 
 double worstForce(const Model& model) {
   double worst = 0.0;
-  for (const Vec3& f : model.particles.f) worst = std::max(worst, norm(f));
+  for (const Vec3& f : model.discrete.particles.f) worst = std::max(worst, norm(f));
   for (std::size_t n = 0; n < model.solid->nodes.f.size(); ++n)
     if (!model.solid->nodes.fixed[n]) worst = std::max(worst, norm(model.solid->nodes.f[n]));
   return worst;
@@ -59,13 +59,13 @@ TEST_P(LinearWeights, MultipliersCarryTheStressToRoundOff) {
   const double before = worstForce(model);
   Coupling& c = *model.coupling;
   Solid& solid = *model.solid;
-  std::vector<Vec3> a(model.particles.size()), b(solid.nodes.X.size()), gap(c.rows()), none(c.rows()), lambda(c.rows());
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = (1.0 / model.particles.mass[i]) * model.particles.f[i];
+  std::vector<Vec3> a(model.discrete.particles.size()), b(solid.nodes.X.size()), gap(c.rows()), none(c.rows()), lambda(c.rows());
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = (1.0 / model.discrete.particles.mass[i]) * model.discrete.particles.f[i];
   for (std::size_t n = 0; n < b.size(); ++n)
     if (!solid.nodes.fixed[n]) b[n] = (1.0 / solid.nodes.mass[n]) * solid.nodes.f[n];
   gapOf(c.gap, c.overlap, a, b, gap);
   c.constraint->evaluate({none, none, none, gap, 1.0}, lambda);
-  pullParticles(c.gap, c.overlap, lambda, model.particles.f);
+  pullParticles(c.gap, c.overlap, lambda, model.discrete.particles.f);
   pullNodes(c.gap, lambda, solid.nodes.f);
   // What is left is the difference of the materials, 3/2 ε² E.
   EXPECT_LT(worstForce(model), 3.0 * 1.5e-3 * before);
@@ -82,7 +82,7 @@ TEST_P(LinearWeights, APenaltyCarriesItByAUniformGap) {
   const double length = o.overlapElements * edge;
   std::vector<Vec3> gap(c.rows(), Vec3{0.0, -stress / (p * length), 0.0}), lambda(c.rows());
   c.constraint->evaluate({gap, {}, {}, {}, 1.0}, lambda);
-  pullParticles(c.gap, c.overlap, lambda, model.particles.f);
+  pullParticles(c.gap, c.overlap, lambda, model.discrete.particles.f);
   pullNodes(c.gap, lambda, model.solid->nodes.f);
   EXPECT_LT(worstForce(model), 3.0 * 1.5e-3 * before);
 }
@@ -106,10 +106,10 @@ double profileError(int elements) {
   double error = 0.0, largest = 0.0;
   for (const int i : model.coupling->overlap.particle) {
     const auto k = static_cast<std::size_t>(i);
-    const double s = (model.particles.x[k].y / (1.0 + stress / modulus) - solidStart(o)) / length;
+    const double s = (model.discrete.particles.x[k].y / (1.0 + stress / modulus) - solidStart(o)) / length;
     if (s < 1.0 / elements || s > 1.0 - 1.0 / elements) continue;
     const double density = -stress * profileSlope(WeightProfile::halfCosine, s) / length;
-    const double carried = -model.particles.f[k].y / (edge * edge * edge);
+    const double carried = -model.discrete.particles.f[k].y / (edge * edge * edge);
     error = std::max(error, std::abs(carried - density));
     largest = std::max(largest, std::abs(density));
   }
@@ -137,10 +137,8 @@ Hold hold(ConstraintKind kind, int steps, double epsilon, double dt) {
   Model model = strainedBar(o);
   Profile profile;
   StepSums sums;
-  Drive press;  // the first layer stays where the strain has put it
-  for (int i = 0; i < 1; ++i) press.particles.push_back(i);
-  press.displacement = press.velocity = [](double) { return Vec3{}; };
-  model.drives.push_back(press);
+  const auto nothing = [](double) { return Vec3{}; };  // the first layer stays where the strain has put it
+  model.discrete.terms.add(dem::DriveTerm({0}, nothing, nothing));
   start(model, dt, profile);
   const auto worstGap = [&] {
     const auto& g = model.coupling->gapNow;

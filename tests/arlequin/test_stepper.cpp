@@ -23,9 +23,9 @@ SceneOptions sceneOf(ConstraintKind kind, GapForm form = GapForm::atParticles, d
 
 /// A pulse that runs from the particles into the solid, oblique to the bar.
 void excite(Model& model) {
-  for (std::size_t i = 0; i < model.particles.size(); ++i) {
-    const double y = model.particles.x[i].y;
-    if (y < 0.5) model.particles.v[i] = {0.002 * y, 0.1 * std::sin(2.0 * 3.14159265 * y), 0.001};
+  for (std::size_t i = 0; i < model.discrete.particles.size(); ++i) {
+    const double y = model.discrete.particles.x[i].y;
+    if (y < 0.5) model.discrete.particles.v[i] = {0.002 * y, 0.1 * std::sin(2.0 * 3.14159265 * y), 0.001};
   }
 }
 
@@ -69,13 +69,13 @@ TEST_P(EveryConstraint, AUniformVelocityGoesOnForEver) {
   o.holdEnd = false;
   Model model = makeBar(o);
   const Vec3 v{0.3, -0.2, 0.1};
-  for (Vec3& each : model.particles.v) each = v;
+  for (Vec3& each : model.discrete.particles.v) each = v;
   for (Vec3& each : model.solid->nodes.v) each = v;
   Profile profile;
   StepSums sums;
   start(model, 2e-4, profile);
   for (int s = 0; s < 200; ++s) stepExplicit(model, 2e-4, 1, sums, false, profile);
-  for (const Vec3& each : model.particles.v) EXPECT_LT(norm(each - v), 1e-9);
+  for (const Vec3& each : model.discrete.particles.v) EXPECT_LT(norm(each - v), 1e-9);
   for (const Vec3& each : model.solid->nodes.v) EXPECT_LT(norm(each - v), 1e-9);
 }
 
@@ -155,15 +155,15 @@ TEST(Stepper, ResultsAreTheSameForAnyNumberOfThreads) {
   const Outcome two = runScene(o, 2e-4, 0.02);
   setThreads(1);
   const Outcome again = runScene(o, 2e-4, 0.02);
-  EXPECT_TRUE(one.model.particles.v == two.model.particles.v);
+  EXPECT_TRUE(one.model.discrete.particles.v == two.model.discrete.particles.v);
   EXPECT_TRUE(one.model.solid->nodes.v == two.model.solid->nodes.v);
-  EXPECT_TRUE(one.model.particles.v == again.model.particles.v);
+  EXPECT_TRUE(one.model.discrete.particles.v == again.model.discrete.particles.v);
 }
 
 TEST(Stepper, ACouplingThatDoesNotFitIsRefused) {
   Profile profile;
   Model model = makeBar({});
-  dem::addParticle(model.particles, {0, 0, 0}, {}, 0.1, dem::Mass{1.0});
+  dem::addParticle(model.discrete.particles, {0, 0, 0}, {}, 0.1, dem::Mass{1.0});
   EXPECT_THROW(start(model, 1e-4, profile), InputError);
   Model alone = makeBar({});
   alone.solid.reset();
@@ -172,13 +172,14 @@ TEST(Stepper, ACouplingThatDoesNotFitIsRefused) {
 
 TEST(Stepper, ParticlesAloneNeedNoOtherPart) {
   Model model;
-  model.particles = lattice({0, 0, 0}, {0.5, 2, 0.5}, 2);
-  dem::findPairs(model.particles, 0.01, model.pairs);
+  model.discrete.particles = lattice({0, 0, 0}, {0.5, 2, 0.5}, 2);
+  dem::findPairs(model.discrete.particles, 0.01, model.discrete.pairs);
   dem::ElasticLaw law;
   law.normal.stiffness = 1e5;
   law.normal.bonded = true;
-  model.law = law;
-  model.particles.v[0].y = 0.1;
+  model.discrete.laws = dem::makeContactLaws(law);
+  model.discrete.sortEvery = 0;
+  model.discrete.particles.v[0].y = 0.1;
   Profile profile;
   StepSums sums;
   start(model, 1e-4, profile);

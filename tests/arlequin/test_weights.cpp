@@ -91,7 +91,7 @@ TEST(Weights, MassIsShared) {
   SceneOptions o;
   const Model model = makeBar(o);
   double mass = 0.0;
-  for (const double m : model.particles.mass) mass += m;
+  for (const double m : model.discrete.particles.mass) mass += m;
   for (const double m : model.solid->nodes.mass) mass += m;
   const double length = (o.particleElements - o.overlapElements + o.solidElements) * edge;
   EXPECT_NEAR(mass, bulk * length * edge * edge * o.across * o.across, 1e-3 * mass);

@@ -47,20 +47,21 @@ inline Skin blockSkin(const fem::Mesh& mesh, double width) {
 
 template <class Seam>
 CoupledModel<Seam> makeModel(const BlockSetup& setup, const fem::Mesh& mesh, Seam seam, dem::Particles particles) {
-  CoupledModel<Seam> model{.particles = std::move(particles),
-                           .pairs = {},
-                           .pairLaw = {},
-                           .wallLaw = {},
-                           .gravity = setup.gravity,
+  const dem::LinearSpringDashpot normal{2e4, setup.restitution, true};
+  CoupledModel<Seam> model{.discrete = {},
+                           .wallLaw = {normal},
                            .nodes = fem::makeNodes(mesh),
                            .elements = fem::makeElements(mesh, fem::ElementType::hex8,
                                                          fem::StVenantKirchhoff{setup.youngsModulus, 0.3, 1000.0}),
                            .seam = std::move(seam),
                            .contact = {}};
+  model.discrete.particles = std::move(particles);
+  model.discrete.laws = dem::makeContactLaws(dem::ElasticLaw{normal});
+  model.discrete.gravity = setup.gravity;
+  model.discrete.pairs.skin = 0.02;
+  model.discrete.sortEvery = 0;
   fem::addLumpedMass(model.elements, model.nodes);
   if (setup.held) fem::fix(model.nodes, mesh.nodeSets.at("z-"));
-  model.pairLaw.normal = model.wallLaw.normal = {2e4, setup.restitution};
-  dem::findPairs(model.particles, 0.02, model.pairs);
   return model;
 }
 
@@ -85,9 +86,9 @@ inline SmoothModel smoothModel(const BlockSetup& setup) {
 template <class Model>
 double storedEnergy(const Model& model) {
   double height = 0.0;
-  for (std::size_t i = 0; i < model.particles.size(); ++i)
-    height -= model.particles.mass[i] * dot(model.gravity, model.particles.x[i]);
-  return dem::kineticEnergy(model.particles) + model.contact.storedEnergy() + height + fem::kineticEnergy(model.nodes) +
+  for (std::size_t i = 0; i < model.discrete.particles.size(); ++i)
+    height -= model.discrete.particles.mass[i] * dot(model.discrete.gravity, model.discrete.particles.x[i]);
+  return dem::kineticEnergy(model.discrete.particles) + model.contact.storedEnergy() + height + fem::kineticEnergy(model.nodes) +
          model.strainEnergy;
 }
 

@@ -38,7 +38,7 @@ State stateAfter(Model model, Kind kind) {
   for (int w = 0; w < 15; ++w)
     implicitSolid ? stepImplicit(model, newmark, dt, K, {}, true, profile)
                   : stepExplicit(model, dt, K, {}, true, profile);
-  return {model.particles.x, model.particles.v, model.nodes.u, model.nodes.v, storedEnergy(model)};
+  return {model.discrete.particles.x, model.discrete.particles.v, model.nodes.u, model.nodes.v, storedEnergy(model)};
 }
 
 State runKind(Kind kind, int threadCount) {
@@ -80,7 +80,7 @@ std::string failureAfter(Spoil&& spoil) {
 }
 
 TEST(Breakdown, ANaNInAParticleIsNamedWithinTheStep) {
-  const std::string said = failureAfter([](FlatModel& model) { model.particles.v[1].x = std::nan(""); });
+  const std::string said = failureAfter([](FlatModel& model) { model.discrete.particles.v[1].x = std::nan(""); });
   EXPECT_NE(said.find("particle 1"), std::string::npos) << said;
 }
 

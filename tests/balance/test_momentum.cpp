@@ -11,11 +11,11 @@ constexpr int windows = 250;
 
 template <class Model>
 Vec3 momentumOf(const Model& model) {
-  return dem::momentum(model.particles) + fem::momentum(model.nodes);
+  return dem::momentum(model.discrete.particles) + fem::momentum(model.nodes);
 }
 template <class Model>
 Vec3 angularMomentumOf(const Model& model) {
-  return dem::angularMomentum(model.particles) + fem::angularMomentum(model.nodes);
+  return dem::angularMomentum(model.discrete.particles) + fem::angularMomentum(model.nodes);
 }
 double particleMass(const dem::Particles& particles) {
   double sum = 0.0;
@@ -33,8 +33,8 @@ Departure departure(Model model, int K, Window&& window) {
   Profile profile;
   start(model, dt, profile);
   const Vec3 momentum0 = momentumOf(model), angular0 = angularMomentumOf(model);
-  const Vec3 weight = particleMass(model.particles) * model.gravity;
-  const double size = particleMass(model.particles) * 0.3;
+  const Vec3 weight = particleMass(model.discrete.particles) * model.discrete.gravity;
+  const double size = particleMass(model.discrete.particles) * 0.3;
   Departure worst;
   for (int w = 1; w <= windows; ++w) {
     window(model, profile);
@@ -85,7 +85,7 @@ TEST(Momentum, OfAHeldBlockGrowsByWeightAndSupports) {
   FlatModel model = flatModel({});
   Profile profile;
   start(model, dt, profile);
-  const Vec3 momentum0 = momentumOf(model), weight = particleMass(model.particles) * model.gravity;
+  const Vec3 momentum0 = momentumOf(model), weight = particleMass(model.discrete.particles) * model.discrete.gravity;
   Vec3 impulse;
   double supports = 0.0, worst = 0.0;
   for (int w = 0; w < windows; ++w) {
@@ -98,7 +98,7 @@ TEST(Momentum, OfAHeldBlockGrowsByWeightAndSupports) {
     worst = std::max(worst, norm(momentumOf(model) - momentum0 - impulse));
   }
   EXPECT_GT(supports, dt * norm(weight));
-  EXPECT_LT(worst, 1e-13 * particleMass(model.particles));
+  EXPECT_LT(worst, 1e-13 * particleMass(model.discrete.particles));
 }
 
 }  // namespace

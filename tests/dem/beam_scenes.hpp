@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dovetail/dem/bonds/bonds.hpp"
+#include "dovetail/dem/model/contact_step.hpp"
 #include "dovetail/dem/particles/damping.hpp"
 #include "wall_scenes.hpp"
 
@@ -26,7 +27,15 @@ inline BondMaterial unbreakable(double youngsModulus = 1e7) {
 struct Bonded {
   Particles particles;
   Bonds bonds;
+  geometry::Periodicity space;
 };
+
+/// The stable step with bonds alone, s.
+inline double bondStep(const Particles& particles, const Bonds& bonds) {
+  ContactDemand demand;
+  addDemand(demand, particles, bonds);
+  return criticalStep(demand, particles).dt;
+}
 
 /// A clamped row of spheres along x, brought to rest under a load. Returns how far its tip has gone.
 struct Row {
@@ -44,7 +53,7 @@ struct Row {
     BondMaterial material = unbreakable(E);
     material.radiusRatio = radius / (0.5 * h);
     material.shearCorrection = shearCorrection;
-    for (int i = 0; i < elements; ++i) addBond(scene.bonds, scene.particles, i, i + 1, material);
+    for (int i = 0; i < elements; ++i) addBond(scene.bonds, scene.particles, {}, i, i + 1, material);
     return scene;
   }
 
@@ -52,7 +61,7 @@ struct Row {
   Vec3 settle(int elements, const std::vector<Vec3>& load) const {
     Bonded scene = make(elements);
     Particles& p = scene.particles;
-    const double dt = 0.9 * criticalStep(p, scene.bonds);
+    const double dt = 0.9 * bondStep(p, scene.bonds);
     double mass = 0.0;
     for (const double m : p.mass) mass += m;
     const double slowest = 3.516 * std::sqrt(E * inertia() / (mass * length * length * length));
@@ -61,7 +70,7 @@ struct Row {
       kick(p, 0.5 * dt);
       drift(p, dt);
       clearForces(p);
-      exchangeBonds(p, scene.bonds, dt);
+      exchangeBonds(p, scene.bonds, {}, dt);
       for (std::size_t i = 0; i < load.size(); ++i) p.f[i] += load[i];
       applyViscousDamping(p, 2.0 * slowest);
       p.f[0] = p.torque[0] = {};

@@ -48,7 +48,7 @@ struct Impact {
     startForces(particles, g);
     work = collide(particles, list, law, dt);
     if (!againstWall) return;
-    updateWallCandidates(particles, wall, candidates);
+    updateWallCandidates(particles, wall, candidates, movesOf(particles, dt));
     findWallContacts(particles, wall, candidates, EdgeRule::projected, contacts);
     work += collideWithWall(particles, wall, contacts, law, dt);
   }

@@ -63,7 +63,7 @@ TEST(BeamRows, ForcesAreBitwiseTheSameForAnyNumberOfThreads) {
     Bonded scene = row.make(2000);
     Random random(11);
     for (Vec3& x : scene.particles.x) x += random.vector(1e-5);
-    exchangeBonds(scene.particles, scene.bonds, 0.0);
+    exchangeBonds(scene.particles, scene.bonds, {}, 0.0);
     setThreads(1);
     return scene.particles.f;
   };
@@ -100,7 +100,7 @@ Smash smash(int stepsPerContact) {
     kick(scene.particles, 0.5 * dt);
     drift(scene.particles, dt);
     scene.exchange(dt);
-    const ContactWork held = exchangeBonds(scene.particles, bonds, dt);
+    const ContactWork held = exchangeBonds(scene.particles, bonds, {}, dt);
     fractured += held.fracturePower * dt;
     scene.work += held;
     kick(scene.particles, 0.5 * dt);

@@ -130,7 +130,66 @@ TEST(Bodies, BadBodiesAreRefusedAndNothingIsAdded) {
   EXPECT_THROW(addBody(bodies, {1.0, {}, {1, 1, 2.1}, {}}, {}), InputError);
   EXPECT_THROW(addBody(bodies, {1.0, {}, {1, 1, 1}, {}}, {0, std::nan(""), 0}), InputError);
   EXPECT_THROW(addBody(bodies, {1.0, {}, {1, 1, 1}, {}}, {}, {0, 0, 0, 0}), InputError);
+  MassProperties noAxes = asymmetric;
+  noAxes.axes = {0, 0, 0, 0};
+  EXPECT_THROW(addBody(bodies, noAxes, {}), InputError);
   EXPECT_EQ(bodies.size(), 0u);
+}
+
+/// Whether the message of what a call throws holds the text.
+template <class Exception, class Call>
+bool says(Call&& call, const std::string& text) {
+  try {
+    call();
+  } catch (const Exception& error) {
+    return std::string(error.what()).find(text) != std::string::npos;
+  }
+  return false;
+}
+
+TEST(Bodies, AQuaternionOfAnyLengthIsMadeAUnitOneAndLaterOnesAreRefused) {
+  Bodies twice, unit;
+  addBody(twice, asymmetric, {}, {2, 0, 0, 0});
+  addBody(unit, asymmetric, {}, {1, 0, 0, 0});
+  EXPECT_EQ(distance(twice.orientation[0], unit.orientation[0]), 0.0);
+  EXPECT_NO_THROW(validate(twice));
+  twice.orientation[0] = {2, 0, 0, 0};
+  EXPECT_TRUE(says<InputError>([&] { validate(twice); }, "body 0, orientation"));
+  unit.mass.push_back(1.0);
+  EXPECT_TRUE(says<InputError>([&] { validate(unit); }, "mass of bodies"));
+}
+
+TEST(Bodies, WhatIsNotFiniteIsNamed) {
+  const auto named = [](auto&& change, const std::string& text) {
+    Bodies bodies;
+    for (int i = 0; i < 3; ++i) addBody(bodies, asymmetric, {});
+    EXPECT_NO_THROW(requireFinite(bodies, "t = 0 s"));
+    change(bodies);
+    EXPECT_TRUE(says<NumericalError>([&] { requireFinite(bodies, "t = 0 s"); }, text)) << text;
+  };
+  const double nan = std::nan("");
+  named([&](Bodies& b) { b.x[1].y = nan; }, "position");
+  named([&](Bodies& b) { b.v[1].x = nan; }, "velocity");
+  named([&](Bodies& b) { b.f[2].z = INFINITY; }, "force");
+  named([&](Bodies& b) { b.torque[0].z = nan; }, "torque");
+  named([&](Bodies& b) { b.angularMomentum[1].z = nan; }, "angular momentum");
+  named([&](Bodies& b) { b.orientation[1].w = nan; }, "orientation");
+}
+
+TEST(Bodies, DampingTakesWhatItSays) {
+  Bodies bodies;
+  addBody(bodies, asymmetric, {}, {0.3, -0.4, 0.5, 0.7}, {1, 2, 3}, {0.1, 1.0, -0.05});
+  EXPECT_NEAR(applyViscousDamping(bodies, 0.7), 2.0 * 0.7 * kineticEnergy(bodies), 1e-13);
+  EXPECT_LE(norm(bodies.f[0] + 0.7 * 2.0 * Vec3{1, 2, 3}), 1e-14);
+  EXPECT_LE(norm(bodies.torque[0] + 0.7 * bodies.angularMomentum[0]), 1e-14);
+  bodies.f[0] = {1, -2, 0};
+  bodies.torque[0] = {};
+  EXPECT_NEAR(applyLocalDamping(bodies, 0.5), 0.5 + 2.0, 1e-14);
+  EXPECT_EQ(bodies.f[0], (Vec3{0.5, -3, 0}));
+  for (const double bad : {-1.0, std::nan("")}) {
+    EXPECT_THROW(applyViscousDamping(bodies, bad), InputError);
+    EXPECT_THROW(applyLocalDamping(bodies, bad), InputError);
+  }
 }
 
 }  // namespace

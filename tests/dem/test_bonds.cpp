@@ -56,12 +56,5 @@ TEST(PairScale, ScalesForceEnergyAndLoss) {
   EXPECT_NEAR(b.dissipatedPower, 0.25 * a.dissipatedPower, 1e-13);
 }
 
-TEST(PairScale, ANewListHasNone) {
-  Two two = apart(0.95);
-  two.list.scale = {0.25};
-  findPairs(two.particles, 0.1, two.list);
-  EXPECT_TRUE(two.list.scale.empty());
-}
-
 }  // namespace
 }  // namespace dovetail::dem

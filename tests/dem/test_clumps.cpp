@@ -1,11 +1,14 @@
 // Clumps: placed right, forces gathered adjointly, energy counted once.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/clumps.hpp"
-#include "dovetail/dem/setup/insertion.hpp"
+#include "dovetail/dem/model/contact_step.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
+#include "dovetail/dem/setup/insertion.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {
@@ -36,7 +39,7 @@ Scene gas(bool spinning) {
     }
   }
   if (spinning) switchOnRotation(scene.particles);
-  placeMembers(scene.bodies, scene.clumps, scene.particles);
+  placeMembers(scene.bodies, scene.clumps, {}, scene.particles);
   findPairs(scene.particles, 0.02, scene.list);
   muteMemberPairs(scene.clumps, scene.list);
   return scene;
@@ -48,7 +51,7 @@ ContactWork step(Scene& s, const Law& law, double dt) {
   kickBodies(s.bodies, 0.5 * dt);
   drift(s.particles, dt);
   driftBodies(s.bodies, dt);
-  placeMembers(s.bodies, s.clumps, s.particles);
+  placeMembers(s.bodies, s.clumps, {}, s.particles);
   if (updatePairs(s.particles, s.list)) muteMemberPairs(s.clumps, s.list);
   clearForces(s.particles);
   clearForces(s.bodies);
@@ -56,7 +59,7 @@ ContactWork step(Scene& s, const Law& law, double dt) {
   gatherForces(s.particles, s.clumps, s.bodies);
   kick(s.particles, 0.5 * dt);
   kickBodies(s.bodies, 0.5 * dt);
-  placeMembers(s.bodies, s.clumps, s.particles);
+  placeMembers(s.bodies, s.clumps, {}, s.particles);
   return work;
 }
 
@@ -91,7 +94,7 @@ TEST(Clumps, MembersLieAndMoveWithTheirBody) {
   }
   const std::vector<Vec3> before = particles.x;
   particles.x[1] += Vec3{0.3, 0, 0.4};
-  EXPECT_NEAR(placeMembers(bodies, clumps, particles), 0.5, 1e-12);
+  EXPECT_NEAR(placeMembers(bodies, clumps, {}, particles), 0.5, 1e-12);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(norm(particles.x[k] - before[k]), 1e-15);
   EXPECT_GT(makeClumpShape(rod, rodRadius, Density{1000.0}, Overlap::everySphere).properties.mass,
             1.05 * shape.properties.mass);
@@ -179,7 +182,7 @@ TEST(Clumps, AreStableUpToTheirCriticalStepAndNotBeyond) {
     double far = 0.0;
     for (int step = 0; step < 400; ++step) {
       driftBodies(b, dt);
-      placeMembers(b, clumps, p);
+      placeMembers(b, clumps, {}, p);
       clearForces(b);
       clearForces(p);
       p.f[0].y = -k * p.x[0].y;
@@ -193,13 +196,119 @@ TEST(Clumps, AreStableUpToTheirCriticalStepAndNotBeyond) {
   EXPECT_GT(largest(1.01 * limit.dt), 1e-4);
 }
 
+/// A rod that lies against fixed springs: stiffness along and across the contact at each given member and direction.
+struct Spring {
+  std::size_t member;
+  Vec3 normal;
+};
+
+/// Largest angular frequency of small motions of a body on springs that act where its members touch, 1/s.
+double fastest(const Bodies& bodies, const Clumps& clumps, const Particles& particles,
+               const std::vector<Spring>& springs, double normal, double tangential) {
+  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero(), rootMass = stiffness;
+  for (const Spring& spring : springs) {
+    const Vec3 arm = clumps.offset[spring.member] - particles.radius[spring.member] * spring.normal;
+    Eigen::Matrix<double, 3, 6> motion = Eigen::Matrix<double, 3, 6>::Zero();  // of the point, from v and ω
+    motion.leftCols<3>().setIdentity();
+    motion.rightCols<3>() << 0, arm.z, -arm.y, -arm.z, 0, arm.x, arm.y, -arm.x, 0;
+    const Eigen::Vector3d n(spring.normal.x, spring.normal.y, spring.normal.z);
+    const Eigen::Matrix3d local = tangential * Eigen::Matrix3d::Identity() + (normal - tangential) * n * n.transpose();
+    stiffness += motion.transpose() * local * motion;
+  }
+  for (int k = 0; k < 3; ++k) {
+    rootMass(k, k) = 1.0 / std::sqrt(bodies.mass[0]);
+    rootMass(3 + k, 3 + k) = 1.0 / std::sqrt(bodies.inertia[0][k]);
+  }
+  const Eigen::Matrix<double, 6, 6> form = rootMass * stiffness * rootMass;
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(form).eigenvalues()[5]);
+}
+
+TEST(Clumps, TheirDemandIsSafeForContactsAnywhereAndNotFarFromTheLimit) {
+  Random random(17);
+  double closest = 10.0;
+  for (int trial = 0; trial < 300; ++trial) {
+    Particles particles;
+    Bodies bodies;
+    Clumps clumps;
+    std::vector<Vec3> centre{{0, 0, 0}, {0.05 + 0.03 * random(0.0, 1.0), 0, 0}, {0.1, random(0.0, 0.06), 0.0}};
+    const ClumpShape shape = makeClumpShape(centre, std::vector<double>{0.05, 0.04, 0.05}, Density{1000.0});
+    addClump(particles, bodies, clumps, shape, {});
+    switchOnRotation(particles);
+    const double normal = 1e5, tangential = 1e5 * random(0.0, 0.8);
+    std::vector<Spring> springs;
+    ContactDemand demand;
+    for (int c = 0; c < 1 + trial % 4; ++c) {
+      springs.push_back({static_cast<std::size_t>(random(0.0, 2.999)), normalized(random.vector(1.0))});
+      ContactSlopes slopes;
+      slopes.normal.stiffness = normal;
+      slopes.tangential.stiffness = tangential;
+      detail::addContact(demand, particles, static_cast<int>(springs.back().member), -1, slopes, 1.0, bodies.mass[0]);
+    }
+    addDemand(demand, particles, bodies, clumps);
+    const double exact = 2.0 / fastest(bodies, clumps, particles, springs, normal, tangential);
+    const double safe = criticalStep(demand, particles).dt;
+    EXPECT_LE(safe, exact * (1.0 + 1e-12));
+    closest = std::min(closest, exact / safe);
+  }
+  EXPECT_LT(closest, 1.5);
+}
+
+TEST(Clumps, MassesOfMembersAreNotScaled) {
+  Scene scene = gas(true);
+  ContactDemand demand;
+  ContactSlopes slopes;
+  slopes.normal.stiffness = 1e9;
+  detail::addContact(demand, scene.particles, scene.clumps.particle[0], -1, slopes, 1.0, 1.0);
+  addDemand(demand, scene.particles, scene.bodies, scene.clumps);
+  EXPECT_THROW(scaleMasses(scene.particles, demand, 1.0), InputError);
+}
+
+TEST(Clumps, GoThroughPeriodsWithoutAJumpOfTheirMembers) {
+  const geometry::Periodicity space{{{0, 0, 0}, {1, 1, 1}}, {true, false, true}};
+  Scene scene;
+  const ClumpShape shape = makeClumpShape(rod, rodRadius, Density{1000.0});
+  addClump(scene.particles, scene.bodies, scene.clumps, shape, {0.95, 0.5, 0.02}, {0.9, 0.3, 0.1, -0.2}, {3.0, 0, -2.0},
+           {1, 2, 3});
+  wrapPositions(scene.particles, space);
+  Scene open = scene;
+  for (int s = 0; s < 500; ++s) {
+    driftBodies(scene.bodies, 1e-3);
+    driftBodies(open.bodies, 1e-3);
+    EXPECT_LE(placeMembers(scene.bodies, scene.clumps, space, scene.particles), 0.006);
+    placeMembers(open.bodies, open.clumps, {}, open.particles);
+    if (s % 7 == 0) wrapPositions(scene.particles, space);
+    if (s % 11 == 0) wrapPositions(scene.bodies, space);
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_LE(norm(space.minimumImage(scene.particles.x[i] - open.particles.x[i])), 1e-13);
+  scene.particles.f = open.particles.f = {{1, 2, 3}, {-2, 1, 1}, {0, 0, 5}};
+  gatherForces(scene.particles, scene.clumps, scene.bodies);
+  gatherForces(open.particles, open.clumps, open.bodies);
+  EXPECT_LE(norm(scene.bodies.torque[0] - open.bodies.torque[0]), 1e-15);
+}
+
+TEST(Clumps, ThatDoNotFitAreRefusedByBody) {
+  const auto refused = [](auto&& change) {
+    Scene scene = gas(true);
+    EXPECT_NO_THROW(check(scene.particles, scene.bodies, scene.clumps));
+    change(scene);
+    EXPECT_THROW(check(scene.particles, scene.bodies, scene.clumps), InputError);
+  };
+  refused([](Scene& s) { s.clumps.particle[4] = 10000; });
+  refused([](Scene& s) { s.clumps.particle[4] = s.clumps.particle[0]; });
+  refused([](Scene& s) { std::swap(s.clumps.body[0], s.clumps.body[5]); });
+  refused([](Scene& s) { s.clumps.body.back() = 1000; });
+  refused([](Scene& s) { s.particles.mass[static_cast<std::size_t>(s.clumps.particle[2])] *= 2.0; });
+  refused([](Scene& s) { s.clumps.offset.pop_back(); });
+}
+
 TEST(Clumps, StayTogetherWhenParticlesAreSorted) {
   Scene scene = gas(true);
   const std::vector<Vec3> before = scene.particles.x;
   const std::vector<int> number = sortParticles(scene.particles, scene.list);
-  renumber(scene.clumps, number);
+  renumber(scene.bodies, scene.clumps, number);
   const std::vector<Vec3> sorted = scene.particles.x;
-  placeMembers(scene.bodies, scene.clumps, scene.particles);
+  placeMembers(scene.bodies, scene.clumps, {}, scene.particles);
   EXPECT_NE(sorted, before);
   for (std::size_t i = 0; i < sorted.size(); ++i) EXPECT_LE(norm(scene.particles.x[i] - sorted[i]), 1e-15);
 }
@@ -219,7 +328,7 @@ TEST(Clumps, OneSphereAloneIsASpinningParticle) {
              omega);
   }
   switchOnRotation(clumped.particles);
-  placeMembers(clumped.bodies, clumped.clumps, clumped.particles);
+  placeMembers(clumped.bodies, clumped.clumps, {}, clumped.particles);
   for (Scene* scene : {&alone, &clumped}) findPairs(scene->particles, 0.02, scene->list);
   double hit = 0.0;
   for (int k = 0; k < 1500; ++k) {

@@ -5,8 +5,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/laws/elastic_plastic.hpp"
-#include "dovetail/dem/model/model.hpp"
 #include "dovetail/dem/laws/rolling.hpp"
+#include "dovetail/dem/model/walls.hpp"
 #include "impact_scenes.hpp"
 
 namespace dovetail::dem {
@@ -50,7 +50,7 @@ Particles squeezed(double massRatio) {
 TEST(ContactStep, IsExactForOnePairOfAnyMasses) {
   for (const double ratio : {1.0, 10.0, 1e6})
     for (const double e : {1.0, 0.3}) {
-      const Particles particles = squeezed(ratio);
+      Particles particles = squeezed(ratio);
       PairList list;
       findPairs(particles, 0.01, list);
       const ElasticLaw linear{{1e5, e}};
@@ -68,7 +68,7 @@ TEST(ContactStep, IsExactForOnePairOfAnyMasses) {
 }
 
 TEST(ContactStep, AgreesWithTheClosedFormOfTheLightestParticle) {
-  const Particles particles = squeezed(1.0);
+  Particles particles = squeezed(1.0);
   PairList list;
   findPairs(particles, 0.01, list);
   const double mass = 0.15, omega = std::sqrt(1e5 / mass);
@@ -91,7 +91,7 @@ Particles packing(bool spins) {
 
 TEST(ContactStep, IsSafeInAPackingAndNamesAPairOfIt) {
   for (const bool spins : {false, true}) {
-    const Particles particles = packing(spins);
+    Particles particles = packing(spins);
     PairList list;
     findPairs(particles, 0.0, list);
     const FrictionalLaw law{{1e5, 0.9}, {8e4, 1e9}};
@@ -105,7 +105,7 @@ TEST(ContactStep, IsSafeInAPackingAndNamesAPairOfIt) {
 }
 
 TEST(ContactStep, SeesRollingPlasticAndRememberedStiffness) {
-  const Particles particles = [] {
+  Particles particles = [] {
     Particles two = squeezed(1.0);
     switchOnRotation(two);
     return two;
@@ -147,12 +147,13 @@ TEST(ContactStep, WallsCountAndSoDoContactsYetToCome) {
 }
 
 TEST(ContactStep, OfASceneCountsPairsAndAllItsWalls) {
-  Model<ElasticLaw> model;
-  model.laws = prepare(ElasticLaw{{1e5}});
+  Model model;
+  model.laws = makeContactLaws(ElasticLaw{{1e5}});
   addParticle(model.particles, {0, 0, 0.099}, {}, 0.1, Mass{0.5});
   addParticle(model.particles, {0.199, 0, 0.101}, {}, 0.1, Mass{0.3});
   model.pairs.skin = 0.02;
-  model.walls = {makePlane({0, 0, 0}, {0, 0, 1}), makePlane({-0.0995, 0, 0}, {1, 0, 0})};
+  addWall(model, makePlane({0, 0, 0}, {0, 0, 1}));
+  addWall(model, makePlane({-0.0995, 0, 0}, {1, 0, 0}));
   run(model, 1e-7, 1);
   const ContactStep step = criticalStep(model);  // three contacts on the first sphere, one on the second
   EXPECT_NEAR(step.dt, 2.0 / std::sqrt(3.0 * 1e5 / 0.5 + 1e5 / 0.3), 1e-13);

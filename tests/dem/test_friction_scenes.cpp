@@ -89,7 +89,7 @@ std::vector<std::array<Vec3, 2>> fall(const Law& law, bool sorts) {
   }
   std::vector<std::array<Vec3, 2>> state(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i)
-    state[particles.id.empty() ? i : static_cast<std::size_t>(particles.id[i])] = {particles.x[i], particles.omega[i]};
+    state[static_cast<std::size_t>(particles.id[i])] = {particles.x[i], particles.omega[i]};
   return state;
 }
 

@@ -138,7 +138,8 @@ TEST(Pairs, NobodyAndOneParticle) {
     EXPECT_EQ(collide(particles, list, FrictionalLaw{{1.0}, {1.0, 1.0}}, 1.0).storedEnergy(), 0.0);
   }
   PairList list;
-  EXPECT_THROW(findPairs(Particles{}, -1.0, list), InputError);
+  Particles nobody;
+  EXPECT_THROW(findPairs(nobody, -1.0, list), InputError);
   Particles lost = cloud(3, 1.0, 4);
   findPairs(lost, 0.1, list);
   lost.x[2].y = NAN;
@@ -165,7 +166,7 @@ Particles run(int threadCount, const Law& law) {
     kick(particles, 0.5 * dt);
     drift(particles, dt);
     updatePairs(particles, list);
-    updateWallCandidates(particles, wall, candidates);
+    updateWallCandidates(particles, wall, candidates, movesOf(particles, dt));
     clearForces(particles);
     collide(particles, list, law, dt);
     findWallContacts(particles, wall, candidates, EdgeRule::projected, contacts);

@@ -83,6 +83,54 @@ TEST(Particles, SumsAreThoseOfTheSpheres) {
   EXPECT_NO_THROW(validate(particles));
 }
 
+TEST(Particles, IdsStayAndAreNeverGivenTwice) {
+  Particles particles;
+  for (int i = 0; i < 6; ++i) addParticle(particles, {1.0 * i, 0, 0}, {}, 0.1, Mass{1.0});
+  EXPECT_EQ(particles.id, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5}));
+  const std::int64_t before = particles.revision;
+  removeParticles(particles, std::vector<int>{5, 2});
+  EXPECT_GT(particles.revision, before);
+  EXPECT_EQ(addParticle(particles, {9, 0, 0}, {}, 0.1, Mass{1.0}), 4);
+  EXPECT_EQ(particles.id.back(), 6);
+  renumber(particles, std::vector<int>{4, 2, 0, 1, 3});
+  EXPECT_NO_THROW(validate(particles));
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(find(particles, particles.id[static_cast<std::size_t>(i)]), i);
+  EXPECT_EQ(particles.x[static_cast<std::size_t>(find(particles, 4))].x, 4.0);
+  for (const std::int64_t gone : {-1, 2, 5, 7}) EXPECT_EQ(find(particles, gone), -1);
+  particles.id[1] = particles.id[3];
+  ++particles.revision;
+  EXPECT_NE(complaint([&] { validate(particles); }).find("id"), std::string::npos);
+}
+
+TEST(Particles, AWeightedParticleMovesAsTheWholeOneUnderItsShareOfTheForce) {
+  Particles whole, part;
+  for (Particles* p : {&whole, &part}) {
+    addParticle(*p, {1, 2, 3}, {4, 5, 6}, 0.1, Mass{2.0});
+    switchOnRotation(*p);
+  }
+  part.weight = {0.25};
+  const Vec3 g{0.5, -1.0, -9.81}, force{1, 2, -3}, torque{0.1, 0.2, 0.3};
+  for (auto [p, share] : {std::pair{&whole, 1.0}, std::pair{&part, 0.25}}) {
+    startForces(*p, g);
+    for (int step = 0; step < 20; ++step) {
+      p->f[0] += share * force;
+      p->torque[0] += share * torque;
+      turnStep(*p, 0.01, g);
+    }
+    kick(*p, 0.005);
+  }
+  EXPECT_EQ(whole.x, part.x);
+  EXPECT_EQ(whole.v, part.v);
+  EXPECT_EQ(whole.omega, part.omega);
+  EXPECT_EQ(0.25 * kineticEnergy(whole), kineticEnergy(part));
+  EXPECT_EQ(0.25 * momentum(whole), momentum(part));
+  EXPECT_EQ(0.25 * angularMomentum(whole), angularMomentum(part));
+  for (const double wrong : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
+    part.weight = {wrong};
+    EXPECT_NE(complaint([&] { validate(part); }).find("weight"), std::string::npos);
+  }
+}
+
 TEST(Particles, NoParticlesIsNoError) {
   Particles particles;
   EXPECT_NO_THROW(validate(particles));

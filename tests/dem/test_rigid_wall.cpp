@@ -55,7 +55,7 @@ struct Billiard {
     drift(balls, dt);
     driftBodies(bodies, dt);
     placeWall(bodies, carrier, wall);
-    updateWallCandidates(balls, wall, candidates);
+    updateWallCandidates(balls, wall, candidates, movesOf(balls, dt));
     findWallContacts(balls, wall, candidates, EdgeRule::projected, contacts);
     clearForces(balls);
     clearForces(bodies);

@@ -19,7 +19,7 @@ struct Run {
 
   template <class Law>
   ContactWork forces(const Law& law) {
-    updateWallCandidates(particles, wall, candidates);
+    updateWallCandidates(particles, wall, candidates, movesOf(particles, dt));
     clearForces(particles);
     applyGravity(particles, g);
     findWallContacts(particles, wall, candidates, rule, contacts);

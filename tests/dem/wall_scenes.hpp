@@ -1,6 +1,7 @@
 // Walls and single-particle scenes that several tests share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -48,6 +49,13 @@ inline TriangulatedWall fold(double bend, double h, bool oneSided = false) {
   return makeWall(std::move(x), std::move(facets), oneSided);
 }
 
+/// Bound on how far particles have moved in a drift over dt.
+inline Moves movesOf(const Particles& particles, double dt) {
+  double fastest = 0.0;
+  for (const Vec3& v : particles.v) fastest = std::max(fastest, norm(v));
+  return {.particles = fastest * std::abs(dt)};
+}
+
 /// Elastic response of a wall to one sphere.
 struct Response {
   double energy = 0.0;
@@ -68,7 +76,7 @@ inline Response respond(const TriangulatedWall& wall, const Vec3& x, double radi
   response.energy = collideWithWall(particles, wall, response.contacts, law).storedEnergy();
   response.force = particles.f[0];
   response.onWall.resize(wall.x.size());
-  addWallForces(response.contacts, wall.facets, response.onWall);
+  addWallForces(response.contacts, wall.x, wall.facets, response.onWall);
   return response;
 }
 

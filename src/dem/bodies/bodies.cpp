@@ -27,6 +27,12 @@ void checkProperties(const MassProperties& p, const std::string& body) {
   }
 }
 
+void checkQuaternion(const Quaternion& q, const std::string& where) {
+  if (const double length = norm(q); !(std::isfinite(length) && length > 0.0))
+    throw InputError("the quaternion has the length " + formatNumber(length), where,
+                     "give one that can be made a unit quaternion");
+}
+
 Vec3 overInertia(const Vec3& l, const Vec3& inertia) { return {l.x / inertia.x, l.y / inertia.y, l.z / inertia.z}; }
 
 /// Turn about principal axis k for the time h.
@@ -48,9 +54,8 @@ int addBody(Bodies& bodies, const MassProperties& properties, const Vec3& x, con
   checkVector(x, body + ", position");
   checkVector(v, body + ", velocity");
   checkVector(omega, body + ", angular velocity");
-  if (const double length = norm(turn); !(std::isfinite(length) && length > 0.0))
-    throw InputError("the quaternion has the length " + formatNumber(length), body + ", orientation",
-                     "give one that can be made a unit quaternion");
+  checkQuaternion(turn, body + ", orientation");
+  checkQuaternion(properties.axes, body + ", principal axes");
   bodies.x.push_back(x);
   bodies.v.push_back(v);
   bodies.f.emplace_back();
@@ -61,6 +66,44 @@ int addBody(Bodies& bodies, const MassProperties& properties, const Vec3& x, con
   bodies.torque.emplace_back();
   setAngularVelocity(bodies, number, omega);
   return number;
+}
+
+void validate(const Bodies& bodies) {
+  const std::size_t n = bodies.size();
+  const auto checkLength = [&](std::size_t length, const char* field) {
+    if (length != n)
+      throw InputError("the array has " + std::to_string(length) + " entries for " + std::to_string(n) + " bodies",
+                       std::string(field) + " of bodies", "add bodies with addBody");
+  };
+  checkLength(bodies.v.size(), "velocity");
+  checkLength(bodies.f.size(), "force");
+  checkLength(bodies.mass.size(), "mass");
+  checkLength(bodies.inertia.size(), "inertia");
+  checkLength(bodies.orientation.size(), "orientation");
+  checkLength(bodies.angularMomentum.size(), "angular momentum");
+  checkLength(bodies.torque.size(), "torque");
+  for (std::size_t b = 0; b < n; ++b) {
+    const std::string body = "body " + std::to_string(b);
+    checkProperties({bodies.mass[b], {}, bodies.inertia[b], {}}, body);
+    checkVector(bodies.x[b], body + ", position");
+    checkVector(bodies.v[b], body + ", velocity");
+    checkVector(bodies.angularMomentum[b], body + ", angular momentum");
+    if (const double length = norm(bodies.orientation[b]); !(std::abs(length - 1.0) <= 1e-12))
+      throw InputError("the quaternion has the length " + formatNumber(length), body + ", orientation",
+                       "give a unit quaternion");
+  }
+}
+
+void requireFinite(const Bodies& bodies, const std::string& when) {
+  dovetail::requireFinite(bodies.x, "body", "position", when);
+  dovetail::requireFinite(bodies.v, "body", "velocity", when);
+  dovetail::requireFinite(bodies.f, "body", "force", when);
+  dovetail::requireFinite(bodies.angularMomentum, "body", "angular momentum", when);
+  dovetail::requireFinite(bodies.torque, "body", "torque", when);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (!std::isfinite(norm(bodies.orientation[b])))
+      throw NumericalError("the orientation is not finite, " + when, "body " + std::to_string(b),
+                           "take a smaller time step, or look for what has turned it");
 }
 
 Vec3 angularVelocity(const Bodies& bodies, int body) {
@@ -105,6 +148,61 @@ void driftBodies(Bodies& bodies, double dt) {
       bodies.orientation[b] = normalized(q);
     }
   });
+}
+
+double applyViscousDamping(Bodies& bodies, double rate) {
+  requireNonNegative(rate, "damping rate");
+  double power = 0.0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    bodies.f[b] -= (rate * bodies.mass[b]) * bodies.v[b];
+    bodies.torque[b] -= rate * bodies.angularMomentum[b];
+    power += rate * (bodies.mass[b] * squaredNorm(bodies.v[b]) +
+                     dot(bodies.angularMomentum[b], angularVelocity(bodies, static_cast<int>(b))));
+  }
+  return power;
+}
+
+double applyLocalDamping(Bodies& bodies, double alpha) {
+  if (!(alpha >= 0.0 && alpha < 1.0))
+    throw InputError("the local damping is " + formatNumber(alpha), "local damping", "give 0 ≤ α < 1, such as 0.7");
+  double power = 0.0;
+  const auto resist = [&](Vec3& force, const Vec3& velocity) {
+    for (int k = 0; k < 3; ++k) {
+      const double size = alpha * std::abs(force[k]);
+      power += size * std::abs(velocity[k]);
+      if (velocity[k] != 0.0) force[k] -= std::copysign(size, velocity[k]);
+    }
+  };
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    resist(bodies.f[b], bodies.v[b]);
+    resist(bodies.torque[b], angularVelocity(bodies, static_cast<int>(b)));
+  }
+  return power;
+}
+
+void wrapPositions(Bodies& bodies, const geometry::Periodicity& space) {
+  for (int k = 0; k < 3; ++k) {
+    if (!space.axes[static_cast<std::size_t>(k)]) continue;
+    const double length = space.length(k), lower = space.box.lower[k];
+    for (Vec3& x : bodies.x) x[k] -= length * std::floor((x[k] - lower) / length);
+  }
+}
+
+void renumber(Bodies& bodies, std::span<const int> newNumber) {
+  const auto compact = [&](auto& values) {
+    std::size_t count = 0;
+    for (std::size_t b = 0; b < newNumber.size(); ++b)
+      if (newNumber[b] >= 0) values[count++] = values[b];
+    values.resize(count);
+  };
+  compact(bodies.x);
+  compact(bodies.v);
+  compact(bodies.f);
+  compact(bodies.mass);
+  compact(bodies.inertia);
+  compact(bodies.orientation);
+  compact(bodies.angularMomentum);
+  compact(bodies.torque);
 }
 
 double kineticEnergy(const Bodies& bodies) {

@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/model/contact_step.hpp"
 
 namespace dovetail::dem {
 
@@ -50,21 +54,27 @@ int addClump(Particles& particles, Bodies& bodies, Clumps& clumps, const ClumpSh
   return body;
 }
 
-double placeMembers(const Bodies& bodies, const Clumps& clumps, Particles& particles) {
+double placeMembers(const Bodies& bodies, const Clumps& clumps, const geometry::Periodicity& space,
+                    Particles& particles) {
   constexpr std::size_t grain = 1024;
-  std::vector<Vec3> omega(bodies.size());
-  for (std::size_t b = 0; b < bodies.size(); ++b) omega[b] = angularVelocity(bodies, static_cast<int>(b));
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> squared((clumps.size() + grain - 1) / grain, 0.0);
   parallelFor(clumps.size(), grain, [&](std::size_t begin, std::size_t end) {
     double& largest = squared[begin / grain];
+    int last = -1;
+    Vec3 omega;
     for (std::size_t m = begin; m < end; ++m) {
       const std::size_t b = at(clumps.body[m]), i = at(clumps.particle[m]);
-      const Vec3 arm = rotate(bodies.orientation[b], clumps.offset[m]), x = bodies.x[b] + arm;
+      if (clumps.body[m] != last) omega = angularVelocity(bodies, clumps.body[m]);
+      last = clumps.body[m];
+      const Vec3 arm = rotate(bodies.orientation[b], clumps.offset[m]);
+      Vec3 x = bodies.x[b] + arm;
+      if (space.any()) x = particles.x[i] + space.minimumImage(x - particles.x[i]);
       const double moved = squaredNorm(x - particles.x[i]);
-      if (!(moved <= largest)) largest = std::isfinite(moved) ? moved : std::numeric_limits<double>::infinity();
+      if (!(moved <= largest)) largest = std::isfinite(moved) ? moved : infinity;
       particles.x[i] = x;
-      particles.v[i] = bodies.v[b] + cross(omega[b], arm);
-      if (particles.rotates()) particles.omega[i] = omega[b];
+      particles.v[i] = bodies.v[b] + cross(omega, arm);
+      if (particles.rotates()) particles.omega[i] = omega;
     }
   });
   double largest = 0.0;
@@ -73,18 +83,76 @@ double placeMembers(const Bodies& bodies, const Clumps& clumps, Particles& parti
 }
 
 void gatherForces(Particles& particles, const Clumps& clumps, Bodies& bodies, const Vec3& gravity) {
-  int last = -1;
+  parallelFor(bodies.size(), 256, [&](std::size_t begin, std::size_t end) {
+    const auto first = std::lower_bound(clumps.body.begin(), clumps.body.end(), static_cast<int>(begin));
+    int last = -1;
+    for (auto m = static_cast<std::size_t>(first - clumps.body.begin()); m < clumps.size(); ++m) {
+      const std::size_t b = at(clumps.body[m]), i = at(clumps.particle[m]);
+      if (b >= end) break;
+      if (clumps.body[m] != last) bodies.f[b] += bodies.mass[b] * gravity;
+      last = clumps.body[m];
+      const Vec3 force = particles.f[i] - particles.mass[i] * gravity;
+      bodies.f[b] += force;
+      bodies.torque[b] += cross(rotate(bodies.orientation[b], clumps.offset[m]), force);
+      particles.f[i] = {};
+      if (!particles.rotates()) continue;
+      bodies.torque[b] += particles.torque[i];
+      particles.torque[i] = {};
+    }
+  });
+}
+
+void renumber(Bodies& bodies, Clumps& clumps, std::span<const int> newNumber) {
+  std::vector<char> gone(bodies.size(), 0), stays(bodies.size(), 0);
+  for (std::size_t m = 0; m < clumps.size(); ++m)
+    (newNumber[at(clumps.particle[m])] < 0 ? gone : stays)[at(clumps.body[m])] = 1;
+  std::vector<int> body(bodies.size());
+  int next = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (gone[b] != 0 && stays[b] != 0)
+      throw InputError("some of its members are gone", "body " + std::to_string(b), "take whole clumps out");
+    body[b] = gone[b] != 0 ? -1 : next++;
+  }
+  if (at(next) < bodies.size()) renumber(bodies, body);
+  std::size_t kept = 0;
   for (std::size_t m = 0; m < clumps.size(); ++m) {
-    const std::size_t b = at(clumps.body[m]), i = at(clumps.particle[m]);
-    const Vec3 force = particles.f[i] - particles.mass[i] * gravity;
-    bodies.f[b] += force;
-    bodies.torque[b] += cross(particles.x[i] - bodies.x[b], force);
-    if (clumps.body[m] != last) bodies.f[b] += bodies.mass[b] * gravity;
-    last = clumps.body[m];
-    particles.f[i] = {};
-    if (!particles.rotates()) continue;
-    bodies.torque[b] += particles.torque[i];
-    particles.torque[i] = {};
+    const int particle = newNumber[at(clumps.particle[m])];
+    if (particle < 0) continue;
+    clumps.body[kept] = body[at(clumps.body[m])];
+    clumps.offset[kept] = clumps.offset[m];
+    clumps.particle[kept++] = particle;
+  }
+  clumps.particle.resize(kept);
+  clumps.body.resize(kept);
+  clumps.offset.resize(kept);
+}
+
+std::vector<char> members(const Particles& particles, const Clumps& clumps) {
+  std::vector<char> member(particles.size(), 0);
+  for (const int i : clumps.particle) member[at(i)] = 1;
+  return member;
+}
+
+void check(const Particles& particles, const Bodies& bodies, const Clumps& clumps) {
+  if (clumps.body.size() != clumps.size() || clumps.offset.size() != clumps.size())
+    throw InputError("the arrays differ in length", "clumps", "add clumps with addClump");
+  std::vector<char> member(particles.size(), 0);
+  int last = 0;
+  for (std::size_t m = 0; m < clumps.size(); ++m) {
+    const int body = clumps.body[m], i = clumps.particle[m];
+    const std::string where = "clump of body " + std::to_string(body);
+    if (body < last || at(body) >= bodies.size())
+      throw InputError("there is no such body here, or bodies are out of order", where, "add clumps with addClump");
+    last = body;
+    if (i < 0 || at(i) >= particles.size())
+      throw InputError("there is no particle " + std::to_string(i), where,
+                       "call renumber when particles have been removed");
+    if (std::exchange(member[at(i)], char{1}) != 0)
+      throw InputError("particle " + std::to_string(i) + " is a member twice", where, "add clumps with addClump");
+    if (particles.mass[at(i)] != bodies.mass[at(body)])
+      throw InputError("particle " + std::to_string(i) + " is not as heavy as its body", where,
+                       "give members the mass of the body");
+    if (!isFinite(clumps.offset[m])) throw InputError("an offset is not finite", where, "give three finite numbers");
   }
 }
 
@@ -112,9 +180,25 @@ CriticalStep criticalStep(const Bodies& bodies, const Clumps& clumps, const Line
   return step;
 }
 
+void addDemand(ContactDemand& demand, const Particles& particles, const Bodies& bodies, const Clumps& clumps) {
+  if (clumps.size() == 0) return;
+  demand.body.resize(particles.size(), -1);
+  demand.lever.resize(particles.size(), 1.0);
+  for (std::size_t m = 0; m < clumps.size(); ++m) {
+    const std::size_t b = at(clumps.body[m]), i = at(clumps.particle[m]);
+    const double mass = bodies.mass[b], radius = particles.radius[i];
+    const double least = std::min({bodies.inertia[b].x, bodies.inertia[b].y, bodies.inertia[b].z});
+    const double central = turnability(clumps.offset[m], bodies.inertia[b]);
+    const double arm = std::sqrt(central) + radius / std::sqrt(least);  // a bound on the root of λ on the surface
+    // Where particles spin, the demand holds 7/2 of a tangential stiffness and the rolling one over 2/5 R².
+    const double side = std::max((1.0 / mass + arm * arm) / 3.5, radius * radius / (2.5 * least));
+    demand.body[i] = clumps.body[m];
+    demand.lever[i] = 1.0 + mass * (central + (particles.rotates() ? side : 0.0));
+  }
+}
+
 double freeKineticEnergy(const Particles& particles, const Clumps& clumps) {
-  std::vector<char> member(particles.size(), 0);
-  for (const int i : clumps.particle) member[at(i)] = 1;
+  const std::vector<char> member = members(particles, clumps);
   return parallelSum(particles.size(), 4096, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) {

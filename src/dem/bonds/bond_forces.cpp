@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
+#include <utility>
 
-#include "dovetail/core/error.hpp"
+#include "bond_ends.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bonds/bonds.hpp"
@@ -77,88 +77,62 @@ double addDamping(const Bond& bond, const Line& line, const Vec3& velocity, cons
   return axial * along + dot(moment, sliding) + dot(couple, relative);
 }
 
-ContactWork answerBond(const Particles& particles, Bonds& bonds, std::size_t b, double dt) {
+/// What a chunk of bonds stores and loses, and how many of it break.
+struct Answer {
+  ContactWork work;
+  int broken = 0;
+  Answer& operator+=(const Answer& b) {
+    work += b.work;
+    broken += b.broken;
+    return *this;
+  }
+};
+
+Answer answerBond(const Particles& particles, Bonds& bonds, const geometry::Periodicity& space, std::size_t b,
+                  double dt) {
   Bond& bond = bonds.bonds[b];
   const auto i = static_cast<std::size_t>(bond.i), j = static_cast<std::size_t>(bond.j);
   const Vec3 omegaI = particles.omega[i], omegaJ = particles.omega[j];
   turnEnds(bond, omegaI, omegaJ, dt);
-  const Vec3 d = bonds.periodicity.minimumImage(particles.x[j] - particles.x[i]);
+  const Vec3 d = space.minimumImage(particles.x[j] - particles.x[i]);
   const double length = norm(d);
   const Line line{length > 0.0 ? d / length : bond.directionI, length > 0.0 ? length : bond.length};
-  ContactWork work;
+  Answer answer;
   double& energy = bonds.energy[b];
   Bonds::Forces& f = bonds.forces[b];
   f = elasticForces(bond, line, energy);
   bonds.utilised[b] = utilisation(bond, line, f);
   if (dt > 0.0 && bonds.utilised[b] > 1.0) {
     f = {};
-    work.fracturePower = energy / dt;
-    return work;
+    answer.work.fracturePower = energy / dt;
+    answer.broken = 1;
+    return answer;
   }
-  work.elasticEnergy = energy;
+  answer.work.elasticEnergy = energy;
   if (bond.dampingTime > 0.0)
-    work.dissipatedPower = addDamping(bond, line, particles.v[j] - particles.v[i], omegaI, omegaJ, f);
-  return work;
-}
-
-/// Forces to the particles, in the order of the bonds; broken bonds leave.
-void scatter(Particles& particles, Bonds& bonds, bool breaks) {
-  std::size_t kept = 0;
-  for (std::size_t b = 0; b < bonds.size(); ++b) {
-    if (breaks && bonds.utilised[b] > 1.0) continue;
-    const Bond& bond = bonds.bonds[b];
-    const auto i = static_cast<std::size_t>(bond.i), j = static_cast<std::size_t>(bond.j);
-    const Bonds::Forces& f = bonds.forces[b];
-    particles.f[i] -= f.force;
-    particles.f[j] += f.force;
-    particles.torque[i] += f.torqueI;
-    particles.torque[j] += f.torqueJ;
-    if (kept != b) {
-      bonds.bonds[kept] = bond;
-      bonds.forces[kept] = f;
-      bonds.energy[kept] = bonds.energy[b];
-      bonds.utilised[kept] = bonds.utilised[b];
-    }
-    ++kept;
-  }
-  bonds.bonds.resize(kept);
-  bonds.forces.resize(kept);
-  bonds.energy.resize(kept);
-  bonds.utilised.resize(kept);
-}
-
-void checkNumbers(const Particles& particles, Bonds& bonds) {
-  if (!particles.rotates()) throw InputError("the particles do not spin", "bonds", "call switchOnRotation before");
-  if (bonds.particles == particles.size()) return;
-  const auto count = static_cast<int>(particles.size());
-  for (std::size_t b = 0; b < bonds.size(); ++b)
-    for (const int k : {bonds.bonds[b].i, bonds.bonds[b].j})
-      if (k < 0 || k >= count)
-        throw InputError("there is no particle " + std::to_string(k), "bond " + std::to_string(b),
-                         "call renumber when particles have been removed");
-  bonds.particles = particles.size();
+    answer.work.dissipatedPower = addDamping(bond, line, particles.v[j] - particles.v[i], omegaI, omegaJ, f);
+  return answer;
 }
 
 }  // namespace
 
-ContactWork exchangeBonds(Particles& particles, Bonds& bonds, double dt) {
+ContactWork exchangeBonds(Particles& particles, Bonds& bonds, const geometry::Periodicity& space, double dt) {
   requireNonNegative(dt, "time step of bonds");
-  if (bonds.size() > 0) checkNumbers(particles, bonds);
+  detail::updateEnds(particles, bonds);
   bonds.forces.resize(bonds.size());
   bonds.energy.resize(bonds.size());
   bonds.utilised.resize(bonds.size());
-  ContactWork work;
-  if (dt > 0.0) {
-    work.fracturePower = bonds.ended / dt;
-    bonds.ended = 0.0;
-  }
-  work += parallelSum(bonds.size(), 512, [&](std::size_t begin, std::size_t end) {
-    ContactWork sum;
-    for (std::size_t b = begin; b < end; ++b) sum += answerBond(particles, bonds, b, dt);
+  Answer answer;
+  if (dt > 0.0) answer.work.fracturePower = std::exchange(bonds.ended, 0.0) / dt;
+  answer += parallelSum(bonds.size(), 512, [&](std::size_t begin, std::size_t end) {
+    Answer sum;
+    for (std::size_t b = begin; b < end; ++b) sum += answerBond(particles, bonds, space, b, dt);
     return sum;
   });
-  scatter(particles, bonds, dt > 0.0);
-  return work;
+  for (std::size_t b = answer.broken > 0 ? bonds.size() : 0; b-- > 0;)
+    if (bonds.utilised[b] > 1.0) detail::removeBond(bonds, b);
+  detail::gatherForces(bonds, particles);
+  return answer.work;
 }
 
 }  // namespace dovetail::dem

@@ -43,7 +43,8 @@ void validate(const BondMaterial& material) {
   requireNonNegative(material.dampingTime, "damping time of bonds");
 }
 
-int addBond(Bonds& bonds, const Particles& particles, int i, int j, const BondMaterial& material) {
+int addBond(Bonds& bonds, const Particles& particles, const geometry::Periodicity& space, int i, int j,
+            const BondMaterial& material) {
   validate(material);
   const auto exists = [&](int k) { return k >= 0 && static_cast<std::size_t>(k) < particles.size(); };
   const std::string where = "bond between particles " + std::to_string(i) + " and " + std::to_string(j);
@@ -51,7 +52,7 @@ int addBond(Bonds& bonds, const Particles& particles, int i, int j, const BondMa
     throw InputError("these are not two particles", where,
                      "give two numbers below " + std::to_string(particles.size()));
   const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-  const Vec3 d = bonds.periodicity.minimumImage(particles.x[b] - particles.x[a]);
+  const Vec3 d = space.minimumImage(particles.x[b] - particles.x[a]);
   const double length = norm(d), r = material.radiusRatio * std::min(particles.radius[a], particles.radius[b]);
   if (!(length > 0.0) || !std::isfinite(length))
     throw InputError("the centres are " + formatNumber(length) + " m apart", where,
@@ -78,7 +79,6 @@ int addBond(Bonds& bonds, const Particles& particles, int i, int j, const BondMa
   bond.directionJ = -bond.directionI;
   bond.acrossI = bond.acrossJ = anyAcross(bond.directionI);
   bonds.bonds.push_back(bond);
-  bonds.particles = 0;
   return static_cast<int>(bonds.size()) - 1;
 }
 
@@ -90,15 +90,41 @@ int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list,
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     const double distance = norm(particles.x[a] - particles.x[b] + list.shift(p));
     if (distance > particles.radius[a] + particles.radius[b] + gap) continue;
-    addBond(bonds, particles, i, j, material);
+    addBond(bonds, particles, list.periodicity, i, j, material);
     ++count;
   }
   return count;
 }
 
+namespace {
+
+/// Bonds that lie near each other in memory are those of particles that do.
+void sortByParticle(Bonds& bonds) {
+  std::vector<std::array<int, 3>> order;
+  order.reserve(bonds.size());
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const Bond& bond = bonds.bonds[b];
+    order.push_back({std::min(bond.i, bond.j), std::max(bond.i, bond.j), static_cast<int>(b)});
+  }
+  if (std::is_sorted(order.begin(), order.end())) return;
+  std::sort(order.begin(), order.end());
+  const std::vector<Bond> old = std::move(bonds.bonds);
+  const std::vector<double> energy = std::move(bonds.energy);
+  bonds.bonds.clear();
+  bonds.energy.clear();
+  for (const auto& entry : order) {
+    bonds.bonds.push_back(old[static_cast<std::size_t>(entry[2])]);
+    bonds.energy.push_back(energy[static_cast<std::size_t>(entry[2])]);
+  }
+}
+
+}  // namespace
+
 void renumber(Bonds& bonds, std::span<const int> newNumber) {
   std::size_t kept = 0;
-  bonds.particles = 0;
+  bonds.ends = {};
+  bonds.forces.clear();
+  bonds.utilised.clear();
   bonds.energy.resize(bonds.size(), 0.0);
   for (std::size_t b = 0; b < bonds.size(); ++b) {
     Bond bond = bonds.bonds[b];
@@ -113,6 +139,7 @@ void renumber(Bonds& bonds, std::span<const int> newNumber) {
   }
   bonds.bonds.resize(kept);
   bonds.energy.resize(kept);
+  sortByParticle(bonds);
 }
 
 void muteBonded(const Bonds& bonds, PairList& list) {
@@ -123,29 +150,6 @@ void muteBonded(const Bonds& bonds, PairList& list) {
     if (found != list.pairs.end() && *found == pair)
       list.scale[static_cast<std::size_t>(found - list.pairs.begin())] = 0.0;
   }
-}
-
-double criticalStep(const Particles& particles, const Bonds& bonds) {
-  // What a bond asks of a particle, 1/s²: the largest of its axial, twisting and bending shares.
-  const auto demand = [&](const Bond& bond, int k) {
-    const double mass = particles.mass[static_cast<std::size_t>(k)], inertia = momentOfInertia(particles, k);
-    const double lever = 0.25 * bond.length * bond.length;
-    return std::max({bond.normal / mass, bond.twisting / inertia,
-                     bond.shear / mass + (bond.shear * lever + bond.bending) / inertia});
-  };
-  std::vector<double> stiff(particles.size(), 0.0), damped(particles.size(), 0.0);
-  for (const Bond& bond : bonds.bonds)
-    for (const int k : {bond.i, bond.j}) {
-      stiff[static_cast<std::size_t>(k)] += demand(bond, k);
-      damped[static_cast<std::size_t>(k)] += bond.dampingTime * demand(bond, k);
-    }
-  double least = std::numeric_limits<double>::infinity();
-  for (const Bond& bond : bonds.bonds) {
-    const auto i = static_cast<std::size_t>(bond.i), j = static_cast<std::size_t>(bond.j);
-    const double largest = stiff[i] + stiff[j], damping = damped[i] + damped[j];  // ω², 2 ζ ω
-    least = std::min(least, 4.0 / (damping + std::sqrt(damping * damping + 4.0 * largest)));
-  }
-  return least;
 }
 
 }  // namespace dovetail::dem

@@ -6,6 +6,7 @@
 #include "dovetail/dem/laws/adhesion.hpp"
 #include "dovetail/dem/laws/elastic_plastic.hpp"
 #include "dovetail/dem/laws/hertz_mindlin.hpp"
+#include "dovetail/dem/laws/liquid_bridge.hpp"
 #include "dovetail/dem/laws/restitution.hpp"
 #include "dovetail/dem/laws/rolling.hpp"
 
@@ -91,5 +92,17 @@ void validate(const LinearCohesion& part) {
   requireNonNegative(part.pressure, "cohesion pressure");
 }
 void validate(const DmtAdhesion& part) { requireNonNegative(part.work, "work of adhesion"); }
+void validate(const LiquidBridge& part) {
+  requireNonNegative(part.surfaceTension, "surface tension");
+  requirePositive(part.volume, "volume of a liquid bridge");
+  if (!(part.contactAngle >= 0.0 && part.contactAngle < 0.5 * std::numbers::pi))
+    throw InputError("the contact angle is " + formatNumber(part.contactAngle) + " rad", "liquid bridge",
+                     "give 0 ≤ θ < π/2; others do not wet");
+}
+void validate(const Cohesion& part) {
+  validate(ConstantCohesion{part.force});
+  validate(LinearCohesion{part.stiffness, part.pressure});
+  validate(DmtAdhesion{part.work});
+}
 
 }  // namespace dovetail::dem

@@ -1,142 +1,185 @@
 #include "dovetail/dem/model/model.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/dem/model/checkpoint.hpp"
-#include "dovetail/dem/particles/damping.hpp"
-#include "dovetail/dem/setup/insertion.hpp"
+#include "events.hpp"
 
-namespace dovetail::dem::detail {
+namespace dovetail::dem {
 
 namespace {
 
-std::string name(const Particles& particles, std::size_t i) {
-  const auto id = particles.id.empty() ? static_cast<std::int64_t>(i) : particles.id[i];
-  return "particle " + std::to_string(id);
+/// Times a stage, if anybody asks.
+template <class Work>
+void timed(const Model& m, const char* stage, Work&& work) {
+  if (!m.profile) return work();
+  const Profile::Stage timer(*m.profile, stage);
+  work();
 }
 
-std::string state(const Particles& particles, std::size_t i) {
-  const auto text = [](const Vec3& v) {
-    return "(" + formatNumber(v.x) + ", " + formatNumber(v.y) + ", " + formatNumber(v.z) + ")";
-  };
-  return "at " + text(particles.x[i]) + " m with " + text(particles.v[i]) + " m/s";
+bool prescribed(const Model& m) {
+  return std::any_of(m.terms.begin(), m.terms.end(), [](const auto& term) { return term->prescribes(); });
 }
 
-bool inside(const geometry::Box& box, const Vec3& x) {
-  return x.x >= box.lower.x && x.y >= box.lower.y && x.z >= box.lower.z && x.x <= box.upper.x && x.y <= box.upper.y &&
-         x.z <= box.upper.z;
+void prescribe(Model& m, const Step& step, Half half) {
+  for (const auto& term : m.terms)
+    if (term->prescribes()) term->prescribe(m, step, half);
 }
 
-void book(const Particles& particles, std::size_t i, const Vec3& gravity, Escaped& escaped) {
-  ++escaped.count;
-  escaped.mass += particles.mass[i];
-  escaped.energy += particles.mass[i] * (0.5 * squaredNorm(particles.v[i]) - dot(gravity, particles.x[i]));
-  if (particles.rotates())
-    escaped.energy += 0.5 * momentOfInertia(particles, static_cast<int>(i)) * squaredNorm(particles.omega[i]);
+/// A step that begins now.
+Step begin(Model& m, double dt) {
+  requirePositive(dt, "time step");
+  if (dt != m.step.dt || m.steps == 0) {
+    m.timeBase = m.time;
+    m.stepsBase = m.steps;
+  }
+  ++m.steps;
+  m.time = m.timeBase + static_cast<double>(m.steps - m.stepsBase) * dt;
+  return {.time = m.time, .dt = dt, .number = m.steps, .closing = m.open};
+}
+
+/// Kicks and drift of the particles; the largest displacement, m.
+double sweep(Model& m, const Step& step) {
+  if (prescribed(m)) {
+    if (step.closing > 0.0) {
+      kick(m.particles, 0.5 * step.closing);
+      prescribe(m, m.step, Half::second);
+    }
+    kick(m.particles, 0.5 * step.dt);
+    prescribe(m, step, Half::first);
+    drift(m.particles, step.dt);
+    startForces(m.particles, m.gravity);
+    return step.dt * largestSpeed(m.particles);
+  }
+  if (step.closing == step.dt) return turnStep(m.particles, step.dt, m.gravity);
+  if (step.closing > 0.0) kick(m.particles, 0.5 * step.closing);
+  return startStep(m.particles, step.dt, m.gravity);
+}
+
+void moveTerms(Model& m, Step& step) {
+  for (const auto& term : m.terms) step.moved += term->move(m, step);
+}
+
+/// Half a kick's worth of the powers, J.
+void bookHalf(Model& m, double dt) {
+  m.booked.lost.dissipatedPower += 0.5 * dt * m.rate.lost.dissipatedPower;
+  m.booked.damping += 0.5 * dt * m.rate.damping;
+  m.booked.walls += 0.5 * dt * m.rate.walls;
+  m.booked.external += 0.5 * dt * m.rate.external;
+}
+
+/// What springs lost as they slid, yielded and broke in this step.
+void bookLosses(Model& m, double dt) {
+  ContactWork& lost = m.booked.lost;
+  lost.frictionPower += dt * m.work.frictionPower;
+  lost.rollingPower += dt * m.work.rollingPower;
+  lost.plasticPower += dt * m.work.plasticPower;
+  lost.fracturePower += dt * m.work.fracturePower;
+}
+
+/// The step's last half kick is not for those who came in at its end: it will be taken back from what they have.
+void welcome(Model& m) {
+  for (const std::int64_t id : m.newcomers) {
+    const int number = find(m.particles, id);
+    if (number < 0) continue;  // gone again
+    const auto i = static_cast<std::size_t>(number);
+    const double half = 0.5 * m.step.dt / m.particles.weightOf(i);
+    m.particles.v[i] -= (half / m.particles.mass[i]) * m.particles.f[i];
+    if (m.particles.rotates())
+      m.particles.omega[i] -= (half / momentOfInertia(m.particles, static_cast<int>(i))) * m.particles.torque[i];
+  }
+  m.newcomers.clear();
+}
+
+/// Everything that must be right before particles move: once at the start, and when somebody has added or taken out
+/// particles between steps.
+void prepare(Model& m, double dt) {
+  const bool changed = m.forcesOf != m.particles.revision;
+  if (!changed && dt == m.checkedStep) return;
+  if (changed) findForces(m);
+  if (m.refusesUnstableSteps) requireStableStep(m, dt);
+  m.checkedStep = dt;
 }
 
 }  // namespace
 
-std::string when(double time, std::int64_t steps) {
-  return "t = " + formatNumber(time) + " s, step " + std::to_string(steps);
+void move(Model& m, double dt) {
+  prepare(m, dt);
+  timed(m, "move", [&] {
+    Step step = begin(m, dt);
+    bookHalf(m, dt);
+    step.moved = sweep(m, step);
+    moveTerms(m, step);
+    m.step = step;
+    m.open = dt;
+  });
+  if (!(m.step.moved <= m.smallestRadius)) requireShortMoves(m.particles, dt, when(m));
 }
 
-double beginStep(Particles& particles, double dt, const Vec3& gravity, bool open) {
-  return open ? turnStep(particles, dt, gravity) : startStep(particles, dt, gravity);
+void renew(Model& m) {
+  timed(m, "find pairs", [&] {
+    for (const auto& term : m.terms) term->exchange(m, m.step);
+    renewPairs(m);
+  });
 }
 
-double smallestRadius(const Particles& particles) {
-  return particles.size() == 0 ? 0.0 : *std::min_element(particles.radius.begin(), particles.radius.end());
-}
-
-void requireShortMoves(const Particles& particles, double dt, const std::string& when) {
-  requireFinite(particles, when);
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    if (norm(particles.v[i]) * dt > particles.radius[i])
-      throw NumericalError("it moved farther than its radius in one step, " + when + ", " + state(particles, i),
-                           name(particles, i), "take a smaller time step, or look for what has thrown it");
-}
-
-void moveWalls(std::vector<PrimitiveWall>& walls, std::vector<MeshWall>& meshes, double time, double dt) {
-  for (PrimitiveWall& wall : walls) {
-    if (wall.motion) wall.motion(time, wall);
-    drift(wall, dt);
+void addForces(Model& m) {
+  const double dt = m.step.dt;
+  m.work = {};
+  m.rate = {};
+  if (m.laws) timed(m, "pairs", [&] { m.work += m.laws->pairs(m.particles, m.pairs, dt, m.booking); });
+  for (const auto& term : m.terms) {
+    if (!m.profile)
+      term->addForces(m, m.step);
+    else
+      timed(m, term->name().c_str(), [&] { term->addForces(m, m.step); });
   }
-  for (MeshWall& mesh : meshes)
-    if (mesh.motion) placeWall(mesh.motion(time), mesh.offset, mesh.wall);
-}
-
-std::vector<int> checkDomain(Particles& particles, PairList& list, const std::optional<Domain>& domain,
-                             const Vec3& gravity, Escaped& escaped, const std::string& when) {
-  if (!domain) return {};
-  std::vector<int> out;
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    if (!inside(domain->box, particles.x[i])) out.push_back(static_cast<int>(i));
-  if (out.empty()) return {};
-  const auto first = static_cast<std::size_t>(out.front());
-  if (domain->policy == EscapePolicy::refuse)
-    throw NumericalError("it has left the domain, " + when + ", " + state(particles, first) + " (" +
-                             std::to_string(out.size()) + " in all)",
-                         name(particles, first),
-                         "take a smaller time step, a larger domain, or the policy that removes particles");
-  for (const int i : out) book(particles, static_cast<std::size_t>(i), gravity, escaped);
-  const std::vector<int> newNumber = removeParticles(particles, out);
-  renumber(list, newNumber);
-  findPairs(particles, list.skin, list);
-  return newNumber;
-}
-
-void renumberWalls(std::vector<PrimitiveWall>& walls, std::vector<MeshWall>& meshes, std::span<const int> newNumber) {
-  for (PrimitiveWall& wall : walls) renumber(wall, newNumber);
-  for (MeshWall& mesh : meshes) {
-    renumber(mesh.contacts, newNumber);
-    mesh.candidates.builds = 0;
+  for (const auto& term : m.terms) term->book(m, m.step);
+  welcome(m);
+  m.rate.lost.dissipatedPower = m.work.dissipatedPower;
+  if (!m.step.timeless) {
+    bookHalf(m, dt);
+    if (m.booking == Booking::on) bookLosses(m, dt);
   }
+  m.forcesOf = m.particles.revision;
 }
 
-double wallPower(const PrimitiveWall& wall) {
-  return -dot(wall.force, wall.velocity) - dot(wall.torque, wall.angularVelocity);
+void findForces(Model& m) {
+  constexpr double noTime = 1e-100;  // s: so short that no memory advances
+  if (m.forcesOf != m.particles.revision) {
+    if (m.rotation == Rotation::automatic && m.laws && m.laws->rotates()) switchOnRotation(m.particles);
+    check(m);
+    m.smallestRadius = smallestRadius(m.particles);
+  }
+  const Step last = m.step;
+  m.step.dt = noTime;
+  m.step.timeless = true;
+  m.step.moved = std::numeric_limits<double>::infinity();
+  renewPairs(m);
+  startForces(m.particles, m.gravity);
+  addForces(m);
+  m.work.frictionPower = m.work.rollingPower = m.work.plasticPower = m.work.fracturePower = 0.0;
+  m.step = last;
 }
 
-double meshPower(const MeshWall& mesh) { return mesh.motion ? -forcePower(mesh.wall) : 0.0; }
-
-void bookLosses(Energies& booked, const ContactWork& work, double dt) {
-  booked.lost.dissipatedPower += dt * work.dissipatedPower;
-  booked.lost.frictionPower += dt * work.frictionPower;
-  booked.lost.rollingPower += dt * work.rollingPower;
-  booked.lost.plasticPower += dt * work.plasticPower;
-  booked.lost.fracturePower += dt * work.fracturePower;
+void close(Model& m) {
+  if (m.open == 0.0) return;
+  kick(m.particles, 0.5 * m.open);
+  prescribe(m, m.step, Half::second);
+  for (const auto& term : m.terms) term->close(m, m.open);
+  m.open = 0.0;
 }
 
-void requireSame(const WallCounts& saved, const WallCounts& here, const std::filesystem::path& path) {
-  if (saved.walls != here.walls || saved.meshes != here.meshes)
-    throw InputError("the checkpoint has " + std::to_string(saved.walls) + " primitive and " +
-                         std::to_string(saved.meshes) + " triangulated walls, the model " + std::to_string(here.walls) +
-                         " and " + std::to_string(here.meshes),
-                     path.string(), "set the model up as it was when the checkpoint was written");
-  if (saved.memory != here.memory)
-    throw InputError("contacts in the checkpoint remember " + std::to_string(saved.memory) +
-                         " numbers, under this law " + std::to_string(here.memory),
-                     path.string(), "read it with the law that wrote it");
+void advance(Model& m, double dt) {
+  move(m, dt);
+  renew(m);
+  addForces(m);
 }
 
-void requireBelow(const ContactStep& limit, double dt) {
-  if (dt <= limit.dt) return;
-  const std::string partner = limit.partner < 0 ? "a wall" : "particle " + std::to_string(limit.partner);
-  throw InputError(
-      "dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) +
-          " s that the contact of particle " + std::to_string(limit.particle) + " with " + partner + " sets",
-      "time step", "take a fifth of the limit or less, softer contacts, or scaleMasses for quasi-static scenes");
+void run(Model& m, double dt, std::int64_t n) {
+  for (std::int64_t i = 0; i < n; ++i) advance(m, dt);
+  close(m);
 }
 
-double applyDamping(Particles& particles, double viscousRate, double local) {
-  double power = 0.0;
-  if (viscousRate > 0.0) power += applyViscousDamping(particles, viscousRate);
-  if (local > 0.0) power += applyLocalDamping(particles, local);
-  return power;
-}
-
-}  // namespace dovetail::dem::detail
+}  // namespace dovetail::dem

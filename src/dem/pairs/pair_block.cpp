@@ -39,13 +39,13 @@ void gatherRadii(const Particles& particles, const std::array<int, 2>* pairs, st
                  ContactBlock& block) {
   const double* const radius = particles.radius.data();
   if (same) {
-    std::fill_n(block.armI.begin(), n, radius[0]);
-    std::fill_n(block.armJ.begin(), n, radius[0]);
+    std::fill_n(block.radiusI.begin(), n, radius[0]);
+    std::fill_n(block.radiusJ.begin(), n, radius[0]);
     return;
   }
   for (std::size_t l = 0; l < n; ++l) {
-    block.armI[l] = radius[pairs[l][0]];
-    block.armJ[l] = radius[pairs[l][1]];
+    block.radiusI[l] = radius[pairs[l][0]];
+    block.radiusJ[l] = radius[pairs[l][1]];
   }
 }
 
@@ -102,13 +102,13 @@ void scatterForces(Particles& particles, PairList& list, PairCursor& cursor, std
       sum.store(particles);
       sum = Sum<spins>(particles, i);
     }
-    const Vec3 force = block.velocity.at(l);
+    const Vec3 force = block.force.at(l);
     sum.force += force;
     Vec3 torqueJ;
     if constexpr (spins) {
-      const Vec3 turned = block.separation.at(l), couple = block.spinI.at(l);
-      sum.torque += couple - block.armI[l] * turned;
-      torqueJ = -(couple + block.armJ[l] * turned);
+      const Vec3 turning = block.turning.at(l), couple = block.couple.at(l);
+      sum.torque += couple - block.armI[l] * turning;
+      torqueJ = -(couple + block.armJ[l] * turning);
     }
     if (j < chunkEnd) {
       f[j] -= force;
@@ -144,7 +144,7 @@ void findUniform(const Particles& particles, PairRows& rows) {
     return differs == 0.0;
   };
   rows.oneRadius = uniform(particles.radius);
-  rows.oneMass = rows.mass && uniform(particles.mass);
+  rows.oneMass = rows.mass && particles.weight.empty() && uniform(particles.mass);
 }
 
 void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block) {
@@ -153,9 +153,9 @@ void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& 
   else if (rows.oneMass)
     block.rootMass.fill(std::sqrt(0.5 * particles.mass[0]));
   if (!rows.radius)
-    block.radius.fill(0.0);
+    block.effectiveRadius.fill(0.0);
   else if (rows.oneRadius)
-    block.radius.fill(0.5 * particles.radius[0]);
+    block.effectiveRadius.fill(0.5 * particles.radius[0]);
 }
 
 PairCursor startOfChunk(const PairList& list, std::size_t chunk) {
@@ -170,8 +170,9 @@ std::size_t gatherPairs(const Particles& particles, const PairList& list, const 
   announce(particles, list, first, n, rows.spins && particles.rotates());
   gatherCentres(particles, pairs, n, block);
   for (; cursor.image < list.images.size() && list.images[cursor.image].pair < first + n; ++cursor.image) {
-    const auto& [pair, shift] = list.images[cursor.image];
-    block.separation.set(pair - first, block.separation.at(pair - first) + shift);
+    const PairImage& image = list.images[cursor.image];
+    const std::size_t l = image.pair - first;
+    block.separation.set(l, block.separation.at(l) + list.shift(image));
   }
   gatherRadii(particles, pairs, n, rows.oneRadius, block);
   if (rows.mass && !rows.oneMass) gatherMasses(particles, {pairs, n}, block);

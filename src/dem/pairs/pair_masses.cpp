@@ -10,12 +10,17 @@ void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>
     a[l] = mass[pairs[l][0]];
     b[l] = mass[pairs[l][1]];
   }
+  if (!particles.weight.empty())
+    for (std::size_t l = 0; l < pairs.size(); ++l) {
+      a[l] *= particles.weight[static_cast<std::size_t>(pairs[l][0])];
+      b[l] *= particles.weight[static_cast<std::size_t>(pairs[l][1])];
+    }
   for (std::size_t l = 0; l < pairs.size(); ++l) block.rootMass[l] = std::sqrt(a[l] * (b[l] / (a[l] + b[l])));
 }
 
 void makeRadii(std::size_t n, ContactBlock& block) {
   for (std::size_t l = 0; l < n; ++l)
-    block.radius[l] = block.armI[l] * (block.armJ[l] / (block.armI[l] + block.armJ[l]));
+    block.effectiveRadius[l] = block.radiusI[l] * (block.radiusJ[l] / (block.radiusI[l] + block.radiusJ[l]));
 }
 
 }  // namespace dovetail::dem::detail

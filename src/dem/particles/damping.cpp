@@ -26,16 +26,18 @@ double resist(Vec3& force, const Vec3& velocity, double alpha) {
 
 }  // namespace
 
-double applyViscousDamping(Particles& particles, double rate) {
+double applyViscousDamping(Particles& particles, double rate, std::span<const char> skip) {
   requireNonNegative(rate, "damping rate");
   return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
     double power = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 force = (rate * particles.mass[i]) * particles.v[i];
+      if (!skip.empty() && skip[i] != 0) continue;
+      const double weighted = rate * particles.weightOf(i);
+      const Vec3 force = (weighted * particles.mass[i]) * particles.v[i];
       particles.f[i] -= force;
       power += dot(force, particles.v[i]);
       if (!particles.rotates()) continue;
-      const Vec3 torque = (rate * momentOfInertia(particles, static_cast<int>(i))) * particles.omega[i];
+      const Vec3 torque = (weighted * momentOfInertia(particles, static_cast<int>(i))) * particles.omega[i];
       particles.torque[i] -= torque;
       power += dot(torque, particles.omega[i]);
     }
@@ -43,12 +45,13 @@ double applyViscousDamping(Particles& particles, double rate) {
   });
 }
 
-double applyLocalDamping(Particles& particles, double alpha) {
+double applyLocalDamping(Particles& particles, double alpha, std::span<const char> skip) {
   if (!(alpha >= 0.0 && alpha < 1.0))
     throw InputError("the local damping is " + formatNumber(alpha), "local damping", "give 0 ≤ α < 1, such as 0.7");
   return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
     double power = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
+      if (!skip.empty() && skip[i] != 0) continue;
       power += resist(particles.f[i], particles.v[i], alpha);
       if (particles.rotates()) power += resist(particles.torque[i], particles.omega[i], alpha);
     }

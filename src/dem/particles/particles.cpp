@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
@@ -12,8 +12,6 @@
 namespace dovetail::dem {
 
 namespace {
-
-constexpr std::size_t grain = 4096;
 
 std::string place(std::size_t particle, const char* field) {
   return "particle " + std::to_string(particle) + ", " + field;
@@ -27,6 +25,39 @@ void checkPositive(double value, std::size_t particle, const char* field) {
   if (!std::isfinite(value) || value <= 0.0)
     throw InputError("the value is " + formatNumber(value), place(particle, field),
                      "give a finite number greater than zero");
+}
+
+void checkWeight(double value, std::size_t particle) {
+  if (!(value > 0.0 && value <= 1.0))
+    throw InputError("the value is " + formatNumber(value), place(particle, "weight"),
+                     "give the share of the particle that is modelled, above 0 and at most 1");
+}
+
+/// Numbers of the particles by ascending id.
+const std::vector<int>& byId(const Particles& particles) {
+  std::vector<int>& order = particles.byId;
+  if (particles.byIdRevision == particles.revision && order.size() == particles.size()) return order;
+  order.resize(particles.size());
+  std::iota(order.begin(), order.end(), 0);
+  const std::int64_t* const id = particles.id.data();
+  if (!std::is_sorted(particles.id.begin(), particles.id.end()))
+    std::sort(order.begin(), order.end(), [id](int a, int b) { return id[a] < id[b]; });
+  particles.byIdRevision = particles.revision;
+  return order;
+}
+
+void checkIds(const Particles& particles) {
+  const std::vector<int>& order = byId(particles);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto i = static_cast<std::size_t>(order[k]);
+    const std::int64_t id = particles.id[i];
+    if (id < 0 || id >= particles.nextId)
+      throw InputError("the id is " + std::to_string(id) + ", the next one " + std::to_string(particles.nextId),
+                       place(i, "id"), "leave ids to addParticle");
+    if (k > 0 && particles.id[static_cast<std::size_t>(order[k - 1])] == id)
+      throw InputError("the id " + std::to_string(id) + " is also that of particle " + std::to_string(order[k - 1]),
+                       place(i, "id"), "leave ids to addParticle");
+  }
 }
 
 void checkLength(std::size_t length, std::size_t wanted, const char* field) {
@@ -49,7 +80,9 @@ int addParticle(Particles& particles, const Vec3& x, const Vec3& v, double radiu
     particles.torque.emplace_back();
   }
   if (!particles.material.empty()) particles.material.push_back(0);
-  if (!particles.id.empty()) particles.id.push_back(1 + *std::max_element(particles.id.begin(), particles.id.end()));
+  if (!particles.weight.empty()) particles.weight.push_back(1.0);
+  particles.id.push_back(particles.nextId++);
+  ++particles.revision;
   particles.x.push_back(x);
   particles.v.push_back(v);
   particles.f.emplace_back();
@@ -64,6 +97,56 @@ int addParticle(Particles& particles, const Vec3& x, const Vec3& v, double radiu
                      Mass{density.value * (4.0 / 3.0) * std::numbers::pi * radius * radius * radius});
 }
 
+int find(const Particles& particles, std::int64_t id) {
+  const auto guess = static_cast<std::size_t>(id);
+  if (id >= 0 && guess < particles.size() && particles.id[guess] == id) return static_cast<int>(id);
+  const std::vector<int>& order = byId(particles);
+  const auto idOf = [&](int i) { return particles.id[static_cast<std::size_t>(i)]; };
+  const auto found =
+      std::lower_bound(order.begin(), order.end(), id, [&](int i, std::int64_t wanted) { return idOf(i) < wanted; });
+  return found != order.end() && idOf(*found) == id ? *found : -1;
+}
+
+std::vector<int> numbersWithout(const Particles& particles, std::span<const int> list) {
+  std::vector<int> number(particles.size(), 0);
+  for (const int i : list) {
+    if (i < 0 || static_cast<std::size_t>(i) >= number.size())
+      throw InputError("particle " + std::to_string(i) + " does not exist", "removal",
+                       "give numbers from 0 to " + std::to_string(static_cast<long>(number.size()) - 1));
+    number[static_cast<std::size_t>(i)] = -1;
+  }
+  int next = 0;
+  for (int& n : number)
+    if (n == 0) n = next++;
+  return number;
+}
+
+void renumber(Particles& particles, std::span<const int> newNumber) {
+  checkLength(newNumber.size(), particles.size(), "new numbers");
+  std::vector<int> order(particles.size(), 0);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < newNumber.size(); ++i)
+    if (newNumber[i] >= 0) {
+      order[static_cast<std::size_t>(newNumber[i])] = static_cast<int>(i);
+      ++count;
+    }
+  forEachArray(particles, [&](auto& values) {
+    if (values.empty()) return;
+    std::remove_reference_t<decltype(values)> moved(count);
+    parallelFor(count, 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) moved[n] = values[static_cast<std::size_t>(order[n])];
+    });
+    values.swap(moved);
+  });
+  ++particles.revision;
+}
+
+std::vector<int> removeParticles(Particles& particles, std::span<const int> list) {
+  std::vector<int> number = numbersWithout(particles, list);
+  if (!list.empty()) renumber(particles, number);
+  return number;
+}
+
 void switchOnRotation(Particles& particles) {
   particles.omega.resize(particles.size());
   particles.torque.resize(particles.size());
@@ -76,7 +159,8 @@ void validate(const Particles& particles) {
   checkLength(particles.radius.size(), n, "radius");
   checkLength(particles.mass.size(), n, "mass");
   if (!particles.material.empty()) checkLength(particles.material.size(), n, "material");
-  if (!particles.id.empty()) checkLength(particles.id.size(), n, "id");
+  if (!particles.weight.empty()) checkLength(particles.weight.size(), n, "weight");
+  checkLength(particles.id.size(), n, "id");
   if (particles.rotates() || !particles.torque.empty()) {
     checkLength(particles.omega.size(), n, "angular velocity");
     checkLength(particles.torque.size(), n, "torque");
@@ -87,151 +171,9 @@ void validate(const Particles& particles) {
     checkPositive(particles.radius[i], i, "radius");
     checkPositive(particles.mass[i], i, "mass");
     if (particles.rotates()) checkVector(particles.omega[i], i, "angular velocity");
+    checkWeight(particles.weightOf(i), i);
   }
-}
-
-double momentOfInertia(const Particles& particles, int particle) {
-  const auto i = static_cast<std::size_t>(particle);
-  return 0.4 * particles.mass[i] * particles.radius[i] * particles.radius[i];
-}
-
-void clearForces(Particles& particles) {
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) particles.f[i] = {};
-    if (particles.rotates())
-      for (std::size_t i = begin; i < end; ++i) particles.torque[i] = {};
-  });
-}
-
-void applyGravity(Particles& particles, const Vec3& g) {
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) particles.f[i] += particles.mass[i] * g;
-  });
-}
-
-void kick(Particles& particles, double dt) {
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) particles.v[i] += (dt / particles.mass[i]) * particles.f[i];
-    if (particles.rotates())
-      for (std::size_t i = begin; i < end; ++i)
-        particles.omega[i] += (dt / momentOfInertia(particles, static_cast<int>(i))) * particles.torque[i];
-  });
-}
-
-void drift(Particles& particles, double dt) {
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) particles.x[i] += dt * particles.v[i];
-  });
-}
-
-namespace {
-
-/// What one sweep does to a particle.
-struct Sweep {
-  double dt;
-  int halfKicks;      // before the drift
-  bool startsForces;  // after it
-  Vec3 g;
-};
-
-/// Half kicks and drift of one particle; returns the squared displacement, m². Two half kicks are made one after the
-/// other, so that the digits are those of two sweeps.
-template <bool spins>
-double advance(Particles& particles, std::size_t i, const Sweep& sweep) {
-  const double half = 0.5 * sweep.dt / particles.mass[i];
-  Vec3 v = particles.v[i];
-  for (int k = 0; k < sweep.halfKicks; ++k) v += half * particles.f[i];
-  particles.v[i] = v;
-  particles.x[i] += sweep.dt * v;
-  if constexpr (spins) {
-    const double halfSpin = 0.5 * sweep.dt / momentOfInertia(particles, static_cast<int>(i));
-    Vec3 omega = particles.omega[i];
-    for (int k = 0; k < sweep.halfKicks; ++k) omega += halfSpin * particles.torque[i];
-    particles.omega[i] = omega;
-  }
-  if (sweep.startsForces) {
-    particles.f[i] = particles.mass[i] * sweep.g;
-    if constexpr (spins) particles.torque[i] = {};
-  }
-  return squaredNorm(v) * (sweep.dt * sweep.dt);
-}
-
-struct Largest {
-  double value = 0.0;
-  Largest& operator+=(const Largest& b) {
-    if (!(b.value <= value)) value = b.value;
-    return *this;
-  }
-};
-
-double sweepAll(Particles& particles, const Sweep& sweep) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto part = [&](std::size_t begin, std::size_t end) {
-    double largest = 0.0;
-    bool finite = true;
-    const auto take = [&](double d2) {
-      finite = finite && d2 < infinity;
-      largest = d2 > largest ? d2 : largest;
-    };
-    if (particles.rotates())
-      for (std::size_t i = begin; i < end; ++i) take(advance<true>(particles, i, sweep));
-    else
-      for (std::size_t i = begin; i < end; ++i) take(advance<false>(particles, i, sweep));
-    return Largest{finite ? largest : infinity};
-  };
-  return std::sqrt(parallelSum(particles.size(), grain, part).value);
-}
-
-}  // namespace
-
-double kickAndDrift(Particles& particles, double dt) { return sweepAll(particles, {dt, 1, false, {}}); }
-
-double startStep(Particles& particles, double dt, const Vec3& g) { return sweepAll(particles, {dt, 1, true, g}); }
-
-double turnStep(Particles& particles, double dt, const Vec3& g) { return sweepAll(particles, {dt, 2, true, g}); }
-
-void startForces(Particles& particles, const Vec3& g) {
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) particles.f[i] = particles.mass[i] * g;
-    if (particles.rotates())
-      for (std::size_t i = begin; i < end; ++i) particles.torque[i] = {};
-  });
-}
-
-double kineticEnergy(const Particles& particles) {
-  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    double sum = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-      sum += 0.5 * particles.mass[i] * squaredNorm(particles.v[i]);
-      if (particles.rotates())
-        sum += 0.5 * momentOfInertia(particles, static_cast<int>(i)) * squaredNorm(particles.omega[i]);
-    }
-    return sum;
-  });
-}
-
-Vec3 momentum(const Particles& particles) {
-  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    Vec3 sum;
-    for (std::size_t i = begin; i < end; ++i) sum += particles.mass[i] * particles.v[i];
-    return sum;
-  });
-}
-
-Vec3 angularMomentum(const Particles& particles) {
-  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    Vec3 sum;
-    for (std::size_t i = begin; i < end; ++i) {
-      sum += particles.mass[i] * cross(particles.x[i], particles.v[i]);
-      if (particles.rotates()) sum += momentOfInertia(particles, static_cast<int>(i)) * particles.omega[i];
-    }
-    return sum;
-  });
-}
-
-void requireFinite(const Particles& particles, const std::string& when) {
-  dovetail::requireFinite(particles.x, "particle", "position", when);
-  dovetail::requireFinite(particles.v, "particle", "velocity", when);
+  checkIds(particles);
 }
 
 }  // namespace dovetail::dem

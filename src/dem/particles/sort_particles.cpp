@@ -1,76 +1,128 @@
 // Near in number means near in space.
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <limits>
 
+#include "dovetail/core/distribute.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 
 namespace dovetail::dem {
 
 namespace {
 
-template <class T>
-void permute(std::vector<T>& values, std::span<const int> order) {
-  if (values.empty()) return;
-  std::vector<T> sorted;
-  sorted.reserve(values.size());
-  for (const int old : order) sorted.push_back(values[static_cast<std::size_t>(old)]);
-  values = std::move(sorted);
+constexpr std::size_t grain = 8192;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Extent {
+  Vec3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+  double diameters = 0.0;
+  Extent& operator+=(const Extent& b) {
+    lower = {std::min(lower.x, b.lower.x), std::min(lower.y, b.lower.y), std::min(lower.z, b.lower.z)};
+    upper = {std::max(upper.x, b.upper.x), std::max(upper.y, b.upper.y), std::max(upper.z, b.upper.z)};
+    diameters += b.diameters;
+    return *this;
+  }
+};
+
+Extent extentOf(const Particles& particles) {
+  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    Extent part;
+    for (std::size_t i = begin; i < end; ++i) part += Extent{particles.x[i], particles.x[i], 2.0 * particles.radius[i]};
+    return part;
+  });
 }
 
-/// Numbers of the particles in the order of cells about as large as a mean particle, row by row, layer by layer. Layers
-/// lie across the longest axis, so that as few particles as possible lie between neighbours.
-std::vector<int> layerOrder(const Particles& particles) {
-  Vec3 lower = particles.x[0], upper = lower;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const Vec3& x = particles.x[i];
-    lower = {std::min(lower.x, x.x), std::min(lower.y, x.y), std::min(lower.z, x.z)};
-    upper = {std::max(upper.x, x.x), std::max(upper.y, x.y), std::max(upper.z, x.z)};
-    sum += particles.radius[i];
-  }
-  const Vec3 extent = upper - lower;
-  std::array<int, 3> axis{0, 1, 2};
-  std::stable_sort(axis.begin(), axis.end(), [&](int a, int b) { return extent[a] < extent[b]; });
-  constexpr double mostCells = 1 << 20;
-  const double edge = std::max(2.0 * sum / static_cast<double>(particles.size()), extent[axis[2]] / mostCells);
-  std::vector<std::uint64_t> key(particles.size(), 0);
-  for (std::size_t i = 0; i < key.size(); ++i)
-    for (int k = 2; k >= 0; --k) {
-      const int a = axis[static_cast<std::size_t>(k)];
-      key[i] = key[i] << 21 | static_cast<std::uint64_t>((particles.x[i][a] - lower[a]) / edge);
+/// Place on Hilbert's curve through a cube of 2^bits cells along each edge (Skilling, AIP Conf. Proc. 707, 2004).
+std::uint64_t placeOnCurve(std::array<std::uint32_t, 3> cell, int bits) {
+  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1)
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (cell[k] & q) {
+        cell[0] ^= q - 1;
+      } else {
+        const std::uint32_t swap = (cell[0] ^ cell[k]) & (q - 1);
+        cell[0] ^= swap;
+        cell[k] ^= swap;
+      }
     }
-  std::vector<int> order(particles.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return key[static_cast<std::size_t>(a)] < key[static_cast<std::size_t>(b)]; });
-  return order;
+  cell[1] ^= cell[0];
+  cell[2] ^= cell[1];
+  std::uint32_t flip = 0;
+  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1)
+    if (cell[2] & q) flip ^= q - 1;
+  std::uint64_t place = 0;
+  for (int b = bits - 1; b >= 0; --b)
+    for (std::size_t k = 0; k < 3; ++k) place = place << 1 | ((cell[k] ^ flip) >> b & 1u);
+  return place;
+}
+
+/// Bricks of some particles in which the order of the grid is kept.
+struct Bricks {
+  Vec3 lower;
+  double perEdge = 0.0;
+  int bits = 1;
+
+  explicit Bricks(const Particles& particles) {
+    constexpr double edgeInDiameters = 4.0;
+    constexpr int mostBits = 20;
+    const Extent extent = extentOf(particles);
+    const Vec3 size = extent.upper - extent.lower;
+    const double longest = std::max({size.x, size.y, size.z});
+    double edge = edgeInDiameters * extent.diameters / static_cast<double>(particles.size());
+    while (bits < mostBits && !(longest < edge * (1 << bits))) ++bits;
+    edge = std::max(edge, longest / ((1 << bits) - 1));
+    lower = extent.lower;
+    perEdge = 1.0 / edge;
+  }
+  std::uint64_t placeOf(const Vec3& x) const {
+    std::array<std::uint32_t, 3> cell{};
+    for (int k = 0; k < 3; ++k)
+      cell[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>((x[k] - lower[k]) * perEdge);
+    return placeOnCurve(cell, bits);
+  }
+};
+
+struct Placed {
+  std::uint64_t place;
+  int number;
+};
+
+/// New numbers along the curve; within a brick in the given order.
+std::vector<int> numbersAlongCurve(const Particles& particles, std::span<const int> order) {
+  const Bricks bricks(particles);
+  const std::size_t n = particles.size(), tasks = (n + grain - 1) / grain;
+  const int rangeBits = std::min(9, 3 * bricks.bits), shift = 3 * bricks.bits - rangeBits;
+  const auto sorted = distribute<Placed>(tasks, std::size_t{1} << rangeBits, [&](std::size_t task, auto&& sink) {
+    for (std::size_t s = task * grain; s < std::min(n, (task + 1) * grain); ++s) {
+      const std::uint64_t place = bricks.placeOf(particles.x[static_cast<std::size_t>(order[s])]);
+      sink(static_cast<std::size_t>(place >> shift), Placed{place, order[s]});
+    }
+  });
+  std::vector<int> newNumber(n);
+  parallelFor(sorted.count(), 1, [&](std::size_t range, std::size_t) {
+    const auto placed = sorted[range];
+    std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.place < b.place; });
+    for (std::size_t k = 0; k < placed.size(); ++k)
+      newNumber[static_cast<std::size_t>(placed[k].number)] = static_cast<int>(sorted.begin[range] + k);
+  });
+  return newNumber;
 }
 
 }  // namespace
 
 std::vector<int> sortParticles(Particles& particles, PairList& list) {
   if (particles.size() == 0) return {};
-  if (particles.id.empty()) {
-    particles.id.resize(particles.size());
-    std::iota(particles.id.begin(), particles.id.end(), std::int64_t{0});
-  }
-  const std::vector<int> order = layerOrder(particles);
-  permute(particles.x, order);
-  permute(particles.v, order);
-  permute(particles.f, order);
-  permute(particles.radius, order);
-  permute(particles.mass, order);
-  permute(particles.omega, order);
-  permute(particles.torque, order);
-  permute(particles.material, order);
-  permute(particles.id, order);
-  std::vector<int> newNumber(order.size());
-  for (std::size_t n = 0; n < order.size(); ++n) newNumber[static_cast<std::size_t>(order[n])] = static_cast<int>(n);
-  if (list.builds > 0 && list.positionAtBuild.size() == particles.size()) {
-    renumber(list, newNumber);
-    findPairs(particles, list.skin, list);
-  }
+  const bool listed = list.fits(particles);
+  const double skin = listed ? detail::skinOf(particles, list) : 0.0;
+  wrapPositions(particles, list.periodicity);
+  geometry::HierarchicalGrid grid(list.periodicity);
+  grid.build(particles.x, particles.radius, skin);
+  const std::vector<int> newNumber = numbersAlongCurve(particles, grid.order());
+  if (listed) renumber(list, newNumber, particles);
+  renumber(particles, newNumber);
+  if (!listed) return newNumber;
+  grid.renumber(newNumber);
+  detail::takeFound(particles, grid, skin, list);
   return newNumber;
 }
 

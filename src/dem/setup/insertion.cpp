@@ -2,16 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/geometry/hierarchical_grid.hpp"
+#include "free_room.hpp"
 
 namespace dovetail::dem {
 
 namespace {
+
+/// Spheres that enter together: one, or those of a clump.
+struct Newcomer {
+  std::vector<Vec3> offset;  // from its centre, m
+  std::vector<double> radius;
+  double mass;
+};
 
 double largestRadius(const Sizes& sizes) {
   struct {
@@ -23,116 +31,179 @@ double largestRadius(const Sizes& sizes) {
   return std::visit(largest, sizes);
 }
 
-double massOf(const Insertion& insertion) {
-  const double r = insertion.nextRadius;
-  return insertion.settings.density.value * (4.0 / 3.0) * std::numbers::pi * r * r * r;
+/// Radius of the sphere about its centre of mass that holds a clump, m.
+double reachOf(const ClumpShape& shape) {
+  double reach = 0.0;
+  for (std::size_t k = 0; k < shape.offset.size(); ++k)
+    reach = std::max(reach, norm(shape.offset[k]) + shape.radius[k]);
+  return reach;
 }
 
-/// The particles that reach into the region.
-class Neighbourhood {
-public:
-  Neighbourhood(const Particles& particles, const geometry::Box& region) {
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      const double r = particles.radius[i];
-      bool near = true;
-      for (int k = 0; k < 3; ++k)
-        near = near && particles.x[i][k] + r >= region.lower[k] && particles.x[i][k] - r <= region.upper[k];
-      if (near) {
-        x_.push_back(particles.x[i]);
-        radius_.push_back(r);
-      }
-    }
-    old_ = x_.size();
-    grid_.build(x_, radius_);
-  }
-
-  bool isFree(const Vec3& x, double radius) const {
-    const Vec3 reach{radius, radius, radius};
-    bool free = true;
-    grid_.query(geometry::Box{x - reach, x + reach},
-                [&](int i) { free = free && clear(static_cast<std::size_t>(i), x, radius); });
-    for (std::size_t i = old_; free && i < x_.size(); ++i) free = clear(i, x, radius);
-    return free;
-  }
-  void add(const Vec3& x, double radius) {
-    x_.push_back(x);
-    radius_.push_back(radius);
-  }
-
-private:
-  bool clear(std::size_t i, const Vec3& x, double radius) const {
-    const double sum = radius_[i] + radius;
-    return squaredNorm(x_[i] - x) > sum * sum;
-  }
-
-  std::vector<Vec3> x_;
-  std::vector<double> radius_;
-  std::size_t old_ = 0;
-  geometry::HierarchicalGrid grid_;
-};
-
-bool tryInsert(Insertion& insertion, Particles& particles, Neighbourhood& neighbours) {
+Newcomer nextOf(const Insertion& insertion) {
   const InsertionSettings& s = insertion.settings;
+  if (!s.shapes.empty()) {
+    const ClumpShape& shape = s.shapes[static_cast<std::size_t>(insertion.nextShape)];
+    return {shape.offset, shape.radius, shape.properties.mass};
+  }
   const double r = insertion.nextRadius;
-  const Vec3 reach{r, r, r};
-  for (int attempt = 0; attempt < s.tries; ++attempt) {
-    const Vec3 x = insertion.random.point(s.region.lower + reach, s.region.upper - reach);
-    if (!neighbours.isFree(x, r)) continue;
-    addParticle(particles, x, s.velocity, r, s.density);
-    neighbours.add(x, r);
+  return {{Vec3{}}, {r}, s.density.value * (4.0 / 3.0) * std::numbers::pi * r * r * r};
+}
+
+void drawNext(Insertion& insertion) {
+  const std::size_t shapes = insertion.settings.shapes.size();
+  if (shapes == 0)
+    insertion.nextRadius = drawRadius(insertion.settings.sizes, insertion.random);
+  else if (shapes > 1)
+    insertion.nextShape = static_cast<int>(insertion.random.uniform() * static_cast<double>(shapes));
+}
+
+/// Every turn as likely as any other (Shoemake, Graphics Gems III, 1992).
+Quaternion drawTurn(RandomStream& random) {
+  constexpr double circle = 2.0 * std::numbers::pi;
+  const double share = random.uniform(), a = circle * random.uniform(), b = circle * random.uniform();
+  const double s = std::sqrt(1.0 - share), c = std::sqrt(share);
+  return {c * std::cos(b), s * std::sin(a), s * std::cos(a), c * std::sin(b)};
+}
+
+bool spans(const geometry::Periodicity& space, const geometry::Box& region, int axis) {
+  return space.axes[static_cast<std::size_t>(axis)] &&
+         region.upper[axis] - region.lower[axis] >= (1.0 - 1e-12) * space.length(axis);
+}
+
+/// A place for the centre, such that the spheres lie in the region.
+Vec3 drawPlace(Insertion& insertion, const Newcomer& newcomer, const geometry::Periodicity& space) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec3 lower{-infinity, -infinity, -infinity}, upper{infinity, infinity, infinity};
+  const geometry::Box& region = insertion.settings.region;
+  for (int k = 0; k < 3; ++k) {
+    const bool anywhere = spans(space, region, k);
+    for (std::size_t s = 0; s < newcomer.radius.size(); ++s) {
+      const double reach = anywhere ? 0.0 : newcomer.radius[s], offset = anywhere ? 0.0 : newcomer.offset[s][k];
+      lower[k] = std::max(lower[k], region.lower[k] + reach - offset);
+      upper[k] = std::min(upper[k], region.upper[k] - reach - offset);
+    }
+  }
+  return insertion.random.point(lower, upper);
+}
+
+void checkSettings(const InsertionSettings& s) {
+  if (s.shapes.empty()) {
+    validate(s.sizes);
+    requirePositive(s.density.value, "density of inserted particles");
+  }
+  for (const auto& [vector, field] : {std::pair{s.velocity, "velocity"}, std::pair{s.spin, "spin"}})
+    if (!isFinite(vector))
+      throw InputError("not a finite vector", std::string(field) + " of inserted particles",
+                       "give three finite numbers");
+  requireNonNegative(s.numberPerSecond, "number per second");
+  requireNonNegative(s.massPerSecond, "mass per second");
+  requireNonNegative(s.interval, "interval of an insertion");
+  if ((s.numberPerSecond > 0.0) + (s.massPerSecond > 0.0) + s.replacesLeavers != 1)
+    throw InputError("there are two rates, or none", "insertion",
+                     "give numberPerSecond, massPerSecond or replacesLeavers");
+  if (s.material < 0 || s.material > 255)
+    throw InputError("the material is " + std::to_string(s.material), "insertion", "give one from 0 to 255");
+  if (s.tries < 1) throw InputError("there are " + std::to_string(s.tries) + " tries", "insertion", "give 1 or more");
+}
+
+void checkRegion(const InsertionSettings& s) {
+  double radius = s.shapes.empty() ? largestRadius(s.sizes) : 0.0;
+  for (const ClumpShape& shape : s.shapes) radius = std::max(radius, reachOf(shape));
+  for (int k = 0; k < 3; ++k) {
+    const double length = s.region.upper[k] - s.region.lower[k];
+    if (!(std::isfinite(s.region.lower[k]) && std::isfinite(length) && length >= 2.0 * radius))
+      throw InputError("a " + std::string(s.shapes.empty() ? "sphere" : "clump") + " of diameter " +
+                           formatNumber(2.0 * radius) + " m does not fit along axis " + std::to_string(k),
+                       "region of insertion", "make the region larger, or what enters smaller");
+  }
+}
+
+/// Appends the newcomer at x; bodies are given for clumps.
+void append(const Insertion& insertion, const Newcomer& newcomer, const Vec3& x, const Quaternion& turn,
+            Particles& particles, Bodies* bodies, Clumps* clumps) {
+  const InsertionSettings& s = insertion.settings;
+  const std::size_t first = particles.size();
+  if (s.shapes.empty()) {
+    addParticle(particles, x, s.velocity, newcomer.radius[0], s.density);
+    if (squaredNorm(s.spin) > 0.0) switchOnRotation(particles);
+    if (particles.rotates()) particles.omega.back() = s.spin;
+  } else {
+    addClump(particles, *bodies, *clumps, s.shapes[static_cast<std::size_t>(insertion.nextShape)], x, turn, s.velocity,
+             s.spin);
+  }
+  if (s.material == 0) return;
+  particles.material.resize(particles.size(), 0);
+  for (std::size_t i = first; i < particles.size(); ++i) particles.material[i] = static_cast<std::uint8_t>(s.material);
+}
+
+bool tryInsert(Insertion& insertion, Particles& particles, Bodies* bodies, Clumps* clumps,
+               const geometry::Periodicity& space, FreeRoom& room) {
+  const Newcomer described = nextOf(insertion);
+  for (int attempt = 0; attempt < insertion.settings.tries; ++attempt) {
+    Newcomer newcomer = described;
+    const Quaternion turn = insertion.settings.shapes.empty() ? Quaternion{} : drawTurn(insertion.random);
+    for (Vec3& offset : newcomer.offset) offset = rotate(turn, offset);
+    const Vec3 x = drawPlace(insertion, newcomer, space);
+    bool free = true;
+    for (std::size_t s = 0; free && s < newcomer.radius.size(); ++s)
+      free = room.isFree(x + newcomer.offset[s], newcomer.radius[s]);
+    if (!free) continue;
+    append(insertion, newcomer, x, turn, particles, bodies, clumps);
+    for (std::size_t s = 0; s < newcomer.radius.size(); ++s) room.add(x + newcomer.offset[s], newcomer.radius[s]);
     return true;
   }
   return false;
 }
 
-}  // namespace
-
-Insertion makeInsertion(const InsertionSettings& settings) {
-  validate(settings.sizes);
-  requirePositive(settings.density.value, "density of inserted particles");
-  if (!isFinite(settings.velocity))
-    throw InputError("not a finite vector", "velocity of inserted particles", "give three finite numbers");
-  requireNonNegative(settings.numberPerSecond, "number per second");
-  requireNonNegative(settings.massPerSecond, "mass per second");
-  if ((settings.numberPerSecond > 0.0) == (settings.massPerSecond > 0.0))
-    throw InputError("there are two rates, or none", "insertion", "give numberPerSecond or massPerSecond");
-  if (settings.tries < 1)
-    throw InputError("there are " + std::to_string(settings.tries) + " tries", "insertion", "give 1 or more");
-  const double diameter = 2.0 * largestRadius(settings.sizes);
-  for (int k = 0; k < 3; ++k) {
-    const double length = settings.region.upper[k] - settings.region.lower[k];
-    if (!(std::isfinite(settings.region.lower[k]) && std::isfinite(length) && length >= diameter))
-      throw InputError(
-          "a sphere of diameter " + formatNumber(diameter) + " m does not fit along axis " + std::to_string(k),
-          "region of insertion", "make the region larger, or the spheres smaller");
-  }
-  Insertion insertion{settings, RandomStream(settings.seed), 0.0};
-  insertion.nextRadius = drawRadius(settings.sizes, insertion.random);
-  return insertion;
-}
-
-int insertParticles(Insertion& insertion, Particles& particles, double dt) {
+int insert(Insertion& insertion, Particles& particles, Bodies* bodies, Clumps* clumps, const Surroundings& surroundings,
+           double dt) {
+  const InsertionSettings& s = insertion.settings;
   requireNonNegative(dt, "step of an insertion");
-  const bool byMass = insertion.settings.massPerSecond > 0.0;
-  insertion.due += dt * (byMass ? insertion.settings.massPerSecond : insertion.settings.numberPerSecond);
-  const auto price = [&] { return byMass ? massOf(insertion) : 1.0; };
-  if (insertion.due < price()) return 0;
-  Neighbourhood neighbours(particles, insertion.settings.region);
+  const bool byMass = s.massPerSecond > 0.0;
+  insertion.due += dt * (byMass ? s.massPerSecond : s.numberPerSecond);
+  insertion.waited += dt;
+  const auto price = [&] { return byMass ? nextOf(insertion).mass : 1.0; };
+  if (insertion.due < price() || insertion.waited < s.interval) return 0;
+  if (squaredNorm(s.spin) > 0.0 && particles.size() > 0 && !particles.rotates())
+    throw InputError("the particles do not spin", "spin of inserted particles", "call switchOnRotation before");
+  if (!s.shapes.empty() && !bodies)
+    throw InputError("clumps are due, and there are no bodies", "insertion", "call insertParticles with bodies");
+  insertion.waited = 0.0;
+  FreeRoom room(particles, surroundings, s.region);
   int entered = 0;
   while (insertion.due >= price()) {
-    const double mass = massOf(insertion);
+    const double mass = nextOf(insertion).mass;
     insertion.due -= price();
-    if (tryInsert(insertion, particles, neighbours)) {
+    if (tryInsert(insertion, particles, bodies, clumps, surroundings.space, room)) {
       ++entered;
       insertion.insertedMass += mass;
     } else {
       ++insertion.refused;
       insertion.refusedMass += mass;
     }
-    insertion.nextRadius = drawRadius(insertion.settings.sizes, insertion.random);
+    drawNext(insertion);
   }
   insertion.inserted += entered;
   return entered;
+}
+
+}  // namespace
+
+Insertion makeInsertion(const InsertionSettings& settings) {
+  checkSettings(settings);
+  checkRegion(settings);
+  Insertion insertion{settings, RandomStream(settings.seed)};
+  drawNext(insertion);
+  return insertion;
+}
+
+int insertParticles(Insertion& insertion, Particles& particles, const Surroundings& surroundings, double dt) {
+  return insert(insertion, particles, nullptr, nullptr, surroundings, dt);
+}
+
+int insertParticles(Insertion& insertion, Particles& particles, Bodies& bodies, Clumps& clumps,
+                    const Surroundings& surroundings, double dt) {
+  return insert(insertion, particles, &bodies, &clumps, surroundings, dt);
 }
 
 }  // namespace dovetail::dem

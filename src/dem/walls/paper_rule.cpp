@@ -9,20 +9,20 @@ namespace dovetail::dem {
 namespace {
 
 struct Touch {
-  int facet;
+  std::size_t entry;
   FacetView view;
 };
 
-void paperContacts(int particle, const Vec3& x, double radius, const TriangulatedWall& wall,
-                   std::span<const int> facets, std::vector<Touch>& touches, WallContacts& contacts) {
+void paperContacts(const Encounter& e, const TriangulatedWall& wall, std::vector<Touch>& touches,
+                   WallContacts& contacts) {
   touches.clear();
   std::size_t largest = 0;
-  for (const int facet : facets) {
-    const FacetCorners corners(wall, facet, x);
-    if (corners.beyond(radius)) continue;
-    const FacetView view = viewFacet({}, corners, radius, radius, wall.oneSided);
-    if (!(view.distance < radius)) continue;
-    touches.push_back({facet, view});
+  for (std::size_t k = 0; k < e.size(); ++k) {
+    const FacetCorners corners(wall, e.facet[k], e.seenFrom(k));
+    if (corners.beyond(e.radius)) continue;
+    const FacetView view = viewFacet({}, corners, e.radius, e.radius, wall.oneSided);
+    if (!(view.distance < e.radius)) continue;
+    touches.push_back({k, view});
     if (view.distance < touches[largest].view.distance) largest = touches.size() - 1;
   }
   if (touches.empty()) return;
@@ -31,12 +31,12 @@ void paperContacts(int particle, const Vec3& x, double radius, const Triangulate
   };
   double sum = 0.0;
   for (std::size_t i = 0; i < touches.size(); ++i)
-    if (kept(i)) sum += radius - touches[i].view.distance;
+    if (kept(i)) sum += e.radius - touches[i].view.distance;
   for (std::size_t i = 0; i < touches.size(); ++i) {
     if (!kept(i)) continue;
     const FacetView& view = touches[i].view;
-    const double overlap = radius - view.distance, share = overlap / sum;
-    addContact(contacts, particle, touches[i].facet, view.weight, view.normal, share * overlap, share);
+    const double overlap = e.radius - view.distance, share = overlap / sum;
+    addContact(contacts, e, touches[i].entry, view.weight, view.normal, share * overlap, share, share);
   }
 }
 
@@ -44,10 +44,9 @@ void paperContacts(int particle, const Vec3& x, double radius, const Triangulate
 
 void paperWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                        WallContacts& contacts) {
-  sweepParticles(candidates, contacts, [&](std::size_t, int particle, std::span<const int> facets, WallContacts& into) {
+  sweepParticles(particles, candidates, contacts, [&](std::size_t, const Encounter& e, WallContacts& into) {
     thread_local std::vector<Touch> touches;
-    const auto i = static_cast<std::size_t>(particle);
-    paperContacts(particle, particles.x[i], particles.radius[i], wall, facets, touches, into);
+    paperContacts(e, wall, touches, into);
   });
 }
 

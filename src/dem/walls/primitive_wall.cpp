@@ -1,9 +1,13 @@
 #include "dovetail/dem/walls/primitive_wall.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/walls/wall_contacts.hpp"
 
 namespace dovetail::dem {
 
@@ -24,16 +28,6 @@ void requireFinitePoint(const Vec3& point, const char* what) {
 Vec3 fromCore(const PrimitiveWall& wall, const Vec3& x) {
   const Vec3 d = x - wall.point;
   return wall.shape == PrimitiveWall::Shape::cylinder ? d - dot(d, wall.axis) * wall.axis : d;
-}
-
-void search(const Particles& particles, PrimitiveWall& wall) {
-  wall.near.clear();
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    if (!(distanceTo(wall, particles.x[i]).distance > particles.radius[i] + wall.skin))
-      wall.near.push_back(static_cast<int>(i));
-  wall.travel = 0.0;
-  wall.particlesAtSearch = particles.size();
-  wall.searched = true;
 }
 
 }  // namespace
@@ -75,46 +69,47 @@ WallDistance distanceTo(const PrimitiveWall& wall, const Vec3& x) {
   return wall.inside ? WallDistance{wall.radius - length, -outwards} : WallDistance{length - wall.radius, outwards};
 }
 
+void kickWall(PrimitiveWall& wall, double dt) {
+  if (!wall.servo) return;
+  wall.servo->contact = dot(wall.force, wall.servo->direction);
+  kickServo(*wall.servo, dt);
+}
+
 void drift(PrimitiveWall& wall, double dt) {
+  if (wall.servo) {
+    const Vec3& along = wall.servo->direction;
+    wall.velocity += (wall.servo->speed - dot(wall.velocity, along)) * along;
+    driftServo(*wall.servo, dt);
+  }
   wall.point += dt * wall.velocity;
   if (squaredNorm(wall.angularVelocity) == 0.0) return;
   // A turn by the angle |ω| dt about ω (Rodrigues).
   const double speed = norm(wall.angularVelocity), angle = speed * dt;
   const Vec3 about = wall.angularVelocity / speed;
-  wall.axis = std::cos(angle) * wall.axis + std::sin(angle) * cross(about, wall.axis) +
-              (1.0 - std::cos(angle)) * dot(about, wall.axis) * about;
+  const auto turned = [&](const Vec3& a) {
+    return std::cos(angle) * a + std::sin(angle) * cross(about, a) + (1.0 - std::cos(angle)) * dot(about, a) * about;
+  };
+  wall.axis = turned(wall.axis);
   wall.axis = wall.axis / norm(wall.axis);
+  wall.surfaceVelocity = turned(wall.surfaceVelocity);
 }
 
-void findContacts(const Particles& particles, PrimitiveWall& wall, double step) {
-  wall.travel += step;
-  const bool turns = wall.shape == PrimitiveWall::Shape::plane && squaredNorm(wall.angularVelocity) > 0.0;
-  if (!wall.searched || turns || wall.particlesAtSearch != particles.size() || !(wall.travel <= wall.skin) ||
-      wall.skin == 0.0)
-    search(particles, wall);
-  PrimitiveContacts& contacts = wall.contacts;
-  contacts.oldParticle.swap(contacts.particle);
-  contacts.oldMemory.swap(contacts.memory);
-  contacts.particle.clear();
-  contacts.normal.clear();
-  contacts.overlap.clear();
-  for (const int i : wall.near) {
-    const auto [distance, normal] = distanceTo(wall, particles.x[static_cast<std::size_t>(i)]);
-    const double overlap = particles.radius[static_cast<std::size_t>(i)] - distance;
-    if (!(overlap > 0.0)) continue;
-    contacts.particle.push_back(i);
-    contacts.normal.push_back(normal);
-    contacts.overlap.push_back(overlap);
-  }
-  contacts.engagement.assign(contacts.size(), 1.0);
+double drivingPower(const PrimitiveWall& wall) {
+  Vec3 driven = wall.velocity + wall.surfaceVelocity;
+  if (wall.servo) driven -= wall.servo->speed * wall.servo->direction;
+  return -dot(wall.force, driven) - dot(wall.torque, wall.angularVelocity);
 }
 
-void renumber(PrimitiveWall& wall, std::span<const int> newNumber) {
+double renumber(PrimitiveWall& wall, std::span<const int> newNumber, const Particles& before) {
   PrimitiveContacts& contacts = wall.contacts;
+  const double stored = detail::energyOfLeavers(contacts.particle, contacts.energy, newNumber);
   const std::size_t old = contacts.size(), components = old == 0 ? 0 : contacts.memory.size() / old;
   std::vector<std::pair<int, std::size_t>> kept;
   for (std::size_t c = 0; c < old; ++c)
-    if (const int i = newNumber[static_cast<std::size_t>(contacts.particle[c])]; i >= 0) kept.emplace_back(i, c);
+    if (const int i = newNumber[static_cast<std::size_t>(contacts.particle[c])]; i >= 0)
+      kept.emplace_back(i, c);
+    else
+      detail::addEnded(contacts.left, before, contacts.particle[c], contacts.memory, c, components);
   std::sort(kept.begin(), kept.end());
   const std::vector<double> memory = std::move(contacts.memory);
   contacts.particle.clear();
@@ -123,45 +118,72 @@ void renumber(PrimitiveWall& wall, std::span<const int> newNumber) {
     contacts.particle.push_back(i);
     for (std::size_t m = 0; m < components; ++m) contacts.memory.push_back(memory[c * components + m]);
   }
-  wall.searched = false;
+  wall.search.particleRevision = -1;
+  return stored;
 }
 
 namespace detail {
 
-EndedMemories carryMemory(PrimitiveContacts& contacts, int memory) {
+EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contacts, int memory) {
   const auto components = static_cast<std::size_t>(memory);
   contacts.oldMemory.resize(components * contacts.oldParticle.size());
   contacts.memory.assign(components * contacts.size(), 0.0);
-  EndedMemories ended;
+  EndedMemories ended = std::exchange(contacts.left, {});
   std::size_t c = 0;
   for (std::size_t o = 0; o < contacts.oldParticle.size(); ++o) {
     while (c < contacts.size() && contacts.particle[c] < contacts.oldParticle[o]) ++c;
     const bool stays = c < contacts.size() && contacts.particle[c] == contacts.oldParticle[o];
-    for (std::size_t m = 0; m < components; ++m) {
-      const double number = contacts.oldMemory[o * components + m];
-      if (stays)
-        contacts.memory[c * components + m] = number;
-      else
-        ended.memory.push_back(number);
+    if (!stays) {
+      addEnded(ended, particles, contacts.oldParticle[o], contacts.oldMemory, o, components);
+      continue;
     }
-    if (!stays) ended.particle.push_back(contacts.oldParticle[o]);
+    for (std::size_t m = 0; m < components; ++m)
+      contacts.memory[c * components + m] = contacts.oldMemory[o * components + m];
   }
   return ended;
 }
 
+Vec3 relativeVelocity(const Particles& particles, const PrimitiveWall& wall, std::size_t c, bool spins) {
+  const PrimitiveContacts& contacts = wall.contacts;
+  const auto i = static_cast<std::size_t>(contacts.particle[c]);
+  const Vec3 arm = (contacts.overlap[c] - particles.radius[i]) * contacts.normal[c];
+  Vec3 velocity = particles.v[i] - velocityAt(wall, particles.x[i] + contacts.shift(c) + arm);
+  if (spins && particles.rotates()) velocity += cross(particles.omega[i], arm);
+  return velocity;
+}
+
+namespace {
+
+/// On the wall.
+struct Reaction {
+  Vec3 force, torque;
+  Reaction& operator+=(const Reaction& other) {
+    force += other.force;
+    torque += other.torque;
+    return *this;
+  }
+};
+
+}  // namespace
+
 void addToParticles(Particles& particles, PrimitiveWall& wall, bool spins) {
   const PrimitiveContacts& contacts = wall.contacts;
-  wall.force = wall.torque = {};
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto i = static_cast<std::size_t>(contacts.particle[c]);
-    const Vec3 arm = (contacts.overlap[c] - particles.radius[i]) * contacts.normal[c];
-    particles.f[i] += contacts.force[c];
-    wall.force -= contacts.force[c];
-    wall.torque -= cross(particles.x[i] + arm - wall.point, contacts.force[c]);
-    if (!spins) continue;
-    particles.torque[i] += cross(arm, contacts.force[c]) + contacts.couple[c];
-    wall.torque -= contacts.couple[c];
-  }
+  const Reaction sum = parallelSum(contacts.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    Reaction part;
+    for (std::size_t c = begin; c < end; ++c) {
+      const auto i = static_cast<std::size_t>(contacts.particle[c]);
+      const Vec3 arm = (contacts.overlap[c] - particles.radius[i]) * contacts.normal[c];
+      particles.f[i] += contacts.force[c];
+      part.force -= contacts.force[c];
+      part.torque -= cross(particles.x[i] + contacts.shift(c) + arm - wall.point, contacts.force[c]);
+      if (!spins) continue;
+      particles.torque[i] += cross(arm, contacts.force[c]) + contacts.couple[c];
+      part.torque -= contacts.couple[c];
+    }
+    return part;
+  });
+  wall.force = sum.force;
+  wall.torque = sum.torque;
 }
 
 }  // namespace detail

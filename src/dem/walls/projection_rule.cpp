@@ -13,11 +13,11 @@ namespace {
 constexpr double tolerance = 1e-13;     // of the radius
 constexpr int largestIterations = 200;  // contraction is about overlap/radius per iteration
 
-/// One facet in reach. Positions are relative to the particle's centre x.
+/// One facet in reach. Positions are relative to the particle's centre.
 struct Candidate {
-  int facet;
-  FacetView view;  // from `position`
-  Vec3 position;   // yᵢ − x
+  std::size_t entry;  // of the encounter
+  FacetView view;     // from `position`
+  Vec3 position;      // yᵢ − x
 };
 
 /// Whether an edge, or a facet at a vertex, has no neighbour there: the end of an open surface.
@@ -42,9 +42,8 @@ struct Scratch {
 /// One particle against one wall.
 class Projection {
 public:
-  Projection(int particle, const Vec3& x, double radius, const TriangulatedWall& wall, std::span<const int> facets,
-             Scratch& scratch)
-      : particle_(particle), x_(x), radius_(radius), wall_(wall), facets_(facets), scratch_(scratch) {}
+  Projection(const Encounter& encounter, const TriangulatedWall& wall, Scratch& scratch)
+      : encounter_(encounter), radius_(encounter.radius), wall_(wall), scratch_(scratch) {}
 
   void appendTo(WallContacts& contacts) {
     if (!collect(radius_)) return;
@@ -63,23 +62,24 @@ public:
   /// others add nothing. False if it is on none.
   /// @param last where to look first, and where the foot was found
   bool appendFlat(int& last, WallContacts& contacts) const {
-    const auto tryFacet = [&](int facet) {
-      const FacetView seen = view(facet, {}, FacetView::unseen);
+    const auto tryEntry = [&](std::size_t k) {
+      const FacetView seen = view(k, {}, FacetView::unseen);
       if (!seen.face()) return false;
-      last = facet;
+      last = static_cast<int>(k);
       if (seen.distance < radius_)
-        addContact(contacts, particle_, facet, seen.weight, seen.normal, radius_ - seen.distance, 1.0);
+        addContact(contacts, encounter_, k, seen.weight, seen.normal, radius_ - seen.distance, 1.0, 1.0);
       return true;
     };
-    if (last >= 0 && tryFacet(last)) return true;
-    for (const int facet : facets_)
-      if (facet != last && tryFacet(facet)) return true;
+    if (last >= 0 && tryEntry(static_cast<std::size_t>(last))) return true;
+    for (std::size_t k = 0; k < encounter_.size(); ++k)
+      if (static_cast<int>(k) != last && tryEntry(k)) return true;
     return false;
   }
 
 private:
-  FacetView view(int facet, const Vec3& position, double reach) const {
-    return viewFacet(position, FacetCorners(wall_, facet, x_), radius_, reach, wall_.oneSided);
+  FacetView view(std::size_t entry, const Vec3& position, double reach) const {
+    return viewFacet(position, FacetCorners(wall_, encounter_.facet[entry], encounter_.seenFrom(entry)), radius_, reach,
+                     wall_.oneSided);
   }
   const Candidate& nearest() const { return scratch_.candidates[nearest_]; }
   double nearestOverlap() const { return radius_ - nearest().view.distance; }
@@ -89,20 +89,24 @@ private:
     scratch_.candidates.clear();
     nearest_ = 0;
     double least = reach;
-    Candidate sunk{-1, {}, {}};
-    for (const int facet : facets_) {
-      const FacetCorners corners(wall_, facet, x_);
+    bool anySunk = false;
+    Candidate sunk{0, {}, {}};
+    for (std::size_t k = 0; k < encounter_.size(); ++k) {
+      const FacetCorners corners(wall_, encounter_.facet[k], encounter_.seenFrom(k));
       if (corners.beyond(reach)) continue;
       const FacetView seen = viewFacet({}, corners, radius_, reach, wall_.oneSided);
-      if (seen.sunk > 0.0 && (sunk.facet < 0 || seen.sunk < sunk.view.sunk)) sunk = {facet, seen, {}};
+      if (seen.sunk > 0.0 && (!anySunk || seen.sunk < sunk.view.sunk)) {
+        anySunk = true;
+        sunk = {k, seen, {}};
+      }
       if (!(seen.distance < reach)) continue;
       if (seen.distance < least) {
         least = seen.distance;
         nearest_ = scratch_.candidates.size();
       }
-      scratch_.candidates.push_back({facet, seen, {}});
+      scratch_.candidates.push_back({k, seen, {}});
     }
-    if (scratch_.candidates.empty() && sunk.facet >= 0 && !onRim(wall_, sunk.facet, sunk.view.feature)) {
+    if (scratch_.candidates.empty() && anySunk && !onRim(wall_, encounter_.facet[sunk.entry], sunk.view.feature)) {
       // Inside the skin, where an edge (of a valley) is nearer than any face.
       sunk.view.distance = -sunk.view.sunk;
       scratch_.candidates.push_back(sunk);
@@ -120,7 +124,7 @@ private:
       const double g = dot(other.view.normal, normal);
       if (i == nearest_ || coupling(g) * depth >= radius_ - other.view.distance - slack) continue;
       if (g <= 0.0) return false;
-      const FacetView after = view(other.facet, depth * normal, FacetView::unseen);
+      const FacetView after = view(other.entry, depth * normal, FacetView::unseen);
       if (after.distance == FacetView::unseen) continue;
       if (after.distance < radius_ - slack || dot(after.normal, normal) < couplingBlend) return false;
     }
@@ -128,8 +132,8 @@ private:
   }
 
   void appendNearest(WallContacts& contacts) const {
-    addContact(contacts, particle_, nearest().facet, nearest().view.weight, nearest().view.normal, nearestOverlap(),
-               1.0);
+    addContact(contacts, encounter_, nearest().entry, nearest().view.weight, nearest().view.normal, nearestOverlap(),
+               1.0, 1.0);
   }
 
   /// First guess of the yᵢ: clear of the nearest facet, for those that do not face it.
@@ -143,7 +147,7 @@ private:
   void linearise() {
     for (std::size_t i = 0; i < scratch_.candidates.size(); ++i) {
       Candidate& c = scratch_.candidates[i];
-      c.view = view(c.facet, c.position, FacetView::unseen);
+      c.view = view(c.entry, c.position, FacetView::unseen);
       scratch_.shares[i].normal = c.view.normal;
       scratch_.shares[i].overlap =
           c.view.distance == FacetView::unseen ? 0.0 : radius_ + dot(c.view.normal, c.view.foot);
@@ -165,21 +169,28 @@ private:
     return std::sqrt(largest);
   }
 
+  /// Facets that are coupled answer with one overlap s, s² = Σ λδ: forces F(s) λ/s are the gradient of E(s), whatever
+  /// the law. Those that are not answer each with its own, between the two s changes smoothly.
   void appendShares(WallContacts& contacts) const {
-    for (std::size_t i = 0; i < scratch_.shares.size(); ++i) {
-      const Share& share = scratch_.shares[i];
+    const std::vector<Share>& shares = scratch_.shares;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      const Share& share = shares[i];
       if (!(share.carried > 0.0)) continue;
-      const double engagement = std::min(1.0, share.carried / share.overlap);
-      addContact(contacts, particle_, scratch_.candidates[i].facet, scratch_.candidates[i].view.weight, share.normal,
-                 share.carried, engagement);
+      double squared = 0.0;
+      for (const Share& other : shares)
+        if (other.carried > 0.0)
+          squared += (&other == &share ? 1.0 : together(dot(share.normal, other.normal))) * other.carried *
+                     std::max(other.overlap, other.carried);
+      const double common = std::sqrt(squared);
+      addContact(contacts, encounter_, scratch_.candidates[i].entry, scratch_.candidates[i].view.weight, share.normal,
+                 share.carried, share.carried / common,
+                 share.carried * std::max(share.overlap, share.carried) / squared);
     }
   }
 
-  int particle_;
-  Vec3 x_;
+  const Encounter& encounter_;
   double radius_;
   const TriangulatedWall& wall_;
-  std::span<const int> facets_;
   Scratch& scratch_;
   std::size_t nearest_ = 0;
 };
@@ -188,15 +199,12 @@ private:
 
 void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                          WallContacts& contacts) {
-  sweepParticles(
-      candidates, contacts, [&](std::size_t k, int particle, std::span<const int> facets, WallContacts& into) {
-        thread_local Scratch scratch;
-        const auto i = static_cast<std::size_t>(particle);
-        Projection projection(particle, particles.x[i], particles.radius[i], wall, facets, scratch);
-        if (!candidates.flat.empty() && candidates.flat[k] && projection.appendFlat(candidates.lastFacet[k], into))
-          return;
-        projection.appendTo(into);
-      });
+  sweepParticles(particles, candidates, contacts, [&](std::size_t k, const Encounter& e, WallContacts& into) {
+    thread_local Scratch scratch;
+    Projection projection(e, wall, scratch);
+    if (!candidates.flat.empty() && candidates.flat[k] && projection.appendFlat(candidates.lastFacet[k], into)) return;
+    projection.appendTo(into);
+  });
 }
 
 }  // namespace dovetail::dem

@@ -6,13 +6,16 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/walls/wall_search.hpp"
 
 namespace dovetail::dem {
 
-PrescribedMotion steadyMotion(const RigidMotion& start) {
-  return [start](double time) {
-    return RigidMotion{start.x + time * start.v, normalized(fromRotationVector(time * start.omega) * start.turn),
-                       start.v, start.omega};
+PrescribedMotion steadyMotion(const RigidMotion& start, double startTime) {
+  return [start, startTime](double time) {
+    const double t = time - startTime;
+    return RigidMotion{start.x + t * start.v, normalized(fromRotationVector(t * start.omega) * start.turn), start.v,
+                       start.omega};
   };
 }
 
@@ -33,16 +36,21 @@ std::vector<Vec3> vertexOffsets(const TriangulatedWall& wall, const Vec3& refere
   return offset;
 }
 
-void placeWall(const RigidMotion& motion, const std::vector<Vec3>& offset, TriangulatedWall& wall) {
+double placeWall(const RigidMotion& motion, const std::vector<Vec3>& offset, TriangulatedWall& wall) {
   if (offset.size() != wall.x.size())
     throw InputError(
         "there are " + std::to_string(offset.size()) + " offsets for " + std::to_string(wall.x.size()) + " vertices",
         "rigid wall", "take those of vertexOffsets");
-  for (std::size_t k = 0; k < offset.size(); ++k) {
-    const Vec3 arm = rotate(motion.turn, offset[k]);
-    wall.x[k] = motion.x + arm;
-    wall.v[k] = motion.v + cross(motion.omega, arm);
-  }
+  return std::sqrt(parallelSum(offset.size(), 4096, [&](std::size_t begin, std::size_t end) {
+                     Largest squared;
+                     for (std::size_t k = begin; k < end; ++k) {
+                       const Vec3 arm = rotate(motion.turn, offset[k]), x = motion.x + arm;
+                       squared.meet(squaredNorm(x - wall.x[k]));
+                       wall.x[k] = x;
+                       wall.v[k] = motion.v + cross(motion.omega, arm);
+                     }
+                     return squared;
+                   }).value);
 }
 
 WallOnBody addWallBody(Bodies& bodies, const TriangulatedWall& wall, Density density, const Vec3& v,
@@ -58,10 +66,13 @@ WallOnBody addWallBody(Bodies& bodies, const TriangulatedWall& wall, const MassP
   return carrier;
 }
 
-void placeWall(const Bodies& bodies, const WallOnBody& carrier, TriangulatedWall& wall) {
+RigidMotion poseOf(const Bodies& bodies, const WallOnBody& carrier) {
   const auto b = static_cast<std::size_t>(carrier.body);
-  placeWall({bodies.x[b], bodies.orientation[b], bodies.v[b], angularVelocity(bodies, carrier.body)}, carrier.offset,
-            wall);
+  return {bodies.x[b], bodies.orientation[b], bodies.v[b], angularVelocity(bodies, carrier.body)};
+}
+
+double placeWall(const Bodies& bodies, const WallOnBody& carrier, TriangulatedWall& wall) {
+  return placeWall(poseOf(bodies, carrier), carrier.offset, wall);
 }
 
 void gatherForces(const TriangulatedWall& wall, const WallOnBody& carrier, Bodies& bodies) {

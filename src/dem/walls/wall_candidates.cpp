@@ -5,73 +5,91 @@
 #include <span>
 
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/geometry/triangle.hpp"
+#include "wall_sieve.hpp"
 
 namespace dovetail::dem {
 
 namespace {
 
-constexpr std::int64_t longestScanInterval = 64;
+using Found = std::vector<std::array<int, 2>>;  // entry of NearWall, facet
 
-/// Largest displacement, m; NaN positions give NaN or are passed over, see `withinSkin`.
-double largestTravel(const std::vector<Vec3>& now, const std::vector<Vec3>& then) {
-  double squared = 0.0;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const double d2 = squaredNorm(now[i] - then[i]);
-    if (!(d2 <= squared)) squared = d2;
-    if (std::isnan(squared)) break;
-  }
-  return std::sqrt(squared);
+const Vec3& corner(const TriangulatedWall& wall, int facet, std::size_t k) {
+  return wall.x[static_cast<std::size_t>(wall.facets[static_cast<std::size_t>(facet)][k])];
 }
 
-void collectPairs(const Particles& particles, const TriangulatedWall& wall, WallCandidates& candidates) {
-  auto& found = candidates.pairScratch;
-  found.clear();
-  for (std::size_t t = 0; t < wall.facets.size(); ++t) {
-    const auto& vertex = wall.facets[t];
-    const Vec3 &a = wall.x[static_cast<std::size_t>(vertex[0])], &b = wall.x[static_cast<std::size_t>(vertex[1])],
-               &c = wall.x[static_cast<std::size_t>(vertex[2])];
-    candidates.grid.query(geometry::boundingBox(a, b, c), [&](int i) {
-      const Vec3& x = particles.x[static_cast<std::size_t>(i)];
-      const double reach = particles.radius[static_cast<std::size_t>(i)] + candidates.skin;
-      if (squaredNorm(x - geometry::closestPointOnTriangle(x, a, b, c).point) <= reach * reach)
-        found.push_back({i, static_cast<int>(t)});
-    });
-  }
-  std::sort(found.begin(), found.end());
+/// By facet.
+std::vector<Found> findPairs(const NearWall& near, const TriangulatedWall& wall, double margin) {
+  constexpr std::size_t grain = 128;
+  geometry::HierarchicalGrid grid;
+  grid.build(near.x, near.radius, 2.0 * margin);
+  std::vector<Found> parts((wall.facets.size() + grain - 1) / grain);
+  parallelFor(wall.facets.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto facet = static_cast<int>(t);
+      const Vec3 &a = corner(wall, facet, 0), &b = corner(wall, facet, 1), &c = corner(wall, facet, 2);
+      grid.query(geometry::boundingBox(a, b, c), [&](int entry) {
+        const Vec3& x = near.x[static_cast<std::size_t>(entry)];
+        const double reach = near.radius[static_cast<std::size_t>(entry)] + margin;
+        if (squaredNorm(x - geometry::closestPointOnTriangle(x, a, b, c).point) <= reach * reach)
+          parts[begin / grain].push_back({entry, facet});
+      });
+    }
+  });
+  return parts;
 }
 
-void makeLists(WallCandidates& candidates) {
+/// By entry, facets ascending: a counting sort.
+Found sortByEntry(const std::vector<Found>& parts, std::size_t entries) {
+  std::vector<std::size_t> next(entries + 1, 0);
+  for (const Found& part : parts)
+    for (const auto& pair : part) ++next[static_cast<std::size_t>(pair[0]) + 1];
+  for (std::size_t e = 0; e < entries; ++e) next[e + 1] += next[e];
+  Found sorted(next[entries]);
+  for (const Found& part : parts)
+    for (const auto& pair : part) sorted[next[static_cast<std::size_t>(pair[0])]++] = pair;
+  return sorted;
+}
+
+void makeLists(const Particles& particles, const NearWall& near, const Found& found, WallCandidates& candidates) {
   candidates.particle.clear();
   candidates.offsets.clear();
   candidates.facet.clear();
-  for (const auto& [particle, facet] : candidates.pairScratch) {
-    if (candidates.particle.empty() || candidates.particle.back() != particle) {
-      candidates.particle.push_back(particle);
+  candidates.image.clear();
+  candidates.position.clear();
+  for (const auto& [entry, facet] : found) {
+    const auto e = static_cast<std::size_t>(entry);
+    if (candidates.particle.empty() || candidates.particle.back() != near.particle[e]) {
+      candidates.particle.push_back(near.particle[e]);
       candidates.offsets.push_back(static_cast<int>(candidates.facet.size()));
+      if (!near.image.empty()) candidates.position.push_back(particles.x[static_cast<std::size_t>(near.particle[e])]);
     }
     candidates.facet.push_back(facet);
+    if (!near.image.empty()) candidates.image.push_back(near.image[e]);
   }
   candidates.offsets.push_back(static_cast<int>(candidates.facet.size()));
 }
 
-/// Whether the facets lie in one plane, to round-off, and push the same way.
-bool inOnePlane(const TriangulatedWall& wall, std::span<const int> facets) {
-  const auto corner = [&](int facet, std::size_t k) -> const Vec3& {
-    return wall.x[static_cast<std::size_t>(wall.facets[static_cast<std::size_t>(facet)][k])];
-  };
+/// Whether facets first … last − 1 of the list lie in one plane, to round-off, and push the same way.
+bool inOnePlane(const TriangulatedWall& wall, const WallCandidates& candidates, std::size_t first, std::size_t last) {
   const auto areaNormal = [&](int facet) {
-    return geometry::triangleAreaNormal(corner(facet, 0), corner(facet, 1), corner(facet, 2));
+    return geometry::triangleAreaNormal(corner(wall, facet, 0), corner(wall, facet, 1), corner(wall, facet, 2));
   };
-  const Vec3 first = areaNormal(facets[0]);
-  if (!(squaredNorm(first) > 0.0)) return false;
-  const Vec3 normal = first / norm(first);
-  const double size = std::sqrt(norm(first));
-  for (const int facet : facets) {
+  const auto shift = [&](std::size_t k) {
+    return candidates.image.empty() ? Vec3{} : shiftOf(candidates.image[k], candidates.period);
+  };
+  const int start = candidates.facet[first];
+  const Vec3 area = areaNormal(start);
+  if (!(squaredNorm(area) > 0.0)) return false;
+  const Vec3 normal = area / norm(area), origin = corner(wall, start, 0) - shift(first);
+  const double size = std::sqrt(norm(area));
+  for (std::size_t k = first; k < last; ++k) {
+    const int facet = candidates.facet[k];
     const Vec3 other = areaNormal(facet);
     if (norm(cross(other, normal)) > 1e-12 * norm(other) || (wall.oneSided && dot(other, normal) <= 0.0)) return false;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (std::abs(dot(corner(facet, k) - corner(facets[0], 0), normal)) > 1e-12 * size) return false;
+    for (std::size_t v = 0; v < 3; ++v)
+      if (std::abs(dot(corner(wall, facet, v) - shift(k) - origin, normal)) > 1e-12 * size) return false;
   }
   return true;
 }
@@ -80,73 +98,86 @@ void markFlat(const TriangulatedWall& wall, WallCandidates& candidates) {
   candidates.flat.clear();
   candidates.lastFacet.clear();
   if (!wall.rigid) return;
-  const std::span<const int> facets(candidates.facet);
-  for (std::size_t k = 0; k < candidates.particle.size(); ++k) {
-    const auto first = static_cast<std::size_t>(candidates.offsets[k]);
-    const auto last = static_cast<std::size_t>(candidates.offsets[k + 1]);
-    candidates.flat.push_back(inOnePlane(wall, facets.subspan(first, last - first)) ? 1 : 0);
-  }
+  candidates.flat.resize(candidates.particle.size());
   candidates.lastFacet.assign(candidates.particle.size(), -1);
+  parallelFor(candidates.particle.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      candidates.flat[k] = inOnePlane(wall, candidates, static_cast<std::size_t>(candidates.offsets[k]),
+                                      static_cast<std::size_t>(candidates.offsets[k + 1]));
+  });
 }
 
-/// Scans the vertices when it is time, and plans the next scan. Returns the travel to reckon with.
-double scannedTravel(const TriangulatedWall& wall, double particleTravel, WallCandidates& candidates) {
-  ++candidates.updatesSinceBuild;
-  if (candidates.updatesSinceBuild < candidates.nextScan) return candidates.vertexTravel;
-  const double travel = largestTravel(wall.x, candidates.vertexAtBuild);
-  candidates.vertexTravel = travel;
-  if (travel + particleTravel > candidates.skin) ++candidates.lateBuilds;
-  const auto done = candidates.updatesSinceBuild;
-  const double perUpdate = travel / static_cast<double>(done);
-  const double affordable = (0.5 * candidates.skin - travel) / (4.0 * perUpdate);
-  std::int64_t pause = std::min(done, longestScanInterval);
-  if (!(affordable >= static_cast<double>(pause))) pause = affordable > 1.0 ? static_cast<std::int64_t>(affordable) : 1;
-  candidates.nextScan = done + pause;
-  return travel;
+double largestTravel(const std::vector<Vec3>& now, const std::vector<Vec3>& then) {
+  return std::sqrt(parallelSum(now.size(), 4096, [&](std::size_t begin, std::size_t end) {
+                     Largest squared;
+                     for (std::size_t i = begin; i < end; ++i) squared.meet(squaredNorm(now[i] - then[i]));
+                     return squared;
+                   }).value);
+}
+
+bool fits(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
+          const Vec3& period) {
+  return candidates.builds > 0 && particles.revision == candidates.particleRevision &&
+         wall.x.size() == candidates.vertexAtBuild.size() && wall.facets.size() == candidates.facetsAtBuild &&
+         candidates.period == period;
+}
+
+}  // namespace
+
+double defaultSkin(const Particles& particles) {
+  if (particles.size() == 0) return 0.0;
+  const double sum = parallelSum(particles.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    double part = 0.0;
+    for (std::size_t i = begin; i < end; ++i) part += particles.radius[i];
+    return part;
+  });
+  return 0.3 * sum / static_cast<double>(particles.size());
+}
+
+namespace {
+
+void search(const Particles& particles, const TriangulatedWall& wall, double skin, WallCandidates& candidates,
+            const Vec3& period) {
+  candidates.margin = requireNonNegative(skin, "skin of the wall candidates");
+  requireFinite(wall.x, "wall vertex", "position", "contact search with a wall");
+  candidates.period = period;
+  const NearWall near = nearWall(particles, wall, skin, period);
+  makeLists(particles, near, sortByEntry(findPairs(near, wall, skin), near.particle.size()), candidates);
+  markFlat(wall, candidates);
+  candidates.smallestRadius = near.smallestRadius;
+  candidates.particleRevision = particles.revision;
+  candidates.vertexAtBuild = wall.x;
+  candidates.facetsAtBuild = wall.facets.size();
+  candidates.particleTravel = {};
+  candidates.wallTravel = 0.0;
+  ++candidates.builds;
 }
 
 }  // namespace
 
 void findWallCandidates(const Particles& particles, const TriangulatedWall& wall, double skin,
-                        WallCandidates& candidates) {
-  candidates.skin = requireNonNegative(skin, "skin of the wall candidates");
-  requireFinite(particles.x, "particle", "position", "contact search with a wall");
-  requireFinite(wall.x, "wall vertex", "position", "contact search with a wall");
-  candidates.grid.build(particles.x, particles.radius, 2.0 * skin);
-  collectPairs(particles, wall, candidates);
-  makeLists(candidates);
-  markFlat(wall, candidates);
-  candidates.particleTravel = 0.0;
-  candidates.particleAtBuild = particles.x;
-  candidates.vertexAtBuild = wall.x;
-  candidates.facetsAtBuild = wall.facets.size();
-  candidates.vertexTravel = 0.0;
-  candidates.updatesSinceBuild = 0;
-  candidates.nextScan = 1;
-  ++candidates.builds;
+                        WallCandidates& candidates, const geometry::Periodicity& periodicity) {
+  search(particles, wall, skin, candidates, periodsOf(periodicity));
+  candidates.skin = skin;
 }
 
+// Comparisons are written so that a NaN asks for a search, which then names the culprit.
 bool updateWallCandidates(const Particles& particles, const TriangulatedWall& wall, WallCandidates& candidates,
-                          std::optional<double> wallTravel, std::optional<double> particleStep) {
-  bool rebuild = candidates.builds == 0 || particles.size() != candidates.particleAtBuild.size() ||
-                 wall.x.size() != candidates.vertexAtBuild.size() || wall.facets.size() != candidates.facetsAtBuild;
+                          const Moves& moves, const geometry::Periodicity& periodicity) {
+  const Vec3 period = periodsOf(periodicity);
+  bool rebuild = !fits(particles, wall, candidates, period) || candidates.margin == 0.0;
   if (!rebuild) {
-    if (particleStep) {
-      candidates.particleTravel += *particleStep;
-      if (wallTravel && candidates.particleTravel + *wallTravel <= candidates.skin) return false;
-    }
-    const double particleTravel = largestTravel(particles.x, candidates.particleAtBuild);
-    candidates.particleTravel = particleTravel;
-    // Written so that a NaN asks for a rebuild, which then names the culprit.
-    if (wallTravel) {
-      rebuild = !(particleTravel + *wallTravel <= candidates.skin);
-    } else {
-      const double travel = scannedTravel(wall, particleTravel, candidates);
-      rebuild = !(std::max(particleTravel, travel) <= 0.5 * candidates.skin) || std::isnan(travel);
-    }
+    candidates.particleTravel.add(moves);
+    candidates.wallTravel += moves.wall;
+    const double left = candidates.margin - candidates.particleTravel.bound;
+    if (!(candidates.wallTravel <= left) && left >= 0.0)
+      candidates.wallTravel = largestTravel(wall.x, candidates.vertexAtBuild);
+    rebuild = !(candidates.wallTravel <= left);
   }
-  if (rebuild) findWallCandidates(particles, wall, candidates.skin, candidates);
-  return rebuild;
+  if (!rebuild) return false;
+  search(particles, wall, candidates.skin ? *candidates.skin : defaultSkin(particles), candidates, period);
+  candidates.particleTravel.reset(moves);
+  return true;
 }
 
 }  // namespace dovetail::dem

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "dovetail/dem/walls/facet_spin.hpp"
+
 namespace dovetail::dem {
 
 void findWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
@@ -15,14 +17,38 @@ void findWallContacts(const Particles& particles, const TriangulatedWall& wall, 
   }
 }
 
-void renumber(WallContacts& contacts, std::span<const int> newNumber) {
+namespace detail {
+
+double energyOfLeavers(const std::vector<int>& particle, std::vector<double>& energy, std::span<const int> newNumber) {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < energy.size() && c < particle.size(); ++c)
+    if (newNumber[static_cast<std::size_t>(particle[c])] < 0) sum += energy[c];
+  energy.clear();
+  return sum;
+}
+
+void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
+              std::size_t contact, std::size_t components) {
+  const auto i = static_cast<std::size_t>(particle);
+  ended.material.push_back(i < particles.material.size() ? particles.material[i] : std::uint8_t{0});
+  const auto first = memory.begin() + static_cast<std::ptrdiff_t>(contact * components);
+  ended.memory.insert(ended.memory.end(), first, first + static_cast<std::ptrdiff_t>(components));
+}
+
+}  // namespace detail
+
+double renumber(WallContacts& contacts, std::span<const int> newNumber, const Particles& before) {
   WallSprings& springs = contacts.springs;
-  const WallSprings old = std::move(springs);
+  WallSprings old = std::move(springs);
   springs = {};
+  springs.left = std::move(old.left);
   const std::size_t count = old.particle.size(), components = count == 0 ? 0 : old.memory.size() / count;
   std::vector<std::pair<int, std::size_t>> kept;
   for (std::size_t c = 0; c < count; ++c)
-    if (const int i = newNumber[static_cast<std::size_t>(old.particle[c])]; i >= 0) kept.emplace_back(i, c);
+    if (const int i = newNumber[static_cast<std::size_t>(old.particle[c])]; i >= 0)
+      kept.emplace_back(i, c);
+    else
+      detail::addEnded(springs.left, before, old.particle[c], old.memory, c, components);
   std::sort(kept.begin(), kept.end());
   for (const auto& [i, c] : kept) {
     springs.particle.push_back(i);
@@ -30,13 +56,20 @@ void renumber(WallContacts& contacts, std::span<const int> newNumber) {
     springs.normal.push_back(old.normal[c]);
     for (std::size_t m = 0; m < components; ++m) springs.memory.push_back(old.memory[c * components + m]);
   }
+  return detail::energyOfLeavers(contacts.particle, contacts.energy, newNumber);
 }
 
-void addWallForces(const WallContacts& contacts, std::span<const geometry::Facet> facets, std::span<Vec3> f) {
+void addWallForces(const WallContacts& contacts, std::span<const Vec3> x, std::span<const geometry::Facet> facets,
+                   std::span<Vec3> f) {
+  const bool couples = contacts.couple.size() == contacts.size();
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& vertex = facets[static_cast<std::size_t>(contacts.facet[c])];
     for (std::size_t k = 0; k < 3; ++k)
       f[static_cast<std::size_t>(vertex[k])] -= contacts.weight[c][k] * contacts.force[c];
+    if (!couples || contacts.couple[c] == Vec3{}) continue;
+    const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(vertex[k])]; };
+    const std::array<Vec3, 3> pair = FacetSpin(at(0), at(1), at(2)).forces(contacts.couple[c]);
+    for (std::size_t k = 0; k < 3; ++k) f[static_cast<std::size_t>(vertex[k])] -= pair[k];
   }
 }
 

@@ -1,9 +1,13 @@
 // Tangential springs survive when a contact passes from one facet to the next.
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/dem/walls/facet_spin.hpp"
 #include "dovetail/dem/walls/wall_collide.hpp"
+#include "particle_runs.hpp"
 
 namespace dovetail::dem::detail {
 
@@ -15,51 +19,65 @@ bool touch(const geometry::Facet& a, const geometry::Facet& b) {
   return false;
 }
 
-/// The free old spring that is on this facet or one that shares a vertex with it, and whose normal is nearest.
-std::size_t bestMatch(const WallContacts& contacts, const TriangulatedWall& wall, std::size_t c, std::size_t begin,
-                      std::size_t end) {
+/// The free old spring for which `fits` and whose normal is nearest; none nearer than `cosine`: end.
+template <class Fits>
+std::size_t nearestSpring(const WallContacts& contacts, std::size_t c, std::size_t begin, std::size_t end,
+                          double cosine, const Fits& fits) {
   const WallSprings& old = contacts.springs;
-  const auto& facet = wall.facets[static_cast<std::size_t>(contacts.facet[c])];
   std::size_t best = end;
-  double bestCosine = -2.0;
   for (std::size_t o = begin; o < end; ++o) {
-    if (old.taken[o] || !touch(facet, wall.facets[static_cast<std::size_t>(old.facet[o])])) continue;
-    const double cosine = dot(contacts.normal[c], old.normal[o]);
-    if (cosine > bestCosine) {
-      bestCosine = cosine;
+    if (old.taken[o] || !fits(o)) continue;
+    const double here = dot(contacts.normal[c], old.normal[o]);
+    if (here > cosine) {
+      cosine = here;
       best = o;
     }
   }
   return best;
 }
 
+/// On this facet or one that shares a vertex with it; or, where a wall goes on beyond a period without sharing any, one
+/// that pushes nearly the same way.
+std::size_t bestMatch(const WallContacts& contacts, const TriangulatedWall& wall, std::size_t c, std::size_t begin,
+                      std::size_t end) {
+  const auto& facet = wall.facets[static_cast<std::size_t>(contacts.facet[c])];
+  const std::size_t best = nearestSpring(contacts, c, begin, end, -2.0, [&](std::size_t o) {
+    return touch(facet, wall.facets[static_cast<std::size_t>(contacts.springs.facet[o])]);
+  });
+  if (best < end || contacts.image.empty()) return best;
+  return nearestSpring(contacts, c, begin, end, 0.9, [](std::size_t) { return true; });
+}
+
 }  // namespace
 
 void requireStep(double dt) { requirePositive(dt, "time step of a law that remembers"); }
 
-EndedMemories carrySprings(WallContacts& contacts, const TriangulatedWall& wall, int memory) {
+EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, const TriangulatedWall& wall,
+                           int memory) {
   WallSprings& springs = contacts.springs;
   const auto components = static_cast<std::size_t>(memory);
   springs.memory.resize(components * springs.particle.size());
   springs.next.assign(components * contacts.size(), 0.0);
   springs.taken.assign(springs.particle.size(), 0);
-  std::size_t begin = 0;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    while (begin < springs.particle.size() && springs.particle[begin] < contacts.particle[c]) ++begin;
-    std::size_t end = begin;
-    while (end < springs.particle.size() && springs.particle[end] == contacts.particle[c]) ++end;
-    const std::size_t match = bestMatch(contacts, wall, c, begin, end);
-    if (match == end) continue;
-    for (std::size_t m = 0; m < components; ++m)
-      springs.next[c * components + m] = springs.memory[match * components + m];
-    springs.taken[match] = 1;
-  }
-  EndedMemories ended;
-  for (std::size_t o = 0; o < springs.particle.size(); ++o) {
-    if (springs.taken[o]) continue;
-    ended.particle.push_back(springs.particle[o]);
-    for (std::size_t m = 0; m < components; ++m) ended.memory.push_back(springs.memory[o * components + m]);
-  }
+  forParticleRuns(contacts.particle, [&](std::size_t first, std::size_t last) {
+    if (first >= last) return;
+    const std::vector<int>& old = springs.particle;
+    auto begin =
+        static_cast<std::size_t>(std::lower_bound(old.begin(), old.end(), contacts.particle[first]) - old.begin());
+    for (std::size_t c = first; c < last; ++c) {
+      while (begin < old.size() && old[begin] < contacts.particle[c]) ++begin;
+      std::size_t end = begin;
+      while (end < old.size() && old[end] == contacts.particle[c]) ++end;
+      const std::size_t match = bestMatch(contacts, wall, c, begin, end);
+      if (match == end) continue;
+      for (std::size_t m = 0; m < components; ++m)
+        springs.next[c * components + m] = springs.memory[match * components + m];
+      springs.taken[match] = 1;
+    }
+  });
+  EndedMemories ended = std::exchange(springs.left, {});
+  for (std::size_t o = 0; o < springs.particle.size(); ++o)
+    if (!springs.taken[o]) addEnded(ended, particles, springs.particle[o], springs.memory, o, components);
   return ended;
 }
 
@@ -71,23 +89,42 @@ void keepSprings(WallContacts& contacts) {
   springs.memory.swap(springs.next);
 }
 
-Vec3 relativeVelocity(const Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts,
-                      std::size_t c, bool spins) {
+Vec3 AgainstFacets::velocity(std::size_t c) const {
   const auto i = static_cast<std::size_t>(contacts.particle[c]);
-  Vec3 velocity = particles.v[i] - wallVelocity(contacts, wall, c);
-  if (spins && particles.rotates())
-    velocity += cross(particles.omega[i], contactPoint(contacts, wall, c) - particles.x[i]);
-  return velocity;
+  const Vec3 relative = particles.v[i] - wallVelocity(contacts, wall, c);
+  return spins ? relative + cross(particles.omega[i], contactArm(particles, contacts, wall, c)) : relative;
+}
+
+Vec3 AgainstFacets::spin(std::size_t c) const {
+  const auto& vertex = wall.facets[static_cast<std::size_t>(contacts.facet[c])];
+  const auto a = static_cast<std::size_t>(vertex[0]), b = static_cast<std::size_t>(vertex[1]),
+             d = static_cast<std::size_t>(vertex[2]);
+  return FacetSpin(wall.x[a], wall.x[b], wall.x[d])(wall.v[a], wall.v[b], wall.v[d]);
 }
 
 void addToParticles(Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts, bool spins) {
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto i = static_cast<std::size_t>(contacts.particle[c]);
-    particles.f[i] += contacts.force[c];
-    if (spins)
-      particles.torque[i] +=
-          cross(contactPoint(contacts, wall, c) - particles.x[i], contacts.force[c]) + contacts.couple[c];
-  }
+  forParticleRuns(contacts.particle, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      const auto i = static_cast<std::size_t>(contacts.particle[c]);
+      particles.f[i] += contacts.force[c];
+      if (spins)
+        particles.torque[i] += cross(contactArm(particles, contacts, wall, c), contacts.force[c]) + contacts.couple[c];
+    }
+  });
+}
+
+void requireWallMaterials(const Particles& particles, const std::vector<int>& touching, int materials,
+                          int wallMaterial) {
+  if (materials == 1) return;
+  if (wallMaterial < 0 || wallMaterial >= materials)
+    throw InputError("there is no law for material " + std::to_string(wallMaterial), "material of a wall",
+                     "give materials from 0 to " + std::to_string(materials - 1) + ", or a larger table of laws");
+  if (particles.material.empty()) return;
+  for (const int i : touching)
+    if (const int material = particles.material[static_cast<std::size_t>(i)]; material >= materials)
+      throw InputError("material " + std::to_string(material) + " has no law",
+                       "particle " + std::to_string(i) + ", material",
+                       "give materials from 0 to " + std::to_string(materials - 1) + ", or a larger table of laws");
 }
 
 }  // namespace dovetail::dem::detail

@@ -9,6 +9,40 @@
 
 namespace dovetail::dem {
 
+/// One particle and the facets near it.
+struct Encounter {
+  int particle;
+  Vec3 x;  ///< of the particle as the facets' images count from, m
+  double radius;
+  std::span<const int> facet;
+  std::span<const Image> image;  ///< empty unless space repeats
+  Image wrapped{};               ///< by how many periods x is off the particle's position
+  Vec3 period;
+
+  std::size_t size() const { return facet.size(); }
+  /// Where the particle is as seen from entry k, m.
+  Vec3 seenFrom(std::size_t k) const { return image.empty() ? x : x + shiftOf(image[k], period); }
+};
+
+inline Encounter encounter(const Particles& particles, const WallCandidates& candidates, std::size_t k) {
+  const auto i = static_cast<std::size_t>(candidates.particle[k]);
+  const auto first = static_cast<std::size_t>(candidates.offsets[k]);
+  const auto count = static_cast<std::size_t>(candidates.offsets[k + 1]) - first;
+  Encounter e{candidates.particle[k],
+              particles.x[i],
+              particles.radius[i],
+              std::span<const int>(candidates.facet).subspan(first, count),
+              {},
+              {},
+              {}};
+  if (candidates.image.empty()) return e;
+  e.image = std::span<const Image>(candidates.image).subspan(first, count);
+  e.period = candidates.period;
+  e.wrapped = periodsIn(e.x - candidates.position[k], e.period);
+  e.x -= shiftOf(e.wrapped, e.period);
+  return e;
+}
+
 inline void clearContacts(WallContacts& contacts) {
   contacts.particle.clear();
   contacts.facet.clear();
@@ -16,37 +50,46 @@ inline void clearContacts(WallContacts& contacts) {
   contacts.normal.clear();
   contacts.overlap.clear();
   contacts.engagement.clear();
+  contacts.energyShare.clear();
+  contacts.image.clear();
 }
 
-inline void addContact(WallContacts& contacts, int particle, int facet, const std::array<double, 3>& weight,
-                       const Vec3& normal, double overlap, double engagement) {
-  contacts.particle.push_back(particle);
-  contacts.facet.push_back(facet);
+inline void addContact(WallContacts& contacts, const Encounter& e, std::size_t k, const std::array<double, 3>& weight,
+                       const Vec3& normal, double overlap, double engagement, double energyShare) {
+  contacts.particle.push_back(e.particle);
+  contacts.facet.push_back(e.facet[k]);
   contacts.weight.push_back(weight);
   contacts.normal.push_back(normal);
   contacts.overlap.push_back(overlap);
   contacts.engagement.push_back(engagement);
+  contacts.energyShare.push_back(energyShare);
+  if (!e.image.empty())
+    contacts.image.push_back(
+        {e.image[k][0] - e.wrapped[0], e.image[k][1] - e.wrapped[1], e.image[k][2] - e.wrapped[2]});
 }
 
 inline void appendContacts(WallContacts& contacts, const WallContacts& more) {
-  for (std::size_t c = 0; c < more.size(); ++c)
-    addContact(contacts, more.particle[c], more.facet[c], more.weight[c], more.normal[c], more.overlap[c],
-               more.engagement[c]);
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(contacts.particle, more.particle);
+  append(contacts.facet, more.facet);
+  append(contacts.weight, more.weight);
+  append(contacts.normal, more.normal);
+  append(contacts.overlap, more.overlap);
+  append(contacts.engagement, more.engagement);
+  append(contacts.energyShare, more.energyShare);
+  append(contacts.image, more.image);
 }
 
-/// rule(k, particle, facets, contacts) appends the contacts of one particle, number k of the list.
+/// rule(k, encounter, contacts) appends the contacts of one particle, number k of the list.
 template <class Rule>
-void sweepParticles(const WallCandidates& candidates, WallContacts& contacts, Rule&& rule) {
+void sweepParticles(const Particles& particles, const WallCandidates& candidates, WallContacts& contacts, Rule&& rule) {
   constexpr std::size_t grain = 64;
   const std::size_t listed = candidates.particle.size();
   const auto visit = [&](std::size_t begin, std::size_t end, WallContacts& into) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const auto first = static_cast<std::size_t>(candidates.offsets[k]);
-      const auto last = static_cast<std::size_t>(candidates.offsets[k + 1]);
-      rule(k, candidates.particle[k], std::span<const int>(candidates.facet).subspan(first, last - first), into);
-    }
+    for (std::size_t k = begin; k < end; ++k) rule(k, encounter(particles, candidates, k), into);
   };
   clearContacts(contacts);
+  contacts.period = candidates.period;
   if (threads() == 1 || listed <= grain) {
     visit(0, listed, contacts);
   } else {

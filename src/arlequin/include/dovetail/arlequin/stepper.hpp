@@ -2,43 +2,25 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <variant>
 #include <vector>
 
 #include "dovetail/arlequin/coupling.hpp"
 #include "dovetail/core/profile.hpp"
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/dem/laws/contact_work.hpp"
-#include "dovetail/dem/laws/laws.hpp"
-#include "dovetail/dem/pairs/pairs.hpp"
-#include "dovetail/dem/particles/particles.hpp"
+#include "dovetail/dem/model/model.hpp"
 #include "dovetail/fem/newmark.hpp"
 
 namespace dovetail::arlequin {
 
-using PairLaw = std::variant<dem::ElasticLaw, dem::FrictionalLaw>;
-
-/// Particles that follow a prescribed path; those of zero displacement are held.
-struct Drive {
-  std::vector<int> particles;                ///< ascending
-  std::function<Vec3(double)> displacement;  ///< of time (s) since the start, m; smooth enough for `velocity`
-  std::function<Vec3(double)> velocity;      ///< its derivative, m/s
-};
-
 /// All parts but the particles may be absent; an absent part costs nothing.
 struct Model {
-  dem::Particles particles;  ///< masses weighted where there is a coupling
-  dem::PairList pairs;       ///< made by the caller; renewed in a step unless the law is bonded
-  PairLaw law = dem::ElasticLaw{};
-  Vec3 gravity;  ///< on particles and solid, m/s²
+  /// Particles, masses weighted where there is a coupling; pairs, renewed in a step unless the laws bond them; laws,
+  /// drives (dem::DriveTerm), time. Its gravity acts on the solid too, m/s².
+  dem::Model discrete;
   std::optional<Solid> solid;
   std::optional<Coupling> coupling;
-  std::vector<Drive> drives;
 
-  double time = 0.0;               ///< s
-  dem::ContactWork contact;        ///< of the last force evaluation
   std::vector<Vec3> slowForce;     ///< on the particles, N; only with multipliers and windows of several steps
   std::int64_t weighedRevision = 0;  ///< builds of the pair list whose contacts have been weighed
 };
@@ -56,7 +38,8 @@ struct StepSums {
 };
 
 /// Forces at the start; call once. With multipliers, velocities are made to comply with the constraint.
-/// @throws InputError if particles and coupling disagree
+/// @throws InputError if particles and coupling disagree, or if the particles' model sorts, lets in or loses particles, or
+///         has walls, bonds or other terms beside drives: the coupling could not follow
 void start(Model& model, double dt, Profile& profile);
 
 /// K steps of velocity Verlet with explicit FEM every K-th (impulse multiple time stepping: elastic forces kick the

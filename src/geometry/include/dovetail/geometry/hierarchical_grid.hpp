@@ -96,6 +96,8 @@ public:
   double cellSize(std::size_t level) const { return levels_[level].size; }
   /// Sphere numbers in the order of the grid: near in this list means near in space.
   std::span<const int> order() const { return id_; }
+  /// The spheres stay where they are under new numbers, one for each old number.
+  void renumber(std::span<const int> newNumber);
 
 private:
   using Key = std::uint64_t;
@@ -109,6 +111,10 @@ private:
     std::size_t index = 0, buckets = 0;         // in index_
     int shift = 0;                              // a bucket holds 2^shift successive keys
   };
+  struct Keyed {
+    Key key;
+    int id;
+  };
   struct Lookup;  // runs of spheres near a place in a level
   struct Search;  // scratch of one search
   using PairSink = void (*)(void* context, int i, const int* partners, std::size_t count);
@@ -117,9 +123,11 @@ private:
   void checkSpheres(std::span<const Vec3> x, std::span<const double> radius, double skin) const;
   Vec3 wrapped(Vec3 x) const;
   void makeLevels(std::span<const Vec3> x, std::span<const double> radius);
-  void layCells(Level& level, std::span<const Vec3> x) const;
-  void sortLevel(Level& level, std::span<const Vec3> x);
-  void sortBuckets(const Level& level);
+  void layCells(Level& level, std::span<const int> members, std::span<const Vec3> x) const;
+  void sortLevel(Level& level, std::span<const int> members, std::span<const Vec3> x);
+  void sortRange(const Level& level, std::span<const Keyed> members, std::size_t begin, std::size_t first,
+                 std::size_t last);
+  void sortBuckets(const Level& level, std::size_t first, std::size_t last, std::size_t stop);
 
   std::size_t firstFrom(const Level& level, Key key) const;
   AxisCells splitCells(const Level& level, std::size_t axis, int first, int last) const;
@@ -144,7 +152,6 @@ private:
   std::vector<Key> key_;                       // cell of each sphere, in sorted order
   std::vector<std::array<double, 4>> sphere_;  // x, y, z (wrapped), inflated radius, in sorted order
   std::vector<int> index_;                     // per level and bucket of keys: its first sphere
-  std::vector<std::pair<Key, int>> unsorted_;
 };
 
 }  // namespace dovetail::geometry

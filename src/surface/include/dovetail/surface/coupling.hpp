@@ -85,9 +85,9 @@ private:
   dem::WallCandidates candidates_;
   dem::WallContacts contacts_;
   NodalLoad load_;
-  std::vector<int> active_;         // vertices of candidate facets
-  std::vector<int> surfaceNodes_;   // nodes that carry the skin
-  std::vector<Vec3> nodesAtBuild_;  // their u when the candidates were found
+  std::vector<int> active_;                            // vertices of candidate facets
+  std::vector<int> surfaceNodes_;                      // nodes that carry the skin
+  std::vector<Vec3> particlesAtBuild_, nodesAtBuild_;  // positions, and those nodes' u, when the candidates were found
   double gain_;
   bool booksWork_ = false;
   double wallWork_ = 0.0;

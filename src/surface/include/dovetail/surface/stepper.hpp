@@ -8,9 +8,7 @@
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/laws/contact_work.hpp"
 #include "dovetail/dem/laws/laws.hpp"
-#include "dovetail/dem/pairs/pair_collide.hpp"
-#include "dovetail/dem/pairs/pairs.hpp"
-#include "dovetail/dem/particles/particles.hpp"
+#include "dovetail/dem/model/model.hpp"
 #include "dovetail/fem/elements.hpp"
 #include "dovetail/fem/newmark.hpp"
 #include "dovetail/fem/nodes.hpp"
@@ -21,11 +19,9 @@ namespace dovetail::surface {
 /// Particles, a solid and their seam. `Seam` is Coupling or SmoothCoupling.
 template <class Seam, class Law = dem::ElasticLaw>
 struct CoupledModel {
-  dem::Particles particles;
-  dem::PairList pairs;
-  Law pairLaw, wallLaw;
-  Vec3 gravity;      ///< on the particles, m/s²
-  fem::Nodes nodes;  ///< f holds the internal forces of the last FEM step
+  dem::Model discrete;  ///< particles with their laws and gravity, without terms of its own: see start
+  Law wallLaw;          ///< between particles and skin
+  fem::Nodes nodes;     ///< f holds the internal forces of the last FEM step
   fem::ElementBlock elements;
   Seam seam;
 
@@ -63,20 +59,24 @@ struct Scheme {
 
 namespace detail {
 
-/// Forces on the particles and load on the nodes at the present positions.
+/// Forces on the particles and load on the nodes at the present positions, dt after the last ones; dt = 0: no time has
+/// passed for the particles.
 template <class Model>
 void evaluateContacts(Model& model, std::span<const Vec3> u, std::span<const Vec3> v, double dt, WindowSums& sums,
                       Profile& profile) {
   const double lostBefore = model.contact.lostPower();
   {
     Profile::Stage stage(profile, "particle contacts");
-    dem::clearForces(model.particles);
-    dem::applyGravity(model.particles, model.gravity);
-    dem::updatePairs(model.particles, model.pairs);
-    model.contact = dem::collide(model.particles, model.pairs, model.pairLaw, dt);
+    if (dt > 0.0) {
+      dem::renew(model.discrete);
+      dem::addForces(model.discrete);
+    } else {
+      dem::findForces(model.discrete);
+    }
+    model.contact = model.discrete.work;
   }
   Profile::Stage stage(profile, "surface contacts");
-  model.contact += model.seam.exchange(model.particles, u, v, model.wallLaw, dt);
+  model.contact += model.seam.exchange(model.discrete.particles, u, v, model.wallLaw, dt);
   sums.dissipated += 0.5 * dt * (lostBefore + model.contact.lostPower());
   sums.stepsWithoutContact += model.seam.inContact() ? 0 : 1;
 }
@@ -92,12 +92,16 @@ double wallWork(const Model& model) {
 }  // namespace detail
 
 /// Forces at the start; call once before the first window.
+/// @throws InputError if the particles' model sorts, lets in or loses particles, or has terms of its own (walls, bonds):
+///         the seam could not follow
 template <class Model>
-void start(Model& model, double dt, Profile& profile) {
-  WindowSums ignored;
+void start(Model& model, double dt, Profile&) {
+  dem::requirePlain(model.discrete, "surface coupling");
   fem::clearForces(model.nodes);
   model.strainEnergy = fem::addInternalForces(model.elements, model.nodes, true);
-  detail::evaluateContacts(model, model.nodes.u, model.nodes.v, dt, ignored, profile);
+  dem::findForces(model.discrete);
+  model.contact = model.discrete.work;
+  model.contact += model.seam.exchange(model.discrete.particles, model.nodes.u, model.nodes.v, model.wallLaw, dt);
   model.loadBefore = model.seam.load();
 }
 
@@ -117,15 +121,14 @@ WindowSums stepExplicit(Model& model, double dt, int K, const Scheme& scheme, bo
   for (int k = 0; k < K; ++k) {
     {
       Profile::Stage stage(profile, "solid kick and drift");
-      dem::kick(model.particles, 0.5 * dt);
-      dem::drift(model.particles, dt);
+      dem::move(model.discrete, dt);
       kickTouched(model.seam.load(), nodes, 0.5 * dt);
       fem::drift(nodes, dt);
     }
     if (scheme.booksCoupling) sums.madeByCoupling += workOf(model.seam.load(), nodes.v, 0.5 * dt);
     detail::evaluateContacts(model, nodes.u, nodes.v, dt, sums, profile);
     if (scheme.booksCoupling) sums.madeByCoupling += workOf(model.seam.load(), nodes.v, 0.5 * dt);
-    dem::kick(model.particles, 0.5 * dt);
+    dem::close(model.discrete);
     kickTouched(model.seam.load(), nodes, 0.5 * dt);
   }
   {
@@ -146,11 +149,10 @@ namespace detail {
 template <class Model>
 void holdSkinAndStep(Model& model, double dt, int steps, WindowSums& sums, Profile& profile) {
   for (int k = 0; k < steps; ++k) {
-    dem::kick(model.particles, 0.5 * dt);
+    dem::move(model.discrete, dt);
     kickTouched(model.seam.load(), model.nodes, 0.5 * dt);
-    dem::drift(model.particles, dt);
     evaluateContacts(model, model.nodes.u, model.nodes.v, dt, sums, profile);
-    dem::kick(model.particles, 0.5 * dt);
+    dem::close(model.discrete);
     kickTouched(model.seam.load(), model.nodes, 0.5 * dt);
   }
 }
@@ -171,9 +173,8 @@ WindowSums stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, in
   const bool insideStep = K % 2 == 1;
   detail::holdSkinAndStep(model, dt, K / 2, sums, profile);
   if (insideStep) {
-    dem::kick(model.particles, 0.5 * dt);
+    dem::move(model.discrete, dt);
     kickTouched(model.seam.load(), nodes, 0.5 * dt);
-    dem::drift(model.particles, dt);
   }
   std::vector<Vec3> moved;
   if (scheme.booksCoupling) moved = nodes.u;
@@ -188,7 +189,7 @@ WindowSums stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, in
   detail::evaluateContacts(model, nodes.u, nodes.v, insideStep ? dt : 0.0, sums, profile);
   if (scheme.booksCoupling) sums.madeByCoupling += workOf(model.seam.load(), moved, 0.5);
   if (insideStep) {
-    dem::kick(model.particles, 0.5 * dt);
+    dem::close(model.discrete);
     kickTouched(model.seam.load(), nodes, 0.5 * dt);
   } else {
     sums.stepsWithoutContact -= model.seam.inContact() ? 0 : 1;  // no DEM step of its own
@@ -250,13 +251,12 @@ WindowSums stepStaggered(Model& model, fem::NewmarkSolver* newmark, double dt, i
   for (int node : load.touched) sums.madeByCoupling += dot(load.force[node], nodes.u[node] - oldU[node]);
   std::vector<Vec3> skin = oldU;
   for (int k = 0; k < K; ++k) {
-    dem::kick(model.particles, 0.5 * dt);
-    dem::drift(model.particles, dt);
+    dem::move(model.discrete, dt);
     if (!scheme.skinLags)
       for (std::size_t i = 0; i < skin.size(); ++i)
         skin[i] = oldU[i] + (static_cast<double>(k + 1) / K) * (nodes.u[i] - oldU[i]);
     detail::evaluateContacts(model, skin, nodes.v, dt, sums, profile);
-    dem::kick(model.particles, 0.5 * dt);
+    dem::close(model.discrete);
   }
   if (withEnergy) model.strainEnergy = fem::strainEnergy(model.elements, nodes);
   sums.madeByCoupling -= detail::wallWork(model) - before;

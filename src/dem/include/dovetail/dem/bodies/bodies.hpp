@@ -1,11 +1,14 @@
 // Rigid bodies: their state, and the verbs of their time step.
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "dovetail/core/quaternion.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/bodies/mass_properties.hpp"
+#include "dovetail/geometry/hierarchical_grid.hpp"
 
 namespace dovetail::dem {
 
@@ -28,12 +31,20 @@ struct Bodies {
 
 /// Appends a body, turned by `turn` about its centre of mass from how its mass properties were described, with the
 /// centre at x. Returns its number.
-/// @param v m/s @param omega rad/s, in space
+/// @param turn of any length but 0: it is made a unit quaternion @param v m/s @param omega rad/s, in space
 /// @throws InputError naming the body and the field if a value is not finite, mass or a principal moment not > 0, one
 /// of
-///   these larger than the sum of the others, or `turn` of length 0
+///   these larger than the sum of the others, or a quaternion of length 0
 int addBody(Bodies& bodies, const MassProperties& properties, const Vec3& x, const Quaternion& turn = {},
             const Vec3& v = {}, const Vec3& omega = {});
+
+/// Checks lengths and values of all arrays.
+/// @throws InputError naming the body and the field, an orientation that is no unit quaternion among them
+void validate(const Bodies& bodies);
+/// @param when for instance "t = 0.5 s, step 100"
+/// @throws NumericalError naming the first body and what of it is NaN or Inf: position, velocity, orientation, angular
+///         momentum, force or torque
+void requireFinite(const Bodies& bodies, const std::string& when);
 
 /// rad/s, in space.
 Vec3 angularVelocity(const Bodies& bodies, int body);
@@ -52,6 +63,19 @@ void kickBodies(Bodies& bodies, double dt);
 /// order, reversible in time and symplectic: the energy of a free body oscillates without drift, its angular momentum
 /// does not change at all, and orientations stay unit quaternions to round-off.
 void driftBodies(Bodies& bodies, double dt);
+
+/// f −= rate · m v, torque −= rate · L: the viscous bath of applyViscousDamping, once for every body. Returns its
+/// power, W. @param rate 1/s @throws InputError unless rate is finite and ≥ 0
+double applyViscousDamping(Bodies& bodies, double rate);
+/// Local damping as that of particles (applyLocalDamping), on the components in space. Returns its power, W.
+/// @throws InputError unless 0 ≤ α < 1
+double applyLocalDamping(Bodies& bodies, double alpha);
+
+/// Moves centres by whole periods into the periodic box.
+void wrapPositions(Bodies& bodies, const geometry::Periodicity& space);
+
+/// Takes bodies out of all arrays; the others keep their order. @param newNumber one per body, −1 = gone, ascending
+void renumber(Bodies& bodies, std::span<const int> newNumber);
 
 /// ½ Σ m v² + ½ Σ ω·L, J.
 double kineticEnergy(const Bodies& bodies);

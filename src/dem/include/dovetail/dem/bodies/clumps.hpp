@@ -9,9 +9,8 @@
 //
 // What kick and drift do to members is overwritten by placeMembers. A member's mass is that of its body, which is what
 // a dashpot in its contact should be made for; sums over the particles therefore count clumps wrongly, and are put
-// right by kineticEnergy(particles, bodies, clumps) and gatherForces' parameter for gravity. criticalStep(particles)
-// knows nothing of the lever arms, by which a contact meets less than a body's whole mass: take a tenth of it as for
-// single particles.
+// right by kineticEnergy(particles, bodies, clumps) and gatherForces' parameter for gravity. Lever arms, by which a
+// contact meets less than a body's whole mass, enter the critical step by addDemand.
 #pragma once
 
 #include <span>
@@ -23,6 +22,8 @@
 #include "dovetail/dem/particles/particles.hpp"
 
 namespace dovetail::dem {
+
+struct ContactDemand;
 
 /// A kind of clump.
 struct ClumpShape {
@@ -54,18 +55,32 @@ struct Clumps {
 int addClump(Particles& particles, Bodies& bodies, Clumps& clumps, const ClumpShape& shape, const Vec3& x,
              const Quaternion& turn = {}, const Vec3& v = {}, const Vec3& omega = {});
 
-/// Writes x, v (and omega, if particles spin) of all members. Returns the largest distance by which a member was moved,
-/// m (infinite if a place is not finite): what is to be added to the displacement that kickAndDrift returns, where
-/// updatePairs is given a bound.
-double placeMembers(const Bodies& bodies, const Clumps& clumps, Particles& particles);
+/// Writes x, v (and omega, if particles spin) of all members; along periodic axes at the image of its place that is
+/// nearest to where a member was. Returns the largest distance by which a member was moved, m (infinite if a place is
+/// not finite): what is to be added to the displacement that kickAndDrift returns, where updatePairs is given a bound.
+double placeMembers(const Bodies& bodies, const Clumps& clumps, const geometry::Periodicity& space,
+                    Particles& particles);
 
-/// f += Σ fᵢ, torque += Σ (xᵢ − x) × fᵢ + torqueᵢ over each body's members; then their forces and torques are zero.
+/// f += Σ fᵢ, torque += Σ armᵢ × fᵢ + torqueᵢ over each body's members, arms as placeMembers has them; then their
+/// forces and torques are zero.
 /// @param gravity what applyGravity(particles, gravity) has given to the members, m/s²; the body gets its own weight
 ///   instead, at its centre of mass
 void gatherForces(Particles& particles, const Clumps& clumps, Bodies& bodies, const Vec3& gravity = {});
 
+/// Gives clumps the new numbers of their members (< 0: gone); clumps that are gone leave with their bodies, and bodies
+/// behind them move up.
+/// @throws InputError naming the body of which some members are gone and others not; nothing is changed then
+void renumber(Bodies& bodies, Clumps& clumps, std::span<const int> newNumber);
+
+/// One entry per particle: 1 if it is a member of a body, else 0.
+std::vector<char> members(const Particles& particles, const Clumps& clumps);
+
+/// @throws InputError if arrays differ in length, bodies are not in ascending order, or naming the body whose member is
+///   no particle, a member of two bodies, or not as heavy as its body
+void check(const Particles& particles, const Bodies& bodies, const Clumps& clumps);
+
 /// Factor 0 (PairList::scale) on the pairs within one body, so that members that overlap make no force and store no
-/// energy. To be called when `list.revision` has changed, after whoever else sets the factors.
+/// energy. Again for every new list; any number of times.
 void muteMemberPairs(const Clumps& clumps, PairList& list);
 
 /// As criticalStep of single particles (critical_step.hpp), for the member that is easiest to move: a force n at a
@@ -73,6 +88,14 @@ void muteMemberPairs(const Clumps& clumps, PairList& list);
 /// @throws InputError as criticalStep of single particles
 CriticalStep criticalStep(const Bodies& bodies, const Clumps& clumps, const LinearSpringDashpot& normal,
                           Partners partners, int contacts = 1);
+
+/// Says of all members that they share their body's mass and inertia, so that criticalStep(demand, particles) sees what
+/// all contacts of a body ask of it together. A force at the distance r from the centre of mass meets the effective
+/// mass
+///   1/(1/m + λ), λ the largest of (r × n)·I⁻¹(r × n) over directions n (r × n)·(r × n) at most;
+/// r ends at the member's centre for normal forces and on its surface for tangential ones. On the safe side by up to
+/// about 1.4 where the directions or places of the worst differ.
+void addDemand(ContactDemand& demand, const Particles& particles, const Bodies& bodies, const Clumps& clumps);
 
 /// ½ Σ m v² (+ ½ Σ I ω²) of the particles that are no members, J.
 double freeKineticEnergy(const Particles& particles, const Clumps& clumps);

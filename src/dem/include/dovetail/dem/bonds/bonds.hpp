@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "dovetail/dem/pairs/pairs.hpp"
 
 namespace dovetail::dem {
+
+struct ContactDemand;
 
 /// What bonds are made of. A bond is a cylinder of radius `radiusRatio` times the smaller particle's, as long as the
 /// centres are apart when it is made, and then free of stress.
@@ -38,10 +41,19 @@ struct Bond {
   Vec3 acrossI, acrossJ;        ///< unit, normal to them; equal at rest
 };
 
-/// Bonds of some particles. They need particles that spin.
+/// The bonds' ends by particle, so that every particle gathers its own forces. Follows from the bonds.
+struct BondEnds {
+  std::vector<int> particle;             ///< that has bonds, ascending
+  std::vector<std::size_t> first;        ///< its ends are end[first[k]] … end[first[k + 1] − 1]
+  std::vector<std::uint32_t> end;        ///< 2 × bond + (0: i, 1: j), ascending; `gone` behind them where bonds broke
+  std::size_t bonds = 0, particles = 0;  ///< how many there were when this was made
+  static constexpr std::uint32_t gone = 0xffffffffu;
+};
+
+/// Bonds of some particles. They need particles that spin. Their separations are those of the nearest images in
+/// `space`, which is the pair list's.
 struct Bonds {
   std::vector<Bond> bonds;
-  geometry::Periodicity periodicity;  ///< as that of the pair list
   double ended = 0.0;  ///< J stored in bonds that have left with their particles, booked by the next exchange
 
   struct Forces {
@@ -50,21 +62,23 @@ struct Bonds {
   std::vector<Forces> forces;    ///< of the last step: force on j (the opposite on i), torques on both, N, N m
   std::vector<double> utilised;  ///< of the last step: largest stress over strength
   std::vector<double> energy;    ///< of the last step: J stored in each
-  std::size_t particles = 0;     ///< how many there were when their numbers were last checked
+  BondEnds ends;
 
   std::size_t size() const { return bonds.size(); }
 };
 
-/// A bond between two particles as they lie; its number.
+/// A bond between two particles as they lie; its number, until bonds break or get new numbers of particles.
 /// @throws InputError if i = j, if one does not exist, if the centres coincide, or if the material is not valid
-int addBond(Bonds& bonds, const Particles& particles, int i, int j, const BondMaterial& material);
+int addBond(Bonds& bonds, const Particles& particles, const geometry::Periodicity& space, int i, int j,
+            const BondMaterial& material);
 
 /// Bonds all pairs of the list whose gap is at most `gap`, m; returns how many.
 int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list, double gap,
                  const BondMaterial& material);
 
 /// Turns the bonds' ends with the particles' spins over dt, adds forces and torques, and removes bonds whose stress
-/// exceeds their strength. Call once per step, after drift; dt = 0 to evaluate without turning (then nothing breaks).
+/// exceeds their strength (the last bond takes the number of one that breaks). Call once per step, after drift; dt = 0
+/// to evaluate without turning (then nothing breaks).
 ///
 /// The forces are those of a potential of lengths and directions (after Kuzkin & Asonov, Phys. Rev. E 86, 051301,
 /// 2012),
@@ -77,22 +91,43 @@ int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list,
 /// Results do not depend on the number of threads.
 /// @throws InputError if the particles do not spin, if a bond refers to a particle that is not there (see renumber), or
 ///         dt is not finite and ≥ 0
-ContactWork exchangeBonds(Particles& particles, Bonds& bonds, double dt);
+ContactWork exchangeBonds(Particles& particles, Bonds& bonds, const geometry::Periodicity& space, double dt);
 
-/// Gives the bonds the new numbers of their particles (see sortParticles); bonds of particles that are gone (< 0)
-/// leave, and what they held is booked by the next exchange.
+/// Gives the bonds the new numbers of their particles (see sortParticles), and sorts them by these; bonds of particles
+/// that are gone (< 0) leave, and what they held is booked by the next exchange.
 /// @param newNumber one per particle with which the bonds were last used
 void renumber(Bonds& bonds, std::span<const int> newNumber);
 
-/// Sets PairList::scale to 0 for bonded pairs, so that only the bond acts between them. Again for every new list, and
-/// when bonds have broken. (A law that wakes up between overlapping particles brings energy from nowhere: bond
-/// particles that touch and leave the law on, or mute those that overlap and do not break.)
+/// Sets PairList::scale to 0 for bonded pairs, so that only the bond acts between them. Again for every new list; any
+/// number of times. (A law that wakes up between overlapping particles brings energy from nowhere: bond particles that
+/// touch and leave the law on, or mute those that overlap and do not break.)
 void muteBonded(const Bonds& bonds, PairList& list);
 
-/// Safe bound on the stable step of velocity Verlet with these bonds alone, s; infinite without any. Every particle
-/// shares its mass and inertia among its bonds by what they ask for; the whole is then no faster than the fastest bond.
-/// Exact for two equal particles; on the safe side by up to √3 where bonds go all ways. With contacts: 1/dt² adds up.
-double criticalStep(const Particles& particles, const Bonds& bonds);
+/// Adds the bonds to what is asked of the particles, as if each were a contact: the largest of its axial, twisting and
+/// bending shares over mass and inertia. Exact for two equal particles; on the safe side by up to √3 where bonds go all
+/// ways.
+void addDemand(ContactDemand& demand, const Particles& particles, const Bonds& bonds);
+
+/// Bonds one by one as the last exchange left them, for fields, averages and files; one entry per bond.
+struct BondSample {
+  std::vector<int> first, second;               ///< particles
+  std::vector<Vec3> from, to;                   ///< their centres, the second one's image next to the first, m
+  std::vector<Vec3> force;                      ///< on the first at its centre, N; the second gets the opposite
+  std::vector<Vec3> torqueFirst, torqueSecond;  ///< about the centres, N m
+  std::vector<double> tension;                  ///< N, > 0 where the bond pulls
+  std::vector<double> utilised;                 ///< largest stress over strength
+  std::vector<double> energy;                   ///< J
+  std::size_t size() const { return first.size(); }
+};
+
+/// @throws InputError unless exchangeBonds has been called since bonds were added or particles got new numbers
+BondSample sampleBonds(const Particles& particles, const Bonds& bonds, const geometry::Periodicity& space);
+
+/// Whether the bonds fit the particles.
+/// @throws InputError if the particles do not spin, or naming the bond that refers to a particle that is not there or
+/// to
+///         one twice, or whose length, stiffness or strength is not valid
+void check(const Bonds& bonds, const Particles& particles);
 
 /// @throws InputError naming the field
 void validate(const BondMaterial& material);

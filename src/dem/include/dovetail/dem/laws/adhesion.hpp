@@ -11,6 +11,7 @@ namespace dovetail::dem {
 /// F = −F₀ while particles touch; energy −F₀ δ.
 struct ConstantCohesion {
   double force = 0.0;  ///< F₀ ≥ 0, N
+  static constexpr const char* name = "constant cohesion";
   static constexpr bool needsRadius = false;
   struct Prepared {
     double force;
@@ -26,6 +27,7 @@ struct ConstantCohesion {
 struct LinearCohesion {
   double stiffness = 0.0;  ///< k_c ≥ 0, N/m
   double pressure = 0.0;   ///< p ≥ 0, Pa (energy per volume, J/m³)
+  static constexpr const char* name = "linear cohesion";
   static constexpr bool needsRadius = true;
   struct Prepared {
     double stiffness, pressureTimesPi;
@@ -41,6 +43,7 @@ struct LinearCohesion {
 /// grains, on Hertz's normal part.
 struct DmtAdhesion {
   double work = 0.0;  ///< w ≥ 0, J/m², to separate the surfaces; twice the surface energy of equal materials
+  static constexpr const char* name = "DMT";
   static constexpr bool needsRadius = true;
   struct Prepared {
     double forcePerRadius;
@@ -52,9 +55,36 @@ struct DmtAdhesion {
   Prepared prepare() const { return {2.0 * std::numbers::pi * work}; }
 };
 
+/// All of these in one: F = −(F₀ + 2π w R*) − (k_c + p π R*) δ.
+struct Cohesion {
+  double force = 0.0;      ///< F₀ ≥ 0, N
+  double stiffness = 0.0;  ///< k_c ≥ 0, N/m
+  double pressure = 0.0;   ///< p ≥ 0, Pa
+  double work = 0.0;       ///< w ≥ 0, J/m²
+  static constexpr const char* name = "cohesion";
+  static constexpr bool needsRadius = true;
+
+  Cohesion() = default;
+  Cohesion(double f, double k, double p, double w) : force(f), stiffness(k), pressure(p), work(w) {}
+  Cohesion(const ConstantCohesion& part) : force(part.force) {}
+  Cohesion(const LinearCohesion& part) : stiffness(part.stiffness), pressure(part.pressure) {}
+  Cohesion(const DmtAdhesion& part) : work(part.work) {}
+
+  struct Prepared {
+    double force, stiffness, pressureTimesPi, forcePerRadius;
+    [[gnu::always_inline]] AdhesionResponse respond(const Contact& contact, const NormalResponse&) const {
+      const double always = -(force + forcePerRadius * contact.effectiveRadius);
+      const double growing = -(stiffness + pressureTimesPi * contact.effectiveRadius) * contact.overlap;
+      return {always + growing, (always + 0.5 * growing) * contact.overlap};
+    }
+  };
+  Prepared prepare() const { return {force, stiffness, std::numbers::pi * pressure, 2.0 * std::numbers::pi * work}; }
+};
+
 /// @throws InputError: a parameter not finite and ≥ 0
 void validate(const ConstantCohesion& part);
 void validate(const LinearCohesion& part);
 void validate(const DmtAdhesion& part);
+void validate(const Cohesion& part);
 
 }  // namespace dovetail::dem

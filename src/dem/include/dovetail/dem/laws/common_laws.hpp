@@ -15,12 +15,12 @@ extern template ContactWork collide(Particles&, PairList&, const PreparedLaws<He
 extern template ContactWork collide(Particles&, PairList&, const PreparedLaws<HertzMindlinLaw>&, double, Booking);
 
 extern template ContactWork collideWithWall(Particles&, const TriangulatedWall&, WallContacts&,
-                                            const PreparedLaws<ElasticLaw>&, double);
+                                            const PreparedLaws<ElasticLaw>&, double, Booking);
 extern template ContactWork collideWithWall(Particles&, const TriangulatedWall&, WallContacts&,
-                                            const PreparedLaws<FrictionalLaw>&, double);
+                                            const PreparedLaws<FrictionalLaw>&, double, Booking);
 extern template ContactWork collideWithWall(Particles&, const TriangulatedWall&, WallContacts&,
-                                            const PreparedLaws<HertzLaw>&, double);
+                                            const PreparedLaws<HertzLaw>&, double, Booking);
 extern template ContactWork collideWithWall(Particles&, const TriangulatedWall&, WallContacts&,
-                                            const PreparedLaws<HertzMindlinLaw>&, double);
+                                            const PreparedLaws<HertzMindlinLaw>&, double, Booking);
 
 }  // namespace dovetail::dem

@@ -8,7 +8,8 @@ namespace dovetail::dem {
 
 /// Two bodies in contact: particle and partner (a particle, or a wall that counts as infinitely heavy and flat).
 struct Contact {
-  double overlap = 0.0;          ///< δ, m; > 0 while they touch
+  double overlap = 0.0;  ///< δ, m; > 0 while they touch. After the last touch δ is asked for once more, as it was
+  double overlapBefore = 0.0;    ///< δ one step ago, m; < 0 if they were apart
   double separating = 0.0;       ///< n·velocity, m/s; > 0 while the overlap closes
   double effectiveMass = 0.0;    ///< m₁m₂/(m₁ + m₂), kg; only where a part has `needsMass`
   double rootMass = 0.0;         ///< its square root, kg^½
@@ -18,6 +19,7 @@ struct Contact {
   Vec3 spin;                     ///< angular velocity of the particle minus the partner's, rad/s
   double twist = 0.0;            ///< mean angular velocity of both about the normal, rad/s
   double dt = 0.0;               ///< step over which memories advance, s
+  double inverseDt = 0.0;        ///< 1/dt, 1/s
 };
 
 struct NormalResponse {
@@ -25,7 +27,9 @@ struct NormalResponse {
   double stiffness = 0.0;     ///< N/m, slope of the elastic force, > 0; other parts scale with it
   double damping = 0.0;       ///< N s/m, of the dashpot; other parts scale with it
   double energy = 0.0;        ///< J that can be had back
-  double dashpotPower = 0.0;  ///< W
+  double dampingShare = 1.0;  ///< of a dashpot's power now that belongs to this step, see bookedDashpot
+  double dashpotPower = 0.0;  ///< W, average of this step
+  double dashpotAfter = 0.0;  ///< W, what still belongs to the dashpot in the step after the last touch
   double plasticPower = 0.0;  ///< W, average of this step
 };
 
@@ -60,6 +64,7 @@ struct ContactResponse {
   Vec3 force;   ///< N on the particle
   Vec3 couple;  ///< N m on the particle beyond arm × force
   ContactWork work;
+  double dashpotAfter = 0.0;  ///< see NormalResponse
 };
 
 }  // namespace dovetail::dem

@@ -15,8 +15,8 @@ namespace dovetail::dem::detail {
 inline constexpr std::size_t blockSize = 64;
 inline constexpr std::size_t channels = 8;  // of ContactWork
 
-/// Up to blockSize contacts. `gather` fills the first group, `answer` turns it into the second, which shares its rows.
-/// Rows that a law does not need are never touched.
+/// Up to blockSize contacts: rows that are filled before `answer`, and rows that it fills. Rows that a law does not
+/// need are never touched.
 struct ContactBlock {
   using Row = std::array<double, blockSize>;
   struct Rows3 {
@@ -28,18 +28,28 @@ struct ContactBlock {
       z[l] = v.z;
     }
   };
-  Rows3 separation;          ///< in: x_particle − x_partner (pairs) or the unit normal (walls); out: n × force
-  Rows3 velocity;            ///< in: v_particle − v_partner; out: force on the particle
-  Rows3 spinI;               ///< in: ω of the particle; out: couple on the particle
-  Rows3 spinJ;               ///< in: ω of the partner
-  alignas(64) Row armI;      ///< in: radius of the particle; out: distance of its centre from the contact
-  alignas(64) Row armJ;      ///< the same of the partner; walls: in: overlap
-  alignas(64) Row rootMass;  ///< √ of the effective mass, kg^½
-  alignas(64) Row radius;    ///< effective, m
-  alignas(64) Row scale;
+  // Given: pairs
+  Rows3 separation;                  ///< x_particle − x_partner, m
+  alignas(64) Row radiusI, radiusJ;  ///< m
+  // Given: walls
+  Rows3 normal;                 ///< unit, from the wall to the particle
+  alignas(64) Row overlap;      ///< m
+  alignas(64) Row energyShare;  ///< factor on what normal springs store and plastic flow takes
+  // Given: both
+  Rows3 velocity;                   ///< v_particle − v_partner, m/s: of the centres (pairs), at the contact (walls)
+  Rows3 spinI, spinJ;               ///< ω of the particle and of the partner, rad/s
+  alignas(64) Row rootMass;         ///< √ of the effective mass, kg^½
+  alignas(64) Row effectiveRadius;  ///< m
+  alignas(64) Row scale;            ///< factor on forces and energies
   alignas(64) std::array<int, blockSize> kind;  ///< row of the law table
-  alignas(64) std::array<Row, 12> memory;       ///< of the law, by component
-  alignas(64) std::array<Row, channels> work;   ///< channels of ContactWork
+  alignas(64) std::array<Row, 12> memory;       ///< of the law, by component; advanced
+
+  // Answered
+  Rows3 force;                 ///< on the particle, N
+  Rows3 couple;                ///< on the particle beyond arm × force, N m
+  Rows3 turning;               ///< normal × force, N: times −arm it is the moment on a particle (pairs)
+  alignas(64) Row armI, armJ;  ///< distances of the centres from the contact, m (pairs)
+  alignas(64) std::array<Row, channels> work;  ///< channels of ContactWork
 };
 
 /// Which rows are in use.
@@ -61,17 +71,20 @@ inline void storeMemory(ContactBlock& block, [[maybe_unused]] std::size_t l, con
   ((block.memory[C][l] = keep ? memory[C] : 0.0), ...);
 }
 
+/// @param ended what a contact that no longer touches takes with it
 inline void storeWork(ContactBlock& block, std::size_t l, const ContactWork& now, const ContactWork& ended,
-                      bool touches, double scale) {
-  const auto put = [&](std::size_t channel, double a, double b) { block.work[channel][l] = scale * (touches ? a : b); };
-  put(0, now.elasticEnergy, 0.0);
-  put(1, now.dissipatedPower, 0.0);
-  put(2, now.tangentialEnergy, 0.0);
-  put(3, now.frictionPower, ended.frictionPower);
-  put(4, now.rollingEnergy, 0.0);
-  put(5, now.rollingPower, ended.rollingPower);
-  put(6, now.plasticPower, ended.plasticPower);
-  put(7, now.fracturePower, 0.0);
+                      bool touches, double scale, double normalScale) {
+  const auto put = [&](std::size_t channel, double factor, double a, double b) {
+    block.work[channel][l] = factor * (touches ? a : b);
+  };
+  put(0, normalScale, now.elasticEnergy, 0.0);
+  put(1, scale, now.dissipatedPower, ended.dissipatedPower);
+  put(2, scale, now.tangentialEnergy, 0.0);
+  put(3, scale, now.frictionPower, ended.frictionPower);
+  put(4, scale, now.rollingEnergy, 0.0);
+  put(5, scale, now.rollingPower, ended.rollingPower);
+  put(6, normalScale, now.plasticPower, ended.plasticPower);
+  put(7, scale, now.fracturePower, ended.fracturePower);
 }
 
 template <class Prepared, std::size_t... C>
@@ -86,6 +99,7 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
   using Prepared = typename Law::Prepared;
   constexpr auto components = std::make_index_sequence<static_cast<std::size_t>(Law::memory)>{};
   const Prepared single = laws[0];  // a copy nobody else can write to
+  const double inverseDt = dt > 0.0 ? 1.0 / dt : 0.0;
   constexpr std::size_t parameters = sizeof(Prepared) / sizeof(double);
   alignas(64) double rows[options.varied ? parameters : 1][blockSize];
   if constexpr (options.varied)
@@ -98,27 +112,32 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
     Prepared law = single;
     if constexpr (options.varied) law = fromRows<Prepared>(rows, l, std::make_index_sequence<parameters>{});
     Contact contact;
-    Vec3 normal = block.separation.at(l);
-    double armI = block.armI[l], armJ = block.armJ[l], overlap = armJ;
-    if constexpr (!options.wall) {
-      const double squared = squaredNorm(normal);
+    Vec3 normal, velocity = block.velocity.at(l);
+    double armI = 0.0, armJ = 0.0, overlap = 0.0;
+    if constexpr (options.wall) {
+      normal = block.normal.at(l);
+      overlap = block.overlap[l];
+    } else {
+      const Vec3 separation = block.separation.at(l);
+      const double squared = squaredNorm(separation);
       const double distance = std::sqrt(squared), inverse = 1.0 / (squared > 0.0 ? distance : 1.0);
-      normal = {squared > 0.0 ? normal.x * inverse : 1.0, normal.y * inverse, normal.z * inverse};
-      overlap = armI + armJ - distance;
-      armI -= 0.5 * overlap;
-      armJ -= 0.5 * overlap;
+      normal = {squared > 0.0 ? separation.x * inverse : 1.0, separation.y * inverse, separation.z * inverse};
+      overlap = block.radiusI[l] + block.radiusJ[l] - distance;
+      armI = block.radiusI[l] - 0.5 * overlap;
+      armJ = block.radiusJ[l] - 0.5 * overlap;
     }
-    const bool touches = overlap > -law.reach();
-    Vec3 velocity = block.velocity.at(l);
     if constexpr (options.spins) {
       const Vec3 spinI = block.spinI.at(l), spinJ = block.spinJ.at(l);
       if constexpr (!options.wall) velocity -= cross(armI * spinI + armJ * spinJ, normal);
       contact.spin = spinI - spinJ;
       contact.twist = 0.5 * dot(spinI + spinJ, normal);
     }
+    const bool touches = overlap > -law.reach();
     contact.normal = normal;
-    contact.overlap = touches ? overlap : 0.0;
     contact.separating = dot(normal, velocity);
+    contact.overlapBefore = overlap + contact.separating * dt;
+    const double last = contact.overlapBefore > 0.0 ? contact.overlapBefore : 0.0;
+    contact.overlap = touches ? overlap : last;
     if constexpr (Law::needsSlip) contact.slip = velocity - contact.separating * normal;
     const double scale = options.varied ? block.scale[l] : 1.0;
     contact.rootMass = block.rootMass[l];
@@ -126,25 +145,30 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
                   !options.wall)  // masses carry the scale too, so it is divided out of the effective one
       contact.rootMass = scale > 0.0 ? contact.rootMass / std::sqrt(scale > 0.0 ? scale : 1.0) : 0.0;
     contact.effectiveMass = contact.rootMass * contact.rootMass;
-    contact.effectiveRadius = block.radius[l];
+    contact.effectiveRadius = block.effectiveRadius[l];
     contact.dt = dt;
+    contact.inverseDt = inverseDt;
     double memory[Law::memory + 1];
     loadMemory(block, l, memory, components);
     ContactWork ended;
-    if constexpr (Law::memory > 0 && options.booked) ended = law.ended(memory, dt);
+    if constexpr (Law::memory > 0 && options.booked) ended = law.ended(memory, inverseDt);
     const ContactResponse response = law.respond(contact, memory);
+    ended.dissipatedPower = response.dashpotAfter;
     const Vec3 force{touches ? scale * response.force.x : 0.0, touches ? scale * response.force.y : 0.0,
                      touches ? scale * response.force.z : 0.0};
-    block.velocity.set(l, force);
+    block.force.set(l, force);
     if constexpr (options.spins) {
-      block.separation.set(l, cross(normal, force));
-      block.armI[l] = armI;
-      block.armJ[l] = armJ;
-      block.spinI.set(l, {touches ? scale * response.couple.x : 0.0, touches ? scale * response.couple.y : 0.0,
-                          touches ? scale * response.couple.z : 0.0});
+      block.couple.set(l, {touches ? scale * response.couple.x : 0.0, touches ? scale * response.couple.y : 0.0,
+                           touches ? scale * response.couple.z : 0.0});
+      if constexpr (!options.wall) {
+        block.turning.set(l, cross(normal, force));
+        block.armI[l] = armI;
+        block.armJ[l] = armJ;
+      }
     }
     storeMemory(block, l, memory, touches, components);
-    if constexpr (options.booked) storeWork(block, l, response.work, ended, touches, scale);
+    if constexpr (options.booked)
+      storeWork(block, l, response.work, ended, touches, scale, options.wall ? block.energyShare[l] : scale);
   }
 }
 

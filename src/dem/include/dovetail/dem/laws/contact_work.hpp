@@ -3,6 +3,9 @@
 
 namespace dovetail::dem {
 
+/// Whether a sweep over contacts reports energies and losses; without them they cost nothing.
+enum class Booking { on, off };
+
 /// Sums over the contacts of one force evaluation.
 struct ContactWork {
   double elasticEnergy = 0.0;     ///< J stored in normal springs (adhesion included, < 0 there) now

@@ -19,6 +19,7 @@ struct ElasticPlastic {
   double cohesionStiffness = 0.0;   ///< k_c ≥ 0, N/m
   double dampingRatio = 0.0;        ///< ζ ≥ 0
 
+  static constexpr const char* name = "elastic-plastic";
   static constexpr int memory = 1;  // δ₀, m
   static constexpr unsigned turns = 0;
   static constexpr bool needsMass = true, needsRadius = false;
@@ -43,12 +44,19 @@ struct ElasticPlastic {
       const double floor = elastic < 0.0 ? elastic : 0.0;
       const double force = whole < floor ? floor : whole;
       const double change = plastic * plastic - before * before;
+      const bool touched = contact.overlapBefore > 0.0;
+      const double springBefore = touched ? stiffness * (contact.overlapBefore - before) : 0.0;
+      const BookedDashpot booked =
+          bookedDashpot(contact, damping * contact.separating, elastic > 0.0 ? elastic : 0.0,
+                        (touched ? damping : 0.0) * contact.separating, springBefore > 0.0 ? springBefore : 0.0);
       return {.force = force,
               .stiffness = stiffness,
               .damping = damping,
               .energy = 0.5 * elastic * elastic / stiffness,
-              .dashpotPower = (elastic - force) * contact.separating,
-              .plasticPower = 0.5 * (change > 0.0 ? yield * change : -yieldCohesion * change) / contact.dt};
+              .dampingShare = touched ? 1.0 : 0.75,
+              .dashpotPower = booked.power,
+              .dashpotAfter = booked.after,
+              .plasticPower = 0.5 * (change > 0.0 ? yield * change : -yieldCohesion * change) * contact.inverseDt};
     }
     double reach() const { return 0.0; }
     bool usesMass() const { return dampingPerRootMass > 0.0; }

@@ -1,6 +1,7 @@
 // Laws for pairs of materials.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -16,6 +17,12 @@ struct PreparedLaws {
   int materials = 1;
   std::vector<typename Law::Prepared> table;  ///< materials², symmetric
   const typename Law::Prepared& at(int a, int b) const { return table[static_cast<std::size_t>(a * materials + b)]; }
+  /// How far beyond touch any of them acts, m.
+  double reach() const {
+    double reach = 0.0;
+    for (const auto& law : table) reach = std::max(reach, law.reach());
+    return reach;
+  }
   bool usesMass() const {
     for (const auto& law : table)
       if (law.usesMass()) return true;
@@ -52,6 +59,18 @@ private:
   std::vector<Law> laws_;
 };
 
+namespace detail {
+/// @throws InputError as validate does, naming the materials
+template <class Law>
+void validateEntry(const Law& law, int a, int b) {
+  try {
+    validate(law);
+  } catch (const InputError& error) {
+    throw InputError(error.what(), "law between materials " + std::to_string(a) + " and " + std::to_string(b), "");
+  }
+}
+}  // namespace detail
+
 /// Checks a law and takes its roots and logarithms.
 /// @throws InputError as validate does
 template <class Normal, class Tangential, class Rolling, class Adhesion>
@@ -63,18 +82,9 @@ auto prepare(const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law) {
 template <class Law>
 PreparedLaws<Law> prepare(const LawTable<Law>& laws) {
   PreparedLaws<Law> prepared{laws.materials(), {}};
-  for (const Law& law : laws.laws()) {
-    try {
-      validate(law);
-    } catch (const InputError& error) {
-      const auto entry = static_cast<int>(prepared.table.size());
-      throw InputError(error.what(),
-                       "law between materials " + std::to_string(entry / laws.materials()) + " and " +
-                           std::to_string(entry % laws.materials()),
-                       "");
-    }
-    prepared.table.push_back(law.prepare());
-  }
+  for (int a = 0; a < laws.materials(); ++a)
+    for (int b = a; b < laws.materials(); ++b) detail::validateEntry(laws.at(a, b), a, b);
+  for (const Law& law : laws.laws()) prepared.table.push_back(law.prepare());
   return prepared;
 }
 

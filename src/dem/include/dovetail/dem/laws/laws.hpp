@@ -1,6 +1,7 @@
 // Contact laws, composed of parts. An absent part takes no memory and no instruction.
 //
 // A part is a plain structure of parameters with
+//   static constexpr const char* name   what it is called in names of laws, may be left out
 //   static constexpr int memory         numbers (doubles) that a contact remembers for it; all zero in a new contact
 //   static constexpr unsigned turns     bit c is set if number c changes its sign when the two particles change roles
 //   static constexpr bool needs…        what of `Contact` it reads beyond overlap, separation, normal and dt
@@ -20,22 +21,42 @@
 
 namespace dovetail::dem {
 
+struct BookedDashpot {
+  double power, after;  ///< see NormalResponse::dashpotPower and dashpotAfter
+};
+/// Power that a normal dashpot takes, W, booked at second order in dt.
+///
+/// A step ends in a kick that turns the velocity v₋, which the force sees, into v₊, and the dashpot takes
+/// G (v₋ + v₊)/2, G being its force. The half with v₊ is booked by the next evaluation, where v₊ is the one seen: as
+/// G′ v₊/2 if G′ did not depend on v (it had cut the force off), else, G = C v, by v₋ v₊ ≈ (v₋² + v₊²)/2 in equal parts
+/// here and there. Primes belong to the overlap one step ago.
+/// @param free, freeBefore  C n·v at the overlap now and one step ago
+/// @param most, mostBefore  what the dashpot may take off the elastic force, ∞ if it may pull
+[[gnu::always_inline]] inline BookedDashpot bookedDashpot(const Contact& contact, double free, double most,
+                                                          double freeBefore, double mostBefore) {
+  const double now = free > most ? 0.5 * most : 0.75 * free;
+  const double before = freeBefore > mostBefore ? 0.5 * mostBefore : 0.25 * freeBefore;
+  return {(now + before) * contact.separating, before * contact.separating};
+}
+
 /// Normal part: linear spring and dashpot, F = k δ + c dδ/dt (> 0 pushes apart).
 ///
-/// The inputs are k and the restitution e; with effective mass m = m₁m₂/(m₁ + m₂) (a wall counts as infinitely heavy)
-///   t_c² = m (π² + ln²e)/k,   c = −2 m ln e/t_c,
-/// so that e holds for every size, and the half period t_c grows with damping.
+/// The inputs are k and the restitution e. With effective mass m = m₁m₂/(m₁ + m₂) (a wall counts as infinitely heavy)
+/// the dashpot is c = 2 ζ √(k m), so that e holds for every size and speed.
 ///
-/// Which restitution: with `tension` (default) the contact lasts until the overlap has gone, its last part pulls, and
-/// separation speed / approach speed = e exactly. Without tension the force is cut off at zero, the contact ends sooner
-/// and the ratio is restitutionWithoutTension(e) ≥ e.
+/// Which restitution: separation speed / approach speed is e, with and without `tension`. Without it (default) the
+/// force is cut off at zero, which ends the contact sooner, and ζ is chosen for that (see restitution.hpp). With it the
+/// contact lasts until the overlap has gone, its last part pulls, and ζ = −ln e/√(π² + ln²e). With `nominal` and
+/// without tension ζ is that of a contact that may pull, as in codes that cut the force off afterwards; the rebound is
+/// then restitutionWithoutTension(e) ≥ e.
 struct LinearSpringDashpot {
   double stiffness = 0.0;    ///< k, N/m
   double restitution = 1.0;  ///< e, in (0, 1]; 1 = no dashpot
-  bool tension = true;       ///< whether the dashpot may pull while the overlap closes
-  bool bonded = false;  ///< pairs only: every pair of the list holds together, F = k δ for δ < 0 too. The list is
-                        ///< then made once, with the pairs that are to be bonds, and kept
-
+  bool tension = false;      ///< whether the dashpot may pull while the overlap closes
+  bool bonded = false;   ///< pairs only: every pair of the list holds together, F = k δ for δ < 0 too. The list is
+                         ///< then made once, with the pairs that are to be bonds, and kept
+  bool nominal = false;  ///< without tension: e is that of the contact that is not cut off
+  static constexpr const char* name = "linear spring-dashpot";
   static constexpr int memory = 0;
   static constexpr unsigned turns = 0;
   static constexpr bool needsMass = true, needsRadius = false;
@@ -64,11 +85,18 @@ struct LinearSpringDashpot {
       const double elastic = stiffness * contact.overlap;
       const double whole = elastic - damping * contact.separating;
       const double force = whole < leastForce ? leastForce : whole;
+      const bool touched = contact.overlapBefore > -range;
+      const double before = touched ? contact.overlapBefore : 0.0;
+      const BookedDashpot booked =
+          bookedDashpot(contact, damping * contact.separating, elastic - leastForce,
+                        (touched ? damping : 0.0) * contact.separating, stiffness * before - leastForce);
       return {.force = force,
               .stiffness = stiffness,
               .damping = damping,
               .energy = 0.5 * elastic * contact.overlap,
-              .dashpotPower = (elastic - force) * contact.separating};
+              .dampingShare = touched ? 1.0 : 0.75,
+              .dashpotPower = booked.power,
+              .dashpotAfter = booked.after};
     }
     /// Contacts act while overlap > −reach, m.
     double reach() const { return range; }
@@ -79,11 +107,13 @@ struct LinearSpringDashpot {
 
   /// c, N s/m
   double damping(double effectiveMass) const;
-  /// t_c, s
+  /// ζ
+  double dampingRatio() const;
+  /// How long a contact lasts, s; with `nominal` one that is not cut off.
   double contactTime(double effectiveMass) const;
 };
 
-/// e^(1 − (2/π) arctan(−ln e/π)): what a linear spring-dashpot made for e does when it may not pull
+/// e^(1 − (2/π) arctan(−ln e/π)): what a spring-dashpot made for e does when it may not pull
 /// (Schwager & Pöschel, Granular Matter 9, 2007).
 double restitutionWithoutTension(double restitution);
 
@@ -114,15 +144,18 @@ struct NoTangential {
 
 /// A spring, a dashpot beside it, and a slider before both.
 struct Slider {
-  Vec3 stretch, force;        ///< of the spring, and of both, along the stretch
-  double energy = 0.0;        ///< J stored
-  double slipWork = 0.0;      ///< J lost to sliding in this step
-  double dampingPower = 0.0;  ///< W lost to the dashpot, ≥ 0
+  Vec3 stretch, force;     ///< of the spring, and of both, along the stretch
+  double energy = 0.0;     ///< J stored
+  double lostPower = 0.0;  ///< W lost to sliding and to the dashpot, average of this step
 
   /// The spring alone keeps below the limit; the dashpot adds what the limit leaves. (The other way round, a dashpot
   /// above the limit would stretch the spring backwards, with energy from nowhere.)
-  [[gnu::always_inline]] Slider(const Vec3& stretched, const Vec3& rate, double stiffness, double damping,
-                                double limit) {
+  /// @param kept        stretch before this step
+  /// @param forceBefore of the spring, in the last step; sliding is booked with the mean of both, as the work is done
+  /// @param rate        relative velocity
+  [[gnu::always_inline]] Slider(const Vec3& kept, const Vec3& forceBefore, const Vec3& rate, double stiffness,
+                                double damping, double dampingShare, double limit, const Contact& contact) {
+    const Vec3 stretched = kept + contact.dt * rate;
     const double size = stiffness * norm(stretched);
     const bool slides = size > limit;
     stretch = (slides ? limit / (slides ? size : 1.0) : 1.0) * stretched;
@@ -131,14 +164,36 @@ struct Slider {
     const bool cut = damping > 0.0 ? whole > limit : false;
     force = (cut ? limit / (cut ? whole : 1.0) : 1.0) * both;
     energy = 0.5 * dot(spring, stretch);
-    slipWork = dot(spring, stretched - stretch);
-    dampingPower = dot(force - spring, rate);
+    const double slipWork = 0.5 * dot(spring + forceBefore, stretched - stretch);
+    lostPower = slipWork * contact.inverseDt + dampingShare * dot(force - spring, rate);
   }
 };
+
+/// A slider whose spring changes its stiffness with the normal load. No energy appears: while the stiffness grows, the
+/// force stays and the stretch shrinks; while it falls, the stretch stays and the force shrinks. What the spring loses
+/// by that counts as lost.
+/// @param old  stretch before this step, in today's contact plane
+/// @param held takes the new stretch; its fourth number is the stiffness, of the last step and then of this one
+[[gnu::always_inline]] inline Slider slideGrowing(const Vec3& old, const Vec3& rate, double stiffness, double damping,
+                                                  double dampingShare, double limit, const Contact& contact,
+                                                  double* held) {
+  const double before = held[3];
+  const bool grows = stiffness > before;
+  const Vec3 kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old, forceBefore = before * old;
+  Slider now(kept, forceBefore, rate, stiffness, damping, dampingShare, limit, contact);
+  held[0] = now.stretch.x;
+  held[1] = now.stretch.y;
+  held[2] = now.stretch.z;
+  held[3] = stiffness;
+  const double change = 0.5 * (dot(forceBefore, old - kept) + dot(forceBefore - stiffness * kept, now.stretch));
+  now.lostPower += change * contact.inverseDt;
+  return now;
+}
 
 /// Tangential part: spring of stiffness k_t stretched by the relative tangential motion (Cundall & Strack 1979), with a
 /// dashpot if asked for; the force is limited to μ times the repulsion of the normal part (Coulomb).
 struct TangentialSpring {
+  static constexpr const char* name = "friction";
   static constexpr int memory = 3;  // stretch, m
   static constexpr unsigned turns = 0b111;
   static constexpr bool needsSlip = true;
@@ -151,13 +206,14 @@ struct TangentialSpring {
 
     [[gnu::always_inline]] TangentialResponse respond(const Contact& contact, const NormalResponse& normal,
                                                       double* held) const {
-      const Vec3 stretched = carried({held[0], held[1], held[2]}, contact) + contact.dt * contact.slip;
+      const Vec3 old = carried({held[0], held[1], held[2]}, contact);
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
-      const Slider now(stretched, contact.slip, stiffness, dampingRatio * normal.damping, limit);
+      const Slider now(old, stiffness * old, contact.slip, stiffness, dampingRatio * normal.damping,
+                       normal.dampingShare, limit, contact);
       held[0] = now.stretch.x;
       held[1] = now.stretch.y;
       held[2] = now.stretch.z;
-      return {.force = -now.force, .energy = now.energy, .slipPower = now.slipWork / contact.dt + now.dampingPower};
+      return {.force = -now.force, .energy = now.energy, .slipPower = now.lostPower};
     }
     Slope slope(const Contact&, const NormalResponse& normal) const {
       return {stiffness, dampingRatio * normal.damping};
@@ -199,7 +255,21 @@ inline void validate(const NoTangential&) {}
 inline void validate(const NoRolling&) {}
 inline void validate(const NoAdhesion&) {}
 
-/// A law for one pair of materials.
+namespace detail {
+/// Numbers that a part remembers, if it says so.
+template <class Part>
+constexpr int numbersOf() {
+  if constexpr (requires { Part::memory; })
+    return Part::memory;
+  else
+    return 0;
+}
+template <class Part>
+inline constexpr int memoryOf = numbersOf<Part>();
+}  // namespace detail
+
+/// A law for one pair of materials. A part in the place of adhesion that remembers something also says how far beyond
+/// touch it reaches, m (`Prepared::reach`), and gets its memory as third argument of respond.
 template <class Normal, class Tangential = NoTangential, class Rolling = NoRolling, class Adhesion = NoAdhesion>
 struct ContactLaw {
   Normal normal;
@@ -207,7 +277,9 @@ struct ContactLaw {
   [[no_unique_address]] Rolling rolling = {};
   [[no_unique_address]] Adhesion adhesion = {};
 
-  static constexpr int memory = Normal::memory + Tangential::memory + Rolling::memory;
+  static constexpr int pullMemory = detail::memoryOf<Adhesion>;  // of what pulls, behind all others
+  static constexpr int touchMemory = Normal::memory + Tangential::memory + Rolling::memory;
+  static constexpr int memory = touchMemory + pullMemory;
   static_assert(memory <= 12, "a block of contacts has rows for twelve numbers");
   static constexpr unsigned turns =
       Normal::turns | Tangential::turns << Normal::memory | Rolling::turns << (Normal::memory + Tangential::memory);
@@ -224,17 +296,51 @@ struct ContactLaw {
     [[no_unique_address]] typename Rolling::Prepared rolling;
     [[no_unique_address]] typename Adhesion::Prepared adhesion;
 
-    double reach() const { return normal.reach(); }
+    double reach() const {
+      if constexpr (pullMemory > 0)
+        return adhesion.reach();
+      else
+        return normal.reach();
+    }
     bool usesMass() const { return normal.usesMass(); }
 
     /// Answers of all parts; those of the normal part's memory come first, then the tangential one's, then the rolling
-    /// one's.
+    /// one's, then that of what pulls.
     [[gnu::always_inline]] ContactResponse respond(const Contact& contact, double* held) const {
+      if constexpr (pullMemory > 0)
+        return respondWithin(contact, held);
+      else
+        return combined(contact, held, [&](const NormalResponse& n) { return adhesion.respond(contact, n); });
+    }
+
+    /// Where something pulls beyond touch: all other parts see the contact only while the two touch.
+    ContactResponse respondWithin(const Contact& contact, double* held) const {
+      const auto pull = [&](const NormalResponse& n) { return adhesion.respond(contact, n, held + touchMemory); };
+      if (contact.overlap > 0.0) return combined(contact, held, pull);
+      Contact last = contact;
+      last.overlap = contact.overlapBefore > 0.0 ? contact.overlapBefore : 0.0;
+      double none[touchMemory + 1] = {};
+      ContactResponse apart;
+      apart.work = endedTouch(held, contact.inverseDt);
+      for (int c = 0; c < touchMemory; ++c) held[c] = 0.0;
+      const NormalResponse n = normal.respond(last, none);
+      const AdhesionResponse a = pull(n);
+      apart.force = a.force * contact.normal;
+      apart.work.elasticEnergy = a.energy;
+      apart.work.dissipatedPower = n.dashpotAfter;
+      return apart;
+    }
+
+    template <class Pull>
+    [[gnu::always_inline]] ContactResponse combined(const Contact& contact, double* held, const Pull& pull) const {
       const NormalResponse n = normal.respond(contact, held);
       const TangentialResponse t = tangential.respond(contact, n, held + Normal::memory);
       const RollingResponse r = rolling.respond(contact, n, held + Normal::memory + Tangential::memory);
-      const AdhesionResponse a = adhesion.respond(contact, n);
-      ContactResponse response{.force = (n.force + a.force) * contact.normal + t.force, .couple = r.couple, .work = {}};
+      const AdhesionResponse a = pull(n);
+      ContactResponse response{.force = (n.force + a.force) * contact.normal + t.force,
+                               .couple = r.couple,
+                               .work = {},
+                               .dashpotAfter = n.dashpotAfter};
       response.work.elasticEnergy = n.energy + a.energy;
       response.work.dissipatedPower = n.dashpotPower;
       response.work.plasticPower = n.plasticPower;
@@ -252,11 +358,17 @@ struct ContactLaw {
     }
 
     /// What a contact that has ended takes with it.
-    ContactWork ended(const double* held, double dt) const {
+    ContactWork ended(const double* held, double inverseDt) const {
+      ContactWork work = endedTouch(held, inverseDt);
+      if constexpr (pullMemory > 0) work.fracturePower = adhesion.remembered(held + touchMemory) * inverseDt;
+      return work;
+    }
+    /// The same of the parts that need touch.
+    ContactWork endedTouch(const double* held, double inverseDt) const {
       ContactWork work;
-      work.plasticPower = normal.remembered(held) / dt;
-      work.frictionPower = tangential.remembered(held + Normal::memory) / dt;
-      work.rollingPower = rolling.remembered(held + Normal::memory + Tangential::memory) / dt;
+      work.plasticPower = normal.remembered(held) * inverseDt;
+      work.frictionPower = tangential.remembered(held + Normal::memory) * inverseDt;
+      work.rollingPower = rolling.remembered(held + Normal::memory + Tangential::memory) * inverseDt;
       return work;
     }
   };

@@ -5,30 +5,11 @@
 
 namespace dovetail::dem {
 
-namespace detail {
-
-/// A spring of stiffness k that remembers its angle; as k changes, no energy appears (see MindlinSpring).
-/// @param held angle (three numbers), k of the last step
-[[gnu::always_inline]] inline RollingResponse springAndSlider(const Vec3& old, const Vec3& rate, double stiffness,
-                                                              double damping, double limit, double dt, double* held) {
-  const double before = held[3];
-  const bool grows = stiffness > before;
-  const Vec3 kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old;
-  const Slider now(kept + dt * rate, rate, stiffness, damping, limit);
-  held[0] = now.stretch.x;
-  held[1] = now.stretch.y;
-  held[2] = now.stretch.z;
-  held[3] = stiffness;
-  const double change = 0.5 * (before * squaredNorm(old) - stiffness * squaredNorm(kept));
-  return {.couple = -now.force, .energy = now.energy, .lostPower = (now.slipWork + change) / dt + now.dampingPower};
-}
-
-}  // namespace detail
-
 /// Rolling resistance of spring, dashpot and slider (Iwashita & Oda, J. Eng. Mech. 124, 1998; model C of Ai et al.,
 /// Powder Technol. 206, 2011): a couple against the relative spin about axes in the contact plane, k_r = ratio · k_n
 /// R*², limited to μ_r R* times the repulsion of the normal part.
 struct RollingResistance {
+  static constexpr const char* name = "rolling";
   static constexpr int memory = 4;  // angle, rad; k_r of the last step, N m/rad
   static constexpr unsigned turns = 0b0111;
   static constexpr bool needsSpin = true, needsRadius = true;
@@ -44,8 +25,9 @@ struct RollingResistance {
       const Slope now = slope(contact, normal);
       const Vec3 rate = contact.spin - dot(contact.spin, contact.normal) * contact.normal;
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
-      return detail::springAndSlider(carried({held[0], held[1], held[2]}, contact), rate, now.stiffness, now.damping,
-                                     limit, contact.dt, held);
+      const Slider slider = slideGrowing(carried({held[0], held[1], held[2]}, contact), rate, now.stiffness,
+                                         now.damping, normal.dampingShare, limit, contact, held);
+      return {-slider.force, slider.energy, slider.lostPower};
     }
     Slope slope(const Contact& contact, const NormalResponse& normal) const {
       const double squared = contact.effectiveRadius * contact.effectiveRadius;
@@ -60,6 +42,7 @@ struct RollingResistance {
 
 /// The same about the normal: a couple against drilling, k_o = ratio · k_n R*², limited to μ_o R* times the repulsion.
 struct TwistingResistance {
+  static constexpr const char* name = "twisting";
   static constexpr int memory = 2;      // angle, rad; k_o of the last step, N m/rad
   static constexpr unsigned turns = 0;  // relative spin and normal turn together
   static constexpr bool needsSpin = true, needsRadius = true;
@@ -75,13 +58,11 @@ struct TwistingResistance {
       const Slope now = slope(contact, normal);
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
       double spring[4] = {held[0], 0.0, 0.0, held[1]};
-      RollingResponse response =
-          detail::springAndSlider({held[0], 0.0, 0.0}, {dot(contact.spin, contact.normal), 0.0, 0.0}, now.stiffness,
-                                  now.damping, limit, contact.dt, spring);
+      const Slider slider = slideGrowing({held[0], 0.0, 0.0}, {dot(contact.spin, contact.normal), 0.0, 0.0},
+                                         now.stiffness, now.damping, normal.dampingShare, limit, contact, spring);
       held[0] = spring[0];
       held[1] = spring[3];
-      response.couple = response.couple.x * contact.normal;
-      return response;
+      return {-slider.force.x * contact.normal, slider.energy, slider.lostPower};
     }
     Slope slope(const Contact& contact, const NormalResponse& normal) const {
       const double squared = contact.effectiveRadius * contact.effectiveRadius;
@@ -96,6 +77,7 @@ struct TwistingResistance {
 struct RollingAndTwisting {
   RollingResistance rolling;
   TwistingResistance twisting;
+  static constexpr const char* name = "rolling and twisting";
   static constexpr int memory = RollingResistance::memory + TwistingResistance::memory;
   static constexpr unsigned turns = RollingResistance::turns | TwistingResistance::turns << RollingResistance::memory;
   static constexpr bool needsSpin = true, needsRadius = true;

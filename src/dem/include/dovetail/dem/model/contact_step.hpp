@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,18 +15,32 @@
 
 namespace dovetail::dem {
 
-/// What the contacts ask of each particle. Pairs and walls add to it (addDemand), then criticalStep reads it.
+/// What acts between a particle and its partner, and may set the step.
+enum class StepOwner : std::uint8_t { contact, bond };
+
+/// What contacts and bonds ask of each particle. Pairs, walls, bonds and clumps add to it (addDemand), in any order;
+/// then criticalStep reads it.
 struct ContactDemand {
-  std::vector<double> stiffness;                             ///< N/m, per particle: sum over its contacts
+  struct Link {
+    int particle, partner;  ///< partner −1: a wall
+    StepOwner owner;
+    double stiffness = 0.0;  ///< along its normal, N/m
+    double wallStiff = 0.0, wallDamped = 0.0;  ///< of a wall that gives way: over its mass, 1/s² and 1/s
+  };
+  std::vector<double> stiffness;                             ///< N/m, per particle: sum over its contacts and bonds
   std::vector<double> damping;                               ///< N s/m, the same of the dashpots
-  std::vector<std::array<int, 2>> contacts;                  ///< particle and partner, −1 for a wall
+  std::vector<Link> links;                                   ///< contacts and bonds
   double twoBody = std::numeric_limits<double>::infinity();  ///< see ContactStep
+
+  std::vector<int> body;      ///< per particle: the body it is a member of, −1 = none; empty: there are no clumps
+  std::vector<double> lever;  ///< per particle: a member's mass over the effective mass that its contacts meet, ≥ 1
 };
 
 /// A step and who sets it.
 struct ContactStep {
   double dt = std::numeric_limits<double>::infinity();  ///< s, safe; infinite without contacts
-  int particle = -1, partner = -1;                      ///< of the contact that sets it; partner −1: a wall
+  int particle = -1, partner = -1;                      ///< between which it is set; partner −1: a wall
+  StepOwner owner = StepOwner::contact;                 ///< what sets it
   /// s; the exact limit 2/ω (√(1 + ζ²) − ζ) of the fastest contact if it were alone and acted along its normal only.
   /// For information: with several contacts per particle it is not safe.
   double twoBody = std::numeric_limits<double>::infinity();
@@ -66,9 +81,10 @@ void addDemand(ContactDemand& demand, const Particles& particles, const PairList
   for (std::size_t p = 0; p < list.size(); ++p) {
     const auto i = static_cast<std::size_t>(list.pairs[p][0]), j = static_cast<std::size_t>(list.pairs[p][1]);
     const auto& law = detail::lawOf(laws, material(i), material(j));
-    const double ri = particles.radius[i], rj = particles.radius[j], mi = particles.mass[i], mj = particles.mass[j];
+    const double ri = particles.radius[i], rj = particles.radius[j];
+    const double mi = particles.weightOf(i) * particles.mass[i], mj = particles.weightOf(j) * particles.mass[j];
     const double overlap = ri + rj - norm(particles.x[i] - particles.x[j] + list.shift(p));
-    if (!(overlap > -law.reach()) && !(leastOverlap > 0.0)) continue;
+    if (!(overlap > -law.normal.reach()) && !(leastOverlap > 0.0)) continue;
     const double scale = list.scale.empty() ? 1.0 : list.scale[p];
     if (!(scale > 0.0)) continue;
     Contact contact;
@@ -86,7 +102,7 @@ void addDemand(ContactDemand& demand, const Particles& particles, const PairList
 }
 
 /// The same for contacts with a wall, which counts as infinitely heavy.
-/// @param contacts arrays particle, overlap, engagement, such as WallContacts after findWallContacts
+/// @param contacts WallContacts after findWallContacts, or PrimitiveContacts after findContacts
 template <class Law, class Contacts>
 void addWallDemand(ContactDemand& demand, const Particles& particles, const Contacts& contacts,
                    const PreparedLaws<Law>& laws, int wallMaterial = 0) {
@@ -95,7 +111,8 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
     const int material = particles.material.empty() ? 0 : int{particles.material[i]};
     const auto& law = detail::lawOf(laws, material, wallMaterial);
     Contact contact;
-    contact.overlap = contacts.overlap[c] / contacts.engagement[c];
+    contact.overlap = shareOf(contacts, c).overlap;
+    if (!(contact.overlap > 0.0)) continue;
     contact.effectiveMass = particles.mass[i];
     contact.rootMass = std::sqrt(contact.effectiveMass);
     contact.effectiveRadius = particles.radius[i];
@@ -107,13 +124,16 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
   }
 }
 
-/// A safe step: every particle shares its mass (and inertia) among its contacts by what they ask for, so that contact
-/// (i, j) alone has ω² = K_i/m_i + K_j/m_j and 2ζω = C_i/m_i + C_j/m_j, K and C being the sums of stiffness and damping
-/// over the contacts of a particle; the whole is no faster than its fastest part. Exact for one contact along its
-/// normal. Dashpots act on the velocity of the half step, as in kick · drift · forces · kick. A contact's stiffness is
-/// the larger of its normal one and, where particles spin, 7/2 of the tangential one with the rolling one over 2/5 R².
-/// Take 0.2 of it or less for accuracy.
+/// A safe step: every particle shares its mass (and inertia) among its contacts and bonds by what they ask for, so that
+/// one (i, j) alone has ω² = K_i/m_i + K_j/m_j and 2ζω = C_i/m_i + C_j/m_j, K and C being the sums of stiffness and
+/// damping over the contacts of a particle; the whole is no faster than its fastest part. Exact for one contact along
+/// its normal. Dashpots act on the velocity of the half step, as in kick · drift · forces · kick. A contact's stiffness
+/// is the larger of its normal one and, where particles spin, 7/2 of the tangential one with the rolling one over 2/5
+/// R². Members of a clump share their body's mass and inertia. Take 0.2 of it or less for accuracy.
 ContactStep criticalStep(const ContactDemand& demand, const Particles& particles);
+
+/// For messages: "the bond of particle 3 with particle 4", particles by their ids.
+std::string ownerOf(const ContactStep& step, const Particles& particles);
 
 /// For pairs alone.
 template <class Law>
@@ -137,7 +157,7 @@ struct MassScaling {
 /// scales masses unless this is called. Dashpots that depend on the mass grow with it: with damping, make the demand
 /// anew and repeat until count = 0.
 /// @param dt wanted, s
-/// @throws InputError unless dt is finite and > 0
+/// @throws InputError unless dt is finite and > 0, or if members of clumps have contacts
 MassScaling scaleMasses(Particles& particles, const ContactDemand& demand, double dt);
 
 }  // namespace dovetail::dem

@@ -1,234 +1,131 @@
-// A scene of particles, pairs and walls, and its step.
+// A scene of particles and what acts on them, and its step.
+//
+//     dem::Model model;
+//     model.laws = dem::makeContactLaws(law);
+//     model.gravity = {0, 0, -9.81};
+//     dem::addParticle(model.particles, …);
+//     dem::addWall(model, dem::makePlane({}, {0, 0, 1}));
+//     dem::run(model, dt, steps);
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "dovetail/core/profile.hpp"
-#include "dovetail/dem/bonds/bonds.hpp"
-#include "dovetail/dem/laws/common_laws.hpp"
+#include "dovetail/dem/laws/contact_laws.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
-#include "dovetail/dem/walls/primitive_wall.hpp"
-#include "dovetail/dem/walls/rigid_wall.hpp"
+#include "dovetail/dem/model/energies.hpp"
+#include "dovetail/dem/model/term.hpp"
+#include "dovetail/dem/pairs/pairs.hpp"
+#include "dovetail/dem/particles/particles.hpp"
 
 namespace dovetail::dem {
-
-/// A triangulated wall with its contacts, at rest or moved as a function of time.
-struct MeshWall {
-  TriangulatedWall wall;
-  WallCandidates candidates;  ///< candidates.skin is the caller's to set
-  WallContacts contacts;
-  EdgeRule rule = EdgeRule::projected;
-  PrescribedMotion motion;   ///< empty: at rest
-  std::vector<Vec3> offset;  ///< with a motion: vertexOffsets
-};
 
 /// What happens to particles that leave the domain.
 enum class EscapePolicy {
   refuse,  ///< NumericalError with the particle, where it is and how fast
-  remove,  ///< it leaves the scene; counted, its mass and energy booked
+  remove,  ///< it leaves the scene; counted, its mass, momentum and energy booked
 };
 
-/// Where particles may be. Looked at whenever the grid is asked for pairs.
+/// Where particles may be. Looked at whenever the grid is asked for pairs; along a periodic axis nobody leaves.
 struct Domain {
   geometry::Box box;  ///< m; centres beyond it have escaped
   EscapePolicy policy = EscapePolicy::refuse;
 };
 
-/// What has left the scene.
-struct Escaped {
-  std::int64_t count = 0;
-  double mass = 0.0;    ///< kg
-  double energy = 0.0;  ///< kinetic and gravity, J
+/// Whether particles spin. They must where laws exert torques, or nothing rolls.
+enum class Rotation {
+  automatic,  ///< switched on before the first step if the laws exert torques or a term asks for it
+  off         ///< particles only slide
 };
 
-/// Energy by channel, J. `balance` is constant but for the error of the integrator.
-struct Energies {
-  double kinetic = 0.0, gravity = 0.0, contacts = 0.0;
-  ContactWork lost;  ///< its …Power members hold what has been lost so far, J; its energies are not used
-  double damping = 0.0, walls = 0.0, escaped = 0.0;
-  double stored() const { return kinetic + gravity + contacts; }
-  /// stored + lost + damping + escaped − work done by moving walls
-  double balance() const { return stored() + lost.lostPower() + damping + escaped - walls; }
-};
-
-/// Particles, walls, and what acts on them. All parts but particles and laws may be left empty.
-template <class Law>
+/// Particles, and what acts on them. All parts but particles and laws may be left empty.
 struct Model {
   Particles particles;
-  PairList pairs;  ///< skin (and periodicity) are the caller's to set
-  PreparedLaws<Law> laws;
-  Vec3 gravity;  ///< m/s²
-  std::vector<PrimitiveWall> walls;
-  std::vector<MeshWall> meshes;
-  Bonds bonds;  ///< between particles; they need particles that spin
+  PairList pairs;                           ///< skin (and periodicity) are the caller's to set
+  std::shared_ptr<const ContactLaws> laws;  ///< of makeContactLaws
+  Vec3 gravity;                             ///< m/s²
+  Terms terms;                              ///< see addWall, addBonds and their like
   std::optional<Domain> domain;
-  double viscousRate = 0.0;   ///< see applyViscousDamping, 1/s
-  double localDamping = 0.0;  ///< see applyLocalDamping
+  Rotation rotation = Rotation::automatic;
   Booking booking = Booking::on;
-  int sortEvery =
-      16;  ///< particles are sorted at every so many builds of the list (0 = never); Particles::id names them
+  int sortEvery = 16;  ///< particles are sorted at every so many renewals of the list, 0 = never; Particles::id names them
+  bool refusesUnstableSteps = true;  ///< a step beyond criticalStep is refused, see there
+  Profile* profile = nullptr;        ///< where the stages' times go, if wanted
 
+  // What follows is the run's to keep.
   double time = 0.0;  ///< s
   std::int64_t steps = 0;
-  bool open = false;  ///< between advance and finish velocities lag by half a step
+  double open = 0.0;  ///< s: after advance, velocities lag by half of this step; 0 after close
+  Step step;          ///< the last one
   ContactWork work;   ///< of the last step
-  Energies booked;    ///< lost, damping, walls, escaped so far
-  Escaped escaped;
-  double smallestRadius = 0.0;  ///< m, as last looked up; moves beyond it are looked at one by one
-  Profile* profile = nullptr;   ///< where the stages' times go, if wanted
+  Energies booked;    ///< lost, damping, walls, external, entered, left so far
+  Energies rate;      ///< W: lost to dashpots, damping, walls, external with the forces of the last step
+  Exchanged entered, left;
+
+  std::int64_t forcesOf = -1;    ///< Particles::revision that the forces belong to; −1 before the first
+  double smallestRadius = 0.0;   ///< m; moves beyond it are looked at one by one
+  double timeBase = 0.0;         ///< s: time = timeBase + (steps − stepsBase) dt
+  std::int64_t stepsBase = 0;
+  double checkedStep = 0.0;      ///< s: the dt that has been compared with the critical step
+  std::int64_t renewals = 0;     ///< how often the grid was asked for pairs
+  std::vector<std::int64_t> newcomers;  ///< ids of those who entered in the step under way
 };
 
-namespace detail {
-
-// The parts of a step that know no law.
-double beginStep(Particles& particles, double dt, const Vec3& gravity, bool open);
-/// @throws NumericalError naming what is not finite or has moved farther than its radius
-void requireShortMoves(const Particles& particles, double dt, const std::string& when);
-double smallestRadius(const Particles& particles);
-void moveWalls(std::vector<PrimitiveWall>& walls, std::vector<MeshWall>& meshes, double time, double dt);
-/// Returns old → new numbers if particles were sorted or removed, else nothing.
-std::vector<int> checkDomain(Particles& particles, PairList& list, const std::optional<Domain>& domain,
-                             const Vec3& gravity, Escaped& escaped, const std::string& when);
-void renumberWalls(std::vector<PrimitiveWall>& walls, std::vector<MeshWall>& meshes, std::span<const int> newNumber);
-/// Power that moving walls put into the particles, W.
-double wallPower(const PrimitiveWall& wall);
-double meshPower(const MeshWall& mesh);
-std::string when(double time, std::int64_t steps);
-
-/// Times a stage, if anybody asks.
-template <class Work>
-decltype(auto) timed(Profile* profile, const char* stage, Work&& work) {
-  if (!profile) return work();
-  const Profile::Stage timer(*profile, stage);
-  return work();
-}
-
-template <class Law>
-void checkMove(Model<Law>& m, double dt) {
-  m.smallestRadius = smallestRadius(m.particles);
-  requireShortMoves(m.particles, dt, when(m.time, m.steps));
-}
-
-template <class Law>
-void renewPairs(Model<Law>& m, double moved) {
-  const std::int64_t builds = m.pairs.builds;
-  updatePairs(m.particles, m.pairs, moved);
-  if (m.pairs.builds == builds) return;
-  const auto gone = checkDomain(m.particles, m.pairs, m.domain, m.gravity, m.escaped, when(m.time, m.steps));
-  if (!gone.empty()) {
-    renumberWalls(m.walls, m.meshes, gone);
-    renumber(m.bonds, gone);
-  }
-  if (m.sortEvery > 0 && m.pairs.builds % m.sortEvery == 1) {
-    const auto sorted = sortParticles(m.particles, m.pairs);
-    renumberWalls(m.walls, m.meshes, sorted);
-    renumber(m.bonds, sorted);
-  }
-}
-
-template <class Law>
-ContactWork collideWithWalls(Model<Law>& m, double moved, double dt) {
-  ContactWork work;
-  for (PrimitiveWall& wall : m.walls) {
-    findContacts(m.particles, wall, moved + norm(wall.velocity) * dt);
-    work += collide(m.particles, wall, m.laws, dt);
-    m.booked.walls += dt * wallPower(wall);
-  }
-  for (MeshWall& mesh : m.meshes) {
-    clearForces(mesh.wall);
-    mesh.wall.rigid = true;
-    if (mesh.motion)
-      updateWallCandidates(m.particles, mesh.wall, mesh.candidates);
-    else
-      updateWallCandidates(m.particles, mesh.wall, mesh.candidates, 0.0, moved);
-    findWallContacts(m.particles, mesh.wall, mesh.candidates, mesh.rule, mesh.contacts);
-    work += collideWithWall(m.particles, mesh.wall, mesh.contacts, m.laws, dt);
-    addWallForces(mesh.contacts, mesh.wall);
-    m.booked.walls += dt * meshPower(mesh);
-  }
-  return work;
-}
-
-void requireBelow(const ContactStep& limit, double dt);
-void bookLosses(Energies& booked, const ContactWork& work, double dt);
-double applyDamping(Particles& particles, double viscousRate, double local);
-
-}  // namespace detail
-
-/// One step of velocity Verlet up to the forces; the last half kick is left to the next advance or to finish:
-///   half kick · half kick · drift · walls · pairs · contacts · bonds · damping
-/// @throws NumericalError naming a particle that is not finite, moved farther than its own radius in this step (it
-/// could
-///         pass through walls and others unseen), or escaped, with the time
-template <class Law>
-void advance(Model<Law>& m, double dt) {
-  using detail::timed;
-  const double moved = timed(m.profile, "move", [&] { return detail::beginStep(m.particles, dt, m.gravity, m.open); });
-  if (!(moved <= m.smallestRadius)) detail::checkMove(m, dt);
-  m.open = true;
-  m.time += dt;
-  ++m.steps;
-  detail::moveWalls(m.walls, m.meshes, m.time, dt);
-  timed(m.profile, "find pairs", [&] { detail::renewPairs(m, moved); });
-  m.work = timed(m.profile, "pairs", [&] { return collide(m.particles, m.pairs, m.laws, dt, m.booking); });
-  if (!m.walls.empty() || !m.meshes.empty())
-    timed(m.profile, "walls", [&] { m.work += detail::collideWithWalls(m, moved, dt); });
-  if (m.bonds.size() > 0 || m.bonds.ended > 0.0)
-    timed(m.profile, "bonds", [&] { m.work += exchangeBonds(m.particles, m.bonds, dt); });
-  if (m.viscousRate > 0.0 || m.localDamping > 0.0)
-    m.booked.damping += dt * detail::applyDamping(m.particles, m.viscousRate, m.localDamping);
-  if (m.booking == Booking::on) detail::bookLosses(m.booked, m.work, dt);
-}
-
+/// The parts of a step, for those who do something between them:
+///
+/// move: [last half kick of the step before] · half kick · drift, of particles, walls and bodies. Before the first step,
+/// and when particles have been added or removed since the last, it also checks the model, makes the pair list and
+/// finds the forces at the start.
+/// @throws InputError as check and requireStableStep do, or if dt is not finite and > 0; NumericalError naming a
+///   particle that is not finite or moved farther than its own radius in this step (it could pass through walls and
+///   others unseen)
+void move(Model& m, double dt);
+/// Particles enter and leave, the list of pairs is renewed where moves ask for it, particles are sorted now and then.
+/// @throws NumericalError naming a particle that has escaped from the domain
+void renew(Model& m);
+/// Gravity, pairs, terms; books what they lost.
+void addForces(Model& m);
+/// Forces of the state as it is: no time passes, nothing is booked. For those who have moved something between steps.
+void findForces(Model& m);
 /// The half kick that ends a step, so that positions and velocities belong to one time. Does nothing if there is none
 /// to make.
-template <class Law>
-void finish(Model<Law>& m, double dt) {
-  if (m.open) kick(m.particles, 0.5 * dt);
-  m.open = false;
-}
+void close(Model& m);
 
-/// advance and finish, n times (finish once: the digits are the same).
-template <class Law>
-void run(Model<Law>& m, double dt, std::int64_t n) {
-  for (std::int64_t i = 0; i < n; ++i) advance(m, dt);
-  finish(m, dt);
-}
+/// One step of velocity Verlet: move · renew · addForces. Its `close` is left to the next move, which makes both half
+/// kicks in one sweep, or to the caller.
+void advance(Model& m, double dt);
+/// advance n times, then close.
+void run(Model& m, double dt, std::int64_t n);
 
-/// The largest stable step with the contacts as they are now, and who sets it (see ContactDemand). A scene that is yet
-/// to collide has none: take `leastOverlap` then, the overlap to be expected, m.
-template <class Law>
-ContactStep criticalStep(const Model<Law>& m, double leastOverlap = 0.0) {
-  ContactDemand demand;
-  addDemand(demand, m.particles, m.pairs, m.laws, leastOverlap);
-  for (const PrimitiveWall& wall : m.walls)
-    if (wall.contacts.size() > 0) addWallDemand(demand, m.particles, wall.contacts, m.laws, wall.material);
-  for (const MeshWall& mesh : m.meshes)
-    if (mesh.contacts.size() > 0) addWallDemand(demand, m.particles, mesh.contacts, m.laws, mesh.wall.material);
-  return criticalStep(demand, m.particles);
-}
+/// @throws InputError saying what is wrong with the model, where, and what to write instead: arrays of unlike length,
+///   values that are not finite, laws that are missing or do not know a material, walls and terms that are not valid
+void check(const Model& m);
 
-/// @throws InputError naming the contact that sets the limit if dt is beyond it
-template <class Law>
-void requireStableStep(const Model<Law>& m, double dt, double leastOverlap = 0.0) {
-  detail::requireBelow(criticalStep(m, leastOverlap), dt);
-}
+/// The largest stable step with contacts, bonds and bodies as they are now, and who sets it (see ContactDemand). A scene
+/// that is yet to collide has none: take `leastOverlap` then, the overlap to be expected, m.
+ContactStep criticalStep(const Model& m, double leastOverlap = 0.0);
+/// @throws InputError naming who sets the limit if dt is beyond it
+void requireStableStep(const Model& m, double dt, double leastOverlap = 0.0);
 
-/// Energies now, J; contact energies and losses need booking. Gravity counts from the origin. Call after finish:
-/// between advance and finish velocities lag by half a step, and so does the kinetic energy.
-template <class Law>
-Energies energies(const Model<Law>& m) {
-  Energies e = m.booked;
-  e.kinetic = kineticEnergy(m.particles);
-  for (std::size_t i = 0; i < m.particles.size(); ++i)
-    e.gravity -= m.particles.mass[i] * dot(m.gravity, m.particles.x[i]);
-  e.contacts = m.work.storedEnergy();
-  e.escaped = m.escaped.energy;
-  return e;
-}
+/// Energies now, J; contact energies and losses need booking. Gravity counts from the origin.
+/// @throws InputError between advance and close, when velocities lag behind positions
+Energies energies(const Model& m);
+/// Momentum and angular momentum now. @throws InputError between advance and close
+Momenta momenta(const Model& m);
+
+/// For couplings that refer to particles by number and know nothing but particles, pairs and drives.
+/// @throws InputError naming what of the model they could not follow: sorting, a domain that removes, terms
+void requirePlain(const Model& m, const std::string& coupling);
+
+/// Takes particles out; what they carried is booked as left. Pairs, bonds and walls forget them.
+/// @throws InputError on a number that does not exist
+void removeParticles(Model& m, std::span<const int> list);
+/// For those who have just appended particles from number `first` on within a step: what they bring is booked as
+/// entered, and their velocities count as of this moment.
+void admitParticles(Model& m, std::size_t first);
 
 }  // namespace dovetail::dem

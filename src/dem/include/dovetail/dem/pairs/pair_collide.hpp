@@ -30,9 +30,6 @@ inline PairContact pairContact(const Particles& particles, std::size_t i, std::s
   return {normal, overlap, armI, armI + d};
 }
 
-/// Whether collide reports energies and losses; without them they cost nothing.
-enum class Booking { on, off };
-
 namespace detail {
 
 /// @throws InputError unless dt is finite and > 0
@@ -56,7 +53,7 @@ PairCursor startOfChunk(const PairList& list, std::size_t chunk);
 /// Fills the rows of effective masses and radii once for all pairs, if they share them or nobody asks for them.
 void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block);
 void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>> pairs, ContactBlock& block);
-/// Effective radii from the arms.
+/// Effective radii from the radii.
 void makeRadii(std::size_t n, ContactBlock& block);
 /// Fills the block with the next pairs; returns how many.
 std::size_t gatherPairs(const Particles& particles, const PairList& list, const PairRows& rows, PairCursor& cursor,
@@ -66,8 +63,35 @@ void scatterPairs(Particles& particles, PairList& list, const PairRows& rows, st
                   const ContactBlock& block);
 /// Adds what pairs of other chunks do to particles.
 void addCrossing(Particles& particles, const PairList& list, bool spins);
+/// The contact of a pair that went with a particle, as if nobody moved.
+Contact atRest(const EndedPair& pair);
 /// Makes room for memories of the given size.
 void prepareMemory(PairList& list, int memory, unsigned turns);
+
+/// What pairs that have left the list take with them.
+template <class Law>
+ContactWork bookEnded(const PairList& list, const PreparedLaws<Law>& laws, double dt) {
+  constexpr auto numbers = static_cast<std::size_t>(Law::memory);
+  ContactWork work;
+  if (list.ended.size() != numbers * list.endedPairs.size()) return work;
+  for (std::size_t k = 0; k < list.endedPairs.size(); ++k) {
+    const EndedPair& pair = list.endedPairs[k];
+    if (std::max(pair.materials[0], pair.materials[1]) >= laws.materials && laws.materials > 1) continue;
+    const auto& law = laws.materials == 1 ? laws.table[0] : laws.at(pair.materials[0], pair.materials[1]);
+    double memory[numbers + 1] = {};
+    std::copy_n(list.ended.data() + k * numbers, numbers, memory);
+    ContactWork ended = law.ended(memory, 1.0 / dt);
+    if (!(pair.overlap > -law.reach()))
+      work.fracturePower += pair.factor * ended.fracturePower;
+    else
+      ended.dissipatedPower += law.respond(atRest(pair), memory).work.elasticEnergy / dt;
+    work.dissipatedPower += pair.factor * ended.dissipatedPower;
+    work.frictionPower += pair.factor * ended.frictionPower;
+    work.rollingPower += pair.factor * ended.rollingPower;
+    work.plasticPower += pair.factor * ended.plasticPower;
+  }
+  return work;
+}
 
 template <class Law, BlockOptions options>
 ContactWork collideChunk(Particles& particles, PairList& list, std::size_t chunk, const PairRows& rows,
@@ -126,15 +150,9 @@ ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law
     work += detail::collideChunks<Law, BlockOptions{spins, false, false, true}>(particles, list, rows, laws, dt);
   else
     detail::collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, list, rows, laws, dt);
-  if constexpr (Law::memory > 0) {  // pairs that left the list
-    for (std::size_t k = 0; booked && k < list.endedMaterials.size(); ++k) {
-      const auto [a, b] = list.endedMaterials[k];
-      if (a < laws.materials && b < laws.materials)
-        work += laws.at(a, b).ended(list.ended.data() + k * static_cast<std::size_t>(Law::memory), dt);
-    }
-    list.endedMaterials.clear();
-    list.ended.clear();
-  }
+  if (booked && dt > 0.0) work += detail::bookEnded(list, laws, dt);
+  list.endedPairs.clear();
+  list.ended.clear();
   return work;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace dovetail::dem {
 
 /// Particles are worked on in chunks of successive numbers, one thread each. A pair belongs to the chunk of its first
 /// particle; what it does to a particle of another chunk (it `crosses`) is kept and added afterwards in a fixed order.
-/// Chunks depend on the number of particles only, so results do not depend on the number of threads.
+/// Chunks depend on the number of particles only, so results do not depend on the number of threads; sorted particles
+/// make them blocks of space.
 struct PairChunks {
   std::size_t size = 0;              ///< particles per chunk
   std::vector<std::size_t> begin;    ///< chunk c holds pairs begin[c] … begin[c + 1] − 1
@@ -22,13 +24,22 @@ struct PairChunks {
   std::vector<std::size_t> arrives;  ///< chunk c receives arriving[arrives[c]] … arriving[arrives[c + 1] − 1]
   std::vector<std::array<int, 2>> arriving;  ///< crossing pair, particle
   std::vector<std::size_t> images;           ///< chunk c has images[c] … images[c + 1] − 1 of PairList::images
+  std::vector<std::size_t> candidates;       ///< and candidates[c] … candidates[c + 1] − 1 of PairList::candidates
   std::size_t count() const { return begin.empty() ? 0 : begin.size() - 1; }
 };
 
 /// A pair that meets through a periodic image.
 struct PairImage {
   std::size_t pair;
-  Vec3 shift;  ///< to be added to x_i − x_j, m
+  std::array<std::int8_t, 3> periods;  ///< to be added to x_i − x_j, in periods along the axes
+};
+
+/// A pair that has left the list while it remembered something, or was loaded.
+struct EndedPair {
+  std::array<std::uint8_t, 2> materials;
+  double factor;
+  double overlap;  ///< m, of a pair that went with a particle; −∞ of others, which do not touch
+  double effectiveMass, effectiveRadius;
 };
 
 /// Pairs closer than the sum of their radii + skin when the list was made.
@@ -38,7 +49,10 @@ struct PairImage {
 /// radii + innerSkin, and are picked anew when somebody has moved more than innerSkin/2. The inner skin adapts
 /// itself such that picking is rare. Lists of less than pruneFrom pairs are not pruned: innerSkin = skin.
 struct PairList {
-  double skin = 0.0;                      ///< m
+  /// m; 0 = a search at every step. Not set: defaultSkin mean diameters, from the first search on.
+  std::optional<double> skin;
+  static constexpr double defaultSkin = 0.15;
+  double reach = 0.0;  ///< m: of the law beyond touch, see ContactLaws::reach; adds to the skins
   std::vector<std::array<int, 2>> pairs;  ///< i < j, sorted
   std::int64_t builds = 0;                ///< how often the grid was asked
   std::int64_t revision = 0;              ///< how often `pairs` has changed
@@ -50,58 +64,90 @@ struct PairList {
   double innerTravel = 0.0;                    ///< bound on how far any particle has moved since the last pruning, m
   std::int64_t updatesSincePruning = 0;
 
-  /// Axes along which space repeats; set before the list is made. Positions need not lie in the box.
+  /// Axes along which space repeats; set before the list is made. Each search moves particles into the box, so that
+  /// they leave it by no more than the skin.
   geometry::Periodicity periodicity;
   std::vector<PairImage> images;  ///< of the pairs that meet across a period, ascending
 
-  /// Per pair: factor on its force and energies, such as the particles' share of an overlap; empty = 1. A new list has
-  /// none; whoever set it sets it again when `revision` has changed.
+  /// Per pair: factor on its force and energies, such as the particles' share of an overlap, 0 = muted; empty = 1. Kept
+  /// while a pair stays in the list; a newcomer has 1 until somebody sets it, which is due when `revision` has changed.
   std::vector<double> scale;
   /// What the contacts remember, by component: number c of pair p is memory[c * pairs.size() + p]. A tangential spring
   /// takes three numbers, its stretch, m. Empty unless the law remembers something.
   std::vector<double> memory;
   unsigned turns = 0;  ///< of the law that last used the memory: see laws.hpp
-  /// Memories (one after the other) of pairs that left the list while they remembered something; the next collide books
-  /// them as lost.
+  /// Pairs that left the list, and their memories one after the other; the next collide books them as lost.
+  std::vector<EndedPair> endedPairs;
   std::vector<double> ended;
-  std::vector<std::array<std::uint8_t, 2>> endedMaterials;  ///< of the particles, per memory in `ended`
 
+  std::int64_t particleRevision = -1;  ///< Particles::revision when the list was made
+  std::int64_t wraps = 0;              ///< Particles::wraps then
   std::vector<Vec3> positionAtBuild;
   double travel = 0.0;  ///< bound on how far any particle has moved since then, m; only kept by the second updatePairs
   PairChunks chunks;
 
   std::size_t size() const { return pairs.size(); }
+  /// Whether the list was made for the particles as they are numbered now.
+  bool fits(const Particles& particles) const;
   /// Vector to be added to x_i − x_j of a pair, m; zero without periodic axes. O(log n).
   Vec3 shift(std::size_t pair) const;
+  Vec3 shift(const PairImage& image) const {
+    Vec3 d;
+    for (int k = 0; k < 3; ++k)
+      if (const int n = image.periods[static_cast<std::size_t>(k)]; n != 0) d[k] = n * periodicity.length(k);
+    return d;
+  }
 };
 
-/// Makes the list anew; memories of pairs that stay are kept.
+/// Moves particles into the periodic box and makes the list anew; memories and factors of pairs that stay are kept.
+/// @param skin as PairList::skin, which it becomes
 /// @throws InputError if skin is not finite and ≥ 0, or if a periodic box is too small for two particles and the skin;
 ///         NumericalError naming a particle whose position is not finite
-void findPairs(const Particles& particles, double skin, PairList& list);
+void findPairs(Particles& particles, std::optional<double> skin, PairList& list);
 
-/// Makes the list anew if some particle has moved more than skin/2 since it was made, or their number changed.
-/// Returns whether `pairs` has changed.
-bool updatePairs(const Particles& particles, PairList& list);
+/// Makes the list anew if some particle has moved more than skin/2 since it was made, or if particles have been
+/// numbered or wrapped anew. Returns whether `pairs` has changed.
+bool updatePairs(Particles& particles, PairList& list);
 /// The same without looking at every particle at every step, and with pruning.
 /// @param step bound on how far any particle has moved since the last call, m, as kickAndDrift, startStep and turnStep
 /// return it
-bool updatePairs(const Particles& particles, PairList& list, double step);
+bool updatePairs(Particles& particles, PairList& list, double step);
 
-/// Moves positions by whole periods into the periodic box. Lists made before are made anew at their next update.
+/// Moves positions by whole periods into the periodic box. Pair lists made before are made anew at their next update,
+/// and keep their memories.
 void wrapPositions(Particles& particles, const geometry::Periodicity& periodicity);
 
-/// Gives the pairs the new numbers of their particles, memories included, and sorts them; pairs of particles that are
-/// gone (new number < 0) leave, and what they remember is booked as lost by the next collide. For particles that have
-/// been sorted, removed or added since the list was made.
+/// Gives the pairs the new numbers of their particles, memories and factors included, and sorts them. Pairs of
+/// particles that go (new number < 0) leave: what they remember, and their elastic energy, is booked as lost by the
+/// next collide.
 /// @param newNumber one per particle of the list
-void renumber(PairList& list, std::span<const int> newNumber);
+/// @param before    the particles as they are numbered until now, those that go included
+void renumber(PairList& list, std::span<const int> newNumber, const Particles& before);
 
 /// Makes the chunks of a list whose other parts have been read from a file.
 void restoreChunks(const Particles& particles, PairList& list);
 
-/// Sorts the particles such that near in number means near in space, which makes large scenes faster, and the list with
-/// them. Returns old number → new number, for whatever else refers to particles.
+/// Sorts the particles along a space-filling curve, so that near in number means near in space, and makes the list anew
+/// if there is one. Returns old number → new number, for whatever else refers to particles.
 std::vector<int> sortParticles(Particles& particles, PairList& list);
+
+namespace detail {
+
+/// Puts `pairs` in the place of the list's, and makes anew what hangs on them.
+void takePairs(const Particles& particles, std::vector<std::array<int, 2>>&& pairs, PairList& list);
+/// Picks the pairs from the candidates.
+void prunePairs(const Particles& particles, PairList& list);
+/// Takes the pairs from a grid that holds the particles with this skin, and remembers where they are.
+void takeFound(const Particles& particles, const geometry::HierarchicalGrid& grid, double skin, PairList& list);
+/// The skin that is set, or the default, which is set then.
+double skinOf(const Particles& particles, PairList& list);
+std::size_t chunkSize(std::size_t particles);
+/// Ranges of sorted pairs that belong to the chunks.
+void findRanges(std::size_t particles, const std::vector<std::array<int, 2>>& sorted, std::vector<std::size_t>& begin);
+void makeChunks(std::size_t particles, PairList& list);
+/// Memories and factors of pairs that are in both lists; `old` has the list's memory, `list` the new pairs.
+void keepMemory(const Particles& particles, const std::vector<std::array<int, 2>>& old, PairList& list);
+
+}  // namespace detail
 
 }  // namespace dovetail::dem

@@ -8,19 +8,34 @@
 #include "dovetail/dem/bodies/clumps.hpp"
 #include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/dem/setup/sizes.hpp"
+#include "dovetail/dem/walls/primitive_wall.hpp"
+#include "dovetail/dem/walls/wall.hpp"
 #include "dovetail/geometry/box.hpp"
 
 namespace dovetail::dem {
 
-/// What enters, where and how fast. One of the two rates is > 0, the other 0.
+/// What newcomers keep clear of beside particles.
+struct Surroundings {
+  geometry::Periodicity space{};                  ///< as that of the pair list
+  std::vector<const PrimitiveWall*> walls{};      ///< newcomers lie on their particles' side
+  std::vector<const TriangulatedWall*> meshes{};  ///< newcomers touch no facet; of one-sided ones they lie outside
+};
+
+/// What enters, where and how fast: one of the two rates is > 0, or leavers are replaced.
 struct InsertionSettings {
-  geometry::Box region;  ///< whole spheres lie in it; keep it clear of walls, which are not looked at
-  Sizes sizes;
+  geometry::Box region;  ///< m; whole spheres lie in it, but along a periodic axis that it spans all places are free
+  Sizes sizes;           ///< of spheres
   Density density{0.0};
-  Vec3 velocity;                 ///< m/s
-  double numberPerSecond = 0.0;  ///< 1/s
+  /// Not empty: clumps enter in place of spheres, each shape as often, turned at random.
+  std::vector<ClumpShape> shapes{};
+  Vec3 velocity{};               ///< m/s
+  Vec3 spin{};                   ///< rad/s
+  int material = 0;              ///< row of a LawTable
+  double numberPerSecond = 0.0;  ///< spheres or clumps, 1/s
   double massPerSecond = 0.0;    ///< kg/s
-  int tries = 50;                ///< places tried for each particle before it is refused
+  bool replacesLeavers = false;  ///< whoever leaves a model is due again, in place of a rate
+  double interval = 0.0;         ///< s; room is looked for at most so often. 0: as soon as somebody is due
+  int tries = 50;                ///< places tried for each newcomer before it is refused
   std::uint64_t seed = 1;
 };
 
@@ -28,37 +43,33 @@ struct InsertionSettings {
 struct Insertion {
   InsertionSettings settings;
   RandomStream random;
-  double nextRadius;          ///< m
-  double due = 0.0;           ///< particles, or kg, that should have entered and have not been tried yet
-  std::int64_t inserted = 0;  ///< particles
-  std::int64_t refused = 0;   ///< particles that found no free place; they are dropped, not tried again
+  double nextRadius = 0.0;    ///< m, of the next sphere
+  int nextShape = 0;          ///< of the next clump
+  double due = 0.0;           ///< newcomers, or kg, that should have entered and have not been tried yet
+  double waited = 0.0;        ///< s since room was last looked for
+  std::int64_t inserted = 0;  ///< spheres or clumps
+  std::int64_t refused = 0;   ///< those that found no free place; they are dropped, not tried again
   double insertedMass = 0.0;  ///< kg
   double refusedMass = 0.0;   ///< kg
 };
 
-/// @throws InputError if sizes or density are not valid, the velocity is not finite, not exactly one of the rates is >
-/// 0,
-///   tries < 1, or the region does not hold the largest sphere
+/// @throws InputError if sizes, density, interval or material are not valid, velocity or spin is not finite, not
+/// exactly
+///   one of rates and replacement is given, tries < 1, or the region does not hold the largest sphere or the widest
+///   clump
 Insertion makeInsertion(const InsertionSettings& settings);
 
-/// Lets in what is due after another dt seconds, at places drawn at random in the region where it overlaps with nobody.
-/// Appended particles keep the numbers of the others. Returns how many entered.
-/// @throws InputError if dt is not finite and ≥ 0
-int insertParticles(Insertion& insertion, Particles& particles, double dt);
+/// Lets in what is due after another dt seconds, at places drawn at random in the region where it touches nobody, no
+/// image of anybody, and no wall. Appended particles leave the others' numbers as they are. Returns how many entered.
+/// @throws InputError if dt is not finite and ≥ 0, spin is wanted of particles that do not spin, or clumps are due
+int insertParticles(Insertion& insertion, Particles& particles, const Surroundings& surroundings, double dt);
+/// The same with clumps, if shapes are given; else spheres.
+int insertParticles(Insertion& insertion, Particles& particles, Bodies& bodies, Clumps& clumps,
+                    const Surroundings& surroundings, double dt);
 
 /// Particles whose centres lie in the closed box, or outside it; ascending.
 std::vector<int> particlesInside(const Particles& particles, const geometry::Box& box);
 std::vector<int> particlesOutside(const Particles& particles, const geometry::Box& box);
-
-/// Takes particles out of all arrays; the others keep their order, and their id from now on. Returns old → new number,
-/// −1 for those that are gone, for whatever else refers to particles (renumber).
-/// @param list numbers in any order; twice does not matter
-/// @throws InputError on a number that does not exist; nothing is removed then
-std::vector<int> removeParticles(Particles& particles, std::span<const int> list);
-
-/// Gives clumps the new numbers of their members.
-/// @throws InputError naming the body of which a member is gone; nothing is changed then
-void renumber(Clumps& clumps, std::span<const int> newNumber);
 
 /// Takes bodies out with all their members. Returns what removeParticles does; bodies behind those removed move up.
 /// @throws InputError on a body that does not exist; nothing is removed then

@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/dem/walls/wall_law.hpp"
+#include "dovetail/dem/walls/wall_search.hpp"
+#include "dovetail/dem/walls/wall_servo.hpp"
 
 namespace dovetail::dem {
 
@@ -15,15 +18,36 @@ namespace dovetail::dem {
 struct PrimitiveContacts {
   std::vector<int> particle;
   std::vector<Vec3> normal;         ///< unit, from the wall to the particle
-  std::vector<double> overlap;      ///< m, > 0
-  std::vector<double> engagement;   ///< 1: nobody shares these contacts
+  std::vector<double> overlap;      ///< m, > 0; where the law reaches farther than touch down to −reach
   std::vector<Vec3> force, couple;  ///< on the particle, N, N m
+  std::vector<double> energy;       ///< of the normal springs, J; if booked
   std::vector<double> memory;       ///< of the law, contact by contact
+  /// Only where space repeats: which image of the particle touches; and the periods, m.
+  std::vector<Image> image;
+  Vec3 period;
 
   // Those of the last step.
   std::vector<int> oldParticle;
   std::vector<double> oldMemory;
+  EndedMemories left;  ///< of particles that left, to be booked by the next collide
   std::size_t size() const { return particle.size(); }
+  /// What is to be added to the particle's position to have it next to the wall, m.
+  Vec3 shift(std::size_t c) const { return image.empty() ? Vec3{} : shiftOf(image[c], period); }
+};
+
+/// The particles near a primitive wall, reused while neither they nor the wall have moved far.
+struct PrimitiveSearch {
+  std::vector<int> near;    ///< within radius + margin, ascending
+  double margin = 0.0;      ///< the skin in use, m
+  std::int64_t builds = 0;  ///< how often the list was made
+  // What it was made from.
+  std::int64_t particleRevision = -1;
+  Vec3 point, axis;             ///< of the wall
+  double radius = 0.0;          ///< of the wall, m
+  double extent = 0.0;          ///< distance of the farthest particle from `point`, m
+  double smallestRadius = 0.0;  ///< of all particles, m
+  ParticleTravel travel;
+  Vec3 lastPoint, lastAxis;  ///< of the wall when contacts were last found
 };
 
 /// A plane, or the inside or outside of an infinite cylinder or a sphere. It moves as a rigid body.
@@ -36,18 +60,22 @@ struct PrimitiveWall {
   bool inside = true;    ///< particles are inside the cylinder or sphere
   Vec3 velocity;         ///< of `point`, m/s
   Vec3 angularVelocity;  ///< about `point`, rad/s
-  int material = 0;      ///< row of a LawTable
+  /// Of the surface over the wall, as of a belt, m/s: along the plane, or along the cylinder's axis. It turns with
+  /// the wall, which it does not move.
+  Vec3 surfaceVelocity;
+  int material = 0;  ///< row of a LawTable
   /// Sets velocity and angularVelocity for the step that ends at `time`, s; empty: they stay.
   std::function<void(double time, PrimitiveWall& wall)> motion;
-  double skin = 0.0;  ///< m: particles closer than their radius + skin are looked at; 0 = all, at every step
+  std::optional<WallServo> servo;  ///< what moves it along the servo's direction, where `velocity` then follows
+  /// m: particles closer than their radius + skin are looked at. Unset: 0.15 of their mean diameter; 0: all, at every
+  /// step.
+  std::optional<double> skin;
+
+  double reach = 0.0;  ///< m: of the law beyond touch, see ContactLaws::reach; so far contacts are found
 
   PrimitiveContacts contacts;
   Vec3 force, torque;  ///< of the last collide on the wall, N; about `point`, N m
-
-  std::vector<int> near;  ///< particles looked at
-  double travel = 0.0;    ///< how far particles and wall may have moved since `near` was made, m
-  std::size_t particlesAtSearch = 0;
-  bool searched = false;
+  PrimitiveSearch search;
 };
 
 /// @throws InputError: a normal or axis of no length, a point that is not finite
@@ -63,48 +91,76 @@ struct WallDistance {
 };
 WallDistance distanceTo(const PrimitiveWall& wall, const Vec3& x);
 
-/// Velocity of the wall's material at a place, m/s.
+/// Velocity of the wall's surface at a place, m/s.
 inline Vec3 velocityAt(const PrimitiveWall& wall, const Vec3& x) {
-  return wall.velocity + cross(wall.angularVelocity, x - wall.point);
+  return wall.velocity + wall.surfaceVelocity + cross(wall.angularVelocity, x - wall.point);
 }
-/// point += velocity dt; the axis turns.
+/// Half a step of the wall's servo, if it has one, with the force of the last collide; before drift, and after the
+/// forces.
+void kickWall(PrimitiveWall& wall, double dt);
+/// point += velocity dt; the axis and the surface velocity turn.
 void drift(PrimitiveWall& wall, double dt);
+/// Power that the wall puts into the particles, W, with the force and torque of the last collide; without what its
+/// servo does, which keeps its own books.
+double drivingPower(const PrimitiveWall& wall);
 
-/// Contacts as they are now. Particles are searched again when they and the wall may have used up the skin.
-/// @param step bound on how far any particle has moved since the last call, m
-void findContacts(const Particles& particles, PrimitiveWall& wall, double step);
+/// Contacts as they are now. Particles are searched again when they and the wall may have used up the skin; where
+/// the wall is, is seen from the wall itself, so moves.wall is of no concern.
+/// @param periodicity  the particles': a wall then stands in every period, and meets the nearest image of a particle
+/// @throws InputError if the skin is not finite and ≥ 0, or the wall does not repeat with the periods (validate);
+///         NumericalError if the wall is not at a finite place, or has moved past a particle by more than its radius
+void findContacts(const Particles& particles, PrimitiveWall& wall, const Moves& moves,
+                  const geometry::Periodicity& periodicity = {});
 
-/// Gives the wall's memory the new numbers of particles (< 0: gone).
-void renumber(PrimitiveWall& wall, std::span<const int> newNumber);
+/// Whether the wall is one and the same in every period.
+/// @param reach m; of the largest particle, radius + skin
+/// @throws InputError: a plane whose normal, or a cylinder whose axis, is oblique to a period; a cylinder or sphere
+/// that
+///         does not fit into a period
+void requireRepeats(const PrimitiveWall& wall, const geometry::Periodicity& periodicity, double reach);
+
+/// Gives the wall's memory the new numbers of particles (< 0: gone). What leavers' contacts remember is booked as lost
+/// by the next collide; returns what their normal springs stored, J, for the caller to book.
+/// @param before the particles as they were numbered
+double renumber(PrimitiveWall& wall, std::span<const int> newNumber, const Particles& before);
+
+inline WallShare shareOf(const PrimitiveContacts& contacts, std::size_t c) { return {contacts.overlap[c], 1.0, 1.0}; }
 
 namespace detail {
-/// Memories from the last step to this one; returns those whose contact has ended.
-EndedMemories carryMemory(PrimitiveContacts& contacts, int memory);
+/// Memories from the last step to this one; returns those whose contact has ended, leavers' (renumber) among them.
+EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contacts, int memory);
+/// Velocity of the particle relative to the wall at the contact, m/s.
+Vec3 relativeVelocity(const Particles& particles, const PrimitiveWall& wall, std::size_t c, bool spins);
+/// Adds the contact forces (and torques) to the particles, and their reactions up over the wall.
 void addToParticles(Particles& particles, PrimitiveWall& wall, bool spins);
+
+/// How a particle and the wall move at a contact.
+struct AgainstPrimitive {
+  const Particles& particles;
+  const PrimitiveWall& wall;
+  bool spins;
+  Vec3 velocity(std::size_t c) const { return relativeVelocity(particles, wall, c, spins); }
+  Vec3 spin(std::size_t) const { return wall.angularVelocity; }
+};
 }  // namespace detail
 
 /// Adds the contact forces (and torques) to the particles; sets the wall's force and torque.
 /// Effective mass and radius are the particle's. Call once per step if the law remembers.
 /// @throws InputError if the law remembers and dt is not finite and > 0
 template <class Law>
-ContactWork collide(Particles& particles, PrimitiveWall& wall, const PreparedLaws<Law>& laws, double dt) {
+ContactWork collide(Particles& particles, PrimitiveWall& wall, const PreparedLaws<Law>& laws, double dt,
+                    Booking booking = Booking::on) {
   PrimitiveContacts& contacts = wall.contacts;
   ContactWork work;
   contacts.force.assign(contacts.size(), Vec3{});
   if constexpr (Law::rotates) contacts.couple.assign(contacts.size(), Vec3{});
   if constexpr (Law::memory > 0) {
     detail::requireStep(dt);
-    const detail::EndedMemories ended = detail::carryMemory(contacts, Law::memory);
-    detail::requireMaterials(particles, laws.materials);
-    work += detail::bookEnded<Law>(particles, ended, laws, wall.material, dt);
+    const EndedMemories ended = detail::carryMemory(particles, contacts, Law::memory);
+    if (booking == Booking::on) work += detail::bookEnded<Law>(ended, laws, wall.material, dt);
   }
-  work += detail::answerWall<Law>(particles, contacts, contacts.memory, laws, wall.material, dt, [&](std::size_t c) {
-    const auto i = static_cast<std::size_t>(contacts.particle[c]);
-    const Vec3 arm = (contacts.overlap[c] - particles.radius[i]) * contacts.normal[c];
-    Vec3 velocity = particles.v[i] - velocityAt(wall, particles.x[i] + arm);
-    if (Law::rotates && particles.rotates()) velocity += cross(particles.omega[i], arm);
-    return velocity;
-  });
+  work += detail::answerWall<Law>(particles, contacts, contacts.memory, laws, wall.material, dt, booking,
+                                  detail::AgainstPrimitive{particles, wall, Law::rotates && particles.rotates()});
   detail::addToParticles(particles, wall, Law::rotates && particles.rotates());
   return work;
 }

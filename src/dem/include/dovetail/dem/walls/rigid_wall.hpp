@@ -23,19 +23,21 @@ struct RigidMotion {
 using PrescribedMotion = std::function<RigidMotion(double time)>;
 
 /// Steady velocity and steady turning about an axis through the reference point that moves along.
-/// @param start at time 0 @return a function of time
-PrescribedMotion steadyMotion(const RigidMotion& start);
+/// @param start where and how at startTime, s @return a function of time
+PrescribedMotion steadyMotion(const RigidMotion& start, double startTime = 0.0);
 
 /// x(t) = start.x + amplitude sin(2π frequency t + phase), not turning.
 /// @param amplitude m, per direction @param frequency Hz @param phase rad
 PrescribedMotion vibration(const RigidMotion& start, const Vec3& amplitude, double frequency, double phase = 0.0);
 
-/// Vertices from the reference point in the frame of the description, m: those of the wall as it is now.
+/// Vertices of the wall as it lies now, from a point of it, m. The point is the one that RigidMotion::x is the place of
+/// from then on, and RigidMotion::turn counts from how the wall lies now: {reference, {}, …} is where it is.
+/// @param reference in space, m
 std::vector<Vec3> vertexOffsets(const TriangulatedWall& wall, const Vec3& reference);
 
-/// x and v of the wall's vertices.
+/// x and v of the wall's vertices. Returns how far the vertex that moved most has moved, m.
 /// @throws InputError if the number of offsets is not that of the vertices
-void placeWall(const RigidMotion& motion, const std::vector<Vec3>& offset, TriangulatedWall& wall);
+double placeWall(const RigidMotion& motion, const std::vector<Vec3>& offset, TriangulatedWall& wall);
 
 /// A wall carried by one of the Bodies.
 struct WallOnBody {
@@ -52,8 +54,10 @@ WallOnBody addWallBody(Bodies& bodies, const TriangulatedWall& wall, Density den
 WallOnBody addWallBody(Bodies& bodies, const TriangulatedWall& wall, const MassProperties& properties,
                        const Vec3& v = {}, const Vec3& omega = {});
 
-/// x and v of the wall's vertices from its body's; after driftBodies and after kickBodies.
-void placeWall(const Bodies& bodies, const WallOnBody& carrier, TriangulatedWall& wall);
+RigidMotion poseOf(const Bodies& bodies, const WallOnBody& carrier);
+/// x and v of the wall's vertices from its body's; after driftBodies and after kickBodies. Returns how far the vertex
+/// that moved most has moved, m.
+double placeWall(const Bodies& bodies, const WallOnBody& carrier, TriangulatedWall& wall);
 
 /// Adds the vertex forces and their moment about the centre of mass to the body, whose motion they are adjoint to: the
 /// power they put into the body is forcePower(wall). The wall's own forces stay as they are.

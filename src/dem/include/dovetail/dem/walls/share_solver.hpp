@@ -20,6 +20,15 @@ inline double couplingSlope(double g) {
   return g <= 0.0 ? 0.0 : g * (4.0 * couplingBlend - 3.0 * g) / (couplingBlend * couplingBlend);
 }
 
+/// Whether two contacts answer with one overlap (1) or each with its own (0); between, 0 < g < 0.1, a smooth step. For
+/// laws that are not linear: there the energy of walls at right angles is the sum of two, that of flatter valleys one.
+inline double together(double g) {
+  constexpr double whole = 0.1;
+  if (g >= whole) return 1.0;
+  const double t = g > 0.0 ? g / whole : 0.0;
+  return t * t * (3.0 - 2.0 * t);
+}
+
 /// One facet's linearised constraint and what it carries.
 struct Share {
   Vec3 normal;

@@ -28,6 +28,9 @@ struct TriangulatedWall {
 };
 
 /// A wall at rest.
+/// @param oneSided  true: a closed skin that pushes outwards only, also those who have sunk in; false: a sheet that
+/// pushes
+///   to the side on which a centre lies (see TriangulatedWall::oneSided)
 /// @throws InputError naming the vertex that is not finite, or the facet that names a missing vertex or one vertex
 /// twice
 TriangulatedWall makeWall(std::vector<Vec3> x, std::vector<geometry::Facet> facets, bool oneSided = false);

@@ -1,7 +1,6 @@
-// Which facets a particle may soon touch: found through the hierarchical grid, reused while nobody has moved far.
+// Which facets a particle may soon touch, reused while nobody has moved far.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -9,51 +8,51 @@
 
 #include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/dem/walls/wall.hpp"
-#include "dovetail/geometry/hierarchical_grid.hpp"
+#include "dovetail/dem/walls/wall_search.hpp"
 
 namespace dovetail::dem {
 
-/// Facets within radius + skin of each particle at the time of building (Cheng et al. 2022, Algorithm 2: facet boxes
-/// are looked up in a grid of the particles). Only particles that have candidates are listed.
+/// Facets within radius + margin of each particle at the time of building. Only particles near the wall are listed, and
+/// nothing is kept of others. Where space repeats, a particle may be near a facet through an image of its own.
 struct WallCandidates {
-  double skin = 0.0;          ///< m; larger = fewer rebuilds, longer lists. A tenth to a half of the radius is sensible
+  /// m; larger = fewer searches, longer lists. Unset: 0.15 of the mean diameter. 0: a search at every step.
+  std::optional<double> skin;
+
   std::vector<int> particle;  ///< ascending
   std::vector<int> offsets;   ///< facets of particle[k]: facet[offsets[k]] … facet[offsets[k + 1] − 1]
-  std::vector<int> facet;     ///< ascending for each particle
+  std::vector<int> facet;     ///< for each particle by image, then ascending
+  /// Only where space repeats: entry by entry of `facet`, the image of the particle that is near the facet, counted
+  /// from the particle's position when the list was made; and those positions, particle by particle.
+  std::vector<Image> image;
+  std::vector<Vec3> position;
+  Vec3 period;  ///< m; 0 = does not repeat
   /// Rigid walls only, else empty: per listed particle, whether all its facets lie in one plane and face the same way.
   std::vector<char> flat;
-  mutable std::vector<int> lastFacet;  ///< the same length: where the contact was, as a place to look first
+  mutable std::vector<int> lastFacet;  ///< the same length: which of its facets the contact was on, to look there first
 
-  std::int64_t builds = 0;      ///< how often the lists were made
-  std::int64_t lateBuilds = 0;  ///< how often a scan of the wall found the skin used up before the scan; see below
-
-  // Where everybody was when the lists were made.
-  std::vector<Vec3> particleAtBuild, vertexAtBuild;
-  double particleTravel = 0.0;  ///< bound on how far any particle has moved since, m; if `particleStep` is given
+  double margin = 0.0;      ///< the skin in use, m
+  std::int64_t builds = 0;  ///< how often the lists were made
+  // What they were made from.
+  std::int64_t particleRevision = -1;
   std::size_t facetsAtBuild = 0;
-  double vertexTravel = 0.0;  ///< largest displacement of a vertex at the last scan, m
-  std::int64_t updatesSinceBuild = 0, nextScan = 0;
-  geometry::HierarchicalGrid grid;
-  std::vector<std::array<int, 2>> pairScratch;
+  std::vector<Vec3> vertexAtBuild;
+  double smallestRadius = 0.0;  ///< m, of all particles
+  ParticleTravel particleTravel;
+  double wallTravel = 0.0;  ///< bound on how far any vertex is from where it was, m
 };
 
-/// Makes the lists anew.
+/// Makes the lists anew (Cheng et al. 2022, Algorithm 2: facet boxes are looked up in a grid of the particles, here of
+/// those near the wall).
 /// @throws InputError if skin is not finite and ≥ 0; NumericalError naming a particle or vertex that is not finite
 void findWallCandidates(const Particles& particles, const TriangulatedWall& wall, double skin,
-                        WallCandidates& candidates);
+                        WallCandidates& candidates, const geometry::Periodicity& periodicity = {});
 
-/// Makes the lists anew if particles and vertices may together have used up the skin since the lists were made, or if
-/// the number of particles or facets changed. Returns whether it did.
-///
-/// @param wallTravel  an upper bound, m, on how far any vertex has moved since the lists were made (0 for a wall at
-///   rest): the lists last while it plus the particles' largest displacement is within the skin, and nothing is spent
-///   per vertex. Without it particles and vertices get half of the skin each, and the vertices are scanned, not at
-///   every call but so often (1, 2, 4 … at most 64 calls apart) that a vertex four times as fast as the fastest so far
-///   is still caught in time. Should a scan come too late all the same, `lateBuilds` counts it.
-/// @param particleStep a bound, m, on how far any particle has moved since the last call: then not every particle is
-///   looked at
+/// Makes the lists anew if particles and vertices may together have used up the skin, or particles have been added,
+/// removed or sorted. Returns whether it did.
 bool updateWallCandidates(const Particles& particles, const TriangulatedWall& wall, WallCandidates& candidates,
-                          std::optional<double> wallTravel = std::nullopt,
-                          std::optional<double> particleStep = std::nullopt);
+                          const Moves& moves, const geometry::Periodicity& periodicity = {});
+
+/// Skin to take where none is set: 0.15 of the mean diameter, m.
+double defaultSkin(const Particles& particles);
 
 }  // namespace dovetail::dem

@@ -6,17 +6,30 @@
 
 namespace dovetail::dem {
 
+inline WallShare shareOf(const WallContacts& contacts, std::size_t c) {
+  return {contacts.overlap[c] / contacts.engagement[c], contacts.engagement[c], contacts.energyShare[c]};
+}
+
 namespace detail {
 
 /// Fills contacts.springs.next with the memories carried over from the last step: from the same facet or one that
-/// shares a vertex, the nearest normal first. Returns those of contacts that have ended.
-EndedMemories carrySprings(WallContacts& contacts, const TriangulatedWall& wall, int memory);
+/// shares a vertex, the nearest normal first. Returns those of contacts that have ended, leavers' (renumber) among
+/// them.
+EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, const TriangulatedWall& wall,
+                           int memory);
 /// Remembers the contacts and what they remember for the next step.
 void keepSprings(WallContacts& contacts);
 
-/// Velocity of the particle relative to the wall at the contact, m/s.
-Vec3 relativeVelocity(const Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts,
-                      std::size_t c, bool spins);
+/// How a particle and the wall move at a contact.
+struct AgainstFacets {
+  const Particles& particles;
+  const TriangulatedWall& wall;
+  const WallContacts& contacts;
+  bool spins;
+  Vec3 velocity(std::size_t c) const;
+  Vec3 spin(std::size_t c) const;
+};
+
 /// Adds the contact forces (and torques) to the particles.
 void addToParticles(Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts, bool spins);
 
@@ -34,27 +47,27 @@ void addToParticles(Particles& particles, const TriangulatedWall& wall, const Wa
 /// @throws InputError if the law remembers and dt is not finite and > 0
 template <class Law>
 ContactWork collideWithWall(Particles& particles, const TriangulatedWall& wall, WallContacts& contacts,
-                            const PreparedLaws<Law>& laws, double dt) {
+                            const PreparedLaws<Law>& laws, double dt, Booking booking = Booking::on) {
   ContactWork work;
   if constexpr (Law::memory > 0) {
     detail::requireStep(dt);
-    const detail::EndedMemories ended = detail::carrySprings(contacts, wall, Law::memory);
-    detail::requireMaterials(particles, laws.materials);
-    work += detail::bookEnded<Law>(particles, ended, laws, wall.material, dt);
+    const EndedMemories ended = detail::carrySprings(particles, contacts, wall, Law::memory);
+    if (booking == Booking::on) work += detail::bookEnded<Law>(ended, laws, wall.material, dt);
   }
   if constexpr (Law::rotates) contacts.couple.assign(contacts.size(), Vec3{});
-  work += detail::answerWall<Law>(
-      particles, contacts, contacts.springs.next, laws, wall.material, dt,
-      [&](std::size_t c) { return detail::relativeVelocity(particles, wall, contacts, c, Law::rotates); });
-  detail::addToParticles(particles, wall, contacts, Law::rotates && particles.rotates());
+  const bool spins = Law::rotates && particles.rotates();
+  work += detail::answerWall<Law>(particles, contacts, contacts.springs.next, laws, wall.material, dt, booking,
+                                  detail::AgainstFacets{particles, wall, contacts, spins});
+  detail::addToParticles(particles, wall, contacts, spins);
   if constexpr (Law::memory > 0) detail::keepSprings(contacts);
   return work;
 }
 
 template <class Normal, class Tangential, class Rolling, class Adhesion>
 ContactWork collideWithWall(Particles& particles, const TriangulatedWall& wall, WallContacts& contacts,
-                            const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law, double dt = 0.0) {
-  return collideWithWall(particles, wall, contacts, prepare(law), dt);
+                            const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law, double dt = 0.0,
+                            Booking booking = Booking::on) {
+  return collideWithWall(particles, wall, contacts, prepare(law), dt, booking);
 }
 
 }  // namespace dovetail::dem

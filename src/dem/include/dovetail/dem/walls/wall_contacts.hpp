@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dovetail/dem/particles/particles.hpp"
+#include "dovetail/dem/walls/ended_memories.hpp"
 #include "dovetail/dem/walls/wall.hpp"
 #include "dovetail/dem/walls/wall_candidates.hpp"
 
@@ -30,6 +31,7 @@ struct WallSprings {
 
   std::vector<double> next;  // those of this step, while they are being worked out
   std::vector<char> taken;
+  EndedMemories left;  // of particles that left, to be booked by the next collide
 };
 
 /// Contacts of one wall, by particle, then facet. Arrays keep their memory between steps.
@@ -38,12 +40,19 @@ struct WallContacts {
   std::vector<std::array<double, 3>> weight;  ///< share of the facet's vertices in the contact point; sums to 1
   std::vector<Vec3> normal;                   ///< unit, from the wall to the particle
   std::vector<double> overlap;                ///< λ, the part of the overlap that this contact carries, m, > 0
-  std::vector<double> engagement;             ///< λ / overlap of the two alone, 0 … 1
-  std::vector<Vec3> force;                    ///< on the particle, N; set by collideWithWall
-  std::vector<Vec3> couple;                   ///< on the particle beyond arm × force, N m; if the law exerts torques
+  std::vector<double> engagement;  ///< share of what the law says to overlap/engagement: force, couple and their losses
+  std::vector<double> energyShare;  ///< share of what it stores at that overlap
+  std::vector<Vec3> force;          ///< on the particle, N; set by collideWithWall
+  std::vector<Vec3> couple;         ///< on the particle beyond arm × force, N m; if the law exerts torques
+  std::vector<double> energy;       ///< of the normal springs, J; if booked
+  /// Only where space repeats: which image of the particle touches; and the periods, m.
+  std::vector<Image> image;
+  Vec3 period;
   WallSprings springs;
 
   std::size_t size() const { return particle.size(); }
+  /// What is to be added to the particle's position to have it next to the wall, m.
+  Vec3 shift(std::size_t c) const { return image.empty() ? Vec3{} : shiftOf(image[c], period); }
 };
 
 /// Contact point on the wall, m.
@@ -52,6 +61,13 @@ inline Vec3 contactPoint(const WallContacts& contacts, const TriangulatedWall& w
   const auto& w = contacts.weight[c];
   return w[0] * wall.x[static_cast<std::size_t>(vertex[0])] + w[1] * wall.x[static_cast<std::size_t>(vertex[1])] +
          w[2] * wall.x[static_cast<std::size_t>(vertex[2])];
+}
+
+/// From the particle's centre to the contact point on the wall, m.
+inline Vec3 contactArm(const Particles& particles, const WallContacts& contacts, const TriangulatedWall& wall,
+                       std::size_t c) {
+  const Vec3 arm = contactPoint(contacts, wall, c) - particles.x[static_cast<std::size_t>(contacts.particle[c])];
+  return contacts.image.empty() ? arm : arm - contacts.shift(c);
 }
 
 /// Velocity of the wall at the contact point, with the weights that carry the force (its adjoint), m/s.
@@ -87,13 +103,26 @@ void projectWallContacts(const Particles& particles, const TriangulatedWall& wal
 void paperWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                        WallContacts& contacts);
 
-/// Gives what contacts remember the new numbers of their particles (< 0: gone).
-void renumber(WallContacts& contacts, std::span<const int> newNumber);
+/// Gives what contacts remember the new numbers of their particles (< 0: gone). What leavers' contacts remember is
+/// booked as lost by the next collide; returns what their normal springs stored, J, for the caller to book.
+/// @param before the particles as they were numbered
+double renumber(WallContacts& contacts, std::span<const int> newNumber, const Particles& before);
 
-/// f[vertex] −= weight × force for all contacts: the reaction on the wall, N.
-void addWallForces(const WallContacts& contacts, std::span<const geometry::Facet> facets, std::span<Vec3> f);
+namespace detail {
+/// Energies of the contacts of those who leave; the contacts' own are cleared, as their numbers are no longer true.
+double energyOfLeavers(const std::vector<int>& particle, std::vector<double>& energy, std::span<const int> newNumber);
+/// Remembers memory[from …] of a particle that leaves, or whose contact has ended.
+void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
+              std::size_t contact, std::size_t components);
+}  // namespace detail
+
+/// The reaction on the wall, N: f[vertex] −= weight × force for all contacts, and couples as forces on the vertices of
+/// their facet (see FacetSpin), so that force, moment and power balance.
+/// @param x positions of the vertices, m
+void addWallForces(const WallContacts& contacts, std::span<const Vec3> x, std::span<const geometry::Facet> facets,
+                   std::span<Vec3> f);
 inline void addWallForces(const WallContacts& contacts, TriangulatedWall& wall) {
-  addWallForces(contacts, wall.facets, wall.f);
+  addWallForces(contacts, wall.x, wall.facets, wall.f);
 }
 
 }  // namespace dovetail::dem

@@ -9,86 +9,101 @@
 #include "dovetail/dem/laws/contact_block.hpp"
 #include "dovetail/dem/laws/law_table.hpp"
 #include "dovetail/dem/particles/particles.hpp"
+#include "dovetail/dem/walls/ended_memories.hpp"
 
-namespace dovetail::dem::detail {
+namespace dovetail::dem {
+
+/// What one of several contacts of a particle with a wall has of them all.
+struct WallShare {
+  double overlap;  ///< what the law sees, m
+  double force;    ///< factor on forces, couples and what they lose
+  double energy;   ///< factor on what normal springs store and plastic flow takes
+};
+
+namespace detail {
 
 /// @throws InputError unless dt is finite and > 0
 void requireStep(double dt);
 
-/// @throws InputError naming a particle whose material has no law
-void requireMaterials(const Particles& particles, int materials);
+/// @param touching numbers of the particles that touch
+/// @throws InputError naming one whose material has no law, or the wall's material if that has none
+void requireWallMaterials(const Particles& particles, const std::vector<int>& touching, int materials,
+                          int wallMaterial);
 
 inline int materialOf(const Particles& particles, std::size_t i) {
   return particles.material.empty() ? 0 : static_cast<int>(particles.material[i]);
 }
 
-/// Memories, one after the other, of contacts that have ended, and whose they were.
-struct EndedMemories {
-  std::vector<double> memory;
-  std::vector<int> particle;
-};
-
 /// What ended contacts take with them.
 template <class Law>
-ContactWork bookEnded(const Particles& particles, const EndedMemories& ended, const PreparedLaws<Law>& laws,
-                      int wallMaterial, double dt) {
+ContactWork bookEnded(const EndedMemories& ended, const PreparedLaws<Law>& laws, int wallMaterial, double dt) {
   ContactWork work;
-  for (std::size_t k = 0; k < ended.particle.size(); ++k) {
-    const auto i = static_cast<std::size_t>(ended.particle[k]);
-    const int material = laws.materials > 1 && i < particles.size() ? materialOf(particles, i) : 0;
-    work += laws.at(material, laws.materials > 1 ? wallMaterial : 0)
-                .ended(ended.memory.data() + k * static_cast<std::size_t>(Law::memory), dt);
-  }
+  const bool several = laws.materials > 1;
+  for (std::size_t k = 0; k < ended.material.size(); ++k)
+    work += laws.at(several ? ended.material[k] : 0, several ? wallMaterial : 0)
+                .ended(ended.memory.data() + k * static_cast<std::size_t>(Law::memory), 1.0 / dt);
   return work;
 }
 
 /// Contacts first … first + n − 1 into a block.
-template <class Law, class Contacts, class Velocity>
+template <class Law, class Contacts, class Motion>
 void gatherWall(const Particles& particles, const Contacts& contacts, const std::vector<double>& memory,
-                const PreparedLaws<Law>& laws, int wallMaterial, std::size_t first, std::size_t n,
-                const Velocity& velocity, ContactBlock& block) {
+                const PreparedLaws<Law>& laws, int wallMaterial, std::size_t first, std::size_t n, const Motion& motion,
+                ContactBlock& block) {
   for (std::size_t l = 0; l < n; ++l) {
     const std::size_t c = first + l;
     const auto i = static_cast<std::size_t>(contacts.particle[c]);
-    block.separation.set(l, contacts.normal[c]);
-    block.velocity.set(l, velocity(c));
-    block.armI[l] = block.radius[l] = particles.radius[i];
-    block.armJ[l] = contacts.overlap[c] / contacts.engagement[c];
+    const WallShare share = shareOf(contacts, c);
+    block.normal.set(l, contacts.normal[c]);
+    block.velocity.set(l, motion.velocity(c));
+    block.overlap[l] = share.overlap;
+    block.scale[l] = particles.weightOf(i) * share.force;
+    block.energyShare[l] = particles.weightOf(i) * share.energy;
+    block.effectiveRadius[l] = particles.radius[i];
     block.rootMass[l] = std::sqrt(particles.mass[i]);
-    block.scale[l] = contacts.engagement[c];
     block.kind[l] = laws.materials > 1 ? materialOf(particles, i) * laws.materials + wallMaterial : 0;
     if constexpr (Law::rotates) {
       block.spinI.set(l, particles.rotates() ? particles.omega[i] : Vec3{});
-      block.spinJ.set(l, {});
+      block.spinJ.set(l, motion.spin(c));
     }
     for (std::size_t m = 0; m < Law::memory; ++m) block.memory[m][l] = memory[c * Law::memory + m];
   }
 }
 
 /// Sets contacts.force (and couple, if the law has torques) and advances the memories.
-/// @param contacts  arrays particle, normal, overlap, engagement, force, couple
+/// @param contacts  arrays particle, normal, force, couple, energy; shareOf(contacts, c)
 /// @param memory    Law::memory numbers per contact
-/// @param velocity  velocity(c): of the particle relative to the wall at contact c, m/s
-template <class Law, class Contacts, class Velocity>
+/// @param booking   off: returns nothing but zeros
+/// @param motion    velocity(c): of the particle relative to the wall at contact c, m/s; spin(c): of the wall there
+template <class Law, class Contacts, class Motion>
 ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vector<double>& memory,
-                       const PreparedLaws<Law>& laws, int wallMaterial, double dt, const Velocity& velocity) {
-  constexpr BlockOptions options{.spins = Law::rotates, .wall = true, .varied = true, .booked = true};
+                       const PreparedLaws<Law>& laws, int wallMaterial, double dt, Booking booking,
+                       const Motion& motion) {
+  constexpr BlockOptions quiet{.spins = Law::rotates, .wall = true, .varied = true, .booked = false};
+  constexpr BlockOptions booked{.spins = Law::rotates, .wall = true, .varied = true, .booked = true};
   const auto answerBlock = [&](std::size_t first, std::size_t end) {
     ContactBlock block;
     const std::size_t n = end - first;
-    gatherWall<Law>(particles, contacts, memory, laws, wallMaterial, first, n, velocity, block);
-    answer<Law, options>(block, n, laws.table.data(), dt);
+    gatherWall<Law>(particles, contacts, memory, laws, wallMaterial, first, n, motion, block);
+    if (booking == Booking::on)
+      answer<Law, booked>(block, n, laws.table.data(), dt);
+    else
+      answer<Law, quiet>(block, n, laws.table.data(), dt);
     for (std::size_t l = 0; l < n; ++l) {
-      contacts.force[first + l] = block.velocity.at(l);
-      if constexpr (Law::rotates) contacts.couple[first + l] = block.spinI.at(l);
+      contacts.force[first + l] = block.force.at(l);
+      if constexpr (Law::rotates) contacts.couple[first + l] = block.couple.at(l);
       for (std::size_t m = 0; m < Law::memory; ++m) memory[(first + l) * Law::memory + m] = block.memory[m][l];
+      contacts.energy[first + l] = booking == Booking::on ? block.work[0][l] : 0.0;
     }
-    return sumWork(block, n);
+    return booking == Booking::on ? sumWork(block, n) : ContactWork{};
   };
   const std::size_t count = contacts.particle.size();
+  contacts.energy.resize(count);
   if (count == 0) return {};
-  requireMaterials(particles, std::max(laws.materials, 1));
+  requireWallMaterials(particles, contacts.particle, laws.materials, wallMaterial);
   return count <= blockSize ? answerBlock(0, count) : parallelSum(count, blockSize, answerBlock);
 }
 
-}  // namespace dovetail::dem::detail
+}  // namespace detail
+
+}  // namespace dovetail::dem

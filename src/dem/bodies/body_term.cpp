@@ -1,0 +1,174 @@
+#include "dovetail/dem/bodies/body_term.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "dovetail/dem/model/loads.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Counts a body as exchanged; its kinetic energy and m g·x, J.
+/// @param missing velocity that it has not been given yet, m/s
+double book(const Bodies& bodies, std::size_t b, const Vec3& gravity, const Vec3& missing, Exchanged& exchanged) {
+  const Vec3 v = bodies.v[b] + missing;
+  ++exchanged.count;
+  exchanged.mass += bodies.mass[b];
+  exchanged.momentum += bodies.mass[b] * v;
+  return 0.5 * (bodies.mass[b] * squaredNorm(v) +
+                dot(bodies.angularMomentum[b], angularVelocity(bodies, static_cast<int>(b)))) -
+         bodies.mass[b] * dot(gravity, bodies.x[b]);
+}
+
+}  // namespace
+
+void BodyTerm::check(const Model& m) const {
+  validate(bodies);
+  dem::check(m.particles, bodies, clumps);
+}
+
+double BodyTerm::move(Model& m, const Step& step) {
+  if (step.closing > 0.0) kickBodies(bodies, 0.5 * step.closing);
+  kickBodies(bodies, 0.5 * step.dt);
+  driftBodies(bodies, step.dt);
+  return placeMembers(bodies, clumps, m.pairs.periodicity, m.particles);
+}
+
+void BodyTerm::renewed(Model& m) {
+  wrapPositions(bodies, m.pairs.periodicity);
+  muteMemberPairs(clumps, m.pairs);
+}
+
+void BodyTerm::leaving(Model& m, std::vector<char>& leaves) {
+  std::vector<char> gone(bodies.size(), 0);
+  for (std::size_t k = 0; k < clumps.size(); ++k)
+    if (leaves[at(clumps.particle[k])] != 0) gone[at(clumps.body[k])] = 1;
+  for (std::size_t k = 0; k < clumps.size(); ++k)
+    if (gone[at(clumps.body[k])] != 0) leaves[at(clumps.particle[k])] = booked;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (gone[b] != 0) m.booked.left += dem::book(bodies, b, m.gravity, 0.5 * m.open * m.gravity, m.left);
+}
+
+double BodyTerm::renumber(std::span<const int> newNumber, const Particles&) {
+  dem::renumber(bodies, clumps, newNumber);
+  return 0.0;
+}
+
+void BodyTerm::addForces(Model& m, const Step& step) {
+  clearForces(bodies);
+  gatherForces(m.particles, clumps, bodies, m.gravity);
+  damp(m);
+  if (step.timeless || admitted_ < 0) return;
+  // The step's last half kick is not for newcomers: it will be taken back from what they have.
+  for (std::size_t b = at(std::exchange(admitted_, -1)); b < bodies.size(); ++b) {
+    bodies.v[b] -= (0.5 * step.dt / bodies.mass[b]) * bodies.f[b];
+    bodies.angularMomentum[b] -= 0.5 * step.dt * bodies.torque[b];
+  }
+}
+
+void BodyTerm::damp(Model& m) {
+  for (const DampingTerm* damping : m.terms.all<DampingTerm>()) {
+    if (damping->viscousRate != 0.0) applyViscousDamping(bodies, damping->viscousRate);
+    if (damping->local != 0.0) applyLocalDamping(bodies, damping->local);
+  }
+}
+
+/// With the mean of the velocities before and after the kick that the damping forces are part of.
+void BodyTerm::book(Model& m, const Step& step) {
+  for (const DampingTerm* damping : m.terms.all<DampingTerm>()) {
+    const auto taken = [&](const Vec3& force, const Vec3& momentum, const Vec3& v, const Vec3& mean) {
+      double power = damping->viscousRate * dot(momentum, mean);
+      for (int k = 0; k < 3; ++k) {
+        const double sign = force[k] * v[k] > 0.0 ? 1.0 : force[k] * v[k] < 0.0 ? -1.0 : 0.0;
+        power += damping->local * sign / (1.0 - damping->local * sign) * force[k] * mean[k];
+      }
+      return power;
+    };
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const Vec3 omega = angularVelocity(bodies, static_cast<int>(b));
+      const Vec3 &l = bodies.angularMomentum[b], half = 0.5 * step.dt * bodies.torque[b];
+      const Quaternion& q = bodies.orientation[b];
+      const Vec3 t = rotateBack(q, half), &inertia = bodies.inertia[b];
+      const Vec3 turned = omega + rotate(q, {t.x / inertia.x, t.y / inertia.y, t.z / inertia.z});
+      m.rate.damping += (taken(bodies.f[b], bodies.mass[b] * bodies.v[b], bodies.v[b],
+                               bodies.v[b] + (0.5 * step.dt / bodies.mass[b]) * bodies.f[b]) +
+                         taken(bodies.torque[b], l, omega, turned));
+    }
+  }
+}
+
+void BodyTerm::close(Model& m, double dt) {
+  kickBodies(bodies, 0.5 * dt);
+  placeMembers(bodies, clumps, m.pairs.periodicity, m.particles);
+}
+
+void BodyTerm::addDemand(const Model& m, ContactDemand& demand) const {
+  dem::addDemand(demand, m.particles, bodies, clumps);
+}
+
+void BodyTerm::addEnergies(const Model& m, Energies& e) const {
+  e.kinetic += kineticEnergy(bodies);
+  for (std::size_t b = 0; b < bodies.size(); ++b) e.gravity -= bodies.mass[b] * dot(m.gravity, bodies.x[b]);
+  for (const int member : clumps.particle) {  // which the sums over particles hold
+    const std::size_t i = at(member);
+    e.gravity += m.particles.mass[i] * dot(m.gravity, m.particles.x[i]);
+    e.kinetic -= 0.5 * m.particles.mass[i] * squaredNorm(m.particles.v[i]);
+    if (m.particles.rotates())
+      e.kinetic -= 0.5 * momentOfInertia(m.particles, member) * squaredNorm(m.particles.omega[i]);
+  }
+}
+
+void BodyTerm::addMomenta(const Model& m, Momenta& sums) const {
+  sums.linear += momentum(bodies);
+  sums.angular += angularMomentum(bodies);
+  for (const int member : clumps.particle) {
+    const std::size_t i = at(member);
+    const Vec3 p = m.particles.mass[i] * m.particles.v[i];
+    sums.linear -= p;
+    sums.angular -= cross(m.particles.x[i], p);
+    if (m.particles.rotates()) sums.angular -= momentOfInertia(m.particles, member) * m.particles.omega[i];
+  }
+}
+
+namespace {
+template <class Archive, class B, class C>
+void archive(Archive& a, B& b, C& c) {
+  a(b.x, b.v, b.f, b.mass, b.inertia, b.orientation, b.angularMomentum, b.torque, c.particle, c.body, c.offset);
+}
+}  // namespace
+
+void BodyTerm::save(ByteWriter& writer) const { archive(writer, bodies, clumps); }
+void BodyTerm::load(ByteReader& reader) { archive(reader, bodies, clumps); }
+
+void BodyTerm::admit(Model& m, int first) {
+  admitted_ = first;
+  for (std::size_t b = at(first); b < bodies.size(); ++b)
+    m.booked.entered += dem::book(bodies, b, m.gravity, {}, m.entered);
+  for (std::size_t k = 0; k < clumps.size(); ++k)
+    if (clumps.body[k] >= first) m.particles.f[at(clumps.particle[k])] = bodies.mass[at(clumps.body[k])] * m.gravity;
+}
+
+BodyTerm& bodies(Model& m) {
+  const auto found = m.terms.all<BodyTerm>();
+  return found.empty() ? m.terms.add(BodyTerm{}) : *found.front();
+}
+
+int addClump(Model& m, const ClumpShape& shape, const Vec3& x, const Quaternion& turn, const Vec3& v,
+             const Vec3& omega) {
+  BodyTerm& term = bodies(m);
+  return addClump(m.particles, term.bodies, term.clumps, shape, x, turn, v, omega);
+}
+
+std::vector<char> members(const Model& m) {
+  std::vector<char> mask;
+  for (const BodyTerm* term : m.terms.all<BodyTerm>()) {
+    mask.resize(m.particles.size(), 0);
+    for (const int i : term->clumps.particle) mask[at(i)] = 1;
+  }
+  return mask;
+}
+
+}  // namespace dovetail::dem

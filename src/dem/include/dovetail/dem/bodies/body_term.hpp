@@ -1,0 +1,53 @@
+// Rigid bodies of a model: clumps of its particles, and triangulated walls that move freely.
+//
+//     dem::BodyTerm& rigid = dem::bodies(model);
+//     dem::addClump(model, shape, x);
+#pragma once
+
+#include "dovetail/dem/bodies/clumps.hpp"
+#include "dovetail/dem/model/model.hpp"
+
+namespace dovetail::dem {
+
+/// Bodies and their members. Members are particles of the model to lists, laws and walls; what moves them is their
+/// body, and every sum counts a body once.
+class BodyTerm final : public Term {
+public:
+  Bodies bodies;
+  Clumps clumps;
+
+  std::string name() const override { return "bodies"; }
+  std::unique_ptr<Term> clone() const override { return std::make_unique<BodyTerm>(*this); }
+  Order order() const override { return Order::bodies; }
+  void check(const Model& m) const override;
+  double move(Model& m, const Step& step) override;
+  void renewed(Model& m) override;
+  void leaving(Model& m, std::vector<char>& leaves) override;
+  double renumber(std::span<const int> newNumber, const Particles& before) override;
+  void addForces(Model& m, const Step& step) override;
+  void book(Model& m, const Step& step) override;
+  void close(Model& m, double dt) override;
+  void addDemand(const Model& m, ContactDemand& demand) const override;
+  void addEnergies(const Model& m, Energies& e) const override;
+  void addMomenta(const Model& m, Momenta& sums) const override;
+  void save(ByteWriter& writer) const override;
+  void load(ByteReader& reader) override;
+
+  /// For those who have appended bodies from number `first` on within a step: they are booked as entered, and their
+  /// velocities count as of this moment.
+  void admit(Model& m, int first);
+
+private:
+  void damp(Model& m);
+  int admitted_ = -1;  // the first of those who came in the step under way
+};
+
+/// The bodies of the model, made when first asked for.
+BodyTerm& bodies(Model& m);
+/// Appends a clump as addClump does. Returns the body's number.
+int addClump(Model& m, const ClumpShape& shape, const Vec3& x, const Quaternion& turn = {}, const Vec3& v = {},
+             const Vec3& omega = {});
+/// One entry per particle: 1 for members of bodies; empty if the model has none.
+std::vector<char> members(const Model& m);
+
+}  // namespace dovetail::dem

@@ -1,0 +1,117 @@
+// Contact laws behind one virtual call per sweep: what a scene holds. No caller needs to know which law it is.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dovetail/core/archive.hpp"
+#include "dovetail/dem/laws/contact_work.hpp"
+#include "dovetail/dem/laws/listed_laws.hpp"
+
+namespace dovetail::dem {
+
+struct ContactDemand;
+struct ContactSample;
+struct Particles;
+struct PairList;
+struct PrimitiveWall;
+struct TriangulatedWall;
+struct WallContacts;
+
+/// A law for each pair of materials, prepared; never changes. One call sweeps all contacts of a kind; nothing in the
+/// sweep is virtual.
+class ContactLaws {
+public:
+  virtual ~ContactLaws() = default;
+
+  /// Adds the pair forces to particles.f, equal and opposite (and torques, if the law exerts them and the particles
+  /// spin). Bitwise the same for any number of threads. Call once per step if the law remembers.
+  /// @param dt step over which memories advance, s
+  /// @throws InputError if the law remembers and dt is not finite and > 0, or naming a particle whose material has no
+  ///         law
+  virtual ContactWork pairs(Particles& particles, PairList& list, double dt, Booking booking) const = 0;
+  /// The same for the contacts that findContacts has found; sets the wall's force and torque.
+  virtual ContactWork wall(Particles& particles, PrimitiveWall& wall, double dt, Booking booking) const = 0;
+  /// The same for the contacts that findWallContacts has found; sets their forces and couples, the reaction on the wall
+  /// being up to addWallForces.
+  virtual ContactWork wall(Particles& particles, const TriangulatedWall& wall, WallContacts& contacts, double dt,
+                           Booking booking) const = 0;
+
+  /// Adds what the contacts, as they are, ask of the step (see contact_step.hpp).
+  /// @param leastOverlap m; if > 0, all pairs of the list count, with this overlap at least
+  virtual void addDemand(ContactDemand& demand, const Particles& particles, const PairList& list,
+                         double leastOverlap) const = 0;
+  virtual void addDemand(ContactDemand& demand, const Particles& particles, const PrimitiveWall& wall) const = 0;
+  virtual void addDemand(ContactDemand& demand, const Particles& particles, const TriangulatedWall& wall,
+                         const WallContacts& contacts) const = 0;
+
+  /// Pairs with their forces as the last sweep made them; nothing is changed.
+  /// @throws InputError if the law remembers something and the list has not been through `pairs`
+  virtual ContactSample sample(const Particles& particles, const PairList& list) const = 0;
+
+  /// Numbers that a contact remembers.
+  virtual int memory() const = 0;
+  /// Whether contacts exert torques, so that particles should spin.
+  virtual bool rotates() const = 0;
+  /// How far beyond touch it acts, m: the largest of the table, ∞ if every pair of the list is bonded.
+  virtual double reach() const = 0;
+  /// Rows of the table: materials 0 … materials() − 1 have laws. A single law serves all materials and reports 1.
+  virtual int materials() const = 0;
+  /// The parts, such as "Hertz + Mindlin + rolling and twisting + DMT".
+  virtual const std::string& name() const = 0;
+  /// The prepared parameters, row by row of the table: equal bytes and equal names are equal laws.
+  virtual void saveParameters(ByteWriter& writer) const = 0;
+};
+
+/// Whether both have the same parts and the same parameters, to the last bit.
+bool sameLaws(const ContactLaws& a, const ContactLaws& b);
+
+namespace detail {
+
+/// Laws that the library has compiled with the flags that make their loops vectors.
+template <class Law>
+std::shared_ptr<const ContactLaws> compiledLaws(PreparedLaws<Law> laws, std::string name);
+
+/// All others: own_laws.hpp defines it.
+template <class Law>
+struct OwnLaws;
+
+template <class Law>
+std::shared_ptr<const ContactLaws> behindOneCall(PreparedLaws<Law> laws, std::string name) {
+  if (laws.table.empty() || laws.table.size() != static_cast<std::size_t>(laws.materials * laws.materials))
+    throw InputError("a table of " + std::to_string(laws.table.size()) + " laws for " + std::to_string(laws.materials) +
+                         " materials",
+                     "contact laws", "take prepare(law) or prepare(table)");
+  if constexpr (isListed<Law>)
+    return compiledLaws<Law>(std::move(laws), std::move(name));
+  else  // "incomplete type OwnLaws<…>": include own_laws.hpp in this file, which then compiles the law itself
+    return OwnLaws<Law>::make(std::move(laws), std::move(name));
+}
+
+}  // namespace detail
+
+/// Laws for a scene. Those of listed_laws.hpp, and those that differ from them in a part they can stand for, are
+/// compiled in the library. For any other put the call in a file of its own that includes own_laws.hpp; there
+/// -O3 -fno-math-errno lets its loops vectorise.
+/// @throws InputError as validate does, naming the materials
+template <class Law>
+std::shared_ptr<const ContactLaws> makeContactLaws(const LawTable<Law>& laws) {
+  for (int a = 0; a < laws.materials(); ++a)
+    for (int b = a; b < laws.materials(); ++b) detail::validateEntry(laws.at(a, b), a, b);
+  PreparedLaws<ListedFor<Law>> prepared{laws.materials(), {}};
+  for (const Law& law : laws.laws()) prepared.table.push_back(listedFor(law).prepare());
+  return detail::behindOneCall(std::move(prepared), lawName<Law>());
+}
+template <class Normal, class Tangential, class Rolling, class Adhesion>
+std::shared_ptr<const ContactLaws> makeContactLaws(const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law) {
+  validate(law);
+  using Law = ContactLaw<Normal, Tangential, Rolling, Adhesion>;
+  return detail::behindOneCall(PreparedLaws<ListedFor<Law>>{1, {listedFor(law).prepare()}}, lawName<Law>());
+}
+template <class Law>
+std::shared_ptr<const ContactLaws> makeContactLaws(const PreparedLaws<Law>& laws) {
+  return detail::behindOneCall(laws, lawName<Law>());
+}
+
+}  // namespace dovetail::dem

@@ -1,0 +1,38 @@
+// Where the energy of a model is, and where it went.
+#pragma once
+
+#include <cstdint>
+
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/dem/laws/contact_work.hpp"
+
+namespace dovetail::dem {
+
+/// Energy by channel, J. `balance` is constant but for the error of the integrator.
+struct Energies {
+  double kinetic = 0.0, gravity = 0.0, contacts = 0.0;  ///< stored now; contacts with those at walls and bonds
+  ContactWork lost;       ///< its …Power members hold what has been lost so far, J; its energies are not used
+  double damping = 0.0;   ///< taken by viscous and local damping
+  double walls = 0.0;     ///< done by moving walls and drives on what they touch
+  double external = 0.0;  ///< done by external forces
+  double entered = 0.0;   ///< brought in by inserted particles
+  double left = 0.0;      ///< taken out with particles that were removed or escaped
+  double stored() const { return kinetic + gravity + contacts; }
+  /// stored + lost + damping + left − what came in
+  double balance() const { return stored() + lost.lostPower() + damping + left - walls - external - entered; }
+};
+
+/// Sums of momentum.
+struct Momenta {
+  Vec3 linear;   ///< kg m/s
+  Vec3 angular;  ///< about the origin, kg m²/s
+};
+
+/// What has come in or gone out of the scene.
+struct Exchanged {
+  std::int64_t count = 0;
+  double mass = 0.0;  ///< kg
+  Vec3 momentum;      ///< kg m/s
+};
+
+}  // namespace dovetail::dem

@@ -1,0 +1,99 @@
+// Bonds, damping, external forces and drives of a model.
+#pragma once
+
+#include <functional>
+
+#include "dovetail/dem/bonds/bonds.hpp"
+#include "dovetail/dem/model/model.hpp"
+
+namespace dovetail::dem {
+
+/// Bonds between the particles of the model; these spin then.
+class BondTerm final : public Term {
+public:
+  Bonds bonds;
+  bool mutesContacts = false;  ///< only the bond acts between bonded particles, see muteBonded
+
+  std::string name() const override { return "bonds"; }
+  std::unique_ptr<Term> clone() const override { return std::make_unique<BondTerm>(*this); }
+  void check(const Model& m) const override;
+  void renewed(Model& m) override;
+  double renumber(std::span<const int> newNumber, const Particles& before) override;
+  void addForces(Model& m, const Step& step) override;
+  void addDemand(const Model& m, ContactDemand& demand) const override;
+  void save(ByteWriter& writer) const override;
+  void load(ByteReader& reader) override;
+};
+
+/// Viscous and local damping of all particles, see damping.hpp.
+class DampingTerm final : public Term {
+public:
+  double viscousRate = 0.0;  ///< see applyViscousDamping, 1/s
+  double local = 0.0;        ///< see applyLocalDamping
+
+  std::string name() const override { return "damping"; }
+  std::unique_ptr<Term> clone() const override { return std::make_unique<DampingTerm>(*this); }
+  Order order() const override { return Order::damping; }
+  void check(const Model& m) const override;
+  void addForces(Model& m, const Step& step) override;
+  void book(Model& m, const Step& step) override;
+  void save(ByteWriter& writer) const override { writer(viscousRate, local); }
+  void load(ByteReader& reader) override { reader(viscousRate, local); }
+};
+
+/// Forces of the caller's on the particles: drag, fields, another solver. Their work is booked.
+class ExternalForceTerm final : public Term {
+public:
+  /// Adds forces on the particles, N, at the state and time (s) given.
+  using Function = std::function<void(const Particles& particles, double time, std::span<Vec3> force)>;
+  ExternalForceTerm(std::string name, Function function) : name_(std::move(name)), function_(std::move(function)) {}
+
+  std::string name() const override { return name_; }
+  std::unique_ptr<Term> clone() const override { return std::make_unique<ExternalForceTerm>(*this); }
+  std::string code() const override { return "a force"; }
+  void check(const Model& m) const override;
+  void addForces(Model& m, const Step& step) override;
+  void book(Model& m, const Step& step) override;
+
+private:
+  std::string name_;
+  Function function_;
+  std::vector<Vec3> force_;
+};
+
+/// Particles that follow a prescribed path; those of zero displacement are held. What holds them gives impulse and work.
+class DriveTerm final : public Term {
+public:
+  /// @param ids of the particles (Particles::id)
+  /// @param displacement of time (s) since the start of the model, m; smooth enough for `velocity`, its derivative, m/s
+  DriveTerm(std::vector<std::int64_t> ids, std::function<Vec3(double)> displacement,
+            std::function<Vec3(double)> velocity)
+      : ids_(std::move(ids)), displacement_(std::move(displacement)), velocity_(std::move(velocity)) {}
+
+  std::string name() const override { return "drive"; }
+  std::unique_ptr<Term> clone() const override { return std::make_unique<DriveTerm>(*this); }
+  std::string code() const override { return "a path"; }
+  void check(const Model& m) const override;
+  bool prescribes() const override { return true; }
+  void prescribe(Model& m, const Step& step, Half half) override;
+  double renumber(std::span<const int> newNumber, const Particles& before) override;
+  void save(ByteWriter& writer) const override;
+  void load(ByteReader& reader) override;
+
+  const std::vector<std::int64_t>& ids() const { return ids_; }
+  Vec3 supportImpulse;  ///< given to the particles so far, kg m/s
+
+private:
+  void locate(const Particles& particles);
+  std::vector<std::int64_t> ids_;
+  std::function<Vec3(double)> displacement_, velocity_;
+  std::vector<int> particle_;
+  std::int64_t located_ = -1;
+};
+
+/// The bonds of the model, made when first asked for.
+Bonds& bonds(Model& m);
+/// The damping of the model, made when first asked for.
+DampingTerm& damping(Model& m);
+
+}  // namespace dovetail::dem

@@ -1,0 +1,68 @@
+// Walls of a model.
+#pragma once
+
+#include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/walls/mesh_wall.hpp"
+#include "dovetail/dem/walls/primitive_wall.hpp"
+
+namespace dovetail::dem {
+
+/// A plane, cylinder or sphere that the particles meet.
+class PrimitiveWallTerm final : public Term {
+public:
+  explicit PrimitiveWallTerm(PrimitiveWall w) : wall(std::move(w)) {}
+  PrimitiveWall wall;
+  double stored = 0.0;  ///< in its contacts now, J
+
+  std::string name() const override { return "walls"; }
+  std::unique_ptr<Term> clone() const override { return std::make_unique<PrimitiveWallTerm>(*this); }
+  std::string code() const override { return wall.motion ? "a motion" : ""; }
+  void check(const Model& m) const override;
+  double move(Model& m, const Step& step) override;
+  double renumber(std::span<const int> newNumber, const Particles& before) override;
+  void addForces(Model& m, const Step& step) override;
+  void close(Model& m, double dt) override;
+  void addDemand(const Model& m, ContactDemand& demand) const override;
+  void addEnergies(const Model& m, Energies& e) const override;
+  void save(ByteWriter& writer) const override;
+  void load(ByteReader& reader) override;
+};
+
+/// A triangulated wall that the particles meet.
+class MeshWallTerm final : public Term {
+public:
+  explicit MeshWallTerm(MeshWall m) : mesh(std::move(m)) {}
+  MeshWall mesh;
+  double stored = 0.0;  ///< in its contacts now, J
+
+  std::string name() const override { return "mesh walls"; }
+  std::unique_ptr<Term> clone() const override { return std::make_unique<MeshWallTerm>(*this); }
+  std::string code() const override;
+  void check(const Model& m) const override;
+  double move(Model& m, const Step& step) override;
+  double renumber(std::span<const int> newNumber, const Particles& before) override;
+  void addForces(Model& m, const Step& step) override;
+  void close(Model& m, double dt) override;
+  void addDemand(const Model& m, ContactDemand& demand) const override;
+  void addEnergies(const Model& m, Energies& e) const override;
+  void save(ByteWriter& writer) const override;
+  void load(ByteReader& reader) override;
+};
+
+/// The wall as it stands in the model from now on.
+inline PrimitiveWall& addWall(Model& m, PrimitiveWall wall) {
+  return m.terms.add(PrimitiveWallTerm(std::move(wall))).wall;
+}
+inline MeshWall& addWall(Model& m, MeshWall wall) { return m.terms.add(MeshWallTerm(std::move(wall))).mesh; }
+
+/// Takes a wall out; what its contacts had stored is booked as left. @throws InputError if it is not the model's
+void removeWall(Model& m, const PrimitiveWall& wall);
+void removeWall(Model& m, const MeshWall& mesh);
+
+/// Wall number i of its kind, in the order in which they were added. @throws InputError if there is none
+PrimitiveWall& primitiveWall(Model& m, std::size_t i);
+const PrimitiveWall& primitiveWall(const Model& m, std::size_t i);
+MeshWall& meshWall(Model& m, std::size_t i);
+const MeshWall& meshWall(const Model& m, std::size_t i);
+
+}  // namespace dovetail::dem

@@ -1,0 +1,38 @@
+// A model brought to rest.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "dovetail/dem/model/model.hpp"
+
+namespace dovetail::dem {
+
+struct RelaxationSettings {
+  double unbalanced = 1e-4;     ///< at rest when RelaxationReport::unbalanced is no more than this
+  std::int64_t steps = 200000;  ///< given up after so many
+  double stepShare = 0.6;       ///< of the critical step, which is looked up anew now and then; in (0, 1)
+  std::int64_t lookEvery = 20;  ///< steps between two looks at the contacts
+  std::function<bool(const Model&)> enough{};  ///< asked at every look: whether to stop here, at rest or not
+};
+
+struct RelaxationReport {
+  bool atRest = false;
+  double unbalanced = 0.0;    ///< mean force on a particle over the mean contact force; rattlers left out
+  std::int64_t steps = 0;     ///< taken
+  std::int64_t rattlers = 0;  ///< particles that touch nobody and feel no force
+};
+
+/// Steps the model until it is at rest under the forces that it has: gravity, contacts with their friction, bonds,
+/// walls as they stand. Motion is steered downhill (FIRE, Bitzek et al., Phys. Rev. Lett. 97, 2006): velocities lean
+/// towards forces and stop wherever they point uphill; what that takes is booked as damping. Contacts remember as in
+/// any other step, so friction holds what it can. Afterwards velocities are zero, and time has gone on by the steps
+/// taken.
+/// @throws InputError if a setting is not valid, or the model has bodies or moving walls; NumericalError as advance
+RelaxationReport relax(Model& m, const RelaxationSettings& settings = {});
+
+/// Mean force on a particle over the mean contact force, and who rattles, as the model lies now; forces have been asked
+/// for. Contacts with walls count. Infinite where there are forces and no contacts.
+RelaxationReport restOf(const Model& m);
+
+}  // namespace dovetail::dem

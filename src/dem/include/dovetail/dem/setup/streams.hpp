@@ -1,0 +1,59 @@
+// Grains that enter and leave a model while it runs.
+#pragma once
+
+#include <variant>
+
+#include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/setup/insertion.hpp"
+
+namespace dovetail::dem {
+
+/// An insertion into the model: clear of its particles and walls, through its periods. What came in is booked as
+/// entered (mass, momentum, kinetic and gravity energy; it touches nobody, so that contacts bring nothing).
+class InsertionTerm final : public Term {
+public:
+  /// @throws InputError as makeInsertion
+  explicit InsertionTerm(const InsertionSettings& settings) : insertion(makeInsertion(settings)) {}
+  Insertion insertion;
+
+  std::string name() const override { return "insertion"; }
+  std::unique_ptr<Term> clone() const override { return std::make_unique<InsertionTerm>(*this); }
+  std::string code() const override { return "settings of an insertion"; }
+  void check(const Model& m) const override;
+  void exchange(Model& m, const Step& step) override;
+  void save(ByteWriter& writer) const override;
+  void load(ByteReader& reader) override;
+
+private:
+  std::int64_t replaced_ = 0;  // leavers that have been made due again
+};
+
+/// What lies behind a plane, on the side to which the normal points.
+struct HalfSpace {
+  Vec3 point;   ///< m
+  Vec3 normal;  ///< of any length but 0
+};
+
+/// Takes particles out whose centres lie in a region, clumps as soon as one member does. What they carried is booked as
+/// left: mass, momentum, kinetic and gravity energy, and what their contacts stored.
+class OutletTerm final : public Term {
+public:
+  using Region = std::variant<geometry::Box, HalfSpace>;
+  Region region;
+  int every = 1;     ///< looked at in every so many steps
+  Exchanged passed;  ///< through here so far; clumps count once
+
+  std::string name() const override { return "outlet"; }
+  std::unique_ptr<Term> clone() const override { return std::make_unique<OutletTerm>(*this); }
+  void check(const Model& m) const override;
+  void exchange(Model& m, const Step& step) override;
+  void save(ByteWriter& writer) const override;
+  void load(ByteReader& reader) override;
+};
+
+/// Starts an insertion; it and outlets act in the order in which they were added.
+/// @throws InputError as makeInsertion
+InsertionTerm& addInsertion(Model& m, const InsertionSettings& settings);
+OutletTerm& addOutlet(Model& m, const OutletTerm::Region& region);
+
+}  // namespace dovetail::dem

@@ -1,0 +1,15 @@
+// What contacts with walls remembered when they ended, to be booked as lost.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace dovetail::dem {
+
+/// Memories, one after the other, and of what material the particles were.
+struct EndedMemories {
+  std::vector<double> memory;
+  std::vector<std::uint8_t> material;
+};
+
+}  // namespace dovetail::dem

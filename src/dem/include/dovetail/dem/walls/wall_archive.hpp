@@ -1,0 +1,40 @@
+// What a checkpoint holds of walls: all that a run needs to go on as if it had never stopped. What is code or was never
+// changed by the run (motions, materials, facets) is the caller's.
+#pragma once
+
+#include "dovetail/dem/walls/mesh_wall.hpp"
+#include "dovetail/dem/walls/primitive_wall.hpp"
+
+namespace dovetail::dem {
+
+template <class Archive, class Wall>
+void archiveWall(Archive& archive, Wall& w) {
+  auto& c = w.contacts;
+  auto& s = w.search;
+  archive(w.point, w.axis, w.velocity, w.angularVelocity, w.surfaceVelocity, w.force, w.torque);
+  archive(s.near, s.margin, s.builds, s.particleRevision, s.point, s.axis, s.radius, s.extent, s.smallestRadius,
+          s.travel, s.lastPoint, s.lastAxis);
+  if (w.servo) archive(*w.servo);
+  archive(c.particle, c.normal, c.overlap, c.force, c.couple, c.memory, c.image, c.period, c.energy, c.left.memory,
+          c.left.material);
+}
+
+template <class Archive, class Candidates>
+void archiveCandidates(Archive& archive, Candidates& c) {
+  archive(c.particle, c.offsets, c.facet, c.image, c.position, c.period, c.flat, c.lastFacet, c.margin, c.builds,
+          c.particleRevision, c.facetsAtBuild, c.vertexAtBuild, c.smallestRadius, c.particleTravel, c.wallTravel);
+}
+
+template <class Archive, class Mesh>
+void archiveMesh(Archive& archive, Mesh& m) {
+  auto& s = m.contacts.springs;
+  archive(m.wall.x, m.wall.v, m.wall.f, m.wall.rigid, m.step, m.belt, m.lookedAt);
+  if (auto* servo = std::get_if<WallServo>(&m.motion)) archive(*servo);
+  archive(s.particle, s.facet, s.normal, s.memory, s.left.memory, s.left.material);
+  auto& c = m.contacts;
+  archive(c.particle, c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyShare, c.force, c.couple, c.energy,
+          c.image, c.period);
+  archiveCandidates(archive, m.candidates);
+}
+
+}  // namespace dovetail::dem

@@ -1,0 +1,26 @@
+// What can be wrong with a wall before the first step, and whether a mesh is the one that a checkpoint knows.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "dovetail/dem/walls/mesh_wall.hpp"
+#include "dovetail/dem/walls/primitive_wall.hpp"
+
+namespace dovetail::dem {
+
+/// @param materials  rows of the law table
+/// @throws InputError: place, velocities or surface velocity not finite; an axis that is no unit vector; a radius that
+///   is not > 0; a negative skin; a material without a law; a surface velocity that points out of the surface; a servo
+///   without mass; a wall that does not repeat with the periods
+void validate(const PrimitiveWall& wall, int materials = std::numeric_limits<int>::max(),
+              const geometry::Periodicity& periodicity = {});
+/// @throws InputError: arrays of unlike length, a vertex that is not finite, a facet without its vertices; a negative
+///   skin; a material without a law; a surface velocity that is not finite; an empty motion, or one without offsets
+void validate(const MeshWall& mesh, int materials = std::numeric_limits<int>::max());
+
+/// Of facets and the shape of the wall, wherever a motion has carried it: equal for equal meshes, and hardly ever for
+/// others. The vertices of a wall moved by others do not count.
+std::uint64_t fingerprint(const MeshWall& mesh);
+
+}  // namespace dovetail::dem

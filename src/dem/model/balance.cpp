@@ -1,0 +1,97 @@
+// What a model holds, what it can bear.
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/model/model.hpp"
+#include "events.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+constexpr std::size_t grain = 4096;
+
+void requireClosed(const Model& m, const char* what) {
+  if (m.open > 0.0)
+    throw InputError("velocities lag behind positions by half a step", what, "call close(model) first, as run does");
+}
+
+}  // namespace
+
+void check(const Model& m) {
+  validate(m.particles);
+  if (!isFinite(m.gravity)) throw InputError("not a finite vector", "gravity", "give three finite numbers");
+  if (!m.laws && m.particles.size() > 0)
+    throw InputError("the model has no contact laws", "Model::laws", "set model.laws = makeContactLaws(law)");
+  if (m.laws && m.laws->materials() > 1)
+    for (std::size_t i = 0; i < m.particles.material.size(); ++i)
+      if (m.particles.material[i] >= m.laws->materials())
+        throw InputError("there is no law for material " + std::to_string(m.particles.material[i]),
+                         "particle " + std::to_string(m.particles.id[i]) + ", material",
+                         "make the table of laws as large as the materials ask for");
+  if (m.sortEvery < 0)
+    throw InputError("sortEvery is " + std::to_string(m.sortEvery), "Model::sortEvery", "give 0 (never) or more");
+  for (const auto& term : m.terms) term->check(m);
+}
+
+void requirePlain(const Model& m, const std::string& coupling) {
+  constexpr const char* remedy = "leave it out: this coupling refers to particles by their numbers";
+  if (m.sortEvery > 0) throw InputError("the model sorts its particles", coupling, "set sortEvery = 0");
+  if (m.domain && m.domain->policy == EscapePolicy::remove)
+    throw InputError("the domain removes particles", coupling, "take the policy that refuses");
+  for (const auto& term : m.terms)
+    if (!term->prescribes()) throw InputError("the model has '" + term->name() + "'", coupling, remedy);
+}
+
+ContactStep criticalStep(const Model& m, double leastOverlap) {
+  ContactDemand demand;
+  if (m.laws) m.laws->addDemand(demand, m.particles, m.pairs, leastOverlap);
+  for (const auto& term : m.terms) term->addDemand(m, demand);
+  return criticalStep(demand, m.particles);
+}
+
+void requireStableStep(const Model& m, double dt, double leastOverlap) {
+  const ContactStep limit = criticalStep(m, leastOverlap);
+  if (dt <= limit.dt) return;
+  throw InputError("dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) + " s that " +
+                       ownerOf(limit, m.particles) + " sets",
+                   "time step", "take a fifth of the limit or less, softer contacts, or scaleMasses for quasi-static scenes");
+}
+
+Energies energies(const Model& m) {
+  requireClosed(m, "energies");
+  if (m.forcesOf != m.particles.revision && m.particles.size() > 0) {  // nobody has asked for forces yet
+    Model now = m;
+    findForces(now);
+    return energies(now);
+  }
+  Energies e = m.booked;
+  e.kinetic = kineticEnergy(m.particles);
+  e.gravity = parallelSum(m.particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) sum += gravityOf(m.particles, i, m.gravity);
+    return sum;
+  });
+  e.contacts = m.work.storedEnergy();
+  for (const auto& term : m.terms) term->addEnergies(m, e);
+  return e;
+}
+
+Momenta momenta(const Model& m) {
+  requireClosed(m, "momenta");
+  Momenta sums{momentum(m.particles), angularMomentum(m.particles)};
+  for (const auto& term : m.terms) term->addMomenta(m, sums);
+  return sums;
+}
+
+void Terms::add(std::unique_ptr<Term> term) {
+  auto place = terms_.begin();
+  while (place != terms_.end() && (*place)->order() <= term->order()) ++place;
+  terms_.insert(place, std::move(term));
+}
+
+void Terms::remove(const Term& term) {
+  std::erase_if(terms_, [&](const auto& owned) { return owned.get() == &term; });
+}
+
+}  // namespace dovetail::dem

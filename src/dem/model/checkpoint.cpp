@@ -1,0 +1,189 @@
+#include "dovetail/dem/model/checkpoint.hpp"
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
+#include "dovetail/dem/model/loads.hpp"
+#include "dovetail/dem/model/walls.hpp"
+#include "dovetail/dem/setup/streams.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+constexpr const char* checkpointKind = "dem model 2";
+
+std::vector<char> letters(const std::string& text) { return {text.begin(), text.end()}; }
+std::string word(const std::vector<char>& text) { return {text.begin(), text.end()}; }
+
+std::vector<char> parametersOf(const Model& m) {
+  ByteWriter writer;
+  if (m.laws) m.laws->saveParameters(writer);
+  return writer.bytes();
+}
+
+template <class Archive, class P>
+void archiveParticles(Archive& archive, P& p) {
+  forEachArray(p, [&](auto& values) { archive(values); });
+  archive(p.nextId, p.revision, p.wraps);
+}
+
+/// All of a list but what follows from it.
+template <class Archive, class List>
+void archivePairs(Archive& archive, List& l) {
+  archive(l.skin, l.periodicity, l.pairs, l.builds, l.revision, l.innerSkin, l.candidates, l.innerTravel,
+          l.positionAtPruning, l.updatesSincePruning, l.images, l.scale, l.memory, l.turns, l.ended, l.endedPairs,
+          l.positionAtBuild, l.particleRevision, l.wraps, l.travel);
+}
+
+template <class Archive, class M>
+void archiveScene(Archive& archive, M& m) {
+  archiveParticles(archive, m.particles);
+  archivePairs(archive, m.pairs);
+  archive(m.gravity, m.rotation, m.booking, m.sortEvery, m.refusesUnstableSteps);
+  archive(m.time, m.steps, m.open, m.step, m.work, m.booked, m.rate, m.entered, m.left, m.forcesOf, m.smallestRadius,
+          m.timeBase, m.stepsBase, m.checkedStep, m.renewals);
+}
+
+void saveDomain(ByteWriter& writer, const Model& m) {
+  const Domain domain = m.domain.value_or(Domain{});
+  writer(m.domain.has_value(), domain.box, domain.policy);
+}
+
+void loadDomain(ByteReader& reader, Model& m) {
+  bool there = false;
+  Domain domain;
+  reader(there, domain.box, domain.policy);
+  m.domain = there ? std::optional(domain) : std::nullopt;
+}
+
+/// An empty term of a kind that the library knows; null if it is code.
+std::unique_ptr<Term> emptyTerm(const std::string& name) {
+  if (name == "walls") return std::make_unique<PrimitiveWallTerm>(PrimitiveWall{});
+  if (name == "mesh walls") return std::make_unique<MeshWallTerm>(MeshWall{});
+  if (name == "bonds") return std::make_unique<BondTerm>();
+  if (name == "damping") return std::make_unique<DampingTerm>();
+  if (name == "bodies") return std::make_unique<BodyTerm>();
+  if (name == "outlet") return std::make_unique<OutletTerm>();
+  return nullptr;
+}
+
+[[noreturn]] void refuse(const std::string& problem, const std::filesystem::path& path, const std::string& remedy) {
+  throw InputError(problem, path.string(), remedy);
+}
+
+void saveTerms(ByteWriter& writer, const Model& m) {
+  writer(static_cast<std::uint64_t>(m.terms.size()));
+  for (const auto& term : m.terms) {
+    ByteWriter own;
+    term->save(own);
+    writer(letters(term->name()), letters(term->code()), own.bytes());
+  }
+}
+
+struct SavedTerm {
+  std::string name, code;
+  std::vector<char> bytes;
+};
+
+std::vector<SavedTerm> readTerms(ByteReader& reader) {
+  std::uint64_t count = 0;
+  reader(count);
+  std::vector<SavedTerm> terms;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    std::vector<char> name, code, bytes;
+    reader(name, code, bytes);
+    terms.push_back({word(name), word(code), std::move(bytes)});
+  }
+  return terms;
+}
+
+/// Terms that no code stands behind, empty.
+Terms makeTerms(const std::vector<SavedTerm>& saved, const std::filesystem::path& path) {
+  Terms terms;
+  for (const SavedTerm& s : saved) {
+    auto term = s.code.empty() ? emptyTerm(s.name) : nullptr;
+    if (!term)
+      refuse("'" + s.name + "' needs what no file can hold: " + s.code, path,
+             "set the model up with all its terms before reading");
+    terms.add(std::move(term));
+  }
+  return terms;
+}
+
+void requireSameTerms(const std::vector<SavedTerm>& saved, const Terms& here, const std::filesystem::path& path) {
+  constexpr const char* remedy = "set the model up as it was when the checkpoint was written";
+  auto term = here.begin();
+  for (const SavedTerm& s : saved) {
+    if (term == here.end()) refuse("the model lacks '" + s.name + "' of the checkpoint", path, remedy);
+    if ((*term)->name() != s.name)
+      refuse("the checkpoint has '" + s.name + "' where the model has '" + (*term)->name() + "'", path, remedy);
+    if ((*term)->code() != s.code)
+      refuse("'" + s.name + "' was saved with " + (s.code.empty() ? "nothing given as code" : s.code) +
+                 ", the model's has " + ((*term)->code().empty() ? "nothing" : (*term)->code()),
+             path, remedy);
+    ++term;
+  }
+  if (term != here.end()) refuse("the model has '" + (*term)->name() + "', the checkpoint has not", path, remedy);
+}
+
+void loadTerms(const std::vector<SavedTerm>& saved, const Terms& terms, const std::filesystem::path& path) {
+  auto term = terms.begin();
+  for (const SavedTerm& s : saved) {
+    ByteReader reader(s.bytes);
+    (*term++)->load(reader);
+    if (!reader.atEnd())
+      refuse("'" + s.name + "' of the checkpoint has more data than this version reads", path,
+             "read it with the version that wrote it");
+  }
+}
+
+void requireSameLaws(ByteReader& reader, const Model& m, const std::filesystem::path& path) {
+  std::vector<char> name, parameters;
+  reader(name, parameters);
+  const std::string here = m.laws ? m.laws->name() : "none";
+  if (word(name) != here)
+    refuse("the checkpoint was written under the laws '" + word(name) + "', the model has '" + here + "'", path,
+           "set the laws that wrote it");
+  if (parameters != parametersOf(m))
+    refuse("the parameters of the laws '" + here + "' are not those of the checkpoint", path,
+           "set the laws that wrote it");
+}
+
+}  // namespace
+
+std::vector<char> saveState(const Model& m) {
+  ByteWriter writer;
+  writer(letters(m.laws ? m.laws->name() : "none"), parametersOf(m));
+  archiveScene(writer, m);
+  saveDomain(writer, m);
+  saveTerms(writer, m);
+  return writer.bytes();
+}
+
+void writeCheckpoint(const std::filesystem::path& path, const Model& m) {
+  writeChecked(path, checkpointKind, saveState(m));
+}
+
+void readCheckpoint(const std::filesystem::path& path, Model& m) {
+  ByteReader reader(readChecked(path, checkpointKind));
+  requireSameLaws(reader, m, path);
+  Model restored = m;
+  archiveScene(reader, restored);
+  loadDomain(reader, restored);
+  const std::vector<SavedTerm> saved = readTerms(reader);
+  if (!reader.atEnd()) refuse("there is more in the file than a model", path, "give a checkpoint of this version");
+  const bool anew = m.terms.empty();
+  if (anew)
+    restored.terms = makeTerms(saved, path);
+  else
+    requireSameTerms(saved, m.terms, path);
+  loadTerms(saved, restored.terms, path);
+  restoreChunks(restored.particles, restored.pairs);
+  Terms own = std::move(m.terms);  // the caller may hold references to them
+  m = std::move(restored);
+  if (anew) return;
+  m.terms = std::move(own);
+  loadTerms(saved, m.terms, path);
+}
+
+}  // namespace dovetail::dem

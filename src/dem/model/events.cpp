@@ -1,0 +1,159 @@
+#include "events.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/setup/insertion.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+std::string name(const Particles& particles, std::size_t i) {
+  return "particle " + std::to_string(particles.id[i]);
+}
+
+std::string state(const Particles& particles, std::size_t i) {
+  const auto text = [](const Vec3& v) {
+    return "(" + formatNumber(v.x) + ", " + formatNumber(v.y) + ", " + formatNumber(v.z) + ")";
+  };
+  return "at " + text(particles.x[i]) + " m with " + text(particles.v[i]) + " m/s";
+}
+
+bool inside(const Domain& domain, const geometry::Periodicity& space, const Vec3& x) {
+  for (int k = 0; k < 3; ++k)
+    if (!space.axes[static_cast<std::size_t>(k)] && !(x[k] >= domain.box.lower[k] && x[k] <= domain.box.upper[k]))
+      return false;
+  return true;
+}
+
+/// Adds a particle to what was exchanged; its energy, J. Where velocities lag, what its forces will have given counts.
+double book(const Model& m, std::size_t i, Exchanged& exchanged) {
+  const Particles& p = m.particles;
+  const double mass = p.weightOf(i) * p.mass[i];
+  const Vec3 v = p.v[i] + (0.5 * m.open / mass) * p.f[i];
+  ++exchanged.count;
+  exchanged.mass += mass;
+  exchanged.momentum += mass * v;
+  return kineticEnergyOf(p, i) + 0.5 * mass * (squaredNorm(v) - squaredNorm(p.v[i])) + gravityOf(p, i, m.gravity);
+}
+
+void letEscape(Model& m) {
+  if (!m.domain) return;
+  std::vector<int> out;
+  for (std::size_t i = 0; i < m.particles.size(); ++i)
+    if (!inside(*m.domain, m.pairs.periodicity, m.particles.x[i])) out.push_back(static_cast<int>(i));
+  if (out.empty()) return;
+  const auto first = static_cast<std::size_t>(out.front());
+  if (m.domain->policy == EscapePolicy::refuse)
+    throw NumericalError("it has left the domain, " + when(m) + ", " + state(m.particles, first) + " (" +
+                             std::to_string(out.size()) + " in all)",
+                         name(m.particles, first),
+                         "take a smaller time step, a larger domain, or the policy that removes particles");
+  removeParticles(m, out);
+  findPairs(m.particles, m.pairs.skin, m.pairs);
+}
+
+void sort(Model& m) {
+  const std::vector<int> newNumber = sortParticles(m.particles, m.pairs);
+  for (const auto& term : m.terms) term->renumber(newNumber, m.particles);
+}
+
+/// A contact counts as much as its particles do: the mean of their weights.
+void weighPairs(Model& m) {
+  const Particles& p = m.particles;
+  if (p.weight.empty()) return;
+  m.pairs.scale.resize(m.pairs.size());
+  parallelFor(m.pairs.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto& [i, j] = m.pairs.pairs[k];
+      m.pairs.scale[k] = 0.5 * (p.weight[static_cast<std::size_t>(i)] + p.weight[static_cast<std::size_t>(j)]);
+    }
+  });
+}
+
+/// Laws that bond the pairs of a list keep the list that they were given.
+bool keepsPairs(const Model& m) { return m.laws && std::isinf(m.laws->reach()); }
+
+}  // namespace
+
+std::string when(const Model& m) {
+  return "t = " + formatNumber(m.time) + " s, step " + std::to_string(m.steps);
+}
+
+double smallestRadius(const Particles& particles) {
+  return particles.size() == 0 ? 0.0 : *std::min_element(particles.radius.begin(), particles.radius.end());
+}
+
+double largestSpeed(const Particles& particles) {
+  constexpr std::size_t grain = 4096;
+  const double squared = parallelMax(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    double largest = 0.0;
+    for (std::size_t i = begin; i < end; ++i)
+      if (const double v2 = squaredNorm(particles.v[i]); !(v2 <= largest)) largest = v2;
+    return largest;
+  });
+  return std::isfinite(squared) ? std::sqrt(squared) : std::numeric_limits<double>::infinity();
+}
+
+void requireShortMoves(const Particles& particles, double dt, const std::string& when) {
+  requireFinite(particles, when);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (norm(particles.v[i]) * dt > particles.radius[i])
+      throw NumericalError("it moved farther than its radius in one step, " + when + ", " + state(particles, i),
+                           name(particles, i), "take a smaller time step, or look for what has thrown it");
+}
+
+double kineticEnergyOf(const Particles& p, std::size_t i) {
+  double energy = p.mass[i] * squaredNorm(p.v[i]);
+  if (p.rotates()) energy += momentOfInertia(p, static_cast<int>(i)) * squaredNorm(p.omega[i]);
+  return 0.5 * p.weightOf(i) * energy;
+}
+
+double gravityOf(const Particles& p, std::size_t i, const Vec3& gravity) {
+  return -p.weightOf(i) * p.mass[i] * dot(gravity, p.x[i]);
+}
+
+void renewPairs(Model& m) {
+  m.pairs.reach = m.laws && !keepsPairs(m) ? m.laws->reach() : 0.0;
+  const std::int64_t builds = m.pairs.builds, revision = m.pairs.revision;
+  if (!(keepsPairs(m) && builds > 0)) updatePairs(m.particles, m.pairs, m.step.moved);
+  if (m.pairs.builds != builds) {
+    letEscape(m);
+    if (m.sortEvery > 0 && m.renewals++ % m.sortEvery == 0) sort(m);
+  }
+  if (m.pairs.revision == revision) return;
+  weighPairs(m);
+  for (const auto& term : m.terms) term->renewed(m);
+}
+
+void removeParticles(Model& m, std::span<const int> list) {
+  if (list.empty()) return;
+  std::vector<char> leaves(m.particles.size(), 0);
+  const std::vector<int> asked = numbersWithout(m.particles, list);
+  for (std::size_t i = 0; i < asked.size(); ++i) leaves[i] = asked[i] < 0;
+  for (const auto& term : m.terms) term->leaving(m, leaves);
+  std::vector<int> all;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    if (leaves[i] != 0) all.push_back(static_cast<int>(i));
+    if (leaves[i] == 1) m.booked.left += book(m, i, m.left);
+  }
+  const std::vector<int> newNumber = numbersWithout(m.particles, all);
+  renumber(m.pairs, newNumber, m.particles);
+  for (const auto& term : m.terms) m.booked.left += term->renumber(newNumber, m.particles);
+  renumber(m.particles, newNumber);
+}
+
+void admitParticles(Model& m, std::size_t first) {
+  for (std::size_t i = first; i < m.particles.size(); ++i) {
+    m.booked.entered += book(m, i, m.entered);
+    m.particles.f[i] = (m.particles.weightOf(i) * m.particles.mass[i]) * m.gravity;
+    m.newcomers.push_back(m.particles.id[i]);
+  }
+}
+
+}  // namespace dovetail::dem

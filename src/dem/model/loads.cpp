@@ -1,0 +1,173 @@
+#include "dovetail/dem/model/loads.hpp"
+
+#include <algorithm>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
+#include "dovetail/dem/particles/damping.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+constexpr std::size_t grain = 4096;
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+}  // namespace
+
+// ---- bonds
+
+void BondTerm::check(const Model& m) const {
+  if (bonds.size() > 0) dem::check(bonds, m.particles);
+}
+
+void BondTerm::renewed(Model& m) {
+  if (mutesContacts) muteBonded(bonds, m.pairs);
+}
+
+double BondTerm::renumber(std::span<const int> newNumber, const Particles&) {
+  dem::renumber(bonds, newNumber);
+  return 0.0;
+}
+
+void BondTerm::addForces(Model& m, const Step& step) {
+  if (bonds.size() == 0 && bonds.ended == 0.0) return;
+  m.work += exchangeBonds(m.particles, bonds, m.pairs.periodicity, step.timeless ? 0.0 : step.dt);
+}
+
+void BondTerm::addDemand(const Model& m, ContactDemand& demand) const { dem::addDemand(demand, m.particles, bonds); }
+
+void BondTerm::save(ByteWriter& writer) const { writer(bonds.bonds, bonds.energy, bonds.ended, mutesContacts); }
+void BondTerm::load(ByteReader& reader) { reader(bonds.bonds, bonds.energy, bonds.ended, mutesContacts); }
+
+Bonds& bonds(Model& m) {
+  const auto found = m.terms.all<BondTerm>();
+  return found.empty() ? m.terms.add(BondTerm{}).bonds : found.front()->bonds;
+}
+
+// ---- damping
+
+void DampingTerm::check(const Model&) const {
+  if (!(viscousRate >= 0.0 && std::isfinite(viscousRate)))
+    throw InputError("the damping rate is " + formatNumber(viscousRate), "viscous damping", "give a finite rate ≥ 0, 1/s");
+  if (!(local >= 0.0 && local < 1.0))
+    throw InputError("the local damping is " + formatNumber(local), "local damping", "give 0 ≤ α < 1, such as 0.7");
+}
+
+/// Bodies damp themselves (BodyTerm), once for all their members.
+void DampingTerm::addForces(Model& m, const Step&) {
+  const std::vector<char> skip = members(m);
+  if (viscousRate != 0.0) applyViscousDamping(m.particles, viscousRate, skip);
+  if (local != 0.0) applyLocalDamping(m.particles, local, skip);
+}
+
+namespace {
+/// Power of the damping forces against the mean of the velocities before and after the kick, W.
+/// @param force the whole, damping included @param inertia mass or moment
+double dampingPower(const Vec3& force, const Vec3& v, double inertia, const DampingTerm& damping, double dt) {
+  double power = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    const double sign = force[c] * v[c] > 0.0 ? 1.0 : force[c] * v[c] < 0.0 ? -1.0 : 0.0;
+    const double taken = damping.viscousRate * inertia * v[c] +
+                         damping.local * sign / (1.0 - damping.local * sign) * force[c];
+    power += taken * (v[c] + 0.5 * dt / inertia * force[c]);
+  }
+  return power;
+}
+}  // namespace
+
+void DampingTerm::book(Model& m, const Step& step) {
+  const Particles& p = m.particles;
+  const std::vector<char> skip = members(m);
+  m.rate.damping += parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+    double power = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!skip.empty() && skip[i] != 0) continue;
+      const double weight = p.weightOf(i);
+      power += dampingPower(p.f[i], p.v[i], weight * p.mass[i], *this, step.dt);
+      if (p.rotates())
+        power += dampingPower(p.torque[i], p.omega[i], weight * momentOfInertia(p, static_cast<int>(i)), *this, step.dt);
+    }
+    return power;
+  });
+}
+
+DampingTerm& damping(Model& m) {
+  const auto found = m.terms.all<DampingTerm>();
+  return found.empty() ? m.terms.add(DampingTerm{}) : *found.front();
+}
+
+// ---- external forces
+
+void ExternalForceTerm::check(const Model&) const {
+  if (!function_) throw InputError("there is no function", "external force " + name_, "give one that adds the forces");
+}
+
+void ExternalForceTerm::addForces(Model& m, const Step& step) {
+  force_.assign(m.particles.size(), Vec3{});
+  function_(m.particles, step.time, force_);
+  parallelFor(m.particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) m.particles.f[i] += force_[i];
+  });
+}
+
+/// Over the kick that these forces are part of, with the mean of the velocities before and after it.
+void ExternalForceTerm::book(Model& m, const Step& step) {
+  const Particles& p = m.particles;
+  m.rate.external += parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+    double power = 0.0;
+    for (std::size_t i = begin; i < end; ++i)
+      power += dot(force_[i], p.v[i] + (0.5 * step.dt / (p.weightOf(i) * p.mass[i])) * p.f[i]);
+    return power;
+  });
+}
+
+// ---- drives
+
+void DriveTerm::check(const Model& m) const {
+  if (!displacement_ || !velocity_)
+    throw InputError("the path is missing", "drive", "give displacement and velocity as functions of time");
+  for (const std::int64_t id : ids_)
+    if (find(m.particles, id) < 0)
+      throw InputError("there is no particle " + std::to_string(id), "drive", "give ids of particles of the model");
+}
+
+void DriveTerm::locate(const Particles& particles) {
+  if (located_ == particles.revision) return;
+  particle_.clear();
+  for (const std::int64_t id : ids_) particle_.push_back(find(particles, id));
+  located_ = particles.revision;
+}
+
+void DriveTerm::prescribe(Model& m, const Step& step, Half half) {
+  Particles& p = m.particles;
+  locate(p);
+  // The mean velocity of the step that begins, so that positions are those of the path; then the path's own.
+  const Vec3 prescribed = half == Half::first
+                              ? (1.0 / step.dt) * (displacement_(step.time) - displacement_(step.time - step.dt))
+                              : velocity_(step.time);
+  for (const int k : particle_) {
+    const std::size_t i = at(k);
+    const double mass = p.weightOf(i) * p.mass[i];
+    // Both halves of the support's impulse act while the particle moves at the mean velocity of its step: that is the
+    // velocity after the first half, and before the forces of the second.
+    const Vec3 mean = half == Half::first ? prescribed : p.v[i] - (0.5 * step.dt / mass) * p.f[i];
+    const Vec3 impulse = mass * (prescribed - p.v[i]);
+    m.booked.walls += dot(impulse, mean);
+    supportImpulse += impulse;
+    p.v[i] = prescribed;
+  }
+}
+
+double DriveTerm::renumber(std::span<const int> newNumber, const Particles& before) {
+  std::erase_if(ids_, [&](std::int64_t id) {
+    const int i = find(before, id);
+    return i >= 0 && newNumber[at(i)] < 0;
+  });
+  return 0.0;
+}
+
+void DriveTerm::save(ByteWriter& writer) const { writer(ids_, supportImpulse); }
+void DriveTerm::load(ByteReader& reader) { reader(ids_, supportImpulse); }
+
+}  // namespace dovetail::dem

@@ -1,0 +1,211 @@
+#include "dovetail/dem/model/walls.hpp"
+
+#include <algorithm>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/walls/wall_archive.hpp"
+#include "dovetail/dem/walls/wall_checks.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+/// Rows of the table of laws; 1: a single law serves all materials.
+int materialsOf(const Model& m) { return m.laws ? m.laws->materials() : 1; }
+
+Moves movesOf(const Model& m, const Step& step) {
+  return {step.moved, Moves::unknown, m.pairs.travel, m.pairs.builds};
+}
+
+template <class List>
+auto& numbered(List& found, std::size_t i, const char* kind) {
+  if (i >= found.size())
+    throw InputError("there is no " + std::string(kind) + " " + std::to_string(i), "walls of the model",
+                     "the model has " + std::to_string(found.size()));
+  return *found[i];
+}
+
+}  // namespace
+
+void PrimitiveWallTerm::check(const Model& m) const {
+  validate(wall, materialsOf(m), m.pairs.periodicity);
+}
+
+double PrimitiveWallTerm::move(Model&, const Step& step) {
+  kickWall(wall, 0.5 * (step.closing + step.dt));
+  if (wall.motion) wall.motion(step.time, wall);
+  drift(wall, step.dt);
+  return 0.0;
+}
+
+double PrimitiveWallTerm::renumber(std::span<const int> newNumber, const Particles& before) {
+  return dem::renumber(wall, newNumber, before);
+}
+
+void PrimitiveWallTerm::addForces(Model& m, const Step& step) {
+  wall.reach = m.pairs.reach;
+  findContacts(m.particles, wall, movesOf(m, step), m.pairs.periodicity);
+  const ContactWork work = m.laws->wall(m.particles, wall, step.dt, m.booking);
+  stored = work.storedEnergy();
+  m.work += work;
+  m.rate.walls += drivingPower(wall);
+}
+
+void PrimitiveWallTerm::close(Model&, double dt) { kickWall(wall, 0.5 * dt); }
+
+void PrimitiveWallTerm::addDemand(const Model& m, ContactDemand& demand) const {
+  if (!m.laws || wall.contacts.size() == 0) return;
+  const DemandBefore before = demandBefore(demand);
+  m.laws->addDemand(demand, m.particles, wall);
+  if (wall.servo) addServoDemand(demand, *wall.servo, before);
+}
+
+namespace {
+void addServo(Energies& e, const WallServo& servo) {
+  e.kinetic += servo.kineticEnergy();
+  e.damping += servo.lost;
+  e.external += servo.work;
+}
+}  // namespace
+
+void PrimitiveWallTerm::addEnergies(const Model&, Energies& e) const {
+  if (wall.servo) addServo(e, *wall.servo);
+}
+
+namespace {
+
+/// What describes a wall, and is the caller's where the model is set up already.
+template <class Archive, class Wall>
+void describe(Archive& a, Wall& w) {
+  bool servo = w.servo.has_value();
+  a(w.shape, w.radius, w.inside, w.material, w.skin, servo);
+  if constexpr (Archive::reads)
+    if (servo && !w.servo) w.servo.emplace();
+}
+template <class Archive, class Mesh>
+void describeMesh(Archive& a, Mesh& m) {
+  bool servo = std::holds_alternative<WallServo>(m.motion);
+  a(m.wall.facets, m.wall.oneSided, m.wall.material, m.rule, m.offset, m.surfaceVelocity, m.candidates.skin, servo);
+  if constexpr (Archive::reads)
+    if (servo && !std::holds_alternative<WallServo>(m.motion)) m.motion = WallServo{};
+}
+
+}  // namespace
+
+void PrimitiveWallTerm::save(ByteWriter& writer) const {
+  describe(writer, wall);
+  archiveWall(writer, wall);
+  writer(stored);
+}
+void PrimitiveWallTerm::load(ByteReader& reader) {
+  describe(reader, wall);
+  archiveWall(reader, wall);
+  reader(stored);
+}
+
+void MeshWallTerm::check(const Model& m) const {
+  validate(mesh, materialsOf(m));
+}
+
+std::string MeshWallTerm::code() const {
+  if (std::holds_alternative<PrescribedMotion>(mesh.motion)) return "a motion";
+  if (std::holds_alternative<WallOnBody>(mesh.motion)) return "a body";
+  return std::holds_alternative<MovedByOthers>(mesh.motion) ? "somebody who moves it" : "";
+}
+
+double MeshWallTerm::move(Model&, const Step& step) {
+  kickWall(mesh, 0.5 * (step.closing + step.dt));
+  moveWall(mesh, step.time, step.dt);
+  return 0.0;
+}
+
+double MeshWallTerm::renumber(std::span<const int> newNumber, const Particles& before) {
+  return dem::renumber(mesh.contacts, newNumber, before);
+}
+
+void MeshWallTerm::addForces(Model& m, const Step& step) {
+  findContacts(m.particles, mesh, movesOf(m, step), m.pairs.periodicity);
+  const ContactWork work = m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
+  stored = work.storedEnergy();
+  m.work += work;
+  gatherForces(mesh);
+  m.rate.walls += drivingPower(mesh);
+}
+
+void MeshWallTerm::close(Model& m, double dt) {
+  kickWall(mesh, 0.5 * dt);
+  moveWall(mesh, m.time, 0.0);
+}
+
+void MeshWallTerm::addDemand(const Model& m, ContactDemand& demand) const {
+  if (!m.laws || mesh.contacts.size() == 0) return;
+  const DemandBefore before = demandBefore(demand);
+  m.laws->addDemand(demand, m.particles, mesh.wall, mesh.contacts);
+  if (const auto* servo = std::get_if<WallServo>(&mesh.motion)) addServoDemand(demand, *servo, before);
+}
+
+void MeshWallTerm::addEnergies(const Model&, Energies& e) const {
+  if (const auto* servo = std::get_if<WallServo>(&mesh.motion)) addServo(e, *servo);
+}
+
+void MeshWallTerm::save(ByteWriter& writer) const {
+  describeMesh(writer, mesh);
+  writer(fingerprint(mesh));
+  archiveMesh(writer, mesh);
+  writer(stored);
+}
+void MeshWallTerm::load(ByteReader& reader) {
+  const bool described = !mesh.wall.facets.empty();
+  const auto here = described ? fingerprint(mesh) : decltype(fingerprint(mesh)){};
+  describeMesh(reader, mesh);
+  auto saved = here;
+  reader(saved);
+  if (described && !(saved == here))
+    throw InputError("the triangulated wall is another one than that of the checkpoint", "checkpoint",
+                     "set the model up as it was when the checkpoint was written");
+  archiveMesh(reader, mesh);
+  mesh.wall.topology = geometry::makeTopology(mesh.wall.facets, static_cast<int>(mesh.wall.x.size()));
+  reader(stored);
+}
+
+namespace {
+template <class WallTerm>
+void remove(Model& m, WallTerm* term) {
+  if (!term) throw InputError("the wall is not one of the model's", "removeWall", "give the wall that addWall returned");
+  m.booked.left += term->stored;
+  m.work.elasticEnergy -= term->stored;
+  m.terms.remove(*term);
+}
+}  // namespace
+
+void removeWall(Model& m, const PrimitiveWall& wall) {
+  const auto found = m.terms.all<PrimitiveWallTerm>();
+  const auto term = std::find_if(found.begin(), found.end(), [&](const auto* t) { return &t->wall == &wall; });
+  remove(m, term == found.end() ? nullptr : *term);
+}
+
+void removeWall(Model& m, const MeshWall& mesh) {
+  const auto found = m.terms.all<MeshWallTerm>();
+  const auto term = std::find_if(found.begin(), found.end(), [&](const auto* t) { return &t->mesh == &mesh; });
+  remove(m, term == found.end() ? nullptr : *term);
+}
+
+PrimitiveWall& primitiveWall(Model& m, std::size_t i) {
+  auto found = m.terms.all<PrimitiveWallTerm>();
+  return numbered(found, i, "primitive wall").wall;
+}
+const PrimitiveWall& primitiveWall(const Model& m, std::size_t i) {
+  auto found = m.terms.all<PrimitiveWallTerm>();
+  return numbered(found, i, "primitive wall").wall;
+}
+MeshWall& meshWall(Model& m, std::size_t i) {
+  auto found = m.terms.all<MeshWallTerm>();
+  return numbered(found, i, "mesh wall").mesh;
+}
+const MeshWall& meshWall(const Model& m, std::size_t i) {
+  auto found = m.terms.all<MeshWallTerm>();
+  return numbered(found, i, "mesh wall").mesh;
+}
+
+}  // namespace dovetail::dem

@@ -1,0 +1,197 @@
+// What stays with a pair when the list or the numbers of particles change.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "dovetail/core/distribute.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+using Pair = std::array<int, 2>;
+using Pairs = std::vector<Pair>;
+
+constexpr double apart = -std::numeric_limits<double>::infinity();
+
+std::uint8_t materialOf(const Particles& particles, int i) {
+  const auto k = static_cast<std::size_t>(i);
+  return k < particles.material.size() ? particles.material[k] : std::uint8_t{0};
+}
+
+bool before(const Pair& a, const Pair& b) {
+  const auto key = [](const Pair& pair) {
+    return static_cast<std::uint64_t>(pair[0]) << 32 | static_cast<std::uint32_t>(pair[1]);
+  };
+  return key(a) < key(b);
+}
+
+/// The numbers that belong to the pairs of a list.
+struct Belongings {
+  std::vector<double> memory, scale;
+  std::size_t pairs, components;
+
+  explicit Belongings(PairList& list, std::size_t count)
+      : memory(std::move(list.memory)),
+        scale(std::move(list.scale)),
+        pairs(count),
+        components(count == 0 ? 0 : memory.size() / count) {}
+  double& remembered(std::size_t c, std::size_t p) { return memory[c * pairs + p]; }
+  /// To as many successive pairs of a list that has room for them.
+  void hand(std::size_t o, std::size_t p, std::size_t count, PairList& list) const {
+    for (std::size_t c = 0; c < components; ++c)
+      std::copy_n(memory.data() + c * pairs + o, count, list.memory.data() + c * list.size() + p);
+    if (!scale.empty()) std::copy_n(scale.data() + o, count, list.scale.data() + p);
+  }
+  bool remembersAnything(std::size_t p) {
+    for (std::size_t c = 0; c < components; ++c)
+      if (remembered(c, p) != 0.0) return true;
+    return false;
+  }
+};
+
+/// Pairs that end, collected by one thread.
+struct Ended {
+  std::vector<EndedPair> pairs;
+  std::vector<double> memory;
+
+  void add(const EndedPair& pair, Belongings& from, std::size_t p) {
+    pairs.push_back(pair);
+    for (std::size_t c = 0; c < from.components; ++c) memory.push_back(from.remembered(c, p));
+  }
+};
+
+void append(const std::vector<Ended>& parts, PairList& list) {
+  for (const Ended& part : parts) {
+    list.endedPairs.insert(list.endedPairs.end(), part.pairs.begin(), part.pairs.end());
+    list.ended.insert(list.ended.end(), part.memory.begin(), part.memory.end());
+  }
+}
+
+EndedPair withoutTouch(const Particles& particles, const Pair& pair, double factor) {
+  const auto [i, j] = pair;
+  if (std::max(i, j) >= static_cast<int>(particles.size())) return {{0, 0}, factor, apart, 0.0, 0.0};
+  return {{materialOf(particles, i), materialOf(particles, j)}, factor, apart, 0.0, 0.0};
+}
+
+/// Of a pair that goes with a particle.
+EndedPair asItIs(const Particles& particles, const PairList& list, std::size_t p, double factor) {
+  const auto i = static_cast<std::size_t>(list.pairs[p][0]), j = static_cast<std::size_t>(list.pairs[p][1]);
+  EndedPair ended = withoutTouch(particles, list.pairs[p], factor);
+  Vec3 d = particles.x[i] - particles.x[j];
+  if (list.periodicity.any()) d = list.periodicity.minimumImage(d);
+  const double ri = particles.radius[i], rj = particles.radius[j], mi = particles.mass[i], mj = particles.mass[j];
+  ended.overlap = ri + rj - norm(d);
+  ended.effectiveMass = mi * mj / (mi + mj);
+  ended.effectiveRadius = ri * rj / (ri + rj);
+  return ended;
+}
+
+/// Where an old pair goes.
+struct Move {
+  Pair pair;
+  std::uint32_t from;
+  bool swapped;
+};
+
+/// The pairs that stay, by their new numbers; the others are ended.
+Pairs movePairs(const Buckets<Move>& moves, Belongings& from, PairList& list) {
+  Pairs pairs(moves.size());
+  const std::size_t n = pairs.size();
+  if (!from.scale.empty()) list.scale.resize(n);
+  list.memory.resize(from.components * n);
+  parallelFor(moves.count(), 1, [&](std::size_t b, std::size_t) {
+    const auto bucket = moves[b];
+    std::sort(bucket.begin(), bucket.end(), [](const Move& a, const Move& c) { return a.pair < c.pair; });
+    for (std::size_t k = 0; k < bucket.size(); ++k) {
+      const Move& move = bucket[k];
+      const std::size_t p = moves.begin[b] + k;
+      pairs[p] = move.pair;
+      if (!from.scale.empty()) list.scale[p] = from.scale[move.from];
+      for (std::size_t c = 0; c < from.components; ++c) {
+        const bool turns = move.swapped && (list.turns >> c & 1u) != 0;
+        list.memory[c * n + p] = (turns ? -1.0 : 1.0) * from.remembered(c, move.from);
+      }
+    }
+  });
+  return pairs;
+}
+
+}  // namespace
+
+void detail::keepMemory(const Particles& particles, const Pairs& old, PairList& list) {
+  if (list.memory.empty() && list.scale.empty()) return;
+  Belongings from(list, old.size());
+  const std::size_t n = list.size(), chunks = list.chunks.count();
+  if (!from.scale.empty()) list.scale.assign(n, 1.0);
+  list.memory.resize(from.components * n);
+  std::vector<Ended> ended(chunks);
+  parallelFor(chunks, 1, [&](std::size_t chunk, std::size_t) {
+    const auto at = [&](std::size_t c) {
+      const Pair first{static_cast<int>(c * list.chunks.size), -1};
+      return static_cast<std::size_t>(std::lower_bound(old.begin(), old.end(), first) - old.begin());
+    };
+    std::size_t p = list.chunks.begin[chunk], o = at(chunk);
+    const std::size_t end = list.chunks.begin[chunk + 1], oldEnd = chunk + 1 < chunks ? at(chunk + 1) : old.size();
+    while (o < oldEnd) {
+      while (p < end && before(list.pairs[p], old[o])) ++p;
+      std::size_t run = 0;
+      while (o + run < oldEnd && p + run < end && list.pairs[p + run] == old[o + run]) ++run;
+      from.hand(o, p, run, list);
+      o += run;
+      p += run;
+      if (run > 0) continue;
+      if (from.remembersAnything(o))
+        ended[chunk].add(withoutTouch(particles, old[o], from.scale.empty() ? 1.0 : from.scale[o]), from, o);
+      ++o;
+    }
+  });
+  append(ended, list);
+}
+
+Contact detail::atRest(const EndedPair& pair) {
+  Contact contact;
+  contact.overlap = contact.overlapBefore = pair.overlap;
+  contact.effectiveMass = pair.effectiveMass;
+  contact.rootMass = std::sqrt(pair.effectiveMass);
+  contact.effectiveRadius = pair.effectiveRadius;
+  contact.normal = {1.0, 0.0, 0.0};
+  contact.dt = 1e-100;  // so short that no memory advances
+  return contact;
+}
+
+void renumber(PairList& list, std::span<const int> newNumber, const Particles& before) {
+  constexpr std::size_t grain = 16384;
+  const Pairs& old = list.pairs;
+  Belongings from(list, old.size());
+  const std::size_t tasks = (old.size() + grain - 1) / grain, particles = newNumber.size();
+  const std::size_t rows = std::max<std::size_t>(1024, particles / 512), buckets = particles / rows + 1;
+  const auto numbers = [&](std::size_t p) {
+    return Pair{newNumber[static_cast<std::size_t>(old[p][0])], newNumber[static_cast<std::size_t>(old[p][1])]};
+  };
+  std::vector<Ended> ended(tasks);
+  parallelFor(old.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      if (const Pair to = numbers(p); to[0] < 0 || to[1] < 0)
+        ended[begin / grain].add(asItIs(before, list, p, from.scale.empty() ? 1.0 : from.scale[p]), from, p);
+  });
+  const auto moves = distribute<Move>(tasks, buckets, [&](std::size_t task, auto&& sink) {
+    for (std::size_t p = task * grain; p < std::min(old.size(), (task + 1) * grain); ++p) {
+      const auto [i, j] = numbers(p);
+      if (i < 0 || j < 0) continue;
+      const Pair pair{std::min(i, j), std::max(i, j)};
+      sink(static_cast<std::size_t>(pair[0]) / rows, Move{pair, static_cast<std::uint32_t>(p), i > j});
+    }
+  });
+  append(ended, list);
+  list.pairs = movePairs(moves, from, list);
+  list.images.clear();
+  list.candidates.clear();
+  list.particleRevision = -1;
+  detail::makeChunks(particles, list);  // good enough for those who look before the next update
+}
+
+}  // namespace dovetail::dem

@@ -1,0 +1,171 @@
+// The verbs of a time step.
+#include <cmath>
+#include <limits>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/particles/particles.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+constexpr std::size_t grain = 4096;
+
+double weightedMass(const Particles& particles, std::size_t i) { return particles.weightOf(i) * particles.mass[i]; }
+
+double weightedInertia(const Particles& particles, std::size_t i) {
+  return particles.weightOf(i) * momentOfInertia(particles, static_cast<int>(i));
+}
+
+}  // namespace
+
+double momentOfInertia(const Particles& particles, int particle) {
+  const auto i = static_cast<std::size_t>(particle);
+  return 0.4 * particles.mass[i] * particles.radius[i] * particles.radius[i];
+}
+
+void clearForces(Particles& particles) {
+  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) particles.f[i] = {};
+    if (particles.rotates())
+      for (std::size_t i = begin; i < end; ++i) particles.torque[i] = {};
+  });
+}
+
+void applyGravity(Particles& particles, const Vec3& g) {
+  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) particles.f[i] += weightedMass(particles, i) * g;
+  });
+}
+
+void kick(Particles& particles, double dt) {
+  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) particles.v[i] += (dt / weightedMass(particles, i)) * particles.f[i];
+    if (particles.rotates())
+      for (std::size_t i = begin; i < end; ++i)
+        particles.omega[i] += (dt / weightedInertia(particles, i)) * particles.torque[i];
+  });
+}
+
+void drift(Particles& particles, double dt) {
+  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) particles.x[i] += dt * particles.v[i];
+  });
+}
+
+namespace {
+
+/// What one sweep does to a particle.
+struct Sweep {
+  double dt;
+  int halfKicks;      // before the drift
+  bool startsForces;  // after it
+  Vec3 g;
+};
+
+/// Half kicks and drift of one particle; returns the squared displacement, m². Two half kicks are made one after the
+/// other, so that the digits are those of two sweeps.
+template <bool spins, bool weighted>
+double advance(Particles& particles, std::size_t i, const Sweep& sweep) {
+  const double weight = weighted ? particles.weight[i] : 1.0, mass = weight * particles.mass[i];
+  const double half = 0.5 * sweep.dt / mass;
+  Vec3 v = particles.v[i];
+  for (int k = 0; k < sweep.halfKicks; ++k) v += half * particles.f[i];
+  particles.v[i] = v;
+  particles.x[i] += sweep.dt * v;
+  if constexpr (spins) {
+    const double halfSpin = 0.5 * sweep.dt / (weight * momentOfInertia(particles, static_cast<int>(i)));
+    Vec3 omega = particles.omega[i];
+    for (int k = 0; k < sweep.halfKicks; ++k) omega += halfSpin * particles.torque[i];
+    particles.omega[i] = omega;
+  }
+  if (sweep.startsForces) {
+    particles.f[i] = mass * sweep.g;
+    if constexpr (spins) particles.torque[i] = {};
+  }
+  return squaredNorm(v) * (sweep.dt * sweep.dt);
+}
+
+struct Largest {
+  double value = 0.0;
+  Largest& operator+=(const Largest& b) {
+    if (!(b.value <= value)) value = b.value;
+    return *this;
+  }
+};
+
+template <bool spins, bool weighted>
+double sweepAll(Particles& particles, const Sweep& sweep) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    double largest = 0.0;
+    bool finite = true;
+    const auto take = [&](double d2) {
+      finite = finite && d2 < infinity;
+      largest = d2 > largest ? d2 : largest;
+    };
+    for (std::size_t i = begin; i < end; ++i) take(advance<spins, weighted>(particles, i, sweep));
+    return Largest{finite ? largest : infinity};
+  };
+  return std::sqrt(parallelSum(particles.size(), grain, part).value);
+}
+
+double sweepAll(Particles& particles, const Sweep& sweep) {
+  if (particles.weight.empty())
+    return particles.rotates() ? sweepAll<true, false>(particles, sweep) : sweepAll<false, false>(particles, sweep);
+  return particles.rotates() ? sweepAll<true, true>(particles, sweep) : sweepAll<false, true>(particles, sweep);
+}
+
+}  // namespace
+
+double kickAndDrift(Particles& particles, double dt) { return sweepAll(particles, {dt, 1, false, {}}); }
+
+double startStep(Particles& particles, double dt, const Vec3& g) { return sweepAll(particles, {dt, 1, true, g}); }
+
+double turnStep(Particles& particles, double dt, const Vec3& g) { return sweepAll(particles, {dt, 2, true, g}); }
+
+void startForces(Particles& particles, const Vec3& g) {
+  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) particles.f[i] = weightedMass(particles, i) * g;
+    if (particles.rotates())
+      for (std::size_t i = begin; i < end; ++i) particles.torque[i] = {};
+  });
+}
+
+double kineticEnergy(const Particles& particles) {
+  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      sum += 0.5 * weightedMass(particles, i) * squaredNorm(particles.v[i]);
+      if (particles.rotates()) sum += 0.5 * weightedInertia(particles, i) * squaredNorm(particles.omega[i]);
+    }
+    return sum;
+  });
+}
+
+Vec3 momentum(const Particles& particles) {
+  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    Vec3 sum;
+    for (std::size_t i = begin; i < end; ++i) sum += weightedMass(particles, i) * particles.v[i];
+    return sum;
+  });
+}
+
+Vec3 angularMomentum(const Particles& particles) {
+  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    Vec3 sum;
+    for (std::size_t i = begin; i < end; ++i) {
+      sum += weightedMass(particles, i) * cross(particles.x[i], particles.v[i]);
+      if (particles.rotates()) sum += weightedInertia(particles, i) * particles.omega[i];
+    }
+    return sum;
+  });
+}
+
+void requireFinite(const Particles& particles, const std::string& when) {
+  dovetail::requireFinite(particles.x, "particle", "position", when);
+  dovetail::requireFinite(particles.v, "particle", "velocity", when);
+}
+
+}  // namespace dovetail::dem

@@ -1,0 +1,193 @@
+#include "dovetail/dem/setup/relax.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
+#include "dovetail/dem/model/walls.hpp"
+#include "dovetail/dem/pairs/contact_sample.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+constexpr std::size_t grain = 4096;
+
+struct Sums {
+  double power = 0.0, speed = 0.0, force = 0.0;
+  Sums& operator+=(const Sums& b) {
+    power += b.power;
+    speed += b.speed;
+    force += b.force;
+    return *this;
+  }
+};
+
+/// Σ f·v, Σ v², Σ f², torques and spins as forces and speeds at the surface.
+Sums sumsOf(const Particles& p) {
+  return parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+    Sums sums;
+    for (std::size_t i = begin; i < end; ++i) {
+      sums += {dot(p.f[i], p.v[i]), squaredNorm(p.v[i]), squaredNorm(p.f[i])};
+      if (!p.rotates()) continue;
+      const double r2 = p.radius[i] * p.radius[i];
+      sums += {dot(p.torque[i], p.omega[i]), r2 * squaredNorm(p.omega[i]), squaredNorm(p.torque[i]) / r2};
+    }
+    return sums;
+  });
+}
+
+/// v ← keep v + lean f, and nobody will drift farther than half its radius in a step.
+void steer(Particles& p, double keep, double lean, double dt) {
+  parallelFor(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 kick = (0.5 * dt / p.mass[i]) * p.f[i];
+      Vec3 v = keep * p.v[i] + lean * p.f[i];
+      const double speed = norm(v + kick), fastest = 0.5 * p.radius[i] / dt;
+      if (speed > fastest) v = (fastest / speed) * (v + kick) - kick;
+      p.v[i] = v;
+      if (p.rotates()) p.omega[i] = keep * p.omega[i] + (lean / (p.radius[i] * p.radius[i])) * p.torque[i];
+    }
+  });
+}
+
+void stop(Particles& p) {
+  std::fill(p.v.begin(), p.v.end(), Vec3{});
+  std::fill(p.omega.begin(), p.omega.end(), Vec3{});
+}
+
+/// The steps' length and how far velocities lean towards forces.
+class Downhill {
+public:
+  explicit Downhill(double longest) : longest_(longest), dt_(0.2 * longest) {}
+  double dt() const { return dt_; }
+  void setLongest(double longest) {
+    longest_ = longest;
+    dt_ = std::min(dt_, longest_);
+  }
+  void steerBy(Particles& p) {
+    const Sums sums = sumsOf(p);
+    if (sums.power > 0.0) {
+      if (++good_ > 5) {
+        dt_ = std::min(1.1 * dt_, longest_);
+        mix_ *= 0.99;
+      }
+      steer(p, 1.0 - mix_, mix_ * std::sqrt(sums.speed / sums.force), dt_);
+      return;
+    }
+    stop(p);
+    steer(p, 0.0, 0.0, dt_);
+    if (good_ > 0) dt_ = std::max(0.5 * dt_, 0.01 * longest_);
+    mix_ = mixAtStart;
+    good_ = 0;
+  }
+
+private:
+  static constexpr double mixAtStart = 0.1;
+  double longest_, dt_, mix_ = mixAtStart;
+  int good_ = 0;
+};
+
+void check(const Model& m, const RelaxationSettings& s) {
+  requirePositive(s.unbalanced, "unbalanced force at rest");
+  if (!(s.stepShare > 0.0 && s.stepShare < 1.0))
+    throw InputError("the share of the critical step is " + formatNumber(s.stepShare), "relaxation",
+                     "give a number between 0 and 1");
+  if (s.lookEvery < 1 || s.steps < 0)
+    throw InputError("a number of steps is not valid", "relaxation", "give lookEvery ≥ 1 and steps ≥ 0");
+  if (!m.terms.all<BodyTerm>().empty())
+    throw InputError("the model has bodies", "relaxation", "run it with damping instead");
+  for (const PrimitiveWallTerm* term : m.terms.all<PrimitiveWallTerm>())
+    if (term->wall.motion || norm(term->wall.velocity) + norm(term->wall.angularVelocity) > 0.0)
+      throw InputError("a wall moves", "relaxation", "let walls stand");
+}
+
+/// So long that a particle crosses a tenth of its radius, where nobody touches anybody yet.
+double longestStep(const Model& m, double share) {
+  const double mean = m.particles.size() == 0 ? 1.0 : 1e-3 * m.particles.radius[0];
+  const double dt = criticalStep(m, mean).dt;
+  return share * (std::isfinite(dt) ? dt : 1.0);
+}
+
+}  // namespace
+
+namespace {
+
+/// A contact of a particle with another one or a wall (< 0), and its force, N.
+struct Held {
+  int first, second;
+  double force;
+};
+
+std::vector<Held> contactsOf(const Model& m) {
+  std::vector<Held> found;
+  if (!m.laws) return found;
+  const ContactSample sample = m.laws->sample(m.particles, m.pairs);
+  for (std::size_t c = 0; c < sample.size(); ++c)
+    found.push_back({sample.first[c], sample.second[c], norm(sample.force[c])});
+  for (const PrimitiveWallTerm* term : m.terms.all<PrimitiveWallTerm>())
+    for (std::size_t c = 0; c < term->wall.contacts.size(); ++c)
+      found.push_back({term->wall.contacts.particle[c], -1, norm(term->wall.contacts.force[c])});
+  for (const MeshWallTerm* term : m.terms.all<MeshWallTerm>())
+    for (std::size_t c = 0; c < term->mesh.contacts.size(); ++c)
+      found.push_back({term->mesh.contacts.particle[c], -1, norm(term->mesh.contacts.force[c])});
+  return found;
+}
+
+}  // namespace
+
+RelaxationReport restOf(const Model& m) {
+  const Particles& p = m.particles;
+  std::vector<char> touches(p.size(), 0);
+  double contactForce = 0.0, residual = 0.0;
+  const std::vector<Held> contacts = contactsOf(m);
+  for (const Held& c : contacts) {
+    contactForce += c.force / static_cast<double>(contacts.size());
+    for (const int i : {c.first, c.second})
+      if (i >= 0) touches[static_cast<std::size_t>(i)] = 1;
+  }
+  RelaxationReport report;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double force = norm(p.f[i]);
+    residual += force;
+    report.rattlers += touches[i] == 0 && force == 0.0;
+  }
+  const auto held = static_cast<double>(static_cast<std::int64_t>(p.size()) - report.rattlers);
+  if (residual > 0.0)
+    report.unbalanced = contactForce > 0.0 ? residual / held / contactForce : std::numeric_limits<double>::infinity();
+  return report;
+}
+
+RelaxationReport relax(Model& m, const RelaxationSettings& settings) {
+  check(m, settings);
+  findForces(m);
+  const bool refuses = std::exchange(m.refusesUnstableSteps, false);  // the step follows the limit at every look
+  Downhill downhill(longestStep(m, settings.stepShare));
+  RelaxationReport report;
+  for (std::int64_t step = 0;; ++step) {
+    if (step % settings.lookEvery == 0 || step == settings.steps) {
+      report = restOf(m);
+      report.steps = step;
+      report.atRest = report.unbalanced <= settings.unbalanced;
+      if (report.atRest || step == settings.steps || (settings.enough && settings.enough(m))) break;
+      downhill.setLongest(longestStep(m, settings.stepShare));
+    }
+    const double before = kineticEnergy(m.particles);
+    downhill.steerBy(m.particles);
+    m.booked.damping += before - kineticEnergy(m.particles);
+    run(m, downhill.dt(), 1);
+  }
+  m.refusesUnstableSteps = refuses;
+  m.booked.damping += kineticEnergy(m.particles);
+  stop(m.particles);
+  return report;
+}
+
+}  // namespace dovetail::dem

@@ -1,0 +1,148 @@
+#include "dovetail/dem/setup/streams.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
+#include "dovetail/dem/model/walls.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+Surroundings surroundingsOf(const Model& m) {
+  Surroundings around{m.pairs.periodicity};
+  for (const PrimitiveWallTerm* term : m.terms.all<PrimitiveWallTerm>()) around.walls.push_back(&term->wall);
+  for (const MeshWallTerm* term : m.terms.all<MeshWallTerm>()) around.meshes.push_back(&term->mesh.wall);
+  return around;
+}
+
+bool inside(const geometry::Box& box, const Vec3& x) {
+  for (int k = 0; k < 3; ++k)
+    if (!(x[k] >= box.lower[k] && x[k] <= box.upper[k])) return false;
+  return true;
+}
+bool inside(const HalfSpace& space, const Vec3& x) { return dot(x - space.point, space.normal) > 0.0; }
+
+std::vector<int> particlesIn(const Particles& particles, const OutletTerm::Region& region) {
+  std::vector<char> in(particles.size(), 0);
+  parallelFor(in.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    std::visit(
+        [&](const auto& r) {
+          for (std::size_t i = begin; i < end; ++i) in[i] = inside(r, particles.x[i]);
+        },
+        region);
+  });
+  std::vector<int> list;
+  for (std::size_t i = 0; i < in.size(); ++i)
+    if (in[i] != 0) list.push_back(static_cast<int>(i));
+  return list;
+}
+
+void requireValid(const geometry::Box& box) {
+  for (int k = 0; k < 3; ++k)
+    if (!(box.lower[k] <= box.upper[k]))
+      throw InputError("the lower corner lies above the upper one along axis " + std::to_string(k), "outlet",
+                       "give a box with lower ≤ upper");
+}
+void requireValid(const HalfSpace& space) {
+  if (!isFinite(space.point) || !isFinite(space.normal) || !(squaredNorm(space.normal) > 0.0))
+    throw InputError("the plane is not valid", "outlet", "give a finite point, and a normal of any length but 0");
+}
+
+}  // namespace
+
+void InsertionTerm::check(const Model& m) const {
+  const InsertionSettings& s = insertion.settings;
+  if (squaredNorm(s.spin) > 0.0 && m.particles.size() > 0 && !m.particles.rotates())
+    throw InputError("the particles do not spin", "spin of inserted particles", "call switchOnRotation before");
+  if (m.laws && m.laws->materials() > 1 && s.material >= m.laws->materials())
+    throw InputError("there is no law for material " + std::to_string(s.material), "insertion",
+                     "give a row of the table of laws");
+}
+
+void InsertionTerm::exchange(Model& m, const Step& step) {
+  if (insertion.settings.replacesLeavers) {
+    insertion.due += static_cast<double>(m.left.count - replaced_);
+    replaced_ = m.left.count;
+  }
+  const Surroundings around = surroundingsOf(m);
+  const std::size_t particles = m.particles.size();
+  if (insertion.settings.shapes.empty()) {
+    if (insertParticles(insertion, m.particles, around, step.dt) == 0) return;
+    admitParticles(m, particles);
+  } else {
+    BodyTerm& rigid = bodies(m);
+    const auto count = static_cast<int>(rigid.bodies.size());
+    if (insertParticles(insertion, m.particles, rigid.bodies, rigid.clumps, around, step.dt) == 0) return;
+    rigid.admit(m, count);
+  }
+  if (m.rotation == Rotation::automatic && m.laws && m.laws->rotates()) switchOnRotation(m.particles);
+  const double smallest =
+      *std::min_element(m.particles.radius.begin() + static_cast<std::ptrdiff_t>(particles), m.particles.radius.end());
+  m.smallestRadius = particles == 0 ? smallest : std::min(m.smallestRadius, smallest);
+}
+
+namespace {
+template <class Archive, class I>
+void archive(Archive& a, I& i) {
+  a(i.random, i.nextRadius, i.nextShape, i.due, i.waited, i.inserted, i.refused, i.insertedMass, i.refusedMass);
+}
+}  // namespace
+
+void InsertionTerm::save(ByteWriter& writer) const {
+  archive(writer, insertion);
+  writer(replaced_);
+}
+void InsertionTerm::load(ByteReader& reader) {
+  archive(reader, insertion);
+  reader(replaced_);
+}
+
+void OutletTerm::check(const Model&) const {
+  std::visit([](const auto& r) { requireValid(r); }, region);
+  if (every < 1)
+    throw InputError("it is looked at in every " + std::to_string(every) + " steps", "outlet", "give 1 or more");
+}
+
+void OutletTerm::exchange(Model& m, const Step& step) {
+  if (step.number % every != 0) return;
+  const std::vector<int> list = particlesIn(m.particles, region);
+  if (list.empty()) return;
+  const Exchanged before = m.left;
+  removeParticles(m, list);
+  passed.count += m.left.count - before.count;
+  passed.mass += m.left.mass - before.mass;
+  passed.momentum += m.left.momentum - before.momentum;
+}
+
+void OutletTerm::save(ByteWriter& writer) const {
+  const bool box = std::holds_alternative<geometry::Box>(region);
+  writer(box, box ? std::get<geometry::Box>(region) : geometry::Box{}, box ? HalfSpace{} : std::get<HalfSpace>(region),
+         every, passed);
+}
+void OutletTerm::load(ByteReader& reader) {
+  bool box = false;
+  geometry::Box inBox;
+  HalfSpace behind;
+  reader(box, inBox, behind, every, passed);
+  if (box)
+    region = inBox;
+  else
+    region = behind;
+}
+
+InsertionTerm& addInsertion(Model& m, const InsertionSettings& settings) {
+  return m.terms.add(InsertionTerm(settings));
+}
+
+OutletTerm& addOutlet(Model& m, const OutletTerm::Region& region) {
+  OutletTerm outlet;
+  outlet.region = region;
+  return m.terms.add(std::move(outlet));
+}
+
+}  // namespace dovetail::dem

@@ -1,0 +1,194 @@
+// Which particles a primitive wall may touch, and which it touches.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/walls/primitive_wall.hpp"
+#include "dovetail/dem/walls/wall_candidates.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+using Shape = PrimitiveWall::Shape;
+
+constexpr std::size_t grain = 4096;
+
+/// How many periods x is to be moved by to be next to the wall.
+Image imageNear(const PrimitiveWall& wall, const Vec3& x, const Vec3& period) {
+  const Image image = periodsIn(wall.point - x, period);
+  return image;
+}
+
+/// Bound on how much the distance of any particle from the wall has changed by the wall's own motion, m.
+double wallMove(const PrimitiveWall& wall, const Vec3& point, const Vec3& axis, double extent) {
+  const Vec3 d = wall.point - point;
+  if (wall.shape == Shape::sphere) return norm(d);
+  const double along = dot(d, wall.axis), turn = norm(wall.axis - axis) * extent;
+  return (wall.shape == Shape::plane ? std::abs(along) : norm(d - along * wall.axis)) + turn;
+}
+
+/// What a search has found in some of the particles.
+struct Part {
+  std::vector<int> near;
+  double extent = 0.0, smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
+  Part& operator+=(const Part& other) {
+    near.insert(near.end(), other.near.begin(), other.near.end());
+    extent = std::max(extent, other.extent);
+    smallest = std::min(smallest, other.smallest);
+    largest = std::max(largest, other.largest);
+    return *this;
+  }
+};
+
+Part lookThrough(const Particles& particles, const PrimitiveWall& wall, double margin, const Vec3& period,
+                 std::size_t begin, std::size_t end) {
+  Part part;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Vec3 x = particles.x[i] + shiftOf(imageNear(wall, particles.x[i], period), period);
+    const double radius = particles.radius[i];
+    if (!(distanceTo(wall, x).distance > radius + margin)) part.near.push_back(static_cast<int>(i));
+    part.extent = std::max(part.extent, squaredNorm(x - wall.point));
+    part.smallest = std::min(part.smallest, radius);
+    part.largest = std::max(part.largest, radius);
+  }
+  return part;
+}
+
+void search(const Particles& particles, PrimitiveWall& wall, const Moves& moves,
+            const geometry::Periodicity& periodicity) {
+  PrimitiveSearch& s = wall.search;
+  s.margin = requireNonNegative(wall.skin ? *wall.skin : defaultSkin(particles), "skin of a wall");
+  const Vec3 period = periodsOf(periodicity);
+  Part found = parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    return lookThrough(particles, wall, s.margin + wall.reach, period, begin, end);
+  });
+  requireRepeats(wall, periodicity, found.largest + s.margin);
+  s.near = std::move(found.near);
+  s.extent = std::sqrt(found.extent);
+  s.smallestRadius = found.smallest;
+  s.particleRevision = particles.revision;
+  s.point = wall.point;
+  s.axis = wall.axis;
+  s.radius = wall.radius;
+  s.travel.reset(moves);
+  wall.contacts.period = period;
+  ++s.builds;
+}
+
+/// Looks at every particle, if the wall has moved so far that it may have passed one since the last call.
+void requireShortStep(const Particles& particles, const PrimitiveWall& wall) {
+  const PrimitiveSearch& s = wall.search;
+  if (s.particleRevision != particles.revision ||
+      wallMove(wall, s.lastPoint, s.lastAxis, s.extent + s.margin) <= s.smallestRadius)
+    return;
+  PrimitiveWall before;
+  before.shape = wall.shape;
+  before.point = s.lastPoint;
+  before.axis = s.lastAxis;
+  before.radius = wall.radius;
+  before.inside = wall.inside;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vec3 &x = particles.x[i], period = wall.contacts.period;
+    const double radius = particles.radius[i];
+    const double now = distanceTo(wall, x + shiftOf(imageNear(wall, x, period), period)).distance;
+    const double then = distanceTo(before, x + shiftOf(imageNear(before, x, period), period)).distance;
+    const double step = wallMove(wall, s.lastPoint, s.lastAxis, norm(x - wall.point));
+    if (step > radius && std::min(now, then) < radius + (wall.shape == Shape::plane || wall.inside ? 0.0 : step))
+      throw NumericalError("a wall has moved past it by more than its radius in one step",
+                           "particle " + std::to_string(i), "take a smaller time step, or a slower wall");
+  }
+}
+
+/// Contacts of near[begin … end − 1].
+void touch(const Particles& particles, const PrimitiveWall& wall, std::size_t begin, std::size_t end,
+           PrimitiveContacts& contacts) {
+  const Vec3& period = wall.contacts.period;
+  const bool repeats = squaredNorm(period) > 0.0;
+  for (std::size_t k = begin; k < end; ++k) {
+    const auto i = static_cast<std::size_t>(wall.search.near[k]);
+    const Image image = repeats ? imageNear(wall, particles.x[i], period) : Image{};
+    const auto [distance, normal] =
+        distanceTo(wall, repeats ? particles.x[i] + shiftOf(image, period) : particles.x[i]);
+    const double overlap = particles.radius[i] - distance;
+    if (!(overlap > -wall.reach)) continue;
+    contacts.particle.push_back(wall.search.near[k]);
+    contacts.normal.push_back(normal);
+    contacts.overlap.push_back(overlap);
+    if (repeats) contacts.image.push_back(image);
+  }
+}
+
+void append(PrimitiveContacts& contacts, const PrimitiveContacts& more) {
+  const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  join(contacts.particle, more.particle);
+  join(contacts.normal, more.normal);
+  join(contacts.overlap, more.overlap);
+  join(contacts.image, more.image);
+}
+
+void touchAll(const Particles& particles, PrimitiveWall& wall) {
+  PrimitiveContacts& contacts = wall.contacts;
+  contacts.particle.clear();
+  contacts.normal.clear();
+  contacts.overlap.clear();
+  contacts.image.clear();
+  const std::size_t count = wall.search.near.size();
+  if (threads() == 1 || count <= grain) {
+    touch(particles, wall, 0, count, contacts);
+  } else {
+    std::vector<PrimitiveContacts> parts((count + grain - 1) / grain);
+    parallelFor(count, grain,
+                [&](std::size_t begin, std::size_t end) { touch(particles, wall, begin, end, parts[begin / grain]); });
+    for (const PrimitiveContacts& part : parts) append(contacts, part);
+  }
+}
+
+}  // namespace
+
+void requireRepeats(const PrimitiveWall& wall, const geometry::Periodicity& periodicity, double reach) {
+  constexpr double square = 1e-9;
+  for (int k = 0; k < 3; ++k) {
+    if (!periodicity.axes[static_cast<std::size_t>(k)]) continue;
+    const std::string along = std::string("period along ") + "xyz"[k];
+    const double slope = wall.shape == Shape::sphere ? 0.0 : std::abs(wall.axis[k]);
+    if (wall.shape == Shape::plane) {
+      if (slope > square)
+        throw InputError("its normal is not square to the " + along, "plane wall",
+                         "let space not repeat across a plane");
+      continue;
+    }
+    if (slope > square && slope < 1.0 - square)
+      throw InputError("its axis is oblique to the " + along, "cylinder wall", "turn it along or square to the period");
+    const double across = 2.0 * (wall.inside ? wall.radius : wall.radius + reach);
+    if (slope <= square && across > periodicity.length(k) * (1.0 + square))
+      throw InputError("it does not fit into the " + along, "cylinder or sphere wall",
+                       "give a period of " + formatNumber(across) + " m or more");
+  }
+}
+
+// Comparisons are written so that a NaN asks for a search.
+void findContacts(const Particles& particles, PrimitiveWall& wall, const Moves& moves,
+                  const geometry::Periodicity& periodicity) {
+  if (!isFinite(wall.point) || !isFinite(wall.axis))
+    throw NumericalError("its place is not finite", "primitive wall", "look at its velocity and its motion");
+  PrimitiveSearch& s = wall.search;
+  if (s.builds > 0) requireShortStep(particles, wall);
+  s.travel.add(moves);
+  const double used =
+      s.travel.bound + wallMove(wall, s.point, s.axis, s.extent + s.margin) + std::abs(wall.radius - s.radius);
+  if (s.particleRevision != particles.revision || !(used <= s.margin) || s.margin == 0.0 ||
+      wall.contacts.period != periodsOf(periodicity))
+    search(particles, wall, moves, periodicity);
+  s.lastPoint = wall.point;
+  s.lastAxis = wall.axis;
+  wall.contacts.oldParticle.swap(wall.contacts.particle);
+  wall.contacts.oldMemory.swap(wall.contacts.memory);
+  touchAll(particles, wall);
+}
+
+}  // namespace dovetail::dem
