@@ -152,6 +152,7 @@ void admitParticles(Model& m, std::size_t first) {
   for (std::size_t i = first; i < m.particles.size(); ++i) {
     m.booked.entered += book(m, i, m.entered);
     m.particles.f[i] = (m.particles.weightOf(i) * m.particles.mass[i]) * m.gravity;
+    m.smallestRadius = std::min(m.smallestRadius, m.particles.radius[i]);
     m.newcomers.push_back(m.particles.id[i]);
   }
 }
