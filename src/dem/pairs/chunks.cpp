@@ -111,6 +111,17 @@ void takePairs(const Particles& particles, Pairs&& pairs, PairList& list) {
 
 }  // namespace detail
 
+void keepPairs(const Particles& particles, PairList& list) {
+  list.candidates = {};
+  list.positionAtPruning = {};
+  list.positionAtBuild = particles.x;
+  list.particleRevision = particles.revision;
+  list.wraps = particles.wraps;
+  detail::makeChunks(particles.size(), list);
+  detail::findImages(particles, list);
+  ++list.revision;
+}
+
 void restoreChunks(const Particles& particles, PairList& list) {
   if (list.builds == 0) return;
   detail::makeChunks(particles.size(), list);

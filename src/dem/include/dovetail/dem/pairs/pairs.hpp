@@ -52,7 +52,7 @@ struct PairList {
   /// m; 0 = a search at every step. Not set: defaultSkin mean diameters, from the first search on.
   std::optional<double> skin;
   static constexpr double defaultSkin = 0.15;
-  double reach = 0.0;  ///< m: of the law beyond touch, see ContactLaws::reach; adds to the skins
+  double reach = 0.0;                     ///< m: of the law beyond touch, see ContactLaws::reach; adds to the skins
   std::vector<std::array<int, 2>> pairs;  ///< i < j, sorted
   std::int64_t builds = 0;                ///< how often the grid was asked
   std::int64_t revision = 0;              ///< how often `pairs` has changed
@@ -123,6 +123,10 @@ void wrapPositions(Particles& particles, const geometry::Periodicity& periodicit
 /// @param newNumber one per particle of the list
 /// @param before    the particles as they are numbered until now, those that go included
 void renumber(PairList& list, std::span<const int> newNumber, const Particles& before);
+
+/// For lists that stay as they are, of laws that bond them: makes anew what hangs on the particles' numbers and number,
+/// after renumber, and after particles have been added, which get no pairs. Images are the nearest ones.
+void keepPairs(const Particles& particles, PairList& list);
 
 /// Makes the chunks of a list whose other parts have been read from a file.
 void restoreChunks(const Particles& particles, PairList& list);
