@@ -4,7 +4,8 @@
 #include "dovetail/cg/averages.hpp"
 #include "dovetail/cg/images.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/pairs/contact_sample.hpp"
+#include "dovetail/dem/model/sample.hpp"
+#include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/setup/packing.hpp"
 #include "dovetail/dem/walls/wall_collide.hpp"
 #include "wall_scenes.hpp"
@@ -49,6 +50,58 @@ TEST(ContactSample, GivesTheForcesThatCollideHasAdded) {
   double size = 0.0;
   for (const Vec3& force : particles.f) size += norm(force) / static_cast<double>(f.size());
   for (std::size_t i = 0; i < f.size(); ++i) EXPECT_LE(norm(f[i] - particles.f[i]), 1e-9 * size) << i;
+}
+
+TEST(ContactSample, OfAModelHasTheForcesAndTorquesOfItsParticlesAndWalls) {
+  Model m;
+  m.laws = makeContactLaws(ContactLaw<LinearSpringDashpot, TangentialSpring, RollingAndTwisting>{
+      {2e4, 0.6}, {6e3, 0.4}, {{0.2, 0.3, 0.1}, {0.1, 0.3, 0.1}}, {}});
+  m.pairs.skin = 0.02;
+  m.pairs.periodicity = {{{0, 0, 0}, {1, 1, 1}}, {true, true, false}};
+  Random random(12);
+  for (int i = 0; i < 200; ++i)
+    addParticle(m.particles, {random(0.0, 1.0), random(0.0, 1.0), random(0.03, 0.4)}, random.vector(1.0), 0.06,
+                Density{1000.0});
+  switchOnRotation(m.particles);
+  for (Vec3& w : m.particles.omega) w = random.vector(10.0);
+  EXPECT_THROW(sampleContacts(m), InputError);
+  addWall(m, makePlane({}, {0, 0, 1}));
+  addWall(m, makeCylinder({0, 0.5, 0.2}, {1, 0, 0}, 0.15, false)).angularVelocity = {3, 0, 0};
+  MeshWall& mesh = addWall(m, MeshWall{});
+  mesh.wall = squares(4, 4, 0.25);
+  for (Vec3& x : mesh.wall.x) x.z = 0.35 + 0.05 * std::sin(6.2831853 * x.x);
+  run(m, 1e-5, 20);
+  const ContactSample sample = sampleContacts(m);
+  std::vector<Vec3> force(m.particles.size()), torque(m.particles.size());
+  Vec3 onWalls;
+  for (std::size_t c = 0; c < sample.size(); ++c) {
+    force[sample.first[c]] += sample.force[c];
+    torque[sample.first[c]] += sample.torqueFirst[c];
+    // The moment of a contact about any point is balanced.
+    const Vec3 couple = sample.torqueFirst[c] + sample.torqueSecond[c];
+    EXPECT_LE(norm(couple + cross(sample.from[c] - sample.to[c], sample.force[c])), 1e-12 * norm(sample.force[c]));
+    EXPECT_LE(norm(sample.to[c] - sample.from[c]), 0.13);
+    if (sample.second[c] >= 0) {
+      force[sample.second[c]] -= sample.force[c];
+      torque[sample.second[c]] += sample.torqueSecond[c];
+    } else {
+      onWalls -= sample.force[c];
+    }
+  }
+  const Vec3 wanted = primitiveWall(m, 0).force + primitiveWall(m, 1).force + totalForce(meshWall(m, 0).wall);
+  EXPECT_GT(norm(primitiveWall(m, 0).force), 1.0);
+  EXPECT_GT(norm(primitiveWall(m, 1).force), 1.0);
+  EXPECT_GT(norm(totalForce(meshWall(m, 0).wall)), 1.0);
+  EXPECT_LE(norm(onWalls - wanted), 1e-11 * norm(wanted));
+  double size = 0.0, moment = 0.0;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    size = std::max(size, norm(m.particles.f[i]));
+    moment = std::max(moment, norm(m.particles.torque[i]));
+  }
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    EXPECT_LE(norm(force[i] - m.particles.f[i]), 1e-9 * size) << i;
+    EXPECT_LE(norm(torque[i] - m.particles.torque[i]), 1e-9 * moment) << i;
+  }
 }
 
 /// What each bond of a touching lattice becomes under a strain, from a double loop: V σ and how many there are.

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "dovetail/dem/laws/contact_laws.hpp"
+#include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 #include "dovetail/dem/walls/primitive_wall.hpp"
 #include "wall_scenes.hpp"
@@ -88,6 +89,67 @@ TEST(LiquidBridge, WhatItTakesAtRuptureIsBooked) {
     EXPECT_NE(slow.stored, 0.0);
     EXPECT_NEAR(slow.fast + slow.stored + slow.lost, slow.start, 1e-2 * slow.start);
   }
+}
+
+/// A sphere that falls on a floor, sticks out its bridge and leaves, or comes back.
+Model wetBall(double speed) {
+  Model m;
+  m.laws = makeContactLaws(law);
+  m.gravity = {0, 0, 0};
+  m.pairs.skin = 0.2 * radius;
+  addParticle(m.particles, {0.4e-3, 0.3e-3, radius + gap0}, {0.02, 0.01, -speed}, radius, Density{2500.0});
+  return m;
+}
+
+TEST(LiquidBridge, ToATriangulatedFloorIsThatToThePlane) {
+  for (const EdgeRule rule : {EdgeRule::projected, EdgeRule::paper})
+    for (const double speed : {0.3, 0.02}) {
+      Model onPlane = wetBall(speed), onMesh = wetBall(speed);
+      addWall(onPlane, makePlane({}, {0, 0, 1})).skin = 0.2 * radius;
+      MeshWall& mesh = addWall(onMesh, MeshWall{});
+      mesh.wall = squares(12, 12, 1e-3);
+      for (Vec3& x : mesh.wall.x) x -= Vec3{6e-3, 6e-3, 0};
+      mesh.rule = rule;
+      mesh.candidates.skin = 0.2 * radius;
+      double pulled = 0.0, worst = 0.0;
+      for (int s = 0; s < 20000; ++s) {
+        advance(onPlane, 2e-7);
+        advance(onMesh, 2e-7);
+        pulled = std::min(pulled, onMesh.particles.f[0].z);
+        worst = std::max(worst, norm(onPlane.particles.f[0] - onMesh.particles.f[0]));
+      }
+      EXPECT_LT(pulled, -2e-4);
+      EXPECT_LE(worst, 1e-6 * 4e-4) << speed;
+      EXPECT_LE(norm(onPlane.particles.x[0] - onMesh.particles.x[0]), 1e-9 * radius);
+      close(onPlane);
+      close(onMesh);
+      EXPECT_NEAR(energies(onPlane).lost.fracturePower, energies(onMesh).lost.fracturePower, 1e-15);
+      EXPECT_EQ(energies(onMesh).lost.fracturePower > 0.0, speed > 0.1);
+    }
+}
+
+TEST(LiquidBridge, InACornerBothWallsHoldUntilEachLetsGo) {
+  // A ball that touches both halves of a right-angled fold and is drawn along one of them.
+  const TriangulatedWall corner = fold(0.5 * std::numbers::pi, 10.0 * radius);
+  const auto laws = makeContactLaws(law);
+  Particles particles;
+  addParticle(particles, {0.999 * radius, 0.1e-3, 0.999 * radius}, {}, radius, Density{2500.0});
+  WallCandidates candidates;
+  candidates.reach = laws->reach();
+  findWallCandidates(particles, corner, radius, candidates);
+  WallContacts contacts;
+  std::size_t both = 0;
+  for (const double gap : {-1e-6, 5e-5, 1e-4, 0.99 * laws->reach(), 1.01 * laws->reach()}) {
+    particles.x[0].x = radius + gap;
+    clearForces(particles);
+    findWallContacts(particles, corner, candidates, EdgeRule::projected, contacts);
+    laws->wall(particles, corner, contacts, 1e-7, Booking::on);
+    both += contacts.size() == 2;
+    if (gap > 0.0) {
+      EXPECT_EQ(particles.f[0].x < -1e-5, gap < laws->reach()) << gap;
+    }
+  }
+  EXPECT_EQ(both, 4u);
 }
 
 TEST(LiquidBridge, BadOnesAreRefused) {

@@ -1,8 +1,11 @@
 #include "dovetail/dem/bodies/body_term.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "../model/events.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/loads.hpp"
 
 namespace dovetail::dem {
@@ -23,6 +26,13 @@ double book(const Bodies& bodies, std::size_t b, const Vec3& gravity, const Vec3
          bodies.mass[b] * dot(gravity, bodies.x[b]);
 }
 
+/// Angular velocity that belongs to an angular momentum.
+Vec3 spinOf(const Bodies& bodies, std::size_t b, const Vec3& angularMomentum) {
+  const Quaternion& q = bodies.orientation[b];
+  const Vec3 l = rotateBack(q, angularMomentum), &inertia = bodies.inertia[b];
+  return rotate(q, {l.x / inertia.x, l.y / inertia.y, l.z / inertia.z});
+}
+
 }  // namespace
 
 void BodyTerm::check(const Model& m) const {
@@ -34,7 +44,9 @@ double BodyTerm::move(Model& m, const Step& step) {
   if (step.closing > 0.0) kickBodies(bodies, 0.5 * step.closing);
   kickBodies(bodies, 0.5 * step.dt);
   driftBodies(bodies, step.dt);
-  return placeMembers(bodies, clumps, m.pairs.periodicity, m.particles);
+  const double moved = placeMembers(bodies, clumps, m.pairs.periodicity, m.particles);
+  if (!std::isfinite(moved)) requireFinite(bodies, when(m));
+  return moved;
 }
 
 void BodyTerm::renewed(Model& m) {
@@ -90,14 +102,24 @@ void BodyTerm::book(Model& m, const Step& step) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const Vec3 omega = angularVelocity(bodies, static_cast<int>(b));
       const Vec3 &l = bodies.angularMomentum[b], half = 0.5 * step.dt * bodies.torque[b];
-      const Quaternion& q = bodies.orientation[b];
-      const Vec3 t = rotateBack(q, half), &inertia = bodies.inertia[b];
-      const Vec3 turned = omega + rotate(q, {t.x / inertia.x, t.y / inertia.y, t.z / inertia.z});
+      const Vec3 turned = omega + spinOf(bodies, b, half);
       m.rate.damping += (taken(bodies.f[b], bodies.mass[b] * bodies.v[b], bodies.v[b],
                                bodies.v[b] + (0.5 * step.dt / bodies.mass[b]) * bodies.f[b]) +
                          taken(bodies.torque[b], l, omega, turned));
     }
   }
+}
+
+void BodyTerm::meanMotion(const Model&, const Step& step, std::span<Vec3> v, std::span<Vec3> omega) const {
+  parallelFor(clumps.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t b = at(clumps.body[k]), i = at(clumps.particle[k]);
+      const Vec3 spin = spinOf(bodies, b, bodies.angularMomentum[b] + 0.5 * step.dt * bodies.torque[b]);
+      v[i] = bodies.v[b] + (0.5 * step.dt / bodies.mass[b]) * bodies.f[b] +
+             cross(spin, rotate(bodies.orientation[b], clumps.offset[k]));
+      if (!omega.empty()) omega[i] = spin;
+    }
+  });
 }
 
 void BodyTerm::close(Model& m, double dt) {

@@ -68,6 +68,18 @@ void removeBond(Bonds& bonds, std::size_t bond) {
   --bonds.ends.bonds;
 }
 
+bool joined(const Bonds& bonds, int i, int j) {
+  const BondEnds& ends = bonds.ends;
+  const auto found = std::lower_bound(ends.particle.begin(), ends.particle.end(), i);
+  if (found == ends.particle.end() || *found != i) return false;
+  const auto row = static_cast<std::size_t>(found - ends.particle.begin());
+  for (std::size_t e = ends.first[row]; e < ends.first[row + 1] && ends.end[e] != BondEnds::gone; ++e) {
+    const Bond& bond = bonds.bonds[ends.end[e] / 2];
+    if (bond.i == j || bond.j == j) return true;
+  }
+  return false;
+}
+
 void gatherForces(const Bonds& bonds, Particles& particles) {
   const BondEnds& ends = bonds.ends;
   parallelFor(ends.particle.size(), 512, [&](std::size_t begin, std::size_t stop) {

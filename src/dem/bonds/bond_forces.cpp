@@ -33,6 +33,13 @@ struct Line {
   double length;
 };
 
+Line lineOf(const Particles& particles, const Bond& bond, const geometry::Periodicity& space) {
+  const Vec3 d = space.minimumImage(particles.x[static_cast<std::size_t>(bond.j)] -
+                                    particles.x[static_cast<std::size_t>(bond.i)]);
+  const double length = norm(d);
+  return {length > 0.0 ? d / length : bond.directionI, length > 0.0 ? length : bond.length};
+}
+
 Bonds::Forces elasticForces(const Bond& bond, const Line& line, double& energy) {
   const Vec3 &nI = bond.directionI, &nJ = bond.directionJ, &mI = bond.acrossI, &mJ = bond.acrossJ;
   const Vec3 lI = cross(nI, mI), lJ = -cross(nJ, mJ);
@@ -94,9 +101,7 @@ Answer answerBond(const Particles& particles, Bonds& bonds, const geometry::Peri
   const auto i = static_cast<std::size_t>(bond.i), j = static_cast<std::size_t>(bond.j);
   const Vec3 omegaI = particles.omega[i], omegaJ = particles.omega[j];
   turnEnds(bond, omegaI, omegaJ, dt);
-  const Vec3 d = space.minimumImage(particles.x[j] - particles.x[i]);
-  const double length = norm(d);
-  const Line line{length > 0.0 ? d / length : bond.directionI, length > 0.0 ? length : bond.length};
+  const Line line = lineOf(particles, bond, space);
   Answer answer;
   double& energy = bonds.energy[b];
   Bonds::Forces& f = bonds.forces[b];
@@ -116,6 +121,23 @@ Answer answerBond(const Particles& particles, Bonds& bonds, const geometry::Peri
 
 }  // namespace
 
+double dashpotPower(const Particles& particles, const Bonds& bonds, const geometry::Periodicity& space,
+                    std::span<const Vec3> v, std::span<const Vec3> omega) {
+  return parallelSum(bonds.size(), 512, [&](std::size_t begin, std::size_t end) {
+    double power = 0.0;
+    for (std::size_t b = begin; b < end; ++b) {
+      const Bond& bond = bonds.bonds[b];
+      if (!(bond.dampingTime > 0.0)) continue;
+      const auto i = static_cast<std::size_t>(bond.i), j = static_cast<std::size_t>(bond.j);
+      Bonds::Forces f;
+      addDamping(bond, lineOf(particles, bond, space), particles.v[j] - particles.v[i], particles.omega[i],
+                 particles.omega[j], f);
+      power -= dot(f.force, v[j] - v[i]) + dot(f.torqueI, omega[i]) + dot(f.torqueJ, omega[j]);
+    }
+    return power;
+  });
+}
+
 ContactWork exchangeBonds(Particles& particles, Bonds& bonds, const geometry::Periodicity& space, double dt) {
   requireNonNegative(dt, "time step of bonds");
   detail::updateEnds(particles, bonds);
@@ -129,8 +151,14 @@ ContactWork exchangeBonds(Particles& particles, Bonds& bonds, const geometry::Pe
     for (std::size_t b = begin; b < end; ++b) sum += answerBond(particles, bonds, space, b, dt);
     return sum;
   });
+  bonds.broken.clear();
   for (std::size_t b = answer.broken > 0 ? bonds.size() : 0; b-- > 0;)
-    if (bonds.utilised[b] > 1.0) detail::removeBond(bonds, b);
+    if (bonds.utilised[b] > 1.0) {
+      const auto [i, j] = std::minmax(bonds.bonds[b].i, bonds.bonds[b].j);
+      bonds.broken.push_back({i, j});
+      detail::removeBond(bonds, b);
+    }
+  std::erase_if(bonds.broken, [&](const auto& pair) { return detail::joined(bonds, pair[0], pair[1]); });
   detail::gatherForces(bonds, particles);
   return answer.work;
 }

@@ -18,9 +18,13 @@ void requireClosed(const Model& m, const char* what) {
 
 }  // namespace
 
+void requireFiniteGravity(const Model& m) {
+  if (!isFinite(m.gravity)) throw InputError("not a finite vector", "gravity", "give three finite numbers");
+}
+
 void check(const Model& m) {
   validate(m.particles);
-  if (!isFinite(m.gravity)) throw InputError("not a finite vector", "gravity", "give three finite numbers");
+  requireFiniteGravity(m);
   if (!m.laws && m.particles.size() > 0)
     throw InputError("the model has no contact laws", "Model::laws", "set model.laws = makeContactLaws(law)");
   if (m.laws && m.laws->materials() > 1)

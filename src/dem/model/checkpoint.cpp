@@ -1,16 +1,44 @@
 #include "dovetail/dem/model/checkpoint.hpp"
 
+#include <concepts>
+#include <type_traits>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/setup/streams.hpp"
 
+// Members of structures that have gaps.
+namespace dovetail::geometry {
+template <class Archive, class T>
+  requires std::same_as<std::remove_const_t<T>, Periodicity>
+void archiveFields(Archive& archive, T& space) {
+  archive(space.box, space.axes);
+}
+}  // namespace dovetail::geometry
+
 namespace dovetail::dem {
+
+template <class Archive, class T>
+  requires std::same_as<std::remove_const_t<T>, PairImage>
+void archiveFields(Archive& archive, T& image) {
+  archive(image.pair, image.periods);
+}
+template <class Archive, class T>
+  requires std::same_as<std::remove_const_t<T>, EndedPair>
+void archiveFields(Archive& archive, T& pair) {
+  archive(pair.materials, pair.factor, pair.overlap, pair.effectiveMass, pair.effectiveRadius);
+}
+template <class Archive, class T>
+  requires std::same_as<std::remove_const_t<T>, Step>
+void archiveFields(Archive& archive, T& step) {
+  archive(step.time, step.dt, step.number, step.closing, step.moved, step.timeless);
+}
 
 namespace {
 
-constexpr const char* checkpointKind = "dem model 2";
+constexpr const char* checkpointKind = "dem model 3";
 
 std::vector<char> letters(const std::string& text) { return {text.begin(), text.end()}; }
 std::string word(const std::vector<char>& text) { return {text.begin(), text.end()}; }

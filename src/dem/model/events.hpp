@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "dovetail/dem/model/model.hpp"
 
@@ -13,11 +14,20 @@ std::string when(const Model& m);
 double smallestRadius(const Particles& particles);
 /// m/s; infinite if one is not finite
 double largestSpeed(const Particles& particles);
-/// @throws NumericalError naming what is not finite or has moved farther than its radius
+/// @throws InputError if it is not finite
+void requireFiniteGravity(const Model& m);
+/// @throws NumericalError naming what is not finite, and of which particle, or who has moved farther than its radius
 void requireShortMoves(const Particles& particles, double dt, const std::string& when);
 
 /// Renews the list of pairs where moves ask for it; then looks for who has escaped, and sorts now and then.
 void renewPairs(Model& m);
+/// Means of velocities and spins before and after the kick that the forces of the step under way make, to second order
+/// of those whose path is given: with these the forces do their work in it. After all forces are known.
+struct MeanMotion {
+  std::vector<Vec3> v, omega;  ///< m/s, rad/s, per particle; omega is empty where particles do not spin
+};
+MeanMotion meanMotion(const Model& m, const Step& step);
+
 /// Kinetic energy of one particle, and m g·x, J.
 double kineticEnergyOf(const Particles& particles, std::size_t i);
 double gravityOf(const Particles& particles, std::size_t i, const Vec3& gravity);

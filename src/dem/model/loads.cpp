@@ -7,6 +7,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/particles/damping.hpp"
+#include "events.hpp"
 
 namespace dovetail::dem {
 
@@ -31,8 +32,49 @@ double BondTerm::renumber(std::span<const int> newNumber, const Particles&) {
 }
 
 void BondTerm::addForces(Model& m, const Step& step) {
+  lost_ = 0.0;
   if (bonds.size() == 0 && bonds.ended == 0.0) return;
-  m.work += exchangeBonds(m.particles, bonds, m.pairs.periodicity, step.timeless ? 0.0 : step.dt);
+  const ContactWork work = exchangeBonds(m.particles, bonds, m.pairs.periodicity, step.timeless ? 0.0 : step.dt);
+  lost_ = work.dissipatedPower;
+  m.work += work;
+  if (mutesContacts && !bonds.broken.empty()) wake(m, step);
+}
+
+/// The contacts under bonds that have just broken, in a list of their own. They start without memory; what they store
+/// was not there a step ago, so that the break loses so much less.
+void BondTerm::wake(Model& m, const Step& step) {
+  PairList& list = m.pairs;
+  std::vector<std::size_t> places;
+  for (const auto& pair : bonds.broken) {
+    const auto found = std::lower_bound(list.pairs.begin(), list.pairs.end(), pair);
+    if (found == list.pairs.end() || *found != pair || list.scale.empty()) continue;
+    places.push_back(static_cast<std::size_t>(found - list.pairs.begin()));
+    list.scale[places.back()] = 0.5 * (m.particles.weightOf(at(pair[0])) + m.particles.weightOf(at(pair[1])));
+  }
+  if (places.empty()) return;
+  std::sort(places.begin(), places.end());
+  for (const auto& term : m.terms) term->renewed(m);  // whoever else mutes them
+  PairList awake;
+  awake.periodicity = list.periodicity;
+  for (const std::size_t p : places) {
+    awake.pairs.push_back(list.pairs[p]);
+    awake.scale.push_back(list.scale[p]);
+  }
+  keepPairs(m.particles, awake);
+  ContactWork work = m.laws->pairs(m.particles, awake, step.dt, m.booking);
+  work.fracturePower -= work.storedEnergy() / step.dt;
+  m.work += work;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    for (std::size_t c = 0; c < static_cast<std::size_t>(m.laws->memory()); ++c)
+      list.memory[c * list.size() + places[k]] = awake.memory[c * places.size() + k];
+}
+
+/// Dashpots take what their forces do to the particles over the whole kick.
+void BondTerm::book(Model& m, const Step& step) {
+  if (lost_ == 0.0 || m.booking == Booking::off) return;
+  const MeanMotion mean = dem::meanMotion(m, step);
+  m.rate.lost.dissipatedPower +=
+      dashpotPower(m.particles, bonds, m.pairs.periodicity, mean.v, mean.omega) - lost_;
 }
 
 void BondTerm::addDemand(const Model& m, ContactDemand& demand) const { dem::addDemand(demand, m.particles, bonds); }
@@ -107,17 +149,21 @@ void ExternalForceTerm::addForces(Model& m, const Step& step) {
   force_.assign(m.particles.size(), Vec3{});
   function_(m.particles, step.time, force_);
   parallelFor(m.particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) m.particles.f[i] += force_[i];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!isFinite(force_[i]))
+        throw NumericalError("the external force '" + name_ + "' on it is not finite, " + when(m),
+                             "particle " + std::to_string(m.particles.id[i]), "look at the function behind it");
+      m.particles.f[i] += force_[i];
+    }
   });
 }
 
 /// Over the kick that these forces are part of, with the mean of the velocities before and after it.
 void ExternalForceTerm::book(Model& m, const Step& step) {
-  const Particles& p = m.particles;
-  m.rate.external += parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+  const MeanMotion mean = dem::meanMotion(m, step);
+  m.rate.external += parallelSum(force_.size(), grain, [&](std::size_t begin, std::size_t end) {
     double power = 0.0;
-    for (std::size_t i = begin; i < end; ++i)
-      power += dot(force_[i], p.v[i] + (0.5 * step.dt / (p.weightOf(i) * p.mass[i])) * p.f[i]);
+    for (std::size_t i = begin; i < end; ++i) power += dot(force_[i], mean.v[i]);
     return power;
   });
 }
@@ -157,6 +203,12 @@ void DriveTerm::prescribe(Model& m, const Step& step, Half half) {
     supportImpulse += impulse;
     p.v[i] = prescribed;
   }
+}
+
+/// The path's velocity is that mean to second order.
+void DriveTerm::meanMotion(const Model& m, const Step& step, std::span<Vec3> v, std::span<Vec3>) const {
+  const Vec3 along = velocity_(step.time);
+  for (const std::int64_t id : ids_) v[at(find(m.particles, id))] = along;
 }
 
 double DriveTerm::renumber(std::span<const int> newNumber, const Particles& before) {

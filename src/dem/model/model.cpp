@@ -1,6 +1,7 @@
 #include "dovetail/dem/model/model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "dovetail/core/finite.hpp"
@@ -48,9 +49,11 @@ double sweep(Model& m, const Step& step) {
     }
     kick(m.particles, 0.5 * step.dt);
     prescribe(m, step, Half::first);
+    const double moved = step.dt * largestSpeed(m.particles);
+    if (!std::isfinite(moved)) return moved;
     drift(m.particles, step.dt);
     startForces(m.particles, m.gravity);
-    return step.dt * largestSpeed(m.particles);
+    return moved;
   }
   if (step.closing == step.dt) return turnStep(m.particles, step.dt, m.gravity);
   if (step.closing > 0.0) kick(m.particles, 0.5 * step.closing);
@@ -107,6 +110,7 @@ void prepare(Model& m, double dt) {
 void move(Model& m, double dt) {
   prepare(m, dt);
   timed(m, "move", [&] {
+    requireFiniteGravity(m);
     Step step = begin(m, dt);
     bookHalf(m, dt);
     step.moved = sweep(m, step);
@@ -137,7 +141,7 @@ void addForces(Model& m) {
   }
   for (const auto& term : m.terms) term->book(m, m.step);
   welcome(m);
-  m.rate.lost.dissipatedPower = m.work.dissipatedPower;
+  m.rate.lost.dissipatedPower += m.work.dissipatedPower;
   if (!m.step.timeless) {
     bookHalf(m, dt);
     if (m.booking == Booking::on) bookLosses(m, dt);

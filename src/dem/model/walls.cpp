@@ -125,6 +125,7 @@ double MeshWallTerm::renumber(std::span<const int> newNumber, const Particles& b
 }
 
 void MeshWallTerm::addForces(Model& m, const Step& step) {
+  mesh.candidates.reach = m.pairs.reach;
   findContacts(m.particles, mesh, movesOf(m, step), m.pairs.periodicity);
   const ContactWork work = m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
   stored = work.storedEnergy();

@@ -7,7 +7,7 @@ namespace dovetail::dem {
 namespace {
 
 void append(ContactSample& sample, int first, int second, const Vec3& from, const Vec3& to, const Vec3& point,
-            const Vec3& normal, const Vec3& force) {
+            const Vec3& normal, const Vec3& force, const Vec3& torqueFirst, const Vec3& torqueSecond) {
   sample.first.push_back(first);
   sample.second.push_back(second);
   sample.from.push_back(from);
@@ -15,6 +15,20 @@ void append(ContactSample& sample, int first, int second, const Vec3& from, cons
   sample.point.push_back(point);
   sample.normal.push_back(normal);
   sample.force.push_back(force);
+  sample.torqueFirst.push_back(torqueFirst);
+  sample.torqueSecond.push_back(torqueSecond);
+}
+
+/// @param arm from the particle's centre to the contact point on the wall, m
+template <class Contacts>
+void appendWall(const Particles& particles, const Contacts& contacts, std::size_t c, const Vec3& arm,
+                ContactSample& sample) {
+  if (contacts.force[c] == Vec3{}) return;
+  const Vec3 from = particles.x[static_cast<std::size_t>(contacts.particle[c])], force = contacts.force[c];
+  const bool torques = contacts.couple.size() == contacts.size();
+  const Vec3 couple = torques ? contacts.couple[c] : Vec3{};
+  append(sample, contacts.particle[c], -1, from, from + arm, from + arm, contacts.normal[c], force,
+         torques ? cross(arm, force) + couple : Vec3{}, -couple);
 }
 
 }  // namespace
@@ -50,7 +64,9 @@ void appendPair(const LonePair& lone, const std::array<int, 2>& pair, ContactSam
   const Particles& two = lone.particles;
   if (two.f[0] == Vec3{}) return;
   const PairContact contact = pairContact(two, 0, 1);
-  append(sample, pair[0], pair[1], two.x[0], two.x[1], two.x[0] + contact.armI, contact.normal, two.f[0]);
+  const bool spins = two.rotates();
+  append(sample, pair[0], pair[1], two.x[0], two.x[1], two.x[0] + contact.armI, contact.normal, two.f[0],
+         spins ? two.torque[0] : Vec3{}, spins ? two.torque[1] : Vec3{});
 }
 
 void requireMemory(const PairList& list, int memory) {
@@ -64,11 +80,15 @@ void requireMemory(const PairList& list, int memory) {
 
 void addWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts,
                      ContactSample& sample) {
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    appendWall(particles, contacts, c, contactArm(particles, contacts, wall, c), sample);
+}
+
+void addWallContacts(const Particles& particles, const PrimitiveWall& wall, ContactSample& sample) {
+  const PrimitiveContacts& contacts = wall.contacts;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (contacts.force[c] == Vec3{}) continue;
-    const Vec3 point = contactPoint(contacts, wall, c);
-    append(sample, contacts.particle[c], -1, particles.x[static_cast<std::size_t>(contacts.particle[c])], point, point,
-           contacts.normal[c], contacts.force[c]);
+    const double radius = particles.radius[static_cast<std::size_t>(contacts.particle[c])];
+    appendWall(particles, contacts, c, (contacts.overlap[c] - radius) * contacts.normal[c], sample);
   }
 }
 
@@ -79,8 +99,13 @@ void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps&
     toCentre[i] = bodies.x[b] - particles.x[i];
   }
   for (std::size_t c = 0; c < sample.size(); ++c) {
-    sample.from[c] += toCentre[static_cast<std::size_t>(sample.first[c])];
-    if (sample.second[c] >= 0) sample.to[c] += toCentre[static_cast<std::size_t>(sample.second[c])];
+    const auto moveEnd = [&](int particle, Vec3& end, const Vec3& force, Vec3& torque) {
+      const Vec3& move = toCentre[static_cast<std::size_t>(particle)];
+      end += move;
+      torque -= cross(move, force);
+    };
+    moveEnd(sample.first[c], sample.from[c], sample.force[c], sample.torqueFirst[c]);
+    if (sample.second[c] >= 0) moveEnd(sample.second[c], sample.to[c], -sample.force[c], sample.torqueSecond[c]);
   }
 }
 

@@ -1,8 +1,10 @@
 // The verbs of a time step.
 #include <cmath>
 #include <limits>
+#include <string>
+#include <type_traits>
 
-#include "dovetail/core/finite.hpp"
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/particles/particles.hpp"
 
@@ -64,8 +66,11 @@ struct Sweep {
   Vec3 g;
 };
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// Half kicks and drift of one particle; returns the squared displacement, m². Two half kicks are made one after the
-/// other, so that the digits are those of two sweeps.
+/// other, so that the digits are those of two sweeps. What is not finite stays where it is, to be found: then only the
+/// velocities change.
 template <bool spins, bool weighted>
 double advance(Particles& particles, std::size_t i, const Sweep& sweep) {
   const double weight = weighted ? particles.weight[i] : 1.0, mass = weight * particles.mass[i];
@@ -73,18 +78,22 @@ double advance(Particles& particles, std::size_t i, const Sweep& sweep) {
   Vec3 v = particles.v[i];
   for (int k = 0; k < sweep.halfKicks; ++k) v += half * particles.f[i];
   particles.v[i] = v;
-  particles.x[i] += sweep.dt * v;
+  double moved = squaredNorm(v) * (sweep.dt * sweep.dt);
   if constexpr (spins) {
     const double halfSpin = 0.5 * sweep.dt / (weight * momentOfInertia(particles, static_cast<int>(i)));
     Vec3 omega = particles.omega[i];
     for (int k = 0; k < sweep.halfKicks; ++k) omega += halfSpin * particles.torque[i];
     particles.omega[i] = omega;
+    moved += 0.0 * (omega.x + omega.y + omega.z);
   }
+  if (!(moved < infinity)) [[unlikely]]
+    return infinity;
+  particles.x[i] += sweep.dt * v;
   if (sweep.startsForces) {
     particles.f[i] = mass * sweep.g;
     if constexpr (spins) particles.torque[i] = {};
   }
-  return squaredNorm(v) * (sweep.dt * sweep.dt);
+  return moved;
 }
 
 struct Largest {
@@ -97,7 +106,6 @@ struct Largest {
 
 template <bool spins, bool weighted>
 double sweepAll(Particles& particles, const Sweep& sweep) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto part = [&](std::size_t begin, std::size_t end) {
     double largest = 0.0;
     bool finite = true;
@@ -164,8 +172,27 @@ Vec3 angularMomentum(const Particles& particles) {
 }
 
 void requireFinite(const Particles& particles, const std::string& when) {
-  dovetail::requireFinite(particles.x, "particle", "position", when);
-  dovetail::requireFinite(particles.v, "particle", "velocity", when);
+  const auto look = [&](const auto& values, const char* field, const char* remedy) {
+    const auto finite = [](const auto& value) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+        return std::isfinite(value);
+      else
+        return isFinite(value);
+    };
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!finite(values[i]))
+        throw NumericalError("its " + std::string(field) + " is not finite, " + when,
+                             "particle " + std::to_string(particles.id[i]), remedy);
+  };
+  constexpr const char *set = "look for who has set it", *thrown = "take a smaller time step, or look for what has thrown it";
+  look(particles.mass, "mass", set);
+  look(particles.radius, "radius", set);
+  look(particles.weight, "weight", set);
+  look(particles.x, "position", thrown);
+  look(particles.f, "force", "look at laws, walls and forces of the caller's that act on it");
+  look(particles.torque, "torque", "look at laws, walls and bonds that act on it");
+  look(particles.omega, "angular velocity", thrown);
+  look(particles.v, "velocity", thrown);
 }
 
 }  // namespace dovetail::dem

@@ -116,7 +116,7 @@ std::vector<int> sortParticles(Particles& particles, PairList& list) {
   const double skin = listed ? detail::skinOf(particles, list) : 0.0;
   wrapPositions(particles, list.periodicity);
   geometry::HierarchicalGrid grid(list.periodicity);
-  grid.build(particles.x, particles.radius, skin);
+  grid.build(particles.x, particles.radius, skin + list.reach);
   const std::vector<int> newNumber = numbersAlongCurve(particles, grid.order());
   if (listed) renumber(list, newNumber, particles);
   renumber(particles, newNumber);

@@ -46,7 +46,9 @@ void paperWallContacts(const Particles& particles, const TriangulatedWall& wall,
                        WallContacts& contacts) {
   sweepParticles(particles, candidates, contacts, [&](std::size_t, const Encounter& e, WallContacts& into) {
     thread_local std::vector<Touch> touches;
+    const std::size_t first = into.size();
     paperContacts(e, wall, touches, into);
+    if (candidates.reach > 0.0) appendBeyondTouch(e, wall, candidates.reach, 0.2, first, into);
   });
 }
 

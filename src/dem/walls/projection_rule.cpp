@@ -42,10 +42,17 @@ struct Scratch {
 /// One particle against one wall.
 class Projection {
 public:
-  Projection(const Encounter& encounter, const TriangulatedWall& wall, Scratch& scratch)
-      : encounter_(encounter), radius_(encounter.radius), wall_(wall), scratch_(scratch) {}
+  /// @param reach beyond touch, m
+  Projection(const Encounter& encounter, const TriangulatedWall& wall, double reach, Scratch& scratch)
+      : encounter_(encounter), radius_(encounter.radius), beyond_(reach), wall_(wall), scratch_(scratch) {}
 
   void appendTo(WallContacts& contacts) {
+    const std::size_t first = contacts.size();
+    appendTouching(contacts);
+    if (beyond_ > 0.0) appendBeyondTouch(encounter_, wall_, beyond_, couplingBlend, first, contacts);
+  }
+
+  void appendTouching(WallContacts& contacts) {
     if (!collect(radius_)) return;
     if (nearestSuffices()) return appendNearest(contacts);
     collect(radius_ + nearestOverlap());
@@ -66,7 +73,7 @@ public:
       const FacetView seen = view(k, {}, FacetView::unseen);
       if (!seen.face()) return false;
       last = static_cast<int>(k);
-      if (seen.distance < radius_)
+      if (seen.distance < radius_ + beyond_)
         addContact(contacts, encounter_, k, seen.weight, seen.normal, radius_ - seen.distance, 1.0, 1.0);
       return true;
     };
@@ -189,7 +196,7 @@ private:
   }
 
   const Encounter& encounter_;
-  double radius_;
+  double radius_, beyond_;
   const TriangulatedWall& wall_;
   Scratch& scratch_;
   std::size_t nearest_ = 0;
@@ -201,7 +208,7 @@ void projectWallContacts(const Particles& particles, const TriangulatedWall& wal
                          WallContacts& contacts) {
   sweepParticles(particles, candidates, contacts, [&](std::size_t k, const Encounter& e, WallContacts& into) {
     thread_local Scratch scratch;
-    Projection projection(e, wall, scratch);
+    Projection projection(e, wall, candidates.reach, scratch);
     if (!candidates.flat.empty() && candidates.flat[k] && projection.appendFlat(candidates.lastFacet[k], into)) return;
     projection.appendTo(into);
   });

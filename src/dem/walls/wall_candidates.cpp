@@ -119,7 +119,7 @@ bool fits(const Particles& particles, const TriangulatedWall& wall, const WallCa
           const Vec3& period) {
   return candidates.builds > 0 && particles.revision == candidates.particleRevision &&
          wall.x.size() == candidates.vertexAtBuild.size() && wall.facets.size() == candidates.facetsAtBuild &&
-         candidates.period == period;
+         candidates.period == period && candidates.reachAtBuild == candidates.reach;
 }
 
 }  // namespace
@@ -141,8 +141,10 @@ void search(const Particles& particles, const TriangulatedWall& wall, double ski
   candidates.margin = requireNonNegative(skin, "skin of the wall candidates");
   requireFinite(wall.x, "wall vertex", "position", "contact search with a wall");
   candidates.period = period;
-  const NearWall near = nearWall(particles, wall, skin, period);
-  makeLists(particles, near, sortByEntry(findPairs(near, wall, skin), near.particle.size()), candidates);
+  const double margin = skin + candidates.reach;
+  const NearWall near = nearWall(particles, wall, margin, period);
+  makeLists(particles, near, sortByEntry(findPairs(near, wall, margin), near.particle.size()), candidates);
+  candidates.reachAtBuild = candidates.reach;
   markFlat(wall, candidates);
   candidates.smallestRadius = near.smallestRadius;
   candidates.particleRevision = particles.revision;

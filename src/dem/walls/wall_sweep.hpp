@@ -68,6 +68,14 @@ inline void addContact(WallContacts& contacts, const Encounter& e, std::size_t k
         {e.image[k][0] - e.wrapped[0], e.image[k][1] - e.wrapped[1], e.image[k][2] - e.wrapped[2]});
 }
 
+/// What a law that reaches beyond touch meets there: the nearest facet, and on in order of distance those whose normals
+/// are far from the ones of all contacts so far.
+/// @param reach      beyond touch, m
+/// @param alike      cosine from which on two facets count as one
+/// @param first      the particle's first contact
+void appendBeyondTouch(const Encounter& e, const TriangulatedWall& wall, double reach, double alike, std::size_t first,
+                       WallContacts& contacts);
+
 inline void appendContacts(WallContacts& contacts, const WallContacts& more) {
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(contacts.particle, more.particle);

@@ -4,13 +4,16 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 namespace dovetail {
 
-/// Collects bytes. `archive(a, b, …)` takes numbers, plain structures of them, and vectors of such.
+/// Collects bytes. `archive(a, b, …)` takes numbers, plain structures of them, and vectors and optionals of such. A
+/// structure with gaps between or behind its members, whose bytes nobody sets, has a function archiveFields(archive,
+/// value) in its namespace that names its members, for both ways: then equal values are equal bytes.
 class ByteWriter {
 public:
   static constexpr bool reads = false;
@@ -23,15 +26,28 @@ public:
 private:
   template <class T>
   void write(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>, "give this structure a list of fields of its own");
-    append(&value, sizeof value);
+    if constexpr (requires { archiveFields(*this, value); }) {
+      archiveFields(*this, value);
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>, "give this structure a list of fields of its own");
+      append(&value, sizeof value);
+    }
+  }
+  template <class T>
+  void write(const std::optional<T>& value) {
+    write(value.has_value());
+    write(value.value_or(T{}));
   }
   template <class T>
   void write(const std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
     const std::uint64_t count = values.size();
     append(&count, sizeof count);
-    if (count > 0) append(values.data(), count * sizeof(T));
+    if constexpr (requires { archiveFields(*this, values[0]); }) {
+      for (const T& value : values) archiveFields(*this, value);
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      if (count > 0) append(values.data(), count * sizeof(T));
+    }
   }
   void append(const void* data, std::size_t size) {
     const char* const from = static_cast<const char*>(data);
@@ -55,16 +71,35 @@ public:
 private:
   template <class T>
   void read(T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    extract(&value, sizeof value);
+    if constexpr (requires { archiveFields(*this, value); }) {
+      archiveFields(*this, value);
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      extract(&value, sizeof value);
+    }
+  }
+  template <class T>
+  void read(std::optional<T>& value) {
+    bool there = false;
+    T content{};
+    read(there);
+    read(content);
+    value = there ? std::optional<T>(content) : std::nullopt;
   }
   template <class T>
   void read(std::vector<T>& values) {
     std::uint64_t count = 0;
     extract(&count, sizeof count);
-    requireLeft(count, sizeof(T));
-    values.resize(static_cast<std::size_t>(count));
-    if (count > 0) extract(values.data(), static_cast<std::size_t>(count) * sizeof(T));
+    if constexpr (requires { archiveFields(*this, values[0]); }) {
+      requireLeft(count, 1);
+      values.resize(static_cast<std::size_t>(count));
+      for (T& value : values) archiveFields(*this, value);
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      requireLeft(count, sizeof(T));
+      values.resize(static_cast<std::size_t>(count));
+      if (count > 0) extract(values.data(), static_cast<std::size_t>(count) * sizeof(T));
+    }
   }
   void requireLeft(std::uint64_t count, std::size_t size) const;
   void extract(void* data, std::size_t size);

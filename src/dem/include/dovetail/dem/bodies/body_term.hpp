@@ -26,6 +26,7 @@ public:
   double renumber(std::span<const int> newNumber, const Particles& before) override;
   void addForces(Model& m, const Step& step) override;
   void book(Model& m, const Step& step) override;
+  void meanMotion(const Model& m, const Step& step, std::span<Vec3> v, std::span<Vec3> omega) const override;
   void close(Model& m, double dt) override;
   void addDemand(const Model& m, ContactDemand& demand) const override;
   void addEnergies(const Model& m, Energies& e) const override;

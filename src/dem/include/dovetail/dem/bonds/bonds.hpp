@@ -62,6 +62,8 @@ struct Bonds {
   std::vector<Forces> forces;    ///< of the last step: force on j (the opposite on i), torques on both, N, N m
   std::vector<double> utilised;  ///< of the last step: largest stress over strength
   std::vector<double> energy;    ///< of the last step: J stored in each
+  /// Pairs, the lower number first, whose last bond broke in the last exchange.
+  std::vector<std::array<int, 2>> broken;
   BondEnds ends;
 
   std::size_t size() const { return bonds.size(); }
@@ -93,14 +95,21 @@ int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list,
 ///         dt is not finite and ≥ 0
 ContactWork exchangeBonds(Particles& particles, Bonds& bonds, const geometry::Periodicity& space, double dt);
 
+/// Power that the dashpots of the bonds, as they stand after an exchange, take from particles that move with v and omega,
+/// W. The dashpots' forces are those of that exchange, made of the particles' own velocities: with the means of the
+/// velocities before and after the kick that these forces make it is what they lose in it.
+/// @param v, omega m/s, rad/s, per particle
+double dashpotPower(const Particles& particles, const Bonds& bonds, const geometry::Periodicity& space,
+                    std::span<const Vec3> v, std::span<const Vec3> omega);
+
 /// Gives the bonds the new numbers of their particles (see sortParticles), and sorts them by these; bonds of particles
 /// that are gone (< 0) leave, and what they held is booked by the next exchange.
 /// @param newNumber one per particle with which the bonds were last used
 void renumber(Bonds& bonds, std::span<const int> newNumber);
 
 /// Sets PairList::scale to 0 for bonded pairs, so that only the bond acts between them. Again for every new list; any
-/// number of times. (A law that wakes up between overlapping particles brings energy from nowhere: bond particles that
-/// touch and leave the law on, or mute those that overlap and do not break.)
+/// number of times. A pair whose bond breaks (Bonds::broken) stays muted until its factor is set again,
+/// as BondTerm does. (A law that wakes up between overlapping particles brings energy, which has to be booked.)
 void muteBonded(const Bonds& bonds, PairList& list);
 
 /// Adds the bonds to what is asked of the particles, as if each were a contact: the largest of its axial, twisting and

@@ -12,7 +12,9 @@ namespace dovetail::dem {
 class BondTerm final : public Term {
 public:
   Bonds bonds;
-  bool mutesContacts = false;  ///< only the bond acts between bonded particles, see muteBonded
+  /// Only the bond acts between bonded particles, see muteBonded. When it breaks they touch at once; what their contact
+  /// then stores is taken off the fracture energy.
+  bool mutesContacts = false;
 
   std::string name() const override { return "bonds"; }
   std::unique_ptr<Term> clone() const override { return std::make_unique<BondTerm>(*this); }
@@ -20,9 +22,14 @@ public:
   void renewed(Model& m) override;
   double renumber(std::span<const int> newNumber, const Particles& before) override;
   void addForces(Model& m, const Step& step) override;
+  void book(Model& m, const Step& step) override;
   void addDemand(const Model& m, ContactDemand& demand) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
+
+private:
+  void wake(Model& m, const Step& step);
+  double lost_ = 0.0;  // power of the dashpots against the velocities that they saw, W
 };
 
 /// Viscous and local damping of all particles, see damping.hpp.
@@ -76,6 +83,7 @@ public:
   void check(const Model& m) const override;
   bool prescribes() const override { return true; }
   void prescribe(Model& m, const Step& step, Half half) override;
+  void meanMotion(const Model& m, const Step& step, std::span<Vec3> v, std::span<Vec3> omega) const override;
   double renumber(std::span<const int> newNumber, const Particles& before) override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;

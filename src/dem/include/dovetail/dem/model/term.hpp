@@ -73,6 +73,9 @@ public:
   /// All forces are known: adds to model.rate the power of those that give or take energy (against the mean of the
   /// velocities before and after the kick that they make).
   virtual void book(Model&, const Step&) {}
+  /// For particles that the term moves: sets the means of their velocities (and spins) before and after the kick that is
+  /// due.
+  virtual void meanMotion(const Model&, const Step&, std::span<Vec3> /*v*/, std::span<Vec3> /*omega*/) const {}
   /// kick(dt/2): the end of the step.
   virtual void close(Model&, double /*dt*/) {}
 

@@ -7,6 +7,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/bodies/clumps.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
+#include "dovetail/dem/walls/primitive_wall.hpp"
 #include "dovetail/dem/walls/wall_contacts.hpp"
 
 namespace dovetail::dem {
@@ -16,11 +17,12 @@ struct ContactSample {
   std::vector<int> first;   ///< particle
   std::vector<int> second;  ///< particle, or −1 for a wall
   std::vector<Vec3> from;   ///< centre of the first, m
-  std::vector<Vec3>
-      to;  ///< centre of the second (its image next to the first one), or the contact point on the wall, m
+  std::vector<Vec3> to;  ///< centre of the second (its image next to the first one), or the contact point on the wall, m
   std::vector<Vec3> point;   ///< middle of the overlap, or the contact point on the wall, m
   std::vector<Vec3> normal;  ///< unit, from the second to the first
-  std::vector<Vec3> force;   ///< on the first, N
+  std::vector<Vec3> force;   ///< on the first, N; the second gets the opposite
+  /// N m, on the first about `from`, and on the second about `to`; zero where the law exerts no torques.
+  std::vector<Vec3> torqueFirst, torqueSecond;
 
   std::size_t size() const { return first.size(); }
 };
@@ -64,13 +66,14 @@ ContactSample samplePairs(const Particles& particles, const PairList& list,
   return samplePairs(particles, list, prepare(law));
 }
 
-/// Appends the contacts with a wall, with the forces that collideWithWall has set.
+/// Appends the contacts with a wall, with the forces that the last collide has set: one for each facet that takes part.
 void addWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts,
                      ContactSample& sample);
+void addWallContacts(const Particles& particles, const PrimitiveWall& wall, ContactSample& sample);
 
 /// Moves the ends of branches from members of clumps to the centres of their bodies: forces run through a rigid body,
-/// and the stress of an assembly of bodies is a sum over branches between their centres. Points, normals, forces and
-/// the numbers of the particles stay. For the kinetic part of a stress take bodies instead of their members.
+/// and the stress of an assembly of bodies is a sum over branches between their centres. Torques are about these ends
+/// then. Points, normals, forces and the numbers of the particles stay. For the kinetic part of a stress take bodies instead of their members.
 /// @param particles, bodies as they were when the sample was taken
 void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps& clumps, ContactSample& sample);
 

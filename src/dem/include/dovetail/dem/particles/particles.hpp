@@ -106,8 +106,8 @@ void applyGravity(Particles& particles, const Vec3& g);
 void kick(Particles& particles, double dt);
 /// x += v dt. (A sphere looks the same from every side: no orientation is kept.)
 void drift(Particles& particles, double dt);
-/// kick(dt/2) and drift(dt) in one sweep. Returns the largest displacement of a particle, m; infinite if some position
-/// or velocity is not finite.
+/// kick(dt/2) and drift(dt) in one sweep. Returns the largest displacement of a particle, m; infinite if some velocity
+/// or spin is not finite: these particles keep their places and forces, for requireFinite to tell what it was.
 double kickAndDrift(Particles& particles, double dt);
 /// kickAndDrift and startForces in one sweep: all of a step that comes before its contacts. kick(dt/2) ends the step.
 double startStep(Particles& particles, double dt, const Vec3& g);
@@ -125,7 +125,8 @@ Vec3 momentum(const Particles& particles);
 Vec3 angularMomentum(const Particles& particles);
 
 /// @param when for instance "t = 0.5 s, step 100"
-/// @throws NumericalError naming the first particle whose position or velocity is NaN or Inf
+/// @throws NumericalError naming what is NaN or Inf, and the first particle (by its id) of which it is: mass, radius,
+///   weight, position, force, torque, angular velocity, velocity, in this order, as the former spoil the latter
 void requireFinite(const Particles& particles, const std::string& when);
 
 }  // namespace dovetail::dem

@@ -21,7 +21,8 @@ void archiveWall(Archive& archive, Wall& w) {
 
 template <class Archive, class Candidates>
 void archiveCandidates(Archive& archive, Candidates& c) {
-  archive(c.particle, c.offsets, c.facet, c.image, c.position, c.period, c.flat, c.lastFacet, c.margin, c.builds,
+  archive(c.particle, c.offsets, c.facet, c.image, c.position, c.period, c.flat, c.lastFacet, c.margin,
+          c.reach, c.reachAtBuild, c.builds,
           c.particleRevision, c.facetsAtBuild, c.vertexAtBuild, c.smallestRadius, c.particleTravel, c.wallTravel);
 }
 

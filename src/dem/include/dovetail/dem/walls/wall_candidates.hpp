@@ -18,6 +18,8 @@ struct WallCandidates {
   /// m; larger = fewer searches, longer lists. Unset: 0.15 of the mean diameter. 0: a search at every step.
   std::optional<double> skin;
 
+  double reach = 0.0;  ///< m: of the law beyond touch, see ContactLaws::reach; adds to the skin, and rules see so far
+
   std::vector<int> particle;  ///< ascending
   std::vector<int> offsets;   ///< facets of particle[k]: facet[offsets[k]] … facet[offsets[k + 1] − 1]
   std::vector<int> facet;     ///< for each particle by image, then ascending
@@ -31,6 +33,7 @@ struct WallCandidates {
   mutable std::vector<int> lastFacet;  ///< the same length: which of its facets the contact was on, to look there first
 
   double margin = 0.0;      ///< the skin in use, m
+  double reachAtBuild = 0.0;
   std::int64_t builds = 0;  ///< how often the lists were made
   // What they were made from.
   std::int64_t particleRevision = -1;

@@ -39,7 +39,9 @@ struct WallContacts {
   std::vector<int> particle, facet;
   std::vector<std::array<double, 3>> weight;  ///< share of the facet's vertices in the contact point; sums to 1
   std::vector<Vec3> normal;                   ///< unit, from the wall to the particle
-  std::vector<double> overlap;                ///< λ, the part of the overlap that this contact carries, m, > 0
+  /// λ, the part of the overlap that this contact carries, m, > 0; where the law reaches farther than touch also the
+  /// whole gap, < 0, down to −reach.
+  std::vector<double> overlap;
   std::vector<double> engagement;  ///< share of what the law says to overlap/engagement: force, couple and their losses
   std::vector<double> energyShare;  ///< share of what it stores at that overlap
   std::vector<Vec3> force;          ///< on the particle, N; set by collideWithWall
@@ -78,7 +80,9 @@ inline Vec3 wallVelocity(const WallContacts& contacts, const TriangulatedWall& w
          w[2] * wall.v[static_cast<std::size_t>(vertex[2])];
 }
 
-/// Contacts as they are now; `force` is set to zero, `springs` stay. The same for any number of threads.
+/// Contacts as they are now; `force` is set to zero, `springs` stay. The same for any number of threads. With
+/// candidates.reach also contacts beyond touch: each with the nearest facet of those that do not face away from one
+/// another (normals less than about 80° apart), unless one of these is touched.
 void findWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                       EdgeRule rule, WallContacts& contacts);
 

@@ -1,0 +1,15 @@
+// Every contact of a model, for fields, averages and files.
+#pragma once
+
+#include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/pairs/contact_sample.hpp"
+
+namespace dovetail::dem {
+
+/// Contacts that carry a force, as the last step left them: pairs, then those with primitive walls, then those with
+/// triangulated ones, walls in the order in which they were added. Bonds have a sample of their own (sampleBonds). For
+/// output, not for every step. The sum over a particle's contacts is what they add to its force and torque.
+/// @throws InputError if forces have not been found yet
+ContactSample sampleContacts(const Model& m);
+
+}  // namespace dovetail::dem
