@@ -48,9 +48,9 @@ TEST(PairList, ContactsSurviveThatPositionsAreWrapped) {
   particles.x[1].x -= 1.0;
   wrapPositions(particles, list.periodicity);
   EXPECT_TRUE(updatePairs(particles, list, 0.0));
-  ASSERT_EQ(list.pairs, (std::vector<Pair>{{0, 1}}));
-  EXPECT_EQ(list.memory, (std::vector<double>{1e-4, 2e-4, 3e-4}));
-  EXPECT_EQ(list.scale, std::vector<double>{0.5});
+  ASSERT_EQ(list.pairs, (Pairs{{0, 1}}));
+  EXPECT_EQ(list.memory, (RawVector<double>{1e-4, 2e-4, 3e-4}));
+  EXPECT_EQ(list.scale, RawVector<double>{0.5});
   list.scale.clear();
   clearForces(particles);
   collide(particles, list, springs);
