@@ -7,6 +7,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/setup/insertion.hpp"
 
 namespace dovetail::dem {
@@ -90,6 +91,38 @@ void weighPairs(Model& m) {
 /// Laws that bond the pairs of a list keep the list that they were given.
 bool keepsPairs(const Model& m) { return m.laws && std::isinf(m.laws->reach()); }
 
+/// Whether moves by whole periods change the energy in gravity.
+bool wrapsLift(const Model& m) {
+  for (int k = 0; k < 3; ++k)
+    if (m.pairs.periodicity.axes[static_cast<std::size_t>(k)] && m.gravity[k] != 0.0) return true;
+  return false;
+}
+
+/// What the moves from `before` to where particles are now have given them in gravity, J; bodies book theirs.
+double liftedFrom(const std::vector<Vec3>& before, const Model& m) {
+  const Particles& p = m.particles;
+  const std::vector<char> skip = members(m);
+  return parallelSum(p.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i)
+      if (skip.empty() || skip[i] == 0) sum -= p.weightOf(i) * p.mass[i] * dot(m.gravity, p.x[i] - before[i]);
+    return sum;
+  });
+}
+
+void updateAndBookWraps(Model& m) {
+  PairList& list = m.pairs;
+  const bool maySearch = !list.fits(m.particles) || !list.skin || !(list.travel + m.step.moved <= 0.5 * *list.skin);
+  if (!maySearch || !wrapsLift(m)) {
+    updatePairs(m.particles, list, m.step.moved);
+    return;
+  }
+  const std::vector<Vec3> before = m.particles.x;
+  const std::int64_t wraps = m.particles.wraps;
+  updatePairs(m.particles, list, m.step.moved);
+  if (m.particles.wraps != wraps) m.booked.lifted += liftedFrom(before, m);
+}
+
 }  // namespace
 
 std::string when(const Model& m) { return "t = " + formatNumber(m.time) + " s, step " + std::to_string(m.steps); }
@@ -133,7 +166,10 @@ double gravityOf(const Particles& p, std::size_t i, const Vec3& gravity) {
 void renewPairs(Model& m) {
   m.pairs.reach = m.laws && !keepsPairs(m) ? m.laws->reach() : 0.0;
   const std::int64_t builds = m.pairs.builds, revision = m.pairs.revision;
-  if (!(keepsPairs(m) && builds > 0)) updatePairs(m.particles, m.pairs, m.step.moved);
+  if (!(keepsPairs(m) && builds > 0))
+    updateAndBookWraps(m);
+  else if (!m.pairs.fits(m.particles))
+    keepPairs(m.particles, m.pairs);
   if (m.pairs.builds != builds) {
     letEscape(m);
     if (m.sortEvery > 0 && m.renewals++ % m.sortEvery == 0) sort(m);

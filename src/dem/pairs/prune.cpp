@@ -167,3 +167,24 @@ void takeFound(const Particles& particles, const geometry::HierarchicalGrid& gri
 }
 
 }  // namespace dovetail::dem::detail
+
+namespace dovetail::dem {
+
+void keepPairs(const Particles& particles, PairList& list) {
+  list.candidates = {};
+  list.positionAtPruning = {};
+  list.positionAtBuild = particles.x;
+  list.particleRevision = particles.revision;
+  list.wraps = particles.wraps;
+  list.chunks.size = detail::chunkSize(particles.size());
+  detail::findRanges(particles.size(), list.pairs, list.chunks.begin);
+  detail::Links links(list.chunks.count());
+  parallelFor(list.chunks.count(), 1, [&](std::size_t c, std::size_t) {
+    links.findCrossers(list, c);
+    detail::findImages(particles, list, c, links.images[c]);
+  });
+  links.join(list);
+  ++list.revision;
+}
+
+}  // namespace dovetail::dem

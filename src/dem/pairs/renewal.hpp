@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +17,7 @@ std::size_t chunkSize(std::size_t particles);
 /// Ranges of sorted pairs that belong to the chunks.
 void findRanges(std::size_t particles, const Pairs& sorted, std::vector<std::size_t>& begin);
 
-/// How often space repeats between the particles of a pair; they are in the periodic box, or near it.
+/// How often space repeats between the particles of a pair.
 struct Repeats {
   bool any = false;
   std::array<std::int8_t, 3> periods{};  ///< to be added to d
@@ -25,9 +26,8 @@ inline Repeats repeatsOf(const geometry::Periodicity& periodicity, const Vec3& d
   Repeats repeats;
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    if (!periodicity.axes[axis]) continue;
-    const double half = 0.5 * periodicity.length(k);
-    repeats.periods[axis] = static_cast<std::int8_t>((d[k] <= -half ? 1 : 0) - (d[k] >= half ? 1 : 0));
+    if (!periodicity.axes[axis] || std::abs(d[k]) < 0.5 * periodicity.length(k)) continue;
+    repeats.periods[axis] = static_cast<std::int8_t>(-std::round(d[k] / periodicity.length(k)));
     repeats.any = repeats.any || repeats.periods[axis] != 0;
   }
   return repeats;

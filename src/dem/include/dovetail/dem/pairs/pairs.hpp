@@ -126,6 +126,10 @@ void wrapPositions(Particles& particles, const geometry::Periodicity& periodicit
 /// @param before    the particles as they are numbered until now, those that go included
 void renumber(PairList& list, std::span<const int> newNumber, const Particles& before);
 
+/// For lists that stay as they are, of laws that bond them: makes anew what hangs on the particles' numbers and number,
+/// after renumber, and after particles have been added, which get no pairs. Images are the nearest ones.
+void keepPairs(const Particles& particles, PairList& list);
+
 /// Makes the chunks of a list whose other parts have been read from a file.
 void restoreChunks(const Particles& particles, PairList& list);
 
