@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "dovetail/core/parallel.hpp"
@@ -113,6 +114,27 @@ TEST(PairList, FactorsStayWithTheirPairs) {
   renumber(particles, reversed);
   const int last = static_cast<int>(particles.size()) - 1;
   for (const Pair& pair : muted) EXPECT_EQ(factorOf({last - pair[1], last - pair[0]}), 0.25);
+}
+
+TEST(PairList, ThinnerInnerSkinsWhereTheCandidatesLastLonger) {
+  Particles particles = dense(3000, 0.6, 7);
+  for (Vec3& v : particles.v) v = {1.0, 0.0, 0.0};
+  for (const int life : {10, 40, 160}) {
+    PairList list;
+    findPairs(particles, 0.02, list);
+    const double dt = 0.5 * 0.02 / life;
+    const auto step = [&](int count) {
+      for (int i = 0; i < count; ++i) {
+        drift(particles, dt);
+        updatePairs(particles, list, dt);
+      }
+    };
+    step(3 * life);
+    const std::int64_t builds = list.builds, revision = list.revision;
+    step(8 * life);
+    const double prunings = static_cast<double>(list.revision - revision) / static_cast<double>(list.builds - builds);
+    EXPECT_NEAR(prunings, std::sqrt(0.7 * life), 0.15 * std::sqrt(0.7 * life) + 0.5) << life;
+  }
 }
 
 TEST(PairList, WhatLeaversHoldIsBookedWithTheirMaterials) {

@@ -119,16 +119,19 @@ void takeAll(const Particles& particles, Pairs&& pairs, PairList& list) {
   renewChunks(particles, pairs, list, [&](std::size_t c, auto& images) { findImages(particles, list, c, images); });
 }
 
-/// A pruning should last a few tens of steps: longer lists cost at every step, picking costs now.
+/// A thin inner skin lists few pairs that do not touch, but lasts shortly. With n prunings in the life of L steps that
+/// the candidates have, the prunings cost as n/L and the pairs within the skin as 1/n: least for n ~ √L, where the
+/// factor says that a pruning costs about 1.4 times as much as a step spends on the pairs of the whole skin.
 void adaptInnerSkin(PairList& list) {
-  constexpr double smallest = 0.05, largest = 0.8, first = 0.25;  // of the skin
-  if (list.innerSkin <= 0.0)
-    list.innerSkin = first * *list.skin;
-  else if (list.updatesSincePruning < 15)
-    list.innerSkin *= 1.5;
-  else if (list.updatesSincePruning > 60)
-    list.innerSkin *= 0.75;
-  list.innerSkin = std::clamp(list.innerSkin, smallest * *list.skin, largest * *list.skin);
+  constexpr double factor = 0.7, fewest = 2.0, most = 20.0, first = 4.0;
+  constexpr double slack = 1.1;  // so that the candidates are used up before the last pruning is
+  double prunings = first;
+  if (list.innerSkin > 0.0) {
+    if (list.updatesSincePruning == 0) return;
+    const double life = static_cast<double>(list.updatesSincePruning) * 0.5 * *list.skin / list.innerTravel;
+    prunings = std::clamp(std::round(std::sqrt(factor * life)), fewest, most);
+  }
+  list.innerSkin = slack * *list.skin / prunings;
 }
 
 }  // namespace
