@@ -112,7 +112,7 @@ TEST(BrokenBonds, OfAPairThatAnotherBondStillJoinsWakeNobody) {
   EXPECT_TRUE(bonds(model).broken.empty());
   advance(model, 2e-5);
   ASSERT_EQ(model.pairs.size(), 1u);
-  EXPECT_EQ(model.pairs.scale, std::vector<double>{0.0});
+  EXPECT_EQ(model.pairs.scale[0], 0.0);
 }
 
 }  // namespace

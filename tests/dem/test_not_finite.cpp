@@ -45,8 +45,8 @@ std::string said(Spoil&& spoil, bool driven = false) {
 }
 
 void expectNamed(const std::string& text, const std::string& what, const std::string& whose) {
-  EXPECT_NE(text.find(what + " is not finite"), std::string::npos) << text;
-  EXPECT_NE(text.find("particle " + whose + "]"), std::string::npos) << text;
+  EXPECT_NE(text.find(what + " is not finite"), std::string::npos) << what << ": " << text;
+  EXPECT_NE(text.find("particle " + whose + "]"), std::string::npos) << what << ": " << text;
 }
 
 TEST(NotFinite, EachFieldIsNamedWithItsParticle) {

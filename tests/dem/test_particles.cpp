@@ -49,7 +49,8 @@ TEST(Particles, BadValuesAreRefusedWithParticleAndField) {
   particles.mass = {1.0, 2.0};
   EXPECT_THROW(validate(particles), InputError);
   particles.v[0].z = nan;
-  EXPECT_NE(complaint([&] { requireFinite(particles, "t = 1 s"); }).find("velocity of particle 0"), std::string::npos);
+  const std::string text = complaint([&] { requireFinite(particles, "t = 1 s"); });
+  EXPECT_NE(text.find("velocity is not finite, t = 1 s [particle 0]"), std::string::npos) << text;
 }
 
 TEST(Particles, FreeFallIsExactInVelocityVerlet) {

@@ -88,9 +88,11 @@ double addDamping(const Bond& bond, const Line& line, const Vec3& velocity, cons
 struct Answer {
   ContactWork work;
   int broken = 0;
+  double powerOfBroken = 0.0;
   Answer& operator+=(const Answer& b) {
     work += b.work;
     broken += b.broken;
+    powerOfBroken += b.powerOfBroken;
     return *this;
   }
 };
@@ -108,8 +110,10 @@ Answer answerBond(const Particles& particles, Bonds& bonds, const geometry::Peri
   f = elasticForces(bond, line, energy);
   bonds.utilised[b] = utilisation(bond, line, f);
   if (dt > 0.0 && bonds.utilised[b] > 1.0) {
-    f = {};
     answer.work.fracturePower = energy / dt;
+    answer.powerOfBroken =
+        dot(f.force, particles.v[j] - particles.v[i]) + dot(f.torqueI, omegaI) + dot(f.torqueJ, omegaJ);
+    f = {};
     answer.broken = 1;
     return answer;
   }
@@ -152,6 +156,7 @@ ContactWork exchangeBonds(Particles& particles, Bonds& bonds, const geometry::Pe
     return sum;
   });
   bonds.broken.clear();
+  bonds.powerOfBroken = answer.powerOfBroken;
   for (std::size_t b = answer.broken > 0 ? bonds.size() : 0; b-- > 0;)
     if (bonds.utilised[b] > 1.0) {
       const auto [i, j] = std::minmax(bonds.bonds[b].i, bonds.bonds[b].j);

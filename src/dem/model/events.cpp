@@ -30,6 +30,20 @@ bool inside(const Domain& domain, const geometry::Periodicity& space, const Vec3
   return true;
 }
 
+/// Numbers of the particles that `is` picks, ascending.
+template <class Is>
+std::vector<int> thoseOf(std::size_t particles, Is&& is) {
+  constexpr std::size_t grain = 8192;
+  std::vector<std::vector<int>> parts((particles + grain - 1) / grain);
+  parallelFor(particles, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (is(i)) parts[begin / grain].push_back(static_cast<int>(i));
+  });
+  std::vector<int> those;
+  for (const auto& part : parts) those.insert(those.end(), part.begin(), part.end());
+  return those;
+}
+
 /// Adds a particle to what was exchanged; its energy, J. Where velocities lag, what its forces will have given counts.
 double book(const Model& m, std::size_t i, Exchanged& exchanged) {
   const Particles& p = m.particles;
@@ -43,9 +57,8 @@ double book(const Model& m, std::size_t i, Exchanged& exchanged) {
 
 void letEscape(Model& m) {
   if (!m.domain) return;
-  std::vector<int> out;
-  for (std::size_t i = 0; i < m.particles.size(); ++i)
-    if (!inside(*m.domain, m.pairs.periodicity, m.particles.x[i])) out.push_back(static_cast<int>(i));
+  const std::vector<int> out = thoseOf(
+      m.particles.size(), [&](std::size_t i) { return !inside(*m.domain, m.pairs.periodicity, m.particles.x[i]); });
   if (out.empty()) return;
   const auto first = static_cast<std::size_t>(out.front());
   if (m.domain->policy == EscapePolicy::refuse)
@@ -120,21 +133,31 @@ double smallestRadius(const Particles& particles) {
 
 double largestSpeed(const Particles& particles) {
   constexpr std::size_t grain = 4096;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const auto sum = [](const Vec3& a) { return a.x + a.y + a.z; };
+  const bool spins = particles.rotates();
   const double squared = parallelMax(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
     double largest = 0.0;
-    for (std::size_t i = begin; i < end; ++i)
-      if (const double v2 = squaredNorm(particles.v[i]); !(v2 <= largest)) largest = v2;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double poison = sum(particles.x[i]) + particles.radius[i] + (spins ? sum(particles.omega[i]) : 0.0);
+      const double v2 = squaredNorm(particles.v[i]) + 0.0 * poison;
+      if (!(v2 <= largest)) largest = std::isfinite(v2) ? v2 : infinite;
+    }
     return largest;
   });
-  return std::isfinite(squared) ? std::sqrt(squared) : std::numeric_limits<double>::infinity();
+  return std::sqrt(squared);
 }
 
 void requireShortMoves(const Particles& particles, double dt, const std::string& when) {
+  const std::vector<int> thrown = thoseOf(particles.size(), [&](std::size_t i) {
+    return !(norm(particles.v[i]) * dt <= particles.radius[i]) || !isFinite(particles.x[i]) ||
+           (particles.rotates() && !isFinite(particles.omega[i]));
+  });
+  if (thrown.empty()) return;
   requireFinite(particles, when);
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    if (norm(particles.v[i]) * dt > particles.radius[i])
-      throw NumericalError("it moved farther than its radius in one step, " + when + ", " + state(particles, i),
-                           name(particles, i), "take a smaller time step, or look for what has thrown it");
+  const auto i = static_cast<std::size_t>(thrown.front());
+  throw NumericalError("it moved farther than its radius in one step, " + when + ", " + state(particles, i),
+                       name(particles, i), "take a smaller time step, or look for what has thrown it");
 }
 
 double kineticEnergyOf(const Particles& p, std::size_t i) {

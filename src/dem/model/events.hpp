@@ -12,7 +12,7 @@ namespace dovetail::dem {
 std::string when(const Model& m);
 /// m; 0 without particles
 double smallestRadius(const Particles& particles);
-/// m/s; infinite if one is not finite
+/// m/s; infinite if a velocity, position, spin or radius is not finite
 double largestSpeed(const Particles& particles);
 /// @throws InputError if it is not finite
 void requireFiniteGravity(const Model& m);

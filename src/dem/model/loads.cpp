@@ -34,14 +34,32 @@ double BondTerm::renumber(std::span<const int> newNumber, const Particles&) {
 void BondTerm::addForces(Model& m, const Step& step) {
   lost_ = 0.0;
   if (bonds.size() == 0 && bonds.ended == 0.0) return;
-  const ContactWork work = exchangeBonds(m.particles, bonds, m.pairs.periodicity, step.timeless ? 0.0 : step.dt);
+  ContactWork work = exchangeBonds(m.particles, bonds, m.pairs.periodicity, step.timeless ? 0.0 : step.dt);
+  // The last force of a bond that breaks is that of the step before, which acted half of the way: there it broke.
+  work.fracturePower += 0.5 * bonds.powerOfBroken;
   lost_ = work.dissipatedPower;
   m.work += work;
   if (mutesContacts && !bonds.broken.empty()) wake(m, step);
 }
 
-/// The contacts under bonds that have just broken, in a list of their own. They start without memory; what they store
-/// was not there a step ago, so that the break loses so much less.
+namespace {
+/// Power of the forces on the particles of a list, W.
+double powerOn(const Particles& p, const PairList& list) {
+  std::vector<int> members;
+  for (const auto& pair : list.pairs) members.insert(members.end(), pair.begin(), pair.end());
+  std::sort(members.begin(), members.end());
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+  double power = 0.0;
+  for (const int i : members) {
+    power += dot(p.f[at(i)], p.v[at(i)]);
+    if (p.rotates()) power += dot(p.torque[at(i)], p.omega[at(i)]);
+  }
+  return power;
+}
+}  // namespace
+
+/// The contacts under bonds that have just broken, in a list of their own. They start without memory, as if half a
+/// step ago; what they stored then was not there before, so that the break loses so much less.
 void BondTerm::wake(Model& m, const Step& step) {
   PairList& list = m.pairs;
   std::vector<std::size_t> places;
@@ -61,8 +79,11 @@ void BondTerm::wake(Model& m, const Step& step) {
     awake.scale.push_back(list.scale[p]);
   }
   keepPairs(m.particles, awake);
+  const double before = powerOn(m.particles, awake);
   ContactWork work = m.laws->pairs(m.particles, awake, step.dt, m.booking);
-  work.fracturePower -= work.storedEnergy() / step.dt;
+  if (m.booking == Booking::on)
+    work.fracturePower -=
+        work.storedEnergy() / step.dt + 0.5 * (powerOn(m.particles, awake) - before + work.dissipatedPower);
   m.work += work;
   for (std::size_t k = 0; k < places.size(); ++k)
     for (std::size_t c = 0; c < static_cast<std::size_t>(m.laws->memory()); ++c)

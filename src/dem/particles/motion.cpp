@@ -78,7 +78,8 @@ double advance(Particles& particles, std::size_t i, const Sweep& sweep) {
   Vec3 v = particles.v[i];
   for (int k = 0; k < sweep.halfKicks; ++k) v += half * particles.f[i];
   particles.v[i] = v;
-  double moved = squaredNorm(v) * (sweep.dt * sweep.dt);
+  Vec3& x = particles.x[i];
+  double moved = squaredNorm(v) * (sweep.dt * sweep.dt) + 0.0 * (x.x + x.y + x.z);
   if constexpr (spins) {
     const double halfSpin = 0.5 * sweep.dt / (weight * momentOfInertia(particles, static_cast<int>(i)));
     Vec3 omega = particles.omega[i];
@@ -88,7 +89,7 @@ double advance(Particles& particles, std::size_t i, const Sweep& sweep) {
   }
   if (!(moved < infinity)) [[unlikely]]
     return infinity;
-  particles.x[i] += sweep.dt * v;
+  x += sweep.dt * v;
   if (sweep.startsForces) {
     particles.f[i] = mass * sweep.g;
     if constexpr (spins) particles.torque[i] = {};

@@ -38,8 +38,8 @@ private:
     write(value.has_value());
     write(value.value_or(T{}));
   }
-  template <class T>
-  void write(const std::vector<T>& values) {
+  template <class T, class Allocator>
+  void write(const std::vector<T, Allocator>& values) {
     const std::uint64_t count = values.size();
     append(&count, sizeof count);
     if constexpr (requires { archiveFields(*this, values[0]); }) {
@@ -86,8 +86,8 @@ private:
     read(content);
     value = there ? std::optional<T>(content) : std::nullopt;
   }
-  template <class T>
-  void read(std::vector<T>& values) {
+  template <class T, class Allocator>
+  void read(std::vector<T, Allocator>& values) {
     std::uint64_t count = 0;
     extract(&count, sizeof count);
     if constexpr (requires { archiveFields(*this, values[0]); }) {

@@ -150,8 +150,8 @@ struct Slider {
 
   /// The spring alone keeps below the limit; the dashpot adds what the limit leaves. (The other way round, a dashpot
   /// above the limit would stretch the spring backwards, with energy from nowhere.)
-  /// What the dashpot takes is booked as that of the normal one (bookedDashpot); where the limit cuts it off it hardly
-  /// depends on the velocity, so that the step of the first touch counts as any other.
+  /// What the dashpot takes is booked as that of the normal one (bookedDashpot); where the limit cuts it off it depends
+  /// on the velocity less, so that the step of the first touch counts nearly as any other.
   /// @param kept        stretch before this step
   /// @param forceBefore of the spring, in the last step; sliding is booked with the mean of both, as the work is done
   /// @param rate        relative velocity
@@ -167,7 +167,7 @@ struct Slider {
     force = (cut ? limit / (cut ? whole : 1.0) : 1.0) * both;
     energy = 0.5 * dot(spring, stretch);
     const double slipWork = 0.5 * dot(spring + forceBefore, stretched - stretch);
-    lostPower = slipWork * contact.inverseDt + (cut ? 1.0 : dampingShare) * dot(force - spring, rate);
+    lostPower = slipWork * contact.inverseDt + (cut ? 0.5 + 0.5 * dampingShare : dampingShare) * dot(force - spring, rate);
   }
 };
 

@@ -48,10 +48,10 @@ struct ParticleTravel {
 struct Largest {
   double value = 0.0;
   void meet(double x) {
-    if (!(x <= value)) value = x;
+    if (!(x <= value || std::isnan(value))) value = x;
   }
   Largest& operator+=(const Largest& other) {
-    if (!std::isnan(value)) meet(other.value);
+    meet(other.value);
     return *this;
   }
 };
