@@ -37,7 +37,7 @@ struct ContactBlock {
   alignas(64) Row energyShare;  ///< factor on what normal springs store and plastic flow takes
   // Given: both
   Rows3 velocity;                   ///< v_particle − v_partner, m/s: of the centres (pairs), at the contact (walls)
-  Rows3 spinI, spinJ;               ///< ω of the particle and of the partner, rad/s
+  Rows3 spinSum, spinDifference;    ///< ω_particle ± ω_partner, rad/s
   alignas(64) Row rootMass;         ///< √ of the effective mass, kg^½
   alignas(64) Row effectiveRadius;  ///< m
   alignas(64) Row scale;            ///< factor on forces and energies
@@ -45,10 +45,9 @@ struct ContactBlock {
   alignas(64) std::array<Row, 12> memory;       ///< of the law, by component; advanced
 
   // Answered
-  Rows3 force;                 ///< on the particle, N
-  Rows3 couple;                ///< on the particle beyond arm × force, N m
-  Rows3 turning;               ///< normal × force, N: times −arm it is the moment on a particle (pairs)
-  alignas(64) Row armI, armJ;  ///< distances of the centres from the contact, m (pairs)
+  Rows3 force;                                 ///< on the particle, N
+  Rows3 couple;                                ///< on the particle beyond arm × force, N m (walls)
+  Rows3 torqueI, torqueJ;                      ///< on the particle and its partner about their centres, N m (pairs)
   alignas(64) std::array<Row, channels> work;  ///< channels of ContactWork
 };
 
@@ -113,7 +112,7 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
     if constexpr (options.varied) law = fromRows<Prepared>(rows, l, std::make_index_sequence<parameters>{});
     Contact contact;
     Vec3 normal, velocity = block.velocity.at(l);
-    double armI = 0.0, armJ = 0.0, overlap = 0.0;
+    double overlap = 0.0;
     if constexpr (options.wall) {
       normal = block.normal.at(l);
       overlap = block.overlap[l];
@@ -123,14 +122,15 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
       const double distance = std::sqrt(squared), inverse = 1.0 / (squared > 0.0 ? distance : 1.0);
       normal = {squared > 0.0 ? separation.x * inverse : 1.0, separation.y * inverse, separation.z * inverse};
       overlap = block.radiusI[l] + block.radiusJ[l] - distance;
-      armI = block.radiusI[l] - 0.5 * overlap;
-      armJ = block.radiusJ[l] - 0.5 * overlap;
+      // The arms, R − overlap/2, add up to the distance, and differ as the radii do.
+      if constexpr (options.spins)
+        velocity -= cross((0.5 * distance) * block.spinSum.at(l) +
+                              (0.5 * (block.radiusI[l] - block.radiusJ[l])) * block.spinDifference.at(l),
+                          normal);
     }
     if constexpr (options.spins) {
-      const Vec3 spinI = block.spinI.at(l), spinJ = block.spinJ.at(l);
-      if constexpr (!options.wall) velocity -= cross(armI * spinI + armJ * spinJ, normal);
-      contact.spin = spinI - spinJ;
-      contact.twist = 0.5 * dot(spinI + spinJ, normal);
+      contact.spin = block.spinDifference.at(l);
+      contact.twist = 0.5 * dot(block.spinSum.at(l), normal);
     }
     const bool touches = overlap > -law.reach();
     contact.normal = normal;
@@ -158,12 +158,14 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
                      touches ? scale * response.force.z : 0.0};
     block.force.set(l, force);
     if constexpr (options.spins) {
-      block.couple.set(l, {touches ? scale * response.couple.x : 0.0, touches ? scale * response.couple.y : 0.0,
-                           touches ? scale * response.couple.z : 0.0});
-      if constexpr (!options.wall) {
-        block.turning.set(l, cross(normal, force));
-        block.armI[l] = armI;
-        block.armJ[l] = armJ;
+      const Vec3 couple{touches ? scale * response.couple.x : 0.0, touches ? scale * response.couple.y : 0.0,
+                        touches ? scale * response.couple.z : 0.0};
+      if constexpr (options.wall) {
+        block.couple.set(l, couple);
+      } else {
+        const Vec3 turning = cross(force, normal);
+        block.torqueI.set(l, (block.radiusI[l] - 0.5 * overlap) * turning + couple);
+        block.torqueJ.set(l, (block.radiusJ[l] - 0.5 * overlap) * turning - couple);
       }
     }
     storeMemory(block, l, memory, touches, components);

@@ -63,8 +63,9 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
     block.rootMass[l] = std::sqrt(particles.mass[i]);
     block.kind[l] = laws.materials > 1 ? materialOf(particles, i) * laws.materials + wallMaterial : 0;
     if constexpr (Law::rotates) {
-      block.spinI.set(l, particles.rotates() ? particles.omega[i] : Vec3{});
-      block.spinJ.set(l, motion.spin(c));
+      const Vec3 spin = particles.rotates() ? particles.omega[i] : Vec3{}, wallSpin = motion.spin(c);
+      block.spinSum.set(l, spin + wallSpin);
+      block.spinDifference.set(l, spin - wallSpin);
     }
     for (std::size_t m = 0; m < Law::memory; ++m) block.memory[m][l] = memory[c * Law::memory + m];
   }
