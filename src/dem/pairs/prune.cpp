@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "dovetail/core/large_pages.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 
@@ -77,6 +78,14 @@ void prunePairs(const Particles& particles, PairList& list) {
   takePairs(particles, closerThan(list.innerSkin + list.reach, particles, list), list);
 }
 
+/// Arrays that each step goes through.
+void preferLargePagesFor(const Particles& particles, const PairList& list) {
+  forEachArray(particles, [](const auto& array) { preferLargePages(array); });
+  preferLargePages(list.pairs);
+  preferLargePages(list.memory);
+  preferLargePages(list.scale);
+}
+
 void takeFound(const Particles& particles, const geometry::HierarchicalGrid& grid, double skin, PairList& list) {
   copyPositions(particles, list.positionAtBuild);
   list.particleRevision = particles.revision;
@@ -91,12 +100,14 @@ void takeFound(const Particles& particles, const geometry::HierarchicalGrid& gri
     list.candidates = {};
     list.positionAtPruning = {};
     list.innerSkin = skin;
-    return takePairs(particles, std::move(found), list);
+    takePairs(particles, std::move(found), list);
+    return preferLargePagesFor(particles, list);
   }
   if (!(list.innerSkin < skin)) list.innerSkin = 0.0;
   list.candidates = std::move(found);
   findRanges(particles.size(), list.candidates, list.chunks.candidates);
   prunePairs(particles, list);
+  preferLargePagesFor(particles, list);
 }
 
 }  // namespace dovetail::dem::detail
