@@ -199,7 +199,7 @@ void finishChunk(Particles& particles, PairList& list, const PairRows& rows, con
   }
 }
 
-std::size_t gatherPairs(const Particles& particles, const PairList& list, const PairRows& rows, PairCursor& cursor,
+std::size_t gatherPairs(const Particles& particles, PairList& list, const PairRows& rows, PairCursor& cursor,
                         ContactBlock& block) {
   const std::size_t first = cursor.pair, n = std::min(blockSize, cursor.end - first);
   const auto* const pairs = list.pairs.data() + first;
@@ -218,13 +218,12 @@ std::size_t gatherPairs(const Particles& particles, const PairList& list, const 
   if (rows.radius && !rows.oneRadius) makeRadii(n, block);
   if (rows.varied) gatherVaried(particles, list, first, rows.materials, n, block);
   for (std::size_t c = 0; c < static_cast<std::size_t>(rows.memory); ++c)
-    std::copy_n(list.memory.data() + c * list.size() + first, n, block.memory[c].begin());
+    block.memory[c] = list.memory.data() + c * list.size() + first;
   return n;
 }
 
-void scatterPairs(PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor, const ContactBlock& block) {
-  for (std::size_t c = 0; c < static_cast<std::size_t>(rows.memory); ++c)
-    std::copy_n(block.memory[c].begin(), n, list.memory.data() + c * list.size() + cursor.pair);
+void scatterPairs(const PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
+                  const ContactBlock& block) {
   if (!rows.turns)
     addToSums<false, false>(list, cursor, n, block);
   else if (rows.spinDifferences)

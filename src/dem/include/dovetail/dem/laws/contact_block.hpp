@@ -10,6 +10,13 @@
 
 #include "dovetail/dem/laws/contact.hpp"
 
+// The passes of the loop that follows do not touch each other's data.
+#ifdef __clang__
+#define DOVETAIL_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define DOVETAIL_INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
 namespace dovetail::dem::detail {
 
 inline constexpr std::size_t blockSize = 64;
@@ -42,7 +49,7 @@ struct ContactBlock {
   alignas(64) Row effectiveRadius;  ///< m
   alignas(64) Row scale;            ///< factor on forces and energies
   alignas(64) std::array<int, blockSize> kind;  ///< row of the law table
-  alignas(64) std::array<Row, 12> memory;       ///< of the law, by component; advanced
+  std::array<double*, 12> memory;               ///< of the law, rows by component; advanced
 
   // Answered
   Rows3 force;                                 ///< on the particle, N
@@ -60,14 +67,13 @@ struct BlockOptions {
 };
 
 template <std::size_t... C>
-inline void loadMemory(const ContactBlock& block, [[maybe_unused]] std::size_t l, double* memory,
-                       std::index_sequence<C...>) {
-  ((memory[C] = block.memory[C][l]), ...);
+inline void loadMemory(double* const* rows, [[maybe_unused]] std::size_t l, double* memory, std::index_sequence<C...>) {
+  ((memory[C] = rows[C][l]), ...);
 }
 template <std::size_t... C>
-inline void storeMemory(ContactBlock& block, [[maybe_unused]] std::size_t l, const double* memory, bool keep,
+inline void storeMemory(double* const* rows, [[maybe_unused]] std::size_t l, const double* memory, bool keep,
                         std::index_sequence<C...>) {
-  ((block.memory[C][l] = keep ? memory[C] : 0.0), ...);
+  ((rows[C][l] = keep ? memory[C] : 0.0), ...);
 }
 
 /// @param ended what a contact that no longer touches takes with it
@@ -107,6 +113,8 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
       std::memcpy(v, laws + block.kind[l], sizeof v);
       for (std::size_t c = 0; c < parameters; ++c) rows[c][l] = v[c];
     }
+  const auto held = block.memory;
+  DOVETAIL_INDEPENDENT
   for (std::size_t l = 0; l < n; ++l) {
     Prepared law = single;
     if constexpr (options.varied) law = fromRows<Prepared>(rows, l, std::make_index_sequence<parameters>{});
@@ -149,7 +157,7 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
     contact.dt = dt;
     contact.inverseDt = inverseDt;
     double memory[Law::memory + 1];
-    loadMemory(block, l, memory, components);
+    loadMemory(held.data(), l, memory, components);
     ContactWork ended;
     if constexpr (Law::memory > 0 && options.booked) ended = law.ended(memory, inverseDt);
     const ContactResponse response = law.respond(contact, memory);
@@ -168,7 +176,7 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
         block.torqueJ.set(l, (block.radiusJ[l] - 0.5 * overlap) * turning - couple);
       }
     }
-    storeMemory(block, l, memory, touches, components);
+    storeMemory(held.data(), l, memory, touches, components);
     if constexpr (options.booked)
       storeWork(block, l, response.work, ended, touches, scale, options.wall ? block.energyShare[l] : scale);
   }

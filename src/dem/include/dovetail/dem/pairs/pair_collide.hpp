@@ -64,10 +64,11 @@ void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>
 /// Effective radii from the radii.
 void makeRadii(std::size_t n, ContactBlock& block);
 /// Fills the block with the next pairs; returns how many.
-std::size_t gatherPairs(const Particles& particles, const PairList& list, const PairRows& rows, PairCursor& cursor,
+std::size_t gatherPairs(const Particles& particles, PairList& list, const PairRows& rows, PairCursor& cursor,
                         ContactBlock& block);
-/// Adds the block's forces to the sums, and stores the memories; moves on.
-void scatterPairs(PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor, const ContactBlock& block);
+/// Adds the block's forces to the sums; moves on.
+void scatterPairs(const PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
+                  const ContactBlock& block);
 /// Adds what pairs of other chunks do to particles.
 void addCrossing(Particles& particles, const PairList& list, bool spins);
 /// The contact of a pair that went with a particle, as if nobody moved.

@@ -84,6 +84,8 @@ ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vect
   constexpr BlockOptions booked{.spins = Law::rotates, .wall = true, .varied = true, .booked = true};
   const auto answerBlock = [&](std::size_t first, std::size_t end) {
     ContactBlock block;
+    std::array<ContactBlock::Row, Law::memory + 1> held;
+    for (std::size_t m = 0; m < Law::memory; ++m) block.memory[m] = held[m].data();
     const std::size_t n = end - first;
     gatherWall<Law>(particles, contacts, memory, laws, wallMaterial, first, n, motion, block);
     if (booking == Booking::on)
