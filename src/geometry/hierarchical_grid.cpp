@@ -1,6 +1,7 @@
 #include "dovetail/geometry/hierarchical_grid.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -44,10 +45,11 @@ std::size_t classOf(double inflated, const std::array<double, sizeClasses>& boun
 /// Spheres per task.
 constexpr std::size_t grain = 8192;
 
-struct Largest {
-  double value = 0.0;
-  Largest& operator+=(const Largest& b) {
-    value = std::max(value, b.value);
+struct Bounds {
+  double smallest = infinity, largest = 0.0;
+  Bounds& operator+=(const Bounds& b) {
+    smallest = std::min(smallest, b.smallest);
+    largest = std::max(largest, b.largest);
     return *this;
   }
 };
@@ -81,7 +83,8 @@ HierarchicalGrid::HierarchicalGrid(const Periodicity& periodicity) : periodicity
                        "give a finite upper bound above the lower one");
 }
 
-void HierarchicalGrid::checkSpheres(std::span<const Vec3> x, std::span<const double> radius, double skin) const {
+HierarchicalGrid::Sizes HierarchicalGrid::checkSpheres(std::span<const Vec3> x, std::span<const double> radius,
+                                                       double skin) const {
   if (x.size() != radius.size())
     throw InputError(std::to_string(x.size()) + " positions but " + std::to_string(radius.size()) + " radii",
                      "hierarchical grid", "give one radius per position");
@@ -89,20 +92,21 @@ void HierarchicalGrid::checkSpheres(std::span<const Vec3> x, std::span<const dou
     throw InputError("too many particles: " + std::to_string(x.size()), "hierarchical grid",
                      "give at most " + std::to_string(std::numeric_limits<int>::max() / 8));
   requireNonNegative(skin, "skin");
-  const double largest = parallelSum(x.size(), grain, [&](std::size_t begin, std::size_t end) {
-                           Largest part;
-                           for (std::size_t i = begin; i < end; ++i) {
-                             checkSphere(x[i], radius[i], i);
-                             part += Largest{radius[i]};
-                           }
-                           return part;
-                         }).value;
+  const auto [smallest, largest] = parallelSum(x.size(), grain, [&](std::size_t begin, std::size_t end) {
+    Bounds part;
+    for (std::size_t i = begin; i < end; ++i) {
+      checkSphere(x[i], radius[i], i);
+      part += Bounds{radius[i], radius[i]};
+    }
+    return part;
+  });
   for (int k = 0; k < 3; ++k)
     if (periodicity_.axes[static_cast<std::size_t>(k)] && periodicity_.length(k) < 4.0 * (largest + 0.5 * skin))
       throw InputError("the periodic length " + formatNumber(periodicity_.length(k)) +
                            " is below twice the largest diameter (skin included) of " +
                            formatNumber(2.0 * largest + skin),
                        "axis " + std::to_string(k), "take a longer box, smaller particles or a thinner skin");
+  return {smallest, largest};
 }
 
 Vec3 HierarchicalGrid::wrapped(Vec3 x) const {
@@ -113,42 +117,34 @@ Vec3 HierarchicalGrid::wrapped(Vec3 x) const {
 }
 
 void HierarchicalGrid::build(std::span<const Vec3> x, std::span<const double> radius, double skin) {
-  checkSpheres(x, radius, skin);
+  const Sizes sizes = checkSpheres(x, radius, skin);
   skin_ = skin;
   levels_.clear();
   index_.clear();
   id_.resize(x.size());
   key_.resize(x.size());
   sphere_.resize(x.size());
-  if (!x.empty()) makeLevels(x, radius);
+  if (!x.empty()) makeLevels(x, radius, sizes);
 }
 
-void HierarchicalGrid::makeLevels(std::span<const Vec3> x, std::span<const double> radius) {
+/// The finest class comes first.
+void HierarchicalGrid::makeLevels(std::span<const Vec3> x, std::span<const double> radius, const Sizes& sizes) {
   const double half = 0.5 * skin_;
-  const auto largest = [&](std::size_t count, auto&& at) {
-    return parallelSum(count, grain,
-                       [&](std::size_t begin, std::size_t end) {
-                         Largest part;
-                         for (std::size_t i = begin; i < end; ++i) part += Largest{radius[at(i)] + half};
-                         return part;
-                       })
-        .value;
-  };
-  const auto bounds = classBounds(largest(x.size(), [](std::size_t i) { return i; }));
-  // The finest class comes first.
-  const auto classes = distribute<int>((x.size() + grain - 1) / grain, sizeClasses, [&](std::size_t task, auto&& sink) {
+  const auto bounds = classBounds(sizes.largest + half);
+  const std::size_t count = classOf(sizes.smallest + half, bounds) + 1;
+  const auto classes = distribute<int>((x.size() + grain - 1) / grain, count, [&](std::size_t task, auto&& sink) {
     for (std::size_t i = task * grain; i < std::min(x.size(), (task + 1) * grain); ++i)
-      sink(sizeClasses - 1 - classOf(radius[i] + half, bounds), static_cast<int>(i));
+      sink(count == 1 ? 0 : count - 1 - classOf(radius[i] + half, bounds), static_cast<int>(i));
   });
-  for (std::size_t c = 0; c < sizeClasses; ++c) {
+  for (std::size_t c = 0; c < count; ++c) {
     const auto members = classes[c];
     if (members.empty()) continue;
-    Level& level = levels_.emplace_back();
-    level.begin = classes.begin[c];
-    level.end = classes.begin[c + 1];
-    level.largest = largest(members.size(), [&](std::size_t s) { return static_cast<std::size_t>(members[s]); });
-    layCells(level, members, x);
-    sortLevel(level, members, x);
+    const auto largest = parallelSum(members.size(), grain, [&](std::size_t begin, std::size_t end) {
+      Bounds part;
+      for (std::size_t s = begin; s < end; ++s) part += Bounds{0.0, radius[static_cast<std::size_t>(members[s])]};
+      return part;
+    });
+    addLevel(members, classes.begin[c], largest.largest + half, x);
   }
   parallelFor(x.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
@@ -157,6 +153,16 @@ void HierarchicalGrid::makeLevels(std::span<const Vec3> x, std::span<const doubl
       sphere_[s] = {p.x, p.y, p.z, radius[i] + half};
     }
   });
+}
+
+void HierarchicalGrid::addLevel(std::span<const int> members, std::size_t begin, double largest,
+                                std::span<const Vec3> x) {
+  Level& level = levels_.emplace_back();
+  level.begin = begin;
+  level.end = begin + members.size();
+  level.largest = largest;
+  layCells(level, members, x);
+  sortLevel(level, members, x);
 }
 
 /// Chooses the cells of a level: as large as its largest sphere, over the bounding box of its members.
@@ -195,17 +201,26 @@ void HierarchicalGrid::sortLevel(Level& level, std::span<const int> members, std
   while (lastKey >> level.shift >= bucketsPerSphere * members.size() + 64) ++level.shift;
   level.buckets = static_cast<std::size_t>(lastKey >> level.shift) + 1;
   level.index = index_.size();
-  index_.resize(level.index + level.buckets + 2, static_cast<int>(level.end));
+  index_.resize(level.index + level.buckets + 2);
+  std::fill(index_.end() - 2, index_.end(), static_cast<int>(level.end));
   const std::size_t tasks = (members.size() + grain - 1) / grain,
-                    perRange = level.buckets / std::min<std::size_t>(tasks, 512) + 1;
-  const std::size_t ranges = (level.buckets + perRange - 1) / perRange;
-  const auto sorted = distribute<Keyed>(tasks, ranges, [&](std::size_t task, auto&& sink) {
-    for (std::size_t s = task * grain; s < std::min(members.size(), (task + 1) * grain); ++s) {
+                    bits = static_cast<std::size_t>(std::bit_width(level.buckets / std::min<std::size_t>(tasks, 512)));
+  const std::size_t perRange = std::size_t{1} << bits, ranges = (level.buckets + perRange - 1) >> bits;
+  Key* const keys = key_.data() + level.begin;  // of the members as they come; sorted below
+  const auto eachOf = [&](std::size_t task, auto&& act) {
+    for (std::size_t s = task * grain; s < std::min(members.size(), (task + 1) * grain); ++s) act(s);
+  };
+  const auto rangeOf = [&](Key key) { return static_cast<std::size_t>(key >> level.shift) >> bits; };
+  const auto findKeys = [&](std::size_t task, auto&& sink) {
+    eachOf(task, [&](std::size_t s) {
       const Vec3 p = wrapped(x[static_cast<std::size_t>(members[s])]);
-      const Key key = detail::keyAt(level.count, detail::cellOf(level, 0, p.x), detail::cellOf(level, 1, p.y),
-                                    detail::cellOf(level, 2, p.z));
-      sink(static_cast<std::size_t>(key >> level.shift) / perRange, Keyed{key, members[s]});
-    }
+      keys[s] = detail::keyAt(level.count, detail::cellOf(level, 0, p.x), detail::cellOf(level, 1, p.y),
+                              detail::cellOf(level, 2, p.z));
+      sink(rangeOf(keys[s]));
+    });
+  };
+  const auto sorted = distribute<Keyed>(tasks, ranges, findKeys, [&](std::size_t task, auto&& sink) {
+    eachOf(task, [&](std::size_t s) { sink(rangeOf(keys[s]), Keyed{keys[s], members[s]}); });
   });
   parallelFor(ranges, 1, [&](std::size_t range, std::size_t) {
     sortRange(level, sorted[range], level.begin + sorted.begin[range], range * perRange,

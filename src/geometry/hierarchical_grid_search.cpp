@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <utility>
 
@@ -11,31 +12,43 @@ namespace dovetail::geometry {
 
 namespace {
 
-using Pairs = std::vector<std::array<int, 2>>;
+using Pair = std::array<int, 2>;
 
-/// Sorts by i, then j: into ranges of i first, which threads then sort on their own.
-void sortByParticle(std::vector<Pairs>& found, std::size_t particles, Pairs& sorted) {
-  const std::size_t rows = std::max<std::size_t>(1024, particles / 512), ranges = particles / rows + 1;
-  const auto parts = distribute<std::array<int, 2>>(found.size(), ranges, [&](std::size_t task, auto&& sink) {
-    for (const auto& pair : found[task]) sink(static_cast<std::size_t>(pair[0]) / rows, pair);
-  });
-  found.clear();
-  sorted.resize(parts.size());
-  parallelFor(ranges, 1, [&](std::size_t range, std::size_t) {
-    const auto pairs = parts[range];
-    const std::size_t first = range * rows;
-    std::vector<std::size_t> next(rows + 1, 0);
-    for (const auto& pair : pairs) ++next[static_cast<std::size_t>(pair[0]) - first + 1];
-    next[0] = parts.begin[range];
-    for (std::size_t i = 1; i <= rows; ++i) next[i] += next[i - 1];
-    for (const auto& pair : pairs) sorted[next[static_cast<std::size_t>(pair[0]) - first]++] = pair;
-    std::size_t begin = parts.begin[range];
-    for (std::size_t i = 0; i < rows; begin = next[i++])
-      if (next[i] - begin > 1)
-        std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
-                  sorted.begin() + static_cast<std::ptrdiff_t>(next[i]),
-                  [](const auto& a, const auto& b) { return a[1] < b[1]; });
-  });
+/// Particles whose pairs one thread sorts, as a power of two: so many bits of their numbers.
+int bitsPerRange(std::size_t particles) {
+  return static_cast<int>(std::bit_width(std::max<std::size_t>(1024, particles / 512) - 1));
+}
+
+void sortSecond(Pair* first, Pair* last) {
+  constexpr std::ptrdiff_t few = 24;
+  if (last - first > few) return std::sort(first, last, [](const Pair& a, const Pair& b) { return a[1] < b[1]; });
+  for (Pair* next = first + 1; next < last; ++next) {
+    const Pair pair = *next;
+    Pair* place = next;
+    for (; place > first && place[-1][1] > pair[1]; --place) *place = place[-1];
+    *place = pair;
+  }
+}
+
+/// Sorts pairs of particles `first` … first + rows − 1 by i, then j.
+void sortPairs(std::span<Pair> pairs, std::size_t first, std::size_t rows) {
+  const RawVector<Pair> unsorted(pairs.begin(), pairs.end());
+  std::vector<std::uint32_t> next(rows + 1, 0);
+  for (const Pair& pair : unsorted) ++next[static_cast<std::size_t>(pair[0]) - first + 1];
+  for (std::size_t i = 1; i <= rows; ++i) next[i] += next[i - 1];
+  for (const Pair& pair : unsorted) pairs[next[static_cast<std::size_t>(pair[0]) - first]++] = pair;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < rows; begin = next[i++])
+    if (next[i] - begin > 1) sortSecond(pairs.data() + begin, pairs.data() + next[i]);
+}
+
+/// A sphere's partners, behind those of the spheres before.
+void append(void* context, int i, const int* partners, std::size_t count) {
+  auto& pairs = *static_cast<SpherePairs*>(context);
+  const std::size_t size = pairs.size();
+  pairs.resize(size + count);
+  Pair* const to = pairs.data() + size;
+  for (std::size_t k = 0; k < count; ++k) to[k] = {std::min(i, partners[k]), std::max(i, partners[k])};
 }
 
 }  // namespace
@@ -171,28 +184,25 @@ void HierarchicalGrid::searchPairs(std::size_t begin, std::size_t end, PairSink 
     searchSpheres<false>(begin, end, search);
 }
 
-void HierarchicalGrid::pairs(std::vector<std::array<int, 2>>& sorted) const {
+SpherePairs HierarchicalGrid::pairs() const {
   constexpr std::size_t spheresPerTask = 4096;
   const std::size_t tasks = (size() + spheresPerTask - 1) / spheresPerTask;
-  std::vector<Pairs> found(tasks);
-  parallelFor(size(), spheresPerTask, [&](std::size_t begin, std::size_t end) {
-    auto& list = found[begin / spheresPerTask];
-    list.reserve(4 * (end - begin));
-    searchPairs(
-        begin, end,
-        [](void* context, int i, const int* partners, std::size_t count) {
-          auto& pairs = *static_cast<Pairs*>(context);
-          for (std::size_t k = 0; k < count; ++k) pairs.push_back({std::min(i, partners[k]), std::max(i, partners[k])});
-        },
-        &list);
+  const int bits = bitsPerRange(size());
+  const auto rangeOf = [bits](const Pair& pair) { return static_cast<std::size_t>(pair[0]) >> bits; };
+  std::vector<SpherePairs> found(tasks);
+  const auto search = [&](std::size_t task, auto&& sink) {
+    const std::size_t begin = task * spheresPerTask, end = std::min(size(), begin + spheresPerTask);
+    found[task].reserve(4 * (end - begin));
+    searchPairs(begin, end, append, &found[task]);
+    for (const Pair& pair : found[task]) sink(rangeOf(pair));
+  };
+  auto parts = distribute<Pair>(tasks, (size() >> bits) + 1, search, [&](std::size_t task, auto&& sink) {
+    for (const Pair& pair : found[task]) sink(rangeOf(pair), pair);
+    found[task] = {};
   });
-  sortByParticle(found, size(), sorted);
-}
-
-std::vector<std::array<int, 2>> HierarchicalGrid::pairs() const {
-  std::vector<std::array<int, 2>> sorted;
-  pairs(sorted);
-  return sorted;
+  parallelFor(parts.count(), 1,
+              [&](std::size_t range, std::size_t) { sortPairs(parts[range], range << bits, std::size_t{1} << bits); });
+  return std::move(parts.items);
 }
 
 }  // namespace dovetail::geometry

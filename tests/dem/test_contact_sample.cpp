@@ -33,7 +33,7 @@ TEST(ContactSample, GivesTheForcesThatCollideHasAdded) {
     clearForces(particles);
     collide(particles, list, law, 1e-4);
   }
-  const std::vector<double> memory = list.memory;
+  const auto memory = list.memory;
   const ContactSample sample = samplePairs(particles, list, law);
   EXPECT_EQ(list.memory, memory);
   std::vector<Vec3> f(particles.size());

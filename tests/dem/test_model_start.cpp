@@ -123,6 +123,32 @@ TEST(Start, ParticlesThatEnterWithinAStepFallFromThatMomentAndAreBooked) {
   EXPECT_NEAR(energies(model).balance(), 0.0, 1e-14);
 }
 
+/// Lets a small sphere in at step 10 that is fast beside its size, but not beside that of the others.
+class Shooter final : public Term {
+public:
+  std::string name() const override { return "shooter"; }
+  std::unique_ptr<Term> clone() const override { return std::make_unique<Shooter>(*this); }
+  void exchange(Model& m, const Step& step) override {
+    if (step.number != 10) return;
+    const std::size_t first = m.particles.size();
+    addParticle(m.particles, {1, 0, 0}, {0, 0, 20}, 0.01, Mass{2.0});
+    admitParticles(m, first);
+  }
+};
+
+TEST(Start, ASmallParticleThatEntersWithinAStepCountsInTheCheckOfMoves) {
+  Model model = oneSphere({}, {});
+  model.terms.add(Shooter{});
+  run(model, 1e-3, 10);
+  ASSERT_EQ(model.particles.size(), 2u);
+  try {
+    run(model, 1e-3, 1);  // 20 mm: twice its radius, a fifth of the other's
+    FAIL();
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("particle 1"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Check, SaysWhatIsMissingOrWrong) {
   const auto refused = [](auto&& spoil, const char* word) {
     Model model = oneSphere({}, {});
@@ -145,14 +171,18 @@ TEST(Check, SaysWhatIsMissingOrWrong) {
   refused([](Model& m) { damping(m).viscousRate = -1.0; }, "viscous damping");
   refused([](Model& m) { damping(m).local = NAN; }, "local damping");
   refused([](Model& m) { m.terms.add(ExternalForceTerm("wind", {})); }, "wind");
-  refused([](Model& m) {
-    m.laws = makeContactLaws(LawTable<ElasticLaw>(2, ElasticLaw{{k}}));
-    m.particles.material = {3};
-  }, "material 3");
-  refused([](Model& m) {
-    m.laws = makeContactLaws(LawTable<ElasticLaw>(2, ElasticLaw{{k}}));
-    primitiveWall(m, 0).material = 2;
-  }, "material 2");
+  refused(
+      [](Model& m) {
+        m.laws = makeContactLaws(LawTable<ElasticLaw>(2, ElasticLaw{{k}}));
+        m.particles.material = {3};
+      },
+      "material 3");
+  refused(
+      [](Model& m) {
+        m.laws = makeContactLaws(LawTable<ElasticLaw>(2, ElasticLaw{{k}}));
+        primitiveWall(m, 0).material = 2;
+      },
+      "material 2");
 }
 
 TEST(Check, ParticlesSpinWhereLawsExertTorques) {
@@ -205,8 +235,8 @@ TEST(Weights, APileOfEqualWeightsMovesAsOneWithout) {
     model.pairs.skin = 0.01;
     Random random(4);
     for (int i = 0; i < 60; ++i)
-      addParticle(model.particles, {0.19 * (i % 4), 0.19 * (i / 4 % 4), 0.099 + 0.19 * (i / 16)}, random.vector(0.1), 0.1,
-                  Mass{1.0 + 0.5 * (i % 3)});
+      addParticle(model.particles, {0.19 * (i % 4), 0.19 * (i / 4 % 4), 0.099 + 0.19 * (i / 16)}, random.vector(0.1),
+                  0.1, Mass{1.0 + 0.5 * (i % 3)});
     if (weight < 1.0) model.particles.weight.assign(60, weight);
     addWall(model, makePlane({}, {0, 0, 1}));
     run(model, 2e-4, 400);

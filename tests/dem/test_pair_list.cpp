@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "dovetail/core/parallel.hpp"
@@ -48,9 +49,9 @@ TEST(PairList, ContactsSurviveThatPositionsAreWrapped) {
   particles.x[1].x -= 1.0;
   wrapPositions(particles, list.periodicity);
   EXPECT_TRUE(updatePairs(particles, list, 0.0));
-  ASSERT_EQ(list.pairs, (std::vector<Pair>{{0, 1}}));
-  EXPECT_EQ(list.memory, (std::vector<double>{1e-4, 2e-4, 3e-4}));
-  EXPECT_EQ(list.scale, std::vector<double>{0.5});
+  ASSERT_EQ(list.pairs, (Pairs{{0, 1}}));
+  EXPECT_EQ(list.memory, (RawVector<double>{1e-4, 2e-4, 3e-4}));
+  EXPECT_EQ(list.scale, RawVector<double>{0.5});
   list.scale.clear();
   clearForces(particles);
   collide(particles, list, springs);
@@ -113,6 +114,27 @@ TEST(PairList, FactorsStayWithTheirPairs) {
   renumber(particles, reversed);
   const int last = static_cast<int>(particles.size()) - 1;
   for (const Pair& pair : muted) EXPECT_EQ(factorOf({last - pair[1], last - pair[0]}), 0.25);
+}
+
+TEST(PairList, ThinnerInnerSkinsWhereTheCandidatesLastLonger) {
+  Particles particles = dense(3000, 0.6, 7);
+  for (Vec3& v : particles.v) v = {1.0, 0.0, 0.0};
+  for (const int life : {10, 40, 160}) {
+    PairList list;
+    findPairs(particles, 0.02, list);
+    const double dt = 0.5 * 0.02 / life;
+    const auto step = [&](int count) {
+      for (int i = 0; i < count; ++i) {
+        drift(particles, dt);
+        updatePairs(particles, list, dt);
+      }
+    };
+    step(3 * life);
+    const std::int64_t builds = list.builds, revision = list.revision;
+    step(8 * life);
+    const double prunings = static_cast<double>(list.revision - revision) / static_cast<double>(list.builds - builds);
+    EXPECT_NEAR(prunings, std::sqrt(0.7 * life), 0.15 * std::sqrt(0.7 * life) + 0.5) << life;
+  }
 }
 
 TEST(PairList, WhatLeaversHoldIsBookedWithTheirMaterials) {

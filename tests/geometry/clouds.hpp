@@ -11,7 +11,7 @@
 
 namespace dovetail::geometry {
 
-using Pairs = std::vector<std::array<int, 2>>;
+using Pairs = SpherePairs;
 
 struct Cloud {
   std::vector<Vec3> x;

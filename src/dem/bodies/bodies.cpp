@@ -180,12 +180,19 @@ double applyLocalDamping(Bodies& bodies, double alpha) {
   return power;
 }
 
-void wrapPositions(Bodies& bodies, const geometry::Periodicity& space) {
+Vec3 wrapPositions(Bodies& bodies, const geometry::Periodicity& space) {
+  Vec3 moved;
   for (int k = 0; k < 3; ++k) {
     if (!space.axes[static_cast<std::size_t>(k)]) continue;
     const double length = space.length(k), lower = space.box.lower[k];
-    for (Vec3& x : bodies.x) x[k] -= length * std::floor((x[k] - lower) / length);
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const double periods = std::floor((bodies.x[b][k] - lower) / length);
+      if (periods == 0.0) continue;
+      bodies.x[b][k] -= length * periods;
+      moved[k] -= bodies.mass[b] * length * periods;
+    }
   }
+  return moved;
 }
 
 void renumber(Bodies& bodies, std::span<const int> newNumber) {

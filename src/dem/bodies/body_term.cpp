@@ -38,7 +38,7 @@ double BodyTerm::move(Model& m, const Step& step) {
 }
 
 void BodyTerm::renewed(Model& m) {
-  wrapPositions(bodies, m.pairs.periodicity);
+  m.booked.lifted -= dot(m.gravity, wrapPositions(bodies, m.pairs.periodicity));
   muteMemberPairs(clumps, m.pairs);
 }
 

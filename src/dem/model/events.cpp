@@ -7,15 +7,14 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/setup/insertion.hpp"
 
 namespace dovetail::dem {
 
 namespace {
 
-std::string name(const Particles& particles, std::size_t i) {
-  return "particle " + std::to_string(particles.id[i]);
-}
+std::string name(const Particles& particles, std::size_t i) { return "particle " + std::to_string(particles.id[i]); }
 
 std::string state(const Particles& particles, std::size_t i) {
   const auto text = [](const Vec3& v) {
@@ -31,6 +30,20 @@ bool inside(const Domain& domain, const geometry::Periodicity& space, const Vec3
   return true;
 }
 
+/// Numbers of the particles that `is` picks, ascending.
+template <class Is>
+std::vector<int> thoseOf(std::size_t particles, Is&& is) {
+  constexpr std::size_t grain = 8192;
+  std::vector<std::vector<int>> parts((particles + grain - 1) / grain);
+  parallelFor(particles, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (is(i)) parts[begin / grain].push_back(static_cast<int>(i));
+  });
+  std::vector<int> those;
+  for (const auto& part : parts) those.insert(those.end(), part.begin(), part.end());
+  return those;
+}
+
 /// Adds a particle to what was exchanged; its energy, J. Where velocities lag, what its forces will have given counts.
 double book(const Model& m, std::size_t i, Exchanged& exchanged) {
   const Particles& p = m.particles;
@@ -44,9 +57,8 @@ double book(const Model& m, std::size_t i, Exchanged& exchanged) {
 
 void letEscape(Model& m) {
   if (!m.domain) return;
-  std::vector<int> out;
-  for (std::size_t i = 0; i < m.particles.size(); ++i)
-    if (!inside(*m.domain, m.pairs.periodicity, m.particles.x[i])) out.push_back(static_cast<int>(i));
+  const std::vector<int> out = thoseOf(
+      m.particles.size(), [&](std::size_t i) { return !inside(*m.domain, m.pairs.periodicity, m.particles.x[i]); });
   if (out.empty()) return;
   const auto first = static_cast<std::size_t>(out.front());
   if (m.domain->policy == EscapePolicy::refuse)
@@ -79,11 +91,41 @@ void weighPairs(Model& m) {
 /// Laws that bond the pairs of a list keep the list that they were given.
 bool keepsPairs(const Model& m) { return m.laws && std::isinf(m.laws->reach()); }
 
+/// Whether moves by whole periods change the energy in gravity.
+bool wrapsLift(const Model& m) {
+  for (int k = 0; k < 3; ++k)
+    if (m.pairs.periodicity.axes[static_cast<std::size_t>(k)] && m.gravity[k] != 0.0) return true;
+  return false;
+}
+
+/// What the moves from `before` to where particles are now have given them in gravity, J; bodies book theirs.
+double liftedFrom(const std::vector<Vec3>& before, const Model& m) {
+  const Particles& p = m.particles;
+  const std::vector<char> skip = members(m);
+  return parallelSum(p.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i)
+      if (skip.empty() || skip[i] == 0) sum -= p.weightOf(i) * p.mass[i] * dot(m.gravity, p.x[i] - before[i]);
+    return sum;
+  });
+}
+
+void updateAndBookWraps(Model& m) {
+  PairList& list = m.pairs;
+  const bool maySearch = !list.fits(m.particles) || !list.skin || !(list.travel + m.step.moved <= 0.5 * *list.skin);
+  if (!maySearch || !wrapsLift(m)) {
+    updatePairs(m.particles, list, m.step.moved);
+    return;
+  }
+  const std::vector<Vec3> before = m.particles.x;
+  const std::int64_t wraps = m.particles.wraps;
+  updatePairs(m.particles, list, m.step.moved);
+  if (m.particles.wraps != wraps) m.booked.lifted += liftedFrom(before, m);
+}
+
 }  // namespace
 
-std::string when(const Model& m) {
-  return "t = " + formatNumber(m.time) + " s, step " + std::to_string(m.steps);
-}
+std::string when(const Model& m) { return "t = " + formatNumber(m.time) + " s, step " + std::to_string(m.steps); }
 
 double smallestRadius(const Particles& particles) {
   return particles.size() == 0 ? 0.0 : *std::min_element(particles.radius.begin(), particles.radius.end());
@@ -101,11 +143,14 @@ double largestSpeed(const Particles& particles) {
 }
 
 void requireShortMoves(const Particles& particles, double dt, const std::string& when) {
+  const std::vector<int> thrown = thoseOf(particles.size(), [&](std::size_t i) {
+    return !(norm(particles.v[i]) * dt <= particles.radius[i]) || !isFinite(particles.x[i]);
+  });
+  if (thrown.empty()) return;
   requireFinite(particles, when);
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    if (norm(particles.v[i]) * dt > particles.radius[i])
-      throw NumericalError("it moved farther than its radius in one step, " + when + ", " + state(particles, i),
-                           name(particles, i), "take a smaller time step, or look for what has thrown it");
+  const auto i = static_cast<std::size_t>(thrown.front());
+  throw NumericalError("it moved farther than its radius in one step, " + when + ", " + state(particles, i),
+                       name(particles, i), "take a smaller time step, or look for what has thrown it");
 }
 
 double kineticEnergyOf(const Particles& p, std::size_t i) {
@@ -121,7 +166,10 @@ double gravityOf(const Particles& p, std::size_t i, const Vec3& gravity) {
 void renewPairs(Model& m) {
   m.pairs.reach = m.laws && !keepsPairs(m) ? m.laws->reach() : 0.0;
   const std::int64_t builds = m.pairs.builds, revision = m.pairs.revision;
-  if (!(keepsPairs(m) && builds > 0)) updatePairs(m.particles, m.pairs, m.step.moved);
+  if (!(keepsPairs(m) && builds > 0))
+    updateAndBookWraps(m);
+  else if (!m.pairs.fits(m.particles))
+    keepPairs(m.particles, m.pairs);
   if (m.pairs.builds != builds) {
     letEscape(m);
     if (m.sortEvery > 0 && m.renewals++ % m.sortEvery == 0) sort(m);

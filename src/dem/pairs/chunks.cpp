@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/pairs/pairs.hpp"
+#include "dovetail/core/distribute.hpp"
+#include "renewal.hpp"
 
 namespace dovetail::dem {
 
@@ -14,56 +14,6 @@ Vec3 PairList::shift(std::size_t pair) const {
 }
 
 namespace detail {
-
-namespace {
-
-using Pairs = std::vector<std::array<int, 2>>;
-
-/// The images among the pairs [begin, end).
-std::vector<PairImage> imagesAmong(const Particles& particles, const PairList& list, std::size_t begin,
-                                   std::size_t end) {
-  std::vector<PairImage> images;
-  for (std::size_t p = begin; p < end; ++p) {
-    const auto [i, j] = list.pairs[p];
-    const Vec3 d = particles.x[static_cast<std::size_t>(i)] - particles.x[static_cast<std::size_t>(j)];
-    PairImage image{p, {}};
-    bool any = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!list.periodicity.axes[k]) continue;
-      const double periods = std::round(d[static_cast<int>(k)] / list.periodicity.length(static_cast<int>(k)));
-      image.periods[k] = static_cast<std::int8_t>(-periods);
-      any = any || periods != 0.0;
-    }
-    if (any) images.push_back(image);
-  }
-  return images;
-}
-
-void findImages(const Particles& particles, PairList& list) {
-  PairChunks& chunks = list.chunks;
-  list.images.clear();
-  chunks.images.assign(chunks.count() + 1, 0);
-  if (!list.periodicity.any()) return;
-  std::vector<std::vector<PairImage>> found(chunks.count());
-  parallelFor(chunks.count(), 1, [&](std::size_t c, std::size_t) {
-    found[c] = imagesAmong(particles, list, chunks.begin[c], chunks.begin[c + 1]);
-  });
-  for (std::size_t c = 0; c < chunks.count(); ++c) {
-    list.images.insert(list.images.end(), found[c].begin(), found[c].end());
-    chunks.images[c + 1] = list.images.size();
-  }
-}
-
-/// Second particles of a chunk's crossing pairs.
-std::vector<int> crossersOf(const PairList& list, std::size_t chunk) {
-  std::vector<int> crossers;
-  const auto end = static_cast<int>((chunk + 1) * list.chunks.size);
-  for (std::size_t p = list.chunks.begin[chunk]; p < list.chunks.begin[chunk + 1]; ++p)
-    if (const int j = list.pairs[p][1]; j >= end) crossers.push_back(j);
-  return crossers;
-}
-
-}  // namespace
 
 /// A thread should have several chunks, and a chunk few neighbours beyond its border.
 std::size_t chunkSize(std::size_t particles) { return std::clamp<std::size_t>(particles / 128, 256, 4096); }
@@ -79,41 +29,62 @@ void findRanges(std::size_t particles, const Pairs& sorted, std::vector<std::siz
   });
 }
 
-void makeChunks(std::size_t particles, PairList& list) {
-  PairChunks& chunks = list.chunks;
-  chunks.size = chunkSize(particles);
-  findRanges(particles, list.pairs, chunks.begin);
-  std::vector<std::vector<int>> crossers(chunks.count());
-  parallelFor(chunks.count(), 1, [&](std::size_t c, std::size_t) { crossers[c] = crossersOf(list, c); });
-  chunks.crosses.assign(chunks.count() + 1, 0);
-  chunks.arrives.assign(chunks.count() + 1, 0);
-  for (std::size_t c = 0; c < chunks.count(); ++c) {
-    chunks.crosses[c + 1] = chunks.crosses[c] + crossers[c].size();
-    for (const int j : crossers[c]) ++chunks.arrives[static_cast<std::size_t>(j) / chunks.size + 1];
-  }
-  for (std::size_t c = 0; c < chunks.count(); ++c) chunks.arrives[c + 1] += chunks.arrives[c];
-  chunks.force.resize(chunks.crosses.back());
-  chunks.torque.clear();
-  chunks.arriving.resize(chunks.crosses.back());
-  std::vector<std::size_t> next(chunks.arrives.begin(), chunks.arrives.end() - 1);
-  int crossing = 0;
-  for (const std::vector<int>& of : crossers)
-    for (const int j : of) chunks.arriving[next[static_cast<std::size_t>(j) / chunks.size]++] = {crossing++, j};
+void Links::findCrossers(const PairList& list, std::size_t chunk) {
+  const auto end = static_cast<int>((chunk + 1) * list.chunks.size);
+  for (std::size_t p = list.chunks.begin[chunk]; p < list.chunks.begin[chunk + 1]; ++p)
+    if (const int j = list.pairs[p][1]; j >= end) crossers[chunk].push_back(j);
 }
 
-void takePairs(const Particles& particles, Pairs&& pairs, PairList& list) {
-  list.pairs.swap(pairs);
-  makeChunks(particles.size(), list);
-  keepMemory(particles, pairs, list);
-  findImages(particles, list);
-  ++list.revision;
+namespace {
+
+void joinImages(const std::vector<std::vector<PairImage>>& images, PairList& list) {
+  PairChunks& chunks = list.chunks;
+  chunks.images.assign(chunks.count() + 1, 0);
+  for (std::size_t c = 0; c < chunks.count(); ++c) chunks.images[c + 1] = chunks.images[c] + images[c].size();
+  list.images.resize(chunks.images.back());
+  parallelFor(chunks.count(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c)
+      std::copy(images[c].begin(), images[c].end(),
+                list.images.begin() + static_cast<std::ptrdiff_t>(chunks.images[c]));
+  });
+}
+
+void joinCrossers(const std::vector<std::vector<int>>& crossers, PairChunks& chunks) {
+  const std::size_t count = chunks.count();
+  chunks.crosses.assign(count + 1, 0);
+  for (std::size_t c = 0; c < count; ++c) chunks.crosses[c + 1] = chunks.crosses[c] + crossers[c].size();
+  auto arriving = distribute<Pair>(count, count, [&](std::size_t c, auto&& sink) {
+    auto crossing = static_cast<int>(chunks.crosses[c]);
+    for (const int j : crossers[c]) sink(static_cast<std::size_t>(j) / chunks.size, Pair{crossing++, j});
+  });
+  chunks.arrives = std::move(arriving.begin);
+  chunks.arriving = std::move(arriving.items);
+  chunks.force.resize(chunks.crosses.back());
+}
+
+}  // namespace
+
+void Links::join(PairList& list) {
+  joinImages(images, list);
+  joinCrossers(crossers, list.chunks);
+}
+
+void makeChunks(std::size_t particles, PairList& list) {
+  list.chunks.size = chunkSize(particles);
+  findRanges(particles, list.pairs, list.chunks.begin);
+  Links links(list.chunks.count());
+  parallelFor(list.chunks.count(), 1, [&](std::size_t c, std::size_t) { links.findCrossers(list, c); });
+  joinImages(links.images, list);
+  joinCrossers(links.crossers, list.chunks);
 }
 
 }  // namespace detail
 
 void restoreChunks(const Particles& particles, PairList& list) {
   if (list.builds == 0) return;
+  const std::vector<PairImage> images = list.images;
   detail::makeChunks(particles.size(), list);
+  list.images = images;
   detail::findRanges(particles.size(), list.candidates, list.chunks.candidates);
   PairChunks& chunks = list.chunks;
   chunks.images.assign(chunks.count() + 1, 0);

@@ -7,13 +7,15 @@
 #include "dovetail/core/distribute.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
+#include "renewal.hpp"
 
 namespace dovetail::dem {
 
 namespace {
 
-using Pair = std::array<int, 2>;
-using Pairs = std::vector<Pair>;
+using detail::Belongings;
+using detail::Ended;
+using detail::Pair;
 
 constexpr double apart = -std::numeric_limits<double>::infinity();
 
@@ -27,48 +29,6 @@ bool before(const Pair& a, const Pair& b) {
     return static_cast<std::uint64_t>(pair[0]) << 32 | static_cast<std::uint32_t>(pair[1]);
   };
   return key(a) < key(b);
-}
-
-/// The numbers that belong to the pairs of a list.
-struct Belongings {
-  std::vector<double> memory, scale;
-  std::size_t pairs, components;
-
-  explicit Belongings(PairList& list, std::size_t count)
-      : memory(std::move(list.memory)),
-        scale(std::move(list.scale)),
-        pairs(count),
-        components(count == 0 ? 0 : memory.size() / count) {}
-  double& remembered(std::size_t c, std::size_t p) { return memory[c * pairs + p]; }
-  /// To as many successive pairs of a list that has room for them.
-  void hand(std::size_t o, std::size_t p, std::size_t count, PairList& list) const {
-    for (std::size_t c = 0; c < components; ++c)
-      std::copy_n(memory.data() + c * pairs + o, count, list.memory.data() + c * list.size() + p);
-    if (!scale.empty()) std::copy_n(scale.data() + o, count, list.scale.data() + p);
-  }
-  bool remembersAnything(std::size_t p) {
-    for (std::size_t c = 0; c < components; ++c)
-      if (remembered(c, p) != 0.0) return true;
-    return false;
-  }
-};
-
-/// Pairs that end, collected by one thread.
-struct Ended {
-  std::vector<EndedPair> pairs;
-  std::vector<double> memory;
-
-  void add(const EndedPair& pair, Belongings& from, std::size_t p) {
-    pairs.push_back(pair);
-    for (std::size_t c = 0; c < from.components; ++c) memory.push_back(from.remembered(c, p));
-  }
-};
-
-void append(const std::vector<Ended>& parts, PairList& list) {
-  for (const Ended& part : parts) {
-    list.endedPairs.insert(list.endedPairs.end(), part.pairs.begin(), part.pairs.end());
-    list.ended.insert(list.ended.end(), part.memory.begin(), part.memory.end());
-  }
 }
 
 EndedPair withoutTouch(const Particles& particles, const Pair& pair, double factor) {
@@ -98,7 +58,7 @@ struct Move {
 };
 
 /// The pairs that stay, by their new numbers; the others are ended.
-Pairs movePairs(const Buckets<Move>& moves, Belongings& from, PairList& list) {
+Pairs movePairs(Buckets<Move>& moves, const Belongings& from, PairList& list) {
   Pairs pairs(moves.size());
   const std::size_t n = pairs.size();
   if (!from.scale.empty()) list.scale.resize(n);
@@ -122,35 +82,78 @@ Pairs movePairs(const Buckets<Move>& moves, Belongings& from, PairList& list) {
 
 }  // namespace
 
-void detail::keepMemory(const Particles& particles, const Pairs& old, PairList& list) {
-  if (list.memory.empty() && list.scale.empty()) return;
-  Belongings from(list, old.size());
-  const std::size_t n = list.size(), chunks = list.chunks.count();
-  if (!from.scale.empty()) list.scale.assign(n, 1.0);
-  list.memory.resize(from.components * n);
-  std::vector<Ended> ended(chunks);
-  parallelFor(chunks, 1, [&](std::size_t chunk, std::size_t) {
-    const auto at = [&](std::size_t c) {
-      const Pair first{static_cast<int>(c * list.chunks.size), -1};
-      return static_cast<std::size_t>(std::lower_bound(old.begin(), old.end(), first) - old.begin());
-    };
-    std::size_t p = list.chunks.begin[chunk], o = at(chunk);
-    const std::size_t end = list.chunks.begin[chunk + 1], oldEnd = chunk + 1 < chunks ? at(chunk + 1) : old.size();
-    while (o < oldEnd) {
-      while (p < end && before(list.pairs[p], old[o])) ++p;
-      std::size_t run = 0;
-      while (o + run < oldEnd && p + run < end && list.pairs[p + run] == old[o + run]) ++run;
-      from.hand(o, p, run, list);
-      o += run;
-      p += run;
-      if (run > 0) continue;
-      if (from.remembersAnything(o))
-        ended[chunk].add(withoutTouch(particles, old[o], from.scale.empty() ? 1.0 : from.scale[o]), from, o);
-      ++o;
-    }
-  });
-  append(ended, list);
+namespace detail {
+
+Belongings::Belongings(PairList& list, std::size_t count)
+    : memory(std::move(list.memory)),
+      scale(std::move(list.scale)),
+      pairs(count),
+      components(count == 0 ? 0 : memory.size() / count) {
+  list.memory.clear();
+  list.scale.clear();
 }
+
+bool Belongings::remembersAnything(std::size_t p) const {
+  for (std::size_t c = 0; c < components; ++c)
+    if (remembered(c, p) != 0.0) return true;
+  return false;
+}
+
+void Belongings::hand(std::size_t o, std::size_t p, std::size_t count, PairList& list) const {
+  for (std::size_t c = 0; c < components; ++c)
+    std::copy_n(memory.data() + c * pairs + o, count, list.memory.data() + c * list.size() + p);
+  if (!scale.empty()) std::copy_n(scale.data() + o, count, list.scale.data() + p);
+}
+
+void Belongings::end(const EndedPair& pair, std::size_t p, Ended& ended) const {
+  ended.pairs.push_back(pair);
+  for (std::size_t c = 0; c < components; ++c) ended.memory.push_back(remembered(c, p));
+}
+
+void append(const std::vector<Ended>& parts, PairList& list) {
+  for (const Ended& part : parts) {
+    list.endedPairs.insert(list.endedPairs.end(), part.pairs.begin(), part.pairs.end());
+    list.ended.insert(list.ended.end(), part.memory.begin(), part.memory.end());
+  }
+}
+
+namespace {
+
+/// Newcomers p … end − 1 remember nothing.
+void startAnew(const Belongings& from, std::size_t p, std::size_t end, PairList& list) {
+  for (std::size_t c = 0; c < from.components; ++c) std::fill_n(list.memory.data() + c * list.size() + p, end - p, 0.0);
+  if (!from.scale.empty()) std::fill_n(list.scale.data() + p, end - p, 1.0);
+}
+
+}  // namespace
+
+void carryChunk(const Particles& particles, const Pairs& old, const Belongings& from, std::size_t chunk, PairList& list,
+                Ended& ended) {
+  const std::size_t chunks = list.chunks.count();
+  const auto at = [&](std::size_t c) {
+    const Pair first{static_cast<int>(c * list.chunks.size), -1};
+    return static_cast<std::size_t>(std::lower_bound(old.begin(), old.end(), first) - old.begin());
+  };
+  std::size_t p = list.chunks.begin[chunk], o = at(chunk);
+  const std::size_t end = list.chunks.begin[chunk + 1], oldEnd = chunk + 1 < chunks ? at(chunk + 1) : old.size();
+  while (o < oldEnd) {
+    const std::size_t newcomers = p;
+    while (p < end && before(list.pairs[p], old[o])) ++p;
+    if (p > newcomers) startAnew(from, newcomers, p, list);
+    std::size_t run = 0;
+    while (o + run < oldEnd && p + run < end && list.pairs[p + run] == old[o + run]) ++run;
+    from.hand(o, p, run, list);
+    o += run;
+    p += run;
+    if (run > 0) continue;
+    if (from.remembersAnything(o))
+      from.end(withoutTouch(particles, old[o], from.scale.empty() ? 1.0 : from.scale[o]), o, ended);
+    ++o;
+  }
+  startAnew(from, p, end, list);
+}
+
+}  // namespace detail
 
 Contact detail::atRest(const EndedPair& pair) {
   Contact contact;
@@ -166,7 +169,7 @@ Contact detail::atRest(const EndedPair& pair) {
 void renumber(PairList& list, std::span<const int> newNumber, const Particles& before) {
   constexpr std::size_t grain = 16384;
   const Pairs& old = list.pairs;
-  Belongings from(list, old.size());
+  const Belongings from(list, old.size());
   const std::size_t tasks = (old.size() + grain - 1) / grain, particles = newNumber.size();
   const std::size_t rows = std::max<std::size_t>(1024, particles / 512), buckets = particles / rows + 1;
   const auto numbers = [&](std::size_t p) {
@@ -176,9 +179,9 @@ void renumber(PairList& list, std::span<const int> newNumber, const Particles& b
   parallelFor(old.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
       if (const Pair to = numbers(p); to[0] < 0 || to[1] < 0)
-        ended[begin / grain].add(asItIs(before, list, p, from.scale.empty() ? 1.0 : from.scale[p]), from, p);
+        from.end(asItIs(before, list, p, from.scale.empty() ? 1.0 : from.scale[p]), p, ended[begin / grain]);
   });
-  const auto moves = distribute<Move>(tasks, buckets, [&](std::size_t task, auto&& sink) {
+  auto moves = distribute<Move>(tasks, buckets, [&](std::size_t task, auto&& sink) {
     for (std::size_t p = task * grain; p < std::min(old.size(), (task + 1) * grain); ++p) {
       const auto [i, j] = numbers(p);
       if (i < 0 || j < 0) continue;
@@ -186,9 +189,8 @@ void renumber(PairList& list, std::span<const int> newNumber, const Particles& b
       sink(static_cast<std::size_t>(pair[0]) / rows, Move{pair, static_cast<std::uint32_t>(p), i > j});
     }
   });
-  append(ended, list);
+  detail::append(ended, list);
   list.pairs = movePairs(moves, from, list);
-  list.images.clear();
   list.candidates.clear();
   list.particleRevision = -1;
   detail::makeChunks(particles, list);  // good enough for those who look before the next update

@@ -132,21 +132,27 @@ Four* roomForSums(std::size_t size) {
 
 void requireMaterials(const Particles& particles, int materials) {
   if (materials == 1) return;
-  for (std::size_t i = 0; i < particles.material.size(); ++i)
-    if (particles.material[i] >= materials)
+  parallelFor(particles.material.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    const auto first = particles.material.begin();
+    const auto unknown = std::find_if(first + static_cast<std::ptrdiff_t>(begin),
+                                      first + static_cast<std::ptrdiff_t>(end), [=](int m) { return m >= materials; });
+    if (const auto i = static_cast<std::size_t>(unknown - first); i < end)
       throw InputError("material " + std::to_string(particles.material[i]) + " has no law",
                        "particle " + std::to_string(i) + ", material",
                        "give materials from 0 to " + std::to_string(materials - 1) + ", or a larger table of laws");
+  });
 }
 
 void findUniform(const Particles& particles, PairRows& rows) {
   requireMaterials(particles, rows.materials);
+  // Where the ends differ nobody looks between them: sizes are either the same or mixed, as a rule.
   const auto uniform = [](const std::vector<double>& values) {
-    if (values.empty()) return false;
-    const double first = values[0];
-    double differs = 0.0;
-    for (const double value : values) differs += value != first ? 1.0 : 0.0;
-    return differs == 0.0;
+    if (values.empty() || values.front() != values.back()) return false;
+    return parallelSum(values.size(), 16384, [&](std::size_t begin, std::size_t end) {
+             int differ = 0;
+             for (std::size_t i = begin; i < end; ++i) differ += values[i] != values[0] ? 1 : 0;
+             return differ;
+           }) == 0;
   };
   rows.oneRadius = uniform(particles.radius);
   rows.turns = rows.spins && particles.rotates();

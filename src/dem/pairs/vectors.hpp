@@ -19,7 +19,7 @@ using Four = double __attribute__((vector_size(32)));
 #ifdef __AVX__
   return _mm256_maskload_pd(&a.x, _mm256_setr_epi64x(-1, -1, -1, 0));
 #else
-  return {a.x, a.y, a.z, 0.0};
+  return Four{a.x, a.y, a.z, 0.0};
 #endif
 }
 

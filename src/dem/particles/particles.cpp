@@ -8,6 +8,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/core/raw_vector.hpp"
 
 namespace dovetail::dem {
 
@@ -115,21 +116,34 @@ std::vector<int> numbersWithout(const Particles& particles, std::span<const int>
                        "give numbers from 0 to " + std::to_string(static_cast<long>(number.size()) - 1));
     number[static_cast<std::size_t>(i)] = -1;
   }
-  int next = 0;
-  for (int& n : number)
-    if (n == 0) n = next++;
+  constexpr std::size_t grain = 16384;
+  std::vector<int> next((number.size() + grain - 1) / grain + 1, 0);
+  parallelFor(number.size(), grain, [&](std::size_t begin, std::size_t end) {
+    int stay = 0;
+    for (std::size_t i = begin; i < end; ++i) stay += number[i] == 0 ? 1 : 0;
+    next[begin / grain + 1] = stay;
+  });
+  for (std::size_t c = 1; c < next.size(); ++c) next[c] += next[c - 1];
+  parallelFor(number.size(), grain, [&](std::size_t begin, std::size_t end) {
+    int& to = next[begin / grain];
+    for (std::size_t i = begin; i < end; ++i)
+      if (number[i] == 0) number[i] = to++;
+  });
   return number;
 }
 
 void renumber(Particles& particles, std::span<const int> newNumber) {
   checkLength(newNumber.size(), particles.size(), "new numbers");
-  std::vector<int> order(particles.size(), 0);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < newNumber.size(); ++i)
-    if (newNumber[i] >= 0) {
-      order[static_cast<std::size_t>(newNumber[i])] = static_cast<int>(i);
-      ++count;
-    }
+  RawVector<int> order(particles.size());
+  const std::size_t count = parallelSum(newNumber.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    std::size_t stay = 0;
+    for (std::size_t i = begin; i < end; ++i)
+      if (newNumber[i] >= 0) {
+        order[static_cast<std::size_t>(newNumber[i])] = static_cast<int>(i);
+        ++stay;
+      }
+    return stay;
+  });
   forEachArray(particles, [&](auto& values) {
     if (values.empty()) return;
     std::remove_reference_t<decltype(values)> moved(count);

@@ -92,11 +92,20 @@ std::vector<int> numbersAlongCurve(const Particles& particles, std::span<const i
   const Bricks bricks(particles);
   const std::size_t n = particles.size(), tasks = (n + grain - 1) / grain;
   const int rangeBits = std::min(9, 3 * bricks.bits), shift = 3 * bricks.bits - rangeBits;
-  const auto sorted = distribute<Placed>(tasks, std::size_t{1} << rangeBits, [&](std::size_t task, auto&& sink) {
-    for (std::size_t s = task * grain; s < std::min(n, (task + 1) * grain); ++s) {
-      const std::uint64_t place = bricks.placeOf(particles.x[static_cast<std::size_t>(order[s])]);
-      sink(static_cast<std::size_t>(place >> shift), Placed{place, order[s]});
-    }
+  RawVector<std::uint64_t> places(n);  // in the given order
+  const auto eachOf = [&](std::size_t task, auto&& act) {
+    for (std::size_t s = task * grain; s < std::min(n, (task + 1) * grain); ++s) act(s);
+  };
+  const auto findPlaces = [&](std::size_t task, auto&& sink) {
+    eachOf(task, [&](std::size_t s) {
+      places[s] = bricks.placeOf(particles.x[static_cast<std::size_t>(order[s])]);
+      sink(static_cast<std::size_t>(places[s] >> shift));
+    });
+  };
+  auto sorted = distribute<Placed>(tasks, std::size_t{1} << rangeBits, findPlaces, [&](std::size_t task, auto&& sink) {
+    eachOf(task, [&](std::size_t s) {
+      sink(static_cast<std::size_t>(places[s] >> shift), Placed{places[s], order[s]});
+    });
   });
   std::vector<int> newNumber(n);
   parallelFor(sorted.count(), 1, [&](std::size_t range, std::size_t) {

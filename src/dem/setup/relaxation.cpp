@@ -29,7 +29,7 @@ void forEachWallContact(const Packing& packing, double reach, Visit&& visit) {
 }
 
 template <class Visit>
-void forEachPairContact(const Packing& packing, const std::vector<std::array<int, 2>>& pairs, double reach,
+void forEachPairContact(const Packing& packing, const geometry::SpherePairs& pairs, double reach,
                         Visit&& visit) {
   for (const auto& pair : pairs) {
     const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
@@ -66,7 +66,7 @@ void Relaxation::keepPairs() {
   skin_ = std::min(0.6 * mean, std::max(0.0, 0.4 * smallestLength - 2.0 * largest));
   grid_ = geometry::HierarchicalGrid(packing_.space);
   grid_.build(packing_.centre, packing_.radius, skin_);
-  grid_.pairs(pairs_);
+  pairs_ = grid_.pairs();
   positionAtBuild_ = packing_.centre;
   radiusAtBuild_ = packing_.radius;
   spaceAtBuild_ = packing_.space;

@@ -41,7 +41,7 @@ private:
   std::vector<double> radiusAtBuild_;
   double skin_ = 0.0;
   geometry::Periodicity spaceAtBuild_;
-  std::vector<std::array<int, 2>> pairs_;
+  geometry::SpherePairs pairs_;
   geometry::HierarchicalGrid grid_;
   Overlaps now_;
   double residual_ = 0.0, contactForce_ = 0.0;

@@ -123,29 +123,38 @@ void touch(const Particles& particles, const PrimitiveWall& wall, std::size_t be
   }
 }
 
-void append(PrimitiveContacts& contacts, const PrimitiveContacts& more) {
-  const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  join(contacts.particle, more.particle);
-  join(contacts.normal, more.normal);
-  join(contacts.overlap, more.overlap);
-  join(contacts.image, more.image);
+/// Puts the parts' contacts one part after the other.
+void join(const std::vector<PrimitiveContacts>& parts, PrimitiveContacts& contacts) {
+  std::vector<std::size_t> begin(parts.size() + 1, 0);
+  for (std::size_t p = 0; p < parts.size(); ++p) begin[p + 1] = begin[p] + parts[p].size();
+  contacts.particle.resize(begin.back());
+  contacts.normal.resize(begin.back());
+  contacts.overlap.resize(begin.back());
+  contacts.image.resize(squaredNorm(contacts.period) > 0.0 ? begin.back() : 0);
+  parallelFor(parts.size(), 1, [&](std::size_t p, std::size_t) {
+    const auto at = static_cast<std::ptrdiff_t>(begin[p]);
+    const auto copy = [&](const auto& from, auto& to) { std::copy(from.begin(), from.end(), to.begin() + at); };
+    copy(parts[p].particle, contacts.particle);
+    copy(parts[p].normal, contacts.normal);
+    copy(parts[p].overlap, contacts.overlap);
+    copy(parts[p].image, contacts.image);
+  });
 }
 
 void touchAll(const Particles& particles, PrimitiveWall& wall) {
-  PrimitiveContacts& contacts = wall.contacts;
-  contacts.particle.clear();
-  contacts.normal.clear();
-  contacts.overlap.clear();
-  contacts.image.clear();
+  constexpr std::size_t few = 512;
   const std::size_t count = wall.search.near.size();
-  if (threads() == 1 || count <= grain) {
-    touch(particles, wall, 0, count, contacts);
-  } else {
-    std::vector<PrimitiveContacts> parts((count + grain - 1) / grain);
-    parallelFor(count, grain,
-                [&](std::size_t begin, std::size_t end) { touch(particles, wall, begin, end, parts[begin / grain]); });
-    for (const PrimitiveContacts& part : parts) append(contacts, part);
+  if (count <= few) {
+    wall.contacts.particle.clear();
+    wall.contacts.normal.clear();
+    wall.contacts.overlap.clear();
+    wall.contacts.image.clear();
+    return touch(particles, wall, 0, count, wall.contacts);
   }
+  std::vector<PrimitiveContacts> parts((count + few - 1) / few);
+  parallelFor(count, few,
+              [&](std::size_t begin, std::size_t end) { touch(particles, wall, begin, end, parts[begin / few]); });
+  join(parts, wall.contacts);
 }
 
 }  // namespace

@@ -124,21 +124,56 @@ double renumber(PrimitiveWall& wall, std::span<const int> newNumber, const Parti
 
 namespace detail {
 
-EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contacts, int memory) {
-  const auto components = static_cast<std::size_t>(memory);
-  contacts.oldMemory.resize(components * contacts.oldParticle.size());
-  contacts.memory.assign(components * contacts.size(), 0.0);
-  EndedMemories ended = std::exchange(contacts.left, {});
-  std::size_t c = 0;
-  for (std::size_t o = 0; o < contacts.oldParticle.size(); ++o) {
-    while (c < contacts.size() && contacts.particle[c] < contacts.oldParticle[o]) ++c;
-    const bool stays = c < contacts.size() && contacts.particle[c] == contacts.oldParticle[o];
-    if (!stays) {
+namespace {
+
+/// Memories of the old contacts begin … end − 1, to the contacts from those of the same particle on up to the next
+/// old one's.
+void carryPart(const Particles& particles, PrimitiveContacts& contacts, std::size_t components, std::size_t begin,
+               std::size_t end, EndedMemories& ended) {
+  const auto at = [&](std::size_t o) {
+    if (o == 0) return std::size_t{0};
+    if (o == contacts.oldParticle.size()) return contacts.size();
+    return static_cast<std::size_t>(
+        std::lower_bound(contacts.particle.begin(), contacts.particle.end(), contacts.oldParticle[o]) -
+        contacts.particle.begin());
+  };
+  std::size_t c = at(begin);
+  const std::size_t last = at(end);
+  const auto place = [&](std::size_t contact) { return contacts.memory.data() + contact * components; };
+  const auto startAnew = [&](std::size_t until) { std::fill(place(c), place(until), 0.0); };
+  for (std::size_t o = begin; o < end; ++o) {
+    std::size_t same = c;
+    while (same < last && contacts.particle[same] < contacts.oldParticle[o]) ++same;
+    startAnew(same);
+    c = same;
+    if (c < last && contacts.particle[c] == contacts.oldParticle[o])
+      std::copy_n(contacts.oldMemory.data() + o * components, components, place(c++));
+    else
       addEnded(ended, particles, contacts.oldParticle[o], contacts.oldMemory, o, components);
-      continue;
-    }
-    for (std::size_t m = 0; m < components; ++m)
-      contacts.memory[c * components + m] = contacts.oldMemory[o * components + m];
+  }
+  startAnew(last);
+}
+
+}  // namespace
+
+EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contacts, int memory) {
+  constexpr std::size_t grain = 1024;
+  const auto components = static_cast<std::size_t>(memory);
+  const std::size_t old = contacts.oldParticle.size();
+  contacts.oldMemory.resize(components * old);
+  contacts.memory.resize(components * contacts.size());
+  EndedMemories ended = std::exchange(contacts.left, {});
+  if (old == 0) {
+    std::fill(contacts.memory.begin(), contacts.memory.end(), 0.0);
+    return ended;
+  }
+  std::vector<EndedMemories> parts((old + grain - 1) / grain);
+  parallelFor(old, grain, [&](std::size_t begin, std::size_t end) {
+    carryPart(particles, contacts, components, begin, end, parts[begin / grain]);
+  });
+  for (const EndedMemories& part : parts) {
+    ended.memory.insert(ended.memory.end(), part.memory.begin(), part.memory.end());
+    ended.material.insert(ended.material.end(), part.material.begin(), part.material.end());
   }
   return ended;
 }
@@ -168,7 +203,7 @@ struct Reaction {
 
 void addToParticles(Particles& particles, PrimitiveWall& wall, bool spins) {
   const PrimitiveContacts& contacts = wall.contacts;
-  const Reaction sum = parallelSum(contacts.size(), 1024, [&](std::size_t begin, std::size_t end) {
+  const Reaction sum = parallelSum(contacts.size(), 512, [&](std::size_t begin, std::size_t end) {
     Reaction part;
     for (std::size_t c = begin; c < end; ++c) {
       const auto i = static_cast<std::size_t>(contacts.particle[c]);

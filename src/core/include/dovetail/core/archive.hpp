@@ -26,8 +26,8 @@ private:
     static_assert(std::is_trivially_copyable_v<T>, "give this structure a list of fields of its own");
     append(&value, sizeof value);
   }
-  template <class T>
-  void write(const std::vector<T>& values) {
+  template <class T, class Allocator>
+  void write(const std::vector<T, Allocator>& values) {
     static_assert(std::is_trivially_copyable_v<T>);
     const std::uint64_t count = values.size();
     append(&count, sizeof count);
@@ -58,8 +58,8 @@ private:
     static_assert(std::is_trivially_copyable_v<T>);
     extract(&value, sizeof value);
   }
-  template <class T>
-  void read(std::vector<T>& values) {
+  template <class T, class Allocator>
+  void read(std::vector<T, Allocator>& values) {
     std::uint64_t count = 0;
     extract(&count, sizeof count);
     requireLeft(count, sizeof(T));

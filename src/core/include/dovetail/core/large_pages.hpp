@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 namespace dovetail {
 
@@ -10,9 +9,9 @@ namespace dovetail {
 /// that has been done before. Arrays of less than 2 MB and systems without such pages are left as they are.
 void preferLargePages(const void* data, std::size_t bytes);
 
-template <class T>
-void preferLargePages(const std::vector<T>& array) {
-  preferLargePages(array.data(), array.size() * sizeof(T));
+template <class Array>
+void preferLargePages(const Array& array) {
+  preferLargePages(array.data(), array.size() * sizeof(*array.data()));
 }
 
 }  // namespace dovetail

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "dovetail/core/raw_vector.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/geometry/box.hpp"
 
@@ -34,6 +35,8 @@ struct Periodicity {
   }
 };
 
+using SpherePairs = RawVector<std::array<int, 2>>;
+
 /// Spheres sorted into levels by size and, within a level, into cells about as large as the level's largest sphere.
 ///
 /// A sphere is looked up in its own level and in all coarser ones (Ogarko & Luding, Comput. Phys. Commun. 183, 2012;
@@ -57,9 +60,7 @@ public:
   void build(std::span<const Vec3> x, std::span<const double> radius, double skin = 0.0);
 
   /// All pairs i < j with |xi − xj| ≤ hi + hj, h = radius + skin/2, through the nearest image; sorted by i, then j.
-  std::vector<std::array<int, 2>> pairs() const;
-  /// The same into memory that the caller keeps between steps.
-  void pairs(std::vector<std::array<int, 2>>& sorted) const;
+  SpherePairs pairs() const;
 
   /// Calls callback(i, j), i < j, once for each pair, in an order of the grid's own that depends on the input alone.
   template <class Callback>
@@ -120,9 +121,13 @@ private:
   using PairSink = void (*)(void* context, int i, const int* partners, std::size_t count);
   using BoxSink = void (*)(void* context, int i);
 
-  void checkSpheres(std::span<const Vec3> x, std::span<const double> radius, double skin) const;
+  struct Sizes {
+    double smallest, largest;
+  };
+  Sizes checkSpheres(std::span<const Vec3> x, std::span<const double> radius, double skin) const;
   Vec3 wrapped(Vec3 x) const;
-  void makeLevels(std::span<const Vec3> x, std::span<const double> radius);
+  void makeLevels(std::span<const Vec3> x, std::span<const double> radius, const Sizes& sizes);
+  void addLevel(std::span<const int> members, std::size_t begin, double largest, std::span<const Vec3> x);
   void layCells(Level& level, std::span<const int> members, std::span<const Vec3> x) const;
   void sortLevel(Level& level, std::span<const int> members, std::span<const Vec3> x);
   void sortRange(const Level& level, std::span<const Keyed> members, std::size_t begin, std::size_t first,
@@ -147,11 +152,11 @@ private:
 
   Periodicity periodicity_;
   double skin_ = 0.0;
-  std::vector<Level> levels_;                  // finest first
-  std::vector<int> id_;                        // sphere numbers, sorted by level, then key, then number
-  std::vector<Key> key_;                       // cell of each sphere, in sorted order
-  std::vector<std::array<double, 4>> sphere_;  // x, y, z (wrapped), inflated radius, in sorted order
-  std::vector<int> index_;                     // per level and bucket of keys: its first sphere
+  std::vector<Level> levels_;                // finest first
+  RawVector<int> id_;                        // sphere numbers, sorted by level, then key, then number
+  RawVector<Key> key_;                       // cell of each sphere, in sorted order
+  RawVector<std::array<double, 4>> sphere_;  // x, y, z (wrapped), inflated radius, in sorted order
+  RawVector<int> index_;                     // per level and bucket of keys: its first sphere
 };
 
 }  // namespace dovetail::geometry

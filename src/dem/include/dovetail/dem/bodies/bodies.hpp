@@ -71,8 +71,8 @@ double applyViscousDamping(Bodies& bodies, double rate);
 /// @throws InputError unless 0 ≤ α < 1
 double applyLocalDamping(Bodies& bodies, double alpha);
 
-/// Moves centres by whole periods into the periodic box.
-void wrapPositions(Bodies& bodies, const geometry::Periodicity& space);
+/// Moves centres by whole periods into the periodic box. Returns the sum of mass times move, kg m.
+Vec3 wrapPositions(Bodies& bodies, const geometry::Periodicity& space);
 
 /// Takes bodies out of all arrays; the others keep their order. @param newNumber one per body, −1 = gone, ascending
 void renumber(Bodies& bodies, std::span<const int> newNumber);

@@ -17,9 +17,10 @@ struct Energies {
   double external = 0.0;  ///< done by external forces
   double entered = 0.0;   ///< brought in by inserted particles
   double left = 0.0;      ///< taken out with particles that were removed or escaped
+  double lifted = 0.0;    ///< given in gravity by moves of whole periods, which lift what falls along a periodic axis
   double stored() const { return kinetic + gravity + contacts; }
   /// stored + lost + damping + left − what came in
-  double balance() const { return stored() + lost.lostPower() + damping + left - walls - external - entered; }
+  double balance() const { return stored() + lost.lostPower() + damping + left - walls - external - entered - lifted; }
 };
 
 /// Sums of momentum.

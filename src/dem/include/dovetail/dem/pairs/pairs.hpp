@@ -20,11 +20,11 @@ struct PairChunks {
   std::size_t size = 0;              ///< particles per chunk
   std::vector<std::size_t> begin;    ///< chunk c holds pairs begin[c] … begin[c + 1] − 1
   std::vector<std::size_t> crosses;  ///< its crossing pairs are crosses[c] … crosses[c + 1] − 1 of those below
-  std::vector<Vec3> force, torque;   ///< on the second particle of each crossing pair, N, N m
+  RawVector<Vec3> force, torque;     ///< on the second particle of each crossing pair, N, N m
   std::vector<std::size_t> arrives;  ///< chunk c receives arriving[arrives[c]] … arriving[arrives[c + 1] − 1]
-  std::vector<std::array<int, 2>> arriving;  ///< crossing pair, particle
-  std::vector<std::size_t> images;           ///< chunk c has images[c] … images[c + 1] − 1 of PairList::images
-  std::vector<std::size_t> candidates;       ///< and candidates[c] … candidates[c + 1] − 1 of PairList::candidates
+  RawVector<std::array<int, 2>> arriving;  ///< crossing pair, particle
+  std::vector<std::size_t> images;         ///< chunk c has images[c] … images[c + 1] − 1 of PairList::images
+  std::vector<std::size_t> candidates;     ///< and candidates[c] … candidates[c + 1] − 1 of PairList::candidates
   std::size_t count() const { return begin.empty() ? 0 : begin.size() - 1; }
 };
 
@@ -42,6 +42,8 @@ struct EndedPair {
   double effectiveMass, effectiveRadius;
 };
 
+using Pairs = geometry::SpherePairs;
+
 /// Pairs closer than the sum of their radii + skin when the list was made.
 ///
 /// Two lists stand behind each other (Páll & Hess, Comput. Phys. Commun. 184, 2013, call it pruning): `candidates` come
@@ -52,16 +54,16 @@ struct PairList {
   /// m; 0 = a search at every step. Not set: defaultSkin mean diameters, from the first search on.
   std::optional<double> skin;
   static constexpr double defaultSkin = 0.15;
-  double reach = 0.0;  ///< m: of the law beyond touch, see ContactLaws::reach; adds to the skins
-  std::vector<std::array<int, 2>> pairs;  ///< i < j, sorted
-  std::int64_t builds = 0;                ///< how often the grid was asked
-  std::int64_t revision = 0;              ///< how often `pairs` has changed
+  double reach = 0.0;         ///< m: of the law beyond touch, see ContactLaws::reach; adds to the skins
+  Pairs pairs;                ///< i < j, sorted
+  std::int64_t builds = 0;    ///< how often the grid was asked
+  std::int64_t revision = 0;  ///< how often `pairs` has changed
 
   static constexpr std::size_t pruneFrom = 4096;
-  double innerSkin = 0.0;                      ///< m
-  std::vector<std::array<int, 2>> candidates;  ///< i < j, sorted; empty unless pruned
-  std::vector<Vec3> positionAtPruning;         ///< empty unless pruned
-  double innerTravel = 0.0;                    ///< bound on how far any particle has moved since the last pruning, m
+  double innerSkin = 0.0;               ///< m
+  Pairs candidates;                     ///< i < j, sorted; empty unless pruned
+  std::vector<Vec3> positionAtPruning;  ///< empty unless pruned
+  double innerTravel = 0.0;             ///< bound on how far any particle has moved since the last pruning, m
   std::int64_t updatesSincePruning = 0;
 
   /// Axes along which space repeats; set before the list is made. Each search moves particles into the box, so that
@@ -71,10 +73,10 @@ struct PairList {
 
   /// Per pair: factor on its force and energies, such as the particles' share of an overlap, 0 = muted; empty = 1. Kept
   /// while a pair stays in the list; a newcomer has 1 until somebody sets it, which is due when `revision` has changed.
-  std::vector<double> scale;
+  RawVector<double> scale;
   /// What the contacts remember, by component: number c of pair p is memory[c * pairs.size() + p]. A tangential spring
   /// takes three numbers, its stretch, m. Empty unless the law remembers something.
-  std::vector<double> memory;
+  RawVector<double> memory;
   unsigned turns = 0;  ///< of the law that last used the memory: see laws.hpp
   /// Pairs that left the list, and their memories one after the other; the next collide books them as lost.
   std::vector<EndedPair> endedPairs;
@@ -124,6 +126,10 @@ void wrapPositions(Particles& particles, const geometry::Periodicity& periodicit
 /// @param before    the particles as they are numbered until now, those that go included
 void renumber(PairList& list, std::span<const int> newNumber, const Particles& before);
 
+/// For lists that stay as they are, of laws that bond them: makes anew what hangs on the particles' numbers and number,
+/// after renumber, and after particles have been added, which get no pairs. Images are the nearest ones.
+void keepPairs(const Particles& particles, PairList& list);
+
 /// Makes the chunks of a list whose other parts have been read from a file.
 void restoreChunks(const Particles& particles, PairList& list);
 
@@ -133,20 +139,13 @@ std::vector<int> sortParticles(Particles& particles, PairList& list);
 
 namespace detail {
 
-/// Puts `pairs` in the place of the list's, and makes anew what hangs on them.
-void takePairs(const Particles& particles, std::vector<std::array<int, 2>>&& pairs, PairList& list);
 /// Picks the pairs from the candidates.
 void prunePairs(const Particles& particles, PairList& list);
 /// Takes the pairs from a grid that holds the particles with this skin, and remembers where they are.
 void takeFound(const Particles& particles, const geometry::HierarchicalGrid& grid, double skin, PairList& list);
 /// The skin that is set, or the default, which is set then.
 double skinOf(const Particles& particles, PairList& list);
-std::size_t chunkSize(std::size_t particles);
-/// Ranges of sorted pairs that belong to the chunks.
-void findRanges(std::size_t particles, const std::vector<std::array<int, 2>>& sorted, std::vector<std::size_t>& begin);
 void makeChunks(std::size_t particles, PairList& list);
-/// Memories and factors of pairs that are in both lists; `old` has the list's memory, `list` the new pairs.
-void keepMemory(const Particles& particles, const std::vector<std::array<int, 2>>& old, PairList& list);
 
 }  // namespace detail
 

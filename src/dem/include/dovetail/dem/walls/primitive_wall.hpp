@@ -152,8 +152,8 @@ ContactWork collide(Particles& particles, PrimitiveWall& wall, const PreparedLaw
                     Booking booking = Booking::on) {
   PrimitiveContacts& contacts = wall.contacts;
   ContactWork work;
-  contacts.force.assign(contacts.size(), Vec3{});
-  if constexpr (Law::rotates) contacts.couple.assign(contacts.size(), Vec3{});
+  contacts.force.resize(contacts.size());
+  if constexpr (Law::rotates) contacts.couple.resize(contacts.size());
   if constexpr (Law::memory > 0) {
     detail::requireStep(dt);
     const EndedMemories ended = detail::carryMemory(particles, contacts, Law::memory);
