@@ -14,9 +14,7 @@ namespace {
 /// Rows of the table of laws; 1: a single law serves all materials.
 int materialsOf(const Model& m) { return m.laws ? m.laws->materials() : 1; }
 
-Moves movesOf(const Model& m, const Step& step) {
-  return {step.moved, Moves::unknown, m.pairs.travel, m.pairs.builds};
-}
+Moves movesOf(const Model& m, const Step& step) { return {step.moved, Moves::unknown, m.pairs.travel, m.pairs.builds}; }
 
 template <class List>
 auto& numbered(List& found, std::size_t i, const char* kind) {
@@ -28,9 +26,7 @@ auto& numbered(List& found, std::size_t i, const char* kind) {
 
 }  // namespace
 
-void PrimitiveWallTerm::check(const Model& m) const {
-  validate(wall, materialsOf(m), m.pairs.periodicity);
-}
+void PrimitiveWallTerm::check(const Model& m) const { validate(wall, materialsOf(m), m.pairs.periodicity); }
 
 double PrimitiveWallTerm::move(Model&, const Step& step) {
   kickWall(wall, 0.5 * (step.closing + step.dt));
@@ -104,9 +100,7 @@ void PrimitiveWallTerm::load(ByteReader& reader) {
   reader(stored);
 }
 
-void MeshWallTerm::check(const Model& m) const {
-  validate(mesh, materialsOf(m));
-}
+void MeshWallTerm::check(const Model& m) const { validate(mesh, materialsOf(m)); }
 
 std::string MeshWallTerm::code() const {
   if (std::holds_alternative<PrescribedMotion>(mesh.motion)) return "a motion";
@@ -171,26 +165,23 @@ void MeshWallTerm::load(ByteReader& reader) {
 }
 
 namespace {
-template <class WallTerm>
-void remove(Model& m, WallTerm* term) {
-  if (!term) throw InputError("the wall is not one of the model's", "removeWall", "give the wall that addWall returned");
-  m.booked.left += term->stored;
-  m.work.elasticEnergy -= term->stored;
-  m.terms.remove(*term);
+
+/// @param wall one of those that terms of this kind hold as their `part`
+template <class WallTerm, class Wall>
+void removeTerm(Model& m, const Wall& wall, Wall WallTerm::*part) {
+  const auto found = m.terms.all<WallTerm>();
+  const auto term = std::find_if(found.begin(), found.end(), [&](const auto* t) { return &(t->*part) == &wall; });
+  if (term == found.end())
+    throw InputError("the wall is not one of the model's", "removeWall", "give the wall that addWall returned");
+  m.booked.left += (*term)->stored;
+  m.work.elasticEnergy -= (*term)->stored;
+  m.terms.remove(**term);
 }
+
 }  // namespace
 
-void removeWall(Model& m, const PrimitiveWall& wall) {
-  const auto found = m.terms.all<PrimitiveWallTerm>();
-  const auto term = std::find_if(found.begin(), found.end(), [&](const auto* t) { return &t->wall == &wall; });
-  remove(m, term == found.end() ? nullptr : *term);
-}
-
-void removeWall(Model& m, const MeshWall& mesh) {
-  const auto found = m.terms.all<MeshWallTerm>();
-  const auto term = std::find_if(found.begin(), found.end(), [&](const auto* t) { return &t->mesh == &mesh; });
-  remove(m, term == found.end() ? nullptr : *term);
-}
+void removeWall(Model& m, const PrimitiveWall& wall) { removeTerm(m, wall, &PrimitiveWallTerm::wall); }
+void removeWall(Model& m, const MeshWall& mesh) { removeTerm(m, mesh, &MeshWallTerm::mesh); }
 
 PrimitiveWall& primitiveWall(Model& m, std::size_t i) {
   auto found = m.terms.all<PrimitiveWallTerm>();

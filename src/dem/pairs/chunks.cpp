@@ -49,6 +49,15 @@ void joinImages(const std::vector<std::vector<PairImage>>& images, PairList& lis
   });
 }
 
+/// Not twice as much as is needed, as vectors would take when they grow by a little.
+void makeRoom(RawVector<Vec3>& values, std::size_t count) {
+  if (count > values.capacity()) {
+    values = {};
+    values.reserve(count + count / 32);
+  }
+  values.resize(count);
+}
+
 void joinCrossers(const std::vector<std::vector<int>>& crossers, PairChunks& chunks) {
   const std::size_t count = chunks.count();
   chunks.crosses.assign(count + 1, 0);
@@ -59,7 +68,8 @@ void joinCrossers(const std::vector<std::vector<int>>& crossers, PairChunks& chu
   });
   chunks.arrives = std::move(arriving.begin);
   chunks.arriving = std::move(arriving.items);
-  chunks.force.resize(chunks.crosses.back());
+  makeRoom(chunks.force, chunks.crosses.back());
+  if (!chunks.torque.empty()) makeRoom(chunks.torque, chunks.crosses.back());
 }
 
 }  // namespace

@@ -30,11 +30,12 @@ struct Sums {
   }
 };
 
-/// Σ f·v, Σ v², Σ f², torques and spins as forces and speeds at the surface.
-Sums sumsOf(const Particles& p) {
+/// Σ f·v, Σ v², Σ f², torques and spins as forces and speeds at the surface; without the members of bodies.
+Sums sumsOf(const Particles& p, const std::vector<char>& members) {
   return parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
     Sums sums;
     for (std::size_t i = begin; i < end; ++i) {
+      if (!members.empty() && members[i] != 0) continue;
       sums += {dot(p.f[i], p.v[i]), squaredNorm(p.v[i]), squaredNorm(p.f[i])};
       if (!p.rotates()) continue;
       const double r2 = p.radius[i] * p.radius[i];
@@ -58,9 +59,67 @@ void steer(Particles& p, double keep, double lean, double dt) {
   });
 }
 
-void stop(Particles& p) {
-  std::fill(p.v.begin(), p.v.end(), Vec3{});
-  std::fill(p.omega.begin(), p.omega.end(), Vec3{});
+/// Square of the radius of the sphere with a body's mass and mean moment of inertia, m².
+double squaredRadius(const Bodies& bodies, std::size_t b) {
+  const Vec3& inertia = bodies.inertia[b];
+  return 2.5 * (inertia.x + inertia.y + inertia.z) / (3.0 * bodies.mass[b]);
+}
+
+Sums sumsOf(const Bodies& bodies) {
+  Sums sums;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Vec3 omega = angularVelocity(bodies, static_cast<int>(b)), &f = bodies.f[b], &torque = bodies.torque[b];
+    const double r2 = squaredRadius(bodies, b);
+    sums += {dot(f, bodies.v[b]) + dot(torque, omega), squaredNorm(bodies.v[b]) + r2 * squaredNorm(omega),
+             squaredNorm(f) + squaredNorm(torque) / r2};
+  }
+  return sums;
+}
+
+/// As particles are steered. No body will move farther than half the radius of its smallest member in a step.
+void steer(BodyTerm& term, const Particles& p, double keep, double lean, double dt) {
+  Bodies& bodies = term.bodies;
+  std::vector<double> least(bodies.size(), std::numeric_limits<double>::infinity()), extent(bodies.size(), 0.0);
+  for (std::size_t k = 0; k < term.clumps.size(); ++k) {
+    const auto b = static_cast<std::size_t>(term.clumps.body[k]);
+    const double radius = p.radius[static_cast<std::size_t>(term.clumps.particle[k])];
+    least[b] = std::min(least[b], radius);
+    extent[b] = std::max(extent[b], norm(term.clumps.offset[k]) + radius);
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Vec3 &inertia = bodies.inertia[b], kick = (0.5 * dt / bodies.mass[b]) * bodies.f[b],
+               twist = 0.5 * dt * bodies.torque[b];
+    bodies.v[b] = keep * bodies.v[b] + lean * bodies.f[b];
+    Vec3& spin = bodies.angularMomentum[b];
+    spin = keep * spin + (0.4 * lean * bodies.mass[b]) * bodies.torque[b];
+    const double speed =
+        norm(bodies.v[b] + kick) + extent[b] * norm(spin + twist) / std::min({inertia.x, inertia.y, inertia.z});
+    const double fastest = 0.5 * least[b] / dt;
+    if (!(speed > fastest)) continue;
+    bodies.v[b] = (fastest / speed) * (bodies.v[b] + kick) - kick;
+    spin = (fastest / speed) * (spin + twist) - twist;
+  }
+}
+
+void steer(Model& m, double keep, double lean, double dt) {
+  steer(m.particles, keep, lean, dt);
+  for (BodyTerm* term : m.terms.all<BodyTerm>()) steer(*term, m.particles, keep, lean, dt);
+}
+
+void stop(Model& m) {
+  std::fill(m.particles.v.begin(), m.particles.v.end(), Vec3{});
+  std::fill(m.particles.omega.begin(), m.particles.omega.end(), Vec3{});
+  for (BodyTerm* term : m.terms.all<BodyTerm>()) {
+    std::fill(term->bodies.v.begin(), term->bodies.v.end(), Vec3{});
+    std::fill(term->bodies.angularMomentum.begin(), term->bodies.angularMomentum.end(), Vec3{});
+  }
+}
+
+double kineticEnergyOf(const Model& m) {
+  Energies e;
+  e.kinetic = kineticEnergy(m.particles);
+  for (const BodyTerm* term : m.terms.all<BodyTerm>()) term->addEnergies(m, e);
+  return e.kinetic;
 }
 
 /// The steps' length and how far velocities lean towards forces.
@@ -72,18 +131,19 @@ public:
     longest_ = longest;
     dt_ = std::min(dt_, longest_);
   }
-  void steerBy(Particles& p) {
-    const Sums sums = sumsOf(p);
+  void steerBy(Model& m) {
+    Sums sums = sumsOf(m.particles, members(m));
+    for (const BodyTerm* term : m.terms.all<BodyTerm>()) sums += sumsOf(term->bodies);
     if (sums.power > 0.0) {
       if (++good_ > 5) {
         dt_ = std::min(1.1 * dt_, longest_);
         mix_ *= 0.99;
       }
-      steer(p, 1.0 - mix_, mix_ * std::sqrt(sums.speed / sums.force), dt_);
+      steer(m, 1.0 - mix_, mix_ * std::sqrt(sums.speed / sums.force), dt_);
       return;
     }
-    stop(p);
-    steer(p, 0.0, 0.0, dt_);
+    stop(m);
+    steer(m, 0.0, 0.0, dt_);
     if (good_ > 0) dt_ = std::max(0.5 * dt_, 0.01 * longest_);
     mix_ = mixAtStart;
     good_ = 0;
@@ -102,8 +162,6 @@ void check(const Model& m, const RelaxationSettings& s) {
                      "give a number between 0 and 1");
   if (s.lookEvery < 1 || s.steps < 0)
     throw InputError("a number of steps is not valid", "relaxation", "give lookEvery ≥ 1 and steps ≥ 0");
-  if (!m.terms.all<BodyTerm>().empty())
-    throw InputError("the model has bodies", "relaxation", "run it with damping instead");
   for (const PrimitiveWallTerm* term : m.terms.all<PrimitiveWallTerm>())
     if (term->wall.motion || norm(term->wall.velocity) + norm(term->wall.angularVelocity) > 0.0)
       throw InputError("a wall moves", "relaxation", "let walls stand");
@@ -154,12 +212,25 @@ RelaxationReport restOf(const Model& m) {
       if (i >= 0) touches[static_cast<std::size_t>(i)] = 1;
   }
   RelaxationReport report;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const double force = norm(p.f[i]);
+  std::int64_t counted = 0;
+  const auto count = [&](double force, bool touched) {
     residual += force;
-    report.rattlers += touches[i] == 0 && force == 0.0;
+    ++counted;
+    report.rattlers += !touched && force == 0.0;
+  };
+  const std::vector<char> inBodies = members(m);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (inBodies.empty() || inBodies[i] == 0) count(norm(p.f[i]), touches[i] != 0);
+  for (const BodyTerm* term : m.terms.all<BodyTerm>()) {
+    const Bodies& bodies = term->bodies;
+    std::vector<char> touched(bodies.size(), 0);
+    for (std::size_t k = 0; k < term->clumps.size(); ++k)
+      if (touches[static_cast<std::size_t>(term->clumps.particle[k])] != 0)
+        touched[static_cast<std::size_t>(term->clumps.body[k])] = 1;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      count(norm(bodies.f[b]) + norm(bodies.torque[b]) / std::sqrt(squaredRadius(bodies, b)), touched[b] != 0);
   }
-  const auto held = static_cast<double>(static_cast<std::int64_t>(p.size()) - report.rattlers);
+  const auto held = static_cast<double>(counted - report.rattlers);
   if (residual > 0.0)
     report.unbalanced = contactForce > 0.0 ? residual / held / contactForce : std::numeric_limits<double>::infinity();
   return report;
@@ -179,14 +250,14 @@ RelaxationReport relax(Model& m, const RelaxationSettings& settings) {
       if (report.atRest || step == settings.steps || (settings.enough && settings.enough(m))) break;
       downhill.setLongest(longestStep(m, settings.stepShare));
     }
-    const double before = kineticEnergy(m.particles);
-    downhill.steerBy(m.particles);
-    m.booked.damping += before - kineticEnergy(m.particles);
+    const double before = kineticEnergyOf(m);
+    downhill.steerBy(m);
+    m.booked.damping += before - kineticEnergyOf(m);
     run(m, downhill.dt(), 1);
   }
   m.refusesUnstableSteps = refuses;
-  m.booked.damping += kineticEnergy(m.particles);
-  stop(m.particles);
+  m.booked.damping += kineticEnergyOf(m);
+  stop(m);
   return report;
 }
 

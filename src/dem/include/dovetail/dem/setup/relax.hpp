@@ -18,9 +18,11 @@ struct RelaxationSettings {
 
 struct RelaxationReport {
   bool atRest = false;
-  double unbalanced = 0.0;    ///< mean force on a particle over the mean contact force; rattlers left out
+  /// Mean force on a particle or body over the mean contact force; rattlers left out. A body's torque counts as the
+  /// force that exerts it at the surface of the sphere of the same mass and mean moment of inertia.
+  double unbalanced = 0.0;
   std::int64_t steps = 0;     ///< taken
-  std::int64_t rattlers = 0;  ///< particles that touch nobody and feel no force
+  std::int64_t rattlers = 0;  ///< particles and bodies that touch nobody and feel no force
 };
 
 /// Steps the model until it is at rest under the forces that it has: gravity, contacts with their friction, bonds,
@@ -28,7 +30,8 @@ struct RelaxationReport {
 /// towards forces and stop wherever they point uphill; what that takes is booked as damping. Contacts remember as in
 /// any other step, so friction holds what it can. Afterwards velocities are zero, and time has gone on by the steps
 /// taken.
-/// @throws InputError if a setting is not valid, or the model has bodies or moving walls; NumericalError as advance
+/// Bodies move and turn as a whole.
+/// @throws InputError if a setting is not valid, or the model has moving walls; NumericalError as advance
 RelaxationReport relax(Model& m, const RelaxationSettings& settings = {});
 
 /// Mean force on a particle over the mean contact force, and who rattles, as the model lies now; forces have been asked
