@@ -1,6 +1,10 @@
 // Pairs in and out of blocks.
+#include <cstring>
+#include <memory>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
+#include "vectors.hpp"
 
 namespace dovetail::dem::detail {
 
@@ -12,27 +16,37 @@ constexpr std::size_t lookAhead = 128;
 /// Asks the cache for what will be read of the particles some pairs later.
 void announce(const Particles& particles, const PairList& list, std::size_t first, std::size_t n, bool spins) {
   const std::size_t begin = std::min(first + lookAhead, list.size()), end = std::min(begin + n, list.size());
-  const Vec3 *const x = particles.x.data(), *const v = particles.v.data(), *const f = particles.f.data();
-  const Vec3 *const omega = particles.omega.data(), *const torque = particles.torque.data();
+  const Vec3 *const x = particles.x.data(), *const v = particles.v.data(), *const omega = particles.omega.data();
   for (std::size_t p = begin; p < end; ++p) {
     const int j = list.pairs[p][1];
     __builtin_prefetch(x + j);
     __builtin_prefetch(v + j);
-    __builtin_prefetch(f + j, 1);
-    if (!spins) continue;
-    __builtin_prefetch(omega + j);
-    __builtin_prefetch(torque + j, 1);
+    if (spins) __builtin_prefetch(omega + j);
   }
 }
 
-/// Separations and velocities.
-void gatherCentres(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, ContactBlock& block) {
-  const Vec3 *const x = particles.x.data(), *const v = particles.v.data();
-  for (std::size_t l = 0; l < n; ++l) {
-    const int i = pairs[l][0], j = pairs[l][1];
-    block.separation.set(l, x[i] - x[j]);
-    block.velocity.set(l, v[i] - v[j]);
-  }
+/// Separations, velocities and, if they turn, spins. Places up to the next multiple of four repeat the last pair.
+template <bool turns>
+void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, bool spinDifferences,
+                  ContactBlock& block) {
+  const Vec3 *const x = particles.x.data(), *const v = particles.v.data(), *const omega = particles.omega.data();
+  const auto four = [&](std::size_t l, const std::array<int, 2>* of) {
+    const auto apart = [&](const Vec3* values, int k) { return load(values[of[k][0]]) - load(values[of[k][1]]); };
+    const auto sum = [&](const Vec3* values, int k) { return load(values[of[k][0]]) + load(values[of[k][1]]); };
+    setRows(block.separation, l, apart(x, 0), apart(x, 1), apart(x, 2), apart(x, 3));
+    setRows(block.velocity, l, apart(v, 0), apart(v, 1), apart(v, 2), apart(v, 3));
+    if constexpr (turns) {
+      setRows(block.spinSum, l, sum(omega, 0), sum(omega, 1), sum(omega, 2), sum(omega, 3));
+      if (spinDifferences)
+        setRows(block.spinDifference, l, apart(omega, 0), apart(omega, 1), apart(omega, 2), apart(omega, 3));
+    }
+  };
+  std::size_t l = 0;
+  for (; l + 4 <= n; l += 4) four(l, pairs + l);
+  if (l == n) return;
+  std::array<std::array<int, 2>, 4> rest;
+  for (std::size_t k = 0; k < 4; ++k) rest[k] = pairs[std::min(l + k, n - 1)];
+  four(l, rest.data());
 }
 
 void gatherRadii(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, bool same,
@@ -49,21 +63,6 @@ void gatherRadii(const Particles& particles, const std::array<int, 2>* pairs, st
   }
 }
 
-void gatherSpins(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, ContactBlock& block) {
-  if (!particles.rotates()) {
-    for (std::size_t l = 0; l < n; ++l) {
-      block.spinI.set(l, {});
-      block.spinJ.set(l, {});
-    }
-    return;
-  }
-  const Vec3* const omega = particles.omega.data();
-  for (std::size_t l = 0; l < n; ++l) {
-    block.spinI.set(l, omega[pairs[l][0]]);
-    block.spinJ.set(l, omega[pairs[l][1]]);
-  }
-}
-
 void gatherVaried(const Particles& particles, const PairList& list, std::size_t first, int materials, std::size_t n,
                   ContactBlock& block) {
   const auto material = [&](int i) {
@@ -76,51 +75,57 @@ void gatherVaried(const Particles& particles, const PairList& list, std::size_t 
   }
 }
 
-/// Force and torque of one side, gathered over the successive pairs of one particle.
-template <bool spins>
-struct Sum {
-  std::size_t particle;
-  Vec3 force, torque;
-  Sum(const Particles& particles, std::size_t i)
-      : particle(i), force(particles.f[i]), torque(spins ? particles.torque[i] : Vec3{}) {}
-  void store(Particles& particles) const {
-    particles.f[particle] = force;
-    if constexpr (spins) particles.torque[particle] = torque;
-  }
-};
-
-template <bool spins>
-void scatterForces(Particles& particles, PairList& list, PairCursor& cursor, std::size_t n, const ContactBlock& block) {
+/// Adds forces and torques to the sums of the chunk.
+/// @tparam spins  there are torques
+/// @tparam alike  they are the same on both particles
+template <bool spins, bool alike>
+void addToSums(const PairList& list, PairCursor& cursor, std::size_t n, const ContactBlock& block) {
   const auto* const pairs = list.pairs.data() + cursor.pair;
-  Vec3 *const f = particles.f.data(), *const torque = particles.torque.data();
-  const std::size_t chunkEnd = (cursor.chunk + 1) * list.chunks.size;
-  std::size_t crossing = cursor.crossing;
-  Sum<spins> sum(particles, static_cast<std::size_t>(pairs[0][0]));
-  for (std::size_t l = 0; l < n; ++l) {
-    const auto i = static_cast<std::size_t>(pairs[l][0]), j = static_cast<std::size_t>(pairs[l][1]);
-    if (i != sum.particle) {
-      sum.store(particles);
-      sum = Sum<spins>(particles, i);
-    }
-    const Vec3 force = block.force.at(l);
-    sum.force += force;
-    Vec3 torqueJ;
+  constexpr std::size_t numbers = spins ? 2 : 1;
+  const auto first = static_cast<int>(cursor.firstParticle), size = static_cast<int>(cursor.particles);
+  int crossing = size + static_cast<int>(cursor.crossing);
+  Four* const sums = cursor.sums;
+  const auto add = [&](std::size_t l, const Four& force, const Four& torqueI, const Four& torqueJ) {
+    const int i = pairs[l][0] - first, inside = pairs[l][1] - first;
+    const int crosses = inside >= size ? 1 : 0, j = inside + crosses * (crossing - inside);
+    crossing += crosses;
+    Four *const ofI = sums + numbers * static_cast<std::size_t>(i), *const ofJ =
+                                                                        sums + numbers * static_cast<std::size_t>(j);
+    ofI[0] += force;
+    ofJ[0] -= force;
     if constexpr (spins) {
-      const Vec3 turning = block.turning.at(l), couple = block.couple.at(l);
-      sum.torque += couple - block.armI[l] * turning;
-      torqueJ = -(couple + block.armJ[l] * turning);
+      ofI[1] += torqueI;
+      ofJ[1] += torqueJ;
     }
-    if (j < chunkEnd) {
-      f[j] -= force;
-      if constexpr (spins) torque[j] += torqueJ;
-    } else {
-      list.chunks.force[crossing] = -force;
-      if constexpr (spins) list.chunks.torque[crossing] = torqueJ;
-      ++crossing;
+  };
+  const auto addFour = [&](std::size_t l, std::size_t count) {
+    const FourVectors force = vectorsOf(block.force, l);
+    FourVectors torqueI, torqueJ;
+    if constexpr (spins) {
+      torqueI = vectorsOf(block.torqueI, l);
+      torqueJ = alike ? torqueI : vectorsOf(block.torqueJ, l);
     }
-  }
-  sum.store(particles);
-  cursor.crossing = crossing;
+    add(l, force.a, torqueI.a, torqueJ.a);
+    if (count > 1) add(l + 1, force.b, torqueI.b, torqueJ.b);
+    if (count > 2) add(l + 2, force.c, torqueI.c, torqueJ.c);
+    if (count > 3) add(l + 3, force.d, torqueI.d, torqueJ.d);
+  };
+  std::size_t l = 0;
+  for (; l + 4 <= n; l += 4) addFour(l, 4);
+  if (l < n) addFour(l, n - l);
+  cursor.crossing = static_cast<std::size_t>(crossing - size);
+}
+
+/// Room for the sums of a chunk, aligned; the thread keeps it.
+Four* roomForSums(std::size_t size) {
+  struct Room {
+    std::unique_ptr<Four[]> sums;
+    std::size_t size = 0;
+  };
+  static thread_local Room room;
+  if (room.size < size) room = {std::make_unique_for_overwrite<Four[]>(size + size / 4), size + size / 4};
+  std::memset(static_cast<void*>(room.sums.get()), 0, size * sizeof(Four));
+  return room.sums.get();
 }
 
 }  // namespace
@@ -150,10 +155,19 @@ void findUniform(const Particles& particles, PairRows& rows) {
            }) == 0;
   };
   rows.oneRadius = uniform(particles.radius);
+  rows.turns = rows.spins && particles.rotates();
+  rows.spinDifferences = rows.rolls || !rows.oneRadius;
   rows.oneMass = rows.mass && particles.weight.empty() && uniform(particles.mass);
 }
 
 void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block) {
+  const auto clear = [](ContactBlock::Rows3& row) {
+    row.x.fill(0.0);
+    row.y.fill(0.0);
+    row.z.fill(0.0);
+  };
+  if (rows.spins && !rows.turns) clear(block.spinSum);
+  if (rows.spins && !(rows.turns && rows.spinDifferences)) clear(block.spinDifference);
   if (!rows.mass)
     block.rootMass.fill(0.0);
   else if (rows.oneMass)
@@ -164,17 +178,42 @@ void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& 
     block.effectiveRadius.fill(0.5 * particles.radius[0]);
 }
 
-PairCursor startOfChunk(const PairList& list, std::size_t chunk) {
-  return {chunk, list.chunks.begin[chunk], list.chunks.begin[chunk + 1], list.chunks.crosses[chunk],
-          list.chunks.images[chunk]};
+PairCursor startOfChunk(const Particles& particles, const PairList& list, const PairRows& rows, std::size_t chunk) {
+  const PairChunks& chunks = list.chunks;
+  const std::size_t first = chunk * chunks.size, count = std::min(chunks.size, particles.size() - first);
+  const std::size_t crossing = chunks.crosses[chunk + 1] - chunks.crosses[chunk];
+  return {chunk,
+          chunks.begin[chunk],
+          chunks.begin[chunk + 1],
+          chunks.images[chunk],
+          first,
+          count,
+          0,
+          roomForSums((rows.turns ? 2 : 1) * (count + crossing))};
 }
 
-std::size_t gatherPairs(const Particles& particles, const PairList& list, const PairRows& rows, PairCursor& cursor,
+void finishChunk(Particles& particles, PairList& list, const PairRows& rows, const PairCursor& cursor) {
+  const Four* sum = cursor.sums;
+  for (std::size_t i = cursor.firstParticle; i < cursor.firstParticle + cursor.particles; ++i) {
+    particles.f[i] += vectorOf(*sum++);
+    if (rows.turns) particles.torque[i] += vectorOf(*sum++);
+  }
+  PairChunks& chunks = list.chunks;
+  for (std::size_t k = chunks.crosses[cursor.chunk]; k < chunks.crosses[cursor.chunk + 1]; ++k) {
+    chunks.force[k] = vectorOf(*sum++);
+    if (rows.turns) chunks.torque[k] = vectorOf(*sum++);
+  }
+}
+
+std::size_t gatherPairs(const Particles& particles, PairList& list, const PairRows& rows, PairCursor& cursor,
                         ContactBlock& block) {
   const std::size_t first = cursor.pair, n = std::min(blockSize, cursor.end - first);
   const auto* const pairs = list.pairs.data() + first;
-  announce(particles, list, first, n, rows.spins && particles.rotates());
-  gatherCentres(particles, pairs, n, block);
+  announce(particles, list, first, n, rows.turns);
+  if (rows.turns)
+    gatherStates<true>(particles, pairs, n, rows.spinDifferences, block);
+  else
+    gatherStates<false>(particles, pairs, n, false, block);
   for (; cursor.image < list.images.size() && list.images[cursor.image].pair < first + n; ++cursor.image) {
     const PairImage& image = list.images[cursor.image];
     const std::size_t l = image.pair - first;
@@ -183,21 +222,20 @@ std::size_t gatherPairs(const Particles& particles, const PairList& list, const 
   gatherRadii(particles, pairs, n, rows.oneRadius, block);
   if (rows.mass && !rows.oneMass) gatherMasses(particles, {pairs, n}, block);
   if (rows.radius && !rows.oneRadius) makeRadii(n, block);
-  if (rows.spins) gatherSpins(particles, pairs, n, block);
   if (rows.varied) gatherVaried(particles, list, first, rows.materials, n, block);
   for (std::size_t c = 0; c < static_cast<std::size_t>(rows.memory); ++c)
-    std::copy_n(list.memory.data() + c * list.size() + first, n, block.memory[c].begin());
+    block.memory[c] = list.memory.data() + c * list.size() + first;
   return n;
 }
 
-void scatterPairs(Particles& particles, PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
+void scatterPairs(const PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
                   const ContactBlock& block) {
-  for (std::size_t c = 0; c < static_cast<std::size_t>(rows.memory); ++c)
-    std::copy_n(block.memory[c].begin(), n, list.memory.data() + c * list.size() + cursor.pair);
-  if (rows.spins && particles.rotates())
-    scatterForces<true>(particles, list, cursor, n, block);
+  if (!rows.turns)
+    addToSums<false, false>(list, cursor, n, block);
+  else if (rows.spinDifferences)
+    addToSums<true, false>(list, cursor, n, block);
   else
-    scatterForces<false>(particles, list, cursor, n, block);
+    addToSums<true, true>(list, cursor, n, block);
   cursor.pair += n;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "dovetail/core/large_pages.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "renewal.hpp"
 
@@ -149,6 +150,14 @@ void prunePairs(const Particles& particles, PairList& list) {
               [&](std::size_t c, auto& images) { fillChunk(particles, marked, c, list, images); });
 }
 
+/// Arrays that each step goes through.
+void preferLargePagesFor(const Particles& particles, const PairList& list) {
+  forEachArray(particles, [](const auto& array) { preferLargePages(array); });
+  preferLargePages(list.pairs);
+  preferLargePages(list.memory);
+  preferLargePages(list.scale);
+}
+
 void takeFound(const Particles& particles, const geometry::HierarchicalGrid& grid, double skin, PairList& list) {
   copyPositions(particles, list.positionAtBuild);
   list.particleRevision = particles.revision;
@@ -161,12 +170,14 @@ void takeFound(const Particles& particles, const geometry::HierarchicalGrid& gri
   if (!prunes) {
     list.positionAtPruning = {};
     list.innerSkin = skin;
-    return takeAll(particles, std::move(found), list);
+    takeAll(particles, std::move(found), list);
+    return preferLargePagesFor(particles, list);
   }
   if (!(list.innerSkin < skin)) list.innerSkin = 0.0;
   list.candidates = std::move(found);
   findRanges(particles.size(), list.candidates, list.chunks.candidates);
   prunePairs(particles, list);
+  preferLargePagesFor(particles, list);
 }
 
 }  // namespace dovetail::dem::detail

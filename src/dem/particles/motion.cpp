@@ -20,11 +20,6 @@ double weightedInertia(const Particles& particles, std::size_t i) {
 
 }  // namespace
 
-double momentOfInertia(const Particles& particles, int particle) {
-  const auto i = static_cast<std::size_t>(particle);
-  return 0.4 * particles.mass[i] * particles.radius[i] * particles.radius[i];
-}
-
 void clearForces(Particles& particles) {
   parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) particles.f[i] = {};

@@ -10,6 +10,13 @@
 
 #include "dovetail/dem/laws/contact.hpp"
 
+// The passes of the loop that follows do not touch each other's data.
+#ifdef __clang__
+#define DOVETAIL_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define DOVETAIL_INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
 namespace dovetail::dem::detail {
 
 inline constexpr std::size_t blockSize = 64;
@@ -37,18 +44,17 @@ struct ContactBlock {
   alignas(64) Row energyShare;  ///< factor on what normal springs store and plastic flow takes
   // Given: both
   Rows3 velocity;                   ///< v_particle − v_partner, m/s: of the centres (pairs), at the contact (walls)
-  Rows3 spinI, spinJ;               ///< ω of the particle and of the partner, rad/s
+  Rows3 spinSum, spinDifference;    ///< ω_particle ± ω_partner, rad/s
   alignas(64) Row rootMass;         ///< √ of the effective mass, kg^½
   alignas(64) Row effectiveRadius;  ///< m
   alignas(64) Row scale;            ///< factor on forces and energies
   alignas(64) std::array<int, blockSize> kind;  ///< row of the law table
-  alignas(64) std::array<Row, 12> memory;       ///< of the law, by component; advanced
+  std::array<double*, 12> memory;               ///< of the law, rows by component; advanced
 
   // Answered
-  Rows3 force;                 ///< on the particle, N
-  Rows3 couple;                ///< on the particle beyond arm × force, N m
-  Rows3 turning;               ///< normal × force, N: times −arm it is the moment on a particle (pairs)
-  alignas(64) Row armI, armJ;  ///< distances of the centres from the contact, m (pairs)
+  Rows3 force;                                 ///< on the particle, N
+  Rows3 couple;                                ///< on the particle beyond arm × force, N m (walls)
+  Rows3 torqueI, torqueJ;                      ///< on the particle and its partner about their centres, N m (pairs)
   alignas(64) std::array<Row, channels> work;  ///< channels of ContactWork
 };
 
@@ -61,14 +67,13 @@ struct BlockOptions {
 };
 
 template <std::size_t... C>
-inline void loadMemory(const ContactBlock& block, [[maybe_unused]] std::size_t l, double* memory,
-                       std::index_sequence<C...>) {
-  ((memory[C] = block.memory[C][l]), ...);
+inline void loadMemory(double* const* rows, [[maybe_unused]] std::size_t l, double* memory, std::index_sequence<C...>) {
+  ((memory[C] = rows[C][l]), ...);
 }
 template <std::size_t... C>
-inline void storeMemory(ContactBlock& block, [[maybe_unused]] std::size_t l, const double* memory, bool keep,
+inline void storeMemory(double* const* rows, [[maybe_unused]] std::size_t l, const double* memory, bool keep,
                         std::index_sequence<C...>) {
-  ((block.memory[C][l] = keep ? memory[C] : 0.0), ...);
+  ((rows[C][l] = keep ? memory[C] : 0.0), ...);
 }
 
 /// @param ended what a contact that no longer touches takes with it
@@ -108,12 +113,14 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
       std::memcpy(v, laws + block.kind[l], sizeof v);
       for (std::size_t c = 0; c < parameters; ++c) rows[c][l] = v[c];
     }
+  const auto held = block.memory;
+  DOVETAIL_INDEPENDENT
   for (std::size_t l = 0; l < n; ++l) {
     Prepared law = single;
     if constexpr (options.varied) law = fromRows<Prepared>(rows, l, std::make_index_sequence<parameters>{});
     Contact contact;
     Vec3 normal, velocity = block.velocity.at(l);
-    double armI = 0.0, armJ = 0.0, overlap = 0.0;
+    double overlap = 0.0;
     if constexpr (options.wall) {
       normal = block.normal.at(l);
       overlap = block.overlap[l];
@@ -123,14 +130,15 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
       const double distance = std::sqrt(squared), inverse = 1.0 / (squared > 0.0 ? distance : 1.0);
       normal = {squared > 0.0 ? separation.x * inverse : 1.0, separation.y * inverse, separation.z * inverse};
       overlap = block.radiusI[l] + block.radiusJ[l] - distance;
-      armI = block.radiusI[l] - 0.5 * overlap;
-      armJ = block.radiusJ[l] - 0.5 * overlap;
+      // The arms, R − overlap/2, add up to the distance, and differ as the radii do.
+      if constexpr (options.spins)
+        velocity -= cross((0.5 * distance) * block.spinSum.at(l) +
+                              (0.5 * (block.radiusI[l] - block.radiusJ[l])) * block.spinDifference.at(l),
+                          normal);
     }
     if constexpr (options.spins) {
-      const Vec3 spinI = block.spinI.at(l), spinJ = block.spinJ.at(l);
-      if constexpr (!options.wall) velocity -= cross(armI * spinI + armJ * spinJ, normal);
-      contact.spin = spinI - spinJ;
-      contact.twist = 0.5 * dot(spinI + spinJ, normal);
+      contact.spin = block.spinDifference.at(l);
+      contact.twist = 0.5 * dot(block.spinSum.at(l), normal);
     }
     const bool touches = overlap > -law.reach();
     contact.normal = normal;
@@ -149,7 +157,7 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
     contact.dt = dt;
     contact.inverseDt = inverseDt;
     double memory[Law::memory + 1];
-    loadMemory(block, l, memory, components);
+    loadMemory(held.data(), l, memory, components);
     ContactWork ended;
     if constexpr (Law::memory > 0 && options.booked) ended = law.ended(memory, inverseDt);
     const ContactResponse response = law.respond(contact, memory);
@@ -158,15 +166,17 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
                      touches ? scale * response.force.z : 0.0};
     block.force.set(l, force);
     if constexpr (options.spins) {
-      block.couple.set(l, {touches ? scale * response.couple.x : 0.0, touches ? scale * response.couple.y : 0.0,
-                           touches ? scale * response.couple.z : 0.0});
-      if constexpr (!options.wall) {
-        block.turning.set(l, cross(normal, force));
-        block.armI[l] = armI;
-        block.armJ[l] = armJ;
+      const Vec3 couple{touches ? scale * response.couple.x : 0.0, touches ? scale * response.couple.y : 0.0,
+                        touches ? scale * response.couple.z : 0.0};
+      if constexpr (options.wall) {
+        block.couple.set(l, couple);
+      } else {
+        const Vec3 turning = cross(force, normal);
+        block.torqueI.set(l, (block.radiusI[l] - 0.5 * overlap) * turning + couple);
+        block.torqueJ.set(l, (block.radiusJ[l] - 0.5 * overlap) * turning - couple);
       }
     }
-    storeMemory(block, l, memory, touches, components);
+    storeMemory(held.data(), l, memory, touches, components);
     if constexpr (options.booked)
       storeWork(block, l, response.work, ended, touches, scale, options.wall ? block.energyShare[l] : scale);
   }

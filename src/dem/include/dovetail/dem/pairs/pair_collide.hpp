@@ -37,29 +37,37 @@ void requireStep(double dt);
 
 /// What a law asks for, and what all particles share.
 struct PairRows {
-  bool spins, mass, radius, varied;
+  bool spins, rolls, mass, radius, varied;
   int memory, materials;
-  bool oneRadius = false;  ///< all particles have the same
+  bool turns = false;            ///< the law exerts torques and the particles spin
+  bool spinDifferences = false;  ///< not only sums of spins count, and torques differ
+  bool oneRadius = false;        ///< all particles have the same
   bool oneMass = false;
 };
 /// Where a sweep over the pairs of a chunk stands.
 struct PairCursor {
-  std::size_t chunk, pair, end, crossing, image;
+  std::size_t chunk, pair, end, image;
+  std::size_t firstParticle, particles, crossing;
+  /// Force (and torque, if they turn) so far on each particle of the chunk, and then on the second particle of each
+  /// crossing pair.
+  double __attribute__((vector_size(32))) * sums;
 };
 /// Looks whether all particles have one radius and one mass, which saves gathering them.
 /// @throws InputError naming a particle whose material has no law
 void findUniform(const Particles& particles, PairRows& rows);
-PairCursor startOfChunk(const PairList& list, std::size_t chunk);
+PairCursor startOfChunk(const Particles& particles, const PairList& list, const PairRows& rows, std::size_t chunk);
+/// Adds the sums to the particles of the chunk, and keeps those for others.
+void finishChunk(Particles& particles, PairList& list, const PairRows& rows, const PairCursor& cursor);
 /// Fills the rows of effective masses and radii once for all pairs, if they share them or nobody asks for them.
 void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block);
 void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>> pairs, ContactBlock& block);
 /// Effective radii from the radii.
 void makeRadii(std::size_t n, ContactBlock& block);
 /// Fills the block with the next pairs; returns how many.
-std::size_t gatherPairs(const Particles& particles, const PairList& list, const PairRows& rows, PairCursor& cursor,
+std::size_t gatherPairs(const Particles& particles, PairList& list, const PairRows& rows, PairCursor& cursor,
                         ContactBlock& block);
-/// Adds the block's forces to particles of the chunk, keeps those for others, and stores the memories; moves on.
-void scatterPairs(Particles& particles, PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
+/// Adds the block's forces to the sums; moves on.
+void scatterPairs(const PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
                   const ContactBlock& block);
 /// Adds what pairs of other chunks do to particles.
 void addCrossing(Particles& particles, const PairList& list, bool spins);
@@ -99,13 +107,14 @@ ContactWork collideChunk(Particles& particles, PairList& list, std::size_t chunk
   ContactBlock block;
   shareSizes(particles, rows, block);
   ContactWork work;
-  PairCursor cursor = startOfChunk(list, chunk);
+  PairCursor cursor = startOfChunk(particles, list, rows, chunk);
   while (cursor.pair < cursor.end) {
     const std::size_t n = gatherPairs(particles, list, rows, cursor, block);
     answer<Law, options>(block, n, laws.table.data(), dt);
-    scatterPairs(particles, list, rows, n, cursor, block);
+    scatterPairs(list, rows, n, cursor, block);
     if constexpr (options.booked) work += sumWork(block, n);
   }
+  finishChunk(particles, list, rows, cursor);
   return work;
 }
 
@@ -136,8 +145,8 @@ ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law
     detail::prepareMemory(list, Law::memory, Law::turns);
   }
   const bool varied = !list.scale.empty() || laws.materials > 1;
-  detail::PairRows rows{Law::rotates,  Law::needsMass && laws.usesMass(), Law::needsRadius, varied, Law::memory,
-                        laws.materials};
+  detail::PairRows rows{Law::rotates, Law::needsSpin, Law::needsMass && laws.usesMass(), Law::needsRadius, varied,
+                        Law::memory,  laws.materials};
   detail::findUniform(particles, rows);
   constexpr bool spins = Law::rotates;
   if constexpr (spins) list.chunks.torque.resize(list.chunks.force.size());

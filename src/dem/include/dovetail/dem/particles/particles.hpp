@@ -94,7 +94,10 @@ void switchOnRotation(Particles& particles);
 void validate(const Particles& particles);
 
 /// 2/5 m R² of a solid sphere, the whole of it, kg m².
-double momentOfInertia(const Particles& particles, int particle);
+inline double momentOfInertia(const Particles& particles, int particle) {
+  const auto i = static_cast<std::size_t>(particle);
+  return 0.4 * particles.mass[i] * particles.radius[i] * particles.radius[i];
+}
 
 /// Forces (and torques) to zero.
 void clearForces(Particles& particles);

@@ -63,8 +63,9 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
     block.rootMass[l] = std::sqrt(particles.mass[i]);
     block.kind[l] = laws.materials > 1 ? materialOf(particles, i) * laws.materials + wallMaterial : 0;
     if constexpr (Law::rotates) {
-      block.spinI.set(l, particles.rotates() ? particles.omega[i] : Vec3{});
-      block.spinJ.set(l, motion.spin(c));
+      const Vec3 spin = particles.rotates() ? particles.omega[i] : Vec3{}, wallSpin = motion.spin(c);
+      block.spinSum.set(l, spin + wallSpin);
+      block.spinDifference.set(l, spin - wallSpin);
     }
     for (std::size_t m = 0; m < Law::memory; ++m) block.memory[m][l] = memory[c * Law::memory + m];
   }
@@ -83,6 +84,8 @@ ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vect
   constexpr BlockOptions booked{.spins = Law::rotates, .wall = true, .varied = true, .booked = true};
   const auto answerBlock = [&](std::size_t first, std::size_t end) {
     ContactBlock block;
+    std::array<ContactBlock::Row, Law::memory + 1> held;
+    for (std::size_t m = 0; m < Law::memory; ++m) block.memory[m] = held[m].data();
     const std::size_t n = end - first;
     gatherWall<Law>(particles, contacts, memory, laws, wallMaterial, first, n, motion, block);
     if (booking == Booking::on)
