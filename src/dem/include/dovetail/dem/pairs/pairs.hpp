@@ -49,7 +49,8 @@ using Pairs = geometry::SpherePairs;
 /// Two lists stand behind each other (Páll & Hess, Comput. Phys. Commun. 184, 2013, call it pruning): `candidates` come
 /// from the grid and last while nobody has moved more than skin/2; of those, `pairs` are closer than the sum of their
 /// radii + innerSkin, and are picked anew when somebody has moved more than innerSkin/2. The inner skin adapts
-/// itself such that picking is rare. Lists of less than pruneFrom pairs are not pruned: innerSkin = skin.
+/// itself: the longer the candidates last, the thinner it is, and the fewer pairs that do not touch are listed. Lists
+/// of less than pruneFrom pairs are not pruned: innerSkin = skin.
 struct PairList {
   /// m; 0 = a search at every step. Not set: defaultSkin mean diameters, from the first search on.
   std::optional<double> skin;
