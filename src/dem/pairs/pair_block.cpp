@@ -10,21 +10,6 @@ namespace dovetail::dem::detail {
 
 namespace {
 
-/// Pairs between asking the cache for a particle and using it.
-constexpr std::size_t lookAhead = 128;
-
-/// Asks the cache for what will be read of the particles some pairs later.
-void announce(const Particles& particles, const PairList& list, std::size_t first, std::size_t n, bool spins) {
-  const std::size_t begin = std::min(first + lookAhead, list.size()), end = std::min(begin + n, list.size());
-  const Vec3 *const x = particles.x.data(), *const v = particles.v.data(), *const omega = particles.omega.data();
-  for (std::size_t p = begin; p < end; ++p) {
-    const int j = list.pairs[p][1];
-    __builtin_prefetch(x + j);
-    __builtin_prefetch(v + j);
-    if (spins) __builtin_prefetch(omega + j);
-  }
-}
-
 /// Separations, velocities and, if they turn, spins. Places up to the next multiple of four repeat the last pair.
 template <bool turns>
 void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, bool spinDifferences,
@@ -209,7 +194,6 @@ std::size_t gatherPairs(const Particles& particles, PairList& list, const PairRo
                         ContactBlock& block) {
   const std::size_t first = cursor.pair, n = std::min(blockSize, cursor.end - first);
   const auto* const pairs = list.pairs.data() + first;
-  announce(particles, list, first, n, rows.turns);
   if (rows.turns)
     gatherStates<true>(particles, pairs, n, rows.spinDifferences, block);
   else
