@@ -70,7 +70,7 @@ TEST(ContactSample, OfAModelHasTheForcesAndTorquesOfItsParticlesAndWalls) {
   MeshWall& mesh = addWall(m, MeshWall{});
   mesh.wall = squares(4, 4, 0.25);
   for (Vec3& x : mesh.wall.x) x.z = 0.35 + 0.05 * std::sin(6.2831853 * x.x);
-  run(m, 1e-5, 20);
+  for (int s = 0; s < 20; ++s) advance(m, 1e-5);  // velocities stay those that the forces saw
   const ContactSample sample = sampleContacts(m);
   std::vector<Vec3> force(m.particles.size()), torque(m.particles.size());
   Vec3 onWalls;
@@ -80,7 +80,7 @@ TEST(ContactSample, OfAModelHasTheForcesAndTorquesOfItsParticlesAndWalls) {
     // The moment of a contact about any point is balanced.
     const Vec3 couple = sample.torqueFirst[c] + sample.torqueSecond[c];
     EXPECT_LE(norm(couple + cross(sample.from[c] - sample.to[c], sample.force[c])), 1e-12 * norm(sample.force[c]));
-    EXPECT_LE(norm(sample.to[c] - sample.from[c]), 0.13);
+    EXPECT_LE(norm(sample.to[c] - sample.from[c]), 0.2);  // the nearest image
     if (sample.second[c] >= 0) {
       force[sample.second[c]] -= sample.force[c];
       torque[sample.second[c]] += sample.torqueSecond[c];
