@@ -100,11 +100,12 @@ SolidMesh secondOrder(const SolidMesh& mesh, bool fullBricks) {
   const SkinParts skin(mesh);
   for (auto& [name, nodes] : result.nodeSets) {
     const std::set<int> members(nodes.begin(), nodes.end());
-    for (const auto& [corners, number] : mid.all()) {
+    for (const auto& entry : mid.all()) {
+      const auto& corners = entry.first;
       const auto in = [&](const std::set<int>& set) {
         return std::all_of(corners.begin(), corners.end(), [&](int node) { return set.contains(node); });
       };
-      if (in(members) && (skin.parts.contains(corners) || !in(skin.nodes))) nodes.push_back(number);
+      if (in(members) && (skin.parts.contains(corners) || !in(skin.nodes))) nodes.push_back(entry.second);
     }
     std::sort(nodes.begin(), nodes.end());
   }
