@@ -31,8 +31,13 @@ void findRanges(std::size_t particles, const Pairs& sorted, std::vector<std::siz
 
 void Links::findCrossers(const PairList& list, std::size_t chunk) {
   const auto end = static_cast<int>((chunk + 1) * list.chunks.size);
-  for (std::size_t p = list.chunks.begin[chunk]; p < list.chunks.begin[chunk + 1]; ++p)
-    if (const int j = list.pairs[p][1]; j >= end) crossers[chunk].push_back(j);
+  int number = 0;
+  for (std::size_t p = list.chunks.begin[chunk]; p < list.chunks.begin[chunk + 1]; ++p) {
+    const int j = list.pairs[p][1];
+    number = std::max(number, j);
+    if (j >= end) crossers[chunk].push_back(j);
+  }
+  largest[chunk] = number;
 }
 
 namespace {
@@ -77,6 +82,7 @@ void joinCrossers(const std::vector<std::vector<int>>& crossers, PairChunks& chu
 void Links::join(PairList& list) {
   joinImages(images, list);
   joinCrossers(crossers, list.chunks);
+  list.chunks.largest.swap(largest);
 }
 
 void makeChunks(std::size_t particles, PairList& list) {
@@ -84,8 +90,7 @@ void makeChunks(std::size_t particles, PairList& list) {
   findRanges(particles, list.pairs, list.chunks.begin);
   Links links(list.chunks.count());
   parallelFor(list.chunks.count(), 1, [&](std::size_t c, std::size_t) { links.findCrossers(list, c); });
-  joinImages(links.images, list);
-  joinCrossers(links.crossers, list.chunks);
+  links.join(list);
 }
 
 }  // namespace detail

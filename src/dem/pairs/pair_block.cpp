@@ -1,4 +1,5 @@
 // Pairs in and out of blocks.
+#include <algorithm>
 #include <cstring>
 #include <memory>
 
@@ -11,13 +12,18 @@ namespace dovetail::dem::detail {
 namespace {
 
 /// Separations, velocities and, if they turn, spins. Places up to the next multiple of four repeat the last pair.
-template <bool turns>
+/// @tparam within  none of the pairs is of the last particle, behind which nothing may be read
+template <bool turns, bool within>
 void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, bool spinDifferences,
                   ContactBlock& block) {
   const Vec3 *const x = particles.x.data(), *const v = particles.v.data(), *const omega = particles.omega.data();
   const auto four = [&](std::size_t l, const std::array<int, 2>* of) {
-    const auto apart = [&](const Vec3* values, int k) { return load(values[of[k][0]]) - load(values[of[k][1]]); };
-    const auto sum = [&](const Vec3* values, int k) { return load(values[of[k][0]]) + load(values[of[k][1]]); };
+    const auto apart = [&](const Vec3* values, int k) {
+      return load<within>(values[of[k][0]]) - load<within>(values[of[k][1]]);
+    };
+    const auto sum = [&](const Vec3* values, int k) {
+      return load<within>(values[of[k][0]]) + load<within>(values[of[k][1]]);
+    };
     setRows(block.separation, l, apart(x, 0), apart(x, 1), apart(x, 2), apart(x, 3));
     setRows(block.velocity, l, apart(v, 0), apart(v, 1), apart(v, 2), apart(v, 3));
     if constexpr (turns) {
@@ -32,6 +38,16 @@ void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, s
   std::array<std::array<int, 2>, 4> rest;
   for (std::size_t k = 0; k < 4; ++k) rest[k] = pairs[std::min(l + k, n - 1)];
   four(l, rest.data());
+}
+
+void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, const PairRows& rows,
+                  bool within, ContactBlock& block) {
+  if (rows.turns)
+    within ? gatherStates<true, true>(particles, pairs, n, rows.spinDifferences, block)
+           : gatherStates<true, false>(particles, pairs, n, rows.spinDifferences, block);
+  else
+    within ? gatherStates<false, true>(particles, pairs, n, false, block)
+           : gatherStates<false, false>(particles, pairs, n, false, block);
 }
 
 void gatherRadii(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, bool same,
@@ -109,7 +125,7 @@ Four* roomForSums(std::size_t size) {
   };
   static thread_local Room room;
   if (room.size < size) room = {std::make_unique_for_overwrite<Four[]>(size + size / 4), size + size / 4};
-  std::memset(static_cast<void*>(room.sums.get()), 0, size * sizeof(Four));
+  std::memset(static_cast<void*>(room.sums.get()), 0, size * sizeof(Four));  // which also brings them near
   return room.sums.get();
 }
 
@@ -174,19 +190,21 @@ PairCursor startOfChunk(const Particles& particles, const PairList& list, const 
           first,
           count,
           0,
+          static_cast<std::size_t>(chunks.largest[chunk]) + 1 < particles.size(),
           roomForSums((rows.turns ? 2 : 1) * (count + crossing))};
 }
 
 void finishChunk(Particles& particles, PairList& list, const PairRows& rows, const PairCursor& cursor) {
   const Four* sum = cursor.sums;
+  const auto take = [&] { return vectorOf(*sum++); };
   for (std::size_t i = cursor.firstParticle; i < cursor.firstParticle + cursor.particles; ++i) {
-    particles.f[i] += vectorOf(*sum++);
-    if (rows.turns) particles.torque[i] += vectorOf(*sum++);
+    particles.f[i] += take();
+    if (rows.turns) particles.torque[i] += take();
   }
   PairChunks& chunks = list.chunks;
   for (std::size_t k = chunks.crosses[cursor.chunk]; k < chunks.crosses[cursor.chunk + 1]; ++k) {
-    chunks.force[k] = vectorOf(*sum++);
-    if (rows.turns) chunks.torque[k] = vectorOf(*sum++);
+    chunks.force[k] = take();
+    if (rows.turns) chunks.torque[k] = take();
   }
 }
 
@@ -194,10 +212,7 @@ std::size_t gatherPairs(const Particles& particles, PairList& list, const PairRo
                         ContactBlock& block) {
   const std::size_t first = cursor.pair, n = std::min(blockSize, cursor.end - first);
   const auto* const pairs = list.pairs.data() + first;
-  if (rows.turns)
-    gatherStates<true>(particles, pairs, n, rows.spinDifferences, block);
-  else
-    gatherStates<false>(particles, pairs, n, false, block);
+  gatherStates(particles, pairs, n, rows, cursor.within, block);
   for (; cursor.image < list.images.size() && list.images[cursor.image].pair < first + n; ++cursor.image) {
     const PairImage& image = list.images[cursor.image];
     const std::size_t l = image.pair - first;
@@ -207,8 +222,10 @@ std::size_t gatherPairs(const Particles& particles, PairList& list, const PairRo
   if (rows.mass && !rows.oneMass) gatherMasses(particles, {pairs, n}, block);
   if (rows.radius && !rows.oneRadius) makeRadii(n, block);
   if (rows.varied) gatherVaried(particles, list, first, rows.materials, n, block);
-  for (std::size_t c = 0; c < static_cast<std::size_t>(rows.memory); ++c)
+  for (std::size_t c = 0; c < static_cast<std::size_t>(rows.memory); ++c) {
     block.memory[c] = list.memory.data() + c * list.size() + first;
+    for (std::size_t l = blockSize; l < 2 * blockSize; l += 8) __builtin_prefetch(block.memory[c] + l, 1);
+  }
   return n;
 }
 

@@ -63,8 +63,9 @@ void append(const std::vector<Ended>& parts, PairList& list);
 struct Links {
   std::vector<std::vector<int>> crossers;  ///< second particles of the crossing pairs
   std::vector<std::vector<PairImage>> images;
+  std::vector<int> largest;  ///< numbers of particles
 
-  explicit Links(std::size_t chunks) : crossers(chunks), images(chunks) {}
+  explicit Links(std::size_t chunks) : crossers(chunks), images(chunks), largest(chunks) {}
   void findCrossers(const PairList& list, std::size_t chunk);
   /// Makes PairChunks' tables of them.
   void join(PairList& list);

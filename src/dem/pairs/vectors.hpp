@@ -14,8 +14,15 @@ namespace dovetail::dem::detail {
 
 using Four = double __attribute__((vector_size(32)));
 
-/// (x, y, z, 0), of which nothing beyond z is read.
+/// (x, y, z, ·).
+/// @tparam within  something follows that may be read; else nothing beyond z is read
+template <bool within>
 [[gnu::always_inline]] inline Four load(const Vec3& a) {
+  if constexpr (within) {
+    Four values;
+    std::memcpy(&values, &a.x, sizeof values);
+    return values;
+  }
 #ifdef __AVX__
   return _mm256_maskload_pd(&a.x, _mm256_setr_epi64x(-1, -1, -1, 0));
 #else

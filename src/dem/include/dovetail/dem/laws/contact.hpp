@@ -17,7 +17,6 @@ struct Contact {
   Vec3 normal;                   ///< unit, from the partner to the particle
   Vec3 slip;                     ///< tangential velocity of the particle relative to the partner at the contact, m/s
   Vec3 spin;                     ///< angular velocity of the particle minus the partner's, rad/s
-  double twist = 0.0;            ///< mean angular velocity of both about the normal, rad/s
   double dt = 0.0;               ///< step over which memories advance, s
   double inverseDt = 0.0;        ///< 1/dt, 1/s
 };
@@ -49,6 +48,17 @@ struct RollingResponse {
   double energy = 0.0;     ///< J stored
   double lostPower = 0.0;  ///< W lost, average of this step
 };
+
+/// Turns a remembered tangential vector with the pair since the last step: into today's contact plane, and about the
+/// normal by the mean spin of both. Its length stays (to the fourth power of the angle of one step).
+/// @param twist mean spin of both about the normal times the step, rad
+[[gnu::always_inline]] inline Vec3 carried(Vec3 remembered, const Vec3& normal, double twist) {
+  const double before = squaredNorm(remembered);
+  remembered += twist * cross(normal, remembered);
+  remembered -= dot(remembered, normal) * normal;
+  const double ratio = squaredNorm(remembered) / (before > 0.0 ? before : 1.0);
+  return (1.5 - 0.5 * ratio) * remembered;  // 1/√ratio for a ratio near 1, and bounded for any
+}
 
 /// How steeply a part of a law answers now; what limits the time step (see contact_step.hpp).
 struct Slope {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "dovetail/dem/laws/contact.hpp"
@@ -98,10 +99,60 @@ template <class Prepared, std::size_t... C>
   return std::bit_cast<Prepared>(std::array<double, sizeof...(C)>{rows[C][l]...});
 }
 
-/// Forces of the first n contacts of the block.
-template <class Law, BlockOptions options>
-void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* laws, double dt) {
-  using Prepared = typename Law::Prepared;
+/// How two particles meet.
+struct Meeting {
+  Vec3 normal,
+      velocity;    ///< unit, from partner to particle; of the particle relative to the partner at the contact, m/s
+  double overlap;  ///< m
+};
+
+template <bool spins>
+[[gnu::always_inline]] inline Meeting meetingOf(const ContactBlock& block, std::size_t l) {
+  const Vec3 separation = block.separation.at(l);
+  const double squared = squaredNorm(separation);
+  const double distance = std::sqrt(squared), inverse = 1.0 / (squared > 0.0 ? distance : 1.0);
+  const Vec3 normal{squared > 0.0 ? separation.x * inverse : 1.0, separation.y * inverse, separation.z * inverse};
+  const double overlap = block.radiusI[l] + block.radiusJ[l] - distance;
+  Vec3 velocity = block.velocity.at(l);
+  // The arms, R − overlap/2, add up to the distance, and differ as the radii do.
+  if constexpr (spins)
+    velocity -= cross((0.5 * distance) * block.spinSum.at(l) +
+                          (0.5 * (block.radiusI[l] - block.radiusJ[l])) * block.spinDifference.at(l),
+                      normal);
+  return {normal, velocity, overlap};
+}
+
+template <bool spins>
+[[gnu::always_inline]] inline void meet(ContactBlock& block, std::size_t n) {
+  DOVETAIL_INDEPENDENT
+  for (std::size_t l = 0; l < n; ++l) {
+    const Meeting meeting = meetingOf<spins>(block, l);
+    block.normal.set(l, meeting.normal);
+    block.velocity.set(l, meeting.velocity);
+    block.overlap[l] = meeting.overlap;
+  }
+}
+
+/// Whether contacts are worked on in several passes. In one pass the roots and quotients of a law that remembers would
+/// wait for one another in a chain so long that the processor runs dry; short laws are faster in one.
+template <class Law>
+inline constexpr bool prepares = Law::memory > 0;
+
+/// Turns remembered vectors with their contacts: numbers c, c + 1 and c + 2 of the memory.
+[[gnu::always_inline]] inline void carry(ContactBlock& block, std::size_t n, std::size_t c, double dt) {
+  double *const x = block.memory[c], *const y = block.memory[c + 1], *const z = block.memory[c + 2];
+  DOVETAIL_INDEPENDENT
+  for (std::size_t l = 0; l < n; ++l) {
+    const Vec3 normal = block.normal.at(l);
+    const Vec3 now = carried({x[l], y[l], z[l]}, normal, dt * (0.5 * dot(block.spinSum.at(l), normal)));
+    x[l] = now.x;
+    y[l] = now.y;
+    z[l] = now.z;
+  }
+}
+
+template <class Law, BlockOptions options, class Prepared>
+void answerAll(ContactBlock& block, std::size_t n, const Prepared* laws, double dt) {
   constexpr auto components = std::make_index_sequence<static_cast<std::size_t>(Law::memory)>{};
   const Prepared single = laws[0];  // a copy nobody else can write to
   const double inverseDt = dt > 0.0 ? 1.0 / dt : 0.0;
@@ -119,27 +170,13 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
     Prepared law = single;
     if constexpr (options.varied) law = fromRows<Prepared>(rows, l, std::make_index_sequence<parameters>{});
     Contact contact;
-    Vec3 normal, velocity = block.velocity.at(l);
-    double overlap = 0.0;
-    if constexpr (options.wall) {
-      normal = block.normal.at(l);
-      overlap = block.overlap[l];
-    } else {
-      const Vec3 separation = block.separation.at(l);
-      const double squared = squaredNorm(separation);
-      const double distance = std::sqrt(squared), inverse = 1.0 / (squared > 0.0 ? distance : 1.0);
-      normal = {squared > 0.0 ? separation.x * inverse : 1.0, separation.y * inverse, separation.z * inverse};
-      overlap = block.radiusI[l] + block.radiusJ[l] - distance;
-      // The arms, R − overlap/2, add up to the distance, and differ as the radii do.
-      if constexpr (options.spins)
-        velocity -= cross((0.5 * distance) * block.spinSum.at(l) +
-                              (0.5 * (block.radiusI[l] - block.radiusJ[l])) * block.spinDifference.at(l),
-                          normal);
-    }
-    if constexpr (options.spins) {
-      contact.spin = block.spinDifference.at(l);
-      contact.twist = 0.5 * dot(block.spinSum.at(l), normal);
-    }
+    Meeting meeting;
+    if constexpr (options.wall || prepares<Law>)
+      meeting = {block.normal.at(l), block.velocity.at(l), block.overlap[l]};
+    else
+      meeting = meetingOf<options.spins>(block, l);
+    const auto& [normal, velocity, overlap] = meeting;
+    if constexpr (options.spins) contact.spin = block.spinDifference.at(l);
     const bool touches = overlap > -law.reach();
     contact.normal = normal;
     contact.separating = dot(normal, velocity);
@@ -180,6 +217,21 @@ void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* la
     if constexpr (options.booked)
       storeWork(block, l, response.work, ended, touches, scale, options.wall ? block.energyShare[l] : scale);
   }
+}
+
+/// Forces of the first n contacts of the block.
+template <class Law, BlockOptions options>
+void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* laws, double dt) {
+  if constexpr (!options.wall && prepares<Law>) meet<options.spins>(block, n);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(Law::memory); ++c)
+    if ((Law::carries >> c & 1u) != 0) carry(block, n, c, dt);
+  if constexpr (!options.wall && !options.varied &&
+                !std::is_same_v<decltype(laws->withoutDashpot()), typename Law::Prepared>)
+    if (laws->sparesDashpot()) {
+      const auto lighter = laws->withoutDashpot();
+      return answerAll<Law, options>(block, n, &lighter, dt);
+    }
+  answerAll<Law, options>(block, n, laws, dt);
 }
 
 /// Sum of the work of the first n contacts, in an order of their own: eight interleaved sums, then those.

@@ -77,21 +77,22 @@ struct HertzDashpot {
 struct MindlinSpring {
   static constexpr const char* name = "Mindlin";
   static constexpr int memory = 4;  // stretch, m; k_t of the last step, N/m
-  static constexpr unsigned turns = 0b0111;
+  static constexpr unsigned turns = 0b0111, carries = 0b1;
   static constexpr bool needsSlip = true;
   double stiffnessRatio = 0.0;  ///< k_t/k_n = 4 G*/E*, see mindlinRatio() in materials.hpp
   double friction = 0.0;        ///< μ
   double dampingRatio = 0.0;    ///< coefficient of the tangential dashpot over that of the normal one
 
-  struct Prepared {
+  template <bool dashpot>
+  struct PreparedSpring {
     double stiffnessRatio, friction, dampingRatio;
 
     [[gnu::always_inline]] TangentialResponse respond(const Contact& contact, const NormalResponse& normal,
                                                       double* held) const {
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
-      const Slider now =
-          slideGrowing(carried({held[0], held[1], held[2]}, contact), contact.slip, stiffnessRatio * normal.stiffness,
-                       dampingRatio * normal.damping, normal.dampingShare, limit, contact, held);
+      const Slider<dashpot> now =
+          slideGrowing<dashpot>(Vec3{held[0], held[1], held[2]}, contact.slip, stiffnessRatio * normal.stiffness,
+                                dampingRatio * normal.damping, normal.dampingShare, limit, contact, held);
       return {.force = -now.force, .energy = now.energy, .slipPower = now.lostPower};
     }
     Slope slope(const Contact&, const NormalResponse& normal) const {
@@ -100,7 +101,10 @@ struct MindlinSpring {
     double remembered(const double* held) const {
       return 0.5 * held[3] * (held[0] * held[0] + held[1] * held[1] + held[2] * held[2]);
     }
+    bool hasDashpot() const { return dampingRatio > 0.0; }
+    PreparedSpring<false> withoutDashpot() const { return {stiffnessRatio, friction, 0.0}; }
   };
+  using Prepared = PreparedSpring<true>;
   Prepared prepare() const { return {stiffnessRatio, friction, dampingRatio}; }
 };
 

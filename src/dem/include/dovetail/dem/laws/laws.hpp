@@ -6,6 +6,9 @@
 //   static constexpr unsigned turns     bit c is set if number c changes its sign when the two particles change roles
 //   static constexpr bool needs…        what of `Contact` it reads beyond overlap, separation, normal and dt
 //   prepare()                           what the loop over contacts uses; roots, logarithms and checks are done here
+//   static constexpr unsigned carries   bit c is set if numbers c, c + 1 and c + 2 are a tangential vector, which is
+//                                       turned with the contact before `respond` is asked (`carried`, contact.hpp);
+//                                       may be left out
 //   Prepared::respond(contact, …, held) the answer; advances the memory by contact.dt. Straight-line code with
 //                                       selections instead of branches, and inlined into the loop over contacts
 //                                       whatever the compiler thinks of its size, so that the loop vectorises
@@ -132,17 +135,9 @@ struct NoTangential {
   Prepared prepare() const { return {}; }
 };
 
-/// Turns a remembered tangential vector with the pair since the last step: into today's contact plane, and about the
-/// normal by the mean spin of both. Its length stays (to the fourth power of the angle of one step).
-[[gnu::always_inline]] inline Vec3 carried(Vec3 remembered, const Contact& contact) {
-  const double before = squaredNorm(remembered);
-  remembered += (contact.dt * contact.twist) * cross(contact.normal, remembered);
-  remembered -= dot(remembered, contact.normal) * contact.normal;
-  const double ratio = squaredNorm(remembered) / (before > 0.0 ? before : 1.0);
-  return (1.5 - 0.5 * ratio) * remembered;  // 1/√ratio for a ratio near 1, and bounded for any
-}
-
 /// A spring, a dashpot beside it, and a slider before both.
+/// @tparam dashpot  there may be one; without it a root and a quotient are spared
+template <bool dashpot = true>
 struct Slider {
   Vec3 stretch, force;     ///< of the spring, and of both, along the stretch
   double energy = 0.0;     ///< J stored
@@ -161,13 +156,17 @@ struct Slider {
     const double size = stiffness * norm(stretched);
     const bool slides = size > limit;
     stretch = (slides ? limit / (slides ? size : 1.0) : 1.0) * stretched;
-    const Vec3 spring = stiffness * stretch, both = spring + damping * rate;
-    const double whole = norm(both);
-    const bool cut = damping > 0.0 ? whole > limit : false;
-    force = (cut ? limit / (cut ? whole : 1.0) : 1.0) * both;
+    const Vec3 spring = stiffness * stretch;
+    force = {spring.x, spring.y, spring.z};  // copied whole, it would stay in memory and the loop would not vectorise
     energy = 0.5 * dot(spring, stretch);
-    const double slipWork = 0.5 * dot(spring + forceBefore, stretched - stretch);
-    lostPower = slipWork * contact.inverseDt + (cut ? 0.5 + 0.5 * dampingShare : dampingShare) * dot(force - spring, rate);
+    lostPower = 0.5 * dot(spring + forceBefore, stretched - stretch) * contact.inverseDt;
+    if constexpr (dashpot) {
+      const Vec3 both = spring + damping * rate;
+      const double whole = norm(both);
+      const bool cut = damping > 0.0 ? whole > limit : false;
+      force = (cut ? limit / (cut ? whole : 1.0) : 1.0) * both;
+      lostPower += (cut ? 0.5 + 0.5 * dampingShare : dampingShare) * dot(force - spring, rate);
+    }
   }
 };
 
@@ -176,13 +175,14 @@ struct Slider {
 /// by that counts as lost.
 /// @param old  stretch before this step, in today's contact plane
 /// @param held takes the new stretch; its fourth number is the stiffness, of the last step and then of this one
-[[gnu::always_inline]] inline Slider slideGrowing(const Vec3& old, const Vec3& rate, double stiffness, double damping,
-                                                  double dampingShare, double limit, const Contact& contact,
-                                                  double* held) {
+template <bool dashpot = true>
+[[gnu::always_inline]] inline Slider<dashpot> slideGrowing(const Vec3& old, const Vec3& rate, double stiffness,
+                                                           double damping, double dampingShare, double limit,
+                                                           const Contact& contact, double* held) {
   const double before = held[3];
   const bool grows = stiffness > before;
   const Vec3 kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old, forceBefore = before * old;
-  Slider now(kept, forceBefore, rate, stiffness, damping, dampingShare, limit, contact);
+  Slider<dashpot> now(kept, forceBefore, rate, stiffness, damping, dampingShare, limit, contact);
   held[0] = now.stretch.x;
   held[1] = now.stretch.y;
   held[2] = now.stretch.z;
@@ -197,21 +197,22 @@ struct Slider {
 struct TangentialSpring {
   static constexpr const char* name = "friction";
   static constexpr int memory = 3;  // stretch, m
-  static constexpr unsigned turns = 0b111;
+  static constexpr unsigned turns = 0b111, carries = 0b1;
   static constexpr bool needsSlip = true;
   double stiffness = 0.0;     ///< k_t, N/m
   double friction = 0.0;      ///< μ
   double dampingRatio = 0.0;  ///< coefficient of the tangential dashpot over that of the normal one
 
-  struct Prepared {
+  template <bool dashpot>
+  struct PreparedSpring {
     double stiffness, friction, dampingRatio;
 
     [[gnu::always_inline]] TangentialResponse respond(const Contact& contact, const NormalResponse& normal,
                                                       double* held) const {
-      const Vec3 old = carried({held[0], held[1], held[2]}, contact);
+      const Vec3 old{held[0], held[1], held[2]};
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
-      const Slider now(old, stiffness * old, contact.slip, stiffness, dampingRatio * normal.damping,
-                       normal.dampingShare, limit, contact);
+      const Slider<dashpot> now(old, stiffness * old, contact.slip, stiffness, dampingRatio * normal.damping,
+                                normal.dampingShare, limit, contact);
       held[0] = now.stretch.x;
       held[1] = now.stretch.y;
       held[2] = now.stretch.z;
@@ -223,7 +224,10 @@ struct TangentialSpring {
     double remembered(const double* held) const {
       return 0.5 * stiffness * (held[0] * held[0] + held[1] * held[1] + held[2] * held[2]);
     }
+    bool hasDashpot() const { return dampingRatio > 0.0; }
+    PreparedSpring<false> withoutDashpot() const { return {stiffness, friction, 0.0}; }
   };
+  using Prepared = PreparedSpring<true>;
   Prepared prepare() const { return {stiffness, friction, dampingRatio}; }
 };
 
@@ -268,6 +272,14 @@ constexpr int numbersOf() {
 }
 template <class Part>
 inline constexpr int memoryOf = numbersOf<Part>();
+/// Vectors that turn with the contact, if it says so.
+template <class Part>
+constexpr unsigned carriesOf() {
+  if constexpr (requires { Part::carries; })
+    return Part::carries;
+  else
+    return 0;
+}
 }  // namespace detail
 
 /// A law for one pair of materials. A part in the place of adhesion that remembers something also says how far beyond
@@ -285,6 +297,8 @@ struct ContactLaw {
   static_assert(memory <= 12, "a block of contacts has rows for twelve numbers");
   static constexpr unsigned turns =
       Normal::turns | Tangential::turns << Normal::memory | Rolling::turns << (Normal::memory + Tangential::memory);
+  static constexpr unsigned carries = detail::carriesOf<Tangential>() << Normal::memory |
+                                      detail::carriesOf<Rolling>() << (Normal::memory + Tangential::memory);
   static constexpr bool needsMass = Normal::needsMass;
   static constexpr bool needsRadius = Normal::needsRadius || Rolling::needsRadius || Adhesion::needsRadius;
   static constexpr bool needsSlip = Tangential::needsSlip;
@@ -292,9 +306,10 @@ struct ContactLaw {
   /// Whether contacts exert torques, so that particles spin.
   static constexpr bool rotates = needsSlip || needsSpin;
 
-  struct Prepared {
+  template <class PreparedTangential>
+  struct PreparedParts {
     typename Normal::Prepared normal;
-    [[no_unique_address]] typename Tangential::Prepared tangential;
+    [[no_unique_address]] PreparedTangential tangential;
     [[no_unique_address]] typename Rolling::Prepared rolling;
     [[no_unique_address]] typename Adhesion::Prepared adhesion;
 
@@ -305,6 +320,22 @@ struct ContactLaw {
         return normal.reach();
     }
     bool usesMass() const { return normal.usesMass(); }
+
+    /// Whether the tangential part could do without a dashpot that this law does not ask for: see withoutDashpot.
+    bool sparesDashpot() const {
+      if constexpr (requires { tangential.withoutDashpot(); })
+        return !tangential.hasDashpot();
+      else
+        return false;
+    }
+    /// The same answers with fewer instructions.
+    auto withoutDashpot() const {
+      if constexpr (requires { tangential.withoutDashpot(); })
+        return PreparedParts<decltype(tangential.withoutDashpot())>{normal, tangential.withoutDashpot(), rolling,
+                                                                    adhesion};
+      else
+        return *this;
+    }
 
     /// Answers of all parts; those of the normal part's memory come first, then the tangential one's, then the rolling
     /// one's, then that of what pulls.
@@ -374,6 +405,7 @@ struct ContactLaw {
       return work;
     }
   };
+  using Prepared = PreparedParts<typename Tangential::Prepared>;
   Prepared prepare() const { return {normal.prepare(), tangential.prepare(), rolling.prepare(), adhesion.prepare()}; }
 };
 

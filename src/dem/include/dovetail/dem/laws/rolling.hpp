@@ -11,7 +11,7 @@ namespace dovetail::dem {
 struct RollingResistance {
   static constexpr const char* name = "rolling";
   static constexpr int memory = 4;  // angle, rad; k_r of the last step, N m/rad
-  static constexpr unsigned turns = 0b0111;
+  static constexpr unsigned turns = 0b0111, carries = 0b1;
   static constexpr bool needsSpin = true, needsRadius = true;
   double friction = 0.0;        ///< μ_r
   double stiffnessRatio = 0.0;  ///< k_r/(k_n R*²); Ai et al. take 2.25 μ_r²
@@ -25,8 +25,8 @@ struct RollingResistance {
       const Slope now = slope(contact, normal);
       const Vec3 rate = contact.spin - dot(contact.spin, contact.normal) * contact.normal;
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
-      const Slider slider = slideGrowing(carried({held[0], held[1], held[2]}, contact), rate, now.stiffness,
-                                         now.damping, normal.dampingShare, limit, contact, held);
+      const Slider<> slider = slideGrowing(Vec3{held[0], held[1], held[2]}, rate, now.stiffness, now.damping,
+                                           normal.dampingShare, limit, contact, held);
       return {-slider.force, slider.energy, slider.lostPower};
     }
     Slope slope(const Contact& contact, const NormalResponse& normal) const {
@@ -58,8 +58,8 @@ struct TwistingResistance {
       const Slope now = slope(contact, normal);
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
       double spring[4] = {held[0], 0.0, 0.0, held[1]};
-      const Slider slider = slideGrowing({held[0], 0.0, 0.0}, {dot(contact.spin, contact.normal), 0.0, 0.0},
-                                         now.stiffness, now.damping, normal.dampingShare, limit, contact, spring);
+      const Slider<> slider = slideGrowing({held[0], 0.0, 0.0}, {dot(contact.spin, contact.normal), 0.0, 0.0},
+                                           now.stiffness, now.damping, normal.dampingShare, limit, contact, spring);
       held[0] = spring[0];
       held[1] = spring[3];
       return {-slider.force.x * contact.normal, slider.energy, slider.lostPower};
@@ -80,6 +80,7 @@ struct RollingAndTwisting {
   static constexpr const char* name = "rolling and twisting";
   static constexpr int memory = RollingResistance::memory + TwistingResistance::memory;
   static constexpr unsigned turns = RollingResistance::turns | TwistingResistance::turns << RollingResistance::memory;
+  static constexpr unsigned carries = RollingResistance::carries;
   static constexpr bool needsSpin = true, needsRadius = true;
 
   struct Prepared {

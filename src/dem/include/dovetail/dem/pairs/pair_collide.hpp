@@ -48,6 +48,7 @@ struct PairRows {
 struct PairCursor {
   std::size_t chunk, pair, end, image;
   std::size_t firstParticle, particles, crossing;
+  bool within;  ///< no pair is of the last particle
   /// Force (and torque, if they turn) so far on each particle of the chunk, and then on the second particle of each
   /// crossing pair.
   double __attribute__((vector_size(32))) * sums;

@@ -23,6 +23,7 @@ struct PairChunks {
   RawVector<Vec3> force, torque;     ///< on the second particle of each crossing pair, N, N m
   std::vector<std::size_t> arrives;  ///< chunk c receives arriving[arrives[c]] … arriving[arrives[c + 1] − 1]
   RawVector<std::array<int, 2>> arriving;  ///< crossing pair, particle
+  std::vector<int> largest;                ///< number of a particle in the pairs of the chunk
   std::vector<std::size_t> images;         ///< chunk c has images[c] … images[c + 1] − 1 of PairList::images
   std::vector<std::size_t> candidates;     ///< and candidates[c] … candidates[c + 1] − 1 of PairList::candidates
   std::size_t count() const { return begin.empty() ? 0 : begin.size() - 1; }
