@@ -1,6 +1,7 @@
 // Walls that move as rigid bodies, along a given motion or freely.
 #include <gtest/gtest.h>
 
+#include "box_wall.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/walls/rigid_wall.hpp"
 #include "dovetail/dem/walls/wall_collide.hpp"
@@ -8,27 +9,6 @@
 
 namespace dovetail::dem {
 namespace {
-
-/// A closed box as a wall.
-TriangulatedWall boxWall(const Vec3& lower, const Vec3& size) {
-  std::vector<Vec3> x;
-  for (int c = 0; c < 8; ++c)
-    x.push_back(lower + Vec3{c & 1 ? size.x : 0.0, c & 2 ? size.y : 0.0, c & 4 ? size.z : 0.0});
-  return makeWall(x,
-                  {{0, 2, 3},
-                   {0, 3, 1},
-                   {4, 5, 7},
-                   {4, 7, 6},
-                   {0, 1, 5},
-                   {0, 5, 4},
-                   {2, 6, 7},
-                   {2, 7, 3},
-                   {0, 4, 6},
-                   {0, 6, 2},
-                   {1, 3, 7},
-                   {1, 7, 5}},
-                  true);
-}
 
 /// Balls that fly at a free box.
 struct Billiard {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "../model/events.hpp"
+#include "carried_walls.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/loads.hpp"
 
@@ -44,13 +45,16 @@ double BodyTerm::move(Model& m, const Step& step) {
   if (step.closing > 0.0) kickBodies(bodies, 0.5 * step.closing);
   kickBodies(bodies, 0.5 * step.dt);
   driftBodies(bodies, step.dt);
+  placeCarriedWalls(m, bodies, step.time);
   const double moved = placeMembers(bodies, clumps, m.pairs.periodicity, m.particles);
   if (!std::isfinite(moved)) requireFinite(bodies, when(m));
   return moved;
 }
 
 void BodyTerm::renewed(Model& m) {
+  const std::vector<Vec3> before = bodies.x;
   m.booked.lifted -= dot(m.gravity, wrapPositions(bodies, m.pairs.periodicity));
+  shiftCarriedWalls(m, bodies, before);
   muteMemberPairs(clumps, m.pairs);
 }
 
@@ -62,6 +66,7 @@ void BodyTerm::leaving(Model& m, std::vector<char>& leaves) {
     if (gone[at(clumps.body[k])] != 0) leaves[at(clumps.particle[k])] = booked;
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (gone[b] != 0) m.booked.left += dem::book(bodies, b, m.gravity, 0.5 * m.open * m.gravity, m.left);
+  renumberCarriedWalls(m, gone);
 }
 
 double BodyTerm::renumber(std::span<const int> newNumber, const Particles&) {
@@ -72,6 +77,7 @@ double BodyTerm::renumber(std::span<const int> newNumber, const Particles&) {
 void BodyTerm::addForces(Model& m, const Step& step) {
   clearForces(bodies);
   gatherForces(m.particles, clumps, bodies, m.gravity);
+  gatherCarriedWalls(m, bodies);
   damp(m);
   if (step.timeless || admitted_ < 0) return;
   // The step's last half kick is not for newcomers: it will be taken back from what they have.
@@ -125,10 +131,12 @@ void BodyTerm::meanMotion(const Model&, const Step& step, std::span<Vec3> v, std
 void BodyTerm::close(Model& m, double dt) {
   kickBodies(bodies, 0.5 * dt);
   placeMembers(bodies, clumps, m.pairs.periodicity, m.particles);
+  placeCarriedWalls(m, bodies, m.time);
 }
 
 void BodyTerm::addDemand(const Model& m, ContactDemand& demand) const {
   dem::addDemand(demand, m.particles, bodies, clumps);
+  addCarriedDemand(m, bodies, demand);
 }
 
 void BodyTerm::addEnergies(const Model& m, Energies& e) const {

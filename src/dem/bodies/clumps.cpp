@@ -10,6 +10,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
+#include "turnability.hpp"
 
 namespace dovetail::dem {
 
@@ -17,7 +18,8 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Largest (r × n)·I⁻¹(r × n) over unit vectors n; r in the principal frame. 1/kg
+}  // namespace
+
 double turnability(const Vec3& r, const Vec3& inertia) {
   Eigen::Matrix3d arm;
   arm << 0.0, -r.z, r.y, r.z, 0.0, -r.x, -r.y, r.x, 0.0;
@@ -25,8 +27,6 @@ double turnability(const Vec3& r, const Vec3& inertia) {
   const Eigen::Matrix3d form = arm.transpose() * inverse.asDiagonal() * arm;
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(form, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
-
-}  // namespace
 
 ClumpShape makeClumpShape(std::span<const Vec3> centre, std::span<const double> radius, Density density,
                           Overlap overlap) {
@@ -84,13 +84,11 @@ double placeMembers(const Bodies& bodies, const Clumps& clumps, const geometry::
 
 void gatherForces(Particles& particles, const Clumps& clumps, Bodies& bodies, const Vec3& gravity) {
   parallelFor(bodies.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) bodies.f[b] += bodies.mass[b] * gravity;
     const auto first = std::lower_bound(clumps.body.begin(), clumps.body.end(), static_cast<int>(begin));
-    int last = -1;
     for (auto m = static_cast<std::size_t>(first - clumps.body.begin()); m < clumps.size(); ++m) {
       const std::size_t b = at(clumps.body[m]), i = at(clumps.particle[m]);
       if (b >= end) break;
-      if (clumps.body[m] != last) bodies.f[b] += bodies.mass[b] * gravity;
-      last = clumps.body[m];
       const Vec3 force = particles.f[i] - particles.mass[i] * gravity;
       bodies.f[b] += force;
       bodies.torque[b] += cross(rotate(bodies.orientation[b], clumps.offset[m]), force);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "../bodies/carried_walls.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/walls/wall_archive.hpp"
@@ -15,6 +16,8 @@ namespace {
 int materialsOf(const Model& m) { return m.laws ? m.laws->materials() : 1; }
 
 Moves movesOf(const Model& m, const Step& step) { return {step.moved, Moves::unknown, m.pairs.travel, m.pairs.builds}; }
+
+bool carried(const MeshWall& mesh) { return std::holds_alternative<WallOnBody>(mesh.motion); }
 
 template <class List>
 auto& numbered(List& found, std::size_t i, const char* kind) {
@@ -81,10 +84,14 @@ void describe(Archive& a, Wall& w) {
 }
 template <class Archive, class Mesh>
 void describeMesh(Archive& a, Mesh& m) {
-  bool servo = std::holds_alternative<WallServo>(m.motion);
-  a(m.wall.facets, m.wall.oneSided, m.wall.material, m.rule, m.offset, m.surfaceVelocity, m.candidates.skin, servo);
-  if constexpr (Archive::reads)
+  bool servo = std::holds_alternative<WallServo>(m.motion), carried = std::holds_alternative<WallOnBody>(m.motion);
+  a(m.wall.facets, m.wall.oneSided, m.wall.material, m.rule, m.offset, m.surfaceVelocity, m.candidates.skin, servo,
+    carried);
+  if constexpr (Archive::reads) {
     if (servo && !std::holds_alternative<WallServo>(m.motion)) m.motion = WallServo{};
+    if (carried && !std::holds_alternative<WallOnBody>(m.motion)) m.motion = WallOnBody{};
+  }
+  if (auto* carrier = std::get_if<WallOnBody>(&m.motion)) a(carrier->body, carrier->offset);
 }
 
 }  // namespace
@@ -100,15 +107,18 @@ void PrimitiveWallTerm::load(ByteReader& reader) {
   reader(stored);
 }
 
-void MeshWallTerm::check(const Model& m) const { validate(mesh, materialsOf(m)); }
+void MeshWallTerm::check(const Model& m) const {
+  validate(mesh, materialsOf(m));
+  if (const auto* carrier = std::get_if<WallOnBody>(&mesh.motion)) checkCarrier(m, *carrier, mesh.wall.x.size());
+}
 
 std::string MeshWallTerm::code() const {
   if (std::holds_alternative<PrescribedMotion>(mesh.motion)) return "a motion";
-  if (std::holds_alternative<WallOnBody>(mesh.motion)) return "a body";
   return std::holds_alternative<MovedByOthers>(mesh.motion) ? "somebody who moves it" : "";
 }
 
 double MeshWallTerm::move(Model&, const Step& step) {
+  if (carried(mesh)) return 0.0;  // its body moves it
   kickWall(mesh, 0.5 * (step.closing + step.dt));
   moveWall(mesh, step.time, step.dt);
   return 0.0;
@@ -119,22 +129,24 @@ double MeshWallTerm::renumber(std::span<const int> newNumber, const Particles& b
 }
 
 void MeshWallTerm::addForces(Model& m, const Step& step) {
+  if (step.timeless && carried(mesh)) moveWall(mesh, m.time, 0.0, &bodiesOf(m));
   mesh.candidates.reach = m.pairs.reach;
   findContacts(m.particles, mesh, movesOf(m, step), m.pairs.periodicity);
   const ContactWork work = m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
   stored = work.storedEnergy();
   m.work += work;
-  gatherForces(mesh);
+  addWallForces(mesh.contacts, mesh.wall);
   m.rate.walls += drivingPower(mesh);
 }
 
 void MeshWallTerm::close(Model& m, double dt) {
+  if (carried(mesh)) return;
   kickWall(mesh, 0.5 * dt);
   moveWall(mesh, m.time, 0.0);
 }
 
 void MeshWallTerm::addDemand(const Model& m, ContactDemand& demand) const {
-  if (!m.laws || mesh.contacts.size() == 0) return;
+  if (!m.laws || mesh.contacts.size() == 0 || carried(mesh)) return;
   const DemandBefore before = demandBefore(demand);
   m.laws->addDemand(demand, m.particles, mesh.wall, mesh.contacts);
   if (const auto* servo = std::get_if<WallServo>(&mesh.motion)) addServoDemand(demand, *servo, before);
@@ -162,6 +174,18 @@ void MeshWallTerm::load(ByteReader& reader) {
   archiveMesh(reader, mesh);
   mesh.wall.topology = geometry::makeTopology(mesh.wall.facets, static_cast<int>(mesh.wall.x.size()));
   reader(stored);
+}
+
+MeshWall& addFreeWall(Model& m, TriangulatedWall wall, Density density, const Vec3& v, const Vec3& omega) {
+  const MassProperties properties = solidInside(wall.x, wall.facets, density);
+  return addFreeWall(m, std::move(wall), properties, v, omega);
+}
+MeshWall& addFreeWall(Model& m, TriangulatedWall wall, const MassProperties& properties, const Vec3& v,
+                      const Vec3& omega) {
+  MeshWall mesh;
+  mesh.motion = addWallBody(bodies(m).bodies, wall, properties, v, omega);
+  mesh.wall = std::move(wall);
+  return addWall(m, std::move(mesh));
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "../bodies/carried_walls.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -76,14 +77,16 @@ Sums sumsOf(const Bodies& bodies) {
   return sums;
 }
 
-/// As particles are steered. No body will move farther than half the radius of its smallest member in a step.
-void steer(BodyTerm& term, const Particles& p, double keep, double lean, double dt) {
+/// As particles are steered. No body will move farther in a step than half the radius of its smallest member or, with
+/// walls, of the smallest particle.
+void steer(Model& m, BodyTerm& term, double keep, double lean, double dt) {
   Bodies& bodies = term.bodies;
-  std::vector<double> least(bodies.size(), std::numeric_limits<double>::infinity()), extent(bodies.size(), 0.0);
+  const Particles& p = m.particles;
+  std::vector<double> least(bodies.size(), m.smallestRadius), extent = wallExtents(m, bodies);
   for (std::size_t k = 0; k < term.clumps.size(); ++k) {
     const auto b = static_cast<std::size_t>(term.clumps.body[k]);
     const double radius = p.radius[static_cast<std::size_t>(term.clumps.particle[k])];
-    least[b] = std::min(least[b], radius);
+    least[b] = extent[b] > 0.0 ? std::min(least[b], radius) : radius;
     extent[b] = std::max(extent[b], norm(term.clumps.offset[k]) + radius);
   }
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -103,7 +106,7 @@ void steer(BodyTerm& term, const Particles& p, double keep, double lean, double 
 
 void steer(Model& m, double keep, double lean, double dt) {
   steer(m.particles, keep, lean, dt);
-  for (BodyTerm* term : m.terms.all<BodyTerm>()) steer(*term, m.particles, keep, lean, dt);
+  for (BodyTerm* term : m.terms.all<BodyTerm>()) steer(m, *term, keep, lean, dt);
 }
 
 void stop(Model& m) {
@@ -165,6 +168,10 @@ void check(const Model& m, const RelaxationSettings& s) {
   for (const PrimitiveWallTerm* term : m.terms.all<PrimitiveWallTerm>())
     if (term->wall.motion || norm(term->wall.velocity) + norm(term->wall.angularVelocity) > 0.0)
       throw InputError("a wall moves", "relaxation", "let walls stand");
+  for (const MeshWallTerm* term : m.terms.all<MeshWallTerm>())
+    if (std::holds_alternative<PrescribedMotion>(term->mesh.motion))
+      throw InputError("a triangulated wall moves along a path", "relaxation",
+                       "let walls stand, or free (addFreeWall)");
 }
 
 /// So long that a particle crosses a tenth of its radius, where nobody touches anybody yet.
@@ -224,6 +231,7 @@ RelaxationReport restOf(const Model& m) {
   for (const BodyTerm* term : m.terms.all<BodyTerm>()) {
     const Bodies& bodies = term->bodies;
     std::vector<char> touched(bodies.size(), 0);
+    markTouched(m, touched);
     for (std::size_t k = 0; k < term->clumps.size(); ++k)
       if (touches[static_cast<std::size_t>(term->clumps.particle[k])] != 0)
         touched[static_cast<std::size_t>(term->clumps.body[k])] = 1;
@@ -258,6 +266,7 @@ RelaxationReport relax(Model& m, const RelaxationSettings& settings) {
   m.refusesUnstableSteps = refuses;
   m.booked.damping += kineticEnergyOf(m);
   stop(m);
+  for (const BodyTerm* term : m.terms.all<BodyTerm>()) placeCarriedWalls(m, term->bodies, m.time);
   return report;
 }
 

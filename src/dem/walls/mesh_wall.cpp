@@ -18,6 +18,11 @@ struct Place {
   const std::vector<Vec3>* offset;
 };
 
+void requireBody(const WallOnBody& carrier, const Bodies* bodies) {
+  if (!bodies || carrier.body < 0 || static_cast<std::size_t>(carrier.body) >= bodies->size())
+    throw InputError("the body it is on does not exist", "triangulated wall", "take the result of addWallBody");
+}
+
 Place placeOf(const MeshWall& mesh, double time, const Bodies* bodies) {
   if (const auto* motion = std::get_if<PrescribedMotion>(&mesh.motion)) {
     if (!*motion) throw InputError("its motion is empty", "triangulated wall", "give a function, or leave it at rest");
@@ -26,8 +31,7 @@ Place placeOf(const MeshWall& mesh, double time, const Bodies* bodies) {
   if (const auto* servo = std::get_if<WallServo>(&mesh.motion))
     return {{servo->travel * servo->direction, {}, servo->speed * servo->direction, {}}, &mesh.offset};
   const auto& carrier = std::get<WallOnBody>(mesh.motion);
-  if (!bodies || carrier.body < 0 || static_cast<std::size_t>(carrier.body) >= bodies->x.size())
-    throw InputError("the body it is on does not exist", "triangulated wall", "take the result of addWallBody");
+  requireBody(carrier, bodies);
   return {poseOf(*bodies, carrier), &carrier.offset};
 }
 
@@ -97,6 +101,8 @@ void moveWall(MeshWall& mesh, double time, double dt, const Bodies* bodies) {
     return;
   }
   const Place place = placeOf(mesh, time, bodies);
+  if (const auto* carrier = std::get_if<WallOnBody>(&mesh.motion))
+    mesh.wall.mass = bodies->mass[static_cast<std::size_t>(carrier->body)];
   mesh.step += placeWall(place.pose, *place.offset, mesh.wall);
   if (squaredNorm(mesh.surfaceVelocity) == 0.0) return;
   mesh.belt = rotate(place.pose.turn, mesh.surfaceVelocity);
@@ -118,7 +124,10 @@ void findContacts(const Particles& particles, MeshWall& mesh, const Moves& moves
 
 void gatherForces(MeshWall& mesh, Bodies* bodies) {
   addWallForces(mesh.contacts, mesh.wall);
-  if (const auto* carrier = std::get_if<WallOnBody>(&mesh.motion)) gatherForces(mesh.wall, *carrier, *bodies);
+  if (const auto* carrier = std::get_if<WallOnBody>(&mesh.motion)) {
+    requireBody(*carrier, bodies);
+    gatherForces(mesh.wall, *carrier, *bodies);
+  }
 }
 
 double drivingPower(const MeshWall& mesh) {

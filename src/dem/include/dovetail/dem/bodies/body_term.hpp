@@ -1,4 +1,4 @@
-// Rigid bodies of a model: clumps of its particles, and triangulated walls that move freely.
+// Rigid bodies of a model: clumps of its particles, and triangulated walls that move freely (addFreeWall in walls.hpp).
 //
 //     dem::BodyTerm& rigid = dem::bodies(model);
 //     dem::addClump(model, shape, x);

@@ -63,8 +63,8 @@ double placeMembers(const Bodies& bodies, const Clumps& clumps, const geometry::
 
 /// f += Σ fᵢ, torque += Σ armᵢ × fᵢ + torqueᵢ over each body's members, arms as placeMembers has them; then their
 /// forces and torques are zero.
-/// @param gravity what applyGravity(particles, gravity) has given to the members, m/s²; the body gets its own weight
-///   instead, at its centre of mass
+/// @param gravity what applyGravity(particles, gravity) has given to the members, m/s²; every body gets
+///   its own weight instead, at its centre of mass
 void gatherForces(Particles& particles, const Clumps& clumps, Bodies& bodies, const Vec3& gravity = {});
 
 /// Gives clumps the new numbers of their members (< 0: gone); clumps that are gone leave with their bodies, and bodies

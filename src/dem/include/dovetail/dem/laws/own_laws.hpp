@@ -37,7 +37,7 @@ public:
   }
   void addDemand(ContactDemand& demand, const Particles& particles, const TriangulatedWall& wall,
                  const WallContacts& contacts) const override {
-    addWallDemand(demand, particles, contacts, laws_, wall.material);
+    addWallDemand(demand, particles, contacts, laws_, wall.material, wall.mass);
   }
   ContactSample sample(const Particles& particles, const PairList& list) const override {
     return samplePairs(particles, list, laws_);

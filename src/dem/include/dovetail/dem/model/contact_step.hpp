@@ -101,11 +101,13 @@ void addDemand(ContactDemand& demand, const Particles& particles, const PairList
   }
 }
 
-/// The same for contacts with a wall, which counts as infinitely heavy.
+/// The same for contacts with a wall, which does not give way.
 /// @param contacts WallContacts after findWallContacts, or PrimitiveContacts after findContacts
+/// @param wallMass kg, as dashpots see it (TriangulatedWall::mass)
 template <class Law, class Contacts>
 void addWallDemand(ContactDemand& demand, const Particles& particles, const Contacts& contacts,
-                   const PreparedLaws<Law>& laws, int wallMaterial = 0) {
+                   const PreparedLaws<Law>& laws, int wallMaterial = 0,
+                   double wallMass = std::numeric_limits<double>::infinity()) {
   for (std::size_t c = 0; c < contacts.particle.size(); ++c) {
     const auto i = static_cast<std::size_t>(contacts.particle[c]);
     const int material = particles.material.empty() ? 0 : int{particles.material[i]};
@@ -113,14 +115,15 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
     Contact contact;
     contact.overlap = shareOf(contacts, c).overlap;
     if (!(contact.overlap > 0.0)) continue;
-    contact.effectiveMass = particles.mass[i];
+    const double mass = particles.mass[i];
+    contact.effectiveMass = std::isfinite(wallMass) ? mass * wallMass / (mass + wallMass) : mass;
     contact.rootMass = std::sqrt(contact.effectiveMass);
     contact.effectiveRadius = particles.radius[i];
     contact.normal = {0.0, 0.0, 1.0};
     contact.dt = 1.0;
     double memory[static_cast<std::size_t>(Law::memory) + 1] = {};
     detail::addContact(demand, particles, contacts.particle[c], -1, law.slopes(contact, memory), 1.0,
-                       particles.mass[i]);
+                       contact.effectiveMass);
   }
 }
 

@@ -55,7 +55,17 @@ inline PrimitiveWall& addWall(Model& m, PrimitiveWall wall) {
 }
 inline MeshWall& addWall(Model& m, MeshWall wall) { return m.terms.add(MeshWallTerm(std::move(wall))).mesh; }
 
-/// Takes a wall out; what its contacts had stored is booked as left. @throws InputError if it is not the model's
+/// A solid that moves freely under gravity and what its surface meets: a wall on a body of its own (bodies(m)), with
+/// the mass properties of what it encloses or of the caller's own, described in the frame in which the wall lies now.
+/// Such walls meet particles, not one another.
+/// @param v m/s @param omega rad/s, in space
+/// @throws InputError as solidInside and addBody
+MeshWall& addFreeWall(Model& m, TriangulatedWall wall, Density density, const Vec3& v = {}, const Vec3& omega = {});
+MeshWall& addFreeWall(Model& m, TriangulatedWall wall, const MassProperties& properties, const Vec3& v = {},
+                      const Vec3& omega = {});
+
+/// Takes a wall out; what its contacts had stored is booked as left. The body of a free wall stays, and meets nobody
+/// from then on. @throws InputError if it is not the model's
 void removeWall(Model& m, const PrimitiveWall& wall);
 void removeWall(Model& m, const MeshWall& mesh);
 

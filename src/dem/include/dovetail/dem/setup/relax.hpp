@@ -30,7 +30,7 @@ struct RelaxationReport {
 /// towards forces and stop wherever they point uphill; what that takes is booked as damping. Contacts remember as in
 /// any other step, so friction holds what it can. Afterwards velocities are zero, and time has gone on by the steps
 /// taken.
-/// Bodies move and turn as a whole.
+/// Bodies move and turn as a whole, free walls among them.
 /// @throws InputError if a setting is not valid, or the model has moving walls; NumericalError as advance
 RelaxationReport relax(Model& m, const RelaxationSettings& settings = {});
 

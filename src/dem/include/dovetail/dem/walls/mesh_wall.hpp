@@ -67,6 +67,7 @@ void findContacts(const Particles& particles, MeshWall& mesh, const Moves& moves
                   const geometry::Periodicity& periodicity = {});
 
 /// Contact forces on to the vertices, and from there to the body, if the wall is on one.
+/// @throws InputError if the wall is on a body and there is none
 void gatherForces(MeshWall& mesh, Bodies* bodies = nullptr);
 
 /// Power that the wall puts into the particles, W, with the forces of the last collide; of a wall on a body or a servo

@@ -159,7 +159,7 @@ ContactWork collide(Particles& particles, PrimitiveWall& wall, const PreparedLaw
     const EndedMemories ended = detail::carryMemory(particles, contacts, Law::memory);
     if (booking == Booking::on) work += detail::bookEnded<Law>(ended, laws, wall.material, dt);
   }
-  work += detail::answerWall<Law>(particles, contacts, contacts.memory, laws, wall.material, dt, booking,
+  work += detail::answerWall<Law>(particles, contacts, contacts.memory, laws, {.material = wall.material}, dt, booking,
                                   detail::AgainstPrimitive{particles, wall, Law::rotates && particles.rotates()});
   detail::addToParticles(particles, wall, Law::rotates && particles.rotates());
   return work;

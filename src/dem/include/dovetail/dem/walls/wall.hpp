@@ -1,6 +1,7 @@
 // Walls made of triangles whose vertices may move.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct TriangulatedWall {
   /// false: a sheet that pushes to the side on which the centre lies.
   bool oneSided = false;
   int material = 0;  ///< row of a LawTable
+  /// kg, of the body that carries it (moveWall sets it): enters the effective mass that dashpots are made for.
+  double mass = std::numeric_limits<double>::infinity();
   /// Whoever moves it moves it as a rigid body, or not at all: facets that lie in one plane stay so, which spares most
   /// of the work over them.
   bool rigid = false;

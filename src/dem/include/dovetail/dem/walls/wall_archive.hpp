@@ -29,7 +29,7 @@ void archiveCandidates(Archive& archive, Candidates& c) {
 template <class Archive, class Mesh>
 void archiveMesh(Archive& archive, Mesh& m) {
   auto& s = m.contacts.springs;
-  archive(m.wall.x, m.wall.v, m.wall.f, m.wall.rigid, m.step, m.belt, m.lookedAt);
+  archive(m.wall.x, m.wall.v, m.wall.f, m.wall.rigid, m.wall.mass, m.step, m.belt, m.lookedAt);
   if (auto* servo = std::get_if<WallServo>(&m.motion)) archive(*servo);
   archive(s.particle, s.facet, s.normal, s.memory, s.left.memory, s.left.material);
   auto& c = m.contacts;

@@ -36,7 +36,8 @@ void addToParticles(Particles& particles, const TriangulatedWall& wall, const Wa
 }  // namespace detail
 
 /// Sets contacts.force and adds it to particles.f (and its torque, if the law exerts torques and the particles spin).
-/// The wall counts as infinitely heavy and flat: effective mass and radius are the particle's. Where facets share a
+/// The wall counts as flat: the effective radius is the particle's, and the effective mass too unless the wall has one
+/// (TriangulatedWall::mass). Where facets share a
 /// contact, each answers with its share (engagement) of what the law says to the overlap of particle and facet alone.
 /// Call once per step if the law remembers.
 ///
@@ -56,8 +57,8 @@ ContactWork collideWithWall(Particles& particles, const TriangulatedWall& wall, 
   }
   if constexpr (Law::rotates) contacts.couple.assign(contacts.size(), Vec3{});
   const bool spins = Law::rotates && particles.rotates();
-  work += detail::answerWall<Law>(particles, contacts, contacts.springs.next, laws, wall.material, dt, booking,
-                                  detail::AgainstFacets{particles, wall, contacts, spins});
+  work += detail::answerWall<Law>(particles, contacts, contacts.springs.next, laws, {wall.material, wall.mass}, dt,
+                                  booking, detail::AgainstFacets{particles, wall, contacts, spins});
   detail::addToParticles(particles, wall, contacts, spins);
   if constexpr (Law::memory > 0) detail::keepSprings(contacts);
   return work;

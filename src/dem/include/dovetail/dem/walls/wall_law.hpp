@@ -1,8 +1,9 @@
-// The law at contacts with whatever counts as infinitely heavy and flat.
+// The law at contacts with whatever counts as flat.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "dovetail/core/parallel.hpp"
@@ -45,11 +46,21 @@ ContactWork bookEnded(const EndedMemories& ended, const PreparedLaws<Law>& laws,
   return work;
 }
 
+/// Mass that meets the wall in a head-on impact, kg.
+inline double massAgainst(double wall, double particle) {
+  return std::isfinite(wall) ? wall * particle / (wall + particle) : particle;
+}
+/// What a law has to know of a wall.
+struct WallSide {
+  int material = 0;
+  double mass = std::numeric_limits<double>::infinity();  ///< kg
+};
+
 /// Contacts first … first + n − 1 into a block.
 template <class Law, class Contacts, class Motion>
 void gatherWall(const Particles& particles, const Contacts& contacts, const std::vector<double>& memory,
-                const PreparedLaws<Law>& laws, int wallMaterial, std::size_t first, std::size_t n, const Motion& motion,
-                ContactBlock& block) {
+                const PreparedLaws<Law>& laws, const WallSide& wall, std::size_t first, std::size_t n,
+                const Motion& motion, ContactBlock& block) {
   for (std::size_t l = 0; l < n; ++l) {
     const std::size_t c = first + l;
     const auto i = static_cast<std::size_t>(contacts.particle[c]);
@@ -60,8 +71,8 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
     block.scale[l] = particles.weightOf(i) * share.force;
     block.energyShare[l] = particles.weightOf(i) * share.energy;
     block.effectiveRadius[l] = particles.radius[i];
-    block.rootMass[l] = std::sqrt(particles.mass[i]);
-    block.kind[l] = laws.materials > 1 ? materialOf(particles, i) * laws.materials + wallMaterial : 0;
+    block.rootMass[l] = std::sqrt(massAgainst(wall.mass, particles.mass[i]));
+    block.kind[l] = laws.materials > 1 ? materialOf(particles, i) * laws.materials + wall.material : 0;
     if constexpr (Law::rotates) {
       const Vec3 spin = particles.rotates() ? particles.omega[i] : Vec3{}, wallSpin = motion.spin(c);
       block.spinSum.set(l, spin + wallSpin);
@@ -78,7 +89,7 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
 /// @param motion    velocity(c): of the particle relative to the wall at contact c, m/s; spin(c): of the wall there
 template <class Law, class Contacts, class Motion>
 ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vector<double>& memory,
-                       const PreparedLaws<Law>& laws, int wallMaterial, double dt, Booking booking,
+                       const PreparedLaws<Law>& laws, const WallSide& wall, double dt, Booking booking,
                        const Motion& motion) {
   constexpr BlockOptions quiet{.spins = Law::rotates, .wall = true, .varied = true, .booked = false};
   constexpr BlockOptions booked{.spins = Law::rotates, .wall = true, .varied = true, .booked = true};
@@ -87,7 +98,7 @@ ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vect
     std::array<ContactBlock::Row, Law::memory + 1> held;
     for (std::size_t m = 0; m < Law::memory; ++m) block.memory[m] = held[m].data();
     const std::size_t n = end - first;
-    gatherWall<Law>(particles, contacts, memory, laws, wallMaterial, first, n, motion, block);
+    gatherWall<Law>(particles, contacts, memory, laws, wall, first, n, motion, block);
     if (booking == Booking::on)
       answer<Law, booked>(block, n, laws.table.data(), dt);
     else
@@ -103,7 +114,7 @@ ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vect
   const std::size_t count = contacts.particle.size();
   contacts.energy.resize(count);
   if (count == 0) return {};
-  requireWallMaterials(particles, contacts.particle, laws.materials, wallMaterial);
+  requireWallMaterials(particles, contacts.particle, laws.materials, wall.material);
   return count <= blockSize ? answerBlock(0, count) : parallelSum(count, blockSize, answerBlock);
 }
 
