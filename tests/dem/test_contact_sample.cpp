@@ -4,6 +4,7 @@
 #include "dovetail/cg/averages.hpp"
 #include "dovetail/cg/images.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/sample.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/setup/packing.hpp"
@@ -102,6 +103,45 @@ TEST(ContactSample, OfAModelHasTheForcesAndTorquesOfItsParticlesAndWalls) {
     EXPECT_LE(norm(force[i] - m.particles.f[i]), 1e-9 * size) << i;
     EXPECT_LE(norm(torque[i] - m.particles.torque[i]), 1e-9 * moment) << i;
   }
+}
+
+TEST(ContactSample, IsTheSameForAnyThreadsAndPairByPairThatOfThePairAlone) {
+  const FrictionalLaw law{{.stiffness = 2e4, .restitution = 0.6}, {.stiffness = 6e3, .friction = 0.4}};
+  Random random(4);
+  Particles particles;
+  for (int i = 0; i < 1500; ++i)
+    addParticle(particles, random.vector(0.5), random.vector(1.0), random(0.04, 0.06), Density{1000.0});
+  switchOnRotation(particles);
+  PairList list;
+  list.periodicity = {{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, {true, true, true}};
+  findPairs(particles, 0.01, list);
+  collide(particles, list, law, 1e-4);
+  ASSERT_GT(list.size(), 2048u);  // several chunks
+  ASSERT_NE(list.size() % 64, 0u);
+  std::vector<ContactSample> samples;
+  for (const int count : {1, 2, 3}) {
+    setThreads(count);
+    samples.push_back(samplePairs(particles, list, law));
+  }
+  setThreads(1);
+  const ContactSample& once = samples[0];
+  for (const ContactSample& s : samples) {
+    EXPECT_TRUE(s.first == once.first && s.second == once.second);
+    EXPECT_TRUE(s.from == once.from && s.to == once.to && s.point == once.point && s.normal == once.normal);
+    EXPECT_TRUE(s.force == once.force && s.torqueFirst == once.torqueFirst && s.torqueSecond == once.torqueSecond);
+  }
+  std::size_t c = 0;
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    detail::PairsApart alone(1);
+    alone.take(particles, list, p, 3);
+    collide(alone.particles, alone.list, law, 1e-100);
+    if (alone.particles.f[0] == Vec3{}) continue;
+    ASSERT_EQ(once.first[c], list.pairs[p][0]);
+    ASSERT_EQ(once.second[c], list.pairs[p][1]);
+    ASSERT_EQ(once.force[c], alone.particles.f[0]);
+    ASSERT_EQ(once.torqueSecond[c++], alone.particles.torque[1]);
+  }
+  EXPECT_EQ(c, once.size());
 }
 
 /// What each bond of a touching lattice becomes under a strain, from a double loop: V σ and how many there are.

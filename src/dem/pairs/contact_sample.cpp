@@ -1,10 +1,25 @@
 #include "dovetail/dem/pairs/contact_sample.hpp"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 namespace dovetail::dem {
 
 namespace {
+
+template <class Visit>
+void forEachArray(Visit&& visit) {
+  visit(&ContactSample::first);
+  visit(&ContactSample::second);
+  visit(&ContactSample::from);
+  visit(&ContactSample::to);
+  visit(&ContactSample::point);
+  visit(&ContactSample::normal);
+  visit(&ContactSample::force);
+  visit(&ContactSample::torqueFirst);
+  visit(&ContactSample::torqueSecond);
+}
 
 void append(ContactSample& sample, int first, int second, const Vec3& from, const Vec3& to, const Vec3& point,
             const Vec3& normal, const Vec3& force, const Vec3& torqueFirst, const Vec3& torqueSecond) {
@@ -35,16 +50,21 @@ void appendWall(const Particles& particles, const Contacts& contacts, std::size_
 
 namespace detail {
 
-LonePair::LonePair() {
-  for (const double x : {0.0, 1.0}) addParticle(particles, {x, 0.0, 0.0}, {}, 1.0, Mass{1.0});
+PairsApart::PairsApart(std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k)
+    for (const double x : {0.0, 1.0})
+      addParticle(particles, {4.0 * static_cast<double>(k) + x, 0.0, 0.0}, {}, 1.0, Mass{1.0});
   findPairs(particles, 0.0, list);
 }
 
-void LonePair::set(const Particles& all, const PairList& from, std::size_t pair, int memory) {
+void PairsApart::take(const Particles& all, const PairList& from, std::size_t first, int memory) {
+  const std::size_t count = list.size();
   const auto copy = [&](auto& mine, const auto& values) {
     if (values.empty()) return;
-    mine.resize(2);
-    for (std::size_t side = 0; side < 2; ++side) mine[side] = values[static_cast<std::size_t>(from.pairs[pair][side])];
+    mine.resize(2 * count);
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t side = 0; side < 2; ++side)
+        mine[2 * k + side] = values[static_cast<std::size_t>(from.pairs[first + k][side])];
   };
   copy(particles.x, all.x);
   copy(particles.v, all.v);
@@ -53,20 +73,40 @@ void LonePair::set(const Particles& all, const PairList& from, std::size_t pair,
   copy(particles.omega, all.omega);
   copy(particles.material, all.material);
   particles.torque.assign(particles.omega.size(), {});
-  particles.f.assign(2, {});
-  particles.x[1] -= from.shift(pair);
-  if (!from.scale.empty()) list.scale.assign(1, from.scale[pair]);
-  list.memory.resize(static_cast<std::size_t>(memory));
-  for (std::size_t c = 0; c < list.memory.size(); ++c) list.memory[c] = from.memory[c * from.size() + pair];
+  particles.f.assign(2 * count, {});
+  for (std::size_t k = 0; k < count; ++k) particles.x[2 * k + 1] -= from.shift(first + k);
+  if (!from.scale.empty()) list.scale.resize(count);
+  for (std::size_t k = 0; k < list.scale.size(); ++k) list.scale[k] = from.scale[first + k];
+  list.memory.resize(static_cast<std::size_t>(memory) * count);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(memory); ++c)
+    for (std::size_t k = 0; k < count; ++k) list.memory[c * count + k] = from.memory[c * from.size() + first + k];
 }
 
-void appendPair(const LonePair& lone, const std::array<int, 2>& pair, ContactSample& sample) {
-  const Particles& two = lone.particles;
-  if (two.f[0] == Vec3{}) return;
-  const PairContact contact = pairContact(two, 0, 1);
-  const bool spins = two.rotates();
-  append(sample, pair[0], pair[1], two.x[0], two.x[1], two.x[0] + contact.armI, contact.normal, two.f[0],
-         spins ? two.torque[0] : Vec3{}, spins ? two.torque[1] : Vec3{});
+void appendPairs(const PairsApart& apart, const PairList& list, std::size_t first, ContactSample& sample) {
+  const Particles& p = apart.particles;
+  const bool spins = p.rotates();
+  for (std::size_t k = 0; k < apart.list.size(); ++k) {
+    const std::size_t i = 2 * k, j = i + 1;
+    if (p.f[i] == Vec3{}) continue;
+    const PairContact contact = pairContact(p, i, j);
+    append(sample, list.pairs[first + k][0], list.pairs[first + k][1], p.x[i], p.x[j], p.x[i] + contact.armI,
+           contact.normal, p.f[i], spins ? p.torque[i] : Vec3{}, spins ? p.torque[j] : Vec3{});
+  }
+}
+
+ContactSample joined(std::vector<ContactSample> parts) {
+  if (parts.size() == 1) return std::move(parts[0]);
+  std::vector<std::size_t> begin(parts.size() + 1, 0);
+  for (std::size_t k = 0; k < parts.size(); ++k) begin[k + 1] = begin[k] + parts[k].size();
+  ContactSample all;
+  forEachArray([&](auto ContactSample::*array) { (all.*array).resize(begin.back()); });
+  parallelFor(parts.size(), 1, [&](std::size_t part, std::size_t) {
+    forEachArray([&](auto ContactSample::*array) {
+      std::copy((parts[part].*array).begin(), (parts[part].*array).end(),
+                (all.*array).begin() + static_cast<std::ptrdiff_t>(begin[part]));
+    });
+  });
+  return all;
 }
 
 void requireMemory(const PairList& list, int memory) {
@@ -98,15 +138,17 @@ void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps&
     const auto i = static_cast<std::size_t>(clumps.particle[m]), b = static_cast<std::size_t>(clumps.body[m]);
     toCentre[i] = bodies.x[b] - particles.x[i];
   }
-  for (std::size_t c = 0; c < sample.size(); ++c) {
-    const auto moveEnd = [&](int particle, Vec3& end, const Vec3& force, Vec3& torque) {
-      const Vec3& move = toCentre[static_cast<std::size_t>(particle)];
-      end += move;
-      torque -= cross(move, force);
-    };
-    moveEnd(sample.first[c], sample.from[c], sample.force[c], sample.torqueFirst[c]);
-    if (sample.second[c] >= 0) moveEnd(sample.second[c], sample.to[c], -sample.force[c], sample.torqueSecond[c]);
-  }
+  const auto moveEnd = [&](int particle, Vec3& end, const Vec3& force, Vec3& torque) {
+    const Vec3& move = toCentre[static_cast<std::size_t>(particle)];
+    end += move;
+    torque -= cross(move, force);
+  };
+  parallelFor(sample.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      moveEnd(sample.first[c], sample.from[c], sample.force[c], sample.torqueFirst[c]);
+      if (sample.second[c] >= 0) moveEnd(sample.second[c], sample.to[c], -sample.force[c], sample.torqueSecond[c]);
+    }
+  });
 }
 
 }  // namespace dovetail::dem

@@ -1,10 +1,11 @@
 // The contacts of a state one by one, for fields, averages and files.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <vector>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/clumps.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
 #include "dovetail/dem/walls/primitive_wall.hpp"
@@ -28,36 +29,45 @@ struct ContactSample {
 };
 
 namespace detail {
-/// One pair out of a list, as a system of its own.
-struct LonePair {
+/// Some pairs out of a list, each with two particles of its own, so that the force on a particle is that of its pair.
+struct PairsApart {
   Particles particles;
   PairList list;
-  LonePair();
-  /// @param memory numbers that the law remembers per contact
-  void set(const Particles& particles, const PairList& list, std::size_t pair, int memory);
+  explicit PairsApart(std::size_t count);
+  /// Takes the pairs from number `first` on. @param memory numbers that the law remembers per contact
+  void take(const Particles& particles, const PairList& list, std::size_t first, int memory);
 };
-/// Appends the pair with the force on its first particle.
-void appendPair(const LonePair& lone, const std::array<int, 2>& pair, ContactSample& sample);
+/// Appends those of the pairs that carry a force. @param first their number in the list
+void appendPairs(const PairsApart& apart, const PairList& list, std::size_t first, ContactSample& sample);
+/// One after the other.
+ContactSample joined(std::vector<ContactSample> parts);
 /// @throws InputError unless the list has as many memories as a law asks for
 void requireMemory(const PairList& list, int memory);
 }  // namespace detail
 
 /// Pairs with their forces as collide last made them: nothing is changed, and what contacts remember is taken as it is.
-/// Pairs without a force are left out. For output, not for every step.
+/// Pairs without a force are left out. In the order of the list, for any number of threads. For output, not for every
+/// step.
 /// @param list that of the last collide, with the same particles
 /// @throws InputError if the law remembers something and the list has not been through collide with it
 template <class Law>
 ContactSample samplePairs(const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws) {
   detail::requireMemory(list, Law::memory);
   constexpr double noTime = 1e-100;  // so short a step that no memory advances
-  ContactSample sample;
-  detail::LonePair lone;
-  for (std::size_t p = 0; p < list.size(); ++p) {
-    lone.set(particles, list, p, Law::memory);
-    collide(lone.particles, lone.list, laws, noTime, Booking::off);
-    detail::appendPair(lone, list.pairs[p], sample);
-  }
-  return sample;
+  constexpr std::size_t atOnce = 64, grain = 16 * atOnce;
+  std::vector<ContactSample> parts((list.size() + grain - 1) / grain);
+  parallelFor(list.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end;) {
+      const std::size_t left = end - first, rounds = std::max<std::size_t>(left / atOnce, 1);
+      detail::PairsApart apart(std::min(left, atOnce));
+      for (std::size_t r = 0; r < rounds; ++r, first += apart.list.size()) {
+        apart.take(particles, list, first, Law::memory);
+        collide(apart.particles, apart.list, laws, noTime, Booking::off);
+        detail::appendPairs(apart, list, first, parts[begin / grain]);
+      }
+    }
+  });
+  return detail::joined(std::move(parts));
 }
 
 template <class Normal, class Tangential, class Rolling, class Adhesion>
