@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/setup/packing.hpp"
 
 namespace dovetail::dem {
@@ -135,6 +136,21 @@ TEST(GrowPacking, IsDenseWhereAskedAndTheSameForTheSameSeed) {
   EXPECT_TRUE(report.reached) << report.solidFraction;
   EXPECT_EQ(growPacking(sizes, box(1.0, true), {.solidFraction = 0.62, .seed = 7}, report).centre, dense.centre);
   EXPECT_NE(growPacking(sizes, box(1.0, true), {.solidFraction = 0.62, .seed = 8}, report).centre, dense.centre);
+}
+
+TEST(GrowPacking, IsTheSameForAnyThreads) {
+  std::vector<Vec3> once;
+  for (const int count : {1, 2, 3}) {
+    setThreads(count);
+    PackingReport report;
+    const geometry::Periodicity space{{{0, 0, 0}, {1, 1, 1}}, {true, true, false}};
+    Packing packing = growPacking(UniformSizes{0.025, 0.035}, space, {.solidFraction = 0.5, .seed = 9}, report);
+    ASSERT_GT(packing.centre.size(), 4096u);
+    compressToPressure(packing, {.pressure = 100.0, .iterations = 100});
+    if (once.empty()) once = packing.centre;
+    EXPECT_EQ(packing.centre, once) << count;
+  }
+  setThreads(1);
 }
 
 TEST(GrowPacking, SaysHowFarItCameWhereSpheresJam) {

@@ -49,12 +49,12 @@ std::vector<double> drawRadii(const Sizes& sizes, double volume, RandomStream& r
 }
 
 void fillReport(Packing& packing, PackingReport& report) {
-  Relaxation state(packing);
+  const Relaxation state(packing);
   const Overlaps overlaps = state.measure(1e-6);
   report.solidFraction = solidFraction(packing);
   report.largestOverlap = overlaps.largest;
-  report.unbalanced = state.unbalanced();
-  report.coordination = static_cast<double>(overlaps.contacts) / static_cast<double>(packing.centre.size());
+  report.unbalanced = state.unbalanced(overlaps);
+  report.coordination = static_cast<double>(overlaps.held) / static_cast<double>(packing.centre.size());
 }
 
 void wrap(Packing& packing) {
@@ -97,6 +97,7 @@ double grow(Packing& packing, const std::vector<double>& wanted, const GrowthSet
     }
     scale = goodScale > 0.0 ? std::min(1.0, goodScale * (1.0 + growth)) : 0.9 * scale;
     setScale(scale);
+    relaxation.take();
   }
   packing.centre = good;
   if (goodScale > 0.0) scale = goodScale;
@@ -177,6 +178,7 @@ PackingReport compressToPressure(Packing& packing, const CompressionSettings& se
     const Vec3 corner = packing.space.box.lower;
     packing.space.box.upper = corner + factor * (packing.space.box.upper - corner);
     for (Vec3& x : packing.centre) x = corner + factor * (x - corner);
+    relaxation.take();
   }
   const double reachedPressure = report.pressure;
   wrap(packing);

@@ -10,55 +10,14 @@
 #include "../bodies/carried_walls.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
+#include "fire.hpp"
 
 namespace dovetail::dem {
 
 namespace {
-
-constexpr std::size_t grain = 4096;
-
-struct Sums {
-  double power = 0.0, speed = 0.0, force = 0.0;
-  Sums& operator+=(const Sums& b) {
-    power += b.power;
-    speed += b.speed;
-    force += b.force;
-    return *this;
-  }
-};
-
-/// Σ f·v, Σ v², Σ f², torques and spins as forces and speeds at the surface; without the members of bodies.
-Sums sumsOf(const Particles& p, const std::vector<char>& members) {
-  return parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
-    Sums sums;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!members.empty() && members[i] != 0) continue;
-      sums += {dot(p.f[i], p.v[i]), squaredNorm(p.v[i]), squaredNorm(p.f[i])};
-      if (!p.rotates()) continue;
-      const double r2 = p.radius[i] * p.radius[i];
-      sums += {dot(p.torque[i], p.omega[i]), r2 * squaredNorm(p.omega[i]), squaredNorm(p.torque[i]) / r2};
-    }
-    return sums;
-  });
-}
-
-/// v ← keep v + lean f, and nobody will drift farther than half its radius in a step.
-void steer(Particles& p, double keep, double lean, double dt) {
-  parallelFor(p.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 kick = (0.5 * dt / p.mass[i]) * p.f[i];
-      Vec3 v = keep * p.v[i] + lean * p.f[i];
-      const double speed = norm(v + kick), fastest = 0.5 * p.radius[i] / dt;
-      if (speed > fastest) v = (fastest / speed) * (v + kick) - kick;
-      p.v[i] = v;
-      if (p.rotates()) p.omega[i] = keep * p.omega[i] + (lean / (p.radius[i] * p.radius[i])) * p.torque[i];
-    }
-  });
-}
 
 /// Square of the radius of the sphere with a body's mass and mean moment of inertia, m².
 double squaredRadius(const Bodies& bodies, std::size_t b) {
@@ -66,8 +25,8 @@ double squaredRadius(const Bodies& bodies, std::size_t b) {
   return 2.5 * (inertia.x + inertia.y + inertia.z) / (3.0 * bodies.mass[b]);
 }
 
-Sums sumsOf(const Bodies& bodies) {
-  Sums sums;
+FireSums fireSums(const Bodies& bodies) {
+  FireSums sums;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Vec3 omega = angularVelocity(bodies, static_cast<int>(b)), &f = bodies.f[b], &torque = bodies.torque[b];
     const double r2 = squaredRadius(bodies, b);
@@ -79,7 +38,7 @@ Sums sumsOf(const Bodies& bodies) {
 
 /// As particles are steered. No body will move farther in a step than half the radius of its smallest member or, with
 /// walls, of the smallest particle.
-void steer(Model& m, BodyTerm& term, double keep, double lean, double dt) {
+void steer(Model& m, BodyTerm& term, const FireMix& mix, double dt) {
   Bodies& bodies = term.bodies;
   const Particles& p = m.particles;
   std::vector<double> least(bodies.size(), m.smallestRadius), extent = wallExtents(m, bodies);
@@ -92,9 +51,9 @@ void steer(Model& m, BodyTerm& term, double keep, double lean, double dt) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Vec3 &inertia = bodies.inertia[b], kick = (0.5 * dt / bodies.mass[b]) * bodies.f[b],
                twist = 0.5 * dt * bodies.torque[b];
-    bodies.v[b] = keep * bodies.v[b] + lean * bodies.f[b];
+    bodies.v[b] = mix.keep * bodies.v[b] + mix.lean * bodies.f[b];
     Vec3& spin = bodies.angularMomentum[b];
-    spin = keep * spin + (0.4 * lean * bodies.mass[b]) * bodies.torque[b];
+    spin = mix.keep * spin + (0.4 * mix.lean * bodies.mass[b]) * bodies.torque[b];
     const double speed =
         norm(bodies.v[b] + kick) + extent[b] * norm(spin + twist) / std::min({inertia.x, inertia.y, inertia.z});
     const double fastest = 0.5 * least[b] / dt;
@@ -104,9 +63,9 @@ void steer(Model& m, BodyTerm& term, double keep, double lean, double dt) {
   }
 }
 
-void steer(Model& m, double keep, double lean, double dt) {
-  steer(m.particles, keep, lean, dt);
-  for (BodyTerm* term : m.terms.all<BodyTerm>()) steer(m, *term, keep, lean, dt);
+void steer(Model& m, const FireMix& mix, double dt) {
+  steer(m.particles, mix, dt);
+  for (BodyTerm* term : m.terms.all<BodyTerm>()) steer(m, *term, mix, dt);
 }
 
 void stop(Model& m) {
@@ -125,38 +84,11 @@ double kineticEnergyOf(const Model& m) {
   return e.kinetic;
 }
 
-/// The steps' length and how far velocities lean towards forces.
-class Downhill {
-public:
-  explicit Downhill(double longest) : longest_(longest), dt_(0.2 * longest) {}
-  double dt() const { return dt_; }
-  void setLongest(double longest) {
-    longest_ = longest;
-    dt_ = std::min(dt_, longest_);
-  }
-  void steerBy(Model& m) {
-    Sums sums = sumsOf(m.particles, members(m));
-    for (const BodyTerm* term : m.terms.all<BodyTerm>()) sums += sumsOf(term->bodies);
-    if (sums.power > 0.0) {
-      if (++good_ > 5) {
-        dt_ = std::min(1.1 * dt_, longest_);
-        mix_ *= 0.99;
-      }
-      steer(m, 1.0 - mix_, mix_ * std::sqrt(sums.speed / sums.force), dt_);
-      return;
-    }
-    stop(m);
-    steer(m, 0.0, 0.0, dt_);
-    if (good_ > 0) dt_ = std::max(0.5 * dt_, 0.01 * longest_);
-    mix_ = mixAtStart;
-    good_ = 0;
-  }
-
-private:
-  static constexpr double mixAtStart = 0.1;
-  double longest_, dt_, mix_ = mixAtStart;
-  int good_ = 0;
-};
+FireSums fireSums(const Model& m) {
+  FireSums sums = fireSums(m.particles, members(m));
+  for (const BodyTerm* term : m.terms.all<BodyTerm>()) sums += fireSums(term->bodies);
+  return sums;
+}
 
 void check(const Model& m, const RelaxationSettings& s) {
   requirePositive(s.unbalanced, "unbalanced force at rest");
@@ -248,7 +180,7 @@ RelaxationReport relax(Model& m, const RelaxationSettings& settings) {
   check(m, settings);
   findForces(m);
   const bool refuses = std::exchange(m.refusesUnstableSteps, false);  // the step follows the limit at every look
-  Downhill downhill(longestStep(m, settings.stepShare));
+  Fire fire(longestStep(m, settings.stepShare));
   RelaxationReport report;
   for (std::int64_t step = 0;; ++step) {
     if (step % settings.lookEvery == 0 || step == settings.steps) {
@@ -256,12 +188,13 @@ RelaxationReport relax(Model& m, const RelaxationSettings& settings) {
       report.steps = step;
       report.atRest = report.unbalanced <= settings.unbalanced;
       if (report.atRest || step == settings.steps || (settings.enough && settings.enough(m))) break;
-      downhill.setLongest(longestStep(m, settings.stepShare));
+      fire.setLongest(longestStep(m, settings.stepShare));
     }
     const double before = kineticEnergyOf(m);
-    downhill.steerBy(m);
+    const FireMix mix = fire.next(fireSums(m));
+    steer(m, mix, fire.dt());
     m.booked.damping += before - kineticEnergyOf(m);
-    run(m, downhill.dt(), 1);
+    run(m, fire.dt(), 1);
   }
   m.refusesUnstableSteps = refuses;
   m.booked.damping += kineticEnergyOf(m);

@@ -1,50 +1,53 @@
 // Soft spheres that relax in a box: energy ½ Σ δ², steepest where they overlap most.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "dovetail/dem/laws/contact_laws.hpp"
+#include "dovetail/dem/pairs/pairs.hpp"
 #include "dovetail/dem/setup/packing.hpp"
-#include "dovetail/geometry/hierarchical_grid.hpp"
+#include "dovetail/dem/walls/primitive_wall.hpp"
 
 namespace dovetail::dem {
 
 /// State of the contacts of a packing.
 struct Overlaps {
   double largest = 0.0;  ///< over the smaller radius
-  double squares = 0.0;  ///< Σ δ², m²
+  double sum = 0.0;      ///< Σ δ, m
   double virial = 0.0;   ///< Σ δ × distance of the centres (or the radius left at a wall), m²
-  std::int64_t contacts = 0;
+  std::int64_t touching = 0;
+  std::int64_t held = 0;  ///< contacts of each sphere, those of pairs twice, with the gap that was asked for
+  Overlaps& operator+=(const Overlaps& b);
 };
 
 double meanRadius(const Packing& packing);
 
+/// The spheres of a packing as particles under springs of 1 N/m: pairs and walls are swept as in any model.
 class Relaxation {
 public:
-  explicit Relaxation(Packing& packing) : packing_(packing) {}
+  explicit Relaxation(Packing& packing);
 
+  /// The packing has been changed: radii, places or the box.
+  void take();
   /// FIRE until the largest overlap is at most `overlap`, or the mean force on a sphere is below `balance` times the
-  /// mean contact force, or the steps have run out. Returns the steps taken.
+  /// mean contact force, or the steps have run out. Returns the steps taken; the packing has the new places.
   std::int64_t run(double overlap, double balance, std::int64_t steps);
   /// As the spheres lie now; contacts are those with δ > −gap × smaller radius.
-  Overlaps measure(double gap = 0.0);
-  /// Mean force on a sphere over the mean contact force when last measured; 0 without contacts.
-  double unbalanced() const { return contactForce_ > 0.0 ? residual_ / contactForce_ : 0.0; }
+  Overlaps measure(double gap = 0.0) const;
+  /// Mean force on a sphere over the mean contact force; 0 without contacts.
+  double unbalanced(const Overlaps& now) const;
 
 private:
-  void forces();
-  void keepPairs();
+  void makeWalls();
+  void findForces(double moved);
 
   Packing& packing_;
-  std::vector<Vec3> force_, velocity_, positionAtBuild_;
-  std::vector<double> radiusAtBuild_;
-  double skin_ = 0.0;
-  geometry::Periodicity spaceAtBuild_;
-  geometry::SpherePairs pairs_;
-  geometry::HierarchicalGrid grid_;
-  Overlaps now_;
-  double residual_ = 0.0, contactForce_ = 0.0;
+  Particles particles_;  // sorted in space: Particles::id is the sphere's number
+  PairList list_;
+  std::vector<PrimitiveWall> walls_;
+  std::shared_ptr<const ContactLaws> laws_;
 };
 
 }  // namespace dovetail::dem
