@@ -94,6 +94,10 @@ void appendPairs(const PairsApart& apart, const PairList& list, std::size_t firs
   }
 }
 
+void reserve(ContactSample& sample, std::size_t contacts) {
+  forEachArray([&](auto ContactSample::*array) { (sample.*array).reserve(contacts); });
+}
+
 ContactSample joined(std::vector<ContactSample> parts) {
   if (parts.size() == 1) return std::move(parts[0]);
   std::vector<std::size_t> begin(parts.size() + 1, 0);

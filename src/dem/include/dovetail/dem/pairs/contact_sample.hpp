@@ -39,6 +39,7 @@ struct PairsApart {
 };
 /// Appends those of the pairs that carry a force. @param first their number in the list
 void appendPairs(const PairsApart& apart, const PairList& list, std::size_t first, ContactSample& sample);
+void reserve(ContactSample& sample, std::size_t contacts);
 /// One after the other.
 ContactSample joined(std::vector<ContactSample> parts);
 /// @throws InputError unless the list has as many memories as a law asks for
@@ -57,13 +58,15 @@ ContactSample samplePairs(const Particles& particles, const PairList& list, cons
   constexpr std::size_t atOnce = 64, grain = 16 * atOnce;
   std::vector<ContactSample> parts((list.size() + grain - 1) / grain);
   parallelFor(list.size(), grain, [&](std::size_t begin, std::size_t end) {
+    ContactSample& part = parts[begin / grain];
+    detail::reserve(part, end - begin);
     for (std::size_t first = begin; first < end;) {
       const std::size_t left = end - first, rounds = std::max<std::size_t>(left / atOnce, 1);
       detail::PairsApart apart(std::min(left, atOnce));
       for (std::size_t r = 0; r < rounds; ++r, first += apart.list.size()) {
         apart.take(particles, list, first, Law::memory);
         collide(apart.particles, apart.list, laws, noTime, Booking::off);
-        detail::appendPairs(apart, list, first, parts[begin / grain]);
+        detail::appendPairs(apart, list, first, part);
       }
     }
   });
