@@ -14,8 +14,9 @@ using namespace dovetail::dem_benchmark;
 bool parse(int argc, char** argv, Settings& s) {
   CLI::App app{"Times the particle engine, and checks it on stiff and extreme cases.", "dem"};
   app.add_option("--study", s.study, "what to do")
-      ->check(CLI::IsMember({"throughput", "peers", "leaving-out", "scaling", "threads", "stability"}).description(""))
-      ->option_text("throughput|peers|leaving-out|scaling|threads|stability");
+      ->check(CLI::IsMember({"throughput", "peers", "leaving-out", "scaling", "threads", "stability", "accuracy"})
+                  .description(""))
+      ->option_text("throughput|peers|leaving-out|scaling|threads|stability|accuracy");
   app.add_option("--bed", s.bed,
                  "spheres of a settled bed, lines 'x y z diameter'; without it one is settled first; peers: the folder "
                  "of --write");
@@ -48,11 +49,9 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (s.study == "stability") return studyStability(s, std::cout) ? 0 : 1;
-    const std::map<std::string, void (*)(const Settings&, std::ostream&)> studies{{"throughput", studyThroughput},
-                                                                                  {"peers", studyPeers},
-                                                                                  {"leaving-out", studyLeavingOut},
-                                                                                  {"scaling", studyScaling},
-                                                                                  {"threads", studyThreads}};
+    const std::map<std::string, void (*)(const Settings&, std::ostream&)> studies{
+        {"throughput", studyThroughput}, {"peers", studyPeers},     {"leaving-out", studyLeavingOut},
+        {"scaling", studyScaling},       {"threads", studyThreads}, {"accuracy", studyAccuracy}};
     studies.at(s.study)(s, std::cout);
     return 0;
   } catch (const InputError& error) {

@@ -31,6 +31,8 @@ void studyScaling(const Settings& settings, std::ostream& out);
 void studyThreads(const Settings& settings, std::ostream& out);
 /// Stiff and extreme cases: bounded, or refused with a reason. Returns whether every row is one or the other.
 bool studyStability(const Settings& settings, std::ostream& out);
+/// Error and residual of the ledger against run time, law by law.
+void studyAccuracy(const Settings& settings, std::ostream& out);
 /// Writes the scenes as sphere lists and inputs of LAMMPS.
 void writeScenes(const Settings& settings, std::ostream& out);
 
