@@ -84,7 +84,7 @@ surface::CoupledModel<Seam> makeModel(const Settings& settings, const fem::Mesh&
   model.discrete.particles = makeParticles(settings);
   model.discrete.laws = dem::makeContactLaws(dem::ElasticLaw{normal});
   model.discrete.gravity = {0.0, 0.0, -Case{}.gravity};
-  model.discrete.pairs.skin = 0.5 * Case{}.particleDiameter;
+  model.discrete.pairs.setSkin(0.5 * Case{}.particleDiameter);
   model.discrete.sortEvery = 0;
   model.discrete.refusesUnstableSteps = false;  // chooseStep has refused them, with the skin's share
   fem::addLumpedMass(model.elements, model.nodes);

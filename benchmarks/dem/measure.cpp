@@ -15,10 +15,7 @@ Rates ratesOf(std::vector<double> millions) {
 
 std::size_t bytesHeld(const dem::Particles& p, const dem::PairList& l) {
   const auto bytes = [](const auto&... arrays) { return ((arrays.capacity() * sizeof(arrays[0])) + ... + 0); };
-  return bytes(p.x, p.v, p.f, p.radius, p.mass, p.omega, p.torque, p.material, p.id) +
-         bytes(l.pairs, l.candidates, l.images, l.scale, l.memory, l.ended, l.positionAtBuild, l.positionAtPruning,
-               l.chunks.begin, l.chunks.crosses, l.chunks.force, l.chunks.torque, l.chunks.arrives, l.chunks.arriving,
-               l.endedPairs);
+  return bytes(p.x, p.v, p.f, p.radius, p.mass, p.omega, p.torque, p.material, p.id) + l.bytesHeld();
 }
 
 double bytesMovedPerStep(const dem::Particles& p, const dem::PairList& l, bool mass, bool oneSize) {
@@ -30,14 +27,14 @@ double bytesMovedPerStep(const dem::Particles& p, const dem::PairList& l, bool m
   const double move = both * vector * (3.0 + 2.0 * spins) + 8.0 * (1.0 + spins);
   // x, v (and ω) read, f (and torque) read and written.
   const double collide = vector * (2.0 + spins) + both * vector * (1.0 + spins) + sizes;
-  const double perPair = 8.0 + both * 8.0 * (l.size() == 0 ? 0.0 : static_cast<double>(l.memory.size()) / pairs);
+  const double perPair = 8.0 + both * 8.0 * (l.size() == 0 ? 0.0 : static_cast<double>(l.memory().size()) / pairs);
   return n * (move + collide) + pairs * perPair;
 }
 
 std::size_t touching(const dem::Particles& p, const dem::PairList& l) {
   std::size_t count = 0;
   for (std::size_t k = 0; k < l.size(); ++k) {
-    const auto i = static_cast<std::size_t>(l.pairs[k][0]), j = static_cast<std::size_t>(l.pairs[k][1]);
+    const auto i = static_cast<std::size_t>(l.pairs()[k][0]), j = static_cast<std::size_t>(l.pairs()[k][1]);
     count += pairContact(p, i, j, l.shift(k)).overlap > 0.0 ? 1 : 0;
   }
   return count;

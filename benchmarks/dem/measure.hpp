@@ -43,13 +43,13 @@ inline Figures measure(const std::string& name, dem::Model& model, double dt, in
                        int forced = 0) {
   const auto goOn = [&](int count) {
     for (int s = 0; s < count; ++s) {
-      if (forced > 0 && model.steps % forced == 0) findPairs(model.particles, model.pairs.skin, model.pairs);
+      if (forced > 0 && model.steps % forced == 0) findPairs(model.particles, model.pairs);
       advance(model, dt);
     }
   };
   goOn(warmUp);
   std::vector<double> millions;
-  const std::int64_t builds = model.pairs.builds, revision = model.pairs.revision;
+  const std::int64_t builds = model.pairs.builds(), revision = model.pairs.revision();
   for (int r = 0; r < repeats; ++r) {
     const double start = now();
     goOn(steps);
@@ -63,8 +63,8 @@ inline Figures measure(const std::string& name, dem::Model& model, double dt, in
             .rates = ratesOf(std::move(millions)),
             .bytesHeld = 0.0,
             .bytesMoved = 0.0,
-            .builds = model.pairs.builds - builds,
-            .prunings = model.pairs.revision - revision};
+            .builds = model.pairs.builds() - builds,
+            .prunings = model.pairs.revision() - revision};
   const auto [smallest, largest] = std::minmax_element(model.particles.radius.begin(), model.particles.radius.end());
   const auto n = static_cast<double>(f.particles);
   f.bytesHeld = static_cast<double>(bytesHeld(model.particles, model.pairs)) / n;

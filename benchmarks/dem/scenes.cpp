@@ -132,9 +132,9 @@ dem::Model makeModel(const Spheres& spheres, std::shared_ptr<const dem::ContactL
     model.particles.v[i] = spheres.v[i];
     if (rotates) model.particles.omega[i] = spheres.omega[i];
   }
-  model.pairs.periodicity = periodicity;
-  model.pairs.skin = listSkin;
-  findPairs(model.particles, listSkin, model.pairs);
+  model.pairs.setPeriodicity(periodicity);
+  model.pairs.setSkin(listSkin);
+  findPairs(model.particles, model.pairs);
   sortParticles(model.particles, model.pairs);
   return model;
 }
@@ -153,8 +153,10 @@ Spheres settledBed(int width, int layers) {
     x = {x.x + jitter(random, 0.1), x.y + jitter(random, 0.1), 1.02 * x.z + 0.1 + jitter(random, 0.05)};
   }
   auto model = bedModel(spheres, frictionalLaw(), width);
-  model.pairs.periodicity.box.upper.y = width;
-  findPairs(model.particles, listSkin, model.pairs);
+  geometry::Periodicity wider = model.pairs.periodicity();
+  wider.box.upper.y = width;
+  model.pairs.setPeriodicity(wider);
+  findPairs(model.particles, model.pairs);
   // A soft landing, then the breathing of the column.
   for (const auto& [rate, steps] : {std::pair{1.0, 2000}, {0.1, 4000}, {2.0, 5000}}) {
     dem::damping(model).viscousRate = rate;
@@ -180,7 +182,7 @@ Spheres flowingDrum() {
       }
   auto model = drumModel(spheres, drumWidth);
   run(model, timeStep, 30000);
-  wrapPositions(model.particles, model.pairs.periodicity);
+  wrapPositions(model.particles, model.pairs.periodicity());
   spheres.x = model.particles.x;
   spheres.v = model.particles.v;
   spheres.omega = model.particles.omega;

@@ -20,7 +20,7 @@ template <class Law>
 dem::Model sceneOf(const Law& law, double skin = 0.1) {
   dem::Model model;
   model.laws = dem::makeContactLaws(law);
-  model.pairs.skin = skin;
+  model.pairs.setSkin(skin);
   return model;
 }
 
@@ -59,12 +59,12 @@ double stiffNeighbours() {
   laws.set(1, 1, dem::ElasticLaw{{1e9}});
   dem::Model model;
   model.laws = dem::makeContactLaws(laws);
-  model.pairs.skin = 0.01;
+  model.pairs.setSkin(0.01);
   for (int i = 0; i < 3; ++i) addParticle(model.particles, {0.999 * i, 0, 0}, {}, 0.5, Mass{1.0});
   model.particles.x[2].x = 1.9999;
   model.particles.material = {0, 1, 1};
   model.particles.v[0] = {0.1, 0, 0};
-  findPairs(model.particles, 0.01, model.pairs);
+  findPairs(model.particles, model.pairs);
   const double dt = 0.1 * criticalStep(model, 1e-6).dt;
   return drift(model, dt, 20000, 0.005);
 }
@@ -90,7 +90,8 @@ double swing(double stepShare) {
   auto model = sceneOf(law);
   addParticle(model.particles, {0, 0, 0}, {1e-3, 0, 0}, 0.5, Mass{1.0});
   addParticle(model.particles, {1, 0, 0}, {-1e-3, 0, 0}, 0.5, Mass{1.0});
-  findPairs(model.particles, 0.1, model.pairs);
+  model.pairs.setSkin(0.1);
+  findPairs(model.particles, model.pairs);
   const double dt = stepShare * criticalStep(model, 1e-9).dt;
   if (stepShare > 1.0) requireStableStep(model, dt, 1e-9);
   double largest = 0.0;

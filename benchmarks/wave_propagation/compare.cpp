@@ -100,7 +100,7 @@ void compareParticles(RunResult& result, const RunResult& alone) {
   for (std::size_t i = 0; i < alone.particles.size(); ++i) size += squaredNorm(alone.particles.v[i]);
   for (std::size_t i = 0; i < count; ++i) difference += squaredNorm(result.particles.v[i] - alone.particles.v[i]);
   energy = 0.5 * m * difference;
-  for (const auto& pair : result.pairs.pairs) {
+  for (const auto& pair : result.pairs.pairs()) {
     const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
     if (i >= count || j >= count) continue;
     double here = dem::pairContact(result.particles, i, j).overlap,

@@ -64,7 +64,8 @@ void excite(const Settings& s, arlequin::Model& model) {
 arlequin::Model makeParticles(const Settings& s, double length) {
   arlequin::Model model;
   model.discrete.particles = makeLattice(s, length);
-  dem::findPairs(model.discrete.particles, 0.1 * particleDiameter(s), model.discrete.pairs);
+  model.discrete.pairs.setSkin(0.1 * particleDiameter(s));
+  dem::findPairs(model.discrete.particles, model.discrete.pairs);
   dem::ElasticLaw law;
   law.normal.stiffness = Case{}.youngsModulus * particleDiameter(s);
   law.normal.bonded = s.tension;
@@ -163,10 +164,10 @@ arlequin::Model makeParticleBar(const Settings& s) {
   arlequin::Model model = makeParticles(s, barLength(s) + particleDiameter(s));
   const std::vector<std::int64_t> held = layerOf(s, count);
   const auto nothing = [](double) { return Vec3{}; };
-  model.discrete.pairs.scale.assign(model.discrete.pairs.pairs.size(), 1.0);
-  for (std::size_t p = 0; p < model.discrete.pairs.pairs.size(); ++p)
-    if (model.discrete.pairs.pairs[p][1] >= held.front() && model.discrete.pairs.pairs[p][0] < held.front())
-      model.discrete.pairs.scale[p] = 2.0;
+  dem::PairList& pairs = model.discrete.pairs;
+  const std::span<double> factors = pairs.writeFactors();
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    factors[p] = pairs.pairs()[p][1] >= held.front() && pairs.pairs()[p][0] < held.front() ? 2.0 : 1.0;
   model.discrete.terms.add(dem::DriveTerm(held, nothing, nothing));
   return model;
 }

@@ -54,7 +54,7 @@ dem::Model emptyModel(const Beads& beads, const Law& law, Profile& profile) {
   dem::Model model;
   model.laws = dem::makeContactLaws(law);
   model.gravity = {0.0, 0.0, -beads.gravity};
-  model.pairs.skin = 0.2 * beads.diameter;
+  model.pairs.setSkin(0.2 * beads.diameter);
   model.profile = &profile;
   return model;
 }

@@ -39,9 +39,9 @@ double frictionOfFlow(double inertialNumber) {
 Scene halfFilledDrum(const Size& size, Profile& profile) {
   const double radius = size.radius;
   Scene drum = emptyModel(beads, SlidingLaw{beads.normal(), beads.tangential()}, profile);
-  drum.pairs.periodicity = {{{-radius, 0.0, -radius}, {radius, size.width, radius}}, {false, true, false}};
+  drum.pairs.setPeriodicity({{{-radius, 0.0, -radius}, {radius, size.width, radius}}, {false, true, false}});
   const Vec3 down = normalized(Vec3{-std::tan(24.0 * degree), 0.0, -1.0});
-  const dem::Packing block = looseBeads(beads, drum.pairs.periodicity, 1);
+  const dem::Packing block = looseBeads(beads, drum.pairs.periodicity(), 1);
   for (std::size_t i = 0; i < block.centre.size(); ++i) {
     const Vec3& x = block.centre[i];
     if (std::hypot(x.x, x.z) + block.radius[i] < radius && dot(x, down) > -0.12 * radius)

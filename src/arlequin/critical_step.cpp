@@ -87,7 +87,7 @@ private:
     const auto& x = model_.discrete.particles.x;
     for (const auto& link : demand_.links) {
       const auto i = static_cast<std::size_t>(link.particle), j = static_cast<std::size_t>(link.partner);
-      const Vec3 n = normalized(model_.discrete.pairs.periodicity.minimumImage(x[i] - x[j]));
+      const Vec3 n = normalized(model_.discrete.pairs.periodicity().minimumImage(x[i] - x[j]));
       const Vec3 f = link.stiffness * dot(n, q.particles[i] - q.particles[j]) * n;
       force.particles[i] += f;
       force.particles[j] -= f;
@@ -166,7 +166,7 @@ double limitOf(const Model& model, Parts parts) {
 CriticalStep criticalStep(const Model& model) {
   constexpr double none = std::numeric_limits<double>::infinity();
   CriticalStep limit{none, none, none};
-  if (!model.discrete.pairs.pairs.empty()) limit.particles = limitOf(model, {true, false});
+  if (!model.discrete.pairs.pairs().empty()) limit.particles = limitOf(model, {true, false});
   if (model.solid) limit.solid = limitOf(model, {false, true});
   limit.together = model.solid ? limitOf(model, {true, true}) : limit.particles;
   return limit;

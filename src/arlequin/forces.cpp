@@ -34,10 +34,10 @@ Vec3 supportImpulse(const Solid& solid, std::span<const Vec3> acceleration, std:
 }
 
 void weighNewContacts(Model& model) {
-  if (!model.coupling || model.weighedRevision == model.discrete.pairs.revision) return;
+  if (!model.coupling || model.weighedRevision == model.discrete.pairs.revision()) return;
   weighContacts(model.discrete.particles, model.solid->mesh.elements, model.solid->nodes, model.coupling->overlap,
                 model.discrete.pairs);
-  model.weighedRevision = model.discrete.pairs.revision;
+  model.weighedRevision = model.discrete.pairs.revision();
 }
 
 Driven driven(const Model& model) {

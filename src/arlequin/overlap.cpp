@@ -116,12 +116,13 @@ void weighContacts(const dem::Particles& particles, std::span<const std::array<i
   const ElementLocator locator(elements, currentPositions(nodes));
   std::vector<bool> inside(particles.size(), false);
   for (const int i : overlap.particle) inside[static_cast<std::size_t>(i)] = true;
-  pairs.scale.assign(pairs.pairs.size(), 1.0);
-  for (std::size_t p = 0; p < pairs.pairs.size(); ++p) {
-    const auto i = static_cast<std::size_t>(pairs.pairs[p][0]), j = static_cast<std::size_t>(pairs.pairs[p][1]);
+  const std::span<double> factors = pairs.writeFactors();
+  std::fill(factors.begin(), factors.end(), 1.0);
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const auto i = static_cast<std::size_t>(pairs.pairs()[p][0]), j = static_cast<std::size_t>(pairs.pairs()[p][1]);
     if (!inside[i] && !inside[j]) continue;
     const Vec3 middle = particles.x[i] + dem::pairContact(particles, i, j).armI;
-    if (const auto place = locator.find(middle)) pairs.scale[p] = weightAt(*place, elements, overlap.nodalWeight);
+    if (const auto place = locator.find(middle)) factors[p] = weightAt(*place, elements, overlap.nodalWeight);
   }
 }
 

@@ -100,7 +100,7 @@ void start(Model& model, double dt, Profile& profile) {
                          " particles and there are " + std::to_string(model.discrete.particles.size()),
                      "start", "make the coupling after the last particle was added");
   dem::requirePlain(model.discrete, "volume coupling");
-  model.weighedRevision = model.discrete.pairs.revision;
+  model.weighedRevision = model.discrete.pairs.revision();
   dem::findForces(model.discrete);
   if (!model.solid) return;
   internalForces(model, true, profile);
@@ -150,7 +150,7 @@ void relocate(Model& model, StepSums& sums) {
   if (!model.coupling) return;
   const double elastic = model.discrete.work.storedEnergy();
   const Handover handover = renew(*model.coupling, model.discrete.particles, model.discrete.pairs, *model.solid);
-  model.weighedRevision = model.discrete.pairs.revision;
+  model.weighedRevision = model.discrete.pairs.revision();
   constexpr double noTime = 1e-100;  // s: memories stay
   dem::Particles particles = model.discrete.particles;
   dem::PairList pairs = model.discrete.pairs;

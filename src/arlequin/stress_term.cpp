@@ -50,8 +50,8 @@ StressTerm::StressTerm(const Overlap& overlap, const fem::Mesh& mesh, const fem:
   std::vector<Vec3> position(nodes.X.size());
   for (std::size_t n = 0; n < position.size(); ++n) position[n] = nodes.X[n] + nodes.u[n];
   const ElementLocator locator(mesh.elements, position);
-  for (std::size_t p = 0; p < pairs.pairs.size(); ++p) {
-    const int i = pairs.pairs[p][0], j = pairs.pairs[p][1];
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const int i = pairs.pairs()[p][0], j = pairs.pairs()[p][1];
     const dem::PairContact contact =
         dem::pairContact(particles, static_cast<std::size_t>(i), static_cast<std::size_t>(j));
     const auto place = locator.find(particles.x[static_cast<std::size_t>(i)] + contact.armI);

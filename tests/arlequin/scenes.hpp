@@ -69,7 +69,8 @@ inline Model makeBar(const SceneOptions& o) {
   const double half = 0.5 * o.across * edge, d = edge / o.particlesPerEdge;
   Model model;
   model.discrete.particles = lattice({-half, 0.0, -half}, {half, particleEnd(o), half}, o.particlesPerEdge);
-  dem::findPairs(model.discrete.particles, 0.1 * d, model.discrete.pairs);
+  model.discrete.pairs.setSkin(0.1 * d);
+  dem::findPairs(model.discrete.particles, model.discrete.pairs);
   dem::ElasticLaw law;
   law.normal.stiffness = modulus * d;
   law.normal.bonded = true;

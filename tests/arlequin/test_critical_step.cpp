@@ -52,7 +52,8 @@ TEST(CriticalStep, TheDashpotsLimitWithUniformSharesIsTwo) {
     law.normal.stiffness = 1e-9;
     model.discrete.laws = dem::makeContactLaws(law);
     model.discrete.sortEvery = 0;
-    dem::findPairs(model.discrete.particles, 0.0, model.discrete.pairs);
+    model.discrete.pairs.setSkin(0.0);
+    dem::findPairs(model.discrete.particles, model.discrete.pairs);
     fem::Mesh mesh = fem::boxMesh({1, 4, 1}, {0, 0, 0}, {edge, 4 * edge, edge});
     const std::vector<double> weight(mesh.X.size(), 0.5);
     fem::Nodes nodes = fem::makeNodes(mesh);

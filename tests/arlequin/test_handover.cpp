@@ -19,7 +19,8 @@ Model looseParticles(ConstraintKind kind, double penalty) {
   Model model;
   model.discrete.particles = lattice({-0.25, 0, -0.25}, {0.25, 2.5, 0.25}, 2);
   for (double& radius : model.discrete.particles.radius) radius *= 0.8;
-  dem::findPairs(model.discrete.particles, 0.02, model.discrete.pairs);
+  model.discrete.pairs.setSkin(0.02);
+  dem::findPairs(model.discrete.particles, model.discrete.pairs);
   dem::ElasticLaw law;
   law.normal.stiffness = modulus * 0.25;
   model.discrete.laws = dem::makeContactLaws(law);
@@ -169,7 +170,7 @@ TEST(Packing, RandomPlacesOfTheSameDensityAreCoupledWithoutLoss) {
     Model rough;
     rough.discrete = model.discrete;
     rough.discrete.particles = particles;
-    rough.discrete.pairs.scale.clear();
+    rough.discrete.pairs.clearFactors();
     rough.solid.emplace(makeSolid(model.solid->mesh, model.coupling->overlap.nodalWeight, o));
     rough.coupling.emplace(
         makeCoupling(rough.discrete.particles, rough.discrete.pairs, *rough.solid, model.coupling->overlap.nodalWeight, o.coupling));

@@ -173,7 +173,8 @@ TEST(Stepper, ACouplingThatDoesNotFitIsRefused) {
 TEST(Stepper, ParticlesAloneNeedNoOtherPart) {
   Model model;
   model.discrete.particles = lattice({0, 0, 0}, {0.5, 2, 0.5}, 2);
-  dem::findPairs(model.discrete.particles, 0.01, model.discrete.pairs);
+  model.discrete.pairs.setSkin(0.01);
+  dem::findPairs(model.discrete.particles, model.discrete.pairs);
   dem::ElasticLaw law;
   law.normal.stiffness = 1e5;
   law.normal.bonded = true;

@@ -58,7 +58,7 @@ CoupledModel<Seam> makeModel(const BlockSetup& setup, const fem::Mesh& mesh, Sea
   model.discrete.particles = std::move(particles);
   model.discrete.laws = dem::makeContactLaws(dem::ElasticLaw{normal});
   model.discrete.gravity = setup.gravity;
-  model.discrete.pairs.skin = 0.02;
+  model.discrete.pairs.setSkin(0.02);
   model.discrete.sortEvery = 0;
   fem::addLumpedMass(model.elements, model.nodes);
   if (setup.held) fem::fix(model.nodes, mesh.nodeSets.at("z-"));

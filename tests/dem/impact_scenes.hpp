@@ -33,7 +33,8 @@ struct Impact {
       : particles(std::move(who)), law(prepare(rule)), againstWall(onWall) {
     if (!particles.rotates()) switchOnRotation(particles);
     const double radius = *std::max_element(particles.radius.begin(), particles.radius.end());
-    findPairs(particles, 0.2 * radius, list);
+    list.setSkin(0.2 * radius);
+    findPairs(particles, list);
     if (againstWall) {
       wall = squares(2, 2, 8.0 * radius);
       for (Vec3& x : wall.x) x -= Vec3{8.0 * radius, 8.0 * radius, 0.0};

@@ -15,7 +15,8 @@ Bonded deformedClump(unsigned seed, double size) {
     addParticle(scene.particles, random.vector(0.12), {}, random(0.05, 0.08), Density{1000.0});
   switchOnRotation(scene.particles);
   PairList list;
-  findPairs(scene.particles, 0.0, list);
+  list.setSkin(0.0);
+  findPairs(scene.particles, list);
   EXPECT_GT(bondTouching(scene.bonds, scene.particles, list, 0.0, unbreakable()), 10);
   for (std::size_t i = 0; i < 12; ++i) {
     scene.particles.x[i] += random.vector(0.03 * size);
@@ -178,7 +179,8 @@ TEST(BeamBonds, SurviveNewNumbersAndBookThoseWhoseParticlesAreGone) {
   Bonded scene = deformedClump(7, 0.3), same = scene;
   const double before = evaluate(scene);
   PairList list;
-  findPairs(same.particles, 0.0, list);
+  list.setSkin(0.0);
+  findPairs(same.particles, list);
   const std::vector<int> newNumber = sortParticles(same.particles, list);
   renumber(same.bonds, newNumber);
   EXPECT_NEAR(evaluate(same), before, 1e-13 * before);
@@ -210,9 +212,10 @@ TEST(BeamBonds, ReachThroughPeriodicFaces) {
 TEST(BeamBonds, MuteTheLawBetweenTheirParticles) {
   Bonded scene = deformedClump(8, 0.0);
   PairList list;
-  findPairs(scene.particles, 0.0, list);
+  list.setSkin(0.0);
+  findPairs(scene.particles, list);
   muteBonded(scene.bonds, list);
-  EXPECT_EQ(std::count(list.scale.begin(), list.scale.end(), 0.0), static_cast<long>(scene.bonds.size()));
+  EXPECT_EQ(std::count(list.factors().begin(), list.factors().end(), 0.0), static_cast<long>(scene.bonds.size()));
 }
 
 TEST(BeamBonds, TheirCriticalStepIsSafeAndNotFarFromTheLimit) {

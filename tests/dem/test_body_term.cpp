@@ -84,8 +84,8 @@ TEST(BodyTerm, ADroppedRodComesToRestOnItsWeightAndTheLedgerCloses) {
 Model gas(bool friction) {
   Model model;
   model.laws = friction ? makeContactLaws(frictional) : makeContactLaws(ElasticLaw{{.stiffness = 2e4}});
-  model.pairs.skin = 0.02;
-  model.pairs.periodicity = {{{0, 0, 0}, {1, 1, 1}}, {true, true, true}};
+  model.pairs.setSkin(0.02);
+  model.pairs.setPeriodicity({{{0, 0, 0}, {1, 1, 1}}, {true, true, true}});
   model.sortEvery = 1;
   Random random(8);
   for (int i = 0; i < 64; ++i) {
@@ -140,7 +140,7 @@ TEST(BodyTerm, AMemberInAnOutletTakesItsWholeClumpAlongAndTheLedgerStays) {
   Model model;
   model.laws = makeContactLaws(frictional);
   model.gravity = {0, 0, -9.81};
-  model.pairs.skin = 0.02;
+  model.pairs.setSkin(0.02);
   for (int i = 0; i < 5; ++i) {
     addClump(model, rod(), {0.3 * i, 0, 0.1 * i}, {0.9, 0.1, 0.3, 0.2}, {0.1, 0, 0}, {0, 2, 1});
     addParticle(model.particles, {0.3 * i, 1, 0.1 * i}, {}, 0.05, Density{1000.0});

@@ -13,7 +13,7 @@ Model chain(bool held, bool rods) {
   Model model;
   model.laws = makeContactLaws(ElasticLaw{{1e2}});
   model.gravity = {0, 0, -9.81};
-  model.pairs.skin = 0.02;
+  model.pairs.setSkin(0.02);
   model.sortEvery = 0;
   for (int i = 0; i < 6; ++i) addParticle(model.particles, {0.11 * i, 0.02 * (i % 2), 0}, {}, 0.05, Mass{1.0});
   switchOnRotation(model.particles);
@@ -64,7 +64,7 @@ TEST(BondDashpots, AreBookedAtSecondOrder) {
 Model pressed() {
   Model model;
   model.laws = makeContactLaws(ElasticLaw{{1e4}});
-  model.pairs.skin = 0.02;
+  model.pairs.setSkin(0.02);
   for (int i = 0; i < 2; ++i)
     addParticle(model.particles, {0.098 * i, 0, 0}, {i == 0 ? 0.3 : -0.3, 0, 0}, 0.05, Mass{1.0});
   switchOnRotation(model.particles);
@@ -112,7 +112,7 @@ TEST(BrokenBonds, OfAPairThatAnotherBondStillJoinsWakeNobody) {
   EXPECT_TRUE(bonds(model).broken.empty());
   advance(model, 2e-5);
   ASSERT_EQ(model.pairs.size(), 1u);
-  EXPECT_EQ(model.pairs.scale[0], 0.0);
+  EXPECT_EQ(model.pairs.factors()[0], 0.0);
 }
 
 }  // namespace

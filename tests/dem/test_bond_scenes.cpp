@@ -15,7 +15,7 @@ namespace {
 Model column() {
   Model model;
   model.laws = makeContactLaws(ElasticLaw{{1e2}});
-  model.pairs.skin = 0.02;
+  model.pairs.setSkin(0.02);
   for (int i = 0; i < 60; ++i) addParticle(model.particles, {0.1 * i, 0, 0}, {}, 0.05, Density{2000.0});
   switchOnRotation(model.particles);
   BondMaterial material = unbreakable(1e9);
@@ -62,7 +62,8 @@ TEST(BondStep, BondsAndContactsAddUp) {
   const double bondsAlone = criticalStep(model).dt;
   model.laws = makeContactLaws(ElasticLaw{{1e6}});
   for (int i = 0; i < 60; ++i) model.particles.x[static_cast<std::size_t>(i)].x = 0.0999 * i;
-  findPairs(model.particles, 0.02, model.pairs);
+  model.pairs.setSkin(0.02);
+  findPairs(model.particles, model.pairs);
   const double mass = model.particles.mass[0], both = criticalStep(model).dt;
   EXPECT_NEAR(4.0 / (both * both), 4.0 / (bondsAlone * bondsAlone) + 4.0 * 1e6 / mass, 1e-6 / (both * both));
 }
@@ -74,7 +75,8 @@ Bonded block() {
     addParticle(scene.particles, {0.1 * (i % 8), 0.1 * (i / 8 % 8), 0.1 * (i / 64)}, {}, 0.05, Density{2000.0});
   switchOnRotation(scene.particles);
   PairList list;
-  findPairs(scene.particles, 0.001, list);
+  list.setSkin(0.001);
+  findPairs(scene.particles, list);
   BondMaterial material = unbreakable(1e7);
   material.tensileStrength = material.shearStrength = 2e5;
   EXPECT_EQ(bondTouching(scene.bonds, scene.particles, list, 1e-6, material), 3 * 7 * 64);
@@ -152,12 +154,12 @@ TEST(Bonds, AreSortedWithTheirParticlesAndEverySumStays) {
 TEST(Bonds, SeeTheModelsPeriods) {
   Model model;
   model.laws = makeContactLaws(ElasticLaw{{1e2}});
-  model.pairs.skin = 0.02;
-  model.pairs.periodicity = {{{0, 0, 0}, {1, 1, 1}}, {true, false, false}};
+  model.pairs.setSkin(0.02);
+  model.pairs.setPeriodicity({{{0, 0, 0}, {1, 1, 1}}, {true, false, false}});
   addParticle(model.particles, {0.951, 0.5, 0.5}, {}, 0.05, Mass{1.0});
   addParticle(model.particles, {0.049, 0.5, 0.5}, {}, 0.05, Mass{1.0});
   switchOnRotation(model.particles);
-  findPairs(model.particles, 0.02, model.pairs);
+  findPairs(model.particles, model.pairs);
   ASSERT_EQ(bondTouching(bonds(model), model.particles, model.pairs, 1e-3, unbreakable()), 1);
   EXPECT_NEAR(bonds(model).bonds[0].length, 0.098, 1e-15);
   run(model, 1e-6, 3);
@@ -168,10 +170,11 @@ TEST(Bonds, AreMutedInAnyListAnyNumberOfTimes) {
   Bonded scene = block();
   PairList list;
   for (int s = 0; s < 2; ++s) {
-    findPairs(scene.particles, 0.001 + 0.02 * s, list);
+    list.setSkin(0.001 + 0.02 * s);
+    findPairs(scene.particles, list);
     for (int again = 0; again < 2; ++again) {
       muteBonded(scene.bonds, list);
-      EXPECT_EQ(std::count(list.scale.begin(), list.scale.end(), 0.0), static_cast<long>(scene.bonds.size()));
+      EXPECT_EQ(std::count(list.factors().begin(), list.factors().end(), 0.0), static_cast<long>(scene.bonds.size()));
     }
   }
 }

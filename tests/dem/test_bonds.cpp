@@ -16,7 +16,8 @@ Two apart(double distance) {
   Two two;
   addParticle(two.particles, {0, 0, 0}, {}, 0.5, Mass{2.0});
   addParticle(two.particles, {1.0, 0, 0}, {}, 0.5, Mass{3.0});
-  findPairs(two.particles, 0.1, two.list);
+  two.list.setSkin(0.1);
+  findPairs(two.particles, two.list);
   two.particles.x[1].x = distance;
   clearForces(two.particles);
   return two;
@@ -47,7 +48,7 @@ TEST(Bonds, WithoutThemPartedParticlesFeelNothing) {
 TEST(PairScale, ScalesForceEnergyAndLoss) {
   Two whole = apart(0.95), part = apart(0.95);
   for (Two* two : {&whole, &part}) two->particles.v[1].x = -0.3;
-  part.list.scale = {0.25};
+  part.list.writeFactors()[0] = 0.25;
   for (double& m : part.particles.mass) m *= 0.25;  // the share of an overlap is that of the masses too
   const ContactWork a = collide(whole.particles, whole.list, lawOf(false, 0.7)),
                     b = collide(part.particles, part.list, lawOf(false, 0.7));

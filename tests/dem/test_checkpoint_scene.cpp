@@ -55,10 +55,11 @@ void addGrains(Model& m) {
 void addBonds(Model& m) {
   BondMaterial material{.youngsModulus = 2e5, .tensileStrength = 2e3, .shearStrength = 2e3, .dampingTime = 1e-4};
   PairList near;
-  near.periodicity = m.pairs.periodicity;
-  findPairs(m.particles, 0.005, near);
+  near.setPeriodicity(m.pairs.periodicity());
+  near.setSkin(0.005);
+  findPairs(m.particles, near);
   for (std::size_t p = 0; p < near.size(); p += 7)
-    addBond(bonds(m), m.particles, near.periodicity, near.pairs[p][0], near.pairs[p][1], material);
+    addBond(bonds(m), m.particles, near.periodicity(), near.pairs()[p][0], near.pairs()[p][1], material);
   m.terms.all<BondTerm>()[0]->mutesContacts = true;
 }
 
@@ -83,8 +84,8 @@ Model everything() {
   m.laws = table(0.6);
   m.gravity = {2, 0, -9.81};
   m.sortEvery = 2;
-  m.pairs.skin = 0.012;
-  m.pairs.periodicity = {{{0, 0, 0}, {1, 0.6, 1}}, {true, true, false}};
+  m.pairs.setSkin(0.012);
+  m.pairs.setPeriodicity({{{0, 0, 0}, {1, 0.6, 1}}, {true, true, false}});
   m.domain = Domain{{{-1, -1, -0.5}, {2, 2, 2}}, EscapePolicy::remove};
   addGrains(m);
   addBonds(m);
@@ -147,7 +148,7 @@ TEST(CheckpointScene, TheSameStateIsTheSameBytesWhateverMemoryHeldBefore) {
     mallopt(M_PERTURB, fill);
     Model m = everything();
     m.domain.reset();
-    m.pairs.skin.reset();
+    m.pairs.setSkin(std::nullopt);
     run(m, dt, 51);
     const std::vector<char> bytes = saveState(m);
     mallopt(M_PERTURB, 0);

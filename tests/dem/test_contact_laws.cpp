@@ -32,7 +32,8 @@ struct Scene {
 
   Scene() {
     for (Vec3& x : mesh.x) x -= Vec3{8.0, 8.0, 0.0};
-    findPairs(particles, 0.1, list);
+    list.setSkin(0.1);
+    findPairs(particles, list);
     findContacts(particles, plane, {});
     updateWallCandidates(particles, mesh, candidates, {});
     findWallContacts(particles, mesh, candidates, EdgeRule::projected, contacts);

@@ -27,7 +27,8 @@ TEST(ContactSample, GivesTheForcesThatCollideHasAdded) {
   switchOnRotation(particles);
   for (Vec3& w : particles.omega) w = random.vector(10.0);
   PairList list;
-  findPairs(particles, 0.01, list);
+  list.setSkin(0.01);
+  findPairs(particles, list);
   EXPECT_THROW(samplePairs(particles, list, law), InputError);
   for (int step = 0; step < 20; ++step) {
     drift(particles, 1e-4);
@@ -35,9 +36,9 @@ TEST(ContactSample, GivesTheForcesThatCollideHasAdded) {
     clearForces(particles);
     collide(particles, list, law, 1e-4);
   }
-  const auto memory = list.memory;
+  const auto memory = list.memory();
   const ContactSample sample = samplePairs(particles, list, law);
-  EXPECT_EQ(list.memory, memory);
+  EXPECT_EQ(list.memory(), memory);
   std::vector<Vec3> f(particles.size());
   double largest = 0.0;
   for (std::size_t c = 0; c < sample.size(); ++c) {
@@ -57,8 +58,8 @@ TEST(ContactSample, OfAModelHasTheForcesAndTorquesOfItsParticlesAndWalls) {
   Model m;
   m.laws = makeContactLaws(ContactLaw<LinearSpringDashpot, TangentialSpring, RollingAndTwisting>{
       {2e4, 0.6}, {6e3, 0.4}, {{0.2, 0.3, 0.1}, {0.1, 0.3, 0.1}}, {}});
-  m.pairs.skin = 0.02;
-  m.pairs.periodicity = {{{0, 0, 0}, {1, 1, 1}}, {true, true, false}};
+  m.pairs.setSkin(0.02);
+  m.pairs.setPeriodicity({{{0, 0, 0}, {1, 1, 1}}, {true, true, false}});
   Random random(12);
   for (int i = 0; i < 200; ++i)
     addParticle(m.particles, {random(0.0, 1.0), random(0.0, 1.0), random(0.03, 0.4)}, random.vector(1.0), 0.06,
@@ -113,8 +114,9 @@ TEST(ContactSample, IsTheSameForAnyThreadsAndPairByPairThatOfThePairAlone) {
     addParticle(particles, random.vector(0.5), random.vector(1.0), random(0.04, 0.06), Density{1000.0});
   switchOnRotation(particles);
   PairList list;
-  list.periodicity = {{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, {true, true, true}};
-  findPairs(particles, 0.01, list);
+  list.setPeriodicity({{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, {true, true, true}});
+  list.setSkin(0.01);
+  findPairs(particles, list);
   collide(particles, list, law, 1e-4);
   ASSERT_GT(list.size(), 2048u);  // several chunks
   ASSERT_NE(list.size() % 64, 0u);
@@ -136,8 +138,8 @@ TEST(ContactSample, IsTheSameForAnyThreadsAndPairByPairThatOfThePairAlone) {
     alone.take(particles, list, p, 3);
     collide(alone.particles, alone.list, law, 1e-100);
     if (alone.particles.f[0] == Vec3{}) continue;
-    ASSERT_EQ(once.first[c], list.pairs[p][0]);
-    ASSERT_EQ(once.second[c], list.pairs[p][1]);
+    ASSERT_EQ(once.first[c], list.pairs()[p][0]);
+    ASSERT_EQ(once.second[c], list.pairs()[p][1]);
     ASSERT_EQ(once.force[c], alone.particles.f[0]);
     ASSERT_EQ(once.torqueSecond[c++], alone.particles.torque[1]);
   }
@@ -178,8 +180,9 @@ TEST(LoveWeberStress, OfALatticeUnderAKnownStrainIsTheAnalyticOne) {
     Particles particles;
     addPacking(particles, block, Density{1000.0}, {3, 2, 1});
     PairList list;
-    list.periodicity = block.space;
-    findPairs(particles, 0.1 * r, list);
+    list.setPeriodicity(block.space);
+    list.setSkin(0.1 * r);
+    findPairs(particles, list);
     const ElasticLaw law{{.stiffness = k}};
     collide(particles, list, law);
     const ContactSample sample = samplePairs(particles, list, law);
@@ -231,7 +234,8 @@ TEST(LoveWeberStress, OfARestingPackingIsWhatItsWallsPressBack) {
   addPacking(particles, packing, Density{1000.0});
   const ElasticLaw law{{.stiffness = 1e5}};
   PairList list;
-  findPairs(particles, 0.01, list);
+  list.setSkin(0.01);
+  findPairs(particles, list);
   collide(particles, list, law);
   WallCandidates candidates;
   WallContacts contacts;
@@ -267,7 +271,8 @@ TEST(JoinMembers, TheStressOfASqueezedClumpIsWhatSqueezesIt) {
   addParticle(particles, shift + Vec3{-0.095, 0.01, 0}, {}, 0.05, Mass{1.0});
   addParticle(particles, shift + Vec3{0.295, -0.01, 0}, {}, 0.05, Mass{1.0});
   PairList list;
-  findPairs(particles, 0.0, list);
+  list.setSkin(0.0);
+  findPairs(particles, list);
   muteMemberPairs(clumps, list);
   const ElasticLaw law{{.stiffness = 1e5}};
   ContactSample sample = samplePairs(particles, list, law);
@@ -292,8 +297,9 @@ TEST(ContactSample, ItsCoarseGrainedStressBalancesTheForcesInAPeriodicCell) {
   Particles particles;
   for (int i = 0; i < 200; ++i) addParticle(particles, random.vector(0.6), random.vector(1.0), 0.08, Density{1000.0});
   PairList list;
-  list.periodicity = {{{0, 0, 0}, {1, 1, 1}}, {true, true, true}};
-  findPairs(particles, 0.01, list);
+  list.setPeriodicity({{{0, 0, 0}, {1, 1, 1}}, {true, true, true}});
+  list.setSkin(0.01);
+  findPairs(particles, list);
   collide(particles, list, law, 1e-4);
   const ContactSample sample = samplePairs(particles, list, law);
 

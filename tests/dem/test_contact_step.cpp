@@ -18,7 +18,8 @@ namespace {
 template <class Law>
 bool grows(Particles particles, double skin, const Law& law, double dt, int steps, bool alongX = false) {
   PairList list;
-  findPairs(particles, skin, list);
+  list.setSkin(skin);
+  findPairs(particles, list);
   const auto laws = prepare(law);
   Particles rest = particles;
   clearForces(rest);
@@ -52,7 +53,8 @@ TEST(ContactStep, IsExactForOnePairOfAnyMasses) {
     for (const double e : {1.0, 0.3}) {
       Particles particles = squeezed(ratio);
       PairList list;
-      findPairs(particles, 0.01, list);
+      list.setSkin(0.01);
+      findPairs(particles, list);
       const ElasticLaw linear{{1e5, e}};
       const HertzLaw hertz{{1e7, e}};
       const ContactStep a = criticalStep(particles, list, prepare(linear)),
@@ -70,7 +72,8 @@ TEST(ContactStep, IsExactForOnePairOfAnyMasses) {
 TEST(ContactStep, AgreesWithTheClosedFormOfTheLightestParticle) {
   Particles particles = squeezed(1.0);
   PairList list;
-  findPairs(particles, 0.01, list);
+  list.setSkin(0.01);
+  findPairs(particles, list);
   const double mass = 0.15, omega = std::sqrt(1e5 / mass);
   EXPECT_NEAR(criticalStep(particles, list, prepare(ElasticLaw{{1e5}})).dt, 2.0 / omega, 1e-14);
 }
@@ -93,11 +96,12 @@ TEST(ContactStep, IsSafeInAPackingAndNamesAPairOfIt) {
   for (const bool spins : {false, true}) {
     Particles particles = packing(spins);
     PairList list;
-    findPairs(particles, 0.0, list);
+    list.setSkin(0.0);
+    findPairs(particles, list);
     const FrictionalLaw law{{1e5, 0.9}, {8e4, 1e9}};
     const ContactStep step = criticalStep(particles, list, prepare(law));
     EXPECT_TRUE(
-        std::binary_search(list.pairs.begin(), list.pairs.end(), std::array<int, 2>{step.particle, step.partner}));
+        list.find({step.particle, step.partner}));
     EXPECT_LT(step.dt, step.twoBody);
     EXPECT_FALSE(grows(particles, 0.0, law, 0.99 * step.dt, 2000));
     EXPECT_TRUE(grows(particles, 0.0, law, 2.5 * step.dt, 2000));  // not over-cautious
@@ -111,7 +115,8 @@ TEST(ContactStep, SeesRollingPlasticAndRememberedStiffness) {
     return two;
   }();
   PairList list;
-  findPairs(particles, 0.01, list);
+  list.setSkin(0.01);
+  findPairs(particles, list);
   const double mass = 0.3, radius = 0.1;
   const ContactLaw<ElasticPlastic> plastic{{1e5, 4e5}};
   EXPECT_NEAR(criticalStep(particles, list, prepare(plastic)).dt, 2.0 / std::sqrt(2.0 * 4e5 / mass), 1e-12);
@@ -139,7 +144,8 @@ TEST(ContactStep, WallsCountAndSoDoContactsYetToCome) {
   Particles apart = squeezed(1.0);
   apart.x[1].x = 0.201;
   PairList list;
-  findPairs(apart, 0.01, list);
+  list.setSkin(0.01);
+  findPairs(apart, list);
   const auto hertz = prepare(HertzLaw{{1e7}});
   EXPECT_EQ(criticalStep(apart, list, hertz).dt, std::numeric_limits<double>::infinity());
   EXPECT_EQ(criticalStep(apart, list, hertz).particle, -1);
@@ -151,7 +157,7 @@ TEST(ContactStep, OfASceneCountsPairsAndAllItsWalls) {
   model.laws = makeContactLaws(ElasticLaw{{1e5}});
   addParticle(model.particles, {0, 0, 0.099}, {}, 0.1, Mass{0.5});
   addParticle(model.particles, {0.199, 0, 0.101}, {}, 0.1, Mass{0.3});
-  model.pairs.skin = 0.02;
+  model.pairs.setSkin(0.02);
   addWall(model, makePlane({0, 0, 0}, {0, 0, 1}));
   addWall(model, makePlane({-0.0995, 0, 0}, {1, 0, 0}));
   run(model, 1e-7, 1);
@@ -166,7 +172,8 @@ TEST(ContactStep, UsesTheLawOfTheMaterialsAndRefusesThoseWithoutOne) {
   Particles particles = squeezed(1.0);
   particles.material = {0, 1};
   PairList list;
-  findPairs(particles, 0.01, list);
+  list.setSkin(0.01);
+  findPairs(particles, list);
   LawTable<ElasticLaw> table(2, ElasticLaw{{1e5}});
   table.set(0, 1, ElasticLaw{{4e5}});
   EXPECT_NEAR(criticalStep(particles, list, prepare(table)).dt, 2.0 / std::sqrt(4e5 / 0.15), 1e-14);
@@ -178,7 +185,8 @@ TEST(MassScaling, MakesTheStepStableAndSaysWhatItDid) {
   for (const double e : {1.0, 0.5}) {
     Particles particles = packing(true);
     PairList list;
-    findPairs(particles, 0.0, list);
+    list.setSkin(0.0);
+    findPairs(particles, list);
     const FrictionalLaw law{{1e5, e}, {8e4, 1e9}};
     const auto laws = prepare(law);
     const double wanted = 2.0 * criticalStep(particles, list, laws).dt;

@@ -22,7 +22,7 @@ double residual(const RollingLaw& law, double share) {
   Model model;
   model.laws = makeContactLaws(law);
   model.gravity = {0, 0, -9.81};
-  model.pairs.periodicity = {{{-1, 0, -1}, {1, 0.3, 1}}, {false, true, false}};
+  model.pairs.setPeriodicity({{{-1, 0, -1}, {1, 0.3, 1}}, {false, true, false}});
   Random random(4);
   for (int i = 0; i < 120; ++i)
     addParticle(model.particles, {0.095 * (i % 8) - 0.33, 0.1 * (i / 8 % 3), -0.25 + 0.09 * (i / 24)},

@@ -29,7 +29,7 @@ template <class Law>
 Model billiard(const Law& law, bool wallFirst = false) {
   Model model;
   model.laws = makeContactLaws(law);
-  model.pairs.skin = 0.03;
+  model.pairs.setSkin(0.03);
   TriangulatedWall box = boxWall({-0.2, -0.15, -0.1}, {0.4, 0.3, 0.2});
   const Vec3 omega{0.5, 1.0, -2.0};
   if (wallFirst) {
@@ -110,8 +110,8 @@ template <class Law>
 Model gas(const Law& law) {
   Model model;
   model.laws = makeContactLaws(law);
-  model.pairs.skin = 0.02;
-  model.pairs.periodicity = {{{0, 0, 0}, {1, 1, 1}}, {true, true, true}};
+  model.pairs.setSkin(0.02);
+  model.pairs.setPeriodicity({{{0, 0, 0}, {1, 1, 1}}, {true, true, true}});
   model.sortEvery = 1;
   Random random(8);
   for (int i = 0; i < 64; ++i) {
@@ -215,7 +215,7 @@ TEST(FreeWalls, ABoxComesToRestOnGrains) {
 TEST(FreeWalls, KeepTheirBodiesWhereClumpsBeforeThemLeave) {
   Model model;
   model.laws = makeContactLaws(frictional);
-  model.pairs.skin = 0.02;
+  model.pairs.setSkin(0.02);
   addClump(model, rod(), {5, 0, 0}, {}, {0, 0, -1});
   const MeshWall& box = addFreeWall(model, boxWall({-0.1, -0.1, -0.1}, {0.2, 0.2, 0.2}), Density{500.0}, {}, {0, 1, 0});
   addClump(model, rod(), {0.03, 0, 0.2}, {}, {0, 0, -1});

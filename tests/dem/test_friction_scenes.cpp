@@ -75,7 +75,8 @@ std::vector<std::array<Vec3, 2>> fall(const Law& law, bool sorts) {
   }
   switchOnRotation(particles);
   PairList list;
-  findPairs(particles, 0.01, list);
+  list.setSkin(0.01);
+  findPairs(particles, list);
   const auto laws = prepare(law);
   const double dt = 2e-5;
   for (int s = 0; s < 301; ++s) {

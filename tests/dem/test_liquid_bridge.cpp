@@ -48,8 +48,9 @@ Meeting meet(double speed, bool wall, double dt, int steps) {
   addParticle(particles, {0, 0, radius + gap0}, {0, 0, -speed}, radius, Density{2500.0});
   if (!wall) addParticle(particles, {0, 0, -radius}, {}, radius, Density{2500.0});
   PairList list;
-  list.reach = laws->reach();
-  findPairs(particles, 0.2 * radius, list);
+  list.setReach(laws->reach());
+  list.setSkin(0.2 * radius);
+  findPairs(particles, list);
   PrimitiveWall plane = makePlane({}, {0, 0, 1});
   plane.reach = laws->reach();
   Meeting run{0.0, 0.0, 0.0, 0.0, kineticEnergy(particles)};
@@ -96,7 +97,7 @@ Model wetBall(double speed) {
   Model m;
   m.laws = makeContactLaws(law);
   m.gravity = {0, 0, 0};
-  m.pairs.skin = 0.2 * radius;
+  m.pairs.setSkin(0.2 * radius);
   addParticle(m.particles, {0.4e-3, 0.3e-3, radius + gap0}, {0.02, 0.01, -speed}, radius, Density{2500.0});
   return m;
 }

@@ -27,8 +27,8 @@ Model pile(int n, bool meshFloor = false) {
     addParticle(model.particles, at, random.vector(0.5), random(0.04, 0.05), Density{1000.0});
   }
   switchOnRotation(model.particles);
-  model.pairs.skin = 0.01;
-  findPairs(model.particles, model.pairs.skin, model.pairs);
+  model.pairs.setSkin(0.01);
+  findPairs(model.particles, model.pairs);
   for (const auto& [point, normal] : {std::pair<Vec3, Vec3>{{0, 0, 0}, {1, 0, 0}},
                                       {{0.9, 0, 0}, {-1, 0, 0}},
                                       {{0, 0, 0}, {0, 1, 0}},
@@ -98,7 +98,7 @@ TEST(Model, ResultsDoNotDependOnThreads) {
   const auto one = end(1), two = end(2), three = end(3);
   EXPECT_EQ(one.particles.x, two.particles.x);
   EXPECT_EQ(one.particles.omega, two.particles.omega);
-  EXPECT_EQ(one.pairs.memory, two.pairs.memory);
+  EXPECT_EQ(one.pairs.memory(), two.pairs.memory());
   EXPECT_EQ(one.particles.v, three.particles.v);
   EXPECT_EQ(energies(one).balance(), energies(three).balance());
 }
@@ -122,7 +122,7 @@ TEST(Model, ARunFromACheckpointIsTheSameToTheLastBit) {
     run(whole, 1e-4, 151);
     writeCheckpoint(path, whole);
     double alive = 0.0;
-    for (const double m : whole.pairs.memory) alive = std::max(alive, std::abs(m));
+    for (const double m : whole.pairs.memory()) alive = std::max(alive, std::abs(m));
     ASSERT_GT(alive, 0.0);
     auto resumed = pile(1, meshFloor);
     readCheckpoint(path, resumed);
@@ -223,7 +223,7 @@ TEST(PrimitiveWalls, AParticleRidesInATurningDrumAndTheWorkIsBooked) {
   model.gravity = {0, 0, -10};
   addParticle(model.particles, {0, 0, -0.94}, {}, 0.05, Density{1000.0});
   switchOnRotation(model.particles);
-  model.pairs.skin = 0.01;
+  model.pairs.setSkin(0.01);
   addWall(model, makeCylinder({}, {0, 1, 0}, 1.0)).angularVelocity = {0, 0.5, 0};
   const double start = energies(model).balance();
   run(model, 2e-5, 100000);
@@ -244,39 +244,40 @@ TEST(Pairs, PeriodicImagesMakeNoDifference) {
     Model model;
     model.laws = makeContactLaws(law);
     Random random(11);
-    model.pairs.periodicity = {{{0, 0, 0}, {0.8, 0.8, 0.8}}, {true, true, true}};
+    model.pairs.setPeriodicity({{{0, 0, 0}, {0.8, 0.8, 0.8}}, {true, true, true}});
     for (int i = 0; i < 400; ++i) {
       const Vec3 at{0.1 * (i % 8) + 0.05, 0.1 * (i / 8 % 8) + 0.05, 0.1 * (i / 64) + 0.05};
       addParticle(model.particles, at + moved, random.vector(1.0), 0.0502, Density{1000.0});
     }
     switchOnRotation(model.particles);
-    wrapPositions(model.particles, model.pairs.periodicity);
-    model.pairs.skin = 0.02;
+    wrapPositions(model.particles, model.pairs.periodicity());
+    model.pairs.setSkin(0.02);
     model.sortEvery = 0;
     run(model, 1e-4, 300);
     for (Vec3& x : model.particles.x) x -= moved;
-    wrapPositions(model.particles, model.pairs.periodicity);
+    wrapPositions(model.particles, model.pairs.periodicity());
     return model;
   };
   const auto here = end({}), there = end({0.37, 0.21, 0.55});
-  EXPECT_GT(here.pairs.images.size(), 50u);
+  EXPECT_GT(here.pairs.images().size(), 50u);
   const double speed = std::sqrt(2.0 * kineticEnergy(here.particles));
   EXPECT_LT(norm(momentum(here.particles) - momentum(end({}).particles)), 1e-14 * speed);
   for (std::size_t i = 0; i < 400; ++i)
-    EXPECT_LT(norm(here.pairs.periodicity.minimumImage(here.particles.x[i] - there.particles.x[i])), 1e-8);
+    EXPECT_LT(norm(here.pairs.periodicity().minimumImage(here.particles.x[i] - there.particles.x[i])), 1e-8);
 }
 
 TEST(Pairs, PruningChangesNothing) {
   const auto end = [](double skin) {
     auto model = pile(3000);
     model.sortEvery = 0;
-    findPairs(model.particles, skin, model.pairs);
+    model.pairs.setSkin(skin);
+    findPairs(model.particles, model.pairs);
     run(model, 1e-4, 150);
     return model;
   };
   const auto pruned = end(0.03), plain = end(0.0);
-  EXPECT_LT(pruned.pairs.innerSkin, pruned.pairs.skin);
-  EXPECT_GT(pruned.pairs.revision, pruned.pairs.builds);
+  EXPECT_LT(pruned.pairs.innerSkin(), pruned.pairs.skin());
+  EXPECT_GT(pruned.pairs.revision(), pruned.pairs.builds());
   EXPECT_EQ(pruned.particles.x, plain.particles.x);
   EXPECT_EQ(pruned.particles.omega, plain.particles.omega);
 }

@@ -16,7 +16,7 @@ constexpr double k = 1e4, pi = 3.14159265358979324;
 Model oneSphere(const Vec3& x, const Vec3& v) {
   Model model;
   model.laws = makeContactLaws(ElasticLaw{{k}});
-  model.pairs.skin = 0.01;
+  model.pairs.setSkin(0.01);
   addParticle(model.particles, x, v, 0.1, Mass{1.0});
   return model;
 }
@@ -232,7 +232,7 @@ TEST(Weights, APileOfEqualWeightsMovesAsOneWithout) {
     Model model;
     model.laws = makeContactLaws(FrictionalLaw{{k, 0.5}, {k, 0.5}});
     model.gravity = {0, 0, -10};
-    model.pairs.skin = 0.01;
+    model.pairs.setSkin(0.01);
     Random random(4);
     for (int i = 0; i < 60; ++i)
       addParticle(model.particles, {0.19 * (i % 4), 0.19 * (i / 4 % 4), 0.099 + 0.19 * (i / 16)}, random.vector(0.1),

@@ -19,7 +19,7 @@ Model row() {
   Model model;
   model.laws = makeContactLaws(FrictionalLaw{{1e4, 0.5}, {3e3, 0.4}});
   model.gravity = {0, 0, -9.81};
-  model.pairs.skin = 0.02;
+  model.pairs.setSkin(0.02);
   model.sortEvery = 0;
   for (int i = 0; i < 20; ++i) addParticle(model.particles, {0.0999 * i, 0, 0.0499}, {0.1, 0, 0}, 0.05, Mass{1.0});
   std::reverse(model.particles.id.begin(), model.particles.id.end());

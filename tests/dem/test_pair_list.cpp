@@ -38,21 +38,22 @@ Particles dense(int n, double size, unsigned seed) {
 TEST(PairList, ContactsSurviveThatPositionsAreWrapped) {
   Particles particles = acrossTheBorder();
   PairList list;
-  list.periodicity = unitBox;
-  findPairs(particles, 0.05, list);
+  list.setPeriodicity(unitBox);
+  list.setSkin(0.05);
+  findPairs(particles, list);
   collide(particles, list, friction, 1e-3);
   const double force = particles.f[0].x;
   EXPECT_NEAR(force, 1e3 * (0.2 - 0.19), 1e-9);
-  list.memory = {1e-4, 2e-4, 3e-4};
-  list.scale = {0.5};
+  std::ranges::copy(std::array{1e-4, 2e-4, 3e-4}, list.prepareMemory(3, 0).begin());
+  list.writeFactors()[0] = 0.5;
   particles.x[0].x += 3.0;
   particles.x[1].x -= 1.0;
-  wrapPositions(particles, list.periodicity);
+  wrapPositions(particles, list.periodicity());
   EXPECT_TRUE(updatePairs(particles, list, 0.0));
-  ASSERT_EQ(list.pairs, (Pairs{{0, 1}}));
-  EXPECT_EQ(list.memory, (RawVector<double>{1e-4, 2e-4, 3e-4}));
-  EXPECT_EQ(list.scale, RawVector<double>{0.5});
-  list.scale.clear();
+  ASSERT_EQ(list.pairs(), (Pairs{{0, 1}}));
+  EXPECT_EQ(list.memory(), (RawVector<double>{1e-4, 2e-4, 3e-4}));
+  EXPECT_EQ(list.factors(), (RawVector<double>{0.5}));
+  list.clearFactors();
   clearForces(particles);
   collide(particles, list, springs);
   EXPECT_NEAR(particles.f[0].x, force, 1e-9);
@@ -63,7 +64,7 @@ TEST(PairList, RenewalsKeepParticlesInThePeriodicBox) {
   Particles particles = acrossTheBorder();
   for (Vec3& v : particles.v) v = {7.0, -3.0, 0.5};
   PairList list;
-  list.periodicity = unitBox;
+  list.setPeriodicity(unitBox);
   double farthest = 0.0;
   for (int i = 0; i < 1000; ++i) {
     drift(particles, 1e-3);
@@ -74,35 +75,34 @@ TEST(PairList, RenewalsKeepParticlesInThePeriodicBox) {
     const Vec3 d = particles.x[0] - particles.x[1] + list.shift(0);
     ASSERT_NEAR(norm(d), 0.19, 1e-9);
   }
-  EXPECT_LT(farthest, 0.5 * *list.skin + 0.01);
+  EXPECT_LT(farthest, 0.5 * *list.skin() + 0.01);
 }
 
 TEST(PairList, FactorsStayWithTheirPairs) {
   Particles particles = dense(4000, 0.6, 7);
   PairList list;
-  findPairs(particles, 0.01, list);
-  ASSERT_GT(list.candidates.size(), list.size());  // pruned
+  list.setSkin(0.01);
+  findPairs(particles, list);
+  ASSERT_GT(list.candidates().size(), list.size());  // pruned
   std::vector<Pair> muted;
-  list.scale.assign(list.size(), 1.0);
+  const std::span<double> factors = list.writeFactors();
   for (std::size_t p = 0; p < list.size(); p += 7) {
-    list.scale[p] = 0.25;
-    muted.push_back(list.pairs[p]);
+    factors[p] = 0.25;
+    muted.push_back(list.pairs()[p]);
   }
   const auto factorOf = [&](const Pair& pair) {
-    const auto found = std::lower_bound(list.pairs.begin(), list.pairs.end(), pair);
-    return found != list.pairs.end() && *found == pair
-               ? list.scale[static_cast<std::size_t>(found - list.pairs.begin())]
-               : -1.0;
+    const auto place = list.find(pair);
+    return place ? list.factor(*place) : -1.0;
   };
   std::int64_t prunings = 0, searches = 0;
   for (int i = 0; i < 12; ++i) {
-    const std::int64_t builds = list.builds;
+    const std::int64_t builds = list.builds();
     drift(particles, 1e-3);
     if (!updatePairs(particles, list, 2e-3)) continue;
-    (list.builds == builds ? prunings : searches) += 1;
+    (list.builds() == builds ? prunings : searches) += 1;
     std::size_t kept = 0;
     for (const Pair& pair : muted) kept += factorOf(pair) == 0.25 ? 1 : 0;
-    ASSERT_EQ(static_cast<std::size_t>(std::count(list.scale.begin(), list.scale.end(), 0.25)), kept);
+    ASSERT_EQ(static_cast<std::size_t>(std::count(list.factors().begin(), list.factors().end(), 0.25)), kept);
     ASSERT_GT(kept, muted.size() / 4);
     std::erase_if(muted, [&](const Pair& pair) { return factorOf(pair) != 0.25; });  // those that left start anew
   }
@@ -121,7 +121,8 @@ TEST(PairList, ThinnerInnerSkinsWhereTheCandidatesLastLonger) {
   for (Vec3& v : particles.v) v = {1.0, 0.0, 0.0};
   for (const int life : {10, 40, 160}) {
     PairList list;
-    findPairs(particles, 0.02, list);
+    list.setSkin(0.02);
+    findPairs(particles, list);
     const double dt = 0.5 * 0.02 / life;
     const auto step = [&](int count) {
       for (int i = 0; i < count; ++i) {
@@ -130,9 +131,9 @@ TEST(PairList, ThinnerInnerSkinsWhereTheCandidatesLastLonger) {
       }
     };
     step(3 * life);
-    const std::int64_t builds = list.builds, revision = list.revision;
+    const std::int64_t builds = list.builds(), revision = list.revision();
     step(8 * life);
-    const double prunings = static_cast<double>(list.revision - revision) / static_cast<double>(list.builds - builds);
+    const double prunings = static_cast<double>(list.revision() - revision) / static_cast<double>(list.builds() - builds);
     EXPECT_NEAR(prunings, std::sqrt(0.7 * life), 0.15 * std::sqrt(0.7 * life) + 0.5) << life;
   }
 }
@@ -145,11 +146,13 @@ TEST(PairList, WhatLeaversHoldIsBookedWithTheirMaterials) {
   for (int i = 0; i < 3; ++i) addParticle(particles, {0.18 * i, 0, 0}, {}, 0.1, Mass{1.0});
   particles.material = {0, 1, 1};
   PairList list;
-  findPairs(particles, 0.01, list);
+  list.setSkin(0.01);
+  findPairs(particles, list);
   const double dt = 1e-4;
   collide(particles, list, laws, dt);
-  list.memory.assign(6, 0.0);
-  list.memory[3] = 1e-3;  // y of the second pair
+  const std::span<double> memory = list.prepareMemory(3, 0);
+  std::ranges::fill(memory, 0.0);
+  memory[3] = 1e-3;  // y of the second pair
   clearForces(particles);
   const ContactWork before = collide(particles, list, laws, dt);
   const std::vector<int> number = numbersWithout(particles, std::vector<int>{2});
@@ -166,15 +169,16 @@ TEST(PairList, WhatLeaversHoldIsBookedWithTheirMaterials) {
 TEST(PairList, ASkinThatNobodySetIsAShareOfTheMeanDiameter) {
   Particles particles = dense(500, 0.2, 3);
   PairList list;
-  findPairs(particles, std::nullopt, list);
+  findPairs(particles, list);
   const double mean = 2.0 * std::accumulate(particles.radius.begin(), particles.radius.end(), 0.0) / 500.0;
-  EXPECT_NEAR(*list.skin, PairList::defaultSkin * mean, 1e-15);
+  EXPECT_NEAR(*list.skin(), PairList::defaultSkin * mean, 1e-15);
   EXPECT_FALSE(updatePairs(particles, list, 0.0));
   PairList every;
-  findPairs(particles, 0.0, every);
+  every.setSkin(0.0);
+  findPairs(particles, every);
   particles.x[3].y += 1e-6;
   EXPECT_TRUE(updatePairs(particles, every, 1e-6));
-  EXPECT_EQ(*every.skin, 0.0);
+  EXPECT_EQ(*every.skin(), 0.0);
 }
 
 struct State {
@@ -186,7 +190,7 @@ struct State {
 State run(int threadCount) {
   setThreads(threadCount);
   State r{dense(5000, 0.7, 11), {}};
-  r.list.periodicity = {{{0, 0, 0}, {0.7, 1, 1}}, {true, false, false}};
+  r.list.setPeriodicity({{{0, 0, 0}, {0.7, 1, 1}}, {true, false, false}});
   for (int i = 0; i < 24; ++i) {
     kick(r.particles, 5e-5);
     drift(r.particles, 1e-4);
@@ -210,14 +214,14 @@ State run(int threadCount) {
 TEST(PairList, IsBitwiseTheSameForAnyNumberOfThreads) {
   const State one = run(1);
   EXPECT_GT(one.list.size(), PairList::pruneFrom);
-  EXPECT_GT(one.list.images.size(), 50u);
+  EXPECT_GT(one.list.images().size(), 50u);
   for (const int n : {2, 3}) {
     const State many = run(n);
     EXPECT_TRUE(one.particles.x == many.particles.x);
     EXPECT_TRUE(one.particles.id == many.particles.id);
     EXPECT_TRUE(one.particles.omega == many.particles.omega);
-    EXPECT_TRUE(one.list.pairs == many.list.pairs);
-    EXPECT_TRUE(one.list.memory == many.list.memory);
+    EXPECT_TRUE(one.list.pairs() == many.list.pairs());
+    EXPECT_TRUE(one.list.memory() == many.list.memory());
   }
 }
 
@@ -232,7 +236,8 @@ TEST(PairList, SortingKeepsForcesAndMakesChunksCompact) {
        }())
     addParticle(particles, x, {}, 0.5, Mass{1.0});
   PairList list;
-  findPairs(particles, 0.1, list);
+  list.setSkin(0.1);
+  findPairs(particles, list);
   collide(particles, list, springs);
   const std::vector<Vec3> force = particles.f;
   sortParticles(particles, list);
@@ -241,8 +246,8 @@ TEST(PairList, SortingKeepsForcesAndMakesChunksCompact) {
   for (std::size_t i = 0; i < particles.size(); ++i)
     ASSERT_LE(norm(particles.f[i] - force[static_cast<std::size_t>(particles.id[i])]), 1e-11);
   // Cubes of as many particles would share with others one pair in the number of particles along their edge.
-  const double share = static_cast<double>(list.chunks.crosses.back()) / static_cast<double>(list.size());
-  EXPECT_LT(share, 1.5 / std::cbrt(static_cast<double>(list.chunks.size)));
+  const double share = static_cast<double>(list.chunks().crosses.back()) / static_cast<double>(list.size());
+  EXPECT_LT(share, 1.5 / std::cbrt(static_cast<double>(list.chunks().size)));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ Model heap(double friction, double sizeRatio) {
   model.laws =
       makeContactLaws(FrictionalLaw{{.stiffness = 1e5, .restitution = 0.8}, {.stiffness = 7e4, .friction = friction}});
   model.gravity = {0, 0, -9.81};
-  model.pairs.skin = 0.02;
+  model.pairs.setSkin(0.02);
   for (const auto& [point, normal] :
        {std::pair{Vec3{0, 0, 0}, Vec3{0, 0, 1}}, std::pair{Vec3{0, 0, 0}, Vec3{1, 0, 0}},
         std::pair{Vec3{0.5, 0, 0}, Vec3{-1, 0, 0}}, std::pair{Vec3{0, 0, 0}, Vec3{0, 1, 0}},

@@ -21,7 +21,8 @@ Particles row(int n) {
 TEST(Renumbering, TheListIsMadeAnewWhenAsManyComeAsGo) {
   Particles particles = row(40);
   PairList list;
-  findPairs(particles, 0.05, list);
+  list.setSkin(0.05);
+  findPairs(particles, list);
   collide(particles, list, springs);
   const std::vector<int> number = numbersWithout(particles, std::vector<int>{0, 1, 2});
   renumber(list, number, particles);
@@ -33,7 +34,8 @@ TEST(Renumbering, TheListIsMadeAnewWhenAsManyComeAsGo) {
   collide(particles, list, springs);
   Particles fresh = particles;
   PairList other;
-  findPairs(fresh, 0.05, other);
+  other.setSkin(0.05);
+  findPairs(fresh, other);
   clearForces(fresh);
   collide(fresh, other, springs);
   EXPECT_EQ(particles.f, fresh.f);

@@ -23,8 +23,8 @@ Model heap(int sortEvery) {
   m.laws = makeContactLaws(frictional);
   m.gravity = {0, 0, -9.81};
   m.sortEvery = sortEvery;
-  m.pairs.skin = 0.004;
-  m.pairs.periodicity = {{{0, 0, 0}, {0.9, 0.9, 1}}, {true, true, false}};
+  m.pairs.setSkin(0.004);
+  m.pairs.setPeriodicity({{{0, 0, 0}, {0.9, 0.9, 1}}, {true, true, false}});
   Random random(9);
   std::vector<int> place(729);
   for (int i = 0; i < 729; ++i) place[static_cast<std::size_t>(i)] = (i * 400) % 729;
@@ -38,10 +38,11 @@ Model heap(int sortEvery) {
   switchOnRotation(m.particles);
   addWall(m, makePlane({}, {0, 0, 1}));
   PairList near;
-  near.periodicity = m.pairs.periodicity;
-  findPairs(m.particles, 0.004, near);
+  near.setPeriodicity(m.pairs.periodicity());
+  near.setSkin(0.004);
+  findPairs(m.particles, near);
   for (std::size_t p = 0; p < near.size(); p += 5)
-    addBond(bonds(m), m.particles, near.periodicity, near.pairs[p][0], near.pairs[p][1], unbreakable(2e5));
+    addBond(bonds(m), m.particles, near.periodicity(), near.pairs()[p][0], near.pairs()[p][1], unbreakable(2e5));
   m.terms.all<BondTerm>()[0]->mutesContacts = true;
   return m;
 }
@@ -53,7 +54,7 @@ double apart(const Model& a, const Model& b) {
   double worst = 0.0;
   for (std::size_t i = 0; i < a.particles.size(); ++i) {
     const auto j = static_cast<std::size_t>(find(b.particles, a.particles.id[i]));
-    worst = std::max(worst, norm(a.pairs.periodicity.minimumImage(a.particles.x[i] - b.particles.x[j])));
+    worst = std::max(worst, norm(a.pairs.periodicity().minimumImage(a.particles.x[i] - b.particles.x[j])));
   }
   return worst;
 }
@@ -100,7 +101,7 @@ TEST(Sorting, KeepsPairsThatALawReachesBeyondTouch) {
   Model m;
   m.laws = makeContactLaws(
       ContactLaw<HertzDashpot, MindlinSpring, NoRolling, LiquidBridge>{{1e7, 0.8}, {0.8, 0.4}, {}, {0.072, 1e-9, 0.0}});
-  m.pairs.skin = 1e-5;
+  m.pairs.setSkin(1e-5);
   m.sortEvery = 1;
   const double reach = m.laws->reach();
   for (int i = 0; i < 40; ++i) addParticle(m.particles, {(2e-3 + 0.9 * reach) * i, 0, 0}, {}, 1e-3, Density{2500.0});

@@ -96,9 +96,9 @@ Model circulation() {
   Model model;
   model.laws = makeContactLaws(frictional);
   model.gravity = {0, 0, -9.81};
-  model.pairs.skin = 0.01;
+  model.pairs.setSkin(0.01);
   model.sortEvery = 3;
-  model.pairs.periodicity = {{{0, 0, 0}, {0.5, 0.5, 1}}, {true, true, false}};
+  model.pairs.setPeriodicity({{{0, 0, 0}, {0.5, 0.5, 1}}, {true, true, false}});
   Random random(5);
   for (int i = 0; i < 75; ++i)
     addParticle(model.particles, {0.1 * (i % 5), 0.1 * (i / 5 % 5), 0.25 + 0.11 * (i / 25)}, random.vector(0.5),
@@ -127,7 +127,7 @@ TEST(Streams, GrainsThatCirculateOverAHundredRenewalsKeepTheLedgerAndTheirContac
     std::size_t touching = 0;  // by brute force
     for (std::size_t i = 0; i < model.particles.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        touching += norm(model.pairs.periodicity.minimumImage(model.particles.x[i] - model.particles.x[j])) <
+        touching += norm(model.pairs.periodicity().minimumImage(model.particles.x[i] - model.particles.x[j])) <
                     model.particles.radius[i] + model.particles.radius[j];
     EXPECT_EQ(model.laws->sample(model.particles, model.pairs).size(), touching);
   }

@@ -17,8 +17,8 @@ const ClumpShape& rod() {
 Model slope(const std::shared_ptr<const ContactLaws>& laws) {
   Model model;
   model.laws = laws;
-  model.pairs.skin = 0.02;
-  model.pairs.periodicity = {{{0, 0, 0}, {1, 0.6, 1}}, {true, true, false}};
+  model.pairs.setSkin(0.02);
+  model.pairs.setPeriodicity({{{0, 0, 0}, {1, 0.6, 1}}, {true, true, false}});
   addWall(model, makePlane({}, {0, 0, 1}));
   return model;
 }

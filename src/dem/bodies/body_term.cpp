@@ -46,14 +46,14 @@ double BodyTerm::move(Model& m, const Step& step) {
   kickBodies(bodies, 0.5 * step.dt);
   driftBodies(bodies, step.dt);
   placeCarriedWalls(m, bodies, step.time);
-  const double moved = placeMembers(bodies, clumps, m.pairs.periodicity, m.particles);
+  const double moved = placeMembers(bodies, clumps, m.pairs.periodicity(), m.particles);
   if (!std::isfinite(moved)) requireFinite(bodies, when(m));
   return moved;
 }
 
 void BodyTerm::renewed(Model& m) {
   const std::vector<Vec3> before = bodies.x;
-  m.booked.lifted -= dot(m.gravity, wrapPositions(bodies, m.pairs.periodicity));
+  m.booked.lifted -= dot(m.gravity, wrapPositions(bodies, m.pairs.periodicity()));
   shiftCarriedWalls(m, bodies, before);
   muteMemberPairs(clumps, m.pairs);
 }
@@ -130,7 +130,7 @@ void BodyTerm::meanMotion(const Model&, const Step& step, std::span<Vec3> v, std
 
 void BodyTerm::close(Model& m, double dt) {
   kickBodies(bodies, 0.5 * dt);
-  placeMembers(bodies, clumps, m.pairs.periodicity, m.particles);
+  placeMembers(bodies, clumps, m.pairs.periodicity(), m.particles);
   placeCarriedWalls(m, bodies, m.time);
 }
 

@@ -156,12 +156,12 @@ void check(const Particles& particles, const Bodies& bodies, const Clumps& clump
 
 void muteMemberPairs(const Clumps& clumps, PairList& list) {
   if (clumps.size() == 0) return;
-  std::vector<int> bodyOf(list.positionAtBuild.size(), -1);
+  std::vector<int> bodyOf(list.particles(), -1);
   for (std::size_t m = 0; m < clumps.size(); ++m) bodyOf[at(clumps.particle[m])] = clumps.body[m];
-  if (list.scale.empty()) list.scale.assign(list.pairs.size(), 1.0);
-  for (std::size_t p = 0; p < list.pairs.size(); ++p) {
-    const int body = bodyOf[at(list.pairs[p][0])];
-    if (body >= 0 && body == bodyOf[at(list.pairs[p][1])]) list.scale[p] = 0.0;
+  const std::span<double> factors = list.writeFactors();
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    const auto& [i, j] = list.pairs()[p];
+    if (const int body = bodyOf[at(i)]; body >= 0 && body == bodyOf[at(j)]) factors[p] = 0.0;
   }
 }
 

@@ -86,11 +86,11 @@ int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list,
                  const BondMaterial& material) {
   int count = 0;
   for (std::size_t p = 0; p < list.size(); ++p) {
-    const auto [i, j] = list.pairs[p];
+    const auto [i, j] = list.pairs()[p];
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     const double distance = norm(particles.x[a] - particles.x[b] + list.shift(p));
     if (distance > particles.radius[a] + particles.radius[b] + gap) continue;
-    addBond(bonds, particles, list.periodicity, i, j, material);
+    addBond(bonds, particles, list.periodicity(), i, j, material);
     ++count;
   }
   return count;
@@ -143,12 +143,10 @@ void renumber(Bonds& bonds, std::span<const int> newNumber) {
 }
 
 void muteBonded(const Bonds& bonds, PairList& list) {
-  if (list.scale.empty()) list.scale.assign(list.size(), 1.0);
+  const std::span<double> factors = list.writeFactors();
   for (const Bond& bond : bonds.bonds) {
     const std::array<int, 2> pair{std::min(bond.i, bond.j), std::max(bond.i, bond.j)};
-    const auto found = std::lower_bound(list.pairs.begin(), list.pairs.end(), pair);
-    if (found != list.pairs.end() && *found == pair)
-      list.scale[static_cast<std::size_t>(found - list.pairs.begin())] = 0.0;
+    if (const auto place = list.find(pair)) factors[*place] = 0.0;
   }
 }
 

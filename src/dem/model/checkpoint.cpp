@@ -8,28 +8,10 @@
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/setup/streams.hpp"
-
-// Members of structures that have gaps.
-namespace dovetail::geometry {
-template <class Archive, class T>
-  requires std::same_as<std::remove_const_t<T>, Periodicity>
-void archiveFields(Archive& archive, T& space) {
-  archive(space.box, space.axes);
-}
-}  // namespace dovetail::geometry
+#include "events.hpp"
 
 namespace dovetail::dem {
 
-template <class Archive, class T>
-  requires std::same_as<std::remove_const_t<T>, PairImage>
-void archiveFields(Archive& archive, T& image) {
-  archive(image.pair, image.periods);
-}
-template <class Archive, class T>
-  requires std::same_as<std::remove_const_t<T>, EndedPair>
-void archiveFields(Archive& archive, T& pair) {
-  archive(pair.materials, pair.factor, pair.overlap, pair.effectiveMass, pair.effectiveRadius);
-}
 template <class Archive, class T>
   requires std::same_as<std::remove_const_t<T>, Step>
 void archiveFields(Archive& archive, T& step) {
@@ -55,18 +37,16 @@ void archiveParticles(Archive& archive, P& p) {
   archive(p.nextId, p.revision, p.wraps);
 }
 
-/// All of a list but what follows from it.
-template <class Archive, class List>
-void archivePairs(Archive& archive, List& l) {
-  archive(l.skin, l.periodicity, l.pairs, l.builds, l.revision, l.innerSkin, l.candidates, l.innerTravel,
-          l.positionAtPruning, l.updatesSincePruning, l.images, l.scale, l.memory, l.turns, l.ended, l.endedPairs,
-          l.positionAtBuild, l.particleRevision, l.wraps, l.travel);
+void archivePairs(ByteWriter& writer, const Model& m) { m.pairs.save(writer); }
+void archivePairs(ByteReader& reader, Model& m) {
+  m.pairs.setReach(reachOfPairs(m));  // the file does not hold it: it follows from the laws
+  m.pairs.load(reader);
 }
 
 template <class Archive, class M>
 void archiveScene(Archive& archive, M& m) {
   archiveParticles(archive, m.particles);
-  archivePairs(archive, m.pairs);
+  archivePairs(archive, m);
   archive(m.gravity, m.rotation, m.booking, m.sortEvery, m.refusesUnstableSteps);
   archive(m.time, m.steps, m.open, m.step, m.work, m.booked, m.rate, m.entered, m.left, m.forcesOf, m.smallestRadius,
           m.timeBase, m.stepsBase, m.checkedStep, m.renewals);
@@ -206,7 +186,6 @@ void readCheckpoint(const std::filesystem::path& path, Model& m) {
   else
     requireSameTerms(saved, m.terms, path);
   loadTerms(saved, restored.terms, path);
-  restoreChunks(restored.particles, restored.pairs);
   Terms own = std::move(m.terms);  // the caller may hold references to them
   m = std::move(restored);
   if (anew) return;

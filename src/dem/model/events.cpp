@@ -58,7 +58,7 @@ double book(const Model& m, std::size_t i, Exchanged& exchanged) {
 void letEscape(Model& m) {
   if (!m.domain) return;
   const std::vector<int> out = thoseOf(
-      m.particles.size(), [&](std::size_t i) { return !inside(*m.domain, m.pairs.periodicity, m.particles.x[i]); });
+      m.particles.size(), [&](std::size_t i) { return !inside(*m.domain, m.pairs.periodicity(), m.particles.x[i]); });
   if (out.empty()) return;
   const auto first = static_cast<std::size_t>(out.front());
   if (m.domain->policy == EscapePolicy::refuse)
@@ -67,7 +67,7 @@ void letEscape(Model& m) {
                          name(m.particles, first),
                          "take a smaller time step, a larger domain, or the policy that removes particles");
   removeParticles(m, out);
-  findPairs(m.particles, m.pairs.skin, m.pairs);
+  findPairs(m.particles, m.pairs);
 }
 
 void sort(Model& m) {
@@ -79,11 +79,11 @@ void sort(Model& m) {
 void weighPairs(Model& m) {
   const Particles& p = m.particles;
   if (p.weight.empty()) return;
-  m.pairs.scale.resize(m.pairs.size());
+  const std::span<double> factors = m.pairs.writeFactors();
   parallelFor(m.pairs.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const auto& [i, j] = m.pairs.pairs[k];
-      m.pairs.scale[k] = 0.5 * (p.weight[static_cast<std::size_t>(i)] + p.weight[static_cast<std::size_t>(j)]);
+      const auto& [i, j] = m.pairs.pairs()[k];
+      factors[k] = 0.5 * (p.weight[static_cast<std::size_t>(i)] + p.weight[static_cast<std::size_t>(j)]);
     }
   });
 }
@@ -94,7 +94,7 @@ bool keepsPairs(const Model& m) { return m.laws && std::isinf(m.laws->reach()); 
 /// Whether moves by whole periods change the energy in gravity.
 bool wrapsLift(const Model& m) {
   for (int k = 0; k < 3; ++k)
-    if (m.pairs.periodicity.axes[static_cast<std::size_t>(k)] && m.gravity[k] != 0.0) return true;
+    if (m.pairs.periodicity().axes[static_cast<std::size_t>(k)] && m.gravity[k] != 0.0) return true;
   return false;
 }
 
@@ -112,8 +112,7 @@ double liftedFrom(const std::vector<Vec3>& before, const Model& m) {
 
 void updateAndBookWraps(Model& m) {
   PairList& list = m.pairs;
-  const bool maySearch = !list.fits(m.particles) || !list.skin || !(list.travel + m.step.moved <= 0.5 * *list.skin);
-  if (!maySearch || !wrapsLift(m)) {
+  if (!list.maySearch(m.particles, m.step.moved) || !wrapsLift(m)) {
     updatePairs(m.particles, list, m.step.moved);
     return;
   }
@@ -170,18 +169,20 @@ double gravityOf(const Particles& p, std::size_t i, const Vec3& gravity) {
   return -p.weightOf(i) * p.mass[i] * dot(gravity, p.x[i]);
 }
 
+double reachOfPairs(const Model& m) { return m.laws && !keepsPairs(m) ? m.laws->reach() : 0.0; }
+
 void renewPairs(Model& m) {
-  m.pairs.reach = m.laws && !keepsPairs(m) ? m.laws->reach() : 0.0;
-  const std::int64_t builds = m.pairs.builds, revision = m.pairs.revision;
-  if (!(keepsPairs(m) && builds > 0))
-    updateAndBookWraps(m);
-  else if (!m.pairs.fits(m.particles))
+  m.pairs.setReach(reachOfPairs(m));
+  const std::int64_t builds = m.pairs.builds(), revision = m.pairs.revision();
+  if (keepsPairs(m) && builds > 0)
     keepPairs(m.particles, m.pairs);
-  if (m.pairs.builds != builds) {
+  else
+    updateAndBookWraps(m);
+  if (m.pairs.builds() != builds) {
     letEscape(m);
     if (m.sortEvery > 0 && m.renewals++ % m.sortEvery == 0) sort(m);
   }
-  if (m.pairs.revision == revision) return;
+  if (m.pairs.revision() == revision) return;
   weighPairs(m);
   for (const auto& term : m.terms) term->renewed(m);
 }

@@ -19,6 +19,8 @@ void requireFiniteGravity(const Model& m);
 /// @throws NumericalError naming what is not finite, and of which particle, or who has moved farther than its radius
 void requireShortMoves(const Particles& particles, double dt, const std::string& when);
 
+/// How far beyond touch pairs are to be listed, m; 0 for lists that are kept.
+double reachOfPairs(const Model& m);
 /// Renews the list of pairs where moves ask for it; then looks for who has escaped, and sorts now and then.
 void renewPairs(Model& m);
 /// Means of velocities and spins before and after the kick that the forces of the step under way make, to second order

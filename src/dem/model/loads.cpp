@@ -34,7 +34,7 @@ double BondTerm::renumber(std::span<const int> newNumber, const Particles&) {
 void BondTerm::addForces(Model& m, const Step& step) {
   lost_ = 0.0;
   if (bonds.size() == 0 && bonds.ended == 0.0) return;
-  ContactWork work = exchangeBonds(m.particles, bonds, m.pairs.periodicity, step.timeless ? 0.0 : step.dt);
+  ContactWork work = exchangeBonds(m.particles, bonds, m.pairs.periodicity(), step.timeless ? 0.0 : step.dt);
   // The last force of a bond that breaks is that of the step before, which acted half of the way: there it broke.
   work.fracturePower += 0.5 * bonds.powerOfBroken;
   lost_ = work.dissipatedPower;
@@ -46,7 +46,7 @@ namespace {
 /// Power of the forces on the particles of a list, W.
 double powerOn(const Particles& p, const PairList& list) {
   std::vector<int> members;
-  for (const auto& pair : list.pairs) members.insert(members.end(), pair.begin(), pair.end());
+  for (const auto& pair : list.pairs()) members.insert(members.end(), pair.begin(), pair.end());
   std::sort(members.begin(), members.end());
   members.erase(std::unique(members.begin(), members.end()), members.end());
   double power = 0.0;
@@ -64,30 +64,22 @@ void BondTerm::wake(Model& m, const Step& step) {
   PairList& list = m.pairs;
   std::vector<std::size_t> places;
   for (const auto& pair : bonds.broken) {
-    const auto found = std::lower_bound(list.pairs.begin(), list.pairs.end(), pair);
-    if (found == list.pairs.end() || *found != pair || list.scale.empty()) continue;
-    places.push_back(static_cast<std::size_t>(found - list.pairs.begin()));
-    list.scale[places.back()] = 0.5 * (m.particles.weightOf(at(pair[0])) + m.particles.weightOf(at(pair[1])));
+    const auto place = list.find(pair);
+    if (!place || list.factors().empty()) continue;
+    places.push_back(*place);
+    list.writeFactors()[*place] = 0.5 * (m.particles.weightOf(at(pair[0])) + m.particles.weightOf(at(pair[1])));
   }
   if (places.empty()) return;
   std::sort(places.begin(), places.end());
   for (const auto& term : m.terms) term->renewed(m);  // whoever else mutes them
-  PairList awake;
-  awake.periodicity = list.periodicity;
-  for (const std::size_t p : places) {
-    awake.pairs.push_back(list.pairs[p]);
-    awake.scale.push_back(list.scale[p]);
-  }
-  keepPairs(m.particles, awake);
+  PairList awake = selectPairs(m.particles, list, places);
   const double before = powerOn(m.particles, awake);
   ContactWork work = m.laws->pairs(m.particles, awake, step.dt, m.booking);
   if (m.booking == Booking::on)
     work.fracturePower -=
         work.storedEnergy() / step.dt + 0.5 * (powerOn(m.particles, awake) - before + work.dissipatedPower);
   m.work += work;
-  for (std::size_t k = 0; k < places.size(); ++k)
-    for (std::size_t c = 0; c < static_cast<std::size_t>(m.laws->memory()); ++c)
-      list.memory[c * list.size() + places[k]] = awake.memory[c * places.size() + k];
+  list.takeMemory(places, awake);
 }
 
 /// Dashpots take what their forces do to the particles over the whole kick.
@@ -95,7 +87,7 @@ void BondTerm::book(Model& m, const Step& step) {
   if (lost_ == 0.0 || m.booking == Booking::off) return;
   const MeanMotion mean = dem::meanMotion(m, step);
   m.rate.lost.dissipatedPower +=
-      dashpotPower(m.particles, bonds, m.pairs.periodicity, mean.v, mean.omega) - lost_;
+      dashpotPower(m.particles, bonds, m.pairs.periodicity(), mean.v, mean.omega) - lost_;
 }
 
 void BondTerm::addDemand(const Model& m, ContactDemand& demand) const { dem::addDemand(demand, m.particles, bonds); }

@@ -15,7 +15,7 @@ namespace {
 /// Rows of the table of laws; 1: a single law serves all materials.
 int materialsOf(const Model& m) { return m.laws ? m.laws->materials() : 1; }
 
-Moves movesOf(const Model& m, const Step& step) { return {step.moved, Moves::unknown, m.pairs.travel, m.pairs.builds}; }
+Moves movesOf(const Model& m, const Step& step) { return {step.moved, Moves::unknown, m.pairs.travel(), m.pairs.builds()}; }
 
 bool carried(const MeshWall& mesh) { return std::holds_alternative<WallOnBody>(mesh.motion); }
 
@@ -29,7 +29,7 @@ auto& numbered(List& found, std::size_t i, const char* kind) {
 
 }  // namespace
 
-void PrimitiveWallTerm::check(const Model& m) const { validate(wall, materialsOf(m), m.pairs.periodicity); }
+void PrimitiveWallTerm::check(const Model& m) const { validate(wall, materialsOf(m), m.pairs.periodicity()); }
 
 double PrimitiveWallTerm::move(Model&, const Step& step) {
   kickWall(wall, 0.5 * (step.closing + step.dt));
@@ -43,8 +43,8 @@ double PrimitiveWallTerm::renumber(std::span<const int> newNumber, const Particl
 }
 
 void PrimitiveWallTerm::addForces(Model& m, const Step& step) {
-  wall.reach = m.pairs.reach;
-  findContacts(m.particles, wall, movesOf(m, step), m.pairs.periodicity);
+  wall.reach = m.pairs.reach();
+  findContacts(m.particles, wall, movesOf(m, step), m.pairs.periodicity());
   const ContactWork work = m.laws->wall(m.particles, wall, step.dt, m.booking);
   stored = work.storedEnergy();
   m.work += work;
@@ -130,8 +130,8 @@ double MeshWallTerm::renumber(std::span<const int> newNumber, const Particles& b
 
 void MeshWallTerm::addForces(Model& m, const Step& step) {
   if (step.timeless && carried(mesh)) moveWall(mesh, m.time, 0.0, &bodiesOf(m));
-  mesh.candidates.reach = m.pairs.reach;
-  findContacts(m.particles, mesh, movesOf(m, step), m.pairs.periodicity);
+  mesh.candidates.reach = m.pairs.reach();
+  findContacts(m.particles, mesh, movesOf(m, step), m.pairs.periodicity());
   const ContactWork work = m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
   stored = work.storedEnergy();
   m.work += work;

@@ -1,19 +1,10 @@
 // Who works on which pairs.
 #include <algorithm>
-#include <cmath>
 
 #include "dovetail/core/distribute.hpp"
 #include "renewal.hpp"
 
-namespace dovetail::dem {
-
-Vec3 PairList::shift(std::size_t pair) const {
-  const auto found = std::lower_bound(images.begin(), images.end(), pair,
-                                      [](const PairImage& image, std::size_t p) { return image.pair < p; });
-  return found != images.end() && found->pair == pair ? shift(*found) : Vec3{};
-}
-
-namespace detail {
+namespace dovetail::dem::detail {
 
 /// A thread should have several chunks, and a chunk few neighbours beyond its border.
 std::size_t chunkSize(std::size_t particles) { return std::clamp<std::size_t>(particles / 128, 256, 4096); }
@@ -29,7 +20,7 @@ void findRanges(std::size_t particles, const Pairs& sorted, std::vector<std::siz
   });
 }
 
-void Links::findCrossers(const PairList& list, std::size_t chunk) {
+void Links::findCrossers(const ListedPairs& list, std::size_t chunk) {
   const auto end = static_cast<int>((chunk + 1) * list.chunks.size);
   int number = 0;
   for (std::size_t p = list.chunks.begin[chunk]; p < list.chunks.begin[chunk + 1]; ++p) {
@@ -42,7 +33,7 @@ void Links::findCrossers(const PairList& list, std::size_t chunk) {
 
 namespace {
 
-void joinImages(const std::vector<std::vector<PairImage>>& images, PairList& list) {
+void joinImages(const std::vector<std::vector<PairImage>>& images, ListedPairs& list) {
   PairChunks& chunks = list.chunks;
   chunks.images.assign(chunks.count() + 1, 0);
   for (std::size_t c = 0; c < chunks.count(); ++c) chunks.images[c + 1] = chunks.images[c] + images[c].size();
@@ -79,35 +70,20 @@ void joinCrossers(const std::vector<std::vector<int>>& crossers, PairChunks& chu
 
 }  // namespace
 
-void Links::join(PairList& list) {
+void Links::join(ListedPairs& list) {
   joinImages(images, list);
   joinCrossers(crossers, list.chunks);
   list.chunks.largest.swap(largest);
 }
 
-void makeChunks(std::size_t particles, PairList& list) {
+void makeChunks(std::size_t particles, ListedPairs& list) {
   list.chunks.size = chunkSize(particles);
   findRanges(particles, list.pairs, list.chunks.begin);
   Links links(list.chunks.count());
+  for (const PairImage& image : list.images)
+    links.images[static_cast<std::size_t>(list.pairs[image.pair][0]) / list.chunks.size].push_back(image);
   parallelFor(list.chunks.count(), 1, [&](std::size_t c, std::size_t) { links.findCrossers(list, c); });
   links.join(list);
 }
 
-}  // namespace detail
-
-void restoreChunks(const Particles& particles, PairList& list) {
-  if (list.builds == 0) return;
-  const std::vector<PairImage> images = list.images;
-  detail::makeChunks(particles.size(), list);
-  list.images = images;
-  detail::findRanges(particles.size(), list.candidates, list.chunks.candidates);
-  PairChunks& chunks = list.chunks;
-  chunks.images.assign(chunks.count() + 1, 0);
-  std::size_t k = 0;
-  for (std::size_t c = 0; c < chunks.count(); ++c) {
-    while (k < list.images.size() && list.images[k].pair < chunks.begin[c + 1]) ++k;
-    chunks.images[c + 1] = k;
-  }
-}
-
-}  // namespace dovetail::dem
+}  // namespace dovetail::dem::detail

@@ -54,7 +54,8 @@ PairsApart::PairsApart(std::size_t count) {
   for (std::size_t k = 0; k < count; ++k)
     for (const double x : {0.0, 1.0})
       addParticle(particles, {4.0 * static_cast<double>(k) + x, 0.0, 0.0}, {}, 1.0, Mass{1.0});
-  findPairs(particles, 0.0, list);
+  list.setSkin(0.0);
+  findPairs(particles, list);
 }
 
 void PairsApart::take(const Particles& all, const PairList& from, std::size_t first, int memory) {
@@ -64,7 +65,7 @@ void PairsApart::take(const Particles& all, const PairList& from, std::size_t fi
     mine.resize(2 * count);
     for (std::size_t k = 0; k < count; ++k)
       for (std::size_t side = 0; side < 2; ++side)
-        mine[2 * k + side] = values[static_cast<std::size_t>(from.pairs[first + k][side])];
+        mine[2 * k + side] = values[static_cast<std::size_t>(from.pairs()[first + k][side])];
   };
   copy(particles.x, all.x);
   copy(particles.v, all.v);
@@ -75,11 +76,10 @@ void PairsApart::take(const Particles& all, const PairList& from, std::size_t fi
   particles.torque.assign(particles.omega.size(), {});
   particles.f.assign(2 * count, {});
   for (std::size_t k = 0; k < count; ++k) particles.x[2 * k + 1] -= from.shift(first + k);
-  if (!from.scale.empty()) list.scale.resize(count);
-  for (std::size_t k = 0; k < list.scale.size(); ++k) list.scale[k] = from.scale[first + k];
-  list.memory.resize(static_cast<std::size_t>(memory) * count);
+  if (!from.factors().empty()) std::copy_n(from.factors().data() + first, count, list.writeFactors().begin());
+  const std::span<double> numbers = list.prepareMemory(memory, 0);
   for (std::size_t c = 0; c < static_cast<std::size_t>(memory); ++c)
-    for (std::size_t k = 0; k < count; ++k) list.memory[c * count + k] = from.memory[c * from.size() + first + k];
+    for (std::size_t k = 0; k < count; ++k) numbers[c * count + k] = from.memory()[c * from.size() + first + k];
 }
 
 void appendPairs(const PairsApart& apart, const PairList& list, std::size_t first, ContactSample& sample) {
@@ -89,7 +89,7 @@ void appendPairs(const PairsApart& apart, const PairList& list, std::size_t firs
     const std::size_t i = 2 * k, j = i + 1;
     if (p.f[i] == Vec3{}) continue;
     const PairContact contact = pairContact(p, i, j);
-    append(sample, list.pairs[first + k][0], list.pairs[first + k][1], p.x[i], p.x[j], p.x[i] + contact.armI,
+    append(sample, list.pairs()[first + k][0], list.pairs()[first + k][1], p.x[i], p.x[j], p.x[i] + contact.armI,
            contact.normal, p.f[i], spins ? p.torque[i] : Vec3{}, spins ? p.torque[j] : Vec3{});
   }
 }
@@ -114,8 +114,8 @@ ContactSample joined(std::vector<ContactSample> parts) {
 }
 
 void requireMemory(const PairList& list, int memory) {
-  if (list.memory.size() >= static_cast<std::size_t>(memory) * list.size()) return;
-  throw InputError("the list remembers " + std::to_string(list.memory.size()) + " numbers for " +
+  if (list.memory().size() >= static_cast<std::size_t>(memory) * list.size()) return;
+  throw InputError("the list remembers " + std::to_string(list.memory().size()) + " numbers for " +
                        std::to_string(list.size()) + " pairs",
                    "sample of contacts", "call collide with the same law first");
 }

@@ -1,14 +1,16 @@
 // When a list is made anew.
 #include <cmath>
-#include <limits>
 
+#include "../particles/sort_particles.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/pairs/pairs.hpp"
+#include "renewal.hpp"
 
 namespace dovetail::dem {
 
 namespace {
+
+using detail::PairParts;
 
 constexpr std::size_t grain = 4096;
 
@@ -25,8 +27,8 @@ struct Travels {
   }
 };
 
-Travels largestTravels(const Particles& particles, const PairList& list) {
-  const bool pruned = !list.positionAtPruning.empty();
+Travels largestTravels(const Particles& particles, const PairParts& list) {
+  const bool pruned = list.pruned();
   return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
     Travels part;
     for (std::size_t i = begin; i < end && !std::isnan(part.search); ++i) {
@@ -47,62 +49,80 @@ void requireFinitePositions(const Particles& particles) {
   if (!(worst == 0.0)) requireFinite(particles.x, "particle", "position", "search for pairs");
 }
 
-}  // namespace
-
-bool PairList::fits(const Particles& particles) const {
-  return builds > 0 && particleRevision == particles.revision && wraps == particles.wraps &&
-         positionAtBuild.size() == particles.size();
-}
-
-double detail::skinOf(const Particles& particles, PairList& list) {
-  if (!list.skin) {
-    const double sum = parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-      double part = 0.0;
-      for (std::size_t i = begin; i < end; ++i) part += 2.0 * particles.radius[i];
-      return part;
-    });
-    if (particles.size() == 0) return 0.0;
-    list.skin = PairList::defaultSkin * sum / static_cast<double>(particles.size());
-  }
+/// The skin that is set, or the default, which is set then.
+double skinOf(const Particles& particles, PairParts& list) {
+  if (list.skin) return *list.skin;
+  if (particles.size() == 0) return 0.0;
+  const double sum = parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    double part = 0.0;
+    for (std::size_t i = begin; i < end; ++i) part += 2.0 * particles.radius[i];
+    return part;
+  });
+  list.skin = PairList::defaultSkin * sum / static_cast<double>(particles.size());
   return requireNonNegative(*list.skin, "skin of the pair list");
 }
 
-void findPairs(Particles& particles, std::optional<double> skin, PairList& list) {
-  list.skin = skin;
-  const double reach = detail::skinOf(particles, list);
+bool isNumberedAs(const PairParts& list, const Particles& particles) {
+  return list.builds > 0 && list.particleRevision == particles.revision && list.wraps == particles.wraps &&
+         list.positionAtBuild.size() == particles.size();
+}
+
+}  // namespace
+
+bool PairList::fits(const Particles& particles) const { return isNumberedAs(parts_, particles) && !parts_.outdated; }
+
+bool PairList::maySearch(const Particles& particles, double step) const {
+  return !fits(particles) || !parts_.skin || !(parts_.travel + step <= 0.5 * *parts_.skin);
+}
+
+void findPairs(Particles& particles, PairList& of) {
+  PairParts& list = detail::partsOf(of);
+  const double skin = skinOf(particles, list);
   requireFinitePositions(particles);
   wrapPositions(particles, list.periodicity);
   geometry::HierarchicalGrid grid(list.periodicity);  // not kept: it takes as much memory as the list
-  grid.build(particles.x, particles.radius, reach + list.reach);
-  detail::takeFound(particles, grid, reach, list);
+  grid.build(particles.x, particles.radius, skin + list.reach);
+  detail::takeFound(particles, grid, skin, list);
 }
 
 // Comparisons are written so that a NaN asks for a new list, which then names the culprit.
-bool updatePairs(Particles& particles, PairList& list) {
-  return updatePairs(particles, list, std::numeric_limits<double>::infinity());
-}
-
-bool updatePairs(Particles& particles, PairList& list, double step) {
-  if (!list.fits(particles) || !list.skin) {
-    findPairs(particles, list.skin, list);
+bool updatePairs(Particles& particles, PairList& of, double step) {
+  PairParts& list = detail::partsOf(of);
+  const auto search = [&] {
+    findPairs(particles, of);
     return true;
-  }
+  };
+  if (!of.fits(particles) || !list.skin || std::isinf(list.travel)) return search();
   const double half = 0.5 * *list.skin, innerHalf = 0.5 * list.innerSkin;
-  const bool pruned = list.innerSkin < *list.skin;
   list.travel += step;
   list.innerTravel += step;
   ++list.updatesSincePruning;
-  if (list.travel <= half && (!pruned || list.innerTravel <= innerHalf)) return false;
+  const auto pruningLasts = [&] { return !list.pruned() || list.innerTravel <= innerHalf; };
+  if (list.travel <= half && pruningLasts()) return false;
   const Travels travels = largestTravels(particles, list);
   list.travel = std::sqrt(travels.search);
   list.innerTravel = std::sqrt(travels.pruning);
-  if (!(list.travel <= half)) {
-    findPairs(particles, list.skin, list);
-    return true;
-  }
-  if (!pruned || list.innerTravel <= innerHalf) return false;
+  if (!(list.travel <= half)) return search();
+  if (pruningLasts()) return false;
   detail::prunePairs(particles, list);
   return true;
+}
+
+std::vector<int> sortParticles(Particles& particles, PairList& of) {
+  if (particles.size() == 0) return {};
+  PairParts& list = detail::partsOf(of);
+  const bool listed = isNumberedAs(list, particles);
+  const double skin = listed ? skinOf(particles, list) : 0.0;
+  wrapPositions(particles, list.periodicity);
+  geometry::HierarchicalGrid grid(list.periodicity);
+  grid.build(particles.x, particles.radius, skin + list.reach);
+  const std::vector<int> newNumber = detail::numbersAlongCurve(particles, grid.order());
+  if (listed) renumber(of, newNumber, particles);
+  renumber(particles, newNumber);
+  if (!listed) return newNumber;
+  grid.renumber(newNumber);
+  detail::takeFound(particles, grid, skin, list);
+  return newNumber;
 }
 
 void wrapPositions(Particles& particles, const geometry::Periodicity& periodicity) {

@@ -14,8 +14,8 @@ namespace dovetail::dem {
 namespace {
 
 using detail::Belongings;
-using detail::Ended;
 using detail::Pair;
+using detail::PairParts;
 
 constexpr double apart = -std::numeric_limits<double>::infinity();
 
@@ -38,7 +38,7 @@ EndedPair withoutTouch(const Particles& particles, const Pair& pair, double fact
 }
 
 /// Of a pair that goes with a particle.
-EndedPair asItIs(const Particles& particles, const PairList& list, std::size_t p, double factor) {
+EndedPair asItIs(const Particles& particles, const PairParts& list, std::size_t p, double factor) {
   const auto i = static_cast<std::size_t>(list.pairs[p][0]), j = static_cast<std::size_t>(list.pairs[p][1]);
   EndedPair ended = withoutTouch(particles, list.pairs[p], factor);
   Vec3 d = particles.x[i] - particles.x[j];
@@ -58,10 +58,10 @@ struct Move {
 };
 
 /// The pairs that stay, by their new numbers; the others are ended.
-Pairs movePairs(Buckets<Move>& moves, const Belongings& from, PairList& list) {
+Pairs movePairs(Buckets<Move>& moves, const Belongings& from, PairParts& list) {
   Pairs pairs(moves.size());
   const std::size_t n = pairs.size();
-  if (!from.scale.empty()) list.scale.resize(n);
+  if (!from.factors.empty()) list.factors.resize(n);
   list.memory.resize(from.components * n);
   parallelFor(moves.count(), 1, [&](std::size_t b, std::size_t) {
     const auto bucket = moves[b];
@@ -70,7 +70,7 @@ Pairs movePairs(Buckets<Move>& moves, const Belongings& from, PairList& list) {
       const Move& move = bucket[k];
       const std::size_t p = moves.begin[b] + k;
       pairs[p] = move.pair;
-      if (!from.scale.empty()) list.scale[p] = from.scale[move.from];
+      if (!from.factors.empty()) list.factors[p] = from.factors[move.from];
       for (std::size_t c = 0; c < from.components; ++c) {
         const bool turns = move.swapped && (list.turns >> c & 1u) != 0;
         list.memory[c * n + p] = (turns ? -1.0 : 1.0) * from.remembered(c, move.from);
@@ -84,14 +84,11 @@ Pairs movePairs(Buckets<Move>& moves, const Belongings& from, PairList& list) {
 
 namespace detail {
 
-Belongings::Belongings(PairList& list, std::size_t count)
-    : memory(std::move(list.memory)),
-      scale(std::move(list.scale)),
+Belongings::Belongings(PairBelongings& of, std::size_t count)
+    : memory(std::exchange(of.memory, {})),
+      factors(std::exchange(of.factors, {})),
       pairs(count),
-      components(count == 0 ? 0 : memory.size() / count) {
-  list.memory.clear();
-  list.scale.clear();
-}
+      components(count == 0 ? 0 : memory.size() / count) {}
 
 bool Belongings::remembersAnything(std::size_t p) const {
   for (std::size_t c = 0; c < components; ++c)
@@ -99,36 +96,36 @@ bool Belongings::remembersAnything(std::size_t p) const {
   return false;
 }
 
-void Belongings::hand(std::size_t o, std::size_t p, std::size_t count, PairList& list) const {
+void Belongings::hand(std::size_t o, std::size_t p, std::size_t count, PairParts& list) const {
   for (std::size_t c = 0; c < components; ++c)
     std::copy_n(memory.data() + c * pairs + o, count, list.memory.data() + c * list.size() + p);
-  if (!scale.empty()) std::copy_n(scale.data() + o, count, list.scale.data() + p);
+  if (!factors.empty()) std::copy_n(factors.data() + o, count, list.factors.data() + p);
 }
 
-void Belongings::end(const EndedPair& pair, std::size_t p, Ended& ended) const {
+void Belongings::end(const EndedPair& pair, std::size_t p, EndedPairs& ended) const {
   ended.pairs.push_back(pair);
   for (std::size_t c = 0; c < components; ++c) ended.memory.push_back(remembered(c, p));
 }
 
-void append(const std::vector<Ended>& parts, PairList& list) {
-  for (const Ended& part : parts) {
-    list.endedPairs.insert(list.endedPairs.end(), part.pairs.begin(), part.pairs.end());
-    list.ended.insert(list.ended.end(), part.memory.begin(), part.memory.end());
+void append(const std::vector<EndedPairs>& parts, EndedPairs& all) {
+  for (const EndedPairs& part : parts) {
+    all.pairs.insert(all.pairs.end(), part.pairs.begin(), part.pairs.end());
+    all.memory.insert(all.memory.end(), part.memory.begin(), part.memory.end());
   }
 }
 
 namespace {
 
 /// Newcomers p … end − 1 remember nothing.
-void startAnew(const Belongings& from, std::size_t p, std::size_t end, PairList& list) {
+void startAnew(const Belongings& from, std::size_t p, std::size_t end, PairParts& list) {
   for (std::size_t c = 0; c < from.components; ++c) std::fill_n(list.memory.data() + c * list.size() + p, end - p, 0.0);
-  if (!from.scale.empty()) std::fill_n(list.scale.data() + p, end - p, 1.0);
+  if (!from.factors.empty()) std::fill_n(list.factors.data() + p, end - p, 1.0);
 }
 
 }  // namespace
 
-void carryChunk(const Particles& particles, const Pairs& old, const Belongings& from, std::size_t chunk, PairList& list,
-                Ended& ended) {
+void carryChunk(const Particles& particles, const Pairs& old, const Belongings& from, std::size_t chunk,
+                PairParts& list, EndedPairs& ended) {
   const std::size_t chunks = list.chunks.count();
   const auto at = [&](std::size_t c) {
     const Pair first{static_cast<int>(c * list.chunks.size), -1};
@@ -146,8 +143,7 @@ void carryChunk(const Particles& particles, const Pairs& old, const Belongings& 
     o += run;
     p += run;
     if (run > 0) continue;
-    if (from.remembersAnything(o))
-      from.end(withoutTouch(particles, old[o], from.scale.empty() ? 1.0 : from.scale[o]), o, ended);
+    if (from.remembersAnything(o)) from.end(withoutTouch(particles, old[o], from.factor(o)), o, ended);
     ++o;
   }
   startAnew(from, p, end, list);
@@ -166,7 +162,8 @@ Contact detail::atRest(const EndedPair& pair) {
   return contact;
 }
 
-void renumber(PairList& list, std::span<const int> newNumber, const Particles& before) {
+void renumber(PairList& of, std::span<const int> newNumber, const Particles& before) {
+  PairParts& list = detail::partsOf(of);
   constexpr std::size_t grain = 16384;
   const Pairs& old = list.pairs;
   const Belongings from(list, old.size());
@@ -175,11 +172,11 @@ void renumber(PairList& list, std::span<const int> newNumber, const Particles& b
   const auto numbers = [&](std::size_t p) {
     return Pair{newNumber[static_cast<std::size_t>(old[p][0])], newNumber[static_cast<std::size_t>(old[p][1])]};
   };
-  std::vector<Ended> ended(tasks);
+  std::vector<EndedPairs> ended(tasks);
   parallelFor(old.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
       if (const Pair to = numbers(p); to[0] < 0 || to[1] < 0)
-        from.end(asItIs(before, list, p, from.scale.empty() ? 1.0 : from.scale[p]), p, ended[begin / grain]);
+        from.end(asItIs(before, list, p, from.factor(p)), p, ended[begin / grain]);
   });
   auto moves = distribute<Move>(tasks, buckets, [&](std::size_t task, auto&& sink) {
     for (std::size_t p = task * grain; p < std::min(old.size(), (task + 1) * grain); ++p) {
@@ -189,11 +186,12 @@ void renumber(PairList& list, std::span<const int> newNumber, const Particles& b
       sink(static_cast<std::size_t>(pair[0]) / rows, Move{pair, static_cast<std::uint32_t>(p), i > j});
     }
   });
-  detail::append(ended, list);
+  detail::append(ended, list.ended);
   list.pairs = movePairs(moves, from, list);
+  list.images.clear();
   list.candidates.clear();
   list.particleRevision = -1;
-  detail::makeChunks(particles, list);  // good enough for those who look before the next update
+  detail::makeChunks(particles, list);  // without images: for those who look before the next update
 }
 
 }  // namespace dovetail::dem

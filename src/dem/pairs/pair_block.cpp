@@ -64,14 +64,14 @@ void gatherRadii(const Particles& particles, const std::array<int, 2>* pairs, st
   }
 }
 
-void gatherVaried(const Particles& particles, const PairList& list, std::size_t first, int materials, std::size_t n,
+void gatherVaried(const Particles& particles, const PairParts& list, std::size_t first, int materials, std::size_t n,
                   ContactBlock& block) {
   const auto material = [&](int i) {
     return particles.material.empty() ? 0 : static_cast<int>(particles.material[static_cast<std::size_t>(i)]);
   };
   for (std::size_t l = 0; l < n; ++l) {
     const auto& pair = list.pairs[first + l];
-    block.scale[l] = list.scale.empty() ? 1.0 : list.scale[first + l];
+    block.scale[l] = list.factors.empty() ? 1.0 : list.factors[first + l];
     block.kind[l] = materials > 1 ? material(pair[0]) * materials + material(pair[1]) : 0;
   }
 }
@@ -80,7 +80,7 @@ void gatherVaried(const Particles& particles, const PairList& list, std::size_t 
 /// @tparam spins  there are torques
 /// @tparam alike  they are the same on both particles
 template <bool spins, bool alike>
-void addToSums(const PairList& list, PairCursor& cursor, std::size_t n, const ContactBlock& block) {
+void addToSums(const PairParts& list, PairCursor& cursor, std::size_t n, const ContactBlock& block) {
   const auto* const pairs = list.pairs.data() + cursor.pair;
   constexpr std::size_t numbers = spins ? 2 : 1;
   const auto first = static_cast<int>(cursor.firstParticle), size = static_cast<int>(cursor.particles);
@@ -179,7 +179,7 @@ void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& 
     block.effectiveRadius.fill(0.5 * particles.radius[0]);
 }
 
-PairCursor startOfChunk(const Particles& particles, const PairList& list, const PairRows& rows, std::size_t chunk) {
+PairCursor startOfChunk(const Particles& particles, const PairParts& list, const PairRows& rows, std::size_t chunk) {
   const PairChunks& chunks = list.chunks;
   const std::size_t first = chunk * chunks.size, count = std::min(chunks.size, particles.size() - first);
   const std::size_t crossing = chunks.crosses[chunk + 1] - chunks.crosses[chunk];
@@ -194,7 +194,7 @@ PairCursor startOfChunk(const Particles& particles, const PairList& list, const 
           roomForSums((rows.turns ? 2 : 1) * (count + crossing))};
 }
 
-void finishChunk(Particles& particles, PairList& list, const PairRows& rows, const PairCursor& cursor) {
+void finishChunk(Particles& particles, PairParts& list, const PairRows& rows, const PairCursor& cursor) {
   const Four* sum = cursor.sums;
   const auto take = [&] { return vectorOf(*sum++); };
   for (std::size_t i = cursor.firstParticle; i < cursor.firstParticle + cursor.particles; ++i) {
@@ -208,7 +208,7 @@ void finishChunk(Particles& particles, PairList& list, const PairRows& rows, con
   }
 }
 
-std::size_t gatherPairs(const Particles& particles, PairList& list, const PairRows& rows, PairCursor& cursor,
+std::size_t gatherPairs(const Particles& particles, PairParts& list, const PairRows& rows, PairCursor& cursor,
                         ContactBlock& block) {
   const std::size_t first = cursor.pair, n = std::min(blockSize, cursor.end - first);
   const auto* const pairs = list.pairs.data() + first;
@@ -216,7 +216,7 @@ std::size_t gatherPairs(const Particles& particles, PairList& list, const PairRo
   for (; cursor.image < list.images.size() && list.images[cursor.image].pair < first + n; ++cursor.image) {
     const PairImage& image = list.images[cursor.image];
     const std::size_t l = image.pair - first;
-    block.separation.set(l, block.separation.at(l) + list.shift(image));
+    block.separation.set(l, block.separation.at(l) + shiftOf(list.periodicity, image));
   }
   gatherRadii(particles, pairs, n, rows.oneRadius, block);
   if (rows.mass && !rows.oneMass) gatherMasses(particles, {pairs, n}, block);
@@ -229,7 +229,7 @@ std::size_t gatherPairs(const Particles& particles, PairList& list, const PairRo
   return n;
 }
 
-void scatterPairs(const PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
+void scatterPairs(const PairParts& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
                   const ContactBlock& block) {
   if (!rows.turns)
     addToSums<false, false>(list, cursor, n, block);
@@ -240,7 +240,7 @@ void scatterPairs(const PairList& list, const PairRows& rows, std::size_t n, Pai
   cursor.pair += n;
 }
 
-void addCrossing(Particles& particles, const PairList& list, bool spins) {
+void addCrossing(Particles& particles, const PairParts& list, bool spins) {
   const PairChunks& chunks = list.chunks;
   parallelFor(chunks.count(), 1, [&](std::size_t chunk, std::size_t) {
     for (std::size_t a = chunks.arrives[chunk]; a < chunks.arrives[chunk + 1]; ++a) {
@@ -250,12 +250,6 @@ void addCrossing(Particles& particles, const PairList& list, bool spins) {
       if (spins) particles.torque[j] += chunks.torque[crossing];
     }
   });
-}
-
-void prepareMemory(PairList& list, int memory, unsigned turns) {
-  list.turns = turns;
-  const std::size_t needed = static_cast<std::size_t>(memory) * list.size();
-  if (list.memory.size() != needed) list.memory.assign(needed, 0.0);
 }
 
 ContactWork sumWork(const ContactBlock& block, std::size_t n) {

@@ -1,6 +1,7 @@
 // Which candidates become pairs.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "dovetail/core/large_pages.hpp"
@@ -28,7 +29,7 @@ Vec3 between(const Particles& particles, const Pair& pair) {
 
 /// Marks candidates that are closer than the sum of their radii + gap; returns how many.
 template <bool periodic>
-std::size_t markClose(const Particles& particles, const PairList& list, std::size_t begin, std::size_t end, double gap,
+std::size_t markClose(const Particles& particles, const PairParts& list, std::size_t begin, std::size_t end, double gap,
                       std::uint8_t* marks) {
   std::size_t count = 0;
   for (std::size_t c = begin; c < end; ++c) {
@@ -56,7 +57,7 @@ struct Marked {
   std::vector<std::size_t> begin;  ///< of the pairs of each chunk
 };
 
-Marked markCandidates(const Particles& particles, const PairList& list, double gap) {
+Marked markCandidates(const Particles& particles, const PairParts& list, double gap) {
   const auto& from = list.chunks.candidates;
   const std::size_t chunks = from.size() - 1;
   Marked marked{RawVector<std::uint8_t>(list.candidates.size()), std::vector<std::size_t>(chunks + 1, 0)};
@@ -68,12 +69,12 @@ Marked markCandidates(const Particles& particles, const PairList& list, double g
   return marked;
 }
 
-PairImage imageOf(const Particles& particles, const PairList& list, std::size_t p) {
+PairImage imageOf(const Particles& particles, const PairParts& list, std::size_t p) {
   return {p, repeatsOf(list.periodicity, between(particles, list.pairs[p])).periods};
 }
 
 /// The marked candidates of a chunk become its pairs.
-void fillChunk(const Particles& particles, const Marked& marked, std::size_t chunk, PairList& list,
+void fillChunk(const Particles& particles, const Marked& marked, std::size_t chunk, PairParts& list,
                std::vector<PairImage>& images) {
   std::size_t p = list.chunks.begin[chunk];
   const std::size_t end = list.chunks.begin[chunk + 1];
@@ -85,7 +86,7 @@ void fillChunk(const Particles& particles, const Marked& marked, std::size_t chu
   }
 }
 
-void findImages(const Particles& particles, const PairList& list, std::size_t chunk, std::vector<PairImage>& images) {
+void findImages(const Particles& particles, const PairParts& list, std::size_t chunk, std::vector<PairImage>& images) {
   if (!list.periodicity.any()) return;
   for (std::size_t p = list.chunks.begin[chunk]; p < list.chunks.begin[chunk + 1]; ++p)
     if (repeatsOf(list.periodicity, between(particles, list.pairs[p])).any)
@@ -95,25 +96,25 @@ void findImages(const Particles& particles, const PairList& list, std::size_t ch
 /// Fills the chunks of a list that has room for its pairs, and gives them what the old pairs had.
 /// @param fill fill(chunk, images) writes the chunk's pairs and lists those that meet across a period
 template <class Fill>
-void renewChunks(const Particles& particles, const Pairs& old, PairList& list, Fill&& fill) {
+void renewChunks(const Particles& particles, const Pairs& old, PairParts& list, Fill&& fill) {
   const std::size_t chunks = list.chunks.count(), n = list.size();
   const Belongings from(list, old.size());
   list.memory.resize(from.components * n);
-  if (!from.scale.empty()) list.scale.resize(n);
-  std::vector<Ended> ended(chunks);
+  if (!from.factors.empty()) list.factors.resize(n);
+  std::vector<EndedPairs> ended(chunks);
   Links links(chunks);
   parallelFor(chunks, 1, [&](std::size_t c, std::size_t) {
     fill(c, links.images[c]);
     links.findCrossers(list, c);
     if (!from.empty()) carryChunk(particles, old, from, c, list, ended[c]);
   });
-  append(ended, list);
+  append(ended, list.ended);
   links.join(list);
   ++list.revision;
 }
 
 /// Takes all that was found.
-void takeAll(const Particles& particles, Pairs&& pairs, PairList& list) {
+void takeAll(const Particles& particles, Pairs&& pairs, PairParts& list) {
   list.pairs.swap(pairs);
   list.chunks.size = chunkSize(particles.size());
   findRanges(particles.size(), list.pairs, list.chunks.begin);
@@ -123,7 +124,7 @@ void takeAll(const Particles& particles, Pairs&& pairs, PairList& list) {
 /// A thin inner skin lists few pairs that do not touch, but lasts shortly. With n prunings in the life of L steps that
 /// the candidates have, the prunings cost as n/L and the pairs within the skin as 1/n: least for n ~ √L, where the
 /// factor says that a pruning costs about 1.4 times as much as a step spends on the pairs of the whole skin.
-void adaptInnerSkin(PairList& list) {
+void adaptInnerSkin(PairParts& list) {
   constexpr double factor = 0.7, fewest = 2.0, most = 20.0, first = 4.0;
   constexpr double slack = 1.1;  // so that the candidates are used up before the last pruning is
   double prunings = first;
@@ -137,7 +138,7 @@ void adaptInnerSkin(PairList& list) {
 
 }  // namespace
 
-void prunePairs(const Particles& particles, PairList& list) {
+void prunePairs(const Particles& particles, PairParts& list) {
   adaptInnerSkin(list);
   list.innerTravel = 0.0;
   copyPositions(particles, list.positionAtPruning);
@@ -151,17 +152,18 @@ void prunePairs(const Particles& particles, PairList& list) {
 }
 
 /// Arrays that each step goes through.
-void preferLargePagesFor(const Particles& particles, const PairList& list) {
+void preferLargePagesFor(const Particles& particles, const PairParts& list) {
   forEachArray(particles, [](const auto& array) { preferLargePages(array); });
   preferLargePages(list.pairs);
   preferLargePages(list.memory);
-  preferLargePages(list.scale);
+  preferLargePages(list.factors);
 }
 
-void takeFound(const Particles& particles, const geometry::HierarchicalGrid& grid, double skin, PairList& list) {
+void takeFound(const Particles& particles, const geometry::HierarchicalGrid& grid, double skin, PairParts& list) {
   copyPositions(particles, list.positionAtBuild);
   list.particleRevision = particles.revision;
   list.wraps = particles.wraps;
+  list.outdated = false;
   list.travel = 0.0;
   ++list.builds;
   list.candidates = {};
@@ -184,12 +186,16 @@ void takeFound(const Particles& particles, const geometry::HierarchicalGrid& gri
 
 namespace dovetail::dem {
 
-void keepPairs(const Particles& particles, PairList& list) {
+void keepPairs(const Particles& particles, PairList& of) {
+  detail::PairParts& list = detail::partsOf(of);
+  list.travel = std::numeric_limits<double>::infinity();  // nobody looks: whoever updates it must search
+  if (of.fits(particles)) return;
   list.candidates = {};
   list.positionAtPruning = {};
   list.positionAtBuild = particles.x;
   list.particleRevision = particles.revision;
   list.wraps = particles.wraps;
+  list.outdated = false;
   list.chunks.size = detail::chunkSize(particles.size());
   detail::findRanges(particles.size(), list.pairs, list.chunks.begin);
   detail::Links links(list.chunks.count());

@@ -33,31 +33,26 @@ inline Repeats repeatsOf(const geometry::Periodicity& periodicity, const Vec3& d
   return repeats;
 }
 
-/// Pairs that end, collected by one thread.
-struct Ended {
-  std::vector<EndedPair> pairs;
-  std::vector<double> memory;
-};
-
-/// The numbers that belong to the pairs of a list.
+/// What belonged to the pairs of a list, taken out of it.
 struct Belongings {
-  RawVector<double> memory, scale;
+  RawVector<double> memory, factors;
   std::size_t pairs, components;
 
-  Belongings(PairList& list, std::size_t count);
-  bool empty() const { return memory.empty() && scale.empty(); }
+  Belongings(PairBelongings& of, std::size_t count);
+  bool empty() const { return memory.empty() && factors.empty(); }
+  double factor(std::size_t p) const { return factors.empty() ? 1.0 : factors[p]; }
   double remembered(std::size_t c, std::size_t p) const { return memory[c * pairs + p]; }
   bool remembersAnything(std::size_t p) const;
   /// To as many successive pairs of a list that has room for them.
-  void hand(std::size_t o, std::size_t p, std::size_t count, PairList& list) const;
-  void end(const EndedPair& pair, std::size_t p, Ended& ended) const;
+  void hand(std::size_t o, std::size_t p, std::size_t count, PairParts& list) const;
+  void end(const EndedPair& pair, std::size_t p, EndedPairs& ended) const;
 };
 
 /// Hands what the old pairs remember to those of the new ones that are the same, one chunk of the list after the
 /// other; collects what leaves.
-void carryChunk(const Particles& particles, const Pairs& old, const Belongings& from, std::size_t chunk, PairList& list,
-                Ended& ended);
-void append(const std::vector<Ended>& parts, PairList& list);
+void carryChunk(const Particles& particles, const Pairs& old, const Belongings& from, std::size_t chunk,
+                PairParts& list, EndedPairs& ended);
+void append(const std::vector<EndedPairs>& parts, EndedPairs& all);
 
 /// What a chunk's pairs have to do with others, found chunk by chunk.
 struct Links {
@@ -66,9 +61,17 @@ struct Links {
   std::vector<int> largest;  ///< numbers of particles
 
   explicit Links(std::size_t chunks) : crossers(chunks), images(chunks), largest(chunks) {}
-  void findCrossers(const PairList& list, std::size_t chunk);
+  void findCrossers(const ListedPairs& list, std::size_t chunk);
   /// Makes PairChunks' tables of them.
-  void join(PairList& list);
+  void join(ListedPairs& list);
 };
+
+/// Makes the chunks of a list whose pairs and images are there.
+void makeChunks(std::size_t particles, ListedPairs& list);
+
+/// Picks the pairs from the candidates.
+void prunePairs(const Particles& particles, PairParts& list);
+/// Takes the pairs from a grid that holds the particles with this skin, and remembers where they are.
+void takeFound(const Particles& particles, const geometry::HierarchicalGrid& grid, double skin, PairParts& list);
 
 }  // namespace dovetail::dem::detail

@@ -1,13 +1,14 @@
 // Near in number means near in space.
+#include "sort_particles.hpp"
+
 #include <algorithm>
 #include <array>
 #include <limits>
 
 #include "dovetail/core/distribute.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/pairs/pairs.hpp"
 
-namespace dovetail::dem {
+namespace dovetail::dem::detail {
 
 namespace {
 
@@ -87,7 +88,8 @@ struct Placed {
   int number;
 };
 
-/// New numbers along the curve; within a brick in the given order.
+}  // namespace
+
 std::vector<int> numbersAlongCurve(const Particles& particles, std::span<const int> order) {
   const Bricks bricks(particles);
   const std::size_t n = particles.size(), tasks = (n + grain - 1) / grain;
@@ -117,22 +119,4 @@ std::vector<int> numbersAlongCurve(const Particles& particles, std::span<const i
   return newNumber;
 }
 
-}  // namespace
-
-std::vector<int> sortParticles(Particles& particles, PairList& list) {
-  if (particles.size() == 0) return {};
-  const bool listed = list.fits(particles);
-  const double skin = listed ? detail::skinOf(particles, list) : 0.0;
-  wrapPositions(particles, list.periodicity);
-  geometry::HierarchicalGrid grid(list.periodicity);
-  grid.build(particles.x, particles.radius, skin + list.reach);
-  const std::vector<int> newNumber = numbersAlongCurve(particles, grid.order());
-  if (listed) renumber(list, newNumber, particles);
-  renumber(particles, newNumber);
-  if (!listed) return newNumber;
-  grid.renumber(newNumber);
-  detail::takeFound(particles, grid, skin, list);
-  return newNumber;
-}
-
-}  // namespace dovetail::dem
+}  // namespace dovetail::dem::detail

@@ -71,8 +71,8 @@ void Relaxation::take() {
     particles_.mass[i] = std::max(1.0, radius * radius / (mean * mean));
   }
   ++particles_.revision;  // lists know radii no better than numbers
-  list_.periodicity = packing_.space;
-  list_.skin = skinFor(packing_);
+  list_.setPeriodicity(packing_.space);
+  list_.setSkin(skinFor(packing_));
   makeWalls();
   findForces(std::numeric_limits<double>::infinity());
 }
@@ -93,7 +93,7 @@ void Relaxation::findForces(double moved) {
   clearForces(particles_);
   laws_->pairs(particles_, list_, 0.0, Booking::off);
   for (PrimitiveWall& wall : walls_) {
-    findContacts(particles_, wall, {moved, Moves::unknown, list_.travel, list_.builds}, list_.periodicity);
+    findContacts(particles_, wall, {moved, Moves::unknown, list_.travel(), list_.builds()}, list_.periodicity());
     laws_->wall(particles_, wall, 0.0, Booking::off);
   }
 }
@@ -104,7 +104,7 @@ Overlaps Relaxation::measure(double gap) const {
   Overlaps found = parallelSum(list_.size(), grain, [&](std::size_t begin, std::size_t end) {
     Overlaps part;
     for (std::size_t k = begin; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(list_.pairs[k][0]), j = static_cast<std::size_t>(list_.pairs[k][1]);
+      const auto i = static_cast<std::size_t>(list_.pairs()[k][0]), j = static_cast<std::size_t>(list_.pairs()[k][1]);
       const double smaller = std::min(p.radius[i], p.radius[j]), sum = p.radius[i] + p.radius[j];
       const double squared = squaredNorm(space.minimumImage(p.x[i] - p.x[j])), limit = sum + gap * smaller;
       if (!(squared < limit * limit)) continue;

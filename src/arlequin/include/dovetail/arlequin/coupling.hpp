@@ -86,7 +86,7 @@ struct Handover {
 
 /// Locates the particles anew and renews weights, projection and constraint; the accumulated gap is kept by node, so
 /// that λ does not jump. Call it when particles have moved relative to the mesh.
-/// Contact energy changes with pairs.scale; the caller books the difference of its sum.
+/// Contact energy changes with the factors of the pairs; the caller books the difference of its sum.
 /// @throws InputError for rows per element
 Handover renew(Coupling& coupling, dem::Particles& particles, dem::PairList& pairs, const Solid& solid);
 

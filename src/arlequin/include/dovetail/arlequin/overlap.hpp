@@ -41,7 +41,7 @@ std::vector<double> particleWeights(const Overlap& overlap, std::size_t particle
 /// @throws InputError naming the particle whose weight is zero: it would be without mass
 void weighMass(const Overlap& overlap, std::span<const double> fullMass, dem::Particles& particles);
 
-/// pairs.scale = w at the middle of each pair's contact, 1 outside of the mesh.
+/// Factors of the pairs: w at the middle of each pair's contact, 1 outside of the mesh.
 void weighContacts(const dem::Particles& particles, std::span<const std::array<int, 8>> elements,
                    const fem::Nodes& nodes, const Overlap& overlap, dem::PairList& pairs);
 

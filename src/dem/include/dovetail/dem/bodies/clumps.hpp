@@ -79,7 +79,7 @@ std::vector<char> members(const Particles& particles, const Clumps& clumps);
 ///   no particle, a member of two bodies, or not as heavy as its body
 void check(const Particles& particles, const Bodies& bodies, const Clumps& clumps);
 
-/// Factor 0 (PairList::scale) on the pairs within one body, so that members that overlap make no force and store no
+/// Factor 0 (PairList::factors) on the pairs within one body, so that members that overlap make no force and store no
 /// energy. Again for every new list; any number of times.
 void muteMemberPairs(const Clumps& clumps, PairList& list);
 

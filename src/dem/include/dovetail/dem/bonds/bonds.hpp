@@ -108,7 +108,7 @@ double dashpotPower(const Particles& particles, const Bonds& bonds, const geomet
 /// @param newNumber one per particle with which the bonds were last used
 void renumber(Bonds& bonds, std::span<const int> newNumber);
 
-/// Sets PairList::scale to 0 for bonded pairs, so that only the bond acts between them. Again for every new list; any
+/// Sets PairList::factors to 0 for bonded pairs, so that only the bond acts between them. Again for every new list; any
 /// number of times. A pair whose bond breaks (Bonds::broken) stays muted until its factor is set again,
 /// as BondTerm does. (A law that wakes up between overlapping particles brings energy, which has to be booked.)
 void muteBonded(const Bonds& bonds, PairList& list);

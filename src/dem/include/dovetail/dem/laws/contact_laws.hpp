@@ -11,10 +11,10 @@
 
 namespace dovetail::dem {
 
+class PairList;
 struct ContactDemand;
 struct ContactSample;
 struct Particles;
-struct PairList;
 struct PrimitiveWall;
 struct TriangulatedWall;
 struct WallContacts;

@@ -76,16 +76,16 @@ template <class Law>
 void addDemand(ContactDemand& demand, const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws,
                double leastOverlap = 0.0) {
   constexpr auto numbers = static_cast<std::size_t>(Law::memory);
-  const bool remembers = list.memory.size() == numbers * list.size();
+  const bool remembers = list.memory().size() == numbers * list.size();
   const auto material = [&](std::size_t i) { return particles.material.empty() ? 0 : int{particles.material[i]}; };
   for (std::size_t p = 0; p < list.size(); ++p) {
-    const auto i = static_cast<std::size_t>(list.pairs[p][0]), j = static_cast<std::size_t>(list.pairs[p][1]);
+    const auto i = static_cast<std::size_t>(list.pairs()[p][0]), j = static_cast<std::size_t>(list.pairs()[p][1]);
     const auto& law = detail::lawOf(laws, material(i), material(j));
     const double ri = particles.radius[i], rj = particles.radius[j];
     const double mi = particles.weightOf(i) * particles.mass[i], mj = particles.weightOf(j) * particles.mass[j];
     const double overlap = ri + rj - norm(particles.x[i] - particles.x[j] + list.shift(p));
     if (!(overlap > -law.normal.reach()) && !(leastOverlap > 0.0)) continue;
-    const double scale = list.scale.empty() ? 1.0 : list.scale[p];
+    const double scale = list.factor(p);
     if (!(scale > 0.0)) continue;
     Contact contact;
     contact.overlap = std::max(overlap, leastOverlap);
@@ -95,8 +95,8 @@ void addDemand(ContactDemand& demand, const Particles& particles, const PairList
     contact.normal = {1.0, 0.0, 0.0};
     contact.dt = 1.0;
     double memory[numbers + 1] = {};
-    for (std::size_t c = 0; remembers && c < numbers; ++c) memory[c] = list.memory[c * list.size() + p];
-    detail::addContact(demand, particles, list.pairs[p][0], list.pairs[p][1], law.slopes(contact, memory), scale,
+    for (std::size_t c = 0; remembers && c < numbers; ++c) memory[c] = list.memory()[c * list.size() + p];
+    detail::addContact(demand, particles, list.pairs()[p][0], list.pairs()[p][1], law.slopes(contact, memory), scale,
                        mi * mj / (mi + mj));
   }
 }

@@ -18,7 +18,8 @@ struct ContactSample {
   std::vector<int> first;   ///< particle
   std::vector<int> second;  ///< particle, or −1 for a wall
   std::vector<Vec3> from;   ///< centre of the first, m
-  std::vector<Vec3> to;  ///< centre of the second (its image next to the first one), or the contact point on the wall, m
+  std::vector<Vec3>
+      to;  ///< centre of the second (its image next to the first one), or the contact point on the wall, m
   std::vector<Vec3> point;   ///< middle of the overlap, or the contact point on the wall, m
   std::vector<Vec3> normal;  ///< unit, from the second to the first
   std::vector<Vec3> force;   ///< on the first, N; the second gets the opposite
@@ -86,7 +87,8 @@ void addWallContacts(const Particles& particles, const PrimitiveWall& wall, Cont
 
 /// Moves the ends of branches from members of clumps to the centres of their bodies: forces run through a rigid body,
 /// and the stress of an assembly of bodies is a sum over branches between their centres. Torques are about these ends
-/// then. Points, normals, forces and the numbers of the particles stay. For the kinetic part of a stress take bodies instead of their members.
+/// then. Points, normals, forces and the numbers of the particles stay. For the kinetic part of a stress take bodies
+/// instead of their members.
 /// @param particles, bodies as they were when the sample was taken
 void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps& clumps, ContactSample& sample);
 

@@ -56,39 +56,37 @@ struct PairCursor {
 /// Looks whether all particles have one radius and one mass, which saves gathering them.
 /// @throws InputError naming a particle whose material has no law
 void findUniform(const Particles& particles, PairRows& rows);
-PairCursor startOfChunk(const Particles& particles, const PairList& list, const PairRows& rows, std::size_t chunk);
+PairCursor startOfChunk(const Particles& particles, const PairParts& list, const PairRows& rows, std::size_t chunk);
 /// Adds the sums to the particles of the chunk, and keeps those for others.
-void finishChunk(Particles& particles, PairList& list, const PairRows& rows, const PairCursor& cursor);
+void finishChunk(Particles& particles, PairParts& list, const PairRows& rows, const PairCursor& cursor);
 /// Fills the rows of effective masses and radii once for all pairs, if they share them or nobody asks for them.
 void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block);
 void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>> pairs, ContactBlock& block);
 /// Effective radii from the radii.
 void makeRadii(std::size_t n, ContactBlock& block);
 /// Fills the block with the next pairs; returns how many.
-std::size_t gatherPairs(const Particles& particles, PairList& list, const PairRows& rows, PairCursor& cursor,
+std::size_t gatherPairs(const Particles& particles, PairParts& list, const PairRows& rows, PairCursor& cursor,
                         ContactBlock& block);
 /// Adds the block's forces to the sums; moves on.
-void scatterPairs(const PairList& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
+void scatterPairs(const PairParts& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
                   const ContactBlock& block);
 /// Adds what pairs of other chunks do to particles.
-void addCrossing(Particles& particles, const PairList& list, bool spins);
+void addCrossing(Particles& particles, const PairParts& list, bool spins);
 /// The contact of a pair that went with a particle, as if nobody moved.
 Contact atRest(const EndedPair& pair);
-/// Makes room for memories of the given size.
-void prepareMemory(PairList& list, int memory, unsigned turns);
 
 /// What pairs that have left the list take with them.
 template <class Law>
-ContactWork bookEnded(const PairList& list, const PreparedLaws<Law>& laws, double dt) {
+ContactWork bookEnded(const EndedPairs& left, const PreparedLaws<Law>& laws, double dt) {
   constexpr auto numbers = static_cast<std::size_t>(Law::memory);
   ContactWork work;
-  if (list.ended.size() != numbers * list.endedPairs.size()) return work;
-  for (std::size_t k = 0; k < list.endedPairs.size(); ++k) {
-    const EndedPair& pair = list.endedPairs[k];
+  if (left.memory.size() != numbers * left.pairs.size()) return work;
+  for (std::size_t k = 0; k < left.pairs.size(); ++k) {
+    const EndedPair& pair = left.pairs[k];
     if (std::max(pair.materials[0], pair.materials[1]) >= laws.materials && laws.materials > 1) continue;
     const auto& law = laws.materials == 1 ? laws.table[0] : laws.at(pair.materials[0], pair.materials[1]);
     double memory[numbers + 1] = {};
-    std::copy_n(list.ended.data() + k * numbers, numbers, memory);
+    std::copy_n(left.memory.data() + k * numbers, numbers, memory);
     ContactWork ended = law.ended(memory, 1.0 / dt);
     if (!(pair.overlap > -law.reach()))
       work.fracturePower += pair.factor * ended.fracturePower;
@@ -103,7 +101,7 @@ ContactWork bookEnded(const PairList& list, const PreparedLaws<Law>& laws, doubl
 }
 
 template <class Law, BlockOptions options>
-ContactWork collideChunk(Particles& particles, PairList& list, std::size_t chunk, const PairRows& rows,
+ContactWork collideChunk(Particles& particles, PairParts& list, std::size_t chunk, const PairRows& rows,
                          const PreparedLaws<Law>& laws, double dt) {
   ContactBlock block;
   shareSizes(particles, rows, block);
@@ -120,7 +118,7 @@ ContactWork collideChunk(Particles& particles, PairList& list, std::size_t chunk
 }
 
 template <class Law, BlockOptions options>
-ContactWork collideChunks(Particles& particles, PairList& list, const PairRows& rows, const PreparedLaws<Law>& laws,
+ContactWork collideChunks(Particles& particles, PairParts& list, const PairRows& rows, const PreparedLaws<Law>& laws,
                           double dt) {
   const ContactWork work = parallelSum(list.chunks.count(), 1, [&](std::size_t chunk, std::size_t) {
     return collideChunk<Law, options>(particles, list, chunk, rows, laws, dt);
@@ -143,26 +141,26 @@ ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law
   ContactWork work;
   if constexpr (Law::memory > 0) {
     detail::requireStep(dt);
-    detail::prepareMemory(list, Law::memory, Law::turns);
+    list.prepareMemory(Law::memory, Law::turns);
   }
-  const bool varied = !list.scale.empty() || laws.materials > 1;
+  detail::PairParts& parts = detail::partsOf(list);
+  const bool varied = !parts.factors.empty() || laws.materials > 1;
   detail::PairRows rows{Law::rotates, Law::needsSpin, Law::needsMass && laws.usesMass(), Law::needsRadius, varied,
                         Law::memory,  laws.materials};
   detail::findUniform(particles, rows);
   constexpr bool spins = Law::rotates;
-  if constexpr (spins) list.chunks.torque.resize(list.chunks.force.size());
+  if constexpr (spins) parts.chunks.torque.resize(parts.chunks.force.size());
   const bool booked = booking == Booking::on;
   if (varied && booked)
-    work += detail::collideChunks<Law, BlockOptions{spins, false, true, true}>(particles, list, rows, laws, dt);
+    work += detail::collideChunks<Law, BlockOptions{spins, false, true, true}>(particles, parts, rows, laws, dt);
   else if (varied)
-    detail::collideChunks<Law, BlockOptions{spins, false, true, false}>(particles, list, rows, laws, dt);
+    detail::collideChunks<Law, BlockOptions{spins, false, true, false}>(particles, parts, rows, laws, dt);
   else if (booked)
-    work += detail::collideChunks<Law, BlockOptions{spins, false, false, true}>(particles, list, rows, laws, dt);
+    work += detail::collideChunks<Law, BlockOptions{spins, false, false, true}>(particles, parts, rows, laws, dt);
   else
-    detail::collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, list, rows, laws, dt);
-  if (booked && dt > 0.0) work += detail::bookEnded(list, laws, dt);
-  list.endedPairs.clear();
-  list.ended.clear();
+    detail::collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, parts, rows, laws, dt);
+  const EndedPairs left = list.takeEnded();
+  if (booked && dt > 0.0) work += detail::bookEnded(left, laws, dt);
   return work;
 }
 
