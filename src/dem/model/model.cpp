@@ -161,8 +161,10 @@ void findForces(Model& m) {
   m.step.timeless = true;
   m.step.moved = std::numeric_limits<double>::infinity();
   renewPairs(m);
+  EndedPairs ended = m.pairs.takeEnded();  // whose energy becomes a power only when time passes
   startForces(m.particles, m.gravity);
   addForces(m);
+  m.pairs.putEnded(std::move(ended));
   m.work.frictionPower = m.work.rollingPower = m.work.plasticPower = m.work.fracturePower = 0.0;
   m.step = last;
 }

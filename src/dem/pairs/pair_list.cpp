@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "renewal.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 
 namespace dovetail::dem {
@@ -70,6 +71,14 @@ void PairList::takeMemory(std::span<const std::size_t> places, const PairList& f
 }
 
 EndedPairs PairList::takeEnded() { return std::exchange(parts_.ended, {}); }
+
+void PairList::putEnded(EndedPairs ended) {
+  if (ended.memory.size() * parts_.ended.pairs.size() != parts_.ended.memory.size() * ended.pairs.size())
+    throw InputError("ended pairs remember more or less than those of the list", "putEnded",
+                     "hand back what takeEnded gave, before another law sweeps");
+  detail::append({parts_.ended}, ended);
+  parts_.ended = std::move(ended);
+}
 
 std::size_t PairList::bytesHeld() const {
   const auto bytes = [](const auto&... arrays) { return ((arrays.capacity() * sizeof(arrays[0])) + ... + 0); };

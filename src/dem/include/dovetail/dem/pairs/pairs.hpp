@@ -102,6 +102,9 @@ public:
   void takeMemory(std::span<const std::size_t> places, const PairList& from);
   /// Pairs that have left since this was last asked.
   EndedPairs takeEnded();
+  /// Hands them back, for somebody else to ask.
+  /// @throws InputError if others have left meanwhile that remembered another number of values
+  void putEnded(EndedPairs ended);
 
   std::size_t bytesHeld() const;  ///< memory taken
 
