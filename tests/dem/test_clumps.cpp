@@ -6,8 +6,8 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/clumps.hpp"
+#include "dovetail/dem/laws/contact_laws.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
-#include "dovetail/dem/pairs/pair_collide.hpp"
 #include "dovetail/dem/setup/insertion.hpp"
 #include "wall_scenes.hpp"
 
@@ -46,8 +46,7 @@ Scene gas(bool spinning) {
   return scene;
 }
 
-template <class Law>
-ContactWork step(Scene& s, const Law& law, double dt) {
+ContactWork step(Scene& s, const std::shared_ptr<const ContactLaws>& law, double dt) {
   kick(s.particles, 0.5 * dt);
   kickBodies(s.bodies, 0.5 * dt);
   drift(s.particles, dt);
@@ -56,7 +55,7 @@ ContactWork step(Scene& s, const Law& law, double dt) {
   if (updatePairs(s.particles, s.list)) muteMemberPairs(s.clumps, s.list);
   clearForces(s.particles);
   clearForces(s.bodies);
-  const ContactWork work = collide(s.particles, s.list, law, dt);
+  const ContactWork work = law->pairs(s.particles, s.list, dt, Booking::on);
   gatherForces(s.particles, s.clumps, s.bodies);
   kick(s.particles, 0.5 * dt);
   kickBodies(s.bodies, 0.5 * dt);
@@ -128,12 +127,12 @@ TEST(Clumps, PlacingAndGatheringAreAdjoint) {
 
 TEST(Clumps, AGasOfRodsAndSpheresKeepsMomentumAndEnergy) {
   Scene scene = gas(false);
-  const ElasticLaw law{{.stiffness = 2e4}};
+  const auto law = makeContactLaws(ElasticLaw{{.stiffness = 2e4}});
   Vec3 spin, spinNow;
   const Vec3 linear = totalMomentum(scene, &spin);
   clearForces(scene.particles);
   const double energy = kineticEnergy(scene.particles, scene.bodies, scene.clumps) +
-                        collide(scene.particles, scene.list, law).storedEnergy();
+                        law->pairs(scene.particles, scene.list, 0.0, Booking::on).storedEnergy();
   gatherForces(scene.particles, scene.clumps, scene.bodies);
   double worst = 0.0, mostStored = 0.0;
   for (int k = 0; k < 6000; ++k) {
@@ -149,7 +148,8 @@ TEST(Clumps, AGasOfRodsAndSpheresKeepsMomentumAndEnergy) {
 }
 
 TEST(Clumps, WithFrictionAndDampingMomentumStaysAndTheThreadsDoNotMatter) {
-  const FrictionalLaw law{{.stiffness = 2e4, .restitution = 0.7}, {.stiffness = 6e3, .friction = 0.4}};
+  const auto law = makeContactLaws(
+      FrictionalLaw{{.stiffness = 2e4, .restitution = 0.7}, {.stiffness = 6e3, .friction = 0.4}});
   std::vector<Vec3> first;
   for (const int count : {1, 2}) {
     setThreads(count);
@@ -315,7 +315,8 @@ TEST(Clumps, StayTogetherWhenParticlesAreSorted) {
 }
 
 TEST(Clumps, OneSphereAloneIsASpinningParticle) {
-  const FrictionalLaw law{{.stiffness = 2e4, .restitution = 0.8}, {.stiffness = 6e3, .friction = 0.3}};
+  const auto law = makeContactLaws(
+      FrictionalLaw{{.stiffness = 2e4, .restitution = 0.8}, {.stiffness = 6e3, .friction = 0.3}});
   const ClumpShape ball = makeClumpShape(std::vector<Vec3>{{0, 0, 0}}, std::vector<double>{0.05}, Density{1000.0});
   Scene alone, clumped;
   Random random(11);

@@ -6,15 +6,16 @@
 #include <numeric>
 
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/pairs/pair_collide.hpp"
+#include "dovetail/dem/laws/contact_laws.hpp"
+#include "dovetail/dem/pairs/pairs.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {
 namespace {
 
 using Pair = std::array<int, 2>;
-const ElasticLaw springs{{1e3}};
-const FrictionalLaw friction{{1e3, 0.8}, {5e2, 0.4}};
+const auto springs = makeContactLaws(ElasticLaw{{1e3}});
+const auto friction = makeContactLaws(FrictionalLaw{{1e3, 0.8}, {5e2, 0.4}});
 const geometry::Periodicity unitBox{{{0, 0, 0}, {1, 1, 1}}, {true, true, true}};
 
 /// Two spheres that meet across the border x = 0 of the unit box.
@@ -41,7 +42,7 @@ TEST(PairList, ContactsSurviveThatPositionsAreWrapped) {
   list.setPeriodicity(unitBox);
   list.setSkin(0.05);
   findPairs(particles, list);
-  collide(particles, list, friction, 1e-3);
+  friction->pairs(particles, list, 1e-3, Booking::on);
   const double force = particles.f[0].x;
   EXPECT_NEAR(force, 1e3 * (0.2 - 0.19), 1e-9);
   std::ranges::copy(std::array{1e-4, 2e-4, 3e-4}, list.prepareMemory(3, 0).begin());
@@ -55,7 +56,7 @@ TEST(PairList, ContactsSurviveThatPositionsAreWrapped) {
   EXPECT_EQ(list.factors(), (RawVector<double>{0.5}));
   list.clearFactors();
   clearForces(particles);
-  collide(particles, list, springs);
+  springs->pairs(particles, list, 0.0, Booking::on);
   EXPECT_NEAR(particles.f[0].x, force, 1e-9);
   EXPECT_FALSE(updatePairs(particles, list, 0.0));
 }
@@ -139,9 +140,9 @@ TEST(PairList, ThinnerInnerSkinsWhereTheCandidatesLastLonger) {
 }
 
 TEST(PairList, WhatLeaversHoldIsBookedWithTheirMaterials) {
-  LawTable<FrictionalLaw> table(2, friction);
+  LawTable<FrictionalLaw> table(2, {{1e3, 0.8}, {5e2, 0.4}});
   table.set(1, 1, {{4e3}, {3e3, 0.4}});
-  const auto laws = prepare(table);
+  const auto laws = makeContactLaws(table);
   Particles particles;
   for (int i = 0; i < 3; ++i) addParticle(particles, {0.18 * i, 0, 0}, {}, 0.1, Mass{1.0});
   particles.material = {0, 1, 1};
@@ -149,18 +150,18 @@ TEST(PairList, WhatLeaversHoldIsBookedWithTheirMaterials) {
   list.setSkin(0.01);
   findPairs(particles, list);
   const double dt = 1e-4;
-  collide(particles, list, laws, dt);
+  laws->pairs(particles, list, dt, Booking::on);
   const std::span<double> memory = list.prepareMemory(3, 0);
   std::ranges::fill(memory, 0.0);
   memory[3] = 1e-3;  // y of the second pair
   clearForces(particles);
-  const ContactWork before = collide(particles, list, laws, dt);
+  const ContactWork before = laws->pairs(particles, list, dt, Booking::on);
   const std::vector<int> number = numbersWithout(particles, std::vector<int>{2});
   renumber(list, number, particles);
   renumber(particles, number);
   updatePairs(particles, list, 0.0);
   clearForces(particles);
-  const ContactWork after = collide(particles, list, laws, dt);
+  const ContactWork after = laws->pairs(particles, list, dt, Booking::on);
   EXPECT_NEAR(after.dissipatedPower * dt, 0.5 * 4e3 * 0.02 * 0.02, 1e-12);
   EXPECT_NEAR(after.frictionPower * dt, 0.5 * 3e3 * 1e-6, 1e-12);
   EXPECT_NEAR(after.storedEnergy() + after.lostPower() * dt, before.storedEnergy(), 1e-12);
@@ -204,7 +205,7 @@ State run(int threadCount) {
       updatePairs(r.particles, r.list, 0.0);
     }
     clearForces(r.particles);
-    collide(r.particles, r.list, friction, 1e-4);
+    friction->pairs(r.particles, r.list, 1e-4, Booking::on);
     kick(r.particles, 5e-5);
   }
   setThreads(1);
@@ -238,11 +239,11 @@ TEST(PairList, SortingKeepsForcesAndMakesChunksCompact) {
   PairList list;
   list.setSkin(0.1);
   findPairs(particles, list);
-  collide(particles, list, springs);
+  springs->pairs(particles, list, 0.0, Booking::on);
   const std::vector<Vec3> force = particles.f;
   sortParticles(particles, list);
   clearForces(particles);
-  collide(particles, list, springs);
+  springs->pairs(particles, list, 0.0, Booking::on);
   for (std::size_t i = 0; i < particles.size(); ++i)
     ASSERT_LE(norm(particles.f[i] - force[static_cast<std::size_t>(particles.id[i])]), 1e-11);
   // Cubes of as many particles would share with others one pair in the number of particles along their edge.

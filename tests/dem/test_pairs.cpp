@@ -3,19 +3,21 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/laws/contact_laws.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {
 namespace {
 
-template <class Law>
-ContactWork step(Particles& particles, PairList& list, const Law& law, double dt) {
+using Laws = std::shared_ptr<const ContactLaws>;
+
+ContactWork step(Particles& particles, PairList& list, const Laws& law, double dt) {
   kick(particles, 0.5 * dt);
   drift(particles, dt);
   updatePairs(particles, list);
   clearForces(particles);
-  const ContactWork work = collide(particles, list, law, dt);
+  const ContactWork work = law->pairs(particles, list, dt, Booking::on);
   kick(particles, 0.5 * dt);
   return work;
 }
@@ -52,10 +54,10 @@ TEST(Pairs, ForcesAreTheGradientOfTheEnergyAndBalance) {
   PairList list;
   list.setSkin(0.02);
   findPairs(particles, list);
-  const ElasticLaw law{{1e4}};
+  const auto law = makeContactLaws(ElasticLaw{{1e4}});
   const auto energy = [&] {
     clearForces(particles);
-    return collide(particles, list, law).storedEnergy();
+    return law->pairs(particles, list, 0.0, Booking::on).storedEnergy();
   };
   energy();
   const std::vector<Vec3> force = particles.f;
@@ -90,8 +92,8 @@ TEST(Pairs, ACollisionConservesEnergyToSecondOrderAndMomentumExactly) {
     PairList list;
     list.setSkin(0.01);
     findPairs(particles, list);
-    const ElasticLaw law{{1e4}};
-    const double stored = collide(particles, list, law).storedEnergy();
+    const auto law = makeContactLaws(ElasticLaw{{1e4}});
+    const double stored = law->pairs(particles, list, 0.0, Booking::on).storedEnergy();
     double worst = 0.0;
     for (double t = 0.0; t < 0.1; t += dt) {
       const double now = step(particles, list, law, dt).storedEnergy();
@@ -112,8 +114,9 @@ TEST(Pairs, TheReboundHasTheRestitutionAskedForWhateverTheMasses) {
       Particles particles;
       addParticle(particles, {0, 0, 0}, {0.3, 0, 0}, 0.1, Mass{1.0});
       addParticle(particles, {0.2001, 0, 0}, {-0.2, 0, 0}, 0.1, Mass{ratio});
-      const ElasticLaw law{{1e4, e}};
-      const double reduced = ratio / (1.0 + ratio), dt = law.normal.contactTime(reduced) / 2000;
+      const ElasticLaw spring{{1e4, e}};
+      const auto law = makeContactLaws(spring);
+      const double reduced = ratio / (1.0 + ratio), dt = spring.normal.contactTime(reduced) / 2000;
       PairList list;
       list.setSkin(0.05);
       findPairs(particles, list);
@@ -129,7 +132,7 @@ TEST(Pairs, CoincidentCentresHaveADefinedForce) {
   PairList list;
   list.setSkin(0.0);
   findPairs(particles, list);
-  collide(particles, list, ElasticLaw{{100.0}});
+  makeContactLaws(ElasticLaw{{100.0}})->pairs(particles, list, 0.0, Booking::on);
   EXPECT_EQ(particles.f[0], (Vec3{100.0 * (0.1 + 0.2), 0, 0}));
   EXPECT_EQ(particles.f[1], -particles.f[0]);
 }
@@ -141,7 +144,8 @@ TEST(Pairs, NobodyAndOneParticle) {
     list.setSkin(0.1);
     findPairs(particles, list);
     EXPECT_FALSE(updatePairs(particles, list));
-    EXPECT_EQ(collide(particles, list, FrictionalLaw{{1.0}, {1.0, 1.0}}, 1.0).storedEnergy(), 0.0);
+    const auto law = makeContactLaws(FrictionalLaw{{1.0}, {1.0, 1.0}});
+    EXPECT_EQ(law->pairs(particles, list, 1.0, Booking::on).storedEnergy(), 0.0);
   }
   PairList list;
   EXPECT_THROW(list.setSkin(-1.0), InputError);
@@ -152,8 +156,7 @@ TEST(Pairs, NobodyAndOneParticle) {
   EXPECT_THROW(updatePairs(lost, list), NumericalError);
 }
 
-template <class Law>
-Particles run(int threadCount, const Law& law) {
+Particles run(int threadCount, const Laws& law) {
   setThreads(threadCount);
   Particles particles = cloud(1500, 0.6, 5);
   switchOnRotation(particles);
@@ -175,9 +178,9 @@ Particles run(int threadCount, const Law& law) {
     updatePairs(particles, list);
     updateWallCandidates(particles, wall, candidates, movesOf(particles, dt));
     clearForces(particles);
-    collide(particles, list, law, dt);
+    law->pairs(particles, list, dt, Booking::on);
     findWallContacts(particles, wall, candidates, EdgeRule::projected, contacts);
-    collideWithWall(particles, wall, contacts, law, dt);
+    law->wall(particles, wall, contacts, dt, Booking::on);
     kick(particles, 0.5 * dt);
   }
   EXPECT_GT(contacts.size(), 150u);
@@ -186,7 +189,7 @@ Particles run(int threadCount, const Law& law) {
 }
 
 TEST(Pairs, ARunIsBitwiseTheSameForAnyNumberOfThreads) {
-  const FrictionalLaw law{{1e3, 0.7}, {5e2, 0.4}};
+  const auto law = makeContactLaws(FrictionalLaw{{1e3, 0.7}, {5e2, 0.4}});
   const Particles one = run(1, law);
   for (const int n : {2, 3}) {
     const Particles many = run(n, law);
@@ -208,7 +211,7 @@ TEST(Pairs, FrictionBalancesMomentsAndEnergy) {
   PairList list;
   list.setSkin(0.0);
   findPairs(particles, list);  // rebuilt every step: springs must survive that
-  const FrictionalLaw law{{1e4, 0.8}, {7e3, 0.2}};
+  const auto law = makeContactLaws(FrictionalLaw{{1e4, 0.8}, {7e3, 0.2}});
   double lost = 0.0, stored = 0.0;
   for (int i = 0; i < 8000; ++i) {
     const ContactWork work = step(particles, list, law, dt);

@@ -1,8 +1,8 @@
 // Two particles fly into each other and apart again.
 #include <iostream>
 
-#include "dovetail/dem/laws/laws.hpp"
-#include "dovetail/dem/pairs/pair_collide.hpp"
+#include "dovetail/dem/laws/contact_laws.hpp"
+#include "dovetail/dem/pairs/pairs.hpp"
 
 using namespace dovetail;
 
@@ -10,13 +10,13 @@ int main() {
   dem::Particles particles;
   dem::addParticle(particles, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.1, dem::Mass{1.0});
   dem::addParticle(particles, {0.3, 0.0, 0.0}, {-1.0, 0.0, 0.0}, 0.1, dem::Mass{1.0});
-  const dem::ElasticLaw law{{.stiffness = 1e4}};
+  const auto law = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 1e4}});
   dem::PairList pairs;
   for (int step = 0; step < 2000; ++step) {
     dem::drift(particles, 5e-5);
     dem::clearForces(particles);
     dem::updatePairs(particles, pairs);
-    dem::collide(particles, pairs, law);
+    law->pairs(particles, pairs, 1e-4, dem::Booking::off);
     dem::kick(particles, 1e-4);
     dem::drift(particles, 5e-5);
   }
