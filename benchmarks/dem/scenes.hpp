@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dovetail/dem/laws/common_laws.hpp"
+#include "dovetail/dem/laws/hertz_mindlin.hpp"
 #include "dovetail/dem/model/walls.hpp"
 
 namespace dovetail::dem_benchmark {

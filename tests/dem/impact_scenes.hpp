@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dovetail/dem/laws/common_laws.hpp"
 #include "dovetail/dem/laws/materials.hpp"
+#include "dovetail/dem/pairs/pair_collide.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {

@@ -5,9 +5,3 @@
 
 #define DOVETAIL_COMPILE_LAW(...) \
   template std::shared_ptr<const ContactLaws> compiledLaws<__VA_ARGS__>(PreparedLaws<__VA_ARGS__>, std::string)
-
-// For callers that name the law themselves (common_laws.hpp).
-#define DOVETAIL_COMPILE_COLLIDE(Law)                                                                                \
-  template ContactWork collide(Particles&, PairList&, const PreparedLaws<Law>&, double, Booking);                    \
-  template ContactWork collideWithWall(Particles&, const TriangulatedWall&, WallContacts&, const PreparedLaws<Law>&, \
-                                       double, Booking)

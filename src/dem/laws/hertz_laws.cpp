@@ -7,9 +7,3 @@ DOVETAIL_COMPILE_LAW(ContactLaw<HertzDashpot, MindlinSpring>);
 DOVETAIL_COMPILE_LAW(ContactLaw<HertzDashpot, MindlinSpring, NoRolling, Cohesion>);
 
 }  // namespace dovetail::dem::detail
-
-namespace dovetail::dem {
-
-DOVETAIL_COMPILE_COLLIDE(HertzMindlinLaw);
-
-}  // namespace dovetail::dem

@@ -7,9 +7,3 @@ DOVETAIL_COMPILE_LAW(ContactLaw<LinearSpringDashpot, TangentialSpring>);
 DOVETAIL_COMPILE_LAW(ContactLaw<LinearSpringDashpot, TangentialSpring, NoRolling, Cohesion>);
 
 }  // namespace dovetail::dem::detail
-
-namespace dovetail::dem {
-
-DOVETAIL_COMPILE_COLLIDE(FrictionalLaw);
-
-}  // namespace dovetail::dem

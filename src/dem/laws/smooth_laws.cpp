@@ -11,10 +11,3 @@ DOVETAIL_COMPILE_LAW(ContactLaw<ElasticPlastic>);
 DOVETAIL_COMPILE_LAW(ContactLaw<ElasticPlastic, NoTangential, NoRolling, Cohesion>);
 
 }  // namespace dovetail::dem::detail
-
-namespace dovetail::dem {
-
-DOVETAIL_COMPILE_COLLIDE(ElasticLaw);
-DOVETAIL_COMPILE_COLLIDE(HertzLaw);
-
-}  // namespace dovetail::dem
