@@ -1,9 +1,10 @@
 // Particles that come, go and change their numbers, and what refers to them.
 #include <gtest/gtest.h>
 
-#include "dovetail/dem/model/model.hpp"
+#include <utility>
+
+#include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/setup/insertion.hpp"
-#include "dovetail/dem/walls/primitive_wall.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {
@@ -76,6 +77,70 @@ TEST(Renumbering, WhatContactsOfLeaversHeldIsLostInTheStepThatFollows) {
   const Energies after = energies(model);
   EXPECT_GT(after.lost.dissipatedPower, 0.01);
   EXPECT_NEAR(after.balance(), before.balance(), 1e-3 * after.lost.dissipatedPower);
+}
+
+MeshWall meshFloor() {
+  MeshWall mesh;
+  mesh.wall = squares(4, 4, 1.0);
+  return mesh;
+}
+
+/// Two spheres that stick to a floor over which they move.
+Model stickingTo(const auto& floor) {
+  Model model;
+  model.laws = makeContactLaws(FrictionalLaw{{1e3}, {8e2, 5.0}});
+  for (int i = 0; i < 2; ++i) addParticle(model.particles, {0.5 + i, 0.7, 0.09}, {1, 0, 0}, 0.1, Mass{1.0});
+  addWall(model, floor);
+  return model;
+}
+
+TEST(Renumbering, WhatSpringsOfLeaversHeldAtWallsIsLostInTheStepThatFollows) {
+  const auto check = [](const auto& floor) {
+    Model model = stickingTo(floor);
+    run(model, 1e-4, 20);
+    const Energies before = energies(model);
+    EXPECT_EQ(before.lost.frictionPower, 0.0);
+    const double overlap = 0.1 - model.particles.x[1].z;
+    const double spring = 0.5 * before.contacts - 0.5 * 1e3 * overlap * overlap;
+    EXPECT_GT(spring, 1e-3);
+    removeParticles(model, std::vector<int>{1});
+    energies(model);  // finds forces in a copy
+    run(model, 1e-4, 20);
+    const Energies after = energies(model);
+    EXPECT_NEAR(after.lost.frictionPower, spring, 1e-10 * spring);
+    EXPECT_NEAR(after.balance(), before.balance(), 1e-3 * spring);
+  };
+  check(makePlane({}, {0, 0, 1}));
+  check(meshFloor());
+}
+
+TEST(Renumbering, ALeaverAndItsWallMayGoTogether) {
+  const auto check = [](const auto& floor, const auto& ofModel) {
+    Model model = stickingTo(floor);
+    run(model, 1e-4, 20);
+    const Energies before = energies(model);
+    removeParticles(model, std::vector<int>{1});
+    removeWall(model, ofModel(model));
+    run(model, 1e-4, 20);
+    EXPECT_NEAR(energies(model).balance(), before.balance(), 1e-12);
+  };
+  check(
+      makePlane({}, {0, 0, 1}), [](Model & m) -> auto& { return primitiveWall(m, 0); });
+  check(
+      meshFloor(), [](Model & m) -> auto& { return meshWall(m, 0); });
+}
+
+TEST(Renumbering, LeaversHoldNothingUnderLawsThatForget) {
+  Model model = stickingTo(makePlane({}, {0, 0, 1}));
+  addWall(model, meshFloor());
+  const auto sticking = std::exchange(model.laws, springs);
+  run(model, 1e-4, 2);
+  removeParticles(model, std::vector<int>{1});
+  EXPECT_TRUE(primitiveWall(model, 0).contacts.left.material.empty());
+  EXPECT_TRUE(meshWall(model, 0).contacts.springs.left.material.empty());
+  model.laws = sticking;
+  run(model, 1e-4, 2);
+  EXPECT_EQ(energies(model).lost.frictionPower, 0.0);
 }
 
 }  // namespace

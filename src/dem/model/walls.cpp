@@ -1,6 +1,7 @@
 #include "dovetail/dem/model/walls.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "../bodies/carried_walls.hpp"
 #include "dovetail/core/error.hpp"
@@ -15,7 +16,19 @@ namespace {
 /// Rows of the table of laws; 1: a single law serves all materials.
 int materialsOf(const Model& m) { return m.laws ? m.laws->materials() : 1; }
 
-Moves movesOf(const Model& m, const Step& step) { return {step.moved, Moves::unknown, m.pairs.travel(), m.pairs.builds()}; }
+Moves movesOf(const Model& m, const Step& step) {
+  return {step.moved, Moves::unknown, m.pairs.travel(), m.pairs.builds()};
+}
+
+/// What `sweep` gives. Where no time passes, what leavers' springs held is kept for a step in which it becomes a power.
+template <class Sweep>
+ContactWork sweepWall(const Step& step, EndedMemories& left, Sweep&& sweep) {
+  if (!step.timeless) return sweep();
+  EndedMemories kept = std::exchange(left, {});
+  const ContactWork work = sweep();
+  left = std::move(kept);
+  return work;
+}
 
 bool carried(const MeshWall& mesh) { return std::holds_alternative<WallOnBody>(mesh.motion); }
 
@@ -39,13 +52,16 @@ double PrimitiveWallTerm::move(Model&, const Step& step) {
 }
 
 double PrimitiveWallTerm::renumber(std::span<const int> newNumber, const Particles& before) {
-  return dem::renumber(wall, newNumber, before);
+  const double gone = dem::renumber(wall, newNumber, before);
+  stored -= gone;
+  return gone;
 }
 
 void PrimitiveWallTerm::addForces(Model& m, const Step& step) {
   wall.reach = m.pairs.reach();
   findContacts(m.particles, wall, movesOf(m, step), m.pairs.periodicity());
-  const ContactWork work = m.laws->wall(m.particles, wall, step.dt, m.booking);
+  const ContactWork work =
+      sweepWall(step, wall.contacts.left, [&] { return m.laws->wall(m.particles, wall, step.dt, m.booking); });
   stored = work.storedEnergy();
   m.work += work;
   m.rate.walls += drivingPower(wall);
@@ -125,14 +141,18 @@ double MeshWallTerm::move(Model&, const Step& step) {
 }
 
 double MeshWallTerm::renumber(std::span<const int> newNumber, const Particles& before) {
-  return dem::renumber(mesh.contacts, newNumber, before);
+  const double gone = dem::renumber(mesh.contacts, newNumber, before);
+  stored -= gone;
+  return gone;
 }
 
 void MeshWallTerm::addForces(Model& m, const Step& step) {
   if (step.timeless && carried(mesh)) moveWall(mesh, m.time, 0.0, &bodiesOf(m));
   mesh.candidates.reach = m.pairs.reach();
   findContacts(m.particles, mesh, movesOf(m, step), m.pairs.periodicity());
-  const ContactWork work = m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
+  const ContactWork work = sweepWall(step, mesh.contacts.springs.left, [&] {
+    return m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
+  });
   stored = work.storedEnergy();
   m.work += work;
   addWallForces(mesh.contacts, mesh.wall);

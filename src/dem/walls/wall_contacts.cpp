@@ -29,6 +29,7 @@ double energyOfLeavers(const std::vector<int>& particle, std::vector<double>& en
 
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
               std::size_t contact, std::size_t components) {
+  if (components == 0) return;
   const auto i = static_cast<std::size_t>(particle);
   ended.material.push_back(i < particles.material.size() ? particles.material[i] : std::uint8_t{0});
   const auto first = memory.begin() + static_cast<std::ptrdiff_t>(contact * components);
