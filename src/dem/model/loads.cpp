@@ -120,12 +120,13 @@ namespace {
 /// Power of the damping forces against the mean of the velocities before and after the kick, W.
 /// @param force the whole, damping included @param inertia mass or moment
 double dampingPower(const Vec3& force, const Vec3& v, double inertia, const DampingTerm& damping, double dt) {
-  double power = 0.0;
+  const Vec3 mean = v + (0.5 * dt / inertia) * force;
+  const double viscous = damping.viscousRate * inertia * dot(v, mean);
+  if (damping.local == 0.0) return viscous;
+  double power = viscous;
   for (int c = 0; c < 3; ++c) {
-    const double sign = force[c] * v[c] > 0.0 ? 1.0 : force[c] * v[c] < 0.0 ? -1.0 : 0.0;
-    const double taken = damping.viscousRate * inertia * v[c] +
-                         damping.local * sign / (1.0 - damping.local * sign) * force[c];
-    power += taken * (v[c] + 0.5 * dt / inertia * force[c]);
+    const double way = force[c] * v[c], sign = way > 0.0 ? 1.0 : way < 0.0 ? -1.0 : 0.0;
+    power += damping.local * sign / (1.0 - damping.local * sign) * force[c] * mean[c];
   }
   return power;
 }

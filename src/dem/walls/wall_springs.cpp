@@ -99,6 +99,7 @@ Vec3 AgainstFacets::spin(std::size_t c) const {
   const auto& vertex = wall.facets[static_cast<std::size_t>(contacts.facet[c])];
   const auto a = static_cast<std::size_t>(vertex[0]), b = static_cast<std::size_t>(vertex[1]),
              d = static_cast<std::size_t>(vertex[2]);
+  if (wall.v[a] == wall.v[b] && wall.v[a] == wall.v[d]) return {};
   return FacetSpin(wall.x[a], wall.x[b], wall.x[d])(wall.v[a], wall.v[b], wall.v[d]);
 }
 
