@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "dovetail/dem/laws/materials.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
@@ -11,11 +12,10 @@
 namespace dovetail::dem {
 
 /// Runs particles, their pairs and (if asked for) the wall z = 0 under one law, and keeps the books.
-template <class Law>
 struct Impact {
   Particles particles;
   PairList list;
-  PreparedLaws<Law> law;
+  std::shared_ptr<const ContactLaws> laws;
   TriangulatedWall wall;
   WallCandidates candidates;
   WallContacts contacts;
@@ -29,8 +29,8 @@ struct Impact {
   double leastPower = 0.0;                  // most negative power booked to friction, rolling or plastic flow, W
   ContactWork work;
 
-  Impact(Particles who, const Law& rule, bool onWall)
-      : particles(std::move(who)), law(prepare(rule)), againstWall(onWall) {
+  Impact(Particles who, const auto& law, bool onWall)
+      : particles(std::move(who)), laws(makeContactLaws(law)), againstWall(onWall) {
     if (!particles.rotates()) switchOnRotation(particles);
     const double radius = *std::max_element(particles.radius.begin(), particles.radius.end());
     list.setSkin(0.2 * radius);
@@ -47,11 +47,11 @@ struct Impact {
   void exchange(double dt, const Vec3& g = {}) {
     updatePairs(particles, list);
     startForces(particles, g);
-    work = collide(particles, list, law, dt);
+    work = laws->pairs(particles, list, dt, Booking::on);
     if (!againstWall) return;
     updateWallCandidates(particles, wall, candidates, movesOf(particles, dt));
     findWallContacts(particles, wall, candidates, EdgeRule::projected, contacts);
-    work += collideWithWall(particles, wall, contacts, law, dt);
+    work += laws->wall(particles, wall, contacts, dt, Booking::on);
   }
 
   void step(double dt, const Vec3& g = {}) {

@@ -77,7 +77,7 @@ struct Smash {
 };
 
 Smash smash(int stepsPerContact) {
-  Impact<FrictionalLaw> scene(
+  Impact scene(
       [] {
         Particles block;
         for (int i = 0; i < 4; ++i)

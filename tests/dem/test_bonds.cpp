@@ -1,7 +1,7 @@
 // Bonded pairs, and pairs that count by a share.
 #include <gtest/gtest.h>
 
-#include "dovetail/dem/pairs/pair_collide.hpp"
+#include "dovetail/dem/pairs/pairs.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {
@@ -32,7 +32,7 @@ ElasticLaw lawOf(bool bonded, double restitution = 1.0) {
 TEST(Bonds, PullAsTheyPush) {
   for (const double stretch : {-0.05, 0.05}) {
     Two two = apart(1.0 + stretch);
-    const ContactWork work = collide(two.particles, two.list, lawOf(true));
+    const ContactWork work = sweepPairs(lawOf(true), two.particles, two.list);
     EXPECT_NEAR(two.particles.f[1].x, -100.0 * stretch, 1e-12);
     EXPECT_NEAR(two.particles.f[0].x, 100.0 * stretch, 1e-12);
     EXPECT_NEAR(work.elasticEnergy, 50.0 * stretch * stretch, 1e-14);
@@ -41,7 +41,7 @@ TEST(Bonds, PullAsTheyPush) {
 
 TEST(Bonds, WithoutThemPartedParticlesFeelNothing) {
   Two two = apart(1.05);
-  EXPECT_EQ(collide(two.particles, two.list, lawOf(false)).elasticEnergy, 0.0);
+  EXPECT_EQ(sweepPairs(lawOf(false), two.particles, two.list).elasticEnergy, 0.0);
   EXPECT_EQ(two.particles.f[0].x, 0.0);
 }
 
@@ -50,8 +50,8 @@ TEST(PairScale, ScalesForceEnergyAndLoss) {
   for (Two* two : {&whole, &part}) two->particles.v[1].x = -0.3;
   part.list.writeFactors()[0] = 0.25;
   for (double& m : part.particles.mass) m *= 0.25;  // the share of an overlap is that of the masses too
-  const ContactWork a = collide(whole.particles, whole.list, lawOf(false, 0.7)),
-                    b = collide(part.particles, part.list, lawOf(false, 0.7));
+  const ContactWork a = sweepPairs(lawOf(false, 0.7), whole.particles, whole.list),
+                    b = sweepPairs(lawOf(false, 0.7), part.particles, part.list);
   EXPECT_NEAR(part.particles.f[0].x, 0.25 * whole.particles.f[0].x, 1e-13);
   EXPECT_NEAR(b.elasticEnergy, 0.25 * a.elasticEnergy, 1e-15);
   EXPECT_NEAR(b.dissipatedPower, 0.25 * a.dissipatedPower, 1e-13);

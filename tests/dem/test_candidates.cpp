@@ -112,7 +112,7 @@ TEST(WallCandidates, EmptyScenesAndBadInput) {
   for (const EdgeRule rule : {EdgeRule::projected, EdgeRule::paper}) {
     findWallContacts(particles, nothing, candidates, rule, contacts);
     EXPECT_EQ(contacts.size(), 0u);
-    EXPECT_EQ(collideWithWall(particles, nothing, contacts, ElasticLaw{{1.0}}).storedEnergy(), 0.0);
+    EXPECT_EQ(sweepWall(ElasticLaw{{1.0}}, particles, nothing, contacts).storedEnergy(), 0.0);
   }
   EXPECT_THROW(findWallCandidates(particles, wall, -0.1, candidates), InputError);
   findWallCandidates(particles, wall, 0.1, candidates);

@@ -1,7 +1,7 @@
 // Laws behind one call: the same digits as the templates they stand on, names, parameters, laws of one's own.
 #include <gtest/gtest.h>
 
-#include "dovetail/dem/laws/contact_laws.hpp"
+#include "dovetail/dem/laws/own_laws.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
 #include "dovetail/dem/walls/primitive_wall.hpp"
 #include "own_law.hpp"
@@ -43,11 +43,12 @@ struct Scene {
 constexpr double dt = 1e-3;
 
 Scene withTemplates(const auto& law, int steps = 3) {
+  const auto laws = prepare(law);
   Scene s;
   for (int i = 0; i < steps; ++i) {
-    s.work = collide(s.particles, s.list, law, dt);
-    s.work += collide(s.particles, s.plane, prepare(law), dt);
-    s.work += collideWithWall(s.particles, s.mesh, s.contacts, law, dt);
+    s.work = detail::collide(s.particles, s.list, laws, dt, Booking::on);
+    s.work += detail::collide(s.particles, s.plane, laws, dt, Booking::on);
+    s.work += detail::collide(s.particles, s.mesh, s.contacts, laws, dt, Booking::on);
   }
   return s;
 }

@@ -8,7 +8,6 @@
 #include "dovetail/dem/model/sample.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/setup/packing.hpp"
-#include "dovetail/dem/walls/wall_collide.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {
@@ -16,11 +15,13 @@ namespace {
 
 using Eigen::Matrix3d;
 
+const FrictionalLaw rubbing{{.stiffness = 2e4, .restitution = 0.6}, {.stiffness = 6e3, .friction = 0.4}};
+
 cg::BranchView branches(const ContactSample& sample) { return {sample.from, sample.to, sample.force}; }
 cg::ParticleView view(const Particles& particles) { return {particles.x, particles.v, particles.mass}; }
 
-TEST(ContactSample, GivesTheForcesThatCollideHasAdded) {
-  const FrictionalLaw law{{.stiffness = 2e4, .restitution = 0.6}, {.stiffness = 6e3, .friction = 0.4}};
+TEST(ContactSample, GivesTheForcesThatTheSweepHasAdded) {
+  const auto laws = makeContactLaws(rubbing);
   Random random(2);
   Particles particles;
   for (int i = 0; i < 300; ++i) addParticle(particles, random.vector(0.3), random.vector(1.0), 0.06, Density{1000.0});
@@ -29,15 +30,15 @@ TEST(ContactSample, GivesTheForcesThatCollideHasAdded) {
   PairList list;
   list.setSkin(0.01);
   findPairs(particles, list);
-  EXPECT_THROW(samplePairs(particles, list, law), InputError);
+  EXPECT_THROW(laws->sample(particles, list), InputError);
   for (int step = 0; step < 20; ++step) {
     drift(particles, 1e-4);
     updatePairs(particles, list);
     clearForces(particles);
-    collide(particles, list, law, 1e-4);
+    laws->pairs(particles, list, 1e-4, Booking::on);
   }
   const auto memory = list.memory();
-  const ContactSample sample = samplePairs(particles, list, law);
+  const ContactSample sample = laws->sample(particles, list);
   EXPECT_EQ(list.memory(), memory);
   std::vector<Vec3> f(particles.size());
   double largest = 0.0;
@@ -107,7 +108,7 @@ TEST(ContactSample, OfAModelHasTheForcesAndTorquesOfItsParticlesAndWalls) {
 }
 
 TEST(ContactSample, IsTheSameForAnyThreadsAndPairByPairThatOfThePairAlone) {
-  const FrictionalLaw law{{.stiffness = 2e4, .restitution = 0.6}, {.stiffness = 6e3, .friction = 0.4}};
+  const auto laws = makeContactLaws(rubbing);
   Random random(4);
   Particles particles;
   for (int i = 0; i < 1500; ++i)
@@ -117,13 +118,13 @@ TEST(ContactSample, IsTheSameForAnyThreadsAndPairByPairThatOfThePairAlone) {
   list.setPeriodicity({{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, {true, true, true}});
   list.setSkin(0.01);
   findPairs(particles, list);
-  collide(particles, list, law, 1e-4);
+  laws->pairs(particles, list, 1e-4, Booking::on);
   ASSERT_GT(list.size(), 2048u);  // several chunks
   ASSERT_NE(list.size() % 64, 0u);
   std::vector<ContactSample> samples;
   for (const int count : {1, 2, 3}) {
     setThreads(count);
-    samples.push_back(samplePairs(particles, list, law));
+    samples.push_back(laws->sample(particles, list));
   }
   setThreads(1);
   const ContactSample& once = samples[0];
@@ -136,7 +137,7 @@ TEST(ContactSample, IsTheSameForAnyThreadsAndPairByPairThatOfThePairAlone) {
   for (std::size_t p = 0; p < list.size(); ++p) {
     detail::PairsApart alone(1);
     alone.take(particles, list, p, 3);
-    collide(alone.particles, alone.list, law, 1e-100);
+    laws->pairs(alone.particles, alone.list, 1e-100, Booking::on);
     if (alone.particles.f[0] == Vec3{}) continue;
     ASSERT_EQ(once.first[c], list.pairs()[p][0]);
     ASSERT_EQ(once.second[c], list.pairs()[p][1]);
@@ -183,9 +184,9 @@ TEST(LoveWeberStress, OfALatticeUnderAKnownStrainIsTheAnalyticOne) {
     list.setPeriodicity(block.space);
     list.setSkin(0.1 * r);
     findPairs(particles, list);
-    const ElasticLaw law{{.stiffness = k}};
-    collide(particles, list, law);
-    const ContactSample sample = samplePairs(particles, list, law);
+    const auto laws = makeContactLaws(ElasticLaw{{.stiffness = k}});
+    laws->pairs(particles, list, 0.0, Booking::on);
+    const ContactSample sample = laws->sample(particles, list);
     EXPECT_EQ(static_cast<int>(sample.size()), bonds.count);
     const cg::AverageStress stress = cg::loveWeberStress(branches(sample), view(particles), block.volume());
     EXPECT_LE((stress.contact - wanted).norm(), 1e-12 * wanted.norm());
@@ -232,17 +233,17 @@ TEST(LoveWeberStress, OfARestingPackingIsWhatItsWallsPressBack) {
   const TriangulatedWall wall = wallsOf(packing);
   Particles particles;
   addPacking(particles, packing, Density{1000.0});
-  const ElasticLaw law{{.stiffness = 1e5}};
+  const auto laws = makeContactLaws(ElasticLaw{{.stiffness = 1e5}});
   PairList list;
   list.setSkin(0.01);
   findPairs(particles, list);
-  collide(particles, list, law);
+  laws->pairs(particles, list, 0.0, Booking::on);
   WallCandidates candidates;
   WallContacts contacts;
   findWallCandidates(particles, wall, 0.01, candidates);
   findWallContacts(particles, wall, candidates, EdgeRule::projected, contacts);
-  collideWithWall(particles, wall, contacts, law);
-  ContactSample sample = samplePairs(particles, list, law);
+  laws->wall(particles, wall, contacts, 0.0, Booking::on);
+  ContactSample sample = laws->sample(particles, list);
   addWallContacts(particles, wall, contacts, sample);
   const Matrix3d stress = cg::loveWeberStress(branches(sample), view(particles), packing.volume()).total();
   EXPECT_NEAR(-stress.trace() / 3.0, 2000.0, 10.0);
@@ -274,8 +275,8 @@ TEST(JoinMembers, TheStressOfASqueezedClumpIsWhatSqueezesIt) {
   list.setSkin(0.0);
   findPairs(particles, list);
   muteMemberPairs(clumps, list);
-  const ElasticLaw law{{.stiffness = 1e5}};
-  ContactSample sample = samplePairs(particles, list, law);
+  const auto laws = makeContactLaws(ElasticLaw{{.stiffness = 1e5}});
+  ContactSample sample = laws->sample(particles, list);
   ASSERT_EQ(sample.size(), 2u);
   // Hands that hold the balls push back with the opposite force, at their centres.
   Matrix3d wanted = Matrix3d::Zero();
@@ -292,7 +293,7 @@ TEST(JoinMembers, TheStressOfASqueezedClumpIsWhatSqueezesIt) {
 }
 
 TEST(ContactSample, ItsCoarseGrainedStressBalancesTheForcesInAPeriodicCell) {
-  const FrictionalLaw law{{.stiffness = 2e4, .restitution = 0.6}, {.stiffness = 6e3, .friction = 0.4}};
+  const auto laws = makeContactLaws(rubbing);
   Random random(6);
   Particles particles;
   for (int i = 0; i < 200; ++i) addParticle(particles, random.vector(0.6), random.vector(1.0), 0.08, Density{1000.0});
@@ -300,8 +301,8 @@ TEST(ContactSample, ItsCoarseGrainedStressBalancesTheForcesInAPeriodicCell) {
   list.setPeriodicity({{{0, 0, 0}, {1, 1, 1}}, {true, true, true}});
   list.setSkin(0.01);
   findPairs(particles, list);
-  collide(particles, list, law, 1e-4);
-  const ContactSample sample = samplePairs(particles, list, law);
+  laws->pairs(particles, list, 1e-4, Booking::on);
+  const ContactSample sample = laws->sample(particles, list);
 
   const cg::Kernel kernel{cg::KernelShape::lucy, 3, 0.3};
   const cg::AverageBox cell{{0, 0, 0}, {1, 1, 1}};

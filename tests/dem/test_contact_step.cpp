@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/dem/laws/elastic_plastic.hpp"
-#include "dovetail/dem/laws/rolling.hpp"
+#include "dovetail/dem/laws/own_laws.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "impact_scenes.hpp"
 
@@ -20,10 +19,10 @@ bool grows(Particles particles, double skin, const Law& law, double dt, int step
   PairList list;
   list.setSkin(skin);
   findPairs(particles, list);
-  const auto laws = prepare(law);
+  const auto laws = makeContactLaws(law);
   Particles rest = particles;
   clearForces(rest);
-  collide(rest, list, laws, dt);
+  laws->pairs(rest, list, dt, Booking::on);
   Random random(3);
   const double small = 1e-12 * particles.radius[0];
   for (Vec3& v : particles.v) v = random.vector(small / dt);
@@ -33,7 +32,7 @@ bool grows(Particles particles, double skin, const Law& law, double dt, int step
     kick(particles, 0.5 * dt);
     drift(particles, dt);
     clearForces(particles);
-    collide(particles, list, laws, dt);
+    laws->pairs(particles, list, dt, Booking::on);
     for (std::size_t i = 0; i < particles.size(); ++i) particles.f[i] -= rest.f[i];
     kick(particles, 0.5 * dt);
     if (!(kineticEnergy(particles) < 1e4 * start)) return true;
@@ -57,8 +56,8 @@ TEST(ContactStep, IsExactForOnePairOfAnyMasses) {
       findPairs(particles, list);
       const ElasticLaw linear{{1e5, e}};
       const HertzLaw hertz{{1e7, e}};
-      const ContactStep a = criticalStep(particles, list, prepare(linear)),
-                        b = criticalStep(particles, list, prepare(hertz));
+      const ContactStep a = criticalStep(particles, list, *makeContactLaws(linear)),
+                        b = criticalStep(particles, list, *makeContactLaws(hertz));
       EXPECT_NEAR(a.dt, a.twoBody, 1e-14 * a.dt);
       EXPECT_EQ(a.particle, 0);
       EXPECT_EQ(a.partner, 1);
@@ -75,7 +74,7 @@ TEST(ContactStep, AgreesWithTheClosedFormOfTheLightestParticle) {
   list.setSkin(0.01);
   findPairs(particles, list);
   const double mass = 0.15, omega = std::sqrt(1e5 / mass);
-  EXPECT_NEAR(criticalStep(particles, list, prepare(ElasticLaw{{1e5}})).dt, 2.0 / omega, 1e-14);
+  EXPECT_NEAR(criticalStep(particles, list, *makeContactLaws(ElasticLaw{{1e5}})).dt, 2.0 / omega, 1e-14);
 }
 
 /// Equal spheres of unequal masses in the densest packing, barely touching.
@@ -99,9 +98,8 @@ TEST(ContactStep, IsSafeInAPackingAndNamesAPairOfIt) {
     list.setSkin(0.0);
     findPairs(particles, list);
     const FrictionalLaw law{{1e5, 0.9}, {8e4, 1e9}};
-    const ContactStep step = criticalStep(particles, list, prepare(law));
-    EXPECT_TRUE(
-        list.find({step.particle, step.partner}));
+    const ContactStep step = criticalStep(particles, list, *makeContactLaws(law));
+    EXPECT_TRUE(list.find({step.particle, step.partner}));
     EXPECT_LT(step.dt, step.twoBody);
     EXPECT_FALSE(grows(particles, 0.0, law, 0.99 * step.dt, 2000));
     EXPECT_TRUE(grows(particles, 0.0, law, 2.5 * step.dt, 2000));  // not over-cautious
@@ -119,10 +117,10 @@ TEST(ContactStep, SeesRollingPlasticAndRememberedStiffness) {
   findPairs(particles, list);
   const double mass = 0.3, radius = 0.1;
   const ContactLaw<ElasticPlastic> plastic{{1e5, 4e5}};
-  EXPECT_NEAR(criticalStep(particles, list, prepare(plastic)).dt, 2.0 / std::sqrt(2.0 * 4e5 / mass), 1e-12);
+  EXPECT_NEAR(criticalStep(particles, list, *makeContactLaws(plastic)).dt, 2.0 / std::sqrt(2.0 * 4e5 / mass), 1e-12);
   const ContactLaw<LinearSpringDashpot, NoTangential, RollingResistance> rolling{{1e5}, {}, {0.1, 30.0}, {}};
   const double turning = 30.0 * 1e5 * 0.05 * 0.05 / (0.4 * mass * radius * radius);
-  EXPECT_NEAR(criticalStep(particles, list, prepare(rolling)).dt, 2.0 / std::sqrt(2.0 * turning), 1e-12);
+  EXPECT_NEAR(criticalStep(particles, list, *makeContactLaws(rolling)).dt, 2.0 / std::sqrt(2.0 * turning), 1e-12);
 }
 
 TEST(ContactStep, WallsCountAndSoDoContactsYetToCome) {
@@ -136,7 +134,7 @@ TEST(ContactStep, WallsCountAndSoDoContactsYetToCome) {
   findWallContacts(particles, wall, candidates, EdgeRule::projected, contacts);
   ASSERT_EQ(contacts.size(), 1u);
   ContactDemand demand;
-  addWallDemand(demand, particles, contacts, prepare(ElasticLaw{{1e5}}));
+  makeContactLaws(ElasticLaw{{1e5}})->addDemand(demand, particles, wall, contacts);
   const ContactStep step = criticalStep(demand, particles);
   EXPECT_NEAR(step.dt, 2.0 / std::sqrt(1e5 / particles.mass[0]), 1e-14);
   EXPECT_EQ(step.partner, -1);
@@ -146,10 +144,10 @@ TEST(ContactStep, WallsCountAndSoDoContactsYetToCome) {
   PairList list;
   list.setSkin(0.01);
   findPairs(apart, list);
-  const auto hertz = prepare(HertzLaw{{1e7}});
-  EXPECT_EQ(criticalStep(apart, list, hertz).dt, std::numeric_limits<double>::infinity());
-  EXPECT_EQ(criticalStep(apart, list, hertz).particle, -1);
-  EXPECT_NEAR(criticalStep(apart, list, hertz, 0.01).dt, 2.0 / std::sqrt(2e7 * std::sqrt(0.05 * 0.01) / 0.15), 1e-12);
+  const auto hertz = makeContactLaws(HertzLaw{{1e7}});
+  EXPECT_EQ(criticalStep(apart, list, *hertz).dt, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(criticalStep(apart, list, *hertz).particle, -1);
+  EXPECT_NEAR(criticalStep(apart, list, *hertz, 0.01).dt, 2.0 / std::sqrt(2e7 * std::sqrt(0.05 * 0.01) / 0.15), 1e-12);
 }
 
 TEST(ContactStep, OfASceneCountsPairsAndAllItsWalls) {
@@ -176,9 +174,9 @@ TEST(ContactStep, UsesTheLawOfTheMaterialsAndRefusesThoseWithoutOne) {
   findPairs(particles, list);
   LawTable<ElasticLaw> table(2, ElasticLaw{{1e5}});
   table.set(0, 1, ElasticLaw{{4e5}});
-  EXPECT_NEAR(criticalStep(particles, list, prepare(table)).dt, 2.0 / std::sqrt(4e5 / 0.15), 1e-14);
+  EXPECT_NEAR(criticalStep(particles, list, *makeContactLaws(table)).dt, 2.0 / std::sqrt(4e5 / 0.15), 1e-14);
   particles.material = {0, 2};
-  EXPECT_THROW(criticalStep(particles, list, prepare(table)), InputError);
+  EXPECT_THROW(criticalStep(particles, list, *makeContactLaws(table)), InputError);
 }
 
 TEST(MassScaling, MakesTheStepStableAndSaysWhatItDid) {
@@ -188,14 +186,14 @@ TEST(MassScaling, MakesTheStepStableAndSaysWhatItDid) {
     list.setSkin(0.0);
     findPairs(particles, list);
     const FrictionalLaw law{{1e5, e}, {8e4, 1e9}};
-    const auto laws = prepare(law);
-    const double wanted = 2.0 * criticalStep(particles, list, laws).dt;
+    const auto laws = makeContactLaws(law);
+    const double wanted = 2.0 * criticalStep(particles, list, *laws).dt;
     double before = 0.0, after = 0.0, added = 0.0;
     for (const double m : particles.mass) before += m;
     std::size_t count = 1;
     for (int round = 0; round < 50 && count > 0; ++round) {
       ContactDemand demand;
-      addDemand(demand, particles, list, laws);
+      laws->addDemand(demand, particles, list, 0.0);
       const MassScaling report = scaleMasses(particles, demand, wanted);
       count = report.count;
       added += report.addedMass;
@@ -208,7 +206,7 @@ TEST(MassScaling, MakesTheStepStableAndSaysWhatItDid) {
     }
     for (const double m : particles.mass) after += m;
     EXPECT_NEAR(after - before, added, 1e-12 * after);
-    EXPECT_GE(criticalStep(particles, list, laws).dt, wanted * (1.0 - 1e-6));
+    EXPECT_GE(criticalStep(particles, list, *laws).dt, wanted * (1.0 - 1e-6));
     EXPECT_FALSE(grows(particles, 0.0, law, 0.99 * wanted, 2000));
   }
   Particles particles = packing(false);

@@ -77,7 +77,7 @@ std::vector<std::array<Vec3, 2>> fall(const Law& law, bool sorts) {
   PairList list;
   list.setSkin(0.01);
   findPairs(particles, list);
-  const auto laws = prepare(law);
+  const auto laws = makeContactLaws(law);
   const double dt = 2e-5;
   for (int s = 0; s < 301; ++s) {
     kick(particles, 0.5 * dt);
@@ -85,7 +85,7 @@ std::vector<std::array<Vec3, 2>> fall(const Law& law, bool sorts) {
     if (sorts && s % 7 == 3) sortParticles(particles, list);
     updatePairs(particles, list);
     clearForces(particles);
-    collide(particles, list, laws, dt);
+    laws->pairs(particles, list, dt, Booking::on);
     kick(particles, 0.5 * dt);
   }
   std::vector<std::array<Vec3, 2>> state(particles.size());

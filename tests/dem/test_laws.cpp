@@ -28,7 +28,7 @@ struct Bouncer {
     clearForces(particles);
     applyGravity(particles, g);
     findWallContacts(particles, wall, candidates, EdgeRule::projected, contacts);
-    return collideWithWall(particles, wall, contacts, law, dt);
+    return sweepWall(law, particles, wall, contacts, dt);
   }
 
   template <class Law>

@@ -33,12 +33,12 @@ struct Ground {
     if constexpr (std::is_same_v<Wall, MeshWall>) {
       moveWall(wall, time, dt);
       findContacts(particles, wall, moves, periodicity);
-      work = collideWithWall(particles, wall.wall, wall.contacts, prepare(law), dt);
+      work = sweepWall(law, particles, wall.wall, wall.contacts, dt);
       gatherForces(wall);
     } else {
       drift(wall, dt);
       findContacts(particles, wall, moves, periodicity);
-      work = collide(particles, wall, prepare(law), dt);
+      work = sweepWall(law, particles, wall, dt);
     }
     kick(particles, 0.5 * dt);
   }
@@ -122,7 +122,7 @@ TEST(MeshWalls, ContactsThroughImagesHaveTheirReactionAndAnyNumberOfThreads) {
     MeshWall mesh = meshOf(floor);
     Particles p = particles;
     findContacts(p, mesh, {}, square);
-    collideWithWall(p, mesh.wall, mesh.contacts, prepare(rough), 1e-4);
+    sweepWall(rough, p, mesh.wall, mesh.contacts, 1e-4);
     gatherForces(mesh);
     setThreads(1);
     Vec3 sum = totalForce(mesh.wall);
@@ -191,7 +191,7 @@ TEST(MeshWalls, AWallOnABodyGivesItsForces) {
   driftBodies(bodies, 0.01);
   moveWall(mesh, 0.01, 0.01, &bodies);
   findContacts(particles, mesh, {0.0});
-  collideWithWall(particles, mesh.wall, mesh.contacts, prepare(ElasticLaw{{1e4}}), 1e-4);
+  sweepWall(ElasticLaw{{1e4}}, particles, mesh.wall, mesh.contacts, 1e-4);
   gatherForces(mesh, &bodies);
   EXPECT_NEAR(particles.f[0].z, 70.0, 1e-9);
   EXPECT_NEAR(bodies.f[0].z, -70.0, 1e-9);

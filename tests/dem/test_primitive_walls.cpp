@@ -106,8 +106,8 @@ TEST(PrimitiveWalls, EveryImageOfAParticleMeetsTheWallAlike) {
     }
     EXPECT_EQ(wall.contacts.particle, expected);
     const FrictionalLaw law{{1e4, 0.5}, {3e3, 0.4}};
-    collide(a, wall, prepare(law), 1e-4);
-    collide(b, other, prepare(law), 1e-4);
+    sweepWall(law, a, wall, 1e-4);
+    sweepWall(law, b, other, 1e-4);
     EXPECT_GT(wall.contacts.size(), 5u);
     for (std::size_t i = 0; i < a.size(); ++i) {
       EXPECT_LT(norm(a.f[i] - b.f[i]), 1e-9);
@@ -151,7 +151,7 @@ TEST(PrimitiveWalls, AStepThatCouldPassAParticleIsRefusedByName) {
 template <class Touch>
 void expectLeaverIsBooked(const Touch& touch) {
   const auto law = [](int a, int b) { return FrictionalLaw{{1e4 * (1 + a + b), 1.0}, {3e3 * (1 + a + b), 10.0}}; };
-  const auto laws = prepare(makeLawTable(2, law));
+  const auto laws = makeContactLaws(makeLawTable(2, law));
   Particles particles;
   for (const double x : {0.2, 0.5, 0.8}) addParticle(particles, {x, 0.5, 0.099}, {0.1, 0, 0}, 0.1, Mass{1.0});
   switchOnRotation(particles);
@@ -160,7 +160,7 @@ void expectLeaverIsBooked(const Touch& touch) {
   ContactWork work;
   for (int i = 0; i < 10; ++i) {
     drift(particles, dt);
-    work = touch.collide(particles, laws, dt);
+    work = touch.sweep(*laws, particles, dt);
   }
   const double one = 0.5 * 1e4 * 1e-6;
   EXPECT_NEAR(work.elasticEnergy, 4.0 * one, 1e-12);
@@ -169,17 +169,17 @@ void expectLeaverIsBooked(const Touch& touch) {
   const std::vector<int> number = numbersWithout(particles, std::vector<int>{1});
   EXPECT_NEAR(touch.renumbered(number, particles), 2.0 * one, 1e-12);
   renumber(particles, number);
-  const ContactWork after = touch.collide(particles, laws, dt);
+  const ContactWork after = touch.sweep(*laws, particles, dt);
   EXPECT_NEAR(after.frictionPower * dt, 2.0 * side, 1e-9 * side);
   EXPECT_NEAR(after.elasticEnergy, 2.0 * one, 1e-12);
-  EXPECT_EQ(touch.collide(particles, laws, dt).frictionPower, 0.0);
+  EXPECT_EQ(touch.sweep(*laws, particles, dt).frictionPower, 0.0);
 }
 
 struct PlaneTouch {
   mutable PrimitiveWall wall = makePlane({}, {0, 0, 1});
-  ContactWork collide(Particles& p, const PreparedLaws<FrictionalLaw>& laws, double dt) const {
+  ContactWork sweep(const ContactLaws& laws, Particles& p, double dt) const {
     findContacts(p, wall, movesOf(p, dt));
-    return dem::collide(p, wall, laws, dt);
+    return laws.wall(p, wall, dt, Booking::on);
   }
   double renumbered(const std::vector<int>& number, const Particles& before) const {
     return renumber(wall, number, before);
@@ -190,10 +190,10 @@ struct MeshTouch {
   TriangulatedWall wall = squares(4, 4, 0.25);
   mutable WallCandidates candidates;
   mutable WallContacts contacts;
-  ContactWork collide(Particles& p, const PreparedLaws<FrictionalLaw>& laws, double dt) const {
+  ContactWork sweep(const ContactLaws& laws, Particles& p, double dt) const {
     updateWallCandidates(p, wall, candidates, movesOf(p, dt));
     findWallContacts(p, wall, candidates, EdgeRule::projected, contacts);
-    return collideWithWall(p, wall, contacts, laws, dt);
+    return laws.wall(p, wall, contacts, dt, Booking::on);
   }
   double renumbered(const std::vector<int>& number, const Particles& before) const {
     return renumber(contacts, number, before);

@@ -4,7 +4,6 @@
 #include "box_wall.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/walls/rigid_wall.hpp"
-#include "dovetail/dem/walls/wall_collide.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {
@@ -40,7 +39,7 @@ struct Billiard {
     clearForces(balls);
     clearForces(bodies);
     clearForces(wall);
-    const double stored = collideWithWall(balls, wall, contacts, law).storedEnergy();
+    const double stored = sweepWall(law, balls, wall, contacts).storedEnergy();
     addWallForces(contacts, wall);
     gatherForces(wall, carrier, bodies);
     return stored;

@@ -23,7 +23,7 @@ struct Run {
     clearForces(particles);
     applyGravity(particles, g);
     findWallContacts(particles, wall, candidates, rule, contacts);
-    return collideWithWall(particles, wall, contacts, law, dt);
+    return sweepWall(law, particles, wall, contacts, dt);
   }
 
   template <class Law>
@@ -141,7 +141,7 @@ TEST(WallMotion, PowerBalancesOverBothSidesAtRandomStates) {
       drift(p, t);
       for (std::size_t i = 0; i < w.x.size(); ++i) w.x[i] += t * w.v[i];
       findWallContacts(p, w, candidates, EdgeRule::projected, contacts);
-      const ContactWork work = collideWithWall(p, w, contacts, law);
+      const ContactWork work = sweepWall(law, p, w, contacts);
       addWallForces(contacts, w);
       particlePower = 0.0;
       for (std::size_t i = 0; i < p.size(); ++i) particlePower += dot(p.f[i], p.v[i]);

@@ -32,16 +32,16 @@ struct Press {
     const Moves moves = movesOf(particles, dt);
     startForces(particles, {});
     findContacts(particles, ground, moves);
-    work = collide(particles, ground, prepare(law), dt);
+    work = sweepWall(law, particles, ground, dt);
     if constexpr (std::is_same_v<Lid, MeshWall>) {
       moveWall(lid, time, dt);
       findContacts(particles, lid, moves);
-      work += collideWithWall(particles, lid.wall, lid.contacts, prepare(law), dt);
+      work += sweepWall(law, particles, lid.wall, lid.contacts, dt);
       gatherForces(lid);
     } else {
       drift(lid, dt);
       findContacts(particles, lid, moves);
-      work += collide(particles, lid, prepare(law), dt);
+      work += sweepWall(law, particles, lid, dt);
     }
     kick(particles, 0.5 * dt);
     kickWall(lid, 0.5 * dt);
@@ -107,10 +107,10 @@ TEST(WallServo, ItsMassEntersTheStep) {
   Press press(plateLid(makeServo({0, 0, -1}, 1.0, plate)), ball);
   for (int i = 0; i < 40; ++i) press.step(1e-5);
   ContactDemand demand;
-  const PreparedLaws<ElasticLaw> laws = prepare(press.law);
-  addWallDemand(demand, press.particles, press.ground.contacts, laws);
+  const auto laws = makeContactLaws(press.law);
+  laws->addDemand(demand, press.particles, press.ground);
   const DemandBefore before = demandBefore(demand);
-  addWallDemand(demand, press.particles, press.lid.contacts, laws);
+  laws->addDemand(demand, press.particles, press.lid);
   const double fixed = criticalStep(demand, press.particles).dt;
   addServoDemand(demand, *press.lid.servo, before);
   const double safe = criticalStep(demand, press.particles).dt;
@@ -142,7 +142,7 @@ TEST(FacetTractions, TheirSumIsTheForceAndTheMeanThatOverTime) {
     for (int i = 0; i < 30; ++i)
       addParticle(particles, {random(0, 0.9), random(0, 0.9), random(0.02, 0.06)}, random.vector(1.0), 0.05, Mass{1.0});
     findContacts(particles, mesh, {});
-    collideWithWall(particles, mesh.wall, mesh.contacts, prepare(FrictionalLaw{{1e4, 0.5}, {3e3, 0.4}}), 1e-4);
+    sweepWall(FrictionalLaw{{1e4, 0.5}, {3e3, 0.4}}, particles, mesh.wall, mesh.contacts, 1e-4);
     gatherForces(mesh);
     const double dt = random(0.1, 0.3);
     gatherTractions(tractions, mesh.wall, mesh.contacts, dt);

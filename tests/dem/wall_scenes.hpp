@@ -9,8 +9,8 @@
 
 #include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/dem/walls/wall_candidates.hpp"
-#include "dovetail/dem/walls/wall_collide.hpp"
 #include "dovetail/dem/walls/wall_contacts.hpp"
+#include "sweeps.hpp"
 
 namespace dovetail::dem {
 
@@ -72,8 +72,7 @@ inline Response respond(const TriangulatedWall& wall, const Vec3& x, double radi
   findWallCandidates(particles, wall, 0.5 * radius, candidates);
   Response response;
   findWallContacts(particles, wall, candidates, rule, response.contacts);
-  const ElasticLaw law{{stiffness}};
-  response.energy = collideWithWall(particles, wall, response.contacts, law).storedEnergy();
+  response.energy = sweepWall(ElasticLaw{{stiffness}}, particles, wall, response.contacts).storedEnergy();
   response.force = particles.f[0];
   response.onWall.resize(wall.x.size());
   addWallForces(response.contacts, wall.x, wall.facets, response.onWall);

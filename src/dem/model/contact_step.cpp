@@ -2,6 +2,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/dem/laws/contact_laws.hpp"
 
 namespace dovetail::dem {
 
@@ -83,6 +84,13 @@ ContactStep criticalStep(const ContactDemand& demand, const Particles& particles
     }
   }
   return step;
+}
+
+ContactStep criticalStep(const Particles& particles, const PairList& list, const ContactLaws& laws,
+                         double leastOverlap) {
+  ContactDemand demand;
+  laws.addDemand(demand, particles, list, leastOverlap);
+  return criticalStep(demand, particles);
 }
 
 std::string ownerOf(const ContactStep& step, const Particles& particles) {

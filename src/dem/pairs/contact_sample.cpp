@@ -117,7 +117,7 @@ void requireMemory(const PairList& list, int memory) {
   if (list.memory().size() >= static_cast<std::size_t>(memory) * list.size()) return;
   throw InputError("the list remembers " + std::to_string(list.memory().size()) + " numbers for " +
                        std::to_string(list.size()) + " pairs",
-                   "sample of contacts", "call collide with the same law first");
+                   "sample of contacts", "call ContactLaws::pairs of the same law first");
 }
 
 }  // namespace detail

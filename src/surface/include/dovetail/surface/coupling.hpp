@@ -49,7 +49,8 @@ public:
     locate(particles, u, v);
     placeSkin(u, v);
     dem::findWallContacts(particles, skin_.wall, candidates_, options_.edges, contacts_);
-    const dem::ContactWork work = dem::collideWithWall(particles, skin_.wall, contacts_, law, dt);
+    const dem::ContactWork work =
+        dem::detail::collide(particles, skin_.wall, contacts_, dem::prepare(law), dt, dem::Booking::on);
     bookNewContacts();
     transfer();
     return work;

@@ -31,22 +31,35 @@ public:
   /// @throws InputError if the law remembers and dt is not finite and > 0, or naming a particle whose material has no
   ///         law
   virtual ContactWork pairs(Particles& particles, PairList& list, double dt, Booking booking) const = 0;
-  /// The same for the contacts that findContacts has found; sets the wall's force and torque.
+  /// The same for the contacts that findContacts has found; sets the wall's force and torque. Effective mass and radius
+  /// are the particle's.
   virtual ContactWork wall(Particles& particles, PrimitiveWall& wall, double dt, Booking booking) const = 0;
   /// The same for the contacts that findWallContacts has found; sets their forces and couples, the reaction on the wall
-  /// being up to addWallForces.
+  /// being up to addWallForces. The wall counts as flat: the effective radius is the particle's, and the effective mass
+  /// too unless the wall has one (TriangulatedWall::mass). Where facets share a contact, each answers with its share
+  /// (engagement) of what the law says to the overlap of particle and facet alone.
+  ///
+  /// Wall velocities enter with the weights that carry the force, so power balances: Σ force·(v_particle − v_wall)
+  /// = −d(elastic energy)/dt − dissipated power. The moment of elastic forces balances to round-off; that of a dashpot
+  /// does in a single contact, and where facets share a contact up to (dashpot force) × (overlap).
   virtual ContactWork wall(Particles& particles, const TriangulatedWall& wall, WallContacts& contacts, double dt,
                            Booking booking) const = 0;
 
-  /// Adds what the contacts, as they are, ask of the step (see contact_step.hpp).
-  /// @param leastOverlap m; if > 0, all pairs of the list count, with this overlap at least
+  /// Adds what the contacts, as they are, ask of the step (see contact_step.hpp): the stiffness and the dashpot that the
+  /// law has at their overlap. A wall does not give way.
+  /// @param leastOverlap m; if > 0, all pairs of the list count, with this overlap at least: for a scene that is yet to
+  ///        collide, under laws that stiffen
+  /// @throws InputError if there is no law for a pair of materials
   virtual void addDemand(ContactDemand& demand, const Particles& particles, const PairList& list,
                          double leastOverlap) const = 0;
   virtual void addDemand(ContactDemand& demand, const Particles& particles, const PrimitiveWall& wall) const = 0;
   virtual void addDemand(ContactDemand& demand, const Particles& particles, const TriangulatedWall& wall,
                          const WallContacts& contacts) const = 0;
 
-  /// Pairs with their forces as the last sweep made them; nothing is changed.
+  /// Pairs with their forces as the last sweep made them: nothing is changed, and what contacts remember is taken as it
+  /// is. Pairs without a force are left out. In the order of the list, for any number of threads. For output, not for
+  /// every step.
+  /// @param list that of the last sweep, with the same particles
   /// @throws InputError if the law remembers something and the list has not been through `pairs`
   virtual ContactSample sample(const Particles& particles, const PairList& list) const = 0;
 

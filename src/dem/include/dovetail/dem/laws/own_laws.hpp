@@ -26,11 +26,11 @@ public:
   }
   ContactWork wall(Particles& particles, const TriangulatedWall& wall, WallContacts& contacts, double dt,
                    Booking booking) const override {
-    return collideWithWall(particles, wall, contacts, laws_, dt, booking);
+    return collide(particles, wall, contacts, laws_, dt, booking);
   }
   void addDemand(ContactDemand& demand, const Particles& particles, const PairList& list,
                  double leastOverlap) const override {
-    dem::addDemand(demand, particles, list, laws_, leastOverlap);
+    addPairDemand(demand, particles, list, laws_, leastOverlap);
   }
   void addDemand(ContactDemand& demand, const Particles& particles, const PrimitiveWall& wall) const override {
     addWallDemand(demand, particles, wall.contacts, laws_, wall.material);
@@ -56,14 +56,9 @@ private:
 };
 
 template <class Law>
-std::shared_ptr<const ContactLaws> compiledLaws(PreparedLaws<Law> laws, std::string name) {
-  return std::make_shared<const PreparedContactLaws<Law>>(std::move(laws), std::move(name));
-}
-
-template <class Law>
 struct OwnLaws {
   static std::shared_ptr<const ContactLaws> make(PreparedLaws<Law> laws, std::string name) {
-    return compiledLaws<Law>(std::move(laws), std::move(name));
+    return std::make_shared<const PreparedContactLaws<Law>>(std::move(laws), std::move(name));
   }
 };
 

@@ -15,6 +15,8 @@
 
 namespace dovetail::dem {
 
+class ContactLaws;
+
 /// What acts between a particle and its partner, and may set the step.
 enum class StepOwner : std::uint8_t { contact, bond };
 
@@ -24,7 +26,7 @@ struct ContactDemand {
   struct Link {
     int particle, partner;  ///< partner −1: a wall
     StepOwner owner;
-    double stiffness = 0.0;  ///< along its normal, N/m
+    double stiffness = 0.0;                    ///< along its normal, N/m
     double wallStiff = 0.0, wallDamped = 0.0;  ///< of a wall that gives way: over its mass, 1/s² and 1/s
   };
   std::vector<double> stiffness;                             ///< N/m, per particle: sum over its contacts and bonds
@@ -67,20 +69,16 @@ const typename Law::Prepared& lawOf(const PreparedLaws<Law>& laws, int a, int b)
 void addContact(ContactDemand& demand, const Particles& particles, int particle, int partner,
                 const ContactSlopes& slopes, double scale, double effectiveMass);
 
-}  // namespace detail
-
-/// Adds the pairs that touch, with the stiffness and the dashpot that the law has at their overlap.
-/// @param leastOverlap m; if > 0, all pairs of the list count, with this overlap at least: for a scene that is yet to
-///        collide, under laws that stiffen
+/// ContactLaws::addDemand, with the law known: the pairs that touch.
 template <class Law>
-void addDemand(ContactDemand& demand, const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws,
-               double leastOverlap = 0.0) {
+void addPairDemand(ContactDemand& demand, const Particles& particles, const PairList& list,
+                   const PreparedLaws<Law>& laws, double leastOverlap) {
   constexpr auto numbers = static_cast<std::size_t>(Law::memory);
   const bool remembers = list.memory().size() == numbers * list.size();
   const auto material = [&](std::size_t i) { return particles.material.empty() ? 0 : int{particles.material[i]}; };
   for (std::size_t p = 0; p < list.size(); ++p) {
     const auto i = static_cast<std::size_t>(list.pairs()[p][0]), j = static_cast<std::size_t>(list.pairs()[p][1]);
-    const auto& law = detail::lawOf(laws, material(i), material(j));
+    const auto& law = lawOf(laws, material(i), material(j));
     const double ri = particles.radius[i], rj = particles.radius[j];
     const double mi = particles.weightOf(i) * particles.mass[i], mj = particles.weightOf(j) * particles.mass[j];
     const double overlap = ri + rj - norm(particles.x[i] - particles.x[j] + list.shift(p));
@@ -96,12 +94,12 @@ void addDemand(ContactDemand& demand, const Particles& particles, const PairList
     contact.dt = 1.0;
     double memory[numbers + 1] = {};
     for (std::size_t c = 0; remembers && c < numbers; ++c) memory[c] = list.memory()[c * list.size() + p];
-    detail::addContact(demand, particles, list.pairs()[p][0], list.pairs()[p][1], law.slopes(contact, memory), scale,
-                       mi * mj / (mi + mj));
+    addContact(demand, particles, list.pairs()[p][0], list.pairs()[p][1], law.slopes(contact, memory), scale,
+               mi * mj / (mi + mj));
   }
 }
 
-/// The same for contacts with a wall, which does not give way.
+/// The same for contacts with a wall.
 /// @param contacts WallContacts after findWallContacts, or PrimitiveContacts after findContacts
 /// @param wallMass kg, as dashpots see it (TriangulatedWall::mass)
 template <class Law, class Contacts>
@@ -111,7 +109,7 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
   for (std::size_t c = 0; c < contacts.particle.size(); ++c) {
     const auto i = static_cast<std::size_t>(contacts.particle[c]);
     const int material = particles.material.empty() ? 0 : int{particles.material[i]};
-    const auto& law = detail::lawOf(laws, material, wallMaterial);
+    const auto& law = lawOf(laws, material, wallMaterial);
     Contact contact;
     contact.overlap = shareOf(contacts, c).overlap;
     if (!(contact.overlap > 0.0)) continue;
@@ -122,10 +120,11 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
     contact.normal = {0.0, 0.0, 1.0};
     contact.dt = 1.0;
     double memory[static_cast<std::size_t>(Law::memory) + 1] = {};
-    detail::addContact(demand, particles, contacts.particle[c], -1, law.slopes(contact, memory), 1.0,
-                       contact.effectiveMass);
+    addContact(demand, particles, contacts.particle[c], -1, law.slopes(contact, memory), 1.0, contact.effectiveMass);
   }
 }
+
+}  // namespace detail
 
 /// A safe step: every particle shares its mass (and inertia) among its contacts and bonds by what they ask for, so that
 /// one (i, j) alone has ω² = K_i/m_i + K_j/m_j and 2ζω = C_i/m_i + C_j/m_j, K and C being the sums of stiffness and
@@ -138,14 +137,9 @@ ContactStep criticalStep(const ContactDemand& demand, const Particles& particles
 /// For messages: "the bond of particle 3 with particle 4", particles by their ids.
 std::string ownerOf(const ContactStep& step, const Particles& particles);
 
-/// For pairs alone.
-template <class Law>
-ContactStep criticalStep(const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws,
-                         double leastOverlap = 0.0) {
-  ContactDemand demand;
-  addDemand(demand, particles, list, laws, leastOverlap);
-  return criticalStep(demand, particles);
-}
+/// For pairs alone. @param leastOverlap see ContactLaws::addDemand
+ContactStep criticalStep(const Particles& particles, const PairList& list, const ContactLaws& laws,
+                         double leastOverlap = 0.0);
 
 /// What scaleMasses did.
 struct MassScaling {

@@ -45,42 +45,32 @@ void reserve(ContactSample& sample, std::size_t contacts);
 ContactSample joined(std::vector<ContactSample> parts);
 /// @throws InputError unless the list has as many memories as a law asks for
 void requireMemory(const PairList& list, int memory);
-}  // namespace detail
-
-/// Pairs with their forces as collide last made them: nothing is changed, and what contacts remember is taken as it is.
-/// Pairs without a force are left out. In the order of the list, for any number of threads. For output, not for every
-/// step.
-/// @param list that of the last collide, with the same particles
-/// @throws InputError if the law remembers something and the list has not been through collide with it
+/// ContactLaws::sample, with the law known.
 template <class Law>
 ContactSample samplePairs(const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws) {
-  detail::requireMemory(list, Law::memory);
+  requireMemory(list, Law::memory);
   constexpr double noTime = 1e-100;  // so short a step that no memory advances
   constexpr std::size_t atOnce = 64, grain = 16 * atOnce;
   std::vector<ContactSample> parts((list.size() + grain - 1) / grain);
   parallelFor(list.size(), grain, [&](std::size_t begin, std::size_t end) {
     ContactSample& part = parts[begin / grain];
-    detail::reserve(part, end - begin);
+    reserve(part, end - begin);
     for (std::size_t first = begin; first < end;) {
       const std::size_t left = end - first, rounds = std::max<std::size_t>(left / atOnce, 1);
-      detail::PairsApart apart(std::min(left, atOnce));
+      PairsApart apart(std::min(left, atOnce));
       for (std::size_t r = 0; r < rounds; ++r, first += apart.list.size()) {
         apart.take(particles, list, first, Law::memory);
         collide(apart.particles, apart.list, laws, noTime, Booking::off);
-        detail::appendPairs(apart, list, first, part);
+        appendPairs(apart, list, first, part);
       }
     }
   });
-  return detail::joined(std::move(parts));
+  return joined(std::move(parts));
 }
 
-template <class Normal, class Tangential, class Rolling, class Adhesion>
-ContactSample samplePairs(const Particles& particles, const PairList& list,
-                          const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law) {
-  return samplePairs(particles, list, prepare(law));
-}
+}  // namespace detail
 
-/// Appends the contacts with a wall, with the forces that the last collide has set: one for each facet that takes part.
+/// Appends the contacts with a wall, with the forces that the last sweep has set: one for each facet that takes part.
 void addWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallContacts& contacts,
                      ContactSample& sample);
 void addWallContacts(const Particles& particles, const PrimitiveWall& wall, ContactSample& sample);

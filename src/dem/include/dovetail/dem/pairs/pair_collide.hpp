@@ -127,47 +127,35 @@ ContactWork collideChunks(Particles& particles, PairParts& list, const PairRows&
   return work;
 }
 
-}  // namespace detail
-
-/// Adds the pair forces to particles.f, equal and opposite (and torques, if the law exerts them and the particles
-/// spin). Bitwise the same for any number of threads. Call once per step if the law remembers.
-/// @param laws  one law, or a table for pairs of materials (see LawTable)
-/// @param dt    step over which memories advance, s; of no concern to laws without memory
-/// @throws InputError if the law remembers and dt is not finite and > 0
+/// ContactLaws::pairs, with the law known.
 template <class Law>
-ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law>& laws, double dt,
-                    Booking booking = Booking::on) {
-  using detail::BlockOptions;
+ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law>& laws, double dt, Booking booking) {
   ContactWork work;
   if constexpr (Law::memory > 0) {
-    detail::requireStep(dt);
+    requireStep(dt);
     list.prepareMemory(Law::memory, Law::turns);
   }
-  detail::PairParts& parts = detail::partsOf(list);
+  PairParts& parts = partsOf(list);
   const bool varied = !parts.factors.empty() || laws.materials > 1;
-  detail::PairRows rows{Law::rotates, Law::needsSpin, Law::needsMass && laws.usesMass(), Law::needsRadius, varied,
-                        Law::memory,  laws.materials};
-  detail::findUniform(particles, rows);
+  PairRows rows{Law::rotates, Law::needsSpin, Law::needsMass && laws.usesMass(), Law::needsRadius, varied,
+                Law::memory,  laws.materials};
+  findUniform(particles, rows);
   constexpr bool spins = Law::rotates;
   if constexpr (spins) parts.chunks.torque.resize(parts.chunks.force.size());
   const bool booked = booking == Booking::on;
   if (varied && booked)
-    work += detail::collideChunks<Law, BlockOptions{spins, false, true, true}>(particles, parts, rows, laws, dt);
+    work += collideChunks<Law, BlockOptions{spins, false, true, true}>(particles, parts, rows, laws, dt);
   else if (varied)
-    detail::collideChunks<Law, BlockOptions{spins, false, true, false}>(particles, parts, rows, laws, dt);
+    collideChunks<Law, BlockOptions{spins, false, true, false}>(particles, parts, rows, laws, dt);
   else if (booked)
-    work += detail::collideChunks<Law, BlockOptions{spins, false, false, true}>(particles, parts, rows, laws, dt);
+    work += collideChunks<Law, BlockOptions{spins, false, false, true}>(particles, parts, rows, laws, dt);
   else
-    detail::collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, parts, rows, laws, dt);
+    collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, parts, rows, laws, dt);
   const EndedPairs left = list.takeEnded();
-  if (booked && dt > 0.0) work += detail::bookEnded(left, laws, dt);
+  if (booked && dt > 0.0) work += bookEnded(left, laws, dt);
   return work;
 }
 
-template <class Normal, class Tangential, class Rolling, class Adhesion>
-ContactWork collide(Particles& particles, PairList& list, const ContactLaw<Normal, Tangential, Rolling, Adhesion>& law,
-                    double dt = 0.0, Booking booking = Booking::on) {
-  return collide(particles, list, prepare(law), dt, booking);
-}
+}  // namespace detail
 
 }  // namespace dovetail::dem

@@ -70,7 +70,7 @@ void findContacts(const Particles& particles, MeshWall& mesh, const Moves& moves
 /// @throws InputError if the wall is on a body and there is none
 void gatherForces(MeshWall& mesh, Bodies* bodies = nullptr);
 
-/// Power that the wall puts into the particles, W, with the forces of the last collide; of a wall on a body or a servo
+/// Power that the wall puts into the particles, W, with the forces of the last sweep; of a wall on a body or a servo
 /// only what its surface velocity does, as the rest is theirs.
 double drivingPower(const MeshWall& mesh);
 

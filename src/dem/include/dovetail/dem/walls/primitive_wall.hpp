@@ -29,7 +29,7 @@ struct PrimitiveContacts {
   // Those of the last step.
   std::vector<int> oldParticle;
   std::vector<double> oldMemory;
-  EndedMemories left;  ///< of particles that left, to be booked by the next collide
+  EndedMemories left;  ///< of particles that left, to be booked by the next sweep
   std::size_t size() const { return particle.size(); }
   /// What is to be added to the particle's position to have it next to the wall, m.
   Vec3 shift(std::size_t c) const { return image.empty() ? Vec3{} : shiftOf(image[c], period); }
@@ -74,7 +74,7 @@ struct PrimitiveWall {
   double reach = 0.0;  ///< m: of the law beyond touch, see ContactLaws::reach; so far contacts are found
 
   PrimitiveContacts contacts;
-  Vec3 force, torque;  ///< of the last collide on the wall, N; about `point`, N m
+  Vec3 force, torque;  ///< of the last sweep on the wall, N; about `point`, N m
   PrimitiveSearch search;
 };
 
@@ -95,12 +95,12 @@ WallDistance distanceTo(const PrimitiveWall& wall, const Vec3& x);
 inline Vec3 velocityAt(const PrimitiveWall& wall, const Vec3& x) {
   return wall.velocity + wall.surfaceVelocity + cross(wall.angularVelocity, x - wall.point);
 }
-/// Half a step of the wall's servo, if it has one, with the force of the last collide; before drift, and after the
+/// Half a step of the wall's servo, if it has one, with the force of the last sweep; before drift, and after the
 /// forces.
 void kickWall(PrimitiveWall& wall, double dt);
 /// point += velocity dt; the axis and the surface velocity turn.
 void drift(PrimitiveWall& wall, double dt);
-/// Power that the wall puts into the particles, W, with the force and torque of the last collide; without what its
+/// Power that the wall puts into the particles, W, with the force and torque of the last sweep; without what its
 /// servo does, which keeps its own books.
 double drivingPower(const PrimitiveWall& wall);
 
@@ -120,7 +120,7 @@ void findContacts(const Particles& particles, PrimitiveWall& wall, const Moves& 
 void requireRepeats(const PrimitiveWall& wall, const geometry::Periodicity& periodicity, double reach);
 
 /// Gives the wall's memory the new numbers of particles (< 0: gone). What leavers' contacts remember is booked as lost
-/// by the next collide; returns what their normal springs stored, J, for the caller to book.
+/// by the next sweep; returns what their normal springs stored, J, for the caller to book.
 /// @param before the particles as they were numbered
 double renumber(PrimitiveWall& wall, std::span<const int> newNumber, const Particles& before);
 
@@ -142,27 +142,26 @@ struct AgainstPrimitive {
   Vec3 velocity(std::size_t c) const { return relativeVelocity(particles, wall, c, spins); }
   Vec3 spin(std::size_t) const { return wall.angularVelocity; }
 };
-}  // namespace detail
 
-/// Adds the contact forces (and torques) to the particles; sets the wall's force and torque.
-/// Effective mass and radius are the particle's. Call once per step if the law remembers.
-/// @throws InputError if the law remembers and dt is not finite and > 0
+/// ContactLaws::wall, with the law known.
 template <class Law>
 ContactWork collide(Particles& particles, PrimitiveWall& wall, const PreparedLaws<Law>& laws, double dt,
-                    Booking booking = Booking::on) {
+                    Booking booking) {
   PrimitiveContacts& contacts = wall.contacts;
   ContactWork work;
   contacts.force.resize(contacts.size());
   if constexpr (Law::rotates) contacts.couple.resize(contacts.size());
   if constexpr (Law::memory > 0) {
-    detail::requireStep(dt);
-    const EndedMemories ended = detail::carryMemory(particles, contacts, Law::memory);
-    if (booking == Booking::on) work += detail::bookEnded<Law>(ended, laws, wall.material, dt);
+    requireStep(dt);
+    const EndedMemories ended = carryMemory(particles, contacts, Law::memory);
+    if (booking == Booking::on) work += bookEnded<Law>(ended, laws, wall.material, dt);
   }
-  work += detail::answerWall<Law>(particles, contacts, contacts.memory, laws, {.material = wall.material}, dt, booking,
-                                  detail::AgainstPrimitive{particles, wall, Law::rotates && particles.rotates()});
-  detail::addToParticles(particles, wall, Law::rotates && particles.rotates());
+  work += answerWall<Law>(particles, contacts, contacts.memory, laws, {.material = wall.material}, dt, booking,
+                          AgainstPrimitive{particles, wall, Law::rotates && particles.rotates()});
+  addToParticles(particles, wall, Law::rotates && particles.rotates());
   return work;
 }
+
+}  // namespace detail
 
 }  // namespace dovetail::dem

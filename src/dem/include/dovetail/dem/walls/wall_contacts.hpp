@@ -31,7 +31,7 @@ struct WallSprings {
 
   std::vector<double> next;  // those of this step, while they are being worked out
   std::vector<char> taken;
-  EndedMemories left;  // of particles that left, to be booked by the next collide
+  EndedMemories left;  // of particles that left, to be booked by the next sweep
 };
 
 /// Contacts of one wall, by particle, then facet. Arrays keep their memory between steps.
@@ -44,7 +44,7 @@ struct WallContacts {
   std::vector<double> overlap;
   std::vector<double> engagement;  ///< share of what the law says to overlap/engagement: force, couple and their losses
   std::vector<double> energyShare;  ///< share of what it stores at that overlap
-  std::vector<Vec3> force;          ///< on the particle, N; set by collideWithWall
+  std::vector<Vec3> force;          ///< on the particle, N; set by ContactLaws::wall
   std::vector<Vec3> couple;         ///< on the particle beyond arm × force, N m; if the law exerts torques
   std::vector<double> energy;       ///< of the normal springs, J; if booked
   /// Only where space repeats: which image of the particle touches; and the periods, m.
@@ -108,7 +108,7 @@ void paperWallContacts(const Particles& particles, const TriangulatedWall& wall,
                        WallContacts& contacts);
 
 /// Gives what contacts remember the new numbers of their particles (< 0: gone). What leavers' contacts remember is
-/// booked as lost by the next collide; returns what their normal springs stored, J, for the caller to book.
+/// booked as lost by the next sweep; returns what their normal springs stored, J, for the caller to book.
 /// @param before the particles as they were numbered
 double renumber(WallContacts& contacts, std::span<const int> newNumber, const Particles& before);
 

@@ -38,11 +38,13 @@ inline int materialOf(const Particles& particles, std::size_t i) {
 /// What ended contacts take with them.
 template <class Law>
 ContactWork bookEnded(const EndedMemories& ended, const PreparedLaws<Law>& laws, int wallMaterial, double dt) {
+  constexpr auto numbers = static_cast<std::size_t>(Law::memory);
   ContactWork work;
+  if (ended.memory.size() != numbers * ended.material.size()) return work;  // of another law
   const bool several = laws.materials > 1;
   for (std::size_t k = 0; k < ended.material.size(); ++k)
     work += laws.at(several ? ended.material[k] : 0, several ? wallMaterial : 0)
-                .ended(ended.memory.data() + k * static_cast<std::size_t>(Law::memory), 1.0 / dt);
+                .ended(ended.memory.data() + k * numbers, 1.0 / dt);
   return work;
 }
 
