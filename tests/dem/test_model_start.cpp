@@ -96,23 +96,28 @@ TEST(Start, ParticlesAddedBetweenStepsGetTheirFirstHalfKick) {
   EXPECT_NEAR(model.particles.v[0].z, -0.6, 1e-15);
 }
 
-/// Lets one sphere in at step 10.
+/// Lets one sphere of 2 kg in at step 10.
 class Gate final : public Term {
 public:
+  Gate(const Vec3& v, double radius) : v_(v), radius_(radius) {}
   std::string name() const override { return "gate"; }
   std::unique_ptr<Term> clone() const override { return std::make_unique<Gate>(*this); }
   void exchange(Model& m, const Step& step) override {
     if (step.number != 10) return;
     const std::size_t first = m.particles.size();
-    addParticle(m.particles, {1, 0, 0}, {0, 0, 1}, 0.1, Mass{2.0});
+    addParticle(m.particles, {1, 0, 0}, v_, radius_, Mass{2.0});
     admitParticles(m, first);
   }
+
+private:
+  Vec3 v_;
+  double radius_;
 };
 
 TEST(Start, ParticlesThatEnterWithinAStepFallFromThatMomentAndAreBooked) {
   Model model = oneSphere({}, {});
   model.gravity = {0, 0, -10.0};
-  model.terms.add(Gate{});
+  model.terms.add(Gate({0, 0, 1}, 0.1));
   run(model, 1e-3, 60);
   ASSERT_EQ(model.particles.size(), 2u);
   EXPECT_NEAR(model.particles.v[1].z, 0.5, 1e-14);
@@ -123,22 +128,9 @@ TEST(Start, ParticlesThatEnterWithinAStepFallFromThatMomentAndAreBooked) {
   EXPECT_NEAR(energies(model).balance(), 0.0, 1e-14);
 }
 
-/// Lets a small sphere in at step 10 that is fast beside its size, but not beside that of the others.
-class Shooter final : public Term {
-public:
-  std::string name() const override { return "shooter"; }
-  std::unique_ptr<Term> clone() const override { return std::make_unique<Shooter>(*this); }
-  void exchange(Model& m, const Step& step) override {
-    if (step.number != 10) return;
-    const std::size_t first = m.particles.size();
-    addParticle(m.particles, {1, 0, 0}, {0, 0, 20}, 0.01, Mass{2.0});
-    admitParticles(m, first);
-  }
-};
-
 TEST(Start, ASmallParticleThatEntersWithinAStepCountsInTheCheckOfMoves) {
   Model model = oneSphere({}, {});
-  model.terms.add(Shooter{});
+  model.terms.add(Gate({0, 0, 20}, 0.01));  // fast beside its size, but not beside that of the other
   run(model, 1e-3, 10);
   ASSERT_EQ(model.particles.size(), 2u);
   try {

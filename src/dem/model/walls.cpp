@@ -32,8 +32,9 @@ ContactWork sweepWall(const Step& step, EndedMemories& left, Sweep&& sweep) {
 
 bool carried(const MeshWall& mesh) { return std::holds_alternative<WallOnBody>(mesh.motion); }
 
-template <class List>
-auto& numbered(List& found, std::size_t i, const char* kind) {
+template <class WallTerm>
+auto& numbered(auto& m, std::size_t i, const char* kind) {
+  const auto found = m.terms.template all<WallTerm>();
   if (i >= found.size())
     throw InputError("there is no " + std::string(kind) + " " + std::to_string(i), "walls of the model",
                      "the model has " + std::to_string(found.size()));
@@ -228,20 +229,12 @@ void removeWall(Model& m, const PrimitiveWall& wall) { removeTerm(m, wall, &Prim
 void removeWall(Model& m, const MeshWall& mesh) { removeTerm(m, mesh, &MeshWallTerm::mesh); }
 
 PrimitiveWall& primitiveWall(Model& m, std::size_t i) {
-  auto found = m.terms.all<PrimitiveWallTerm>();
-  return numbered(found, i, "primitive wall").wall;
+  return numbered<PrimitiveWallTerm>(m, i, "primitive wall").wall;
 }
 const PrimitiveWall& primitiveWall(const Model& m, std::size_t i) {
-  auto found = m.terms.all<PrimitiveWallTerm>();
-  return numbered(found, i, "primitive wall").wall;
+  return numbered<PrimitiveWallTerm>(m, i, "primitive wall").wall;
 }
-MeshWall& meshWall(Model& m, std::size_t i) {
-  auto found = m.terms.all<MeshWallTerm>();
-  return numbered(found, i, "mesh wall").mesh;
-}
-const MeshWall& meshWall(const Model& m, std::size_t i) {
-  auto found = m.terms.all<MeshWallTerm>();
-  return numbered(found, i, "mesh wall").mesh;
-}
+MeshWall& meshWall(Model& m, std::size_t i) { return numbered<MeshWallTerm>(m, i, "mesh wall").mesh; }
+const MeshWall& meshWall(const Model& m, std::size_t i) { return numbered<MeshWallTerm>(m, i, "mesh wall").mesh; }
 
 }  // namespace dovetail::dem
