@@ -147,7 +147,7 @@ TEST(MomentumBalance, HoldsAtEveryPointOfAMovingHeap) {
       const Balance far = balanceAt(kernel, heap, point, 4e-4 * width),
                     near = balanceAt(kernel, heap, point, 1e-4 * width);
       coarse = std::max(coarse, (far.without - far.boundary).norm() / far.scale);
-      fine = std::max(fine, (near.without - near.boundary).norm() / near.factors());
+      fine = std::max(fine, (near.without - near.boundary).norm() / near.scale);
     }
     // Only the finite differences err, at second order: 16 times less for a quarter of the step.
     EXPECT_LT(fine, 1e-6);
