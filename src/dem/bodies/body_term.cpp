@@ -6,6 +6,8 @@
 
 #include "../model/events.hpp"
 #include "carried_walls.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/loads.hpp"
 
@@ -39,6 +41,11 @@ Vec3 spinOf(const Bodies& bodies, std::size_t b, const Vec3& angularMomentum) {
 void BodyTerm::check(const Model& m) const {
   validate(bodies);
   dem::check(m.particles, bodies, clumps);
+  for (std::size_t k = 0; k < clumps.size(); ++k)
+    if (const double weight = m.particles.weightOf(at(clumps.particle[k])); weight != 1.0)
+      throw InputError("its member, particle " + std::to_string(m.particles.id[at(clumps.particle[k])]) +
+                           ", has the weight " + formatNumber(weight),
+                       "body " + std::to_string(clumps.body[k]), "give members of bodies the weight 1");
 }
 
 double BodyTerm::move(Model& m, const Step& step) {

@@ -22,11 +22,15 @@ void requireFiniteGravity(const Model& m) {
   if (!isFinite(m.gravity)) throw InputError("not a finite vector", "gravity", "give three finite numbers");
 }
 
+void requireLaws(const Model& m) {
+  if (!m.laws)
+    throw InputError("the model has no contact laws", "Model::laws", "set model.laws = makeContactLaws(law)");
+}
+
 void check(const Model& m) {
   validate(m.particles);
   requireFiniteGravity(m);
-  if (!m.laws && m.particles.size() > 0)
-    throw InputError("the model has no contact laws", "Model::laws", "set model.laws = makeContactLaws(law)");
+  if (m.particles.size() > 0) requireLaws(m);
   if (m.laws && m.laws->materials() > 1)
     for (std::size_t i = 0; i < m.particles.material.size(); ++i)
       if (m.particles.material[i] >= m.laws->materials())
@@ -59,12 +63,13 @@ void requireStableStep(const Model& m, double dt, double leastOverlap) {
   if (dt <= limit.dt) return;
   throw InputError("dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) + " s that " +
                        ownerOf(limit, m.particles) + " sets",
-                   "time step", "take a fifth of the limit or less, softer contacts, or scaleMasses for quasi-static scenes");
+                   "time step",
+                   "take a fifth of the limit or less, softer contacts, or scaleMasses for quasi-static scenes");
 }
 
 Energies energies(const Model& m) {
   requireClosed(m, "energies");
-  if (m.forcesOf != m.particles.revision && m.particles.size() > 0) {  // nobody has asked for forces yet
+  if (!hasForces(m) && m.particles.size() > 0) {  // nobody has asked for forces yet
     Model now = m;
     findForces(now);
     return energies(now);
@@ -92,10 +97,11 @@ void Terms::add(std::unique_ptr<Term> term) {
   auto place = terms_.begin();
   while (place != terms_.end() && (*place)->order() <= term->order()) ++place;
   terms_.insert(place, std::move(term));
+  ++revision_;
 }
 
 void Terms::remove(const Term& term) {
-  std::erase_if(terms_, [&](const auto& owned) { return owned.get() == &term; });
+  if (std::erase_if(terms_, [&](const auto& owned) { return owned.get() == &term; }) > 0) ++revision_;
 }
 
 }  // namespace dovetail::dem

@@ -13,7 +13,7 @@
 namespace dovetail::dem {
 
 template <class Archive, class T>
-  requires std::same_as<std::remove_const_t<T>, Step>
+requires std::same_as<std::remove_const_t<T>, Step>
 void archiveFields(Archive& archive, T& step) {
   archive(step.time, step.dt, step.number, step.closing, step.moved, step.timeless);
 }
@@ -48,8 +48,10 @@ void archiveScene(Archive& archive, M& m) {
   archiveParticles(archive, m.particles);
   archivePairs(archive, m);
   archive(m.gravity, m.rotation, m.booking, m.sortEvery, m.refusesUnstableSteps);
-  archive(m.time, m.steps, m.open, m.step, m.work, m.booked, m.rate, m.entered, m.left, m.forcesOf, m.smallestRadius,
+  std::int64_t forcesOf = hasForces(m) ? m.forcesOf : -1;
+  archive(m.time, m.steps, m.open, m.step, m.work, m.booked, m.rate, m.entered, m.left, forcesOf, m.smallestRadius,
           m.timeBase, m.stepsBase, m.checkedStep, m.renewals);
+  if constexpr (Archive::reads) m.forcesOf = forcesOf;
 }
 
 void saveDomain(ByteWriter& writer, const Model& m) {
@@ -188,6 +190,8 @@ void readCheckpoint(const std::filesystem::path& path, Model& m) {
   loadTerms(saved, restored.terms, path);
   Terms own = std::move(m.terms);  // the caller may hold references to them
   m = std::move(restored);
+  m.forcesOfTerms = anew ? m.terms.revision() : own.revision();
+  m.forcesOfLaws = m.laws;
   if (anew) return;
   m.terms = std::move(own);
   loadTerms(saved, m.terms, path);

@@ -124,6 +124,15 @@ void updateAndBookWraps(Model& m) {
 
 }  // namespace
 
+bool hasForces(const Model& m) {
+  return m.forcesOf == m.particles.revision && m.forcesOfTerms == m.terms.revision() && m.forcesOfLaws == m.laws;
+}
+
+void setFactors(Model& m) {
+  weighPairs(m);
+  for (const auto& term : m.terms) term->renewed(m);
+}
+
 std::string when(const Model& m) { return "t = " + formatNumber(m.time) + " s, step " + std::to_string(m.steps); }
 
 double smallestRadius(const Particles& particles) {
@@ -182,9 +191,7 @@ void renewPairs(Model& m) {
     letEscape(m);
     if (m.sortEvery > 0 && m.renewals++ % m.sortEvery == 0) sort(m);
   }
-  if (m.pairs.revision() == revision) return;
-  weighPairs(m);
-  for (const auto& term : m.terms) term->renewed(m);
+  if (m.pairs.revision() != revision) setFactors(m);
 }
 
 void removeParticles(Model& m, std::span<const int> list) {

@@ -14,6 +14,12 @@ std::string when(const Model& m);
 double smallestRadius(const Particles& particles);
 /// m/s; infinite if a velocity, position, spin or radius is not finite
 double largestSpeed(const Particles& particles);
+/// Whether the forces are those of the particles, laws and terms that are there now.
+bool hasForces(const Model& m);
+/// Sets the factors of pairs anew: weights, and what terms mute.
+void setFactors(Model& m);
+/// @throws InputError if there are none
+void requireLaws(const Model& m);
 /// @throws InputError if it is not finite
 void requireFiniteGravity(const Model& m);
 /// @throws NumericalError naming what is not finite, and of which particle, or who has moved farther than its radius

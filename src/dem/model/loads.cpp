@@ -86,8 +86,7 @@ void BondTerm::wake(Model& m, const Step& step) {
 void BondTerm::book(Model& m, const Step& step) {
   if (lost_ == 0.0 || m.booking == Booking::off) return;
   const MeanMotion mean = dem::meanMotion(m, step);
-  m.rate.lost.dissipatedPower +=
-      dashpotPower(m.particles, bonds, m.pairs.periodicity(), mean.v, mean.omega) - lost_;
+  m.rate.lost.dissipatedPower += dashpotPower(m.particles, bonds, m.pairs.periodicity(), mean.v, mean.omega) - lost_;
 }
 
 void BondTerm::addDemand(const Model& m, ContactDemand& demand) const { dem::addDemand(demand, m.particles, bonds); }
@@ -104,7 +103,8 @@ Bonds& bonds(Model& m) {
 
 void DampingTerm::check(const Model&) const {
   if (!(viscousRate >= 0.0 && std::isfinite(viscousRate)))
-    throw InputError("the damping rate is " + formatNumber(viscousRate), "viscous damping", "give a finite rate ≥ 0, 1/s");
+    throw InputError("the damping rate is " + formatNumber(viscousRate), "viscous damping",
+                     "give a finite rate ≥ 0, 1/s");
   if (!(local >= 0.0 && local < 1.0))
     throw InputError("the local damping is " + formatNumber(local), "local damping", "give 0 ≤ α < 1, such as 0.7");
 }
@@ -142,7 +142,8 @@ void DampingTerm::book(Model& m, const Step& step) {
       const double weight = p.weightOf(i);
       power += dampingPower(p.f[i], p.v[i], weight * p.mass[i], *this, step.dt);
       if (p.rotates())
-        power += dampingPower(p.torque[i], p.omega[i], weight * momentOfInertia(p, static_cast<int>(i)), *this, step.dt);
+        power +=
+            dampingPower(p.torque[i], p.omega[i], weight * momentOfInertia(p, static_cast<int>(i)), *this, step.dt);
     }
     return power;
   });
@@ -187,9 +188,15 @@ void ExternalForceTerm::book(Model& m, const Step& step) {
 void DriveTerm::check(const Model& m) const {
   if (!displacement_ || !velocity_)
     throw InputError("the path is missing", "drive", "give displacement and velocity as functions of time");
-  for (const std::int64_t id : ids_)
-    if (find(m.particles, id) < 0)
+  const std::vector<char> inBodies = members(m);
+  for (const std::int64_t id : ids_) {
+    const int i = find(m.particles, id);
+    if (i < 0)
       throw InputError("there is no particle " + std::to_string(id), "drive", "give ids of particles of the model");
+    if (!inBodies.empty() && inBodies[at(i)] != 0)
+      throw InputError("particle " + std::to_string(id) + " is a member of a clump, which moves it", "drive",
+                       "give ids of single particles");
+  }
 }
 
 void DriveTerm::locate(const Particles& particles) {

@@ -96,10 +96,14 @@ void welcome(Model& m) {
 }
 
 /// Everything that must be right before particles move: once at the start, and when somebody has added or taken out
-/// particles between steps.
+/// particles or terms, or exchanged laws, between steps. The step before ends with the forces that it had.
 void prepare(Model& m, double dt) {
-  const bool changed = m.forcesOf != m.particles.revision;
+  const bool changed = !hasForces(m);
   if (!changed && dt == m.checkedStep) return;
+  if (changed && m.open > 0.0) {
+    validate(m.particles);
+    close(m);
+  }
   if (changed) findForces(m);
   if (m.refusesUnstableSteps) requireStableStep(m, dt);
   m.checkedStep = dt;
@@ -123,7 +127,8 @@ void move(Model& m, double dt) {
 
 void renew(Model& m) {
   timed(m, "find pairs", [&] {
-    for (const auto& term : m.terms) term->exchange(m, m.step);
+    for (std::size_t k = 0; k < m.terms.size(); ++k)
+      m.terms.begin()[static_cast<std::ptrdiff_t>(k)]->exchange(m, m.step);
     renewPairs(m);
   });
 }
@@ -147,11 +152,14 @@ void addForces(Model& m) {
     if (m.booking == Booking::on) bookLosses(m, dt);
   }
   m.forcesOf = m.particles.revision;
+  m.forcesOfTerms = m.terms.revision();
+  m.forcesOfLaws = m.laws;
 }
 
 void findForces(Model& m) {
   constexpr double noTime = 1e-100;  // s: so short that no memory advances
-  if (m.forcesOf != m.particles.revision) {
+  const bool otherTerms = m.forcesOfTerms != m.terms.revision();
+  if (!hasForces(m)) {
     if (m.rotation == Rotation::automatic && m.laws && m.laws->rotates()) switchOnRotation(m.particles);
     check(m);
     m.smallestRadius = smallestRadius(m.particles);
@@ -161,6 +169,8 @@ void findForces(Model& m) {
   m.step.timeless = true;
   m.step.moved = std::numeric_limits<double>::infinity();
   renewPairs(m);
+  if (otherTerms)
+    for (const auto& term : m.terms) term->renewed(m);
   EndedPairs ended = m.pairs.takeEnded();  // whose energy becomes a power only when time passes
   startForces(m.particles, m.gravity);
   addForces(m);

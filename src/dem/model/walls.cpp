@@ -8,6 +8,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/walls/wall_archive.hpp"
 #include "dovetail/dem/walls/wall_checks.hpp"
+#include "events.hpp"
 
 namespace dovetail::dem {
 
@@ -43,7 +44,10 @@ auto& numbered(auto& m, std::size_t i, const char* kind) {
 
 }  // namespace
 
-void PrimitiveWallTerm::check(const Model& m) const { validate(wall, materialsOf(m), m.pairs.periodicity()); }
+void PrimitiveWallTerm::check(const Model& m) const {
+  requireLaws(m);
+  validate(wall, materialsOf(m), m.pairs.periodicity());
+}
 
 double PrimitiveWallTerm::move(Model&, const Step& step) {
   kickWall(wall, 0.5 * (step.closing + step.dt));
@@ -125,6 +129,7 @@ void PrimitiveWallTerm::load(ByteReader& reader) {
 }
 
 void MeshWallTerm::check(const Model& m) const {
+  requireLaws(m);
   validate(mesh, materialsOf(m));
   if (const auto* carrier = std::get_if<WallOnBody>(&mesh.motion)) checkCarrier(m, *carrier, mesh.wall.x.size());
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "../model/events.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -56,6 +57,7 @@ void requireValid(const HalfSpace& space) {
 }  // namespace
 
 void InsertionTerm::check(const Model& m) const {
+  requireLaws(m);
   const InsertionSettings& s = insertion.settings;
   if (squaredNorm(s.spin) > 0.0 && m.particles.size() > 0 && !m.particles.rotates())
     throw InputError("the particles do not spin", "spin of inserted particles", "call switchOnRotation before");
@@ -136,6 +138,7 @@ void OutletTerm::load(ByteReader& reader) {
 }
 
 InsertionTerm& addInsertion(Model& m, const InsertionSettings& settings) {
+  if (!settings.shapes.empty()) bodies(m);  // which the insertion would make in the midst of a step
   return m.terms.add(InsertionTerm(settings));
 }
 

@@ -160,7 +160,7 @@ EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contact
   constexpr std::size_t grain = 1024;
   const auto components = static_cast<std::size_t>(memory);
   const std::size_t old = contacts.oldParticle.size();
-  contacts.oldMemory.resize(components * old);
+  startAnewIfOfAnother(memory, old, contacts.oldMemory, contacts.left);
   contacts.memory.resize(components * contacts.size());
   EndedMemories ended = std::exchange(contacts.left, {});
   if (old == 0) {

@@ -27,6 +27,12 @@ double energyOfLeavers(const std::vector<int>& particle, std::vector<double>& en
   return sum;
 }
 
+void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered, EndedMemories& left) {
+  const auto components = static_cast<std::size_t>(memory);
+  if (remembered.size() != components * contacts) remembered.assign(components * contacts, 0.0);
+  if (left.memory.size() != components * left.material.size()) left = {};
+}
+
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
               std::size_t contact, std::size_t components) {
   if (components == 0) return;

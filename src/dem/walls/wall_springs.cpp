@@ -56,7 +56,7 @@ EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, c
                            int memory) {
   WallSprings& springs = contacts.springs;
   const auto components = static_cast<std::size_t>(memory);
-  springs.memory.resize(components * springs.particle.size());
+  startAnewIfOfAnother(memory, springs.particle.size(), springs.memory, springs.left);
   springs.next.assign(components * contacts.size(), 0.0);
   springs.taken.assign(springs.particle.size(), 0);
   forParticleRuns(contacts.particle, [&](std::size_t first, std::size_t last) {

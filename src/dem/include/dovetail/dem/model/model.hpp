@@ -52,7 +52,8 @@ struct Model {
   std::optional<Domain> domain;
   Rotation rotation = Rotation::automatic;
   Booking booking = Booking::on;
-  int sortEvery = 16;  ///< particles are sorted at every so many renewals of the list, 0 = never; Particles::id names them
+  int sortEvery =
+      16;  ///< particles are sorted at every so many renewals of the list, 0 = never; Particles::id names them
   bool refusesUnstableSteps = true;  ///< a step beyond criticalStep is refused, see there
   Profile* profile = nullptr;        ///< where the stages' times go, if wanted
 
@@ -66,20 +67,23 @@ struct Model {
   Energies rate;      ///< W: lost to dashpots, damping, walls, external with the forces of the last step
   Exchanged entered, left;
 
-  std::int64_t forcesOf = -1;    ///< Particles::revision that the forces belong to; −1 before the first
-  double smallestRadius = 0.0;   ///< m; moves beyond it are looked at one by one
-  double timeBase = 0.0;         ///< s: time = timeBase + (steps − stepsBase) dt
+  std::int64_t forcesOf = -1;      ///< Particles::revision that the forces belong to; −1 before the first
+  std::int64_t forcesOfTerms = 0;  ///< Terms::revision of the same
+  std::shared_ptr<const ContactLaws> forcesOfLaws;  ///< laws of the same
+  double smallestRadius = 0.0;                      ///< m; moves beyond it are looked at one by one
+  double timeBase = 0.0;                            ///< s: time = timeBase + (steps − stepsBase) dt
   std::int64_t stepsBase = 0;
-  double checkedStep = 0.0;      ///< s: the dt that has been compared with the critical step
-  std::int64_t renewals = 0;     ///< how often the grid was asked for pairs
+  double checkedStep = 0.0;             ///< s: the dt that has been compared with the critical step
+  std::int64_t renewals = 0;            ///< how often the grid was asked for pairs
   std::vector<std::int64_t> newcomers;  ///< ids of those who entered in the step under way
 };
 
 /// The parts of a step, for those who do something between them:
 ///
-/// move: [last half kick of the step before] · half kick · drift, of particles, walls and bodies. Before the first step,
-/// and when particles have been added or removed since the last, it also checks the model, makes the pair list and
-/// finds the forces at the start.
+/// move: [last half kick of the step before] · half kick · drift, of particles, walls and bodies. Before the first
+/// step, and when particles or terms have been added or removed or laws exchanged since the last, it also closes the
+/// step before, checks the model, makes the pair list and finds the forces at the start. Contacts keep what they
+/// remember if the new laws remember as many numbers, and start anew otherwise.
 /// @throws InputError as check and requireStableStep do, or if dt is not finite and > 0; NumericalError naming a
 ///   particle that is not finite or moved farther than its own radius in this step (it could pass through walls and
 ///   others unseen)
@@ -105,8 +109,8 @@ void run(Model& m, double dt, std::int64_t n);
 ///   values that are not finite, laws that are missing or do not know a material, walls and terms that are not valid
 void check(const Model& m);
 
-/// The largest stable step with contacts, bonds and bodies as they are now, and who sets it (see ContactDemand). A scene
-/// that is yet to collide has none: take `leastOverlap` then, the overlap to be expected, m.
+/// The largest stable step with contacts, bonds and bodies as they are now, and who sets it (see ContactDemand). A
+/// scene that is yet to collide has none: take `leastOverlap` then, the overlap to be expected, m.
 ContactStep criticalStep(const Model& m, double leastOverlap = 0.0);
 /// @throws InputError naming who sets the limit if dt is beyond it
 void requireStableStep(const Model& m, double dt, double leastOverlap = 0.0);

@@ -22,12 +22,12 @@ struct Momenta;
 
 /// The step under way.
 struct Step {
-  double time = 0.0;          ///< s, at its end
-  double dt = 0.0;            ///< s
-  std::int64_t number = 0;    ///< counted from 1
-  double closing = 0.0;       ///< s: length of the step before if its last half kick is still to be made, else 0
-  double moved = 0.0;         ///< m, bound on how far any particle has moved since forces were last asked for
-  bool timeless = false;      ///< forces of a state in which no time passes: memories stay and nothing is booked
+  double time = 0.0;        ///< s, at its end
+  double dt = 0.0;          ///< s
+  std::int64_t number = 0;  ///< counted from 1
+  double closing = 0.0;     ///< s: length of the step before if its last half kick is still to be made, else 0
+  double moved = 0.0;       ///< m, bound on how far any particle has moved since forces were last asked for
+  bool timeless = false;    ///< forces of a state in which no time passes: memories stay and nothing is booked
 };
 
 /// Which half of a step's kick has just been made.
@@ -61,8 +61,8 @@ public:
   virtual void exchange(Model&, const Step&) {}
   /// The list of pairs is new: sets factors of pairs (PairList) that it wants muted or weighed.
   virtual void renewed(Model&) {}
-  /// Particles are about to leave, one entry per particle, 0 = stays. Sets others who go along, and those whose mass and
-  /// energy it counts itself to `booked`.
+  /// Particles are about to leave, one entry per particle, 0 = stays. Sets others who go along, and those whose mass
+  /// and energy it counts itself to `booked`.
   virtual void leaving(Model&, std::vector<char>& /*leaves*/) {}
   static constexpr char booked = 2;
   /// Particles get new numbers, < 0: gone. `before` still has all of them in their old order.
@@ -73,8 +73,8 @@ public:
   /// All forces are known: adds to model.rate the power of those that give or take energy (against the mean of the
   /// velocities before and after the kick that they make).
   virtual void book(Model&, const Step&) {}
-  /// For particles that the term moves: sets the means of their velocities (and spins) before and after the kick that is
-  /// due.
+  /// For particles that the term moves: sets the means of their velocities (and spins) before and after the kick that
+  /// is due.
   virtual void meanMotion(const Model&, const Step&, std::span<Vec3> /*v*/, std::span<Vec3> /*omega*/) const {}
   /// kick(dt/2): the end of the step.
   virtual void close(Model&, double /*dt*/) {}
@@ -93,12 +93,13 @@ public:
 class Terms {
 public:
   Terms() = default;
-  Terms(const Terms& other) {
+  Terms(const Terms& other) : revision_(other.revision_) {
     for (const auto& term : other.terms_) terms_.push_back(term->clone());
   }
   Terms(Terms&&) noexcept = default;
   Terms& operator=(Terms other) noexcept {
     terms_.swap(other.terms_);
+    revision_ = other.revision_;
     return *this;
   }
 
@@ -122,6 +123,7 @@ public:
   }
   void remove(const Term& term);
 
+  std::int64_t revision() const { return revision_; }  ///< raised whenever a term is added or removed
   std::size_t size() const { return terms_.size(); }
   bool empty() const { return terms_.empty(); }
   auto begin() const { return terms_.begin(); }
@@ -136,6 +138,7 @@ private:
     return found;
   }
   std::vector<std::unique_ptr<Term>> terms_;
+  std::int64_t revision_ = 0;
 };
 
 }  // namespace dovetail::dem

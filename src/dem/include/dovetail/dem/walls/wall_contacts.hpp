@@ -115,6 +115,9 @@ double renumber(WallContacts& contacts, std::span<const int> newNumber, const Pa
 namespace detail {
 /// Energies of the contacts of those who leave; the contacts' own are cleared, as their numbers are no longer true.
 double energyOfLeavers(const std::vector<int>& particle, std::vector<double>& energy, std::span<const int> newNumber);
+/// Contacts that remember another number of values, as those of a law that was there before, start anew.
+/// @param memory numbers per contact
+void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered, EndedMemories& left);
 /// Remembers memory[from …] of a particle that leaves, or whose contact has ended.
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
               std::size_t contact, std::size_t components);
