@@ -199,5 +199,18 @@ TEST(StreamsOfClumps, GoOnFromACheckpointInAModelThatIsSetUpAnew) {
   EXPECT_EQ(saveState(m), saveState(other));
 }
 
+/// Two that have yet to meet.
+TEST(CriticalStep, IsKnownBeforeTheFirstStep) {
+  Model m;
+  m.laws = makeContactLaws(rough());
+  m.pairs.setSkin(0.1);
+  addParticle(m.particles, {}, {}, 0.1, Mass{1.0});
+  addParticle(m.particles, {0.25, 0, 0}, {}, 0.1, Mass{1.0});
+  const double before = criticalStep(m, 1e-3).dt;
+  findForces(m);
+  EXPECT_EQ(before, criticalStep(m, 1e-3).dt);
+  EXPECT_LT(before, 0.1);
+}
+
 }  // namespace
 }  // namespace dovetail::dem

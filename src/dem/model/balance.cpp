@@ -52,6 +52,11 @@ void requirePlain(const Model& m, const std::string& coupling) {
 }
 
 ContactStep criticalStep(const Model& m, double leastOverlap) {
+  if (!hasForces(m) && m.particles.size() > 0) {  // no list yet, or an old one
+    Model now = m;
+    findForces(now);
+    return criticalStep(now, leastOverlap);
+  }
   ContactDemand demand;
   if (m.laws) m.laws->addDemand(demand, m.particles, m.pairs, leastOverlap);
   for (const auto& term : m.terms) term->addDemand(m, demand);

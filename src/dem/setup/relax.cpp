@@ -176,10 +176,22 @@ RelaxationReport restOf(const Model& m) {
   return report;
 }
 
+namespace {
+/// The step follows the limit at every look; in between a model that is on its way to rest may be a little beyond.
+struct UnstableStepsPass {
+  explicit UnstableStepsPass(Model& m) : model(m), refuses(std::exchange(m.refusesUnstableSteps, false)) {}
+  ~UnstableStepsPass() { model.refusesUnstableSteps = refuses; }
+  UnstableStepsPass(const UnstableStepsPass&) = delete;
+  UnstableStepsPass& operator=(const UnstableStepsPass&) = delete;
+  Model& model;
+  bool refuses;
+};
+}  // namespace
+
 RelaxationReport relax(Model& m, const RelaxationSettings& settings) {
   check(m, settings);
   findForces(m);
-  const bool refuses = std::exchange(m.refusesUnstableSteps, false);  // the step follows the limit at every look
+  const UnstableStepsPass pass(m);
   Fire fire(longestStep(m, settings.stepShare));
   RelaxationReport report;
   for (std::int64_t step = 0;; ++step) {
@@ -196,7 +208,6 @@ RelaxationReport relax(Model& m, const RelaxationSettings& settings) {
     m.booked.damping += before - kineticEnergyOf(m);
     run(m, fire.dt(), 1);
   }
-  m.refusesUnstableSteps = refuses;
   m.booked.damping += kineticEnergyOf(m);
   stop(m);
   for (const BodyTerm* term : m.terms.all<BodyTerm>()) placeCarriedWalls(m, term->bodies, m.time);
