@@ -52,9 +52,9 @@ void requirePlain(const Model& m, const std::string& coupling) {
 }
 
 ContactStep criticalStep(const Model& m, double leastOverlap) {
-  if (!hasForces(m) && m.particles.size() > 0) {  // no list yet, or an old one
+  if (leastOverlap > 0.0 && !m.pairs.fits(m.particles) && m.particles.size() > 0) {
     Model now = m;
-    findForces(now);
+    findForces(now);  // for its list of pairs
     return criticalStep(now, leastOverlap);
   }
   ContactDemand demand;
