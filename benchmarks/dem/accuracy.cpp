@@ -27,6 +27,12 @@ struct Named {
   Laws laws;
 };
 
+template <class Normal, class Tangential, class Rolling, class Adhesion>
+dem::ContactLaw<Normal, Tangential, Rolling, Adhesion> lawOf(const Normal& normal, const Tangential& tangential,
+                                                             const Rolling& rolling, const Adhesion& adhesion) {
+  return {normal, tangential, rolling, adhesion};
+}
+
 std::vector<Named> laws() {
   const dem::LinearSpringDashpot linear{stiffness, 0.5};
   const dem::TangentialSpring friction{2.0 / 7.0 * stiffness, 0.3}, damped{2.0 / 7.0 * stiffness, 0.3, 0.5};
@@ -35,21 +41,20 @@ std::vector<Named> laws() {
   const dem::RollingAndTwisting rolling{{0.1, 0.2, 0.1}, {0.05, 0.1, 0.1}};
   dem::Cohesion cohesion;
   cohesion.force = 5.0;
-  return {
-      {"linear, elastic", makeContactLaws(dem::ElasticLaw{{stiffness}})},
-      {"linear", makeContactLaws(dem::ElasticLaw{linear})},
-      {"linear + friction", makeContactLaws(dem::FrictionalLaw{linear, friction})},
-      {"linear + friction with dashpot", makeContactLaws(dem::FrictionalLaw{linear, damped})},
-      {"linear + friction + rolling", makeContactLaws(dem::ContactLaw{linear, friction, rolling, dem::NoAdhesion{}})},
-      {"linear + friction + cohesion", makeContactLaws(dem::ContactLaw{linear, friction, dem::NoRolling{}, cohesion})},
-      {"linear + friction + bridge",
-       makeContactLaws(dem::ContactLaw{linear, friction, dem::NoRolling{}, dem::LiquidBridge{2.0, 1e-3, 0.2}})},
-      {"Hertz", makeContactLaws(dem::HertzLaw{hertz})},
-      {"Hertz + Mindlin", makeContactLaws(dem::HertzMindlinLaw{hertz, mindlin})},
-      {"Hertz + Mindlin + rolling", makeContactLaws(dem::ContactLaw{hertz, mindlin, rolling, dem::NoAdhesion{}})},
-      {"elastic-plastic + friction",
-       makeContactLaws(dem::ContactLaw{dem::ElasticPlastic{stiffness, 3.0 * stiffness, 0.5 * stiffness, 0.1}, friction,
-                                       dem::NoRolling{}, dem::NoAdhesion{}})}};
+  return {{"linear, elastic", makeContactLaws(dem::ElasticLaw{{stiffness}})},
+          {"linear", makeContactLaws(dem::ElasticLaw{linear})},
+          {"linear + friction", makeContactLaws(dem::FrictionalLaw{linear, friction})},
+          {"linear + friction with dashpot", makeContactLaws(dem::FrictionalLaw{linear, damped})},
+          {"linear + friction + rolling", makeContactLaws(lawOf(linear, friction, rolling, dem::NoAdhesion{}))},
+          {"linear + friction + cohesion", makeContactLaws(lawOf(linear, friction, dem::NoRolling{}, cohesion))},
+          {"linear + friction + bridge",
+           makeContactLaws(lawOf(linear, friction, dem::NoRolling{}, dem::LiquidBridge{2.0, 1e-3, 0.2}))},
+          {"Hertz", makeContactLaws(dem::HertzLaw{hertz})},
+          {"Hertz + Mindlin", makeContactLaws(dem::HertzMindlinLaw{hertz, mindlin})},
+          {"Hertz + Mindlin + rolling", makeContactLaws(lawOf(hertz, mindlin, rolling, dem::NoAdhesion{}))},
+          {"elastic-plastic + friction",
+           makeContactLaws(lawOf(dem::ElasticPlastic{stiffness, 3.0 * stiffness, 0.5 * stiffness, 0.1}, friction,
+                                 dem::NoRolling{}, dem::NoAdhesion{}))}};
 }
 
 /// Pairs far from each other, whose spheres approach at 0.5 to 1 m/s and slip and spin as fast.
