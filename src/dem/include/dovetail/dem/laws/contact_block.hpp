@@ -101,8 +101,8 @@ template <class Prepared, std::size_t... C>
 
 /// How two particles meet.
 struct Meeting {
-  Vec3 normal,
-      velocity;    ///< unit, from partner to particle; of the particle relative to the partner at the contact, m/s
+  Vec3 normal;     ///< unit, from the partner to the particle
+  Vec3 velocity;   ///< of the particle relative to the partner at the contact, m/s
   double overlap;  ///< m
 };
 

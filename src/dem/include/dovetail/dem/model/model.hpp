@@ -52,8 +52,8 @@ struct Model {
   std::optional<Domain> domain;
   Rotation rotation = Rotation::automatic;
   Booking booking = Booking::on;
-  int sortEvery =
-      16;  ///< particles are sorted at every so many renewals of the list, 0 = never; Particles::id names them
+  /// Particles are sorted at every so many renewals of the list, 0 = never; Particles::id names them.
+  int sortEvery = 16;
   bool refusesUnstableSteps = true;  ///< a step beyond criticalStep is refused, see there
   Profile* profile = nullptr;        ///< where the stages' times go, if wanted
 

@@ -18,8 +18,8 @@ struct ContactSample {
   std::vector<int> first;   ///< particle
   std::vector<int> second;  ///< particle, or −1 for a wall
   std::vector<Vec3> from;   ///< centre of the first, m
-  std::vector<Vec3>
-      to;  ///< centre of the second (its image next to the first one), or the contact point on the wall, m
+  /// Centre of the second (its image next to the first one), or the contact point on the wall, m.
+  std::vector<Vec3> to;
   std::vector<Vec3> point;   ///< middle of the overlap, or the contact point on the wall, m
   std::vector<Vec3> normal;  ///< unit, from the second to the first
   std::vector<Vec3> force;   ///< on the first, N; the second gets the opposite
