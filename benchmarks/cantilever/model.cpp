@@ -4,7 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/fem/stable_step.hpp"
+#include "dovetail/fem/motion/stable_step.hpp"
 
 namespace dovetail::cantilever {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "dovetail/fem/newmark.hpp"
+#include "dovetail/fem/motion/newmark.hpp"
 #include "dovetail/surface/coupling.hpp"
 #include "dovetail/surface/smooth_coupling.hpp"
 #include "dovetail/surface/stepper.hpp"

@@ -12,7 +12,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/point_laws.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 #include "plasticity_scenes.hpp"
 #include "verification_cases.hpp"
 

@@ -11,12 +11,12 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/dynamics.hpp"
-#include "dovetail/fem/loads.hpp"
-#include "dovetail/fem/point_laws.hpp"
-#include "dovetail/fem/solid.hpp"
-#include "dovetail/fem/stable_step.hpp"
-#include "dovetail/fem/statics.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
+#include "dovetail/fem/motion/stable_step.hpp"
+#include "dovetail/fem/solve/statics.hpp"
+#include "dovetail/fem/terms/loads.hpp"
 
 namespace {
 

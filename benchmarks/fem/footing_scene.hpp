@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "dovetail/fem/plasticity.hpp"
-#include "dovetail/fem/solid.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/plasticity.hpp"
 
 namespace dovetail::fem {
 

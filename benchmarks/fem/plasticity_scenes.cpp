@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "dovetail/fem/mesh_shapes.hpp"
-#include "dovetail/fem/statics.hpp"
+#include "dovetail/fem/mesh/mesh_shapes.hpp"
+#include "dovetail/fem/solve/statics.hpp"
 
 namespace dovetail::fem {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "dovetail/fem/plasticity.hpp"
-#include "dovetail/fem/solid.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/plasticity.hpp"
 
 namespace dovetail::fem {
 

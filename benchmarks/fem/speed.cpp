@@ -12,15 +12,15 @@
 #include <vector>
 
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/block_matrix.hpp"
-#include "dovetail/fem/dynamics.hpp"
-#include "dovetail/fem/linear_solver.hpp"
-#include "dovetail/fem/loads.hpp"
-#include "dovetail/fem/model.hpp"
-#include "dovetail/fem/newmark.hpp"
-#include "dovetail/fem/point_laws.hpp"
-#include "dovetail/fem/solid.hpp"
-#include "dovetail/fem/viscosity.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/laws/viscosity.hpp"
+#include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
+#include "dovetail/fem/motion/newmark.hpp"
+#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/fem/solve/linear_solver.hpp"
+#include "dovetail/fem/terms/loads.hpp"
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dovetail/fem/loads.hpp"
-#include "dovetail/fem/mesh_shapes.hpp"
-#include "dovetail/fem/point_laws.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/mesh/mesh_shapes.hpp"
+#include "dovetail/fem/terms/loads.hpp"
 
 namespace dovetail::verification {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "dovetail/fem/solid.hpp"
-#include "dovetail/fem/statics.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/solve/statics.hpp"
 
 namespace dovetail::verification {
 

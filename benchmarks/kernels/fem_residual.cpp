@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/elements.hpp"
-#include "dovetail/fem/newmark.hpp"
+#include "dovetail/fem/elements/elements.hpp"
+#include "dovetail/fem/motion/newmark.hpp"
 
 namespace {
 

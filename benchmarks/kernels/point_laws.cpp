@@ -1,5 +1,5 @@
 // Nanoseconds per point of the laws: stress alone, and stress with tangent.
-#include "dovetail/fem/point_laws.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 
 #include <chrono>
 #include <cstdio>
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/plasticity.hpp"
-#include "dovetail/fem/point_law.hpp"
-#include "dovetail/fem/viscosity.hpp"
+#include "dovetail/fem/laws/plasticity.hpp"
+#include "dovetail/fem/laws/point_law.hpp"
+#include "dovetail/fem/laws/viscosity.hpp"
 
 namespace {
 

@@ -4,12 +4,12 @@
 #include <iostream>
 
 #include "common/options.hpp"
-#include "dovetail/fem/contact_plane.hpp"
-#include "dovetail/fem/dynamics.hpp"
-#include "dovetail/fem/mesh_shapes.hpp"
-#include "dovetail/fem/plasticity.hpp"
-#include "dovetail/fem/solid.hpp"
-#include "dovetail/fem/stable_step.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/plasticity.hpp"
+#include "dovetail/fem/mesh/mesh_shapes.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
+#include "dovetail/fem/motion/stable_step.hpp"
+#include "dovetail/fem/terms/contact_plane.hpp"
 
 namespace {
 

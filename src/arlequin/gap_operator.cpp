@@ -6,7 +6,7 @@
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/shape.hpp"
+#include "dovetail/fem/mesh/shape.hpp"
 
 namespace dovetail::arlequin {
 

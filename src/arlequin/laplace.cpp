@@ -7,7 +7,7 @@
 
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/shape.hpp"
+#include "dovetail/fem/mesh/shape.hpp"
 
 namespace dovetail::arlequin {
 

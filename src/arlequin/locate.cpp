@@ -6,7 +6,7 @@
 #include <string>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/shape.hpp"
+#include "dovetail/fem/mesh/shape.hpp"
 
 namespace dovetail::arlequin {
 

@@ -5,8 +5,8 @@
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
-#include "dovetail/fem/materials.hpp"
-#include "dovetail/fem/shape.hpp"
+#include "dovetail/fem/laws/materials.hpp"
+#include "dovetail/fem/mesh/shape.hpp"
 
 namespace dovetail::arlequin {
 

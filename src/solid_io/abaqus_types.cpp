@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "dovetail/fem/cell_topology.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
 
 namespace dovetail::solid_io {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "dovetail/fem/solid_mesh.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 
 namespace dovetail::solid_io {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "dovetail/fem/solid_mesh.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 
 namespace dovetail::solid_io {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "dovetail/fem/solid_mesh.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 
 namespace dovetail::solid_io {
 

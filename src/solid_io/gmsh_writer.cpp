@@ -2,7 +2,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/fem/cell_topology.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "gmsh_types.hpp"
 #include "writers.hpp"

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/cell_topology.hpp"
-#include "dovetail/fem/mesh_quality.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
+#include "dovetail/fem/mesh/mesh_quality.hpp"
 #include "face_finder.hpp"
 
 namespace dovetail::solid_io {

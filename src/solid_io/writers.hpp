@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dovetail/fem/solid_mesh.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "face_finder.hpp"
 
 namespace dovetail::solid_io {

@@ -2,7 +2,7 @@
 
 #include "dovetail/arlequin/locate.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/shape.hpp"
+#include "dovetail/fem/mesh/shape.hpp"
 #include "scenes.hpp"
 
 namespace dovetail::arlequin {

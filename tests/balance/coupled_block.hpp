@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dovetail/core/ledger.hpp"
-#include "dovetail/fem/mesh.hpp"
+#include "dovetail/fem/mesh/mesh.hpp"
 #include "dovetail/surface/coupling.hpp"
 #include "dovetail/surface/smooth_coupling.hpp"
 #include "dovetail/surface/stepper.hpp"
@@ -88,8 +88,8 @@ double storedEnergy(const Model& model) {
   double height = 0.0;
   for (std::size_t i = 0; i < model.discrete.particles.size(); ++i)
     height -= model.discrete.particles.mass[i] * dot(model.discrete.gravity, model.discrete.particles.x[i]);
-  return dem::kineticEnergy(model.discrete.particles) + model.contact.storedEnergy() + height + fem::kineticEnergy(model.nodes) +
-         model.strainEnergy;
+  return dem::kineticEnergy(model.discrete.particles) + model.contact.storedEnergy() + height +
+         fem::kineticEnergy(model.nodes) + model.strainEnergy;
 }
 
 struct Result {

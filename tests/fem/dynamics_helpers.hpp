@@ -1,9 +1,9 @@
 // Oscillators and small bodies for the tests of integrators.
 #pragma once
 
-#include "dovetail/fem/dynamics.hpp"
-#include "dovetail/fem/loads.hpp"
-#include "dovetail/fem/model_mass.hpp"
+#include "dovetail/fem/model/model_mass.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
+#include "dovetail/fem/terms/loads.hpp"
 #include "solid_helpers.hpp"
 
 namespace dovetail::fem {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "dovetail/fem/solid_mesh.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 
 namespace dovetail::fem {
 

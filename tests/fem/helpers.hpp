@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "dovetail/fem/elements.hpp"
+#include "dovetail/fem/elements/elements.hpp"
 
 namespace dovetail::fem {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "dovetail/fem/plasticity.hpp"
+#include "dovetail/fem/laws/plasticity.hpp"
 #include "point_helpers.hpp"
 
 namespace dovetail::fem {

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "dovetail/fem/point_material.hpp"
+#include "dovetail/fem/laws/point_material.hpp"
 
 namespace dovetail::fem {
 

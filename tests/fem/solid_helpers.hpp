@@ -3,9 +3,9 @@
 
 #include <Eigen/Dense>
 
-#include "dovetail/fem/block_matrix.hpp"
-#include "dovetail/fem/model.hpp"
-#include "dovetail/fem/solid.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/solve/block_matrix.hpp"
 #include "helpers.hpp"
 
 namespace dovetail::fem {

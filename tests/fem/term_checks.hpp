@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dovetail/fem/block_matrix.hpp"
-#include "dovetail/fem/model.hpp"
+#include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/solve/block_matrix.hpp"
 #include "helpers.hpp"
 
 namespace dovetail::fem {

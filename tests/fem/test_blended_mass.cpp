@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/blended_mass.hpp"
+#include "dovetail/fem/motion/blended_mass.hpp"
 #include "helpers.hpp"
 
 namespace dovetail::fem {

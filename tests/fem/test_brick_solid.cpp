@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/elements.hpp"
-#include "dovetail/fem/point_laws.hpp"
+#include "dovetail/fem/elements/elements.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 #include "solid_helpers.hpp"
 
 namespace dovetail::fem {

@@ -5,8 +5,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/contact_plane.hpp"
-#include "dovetail/fem/ties.hpp"
+#include "dovetail/fem/model/ties.hpp"
+#include "dovetail/fem/terms/contact_plane.hpp"
 #include "dynamics_helpers.hpp"
 
 namespace dovetail::fem {

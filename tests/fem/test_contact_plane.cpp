@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/contact_plane.hpp"
-#include "dovetail/fem/loads.hpp"
+#include "dovetail/fem/terms/contact_plane.hpp"
+#include "dovetail/fem/terms/loads.hpp"
 #include "term_checks.hpp"
 
 namespace dovetail::fem {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "dovetail/fem/mesh_shapes.hpp"
-#include "dovetail/fem/point_laws.hpp"
-#include "dovetail/fem/statics.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/mesh/mesh_shapes.hpp"
+#include "dovetail/fem/solve/statics.hpp"
 #include "shapes.hpp"
 #include "solid_helpers.hpp"
 

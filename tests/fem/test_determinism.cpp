@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/newmark.hpp"
+#include "dovetail/fem/motion/newmark.hpp"
 #include "helpers.hpp"
 
 namespace dovetail::fem {

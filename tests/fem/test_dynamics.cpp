@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/dynamics.hpp"
-#include "dovetail/fem/stable_step.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
+#include "dovetail/fem/motion/stable_step.hpp"
 #include "dynamics_helpers.hpp"
 
 namespace dovetail::fem {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/loads.hpp"
+#include "dovetail/fem/terms/loads.hpp"
 #include "term_checks.hpp"
 
 namespace dovetail::fem {

@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/dynamics.hpp"
-#include "dovetail/fem/mesh_shapes.hpp"
-#include "dovetail/fem/plasticity.hpp"
-#include "dovetail/fem/point_laws.hpp"
-#include "dovetail/fem/solid.hpp"
-#include "dovetail/fem/viscosity.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/plasticity.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/laws/viscosity.hpp"
+#include "dovetail/fem/mesh/mesh_shapes.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
 
 namespace dovetail::fem {
 namespace {

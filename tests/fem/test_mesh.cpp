@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/mesh.hpp"
+#include "dovetail/fem/mesh/mesh.hpp"
 
 namespace dovetail::fem {
 namespace {

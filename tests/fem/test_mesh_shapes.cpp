@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/cell_topology.hpp"
-#include "dovetail/fem/mesh_quality.hpp"
-#include "dovetail/fem/mesh_shapes.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
+#include "dovetail/fem/mesh/mesh_quality.hpp"
+#include "dovetail/fem/mesh/mesh_shapes.hpp"
 #include "face_integrals.hpp"
 
 namespace dovetail::fem {

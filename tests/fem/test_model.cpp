@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/model.hpp"
+#include "dovetail/fem/model/model.hpp"
 #include "helpers.hpp"
 
 namespace dovetail::fem {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/point_laws.hpp"
-#include "dovetail/fem/stable_step.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/motion/stable_step.hpp"
 #include "solid_helpers.hpp"
 
 namespace dovetail::fem {

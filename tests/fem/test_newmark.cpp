@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/newmark.hpp"
-#include "dovetail/fem/stable_step.hpp"
+#include "dovetail/fem/motion/newmark.hpp"
+#include "dovetail/fem/motion/stable_step.hpp"
 #include "helpers.hpp"
 
 namespace dovetail::fem {

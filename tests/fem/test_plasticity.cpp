@@ -2,9 +2,9 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/materials.hpp"
-#include "dovetail/fem/plasticity.hpp"
-#include "dovetail/fem/point_laws.hpp"
+#include "dovetail/fem/laws/materials.hpp"
+#include "dovetail/fem/laws/plasticity.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 #include "plastic_laws.hpp"
 
 namespace dovetail::fem {

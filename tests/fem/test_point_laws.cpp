@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/history_law.hpp"
-#include "dovetail/fem/point_laws.hpp"
+#include "dovetail/fem/laws/history_law.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 #include "point_helpers.hpp"
 
 namespace dovetail::fem {

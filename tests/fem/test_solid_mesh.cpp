@@ -5,7 +5,7 @@
 #include <set>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/cell_topology.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
 #include "face_integrals.hpp"
 
 namespace dovetail::fem {

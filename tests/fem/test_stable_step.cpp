@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/stable_step.hpp"
+#include "dovetail/fem/motion/stable_step.hpp"
 #include "helpers.hpp"
 
 namespace dovetail::fem {

@@ -4,8 +4,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/loads.hpp"
-#include "dovetail/fem/statics.hpp"
+#include "dovetail/fem/solve/statics.hpp"
+#include "dovetail/fem/terms/loads.hpp"
 #include "solid_helpers.hpp"
 
 namespace dovetail::fem {

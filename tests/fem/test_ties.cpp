@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/loads.hpp"
-#include "dovetail/fem/ties.hpp"
+#include "dovetail/fem/model/ties.hpp"
+#include "dovetail/fem/terms/loads.hpp"
 #include "solid_helpers.hpp"
 
 namespace dovetail::fem {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/time_functions.hpp"
+#include "dovetail/fem/model/time_functions.hpp"
 
 namespace dovetail::fem {
 namespace {

@@ -1,6 +1,6 @@
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/point_laws.hpp"
-#include "dovetail/fem/viscosity.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/laws/viscosity.hpp"
 #include "plastic_laws.hpp"
 
 namespace dovetail::fem {

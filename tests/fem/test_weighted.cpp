@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/stable_step.hpp"
+#include "dovetail/fem/motion/stable_step.hpp"
 #include "helpers.hpp"
 
 namespace dovetail::fem {

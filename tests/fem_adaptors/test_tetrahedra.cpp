@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/mesh_quality.hpp"
+#include "dovetail/fem/mesh/mesh_quality.hpp"
 #include "dovetail/fem_cgal/tetrahedra.hpp"
 
 namespace dovetail::fem {

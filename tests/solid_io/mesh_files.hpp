@@ -7,8 +7,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/fem/cell_topology.hpp"
-#include "dovetail/fem/mesh_quality.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
+#include "dovetail/fem/mesh/mesh_quality.hpp"
 #include "dovetail/solid_io/solid_files.hpp"
 
 namespace dovetail::solid_io {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dovetail/fem/mesh.hpp"
+#include "dovetail/fem/mesh/mesh.hpp"
 #include "dovetail/surface/coupling.hpp"
 #include "dovetail/surface/smooth_coupling.hpp"
 

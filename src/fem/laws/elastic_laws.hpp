@@ -1,7 +1,7 @@
 // Elastic laws in closed form, for one point or four.
 #pragma once
 
-#include "dovetail/fem/point_law.hpp"
+#include "dovetail/fem/laws/point_law.hpp"
 #include "green_moduli.hpp"
 
 namespace dovetail::fem::detail {

@@ -1,7 +1,7 @@
 // Tangent of laws for Green's strain.
 #pragma once
 
-#include "dovetail/fem/tensor.hpp"
+#include "dovetail/fem/laws/tensor.hpp"
 
 namespace dovetail::fem::detail {
 

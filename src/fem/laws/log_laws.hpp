@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "dovetail/fem/plasticity.hpp"
+#include "dovetail/fem/laws/plasticity.hpp"
 #include "log_strain.hpp"
 
 namespace dovetail::fem::detail {

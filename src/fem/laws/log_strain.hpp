@@ -2,7 +2,7 @@
 // (Miehe & Lambrecht 2001, Commun. Numer. Meth. Engng 17; here with divided differences of the logarithm).
 #pragma once
 
-#include "dovetail/fem/point_law.hpp"
+#include "dovetail/fem/laws/point_law.hpp"
 #include "six.hpp"
 #include "spectral.hpp"
 

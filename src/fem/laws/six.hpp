@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "dovetail/fem/tensor.hpp"
+#include "dovetail/fem/laws/tensor.hpp"
 
 namespace dovetail::fem::detail {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "dovetail/fem/lanes.hpp"
-#include "dovetail/fem/tensor.hpp"
+#include "dovetail/fem/laws/lanes.hpp"
+#include "dovetail/fem/laws/tensor.hpp"
 
 namespace dovetail::fem::detail {
 

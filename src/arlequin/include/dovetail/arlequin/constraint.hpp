@@ -11,8 +11,8 @@
 #include "dovetail/arlequin/gap_operator.hpp"
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/fem/blended_mass.hpp"
-#include "dovetail/fem/nodes.hpp"
+#include "dovetail/fem/model/nodes.hpp"
+#include "dovetail/fem/motion/blended_mass.hpp"
 
 namespace dovetail::arlequin {
 

@@ -11,9 +11,9 @@
 #include "dovetail/arlequin/gap_operator.hpp"
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/arlequin/stress_term.hpp"
-#include "dovetail/fem/blended_mass.hpp"
-#include "dovetail/fem/elements.hpp"
-#include "dovetail/fem/mesh.hpp"
+#include "dovetail/fem/elements/elements.hpp"
+#include "dovetail/fem/mesh/mesh.hpp"
+#include "dovetail/fem/motion/blended_mass.hpp"
 
 namespace dovetail::arlequin {
 

@@ -8,7 +8,7 @@
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/cg/kernel.hpp"
 #include "dovetail/cg/projection.hpp"
-#include "dovetail/fem/mesh.hpp"
+#include "dovetail/fem/mesh/mesh.hpp"
 
 namespace dovetail::arlequin {
 

@@ -9,7 +9,7 @@
 #include "dovetail/core/profile.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/model/model.hpp"
-#include "dovetail/fem/newmark.hpp"
+#include "dovetail/fem/motion/newmark.hpp"
 
 namespace dovetail::arlequin {
 
@@ -21,7 +21,7 @@ struct Model {
   std::optional<Solid> solid;
   std::optional<Coupling> coupling;
 
-  std::vector<Vec3> slowForce;     ///< on the particles, N; only with multipliers and windows of several steps
+  std::vector<Vec3> slowForce;       ///< on the particles, N; only with multipliers and windows of several steps
   std::int64_t weighedRevision = 0;  ///< builds of the pair list whose contacts have been weighed
 };
 
@@ -38,7 +38,8 @@ struct StepSums {
 };
 
 /// Forces at the start; call once. With multipliers, velocities are made to comply with the constraint.
-/// @throws InputError if particles and coupling disagree, or if the particles' model sorts, lets in or loses particles, or
+/// @throws InputError if particles and coupling disagree, or if the particles' model sorts, lets in or loses particles,
+/// or
 ///         has walls, bonds or other terms beside drives: the coupling could not follow
 void start(Model& model, double dt, Profile& profile);
 

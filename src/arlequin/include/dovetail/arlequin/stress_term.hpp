@@ -9,8 +9,8 @@
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 #include "dovetail/dem/particles/particles.hpp"
-#include "dovetail/fem/mesh.hpp"
-#include "dovetail/fem/nodes.hpp"
+#include "dovetail/fem/mesh/mesh.hpp"
+#include "dovetail/fem/model/nodes.hpp"
 
 namespace dovetail::arlequin {
 

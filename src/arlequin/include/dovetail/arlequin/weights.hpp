@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/fem/mesh.hpp"
+#include "dovetail/fem/mesh/mesh.hpp"
 
 namespace dovetail::arlequin {
 

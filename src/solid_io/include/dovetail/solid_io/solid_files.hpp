@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dovetail/fem/solid_mesh.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 
 namespace dovetail::solid_io {
 

@@ -9,9 +9,9 @@
 #include "dovetail/dem/laws/contact_work.hpp"
 #include "dovetail/dem/laws/laws.hpp"
 #include "dovetail/dem/model/model.hpp"
-#include "dovetail/fem/elements.hpp"
-#include "dovetail/fem/newmark.hpp"
-#include "dovetail/fem/nodes.hpp"
+#include "dovetail/fem/elements/elements.hpp"
+#include "dovetail/fem/model/nodes.hpp"
+#include "dovetail/fem/motion/newmark.hpp"
 #include "dovetail/surface/nodal_load.hpp"
 
 namespace dovetail::surface {
@@ -92,7 +92,8 @@ double wallWork(const Model& model) {
 }  // namespace detail
 
 /// Forces at the start; call once before the first window.
-/// @throws InputError if the particles' model sorts, lets in or loses particles, or has terms of its own (walls, bonds):
+/// @throws InputError if the particles' model sorts, lets in or loses particles, or has terms of its own (walls,
+/// bonds):
 ///         the seam could not follow
 template <class Model>
 void start(Model& model, double dt, Profile&) {
@@ -231,9 +232,9 @@ void stepSolid(Model& model, fem::NewmarkSolver* newmark, const NodalLoad& load,
 
 /// The staggered window (paper, Fig. 8): the solid makes its step under a load one step old (detail::laggingLoad), then
 /// the particles make K steps on the skin that moves from its old to its new place, or stays at the old one
-/// (Scheme::skinLags). A load that lags gives energy to a solid that gives way as a mass, and takes it from one that gives
-/// way as a spring; what it makes, first order in the step, is returned in madeByCoupling, for which the seam must book
-/// its wall work.
+/// (Scheme::skinLags). A load that lags gives energy to a solid that gives way as a mass, and takes it from one that
+/// gives way as a spring; what it makes, first order in the step, is returned in madeByCoupling, for which the seam
+/// must book its wall work.
 /// @param newmark  null: the solid steps explicitly
 template <class Model>
 WindowSums stepStaggered(Model& model, fem::NewmarkSolver* newmark, double dt, int K, const Scheme& scheme,

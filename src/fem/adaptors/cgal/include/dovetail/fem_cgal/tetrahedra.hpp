@@ -2,7 +2,7 @@
 // bound by it. Nothing else in the library needs it.
 #pragma once
 
-#include "dovetail/fem/solid_mesh.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
 
 namespace dovetail::fem {

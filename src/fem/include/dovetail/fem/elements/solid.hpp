@@ -1,0 +1,74 @@
+// Elements of any shape and material as a term of a model.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dovetail/fem/elements/critical_element.hpp"
+#include "dovetail/fem/laws/point_material.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
+#include "dovetail/fem/model/term.hpp"
+
+namespace dovetail::fem {
+
+enum class Formulation {
+  /// Displacements alone; hex8 2×2×2, hex20 and hex27 3×3×3, tet4 1, tet10 4 points.
+  standard,
+  /// Bricks: the dilatation is a field of its own, constant in hex8 (Simo, Taylor & Pister 1985), linear in hex20 and
+  /// hex27; F̄ = (θ/J)^⅓ F with θ the projection of J. Does not lock as ν → ½; hex8 bends like `standard`. Derives from
+  /// the potential ∫W(F̄). Samples show F̄ and P(F̄).
+  meanDilatation,
+  /// hex8 only: enhanced strain with transposed Wilson modes (Glaser & Armero 1997): nine modes in each element, F =
+  /// F_u + F_α. Bends without locking and hardly locks as ν → ½ (3 % of a bent block at 0.49999); the transposition
+  /// takes away the hourglass modes in
+  /// compression of the older enhanced bricks.
+  enhanced,
+  /// hex8 and StVenantKirchhoff only: assumed stress (hybrid8 of elements.hpp; Pian & Tong 1986). As exact in bending
+  /// as `enhanced` for a tenth of the time. Samples show the stress of the displacements, not the assumed one.
+  assumedStress,
+  /// hex8 only: one point and hourglass stiffness; its energy is reported on its own.
+  reduced
+};
+const char* name(Formulation formulation);
+
+struct SolidOptions {
+  Formulation formulation = Formulation::standard;
+  std::string elementSet{};  ///< empty = all elements of the mesh
+  std::string name = "elastic";
+  double hourglassShare = 0.05;  ///< of the shear stiffness, for `reduced`
+};
+
+/// Elements of a mesh with one material.
+class Solid : public Term {
+public:
+  virtual std::size_t size() const = 0;
+  /// Bytes of the caches and of history.
+  virtual std::size_t memory() const = 0;
+  virtual const PointMaterial& material() const = 0;
+  /// Energy in hourglass stiffness alone, J (part of energy()).
+  virtual double hourglassEnergy(const Nodes&) { return 0.0; }
+  /// 2/ω of the stiffest single element at the present displacement, with its lumped mass: never above the limit of the
+  /// assembled solid. Names the element by its number in the mesh.
+  virtual StableStep stableStep(const Nodes& nodes) = 0;
+  /// Number in the mesh of element e.
+  virtual int number(std::size_t e) const = 0;
+
+  /// What is known at the quadrature points, for output and tests.
+  struct Sample {
+    std::vector<int> element;     ///< number in the mesh
+    std::vector<Vec3> X;          ///< m
+    std::vector<double> volume;   ///< reference, m³
+    std::vector<double> F, P;     ///< nine per point, row-major
+    std::vector<double> energy;   ///< J/m³
+    std::vector<double> history;  ///< committed, historySize per point
+  };
+  virtual Sample sample(const Nodes& nodes, const Instant& now) = 0;
+};
+
+/// @throws InputError for an invalid mesh, a set that does not exist or is empty, a formulation that a shape does not
+/// have
+std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const PointMaterial> material,
+                                 const SolidOptions& options = {});
+
+}  // namespace dovetail::fem

@@ -1,0 +1,98 @@
+// Held, prescribed and tied components: every displacement as a linear function of the free ones.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/fem/model/nodes.hpp"
+#include "dovetail/fem/model/time_functions.hpp"
+
+namespace dovetail::fem {
+
+/// u_dof = Σ factor_k u_(3 node_k + component_k) + offset + motion(t).
+struct Tie {
+  struct Master {
+    int node, component;
+    double factor;
+  };
+  int node, component;
+  std::vector<Master> masters;
+  double offset = 0.0;  ///< m
+  TimeFunction motion;  ///< m; empty = none
+};
+
+/// The list of constraints of a model. Masters of ties may be free, held or prescribed, but not tied themselves.
+struct Constraints {
+  struct Prescribed {
+    int node, component;
+    TimeFunction displacement;  ///< m; empty = held at 0
+  };
+  std::vector<Prescribed> prescribed;
+  std::vector<Tie> ties;
+
+  /// u = 0 for the components (bits as in fix()). Holding a component again changes nothing.
+  /// @throws InputError for an empty set or components outside 1…7
+  void hold(std::span<const int> nodes, unsigned components = allComponents);
+  /// u_component = displacement(t).
+  /// @throws InputError for an empty set, a component outside 0…2 or an empty function
+  void prescribe(std::span<const int> nodes, int component, const TimeFunction& displacement);
+  bool empty() const { return prescribed.empty() && ties.empty(); }
+};
+
+/// Constraints of a model, sorted out: u = T q + g(t) with q the free components. Velocities and virtual displacements
+/// follow T; forces go back by Tᵀ, so constraints that rest do no work.
+class DofMap {
+public:
+  /// Components held in nodes.fixed are free of q too (their displacement is what nodes.u says).
+  /// @throws InputError naming node and component that is constrained twice (holding it twice is no fault), a master
+  /// that
+  ///         is tied itself, a number out of range
+  DofMap(const Constraints& constraints, const Nodes& nodes);
+
+  std::size_t size() const { return freeDofs_.size(); }  ///< entries of q
+  std::size_t nodes() const { return nodes_; }
+  bool hasTies() const { return !ties_.empty(); }
+  /// Whether anything is a function of time.
+  bool hasMotion() const;
+  /// Entry of q that is component dof % 3 of node dof / 3, −1 if it is not free.
+  std::span<const int> freeRow() const { return freeRow_; }
+  /// Its inverse.
+  std::span<const int> freeDofs() const { return freeDofs_; }
+  /// With the free masters only: those at rest or prescribed have no entry of q.
+  std::span<const Tie> ties() const { return ties_; }
+
+  /// r = Tᵀ f.
+  void reduce(std::span<const Vec3> f, std::span<double> r) const;
+  /// u += T dq.
+  void addIncrement(std::span<const double> dq, std::span<Vec3> u) const;
+  /// Sets prescribed and tied components of u at time t; free ones and those of nodes.fixed are read.
+  void apply(double t, std::span<Vec3> u) const;
+  /// Sets the same components of a velocity; motions by the central difference of their function over dt (0 if dt is
+  /// 0).
+  void applyVelocity(double t, double dt, std::span<Vec3> v) const;
+  /// Sets the same components of an acceleration, m/s²; motions by the second central difference over dt > 0.
+  void applyAcceleration(double t, double dt, std::span<Vec3> a) const;
+
+private:
+  enum class State : std::uint8_t { free, fixed, held, prescribed, tied };
+  struct RestingMaster {
+    std::size_t tie;
+    Tie::Master master;
+  };
+  std::size_t dofOf(int node, int component) const;
+  void claim(std::vector<State>& states, int node, int component, State state) const;
+  void sortMasters(const std::vector<State>& states);
+  template <class Motion>
+  void setConstrained(std::span<Vec3> field, bool withOffsets, const Motion& motion) const;
+
+  std::size_t nodes_;
+  std::vector<int> freeRow_, freeDofs_;
+  std::vector<Constraints::Prescribed> prescribed_;
+  std::vector<Tie> ties_;
+  std::vector<RestingMaster> restingMasters_;
+};
+
+}  // namespace dovetail::fem

@@ -1,0 +1,42 @@
+// A solid with everything that acts on it: nodes, terms, constraints.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dovetail/fem/mesh/solid_mesh.hpp"
+#include "dovetail/fem/model/constraints.hpp"
+#include "dovetail/fem/model/term.hpp"
+
+namespace dovetail::fem {
+
+/// The state and the terms. Integrators and solvers (statics.hpp, dynamics.hpp) work on it.
+struct Model {
+  Nodes nodes;
+  std::vector<std::shared_ptr<Term>> terms;
+  Constraints constraints;
+  double t = 0.0;  ///< s
+
+  template <class T>
+  T& add(std::shared_ptr<T> term) {
+    T& reference = *term;
+    terms.push_back(std::move(term));
+    return reference;
+  }
+};
+
+/// Nodes of the mesh at rest, without terms.
+Model makeModel(const SolidMesh& mesh);
+/// Sets nodes.mass from the terms. @throws InputError naming a node that no term gives a mass
+void addMass(Model& model);
+
+/// A matrix with a block for every pair of nodes that a term couples; all zero.
+BlockMatrix couplingPattern(const Model& model);
+
+/// f = Σ forces of the terms at nodes.u, v.
+void evaluateForces(Model& model, const Instant& now);
+/// Σ energies of the terms that store one, J.
+double storedEnergy(Model& model, const Instant& now);
+
+}  // namespace dovetail::fem

@@ -1,0 +1,78 @@
+// What acts on the nodes of a solid: elements, loads, contact, damping. A model is a list of such terms.
+#pragma once
+
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dovetail/core/archive.hpp"
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/fem/model/nodes.hpp"
+
+namespace dovetail::fem {
+
+class BlockMatrix;
+class Couplings;
+
+/// When forces are asked for: at the end of a step of length dt, which is 0 in statics. Times in s.
+struct Instant {
+  double t = 0.0;
+  double dt = 0.0;
+};
+
+/// A force on the nodes that depends on u, v and t, its tangent and its energy. State that lasts over steps (plastic
+/// strain, multipliers) changes in commit() only: forces at the same u, v, t are the same however often they are asked.
+class Term {
+public:
+  virtual ~Term() = default;
+  /// Names its channel in the ledger.
+  virtual std::string name() const = 0;
+
+  /// f += force on the nodes, N. Reads nodes.X, u, v; never nodes.f.
+  virtual void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) = 0;
+
+  /// Names the groups of nodes that its tangent couples (a node with itself needs no mention).
+  virtual void addCouplings(Couplings&) const {}
+  /// K += −∂f/∂u, N/m.
+  virtual void addTangent(const Nodes&, const Instant&, BlockMatrix&) {}
+  /// C += −∂f/∂v, kg/s.
+  virtual void addDamping(const Nodes&, const Instant&, BlockMatrix&) {}
+  virtual bool isSymmetric() const { return true; }
+
+  /// Whether energy() is a function of the state whose negative gradient is the force (up to what commit() books).
+  /// Work of terms without is booked by the integrator as it is done.
+  virtual bool hasEnergy() const { return false; }
+  /// Stored energy, J.
+  virtual double energy(const Nodes&, const Instant&) { return 0.0; }
+
+  /// f += a force for the step from u0 to nodes.u whose work on nodes.u − u0 is the loss of energy() exactly, and whose
+  /// sum and moment about the mean positions vanish as those of the true force do (a discrete gradient).
+  /// @return false if the term has none: integrators then take the force at the mean of both states
+  virtual bool addConservingForces(const Nodes&, std::span<const Vec3> /*u0*/, const Instant&, std::span<Vec3> /*f*/) {
+    return false;
+  }
+  /// K += −∂f/∂u of it, or close to that; not symmetric in general.
+  virtual void addConservingTangent(const Nodes&, std::span<const Vec3> /*u0*/, const Instant&, BlockMatrix&) {}
+
+  /// The step is accepted at this state: adopts new history. @return energy dissipated in the step, J
+  virtual double commit(const Nodes&, const Instant&) { return 0.0; }
+  /// Called after convergence; @return true if it changed its multipliers and the step must be solved again
+  virtual bool augment(const Nodes&, const Instant&) { return false; }
+  /// The step is given up: multipliers are again those of the last commit.
+  virtual void revert() {}
+
+  /// mass += its lumped masses, kg.
+  virtual void addMass(std::span<double>) const {}
+  /// M += its consistent mass, kg.
+  virtual void addConsistentMass(BlockMatrix&) const {}
+
+  /// Committed state for checkpoints, and back.
+  virtual void save(ByteWriter&) const {}
+  virtual void load(ByteReader&) {}
+
+  /// @throws NumericalError naming the element or node at fault, and `when`
+  virtual void requireValid(const Nodes&, const std::string& /*when*/) const {}
+};
+
+}  // namespace dovetail::fem

@@ -1,0 +1,146 @@
+// Motion of a model in time: explicit central differences, the Newmark family, energy and momentum conserving steps.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dovetail/core/archive.hpp"
+#include "dovetail/core/ledger.hpp"
+#include "dovetail/core/profile.hpp"
+#include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/solve/linear_solver.hpp"
+
+namespace dovetail::fem {
+
+/// What a run did, for people and programs. Energies are in the ledger.
+struct DynamicsReport {
+  std::string scheme, solver;
+  double massShare = 0.0;     ///< 0 lumped, 1 consistent
+  double t = 0.0;             ///< s, reached
+  double dt = 0.0;            ///< s, asked for
+  double criticalStep = 0.0;  ///< s, of the explicit step; 0 if it was not checked
+  std::int64_t steps = 0;     ///< accepted, parts of cut ones included
+  std::int64_t cuts = 0;      ///< attempts that were given up and tried again with half the step
+  std::int64_t iterations = 0, factorisations = 0;
+  double largestResidual = 0.0;  ///< force out of balance over its tolerance, of accepted steps; ≤ 1
+  EnergyLedger ledger;
+  Profile profile;
+};
+/// A page of text.
+std::ostream& operator<<(std::ostream& out, const DynamicsReport& report);
+
+struct ExplicitOptions {
+  double massShare = 0.0;  ///< of the consistent mass (ModelMass); 0 is the usual choice
+  /// Refuse steps above the bound of the stiffest element, stableStep(model). (Springs and contact are not in it, nor
+  /// is stiffening under load; masses between lumped and consistent count with the least they can be, bricks' 1/27.)
+  bool checkStep = true;
+  int energyEvery = 1;   ///< steps between samples of stored energy; 0 = no ledger
+  int checkEvery = 100;  ///< steps between requireValid of the terms; NaN is looked for in every step
+};
+
+/// Central differences as kick–drift–kick, second order. Forces that depend on the velocity see v + dt a of the last
+/// step; ties by TᵀMT.
+///
+/// Works of terms without energy, of supports and of damping are booked as kicks do them, so the residual of the ledger
+/// is the oscillation of the stored energy of a symplectic step and nothing else.
+class ExplicitIntegrator {
+public:
+  /// The model must outlive the integrator; terms and constraints are read here.
+  /// @throws InputError for dt ≤ 0 or above the stable one (the element is named), nodes without mass
+  ExplicitIntegrator(Model& model, double dt, const ExplicitOptions& options = {});
+  ~ExplicitIntegrator();
+  ExplicitIntegrator(ExplicitIntegrator&&) noexcept;
+
+  /// @throws NumericalError naming node or element if the state breaks down
+  void step();
+  void run(std::int64_t steps);
+  const EnergyLedger& ledger() const;
+  DynamicsReport report() const;
+  /// ½ vᵀMv with the mass in use, J.
+  double kineticEnergy() const;
+
+  /// State of model, terms and ledger; a run that goes on from it has the same digits.
+  void save(ByteWriter& archive) const;
+  /// @throws InputError if the state is that of another model
+  void load(ByteReader& archive);
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Parameters of an implicit scheme; made by the functions below.
+struct Scheme {
+  std::string name;
+  bool conserving = false;
+  double alphaM = 0.0, alphaF = 0.0, beta = 0.25, gamma = 0.5;
+};
+/// Newmark (1959). Second order for γ = ½ only.
+/// @throws InputError unless 2β ≥ γ ≥ ½ (unconditionally stable for linear solids)
+Scheme newmark(double beta = 0.25, double gamma = 0.5);
+/// Hilber, Hughes & Taylor (1977), second order; dissipates high frequencies for α < 0.
+/// @param alpha  −⅓ … 0
+Scheme hht(double alpha);
+/// Chung & Hulbert (1993), second order; the highest frequencies shrink by ρ∞ per step.
+/// @param rhoInfinity  0 … 1
+Scheme generalisedAlpha(double rhoInfinity);
+/// Simo & Tarnow (1992), Gonzalez (2000): M (v₁ − v₀) = dt f, u₁ − u₀ = ½ dt (v₀ + v₁) with f = addConservingForces of
+/// the terms, or their force at the mean state. Second order; energy and both momenta of a free elastic body stay to
+/// the tolerance for any dt.
+Scheme energyMomentum();
+
+struct ImplicitOptions {
+  Scheme scheme = generalisedAlpha(0.8);
+  double massShare = 1.0;            ///< of the consistent mass
+  double relativeTolerance = 1e-9;   ///< of the largest norm of a term's forces and of inertia
+  double absoluteTolerance = 0.0;    ///< added to it, N (the resolution of the forces always is)
+  int maxIterations = 25;            ///< per step
+  int refactorAfter = 8;             ///< iterations of a step with one factorisation
+  double refactorContraction = 0.3;  ///< factor again when an iteration shrinks the residual by less than this
+  int maxCuts = 10;                  ///< halvings of a step that fails
+  int maxAugmentations = 30;         ///< per step, for contact by augmented Lagrangian
+  int energyEvery = 1;               ///< steps between samples of stored energy; 0 = no ledger
+  LinearOptions linear{};
+};
+
+/// Implicit steps by Newton's method that keeps its factors for as long as they serve.
+///
+/// Ledger: works of terms without energy and of supports, dissipation of materials and friction, and the dissipation of
+/// the scheme: −(M (v₁ − v₀)/dt − f̄) · du over the free components, f̄ the mean force of both ends of the step
+/// (conserving: the force of the step). What remains in the residual is the error of the mean force of curved energies,
+/// and nothing but the tolerance for the conserving scheme.
+class ImplicitIntegrator {
+public:
+  /// The model must outlive the integrator; terms and constraints are read here.
+  /// @throws InputError for dt ≤ 0, options out of range, nodes without mass
+  ImplicitIntegrator(Model& model, double dt, const ImplicitOptions& options = {});
+  ~ImplicitIntegrator();
+  ImplicitIntegrator(ImplicitIntegrator&&) noexcept;
+
+  /// Advances by dt, in parts if it must.
+  /// @throws NumericalError with the reason (the element, the residual) if the smallest part fails; the model is then
+  /// as
+  ///         at the end of the last accepted part, model.t
+  void step();
+  void run(std::int64_t steps);
+  const EnergyLedger& ledger() const;
+  DynamicsReport report() const;
+  double kineticEnergy() const;
+  /// M v in total, kg m/s, and its moment about the origin, kg m²/s, with the mass in use.
+  Vec3 momentum() const;
+  Vec3 angularMomentum() const;
+
+  /// Drops the factors too, so that this run and one that goes on from the state have the same digits.
+  void save(ByteWriter& archive);
+  /// @throws InputError if the state is that of another model
+  void load(ByteReader& archive);
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dovetail::fem

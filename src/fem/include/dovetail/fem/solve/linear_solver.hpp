@@ -1,0 +1,79 @@
+// Linear systems of a model: T ᵀK T x = r for the free components, by factorisation or by iteration.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dovetail/fem/model/constraints.hpp"
+#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/fem/solve/sparse.hpp"
+
+namespace dovetail::fem {
+
+enum class LinearMethod {
+  /// Cholesky (CHOLMOD if it was built in); LDLᵀ if the matrix is indefinite, LU if it is not symmetric.
+  direct,
+  /// Conjugate gradients preconditioned by an incomplete Cholesky factorisation: memory grows with the mesh and not
+  /// faster. For symmetric positive definite matrices only.
+  conjugateGradients
+};
+
+struct LinearOptions {
+  LinearMethod method = LinearMethod::direct;
+  double relativeTolerance = 1e-8;  ///< of conjugate gradients, on the residual
+  int maxIterations = 5000;         ///< of conjugate gradients
+};
+
+/// Keeps the pattern, the symbolic analysis and the factors over calls. Results do not depend on the number of threads.
+class LinearSolver {
+public:
+  /// @param dofs  must live as long as the solver
+  explicit LinearSolver(const DofMap& dofs, const LinearOptions& options = {});
+  ~LinearSolver();
+  LinearSolver(LinearSolver&&) noexcept;
+
+  /// Reduces K to the free components and factorises it.
+  /// @return false if it is singular (then solve() must not be called)
+  bool factor(const BlockMatrix& K, bool symmetric);
+  /// x = (TᵀKT)⁻¹ r; the spans may be the same.
+  /// @throws NumericalError if conjugate gradients do not converge
+  void solve(std::span<const double> r, std::span<double> x);
+
+  bool factored() const;
+  void drop();
+  /// Negative pivots of the last factorisation: 0 for a stable equilibrium, −1 if not known (LU, iteration).
+  int negativePivots() const;
+  /// Largest entry on the diagonal, N/m.
+  double largestDiagonal() const;
+  std::int64_t factorisations() const;
+  std::int64_t solves() const;
+  /// "CHOLMOD", "LDLT", "LU" or "conjugate gradients": what the last factor() took.
+  std::string method() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// TᵀKT for the free components: the lower triangle by columns if symmetric, else all of it.
+class ReducedMatrix {
+public:
+  explicit ReducedMatrix(const DofMap& dofs) : dofs_(&dofs) {}
+  /// Entries are added in a fixed order.
+  const SparseMatrix& update(const BlockMatrix& K, bool symmetric);
+  const SparseMatrix& matrix() const { return matrix_; }
+
+private:
+  void analyse(const BlockMatrix& K, bool symmetric);
+  const DofMap* dofs_;
+  SparseMatrix matrix_;
+  std::size_t patternId_ = 0;
+  bool symmetric_ = true;
+  std::vector<std::uint32_t> source_, target_;  // entries of K and where they go
+  std::vector<double> factor_;                  // empty = 1 throughout
+};
+
+}  // namespace dovetail::fem

@@ -1,0 +1,82 @@
+// Static equilibrium: Newton's method with line search, adaptive load steps, and arc-length continuation.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/solve/linear_solver.hpp"
+
+namespace dovetail::fem {
+
+struct NewtonOptions {
+  /// Of the largest Euclidean norm of a term's forces. The resolution of those forces (ε K u, and that of
+  /// strains, which are known to ε) is added.
+  double relativeTolerance = 1e-9;
+  double absoluteTolerance = 0.0;  ///< added to it, N
+  int maxIterations = 25;          ///< per step
+  bool lineSearch = true;
+  /// Keeps the factors while each iteration shrinks the force out of balance below this share (modified Newton);
+  /// 0 factorises in every iteration.
+  double reuseContraction = 0.0;
+  LinearOptions linear{};
+};
+
+struct StaticOptions {
+  NewtonOptions newton{};
+  double firstStep = 0.1;      ///< s of model time
+  double largestStep = 1e300;  ///< s
+  double smallestStep = 1e-6;  ///< s; below it the run stops
+  int iterationTarget = 6;     ///< steps grow if fewer iterations were needed and shrink if more
+  int maxAugmentations = 30;   ///< per step, for contact by augmented Lagrangian
+};
+
+/// One accepted step.
+struct StaticStep {
+  double t;            ///< s
+  int iterations;      ///< linear solves
+  double residual;     ///< force out of balance, N
+  int negativePivots;  ///< of the tangent: more than 0 if the equilibrium is not stable, −1 if not known
+};
+
+struct StaticReport {
+  std::vector<StaticStep> steps;
+  int cuts = 0;  ///< steps that were tried again with a smaller one
+  std::int64_t iterations = 0, factorisations = 0;
+  double storedBefore = 0.0, storedAfter = 0.0;  ///< J
+  double loadWork = 0.0, supportWork = 0.0;  ///< J, by terms without energy, by prescribed motion (trapezoidal sums)
+  double dissipated = 0.0;                   ///< J, by materials
+  double seconds = 0.0, assemblySeconds = 0.0, solverSeconds = 0.0;
+  std::string solver;  ///< "CHOLMOD", …
+  /// stored + dissipated − work, J: what the trapezoidal sums leave, second order in the step.
+  double energyResidual() const { return storedAfter - storedBefore + dissipated - loadWork - supportWork; }
+};
+
+/// Called after every accepted step; return false to stop.
+using StaticObserver = std::function<bool(const Model& model, const StaticStep& step)>;
+
+/// Takes the model from model.t to tEnd through equilibria; loads and prescribed motions are functions of t.
+/// @throws NumericalError, with the reason, if the smallest step fails; the model is then in its last equilibrium.
+///         InputError for tEnd ≤ model.t, options out of range, constraints at odds
+StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& options = {},
+                          const StaticObserver& observer = {});
+
+struct ArcLengthOptions {
+  NewtonOptions newton{};
+  double firstStep = 0.1;       ///< s of model time, for the first step only
+  double largestStep = 0.0;     ///< of the arc, m·√(nodes); 0 = eight times that of the first step
+  double smallestShare = 1e-4;  ///< of the first arc; below it the run stops
+  int iterationTarget = 5;
+  int maxSteps = 200;
+};
+
+/// Follows the path of equilibria u(t) by its arc length through limit points of the load and back (Riks 1979,
+/// Crisfield 1981, cylindrical): t is one of the unknowns and may fall. Stops when the observer returns false, t
+/// reaches tEnd or maxSteps are done.
+/// @throws as solveStatics
+StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& options,
+                        const StaticObserver& observer = {});
+
+}  // namespace dovetail::fem

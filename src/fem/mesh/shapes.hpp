@@ -1,0 +1,55 @@
+// Shape functions and quadrature of the cells and faces of solid_mesh.hpp.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "dovetail/fem/mesh/solid_mesh.hpp"
+
+namespace dovetail::fem::detail {
+
+/// Largest numbers of nodes and quadrature points of a cell (of the rule that forces use).
+inline constexpr int maxCellNodes = 27;
+inline constexpr int maxCellPoints = 27;
+
+/// Parent coordinates of the nodes: bricks fill [−1, 1]³, tetrahedra ξ, η, ζ ≥ 0 with ξ + η + ζ ≤ 1.
+std::span<const Vec3> parentNodes(CellShape shape);
+/// ψ_a(ξ) and ∂ψ_a/∂ξ_j, nodesOf(shape) entries each.
+void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient);
+
+/// Points and weights of a quadrature with the shape functions there.
+struct CellRule {
+  int nodes, points;
+  std::vector<Vec3> point;
+  std::vector<double> weight;  ///< sum: volume of the parent cell
+  std::vector<double> value;   ///< [nodes q + a]
+  std::vector<Vec3> gradient;  ///< [nodes q + a]
+};
+/// For forces: hex8 2×2×2, hex20 and hex27 3×3×3, tet4 1, tet10 4 points.
+const CellRule& forceRule(CellShape shape);
+/// Exact for products of two shape functions on affine cells.
+const CellRule& massRule(CellShape shape);
+/// One point, at the centre.
+const CellRule& centreRule(CellShape shape);
+
+/// The faces of a cell: local numbers of their nodes, counter-clockwise seen from outside.
+struct CellFaces {
+  FaceShape shape;
+  std::vector<std::array<int, 9>> node;  ///< −1 beyond nodesOf(shape)
+};
+const CellFaces& facesOf(CellShape shape);
+
+/// ψ_a(ξ, η) and its derivatives by ξ and η: quadrilaterals fill [−1, 1]², triangles ξ, η ≥ 0 with ξ + η ≤ 1.
+void faceFunctions(FaceShape shape, double xi, double eta, std::span<double> value, std::span<double> byXi,
+                   std::span<double> byEta);
+struct FaceRule {
+  int nodes, points;
+  std::vector<std::array<double, 2>> point;
+  std::vector<double> weight;              ///< sum: area of the parent face
+  std::vector<double> value, byXi, byEta;  ///< [nodes q + a]
+};
+/// quad4 2×2, quad8 and quad9 3×3, tri3 3, tri6 6 points.
+const FaceRule& faceRule(FaceShape shape);
+
+}  // namespace dovetail::fem::detail

@@ -1,0 +1,30 @@
+#include <iomanip>
+#include <ostream>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
+
+namespace dovetail::fem {
+
+std::ostream& operator<<(std::ostream& out, const DynamicsReport& report) {
+  const auto row = [&](const char* what, const std::string& value) {
+    out << "  " << std::left << std::setw(24) << what << value << '\n';
+  };
+  row("scheme", report.scheme);
+  row("mass", report.massShare == 0.0   ? "lumped"
+              : report.massShare == 1.0 ? "consistent"
+                                        : "consistent by " + formatNumber(report.massShare));
+  row("time reached", formatNumber(report.t) + " s");
+  row("step", formatNumber(report.dt) + " s");
+  if (report.criticalStep > 0.0) row("over the critical step", formatNumber(report.dt / report.criticalStep));
+  row("steps", std::to_string(report.steps));
+  if (report.iterations > 0) {
+    row("cut steps", std::to_string(report.cuts));
+    row("iterations", std::to_string(report.iterations));
+    row("factorisations", std::to_string(report.factorisations) + " by " + report.solver);
+    row("residual / tolerance", formatNumber(report.largestResidual));
+  }
+  return out << report.ledger << report.profile;
+}
+
+}  // namespace dovetail::fem

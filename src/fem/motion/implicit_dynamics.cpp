@@ -1,0 +1,209 @@
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
+#include "energy_book.hpp"
+#include "implicit_step.hpp"
+
+namespace dovetail::fem {
+
+namespace {
+
+const ImplicitOptions& checked(const ImplicitOptions& options) {
+  detail::validate(options);
+  return options;
+}
+
+}  // namespace
+
+Scheme newmark(double beta, double gamma) {
+  if (!(2.0 * beta >= gamma && gamma >= 0.5))
+    throw InputError("beta is " + formatNumber(beta) + ", gamma " + formatNumber(gamma), "newmark",
+                     "give 2 beta >= gamma >= 1/2, else the step is not unconditionally stable");
+  return {"Newmark, beta " + formatNumber(beta) + ", gamma " + formatNumber(gamma), false, 0.0, 0.0, beta, gamma};
+}
+
+Scheme hht(double alpha) {
+  if (!(alpha >= -1.0 / 3.0 && alpha <= 0.0))
+    throw InputError("alpha is " + formatNumber(alpha), "hht", "give -1/3 to 0");
+  return {"HHT, alpha " + formatNumber(alpha), false, 0.0, -alpha, 0.25 * (1.0 - alpha) * (1.0 - alpha), 0.5 - alpha};
+}
+
+Scheme generalisedAlpha(double rhoInfinity) {
+  if (!(rhoInfinity >= 0.0 && rhoInfinity <= 1.0))
+    throw InputError("the spectral radius is " + formatNumber(rhoInfinity), "generalisedAlpha", "give 0 to 1");
+  const double m = (2.0 * rhoInfinity - 1.0) / (rhoInfinity + 1.0), f = rhoInfinity / (rhoInfinity + 1.0);
+  return {"generalised alpha, rho " + formatNumber(rhoInfinity),
+          false,
+          m,
+          f,
+          0.25 * (1.0 - m + f) * (1.0 - m + f),
+          0.5 - m + f};
+}
+
+Scheme energyMomentum() { return {"energy-momentum", true}; }
+
+struct ImplicitIntegrator::Impl {
+  Model& model;
+  double dt;
+  ImplicitOptions options;
+  DofMap dofs;
+  ModelMass mass;
+  Profile profile{true};
+  detail::ImplicitStep solver;
+  detail::EnergyBook book;
+  std::int64_t steps = 0, cuts = 0, iterations = 0;
+  double largestResidual = 0.0;
+
+  Impl(Model& m, double step, const ImplicitOptions& o)
+      : model(m),
+        dt(requirePositive(step, "dt")),
+        options(checked(o)),
+        dofs(m.constraints, m.nodes),
+        mass(m, dofs, o.massShare),
+        solver(m, dofs, mass, o, profile),
+        book(m) {
+    dofs.apply(model.t, model.nodes.u);
+    dofs.applyVelocity(model.t, dt, model.nodes.v);
+    solver.begin(dt);
+    sample();
+    book.open();
+  }
+
+  void sample() {
+    if (options.energyEvery == 0 || steps % options.energyEvery != 0) return;
+    const Profile::Stage stage(profile, "energies");
+    book.sample(model, {model.t, dt}, mass.kineticEnergy(model.nodes.v));
+  }
+
+  /// Works of loads and supports and the dissipation of the scheme over the step that has just converged.
+  void bookWorks(double h) {
+    const Profile::Stage stage(profile, "works");
+    const std::vector<Vec3>&u0 = solver.startDisplacement(), &v0 = solver.startVelocity();
+    const std::size_t n = u0.size();
+    std::vector<Vec3> motion(n), change(n), rate(n), ringing(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      motion[k] = model.nodes.u[k] - u0[k];
+      change[k] = (model.nodes.v[k] - v0[k]) / h;
+      ringing[k] = 0.5 * h * (model.nodes.v[k] + v0[k]) - motion[k];
+    }
+    std::size_t next = 0;
+    for (const auto& term : model.terms)
+      if (!term->hasEnergy()) book.spend("work of " + term->name(), -solver.loadWork(next++, motion));
+    mass.multiply(change, rate);
+    const std::vector<Vec3> force = solver.meanForce(), follows = following(motion), freeRinging = following(ringing);
+    double support = 0.0, lost = 0.0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec3 reaction = rate[k] - force[k];
+      // Prescribed velocities are not quite the mean of the motion: their kinetic energy comes from the support.
+      support += dot(reaction, motion[k] - follows[k]) + dot(rate[k], ringing[k] - freeRinging[k]);
+      lost -= dot(reaction, follows[k]) + dot(rate[k], freeRinging[k]);
+    }
+    book.spend("supports", -support);
+    book.spend("dissipation of the scheme", lost);
+  }
+  /// The part of a motion that the free components make, ties included.
+  std::vector<Vec3> following(const std::vector<Vec3>& motion) const {
+    std::vector<double> dq;
+    for (const int dof : dofs.freeDofs()) dq.push_back(motion[static_cast<std::size_t>(dof / 3)][dof % 3]);
+    std::vector<Vec3> follows(motion.size());
+    dofs.addIncrement(dq, follows);
+    return follows;
+  }
+
+  void accept(double h, const detail::ImplicitStep::Result& result) {
+    if (options.energyEvery > 0) bookWorks(h);
+    model.t += h;
+    const Profile::Stage stage(profile, "materials accept");
+    for (const auto& term : model.terms)
+      if (const double spent = term->commit(model.nodes, {model.t, h}); options.energyEvery > 0)
+        book.spend("dissipated by " + term->name(), spent);
+    solver.accept();
+    ++steps;
+    iterations += result.iterations;
+    largestResidual = std::max(largestResidual, result.residual);
+  }
+
+  /// Halves until it works.
+  void advance(double h, int depth) {
+    detail::ImplicitStep::Result result = solver.attempt(h, detail::ImplicitStep::Guess::coast);
+    if (!result.failure.empty()) result = solver.attempt(h, detail::ImplicitStep::Guess::rest);
+    if (result.failure.empty()) return accept(h, result);
+    if (depth == options.maxCuts)
+      throw NumericalError(
+          result.failure,
+          options.scheme.name + ", t = " + formatNumber(model.t) + " s, step of " + formatNumber(h) + " s",
+          "take a smaller step, or a finer mesh where elements are inverted");
+    ++cuts;
+    advance(0.5 * h, depth + 1);
+    advance(0.5 * h, depth + 1);
+  }
+};
+
+ImplicitIntegrator::ImplicitIntegrator(Model& model, double dt, const ImplicitOptions& options)
+    : impl_(std::make_unique<Impl>(model, dt, options)) {}
+ImplicitIntegrator::~ImplicitIntegrator() = default;
+ImplicitIntegrator::ImplicitIntegrator(ImplicitIntegrator&&) noexcept = default;
+
+void ImplicitIntegrator::step() {
+  impl_->advance(impl_->dt, 0);
+  impl_->sample();
+  if (impl_->options.energyEvery > 0 && impl_->steps % impl_->options.energyEvery == 0) impl_->book.close();
+}
+void ImplicitIntegrator::run(std::int64_t steps) {
+  for (std::int64_t k = 0; k < steps; ++k) step();
+  impl_->model.nodes.f = impl_->solver.forces();
+}
+const EnergyLedger& ImplicitIntegrator::ledger() const { return impl_->book.ledger(); }
+double ImplicitIntegrator::kineticEnergy() const { return impl_->mass.kineticEnergy(impl_->model.nodes.v); }
+
+Vec3 ImplicitIntegrator::momentum() const {
+  std::vector<Vec3> p(impl_->model.nodes.v.size());
+  impl_->mass.multiply(impl_->model.nodes.v, p);
+  Vec3 sum;
+  for (const Vec3& value : p) sum += value;
+  return sum;
+}
+
+Vec3 ImplicitIntegrator::angularMomentum() const {
+  const Nodes& nodes = impl_->model.nodes;
+  std::vector<Vec3> p(nodes.v.size());
+  impl_->mass.multiply(nodes.v, p);
+  Vec3 sum;
+  for (std::size_t n = 0; n < p.size(); ++n) sum += cross(nodes.X[n] + nodes.u[n], p[n]);
+  return sum;
+}
+
+DynamicsReport ImplicitIntegrator::report() const {
+  DynamicsReport report;
+  report.scheme = impl_->options.scheme.name;
+  report.solver = impl_->solver.solver().method();
+  report.massShare = impl_->options.massShare;
+  report.t = impl_->model.t;
+  report.dt = impl_->dt;
+  report.steps = impl_->steps;
+  report.cuts = impl_->cuts;
+  report.iterations = impl_->iterations;
+  report.factorisations = impl_->solver.solver().factorisations();
+  report.largestResidual = impl_->largestResidual;
+  report.ledger = impl_->book.ledger();
+  report.profile = impl_->profile;
+  return report;
+}
+
+void ImplicitIntegrator::save(ByteWriter& archive) {
+  impl_->solver.dropFactors();
+  detail::saveState(archive, impl_->model);
+  impl_->book.save(archive);
+  archive(impl_->steps, impl_->cuts, impl_->iterations, impl_->largestResidual);
+  impl_->solver.exchange(archive);
+}
+
+void ImplicitIntegrator::load(ByteReader& archive) {
+  impl_->solver.dropFactors();
+  detail::loadState(archive, impl_->model);
+  impl_->book.load(archive);
+  archive(impl_->steps, impl_->cuts, impl_->iterations, impl_->largestResidual);
+  impl_->solver.exchange(archive);
+}
+
+}  // namespace dovetail::fem

@@ -1,0 +1,248 @@
+#include "implicit_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../solve/newton_tools.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+
+namespace dovetail::fem::detail {
+
+namespace {
+
+/// Between nodes that share an element, m.
+double meanSpacing(const Nodes& nodes, const BlockMatrix& pattern) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < pattern.nodes(); ++n)
+    for (int k = pattern.offsets()[n]; k < pattern.offsets()[n + 1]; ++k)
+      sum += norm(nodes.X[n] - nodes.X[static_cast<std::size_t>(pattern.columns()[static_cast<std::size_t>(k)])]);
+  const std::size_t pairs = pattern.columns().size() - pattern.nodes();
+  return pairs > 0 ? sum / static_cast<double>(pairs) : 0.0;
+}
+
+}  // namespace
+
+void validate(const ImplicitOptions& options) {
+  requirePositive(options.relativeTolerance, "relativeTolerance");
+  requireNonNegative(options.absoluteTolerance, "absoluteTolerance");
+  requirePositive(options.refactorContraction, "refactorContraction");
+  if (options.maxIterations < 1 || options.refactorAfter < 1)
+    throw InputError("no iterations are allowed", "ImplicitOptions",
+                     "give maxIterations and refactorAfter of 1 or more");
+  if (options.maxCuts < 0 || options.maxAugmentations < 0 || options.energyEvery < 0)
+    throw InputError("a count is negative", "ImplicitOptions", "give 0 or more");
+}
+
+ImplicitStep::ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, const ImplicitOptions& options,
+                           Profile& profile)
+    : model_(model),
+      dofs_(dofs),
+      mass_(mass),
+      options_(options),
+      profile_(profile),
+      solver_(dofs, options.linear),
+      matrix_(couplingPattern(model)),
+      start_(model),
+      end_(model),
+      conserves_(model.terms.size(), 0),
+      residual_(dofs.size()),
+      increment_(dofs.size()) {
+  const std::size_t n = model.nodes.u.size();
+  for (std::vector<Vec3>* field : {&a0_, &a1_, &base_, &correction_, &inertia_, &work_}) field->resize(n);
+  if (conserving()) mean_ = model.nodes;
+  spacing_ = meanSpacing(model.nodes, matrix_);
+}
+
+void ImplicitStep::begin(double h) {
+  solver_.drop();
+  if (conserving()) return;
+  start_.evaluate(model_, model_.nodes, {model_.t, 0.0});
+  std::fill(a0_.begin(), a0_.end(), Vec3{});
+  dofs_.applyAcceleration(model_.t, h, a0_);
+  mass_.accelerate(start_.total, a0_);
+}
+
+/// Brings constraints into the correction, and u, v and the acceleration of the balance to what it says.
+void ImplicitStep::applyCorrection(double h) {
+  const Scheme& s = options_.scheme;
+  Nodes& nodes = model_.nodes;
+  for (std::size_t n = 0; n < base_.size(); ++n) nodes.u[n] = base_[n] + correction_[n];
+  dofs_.apply(model_.t + h, nodes.u);
+  for (std::size_t dof = 0; dof < dofs_.freeRow().size(); ++dof) {
+    const std::size_t n = dof / 3;
+    const int c = static_cast<int>(dof % 3);
+    if (dofs_.freeRow()[dof] < 0) correction_[n][c] = nodes.u[n][c] - base_[n][c];
+  }
+  const double toAcceleration = conserving() ? 2.0 / (h * h) : 1.0 / (s.beta * h * h);
+  for (std::size_t n = 0; n < base_.size(); ++n) {
+    const Vec3 a = toAcceleration * correction_[n];
+    a1_[n] = a;
+    nodes.v[n] = conserving() ? v0_[n] + h * a : v0_[n] + h * ((1.0 - s.gamma) * a0_[n] + s.gamma * a);
+    inertia_[n] = conserving() ? a : (1.0 - s.alphaM) * a + s.alphaM * a0_[n];
+  }
+  for (std::size_t n = 0; n < base_.size(); ++n)
+    for (int c = 0; c < 3; ++c)
+      if (nodes.fixed[n] >> c & 1) nodes.v[n][c] = v0_[n][c], inertia_[n][c] = 0.0;
+  dofs_.applyVelocity(model_.t + h, h, nodes.v);
+  // The balance holds at t + (1 − α_F) h; half-way the second difference is the change of velocity over the step.
+  dofs_.applyAcceleration(model_.t + h * (conserving() ? 0.5 : 1.0 - s.alphaF), h, inertia_);
+}
+
+void ImplicitStep::evaluate(double h) {
+  const Profile::Stage stage(profile_, "forces");
+  if (conserving()) return evaluateConserving(h);
+  end_.evaluate(model_, model_.nodes, {model_.t + h, h});
+}
+
+void ImplicitStep::evaluateConserving(double h) {
+  for (std::size_t n = 0; n < u0_.size(); ++n) {
+    mean_.u[n] = 0.5 * (u0_[n] + model_.nodes.u[n]);
+    mean_.v[n] = (model_.nodes.u[n] - u0_[n]) / h;
+  }
+  std::fill(end_.total.begin(), end_.total.end(), Vec3{});
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < model_.terms.size(); ++k) {
+    Term& term = *model_.terms[k];
+    conserves_[k] = term.addConservingForces(model_.nodes, u0_, {model_.t + h, h}, end_.total);
+    if (conserves_[k]) continue;
+    const Instant middle{model_.t + 0.5 * h, 0.5 * h};
+    if (term.hasEnergy()) {
+      term.addForces(mean_, middle, end_.total);
+      continue;
+    }
+    std::vector<Vec3>& load = end_.loads[next++];
+    std::fill(load.begin(), load.end(), Vec3{});
+    term.addForces(mean_, middle, load);
+    for (std::size_t n = 0; n < load.size(); ++n) end_.total[n] += load[n];
+  }
+}
+
+/// Fills residual_ and sets the tolerance; returns the norm.
+double ImplicitStep::balance() {
+  const Profile::Stage stage(profile_, "balance");
+  const double share = conserving() ? 1.0 : 1.0 - options_.scheme.alphaF;
+  std::vector<Vec3>& push = inertia_;
+  mass_.multiply(inertia_, work_);
+  const double inertiaNorm = normOf(work_);
+  for (std::size_t n = 0; n < push.size(); ++n) {
+    push[n] = share * end_.total[n] - work_[n];
+    if (!conserving()) push[n] += options_.scheme.alphaF * start_.total[n];
+  }
+  dofs_.reduce(push, residual_);
+  double largest = std::max(inertiaNorm, normOf(end_.total));
+  for (const std::vector<Vec3>& load : end_.loads) largest = std::max(largest, normOf(load));
+  // Displacements are known to a relative ε, and so are deformation gradients: to ε times the size of an element.
+  const double known = std::max({normOf(model_.nodes.u), normOf(base_), spacing_ * std::sqrt(double(base_.size()))});
+  const double resolution = std::numeric_limits<double>::epsilon() * largestStiffness_ * known;
+  tolerance_ = options_.relativeTolerance * largest + options_.absoluteTolerance + resolution;
+  return normOf(residual_);
+}
+
+/// The matrix of the step. Conserving forces have tangents that are not symmetric by as much as elements turn in the
+/// step: only if `exact` are they taken so.
+bool ImplicitStep::factor(double h, bool exact) {
+  const Scheme& s = options_.scheme;
+  {
+    const Profile::Stage stage(profile_, "assembly");
+    matrix_.setZero();
+    if (conserving()) {
+      addMeanTangents(h);
+      noteStiffness();
+      mass_.addTo(matrix_, 2.0 / (h * h));
+    } else {
+      const Instant now{model_.t + h, h};
+      for (const auto& term : model_.terms) term->addDamping(model_.nodes, now, matrix_);
+      for (double& value : matrix_.values()) value *= s.gamma / (s.beta * h);
+      for (const auto& term : model_.terms) term->addTangent(model_.nodes, now, matrix_);
+      for (double& value : matrix_.values()) value *= 1.0 - s.alphaF;
+      noteStiffness();
+      mass_.addTo(matrix_, (1.0 - s.alphaM) / (s.beta * h * h));
+    }
+  }
+  const Profile::Stage stage(profile_, "factorisation");
+  bool symmetric = std::ranges::all_of(model_.terms, [](const auto& term) { return term->isSymmetric(); });
+  if (conserving() && symmetric && !exact) matrix_.symmetrise();
+  if (conserving() && exact) symmetric = false;
+  factoredStep_ = h;
+  return solver_.factor(matrix_, symmetric);
+}
+
+/// Largest entry on the diagonal before the masses are added, N/m: displacements are known to a relative ε, and forces
+/// to no better than ε K u.
+void ImplicitStep::noteStiffness() {
+  largestStiffness_ = 0.0;
+  for (std::size_t n = 0; n < matrix_.nodes(); ++n) {
+    const double* const block = &matrix_.values()[9 * matrix_.place(static_cast<int>(n), static_cast<int>(n))];
+    for (std::size_t c = 0; c < 3; ++c) largestStiffness_ = std::max(largestStiffness_, std::abs(block[4 * c]));
+  }
+}
+
+void ImplicitStep::addMeanTangents(double h) {
+  const Instant middle{model_.t + 0.5 * h, 0.5 * h};
+  for (std::size_t k = 0; k < model_.terms.size(); ++k)
+    if (!conserves_[k]) model_.terms[k]->addDamping(mean_, middle, matrix_);
+  for (double& value : matrix_.values()) value *= 2.0 / h;
+  for (std::size_t k = 0; k < model_.terms.size(); ++k)
+    if (!conserves_[k]) model_.terms[k]->addTangent(mean_, middle, matrix_);
+  for (double& value : matrix_.values()) value *= 0.5;
+  for (std::size_t k = 0; k < model_.terms.size(); ++k)
+    if (conserves_[k]) model_.terms[k]->addConservingTangent(model_.nodes, u0_, {model_.t + h, h}, matrix_);
+}
+
+std::string ImplicitStep::complaint(double h) const {
+  try {
+    for (const auto& term : model_.terms) term->requireValid(model_.nodes, "t = " + formatNumber(model_.t + h) + " s");
+  } catch (const NumericalError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+ImplicitStep::Result ImplicitStep::attempt(double h, Guess guess) {
+  u0_ = model_.nodes.u;
+  v0_ = model_.nodes.v;
+  setBase(h);
+  makeGuess(h, guess);
+  Result result = newton(h);
+  for (int round = 0; result.failure.empty(); ++round) {
+    bool again = false;
+    for (const auto& term : model_.terms) again = term->augment(model_.nodes, {model_.t + h, h}) || again;
+    if (!again) break;
+    if (round == options_.maxAugmentations) {
+      result.failure = "contact multipliers do not settle in " + std::to_string(round) + " rounds";
+      break;
+    }
+    const Result more = newton(h);
+    result = {result.iterations + more.iterations, more.residual, more.failure};
+  }
+  const std::string why = complaint(h);
+  if (!why.empty()) result.failure += (result.failure.empty() ? "" : "; ") + why;
+  if (result.failure.empty()) return result;
+  model_.nodes.u = u0_;
+  model_.nodes.v = v0_;
+  for (const auto& term : model_.terms) term->revert();
+  solver_.drop();
+  return result;
+}
+
+std::vector<Vec3> ImplicitStep::meanForce() const {
+  std::vector<Vec3> mean = end_.total;
+  if (!conserving())
+    for (std::size_t n = 0; n < mean.size(); ++n) mean[n] = 0.5 * (mean[n] + start_.total[n]);
+  return mean;
+}
+
+double ImplicitStep::loadWork(std::size_t load, const std::vector<Vec3>& motion) const {
+  const double end = innerProduct(end_.loads[load], motion);
+  return conserving() ? end : 0.5 * (end + innerProduct(start_.loads[load], motion));
+}
+
+void ImplicitStep::accept() {
+  if (conserving()) return;
+  a0_.swap(a1_);
+  std::swap(start_, end_);
+}
+
+}  // namespace dovetail::fem::detail

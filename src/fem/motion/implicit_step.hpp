@@ -1,0 +1,82 @@
+// One implicit step of a model: Newton's method for the displacement at its end.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dovetail/fem/model/model_mass.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
+#include "force_sum.hpp"
+
+namespace dovetail::fem::detail {
+
+void validate(const ImplicitOptions& options);
+
+/// Work space of a step from (u₀, v₀, a₀) at model.t to the end of the step. Displacement is u₁ = base + c, and
+/// acceleration a multiple of the correction c, so that what changes by little is known well.
+class ImplicitStep {
+public:
+  ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, const ImplicitOptions& options, Profile& profile);
+
+  /// Takes forces and accelerations of the present state as those of the start of a step h.
+  void begin(double h);
+  struct Result {
+    int iterations = 0;
+    double residual = 0.0;  ///< over the tolerance
+    std::string failure;    ///< empty if it converged and all terms trust the state
+  };
+  /// Moves the model by h (time is left alone). On failure u and v are as before.
+  enum class Guess { coast, rest };  ///< start from u₀ + h v₀, or from u₀
+  Result attempt(double h, Guess guess);
+  /// Makes the end the start of the next step. Call after booking.
+  void accept();
+  void dropFactors() { solver_.drop(); }
+
+  // Of the accepted step, for the ledger:
+  const std::vector<Vec3>& startDisplacement() const { return u0_; }
+  const std::vector<Vec3>& startVelocity() const { return v0_; }
+  /// Mean total force of the step (conserving: the force of the step), and of a term without energy.
+  std::vector<Vec3> meanForce() const;
+  double loadWork(std::size_t load, const std::vector<Vec3>& motion) const;
+  const LinearSolver& solver() const { return solver_; }
+  /// At the end of the last accepted step (conserving: of that step).
+  const std::vector<Vec3>& forces() const { return conserving() ? end_.total : start_.total; }
+
+  template <class Archive>
+  void exchange(Archive& archive) {
+    archive(a0_, start_.total);
+    for (std::vector<Vec3>& load : start_.loads) archive(load);
+  }
+
+private:
+  bool conserving() const { return options_.scheme.conserving; }
+  void setBase(double h);
+  void makeGuess(double h, Guess guess);
+  void applyCorrection(double h);
+  void evaluate(double h);
+  void evaluateConserving(double h);
+  double balance();
+  bool factor(double h, bool exact);
+  void noteStiffness();
+  void addMeanTangents(double h);
+  double trial(double h);
+  double search(double h, double norm, double slopeAtStart);
+  Result newton(double h);
+  std::string complaint(double h) const;
+
+  Model& model_;
+  const DofMap& dofs_;
+  ModelMass& mass_;
+  ImplicitOptions options_;
+  Profile& profile_;
+  LinearSolver solver_;
+  BlockMatrix matrix_;
+  Nodes mean_;  // state in the middle of a conserving step
+  ForceSum start_, end_;
+  std::vector<char> conserves_;  // per term, of the last evaluation
+  std::vector<Vec3> u0_, v0_, a0_, a1_, base_, correction_, inertia_, work_;
+  std::vector<double> residual_, increment_, part_;
+  double tolerance_ = 0.0, factoredStep_ = 0.0, largestStiffness_ = 0.0, spacing_ = 0.0;
+};
+
+}  // namespace dovetail::fem::detail

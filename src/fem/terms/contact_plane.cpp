@@ -1,0 +1,217 @@
+#include "dovetail/fem/terms/contact_plane.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "../mesh/faces.hpp"
+#include "contact_point.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/fem/solve/block_matrix.hpp"
+
+namespace dovetail::fem {
+
+namespace {
+
+void validate(const ContactOptions& options) {
+  requirePositive(options.penalty, "penalty");
+  requireNonNegative(options.friction, "friction");
+  requireNonNegative(options.tangentialPenalty, "tangentialPenalty");
+  if (options.augmented) requirePositive(options.gapTolerance, "gapTolerance");
+  if (options.maxAugmentations < 1)
+    throw InputError("no augmentations are allowed", "ContactOptions", "give maxAugmentations of 1 or more");
+}
+
+/// A quadrature point of a face.
+struct Spot {
+  std::array<int, 9> node;
+  std::array<double, 9> N;
+  std::size_t nodes;
+  double area;  // m²
+};
+
+std::vector<Spot> makeSpots(const SolidMesh& mesh, std::span<const Face> faces) {
+  std::vector<Spot> spots;
+  for (const Face& face : faces) {
+    const std::span<const int> corners = nodesOf(face);
+    visitPoints(face.shape, [&](const FacePoint& point) {
+      Spot spot{face.node, {}, corners.size(), 0.0};
+      std::copy(point.N.begin(), point.N.end(), spot.N.begin());
+      spot.area = point.weight *
+                  norm(cross(interpolate(point.byXi, corners, mesh.X), interpolate(point.byEta, corners, mesh.X)));
+      spots.push_back(spot);
+    });
+  }
+  return spots;
+}
+
+class PlaneTerm : public ContactPlane {
+public:
+  PlaneTerm(const SolidMesh& mesh, std::span<const Face> faces, const Plane& plane, const ContactOptions& options)
+      : faces_(faces.begin(), faces.end()),
+        spots_(makeSpots(mesh, faces)),
+        plane_(plane),
+        options_(options),
+        law_{normalized(plane.normal), options.penalty,
+             options.tangentialPenalty > 0.0 ? options.tangentialPenalty : options.penalty, options.friction},
+        past_(spots_.size()),
+        lambda_(spots_.size(), 0.0) {
+    pastOrigin_ = origin(0.0);
+    for (std::size_t q = 0; q < spots_.size(); ++q)
+      past_[q].d = interpolate(shapes(q), corners(q), mesh.X) - pastOrigin_;
+  }
+
+  std::string name() const override { return options_.name; }
+  bool isSymmetric() const override { return options_.friction == 0.0; }
+  bool hasEnergy() const override { return true; }
+
+  void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
+    visit(nodes, now.t,
+          [&](std::size_t q, const Vec3& d) { scatter(q, law_.at(d, past_[q], lambda_[q]).traction, f); });
+  }
+  double energy(const Nodes& nodes, const Instant& now) override {
+    double sum = 0.0;
+    visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
+      sum += spots_[q].area * law_.energy(law_.at(d, past_[q], lambda_[q]), lambda_[q]);
+    });
+    return sum;
+  }
+  void addCouplings(Couplings& couplings) const override {
+    for (const Face& face : faces_) couplings.add(nodesOf(face));
+  }
+  void addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) override {
+    visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
+      const ContactAnswer answer = law_.at(d, past_[q], lambda_[q]);
+      if (answer.pressure > 0.0) addBlocks(q, law_.tangent(answer), K);
+    });
+  }
+
+  bool addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
+                           std::span<Vec3> f) override {
+    if (options_.friction > 0.0) return false;
+    visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
+      scatter(q, law_.meanPressure(startOf(q, nodes, u0, now), d, lambda_[q]) * law_.normal, f);
+    });
+    return true;
+  }
+  void addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now, BlockMatrix& K) override {
+    visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
+      const double slope = law_.meanPressureSlope(startOf(q, nodes, u0, now), d, lambda_[q]);
+      if (slope != 0.0) addBlocks(q, scaledDyad(slope, law_.normal, law_.normal), K);
+    });
+  }
+
+  double commit(const Nodes& nodes, const Instant& now) override {
+    double booked = 0.0;
+    Vec3 force;
+    visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
+      ContactPast& past = past_[q];
+      const ContactAnswer answer = law_.at(d, past, lambda_[q]);
+      booked += spots_[q].area * (law_.dissipated(answer, past) + law_.jump(past, lambda_[q]));
+      force += spots_[q].area * answer.traction;
+      past = {d, answer.spring, lambda_[q]};
+    });
+    const Vec3 moved = origin(now.t) - pastOrigin_;
+    booked -= 0.5 * dot(force + pastForce_, moved);
+    pastOrigin_ += moved;
+    pastForce_ = force;
+    augmentations_ = 0;
+    return booked;
+  }
+  bool augment(const Nodes& nodes, const Instant& now) override {
+    if (!options_.augmented || augmentations_ >= options_.maxAugmentations) return false;
+    bool violated = false;
+    visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
+      const double gap = dot(law_.normal, d), pressure = std::max(0.0, lambda_[q] - law_.penalty * gap);
+      // Where there is a multiplier but no contact any more, the excess is what the multiplier stood for.
+      violated = violated || std::abs(pressure - lambda_[q]) > law_.penalty * options_.gapTolerance;
+    });
+    if (!violated) return false;
+    visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
+      lambda_[q] = std::max(0.0, lambda_[q] - law_.penalty * dot(law_.normal, d));
+    });
+    ++augmentations_;
+    return true;
+  }
+  void revert() override {
+    for (std::size_t q = 0; q < past_.size(); ++q) lambda_[q] = past_[q].lambda;
+    augmentations_ = 0;
+  }
+
+  void save(ByteWriter& archive) const override { archive(past_, pastOrigin_, pastForce_); }
+  void load(ByteReader& archive) override {
+    std::vector<ContactPast> past;
+    archive(past, pastOrigin_, pastForce_);
+    if (past.size() != past_.size())
+      throw InputError("the state is that of another contact", options_.name, "restart with the same mesh and faces");
+    past_ = std::move(past);
+    revert();
+  }
+
+  Report report(const Nodes& nodes, const Instant& now) const override {
+    Report report;
+    visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
+      const ContactAnswer answer = law_.at(d, past_[q], lambda_[q]);
+      report.force += spots_[q].area * answer.traction;
+      if (!(answer.pressure > 0.0)) return;
+      report.area += spots_[q].area;
+      report.deepest = std::max(report.deepest, -dot(law_.normal, d));
+      report.largestPressure = std::max(report.largestPressure, answer.pressure);
+    });
+    return report;
+  }
+
+private:
+  Vec3 origin(double t) const { return plane_.motion ? plane_.point + plane_.motion(t) : plane_.point; }
+  std::span<const int> corners(std::size_t q) const { return {spots_[q].node.data(), spots_[q].nodes}; }
+  std::span<const double> shapes(std::size_t q) const { return {spots_[q].N.data(), spots_[q].nodes}; }
+  /// Calls act(q, place relative to the plane).
+  template <class Act>
+  void visit(const Nodes& nodes, double t, Act&& act) const {
+    const Vec3 o = origin(t);
+    for (std::size_t q = 0; q < spots_.size(); ++q)
+      act(q, interpolate(shapes(q), corners(q), nodes.X) + interpolate(shapes(q), corners(q), nodes.u) - o);
+  }
+  Vec3 startOf(std::size_t q, const Nodes& nodes, std::span<const Vec3> u0, const Instant& now) const {
+    return interpolate(shapes(q), corners(q), nodes.X) + interpolate(shapes(q), corners(q), u0) -
+           origin(now.t - now.dt);
+  }
+  void scatter(std::size_t q, const Vec3& traction, std::span<Vec3> f) const {
+    if (traction == Vec3{}) return;
+    for (std::size_t a = 0; a < spots_[q].nodes; ++a)
+      f[static_cast<std::size_t>(spots_[q].node[a])] += spots_[q].N[a] * spots_[q].area * traction;
+  }
+  void addBlocks(std::size_t q, const std::array<double, 9>& block, BlockMatrix& K) const {
+    const Spot& spot = spots_[q];
+    for (std::size_t a = 0; a < spot.nodes; ++a)
+      for (std::size_t b = 0; b < spot.nodes; ++b) {
+        std::array<double, 9> scaled = block;
+        for (double& value : scaled) value *= spot.area * spot.N[a] * spot.N[b];
+        K.addBlock(spot.node[a], spot.node[b], scaled);
+      }
+  }
+
+  std::vector<Face> faces_;
+  std::vector<Spot> spots_;
+  Plane plane_;
+  ContactOptions options_;
+  ContactPointLaw law_;
+  std::vector<ContactPast> past_;
+  std::vector<double> lambda_;
+  Vec3 pastOrigin_, pastForce_;
+  int augmentations_ = 0;
+};
+
+}  // namespace
+
+std::shared_ptr<ContactPlane> makeContactPlane(const SolidMesh& mesh, std::span<const Face> faces, const Plane& plane,
+                                               const ContactOptions& options) {
+  validate(options);
+  requireFaces(faces, mesh.X.size(), "makeContactPlane");
+  if (!(norm(plane.normal) > 0.0) || !isFinite(plane.normal) || !isFinite(plane.point))
+    throw InputError("the plane is not defined", "makeContactPlane", "give a finite point and a normal with length");
+  return std::make_shared<PlaneTerm>(mesh, faces, plane, options);
+}
+
+}  // namespace dovetail::fem

@@ -1,0 +1,117 @@
+// Loads on the reference faces.
+#include <cmath>
+#include <map>
+
+#include "../mesh/faces.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/fem/terms/loads.hpp"
+
+namespace dovetail::fem {
+
+namespace {
+
+/// Fixed forces on some nodes times a function of time.
+class DeadLoad : public Term {
+public:
+  DeadLoad(const std::map<int, Vec3>& forces, Amplitude scale, std::string name)
+      : forces_(forces.begin(), forces.end()), scale_(std::move(scale)), name_(std::move(name)) {}
+  std::string name() const override { return name_; }
+  void addForces(const Nodes&, const Instant& now, std::span<Vec3> f) override {
+    const double scale = scale_(now.t);
+    for (const auto& [n, force] : forces_) f[static_cast<std::size_t>(n)] += scale * force;
+  }
+  bool hasEnergy() const override { return scale_.isConstant(); }
+  double energy(const Nodes& nodes, const Instant& now) override {
+    double sum = 0.0;
+    for (const auto& [n, force] : forces_) sum -= dot(force, nodes.u[static_cast<std::size_t>(n)]);
+    return scale_(now.t) * sum;
+  }
+  bool addConservingForces(const Nodes& nodes, std::span<const Vec3>, const Instant& now, std::span<Vec3> f) override {
+    if (hasEnergy()) addForces(nodes, now, f);
+    return hasEnergy();
+  }
+
+private:
+  std::vector<std::pair<int, Vec3>> forces_;
+  Amplitude scale_;
+  std::string name_;
+};
+
+/// Calls visit(face, point, weight ∂X/∂ξ × ∂X/∂η) for all points of all faces.
+template <class Visit>
+void integrateFaces(const SolidMesh& mesh, std::span<const Face> faces, Visit&& visit) {
+  for (const Face& face : faces) {
+    const std::span<const int> nodes = nodesOf(face);
+    visitPoints(face.shape, [&](const FacePoint& point) {
+      visit(face, point,
+            point.weight * cross(interpolate(point.byXi, nodes, mesh.X), interpolate(point.byEta, nodes, mesh.X)));
+    });
+  }
+}
+
+/// Σ N forceOn(vector of area) by nodes.
+template <class ForceOn>
+std::map<int, Vec3> nodalForces(const SolidMesh& mesh, std::span<const Face> faces, ForceOn&& forceOn) {
+  std::map<int, Vec3> forces;
+  integrateFaces(mesh, faces, [&](const Face& face, const FacePoint& point, const Vec3& area) {
+    const Vec3 force = forceOn(area);
+    for (std::size_t a = 0; a < point.N.size(); ++a) forces[face.node[a]] += point.N[a] * force;
+  });
+  return forces;
+}
+
+/// A traction that depends on place and time.
+class TractionField : public Term {
+public:
+  TractionField(const SolidMesh& mesh, std::span<const Face> faces, std::function<Vec3(const Vec3&, double)> traction,
+                std::string name)
+      : traction_(std::move(traction)), name_(std::move(name)) {
+    integrateFaces(mesh, faces, [&](const Face& face, const FacePoint& point, const Vec3& area) {
+      const std::span<const int> corners = nodesOf(face);
+      points_.push_back({interpolate(point.N, corners, mesh.X), {}});
+      for (std::size_t a = 0; a < corners.size(); ++a)
+        points_.back().shares.emplace_back(corners[a], point.N[a] * norm(area));
+    });
+  }
+  std::string name() const override { return name_; }
+  void addForces(const Nodes&, const Instant& now, std::span<Vec3> f) override {
+    for (const Point& point : points_) {
+      const Vec3 traction = traction_(point.X, now.t);
+      for (const auto& [n, area] : point.shares) f[static_cast<std::size_t>(n)] += area * traction;
+    }
+  }
+
+private:
+  struct Point {
+    Vec3 X;
+    std::vector<std::pair<int, double>> shares;  // node, N dA in m²
+  };
+  std::vector<Point> points_;
+  std::function<Vec3(const Vec3&, double)> traction_;
+  std::string name_;
+};
+
+}  // namespace
+
+std::shared_ptr<Term> deadPressure(const SolidMesh& mesh, std::span<const Face> faces, Amplitude p, std::string name) {
+  requireFaces(faces, mesh.X.size(), "deadPressure");
+  const auto forces = nodalForces(mesh, faces, [](const Vec3& area) { return -area; });
+  return std::make_shared<DeadLoad>(forces, std::move(p), std::move(name));
+}
+
+std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> faces, Vec3 traction, Amplitude scale,
+                                   std::string name) {
+  requireFaces(faces, mesh.X.size(), "deadTraction");
+  if (!isFinite(traction)) throw InputError("the traction is not finite", "deadTraction", "give numbers");
+  const auto forces = nodalForces(mesh, faces, [&](const Vec3& area) { return norm(area) * traction; });
+  return std::make_shared<DeadLoad>(forces, std::move(scale), std::move(name));
+}
+
+std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> faces,
+                                   std::function<Vec3(const Vec3&, double)> traction, std::string name) {
+  requireFaces(faces, mesh.X.size(), "deadTraction");
+  if (!traction) throw InputError("there is no function", "deadTraction", "give one, or a vector");
+  return std::make_shared<TractionField>(mesh, faces, std::move(traction), std::move(name));
+}
+
+}  // namespace dovetail::fem

@@ -1,0 +1,100 @@
+// Pressure on deformed faces (Schweizerhof & Ramm 1984).
+#include <algorithm>
+
+#include "../mesh/faces.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/fem/terms/loads.hpp"
+
+namespace dovetail::fem {
+
+namespace {
+
+class FollowingPressure : public Term {
+public:
+  FollowingPressure(std::span<const Face> faces, Amplitude p, bool potential, std::string name)
+      : faces_(faces.begin(), faces.end()), p_(std::move(p)), potential_(potential), name_(std::move(name)) {}
+  std::string name() const override { return name_; }
+  bool isSymmetric() const override { return potential_; }
+  bool hasEnergy() const override { return potential_ && p_.isConstant(); }
+
+  void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
+    const double p = p_(now.t);
+    for (const Face& face : faces_) {
+      const std::span<const int> corners = nodesOf(face);
+      visitPoints(face.shape, [&](const FacePoint& point) {
+        const Vec3 load =
+            -p * point.weight * cross(sumOf(point.byXi, corners, nodes), sumOf(point.byEta, corners, nodes));
+        for (std::size_t a = 0; a < corners.size(); ++a) f[static_cast<std::size_t>(corners[a])] += point.N[a] * load;
+      });
+    }
+  }
+
+  /// p ⅓ ∫ x · da, up to a constant the volume behind the faces.
+  double energy(const Nodes& nodes, const Instant& now) override {
+    double sum = 0.0;
+    for (const Face& face : faces_) {
+      const std::span<const int> corners = nodesOf(face);
+      visitPoints(face.shape, [&](const FacePoint& point) {
+        sum += point.weight * dot(sumOf(point.N, corners, nodes),
+                                  cross(sumOf(point.byXi, corners, nodes), sumOf(point.byEta, corners, nodes)));
+      });
+    }
+    return p_(now.t) * sum / 3.0;
+  }
+
+  void addCouplings(Couplings& couplings) const override {
+    for (const Face& face : faces_) couplings.add(nodesOf(face));
+  }
+
+  /// K_ab w = p ∫ N_a (∂N_b/∂ξ w × ∂x/∂η + ∂N_b/∂η ∂x/∂ξ × w).
+  void addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) override {
+    const double p = p_(now.t);
+    for (const Face& face : faces_) {
+      const std::span<const int> corners = nodesOf(face);
+      const std::size_t n = corners.size();
+      matrix_.assign(9 * n * n, 0.0);
+      visitPoints(face.shape, [&](const FacePoint& point) {
+        const Vec3 alongXi = sumOf(point.byXi, corners, nodes), alongEta = sumOf(point.byEta, corners, nodes);
+        for (std::size_t a = 0; a < n; ++a)
+          for (std::size_t b = 0; b < n; ++b)
+            addCross(a, b, n, p * point.weight * point.N[a] * (point.byEta[b] * alongXi - point.byXi[b] * alongEta));
+      });
+      K.add(corners, matrix_);
+    }
+  }
+
+private:
+  static Vec3 sumOf(std::span<const double> coefficient, std::span<const int> corners, const Nodes& nodes) {
+    return interpolate(coefficient, corners, nodes.X) + interpolate(coefficient, corners, nodes.u);
+  }
+  /// Adds w ↦ r × w to block (a, b).
+  void addCross(std::size_t a, std::size_t b, std::size_t n, const Vec3& r) {
+    const std::size_t columns = 3 * n;
+    double* const at = &matrix_[3 * a * columns + 3 * b];
+    at[1] -= r.z;
+    at[2] += r.y;
+    at[columns] += r.z;
+    at[columns + 2] -= r.x;
+    at[2 * columns] -= r.y;
+    at[2 * columns + 1] += r.x;
+  }
+
+  std::vector<Face> faces_;
+  Amplitude p_;
+  bool potential_;
+  std::string name_;
+  std::vector<double> matrix_;
+};
+
+}  // namespace
+
+std::shared_ptr<Term> followingPressure(const SolidMesh& mesh, std::span<const Face> faces, Amplitude p,
+                                        std::span<const int> clamped, std::string name) {
+  requireFaces(faces, mesh.X.size(), "followingPressure");
+  const std::vector<int> rim = rimNodes(faces);
+  const bool potential = std::includes(clamped.begin(), clamped.end(), rim.begin(), rim.end());
+  return std::make_shared<FollowingPressure>(faces, std::move(p), potential, std::move(name));
+}
+
+}  // namespace dovetail::fem
