@@ -4,7 +4,10 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
+#include "dovetail/surface/solid_faces.hpp"
 
 namespace dovetail::cantilever {
 
@@ -47,23 +50,23 @@ cg::SurfaceKernel makeKernel(const Settings& settings) {
   return {{shape, 2, settings.cgWidth * Case{}.particleDiameter}, correction};
 }
 
-surface::Skin makeCarryingSkin(const Settings& settings, const fem::Mesh& mesh) {
-  surface::Skin skin = surface::makeSkin(mesh.X, mesh.faceSets.at("skin"));
+surface::Skin makeCarryingSkin(const Settings& settings, const fem::SolidMesh& mesh) {
+  surface::Skin skin = surface::makeSkin(mesh.X, surface::quadsOf(mesh.faceSets.at("skin")));
   if (settings.transfer == Transfer::adjoint) surface::coarseGrain(skin, makeKernel(settings));
   return skin;
 }
 
-surface::Coupling makeSeam(const Settings& settings, const fem::Mesh& mesh) {
+surface::Coupling makeSeam(const Settings& settings, const fem::SolidMesh& mesh) {
   surface::CouplingOptions options;
   options.edges = settings.edges == EdgeHandling::paper ? dem::EdgeRule::paper : dem::EdgeRule::projected;
   surface::Coupling seam(makeCarryingSkin(settings, mesh), options);
   if (settings.transfer == Transfer::spread)
-    seam.spreadLoad(surface::SpreadLoad(makeKernel(settings), mesh.X, seam.skin(), mesh.faceSets.at("skin")));
+    seam.spreadLoad(surface::SpreadLoad(makeKernel(settings), mesh.X, seam.skin(), surface::quadsOf(mesh.faceSets.at("skin"))));
   seam.bookWallWork(couplingIsUnbalanced(settings));
   return seam;
 }
 
-surface::SmoothCoupling makeSmoothSeam(const Settings& settings, const fem::Mesh& mesh) {
+surface::SmoothCoupling makeSmoothSeam(const Settings& settings, const fem::SolidMesh& mesh) {
   surface::Skin skin = makeCarryingSkin(settings, mesh);
   if (settings.cgWidth == 0.0) surface::splitAtSharpEdges(skin);
   surface::SmoothCoupling seam(surface::makeSmoothSurface(skin));
@@ -71,14 +74,23 @@ surface::SmoothCoupling makeSmoothSeam(const Settings& settings, const fem::Mesh
   return seam;
 }
 
+std::unique_ptr<fem::Model> makeBeam(const Settings& settings, const fem::SolidMesh& mesh) {
+  const bool hybrid = settings.element == "hybrid8";
+  auto beam = std::make_unique<fem::Model>(fem::makeModel(mesh));
+  beam->add(fem::makeSolid(mesh, fem::pointMaterial(makeMaterial(settings)),
+                           {.formulation = hybrid ? fem::Formulation::assumedStress : fem::Formulation::standard,
+                            .name = "beam"}));
+  fem::addMass(*beam);
+  fem::fix(beam->nodes, mesh.nodeSets.at("y-"));
+  return beam;
+}
+
 template <class Seam>
-surface::CoupledModel<Seam> makeModel(const Settings& settings, const fem::Mesh& mesh, Seam seam) {
-  const auto type = settings.element == "hybrid8" ? fem::ElementType::hybrid8 : fem::ElementType::hex8;
+surface::CoupledModel<Seam> makeModel(const Settings& settings, const fem::SolidMesh& mesh, Seam seam) {
   const dem::LinearSpringDashpot normal{contactStiffness(settings), settings.restitution, true};
   surface::CoupledModel<Seam> model{.discrete = {},
                                     .wallLaw = {normal},
-                                    .nodes = fem::makeNodes(mesh),
-                                    .elements = fem::makeElements(mesh, type, makeMaterial(settings)),
+                                    .solid = makeBeam(settings, mesh),
                                     .seam = std::move(seam),
                                     .contact = {}};
   model.discrete.particles = makeParticles(settings);
@@ -87,8 +99,6 @@ surface::CoupledModel<Seam> makeModel(const Settings& settings, const fem::Mesh&
   model.discrete.pairs.setSkin(0.5 * Case{}.particleDiameter);
   model.discrete.sortEvery = 0;
   model.discrete.refusesUnstableSteps = false;  // chooseStep has refused them, with the skin's share
-  fem::addLumpedMass(model.elements, model.nodes);
-  fem::fix(model.nodes, mesh.nodeSets.at("y-"));
   return model;
 }
 
@@ -107,13 +117,15 @@ std::array<int, 3> elementCounts(const Settings& settings) {
   return counts;
 }
 
-fem::Mesh makeMesh(const Settings& settings) { return fem::boxMesh(elementCounts(settings), lowerCorner, upperCorner); }
+fem::SolidMesh makeMesh(const Settings& settings) { 
+  return fem::boxOf(fem::CellShape::hex8, elementCounts(settings), lowerCorner, upperCorner);
+}
 
-FlatModel makeFlatModel(const Settings& settings, const fem::Mesh& mesh) {
+FlatModel makeFlatModel(const Settings& settings, const fem::SolidMesh& mesh) {
   return makeModel(settings, mesh, makeSeam(settings, mesh));
 }
 
-SmoothModel makeSmoothModel(const Settings& settings, const fem::Mesh& mesh) {
+SmoothModel makeSmoothModel(const Settings& settings, const fem::SolidMesh& mesh) {
   return makeModel(settings, mesh, makeSmoothSeam(settings, mesh));
 }
 
@@ -136,10 +148,10 @@ double largestMobility(const surface::SmoothCoupling& seam, const fem::Nodes& no
   return surface::largestMobility(seam.surface(), inverseMasses(nodes));
 }
 
-StepLimit criticalStep(const Settings& settings, const fem::ElementBlock& elements, double mobility) {
+StepLimit criticalStep(const Settings& settings, fem::Model& beam, double mobility) {
   const double contact = std::sqrt(contactStiffness(settings) * (1.0 / particleMass(Case{}) + mobility));
   if (settings.fem == FemStepper::newmark) return {2.0 / contact, "contact of a particle with the skin"};
-  const fem::StableStep solid = fem::stableStep(elements);
+  const fem::ModelStableStep solid = fem::stableStep(beam);
   const double element = 2.0 / solid.dt;
   const std::string name = "element " + std::to_string(solid.element);
   const int K = settings.femEvery;

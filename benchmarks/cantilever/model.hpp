@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "dovetail/fem/motion/newmark.hpp"
 #include "dovetail/surface/coupling.hpp"
 #include "dovetail/surface/smooth_coupling.hpp"
 #include "dovetail/surface/stepper.hpp"
@@ -23,9 +22,9 @@ std::array<int, 3> elementCounts(const Settings& settings);
 /// The model at rest with the particles at their static overlap. Axes: x across, y from the clamp, z up, z = 0 on the
 /// beam's axis.
 /// @throws InputError for impossible settings
-FlatModel makeFlatModel(const Settings& settings, const fem::Mesh& mesh);
-SmoothModel makeSmoothModel(const Settings& settings, const fem::Mesh& mesh);
-fem::Mesh makeMesh(const Settings& settings);
+FlatModel makeFlatModel(const Settings& settings, const fem::SolidMesh& mesh);
+SmoothModel makeSmoothModel(const Settings& settings, const fem::SolidMesh& mesh);
+fem::SolidMesh makeMesh(const Settings& settings);
 
 /// The largest stable step and who sets it.
 struct StepLimit {
@@ -39,7 +38,7 @@ double largestMobility(const surface::SmoothCoupling& seam, const fem::Nodes& no
 
 /// Bounds for the chosen integrators: contacts 2/ω_c with ω_c² = k (1/m_p + mobility); explicit solid 2/ω_e of its
 /// worst element, divided by K; both act together if K = 1: ω² = ω_c² + ω_e².
-StepLimit criticalStep(const Settings& settings, const fem::ElementBlock& elements, double mobility);
+StepLimit criticalStep(const Settings& settings, fem::Model& beam, double mobility);
 
 /// The DEM step asked for. @throws InputError if it exceeds the critical one
 double chooseStep(const Settings& settings, const StepLimit& limit);

@@ -10,6 +10,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
+#include "dovetail/fem/elements/solid.hpp"
 #include "model.hpp"
 #include "series_names.hpp"
 
@@ -35,7 +36,7 @@ std::string moment(double time, std::int64_t step) {
 template <class Model>
 class Runner {
 public:
-  Runner(const Settings& settings, const fem::Mesh& mesh, Model model) : mesh_(mesh), model_(std::move(model)) {
+  Runner(const Settings& settings, const fem::SolidMesh& mesh, Model model) : mesh_(mesh), model_(std::move(model)) {
     result_.settings = settings;
     result_.profile = Profile(settings.profile);
     result_.series = io::TimeSeries(seriesNames);
@@ -61,9 +62,10 @@ public:
 private:
   RunFigures& figures() { return result_.figures; }
   const Settings& settings() const { return result_.settings; }
+  const fem::Nodes& nodes() const { return model_.solid->nodes; }
 
   void prepareStep() {
-    const StepLimit limit = criticalStep(settings(), model_.elements, largestMobility(model_.seam, model_.nodes));
+    const StepLimit limit = criticalStep(settings(), *model_.solid, largestMobility(model_.seam, nodes()));
     figures().criticalDt = limit.dt;
     figures().criticalSetter = limit.setter;
     clock_.dt = figures().dt = chooseStep(settings(), limit);
@@ -72,9 +74,9 @@ private:
     scheme_.booksCoupling = couplingIsUnbalanced(settings());
     scheme_.skinLags = settings().lag == Lag::loadAndSkin;
     if (settings().fem == FemStepper::newmark) {
-      fem::NewmarkOptions options;
-      options.consistentShare = settings().mass == MassMatrix::consistent ? 1.0 : 0.0;
-      newmark_ = std::make_unique<fem::NewmarkSolver>(model_.elements, model_.nodes, clock_.coarseStep(), options);
+      fem::ImplicitOptions options{.scheme = fem::newmark(), .relativeTolerance = 1e-10};
+      options.massShare = settings().mass == MassMatrix::consistent ? 1.0 : 0.0;
+      newmark_ = std::make_unique<fem::ImplicitMotion>(*model_.solid, options);
     }
   }
 
@@ -94,7 +96,7 @@ private:
   bool multirate() const { return clock_.substepsPerWindow > 1 && !newmark_ && settings().lag == Lag::none; }
 
   double kineticBeam() const {
-    return newmark_ ? newmark_->kineticEnergy(model_.nodes) : fem::kineticEnergy(model_.nodes);
+    return newmark_ ? newmark_->kineticEnergy() : fem::kineticEnergy(nodes());
   }
 
   void setLedger() {
@@ -108,7 +110,7 @@ private:
     ledger.set(kineticBeam_, kineticBeam());
     ledger.set(elasticBeam_, model_.strainEnergy);
     if (multirate())
-      ledger.set(splitting_, surface::splittingEnergy(model_.nodes, model_.seam.load(), clock_.coarseStep()));
+      ledger.set(splitting_, surface::splittingEnergy(nodes(), model_.seam.load(), clock_.coarseStep()));
   }
 
   surface::WindowSums stepWindow(bool withEnergy) {
@@ -142,7 +144,7 @@ private:
       sampleEnergy();
       if (sample % trajectoryEvery == 0) sampleTrajectory();
       if (sample % seriesEvery == 0) {
-        fem::requireValid(model_.elements, model_.nodes, moment(clock_.time(), clock_.step));
+        model_.solid->terms.front()->requireValid(nodes(), moment(clock_.time(), clock_.step), fem::Scrutiny::inversion);
         sampleSeries();
         const double y = model_.discrete.particles.x[0].y / Case{}.length;
         progress.update(settings().until ? clock_.time() / end : 1.0 - std::sqrt(std::max(0.0, 1.0 - y)),
@@ -177,7 +179,7 @@ private:
 
   void sampleEnergy() {
     dem::requireFinite(model_.discrete.particles, moment(clock_.time(), clock_.step));
-    requireFinite(model_.nodes.v, "node", "velocity", moment(clock_.time(), clock_.step));
+    requireFinite(nodes().v, "node", "velocity", moment(clock_.time(), clock_.step));
     setLedger();
     if (figures().left) return;
     result_.ledger.close();
@@ -205,7 +207,7 @@ private:
     const surface::NodalLoad& load = model_.seam.load();
     for (int node : load.touched) {
       force += load.force[node];
-      about += cross(model_.nodes.X[node] + model_.nodes.u[node], load.force[node]);
+      about += cross(nodes().X[node] + nodes().u[node], load.force[node]);
     }
     if (size == 0.0) return;
     figures().forceResidual = std::max(figures().forceResidual, norm(force) / size);
@@ -225,10 +227,10 @@ private:
     }
     double massParticles = 0.0, massBeam = 0.0;
     for (double mass : model_.discrete.particles.mass) massParticles += mass;
-    for (double mass : model_.nodes.mass) massBeam += mass;
+    for (double mass : nodes().mass) massBeam += mass;
     row.insert(row.end(), {massParticles, massBeam});
     push(dem::momentum(model_.discrete.particles));
-    push(fem::momentum(model_.nodes));
+    push(fem::momentum(nodes()));
     const auto& channels = result_.ledger.channels();
     for (EnergyLedger::Id id : {kineticParticles_, elasticContacts_, gravity_, kineticBeam_, elasticBeam_})
       row.push_back(channels[id].joules);
@@ -236,14 +238,15 @@ private:
     row.push_back(channels[dashpots_].joules);
     row.push_back(-channels[coupling_].joules);
     row.push_back(result_.ledger.residual());
-    push(model_.nodes.u[tipNode_]);
+    push(nodes().u[tipNode_]);
     result_.series.append(row);
   }
 
   void observe() {
     if (!observer_) return;
-    const auto energies = fem::elementEnergies(model_.elements, model_.nodes);
-    observer_({clock_.time(), mesh_, model_.nodes, model_.discrete.particles, model_.seam.load().force, energies});
+    auto& beam = dynamic_cast<fem::Solid&>(*model_.solid->terms.front());
+    const auto energies = beam.elementEnergies(nodes(), {clock_.time(), 0.0});
+    observer_({clock_.time(), mesh_, nodes(), model_.discrete.particles, model_.seam.load().force, energies});
   }
 
   void close() {
@@ -262,13 +265,13 @@ private:
     f.lockingFactor = lockingFactor(settings());
   }
 
-  const fem::Mesh& mesh_;
+  const fem::SolidMesh& mesh_;
   Model model_;
   Observer observer_;
   RunResult result_;
   Clock clock_;
   surface::Scheme scheme_;
-  std::unique_ptr<fem::NewmarkSolver> newmark_;
+  std::unique_ptr<fem::ImplicitMotion> newmark_;
   EnergyLedger::Id kineticParticles_, elasticContacts_, gravity_, kineticBeam_, elasticBeam_, splitting_ = 0, dashpots_,
                                                                                               coupling_;
   double startZ_ = 0.0;
@@ -281,7 +284,7 @@ private:
 PreparedRun prepareRun(const Settings& settings) {
   validate(settings);
   setThreads(settings.threads);
-  const auto mesh = std::make_shared<const fem::Mesh>(makeMesh(settings));
+  const auto mesh = std::make_shared<const fem::SolidMesh>(makeMesh(settings));
   const auto prepare = [&](auto model) -> PreparedRun {
     const auto runner = std::make_shared<Runner<decltype(model)>>(settings, *mesh, std::move(model));
     return [mesh, runner](const Observer& observer) { return runner->run(observer); };

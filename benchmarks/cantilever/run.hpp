@@ -9,7 +9,7 @@
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/core/profile.hpp"
 #include "dovetail/dem/particles/particles.hpp"
-#include "dovetail/fem/mesh/mesh.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/fem/model/nodes.hpp"
 #include "dovetail/io/time_series.hpp"
 #include "reference/error_norms.hpp"
@@ -20,7 +20,7 @@ namespace dovetail::cantilever {
 /// What an observer sees of a frame.
 struct Frame {
   double time;
-  const fem::Mesh& mesh;
+  const fem::SolidMesh& mesh;
   const fem::Nodes& nodes;
   const dem::Particles& particles;
   const std::vector<Vec3>& contactLoad;      ///< contact forces on the nodes, N

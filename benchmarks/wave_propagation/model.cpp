@@ -7,6 +7,8 @@
 #include "dovetail/arlequin/critical_step.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/dem/model/loads.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 #include "step_plan.hpp"
 
 namespace dovetail::wave {
@@ -76,21 +78,22 @@ arlequin::Model makeParticles(const Settings& s, double length) {
   return model;
 }
 
-fem::Mesh makeMesh(const Settings& s) {
+fem::SolidMesh makeMesh(const Settings& s) {
   const double half = 0.5 * Case{}.side, start = s.demLength - s.overlap;
   const int across = static_cast<int>(std::lround(Case{}.side / Case{}.elementSize)), along = solidElements(s);
-  return fem::boxMesh({across, along, across}, {-half, start, -half}, {half, start + along * Case{}.elementSize, half});
+  return fem::boxOf(fem::CellShape::hex8, {across, along, across}, {-half, start, -half},
+                    {half, start + along * Case{}.elementSize, half});
 }
 
 /// w per node from the distances to the mesh's end within the particles and to the particles' end within the mesh.
-std::vector<double> makeWeights(const Settings& s, const fem::Mesh& mesh) {
+std::vector<double> makeWeights(const Settings& s, const fem::SolidMesh& mesh) {
   const double half = 0.5 * Case{}.side, end = s.demLength;
   const std::array<Vec3, 4> corner = {
       Vec3{-half, end, -half}, {half, end, -half}, {half, end, half}, {-half, end, half}};
   const std::vector<arlequin::Triangle> particleBorder = {{corner[0], corner[1], corner[2]},
                                                           {corner[0], corner[2], corner[3]}};
   std::vector<double> place =
-      arlequin::distanceCoordinate(mesh.X, arlequin::triangles(mesh, fem::faceSet(mesh, "y-")), particleBorder);
+      arlequin::distanceCoordinate(mesh.X, arlequin::triangles(mesh.X, fem::faceSet(mesh, "y-")), particleBorder);
   for (std::size_t n = 0; n < place.size(); ++n)
     if (mesh.X[n].y > end + 1e-9) place[n] = arlequin::beyondOverlap;
   const auto profile = s.weightProfile == WeightProfile::linear   ? arlequin::WeightProfile::linear
@@ -118,15 +121,11 @@ fem::Material makeMaterial(const Settings& s) {
 }
 
 arlequin::Solid makeSolid(const Settings& s, const std::vector<double>& weight) {
-  fem::Mesh mesh = makeMesh(s);
-  fem::Nodes nodes = fem::makeNodes(mesh);
-  fem::fix(nodes, fem::nodeSet(mesh, "y+"));
-  fem::ElementBlock elements =
-      fem::makeElements(mesh, fem::ElementType::hex8, makeMaterial(s), arlequin::solidWeights(weight));
-  fem::addLumpedMass(elements, nodes);
-  arlequin::Solid solid{std::move(mesh), std::move(nodes), std::move(elements), std::nullopt, {}, {}, {}};
-  if (massShare(s) > 0.0) solid.mass.emplace(solid.elements, solid.nodes, massShare(s));
-  return solid;
+  const fem::SolidMesh mesh = makeMesh(s);
+  auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
+  fem::fix(model->nodes, fem::nodeSet(mesh, "y+"));
+  model->add(fem::makeSolid(mesh, fem::pointMaterial(makeMaterial(s)), {.share = arlequin::solidWeights(weight)}));
+  return {mesh, std::move(model), massShare(s)};
 }
 
 arlequin::CouplingOptions couplingOptions(const Settings& s) {
@@ -193,10 +192,9 @@ arlequin::Model makeBar(const Settings& s, double& penalty) {
   return makeCoupledBar(used);
 }
 
-fem::NewmarkSolver makeNewmark(const Settings& s, const arlequin::Model& model, double dt) {
-  fem::NewmarkOptions options;
-  options.consistentShare = massShare(s);
-  return fem::NewmarkSolver(model.solid->elements, model.solid->nodes, dt, options);
+fem::ImplicitMotion makeNewmark(const Settings& s, arlequin::Model& model) {
+  return fem::ImplicitMotion(model.solid->model(),
+                             {.scheme = fem::newmark(), .massShare = massShare(s), .relativeTolerance = 1e-10});
 }
 
 }  // namespace dovetail::wave

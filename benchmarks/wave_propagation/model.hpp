@@ -32,6 +32,6 @@ double penaltyOf(const Settings& settings);
 arlequin::Model makeBar(const Settings& settings, double& penalty);
 
 /// Newmark for the solid of a coupled bar, with the mass matrix of the settings.
-fem::NewmarkSolver makeNewmark(const Settings& settings, const arlequin::Model& model, double dt);
+fem::ImplicitMotion makeNewmark(const Settings& settings, arlequin::Model& model);
 
 }  // namespace dovetail::wave

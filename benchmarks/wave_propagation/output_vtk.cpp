@@ -26,10 +26,10 @@ public:
 private:
   void writeSolid(const Frame& frame) {
     const arlequin::Solid& solid = *frame.model.solid;
-    points_.resize(solid.nodes.X.size());
-    for (std::size_t i = 0; i < points_.size(); ++i) points_[i] = solid.nodes.X[i] + solid.nodes.u[i];
+    points_.resize(solid.nodes().X.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) points_[i] = solid.nodes().X[i] + solid.nodes().u[i];
     io::HexFrame picture{points_, solid.mesh.elements, {}, {}, {}};
-    picture.pointVectors = {{"displacement_m", solid.nodes.u}, {"velocity_m_per_s", solid.nodes.v}};
+    picture.pointVectors = {{"displacement_m", solid.nodes().u}, {"velocity_m_per_s", solid.nodes().v}};
     picture.pointScalars = {{"particles_share", frame.model.coupling->overlap.nodalWeight}};
     solid_->write(frame.time, picture);
   }

@@ -79,7 +79,7 @@ private:
     windows_ = plan.windows;
     figures().dt = dt_ = plan.dt;
     if (!s.fullDem && s.fem == FemStepper::newmark)
-      newmark_ = std::make_unique<fem::NewmarkSolver>(makeNewmark(s, model_, K_ * dt_));
+      newmark_ = std::make_unique<fem::ImplicitMotion>(makeNewmark(s, model_));
   }
 
   void prepareLedger() {
@@ -110,7 +110,7 @@ private:
       f.elements = model_.solid->mesh.elements.size();
       f.overlapParticles = model_.coupling->overlap.size();
       f.coupledNodes = model_.coupling->rows();
-      for (const double m : model_.solid->nodes.mass) mass += m;
+      for (const double m : model_.solid->nodes().mass) mass += m;
       f.penalty = penalty_;
     }
     const double side = Case{}.side, exact = bulkDensity() * side * side * barLength(settings());
@@ -187,7 +187,7 @@ private:
   void sampleGap() {
     const arlequin::Coupling& c = *model_.coupling;
     std::vector<Vec3> rate(c.rows());
-    arlequin::gapOf(c.gap, c.overlap, model_.discrete.particles.v, model_.solid->nodes.v, rate);
+    arlequin::gapOf(c.gap, c.overlap, model_.discrete.particles.v, model_.solid->nodes().v, rate);
     double mismatch = 0.0, speed = 0.0;
     for (const Vec3& v : rate) mismatch += squaredNorm(v);
     for (const int i : c.overlap.particle) speed += squaredNorm(model_.discrete.particles.v[static_cast<std::size_t>(i)]);
@@ -200,8 +200,8 @@ private:
     double massParticles = 0.0, massSolid = 0.0, momentumSolid = 0.0;
     for (const double m : model_.discrete.particles.mass) massParticles += m;
     if (model_.solid) {
-      for (const double m : model_.solid->nodes.mass) massSolid += m;
-      momentumSolid = fem::momentum(model_.solid->nodes).y;
+      for (const double m : model_.solid->nodes().mass) massSolid += m;
+      momentumSolid = fem::momentum(model_.solid->nodes()).y;
     }
     const auto& channels = result_.ledger.channels();
     const auto joules = [&](EnergyLedger::Id id) { return model_.solid ? channels[id].joules : 0.0; };
@@ -244,8 +244,8 @@ private:
     result_.pairs = std::move(model_.discrete.pairs);
     result_.particles = std::move(model_.discrete.particles);
     if (!model_.solid) return;
-    result_.nodePosition = model_.solid->nodes.X;
-    result_.nodeVelocity = model_.solid->nodes.v;
+    result_.nodePosition = model_.solid->nodes().X;
+    result_.nodeVelocity = model_.solid->nodes().v;
   }
 
   double penalty_;
@@ -253,7 +253,7 @@ private:
   Observer observer_;
   RunResult result_;
   arlequin::StepSums sums_;
-  std::unique_ptr<fem::NewmarkSolver> newmark_;
+  std::unique_ptr<fem::ImplicitMotion> newmark_;
   EnergyLedger::Id kineticParticles_ = 0, elasticContacts_ = 0, kineticSolid_ = 0, elasticSolid_ = 0, stored_ = 0,
                    coupling_ = 0;
   std::optional<EnergyLedger::Id> splitting_, absorbed_, external_;

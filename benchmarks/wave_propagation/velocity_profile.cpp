@@ -28,7 +28,7 @@ void append(io::TimeSeries& table, double time, Kind kind, const LayerSum& layer
 
 void appendNodes(io::TimeSeries& table, double time, const arlequin::Model& model) {
   std::map<long, LayerSum> layers;  // by half element sizes, so that rounding cannot split a layer
-  const fem::Nodes& solid = model.solid->nodes;
+  const fem::Nodes& solid = model.solid->nodes();
   for (std::size_t n = 0; n < solid.X.size(); ++n)
     layers[std::lround(2.0 * solid.X[n].y / Case{}.elementSize)].add(solid.X[n].y, solid.v[n].y,
                                                                      model.coupling->overlap.nodalWeight[n]);

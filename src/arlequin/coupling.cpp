@@ -37,7 +37,7 @@ std::unique_ptr<Constraint> penaltyFor(const Coupling& c, double penalty) {
 std::unique_ptr<Constraint> makeConstraint(const Coupling& c, const dem::Particles& particles, const Solid& solid) {
   const CouplingOptions& o = c.options;
   const double automatic = automaticPenalty(
-      fem::youngsModulus(solid.elements.material()),
+      fem::youngsModulus(solid.material()),
       elementSize(solid.mesh, solid.mesh.elements[static_cast<std::size_t>(c.overlap.elements.front())]));
   switch (o.constraint) {
     case ConstraintKind::penalty:
@@ -46,7 +46,7 @@ std::unique_ptr<Constraint> makeConstraint(const Coupling& c, const dem::Particl
     case ConstraintKind::dashpot:
       return makeDashpot(c.gap, o.penalty, o.consistentDashpot);
     case ConstraintKind::multiplier:
-      return makeMultiplier(c.gap, c.overlap, particles.mass, solid.nodes, solid.mass ? &*solid.mass : nullptr);
+      return makeMultiplier(c.gap, c.overlap, particles.mass, solid.motion());
   }
   throw InputError("there is no such constraint", "coupling", "take penalty, multiplier, dashpot or stress");
 }
@@ -56,9 +56,9 @@ double reachOf(const CouplingOptions& o) { return o.projection.reachOut ? o.proj
 
 void setUp(Coupling& c, dem::Particles& particles, dem::PairList& pairs, const Solid& solid) {
   weighMass(c.overlap, c.fullMass, particles);
-  weighContacts(particles, solid.mesh.elements, solid.nodes, c.overlap, pairs);
-  std::vector<Vec3> position(solid.nodes.X.size());
-  for (std::size_t n = 0; n < position.size(); ++n) position[n] = solid.nodes.X[n] + solid.nodes.u[n];
+  weighContacts(particles, solid.mesh.elements, solid.nodes(), c.overlap, pairs);
+  std::vector<Vec3> position(solid.nodes().X.size());
+  for (std::size_t n = 0; n < position.size(); ++n) position[n] = solid.nodes().X[n] + solid.nodes().u[n];
   c.gap = makeGapOperator(c.overlap, solid.mesh, particles, c.fullMass, c.options.form, c.options.projection, position);
   c.constraint = makeConstraint(c, particles, solid);
   if (c.options.absorberRate > 0.0)
@@ -66,14 +66,14 @@ void setUp(Coupling& c, dem::Particles& particles, dem::PairList& pairs, const S
         c.overlap, c.gap, interpolationAtParticles(c.overlap, solid.mesh.elements, solid.mesh.X.size()), particles.mass,
         c.options.absorberRate);
   if (c.options.constraint == ConstraintKind::stress) {
-    const fem::Material& material = solid.elements.material();
-    c.stress = std::make_unique<StressTerm>(c.overlap, solid.mesh, solid.nodes, particles, pairs,
+    const fem::Material& material = solid.material();
+    c.stress = std::make_unique<StressTerm>(c.overlap, solid.mesh, solid.nodes(), particles, pairs,
                                             requirePositive(c.options.contactStiffness, "contact stiffness"),
                                             fem::youngsModulus(material), fem::poissonRatio(material),
                                             c.options.stressPenalty);
   }
   c.increment.assign(c.rows(), {});
-  c.nodeForce.assign(solid.nodes.X.size(), {});
+  c.nodeForce.assign(solid.nodes().X.size(), {});
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ Coupling makeCoupling(dem::Particles& particles, dem::PairList& pairs, const Sol
   Coupling c;
   c.options = options;
   c.fullMass = particles.mass;
-  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes, nodalWeight, reachOf(options));
+  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes(), nodalWeight, reachOf(options));
   requireWidth(c.overlap, solid);
   setUp(c, particles, pairs, solid);
   c.gapNow.assign(c.rows(), {});
@@ -108,7 +108,7 @@ Handover renew(Coupling& c, dem::Particles& particles, dem::PairList& pairs, con
   Handover handover;
   handover.energy = dem::kineticEnergy(particles) + c.storedEnergy();
   handover.momentum = dem::momentum(particles);
-  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes, c.overlap.nodalWeight, reachOf(c.options));
+  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes(), c.overlap.nodalWeight, reachOf(c.options));
   setUp(c, particles, pairs, solid);
   std::map<int, std::size_t> rowOf;
   for (std::size_t r = 0; r < oldNode.size(); ++r) rowOf[oldNode[r]] = r;

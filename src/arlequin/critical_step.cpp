@@ -7,13 +7,12 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/loads.hpp"
+#include "dovetail/fem/solve/block_matrix.hpp"
 #include "forces.hpp"
 
 namespace dovetail::arlequin {
 
 namespace {
-
-using detail::accelerate;
 
 /// Values at all particles and nodes.
 struct Field {
@@ -27,7 +26,12 @@ struct Parts {
 class Operator {
 public:
   Operator(const Model& model, Parts parts) : model_(model), parts_(parts) {
-    if (parts.solid) tangent_ = fem::tangent(model.solid->elements, model.solid->nodes);
+    if (parts.solid) {
+      // The terms' caches change, not the state.
+      fem::Model& solid = const_cast<Solid&>(*model.solid).model();
+      tangent_ = fem::couplingPattern(solid);
+      for (const auto& term : solid.terms) term->addTangent(solid.nodes, {solid.t, 0.0}, tangent_);
+    }
     if (parts.particles) model.discrete.laws->addDemand(demand_, model.discrete.particles, model.discrete.pairs, touch);
     held_.assign(model.discrete.particles.size(), false);
     for (const auto* drive : model.discrete.terms.all<dem::DriveTerm>())
@@ -38,7 +42,7 @@ public:
   Field start() const {
     Field field;
     if (parts_.particles) field.particles.resize(model_.discrete.particles.size());
-    if (parts_.solid) field.nodes.resize(model_.solid->nodes.X.size());
+    if (parts_.solid) field.nodes.resize(model_.solid->nodes().X.size());
     double phase = 0.3;
     for (auto* values : {&field.particles, &field.nodes})
       for (Vec3& v : *values)
@@ -54,7 +58,7 @@ public:
     if (parts_.solid) addElements(q, force);
     if (parts_.particles && parts_.solid && model_.coupling) addCoupling(q, force);
     for (std::size_t i = 0; i < force.particles.size(); ++i) force.particles[i] *= 1.0 / model_.discrete.particles.mass[i];
-    if (parts_.solid) accelerate(*model_.solid, force.nodes);
+    if (parts_.solid) model_.solid->motion().accelerate(force.nodes);
     hold(force);
     return force;
   }
@@ -65,12 +69,9 @@ public:
     for (std::size_t i = 0; i < a.particles.size(); ++i)
       sum += model_.discrete.particles.mass[i] * dot(a.particles[i], b.particles[i]);
     if (!parts_.solid) return sum;
-    if (model_.solid->mass) {
-      const std::vector<Vec3> Mb = model_.solid->mass->multiply(b.nodes);
-      for (std::size_t n = 0; n < Mb.size(); ++n) sum += dot(a.nodes[n], Mb[n]);
-    } else {
-      for (std::size_t n = 0; n < a.nodes.size(); ++n) sum += model_.solid->nodes.mass[n] * dot(a.nodes[n], b.nodes[n]);
-    }
+    std::vector<Vec3> Mb(b.nodes.size());
+    model_.solid->motion().mass().multiply(b.nodes, Mb);
+    for (std::size_t n = 0; n < Mb.size(); ++n) sum += dot(a.nodes[n], Mb[n]);
     return sum;
   }
 
@@ -80,7 +81,7 @@ private:
       if (held_[i]) field.particles[i] = {};
     for (std::size_t n = 0; n < field.nodes.size(); ++n)
       for (int c = 0; c < 3; ++c)
-        if (model_.solid->nodes.fixed[n] >> c & 1) field.nodes[n][c] = 0.0;
+        if (model_.solid->nodes().fixed[n] >> c & 1) field.nodes[n][c] = 0.0;
   }
 
   void addContacts(const Field& q, Field& force) const {
@@ -95,10 +96,7 @@ private:
   }
 
   void addElements(const Field& q, Field& force) const {
-    std::vector<double> u(3 * q.nodes.size());
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] = q.nodes[i / 3][static_cast<int>(i % 3)];
-    const std::vector<double> f = fem::multiply(tangent_, u);
-    for (std::size_t i = 0; i < f.size(); ++i) force.nodes[i / 3][static_cast<int>(i % 3)] += f[i];
+    tangent_.multiply(q.nodes, force.nodes);
   }
 
   void addCoupling(const Field& q, Field& force) const {
@@ -113,7 +111,7 @@ private:
 
   const Model& model_;
   Parts parts_;
-  fem::SparseMatrix tangent_;
+  fem::BlockMatrix tangent_;
   static constexpr double touch = 1e-300;  // m: all pairs of the list count, those apart as if they just touched
   dem::ContactDemand demand_;
   std::vector<bool> held_;

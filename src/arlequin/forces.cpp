@@ -9,33 +9,15 @@
 
 namespace dovetail::arlequin::detail {
 
-void kickSolid(Solid& solid, std::span<const Vec3> acceleration, double dt) {
-  for (std::size_t n = 0; n < solid.nodes.v.size(); ++n) solid.nodes.v[n] += dt * acceleration[n];
-}
-
-void accelerate(const Solid& solid, std::span<Vec3> f) {
-  if (solid.mass) return solid.mass->solve(f);
-  const fem::Nodes& nodes = solid.nodes;
-  for (std::size_t n = 0; n < f.size(); ++n) {
-    f[n] *= 1.0 / nodes.mass[n];
-    if (nodes.fixed[n] == 0) continue;
-    for (int c = 0; c < 3; ++c)
-      if (nodes.fixed[n] >> c & 1) f[n][c] = 0.0;
-  }
-}
+void kickSolid(Solid& solid, std::span<const Vec3> acceleration, double dt) { solid.motion().kick(acceleration, dt); }
 
 Vec3 supportImpulse(const Solid& solid, std::span<const Vec3> acceleration, std::span<const Vec3> force, double dt) {
-  if (solid.mass) return dt * solid.mass->supportForce(acceleration, force);
-  Vec3 sum;
-  for (std::size_t n = 0; n < force.size(); ++n)
-    for (int c = 0; c < 3; ++c)
-      if (solid.nodes.fixed[n] >> c & 1) sum[c] -= dt * force[n][c];
-  return sum;
+  return dt * solid.motion().supportForce(acceleration, force);
 }
 
 void weighNewContacts(Model& model) {
   if (!model.coupling || model.weighedRevision == model.discrete.pairs.revision()) return;
-  weighContacts(model.discrete.particles, model.solid->mesh.elements, model.solid->nodes, model.coupling->overlap,
+  weighContacts(model.discrete.particles, model.solid->mesh.elements, model.solid->nodes(), model.coupling->overlap,
                 model.discrete.pairs);
   model.weighedRevision = model.discrete.pairs.revision();
 }
@@ -64,11 +46,10 @@ void particleForces(Model& model, double dt, StepSums& sums, Profile& profile) {
 void internalForces(Model& model, bool withEnergy, Profile& profile) {
   Profile::Stage stage(profile, "solid forces");
   Solid& solid = *model.solid;
-  fem::Nodes& nodes = solid.nodes;
-  fem::clearForces(nodes);
+  fem::Nodes& nodes = solid.nodes();
+  const double energy = solid.motion().forces(0.0, withEnergy);
   if (squaredNorm(model.discrete.gravity) > 0.0)
-    for (std::size_t n = 0; n < nodes.f.size(); ++n) nodes.f[n] = nodes.mass[n] * model.discrete.gravity;
-  const double energy = fem::addInternalForces(solid.elements, nodes, withEnergy);
+    for (std::size_t n = 0; n < nodes.f.size(); ++n) nodes.f[n] += nodes.mass[n] * model.discrete.gravity;
   if (withEnergy) solid.strainEnergy = energy;
   solid.internalForce = nodes.f;
 }
@@ -91,16 +72,16 @@ void couplingForces(Model& model, double dt, std::span<const Vec3> solidForce, P
   if (c.constraint->needsRates()) {
     velocity.resize(c.rows());
     acceleration.resize(c.rows());
-    gapOf(c.gap, c.overlap, model.discrete.particles.v, solid.nodes.v, velocity);
+    gapOf(c.gap, c.overlap, model.discrete.particles.v, solid.nodes().v, velocity);
     std::vector<Vec3> ofParticles(model.discrete.particles.size());
     for (const int i : c.overlap.particle)
       ofParticles[static_cast<std::size_t>(i)] =
           (1.0 / model.discrete.particles.mass[static_cast<std::size_t>(i)]) * model.discrete.particles.f[static_cast<std::size_t>(i)];
     std::vector<Vec3> ofNodes(solidForce.begin(), solidForce.end());
     if (ofNodes.empty())
-      ofNodes.assign(solid.nodes.X.size(), {});
+      ofNodes.assign(solid.nodes().X.size(), {});
     else
-      accelerate(solid, ofNodes);
+      solid.motion().accelerate(ofNodes);
     gapOf(c.gap, c.overlap, ofParticles, ofNodes, acceleration);
   }
   c.lambdaBefore.swap(c.lambda);
@@ -109,7 +90,7 @@ void couplingForces(Model& model, double dt, std::span<const Vec3> solidForce, P
   for (const int n : c.gap.coupledNode) c.nodeForce[static_cast<std::size_t>(n)] = {};
   if (c.stress) std::fill(c.nodeForce.begin(), c.nodeForce.end(), Vec3{});
   pullNodes(c.gap, c.lambda, c.nodeForce);
-  if (c.stress) c.stress->apply(model.discrete.particles, solid.nodes, model.discrete.particles.f, c.nodeForce);
+  if (c.stress) c.stress->apply(model.discrete.particles, solid.nodes(), model.discrete.particles.f, c.nodeForce);
 }
 
 double couplingWorkOfStep(const Coupling& c) {

@@ -7,8 +7,6 @@ namespace dovetail::arlequin::detail {
 
 /// v += a dt on the components that are free.
 void kickSolid(Solid& solid, std::span<const Vec3> acceleration, double dt);
-/// f ← M⁻¹ f.
-void accelerate(const Solid& solid, std::span<Vec3> f);
 /// Impulse of the supports over dt.
 Vec3 supportImpulse(const Solid& solid, std::span<const Vec3> acceleration, std::span<const Vec3> force, double dt);
 

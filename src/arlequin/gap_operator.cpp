@@ -50,7 +50,7 @@ std::vector<QuadraturePoint> quadrature(std::span<const Vec3> X, const std::arra
 }
 
 /// Elements with a weight above 0, with or without particles.
-std::vector<int> weightedElements(const Overlap& overlap, const fem::Mesh& mesh) {
+std::vector<int> weightedElements(const Overlap& overlap, const Bricks& mesh) {
   std::vector<int> elements;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     if (std::any_of(mesh.elements[e].begin(), mesh.elements[e].end(),
@@ -70,7 +70,7 @@ struct RowNumbers {
 };
 
 /// One row per node, or one per element and corner.
-RowNumbers numberRows(const std::vector<int>& elements, const fem::Mesh& mesh, bool perElement,
+RowNumbers numberRows(const std::vector<int>& elements, const Bricks& mesh, bool perElement,
                       std::vector<int>& node) {
   RowNumbers rows{std::vector<int>(mesh.elements.size(), -1), {}};
   std::vector<int> ofNode(mesh.X.size(), -1);
@@ -108,7 +108,7 @@ void addLocalRows(const Overlap& overlap, std::span<const double> mass, const Ro
 }
 
 /// ∫W(x − x_α) ψ_i dx per row and particle over the overlap's elements, dense in the reach of the kernel.
-std::vector<std::vector<double>> kernelIntegrals(const Overlap& overlap, const fem::Mesh& mesh,
+std::vector<std::vector<double>> kernelIntegrals(const Overlap& overlap, const Bricks& mesh,
                                                  std::span<const Vec3> position, const dem::Particles& particles,
                                                  const ProjectionOptions& options, const RowNumbers& row,
                                                  std::size_t rows) {
@@ -148,7 +148,7 @@ std::vector<double> kernelSums(const std::vector<std::vector<double>>& dense, st
   return sum;
 }
 
-void addKernelRows(const Overlap& overlap, const fem::Mesh& mesh, std::span<const Vec3> position,
+void addKernelRows(const Overlap& overlap, const Bricks& mesh, std::span<const Vec3> position,
                    const dem::Particles& particles, std::span<const double> mass, const ProjectionOptions& options,
                    const RowNumbers& row, Rows& rows) {
   const auto dense = kernelIntegrals(overlap, mesh, position, particles, options, row, rows.size());
@@ -195,7 +195,7 @@ void dropEmptyRows(Rows& rows, std::vector<int>& node, RowNumbers& numbers) {
 }
 
 /// Volumes and ∫ψ_iψ_j of the rows.
-void addVolumes(const std::vector<int>& elements, const fem::Mesh& mesh, const RowNumbers& row, GapOperator& gap) {
+void addVolumes(const std::vector<int>& elements, const Bricks& mesh, const RowNumbers& row, GapOperator& gap) {
   gap.volume.assign(gap.rows(), 0.0);
   Rows products(gap.rows());
   for (const int e : elements) {
@@ -228,13 +228,13 @@ void addNodesBack(GapOperator& gap) {
 
 }  // namespace
 
-double elementSize(const fem::Mesh& mesh, const std::array<int, 8>& element) {
+double elementSize(const Bricks& mesh, const std::array<int, 8>& element) {
   double volume = 0.0;
   for (const QuadraturePoint& point : quadrature(mesh.X, element, 1)) volume += point.weight;
   return std::cbrt(volume);
 }
 
-GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
+GapOperator makeGapOperator(const Overlap& overlap, const Bricks& mesh, const dem::Particles& particles,
                             std::span<const double> mass, GapForm form, const ProjectionOptions& options,
                             std::span<const Vec3> position) {
   requireNonNegative(options.width, "coarse-graining width");

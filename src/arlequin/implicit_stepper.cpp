@@ -10,7 +10,7 @@ namespace {
 std::vector<Vec3> gravityLoad(const Model& model) {
   std::vector<Vec3> load;
   if (squaredNorm(model.discrete.gravity) == 0.0) return load;
-  for (const double mass : model.solid->nodes.mass) load.push_back(mass * model.discrete.gravity);
+  for (const double mass : model.solid->nodes().mass) load.push_back(mass * model.discrete.gravity);
   return load;
 }
 
@@ -26,7 +26,7 @@ void kickByCoupling(Model& model, double dt, StepSums& sums) {
   for (std::size_t i = 0; i < model.slowForce.size(); ++i)
     model.discrete.particles.v[i] += (dt / model.discrete.particles.mass[i]) * model.slowForce[i];
   solid.acceleration = model.coupling->nodeForce;
-  accelerate(solid, solid.acceleration);
+  solid.motion().accelerate(solid.acceleration);
   kickSolid(solid, solid.acceleration, dt);
   sums.supportImpulse += supportImpulse(solid, solid.acceleration, model.coupling->nodeForce, dt);
 }
@@ -50,22 +50,24 @@ void stepParticles(Model& model, double dt, int K, StepSums& sums, Profile& prof
   bookDrives(model, before, sums);
 }
 
-/// One Newmark step; what the supports gave is read off the change of momentum.
-void stepSolid(Model& model, fem::NewmarkSolver& newmark, std::span<const Vec3> load, bool withEnergy, StepSums& sums,
-               Profile& profile) {
+/// One step under a constant load; what the supports gave is read off the change of momentum.
+void stepSolid(Model& model, fem::ImplicitMotion& solid, double dt, std::span<const Vec3> load, bool withEnergy,
+               StepSums& sums, Profile& profile) {
   Profile::Stage stage(profile, "solid step");
-  fem::Nodes& nodes = model.solid->nodes;
+  fem::Nodes& nodes = model.solid->nodes();
   const Vec3 before = fem::momentum(nodes);
-  newmark.step(nodes, load);
+  if (!load.empty()) solid.kick(load, 0.5 * dt);
+  solid.step(dt);
+  if (!load.empty()) solid.kick(load, 0.5 * dt);
   Vec3 impulse = fem::momentum(nodes) - before;
-  for (const Vec3& f : load) impulse -= newmark.dt() * f;
+  for (const Vec3& f : load) impulse -= dt * f;
   sums.supportImpulse += impulse;
-  if (withEnergy) model.solid->strainEnergy = fem::strainEnergy(model.solid->elements, nodes);
+  if (withEnergy) model.solid->strainEnergy = fem::storedEnergy(model.solid->model(), {model.solid->model().t, 0.0});
 }
 
 }  // namespace
 
-void stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, StepSums& sums, bool withEnergy,
+void stepImplicit(Model& model, fem::ImplicitMotion& solid, double dt, int K, StepSums& sums, bool withEnergy,
                   Profile& profile) {
   const std::vector<Vec3> load = gravityLoad(model);
   if (model.coupling && model.slowForce.size() != model.discrete.particles.size()) {
@@ -73,27 +75,27 @@ void stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, S
     separateCouplingForces(model, K * dt, profile);
   }
   if (model.coupling) kickByCoupling(model, 0.5 * K * dt, sums);
-  const std::vector<Vec3> x = model.discrete.particles.x, u = model.solid->nodes.u;
+  const std::vector<Vec3> x = model.discrete.particles.x, u = model.solid->nodes().u;
   stepParticles(model, dt, K, sums, profile);
-  stepSolid(model, newmark, load, withEnergy, sums, profile);
+  stepSolid(model, solid, K * dt, load, withEnergy, sums, profile);
   if (!model.coupling) return;
-  advanceGap(model, 1.0, difference(model.discrete.particles.x, x), difference(model.solid->nodes.u, u));
+  advanceGap(model, 1.0, difference(model.discrete.particles.x, x), difference(model.solid->nodes().u, u));
   separateCouplingForces(model, K * dt, profile);
   sums.couplingWork += couplingWorkOfStep(*model.coupling);
   if (model.coupling->stress) sums.couplingWork += model.coupling->stress->workOfStep();
   kickByCoupling(model, 0.5 * K * dt, sums);
 }
 
-void stepStaggered(Model& model, fem::NewmarkSolver& newmark, double dt, StepSums& sums, bool withEnergy,
+void stepStaggered(Model& model, fem::ImplicitMotion& solid, double dt, StepSums& sums, bool withEnergy,
                    Profile& profile) {
   Coupling& c = *model.coupling;
   if (model.slowForce.size() != model.discrete.particles.size()) particleForces(model, dt, sums, profile);
   separateCouplingForces(model, dt, profile);  // of the last step's increments
-  const std::vector<Vec3> x = model.discrete.particles.x, u = model.solid->nodes.u;
+  const std::vector<Vec3> x = model.discrete.particles.x, u = model.solid->nodes().u;
   std::vector<Vec3> load = gravityLoad(model);
   load.resize(u.size());
   for (std::size_t n = 0; n < load.size(); ++n) load[n] += c.nodeForce[n];
-  stepSolid(model, newmark, load, withEnergy, sums, profile);
+  stepSolid(model, solid, dt, load, withEnergy, sums, profile);
   const auto kickByFrozen = [&] {
     for (std::size_t i = 0; i < model.slowForce.size(); ++i)
       model.discrete.particles.v[i] += (0.5 * dt / model.discrete.particles.mass[i]) * model.slowForce[i];
@@ -101,7 +103,7 @@ void stepStaggered(Model& model, fem::NewmarkSolver& newmark, double dt, StepSum
   kickByFrozen();
   stepParticles(model, dt, 1, sums, profile);
   kickByFrozen();
-  advanceGap(model, 1.0, difference(model.discrete.particles.x, x), difference(model.solid->nodes.u, u));
+  advanceGap(model, 1.0, difference(model.discrete.particles.x, x), difference(model.solid->nodes().u, u));
   for (std::size_t r = 0; r < c.rows(); ++r) sums.couplingWork -= dot(c.lambda[r], c.increment[r]);
 }
 

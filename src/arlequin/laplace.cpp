@@ -16,7 +16,7 @@ namespace {
 using ElementMatrix = Eigen::Matrix<double, 8, 8>;
 
 /// ∫∇ψ_a·∇ψ_b dV with 2×2×2 Gauss points, m.
-ElementMatrix laplacian(const fem::Mesh& mesh, const std::array<int, 8>& element) {
+ElementMatrix laplacian(const Bricks& mesh, const std::array<int, 8>& element) {
   const double gauss = 1.0 / std::sqrt(3.0);
   ElementMatrix K = ElementMatrix::Zero();
   for (int p = 0; p < 8; ++p) {
@@ -38,7 +38,7 @@ ElementMatrix laplacian(const fem::Mesh& mesh, const std::array<int, 8>& element
 constexpr int unused = -1, fixedZero = -2, fixedOne = -3;
 
 /// Number of the unknown at each node, or why it has none.
-std::vector<int> unknowns(const fem::Mesh& mesh, std::span<const int> elements, std::span<const int> zero,
+std::vector<int> unknowns(const Bricks& mesh, std::span<const int> elements, std::span<const int> zero,
                           std::span<const int> one, int& count) {
   std::vector<int> row(mesh.X.size(), unused);
   count = 0;
@@ -63,7 +63,7 @@ std::vector<int> unknowns(const fem::Mesh& mesh, std::span<const int> elements, 
 
 }  // namespace
 
-std::vector<double> laplaceCoordinate(const fem::Mesh& mesh, std::span<const int> elements,
+std::vector<double> laplaceCoordinate(const Bricks& mesh, std::span<const int> elements,
                                       std::span<const int> solidBorder, std::span<const int> particleBorder) {
   if (elements.empty() || solidBorder.empty() || particleBorder.empty())
     throw InputError("the elements or a border are missing", "laplaceCoordinate",

@@ -11,7 +11,7 @@ namespace {
 
 /// A for one component; nodes that are held in it do not yield.
 Matrix compliance(const GapOperator& gap, const Overlap& overlap, std::span<const double> particleMass,
-                  const fem::Nodes& nodes, const fem::BlendedMass* mass, int component) {
+                  const fem::Motion& solid, int component) {
   const auto rows = static_cast<Eigen::Index>(gap.rows());
   Matrix A = Matrix::Zero(rows, rows);
   const cg::Projection& back = gap.particlesBack;
@@ -21,16 +21,12 @@ Matrix compliance(const GapOperator& gap, const Overlap& overlap, std::span<cons
       for (int b = back.offsets[k]; b < back.offsets[k + 1]; ++b)
         A(back.column[a], back.column[b]) += yield * back.weight[a] * back.weight[b];
   }
-  std::vector<Vec3> response(nodes.mass.size());
+  std::vector<Vec3> response(solid.model().nodes.X.size());
   for (Eigen::Index row = 0; row < rows; ++row) {
     std::fill(response.begin(), response.end(), Vec3{});
     for (int k = gap.nodes.offsets[row]; k < gap.nodes.offsets[row + 1]; ++k)
       response[gap.nodes.column[k]][component] = gap.nodes.weight[k];
-    if (mass)
-      mass->solve(response);
-    else
-      for (std::size_t n = 0; n < response.size(); ++n)
-        response[n] *= (nodes.fixed[n] >> component & 1) != 0 ? 0.0 : 1.0 / nodes.mass[n];
+    solid.accelerate(response);
     for (Eigen::Index other = 0; other < rows; ++other)
       for (int k = gap.nodes.offsets[other]; k < gap.nodes.offsets[other + 1]; ++k)
         A(other, row) += gap.nodes.weight[k] * response[gap.nodes.column[k]][component];
@@ -41,19 +37,21 @@ Matrix compliance(const GapOperator& gap, const Overlap& overlap, std::span<cons
 class Multiplier final : public Constraint {
 public:
   Multiplier(const GapOperator& gap, const Overlap& overlap, std::span<const double> particleMass,
-             const fem::Nodes& nodes, const fem::BlendedMass* mass, double rankTolerance)
+             const fem::Motion& solid, double rankTolerance)
       : rows_(gap.rows()) {
-    const auto sameHeld = [&](int a, int b) {
-      for (const std::uint8_t held : nodes.fixed)
-        if ((held >> a & 1) != (held >> b & 1)) return false;
+    const std::span<const int> row = solid.dofs().freeRow();
+    const auto sameHeld = [&](std::size_t a, std::size_t b) {
+      for (std::size_t dof = 0; dof < row.size(); dof += 3)
+        if ((row[dof + a] < 0) != (row[dof + b] < 0)) return false;
       return true;
     };
-    for (int c = 0; c < 3; ++c) {
-      int first = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::size_t first = 0;
       while (first < c && !sameHeld(first, c)) ++first;
-      systemOf_[static_cast<std::size_t>(c)] = first < c ? systemOf_[static_cast<std::size_t>(first)] : systems_.size();
+      systemOf_[c] = first < c ? systemOf_[first] : systems_.size();
       if (first == c)
-        systems_.push_back(pseudoInverse(compliance(gap, overlap, particleMass, nodes, mass, c), rankTolerance));
+        systems_.push_back(
+            pseudoInverse(compliance(gap, overlap, particleMass, solid, static_cast<int>(c)), rankTolerance));
     }
   }
   void evaluate(const GapRates& rates, std::span<Vec3> lambda) const override {
@@ -79,10 +77,10 @@ private:
 }  // namespace
 
 std::unique_ptr<Constraint> makeMultiplier(const GapOperator& gap, const Overlap& overlap,
-                                           std::span<const double> particleMass, const fem::Nodes& nodes,
-                                           const fem::BlendedMass* mass, double rankTolerance) {
+                                           std::span<const double> particleMass, const fem::Motion& solid,
+                                           double rankTolerance) {
   requireFewRows(gap.rows(), "multiplier");
-  return std::make_unique<Multiplier>(gap, overlap, particleMass, nodes, mass, rankTolerance);
+  return std::make_unique<Multiplier>(gap, overlap, particleMass, solid, rankTolerance);
 }
 
 }  // namespace dovetail::arlequin

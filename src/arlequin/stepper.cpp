@@ -18,14 +18,14 @@ void accelerateSolid(Model& model, bool withInternal) {
   if (withInternal)
     solid.acceleration = solid.internalForce;
   else
-    solid.acceleration.assign(solid.nodes.X.size(), {});
+    solid.acceleration.assign(solid.nodes().X.size(), {});
   if (model.coupling && model.coupling->stress)
     for (std::size_t n = 0; n < solid.acceleration.size(); ++n) solid.acceleration[n] += model.coupling->nodeForce[n];
   else if (model.coupling)
     for (const int n : model.coupling->gap.coupledNode)
       solid.acceleration[static_cast<std::size_t>(n)] += model.coupling->nodeForce[static_cast<std::size_t>(n)];
-  solid.nodes.f = solid.acceleration;
-  accelerate(solid, solid.acceleration);
+  solid.nodes().f = solid.acceleration;
+  solid.motion().accelerate(solid.acceleration);
 }
 
 /// Elastic acceleration of a window of several steps; with multipliers it is made to comply with the constraint, which
@@ -37,14 +37,14 @@ void accelerateSlowly(Model& model, double window) {
     Coupling& c = *model.coupling;
     std::vector<Vec3> acceleration(c.rows()), none(c.rows()), lambda(c.rows());
     std::vector<Vec3> still(model.discrete.particles.size()), ofNodes = solid.internalForce;
-    accelerate(solid, ofNodes);
+    solid.motion().accelerate(ofNodes);
     gapOf(c.gap, c.overlap, still, ofNodes, acceleration);
     c.constraint->evaluate({c.gapNow, none, none, acceleration, window}, lambda);
     model.slowForce.assign(model.discrete.particles.size(), {});
     pullParticles(c.gap, c.overlap, lambda, model.slowForce);
     pullNodes(c.gap, lambda, solid.slowAcceleration);
   }
-  accelerate(solid, solid.slowAcceleration);
+  solid.motion().accelerate(solid.slowAcceleration);
 }
 
 void kickSlowly(Model& model, double dt, StepSums& sums) {
@@ -57,14 +57,14 @@ void kickSlowly(Model& model, double dt, StepSums& sums) {
 void kickSolidByAll(Model& model, double dt, StepSums& sums) {
   if (!model.solid) return;
   kickSolid(*model.solid, model.solid->acceleration, dt);
-  sums.supportImpulse += supportImpulse(*model.solid, model.solid->acceleration, model.solid->nodes.f, dt);
+  sums.supportImpulse += supportImpulse(*model.solid, model.solid->acceleration, model.solid->nodes().f, dt);
 }
 
 void moveAll(Model& model, double dt, StepSums& sums, Profile& profile) {
   Profile::Stage stage(profile, "kick and drift");
   dem::move(model.discrete, dt);
   kickSolidByAll(model, 0.5 * dt, sums);
-  if (model.solid) fem::drift(model.solid->nodes, dt);
+  if (model.solid) model.solid->motion().drift(dt);
 }
 
 void closeAll(Model& model, double dt, StepSums& sums, Profile& profile) {
@@ -78,7 +78,7 @@ double splittingEnergy(const Solid& solid, std::span<const Vec3> forceBefore, st
   double sum = 0.0;
   for (std::size_t n = 0; n < uBefore.size(); ++n) {
     const Vec3& force = solid.internalForce[n];
-    sum -= dot(force - forceBefore[n], solid.nodes.u[n] - uBefore[n]) / 12.0;
+    sum -= dot(force - forceBefore[n], solid.nodes().u[n] - uBefore[n]) / 12.0;
     sum -= h * h * dot(force, solid.acceleration[n] / 12.0 + solid.slowAcceleration[n] / 24.0);
   }
   return sum;
@@ -113,7 +113,7 @@ void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnerg
   std::vector<Vec3> forceBefore, uBefore;
   if (windows) {
     if (withEnergy) forceBefore = model.solid->internalForce;
-    if (withEnergy) uBefore = model.solid->nodes.u;
+    if (withEnergy) uBefore = model.solid->nodes().u;
     accelerateSlowly(model, K * dt);
     accelerateSolid(model, false);
     kickSlowly(model, 0.5 * K * dt, sums);
@@ -124,7 +124,7 @@ void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnerg
     moveAll(model, dt, sums, profile);
     if (model.coupling) {
       Profile::Stage stage(profile, "coupling");
-      advanceGap(model, dt, model.discrete.particles.v, model.solid->nodes.v);
+      advanceGap(model, dt, model.discrete.particles.v, model.solid->nodes().v);
     }
     particleForces(model, dt, sums, profile);
     if (model.solid && last) internalForces(model, withEnergy, profile);
@@ -160,17 +160,15 @@ void relocate(Model& model, StepSums& sums) {
   sums.handedMomentum += handover.momentum;
 }
 
-Energies energies(const Model& model, const fem::NewmarkSolver* newmark) {
+Energies energies(const Model& model, const fem::ImplicitMotion* solid) {
   Energies e;
   e.kineticParticles = dem::kineticEnergy(model.discrete.particles);
   e.elasticContacts = model.discrete.work.storedEnergy();
   for (std::size_t i = 0; i < model.discrete.particles.size(); ++i)
     e.gravity -= model.discrete.particles.mass[i] * dot(model.discrete.gravity, model.discrete.particles.x[i]);
   if (model.solid) {
-    const fem::Nodes& nodes = model.solid->nodes;
-    e.kineticSolid = newmark             ? newmark->kineticEnergy(nodes)
-                     : model.solid->mass ? model.solid->mass->kineticEnergy(nodes.v)
-                                         : fem::kineticEnergy(nodes);
+    const fem::Nodes& nodes = model.solid->nodes();
+    e.kineticSolid = solid ? solid->kineticEnergy() : model.solid->motion().kineticEnergy();
     e.elasticSolid = model.solid->strainEnergy;
     e.splitting = model.solid->splittingEnergy;
     for (std::size_t n = 0; n < nodes.X.size(); ++n)
@@ -182,13 +180,13 @@ Energies energies(const Model& model, const fem::NewmarkSolver* newmark) {
 
 Vec3 momentum(const Model& model) {
   Vec3 sum = dem::momentum(model.discrete.particles);
-  if (model.solid) sum += fem::momentum(model.solid->nodes);
+  if (model.solid) sum += fem::momentum(model.solid->nodes());
   return sum;
 }
 
 void requireFinite(const Model& model, const std::string& when) {
   dem::requireFinite(model.discrete.particles, when);
-  if (model.solid) dovetail::requireFinite(model.solid->nodes.v, "node", "velocity", when);
+  if (model.solid) dovetail::requireFinite(model.solid->nodes().v, "node", "velocity", when);
 }
 
 }  // namespace dovetail::arlequin

@@ -16,7 +16,7 @@ Eigen::Vector3d toEigen(const Vec3& v) { return {v.x, v.y, v.z}; }
 Vec3 toVec3(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 /// ∂X_i/∂ξ_j at the centre.
-Eigen::Matrix3d centreJacobian(const fem::Mesh& mesh, const std::array<int, 8>& element) {
+Eigen::Matrix3d centreJacobian(const Bricks& mesh, const std::array<int, 8>& element) {
   const std::array<Vec3, 8> parent = fem::parentGradients({});
   Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
   for (std::size_t a = 0; a < 8; ++a)
@@ -26,7 +26,7 @@ Eigen::Matrix3d centreJacobian(const fem::Mesh& mesh, const std::array<int, 8>& 
 
 }  // namespace
 
-StressTerm::StressTerm(const Overlap& overlap, const fem::Mesh& mesh, const fem::Nodes& nodes,
+StressTerm::StressTerm(const Overlap& overlap, const Bricks& mesh, const fem::Nodes& nodes,
                        const dem::Particles& particles, const dem::PairList& pairs, double stiffness,
                        double youngsModulus, double poissonRatio, double share) {
   requirePositive(share, "stress penalty");

@@ -8,6 +8,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/geometry/triangle.hpp"
 
 namespace dovetail::arlequin {
@@ -57,12 +58,12 @@ std::vector<double> nodalWeights(std::span<const double> s, const WeightOptions&
   return weight;
 }
 
-std::vector<Triangle> triangles(const fem::Mesh& mesh, std::span<const std::array<int, 4>> faces) {
+std::vector<Triangle> triangles(std::span<const Vec3> X, std::span<const fem::Face> faces) {
   std::vector<Triangle> result;
-  for (const auto& face : faces) {
-    const auto corner = [&](std::size_t k) { return mesh.X[static_cast<std::size_t>(face[k])]; };
+  for (const fem::Face& face : faces) {
+    const auto corner = [&](std::size_t k) { return X[static_cast<std::size_t>(face.node[k])]; };
     result.push_back({corner(0), corner(1), corner(2)});
-    result.push_back({corner(0), corner(2), corner(3)});
+    if (cornersOf(face.shape) == 4) result.push_back({corner(0), corner(2), corner(3)});
   }
   return result;
 }

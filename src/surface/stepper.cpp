@@ -1,6 +1,25 @@
 #include "dovetail/surface/stepper.hpp"
 
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/surface/solid_faces.hpp"
+
 namespace dovetail::surface {
+
+std::vector<Quad> quadsOf(std::span<const fem::Face> faces) {
+  std::vector<Quad> quads;
+  for (const fem::Face& face : faces) {
+    if (face.shape != fem::FaceShape::quad4)
+      throw InputError("it has " + std::to_string(nodesOf(face.shape)) + " nodes", "face " + std::to_string(quads.size()),
+                       "couple faces of four nodes: those of hex8 elements");
+    quads.push_back({face.node[0], face.node[1], face.node[2], face.node[3]});
+  }
+  return quads;
+}
+
+void requireCoupledSolid(const fem::Model& solid) { fem::requireBrickSolid(solid, "surface coupling"); }
 
 void kickTouched(const NodalLoad& load, fem::Nodes& nodes, double dt) {
   for (int node : load.touched) {
@@ -11,6 +30,11 @@ void kickTouched(const NodalLoad& load, fem::Nodes& nodes, double dt) {
     if (!(held & fem::componentY)) nodes.v[node].y += scale * f.y;
     if (!(held & fem::componentZ)) nodes.v[node].z += scale * f.z;
   }
+}
+
+void kickTouched(const NodalLoad& load, fem::ImplicitMotion& solid, double dt) {
+  if (solid.mass().isDiagonal()) return kickTouched(load, solid.model().nodes, dt);
+  if (!load.touched.empty()) solid.kick(load.force, dt);
 }
 
 double workOf(const NodalLoad& load, std::span<const Vec3> displacement, double scale) {

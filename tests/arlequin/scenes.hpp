@@ -9,6 +9,7 @@
 
 #include "dovetail/arlequin/stepper.hpp"
 #include "dovetail/arlequin/weights.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 
 namespace dovetail::arlequin::test {
 
@@ -45,7 +46,13 @@ struct SceneOptions {
 inline double solidStart(const SceneOptions& o) { return (o.particleElements - o.overlapElements) * edge; }
 inline double particleEnd(const SceneOptions& o) { return o.particleElements * edge; }
 
-inline std::vector<double> barWeights(const fem::Mesh& mesh, const SceneOptions& o) {
+inline fem::SolidMesh barMesh(const SceneOptions& o) {
+  const double half = 0.5 * o.across * edge;
+  return fem::boxOf(fem::CellShape::hex8, {o.across, o.solidElements, o.across}, {-half, solidStart(o), -half},
+                    {half, solidStart(o) + o.solidElements * edge, half});
+}
+
+inline std::vector<double> barWeights(const fem::SolidMesh& mesh, const SceneOptions& o) {
   std::vector<double> s;
   for (const Vec3& X : mesh.X) {
     const double place = (X.y - solidStart(o)) / (o.overlapElements * edge);
@@ -54,15 +61,12 @@ inline std::vector<double> barWeights(const fem::Mesh& mesh, const SceneOptions&
   return nodalWeights(s, o.weights);
 }
 
-inline Solid makeSolid(fem::Mesh mesh, std::span<const double> weight, const SceneOptions& o) {
-  fem::Nodes nodes = fem::makeNodes(mesh);
-  if (o.holdEnd) fem::fix(nodes, fem::nodeSet(mesh, "y+"));
-  fem::ElementBlock elements =
-      fem::makeElements(mesh, fem::ElementType::hex8, fem::StVenantKirchhoff{modulus, 0.0, bulk}, solidWeights(weight));
-  fem::addLumpedMass(elements, nodes);
-  Solid solid{std::move(mesh), std::move(nodes), std::move(elements), std::nullopt, {}, {}, {}};
-  if (o.massShare > 0.0) solid.mass.emplace(solid.elements, solid.nodes, o.massShare);
-  return solid;
+inline Solid makeSolid(const fem::SolidMesh& mesh, std::span<const double> weight, const SceneOptions& o) {
+  auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
+  if (o.holdEnd) fem::fix(model->nodes, fem::nodeSet(mesh, "y+"));
+  const fem::StVenantKirchhoff law{modulus, 0.0, bulk};
+  model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law)), {.share = solidWeights(weight)}));
+  return Solid(mesh, std::move(model), o.massShare);
 }
 
 inline Model makeBar(const SceneOptions& o) {
@@ -77,10 +81,9 @@ inline Model makeBar(const SceneOptions& o) {
   model.discrete.laws = dem::makeContactLaws(law);
   model.discrete.sortEvery = 0;
   model.discrete.refusesUnstableSteps = false;  // criticalStep knows the whole
-  fem::Mesh mesh = fem::boxMesh({o.across, o.solidElements, o.across}, {-half, solidStart(o), -half},
-                                {half, solidStart(o) + o.solidElements * edge, half});
+  const fem::SolidMesh mesh = barMesh(o);
   const std::vector<double> weight = barWeights(mesh, o);
-  model.solid.emplace(makeSolid(std::move(mesh), weight, o));
+  model.solid.emplace(makeSolid(mesh, weight, o));
   CouplingOptions coupling = o.coupling;
   coupling.contactStiffness = modulus * d;
   model.coupling.emplace(makeCoupling(model.discrete.particles, model.discrete.pairs, *model.solid, weight, coupling));
@@ -89,23 +92,30 @@ inline Model makeBar(const SceneOptions& o) {
 
 /// An overlap without contacts or motion: mesh, particles within it, weights.
 struct Still {
-  fem::Mesh mesh;
+  Bricks mesh;
   fem::Nodes nodes;
   dem::Particles particles;
   std::vector<double> weight;
   Overlap overlap;
 };
 
-inline Still locate(fem::Mesh mesh, dem::Particles particles, std::vector<double> weight) {
+/// Nodes at rest at the given places.
+inline fem::Nodes nodesAt(const std::vector<Vec3>& X) {
+  fem::SolidMesh points;
+  points.X = X;
+  return std::move(fem::makeModel(points).nodes);
+}
+
+inline Still locate(Bricks mesh, dem::Particles particles, std::vector<double> weight) {
   Still still{std::move(mesh), {}, std::move(particles), std::move(weight), {}};
-  still.nodes = fem::makeNodes(still.mesh);
+  still.nodes = nodesAt(still.mesh.X);
   still.overlap = locateOverlap(still.particles, still.mesh.elements, still.nodes, still.weight);
   return still;
 }
 
 /// 4 × 4 × 2 bricks without those of one quadrant; particles reach in from the two legs' inner half.
 inline Still makeL(int n) {
-  fem::Mesh mesh = fem::boxMesh({4, 4, 2}, {0.0, 0.0, 0.0}, {4 * edge, 4 * edge, 2 * edge});
+  Bricks mesh = bricksOf(fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0.0, 0.0, 0.0}, {4 * edge, 4 * edge, 2 * edge}));
   std::erase_if(mesh.elements, [&](const std::array<int, 8>& e) {
     const Vec3& corner = mesh.X[static_cast<std::size_t>(e[0])];
     return corner.x >= 2 * edge - 1e-9 && corner.y >= 2 * edge - 1e-9;
@@ -119,9 +129,11 @@ inline Still makeL(int n) {
 /// Bricks whose inner nodes are moved at random, particles at random.
 inline Still makeCrooked(unsigned seed) {
   std::mt19937 random(seed);
-  fem::Mesh mesh = fem::boxMesh({3, 3, 3}, {0.0, 0.0, 0.0}, {3 * edge, 3 * edge, 3 * edge});
+  const fem::SolidMesh box =
+      fem::boxOf(fem::CellShape::hex8, {3, 3, 3}, {0.0, 0.0, 0.0}, {3 * edge, 3 * edge, 3 * edge});
+  Bricks mesh = bricksOf(box);
   std::vector<bool> outer(mesh.X.size(), false);
-  for (const int n : fem::nodeSet(mesh, "skin")) outer[static_cast<std::size_t>(n)] = true;
+  for (const int n : fem::nodeSet(box, "skin")) outer[static_cast<std::size_t>(n)] = true;
   for (std::size_t n = 0; n < mesh.X.size(); ++n)
     if (!outer[n]) mesh.X[n] += randomVector(random, 0.15 * edge);
   dem::Particles particles;

@@ -59,16 +59,12 @@ TEST(Constraint, MultipliersTakeTheGapsAccelerationAway) {
       Coupling& c = *model.coupling;
       Solid& solid = *model.solid;
       std::mt19937 random(8);
-      std::vector<Vec3> f(model.discrete.particles.size()), g(solid.nodes.X.size());
+      std::vector<Vec3> f(model.discrete.particles.size()), g(solid.nodes().X.size());
       for (auto* forces : {&f, &g})
         for (Vec3& v : *forces) v = randomVector(random, 1.0);
       const auto accelerations = [&](std::vector<Vec3> onParticles, std::vector<Vec3> onNodes) {
         for (std::size_t i = 0; i < onParticles.size(); ++i) onParticles[i] *= 1.0 / model.discrete.particles.mass[i];
-        if (solid.mass)
-          solid.mass->solve(onNodes);
-        else
-          for (std::size_t n = 0; n < onNodes.size(); ++n)
-            onNodes[n] *= solid.nodes.fixed[n] ? 0.0 : 1.0 / solid.nodes.mass[n];
+        solid.motion().accelerate(onNodes);
         std::vector<Vec3> gap(c.rows());
         gapOf(c.gap, c.overlap, onParticles, onNodes, gap);
         return gap;
@@ -130,9 +126,9 @@ TEST(StressTerm, ItsForcesAreMinusTheGradientOfItsEnergyAndSumToZeroOnEachModel)
   StressTerm& term = *model.coupling->stress;
   std::mt19937 random(9);
   for (Vec3& x : model.discrete.particles.x) x.y += 1e-3 * randomVector(random, 1.0).y;
-  for (Vec3& u : model.solid->nodes.u) u = randomVector(random, 1e-3);
-  std::vector<Vec3> onParticles(model.discrete.particles.size()), onNodes(model.solid->nodes.X.size());
-  term.apply(model.discrete.particles, model.solid->nodes, onParticles, onNodes);
+  for (Vec3& u : model.solid->nodes().u) u = randomVector(random, 1e-3);
+  std::vector<Vec3> onParticles(model.discrete.particles.size()), onNodes(model.solid->nodes().X.size());
+  term.apply(model.discrete.particles, model.solid->nodes(), onParticles, onNodes);
   Vec3 sum, other;
   double size = 0.0;
   for (const Vec3& f : onParticles) sum += f, size += norm(f);
@@ -141,7 +137,7 @@ TEST(StressTerm, ItsForcesAreMinusTheGradientOfItsEnergyAndSumToZeroOnEachModel)
   EXPECT_LT(norm(other), 1e-12 * size);
   const auto energy = [&] {
     std::vector<Vec3> a(onParticles.size()), b(onNodes.size());
-    return term.apply(model.discrete.particles, model.solid->nodes, a, b);
+    return term.apply(model.discrete.particles, model.solid->nodes(), a, b);
   };
   const auto check = [&](double& place, double force) {
     const double before = place, step = 1e-6;
@@ -155,7 +151,7 @@ TEST(StressTerm, ItsForcesAreMinusTheGradientOfItsEnergyAndSumToZeroOnEachModel)
   for (const int i : {model.coupling->overlap.particle.front(), model.coupling->overlap.particle[17]})
     check(model.discrete.particles.x[static_cast<std::size_t>(i)].y, onParticles[static_cast<std::size_t>(i)].y);
   for (const std::size_t n : {std::size_t{4}, std::size_t{13}})
-    for (int k = 0; k < 3; ++k) check(model.solid->nodes.u[n][k], onNodes[n][k]);
+    for (int k = 0; k < 3; ++k) check(model.solid->nodes().u[n][k], onNodes[n][k]);
 }
 
 }  // namespace

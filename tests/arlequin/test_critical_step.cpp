@@ -54,13 +54,12 @@ TEST(CriticalStep, TheDashpotsLimitWithUniformSharesIsTwo) {
     model.discrete.sortEvery = 0;
     model.discrete.pairs.setSkin(0.0);
     dem::findPairs(model.discrete.particles, model.discrete.pairs);
-    fem::Mesh mesh = fem::boxMesh({1, 4, 1}, {0, 0, 0}, {edge, 4 * edge, edge});
+    const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {edge, 4 * edge, edge});
     const std::vector<double> weight(mesh.X.size(), 0.5);
-    fem::Nodes nodes = fem::makeNodes(mesh);
-    fem::ElementBlock elements =
-        fem::makeElements(mesh, fem::ElementType::hex8, fem::StVenantKirchhoff{1e-9, 0.0, bulk}, solidWeights(weight));
-    fem::addLumpedMass(elements, nodes);
-    model.solid.emplace(Solid{std::move(mesh), std::move(nodes), std::move(elements), std::nullopt, {}, {}, {}});
+    auto solid = std::make_unique<fem::Model>(fem::makeModel(mesh));
+    const fem::StVenantKirchhoff soft{1e-9, 0.0, bulk};
+    solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(soft)), {.share = solidWeights(weight)}));
+    model.solid.emplace(mesh, std::move(solid));
     const double dt = 1e-3;
     CouplingOptions coupling;
     coupling.constraint = ConstraintKind::dashpot;
@@ -99,8 +98,8 @@ Eigen::MatrixXd stepMatrix(double epsilon, double dt) {
   const auto slots = [](Model& m) {
     std::vector<double*> place;
     for (Vec3& v : m.discrete.particles.v) place.push_back(&v.y);
-    for (Vec3& u : m.solid->nodes.u) place.push_back(&u.y);
-    for (Vec3& v : m.solid->nodes.v) place.push_back(&v.y);
+    for (Vec3& u : m.solid->nodes().u) place.push_back(&u.y);
+    for (Vec3& v : m.solid->nodes().v) place.push_back(&v.y);
     for (Vec3& d : m.coupling->increment) place.push_back(&d.y);
     for (Vec3& x : m.discrete.particles.x) place.push_back(&x.y);
     return place;

@@ -18,7 +18,7 @@ std::vector<Still> allScenes() {
   scenes.push_back(makeCrooked(3));
   SceneOptions bar;
   const Model model = makeBar(bar);
-  Still still{model.solid->mesh, model.solid->nodes, model.discrete.particles, model.coupling->overlap.nodalWeight,
+  Still still{model.solid->mesh, model.solid->nodes(), model.discrete.particles, model.coupling->overlap.nodalWeight,
               model.coupling->overlap};
   still.particles.mass = model.coupling->fullMass;
   scenes.push_back(std::move(still));
@@ -82,7 +82,7 @@ TEST(GapOperator, TheNodalFormMakesAFalseGapFromStrain) {
   SceneOptions bar;
   bar.particlesPerEdge = 1;
   const Model model = makeBar(bar);
-  const Still s{model.solid->mesh, model.solid->nodes, model.discrete.particles, model.coupling->overlap.nodalWeight,
+  const Still s{model.solid->mesh, model.solid->nodes(), model.discrete.particles, model.coupling->overlap.nodalWeight,
                 model.coupling->overlap};
   for (const double width : widths) {
     const double residual = largestGap(s, operatorOf(s, GapForm::nodal, width), strained);

@@ -25,9 +25,10 @@ Model looseParticles(ConstraintKind kind, double penalty) {
   law.normal.stiffness = modulus * 0.25;
   model.discrete.laws = dem::makeContactLaws(law);
   model.discrete.sortEvery = 0;
-  fem::Mesh mesh = fem::boxMesh({1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
+  const fem::SolidMesh mesh =
+      fem::boxOf(fem::CellShape::hex8, {1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
   const std::vector<double> weight = barWeights(mesh, o);
-  model.solid.emplace(makeSolid(std::move(mesh), weight, o));
+  model.solid.emplace(makeSolid(mesh, weight, o));
   CouplingOptions coupling;
   coupling.constraint = kind;
   coupling.penalty = penalty;
@@ -88,7 +89,7 @@ TEST(Handover, BothModelsMovingTogetherChangeNothing) {
   Model model = makeBar(o);
   const Vec3 v{0.1, 0.5, -0.2};
   for (Vec3& each : model.discrete.particles.v) each = v;
-  for (Vec3& each : model.solid->nodes.v) each = v;
+  for (Vec3& each : model.solid->nodes().v) each = v;
   Profile profile;
   StepSums sums;
   start(model, 1e-4, profile);
@@ -106,8 +107,8 @@ double stressOfElement(const Solid& solid, std::size_t element) {
   double strain = 0.0, share = 0.0;
   for (std::size_t a = 0; a < 8; ++a) {
     const auto n = static_cast<std::size_t>(solid.mesh.elements[element][a]);
-    strain += (a == 2 || a == 3 || a == 6 || a == 7 ? 0.25 : -0.25) * solid.nodes.u[n].y / edge;
-    share += 0.125 * solid.elements.nodalWeight()[n];
+    strain += (a == 2 || a == 3 || a == 6 || a == 7 ? 0.25 : -0.25) * solid.nodes().u[n].y / edge;
+    share += 0.125 * fem::requireBrickSolid(solid.model(), "test").share()[n];
   }
   return share * modulus * (strain + 1.5 * strain * strain);
 }
@@ -137,7 +138,7 @@ TEST(Gravity, StressIsContinuousAcrossTheOverlapOfAColumn) {
     stepExplicit(model, dt, 1, sums, false, profile);
     if (s % 10) continue;  // let it come to rest
     for (Vec3& v : model.discrete.particles.v) v *= 0.99;
-    for (Vec3& v : model.solid->nodes.v) v *= 0.99;
+    for (Vec3& v : model.solid->nodes().v) v *= 0.99;
   }
   // The stress that the models carry together, w σ_DE + (1 − w) σ_FE, at the elements' centres, against the weight
   // below.
@@ -171,7 +172,7 @@ TEST(Packing, RandomPlacesOfTheSameDensityAreCoupledWithoutLoss) {
     rough.discrete = model.discrete;
     rough.discrete.particles = particles;
     rough.discrete.pairs.clearFactors();
-    rough.solid.emplace(makeSolid(model.solid->mesh, model.coupling->overlap.nodalWeight, o));
+    rough.solid.emplace(makeSolid(barMesh(o), model.coupling->overlap.nodalWeight, o));
     rough.coupling.emplace(
         makeCoupling(rough.discrete.particles, rough.discrete.pairs, *rough.solid, model.coupling->overlap.nodalWeight, o.coupling));
     Profile profile;

@@ -31,7 +31,7 @@ TEST(Locate, FindsRandomPointsOfCrookedBricks) {
 }
 
 TEST(Locate, APointOnAFaceHasOneOwnerTheLowest) {
-  const fem::Mesh mesh = fem::boxMesh({2, 2, 2}, {0, 0, 0}, {2, 2, 2});
+  const Bricks mesh = bricksOf(fem::boxOf(fem::CellShape::hex8, {2, 2, 2}, {0, 0, 0}, {2, 2, 2}));
   const ElementLocator locator(mesh.elements, mesh.X);
   EXPECT_EQ(locator.find({1, 1, 1})->element, 0);
   EXPECT_EQ(locator.find({1, 0.5, 0.5})->element, 0);
@@ -40,7 +40,7 @@ TEST(Locate, APointOnAFaceHasOneOwnerTheLowest) {
 }
 
 TEST(Locate, OutsideThereIsNothing) {
-  const fem::Mesh mesh = fem::boxMesh({2, 2, 2}, {0, 0, 0}, {2, 2, 2});
+  const Bricks mesh = bricksOf(fem::boxOf(fem::CellShape::hex8, {2, 2, 2}, {0, 0, 0}, {2, 2, 2}));
   const ElementLocator locator(mesh.elements, mesh.X);
   EXPECT_FALSE(locator.find({2.0001, 1, 1}));
   EXPECT_FALSE(locator.find({1, -1e-6, 1}));
@@ -48,14 +48,14 @@ TEST(Locate, OutsideThereIsNothing) {
 }
 
 TEST(Locate, MissingElementsAndNodesAreRefused) {
-  const fem::Mesh mesh = fem::boxMesh({1, 1, 1}, {0, 0, 0}, {1, 1, 1});
+  const Bricks mesh = bricksOf(fem::boxOf(fem::CellShape::hex8, {1, 1, 1}, {0, 0, 0}, {1, 1, 1}));
   EXPECT_THROW(ElementLocator({}, mesh.X), InputError);
   EXPECT_THROW(ElementLocator(mesh.elements, std::span(mesh.X).first(4)), InputError);
 }
 
 TEST(Overlap, WithoutParticlesElementsOrWidthItIsRefused) {
-  const fem::Mesh mesh = fem::boxMesh({1, 4, 1}, {0, 0, 0}, {0.5, 2, 0.5});
-  const fem::Nodes nodes = fem::makeNodes(mesh);
+  const Bricks mesh = bricksOf(fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {0.5, 2, 0.5}));
+  const fem::Nodes nodes = nodesAt(mesh.X);
   const std::vector<double> some(mesh.X.size(), 0.5), none(mesh.X.size(), 0.0), few(3, 0.5);
   const dem::Particles far = lattice({10, 10, 10}, {11, 11, 11}, 1), near = lattice({0, 0, 0}, {0.5, 1, 0.5}, 1);
   EXPECT_THROW(locateOverlap(far, mesh.elements, nodes, some), InputError);
@@ -70,11 +70,11 @@ TEST(Overlap, WithoutParticlesElementsOrWidthItIsRefused) {
 
 TEST(Overlap, AParticleWithoutWeightIsNamed) {
   dem::Particles particles = lattice({0, 0, 0}, {0.5, 2, 0.5}, 1);
-  const fem::Mesh mesh = fem::boxMesh({1, 4, 1}, {0, 0, 0}, {0.5, 2, 0.5});
+  const Bricks mesh = bricksOf(fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {0.5, 2, 0.5}));
   std::vector<double> weight(mesh.X.size(), 0.0);
   for (std::size_t n = 0; n < 4; ++n) weight[n] = 1.0;
   const std::vector<double> full = particles.mass;
-  const Overlap overlap = locateOverlap(particles, mesh.elements, fem::makeNodes(mesh), weight);
+  const Overlap overlap = locateOverlap(particles, mesh.elements, nodesAt(mesh.X), weight);
   try {
     weighMass(overlap, full, particles);
     FAIL();

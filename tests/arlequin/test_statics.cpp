@@ -18,8 +18,8 @@ Model strainedBar(SceneOptions o) {
   // The stretch of the lattice whose springs carry the stress; the bricks' St Venant-Kirchhoff law differs by 3/2 ε².
   const double strain = stress / modulus;
   for (Vec3& x : model.discrete.particles.x) x.y *= 1.0 + strain;
-  for (std::size_t n = 0; n < model.solid->nodes.X.size(); ++n)
-    model.solid->nodes.u[n].y = strain * model.solid->nodes.X[n].y;
+  for (std::size_t n = 0; n < model.solid->nodes().X.size(); ++n)
+    model.solid->nodes().u[n].y = strain * model.solid->nodes().X[n].y;
   return model;
 }
 
@@ -30,15 +30,14 @@ void innerForces(Model& model, int particlesPerEdge) {
   const double d = edge / particlesPerEdge;
   for (std::size_t i = 0; i < model.discrete.particles.size(); ++i)
     if (model.discrete.particles.x[i].y < 0.9 * d) model.discrete.particles.f[i].y -= stress * d * d;
-  fem::clearForces(model.solid->nodes);
-  fem::addInternalForces(model.solid->elements, model.solid->nodes);
+  model.solid->motion().forces(0.0);
 }
 
 double worstForce(const Model& model) {
   double worst = 0.0;
   for (const Vec3& f : model.discrete.particles.f) worst = std::max(worst, norm(f));
-  for (std::size_t n = 0; n < model.solid->nodes.f.size(); ++n)
-    if (!model.solid->nodes.fixed[n]) worst = std::max(worst, norm(model.solid->nodes.f[n]));
+  for (std::size_t n = 0; n < model.solid->nodes().f.size(); ++n)
+    if (!model.solid->nodes().fixed[n]) worst = std::max(worst, norm(model.solid->nodes().f[n]));
   return worst;
 }
 
@@ -59,14 +58,14 @@ TEST_P(LinearWeights, MultipliersCarryTheStressToRoundOff) {
   const double before = worstForce(model);
   Coupling& c = *model.coupling;
   Solid& solid = *model.solid;
-  std::vector<Vec3> a(model.discrete.particles.size()), b(solid.nodes.X.size()), gap(c.rows()), none(c.rows()), lambda(c.rows());
+  std::vector<Vec3> a(model.discrete.particles.size()), b(solid.nodes().X.size()), gap(c.rows()), none(c.rows()), lambda(c.rows());
   for (std::size_t i = 0; i < a.size(); ++i) a[i] = (1.0 / model.discrete.particles.mass[i]) * model.discrete.particles.f[i];
   for (std::size_t n = 0; n < b.size(); ++n)
-    if (!solid.nodes.fixed[n]) b[n] = (1.0 / solid.nodes.mass[n]) * solid.nodes.f[n];
+    if (!solid.nodes().fixed[n]) b[n] = (1.0 / solid.nodes().mass[n]) * solid.nodes().f[n];
   gapOf(c.gap, c.overlap, a, b, gap);
   c.constraint->evaluate({none, none, none, gap, 1.0}, lambda);
   pullParticles(c.gap, c.overlap, lambda, model.discrete.particles.f);
-  pullNodes(c.gap, lambda, solid.nodes.f);
+  pullNodes(c.gap, lambda, solid.nodes().f);
   // What is left is the difference of the materials, 3/2 ε² E.
   EXPECT_LT(worstForce(model), 3.0 * 1.5e-3 * before);
 }
@@ -83,7 +82,7 @@ TEST_P(LinearWeights, APenaltyCarriesItByAUniformGap) {
   std::vector<Vec3> gap(c.rows(), Vec3{0.0, -stress / (p * length), 0.0}), lambda(c.rows());
   c.constraint->evaluate({gap, {}, {}, {}, 1.0}, lambda);
   pullParticles(c.gap, c.overlap, lambda, model.discrete.particles.f);
-  pullNodes(c.gap, lambda, model.solid->nodes.f);
+  pullNodes(c.gap, lambda, model.solid->nodes().f);
   EXPECT_LT(worstForce(model), 3.0 * 1.5e-3 * before);
 }
 

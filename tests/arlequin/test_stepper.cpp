@@ -70,13 +70,13 @@ TEST_P(EveryConstraint, AUniformVelocityGoesOnForEver) {
   Model model = makeBar(o);
   const Vec3 v{0.3, -0.2, 0.1};
   for (Vec3& each : model.discrete.particles.v) each = v;
-  for (Vec3& each : model.solid->nodes.v) each = v;
+  for (Vec3& each : model.solid->nodes().v) each = v;
   Profile profile;
   StepSums sums;
   start(model, 2e-4, profile);
   for (int s = 0; s < 200; ++s) stepExplicit(model, 2e-4, 1, sums, false, profile);
   for (const Vec3& each : model.discrete.particles.v) EXPECT_LT(norm(each - v), 1e-9);
-  for (const Vec3& each : model.solid->nodes.v) EXPECT_LT(norm(each - v), 1e-9);
+  for (const Vec3& each : model.solid->nodes().v) EXPECT_LT(norm(each - v), 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryConstraint,
@@ -129,16 +129,14 @@ TEST(Stepper, ImplicitSolidsKeepEnergyWithAPenaltyAndMomentumAlways) {
     Model model = makeBar(o);
     excite(model);
     const double dt = 1e-4;
-    fem::NewmarkOptions options;
-    options.consistentShare = o.massShare;
-    fem::NewmarkSolver newmark(model.solid->elements, model.solid->nodes, dt, options);
+    fem::ImplicitMotion solid(model.solid->model(), {.scheme = fem::newmark(), .massShare = o.massShare});
     Profile profile;
     StepSums sums;
     start(model, dt, profile);
-    const double before = energies(model, &newmark).total();
+    const double before = energies(model, &solid).total();
     const Vec3 p0 = momentum(model);
-    for (int s = 0; s < 300; ++s) stepImplicit(model, newmark, dt, 1, sums, true, profile);
-    const Energies e = energies(model, &newmark);
+    for (int s = 0; s < 300; ++s) stepImplicit(model, solid, dt, 1, sums, true, profile);
+    const Energies e = energies(model, &solid);
     EXPECT_NEAR(e.total() - sums.couplingWork - e.coupling, before, 1e-2 * before);
     EXPECT_NEAR(e.total(), before, 1e-2 * before);
     if (kind == ConstraintKind::penalty) {
@@ -156,7 +154,7 @@ TEST(Stepper, ResultsAreTheSameForAnyNumberOfThreads) {
   setThreads(1);
   const Outcome again = runScene(o, 2e-4, 0.02);
   EXPECT_TRUE(one.model.discrete.particles.v == two.model.discrete.particles.v);
-  EXPECT_TRUE(one.model.solid->nodes.v == two.model.solid->nodes.v);
+  EXPECT_TRUE(one.model.solid->nodes().v == two.model.solid->nodes().v);
   EXPECT_TRUE(one.model.discrete.particles.v == again.model.discrete.particles.v);
 }
 

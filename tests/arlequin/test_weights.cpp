@@ -42,13 +42,14 @@ TEST(Weights, BadFloorsAndPlacesAreRefused) {
 
 /// Places of a bar between y = 0 and 3 by both ways.
 TEST(Weights, OnABarDistanceAndLaplaceAgreeWithTheStraightLine) {
-  fem::Mesh mesh = fem::boxMesh({2, 6, 2}, {0, 0, 0}, {1, 3, 1});
-  const auto solid = triangles(mesh, fem::faceSet(mesh, "y-")), particles = triangles(mesh, fem::faceSet(mesh, "y+"));
+  const fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {2, 6, 2}, {0, 0, 0}, {1, 3, 1});
+  const Bricks mesh = bricksOf(box);
+  const auto solid = triangles(box.X, fem::faceSet(box, "y-")), particles = triangles(box.X, fem::faceSet(box, "y+"));
   const std::vector<double> byDistance = distanceCoordinate(mesh.X, solid, particles);
   std::vector<int> all(mesh.elements.size());
   for (std::size_t e = 0; e < all.size(); ++e) all[e] = static_cast<int>(e);
   const std::vector<double> byLaplace =
-      laplaceCoordinate(mesh, all, fem::nodeSet(mesh, "y-"), fem::nodeSet(mesh, "y+"));
+      laplaceCoordinate(mesh, all, fem::nodeSet(box, "y-"), fem::nodeSet(box, "y+"));
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {
     EXPECT_NEAR(byDistance[n], mesh.X[n].y / 3.0, 1e-14);
     EXPECT_NEAR(byLaplace[n], mesh.X[n].y / 3.0, 1e-12);
@@ -56,21 +57,23 @@ TEST(Weights, OnABarDistanceAndLaplaceAgreeWithTheStraightLine) {
 }
 
 TEST(Weights, LaplaceOnPartOfAMeshMarksTheRestAsBeyond) {
-  const fem::Mesh mesh = fem::boxMesh({1, 4, 1}, {0, 0, 0}, {1, 4, 1});
+  const fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {1, 4, 1});
+  const Bricks mesh = bricksOf(box);
   std::vector<int> middle;
   for (std::size_t n = 0; n < mesh.X.size(); ++n)
     if (mesh.X[n].y == 2.0) middle.push_back(static_cast<int>(n));
-  const std::vector<double> s = laplaceCoordinate(mesh, std::vector<int>{0, 1}, fem::nodeSet(mesh, "y-"), middle);
+  const std::vector<double> s = laplaceCoordinate(mesh, std::vector<int>{0, 1}, fem::nodeSet(box, "y-"), middle);
   for (std::size_t n = 0; n < mesh.X.size(); ++n)
     EXPECT_NEAR(s[n], mesh.X[n].y > 2.0 ? beyondOverlap : mesh.X[n].y / 2.0, 1e-12);
 }
 
 TEST(Weights, BordersThatAreMissingOrMeetAreRefused) {
-  fem::Mesh mesh = fem::boxMesh({1, 1, 1}, {0, 0, 0}, {1, 1, 1});
-  const auto face = triangles(mesh, fem::faceSet(mesh, "y-")), side = triangles(mesh, fem::faceSet(mesh, "x-"));
+  const fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
+  const Bricks mesh = bricksOf(box);
+  const auto face = triangles(box.X, fem::faceSet(box, "y-")), side = triangles(box.X, fem::faceSet(box, "x-"));
   EXPECT_THROW(distanceCoordinate(mesh.X, face, {}), InputError);
   EXPECT_THROW(distanceCoordinate(mesh.X, face, side), InputError);
-  EXPECT_THROW(laplaceCoordinate(mesh, std::vector<int>{0}, fem::nodeSet(mesh, "y-"), fem::nodeSet(mesh, "x-")),
+  EXPECT_THROW(laplaceCoordinate(mesh, std::vector<int>{0}, fem::nodeSet(box, "y-"), fem::nodeSet(box, "x-")),
                InputError);
 }
 
@@ -92,7 +95,7 @@ TEST(Weights, MassIsShared) {
   const Model model = makeBar(o);
   double mass = 0.0;
   for (const double m : model.discrete.particles.mass) mass += m;
-  for (const double m : model.solid->nodes.mass) mass += m;
+  for (const double m : model.solid->nodes().mass) mass += m;
   const double length = (o.particleElements - o.overlapElements + o.solidElements) * edge;
   EXPECT_NEAR(mass, bulk * length * edge * edge * o.across * o.across, 1e-3 * mass);
 }

@@ -8,15 +8,22 @@
 #include <vector>
 
 #include "dovetail/core/ledger.hpp"
-#include "dovetail/fem/mesh/mesh.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/surface/coupling.hpp"
 #include "dovetail/surface/smooth_coupling.hpp"
+#include "dovetail/surface/solid_faces.hpp"
 #include "dovetail/surface/stepper.hpp"
 
 namespace dovetail::surface {
 
 using FlatModel = CoupledModel<Coupling>;
 using SmoothModel = CoupledModel<SmoothCoupling>;
+
+/// Average acceleration, lumped masses.
+inline fem::ImplicitOptions newmarkLumped() {
+  return {.scheme = fem::newmark(), .massShare = 0.0, .relativeTolerance = 1e-10, .energyEvery = 0};
+}
 
 struct BlockSetup {
   bool held = true;            ///< at the bottom
@@ -29,7 +36,7 @@ struct BlockSetup {
 };
 
 /// 0.3 × 0.3 × 0.2 m, top at z = 0; the limit of its mesh is 2.3 ms, a contact lasts about 20 ms.
-inline fem::Mesh blockMesh() { return fem::boxMesh({3, 3, 2}, {0, 0, -0.2}, {0.3, 0.3, 0}); }
+inline fem::SolidMesh blockMesh() { return fem::boxOf(fem::CellShape::hex8, {3, 3, 2}, {0, 0, -0.2}, {0.3, 0.3, 0}); }
 
 inline dem::Particles droppedParticles() {
   dem::Particles particles;
@@ -39,20 +46,18 @@ inline dem::Particles droppedParticles() {
   return particles;
 }
 
-inline Skin blockSkin(const fem::Mesh& mesh, double width) {
-  Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
+inline Skin blockSkin(const fem::SolidMesh& mesh, double width) {
+  Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
   coarseGrain(skin, {{cg::KernelShape::lucy, 2, width}, cg::KernelCorrection::none});
   return skin;
 }
 
 template <class Seam>
-CoupledModel<Seam> makeModel(const BlockSetup& setup, const fem::Mesh& mesh, Seam seam, dem::Particles particles) {
+CoupledModel<Seam> makeModel(const BlockSetup& setup, const fem::SolidMesh& mesh, Seam seam, dem::Particles particles) {
   const dem::LinearSpringDashpot normal{2e4, setup.restitution, true};
   CoupledModel<Seam> model{.discrete = {},
                            .wallLaw = {normal},
-                           .nodes = fem::makeNodes(mesh),
-                           .elements = fem::makeElements(mesh, fem::ElementType::hex8,
-                                                         fem::StVenantKirchhoff{setup.youngsModulus, 0.3, 1000.0}),
+                           .solid = std::make_unique<fem::Model>(fem::makeModel(mesh)),
                            .seam = std::move(seam),
                            .contact = {}};
   model.discrete.particles = std::move(particles);
@@ -60,14 +65,16 @@ CoupledModel<Seam> makeModel(const BlockSetup& setup, const fem::Mesh& mesh, Sea
   model.discrete.gravity = setup.gravity;
   model.discrete.pairs.setSkin(0.02);
   model.discrete.sortEvery = 0;
-  fem::addLumpedMass(model.elements, model.nodes);
-  if (setup.held) fem::fix(model.nodes, mesh.nodeSets.at("z-"));
+  const fem::StVenantKirchhoff law{setup.youngsModulus, 0.3, 1000.0};
+  model.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law))));
+  fem::addMass(*model.solid);
+  if (setup.held) fem::fix(model.solid->nodes, mesh.nodeSets.at("z-"));
   return model;
 }
 
 inline FlatModel flatModel(const BlockSetup& setup) {
-  const fem::Mesh mesh = blockMesh();
-  const auto& faces = mesh.faceSets.at("skin");
+  const fem::SolidMesh mesh = blockMesh();
+  const auto faces = quadsOf(mesh.faceSets.at("skin"));
   Coupling seam(blockSkin(mesh, setup.spread ? 0.0 : setup.width));
   if (setup.spread)
     seam.spreadLoad(SpreadLoad({{cg::KernelShape::lucy, 2, setup.width}, {}}, mesh.X, seam.skin(), faces));
@@ -76,7 +83,7 @@ inline FlatModel flatModel(const BlockSetup& setup) {
 }
 
 inline SmoothModel smoothModel(const BlockSetup& setup) {
-  const fem::Mesh mesh = blockMesh();
+  const fem::SolidMesh mesh = blockMesh();
   SmoothCoupling seam(makeSmoothSurface(blockSkin(mesh, setup.width)));
   seam.bookWallWork(setup.booksWork);
   return makeModel(setup, mesh, std::move(seam), droppedParticles());
@@ -89,7 +96,7 @@ double storedEnergy(const Model& model) {
   for (std::size_t i = 0; i < model.discrete.particles.size(); ++i)
     height -= model.discrete.particles.mass[i] * dot(model.discrete.gravity, model.discrete.particles.x[i]);
   return dem::kineticEnergy(model.discrete.particles) + model.contact.storedEnergy() + height +
-         fem::kineticEnergy(model.nodes) + model.strainEnergy;
+         fem::kineticEnergy(model.solid->nodes) + model.strainEnergy;
 }
 
 struct Result {
@@ -129,17 +136,17 @@ Result runExplicit(Model model, double time, double dt, int K, const Scheme& sch
 
 template <class Model>
 Result runImplicit(Model model, double time, double dt, int K, const Scheme& scheme = {}) {
-  fem::NewmarkSolver newmark(model.elements, model.nodes, K * dt);
+  fem::ImplicitMotion solid(*model.solid, newmarkLumped());
   return runFor(model, time, dt, K,
-                [&](Model& m, Profile& profile) { return stepImplicit(m, newmark, dt, K, scheme, true, profile); });
+                [&](Model& m, Profile& profile) { return stepImplicit(m, solid, dt, K, scheme, true, profile); });
 }
 
 template <class Model>
 Result runStaggered(Model model, double time, double dt, int K, bool implicitSolid, const Scheme& scheme = {}) {
-  std::unique_ptr<fem::NewmarkSolver> newmark;
-  if (implicitSolid) newmark = std::make_unique<fem::NewmarkSolver>(model.elements, model.nodes, K * dt);
+  std::unique_ptr<fem::ImplicitMotion> solid;
+  if (implicitSolid) solid = std::make_unique<fem::ImplicitMotion>(*model.solid, newmarkLumped());
   return runFor(model, time, dt, K, [&](Model& m, Profile& profile) {
-    return stepStaggered(m, newmark.get(), dt, K, scheme, true, profile);
+    return stepStaggered(m, solid.get(), dt, K, scheme, true, profile);
   });
 }
 

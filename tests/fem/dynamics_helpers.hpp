@@ -17,9 +17,8 @@ public:
   void addMass(std::span<double> mass) const override {
     for (double& m : mass) m += mass_;
   }
-  void addConsistentMass(BlockMatrix& M) const override {
-    const std::array<double, 9> block = {mass_, 0, 0, 0, mass_, 0, 0, 0, mass_};
-    for (std::size_t n = 0; n < M.nodes(); ++n) M.addBlock(static_cast<int>(n), static_cast<int>(n), block);
+  void addConsistentMass(NodeMatrix& M) const override {
+    for (int n = 0; n < static_cast<int>(M.nodes()); ++n) M.add(std::array{n}, std::array{mass_});
   }
 
 private:

@@ -3,7 +3,10 @@
 
 #include <Eigen/Dense>
 
+#include <numeric>
+
 #include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/model/model.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
 #include "helpers.hpp"
@@ -75,13 +78,31 @@ struct SolidScene {
   std::shared_ptr<Solid> solid;
 };
 
-inline SolidScene solidScene(const SolidKind& kind, bool distorted, double lambda = 2.0e6, double mu = 1.0e6,
-                             std::array<int, 3> = {}) {
-  const SolidMesh mesh = testSolidMesh(kind.shape, distorted);
-  SolidScene scene{makeModel(mesh), nullptr};
-  scene.solid = makeSolid(mesh, std::make_shared<PlainNeoHookean>(lambda, mu), {.formulation = kind.formulation});
+/// A model of one solid, without masses yet.
+inline SolidScene sceneOf(const SolidMesh& mesh, const std::shared_ptr<const PointMaterial>& material,
+                          const SolidOptions& options = {}) {
+  SolidScene scene{makeModel(mesh), makeSolid(mesh, material, options)};
   scene.model.add(scene.solid);
   return scene;
+}
+inline SolidScene sceneOf(const SolidMesh& mesh, Formulation formulation, const Material& law) {
+  return sceneOf(mesh, pointMaterial(law), {.formulation = formulation});
+}
+inline SolidScene solidScene(const SolidKind& kind, bool distorted, double lambda = 2.0e6, double mu = 1.0e6) {
+  return sceneOf(testSolidMesh(kind.shape, distorted), std::make_shared<PlainNeoHookean>(lambda, mu),
+                 {.formulation = kind.formulation});
+}
+
+/// What the hand-written kernels of bricks compute.
+inline constexpr std::array brickFormulations = {Formulation::standard, Formulation::assumedStress};
+
+inline double massOf(const Solid& solid, std::size_t nodes) {
+  std::vector<double> mass(nodes);
+  solid.addMass(mass);
+  return std::accumulate(mass.begin(), mass.end(), 0.0);
+}
+inline double volumeOf(const SolidScene& scene) {
+  return massOf(*scene.solid, scene.model.nodes.X.size()) / scene.solid->material().density();
 }
 
 inline std::vector<Vec3> forcesOf(Term& term, const Nodes& nodes) {
@@ -99,6 +120,35 @@ inline Eigen::MatrixXd dense(const BlockMatrix& A) {
         result(static_cast<int>(3 * n) + i / 3, 3 * A.columns()[static_cast<std::size_t>(k)] + i % 3) =
             A.values()[9 * static_cast<std::size_t>(k) + static_cast<std::size_t>(i)];
   return result;
+}
+
+inline Eigen::MatrixXd dense(const NodeMatrix& A) {
+  const auto size = static_cast<Eigen::Index>(A.nodes());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t n = 0; n < A.nodes(); ++n)
+    for (int k = A.offsets()[n]; k < A.offsets()[n + 1]; ++k)
+      result(static_cast<int>(n), A.columns()[static_cast<std::size_t>(k)]) = A.values()[static_cast<std::size_t>(k)];
+  return result;
+}
+
+/// The consistent mass of a term, one number per pair of nodes.
+inline Eigen::MatrixXd massMatrixOf(const Term& term, std::size_t nodes) {
+  Couplings couplings(nodes);
+  term.addCouplings(couplings);
+  NodeMatrix M(std::move(couplings));
+  term.addConsistentMass(M);
+  return dense(M);
+}
+
+/// Volume mean of the first Piola–Kirchhoff stress, from −Σ f ⊗ X = ∫ P dV.
+inline Eigen::Matrix3d meanFirstStress(const SolidScene& scene) {
+  std::vector<Vec3> f(scene.model.nodes.u.size());
+  scene.solid->addForces(scene.model.nodes, {}, f);
+  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
+  for (std::size_t n = 0; n < f.size(); ++n)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) P(i, j) -= f[n][i] * scene.model.nodes.X[n][j];
+  return P / volumeOf(scene);
 }
 
 inline BlockMatrix tangentOf(Term& term, const Nodes& nodes) {

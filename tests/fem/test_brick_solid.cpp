@@ -1,8 +1,9 @@
+// Bricks with hand-written kernels against the same elements computed otherwise, and what couplings take.
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/elements/elements.hpp"
-#include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/terms/loads.hpp"
+#include "elements/hybrid_matrix.hpp"
 #include "solid_helpers.hpp"
 
 namespace dovetail::fem {
@@ -13,39 +14,124 @@ const Material kirchhoff = StVenantKirchhoff{3e6, 0.3, 1000.0};
 /// The same law without hand-written kernels.
 class Plain : public PointMaterial {
 public:
+  explicit Plain(const Material& law) : law_(pointMaterial(law)) {}
   std::string name() const override { return "plain"; }
-  double density() const override { return 1000.0; }
+  double density() const override { return law_->density(); }
+  bool isSymmetric() const override { return law_->isSymmetric(); }
   void evaluate(const PointBatch& batch) const override { law_->evaluate(batch); }
 
 private:
-  std::shared_ptr<const PointMaterial> law_ = pointMaterial(kirchhoff);
+  std::shared_ptr<const PointMaterial> law_;
 };
 
 TEST(BrickSolid, HandWrittenAndGeneralKernelsAgree) {
-  const SolidMesh mesh = testSolidMesh(CellShape::hex8, true);
-  Model model = makeModel(mesh);
-  setRandom(model.nodes.u, 0.05, 4);
-  const auto fast = makeSolid(mesh, pointMaterial(kirchhoff)), general = makeSolid(mesh, std::make_shared<Plain>());
-  const Eigen::VectorXd a = flat(forcesOf(*fast, model.nodes)), b = flat(forcesOf(*general, model.nodes));
-  EXPECT_LT((a - b).norm(), 1e-12 * b.norm());
-  EXPECT_NEAR(fast->energy(model.nodes, {}), general->energy(model.nodes, {}),
-              1e-12 * general->energy(model.nodes, {}));
+  for (const Material& law : {kirchhoff, Material(DeformedMetricHooke{3e6, 0.3, 1000.0}), Material(AxialSprings{3e6, 1000.0})})
+    for (const bool weighted : {false, true}) {
+      const SolidMesh mesh = testSolidMesh(CellShape::hex8, true);
+      std::vector<double> share;
+      for (const Vec3& X : mesh.X) share.push_back(weighted ? 0.1 + 0.6 * X.x : 1.0);
+      const SolidScene fast = sceneOf(mesh, pointMaterial(law), {.share = share}),
+                       general = sceneOf(mesh, std::make_shared<Plain>(law), {.share = share});
+      Nodes nodes = fast.model.nodes;
+      setRandom(nodes.u, 0.05, 4);
+      const Eigen::VectorXd a = flat(forcesOf(*fast.solid, nodes)), b = flat(forcesOf(*general.solid, nodes));
+      EXPECT_LT((a - b).norm(), 1e-12 * b.norm());
+      EXPECT_NEAR(fast.solid->energy(nodes, {}), general.solid->energy(nodes, {}),
+                  1e-12 * general.solid->energy(nodes, {}));
+      const Eigen::MatrixXd K = dense(tangentOf(*general.solid, nodes));
+      EXPECT_LT((dense(tangentOf(*fast.solid, nodes)) - K).norm(), 1e-12 * K.norm());
+    }
 }
 
-TEST(BrickSolid, AssumedStressIsHybrid8) {
-  const SolidMesh mesh = testSolidMesh(CellShape::hex8, true);
-  Model model = makeModel(mesh);
-  setRandom(model.nodes.u, 0.05, 4);
-  const auto solid = makeSolid(mesh, pointMaterial(kirchhoff), {.formulation = Formulation::assumedStress});
-  const ElementBlock block = makeElements(brickMesh(mesh), ElementType::hybrid8, kirchhoff);
-  clearForces(model.nodes);
-  const double energy = addInternalForces(block, model.nodes, true);
-  const Eigen::VectorXd a = flat(forcesOf(*solid, model.nodes)), b = flat(model.nodes.f);
-  EXPECT_LT((a - b).norm(), 1e-13 * b.norm());
-  EXPECT_NEAR(solid->energy(model.nodes, {}), energy, 1e-13 * energy);
-  const Eigen::MatrixXd K = dense(tangentOf(*solid, model.nodes)), expected = dense(tangent(block, model.nodes));
-  EXPECT_LT((K - expected).norm(), 1e-13 * expected.norm());
-  EXPECT_THROW(makeSolid(mesh, std::make_shared<Plain>(), {.formulation = Formulation::assumedStress}), InputError);
+/// Conserving forces of laws with kernels do the work of the energy that the kernels report.
+TEST(BrickSolid, ConservingForcesDoTheWorkOfTheEnergyOfTheKernels) {
+  SolidScene scene = sceneOf(testSolidMesh(CellShape::hex8, true), Formulation::standard, kirchhoff);
+  Nodes& nodes = scene.model.nodes;
+  setRandom(nodes.u, 0.03, 3);
+  const std::vector<Vec3> start = nodes.u;
+  const double before = scene.solid->energy(nodes, {});
+  setRandom(nodes.u, 0.03, 4);
+  std::vector<Vec3> f(nodes.u.size());
+  ASSERT_TRUE(scene.solid->addConservingForces(nodes, start, {}, f));
+  EXPECT_NEAR(flat(f).dot(flat(nodes.u) - flat(start)), before - scene.solid->energy(nodes, {}), 1e-12 * before);
+}
+
+/// U = ½ ŝᵀ H⁻¹ ŝ, f = −∂U/∂u: the tangent at rest is that of the element matrices, block by block.
+TEST(BrickSolid, AssumedStressHasTheTangentOfItsElementMatrices) {
+  SolidMesh mesh = testMesh({1, 1, 1}, true);
+  std::vector<double> share(8);
+  for (std::size_t n = 0; n < 8; ++n) share[n] = 0.3 + 0.08 * static_cast<double>(n);
+  const SolidScene scene =
+      sceneOf(mesh, pointMaterial(kirchhoff), {.formulation = Formulation::assumedStress, .share = share});
+  Nodes nodes = scene.model.nodes;
+  setRandom(nodes.u, 0.05, 4);
+  detail::BrickCorners X, u;
+  detail::CornerValues w;
+  const std::vector<int>& node = mesh.groups[0].node;
+  for (std::size_t a = 0; a < 8; ++a) {
+    const auto n = static_cast<std::size_t>(node[a]);
+    X[a] = mesh.X[n];
+    u[a] = nodes.u[n];
+    w[a] = share[n];
+  }
+  const std::array<double, 576> expected = detail::hybridTangent(X, w, u, kirchhoff);
+  const Eigen::MatrixXd K = dense(tangentOf(*scene.solid, nodes));
+  for (std::size_t r = 0; r < 24; ++r)
+    for (std::size_t c = 0; c < 24; ++c)
+      EXPECT_NEAR(K(3 * node[r / 3] + static_cast<int>(r % 3), 3 * node[c / 3] + static_cast<int>(c % 3)),
+                  expected[24 * r + c], 1e-12 * K.norm());
+  EXPECT_THROW(sceneOf(mesh, std::make_shared<Plain>(kirchhoff), {.formulation = Formulation::assumedStress}),
+               InputError);
+}
+
+/// What requireBrickSolid says of a model; empty if it takes it.
+std::string refusal(const Model& model) {
+  try {
+    requireBrickSolid(model, "the coupling");
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the coupling"), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "";
+}
+
+TEST(BrickSolid, CouplingsTakeBricksOfElasticLawsWithSupportsAtRest) {
+  const SolidMesh mesh = testMesh({2, 1, 1}, true);
+  for (const Formulation formulation : brickFormulations) {
+    SolidScene scene = sceneOf(mesh, formulation, kirchhoff);
+    fix(scene.model.nodes, nodeSet(mesh, "x-"));
+    scene.model.constraints.hold(nodeSet(mesh, "x+"), componentY);
+    EXPECT_EQ(&requireBrickSolid(scene.model, "the coupling"), scene.solid.get());
+  }
+  EXPECT_EQ(refusal(sceneOf(mesh, Formulation::standard, AxialSprings{1e6, 1.0}).model), "");
+  EXPECT_EQ(refusal(sceneOf(mesh, Formulation::standard, DeformedMetricHooke{1e6, 0.3, 1.0}).model), "");
+}
+
+TEST(BrickSolid, CouplingsNameWhatTheyDoNotTake) {
+  const SolidMesh mesh = testMesh({2, 1, 1}, false);
+  const auto expectNamed = [](const Model& model, const std::string& what) {
+    const std::string text = refusal(model);
+    EXPECT_NE(text.find(what), std::string::npos) << what << ": " << text;
+  };
+  const auto bricks = [&] { return sceneOf(mesh, Formulation::standard, kirchhoff).model; };
+  expectNamed(makeModel(mesh), "no elements");
+  expectNamed(sceneOf(testSolidMesh(CellShape::tet4, false), Formulation::standard, kirchhoff).model, "tet4");
+  expectNamed(sceneOf(mesh, Formulation::enhanced, kirchhoff).model, "\"enhanced\"");
+  const auto rubber = pointMaterial(neoHookean(1e6, 0.3, 1000.0));
+  expectNamed(sceneOf(mesh, rubber).model, '"' + rubber->name() + '"');
+  EXPECT_NE(rubber->name().find("neo-Hookean"), std::string::npos);
+  Model model = bricks();
+  model.add(gravity(Vec3{0, 0, -9.81}));
+  expectNamed(model, "\"gravity\"");
+  model = bricks();
+  model.constraints.prescribe(nodeSet(mesh, "x-"), 0, [](double t) { return t; });
+  expectNamed(model, "prescribed motion");
+  model = bricks();
+  model.add(makeSolid(mesh, pointMaterial(kirchhoff), {.name = "second"}));
+  expectNamed(model, "several groups of elements");
+  model = bricks();
+  model.constraints.ties = {{0, 0, {{1, 0, 1.0}}, 0.0, {}}};
+  expectNamed(model, "ties");
 }
 
 }  // namespace

@@ -266,7 +266,7 @@ TEST(Failure, StopsWithTheElementAndTheLastAcceptedState) {
     EXPECT_EQ(largestDifference(model.nodes.u, u), 0.0);
     EXPECT_EQ(largestDifference(model.nodes.v, v), 0.0);
   }
-  for (const auto& term : model.terms) EXPECT_NO_THROW(term->requireValid(model.nodes, "after"));
+  for (const auto& term : model.terms) EXPECT_NO_THROW(term->requireValid(model.nodes, "after", Scrutiny::all));
 }
 
 TEST(Report, HasAPageOfText) {

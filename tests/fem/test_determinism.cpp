@@ -1,62 +1,74 @@
+// Hand-written kernels give the same digits on any number of threads. (test_solid.cpp: all other formulations.)
 #include <gtest/gtest.h>
 
-#include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/motion/newmark.hpp"
-#include "helpers.hpp"
+#include "dovetail/fem/motion/implicit_motion.hpp"
+#include "dovetail/fem/motion/motion.hpp"
+#include "solid_helpers.hpp"
 
 namespace dovetail::fem {
 namespace {
 
-struct Result {
-  std::vector<Vec3> f;
-  double energy;
-  std::vector<double> energies;
-  friend bool operator==(const Result&, const Result&) = default;
-};
+/// 2340 bricks: above the threshold for threads.
+constexpr std::array counts{12, 13, 15};
+const StVenantKirchhoff material{1.0e6, 0.3, 1000.0};
 
-Result evaluate(const Mesh& mesh, ElementType type, int threadCount) {
-  setThreads(threadCount);
-  const ElementBlock block = makeElements(mesh, type, StVenantKirchhoff{1.0e6, 0.3, 1.0});
-  Nodes nodes = makeNodes(mesh);
+auto evaluate(const SolidMesh& mesh, Formulation formulation, const std::vector<double>& share) {
+  SolidScene scene = sceneOf(mesh, pointMaterial(Material(material)), {.formulation = formulation, .share = share});
+  Nodes& nodes = scene.model.nodes;
   setRandom(nodes.u, 0.01, 3);
   setRandom(nodes.f, 1.0, 4);
-  Result result;
-  result.energy = addInternalForces(block, nodes, true);
-  result.f = nodes.f;
-  result.energies = elementEnergies(block, nodes);
-  setThreads(1);
-  return result;
+  const double together = scene.solid->addForcesAndEnergy(nodes, {}, nodes.f);
+  return std::tuple(nodes.f, together, scene.solid->energy(nodes, {}), scene.solid->elementEnergies(nodes, {}));
 }
 
 TEST(Determinism, ForcesAreBitwiseEqualForAnyNumberOfThreads) {
-  for (const ElementType type : bothTypes)
+  for (const Formulation formulation : brickFormulations)
     for (const bool distorted : {false, true}) {
-      const Mesh mesh = testMesh({12, 13, 15}, distorted);  // 2340 elements: above the threshold for threads
-      const Result one = evaluate(mesh, type, 1);
-      EXPECT_TRUE(one == evaluate(mesh, type, 2));
-      EXPECT_TRUE(one == evaluate(mesh, type, 3));
+      const SolidMesh mesh = testMesh(counts, distorted);
+      std::vector<double> share;
+      if (distorted)
+        for (const Vec3& X : mesh.X) share.push_back(0.5 + 0.4 * X.x);
+      const auto compute = [&] { return evaluate(mesh, formulation, share); };
+      const auto one = onThreads(1, compute);
+      EXPECT_EQ(std::get<1>(one), std::get<2>(one));
+      EXPECT_TRUE(one == onThreads(2, compute));
+      EXPECT_TRUE(one == onThreads(3, compute));
     }
 }
 
-TEST(Determinism, ImplicitStepsAreBitwiseEqualForAnyNumberOfThreads) {
-  const auto run = [](int threadCount) {
-    setThreads(threadCount);
-    const Mesh mesh = testMesh({12, 13, 15}, false);
-    const ElementBlock block = makeElements(mesh, ElementType::hex8, StVenantKirchhoff{1.0e6, 0.3, 1000.0});
-    Nodes nodes = makeNodes(mesh);
-    addLumpedMass(block, nodes);
-    fix(nodes, nodeSet(mesh, "z-"));
-    std::vector<Vec3> load(nodes.X.size());
-    setRandom(load, 5.0, 6);
-    NewmarkSolver solver(block, nodes, 5e-3);
-    solver.step(nodes, load);
-    solver.step(nodes, load);
-    setThreads(1);
-    return nodes.u;
-  };
-  const std::vector<Vec3> one = run(1);
-  EXPECT_GT(flat(one).norm(), 0.0);
-  EXPECT_TRUE(one == run(2));
+/// A clamped body under constant forces, by explicit and implicit steps.
+std::vector<Vec3> moved(bool implicit) {
+  const SolidMesh mesh = testMesh(counts, false);
+  Model model = sceneOf(mesh, Formulation::standard, material).model;
+  addMass(model);
+  fix(model.nodes, nodeSet(mesh, "z-"));
+  std::vector<Vec3> load(mesh.X.size());
+  setRandom(load, 5.0, 6);
+  if (implicit) {
+    ImplicitMotion motion(model, {.scheme = newmark(), .massShare = 0.4});
+    for (int i = 0; i < 2; ++i) {
+      motion.kick(load, 2.5e-3);
+      motion.step(5e-3);
+      motion.kick(load, 2.5e-3);
+    }
+    return model.nodes.u;
+  }
+  Motion motion(model, 0.4);
+  for (int i = 0; i < 5; ++i) {
+    motion.forces(1e-4);
+    for (std::size_t n = 0; n < load.size(); ++n) model.nodes.f[n] += load[n];
+    motion.kick(1e-4);
+    motion.drift(1e-4);
+  }
+  return model.nodes.u;
+}
+
+TEST(Determinism, StepsAreBitwiseEqualForAnyNumberOfThreads) {
+  for (const bool implicit : {false, true}) {
+    const std::vector<Vec3> one = onThreads(1, [&] { return moved(implicit); });
+    EXPECT_GT(flat(one).norm(), 0.0);
+    EXPECT_TRUE(one == onThreads(2, [&] { return moved(implicit); }));
+  }
 }
 
 }  // namespace

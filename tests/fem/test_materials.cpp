@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "helpers.hpp"
+#include "solid_helpers.hpp"
 
 namespace dovetail::fem {
 namespace {
@@ -13,20 +13,20 @@ namespace {
 constexpr double young = 3.0e6, nu = 0.3;
 const LameConstants lame = lameConstants(young, nu);
 
-/// P of a block in the uniform state F.
-Eigen::Matrix3d stressAt(const Eigen::Matrix3d& F, ElementType type, const Material& material, bool distorted) {
-  const Mesh mesh = testMesh({2, 2, 2}, distorted);
-  const ElementBlock block = makeElements(mesh, type, material);
-  Nodes nodes = makeNodes(mesh);
-  setAffine(nodes, F);
-  return meanFirstStress(block, nodes);
+/// P of a box in the uniform state F.
+Eigen::Matrix3d stressAt(const Eigen::Matrix3d& F, Formulation formulation, const Material& material, bool distorted) {
+  SolidScene scene = sceneOf(testMesh({2, 2, 2}, distorted), formulation, material);
+  setAffine(scene.model.nodes, F);
+  return meanFirstStress(scene);
 }
 
 template <class Check>
 void forEachBrick(Check&& check) {
-  for (const ElementType type : bothTypes)
+  for (const Formulation formulation : brickFormulations)
     for (const bool distorted : {false, true})
-      check([=](const Eigen::Matrix3d& F) { return stressAt(F, type, StVenantKirchhoff{young, nu, 1.0}, distorted); });
+      check([=](const Eigen::Matrix3d& F) {
+        return stressAt(F, formulation, StVenantKirchhoff{young, nu, 1.0}, distorted);
+      });
 }
 
 Eigen::Matrix3d diagonal(double a, double b, double c) { return Eigen::Vector3d(a, b, c).asDiagonal(); }
@@ -89,9 +89,9 @@ TEST(AxialSprings, AStretchAlongAnAxisIsLinearAndRotationsDoNothing) {
     for (const double stretch : {0.7, 1.0 + 1e-6, 1.4}) {
       const Eigen::Matrix3d F = diagonal(1.0, stretch, 1.0);
       const Eigen::Matrix3d expected = diagonal(0.0, young * (stretch - 1.0), 0.0);
-      EXPECT_LT((stressAt(F, ElementType::hex8, AxialSprings{young, 1.0}, distorted) - expected).norm(), 1e-12 * young);
+      EXPECT_LT((stressAt(F, Formulation::standard, AxialSprings{young, 1.0}, distorted) - expected).norm(), 1e-12 * young);
       const Eigen::Matrix3d R = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
-      EXPECT_LT((stressAt(R * F, ElementType::hex8, AxialSprings{young, 1.0}, distorted) - R * expected).norm(),
+      EXPECT_LT((stressAt(R * F, Formulation::standard, AxialSprings{young, 1.0}, distorted) - R * expected).norm(),
                 1e-12 * young);
     }
 }
@@ -100,8 +100,8 @@ TEST(AxialSprings, DiffersFromStVenantKirchhoffBySecondOrder) {
   const auto difference = [](double size) {
     Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
     F += size * (Eigen::Matrix3d() << 1.0, 0.4, -0.2, 0.3, -0.7, 0.5, 0.1, 0.6, 0.2).finished();
-    return (stressAt(F, ElementType::hex8, AxialSprings{young, 1.0}, false) -
-            stressAt(F, ElementType::hex8, StVenantKirchhoff{young, 0.0, 1.0}, false))
+    return (stressAt(F, Formulation::standard, AxialSprings{young, 1.0}, false) -
+            stressAt(F, Formulation::standard, StVenantKirchhoff{young, 0.0, 1.0}, false))
         .norm();
   };
   EXPECT_NEAR(std::log2(difference(2e-3) / difference(1e-3)), 2.0, 0.02);
@@ -112,7 +112,7 @@ TEST(DeformedMetricHooke, StressIsEquation34) {
   F << 1.2, 0.3, -0.1, 0.1, 0.9, 0.2, -0.2, 0.15, 1.1;
   for (const double poisson : {0.0, 0.3})
     for (const bool distorted : {false, true}) {
-      const Eigen::Matrix3d P = stressAt(F, ElementType::hex8, DeformedMetricHooke{young, poisson, 1.0}, distorted);
+      const Eigen::Matrix3d P = stressAt(F, Formulation::standard, DeformedMetricHooke{young, poisson, 1.0}, distorted);
       EXPECT_LT((P - F * deformedMetricStress(F, poisson)).norm(), 1e-12 * young);
     }
 }
@@ -120,13 +120,11 @@ TEST(DeformedMetricHooke, StressIsEquation34) {
 TEST(DeformedMetricHooke, EnergyIsHalfStressTimesStrain) {
   Eigen::Matrix3d F = diagonal(1.1, 0.95, 1.02);
   F(0, 2) = 0.2;
-  const Mesh mesh = testMesh({1, 2, 1}, true);
-  const ElementBlock block = makeElements(mesh, ElementType::hex8, DeformedMetricHooke{young, nu, 1.0});
-  Nodes nodes = makeNodes(mesh);
-  setAffine(nodes, F);
+  SolidScene scene = sceneOf(testMesh({1, 2, 1}, true), Formulation::standard, DeformedMetricHooke{young, nu, 1.0});
+  setAffine(scene.model.nodes, F);
   const Eigen::Matrix3d E = 0.5 * (F.transpose() * F - Eigen::Matrix3d::Identity());
-  const double expected = 0.5 * deformedMetricStress(F, nu).cwiseProduct(E).sum() * volumeOf(block);
-  EXPECT_NEAR(strainEnergy(block, nodes), expected, 1e-12 * expected);
+  const double expected = 0.5 * deformedMetricStress(F, nu).cwiseProduct(E).sum() * volumeOf(scene);
+  EXPECT_NEAR(scene.solid->energy(scene.model.nodes, {}), expected, 1e-12 * expected);
 }
 
 TEST(DeformedMetricHooke, DiffersFromStVenantKirchhoffBySecondOrder) {
@@ -134,8 +132,8 @@ TEST(DeformedMetricHooke, DiffersFromStVenantKirchhoffBySecondOrder) {
   H << 0.6, 0.3, -0.2, 0.1, -0.4, 0.5, 0.2, -0.3, 0.7;
   const auto difference = [&](double size) {
     const Eigen::Matrix3d F = Eigen::Matrix3d::Identity() + size * H;
-    return (stressAt(F, ElementType::hex8, DeformedMetricHooke{young, nu, 1.0}, false) -
-            stressAt(F, ElementType::hex8, StVenantKirchhoff{young, nu, 1.0}, false))
+    return (stressAt(F, Formulation::standard, DeformedMetricHooke{young, nu, 1.0}, false) -
+            stressAt(F, Formulation::standard, StVenantKirchhoff{young, nu, 1.0}, false))
         .norm();
   };
   const double order = std::log2(difference(2e-3) / difference(1e-3));
@@ -143,16 +141,16 @@ TEST(DeformedMetricHooke, DiffersFromStVenantKirchhoffBySecondOrder) {
 }
 
 TEST(Materials, ImpossibleConstantsAreRefused) {
-  const Mesh mesh = testMesh({1, 1, 1}, false);
   const auto make = [&](double E, double poisson, double rho) {
-    makeElements(mesh, ElementType::hex8, StVenantKirchhoff{E, poisson, rho});
+    pointMaterial(Material(StVenantKirchhoff{E, poisson, rho}));
   };
   EXPECT_THROW(make(0.0, 0.3, 1.0), InputError);
   EXPECT_THROW(make(1.0, 0.5, 1.0), InputError);
   EXPECT_THROW(make(1.0, -1.0, 1.0), InputError);
   EXPECT_THROW(make(1.0, 0.3, -1.0), InputError);
   EXPECT_NO_THROW(make(1.0, -0.3, 1.0));
-  EXPECT_THROW(makeElements(mesh, ElementType::hybrid8, DeformedMetricHooke{1.0, 0.3, 1.0}), InputError);
+  for (const Material& law : {Material(DeformedMetricHooke{1.0, 0.3, 1.0}), Material(AxialSprings{1.0, 1.0})})
+    EXPECT_THROW(sceneOf(testMesh({1, 1, 1}, false), Formulation::assumedStress, law), InputError);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include "dovetail/core/vec3.hpp"
 #include "helpers.hpp"
-#include "shapes.hpp"
+#include "mesh/shapes.hpp"
 
 namespace dovetail::fem::detail {
 namespace {
@@ -50,6 +50,16 @@ TEST(Shapes, SumToOneAndTheirGradientsAreTheirDerivatives) {
           EXPECT_NEAR(here.gradient[a][j], (plus.value[a] - minus.value[a]) / 2e-6, 1e-8);
       }
     }
+}
+
+TEST(Shapes, OfBricksAreThereOnTheirOwnToo) {
+  std::mt19937 random(4);
+  const Vec3 xi = randomVec3(random, 0.9);
+  const Functions at(CellShape::hex8, xi);
+  for (std::size_t a = 0; a < 8; ++a) {
+    EXPECT_NEAR(shapeValues(xi)[a], at.value[a], 1e-15);
+    EXPECT_LT(norm(parentGradients(xi)[a] - at.gradient[a]), 1e-15);
+  }
 }
 
 /// ∫ ξ^i η^j ζ^k over the parent cell.

@@ -116,24 +116,22 @@ TEST(SolidMesh, EveryFaceOfEveryElementPointsOutOfIt) {
   }
 }
 
-TEST(SolidMesh, BricksGoThereAndBack) {
-  const Mesh bricks = boxMesh({2, 3, 1}, lower, upper);
-  const SolidMesh solid = solidMesh(bricks), box = testBox(CellShape::hex8);
-  EXPECT_EQ(solid.X, box.X);
-  EXPECT_EQ(solid.groups[0].node, box.groups[0].node);
-  EXPECT_EQ(solid.nodeSets, box.nodeSets);
-  ASSERT_EQ(solid.faceSets.size(), box.faceSets.size());
-  for (const auto& [set, faces] : solid.faceSets) {
-    ASSERT_EQ(faces.size(), faceSet(box, set).size());
-    for (std::size_t f = 0; f < faces.size(); ++f) EXPECT_EQ(faces[f].node, faceSet(box, set)[f].node) << set;
+TEST(SolidMesh, NodeSetsAreTheNodesOfTheirSides) {
+  for (const CellShape shape : allShapes) {
+    const SolidMesh mesh = boxOf(shape, {2, 3, 4}, lower, upper);
+    std::set<int> all;
+    for (int side = 0; side < 6; ++side) {
+      const int axis = side / 2;
+      const double value = side % 2 ? upper[axis] : lower[axis];
+      std::vector<int> expected;
+      for (std::size_t n = 0; n < mesh.X.size(); ++n)
+        if (mesh.X[n][axis] == value) expected.push_back(static_cast<int>(n));
+      all.insert(expected.begin(), expected.end());
+      EXPECT_EQ(nodeSet(mesh, std::string(1, "xyz"[axis]) + "-+"[side % 2]), expected) << name(shape) << side;
+    }
+    EXPECT_EQ(nodeSet(mesh, "skin"), std::vector<int>(all.begin(), all.end())) << name(shape);
   }
-  const Mesh back = brickMesh(solid);
-  EXPECT_EQ(back.X, bricks.X);
-  EXPECT_EQ(back.elements, bricks.elements);
-  EXPECT_EQ(back.nodeSets, bricks.nodeSets);
-  EXPECT_EQ(back.faceSets, bricks.faceSets);
-  EXPECT_THROW(brickMesh(testBox(CellShape::hex20)), InputError);
-  EXPECT_THROW(brickMesh(testBox(CellShape::tet4)), InputError);
+  EXPECT_EQ(nodeSet(boxOf(CellShape::hex8, {2, 3, 4}, lower, upper), "skin").size(), 60u - 1u * 2u * 3u);
 }
 
 TEST(SolidMesh, UnknownSetsListTheKnownOnes) {

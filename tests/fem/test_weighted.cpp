@@ -1,101 +1,220 @@
 // Weighted integrals: the solid's share of an overlap.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
-#include "helpers.hpp"
+#include "solid_helpers.hpp"
+#include "term_checks.hpp"
 
 namespace dovetail::fem {
 namespace {
 
-const StVenantKirchhoff material{2e5, 0.3, 1200.0};
+const StVenantKirchhoff law{2e6, 0.3, 1200.0};
 
-std::vector<double> slope(const Mesh& mesh) {
-  std::vector<double> weight;
-  for (const Vec3& X : mesh.X) weight.push_back(0.2 + 0.5 * X.x);
-  return weight;
+std::vector<double> slope(const SolidMesh& mesh) {
+  std::vector<double> share;
+  for (const Vec3& X : mesh.X) share.push_back(0.2 + 0.5 * X.x);
+  return share;
 }
 
-ElementBlock blockOf(const Mesh& mesh, ElementType type, std::span<const double> weight) {
-  return makeElements(mesh, type, material, weight);
-}
+/// All formulations, those with hand-written kernels too, and the general standard brick.
+struct WeightedKind {
+  SolidKind kind;
+  std::shared_ptr<const PointMaterial> material;
+  SolidScene scene(const SolidMesh& mesh, std::vector<double> share) const {
+    return sceneOf(mesh, material, {.formulation = kind.formulation, .share = std::move(share)});
+  }
+};
 
-TEST(Weighted, ForcesAreMinusTheGradientOfTheEnergyAndTangentsTheirs) {
-  for (const ElementType type : bothTypes)
-    for (const bool distorted : {false, true}) {
-      const Mesh mesh = testMesh({2, 2, 1}, distorted);
-      const ElementBlock block = blockOf(mesh, type, slope(mesh));
-      Nodes nodes = makeNodes(mesh);
-      setRandom(nodes.u, 0.02, 3);
-      clearForces(nodes);
-      addInternalForces(block, nodes);
-      const std::vector<Vec3> force = nodes.f;
-      const SparseMatrix K = tangent(block, nodes);
-      double size = 0.0;
-      for (const Vec3& f : force) size = std::max(size, norm(f));
-      for (const std::size_t n : {std::size_t{0}, std::size_t{4}, std::size_t{9}})
-        for (int c = 0; c < 3; ++c) {
-          const double u = nodes.u[n][c], step = 1e-6;
-          nodes.u[n][c] = u + step;
-          const double above = strainEnergy(block, nodes);
-          clearForces(nodes);
-          addInternalForces(block, nodes);
-          const std::vector<Vec3> forceAbove = nodes.f;
-          nodes.u[n][c] = u - step;
-          const double below = strainEnergy(block, nodes);
-          clearForces(nodes);
-          addInternalForces(block, nodes);
-          nodes.u[n][c] = u;
-          EXPECT_NEAR(force[n][c], -(above - below) / (2.0 * step), 1e-6 * size);
-          std::vector<double> unit(3 * nodes.u.size(), 0.0);
-          unit[3 * n + static_cast<std::size_t>(c)] = 1.0;
-          const std::vector<double> column = multiply(K, unit);
-          double stiffness = 0.0;
-          for (const double k : column) stiffness = std::max(stiffness, std::abs(k));
-          for (std::size_t m = 0; m < nodes.u.size(); ++m)
-            for (int d = 0; d < 3; ++d)
-              EXPECT_NEAR(column[3 * m + static_cast<std::size_t>(d)],
-                          -(forceAbove[m][d] - nodes.f[m][d]) / (2.0 * step), 1e-5 * stiffness);
-        }
-    }
-}
-
-TEST(Weighted, TwoSharesMakeTheWhole) {
-  for (const ElementType type : bothTypes) {
-    const Mesh mesh = testMesh({3, 2, 2}, type == ElementType::hex8);
-    const std::vector<double> weight = slope(mesh);
-    std::vector<double> rest;
-    for (const double w : weight) rest.push_back(1.0 - w);
-    const ElementBlock whole = blockOf(mesh, type, {}), a = blockOf(mesh, type, weight), b = blockOf(mesh, type, rest);
-    Nodes nodes = makeNodes(mesh);
-    Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
-    F(0, 1) = 0.2;
-    F(2, 2) = 1.1;
-    setAffine(nodes, F);
-    EXPECT_NEAR(strainEnergy(a, nodes) + strainEnergy(b, nodes), strainEnergy(whole, nodes),
-                1e-12 * strainEnergy(whole, nodes));
-    EXPECT_NEAR(volumeOf(a) + volumeOf(b), volumeOf(whole), 1e-12 * volumeOf(whole));
+template <class Check>
+void forEachKind(Check&& check) {
+  std::vector<WeightedKind> kinds;
+  for (const SolidKind& kind : allSolidKinds()) kinds.push_back({kind, pointMaterial(Material(law))});
+  kinds.push_back({{CellShape::hex8, Formulation::assumedStress}, pointMaterial(Material(law))});
+  kinds.push_back({{CellShape::hex8, Formulation::standard}, std::make_shared<PlainNeoHookean>(1e6, 1e6, 1200.0)});
+  for (const WeightedKind& kind : kinds) {
+    SCOPED_TRACE(kind.kind.label() + ", " + kind.material->name());
+    check(kind);
   }
 }
 
-TEST(Weighted, AUniformWeightScalesEverything) {
-  const Mesh mesh = testMesh({2, 2, 2}, false);
-  const std::vector<double> third(mesh.X.size(), 1.0 / 3.0);
-  const ElementBlock whole = blockOf(mesh, ElementType::hex8, {}), part = blockOf(mesh, ElementType::hex8, third);
-  EXPECT_EQ(part.boxes(), whole.boxes()) << "equal weights keep the fast kernel";
-  Nodes nodes = makeNodes(mesh);
-  setRandom(nodes.u, 0.02, 5);
-  EXPECT_NEAR(strainEnergy(part, nodes), strainEnergy(whole, nodes) / 3.0, 1e-14 * strainEnergy(whole, nodes));
-  EXPECT_NEAR(stableStep(part).dt, stableStep(whole).dt, 1e-10 * stableStep(whole).dt);
+double largestDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double most = 0.0;
+  for (std::size_t n = 0; n < a.size(); ++n) most = std::max(most, norm(a[n] - b[n]));
+  return most;
 }
 
-TEST(Weighted, ImpossibleWeightsAreRefused) {
-  const Mesh mesh = testMesh({1, 1, 1}, false);
-  std::vector<double> weight(mesh.X.size(), 0.5);
-  EXPECT_THROW(blockOf(mesh, ElementType::hex8, std::span(weight).first(3)), InputError);
-  for (const double bad : {-0.1, 1.1, std::nan("")}) {
-    weight[2] = bad;
-    EXPECT_THROW(blockOf(mesh, ElementType::hex8, weight), InputError);
+TEST(Weighted, ForcesAreMinusTheGradientOfTheEnergyAndTangentsTheirs) {
+  forEachKind([](const WeightedKind& kind) {
+    for (const bool distorted : {false, true}) {
+      const SolidMesh mesh = testSolidMesh(kind.kind.shape, distorted);
+      SolidScene scene = kind.scene(mesh, slope(mesh));
+      setRandom(scene.model.nodes.u, 0.03, 3);
+      expectForceFromEnergy(*scene.solid, scene.model.nodes, {}, 1e-7);
+      expectTangents(*scene.solid, scene.model.nodes, {}, 1e-6);
+    }
+  });
+}
+
+/// ∫w ρ N_a = Σ_b w_b ∫ρ N_a N_b for w = Σ w_b N_b.
+TEST(Weighted, MassesAreIntegralsOfTheWeightedDensity) {
+  forEachKind([](const WeightedKind& kind) {
+    const SolidMesh mesh = testSolidMesh(kind.kind.shape, true);
+    const std::vector<double> share = slope(mesh);
+    const SolidScene whole = kind.scene(mesh, {}), part = kind.scene(mesh, share);
+    const Eigen::MatrixXd M = massMatrixOf(*part.solid, mesh.X.size());
+    const Eigen::VectorXd w = Eigen::Map<const Eigen::VectorXd>(share.data(), static_cast<Eigen::Index>(share.size()));
+    const Eigen::VectorXd expected = massMatrixOf(*whole.solid, mesh.X.size()) * w;
+    EXPECT_LT((M.rowwise().sum() - expected).norm(), 1e-13 * expected.norm());
+    EXPECT_LT((M - M.transpose()).norm(), 1e-14 * M.norm());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues()[0], 0.0);
+    std::vector<double> lumped(mesh.X.size());
+    part.solid->addMass(lumped);
+    EXPECT_NEAR(std::accumulate(lumped.begin(), lumped.end(), 0.0), expected.sum(), 1e-12 * expected.sum());
+    const bool scaled = kind.kind.shape == CellShape::hex20 || kind.kind.shape == CellShape::tet10;
+    for (std::size_t n = 0; n < lumped.size(); ++n) {
+      EXPECT_GT(lumped[n], 0.0);
+      if (!scaled) {
+        EXPECT_NEAR(lumped[n], expected[static_cast<Eigen::Index>(n)], 1e-12 * lumped[n]);
+      }
+    }
+  });
+}
+
+/// ∫w ∂W/∂F dV of a uniform state, which every point shows.
+TEST(Weighted, PatchesHaveTheStressOfTheLawEverywhere) {
+  Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+  F(0, 0) = 1.3;
+  F(0, 1) = 0.4;
+  forEachKind([&](const WeightedKind& kind) {
+    const SolidMesh mesh = testSolidMesh(kind.kind.shape, true);
+    SolidScene scene = kind.scene(mesh, slope(mesh));
+    setAffine(scene.model.nodes, F);
+    const Solid::Sample sample = scene.solid->sample(scene.model.nodes, {});
+    Eigen::Matrix3d P;
+    for (int k = 0; k < 9; ++k) P(k / 3, k % 3) = sample.P[static_cast<std::size_t>(k)];
+    for (std::size_t p = 0; p < sample.P.size(); ++p)
+      EXPECT_NEAR(sample.P[p], P(static_cast<int>(p % 9) / 3, static_cast<int>(p % 3)), 1e-11 * P.norm());
+    EXPECT_LT((meanFirstStress(scene) - P).norm(), 1e-9 * P.norm());
+    EXPECT_NEAR(scene.solid->energy(scene.model.nodes, {}), sample.energy[0] * volumeOf(scene),
+                1e-9 * sample.energy[0] * volumeOf(scene));
+  });
+}
+
+TEST(Weighted, TwoSharesMakeTheWhole) {
+  forEachKind([](const WeightedKind& kind) {
+    const SolidMesh mesh = testSolidMesh(kind.kind.shape, true);
+    const std::vector<double> share = slope(mesh);
+    std::vector<double> rest;
+    for (const double w : share) rest.push_back(1.0 - w);
+    const SolidScene whole = kind.scene(mesh, {}), a = kind.scene(mesh, share), b = kind.scene(mesh, rest);
+    Nodes nodes = whole.model.nodes;
+    // Displacement elements at any state, those with fields of their own where these are uniform.
+    if (kind.kind.formulation == Formulation::standard) {
+      setRandom(nodes.u, 0.03, 6);
+    } else {
+      Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+      F(0, 1) = 0.2;
+      F(2, 2) = 1.1;
+      setAffine(nodes, F);
+    }
+    const double energy = whole.solid->energy(nodes, {});
+    EXPECT_NEAR(a.solid->energy(nodes, {}) + b.solid->energy(nodes, {}), energy, 1e-10 * energy);
+    EXPECT_NEAR(volumeOf(a) + volumeOf(b), volumeOf(whole), 1e-12 * volumeOf(whole));
+    const std::vector<Vec3> f = forcesOf(*whole.solid, nodes);
+    std::vector<Vec3> sum = forcesOf(*a.solid, nodes);
+    b.solid->addForces(nodes, {}, sum);
+    EXPECT_LT(largestDifference(sum, f), 1e-10 * largest(f));
+  });
+}
+
+TEST(Weighted, AUniformShareScalesEverythingAndShareOneChangesNoBit) {
+  forEachKind([](const WeightedKind& kind) {
+    const SolidMesh mesh = testSolidMesh(kind.kind.shape, kind.kind.formulation != Formulation::standard);
+    const auto uniform = [&](double share) { return kind.scene(mesh, std::vector<double>(mesh.X.size(), share)); };
+    SolidScene whole = kind.scene(mesh, {}), third = uniform(1.0 / 3.0), one = uniform(1.0);
+    for (SolidScene* scene : {&whole, &third, &one}) {
+      setRandom(scene->model.nodes.u, 0.02, 5);
+      addMass(scene->model);
+    }
+    const Nodes& nodes = whole.model.nodes;
+    const double energy = whole.solid->energy(nodes, {});
+    EXPECT_NEAR(third.solid->energy(nodes, {}), energy / 3.0, 1e-12 * energy);
+    EXPECT_NEAR(stableStep(third.model).dt, stableStep(whole.model).dt, 1e-9 * stableStep(whole.model).dt);
+    const std::vector<Vec3> f = forcesOf(*whole.solid, nodes);
+    std::vector<Vec3> scaled = forcesOf(*third.solid, nodes);
+    for (Vec3& force : scaled) force *= 3.0;
+    EXPECT_LT(largestDifference(scaled, f), 1e-11 * largest(f));
+    // Share 1.
+    EXPECT_EQ(one.solid->energy(nodes, {}), energy);
+    EXPECT_EQ(forcesOf(*one.solid, nodes), f);
+    EXPECT_EQ(one.model.nodes.mass, nodes.mass);
+    EXPECT_EQ(stableStep(one.model).dt, stableStep(whole.model).dt);
+    EXPECT_EQ(dense(tangentOf(*one.solid, nodes)), dense(tangentOf(*whole.solid, nodes)));
+    EXPECT_EQ(massMatrixOf(*one.solid, nodes.u.size()), massMatrixOf(*whole.solid, nodes.u.size()));
+  });
+}
+
+TEST(Weighted, EqualSharesKeepTheFastKernel) {
+  const SolidMesh mesh = testMesh({4, 4, 4}, false);
+  for (const Formulation formulation : brickFormulations) {
+    const auto memory = [&](std::vector<double> share) {
+      return sceneOf(mesh, pointMaterial(Material(law)), {.formulation = formulation, .share = std::move(share)})
+          .solid->memory();
+    };
+    EXPECT_LT(memory(std::vector<double>(mesh.X.size(), 0.3)) + 64 * 8 * 60, memory(slope(mesh)));
+  }
+}
+
+TEST(Weighted, ElementsOfShareZeroAreLeftOut) {
+  forEachKind([](const WeightedKind& kind) {
+    SolidMesh mesh = testSolidMesh(kind.kind.shape, false);
+    std::vector<double> share;
+    for (const Vec3& X : mesh.X) share.push_back(std::max(0.0, X.x - 0.55));  // 0 in the lower half, x ≤ 0.55
+    const SolidScene part = kind.scene(mesh, share);
+    std::vector<int> upper;
+    for (std::size_t e = 0; e < mesh.elementCount(); ++e) {
+      const CellGroup& group = mesh.groups[0];
+      const auto n = static_cast<std::size_t>(nodesOf(group.shape));
+      double sum = 0.0;
+      for (std::size_t a = 0; a < n; ++a) sum += share[static_cast<std::size_t>(group.node[n * e + a])];
+      if (sum > 1e-9) upper.push_back(static_cast<int>(e));
+    }
+    ASSERT_EQ(part.solid->size(), upper.size());
+    ASSERT_EQ(2 * upper.size(), mesh.elementCount());
+    for (std::size_t e = 0; e < upper.size(); ++e) EXPECT_EQ(part.solid->number(e), upper[e]);
+    mesh.elementSets["upper"] = upper;
+    const SolidScene same =
+        sceneOf(mesh, kind.material, {.formulation = kind.kind.formulation, .elementSet = "upper", .share = share});
+    Nodes nodes = part.model.nodes;
+    setRandom(nodes.u, 0.02, 5);
+    EXPECT_EQ(forcesOf(*part.solid, nodes), forcesOf(*same.solid, nodes));
+    EXPECT_EQ(part.solid->energy(nodes, {}), same.solid->energy(nodes, {}));
+    // Nodes of left-out elements alone: no force, no mass, no place in the matrix.
+    const std::vector<Vec3> f = forcesOf(*part.solid, nodes);
+    std::vector<double> mass(f.size());
+    part.solid->addMass(mass);
+    for (std::size_t n = 0; n < f.size(); ++n)
+      if (mesh.X[n].x < 0.5) {
+        EXPECT_EQ(f[n], Vec3{});
+        EXPECT_EQ(mass[n], 0.0);
+      }
+  });
+}
+
+TEST(Weighted, ImpossibleSharesAreRefused) {
+  const SolidMesh mesh = testMesh({1, 1, 1}, false);
+  const auto make = [&](std::vector<double> share) {
+    return sceneOf(mesh, pointMaterial(Material(law)), {.share = std::move(share)});
+  };
+  EXPECT_THROW(make({0.5, 0.5, 0.5}), InputError);
+  EXPECT_THROW(make(std::vector<double>(8, 0.0)), InputError);
+  for (const double bad : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
+    std::vector<double> share(8, 0.5);
+    share[2] = bad;
+    EXPECT_THROW(make(share), InputError);
   }
 }
 

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "dovetail/fem/mesh/mesh.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/surface/coupling.hpp"
 #include "dovetail/surface/smooth_coupling.hpp"
+#include "dovetail/surface/solid_faces.hpp"
 
 namespace dovetail::surface {
 
@@ -29,7 +30,7 @@ private:
 };
 
 /// A block of 4 × 4 × 2 unit bricks whose top is z = 0.
-inline fem::Mesh unitBlock() { return fem::boxMesh({4, 4, 2}, {0, 0, -2}, {4, 4, 0}); }
+inline fem::SolidMesh unitBlock() { return fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0, 0, -2}, {4, 4, 0}); }
 
 /// How a skin is carried.
 struct Variant {
@@ -75,8 +76,8 @@ struct VariantName {
   }
 };
 
-inline Skin carriedSkin(const fem::Mesh& mesh, const Variant& variant, const std::string& set = "skin") {
-  Skin skin = makeSkin(mesh.X, fem::faceSet(mesh, set));
+inline Skin carriedSkin(const fem::SolidMesh& mesh, const Variant& variant, const std::string& set = "skin") {
+  Skin skin = makeSkin(mesh.X, quadsOf(fem::faceSet(mesh, set)));
   coarseGrain(skin, variant.kernel());
   return skin;
 }
@@ -91,7 +92,7 @@ struct Response {
 /// A seam of either kind.
 class AnySeam {
 public:
-  AnySeam(const fem::Mesh& mesh, const Variant& variant)
+  AnySeam(const fem::SolidMesh& mesh, const Variant& variant)
       : smooth_(variant.smooth),
         flatSeam_(carriedSkin(mesh, variant)),
         smoothSeam_(makeSmoothSurface(flatSeam_.skin())) {}

@@ -12,12 +12,12 @@ namespace {
 constexpr double radius = 0.3;
 constexpr int steps = 1500;
 
-fem::Mesh strip() { return fem::boxMesh({40, 2, 1}, {0, 0, -1}, {40, 2, 0}); }
+fem::SolidMesh strip() { return fem::boxOf(fem::CellShape::hex8, {40, 2, 1}, {0, 0, -1}, {40, 2, 0}); }
 
 double height(double X, double t) { return 0.3 * std::sin(1.2 * X + 12.0 * t); }
 
 /// A wave runs along the strip, against the particles.
-std::vector<Vec3> wave(const fem::Mesh& mesh, double t) {
+std::vector<Vec3> wave(const fem::SolidMesh& mesh, double t) {
   std::vector<Vec3> u;
   for (const Vec3& X : mesh.X)
     u.push_back({0.05 * std::sin(0.9 * X.x - 20.0 * t), 0.02 * std::cos(X.x + 7.0 * t), height(X.x, t)});
@@ -46,7 +46,7 @@ struct Trace {
 };
 
 template <class Seam>
-void record(Seam& seam, double t, const fem::Mesh& mesh, Trace& trace) {
+void record(Seam& seam, double t, const fem::SolidMesh& mesh, Trace& trace) {
   dem::Particles particles = travellers(t);
   const auto u = wave(mesh, t);
   seam.exchange(particles, u, std::vector<Vec3>(u.size()), dem::ElasticLaw{{1e4}}, 1e-3);
@@ -58,7 +58,7 @@ void record(Seam& seam, double t, const fem::Mesh& mesh, Trace& trace) {
 }
 
 Trace run(const Variant& variant, double margin) {
-  const fem::Mesh mesh = strip();
+  const fem::SolidMesh mesh = strip();
   Coupling seam(carriedSkin(mesh, variant), {dem::EdgeRule::projected, margin});
   Trace trace;
   for (int step = 0; step < steps; ++step) record(seam, 1e-3 * step, mesh, trace);
@@ -81,10 +81,10 @@ TEST(Candidates, ContactsAreThoseOfListsMadeEveryStep) {
 }
 
 TEST(Candidates, OnTheSmoothSurfaceUpToItsTolerance) {
-  const fem::Mesh mesh = strip();
+  const fem::SolidMesh mesh = strip();
   Trace traces[2];
   for (int k = 0; k < 2; ++k) {
-    SmoothCoupling seam(makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("skin"))), k == 0 ? 1e-9 : 0.0);
+    SmoothCoupling seam(makeSmoothSurface(makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")))), k == 0 ? 1e-9 : 0.0);
     for (int step = 0; step < steps; ++step) record(seam, 1e-3 * step, mesh, traces[k]);
   }
   EXPECT_EQ(traces[0].contacts, traces[1].contacts);
@@ -95,7 +95,7 @@ TEST(Candidates, OnTheSmoothSurfaceUpToItsTolerance) {
 }
 
 TEST(Candidates, AreMadeAnewForMoreParticles) {
-  const fem::Mesh mesh = strip();
+  const fem::SolidMesh mesh = strip();
   Coupling seam(carriedSkin(mesh, {"local"}));
   const std::vector<Vec3> rest(mesh.X.size());
   dem::Particles particles;
@@ -121,15 +121,15 @@ std::string failure(Seam seam, const dem::Particles& good, const dem::Particles&
 }
 
 TEST(Candidates, ANaNIsCaughtAtOnceWithItsNumber) {
-  const fem::Mesh mesh = strip();
+  const fem::SolidMesh mesh = strip();
   const std::vector<Vec3> u(mesh.X.size());
   const dem::Particles good = travellers(0.0);
   dem::Particles bad = good;
   bad.x[3].y = std::nan("");
   std::vector<Vec3> badU = u;
-  const int node = mesh.faceSets.at("z+")[7][2];
+  const int node = mesh.faceSets.at("z+")[7].node[2];
   badU[node].z = std::nan("");
-  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
+  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
   const std::string nodeName = "node " + std::to_string(node);
   EXPECT_NE(failure(Coupling(skin), good, bad, u, u).find("particle 3"), std::string::npos);
   EXPECT_NE(failure(Coupling(skin), good, good, u, badU).find(nodeName), std::string::npos);
@@ -139,8 +139,8 @@ TEST(Candidates, ANaNIsCaughtAtOnceWithItsNumber) {
 }
 
 TEST(Candidates, RefuseABadMargin) {
-  const fem::Mesh mesh = strip();
-  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
+  const fem::SolidMesh mesh = strip();
+  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
   EXPECT_THROW(Coupling(skin, {dem::EdgeRule::projected, -1.0}), InputError);
   EXPECT_THROW(Coupling(skin, {dem::EdgeRule::projected, std::nan("")}), InputError);
   EXPECT_THROW(SmoothCoupling(makeSmoothSurface(skin), -1.0), InputError);

@@ -11,7 +11,7 @@ namespace {
 class CoarseGrain : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(CoarseGrain, RowsSumToOne) {
-  const fem::Mesh mesh = unitBlock();
+  const fem::SolidMesh mesh = unitBlock();
   const Skin skin = carriedSkin(mesh, GetParam());
   EXPECT_EQ(skin.carrier.rows(), static_cast<int>(skin.X.size()));
   cg::requireValid(skin.carrier);
@@ -19,7 +19,7 @@ TEST_P(CoarseGrain, RowsSumToOne) {
 }
 
 TEST_P(CoarseGrain, NoKernelCrossesASharpEdge) {
-  const fem::Mesh mesh = unitBlock();
+  const fem::SolidMesh mesh = unitBlock();
   const Skin skin = carriedSkin(mesh, GetParam());
   for (std::size_t t = 0; t < skin.wall.facets.size(); ++t) {
     const auto& corner = skin.wall.facets[t];
@@ -33,8 +33,8 @@ TEST_P(CoarseGrain, NoKernelCrossesASharpEdge) {
 INSTANTIATE_TEST_SUITE_P(Variants, CoarseGrain, ::testing::ValuesIn(flatVariants()), VariantName{});
 
 TEST(CoarseGrainLimits, WidthZeroIsTheLocalMapBitForBit) {
-  const fem::Mesh mesh = unitBlock();
-  const Skin local = makeSkin(mesh.X, mesh.faceSets.at("skin"));
+  const fem::SolidMesh mesh = unitBlock();
+  const Skin local = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
   for (auto correction : {cg::KernelCorrection::none, cg::KernelCorrection::linear, cg::KernelCorrection::symmetric}) {
     const Skin skin = carriedSkin(mesh, {"zero", 0.0, cg::KernelShape::lucy, correction});
     EXPECT_EQ(skin.carrier.offsets, local.localMap.offsets);
@@ -59,7 +59,7 @@ double distanceFromLocalMap(const Skin& skin) {
 }
 
 TEST(CoarseGrainLimits, SmallWidthsTendToTheLocalMap) {
-  const fem::Mesh mesh = unitBlock();
+  const fem::SolidMesh mesh = unitBlock();
   const double coarse = distanceFromLocalMap(carriedSkin(mesh, {"", 1e-2}));
   const double fine = distanceFromLocalMap(carriedSkin(mesh, {"", 1e-4}));
   EXPECT_LT(coarse, 1e-2);
@@ -68,13 +68,13 @@ TEST(CoarseGrainLimits, SmallWidthsTendToTheLocalMap) {
 }
 
 /// The block with its top bent to a hump of slopes up to one half: one curved patch.
-fem::Mesh humpedBlock() {
-  fem::Mesh mesh = unitBlock();
+fem::SolidMesh humpedBlock() {
+  fem::SolidMesh mesh = unitBlock();
   for (Vec3& X : mesh.X) X.z += 0.4 * std::sin(0.9 * X.x) * std::cos(0.7 * X.y) * (X.z + 2.0) / 2.0;
   return mesh;
 }
 
-double positionError(const fem::Mesh& mesh, const Skin& skin) {
+double positionError(const fem::SolidMesh& mesh, const Skin& skin) {
   std::vector<Vec3> mapped(skin.X.size());
   cg::apply(skin.carrier, mesh.X, mapped);
   double largest = 0.0;
@@ -83,7 +83,7 @@ double positionError(const fem::Mesh& mesh, const Skin& skin) {
 }
 
 TEST(CoarseGrainCorrection, LinearRestoresPositions) {
-  for (const fem::Mesh& mesh : {unitBlock(), humpedBlock()})
+  for (const fem::SolidMesh& mesh : {unitBlock(), humpedBlock()})
     for (auto shape : {cg::KernelShape::lucy, cg::KernelShape::gauss})
       for (double width : {0.3, 1.3, 6.0}) {
         const Skin linear = carriedSkin(mesh, {"", width, shape, cg::KernelCorrection::linear});
@@ -95,8 +95,8 @@ TEST(CoarseGrainCorrection, LinearRestoresPositions) {
 }
 
 TEST(CoarseGrainCorrection, RefusesABadWidthAndLeavesTheSkin) {
-  const fem::Mesh mesh = unitBlock();
-  Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
+  const fem::SolidMesh mesh = unitBlock();
+  Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
   const auto vertices = skin.X.size();
   EXPECT_THROW(coarseGrain(skin, {{cg::KernelShape::lucy, 2, -1.0}, {}}), InputError);
   EXPECT_THROW(coarseGrain(skin, {{cg::KernelShape::lucy, 2, std::nan("")}, {}}), InputError);

@@ -16,9 +16,9 @@ struct State {
   Vec3 above, direction;  ///< whence and whither the particle is pushed
   double overlap;
 };
-using Draw = std::function<State(const fem::Mesh&, Random&)>;
+using Draw = std::function<State(const fem::SolidMesh&, Random&)>;
 
-State onFace(const fem::Mesh& mesh, Random& random) {
+State onFace(const fem::SolidMesh& mesh, Random& random) {
   return {random.field(mesh.X.size(), 0.05),
           {random(0.6, 3.4), random(0.6, 3.4), 1.0},
           {0, 0, -1},
@@ -26,20 +26,20 @@ State onFace(const fem::Mesh& mesh, Random& random) {
 }
 
 /// Over an edge between two faces, exactly in the reference shape and nearly in the deformed one.
-State onFaceBoundary(const fem::Mesh& mesh, Random& random) {
+State onFaceBoundary(const fem::SolidMesh& mesh, Random& random) {
   State state = onFace(mesh, random);
   state.above.x = std::round(state.above.x) + random(-0.01, 0.01);
   return state;
 }
 
-State onNode(const fem::Mesh& mesh, Random& random) {
+State onNode(const fem::SolidMesh& mesh, Random& random) {
   State state = onFaceBoundary(mesh, random);
   state.above.y = std::round(state.above.y) + random(-0.01, 0.01);
   return state;
 }
 
 /// A node pulled down and its neighbours with it: a hollow of about the particle's size.
-State inDent(const fem::Mesh& mesh, Random& random) {
+State inDent(const fem::SolidMesh& mesh, Random& random) {
   State state{random.field(mesh.X.size(), 0.02), {}, {0, 0, -1}, random(0.001, 0.05) * radius};
   const Vec3 centre{2.0, 2.0, 0.0};
   const double depth = random(0.2, 0.5);
@@ -51,7 +51,7 @@ State inDent(const fem::Mesh& mesh, Random& random) {
   return state;
 }
 
-State overSharpEdge(const fem::Mesh& mesh, Random& random) {
+State overSharpEdge(const fem::SolidMesh& mesh, Random& random) {
   State state = onFace(mesh, random);
   const double angle = random(0.15, 0.35) * std::numbers::pi;
   const Vec3 outward{std::cos(angle), 0.0, std::sin(angle)};
@@ -60,7 +60,7 @@ State overSharpEdge(const fem::Mesh& mesh, Random& random) {
   return state;
 }
 
-State overCorner(const fem::Mesh& mesh, Random& random) {
+State overCorner(const fem::SolidMesh& mesh, Random& random) {
   State state = onFace(mesh, random);
   const Vec3 outward = normalized({random(0.7, 1.3), random(0.7, 1.3), random(0.7, 1.3)});
   state.above = Vec3{4.0, 4.0, 0.0} + outward;
@@ -69,8 +69,8 @@ State overCorner(const fem::Mesh& mesh, Random& random) {
 }
 
 /// Two sheets of 4 × 2 unit faces that meet along the y axis in a valley of 105°: a sharp edge.
-fem::Mesh valley() {
-  fem::Mesh mesh;
+fem::SolidMesh valley() {
+  fem::SolidMesh mesh;
   const double slope = 37.5 * std::numbers::pi / 180.0;
   for (int j = 0; j <= 4; ++j)
     for (int i = -2; i <= 2; ++i)
@@ -78,12 +78,12 @@ fem::Mesh valley() {
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) {
       const int a = 5 * j + i;
-      mesh.faceSets["skin"].push_back({a, a + 1, a + 6, a + 5});
+      mesh.faceSets["skin"].push_back({fem::FaceShape::quad4, {a, a + 1, a + 6, a + 5, -1, -1, -1, -1, -1}});
     }
   return mesh;
 }
 
-State inValley(const fem::Mesh& mesh, Random& random) {
+State inValley(const fem::SolidMesh& mesh, Random& random) {
   return {random.field(mesh.X.size(), 0.05),
           {random(-0.02, 0.02), random(0.6, 3.4), 1.0},
           {0, 0, -1},
@@ -122,7 +122,7 @@ double gradientError(AnySeam& seam, const dem::Particles& particles, std::span<c
   return worst;
 }
 
-Coverage survey(const fem::Mesh& mesh, const Variant& variant, const Draw& draw, int states, unsigned seed) {
+Coverage survey(const fem::SolidMesh& mesh, const Variant& variant, const Draw& draw, int states, unsigned seed) {
   AnySeam seam(mesh, variant);
   Random random(seed);
   Coverage coverage;
@@ -146,7 +146,7 @@ Coverage survey(const fem::Mesh& mesh, const Variant& variant, const Draw& draw,
 
 class Potential : public ::testing::TestWithParam<Variant> {
 protected:
-  void expectGradient(const Draw& draw, unsigned seed, int leastSeveral = 0, const fem::Mesh& mesh = unitBlock()) {
+  void expectGradient(const Draw& draw, unsigned seed, int leastSeveral = 0, const fem::SolidMesh& mesh = unitBlock()) {
     constexpr int states = 80;
     const Coverage coverage = survey(mesh, GetParam(), draw, states, seed);
     EXPECT_EQ(coverage.touching, states);

@@ -23,8 +23,8 @@ double area(const Skin& skin) {
 class SkinSplit : public ::testing::TestWithParam<QuadSplit> {};
 
 TEST_P(SkinSplit, OfABoxIsClosedAndPointsOutwards) {
-  const fem::Mesh mesh = unitBlock();
-  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"), GetParam());
+  const fem::SolidMesh mesh = unitBlock();
+  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")), GetParam());
   const std::size_t faces = 16 + 16 + 4 * 8, perFace = GetParam() == QuadSplit::four ? 4 : 2;
   EXPECT_EQ(skin.wall.facets.size(), faces * perFace);
   EXPECT_EQ(skin.X.size(), 66 + (perFace == 4 ? faces : 0));
@@ -44,10 +44,10 @@ TEST_P(SkinSplit, OfABoxIsClosedAndPointsOutwards) {
 }
 
 TEST_P(SkinSplit, LocalMapReproducesPositionsAndConstants) {
-  fem::Mesh mesh = unitBlock();
+  fem::SolidMesh mesh = unitBlock();
   Random random(1);
   for (Vec3& X : mesh.X) X += random.vector(0.1);
-  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"), GetParam());
+  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")), GetParam());
   cg::requireValid(skin.localMap);
   EXPECT_LE(cg::rowSumError(skin.localMap), 1e-15);
   std::vector<Vec3> mapped(skin.X.size());
@@ -58,8 +58,8 @@ TEST_P(SkinSplit, LocalMapReproducesPositionsAndConstants) {
 }
 
 TEST_P(SkinSplit, OfAnOpenFaceSetIsTwoSided) {
-  const fem::Mesh mesh = unitBlock();
-  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("z+"), GetParam());
+  const fem::SolidMesh mesh = unitBlock();
+  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("z+")), GetParam());
   EXPECT_FALSE(skin.wall.oneSided);
   EXPECT_NEAR(area(skin), 16.0, 1e-13);
 }
@@ -67,8 +67,8 @@ TEST_P(SkinSplit, OfAnOpenFaceSetIsTwoSided) {
 INSTANTIATE_TEST_SUITE_P(Skin, SkinSplit, ::testing::Values(QuadSplit::two, QuadSplit::four));
 
 TEST(Skin, SharpEdgesSplitTheBoxIntoSixPatchesWithTheirOwnVertices) {
-  const fem::Mesh mesh = unitBlock();
-  Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
+  const fem::SolidMesh mesh = unitBlock();
+  Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
   const Skin whole = skin;
   splitAtSharpEdges(skin);
   EXPECT_EQ(skin.X.size(), 2 * (25 + 16) + 4 * (15 + 8));
@@ -119,7 +119,7 @@ TEST(Skin, AnEdgeIsSharpBeyondTheSharpAngle) {
 }
 
 TEST(Skin, PlacesVerticesByTheCarrier) {
-  const fem::Mesh mesh = unitBlock();
+  const fem::SolidMesh mesh = unitBlock();
   Skin skin = carriedSkin(mesh, {"lucy", 1.3});
   Random random(2);
   const auto u = random.field(mesh.X.size(), 0.1), v = random.field(mesh.X.size(), 2.0);
@@ -140,7 +140,7 @@ TEST(Skin, PlacesVerticesByTheCarrier) {
 }
 
 TEST(Skin, CarrierGainBoundsTheMotionOfVertices) {
-  const fem::Mesh mesh = unitBlock();
+  const fem::SolidMesh mesh = unitBlock();
   EXPECT_NEAR(carrierGain(carriedSkin(mesh, {"local"})), 1.0, 1e-15);
   EXPECT_NEAR(carrierGain(carriedSkin(mesh, {"lucy", 1.3})), 1.0, 1e-14);
   const Skin linear = carriedSkin(mesh, {"linear", 3.0, cg::KernelShape::lucy, cg::KernelCorrection::linear});

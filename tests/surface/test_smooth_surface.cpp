@@ -57,8 +57,8 @@ TEST(SmoothSurface, WeightsSumToOneAndDeriveFromOnePolynomial) {
 
 /// Up to the rim, and after any affine displacement.
 TEST(SmoothSurface, ReproducesLinearFields) {
-  const fem::Mesh mesh = unitBlock();
-  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
+  const fem::SolidMesh mesh = unitBlock();
+  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
   SmoothSurface surface = makeSmoothSurface(skin);
   Random random(2);
   const std::array<Vec3, 4> affine{random.vector(0.5), random.vector(0.5), random.vector(0.5), random.vector(0.5)};
@@ -82,7 +82,7 @@ TEST(SmoothSurface, ReproducesLinearFields) {
 class SmoothNormals : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(SmoothNormals, AreContinuousWhereThoseOfFacetsJump) {
-  const fem::Mesh mesh = unitBlock();
+  const fem::SolidMesh mesh = unitBlock();
   Skin skin = carriedSkin(mesh, GetParam());
   SmoothSurface surface = makeSmoothSurface(skin);
   Random random(3);
@@ -118,8 +118,8 @@ TEST_P(SmoothNormals, AreContinuousWhereThoseOfFacetsJump) {
 INSTANTIATE_TEST_SUITE_P(Variants, SmoothNormals, ::testing::ValuesIn(flatVariants()), VariantName{});
 
 TEST(SmoothSurface, ClosestPointAgainstBruteForce) {
-  const fem::Mesh mesh = unitBlock();
-  SmoothSurface surface = makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("z+")));
+  const fem::SolidMesh mesh = unitBlock();
+  SmoothSurface surface = makeSmoothSurface(makeSkin(mesh.X, quadsOf(mesh.faceSets.at("z+"))));
   Random random(4);
   placeAll(surface, random.field(mesh.X.size(), 0.2));
   constexpr int n = 60;
@@ -145,7 +145,7 @@ TEST(SmoothSurface, ClosestPointAgainstBruteForce) {
 }
 
 TEST(SmoothSurface, TheMobilityBoundHoldsEverywhereAndIsMetAtACorner) {
-  const fem::Mesh mesh = unitBlock();
+  const fem::SolidMesh mesh = unitBlock();
   Random random(6);
   std::vector<double> inverseMass;
   for (std::size_t i = 0; i < mesh.X.size(); ++i) inverseMass.push_back(random(0.1, 1.0));
@@ -187,8 +187,8 @@ TEST(SmoothSurface, RefusesAnIrregularMeshByFace) {
 }
 
 TEST(SmoothSurface, PatchesEndAtSharpEdgesSplitOrNot) {
-  const fem::Mesh mesh = unitBlock();
-  Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
+  const fem::SolidMesh mesh = unitBlock();
+  Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
   const SmoothSurface whole = makeSmoothSurface(skin);
   splitAtSharpEdges(skin);
   const SmoothSurface split = makeSmoothSurface(skin);
@@ -209,8 +209,8 @@ Vec3 forceAt(SmoothCoupling& seam, const Vec3& x, std::size_t nodes) {
 }
 
 TEST(SmoothSurface, CoplanarFacesActAsOnePlane) {
-  const fem::Mesh mesh = unitBlock();
-  SmoothCoupling seam(makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("skin"))));
+  const fem::SolidMesh mesh = unitBlock();
+  SmoothCoupling seam(makeSmoothSurface(makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")))));
   Random random(5);
   for (int i = 0; i < 200; ++i) {
     const double overlap = 0.35 * std::pow(10.0, random(-4.0, -0.5));
@@ -226,8 +226,8 @@ TEST(SmoothSurface, CoplanarFacesActAsOnePlane) {
 /// On a surface of curvature κ cut into faces of size h, a node lies κ h²/8 off the surface; the middle of a face lies
 /// on it, as on the bilinear face.
 TEST(SmoothSurface, ApproximatesWithTheStatedOffset) {
-  const fem::Mesh mesh = unitBlock();
-  SmoothSurface surface = makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("z+")));
+  const fem::SolidMesh mesh = unitBlock();
+  SmoothSurface surface = makeSmoothSurface(makeSkin(mesh.X, quadsOf(mesh.faceSets.at("z+"))));
   const double curvature = 0.06;
   std::vector<Vec3> u;
   for (const Vec3& X : mesh.X) u.push_back({0, 0, 0.5 * curvature * (X.x - 2.0) * (X.x - 2.0)});

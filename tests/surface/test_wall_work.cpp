@@ -17,7 +17,7 @@ const dem::ElasticLaw law{{1e4}};
 /// force.
 struct Motion {
   double startX = 1.4;
-  fem::Mesh mesh = unitBlock();
+  fem::SolidMesh mesh = unitBlock();
   std::vector<Vec3> mode = Random(1).field(mesh.X.size(), 0.03), other = Random(2).field(mesh.X.size(), 0.03);
 
   std::vector<Vec3> u(double t) const {
@@ -97,8 +97,8 @@ TEST(WallWork, ClosesItOnTheSmoothSurface) {
 }
 
 TEST(WallWork, ClosesItForTheSpreadLoadWhoseNodesGetOtherWork) {
-  const fem::Mesh mesh = unitBlock();
-  const auto& faces = mesh.faceSets.at("skin");
+  const fem::SolidMesh mesh = unitBlock();
+  const auto faces = quadsOf(mesh.faceSets.at("skin"));
   const auto spreadSeam = [&] {
     Coupling seam(makeSkin(mesh.X, faces));
     seam.spreadLoad(SpreadLoad({{cg::KernelShape::lucy, 2, 1.3}, {}}, mesh.X, seam.skin(), faces));

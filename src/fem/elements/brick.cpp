@@ -1,6 +1,6 @@
 #include "brick.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::fem::detail {
 
 BrickCorners cornersOf(const std::array<int, 8>& element, std::span<const Vec3> X) {
   BrickCorners corners;
@@ -11,24 +11,6 @@ BrickCorners cornersOf(const std::array<int, 8>& element, std::span<const Vec3> 
 Vec3 gaussPoint(int p) {
   const auto side = [](int bit) { return bit ? gaussDistance : -gaussDistance; };
   return {side(p & 1), side(p & 2), side(p & 4)};
-}
-
-std::array<double, 8> shapeValues(const Vec3& xi) {
-  std::array<double, 8> value{};
-  for (std::size_t a = 0; a < 8; ++a)
-    value[a] =
-        0.125 * (1.0 + parentSign[a][0] * xi.x) * (1.0 + parentSign[a][1] * xi.y) * (1.0 + parentSign[a][2] * xi.z);
-  return value;
-}
-
-std::array<Vec3, 8> parentGradients(const Vec3& xi) {
-  std::array<Vec3, 8> gradient{};
-  for (std::size_t a = 0; a < 8; ++a) {
-    const auto [sx, sy, sz] = parentSign[a];
-    const double x = 1.0 + sx * xi.x, y = 1.0 + sy * xi.y, z = 1.0 + sz * xi.z;
-    gradient[a] = {0.125 * sx * y * z, 0.125 * x * sy * z, 0.125 * x * y * sz};
-  }
-  return gradient;
 }
 
 Matrix3 jacobian(const BrickCorners& corners, const Vec3& xi) {
@@ -126,4 +108,4 @@ std::array<double, 108> stressModes(const Vec3& xi) {
   return modes;
 }
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::fem::detail

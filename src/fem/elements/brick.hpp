@@ -9,7 +9,7 @@
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/fem/mesh/shape.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::fem::detail {
 
 /// Distance of the 2×2×2 Gauss points from the centre in parent coordinates, 1/√3; all weights are 1.
 inline constexpr double gaussDistance = 0.57735026918962576451;
@@ -55,4 +55,4 @@ std::array<double, 64> shapeProducts(const BrickCorners& corners, const CornerVa
 /// 11, 22, 33, 12, 23, 31 along the parent axes: 11: 1 η ζ ηζ; 22: 1 ξ ζ ξζ; 33: 1 ξ η ξη; 12: 1 ζ; 23: 1 ξ; 31: 1 η.
 std::array<double, 108> stressModes(const Vec3& xi);
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::fem::detail

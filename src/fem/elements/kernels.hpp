@@ -12,8 +12,8 @@ namespace dovetail::fem::detail {
 struct KernelSet {
   /// ∂U/∂u of a batch, and its energy if asked for.
   /// @param u  displacement of all nodes, m
-  void (*forces)(const ElementCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces);
-  void (*determinants)(const ElementCache& cache, const Batch& batch, const Vec3* u, BatchDeterminants& result);
+  void (*forces)(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces);
+  void (*determinants)(const BrickCache& cache, const Batch& batch, const Vec3* u, BatchDeterminants& result);
 };
 
 KernelSet portableKernels();

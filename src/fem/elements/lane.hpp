@@ -25,7 +25,7 @@ using Lane [[gnu::vector_size(laneBytes)]] = double;
 struct Batch {
   std::array<std::array<std::int32_t, laneCount>, 8> node;
   std::int32_t count;     ///< elements in use
-  std::int32_t geometry;  ///< place in ElementCache::boxes or ::general
+  std::int32_t geometry;  ///< place in BrickCache::boxes or ::general
   bool box;
 };
 
@@ -39,7 +39,7 @@ struct alignas(laneBytes) BoxGeometry {
 struct alignas(laneBytes) GeneralGeometry {
   std::array<std::array<Lane, 9>, 8> map;
   std::array<Lane, 8> weight;  ///< det ∂X/∂ξ, m³
-  std::int32_t hybrid;         ///< place in ElementCache::hybrid
+  std::int32_t hybrid;         ///< place in BrickCache::hybrid
 };
 
 /// Bricks of hybrid8 that are no boxes.
@@ -69,21 +69,15 @@ struct alignas(laneBytes) BatchDeterminants {
   std::array<Lane, 8> value;
 };
 
-struct ElementCache {
+/// What the kernels of a solid's batches read.
+struct BrickCache {
   Law law;
   LawConstants constants;
-  std::vector<std::array<int, 8>> elements;
-  std::vector<Vec3> X;
-  std::vector<double> nodalWeight;  ///< of the integrand; empty = 1
   std::vector<Batch> batches;
   std::vector<BoxGeometry> boxes;
   std::vector<GeneralGeometry> general;
   std::vector<HybridGeometry> hybrid;
-  std::size_t boxElements = 0;
-  // Several threads write to `forces`; then every node adds its own entries, in the order of the elements.
-  std::vector<BatchForces> forces;
-  std::vector<std::uint32_t> nodeOffsets;
-  std::vector<std::uint32_t> nodeEntries;  ///< 32 batch + 4 corner + lane
+  std::size_t memory() const;
 };
 
 }  // namespace dovetail::fem::detail

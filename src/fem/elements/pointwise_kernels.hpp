@@ -72,7 +72,7 @@ static void generalForces(const LawConstants& constants, const GeneralGeometry& 
 }
 
 template <Law law, bool withEnergy>
-static void pointwiseForces(const ElementCache& cache, const Batch& batch, const Vec3* u, BatchForces& forces) {
+static void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u, BatchForces& forces) {
   const auto place = static_cast<std::size_t>(batch.geometry);
   if (batch.box)
     boxForces<law, withEnergy>(cache.constants, cache.boxes[place], batch, u, forces);
@@ -81,13 +81,13 @@ static void pointwiseForces(const ElementCache& cache, const Batch& batch, const
 }
 
 template <Law law>
-static void pointwiseForces(const ElementCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
+static void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
                             BatchForces& forces) {
   withEnergy ? pointwiseForces<law, true>(cache, batch, u, forces)
              : pointwiseForces<law, false>(cache, batch, u, forces);
 }
 
-static void hybridForces(const ElementCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
+static void hybridForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
                          BatchForces& forces) {
   const auto place = static_cast<std::size_t>(batch.geometry);
   if (batch.box) return hybridBoxForces(cache.constants, cache.boxes[place], batch, u, withEnergy, forces);
@@ -110,7 +110,7 @@ DOVETAIL_INLINE std::array<Lane, 9> inverseOf(const std::array<Lane, 9>& m) {
           s * c2, s * (m[1] * m[6] - m[0] * m[7]), s * (m[0] * m[4] - m[1] * m[3])};
 }
 
-static void batchForces(const ElementCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
+static void batchForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
                         BatchForces& forces) {
   switch (cache.law) {
     case Law::stVenantKirchhoff:
@@ -124,7 +124,7 @@ static void batchForces(const ElementCache& cache, const Batch& batch, const Vec
   }
 }
 
-static void batchDeterminants(const ElementCache& cache, const Batch& batch, const Vec3* u, BatchDeterminants& result) {
+static void batchDeterminants(const BrickCache& cache, const Batch& batch, const Vec3* u, BatchDeterminants& result) {
   const auto place = static_cast<std::size_t>(batch.geometry);
   PlanarField gradient;
   if (batch.box) {

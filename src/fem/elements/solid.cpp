@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/fem/model/model.hpp"
 #include "solid_base.hpp"
 
 namespace dovetail::fem {
@@ -23,20 +24,33 @@ std::vector<int> chosenElements(const SolidMesh& mesh, const std::string& set) {
   return all;
 }
 
-void fillBatches(detail::SolidCells& cells) {
+void fillBatches(std::span<const int> node, detail::SolidCells& cells) {
   const std::size_t n = cells.nodes;
   cells.batchNode.resize(cells.batches() * n);
   for (std::size_t b = 0; b < cells.batches(); ++b)
     for (std::size_t lane = 0; lane < detail::laneCount; ++lane) {
       const std::size_t e = detail::laneCount * b + std::min(lane, cells.inUse(b) - 1);
-      for (std::size_t a = 0; a < n; ++a) cells.batchNode[b * n + a][lane] = cells.node[n * e + a];
+      for (std::size_t a = 0; a < n; ++a) cells.batchNode[b * n + a][lane] = node[n * e + a];
     }
 }
 
+void requireShare(std::span<const double> share, std::size_t nodes) {
+  if (share.empty()) return;
+  if (share.size() != nodes)
+    throw InputError("there are " + std::to_string(share.size()) + " shares for " + std::to_string(nodes) + " nodes",
+                     "makeSolid", "give one per node, or none");
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (!(share[n] >= 0.0 && share[n] <= 1.0))
+      throw InputError("the share of node " + std::to_string(n) + " is " + formatNumber(share[n]), "makeSolid",
+                       "give numbers from 0 to 1");
+}
+
 /// @throws InputError if the elements are of several shapes
-detail::SolidCells cellsOf(const SolidMesh& mesh, const std::string& set) {
+detail::SolidCells cellsOf(const SolidMesh& mesh, const std::string& set, std::span<const double> share) {
   detail::SolidCells cells{};
   cells.X = mesh.X;
+  cells.share.assign(share.begin(), share.end());
+  std::vector<int> node;
   const std::vector<int> chosen = chosenElements(mesh, set);
   std::size_t next = 0;
   int first = 0;
@@ -50,12 +64,17 @@ detail::SolidCells cellsOf(const SolidMesh& mesh, const std::string& set) {
       cells.shape = group.shape;
       cells.nodes = static_cast<std::size_t>(nodesOf(group.shape));
       const auto start = group.node.begin() + static_cast<std::ptrdiff_t>(cells.nodes) * (chosen[next] - first);
-      cells.node.insert(cells.node.end(), start, start + static_cast<std::ptrdiff_t>(cells.nodes));
+      const std::span<const int> own(start, cells.nodes);
+      if (!share.empty() && std::ranges::all_of(own, [&](int n) { return share[static_cast<std::size_t>(n)] == 0.0; }))
+        continue;
+      node.insert(node.end(), own.begin(), own.end());
       cells.number.push_back(chosen[next]);
     }
     first = last;
   }
-  fillBatches(cells);
+  if (cells.number.empty())
+    throw InputError("every element has the share 0", "makeSolid", "leave the solid out, or give some nodes a share");
+  fillBatches(node, cells);
   return cells;
 }
 
@@ -70,7 +89,8 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const Po
                                  const SolidOptions& options) {
   if (material == nullptr) throw InputError("there is no material", "makeSolid", "give one, for instance neoHookean()");
   validate(mesh);
-  detail::SolidCells cells = cellsOf(mesh, options.elementSet);
+  requireShare(options.share, mesh.X.size());
+  detail::SolidCells cells = cellsOf(mesh, options.elementSet, options.share);
   if (options.formulation != Formulation::standard && options.formulation != Formulation::meanDilatation &&
       cells.shape != CellShape::hex8)
     throw InputError(
@@ -89,6 +109,30 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const Po
     default:
       return detail::makeStandardSolid(std::move(cells), std::move(material), options);
   }
+}
+
+const Solid& requireBrickSolid(const Model& model, const std::string& who) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError("the solid has " + what, who,
+                     "give a model of one solid of hex8 with an elastic law (St Venant-Kirchhoff, axial springs or Hooke "
+                     "on the deformed metric), held by fix() or hold()");
+  };
+  const Solid* solid = nullptr;
+  for (const auto& term : model.terms) {
+    const auto* const own = dynamic_cast<const Solid*>(term.get());
+    if (own == nullptr) refuse("the term \"" + term->name() + "\"");
+    if (solid != nullptr) refuse("several groups of elements");
+    solid = own;
+  }
+  if (solid == nullptr) refuse("no elements");
+  if (solid->shape() != CellShape::hex8) refuse(std::string("elements of the shape ") + name(solid->shape()));
+  if (solid->formulation() != Formulation::standard && solid->formulation() != Formulation::assumedStress)
+    refuse(std::string("the formulation \"") + name(solid->formulation()) + "\"");
+  if (!solid->material().brickLaw()) refuse("the law \"" + solid->material().name() + "\"");
+  if (!model.constraints.ties.empty()) refuse("ties");
+  for (const auto& p : model.constraints.prescribed)
+    if (p.displacement) refuse("prescribed motion");
+  return *solid;
 }
 
 }  // namespace dovetail::fem

@@ -1,53 +1,35 @@
-// Set-up of the batches, and the parallel assembly of their matrices.
-#include <Eigen/Eigenvalues>
+// Who adds where: lists and colours of the batches, and the parallel assembly of their matrices.
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "small_tensors.hpp"
 #include "solid_base.hpp"
 
 namespace dovetail::fem::detail {
 
-std::vector<PointGeometry> geometryAt(const SolidCells& cells, const CellRule& rule) {
-  const std::size_t n = cells.nodes, q = rule.point.size();
-  std::vector<PointGeometry> geometry(cells.batches() * q);
-  for (std::size_t b = 0; b < cells.batches(); ++b)
-    for (std::size_t p = 0; p < q; ++p) {
-      std::array<Lane, 9> J{};
-      for (std::size_t a = 0; a < n; ++a) {
-        const auto& node = cells.batchNode[n * b + a];
-        for (std::size_t i = 0; i < 3; ++i) {
-          Lane x;
-          for (std::size_t lane = 0; lane < laneCount; ++lane)
-            x[lane] = cells.X[static_cast<std::size_t>(node[lane])][static_cast<int>(i)];
-          for (std::size_t j = 0; j < 3; ++j) J[3 * i + j] += x * rule.gradient[n * p + a][static_cast<int>(j)];
-        }
-      }
-      PointGeometry& point = geometry[b * q + p];
-      point.weight = rule.weight[p] * inverseOf(J.data(), point.map.data());
-      for (std::size_t lane = cells.inUse(b); lane < laneCount; ++lane) point.weight[lane] = 0.0;
-    }
-  return geometry;
-}
-
-/// For every node its entries in the batches' results, by ascending element.
+/// For every node its entries in the batches' results, by ascending element; once.
 void SolidBase::listEntries() {
-  const std::size_t n = cells_.nodes;
+  if (!nodeEntries_.empty()) return;
+  const std::size_t n = cells_.nodes, lanes = stride();
+  if (lanes * laneCount * cells_.batches() > std::numeric_limits<std::uint32_t>::max())
+    throw InputError("there are " + std::to_string(cells_.size()) + " elements in one solid", options_.name,
+                     "split it by element sets, or use one thread");
   nodeOffsets_.assign(cells_.X.size() + 1, 0);
-  for (const int node : cells_.node) ++nodeOffsets_[static_cast<std::size_t>(node) + 1];
+  for (std::size_t e = 0; e < cells_.size(); ++e)
+    for (std::size_t a = 0; a < n; ++a) ++nodeOffsets_[static_cast<std::size_t>(cells_.nodeOf(e, a)) + 1];
   for (std::size_t i = 0; i < cells_.X.size(); ++i) nodeOffsets_[i + 1] += nodeOffsets_[i];
   std::vector<std::uint32_t> next(nodeOffsets_.begin(), nodeOffsets_.end() - 1);
-  nodeEntries_.resize(cells_.node.size());
+  nodeEntries_.resize(n * cells_.size());
   for (std::size_t e = 0; e < cells_.size(); ++e)
     for (std::size_t a = 0; a < n; ++a)
-      nodeEntries_[next[static_cast<std::size_t>(cells_.node[n * e + a])]++] =
-          3 * ((e / laneCount) * n + a) * laneCount + e % laneCount;
+      nodeEntries_[next[static_cast<std::size_t>(cells_.nodeOf(e, a))]++] =
+          static_cast<std::uint32_t>((lanes * (e / laneCount) + slot(a, 0)) * laneCount + e % laneCount);
 }
 
-/// Greedy: the first colour that none of the batch's nodes has.
+/// Greedy: the first colour that none of the batch's nodes has; once.
 void SolidBase::colourBatches() {
+  if (!colours_.empty()) return;
   const std::size_t n = cells_.nodes;
   std::vector<std::uint64_t> taken(cells_.X.size(), 0);
   for (std::size_t b = 0; b < cells_.batches(); ++b) {
@@ -70,8 +52,11 @@ void SolidBase::colourBatches() {
 }
 
 void SolidBase::addCouplings(Couplings& couplings) const {
-  for (std::size_t e = 0; e < cells_.size(); ++e)
-    couplings.add(std::span(cells_.node).subspan(cells_.nodes * e, cells_.nodes));
+  std::vector<int> nodes(cells_.nodes);
+  for (std::size_t e = 0; e < cells_.size(); ++e) {
+    for (std::size_t a = 0; a < nodes.size(); ++a) nodes[a] = cells_.nodeOf(e, a);
+    couplings.add(nodes);
+  }
 }
 
 void SolidBase::findPlaces(const BlockMatrix& K) {
@@ -83,7 +68,7 @@ void SolidBase::findPlaces(const BlockMatrix& K) {
       for (std::size_t a = 0; a < n; ++a)
         for (std::size_t b = 0; b < n; ++b)
           places_[(e * n + a) * n + b] =
-              static_cast<std::uint32_t>(K.place(cells_.node[n * e + a], cells_.node[n * e + b]));
+              static_cast<std::uint32_t>(K.place(cells_.nodeOf(e, a), cells_.nodeOf(e, b)));
   });
   placesOf_ = K.patternId();
 }
@@ -106,7 +91,10 @@ void SolidBase::scatter(std::size_t batch, const Lane* matrix, BlockMatrix& K) c
 void SolidBase::assemble(const Nodes& nodes, const Instant& now, const Vec3* start, BlockMatrix& K) {
   requireSameNodes(nodes);
   startHistory();
+  needGeometry();
+  colourBatches();
   findPlaces(K);
+  evaluation_.known = false;  // histories are now those of the last batch evaluated with a tangent
   const std::size_t size = 9 * cells_.nodes * cells_.nodes;
   for (const std::vector<std::uint32_t>& colour : colours_)
     parallelFor(colour.size(), cells_.nodes > 10 ? 2 : 8, [&](std::size_t begin, std::size_t end) {
@@ -124,82 +112,19 @@ void SolidBase::addConservingTangent(const Nodes& nodes, std::span<const Vec3> u
   assemble(nodes, now, conserves() ? u0.data() : nullptr, K);
 }
 
-void SolidBase::addConsistentMass(BlockMatrix& M) const {
-  const std::size_t n = cells_.nodes;
-  const CellRule& rule = massRule(cells_.shape);
-  const std::vector<PointGeometry> geometry = geometryAt(cells_, rule);
-  std::vector<double> matrix(9 * n * n);
+void SolidBase::addConsistentMass(NodeMatrix& M) const {
+  std::vector<int> nodes(cells_.nodes);
   for (std::size_t e = 0; e < cells_.size(); ++e) {
-    std::fill(matrix.begin(), matrix.end(), 0.0);
-    for (std::size_t q = 0; q < rule.point.size(); ++q) {
-      const double weight = geometry[e / laneCount * rule.point.size() + q].weight[e % laneCount];
-      for (std::size_t a = 0; a < n; ++a)
-        for (std::size_t b = 0; b < n; ++b)
-          for (std::size_t c = 0; c < 3; ++c)
-            matrix[3 * n * (3 * a + c) + 3 * b + c] +=
-                material_->density() * weight * rule.value[n * q + a] * rule.value[n * q + b];
-    }
-    M.add(std::span(cells_.node).subspan(n * e, n), matrix);
+    for (std::size_t a = 0; a < nodes.size(); ++a) nodes[a] = cells_.nodeOf(e, a);
+    M.add(nodes, consistentMass(cells_, e, material_->density()));
   }
-}
-
-/// Row sums, or for hex20 and tet10, whose row sums are negative at corners, the diagonal scaled to the element's mass
-/// (Hinton, Rock & Zienkiewicz 1976); kg per node of an element.
-std::vector<double> SolidBase::elementMasses(std::size_t element, const CellRule& rule,
-                                             std::span<const PointGeometry> geometry) const {
-  const std::size_t n = cells_.nodes;
-  const bool scaled = cells_.shape == CellShape::hex20 || cells_.shape == CellShape::tet10;
-  std::vector<double> share(n, 0.0);
-  double volume = 0.0, sum = 0.0;
-  for (std::size_t q = 0; q < rule.point.size(); ++q) {
-    const double weight = geometry[element / laneCount * rule.point.size() + q].weight[element % laneCount];
-    volume += weight;
-    for (std::size_t a = 0; a < n; ++a) {
-      const double value = rule.value[n * q + a];
-      share[a] += weight * (scaled ? value * value : value);
-    }
-  }
-  for (const double value : share) sum += value;
-  for (double& value : share) value *= material_->density() * (volume / sum);
-  return share;
 }
 
 void SolidBase::addMass(std::span<double> mass) const {
-  const std::size_t n = cells_.nodes;
-  const CellRule& rule = massRule(cells_.shape);
-  const std::vector<PointGeometry> geometry = geometryAt(cells_, rule);
   for (std::size_t e = 0; e < cells_.size(); ++e) {
-    const std::vector<double> own = elementMasses(e, rule, geometry);
-    for (std::size_t a = 0; a < n; ++a) mass[static_cast<std::size_t>(cells_.node[n * e + a])] += own[a];
+    const std::vector<double> own = lumpedMass(cells_, e, material_->density());
+    for (std::size_t a = 0; a < cells_.nodes; ++a) mass[static_cast<std::size_t>(cells_.nodeOf(e, a))] += own[a];
   }
-}
-
-StableStep SolidBase::stableStep(const Nodes& nodes) {
-  requireSameNodes(nodes);
-  startHistory();
-  const std::size_t n = cells_.nodes, size = 3 * n;
-  const CellRule& rule = massRule(cells_.shape);
-  const std::vector<PointGeometry> geometry = geometryAt(cells_, rule);
-  std::vector<double> largest(cells_.size());
-  parallelFor(cells_.batches(), 16, [&](std::size_t begin, std::size_t end) {
-    std::vector<Lane> matrix(size * size);
-    Eigen::MatrixXd K(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
-    for (std::size_t b = begin; b < end; ++b) {
-      tangent(taskOf(b, nodes, {}), matrix.data());
-      for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane) {
-        const std::size_t e = laneCount * b + lane;
-        const std::vector<double> mass = elementMasses(e, rule, geometry);
-        for (std::size_t r = 0; r < size; ++r)
-          for (std::size_t c = 0; c < size; ++c)
-            K(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
-                0.5 * (matrix[size * r + c][static_cast<int>(lane)] + matrix[size * c + r][static_cast<int>(lane)]) /
-                std::sqrt(mass[r / 3] * mass[c / 3]);
-        largest[e] = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues().tail(1)[0];
-      }
-    }
-  });
-  const auto worst = std::max_element(largest.begin(), largest.end());
-  return {2.0 / std::sqrt(*worst), cells_.number[static_cast<std::size_t>(worst - largest.begin())]};
 }
 
 }  // namespace dovetail::fem::detail

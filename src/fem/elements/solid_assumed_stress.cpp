@@ -1,7 +1,8 @@
 // The assumed-stress brick as a term of a model.
-#include "brick_kernels.hpp"
 #include "cell_kernels.hpp"
 #include "dovetail/core/error.hpp"
+#include "brick_cache.hpp"
+#include "hybrid_matrix.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -11,7 +12,9 @@ class AssumedStressSolid final : public SolidBase {
 public:
   AssumedStressSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options,
                      const Material& law)
-      : SolidBase(std::move(cells), std::move(material), options), kernels_(cells_, ElementType::hybrid8, law) {}
+      : SolidBase(std::move(cells), std::move(material), options, true), law_(law) {
+    useKernels(law, true);
+  }
 
 private:
   void deformation(const BatchTask& task, Lane* F) const override {
@@ -22,16 +25,18 @@ private:
       addIdentity(F + 9 * q);
     }
   }
-  void forces(const BatchTask& task, BatchResult& result) override { kernels_.forces(task, result); }
+  void forces(const BatchTask&, BatchResult&) override {}  // the kernels do it
   void tangent(const BatchTask& task, Lane* K) override {
-    const std::span<const Vec3> u(task.u, cells_.X.size());
     for (std::size_t lane = 0; lane < cells_.inUse(task.batch); ++lane) {
-      const std::array<double, 576> matrix = elementTangent(kernels_.block(), u, laneCount * task.batch + lane);
+      const std::array<int, 8> nodes = brickNodes(cells_, laneCount * task.batch + lane);
+      const std::array<double, 576> matrix =
+          hybridTangent(cornersOf(nodes, cells_.X), cornerValues(nodes, cells_.share),
+                        cornersOf(nodes, {task.u, cells_.X.size()}), law_);
       for (std::size_t k = 0; k < 576; ++k) K[k][static_cast<int>(lane)] = matrix[k];
     }
   }
 
-  BrickKernels kernels_;
+  Material law_;
 };
 
 }  // namespace

@@ -1,17 +1,16 @@
 #include "solid_base.hpp"
 
-#include <algorithm>
-#include <cmath>
-
+#include "brick_cache.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "kernels.hpp"
 
 namespace dovetail::fem::detail {
 
 namespace {
 
-constexpr std::size_t batchGrain = 16;
+constexpr std::size_t batchGrain = 16, kernelGrain = 128;
 constexpr std::size_t nodeGrain = 1024;
 constexpr std::size_t parallelNodes = 4096;  // below this many nodes of batches threads cost more than they bring
 
@@ -19,14 +18,21 @@ double sumOfLanes(const Lane& lane) { return (lane[0] + lane[1]) + (lane[2] + la
 
 }  // namespace
 
-SolidBase::SolidBase(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options)
-    : cells_(std::move(cells)),
-      material_(std::move(material)),
-      options_(options),
-      rule_(&forceRule(cells_.shape)),
-      geometry_(geometryAt(cells_, *rule_)) {
-  listEntries();
-  colourBatches();
+SolidBase::SolidBase(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options,
+                     bool lazy)
+    : cells_(std::move(cells)), material_(std::move(material)), options_(options), rule_(&forceRule(cells_.shape)) {
+  options_.share.clear();  // the cells have it
+  if (!lazy) needGeometry();
+}
+
+SolidBase::~SolidBase() = default;
+
+void SolidBase::useKernels(const Material& law, bool assumedStress) {
+  bricks_ = std::make_unique<const BrickCache>(makeBrickCache(cells_, law, assumedStress));
+}
+
+void SolidBase::needGeometry() {
+  if (geometry_.empty()) geometry_ = geometryAt(cells_, *rule_);
 }
 
 void SolidBase::requireSameNodes(const Nodes& nodes) const {
@@ -47,6 +53,7 @@ void SolidBase::startHistory() {
 
 void SolidBase::load(ByteReader& archive) {
   startHistory();
+  evaluation_ = {};
   const std::size_t expected = history_.size();
   archive(history_);
   if (history_.size() != expected)
@@ -75,116 +82,229 @@ BatchTask SolidBase::taskOf(std::size_t batch, const Nodes& nodes, const Instant
   return {batch, nodes.u.data(), start, now.dt, false, false};
 }
 
-void SolidBase::addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f) {
-  requireSameNodes(nodes);
-  startHistory();
-  const std::size_t count = cells_.batches(), perBatch = cells_.nodes;
-  const auto body = [&](std::size_t b, BatchResult& result) { forces(taskOf(b, nodes, now, start), result); };
-  if (threads() == 1 || count * perBatch < parallelNodes) {
-    BatchResult result;
-    for (std::size_t b = 0; b < count; ++b) {
-      body(b, result);
-      for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane)
-        for (std::size_t a = 0; a < perBatch; ++a) {
-          Vec3& node = f[static_cast<std::size_t>(cells_.batchNode[b * perBatch + a][lane])];
-          for (int i = 0; i < 3; ++i) node[i] -= result.f[3 * a + static_cast<std::size_t>(i)][lane];
-        }
+/// Lanes per batch in results_: kernels leave their energy there too.
+std::size_t SolidBase::stride() const { return bricks_ ? sizeof(BatchForces) / sizeof(Lane) : 3 * cells_.nodes; }
+
+/// Place of component i of local node a among the forces of a batch, in lanes.
+std::size_t SolidBase::slot(std::size_t a, std::size_t i) const { return bricks_ ? 8 * i + brickNode[a] : 3 * a + i; }
+
+void SolidBase::subtract(std::size_t batch, const Lane* forces, std::span<Vec3> f) const {
+  const std::size_t n = cells_.nodes, across = slot(0, 1);
+  for (std::size_t lane = 0; lane < cells_.inUse(batch); ++lane)
+    for (std::size_t a = 0; a < n; ++a) {
+      Vec3& node = f[static_cast<std::size_t>(cells_.batchNode[batch * n + a][lane])];
+      const Lane* const own = forces + slot(a, 0);
+      for (std::size_t i = 0; i < 3; ++i) node[static_cast<int>(i)] -= own[i * across][static_cast<int>(lane)];
     }
-    return;
-  }
-  const std::size_t size = 3 * perBatch;
-  results_.resize(count * size);
-  parallelFor(count, batchGrain, [&](std::size_t begin, std::size_t end) {
-    BatchResult result;
-    for (std::size_t b = begin; b < end; ++b) {
-      body(b, result);
-      std::copy_n(result.f.begin(), size, results_.begin() + static_cast<std::ptrdiff_t>(b * size));
-    }
-  });
+}
+
+/// Every node adds its own entries, in the order of the elements.
+void SolidBase::gather(std::span<Vec3> f) const {
   const auto* const values = reinterpret_cast<const double*>(results_.data());
+  const std::size_t across = slot(0, 1) * laneCount;
   parallelFor(f.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
       for (std::uint32_t k = nodeOffsets_[n]; k < nodeOffsets_[n + 1]; ++k) {
         const double* const value = values + nodeEntries_[k];
         f[n].x -= value[0];
-        f[n].y -= value[laneCount];
-        f[n].z -= value[2 * laneCount];
+        f[n].y -= value[across];
+        f[n].z -= value[2 * across];
       }
   });
 }
 
-void SolidBase::addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) { addAll(nodes, now, nullptr, f); }
+/// Subtracts the forces that body(batch, lanes) writes for every batch from f.
+template <class Body>
+SolidBase::Totals SolidBase::eachBatch(std::span<Vec3> f, Body&& body) {
+  const std::size_t count = cells_.batches(), lanes = stride();
+  const bool many = threads() > 1 && count * cells_.nodes > parallelNodes;
+  if (many) {
+    results_.resize(count * lanes);
+    listEntries();
+  }
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    Totals sum;
+    std::array<Lane, 3 * maxCellNodes> local;
+    for (std::size_t b = begin; b < end; ++b) {
+      Lane* const forces = many ? &results_[b * lanes] : local.data();
+      sum += body(b, forces);
+      if (!many) subtract(b, forces, f);
+    }
+    return sum;
+  };
+  const std::size_t grain = bricks_ ? kernelGrain : batchGrain;
+  if (many) {
+    const Totals sum = parallelSum(count, grain, part);
+    gather(f);
+    return sum;
+  }
+  Totals sum;
+  for (std::size_t begin = 0; begin < count; begin += grain) sum += part(begin, std::min(count, begin + grain));
+  return sum;
+}
+
+SolidBase::Totals SolidBase::addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f,
+                                    bool withEnergy) {
+  requireSameNodes(nodes);
+  startHistory();
+  if (bricks_ && start == nullptr) {
+    // The kernels are called through a pointer and write to memory, so that no compiler fuses a product of theirs with
+    // the sum over elements: one thread and many then add the very same numbers.
+    const auto kernel = kernels().forces;
+    return eachBatch(f, [&](std::size_t b, Lane* lanes) {
+      auto& forces = *reinterpret_cast<BatchForces*>(lanes);
+      kernel(*bricks_, bricks_->batches[b], nodes.u.data(), withEnergy, forces);
+      return Totals{withEnergy ? sumOfLanes(forces.energy) : 0.0, 0.0};
+    });
+  }
+  if (start != nullptr) needGeometry();
+  const bool remembers = material_->historySize() > 0 && start == nullptr;
+  const Totals sum = eachBatch(f, [&](std::size_t b, Lane* lanes) {
+    BatchTask task = taskOf(b, nodes, now, start);
+    task.wantEnergy = withEnergy || remembers;
+    task.wantDissipation = remembers;
+    BatchResult result;
+    forces(task, result);
+    std::copy_n(result.f.begin(), 3 * cells_.nodes, lanes);
+    return Totals{task.wantEnergy ? sumOfLanes(result.energy) : 0.0,
+                  task.wantDissipation ? sumOfLanes(result.dissipated) : 0.0};
+  });
+  if (remembers) evaluation_ = {nodes.u, now.dt, sum, true, false};
+  return sum;
+}
+
+void SolidBase::addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) {
+  addAll(nodes, now, nullptr, f, false);
+}
+
+double SolidBase::addForcesAndEnergy(const Nodes& nodes, const Instant& now, std::span<Vec3> f) {
+  return addAll(nodes, now, nullptr, f, true).energy;
+}
 
 bool SolidBase::addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
                                     std::span<Vec3> f) {
   if (!conserves()) return false;
-  addAll(nodes, now, u0.data(), f);
+  addAll(nodes, now, u0.data(), f, false);
   return true;
 }
 
-std::array<double, 2> SolidBase::totals(const Nodes& nodes, const Instant& now, bool wantEnergy, bool wantDissipation) {
+bool SolidBase::isKnown(const Nodes& nodes, const Instant& now) const {
+  return evaluation_.known && evaluation_.dt == now.dt && evaluation_.u == nodes.u;
+}
+
+/// Energy and dissipation at a state, asked of the material only if the last forces were not those of the same state.
+SolidBase::Totals SolidBase::totals(const Nodes& nodes, const Instant& now) {
   requireSameNodes(nodes);
   startHistory();
-  struct Sum {
-    double energy = 0.0, dissipated = 0.0;
-    Sum& operator+=(const Sum& other) {
-      energy += other.energy;
-      dissipated += other.dissipated;
-      return *this;
-    }
-  };
-  const Sum sum = parallelSum(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
-    Sum part;
+  if (isKnown(nodes, now)) return evaluation_.totals;
+  const bool remembers = material_->historySize() > 0;
+  const Totals sum = parallelSum(cells_.batches(), bricks_ ? kernelGrain : batchGrain, [&](std::size_t begin,
+                                                                                          std::size_t end) {
+    Totals part;
     BatchResult result;
     for (std::size_t b = begin; b < end; ++b) {
       BatchTask task = taskOf(b, nodes, now);
-      task.wantEnergy = wantEnergy;
-      task.wantDissipation = wantDissipation;
-      forces(task, result);
-      if (wantEnergy) part.energy += sumOfLanes(result.energy);
-      if (wantDissipation) part.dissipated += sumOfLanes(result.dissipated);
+      task.wantEnergy = true;
+      task.wantDissipation = remembers;
+      energies(task, result);
+      part += {sumOfLanes(result.energy), remembers ? sumOfLanes(result.dissipated) : 0.0};
     }
     return part;
   });
-  return {sum.energy, sum.dissipated};
+  if (remembers) evaluation_ = {nodes.u, now.dt, sum, true, false};
+  return sum;
 }
 
-double SolidBase::energy(const Nodes& nodes, const Instant& now) { return totals(nodes, now, true, false)[0]; }
+/// Energy and dissipation of a batch.
+void SolidBase::energies(const BatchTask& task, BatchResult& result) {
+  if (!bricks_) return forces(task, result);
+  BatchForces forces;
+  kernels().forces(*bricks_, bricks_->batches[task.batch], task.u, true, forces);
+  result.energy = forces.energy;
+}
+
+double SolidBase::energy(const Nodes& nodes, const Instant& now) { return totals(nodes, now).energy; }
+
+std::vector<double> SolidBase::elementEnergies(const Nodes& nodes, const Instant& now) {
+  requireSameNodes(nodes);
+  startHistory();
+  std::vector<double> energies(cells_.size());
+  parallelFor(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
+    BatchResult result;
+    for (std::size_t b = begin; b < end; ++b) {
+      BatchTask task = taskOf(b, nodes, now);
+      task.wantEnergy = true;
+      this->energies(task, result);
+      for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane)
+        energies[laneCount * b + lane] = result.energy[static_cast<int>(lane)];
+    }
+  });
+  evaluation_.known = false;  // what would be committed is not that of a whole evaluation any more
+  return energies;
+}
 
 double SolidBase::commit(const Nodes& nodes, const Instant& now) {
   if (material_->historySize() == 0) return 0.0;
-  const double dissipated = totals(nodes, now, false, true)[1];
+  if (evaluation_.committed) evaluation_.known = false;
+  const double dissipated = totals(nodes, now).dissipated;
   history_.swap(newHistory_);
+  evaluation_.committed = true;
   return dissipated;
 }
 
-void SolidBase::requireValid(const Nodes& nodes, const std::string& when) const {
+/// @throws NumericalError for the first element of the batch with det F ≤ 0, or NaN
+void SolidBase::requireUpright(std::size_t b, const Nodes& nodes, const std::string& when) const {
+  BatchDeterminants determinants;
+  kernels().determinants(*bricks_, bricks_->batches[b], nodes.u.data(), determinants);
+  for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane)
+    for (const Lane& value : determinants.value)
+      if (!(value[static_cast<int>(lane)] > 0.0))
+        complain(b, lane, "is inverted (det F = " + formatNumber(value[static_cast<int>(lane)]) + ")", when);
+}
+
+void SolidBase::complain(std::size_t batch, std::size_t lane, const std::string& reason,
+                         const std::string& when) const {
+  throw NumericalError("element " + std::to_string(cells_.number[laneCount * batch + lane]) + " of \"" +
+                           options_.name + "\" " + reason,
+                       when, "take a smaller step, a finer mesh or a smaller load");
+}
+
+void SolidBase::requireValid(const Nodes& nodes, const std::string& when, Scrutiny scrutiny) {
   requireSameNodes(nodes);
-  std::vector<Lane> F(9 * points());
-  for (std::size_t b = 0; b < cells_.batches(); ++b) {
-    compatibleDeformation({b, nodes.u.data(), nullptr, 0.0, false, false}, F.data());
-    for (std::size_t q = 0; q < points(); ++q)
-      for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane) {
-        std::array<double, 9> here;
-        for (std::size_t k = 0; k < 9; ++k) here[k] = F[9 * q + k][lane];
-        const std::string reason = material_->whyInvalid(here.data());
-        if (reason.empty()) continue;
-        throw NumericalError("element " + std::to_string(cells_.number[laneCount * b + lane]) + " of \"" +
-                                 options_.name + "\": " + reason,
-                             when, "take a smaller step, a finer mesh or a smaller load");
+  const bool byKernels = bricks_ && scrutiny == Scrutiny::inversion;
+  if (!byKernels) needGeometry();
+  parallelFor(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Lane> F(9 * points());
+    for (std::size_t b = begin; b < end; ++b) {
+      if (byKernels) {
+        requireUpright(b, nodes, when);
+        continue;
       }
-  }
+      compatibleDeformation({b, nodes.u.data(), nullptr, 0.0, false, false}, F.data());
+      for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane)
+        for (std::size_t q = 0; q < points(); ++q) {
+          std::array<double, 9> here;
+          for (std::size_t k = 0; k < 9; ++k) here[k] = F[9 * q + k][static_cast<int>(lane)];
+          const std::string reason = scrutiny == Scrutiny::inversion ? material_->PointMaterial::whyInvalid(here.data())
+                                                                     : material_->whyInvalid(here.data());
+          if (!reason.empty()) complain(b, lane, "at point " + std::to_string(q) + ": " + reason, when);
+        }
+    }
+  });
 }
 
 std::size_t SolidBase::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return bytes(cells_.node) + bytes(cells_.X) + bytes(cells_.batchNode) + bytes(geometry_) + bytes(history_) +
-         bytes(newHistory_) + bytes(results_) + bytes(nodeOffsets_) + bytes(nodeEntries_) + bytes(places_);
+  return bytes(cells_.number) + bytes(cells_.X) + bytes(cells_.share) + bytes(cells_.batchNode) + bytes(geometry_) + bytes(history_) +
+         bytes(newHistory_) + bytes(evaluation_.u) + bytes(results_) + bytes(nodeOffsets_) + bytes(nodeEntries_) + bytes(places_) +
+         (bricks_ ? bricks_->memory() : 0) + formulationMemory();
 }
 
 Solid::Sample SolidBase::sample(const Nodes& nodes, const Instant& now) {
   requireSameNodes(nodes);
   startHistory();
+  needGeometry();
+  evaluation_.known = false;
   const std::size_t n = cells_.nodes, q = points(), size = material_->historySize();
   std::vector<Lane> F(9 * q), P(9 * q), energy(q);
   Sample sample;

@@ -6,35 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "../mesh/shapes.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
 #include "lane.hpp"
+#include "solid_cells.hpp"
 
 namespace dovetail::fem::detail {
-
-/// The elements of one shape that a solid consists of, four side by side. A batch that is not full repeats its last
-/// element with zero weight.
-struct SolidCells {
-  CellShape shape;
-  std::size_t nodes;                                           ///< per element
-  std::vector<int> node;                                       ///< [nodes e + a]
-  std::vector<int> number;                                     ///< in the mesh, per element
-  std::vector<Vec3> X;                                         ///< of the mesh, m
-  std::vector<std::array<std::int32_t, laneCount>> batchNode;  ///< [nodes b + a]
-  std::size_t size() const { return number.size(); }
-  std::size_t batches() const { return (size() + laneCount - 1) / laneCount; }
-  std::size_t inUse(std::size_t batch) const { return std::min<std::size_t>(laneCount, size() - laneCount * batch); }
-};
-
-/// ∂ξ/∂X, row-major, and weight (det ∂X/∂ξ times that of the rule; 0 in lanes that repeat) at one point of a batch.
-struct alignas(laneBytes) PointGeometry {
-  std::array<Lane, 9> map;
-  Lane weight;
-};
-
-/// Geometry at every point of a rule, [points b + q].
-std::vector<PointGeometry> geometryAt(const SolidCells& cells, const CellRule& rule);
 
 /// Sums over the points of a batch.
 struct alignas(laneBytes) BatchResult {
@@ -53,10 +30,14 @@ struct BatchTask {
 
 class SolidBase : public Solid {
 public:
-  SolidBase(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options);
+  /// @param lazy  leave geometry_ empty until needGeometry()
+  SolidBase(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options,
+            bool lazy = false);
+  ~SolidBase() override;
 
   std::string name() const override { return options_.name; }
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override;
+  double addForcesAndEnergy(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override;
   void addCouplings(Couplings& couplings) const override;
   void addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) override;
   bool addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
@@ -67,17 +48,21 @@ public:
   double energy(const Nodes& nodes, const Instant& now) override;
   double commit(const Nodes& nodes, const Instant& now) override;
   void addMass(std::span<double> mass) const override;
-  void addConsistentMass(BlockMatrix& M) const override;
+  void addConsistentMass(NodeMatrix& M) const override;
   void save(ByteWriter& archive) const override { archive(history_); }
   void load(ByteReader& archive) override;
-  void requireValid(const Nodes& nodes, const std::string& when) const override;
+  void requireValid(const Nodes& nodes, const std::string& when, Scrutiny scrutiny) override;
 
   std::size_t size() const override { return cells_.size(); }
   std::size_t memory() const override;
   const PointMaterial& material() const override { return *material_; }
   StableStep stableStep(const Nodes& nodes) override;
+  CellShape shape() const override { return cells_.shape; }
+  Formulation formulation() const override { return options_.formulation; }
   int number(std::size_t e) const override { return cells_.number[e]; }
   Sample sample(const Nodes& nodes, const Instant& now) override;
+  std::vector<double> elementEnergies(const Nodes& nodes, const Instant& now) override;
+  std::span<const double> share() const override { return cells_.share; }
 
 protected:
   virtual std::size_t points() const { return static_cast<std::size_t>(rule_->points); }
@@ -95,29 +80,63 @@ protected:
   /// Whether forces() and tangent() know what to do with a `start`.
   virtual bool conserves() const { return false; }
 
+  /// Bytes of what a formulation keeps beside.
+  virtual std::size_t formulationMemory() const { return 0; }
+  /// From now on the hand-written kernels give forces and energies, and geometry() waits until something else needs it.
+  void useKernels(const Material& law, bool assumedStress);
+
   SolidCells cells_;
   std::shared_ptr<const PointMaterial> material_;
   SolidOptions options_;
   const CellRule* rule_;
-  std::vector<PointGeometry> geometry_;
+  std::vector<PointGeometry> geometry_;  // empty where kernels do without
 
 private:
-  std::vector<double> elementMasses(std::size_t element, const CellRule& rule,
-                                    std::span<const PointGeometry> geometry) const;
+  struct Totals {
+    double energy = 0.0, dissipated = 0.0;
+    Totals& operator+=(const Totals& other) {
+      energy += other.energy;
+      dissipated += other.dissipated;
+      return *this;
+    }
+  };
+  /// What the last evaluation of a law with history was asked, and answered.
+  struct Evaluation {
+    std::vector<Vec3> u;
+    double dt = 0.0;
+    Totals totals;
+    bool known = false, committed = false;
+  };
+
   BatchTask taskOf(std::size_t batch, const Nodes& nodes, const Instant& now, const Vec3* start = nullptr) const;
-  void addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f);
-  void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, BlockMatrix& K);
-  std::array<double, 2> totals(const Nodes& nodes, const Instant& now, bool wantEnergy, bool wantDissipation);
+  template <class Body>
+  Totals eachBatch(std::span<Vec3> f, Body&& body);
+  Totals addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f, bool withEnergy);
+  std::size_t stride() const;
+  std::size_t slot(std::size_t a, std::size_t i) const;
+  void subtract(std::size_t batch, const Lane* forces, std::span<Vec3> f) const;
+  void gather(std::span<Vec3> f) const;
+  void energies(const BatchTask& task, BatchResult& result);
+  bool isKnown(const Nodes& nodes, const Instant& now) const;
+  Totals totals(const Nodes& nodes, const Instant& now);
   void startHistory();
+  void needGeometry();
+  [[noreturn]] void complain(std::size_t batch, std::size_t lane, const std::string& reason,
+                             const std::string& when) const;
+  void requireUpright(std::size_t batch, const Nodes& nodes, const std::string& when) const;
+
+  void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, BlockMatrix& K);
   void listEntries();
   void colourBatches();
   void findPlaces(const BlockMatrix& K);
   void scatter(std::size_t batch, const Lane* matrix, BlockMatrix& K) const;
 
+  std::unique_ptr<const BrickCache> bricks_;  // if there are kernels
   std::vector<double> history_, newHistory_;
-  std::vector<Lane> results_;               // forces of all batches, [3 nodes b + 3 a + i], for more than one thread
+  Evaluation evaluation_;
+  std::vector<Lane> results_;               // forces of all batches, for more than one thread
   std::vector<std::uint32_t> nodeOffsets_;  // entries of each node in results_, ascending elements
-  std::vector<std::uint64_t> nodeEntries_;  // place of their first component, in doubles
+  std::vector<std::uint32_t> nodeEntries_;  // place of their first component, in doubles
   std::vector<std::vector<std::uint32_t>> colours_;  // batches of a colour share no node
   std::vector<std::uint32_t> places_;                // of the blocks (a, b) of each element in a matrix
   std::size_t placesOf_ = 0;                         // its pattern

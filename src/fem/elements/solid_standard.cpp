@@ -1,5 +1,5 @@
 // Displacement elements of all shapes.
-#include "brick_kernels.hpp"
+#include "cell_kernels.hpp"
 #include "conserving.hpp"
 #include "dovetail/core/error.hpp"
 
@@ -11,9 +11,9 @@ template <int N, int Q>
 class StandardSolid final : public SolidBase {
 public:
   StandardSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options)
-      : SolidBase(std::move(cells), std::move(material), options) {
+      : SolidBase(std::move(cells), material, options, N == 8 && material->brickLaw()) {
     if constexpr (N == 8)
-      if (const auto law = material_->brickLaw()) kernels_.emplace(cells_, ElementType::hex8, *law);
+      if (const auto law = material_->brickLaw()) useKernels(*law, false);
   }
 
 private:
@@ -34,7 +34,6 @@ private:
   bool conserves() const override { return material_->isElastic(); }
 
   void forces(const BatchTask& task, BatchResult& result) override {
-    if (kernels_ && task.start == nullptr) return kernels_->forces(task, result);
     Tensors F, P;
     deformationOf(task.batch, task.u, F.data());
     std::array<Lane, Q> energy{}, dissipated{};
@@ -124,8 +123,6 @@ private:
       if (A != nullptr) conservingModuli(&U[9 * q], mean, &F1[9 * q], meanS, S, A + 81 * q);
     }
   }
-
-  std::optional<BrickKernels> kernels_;  // for laws that they know
 };
 
 }  // namespace

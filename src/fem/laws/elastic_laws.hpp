@@ -103,7 +103,10 @@ struct StVenantKirchhoffLaw {
 };
 
 struct AxialSpringsLaw {
+  AxialSprings constants;
   double young;
+
+  Material brickLaw() const { return constants; }
 
   template <class T>
   T energy(const Tensor<T>& F) const {
@@ -121,7 +124,10 @@ struct AxialSpringsLaw {
 
 struct DeformedMetricLaw {
   static constexpr bool hasPotential = false;
+  DeformedMetricHooke constants;
   double lambda, mu;
+
+  Material brickLaw() const { return constants; }
 
   template <class T>
   Tensor<T> secondStress(const Tensor<T>& F) const {

@@ -75,9 +75,10 @@ std::shared_ptr<const PointMaterial> pointMaterial(const Material& material) {
   const LameConstants lame = lameConstants(youngs, poissonRatio(material));
   if (const auto* law = std::get_if<StVenantKirchhoff>(&material))
     return elasticMaterial("St Venant-Kirchhoff", rho, detail::StVenantKirchhoffLaw{*law, lame.lambda, lame.mu});
-  if (std::holds_alternative<DeformedMetricHooke>(material))
-    return elasticMaterial("Hooke on the deformed metric", rho, detail::DeformedMetricLaw{lame.lambda, lame.mu});
-  return elasticMaterial("axial springs", rho, detail::AxialSpringsLaw{youngs});
+  if (const auto* law = std::get_if<DeformedMetricHooke>(&material))
+    return elasticMaterial("Hooke on the deformed metric", rho,
+                           detail::DeformedMetricLaw{*law, lame.lambda, lame.mu});
+  return elasticMaterial("axial springs", rho, detail::AxialSpringsLaw{std::get<AxialSprings>(material), youngs});
 }
 
 }  // namespace dovetail::fem

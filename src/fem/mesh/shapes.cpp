@@ -1,8 +1,36 @@
 #include "shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-namespace dovetail::fem::detail {
+namespace dovetail::fem {
+
+namespace {
+
+constexpr std::array<std::array<int, 3>, 8> brickSign = {
+    {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
+
+}  // namespace
+
+std::array<double, 8> shapeValues(const Vec3& xi) {
+  std::array<double, 8> value{};
+  for (std::size_t a = 0; a < 8; ++a)
+    value[a] =
+        0.125 * (1.0 + brickSign[a][0] * xi.x) * (1.0 + brickSign[a][1] * xi.y) * (1.0 + brickSign[a][2] * xi.z);
+  return value;
+}
+
+std::array<Vec3, 8> parentGradients(const Vec3& xi) {
+  std::array<Vec3, 8> gradient{};
+  for (std::size_t a = 0; a < 8; ++a) {
+    const auto [sx, sy, sz] = brickSign[a];
+    const double x = 1.0 + sx * xi.x, y = 1.0 + sy * xi.y, z = 1.0 + sz * xi.z;
+    gradient[a] = {0.125 * sx * y * z, 0.125 * x * sy * z, 0.125 * x * y * sz};
+  }
+  return gradient;
+}
+
+namespace detail {
 
 namespace {
 
@@ -280,22 +308,6 @@ FaceRule makeFaceRule(FaceShape shape) {
 
 }  // namespace
 
-std::span<const Vec3> parentNodes(CellShape shape) {
-  static const auto nodes =
-      perShape([](CellShape s) { return isTet(s) ? tetNodes(nodesOf(s)) : brickNodes(nodesOf(s)); });
-  return nodes[static_cast<std::size_t>(shape)];
-}
-
-void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient) {
-  if (isTet(shape)) return tetFunctions(shape == CellShape::tet10, xi, value, gradient);
-  const std::span<const Vec3> nodes = parentNodes(shape);
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    if (shape == CellShape::hex20)
-      serendipity(nodes[a], xi, value[a], gradient[a]);
-    else
-      tensorProduct(nodes[a], xi, shape == CellShape::hex27, value[a], gradient[a]);
-}
-
 const CellRule& forceRule(CellShape shape) {
   static const auto rules = perShape(makeForceRule);
   return rules[static_cast<std::size_t>(shape)];
@@ -328,4 +340,27 @@ const FaceRule& faceRule(FaceShape shape) {
   return rules[static_cast<std::size_t>(shape)];
 }
 
-}  // namespace dovetail::fem::detail
+}  // namespace detail
+
+std::span<const Vec3> parentNodes(CellShape shape) {
+  static const auto nodes =
+      detail::perShape([](CellShape s) { return detail::isTet(s) ? detail::tetNodes(nodesOf(s)) : detail::brickNodes(nodesOf(s)); });
+  return nodes[static_cast<std::size_t>(shape)];
+}
+
+void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient) {
+  if (detail::isTet(shape)) return detail::tetFunctions(shape == CellShape::tet10, xi, value, gradient);
+  if (shape == CellShape::hex8) {
+    std::ranges::copy(shapeValues(xi), value.begin());
+    std::ranges::copy(parentGradients(xi), gradient.begin());
+    return;
+  }
+  const std::span<const Vec3> nodes = parentNodes(shape);
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    if (shape == CellShape::hex20)
+      detail::serendipity(nodes[a], xi, value[a], gradient[a]);
+    else
+      detail::tensorProduct(nodes[a], xi, shape == CellShape::hex27, value[a], gradient[a]);
+}
+
+}  // namespace dovetail::fem

@@ -5,18 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "dovetail/fem/mesh/solid_mesh.hpp"
+#include "dovetail/fem/mesh/shape.hpp"
 
 namespace dovetail::fem::detail {
 
 /// Largest numbers of nodes and quadrature points of a cell (of the rule that forces use).
 inline constexpr int maxCellNodes = 27;
 inline constexpr int maxCellPoints = 27;
-
-/// Parent coordinates of the nodes: bricks fill [−1, 1]³, tetrahedra ξ, η, ζ ≥ 0 with ξ + η + ζ ≤ 1.
-std::span<const Vec3> parentNodes(CellShape shape);
-/// ψ_a(ξ) and ∂ψ_a/∂ξ_j, nodesOf(shape) entries each.
-void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient);
 
 /// Points and weights of a quadrature with the shape functions there.
 struct CellRule {

@@ -7,11 +7,13 @@
 
 namespace dovetail::fem {
 
-BlockMatrix couplingPattern(const Model& model) {
+Couplings couplingsOf(const Model& model) {
   Couplings couplings(model.nodes.X.size());
   for (const auto& term : model.terms) term->addCouplings(couplings);
-  return BlockMatrix(std::move(couplings));
+  return couplings;
 }
+
+BlockMatrix couplingPattern(const Model& model) { return BlockMatrix(couplingsOf(model)); }
 
 Model makeModel(const SolidMesh& mesh) {
   const std::size_t n = mesh.X.size();
@@ -36,7 +38,7 @@ void addMass(Model& model) {
 }
 
 void evaluateForces(Model& model, const Instant& now) {
-  clearForces(model.nodes);
+  std::fill(model.nodes.f.begin(), model.nodes.f.end(), Vec3{});
   for (const auto& term : model.terms) term->addForces(model.nodes, now, model.nodes.f);
 }
 

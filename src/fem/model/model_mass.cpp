@@ -1,5 +1,6 @@
 #include "dovetail/fem/model/model_mass.hpp"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 
 #include "dovetail/core/error.hpp"
@@ -12,94 +13,231 @@ namespace {
 constexpr std::size_t nodeGrain = 4096;
 }
 
+double matchedShare(double spacing, double elementSize) {
+  requirePositive(elementSize, "element size");
+  if (!(spacing >= 0.0 && spacing <= elementSize))
+    throw InputError("the spacing " + formatNumber(spacing) + " m is not within 0 and the element size " +
+                         formatNumber(elementSize) + " m",
+                     "matchedShare", "take particles that are no larger than an element");
+  const double ratio = spacing / elementSize;
+  return 0.5 * (1.0 - ratio * ratio);
+}
+
+/// LDLᵀ of the free nodes of one component, one right-hand side of three numbers per node. Unit lower triangle by
+/// columns, in the order of elimination.
+struct ModelMass::Factor {
+  std::vector<int> order;         // place → node
+  std::vector<int> offsets, row;  // strictly lower, by columns
+  std::vector<double> lower, inverseDiagonal;
+  std::vector<Vec3> work;
+
+  Factor(const ModelMass& mass, int component) {
+    const std::size_t n = mass.mass_.size();
+    std::vector<int> place(n, -1), free;
+    for (std::size_t i = 0; i < n; ++i)
+      if (mass.isFree(i, component)) {
+        place[i] = static_cast<int>(free.size());
+        free.push_back(static_cast<int>(i));
+      }
+    const NodeMatrix& M = mass.matrix_;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const int i : free)
+      for (int k = M.offsets()[i]; k < M.offsets()[i + 1]; ++k)
+        if (place[M.columns()[k]] >= 0 && M.values()[k] != 0.0)
+          entries.emplace_back(place[i], place[M.columns()[k]], M.values()[k]);
+    const auto size = static_cast<Eigen::Index>(free.size());
+    Eigen::SparseMatrix<double> matrix(size, size);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(matrix);
+    if (size > 0 && (ldlt.info() != Eigen::Success || !(ldlt.vectorD().minCoeff() > 0.0)))
+      throw NumericalError("the mass matrix is not positive definite", "ModelMass",
+                           "take a smaller share of the consistent mass, or shares of the solid above zero");
+    take(ldlt, free);
+  }
+
+  void take(const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>& ldlt, const std::vector<int>& free) {
+    order.resize(free.size());
+    work.resize(free.size());
+    offsets.push_back(0);
+    if (free.empty()) return;
+    const auto& position = ldlt.permutationP().indices();
+    for (std::size_t i = 0; i < free.size(); ++i)
+      order[static_cast<std::size_t>(position[static_cast<Eigen::Index>(i)])] = free[i];
+    const Eigen::SparseMatrix<double> L = ldlt.matrixL();
+    const Eigen::VectorXd D = ldlt.vectorD();
+    for (Eigen::Index column = 0; column < L.outerSize(); ++column) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(L, column); it; ++it)
+        if (it.row() > column && it.value() != 0.0) {
+          row.push_back(static_cast<int>(it.row()));
+          lower.push_back(it.value());
+        }
+      offsets.push_back(static_cast<int>(row.size()));
+      inverseDiagonal.push_back(1.0 / D[column]);
+    }
+  }
+
+  /// work ← M⁻¹ f, in the order of elimination.
+  void solve(std::span<const Vec3> f) {
+    const std::size_t n = order.size();
+    for (std::size_t i = 0; i < n; ++i) work[i] = f[static_cast<std::size_t>(order[i])];
+    for (std::size_t j = 0; j < n; ++j) {
+      const Vec3 value = work[j];
+      for (int k = offsets[j]; k < offsets[j + 1]; ++k) work[static_cast<std::size_t>(row[k])] -= lower[k] * value;
+      work[j] = inverseDiagonal[j] * value;
+    }
+    for (std::size_t j = n; j-- > 0;) {
+      Vec3 value = work[j];
+      for (int k = offsets[j]; k < offsets[j + 1]; ++k) value -= lower[k] * work[static_cast<std::size_t>(row[k])];
+      work[j] = value;
+    }
+  }
+};
+
+ModelMass::~ModelMass() = default;
+ModelMass::ModelMass(ModelMass&&) noexcept = default;
+
 ModelMass::ModelMass(const Model& model, const DofMap& dofs, double share)
-    : dofs_(&dofs), share_(share), diagonal_(share == 0.0 && !dofs.hasTies()), solver_(dofs), reduced_(dofs.size()) {
+    : dofs_(&dofs), share_(share), mass_(model.nodes.mass), reduced_(dofs.hasTies() ? dofs.size() : 0) {
   if (!(share >= 0.0 && share <= 1.0))
     throw InputError("the share is " + formatNumber(share), "ModelMass", "give 0 (lumped) to 1 (consistent)");
-  for (std::size_t n = 0; n < model.nodes.mass.size(); ++n) {
-    if (!(model.nodes.mass[n] > 0.0) && model.nodes.fixed[n] != allComponents)
+  for (std::size_t n = 0; n < mass_.size(); ++n)
+    if (!(mass_[n] > 0.0) && model.nodes.fixed[n] != allComponents)
       throw InputError("it has no mass", "node " + std::to_string(n), "call addMass(model), or fix all its components");
-    lumped_.push_back((1.0 - share) * model.nodes.mass[n]);
-  }
-  work_.resize(lumped_.size());
   if (share == 0.0) return;
-  consistent_ = couplingPattern(model);
-  consistent_.setZero();
-  for (const auto& term : model.terms) term->addConsistentMass(consistent_);
-  for (double& value : consistent_.values()) value *= share;
+  matrix_ = NodeMatrix(couplingsOf(model));
+  for (const auto& term : model.terms) term->addConsistentMass(matrix_);
+  for (double& value : matrix_.values()) value *= share;
+  for (std::size_t n = 0; n < mass_.size(); ++n)
+    matrix_.values()[matrix_.place(static_cast<int>(n), static_cast<int>(n))] += (1.0 - share) * mass_[n];
 }
 
 void ModelMass::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
-  if (share_ > 0.0)
-    consistent_.multiply(x, y);
-  else
-    std::fill(y.begin(), y.end(), Vec3{});
+  if (share_ > 0.0) return matrix_.multiply(x, y);
   parallelFor(x.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) y[n] += lumped_[n] * x[n];
+    for (std::size_t n = begin; n < end; ++n) y[n] = mass_[n] * x[n];
   });
 }
 
 double ModelMass::kineticEnergy(std::span<const Vec3> v) const {
-  std::vector<Vec3> p(v.size());
-  multiply(v, p);
+  std::vector<Vec3> p(share_ > 0.0 ? v.size() : 0);
+  if (share_ > 0.0) multiply(v, p);
   return parallelSum(v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
-    for (std::size_t n = begin; n < end; ++n) sum += 0.5 * dot(v[n], p[n]);
+    for (std::size_t n = begin; n < end; ++n)
+      sum += share_ > 0.0 ? 0.5 * dot(v[n], p[n]) : 0.5 * mass_[n] * squaredNorm(v[n]);
     return sum;
   });
 }
 
 void ModelMass::addTo(BlockMatrix& S, double factor) const {
-  for (std::size_t n = 0; n < lumped_.size(); ++n) {
-    double* const block = &S.values()[9 * S.place(static_cast<int>(n), static_cast<int>(n))];
-    for (std::size_t c = 0; c < 3; ++c) block[4 * c] += factor * lumped_[n];
-  }
-  if (share_ == 0.0) return;
-  if (!std::ranges::equal(S.columns(), consistent_.columns()) ||
-      !std::ranges::equal(S.offsets(), consistent_.offsets()))
-    throw InputError("the matrix has another pattern", "ModelMass::addTo",
-                     "make it with couplingPattern of the same model");
-  for (std::size_t k = 0; k < S.values().size(); ++k) S.values()[k] += factor * consistent_.values()[k];
-}
-
-/// a = f/m of the free components where nothing couples them.
-void ModelMass::accelerateEach(std::span<const Vec3> f, std::span<Vec3> a) const {
-  const std::span<const int> row = dofs_->freeRow();
-  parallelFor(a.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      if (row[3 * n] >= 0) a[n].x = f[n].x / lumped_[n];
-      if (row[3 * n + 1] >= 0) a[n].y = f[n].y / lumped_[n];
-      if (row[3 * n + 2] >= 0) a[n].z = f[n].z / lumped_[n];
-    }
-  });
-}
-
-void ModelMass::accelerate(std::span<const Vec3> f, std::span<Vec3> a) {
-  if (diagonal_ && !dofs_->hasTies()) return accelerateEach(f, a);
-  const std::span<const int> free = dofs_->freeDofs();
-  parallelFor(free.size(), 3 * nodeGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) a[static_cast<std::size_t>(free[i] / 3)][free[i] % 3] = 0.0;
-  });
-  if (diagonal_) {
-    dofs_->reduce(f, reduced_);
-    parallelFor(free.size(), 3 * nodeGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) reduced_[i] /= lumped_[static_cast<std::size_t>(free[i] / 3)];
-    });
-    dofs_->addIncrement(reduced_, a);
+  const auto add = [&](std::size_t place, double mass) {
+    for (std::size_t c = 0; c < 3; ++c) S.values()[9 * place + 4 * c] += factor * mass;
+  };
+  if (share_ == 0.0) {
+    for (std::size_t n = 0; n < mass_.size(); ++n) add(S.place(static_cast<int>(n), static_cast<int>(n)), mass_[n]);
     return;
   }
-  if (!solver_.factored()) {
-    whole_ = share_ > 0.0 ? consistent_ : BlockMatrix(Couplings(lumped_.size()));
-    whole_.setZero();
-    addTo(whole_, 1.0);
-    if (!solver_.factor(whole_, true))
+  if (!std::ranges::equal(S.columns(), matrix_.columns()) || !std::ranges::equal(S.offsets(), matrix_.offsets()))
+    throw InputError("the matrix has another pattern", "ModelMass::addTo",
+                     "make it with couplingPattern of the same model");
+  parallelFor(matrix_.values().size(), 16 * nodeGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) add(k, matrix_.values()[k]);
+  });
+}
+
+void ModelMass::factorOnce() const {
+  if (!factors_.empty()) return;
+  const auto sameFree = [&](int a, int b) {
+    for (std::size_t n = 0; n < mass_.size(); ++n)
+      if (isFree(n, a) != isFree(n, b)) return false;
+    return true;
+  };
+  for (int c = 0; c < 3; ++c) {
+    int first = 0;
+    while (first < c && !sameFree(first, c)) ++first;
+    factorOf_[static_cast<std::size_t>(c)] =
+        first < c ? factorOf_[static_cast<std::size_t>(first)] : factors_.size();
+    if (first == c) factors_.emplace_back(*this, c);
+  }
+}
+
+void ModelMass::solveTied(std::span<Vec3> f) const {
+  if (!tiedSolver_) {
+    tied_ = share_ > 0.0 ? BlockMatrix(matrix_) : BlockMatrix(Couplings(mass_.size()));
+    addTo(tied_, 1.0);
+    tiedSolver_ = std::make_unique<LinearSolver>(*dofs_);
+    if (!tiedSolver_->factor(tied_, true))
       throw NumericalError("the mass matrix is singular", "ModelMass", "check the masses of all nodes");
   }
-  multiply(a, work_);
-  for (std::size_t n = 0; n < work_.size(); ++n) work_[n] = f[n] - work_[n];
-  dofs_->reduce(work_, reduced_);
-  solver_.solve(reduced_, reduced_);
-  dofs_->addIncrement(reduced_, a);
+  dofs_->reduce(f, reduced_);
+  tiedSolver_->solve(reduced_, reduced_);
+  std::fill(f.begin(), f.end(), Vec3{});
+  dofs_->addIncrement(reduced_, f);
+}
+
+void ModelMass::solve(std::span<Vec3> f) const {
+  if (dofs_->hasTies()) return solveTied(f);
+  const std::span<const int> row = dofs_->freeRow();
+  if (share_ == 0.0) {
+    parallelFor(f.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) {
+        const double inverse = 1.0 / mass_[n];
+        for (int c = 0; c < 3; ++c) f[n][c] = row[3 * n + static_cast<std::size_t>(c)] >= 0 ? inverse * f[n][c] : 0.0;
+      }
+    });
+    return;
+  }
+  factorOnce();
+  for (Factor& factor : factors_) factor.solve(f);
+  if (dofs_->size() < 3 * f.size())
+    for (std::size_t n = 0; n < f.size(); ++n)
+      for (int c = 0; c < 3; ++c)
+        if (row[3 * n + static_cast<std::size_t>(c)] < 0) f[n][c] = 0.0;
+  if (factors_.size() == 1) {
+    const Factor& factor = factors_.front();
+    for (std::size_t i = 0; i < factor.order.size(); ++i) f[static_cast<std::size_t>(factor.order[i])] = factor.work[i];
+    return;
+  }
+  for (int c = 0; c < 3; ++c) {
+    const Factor& factor = factors_[factorOf_[static_cast<std::size_t>(c)]];
+    for (std::size_t i = 0; i < factor.order.size(); ++i)
+      f[static_cast<std::size_t>(factor.order[i])][c] = factor.work[i][c];
+  }
+}
+
+void ModelMass::accelerate(std::span<const Vec3> f, std::span<Vec3> a) const {
+  std::vector<Vec3> load(f.begin(), f.end());
+  const bool moving = std::ranges::any_of(a, [](const Vec3& value) { return value != Vec3{}; });
+  if (!moving) {
+    solve(load);
+    std::copy(load.begin(), load.end(), a.begin());
+    return;
+  }
+  for (const int dof : dofs_->freeDofs()) a[static_cast<std::size_t>(dof / 3)][dof % 3] = 0.0;
+  std::vector<Vec3> inertia(a.size());
+  multiply(a, inertia);
+  for (std::size_t n = 0; n < load.size(); ++n) load[n] -= inertia[n];
+  solve(load);
+  for (std::size_t n = 0; n < load.size(); ++n) a[n] += load[n];
+}
+
+Vec3 ModelMass::supportForce(std::span<const Vec3> a, std::span<const Vec3> f) const {
+  Vec3 sum;
+  for (std::size_t n = 0; n < f.size(); ++n) {
+    bool allFree = true;
+    for (int c = 0; c < 3; ++c) allFree = allFree && isFree(n, c);
+    if (allFree) continue;
+    Vec3 inertia = mass_[n] * a[n];
+    if (share_ > 0.0) {
+      inertia = {};
+      for (int k = matrix_.offsets()[n]; k < matrix_.offsets()[n + 1]; ++k)
+        inertia += matrix_.values()[static_cast<std::size_t>(k)] *
+                   a[static_cast<std::size_t>(matrix_.columns()[static_cast<std::size_t>(k)])];
+    }
+    for (int c = 0; c < 3; ++c)
+      if (!isFree(n, c)) sum[c] += inertia[c] - f[n][c];
+  }
+  return sum;
 }
 
 }  // namespace dovetail::fem

@@ -11,18 +11,6 @@ namespace {
 constexpr std::size_t nodeGrain = 4096;
 }
 
-Nodes makeNodes(const Mesh& mesh) {
-  const std::size_t n = mesh.X.size();
-  Nodes nodes;
-  nodes.X = mesh.X;
-  nodes.u.resize(n);
-  nodes.v.resize(n);
-  nodes.f.resize(n);
-  nodes.mass.assign(n, 0.0);
-  nodes.fixed.assign(n, 0);
-  return nodes;
-}
-
 void fix(Nodes& nodes, std::span<const int> set, unsigned components) {
   if (set.empty()) throw InputError("the node set is empty", "fix", "give at least one node");
   if (components < 1 || components > allComponents)
@@ -87,7 +75,7 @@ Vec3 angularMomentum(const Nodes& nodes) {
 void requireMass(const Nodes& nodes) {
   for (std::size_t n = 0; n < nodes.mass.size(); ++n)
     if (nodes.fixed[n] != allComponents && !(nodes.mass[n] > 0.0))
-      throw InputError("it has no mass", "node " + std::to_string(n), "call addLumpedMass, or hold all its components");
+      throw InputError("it has no mass", "node " + std::to_string(n), "call addMass(model), or hold all its components");
 }
 
 }  // namespace dovetail::fem

@@ -9,11 +9,11 @@ EnergyBook::EnergyBook(const Model& model) : kinetic_(ledger_.addStored("kinetic
     if (term->hasEnergy()) stored_.push_back(ledger_.addStored(term->name()));
 }
 
-void EnergyBook::sample(Model& model, const Instant& now, double kinetic) {
+void EnergyBook::sample(const Model& model, std::span<const double> energies, double kinetic) {
   ledger_.set(kinetic_, kinetic);
   std::size_t next = 0;
-  for (const auto& term : model.terms)
-    if (term->hasEnergy()) ledger_.set(stored_[next++], term->energy(model.nodes, now));
+  for (std::size_t k = 0; k < model.terms.size(); ++k)
+    if (model.terms[k]->hasEnergy()) ledger_.set(stored_[next++], energies[k]);
 }
 
 void EnergyBook::spend(const std::string& channel, double joules) {

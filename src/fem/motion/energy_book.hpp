@@ -14,8 +14,8 @@ namespace dovetail::fem::detail {
 class EnergyBook {
 public:
   explicit EnergyBook(const Model& model);
-  /// Sets the stored channels to the present state.
-  void sample(Model& model, const Instant& now, double kinetic);
+  /// Sets the stored channels, J. @param energies  per term
+  void sample(const Model& model, std::span<const double> energies, double kinetic);
   /// The present state is the baseline.
   void open() { ledger_.open(); }
   void close() { ledger_.close(); }

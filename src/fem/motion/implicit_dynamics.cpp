@@ -2,18 +2,9 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "energy_book.hpp"
-#include "implicit_step.hpp"
+#include "implicit_advance.hpp"
 
 namespace dovetail::fem {
-
-namespace {
-
-const ImplicitOptions& checked(const ImplicitOptions& options) {
-  detail::validate(options);
-  return options;
-}
-
-}  // namespace
 
 Scheme newmark(double beta, double gamma) {
   if (!(2.0 * beta >= gamma && gamma >= 0.5))
@@ -42,29 +33,13 @@ Scheme generalisedAlpha(double rhoInfinity) {
 
 Scheme energyMomentum() { return {"energy-momentum", true}; }
 
-struct ImplicitIntegrator::Impl {
-  Model& model;
+struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
   double dt;
-  ImplicitOptions options;
-  DofMap dofs;
-  ModelMass mass;
-  Profile profile{true};
-  detail::ImplicitStep solver;
   detail::EnergyBook book;
-  std::int64_t steps = 0, cuts = 0, iterations = 0;
-  double largestResidual = 0.0;
 
   Impl(Model& m, double step, const ImplicitOptions& o)
-      : model(m),
-        dt(requirePositive(step, "dt")),
-        options(checked(o)),
-        dofs(m.constraints, m.nodes),
-        mass(m, dofs, o.massShare),
-        solver(m, dofs, mass, o, profile),
-        book(m) {
-    dofs.apply(model.t, model.nodes.u);
-    dofs.applyVelocity(model.t, dt, model.nodes.v);
-    solver.begin(dt);
+      : ImplicitMotion::Impl(m, o), dt(requirePositive(step, "dt")), book(m) {
+    begin(dt);
     sample();
     book.open();
   }
@@ -72,7 +47,10 @@ struct ImplicitIntegrator::Impl {
   void sample() {
     if (options.energyEvery == 0 || steps % options.energyEvery != 0) return;
     const Profile::Stage stage(profile, "energies");
-    book.sample(model, {model.t, dt}, mass.kineticEnergy(model.nodes.v));
+    std::vector<double> energies;
+    for (const auto& term : model.terms)
+      energies.push_back(term->hasEnergy() ? term->energy(model.nodes, {model.t, dt}) : 0.0);
+    book.sample(model, energies, mass.kineticEnergy(model.nodes.v));
   }
 
   /// Works of loads and supports and the dissipation of the scheme over the step that has just converged.
@@ -110,32 +88,13 @@ struct ImplicitIntegrator::Impl {
     return follows;
   }
 
-  void accept(double h, const detail::ImplicitStep::Result& result) {
+  void accept(double h) {
     if (options.energyEvery > 0) bookWorks(h);
     model.t += h;
     const Profile::Stage stage(profile, "materials accept");
     for (const auto& term : model.terms)
       if (const double spent = term->commit(model.nodes, {model.t, h}); options.energyEvery > 0)
         book.spend("dissipated by " + term->name(), spent);
-    solver.accept();
-    ++steps;
-    iterations += result.iterations;
-    largestResidual = std::max(largestResidual, result.residual);
-  }
-
-  /// Halves until it works.
-  void advance(double h, int depth) {
-    detail::ImplicitStep::Result result = solver.attempt(h, detail::ImplicitStep::Guess::coast);
-    if (!result.failure.empty()) result = solver.attempt(h, detail::ImplicitStep::Guess::rest);
-    if (result.failure.empty()) return accept(h, result);
-    if (depth == options.maxCuts)
-      throw NumericalError(
-          result.failure,
-          options.scheme.name + ", t = " + formatNumber(model.t) + " s, step of " + formatNumber(h) + " s",
-          "take a smaller step, or a finer mesh where elements are inverted");
-    ++cuts;
-    advance(0.5 * h, depth + 1);
-    advance(0.5 * h, depth + 1);
   }
 };
 
@@ -145,7 +104,7 @@ ImplicitIntegrator::~ImplicitIntegrator() = default;
 ImplicitIntegrator::ImplicitIntegrator(ImplicitIntegrator&&) noexcept = default;
 
 void ImplicitIntegrator::step() {
-  impl_->advance(impl_->dt, 0);
+  impl_->advance(impl_->dt, [this](double h) { impl_->accept(h); });
   impl_->sample();
   if (impl_->options.energyEvery > 0 && impl_->steps % impl_->options.energyEvery == 0) impl_->book.close();
 }

@@ -50,7 +50,9 @@ ImplicitStep::ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, co
       residual_(dofs.size()),
       increment_(dofs.size()) {
   const std::size_t n = model.nodes.u.size();
-  for (std::vector<Vec3>* field : {&a0_, &a1_, &base_, &correction_, &inertia_, &work_}) field->resize(n);
+  for (std::vector<Vec3>* field : {&a0_, &a1_, &base_, &correction_, &inertia_, &work_, &start_.total,
+                                   &end_.total})
+    field->resize(n);
   if (conserving()) mean_ = model.nodes;
   spacing_ = meanSpacing(model.nodes, matrix_);
 }
@@ -58,7 +60,7 @@ ImplicitStep::ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, co
 void ImplicitStep::begin(double h) {
   solver_.drop();
   if (conserving()) return;
-  start_.evaluate(model_, model_.nodes, {model_.t, 0.0});
+  start_.evaluate(model_, model_.nodes, {model_.t, 0.0}, start_.total, false);
   std::fill(a0_.begin(), a0_.end(), Vec3{});
   dofs_.applyAcceleration(model_.t, h, a0_);
   mass_.accelerate(start_.total, a0_);
@@ -93,7 +95,7 @@ void ImplicitStep::applyCorrection(double h) {
 void ImplicitStep::evaluate(double h) {
   const Profile::Stage stage(profile_, "forces");
   if (conserving()) return evaluateConserving(h);
-  end_.evaluate(model_, model_.nodes, {model_.t + h, h});
+  end_.evaluate(model_, model_.nodes, {model_.t + h, h}, end_.total, false);
 }
 
 void ImplicitStep::evaluateConserving(double h) {
@@ -193,7 +195,7 @@ void ImplicitStep::addMeanTangents(double h) {
 
 std::string ImplicitStep::complaint(double h) const {
   try {
-    for (const auto& term : model_.terms) term->requireValid(model_.nodes, "t = " + formatNumber(model_.t + h) + " s");
+    for (const auto& term : model_.terms) term->requireValid(model_.nodes, "t = " + formatNumber(model_.t + h) + " s", Scrutiny::all);
   } catch (const NumericalError& error) {
     return error.what();
   }

@@ -72,7 +72,11 @@ private:
   LinearSolver solver_;
   BlockMatrix matrix_;
   Nodes mean_;  // state in the middle of a conserving step
-  ForceSum start_, end_;
+  struct Forces : ForceSum {
+    using ForceSum::ForceSum;
+    std::vector<Vec3> total;
+  };
+  Forces start_, end_;
   std::vector<char> conserves_;  // per term, of the last evaluation
   std::vector<Vec3> u0_, v0_, a0_, a1_, base_, correction_, inertia_, work_;
   std::vector<double> residual_, increment_, part_;

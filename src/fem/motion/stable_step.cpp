@@ -5,90 +5,12 @@
 #include <cmath>
 #include <map>
 
-#include "../elements/brick.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
 
 namespace dovetail::fem {
-
-namespace {
-
-/// Largest eigenvalue of M⁻¹K of one element with its lumped mass, 1/s².
-double largestEigenvalue(const ElementBlock& block, const Nodes& rest, std::size_t element) {
-  const std::array<double, 576> raw = elementTangent(block, rest, element);
-  Eigen::Matrix<double, 24, 24> K = Eigen::Map<const Eigen::Matrix<double, 24, 24>>(raw.data());
-  const std::array<double, 8> volume = nodalVolumes(cornersOf(block.elements()[element], block.X()),
-                                                    cornerValues(block.elements()[element], block.nodalWeight()));
-  Eigen::Matrix<double, 24, 1> scale;
-  for (int i = 0; i < 24; ++i)
-    scale[i] = 1.0 / std::sqrt(density(block.material()) * volume[static_cast<std::size_t>(i / 3)]);
-  K = scale.asDiagonal() * K * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 24, 24>> solver(K, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[23];
-}
-
-using Shape = std::array<long long, 29>;
-
-/// Edges from the first corner in units of `quantum`, and the weights: equal for elements that are copies of each
-/// other.
-Shape shapeOf(const BrickCorners& corners, const CornerValues& share, double quantum) {
-  Shape shape{};
-  for (std::size_t a = 1; a < 8; ++a)
-    for (int c = 0; c < 3; ++c)
-      shape[3 * (a - 1) + static_cast<std::size_t>(c)] = std::llround((corners[a][c] - corners[0][c]) / quantum);
-  for (std::size_t a = 0; a < 8; ++a) shape[21 + a] = std::llround(1e12 * share[a]);
-  return shape;
-}
-
-/// M^(−½) K M^(−½) of the free components.
-class ScaledStiffness {
-public:
-  ScaledStiffness(const ElementBlock& block, const Nodes& nodes) : K_(tangent(block, nodes)) {
-    scale_.resize(static_cast<std::size_t>(K_.size), 0.0);
-    for (std::size_t i = 0; i < scale_.size(); ++i)
-      if (!(nodes.fixed[i / 3] >> i % 3 & 1)) scale_[i] = 1.0 / std::sqrt(nodes.mass[i / 3]);
-  }
-  Eigen::VectorXd operator()(const Eigen::VectorXd& x) const {
-    std::vector<double> scaled(scale_.size());
-    for (std::size_t i = 0; i < scaled.size(); ++i) scaled[i] = scale_[i] * x[static_cast<Eigen::Index>(i)];
-    const std::vector<double> y = multiply(K_, scaled);
-    Eigen::VectorXd result(x.size());
-    for (std::size_t i = 0; i < y.size(); ++i) result[static_cast<Eigen::Index>(i)] = scale_[i] * y[i];
-    return result;
-  }
-  Eigen::VectorXd start() const;
-
-private:
-  SparseMatrix K_;
-  std::vector<double> scale_;
-};
-
-}  // namespace
-
-StableStep stableStep(const ElementBlock& block) {
-  Nodes rest;
-  rest.u.resize(block.nodeCount());
-  const double quantum = 1e-9 * norm(block.X()[static_cast<std::size_t>(block.elements()[0][6])] -
-                                     block.X()[static_cast<std::size_t>(block.elements()[0][0])]);
-  std::map<Shape, double> known;
-  StableStep limit{0.0, -1};
-  double largest = 0.0;
-  for (std::size_t e = 0; e < block.size(); ++e) {
-    const auto [entry, isNew] =
-        known.try_emplace(shapeOf(cornersOf(block.elements()[e], block.X()),
-                                  cornerValues(block.elements()[e], block.nodalWeight()), quantum),
-                          0.0);
-    if (!isNew) continue;
-    entry->second = largestEigenvalue(block, rest, e);
-    if (entry->second > largest) {
-      largest = entry->second;
-      limit = {2.0 / std::sqrt(largest), static_cast<int>(e)};
-    }
-  }
-  return limit;
-}
 
 namespace {
 
@@ -166,14 +88,6 @@ private:
 };
 
 }  // namespace
-
-Eigen::VectorXd ScaledStiffness::start() const { return startVector(scale_); }
-
-double assembledStableStep(const ElementBlock& block, const Nodes& nodes, double accuracy) {
-  requirePositive(accuracy, "accuracy");
-  requireMass(nodes);
-  return stepByLanczos(ScaledStiffness(block, nodes), accuracy);
-}
 
 double assembledStableStep(Model& model, double accuracy) {
   requirePositive(accuracy, "accuracy");

@@ -132,7 +132,7 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
     detail::NewtonResult result = path.advance(arc, direction, t);
     if (result.failure.empty()) {
       try {
-        for (const auto& term : model.terms) term->requireValid(model.nodes, "t = " + formatNumber(t) + " s");
+        for (const auto& term : model.terms) term->requireValid(model.nodes, "t = " + formatNumber(t) + " s", Scrutiny::all);
       } catch (const NumericalError& error) {
         result.failure = error.what();
       }

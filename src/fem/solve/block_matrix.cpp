@@ -30,7 +30,7 @@ void Couplings::add(std::span<const int> group) {
   }
 }
 
-BlockMatrix::BlockMatrix(Couplings couplings) : patternId_(nextPatternId()) {
+NodePairs::NodePairs(Couplings couplings) : patternId_(nextPatternId()) {
   offsets_.assign(1, 0);
   for (std::size_t n = 0; n < couplings.neighbours_.size(); ++n) {
     std::vector<int>& list = couplings.neighbours_[n];
@@ -40,8 +40,30 @@ BlockMatrix::BlockMatrix(Couplings couplings) : patternId_(nextPatternId()) {
     offsets_.push_back(static_cast<int>(columns_.size()));
     std::vector<int>().swap(list);
   }
-  values_.assign(9 * columns_.size(), 0.0);
 }
+
+NodeMatrix::NodeMatrix(Couplings couplings) : NodePairs(std::move(couplings)), values_(columns().size(), 0.0) {}
+
+void NodeMatrix::add(std::span<const int> nodes, std::span<const double> matrix) {
+  const std::size_t n = nodes.size();
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b < n; ++b) values_[place(nodes[a], nodes[b])] += matrix[n * a + b];
+}
+
+void NodeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
+  parallelFor(nodes(), 2048, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      Vec3 sum;
+      for (int k = offsets()[n]; k < offsets()[n + 1]; ++k)
+        sum += values_[static_cast<std::size_t>(k)] * x[static_cast<std::size_t>(columns()[static_cast<std::size_t>(k)])];
+      y[n] = sum;
+    }
+  });
+}
+
+BlockMatrix::BlockMatrix(const NodePairs& pairs) : NodePairs(pairs), values_(9 * columns().size(), 0.0) {}
+
+BlockMatrix::BlockMatrix(Couplings couplings) : NodePairs(std::move(couplings)), values_(9 * columns().size(), 0.0) {}
 
 void BlockMatrix::setZero() {
   parallelFor(values_.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
@@ -50,7 +72,7 @@ void BlockMatrix::setZero() {
   });
 }
 
-std::size_t BlockMatrix::place(int row, int column) const {
+std::size_t NodePairs::place(int row, int column) const {
   const auto first = columns_.begin() + offsets_[static_cast<std::size_t>(row)],
              last = columns_.begin() + offsets_[static_cast<std::size_t>(row) + 1];
   const auto found = std::lower_bound(first, last, column);
@@ -77,8 +99,8 @@ void BlockMatrix::addBlock(int row, int column, std::span<const double, 9> block
 
 void BlockMatrix::symmetrise() {
   for (std::size_t n = 0; n < nodes(); ++n)
-    for (int k = offsets_[n]; k < offsets_[n + 1]; ++k) {
-      const int column = columns_[static_cast<std::size_t>(k)];
+    for (int k = offsets()[n]; k < offsets()[n + 1]; ++k) {
+      const int column = columns()[static_cast<std::size_t>(k)];
       if (column < static_cast<int>(n)) continue;
       double* const upper = &values_[9 * static_cast<std::size_t>(k)];
       double* const lower = &values_[9 * place(column, static_cast<int>(n))];
@@ -92,9 +114,9 @@ void BlockMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
   parallelFor(nodes(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       Vec3 sum;
-      for (int k = offsets_[n]; k < offsets_[n + 1]; ++k) {
+      for (int k = offsets()[n]; k < offsets()[n + 1]; ++k) {
         const double* const b = &values_[9 * static_cast<std::size_t>(k)];
-        const Vec3& v = x[static_cast<std::size_t>(columns_[static_cast<std::size_t>(k)])];
+        const Vec3& v = x[static_cast<std::size_t>(columns()[static_cast<std::size_t>(k)])];
         sum.x += b[0] * v.x + b[1] * v.y + b[2] * v.z;
         sum.y += b[3] * v.x + b[4] * v.y + b[5] * v.z;
         sum.z += b[6] * v.x + b[7] * v.y + b[8] * v.z;

@@ -27,7 +27,7 @@ std::string when(double t) { return "t = " + formatNumber(t) + " s"; }
 /// Whether all terms trust the state; if not, the reason.
 std::string complaint(const Model& model, double t) {
   try {
-    for (const auto& term : model.terms) term->requireValid(model.nodes, when(t));
+    for (const auto& term : model.terms) term->requireValid(model.nodes, when(t), Scrutiny::all);
   } catch (const NumericalError& error) {
     return error.what();
   }

@@ -11,8 +11,7 @@
 #include "dovetail/arlequin/gap_operator.hpp"
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/fem/model/nodes.hpp"
-#include "dovetail/fem/motion/blended_mass.hpp"
+#include "dovetail/fem/motion/motion.hpp"
 
 namespace dovetail::arlequin {
 
@@ -60,11 +59,11 @@ std::unique_ptr<Constraint> makeDashpot(const GapOperator& gap, double penalty, 
 /// Lagrange multipliers that keep the gap's rate at zero: λ = A⁺ (g̈ + ġ/dt) with A = Π M_DE⁻¹ Πᵀ + B M_FE⁻¹ Bᵀ.
 /// Workless. A is inverted once, by its eigenvalues: directions whose eigenvalue is below `rankTolerance` of the
 /// largest (rows that depend on others) are left out.
-/// @param particleMass  of all particles, weighted, kg   @param mass  the solid's mass if it is not lumped
+/// @param particleMass  of all particles, weighted, kg   @param solid  gives M_FE⁻¹
 /// @throws InputError for more than 4000 rows (take the penalty, which needs no solve)
 std::unique_ptr<Constraint> makeMultiplier(const GapOperator& gap, const Overlap& overlap,
-                                           std::span<const double> particleMass, const fem::Nodes& nodes,
-                                           const fem::BlendedMass* mass, double rankTolerance = 1e-8);
+                                           std::span<const double> particleMass, const fem::Motion& solid,
+                                           double rankTolerance = 1e-8);
 
 /// 20 E/h², Pa/m²: the waveform is then within a tenth of a percentage point of the multipliers', and the critical step
 /// of cubes with a weight floor of 1e-3 is a seventeenth of h over the wave speed or more.

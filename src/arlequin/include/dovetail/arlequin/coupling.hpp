@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "dovetail/arlequin/absorber.hpp"
+#include "dovetail/arlequin/bricks.hpp"
 #include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/arlequin/gap_operator.hpp"
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/arlequin/stress_term.hpp"
-#include "dovetail/fem/elements/elements.hpp"
-#include "dovetail/fem/mesh/mesh.hpp"
-#include "dovetail/fem/motion/blended_mass.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/arlequin/bricks.hpp"
+#include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/motion/motion.hpp"
 
 namespace dovetail::arlequin {
 
@@ -39,17 +41,32 @@ struct CouplingOptions {
 bool penaltyIsLocal(const CouplingOptions& options);
 
 /// The solid of a volume coupling.
-struct Solid {
-  fem::Mesh mesh;
-  fem::Nodes nodes;                      ///< lumped masses weighted by 1 − w
-  fem::ElementBlock elements;            ///< weighted by 1 − w
-  std::optional<fem::BlendedMass> mass;  ///< absent = lumped
+class Solid {
+public:
+  /// Masses are set here: those of the elements, weighted by their share 1 − w, `massShare` of them consistent.
+  /// @param model  one solid of hex8 with an elastic law of the hand-written kernels, supports at rest
+  /// @throws InputError naming what else the model has, or a node without mass
+  Solid(const fem::SolidMesh& mesh, std::unique_ptr<fem::Model> model, double massShare = 0.0);
+
+  Bricks mesh;
+  fem::Nodes& nodes() { return model_->nodes; }
+  const fem::Nodes& nodes() const { return model_->nodes; }
+  fem::Model& model() { return *model_; }
+  const fem::Model& model() const { return *model_; }
+  fem::Motion& motion() { return motion_; }
+  const fem::Motion& motion() const { return motion_; }
+  const fem::Material& material() const { return material_; }
 
   std::vector<Vec3> internalForce;     ///< N, of the last FEM evaluation (gravity included)
   std::vector<Vec3> acceleration;      ///< m/s², of the forces that act at every step
   std::vector<Vec3> slowAcceleration;  ///< m/s², of those that act at the ends of a window of several steps
   double strainEnergy = 0.0;           ///< J, if asked for
   double splittingEnergy = 0.0;        ///< J, if asked for: see stepExplicit
+
+private:
+  std::unique_ptr<fem::Model> model_;
+  fem::Motion motion_;
+  fem::Material material_;
 };
 
 /// The state of a coupling. Arrays over the rows of `gap`.

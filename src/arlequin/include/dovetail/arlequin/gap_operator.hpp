@@ -8,7 +8,7 @@
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/cg/kernel.hpp"
 #include "dovetail/cg/projection.hpp"
-#include "dovetail/fem/mesh/mesh.hpp"
+#include "dovetail/arlequin/bricks.hpp"
 
 namespace dovetail::arlequin {
 
@@ -54,7 +54,7 @@ struct GapOperator {
 };
 
 /// Cube root of a brick's volume, m.
-double elementSize(const fem::Mesh& mesh, const std::array<int, 8>& element);
+double elementSize(const Bricks& mesh, const std::array<int, 8>& element);
 
 /// Π for c = 0: Π_iα = m_α ψ_i(x_α) / Σ; for c > 0: ∫ m_α W(x − x_α) ψ_i dx / Σ over the overlap's elements (Eq. 27),
 /// by Gauss points as fine as the kernel asks for, normalised by the quadrature itself. Rows without a particle are
@@ -63,7 +63,7 @@ double elementSize(const fem::Mesh& mesh, const std::array<int, 8>& element);
 /// @param mesh  reference configuration: volumes are counted there
 /// @param position  of the nodes when the overlap was located, for kernels, m; empty = mesh.X
 /// @throws InputError for a width that is negative or not finite
-GapOperator makeGapOperator(const Overlap& overlap, const fem::Mesh& mesh, const dem::Particles& particles,
+GapOperator makeGapOperator(const Overlap& overlap, const Bricks& mesh, const dem::Particles& particles,
                             std::span<const double> mass, GapForm form, const ProjectionOptions& options,
                             std::span<const Vec3> position = {});
 

@@ -9,7 +9,7 @@
 #include "dovetail/core/profile.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/model/model.hpp"
-#include "dovetail/fem/motion/newmark.hpp"
+#include "dovetail/fem/motion/implicit_motion.hpp"
 
 namespace dovetail::arlequin {
 
@@ -54,15 +54,15 @@ void start(Model& model, double dt, Profile& profile);
 /// solid.splittingEnergy.
 void stepExplicit(Model& model, double dt, int K, StepSums& sums, bool withEnergy, Profile& profile);
 
-/// K steps of velocity Verlet of the particles and one Newmark step of K dt of the solid; the coupling kicks both at
+/// K steps of velocity Verlet of the particles and one implicit step of K dt of the solid; the coupling kicks both at
 /// the ends of the window. Multipliers keep the gap's rate at zero at those instants and are reversible; their
 /// trapezoidal work is of second order in K dt without trend, and booked.
-void stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, StepSums& sums, bool withEnergy,
+void stepImplicit(Model& model, fem::ImplicitMotion& solid, double dt, int K, StepSums& sums, bool withEnergy,
                   Profile& profile);
 
-/// What the paper's authors ran: coupling forces from the increments of the last step, frozen; the solid's Newmark
+/// What the paper's authors ran: coupling forces from the increments of the last step, frozen; the solid's implicit
 /// step; then the particles' step.
-void stepStaggered(Model& model, fem::NewmarkSolver& newmark, double dt, StepSums& sums, bool withEnergy,
+void stepStaggered(Model& model, fem::ImplicitMotion& solid, double dt, StepSums& sums, bool withEnergy,
                    Profile& profile);
 
 /// Locates particles anew (see renew) and books what leaves.
@@ -77,8 +77,8 @@ struct Energies {
   }
 };
 /// At full-step velocities. The solid's strain energy is that of the last step with `withEnergy`.
-/// @param newmark  if the solid is stepped by it: its mass matrix counts
-Energies energies(const Model& model, const fem::NewmarkSolver* newmark = nullptr);
+/// @param solid  if the solid is stepped by it: its mass matrix counts
+Energies energies(const Model& model, const fem::ImplicitMotion* solid = nullptr);
 /// Weighted momentum of both models, kg m/s.
 Vec3 momentum(const Model& model);
 

@@ -9,7 +9,7 @@
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 #include "dovetail/dem/particles/particles.hpp"
-#include "dovetail/fem/mesh/mesh.hpp"
+#include "dovetail/arlequin/bricks.hpp"
 #include "dovetail/fem/model/nodes.hpp"
 
 namespace dovetail::arlequin {
@@ -22,7 +22,7 @@ class StressTerm {
 public:
   /// @param stiffness  k of the contacts, N/m   @param share  γ
   /// Contacts are those of the list as they are now; their places and directions stay frozen (small strain).
-  StressTerm(const Overlap& overlap, const fem::Mesh& mesh, const fem::Nodes& nodes, const dem::Particles& particles,
+  StressTerm(const Overlap& overlap, const Bricks& mesh, const fem::Nodes& nodes, const dem::Particles& particles,
              const dem::PairList& pairs, double stiffness, double youngsModulus, double poissonRatio, double share);
 
   /// Adds the forces; returns the energy, J.

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/fem/mesh/mesh.hpp"
+#include "dovetail/arlequin/bricks.hpp"
 
 namespace dovetail::arlequin {
 
@@ -43,7 +43,7 @@ std::vector<double> nodalWeights(std::span<const double> s, const WeightOptions&
 using Triangle = std::array<Vec3, 3>;  ///< m
 
 /// Two triangles per face.
-std::vector<Triangle> triangles(const fem::Mesh& mesh, std::span<const std::array<int, 4>> faces);
+std::vector<Triangle> triangles(std::span<const Vec3> X, std::span<const fem::Face> faces);
 
 /// s = d_FE / (d_FE + d_DE) from the distances to the two borders of an overlap of any shape; 0 or 1 on a border.
 /// @param solidBorder     border of the mesh that lies within the particles
@@ -56,7 +56,7 @@ std::vector<double> distanceCoordinate(std::span<const Vec3> points, std::span<c
 /// elsewhere. Nodes without an element of the overlap get `beyondOverlap`.
 /// @param elements  numbers of the overlap's elements
 /// @throws InputError for an empty set, or a node in both sets; NumericalError if the system cannot be solved
-std::vector<double> laplaceCoordinate(const fem::Mesh& mesh, std::span<const int> elements,
+std::vector<double> laplaceCoordinate(const Bricks& mesh, std::span<const int> elements,
                                       std::span<const int> solidBorder, std::span<const int> particleBorder);
 
 }  // namespace dovetail::arlequin

@@ -1,6 +1,8 @@
 // Time steps of particles and a solid coupled through a surface.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -9,9 +11,9 @@
 #include "dovetail/dem/laws/contact_work.hpp"
 #include "dovetail/dem/laws/laws.hpp"
 #include "dovetail/dem/model/model.hpp"
-#include "dovetail/fem/elements/elements.hpp"
-#include "dovetail/fem/model/nodes.hpp"
-#include "dovetail/fem/motion/newmark.hpp"
+#include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/motion/implicit_motion.hpp"
+#include "dovetail/fem/motion/motion.hpp"
 #include "dovetail/surface/nodal_load.hpp"
 
 namespace dovetail::surface {
@@ -21,11 +23,13 @@ template <class Seam, class Law = dem::ElasticLaw>
 struct CoupledModel {
   dem::Model discrete;  ///< particles with their laws and gravity, without terms of its own: see start
   Law wallLaw;          ///< between particles and skin
-  fem::Nodes nodes;     ///< f holds the internal forces of the last FEM step
-  fem::ElementBlock elements;
+  /// hex8 of one elastic law that the hand-written kernels know, see start; nodes.f holds the internal forces of the last
+  /// FEM step.
+  std::unique_ptr<fem::Model> solid;
   Seam seam;
 
-  double strainEnergy = 0.0;  ///< J, at the end of the last window that asked for it
+  std::optional<fem::Motion> motion{};  ///< of the solid, lumped masses; made by start
+  double strainEnergy = 0.0;            ///< J, at the end of the last window that asked for it
   dem::ContactWork contact;   ///< of the last force evaluation
   NodalLoad loadBefore{};     ///< staggered steps only: the load of the evaluation before the last
 };
@@ -38,8 +42,14 @@ struct WindowSums {
   int stepsWithoutContact = 0;  ///< of the DEM steps
 };
 
+/// @throws InputError naming what of the solid a coupling through a surface cannot take yet: other elements than one
+///         solid of hex8 with an elastic law of the hand-written kernels, loads, contact, constraints
+void requireCoupledSolid(const fem::Model& solid);
+
 /// v += f/m dt on the touched nodes; held components stay.
 void kickTouched(const NodalLoad& load, fem::Nodes& nodes, double dt);
+/// The same for an implicit solid: by its mass matrix where that couples nodes.
+void kickTouched(const NodalLoad& load, fem::ImplicitMotion& solid, double dt);
 /// Σ f · du over the touched nodes, J.
 double workOf(const NodalLoad& load, std::span<const Vec3> displacement, double scale);
 
@@ -98,11 +108,13 @@ double wallWork(const Model& model) {
 template <class Model>
 void start(Model& model, double dt, Profile&) {
   dem::requirePlain(model.discrete, "surface coupling");
-  fem::clearForces(model.nodes);
-  model.strainEnergy = fem::addInternalForces(model.elements, model.nodes, true);
+  requireCoupledSolid(*model.solid);
+  model.motion.emplace(*model.solid);
+  model.strainEnergy = model.motion->forces(dt, true);
   dem::findForces(model.discrete);
   model.contact = model.discrete.work;
-  model.contact += model.seam.exchange(model.discrete.particles, model.nodes.u, model.nodes.v, model.wallLaw, dt);
+  model.contact += model.seam.exchange(model.discrete.particles, model.solid->nodes.u, model.solid->nodes.v,
+                                       model.wallLaw, dt);
   model.loadBefore = model.seam.load();
 }
 
@@ -114,17 +126,17 @@ template <class Model>
 WindowSums stepExplicit(Model& model, double dt, int K, const Scheme& scheme, bool withEnergy, Profile& profile) {
   WindowSums sums;
   const double before = detail::wallWork(model);
-  fem::Nodes& nodes = model.nodes;
+  fem::Nodes& nodes = model.solid->nodes;
   {
     Profile::Stage stage(profile, "solid kick and drift");
-    fem::kick(nodes, 0.5 * K * dt);
+    model.motion->kick(0.5 * K * dt);
   }
   for (int k = 0; k < K; ++k) {
     {
       Profile::Stage stage(profile, "solid kick and drift");
       dem::move(model.discrete, dt);
       kickTouched(model.seam.load(), nodes, 0.5 * dt);
-      fem::drift(nodes, dt);
+      model.motion->drift(dt);
     }
     if (scheme.booksCoupling) sums.madeByCoupling += workOf(model.seam.load(), nodes.v, 0.5 * dt);
     detail::evaluateContacts(model, nodes.u, nodes.v, dt, sums, profile);
@@ -134,12 +146,11 @@ WindowSums stepExplicit(Model& model, double dt, int K, const Scheme& scheme, bo
   }
   {
     Profile::Stage stage(profile, "solid internal forces");
-    fem::clearForces(nodes);
-    const double energy = fem::addInternalForces(model.elements, nodes, withEnergy);
+    const double energy = model.motion->forces(K * dt, withEnergy);
     if (withEnergy) model.strainEnergy = energy;
   }
   Profile::Stage stage(profile, "solid kick and drift");
-  fem::kick(nodes, 0.5 * K * dt);
+  model.motion->kick(0.5 * K * dt);
   if (scheme.booksCoupling) sums.madeByCoupling -= detail::wallWork(model) - before;
   return sums;
 }
@@ -148,40 +159,41 @@ namespace detail {
 
 /// Particles and contacts for `steps` DEM steps on a skin that stands still; the nodes only gather momentum.
 template <class Model>
-void holdSkinAndStep(Model& model, double dt, int steps, WindowSums& sums, Profile& profile) {
+void holdSkinAndStep(Model& model, fem::ImplicitMotion& solid, double dt, int steps, WindowSums& sums,
+                     Profile& profile) {
   for (int k = 0; k < steps; ++k) {
     dem::move(model.discrete, dt);
-    kickTouched(model.seam.load(), model.nodes, 0.5 * dt);
-    evaluateContacts(model, model.nodes.u, model.nodes.v, dt, sums, profile);
+    kickTouched(model.seam.load(), solid, 0.5 * dt);
+    evaluateContacts(model, model.solid->nodes.u, model.solid->nodes.v, dt, sums, profile);
     dem::close(model.discrete);
-    kickTouched(model.seam.load(), model.nodes, 0.5 * dt);
+    kickTouched(model.seam.load(), solid, 0.5 * dt);
   }
 }
 
 }  // namespace detail
 
 /// One window of K DEM steps and one implicit FEM step of K dt, all forces at the same instant (Strang splitting):
-/// ⌊K/2⌋ DEM steps on the standing skin · solid moves freely by Newmark · ⌊K/2⌋ DEM steps on the standing skin. For odd
+/// ⌊K/2⌋ DEM steps on the standing skin · solid moves freely · ⌊K/2⌋ DEM steps on the standing skin. For odd
 /// K the solid moves inside the middle DEM step, together with the particles' drift and between the halves of its kick.
 /// The window is symmetric in time for every K, so the energy error is second order. Even K needs one more contact
 /// evaluation, in which no DEM time passes: laws with history refuse it, they need odd K.
 template <class Model>
-WindowSums stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, int K, const Scheme& scheme,
+WindowSums stepImplicit(Model& model, fem::ImplicitMotion& solid, double dt, int K, const Scheme& scheme,
                         bool withEnergy, Profile& profile) {
   WindowSums sums;
   const double before = detail::wallWork(model);
-  fem::Nodes& nodes = model.nodes;
+  fem::Nodes& nodes = model.solid->nodes;
   const bool insideStep = K % 2 == 1;
-  detail::holdSkinAndStep(model, dt, K / 2, sums, profile);
+  detail::holdSkinAndStep(model, solid, dt, K / 2, sums, profile);
   if (insideStep) {
     dem::move(model.discrete, dt);
-    kickTouched(model.seam.load(), nodes, 0.5 * dt);
+    kickTouched(model.seam.load(), solid, 0.5 * dt);
   }
   std::vector<Vec3> moved;
   if (scheme.booksCoupling) moved = nodes.u;
   {
     Profile::Stage stage(profile, "solid implicit step");
-    newmark.step(nodes, {});
+    solid.step(K * dt);
   }
   if (scheme.booksCoupling) {
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = nodes.u[i] - moved[i];
@@ -191,12 +203,12 @@ WindowSums stepImplicit(Model& model, fem::NewmarkSolver& newmark, double dt, in
   if (scheme.booksCoupling) sums.madeByCoupling += workOf(model.seam.load(), moved, 0.5);
   if (insideStep) {
     dem::close(model.discrete);
-    kickTouched(model.seam.load(), nodes, 0.5 * dt);
+    kickTouched(model.seam.load(), solid, 0.5 * dt);
   } else {
     sums.stepsWithoutContact -= model.seam.inContact() ? 0 : 1;  // no DEM step of its own
   }
-  detail::holdSkinAndStep(model, dt, K / 2, sums, profile);
-  if (withEnergy) model.strainEnergy = fem::strainEnergy(model.elements, nodes);
+  detail::holdSkinAndStep(model, solid, dt, K / 2, sums, profile);
+  if (withEnergy) model.strainEnergy = fem::storedEnergy(*model.solid, {model.solid->t, dt});
   if (scheme.booksCoupling) sums.madeByCoupling -= detail::wallWork(model) - before;
   return sums;
 }
@@ -207,25 +219,26 @@ namespace detail {
 /// start with the load of the evaluation before: over the step this is the mean of the two, one step late.
 template <class Model>
 NodalLoad laggingLoad(const Model& model) {
-  NodalLoad load(model.nodes.X.size());
+  NodalLoad load(model.solid->nodes.X.size());
   for (const NodalLoad* part : {&model.loadBefore, &model.seam.load()})
     for (int node : part->touched) load.add(node, 0.5 * part->force[node]);
   return load;
 }
 
 template <class Model>
-void stepSolid(Model& model, fem::NewmarkSolver* newmark, const NodalLoad& load, double dt) {
-  if (newmark) {
-    newmark->step(model.nodes, load.force);
+void stepSolid(Model& model, fem::ImplicitMotion* implicit, const NodalLoad& load, double dt) {
+  if (implicit) {
+    kickTouched(load, *implicit, 0.5 * dt);
+    implicit->step(dt);
+    kickTouched(load, *implicit, 0.5 * dt);
     return;
   }
-  fem::kick(model.nodes, 0.5 * dt);
-  kickTouched(load, model.nodes, 0.5 * dt);
-  fem::drift(model.nodes, dt);
-  fem::clearForces(model.nodes);
-  fem::addInternalForces(model.elements, model.nodes);
-  fem::kick(model.nodes, 0.5 * dt);
-  kickTouched(load, model.nodes, 0.5 * dt);
+  model.motion->kick(0.5 * dt);
+  kickTouched(load, model.solid->nodes, 0.5 * dt);
+  model.motion->drift(dt);
+  model.motion->forces(dt);
+  model.motion->kick(0.5 * dt);
+  kickTouched(load, model.solid->nodes, 0.5 * dt);
 }
 
 }  // namespace detail
@@ -235,19 +248,19 @@ void stepSolid(Model& model, fem::NewmarkSolver* newmark, const NodalLoad& load,
 /// (Scheme::skinLags). A load that lags gives energy to a solid that gives way as a mass, and takes it from one that
 /// gives way as a spring; what it makes, first order in the step, is returned in madeByCoupling, for which the seam
 /// must book its wall work.
-/// @param newmark  null: the solid steps explicitly
+/// @param implicit  null: the solid steps explicitly
 template <class Model>
-WindowSums stepStaggered(Model& model, fem::NewmarkSolver* newmark, double dt, int K, const Scheme& scheme,
+WindowSums stepStaggered(Model& model, fem::ImplicitMotion* implicit, double dt, int K, const Scheme& scheme,
                          bool withEnergy, Profile& profile) {
   WindowSums sums;
   const double before = detail::wallWork(model);
-  fem::Nodes& nodes = model.nodes;
+  fem::Nodes& nodes = model.solid->nodes;
   const std::vector<Vec3> oldU = nodes.u;
   const NodalLoad load = detail::laggingLoad(model);
   model.loadBefore = model.seam.load();
   {
     Profile::Stage stage(profile, "solid step, load one step old");
-    detail::stepSolid(model, newmark, load, K * dt);
+    detail::stepSolid(model, implicit, load, K * dt);
   }
   for (int node : load.touched) sums.madeByCoupling += dot(load.force[node], nodes.u[node] - oldU[node]);
   std::vector<Vec3> skin = oldU;
@@ -259,7 +272,7 @@ WindowSums stepStaggered(Model& model, fem::NewmarkSolver* newmark, double dt, i
     detail::evaluateContacts(model, skin, nodes.v, dt, sums, profile);
     dem::close(model.discrete);
   }
-  if (withEnergy) model.strainEnergy = fem::strainEnergy(model.elements, nodes);
+  if (withEnergy) model.strainEnergy = fem::storedEnergy(*model.solid, {model.solid->t, dt});
   sums.madeByCoupling -= detail::wallWork(model) - before;
   return sums;
 }

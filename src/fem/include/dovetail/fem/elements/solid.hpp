@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct SolidOptions {
   std::string elementSet{};  ///< empty = all elements of the mesh
   std::string name = "elastic";
   double hourglassShare = 0.05;  ///< of the shear stiffness, for `reduced`
+  /// Per node of the mesh, 0 … 1, interpolated to the points of every integral (energy, force, mass, tangent): the share
+  /// of the solid where it overlaps something else. Empty = 1. Elements whose nodes all have 0 are left out.
+  std::vector<double> share{};
 };
 
 /// Elements of a mesh with one material.
@@ -51,6 +55,12 @@ public:
   /// 2/ω of the stiffest single element at the present displacement, with its lumped mass: never above the limit of the
   /// assembled solid. Names the element by its number in the mesh.
   virtual StableStep stableStep(const Nodes& nodes) = 0;
+  /// Stored energy of each element, J.
+  virtual std::vector<double> elementEnergies(const Nodes& nodes, const Instant& now) = 0;
+  /// Weight of the integrals per node of the mesh; empty = 1.
+  virtual std::span<const double> share() const = 0;
+  virtual CellShape shape() const = 0;
+  virtual Formulation formulation() const = 0;
   /// Number in the mesh of element e.
   virtual int number(std::size_t e) const = 0;
 
@@ -67,8 +77,16 @@ public:
 };
 
 /// @throws InputError for an invalid mesh, a set that does not exist or is empty, a formulation that a shape does not
-/// have
+/// have, shares that are not one per node or not within 0 … 1, or 0 throughout
 std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const PointMaterial> material,
                                  const SolidOptions& options = {});
+
+struct Model;
+
+/// What couplings of particles and solids take today: one solid of hex8, standard or of assumed stress, with an elastic
+/// law of the hand-written kernels, supports at rest and nothing else.
+/// @param who  for the message
+/// @throws InputError naming what the model has beside, or has not
+const Solid& requireBrickSolid(const Model& model, const std::string& who);
 
 }  // namespace dovetail::fem

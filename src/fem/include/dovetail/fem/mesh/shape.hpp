@@ -1,15 +1,22 @@
-// Trilinear shape functions of the 8-node brick, in the node order of Mesh::elements.
+// Shape functions of the cells of solid_mesh.hpp at a point.
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "dovetail/core/vec3.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 
 namespace dovetail::fem {
 
-/// ψ_a(ξ) of the eight nodes; their sum is one.
+/// Parent coordinates of the nodes: bricks fill [−1, 1]³, tetrahedra ξ, η, ζ ≥ 0 with ξ + η + ζ ≤ 1.
+std::span<const Vec3> parentNodes(CellShape shape);
+/// ψ_a(ξ), whose sum is one, and ∂ψ_a/∂ξ_j, nodesOf(shape) entries each.
+void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient);
+
+/// ψ_a(ξ) of hex8.
 std::array<double, 8> shapeValues(const Vec3& xi);
-/// ∂ψ_a/∂ξ_j of the eight nodes.
+/// ∂ψ_a/∂ξ_j of hex8.
 std::array<Vec3, 8> parentGradients(const Vec3& xi);
 
 }  // namespace dovetail::fem

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/fem/mesh/mesh.hpp"
 
 namespace dovetail::fem {
 
@@ -54,12 +53,6 @@ struct SolidMesh {
 
   std::size_t elementCount() const;
 };
-
-/// The same mesh; its sets are kept.
-SolidMesh solidMesh(const Mesh& bricks);
-/// The mesh as bricks.
-/// @throws InputError if it has other shapes than hex8
-Mesh brickMesh(const SolidMesh& mesh);
 
 /// A box of equal cells, with node and face sets "x-" … "z+" and "skin". Tetrahedra: six per brick cell.
 /// @param cells  along x, y and z

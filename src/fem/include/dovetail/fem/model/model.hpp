@@ -31,6 +31,8 @@ Model makeModel(const SolidMesh& mesh);
 /// Sets nodes.mass from the terms. @throws InputError naming a node that no term gives a mass
 void addMass(Model& model);
 
+/// The groups of nodes that the terms couple.
+Couplings couplingsOf(const Model& model);
 /// A matrix with a block for every pair of nodes that a term couples; all zero.
 BlockMatrix couplingPattern(const Model& model);
 

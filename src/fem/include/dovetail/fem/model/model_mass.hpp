@@ -1,46 +1,71 @@
 // The mass matrix of a model: lumped, consistent, or between.
 #pragma once
 
+#include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/solve/block_matrix.hpp"
 #include "dovetail/fem/solve/linear_solver.hpp"
 
 namespace dovetail::fem {
 
-/// M = share · consistent + (1 − share) · lumped, and its inverse for the free components, (TᵀMT)⁻¹: a division for
-/// lumped masses that no tie couples, else factors that are made on first use. A share between dissipates nothing and
-/// sets the dispersion (matchedShare in blended_mass.hpp).
+/// β that gives trilinear bricks of edge h the dispersion of a chain of particles of spacing d ≤ h, to second order in
+/// the wave number: chain ω² ≈ c²k²(1 − k²d²/12), bricks with M = β consistent + (1 − β) lumped
+/// ω² ≈ c²k²(1 − (1 − 2β)k²h²/12), hence β = (1 − (d/h)²)/2.
+/// @throws InputError unless 0 ≤ d ≤ h and h > 0
+double matchedShare(double spacing, double elementSize);
+
+/// M = share · consistent + (1 − share) · lumped, one number per pair of nodes, and its inverse for the free
+/// components, (TᵀMT)⁻¹: a division for lumped masses that no tie couples, else factors, one per distinct set of held
+/// nodes, that are made on first use. A share between dissipates nothing and sets the dispersion (matchedShare).
+///
+/// The inverse uses work space of its own: one object serves one thread at a time.
 class ModelMass {
 public:
   /// @param dofs  must live as long as this
   /// @throws InputError for a share outside 0 … 1 or a node without mass (call addMass first)
   ModelMass(const Model& model, const DofMap& dofs, double share);
+  ~ModelMass();
+  ModelMass(ModelMass&&) noexcept;
 
   double share() const { return share_; }
+  /// Whether M⁻¹ is a division.
+  bool isDiagonal() const { return share_ == 0.0 && !dofs_->hasTies(); }
   /// y = M x.
   void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
   /// ½ vᵀMv, J.
   double kineticEnergy(std::span<const Vec3> v) const;
   /// S += factor M; the pattern must hold the couplings of all terms of the model.
   void addTo(BlockMatrix& S, double factor) const;
+  /// f ← M⁻¹ f, accelerations with constraints at rest: T (TᵀMT)⁻¹ Tᵀ f, and 0 at components that are held.
+  /// @throws NumericalError if the matrix is not positive definite
+  void solve(std::span<Vec3> f) const;
   /// Accelerations under forces f: a = T (TᵀMT)⁻¹ Tᵀ(f − M a_g) + a_g.
   /// @param a  holds a_g, the accelerations of prescribed motion, at components that are not free; overwritten
-  /// @throws NumericalError if the matrix is singular
-  void accelerate(std::span<const Vec3> f, std::span<Vec3> a);
+  void accelerate(std::span<const Vec3> f, std::span<Vec3> a) const;
+  /// Σ (M a − f) over the components that are not free, N: what supports exert.
+  Vec3 supportForce(std::span<const Vec3> a, std::span<const Vec3> f) const;
 
 private:
-  void accelerateEach(std::span<const Vec3> f, std::span<Vec3> a) const;
+  struct Factor;
+  void factorOnce() const;
+  void solveTied(std::span<Vec3> f) const;
+  bool isFree(std::size_t node, int component) const {
+    return dofs_->freeRow()[3 * node + static_cast<std::size_t>(component)] >= 0;
+  }
+
   const DofMap* dofs_;
   double share_;
-  bool diagonal_;
-  std::vector<double> lumped_;  // share of the diagonal, kg per node
-  BlockMatrix consistent_;      // share · consistent; empty if share is 0
-  BlockMatrix whole_;           // for the factors; empty until needed
-  LinearSolver solver_;
-  std::vector<double> reduced_;
-  std::vector<Vec3> work_;
+  std::vector<double> mass_;  // lumped, kg per node
+  NodeMatrix matrix_;         // share · consistent + (1 − share) · lumped; empty if lumped
+  mutable std::vector<Factor> factors_;
+  mutable std::array<std::size_t, 3> factorOf_{};
+  mutable BlockMatrix tied_;  // with ties
+  mutable std::unique_ptr<LinearSolver> tiedSolver_;
+  mutable std::vector<double> reduced_;
 };
 
 }  // namespace dovetail::fem

@@ -1,4 +1,4 @@
-// The state of a finite-element solid, and its explicit time step.
+// The state of a finite-element solid.
 #pragma once
 
 #include <cstdint>
@@ -6,15 +6,13 @@
 #include <vector>
 
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/fem/mesh/mesh.hpp"
 
 namespace dovetail::fem {
 
 /// Bits of Nodes::fixed and of fix().
 enum Component : std::uint8_t { componentX = 1, componentY = 2, componentZ = 4, allComponents = 7 };
 
-/// Nodal state, one entry per node. A velocity Verlet step (central differences with lumped mass) is
-/// `kick(dt/2) · drift(dt) · f = loads + internal forces · kick(dt/2)`.
+/// Nodal state, one entry per node. Time steps are written with the verbs of Motion (motion.hpp).
 struct Nodes {
   std::vector<Vec3> X;              ///< reference position, m
   std::vector<Vec3> u;              ///< displacement, m; the node is at X + u
@@ -23,9 +21,6 @@ struct Nodes {
   std::vector<double> mass;         ///< lumped mass, kg
   std::vector<std::uint8_t> fixed;  ///< bit c set: component c is held, it keeps its velocity whatever the force
 };
-
-/// Nodes of a mesh at rest, without mass (addLumpedMass() of the elements adds it).
-Nodes makeNodes(const Mesh& mesh);
 
 /// Holds components of nodes: their velocity becomes zero and no force changes it. A velocity that is set afterwards
 /// is a prescribed motion.

@@ -14,6 +14,11 @@ namespace dovetail::fem {
 
 class BlockMatrix;
 class Couplings;
+class NodeMatrix;
+
+/// What an accepted state is looked at for: elements turned inside out, or anything else too for which an answer of a
+/// material cannot be trusted.
+enum class Scrutiny { inversion, all };
 
 /// When forces are asked for: at the end of a step of length dt, which is 0 in statics. Times in s.
 struct Instant {
@@ -31,6 +36,14 @@ public:
 
   /// f += force on the nodes, N. Reads nodes.X, u, v; never nodes.f.
   virtual void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) = 0;
+
+  /// The same; @return its stored energy, J, in the same pass where that is cheaper, 0 without
+  virtual double addForcesAndEnergy(const Nodes& nodes, const Instant& now, std::span<Vec3> f) {
+    addForces(nodes, now, f);
+    return hasEnergy() ? energy(nodes, now) : 0.0;
+  }
+  /// Whether its force may depend on v: time steps without any such term are spared a guess of v.
+  virtual bool usesVelocity() const { return true; }
 
   /// Names the groups of nodes that its tangent couples (a node with itself needs no mention).
   virtual void addCouplings(Couplings&) const {}
@@ -65,14 +78,14 @@ public:
   /// mass += its lumped masses, kg.
   virtual void addMass(std::span<double>) const {}
   /// M += its consistent mass, kg.
-  virtual void addConsistentMass(BlockMatrix&) const {}
+  virtual void addConsistentMass(NodeMatrix&) const {}
 
   /// Committed state for checkpoints, and back.
   virtual void save(ByteWriter&) const {}
   virtual void load(ByteReader&) {}
 
   /// @throws NumericalError naming the element or node at fault, and `when`
-  virtual void requireValid(const Nodes&, const std::string& /*when*/) const {}
+  virtual void requireValid(const Nodes&, const std::string& /*when*/, Scrutiny) {}
 };
 
 }  // namespace dovetail::fem

@@ -18,28 +18,60 @@ public:
   std::size_t nodes() const { return neighbours_.size(); }
 
 private:
-  friend class BlockMatrix;
+  friend class NodePairs;
   std::vector<std::vector<int>> neighbours_;
 };
 
-/// Compressed rows of blocks, columns ascending; every node is coupled with itself.
-class BlockMatrix {
+/// The pairs of nodes that a matrix has an entry for: compressed rows, columns ascending; every node is coupled with
+/// itself.
+class NodePairs {
 public:
-  BlockMatrix() = default;
-  explicit BlockMatrix(Couplings couplings);
+  NodePairs() = default;
+  explicit NodePairs(Couplings couplings);
 
   std::size_t nodes() const { return offsets_.empty() ? 0 : offsets_.size() - 1; }
-  /// Distinguishes patterns, so that terms may keep the places of their blocks.
+  /// Distinguishes patterns, so that terms may keep the places of their entries.
   std::size_t patternId() const { return patternId_; }
   std::span<const int> offsets() const { return offsets_; }
   std::span<const int> columns() const { return columns_; }
+  /// Place of the pair (row, column) in columns().
+  /// @throws InputError if the pair is not coupled
+  std::size_t place(int row, int column) const;
+
+private:
+  std::vector<int> offsets_, columns_;
+  std::size_t patternId_ = 0;
+};
+
+/// One number for every pair of nodes: the same for each component, as masses are.
+class NodeMatrix : public NodePairs {
+public:
+  NodeMatrix() = default;
+  explicit NodeMatrix(Couplings couplings);
+
+  std::span<const double> values() const { return values_; }
+  std::span<double> values() { return values_; }
+  /// Adds a row-major n × n matrix.
+  void add(std::span<const int> nodes, std::span<const double> matrix);
+  /// y = A x, in the order of the rows.
+  void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
+
+private:
+  std::vector<double> values_;
+};
+
+/// A 3 × 3 block for every pair of nodes; the nine values of a pair start at nine times its place.
+class BlockMatrix : public NodePairs {
+public:
+  BlockMatrix() = default;
+  explicit BlockMatrix(Couplings couplings);
+  /// With an entry for each of the pairs; all zero.
+  explicit BlockMatrix(const NodePairs& pairs);
+
   std::span<const double> values() const { return values_; }
   std::span<double> values() { return values_; }
 
   void setZero();
-  /// Place of block (row, column) in columns(); its nine values start at nine times that.
-  /// @throws InputError if the pair is not coupled
-  std::size_t place(int row, int column) const;
   /// Adds a row-major (3n × 3n) matrix, rows 3a + c for nodes[a].
   void add(std::span<const int> nodes, std::span<const double> matrix);
   /// Adds a row-major 3 × 3 block.
@@ -52,9 +84,7 @@ public:
   void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
 
 private:
-  std::vector<int> offsets_, columns_;
   std::vector<double> values_;
-  std::size_t patternId_ = 0;
 };
 
 }  // namespace dovetail::fem

@@ -1,0 +1,64 @@
+// The verbs of a time step of a model: what the explicit integrator is written with, and who couples a solid with
+// something else.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/model/model_mass.hpp"
+
+namespace dovetail::fem {
+
+/// A velocity Verlet step is
+///
+///     kick(dt/2) · drift(dt) · forces(dt) · kick(dt/2) · commit(dt)
+///
+/// with whatever else acts on the nodes added to model.nodes.f after forces(), or kicked on its own. The state is the
+/// model's; here are caches only. Terms and constraints are read when it is made.
+class Motion {
+public:
+  /// @param massShare  of the consistent mass
+  /// @throws InputError for a node without mass, a share outside 0 … 1 or constraints at odds
+  explicit Motion(Model& model, double massShare = 0.0);
+  ~Motion();
+  Motion(Motion&&) noexcept;
+
+  Model& model() const;
+  const DofMap& dofs() const;
+  const ModelMass& mass() const;
+
+  /// nodes.f = Σ forces of the terms at u, v, t. @param dt  length of the step that ends here, s
+  /// @return their stored energy, J, if `withEnergy`, else 0
+  double forces(double dt, bool withEnergy = false);
+  /// Of the last forces(): energy of each term, J (if asked for), and the force of each term that stores none, by
+  /// whose work ledgers tell them apart; in the order of model.terms.
+  std::span<const double> energies() const;
+  std::span<const std::vector<Vec3>> loads() const;
+
+  /// f ← M⁻¹ f: accelerations, m/s², 0 at components that are not free.
+  void accelerate(std::span<Vec3> f) const { mass().solve(f); }
+  /// v += dt M⁻¹ nodes.f. Components that are not free keep their velocity.
+  /// @return false if a velocity is not finite any more
+  bool kick(double dt);
+  /// v += dt a on all components: accelerations of other forces than nodes.f.
+  bool kick(std::span<const Vec3> a, double dt);
+  /// u += v dt, t += dt, and prescribed and tied components at their new place.
+  void drift(double dt);
+  /// The materials accept the step of length dt that ends here. @return energy dissipated in it, J
+  double commit(double dt);
+
+  /// ½ vᵀMv, J.
+  double kineticEnergy() const;
+  /// Σ M v, kg m/s.
+  Vec3 momentum() const;
+  /// What supports exert while the nodes have the accelerations `a` under the forces f, N.
+  Vec3 supportForce(std::span<const Vec3> a, std::span<const Vec3> f) const { return mass().supportForce(a, f); }
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dovetail::fem

@@ -1,0 +1,31 @@
+// Implicit steps that are cut until they converge.
+#pragma once
+
+#include <functional>
+
+#include "dovetail/fem/motion/implicit_motion.hpp"
+#include "implicit_step.hpp"
+
+namespace dovetail::fem {
+
+/// What ImplicitMotion and ImplicitIntegrator share.
+struct ImplicitMotion::Impl {
+  Model& model;
+  ImplicitOptions options;
+  DofMap dofs;
+  ModelMass mass;
+  Profile profile{true};
+  detail::ImplicitStep solver;
+  std::int64_t steps = 0, cuts = 0, iterations = 0;
+  double largestResidual = 0.0;
+  bool begun = false;
+
+  Impl(Model& model, const ImplicitOptions& options);
+  /// Takes the present state as the start of a step of dt.
+  void begin(double dt);
+  /// Steps by h, halved until it works.
+  /// @param accept  called with each part after it has converged, before the time moves on: commits the terms
+  void advance(double h, const std::function<void(double)>& accept, int depth = 0);
+};
+
+}  // namespace dovetail::fem
