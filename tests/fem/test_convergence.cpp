@@ -3,7 +3,7 @@
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/mesh/mesh_shapes.hpp"
 #include "dovetail/fem/solve/statics.hpp"
-#include "shapes.hpp"
+#include "mesh/shapes.hpp"
 #include "solid_helpers.hpp"
 
 namespace dovetail::fem {

@@ -2,7 +2,7 @@
 
 #include "dovetail/core/vec3.hpp"
 #include "helpers.hpp"
-#include "shapes.hpp"
+#include "mesh/shapes.hpp"
 
 namespace dovetail::fem::detail {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "shapes.hpp"
+#include "mesh/shapes.hpp"
 #include "solid_helpers.hpp"
 
 namespace dovetail::fem {

@@ -14,7 +14,7 @@ StableStep stableStep(const ElementBlock& block);
 /// 2/ω of the assembled mesh at the present displacement with the nodes' lumped mass and held components, by Lanczos
 /// iteration. The bound on the error of ω² is added to it, so that the step errs on the small side.
 /// @param accuracy  relative, of ω²
-/// @throws NumericalError if it does not settle within 400 iterations; InputError for nodes without mass
+/// @throws NumericalError if it does not settle; InputError for nodes without mass
 double assembledStableStep(const ElementBlock& block, const Nodes& nodes, double accuracy = 1e-4);
 
 /// The same for a model, and who sets it.
@@ -27,7 +27,7 @@ struct ModelStableStep {
 /// limit of the assembled solids; springs and contact planes are not looked at (assembledStableStep does).
 /// @throws InputError if the model has no solid
 ModelStableStep stableStep(Model& model);
-/// 2/ω of all terms and constraints at the present state by Lanczos' iteration, as above.
+/// 2/ω of all terms and constraints at the present state (TᵀKT and TᵀMT with the nodes' lumped mass), as above.
 double assembledStableStep(Model& model, double accuracy = 1e-4);
 
 }  // namespace dovetail::fem
