@@ -143,12 +143,10 @@ void SolidBase::addConsistentMass(BlockMatrix& M) const {
   }
 }
 
-/// Row sums, or for hex20 and tet10, whose row sums are negative at corners, the diagonal scaled to the element's mass
-/// (Hinton, Rock & Zienkiewicz 1976); kg per node of an element.
+/// Row sums, or the diagonal scaled to the element's mass (Hinton, Rock & Zienkiewicz 1976); kg per node of an element.
 std::vector<double> SolidBase::elementMasses(std::size_t element, const CellRule& rule,
-                                             std::span<const PointGeometry> geometry) const {
+                                             std::span<const PointGeometry> geometry, bool scaled) const {
   const std::size_t n = cells_.nodes;
-  const bool scaled = cells_.shape == CellShape::hex20 || cells_.shape == CellShape::tet10;
   std::vector<double> share(n, 0.0);
   double volume = 0.0, sum = 0.0;
   for (std::size_t q = 0; q < rule.point.size(); ++q) {
@@ -164,12 +162,16 @@ std::vector<double> SolidBase::elementMasses(std::size_t element, const CellRule
   return share;
 }
 
-void SolidBase::addMass(std::span<double> mass) const {
+void SolidBase::addMass(std::span<double> mass) const { addMasses(mass, scalesDiagonal()); }
+
+void SolidBase::addBodyMass(std::span<double> mass) const { addMasses(mass, false); }
+
+void SolidBase::addMasses(std::span<double> mass, bool scaled) const {
   const std::size_t n = cells_.nodes;
   const CellRule& rule = massRule(cells_.shape);
   const std::vector<PointGeometry> geometry = geometryAt(cells_, rule);
   for (std::size_t e = 0; e < cells_.size(); ++e) {
-    const std::vector<double> own = elementMasses(e, rule, geometry);
+    const std::vector<double> own = elementMasses(e, rule, geometry, scaled);
     for (std::size_t a = 0; a < n; ++a) mass[static_cast<std::size_t>(cells_.node[n * e + a])] += own[a];
   }
 }
@@ -188,7 +190,7 @@ StableStep SolidBase::stableStep(const Nodes& nodes) {
       tangent(taskOf(b, nodes, {}), matrix.data());
       for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane) {
         const std::size_t e = laneCount * b + lane;
-        const std::vector<double> mass = elementMasses(e, rule, geometry);
+        const std::vector<double> mass = elementMasses(e, rule, geometry, scalesDiagonal());
         for (std::size_t r = 0; r < size; ++r)
           for (std::size_t c = 0; c < size; ++c)
             K(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =

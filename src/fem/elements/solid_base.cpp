@@ -47,11 +47,17 @@ void SolidBase::startHistory() {
 
 void SolidBase::load(ByteReader& archive) {
   startHistory();
-  const std::size_t expected = history_.size();
-  archive(history_);
-  if (history_.size() != expected)
-    throw InputError("the checkpoint has the history of another solid", options_.name,
-                     "load it into the model that wrote it");
+  history_ = readNumbers(archive, history_.size());
+}
+
+std::vector<double> SolidBase::readNumbers(ByteReader& archive, std::size_t count) const {
+  std::vector<double> values;
+  archive(values);
+  if (values.size() != count)
+    throw InputError("the state is that of another solid", options_.name, "load it into the model that wrote it");
+  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
+    throw InputError("the state is not finite", options_.name, "take an older one");
+  return values;
 }
 
 void SolidBase::evaluate(const BatchTask& task, const Lane* F, Lane* P, Lane* tangent, Lane* energy, Lane* dissipated) {

@@ -63,10 +63,12 @@ public:
                            std::span<Vec3> f) override;
   void addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now, BlockMatrix& K) override;
   bool isSymmetric() const override { return material_->isSymmetric(); }
-  bool hasEnergy() const override { return true; }
+  /// A law without potential has no history either that would book what its work leaves.
+  bool hasEnergy() const override { return material_->isElastic() || material_->historySize() > 0; }
   double energy(const Nodes& nodes, const Instant& now) override;
   double commit(const Nodes& nodes, const Instant& now) override;
   void addMass(std::span<double> mass) const override;
+  void addBodyMass(std::span<double> mass) const override;
   void addConsistentMass(BlockMatrix& M) const override;
   void save(ByteWriter& archive) const override { archive(history_); }
   void load(ByteReader& archive) override;
@@ -92,6 +94,8 @@ protected:
   /// Calls the material for a batch whose F is given; any of tangent, energy, dissipated may be null.
   void evaluate(const BatchTask& task, const Lane* F, Lane* P, Lane* tangent, Lane* energy, Lane* dissipated);
   void requireSameNodes(const Nodes& nodes) const;
+  /// @throws InputError unless there are so many, all finite
+  std::vector<double> readNumbers(ByteReader& archive, std::size_t count) const;
   /// Whether forces() and tangent() know what to do with a `start`.
   virtual bool conserves() const { return false; }
 
@@ -102,8 +106,11 @@ protected:
   std::vector<PointGeometry> geometry_;
 
 private:
-  std::vector<double> elementMasses(std::size_t element, const CellRule& rule,
-                                    std::span<const PointGeometry> geometry) const;
+  /// Whether row sums of the consistent mass, negative at corners, cannot be lumped masses.
+  bool scalesDiagonal() const { return cells_.shape == CellShape::hex20 || cells_.shape == CellShape::tet10; }
+  std::vector<double> elementMasses(std::size_t element, const CellRule& rule, std::span<const PointGeometry> geometry,
+                                    bool scaled) const;
+  void addMasses(std::span<double> mass, bool scaled) const;
   BatchTask taskOf(std::size_t batch, const Nodes& nodes, const Instant& now, const Vec3* start = nullptr) const;
   void addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f);
   void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, BlockMatrix& K);

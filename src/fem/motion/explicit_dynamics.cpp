@@ -8,7 +8,7 @@
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
 #include "energy_book.hpp"
-#include "force_sum.hpp"
+#include "run_state.hpp"
 
 namespace dovetail::fem {
 
@@ -73,11 +73,12 @@ struct ExplicitIntegrator::Impl {
     book.open();
   }
 
+  Instant now() const { return {model.t, dt, &mass}; }
   /// Forces and accelerations at the present state; accelerations of motions only where masses couple them.
   void evaluate() {
     {
       const Profile::Stage stage(profile, "forces");
-      forces.evaluate(model, model.nodes, {model.t, dt});
+      forces.evaluate(model, model.nodes, now());
     }
     const Profile::Stage stage(profile, "accelerations");
     std::fill(a.begin(), a.end(), Vec3{});
@@ -87,7 +88,7 @@ struct ExplicitIntegrator::Impl {
   void sample() {
     if (options.energyEvery == 0 || steps % options.energyEvery != 0) return;
     const Profile::Stage stage(profile, "energies");
-    book.sample(model, {model.t, dt}, mass.kineticEnergy(model.nodes.v));
+    book.sample(model, now(), mass.kineticEnergy(model.nodes.v));
   }
 
   /// v += a dt/2, constrained components as at `time`; books what the forces did.
@@ -128,9 +129,7 @@ struct ExplicitIntegrator::Impl {
   }
   void commit() {
     const Profile::Stage stage(profile, "materials accept");
-    for (const auto& term : model.terms)
-      if (const double spent = term->commit(model.nodes, {model.t, dt}); options.energyEvery > 0)
-        book.spend("dissipated by " + term->name(), spent);
+    book.accept(model, now(), options.energyEvery > 0);
   }
   void check() {
     const Profile::Stage stage(profile, "checks");
@@ -176,19 +175,23 @@ DynamicsReport ExplicitIntegrator::report() const {
 }
 
 void ExplicitIntegrator::save(ByteWriter& archive) const {
-  detail::saveState(archive, impl_->model);
+  detail::writeModel(archive, "explicit", impl_->model);
   impl_->book.save(archive);
-  archive(impl_->steps, impl_->a, impl_->forces.total);
-  for (const std::vector<Vec3>& load : impl_->forces.loads) archive(load);
+  archive(impl_->steps);
+  detail::writeStart(archive, impl_->a, impl_->forces);
 }
 
 void ExplicitIntegrator::load(ByteReader& archive) {
-  detail::loadState(archive, impl_->model);
-  impl_->book.load(archive);
-  archive(impl_->steps, impl_->a, impl_->forces.total);
-  for (std::vector<Vec3>& load : impl_->forces.loads) archive(load);
-  if (impl_->a.size() != impl_->model.nodes.u.size())
-    throw InputError("the checkpoint is of another kind of run", "ExplicitIntegrator", "load what it saved");
+  detail::ModelState state = detail::readModel(archive, "explicit", impl_->model);
+  detail::EnergyBook book = impl_->book.read(archive);
+  const std::int64_t steps = detail::readCount(archive, "number of steps");
+  detail::StepStart start = detail::readStart(archive, impl_->model);
+  detail::requireEnd(archive, "ExplicitIntegrator");
+  detail::adopt(std::move(state), impl_->model);
+  impl_->book = std::move(book);
+  impl_->steps = steps;
+  impl_->a = std::move(start.a);
+  impl_->forces = std::move(start.forces);
 }
 
 }  // namespace dovetail::fem

@@ -57,8 +57,8 @@ ImplicitStep::ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, co
 
 void ImplicitStep::begin(double h) {
   solver_.drop();
+  start_.evaluate(model_, model_.nodes, {model_.t, 0.0, &mass_});  // terms that remember take their past from it
   if (conserving()) return;
-  start_.evaluate(model_, model_.nodes, {model_.t, 0.0});
   std::fill(a0_.begin(), a0_.end(), Vec3{});
   dofs_.applyAcceleration(model_.t, h, a0_);
   mass_.accelerate(start_.total, a0_);
@@ -93,7 +93,7 @@ void ImplicitStep::applyCorrection(double h) {
 void ImplicitStep::evaluate(double h) {
   const Profile::Stage stage(profile_, "forces");
   if (conserving()) return evaluateConserving(h);
-  end_.evaluate(model_, model_.nodes, {model_.t + h, h});
+  end_.evaluate(model_, model_.nodes, endOf(h));
 }
 
 void ImplicitStep::evaluateConserving(double h) {
@@ -105,9 +105,9 @@ void ImplicitStep::evaluateConserving(double h) {
   std::size_t next = 0;
   for (std::size_t k = 0; k < model_.terms.size(); ++k) {
     Term& term = *model_.terms[k];
-    conserves_[k] = term.addConservingForces(model_.nodes, u0_, {model_.t + h, h}, end_.total);
+    conserves_[k] = term.addConservingForces(model_.nodes, u0_, endOf(h), end_.total);
     if (conserves_[k]) continue;
-    const Instant middle{model_.t + 0.5 * h, 0.5 * h};
+    const Instant middle = middleOf(h);
     if (term.hasEnergy()) {
       term.addForces(mean_, middle, end_.total);
       continue;
@@ -152,7 +152,7 @@ bool ImplicitStep::factor(double h, bool exact) {
       noteStiffness();
       mass_.addTo(matrix_, 2.0 / (h * h));
     } else {
-      const Instant now{model_.t + h, h};
+      const Instant now = endOf(h);
       for (const auto& term : model_.terms) term->addDamping(model_.nodes, now, matrix_);
       for (double& value : matrix_.values()) value *= s.gamma / (s.beta * h);
       for (const auto& term : model_.terms) term->addTangent(model_.nodes, now, matrix_);
@@ -180,7 +180,7 @@ void ImplicitStep::noteStiffness() {
 }
 
 void ImplicitStep::addMeanTangents(double h) {
-  const Instant middle{model_.t + 0.5 * h, 0.5 * h};
+  const Instant middle = middleOf(h);
   for (std::size_t k = 0; k < model_.terms.size(); ++k)
     if (!conserves_[k]) model_.terms[k]->addDamping(mean_, middle, matrix_);
   for (double& value : matrix_.values()) value *= 2.0 / h;
@@ -188,7 +188,7 @@ void ImplicitStep::addMeanTangents(double h) {
     if (!conserves_[k]) model_.terms[k]->addTangent(mean_, middle, matrix_);
   for (double& value : matrix_.values()) value *= 0.5;
   for (std::size_t k = 0; k < model_.terms.size(); ++k)
-    if (conserves_[k]) model_.terms[k]->addConservingTangent(model_.nodes, u0_, {model_.t + h, h}, matrix_);
+    if (conserves_[k]) model_.terms[k]->addConservingTangent(model_.nodes, u0_, endOf(h), matrix_);
 }
 
 std::string ImplicitStep::complaint(double h) const {
@@ -208,7 +208,7 @@ ImplicitStep::Result ImplicitStep::attempt(double h, Guess guess) {
   Result result = newton(h);
   for (int round = 0; result.failure.empty(); ++round) {
     bool again = false;
-    for (const auto& term : model_.terms) again = term->augment(model_.nodes, {model_.t + h, h}) || again;
+    for (const auto& term : model_.terms) again = term->augment(model_.nodes, endOf(h)) || again;
     if (!again) break;
     if (round == options_.maxAugmentations) {
       result.failure = "contact multipliers do not settle in " + std::to_string(round) + " rounds";

@@ -147,7 +147,7 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
       continue;
     }
     detail::bookWork(equilibrium, model, f0, loads0, u0, report);
-    for (const auto& term : model.terms) report.dissipated += term->commit(model.nodes, {t, 0.0});
+    detail::acceptTerms(model, t, report);
     lastMove.resize(u0.size());
     for (std::size_t n = 0; n < u0.size(); ++n) lastMove[n] = model.nodes.u[n] - u0[n];
     model.t = t;

@@ -14,11 +14,13 @@ namespace dovetail::fem {
 
 class BlockMatrix;
 class Couplings;
+class ModelMass;
 
 /// When forces are asked for: at the end of a step of length dt, which is 0 in statics. Times in s.
 struct Instant {
   double t = 0.0;
   double dt = 0.0;
+  const ModelMass* mass = nullptr;  ///< of the integrator; null in statics, where velocities mean nothing
 };
 
 /// A force on the nodes that depends on u, v and t, its tangent and its energy. State that lasts over steps (plastic
@@ -57,6 +59,8 @@ public:
 
   /// The step is accepted at this state: adopts new history. @return energy dissipated in the step, J
   virtual double commit(const Nodes&, const Instant&) { return 0.0; }
+  /// Work that the term's own motion (of a plane) did in the step last accepted, J; commit() leaves it out.
+  virtual double workOfMotion() const { return 0.0; }
   /// Called after convergence; @return true if it changed its multipliers and the step must be solved again
   virtual bool augment(const Nodes&, const Instant&) { return false; }
   /// The step is given up: multipliers are again those of the last commit.
@@ -64,6 +68,8 @@ public:
 
   /// mass += its lumped masses, kg.
   virtual void addMass(std::span<double>) const {}
+  /// mass += row sums ∫ρN of its consistent mass, kg: what a uniform field acts on.
+  virtual void addBodyMass(std::span<double> mass) const { addMass(mass); }
   /// M += its consistent mass, kg.
   virtual void addConsistentMass(BlockMatrix&) const {}
 

@@ -1,0 +1,35 @@
+// Values at a point of a solid.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "dovetail/fem/elements/solid.hpp"
+
+namespace dovetail::fem {
+
+/// A point that moves with the solid.
+class MaterialPoint {
+public:
+  /// @param X  reference position, m
+  /// @throws InputError if no element is there
+  MaterialPoint(const SolidMesh& mesh, const Vec3& X);
+
+  /// Number in the mesh of the element that holds it; of several, the first.
+  int element() const { return element_; }
+  /// Σ N_a field_a: its displacement of nodes.u, its velocity of nodes.v.
+  Vec3 valueOf(std::span<const Vec3> field) const;
+  /// Cauchy stress, Pa, row-major: the linear function of place that comes nearest to the stresses at the quadrature
+  /// points of the element; their mean where there are fewer than four.
+  /// @throws InputError if the sample is of a solid without this element
+  std::array<double, 9> stress(const Solid::Sample& sample) const;
+
+private:
+  Vec3 X_;
+  int element_ = -1;
+  std::vector<int> node_;
+  std::vector<double> N_;
+};
+
+}  // namespace dovetail::fem
