@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
@@ -149,6 +151,10 @@ TEST(ContactPlane, PressingIsWorkAndNotDissipation) {
   EXPECT_EQ(report.dissipated, 0.0);
   EXPECT_GT(report.storedAfter, 0.0);
   EXPECT_NEAR(report.supportWork, report.storedAfter, 1e-2 * report.storedAfter);
+  std::ostringstream text;
+  text << report;
+  for (const char* word : {"time reached", "factorisations", "work of supports", "dissipated", "residual"})
+    EXPECT_NE(text.str().find(word), std::string::npos) << word << text.str();
   ExplicitIntegrator integrator(model, 1e-5, {.checkStep = false});
   integrator.run(100);
   std::vector<std::string> names;

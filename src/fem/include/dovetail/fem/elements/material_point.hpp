@@ -20,15 +20,17 @@ public:
   int element() const { return element_; }
   /// Σ N_a field_a: its displacement of nodes.u, its velocity of nodes.v.
   Vec3 valueOf(std::span<const Vec3> field) const;
-  /// Cauchy stress, Pa, row-major: the linear function of place that comes nearest to the stresses at the quadrature
-  /// points of the element; their mean where there are fewer than four.
+  /// Cauchy stress, Pa, row-major: the function of the element's parent coordinates, trilinear in bricks and linear in
+  /// tetrahedra, that comes nearest to the stresses at its quadrature points; their mean where they are too few for it.
   /// @throws InputError if the sample is of a solid without this element
   std::array<double, 9> stress(const Solid::Sample& sample) const;
 
 private:
-  Vec3 X_;
   int element_ = -1;
+  CellShape shape_{};
+  Vec3 xi_;  // in the parent cell
   std::vector<int> node_;
+  std::vector<Vec3> X_;  // of the nodes, m
   std::vector<double> N_;
 };
 
