@@ -50,7 +50,7 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/dovetailConfig.cmake.in
   NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/dovetailConfig.cmake" "${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake"
-              "${CMAKE_CURRENT_LIST_DIR}/FindCholmod.cmake" "${CMAKE_CURRENT_LIST_DIR}/FindFcl.cmake"
+              "${CMAKE_CURRENT_LIST_DIR}/FindSuiteSparse.cmake" "${CMAKE_CURRENT_LIST_DIR}/FindFcl.cmake"
         DESTINATION "${package_folder}")
 
 # The documents lie as in the source tree, so that their links hold.

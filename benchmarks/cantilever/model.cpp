@@ -61,7 +61,8 @@ surface::Coupling makeSeam(const Settings& settings, const fem::SolidMesh& mesh)
   options.edges = settings.edges == EdgeHandling::paper ? dem::EdgeRule::paper : dem::EdgeRule::projected;
   surface::Coupling seam(makeCarryingSkin(settings, mesh), options);
   if (settings.transfer == Transfer::spread)
-    seam.spreadLoad(surface::SpreadLoad(makeKernel(settings), mesh.X, seam.skin(), surface::quadsOf(mesh.faceSets.at("skin"))));
+    seam.spreadLoad(
+        surface::SpreadLoad(makeKernel(settings), mesh.X, seam.skin(), surface::quadsOf(mesh.faceSets.at("skin"))));
   seam.bookWallWork(couplingIsUnbalanced(settings));
   return seam;
 }
@@ -77,9 +78,9 @@ surface::SmoothCoupling makeSmoothSeam(const Settings& settings, const fem::Soli
 std::unique_ptr<fem::Model> makeBeam(const Settings& settings, const fem::SolidMesh& mesh) {
   const bool hybrid = settings.element == "hybrid8";
   auto beam = std::make_unique<fem::Model>(fem::makeModel(mesh));
-  beam->add(fem::makeSolid(mesh, fem::pointMaterial(makeMaterial(settings)),
-                           {.formulation = hybrid ? fem::Formulation::assumedStress : fem::Formulation::standard,
-                            .name = "beam"}));
+  beam->add(fem::makeSolid(
+      mesh, fem::pointMaterial(makeMaterial(settings)),
+      {.formulation = hybrid ? fem::Formulation::assumedStress : fem::Formulation::standard, .name = "beam"}));
   fem::addMass(*beam);
   fem::fix(beam->nodes, mesh.nodeSets.at("y-"));
   return beam;
@@ -88,11 +89,8 @@ std::unique_ptr<fem::Model> makeBeam(const Settings& settings, const fem::SolidM
 template <class Seam>
 surface::CoupledModel<Seam> makeModel(const Settings& settings, const fem::SolidMesh& mesh, Seam seam) {
   const dem::LinearSpringDashpot normal{contactStiffness(settings), settings.restitution, true};
-  surface::CoupledModel<Seam> model{.discrete = {},
-                                    .wallLaw = {normal},
-                                    .solid = makeBeam(settings, mesh),
-                                    .seam = std::move(seam),
-                                    .contact = {}};
+  surface::CoupledModel<Seam> model{
+      .discrete = {}, .wallLaw = {normal}, .solid = makeBeam(settings, mesh), .seam = std::move(seam), .contact = {}};
   model.discrete.particles = makeParticles(settings);
   model.discrete.laws = dem::makeContactLaws(dem::ElasticLaw{normal});
   model.discrete.gravity = {0.0, 0.0, -Case{}.gravity};
@@ -117,7 +115,7 @@ std::array<int, 3> elementCounts(const Settings& settings) {
   return counts;
 }
 
-fem::SolidMesh makeMesh(const Settings& settings) { 
+fem::SolidMesh makeMesh(const Settings& settings) {
   return fem::boxOf(fem::CellShape::hex8, elementCounts(settings), lowerCorner, upperCorner);
 }
 

@@ -95,9 +95,7 @@ private:
   /// Explicit solid, stepped every K > 1 DEM steps: the impulses store energy that is booked.
   bool multirate() const { return clock_.substepsPerWindow > 1 && !newmark_ && settings().lag == Lag::none; }
 
-  double kineticBeam() const {
-    return newmark_ ? newmark_->kineticEnergy() : fem::kineticEnergy(nodes());
-  }
+  double kineticBeam() const { return newmark_ ? newmark_->kineticEnergy() : fem::kineticEnergy(nodes()); }
 
   void setLedger() {
     EnergyLedger& ledger = result_.ledger;
@@ -109,8 +107,7 @@ private:
     ledger.set(gravity_, -model_.discrete.gravity.z * height);
     ledger.set(kineticBeam_, kineticBeam());
     ledger.set(elasticBeam_, model_.strainEnergy);
-    if (multirate())
-      ledger.set(splitting_, surface::splittingEnergy(nodes(), model_.seam.load(), clock_.coarseStep()));
+    if (multirate()) ledger.set(splitting_, surface::splittingEnergy(nodes(), model_.seam.load(), clock_.coarseStep()));
   }
 
   surface::WindowSums stepWindow(bool withEnergy) {
@@ -144,7 +141,8 @@ private:
       sampleEnergy();
       if (sample % trajectoryEvery == 0) sampleTrajectory();
       if (sample % seriesEvery == 0) {
-        model_.solid->terms.front()->requireValid(nodes(), moment(clock_.time(), clock_.step), fem::Scrutiny::inversion);
+        model_.solid->terms.front()->requireValid(nodes(), moment(clock_.time(), clock_.step),
+                                                  fem::Scrutiny::inversion);
         sampleSeries();
         const double y = model_.discrete.particles.x[0].y / Case{}.length;
         progress.update(settings().until ? clock_.time() / end : 1.0 - std::sqrt(std::max(0.0, 1.0 - y)),

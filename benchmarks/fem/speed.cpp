@@ -95,7 +95,8 @@ void timeBeam(std::array<int, 3> cells, Formulation formulation, double toleranc
   const double length = static_cast<double>(cells[2]) / cells[0], dt = 1e-2;
   const SolidMesh mesh = boxOf(CellShape::hex8, cells, {}, {1.0, 1.0, length});
   Model model = makeModel(mesh);
-  model.add(makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0})), {.formulation = formulation}));
+  model.add(
+      makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0})), {.formulation = formulation}));
   addMass(model);
   fix(model.nodes, nodeSet(mesh, "z-"));
   const std::vector<int>& tip = nodeSet(mesh, "z+");

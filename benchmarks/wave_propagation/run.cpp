@@ -160,7 +160,8 @@ private:
       if (!now) continue;
       sample();
       if (++samples % frameEvery == 0 || w == windows_) observe();
-      progress.update(model_.discrete.time / end, "t = " + formatNumber(std::round(1e5 * model_.discrete.time) / 1e5) + " s");
+      progress.update(model_.discrete.time / end,
+                      "t = " + formatNumber(std::round(1e5 * model_.discrete.time) / 1e5) + " s");
     }
   }
 
@@ -190,7 +191,8 @@ private:
     arlequin::gapOf(c.gap, c.overlap, model_.discrete.particles.v, model_.solid->nodes().v, rate);
     double mismatch = 0.0, speed = 0.0;
     for (const Vec3& v : rate) mismatch += squaredNorm(v);
-    for (const int i : c.overlap.particle) speed += squaredNorm(model_.discrete.particles.v[static_cast<std::size_t>(i)]);
+    for (const int i : c.overlap.particle)
+      speed += squaredNorm(model_.discrete.particles.v[static_cast<std::size_t>(i)]);
     mismatchSquared_ += mismatch / static_cast<double>(c.rows());
     speedSquared_ += speed / static_cast<double>(c.overlap.size());
     for (const Vec3& g : c.gapNow) figures().gapMax = std::max(figures().gapMax, norm(g));
@@ -206,8 +208,8 @@ private:
     const auto& channels = result_.ledger.channels();
     const auto joules = [&](EnergyLedger::Id id) { return model_.solid ? channels[id].joules : 0.0; };
     result_.series.append(
-        std::vector<double>{model_.discrete.time, massParticles, massSolid, dem::momentum(model_.discrete.particles).y, momentumSolid,
-                            channels[kineticParticles_].joules, channels[elasticContacts_].joules,
+        std::vector<double>{model_.discrete.time, massParticles, massSolid, dem::momentum(model_.discrete.particles).y,
+                            momentumSolid, channels[kineticParticles_].joules, channels[elasticContacts_].joules,
                             joules(kineticSolid_), joules(elasticSolid_), joules(stored_), result_.ledger.stored(),
                             sums_.couplingWork, sums_.absorbed, sums_.externalWork, result_.ledger.residual()});
   }

@@ -1,12 +1,12 @@
 #include "dovetail/arlequin/critical_step.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/loads.hpp"
+#include "dovetail/fem/motion/largest_eigenvalue.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
 #include "forces.hpp"
 
@@ -25,10 +25,9 @@ struct Parts {
 
 class Operator {
 public:
-  Operator(const Model& model, Parts parts) : model_(model), parts_(parts) {
+  Operator(Model& model, Parts parts) : model_(model), parts_(parts) {
     if (parts.solid) {
-      // The terms' caches change, not the state.
-      fem::Model& solid = const_cast<Solid&>(*model.solid).model();
+      fem::Model& solid = model.solid->model();
       tangent_ = fem::couplingPattern(solid);
       for (const auto& term : solid.terms) term->addTangent(solid.nodes, {solid.t, 0.0}, tangent_);
     }
@@ -39,40 +38,50 @@ public:
         held_[static_cast<std::size_t>(dem::find(model.discrete.particles, id))] = true;
   }
 
-  Field start() const {
-    Field field;
-    if (parts_.particles) field.particles.resize(model_.discrete.particles.size());
-    if (parts_.solid) field.nodes.resize(model_.solid->nodes().X.size());
-    double phase = 0.3;
-    for (auto* values : {&field.particles, &field.nodes})
-      for (Vec3& v : *values)
-        for (int c = 0; c < 3; ++c) v[c] = std::sin(phase += 1.7 + 0.013 * std::fmod(phase, 11.0));
-    hold(field);
-    return field;
+  std::size_t size() const {
+    return 3 * ((parts_.particles ? model_.discrete.particles.size() : 0) +
+                (parts_.solid ? model_.solid->nodes().X.size() : 0));
   }
 
-  /// M⁻¹ K q
-  Field operator()(const Field& q) const {
+  Field stiffness(const Field& q) const {
     Field force{std::vector<Vec3>(q.particles.size()), std::vector<Vec3>(q.nodes.size())};
     if (parts_.particles) addContacts(q, force);
     if (parts_.solid) addElements(q, force);
     if (parts_.particles && parts_.solid && model_.coupling) addCoupling(q, force);
-    for (std::size_t i = 0; i < force.particles.size(); ++i) force.particles[i] *= 1.0 / model_.discrete.particles.mass[i];
-    if (parts_.solid) model_.solid->motion().accelerate(force.nodes);
-    hold(force);
     return force;
   }
+  Field mass(const Field& q) const {
+    Field p = q;
+    for (std::size_t i = 0; i < p.particles.size(); ++i) p.particles[i] *= model_.discrete.particles.mass[i];
+    if (!parts_.solid) return p;
+    model_.solid->motion().mass().multiply(q.nodes, p.nodes);
+    return p;
+  }
+  Field inverseMass(Field f) const {
+    for (std::size_t i = 0; i < f.particles.size(); ++i) f.particles[i] *= 1.0 / model_.discrete.particles.mass[i];
+    if (parts_.solid) model_.solid->motion().accelerate(f.nodes);
+    return f;
+  }
 
-  /// aᵀ M b
-  double product(const Field& a, const Field& b) const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.particles.size(); ++i)
-      sum += model_.discrete.particles.mass[i] * dot(a.particles[i], b.particles[i]);
-    if (!parts_.solid) return sum;
-    std::vector<Vec3> Mb(b.nodes.size());
-    model_.solid->motion().mass().multiply(b.nodes, Mb);
-    for (std::size_t n = 0; n < Mb.size(); ++n) sum += dot(a.nodes[n], Mb[n]);
-    return sum;
+  /// y = f(x) for the components that are not held; the others are zero on both sides.
+  template <class Function>
+  auto ofFree(const Function& f) const {
+    return [this, f](std::span<const double> x, std::span<double> y) {
+      Field q;
+      if (parts_.particles) q.particles.resize(model_.discrete.particles.size());
+      if (parts_.solid) q.nodes.resize(model_.solid->nodes().X.size());
+      std::size_t k = 0;
+      for (auto* values : {&q.particles, &q.nodes})
+        for (Vec3& v : *values)
+          for (int c = 0; c < 3; ++c) v[c] = x[k++];
+      hold(q);
+      q = f(q);
+      hold(q);
+      k = 0;
+      for (const auto* values : {&q.particles, &q.nodes})
+        for (const Vec3& v : *values)
+          for (int c = 0; c < 3; ++c) y[k++] = v[c];
+    };
   }
 
 private:
@@ -95,9 +104,7 @@ private:
     }
   }
 
-  void addElements(const Field& q, Field& force) const {
-    tangent_.multiply(q.nodes, force.nodes);
-  }
+  void addElements(const Field& q, Field& force) const { tangent_.multiply(q.nodes, force.nodes); }
 
   void addCoupling(const Field& q, Field& force) const {
     const Coupling& c = *model_.coupling;
@@ -109,7 +116,7 @@ private:
     pullNodes(c.gap, lambda, force.nodes);
   }
 
-  const Model& model_;
+  Model& model_;
   Parts parts_;
   fem::BlockMatrix tangent_;
   static constexpr double touch = 1e-300;  // m: all pairs of the list count, those apart as if they just touched
@@ -117,51 +124,19 @@ private:
   std::vector<bool> held_;
 };
 
-void addScaled(Field& a, double factor, const Field& b) {
-  for (std::size_t i = 0; i < a.particles.size(); ++i) a.particles[i] += factor * b.particles[i];
-  for (std::size_t n = 0; n < a.nodes.size(); ++n) a.nodes[n] += factor * b.nodes[n];
-}
-
-void scale(Field& a, double factor) {
-  for (Vec3& v : a.particles) v *= factor;
-  for (Vec3& v : a.nodes) v *= factor;
-}
-
-/// 2/ω of the largest eigenvalue by Lanczos iteration in the inner product of the mass.
-double limitOf(const Model& model, Parts parts) {
-  constexpr int mostSteps = 120;
+/// 2/ω of the largest eigenvalue.
+double limitOf(Model& model, Parts parts) {
+  constexpr double accuracy = 1e-4;
   const Operator A(model, parts);
-  Field q = A.start(), before;
-  scale(q, 1.0 / std::sqrt(A.product(q, q)));
-  std::vector<double> diagonal, offDiagonal;
-  double bound = 0.0;
-  for (int step = 0; step < mostSteps; ++step) {
-    Field w = A(q);
-    diagonal.push_back(A.product(w, q));
-    addScaled(w, -diagonal.back(), q);
-    if (!offDiagonal.empty()) addScaled(w, -offDiagonal.back(), before);
-    const double beta = std::sqrt(std::max(0.0, A.product(w, w)));
-    if (!std::isfinite(beta))
-      throw NumericalError("the stiffness is not finite", "criticalStep", "check masses, weights and the penalty");
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-    ritz.computeFromTridiagonal(
-        Eigen::Map<const Eigen::VectorXd>(diagonal.data(), static_cast<Eigen::Index>(diagonal.size())),
-        Eigen::Map<const Eigen::VectorXd>(offDiagonal.data(), static_cast<Eigen::Index>(offDiagonal.size())));
-    const Eigen::Index last = ritz.eigenvalues().size() - 1;
-    const double theta = ritz.eigenvalues()[last], error = beta * std::abs(ritz.eigenvectors()(last, last));
-    bound = theta + error;
-    if (error <= 1e-4 * theta || beta <= 1e-14 * theta) break;
-    offDiagonal.push_back(beta);
-    before = std::move(q);
-    scale(w, 1.0 / beta);
-    q = std::move(w);
-  }
-  return 2.0 / std::sqrt(bound);
+  return 2.0 / std::sqrt(fem::largestEigenvalue({A.size(), A.ofFree([&](const Field& q) { return A.stiffness(q); }),
+                                                 A.ofFree([&](const Field& q) { return A.mass(q); }),
+                                                 A.ofFree([&](const Field& q) { return A.inverseMass(q); })},
+                                                accuracy));
 }
 
 }  // namespace
 
-CriticalStep criticalStep(const Model& model) {
+CriticalStep criticalStep(Model& model) {
   constexpr double none = std::numeric_limits<double>::infinity();
   CriticalStep limit{none, none, none};
   if (!model.discrete.pairs.pairs().empty()) limit.particles = limitOf(model, {true, false});

@@ -75,8 +75,8 @@ void couplingForces(Model& model, double dt, std::span<const Vec3> solidForce, P
     gapOf(c.gap, c.overlap, model.discrete.particles.v, solid.nodes().v, velocity);
     std::vector<Vec3> ofParticles(model.discrete.particles.size());
     for (const int i : c.overlap.particle)
-      ofParticles[static_cast<std::size_t>(i)] =
-          (1.0 / model.discrete.particles.mass[static_cast<std::size_t>(i)]) * model.discrete.particles.f[static_cast<std::size_t>(i)];
+      ofParticles[static_cast<std::size_t>(i)] = (1.0 / model.discrete.particles.mass[static_cast<std::size_t>(i)]) *
+                                                 model.discrete.particles.f[static_cast<std::size_t>(i)];
     std::vector<Vec3> ofNodes(solidForce.begin(), solidForce.end());
     if (ofNodes.empty())
       ofNodes.assign(solid.nodes().X.size(), {});

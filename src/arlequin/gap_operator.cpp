@@ -70,8 +70,7 @@ struct RowNumbers {
 };
 
 /// One row per node, or one per element and corner.
-RowNumbers numberRows(const std::vector<int>& elements, const Bricks& mesh, bool perElement,
-                      std::vector<int>& node) {
+RowNumbers numberRows(const std::vector<int>& elements, const Bricks& mesh, bool perElement, std::vector<int>& node) {
   RowNumbers rows{std::vector<int>(mesh.elements.size(), -1), {}};
   std::vector<int> ofNode(mesh.X.size(), -1);
   if (!perElement) {

@@ -30,6 +30,12 @@ std::string unquoted(std::string_view field) {
   return std::string(field);
 }
 
+std::string listed(const std::set<std::string>& words, const std::string& mark) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + mark + word;
+  return all;
+}
+
 class AbaqusReader {
 public:
   explicit AbaqusReader(Source& source) : source_(source), cards_(source), builder_(source) {}
@@ -41,11 +47,11 @@ public:
     for (const auto& [key, set] : elementSets_)
       for (const Label label : set.labels) builder_.addElementToSet(set.name, label, set.place);
     readSurfaces();
-    if (!passedOver_.empty()) {
-      std::string all;
-      for (const std::string& keyword : passedOver_) all += (all.empty() ? "*" : ", *") + keyword;
-      builder_.note("Cards that say nothing about the mesh were passed over: " + all + ".");
-    }
+    if (!passedOver_.empty())
+      builder_.note("Cards that say nothing about the mesh were passed over: " + listed(passedOver_, "*") + ".");
+    if (!variants_.empty())
+      builder_.note("Of the element types " + listed(variants_, "") +
+                    " the shape alone was read: fem::Formulation says how it is integrated.");
     return builder_.finish(false);
   }
 
@@ -106,6 +112,7 @@ private:
     if (!type)
       cards_.refuse("elements of type " + shown(name) + " are not known here",
                     "use C3D8, C3D20, C3D27, C3D4 or C3D10, or surface elements that name faces");
+    if (type->dimension == 3 && name != abaqusName(type->shape)) variants_.insert(name);
     LabelSet* set = cards_.has("elset") ? &setOf(elementSets_, cards_.required("elset")) : nullptr;
     std::vector<Label> numbers;
     std::size_t place = 0;
@@ -231,7 +238,7 @@ private:
   LabelSets nodeSets_, elementSets_;
   std::map<std::string, std::string> surfaceNames_;
   std::vector<SurfaceLine> surfaces_;
-  std::set<std::string> passedOver_;
+  std::set<std::string> passedOver_, variants_;
 };
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "gmsh_reader.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
 
 #include "dovetail/core/error.hpp"
 
@@ -8,7 +11,29 @@ namespace dovetail::solid_io {
 
 namespace {
 constexpr const char* saveAgain = "save the mesh in Gmsh as version 4.1 or 2.2";
+
+/// Splits a set of several shapes, under its name and theirs.
+void addSetsByShape(fem::SolidMesh& mesh, const std::string& name, const std::vector<int>& elements) {
+  std::map<std::string, std::vector<int>> parts;
+  int first = 0;
+  for (const fem::CellGroup& group : mesh.groups) {
+    const int last = first + static_cast<int>(group.size());
+    for (const int e : elements)
+      if (first <= e && e < last) parts[(name.empty() ? "" : name + " ") + fem::name(group.shape)].push_back(e);
+    first = last;
+  }
+  if (parts.size() > 1) mesh.elementSets.merge(parts);
 }
+
+void addSetsByShape(fem::SolidMesh& mesh) {
+  if (mesh.groups.size() < 2) return;
+  std::vector<int> all(mesh.elementCount());
+  std::iota(all.begin(), all.end(), 0);
+  const auto given = mesh.elementSets;
+  addSetsByShape(mesh, "", all);
+  for (const auto& [name, elements] : given) addSetsByShape(mesh, name, elements);
+}
+}  // namespace
 
 SolidFile GmshReader::read() {
   for (std::string_view word = source_.word(); !word.empty(); word = source_.word()) {
@@ -25,7 +50,9 @@ SolidFile GmshReader::read() {
   if (!seen_.contains("Elements"))
     throw InputError("there is no section $Elements", source_.name(), "give a complete MSH file");
   nameEntities();
-  return builder_.finish(true);
+  SolidFile file = builder_.finish(true);
+  addSetsByShape(file.mesh);
+  return file;
 }
 
 void GmshReader::readSection(const std::string& section) {
@@ -107,6 +134,10 @@ void GmshReader::addElement(const GmshType& type, Label label, std::span<const L
   }
   if (type.dimension == 2) builder_.addFace(label, nodes.first(static_cast<std::size_t>(type.corners)), place, grouped);
   anyGroup_ = anyGroup_ || grouped;
+  for (const std::int64_t group : physical)
+    if (group == std::numeric_limits<std::int64_t>::min())
+      source_.refuseAt(place, "the physical group is " + std::to_string(group),
+                       "give numbers that have a positive one");
   for (const std::int64_t group : physical)
     if (group != 0) addToSet(type, label, nodes, place, nameOf(type.dimension, group < 0 ? -group : group));
   if (!anyGroup_) unnamed_.push_back({&type, label, {nodes.begin(), nodes.end()}, place, entity});

@@ -64,7 +64,8 @@ TEST(CriticalStep, TheDashpotsLimitWithUniformSharesIsTwo) {
     CouplingOptions coupling;
     coupling.constraint = ConstraintKind::dashpot;
     coupling.penalty = number * bulk * 0.25 / (dt * dt);
-    model.coupling.emplace(makeCoupling(model.discrete.particles, model.discrete.pairs, *model.solid, weight, coupling));
+    model.coupling.emplace(
+        makeCoupling(model.discrete.particles, model.discrete.pairs, *model.solid, weight, coupling));
     Profile profile;
     StepSums sums;
     start(model, dt, profile);

@@ -25,8 +25,7 @@ Model looseParticles(ConstraintKind kind, double penalty) {
   law.normal.stiffness = modulus * 0.25;
   model.discrete.laws = dem::makeContactLaws(law);
   model.discrete.sortEvery = 0;
-  const fem::SolidMesh mesh =
-      fem::boxOf(fem::CellShape::hex8, {1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
+  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
   const std::vector<double> weight = barWeights(mesh, o);
   model.solid.emplace(makeSolid(mesh, weight, o));
   CouplingOptions coupling;
@@ -173,8 +172,8 @@ TEST(Packing, RandomPlacesOfTheSameDensityAreCoupledWithoutLoss) {
     rough.discrete.particles = particles;
     rough.discrete.pairs.clearFactors();
     rough.solid.emplace(makeSolid(barMesh(o), model.coupling->overlap.nodalWeight, o));
-    rough.coupling.emplace(
-        makeCoupling(rough.discrete.particles, rough.discrete.pairs, *rough.solid, model.coupling->overlap.nodalWeight, o.coupling));
+    rough.coupling.emplace(makeCoupling(rough.discrete.particles, rough.discrete.pairs, *rough.solid,
+                                        model.coupling->overlap.nodalWeight, o.coupling));
     Profile profile;
     StepSums sums;
     start(rough, 5e-5, profile);

@@ -58,8 +58,10 @@ TEST_P(LinearWeights, MultipliersCarryTheStressToRoundOff) {
   const double before = worstForce(model);
   Coupling& c = *model.coupling;
   Solid& solid = *model.solid;
-  std::vector<Vec3> a(model.discrete.particles.size()), b(solid.nodes().X.size()), gap(c.rows()), none(c.rows()), lambda(c.rows());
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = (1.0 / model.discrete.particles.mass[i]) * model.discrete.particles.f[i];
+  std::vector<Vec3> a(model.discrete.particles.size()), b(solid.nodes().X.size()), gap(c.rows()), none(c.rows()),
+      lambda(c.rows());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    a[i] = (1.0 / model.discrete.particles.mass[i]) * model.discrete.particles.f[i];
   for (std::size_t n = 0; n < b.size(); ++n)
     if (!solid.nodes().fixed[n]) b[n] = (1.0 / solid.nodes().mass[n]) * solid.nodes().f[n];
   gapOf(c.gap, c.overlap, a, b, gap);

@@ -48,8 +48,7 @@ TEST(Weights, OnABarDistanceAndLaplaceAgreeWithTheStraightLine) {
   const std::vector<double> byDistance = distanceCoordinate(mesh.X, solid, particles);
   std::vector<int> all(mesh.elements.size());
   for (std::size_t e = 0; e < all.size(); ++e) all[e] = static_cast<int>(e);
-  const std::vector<double> byLaplace =
-      laplaceCoordinate(mesh, all, fem::nodeSet(box, "y-"), fem::nodeSet(box, "y+"));
+  const std::vector<double> byLaplace = laplaceCoordinate(mesh, all, fem::nodeSet(box, "y-"), fem::nodeSet(box, "y+"));
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {
     EXPECT_NEAR(byDistance[n], mesh.X[n].y / 3.0, 1e-14);
     EXPECT_NEAR(byLaplace[n], mesh.X[n].y / 3.0, 1e-12);

@@ -38,7 +38,8 @@ State stateAfter(Model model, Kind kind) {
   for (int w = 0; w < 15; ++w)
     implicitSolid ? stepImplicit(model, solid, dt, K, {}, true, profile)
                   : stepExplicit(model, dt, K, {}, true, profile);
-  return {model.discrete.particles.x, model.discrete.particles.v, model.solid->nodes.u, model.solid->nodes.v, storedEnergy(model)};
+  return {model.discrete.particles.x, model.discrete.particles.v, model.solid->nodes.u, model.solid->nodes.v,
+          storedEnergy(model)};
 }
 
 State runKind(Kind kind, int threadCount) {

@@ -90,7 +90,8 @@ TEST(Momentum, OfAHeldBlockGrowsByWeightAndSupports) {
   double supports = 0.0, worst = 0.0;
   for (int w = 0; w < windows; ++w) {
     for (int end = 0; end < 2; ++end) {
-      const Vec3 kept = onHeldNodes(model.solid->nodes, model.solid->nodes.f) + onHeldNodes(model.solid->nodes, model.seam.load().force);
+      const Vec3 kept = onHeldNodes(model.solid->nodes, model.solid->nodes.f) +
+                        onHeldNodes(model.solid->nodes, model.seam.load().force);
       impulse += 0.5 * dt * (weight - kept);
       supports = std::max(supports, dt * norm(kept));
       if (end == 0) stepExplicit(model, dt, 1, {}, false, profile);

@@ -55,5 +55,36 @@ TEST(SparseCholesky, IndefiniteMatricesAreReported) {
   EXPECT_TRUE(cholesky.factor(chain(20, 2.0)));
 }
 
+/// Eigenvalues of the chain are d − 2 cos(k π/21).
+TEST(SparseLu, CountsTheNegativeEigenvaluesOfAChain) {
+  SparseLu lu;
+  for (const double diagonal : {0.1, -1.3, 1.9, 2.5}) {
+    const SparseMatrix A = chain(20, diagonal);
+    SparseMatrix lower;
+    lower.size = A.size;
+    for (std::size_t column = 0; column < 20; ++column) {
+      for (auto k = static_cast<std::size_t>(A.offsets[column]); k < static_cast<std::size_t>(A.offsets[column + 1]);
+           ++k)
+        if (A.row[k] >= static_cast<int>(column)) lower.row.push_back(A.row[k]), lower.value.push_back(A.value[k]);
+      lower.offsets.push_back(static_cast<int>(lower.row.size()));
+    }
+    int negative = 0;
+    for (int k = 1; k <= 20; ++k) negative += diagonal - 2.0 * std::cos(k * 3.14159265358979 / 21.0) < 0.0;
+    ASSERT_TRUE(lu.factor(lower, true));
+    EXPECT_EQ(lu.negativePivots(), negative);
+    ASSERT_TRUE(lu.factor(A, false));
+    EXPECT_EQ(lu.negativePivots(), -1);
+    for (const bool symmetric : {true, false}) {
+      ASSERT_TRUE(lu.factor(symmetric ? lower : A, symmetric));
+      std::vector<double> x(20);
+      for (std::size_t i = 0; i < 20; ++i) x[i] = std::sin(static_cast<double>(i + 1));
+      std::vector<double> b = multiply(A, x);
+      lu.solve(b);
+      for (std::size_t i = 0; i < 20; ++i) EXPECT_NEAR(b[i], x[i], 1e-12);
+    }
+  }
+  EXPECT_FALSE(lu.factor(chain(2, 1.0), false));  // singular
+}
+
 }  // namespace
 }  // namespace dovetail::fem

@@ -1,6 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "dovetail/core/error.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
+#include "dovetail/fem/solve/statics.hpp"
 #include "dovetail/fem/terms/contact_plane.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "term_checks.hpp"
@@ -106,10 +112,72 @@ TEST(ContactPlane, WorkOfAMovingPlaneIsBooked) {
   Model model = makeModel(mesh);
   Plane plane{{0, 0, 0}, {0, 0, 1}, [](double t) { return Vec3{0, 0, 0.01 * t}; }};
   const auto contact = makeContactPlane(mesh, faceSet(mesh, "z-"), plane, options());
-  double booked = 0.0;
-  for (int step = 1; step <= 10; ++step) booked += contact->commit(model.nodes, {0.1 * step, 0.1});
+  EXPECT_EQ(contact->energy(model.nodes, {0.0, 0.0}), 0.0);
+  double work = 0.0;
+  for (int step = 1; step <= 10; ++step) {
+    EXPECT_EQ(contact->commit(model.nodes, {0.1 * step, 0.1}), 0.0);
+    work += contact->workOfMotion();
+  }
   EXPECT_NEAR(contact->energy(model.nodes, {1.0, 0.1}), 0.5 * 1e3 * 1e-4 * 0.8, 1e-13);
-  EXPECT_NEAR(booked, -contact->energy(model.nodes, {1.0, 0.1}), 1e-13);
+  EXPECT_NEAR(work, contact->energy(model.nodes, {1.0, 0.1}), 1e-13);
+}
+
+TEST(ContactPlane, ItsPastIsTheStateInWhichItIsFirstUsed) {
+  const SolidMesh mesh = box();
+  Model model = makeModel(mesh);
+  for (Vec3& u : model.nodes.u) u = {0.3, 0.1, 0.0};
+  const Plane plane{{0, 0, 0}, {0, 0, 1}, [](double t) { return Vec3{0, 0, 0.01 * t}; }};
+  const auto contact = makeContactPlane(mesh, faceSet(mesh, "z-"), plane, options(0.5));
+  const Instant joined{2.0, 0.0};
+  const double pressure = 1e3 * 0.02;
+  EXPECT_NEAR(contact->energy(model.nodes, joined), 0.5 * pressure * 0.02 * 0.8, 1e-13);
+  const Vec3 force = resultant(model.nodes, forcesOf(*contact, model.nodes, joined)).first;
+  EXPECT_LT(norm(force - Vec3{0, 0, pressure * 0.8}), 1e-12);  // no friction yet
+  EXPECT_EQ(contact->commit(model.nodes, joined), 0.0);
+  EXPECT_EQ(contact->workOfMotion(), 0.0);
+  EXPECT_EQ(contact->commit(model.nodes, {2.1, 0.1}), 0.0);
+  EXPECT_NEAR(contact->workOfMotion(), 0.5 * (0.020 + 0.021) * 1e3 * 0.8 * 1e-3, 1e-13);
+}
+
+TEST(ContactPlane, PressingIsWorkAndNotDissipation) {
+  const SolidMesh mesh = box();
+  const Plane plane{{0, 0, 0}, {0, 0, 1}, [](double t) { return Vec3{0, 0, 0.01 * t}; }};
+  Model model = makeModel(mesh);
+  model.add(makeSolid(mesh, pointMaterial(StVenantKirchhoff{1e5, 0.0, 1e3})));
+  model.add(makeContactPlane(mesh, faceSet(mesh, "z-"), plane, {.penalty = 1e7}));
+  model.constraints.hold(nodeSet(mesh, "z+"));
+  addMass(model);
+  const StaticReport report = solveStatics(model, 1.0);
+  EXPECT_EQ(report.dissipated, 0.0);
+  EXPECT_GT(report.storedAfter, 0.0);
+  EXPECT_NEAR(report.supportWork, report.storedAfter, 1e-2 * report.storedAfter);
+  std::ostringstream text;
+  text << report;
+  for (const char* word : {"time reached", "factorisations", "work of supports", "dissipated", "residual"})
+    EXPECT_NE(text.str().find(word), std::string::npos) << word << text.str();
+  ExplicitIntegrator integrator(model, 1e-5, {.checkStep = false});
+  integrator.run(100);
+  std::vector<std::string> names;
+  for (const auto& channel : integrator.ledger().channels()) names.push_back(channel.name);
+  EXPECT_EQ(std::ranges::count(names, "motion of contact plane"), 1);
+  EXPECT_EQ(std::ranges::count(names, "dissipated by contact plane"), 0);
+}
+
+TEST(ContactPlane, TheProposedPenaltyGivesWayByATenthOfALayer) {
+  const SolidMesh mesh = boxOf(CellShape::hex8, {2, 2, 4}, {}, {0.1, 0.1, 0.2});
+  const auto material = pointMaterial(StVenantKirchhoff{1e6, 0.0, 1e3});
+  const auto faces = faceSet(mesh, "z-");
+  Model model = makeModel(mesh);
+  model.add(makeSolid(mesh, material));
+  const Plane plane{{0, 0, 0}, {0, 0, 1}, [](double t) { return Vec3{0, 0, 1e-6 * t}; }};
+  const ContactPlane& contact =
+      model.add(makeContactPlane(mesh, faces, plane, {.penalty = contactPenalty(mesh, faces, *material)}));
+  model.constraints.hold(nodeSet(mesh, "z+"), componentZ);
+  model.constraints.hold(nodeSet(mesh, "x-"), componentX);
+  model.constraints.hold(nodeSet(mesh, "y-"), componentY);
+  solveStatics(model, 1.0);
+  // Four layers and a tenth of one share a micrometre.
+  EXPECT_NEAR(contact.report(model.nodes, {1.0, 0.0}).deepest, 1e-6 / 41.0, 1e-4 * 1e-6);
 }
 
 TEST(ContactPlane, MultipliersReplaceThePenetration) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
 #include "dynamics_helpers.hpp"
@@ -167,6 +168,20 @@ TEST(Dynamics, LedgerOfAShakenBlockClosesWithTheSquareOfTheStep) {
       EXPECT_LT(residual[1], 0.4 * residual[0]) << scheme.name;
     }
   }
+}
+
+TEST(Dynamics, WorkOfALawWithoutPotentialIsBooked) {
+  const SolidMesh mesh = smallMesh();
+  Model model = makeModel(mesh);
+  model.add(makeSolid(mesh, pointMaterial(DeformedMetricHooke{1e6, 0.3, 1000.0})));
+  addMass(model);
+  for (std::size_t n = 0; n < mesh.X.size(); ++n)
+    model.nodes.v[n] = {-40.0 * mesh.X[n].x, 20.0 * mesh.X[n].x, 30.0 * mesh.X[n].y};
+  ImplicitIntegrator integrator(model, crossing, optionsOf(energyMomentum()));
+  integrator.run(30);
+  const EnergyLedger& ledger = integrator.ledger();
+  EXPECT_LT(ledger.largestResidual(), 1e-9 * ledger.storedAtOpening());
+  EXPECT_GT(ledger.booked(), 0.1 * ledger.storedAtOpening());
 }
 
 TEST(Dynamics, RigidMotionOfSupportsTakesTheBodyAlong) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/fem/model/model_mass.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "term_checks.hpp"
 
@@ -178,10 +179,42 @@ TEST(Loads, ConservingForcesDoTheWorkThatIsStored) {
 TEST(Loads, DampingOpposesTheVelocity) {
   const SolidMesh mesh = box(CellShape::hex8);
   Model model = randomState(mesh, 21);
+  const DofMap dofs(model.constraints, model.nodes);
+  const ModelMass mass(model, dofs, 0.0);
+  const Instant moving{now.t, now.dt, &mass};
   for (const auto& load : {massDamping(3.0), groundDashpots(nodeSet(mesh, "x-"), {1, 2, 3})}) {
-    expectTangents(*load, model.nodes, now, 1e-9);
-    EXPECT_LT(productOf(forcesOf(*load, model.nodes, now), model.nodes.v), 0.0);
+    expectTangents(*load, model.nodes, moving, 1e-9);
+    EXPECT_LT(productOf(forcesOf(*load, model.nodes, moving), model.nodes.v), 0.0);
     EXPECT_FALSE(load->hasEnergy());
+  }
+}
+
+TEST(Loads, NodesThatTheModelDoesNotHaveAreRefusedAtTheFirstUse) {
+  const SolidMesh mesh = box(CellShape::hex8);
+  Model model = randomState(mesh, 25);
+  const DofMap dofs(model.constraints, model.nodes);
+  const ModelMass mass(model, dofs, 0.0);
+  const Instant moving{now.t, now.dt, &mass};
+  const int count = static_cast<int>(mesh.X.size());
+  const std::array nodes = {0, count, 1};
+  const auto expectRefusal = [&](auto&& use) {
+    try {
+      use();
+      ADD_FAILURE() << "a node beyond the mesh was taken";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("node " + std::to_string(count) + " "), std::string::npos)
+          << error.what();
+    }
+  };
+  for (const auto& load :
+       {nodalForce(nodes, {1, 2, 3}), groundSprings(nodes, {1, 2, 3}), groundDashpots(nodes, {1, 2, 3})}) {
+    std::vector<Vec3> f(mesh.X.size());
+    expectRefusal([&] { load->addForces(model.nodes, moving, f); });
+    EXPECT_EQ(f, std::vector<Vec3>(f.size()));
+    if (load->hasEnergy()) expectRefusal([&] { load->energy(model.nodes, moving); });
+    BlockMatrix K = matrixFor(*load, model.nodes);
+    if (load->name() == "ground springs") expectRefusal([&] { load->addTangent(model.nodes, moving, K); });
+    if (load->name() == "ground dashpots") expectRefusal([&] { load->addDamping(model.nodes, moving, K); });
   }
 }
 

@@ -36,6 +36,10 @@ SolidMesh fourPoints() {
   return mesh;
 }
 
+// Terms keep history: copies of a model would write to one.
+static_assert(!std::is_copy_constructible_v<Model> && !std::is_copy_assignable_v<Model>);
+static_assert(std::is_nothrow_move_constructible_v<Model> && std::is_nothrow_move_assignable_v<Model>);
+
 TEST(Model, ForcesAndEnergiesAreSumsOverTheTerms) {
   Model model = makeModel(fourPoints());
   model.add(std::make_shared<Ground>(4));

@@ -133,5 +133,33 @@ TEST(ModelStableStep, MissingMassIsRefused) {
   EXPECT_THROW(assembledStableStep(model), InputError);
 }
 
+TEST(ModelStableStep, TiesCountWithTheirWholeMassMatrix) {
+  SolidScene scene = solidScene({CellShape::hex8, Formulation::standard}, true);
+  Model& model = scene.model;
+  addMass(model);
+  for (int c = 0; c < 3; ++c) {
+    model.constraints.ties.push_back({3, c, {{4, c, 0.5}, {5, c, 0.5}}, 0.0, {}});
+    model.constraints.ties.push_back({13, c, {{12, c, 1.3}, {14, c, -0.3}}, 0.0, {}});  // a factor below zero
+  }
+  const DofMap dofs(model.constraints, model.nodes);
+  Eigen::MatrixXd T(3 * dofs.nodes(), dofs.size());
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    std::vector<double> dq(dofs.size(), 0.0);
+    std::vector<Vec3> u(dofs.nodes());
+    dq[i] = 1.0;
+    dofs.addIncrement(dq, u);
+    T.col(static_cast<Eigen::Index>(i)) = flat(u);
+  }
+  Eigen::VectorXd mass(T.rows());
+  for (Eigen::Index i = 0; i < mass.size(); ++i) mass[i] = model.nodes.mass[static_cast<std::size_t>(i / 3)];
+  const Eigen::MatrixXd K = T.transpose() * dense(tangentOf(*scene.solid, model.nodes)) * T,
+                        M = T.transpose() * mass.asDiagonal() * T;
+  const double exact =
+      2.0 / std::sqrt(Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M).eigenvalues().tail(1)[0]);
+  const double found = assembledStableStep(model, 1e-6);
+  EXPECT_LE(found, exact);
+  EXPECT_GT(found, (1.0 - 2e-6) * exact);
+}
+
 }  // namespace
 }  // namespace dovetail::fem

@@ -141,6 +141,18 @@ TEST(PeriodicTies, FacesThatDoNotMatchAreRefused) {
   EXPECT_THROW(periodicTies(mesh, {}), InputError);
 }
 
+TEST(PeriodicTies, CellsOfAnySizeAreTied) {
+  const auto unit = [](double) { return rowMajor(Eigen::Matrix3d::Identity()); };
+  for (const double size : {1e-9, 1e-6, 1.0, 1e3}) {
+    SolidMesh mesh = boxOf(CellShape::hex8, {3, 2, 2}, {}, {size, size, size});
+    std::mt19937 random(3);
+    for (Vec3& X : mesh.X) X += randomVec3(random, 1e-8 * size);  // as a file of eight digits leaves them
+    const PeriodicTies cell = periodicTies(mesh, unit);
+    EXPECT_EQ(cell.ties.size(), 3 * (mesh.X.size() - 3u * 2u * 2u)) << size;
+    EXPECT_EQ(cell.corner, 0) << size;
+  }
+}
+
 /// Two boxes one on the other, with separate nodes between.
 struct Stack {
   SolidMesh mesh;

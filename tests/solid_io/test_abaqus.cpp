@@ -41,9 +41,10 @@ TEST(Abaqus, NodesElementsAndSetsAreRead) {
   EXPECT_EQ(sortedFaces(fem::faceSet(mesh, "Top"))[0], (std::vector<int>{8, 9, 10, 11, -1, -1, -1, -1, -1}));
   EXPECT_EQ(fem::faceSet(mesh, "sides").size(), 2u);
   EXPECT_EQ(fem::nodeSet(mesh, "sides"), (std::vector<int>{0, 1, 4, 5, 7, 8, 11}));
-  ASSERT_EQ(file.notes.size(), 2u);
+  ASSERT_EQ(file.notes.size(), 3u);
   EXPECT_NE(file.notes[0].find("*elastic, *material"), std::string::npos);
-  EXPECT_NE(file.notes[1].find("1 node "), std::string::npos);
+  EXPECT_NE(file.notes[1].find("C3D8I, C3D8R"), std::string::npos) << file.notes[1];
+  EXPECT_NE(file.notes[2].find("1 node "), std::string::npos);
 }
 
 TEST(Abaqus, EveryFaceHasItsName) {

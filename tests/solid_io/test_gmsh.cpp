@@ -89,6 +89,7 @@ TEST(Gmsh, BrokenFilesAreRefusedWithTheirLine) {
       {replaced(text, "1 3 5 10 15 20", "1 3 5 10 15 15"), "names node 15 twice"},
       {replaced(text, "7 2 5 10 15", "7 2 5 10 25"), "surface element 2 is no face"},
       {replaced(text, "\"body\"", "body"), "quotes"},
+      {replaced(text, "3 11 2 ", "3 11 3 -9223372036854775808 "), "physical group"},
       {text + "$Nodes\n0\n$EndNodes\n", "second $Nodes"},
       {replaced(text, "$Nodes", "$Junk"), "$EndJunk"},
       {"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PartitionedEntities\n", "save it whole"},

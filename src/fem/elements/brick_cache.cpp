@@ -1,7 +1,8 @@
+#include "brick_cache.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "brick_cache.hpp"
 #include "dovetail/core/error.hpp"
 #include "hybrid_matrix.hpp"
 

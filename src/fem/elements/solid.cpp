@@ -113,9 +113,10 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const Po
 
 const Solid& requireBrickSolid(const Model& model, const std::string& who) {
   const auto refuse = [&](const std::string& what) {
-    throw InputError("the solid has " + what, who,
-                     "give a model of one solid of hex8 with an elastic law (St Venant-Kirchhoff, axial springs or Hooke "
-                     "on the deformed metric), held by fix() or hold()");
+    throw InputError(
+        "the solid has " + what, who,
+        "give a model of one solid of hex8 with an elastic law (St Venant-Kirchhoff, axial springs or Hooke "
+        "on the deformed metric), held by fix() or hold()");
   };
   const Solid* solid = nullptr;
   for (const auto& term : model.terms) {

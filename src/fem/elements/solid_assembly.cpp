@@ -67,8 +67,7 @@ void SolidBase::findPlaces(const BlockMatrix& K) {
     for (std::size_t e = begin; e < end; ++e)
       for (std::size_t a = 0; a < n; ++a)
         for (std::size_t b = 0; b < n; ++b)
-          places_[(e * n + a) * n + b] =
-              static_cast<std::uint32_t>(K.place(cells_.nodeOf(e, a), cells_.nodeOf(e, b)));
+          places_[(e * n + a) * n + b] = static_cast<std::uint32_t>(K.place(cells_.nodeOf(e, a), cells_.nodeOf(e, b)));
   });
   placesOf_ = K.patternId();
 }
@@ -123,6 +122,13 @@ void SolidBase::addConsistentMass(NodeMatrix& M) const {
 void SolidBase::addMass(std::span<double> mass) const {
   for (std::size_t e = 0; e < cells_.size(); ++e) {
     const std::vector<double> own = lumpedMass(cells_, e, material_->density());
+    for (std::size_t a = 0; a < cells_.nodes; ++a) mass[static_cast<std::size_t>(cells_.nodeOf(e, a))] += own[a];
+  }
+}
+
+void SolidBase::addBodyMass(std::span<double> mass) const {
+  for (std::size_t e = 0; e < cells_.size(); ++e) {
+    const std::vector<double> own = rowSumsOfMass(cells_, e, material_->density());
     for (std::size_t a = 0; a < cells_.nodes; ++a) mass[static_cast<std::size_t>(cells_.nodeOf(e, a))] += own[a];
   }
 }

@@ -1,7 +1,7 @@
 // The assumed-stress brick as a term of a model.
+#include "brick_cache.hpp"
 #include "cell_kernels.hpp"
 #include "dovetail/core/error.hpp"
-#include "brick_cache.hpp"
 #include "hybrid_matrix.hpp"
 
 namespace dovetail::fem::detail {

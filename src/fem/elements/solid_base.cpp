@@ -54,11 +54,17 @@ void SolidBase::startHistory() {
 void SolidBase::load(ByteReader& archive) {
   startHistory();
   evaluation_ = {};
-  const std::size_t expected = history_.size();
-  archive(history_);
-  if (history_.size() != expected)
-    throw InputError("the checkpoint has the history of another solid", options_.name,
-                     "load it into the model that wrote it");
+  history_ = readNumbers(archive, history_.size());
+}
+
+std::vector<double> SolidBase::readNumbers(ByteReader& archive, std::size_t count) const {
+  std::vector<double> values;
+  archive(values);
+  if (values.size() != count)
+    throw InputError("the state is that of another solid", options_.name, "load it into the model that wrote it");
+  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
+    throw InputError("the state is not finite", options_.name, "take an older one");
+  return values;
 }
 
 void SolidBase::evaluate(const BatchTask& task, const Lane* F, Lane* P, Lane* tangent, Lane* energy, Lane* dissipated) {
@@ -198,19 +204,19 @@ SolidBase::Totals SolidBase::totals(const Nodes& nodes, const Instant& now) {
   startHistory();
   if (isKnown(nodes, now)) return evaluation_.totals;
   const bool remembers = material_->historySize() > 0;
-  const Totals sum = parallelSum(cells_.batches(), bricks_ ? kernelGrain : batchGrain, [&](std::size_t begin,
-                                                                                          std::size_t end) {
-    Totals part;
-    BatchResult result;
-    for (std::size_t b = begin; b < end; ++b) {
-      BatchTask task = taskOf(b, nodes, now);
-      task.wantEnergy = true;
-      task.wantDissipation = remembers;
-      energies(task, result);
-      part += {sumOfLanes(result.energy), remembers ? sumOfLanes(result.dissipated) : 0.0};
-    }
-    return part;
-  });
+  const Totals sum =
+      parallelSum(cells_.batches(), bricks_ ? kernelGrain : batchGrain, [&](std::size_t begin, std::size_t end) {
+        Totals part;
+        BatchResult result;
+        for (std::size_t b = begin; b < end; ++b) {
+          BatchTask task = taskOf(b, nodes, now);
+          task.wantEnergy = true;
+          task.wantDissipation = remembers;
+          energies(task, result);
+          part += {sumOfLanes(result.energy), remembers ? sumOfLanes(result.dissipated) : 0.0};
+        }
+        return part;
+      });
   if (remembers) evaluation_ = {nodes.u, now.dt, sum, true, false};
   return sum;
 }
@@ -264,9 +270,9 @@ void SolidBase::requireUpright(std::size_t b, const Nodes& nodes, const std::str
 
 void SolidBase::complain(std::size_t batch, std::size_t lane, const std::string& reason,
                          const std::string& when) const {
-  throw NumericalError("element " + std::to_string(cells_.number[laneCount * batch + lane]) + " of \"" +
-                           options_.name + "\" " + reason,
-                       when, "take a smaller step, a finer mesh or a smaller load");
+  throw NumericalError(
+      "element " + std::to_string(cells_.number[laneCount * batch + lane]) + " of \"" + options_.name + "\" " + reason,
+      when, "take a smaller step, a finer mesh or a smaller load");
 }
 
 void SolidBase::requireValid(const Nodes& nodes, const std::string& when, Scrutiny scrutiny) {
@@ -295,9 +301,9 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when, Scruti
 
 std::size_t SolidBase::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return bytes(cells_.number) + bytes(cells_.X) + bytes(cells_.share) + bytes(cells_.batchNode) + bytes(geometry_) + bytes(history_) +
-         bytes(newHistory_) + bytes(evaluation_.u) + bytes(results_) + bytes(nodeOffsets_) + bytes(nodeEntries_) + bytes(places_) +
-         (bricks_ ? bricks_->memory() : 0) + formulationMemory();
+  return bytes(cells_.number) + bytes(cells_.X) + bytes(cells_.share) + bytes(cells_.batchNode) + bytes(geometry_) +
+         bytes(history_) + bytes(newHistory_) + bytes(evaluation_.u) + bytes(results_) + bytes(nodeOffsets_) +
+         bytes(nodeEntries_) + bytes(places_) + (bricks_ ? bricks_->memory() : 0) + formulationMemory();
 }
 
 Solid::Sample SolidBase::sample(const Nodes& nodes, const Instant& now) {

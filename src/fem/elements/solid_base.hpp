@@ -44,10 +44,12 @@ public:
                            std::span<Vec3> f) override;
   void addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now, BlockMatrix& K) override;
   bool isSymmetric() const override { return material_->isSymmetric(); }
-  bool hasEnergy() const override { return true; }
+  /// A law without potential has no history either that would book what its work leaves.
+  bool hasEnergy() const override { return material_->isElastic() || material_->historySize() > 0; }
   double energy(const Nodes& nodes, const Instant& now) override;
   double commit(const Nodes& nodes, const Instant& now) override;
   void addMass(std::span<double> mass) const override;
+  void addBodyMass(std::span<double> mass) const override;
   void addConsistentMass(NodeMatrix& M) const override;
   void save(ByteWriter& archive) const override { archive(history_); }
   void load(ByteReader& archive) override;
@@ -77,6 +79,8 @@ protected:
   /// Calls the material for a batch whose F is given; any of tangent, energy, dissipated may be null.
   void evaluate(const BatchTask& task, const Lane* F, Lane* P, Lane* tangent, Lane* energy, Lane* dissipated);
   void requireSameNodes(const Nodes& nodes) const;
+  /// @throws InputError unless there are so many, all finite
+  std::vector<double> readNumbers(ByteReader& archive, std::size_t count) const;
   /// Whether forces() and tangent() know what to do with a `start`.
   virtual bool conserves() const { return false; }
 
@@ -134,9 +138,9 @@ private:
   std::unique_ptr<const BrickCache> bricks_;  // if there are kernels
   std::vector<double> history_, newHistory_;
   Evaluation evaluation_;
-  std::vector<Lane> results_;               // forces of all batches, for more than one thread
-  std::vector<std::uint32_t> nodeOffsets_;  // entries of each node in results_, ascending elements
-  std::vector<std::uint32_t> nodeEntries_;  // place of their first component, in doubles
+  std::vector<Lane> results_;                        // forces of all batches, for more than one thread
+  std::vector<std::uint32_t> nodeOffsets_;           // entries of each node in results_, ascending elements
+  std::vector<std::uint32_t> nodeEntries_;           // place of their first component, in doubles
   std::vector<std::vector<std::uint32_t>> colours_;  // batches of a colour share no node
   std::vector<std::uint32_t> places_;                // of the blocks (a, b) of each element in a matrix
   std::size_t placesOf_ = 0;                         // its pattern

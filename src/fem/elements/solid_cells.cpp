@@ -54,11 +54,10 @@ std::vector<PointGeometry> geometryAt(const SolidCells& cells, const CellRule& r
       point.weight = rule.weight[p] * inverseOf(J.data(), point.map.data());
       for (std::size_t lane = 0; lane < laneCount; ++lane)
         point.weight[static_cast<int>(lane)] *=
-            lane < cells.inUse(b) ? shareAt(cells, &rule.value[n * p],
-                                            [&](std::size_t a) {
-                                              return static_cast<std::size_t>(cells.batchNode[n * b + a][lane]);
-                                            })
-                                  : 0.0;
+            lane < cells.inUse(b)
+                ? shareAt(cells, &rule.value[n * p],
+                          [&](std::size_t a) { return static_cast<std::size_t>(cells.batchNode[n * b + a][lane]); })
+                : 0.0;
     }
   return geometry;
 }
@@ -68,8 +67,7 @@ std::vector<double> consistentMass(const SolidCells& cells, std::size_t element,
   std::vector<double> mass(n * n, 0.0);
   if (cells.shape == CellShape::hex8) {
     const std::array<int, 8> nodes = brickNodes(cells, element);
-    const std::array<double, 64> products =
-        shapeProducts(cornersOf(nodes, cells.X), cornerValues(nodes, cells.share));
+    const std::array<double, 64> products = shapeProducts(cornersOf(nodes, cells.X), cornerValues(nodes, cells.share));
     for (std::size_t k = 0; k < 64; ++k) mass[k] = density * products[k];
     return mass;
   }
@@ -96,8 +94,7 @@ std::vector<double> rowSumsOfMass(const SolidCells& cells, std::size_t element, 
 }
 
 std::vector<double> lumpedMass(const SolidCells& cells, std::size_t element, double density) {
-  if (cells.shape != CellShape::hex20 && cells.shape != CellShape::tet10)
-    return rowSumsOfMass(cells, element, density);
+  if (cells.shape != CellShape::hex20 && cells.shape != CellShape::tet10) return rowSumsOfMass(cells, element, density);
   std::vector<double> diagonal(cells.nodes, 0.0);
   double volume = 0.0, sum = 0.0;
   visitMassPoints(cells, element, [&](const double* value, double part) {

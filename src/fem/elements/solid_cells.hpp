@@ -27,8 +27,8 @@ struct SolidCells {
   int nodeOf(std::size_t e, std::size_t a) const { return batchNode[nodes * (e / laneCount) + a][e % laneCount]; }
 };
 
-/// ∂ξ/∂X, row-major, and weight (det ∂X/∂ξ times that of the rule and the share; 0 in lanes that repeat) at one point of
-/// a batch.
+/// ∂ξ/∂X, row-major, and weight (det ∂X/∂ξ times that of the rule and the share; 0 in lanes that repeat) at one point
+/// of a batch.
 struct alignas(laneBytes) PointGeometry {
   std::array<Lane, 9> map;
   Lane weight;

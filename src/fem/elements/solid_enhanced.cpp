@@ -36,10 +36,7 @@ public:
   }
   void load(ByteReader& archive) override {
     SolidBase::load(archive);
-    std::vector<double> values;
-    archive(values);
-    if (values.size() != alpha_.size() * M * laneCount)
-      throw InputError("the checkpoint is of another solid", options_.name, "load it into the model that wrote it");
+    const std::vector<double> values = readNumbers(archive, alpha_.size() * M * laneCount);
     std::size_t next = 0;
     for (Modes& modes : alpha_)
       for (Lane& mode : modes)

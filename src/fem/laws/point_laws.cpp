@@ -76,8 +76,7 @@ std::shared_ptr<const PointMaterial> pointMaterial(const Material& material) {
   if (const auto* law = std::get_if<StVenantKirchhoff>(&material))
     return elasticMaterial("St Venant-Kirchhoff", rho, detail::StVenantKirchhoffLaw{*law, lame.lambda, lame.mu});
   if (const auto* law = std::get_if<DeformedMetricHooke>(&material))
-    return elasticMaterial("Hooke on the deformed metric", rho,
-                           detail::DeformedMetricLaw{*law, lame.lambda, lame.mu});
+    return elasticMaterial("Hooke on the deformed metric", rho, detail::DeformedMetricLaw{*law, lame.lambda, lame.mu});
   return elasticMaterial("axial springs", rho, detail::AxialSpringsLaw{std::get<AxialSprings>(material), youngs});
 }
 

@@ -15,8 +15,7 @@ constexpr std::array<std::array<int, 3>, 8> brickSign = {
 std::array<double, 8> shapeValues(const Vec3& xi) {
   std::array<double, 8> value{};
   for (std::size_t a = 0; a < 8; ++a)
-    value[a] =
-        0.125 * (1.0 + brickSign[a][0] * xi.x) * (1.0 + brickSign[a][1] * xi.y) * (1.0 + brickSign[a][2] * xi.z);
+    value[a] = 0.125 * (1.0 + brickSign[a][0] * xi.x) * (1.0 + brickSign[a][1] * xi.y) * (1.0 + brickSign[a][2] * xi.z);
   return value;
 }
 
@@ -343,8 +342,8 @@ const FaceRule& faceRule(FaceShape shape) {
 }  // namespace detail
 
 std::span<const Vec3> parentNodes(CellShape shape) {
-  static const auto nodes =
-      detail::perShape([](CellShape s) { return detail::isTet(s) ? detail::tetNodes(nodesOf(s)) : detail::brickNodes(nodesOf(s)); });
+  static const auto nodes = detail::perShape(
+      [](CellShape s) { return detail::isTet(s) ? detail::tetNodes(nodesOf(s)) : detail::brickNodes(nodesOf(s)); });
   return nodes[static_cast<std::size_t>(shape)];
 }
 

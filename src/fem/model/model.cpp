@@ -35,6 +35,10 @@ void addMass(Model& model) {
     if (!(mass[n] > 0.0) && model.nodes.fixed[n] != allComponents)
       throw InputError("no term gives it a mass", "node " + std::to_string(n),
                        "add the elements of all materials, or fix its components");
+  std::vector<double> bodyMass(mass.size(), 0.0);
+  for (const auto& term : model.terms) term->addBodyMass(bodyMass);
+  if (bodyMass == mass) bodyMass = {};
+  model.nodes.bodyMass = std::move(bodyMass);
 }
 
 void evaluateForces(Model& model, const Instant& now) {

@@ -155,8 +155,7 @@ void ModelMass::factorOnce() const {
   for (int c = 0; c < 3; ++c) {
     int first = 0;
     while (first < c && !sameFree(first, c)) ++first;
-    factorOf_[static_cast<std::size_t>(c)] =
-        first < c ? factorOf_[static_cast<std::size_t>(first)] : factors_.size();
+    factorOf_[static_cast<std::size_t>(c)] = first < c ? factorOf_[static_cast<std::size_t>(first)] : factors_.size();
     if (first == c) factors_.emplace_back(*this, c);
   }
 }

@@ -75,7 +75,8 @@ Vec3 angularMomentum(const Nodes& nodes) {
 void requireMass(const Nodes& nodes) {
   for (std::size_t n = 0; n < nodes.mass.size(); ++n)
     if (nodes.fixed[n] != allComponents && !(nodes.mass[n] > 0.0))
-      throw InputError("it has no mass", "node " + std::to_string(n), "call addMass(model), or hold all its components");
+      throw InputError("it has no mass", "node " + std::to_string(n),
+                       "call addMass(model), or hold all its components");
 }
 
 }  // namespace dovetail::fem

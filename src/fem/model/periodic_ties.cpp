@@ -76,6 +76,8 @@ PeriodicTies periodicTies(const SolidMesh& mesh, const GradientFunction& F, std:
   requirePositive(tolerance, "tolerance of periodic ties");
   if (!F) throw InputError("there is no macroscopic gradient", "periodicTies", "give a function of time");
   const auto [lower, upper] = boundsOf(mesh);
+  const Vec3 sides = upper - lower;
+  tolerance = requirePositive(tolerance * std::max({sides.x, sides.y, sides.z}), "longest side of the cell");
   std::vector<int> masters;  // on a lower face and on no upper one
   std::vector<std::pair<int, Vec3>> slaves;
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {

@@ -1,6 +1,7 @@
 #include "energy_book.hpp"
 
 #include "dovetail/core/error.hpp"
+#include "run_state.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -23,62 +24,50 @@ void EnergyBook::spend(const std::string& channel, double joules) {
   ledger_.add(id, joules);
 }
 
+void EnergyBook::accept(Model& model, const Instant& now, bool wanted) {
+  for (const auto& term : model.terms) {
+    const double dissipated = term->commit(model.nodes, now);
+    if (!wanted) continue;
+    spend("dissipated by " + term->name(), dissipated);
+    spend("motion of " + term->name(), -term->workOfMotion());
+  }
+}
+
 void EnergyBook::save(ByteWriter& archive) const {
-  archive(static_cast<std::uint64_t>(ledger_.channels().size()));
-  for (const EnergyLedger::Channel& channel : ledger_.channels())
-    archive(std::vector<char>(channel.name.begin(), channel.name.end()), channel.kind, channel.joules,
-            channel.joulesAtOpening);
+  archive(static_cast<std::int64_t>(ledger_.channels().size()));
+  for (const EnergyLedger::Channel& channel : ledger_.channels()) {
+    writeText(archive, channel.name);
+    archive(static_cast<std::int64_t>(channel.kind), channel.joules, channel.joulesAtOpening);
+  }
 }
 
 /// Builds the ledger anew: first with the values at the opening, then with the present ones.
-void EnergyBook::load(ByteReader& archive) {
-  std::uint64_t count = 0;
-  archive(count);
-  const std::size_t fixedChannels = 1 + stored_.size();
-  EnergyLedger ledger;
+EnergyBook EnergyBook::read(ByteReader& archive) const {
+  const std::int64_t count = readCount(archive, "number of channels");
+  const auto storedChannels = static_cast<std::int64_t>(1 + stored_.size());
+  EnergyBook book = *this;
+  book.ledger_ = {};
+  book.booked_.clear();
   std::vector<double> present;
-  booked_.clear();
-  for (std::uint64_t k = 0; k < count; ++k) {
-    std::vector<char> name;
-    EnergyLedger::Channel channel;
-    archive(name, channel.kind, channel.joules, channel.joulesAtOpening);
-    channel.name.assign(name.begin(), name.end());
-    const bool stored = channel.kind == EnergyLedger::Kind::stored;
-    if (stored != (k < fixedChannels) || (stored && channel.name != ledger_.channels()[k].name))
-      throw InputError("the checkpoint has other terms", "channel \"" + channel.name + "\"",
-                       "load it into the model that wrote it");
-    const EnergyLedger::Id id = stored ? ledger.addStored(channel.name) : ledger.addBooked(channel.name);
-    if (!stored) booked_[channel.name] = id;
-    if (stored)
-      ledger.set(id, channel.joulesAtOpening);
-    else
-      ledger.add(id, channel.joulesAtOpening);
-    present.push_back(channel.joules);
+  for (std::int64_t k = 0; k < count; ++k) {
+    const std::string name = readText(archive);
+    const bool stored =
+        readCount(archive, "kind of a channel") == static_cast<std::int64_t>(EnergyLedger::Kind::stored);
+    const bool known = stored ? k < storedChannels && name == ledger_.channels()[static_cast<std::size_t>(k)].name
+                              : k >= storedChannels && !book.booked_.contains(name);
+    if (!known)
+      throw InputError("the state has other terms", "channel \"" + name + "\"", "load it into the run that saved it");
+    present.push_back(readNumber(archive, "energy of a channel"));
+    const double opening = readNumber(archive, "energy of a channel");
+    const EnergyLedger::Id id = stored ? book.ledger_.addStored(name) : book.ledger_.addBooked(name);
+    if (!stored) book.booked_[name] = id;
+    book.ledger_.set(id, opening);
   }
-  if (count < fixedChannels)
-    throw InputError("the checkpoint has other terms", "ledger", "load it into the model that wrote it");
-  ledger.open();
-  for (EnergyLedger::Id id = 0; id < present.size(); ++id) ledger.set(id, present[id]);
-  ledger_ = ledger;
-}
-
-void saveState(ByteWriter& archive, const Model& model) {
-  archive(model.t, model.nodes.u, model.nodes.v);
-  for (const auto& term : model.terms) term->save(archive);
-}
-
-void loadState(ByteReader& archive, Model& model) {
-  std::vector<Vec3> u, v;
-  double t = 0.0;
-  archive(t, u, v);
-  if (u.size() != model.nodes.u.size() || v.size() != u.size())
-    throw InputError(
-        "the checkpoint has " + std::to_string(u.size()) + " nodes, the model " + std::to_string(model.nodes.u.size()),
-        "load", "load it into the model that wrote it");
-  model.t = t;
-  model.nodes.u = std::move(u);
-  model.nodes.v = std::move(v);
-  for (const auto& term : model.terms) term->load(archive);
+  if (count < storedChannels)
+    throw InputError("the state has other terms", "ledger", "load it into the run that saved it");
+  book.ledger_.open();
+  for (EnergyLedger::Id id = 0; id < present.size(); ++id) book.ledger_.set(id, present[id]);
+  return book;
 }
 
 }  // namespace dovetail::fem::detail

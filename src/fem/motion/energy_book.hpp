@@ -20,10 +20,13 @@ public:
   void open() { ledger_.open(); }
   void close() { ledger_.close(); }
   void spend(const std::string& channel, double joules);
+  /// The terms adopt their history; books, if wanted, what they dissipated and what their own motion did.
+  void accept(Model& model, const Instant& now, bool wanted);
   const EnergyLedger& ledger() const { return ledger_; }
 
   void save(ByteWriter& archive) const;
-  void load(ByteReader& archive);
+  /// What save() wrote, for the same terms. @throws InputError if they are others, or if the books are damaged
+  EnergyBook read(ByteReader& archive) const;
 
 private:
   EnergyLedger ledger_;
@@ -31,9 +34,5 @@ private:
   std::vector<EnergyLedger::Id> stored_;  // per term with energy
   std::map<std::string, EnergyLedger::Id> booked_;
 };
-
-/// Displacements, velocities and what the terms remember.
-void saveState(ByteWriter& archive, const Model& model);
-void loadState(ByteReader& archive, Model& model);
 
 }  // namespace dovetail::fem::detail

@@ -4,11 +4,11 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/elements/solid.hpp"
-#include "dovetail/fem/motion/motion.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
+#include "dovetail/fem/motion/motion.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
 #include "energy_book.hpp"
-#include "force_sum.hpp"
+#include "run_state.hpp"
 
 namespace dovetail::fem {
 
@@ -71,6 +71,7 @@ struct ExplicitIntegrator::Impl {
     book.open();
   }
 
+  Instant now() const { return {model.t, dt, &motion.mass()}; }
   bool samples() const { return options.energyEvery > 0 && steps % options.energyEvery == 0; }
 
   /// Forces at the present state, and accelerations where masses couple them.
@@ -139,9 +140,12 @@ struct ExplicitIntegrator::Impl {
   }
   void commit() {
     const Profile::Stage stage(profile, "materials accept");
-    for (const auto& term : model.terms)
-      if (const double spent = term->commit(model.nodes, {model.t, dt}); options.energyEvery > 0)
-        book.spend("dissipated by " + term->name(), spent);
+    book.accept(model, now(), options.energyEvery > 0);
+  }
+  detail::StepStart start() const {
+    std::vector<Vec3> kept = a;
+    kept.resize(model.nodes.u.size());  // where masses are lumped, forces say it all
+    return {kept, model.nodes.f, {motion.loads().begin(), motion.loads().end()}};
   }
   void check(bool finite) {
     if (finite && (options.checkEvery == 0 || steps % options.checkEvery != 0)) return;
@@ -180,15 +184,24 @@ DynamicsReport ExplicitIntegrator::report() const {
 }
 
 void ExplicitIntegrator::save(ByteWriter& archive) const {
-  detail::saveState(archive, impl_->model);
+  detail::writeModel(archive, "explicit", impl_->model);
   impl_->book.save(archive);
-  archive(impl_->steps, impl_->a, impl_->model.nodes.f);
+  archive(impl_->steps);
+  detail::writeStart(archive, impl_->start());
 }
 
 void ExplicitIntegrator::load(ByteReader& archive) {
-  detail::loadState(archive, impl_->model);
-  impl_->book.load(archive);
-  archive(impl_->steps, impl_->a, impl_->model.nodes.f);
+  detail::ModelState state = detail::readModel(archive, "explicit", impl_->model);
+  detail::EnergyBook book = impl_->book.read(archive);
+  const std::int64_t steps = detail::readCount(archive, "number of steps");
+  detail::StepStart start = detail::readStart(archive, impl_->model);
+  detail::requireEnd(archive, "ExplicitIntegrator");
+  detail::adopt(std::move(state), impl_->model);
+  impl_->book = std::move(book);
+  impl_->steps = steps;
+  impl_->a = std::move(start.a);
+  impl_->model.nodes.f = std::move(start.f);
+  impl_->motion.setLoads(std::move(start.loads));
 }
 
 }  // namespace dovetail::fem

@@ -3,6 +3,7 @@
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "energy_book.hpp"
 #include "implicit_advance.hpp"
+#include "run_state.hpp"
 
 namespace dovetail::fem {
 
@@ -44,12 +45,14 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
     book.open();
   }
 
+  /// Marks states: conserving steps start from other fields.
+  std::string kind() const { return options.scheme.conserving ? "energy-momentum" : "implicit"; }
   void sample() {
     if (options.energyEvery == 0 || steps % options.energyEvery != 0) return;
     const Profile::Stage stage(profile, "energies");
     std::vector<double> energies;
     for (const auto& term : model.terms)
-      energies.push_back(term->hasEnergy() ? term->energy(model.nodes, {model.t, dt}) : 0.0);
+      energies.push_back(term->hasEnergy() ? term->energy(model.nodes, {model.t, dt, &mass}) : 0.0);
     book.sample(model, energies, mass.kineticEnergy(model.nodes.v));
   }
 
@@ -92,9 +95,7 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
     if (options.energyEvery > 0) bookWorks(h);
     model.t += h;
     const Profile::Stage stage(profile, "materials accept");
-    for (const auto& term : model.terms)
-      if (const double spent = term->commit(model.nodes, {model.t, h}); options.energyEvery > 0)
-        book.spend("dissipated by " + term->name(), spent);
+    book.accept(model, {model.t, h, &mass}, options.energyEvery > 0);
   }
 };
 
@@ -151,18 +152,28 @@ DynamicsReport ImplicitIntegrator::report() const {
 
 void ImplicitIntegrator::save(ByteWriter& archive) {
   impl_->solver.dropFactors();
-  detail::saveState(archive, impl_->model);
+  detail::writeModel(archive, impl_->kind(), impl_->model);
   impl_->book.save(archive);
   archive(impl_->steps, impl_->cuts, impl_->iterations, impl_->largestResidual);
-  impl_->solver.exchange(archive);
+  impl_->solver.save(archive);
 }
 
 void ImplicitIntegrator::load(ByteReader& archive) {
-  impl_->solver.dropFactors();
-  detail::loadState(archive, impl_->model);
-  impl_->book.load(archive);
-  archive(impl_->steps, impl_->cuts, impl_->iterations, impl_->largestResidual);
-  impl_->solver.exchange(archive);
+  detail::ModelState state = detail::readModel(archive, impl_->kind(), impl_->model);
+  detail::EnergyBook book = impl_->book.read(archive);
+  const std::int64_t steps = detail::readCount(archive, "number of steps");
+  const std::int64_t cuts = detail::readCount(archive, "number of cuts");
+  const std::int64_t iterations = detail::readCount(archive, "number of iterations");
+  const double largestResidual = detail::readNumber(archive, "largest residual");
+  detail::StepStart start = detail::readStart(archive, impl_->model);
+  detail::requireEnd(archive, "ImplicitIntegrator");
+  detail::adopt(std::move(state), impl_->model);
+  impl_->book = std::move(book);
+  impl_->steps = steps;
+  impl_->cuts = cuts;
+  impl_->iterations = iterations;
+  impl_->largestResidual = largestResidual;
+  impl_->solver.restart(std::move(start));
 }
 
 }  // namespace dovetail::fem

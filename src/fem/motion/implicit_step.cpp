@@ -50,8 +50,7 @@ ImplicitStep::ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, co
       residual_(dofs.size()),
       increment_(dofs.size()) {
   const std::size_t n = model.nodes.u.size();
-  for (std::vector<Vec3>* field : {&a0_, &a1_, &base_, &correction_, &inertia_, &work_, &start_.total,
-                                   &end_.total})
+  for (std::vector<Vec3>* field : {&a0_, &a1_, &base_, &correction_, &inertia_, &work_, &start_.total, &end_.total})
     field->resize(n);
   if (conserving()) mean_ = model.nodes;
   spacing_ = meanSpacing(model.nodes, matrix_);
@@ -59,8 +58,9 @@ ImplicitStep::ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, co
 
 void ImplicitStep::begin(double h) {
   solver_.drop();
+  start_.evaluate(model_, model_.nodes, {model_.t, 0.0, &mass_}, start_.total,
+                  false);  // terms that remember take their past from it
   if (conserving()) return;
-  start_.evaluate(model_, model_.nodes, {model_.t, 0.0}, start_.total, false);
   std::fill(a0_.begin(), a0_.end(), Vec3{});
   dofs_.applyAcceleration(model_.t, h, a0_);
   mass_.accelerate(start_.total, a0_);
@@ -95,7 +95,7 @@ void ImplicitStep::applyCorrection(double h) {
 void ImplicitStep::evaluate(double h) {
   const Profile::Stage stage(profile_, "forces");
   if (conserving()) return evaluateConserving(h);
-  end_.evaluate(model_, model_.nodes, {model_.t + h, h}, end_.total, false);
+  end_.evaluate(model_, model_.nodes, endOf(h), end_.total, false);
 }
 
 void ImplicitStep::evaluateConserving(double h) {
@@ -107,9 +107,9 @@ void ImplicitStep::evaluateConserving(double h) {
   std::size_t next = 0;
   for (std::size_t k = 0; k < model_.terms.size(); ++k) {
     Term& term = *model_.terms[k];
-    conserves_[k] = term.addConservingForces(model_.nodes, u0_, {model_.t + h, h}, end_.total);
+    conserves_[k] = term.addConservingForces(model_.nodes, u0_, endOf(h), end_.total);
     if (conserves_[k]) continue;
-    const Instant middle{model_.t + 0.5 * h, 0.5 * h};
+    const Instant middle = middleOf(h);
     if (term.hasEnergy()) {
       term.addForces(mean_, middle, end_.total);
       continue;
@@ -154,7 +154,7 @@ bool ImplicitStep::factor(double h, bool exact) {
       noteStiffness();
       mass_.addTo(matrix_, 2.0 / (h * h));
     } else {
-      const Instant now{model_.t + h, h};
+      const Instant now = endOf(h);
       for (const auto& term : model_.terms) term->addDamping(model_.nodes, now, matrix_);
       for (double& value : matrix_.values()) value *= s.gamma / (s.beta * h);
       for (const auto& term : model_.terms) term->addTangent(model_.nodes, now, matrix_);
@@ -182,7 +182,7 @@ void ImplicitStep::noteStiffness() {
 }
 
 void ImplicitStep::addMeanTangents(double h) {
-  const Instant middle{model_.t + 0.5 * h, 0.5 * h};
+  const Instant middle = middleOf(h);
   for (std::size_t k = 0; k < model_.terms.size(); ++k)
     if (!conserves_[k]) model_.terms[k]->addDamping(mean_, middle, matrix_);
   for (double& value : matrix_.values()) value *= 2.0 / h;
@@ -190,12 +190,13 @@ void ImplicitStep::addMeanTangents(double h) {
     if (!conserves_[k]) model_.terms[k]->addTangent(mean_, middle, matrix_);
   for (double& value : matrix_.values()) value *= 0.5;
   for (std::size_t k = 0; k < model_.terms.size(); ++k)
-    if (conserves_[k]) model_.terms[k]->addConservingTangent(model_.nodes, u0_, {model_.t + h, h}, matrix_);
+    if (conserves_[k]) model_.terms[k]->addConservingTangent(model_.nodes, u0_, endOf(h), matrix_);
 }
 
 std::string ImplicitStep::complaint(double h) const {
   try {
-    for (const auto& term : model_.terms) term->requireValid(model_.nodes, "t = " + formatNumber(model_.t + h) + " s", Scrutiny::all);
+    for (const auto& term : model_.terms)
+      term->requireValid(model_.nodes, "t = " + formatNumber(model_.t + h) + " s", Scrutiny::all);
   } catch (const NumericalError& error) {
     return error.what();
   }
@@ -210,7 +211,7 @@ ImplicitStep::Result ImplicitStep::attempt(double h, Guess guess) {
   Result result = newton(h);
   for (int round = 0; result.failure.empty(); ++round) {
     bool again = false;
-    for (const auto& term : model_.terms) again = term->augment(model_.nodes, {model_.t + h, h}) || again;
+    for (const auto& term : model_.terms) again = term->augment(model_.nodes, endOf(h)) || again;
     if (!again) break;
     if (round == options_.maxAugmentations) {
       result.failure = "contact multipliers do not settle in " + std::to_string(round) + " rounds";

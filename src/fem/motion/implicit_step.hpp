@@ -7,6 +7,7 @@
 #include "dovetail/fem/model/model_mass.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "force_sum.hpp"
+#include "run_state.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -42,14 +43,19 @@ public:
   /// At the end of the last accepted step (conserving: of that step).
   const std::vector<Vec3>& forces() const { return conserving() ? end_.total : start_.total; }
 
-  template <class Archive>
-  void exchange(Archive& archive) {
-    archive(a0_, start_.total);
-    for (std::vector<Vec3>& load : start_.loads) archive(load);
+  void save(ByteWriter& archive) const { writeStart(archive, {a0_, start_.total, start_.loads}); }
+  /// Goes on from what was saved, with new factors.
+  void restart(StepStart start) {
+    a0_ = std::move(start.a);
+    start_.total = std::move(start.f);
+    start_.loads = std::move(start.loads);
+    dropFactors();
   }
 
 private:
   bool conserving() const { return options_.scheme.conserving; }
+  Instant endOf(double h) const { return {model_.t + h, h, &mass_}; }
+  Instant middleOf(double h) const { return {model_.t + 0.5 * h, 0.5 * h, &mass_}; }
   void setBase(double h);
   void makeGuess(double h, Guess guess);
   void applyCorrection(double h);

@@ -39,8 +39,10 @@ std::span<const std::vector<Vec3>> Motion::loads() const { return impl_->sum.loa
 
 double Motion::forces(double dt, bool withEnergy) {
   Model& model = *impl_->model;
-  return impl_->sum.evaluate(model, model.nodes, {model.t, dt}, model.nodes.f, withEnergy);
+  return impl_->sum.evaluate(model, model.nodes, {model.t, dt, &impl_->mass}, model.nodes.f, withEnergy);
 }
+
+void Motion::setLoads(std::vector<std::vector<Vec3>> loads) { impl_->sum.loads = std::move(loads); }
 
 bool Motion::kick(double dt) {
   Nodes& nodes = impl_->model->nodes;
@@ -88,7 +90,7 @@ void Motion::drift(double dt) {
 double Motion::commit(double dt) {
   Model& model = *impl_->model;
   double dissipated = 0.0;
-  for (const auto& term : model.terms) dissipated += term->commit(model.nodes, {model.t, dt});
+  for (const auto& term : model.terms) dissipated += term->commit(model.nodes, {model.t, dt, &impl_->mass});
   return dissipated;
 }
 

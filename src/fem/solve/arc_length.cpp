@@ -132,7 +132,8 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
     detail::NewtonResult result = path.advance(arc, direction, t);
     if (result.failure.empty()) {
       try {
-        for (const auto& term : model.terms) term->requireValid(model.nodes, "t = " + formatNumber(t) + " s", Scrutiny::all);
+        for (const auto& term : model.terms)
+          term->requireValid(model.nodes, "t = " + formatNumber(t) + " s", Scrutiny::all);
       } catch (const NumericalError& error) {
         result.failure = error.what();
       }
@@ -147,7 +148,7 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
       continue;
     }
     detail::bookWork(equilibrium, model, f0, loads0, u0, report);
-    for (const auto& term : model.terms) report.dissipated += term->commit(model.nodes, {t, 0.0});
+    detail::acceptTerms(model, t, report);
     lastMove.resize(u0.size());
     for (std::size_t n = 0; n < u0.size(); ++n) lastMove[n] = model.nodes.u[n] - u0[n];
     model.t = t;

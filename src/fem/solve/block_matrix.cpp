@@ -55,7 +55,8 @@ void NodeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
     for (std::size_t n = begin; n < end; ++n) {
       Vec3 sum;
       for (int k = offsets()[n]; k < offsets()[n + 1]; ++k)
-        sum += values_[static_cast<std::size_t>(k)] * x[static_cast<std::size_t>(columns()[static_cast<std::size_t>(k)])];
+        sum +=
+            values_[static_cast<std::size_t>(k)] * x[static_cast<std::size_t>(columns()[static_cast<std::size_t>(k)])];
       y[n] = sum;
     }
   });

@@ -192,6 +192,13 @@ void bookWork(const Equilibrium& equilibrium, const Model& model, std::span<cons
   }
 }
 
+void acceptTerms(Model& model, double t, StaticReport& report) {
+  for (const auto& term : model.terms) {
+    report.dissipated += term->commit(model.nodes, {t, 0.0});
+    report.supportWork += term->workOfMotion();
+  }
+}
+
 void finishReport(Equilibrium& equilibrium, std::chrono::steady_clock::time_point start, StaticReport& report) {
   Model& model = equilibrium.model();
   report.storedAfter = storedEnergy(model, {model.t, 0.0});

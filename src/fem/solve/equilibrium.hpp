@@ -62,6 +62,9 @@ NewtonResult iterate(Equilibrium& equilibrium, double t, const NewtonOptions& op
 void bookWork(const Equilibrium& equilibrium, const Model& model, std::span<const Vec3> f0,
               std::span<const Vec3> loads0, std::span<const Vec3> u0, StaticReport& report);
 
+/// The terms adopt their history at time t; books what they dissipated and what their own motion did.
+void acceptTerms(Model& model, double t, StaticReport& report);
+
 /// Fills in what a report says at the end of a solution, and leaves the forces in nodes.f.
 void finishReport(Equilibrium& equilibrium, std::chrono::steady_clock::time_point start, StaticReport& report);
 

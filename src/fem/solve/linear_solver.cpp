@@ -1,8 +1,6 @@
 #include "dovetail/fem/solve/linear_solver.hpp"
 
 #include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +22,7 @@ Eigen::Map<const Eigen::VectorXd> view(std::span<const double> x) {
   return {x.data(), static_cast<Eigen::Index>(x.size())};
 }
 
-enum class Kind { none, cholesky, indefinite, unsymmetric, gradients };
+enum class Kind { none, cholesky, lu, gradients };
 
 }  // namespace
 
@@ -32,37 +30,31 @@ struct LinearSolver::Impl {
   LinearOptions options;
   ReducedMatrix reduced;
   SparseCholesky cholesky;
-  std::unique_ptr<Eigen::SimplicialLDLT<EigenSparse>> indefinite;
-  std::unique_ptr<Eigen::SparseLU<EigenSparse>> lu;
+  SparseLu lu;
   std::unique_ptr<Gradients> gradients;
   EigenSparse matrix;  // of conjugate gradients, which keep a reference to it
   Kind kind = Kind::none;
+  bool wasIndefinite = false;
   int negative = -1;
   double largestDiagonal = 0.0;
   std::int64_t factorisations = 0, solves = 0;
 
-  bool factorCholesky(const SparseMatrix& A) {
-    if (!cholesky.factor(A)) return false;
-    kind = Kind::cholesky;
-    negative = 0;
+  /// A matrix that follows an indefinite one is taken for indefinite too: a failed Cholesky factorisation may cost as
+  /// much as one that succeeds.
+  bool factorSymmetric(const SparseMatrix& A) {
+    if (!wasIndefinite && cholesky.factor(A)) {
+      kind = Kind::cholesky;
+      negative = 0;
+      return true;
+    }
+    if (!factorLu(A, true)) return false;
+    wasIndefinite = negative != 0;
     return true;
   }
-  bool factorIndefinite(const SparseMatrix& A) {
-    if (!indefinite) indefinite = std::make_unique<Eigen::SimplicialLDLT<EigenSparse>>();
-    indefinite->compute(view(A));
-    if (indefinite->info() != Eigen::Success) return false;
-    const Eigen::VectorXd pivots = indefinite->vectorD();
-    if (!pivots.allFinite() || (pivots.array() == 0.0).any()) return false;
-    kind = Kind::indefinite;
-    negative = static_cast<int>((pivots.array() < 0.0).count());
-    return true;
-  }
-  bool factorUnsymmetric(const SparseMatrix& A) {
-    if (!lu) lu = std::make_unique<Eigen::SparseLU<EigenSparse>>();
-    lu->compute(view(A));
-    if (lu->info() != Eigen::Success) return false;
-    kind = Kind::unsymmetric;
-    negative = -1;
+  bool factorLu(const SparseMatrix& A, bool symmetric) {
+    if (!lu.factor(A, symmetric)) return false;
+    kind = Kind::lu;
+    negative = lu.negativePivots();
     return true;
   }
   bool factorGradients(const SparseMatrix& A) {
@@ -79,7 +71,7 @@ struct LinearSolver::Impl {
 };
 
 LinearSolver::LinearSolver(const DofMap& dofs, const LinearOptions& options)
-    : impl_(std::make_unique<Impl>(Impl{options, ReducedMatrix(dofs), {}, {}, {}, {}, {}})) {
+    : impl_(std::make_unique<Impl>(Impl{options, ReducedMatrix(dofs), {}, {}, {}, {}})) {
   requirePositive(options.relativeTolerance, "relativeTolerance");
   if (options.maxIterations < 1)
     throw InputError("no iterations are allowed", "LinearOptions", "give maxIterations of 1 or more");
@@ -99,29 +91,23 @@ bool LinearSolver::factor(const BlockMatrix& K, bool symmetric) {
         m.largestDiagonal = std::max(m.largestDiagonal, std::abs(A.value[static_cast<std::size_t>(k)]));
   if (!std::all_of(A.value.begin(), A.value.end(), [](double v) { return std::isfinite(v); })) return false;
   if (A.size == 0) return m.kind = Kind::cholesky, true;
-  if (!symmetric) return m.factorUnsymmetric(A);
+  if (!symmetric) return m.factorLu(A, false);
   if (m.options.method == LinearMethod::conjugateGradients) return m.factorGradients(A);
-  return m.factorCholesky(A) || m.factorIndefinite(A);
+  return m.factorSymmetric(A);
 }
 
 void LinearSolver::solve(std::span<const double> r, std::span<double> x) {
   Impl& m = *impl_;
   ++m.solves;
   if (r.empty()) return;
-  Eigen::Map<Eigen::VectorXd> result(x.data(), static_cast<Eigen::Index>(x.size()));
   switch (m.kind) {
     case Kind::cholesky:
+    case Kind::lu:
       if (x.data() != r.data()) std::copy(r.begin(), r.end(), x.begin());
-      m.cholesky.solve(x);
-      return;
-    case Kind::indefinite:
-      result = m.indefinite->solve(view(r)).eval();
-      return;
-    case Kind::unsymmetric:
-      result = m.lu->solve(view(r)).eval();
+      m.kind == Kind::lu ? m.lu.solve(x) : m.cholesky.solve(x);
       return;
     case Kind::gradients:
-      result = m.gradients->solve(view(r)).eval();
+      Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())) = m.gradients->solve(view(r)).eval();
       if (m.gradients->info() == Eigen::Success) return;
       throw NumericalError("conjugate gradients stop after " + std::to_string(m.gradients->iterations()) +
                                " iterations at a relative residual of " + formatNumber(m.gradients->error()),
@@ -141,10 +127,8 @@ std::string LinearSolver::method() const {
   switch (impl_->kind) {
     case Kind::cholesky:
       return SparseCholesky::name();
-    case Kind::indefinite:
-      return "LDLT";
-    case Kind::unsymmetric:
-      return "LU";
+    case Kind::lu:
+      return SparseLu::name();
     case Kind::gradients:
       return "conjugate gradients";
     default:

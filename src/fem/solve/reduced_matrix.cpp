@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <limits>
+#include <numeric>
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/fem/solve/linear_solver.hpp"
 
 namespace dovetail::fem {
@@ -23,8 +26,26 @@ std::vector<std::vector<Share>> sharesOf(const DofMap& dofs) {
   return shares;
 }
 
+/// Calls act(row, column, source, factor) for every contribution to TᵀKT; without ties rows ascend within each column.
+template <class Act>
+void visitContributions(const BlockMatrix& K, const std::vector<std::vector<Share>>& shares, bool symmetric,
+                        const Act& act) {
+  for (std::size_t n = 0; n < K.nodes(); ++n)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (const Share& row : shares[3 * n + c])
+        for (int k = K.offsets()[n]; k < K.offsets()[n + 1]; ++k)
+          for (std::size_t d = 0; d < 3; ++d) {
+            const auto other = 3 * static_cast<std::size_t>(K.columns()[static_cast<std::size_t>(k)]) + d;
+            for (const Share& column : shares[other])
+              if (!symmetric || row.row >= column.row)
+                act(row.row, static_cast<std::size_t>(column.row),
+                    static_cast<std::uint32_t>(9 * static_cast<std::size_t>(k) + 3 * c + d),
+                    row.factor * column.factor);
+          }
+}
+
 struct Entry {
-  int column, row;
+  int row;
   std::uint32_t source;
   double factor;
 };
@@ -35,43 +56,58 @@ void ReducedMatrix::analyse(const BlockMatrix& K, bool symmetric) {
   patternId_ = K.patternId();
   symmetric_ = symmetric;
   const std::vector<std::vector<Share>> shares = sharesOf(*dofs_);
-  std::vector<std::vector<Entry>> columns(dofs_->size());
-  for (std::size_t n = 0; n < K.nodes(); ++n)
-    for (int k = K.offsets()[n]; k < K.offsets()[n + 1]; ++k)
-      for (int entry = 0; entry < 9; ++entry) {
-        const std::size_t dof = 3 * n + static_cast<std::size_t>(entry / 3);
-        const std::size_t other = static_cast<std::size_t>(3 * K.columns()[static_cast<std::size_t>(k)] + entry % 3);
-        for (const Share& row : shares[dof])
-          for (const Share& column : shares[other])
-            if (!symmetric || row.row >= column.row)
-              columns[static_cast<std::size_t>(column.row)].push_back(
-                  {column.row, row.row, static_cast<std::uint32_t>(9 * k + entry), row.factor * column.factor});
-      }
+  std::vector<std::size_t> next(dofs_->size() + 1, 0);
+  visitContributions(K, shares, symmetric, [&](int, std::size_t column, std::uint32_t, double) { ++next[column + 1]; });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  if (next.back() > std::numeric_limits<int>::max())
+    throw NumericalError("the matrix has " + std::to_string(next.back()) + " entries", "ReducedMatrix",
+                         "take a coarser mesh: 2147483647 entries can be numbered");
   matrix_ = {};
   matrix_.size = static_cast<int>(dofs_->size());
-  source_.clear();
+  matrix_.offsets.assign(next.begin(), next.end());
+  matrix_.row.resize(next.back());
+  source_.resize(next.back());
   target_.clear();
-  factor_.clear();
-  for (std::vector<Entry>& column : columns) {
-    std::stable_sort(column.begin(), column.end(), [](const Entry& a, const Entry& b) { return a.row < b.row; });
-    int last = -1;
-    for (const Entry& entry : column) {
-      if (entry.row != last) matrix_.row.push_back(last = entry.row);
-      source_.push_back(entry.source);
-      target_.push_back(static_cast<std::uint32_t>(matrix_.row.size() - 1));
-      if (dofs_->hasTies()) factor_.push_back(entry.factor);
-    }
-    matrix_.offsets.push_back(static_cast<int>(matrix_.row.size()));
-    std::vector<Entry>().swap(column);
-  }
+  factor_.assign(dofs_->hasTies() ? next.back() : 0, 0.0);
+  visitContributions(K, shares, symmetric, [&](int row, std::size_t column, std::uint32_t source, double factor) {
+    const std::size_t place = next[column]++;
+    matrix_.row[place] = row;
+    source_[place] = source;
+    if (!factor_.empty()) factor_[place] = factor;
+  });
+  if (dofs_->hasTies()) unite();
   matrix_.value.resize(matrix_.row.size());
+}
+
+/// Sorts the contributions to each column, and gives those to one row one entry.
+void ReducedMatrix::unite() {
+  target_.resize(source_.size());
+  std::vector<Entry> column;
+  std::size_t first = 0, entries = 0;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(matrix_.size); ++c) {
+    const auto last = static_cast<std::size_t>(matrix_.offsets[c + 1]);
+    column.clear();
+    for (std::size_t k = first; k < last; ++k) column.push_back({matrix_.row[k], source_[k], factor_[k]});
+    std::stable_sort(column.begin(), column.end(), [](const Entry& a, const Entry& b) { return a.row < b.row; });
+    int row = -1;
+    for (std::size_t k = first; k < last; ++k) {
+      const Entry& entry = column[k - first];
+      if (entry.row != row) matrix_.row[entries++] = row = entry.row;
+      source_[k] = entry.source;
+      factor_[k] = entry.factor;
+      target_[k] = static_cast<std::uint32_t>(entries - 1);
+    }
+    matrix_.offsets[c + 1] = static_cast<int>(entries);
+    first = last;
+  }
+  matrix_.row.resize(entries);
 }
 
 const SparseMatrix& ReducedMatrix::update(const BlockMatrix& K, bool symmetric) {
   if (patternId_ != K.patternId() || symmetric_ != symmetric) analyse(K, symmetric);
   const std::span<const double> values = K.values();
-  if (factor_.empty()) {  // then every target has one source
-    for (std::size_t k = 0; k < source_.size(); ++k) matrix_.value[target_[k]] = values[source_[k]];
+  if (target_.empty()) {
+    for (std::size_t k = 0; k < source_.size(); ++k) matrix_.value[k] = values[source_[k]];
     return matrix_;
   }
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);

@@ -1,6 +1,5 @@
 #include "dovetail/fem/solve/sparse.hpp"
 
-
 namespace dovetail::fem {
 
 std::vector<double> multiply(const SparseMatrix& A, std::span<const double> x) {

@@ -88,7 +88,7 @@ StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& option
           "the last equilibrium is at " + when(model.t) + "; a limit point of the load can be passed by followPath");
     }
     detail::bookWork(equilibrium, model, f0, loads0, u0, report);
-    for (const auto& term : model.terms) report.dissipated += term->commit(model.nodes, {t, 0.0});
+    detail::acceptTerms(model, t, report);
     f0.assign(equilibrium.forces().begin(), equilibrium.forces().end());
     loads0.assign(equilibrium.loads().begin(), equilibrium.loads().end());
     model.t = t;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "../laws/material_probe.hpp"
 #include "../mesh/faces.hpp"
 #include "contact_point.hpp"
 #include "dovetail/core/error.hpp"
@@ -15,6 +16,9 @@ namespace dovetail::fem {
 namespace {
 
 void validate(const ContactOptions& options) {
+  if (options.penalty == 0.0)
+    throw InputError("there is no penalty", "ContactOptions",
+                     "give one in Pa/m, for instance that of contactPenalty()");
   requirePositive(options.penalty, "penalty");
   requireNonNegative(options.friction, "friction");
   requireNonNegative(options.tangentialPenalty, "tangentialPenalty");
@@ -55,22 +59,19 @@ public:
         options_(options),
         law_{normalized(plane.normal), options.penalty,
              options.tangentialPenalty > 0.0 ? options.tangentialPenalty : options.penalty, options.friction},
-        past_(spots_.size()),
-        lambda_(spots_.size(), 0.0) {
-    pastOrigin_ = origin(0.0);
-    for (std::size_t q = 0; q < spots_.size(); ++q)
-      past_[q].d = interpolate(shapes(q), corners(q), mesh.X) - pastOrigin_;
-  }
+        lambda_(spots_.size(), 0.0) {}
 
   std::string name() const override { return options_.name; }
   bool isSymmetric() const override { return options_.friction == 0.0; }
   bool hasEnergy() const override { return true; }
 
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
+    start(nodes.X, nodes.u, now.t);
     visit(nodes, now.t,
           [&](std::size_t q, const Vec3& d) { scatter(q, law_.at(d, past_[q], lambda_[q]).traction, f); });
   }
   double energy(const Nodes& nodes, const Instant& now) override {
+    start(nodes.X, nodes.u, now.t);
     double sum = 0.0;
     visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
       sum += spots_[q].area * law_.energy(law_.at(d, past_[q], lambda_[q]), lambda_[q]);
@@ -81,6 +82,7 @@ public:
     for (const Face& face : faces_) couplings.add(nodesOf(face));
   }
   void addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) override {
+    start(nodes.X, nodes.u, now.t);
     visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
       const ContactAnswer answer = law_.at(d, past_[q], lambda_[q]);
       if (answer.pressure > 0.0) addBlocks(q, law_.tangent(answer), K);
@@ -90,6 +92,7 @@ public:
   bool addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
                            std::span<Vec3> f) override {
     if (options_.friction > 0.0) return false;
+    start(nodes.X, u0, now.t - now.dt);
     visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
       scatter(q, law_.meanPressure(startOf(q, nodes, u0, now), d, lambda_[q]) * law_.normal, f);
     });
@@ -103,6 +106,7 @@ public:
   }
 
   double commit(const Nodes& nodes, const Instant& now) override {
+    start(nodes.X, nodes.u, now.t);
     double booked = 0.0;
     Vec3 force;
     visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
@@ -113,12 +117,13 @@ public:
       past = {d, answer.spring, lambda_[q]};
     });
     const Vec3 moved = origin(now.t) - pastOrigin_;
-    booked -= 0.5 * dot(force + pastForce_, moved);
+    workOfMotion_ = 0.5 * dot(force + pastForce_, moved);
     pastOrigin_ += moved;
     pastForce_ = force;
     augmentations_ = 0;
     return booked;
   }
+  double workOfMotion() const override { return workOfMotion_; }
   bool augment(const Nodes& nodes, const Instant& now) override {
     if (!options_.augmented || augmentations_ >= options_.maxAugmentations) return false;
     bool violated = false;
@@ -135,24 +140,32 @@ public:
     return true;
   }
   void revert() override {
-    for (std::size_t q = 0; q < past_.size(); ++q) lambda_[q] = past_[q].lambda;
+    for (std::size_t q = 0; q < lambda_.size(); ++q) lambda_[q] = past_.empty() ? 0.0 : past_[q].lambda;
     augmentations_ = 0;
   }
 
   void save(ByteWriter& archive) const override { archive(past_, pastOrigin_, pastForce_); }
   void load(ByteReader& archive) override {
     std::vector<ContactPast> past;
-    archive(past, pastOrigin_, pastForce_);
-    if (past.size() != past_.size())
+    Vec3 origin, force;
+    archive(past, origin, force);
+    if (!past.empty() && past.size() != spots_.size())
       throw InputError("the state is that of another contact", options_.name, "restart with the same mesh and faces");
+    const bool finite = std::ranges::all_of(past, [](const ContactPast& spot) {
+      return isFinite(spot.d) && isFinite(spot.spring) && std::isfinite(spot.lambda);
+    });
+    if (!finite || !isFinite(origin) || !isFinite(force))
+      throw InputError("the state is not finite", options_.name, "take an older one");
     past_ = std::move(past);
+    pastOrigin_ = origin;
+    pastForce_ = force;
     revert();
   }
 
   Report report(const Nodes& nodes, const Instant& now) const override {
     Report report;
     visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
-      const ContactAnswer answer = law_.at(d, past_[q], lambda_[q]);
+      const ContactAnswer answer = law_.at(d, past_.empty() ? ContactPast{d, {}, 0.0} : past_[q], lambda_[q]);
       report.force += spots_[q].area * answer.traction;
       if (!(answer.pressure > 0.0)) return;
       report.area += spots_[q].area;
@@ -166,16 +179,27 @@ private:
   Vec3 origin(double t) const { return plane_.motion ? plane_.point + plane_.motion(t) : plane_.point; }
   std::span<const int> corners(std::size_t q) const { return {spots_[q].node.data(), spots_[q].nodes}; }
   std::span<const double> shapes(std::size_t q) const { return {spots_[q].N.data(), spots_[q].nodes}; }
+  /// Place relative to a plane through `from`.
+  Vec3 placeOf(std::size_t q, std::span<const Vec3> X, std::span<const Vec3> u, const Vec3& from) const {
+    return interpolate(shapes(q), corners(q), X) + interpolate(shapes(q), corners(q), u) - from;
+  }
   /// Calls act(q, place relative to the plane).
   template <class Act>
   void visit(const Nodes& nodes, double t, Act&& act) const {
     const Vec3 o = origin(t);
-    for (std::size_t q = 0; q < spots_.size(); ++q)
-      act(q, interpolate(shapes(q), corners(q), nodes.X) + interpolate(shapes(q), corners(q), nodes.u) - o);
+    for (std::size_t q = 0; q < spots_.size(); ++q) act(q, placeOf(q, nodes.X, nodes.u, o));
   }
   Vec3 startOf(std::size_t q, const Nodes& nodes, std::span<const Vec3> u0, const Instant& now) const {
-    return interpolate(shapes(q), corners(q), nodes.X) + interpolate(shapes(q), corners(q), u0) -
-           origin(now.t - now.dt);
+    return placeOf(q, nodes.X, u0, origin(now.t - now.dt));
+  }
+  /// The state of the first use is the past of the first step.
+  void start(std::span<const Vec3> X, std::span<const Vec3> u, double t) {
+    if (!past_.empty()) return;
+    pastOrigin_ = origin(t);
+    for (std::size_t q = 0; q < spots_.size(); ++q) {
+      past_.push_back({placeOf(q, X, u, pastOrigin_), {}, 0.0});
+      pastForce_ += spots_[q].area * law_.at(past_[q].d, past_[q], lambda_[q]).traction;
+    }
   }
   void scatter(std::size_t q, const Vec3& traction, std::span<Vec3> f) const {
     if (traction == Vec3{}) return;
@@ -197,13 +221,21 @@ private:
   Plane plane_;
   ContactOptions options_;
   ContactPointLaw law_;
-  std::vector<ContactPast> past_;
+  std::vector<ContactPast> past_;  // empty until the first use
   std::vector<double> lambda_;
   Vec3 pastOrigin_, pastForce_;
+  double workOfMotion_ = 0.0;
   int augmentations_ = 0;
 };
 
 }  // namespace
+
+double contactPenalty(const SolidMesh& mesh, std::span<const Face> faces, const PointMaterial& material) {
+  requireFaces(faces, mesh.X.size(), "contactPenalty");
+  double area = 0.0;
+  for (const Spot& spot : makeSpots(mesh, faces)) area += spot.area;
+  return 10.0 * detail::moduliAtRest(material).confined / std::sqrt(area / static_cast<double>(faces.size()));
+}
 
 std::shared_ptr<ContactPlane> makeContactPlane(const SolidMesh& mesh, std::span<const Face> faces, const Plane& plane,
                                                const ContactOptions& options) {

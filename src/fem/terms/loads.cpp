@@ -1,11 +1,12 @@
 #include "dovetail/fem/terms/loads.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/fem/model/model_mass.hpp"
 
 namespace dovetail::fem {
 
@@ -17,12 +18,44 @@ void requireFiniteVector(const Vec3& value, const std::string& name) {
   if (!isFinite(value)) throw InputError("the vector is not finite", name, "give numbers");
 }
 
-std::vector<int> checkedSet(std::span<const int> nodes, const std::string& name) {
-  if (nodes.empty()) throw InputError("the node set is empty", name, "give at least one node");
-  for (const int node : nodes)
-    if (node < 0) throw InputError("node " + std::to_string(node) + " does not exist", name, "count from 0");
-  return {nodes.begin(), nodes.end()};
-}
+/// Nodes of a model that is not known yet.
+class NodeSet {
+public:
+  NodeSet(std::span<const int> nodes, const std::string& name) : nodes_(nodes.begin(), nodes.end()) {
+    if (nodes.empty()) throw InputError("the node set is empty", name, "give at least one node");
+    const auto [first, last] = std::ranges::minmax(nodes_);
+    if (first < 0) throw InputError("node " + std::to_string(first) + " does not exist", name, "count from 0");
+    last_ = static_cast<std::size_t>(last);
+  }
+  /// The set. @throws InputError if the model has too few nodes for it
+  const std::vector<int>& of(std::size_t count, const std::string& name) const {
+    if (last_ >= count)
+      throw InputError("node " + std::to_string(last_) + " does not exist", name,
+                       "the model has nodes 0 to " + std::to_string(count - 1));
+    return nodes_;
+  }
+
+private:
+  std::vector<int> nodes_;
+  std::size_t last_;
+};
+
+/// Row sums of the mass matrix in use (of the consistent one in statics), kg: what a uniform field acts on.
+class BodyMass {
+public:
+  BodyMass(const Nodes& nodes, const Instant& now, const std::string& name)
+      : mass_(nodes.mass), body_(nodes.bodyMass), share_(now.mass != nullptr ? now.mass->share() : 1.0) {
+    if (std::ranges::none_of(mass_, [](double mass) { return mass > 0.0; }))
+      throw InputError("no node has a mass", name, "call addMass(model) before the first step");
+  }
+  double operator[](std::size_t n) const {
+    return body_.empty() ? mass_[n] : mass_[n] + share_ * (body_[n] - mass_[n]);
+  }
+
+private:
+  std::span<const double> mass_, body_;
+  double share_;
+};
 
 void addDiagonal(BlockMatrix& matrix, int node, const Vec3& values) {
   const std::array<double, 9> block = {values.x, 0, 0, 0, values.y, 0, 0, 0, values.z};
@@ -42,27 +75,29 @@ class Gravity : public Named {
 public:
   Gravity(std::function<Vec3(double)> g, bool stores, std::string name)
       : Named(std::move(name)), g_(std::move(g)), stores_(stores) {}
-  void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override { addWeight(nodes, g_(now.t), f); }
+  void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
+    const BodyMass mass(nodes, now, name());
+    const Vec3 g = g_(now.t);
+    parallelFor(nodes.X.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) f[n] += mass[n] * g;
+    });
+  }
   bool hasEnergy() const override { return stores_; }
   double energy(const Nodes& nodes, const Instant& now) override {
+    const BodyMass mass(nodes, now, name());
     const Vec3 g = g_(now.t);
     return parallelSum(nodes.X.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
       double sum = 0.0;
-      for (std::size_t n = begin; n < end; ++n) sum -= nodes.mass[n] * dot(g, nodes.X[n] + nodes.u[n]);
+      for (std::size_t n = begin; n < end; ++n) sum -= mass[n] * dot(g, nodes.X[n] + nodes.u[n]);
       return sum;
     });
   }
   bool addConservingForces(const Nodes& nodes, std::span<const Vec3>, const Instant& now, std::span<Vec3> f) override {
-    if (stores_) addWeight(nodes, g_(now.t), f);
+    if (stores_) addForces(nodes, now, f);
     return stores_;
   }
 
 private:
-  static void addWeight(const Nodes& nodes, const Vec3& g, std::span<Vec3> f) {
-    parallelFor(nodes.X.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n) f[n] += nodes.mass[n] * g;
-    });
-  }
   std::function<Vec3(double)> g_;
   bool stores_;
 };
@@ -70,17 +105,17 @@ private:
 class NodalForce : public Named {
 public:
   NodalForce(std::span<const int> nodes, Vec3 force, Amplitude scale, std::string name)
-      : Named(std::move(name)), nodes_(checkedSet(nodes, "nodalForce")), force_(force), scale_(std::move(scale)) {
+      : Named(std::move(name)), nodes_(nodes, "nodalForce"), force_(force), scale_(std::move(scale)) {
     requireFiniteVector(force, "nodalForce");
   }
   void addForces(const Nodes&, const Instant& now, std::span<Vec3> f) override {
     const Vec3 force = scale_(now.t) * force_;
-    for (const int n : nodes_) f[static_cast<std::size_t>(n)] += force;
+    for (const int n : nodes_.of(f.size(), name())) f[static_cast<std::size_t>(n)] += force;
   }
   bool hasEnergy() const override { return scale_.isConstant(); }
   double energy(const Nodes& nodes, const Instant& now) override {
     double sum = 0.0;
-    for (const int n : nodes_) sum -= dot(force_, nodes.u[static_cast<std::size_t>(n)]);
+    for (const int n : nodes_.of(nodes.u.size(), name())) sum -= dot(force_, nodes.u[static_cast<std::size_t>(n)]);
     return scale_(now.t) * sum;
   }
   bool addConservingForces(const Nodes& nodes, std::span<const Vec3>, const Instant& now, std::span<Vec3> f) override {
@@ -89,7 +124,7 @@ public:
   }
 
 private:
-  std::vector<int> nodes_;
+  NodeSet nodes_;
   Vec3 force_;
   Amplitude scale_;
 };
@@ -97,43 +132,44 @@ private:
 class MassDamping : public Named {
 public:
   MassDamping(double alpha, std::string name) : Named(std::move(name)), alpha_(requireNonNegative(alpha, "alpha")) {}
-  void addForces(const Nodes& nodes, const Instant&, std::span<Vec3> f) override {
+  void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
+    if (now.mass == nullptr) return;
+    momentum_.resize(f.size());
+    now.mass->multiply(nodes.v, momentum_);
     parallelFor(f.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n) f[n] -= alpha_ * nodes.mass[n] * nodes.v[n];
+      for (std::size_t n = begin; n < end; ++n) f[n] -= alpha_ * momentum_[n];
     });
   }
-  void addDamping(const Nodes& nodes, const Instant&, BlockMatrix& C) override {
-    for (std::size_t n = 0; n < nodes.mass.size(); ++n) {
-      const double c = alpha_ * nodes.mass[n];
-      addDiagonal(C, static_cast<int>(n), {c, c, c});
-    }
+  void addDamping(const Nodes&, const Instant& now, BlockMatrix& C) override {
+    if (now.mass != nullptr) now.mass->addTo(C, alpha_);
   }
 
 private:
   double alpha_;
+  std::vector<Vec3> momentum_;
 };
 
 /// −k times displacement or velocity of some nodes.
 class Ground : public Named {
 public:
   Ground(std::span<const int> nodes, Vec3 factor, std::string name)
-      : Named(std::move(name)), nodes_(checkedSet(nodes, "ground")), factor_(factor) {
+      : Named(std::move(name)), nodes_(nodes, "ground"), factor_(factor) {
     for (int c = 0; c < 3; ++c) requireNonNegative(factor[c], "stiffness or damping to the ground");
   }
 
 protected:
   void addTo(std::span<const Vec3> field, std::span<Vec3> f) const {
-    for (const int node : nodes_) {
+    for (const int node : nodes_.of(f.size(), name())) {
       const auto n = static_cast<std::size_t>(node);
       f[n] -= {factor_.x * field[n].x, factor_.y * field[n].y, factor_.z * field[n].z};
     }
   }
   void addTo(BlockMatrix& matrix, double share = 1.0) const {
-    for (const int node : nodes_) addDiagonal(matrix, node, share * factor_);
+    for (const int node : nodes_.of(matrix.nodes(), name())) addDiagonal(matrix, node, share * factor_);
   }
   double halfSquares(std::span<const Vec3> field) const {
     double sum = 0.0;
-    for (const int node : nodes_) {
+    for (const int node : nodes_.of(field.size(), name())) {
       const Vec3& a = field[static_cast<std::size_t>(node)];
       sum += 0.5 * (factor_.x * a.x * a.x + factor_.y * a.y * a.y + factor_.z * a.z * a.z);
     }
@@ -141,7 +177,7 @@ protected:
   }
 
 private:
-  std::vector<int> nodes_;
+  NodeSet nodes_;
   Vec3 factor_;
 };
 
@@ -166,8 +202,12 @@ public:
 class GroundDashpots : public Ground {
 public:
   using Ground::Ground;
-  void addForces(const Nodes& nodes, const Instant&, std::span<Vec3> f) override { addTo(nodes.v, f); }
-  void addDamping(const Nodes&, const Instant&, BlockMatrix& C) override { addTo(C); }
+  void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
+    if (now.mass != nullptr) addTo(nodes.v, f);
+  }
+  void addDamping(const Nodes&, const Instant& now, BlockMatrix& C) override {
+    if (now.mass != nullptr) addTo(C);
+  }
 };
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/arlequin/stress_term.hpp"
 #include "dovetail/fem/elements/solid.hpp"
-#include "dovetail/arlequin/bricks.hpp"
 #include "dovetail/fem/model/model.hpp"
 #include "dovetail/fem/motion/motion.hpp"
 

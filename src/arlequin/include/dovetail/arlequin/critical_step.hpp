@@ -16,6 +16,6 @@ struct CriticalStep {
 /// errs on the small side). Multipliers only lower ω; dashpots and the absorber have limits of their own (see
 /// makeDashpot and Absorber).
 /// @throws NumericalError if the iteration meets a number that is not finite
-CriticalStep criticalStep(const Model& model);
+CriticalStep criticalStep(Model& model);
 
 }  // namespace dovetail::arlequin

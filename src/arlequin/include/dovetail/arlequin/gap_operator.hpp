@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "dovetail/arlequin/bricks.hpp"
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/cg/kernel.hpp"
 #include "dovetail/cg/projection.hpp"
-#include "dovetail/arlequin/bricks.hpp"
 
 namespace dovetail::arlequin {
 

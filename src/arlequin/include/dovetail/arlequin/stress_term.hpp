@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "dovetail/arlequin/bricks.hpp"
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 #include "dovetail/dem/particles/particles.hpp"
-#include "dovetail/arlequin/bricks.hpp"
 #include "dovetail/fem/model/nodes.hpp"
 
 namespace dovetail::arlequin {

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "dovetail/core/vec3.hpp"
 #include "dovetail/arlequin/bricks.hpp"
+#include "dovetail/core/vec3.hpp"
 
 namespace dovetail::arlequin {
 

@@ -33,18 +33,19 @@ struct SolidFile {
 /// Gmsh MSH 4.1 or 2.2, ASCII or binary of this machine's byte order. Physical groups become sets under their name, or
 /// their number where they have none: volumes an element set, surfaces a face set and a node set, curves and points a
 /// node set. Files without any physical group give sets "volume 1", "surface 3", "curve 2", "point 5" of the model's
-/// entities instead. Faces are turned outwards; one between two volumes belongs to that whose outward side is the
-/// surface element's own. Partitioned meshes are refused.
+/// entities instead. Of meshes and element sets of several shapes each shape has a set of its own too, "tet4" or
+/// "steel tet4", for fem::makeSolid. Faces are turned outwards; one between two volumes belongs to that whose outward
+/// side is the surface element's own. Partitioned meshes are refused.
 SolidFile readGmsh(const std::filesystem::path& path);
 SolidFile gmshFromText(std::string_view bytes, const std::string& name);
 
-/// Abaqus INP: *NODE, *ELEMENT of types C3D8, C3D20, C3D27, C3D4, C3D10 with any suffix of R, I, H, M, S, and shells,
-/// membranes, surface and plane elements of three to nine nodes as faces, trusses and beams as names for nodes, *NSET
-/// and *ELSET (GENERATE, names of other sets), *SURFACE of faces (sets or elements with S1 … S6) or nodes. One *PART
-/// with one *INSTANCE that is not moved is read as if it were flat. Cards of materials, steps and so on are passed
-/// over, cards that make or move nodes and elements elsewhere (*INCLUDE, *NGEN, *ELGEN, *SYSTEM …) are refused. Names
-/// are compared without regard to case, outside quotes, and kept as first written. A surface gives a node set too,
-/// unless there is one of that name.
+/// Abaqus INP: *NODE, *ELEMENT of types C3D8, C3D20, C3D27, C3D4, C3D10 with any suffix of R, I, H, M, S, which is
+/// noted and passed over (fem::Formulation chooses the integration), and shells, membranes, surface and plane elements
+/// of three to nine nodes as faces, trusses and beams as names for nodes, *NSET and *ELSET (GENERATE, names of other
+/// sets), *SURFACE of faces (sets or elements with S1 … S6) or nodes. One *PART with one *INSTANCE that is not moved is
+/// read as if it were flat. Cards of materials, steps and so on are passed over, cards that make or move nodes and
+/// elements elsewhere (*INCLUDE, *NGEN, *ELGEN, *SYSTEM …) are refused. Names are compared without regard to case,
+/// outside quotes, and kept as first written. A surface gives a node set too, unless there is one of that name.
 SolidFile readAbaqus(const std::filesystem::path& path);
 SolidFile abaqusFromText(std::string_view bytes, const std::string& name);
 

@@ -23,15 +23,15 @@ template <class Seam, class Law = dem::ElasticLaw>
 struct CoupledModel {
   dem::Model discrete;  ///< particles with their laws and gravity, without terms of its own: see start
   Law wallLaw;          ///< between particles and skin
-  /// hex8 of one elastic law that the hand-written kernels know, see start; nodes.f holds the internal forces of the last
-  /// FEM step.
+  /// hex8 of one elastic law that the hand-written kernels know, see start; nodes.f holds the internal forces of the
+  /// last FEM step.
   std::unique_ptr<fem::Model> solid;
   Seam seam;
 
   std::optional<fem::Motion> motion{};  ///< of the solid, lumped masses; made by start
   double strainEnergy = 0.0;            ///< J, at the end of the last window that asked for it
-  dem::ContactWork contact;   ///< of the last force evaluation
-  NodalLoad loadBefore{};     ///< staggered steps only: the load of the evaluation before the last
+  dem::ContactWork contact;             ///< of the last force evaluation
+  NodalLoad loadBefore{};               ///< staggered steps only: the load of the evaluation before the last
 };
 
 /// What a window did, to be booked.
@@ -113,8 +113,8 @@ void start(Model& model, double dt, Profile&) {
   model.strainEnergy = model.motion->forces(dt, true);
   dem::findForces(model.discrete);
   model.contact = model.discrete.work;
-  model.contact += model.seam.exchange(model.discrete.particles, model.solid->nodes.u, model.solid->nodes.v,
-                                       model.wallLaw, dt);
+  model.contact +=
+      model.seam.exchange(model.discrete.particles, model.solid->nodes.u, model.solid->nodes.v, model.wallLaw, dt);
   model.loadBefore = model.seam.load();
 }
 

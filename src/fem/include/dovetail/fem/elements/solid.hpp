@@ -38,8 +38,8 @@ struct SolidOptions {
   std::string elementSet{};  ///< empty = all elements of the mesh
   std::string name = "elastic";
   double hourglassShare = 0.05;  ///< of the shear stiffness, for `reduced`
-  /// Per node of the mesh, 0 … 1, interpolated to the points of every integral (energy, force, mass, tangent): the share
-  /// of the solid where it overlaps something else. Empty = 1. Elements whose nodes all have 0 are left out.
+  /// Per node of the mesh, 0 … 1, interpolated to the points of every integral (energy, force, mass, tangent): the
+  /// share of the solid where it overlaps something else. Empty = 1. Elements whose nodes all have 0 are left out.
   std::vector<double> share{};
 };
 

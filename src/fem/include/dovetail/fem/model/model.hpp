@@ -11,8 +11,15 @@
 
 namespace dovetail::fem {
 
-/// The state and the terms. Integrators and solvers (statics.hpp, dynamics.hpp) work on it.
+/// The state and the terms. Integrators and solvers (statics.hpp, dynamics.hpp) work on it. It moves, but has no
+/// copies: terms keep history (plastic strain, multipliers), which two models would share.
 struct Model {
+  Model() = default;
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+  Model(Model&&) = default;
+  Model& operator=(Model&&) = default;
+
   Nodes nodes;
   std::vector<std::shared_ptr<Term>> terms;
   Constraints constraints;
@@ -28,7 +35,7 @@ struct Model {
 
 /// Nodes of the mesh at rest, without terms.
 Model makeModel(const SolidMesh& mesh);
-/// Sets nodes.mass from the terms. @throws InputError naming a node that no term gives a mass
+/// Sets nodes.mass and bodyMass from the terms. @throws InputError naming a node that no term gives a mass
 void addMass(Model& model);
 
 /// The groups of nodes that the terms couple.

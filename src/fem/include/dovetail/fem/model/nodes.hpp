@@ -19,6 +19,7 @@ struct Nodes {
   std::vector<Vec3> v;              ///< velocity, m/s
   std::vector<Vec3> f;              ///< force on the node, N (at held components: minus the reaction)
   std::vector<double> mass;         ///< lumped mass, kg
+  std::vector<double> bodyMass;     ///< row sums of the consistent mass, kg; empty where they are `mass`
   std::vector<std::uint8_t> fixed;  ///< bit c set: component c is held, it keeps its velocity whatever the force
 };
 

@@ -14,6 +14,7 @@ namespace dovetail::fem {
 
 class BlockMatrix;
 class Couplings;
+class ModelMass;
 class NodeMatrix;
 
 /// What an accepted state is looked at for: elements turned inside out, or anything else too for which an answer of a
@@ -24,6 +25,7 @@ enum class Scrutiny { inversion, all };
 struct Instant {
   double t = 0.0;
   double dt = 0.0;
+  const ModelMass* mass = nullptr;  ///< of the integrator; null in statics, where velocities mean nothing
 };
 
 /// A force on the nodes that depends on u, v and t, its tangent and its energy. State that lasts over steps (plastic
@@ -70,6 +72,8 @@ public:
 
   /// The step is accepted at this state: adopts new history. @return energy dissipated in the step, J
   virtual double commit(const Nodes&, const Instant&) { return 0.0; }
+  /// Work that the term's own motion (of a plane) did in the step last accepted, J; commit() leaves it out.
+  virtual double workOfMotion() const { return 0.0; }
   /// Called after convergence; @return true if it changed its multipliers and the step must be solved again
   virtual bool augment(const Nodes&, const Instant&) { return false; }
   /// The step is given up: multipliers are again those of the last commit.
@@ -77,6 +81,8 @@ public:
 
   /// mass += its lumped masses, kg.
   virtual void addMass(std::span<double>) const {}
+  /// mass += row sums ∫ρN of its consistent mass, kg: what a uniform field acts on.
+  virtual void addBodyMass(std::span<double> mass) const { addMass(mass); }
   /// M += its consistent mass, kg.
   virtual void addConsistentMass(NodeMatrix&) const {}
 

@@ -24,10 +24,11 @@ struct PeriodicTies {
 /// u(X + L) − u(X) = (F(t) − 1) L for the nodes of opposite faces of a box along the axes; every node on an upper face
 /// is tied to its image on the lower faces (nodes on edges and corners to the one on all of them).
 /// @param axes       which pairs of faces
-/// @param tolerance  how far a node may lie from the face and from the place of its image, m, > 0
+/// @param tolerance  how far a node may lie from the face and from the place of its image, over the longest side of the
+///                   box, > 0
 /// @throws InputError naming a node without image
 PeriodicTies periodicTies(const SolidMesh& mesh, const GradientFunction& F,
-                          std::array<bool, 3> axes = {true, true, true}, double tolerance = 1e-9);
+                          std::array<bool, 3> axes = {true, true, true}, double tolerance = 1e-6);
 
 /// Volume average of the first Piola–Kirchhoff stress of a cell in equilibrium, row-major, Pa: −Σ f ⊗ X / V.
 /// @param f       forces by the solid on its nodes, N (evaluateForces of a model without loads)

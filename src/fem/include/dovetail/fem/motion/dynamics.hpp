@@ -64,7 +64,8 @@ public:
 
   /// State of model, terms and ledger; a run that goes on from it has the same digits.
   void save(ByteWriter& archive) const;
-  /// @throws InputError if the state is that of another model
+  /// @throws InputError if the state is that of another kind of run or model, is damaged, not finite, or not all of the
+  /// archive; model and integrator are then as they were
   void load(ByteReader& archive);
 
 private:
@@ -135,7 +136,8 @@ public:
 
   /// Drops the factors too, so that this run and one that goes on from the state have the same digits.
   void save(ByteWriter& archive);
-  /// @throws InputError if the state is that of another model
+  /// @throws InputError if the state is that of another kind of run or model, is damaged, not finite, or not all of the
+  /// archive; model and integrator are then as they were
   void load(ByteReader& archive);
 
 private:

@@ -36,6 +36,8 @@ public:
   /// whose work ledgers tell them apart; in the order of model.terms.
   std::span<const double> energies() const;
   std::span<const std::vector<Vec3>> loads() const;
+  /// What loads() was when a state was saved.
+  void setLoads(std::vector<std::vector<Vec3>> loads);
 
   /// f ← M⁻¹ f: accelerations, m/s², 0 at components that are not free.
   void accelerate(std::span<Vec3> f) const { mass().solve(f); }

@@ -16,8 +16,8 @@ struct ModelStableStep {
 /// limit of the assembled solids; springs and contact planes are not looked at (assembledStableStep does).
 /// @throws InputError if the model has no solid
 ModelStableStep stableStep(Model& model);
-/// 2/ω of all terms and constraints at the present state with the lumped masses, by Lanczos' iteration. The bound on the
-/// error of ω² is added to it, so that the step errs on the small side.
+/// 2/ω of all terms and constraints at the present state (TᵀKT and TᵀMT with the nodes' lumped mass) by Lanczos
+/// iteration. The bound on the error of ω² is added to it, so that the step errs on the small side.
 /// @param accuracy  relative, of ω²
 /// @throws NumericalError if it does not settle; InputError for nodes without mass
 double assembledStableStep(Model& model, double accuracy = 1e-4);

@@ -14,7 +14,7 @@
 namespace dovetail::fem {
 
 enum class LinearMethod {
-  /// Cholesky (CHOLMOD if it was built in); LDLᵀ if the matrix is indefinite, LU if it is not symmetric.
+  /// Cholesky (CHOLMOD if it was built in); LU (UMFPACK) if the matrix is indefinite or not symmetric.
   direct,
   /// Conjugate gradients preconditioned by an incomplete Cholesky factorisation: memory grows with the mesh and not
   /// faster. For symmetric positive definite matrices only.
@@ -37,6 +37,7 @@ public:
 
   /// Reduces K to the free components and factorises it.
   /// @return false if it is singular (then solve() must not be called)
+  /// @throws NumericalError if the memory does not suffice for the factors
   bool factor(const BlockMatrix& K, bool symmetric);
   /// x = (TᵀKT)⁻¹ r; the spans may be the same.
   /// @throws NumericalError if conjugate gradients do not converge
@@ -44,13 +45,13 @@ public:
 
   bool factored() const;
   void drop();
-  /// Negative pivots of the last factorisation: 0 for a stable equilibrium, −1 if not known (LU, iteration).
+  /// Negative pivots of the last factorisation: 0 for a stable equilibrium, −1 if not known (not symmetric, iteration).
   int negativePivots() const;
   /// Largest entry on the diagonal, N/m.
   double largestDiagonal() const;
   std::int64_t factorisations() const;
   std::int64_t solves() const;
-  /// "CHOLMOD", "LDLT", "LU" or "conjugate gradients": what the last factor() took.
+  /// "CHOLMOD", "UMFPACK", "conjugate gradients", …: what the last factor() took.
   std::string method() const;
 
 private:
@@ -68,12 +69,14 @@ public:
 
 private:
   void analyse(const BlockMatrix& K, bool symmetric);
+  void unite();
   const DofMap* dofs_;
   SparseMatrix matrix_;
   std::size_t patternId_ = 0;
   bool symmetric_ = true;
-  std::vector<std::uint32_t> source_, target_;  // entries of K and where they go
-  std::vector<double> factor_;                  // empty = 1 throughout
+  std::vector<std::uint32_t> source_;  // entries of K in the order of the entries of matrix_
+  std::vector<std::uint32_t> target_;  // where they go, and
+  std::vector<double> factor_;         // times what; both empty if each goes to the entry of its own number
 };
 
 }  // namespace dovetail::fem

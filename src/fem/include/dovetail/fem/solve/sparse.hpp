@@ -29,10 +29,37 @@ public:
 
   /// Reads the lower triangle only; the symbolic analysis is reused while the pattern stays.
   /// @return false if the matrix is not positive definite (then solve() must not be called)
+  /// @throws NumericalError if the memory does not suffice for the factors
   bool factor(const SparseMatrix& A);
   /// Overwrites b by A⁻¹ b.
   void solve(std::span<double> b);
   /// "CHOLMOD" or "Eigen LDLT".
+  static const char* name();
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Owns the factorisation of a matrix that is not symmetric, or symmetric and indefinite (UMFPACK if it was built in,
+/// else Eigen's LU and LDLᵀ). Results do not depend on the number of threads.
+class SparseLu {
+public:
+  SparseLu();
+  ~SparseLu();
+  SparseLu(SparseLu&&) noexcept;
+  SparseLu& operator=(SparseLu&&) noexcept;
+
+  /// The symbolic analysis is reused while the pattern stays.
+  /// @param symmetric  A holds the lower triangle alone. Pivots then stay on the diagonal unless they all but vanish.
+  /// @return false if the matrix is singular (then solve() must not be called)
+  /// @throws NumericalError if the memory does not suffice for the factors
+  bool factor(const SparseMatrix& A, bool symmetric);
+  /// Overwrites b by A⁻¹ b.
+  void solve(std::span<double> b);
+  /// Number of negative eigenvalues of a symmetric matrix, by the law of inertia; −1 if not known.
+  int negativePivots() const;
+  /// "UMFPACK" or "Eigen LU".
   static const char* name();
 
 private:

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -46,13 +47,17 @@ struct StaticReport {
   int cuts = 0;  ///< steps that were tried again with a smaller one
   std::int64_t iterations = 0, factorisations = 0;
   double storedBefore = 0.0, storedAfter = 0.0;  ///< J
-  double loadWork = 0.0, supportWork = 0.0;  ///< J, by terms without energy, by prescribed motion (trapezoidal sums)
-  double dissipated = 0.0;                   ///< J, by materials
+  double loadWork = 0.0;                         ///< J, by terms without energy (trapezoidal sum)
+  double supportWork = 0.0;  ///< J, by prescribed motion and moving contact planes (trapezoidal sum)
+  double dissipated = 0.0;   ///< J, by materials and friction
   double seconds = 0.0, assemblySeconds = 0.0, solverSeconds = 0.0;
   std::string solver;  ///< "CHOLMOD", …
   /// stored + dissipated − work, J: what the trapezoidal sums leave, second order in the step.
   double energyResidual() const { return storedAfter - storedBefore + dissipated - loadWork - supportWork; }
 };
+
+/// A page of text.
+std::ostream& operator<<(std::ostream& out, const StaticReport& report);
 
 /// Called after every accepted step; return false to stop.
 using StaticObserver = std::function<bool(const Model& model, const StaticStep& step)>;

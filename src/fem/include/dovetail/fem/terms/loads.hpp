@@ -12,16 +12,18 @@
 
 namespace dovetail::fem {
 
-/// f = m g with nodes.mass. Stored energy −Σ m g · (X + u), J.
+/// f = m g with the row sums m of the mass matrix in use (of the consistent one in statics), so that a free body falls
+/// without stress. Stored energy −Σ m g · (X + u), J.
 /// @param g  m/s²
-/// @throws InputError if g is not finite
+/// @throws InputError if g is not finite; at its first use if the model has no masses (addMass)
 std::shared_ptr<Term> gravity(Vec3 g, std::string name = "gravity");
 /// The same with g(t), m/s² (a shaken ground); its work is booked.
 std::shared_ptr<Term> gravity(std::function<Vec3(double)> g, std::string name = "gravity");
 
 /// scale(t) · force on each node of the set. A constant scale stores −Σ f · u, J; else the work is booked.
 /// @param force  on each node, N
-/// @throws InputError for an empty set, a negative node number or a force that is not finite
+/// @throws InputError for an empty set, a negative node number or a force that is not finite; at its first use for a
+/// node that the model does not have
 std::shared_ptr<Term> nodalForce(std::span<const int> nodes, Vec3 force, Amplitude scale = 1.0,
                                  std::string name = "nodal force");
 
@@ -52,15 +54,17 @@ std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> 
 std::shared_ptr<Term> followingPressure(const SolidMesh& mesh, std::span<const Face> faces, Amplitude p,
                                         std::span<const int> clamped = {}, std::string name = "pressure");
 
-/// f = −α m v with nodes.mass: damping ratio α / (2 ω) of a mode with angular frequency ω. (Damping proportional to
-/// the stiffness is viscosity of the material.)
+/// f = −α M v with the mass matrix in use: damping ratio α / (2 ω) of a mode with angular frequency ω. (Damping
+/// proportional to the stiffness is viscosity of the material.) No force in statics.
 /// @param alpha  1/s, ≥ 0
 std::shared_ptr<Term> massDamping(double alpha, std::string name = "mass damping");
 /// f = −k u on each node of the set, component by component. Stores ½ k u², J.
 /// @param stiffness  per node, N/m, ≥ 0
+/// @throws InputError as nodalForce, or for a negative stiffness
 std::shared_ptr<Term> groundSprings(std::span<const int> nodes, Vec3 stiffness, std::string name = "ground springs");
-/// f = −c v on each node of the set, component by component.
+/// f = −c v on each node of the set, component by component. No force in statics.
 /// @param damping  per node, kg/s, ≥ 0
+/// @throws InputError as nodalForce, or for a negative damping
 std::shared_ptr<Term> groundDashpots(std::span<const int> nodes, Vec3 damping, std::string name = "ground dashpots");
 
 }  // namespace dovetail::fem

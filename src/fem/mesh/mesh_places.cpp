@@ -1,0 +1,43 @@
+#include "dovetail/fem/mesh/mesh_places.hpp"
+
+#include <algorithm>
+
+#include "dovetail/core/error.hpp"
+#include "faces.hpp"
+
+namespace dovetail::fem {
+
+namespace {
+
+void requireSome(bool empty, const char* what, const char* where) {
+  if (empty) throw InputError(std::string("there are no ") + what + " in this place", where, "widen it");
+}
+
+}  // namespace
+
+Place inBox(Vec3 lower, Vec3 upper, double margin) {
+  return [=](const Vec3& X) {
+    for (int c = 0; c < 3; ++c)
+      if (!(X[c] >= lower[c] - margin && X[c] <= upper[c] + margin)) return false;
+    return true;
+  };
+}
+
+std::vector<int> nodesWhere(const SolidMesh& mesh, const Place& place) {
+  std::vector<int> found;
+  for (std::size_t n = 0; n < mesh.X.size(); ++n)
+    if (place(mesh.X[n])) found.push_back(static_cast<int>(n));
+  requireSome(found.empty(), "nodes", "nodesWhere");
+  return found;
+}
+
+std::vector<Face> facesWhere(const SolidMesh& mesh, const Place& place) {
+  std::vector<Face> faces = boundaryFaces(mesh);
+  std::erase_if(faces, [&](const Face& face) {
+    return !std::ranges::all_of(nodesOf(face), [&](int n) { return place(mesh.X[static_cast<std::size_t>(n)]); });
+  });
+  requireSome(faces.empty(), "faces", "facesWhere");
+  return faces;
+}
+
+}  // namespace dovetail::fem

@@ -1,0 +1,126 @@
+#include "run_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dovetail/core/error.hpp"
+
+namespace dovetail::fem::detail {
+
+namespace {
+
+constexpr const char* remedy = "load it into the run that saved it";
+
+std::vector<Vec3> readField(ByteReader& archive, std::size_t nodes, const std::string& what) {
+  std::vector<Vec3> field;
+  archive(field);
+  if (field.size() != nodes)
+    throw InputError("the state has " + std::to_string(field.size()) + " nodes, the model " + std::to_string(nodes),
+                     what, remedy);
+  const auto bad = std::ranges::find_if_not(field, [](const Vec3& value) { return isFinite(value); });
+  if (bad != field.end())
+    throw InputError("the " + what + " of node " + std::to_string(bad - field.begin()) + " is not finite", "state",
+                     remedy);
+  return field;
+}
+
+std::vector<char> stateOf(const Term& term) {
+  ByteWriter archive;
+  term.save(archive);
+  return archive.bytes();
+}
+
+void requireSameTerms(ByteReader& archive, const Model& model) {
+  const std::int64_t count = readCount(archive, "number of terms");
+  if (count != static_cast<std::int64_t>(model.terms.size()))
+    throw InputError(
+        "the state has " + std::to_string(count) + " terms, the model " + std::to_string(model.terms.size()), "state",
+        remedy);
+  for (const auto& term : model.terms)
+    if (const std::string name = readText(archive); name != term->name())
+      throw InputError("the state has \"" + name + "\" where the model has \"" + term->name() + "\"", "terms", remedy);
+}
+
+}  // namespace
+
+void writeText(ByteWriter& archive, const std::string& text) { archive(std::vector<char>(text.begin(), text.end())); }
+
+std::string readText(ByteReader& archive) {
+  std::vector<char> letters;
+  archive(letters);
+  return {letters.begin(), letters.end()};
+}
+
+double readNumber(ByteReader& archive, const std::string& what) {
+  double value = 0.0;
+  archive(value);
+  if (!std::isfinite(value)) throw InputError("the " + what + " is not finite", "state", remedy);
+  return value;
+}
+
+std::int64_t readCount(ByteReader& archive, const std::string& what) {
+  constexpr std::int64_t most = std::int64_t{1} << 53;
+  std::int64_t value = 0;
+  archive(value);
+  if (value < 0 || value > most) throw InputError("the " + what + " is " + std::to_string(value), "state", remedy);
+  return value;
+}
+
+void requireEnd(const ByteReader& archive, const std::string& where) {
+  if (!archive.atEnd()) throw InputError("there is something behind the state", where, remedy);
+}
+
+void writeModel(ByteWriter& archive, const std::string& run, const Model& model) {
+  writeText(archive, run);
+  archive(static_cast<std::int64_t>(model.terms.size()));
+  for (const auto& term : model.terms) writeText(archive, term->name());
+  archive(model.t, model.nodes.u, model.nodes.v);
+  for (const auto& term : model.terms) archive(stateOf(*term));
+}
+
+ModelState readModel(ByteReader& archive, const std::string& run, const Model& model) {
+  if (const std::string kind = readText(archive); kind != run)
+    throw InputError("the state is not that of an " + run + " run", "load", remedy);
+  requireSameTerms(archive, model);
+  const std::size_t nodes = model.nodes.u.size();
+  ModelState state{readNumber(archive, "time"), readField(archive, nodes, "displacement"),
+                   readField(archive, nodes, "velocity"), std::vector<std::vector<char>>(model.terms.size())};
+  for (std::vector<char>& bytes : state.terms) archive(bytes);
+  return state;
+}
+
+void adopt(ModelState state, Model& model) {
+  std::vector<std::vector<char>> before;
+  for (const auto& term : model.terms) before.push_back(stateOf(*term));
+  const auto loadTerms = [&](const std::vector<std::vector<char>>& bytes) {
+    for (std::size_t k = 0; k < bytes.size(); ++k) {
+      ByteReader archive(bytes[k]);
+      model.terms[k]->load(archive);
+      requireEnd(archive, model.terms[k]->name());
+    }
+  };
+  try {
+    loadTerms(state.terms);
+  } catch (...) {
+    loadTerms(before);
+    throw;
+  }
+  model.t = state.t;
+  model.nodes.u = std::move(state.u);
+  model.nodes.v = std::move(state.v);
+}
+
+void writeStart(ByteWriter& archive, const StepStart& start) {
+  archive(start.a, start.f);
+  for (const std::vector<Vec3>& load : start.loads) archive(load);
+}
+
+StepStart readStart(ByteReader& archive, const Model& model) {
+  const std::size_t nodes = model.nodes.u.size();
+  StepStart start{readField(archive, nodes, "acceleration"), readField(archive, nodes, "force"), {}};
+  for (const auto& term : model.terms)
+    if (!term->hasEnergy()) start.loads.push_back(readField(archive, nodes, "load"));
+  return start;
+}
+
+}  // namespace dovetail::fem::detail
