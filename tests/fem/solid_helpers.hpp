@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Dense>
-
 #include <numeric>
 
 #include "dovetail/fem/elements/solid.hpp"

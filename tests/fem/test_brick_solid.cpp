@@ -25,7 +25,8 @@ private:
 };
 
 TEST(BrickSolid, HandWrittenAndGeneralKernelsAgree) {
-  for (const Material& law : {kirchhoff, Material(DeformedMetricHooke{3e6, 0.3, 1000.0}), Material(AxialSprings{3e6, 1000.0})})
+  for (const Material& law :
+       {kirchhoff, Material(DeformedMetricHooke{3e6, 0.3, 1000.0}), Material(AxialSprings{3e6, 1000.0})})
     for (const bool weighted : {false, true}) {
       const SolidMesh mesh = testSolidMesh(CellShape::hex8, true);
       std::vector<double> share;
@@ -56,7 +57,6 @@ TEST(BrickSolid, ConservingForcesDoTheWorkOfTheEnergyOfTheKernels) {
   EXPECT_NEAR(flat(f).dot(flat(nodes.u) - flat(start)), before - scene.solid->energy(nodes, {}), 1e-12 * before);
 }
 
-/// U = ½ ŝᵀ H⁻¹ ŝ, f = −∂U/∂u: the tangent at rest is that of the element matrices, block by block.
 TEST(BrickSolid, AssumedStressHasTheTangentOfItsElementMatrices) {
   SolidMesh mesh = testMesh({1, 1, 1}, true);
   std::vector<double> share(8);

@@ -54,7 +54,9 @@ auto derivative(Nodes& nodes, const std::vector<Vec3>& direction, double step, V
   return Result((8.0 * (near - nearBack) - (far - farBack)) / (12.0 * step));
 }
 
-bool isPolynomial(const Solid& solid) { return std::holds_alternative<StVenantKirchhoff>(*solid.material().brickLaw()); }
+bool isPolynomial(const Solid& solid) {
+  return std::holds_alternative<StVenantKirchhoff>(*solid.material().brickLaw());
+}
 
 TEST(Bricks, BoxesTakeLessMemory) {
   for (const Formulation formulation : brickFormulations) {
@@ -75,7 +77,8 @@ TEST(Bricks, ForceIsMinusTheDerivativeOfTheEnergy) {
     const double change =
         derivative(nodes, direction, polynomial ? 0.02 : 1e-3, [&] { return solid.energy(nodes, {}); });
     const Eigen::VectorXd force = internalForce(solid, nodes);
-    EXPECT_NEAR(force.dot(flat(direction)), change, (polynomial ? 1e-11 : 1e-9) * force.norm() * flat(direction).norm());
+    EXPECT_NEAR(force.dot(flat(direction)), change,
+                (polynomial ? 1e-11 : 1e-9) * force.norm() * flat(direction).norm());
   });
 }
 

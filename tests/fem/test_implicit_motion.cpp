@@ -159,8 +159,8 @@ Vec3 swing(double dt, bool implicit, double share = 0.0) {
 
 TEST(ImplicitMotion, IsOfSecondOrderInTime) {
   for (const double share : {0.0, 1.0}) {
-    const Vec3 fine = swing(0.4 / 1280, true, share);
-    const double coarse = norm(swing(0.4 / 80, true, share) - fine), half = norm(swing(0.4 / 160, true, share) - fine);
+    const Vec3 fine = swing(0.4 / 2560, true, share);
+    const double coarse = norm(swing(0.4 / 160, true, share) - fine), half = norm(swing(0.4 / 320, true, share) - fine);
     EXPECT_GT(norm(fine), 0.15);
     EXPECT_NEAR(std::log2(coarse / half), 2.0, 0.1);
   }

@@ -89,7 +89,8 @@ TEST(AxialSprings, AStretchAlongAnAxisIsLinearAndRotationsDoNothing) {
     for (const double stretch : {0.7, 1.0 + 1e-6, 1.4}) {
       const Eigen::Matrix3d F = diagonal(1.0, stretch, 1.0);
       const Eigen::Matrix3d expected = diagonal(0.0, young * (stretch - 1.0), 0.0);
-      EXPECT_LT((stressAt(F, Formulation::standard, AxialSprings{young, 1.0}, distorted) - expected).norm(), 1e-12 * young);
+      EXPECT_LT((stressAt(F, Formulation::standard, AxialSprings{young, 1.0}, distorted) - expected).norm(),
+                1e-12 * young);
       const Eigen::Matrix3d R = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
       EXPECT_LT((stressAt(R * F, Formulation::standard, AxialSprings{young, 1.0}, distorted) - R * expected).norm(),
                 1e-12 * young);

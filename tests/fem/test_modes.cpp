@@ -7,7 +7,8 @@ namespace {
 
 /// Eigenvalues of the tangent of one brick at rest over the largest, ascending.
 Eigen::VectorXd spectrum(Formulation formulation, double nu, bool distorted, unsigned seed) {
-  const SolidScene brick = sceneOf(testMesh({1, 1, 1}, distorted, seed), formulation, StVenantKirchhoff{1.0e6, nu, 1.0});
+  const SolidScene brick =
+      sceneOf(testMesh({1, 1, 1}, distorted, seed), formulation, StVenantKirchhoff{1.0e6, nu, 1.0});
   const Eigen::MatrixXd K = dense(tangentOf(*brick.solid, brick.model.nodes));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(K, Eigen::EigenvaluesOnly);
   return solver.eigenvalues() / solver.eigenvalues()[23];

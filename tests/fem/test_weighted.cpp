@@ -97,9 +97,12 @@ TEST(Weighted, PatchesHaveTheStressOfTheLawEverywhere) {
     for (int k = 0; k < 9; ++k) P(k / 3, k % 3) = sample.P[static_cast<std::size_t>(k)];
     for (std::size_t p = 0; p < sample.P.size(); ++p)
       EXPECT_NEAR(sample.P[p], P(static_cast<int>(p % 9) / 3, static_cast<int>(p % 3)), 1e-11 * P.norm());
-    EXPECT_LT((meanFirstStress(scene) - P).norm(), 1e-9 * P.norm());
-    EXPECT_NEAR(scene.solid->energy(scene.model.nodes, {}), sample.energy[0] * volumeOf(scene),
-                1e-9 * sample.energy[0] * volumeOf(scene));
+    // Rules of forces and masses differ by their order where sides are curved.
+    const double volume = std::accumulate(sample.volume.begin(), sample.volume.end(), 0.0);
+    EXPECT_NEAR(volume, volumeOf(scene), 1e-4 * volume);
+    EXPECT_LT((volumeOf(scene) / volume * meanFirstStress(scene) - P).norm(), 1e-10 * P.norm());
+    EXPECT_NEAR(scene.solid->energy(scene.model.nodes, {}), sample.energy[0] * volume,
+                1e-10 * sample.energy[0] * volume);
   });
 }
 

@@ -37,7 +37,7 @@ Vec3 parentPlace(CellShape shape, std::span<const Vec3> nodes, const Vec3& X) {
   std::array<Vec3, detail::maxCellNodes> gradient;
   Vec3 xi = detail::centreRule(shape).point[0];
   for (int iteration = 0; iteration < 30 && isFinite(xi); ++iteration) {
-    detail::shapeFunctions(shape, xi, std::span(N).first(nodes.size()), std::span(gradient).first(nodes.size()));
+    shapeFunctions(shape, xi, std::span(N).first(nodes.size()), std::span(gradient).first(nodes.size()));
     Vec3 gap = X;
     detail::Jacobian J{};
     for (std::size_t a = 0; a < nodes.size(); ++a) {
@@ -86,7 +86,7 @@ MaterialPoint::MaterialPoint(const SolidMesh& mesh, const Vec3& X) {
       node_.assign(nodes.begin(), nodes.end());
       N_.resize(n);
       std::vector<Vec3> gradient(n);
-      detail::shapeFunctions(shape_, xi_, N_, gradient);
+      shapeFunctions(shape_, xi_, N_, gradient);
       return;
     }
   }

@@ -36,6 +36,7 @@ public:
   ~SolidBase() override;
 
   std::string name() const override { return options_.name; }
+  bool usesVelocity() const override { return false; }
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override;
   double addForcesAndEnergy(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override;
   void addCouplings(Couplings& couplings) const override;

@@ -8,6 +8,7 @@
 #include "dovetail/fem/motion/motion.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
 #include "energy_book.hpp"
+#include "force_sum.hpp"
 #include "run_state.hpp"
 
 namespace dovetail::fem {

@@ -65,6 +65,7 @@ public:
   bool isSymmetric() const override { return options_.friction == 0.0; }
   bool hasEnergy() const override { return true; }
 
+  bool usesVelocity() const override { return false; }
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
     start(nodes.X, nodes.u, now.t);
     visit(nodes, now.t,

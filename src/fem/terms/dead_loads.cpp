@@ -16,6 +16,7 @@ public:
   DeadLoad(const std::map<int, Vec3>& forces, Amplitude scale, std::string name)
       : forces_(forces.begin(), forces.end()), scale_(std::move(scale)), name_(std::move(name)) {}
   std::string name() const override { return name_; }
+  bool usesVelocity() const override { return false; }
   void addForces(const Nodes&, const Instant& now, std::span<Vec3> f) override {
     const double scale = scale_(now.t);
     for (const auto& [n, force] : forces_) f[static_cast<std::size_t>(n)] += scale * force;
@@ -74,6 +75,7 @@ public:
     });
   }
   std::string name() const override { return name_; }
+  bool usesVelocity() const override { return false; }
   void addForces(const Nodes&, const Instant& now, std::span<Vec3> f) override {
     for (const Point& point : points_) {
       const Vec3 traction = traction_(point.X, now.t);

@@ -18,6 +18,7 @@ public:
   bool isSymmetric() const override { return potential_; }
   bool hasEnergy() const override { return potential_ && p_.isConstant(); }
 
+  bool usesVelocity() const override { return false; }
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
     const double p = p_(now.t);
     for (const Face& face : faces_) {

@@ -75,6 +75,7 @@ class Gravity : public Named {
 public:
   Gravity(std::function<Vec3(double)> g, bool stores, std::string name)
       : Named(std::move(name)), g_(std::move(g)), stores_(stores) {}
+  bool usesVelocity() const override { return false; }
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
     const BodyMass mass(nodes, now, name());
     const Vec3 g = g_(now.t);
@@ -108,6 +109,7 @@ public:
       : Named(std::move(name)), nodes_(nodes, "nodalForce"), force_(force), scale_(std::move(scale)) {
     requireFiniteVector(force, "nodalForce");
   }
+  bool usesVelocity() const override { return false; }
   void addForces(const Nodes&, const Instant& now, std::span<Vec3> f) override {
     const Vec3 force = scale_(now.t) * force_;
     for (const int n : nodes_.of(f.size(), name())) f[static_cast<std::size_t>(n)] += force;
@@ -184,6 +186,7 @@ private:
 class GroundSprings : public Ground {
 public:
   using Ground::Ground;
+  bool usesVelocity() const override { return false; }
   void addForces(const Nodes& nodes, const Instant&, std::span<Vec3> f) override { addTo(nodes.u, f); }
   void addTangent(const Nodes&, const Instant&, BlockMatrix& K) override { addTo(K); }
   bool hasEnergy() const override { return true; }
