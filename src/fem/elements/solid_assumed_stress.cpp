@@ -44,7 +44,7 @@ private:
 std::shared_ptr<Solid> makeAssumedStressSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material,
                                               const SolidOptions& options) {
   const auto law = material->brickLaw();
-  if (!law)
+  if (!law || !std::holds_alternative<StVenantKirchhoff>(*law))
     throw InputError("assumed stress is for St Venant-Kirchhoff, not for " + material->name(), "makeSolid",
                      "use Formulation::enhanced, which takes any material");
   return std::make_shared<AssumedStressSolid>(std::move(cells), std::move(material), options, *law);

@@ -130,9 +130,9 @@ SolidBase::Totals SolidBase::eachBatch(std::span<Vec3> f, Body&& body) {
   }
   const auto part = [&](std::size_t begin, std::size_t end) {
     Totals sum;
-    std::array<Lane, 3 * maxCellNodes> local;
+    alignas(laneBytes) std::array<Lane, 3 * maxCellNodes> local;
     for (std::size_t b = begin; b < end; ++b) {
-      Lane* const forces = many ? &results_[b * lanes] : local.data();
+      Lane* const forces = many ? &results_[b * lanes].value : local.data();
       sum += body(b, forces);
       if (!many) subtract(b, forces, f);
     }
@@ -171,7 +171,8 @@ SolidBase::Totals SolidBase::addAll(const Nodes& nodes, const Instant& now, cons
     task.wantDissipation = remembers;
     BatchResult result;
     forces(task, result);
-    std::copy_n(result.f.begin(), 3 * cells_.nodes, lanes);
+    for (std::size_t a = 0; a < cells_.nodes; ++a)
+      for (std::size_t i = 0; i < 3; ++i) lanes[slot(a, i)] = result.f[3 * a + i];
     return Totals{task.wantEnergy ? sumOfLanes(result.energy) : 0.0,
                   task.wantDissipation ? sumOfLanes(result.dissipated) : 0.0};
   });

@@ -139,7 +139,10 @@ private:
   std::unique_ptr<const BrickCache> bricks_;  // if there are kernels
   std::vector<double> history_, newHistory_;
   Evaluation evaluation_;
-  std::vector<Lane> results_;                        // forces of all batches, for more than one thread
+  struct alignas(laneBytes) AlignedLane {
+    Lane value;
+  };
+  std::vector<AlignedLane> results_;                 // forces of all batches, for more than one thread
   std::vector<std::uint32_t> nodeOffsets_;           // entries of each node in results_, ascending elements
   std::vector<std::uint32_t> nodeEntries_;           // place of their first component, in doubles
   std::vector<std::vector<std::uint32_t>> colours_;  // batches of a colour share no node
