@@ -19,7 +19,7 @@ public:
     constexpr std::array<std::size_t, 8> localNode = {0, 1, 3, 2, 4, 5, 7, 6};  // of a binary corner
     const ElementCache& cache = block_.cache();
     BatchForces forces;
-    kernels().forces(cache, cache.batches[task.batch], task.u, task.wantEnergy, forces);
+    batchForces(cache, cache.batches[task.batch], task.u, task.wantEnergy, forces);
     for (std::size_t corner = 0; corner < 8; ++corner)
       for (std::size_t i = 0; i < 3; ++i) result.f[3 * localNode[corner] + i] = forces.f[i][corner];
     result.energy = task.wantEnergy ? forces.energy : Lane{};

@@ -26,10 +26,10 @@ void requireSameNodes(const ElementBlock& block, const Nodes& nodes) {
                      "elements", "use the nodes of the same mesh");
 }
 
-/// The kernels are called through a pointer and write to memory, so that no compiler fuses a product of theirs with the
+/// The kernels are not inlined and write to memory, so that no compiler fuses a product of theirs with the
 /// sum over elements: one thread and many then add the very same numbers.
 void evaluate(const ElementCache& cache, const Batch& batch, const Nodes& nodes, bool withEnergy, BatchForces& forces) {
-  detail::kernels().forces(cache, batch, nodes.u.data(), withEnergy, forces);
+  detail::batchForces(cache, batch, nodes.u.data(), withEnergy, forces);
 }
 
 double sumOfLanes(const Lane& lane) { return (lane[0] + lane[1]) + (lane[2] + lane[3]); }
@@ -121,7 +121,7 @@ void requireValid(const ElementBlock& block, const Nodes& nodes, const std::stri
   const ElementCache& cache = block.cache();
   detail::BatchDeterminants determinants;
   for (std::size_t b = 0; b < cache.batches.size(); ++b) {
-    detail::kernels().determinants(cache, cache.batches[b], nodes.u.data(), determinants);
+    detail::batchDeterminants(cache, cache.batches[b], nodes.u.data(), determinants);
     for (int lane = 0; lane < cache.batches[b].count; ++lane)
       for (const Lane& value : determinants.value)
         if (!(value[lane] > 0.0))

@@ -85,7 +85,10 @@ void SolidBase::addAll(const Nodes& nodes, const Instant& now, const Vec3* start
   requireSameNodes(nodes);
   startHistory();
   const std::size_t count = cells_.batches(), perBatch = cells_.nodes;
-  const auto body = [&](std::size_t b, BatchResult& result) { forces(taskOf(b, nodes, now, start), result); };
+  const auto body = [&](std::size_t b, BatchResult& result) {
+    const BatchTask task = taskOf(b, nodes, now, start);
+    start == nullptr || conserves() ? forces(task, result) : balancedForces(task, result);
+  };
   if (threads() == 1 || count * perBatch < parallelNodes) {
     BatchResult result;
     for (std::size_t b = 0; b < count; ++b) {
@@ -123,7 +126,9 @@ void SolidBase::addForces(const Nodes& nodes, const Instant& now, std::span<Vec3
 
 bool SolidBase::addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
                                     std::span<Vec3> f) {
-  if (!conserves()) return false;
+  if (!material_->isElastic()) return false;
+  requireSameNodes(nodes);
+  if (!conserves()) setPath(u0, nodes.u);
   addAll(nodes, now, u0.data(), f);
   return true;
 }
@@ -166,7 +171,7 @@ double SolidBase::commit(const Nodes& nodes, const Instant& now) {
 
 void SolidBase::requireValid(const Nodes& nodes, const std::string& when) const {
   requireSameNodes(nodes);
-  std::vector<Lane> F(9 * points());
+  LaneVector F(9 * points());
   for (std::size_t b = 0; b < cells_.batches(); ++b) {
     compatibleDeformation({b, nodes.u.data(), nullptr, 0.0, false, false}, F.data());
     for (std::size_t q = 0; q < points(); ++q)
@@ -192,7 +197,7 @@ Solid::Sample SolidBase::sample(const Nodes& nodes, const Instant& now) {
   requireSameNodes(nodes);
   startHistory();
   const std::size_t n = cells_.nodes, q = points(), size = material_->historySize();
-  std::vector<Lane> F(9 * q), P(9 * q), energy(q);
+  LaneVector F(9 * q), P(9 * q), energy(q);
   Sample sample;
   for (std::size_t b = 0; b < cells_.batches(); ++b) {
     const BatchTask task = taskOf(b, nodes, now);

@@ -113,16 +113,20 @@ private:
   void addMasses(std::span<double> mass, bool scaled) const;
   BatchTask taskOf(std::size_t batch, const Nodes& nodes, const Instant& now, const Vec3* start = nullptr) const;
   void addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f);
-  void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, BlockMatrix& K);
+  void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, double share, BlockMatrix& K);
+  /// The conserving forces of a formulation whose forces() knows nothing of a `start`.
+  void balancedForces(const BatchTask& task, BatchResult& result);
+  void setPath(std::span<const Vec3> u0, std::span<const Vec3> u1);
   std::array<double, 2> totals(const Nodes& nodes, const Instant& now, bool wantEnergy, bool wantDissipation);
   void startHistory();
   void listEntries();
   void colourBatches();
   void findPlaces(const BlockMatrix& K);
-  void scatter(std::size_t batch, const Lane* matrix, BlockMatrix& K) const;
+  void scatter(std::size_t batch, const Lane* matrix, double share, BlockMatrix& K) const;
 
   std::vector<double> history_, newHistory_;
-  std::vector<Lane> results_;               // forces of all batches, [3 nodes b + 3 a + i], for more than one thread
+  std::array<std::vector<Vec3>, 3> path_;   // displacements at the Gauss points of the path of a conserving step
+  LaneVector results_;                      // forces of all batches, [3 nodes b + 3 a + i], for more than one thread
   std::vector<std::uint32_t> nodeOffsets_;  // entries of each node in results_, ascending elements
   std::vector<std::uint64_t> nodeEntries_;  // place of their first component, in doubles
   std::vector<std::vector<std::uint32_t>> colours_;  // batches of a colour share no node

@@ -35,6 +35,13 @@ private:
 
   void forces(const BatchTask& task, BatchResult& result) override {
     if (kernels_ && task.start == nullptr) return kernels_->forces(task, result);
+    withVectors([&] { forcesOf(task, result); });
+  }
+  void tangent(const BatchTask& task, Lane* K) override {
+    withVectors([&] { tangentOf(task, K); });
+  }
+
+  void forcesOf(const BatchTask& task, BatchResult& result) {
     Tensors F, P;
     deformationOf(task.batch, task.u, F.data());
     std::array<Lane, Q> energy{}, dissipated{};
@@ -53,7 +60,7 @@ private:
     }
   }
 
-  void tangent(const BatchTask& task, Lane* K) override {
+  void tangentOf(const BatchTask& task, Lane* K) {
     Tensors F, P;
     std::array<Lane, 81 * Q> A;
     deformationOf(task.batch, task.u, F.data());

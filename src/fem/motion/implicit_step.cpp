@@ -119,6 +119,13 @@ void ImplicitStep::evaluateConserving(double h) {
   }
 }
 
+std::vector<std::string> ImplicitStep::termsAtMeanState() const {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < conserves_.size(); ++k)
+    if (conserving() && !conserves_[k] && model_.terms[k]->hasEnergy()) names.push_back(model_.terms[k]->name());
+  return names;
+}
+
 /// Fills residual_ and sets the tolerance; returns the norm.
 double ImplicitStep::balance() {
   const Profile::Stage stage(profile_, "balance");

@@ -39,6 +39,8 @@ public:
   std::vector<Vec3> meanForce() const;
   double loadWork(std::size_t load, const std::vector<Vec3>& motion) const;
   const LinearSolver& solver() const { return solver_; }
+  /// Names of the terms with an energy that a conserving step does not keep.
+  std::vector<std::string> termsAtMeanState() const;
   /// At the end of the last accepted step (conserving: of that step).
   const std::vector<Vec3>& forces() const { return conserving() ? end_.total : start_.total; }
 
