@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "../solve/newton_tools.hpp"
 #include "dovetail/fem/model/model.hpp"
 
 namespace dovetail::fem::detail {
@@ -31,12 +32,5 @@ struct ForceSum {
     }
   }
 };
-
-/// Σ a · b in a fixed order.
-inline double innerProduct(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < a.size(); ++n) sum += dot(a[n], b[n]);
-  return sum;
-}
 
 }  // namespace dovetail::fem::detail

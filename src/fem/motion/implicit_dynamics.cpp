@@ -113,7 +113,7 @@ struct ImplicitIntegrator::Impl {
     return follows;
   }
 
-  void accept(double h, const detail::ImplicitStep::Result& result) {
+  void accept(double h, const detail::NewtonResult& result) {
     if (options.energyEvery > 0) bookWorks(h);
     model.t += h;
     const Profile::Stage stage(profile, "materials accept");
@@ -121,12 +121,12 @@ struct ImplicitIntegrator::Impl {
     solver.accept();
     ++steps;
     iterations += result.iterations;
-    largestResidual = std::max(largestResidual, result.residual);
+    if (result.tolerance > 0.0) largestResidual = std::max(largestResidual, result.residual / result.tolerance);
   }
 
   /// Halves until it works.
   void advance(double h, int depth) {
-    detail::ImplicitStep::Result result = solver.attempt(h, detail::ImplicitStep::Guess::coast);
+    detail::NewtonResult result = solver.attempt(h, detail::ImplicitStep::Guess::coast);
     if (!result.failure.empty()) result = solver.attempt(h, detail::ImplicitStep::Guess::rest);
     if (result.failure.empty()) return accept(h, result);
     if (depth == options.maxCuts)
