@@ -203,7 +203,8 @@ NewtonResult ImplicitStep::attempt(double h, Guess guess) {
       makeGuess(guess);
       guessed = true;
     }
-    return newton(*this, {options_.maxIterations, true, options_.refactorAfter, options_.refactorContraction});
+    return newton(*this, {options_.maxIterations, conserving() ? LineSearch::afterBreakdown : LineSearch::always,
+                          options_.refactorAfter, options_.refactorContraction});
   });
   if (!result.failure.empty()) solver_.drop();
   return result;

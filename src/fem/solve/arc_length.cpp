@@ -187,7 +187,7 @@ private:
       started = true;
       NewtonResult result;
       if (!atEnd) {
-        result = detail::newton(path_, {options_.newton.maxIterations, false});
+        result = detail::newton(path_, {options_.newton.maxIterations, detail::LineSearch::never});
         now_.t = path_.t();
         if (!result.failure.empty() || now_.t <= tEnd_) return result;
         path_.cutAt(tEnd_);

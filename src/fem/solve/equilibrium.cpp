@@ -33,8 +33,8 @@ void requireLater(double tEnd, const Model& model, const char* where) {
 
 NewtonPolicy policyOf(const NewtonOptions& options) {
   const bool keep = options.reuseContraction > 0.0;
-  return {options.maxIterations, options.lineSearch, keep ? std::numeric_limits<int>::max() : 0,
-          options.reuseContraction};
+  return {options.maxIterations, options.lineSearch ? LineSearch::always : LineSearch::never,
+          keep ? std::numeric_limits<int>::max() : 0, options.reuseContraction};
 }
 
 Balance::Balance(Model& model, double relative, double absolute)

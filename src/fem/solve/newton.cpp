@@ -111,7 +111,9 @@ NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy) {
     problem.moveTo(1.0);
     norm = problem.evaluate();
     hard = hard || !(norm <= before);
-    if (policy.lineSearch && (result.iterations > 0 || !std::isfinite(norm))) norm = search(problem, norm, slope);
+    const bool searches = std::isfinite(norm) ? policy.lineSearch == LineSearch::always && result.iterations > 0
+                                              : policy.lineSearch != LineSearch::never;
+    if (searches) norm = search(problem, norm, slope);
   }
 }
 

@@ -33,9 +33,13 @@ public:
   virtual void moveTo(double share) = 0;
 };
 
+/// When an increment is shortened. Where the matrix is not the derivative of the residual, or that is not a gradient,
+/// the slope is a poor guide: then only if the forces break down.
+enum class LineSearch { never, afterBreakdown, always };
+
 struct NewtonPolicy {
   int maxIterations;
-  bool lineSearch = true;
+  LineSearch lineSearch = LineSearch::always;
   /// Factors are kept for so many iterations, while each shrinks the residual below this share.
   int keepIterations = 0;
   double keepContraction = 0.0;

@@ -34,17 +34,14 @@ public:
   void measure(const BlockMatrix& K, std::span<const Vec3> X) {
     double squares = 0.0;
     stiffest_ = 0.0;
-    for (std::size_t n = 0; n < K.nodes(); ++n) {
-      double sum = 0.0;
+    for (std::size_t n = 0; n < K.nodes(); ++n)
       for (int k = K.offsets()[n]; k < K.offsets()[n + 1]; ++k) {
         const double* const block = &K.values()[9 * static_cast<std::size_t>(k)];
         const auto other = static_cast<std::size_t>(K.columns()[static_cast<std::size_t>(k)]);
         const double largest = *std::max_element(block, block + 9), least = *std::min_element(block, block + 9);
-        sum += std::max(largest, -least) * norm(X[n] - X[other]);
+        squares += std::pow(std::max(largest, -least), 2) * squaredNorm(X[n] - X[other]);
         for (std::size_t c = 0; other == n && c < 3; ++c) stiffest_ = std::max(stiffest_, std::abs(block[4 * c]));
       }
-      squares += sum * sum;
-    }
     ofStrain_ = std::numeric_limits<double>::epsilon() * std::sqrt(squares);
   }
   /// N. Displacements are known to a relative ε, hence forces to no better than ε K u.
