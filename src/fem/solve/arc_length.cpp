@@ -1,5 +1,5 @@
 // Continuation of equilibria with model time as the load parameter: by the cylindrical arc length (Riks 1979,
-// Crisfield 1981), or by one displacement (de Borst 1987).
+// Crisfield 1981), by one displacement (de Borst 1987), or by what is dissipated (Gutiérrez 2004).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -37,27 +37,33 @@ public:
     return byDisplacement() ? way[static_cast<std::size_t>(options_.node)][options_.component] : normOf(way);
   }
 
-  /// From the present equilibrium by the tangent. @param signedLength  below 0: towards smaller t at the start
-  /// @return the time there
-  double start(double signedLength) {
+  /// What a step of the given way and time dissipates if all of it is damage, J.
+  double dissipation(std::span<const Vec3> way, double time) const {
+    return 0.5 * (model_.t * innerProduct(way, loadRate_) - time * innerProduct(from_, loadRate_));
+  }
+
+  /// From the present equilibrium by the tangent.
+  /// @param signedLength  below 0: towards smaller t at the start
+  /// @param spending      the step is as long as the dissipation in the options wants it
+  /// @return the time there, not finite if the tangent has no such point
+  double start(double signedLength, bool spending) {
     from_ = model_.nodes.u;
-    const double speed = length(rate_);
-    if (!(std::abs(speed) > 0.0))
-      throw NumericalError("nothing moves with t", "followPath",
-                           byDisplacement() ? "control a component that moves" : "give loads that are functions of t");
+    spending_ = spending;
     // One displacement keeps its sense, the arc takes that of t.
-    const double change = signedLength / speed;
+    const double change = spending ? options_.dissipation / dissipation(rate_, 1.0) : signedLength / length(rate_);
     for (std::size_t n = 0; n < moved_.size(); ++n) moved_[n] = change * rate_[n];
-    goal_ = byDisplacement() ? signedLength : std::abs(signedLength);
+    expected_ = std::abs(length(moved_));
+    goal_ = spending ? options_.dissipation : byDisplacement() ? signedLength : std::abs(signedLength);
     t_ = model_.t + change;
     return t_;
   }
-  double t() const { return t_; }
-  double lengthSoFar() const {
+  /// Whether the way to the present state is much longer than the tangent said.
+  bool strays() const {
     std::vector<Vec3> way = model_.nodes.u;
     for (std::size_t n = 0; n < way.size(); ++n) way[n] -= from_[n];
-    return length(way);
+    return std::abs(length(way)) > 2.0 * expected_;
   }
+  double t() const { return t_; }
   /// Puts the model on the way at time t by interpolation.
   void cutAt(double t) {
     const double share = (t - model_.t) / (t_ - model_.t);
@@ -87,15 +93,17 @@ private:
     equilibrium_.dofs().apply(t_, model_.nodes.u);
     equilibrium_.aim({t_, 0.0});
   }
-  /// δt such that `way` + δt rate has the length asked for; NaN if there is none.
+  /// δt such that `way` + δt rate has the length or the dissipation asked for; not finite if there is none.
   double change(std::span<const Vec3> way) const;
 
   Equilibrium& equilibrium_;
   const ArcLengthOptions& options_;
   Model& model_;
   double tStart_, tEnd_;
-  double t_ = 0.0, goal_ = 0.0, tBefore_ = 0.0, timeIncrement_ = 0.0;
+  double t_ = 0.0, goal_ = 0.0, expected_ = 0.0, tBefore_ = 0.0, timeIncrement_ = 0.0;
+  bool spending_ = false;
   std::vector<Vec3> from_, rate_, moved_, movedBefore_, increment_;
+  std::vector<Vec3> loadRate_;  // ∂f/∂t at rest
 };
 
 bool PathStep::findRate(double t) {
@@ -103,22 +111,23 @@ bool PathStep::findRate(double t) {
   // Loads may have a kink where the path begins or ends.
   const double later = t <= tEnd_ ? std::min(t + h, tEnd_) : t + h,
                earlier = t >= tStart_ ? std::max(t - h, tStart_) : t - h;
-  const auto residualAt = [&](double time) {
+  const auto forcesAt = [&](double time) {
     equilibrium_.aim({time, 0.0});
     equilibrium_.evaluate();
-    return std::vector<double>(equilibrium_.residual().begin(), equilibrium_.residual().end());
+    return std::vector<Vec3>(equilibrium_.forces().begin(), equilibrium_.forces().end());
   };
-  std::vector<double> push = residualAt(later);
-  const std::vector<double> less = residualAt(earlier);
-  for (std::size_t i = 0; i < push.size(); ++i) push[i] = (push[i] - less[i]) / (later - earlier);
+  loadRate_ = forcesAt(later);
+  const std::vector<Vec3> less = forcesAt(earlier);
+  for (std::size_t n = 0; n < less.size(); ++n) loadRate_[n] = (loadRate_[n] - less[n]) / (later - earlier);
+  std::vector<double> push(equilibrium_.dofs().size()), back(push.size());
+  equilibrium_.dofs().reduce(loadRate_, push);
   std::vector<Vec3> ahead = model_.nodes.u, behind = model_.nodes.u, pulled(ahead.size());
   equilibrium_.dofs().apply(later, ahead);
   equilibrium_.dofs().apply(earlier, behind);
   for (std::size_t n = 0; n < ahead.size(); ++n) rate_[n] = (ahead[n] - behind[n]) / (later - earlier);
-  residualAt(t);
+  forcesAt(t);
   if (!equilibrium_.factor()) return false;
   equilibrium_.stiffness().multiply(rate_, pulled);
-  std::vector<double> back(push.size());
   equilibrium_.dofs().reduce(pulled, back);
   for (std::size_t i = 0; i < push.size(); ++i) push[i] -= back[i];
   equilibrium_.solve(push, push);
@@ -127,6 +136,7 @@ bool PathStep::findRate(double t) {
 }
 
 double PathStep::change(std::span<const Vec3> way) const {
+  if (spending_) return (goal_ - dissipation(way, t_ - model_.t)) / dissipation(rate_, 1.0);
   if (byDisplacement()) return (goal_ - length(way)) / length(rate_);
   const double a = innerProduct(rate_, rate_), b = innerProduct(rate_, way), c = innerProduct(way, way) - goal_ * goal_;
   const double root = std::sqrt(b * b - a * c), first = (-b + root) / a, second = (-b - root) / a;
@@ -154,6 +164,7 @@ void validate(const ArcLengthOptions& options, const Model& model) {
   requirePositive(options.firstStep, "firstStep");
   requireNonNegative(options.largestStep, "largestStep");
   requirePositive(options.smallestShare, "smallestShare");
+  requireNonNegative(options.dissipation, "dissipation");
   if (options.node >= static_cast<int>(model.nodes.u.size()) || options.component < 0 || options.component > 2)
     throw InputError(
         "there is no component " + std::to_string(options.component) + " of node " + std::to_string(options.node),
@@ -169,20 +180,22 @@ public:
       : equilibrium_(equilibrium), path_(path), options_(options), tEnd_(tEnd) {}
 
   /// On success the model is in equilibrium at t(); on failure as before.
-  NewtonResult advance(double signedLength) {
-    if (path_.start(signedLength) >= tEnd_) {
-      NewtonResult result = attempt(signedLength, true);
+  NewtonResult advance(double signedLength, bool spending) {
+    const double t = path_.start(signedLength, spending);
+    if (!std::isfinite(t)) return {0, 0.0, 0.0, "nothing moves with t"};
+    if (t >= tEnd_) {
+      NewtonResult result = attempt(signedLength, spending, true);
       if (result.failure.empty()) return result;
     }
-    return attempt(signedLength, false);
+    return attempt(signedLength, spending, false);
   }
   double t() const { return now_.t; }
 
 private:
-  NewtonResult attempt(double signedLength, bool atEnd) {
+  NewtonResult attempt(double signedLength, bool spending, bool atEnd) {
     bool started = false;
     return detail::attemptStep(equilibrium_.model(), now_, options_.maxAugmentations, [&] {
-      if (!started) path_.start(signedLength);
+      if (!started) path_.start(signedLength, spending);
       if (!started && atEnd) path_.cutAt(tEnd_);
       started = true;
       NewtonResult result;
@@ -193,16 +206,16 @@ private:
         path_.cutAt(tEnd_);
         atEnd = true;
       }
-      return settle(signedLength, result.iterations);
+      return settle(result.iterations);
     });
   }
   /// Equilibrium at tEnd, on the way that the path takes there.
-  NewtonResult settle(double signedLength, int iterationsBefore) {
+  NewtonResult settle(int iterationsBefore) {
     now_.t = tEnd_;
     equilibrium_.aim(now_);
     NewtonResult result = detail::newton(equilibrium_, detail::policyOf(options_.newton));
     result.iterations += iterationsBefore;
-    if (result.failure.empty() && std::abs(path_.lengthSoFar()) > 2.0 * std::abs(signedLength))
+    if (result.failure.empty() && path_.strays())
       result.failure = "there is no equilibrium at the end of the path nearby";
     return result;
   }
@@ -221,20 +234,31 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
   detail::requireLater(tEnd, model, "followPath");
   const auto start = std::chrono::steady_clock::now();
   Equilibrium equilibrium(model, options.newton);
+  if (options.dissipation > 0.0 && equilibrium.dofs().hasMotion())
+    throw InputError("dissipation is that of loads alone, but there is prescribed motion", "ArcLengthOptions",
+                     "set dissipation to 0, or load the body by forces");
   StaticReport report;
   report.storedBefore = storedEnergy(model, {model.t, 0.0});
   PathStep path(equilibrium, options, tEnd);
   PathTrial trial(equilibrium, path, options, tEnd);
   if (!path.findRate(model.t)) throw NumericalError("the tangent is singular", "followPath", "hold the model");
   const double firstLength = options.firstStep * path.length(path.rate());
+  if (firstLength == 0.0)
+    throw NumericalError("nothing moves with t", "followPath",
+                         "give loads that are functions of t, and a component that moves if there is a node");
   const double largest = options.largestStep > 0.0 ? options.largestStep : 8.0 * std::abs(firstLength);
   double length = std::min(std::abs(firstLength), largest), sense = firstLength < 0.0 ? -1.0 : 1.0;
+  bool spending = false;
   std::vector<Vec3> lastMove;
   while (static_cast<int>(report.steps.size()) < options.maxSteps && model.t < tEnd) {
     const std::vector<Vec3> u0 = model.nodes.u, f0(equilibrium.forces().begin(), equilibrium.forces().end()),
                             loads0(equilibrium.loads().begin(), equilibrium.loads().end());
     if (!lastMove.empty() && options.node < 0) sense = innerProduct(path.rate(), lastMove) >= 0.0 ? 1.0 : -1.0;
-    const NewtonResult result = trial.advance(sense * length);
+    const NewtonResult result = trial.advance(sense * length, spending);
+    if (!result.failure.empty() && spending) {
+      spending = false;
+      if (path.findRate(model.t)) continue;
+    }
     if (!result.failure.empty()) {
       length *= 0.4;
       ++report.cuts;
@@ -250,6 +274,8 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
     detail::acceptTerms(model, now, report);
     lastMove.resize(u0.size());
     for (std::size_t n = 0; n < u0.size(); ++n) lastMove[n] = model.nodes.u[n] - u0[n];
+    if (spending) length = std::min(largest, std::abs(path.length(lastMove)));
+    spending = options.dissipation > 0.0 && path.dissipation(lastMove, now.t - model.t) >= 0.999 * options.dissipation;
     model.t = now.t;
     report.iterations += result.iterations;
     const bool regular = path.findRate(now.t);

@@ -47,7 +47,7 @@ public:
   /// N. Displacements are known to a relative ε, hence forces to no better than ε K u.
   /// @param displacement  the norm of all, m
   double at(double displacement) const {
-    return std::max(2.0 * std::numeric_limits<double>::epsilon() * stiffest_ * displacement, ofStrain_);
+    return std::max(std::numeric_limits<double>::epsilon() * stiffest_ * displacement, ofStrain_);
   }
 
 private:

@@ -82,6 +82,10 @@ struct ArcLengthOptions {
   /// it starts: through snap-backs of localised bands, whose growth it should measure (de Borst 1987).
   int node = -1;
   int component = 0;
+  /// Above 0: once a step has dissipated that much, J, the following ones all do, for bodies without prescribed motion
+  /// under loads proportional to t that are damaged: they would unload towards u = 0, so a step from (t₀, u₀) costs
+  /// ½ (t₀ Δu − Δt u₀)·∂f/∂t (Gutiérrez 2004). A step that does not succeed so is tried by its length.
+  double dissipation = 0.0;
 };
 
 /// Follows the path of equilibria u(t) by its arc length through limit points of the load and back (Riks 1979,
