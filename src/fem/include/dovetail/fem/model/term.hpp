@@ -16,7 +16,7 @@ class BlockMatrix;
 class Couplings;
 class ModelMass;
 
-/// When forces are asked for: at the end of a step of length dt, which is 0 in statics. Times in s.
+/// When forces are asked for: at the end of a step of length dt, which is 0 where no time passes. Times in s.
 struct Instant {
   double t = 0.0;
   double dt = 0.0;
