@@ -13,6 +13,7 @@
 
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/plasticity.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/laws/viscosity.hpp"
 #include "dovetail/fem/model/model.hpp"
@@ -45,11 +46,49 @@ struct Kind {
   std::array<int, 3> cells;
 };
 
-void bend(Nodes& nodes) {
+void bend(Nodes& nodes, double amplitude = 1e-3) {
   for (std::size_t n = 0; n < nodes.X.size(); ++n) {
     const Vec3& X = nodes.X[n];
-    nodes.u[n] = 1e-3 * Vec3{std::sin(3.0 * X.z), std::cos(2.0 * X.z), std::sin(X.x)};
+    nodes.u[n] = amplitude * Vec3{std::sin(3.0 * X.z), std::cos(2.0 * X.z), std::sin(X.x)};
   }
+}
+
+struct NamedLaw {
+  bool onHex8Only;
+  std::shared_ptr<const PointMaterial> material;
+};
+
+std::vector<NamedLaw> timedLaws() {
+  const auto elastic = pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0}));
+  return {{false, elastic},
+          {false, pointMaterial(neoHookean(1e6, 0.3, 1000.0))},
+          {true, pointMaterial(Hencky{1e6, 0.3, 1000.0})},
+          {true, pointMaterial(J2Plasticity{1e6, 0.3, 1000.0, linearYield(1e3, 1e5)})},
+          {true, pointMaterial(DruckerPrager{1e6, 0.3, 1000.0, 1e3, 0.6, 0.2})},
+          {true, pointMaterial(kelvinVoigt(elastic, 1e-6, 1e6, 0.3))}};
+}
+
+/// Times per element, ns, of calls at states that differ by 1e-4 of the displacement gradient from one to the next.
+struct ElementTimes {
+  double forces[2], tangent[2];  ///< on one thread and on several
+};
+ElementTimes timeSolid(Solid& solid, const SolidMesh& mesh, int threadCount) {
+  Model model = makeModel(mesh);
+  Nodes states[2] = {model.nodes, model.nodes};
+  bend(states[0], 1e-3);
+  bend(states[1], 1.05e-3);
+  Couplings couplings(mesh.X.size());
+  solid.addCouplings(couplings);
+  BlockMatrix K(std::move(couplings));
+  ElementTimes times{};
+  for (int run = 0; run < 2; ++run) {
+    setThreads(run == 0 ? 1 : threadCount);
+    const double scale = 1e9 / static_cast<double>(solid.size());
+    int turn = 0;
+    times.forces[run] = scale * median(15, [&] { solid.addForces(states[++turn % 2], {}, model.nodes.f); });
+    times.tangent[run] = scale * median(5, [&] { solid.addTangent(states[++turn % 2], {}, K); });
+  }
+  return times;
 }
 
 void timeElements(int threadCount) {
@@ -65,24 +104,12 @@ void timeElements(int threadCount) {
   std::printf("%-6s %-16s %-22s %8s | forces, ns: 1 thread, %d, ratio | tangent, ns: 1 thread, %d, ratio | bytes\n",
               "shape", "formulation", "law", "elements", threadCount, threadCount);
   for (const Kind& kind : kinds)
-    for (const bool rubber : {false, true}) {
-      if (rubber && kind.formulation == Formulation::assumedStress) continue;
+    for (const auto& [onHex8Only, law] : timedLaws()) {
+      if (kind.formulation == Formulation::assumedStress && !law->brickLaw()) continue;
+      if (onHex8Only && kind.shape != CellShape::hex8) continue;
       const SolidMesh mesh = boxOf(kind.shape, kind.cells, {}, {1.0, 1.0, 15.0});
-      const auto law = rubber ? pointMaterial(neoHookean(1e6, 0.3, 1000.0))
-                              : pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0}));
       const auto solid = makeSolid(mesh, law, {.formulation = kind.formulation});
-      Model model = makeModel(mesh);
-      bend(model.nodes);
-      Couplings couplings(mesh.X.size());
-      solid->addCouplings(couplings);
-      BlockMatrix K(std::move(couplings));
-      double forces[2], tangent[2];
-      for (int run = 0; run < 2; ++run) {
-        setThreads(run == 0 ? 1 : threadCount);
-        const double scale = 1e9 / static_cast<double>(solid->size());
-        forces[run] = scale * median(15, [&] { solid->addForces(model.nodes, {}, model.nodes.f); });
-        tangent[run] = scale * median(5, [&] { solid->addTangent(model.nodes, {}, K); });
-      }
+      const auto& [forces, tangent] = timeSolid(*solid, mesh, threadCount);
       std::printf("%-6s %-16s %-22s %8zu | %8.1f %8.1f %5.2f | %9.0f %9.0f %5.2f | %.0f\n", name(kind.shape),
                   name(kind.formulation), law->name().c_str(), solid->size(), forces[0], forces[1],
                   forces[0] / forces[1], tangent[0], tangent[1], tangent[0] / tangent[1],

@@ -25,6 +25,13 @@ inline DruckerPrager soil(double friction, double dilatancy, ConeMatch match = C
   return {50e6, 0.25, 2000.0, 0.3e6, friction, dilatancy, match};
 }
 
+/// Cohesion that changes with plastic strain.
+inline DruckerPrager ageingSoil(double friction, double dilatancy, YieldCurve cohesion) {
+  return {50e6, 0.25, 2000.0, 0.0, friction, dilatancy, ConeMatch::compression, std::move(cohesion)};
+}
+inline YieldCurve hardeningCohesion() { return saturatingYield(0.2e6, 2e6, 0.5e6, 20.0); }
+inline YieldCurve softeningCohesion() { return saturatingYield(0.4e6, 0.0, 0.1e6, 15.0); }
+
 inline std::vector<Named> laws() {
   return {{"isotropic", pointMaterial(steel())},
           {"perfect", pointMaterial(J2Plasticity{young, nu, rho, linearYield(yieldStress)})},
@@ -33,7 +40,9 @@ inline std::vector<Named> laws() {
           {"associated", pointMaterial(soil(0.5, 0.5))},
           {"dilating", pointMaterial(soil(0.6, 0.2))},
           {"not dilating", pointMaterial(soil(0.6, 0.0, ConeMatch::extension))},
-          {"without friction", pointMaterial(soil(0.0, 0.0))}};
+          {"without friction", pointMaterial(soil(0.0, 0.0))},
+          {"hardening soil", pointMaterial(ageingSoil(0.6, 0.2, hardeningCohesion()))},
+          {"softening soil", pointMaterial(ageingSoil(0.5, 0.1, softeningCohesion()))}};
 }
 
 /// A loaded history: some random steps.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "dovetail/core/error.hpp"
 #include "plastic_laws.hpp"
 
 namespace dovetail::fem {
@@ -71,6 +72,90 @@ TEST(DruckerPrager, FlowsInPlaneStrainAtMohrAndCoulombsLoad) {
   }
   EXPECT_NEAR(stress[1], 0.0, 1e-6 * law.cohesion);
   EXPECT_NEAR(mohrCoulomb(stress, law.cohesion, phi) / law.cohesion, 0.0, 1e-3);
+}
+
+/// Drained triaxial compression: equal pressure first, then the axis is pushed while the sides keep their Kirchhoff
+/// stress. Along that straight path of stress the direction of flow is constant, so that stress and strain follow from
+/// the plastic strain a in closed form, for any curve of the cohesion.
+struct Triaxial {
+  DruckerPrager law;
+  double pressure;
+  double a = 0.0;  ///< plastic strain
+
+  double deviator() const {
+    const ConeConstants cone = coneConstants(law);
+    const double strength = cone.cohesive * law.cohesionCurve.stress(a);
+    return (strength + cone.friction * pressure) / (1.0 / std::numbers::sqrt3 - cone.friction / 3.0);
+  }
+  /// Logarithmic strains of axis and volume.
+  double axial() const {
+    const double flow = std::numbers::sqrt3 * a;
+    return -pressure * (1.0 - 2.0 * law.poissonRatio) / law.youngsModulus - deviator() / law.youngsModulus +
+           flow * (coneConstants(law).dilatancy / 3.0 - 1.0 / std::numbers::sqrt3);
+  }
+  double volume() const {
+    return -(3.0 * pressure + deviator()) * (1.0 - 2.0 * law.poissonRatio) / law.youngsModulus +
+           std::numbers::sqrt3 * a * coneConstants(law).dilatancy;
+  }
+};
+
+TEST(DruckerPrager, FollowsTheDrainedTriaxialPathOfItsCohesionCurve) {
+  for (const YieldCurve& curve :
+       {hardeningCohesion(), softeningCohesion(), tabulatedYield({{0.0, 0.2e6}, {0.01, 0.3e6}, {0.03, 0.2e6}})})
+    for (const auto& [friction, dilatancy] : {std::pair(0.5, 0.5), {0.6, 0.2}, {0.6, 0.0}}) {
+      Triaxial exact{ageingSoil(friction, dilatancy, curve), 0.4e6};
+      const MaterialPointer material = pointMaterial(exact.law);
+      std::vector<double> history = freshHistory(*material);
+      const double start = exact.pressure * (1.0 - 2.0 * exact.law.poissonRatio) / exact.law.youngsModulus;
+      double side = std::exp(-start);
+      for (int step = 1; step <= 100; ++step) {
+        const double axis = std::exp(-start - 0.001 * step);
+        double narrow = 0.99 * side, wide = 1.01 * side;
+        for (int i = 0; i < 50; ++i) {
+          side = 0.5 * (narrow + wide);
+          const PointResult trial = evaluate(*material, stretches(axis, side, side), history);
+          (trial.P(1, 1) * side < -exact.pressure ? narrow : wide) = side;
+        }
+        const Eigen::Matrix3d F = stretches(axis, side, side);
+        const PointResult result = evaluate(*material, F, history);
+        history = result.history;
+        exact.a = plasticStrain(history);
+        if (exact.a == 0.0) continue;
+        const Eigen::Vector3d stress = kirchhoff(result, F).diagonal();
+        ASSERT_NEAR(stress[1], -exact.pressure, 1e-8 * exact.pressure);
+        EXPECT_NEAR(stress[1] - stress[0], exact.deviator(), 1e-8 * exact.deviator());
+        EXPECT_NEAR(std::log(axis), exact.axial(), 1e-8);
+        EXPECT_NEAR(std::log(axis * side * side), exact.volume(), 1e-8);
+      }
+      EXPECT_GT(exact.a, 0.02);
+    }
+}
+
+TEST(DruckerPrager, ApexMovesWithTheCohesion) {
+  const DruckerPrager law = ageingSoil(0.6, 0.2, softeningCohesion());
+  const ConeConstants cone = coneConstants(law);
+  const MaterialPointer material = pointMaterial(law);
+  const std::vector<double> sheared = evaluate(*material, stretches(0.97, 1.02, 1.02)).history;
+  const Eigen::Matrix3d F = 1.1 * stretches(1.01, 1.0, 0.99);
+  const PointResult result = evaluate(*material, F, sheared);
+  const Eigen::Matrix3d tau = kirchhoff(result, F);
+  const double a = plasticStrain(result.history);
+  EXPECT_GT(a, plasticStrain(sheared));
+  EXPECT_NEAR(tau.trace() / 3.0, cone.cohesive * law.cohesionCurve.stress(a) / cone.friction, 1e-9 * law.youngsModulus);
+  EXPECT_LT(deviatorOf(tau).norm(), 1e-9 * law.youngsModulus);
+  EXPECT_LT((result.tangent - differencedTangent(*material, F, sheared, 0.0, 1e-4)).norm(),
+            1e-6 * result.tangent.norm());
+}
+
+TEST(DruckerPrager, RefusesImpossibleCohesion) {
+  DruckerPrager law = soil(0.5, 0.2);
+  law.cohesionCurve = softeningCohesion();
+  EXPECT_THROW(pointMaterial(law), InputError);  // and a cohesion
+  law.cohesion = 0.0;
+  law.cohesionCurve.slope = nullptr;
+  EXPECT_THROW(pointMaterial(law), InputError);
+  law.cohesionCurve = saturatingYield(1e6, 0.0, 1e3, 1e3);
+  EXPECT_THROW(pointMaterial(law), InputError);  // falls too fast
 }
 
 }  // namespace

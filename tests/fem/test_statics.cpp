@@ -4,7 +4,10 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/laws/viscosity.hpp"
 #include "dovetail/fem/solve/statics.hpp"
+#include "dovetail/fem/terms/contact_plane.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "solid_helpers.hpp"
 
@@ -120,43 +123,111 @@ TEST(Statics, BendingToALargeAngleGivesTheSameWithEverySolverAndNumberOfThreads)
   EXPECT_LT(norm(full - tip({.lineSearch = false}, 1)), 1e-7);
 }
 
-/// A shallow arch (two straight limbs, clamped) snaps through: the load has a maximum and falls behind it.
-TEST(ArcLength, FollowsASnapThroughThatLoadStepsCannot) {
+/// A shallow arch (clamped) with a force on its crown that grows with t.
+struct Arch {
   SolidMesh mesh = boxOf(CellShape::hex8, {24, 1, 1}, {0.0, 0.0, 0.0}, {2.0, 0.02, 0.1});
-  for (Vec3& X : mesh.X) X.y += 0.08 * std::sin(std::numbers::pi * X.x / 2.0);
-  const auto make = [&] {
-    Model model = makeModel(mesh);
+  Model model;
+  int crown = -1;
+
+  Arch() {
+    for (Vec3& X : mesh.X) X.y += 0.08 * std::sin(std::numbers::pi * X.x / 2.0);
+    model = makeModel(mesh);
     model.add(makeSolid(mesh, std::make_shared<PlainNeoHookean>(0.0, 0.5e9), {.formulation = Formulation::enhanced}));
-    std::vector<int> ends = nodesAt(mesh, 0, 0.0);
+    std::vector<int> ends = nodesAt(mesh, 0, 0.0), top;
     for (const int n : nodesAt(mesh, 0, 2.0)) ends.push_back(n);
     model.constraints.hold(ends);
-    std::vector<int> crown;
     for (const int n : nodesAt(mesh, 0, 1.0))
-      if (mesh.X[static_cast<std::size_t>(n)].y > 0.09) crown.push_back(n);
-    model.add(std::make_shared<NodalForce>(crown, Vec3{0.0, -4000.0 / static_cast<double>(crown.size()), 0.0}));
-    return std::pair(std::move(model), crown[0]);
-  };
-  auto [model, crown] = make();
+      if (mesh.X[static_cast<std::size_t>(n)].y > 0.09) top.push_back(n);
+    model.add(std::make_shared<NodalForce>(top, Vec3{0.0, -4000.0 / static_cast<double>(top.size()), 0.0}));
+    crown = top[0];
+  }
+  double sunk() const { return -model.nodes.u[static_cast<std::size_t>(crown)].y; }
+};
+
+/// It snaps through: the load has a maximum and falls behind it.
+struct Snap {
   double peak = 0.0, after = 1e300;
   bool unstable = false, passed = false;
-  const StaticReport report = followPath(model, 10.0, {.firstStep = 0.01, .maxSteps = 150},
-                                         [&, node = crown](const Model& m, const StaticStep& step) {
-                                           const double sunk = -m.nodes.u[static_cast<std::size_t>(node)].y;
-                                           if (!passed) peak = std::max(peak, step.t);
-                                           passed = passed || step.t < peak - 1e-9;
-                                           if (passed) after = std::min(after, step.t);
-                                           unstable = unstable || step.negativePivots > 0;
-                                           return sunk < 0.25;
-                                         });
-  EXPECT_TRUE(passed);
-  EXPECT_LT(after, 0.8 * peak);
-  EXPECT_TRUE(unstable);
-  EXPECT_EQ(report.steps.back().negativePivots, 0);  // stable again on the far side
-  EXPECT_LT(std::abs(report.energyResidual()), 0.02 * report.loadWork + 0.02 * report.storedAfter);
+  std::vector<double> sunk;
+  StaticReport report;
+};
+Snap snapThrough(const ArcLengthOptions& options) {
+  Arch arch;
+  Snap snap;
+  snap.report = followPath(arch.model, 10.0, options, [&](const Model&, const StaticStep& step) {
+    snap.sunk.push_back(arch.sunk());
+    if (!snap.passed) snap.peak = std::max(snap.peak, step.t);
+    snap.passed = snap.passed || step.t < snap.peak - 1e-9;
+    if (snap.passed) snap.after = std::min(snap.after, step.t);
+    snap.unstable = snap.unstable || step.negativePivots > 0;
+    return arch.sunk() < 0.25;
+  });
+  return snap;
+}
+
+TEST(ArcLength, FollowsASnapThroughThatLoadStepsCannot) {
+  const Snap snap = snapThrough({.firstStep = 0.01, .maxSteps = 150});
+  EXPECT_TRUE(snap.passed);
+  EXPECT_LT(snap.after, 0.8 * snap.peak);
+  EXPECT_TRUE(snap.unstable);
+  EXPECT_EQ(snap.report.steps.back().negativePivots, 0);  // stable again on the far side
+  EXPECT_LT(std::abs(snap.report.energyResidual()), 0.02 * snap.report.loadWork + 0.02 * snap.report.storedAfter);
   // Load steps: the last equilibrium below the peak, then an error or a jump beyond the snap.
-  auto [other, node] = make();
-  solveStatics(other, 0.9 * peak, {.firstStep = 0.05 * peak});
-  EXPECT_LT(-other.nodes.u[static_cast<std::size_t>(node)].y, 0.1);
+  Arch other;
+  solveStatics(other.model, 0.9 * snap.peak, {.firstStep = 0.05 * snap.peak});
+  EXPECT_LT(other.sunk(), 0.1);
+}
+
+TEST(ArcLength, OneDisplacementLeadsThroughTheSameSnap) {
+  const Snap arc = snapThrough({.firstStep = 0.01, .maxSteps = 150});
+  ArcLengthOptions options{.firstStep = 0.01, .largestStep = 0.005, .maxSteps = 150};
+  options.node = Arch().crown;
+  options.component = 1;
+  const Snap snap = snapThrough(options);
+  EXPECT_TRUE(snap.passed);
+  EXPECT_NEAR(snap.peak, arc.peak, 0.01 * arc.peak);
+  EXPECT_LT(snap.after, 0.8 * snap.peak);
+  for (std::size_t k = snap.sunk.size() / 2; k < snap.sunk.size(); ++k)
+    EXPECT_NEAR(snap.sunk[k] - snap.sunk[k - 1], 0.005, 1e-12);
+}
+
+TEST(ArcLength, EndsAtTheTimeAskedForWhetherLoadsGoOnOrNot) {
+  const auto pull = [](bool path, const TimeFunction& scale, StaticReport& report) {
+    Bar b = bar({CellShape::hex8, Formulation::standard}, {1, 1, 4}, {1.0, 1.0, 4.0}, 2e6, 1e6);
+    b.model.constraints.hold(nodesAt(b.mesh, 2, 0.0));
+    b.model.add(nodalForce(nodesAt(b.mesh, 2, 4.0), {1e2, 0.0, 2e5}, scale));
+    report = path ? followPath(b.model, 1.0, {.firstStep = 0.1}) : solveStatics(b.model, 1.0);
+    EXPECT_EQ(b.model.t, 1.0);
+    return b.model.nodes.u;
+  };
+  for (const TimeFunction& scale : {ramp(1.0, 1.0), TimeFunction([](double t) { return t; })}) {
+    StaticReport ofPath, ofSteps;
+    const std::vector<Vec3> followed = pull(true, scale, ofPath), stepped = pull(false, scale, ofSteps);
+    for (std::size_t n = 0; n < followed.size(); ++n) EXPECT_LT(norm(followed[n] - stepped[n]), 1e-7);
+    EXPECT_LE(ofPath.steps.size(), 20u);
+    EXPECT_NEAR(ofPath.steps[0].t, 0.1, 0.02);  // the ramp's slope at its foot is that on its right
+  }
+}
+
+TEST(ArcLength, MultipliersOfContactSettleInEveryStep) {
+  Bar b = bar({CellShape::hex8, Formulation::standard}, {2, 2, 2}, {1.0, 1.0, 1.0}, 2e6, 1e6);
+  b.model.constraints.hold(nodesAt(b.mesh, 2, 1.0), 3u);
+  ContactOptions options;
+  options.penalty = 2e7;
+  options.augmented = true;
+  options.gapTolerance = 1e-8;
+  options.maxAugmentations = 100;
+  const ContactPlane& contact =
+      b.model.add(makeContactPlane(b.mesh, faceSet(b.mesh, "z-"), {{0, 0, 0}, {0, 0, 1}, {}}, options));
+  b.model.constraints.hold(nodesAt(b.mesh, 0, 0.0), 1u);
+  b.model.constraints.hold(nodesAt(b.mesh, 1, 0.0), 2u);
+  b.model.add(groundSprings(nodesAt(b.mesh, 2, 1.0), {0.0, 0.0, 1.0}));  // holds it before it touches
+  b.model.add(std::make_shared<NodalForce>(nodesAt(b.mesh, 2, 1.0), Vec3{0.0, 0.0, -1e4}));
+  followPath(b.model, 1.0, {.firstStep = 0.3, .maxAugmentations = 100});
+  EXPECT_EQ(b.model.t, 1.0);
+  const ContactPlane::Report report = contact.report(b.model.nodes, {1.0, 0.0});
+  EXPECT_NEAR(report.force.z, 9e4, 1.0);
+  EXPECT_LT(report.deepest, 1e-7);  // the penalty alone: 9e4 N/m² / 2e7 N/m³ = 4.5e-3 m
 }
 
 TEST(Statics, AFailureLeavesTheLastEquilibriumAndSaysWhy) {
@@ -174,6 +245,25 @@ TEST(Statics, AFailureLeavesTheLastEquilibriumAndSaysWhy) {
   b.solid->requireValid(b.model.nodes, "at the end", Scrutiny::all);
   EXPECT_THROW(solveStatics(b.model, 0.0), InputError);
   EXPECT_THROW(solveStatics(b.model, 2.0, {.firstStep = -1.0}), InputError);
+}
+
+/// A bar of Kelvin–Voigt material under a sudden pull creeps towards Hooke's strain: ε = σ/E (1 − e^(−t/τ)).
+TEST(Statics, CreepTakesItsTime) {
+  constexpr double young = 1e6, time = 2.0, stress = 1.0;
+  const auto error = [&](double step) {
+    SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+    Model model = makeModel(mesh);
+    model.add(makeSolid(mesh, pointMaterial(kelvinVoigt(pointMaterial(Hencky{young, 0.0, 1000.0}), time, young, 0.0))));
+    for (int c = 0; c < 3; ++c) model.constraints.hold(nodesAt(mesh, c, 0.0), 1u << c);
+    model.add(nodalForce(nodesAt(mesh, 2, 1.0), {0.0, 0.0, 0.25 * stress}));
+    model.t = 5.0;  // it counts from wherever it starts
+    solveStatics(model, 5.0 + time, {.firstStep = step, .largestStep = step});
+    const double found = model.nodes.u[static_cast<std::size_t>(nodesAt(mesh, 2, 1.0)[0])].z;
+    return found * young / stress - (1.0 - std::exp(-1.0));
+  };
+  const double coarse = error(0.1), fine = error(0.05);
+  EXPECT_LT(std::abs(fine), 0.02);
+  EXPECT_NEAR(coarse / fine, 2.0, 0.1);  // rates by backward differences
 }
 
 }  // namespace

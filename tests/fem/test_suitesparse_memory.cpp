@@ -50,7 +50,7 @@ TEST(SparseCholesky, LackOfMemoryIsNoVerdictOnTheMatrix) {
   const SparseMatrix A = full(100, 200.0, true);
   {
     const ScarceMemory scarceMemory;
-    EXPECT_THROW(cholesky.factor(A), NumericalError);
+    EXPECT_THROW(cholesky.factor(A), FactorMemoryError);
   }
   EXPECT_TRUE(cholesky.factor(A));
 }
@@ -61,7 +61,7 @@ TEST(SparseLu, LackOfMemoryIsNoVerdictOnTheMatrix) {
     const SparseMatrix A = full(100, 200.0, symmetric);
     {
       const ScarceMemory scarceMemory;
-      EXPECT_THROW(lu.factor(A, symmetric), NumericalError);
+      EXPECT_THROW(lu.factor(A, symmetric), FactorMemoryError);
     }
     EXPECT_TRUE(lu.factor(A, symmetric));
   }

@@ -1,6 +1,7 @@
 // From displacements of four elements to deformation gradients, and from stresses and moduli to forces and tangents.
 #pragma once
 
+#include "dovetail/fem/laws/vector_code.hpp"
 #include "solid_base.hpp"
 
 namespace dovetail::fem::detail {
@@ -66,7 +67,7 @@ DOVETAIL_INLINE void parentModuli(const Lane* A, const PointGeometry& point, Lan
 
 /// K_ab += ∂ψ_a/∂ξ · Â · ∂ψ_b/∂ξ, of the blocks a ≤ b if the moduli are symmetric.
 template <int N, bool symmetric>
-inline void addParentTangent(const Lane* parent, const Vec3* gradient, Lane* K) {
+DOVETAIL_INLINE void addParentTangent(const Lane* parent, const Vec3* gradient, Lane* K) {
   for (std::size_t b = 0; b < N; ++b) {
     const double h[3] = {gradient[b].x, gradient[b].y, gradient[b].z};
     Lane T[27];  // [9 i + 3 k + j]
@@ -90,7 +91,7 @@ inline void addParentTangent(const Lane* parent, const Vec3* gradient, Lane* K) 
 
 /// Copies the blocks a < b to b > a, transposed.
 template <int N>
-inline void mirror(Lane* K) {
+DOVETAIL_INLINE void mirror(Lane* K) {
   for (std::size_t r = 0; r < 3 * N; ++r)
     for (std::size_t c = 0; c < 3 * (r / 3); ++c) K[3 * N * r + c] = K[3 * N * c + r];
 }

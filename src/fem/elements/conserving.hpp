@@ -63,7 +63,8 @@ DOVETAIL_INLINE Lane squaredChange(const Lane* C0, const Lane* C1) {
 /// @param W0, W1  stored energies, for lanes with a longer path
 /// @param Sa, Sb  stresses at pathPoints, for lanes with a short one
 /// @param S       S̄ at the mean metric, row-major; overwritten
-inline void correctStress(const Lane* C0, const Lane* C1, Lane W0, Lane W1, const Lane* Sa, const Lane* Sb, Lane* S) {
+DOVETAIL_INLINE void correctStress(const Lane* C0, const Lane* C1, Lane W0, Lane W1, const Lane* Sa, const Lane* Sb,
+                                   Lane* S) {
   const Lane square = squaredChange(C0, C1);
   Lane work{}, pathGap{};
   Lane change[9];
@@ -85,8 +86,8 @@ inline void correctStress(const Lane* C0, const Lane* C1, Lane W0, Lane W1, cons
 /// correction adds is left out, a share |ΔC| of D.
 /// @param mean, end  F̄ and F₁
 /// @param A          overwritten
-inline void conservingModuli(const Lane* U, const Lane* mean, const Lane* end, const Lane* meanStress, const Lane* S,
-                             Lane* A) {
+DOVETAIL_INLINE void conservingModuli(const Lane* U, const Lane* mean, const Lane* end, const Lane* meanStress,
+                                      const Lane* S, Lane* A) {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t J = 0; J < 3; ++J)
       for (std::size_t L = 0; L < 3; ++L) A[9 * (3 * i + J) + 3 * i + L] -= meanStress[3 * J + L];

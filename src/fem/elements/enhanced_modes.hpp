@@ -1,94 +1,70 @@
-// The nine modes of an enhanced brick: their linear systems and the search for their equilibrium.
+// The nine modes of an enhanced brick: what they do to F, and the stress and the stiffness that they meet.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
 
-#include "lane.hpp"
+#include "small_tensors.hpp"
+#include "solid_base.hpp"
 
 namespace dovetail::fem::detail::enhanced {
 
 inline constexpr int N = 8;
 inline constexpr std::size_t Q = 8, M = 9;  // points, modes: α_ij is mode 3 i + j
-inline constexpr int maxIterations = 40;
-inline constexpr double relativeTolerance = 1e-10;
-using Tensors = std::array<Lane, 9 * Q>;
-using Modes = std::array<Lane, M>;
+using Tensors = Lanes<9 * Q>;
+using Moduli = Lanes<81 * Q>;
+using Displacements = Lanes<3 * N>;
+using Modes = Lanes<M>;
+using ModeMatrix = Lanes<M * M>;
 
 struct alignas(laneBytes) EnhancedGeometry {
   std::array<Lane, 9> map0, left;    ///< J₀⁻¹ = ∂ξ/∂X at the centre, J₀⁻ᵀ
   std::array<Lane, Q> ratio;         ///< j₀/j
+  std::array<Lane, 3> mean;          ///< of ξ under the share: modes do no work on a uniform stress
   std::array<Lane, 3 * N> gradient;  ///< ∂ψ_a/∂X at the centre, [3 a + J]
 };
 
+/// A batch: its points and what belongs to its centre.
+struct EnhancedCells {
+  const CellRule& rule;
+  const PointGeometry* point;
+  const EnhancedGeometry& centre;
+  std::size_t inUse;  ///< lanes
+
+  const Vec3* gradients(std::size_t q) const { return &rule.gradient[N * q]; }
+  /// (j₀/j) (ξ_i − its mean).
+  DOVETAIL_INLINE Lane scale(std::size_t q, std::size_t i) const {
+    return centre.ratio[q] * (rule.point[q][static_cast<int>(i)] - centre.mean[i]);
+  }
+};
+
 /// State of a batch at given u and α.
-struct State {
+struct alignas(laneBytes) State {
+  Tensors compatible;  ///< F_u
   Tensors F, P;
-  Lane F0[9], F0left[9];    ///< F₀; F₀ J₀⁻ᵀ
-  Lane enhancement[9 * Q];  ///< Ĥ
+  Lane F0[9], F0left[9];  ///< F₀; F₀ J₀⁻ᵀ
+  Lane enhancement[27];   ///< Ĥ = Σ_i (j₀/j) ξ_i H_i, [9 i + 3 r + J]
+  Lane stress[27];        ///< S_i = Σ weight (j₀/j) ξ_i P, [9 i + 3 r + J]
 };
 
-/// Solves A x = b for each lane without pivoting (A is close to a symmetric positive definite matrix).
-inline void solveModes(std::array<Lane, M * M>& A, Modes& b, std::size_t columns = 0, Lane* more = nullptr) {
-  for (std::size_t k = 0; k < M; ++k)
-    for (std::size_t r = k + 1; r < M; ++r) {
-      const Lane factor = A[M * r + k] / A[M * k + k];
-      for (std::size_t c = k + 1; c < M; ++c) A[M * r + c] -= factor * A[M * k + c];
-      b[r] -= factor * b[k];
-      for (std::size_t c = 0; c < columns; ++c) more[columns * r + c] -= factor * more[columns * k + c];
-    }
-  for (std::size_t k = M; k-- > 0;) {
-    for (std::size_t c = k + 1; c < M; ++c) {
-      b[k] -= A[M * k + c] * b[c];
-      for (std::size_t d = 0; d < columns; ++d) more[columns * k + d] -= A[M * k + c] * more[columns * c + d];
-    }
-    b[k] /= A[M * k + k];
-    for (std::size_t d = 0; d < columns; ++d) more[columns * k + d] /= A[M * k + k];
-  }
-}
-
-/// Largest share of the residual in its tolerance, per lane; ≤ 1 is zero.
-inline Lane excess(const Modes& residual, const Modes& tolerance) {
-  Lane worst{};
-  for (std::size_t m = 0; m < M; ++m)
-    for (int lane = 0; lane < laneCount; ++lane) {
-      const double share = std::abs(residual[m][lane]) / std::max(tolerance[m][lane], 1e-300);
-      if (!(share <= worst[lane]) && !std::isnan(worst[lane])) worst[lane] = share;  // NaN stays
-    }
-  return worst;
-}
-
-/// Bits of the lanes whose residual is not yet zero.
-inline unsigned openLanes(const Lane& excess) {
-  unsigned open = 0;
-  for (int lane = 0; lane < laneCount; ++lane)
-    if (!(excess[lane] <= 1.0)) open |= 1u << lane;
-  return open;
-}
-
-/// Newton's step of a lane, and half of it where that made things much worse.
-struct Search {
-  Modes base{}, step{};
-  Lane before{};
-
-  void advance(Modes& alpha, const Modes& newton, const Lane& now, unsigned open, int iteration) {
-    const double patience = iteration < maxIterations / 2 ? 100.0 : 1.0;  // κ ≫ μ: the first step overshoots
-    for (int lane = 0; lane < laneCount; ++lane) {
-      if (!(open >> lane & 1)) continue;
-      const bool worse = iteration > 0 && !(now[lane] <= patience * before[lane]);
-      for (std::size_t m = 0; m < M; ++m) {
-        if (!worse) base[m][lane] = alpha[m][lane];
-        step[m][lane] = worse ? 0.5 * step[m][lane] : newton[m][lane];
-        alpha[m][lane] = base[m][lane] - step[m][lane];
-      }
-      if (!worse) before[lane] = now[lane];
-    }
-  }
-};
-
-inline bool hasNaN(const Lane& x) {
-  return std::isnan(x[0]) || std::isnan(x[1]) || std::isnan(x[2]) || std::isnan(x[3]);
-}
+/// Sets what of the state depends on u alone.
+/// @param U  displacements of the nodes, [3 a + i], m
+void setDisplacements(const EnhancedCells& cells, const Displacements& U, State& s);
+/// Sets F at all points.
+void setModes(const EnhancedCells& cells, const Modes& alpha, State& s);
+/// r_m = Σ weight P : ∂F/∂α_m, ∂F/∂α_ij being column i of F₀J₀⁻ᵀ times row j of J₀⁻¹, scaled; and what of it counts as
+/// zero: a share of the sum of magnitudes, and what round-off of F does.
+/// @param resolution  of stress, Pa
+void modeResidual(const EnhancedCells& cells, double share, double resolution, State& s, Modes& residual,
+                  Modes& tolerance);
+/// (∂r_m/∂α_n)⁻¹; one in lanes that repeat an element.
+void inverseOfModes(const EnhancedCells& cells, const State& s, const Moduli& A, ModeMatrix& inverse);
+/// step = K⁻¹ r.
+void modeStep(const ModeMatrix& inverse, const Modes& residual, Modes& step);
+/// ∂U/∂u, N, [3 a + i].
+void modeForces(const EnhancedCells& cells, const State& s, Lane* f);
+/// ∂²U/∂u∂u with the modes in equilibrium, N/m, [24 (3 a + i) + 3 b + k].
+template <bool symmetric>
+void condensedTangent(const EnhancedCells& cells, const State& s, const Moduli& A, Lane* K);
 
 }  // namespace dovetail::fem::detail::enhanced

@@ -1,11 +1,10 @@
 // hybrid8: the stress is β-linear in 18 modes; β = H⁻¹ ∫PᵀE dV makes ½∫S:E dV stationary (Pian & Tong 1986).
-// See kernels.hpp for DOVETAIL_KERNELS.
 #pragma once
 
 #include "kernels.hpp"
 #include "lane_laws.hpp"
 
-namespace dovetail::fem::detail::DOVETAIL_KERNELS {
+namespace dovetail::fem::detail::bricks {
 
 /// Sums of a field at the Gauss points against 1, s, t, st, where s and t are the signs (bits S and T of the point).
 template <int S, int T>
@@ -70,8 +69,8 @@ DOVETAIL_INLINE BoxModes boxSums(const StrainField& e) {
           {lineSums<2>(e[3]), lineSums<0>(e[4]), lineSums<1>(e[5])}};
 }
 
-static void hybridBoxForces(const LawConstants& law, const BoxGeometry& geometry, const Batch& batch, const Vec3* u,
-                            bool withEnergy, BatchForces& forces) {
+DOVETAIL_INLINE void hybridBoxForces(const LawConstants& law, const BoxGeometry& geometry, const Batch& batch,
+                                     const Vec3* u, bool withEnergy, BatchForces& forces) {
   PlanarField gradient;
   planarGradient(batch, u, geometry.gradientScale, gradient);
   StrainField strain;
@@ -168,8 +167,8 @@ DOVETAIL_INLINE Coefficients solveModes(const HybridGeometry& hybrid, const Coef
   return beta;
 }
 
-static void hybridGeneralForces(const HybridGeometry& hybrid, const GeneralGeometry& geometry, const Batch& batch,
-                                const Vec3* u, bool withEnergy, BatchForces& forces) {
+DOVETAIL_INLINE void hybridGeneralForces(const HybridGeometry& hybrid, const GeneralGeometry& geometry,
+                                         const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces) {
   const std::array<Lane, 9>& J0 = hybrid.centreJacobian;
   PlanarField gradient;
   planarGradient(batch, u, parentScale(), gradient);
@@ -205,4 +204,4 @@ static void hybridGeneralForces(const HybridGeometry& hybrid, const GeneralGeome
   planarForces(total, parentScale(), forces);
 }
 
-}  // namespace dovetail::fem::detail::DOVETAIL_KERNELS
+}  // namespace dovetail::fem::detail::bricks

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,23 @@ inline constexpr std::size_t laneBytes = 8 * laneCount;
 using Lane [[gnu::vector_size(laneBytes)]] = double;
 
 #define DOVETAIL_INLINE [[gnu::always_inline]] inline
+
+/// Aligned for wide registers, whatever a build for any processor thinks of Lane: what is handed to code for wide
+/// registers lies in such arrays.
+template <std::size_t size>
+struct alignas(laneBytes) Lanes : std::array<Lane, size> {};
+
+/// The same on the heap.
+template <class T>
+struct LaneAllocator {
+  using value_type = T;
+  T* allocate(std::size_t count) {
+    return static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{laneBytes}));
+  }
+  void deallocate(T* lanes, std::size_t) noexcept { ::operator delete (lanes, std::align_val_t{laneBytes}); }
+  friend bool operator==(const LaneAllocator&, const LaneAllocator&) { return true; }
+};
+using LaneVector = std::vector<Lane, LaneAllocator<Lane>>;
 
 /// Four consecutive elements. Corners in binary order: bit 0, 1, 2 of the corner set means +ξ, +η, +ζ.
 /// A batch that is not full repeats its last element with zero weight.

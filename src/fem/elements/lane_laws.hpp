@@ -4,7 +4,7 @@
 
 #include "trilinear.hpp"
 
-namespace dovetail::fem::detail::DOVETAIL_KERNELS {
+namespace dovetail::fem::detail::bricks {
 
 using Symmetric = std::array<Lane, 6>;
 
@@ -101,4 +101,4 @@ DOVETAIL_INLINE std::array<Lane, 3> firstStressRow(const std::array<Lane, 3>& h,
   return row;
 }
 
-}  // namespace dovetail::fem::detail::DOVETAIL_KERNELS
+}  // namespace dovetail::fem::detail::bricks

@@ -1,9 +1,10 @@
-// The kernels of hex8, and the choice of the kernel of a batch. See kernels.hpp for DOVETAIL_KERNELS.
+// The kernels of hex8, and the choice of the kernel of a batch.
 #pragma once
 
+#include "dovetail/fem/laws/vector_code.hpp"
 #include "hybrid_kernels.hpp"
 
-namespace dovetail::fem::detail::DOVETAIL_KERNELS {
+namespace dovetail::fem::detail::bricks {
 
 template <Law law>
 DOVETAIL_INLINE Symmetric stressOf(const LawConstants& constants, Lane weight, const Symmetric& strain) {
@@ -26,8 +27,8 @@ DOVETAIL_INLINE Lane energyOf(const LawConstants& constants, Lane weight, const 
 }
 
 template <Law law, bool withEnergy>
-static void boxForces(const LawConstants& constants, const BoxGeometry& geometry, const Batch& batch, const Vec3* u,
-                      BatchForces& forces) {
+DOVETAIL_INLINE void boxForces(const LawConstants& constants, const BoxGeometry& geometry, const Batch& batch,
+                               const Vec3* u, BatchForces& forces) {
   PlanarField gradient;
   planarGradient(batch, u, geometry.gradientScale, gradient);
   PlanarField sums{};
@@ -48,8 +49,8 @@ static void boxForces(const LawConstants& constants, const BoxGeometry& geometry
 }
 
 template <Law law, bool withEnergy>
-static void generalForces(const LawConstants& constants, const GeneralGeometry& geometry, const Batch& batch,
-                          const Vec3* u, BatchForces& forces) {
+DOVETAIL_INLINE void generalForces(const LawConstants& constants, const GeneralGeometry& geometry, const Batch& batch,
+                                   const Vec3* u, BatchForces& forces) {
   PlanarField gradient;
   planarGradient(batch, u, parentScale(), gradient);
   PlanarField sums{};
@@ -72,27 +73,28 @@ static void generalForces(const LawConstants& constants, const GeneralGeometry& 
 }
 
 template <Law law, bool withEnergy>
-static void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u, BatchForces& forces) {
+void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u, BatchForces& forces) {
   const auto place = static_cast<std::size_t>(batch.geometry);
   if (batch.box)
-    boxForces<law, withEnergy>(cache.constants, cache.boxes[place], batch, u, forces);
+    withVectors([&] { boxForces<law, withEnergy>(cache.constants, cache.boxes[place], batch, u, forces); });
   else
-    generalForces<law, withEnergy>(cache.constants, cache.general[place], batch, u, forces);
+    withVectors([&] { generalForces<law, withEnergy>(cache.constants, cache.general[place], batch, u, forces); });
 }
 
 template <Law law>
-static void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
-                            BatchForces& forces) {
+void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces) {
   withEnergy ? pointwiseForces<law, true>(cache, batch, u, forces)
              : pointwiseForces<law, false>(cache, batch, u, forces);
 }
 
-static void hybridForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
+inline void hybridForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
                          BatchForces& forces) {
   const auto place = static_cast<std::size_t>(batch.geometry);
-  if (batch.box) return hybridBoxForces(cache.constants, cache.boxes[place], batch, u, withEnergy, forces);
+  if (batch.box)
+    return withVectors([&] { hybridBoxForces(cache.constants, cache.boxes[place], batch, u, withEnergy, forces); });
   const GeneralGeometry& geometry = cache.general[place];
-  hybridGeneralForces(cache.hybrid[static_cast<std::size_t>(geometry.hybrid)], geometry, batch, u, withEnergy, forces);
+  const HybridGeometry& hybrid = cache.hybrid[static_cast<std::size_t>(geometry.hybrid)];
+  withVectors([&] { hybridGeneralForces(hybrid, geometry, batch, u, withEnergy, forces); });
 }
 
 DOVETAIL_INLINE Lane determinantOfOnePlus(const Tensor& H) {
@@ -110,8 +112,7 @@ DOVETAIL_INLINE std::array<Lane, 9> inverseOf(const std::array<Lane, 9>& m) {
           s * c2, s * (m[1] * m[6] - m[0] * m[7]), s * (m[0] * m[4] - m[1] * m[3])};
 }
 
-static void batchForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
-                        BatchForces& forces) {
+inline void forcesOf(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces) {
   switch (cache.law) {
     case Law::stVenantKirchhoff:
       return pointwiseForces<Law::stVenantKirchhoff>(cache, batch, u, withEnergy, forces);
@@ -124,7 +125,8 @@ static void batchForces(const BrickCache& cache, const Batch& batch, const Vec3*
   }
 }
 
-static void batchDeterminants(const BrickCache& cache, const Batch& batch, const Vec3* u, BatchDeterminants& result) {
+DOVETAIL_INLINE void determinantsOf(const BrickCache& cache, const Batch& batch, const Vec3* u,
+                                    BatchDeterminants& result) {
   const auto place = static_cast<std::size_t>(batch.geometry);
   PlanarField gradient;
   if (batch.box) {
@@ -146,6 +148,4 @@ static void batchDeterminants(const BrickCache& cache, const Batch& batch, const
   });
 }
 
-inline constexpr KernelSet kernelSet = {batchForces, batchDeterminants};
-
-}  // namespace dovetail::fem::detail::DOVETAIL_KERNELS
+}  // namespace dovetail::fem::detail::bricks

@@ -5,6 +5,8 @@
 
 namespace dovetail::fem::detail {
 
+DOVETAIL_INLINE Lane magnitude(const Lane& x) { return x < 0.0 ? -x : x; }
+
 /// F⁻¹ and det F.
 DOVETAIL_INLINE Lane inverseOf(const Lane* F, Lane* inverse) {
   const Lane a = F[4] * F[8] - F[5] * F[7], b = F[5] * F[6] - F[3] * F[8], c = F[3] * F[7] - F[4] * F[6];

@@ -72,7 +72,7 @@ void SolidBase::findPlaces(const BlockMatrix& K) {
   placesOf_ = K.patternId();
 }
 
-void SolidBase::scatter(std::size_t batch, const Lane* matrix, BlockMatrix& K) const {
+void SolidBase::scatter(std::size_t batch, const Lane* matrix, double share, BlockMatrix& K) const {
   const std::size_t n = cells_.nodes;
   const std::span<double> values = K.values();
   for (std::size_t lane = 0; lane < cells_.inUse(batch); ++lane) {
@@ -82,12 +82,12 @@ void SolidBase::scatter(std::size_t batch, const Lane* matrix, BlockMatrix& K) c
         double* const block = &values[9 * static_cast<std::size_t>(place[a * n + b])];
         for (std::size_t i = 0; i < 3; ++i)
           for (std::size_t k = 0; k < 3; ++k)
-            block[3 * i + k] += matrix[3 * n * (3 * a + i) + 3 * b + k][static_cast<int>(lane)];
+            block[3 * i + k] += share * matrix[3 * n * (3 * a + i) + 3 * b + k][static_cast<int>(lane)];
       }
   }
 }
 
-void SolidBase::assemble(const Nodes& nodes, const Instant& now, const Vec3* start, BlockMatrix& K) {
+void SolidBase::assemble(const Nodes& nodes, const Instant& now, const Vec3* start, double share, BlockMatrix& K) {
   requireSameNodes(nodes);
   startHistory();
   needGeometry();
@@ -97,18 +97,24 @@ void SolidBase::assemble(const Nodes& nodes, const Instant& now, const Vec3* sta
   const std::size_t size = 9 * cells_.nodes * cells_.nodes;
   for (const std::vector<std::uint32_t>& colour : colours_)
     parallelFor(colour.size(), cells_.nodes > 10 ? 2 : 8, [&](std::size_t begin, std::size_t end) {
-      std::vector<Lane> matrix(size);
+      LaneVector matrix(size);
       for (std::size_t k = begin; k < end; ++k) {
         tangent(taskOf(colour[k], nodes, now, start), matrix.data());
-        scatter(colour[k], matrix.data(), K);
+        scatter(colour[k], matrix.data(), share, K);
       }
     });
 }
 
-void SolidBase::addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) { assemble(nodes, now, nullptr, K); }
+void SolidBase::addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) {
+  assemble(nodes, now, nullptr, 1.0, K);
+}
 
 void SolidBase::addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now, BlockMatrix& K) {
-  assemble(nodes, now, conserves() ? u0.data() : nullptr, K);
+  if (conserves()) return assemble(nodes, now, u0.data(), 1.0, K);
+  // What the forces between pairs of nodes change by is left out: a share |Δu/∂X| of this.
+  Nodes mean = nodes;
+  for (std::size_t n = 0; n < u0.size(); ++n) mean.u[n] = 0.5 * (u0[n] + nodes.u[n]);
+  assemble(mean, now, nullptr, 0.5, K);
 }
 
 void SolidBase::addConsistentMass(NodeMatrix& M) const {

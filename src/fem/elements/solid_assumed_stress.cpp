@@ -25,7 +25,7 @@ private:
       addIdentity(F + 9 * q);
     }
   }
-  void forces(const BatchTask&, BatchResult&) override {}  // the kernels do it
+  void forces(const BatchTask& task, BatchResult& result) override { forcesByKernels(task, result); }
   void tangent(const BatchTask& task, Lane* K) override {
     for (std::size_t lane = 0; lane < cells_.inUse(task.batch); ++lane) {
       const std::array<int, 8> nodes = brickNodes(cells_, laneCount * task.batch + lane);

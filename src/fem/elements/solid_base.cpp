@@ -130,9 +130,9 @@ SolidBase::Totals SolidBase::eachBatch(std::span<Vec3> f, Body&& body) {
   }
   const auto part = [&](std::size_t begin, std::size_t end) {
     Totals sum;
-    alignas(laneBytes) std::array<Lane, 3 * maxCellNodes> local;
+    Lanes<3 * maxCellNodes> local;
     for (std::size_t b = begin; b < end; ++b) {
-      Lane* const forces = many ? &results_[b * lanes].value : local.data();
+      Lane* const forces = many ? &results_[b * lanes] : local.data();
       sum += body(b, forces);
       if (!many) subtract(b, forces, f);
     }
@@ -154,12 +154,11 @@ SolidBase::Totals SolidBase::addAll(const Nodes& nodes, const Instant& now, cons
   requireSameNodes(nodes);
   startHistory();
   if (bricks_ && start == nullptr) {
-    // The kernels are called through a pointer and write to memory, so that no compiler fuses a product of theirs with
+    // The kernels are in a file of their own and write to memory, so that no compiler fuses a product of theirs with
     // the sum over elements: one thread and many then add the very same numbers.
-    const auto kernel = kernels().forces;
     return eachBatch(f, [&](std::size_t b, Lane* lanes) {
       auto& forces = *reinterpret_cast<BatchForces*>(lanes);
-      kernel(*bricks_, bricks_->batches[b], nodes.u.data(), withEnergy, forces);
+      batchForces(*bricks_, bricks_->batches[b], nodes.u.data(), withEnergy, forces);
       return Totals{withEnergy ? sumOfLanes(forces.energy) : 0.0, 0.0};
     });
   }
@@ -170,7 +169,7 @@ SolidBase::Totals SolidBase::addAll(const Nodes& nodes, const Instant& now, cons
     task.wantEnergy = withEnergy || remembers;
     task.wantDissipation = remembers;
     BatchResult result;
-    forces(task, result);
+    start == nullptr || conserves() ? forces(task, result) : balancedForces(task, result);
     for (std::size_t a = 0; a < cells_.nodes; ++a)
       for (std::size_t i = 0; i < 3; ++i) lanes[slot(a, i)] = result.f[3 * a + i];
     return Totals{task.wantEnergy ? sumOfLanes(result.energy) : 0.0,
@@ -190,7 +189,9 @@ double SolidBase::addForcesAndEnergy(const Nodes& nodes, const Instant& now, std
 
 bool SolidBase::addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
                                     std::span<Vec3> f) {
-  if (!conserves()) return false;
+  if (!material_->isElastic()) return false;
+  requireSameNodes(nodes);
+  if (!conserves()) setPath(u0, nodes.u);
   addAll(nodes, now, u0.data(), f, false);
   return true;
 }
@@ -224,10 +225,16 @@ SolidBase::Totals SolidBase::totals(const Nodes& nodes, const Instant& now) {
 
 /// Energy and dissipation of a batch.
 void SolidBase::energies(const BatchTask& task, BatchResult& result) {
-  if (!bricks_) return forces(task, result);
-  BatchForces forces;
-  kernels().forces(*bricks_, bricks_->batches[task.batch], task.u, true, forces);
-  result.energy = forces.energy;
+  bricks_ ? forcesByKernels(task, result) : forces(task, result);
+}
+
+void SolidBase::forcesByKernels(const BatchTask& task, BatchResult& result) const {
+  BatchForces own;
+  batchForces(*bricks_, bricks_->batches[task.batch], task.u, task.wantEnergy, own);
+  for (std::size_t corner = 0; corner < 8; ++corner)
+    for (std::size_t i = 0; i < 3; ++i) result.f[3 * brickNode[corner] + i] = own.f[i][corner];
+  result.energy = task.wantEnergy ? own.energy : Lane{};
+  result.dissipated = Lane{};
 }
 
 double SolidBase::energy(const Nodes& nodes, const Instant& now) { return totals(nodes, now).energy; }
@@ -262,7 +269,7 @@ double SolidBase::commit(const Nodes& nodes, const Instant& now) {
 /// @throws NumericalError for the first element of the batch with det F ≤ 0, or NaN
 void SolidBase::requireUpright(std::size_t b, const Nodes& nodes, const std::string& when) const {
   BatchDeterminants determinants;
-  kernels().determinants(*bricks_, bricks_->batches[b], nodes.u.data(), determinants);
+  batchDeterminants(*bricks_, bricks_->batches[b], nodes.u.data(), determinants);
   for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane)
     for (const Lane& value : determinants.value)
       if (!(value[static_cast<int>(lane)] > 0.0))
@@ -281,7 +288,7 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when, Scruti
   const bool byKernels = bricks_ && scrutiny == Scrutiny::inversion;
   if (!byKernels) needGeometry();
   parallelFor(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<Lane> F(9 * points());
+    LaneVector F(9 * points());
     for (std::size_t b = begin; b < end; ++b) {
       if (byKernels) {
         requireUpright(b, nodes, when);
@@ -313,7 +320,7 @@ Solid::Sample SolidBase::sample(const Nodes& nodes, const Instant& now) {
   needGeometry();
   evaluation_.known = false;
   const std::size_t n = cells_.nodes, q = points(), size = material_->historySize();
-  std::vector<Lane> F(9 * q), P(9 * q), energy(q);
+  LaneVector F(9 * q), P(9 * q), energy(q);
   Sample sample;
   for (std::size_t b = 0; b < cells_.batches(); ++b) {
     const BatchTask task = taskOf(b, nodes, now);

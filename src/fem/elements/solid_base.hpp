@@ -87,6 +87,8 @@ protected:
 
   /// Bytes of what a formulation keeps beside.
   virtual std::size_t formulationMemory() const { return 0; }
+  /// What the hand-written kernels say of a batch.
+  void forcesByKernels(const BatchTask& task, BatchResult& result) const;
   /// From now on the hand-written kernels give forces and energies, and geometry() waits until something else needs it.
   void useKernels(const Material& law, bool assumedStress);
 
@@ -117,6 +119,9 @@ private:
   template <class Body>
   Totals eachBatch(std::span<Vec3> f, Body&& body);
   Totals addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f, bool withEnergy);
+  /// The conserving forces of a formulation whose forces() knows nothing of a `start`.
+  void balancedForces(const BatchTask& task, BatchResult& result);
+  void setPath(std::span<const Vec3> u0, std::span<const Vec3> u1);
   std::size_t stride() const;
   std::size_t slot(std::size_t a, std::size_t i) const;
   void subtract(std::size_t batch, const Lane* forces, std::span<Vec3> f) const;
@@ -130,21 +135,19 @@ private:
                              const std::string& when) const;
   void requireUpright(std::size_t batch, const Nodes& nodes, const std::string& when) const;
 
-  void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, BlockMatrix& K);
+  void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, double share, BlockMatrix& K);
   void listEntries();
   void colourBatches();
   void findPlaces(const BlockMatrix& K);
-  void scatter(std::size_t batch, const Lane* matrix, BlockMatrix& K) const;
+  void scatter(std::size_t batch, const Lane* matrix, double share, BlockMatrix& K) const;
 
   std::unique_ptr<const BrickCache> bricks_;  // if there are kernels
   std::vector<double> history_, newHistory_;
   Evaluation evaluation_;
-  struct alignas(laneBytes) AlignedLane {
-    Lane value;
-  };
-  std::vector<AlignedLane> results_;                 // forces of all batches, for more than one thread
-  std::vector<std::uint32_t> nodeOffsets_;           // entries of each node in results_, ascending elements
-  std::vector<std::uint32_t> nodeEntries_;           // place of their first component, in doubles
+  std::array<std::vector<Vec3>, 3> path_;   // displacements at the Gauss points of the path of a conserving step
+  LaneVector results_;                      // forces of all batches, for more than one thread
+  std::vector<std::uint32_t> nodeOffsets_;  // entries of each node in results_, ascending elements
+  std::vector<std::uint32_t> nodeEntries_;  // place of their first component, in doubles
   std::vector<std::vector<std::uint32_t>> colours_;  // batches of a colour share no node
   std::vector<std::uint32_t> places_;                // of the blocks (a, b) of each element in a matrix
   std::size_t placesOf_ = 0;                         // its pattern

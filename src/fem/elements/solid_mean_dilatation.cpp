@@ -28,7 +28,7 @@ public:
 
 private:
   using Tensors = std::array<Lane, 9 * Q>;
-  using Gram = std::array<Lane, L * L>;
+  using Gram = Lanes<L * L>;
   using Modes = std::array<Lane, L>;
 
   /// Kinematics of a batch.
@@ -128,6 +128,13 @@ private:
   }
 
   void forces(const BatchTask& task, BatchResult& result) override {
+    withVectors([&] { forcesOf(task, result); });
+  }
+  void tangent(const BatchTask& task, Lane* K) override {
+    withVectors([&] { tangentOf(task, K); });
+  }
+
+  void forcesOf(const BatchTask& task, BatchResult& result) {
     Dilatation d;
     Tensors P;
     Stresses s;
@@ -151,8 +158,8 @@ private:
   }
 
   /// Second derivative by F at fixed θ, plus pressure ∂²J/∂F². A holds ∂P̄/∂F̄ and is overwritten.
-  static void pointModuli(const Lane* P, const Lane* F, const Lane* inverse, Lane scale, Lane trace, Lane J,
-                          Lane pressure, Lane* A) {
+  DOVETAIL_INLINE static void pointModuli(const Lane* P, const Lane* F, const Lane* inverse, Lane scale, Lane trace,
+                                          Lane J, Lane pressure, Lane* A) {
     Lane T[9], AF[9], FA[9];  // T = F⁻ᵀ
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 3; ++k) T[3 * i + k] = inverse[3 * k + i];
@@ -204,7 +211,7 @@ private:
     }
   }
 
-  void tangent(const BatchTask& task, Lane* K) override {
+  void tangentOf(const BatchTask& task, Lane* K) {
     Dilatation d;
     Tensors P;
     Stresses s;

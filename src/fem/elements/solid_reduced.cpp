@@ -39,7 +39,7 @@ public:
     for (std::size_t b = 0; b < cells_.batches(); ++b) {
       Lane U[3 * N], energy{};
       gatherNodes<N>(cells_, b, nodes.u.data(), U);
-      eachMode(b, U, [&](std::size_t, std::size_t, Lane q) { energy += 0.5 * reduced_[b].stiffness * q * q; });
+      eachMode(b, U, [&](std::size_t, std::size_t, const Lane& q) { energy += 0.5 * reduced_[b].stiffness * q * q; });
       for (int lane = 0; lane < laneCount; ++lane) sum += energy[lane];
     }
     return sum;
@@ -116,6 +116,13 @@ private:
   }
 
   void forces(const BatchTask& task, BatchResult& result) override {
+    withVectors([&] { forcesOf(task, result); });
+  }
+  void tangent(const BatchTask& task, Lane* K) override {
+    withVectors([&] { tangentOf(task, K); });
+  }
+
+  void forcesOf(const BatchTask& task, BatchResult& result) {
     const ReducedGeometry& r = reduced_[task.batch];
     Lane U[3 * N], F[9], P[9], energy{}, dissipated{};
     gatherNodes<N>(cells_, task.batch, task.u, U);
@@ -127,13 +134,13 @@ private:
                                           P[3 * i + 2] * r.gradient[3 * a + 2]);
     result.energy = r.volume * energy;
     result.dissipated = r.volume * dissipated;
-    eachMode(task.batch, U, [&](std::size_t mode, std::size_t i, Lane q) {
+    eachMode(task.batch, U, [&](std::size_t mode, std::size_t i, const Lane& q) {
       for (std::size_t a = 0; a < N; ++a) result.f[3 * a + i] += r.stiffness * q * r.gamma[N * mode + a];
       result.energy += 0.5 * r.stiffness * q * q;
     });
   }
 
-  void tangent(const BatchTask& task, Lane* K) override {
+  void tangentOf(const BatchTask& task, Lane* K) {
     const ReducedGeometry& r = reduced_[task.batch];
     Lane U[3 * N], F[9], P[9], A[81];
     gatherNodes<N>(cells_, task.batch, task.u, U);

@@ -11,7 +11,7 @@ namespace dovetail::fem::detail {
 namespace {
 
 /// M^(−½) K M^(−½) of one lane, symmetrised.
-Eigen::MatrixXd scaledStiffness(const std::vector<Lane>& K, std::span<const double> mass, std::size_t lane) {
+Eigen::MatrixXd scaledStiffness(const LaneVector& K, std::span<const double> mass, std::size_t lane) {
   const std::size_t size = 3 * mass.size();
   Eigen::MatrixXd A(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
   for (std::size_t r = 0; r < size; ++r)
@@ -41,12 +41,12 @@ StableStep SolidBase::stableStep(const Nodes& nodes) {
   needGeometry();
   evaluation_.known = false;
   const std::size_t size = 3 * cells_.nodes;
-  const auto matrixOf = [&](std::size_t e, std::vector<Lane>& K) {
+  const auto matrixOf = [&](std::size_t e, LaneVector& K) {
     return scaledStiffness(K, lumpedMass(cells_, e, material_->density()), e % laneCount);
   };
   std::vector<Invariants> known(cells_.size());
   parallelFor(cells_.batches(), 16, [&](std::size_t begin, std::size_t end) {
-    std::vector<Lane> K(size * size);
+    LaneVector K(size * size);
     for (std::size_t b = begin; b < end; ++b) {
       tangent(taskOf(b, nodes, {}), K.data());
       for (std::size_t e = laneCount * b; e < laneCount * b + cells_.inUse(b); ++e) {
@@ -63,7 +63,7 @@ StableStep SolidBase::stableStep(const Nodes& nodes) {
   std::map<std::array<double, 3>, bool> done;
   double largest = 0.0;
   std::size_t worst = order.front();
-  std::vector<Lane> K(size * size);
+  LaneVector K(size * size);
   for (const std::size_t e : order) {
     if (rank(e) < largest) break;
     if (!done.try_emplace(known[e].key(), true).second) continue;

@@ -34,6 +34,13 @@ private:
   bool conserves() const override { return material_->isElastic(); }
 
   void forces(const BatchTask& task, BatchResult& result) override {
+    withVectors([&] { forcesOf(task, result); });
+  }
+  void tangent(const BatchTask& task, Lane* K) override {
+    withVectors([&] { tangentOf(task, K); });
+  }
+
+  void forcesOf(const BatchTask& task, BatchResult& result) {
     Tensors F, P;
     deformationOf(task.batch, task.u, F.data());
     std::array<Lane, Q> energy{}, dissipated{};
@@ -52,7 +59,7 @@ private:
     }
   }
 
-  void tangent(const BatchTask& task, Lane* K) override {
+  void tangentOf(const BatchTask& task, Lane* K) {
     Tensors F, P;
     std::array<Lane, 81 * Q> A;
     deformationOf(task.batch, task.u, F.data());

@@ -9,7 +9,7 @@
 #include "brick.hpp"
 #include "lane.hpp"
 
-namespace dovetail::fem::detail::DOVETAIL_KERNELS {
+namespace dovetail::fem::detail::bricks {
 
 using Tensor = std::array<std::array<Lane, 3>, 3>;
 /// [component][direction][point of the face]
@@ -123,4 +123,4 @@ DOVETAIL_INLINE std::array<Lane, 3> parentScale() {
   return {scale, scale, scale};
 }
 
-}  // namespace dovetail::fem::detail::DOVETAIL_KERNELS
+}  // namespace dovetail::fem::detail::bricks

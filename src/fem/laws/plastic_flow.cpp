@@ -151,36 +151,47 @@ FlowAnswer J2Flow::advance(const TrialStrain& frame, std::span<const double> his
   return answer;
 }
 
+double DruckerPragerFlow::multiplier(double excess, double accumulated) const {
+  const double strength = cone.cohesive * cohesion.stress(accumulated);
+  return solveBracketed((excess + strength) / elasticGain(), [&](double multiplier) {
+    const double a = accumulated + multiplier / std::numbers::sqrt3;
+    const double grown = cone.cohesive * cohesion.stress(a) - strength;
+    return std::pair(excess - elasticGain() * multiplier - grown, -resistance(a));
+  });
+}
+
 FlowAnswer DruckerPragerFlow::advance(const TrialStrain& frame, std::span<const double> history,
                                       std::span<double> newHistory, SixBySix* stiffness) const {
   const Six& strain = frame.strain;
   FlowAnswer answer = elasticAnswer(elasticity, strain, stiffness);
   newHistory[0] = history[0];
-  const double mu = elasticity.mu, kappa = elasticity.kappa;
+  const double mu = elasticity.mu, kappa = elasticity.kappa, strength = cone.cohesive * cohesion.stress(history[0]);
   const Six s = deviator(answer.stress);
   const double norm = std::sqrt(dot(s, s)), root = norm / std::numbers::sqrt2, p = trace(answer.stress) / 3.0;
-  const double excess = root + cone.friction * p - cone.strength;
-  const double gain = 1.0 / (mu + kappa * cone.friction * cone.dilatancy), multiplier = excess * gain;
+  const double excess = root + cone.friction * p - strength;
   // Near the apex only rounding tells the direction of what shear is left.
-  const double near = nearSurface(elasticity, root + cone.strength), shearless = 100.0 * near;
-  const auto flowing = [&](double left) {
-    return left * root > shearless ? coneStiffness(times(1.0 / norm, s), left, gain) : SixBySix{};
-  };
+  const double near = nearSurface(elasticity, root + strength), shearless = 100.0 * near;
   if (!(excess > 0.0)) {
     // Soil without cohesion begins at its apex and could not carry the first load with the stiffness there.
-    if (stiffness && excess > -near && (root > shearless || cone.strength > 0.0)) *stiffness = flowing(1.0);
+    if (stiffness && excess > -near && (root > shearless || strength > 0.0))
+      *stiffness =
+          root > shearless ? coneStiffness(times(1.0 / norm, s), 1.0, 1.0 / resistance(history[0])) : SixBySix{};
     return answer;
   }
-  const double left = 1.0 - mu * multiplier / root;
+  const double gamma = multiplier(excess, history[0]), left = 1.0 - mu * gamma / root;
   const bool onCone = left >= 0.0;
-  const double pressure = onCone ? p - kappa * cone.dilatancy * multiplier : cone.strength / cone.friction;
+  newHistory[0] += (onCone ? gamma : root / mu) / std::numbers::sqrt3;
+  const double pressure =
+      onCone ? p - kappa * cone.dilatancy * gamma : cone.cohesive * cohesion.stress(newHistory[0]) / cone.friction;
   Six elastic = times(onCone ? left / (2.0 * mu) : 0.0, s);
   for (std::size_t i = 0; i < 3; ++i) elastic[i] += pressure / (3.0 * kappa);
   relax(answer, elasticity, elastic);
-  const Six flow = plus(strain, -1.0, elastic), shape = deviator(flow);
-  newHistory[0] += std::sqrt(dot(shape, shape)) / rootThreeHalves;
-  answer.dissipated = std::max(0.0, dot(answer.stress, flow));
-  if (stiffness) *stiffness = flowing(left);
+  answer.dissipated = std::max(0.0, dot(answer.stress, plus(strain, -1.0, elastic)));
+  if (!stiffness) return answer;
+  const Six direction = norm > 0.0 ? times(1.0 / norm, s) : Six{};
+  *stiffness = left * root > shearless || cone.friction == 0.0
+                   ? coneStiffness(direction, left, 1.0 / resistance(newHistory[0]))
+                   : apexStiffness(direction, newHistory[0]);
   return answer;
 }
 
@@ -193,6 +204,14 @@ SixBySix DruckerPragerFlow::coneStiffness(const Six& direction, double left, dou
   const Six byStrain = times(gain, plus(times(root2 * mu, direction), kappa * cone.friction, unit));
   addDyad(D, times(-1.0, plus(times(root2 * mu, direction), kappa * cone.dilatancy, unit)), byStrain);
   addDyad(D, times(2.0 * mu * (1.0 - left), direction), direction);
+  return D;
+}
+
+SixBySix DruckerPragerFlow::apexStiffness(const Six& direction, double accumulated) const {
+  SixBySix D{};
+  if (!hardens) return D;
+  const double gain = cone.cohesive / cone.friction * cohesion.slope(accumulated) / rootThreeHalves;
+  addDyad(D, {gain, gain, gain, 0.0, 0.0, 0.0}, direction);
   return D;
 }
 

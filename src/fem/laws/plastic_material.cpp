@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "dovetail/core/finite.hpp"
+#include "dovetail/fem/laws/vector_code.hpp"
 #include "log_laws.hpp"
 
 namespace dovetail::fem::detail {
@@ -43,7 +44,9 @@ public:
   bool isElastic() const override { return false; }
   bool isSymmetric() const override { return flow_.isSymmetric(); }
   void evaluate(const PointBatch& batch) const override {
-    for (std::size_t group = 0; group < batch.groups; ++group) evaluateGroup(batch, group);
+    withVectors([&] {
+      for (std::size_t group = 0; group < batch.groups; ++group) evaluateGroup(batch, group);
+    });
   }
 
 private:

@@ -80,8 +80,26 @@ YieldCurve tabulatedYield(const std::vector<std::pair<double, double>>& points) 
   return curve;
 }
 
-ConeConstants coneConstants(const DruckerPrager& law) {
+namespace {
+
+/// c(a) for constant cohesion too.
+YieldCurve cohesionOf(const DruckerPrager& law) {
   requireNonNegative(law.cohesion, "cohesion");
+  if (!law.cohesionCurve.stress && !law.cohesionCurve.slope)
+    return {[c = law.cohesion](double) { return c; }, [](double) { return 0.0; }, {}};
+  if (!law.cohesionCurve.stress || !law.cohesionCurve.slope)
+    throw InputError("the cohesion curve has no stress or no slope", "DruckerPrager",
+                     "take saturatingYield, linearYield or tabulatedYield, or set both functions");
+  if (law.cohesion > 0.0)
+    throw InputError("there are a cohesion and a cohesionCurve", "DruckerPrager", "set the cohesion to 0");
+  requireNonNegative(law.cohesionCurve.stress(0.0), "cohesionCurve at 0");
+  return law.cohesionCurve;
+}
+
+}  // namespace
+
+ConeConstants coneConstants(const DruckerPrager& law) {
+  const double cohesion = cohesionOf(law).stress(0.0);
   requireNonNegative(law.dilatancyAngle, "dilatancyAngle");
   const double phi = requireNonNegative(law.frictionAngle, "frictionAngle");
   if (!(phi < 1.57))
@@ -89,7 +107,7 @@ ConeConstants coneConstants(const DruckerPrager& law) {
   if (law.dilatancyAngle > phi)
     throw InputError("dilatancyAngle exceeds frictionAngle", "DruckerPrager",
                      "give a smaller one: flow would create energy");
-  if (!(law.cohesion > 0.0 || phi > 0.0))
+  if (!(cohesion > 0.0 || phi > 0.0))
     throw InputError("cohesion and frictionAngle are zero", "DruckerPrager", "give one of them");
   const auto slope = [&](double angle) {
     if (law.match == ConeMatch::planeStrain)
@@ -102,7 +120,7 @@ ConeConstants coneConstants(const DruckerPrager& law) {
           ? 3.0 / std::sqrt(9.0 + 12.0 * std::tan(phi) * std::tan(phi))
           : 6.0 * std::cos(phi) /
                 (std::numbers::sqrt3 * (3.0 + (law.match == ConeMatch::compression ? -1.0 : 1.0) * std::sin(phi)));
-  return {slope(phi), slope(law.dilatancyAngle), cohesive * law.cohesion};
+  return {slope(phi), slope(law.dilatancyAngle), cohesive, cohesive * cohesion};
 }
 
 std::shared_ptr<const PointMaterial> pointMaterial(const J2Plasticity& law) {
@@ -121,7 +139,12 @@ std::shared_ptr<const PointMaterial> pointMaterial(const J2Plasticity& law) {
 
 std::shared_ptr<const PointMaterial> pointMaterial(const DruckerPrager& law) {
   const detail::HenckyElasticity elasticity = elasticityOf(law.youngsModulus, law.poissonRatio, law.density);
-  return detail::plasticMaterial(law.density, detail::DruckerPragerFlow{elasticity, coneConstants(law)});
+  const detail::DruckerPragerFlow flow{elasticity, coneConstants(law), cohesionOf(law),
+                                       static_cast<bool>(law.cohesionCurve.slope)};
+  if (!(flow.resistance(0.0) > 0.0))
+    throw InputError("the cohesion falls faster than the elastic moduli allow", "DruckerPrager",
+                     "keep its slope above " + formatNumber(-flow.elasticGain() / flow.hardeningShare()));
+  return detail::plasticMaterial(law.density, flow);
 }
 
 double hardeningEnergy(const J2Plasticity& law, std::span<const double> history) {

@@ -8,6 +8,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/laws/lanes.hpp"
 #include "dovetail/fem/laws/materials.hpp"
+#include "dovetail/fem/laws/vector_code.hpp"
 #include "green_moduli.hpp"
 
 namespace dovetail::fem {
@@ -37,7 +38,9 @@ public:
 
   void evaluate(const PointBatch& batch) const override {
     evaluateBase(batch);
-    for (std::size_t group = 0; group < batch.groups; ++group) addViscous(batch, group);
+    detail::withVectors([&] {
+      for (std::size_t group = 0; group < batch.groups; ++group) addViscous(batch, group);
+    });
   }
 
 private:

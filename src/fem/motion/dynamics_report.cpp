@@ -24,6 +24,7 @@ std::ostream& operator<<(std::ostream& out, const DynamicsReport& report) {
     row("factorisations", std::to_string(report.factorisations) + " by " + report.solver);
     row("residual / tolerance", formatNumber(report.largestResidual));
   }
+  for (const std::string& term : report.atMeanState) row("energy not kept by", term);
   return out << report.ledger << report.profile;
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dovetail/core/parallel.hpp"
+#include "../solve/newton_tools.hpp"
 #include "dovetail/fem/model/model.hpp"
 
 namespace dovetail::fem::detail {
@@ -38,14 +38,5 @@ struct ForceSum {
     return sum;
   }
 };
-
-/// Σ a · b in a fixed order.
-inline double innerProduct(std::span<const Vec3> a, std::span<const Vec3> b) {
-  return parallelSum(a.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    double sum = 0.0;
-    for (std::size_t n = begin; n < end; ++n) sum += dot(a[n], b[n]);
-    return sum;
-  });
-}
 
 }  // namespace dovetail::fem::detail

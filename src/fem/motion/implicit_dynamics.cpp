@@ -145,6 +145,7 @@ DynamicsReport ImplicitIntegrator::report() const {
   report.iterations = impl_->iterations;
   report.factorisations = impl_->solver.solver().factorisations();
   report.largestResidual = impl_->largestResidual;
+  report.atMeanState = impl_->solver.termsAtMeanState();
   report.ledger = impl_->book.ledger();
   report.profile = impl_->profile;
   return report;

@@ -53,14 +53,16 @@ Vec3 turned(const Vec3& r, const Vec3& rotation) {
 }  // namespace
 
 /// base: u₁ without correction.
-void ImplicitStep::setBase(double h) {
+void ImplicitStep::setBase() {
+  const double h = h_;
   const double byAcceleration = conserving() ? 0.0 : h * h * (0.5 - options_.scheme.beta);
   for (std::size_t n = 0; n < base_.size(); ++n) base_[n] = u0_[n] + h * v0_[n] + byAcceleration * a0_[n];
 }
 
 /// First correction. Strains of a guess that coasts grow with the square of the angle it turns by; a free body that
 /// turns far is therefore turned as a whole if that is nearer to balance.
-void ImplicitStep::makeGuess(double h, Guess guess) {
+void ImplicitStep::makeGuess(Guess guess) {
+  const double h = h_;
   const auto place = [&](auto&& displacement) {
     for (std::size_t n = 0; n < base_.size(); ++n) {
       correction_[n] = displacement(n) - base_[n];
@@ -75,13 +77,13 @@ void ImplicitStep::makeGuess(double h, Guess guess) {
   const RigidMotion motion = rigidMotion(model_.nodes);
   constexpr double farTurn = 0.01;  // rad
   if (!(h * norm(motion.spin) > farTurn)) return;
-  const double coastingNorm = trial(h);
+  const double coastingNorm = evaluate();
   const std::vector<Vec3> kept = correction_;
   const std::vector<Vec3>& X = model_.nodes.X;
   place([&](std::size_t n) {
     return motion.centre + h * motion.velocity + turned(X[n] + u0_[n] - motion.centre, h * motion.spin) - X[n];
   });
-  if (!(trial(h) < coastingNorm) && std::isfinite(coastingNorm)) correction_ = kept;
+  if (!(evaluate() < coastingNorm) && std::isfinite(coastingNorm)) correction_ = kept;
 }
 
 }  // namespace dovetail::fem::detail

@@ -31,14 +31,14 @@ void ImplicitMotion::Impl::begin(double dt) {
 
 void ImplicitMotion::Impl::advance(double h, const std::function<void(double)>& accept, int depth) {
   using detail::ImplicitStep;
-  ImplicitStep::Result result = solver.attempt(h, ImplicitStep::Guess::coast);
+  detail::NewtonResult result = solver.attempt(h, ImplicitStep::Guess::coast);
   if (!result.failure.empty()) result = solver.attempt(h, ImplicitStep::Guess::rest);
   if (result.failure.empty()) {
     accept(h);
     solver.accept();
     ++steps;
     iterations += result.iterations;
-    largestResidual = std::max(largestResidual, result.residual);
+    if (result.tolerance > 0.0) largestResidual = std::max(largestResidual, result.residual / result.tolerance);
     return;
   }
   if (depth == options.maxCuts)

@@ -10,20 +10,6 @@
 
 namespace dovetail::fem::detail {
 
-namespace {
-
-/// Between nodes that share an element, m.
-double meanSpacing(const Nodes& nodes, const BlockMatrix& pattern) {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < pattern.nodes(); ++n)
-    for (int k = pattern.offsets()[n]; k < pattern.offsets()[n + 1]; ++k)
-      sum += norm(nodes.X[n] - nodes.X[static_cast<std::size_t>(pattern.columns()[static_cast<std::size_t>(k)])]);
-  const std::size_t pairs = pattern.columns().size() - pattern.nodes();
-  return pairs > 0 ? sum / static_cast<double>(pairs) : 0.0;
-}
-
-}  // namespace
-
 void validate(const ImplicitOptions& options) {
   requirePositive(options.relativeTolerance, "relativeTolerance");
   requireNonNegative(options.absoluteTolerance, "absoluteTolerance");
@@ -53,7 +39,6 @@ ImplicitStep::ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, co
   for (std::vector<Vec3>* field : {&a0_, &a1_, &base_, &correction_, &inertia_, &work_, &start_.total, &end_.total})
     field->resize(n);
   if (conserving()) mean_ = model.nodes;
-  spacing_ = meanSpacing(model.nodes, matrix_);
 }
 
 void ImplicitStep::begin(double h) {
@@ -67,7 +52,8 @@ void ImplicitStep::begin(double h) {
 }
 
 /// Brings constraints into the correction, and u, v and the acceleration of the balance to what it says.
-void ImplicitStep::applyCorrection(double h) {
+void ImplicitStep::applyCorrection() {
+  const double h = h_;
   const Scheme& s = options_.scheme;
   Nodes& nodes = model_.nodes;
   for (std::size_t n = 0; n < base_.size(); ++n) nodes.u[n] = base_[n] + correction_[n];
@@ -92,33 +78,45 @@ void ImplicitStep::applyCorrection(double h) {
   dofs_.applyAcceleration(model_.t + h * (conserving() ? 0.5 : 1.0 - s.alphaF), h, inertia_);
 }
 
-void ImplicitStep::evaluate(double h) {
-  const Profile::Stage stage(profile_, "forces");
-  if (conserving()) return evaluateConserving(h);
-  end_.evaluate(model_, model_.nodes, endOf(h), end_.total, false);
+double ImplicitStep::evaluate() {
+  applyCorrection();
+  findForces();
+  return balance();
 }
 
-void ImplicitStep::evaluateConserving(double h) {
+void ImplicitStep::findForces() {
+  const Profile::Stage stage(profile_, "forces");
+  if (conserving()) return findConservingForces();
+  end_.evaluate(model_, model_.nodes, atEnd(), end_.total, false);
+}
+
+void ImplicitStep::findConservingForces() {
   for (std::size_t n = 0; n < u0_.size(); ++n) {
     mean_.u[n] = 0.5 * (u0_[n] + model_.nodes.u[n]);
-    mean_.v[n] = (model_.nodes.u[n] - u0_[n]) / h;
+    mean_.v[n] = (model_.nodes.u[n] - u0_[n]) / h_;
   }
   std::fill(end_.total.begin(), end_.total.end(), Vec3{});
   std::size_t next = 0;
   for (std::size_t k = 0; k < model_.terms.size(); ++k) {
     Term& term = *model_.terms[k];
-    conserves_[k] = term.addConservingForces(model_.nodes, u0_, endOf(h), end_.total);
+    conserves_[k] = term.addConservingForces(model_.nodes, u0_, atEnd(), end_.total);
     if (conserves_[k]) continue;
-    const Instant middle = middleOf(h);
     if (term.hasEnergy()) {
-      term.addForces(mean_, middle, end_.total);
+      term.addForces(mean_, inMiddle(), end_.total);
       continue;
     }
     std::vector<Vec3>& load = end_.loads[next++];
     std::fill(load.begin(), load.end(), Vec3{});
-    term.addForces(mean_, middle, load);
+    term.addForces(mean_, inMiddle(), load);
     for (std::size_t n = 0; n < load.size(); ++n) end_.total[n] += load[n];
   }
+}
+
+std::vector<std::string> ImplicitStep::termsAtMeanState() const {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < conserves_.size(); ++k)
+    if (conserving() && !conserves_[k] && model_.terms[k]->hasEnergy()) names.push_back(model_.terms[k]->name());
+  return names;
 }
 
 /// Fills residual_ and sets the tolerance; returns the norm.
@@ -135,31 +133,30 @@ double ImplicitStep::balance() {
   dofs_.reduce(push, residual_);
   double largest = std::max(inertiaNorm, normOf(end_.total));
   for (const std::vector<Vec3>& load : end_.loads) largest = std::max(largest, normOf(load));
-  // Displacements are known to a relative ε, and so are deformation gradients: to ε times the size of an element.
-  const double known = std::max({normOf(model_.nodes.u), normOf(base_), spacing_ * std::sqrt(double(base_.size()))});
-  const double resolution = std::numeric_limits<double>::epsilon() * largestStiffness_ * known;
-  tolerance_ = options_.relativeTolerance * largest + options_.absoluteTolerance + resolution;
+  tolerance_ = options_.relativeTolerance * largest + options_.absoluteTolerance +
+               resolution_.at(std::max(normOf(model_.nodes.u), normOf(base_)));
   return normOf(residual_);
 }
 
 /// The matrix of the step. Conserving forces have tangents that are not symmetric by as much as elements turn in the
 /// step: only if `exact` are they taken so.
-bool ImplicitStep::factor(double h, bool exact) {
+bool ImplicitStep::factor(bool exact) {
   const Scheme& s = options_.scheme;
+  const double h = h_;
   {
     const Profile::Stage stage(profile_, "assembly");
     matrix_.setZero();
     if (conserving()) {
-      addMeanTangents(h);
-      noteStiffness();
+      addMeanTangents();
+      resolution_.measure(matrix_, model_.nodes.X);
       mass_.addTo(matrix_, 2.0 / (h * h));
     } else {
-      const Instant now = endOf(h);
+      const Instant now = atEnd();
       for (const auto& term : model_.terms) term->addDamping(model_.nodes, now, matrix_);
       for (double& value : matrix_.values()) value *= s.gamma / (s.beta * h);
       for (const auto& term : model_.terms) term->addTangent(model_.nodes, now, matrix_);
       for (double& value : matrix_.values()) value *= 1.0 - s.alphaF;
-      noteStiffness();
+      resolution_.measure(matrix_, model_.nodes.X);
       mass_.addTo(matrix_, (1.0 - s.alphaM) / (s.beta * h * h));
     }
   }
@@ -171,62 +168,47 @@ bool ImplicitStep::factor(double h, bool exact) {
   return solver_.factor(matrix_, symmetric);
 }
 
-/// Largest entry on the diagonal before the masses are added, N/m: displacements are known to a relative ε, and forces
-/// to no better than ε K u.
-void ImplicitStep::noteStiffness() {
-  largestStiffness_ = 0.0;
-  for (std::size_t n = 0; n < matrix_.nodes(); ++n) {
-    const double* const block = &matrix_.values()[9 * matrix_.place(static_cast<int>(n), static_cast<int>(n))];
-    for (std::size_t c = 0; c < 3; ++c) largestStiffness_ = std::max(largestStiffness_, std::abs(block[4 * c]));
-  }
-}
-
-void ImplicitStep::addMeanTangents(double h) {
-  const Instant middle = middleOf(h);
+void ImplicitStep::addMeanTangents() {
+  const Instant middle = inMiddle();
   for (std::size_t k = 0; k < model_.terms.size(); ++k)
     if (!conserves_[k]) model_.terms[k]->addDamping(mean_, middle, matrix_);
-  for (double& value : matrix_.values()) value *= 2.0 / h;
+  for (double& value : matrix_.values()) value *= 2.0 / h_;
   for (std::size_t k = 0; k < model_.terms.size(); ++k)
     if (!conserves_[k]) model_.terms[k]->addTangent(mean_, middle, matrix_);
   for (double& value : matrix_.values()) value *= 0.5;
   for (std::size_t k = 0; k < model_.terms.size(); ++k)
-    if (conserves_[k]) model_.terms[k]->addConservingTangent(model_.nodes, u0_, endOf(h), matrix_);
+    if (conserves_[k]) model_.terms[k]->addConservingTangent(model_.nodes, u0_, atEnd(), matrix_);
 }
 
-std::string ImplicitStep::complaint(double h) const {
-  try {
-    for (const auto& term : model_.terms)
-      term->requireValid(model_.nodes, "t = " + formatNumber(model_.t + h) + " s", Scrutiny::all);
-  } catch (const NumericalError& error) {
-    return error.what();
-  }
-  return {};
+bool ImplicitStep::direct() {
+  const Profile::Stage stage(profile_, "solution");
+  startCorrection_ = correction_;
+  solver_.solve(residual_, increment_);
+  return true;
 }
 
-ImplicitStep::Result ImplicitStep::attempt(double h, Guess guess) {
+void ImplicitStep::moveTo(double share) {
+  part_ = increment_;
+  for (double& value : part_) value *= share;
+  correction_ = startCorrection_;
+  dofs_.addIncrement(part_, correction_);
+}
+
+NewtonResult ImplicitStep::attempt(double h, Guess guess) {
+  h_ = h;
   u0_ = model_.nodes.u;
   v0_ = model_.nodes.v;
-  setBase(h);
-  makeGuess(h, guess);
-  Result result = newton(h);
-  for (int round = 0; result.failure.empty(); ++round) {
-    bool again = false;
-    for (const auto& term : model_.terms) again = term->augment(model_.nodes, endOf(h)) || again;
-    if (!again) break;
-    if (round == options_.maxAugmentations) {
-      result.failure = "contact multipliers do not settle in " + std::to_string(round) + " rounds";
-      break;
+  bool guessed = false;
+  const NewtonResult result = attemptStep(model_, atEnd(), options_.maxAugmentations, [&] {
+    if (!guessed) {
+      setBase();
+      makeGuess(guess);
+      guessed = true;
     }
-    const Result more = newton(h);
-    result = {result.iterations + more.iterations, more.residual, more.failure};
-  }
-  const std::string why = complaint(h);
-  if (!why.empty()) result.failure += (result.failure.empty() ? "" : "; ") + why;
-  if (result.failure.empty()) return result;
-  model_.nodes.u = u0_;
-  model_.nodes.v = v0_;
-  for (const auto& term : model_.terms) term->revert();
-  solver_.drop();
+    return newton(*this, {options_.maxIterations, conserving() ? LineSearch::afterBreakdown : LineSearch::always,
+                          options_.refactorAfter, options_.refactorContraction});
+  });
+  if (!result.failure.empty()) solver_.drop();
   return result;
 }
 

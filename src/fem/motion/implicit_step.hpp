@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "../solve/newton.hpp"
 #include "dovetail/fem/model/model_mass.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "force_sum.hpp"
@@ -15,20 +16,16 @@ void validate(const ImplicitOptions& options);
 
 /// Work space of a step from (u₀, v₀, a₀) at model.t to the end of the step. Displacement is u₁ = base + c, and
 /// acceleration a multiple of the correction c, so that what changes by little is known well.
-class ImplicitStep {
+class ImplicitStep : private NewtonProblem {
 public:
   ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, const ImplicitOptions& options, Profile& profile);
 
   /// Takes forces and accelerations of the present state as those of the start of a step h.
   void begin(double h);
-  struct Result {
-    int iterations = 0;
-    double residual = 0.0;  ///< over the tolerance
-    std::string failure;    ///< empty if it converged and all terms trust the state
-  };
-  /// Moves the model by h (time is left alone). On failure u and v are as before.
+  /// Moves the model by h (time is left alone). On failure u and v are as before; so they are if an error passes
+  /// through.
   enum class Guess { coast, rest };  ///< start from u₀ + h v₀, or from u₀
-  Result attempt(double h, Guess guess);
+  NewtonResult attempt(double h, Guess guess);
   /// Makes the end the start of the next step. Call after booking.
   void accept();
   void dropFactors() { solver_.drop(); }
@@ -40,6 +37,8 @@ public:
   std::vector<Vec3> meanForce() const;
   double loadWork(std::size_t load, const std::vector<Vec3>& motion) const;
   const LinearSolver& solver() const { return solver_; }
+  /// Names of the terms with an energy that a conserving step does not keep.
+  std::vector<std::string> termsAtMeanState() const;
   /// At the end of the last accepted step (conserving: of that step).
   const std::vector<Vec3>& forces() const { return conserving() ? end_.total : start_.total; }
 
@@ -54,21 +53,23 @@ public:
 
 private:
   bool conserving() const { return options_.scheme.conserving; }
-  Instant endOf(double h) const { return {model_.t + h, h, &mass_}; }
-  Instant middleOf(double h) const { return {model_.t + 0.5 * h, 0.5 * h, &mass_}; }
-  void setBase(double h);
-  void makeGuess(double h, Guess guess);
-  void applyCorrection(double h);
-  void evaluate(double h);
-  void evaluateConserving(double h);
+  Instant atEnd() const { return {model_.t + h_, h_, &mass_}; }
+  Instant inMiddle() const { return {model_.t + 0.5 * h_, 0.5 * h_, &mass_}; }
+  void setBase();
+  void makeGuess(Guess guess);
+  void applyCorrection();
+  void findForces();
+  void findConservingForces();
   double balance();
-  bool factor(double h, bool exact);
-  void noteStiffness();
-  void addMeanTangents(double h);
-  double trial(double h);
-  double search(double h, double norm, double slopeAtStart);
-  Result newton(double h);
-  std::string complaint(double h) const;
+  void addMeanTangents();
+
+  double evaluate() override;
+  double tolerance() const override { return tolerance_; }
+  bool factored() const override { return solver_.factored() && factoredStep_ == h_; }
+  bool factor(bool exact) override;
+  bool direct() override;
+  double slope() const override { return innerProduct(residual_, increment_); }
+  void moveTo(double share) override;
 
   Model& model_;
   const DofMap& dofs_;
@@ -84,9 +85,10 @@ private:
   };
   Forces start_, end_;
   std::vector<char> conserves_;  // per term, of the last evaluation
-  std::vector<Vec3> u0_, v0_, a0_, a1_, base_, correction_, inertia_, work_;
+  ForceResolution resolution_;
+  std::vector<Vec3> u0_, v0_, a0_, a1_, base_, correction_, startCorrection_, inertia_, work_;
   std::vector<double> residual_, increment_, part_;
-  double tolerance_ = 0.0, factoredStep_ = 0.0, largestStiffness_ = 0.0, spacing_ = 0.0;
+  double h_ = 0.0, tolerance_ = 0.0, factoredStep_ = 0.0;
 };
 
 }  // namespace dovetail::fem::detail

@@ -1,4 +1,5 @@
-// The cylindrical arc-length method (Riks 1979, Crisfield 1981) with model time as the load parameter.
+// Continuation of equilibria with model time as the load parameter: by the cylindrical arc length (Riks 1979,
+// Crisfield 1981), by one displacement (de Borst 1987), or by what is dissipated (Gutiérrez 2004).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,153 +13,278 @@ namespace dovetail::fem {
 namespace {
 
 using detail::Equilibrium;
+using detail::innerProduct;
+using detail::NewtonResult;
+using detail::normOf;
 
-double dotOf(std::span<const Vec3> a, std::span<const Vec3> b) {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < a.size(); ++n) sum += dot(a[n], b[n]);
-  return sum;
-}
-
-/// A tracer of one path: unknowns are u and t, the arc since the last equilibrium has a given length.
-class PathStep {
+/// The next point of a path: unknowns are u and t, and the length of the way since the last equilibrium is given.
+class PathStep : public detail::NewtonProblem {
 public:
-  PathStep(Equilibrium& equilibrium, const ArcLengthOptions& options)
-      : equilibrium_(equilibrium), options_(options), model_(equilibrium.model()), rate_(model_.nodes.u.size()) {}
+  PathStep(Equilibrium& equilibrium, const ArcLengthOptions& options, double tEnd)
+      : equilibrium_(equilibrium),
+        options_(options),
+        model_(equilibrium.model()),
+        tStart_(model_.t),
+        tEnd_(tEnd),
+        rate_(model_.nodes.u.size()),
+        moved_(rate_.size()) {}
 
-  /// ∂u/∂t along the equilibria at the present state, by a new factorisation.
-  bool findRate(double t) {
-    const double h = 1e-6 * std::max(std::abs(t), options_.firstStep);
-    std::vector<double> push(equilibrium_.dofs().size()), back(push.size());
-    equilibrium_.evaluate(t + h);
-    push.assign(equilibrium_.residual().begin(), equilibrium_.residual().end());
-    equilibrium_.evaluate(t - h);
-    for (std::size_t i = 0; i < push.size(); ++i) push[i] = (push[i] - equilibrium_.residual()[i]) / (2.0 * h);
-    std::vector<Vec3> later = model_.nodes.u, earlier = model_.nodes.u, pulled(later.size());
-    equilibrium_.dofs().apply(t + h, later);
-    equilibrium_.dofs().apply(t - h, earlier);
-    for (std::size_t n = 0; n < later.size(); ++n) rate_[n] = (later[n] - earlier[n]) / (2.0 * h);
-    equilibrium_.evaluate(t);
-    if (!equilibrium_.factor(t)) return false;
-    equilibrium_.stiffness().multiply(rate_, pulled);
-    equilibrium_.dofs().reduce(pulled, back);
-    for (std::size_t i = 0; i < push.size(); ++i) push[i] -= back[i];
-    equilibrium_.solve(push, push);
-    equilibrium_.dofs().addIncrement(push, rate_);
-    return true;
+  /// ∂u/∂t along the equilibria at the present displacement, by a new factorisation.
+  bool findRate(double t);
+  std::span<const Vec3> rate() const { return rate_; }
+  /// Of a way, as the control sees it.
+  double length(std::span<const Vec3> way) const {
+    return byDisplacement() ? way[static_cast<std::size_t>(options_.node)][options_.component] : normOf(way);
   }
 
-  std::span<const Vec3> rate() const { return rate_; }
+  /// What a step of the given way and time dissipates if all of it is damage, J.
+  double dissipation(std::span<const Vec3> way, double time) const {
+    return 0.5 * (model_.t * innerProduct(way, loadRate_) - time * innerProduct(from_, loadRate_));
+  }
 
-  /// Goes the arc from (u, t); on success the model is in equilibrium there and `t` is its time.
-  /// @param direction  1 or −1: towards larger or smaller t at the start
-  detail::NewtonResult advance(double arc, double direction, double& t) {
-    const std::vector<Vec3> start = model_.nodes.u;
-    const double speed = std::sqrt(dotOf(rate_, rate_));
-    if (!(speed > 0.0)) return {-1, 0.0, "nothing moves with t: the path has no direction"};
-    std::vector<Vec3> moved(start.size());
-    double now = t + direction * arc / speed;
-    for (std::size_t n = 0; n < moved.size(); ++n) moved[n] = direction * arc / speed * rate_[n];
-    for (int iteration = 1;; ++iteration) {
-      place(start, moved, now);
-      const double norm = equilibrium_.evaluate(now);
-      if (!std::isfinite(norm)) return {-1, norm, "the forces are not finite"};
-      if (norm <= equilibrium_.tolerance()) {
-        t = now;
-        return {iteration, norm, {}};
-      }
-      if (iteration > options_.newton.maxIterations) return {-1, norm, "the arc-length iteration does not converge"};
-      if (!findRate(now)) return {-1, norm, "the tangent is singular"};
-      if (!correct(arc, moved, now)) return {-1, norm, "the arc does not meet the path"};
-    }
+  /// From the present equilibrium by the tangent.
+  /// @param signedLength  below 0: towards smaller t at the start
+  /// @param spending      the step is as long as the dissipation in the options wants it
+  /// @return the time there, not finite if the tangent has no such point
+  double start(double signedLength, bool spending) {
+    from_ = model_.nodes.u;
+    spending_ = spending;
+    // One displacement keeps its sense, the arc takes that of t.
+    const double change = spending ? options_.dissipation / dissipation(rate_, 1.0) : signedLength / length(rate_);
+    for (std::size_t n = 0; n < moved_.size(); ++n) moved_[n] = change * rate_[n];
+    expected_ = std::abs(length(moved_));
+    goal_ = spending ? options_.dissipation : byDisplacement() ? signedLength : std::abs(signedLength);
+    t_ = model_.t + change;
+    return t_;
+  }
+  /// Whether the way to the present state is much longer than the tangent said.
+  bool strays() const {
+    std::vector<Vec3> way = model_.nodes.u;
+    for (std::size_t n = 0; n < way.size(); ++n) way[n] -= from_[n];
+    return std::abs(length(way)) > 2.0 * expected_;
+  }
+  double t() const { return t_; }
+  /// Puts the model on the way at time t by interpolation.
+  void cutAt(double t) {
+    const double share = (t - model_.t) / (t_ - model_.t);
+    for (Vec3& value : moved_) value *= share;
+    t_ = t;
+    place();
+  }
+
+  double evaluate() override {
+    place();
+    return equilibrium_.evaluate();
+  }
+  double tolerance() const override { return equilibrium_.tolerance(); }
+  bool factored() const override { return false; }
+  bool factor(bool) override { return findRate(t_); }
+  bool direct() override;
+  double slope() const override { return 0.0; }
+  void moveTo(double share) override {
+    for (std::size_t n = 0; n < moved_.size(); ++n) moved_[n] = movedBefore_[n] + share * increment_[n];
+    t_ = tBefore_ + share * timeIncrement_;
   }
 
 private:
-  void place(std::span<const Vec3> start, std::span<const Vec3> moved, double t) {
-    for (std::size_t n = 0; n < start.size(); ++n) model_.nodes.u[n] = start[n] + moved[n];
-    equilibrium_.dofs().apply(t, model_.nodes.u);
+  bool byDisplacement() const { return options_.node >= 0; }
+  void place() {
+    for (std::size_t n = 0; n < from_.size(); ++n) model_.nodes.u[n] = from_[n] + moved_[n];
+    equilibrium_.dofs().apply(t_, model_.nodes.u);
+    equilibrium_.aim({t_, 0.0});
   }
-
-  /// moved += K⁻¹ r + δt rate with |moved| = arc; of the two δt the one that turns the arc least.
-  bool correct(double arc, std::vector<Vec3>& moved, double& t) {
-    std::vector<double> step(equilibrium_.dofs().size());
-    equilibrium_.solve(equilibrium_.residual(), step);
-    std::vector<Vec3> next = moved;
-    equilibrium_.dofs().addIncrement(step, next);
-    const double a = dotOf(rate_, rate_), b = dotOf(rate_, next), c = dotOf(next, next) - arc * arc;
-    const double discriminant = b * b - a * c;
-    if (!(discriminant >= 0.0)) return false;
-    const double root = std::sqrt(discriminant), first = (-b + root) / a, second = (-b - root) / a;
-    const double turn = dotOf(moved, rate_);
-    const double change = turn * first > turn * second ? first : second;
-    for (std::size_t n = 0; n < moved.size(); ++n) moved[n] = next[n] + change * rate_[n];
-    t += change;
-    return true;
-  }
+  /// δt such that `way` + δt rate has the length or the dissipation asked for; not finite if there is none.
+  double change(std::span<const Vec3> way) const;
 
   Equilibrium& equilibrium_;
   const ArcLengthOptions& options_;
   Model& model_;
-  std::vector<Vec3> rate_;
+  double tStart_, tEnd_;
+  double t_ = 0.0, goal_ = 0.0, expected_ = 0.0, tBefore_ = 0.0, timeIncrement_ = 0.0;
+  bool spending_ = false;
+  std::vector<Vec3> from_, rate_, moved_, movedBefore_, increment_;
+  std::vector<Vec3> loadRate_;  // ∂f/∂t at rest
 };
 
-void validate(const ArcLengthOptions& options) {
+bool PathStep::findRate(double t) {
+  const double h = 1e-6 * std::max(std::abs(t), options_.firstStep);
+  // Loads may have a kink where the path begins or ends.
+  const double later = t <= tEnd_ ? std::min(t + h, tEnd_) : t + h,
+               earlier = t >= tStart_ ? std::max(t - h, tStart_) : t - h;
+  const auto forcesAt = [&](double time) {
+    equilibrium_.aim({time, 0.0});
+    equilibrium_.evaluate();
+    return std::vector<Vec3>(equilibrium_.forces().begin(), equilibrium_.forces().end());
+  };
+  loadRate_ = forcesAt(later);
+  const std::vector<Vec3> less = forcesAt(earlier);
+  for (std::size_t n = 0; n < less.size(); ++n) loadRate_[n] = (loadRate_[n] - less[n]) / (later - earlier);
+  std::vector<double> push(equilibrium_.dofs().size()), back(push.size());
+  equilibrium_.dofs().reduce(loadRate_, push);
+  std::vector<Vec3> ahead = model_.nodes.u, behind = model_.nodes.u, pulled(ahead.size());
+  equilibrium_.dofs().apply(later, ahead);
+  equilibrium_.dofs().apply(earlier, behind);
+  for (std::size_t n = 0; n < ahead.size(); ++n) rate_[n] = (ahead[n] - behind[n]) / (later - earlier);
+  forcesAt(t);
+  if (!equilibrium_.factor()) return false;
+  equilibrium_.stiffness().multiply(rate_, pulled);
+  equilibrium_.dofs().reduce(pulled, back);
+  for (std::size_t i = 0; i < push.size(); ++i) push[i] -= back[i];
+  equilibrium_.solve(push, push);
+  equilibrium_.dofs().addIncrement(push, rate_);
+  return true;
+}
+
+double PathStep::change(std::span<const Vec3> way) const {
+  if (spending_) return (goal_ - dissipation(way, t_ - model_.t)) / dissipation(rate_, 1.0);
+  if (byDisplacement()) return (goal_ - length(way)) / length(rate_);
+  const double a = innerProduct(rate_, rate_), b = innerProduct(rate_, way), c = innerProduct(way, way) - goal_ * goal_;
+  const double root = std::sqrt(b * b - a * c), first = (-b + root) / a, second = (-b - root) / a;
+  const double turn = innerProduct(moved_, rate_);  // of the two the one that turns the arc least
+  return turn * first > turn * second ? first : second;
+}
+
+/// K⁻¹ r + δt rate.
+bool PathStep::direct() {
+  std::vector<double> step(equilibrium_.dofs().size());
+  equilibrium_.solve(equilibrium_.residual(), step);
+  movedBefore_ = moved_;
+  tBefore_ = t_;
+  increment_.assign(moved_.size(), Vec3{});
+  equilibrium_.dofs().addIncrement(step, increment_);
+  std::vector<Vec3> way = moved_;
+  for (std::size_t n = 0; n < way.size(); ++n) way[n] += increment_[n];
+  timeIncrement_ = change(way);
+  for (std::size_t n = 0; n < way.size(); ++n) increment_[n] += timeIncrement_ * rate_[n];
+  return std::isfinite(timeIncrement_);
+}
+
+void validate(const ArcLengthOptions& options, const Model& model) {
   detail::validate(options.newton);
   requirePositive(options.firstStep, "firstStep");
   requireNonNegative(options.largestStep, "largestStep");
   requirePositive(options.smallestShare, "smallestShare");
+  requireNonNegative(options.dissipation, "dissipation");
+  if (options.node >= static_cast<int>(model.nodes.u.size()) || options.component < 0 || options.component > 2)
+    throw InputError(
+        "there is no component " + std::to_string(options.component) + " of node " + std::to_string(options.node),
+        "ArcLengthOptions", "give a node of the model and 0, 1 or 2");
   if (options.newton.linear.method != LinearMethod::direct)
     throw InputError("conjugate gradients cannot pass limit points", "ArcLengthOptions", "use LinearMethod::direct");
 }
 
+/// A trial of the next point of a path: as far as the length says, or at tEnd if that is nearer.
+class PathTrial {
+public:
+  PathTrial(Equilibrium& equilibrium, PathStep& path, const ArcLengthOptions& options, double tEnd)
+      : equilibrium_(equilibrium), path_(path), options_(options), tEnd_(tEnd) {}
+
+  /// On success the model is in equilibrium at t(); on failure as before.
+  NewtonResult advance(double signedLength, bool spending) {
+    const double t = path_.start(signedLength, spending);
+    if (!std::isfinite(t)) return {0, 0.0, 0.0, "nothing moves with t"};
+    if (t >= tEnd_) {
+      NewtonResult result = attempt(signedLength, spending, true);
+      if (result.failure.empty()) return result;
+    }
+    return attempt(signedLength, spending, false);
+  }
+  double t() const { return now_.t; }
+
+private:
+  NewtonResult attempt(double signedLength, bool spending, bool atEnd) {
+    bool started = false;
+    return detail::attemptStep(equilibrium_.model(), now_, options_.maxAugmentations, [&] {
+      if (!started) path_.start(signedLength, spending);
+      if (!started && atEnd) path_.cutAt(tEnd_);
+      started = true;
+      NewtonResult result;
+      if (!atEnd) {
+        result = detail::newton(path_, {options_.newton.maxIterations, detail::LineSearch::never});
+        now_.t = path_.t();
+        if (!result.failure.empty() || now_.t <= tEnd_) return result;
+        path_.cutAt(tEnd_);
+        atEnd = true;
+      }
+      return settle(result.iterations);
+    });
+  }
+  /// Equilibrium at tEnd, on the way that the path takes there.
+  NewtonResult settle(int iterationsBefore) {
+    now_.t = tEnd_;
+    equilibrium_.aim(now_);
+    NewtonResult result = detail::newton(equilibrium_, detail::policyOf(options_.newton));
+    result.iterations += iterationsBefore;
+    if (result.failure.empty() && path_.strays())
+      result.failure = "there is no equilibrium at the end of the path nearby";
+    return result;
+  }
+
+  Equilibrium& equilibrium_;
+  PathStep& path_;
+  const ArcLengthOptions& options_;
+  double tEnd_;
+  Instant now_;
+};
+
 }  // namespace
 
 StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& options, const StaticObserver& observer) {
-  validate(options);
+  validate(options, model);
+  detail::requireLater(tEnd, model, "followPath");
   const auto start = std::chrono::steady_clock::now();
   Equilibrium equilibrium(model, options.newton);
+  if (options.dissipation > 0.0 && equilibrium.dofs().hasMotion())
+    throw InputError("dissipation is that of loads alone, but there is prescribed motion", "ArcLengthOptions",
+                     "set dissipation to 0, or load the body by forces");
   StaticReport report;
   report.storedBefore = storedEnergy(model, {model.t, 0.0});
-  PathStep path(equilibrium, options);
+  PathStep path(equilibrium, options, tEnd);
+  PathTrial trial(equilibrium, path, options, tEnd);
   if (!path.findRate(model.t)) throw NumericalError("the tangent is singular", "followPath", "hold the model");
-  const double firstArc = options.firstStep * std::sqrt(dotOf(path.rate(), path.rate()));
-  const double largestArc = options.largestStep > 0.0 ? options.largestStep : 8.0 * firstArc;
-  double arc = std::min(firstArc, largestArc), direction = 1.0;
+  const double firstLength = options.firstStep * path.length(path.rate());
+  if (firstLength == 0.0)
+    throw NumericalError("nothing moves with t", "followPath",
+                         "give loads that are functions of t, and a component that moves if there is a node");
+  const double largest = options.largestStep > 0.0 ? options.largestStep : 8.0 * std::abs(firstLength);
+  double length = std::min(std::abs(firstLength), largest), sense = firstLength < 0.0 ? -1.0 : 1.0;
+  bool spending = false;
   std::vector<Vec3> lastMove;
   while (static_cast<int>(report.steps.size()) < options.maxSteps && model.t < tEnd) {
     const std::vector<Vec3> u0 = model.nodes.u, f0(equilibrium.forces().begin(), equilibrium.forces().end()),
                             loads0(equilibrium.loads().begin(), equilibrium.loads().end());
-    if (!lastMove.empty()) direction = dotOf(path.rate(), lastMove) >= 0.0 ? 1.0 : -1.0;
-    double t = model.t;
-    detail::NewtonResult result = path.advance(arc, direction, t);
-    if (result.failure.empty()) {
-      try {
-        for (const auto& term : model.terms)
-          term->requireValid(model.nodes, "t = " + formatNumber(t) + " s", Scrutiny::all);
-      } catch (const NumericalError& error) {
-        result.failure = error.what();
-      }
+    if (!lastMove.empty() && options.node < 0) sense = innerProduct(path.rate(), lastMove) >= 0.0 ? 1.0 : -1.0;
+    const NewtonResult result = trial.advance(sense * length, spending);
+    if (!result.failure.empty() && spending) {
+      spending = false;
+      if (path.findRate(model.t)) continue;
     }
     if (!result.failure.empty()) {
-      model.nodes.u = u0;
-      arc *= 0.4;
+      length *= 0.4;
       ++report.cuts;
-      if (arc < options.smallestShare * firstArc || !path.findRate(model.t))
+      if (length < options.smallestShare * std::abs(firstLength) || !path.findRate(model.t)) {
+        model.nodes.f = f0;
         throw NumericalError(result.failure, "followPath, t = " + formatNumber(model.t) + " s",
                              "give smaller steps or a finer mesh");
+      }
       continue;
     }
-    detail::bookWork(equilibrium, model, f0, loads0, u0, report);
-    detail::acceptTerms(model, t, report);
+    const Instant now{trial.t(), 0.0};
+    detail::bookWork(equilibrium, f0, loads0, u0, report);
+    detail::acceptTerms(model, now, report);
     lastMove.resize(u0.size());
     for (std::size_t n = 0; n < u0.size(); ++n) lastMove[n] = model.nodes.u[n] - u0[n];
-    model.t = t;
+    if (spending) length = std::min(largest, std::abs(path.length(lastMove)));
+    spending = options.dissipation > 0.0 && path.dissipation(lastMove, now.t - model.t) >= 0.999 * options.dissipation;
+    model.t = now.t;
     report.iterations += result.iterations;
-    const bool regular = path.findRate(t);
-    report.steps.push_back({t, result.iterations, result.residual, equilibrium.solver().negativePivots()});
+    const bool regular = path.findRate(now.t);
+    report.steps.push_back({now.t, result.iterations, result.residual, equilibrium.negativePivots()});
     if (!regular || (observer && !observer(model, report.steps.back()))) break;
-    const double growth = std::sqrt(static_cast<double>(options.iterationTarget) / result.iterations);
-    arc = std::min(largestArc, arc * std::clamp(growth, 0.5, 2.0));
+    const double growth = std::sqrt(static_cast<double>(options.iterationTarget) / std::max(1, result.iterations));
+    length = std::min(largest, length * std::clamp(growth, 0.5, 2.0));
   }
+  model.nodes.f.assign(equilibrium.forces().begin(), equilibrium.forces().end());
   detail::finishReport(equilibrium, start, report);
   return report;
 }

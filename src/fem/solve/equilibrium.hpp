@@ -2,70 +2,117 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "dovetail/fem/solve/statics.hpp"
+#include "newton.hpp"
+#include "newton_tools.hpp"
 
 namespace dovetail::fem::detail {
 
-/// Work space of a static solution; `model` is the state.
-class Equilibrium {
+/// Forces of a model, whose state is the model's own, and what is out of balance.
+class Balance {
 public:
-  Equilibrium(Model& model, const NewtonOptions& options);
+  /// Forces count as balanced at `relative` of the largest norm of a term's forces, plus `absolute`, N.
+  Balance(Model& model, double relative, double absolute);
+  virtual ~Balance() = default;
+  Balance(const Balance&) = delete;
+  Balance& operator=(const Balance&) = delete;
 
-  /// f = Σ forces at time t into forces(), its free part into residual(); @return norm of the residual, NaN included
-  double evaluate(double t);
-  /// What counts as zero, after evaluate().
-  double tolerance() const { return tolerance_; }
-  /// K at the present state, factorised. @return false if it is singular
-  bool factor(double t);
-  void solve(std::span<const double> r, std::span<double> x);
+  /// Forces are asked for at this instant from now on.
+  void aim(const Instant& now) { now_ = now; }
+  const Instant& now() const { return now_; }
+  /// Σ forces into forces(), its free part into residual(). @return the norm of that, NaN included
+  double findForces();
+  /// What counts as zero, after findForces().
+  double zero() const { return zero_; }
 
-  Model& model() { return model_; }
+  Model& model() const { return model_; }
   const DofMap& dofs() const { return dofs_; }
-  LinearSolver& solver() { return solver_; }
-  const BlockMatrix& stiffness() const { return K_; }
   std::span<const double> residual() const { return residual_; }
   std::span<const Vec3> forces() const { return forces_; }
   /// Of the terms without energy alone.
   std::span<const Vec3> loads() const { return loads_; }
-  bool symmetric() const;
-  double assemblySeconds() const { return assemblySeconds_; }
-  double solverSeconds() const { return solverSeconds_; }
+
+  /// A step was given up: what was kept from it is not to be trusted.
+  virtual void forget() {}
+  virtual int negativePivots() const { return -1; }
+  /// Fills in what the solver has to say.
+  virtual void describe(StaticReport& report) const { report.assemblySeconds = assemblySeconds_; }
+
+protected:
+  ForceResolution resolution_;
+  double assemblySeconds_ = 0.0;
 
 private:
   Model& model_;
-  NewtonOptions options_;
+  double relative_, absolute_, zero_ = 0.0;
+  Instant now_;
   DofMap dofs_;
-  LinearSolver solver_;
-  BlockMatrix K_;
   std::vector<Vec3> forces_, loads_, scratch_;
   std::vector<double> residual_;
-  double tolerance_ = 0.0, ofStrain_ = 0.0, assemblySeconds_ = 0.0, solverSeconds_ = 0.0;
+};
+
+/// Σ forces = 0 at a fixed time, by Newton's method.
+class Equilibrium : public Balance, public NewtonProblem {
+public:
+  Equilibrium(Model& model, const NewtonOptions& options);
+
+  double evaluate() override { return findForces(); }
+  double tolerance() const override { return zero(); }
+  bool factored() const override { return solver_.factored(); }
+  bool factor(bool exact = true) override;
+  bool direct() override;
+  double slope() const override { return innerProduct(residual(), increment_); }
+  void moveTo(double share) override;
+
+  /// Moves prescribed components to the time aimed at and the free ones with them, by the tangent of the old state.
+  /// @return false if that is singular
+  bool predict();
+  void solve(std::span<const double> r, std::span<double> x);
+  const BlockMatrix& stiffness() const { return K_; }
+
+  void forget() override { solver_.drop(); }
+  int negativePivots() const override { return solver_.negativePivots(); }
+  void describe(StaticReport& report) const override;
+
+private:
+  LinearSolver solver_;
+  BlockMatrix K_;
+  std::vector<Vec3> start_;
+  std::vector<double> increment_, part_;
+  double solverSeconds_ = 0.0;
 };
 
 void validate(const NewtonOptions& options);
-
-/// Newton iterations at fixed t from the present displacement; prescribed components move first, with what the tangent
-/// says of the rest.
-/// @return iterations, or −1 with the reason
-struct NewtonResult {
-  int iterations;
-  double residual;
-  std::string failure;
-};
-NewtonResult iterate(Equilibrium& equilibrium, double t, const NewtonOptions& options);
+/// @throws InputError unless tEnd is later than the model
+void requireLater(double tEnd, const Model& model, const char* where);
+NewtonPolicy policyOf(const NewtonOptions& options);
 
 /// Books the work of a step from (f0, u0) to the present forces and displacement by the trapezoidal rule.
-void bookWork(const Equilibrium& equilibrium, const Model& model, std::span<const Vec3> f0,
-              std::span<const Vec3> loads0, std::span<const Vec3> u0, StaticReport& report);
+void bookWork(const Balance& balance, std::span<const Vec3> f0, std::span<const Vec3> loads0, std::span<const Vec3> u0,
+              StaticReport& report);
 
-/// The terms adopt their history at time t; books what they dissipated and what their own motion did.
-void acceptTerms(Model& model, double t, StaticReport& report);
+/// The terms adopt their history; books what they dissipated and what their own motion did.
+void acceptTerms(Model& model, const Instant& now, StaticReport& report);
 
-/// Fills in what a report says at the end of a solution, and leaves the forces in nodes.f.
-void finishReport(Equilibrium& equilibrium, std::chrono::steady_clock::time_point start, StaticReport& report);
+/// Fills in what a report says at the end of a solution.
+void finishReport(const Balance& balance, std::chrono::steady_clock::time_point start, StaticReport& report);
+
+/// Steps of model time that grow and shrink with the iterations they need.
+struct LoadSteps {
+  double first, largest, smallest;  // s
+  int iterationTarget;
+};
+/// @throws InputError for lengths ≤ 0
+void validate(const LoadSteps& steps);
+/// Takes the model from model.t to tEnd by attempts that leave it as it was if they fail; cuts those.
+/// @param name  of the caller, for errors   @param remedy  if the smallest step fails
+StaticReport takeSteps(Balance& balance, double tEnd, LoadSteps steps, const StaticObserver& observer,
+                       const std::function<NewtonResult(const Instant&)>& attempt, const std::string& name,
+                       const std::string& remedy);
 
 }  // namespace dovetail::fem::detail

@@ -1,38 +1,60 @@
-// What the Newton iterations of statics and dynamics share.
+// Norms and tolerances of the solvers of a model.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/core/vec3.hpp"
+#include "dovetail/fem/solve/block_matrix.hpp"
 
 namespace dovetail::fem::detail {
 
-/// Euclidean norms.
-inline double normOf(std::span<const double> x) {
-  double sum = 0.0;
-  for (const double value : x) sum += value * value;
-  return std::sqrt(sum);
-}
-inline double normOf(std::span<const Vec3> x) {
-  double sum = 0.0;
-  for (const Vec3& value : x) sum += squaredNorm(value);
-  return std::sqrt(sum);
-}
-
-inline double product(std::span<const double> a, std::span<const double> b) {
+/// Σ a · b in a fixed order.
+inline double innerProduct(std::span<const double> a, std::span<const double> b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
-
-/// A smaller share of an increment, for a line search (Matthies & Strang 1979): where the slope r · increment vanishes
-/// by the secant, kept between a tenth and eight tenths of the share tried; a quarter if there is no slope.
-/// @param slopeAtZero  at share 0   @param slope  at `share`; NaN if the forces there are not finite
-inline double shorterShare(double share, double slopeAtZero, double slope) {
-  if (!std::isfinite(slope) || slope == slopeAtZero) return 0.25 * share;
-  return std::clamp(-slopeAtZero * share / (slope - slopeAtZero), 0.1 * share, 0.8 * share);
+inline double innerProduct(std::span<const Vec3> a, std::span<const Vec3> b) {
+  return parallelSum(a.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t n = begin; n < end; ++n) sum += dot(a[n], b[n]);
+    return sum;
+  });
 }
+/// Euclidean norms.
+inline double normOf(std::span<const double> x) { return std::sqrt(innerProduct(x, x)); }
+inline double normOf(std::span<const Vec3> x) { return std::sqrt(innerProduct(x, x)); }
+
+/// How well forces can be known, from a stiffness.
+class ForceResolution {
+public:
+  /// F = 1 + ∂u/∂X is known to ε, however small ∂u/∂X is: as if every node were off by ε times its distance from the
+  /// others.
+  void measure(const BlockMatrix& K, std::span<const Vec3> X) {
+    double squares = 0.0;
+    stiffest_ = 0.0;
+    for (std::size_t n = 0; n < K.nodes(); ++n)
+      for (int k = K.offsets()[n]; k < K.offsets()[n + 1]; ++k) {
+        const double* const block = &K.values()[9 * static_cast<std::size_t>(k)];
+        const auto other = static_cast<std::size_t>(K.columns()[static_cast<std::size_t>(k)]);
+        const double largest = *std::max_element(block, block + 9), least = *std::min_element(block, block + 9);
+        squares += std::pow(std::max(largest, -least), 2) * squaredNorm(X[n] - X[other]);
+        for (std::size_t c = 0; other == n && c < 3; ++c) stiffest_ = std::max(stiffest_, std::abs(block[4 * c]));
+      }
+    ofStrain_ = std::numeric_limits<double>::epsilon() * std::sqrt(squares);
+  }
+  /// N. Displacements are known to a relative ε, hence forces to no better than ε K u.
+  /// @param displacement  the norm of all, m
+  double at(double displacement) const {
+    return std::max(std::numeric_limits<double>::epsilon() * stiffest_ * displacement, ofStrain_);
+  }
+
+private:
+  double stiffest_ = 0.0, ofStrain_ = 0.0;
+};
 
 }  // namespace dovetail::fem::detail

@@ -35,7 +35,7 @@ private:
 };
 
 /// Parent coordinates of a point in a brick by Newton's method; nothing if it does not settle near the brick.
-/// @param corners  in the order of fem::Mesh::elements, m
+/// @param corners  in the order of Bricks::elements, m
 std::optional<Vec3> parentCoordinates(const std::array<Vec3, 8>& corners, const Vec3& point);
 
 }  // namespace dovetail::arlequin

@@ -45,7 +45,7 @@ void weighMass(const Overlap& overlap, std::span<const double> fullMass, dem::Pa
 void weighContacts(const dem::Particles& particles, std::span<const std::array<int, 8>> elements,
                    const fem::Nodes& nodes, const Overlap& overlap, dem::PairList& pairs);
 
-/// 1 − w per node, for fem::makeElements.
+/// 1 − w per node, for fem::SolidOptions::share.
 std::vector<double> solidWeights(std::span<const double> nodalWeight);
 
 /// Φ: velocities of the nodes → of the solid at the centres of the overlap's particles. Rows sum to one.

@@ -13,7 +13,7 @@ namespace dovetail::fem {
 template <class T>
 struct PointStep {
   Tensor<T> F;                      ///< at the end of the step
-  double dt;                        ///< s; 0 in statics
+  double dt;                        ///< s; 0 where no time passes
   std::span<const double> history;  ///< at its start
   Tensor<T> P;                      ///< out: first Piola–Kirchhoff stress at the end, Pa
   std::span<double> newHistory;     ///< out: at the end

@@ -57,22 +57,27 @@ enum class ConeMatch {
 };
 
 /// √(½ s:s) + η p ≤ ξ c with s = dev T, p = tr T/3, tension positive; flow along √(½ s:s) + η̄ p. η and ξ come from the
-/// friction angle, η̄ from the dilatancy angle. At the apex p = ξ c/η, s = 0 whatever the strain, and the tangent is
-/// what rotation leaves. Stresses are Kirchhoff's; no hardening. The tangent is symmetric for equal angles only. What
-/// the history accumulates is √(⅔ Δe_p:Δe_p) of the plastic shape change e_p.
+/// friction angle, η̄ from the dilatancy angle. At the apex p = ξ c/η, s = 0 whatever the strain. Stresses are
+/// Kirchhoff's. What the history accumulates is a = Σ √(⅔ Δe_p:Δe_p) of the plastic shape change e_p; the cohesion may
+/// grow or fall with it. Plastic work is dissipated, all of it. The tangent is symmetric for equal angles and constant
+/// cohesion only.
 struct DruckerPrager {
   double youngsModulus;   ///< Pa
   double poissonRatio;    ///< −1 < ν < 0.5
   double density;         ///< reference, kg/m³
-  double cohesion;        ///< c ≥ 0, Pa
+  double cohesion;        ///< c ≥ 0, Pa; 0 with a cohesionCurve
   double frictionAngle;   ///< 0 ≤ φ < π/2, rad
   double dilatancyAngle;  ///< 0 ≤ ψ ≤ φ, rad
   ConeMatch match = ConeMatch::compression;
+  /// c(a) ≥ 0 and dc/da in place of a constant cohesion; `stored` is not asked for. Where c falls, results depend on
+  /// the size of the elements, and the slope must stay above −√3 (μ + κ η η̄)/ξ.
+  YieldCurve cohesionCurve = {};
 };
 
-/// η, η̄ and ξ c.
+/// η, η̄, ξ and ξ c of a point that has never flowed.
 struct ConeConstants {
   double friction, dilatancy;
+  double cohesive;
   double strength;  ///< Pa
 };
 /// @throws InputError for angles or a cohesion out of range, or no strength at all

@@ -22,6 +22,7 @@
 #include "dovetail/fem/laws/jet.hpp"
 #include "dovetail/fem/laws/point_material.hpp"
 #include "dovetail/fem/laws/tensor.hpp"
+#include "dovetail/fem/laws/vector_code.hpp"
 
 namespace dovetail::fem {
 
@@ -158,8 +159,10 @@ public:
   void evaluate(const PointBatch& batch) const override {
     using T = decltype(numberOf<Law>());
     constexpr std::size_t step = std::same_as<T, double> ? 1 : pointLanes;
-    for (std::size_t point = 0; point < pointLanes * batch.groups; point += step)
-      evaluateAt<T>(law_, batch, point / pointLanes, point % pointLanes);
+    withVectors([&] {
+      for (std::size_t point = 0; point < pointLanes * batch.groups; point += step)
+        evaluateAt<T>(law_, batch, point / pointLanes, point % pointLanes);
+    });
     if (batch.dissipated)
       for (std::size_t point = 0; point < pointLanes * batch.groups; ++point) batch.dissipated[point] = 0.0;
   }

@@ -27,7 +27,7 @@ struct PointBatch {
   double* dissipated;  ///< out: energy dissipated in this step per reference volume, J/m³, ≥ 0, [4 g + l]; or null
   const double* history;  ///< at the start of the step, historySize per point, [(4 g + l) · historySize + k]
   double* newHistory;     ///< out: at its end, same layout; may not overlap `history`
-  double dt;              ///< length of the step, s; 0 in statics
+  double dt;              ///< length of the step, s; 0 where no time passes
 };
 
 /// A material at a point. One virtual call per batch; implementations keep no state of their own (everything that

@@ -21,7 +21,7 @@ class NodeMatrix;
 /// material cannot be trusted.
 enum class Scrutiny { inversion, all };
 
-/// When forces are asked for: at the end of a step of length dt, which is 0 in statics. Times in s.
+/// When forces are asked for: at the end of a step of length dt, which is 0 where no time passes. Times in s.
 struct Instant {
   double t = 0.0;
   double dt = 0.0;

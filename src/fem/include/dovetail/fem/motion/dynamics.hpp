@@ -26,6 +26,8 @@ struct DynamicsReport {
   std::int64_t cuts = 0;      ///< attempts that were given up and tried again with half the step
   std::int64_t iterations = 0, factorisations = 0;
   double largestResidual = 0.0;  ///< force out of balance over its tolerance, of accepted steps; ≤ 1
+  /// Terms whose energy the conserving scheme does not keep: their force is that at the mean state.
+  std::vector<std::string> atMeanState;
   EnergyLedger ledger;
   Profile profile;
 };
@@ -89,8 +91,11 @@ Scheme hht(double alpha);
 /// @param rhoInfinity  0 … 1
 Scheme generalisedAlpha(double rhoInfinity);
 /// Simo & Tarnow (1992), Gonzalez (2000): M (v₁ − v₀) = dt f, u₁ − u₀ = ½ dt (v₀ + v₁) with f = addConservingForces of
-/// the terms, or their force at the mean state. Second order; energy and both momenta of a free elastic body stay to
-/// the tolerance for any dt.
+/// the terms, or their force at the mean state. Second order; energy and both momenta of a free body of elastic solids
+/// stay to the tolerance for any dt that Newton's method solves. Standard elements take the stress at the mean metric,
+/// which does not see turns; the others take the force at the mean state, with forces between their nodes that make its
+/// work right, and feel a turn by θ in a step as a strain of θ²/8. Of solids that remember (plastic, viscous), and of
+/// following pressure and friction, momenta alone are kept; DynamicsReport::atMeanState names those with an energy.
 Scheme energyMomentum();
 
 struct ImplicitOptions {

@@ -37,7 +37,7 @@ public:
 
   /// Reduces K to the free components and factorises it.
   /// @return false if it is singular (then solve() must not be called)
-  /// @throws NumericalError if the memory does not suffice for the factors
+  /// @throws FactorMemoryError
   bool factor(const BlockMatrix& K, bool symmetric);
   /// x = (TᵀKT)⁻¹ r; the spans may be the same.
   /// @throws NumericalError if conjugate gradients do not converge

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "dovetail/core/error.hpp"
+
 namespace dovetail::fem {
 
 /// Compressed columns; rows ascend within a column. For nodes, component c of node n is row 3n + c.
@@ -13,6 +15,11 @@ struct SparseMatrix {
   std::vector<int> offsets{0};  ///< size + 1 entries
   std::vector<int> row;
   std::vector<double> value;
+};
+
+/// The factors of a matrix do not fit into the memory, or into numbers of 64 bits.
+class FactorMemoryError : public NumericalError {
+  using NumericalError::NumericalError;
 };
 
 /// y = A x.
@@ -29,7 +36,7 @@ public:
 
   /// Reads the lower triangle only; the symbolic analysis is reused while the pattern stays.
   /// @return false if the matrix is not positive definite (then solve() must not be called)
-  /// @throws NumericalError if the memory does not suffice for the factors
+  /// @throws FactorMemoryError
   bool factor(const SparseMatrix& A);
   /// Overwrites b by A⁻¹ b.
   void solve(std::span<double> b);
@@ -53,7 +60,7 @@ public:
   /// The symbolic analysis is reused while the pattern stays.
   /// @param symmetric  A holds the lower triangle alone. Pivots then stay on the diagonal unless they all but vanish.
   /// @return false if the matrix is singular (then solve() must not be called)
-  /// @throws NumericalError if the memory does not suffice for the factors
+  /// @throws FactorMemoryError
   bool factor(const SparseMatrix& A, bool symmetric);
   /// Overwrites b by A⁻¹ b.
   void solve(std::span<double> b);

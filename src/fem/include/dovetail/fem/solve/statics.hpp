@@ -62,24 +62,35 @@ std::ostream& operator<<(std::ostream& out, const StaticReport& report);
 /// Called after every accepted step; return false to stop.
 using StaticObserver = std::function<bool(const Model& model, const StaticStep& step)>;
 
-/// Takes the model from model.t to tEnd through equilibria; loads and prescribed motions are functions of t.
-/// @throws NumericalError, with the reason, if the smallest step fails; the model is then in its last equilibrium.
-///         InputError for tEnd ≤ model.t, options out of range, constraints at odds
+/// Takes the model from model.t to tEnd through equilibria; loads and prescribed motions are functions of t. Time is
+/// real for laws that creep, relax or depend on rates; velocities mean nothing.
+/// @throws NumericalError, with the reason, if the smallest step fails, whatever the terms or the solver threw; what
+///         else is thrown passes through: FactorMemoryError, InputError for tEnd ≤ model.t, options out of range,
+///         constraints at odds. The model is then in its last equilibrium.
 StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& options = {},
                           const StaticObserver& observer = {});
 
 struct ArcLengthOptions {
   NewtonOptions newton{};
   double firstStep = 0.1;       ///< s of model time, for the first step only
-  double largestStep = 0.0;     ///< of the arc, m·√(nodes); 0 = eight times that of the first step
+  double largestStep = 0.0;     ///< of the arc or the displacement, m; 0 = eight times that of the first step
   double smallestShare = 1e-4;  ///< of the first arc; below it the run stops
   int iterationTarget = 5;
   int maxSteps = 200;
+  int maxAugmentations = 30;  ///< per step, for contact by augmented Lagrangian
+  /// If this is a node, the length of a step is that of its displacement component, which goes on in the sense in which
+  /// it starts: through snap-backs of localised bands, whose growth it should measure (de Borst 1987).
+  int node = -1;
+  int component = 0;
+  /// Above 0: once a step has dissipated that much, J, the following ones all do, for bodies without prescribed motion
+  /// under loads proportional to t that are damaged: they would unload towards u = 0, so a step from (t₀, u₀) costs
+  /// ½ (t₀ Δu − Δt u₀)·∂f/∂t (Gutiérrez 2004). A step that does not succeed so is tried by its length.
+  double dissipation = 0.0;
 };
 
 /// Follows the path of equilibria u(t) by its arc length through limit points of the load and back (Riks 1979,
-/// Crisfield 1981, cylindrical): t is one of the unknowns and may fall. Stops when the observer returns false, t
-/// reaches tEnd or maxSteps are done.
+/// Crisfield 1981, cylindrical): t is one of the unknowns and may fall, and is no time for laws that know rates. Stops
+/// when the observer returns false, at tEnd exactly, or when maxSteps are done.
 /// @throws as solveStatics
 StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& options,
                         const StaticObserver& observer = {});

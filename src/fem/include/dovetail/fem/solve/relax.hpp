@@ -1,0 +1,30 @@
+// Dynamic relaxation: equilibria without tangents.
+#pragma once
+
+#include "dovetail/fem/solve/statics.hpp"
+
+namespace dovetail::fem {
+
+struct RelaxOptions {
+  double relativeTolerance = 1e-6;  ///< of the largest Euclidean norm of a term's forces
+  double absoluteTolerance = 0.0;   ///< added to it, N
+  int maxIterations = 100000;       ///< per step
+  double firstStep = 0.1;           ///< s of model time
+  double largestStep = 1e300;       ///< s
+  double smallestStep = 1e-6;       ///< s; below it the run stops
+  int maxAugmentations = 30;        ///< per step, for contact by augmented Lagrangian
+  /// Of the motion to rest with the nodes' masses, s; 0 = nine tenths of stableStep(model), which asks the laws for
+  /// tangents of single elements. Springs and contact that are stiffer than the elements need a smaller one.
+  double iterationStep = 0.0;
+};
+
+/// Takes the model from model.t to tEnd through equilibria like solveStatics, without any matrix: the nodes swing to
+/// rest in a motion of their own with the lumped masses in nodes.mass, damped critically for the frequency
+/// ω² = uᵀΔf/uᵀMu that the displacement u since the last equilibrium and the force Δf that it cost show (Underwood
+/// 1983; Oakley & Knight 1995). Prescribed motion and loads come on over the first iterations of a step. The terms see
+/// model time, not that of the motion.
+/// @return iterations are evaluations of the forces
+/// @throws as solveStatics; InputError for nodes without mass
+StaticReport relax(Model& model, double tEnd, const RelaxOptions& options = {}, const StaticObserver& observer = {});
+
+}  // namespace dovetail::fem
