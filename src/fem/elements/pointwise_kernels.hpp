@@ -2,7 +2,8 @@
 #pragma once
 
 #include "dovetail/fem/laws/vector_code.hpp"
-#include "hybrid_kernels.hpp"
+#include "kernels.hpp"
+#include "lane_laws.hpp"
 
 namespace dovetail::fem::detail::bricks {
 
@@ -86,16 +87,6 @@ void pointwiseForces(const ElementCache& cache, const Batch& batch, const Vec3* 
                      BatchForces& forces) {
   withEnergy ? pointwiseForces<law, true>(cache, batch, u, forces)
              : pointwiseForces<law, false>(cache, batch, u, forces);
-}
-
-inline void hybridForces(const ElementCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
-                         BatchForces& forces) {
-  const auto place = static_cast<std::size_t>(batch.geometry);
-  if (batch.box)
-    return withVectors([&] { hybridBoxForces(cache.constants, cache.boxes[place], batch, u, withEnergy, forces); });
-  const GeneralGeometry& geometry = cache.general[place];
-  const HybridGeometry& hybrid = cache.hybrid[static_cast<std::size_t>(geometry.hybrid)];
-  withVectors([&] { hybridGeneralForces(hybrid, geometry, batch, u, withEnergy, forces); });
 }
 
 DOVETAIL_INLINE Lane determinantOfOnePlus(const Tensor& H) {
