@@ -10,4 +10,9 @@ namespace dovetail::fem::detail {
 void batchForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces);
 void batchDeterminants(const BrickCache& cache, const Batch& batch, const Vec3* u, BatchDeterminants& result);
 
+namespace bricks {
+/// Those of hybrid8.
+void hybridForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces);
+}  // namespace bricks
+
 }  // namespace dovetail::fem::detail

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "dovetail/fem/laws/vector_code.hpp"
-#include "hybrid_kernels.hpp"
+#include "kernels.hpp"
+#include "lane_laws.hpp"
 
 namespace dovetail::fem::detail::bricks {
 
@@ -82,19 +83,10 @@ void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u,
 }
 
 template <Law law>
-void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces) {
+void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
+                     BatchForces& forces) {
   withEnergy ? pointwiseForces<law, true>(cache, batch, u, forces)
              : pointwiseForces<law, false>(cache, batch, u, forces);
-}
-
-inline void hybridForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
-                         BatchForces& forces) {
-  const auto place = static_cast<std::size_t>(batch.geometry);
-  if (batch.box)
-    return withVectors([&] { hybridBoxForces(cache.constants, cache.boxes[place], batch, u, withEnergy, forces); });
-  const GeneralGeometry& geometry = cache.general[place];
-  const HybridGeometry& hybrid = cache.hybrid[static_cast<std::size_t>(geometry.hybrid)];
-  withVectors([&] { hybridGeneralForces(hybrid, geometry, batch, u, withEnergy, forces); });
 }
 
 DOVETAIL_INLINE Lane determinantOfOnePlus(const Tensor& H) {
@@ -112,7 +104,8 @@ DOVETAIL_INLINE std::array<Lane, 9> inverseOf(const std::array<Lane, 9>& m) {
           s * c2, s * (m[1] * m[6] - m[0] * m[7]), s * (m[0] * m[4] - m[1] * m[3])};
 }
 
-inline void forcesOf(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces) {
+inline void forcesOf(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
+                     BatchForces& forces) {
   switch (cache.law) {
     case Law::stVenantKirchhoff:
       return pointwiseForces<Law::stVenantKirchhoff>(cache, batch, u, withEnergy, forces);

@@ -1,0 +1,16 @@
+#include "hybrid_kernels.hpp"
+
+#include "dovetail/fem/laws/vector_code.hpp"
+
+namespace dovetail::fem::detail::bricks {
+
+void hybridForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces) {
+  const auto place = static_cast<std::size_t>(batch.geometry);
+  if (batch.box)
+    return withVectors([&] { hybridBoxForces(cache.constants, cache.boxes[place], batch, u, withEnergy, forces); });
+  const GeneralGeometry& geometry = cache.general[place];
+  const HybridGeometry& hybrid = cache.hybrid[static_cast<std::size_t>(geometry.hybrid)];
+  withVectors([&] { hybridGeneralForces(hybrid, geometry, batch, u, withEnergy, forces); });
+}
+
+}  // namespace dovetail::fem::detail::bricks
