@@ -63,7 +63,7 @@ double Balance::findForces() {
     }
   }
   dofs_.reduce(forces_, residual_);
-  zero_ = relative_ * largest + absolute_ + resolution_.at(normOf(model_.nodes.u));
+  zero_ = relative_ * largest + absolute_ + resolution_.worstAt(normOf(model_.nodes.u));
   assemblySeconds_ += since(start);
   return normOf(residual_);
 }

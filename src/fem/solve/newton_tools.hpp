@@ -35,26 +35,36 @@ public:
   /// F = 1 + ∂u/∂X is known to ε, however small ∂u/∂X is: as if every node were off by ε times its distance from the
   /// others.
   void measure(const BlockMatrix& K, std::span<const Vec3> X) {
-    double squares = 0.0;
+    double squares = 0.0, worstSquares = 0.0;
     stiffest_ = 0.0;
-    for (std::size_t n = 0; n < K.nodes(); ++n)
+    for (std::size_t n = 0; n < K.nodes(); ++n) {
+      double sum = 0.0;
       for (int k = K.offsets()[n]; k < K.offsets()[n + 1]; ++k) {
         const double* const block = &K.values()[9 * static_cast<std::size_t>(k)];
         const auto other = static_cast<std::size_t>(K.columns()[static_cast<std::size_t>(k)]);
         const double largest = *std::max_element(block, block + 9), least = *std::min_element(block, block + 9);
-        squares += std::pow(std::max(largest, -least), 2) * squaredNorm(X[n] - X[other]);
+        const double force = std::max(largest, -least) * norm(X[n] - X[other]);
+        sum += force;
+        squares += force * force;
         for (std::size_t c = 0; other == n && c < 3; ++c) stiffest_ = std::max(stiffest_, std::abs(block[4 * c]));
       }
+      worstSquares += sum * sum;
+    }
     ofStrain_ = std::numeric_limits<double>::epsilon() * std::sqrt(squares);
+    worstOfStrain_ = std::numeric_limits<double>::epsilon() * std::sqrt(worstSquares);
   }
-  /// N. Displacements are known to a relative ε, hence forces to no better than ε K u.
+  /// N. Displacements are known to a relative ε, hence forces to no better than ε K u; errors of strain at random.
   /// @param displacement  the norm of all, m
-  double at(double displacement) const {
-    return std::max(std::numeric_limits<double>::epsilon() * stiffest_ * displacement, ofStrain_);
-  }
+  double at(double displacement) const { return std::max(ofDisplacement(displacement), ofStrain_); }
+  /// The same with errors that add up, as nearly incompressible solids can make them: where nothing but a step that
+  /// fails would come of asking for more.
+  double worstAt(double displacement) const { return std::max(ofDisplacement(displacement), worstOfStrain_); }
 
 private:
-  double stiffest_ = 0.0, ofStrain_ = 0.0;
+  double ofDisplacement(double displacement) const {
+    return std::numeric_limits<double>::epsilon() * stiffest_ * displacement;
+  }
+  double stiffest_ = 0.0, ofStrain_ = 0.0, worstOfStrain_ = 0.0;
 };
 
 }  // namespace dovetail::fem::detail
