@@ -49,7 +49,7 @@ public:
   virtual bool isElastic() const { return historySize() == 0; }
   /// Whether the tangent has the symmetry (iJ)(kL); if not, solvers factorise without it.
   virtual bool isSymmetric() const { return true; }
-  /// The law, if it is one that the hand-written kernels of bricks know (elements.hpp).
+  /// The law, if it is one that the hand-written kernels of bricks know.
   virtual std::optional<Material> brickLaw() const { return {}; }
   /// A NaN in the stress means that the law has no answer for F; elements report the point.
   virtual void evaluate(const PointBatch& batch) const = 0;

@@ -39,8 +39,10 @@ struct ExplicitOptions {
   /// Refuse steps above the bound of the stiffest element, stableStep(model). (Springs and contact are not in it, nor
   /// is stiffening under load; masses between lumped and consistent count with the least they can be, bricks' 1/27.)
   bool checkStep = true;
-  int energyEvery = 1;   ///< steps between samples of stored energy; 0 = no ledger
-  int checkEvery = 100;  ///< steps between requireValid of the terms; NaN is looked for in every step
+  int energyEvery = 1;  ///< steps between samples of stored energy; 0 = no ledger
+  /// Steps between looks for inverted elements; run() looks once more at its end, and NaN is looked for in every step.
+  /// 0 = never
+  int checkEvery = 100;
 };
 
 /// Central differences as kick–drift–kick, second order. Forces that depend on the velocity see v + dt a of the last
