@@ -94,14 +94,25 @@ std::size_t SolidBase::stride() const { return bricks_ ? sizeof(BatchForces) / s
 /// Place of component i of local node a among the forces of a batch, in lanes.
 std::size_t SolidBase::slot(std::size_t a, std::size_t i) const { return bricks_ ? 8 * i + brickNode[a] : 3 * a + i; }
 
-void SolidBase::subtract(std::size_t batch, const Lane* forces, std::span<Vec3> f) const {
-  const std::size_t n = cells_.nodes, across = slot(0, 1);
+/// @param across  lanes between the components of a node
+template <std::size_t across, class Slot>
+void SolidBase::subtractFrom(std::size_t batch, const Lane* forces, std::span<Vec3> f, Slot&& slotOf) const {
+  const auto* const nodes = &cells_.batchNode[batch * cells_.nodes];
   for (std::size_t lane = 0; lane < cells_.inUse(batch); ++lane)
-    for (std::size_t a = 0; a < n; ++a) {
-      Vec3& node = f[static_cast<std::size_t>(cells_.batchNode[batch * n + a][lane])];
-      const Lane* const own = forces + slot(a, 0);
-      for (std::size_t i = 0; i < 3; ++i) node[static_cast<int>(i)] -= own[i * across][static_cast<int>(lane)];
+    for (std::size_t a = 0; a < cells_.nodes; ++a) {
+      Vec3& node = f[static_cast<std::size_t>(nodes[a][lane])];
+      const auto* const own = reinterpret_cast<const double*>(forces + slotOf(a)) + lane;
+      node.x -= own[0];
+      node.y -= own[across * laneCount];
+      node.z -= own[2 * across * laneCount];
     }
+}
+
+void SolidBase::subtract(std::size_t batch, const Lane* forces, std::span<Vec3> f) const {
+  if (bricks_)
+    subtractFrom<8>(batch, forces, f, [](std::size_t a) { return brickNode[a]; });
+  else
+    subtractFrom<1>(batch, forces, f, [](std::size_t a) { return 3 * a; });
 }
 
 /// Every node adds its own entries, in the order of the elements.

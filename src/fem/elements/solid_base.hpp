@@ -124,6 +124,8 @@ private:
   void setPath(std::span<const Vec3> u0, std::span<const Vec3> u1);
   std::size_t stride() const;
   std::size_t slot(std::size_t a, std::size_t i) const;
+  template <std::size_t across, class Slot>
+  void subtractFrom(std::size_t batch, const Lane* forces, std::span<Vec3> f, Slot&& slotOf) const;
   void subtract(std::size_t batch, const Lane* forces, std::span<Vec3> f) const;
   void gather(std::span<Vec3> f) const;
   void energies(const BatchTask& task, BatchResult& result);
