@@ -2,10 +2,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
-#include "../mesh/cell_jacobian.hpp"
-#include "../mesh/shapes.hpp"
+#include "../mesh/parent_coordinates.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 
@@ -15,42 +14,11 @@ namespace {
 
 bool isBrick(CellShape shape) { return shape != CellShape::tet4 && shape != CellShape::tet10; }
 
-/// How far ξ lies outside the parent cell; ≤ 0 inside.
-double outside(CellShape shape, const Vec3& xi) {
-  if (!isBrick(shape)) return std::max({-xi.x, -xi.y, -xi.z, xi.x + xi.y + xi.z - 1.0});
-  return std::max({std::abs(xi.x), std::abs(xi.y), std::abs(xi.z)}) - 1.0;
-}
-
-/// Whether X is near enough to the element to look for it there; edges may be curved.
-bool mayHold(std::span<const Vec3> nodes, const Vec3& X) {
-  for (int c = 0; c < 3; ++c) {
-    const auto [lower, upper] = std::ranges::minmax(nodes, {}, [c](const Vec3& node) { return node[c]; });
-    const double margin = 0.25 * (upper[c] - lower[c]);
-    if (X[c] < lower[c] - margin || X[c] > upper[c] + margin) return false;
-  }
-  return true;
-}
-
-/// Solves X(ξ) = X in an element by Newton's method; not finite if it has no answer.
-Vec3 parentPlace(CellShape shape, std::span<const Vec3> nodes, const Vec3& X) {
-  std::array<double, detail::maxCellNodes> N;
-  std::array<Vec3, detail::maxCellNodes> gradient;
-  Vec3 xi = detail::centreRule(shape).point[0];
-  for (int iteration = 0; iteration < 30 && isFinite(xi); ++iteration) {
-    shapeFunctions(shape, xi, std::span(N).first(nodes.size()), std::span(gradient).first(nodes.size()));
-    Vec3 gap = X;
-    detail::Jacobian J{};
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      gap -= N[a] * nodes[a];
-      for (int j = 0; j < 3; ++j) J[static_cast<std::size_t>(j)] += gradient[a][j] * nodes[a];
-    }
-    const double det = detail::determinant(J);
-    const Vec3 step = {dot(gap, cross(J[1], J[2])) / det, dot(J[0], cross(gap, J[2])) / det,
-                       dot(J[0], cross(J[1], gap)) / det};
-    xi += step;
-    if (norm(step) < 1e-14) break;
-  }
-  return xi;
+/// Parent coordinates of a point that lies in the element.
+Vec3 parentPlace(CellShape shape, std::span<const Vec3> nodes, const Vec3& X, int element) {
+  const detail::ParentGuess guess = detail::guessParent(shape, nodes, X);
+  if (guess.verdict == detail::Verdict::inside) return guess.xi;
+  return detail::searchParent(shape, nodes, X, "element " + std::to_string(element)).value_or(guess.xi);
 }
 
 /// 1, ξ, η, ζ and, for bricks, their products; 1 alone where there are too few points for them.
@@ -69,29 +37,27 @@ Eigen::Matrix3d cauchy(const double* F, const double* P) {
 
 }  // namespace
 
-MaterialPoint::MaterialPoint(const SolidMesh& mesh, const Vec3& X) {
-  constexpr double inside = 1e-9;  // round-off of ξ on the boundary
-  int number = 0;
-  for (const CellGroup& group : mesh.groups) {
-    const auto n = static_cast<std::size_t>(nodesOf(group.shape));
-    for (std::size_t e = 0; e < group.size(); ++e, ++number) {
-      const std::span<const int> nodes = std::span(group.node).subspan(n * e, n);
-      X_.clear();
-      for (const int node : nodes) X_.push_back(mesh.X[static_cast<std::size_t>(node)]);
-      if (!mayHold(X_, X)) continue;
-      xi_ = parentPlace(group.shape, X_, X);
-      if (!isFinite(xi_) || outside(group.shape, xi_) > inside) continue;
-      element_ = number;
-      shape_ = group.shape;
-      node_.assign(nodes.begin(), nodes.end());
-      N_.resize(n);
-      std::vector<Vec3> gradient(n);
-      shapeFunctions(shape_, xi_, N_, gradient);
-      return;
-    }
-  }
-  throw InputError("no element is at " + formatNumber(X.x) + ", " + formatNumber(X.y) + ", " + formatNumber(X.z) + " m",
-                   "MaterialPoint", "give a reference position in the mesh");
+MaterialPoint::MaterialPoint(const SolidMesh& mesh, const Vec3& X) : MaterialPoint(mesh, CellLocator(mesh), X) {}
+
+MaterialPoint::MaterialPoint(const SolidMesh& mesh, const CellLocator& locator, const Vec3& X) {
+  std::optional<CellPlace> place = locator.find(X);
+  if (!place)
+    throw InputError(
+        "no element is at " + formatNumber(X.x) + ", " + formatNumber(X.y) + ", " + formatNumber(X.z) + " m",
+        "MaterialPoint", "give a reference position in the mesh");
+  element_ = place->element;
+  xi_ = place->xi;
+  N_ = std::move(place->shape);
+  auto e = static_cast<std::size_t>(element_);
+  const auto group = std::ranges::find_if(mesh.groups, [&](const CellGroup& g) {
+    if (e < g.size()) return true;
+    e -= g.size();
+    return false;
+  });
+  shape_ = group->shape;
+  const std::span<const int> nodes = std::span(group->node).subspan(N_.size() * e, N_.size());
+  node_.assign(nodes.begin(), nodes.end());
+  for (const int node : nodes) X_.push_back(mesh.X[static_cast<std::size_t>(node)]);
 }
 
 Vec3 MaterialPoint::valueOf(std::span<const Vec3> field) const {
@@ -112,7 +78,7 @@ std::array<double, 9> MaterialPoint::stress(const Solid::Sample& sample) const {
   Eigen::MatrixXd places(count, columns), stresses(count, 9);
   for (Eigen::Index k = 0; k < count; ++k) {
     const std::size_t q = points[static_cast<std::size_t>(k)];
-    const std::vector<double> basis = basisAt(shape_, parentPlace(shape_, X_, sample.X[q]), points.size());
+    const std::vector<double> basis = basisAt(shape_, parentPlace(shape_, X_, sample.X[q], element_), points.size());
     places.row(k) = Eigen::Map<const Eigen::RowVectorXd>(basis.data(), columns);
     const Eigen::Matrix3d sigma = cauchy(&sample.F[9 * q], &sample.P[9 * q]);
     for (int i = 0; i < 9; ++i) stresses(k, i) = sigma(i / 3, i % 3);

@@ -362,4 +362,18 @@ void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, st
       detail::tensorProduct(nodes[a], xi, shape == CellShape::hex27, value[a], gradient[a]);
 }
 
+std::vector<double> shapeRow(CellShape shape, const Vec3& xi) {
+  std::vector<double> row(static_cast<std::size_t>(nodesOf(shape)));
+  std::array<Vec3, detail::maxCellNodes> gradient;
+  shapeFunctions(shape, xi, row, std::span(gradient).first(row.size()));
+  return row;
+}
+
+std::vector<double> shapeRow(FaceShape shape, double xi, double eta) {
+  std::vector<double> row(static_cast<std::size_t>(nodesOf(shape)));
+  std::array<double, 9> byXi, byEta;
+  detail::faceFunctions(shape, xi, eta, row, std::span(byXi).first(row.size()), std::span(byEta).first(row.size()));
+  return row;
+}
+
 }  // namespace dovetail::fem

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/mesh/cell_locator.hpp"
 
 namespace dovetail::fem {
 
@@ -15,6 +16,8 @@ public:
   /// @param X  reference position, m
   /// @throws InputError if no element is there
   MaterialPoint(const SolidMesh& mesh, const Vec3& X);
+  /// The same for many points. @param locator  of the mesh in its reference configuration
+  MaterialPoint(const SolidMesh& mesh, const CellLocator& locator, const Vec3& X);
 
   /// Number in the mesh of the element that holds it; of several, the first.
   int element() const { return element_; }

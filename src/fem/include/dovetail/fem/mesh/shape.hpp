@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
@@ -13,6 +14,10 @@ namespace dovetail::fem {
 std::span<const Vec3> parentNodes(CellShape shape);
 /// ψ_a(ξ), whose sum is one, and ∂ψ_a/∂ξ_j, nodesOf(shape) entries each.
 void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient);
+/// ψ_a(ξ) alone.
+std::vector<double> shapeRow(CellShape shape, const Vec3& xi);
+/// The same of a face: quadrilaterals fill [−1, 1]², triangles ξ, η ≥ 0 with ξ + η ≤ 1.
+std::vector<double> shapeRow(FaceShape shape, double xi, double eta);
 
 /// ψ_a(ξ) of hex8.
 std::array<double, 8> shapeValues(const Vec3& xi);
