@@ -18,7 +18,8 @@ std::vector<Vec3> currentPositions(const fem::Nodes& nodes) {
   return x;
 }
 
-double weightAt(const Place& place, std::span<const std::array<int, 8>> elements, std::span<const double> nodal) {
+double weightAt(const fem::CellPlace& place, std::span<const std::array<int, 8>> elements,
+                std::span<const double> nodal) {
   const auto& element = elements[static_cast<std::size_t>(place.element)];
   const double first = nodal[static_cast<std::size_t>(element[0])];
   double weight = first;  // exact where the nodes agree
@@ -70,16 +71,17 @@ Overlap locateOverlap(const dem::Particles& particles, std::span<const std::arra
         "there are " + std::to_string(nodalWeight.size()) + " weights for " + std::to_string(nodes.X.size()) + " nodes",
         "overlap", "give one per node");
   requireFinite(particles.x, "particle", "position", "search for the overlap");
-  const ElementLocator locator(elements, currentPositions(nodes));
+  const fem::CellLocator locator = locatorOf(elements, currentPositions(nodes));
   Overlap overlap;
   overlap.nodalWeight.assign(nodalWeight.begin(), nodalWeight.end());
-  const geometry::Box reached = geometry::expanded(boxOfWeights(elements, nodes, nodalWeight), reach);
+  const geometry::Box box = boxOfWeights(elements, nodes, nodalWeight), reached = geometry::expanded(box, reach);
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const auto place = locator.find(particles.x[i]);
+    if (!place && contains(box, particles.x[i])) overlap.stray.push_back(static_cast<int>(i));
     if (!place && (reach == 0.0 || !contains(reached, particles.x[i]))) continue;
     if (!place) {
       overlap.particle.push_back(static_cast<int>(i));
-      overlap.place.push_back({-1, {}, {}});
+      overlap.place.emplace_back();
       overlap.weight.push_back(1.0);
       continue;
     }
@@ -113,7 +115,7 @@ void weighMass(const Overlap& overlap, std::span<const double> fullMass, dem::Pa
 
 void weighContacts(const dem::Particles& particles, std::span<const std::array<int, 8>> elements,
                    const fem::Nodes& nodes, const Overlap& overlap, dem::PairList& pairs) {
-  const ElementLocator locator(elements, currentPositions(nodes));
+  const fem::CellLocator locator = locatorOf(elements, currentPositions(nodes));
   std::vector<bool> inside(particles.size(), false);
   for (const int i : overlap.particle) inside[static_cast<std::size_t>(i)] = true;
   const std::span<double> factors = pairs.writeFactors();
@@ -136,7 +138,7 @@ cg::Projection interpolationAtParticles(const Overlap& overlap, std::span<const 
                                         std::size_t nodes) {
   std::vector<cg::ProjectionRow> rows(overlap.size());
   for (std::size_t k = 0; k < overlap.size(); ++k) {
-    const Place& place = overlap.place[k];
+    const fem::CellPlace& place = overlap.place[k];
     if (place.element < 0)
       throw InputError("particle " + std::to_string(overlap.particle[k]) + " is outside of the mesh",
                        "interpolationAtParticles", "locate the overlap without a reach");

@@ -27,6 +27,13 @@ Bricks bricksOf(const fem::SolidMesh& mesh) {
   return bricks;
 }
 
+fem::CellLocator locatorOf(std::span<const std::array<int, 8>> elements, std::span<const Vec3> position) {
+  fem::CellGroup group{fem::CellShape::hex8, {}};
+  for (const std::array<int, 8>& element : elements)
+    group.node.insert(group.node.end(), element.begin(), element.end());
+  return {std::span(&group, 1), position};
+}
+
 Solid::Solid(const fem::SolidMesh& fullMesh, std::unique_ptr<fem::Model> model, double massShare)
     : mesh(bricksOf(fullMesh)),
       model_(checked(std::move(model))),

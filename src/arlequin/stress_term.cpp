@@ -49,7 +49,7 @@ StressTerm::StressTerm(const Overlap& overlap, const Bricks& mesh, const fem::No
   }
   std::vector<Vec3> position(nodes.X.size());
   for (std::size_t n = 0; n < position.size(); ++n) position[n] = nodes.X[n] + nodes.u[n];
-  const ElementLocator locator(mesh.elements, position);
+  const fem::CellLocator locator = locatorOf(mesh.elements, position);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const int i = pairs.pairs()[p][0], j = pairs.pairs()[p][1];
     const dem::PairContact contact =

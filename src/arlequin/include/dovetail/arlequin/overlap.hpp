@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "dovetail/arlequin/locate.hpp"
+#include "dovetail/arlequin/bricks.hpp"
 #include "dovetail/cg/projection.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
@@ -17,11 +17,15 @@ namespace dovetail::arlequin {
 /// Particles within the mesh, and those outside of it that kernels reach. Row k of every array is particle
 /// `particle[k]`.
 struct Overlap {
-  std::vector<int> particle;        ///< ascending
-  std::vector<Place> place;         ///< host element (−1 outside of the mesh), parent coordinates, shape functions
-  std::vector<double> weight;       ///< w at the centre
-  std::vector<int> elements;        ///< that host a particle in the overlap proper (w > 0 somewhere), ascending
-  std::vector<double> nodalWeight;  ///< w at every node of the mesh
+  std::vector<int> particle;          ///< ascending
+  std::vector<fem::CellPlace> place;  ///< host element (−1 outside of the mesh), parent coordinates, shape functions
+  std::vector<double> weight;         ///< w at the centre
+  std::vector<int> elements;          ///< that host a particle in the overlap proper (w > 0 somewhere), ascending
+  std::vector<double> nodalWeight;    ///< w at every node of the mesh
+  /// Particles, ascending, that lie in no element, but in the box around the elements with w > 0: beyond a free face
+  /// that is not along the axes, in a notch, or where the mesh was meant to be. They count in full and are tied to
+  /// nothing.
+  std::vector<int> stray;
 
   std::size_t size() const { return particle.size(); }
 };
