@@ -255,5 +255,53 @@ TEST(TiedInterface, SlavesOffTheFacesAreRefusedByNumber) {
   EXPECT_THROW(tieInterface(stack.mesh, std::array{99999}, stack.masters, 1e-2), InputError);
 }
 
+/// What ties a slave to one face alone, if it is near enough; and how far it lies from it.
+double tieTo(const SolidMesh& mesh, int slave, const Face& face, std::vector<Tie>& ties) {
+  try {
+    ties = tieInterface(mesh, std::array{slave}, std::array{face}, 0.3);
+  } catch (const InputError&) {
+    return INFINITY;
+  }
+  Vec3 foot;
+  for (const auto& master : ties[0].masters) foot += master.factor * mesh.X[static_cast<std::size_t>(master.node)];
+  return norm(foot - mesh.X[static_cast<std::size_t>(slave)]);
+}
+
+TEST(TiedInterface, TheNearestOfManyFacesIsFound) {
+  std::mt19937 random(6);
+  for (const CellShape shape :
+       {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet4, CellShape::tet10}) {
+    SolidMesh mesh = boxOf(shape, {5, 4, 1}, {}, {5, 4, 1});
+    for (Vec3& X : mesh.X) X += Vec3{0, 0, 0.2 * std::sin(1.3 * X.x + X.y)} + randomVec3(random, 0.03);
+    const std::vector<Face> masters = faceSet(mesh, "z+");
+    std::vector<int> slaves;
+    for (int k = 0; k < 60; ++k) {
+      const Vec3 x = Vec3{2.5, 2.0, 1.0} + 0.98 * randomVec3(random, 1.0);
+      slaves.push_back(static_cast<int>(mesh.X.size()));
+      mesh.X.push_back(
+          {2.5 + 2.4 * (x.x - 2.5), 2.0 + 1.9 * (x.y - 2.0), 1.0 + 0.2 * std::sin(2.0 * x.x) * (x.z - 1.0)});
+    }
+    int tied = 0;
+    for (const int slave : slaves) {
+      std::vector<Tie> best, one;
+      double least = INFINITY;
+      for (const Face& face : masters)
+        if (const double distance = tieTo(mesh, slave, face, one); distance < least) least = distance, best = one;
+      if (!(least < 0.29)) continue;
+      ++tied;
+      const std::vector<Tie> found = tieInterface(mesh, std::array{slave}, masters, 0.3);
+      ASSERT_EQ(found.size(), best.size());
+      for (std::size_t c = 0; c < 3; ++c) {
+        ASSERT_EQ(found[c].masters.size(), best[c].masters.size()) << name(shape);
+        for (std::size_t a = 0; a < best[c].masters.size(); ++a) {
+          EXPECT_EQ(found[c].masters[a].node, best[c].masters[a].node) << name(shape);
+          EXPECT_EQ(found[c].masters[a].factor, best[c].masters[a].factor) << name(shape);
+        }
+      }
+    }
+    EXPECT_GT(tied, 20) << name(shape);
+  }
+}
+
 }  // namespace
 }  // namespace dovetail::fem

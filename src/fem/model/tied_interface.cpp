@@ -5,34 +5,55 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/model/ties.hpp"
+#include "dovetail/geometry/hierarchical_grid.hpp"
 
 namespace dovetail::fem {
 
 namespace {
 
-struct FaceBox {
-  Vec3 lower, upper;
-};
-
-FaceBox boxOfFace(const SolidMesh& mesh, const Face& face, double margin) {
-  const std::span<const int> nodes = nodesOf(face);
-  FaceBox box{mesh.X[static_cast<std::size_t>(nodes[0])], mesh.X[static_cast<std::size_t>(nodes[0])]};
-  for (const int n : nodes)
-    for (int c = 0; c < 3; ++c) {
-      box.lower[c] = std::min(box.lower[c], mesh.X[static_cast<std::size_t>(n)][c]);
-      box.upper[c] = std::max(box.upper[c], mesh.X[static_cast<std::size_t>(n)][c]);
+/// Faces sorted by their boxes.
+class FaceSearch {
+public:
+  /// @param margin  that boxes are grown by, m, > 0
+  FaceSearch(const SolidMesh& mesh, std::span<const Face> faces, double margin) {
+    std::vector<Vec3> centre;
+    std::vector<double> radius;
+    for (const Face& face : faces) {
+      const geometry::Box& box = boxes_.emplace_back(boxOfFace(mesh, face, margin));
+      centre.push_back(0.5 * (box.lower + box.upper));
+      radius.push_back((0.5 + 1e-9) * norm(box.upper - box.lower));
     }
-  // Curved faces bulge out of the box of their nodes by less than its diagonal.
-  const double reach = margin + (nodes.size() > 4 ? 0.25 * norm(box.upper - box.lower) : 0.0);
-  box.lower -= {reach, reach, reach};
-  box.upper += {reach, reach, reach};
-  return box;
-}
+    grid_.build(centre, radius);
+  }
 
-bool contains(const FaceBox& box, const Vec3& x) {
-  return x.x >= box.lower.x && x.y >= box.lower.y && x.z >= box.lower.z && x.x <= box.upper.x && x.y <= box.upper.y &&
-         x.z <= box.upper.z;
-}
+  /// Numbers of the faces whose box holds x, ascending.
+  std::vector<int> at(const Vec3& x) const {
+    std::vector<int> found = grid_.query({x, x});
+    std::erase_if(found, [&](int face) { return !contains(boxes_[static_cast<std::size_t>(face)], x); });
+    return found;
+  }
+
+private:
+  static geometry::Box boxOfFace(const SolidMesh& mesh, const Face& face, double margin) {
+    const std::span<const int> nodes = nodesOf(face);
+    geometry::Box box{mesh.X[static_cast<std::size_t>(nodes[0])], mesh.X[static_cast<std::size_t>(nodes[0])]};
+    for (const int n : nodes)
+      for (int c = 0; c < 3; ++c) {
+        box.lower[c] = std::min(box.lower[c], mesh.X[static_cast<std::size_t>(n)][c]);
+        box.upper[c] = std::max(box.upper[c], mesh.X[static_cast<std::size_t>(n)][c]);
+      }
+    // Curved faces bulge out of the box of their nodes by less than its diagonal.
+    return geometry::expanded(box, margin + (nodes.size() > 4 ? 0.25 * norm(box.upper - box.lower) : 0.0));
+  }
+
+  static bool contains(const geometry::Box& box, const Vec3& x) {
+    return x.x >= box.lower.x && x.y >= box.lower.y && x.z >= box.lower.z && x.x <= box.upper.x && x.y <= box.upper.y &&
+           x.z <= box.upper.z;
+  }
+
+  std::vector<geometry::Box> boxes_;
+  geometry::HierarchicalGrid grid_;
+};
 
 struct Projected {
   double distance;
@@ -87,12 +108,11 @@ std::vector<Tie> tieInterface(const SolidMesh& mesh, std::span<const int> slaves
                               double tolerance) {
   requirePositive(tolerance, "tolerance of tied interfaces");
   requireFaces(masters, mesh.X.size(), "tieInterface");
-  std::vector<FaceBox> boxes;
+  requireFinite(mesh.X, "node", "position", "tieInterface");
   std::vector<char> isMaster(mesh.X.size(), 0);
-  for (const Face& face : masters) {
-    boxes.push_back(boxOfFace(mesh, face, tolerance));
+  for (const Face& face : masters)
     for (const int n : nodesOf(face)) isMaster[static_cast<std::size_t>(n)] = 1;
-  }
+  const FaceSearch search(mesh, masters, tolerance);
   std::vector<Tie> ties;
   for (const int slave : slaves) {
     const std::string label = "node " + std::to_string(slave);
@@ -102,10 +122,10 @@ std::vector<Tie> tieInterface(const SolidMesh& mesh, std::span<const int> slaves
       throw InputError(label + " belongs to a master face", "tieInterface", "leave it out of the slaves");
     Projected best{INFINITY, {}};
     const Face* nearest = nullptr;
-    for (std::size_t i = 0; i < masters.size(); ++i) {
-      if (!contains(boxes[i], mesh.X[static_cast<std::size_t>(slave)])) continue;
-      const Projected found = project(mesh, masters[i], mesh.X[static_cast<std::size_t>(slave)]);
-      if (found.distance < best.distance) best = found, nearest = &masters[i];
+    for (const int i : search.at(mesh.X[static_cast<std::size_t>(slave)])) {
+      const Face& face = masters[static_cast<std::size_t>(i)];
+      const Projected found = project(mesh, face, mesh.X[static_cast<std::size_t>(slave)]);
+      if (found.distance < best.distance) best = found, nearest = &face;
     }
     if (!(best.distance <= tolerance))
       throw InputError(label + " lies farther than " + formatNumber(tolerance) + " m from the master faces",

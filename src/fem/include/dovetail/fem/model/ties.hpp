@@ -43,7 +43,8 @@ std::array<double, 9> averageFirstStress(const Nodes& nodes, std::span<const Vec
 /// Let the finer side be the slave.
 /// @param slaves     node numbers; none may be a node of the faces
 /// @param tolerance  largest distance of a slave from the faces, m, > 0
-/// @throws InputError naming a slave that lies farther away or belongs to a master face
+/// @throws InputError naming a slave that lies farther away or belongs to a master face; NumericalError naming a node
+///         whose position is not finite
 std::vector<Tie> tieInterface(const SolidMesh& mesh, std::span<const int> slaves, std::span<const Face> masters,
                               double tolerance);
 
