@@ -110,7 +110,7 @@ private:
   /// Flow stress over the layer of points next to the middle section, weighted by their volume.
   void readMaterial(Model& model, NeckingStep& step) const {
     const Solid::Sample sample = solid_.sample(model.nodes, {model.t, 0.0});
-    const std::size_t size = solid_.material().historySize();
+    const std::size_t size = solid_.material()->historySize();
     const YieldCurve yield = NeckingBar::material().yield;
     double lowest = NeckingBar::halfLength, volume = 0.0;
     for (const Vec3& X : sample.X) lowest = std::min(lowest, X.z);

@@ -64,7 +64,7 @@ Shape shapeOf(const Bar& bar) {
 /// Largest accumulated plastic strain at a quadrature point.
 double largestStrain(Bar& bar) {
   const Solid::Sample sample = bar.solid->sample(bar.model.nodes, {bar.model.t, 0.0});
-  const std::size_t size = bar.solid->material().historySize();
+  const std::size_t size = bar.solid->material()->historySize();
   double most = 0.0;
   for (std::size_t q = 0; q < sample.volume.size(); ++q) most = std::max(most, sample.history[size * q + 9]);
   return most;

@@ -38,6 +38,6 @@ Solid::Solid(const fem::SolidMesh& fullMesh, std::unique_ptr<fem::Model> model, 
     : mesh(bricksOf(fullMesh)),
       model_(checked(std::move(model))),
       motion_(*model_, massShare),
-      material_(*fem::requireBrickSolid(*model_, "volume coupling").material().brickLaw()) {}
+      material_(*fem::requireBrickSolid(*model_, "volume coupling").material()->brickLaw()) {}
 
 }  // namespace dovetail::arlequin

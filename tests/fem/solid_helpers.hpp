@@ -101,7 +101,7 @@ inline double massOf(const Solid& solid, std::size_t nodes) {
   return std::accumulate(mass.begin(), mass.end(), 0.0);
 }
 inline double volumeOf(const SolidScene& scene) {
-  return massOf(*scene.solid, scene.model.nodes.X.size()) / scene.solid->material().density();
+  return massOf(*scene.solid, scene.model.nodes.X.size()) / scene.solid->material()->density();
 }
 
 inline std::vector<Vec3> forcesOf(Term& term, const Nodes& nodes) {

@@ -99,7 +99,7 @@ TEST(PlasticSolid, AnImpactTurnsItsEnergyIntoPlasticWork) {
   EXPECT_LT(std::abs(integrator.ledger().residual()), 0.02 * start);
   EXPECT_LT(integrator.kineticEnergy(), 0.05 * start);
   const Solid::Sample sample = rod->sample(model.nodes, {model.t, dt});
-  const std::size_t size = rod->material().historySize();
+  const std::size_t size = rod->material()->historySize();
   double dissipated = 0.0, deepest = 0.0, volume = 0.0, before = 0.0;
   for (std::size_t p = 0; p < sample.volume.size(); ++p) {
     const double a = plasticStrain({&sample.history[p * size], size});

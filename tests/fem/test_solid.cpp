@@ -280,7 +280,7 @@ TEST(Solid, MassesSumToThatOfTheBody) {
 
 TEST(Solid, AnElasticSolidStoresNoHistoryAndInvertedElementsAreNamed) {
   SolidScene scene = solidScene({CellShape::hex8, Formulation::standard}, false);
-  EXPECT_EQ(scene.solid->material().historySize(), 0u);
+  EXPECT_EQ(scene.solid->material()->historySize(), 0u);
   scene.solid->requireValid(scene.model.nodes, "t = 0 s", Scrutiny::all);
   Nodes& nodes = scene.model.nodes;
   for (std::size_t n = 0; n < nodes.X.size(); ++n)
@@ -298,7 +298,7 @@ TEST(Solid, WrongRequestsAreRefused) {
   const SolidMesh tets = boxOf(CellShape::tet4, {1, 1, 1}, {}, {1, 1, 1});
   EXPECT_THROW(makeSolid(tets, material, {.formulation = Formulation::enhanced}), InputError);
   EXPECT_THROW(makeSolid(tets, material, {.elementSet = "nothing"}), InputError);
-  EXPECT_THROW(makeSolid(tets, nullptr), InputError);
+  EXPECT_THROW(makeSolid(tets, std::shared_ptr<const PointMaterial>{}), InputError);
   SolidScene scene = solidScene({CellShape::hex8, Formulation::standard}, false);
   Model other = makeModel(tets);
   EXPECT_THROW(forcesOf(*scene.solid, other.nodes), InputError);

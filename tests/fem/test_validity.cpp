@@ -42,7 +42,7 @@ TEST(Validity, TheFirstInvertedElementIsNamedOnAnyNumberOfThreads) {
   for (const bool distorted : {false, true}) {
     const SolidMesh mesh = testMesh({10, 10, 10}, distorted);
     for (SolidScene& scene : hexScenes(mesh)) {
-      SCOPED_TRACE(std::string(name(scene.solid->formulation())) + ", " + scene.solid->material().name());
+      SCOPED_TRACE(std::string(name(scene.solid->formulation())) + ", " + scene.solid->material()->name());
       Nodes& nodes = scene.model.nodes;
       setRandom(nodes.u, 0.004, 8);
       for (const Scrutiny scrutiny : {Scrutiny::inversion, Scrutiny::all})

@@ -78,16 +78,14 @@ detail::SolidCells cellsOf(const SolidMesh& mesh, const std::string& set, std::s
   return cells;
 }
 
-}  // namespace
-
-const char* name(Formulation formulation) {
-  constexpr std::array names = {"standard", "mean dilatation", "enhanced", "assumed stress", "reduced"};
-  return names[static_cast<std::size_t>(formulation)];
+/// The formulations that ask their points once for a state.
+bool asksOnce(Formulation formulation) {
+  return formulation == Formulation::standard || formulation == Formulation::meanDilatation ||
+         formulation == Formulation::reduced;
 }
 
-std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const PointMaterial> material,
-                                 const SolidOptions& options) {
-  if (material == nullptr) throw InputError("there is no material", "makeSolid", "give one, for instance neoHookean()");
+std::shared_ptr<Solid> makeSolidOf(const SolidMesh& mesh, std::unique_ptr<detail::SolidPoints> points,
+                                   const SolidOptions& options) {
   validate(mesh);
   requireShare(options.share, mesh.X.size());
   detail::SolidCells cells = cellsOf(mesh, options.elementSet, options.share);
@@ -98,17 +96,38 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const Po
         "makeSolid", "use Formulation::standard, or a mesh of hex8");
   switch (options.formulation) {
     case Formulation::meanDilatation:
-      return detail::makeMeanDilatationSolid(std::move(cells), std::move(material), options);
+      return detail::makeMeanDilatationSolid(std::move(cells), std::move(points), options);
     case Formulation::enhanced:
-      return detail::makeEnhancedSolid(std::move(cells), std::move(material), options);
+      return detail::makeEnhancedSolid(std::move(cells), std::move(points), options);
     case Formulation::assumedStress:
-      return detail::makeAssumedStressSolid(std::move(cells), std::move(material), options);
+      return detail::makeAssumedStressSolid(std::move(cells), std::move(points), options);
     case Formulation::reduced:
       requireNonNegative(options.hourglassShare, "hourglassShare");
-      return detail::makeReducedSolid(std::move(cells), std::move(material), options);
+      return detail::makeReducedSolid(std::move(cells), std::move(points), options);
     default:
-      return detail::makeStandardSolid(std::move(cells), std::move(material), options);
+      return detail::makeStandardSolid(std::move(cells), std::move(points), options);
   }
+}
+
+}  // namespace
+
+const char* name(Formulation formulation) {
+  constexpr std::array names = {"standard", "mean dilatation", "enhanced", "assumed stress", "reduced"};
+  return names[static_cast<std::size_t>(formulation)];
+}
+
+std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const PointMaterial> material,
+                                 const SolidOptions& options) {
+  return makeSolidOf(mesh, detail::pointsOf(std::move(material)), options);
+}
+
+std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<PointField> field,
+                                 const SolidOptions& options) {
+  if (!asksOnce(options.formulation))
+    throw InputError(std::string("the formulation \"") + name(options.formulation) +
+                         "\" asks points again and again, or for a law of its own, not a field",
+                     "makeSolid", "use Formulation::standard, meanDilatation or reduced");
+  return makeSolidOf(mesh, detail::pointsOf(std::move(field)), options);
 }
 
 const Solid& requireBrickSolid(const Model& model, const std::string& who) {
@@ -129,7 +148,8 @@ const Solid& requireBrickSolid(const Model& model, const std::string& who) {
   if (solid->shape() != CellShape::hex8) refuse(std::string("elements of the shape ") + name(solid->shape()));
   if (solid->formulation() != Formulation::standard && solid->formulation() != Formulation::assumedStress)
     refuse(std::string("the formulation \"") + name(solid->formulation()) + "\"");
-  if (!solid->material().brickLaw()) refuse("the law \"" + solid->material().name() + "\"");
+  if (solid->material() == nullptr) refuse("a field of points");
+  if (!solid->material()->brickLaw()) refuse("the law \"" + solid->material()->name() + "\"");
   if (!model.constraints.ties.empty()) refuse("ties");
   for (const auto& p : model.constraints.prescribed)
     if (p.displacement) refuse("prescribed motion");

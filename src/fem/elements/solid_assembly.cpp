@@ -89,11 +89,12 @@ void SolidBase::scatter(std::size_t batch, const Lane* matrix, double share, Blo
 
 void SolidBase::assemble(const Nodes& nodes, const Instant& now, const Vec3* start, double share, BlockMatrix& K) {
   requireSameNodes(nodes);
-  startHistory();
   needGeometry();
+  start == nullptr ? ask(nodes, now, true) : openPoints();
   colourBatches();
   findPlaces(K);
-  evaluation_.known = false;  // histories are now those of the last batch evaluated with a tangent
+  // Histories of laws are now those of the last batch evaluated with a tangent.
+  if (points_->law()) evaluation_.known = false;
   const std::size_t size = 9 * cells_.nodes * cells_.nodes;
   for (const std::vector<std::uint32_t>& colour : colours_)
     parallelFor(colour.size(), cells_.nodes > 10 ? 2 : 8, [&](std::size_t begin, std::size_t end) {
@@ -121,20 +122,20 @@ void SolidBase::addConsistentMass(NodeMatrix& M) const {
   std::vector<int> nodes(cells_.nodes);
   for (std::size_t e = 0; e < cells_.size(); ++e) {
     for (std::size_t a = 0; a < nodes.size(); ++a) nodes[a] = cells_.nodeOf(e, a);
-    M.add(nodes, consistentMass(cells_, e, material_->density()));
+    M.add(nodes, consistentMass(cells_, e, density()));
   }
 }
 
 void SolidBase::addMass(std::span<double> mass) const {
   for (std::size_t e = 0; e < cells_.size(); ++e) {
-    const std::vector<double> own = lumpedMass(cells_, e, material_->density());
+    const std::vector<double> own = lumpedMass(cells_, e, density());
     for (std::size_t a = 0; a < cells_.nodes; ++a) mass[static_cast<std::size_t>(cells_.nodeOf(e, a))] += own[a];
   }
 }
 
 void SolidBase::addBodyMass(std::span<double> mass) const {
   for (std::size_t e = 0; e < cells_.size(); ++e) {
-    const std::vector<double> own = rowSumsOfMass(cells_, e, material_->density());
+    const std::vector<double> own = rowSumsOfMass(cells_, e, density());
     for (std::size_t a = 0; a < cells_.nodes; ++a) mass[static_cast<std::size_t>(cells_.nodeOf(e, a))] += own[a];
   }
 }

@@ -10,20 +10,22 @@ namespace {
 
 class AssumedStressSolid final : public SolidBase {
 public:
-  AssumedStressSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options,
+  AssumedStressSolid(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options,
                      const Material& law)
-      : SolidBase(std::move(cells), std::move(material), options, true), law_(law) {
+      : SolidBase(std::move(cells), std::move(points), options, true), law_(law) {
     useKernels(law, true);
   }
 
 private:
   void deformation(const BatchTask& task, Lane* F) const override {
-    Lane U[24];
-    gatherNodes<8>(cells_, task.batch, task.u, U);
-    for (std::size_t q = 0; q < 8; ++q) {
-      displacementGradient<8>(U, &rule_->gradient[8 * q], geometry_[task.batch * 8 + q].map, F + 9 * q);
-      addIdentity(F + 9 * q);
-    }
+    withVectors([&] {
+      Lane U[24];
+      gatherNodes<8>(cells_, task.batch, task.u, U);
+      for (std::size_t q = 0; q < 8; ++q) {
+        displacementGradient<8>(U, &rule_->gradient[8 * q], geometry_[task.batch * 8 + q].map, F + 9 * q);
+        addIdentity(F + 9 * q);
+      }
+    });
   }
   void forces(const BatchTask& task, BatchResult& result) override { forcesByKernels(task, result); }
   void tangent(const BatchTask& task, Lane* K) override {
@@ -41,13 +43,13 @@ private:
 
 }  // namespace
 
-std::shared_ptr<Solid> makeAssumedStressSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material,
+std::shared_ptr<Solid> makeAssumedStressSolid(SolidCells cells, std::unique_ptr<SolidPoints> points,
                                               const SolidOptions& options) {
-  const auto law = material->brickLaw();
+  const auto law = points->law()->brickLaw();
   if (!law || !std::holds_alternative<StVenantKirchhoff>(*law))
-    throw InputError("assumed stress is for St Venant-Kirchhoff, not for " + material->name(), "makeSolid",
+    throw InputError("assumed stress is for St Venant-Kirchhoff, not for " + points->law()->name(), "makeSolid",
                      "use Formulation::enhanced, which takes any material");
-  return std::make_shared<AssumedStressSolid>(std::move(cells), std::move(material), options, *law);
+  return std::make_shared<AssumedStressSolid>(std::move(cells), std::move(points), options, *law);
 }
 
 }  // namespace dovetail::fem::detail

@@ -18,9 +18,8 @@ double sumOfLanes(const Lane& lane) { return (lane[0] + lane[1]) + (lane[2] + la
 
 }  // namespace
 
-SolidBase::SolidBase(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options,
-                     bool lazy)
-    : cells_(std::move(cells)), material_(std::move(material)), options_(options), rule_(&forceRule(cells_.shape)) {
+SolidBase::SolidBase(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options, bool lazy)
+    : cells_(std::move(cells)), points_(std::move(points)), options_(options), rule_(&forceRule(cells_.shape)) {
   options_.share.clear();  // the cells have it
   if (!lazy) needGeometry();
 }
@@ -42,46 +41,57 @@ void SolidBase::requireSameNodes(const Nodes& nodes) const {
                      options_.name, "use the nodes of the same mesh");
 }
 
-/// Fills the history on first use, when the number of points is known.
-void SolidBase::startHistory() {
-  const std::size_t size = material_->historySize(), lanes = cells_.batches() * points() * laneCount;
-  if (size == 0 || !history_.empty()) return;
-  history_.resize(lanes * size);
-  for (std::size_t p = 0; p < lanes; ++p) material_->startHistory(std::span(history_).subspan(p * size, size));
-  newHistory_ = history_;
+/// Calls visit(element, point, X, volume) for all quadrature points, element by element.
+template <class Visit>
+void SolidBase::eachPoint(Visit&& visit) const {
+  const std::size_t n = cells_.nodes, points = pointCount();
+  const CellRule& rule = points == static_cast<std::size_t>(rule_->points) ? *rule_ : centreRule(cells_.shape);
+  for (std::size_t e = 0; e < cells_.size(); ++e)
+    for (std::size_t q = 0; q < points; ++q) {
+      Vec3 X;
+      for (std::size_t a = 0; a < n; ++a)
+        X += rule.value[n * q + a] * cells_.X[static_cast<std::size_t>(cells_.nodeOf(e, a))];
+      visit(e, q, X, geometry_[e / laneCount * points + q].weight[static_cast<int>(e % laneCount)]);
+    }
+}
+
+void SolidBase::openPoints() {
+  if (points_->isOpen()) return;
+  std::vector<PointPlace> places;
+  if (points_->remembers()) {
+    needGeometry();
+    eachPoint([&](std::size_t e, std::size_t q, const Vec3& X, double volume) {
+      places.push_back({cells_.number[e], static_cast<int>(q), X, volume});
+    });
+  }
+  points_->open(pointCount(), places);
+}
+
+/// Has a field of points answer for all of them, unless it has.
+/// @param toRead  not to go on from: answers of a state that was committed since will do
+void SolidBase::ask(const Nodes& nodes, const Instant& now, bool withTangent, bool toRead) {
+  openPoints();
+  FieldPoints* const field = points_->field();
+  if (field == nullptr || field->knows(nodes.u, now.dt, withTangent, toRead)) return;
+  needGeometry();
+  parallelFor(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
+    LaneVector F(9 * pointCount());
+    for (std::size_t b = begin; b < end; ++b) {
+      deformation(taskOf(b, nodes, now), F.data());
+      field->gather(b, F.data());
+    }
+  });
+  field->ask(nodes.u, now.dt, withTangent, options_.name);
 }
 
 void SolidBase::load(ByteReader& archive) {
-  startHistory();
+  openPoints();
+  points_->load(archive, options_.name);
   evaluation_ = {};
-  history_ = readNumbers(archive, history_.size());
-}
-
-std::vector<double> SolidBase::readNumbers(ByteReader& archive, std::size_t count) const {
-  std::vector<double> values;
-  archive(values);
-  if (values.size() != count)
-    throw InputError("the state is that of another solid", options_.name, "load it into the model that wrote it");
-  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
-    throw InputError("the state is not finite", options_.name, "take an older one");
-  return values;
 }
 
 void SolidBase::evaluate(const BatchTask& task, const Lane* F, Lane* P, Lane* tangent, Lane* energy, Lane* dissipated) {
-  const std::size_t size = material_->historySize(), offset = task.batch * points() * laneCount * size;
-  PointBatch batch{};
-  batch.groups = points();
-  batch.F = reinterpret_cast<const double*>(F);
-  batch.P = reinterpret_cast<double*>(P);
-  batch.tangent = reinterpret_cast<double*>(tangent);
-  batch.energy = reinterpret_cast<double*>(energy);
-  batch.dissipated = reinterpret_cast<double*>(dissipated);
-  if (size > 0) {
-    batch.history = history_.data() + offset;
-    batch.newHistory = newHistory_.data() + offset;
-  }
-  batch.dt = task.dt;
-  material_->evaluate(batch);
+  points_->evaluate({task.batch, task.dt, F, P, tangent, energy, dissipated});
 }
 
 BatchTask SolidBase::taskOf(std::size_t batch, const Nodes& nodes, const Instant& now, const Vec3* start) const {
@@ -163,7 +173,7 @@ SolidBase::Totals SolidBase::eachBatch(std::span<Vec3> f, Body&& body) {
 SolidBase::Totals SolidBase::addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f,
                                     bool withEnergy) {
   requireSameNodes(nodes);
-  startHistory();
+  ask(nodes, now);
   if (bricks_ && start == nullptr) {
     // The kernels are in a file of their own and write to memory, so that no compiler fuses a product of theirs with
     // the sum over elements: one thread and many then add the very same numbers.
@@ -174,7 +184,7 @@ SolidBase::Totals SolidBase::addAll(const Nodes& nodes, const Instant& now, cons
     });
   }
   if (start != nullptr) needGeometry();
-  const bool remembers = material_->historySize() > 0 && start == nullptr;
+  const bool remembers = points_->remembers() && start == nullptr;
   const Totals sum = eachBatch(f, [&](std::size_t b, Lane* lanes) {
     BatchTask task = taskOf(b, nodes, now, start);
     task.wantEnergy = withEnergy || remembers;
@@ -200,7 +210,7 @@ double SolidBase::addForcesAndEnergy(const Nodes& nodes, const Instant& now, std
 
 bool SolidBase::addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
                                     std::span<Vec3> f) {
-  if (!material_->isElastic()) return false;
+  if (!points_->isElastic()) return false;
   requireSameNodes(nodes);
   if (!conserves()) setPath(u0, nodes.u);
   addAll(nodes, now, u0.data(), f, false);
@@ -214,9 +224,9 @@ bool SolidBase::isKnown(const Nodes& nodes, const Instant& now) const {
 /// Energy and dissipation at a state, asked of the material only if the last forces were not those of the same state.
 SolidBase::Totals SolidBase::totals(const Nodes& nodes, const Instant& now) {
   requireSameNodes(nodes);
-  startHistory();
   if (isKnown(nodes, now)) return evaluation_.totals;
-  const bool remembers = material_->historySize() > 0;
+  ask(nodes, now, false, true);
+  const bool remembers = points_->remembers();
   const Totals sum =
       parallelSum(cells_.batches(), bricks_ ? kernelGrain : batchGrain, [&](std::size_t begin, std::size_t end) {
         Totals part;
@@ -252,7 +262,7 @@ double SolidBase::energy(const Nodes& nodes, const Instant& now) { return totals
 
 std::vector<double> SolidBase::elementEnergies(const Nodes& nodes, const Instant& now) {
   requireSameNodes(nodes);
-  startHistory();
+  ask(nodes, now, false, true);
   std::vector<double> energies(cells_.size());
   parallelFor(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
     BatchResult result;
@@ -269,10 +279,11 @@ std::vector<double> SolidBase::elementEnergies(const Nodes& nodes, const Instant
 }
 
 double SolidBase::commit(const Nodes& nodes, const Instant& now) {
-  if (material_->historySize() == 0) return 0.0;
+  if (!points_->remembers()) return 0.0;
   if (evaluation_.committed) evaluation_.known = false;
+  ask(nodes, now);
   const double dissipated = totals(nodes, now).dissipated;
-  history_.swap(newHistory_);
+  points_->commit();
   evaluation_.committed = true;
   return dissipated;
 }
@@ -299,7 +310,7 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when, Scruti
   const bool byKernels = bricks_ && scrutiny == Scrutiny::inversion;
   if (!byKernels) needGeometry();
   parallelFor(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
-    LaneVector F(9 * points());
+    LaneVector F(9 * pointCount());
     for (std::size_t b = begin; b < end; ++b) {
       if (byKernels) {
         requireUpright(b, nodes, when);
@@ -307,11 +318,10 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when, Scruti
       }
       compatibleDeformation({b, nodes.u.data(), nullptr, 0.0, false, false}, F.data());
       for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane)
-        for (std::size_t q = 0; q < points(); ++q) {
+        for (std::size_t q = 0; q < pointCount(); ++q) {
           std::array<double, 9> here;
           for (std::size_t k = 0; k < 9; ++k) here[k] = F[9 * q + k][static_cast<int>(lane)];
-          const std::string reason = scrutiny == Scrutiny::inversion ? material_->PointMaterial::whyInvalid(here.data())
-                                                                     : material_->whyInvalid(here.data());
+          const std::string reason = points_->whyInvalid(here.data(), scrutiny);
           if (!reason.empty()) complain(b, lane, "at point " + std::to_string(q) + ": " + reason, when);
         }
     }
@@ -321,41 +331,36 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when, Scruti
 std::size_t SolidBase::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(cells_.number) + bytes(cells_.X) + bytes(cells_.share) + bytes(cells_.batchNode) + bytes(geometry_) +
-         bytes(history_) + bytes(newHistory_) + bytes(evaluation_.u) + bytes(results_) + bytes(nodeOffsets_) +
+         points_->memory() + bytes(evaluation_.u) + bytes(results_) + bytes(nodeOffsets_) +
          bytes(nodeEntries_) + bytes(places_) + (bricks_ ? bricks_->memory() : 0) + formulationMemory();
 }
 
 Solid::Sample SolidBase::sample(const Nodes& nodes, const Instant& now) {
   requireSameNodes(nodes);
-  startHistory();
   needGeometry();
+  ask(nodes, now, false, true);
   evaluation_.known = false;
-  const std::size_t n = cells_.nodes, q = points(), size = material_->historySize();
-  LaneVector F(9 * q), P(9 * q), energy(q);
+  const std::size_t points = pointCount();
+  LaneVector F(9 * points), P(9 * points), energy(points);
   Sample sample;
-  for (std::size_t b = 0; b < cells_.batches(); ++b) {
-    const BatchTask task = taskOf(b, nodes, now);
-    deformation(task, F.data());
-    evaluate(task, F.data(), P.data(), nullptr, energy.data(), nullptr);
-    const CellRule& rule = q == static_cast<std::size_t>(rule_->points) ? *rule_ : centreRule(cells_.shape);
-    for (std::size_t lane = 0; lane < cells_.inUse(b); ++lane)
-      for (std::size_t p = 0; p < q; ++p) {
-        sample.element.push_back(cells_.number[laneCount * b + lane]);
-        Vec3 X;
-        for (std::size_t a = 0; a < n; ++a)
-          X += rule.value[n * p + a] * cells_.X[static_cast<std::size_t>(cells_.batchNode[n * b + a][lane])];
-        sample.X.push_back(X);
-        sample.volume.push_back(geometry_[b * q + p].weight[lane]);
-        for (std::size_t k = 0; k < 9; ++k) {
-          sample.F.push_back(F[9 * p + k][lane]);
-          sample.P.push_back(P[9 * p + k][lane]);
-        }
-        sample.energy.push_back(energy[p][lane]);
-        const std::size_t point = (b * q + p) * laneCount + lane;
-        sample.history.insert(sample.history.end(), history_.begin() + static_cast<std::ptrdiff_t>(point * size),
-                              history_.begin() + static_cast<std::ptrdiff_t>((point + 1) * size));
-      }
-  }
+  eachPoint([&](std::size_t e, std::size_t q, const Vec3& X, double volume) {
+    if (e % laneCount == 0 && q == 0) {
+      const BatchTask task = taskOf(e / laneCount, nodes, now);
+      deformation(task, F.data());
+      evaluate(task, F.data(), P.data(), nullptr, energy.data(), nullptr);
+    }
+    const int lane = static_cast<int>(e % laneCount);
+    sample.element.push_back(cells_.number[e]);
+    sample.X.push_back(X);
+    sample.volume.push_back(volume);
+    for (std::size_t k = 0; k < 9; ++k) {
+      sample.F.push_back(F[9 * q + k][lane]);
+      sample.P.push_back(P[9 * q + k][lane]);
+    }
+    sample.energy.push_back(energy[q][lane]);
+    const std::span<const double> history = points_->history(e, q);
+    sample.history.insert(sample.history.end(), history.begin(), history.end());
+  });
   return sample;
 }
 

@@ -10,6 +10,7 @@
 #include "dovetail/fem/solve/block_matrix.hpp"
 #include "lane.hpp"
 #include "solid_cells.hpp"
+#include "solid_points.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -31,8 +32,7 @@ struct BatchTask {
 class SolidBase : public Solid {
 public:
   /// @param lazy  leave geometry_ empty until needGeometry()
-  SolidBase(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options,
-            bool lazy = false);
+  SolidBase(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options, bool lazy = false);
   ~SolidBase() override;
 
   std::string name() const override { return options_.name; }
@@ -44,21 +44,22 @@ public:
   bool addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
                            std::span<Vec3> f) override;
   void addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now, BlockMatrix& K) override;
-  bool isSymmetric() const override { return material_->isSymmetric(); }
-  /// A law without potential has no history either that would book what its work leaves.
-  bool hasEnergy() const override { return material_->isElastic() || material_->historySize() > 0; }
+  bool isSymmetric() const override { return points_->isSymmetric(); }
+  bool hasEnergy() const override { return points_->hasEnergy(); }
   double energy(const Nodes& nodes, const Instant& now) override;
   double commit(const Nodes& nodes, const Instant& now) override;
+  void revert() override { points_->revert(); }
   void addMass(std::span<double> mass) const override;
   void addBodyMass(std::span<double> mass) const override;
   void addConsistentMass(NodeMatrix& M) const override;
-  void save(ByteWriter& archive) const override { archive(history_); }
+  void save(ByteWriter& archive) const override { points_->save(archive); }
   void load(ByteReader& archive) override;
   void requireValid(const Nodes& nodes, const std::string& when, Scrutiny scrutiny) override;
 
   std::size_t size() const override { return cells_.size(); }
   std::size_t memory() const override;
-  const PointMaterial& material() const override { return *material_; }
+  const PointMaterial* material() const override { return points_->law(); }
+  double density() const override { return points_->density(); }
   StableStep stableStep(const Nodes& nodes) override;
   CellShape shape() const override { return cells_.shape; }
   Formulation formulation() const override { return options_.formulation; }
@@ -68,7 +69,7 @@ public:
   std::span<const double> share() const override { return cells_.share; }
 
 protected:
-  virtual std::size_t points() const { return static_cast<std::size_t>(rule_->points); }
+  virtual std::size_t pointCount() const { return static_cast<std::size_t>(rule_->points); }
   /// Forces and, if wanted, energy and dissipation of a batch.
   virtual void forces(const BatchTask& task, BatchResult& result) = 0;
   /// Tangent of a batch, [(3 nodes)(3a + i) + 3b + k], N/m.
@@ -77,11 +78,9 @@ protected:
   virtual void deformation(const BatchTask& task, Lane* F) const = 0;
   /// The same without what the formulation replaces: what tells whether an element is inverted.
   virtual void compatibleDeformation(const BatchTask& task, Lane* F) const { deformation(task, F); }
-  /// Calls the material for a batch whose F is given; any of tangent, energy, dissipated may be null.
+  /// Asks the points of a batch whose F is given; any of tangent, energy, dissipated may be null.
   void evaluate(const BatchTask& task, const Lane* F, Lane* P, Lane* tangent, Lane* energy, Lane* dissipated);
   void requireSameNodes(const Nodes& nodes) const;
-  /// @throws InputError unless there are so many, all finite
-  std::vector<double> readNumbers(ByteReader& archive, std::size_t count) const;
   /// Whether forces() and tangent() know what to do with a `start`.
   virtual bool conserves() const { return false; }
 
@@ -89,11 +88,14 @@ protected:
   virtual std::size_t formulationMemory() const { return 0; }
   /// What the hand-written kernels say of a batch.
   void forcesByKernels(const BatchTask& task, BatchResult& result) const;
+  void needGeometry();
+  /// Tells the points where they are; called on first use.
+  void openPoints();
   /// From now on the hand-written kernels give forces and energies, and geometry() waits until something else needs it.
   void useKernels(const Material& law, bool assumedStress);
 
   SolidCells cells_;
-  std::shared_ptr<const PointMaterial> material_;
+  std::unique_ptr<SolidPoints> points_;
   SolidOptions options_;
   const CellRule* rule_;
   std::vector<PointGeometry> geometry_;  // empty where kernels do without
@@ -107,7 +109,7 @@ private:
       return *this;
     }
   };
-  /// What the last evaluation of a law with history was asked, and answered.
+  /// What the last evaluation of points that remember was asked, and answered.
   struct Evaluation {
     std::vector<Vec3> u;
     double dt = 0.0;
@@ -131,8 +133,9 @@ private:
   void energies(const BatchTask& task, BatchResult& result);
   bool isKnown(const Nodes& nodes, const Instant& now) const;
   Totals totals(const Nodes& nodes, const Instant& now);
-  void startHistory();
-  void needGeometry();
+  void ask(const Nodes& nodes, const Instant& now, bool withTangent = false, bool toRead = false);
+  template <class Visit>
+  void eachPoint(Visit&& visit) const;
   [[noreturn]] void complain(std::size_t batch, std::size_t lane, const std::string& reason,
                              const std::string& when) const;
   void requireUpright(std::size_t batch, const Nodes& nodes, const std::string& when) const;
@@ -144,7 +147,6 @@ private:
   void scatter(std::size_t batch, const Lane* matrix, double share, BlockMatrix& K) const;
 
   std::unique_ptr<const BrickCache> bricks_;  // if there are kernels
-  std::vector<double> history_, newHistory_;
   Evaluation evaluation_;
   std::array<std::vector<Vec3>, 3> path_;   // displacements at the Gauss points of the path of a conserving step
   LaneVector results_;                      // forces of all batches, for more than one thread
@@ -155,10 +157,10 @@ private:
   std::size_t placesOf_ = 0;                         // its pattern
 };
 
-std::shared_ptr<Solid> makeStandardSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
-std::shared_ptr<Solid> makeAssumedStressSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
-std::shared_ptr<Solid> makeMeanDilatationSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
-std::shared_ptr<Solid> makeEnhancedSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
-std::shared_ptr<Solid> makeReducedSolid(SolidCells, std::shared_ptr<const PointMaterial>, const SolidOptions&);
+std::shared_ptr<Solid> makeStandardSolid(SolidCells, std::unique_ptr<SolidPoints>, const SolidOptions&);
+std::shared_ptr<Solid> makeAssumedStressSolid(SolidCells, std::unique_ptr<SolidPoints>, const SolidOptions&);
+std::shared_ptr<Solid> makeMeanDilatationSolid(SolidCells, std::unique_ptr<SolidPoints>, const SolidOptions&);
+std::shared_ptr<Solid> makeEnhancedSolid(SolidCells, std::unique_ptr<SolidPoints>, const SolidOptions&);
+std::shared_ptr<Solid> makeReducedSolid(SolidCells, std::unique_ptr<SolidPoints>, const SolidOptions&);
 
 }  // namespace dovetail::fem::detail

@@ -36,9 +36,9 @@ struct alignas(laneBytes) Found {
 
 class EnhancedSolid final : public SolidBase {
 public:
-  EnhancedSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options)
-      : SolidBase(std::move(cells), std::move(material), options),
-        resolution_(16.0 * std::numeric_limits<double>::epsilon() * moduliAtRest(*material_).confined) {
+  EnhancedSolid(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options)
+      : SolidBase(std::move(cells), std::move(points), options),
+        resolution_(16.0 * std::numeric_limits<double>::epsilon() * points_->moduliAtRest().confined) {
     const std::vector<PointGeometry> centre = geometryAt(cells_, centreRule(CellShape::hex8));
     enhanced_.resize(cells_.batches());
     for (std::size_t b = 0; b < cells_.batches(); ++b) setGeometry(b, centre[b]);
@@ -75,7 +75,7 @@ public:
   }
   void load(ByteReader& archive) override {
     SolidBase::load(archive);
-    const std::vector<double> values = readNumbers(archive, committed_.size() * (M + M * M) * laneCount);
+    const std::vector<double> values = readNumbers(archive, committed_.size() * (M + M * M) * laneCount, options_.name);
     std::size_t next = 0;
     for (Committed& batch : committed_) {
       for (Lane& mode : batch.alpha)
@@ -278,7 +278,7 @@ private:
     Moduli A;
     settle(task, s);
     evaluate(task, s.F.data(), s.P.data(), A.data(), nullptr, nullptr);
-    if (material_->isSymmetric())
+    if (points_->isSymmetric())
       condensedTangent<true>(cellsOf(task.batch), s, A, K);
     else
       condensedTangent<false>(cellsOf(task.batch), s, A, K);
@@ -292,9 +292,9 @@ private:
 
 }  // namespace
 
-std::shared_ptr<Solid> makeEnhancedSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material,
+std::shared_ptr<Solid> makeEnhancedSolid(SolidCells cells, std::unique_ptr<SolidPoints> points,
                                          const SolidOptions& options) {
-  return std::make_shared<EnhancedSolid>(std::move(cells), std::move(material), options);
+  return std::make_shared<EnhancedSolid>(std::move(cells), std::move(points), options);
 }
 
 }  // namespace dovetail::fem::detail

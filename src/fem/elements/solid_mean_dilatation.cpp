@@ -21,8 +21,8 @@ DOVETAIL_INLINE Lane cubeRoot(Lane x) {
 template <int N, std::size_t Q, std::size_t L>
 class MeanDilatationSolid final : public SolidBase {
 public:
-  MeanDilatationSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options)
-      : SolidBase(std::move(cells), std::move(material), options), projection_(cells_.batches()) {
+  MeanDilatationSolid(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options)
+      : SolidBase(std::move(cells), std::move(points), options), projection_(cells_.batches()) {
     for (std::size_t b = 0; b < cells_.batches(); ++b) setProjection(b);
   }
 
@@ -248,15 +248,15 @@ private:
 
 }  // namespace
 
-std::shared_ptr<Solid> makeMeanDilatationSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material,
+std::shared_ptr<Solid> makeMeanDilatationSolid(SolidCells cells, std::unique_ptr<SolidPoints> points,
                                                const SolidOptions& options) {
   switch (cells.shape) {
     case CellShape::hex8:
-      return std::make_shared<MeanDilatationSolid<8, 8, 1>>(std::move(cells), std::move(material), options);
+      return std::make_shared<MeanDilatationSolid<8, 8, 1>>(std::move(cells), std::move(points), options);
     case CellShape::hex20:
-      return std::make_shared<MeanDilatationSolid<20, 27, 4>>(std::move(cells), std::move(material), options);
+      return std::make_shared<MeanDilatationSolid<20, 27, 4>>(std::move(cells), std::move(points), options);
     case CellShape::hex27:
-      return std::make_shared<MeanDilatationSolid<27, 27, 4>>(std::move(cells), std::move(material), options);
+      return std::make_shared<MeanDilatationSolid<27, 27, 4>>(std::move(cells), std::move(points), options);
     default:
       break;
   }

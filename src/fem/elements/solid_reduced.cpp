@@ -2,7 +2,6 @@
 //
 // Mean gradients and hourglass vectors γ after Flanagan & Belytschko (1981): γ is orthogonal to every linear field, so
 // q_α = Σ_a γ_αa u_a vanishes for affine motion, rotates with the element, and ½ k Σ |q_α|² is objective.
-#include "../laws/material_probe.hpp"
 #include "cell_kernels.hpp"
 
 namespace dovetail::fem::detail {
@@ -24,13 +23,16 @@ struct alignas(laneBytes) ReducedGeometry {
 
 class ReducedSolid final : public SolidBase {
 public:
-  ReducedSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options)
-      : SolidBase(std::move(cells), std::move(material), options) {
-    setGeometry(options.hourglassShare * moduliAtRest(*material_).shear);
+  ReducedSolid(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options)
+      : SolidBase(std::move(cells), std::move(points), options) {
+    setGeometry();
     rule_ = &centreRule(CellShape::hex8);
     std::vector<PointGeometry> centre(cells_.batches());
     for (std::size_t b = 0; b < cells_.batches(); ++b) centre[b].weight = reduced_[b].volume;
     geometry_ = std::move(centre);
+    openPoints();
+    const double modulus = options.hourglassShare * points_->moduliAtRest().shear;
+    for (ReducedGeometry& r : reduced_) r.stiffness *= modulus;
   }
 
   double hourglassEnergy(const Nodes& nodes) override {
@@ -46,7 +48,7 @@ public:
   }
 
 private:
-  void setGeometry(double modulus) {
+  void setGeometry() {
     reduced_.resize(cells_.batches());
     for (std::size_t b = 0; b < cells_.batches(); ++b) {
       ReducedGeometry& r = reduced_[b];
@@ -60,11 +62,11 @@ private:
                 point.weight * (g.x * point.map[J] + g.y * point.map[3 + J] + g.z * point.map[6 + J]);
         }
       }
-      setModes(b, modulus, r);
+      setModes(b, r);
     }
   }
 
-  void setModes(std::size_t b, double modulus, ReducedGeometry& r) const {
+  void setModes(std::size_t b, ReducedGeometry& r) const {
     Lane squares{};
     Lane divisor = r.volume;
     for (int lane = 0; lane < laneCount; ++lane)
@@ -73,8 +75,8 @@ private:
       g /= divisor;
       squares += g * g;
     }
-    // Divides so that share 1 is the energy of the exact shear strain in a cube.
-    r.stiffness = modulus / 72.0 * r.volume * squares;
+    // Divides so that share 1 is the energy of the exact shear strain in a cube; times the modulus, later.
+    r.stiffness = 1.0 / 72.0 * r.volume * squares;
     for (std::size_t mode = 0; mode < 4; ++mode) {
       Lane moment[3] = {};
       for (std::size_t a = 0; a < N; ++a)
@@ -99,7 +101,7 @@ private:
       }
   }
 
-  std::size_t points() const override { return 1; }
+  std::size_t pointCount() const override { return 1; }
 
   void meanDeformation(std::size_t b, const Lane* U, Lane* F) const {
     for (std::size_t k = 0; k < 9; ++k) F[k] = Lane{};
@@ -110,9 +112,11 @@ private:
   }
 
   void deformation(const BatchTask& task, Lane* F) const override {
-    Lane U[3 * N];
-    gatherNodes<N>(cells_, task.batch, task.u, U);
-    meanDeformation(task.batch, U, F);
+    withVectors([&] {
+      Lane U[3 * N];
+      gatherNodes<N>(cells_, task.batch, task.u, U);
+      meanDeformation(task.batch, U, F);
+    });
   }
 
   void forces(const BatchTask& task, BatchResult& result) override {
@@ -167,9 +171,9 @@ private:
 
 }  // namespace
 
-std::shared_ptr<Solid> makeReducedSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material,
+std::shared_ptr<Solid> makeReducedSolid(SolidCells cells, std::unique_ptr<SolidPoints> points,
                                         const SolidOptions& options) {
-  return std::make_shared<ReducedSolid>(std::move(cells), std::move(material), options);
+  return std::make_shared<ReducedSolid>(std::move(cells), std::move(points), options);
 }
 
 }  // namespace dovetail::fem::detail

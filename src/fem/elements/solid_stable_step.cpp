@@ -37,12 +37,12 @@ struct Invariants {
 /// element, until no bound that is left reaches the largest eigenvalue found.
 StableStep SolidBase::stableStep(const Nodes& nodes) {
   requireSameNodes(nodes);
-  startHistory();
   needGeometry();
+  ask(nodes, {}, true);
   evaluation_.known = false;
   const std::size_t size = 3 * cells_.nodes;
   const auto matrixOf = [&](std::size_t e, LaneVector& K) {
-    return scaledStiffness(K, lumpedMass(cells_, e, material_->density()), e % laneCount);
+    return scaledStiffness(K, lumpedMass(cells_, e, density()), e % laneCount);
   };
   std::vector<Invariants> known(cells_.size());
   parallelFor(cells_.batches(), 16, [&](std::size_t begin, std::size_t end) {

@@ -10,10 +10,10 @@ namespace {
 template <int N, int Q>
 class StandardSolid final : public SolidBase {
 public:
-  StandardSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material, const SolidOptions& options)
-      : SolidBase(std::move(cells), material, options, N == 8 && material->brickLaw()) {
-    if constexpr (N == 8)
-      if (const auto law = material_->brickLaw()) useKernels(*law, false);
+  StandardSolid(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options)
+      : SolidBase(std::move(cells), std::move(points), options, N == 8) {
+    const auto law = N == 8 && points_->law() ? points_->law()->brickLaw() : std::nullopt;
+    law ? useKernels(*law, false) : needGeometry();
   }
 
 private:
@@ -30,8 +30,10 @@ private:
     }
   }
 
-  void deformation(const BatchTask& task, Lane* F) const override { deformationOf(task.batch, task.u, F); }
-  bool conserves() const override { return material_->isElastic(); }
+  void deformation(const BatchTask& task, Lane* F) const override {
+    withVectors([&] { deformationOf(task.batch, task.u, F); });
+  }
+  bool conserves() const override { return points_->isElastic(); }
 
   void forces(const BatchTask& task, BatchResult& result) override {
     withVectors([&] { forcesOf(task, result); });
@@ -68,7 +70,7 @@ private:
     else
       evaluate(task, F.data(), P.data(), A.data(), nullptr, nullptr);
     std::fill(K, K + 9 * N * N, Lane{});
-    const bool symmetric = material_->isSymmetric() && task.start == nullptr;
+    const bool symmetric = points_->isSymmetric() && task.start == nullptr;
     Lane parent[81];
     for (std::size_t q = 0; q < Q; ++q) {
       parentModuli(&A[81 * q], geometry_[task.batch * Q + q], parent);
@@ -134,19 +136,19 @@ private:
 
 }  // namespace
 
-std::shared_ptr<Solid> makeStandardSolid(SolidCells cells, std::shared_ptr<const PointMaterial> material,
+std::shared_ptr<Solid> makeStandardSolid(SolidCells cells, std::unique_ptr<SolidPoints> points,
                                          const SolidOptions& options) {
   switch (cells.shape) {
     case CellShape::hex8:
-      return std::make_shared<StandardSolid<8, 8>>(std::move(cells), std::move(material), options);
+      return std::make_shared<StandardSolid<8, 8>>(std::move(cells), std::move(points), options);
     case CellShape::hex20:
-      return std::make_shared<StandardSolid<20, 27>>(std::move(cells), std::move(material), options);
+      return std::make_shared<StandardSolid<20, 27>>(std::move(cells), std::move(points), options);
     case CellShape::hex27:
-      return std::make_shared<StandardSolid<27, 27>>(std::move(cells), std::move(material), options);
+      return std::make_shared<StandardSolid<27, 27>>(std::move(cells), std::move(points), options);
     case CellShape::tet4:
-      return std::make_shared<StandardSolid<4, 1>>(std::move(cells), std::move(material), options);
+      return std::make_shared<StandardSolid<4, 1>>(std::move(cells), std::move(points), options);
     case CellShape::tet10:
-      return std::make_shared<StandardSolid<10, 4>>(std::move(cells), std::move(material), options);
+      return std::make_shared<StandardSolid<10, 4>>(std::move(cells), std::move(points), options);
   }
   throw InputError("the shape of the elements is not known", "makeSolid", "use one of CellShape");
 }

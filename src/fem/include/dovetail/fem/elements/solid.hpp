@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dovetail/fem/elements/critical_element.hpp"
+#include "dovetail/fem/laws/point_field.hpp"
 #include "dovetail/fem/laws/point_material.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/fem/model/term.hpp"
@@ -43,13 +44,16 @@ struct SolidOptions {
   std::vector<double> share{};
 };
 
-/// Elements of a mesh with one material.
+/// Elements of a mesh with one material or one field of points.
 class Solid : public Term {
 public:
   virtual std::size_t size() const = 0;
   /// Bytes of the caches and of history.
   virtual std::size_t memory() const = 0;
-  virtual const PointMaterial& material() const = 0;
+  /// Null for a field of points.
+  virtual const PointMaterial* material() const = 0;
+  /// Reference density, kg/m³.
+  virtual double density() const = 0;
   /// Energy in hourglass stiffness alone, J (part of energy()).
   virtual double hourglassEnergy(const Nodes&) { return 0.0; }
   /// 2/ω of the stiffest single element at the present displacement, with its lumped mass: never above the limit of the
@@ -71,7 +75,7 @@ public:
     std::vector<double> volume;   ///< reference, m³
     std::vector<double> F, P;     ///< nine per point, row-major
     std::vector<double> energy;   ///< J/m³
-    std::vector<double> history;  ///< committed, historySize per point
+    std::vector<double> history;  ///< committed, historySize per point; empty for a field of points
   };
   virtual Sample sample(const Nodes& nodes, const Instant& now) = 0;
 };
@@ -79,6 +83,11 @@ public:
 /// @throws InputError for an invalid mesh, a set that does not exist or is empty, a formulation that a shape does not
 /// have, shares that are not one per node or not within 0 … 1, or 0 throughout
 std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const PointMaterial> material,
+                                 const SolidOptions& options = {});
+
+/// The same with points that own their states: the formulations standard, meanDilatation and reduced. The field is
+/// opened, and belongs to this solid alone.
+std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<PointField> field,
                                  const SolidOptions& options = {});
 
 struct Model;

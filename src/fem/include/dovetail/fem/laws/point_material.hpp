@@ -55,7 +55,10 @@ public:
   virtual void evaluate(const PointBatch& batch) const = 0;
   /// Why the answer for F (nine numbers, row-major) cannot be trusted, and what to do; empty if it can. Says more than
   /// a NaN does: a law may be past its limit point and still have a stress. Elements ask it of accepted states.
-  virtual std::string whyInvalid(const double* F) const;
+  virtual std::string whyInvalid(const double* F) const;  // by default as whyInverted()
 };
+
+/// The sentence for F (nine numbers, row-major) with det F ≤ 0 or NaN; empty for others.
+std::string whyInverted(const double* F);
 
 }  // namespace dovetail::fem

@@ -1,0 +1,210 @@
+#include "dovetail/fem/laws/point_field.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/laws/point_material.hpp"
+
+namespace dovetail::fem {
+
+namespace {
+
+constexpr std::size_t lanes = pointLanes;
+
+/// Points of a law in groups of four; lanes beyond the last point repeat it.
+class LawField final : public PointField {
+public:
+  explicit LawField(std::shared_ptr<const PointMaterial> law) : law_(std::move(law)), size_(law_->historySize()) {}
+
+  std::string name() const override { return law_->name(); }
+  double density() const override { return law_->density(); }
+  bool isSymmetric() const override { return law_->isSymmetric(); }
+  bool hasEnergy() const override { return law_->isElastic() || size_ > 0; }
+
+  void open(std::span<const PointPlace> places) override {
+    points_ = places.size();
+    history_.resize(groups() * lanes * size_);
+    for (std::size_t p = 0; size_ > 0 && p < groups() * lanes; ++p)
+      law_->startHistory(std::span(history_).subspan(p * size_, size_));
+    newHistory_ = history_;
+  }
+
+  void evaluate(const FieldRequest& request) override {
+    if (!request.moved && request.tangent.empty()) return;
+    parallelFor(groups(), 16, [&](std::size_t begin, std::size_t end) {
+      Group group;
+      for (std::size_t g = begin; g < end; ++g) {
+        if (!evaluate(g, request, group)) continue;
+        for (std::size_t lane = 0; lane < lanes && lanes * g + lane < points_; ++lane)
+          hand(group, lane, lanes * g + lane, request);
+      }
+    });
+  }
+
+  void commit() override { history_.swap(newHistory_); }
+  void revert() override {}
+  void save(ByteWriter& archive) const override { archive(history_); }
+  void load(ByteReader& archive) override {
+    std::vector<double> values;
+    archive(values);
+    if (values.size() != history_.size() || !std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))
+      throw InputError("the state is not one of " + std::to_string(points_) + " points", name(),
+                       "load it into the model that wrote it");
+    history_ = std::move(values);
+  }
+  std::size_t memory() const override { return sizeof(double) * (history_.capacity() + newHistory_.capacity()); }
+
+private:
+  struct alignas(32) Group {
+    std::array<double, 9 * lanes> F, P;
+    std::array<double, 81 * lanes> tangent;
+    std::array<double, lanes> energy, dissipated;
+  };
+  std::size_t groups() const { return (points_ + lanes - 1) / lanes; }
+
+  /// @return whether the law answered; else its points have the reason
+  bool evaluate(std::size_t g, const FieldRequest& request, Group& group) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const std::size_t p = std::min(lanes * g + lane, points_ - 1);
+      for (std::size_t k = 0; k < 9; ++k) group.F[lanes * k + lane] = request.F[9 * p + k];
+    }
+    const std::size_t offset = g * lanes * size_;
+    PointBatch batch{1,
+                     group.F.data(),
+                     group.P.data(),
+                     request.tangent.empty() ? nullptr : group.tangent.data(),
+                     group.energy.data(),
+                     group.dissipated.data(),
+                     history_.data() + offset,
+                     newHistory_.data() + offset,
+                     request.dt};
+    group.dissipated.fill(0.0);
+    try {
+      law_->evaluate(batch);
+    } catch (const std::exception& error) {
+      for (std::size_t p = lanes * g; p < std::min(lanes * (g + 1), points_); ++p) request.reason[p] = error.what();
+      return false;
+    }
+    return true;
+  }
+
+  void hand(const Group& group, std::size_t lane, std::size_t p, const FieldRequest& request) const {
+    for (std::size_t k = 0; k < 9; ++k) request.P[9 * p + k] = group.P[lanes * k + lane];
+    for (std::size_t k = 0; k < 81 && !request.tangent.empty(); ++k)
+      request.tangent[81 * p + k] = group.tangent[lanes * k + lane];
+    request.energy[p] = group.energy[lane];
+    request.dissipated[p] = group.dissipated[lane];
+  }
+
+  std::shared_ptr<const PointMaterial> law_;
+  std::size_t size_, points_ = 0;
+  std::vector<double> history_, newHistory_;
+};
+
+class PointwiseField final : public PointField {
+public:
+  using Make = std::function<std::unique_ptr<FieldPoint>(const PointPlace&)>;
+  PointwiseField(FieldTraits traits, Make make) : traits_(std::move(traits)), make_(std::move(make)) {}
+
+  std::string name() const override { return traits_.name; }
+  double density() const override { return traits_.density; }
+  bool isSymmetric() const override { return traits_.isSymmetric; }
+  bool hasEnergy() const override { return traits_.hasEnergy; }
+
+  void open(std::span<const PointPlace> places) override {
+    places_.assign(places.begin(), places.end());
+    points_ = newPoints();
+    seconds_.assign(places.size(), 0.0);
+  }
+
+  void evaluate(const FieldRequest& request) override {
+    const std::vector<std::size_t> order = longestFirst();
+    parallelTasks(order.size(), [&](std::size_t task) { evaluate(order[task], request); });
+  }
+
+  void commit() override {
+    for (const auto& point : points_) point->commit();
+  }
+  void revert() override {
+    for (const auto& point : points_) point->revert();
+  }
+  void save(ByteWriter& archive) const override {
+    archive(static_cast<std::uint64_t>(points_.size()));
+    for (const auto& point : points_) point->save(archive);
+  }
+  void load(ByteReader& archive) override {
+    std::uint64_t count = 0;
+    archive(count);
+    if (count != points_.size())
+      throw InputError("the state has " + std::to_string(count) + " points, the solid " +
+                           std::to_string(points_.size()),
+                       name(), "load it into the model that wrote it");
+    std::vector<std::unique_ptr<FieldPoint>> loaded = newPoints();
+    for (const auto& point : loaded) point->load(archive);
+    points_ = std::move(loaded);
+  }
+
+private:
+  std::vector<std::unique_ptr<FieldPoint>> newPoints() const {
+    std::vector<std::unique_ptr<FieldPoint>> points;
+    for (const PointPlace& place : places_) {
+      points.push_back(make_(place));
+      if (points.back() == nullptr)
+        throw InputError("there is no point of element " + std::to_string(place.element), name(),
+                         "let makePoint return one for every place");
+    }
+    return points;
+  }
+
+  std::vector<std::size_t> longestFirst() const {
+    std::vector<std::size_t> order(points_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return seconds_[a] > seconds_[b]; });
+    return order;
+  }
+
+  void evaluate(std::size_t p, const FieldRequest& request) {
+    const auto start = std::chrono::steady_clock::now();
+    const bool withTangent = !request.tangent.empty();
+    try {
+      points_[p]->evaluate(std::span<const double, 9>(request.F.subspan(9 * p, 9)), request.dt, request.moved,
+                           {std::span<double, 9>(request.P.subspan(9 * p, 9)),
+                            withTangent ? request.tangent.subspan(81 * p, 81) : std::span<double>{},
+                            request.energy[p], request.dissipated[p]});
+    } catch (const std::exception& error) {
+      request.reason[p] = error.what();
+    }
+    seconds_[p] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  FieldTraits traits_;
+  Make make_;
+  std::vector<PointPlace> places_;
+  std::vector<std::unique_ptr<FieldPoint>> points_;
+  std::vector<double> seconds_;  // that each took the last time
+};
+
+}  // namespace
+
+std::shared_ptr<PointField> pointField(std::shared_ptr<const PointMaterial> law) {
+  if (law == nullptr) throw InputError("there is no law", "pointField", "give one, for instance neoHookean()");
+  return std::make_shared<LawField>(std::move(law));
+}
+
+std::shared_ptr<PointField> pointField(const FieldTraits& traits,
+                                       std::function<std::unique_ptr<FieldPoint>(const PointPlace&)> makePoint) {
+  requirePositive(traits.density, "density");
+  if (traits.name.empty()) throw InputError("the field has no name", "pointField", "give one for reports");
+  if (!makePoint) throw InputError("nothing makes the points", "pointField", "give a function that does");
+  return std::make_shared<PointwiseField>(traits, std::move(makePoint));
+}
+
+}  // namespace dovetail::fem
