@@ -331,8 +331,8 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when, Scruti
 std::size_t SolidBase::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(cells_.number) + bytes(cells_.X) + bytes(cells_.share) + bytes(cells_.batchNode) + bytes(geometry_) +
-         points_->memory() + bytes(evaluation_.u) + bytes(results_) + bytes(nodeOffsets_) +
-         bytes(nodeEntries_) + bytes(places_) + (bricks_ ? bricks_->memory() : 0) + formulationMemory();
+         points_->memory() + bytes(evaluation_.u) + bytes(results_) + bytes(nodeOffsets_) + bytes(nodeEntries_) +
+         bytes(places_) + (bricks_ ? bricks_->memory() : 0) + formulationMemory();
 }
 
 Solid::Sample SolidBase::sample(const Nodes& nodes, const Instant& now) {

@@ -64,9 +64,7 @@ public:
     const std::size_t slot = (element / laneCount * perElement_ + point) * laneCount + element % laneCount;
     return std::span(history_).subspan(slot * size_, size_);
   }
-  std::size_t memory() const override {
-    return sizeof(double) * (history_.capacity() + newHistory_.capacity());
-  }
+  std::size_t memory() const override { return sizeof(double) * (history_.capacity() + newHistory_.capacity()); }
 
 private:
   std::shared_ptr<const PointMaterial> law_;
@@ -118,8 +116,7 @@ void FieldPoints::gather(std::size_t batch, const Lane* F) {
   const std::size_t inUse = std::min<std::size_t>(laneCount, places_.size() / perElement_ - laneCount * batch);
   for (std::size_t lane = 0; lane < inUse; ++lane)
     for (std::size_t q = 0; q < perElement_; ++q)
-      for (std::size_t k = 0; k < 9; ++k)
-        F_[9 * place(batch, q, lane) + k] = F[9 * q + k][static_cast<int>(lane)];
+      for (std::size_t k = 0; k < 9; ++k) F_[9 * place(batch, q, lane) + k] = F[9 * q + k][static_cast<int>(lane)];
 }
 
 void FieldPoints::evaluate(const PointCall& call) {
@@ -141,8 +138,8 @@ bool FieldPoints::knows(std::span<const Vec3> u, double dt, bool withTangent, bo
 
 FieldRequest FieldPoints::request(double dt, bool moved, bool withTangent) {
   if (withTangent) tangent_.resize(81 * places_.size());
-  return {F_, dt, moved, P_, withTangent ? std::span<double>(tangent_) : std::span<double>{}, energy_, dissipated_,
-          reason_};
+  return {F_,      dt,          moved,  P_, withTangent ? std::span<double>(tangent_) : std::span<double>{},
+          energy_, dissipated_, reason_};
 }
 
 void FieldPoints::ask(std::span<const Vec3> u, double dt, bool withTangent, const std::string& name) {
@@ -206,8 +203,8 @@ void FieldPoints::load(ByteReader& archive, const std::string&) {
 std::string FieldPoints::whyInvalid(const double* F, Scrutiny) const { return whyInverted(F); }
 
 std::size_t FieldPoints::memory() const {
-  return sizeof(double) * (F_.capacity() + P_.capacity() + tangent_.capacity() + energy_.capacity() +
-                           dissipated_.capacity()) +
+  return sizeof(double) *
+             (F_.capacity() + P_.capacity() + tangent_.capacity() + energy_.capacity() + dissipated_.capacity()) +
          sizeof(std::string) * reason_.capacity() + sizeof(Vec3) * u_.capacity() +
          sizeof(PointPlace) * places_.capacity() + field_->memory();
 }

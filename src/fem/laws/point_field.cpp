@@ -143,9 +143,9 @@ public:
     std::uint64_t count = 0;
     archive(count);
     if (count != points_.size())
-      throw InputError("the state has " + std::to_string(count) + " points, the solid " +
-                           std::to_string(points_.size()),
-                       name(), "load it into the model that wrote it");
+      throw InputError(
+          "the state has " + std::to_string(count) + " points, the solid " + std::to_string(points_.size()), name(),
+          "load it into the model that wrote it");
     std::vector<std::unique_ptr<FieldPoint>> loaded = newPoints();
     for (const auto& point : loaded) point->load(archive);
     points_ = std::move(loaded);
@@ -177,8 +177,8 @@ private:
     try {
       points_[p]->evaluate(std::span<const double, 9>(request.F.subspan(9 * p, 9)), request.dt, request.moved,
                            {std::span<double, 9>(request.P.subspan(9 * p, 9)),
-                            withTangent ? request.tangent.subspan(81 * p, 81) : std::span<double>{},
-                            request.energy[p], request.dissipated[p]});
+                            withTangent ? request.tangent.subspan(81 * p, 81) : std::span<double>{}, request.energy[p],
+                            request.dissipated[p]});
     } catch (const std::exception& error) {
       request.reason[p] = error.what();
     }

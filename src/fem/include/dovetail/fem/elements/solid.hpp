@@ -26,7 +26,8 @@ enum class Formulation {
   /// takes away the hourglass modes in
   /// compression of the older enhanced bricks.
   enhanced,
-  /// hex8 and StVenantKirchhoff only: assumed stress (hybrid8; Pian & Tong 1986: 18 modes, 18 = 24 − 6 of them with stiffness). As exact in bending
+  /// hex8 and StVenantKirchhoff only: assumed stress (hybrid8; Pian & Tong 1986: 18 modes, 18 = 24 − 6 of them with
+  /// stiffness). As exact in bending
   /// as `enhanced` for a tenth of the time. Samples show the stress of the displacements, not the assumed one.
   assumedStress,
   /// hex8 only: one point and hourglass stiffness; its energy is reported on its own.

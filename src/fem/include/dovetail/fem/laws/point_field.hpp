@@ -30,10 +30,10 @@ struct FieldRequest {
   /// False if F and dt are those of the last evaluation, and nothing was committed or reverted since: P, energy,
   /// dissipated and reason still hold what was answered then, and only the tangent is missing.
   bool moved;
-  std::span<double> P;           ///< out: first Piola–Kirchhoff stress, Pa, [9 p + 3 i + J]
-  std::span<double> tangent;     ///< out: ∂P_iJ/∂F_kL, Pa, [81 p + 9 (3 i + J) + 3 k + L]; empty if not asked for
-  std::span<double> energy;      ///< out: stored energy per reference volume, J/m³
-  std::span<double> dissipated;  ///< out: energy dissipated in the step per reference volume, J/m³, ≥ 0
+  std::span<double> P;            ///< out: first Piola–Kirchhoff stress, Pa, [9 p + 3 i + J]
+  std::span<double> tangent;      ///< out: ∂P_iJ/∂F_kL, Pa, [81 p + 9 (3 i + J) + 3 k + L]; empty if not asked for
+  std::span<double> energy;       ///< out: stored energy per reference volume, J/m³
+  std::span<double> dissipated;   ///< out: energy dissipated in the step per reference volume, J/m³, ≥ 0
   std::span<std::string> reason;  ///< out: why a point has no answer and what to do; empty where it has one
 };
 
@@ -66,8 +66,8 @@ public:
   virtual std::size_t memory() const { return 0; }
 };
 
-/// The points of a law, for decorators that ask it for all points at once. A solid with the law itself answers the
-/// same to the last bit, and faster.
+/// The points of a law, for decorators that ask it for all points at once. A solid with the law itself gives the same
+/// answers, faster.
 /// @throws InputError if there is no law
 std::shared_ptr<PointField> pointField(std::shared_ptr<const PointMaterial> law);
 
