@@ -7,7 +7,6 @@
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
-#include "dovetail/surface/solid_faces.hpp"
 
 namespace dovetail::cantilever {
 
@@ -51,7 +50,7 @@ cg::SurfaceKernel makeKernel(const Settings& settings) {
 }
 
 surface::Skin makeCarryingSkin(const Settings& settings, const fem::SolidMesh& mesh) {
-  surface::Skin skin = surface::makeSkin(mesh.X, surface::quadsOf(mesh.faceSets.at("skin")));
+  surface::Skin skin = surface::makeSkin(mesh.X, mesh.faceSets.at("skin"));
   if (settings.transfer == Transfer::adjoint) surface::coarseGrain(skin, makeKernel(settings));
   return skin;
 }
@@ -61,8 +60,7 @@ surface::Coupling makeSeam(const Settings& settings, const fem::SolidMesh& mesh)
   options.edges = settings.edges == EdgeHandling::paper ? dem::EdgeRule::paper : dem::EdgeRule::projected;
   surface::Coupling seam(makeCarryingSkin(settings, mesh), options);
   if (settings.transfer == Transfer::spread)
-    seam.spreadLoad(
-        surface::SpreadLoad(makeKernel(settings), mesh.X, seam.skin(), surface::quadsOf(mesh.faceSets.at("skin"))));
+    seam.spreadLoad(surface::SpreadLoad(makeKernel(settings), mesh.X, seam.skin(), mesh.faceSets.at("skin")));
   seam.bookWallWork(couplingIsUnbalanced(settings));
   return seam;
 }

@@ -11,6 +11,7 @@
 
 using dovetail::Vec3;
 namespace dem = dovetail::dem;
+namespace fem = dovetail::fem;
 namespace surface = dovetail::surface;
 
 /// Our own solver: point masses, springs between them, an explicit step.
@@ -18,7 +19,7 @@ struct Net {
   double nodeMass = 0.01, stiffness = 400.0;  // kg, N/m
   std::vector<Vec3> X, u, v, f;
   std::vector<std::array<int, 2>> springs;
-  std::vector<surface::Quad> quads;  // the openings of the net, counter-clockwise from above
+  std::vector<fem::Face> faces;  // the openings of the net, counter-clockwise from above
 
   Net(int n, double width) : u(n * n), v(n * n), f(n * n) {
     for (int k = 0; k < n * n; ++k) X.push_back(width / (n - 1) * Vec3{double(k % n), double(k / n), 0.0});
@@ -26,7 +27,7 @@ struct Net {
       const bool right = k % n + 1 < n, back = k / n + 1 < n;
       if (right) springs.push_back({k, k + 1});
       if (back) springs.push_back({k, k + n});
-      if (right && back) quads.push_back({k, k + 1, k + n + 1, k + n});
+      if (right && back) faces.push_back({fem::FaceShape::quad4, {k, k + 1, k + n + 1, k + n}});
     }
   }
   double addSpringForces() {  // gives their energy, J
@@ -51,7 +52,7 @@ int main() {
     dem::addParticle(particles, {0.3 + 0.4 * (k % 2), 0.33 + 0.38 * (k / 2), 0.1}, {0.1, 0.0, -1.0 - 0.2 * k},
                      0.05 + 0.01 * k, dem::Density{150.0});
   const dem::ElasticLaw law{{.stiffness = 2000.0}};
-  surface::Coupling seam(surface::makeSkin(net.X, net.quads));  // the net's nodes and openings become a skin
+  surface::Coupling seam(surface::makeSkin(net.X, net.faces));  // the net's nodes and openings become a skin
 
   dovetail::EnergyLedger ledger;
   const auto kinetic = ledger.addStored("kinetic"), strain = ledger.addStored("springs of the net"),

@@ -8,7 +8,10 @@
 
 #include "dovetail/cg/symmetric_kernel.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
+#include "dovetail/fem/mesh/shape.hpp"
 #include "dovetail/geometry/surface_topology.hpp"
+#include "face_cut.hpp"
 
 namespace dovetail::surface {
 
@@ -16,50 +19,66 @@ namespace {
 
 constexpr double roundOffArea = 1e-14;  // of the squared diagonals
 
-void checkFaces(std::span<const Vec3> X, std::span<const Quad> faces) {
+std::span<const int> nodesOf(const fem::Face& face) {
+  return {face.node.data(), static_cast<std::size_t>(fem::nodesOf(face.shape))};
+}
+
+/// Twice the area between the corners, roughly, against the squares of lengths.
+bool hasArea(std::span<const Vec3> X, const fem::Face& face) {
+  const auto [a, b, c, d] = std::array{face.node[0], face.node[1], face.node[2], face.node[3]};
+  const bool triangle = fem::cornersOf(face.shape) == 3;
+  const Vec3 first = X[c] - X[a], second = triangle ? X[b] - X[a] : X[d] - X[b];
+  const double area = norm(cross(first, second)), size = squaredNorm(first) + squaredNorm(second);
+  return area > roundOffArea * size &&
+         std::ranges::all_of(nodesOf(face), [&](int node) { return isFinite(X[static_cast<std::size_t>(node)]); });
+}
+
+void checkFaces(std::span<const Vec3> X, std::span<const fem::Face> faces) {
   if (faces.empty())
     throw InputError("the coupling surface has no faces", "makeSkin", "name a face set of the mesh that is not empty");
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const std::string where = "face " + std::to_string(f);
-    for (int node : faces[f])
+    if (fem::cornersOf(faces[f].shape) < 3)
+      throw InputError(std::string("it is a ") + fem::name(faces[f].shape) + " of a plane mesh", where,
+                       "couple particles to solids with faces");
+    const std::span<const int> nodes = nodesOf(faces[f]);
+    for (int node : nodes)
       if (node < 0 || node >= static_cast<int>(X.size()))
         throw InputError("node " + std::to_string(node) + " does not exist", where,
                          "use node numbers from 0 to " + std::to_string(X.size() - 1));
-    const Vec3 first = X[faces[f][2]] - X[faces[f][0]], second = X[faces[f][3]] - X[faces[f][1]];
-    Quad sorted = faces[f];
+    std::vector<int> sorted(nodes.begin(), nodes.end());
     std::sort(sorted.begin(), sorted.end());
     const bool repeats = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
-    if (repeats || !(norm(cross(first, second)) > roundOffArea * (squaredNorm(first) + squaredNorm(second))))
-      throw InputError("the face has no area", where, "give four different corners in order around the face");
+    if (repeats || !hasArea(X, faces[f]))
+      throw InputError("the face has no area", where, "give different nodes, corners in order around the face");
   }
 }
 
-/// Vertices before patches are known: the faces' corners (by node) and, for four triangles, one centre per face.
+/// Vertices before patches are known: the faces' nodes, and behind those of the mesh one centre per face that needs it.
 struct Triangles {
   std::vector<Vec3> X;
   std::vector<geometry::Facet> facets;
-  std::vector<int> facetQuad;
+  std::vector<int> facetFace;
+  std::vector<int> faceOfCentre;
 };
 
-Triangles triangulate(std::span<const Vec3> X, std::span<const Quad> faces, QuadSplit split) {
-  Triangles cut{{X.begin(), X.end()}, {}, {}};
+Triangles triangulate(std::span<const Vec3> X, std::span<const fem::Face> faces, QuadSplit split) {
+  Triangles cut{{X.begin(), X.end()}, {}, {}, {}};
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const auto [a, b, c, d] = faces[f];
-    const auto add = [&](int i, int j, int k) {
-      cut.facets.push_back({i, j, k});
-      cut.facetQuad.push_back(static_cast<int>(f));
-    };
-    if (split == QuadSplit::two) {
-      add(a, b, c);
-      add(a, c, d);
-      continue;
+    std::vector<int> vertex(nodesOf(faces[f]).begin(), nodesOf(faces[f]).end());
+    vertex.push_back(static_cast<int>(cut.X.size()));
+    bool centred = false;
+    for (const std::array<int, 3>& triangle : trianglesOf(faces[f].shape, split)) {
+      cut.facets.push_back({vertex[triangle[0]], vertex[triangle[1]], vertex[triangle[2]]});
+      cut.facetFace.push_back(static_cast<int>(f));
+      centred = centred || triangle[2] == fem::nodesOf(faces[f].shape);
     }
-    const int centre = static_cast<int>(cut.X.size());
-    cut.X.push_back(0.25 * (X[a] + X[b] + X[c] + X[d]));
-    add(a, b, centre);
-    add(b, c, centre);
-    add(c, d, centre);
-    add(d, a, centre);
+    if (!centred) continue;
+    const std::vector<double> shape = fem::shapeRow(faces[f].shape, 0.0, 0.0);
+    Vec3 centre;
+    for (std::size_t a = 0; a < shape.size(); ++a) centre += shape[a] * X[faces[f].node[a]];
+    cut.X.push_back(centre);
+    cut.faceOfCentre.push_back(static_cast<int>(f));
   }
   return cut;
 }
@@ -79,25 +98,20 @@ private:
   std::map<Key, int> numbers_;
 };
 
-cg::Projection interpolationMap(std::span<const int> origin, std::span<const Quad> faces, int nodeCount) {
-  cg::Projection map;
-  map.columns = nodeCount;
-  map.offsets.push_back(0);
+cg::Projection interpolationMap(std::span<const int> origin, std::span<const fem::Face> faces,
+                                std::span<const int> faceOfCentre, int nodeCount) {
+  std::vector<cg::ProjectionRow> rows;
   for (int vertex : origin) {
+    cg::ProjectionRow& row = rows.emplace_back();
     if (vertex < nodeCount) {
-      map.column.push_back(vertex);
-      map.weight.push_back(1.0);
-    } else {
-      Quad corners = faces[vertex - nodeCount];
-      std::sort(corners.begin(), corners.end());
-      for (int node : corners) {
-        map.column.push_back(node);
-        map.weight.push_back(0.25);
-      }
+      row = {{vertex, 1.0}};
+      continue;
     }
-    map.offsets.push_back(static_cast<int>(map.column.size()));
+    const fem::Face& face = faces[faceOfCentre[vertex - nodeCount]];
+    const std::vector<double> shape = fem::shapeRow(face.shape, 0.0, 0.0);
+    for (std::size_t a = 0; a < shape.size(); ++a) row.emplace_back(face.node[a], shape[a]);
   }
-  return map;
+  return cg::fromRows(nodeCount, rows);
 }
 
 bool isClosed(const geometry::SurfaceTopology& topology) {
@@ -126,19 +140,21 @@ cg::Projection selectRows(const cg::Projection& map, std::span<const int> rows) 
 
 }  // namespace
 
-Skin makeSkin(std::span<const Vec3> X, std::span<const Quad> faces, QuadSplit split, double sharpAngle) {
+Skin makeSkin(std::span<const Vec3> X, std::span<const fem::Face> faces, QuadSplit split, double sharpAngle) {
   checkFaces(X, faces);
   const Triangles cut = triangulate(X, faces, split);
   Skin skin;
-  skin.facetQuad = cut.facetQuad;
-  skin.quads.resize(faces.size());
+  skin.facetFace = cut.facetFace;
   Renumbering<int> vertices;
-  for (std::size_t q = 0; q < faces.size(); ++q)
-    for (int k = 0; k < 4; ++k) skin.quads[q][k] = vertices.number(faces[q][k]);
+  for (const fem::Face& face : faces) {
+    fem::Face& own = skin.faces.emplace_back(face);
+    own.node.fill(-1);
+    for (std::size_t k = 0; k < nodesOf(face).size(); ++k) own.node[k] = vertices.number(face.node[k]);
+  }
   for (const geometry::Facet& facet : cut.facets)
     skin.wall.facets.push_back({vertices.number(facet[0]), vertices.number(facet[1]), vertices.number(facet[2])});
   for (int vertex : vertices.origin) skin.X.push_back(cut.X[vertex]);
-  skin.localMap = interpolationMap(vertices.origin, faces, static_cast<int>(X.size()));
+  skin.localMap = interpolationMap(vertices.origin, faces, cut.faceOfCentre, static_cast<int>(X.size()));
   skin.carrier = skin.localMap;
   resetWall(skin);
   skin.patchOfFacet = geometry::smoothPatches(skin.X, skin.wall.facets, skin.wall.topology, sharpAngle);
@@ -147,10 +163,11 @@ Skin makeSkin(std::span<const Vec3> X, std::span<const Quad> faces, QuadSplit sp
 
 void splitAtSharpEdges(Skin& skin) {
   Renumbering<std::pair<int, int>> vertices;
-  std::vector<int> patchOfQuad(skin.quads.size());
-  for (std::size_t t = 0; t < skin.wall.facets.size(); ++t) patchOfQuad[skin.facetQuad[t]] = skin.patchOfFacet[t];
-  for (std::size_t q = 0; q < skin.quads.size(); ++q)
-    for (int& vertex : skin.quads[q]) vertex = vertices.number({vertex, patchOfQuad[q]});
+  std::vector<int> patchOfFace(skin.faces.size());
+  for (std::size_t t = 0; t < skin.wall.facets.size(); ++t) patchOfFace[skin.facetFace[t]] = skin.patchOfFacet[t];
+  for (std::size_t f = 0; f < skin.faces.size(); ++f)
+    for (int k = 0; k < fem::nodesOf(skin.faces[f].shape); ++k)
+      skin.faces[f].node[k] = vertices.number({skin.faces[f].node[k], patchOfFace[f]});
   for (std::size_t t = 0; t < skin.wall.facets.size(); ++t)
     for (int& vertex : skin.wall.facets[t]) vertex = vertices.number({vertex, skin.patchOfFacet[t]});
   std::vector<int> origin;

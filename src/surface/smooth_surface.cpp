@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dovetail/core/error.hpp"
+#include "face_cut.hpp"
 
 namespace dovetail::surface {
 
@@ -19,7 +20,7 @@ struct Crossing {
 };
 
 /// For every face and edge (corner e to corner e + 1): the face that has the same edge the other way round.
-std::vector<std::array<Crossing, 4>> makeCrossings(std::span<const Quad> quads) {
+std::vector<std::array<Crossing, 4>> makeCrossings(std::span<const std::array<int, 4>> quads) {
   std::map<std::pair<int, int>, Crossing> byEdge;
   for (std::size_t q = 0; q < quads.size(); ++q)
     for (int e = 0; e < 4; ++e) byEdge[{quads[q][e], quads[q][(e + 1) % 4]}] = {static_cast<int>(q), e};
@@ -54,7 +55,7 @@ constexpr std::array<std::array<int, 2>, 4> outward{{{0, -1}, {1, 0}, {0, 1}, {-
 
 class NetBuilder {
 public:
-  NetBuilder(std::span<const Quad> quads, const std::vector<std::array<Crossing, 4>>& crossings)
+  NetBuilder(std::span<const std::array<int, 4>> quads, const std::vector<std::array<Crossing, 4>>& crossings)
       : quads_(quads), crossings_(crossings) {}
 
   ControlNet build(int face) const {
@@ -112,7 +113,7 @@ private:
     return quads_[second][(secondEdge + 3) % 4];
   }
 
-  std::span<const Quad> quads_;
+  std::span<const std::array<int, 4>> quads_;
   const std::vector<std::array<Crossing, 4>>& crossings_;
 };
 
@@ -210,11 +211,12 @@ double newtonStep(const PatchJet& jet, const Vec3& p, std::array<double, 2>& par
 SmoothSurface makeSmoothSurface(const Skin& whole) {
   Skin skin = whole;
   splitAtSharpEdges(skin);  // changes nothing if it has been done
-  const auto crossings = makeCrossings(skin.quads);
-  const NetBuilder builder(skin.quads, crossings);
+  const std::vector<std::array<int, 4>> quads = quadsOf(skin.faces, "the smooth surface");
+  const auto crossings = makeCrossings(quads);
+  const NetBuilder builder(quads, crossings);
   SmoothSurface surface;
   RowNumbers controls;
-  for (std::size_t face = 0; face < skin.quads.size(); ++face) {
+  for (std::size_t face = 0; face < quads.size(); ++face) {
     const ControlNet net = builder.build(static_cast<int>(face));
     std::array<int, 16> control{};
     for (std::size_t k = 0; k < 16; ++k) control[k] = controls.number(net.rows()[k]);

@@ -4,20 +4,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/fem/elements/solid.hpp"
-#include "dovetail/surface/solid_faces.hpp"
 
 namespace dovetail::surface {
-
-std::vector<Quad> quadsOf(std::span<const fem::Face> faces) {
-  std::vector<Quad> quads;
-  for (const fem::Face& face : faces) {
-    if (face.shape != fem::FaceShape::quad4)
-      throw InputError("it has " + std::to_string(nodesOf(face.shape)) + " nodes",
-                       "face " + std::to_string(quads.size()), "couple faces of four nodes: those of hex8 elements");
-    quads.push_back({face.node[0], face.node[1], face.node[2], face.node[3]});
-  }
-  return quads;
-}
 
 void requireCoupledSolid(const fem::Model& solid) { fem::requireBrickSolid(solid, "surface coupling"); }
 

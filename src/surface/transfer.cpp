@@ -1,20 +1,21 @@
 #include "dovetail/surface/coupling.hpp"
 #include "dovetail/surface/spread_load.hpp"
+#include "face_cut.hpp"
 
 namespace dovetail::surface {
 
 namespace {
 
-cg::SurfacePoints gaussPoints(std::span<const Vec3> X, const Skin& skin, std::span<const Quad> faces) {
-  std::vector<int> patchOfQuad(faces.size());
-  for (std::size_t t = 0; t < skin.facetQuad.size(); ++t) patchOfQuad[skin.facetQuad[t]] = skin.patchOfFacet[t];
-  return cg::gaussPointsOnQuads(X, faces, patchOfQuad);
+cg::SurfacePoints gaussPoints(std::span<const Vec3> X, const Skin& skin, std::span<const fem::Face> faces) {
+  std::vector<int> patchOfFace(faces.size());
+  for (std::size_t t = 0; t < skin.facetFace.size(); ++t) patchOfFace[skin.facetFace[t]] = skin.patchOfFacet[t];
+  return cg::gaussPointsOnQuads(X, quadsOf(faces, "SpreadLoad"), patchOfFace);
 }
 
 }  // namespace
 
 SpreadLoad::SpreadLoad(const cg::SurfaceKernel& kernel, std::span<const Vec3> X, const Skin& skin,
-                       std::span<const Quad> faces)
+                       std::span<const fem::Face> faces)
     : quadrature_(kernel, gaussPoints(X, skin, faces)) {}
 
 void SpreadLoad::add(const Skin& skin, int facet, const std::array<double, 3>& weight, const Vec3& onParticle,

@@ -12,7 +12,6 @@
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/surface/coupling.hpp"
 #include "dovetail/surface/smooth_coupling.hpp"
-#include "dovetail/surface/solid_faces.hpp"
 #include "dovetail/surface/stepper.hpp"
 
 namespace dovetail::surface {
@@ -47,7 +46,7 @@ inline dem::Particles droppedParticles() {
 }
 
 inline Skin blockSkin(const fem::SolidMesh& mesh, double width) {
-  Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
+  Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
   coarseGrain(skin, {{cg::KernelShape::lucy, 2, width}, cg::KernelCorrection::none});
   return skin;
 }
@@ -74,7 +73,7 @@ CoupledModel<Seam> makeModel(const BlockSetup& setup, const fem::SolidMesh& mesh
 
 inline FlatModel flatModel(const BlockSetup& setup) {
   const fem::SolidMesh mesh = blockMesh();
-  const auto faces = quadsOf(mesh.faceSets.at("skin"));
+  const auto faces = mesh.faceSets.at("skin");
   Coupling seam(blockSkin(mesh, setup.spread ? 0.0 : setup.width));
   if (setup.spread)
     seam.spreadLoad(SpreadLoad({{cg::KernelShape::lucy, 2, setup.width}, {}}, mesh.X, seam.skin(), faces));

@@ -10,7 +10,6 @@
 #include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/surface/coupling.hpp"
 #include "dovetail/surface/smooth_coupling.hpp"
-#include "dovetail/surface/solid_faces.hpp"
 
 namespace dovetail::surface {
 
@@ -28,6 +27,8 @@ public:
 private:
   std::mt19937 engine_;
 };
+
+inline fem::Face quad(int a, int b, int c, int d) { return {fem::FaceShape::quad4, {a, b, c, d, -1, -1, -1, -1, -1}}; }
 
 /// A block of 4 × 4 × 2 unit bricks whose top is z = 0.
 inline fem::SolidMesh unitBlock() { return fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0, 0, -2}, {4, 4, 0}); }
@@ -77,7 +78,7 @@ struct VariantName {
 };
 
 inline Skin carriedSkin(const fem::SolidMesh& mesh, const Variant& variant, const std::string& set = "skin") {
-  Skin skin = makeSkin(mesh.X, quadsOf(fem::faceSet(mesh, set)));
+  Skin skin = makeSkin(mesh.X, fem::faceSet(mesh, set));
   coarseGrain(skin, variant.kernel());
   return skin;
 }

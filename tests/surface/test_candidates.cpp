@@ -84,7 +84,7 @@ TEST(Candidates, OnTheSmoothSurfaceUpToItsTolerance) {
   const fem::SolidMesh mesh = strip();
   Trace traces[2];
   for (int k = 0; k < 2; ++k) {
-    SmoothCoupling seam(makeSmoothSurface(makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")))), k == 0 ? 1e-9 : 0.0);
+    SmoothCoupling seam(makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("skin"))), k == 0 ? 1e-9 : 0.0);
     for (int step = 0; step < steps; ++step) record(seam, 1e-3 * step, mesh, traces[k]);
   }
   EXPECT_EQ(traces[0].contacts, traces[1].contacts);
@@ -129,7 +129,7 @@ TEST(Candidates, ANaNIsCaughtAtOnceWithItsNumber) {
   std::vector<Vec3> badU = u;
   const int node = mesh.faceSets.at("z+")[7].node[2];
   badU[node].z = std::nan("");
-  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
+  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
   const std::string nodeName = "node " + std::to_string(node);
   EXPECT_NE(failure(Coupling(skin), good, bad, u, u).find("particle 3"), std::string::npos);
   EXPECT_NE(failure(Coupling(skin), good, good, u, badU).find(nodeName), std::string::npos);
@@ -140,7 +140,7 @@ TEST(Candidates, ANaNIsCaughtAtOnceWithItsNumber) {
 
 TEST(Candidates, RefuseABadMargin) {
   const fem::SolidMesh mesh = strip();
-  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
+  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
   EXPECT_THROW(Coupling(skin, {dem::EdgeRule::projected, -1.0}), InputError);
   EXPECT_THROW(Coupling(skin, {dem::EdgeRule::projected, std::nan("")}), InputError);
   EXPECT_THROW(SmoothCoupling(makeSmoothSurface(skin), -1.0), InputError);

@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Variants, CoarseGrain, ::testing::ValuesIn(flatVariants
 
 TEST(CoarseGrainLimits, WidthZeroIsTheLocalMapBitForBit) {
   const fem::SolidMesh mesh = unitBlock();
-  const Skin local = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
+  const Skin local = makeSkin(mesh.X, mesh.faceSets.at("skin"));
   for (auto correction : {cg::KernelCorrection::none, cg::KernelCorrection::linear, cg::KernelCorrection::symmetric}) {
     const Skin skin = carriedSkin(mesh, {"zero", 0.0, cg::KernelShape::lucy, correction});
     EXPECT_EQ(skin.carrier.offsets, local.localMap.offsets);
@@ -96,7 +96,7 @@ TEST(CoarseGrainCorrection, LinearRestoresPositions) {
 
 TEST(CoarseGrainCorrection, RefusesABadWidthAndLeavesTheSkin) {
   const fem::SolidMesh mesh = unitBlock();
-  Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
+  Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
   const auto vertices = skin.X.size();
   EXPECT_THROW(coarseGrain(skin, {{cg::KernelShape::lucy, 2, -1.0}, {}}), InputError);
   EXPECT_THROW(coarseGrain(skin, {{cg::KernelShape::lucy, 2, std::nan("")}, {}}), InputError);

@@ -24,7 +24,7 @@ class SkinSplit : public ::testing::TestWithParam<QuadSplit> {};
 
 TEST_P(SkinSplit, OfABoxIsClosedAndPointsOutwards) {
   const fem::SolidMesh mesh = unitBlock();
-  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")), GetParam());
+  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"), GetParam());
   const std::size_t faces = 16 + 16 + 4 * 8, perFace = GetParam() == QuadSplit::four ? 4 : 2;
   EXPECT_EQ(skin.wall.facets.size(), faces * perFace);
   EXPECT_EQ(skin.X.size(), 66 + (perFace == 4 ? faces : 0));
@@ -47,7 +47,7 @@ TEST_P(SkinSplit, LocalMapReproducesPositionsAndConstants) {
   fem::SolidMesh mesh = unitBlock();
   Random random(1);
   for (Vec3& X : mesh.X) X += random.vector(0.1);
-  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")), GetParam());
+  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"), GetParam());
   cg::requireValid(skin.localMap);
   EXPECT_LE(cg::rowSumError(skin.localMap), 1e-15);
   std::vector<Vec3> mapped(skin.X.size());
@@ -59,7 +59,7 @@ TEST_P(SkinSplit, LocalMapReproducesPositionsAndConstants) {
 
 TEST_P(SkinSplit, OfAnOpenFaceSetIsTwoSided) {
   const fem::SolidMesh mesh = unitBlock();
-  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("z+")), GetParam());
+  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("z+"), GetParam());
   EXPECT_FALSE(skin.wall.oneSided);
   EXPECT_NEAR(area(skin), 16.0, 1e-13);
 }
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Skin, SkinSplit, ::testing::Values(QuadSplit::two, Quad
 
 TEST(Skin, SharpEdgesSplitTheBoxIntoSixPatchesWithTheirOwnVertices) {
   const fem::SolidMesh mesh = unitBlock();
-  Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
+  Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
   const Skin whole = skin;
   splitAtSharpEdges(skin);
   EXPECT_EQ(skin.X.size(), 2 * (25 + 16) + 4 * (15 + 8));
@@ -101,7 +101,7 @@ std::vector<Vec3> fold(double angle) {
           {1 + std::cos(angle), 0, std::sin(angle)},
           {1 + std::cos(angle), 1, std::sin(angle)}};
 }
-const std::vector<Quad> foldFaces{{0, 1, 2, 3}, {1, 4, 5, 2}};
+const std::vector<fem::Face> foldFaces{quad(0, 1, 2, 3), quad(1, 4, 5, 2)};
 
 TEST(Skin, AnEdgeIsSharpBeyondTheSharpAngle) {
   const double degree = std::numbers::pi / 180.0;
@@ -154,7 +154,7 @@ TEST(Skin, CarrierGainBoundsTheMotionOfVertices) {
   EXPECT_NEAR(carrierGain(linear), largest, 1e-14);
 }
 
-std::string refusal(const std::vector<Vec3>& X, const std::vector<Quad>& faces) {
+std::string refusal(const std::vector<Vec3>& X, const std::vector<fem::Face>& faces) {
   try {
     makeSkin(X, faces);
   } catch (const InputError& error) {
@@ -166,11 +166,12 @@ std::string refusal(const std::vector<Vec3>& X, const std::vector<Quad>& faces) 
 TEST(Skin, RefusesBadFacesByName) {
   const auto X = fold(0.1);
   EXPECT_NE(refusal(X, {}).find("no faces"), std::string::npos);
-  for (const Quad& bad : {Quad{1, 4, 6, 2}, Quad{1, 4, -1, 2}, Quad{1, 4, 4, 2}, Quad{1, 4, 5, 1}, Quad{2, 2, 2, 2}})
+  for (const fem::Face& bad :
+       {quad(1, 4, 6, 2), quad(1, 4, -1, 2), quad(1, 4, 4, 2), quad(1, 4, 5, 1), quad(2, 2, 2, 2)})
     EXPECT_NE(refusal(X, {foldFaces[0], bad}).find("face 1"), std::string::npos) << refusal(X, {foldFaces[0], bad});
   auto flat = X;
   for (int k : {1, 4, 5, 2}) flat[k] = {0.1 * k, 0.3 * k, 0.7 * k};
-  EXPECT_NE(refusal(flat, {{1, 4, 5, 2}}).find("face 0"), std::string::npos) << refusal(flat, {{1, 4, 5, 2}});
+  EXPECT_NE(refusal(flat, {quad(1, 4, 5, 2)}).find("face 0"), std::string::npos) << refusal(flat, {quad(1, 4, 5, 2)});
   auto poisoned = X;
   poisoned[4].y = std::nan("");
   EXPECT_NE(refusal(poisoned, foldFaces).find("face 1"), std::string::npos);

@@ -58,7 +58,7 @@ TEST(SmoothSurface, WeightsSumToOneAndDeriveFromOnePolynomial) {
 /// Up to the rim, and after any affine displacement.
 TEST(SmoothSurface, ReproducesLinearFields) {
   const fem::SolidMesh mesh = unitBlock();
-  const Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
+  const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
   SmoothSurface surface = makeSmoothSurface(skin);
   Random random(2);
   const std::array<Vec3, 4> affine{random.vector(0.5), random.vector(0.5), random.vector(0.5), random.vector(0.5)};
@@ -68,12 +68,12 @@ TEST(SmoothSurface, ReproducesLinearFields) {
   std::vector<Vec3> u;
   for (const Vec3& X : mesh.X) u.push_back(displaced(X) - X);
   placeAll(surface, u);
-  for (std::size_t face = 0; face < skin.quads.size(); ++face)
+  for (std::size_t face = 0; face < skin.faces.size(); ++face)
     for (int i = 0; i < 5; ++i) {
       const double xi = i == 0 ? 0.0 : random(0, 1), eta = i == 1 ? 1.0 : random(0, 1);
       Vec3 X;
       const std::array<double, 4> shape{(1 - xi) * (1 - eta), xi * (1 - eta), xi * eta, (1 - xi) * eta};
-      for (int k = 0; k < 4; ++k) X += shape[k] * skin.X[skin.quads[face][k]];
+      for (int k = 0; k < 4; ++k) X += shape[k] * skin.X[skin.faces[face].node[k]];
       const Vec3 x = pointAt(surface, static_cast<int>(face), {xi, eta}).point;
       EXPECT_LE(norm(x - displaced(X)), 1e-14) << "face " << face;
     }
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Variants, SmoothNormals, ::testing::ValuesIn(flatVarian
 
 TEST(SmoothSurface, ClosestPointAgainstBruteForce) {
   const fem::SolidMesh mesh = unitBlock();
-  SmoothSurface surface = makeSmoothSurface(makeSkin(mesh.X, quadsOf(mesh.faceSets.at("z+"))));
+  SmoothSurface surface = makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("z+")));
   Random random(4);
   placeAll(surface, random.field(mesh.X.size(), 0.2));
   constexpr int n = 60;
@@ -177,7 +177,7 @@ TEST(SmoothSurface, TheMobilityBoundHoldsEverywhereAndIsMetAtACorner) {
 TEST(SmoothSurface, RefusesAnIrregularMeshByFace) {
   std::vector<Vec3> X{{0, 0, 0}};
   for (int k = 0; k < 6; ++k) X.push_back({std::cos(k * std::numbers::pi / 3), std::sin(k * std::numbers::pi / 3), 0});
-  const Skin skin = makeSkin(X, std::vector<Quad>{{0, 1, 2, 3}, {0, 3, 4, 5}, {0, 5, 6, 1}});
+  const Skin skin = makeSkin(X, std::vector{quad(0, 1, 2, 3), quad(0, 3, 4, 5), quad(0, 5, 6, 1)});
   try {
     makeSmoothSurface(skin);
     FAIL() << "accepted";
@@ -188,7 +188,7 @@ TEST(SmoothSurface, RefusesAnIrregularMeshByFace) {
 
 TEST(SmoothSurface, PatchesEndAtSharpEdgesSplitOrNot) {
   const fem::SolidMesh mesh = unitBlock();
-  Skin skin = makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")));
+  Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
   const SmoothSurface whole = makeSmoothSurface(skin);
   splitAtSharpEdges(skin);
   const SmoothSurface split = makeSmoothSurface(skin);
@@ -210,7 +210,7 @@ Vec3 forceAt(SmoothCoupling& seam, const Vec3& x, std::size_t nodes) {
 
 TEST(SmoothSurface, CoplanarFacesActAsOnePlane) {
   const fem::SolidMesh mesh = unitBlock();
-  SmoothCoupling seam(makeSmoothSurface(makeSkin(mesh.X, quadsOf(mesh.faceSets.at("skin")))));
+  SmoothCoupling seam(makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("skin"))));
   Random random(5);
   for (int i = 0; i < 200; ++i) {
     const double overlap = 0.35 * std::pow(10.0, random(-4.0, -0.5));
@@ -227,7 +227,7 @@ TEST(SmoothSurface, CoplanarFacesActAsOnePlane) {
 /// on it, as on the bilinear face.
 TEST(SmoothSurface, ApproximatesWithTheStatedOffset) {
   const fem::SolidMesh mesh = unitBlock();
-  SmoothSurface surface = makeSmoothSurface(makeSkin(mesh.X, quadsOf(mesh.faceSets.at("z+"))));
+  SmoothSurface surface = makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("z+")));
   const double curvature = 0.06;
   std::vector<Vec3> u;
   for (const Vec3& X : mesh.X) u.push_back({0, 0, 0.5 * curvature * (X.x - 2.0) * (X.x - 2.0)});

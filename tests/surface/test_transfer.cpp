@@ -140,7 +140,7 @@ TEST_P(Transfer, MomentsBalanceForLocalAndCorrectedCarriers) {
 INSTANTIATE_TEST_SUITE_P(Variants, Transfer, ::testing::ValuesIn(allVariants()), VariantName{});
 
 Response spread(Scene& scene, const cg::SurfaceKernel& kernel) {
-  const auto faces = quadsOf(scene.mesh.faceSets.at("skin"));
+  const auto faces = scene.mesh.faceSets.at("skin");
   Coupling seam(makeSkin(scene.mesh.X, faces));
   seam.spreadLoad(SpreadLoad(kernel, scene.mesh.X, seam.skin(), faces));
   dem::Particles particles = scene.particles;
@@ -177,7 +177,7 @@ TEST(SpreadTransfer, WidthZeroIsThePointTransfer) {
 
 TEST(SpreadTransfer, CreatesPower) {
   Scene scene(10);
-  const auto faces = quadsOf(scene.mesh.faceSets.at("skin"));
+  const auto faces = scene.mesh.faceSets.at("skin");
   Coupling seam(makeSkin(scene.mesh.X, faces));
   seam.spreadLoad(SpreadLoad({{cg::KernelShape::lucy, 2, 1.3}, {}}, scene.mesh.X, seam.skin(), faces));
   seam.exchange(scene.particles, scene.u, scene.v, elastic, 1e-3);

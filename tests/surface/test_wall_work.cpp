@@ -98,7 +98,7 @@ TEST(WallWork, ClosesItOnTheSmoothSurface) {
 
 TEST(WallWork, ClosesItForTheSpreadLoadWhoseNodesGetOtherWork) {
   const fem::SolidMesh mesh = unitBlock();
-  const auto faces = quadsOf(mesh.faceSets.at("skin"));
+  const auto faces = mesh.faceSets.at("skin");
   const auto spreadSeam = [&] {
     Coupling seam(makeSkin(mesh.X, faces));
     seam.spreadLoad(SpreadLoad({{cg::KernelShape::lucy, 2, 1.3}, {}}, mesh.X, seam.skin(), faces));

@@ -1,7 +1,6 @@
 // The skin: the boundary of a mesh as a moving triangulated wall that particles can touch.
 #pragma once
 
-#include <array>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -10,15 +9,16 @@
 #include "dovetail/cg/surface_kernel.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/walls/wall.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 
 namespace dovetail::surface {
-
-using Quad = std::array<int, 4>;
 
 /// Edges whose facet normals differ by more than this are sharp: no kernel crosses them.
 inline constexpr double defaultSharpAngle = std::numbers::pi / 3.0;
 
-/// How a quadrilateral face becomes triangles: two, or four that meet at the mean of its corners (paper, sec. 5.1).
+/// How a face of four nodes becomes triangles: two, or four that meet at the mean of its corners (paper, sec. 5.1).
+/// Faces of three nodes are one, those of six are four between corners and mid-edge nodes, those of eight and nine are
+/// eight around their middle.
 enum class QuadSplit { two, four };
 
 /// The triangulated boundary of a mesh and the linear map that ties it to the mesh nodes.
@@ -31,19 +31,21 @@ enum class QuadSplit { two, four };
 struct Skin {
   dem::TriangulatedWall wall;     ///< present positions, m, and velocities, m/s; facets counter-clockwise from outside
   std::vector<Vec3> X;            ///< reference position per vertex, m
-  std::vector<Quad> quads;        ///< the faces by skin vertex
+  std::vector<fem::Face> faces;   ///< by skin vertex
   std::vector<int> patchOfFacet;  ///< smooth patch per facet
-  std::vector<int> facetQuad;     ///< face from which a facet was cut
+  std::vector<int> facetFace;     ///< face from which a facet was cut
   cg::Projection localMap;        ///< vertices × nodes: interpolation on the face
   cg::Projection carrier;         ///< vertices × nodes: the map in use (localMap unless coarse-grained)
 };
 
-/// Cuts boundary faces of a mesh into triangles.
+/// Cuts boundary faces of a mesh, of any shape, into triangles. Rows of `localMap` are the shape functions of the face
+/// at the vertex: of one node, or of several in the middle of faces of four and eight nodes. Curved faces are met as
+/// these triangles.
 /// @param X      reference positions of all mesh nodes, m
-/// @param faces  node numbers, counter-clockwise seen from outside
-/// @throws InputError for no faces, a node number out of range, or a face without area or with a repeated node
-///         (named)
-Skin makeSkin(std::span<const Vec3> X, std::span<const Quad> faces, QuadSplit split = QuadSplit::four,
+/// @param faces  node numbers, counter-clockwise seen from outside; entries beyond those of the shape are not looked at
+/// @throws InputError for no faces, a node number out of range, a face without area or with a repeated node, or a line
+///         of a plane mesh (named)
+Skin makeSkin(std::span<const Vec3> X, std::span<const fem::Face> faces, QuadSplit split = QuadSplit::four,
               double sharpAngle = defaultSharpAngle);
 
 /// Gives every smooth patch its own copies of the vertices on sharp edges.

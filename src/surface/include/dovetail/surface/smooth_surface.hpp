@@ -27,8 +27,8 @@ struct SmoothSurface {
 };
 
 /// Smooth patches end at sharp edges, whether or not the skin was split there.
-/// @throws InputError naming the face if a vertex inside a smooth patch has other than four faces: such meshes need
-///         the flat surface.
+/// @throws InputError naming the face if it has other than four nodes, or if a vertex inside a smooth patch has other than
+///         four faces: such meshes need the flat surface.
 SmoothSurface makeSmoothSurface(const Skin& skin);
 
 /// Moves the given control points: x = X + S u, v = S v.

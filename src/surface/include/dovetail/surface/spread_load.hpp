@@ -16,9 +16,10 @@ class SpreadLoad {
 public:
   /// @param X      reference positions of all nodes, m
   /// @param skin   before splitAtSharpEdges
-  /// @param faces  the faces the skin was made from
-  /// @throws InputError for a width that is negative or not finite
-  SpreadLoad(const cg::SurfaceKernel& kernel, std::span<const Vec3> X, const Skin& skin, std::span<const Quad> faces);
+  /// @param faces  the faces the skin was made from, of four nodes
+  /// @throws InputError for a width that is negative or not finite, or a face of another shape
+  SpreadLoad(const cg::SurfaceKernel& kernel, std::span<const Vec3> X, const Skin& skin,
+             std::span<const fem::Face> faces);
 
   /// Adds the reaction to a force `onParticle` (N) whose contact point has the given weights in a facet of the skin.
   void add(const Skin& skin, int facet, const std::array<double, 3>& weight, const Vec3& onParticle, NodalLoad& load);
