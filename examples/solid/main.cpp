@@ -81,14 +81,14 @@ struct Range {
 bool flyIntoTheWall(const example::Options& options) {
   const std::array<int, 3> cells = options.quick ? std::array{2, 2, 12} : std::array{2, 2, 18};
   Bar bar = makeBar(cells);
-  // Elements at the wall are pressed flat: the step must suit them then.
-  const double dt = 0.2 * stableStep(bar.model).dt;
-  const auto steps = static_cast<std::int64_t>(std::ceil(duration / dt));
-  ExplicitIntegrator integrator(bar.model, duration / static_cast<double>(steps), {.energyEvery = 50});
-  std::printf("%zu bricks, %lld steps\n", bar.solid->size(), static_cast<long long>(steps));
+  // Elements at the wall are pressed flat, and the step follows them. The bound does not know the wall: half of it will
+  // do.
+  ExplicitIntegrator integrator(bar.model, stableStep(bar.model).dt,
+                                {.energyEvery = 50, .safety = 0.5, .measureEvery = 10});
+  std::printf("%zu bricks\n", bar.solid->size());
   std::printf("   t, us   length, mm   radius, mm   force, kN   plastic strain\n");
   for (int frame = 1; frame <= 8; ++frame) {
-    integrator.run(steps * frame / 8 - steps * (frame - 1) / 8);
+    integrator.runUntil(duration * frame / 8);
     const Shape shape = shapeOf(bar);
     std::printf("%8.0f %12.3f %12.3f %11.2f %16.2f\n", 1e6 * bar.model.t, 1e3 * shape.length, 1e3 * shape.radius,
                 1e-3 * bar.wall->report(bar.model.nodes, {bar.model.t, 0.0}).force.z, largestStrain(bar));

@@ -16,6 +16,12 @@ std::ostream& operator<<(std::ostream& out, const DynamicsReport& report) {
                                         : "consistent by " + formatNumber(report.massShare));
   row("time reached", formatNumber(report.t) + " s");
   row("step", formatNumber(report.dt) + " s");
+  if (report.stepRange.shortest > 0.0) {
+    const StepRange& range = report.stepRange;
+    row("longest step", formatNumber(range.longest) + " s");
+    row("shortest step",
+        formatNumber(range.shortest) + " s, element " + std::to_string(range.element) + " of \"" + range.solid + "\"");
+  }
   if (report.criticalStep > 0.0) row("over the critical step", formatNumber(report.dt / report.criticalStep));
   row("steps", std::to_string(report.steps));
   if (report.iterations > 0) {

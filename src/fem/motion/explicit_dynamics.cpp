@@ -3,34 +3,16 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/fem/motion/motion.hpp"
-#include "dovetail/fem/motion/stable_step.hpp"
 #include "energy_book.hpp"
 #include "force_sum.hpp"
 #include "run_state.hpp"
+#include "step_control.hpp"
 
 namespace dovetail::fem {
 
 namespace {
-
-/// Lumped mass over the least that the blended one can be.
-double leastMass(double share) { return 1.0 - 26.0 / 27.0 * share; }
-
-double checkedStep(Model& model, double dt, const ExplicitOptions& options, double& critical) {
-  requirePositive(dt, "dt");
-  const bool solid = std::ranges::any_of(
-      model.terms, [](const auto& term) { return dynamic_cast<const Solid*>(term.get()) != nullptr; });
-  if (!options.checkStep || !solid) return dt;
-  const ModelStableStep stable = stableStep(model);
-  critical = stable.dt * std::sqrt(leastMass(options.massShare));
-  if (dt > critical)
-    throw InputError("dt is " + formatNumber(dt) + " s, the largest stable step is " + formatNumber(critical) + " s",
-                     "element " + std::to_string(stable.element) + " of \"" + stable.solid + "\" sets it",
-                     "take a smaller step, a coarser mesh there, or an implicit scheme");
-  return dt;
-}
 
 bool supportsMove(const Model& model, const DofMap& dofs) {
   if (dofs.hasMotion()) return true;
@@ -44,9 +26,9 @@ bool supportsMove(const Model& model, const DofMap& dofs) {
 
 struct ExplicitIntegrator::Impl {
   Model& model;
-  double critical = 0.0;
-  double dt;
   ExplicitOptions options;
+  detail::StepControl control;
+  double dt;  // of the step that ends or begins here
   Motion motion;
   detail::EnergyBook book;
   bool guessesVelocity;                // a term may depend on it
@@ -58,8 +40,9 @@ struct ExplicitIntegrator::Impl {
 
   Impl(Model& m, double step, const ExplicitOptions& o)
       : model(m),
-        dt(checkedStep(m, step, o, critical)),
         options(o),
+        control(m, step, o),
+        dt(control.dt()),
         motion(m, o.massShare),
         book(m),
         guessesVelocity(std::ranges::any_of(m.terms, [](const auto& term) { return term->usesVelocity(); })),
@@ -72,6 +55,8 @@ struct ExplicitIntegrator::Impl {
     book.open();
   }
 
+  /// Marks states: those of steps that follow the solid say more.
+  std::string kind() const { return options.safety > 0.0 ? "following explicit" : "explicit"; }
   Instant now() const { return {model.t, dt, &motion.mass()}; }
   bool samples() const { return options.energyEvery > 0 && steps % options.energyEvery == 0; }
 
@@ -138,6 +123,17 @@ struct ExplicitIntegrator::Impl {
     commit();
     sample();
     if (samples()) book.close();
+    if (options.safety == 0.0) return;
+    const Profile::Stage stage(profile, "stable step");
+    control.accept(model);
+    dt = control.dt();
+  }
+  void stepUntil(double t) {
+    const double parts = std::ceil((t - model.t) / dt * (1.0 - 1e-12));
+    if (parts <= 2.0) dt = (t - model.t) / std::max(parts, 1.0);
+    step();
+    if (parts <= 1.0) model.t = t;
+    dt = control.dt();
   }
   void commit() {
     const Profile::Stage stage(profile, "materials accept");
@@ -167,6 +163,13 @@ void ExplicitIntegrator::run(std::int64_t steps) {
   for (std::int64_t k = 0; k < steps; ++k) step();
   if (impl_->options.checkEvery > 0) impl_->check(false);
 }
+void ExplicitIntegrator::runUntil(double t) {
+  if (!(t >= impl_->model.t))
+    throw InputError("the end is " + formatNumber(t) + " s, the time " + formatNumber(impl_->model.t) + " s",
+                     "runUntil", "give a later time");
+  while (impl_->model.t < t) impl_->stepUntil(t);
+  if (impl_->options.checkEvery > 0) impl_->check(false);
+}
 const EnergyLedger& ExplicitIntegrator::ledger() const { return impl_->book.ledger(); }
 double ExplicitIntegrator::kineticEnergy() const { return impl_->motion.kineticEnergy(); }
 
@@ -177,7 +180,8 @@ DynamicsReport ExplicitIntegrator::report() const {
   report.massShare = impl_->options.massShare;
   report.t = impl_->model.t;
   report.dt = impl_->dt;
-  report.criticalStep = impl_->critical;
+  report.stepRange = impl_->control.range();
+  report.criticalStep = impl_->control.critical();
   report.steps = impl_->steps;
   report.ledger = impl_->book.ledger();
   report.profile = impl_->profile;
@@ -185,21 +189,25 @@ DynamicsReport ExplicitIntegrator::report() const {
 }
 
 void ExplicitIntegrator::save(ByteWriter& archive) const {
-  detail::writeModel(archive, "explicit", impl_->model);
+  detail::writeModel(archive, impl_->kind(), impl_->model);
   impl_->book.save(archive);
   archive(impl_->steps);
+  impl_->control.save(archive);
   detail::writeStart(archive, impl_->start());
 }
 
 void ExplicitIntegrator::load(ByteReader& archive) {
-  detail::ModelState state = detail::readModel(archive, "explicit", impl_->model);
+  detail::ModelState state = detail::readModel(archive, impl_->kind(), impl_->model);
   detail::EnergyBook book = impl_->book.read(archive);
   const std::int64_t steps = detail::readCount(archive, "number of steps");
+  detail::StepControl control = impl_->control.read(archive);
   detail::StepStart start = detail::readStart(archive, impl_->model);
   detail::requireEnd(archive, "ExplicitIntegrator");
   detail::adopt(std::move(state), impl_->model);
   impl_->book = std::move(book);
   impl_->steps = steps;
+  impl_->control = std::move(control);
+  impl_->dt = impl_->control.dt();
   impl_->a = std::move(start.a);
   impl_->model.nodes.f = std::move(start.f);
   impl_->motion.setLoads(std::move(start.loads));

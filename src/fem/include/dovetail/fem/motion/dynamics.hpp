@@ -15,13 +15,21 @@
 
 namespace dovetail::fem {
 
+/// Steps that follow a solid.
+struct StepRange {
+  double shortest = 0.0, longest = 0.0;  ///< s, that were set; 0 if all steps are the same
+  int element = -1;                      ///< that set the shortest, by its number in the mesh
+  std::string solid;                     ///< its solid
+};
+
 /// What a run did, for people and programs. Energies are in the ledger.
 struct DynamicsReport {
   std::string scheme, solver;
   double massShare = 0.0;     ///< 0 lumped, 1 consistent
   double t = 0.0;             ///< s, reached
-  double dt = 0.0;            ///< s, asked for
-  double criticalStep = 0.0;  ///< s, of the explicit step; 0 if it was not checked
+  double dt = 0.0;            ///< s, asked for; of steps that follow the solid the present one
+  StepRange stepRange;        ///< of steps that follow the solid
+  double criticalStep = 0.0;  ///< s, of the explicit step, when it was last looked at; 0 if it was not
   std::int64_t steps = 0;     ///< accepted, parts of cut ones included
   std::int64_t cuts = 0;      ///< attempts that were given up and tried again with half the step
   std::int64_t iterations = 0, factorisations = 0;
@@ -43,6 +51,15 @@ struct ExplicitOptions {
   /// Steps between looks for inverted elements; run() looks once more at its end, and NaN is looked for in every step.
   /// 0 = never
   int checkEvery = 100;
+  /// Above 0 the step follows the solid: it is this share of the bound above as elements are deformed then, and dt at
+  /// the most. Velocity Verlet with ½(dt_old + dt_new) in the kick between two lengths: second order as before, but
+  /// energy is no longer kept for ever. 0 = dt throughout.
+  double safety = 0.0;
+  /// Most steps from one look at the bound to the next; as many fewer as it takes for the bound to change by 2 % in
+  /// between. A look costs about as much as a hundred steps of elastic hex8. Impact after free flight crushes elements
+  /// within the time they take to pass their length: looks must come sooner.
+  int measureEvery = 20;
+  double shortest = 1e-3;  ///< share of the first step below which one that follows gives up
 };
 
 /// Central differences as kick–drift–kick, second order. Forces that depend on the velocity see v + dt a of the last
@@ -53,14 +70,19 @@ struct ExplicitOptions {
 class ExplicitIntegrator {
 public:
   /// The model must outlive the integrator; terms and constraints are read here.
-  /// @throws InputError for dt ≤ 0 or above the stable one (the element is named), nodes without mass
+  /// @param dt  s; the longest step if it follows the solid
+  /// @throws InputError for dt ≤ 0 or above the stable one (the element is named), options out of range, nodes without
+  /// mass
   ExplicitIntegrator(Model& model, double dt, const ExplicitOptions& options = {});
   ~ExplicitIntegrator();
   ExplicitIntegrator(ExplicitIntegrator&&) noexcept;
 
-  /// @throws NumericalError naming node or element if the state breaks down
+  /// @throws NumericalError naming node or element if the state breaks down, or the element that is crushed so far that
+  ///         its step is below the shortest
   void step();
   void run(std::int64_t steps);
+  /// Steps up to time t, s; the last two are shortened so as to end there. @throws InputError if t has passed
+  void runUntil(double t);
   const EnergyLedger& ledger() const;
   DynamicsReport report() const;
   /// ½ vᵀMv with the mass in use, J.
