@@ -54,23 +54,6 @@ double interpolated(const CornerValues& values, const Vec3& xi) {
   return sum;
 }
 
-std::array<GaussData, 8> gaussData(const BrickCorners& corners, const CornerValues& share) {
-  std::array<GaussData, 8> data{};
-  for (int p = 0; p < 8; ++p) {
-    const Matrix3 J = jacobian(corners, gaussPoint(p));
-    const Matrix3 K = inverse(J);
-    const std::array<Vec3, 8> parent = parentGradients(gaussPoint(p));
-    GaussData& point = data[static_cast<std::size_t>(p)];
-    point.weight = interpolated(share, gaussPoint(p)) * determinant(J);
-    for (std::size_t a = 0; a < 8; ++a)
-      for (int j = 0; j < 3; ++j) {
-        const auto c = static_cast<std::size_t>(j);
-        point.gradient[a][j] = parent[a].x * K[c] + parent[a].y * K[3 + c] + parent[a].z * K[6 + c];
-      }
-  }
-  return data;
-}
-
 std::array<double, 8> nodalVolumes(const BrickCorners& corners, const CornerValues& share) {
   std::array<double, 8> volume{};
   const std::array<double, 64> products = shapeProducts(corners, share);

@@ -38,14 +38,6 @@ CornerValues cornerValues(const std::array<int, 8>& element, std::span<const dou
 /// The trilinear interpolation of corner values at ξ; exact where they are all the same.
 double interpolated(const CornerValues& values, const Vec3& xi);
 
-/// What a Gauss point of a brick needs: ∂ψ_a/∂X and the weight det ∂X/∂ξ, m³.
-struct GaussData {
-  std::array<Vec3, 8> gradient;
-  double weight;
-};
-/// @param share  weight of the integrand at the corners, interpolated
-std::array<GaussData, 8> gaussData(const BrickCorners& corners, const CornerValues& share);
-
 /// ∫w ψ_a dV, m³, w interpolated from `share`.
 std::array<double, 8> nodalVolumes(const BrickCorners& corners, const CornerValues& share);
 /// ∫w ψ_a ψ_b dV, row-major, m³; 3×3×3 Gauss points, exact for parallelepipeds.

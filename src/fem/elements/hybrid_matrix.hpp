@@ -1,4 +1,4 @@
-// hybrid8 entity by entity: the compliance of its stress modes, and its tangent.
+// hybrid8 entity by entity: the stiffness of its stress modes.
 #pragma once
 
 #include <array>
@@ -12,9 +12,5 @@ namespace dovetail::fem::detail {
 /// by the Jacobian at the centre, S = J0 Ŝ J0ᵀ.
 std::array<double, 324> hybridStiffness(const BrickCorners& corners, const CornerValues& share,
                                         const Material& material);
-
-/// Row-major 24 × 24 tangent of one element with corners displaced by u, rows 3a + c, N/m.
-std::array<double, 576> hybridTangent(const BrickCorners& corners, const CornerValues& share, const BrickCorners& u,
-                                      const Material& material);
 
 }  // namespace dovetail::fem::detail

@@ -13,6 +13,8 @@ void batchDeterminants(const BrickCache& cache, const Batch& batch, const Vec3* 
 namespace bricks {
 /// Those of hybrid8.
 void hybridForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces);
+/// K = ∂²U/∂u² of a batch, [24 (3a + i) + 3b + k], N/m.
+void hybridTangent(const BrickCache& cache, const Batch& batch, const Vec3* u, Lane* K);
 }  // namespace bricks
 
 }  // namespace dovetail::fem::detail

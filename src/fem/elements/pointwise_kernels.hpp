@@ -83,8 +83,7 @@ void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u,
 }
 
 template <Law law>
-void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
-                     BatchForces& forces) {
+void pointwiseForces(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces) {
   withEnergy ? pointwiseForces<law, true>(cache, batch, u, forces)
              : pointwiseForces<law, false>(cache, batch, u, forces);
 }
@@ -104,8 +103,7 @@ DOVETAIL_INLINE std::array<Lane, 9> inverseOf(const std::array<Lane, 9>& m) {
           s * c2, s * (m[1] * m[6] - m[0] * m[7]), s * (m[0] * m[4] - m[1] * m[3])};
 }
 
-inline void forcesOf(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy,
-                     BatchForces& forces) {
+inline void forcesOf(const BrickCache& cache, const Batch& batch, const Vec3* u, bool withEnergy, BatchForces& forces) {
   switch (cache.law) {
     case Law::stVenantKirchhoff:
       return pointwiseForces<Law::stVenantKirchhoff>(cache, batch, u, withEnergy, forces);

@@ -1,6 +1,5 @@
-// Who adds where: lists and colours of the batches, and the parallel assembly of their matrices.
+// Who adds where: owners of nodes and colours of the batches, and the parallel assembly of their matrices.
 #include <algorithm>
-#include <limits>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -8,23 +7,34 @@
 
 namespace dovetail::fem::detail {
 
-/// For every node its entries in the batches' results, by ascending element; once.
-void SolidBase::listEntries() {
-  if (!nodeEntries_.empty()) return;
-  const std::size_t n = cells_.nodes, lanes = stride();
-  if (lanes * laneCount * cells_.batches() > std::numeric_limits<std::uint32_t>::max())
-    throw InputError("there are " + std::to_string(cells_.size()) + " elements in one solid", options_.name,
-                     "split it by element sets, or use one thread");
-  nodeOffsets_.assign(cells_.X.size() + 1, 0);
-  for (std::size_t e = 0; e < cells_.size(); ++e)
-    for (std::size_t a = 0; a < n; ++a) ++nodeOffsets_[static_cast<std::size_t>(cells_.nodeOf(e, a)) + 1];
-  for (std::size_t i = 0; i < cells_.X.size(); ++i) nodeOffsets_[i + 1] += nodeOffsets_[i];
-  std::vector<std::uint32_t> next(nodeOffsets_.begin(), nodeOffsets_.end() - 1);
-  nodeEntries_.resize(n * cells_.size());
-  for (std::size_t e = 0; e < cells_.size(); ++e)
-    for (std::size_t a = 0; a < n; ++a)
-      nodeEntries_[next[static_cast<std::size_t>(cells_.nodeOf(e, a))]++] =
-          static_cast<std::uint32_t>((lanes * (e / laneCount) + slot(a, 0)) * laneCount + e % laneCount);
+std::size_t SharedNodes::memory() const {
+  return sizeof(std::int32_t) * owner.capacity() + sizeof(Vec3) * late.capacity() + sizeof(int) * node.capacity() +
+         sizeof(std::uint32_t) * (first.capacity() + offsets.capacity() + place.capacity());
+}
+
+/// Once.
+void SolidBase::shareNodes() {
+  if (!shared_.owner.empty()) return;
+  shared_.owner.assign(cells_.X.size(), -1);
+  std::vector<std::vector<std::uint32_t>> late(cells_.X.size());
+  std::uint32_t count = 0;
+  for (std::size_t e = 0; e < cells_.size(); ++e) {
+    const auto chunk = static_cast<std::int32_t>(e / laneCount / grain());
+    if (shared_.first.size() == static_cast<std::size_t>(chunk)) shared_.first.push_back(count);
+    for (std::size_t a = 0; a < cells_.nodes; ++a) {
+      const auto n = static_cast<std::size_t>(cells_.nodeOf(e, a));
+      if (shared_.owner[n] < 0) shared_.owner[n] = chunk;
+      if (shared_.owner[n] != chunk) late[n].push_back(count++);
+    }
+  }
+  shared_.late.resize(count);
+  shared_.offsets.push_back(0);
+  for (std::size_t n = 0; n < late.size(); ++n) {
+    if (late[n].empty()) continue;
+    shared_.node.push_back(static_cast<int>(n));
+    shared_.place.insert(shared_.place.end(), late[n].begin(), late[n].end());
+    shared_.offsets.push_back(static_cast<std::uint32_t>(shared_.place.size()));
+  }
 }
 
 /// Greedy: the first colour that none of the batch's nodes has; once.

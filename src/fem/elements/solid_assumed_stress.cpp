@@ -2,7 +2,7 @@
 #include "brick_cache.hpp"
 #include "cell_kernels.hpp"
 #include "dovetail/core/error.hpp"
-#include "hybrid_matrix.hpp"
+#include "kernels.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -12,7 +12,7 @@ class AssumedStressSolid final : public SolidBase {
 public:
   AssumedStressSolid(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options,
                      const Material& law)
-      : SolidBase(std::move(cells), std::move(points), options, true), law_(law) {
+      : SolidBase(std::move(cells), std::move(points), options, true) {
     useKernels(law, true);
   }
 
@@ -29,16 +29,8 @@ private:
   }
   void forces(const BatchTask& task, BatchResult& result) override { forcesByKernels(task, result); }
   void tangent(const BatchTask& task, Lane* K) override {
-    for (std::size_t lane = 0; lane < cells_.inUse(task.batch); ++lane) {
-      const std::array<int, 8> nodes = brickNodes(cells_, laneCount * task.batch + lane);
-      const std::array<double, 576> matrix =
-          hybridTangent(cornersOf(nodes, cells_.X), cornerValues(nodes, cells_.share),
-                        cornersOf(nodes, {task.u, cells_.X.size()}), law_);
-      for (std::size_t k = 0; k < 576; ++k) K[k][static_cast<int>(lane)] = matrix[k];
-    }
+    bricks::hybridTangent(*bricks_, bricks_->batches[task.batch], task.u, K);
   }
-
-  Material law_;
 };
 
 }  // namespace

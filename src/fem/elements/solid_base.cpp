@@ -10,7 +10,7 @@ namespace dovetail::fem::detail {
 
 namespace {
 
-constexpr std::size_t batchGrain = 16, kernelGrain = 128;
+constexpr std::size_t batchGrain = 16, cheapGrain = 128;  // of kernels and tet4
 constexpr std::size_t nodeGrain = 1024;
 constexpr std::size_t parallelNodes = 4096;  // below this many nodes of batches threads cost more than they bring
 
@@ -98,75 +98,70 @@ BatchTask SolidBase::taskOf(std::size_t batch, const Nodes& nodes, const Instant
   return {batch, nodes.u.data(), start, now.dt, false, false};
 }
 
-/// Lanes per batch in results_: kernels leave their energy there too.
-std::size_t SolidBase::stride() const { return bricks_ ? sizeof(BatchForces) / sizeof(Lane) : 3 * cells_.nodes; }
-
 /// Place of component i of local node a among the forces of a batch, in lanes.
 std::size_t SolidBase::slot(std::size_t a, std::size_t i) const { return bricks_ ? 8 * i + brickNode[a] : 3 * a + i; }
 
+/// Calls sink(node, force) for the entries of a batch, element by element.
 /// @param across  lanes between the components of a node
-template <std::size_t across, class Slot>
-void SolidBase::subtractFrom(std::size_t batch, const Lane* forces, std::span<Vec3> f, Slot&& slotOf) const {
+template <std::size_t across, class Slot, class Sink>
+void SolidBase::handOut(std::size_t batch, const Lane* forces, Slot&& slotOf, Sink&& sink) const {
   const auto* const nodes = &cells_.batchNode[batch * cells_.nodes];
   for (std::size_t lane = 0; lane < cells_.inUse(batch); ++lane)
     for (std::size_t a = 0; a < cells_.nodes; ++a) {
-      Vec3& node = f[static_cast<std::size_t>(nodes[a][lane])];
       const auto* const own = reinterpret_cast<const double*>(forces + slotOf(a)) + lane;
-      node.x -= own[0];
-      node.y -= own[across * laneCount];
-      node.z -= own[2 * across * laneCount];
+      sink(static_cast<std::size_t>(nodes[a][lane]),
+           Vec3{own[0], own[across * laneCount], own[2 * across * laneCount]});
     }
 }
 
-void SolidBase::subtract(std::size_t batch, const Lane* forces, std::span<Vec3> f) const {
+template <class Sink>
+void SolidBase::handOut(std::size_t batch, const Lane* forces, Sink&& sink) const {
   if (bricks_)
-    subtractFrom<8>(batch, forces, f, [](std::size_t a) { return brickNode[a]; });
+    handOut<8>(
+        batch, forces, [](std::size_t a) { return brickNode[a]; }, sink);
   else
-    subtractFrom<1>(batch, forces, f, [](std::size_t a) { return 3 * a; });
+    handOut<1>(
+        batch, forces, [](std::size_t a) { return 3 * a; }, sink);
 }
 
-/// Every node adds its own entries, in the order of the elements.
-void SolidBase::gather(std::span<Vec3> f) const {
-  const auto* const values = reinterpret_cast<const double*>(results_.data());
-  const std::size_t across = slot(0, 1) * laneCount;
-  parallelFor(f.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n)
-      for (std::uint32_t k = nodeOffsets_[n]; k < nodeOffsets_[n + 1]; ++k) {
-        const double* const value = values + nodeEntries_[k];
-        f[n].x -= value[0];
-        f[n].y -= value[across];
-        f[n].z -= value[2 * across];
-      }
-  });
-}
+std::size_t SolidBase::grain() const { return bricks_ || cells_.nodes == 4 ? cheapGrain : batchGrain; }
 
-/// Subtracts the forces that body(batch, lanes) writes for every batch from f.
+/// Subtracts the forces that body(batch, lanes) writes for every batch from f: for each node in the order of the
+/// elements, on any number of threads.
 template <class Body>
 SolidBase::Totals SolidBase::eachBatch(std::span<Vec3> f, Body&& body) {
-  const std::size_t count = cells_.batches(), lanes = stride();
-  const bool many = threads() > 1 && count * cells_.nodes > parallelNodes;
-  if (many) {
-    results_.resize(count * lanes);
-    listEntries();
-  }
-  const auto part = [&](std::size_t begin, std::size_t end) {
+  const std::size_t count = cells_.batches();
+  const auto part = [&](std::size_t begin, std::size_t end, auto&& sink) {
     Totals sum;
-    Lanes<3 * maxCellNodes> local;
+    Lanes<3 * maxCellNodes> forces;
     for (std::size_t b = begin; b < end; ++b) {
-      Lane* const forces = many ? &results_[b * lanes] : local.data();
-      sum += body(b, forces);
-      if (!many) subtract(b, forces, f);
+      sum += body(b, forces.data());
+      handOut(b, forces.data(), sink);
     }
     return sum;
   };
-  const std::size_t grain = bricks_ ? kernelGrain : batchGrain;
-  if (many) {
-    const Totals sum = parallelSum(count, grain, part);
-    gather(f);
+  if (threads() == 1 || count * cells_.nodes <= parallelNodes) {
+    Totals sum;
+    for (std::size_t begin = 0; begin < count; begin += grain())
+      sum += part(begin, std::min(count, begin + grain()), [&](std::size_t n, const Vec3& own) { f[n] -= own; });
     return sum;
   }
-  Totals sum;
-  for (std::size_t begin = 0; begin < count; begin += grain) sum += part(begin, std::min(count, begin + grain));
+  shareNodes();
+  const Totals sum = parallelSum(count, grain(), [&](std::size_t begin, std::size_t end) {
+    const auto chunk = static_cast<std::int32_t>(begin / grain());
+    std::size_t next = shared_.first[static_cast<std::size_t>(chunk)];
+    return part(begin, end, [&](std::size_t n, const Vec3& own) {
+      if (shared_.owner[n] == chunk)
+        f[n] -= own;
+      else
+        shared_.late[next++] = own;
+    });
+  });
+  parallelFor(shared_.node.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      for (std::uint32_t entry = shared_.offsets[k]; entry < shared_.offsets[k + 1]; ++entry)
+        f[static_cast<std::size_t>(shared_.node[k])] -= shared_.late[shared_.place[entry]];
+  });
   return sum;
 }
 
@@ -227,19 +222,18 @@ SolidBase::Totals SolidBase::totals(const Nodes& nodes, const Instant& now) {
   if (isKnown(nodes, now)) return evaluation_.totals;
   ask(nodes, now, false, true);
   const bool remembers = points_->remembers();
-  const Totals sum =
-      parallelSum(cells_.batches(), bricks_ ? kernelGrain : batchGrain, [&](std::size_t begin, std::size_t end) {
-        Totals part;
-        BatchResult result;
-        for (std::size_t b = begin; b < end; ++b) {
-          BatchTask task = taskOf(b, nodes, now);
-          task.wantEnergy = true;
-          task.wantDissipation = remembers;
-          energies(task, result);
-          part += {sumOfLanes(result.energy), remembers ? sumOfLanes(result.dissipated) : 0.0};
-        }
-        return part;
-      });
+  const Totals sum = parallelSum(cells_.batches(), grain(), [&](std::size_t begin, std::size_t end) {
+    Totals part;
+    BatchResult result;
+    for (std::size_t b = begin; b < end; ++b) {
+      BatchTask task = taskOf(b, nodes, now);
+      task.wantEnergy = true;
+      task.wantDissipation = remembers;
+      energies(task, result);
+      part += {sumOfLanes(result.energy), remembers ? sumOfLanes(result.dissipated) : 0.0};
+    }
+    return part;
+  });
   if (remembers) evaluation_ = {nodes.u, now.dt, sum, true, false};
   return sum;
 }
@@ -331,8 +325,8 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when, Scruti
 std::size_t SolidBase::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(cells_.number) + bytes(cells_.X) + bytes(cells_.share) + bytes(cells_.batchNode) + bytes(geometry_) +
-         points_->memory() + bytes(evaluation_.u) + bytes(results_) + bytes(nodeOffsets_) + bytes(nodeEntries_) +
-         bytes(places_) + (bricks_ ? bricks_->memory() : 0) + formulationMemory();
+         points_->memory() + bytes(evaluation_.u) + shared_.memory() + bytes(places_) +
+         (bricks_ ? bricks_->memory() : 0) + formulationMemory();
 }
 
 Solid::Sample SolidBase::sample(const Nodes& nodes, const Instant& now) {

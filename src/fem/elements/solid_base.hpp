@@ -29,6 +29,17 @@ struct BatchTask {
   bool wantEnergy, wantDissipation;
 };
 
+/// Who adds to which node where chunks of batches are computed at the same time: a node belongs to the first chunk that
+/// meets it. What later chunks have for it waits, and is added in their order.
+struct SharedNodes {
+  std::vector<std::int32_t> owner;            ///< chunk, per node of the mesh
+  std::vector<std::uint32_t> first;           ///< per chunk, place in `late` of its first entry
+  std::vector<Vec3> late;                     ///< N, in the order of the elements
+  std::vector<int> node;                      ///< that late entries are for
+  std::vector<std::uint32_t> offsets, place;  ///< of its entries, ascending
+  std::size_t memory() const;
+};
+
 class SolidBase : public Solid {
 public:
   /// @param lazy  leave geometry_ empty until needGeometry()
@@ -98,7 +109,8 @@ protected:
   std::unique_ptr<SolidPoints> points_;
   SolidOptions options_;
   const CellRule* rule_;
-  std::vector<PointGeometry> geometry_;  // empty where kernels do without
+  std::vector<PointGeometry> geometry_;       // empty where kernels do without
+  std::unique_ptr<const BrickCache> bricks_;  // if there are kernels
 
 private:
   struct Totals {
@@ -124,12 +136,12 @@ private:
   /// The conserving forces of a formulation whose forces() knows nothing of a `start`.
   void balancedForces(const BatchTask& task, BatchResult& result);
   void setPath(std::span<const Vec3> u0, std::span<const Vec3> u1);
-  std::size_t stride() const;
   std::size_t slot(std::size_t a, std::size_t i) const;
-  template <std::size_t across, class Slot>
-  void subtractFrom(std::size_t batch, const Lane* forces, std::span<Vec3> f, Slot&& slotOf) const;
-  void subtract(std::size_t batch, const Lane* forces, std::span<Vec3> f) const;
-  void gather(std::span<Vec3> f) const;
+  template <std::size_t across, class Slot, class Sink>
+  void handOut(std::size_t batch, const Lane* forces, Slot&& slotOf, Sink&& sink) const;
+  template <class Sink>
+  void handOut(std::size_t batch, const Lane* forces, Sink&& sink) const;
+  std::size_t grain() const;
   void energies(const BatchTask& task, BatchResult& result);
   bool isKnown(const Nodes& nodes, const Instant& now) const;
   Totals totals(const Nodes& nodes, const Instant& now);
@@ -141,17 +153,14 @@ private:
   void requireUpright(std::size_t batch, const Nodes& nodes, const std::string& when) const;
 
   void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, double share, BlockMatrix& K);
-  void listEntries();
+  void shareNodes();
   void colourBatches();
   void findPlaces(const BlockMatrix& K);
   void scatter(std::size_t batch, const Lane* matrix, double share, BlockMatrix& K) const;
 
-  std::unique_ptr<const BrickCache> bricks_;  // if there are kernels
   Evaluation evaluation_;
-  std::array<std::vector<Vec3>, 3> path_;   // displacements at the Gauss points of the path of a conserving step
-  LaneVector results_;                      // forces of all batches, for more than one thread
-  std::vector<std::uint32_t> nodeOffsets_;  // entries of each node in results_, ascending elements
-  std::vector<std::uint32_t> nodeEntries_;  // place of their first component, in doubles
+  std::array<std::vector<Vec3>, 3> path_;  // displacements at the Gauss points of the path of a conserving step
+  SharedNodes shared_;                     // for more than one thread
   std::vector<std::vector<std::uint32_t>> colours_;  // batches of a colour share no node
   std::vector<std::uint32_t> places_;                // of the blocks (a, b) of each element in a matrix
   std::size_t placesOf_ = 0;                         // its pattern
