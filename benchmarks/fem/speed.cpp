@@ -1,6 +1,8 @@
 // Time of what a step of a solid consists of: forces and tangent per element, and implicit steps of two beams.
 //
-// usage: fem_speed [--threads N] [--beams] [--elements] [--leaving-out] [--solvers]
+// usage: fem_speed [--threads N] [--beams] [--cube N] [--elements] [--memory] [--leaving-out] [--solvers]
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -20,6 +22,7 @@
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
 #include "dovetail/fem/solve/linear_solver.hpp"
+#include "dovetail/fem/solve/statics.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 
 namespace {
@@ -156,6 +159,59 @@ void timeBeams() {
   for (const double tolerance : {1e-5, 1e-10}) timeBeam({10, 10, 150}, Formulation::standard, tolerance, 20);
 }
 
+/// A cube of n³ bricks of 1 m, E 1 MPa, ν 0.3, St Venant-Kirchhoff, clamped below and pressed by a tenth between rough
+/// platens, in one step.
+void timeCube(int n) {
+  const auto start = std::chrono::steady_clock::now();
+  const SolidMesh mesh = boxOf(CellShape::hex8, {n, n, n}, {}, {1.0, 1.0, 1.0});
+  Model model = makeModel(mesh);
+  Solid& solid = model.add(makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0}))));
+  model.constraints.hold(nodeSet(mesh, "z-"));
+  model.constraints.hold(nodeSet(mesh, "z+"), componentX | componentY);
+  model.constraints.prescribe(nodeSet(mesh, "z+"), 2, [](double t) { return -0.1 * t; });
+  const StaticReport report =
+      solveStatics(model, 1.0, {.newton = {.relativeTolerance = 1e-6, .reuseContraction = 0.3}, .firstStep = 1.0});
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::vector<Vec3> f(mesh.X.size());
+  solid.addForces(model.nodes, {}, f);
+  double force = 0.0;
+  for (const int node : nodeSet(mesh, "z+")) force += f[static_cast<std::size_t>(node)].z;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf(
+      "cube %d threads %d: %.2f s (assembly %.2f, solver %.2f), %lld iterations, %lld factorisations, "
+      "force %.6e N, %.0f MB\n",
+      n, threads(), seconds, report.assemblySeconds, report.solverSeconds, static_cast<long long>(report.iterations),
+      static_cast<long long>(report.factorisations), force, static_cast<double>(usage.ru_maxrss) / 1024.0);
+}
+
+/// Bytes per brick without the arrays of the nodes, after explicit forces on one and two threads, and after a tangent.
+void countBytes() {
+  std::printf("%-10s %-16s | bytes: forces, 1 thread, 2 threads, after a tangent\n", "bricks", "formulation");
+  for (const bool distorted : {false, true})
+    for (const Formulation formulation : {Formulation::standard, Formulation::assumedStress}) {
+      SolidMesh mesh = boxOf(CellShape::hex8, {20, 20, 40}, {}, {1.0, 1.0, 2.0});
+      if (distorted)
+        for (Vec3& X : mesh.X) X.x += 0.01 * std::sin(9.0 * X.y + 5.0 * X.z);
+      Model model = makeModel(mesh);
+      Solid& solid = model.add(
+          makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0})), {.formulation = formulation}));
+      const auto each = [&] { return static_cast<double>(solid.memory()) / static_cast<double>(solid.size()); };
+      double bytes[3];
+      for (const int count : {1, 2}) {
+        setThreads(count);
+        solid.addForces(model.nodes, {}, model.nodes.f);
+        bytes[count - 1] = each();
+      }
+      setThreads(1);
+      BlockMatrix K(couplingPattern(model));
+      solid.addTangent(model.nodes, {}, K);
+      bytes[2] = each();
+      std::printf("%-10s %-16s | %.0f %.0f %.0f\n", distorted ? "distorted" : "boxes", name(formulation), bytes[0],
+                  bytes[1], bytes[2]);
+    }
+}
+
 /// Explicit steps of an elastic beam: the verbs alone, a model of nothing but the solid, and what each part costs that
 /// is present but idle.
 void timeLeavingOut() {
@@ -259,33 +315,42 @@ void timeSolvers() {
 
 int main(int argc, char** argv) {
   int threadCount = 2;
-  bool beams = false, elements = false, leavingOut = false, solvers = false;
+  int cube = 0;
+  bool beams = false, elements = false, memory = false, leavingOut = false, solvers = false;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--beams") == 0)
       beams = true;
     else if (std::strcmp(argv[i], "--elements") == 0)
       elements = true;
+    else if (std::strcmp(argv[i], "--memory") == 0)
+      memory = true;
     else if (std::strcmp(argv[i], "--leaving-out") == 0)
       leavingOut = true;
     else if (std::strcmp(argv[i], "--solvers") == 0)
       solvers = true;
     else if (std::strcmp(argv[i], "--threads") == 0 && i + 1 < argc && std::atoi(argv[i + 1]) >= 1)
       threadCount = std::atoi(argv[++i]);
+    else if (std::strcmp(argv[i], "--cube") == 0 && i + 1 < argc && std::atoi(argv[i + 1]) >= 1)
+      cube = std::atoi(argv[++i]);
     else {
-      std::fprintf(stderr,
-                   "fem_speed: \"%s\" is not known; use --threads N (1 or more), --beams, --elements, --leaving-out, "
-                   "--solvers\n",
-                   argv[i]);
+      std::fprintf(
+          stderr,
+          "fem_speed: \"%s\" is not known; use --threads N (1 or more), --beams, --cube N (1 or more), --elements, "
+          "--memory, --leaving-out, --solvers\n",
+          argv[i]);
       return 2;
     }
   }
-  const bool all = !beams && !elements && !leavingOut && !solvers;
+  const bool all = !beams && cube == 0 && !elements && !memory && !leavingOut && !solvers;
   if (elements || all) timeElements(threadCount);
+  setThreads(threadCount);
+  if (cube > 0) timeCube(cube);
   setThreads(1);
   if (beams || all) {
     std::printf("one thread, %s\n", SparseCholesky::name());
     timeBeams();
   }
+  if (memory || all) countBytes();
   if (leavingOut || all) timeLeavingOut();
   if (solvers || all) timeSolvers();
 }
