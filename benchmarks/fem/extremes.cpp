@@ -12,7 +12,10 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/plasticity.hpp"
+#include "dovetail/fem/laws/point_field.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/mesh/mesh_places.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
 #include "dovetail/fem/solve/statics.hpp"
@@ -46,13 +49,6 @@ public:
 private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-std::vector<int> nodesWhere(const SolidMesh& mesh, const std::function<bool(const Vec3&)>& in) {
-  std::vector<int> found;
-  for (std::size_t n = 0; n < mesh.X.size(); ++n)
-    if (in(mesh.X[n])) found.push_back(static_cast<int>(n));
-  return found;
-}
 
 struct Beam {
   double length, height, young, nu;
@@ -306,6 +302,124 @@ void explicitLimit(Table& table, int longRun) {
   }
 }
 
+/// The same block near the origin and a million sizes away from it.
+void farAway(Table& table) {
+  for (const auto& [shape, formulation] :
+       {std::pair(CellShape::hex8, Formulation::standard), std::pair(CellShape::hex8, Formulation::enhanced),
+        std::pair(CellShape::tet10, Formulation::standard)}) {
+    const Stopwatch watch;
+    double deflection[2];
+    for (const bool far : {false, true}) {
+      SolidMesh mesh = boxOf(shape, {2, 2, 8}, {}, {0.25, 0.25, 1.0});
+      if (far)
+        for (Vec3& X : mesh.X) X += {1e6, -1e6, 1e6};
+      Model model = makeModel(mesh);
+      model.add(makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.3, 1000.0)), {.formulation = formulation}));
+      addMass(model);
+      fix(model.nodes, nodeSet(mesh, "z-"));
+      model.add(gravity({2.0, 0.0, 0.0}));
+      solveStatics(model, 1.0, {.firstStep = 1.0});
+      deflection[far] = model.nodes.u[static_cast<std::size_t>(nodeSet(mesh, "z+")[0])].x;
+    }
+    const double error = deflection[1] / deflection[0] - 1.0;  // positions are known to 1e-10 of the element there
+    table.row("1e6 m from the origin", elementName(shape, formulation),
+              text("tip moves %.9e m, at the origin %.9e m: %+.1e", deflection[1], deflection[0], error),
+              std::abs(error) < 1e-8, watch.seconds());
+  }
+}
+
+/// A confined block that is pressed to a fifth of its height at a sixteenth of its speed of sound, with the shocks that
+/// run up and down in it.
+void crushedInFlight(Table& table) {
+  for (const double safety : {0.0, 0.8}) {
+    const Stopwatch watch;
+    const SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 16}, {}, {0.1, 0.1, 1.0});
+    Model model = makeModel(mesh);
+    model.add(makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.0, 1000.0))));
+    addMass(model);
+    for (const int axis : {0, 1}) model.constraints.hold(nodeSet(mesh, "skin"), 1u << axis);
+    model.constraints.hold(nodeSet(mesh, "z-"), componentZ);
+    model.constraints.prescribe(nodeSet(mesh, "z+"), 2, [](double t) { return -0.8 * std::min(1.0, t / 0.4); });
+    try {
+      ExplicitIntegrator run(model, 0.9 * stableStep(model).dt, {.checkEvery = 10, .safety = safety});
+      while (model.t < 0.5) run.step();
+      run.run(1);
+      const DynamicsReport report = run.report();
+      const double input = run.ledger().storedMax();
+      const double residual = std::abs(run.ledger().residual()) / input;
+      table.row("pressed to 0.2 in motion", safety > 0.0 ? "step follows" : "fixed step",
+                text("steps %.2e to %.2e s, element %d, residual %.1e of the energy", report.stepRange.shortest,
+                     report.stepRange.longest, report.stepRange.element, residual),
+                safety > 0.0 && residual < 0.02, watch.seconds());
+    } catch (const NumericalError& error) {
+      table.row("pressed to 0.2 in motion", safety > 0.0 ? "step follows" : "fixed step",
+                text("stopped at t = %.3f s: %.60s", model.t, error.what()), safety == 0.0, watch.seconds());
+    }
+  }
+}
+
+/// Soil whose cohesion falls to a hundredth of its first value, sheared far: it flows, and never gives energy back.
+void softened(Table& table) {
+  const Stopwatch watch;
+  const SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+  Model model = makeModel(mesh);
+  DruckerPrager soil{50e6, 0.25, 2000.0, 0.0, 0.5, 0.1, ConeMatch::compression, saturatingYield(1e6, 0.0, 1e4, 30.0)};
+  model.add(makeSolid(mesh, pointMaterial(soil), {.formulation = Formulation::meanDilatation}));
+  model.constraints.hold(nodeSet(mesh, "z-"));
+  model.constraints.hold(nodeSet(mesh, "z+"), componentY);
+  model.constraints.prescribe(nodeSet(mesh, "z+"), 2, [](double t) { return -1e-3 * t; });
+  model.constraints.prescribe(nodeSet(mesh, "z+"), 0, [](double t) { return 0.5 * t; });
+  double before = 0.0, least = 1e300;
+  const StaticReport report = solveStatics(model, 1.0, {.firstStep = 0.01, .largestStep = 0.05});
+  least = report.dissipated - before;
+  table.row("soil that softens to 1 %", "hex8 mean dilatation",
+            text("%zu steps, %d cuts, dissipated %.3e J, residual %+.1e J", report.steps.size(), report.cuts, least,
+                 report.energyResidual()),
+            least > 0.0 && std::abs(report.energyResidual()) < 0.05 * report.dissipated, watch.seconds());
+}
+
+/// Cells of which one fails at a stretch of 1.2: the run stops there, in its last equilibrium, and names it.
+void failingPoint(Table& table) {
+  struct Cell : FieldPoint {
+    bool weak;
+    explicit Cell(bool isWeak) : weak(isWeak) {}
+    void evaluate(std::span<const double, 9> F, double, bool, PointAnswer answer) override {
+      if (weak && F[8] > 1.2) throw NumericalError("the grains of the cell do not settle", "cell", "");
+      answer.energy = answer.dissipated = 0.0;
+      for (std::size_t k = 0; k < 9; ++k) {
+        const double H = F[k] - (k % 4 == 0 ? 1.0 : 0.0);
+        answer.P[k] = 1e6 * H;
+        answer.energy += 0.5e6 * H * H;
+      }
+      for (std::size_t k = 0; k < answer.tangent.size(); ++k) answer.tangent[k] = k % 10 == 0 ? 1e6 : 0.0;
+    }
+    void commit() override {}
+    void revert() override {}
+    void save(ByteWriter&) const override {}
+    void load(ByteReader&) override {}
+  };
+  const Stopwatch watch;
+  const SolidMesh mesh = boxOf(CellShape::hex8, {2, 2, 4}, {}, {0.5, 0.5, 1.0});
+  Model model = makeModel(mesh);
+  model.add(makeSolid(
+      mesh, pointField({.name = "cells", .density = 1000.0, .isSymmetric = true}, [](const PointPlace& place) {
+        return std::make_unique<Cell>(place.element == 9 && place.point == 5);
+      })));
+  model.constraints.hold(nodeSet(mesh, "z-"));
+  model.constraints.prescribe(nodeSet(mesh, "z+"), 2, [](double t) { return t; });
+  try {
+    solveStatics(model, 1.0, {.firstStep = 0.05, .smallestStep = 1e-4});
+    table.row("a point without an answer", "hex8", "ran on", false, watch.seconds());
+  } catch (const NumericalError& error) {
+    const std::string what = error.what();
+    const bool named = what.find("element 9") != std::string::npos && what.find("point 5") != std::string::npos;
+    table.row(
+        "a point without an answer", "hex8",
+        text("stopped at a stretch of %.4f (1.2), element and point %s", 1.0 + model.t, named ? "named" : "MISSING"),
+        named && std::abs(model.t - 0.2) < 2e-4, watch.seconds());
+  }
+}
+
 /// A study that throws is a failure with its reason.
 void guarded(Table& table, void (*study)(Table&)) {
   try {
@@ -325,7 +439,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   Table table;
-  for (const auto& study : {modulusRatio, slenderness, aspectRatio, incompressible, crush, limitPoint, refusedStep})
+  for (const auto& study : {modulusRatio, slenderness, aspectRatio, incompressible, crush, limitPoint, refusedStep,
+                            farAway, crushedInFlight, softened, failingPoint})
     guarded(table, study);
   explicitLimit(table, quick ? 20000 : 1000000);
   std::printf("%d rows are not as they should be\n", table.failures);
