@@ -51,45 +51,36 @@ void stepAt(const Law& law, PointStep<double>& step, const TangentOut<double>* t
 }
 
 template <class Law>
-class HistoryMaterial final : public PointMaterial {
+class HistoryMaterial final : public LawMaterial<Law> {
 public:
-  HistoryMaterial(std::string name, double density, Law law)
-      : name_(std::move(name)), density_(requirePositive(density, "density")), law_(std::move(law)) {}
-  std::string name() const override { return name_; }
-  double density() const override { return density_; }
-  std::size_t historySize() const override { return law_.historySize(); }
+  using LawMaterial<Law>::LawMaterial;
+  std::size_t historySize() const override { return this->law().historySize(); }
   void startHistory(std::span<double> history) const override {
     if constexpr (StartsHistory<Law>)
-      law_.start(history);
+      this->law().start(history);
     else
       std::fill(history.begin(), history.end(), 0.0);
   }
   bool isElastic() const override { return false; }
   bool isSymmetric() const override {
-    if constexpr (requires { law_.isSymmetric(); })
-      return law_.isSymmetric();
+    if constexpr (requires { this->law().isSymmetric(); })
+      return this->law().isSymmetric();
     else
       return false;
   }
   void evaluate(const PointBatch& batch) const override {
     for (std::size_t point = 0; point < pointLanes * batch.groups; ++point) evaluatePoint(batch, point);
   }
-  std::string whyInvalid(const double* F) const override {
-    std::string reason = PointMaterial::whyInvalid(F);
-    if constexpr (SaysWhyInvalid<Law>)
-      if (reason.empty()) reason = law_.whyInvalid(F);
-    return reason;
-  }
 
 private:
   void evaluatePoint(const PointBatch& batch, std::size_t point) const {
-    const std::size_t group = point / pointLanes, lane = point % pointLanes, size = law_.historySize();
+    const std::size_t group = point / pointLanes, lane = point % pointLanes, size = this->law().historySize();
     PointStep<double> step{
         {}, batch.dt, {batch.history + point * size, size}, {}, {batch.newHistory + point * size, size}};
     for (std::size_t i = 0; i < 9; ++i) step.F[i] = batch.F[pointLanes * (9 * group + i) + lane];
     if (determinant(step.F) > 0.0) {
       const TangentOut<double> tangent(batch.tangent ? batch.tangent + pointLanes * 81 * group + lane : nullptr);
-      stepAt(law_, step, batch.tangent ? &tangent : nullptr);
+      stepAt(this->law(), step, batch.tangent ? &tangent : nullptr);
     } else {
       step.P.fill(std::numeric_limits<double>::quiet_NaN());
       std::copy(step.history.begin(), step.history.end(), step.newHistory.begin());
@@ -98,10 +89,6 @@ private:
     if (batch.energy) batch.energy[point] = step.energy;
     if (batch.dissipated) batch.dissipated[point] = step.dissipated;
   }
-
-  std::string name_;
-  double density_;
-  Law law_;
 };
 
 }  // namespace detail

@@ -147,13 +147,34 @@ void evaluateAt(const Law& law, const PointBatch& batch, std::size_t group, std:
   if (batch.energy) write(energy, batch.energy + pointLanes * group + lane);
 }
 
+/// A law of some type as a material.
 template <class Law>
-class ElasticMaterial final : public PointMaterial {
+class LawMaterial : public PointMaterial {
 public:
-  ElasticMaterial(std::string name, double density, Law law)
+  LawMaterial(std::string name, double density, Law law)
       : name_(std::move(name)), density_(requirePositive(density, "density")), law_(std::move(law)) {}
   std::string name() const override { return name_; }
   double density() const override { return density_; }
+  std::string whyInvalid(const double* F) const override {
+    std::string reason = whyInverted(F);
+    if constexpr (SaysWhyInvalid<Law>)
+      if (reason.empty()) reason = law_.whyInvalid(F);
+    return reason;
+  }
+
+protected:
+  const Law& law() const { return law_; }
+
+private:
+  std::string name_;
+  double density_;
+  Law law_;
+};
+
+template <class Law>
+class ElasticMaterial final : public LawMaterial<Law> {
+public:
+  using LawMaterial<Law>::LawMaterial;
   bool isElastic() const override { return hasPotential<Law>(); }
   bool isSymmetric() const override { return hasPotential<Law>(); }
   void evaluate(const PointBatch& batch) const override {
@@ -161,28 +182,17 @@ public:
     constexpr std::size_t step = std::same_as<T, double> ? 1 : pointLanes;
     withVectors([&] {
       for (std::size_t point = 0; point < pointLanes * batch.groups; point += step)
-        evaluateAt<T>(law_, batch, point / pointLanes, point % pointLanes);
+        evaluateAt<T>(this->law(), batch, point / pointLanes, point % pointLanes);
     });
     if (batch.dissipated)
       for (std::size_t point = 0; point < pointLanes * batch.groups; ++point) batch.dissipated[point] = 0.0;
   }
   std::optional<Material> brickLaw() const override {
-    if constexpr (requires { law_.brickLaw(); })
-      return law_.brickLaw();
+    if constexpr (requires { this->law().brickLaw(); })
+      return this->law().brickLaw();
     else
       return {};
   }
-  std::string whyInvalid(const double* F) const override {
-    std::string reason = PointMaterial::whyInvalid(F);
-    if constexpr (SaysWhyInvalid<Law>)
-      if (reason.empty()) reason = law_.whyInvalid(F);
-    return reason;
-  }
-
-private:
-  std::string name_;
-  double density_;
-  Law law_;
 };
 
 }  // namespace detail
