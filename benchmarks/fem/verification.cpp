@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "dovetail/core/parallel.hpp"
 #include "verification_cases.hpp"
@@ -19,7 +20,7 @@ void beams() {
   constexpr Vec3 csm1{-7.18777e-3, -66.1029e-3, 0.0}, csm2{-0.469006e-3, -16.9740e-3, 0.0};
   std::printf("\nBeam behind a cylinder (Turek and Hron), deviations from FeatFlow's finest mesh\n");
   std::printf("%-22s %-8s %22s %22s %8s\n", "element", "cells", "CSM1 u_x, u_y, %", "CSM2 u_x, u_y, %", "seconds");
-  for (const ElementKind& kind : verification::allKinds())
+  for (const ElementKind& kind : kindsFor(verification::Sides::held))
     for (const int n : {1, 2, 4}) {
       const double start = seconds();
       const Vec3 a = verification::beamBehindCylinder(kind, {20 * n, 2 * n}, 0.5e6);
@@ -30,10 +31,18 @@ void beams() {
     }
 }
 
+/// All kinds; those of plane strain where that is the case.
+std::vector<ElementKind> kindsFor(verification::Sides sides) {
+  std::vector<ElementKind> kinds = verification::allKinds();
+  if (sides == verification::Sides::held)
+    kinds.insert(kinds.end(), verification::planeKinds().begin(), verification::planeKinds().end());
+  return kinds;
+}
+
 void membranes(double poissonRatio, verification::Sides sides, const char* title) {
   std::printf("\nCook's membrane, nu = %g, %s: u_y of the tip, mm, by cells per edge\n", poissonRatio, title);
   std::printf("%-22s %9d %9d %9d %9d\n", "element", 4, 8, 16, 32);
-  for (const ElementKind& kind : verification::allKinds()) {
+  for (const ElementKind& kind : kindsFor(sides)) {
     // A plate with free sides is beyond its lateral buckling load; tetrahedra, which are not symmetric about the middle
     // plane, leave it.
     const bool symmetric = fem::nodesOf(kind.shape) != 4 && fem::nodesOf(kind.shape) != 10;
@@ -45,13 +54,28 @@ void membranes(double poissonRatio, verification::Sides sides, const char* title
   }
 }
 
+/// What scripts/compare-plane-peers computes with CalculiX.
+void planeMembranes() {
+  for (const auto& [law, title] : {std::pair(verification::MembraneLaw::neoHookean, "neo-Hookean"),
+                                   std::pair(verification::MembraneLaw::stVenantKirchhoff, "St Venant-Kirchhoff")}) {
+    std::printf("\nCook's membrane, nu = 0.3, plane strain, %s: u_y of the tip, mm, by cells per edge\n", title);
+    std::printf("%-22s %9d %9d %9d %9d\n", "element", 4, 8, 16, 32);
+    for (const ElementKind& kind : verification::planeKinds()) {
+      std::printf("%-22s", kind.label().c_str());
+      for (const int n : {4, 8, 16, 32})
+        std::printf(" %9.4f", 1e3 * verification::cooksMembrane(kind, n, 0.3, verification::Sides::held, law).tip);
+      std::printf("\n");
+    }
+  }
+}
+
 void pressures() {
   constexpr double away = 12e-3;
   std::printf(
       "\nCook's membrane, nu = 0.4999, 16 cells per edge, plane strain: mean pressures of cells farther than "
       "12 mm from the corners of the clamp\n%-22s %12s %22s %22s\n",
       "element", "range, kPa", "largest step, % of it", "alternating, % of it");
-  for (const ElementKind& kind : verification::allKinds()) {
+  for (const ElementKind& kind : kindsFor(verification::Sides::held)) {
     const auto steps = verification::pressureSteps(verification::cooksMembrane(kind, 16, 0.4999), away);
     std::printf("%-22s %12.1f %22.1f %22.1f\n", kind.label().c_str(), 1e-3 * steps.range, 100.0 * steps.largest,
                 100.0 * steps.checkerboard);
@@ -75,10 +99,18 @@ void cantilevers() {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
   setThreads(1);
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  if (argc > 2 || (argc == 2 && std::string(argv[1]) != "--plane")) {
+    std::fprintf(stderr, "usage: fem_verification [--plane]\n");
+    return 2;
+  }
   try {
+    if (argc == 2) {
+      planeMembranes();
+      return 0;
+    }
     cantilevers();
     beams();
     membranes(0.3, verification::Sides::free, "free sides");

@@ -85,6 +85,15 @@ const std::vector<ElementKind>& allKinds() {
   return kinds;
 }
 
+const std::vector<ElementKind>& planeKinds() {
+  static const std::vector<ElementKind> kinds = {{CellShape::quad4},
+                                                 {CellShape::quad4, Formulation::meanDilatation},
+                                                 {CellShape::quad8},
+                                                 {CellShape::quad8, Formulation::reduced},
+                                                 {CellShape::quad8, Formulation::meanDilatation}};
+  return kinds;
+}
+
 Vec3 beamBehindCylinder(const ElementKind& kind, std::array<int, 2> cells, double shearModulus) {
   constexpr double poissonRatio = 0.4, density = 1000.0;
   // Stresses have no bound at the two corners of the root, so cells are small there.
@@ -102,12 +111,15 @@ Vec3 beamBehindCylinder(const ElementKind& kind, std::array<int, 2> cells, doubl
   return displacement(model, fem::nodeSet(mesh, "tip").front());
 }
 
-Membrane cooksMembrane(const ElementKind& kind, int perEdge, double poissonRatio, Sides sides) {
+Membrane cooksMembrane(const ElementKind& kind, int perEdge, double poissonRatio, Sides sides, MembraneLaw law) {
   constexpr double thickness = 1e-3, height = 16e-3, force = 1.0, mu = shearModulusOfMembrane;
-  const double kappa = 2.0 * mu * (1.0 + poissonRatio) / (3.0 * (1.0 - 2.0 * poissonRatio));
+  const double young = 2.0 * mu * (1.0 + poissonRatio), kappa = young / (3.0 * (1.0 - 2.0 * poissonRatio));
   const fem::SolidMesh mesh = fem::cookMembrane(kind.shape, {perEdge, perEdge}, thickness);
   fem::Model model = fem::makeModel(mesh);
-  const auto solid = addSolid(model, mesh, kind, fem::pointMaterial(fem::NeoHookean{kappa, mu, 1000.0}));
+  const auto solid = addSolid(model, mesh, kind,
+                              law == MembraneLaw::neoHookean
+                                  ? fem::pointMaterial(fem::NeoHookean{kappa, mu, 1000.0})
+                                  : fem::pointMaterial(fem::StVenantKirchhoff{young, poissonRatio, 1000.0}));
   model.add(
       fem::deadTraction(mesh, fem::faceSet(mesh, "loaded"), {0.0, force / (thickness * height), 0.0}, proportional));
   if (sides == Sides::held) {

@@ -17,6 +17,8 @@ struct ElementKind {
 };
 /// hex8 in the formulations that take every law, hex20, hex27, tet4, tet10.
 const std::vector<ElementKind>& allKinds();
+/// quad4 and quad8, for the cases of plane strain.
+const std::vector<ElementKind>& planeKinds();
 
 /// The elastic beam behind a cylinder under its own weight, 2 m/s² (Turek & Hron 2006, CSM1: μ = 0.5 MPa, CSM2:
 /// 2 MPa; ν = 0.4, ρ = 1000 kg/m³, St Venant–Kirchhoff, plane strain by one layer of elements that cannot move in z).
@@ -29,15 +31,19 @@ enum class Sides {
   held,  ///< no motion in z: plane strain
   free   ///< free to move in z but at the clamp
 };
+enum class MembraneLaw {
+  neoHookean,         ///< W = μ/2 (J^(−2/3) F:F − 3) + κ/4 (J² − 1 − 2 ln J)
+  stVenantKirchhoff,  ///< of the same E and ν
+};
 struct Membrane {
   double tip = 0.0;              ///< u_y of the upper corner of the loaded edge, m
   int perEdge = 0;               ///< cells along each edge
   std::vector<double> pressure;  ///< mean of −tr σ/3 over each cell, x first, Pa
   std::vector<Vec3> place;       ///< middle of each cell, m
 };
-/// Cook's membrane, 1 mm thick, μ = 422.5 kPa, W = μ/2 (J^(−2/3) F:F − 3) + κ/4 (J² − 1 − 2 ln J), an even traction of
-/// 1 N in all along y on its right edge.
-Membrane cooksMembrane(const ElementKind& kind, int perEdge, double poissonRatio, Sides sides = Sides::held);
+/// Cook's membrane, 1 mm thick, μ = 422.5 kPa, an even traction of 1 N in all along y on its right edge.
+Membrane cooksMembrane(const ElementKind& kind, int perEdge, double poissonRatio, Sides sides = Sides::held,
+                       MembraneLaw law = MembraneLaw::neoHookean);
 
 struct PressureSteps {
   double range;         ///< of the cell means, Pa

@@ -46,6 +46,7 @@ public:
       for (const Label label : set.labels) builder_.addNodeToSet(set.name, label, set.place);
     for (const auto& [key, set] : elementSets_)
       for (const Label label : set.labels) builder_.addElementToSet(set.name, label, set.place);
+    if (builder_.takePlaneCells()) variants_.merge(planeVariants_);
     readSurfaces();
     if (!passedOver_.empty())
       builder_.note("Cards that say nothing about the mesh were passed over: " + listed(passedOver_, "*") + ".");
@@ -111,8 +112,10 @@ private:
     const auto type = abaqusType(name);
     if (!type)
       cards_.refuse("elements of type " + shown(name) + " are not known here",
-                    "use C3D8, C3D20, C3D27, C3D4 or C3D10, or surface elements that name faces");
+                    "use C3D8, C3D20, C3D27, C3D4 or C3D10 (with surface elements that name faces), CPE4 or CPE8");
     if (type->dimension == 3 && name != abaqusName(type->shape)) variants_.insert(name);
+    if (type->dimension == 2 && type->surface.plane && name != abaqusName(*type->surface.plane))
+      planeVariants_.insert(name);
     LabelSet* set = cards_.has("elset") ? &setOf(elementSets_, cards_.required("elset")) : nullptr;
     std::vector<Label> numbers;
     std::size_t place = 0;
@@ -137,8 +140,7 @@ private:
   void addElement(const AbaqusType& type, std::span<const Label> numbers, std::size_t place) {
     const auto nodes = numbers.subspan(1);
     if (type.dimension == 1) return builder_.addLine(numbers[0], nodes, place);
-    if (type.dimension == 2)
-      return builder_.addFace(numbers[0], nodes.first(static_cast<std::size_t>(type.corners)), place);
+    if (type.dimension == 2) return builder_.addFace(numbers[0], type.surface, nodes, place);
     std::vector<Label> ours;
     for (int k = 0; k < type.nodes; ++k) ours.push_back(nodes[static_cast<std::size_t>(abaqusPlace(type.shape, k))]);
     builder_.addCell(numbers[0], type.shape, ours, place);
@@ -225,7 +227,7 @@ private:
       if (!isFace) source_.refuseAt(line.place, "the face of a surface is " + shown(line.face), "name it S1 to S6");
       for (const Label label : labelsOf(elementSets_, line)) {
         const int side = sideOfFace(builder_.shapeOf(label, line.place), line.face[1] - '0');
-        if (side < 0) source_.refuseAt(line.place, "a tetrahedron has no face " + shown(line.face), "name it S1 to S4");
+        if (side < 0) source_.refuseAt(line.place, "the element has no face " + shown(line.face), "name it S1 to S4");
         builder_.addSideToSet(line.surface, label, side, line.place);
       }
     }
@@ -238,7 +240,7 @@ private:
   LabelSets nodeSets_, elementSets_;
   std::map<std::string, std::string> surfaceNames_;
   std::vector<SurfaceLine> surfaces_;
-  std::set<std::string> passedOver_, variants_;
+  std::set<std::string> passedOver_, variants_, planeVariants_;
 };
 
 }  // namespace

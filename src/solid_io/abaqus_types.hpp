@@ -6,13 +6,15 @@
 #include <string>
 
 #include "dovetail/fem/mesh/solid_mesh.hpp"
+#include "mesh_builder.hpp"
 
 namespace dovetail::solid_io {
 
 struct AbaqusType {
-  int dimension;         ///< 3 volumes, 2 faces, 1 lines
+  int dimension;         ///< 3 volumes, 2 faces or plane cells, 1 lines
   fem::CellShape shape;  ///< of volumes
-  int nodes, corners;
+  int nodes;
+  SurfaceKind surface;  ///< of dimension 2
 };
 /// Empty for types that we do not take.
 std::optional<AbaqusType> abaqusType(const std::string& type);

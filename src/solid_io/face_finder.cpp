@@ -19,6 +19,7 @@ std::array<int, 4> keyOf(std::span<const int> corners) {
 
 /// Whether b runs around the same corners in the same sense as a.
 bool sameSense(std::span<const int> a, std::span<const int> b) {
+  if (a.size() == 2) return a[0] == b[0];
   const auto at = std::find(b.begin(), b.end(), a[0]);
   const auto next = static_cast<std::size_t>(at - b.begin() + 1) % b.size();
   return at != b.end() && b[next] == a[1];

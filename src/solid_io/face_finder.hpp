@@ -17,9 +17,9 @@ struct Side {
 class FaceFinder {
 public:
   explicit FaceFinder(const fem::SolidMesh& mesh);
-  /// Of two elements that share the face, the one from whose outside the corners run counter-clockwise; of one, that
-  /// one. element = −1 if there is none.
-  /// @param corners  3 or 4 node numbers in order around the face
+  /// Of two elements that share the face, the one from whose outside the corners run counter-clockwise (of lines:
+  /// around which they do); of one, that one. element = −1 if there is none.
+  /// @param corners  3 or 4 node numbers in order around the face, or 2 along a line
   Side find(std::span<const int> corners) const;
   fem::Face face(const Side& side) const;
 

@@ -119,7 +119,7 @@ const GmshType& GmshReader::requireType(std::int64_t code) {
   const GmshType* type = gmshType(code);
   if (type == nullptr)
     source_.refuse("elements of " + gmshTypeName(code) + " are not known here",
-                   "mesh with hexahedra or tetrahedra of first or second order");
+                   "mesh with hexahedra, tetrahedra or, in a plane, quadrilaterals of first or second order");
   return *type;
 }
 
@@ -132,7 +132,9 @@ void GmshReader::addElement(const GmshType& type, Label label, std::span<const L
     for (std::size_t k = 0; k < order.size(); ++k) ours[k] = nodes[static_cast<std::size_t>(order[k])];
     builder_.addCell(label, type.shape, std::span(ours).first(order.size()), place);
   }
-  if (type.dimension == 2) builder_.addFace(label, nodes.first(static_cast<std::size_t>(type.corners)), place, grouped);
+  if (type.dimension == 2) builder_.addFace(label, surfaceOf(type.nodes), nodes, place, grouped);
+  if (type.dimension == 1)
+    builder_.addLine(label, nodes, place, grouped ? MeshBuilder::LineUse::mustFit : MeshBuilder::LineUse::line);
   anyGroup_ = anyGroup_ || grouped;
   for (const std::int64_t group : physical)
     if (group == std::numeric_limits<std::int64_t>::min())
@@ -145,7 +147,7 @@ void GmshReader::addElement(const GmshType& type, Label label, std::span<const L
 
 void GmshReader::addToSet(const GmshType& type, Label label, std::span<const Label> nodes, std::size_t place,
                           const std::string& set) {
-  if (type.dimension >= 2) return builder_.addElementToSet(set, label, place);
+  if (type.dimension >= 1) return builder_.addElementToSet(set, label, place);
   for (const Label node : nodes) builder_.addNodeToSet(set, node, place);
 }
 

@@ -8,20 +8,21 @@ namespace {
 
 using fem::CellShape;
 constexpr auto none = CellShape::hex8;
-constexpr std::array<GmshType, 13> types = {{{1, 2, 1, 2, none},
-                                             {2, 3, 2, 3, none},
-                                             {3, 4, 2, 4, none},
-                                             {4, 4, 3, 4, CellShape::tet4},
-                                             {5, 8, 3, 8, CellShape::hex8},
-                                             {8, 3, 1, 2, none},
-                                             {9, 6, 2, 3, none},
-                                             {10, 9, 2, 4, none},
-                                             {11, 10, 3, 4, CellShape::tet10},
-                                             {12, 27, 3, 8, CellShape::hex27},
-                                             {15, 1, 0, 1, none},
-                                             {16, 8, 2, 4, none},
-                                             {17, 20, 3, 8, CellShape::hex20}}};
+constexpr std::array<GmshType, 13> types = {{{1, 2, 1, none},
+                                             {2, 3, 2, none},
+                                             {3, 4, 2, none},
+                                             {4, 4, 3, CellShape::tet4},
+                                             {5, 8, 3, CellShape::hex8},
+                                             {8, 3, 1, none},
+                                             {9, 6, 2, none},
+                                             {10, 9, 2, none},
+                                             {11, 10, 3, CellShape::tet10},
+                                             {12, 27, 3, CellShape::hex27},
+                                             {15, 1, 0, none},
+                                             {16, 8, 2, none},
+                                             {17, 20, 3, CellShape::hex20}}};
 // Gmsh counts edges by their lower corner, faces of the brick z−, y−, x−, x+, y+, z+.
+// Those of quadrilaterals are in our order, as the first eight nodes of bricks.
 constexpr std::array<int, 27> brickOrder = {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
                                             19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26};
 constexpr std::array<int, 10> tetOrder = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
@@ -42,12 +43,12 @@ std::string gmshTypeName(std::int64_t code) {
 }
 
 int gmshCode(fem::CellShape shape) {
-  constexpr std::array<int, 5> codes = {5, 17, 12, 4, 11};
+  constexpr std::array<int, 7> codes = {5, 17, 12, 4, 11, 3, 16};
   return codes[static_cast<std::size_t>(shape)];
 }
 
 int gmshCode(fem::FaceShape shape) {
-  constexpr std::array<int, 5> codes = {3, 16, 10, 2, 9};
+  constexpr std::array<int, 7> codes = {3, 16, 10, 2, 9, 1, 8};
   return codes[static_cast<std::size_t>(shape)];
 }
 

@@ -11,7 +11,7 @@
 namespace dovetail::solid_io {
 
 struct GmshType {
-  int code, nodes, dimension, corners;
+  int code, nodes, dimension;
   fem::CellShape shape;  ///< of volume elements
 };
 

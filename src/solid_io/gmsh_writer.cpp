@@ -58,8 +58,9 @@ void writeNames(const fem::SolidMesh& mesh, std::ostream& out) {
   out << "$PhysicalNames\n" << mesh.nodeSets.size() + mesh.faceSets.size() + mesh.elementSets.size() << '\n';
   int group = 0;
   for (const auto& entry : mesh.nodeSets) out << "0 " << ++group << " \"" << entry.first << "\"\n";
-  for (const auto& entry : mesh.faceSets) out << "2 " << ++group << " \"" << entry.first << "\"\n";
-  for (const auto& entry : mesh.elementSets) out << "3 " << ++group << " \"" << entry.first << "\"\n";
+  const int dimension = fem::dimensionOf(mesh);
+  for (const auto& entry : mesh.faceSets) out << dimension - 1 << ' ' << ++group << " \"" << entry.first << "\"\n";
+  for (const auto& entry : mesh.elementSets) out << dimension << ' ' << ++group << " \"" << entry.first << "\"\n";
   out << "$EndPhysicalNames\n";
 }
 

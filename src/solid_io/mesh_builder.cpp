@@ -39,16 +39,16 @@ void MeshBuilder::requireNew(Label label, std::size_t place) const {
                      "give each element a number of its own");
 }
 
-void MeshBuilder::addLine(Label label, std::span<const Label> nodes, std::size_t place) {
+void MeshBuilder::addLine(Label label, std::span<const Label> nodes, std::size_t place, LineUse use) {
   requireNew(label, place);
-  lines_[label].assign(nodes.begin(), nodes.end());
+  lines_[label] = {{nodes.begin(), nodes.end()}, place, use};
 }
 
 void MeshBuilder::nameNodesOfLines() {
   for (const auto& [name, references] : elementSets_)
     for (const Reference& reference : references)
       if (const auto line = lines_.find(reference.label); line != lines_.end())
-        for (const Label node : line->second) addNodeToSet(name, node, reference.place);
+        for (const Label node : line->second.nodes) addNodeToSet(name, node, reference.place);
 }
 
 void MeshBuilder::addCell(Label label, fem::CellShape shape, std::span<const Label> nodes, std::size_t place) {
@@ -58,10 +58,11 @@ void MeshBuilder::addCell(Label label, fem::CellShape shape, std::span<const Lab
   cellNode_.insert(cellNode_.end(), nodes.begin(), nodes.end());
 }
 
-void MeshBuilder::addFace(Label label, std::span<const Label> corners, std::size_t place, bool mustFit) {
+void MeshBuilder::addFace(Label label, const SurfaceKind& kind, std::span<const Label> nodes, std::size_t place,
+                          bool mustFit) {
   requireNew(label, place);
   faces_.emplace(label, face_.size());
-  face_.push_back({label, {corners.begin(), corners.end()}, place, mustFit});
+  face_.push_back({label, kind, {nodes.begin(), nodes.end()}, place, mustFit});
 }
 
 void MeshBuilder::addNodeToSet(const std::string& name, Label node, std::size_t place) {
@@ -190,14 +191,16 @@ void MeshBuilder::fillElementSets(SolidFile& file) {
 
 bool MeshBuilder::placeFace(const FaceFinder& finder, const SurfaceElement& element, fem::Face& face) const {
   std::vector<int> corners;
-  for (const Label label : element.corners)
+  for (const Label label : std::span(element.nodes).first(static_cast<std::size_t>(element.kind.corners)))
     corners.push_back(newNumber_[static_cast<std::size_t>(nodeIndex(label, element.place))]);
   const bool all = std::find(corners.begin(), corners.end(), -1) == corners.end();
   const Side side = all ? finder.find(corners) : Side{-1, -1};
   if (side.element < 0 && element.mustFit)
     source_.refuseAt(element.place,
-                     "surface element " + std::to_string(element.label) + " is no face of a volume element",
-                     "mesh the volume behind it, or take it out of its set");
+                     plane_ ? "line " + std::to_string(element.label) + " is no side of an element"
+                            : "surface element " + std::to_string(element.label) + " is no face of a volume element",
+                     plane_ ? "mesh the surface beside it, or take it out of its set"
+                            : "mesh the volume behind it, or take it out of its set");
   if (side.element >= 0) face = finder.face(side);
   return side.element >= 0;
 }
@@ -227,8 +230,9 @@ void MeshBuilder::fillFaceSets(SolidFile& file, bool alwaysNodes) {
   }
   const auto loose = static_cast<std::size_t>(std::count(fits.begin(), fits.end(), 0));
   if (loose > 0)
-    note(counted(loose, "surface element that is no face of a volume element was",
-                 "surface elements that are no faces of volume elements were") +
+    note((plane_ ? counted(loose, "line that is no side of an element was", "lines that are no sides of elements were")
+                 : counted(loose, "surface element that is no face of a volume element was",
+                           "surface elements that are no faces of volume elements were")) +
          " passed over.");
 }
 
@@ -251,11 +255,17 @@ void MeshBuilder::requireSound(const SolidFile& file) const {
 
 SolidFile MeshBuilder::finish(bool alwaysNodesOfFaces) {
   SolidFile file;
+  takePlaneCells();
   if (cell_.empty())
     throw InputError("the file holds no volume elements", source_.name(),
-                     "give hexahedra or tetrahedra of first or second order");
+                     "give hexahedra or tetrahedra of first or second order, or quadrilaterals of plane strain");
   nameNodesOfLines();
   numberNodes(file);
+  if (const int off = plane_ ? fem::nodeOffPlane(file.mesh.X) : -1; off >= 0)
+    throw InputError("the file holds no volume elements, and node " +
+                         std::to_string(file.nodeNumber[static_cast<std::size_t>(off)]) +
+                         " of its quadrilaterals is not in one plane z = const with the first",
+                     source_.name(), "give volumes, or turn the mesh into the plane");
   dropDuplicates();
   fillGroups(file);
   fillNodeSets(file);

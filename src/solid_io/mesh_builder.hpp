@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -15,6 +16,16 @@ namespace dovetail::solid_io {
 
 using Label = std::int64_t;
 
+/// What a surface element is where there are volumes, a face by its corners, and where there are none: a cell of plane
+/// strain, or something that we do not take.
+struct SurfaceKind {
+  int corners;
+  std::optional<fem::CellShape> plane;
+  const char* otherwise;  ///< "a triangle", where it is no cell
+};
+/// By the number of nodes, 3, 4, 6, 8 or 9.
+SurfaceKind surfaceOf(int nodes);
+
 /// `place` is always an offset in the source, for errors that only show at the end.
 class MeshBuilder {
 public:
@@ -23,14 +34,21 @@ public:
   void addNode(Label label, const Vec3& X, std::size_t place);
   /// @param nodes  in our order
   void addCell(Label label, fem::CellShape shape, std::span<const Label> nodes, std::size_t place);
-  /// A surface element by its corners, in order around it. If `mustFit`, it has to be a face of a volume element.
-  void addFace(Label label, std::span<const Label> corners, std::size_t place, bool mustFit = true);
+  /// A surface element, its nodes in our order. If `mustFit`, it has to be a face of a volume element where there are
+  /// some.
+  void addFace(Label label, const SurfaceKind& kind, std::span<const Label> nodes, std::size_t place,
+               bool mustFit = true);
 
-  /// An element that only names its nodes.
-  void addLine(Label label, std::span<const Label> nodes, std::size_t place);
+  /// What an element of one dimension or none is for.
+  enum class LineUse {
+    names,   ///< names its nodes
+    line,    ///< the same; a face of plane cells, if it fits
+    mustFit  ///< the same; a face of plane cells
+  };
+  void addLine(Label label, std::span<const Label> nodes, std::size_t place, LineUse use = LineUse::names);
 
   void addNodeToSet(const std::string& name, Label node, std::size_t place);
-  /// Volume elements go to element sets, surface elements to face sets, nodes of lines to node sets.
+  /// Cells go to element sets, faces to face sets, nodes of other elements to node sets.
   void addElementToSet(const std::string& name, Label element, std::size_t place);
   /// Face `side` of fem::localFacesOf.
   void addSideToSet(const std::string& name, Label element, int side, std::size_t place);
@@ -39,7 +57,10 @@ public:
   bool hasElement(Label label) const {
     return cells_.contains(label) || faces_.contains(label) || lines_.contains(label);
   }
-  /// Shape of a volume element; refuses other numbers.
+  /// If there are no volume elements, surface elements become cells of plane strain and lines their faces.
+  /// @return whether the mesh is one of plane strain
+  bool takePlaneCells();
+  /// Shape of a cell; refuses other numbers.
   fem::CellShape shapeOf(Label label, std::size_t place) const;
 
   /// Nodes of faces join node sets: always, or only where there is no node set of that name.
@@ -54,9 +75,15 @@ private:
   };
   struct SurfaceElement {
     Label label;
-    std::vector<Label> corners;
+    SurfaceKind kind;
+    std::vector<Label> nodes;
     std::size_t place;
     bool mustFit;
+  };
+  struct Line {
+    std::vector<Label> nodes;
+    std::size_t place;
+    LineUse use;
   };
   struct Reference {
     Label label;
@@ -86,7 +113,8 @@ private:
   std::vector<Cell> cell_;
   std::vector<Label> cellNode_;
   std::vector<SurfaceElement> face_;
-  std::unordered_map<Label, std::vector<Label>> lines_;
+  std::unordered_map<Label, Line> lines_;
+  bool plane_ = false;
   References nodeSets_, elementSets_, sideSets_;
   std::vector<std::string> notes_;
 };

@@ -10,13 +10,19 @@ namespace dovetail::fem {
 
 struct FaceIntegrals {
   Vec3 area;            ///< ∫n dA, m²
-  double volume = 0.0;  ///< ⅓ ∫X·n dA, m³
+  double volume = 0.0;  ///< ⅓ ∫X·n dA, in a plane ½, m³
+  double length = 0.0;  ///< of lines, m
 };
 
-/// Polynomial basis of a face in its parent coordinates, quads on (−1, 1)², triangles on the unit triangle.
+/// Polynomial basis of a face in its parent coordinates, quads on (−1, 1)², triangles on the unit triangle, lines on
+/// (−1, 1).
 inline std::vector<double> faceBasis(FaceShape shape, double r, double s) {
   const double q = 1.0 - r - s;
   switch (shape) {
+    case FaceShape::line2:
+      return {(1 - r) / 2, (1 + r) / 2};
+    case FaceShape::line3:
+      return {r * (r - 1) / 2, r * (r + 1) / 2, 1 - r * r};
     case FaceShape::tri3:
       return {q, r, s};
     case FaceShape::tri6:
@@ -57,16 +63,19 @@ inline FaceIntegrals integrateFaces(const SolidMesh& mesh, const std::vector<Fac
   FaceIntegrals sum;
   for (const Face& face : faces) {
     const bool triangle = face.shape == FaceShape::tri3 || face.shape == FaceShape::tri6;
+    const bool line = dimensionOf(face.shape) == 2;
     for (int i = 0; i < 36; ++i) {
       const auto a = static_cast<std::size_t>(i % 3), b = static_cast<std::size_t>(i / 12);
       const double x = (i / 3 % 2 ? 1 : -1) * point[a], y = (i / 6 % 2 ? 1 : -1) * point[b];
       const double r = triangle ? (1 + x) * (1 - y) / 4 : x, s = triangle ? (1 + y) / 2 : y;
       const double w = weight[a] * weight[b] * (triangle ? (1 - y) / 8 : 1.0), h = 0.5;
       const Vec3 t1 = facePoint(mesh, face, r + h, s) - facePoint(mesh, face, r - h, s);
-      const Vec3 t2 = facePoint(mesh, face, r, s + h) - facePoint(mesh, face, r, s - h);
+      const Vec3 t2 =
+          line ? Vec3{0, 0, 0.5 * mesh.thickness} : facePoint(mesh, face, r, s + h) - facePoint(mesh, face, r, s - h);
       const Vec3 dA = w * cross(t1, t2);
       sum.area += dA;
-      sum.volume += dot(facePoint(mesh, face, r, s), dA) / 3.0;
+      if (line) sum.length += norm(dA) / mesh.thickness;
+      sum.volume += dot(facePoint(mesh, face, r, s), dA) / (line ? 2.0 : 3.0);
     }
   }
   return sum;

@@ -41,6 +41,28 @@ inline void setRandom(std::vector<Vec3>& field, double amplitude, unsigned seed)
   for (Vec3& value : field) value = randomVec3(random, amplitude);
 }
 
+/// Displacements of all components that are not held.
+inline void setRandomDisplacement(Nodes& nodes, double amplitude, unsigned seed) {
+  setRandom(nodes.u, amplitude, seed);
+  for (std::size_t n = 0; n < nodes.u.size(); ++n)
+    for (int c = 0; c < 3; ++c)
+      if (nodes.fixed[n] >> c & 1) nodes.u[n][c] = 0.0;
+}
+
+/// Cells of a box: one layer if they are plane.
+inline std::array<int, 3> layered(CellShape shape, std::array<int, 3> cells) {
+  if (dimensionOf(shape) == 2) cells[2] = 1;
+  return cells;
+}
+
+/// A gradient that does not move plane cells out of their plane.
+inline Eigen::Matrix3d inPlane(CellShape shape, Eigen::Matrix3d F) {
+  if (dimensionOf(shape) == 3) return F;
+  F.row(2) = Eigen::RowVector3d(0, 0, 1);
+  F.col(2) = Eigen::Vector3d(0, 0, 1);
+  return F;
+}
+
 inline Eigen::VectorXd flat(const std::vector<Vec3>& field) {
   Eigen::VectorXd result(static_cast<Eigen::Index>(3 * field.size()));
   for (std::size_t n = 0; n < field.size(); ++n)

@@ -55,20 +55,30 @@ inline const std::vector<SolidKind>& allSolidKinds() {
       {CellShape::hex8, Formulation::enhanced},        {CellShape::hex8, Formulation::reduced},
       {CellShape::hex20, Formulation::standard},       {CellShape::hex27, Formulation::standard},
       {CellShape::tet4, Formulation::standard},        {CellShape::tet10, Formulation::standard},
-      {CellShape::hex20, Formulation::meanDilatation}, {CellShape::hex27, Formulation::meanDilatation}};
+      {CellShape::hex20, Formulation::meanDilatation}, {CellShape::hex27, Formulation::meanDilatation},
+      {CellShape::quad4, Formulation::standard},       {CellShape::quad4, Formulation::meanDilatation},
+      {CellShape::quad8, Formulation::standard},       {CellShape::quad8, Formulation::meanDilatation},
+      {CellShape::quad8, Formulation::reduced}};
+  return kinds;
+}
+/// Those of three dimensions.
+inline std::vector<SolidKind> spatialSolidKinds() {
+  std::vector<SolidKind> kinds = allSolidKinds();
+  std::erase_if(kinds, [](const SolidKind& kind) { return dimensionOf(kind.shape) == 2; });
   return kinds;
 }
 
-/// A box of 2 × 1 × 2 bricks (or their tetrahedra) around (0.5, 0.4, 0.6), nodes moved a little if distorted.
+/// A box of 2 × 1 × 2 bricks (or their tetrahedra, or one layer of plane cells) around (0.5, 0.1, 0.6), nodes moved a
+/// little if distorted.
 inline SolidMesh testSolidMesh(CellShape shape, bool distorted, unsigned seed = 1) {
-  SolidMesh mesh = boxOf(shape, {2, 1, 2}, {0.1, -0.2, 0.3}, {1.0, 0.4, 1.0});
+  SolidMesh mesh = boxOf(shape, layered(shape, {2, 1, 2}), {0.1, -0.2, 0.3}, {1.0, 0.4, 1.0});
   if (!distorted) return mesh;
   // One smooth map of all nodes keeps second-order cells valid.
   std::mt19937 random(seed);
   const Vec3 a = randomVec3(random, 0.08), b = randomVec3(random, 0.08);
   for (Vec3& X : mesh.X)
     X += {a.x * std::sin(3.0 * X.y + X.z) + b.x * X.y * X.z, a.y * std::sin(2.0 * X.z + X.x) + b.y * X.z * X.x,
-          a.z * std::sin(3.0 * X.x - X.y) + b.z * X.x * X.y};
+          dimensionOf(shape) == 2 ? 0.0 : a.z * std::sin(3.0 * X.x - X.y) + b.z * X.x * X.y};
   return mesh;
 }
 

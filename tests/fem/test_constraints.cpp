@@ -123,6 +123,8 @@ TEST(Constraints, ConflictsAreRefusedByName) {
   Constraints fixed;
   fixed.hold(std::array{7}, componentX);
   fix(nodes, std::array{7}, componentX);
+  EXPECT_EQ(DofMap(fixed, nodes).size(), 3 * nodes.u.size() - 1);  // at rest both say the same
+  nodes.v[7].x = 0.1;
   EXPECT_NE(messageOf(fixed, nodes).find("component x of node 7 is constrained twice: fixed and held"),
             std::string::npos);
 }

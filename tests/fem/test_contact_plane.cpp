@@ -36,7 +36,7 @@ Model randomState(const SolidMesh& mesh, unsigned seed) {
 }
 
 TEST(ContactPlane, UniformPenetrationGivesTheForcesOfAUniformPressure) {
-  for (const CellShape shape : allCellShapes) {
+  for (const CellShape shape : spatialCellShapes) {
     const SolidMesh mesh = box(shape);
     Model model = makeModel(mesh);
     const auto faces = faceSet(mesh, "z-");
@@ -55,7 +55,7 @@ TEST(ContactPlane, UniformPenetrationGivesTheForcesOfAUniformPressure) {
 }
 
 TEST(ContactPlane, ForceIsTheGradientOfTheEnergyAndHasItsTangent) {
-  for (const CellShape shape : allCellShapes) {
+  for (const CellShape shape : spatialCellShapes) {
     const SolidMesh mesh = box(shape);
     Model model = randomState(mesh, 3);
     const auto contact = makeContactPlane(mesh, faceSet(mesh, "z-"), tilted(), options());

@@ -11,8 +11,6 @@
 namespace dovetail::fem {
 namespace {
 
-const CellShape allShapes[] = {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet4, CellShape::tet10};
-
 SolidMesh oneTet(const std::array<Vec3, 4>& corners) {
   SolidMesh mesh;
   mesh.X.assign(corners.begin(), corners.end());
@@ -31,7 +29,8 @@ std::string messageOf(Call&& call) {
 }
 
 TEST(MeshQuality, CubesAndRegularTetrahedraAreOne) {
-  for (const CellShape shape : {CellShape::hex8, CellShape::hex20, CellShape::hex27}) {
+  for (const CellShape shape :
+       {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::quad4, CellShape::quad8}) {
     const MeshQuality quality = measureQuality(boxOf(shape, {2, 1, 1}, {}, {2.0, 1.0, 1.0}));
     for (const ElementQuality& e : quality.element) {
       EXPECT_NEAR(e.scaledJacobian, 1.0, 1e-14);
@@ -65,10 +64,12 @@ TEST(MeshQuality, ShearedStretchedAndInvertedElementsAreMeasured) {
 }
 
 TEST(MeshQuality, VolumesAreThoseInsideTheSkin) {
-  for (const CellShape shape : allShapes) {
-    SolidMesh mesh = boxOf(shape, {2, 2, 2}, {}, {1.0, 1.0, 1.0});
+  for (const CellShape shape : allCellShapes) {
+    const bool plane = dimensionOf(shape) == 2;
+    SolidMesh mesh = boxOf(shape, {2, 2, plane ? 1 : 2}, {}, {1.0, 1.0, 0.6});
     for (Vec3& X : mesh.X)
-      X = {X.x + 0.1 * X.y * X.y, X.y + 0.2 * X.x * X.z, X.z * (1.0 + 0.2 * X.x) - 0.1 * X.x * X.y};
+      X = {X.x + 0.1 * X.y * X.y, X.y + 0.2 * X.x * (plane ? X.y : X.z),
+           plane ? X.z : X.z * (1.0 + 0.2 * X.x) - 0.1 * X.x * X.y};
     const MeshQuality quality = measureQuality(mesh);
     ASSERT_EQ(quality.shapes.size(), 1u);
     EXPECT_NEAR(quality.shapes[0].volume, integrateFaces(mesh, boundaryFaces(mesh)).volume, 1e-13) << name(shape);
@@ -83,7 +84,7 @@ TEST(MeshQuality, VolumesAreThoseInsideTheSkin) {
 }
 
 TEST(MeshTopology, PiecesAreCountedAndNamed) {
-  for (const CellShape shape : allShapes) {
+  for (const CellShape shape : allCellShapes) {
     const SolidMesh parts[] = {boxOf(shape, {2, 1, 1}, {}, {2.0, 1.0, 1.0}),
                                boxOf(shape, {1, 1, 1}, {2.0, 1.0, 0.0}, {3.0, 2.0, 1.0})};
     EXPECT_NO_THROW(requireConnected(parts[0]));

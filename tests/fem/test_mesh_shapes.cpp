@@ -11,8 +11,13 @@
 namespace dovetail::fem {
 namespace {
 
-const CellShape allShapes[] = {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet4, CellShape::tet10};
-const CellShape bricks[] = {CellShape::hex8, CellShape::hex20, CellShape::hex27};
+const CellShape bricks[] = {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::quad4, CellShape::quad8};
+bool isTet(CellShape shape) { return shape == CellShape::tet4 || shape == CellShape::tet10; }
+/// One layer if the cells are plane.
+std::array<int, 3> layered(CellShape shape, std::array<int, 3> cells) {
+  if (dimensionOf(shape) == 2) cells[2] = 1;
+  return cells;
+}
 bool isSecondOrder(CellShape shape) { return nodesOf(shape) > cornersOf(shape); }
 
 double volumeOf(const SolidMesh& mesh) { return measureQuality(mesh).shapes.at(0).volume; }
@@ -29,9 +34,9 @@ void expectSound(const SolidMesh& mesh, const std::string& what) {
 
 TEST(MeshShapes, CylinderSectorsApproachTheirVolume) {
   const double exact = 0.5 * (4.0 - 1.0) * std::numbers::pi / 2.0 * 0.5;
-  for (const CellShape shape : allShapes) {
+  for (const CellShape shape : allCellShapes) {
     const SolidMesh coarse = cylinderSector(shape, {2, 4, 1}, 1.0, 2.0, std::numbers::pi / 2.0, 0.5);
-    const SolidMesh fine = cylinderSector(shape, {4, 8, 2}, 1.0, 2.0, std::numbers::pi / 2.0, 0.5);
+    const SolidMesh fine = cylinderSector(shape, layered(shape, {4, 8, 2}), 1.0, 2.0, std::numbers::pi / 2.0, 0.5);
     expectSound(coarse, name(shape));
     for (const int n : nodeSet(fine, "outer")) {
       const Vec3& X = fine.X[static_cast<std::size_t>(n)];
@@ -43,13 +48,14 @@ TEST(MeshShapes, CylinderSectorsApproachTheirVolume) {
 }
 
 TEST(MeshShapes, FullRingsClose) {
-  for (const CellShape shape : allShapes) {
-    const SolidMesh ring = cylinderSector(shape, {1, 6, 2}, 1.0, 1.5, 2.0 * std::numbers::pi, 1.0);
+  for (const CellShape shape : allCellShapes) {
+    const SolidMesh ring = cylinderSector(shape, layered(shape, {1, 6, 2}), 1.0, 1.5, 2.0 * std::numbers::pi, 1.0);
     expectSound(ring, name(shape));
     EXPECT_FALSE(ring.faceSets.contains("start"));
-    EXPECT_EQ(ring.faceSets.size(), 5u);
-    std::size_t faces = 0;
-    for (const char* side : {"inner", "outer", "z-", "z+"}) faces += faceSet(ring, side).size();
+    const bool plane = dimensionOf(shape) == 2;
+    EXPECT_EQ(ring.faceSets.size(), plane ? 3u : 5u);
+    std::size_t faces = faceSet(ring, "inner").size() + faceSet(ring, "outer").size();
+    if (!plane) faces += faceSet(ring, "z-").size() + faceSet(ring, "z+").size();
     EXPECT_EQ(faces, faceSet(ring, "skin").size());
   }
   EXPECT_THROW(cylinderSector(CellShape::hex8, {1, 2, 1}, 1.0, 2.0, 2.0 * std::numbers::pi, 1.0), InputError);
@@ -59,13 +65,15 @@ TEST(MeshShapes, FullRingsClose) {
 
 TEST(MeshShapes, RoundBarsAreRoundAndOfGoodShape) {
   for (const CellShape shape : bricks) {
-    const SolidMesh coarse = roundBar(shape, {4, 2, 3}, 0.5, 2.0), fine = roundBar(shape, {8, 4, 3}, 0.5, 2.0);
+    const unsigned layers = dimensionOf(shape) == 2 ? 1u : 3u;
+    const SolidMesh coarse = roundBar(shape, layered(shape, {4, 2, 3}), 0.5, 2.0),
+                    fine = roundBar(shape, layered(shape, {8, 4, 3}), 0.5, 2.0);
     expectSound(coarse, name(shape));
     const double exact = std::numbers::pi * 0.25 * 2.0;
     const double order = std::log2(std::abs(volumeOf(coarse) - exact) / std::abs(volumeOf(fine) - exact));
     EXPECT_NEAR(order, isSecondOrder(shape) ? 4.0 : 2.0, 0.1) << name(shape);
-    EXPECT_EQ(coarse.elementCount(), (16u + 4u * 8u) * 3u);
-    EXPECT_EQ(faceSet(coarse, "side").size(), 16u * 3u);
+    EXPECT_EQ(coarse.elementCount(), (16u + 4u * 8u) * layers);
+    EXPECT_EQ(faceSet(coarse, "side").size(), 16u * layers);
     EXPECT_GT(measureQuality(fine).shapes[0].worstJacobian, 0.6);
   }
   EXPECT_THROW(roundBar(CellShape::tet4, {2, 1, 1}, 1.0, 1.0), InputError);
@@ -73,22 +81,21 @@ TEST(MeshShapes, RoundBarsAreRoundAndOfGoodShape) {
 }
 
 TEST(MeshShapes, CooksMembraneHasItsCorners) {
-  for (const CellShape shape : allShapes) {
+  for (const CellShape shape : allCellShapes) {
     const SolidMesh mesh = cookMembrane(shape, {4, 3});
     expectSound(mesh, name(shape));
     EXPECT_NEAR(volumeOf(mesh), 0.5 * (0.044 + 0.016) * 0.048 * 0.001, 1e-18);
-    EXPECT_EQ(nodeSet(mesh, "tip").size(),
-              shape == CellShape::hex27 || shape == CellShape::tet10 || shape == CellShape::hex20 ? 3u : 2u);
+    EXPECT_EQ(nodeSet(mesh, "tip").size(), dimensionOf(shape) == 2 ? 1u : isSecondOrder(shape) ? 3u : 2u);
     for (const int n : nodeSet(mesh, "tip")) {
       EXPECT_NEAR(mesh.X[static_cast<std::size_t>(n)].x, 0.048, 1e-16);
       EXPECT_NEAR(mesh.X[static_cast<std::size_t>(n)].y, 0.060, 1e-16);
     }
-    EXPECT_EQ(faceSet(mesh, "loaded").size(), cornersOf(shape) == 8 ? 3u : 6u);
+    EXPECT_EQ(faceSet(mesh, "loaded").size(), isTet(shape) ? 6u : 3u);
   }
 }
 
 TEST(MeshShapes, TheRootOfTheBeamIsAnArc) {
-  for (const CellShape shape : allShapes) {
+  for (const CellShape shape : allCellShapes) {
     const SolidMesh mesh = arcClampedBeam(shape, {8, 2, 1});
     expectSound(mesh, name(shape));
     for (const int n : nodeSet(mesh, "clamped")) {
@@ -123,7 +130,7 @@ TEST(MeshShapes, MapsThatTurnElementsInsideOutAreRefused) {
 }
 
 TEST(MeshShapes, JoinedPartsShareNodesAndKeepTheirSets) {
-  for (const CellShape shape : allShapes) {
+  for (const CellShape shape : allCellShapes) {
     SolidMesh parts[] = {boxOf(shape, {2, 2, 1}, {}, {2.0, 1.0, 1.0}),
                          boxOf(shape, {1, 2, 1}, {2.0, 0.0, 0.0}, {3.0, 1.0, 1.0})};
     parts[1].elementSets["second"] = {0, 1};
@@ -138,6 +145,9 @@ TEST(MeshShapes, JoinedPartsShareNodesAndKeepTheirSets) {
   const SolidMesh box[] = {boxOf(CellShape::hex8, {2, 1, 1}, {}, {1.0, 1.0, 1.0})};
   EXPECT_THROW(joinMeshes(box, 0.6), InputError);
   EXPECT_THROW(joinMeshes(box, 0.0), InputError);
+  const SolidMesh planes[] = {boxOf(CellShape::quad4, {1, 1, 1}, {}, {1.0, 1.0, 1.0}),
+                              boxOf(CellShape::quad4, {1, 1, 1}, {1.0, 0.0, 0.0}, {2.0, 1.0, 2.0})};
+  EXPECT_THROW(joinMeshes(planes, 1e-6), InputError);
 }
 
 /// Positions of a node set, sorted.
@@ -152,11 +162,14 @@ std::vector<std::array<double, 3>> places(const SolidMesh& mesh, const std::vect
 }
 
 TEST(MeshShapes, BoxesOfSecondOrderAreThoseMadeAsSuch) {
-  const std::pair<CellShape, CellShape> pairs[] = {
-      {CellShape::hex8, CellShape::hex20}, {CellShape::hex8, CellShape::hex27}, {CellShape::tet4, CellShape::tet10}};
+  const std::pair<CellShape, CellShape> pairs[] = {{CellShape::hex8, CellShape::hex20},
+                                                   {CellShape::hex8, CellShape::hex27},
+                                                   {CellShape::tet4, CellShape::tet10},
+                                                   {CellShape::quad4, CellShape::quad8}};
   for (const auto& [first, second] : pairs) {
-    const SolidMesh from = boxOf(first, {2, 1, 3}, {}, {2.0, 1.0, 3.0}),
-                    to = boxOf(second, {2, 1, 3}, {}, {2.0, 1.0, 3.0});
+    const SolidMesh from = boxOf(first, layered(first, {2, 1, 3}), {}, {2.0, 1.0, 3.0}),
+                    to = boxOf(second, layered(second, {2, 1, 3}), {}, {2.0, 1.0, 3.0});
+    EXPECT_EQ(secondOrder(from).thickness, to.thickness);
     const SolidMesh raised = secondOrder(from, second == CellShape::hex27);
     expectSound(raised, name(second));
     ASSERT_EQ(raised.groups[0].shape, second);

@@ -25,7 +25,7 @@ double denseLimit(Model& model, Solid& solid) {
 
 void expectLimits(SolidScene scene) {
   addMass(scene.model);
-  setRandom(scene.model.nodes.u, 0.02, 3);
+  setRandomDisplacement(scene.model.nodes, 0.02, 3);
   const double exact = denseLimit(scene.model, *scene.solid);
   const ModelStableStep bound = stableStep(scene.model);
   EXPECT_LE(bound.dt, exact * (1.0 + 1e-12));

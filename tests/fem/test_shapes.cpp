@@ -7,12 +7,8 @@
 namespace dovetail::fem::detail {
 namespace {
 
-constexpr std::array allCells = {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet4,
-                                 CellShape::tet10};
 constexpr std::array allFaces = {FaceShape::quad4, FaceShape::quad8, FaceShape::quad9, FaceShape::tri3,
                                  FaceShape::tri6};
-
-bool isTet(CellShape shape) { return shape == CellShape::tet4 || shape == CellShape::tet10; }
 
 struct Functions {
   std::vector<double> value;
@@ -24,7 +20,7 @@ struct Functions {
 };
 
 TEST(Shapes, AreOneAtTheirOwnNodeAndZeroAtTheOthers) {
-  for (const CellShape shape : allCells) {
+  for (const CellShape shape : allCellShapes) {
     const auto nodes = parentNodes(shape);
     for (std::size_t b = 0; b < nodes.size(); ++b) {
       const Functions at(shape, nodes[b]);
@@ -35,7 +31,7 @@ TEST(Shapes, AreOneAtTheirOwnNodeAndZeroAtTheOthers) {
 
 TEST(Shapes, SumToOneAndTheirGradientsAreTheirDerivatives) {
   std::mt19937 random(3);
-  for (const CellShape shape : allCells)
+  for (const CellShape shape : allCellShapes)
     for (int trial = 0; trial < 5; ++trial) {
       const Vec3 xi = randomVec3(random, 0.9);
       const Functions here(shape, xi);
@@ -62,16 +58,17 @@ TEST(Shapes, OfBricksAreThereOnTheirOwnToo) {
   }
 }
 
-/// ∫ ξ^i η^j ζ^k over the parent cell.
-double monomial(bool tet, int i, int j, int k) {
+/// ∫ ξ^i η^j ζ^k over the parent cell, of plane cells at ζ = 0.
+double monomial(CellShape shape, int i, int j, int k) {
   const auto factorial = [](int n) { return std::tgamma(n + 1.0); };
-  if (tet) return factorial(i) * factorial(j) * factorial(k) / factorial(i + j + k + 3);
+  if (isTet(shape)) return factorial(i) * factorial(j) * factorial(k) / factorial(i + j + k + 3);
   double product = 1.0;
-  for (const int n : {i, j, k}) product *= n % 2 ? 0.0 : 2.0 / (n + 1);
-  return product;
+  for (const int n : {i, j}) product *= n % 2 ? 0.0 : 2.0 / (n + 1);
+  if (dimensionOf(shape) == 2) return k == 0 ? product : 0.0;
+  return k % 2 ? 0.0 : product * 2.0 / (k + 1);
 }
 
-void expectExact(const CellRule& rule, bool tet, int degree) {
+void expectExact(const CellRule& rule, CellShape shape, int degree) {
   for (int i = 0; i <= degree; ++i)
     for (int j = 0; i + j <= degree; ++j)
       for (int k = 0; i + j + k <= degree; ++k) {
@@ -79,23 +76,27 @@ void expectExact(const CellRule& rule, bool tet, int degree) {
         for (std::size_t q = 0; q < rule.point.size(); ++q)
           sum += rule.weight[q] * std::pow(rule.point[q].x, i) * std::pow(rule.point[q].y, j) *
                  std::pow(rule.point[q].z, k);
-        EXPECT_NEAR(sum, monomial(tet, i, j, k), 1e-14) << i << j << k;
+        EXPECT_NEAR(sum, monomial(shape, i, j, k), 1e-14) << i << j << k;
       }
 }
 
 TEST(Quadrature, IsExactToItsDegree) {
-  expectExact(forceRule(CellShape::hex8), false, 3);
-  expectExact(forceRule(CellShape::hex20), false, 5);
-  expectExact(forceRule(CellShape::tet4), true, 1);
-  expectExact(forceRule(CellShape::tet10), true, 2);
-  for (const CellShape shape : allCells) {
-    expectExact(massRule(shape), isTet(shape), isTet(shape) ? 4 : 5);
-    expectExact(centreRule(shape), isTet(shape), 1);
+  const auto expectForces = [](CellShape shape, int degree) { expectExact(forceRule(shape), shape, degree); };
+  expectForces(CellShape::hex8, 3);
+  expectForces(CellShape::hex20, 5);
+  expectForces(CellShape::tet4, 1);
+  expectForces(CellShape::tet10, 2);
+  expectForces(CellShape::quad4, 3);
+  expectForces(CellShape::quad8, 5);
+  expectExact(reducedRule(CellShape::quad8), CellShape::quad8, 3);
+  for (const CellShape shape : allCellShapes) {
+    expectExact(massRule(shape), shape, isTet(shape) ? 4 : 5);
+    expectExact(centreRule(shape), shape, 1);
   }
 }
 
 TEST(FaceShapes, AgreeWithTheCellOnItsFaces) {
-  for (const CellShape shape : allCells) {
+  for (const CellShape shape : allCellShapes) {
     const CellFaces& faces = facesOf(shape);
     const auto nodes = parentNodes(shape);
     const auto n = static_cast<std::size_t>(nodesOf(faces.shape));
@@ -112,6 +113,7 @@ TEST(FaceShapes, AgreeWithTheCellOnItsFaces) {
       const Functions cell(shape, xi);
       for (std::size_t a = 0; a < n; ++a) EXPECT_NEAR(cell.value[static_cast<std::size_t>(face[a])], value[a], 1e-13);
       const Vec3 centre = isTet(shape) ? Vec3{0.25, 0.25, 0.25} : Vec3{};
+      if (dimensionOf(shape) == 2) tangentEta += Vec3{0, 0, 1};
       EXPECT_GT(dot(cross(tangentXi, tangentEta), xi - centre), 0.0);
     }
   }
@@ -127,9 +129,20 @@ TEST(FaceQuadrature, IsExactToDegreeTwo) {
         for (std::size_t q = 0; q < rule.point.size(); ++q)
           sum += rule.weight[q] * std::pow(rule.point[q][0], i) * std::pow(rule.point[q][1], j);
         const double exact = triangle ? std::tgamma(i + 1.0) * std::tgamma(j + 1.0) / std::tgamma(i + j + 3.0)
-                                      : 0.5 * monomial(false, i, j, 0);
+                                      : monomial(CellShape::quad4, i, j, 0);
         EXPECT_NEAR(sum, exact, 1e-14);
       }
+  }
+}
+
+TEST(FaceQuadrature, OfLinesIsExactToDegreeThreeAndFive) {
+  for (const auto& [shape, degree] : {std::pair(FaceShape::line2, 3), {FaceShape::line3, 5}}) {
+    const FaceRule& rule = faceRule(shape);
+    for (int i = 0; i <= degree; ++i) {
+      double sum = 0.0;
+      for (std::size_t q = 0; q < rule.point.size(); ++q) sum += rule.weight[q] * std::pow(rule.point[q][0], i);
+      EXPECT_NEAR(sum, i % 2 ? 0.0 : 2.0 / (i + 1), 1e-14);
+    }
   }
 }
 

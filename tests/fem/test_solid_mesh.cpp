@@ -11,14 +11,18 @@
 namespace dovetail::fem {
 namespace {
 
-const CellShape allShapes[] = {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet4, CellShape::tet10};
 constexpr Vec3 lower{0.1, -0.2, 0.3}, upper{1.0, 0.9, 1.0};
 constexpr double boxVolume = 0.9 * 1.1 * 0.7;
 
+bool isTet(CellShape shape) { return shape == CellShape::tet4 || shape == CellShape::tet10; }
 SolidMesh testBox(CellShape shape) { return boxOf(shape, {2, 3, 1}, lower, upper); }
 
 /// A smooth map with curved faces.
 void bend(SolidMesh& mesh) {
+  if (dimensionOf(mesh) == 2) {
+    for (Vec3& X : mesh.X) X = {X.x + 0.1 * X.y * X.y, X.y + 0.2 * X.x * X.y, X.z};
+    return;
+  }
   for (Vec3& X : mesh.X) X = {X.x + 0.1 * X.y * X.y, X.y + 0.2 * X.x * X.z, X.z * (1.0 + 0.2 * X.x) - 0.1 * X.x * X.y};
 }
 
@@ -32,15 +36,14 @@ std::string messageOf(const SolidMesh& mesh) {
 }
 
 TEST(SolidMesh, BoxesHaveTheNodesAndElementsOfTheirShape) {
-  const std::map<CellShape, std::size_t> nodes = {{CellShape::hex8, 24},
-                                                  {CellShape::hex20, 24 + 16 + 18 + 12},
-                                                  {CellShape::hex27, 5 * 7 * 3},
-                                                  {CellShape::tet4, 24},
-                                                  {CellShape::tet10, 5 * 7 * 3}};
-  for (const CellShape shape : allShapes) {
+  const std::map<CellShape, std::size_t> nodes = {{CellShape::hex8, 24},         {CellShape::hex20, 24 + 16 + 18 + 12},
+                                                  {CellShape::hex27, 5 * 7 * 3}, {CellShape::tet4, 24},
+                                                  {CellShape::tet10, 5 * 7 * 3}, {CellShape::quad4, 12},
+                                                  {CellShape::quad8, 12 + 8 + 9}};
+  for (const CellShape shape : allCellShapes) {
     const SolidMesh mesh = testBox(shape);
     EXPECT_EQ(mesh.X.size(), nodes.at(shape)) << name(shape);
-    EXPECT_EQ(mesh.elementCount(), cornersOf(shape) == 8 ? 6u : 36u) << name(shape);
+    EXPECT_EQ(mesh.elementCount(), isTet(shape) ? 36u : 6u) << name(shape);
     EXPECT_EQ(messageOf(mesh), "") << name(shape);
     std::set<std::array<double, 3>> places;
     for (const Vec3& X : mesh.X) places.insert({X.x, X.y, X.z});
@@ -51,7 +54,7 @@ TEST(SolidMesh, BoxesHaveTheNodesAndElementsOfTheirShape) {
 }
 
 TEST(SolidMesh, MidNodesLieBetweenTheirCorners) {
-  for (const CellShape shape : allShapes) {
+  for (const CellShape shape : allCellShapes) {
     if (nodesOf(shape) == cornersOf(shape)) continue;
     const SolidMesh mesh = testBox(shape);
     const CellGroup& group = mesh.groups[0];
@@ -75,23 +78,27 @@ TEST(SolidMesh, MidNodesLieBetweenTheirCorners) {
 }
 
 TEST(SolidMesh, FacesPointOutwardAndCloseTheBody) {
-  for (const CellShape shape : allShapes) {
+  for (const CellShape shape : allCellShapes) {
     const SolidMesh mesh = testBox(shape);
     const std::vector<Face> boundary = boundaryFaces(mesh);
-    EXPECT_EQ(boundary.size(), (cornersOf(shape) == 8 ? 1u : 2u) * 2u * (6u + 3u + 2u)) << name(shape);
+    const bool plane = dimensionOf(shape) == 2;
+    EXPECT_EQ(boundary.size(), plane ? 2u * (2u + 3u) : (isTet(shape) ? 2u : 1u) * 2u * (6u + 3u + 2u)) << name(shape);
     EXPECT_EQ(faceSet(mesh, "skin").size(), boundary.size());
     const FaceIntegrals all = integrateFaces(mesh, boundary);
     EXPECT_LT(norm(all.area), 1e-15) << name(shape);
     EXPECT_NEAR(all.volume, boxVolume, 1e-14) << name(shape);
     const std::map<std::string, Vec3> sides = {{"x-", {-0.77, 0, 0}}, {"x+", {0.77, 0, 0}},  {"y-", {0, -0.63, 0}},
                                                {"y+", {0, 0.63, 0}},  {"z-", {0, 0, -0.99}}, {"z+", {0, 0, 0.99}}};
+    EXPECT_EQ(mesh.faceSets.size(), plane ? 5u : 7u);
     for (const auto& [side, area] : sides)
-      EXPECT_LT(norm(integrateFaces(mesh, faceSet(mesh, side)).area - area), 1e-14) << name(shape) << side;
+      if (!plane || side[0] != 'z') {
+        EXPECT_LT(norm(integrateFaces(mesh, faceSet(mesh, side)).area - area), 1e-14) << name(shape) << side;
+      }
   }
 }
 
 TEST(SolidMesh, EveryFaceOfEveryElementPointsOutOfIt) {
-  for (const CellShape shape : allShapes) {
+  for (const CellShape shape : allCellShapes) {
     SolidMesh mesh = testBox(shape);
     bend(mesh);
     ASSERT_EQ(messageOf(mesh), "") << name(shape);
@@ -117,10 +124,12 @@ TEST(SolidMesh, EveryFaceOfEveryElementPointsOutOfIt) {
 }
 
 TEST(SolidMesh, NodeSetsAreTheNodesOfTheirSides) {
-  for (const CellShape shape : allShapes) {
-    const SolidMesh mesh = boxOf(shape, {2, 3, 4}, lower, upper);
+  for (const CellShape shape : allCellShapes) {
+    const int dimension = dimensionOf(shape);
+    const SolidMesh mesh = boxOf(shape, {2, 3, dimension == 2 ? 1 : 4}, lower, upper);
     std::set<int> all;
-    for (int side = 0; side < 6; ++side) {
+    EXPECT_EQ(mesh.nodeSets.size(), 2u * static_cast<unsigned>(dimension) + 1u) << name(shape);
+    for (int side = 0; side < 2 * dimension; ++side) {
       const int axis = side / 2;
       const double value = side % 2 ? upper[axis] : lower[axis];
       std::vector<int> expected;
@@ -152,21 +161,23 @@ TEST(SolidMesh, UnknownSetsListTheKnownOnes) {
 
 TEST(SolidMesh, BadBoxesAreRefused) {
   EXPECT_THROW(boxOf(CellShape::tet10, {0, 1, 1}, {}, {1.0, 1.0, 1.0}), InputError);
+  EXPECT_THROW(boxOf(CellShape::quad4, {1, 1, 2}, {}, {1.0, 1.0, 1.0}), InputError);
+  EXPECT_THROW(boxOf(CellShape::quad4, {1, 1, 1}, {}, {1.0, 1.0, 0.0}), InputError);
   EXPECT_THROW(boxOf(CellShape::hex8, {1, 1, 1}, {}, {1.0, 0.0, 1.0}), InputError);
   EXPECT_THROW(boxOf(CellShape::hex27, {1, 1, 1}, {}, {1.0, std::numeric_limits<double>::quiet_NaN(), 1.0}),
                InputError);
 }
 
 TEST(SolidMesh, BadElementsAreRefusedByNumber) {
-  for (const CellShape shape : allShapes) {
+  for (const CellShape shape : allCellShapes) {
     const SolidMesh mesh = testBox(shape);
     const auto n = static_cast<std::size_t>(nodesOf(shape));
     SolidMesh inverted = mesh;
     std::swap(inverted.groups[0].node[n], inverted.groups[0].node[n + 2]);
     EXPECT_NE(messageOf(inverted).find("[element 1]"), std::string::npos) << messageOf(inverted);
     SolidMesh flat = mesh;
-    for (Vec3& X : flat.X) X.z = 0.0;
-    const std::string all = cornersOf(shape) == 8 ? "[elements 0, 1, 2, 3, 4, 5]" : "8, 9 and 26 more]";
+    for (Vec3& X : flat.X) (dimensionOf(shape) == 2 ? X.y : X.z) = 0.0;
+    const std::string all = !isTet(shape) ? "[elements 0, 1, 2, 3, 4, 5]" : "8, 9 and 26 more]";
     EXPECT_NE(messageOf(flat).find(all), std::string::npos) << messageOf(flat);
     SolidMesh wrongNode = mesh;
     wrongNode.groups[0].node[2 * n + 1] = 999;
@@ -188,7 +199,7 @@ TEST(SolidMesh, BadElementsAreRefusedByNumber) {
 }
 
 TEST(SolidMesh, MidNodesOutOfPlaceAreFound) {
-  for (const CellShape shape : {CellShape::hex20, CellShape::hex27, CellShape::tet10}) {
+  for (const CellShape shape : {CellShape::hex20, CellShape::hex27, CellShape::tet10, CellShape::quad8}) {
     SolidMesh mesh = boxOf(shape, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
     const CellGroup& group = mesh.groups[0];
     const int mid = group.node[static_cast<std::size_t>(cornersOf(shape))], end = group.node[1];
@@ -213,6 +224,27 @@ TEST(SolidMesh, BadSetsAreRefusedByName) {
   EXPECT_EQ(messageOf(mesh), "");
   mesh.faceSets["x-"][0].node[7] = -1;
   EXPECT_NE(messageOf(mesh).find("\"x-\""), std::string::npos);
+}
+
+TEST(SolidMesh, PlaneStrainLiesInOnePlaneWithAThicknessAndAlone) {
+  const SolidMesh plane = testBox(CellShape::quad8);
+  EXPECT_EQ(plane.thickness, upper.z - lower.z);
+  for (const Vec3& X : plane.X) EXPECT_EQ(X.z, lower.z);
+  SolidMesh crooked = plane;
+  crooked.X[7].z += 1e-6;
+  EXPECT_NE(messageOf(crooked).find("[node 7]"), std::string::npos) << messageOf(crooked);
+  EXPECT_NE(messageOf(crooked).find("one plane z = const"), std::string::npos) << messageOf(crooked);
+  for (const double thickness : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    SolidMesh thin = plane;
+    thin.thickness = thickness;
+    EXPECT_NE(messageOf(thin).find("thickness"), std::string::npos);
+  }
+  SolidMesh thick = testBox(CellShape::hex8);
+  thick.thickness = 2.0;
+  EXPECT_NE(messageOf(thick).find("three dimensions"), std::string::npos) << messageOf(thick);
+  SolidMesh mixed = testBox(CellShape::hex8);
+  mixed.groups.push_back({CellShape::quad4, {0, 1, 4, 3}});
+  EXPECT_NE(messageOf(mixed).find("hex8 and quad4"), std::string::npos) << messageOf(mixed);
 }
 
 }  // namespace

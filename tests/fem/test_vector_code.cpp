@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/fem/laws/point_laws.hpp"
-#include "dovetail/fem/laws/viscosity.hpp"
 #include "dovetail/fem/laws/vector_code.hpp"
+#include "dovetail/fem/laws/viscosity.hpp"
 #include "plastic_laws.hpp"
 #include "solid_helpers.hpp"
 

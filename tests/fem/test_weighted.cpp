@@ -73,7 +73,8 @@ TEST(Weighted, MassesAreIntegralsOfTheWeightedDensity) {
     std::vector<double> lumped(mesh.X.size());
     part.solid->addMass(lumped);
     EXPECT_NEAR(std::accumulate(lumped.begin(), lumped.end(), 0.0), expected.sum(), 1e-12 * expected.sum());
-    const bool scaled = kind.kind.shape == CellShape::hex20 || kind.kind.shape == CellShape::tet10;
+    const CellShape shape = kind.kind.shape;
+    const bool scaled = shape == CellShape::hex20 || shape == CellShape::tet10 || shape == CellShape::quad8;
     for (std::size_t n = 0; n < lumped.size(); ++n) {
       EXPECT_GT(lumped[n], 0.0);
       if (!scaled) {
@@ -100,6 +101,7 @@ TEST(Weighted, PatchesHaveTheStressOfTheLawEverywhere) {
     // Rules of forces and masses differ by their order where sides are curved.
     const double volume = std::accumulate(sample.volume.begin(), sample.volume.end(), 0.0);
     EXPECT_NEAR(volume, volumeOf(scene), 1e-4 * volume);
+    if (dimensionOf(kind.kind.shape) == 2) P(2, 2) = 0.0;  // no node feels it
     EXPECT_LT((volumeOf(scene) / volume * meanFirstStress(scene) - P).norm(), 1e-10 * P.norm());
     EXPECT_NEAR(scene.solid->energy(scene.model.nodes, {}), sample.energy[0] * volume,
                 1e-10 * sample.energy[0] * volume);

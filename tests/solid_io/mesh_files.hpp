@@ -13,13 +13,15 @@
 
 namespace dovetail::solid_io {
 
-inline const fem::CellShape allShapes[] = {fem::CellShape::hex8, fem::CellShape::hex20, fem::CellShape::hex27,
-                                           fem::CellShape::tet4, fem::CellShape::tet10};
-
 /// A box with curved faces, node, face and element sets; coordinates with all their digits.
 inline fem::SolidMesh testMesh(fem::CellShape shape) {
   fem::SolidMesh mesh = fem::boxOf(shape, {2, 3, 1}, {0.1, -0.2, 0.3}, {1.0, 0.9, 1.0});
-  for (Vec3& X : mesh.X) X = {X.x + 0.1 * X.y * X.y, X.y + 0.2 * X.x * X.z, X.z / 3.0 * (1.0 + 0.2 * X.x)};
+  if (fem::dimensionOf(shape) == 2) {
+    mesh.thickness = 1.0;  // files do not say it
+    for (Vec3& X : mesh.X) X = {X.x + 0.1 * X.y * X.y, X.y + 0.2 * X.x * X.z, X.z / 3.0};
+  } else {
+    for (Vec3& X : mesh.X) X = {X.x + 0.1 * X.y * X.y, X.y + 0.2 * X.x * X.z, X.z / 3.0 * (1.0 + 0.2 * X.x)};
+  }
   mesh.elementSets["matrix"] = {0, 1, 2};
   mesh.elementSets["all but one"] = {1, 2, 3, 4, 5};
   return mesh;

@@ -84,6 +84,45 @@ TEST(Abaqus, ShellsAndBeamsNameFacesAndNodes) {
   EXPECT_FALSE(file.mesh.elementSets.contains("skin"));
 }
 
+const std::string planeNodes = "*NODE\n1, 0, 0\n2, 2, 0\n3, 2, 1\n4, 0, 1\n5, 3, 0\n6, 3, 1\n";
+
+TEST(Abaqus, PlaneStrainIsReadWhereThereAreNoVolumes) {
+  const SolidFile file =
+      abaqusFromText(planeNodes +
+                         "*ELEMENT, TYPE=CPE4R, ELSET=left\n1, 1,2,3,4\n*ELEMENT, TYPE=CPE4H\n2, 2,5,6,3\n"
+                         "*SURFACE, NAME=right\n2, S2\n*SURFACE, NAME=all\n"
+                         "1, S1\n1, S2\n1, S3\n1, S4\n*NSET, NSET=foot\n1, 2, 5\n",
+                     "test.inp");
+  const fem::SolidMesh& mesh = file.mesh;
+  ASSERT_EQ(mesh.groups.size(), 1u);
+  EXPECT_EQ(mesh.groups[0].shape, fem::CellShape::quad4);
+  EXPECT_EQ(fem::elementSet(mesh, "left"), std::vector<int>{0});
+  EXPECT_EQ(fem::nodeSet(mesh, "foot"), (std::vector<int>{0, 1, 4}));
+  EXPECT_EQ(fem::faceSet(mesh, "right").at(0).node, (std::array<int, 9>{4, 5, -1, -1, -1, -1, -1, -1, -1}));
+  const std::vector<fem::Face>& all = fem::faceSet(mesh, "all");
+  ASSERT_EQ(all.size(), 4u);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(all[static_cast<std::size_t>(k)].node[0], k);
+    EXPECT_EQ(all[static_cast<std::size_t>(k)].node[1], (k + 1) % 4);
+  }
+  ASSERT_EQ(file.notes.size(), 2u);
+  EXPECT_NE(file.notes[0].find("plane strain"), std::string::npos) << file.notes[0];
+  EXPECT_NE(file.notes[1].find("CPE4H, CPE4R"), std::string::npos) << file.notes[1];
+}
+
+TEST(Abaqus, OtherElementsOfAPlaneAreRefusedByName) {
+  const auto with = [](const std::string& type, const std::string& list) {
+    return refusal(planeNodes + "*ELEMENT, TYPE=" + type + "\n1, " + list + "\n");
+  };
+  EXPECT_NE(with("CPS4", "1,2,3,4").find("element 1 is of plane stress"), std::string::npos) << with("CPS4", "1,2,3,4");
+  EXPECT_NE(with("CPE3", "1,2,3").find("a triangle"), std::string::npos);
+  EXPECT_NE(with("S4R", "1,2,3,4").find("a shell"), std::string::npos);
+  EXPECT_NE(with("CAX4", "1,2,3,4").find("not known"), std::string::npos);
+  EXPECT_NE(with("CPE4", "1,4,3,2").find("wrong way round"), std::string::npos) << with("CPE4", "1,4,3,2");
+  EXPECT_NE(refusal(planeNodes + "*ELEMENT, TYPE=CPE4\n1, 1,2,3,4\n*SURFACE, NAME=a\n1, S5\n").find("S1 to S4"),
+            std::string::npos);
+}
+
 TEST(Abaqus, OnePartThatIsNotMovedIsFlat) {
   const std::string part =
       "*PART, NAME=p\n" + nodes + elements + "*END PART\n*ASSEMBLY, NAME=a\n*INSTANCE, NAME=p-1, PART=p\n";

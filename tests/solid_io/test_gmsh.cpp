@@ -67,6 +67,27 @@ TEST(Gmsh, AFaceBetweenTwoVolumesBelongsToTheOneItPointsOutOf) {
   EXPECT_EQ(faceOf("1 2 3"), (std::array<int, 9>{0, 1, 2, -1, -1, -1, -1, -1, -1}));
 }
 
+TEST(Gmsh, WithoutVolumesSurfacesAreElementsAndCurvesTheirFaces) {
+  const std::string head =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"end\"\n2 2 \"body\"\n"
+      "$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 2 1 0\n5 1 1 0\n6 0 1 0\n$EndNodes\n";
+  const auto with = [&](const std::string& elements) { return head + "$Elements\n" + elements + "$EndElements\n"; };
+  const SolidFile file = gmshFromText(with("3\n1 1 2 1 7 4 3\n2 3 2 2 8 1 2 5 6\n3 3 2 2 8 2 3 4 5\n"), "test.msh");
+  EXPECT_EQ(file.mesh.groups.at(0).shape, fem::CellShape::quad4);
+  EXPECT_EQ(fem::elementSet(file.mesh, "body"), (std::vector<int>{0, 1}));
+  EXPECT_EQ(fem::nodeSet(file.mesh, "end"), (std::vector<int>{2, 3}));
+  // Turned outwards, whatever the line in the file.
+  EXPECT_EQ(fem::faceSet(file.mesh, "end").at(0).node, (std::array<int, 9>{2, 3, -1, -1, -1, -1, -1, -1, -1}));
+  EXPECT_EQ(file.mesh.thickness, 1.0);
+  const SolidFile between = gmshFromText(with("3\n1 1 2 1 7 5 2\n2 3 2 2 8 1 2 5 6\n3 3 2 2 8 2 3 4 5\n"), "test.msh");
+  EXPECT_EQ(fem::faceSet(between.mesh, "end").at(0).node[0], 4);  // runs around the second element
+  const auto refusal = [&](const std::string& elements) {
+    return messageOf([&] { gmshFromText(with(elements), "test.msh"); });
+  };
+  EXPECT_NE(refusal("2\n1 1 2 1 7 1 4\n2 3 2 2 8 1 2 5 6\n").find("line 1 is no side"), std::string::npos);
+  EXPECT_NE(refusal("1\n1 2 2 2 8 1 2 5\n").find("element 1 is a triangle"), std::string::npos);
+}
+
 TEST(Gmsh, BrokenFilesAreRefusedWithTheirLine) {
   const std::string text = gmshTet(false, false);
   const std::pair<std::string, std::string> broken[] = {

@@ -12,7 +12,7 @@ namespace dovetail::fem {
 
 namespace {
 
-bool isBrick(CellShape shape) { return shape != CellShape::tet4 && shape != CellShape::tet10; }
+bool isBrick(CellShape shape) { return !detail::isTet(shape); }
 
 /// Parent coordinates of a point that lies in the element.
 Vec3 parentPlace(CellShape shape, std::span<const Vec3> nodes, const Vec3& X, int element) {
@@ -23,7 +23,8 @@ Vec3 parentPlace(CellShape shape, std::span<const Vec3> nodes, const Vec3& X, in
 
 /// 1, ξ, η, ζ and, for bricks, their products; 1 alone where there are too few points for them.
 std::vector<double> basisAt(CellShape shape, const Vec3& xi, std::size_t points) {
-  if (isBrick(shape) && points >= 8)
+  if (dimensionOf(shape) == 2 && points >= 4) return {1.0, xi.x, xi.y, xi.x * xi.y};
+  if (dimensionOf(shape) == 3 && isBrick(shape) && points >= 8)
     return {1.0, xi.x, xi.y, xi.z, xi.x * xi.y, xi.y * xi.z, xi.z * xi.x, xi.x * xi.y * xi.z};
   if (!isBrick(shape) && points >= 4) return {1.0, xi.x, xi.y, xi.z};
   return {1.0};

@@ -49,6 +49,7 @@ void requireShare(std::span<const double> share, std::size_t nodes) {
 detail::SolidCells cellsOf(const SolidMesh& mesh, const std::string& set, std::span<const double> share) {
   detail::SolidCells cells{};
   cells.X = mesh.X;
+  cells.thickness = mesh.thickness;
   cells.share.assign(share.begin(), share.end());
   std::vector<int> node;
   const std::vector<int> chosen = chosenElements(mesh, set);
@@ -89,11 +90,14 @@ std::shared_ptr<Solid> makeSolidOf(const SolidMesh& mesh, std::unique_ptr<detail
   validate(mesh);
   requireShare(options.share, mesh.X.size());
   detail::SolidCells cells = cellsOf(mesh, options.elementSet, options.share);
-  if (options.formulation != Formulation::standard && options.formulation != Formulation::meanDilatation &&
-      cells.shape != CellShape::hex8)
-    throw InputError(
-        std::string("the formulation \"") + name(options.formulation) + "\" is for hex8, not for " + name(cells.shape),
-        "makeSolid", "use Formulation::standard, or a mesh of hex8");
+  const bool anyShape =
+      options.formulation == Formulation::standard || options.formulation == Formulation::meanDilatation;
+  const bool reducedPlane = options.formulation == Formulation::reduced && cells.shape == CellShape::quad8;
+  if (!anyShape && !reducedPlane && cells.shape != CellShape::hex8)
+    throw InputError(std::string("the formulation \"") + name(options.formulation) + "\" is for hex8" +
+                         (options.formulation == Formulation::reduced ? " and quad8" : "") + ", not for " +
+                         name(cells.shape),
+                     "makeSolid", "use Formulation::standard, or a mesh of hex8");
   switch (options.formulation) {
     case Formulation::meanDilatation:
       return detail::makeMeanDilatationSolid(std::move(cells), std::move(points), options);
@@ -102,6 +106,7 @@ std::shared_ptr<Solid> makeSolidOf(const SolidMesh& mesh, std::unique_ptr<detail
     case Formulation::assumedStress:
       return detail::makeAssumedStressSolid(std::move(cells), std::move(points), options);
     case Formulation::reduced:
+      if (reducedPlane) return detail::makeStandardSolid(std::move(cells), std::move(points), options);
       requireNonNegative(options.hourglassShare, "hourglassShare");
       return detail::makeReducedSolid(std::move(cells), std::move(points), options);
     default:

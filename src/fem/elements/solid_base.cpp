@@ -19,7 +19,12 @@ double sumOfLanes(const Lane& lane) { return (lane[0] + lane[1]) + (lane[2] + la
 }  // namespace
 
 SolidBase::SolidBase(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options, bool lazy)
-    : cells_(std::move(cells)), points_(std::move(points)), options_(options), rule_(&forceRule(cells_.shape)) {
+    : cells_(std::move(cells)),
+      points_(std::move(points)),
+      options_(options),
+      rule_(cells_.shape == CellShape::quad8 && options.formulation == Formulation::reduced
+                ? &reducedRule(cells_.shape)
+                : &forceRule(cells_.shape)) {
   options_.share.clear();  // the cells have it
   if (!lazy) needGeometry();
 }

@@ -27,7 +27,8 @@ void visitMassPoints(const SolidCells& cells, std::size_t element, Visit&& visit
   for (std::size_t a = 0; a < n; ++a) nodes[a] = cells.nodeOf(element, a);
   for (std::size_t q = 0; q < rule.point.size(); ++q) {
     const double* const value = &rule.value[n * q];
-    const Jacobian J = jacobianAt(cells.X, std::span(nodes).first(n), std::span(rule.gradient).subspan(n * q, n));
+    const Jacobian J = jacobianAt(cells.X, std::span(nodes).first(n), std::span(rule.gradient).subspan(n * q, n),
+                                  depthOf(cells.shape, cells.thickness));
     visit(value, rule.weight[q] * determinant(J) *
                      shareAt(cells, value, [&](std::size_t a) { return static_cast<std::size_t>(nodes[a]); }));
   }
@@ -41,6 +42,7 @@ std::vector<PointGeometry> geometryAt(const SolidCells& cells, const CellRule& r
   for (std::size_t b = 0; b < cells.batches(); ++b)
     for (std::size_t p = 0; p < q; ++p) {
       std::array<Lane, 9> J{};
+      J[8] += depthOf(cells.shape, cells.thickness).z;
       for (std::size_t a = 0; a < n; ++a) {
         const auto& node = cells.batchNode[n * b + a];
         for (std::size_t i = 0; i < 3; ++i) {
@@ -94,7 +96,8 @@ std::vector<double> rowSumsOfMass(const SolidCells& cells, std::size_t element, 
 }
 
 std::vector<double> lumpedMass(const SolidCells& cells, std::size_t element, double density) {
-  if (cells.shape != CellShape::hex20 && cells.shape != CellShape::tet10) return rowSumsOfMass(cells, element, density);
+  if (cells.shape != CellShape::hex20 && cells.shape != CellShape::tet10 && cells.shape != CellShape::quad8)
+    return rowSumsOfMass(cells, element, density);
   std::vector<double> diagonal(cells.nodes, 0.0);
   double volume = 0.0, sum = 0.0;
   visitMassPoints(cells, element, [&](const double* value, double part) {

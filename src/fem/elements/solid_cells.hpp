@@ -16,6 +16,7 @@ namespace dovetail::fem::detail {
 struct SolidCells {
   CellShape shape;
   std::size_t nodes;                                           ///< per element
+  double thickness;                                            ///< of plane cells, m
   std::vector<int> number;                                     ///< in the mesh, per element
   std::vector<Vec3> X;                                         ///< of the mesh, m
   std::vector<double> share;                                   ///< of the mesh, weight of every integral; empty = 1
@@ -39,8 +40,8 @@ std::vector<PointGeometry> geometryAt(const SolidCells& cells, const CellRule& r
 
 /// ∫w ρ ψ_a dV of one element, kg: row sums of its consistent mass.
 std::vector<double> rowSumsOfMass(const SolidCells& cells, std::size_t element, double density);
-/// The same, or for hex20 and tet10, whose row sums are negative at corners, the diagonal scaled to the element's mass
-/// (Hinton, Rock & Zienkiewicz 1976), kg.
+/// The same, or for hex20, tet10 and quad8, whose row sums are negative at corners, the diagonal scaled to the
+/// element's mass (Hinton, Rock & Zienkiewicz 1976), kg.
 std::vector<double> lumpedMass(const SolidCells& cells, std::size_t element, double density);
 /// ∫w ρ ψ_a ψ_b dV of one element, row-major, kg.
 std::vector<double> consistentMass(const SolidCells& cells, std::size_t element, double density);

@@ -1,6 +1,6 @@
-// Bricks with a dilatation of their own: U = Σ weight W(F̄), F̄ = s F, s = (θ/J)^⅓, θ the element's L² projection of J
-// on constants (hex8; Simo, Taylor & Pister 1985) or on 1, ξ, η, ζ (hex20, hex27). θ is condensed, force and tangent
-// are the first and second derivative of U.
+// Bricks and plane cells with a dilatation of their own: U = Σ weight W(F̄), F̄ = s F, s = (θ/J)^⅓, θ the element's L²
+// projection of J on constants (hex8, quad4; Simo, Taylor & Pister 1985), on 1, ξ, η, ζ (hex20, hex27) or on 1, ξ, η
+// (quad8). θ is condensed, force and tangent are the first and second derivative of U.
 #include <cmath>
 
 #include "cell_kernels.hpp"
@@ -257,11 +257,15 @@ std::shared_ptr<Solid> makeMeanDilatationSolid(SolidCells cells, std::unique_ptr
       return std::make_shared<MeanDilatationSolid<20, 27, 4>>(std::move(cells), std::move(points), options);
     case CellShape::hex27:
       return std::make_shared<MeanDilatationSolid<27, 27, 4>>(std::move(cells), std::move(points), options);
+    case CellShape::quad4:
+      return std::make_shared<MeanDilatationSolid<4, 4, 1>>(std::move(cells), std::move(points), options);
+    case CellShape::quad8:
+      return std::make_shared<MeanDilatationSolid<8, 9, 3>>(std::move(cells), std::move(points), options);
     default:
       break;
   }
-  throw InputError(std::string("mean dilatation is for bricks, not for ") + name(cells.shape), "makeSolid",
-                   "use Formulation::standard, or a mesh of bricks");
+  throw InputError(std::string("mean dilatation is for bricks and plane cells, not for ") + name(cells.shape),
+                   "makeSolid", "use Formulation::standard, or a mesh of bricks");
 }
 
 }  // namespace dovetail::fem::detail

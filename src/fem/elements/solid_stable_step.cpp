@@ -10,15 +10,18 @@ namespace dovetail::fem::detail {
 
 namespace {
 
-/// M^(−½) K M^(−½) of one lane, symmetrised.
-Eigen::MatrixXd scaledStiffness(const LaneVector& K, std::span<const double> mass, std::size_t lane) {
+/// M^(−½) K M^(−½) of one lane, symmetrised, of the first components of each node; zero for the others.
+Eigen::MatrixXd scaledStiffness(const LaneVector& K, std::span<const double> mass, std::size_t components,
+                                std::size_t lane) {
   const std::size_t size = 3 * mass.size();
   Eigen::MatrixXd A(static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
   for (std::size_t r = 0; r < size; ++r)
     for (std::size_t c = 0; c < size; ++c)
       A(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
-          0.5 * (K[size * r + c][static_cast<int>(lane)] + K[size * c + r][static_cast<int>(lane)]) /
-          std::sqrt(mass[r / 3] * mass[c / 3]);
+          r % 3 >= components || c % 3 >= components
+              ? 0.0
+              : 0.5 * (K[size * r + c][static_cast<int>(lane)] + K[size * c + r][static_cast<int>(lane)]) /
+                    std::sqrt(mass[r / 3] * mass[c / 3]);
   return A;
 }
 
@@ -42,7 +45,8 @@ StableStep SolidBase::stableStep(const Nodes& nodes) {
   evaluation_.known = false;
   const std::size_t size = 3 * cells_.nodes;
   const auto matrixOf = [&](std::size_t e, LaneVector& K) {
-    return scaledStiffness(K, lumpedMass(cells_, e, density()), e % laneCount);
+    return scaledStiffness(K, lumpedMass(cells_, e, density()), static_cast<std::size_t>(dimensionOf(cells_.shape)),
+                           e % laneCount);
   };
   std::vector<Invariants> known(cells_.size());
   parallelFor(cells_.batches(), 16, [&](std::size_t begin, std::size_t end) {

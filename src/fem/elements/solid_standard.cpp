@@ -11,12 +11,13 @@ template <int N, int Q>
 class StandardSolid final : public SolidBase {
 public:
   StandardSolid(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options)
-      : SolidBase(std::move(cells), std::move(points), options, N == 8) {
-    const auto law = N == 8 && points_->law() ? points_->law()->brickLaw() : std::nullopt;
+      : SolidBase(std::move(cells), std::move(points), options, isHex8) {
+    const auto law = isHex8 && points_->law() ? points_->law()->brickLaw() : std::nullopt;
     law ? useKernels(*law, false) : needGeometry();
   }
 
 private:
+  static constexpr bool isHex8 = N == 8 && Q == 8;
   using Tensors = std::array<Lane, 9 * Q>;
 
   const Vec3* gradients(std::size_t q) const { return &rule_->gradient[N * q]; }
@@ -149,6 +150,12 @@ std::shared_ptr<Solid> makeStandardSolid(SolidCells cells, std::unique_ptr<Solid
       return std::make_shared<StandardSolid<4, 1>>(std::move(cells), std::move(points), options);
     case CellShape::tet10:
       return std::make_shared<StandardSolid<10, 4>>(std::move(cells), std::move(points), options);
+    case CellShape::quad4:
+      return std::make_shared<StandardSolid<4, 4>>(std::move(cells), std::move(points), options);
+    case CellShape::quad8:
+      if (options.formulation == Formulation::reduced)
+        return std::make_shared<StandardSolid<8, 4>>(std::move(cells), std::move(points), options);
+      return std::make_shared<StandardSolid<8, 9>>(std::move(cells), std::move(points), options);
   }
   throw InputError("the shape of the elements is not known", "makeSolid", "use one of CellShape");
 }

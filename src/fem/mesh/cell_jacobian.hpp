@@ -15,9 +15,16 @@ using Jacobian = std::array<Vec3, 3>;
 
 inline double determinant(const Jacobian& J) { return dot(J[0], cross(J[1], J[2])); }
 
+/// ∂X/∂ζ of plane cells, which others have from their nodes: the thickness along z.
+inline Vec3 depthOf(CellShape shape, double thickness) {
+  return dimensionOf(shape) == 2 ? Vec3{0.0, 0.0, thickness} : Vec3{};
+}
+
 /// @param gradient  ∂ψ_a/∂ξ_j of the element's nodes
-inline Jacobian jacobianAt(std::span<const Vec3> X, std::span<const int> nodes, std::span<const Vec3> gradient) {
-  Jacobian J{};
+/// @param depth     depthOf its shape
+inline Jacobian jacobianAt(std::span<const Vec3> X, std::span<const int> nodes, std::span<const Vec3> gradient,
+                           const Vec3& depth) {
+  Jacobian J{Vec3{}, Vec3{}, depth};
   for (std::size_t a = 0; a < nodes.size(); ++a)
     for (int j = 0; j < 3; ++j)
       J[static_cast<std::size_t>(j)] += gradient[a][j] * X[static_cast<std::size_t>(nodes[a])];

@@ -69,7 +69,7 @@ CellLocator::CellLocator(std::span<const CellGroup> groups, std::span<const Vec3
   int count = 0;
   for (const CellGroup& group : groups) end_.push_back(count += static_cast<int>(group.size()));
   if (count == 0) throw InputError("there are no elements", "CellLocator", "give the elements of the solid's mesh");
-  plane_ = std::ranges::all_of(parentNodes(cell(0).shape), [](const Vec3& xi) { return xi.z == 0.0; });
+  plane_ = dimensionOf(cell(0).shape) == 2;
   std::vector<Vec3> centre;
   std::vector<double> radius;
   for (int e = 0; e < count; ++e) {

@@ -1,5 +1,7 @@
 #include "dovetail/fem/mesh/cell_topology.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "shapes.hpp"
@@ -11,7 +13,7 @@ namespace {
 constexpr std::array<std::array<int, 2>, 12> brickEdges = {
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
 constexpr std::array<std::array<int, 2>, 6> tetEdges = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-bool isBrick(CellShape shape) { return shape != CellShape::tet4 && shape != CellShape::tet10; }
+constexpr std::array<std::array<int, 2>, 4> quadEdges = {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
 
 std::vector<Face> makeFaces(CellShape shape) {
   const detail::CellFaces& faces = detail::facesOf(shape);
@@ -22,18 +24,20 @@ std::vector<Face> makeFaces(CellShape shape) {
 
 }  // namespace
 
-int cornersOf(CellShape shape) { return isBrick(shape) ? 8 : 4; }
-int cornersOf(FaceShape shape) { return shape == FaceShape::tri3 || shape == FaceShape::tri6 ? 3 : 4; }
+int cornersOf(CellShape shape) { return dimensionOf(shape) == 2 || detail::isTet(shape) ? 4 : 8; }
+int cornersOf(FaceShape shape) {
+  if (dimensionOf(shape) == 2) return 2;
+  return shape == FaceShape::tri3 || shape == FaceShape::tri6 ? 3 : 4;
+}
 
 std::span<const std::array<int, 2>> edgesOf(CellShape shape) {
-  return isBrick(shape) ? std::span<const std::array<int, 2>>(brickEdges)
-                        : std::span<const std::array<int, 2>>(tetEdges);
+  if (dimensionOf(shape) == 2) return quadEdges;
+  if (detail::isTet(shape)) return tetEdges;
+  return brickEdges;
 }
 
 std::span<const Face> localFacesOf(CellShape shape) {
-  static const std::array<std::vector<Face>, 5> faces = {makeFaces(CellShape::hex8), makeFaces(CellShape::hex20),
-                                                         makeFaces(CellShape::hex27), makeFaces(CellShape::tet4),
-                                                         makeFaces(CellShape::tet10)};
+  static const auto faces = detail::perShape(makeFaces);
   return faces[static_cast<std::size_t>(shape)];
 }
 
@@ -45,8 +49,20 @@ Face faceOf(const CellGroup& group, std::size_t element, std::size_t side) {
   return face;
 }
 
+int nodeOffPlane(std::span<const Vec3> X) {
+  if (X.empty()) return -1;
+  double longest = 0.0;
+  for (int c = 0; c < 2; ++c) {
+    const auto [lower, upper] = std::ranges::minmax(X, {}, [c](const Vec3& node) { return node[c]; });
+    longest = std::max(longest, upper[c] - lower[c]);
+  }
+  const auto off =
+      std::ranges::find_if(X, [&](const Vec3& node) { return !(std::abs(node.z - X[0].z) <= 1e-9 * longest); });
+  return off == X.end() ? -1 : static_cast<int>(off - X.begin());
+}
+
 const char* name(FaceShape shape) {
-  constexpr std::array<const char*, 5> names = {"quad4", "quad8", "quad9", "tri3", "tri6"};
+  constexpr std::array<const char*, 7> names = {"quad4", "quad8", "quad9", "tri3", "tri6", "line2", "line3"};
   return names[static_cast<std::size_t>(shape)];
 }
 

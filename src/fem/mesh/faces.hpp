@@ -20,6 +20,10 @@ struct FacePoint {
   std::span<const double> N, byXi, byEta;
   double weight;
 };
+/// ∂x/∂η of lines, which other faces have from their nodes: the thickness along z. ∂x/∂ξ × ∂x/∂η points outwards then.
+inline Vec3 depthOf(FaceShape shape, double thickness) {
+  return dimensionOf(shape) == 2 ? Vec3{0.0, 0.0, thickness} : Vec3{};
+}
 /// Calls visit(FacePoint) for the points of the rule of the shape. The rules are exact for N ∂x/∂ξ × ∂x/∂η and
 /// x · ∂x/∂ξ × ∂x/∂η.
 template <class Visit>
@@ -38,9 +42,17 @@ inline Vec3 interpolate(std::span<const double> coefficient, std::span<const int
   return sum;
 }
 
-/// @throws InputError, with `where`, for no faces or a node outside 0 … nodeCount − 1
-void requireFaces(std::span<const Face> faces, std::size_t nodeCount, const char* where);
-/// Ascending nodes of the edges that belong to one face only; none if the faces close a surface.
+/// ∂X/∂ξ × ∂X/∂η at a point of a reference face, m².
+inline Vec3 areaAt(const SolidMesh& mesh, const Face& face, const FacePoint& point) {
+  const std::span<const int> nodes = nodesOf(face);
+  return cross(interpolate(point.byXi, nodes, mesh.X),
+               depthOf(face.shape, mesh.thickness) + interpolate(point.byEta, nodes, mesh.X));
+}
+
+/// @throws InputError, with `where`, for no faces, a node that the mesh does not have, lines on a mesh of three
+/// dimensions or other faces on one of plane strain
+void requireFaces(std::span<const Face> faces, const SolidMesh& mesh, const char* where);
+/// Ascending nodes of the edges (of lines: ends) that belong to one face only; none if the faces close a surface.
 std::vector<int> rimNodes(std::span<const Face> faces);
 
 }  // namespace dovetail::fem

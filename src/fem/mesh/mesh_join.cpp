@@ -80,8 +80,13 @@ std::array<int, 9> sortedNodes(const Face& face) {
 SolidMesh joinMeshes(std::span<const SolidMesh> parts, double tolerance) {
   requirePositive(tolerance, "tolerance of joinMeshes");
   SolidMesh mesh;
+  if (!parts.empty()) mesh.thickness = parts[0].thickness;
   Welder welder(tolerance);
   for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].thickness != mesh.thickness)
+      throw InputError("its thickness is " + formatNumber(parts[p].thickness) + " m, that of part 0 " +
+                           formatNumber(mesh.thickness) + " m",
+                       "joinMeshes, part " + std::to_string(p), "give parts of one thickness");
     std::vector<int> number;
     for (const Vec3& X : parts[p].X) number.push_back(welder.numberOf(X, mesh.X));
     const int firstElement = static_cast<int>(mesh.elementCount());

@@ -15,9 +15,10 @@ using Corners = std::vector<int>;
 
 CellShape raised(CellShape shape, bool fullBricks) {
   if (shape == CellShape::tet4) return CellShape::tet10;
+  if (shape == CellShape::quad4) return CellShape::quad8;
   if (shape == CellShape::hex8) return fullBricks ? CellShape::hex27 : CellShape::hex20;
   throw InputError(std::string("the mesh has ") + name(shape) + " elements already", "secondOrder",
-                   "give hex8 and tet4 elements");
+                   "give hex8, tet4 or quad4 elements");
 }
 
 /// Makes each new node once and keeps what it lies between.
@@ -64,6 +65,11 @@ CellGroup raise(const CellGroup& group, bool fullBricks, MidNodes& mid) {
 Face raise(const Face& face, bool fullBricks, MidNodes& mid) {
   const Corners corners = cornersOfFace(face);
   const std::size_t n = corners.size();
+  if (n == 2) {
+    Face line{FaceShape::line3, face.node};
+    line.node[2] = mid.between(corners);
+    return line;
+  }
   Face result{n == 3 ? FaceShape::tri6 : fullBricks ? FaceShape::quad9 : FaceShape::quad8, face.node};
   for (std::size_t k = 0; k < n; ++k) result.node[n + k] = mid.between({corners[k], corners[(k + 1) % n]});
   if (result.shape == FaceShape::quad9) result.node[8] = mid.between(corners);
@@ -92,7 +98,7 @@ struct SkinParts {
 
 SolidMesh secondOrder(const SolidMesh& mesh, bool fullBricks) {
   validate(mesh);
-  SolidMesh result{mesh.X, {}, mesh.nodeSets, {}, mesh.elementSets};
+  SolidMesh result{mesh.X, {}, mesh.nodeSets, {}, mesh.elementSets, mesh.thickness};
   MidNodes mid(result);
   for (const CellGroup& group : mesh.groups) result.groups.push_back(raise(group, fullBricks, mid));
   for (const auto& [name, faces] : mesh.faceSets)

@@ -19,7 +19,7 @@ double product(const Vec3& a, const Vec3& b, const Vec3& c) { return norm(a) * n
 
 double scaledDeterminant(CellShape shape, const detail::Jacobian& J) {
   const auto& [a, b, c] = J;
-  const bool brick = cornersOf(shape) == 8;
+  const bool brick = !detail::isTet(shape);
   const double lengths =
       brick
           ? product(a, b, c)
@@ -32,6 +32,7 @@ struct Element {
   CellShape shape;
   std::span<const int> nodes;
   std::span<const Vec3> X;
+  Vec3 depth;
   const Vec3& corner(int a) const { return X[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])]; }
 };
 
@@ -40,7 +41,8 @@ double leastScaledJacobian(const Element& element) {
   double least = 1.0;
   for (std::size_t b = 0; b < element.nodes.size(); ++b) {
     const auto gradient = std::span(gradients).subspan(b * element.nodes.size(), element.nodes.size());
-    least = std::min(least, scaledDeterminant(element.shape, detail::jacobianAt(element.X, element.nodes, gradient)));
+    least = std::min(
+        least, scaledDeterminant(element.shape, detail::jacobianAt(element.X, element.nodes, gradient, element.depth)));
   }
   return least;
 }
@@ -58,7 +60,7 @@ double aspect(const Element& element) {
     longest = std::max(longest, length);
     shortest = std::min(shortest, length);
   }
-  if (cornersOf(element.shape) == 8) return longest / shortest;
+  if (!detail::isTet(element.shape)) return longest / shortest;
   return longest / inscribedRadius(element) / (2.0 * std::sqrt(6.0));
 }
 
@@ -67,8 +69,8 @@ double volume(const Element& element) {
   const std::size_t n = element.nodes.size();
   double sum = 0.0;
   for (std::size_t q = 0; q < rule.weight.size(); ++q)
-    sum += rule.weight[q] * detail::determinant(detail::jacobianAt(element.X, element.nodes,
-                                                                   std::span(rule.gradient).subspan(n * q, n)));
+    sum += rule.weight[q] * detail::determinant(detail::jacobianAt(
+                                element.X, element.nodes, std::span(rule.gradient).subspan(n * q, n), element.depth));
   return sum;
 }
 
@@ -87,13 +89,14 @@ void add(ShapeQuality& all, const ElementQuality& one) {
 
 MeshQuality measureQuality(const SolidMesh& mesh, std::size_t worst) {
   MeshQuality quality;
-  std::array<ShapeQuality, 5> shapes{};
+  std::array<ShapeQuality, allCellShapes.size()> shapes{};
   for (const CellGroup& group : mesh.groups) {
     const auto n = static_cast<std::size_t>(nodesOf(group.shape));
     ShapeQuality& all = shapes[static_cast<std::size_t>(group.shape)];
     all.shape = group.shape;
     for (std::size_t e = 0; e < group.size(); ++e) {
-      const Element element{group.shape, std::span(group.node).subspan(n * e, n), mesh.X};
+      const Element element{group.shape, std::span(group.node).subspan(n * e, n), mesh.X,
+                            detail::depthOf(group.shape, mesh.thickness)};
       for (const int node : element.nodes)
         if (node < 0 || static_cast<std::size_t>(node) >= mesh.X.size())
           throw InputError("node " + std::to_string(node) + " does not exist",

@@ -27,13 +27,6 @@ constexpr int largestParts = 20000;
 
 double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-bool isSimplex(CellShape shape) {
-  return std::ranges::all_of(parentNodes(shape), [](const Vec3& xi) { return std::min({xi.x, xi.y, xi.z}) >= 0.0; });
-}
-bool isPlane(CellShape shape) {
-  return std::ranges::all_of(parentNodes(shape), [](const Vec3& xi) { return xi.z == 0.0; });
-}
-
 void include(geometry::Box& box, const Vec3& x) {
   for (int c = 0; c < 3; ++c) {
     box.lower[c] = std::min(box.lower[c], x[c]);
@@ -54,8 +47,8 @@ public:
   LocalCell(CellShape shape, std::span<const Vec3> nodes, const Vec3& point)
       : shape_(shape),
         count_(nodes.size()),
-        simplex_(isSimplex(shape)),
-        plane_(isPlane(shape)),
+        simplex_(isTet(shape)),
+        plane_(dimensionOf(shape) == 2),
         point_(point - nodes[0]) {
     double size = largest(point);
     for (std::size_t a = 0; a < count_; ++a) {
@@ -185,7 +178,7 @@ geometry::Box boxOf(CellShape shape, std::span<const Vec3> nodes) {
   for (const Vec3& x : nodes) include(box, x);
   const auto corners = static_cast<std::size_t>(cornersOf(shape));
   if (nodes.size() == corners) return box;
-  if (isSimplex(shape)) {
+  if (isTet(shape)) {
     for (std::size_t e = 0; e < edgesOf(shape).size(); ++e) {
       const auto [a, b] = edgesOf(shape)[e];
       include(box, 2.0 * nodes[corners + e] -

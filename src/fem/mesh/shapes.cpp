@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dovetail/fem/mesh/cell_topology.hpp"
+#include "lines.hpp"
+
 namespace dovetail::fem {
 
 namespace {
@@ -33,26 +36,11 @@ namespace detail {
 
 namespace {
 
-struct Point1 {
-  double at, weight;
-};
-const std::array<Point1, 2> gauss2 = {{{-1.0 / std::sqrt(3.0), 1.0}, {1.0 / std::sqrt(3.0), 1.0}}};
-const std::array<Point1, 3> gauss3 = {{{-std::sqrt(0.6), 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {std::sqrt(0.6), 5.0 / 9.0}}};
-
-// Edges of the second-order cells, in the order of their mid-edge nodes.
-constexpr std::array<std::array<int, 2>, 12> brickEdges = {
-    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
-constexpr std::array<std::array<int, 2>, 6> tetEdges = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-// x−, x+, y−, y+, z−, z+.
-constexpr std::array<std::array<int, 4>, 6> brickFaces = {
-    {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};
-constexpr std::array<std::array<int, 3>, 4> tetFaces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
-
 std::vector<Vec3> brickNodes(int count) {
   std::vector<Vec3> nodes = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                              {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   if (count >= 20)
-    for (const auto& [a, b] : brickEdges)
+    for (const auto& [a, b] : edgesOf(CellShape::hex20))
       nodes.push_back(0.5 * (nodes[static_cast<std::size_t>(a)] + nodes[static_cast<std::size_t>(b)]));
   if (count == 27)
     for (const Vec3& X : {Vec3{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {0, 0, 0}})
@@ -63,16 +51,9 @@ std::vector<Vec3> brickNodes(int count) {
 std::vector<Vec3> tetNodes(int count) {
   std::vector<Vec3> nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   if (count == 10)
-    for (const auto& [a, b] : tetEdges)
+    for (const auto& [a, b] : edgesOf(CellShape::tet10))
       nodes.push_back(0.5 * (nodes[static_cast<std::size_t>(a)] + nodes[static_cast<std::size_t>(b)]));
   return nodes;
-}
-
-/// Lagrange's polynomial on the nodes −1, 1 (first order) or −1, 0, 1 (second order), and its slope.
-std::array<double, 2> lagrange(double node, double x, bool second) {
-  if (!second) return {0.5 * (1.0 + node * x), 0.5 * node};
-  if (node == 0.0) return {1.0 - x * x, -2.0 * x};
-  return {0.5 * x * (x + node), x + 0.5 * node};
 }
 
 void tensorProduct(const Vec3& node, const Vec3& xi, bool second, double& value, Vec3& gradient) {
@@ -109,11 +90,39 @@ void tetFunctions(bool second, const Vec3& xi, std::span<double> value, std::spa
     gradient[a] = second ? (4.0 * l[a] - 1.0) * dl[a] : dl[a];
   }
   if (!second) return;
+  const auto edges = edgesOf(CellShape::tet10);
   for (std::size_t e = 0; e < 6; ++e) {
-    const auto a = static_cast<std::size_t>(tetEdges[e][0]), b = static_cast<std::size_t>(tetEdges[e][1]);
+    const auto a = static_cast<std::size_t>(edges[e][0]), b = static_cast<std::size_t>(edges[e][1]);
     value[4 + e] = 4.0 * l[a] * l[b];
     gradient[4 + e] = 4.0 * l[a] * dl[b] + 4.0 * l[b] * dl[a];
   }
+}
+
+/// The lower face of a brick.
+std::vector<Vec3> planeNodes(int count) {
+  std::vector<Vec3> nodes = brickNodes(20);
+  nodes.erase(nodes.begin() + 12, nodes.end());
+  nodes.erase(nodes.begin() + 4, nodes.begin() + 8);
+  for (Vec3& node : nodes) node.z = 0.0;
+  nodes.resize(static_cast<std::size_t>(count));
+  return nodes;
+}
+
+void planeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient) {
+  const auto n = static_cast<std::size_t>(nodesOf(shape));
+  std::array<double, 8> byXi{}, byEta{};
+  faceFunctions(shape == CellShape::quad4 ? FaceShape::quad4 : FaceShape::quad8, xi.x, xi.y, value.first(n), byXi,
+                byEta);
+  for (std::size_t a = 0; a < n; ++a) gradient[a] = {byXi[a], byEta[a], 0.0};
+}
+
+template <std::size_t count>
+void planePoints(const std::array<Point1, count>& line, CellRule& rule) {
+  for (const Point1& y : line)
+    for (const Point1& x : line) {
+      rule.point.push_back({x.at, y.at, 0.0});
+      rule.weight.push_back(x.weight * y.weight);
+    }
 }
 
 template <std::size_t count>
@@ -163,11 +172,11 @@ CellRule withFunctions(CellShape shape, CellRule rule) {
   return rule;
 }
 
-bool isTet(CellShape shape) { return shape == CellShape::tet4 || shape == CellShape::tet10; }
-
 CellRule makeForceRule(CellShape shape) {
   CellRule rule{};
-  if (shape == CellShape::hex8)
+  if (dimensionOf(shape) == 2)
+    shape == CellShape::quad4 ? planePoints(gauss2, rule) : planePoints(gauss3, rule);
+  else if (shape == CellShape::hex8)
     brickPoints(gauss2, rule);
   else if (!isTet(shape))
     brickPoints(gauss3, rule);
@@ -180,129 +189,26 @@ CellRule makeForceRule(CellShape shape) {
 
 CellRule makeMassRule(CellShape shape) {
   CellRule rule{};
-  if (!isTet(shape))
+  if (dimensionOf(shape) == 2)
+    planePoints(gauss3, rule);
+  else if (!isTet(shape))
     brickPoints(gauss3, rule);
   else
     fineTetPoints(rule);
   return withFunctions(shape, std::move(rule));
 }
 
-CellRule makeCentreRule(CellShape shape) {
+CellRule makeReducedRule(CellShape shape) {
   CellRule rule{};
-  rule.point = {isTet(shape) ? Vec3{0.25, 0.25, 0.25} : Vec3{}};
-  rule.weight = {isTet(shape) ? 1.0 / 6.0 : 8.0};
+  planePoints(gauss2, rule);
   return withFunctions(shape, std::move(rule));
 }
 
-template <class Make>
-auto perShape(Make make) {
-  return std::array{make(CellShape::hex8), make(CellShape::hex20), make(CellShape::hex27), make(CellShape::tet4),
-                    make(CellShape::tet10)};
-}
-
-int midEdge(std::span<const std::array<int, 2>> edges, int corners, int a, int b) {
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    if ((edges[e][0] == a && edges[e][1] == b) || (edges[e][0] == b && edges[e][1] == a))
-      return corners + static_cast<int>(e);
-  return -1;
-}
-
-CellFaces makeFaces(CellShape shape) {
-  const bool tet = isTet(shape), second = shape != CellShape::hex8 && shape != CellShape::tet4;
-  CellFaces faces{};
-  faces.shape = tet ? (second ? FaceShape::tri6 : FaceShape::tri3)
-                    : (shape == CellShape::hex27 ? FaceShape::quad9
-                       : second                  ? FaceShape::quad8
-                                                 : FaceShape::quad4);
-  const std::size_t corners = tet ? 3 : 4, count = tet ? 4 : 6;
-  for (std::size_t f = 0; f < count; ++f) {
-    std::array<int, 9> node;
-    node.fill(-1);
-    for (std::size_t a = 0; a < corners; ++a) node[a] = tet ? tetFaces[f][a] : brickFaces[f][a];
-    for (std::size_t a = 0; second && a < corners; ++a) {
-      const int from = node[a], to = node[(a + 1) % corners];
-      node[corners + a] = tet ? midEdge(tetEdges, 4, from, to) : midEdge(brickEdges, 8, from, to);
-    }
-    if (shape == CellShape::hex27) node[8] = 20 + static_cast<int>(f);
-    faces.node.push_back(node);
-  }
-  return faces;
-}
-
-constexpr std::array<std::array<double, 2>, 9> quadNodes = {
-    {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, 0}}};
-
-void quadFunction(FaceShape shape, std::size_t a, double xi, double eta, double& value, double& byXi, double& byEta) {
-  const auto [p, q] = quadNodes[a];
-  if (shape != FaceShape::quad8) {
-    const bool second = shape == FaceShape::quad9;
-    const auto [f, df] = lagrange(p, xi, second);
-    const auto [g, dg] = lagrange(q, eta, second);
-    value = f * g, byXi = df * g, byEta = f * dg;
-    return;
-  }
-  const double f = p == 0.0 ? 1.0 - xi * xi : 1.0 + p * xi, df = p == 0.0 ? -2.0 * xi : p;
-  const double g = q == 0.0 ? 1.0 - eta * eta : 1.0 + q * eta, dg = q == 0.0 ? -2.0 * eta : q;
-  const bool corner = p != 0.0 && q != 0.0;
-  const double scale = corner ? 0.25 : 0.5, sum = corner ? p * xi + q * eta - 1.0 : 1.0;
-  value = scale * f * g * sum;
-  byXi = scale * (df * sum + (corner ? f * p : 0.0)) * g;
-  byEta = scale * f * (dg * sum + (corner ? g * q : 0.0));
-}
-
-void triangleFunctions(bool second, double xi, double eta, std::span<double> value, std::span<double> byXi,
-                       std::span<double> byEta) {
-  const std::array<double, 3> l = {1.0 - xi - eta, xi, eta};
-  constexpr std::array<double, 3> lx = {-1, 1, 0}, ly = {-1, 0, 1};
-  for (std::size_t a = 0; a < 3; ++a) {
-    value[a] = second ? l[a] * (2.0 * l[a] - 1.0) : l[a];
-    byXi[a] = second ? (4.0 * l[a] - 1.0) * lx[a] : lx[a];
-    byEta[a] = second ? (4.0 * l[a] - 1.0) * ly[a] : ly[a];
-    if (!second) continue;
-    const std::size_t b = (a + 1) % 3;
-    value[3 + a] = 4.0 * l[a] * l[b];
-    byXi[3 + a] = 4.0 * (lx[a] * l[b] + l[a] * lx[b]);
-    byEta[3 + a] = 4.0 * (ly[a] * l[b] + l[a] * ly[b]);
-  }
-}
-
-template <std::size_t count>
-void quadPoints(const std::array<Point1, count>& line, FaceRule& rule) {
-  for (const Point1& y : line)
-    for (const Point1& x : line) {
-      rule.point.push_back({x.at, y.at});
-      rule.weight.push_back(x.weight * y.weight);
-    }
-}
-
-/// Points with one barycentric coordinate 1 − 2a and two a.
-void addTriangleOrbit(double a, double weight, FaceRule& rule) {
-  for (const auto& p : {std::array{a, a}, std::array{1.0 - 2.0 * a, a}, std::array{a, 1.0 - 2.0 * a}}) {
-    rule.point.push_back(p);
-    rule.weight.push_back(weight);
-  }
-}
-
-FaceRule makeFaceRule(FaceShape shape) {
-  FaceRule rule{};
-  if (shape == FaceShape::quad4)
-    quadPoints(gauss2, rule);
-  else if (shape == FaceShape::quad8 || shape == FaceShape::quad9)
-    quadPoints(gauss3, rule);
-  else if (shape == FaceShape::tri3)
-    addTriangleOrbit(1.0 / 6.0, 1.0 / 6.0, rule);
-  else {  // degree 4 (Dunavant 1985)
-    addTriangleOrbit(0.44594849091596488632, 0.22338158967801146570 / 2.0, rule);
-    addTriangleOrbit(0.091576213509770743460, 0.10995174365532186764 / 2.0, rule);
-  }
-  rule.nodes = nodesOf(shape);
-  rule.points = static_cast<int>(rule.point.size());
-  const auto n = static_cast<std::size_t>(rule.nodes);
-  for (std::vector<double>* field : {&rule.value, &rule.byXi, &rule.byEta}) field->resize(n * rule.point.size());
-  for (std::size_t q = 0; q < rule.point.size(); ++q)
-    faceFunctions(shape, rule.point[q][0], rule.point[q][1], std::span(rule.value).subspan(n * q, n),
-                  std::span(rule.byXi).subspan(n * q, n), std::span(rule.byEta).subspan(n * q, n));
-  return rule;
+CellRule makeCentreRule(CellShape shape) {
+  CellRule rule{};
+  rule.point = {isTet(shape) ? Vec3{0.25, 0.25, 0.25} : Vec3{}};
+  rule.weight = {isTet(shape) ? 1.0 / 6.0 : dimensionOf(shape) == 2 ? 4.0 : 8.0};
+  return withFunctions(shape, std::move(rule));
 }
 
 }  // namespace
@@ -315,35 +221,21 @@ const CellRule& massRule(CellShape shape) {
   static const auto rules = perShape(makeMassRule);
   return rules[static_cast<std::size_t>(shape)];
 }
+const CellRule& reducedRule(CellShape shape) {
+  static const std::array rules = {makeReducedRule(CellShape::quad4), makeReducedRule(CellShape::quad8)};
+  return rules[shape == CellShape::quad8];
+}
 const CellRule& centreRule(CellShape shape) {
   static const auto rules = perShape(makeCentreRule);
   return rules[static_cast<std::size_t>(shape)];
 }
-const CellFaces& facesOf(CellShape shape) {
-  static const auto faces = perShape(makeFaces);
-  return faces[static_cast<std::size_t>(shape)];
-}
-
-void faceFunctions(FaceShape shape, double xi, double eta, std::span<double> value, std::span<double> byXi,
-                   std::span<double> byEta) {
-  if (shape == FaceShape::tri3 || shape == FaceShape::tri6)
-    return triangleFunctions(shape == FaceShape::tri6, xi, eta, value, byXi, byEta);
-  for (std::size_t a = 0; a < static_cast<std::size_t>(nodesOf(shape)); ++a)
-    quadFunction(shape, a, xi, eta, value[a], byXi[a], byEta[a]);
-}
-
-const FaceRule& faceRule(FaceShape shape) {
-  static const std::array rules = {makeFaceRule(FaceShape::quad4), makeFaceRule(FaceShape::quad8),
-                                   makeFaceRule(FaceShape::quad9), makeFaceRule(FaceShape::tri3),
-                                   makeFaceRule(FaceShape::tri6)};
-  return rules[static_cast<std::size_t>(shape)];
-}
-
 }  // namespace detail
 
 std::span<const Vec3> parentNodes(CellShape shape) {
-  static const auto nodes = detail::perShape(
-      [](CellShape s) { return detail::isTet(s) ? detail::tetNodes(nodesOf(s)) : detail::brickNodes(nodesOf(s)); });
+  static const auto nodes = detail::perShape([](CellShape s) {
+    if (dimensionOf(s) == 2) return detail::planeNodes(nodesOf(s));
+    return detail::isTet(s) ? detail::tetNodes(nodesOf(s)) : detail::brickNodes(nodesOf(s));
+  });
   return nodes[static_cast<std::size_t>(shape)];
 }
 
@@ -354,6 +246,7 @@ void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, st
     std::ranges::copy(parentGradients(xi), gradient.begin());
     return;
   }
+  if (dimensionOf(shape) == 2) return detail::planeFunctions(shape, xi, value, gradient);
   const std::span<const Vec3> nodes = parentNodes(shape);
   for (std::size_t a = 0; a < nodes.size(); ++a)
     if (shape == CellShape::hex20)

@@ -22,6 +22,11 @@ constexpr std::array<std::array<int, 4>, 6> kuhnTets = {
 
 /// The elements of one cell as places on its lattice.
 std::vector<std::vector<Place>> cellPattern(CellShape shape) {
+  if (dimensionOf(shape) == 2) {
+    std::vector<Place> places(brickPlaces.begin(), brickPlaces.begin() + 4);
+    if (shape == CellShape::quad8) places.insert(places.end(), brickPlaces.begin() + 8, brickPlaces.begin() + 12);
+    return {places};
+  }
   if (shape != CellShape::tet4 && shape != CellShape::tet10)
     return {std::vector<Place>(brickPlaces.begin(), brickPlaces.begin() + nodesOf(shape))};
   std::vector<std::vector<Place>> pattern;
@@ -96,7 +101,9 @@ void addFaces(SolidMesh& mesh, std::span<const std::array<bool, 6>> sidesOfNode)
   }
 }
 
-void requireBox(const Place& cells, const Vec3& lower, const Vec3& upper) {
+void requireBox(CellShape shape, const Place& cells, const Vec3& lower, const Vec3& upper) {
+  if (dimensionOf(shape) == 2 && cells[2] != 1)
+    throw InputError("there are " + std::to_string(cells[2]) + " layers of " + name(shape), "boxOf, axis z", "give 1");
   for (int axis = 0; axis < 3; ++axis) {
     const std::string where = std::string("boxOf, axis ") + "xyz"[axis];
     if (cells[static_cast<std::size_t>(axis)] < 1)
@@ -109,7 +116,7 @@ void requireBox(const Place& cells, const Vec3& lower, const Vec3& upper) {
 }  // namespace
 
 SolidMesh boxOf(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 upper) {
-  requireBox(cells, lower, upper);
+  requireBox(shape, cells, lower, upper);
   const auto pattern = cellPattern(shape);
   Lattice lattice(cells);
   forEachCell(cells, [&](const Place& cell) {
@@ -123,11 +130,14 @@ SolidMesh boxOf(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 uppe
     if (node < 0) return;
     node = static_cast<int>(mesh.X.size());
     mesh.X.push_back(lattice.position(place, lower, upper));
-    const std::array<bool, 6> on = sidesOfNode.emplace_back(lattice.sides(place));
+    std::array<bool, 6> on = lattice.sides(place);
+    if (dimensionOf(shape) == 2) on[4] = on[5] = false;
+    sidesOfNode.push_back(on);
     for (std::size_t side = 0; side < 6; ++side)
       if (on[side]) mesh.nodeSets[sideNames[side]].push_back(node);
     if (std::find(on.begin(), on.end(), true) != on.end()) mesh.nodeSets["skin"].push_back(node);
   });
+  if (dimensionOf(shape) == 2) mesh.thickness = upper.z - lower.z;
   CellGroup& group = mesh.groups.emplace_back(CellGroup{shape, {}});
   forEachCell(cells, [&](const Place& cell) {
     for (const auto& element : pattern)

@@ -18,7 +18,7 @@ const auto& findSet(const auto& sets, const std::string& wanted, const char* kin
 }  // namespace
 
 const char* name(CellShape shape) {
-  constexpr std::array<const char*, 5> names = {"hex8", "hex20", "hex27", "tet4", "tet10"};
+  constexpr std::array<const char*, 7> names = {"hex8", "hex20", "hex27", "tet4", "tet10", "quad4", "quad8"};
   return names[static_cast<std::size_t>(shape)];
 }
 
@@ -27,6 +27,8 @@ std::size_t SolidMesh::elementCount() const {
   for (const CellGroup& group : groups) count += group.size();
   return count;
 }
+
+int dimensionOf(const SolidMesh& mesh) { return mesh.groups.empty() ? 3 : dimensionOf(mesh.groups[0].shape); }
 
 const std::vector<int>& nodeSet(const SolidMesh& mesh, const std::string& wanted) {
   return findSet(mesh.nodeSets, wanted, "node");

@@ -14,8 +14,8 @@ namespace detail {
 
 const std::vector<Vec3>& nodalGradients(CellShape shape) {
   static const auto all = [] {
-    std::array<std::vector<Vec3>, 5> gradients;
-    for (std::size_t s = 0; s < 5; ++s) {
+    std::array<std::vector<Vec3>, allCellShapes.size()> gradients;
+    for (std::size_t s = 0; s < gradients.size(); ++s) {
       const auto each = static_cast<CellShape>(s);
       const auto n = static_cast<std::size_t>(nodesOf(each));
       gradients[s].resize(n * n);
@@ -42,13 +42,15 @@ std::string listed(const char* item, std::span<const int> numbers) {
 namespace {
 
 /// Least det ∂X/∂ξ at the nodes and quadrature points.
-double leastDeterminant(CellShape shape, std::span<const int> nodes, std::span<const Vec3> X) {
+double leastDeterminant(CellShape shape, std::span<const int> nodes, const SolidMesh& mesh) {
+  const Vec3 depth = detail::depthOf(shape, mesh.thickness);
   const std::size_t n = nodes.size();
   double least = std::numeric_limits<double>::infinity();
   for (const std::vector<Vec3>* gradients : {&detail::nodalGradients(shape), &detail::forceRule(shape).gradient})
     for (std::size_t at = 0; at < gradients->size(); at += n) {
-      const double det = detail::determinant(detail::jacobianAt(X, nodes, std::span(*gradients).subspan(at, n)));
-      if (std::isnan(det)) return det;
+      const double det =
+          detail::determinant(detail::jacobianAt(mesh.X, nodes, std::span(*gradients).subspan(at, n), depth));
+      if (!std::isfinite(det)) return std::numeric_limits<double>::quiet_NaN();
       least = std::min(least, det);
     }
   return least;
@@ -96,6 +98,24 @@ void requireSets(const SolidMesh& mesh) {
   }
 }
 
+void requireOneDimension(const SolidMesh& mesh) {
+  const int dimension = dimensionOf(mesh);
+  for (const CellGroup& group : mesh.groups)
+    if (dimensionOf(group.shape) != dimension)
+      throw InputError(std::string("the mesh has ") + name(mesh.groups[0].shape) + " and " + name(group.shape) +
+                           " elements, of plane strain and of three dimensions",
+                       "mesh", "make two meshes and two models");
+  if (dimension == 3 && mesh.thickness != 1.0)
+    throw InputError("the thickness is " + formatNumber(mesh.thickness) + " m", "mesh of three dimensions",
+                     "leave it at 1: it is for quad4 and quad8");
+  if (dimension == 3) return;
+  requirePositive(mesh.thickness, "thickness of the mesh");
+  if (const int node = nodeOffPlane(mesh.X); node >= 0)
+    throw InputError("it lies at z = " + formatNumber(mesh.X[static_cast<std::size_t>(node)].z) + " m, node 0 at " +
+                         formatNumber(mesh.X[0].z) + " m",
+                     "node " + std::to_string(node), "let all nodes of plane strain lie in one plane z = const");
+}
+
 }  // namespace
 
 void validate(const SolidMesh& mesh) {
@@ -104,6 +124,7 @@ void validate(const SolidMesh& mesh) {
   for (std::size_t node = 0; node < mesh.X.size(); ++node)
     if (!isFinite(mesh.X[node]))
       throw InputError("a position is not finite", "node " + std::to_string(node), "give three numbers");
+  requireOneDimension(mesh);
   std::size_t number = 0;
   std::vector<int> bad;
   double worst = std::numeric_limits<double>::infinity();
@@ -118,7 +139,7 @@ void validate(const SolidMesh& mesh) {
       const auto nodes = std::span(group.node).subspan(perElement * e, perElement);
       requireNodes(nodes, mesh.X.size(), where);
       requireDistinctNodes(nodes, where);
-      const double least = leastDeterminant(group.shape, nodes, mesh.X);
+      const double least = leastDeterminant(group.shape, nodes, mesh);
       if (!(least > 0.0)) bad.push_back(static_cast<int>(number));
       worst = std::min(worst, least);
     }

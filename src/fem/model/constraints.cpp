@@ -52,10 +52,13 @@ std::size_t DofMap::dofOf(int node, int component) const {
   return 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(component);
 }
 
-void DofMap::claim(std::vector<State>& states, int node, int component, State state) const {
+void DofMap::claim(std::vector<State>& states, const Nodes& nodes, int node, int component, State state) const {
   constexpr std::array what = {"free", "fixed", "held", "prescribed", "tied"};
   State& present = states[dofOf(node, component)];
-  if (present != State::free && !(present == State::held && state == State::held))
+  const auto n = static_cast<std::size_t>(node);
+  const bool rests = present == State::held ||
+                     (present == State::fixed && nodes.u[n][component] == 0.0 && nodes.v[n][component] == 0.0);
+  if (present != State::free && !(rests && state == State::held))
     throw InputError(label(node, component) + " is constrained twice: " + what[static_cast<std::size_t>(present)] +
                          " and " + what[static_cast<std::size_t>(state)],
                      "constraints", "take one of the two away");
@@ -90,8 +93,8 @@ DofMap::DofMap(const Constraints& constraints, const Nodes& nodes)
   for (std::size_t dof = 0; dof < states.size(); ++dof)
     if (nodes.fixed[dof / 3] >> dof % 3 & 1) states[dof] = State::fixed;
   for (const Constraints::Prescribed& p : prescribed_)
-    claim(states, p.node, p.component, p.displacement ? State::prescribed : State::held);
-  for (const Tie& tie : ties_) claim(states, tie.node, tie.component, State::tied);
+    claim(states, nodes, p.node, p.component, p.displacement ? State::prescribed : State::held);
+  for (const Tie& tie : ties_) claim(states, nodes, tie.node, tie.component, State::tied);
   sortMasters(states);
   freeRow_.assign(states.size(), -1);
   for (std::size_t dof = 0; dof < states.size(); ++dof)

@@ -23,7 +23,7 @@ Model makeModel(const SolidMesh& mesh) {
   model.nodes.v.resize(n);
   model.nodes.f.resize(n);
   model.nodes.mass.assign(n, 0.0);
-  model.nodes.fixed.assign(n, 0);
+  model.nodes.fixed.assign(n, dimensionOf(mesh) == 2 ? componentZ : 0);
   return model;
 }
 

@@ -55,10 +55,10 @@ Box boundsOf(const SolidMesh& mesh) {
   return box;
 }
 
-/// Ties the three components of a node: u = u_master + (F(t) − 1) period.
-void addTies(std::vector<Tie>& ties, int node, int master, const Vec3& period,
+/// Ties the first components of a node: u = u_master + (F(t) − 1) period.
+void addTies(std::vector<Tie>& ties, int components, int node, int master, const Vec3& period,
              const std::shared_ptr<const GradientFunction>& F) {
-  for (int c = 0; c < 3; ++c) {
+  for (int c = 0; c < components; ++c) {
     const auto motion = [F, c, period](double t) {
       const std::array<double, 9> gradient = (*F)(t);
       double sum = -period[c];
@@ -78,12 +78,13 @@ PeriodicTies periodicTies(const SolidMesh& mesh, const GradientFunction& F, std:
   const auto [lower, upper] = boundsOf(mesh);
   const Vec3 sides = upper - lower;
   tolerance = requirePositive(tolerance * std::max({sides.x, sides.y, sides.z}), "longest side of the cell");
+  const int dimension = dimensionOf(mesh);
   std::vector<int> masters;  // on a lower face and on no upper one
   std::vector<std::pair<int, Vec3>> slaves;
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {
     Vec3 period;
     bool onLower = false;
-    for (int c = 0; c < 3; ++c) {
+    for (int c = 0; c < dimension; ++c) {
       if (!axes[static_cast<std::size_t>(c)]) continue;
       if (upper[c] - mesh.X[n][c] <= tolerance) period[c] = upper[c] - lower[c];
       if (mesh.X[n][c] - lower[c] <= tolerance) onLower = true;
@@ -103,7 +104,7 @@ PeriodicTies periodicTies(const SolidMesh& mesh, const GradientFunction& F, std:
       throw InputError("node " + std::to_string(node) + " has no image on the opposite face", "periodicTies",
                        "use a mesh whose opposite faces match, or a larger tolerance");
     used[static_cast<std::size_t>(master)] = 1;
-    addTies(result.ties, node, master, period, shared);
+    addTies(result.ties, dimension, node, master, period, shared);
   }
   for (const int master : masters)
     if (!used[static_cast<std::size_t>(master)])
@@ -111,7 +112,7 @@ PeriodicTies periodicTies(const SolidMesh& mesh, const GradientFunction& F, std:
                        "use a mesh whose opposite faces match, or a larger tolerance");
   Vec3 corner = lower;
   result.corner = finder.at(corner);
-  result.volume = (upper.x - lower.x) * (upper.y - lower.y) * (upper.z - lower.z);
+  result.volume = sides.x * sides.y * (dimension == 2 ? mesh.thickness : sides.z);
   return result;
 }
 

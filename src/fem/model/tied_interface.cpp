@@ -43,7 +43,8 @@ private:
         box.upper[c] = std::max(box.upper[c], mesh.X[static_cast<std::size_t>(n)][c]);
       }
     // Curved faces bulge out of the box of their nodes by less than its diagonal.
-    return geometry::expanded(box, margin + (nodes.size() > 4 ? 0.25 * norm(box.upper - box.lower) : 0.0));
+    const bool second = nodes.size() > static_cast<std::size_t>(cornersOf(face.shape));
+    return geometry::expanded(box, margin + (second ? 0.25 * norm(box.upper - box.lower) : 0.0));
   }
 
   static bool contains(const geometry::Box& box, const Vec3& x) {
@@ -62,7 +63,7 @@ struct Projected {
 
 /// Puts (ξ, η) back into the face.
 void clampTo(FaceShape shape, double& xi, double& eta) {
-  if (cornersOf(shape) == 4) {
+  if (cornersOf(shape) != 3) {
     xi = std::clamp(xi, -1.0, 1.0);
     eta = std::clamp(eta, -1.0, 1.0);
     return;
@@ -89,7 +90,7 @@ Projected project(const SolidMesh& mesh, const Face& face, const Vec3& x) {
                           std::span(byEta).first(n));
     const Vec3 gap = x - interpolate(std::span(result.N).first(n), nodes, mesh.X);
     const Vec3 a = interpolate(std::span(byXi).first(n), nodes, mesh.X),
-               b = interpolate(std::span(byEta).first(n), nodes, mesh.X);
+               b = depthOf(face.shape, 1.0) + interpolate(std::span(byEta).first(n), nodes, mesh.X);
     result.distance = norm(gap);
     const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), ag = dot(a, gap), bg = dot(b, gap),
                  det = aa * bb - ab * ab;
@@ -107,7 +108,7 @@ Projected project(const SolidMesh& mesh, const Face& face, const Vec3& x) {
 std::vector<Tie> tieInterface(const SolidMesh& mesh, std::span<const int> slaves, std::span<const Face> masters,
                               double tolerance) {
   requirePositive(tolerance, "tolerance of tied interfaces");
-  requireFaces(masters, mesh.X.size(), "tieInterface");
+  requireFaces(masters, mesh, "tieInterface");
   requireFinite(mesh.X, "node", "position", "tieInterface");
   std::vector<char> isMaster(mesh.X.size(), 0);
   for (const Face& face : masters)
@@ -130,7 +131,7 @@ std::vector<Tie> tieInterface(const SolidMesh& mesh, std::span<const int> slaves
     if (!(best.distance <= tolerance))
       throw InputError(label + " lies farther than " + formatNumber(tolerance) + " m from the master faces",
                        "tieInterface", "leave it out, or give a larger tolerance");
-    for (int c = 0; c < 3; ++c) {
+    for (int c = 0; c < dimensionOf(mesh); ++c) {
       Tie tie{slave, c, {}, 0.0, {}};
       for (std::size_t a = 0; a < nodesOf(*nearest).size(); ++a)
         if (best.N[a] != 0.0) tie.masters.push_back({nearest->node[a], c, best.N[a]});

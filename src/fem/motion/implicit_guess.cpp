@@ -1,4 +1,5 @@
 // Where Newton's method starts from.
+#include <algorithm>
 #include <cmath>
 
 #include "implicit_step.hpp"
@@ -73,7 +74,8 @@ void ImplicitStep::makeGuess(Guess guess) {
   const auto coasting = [&](std::size_t n) { return u0_[n] + h * v0_[n]; };
   if (guess == Guess::rest) return place([&](std::size_t n) { return u0_[n]; });
   place(coasting);
-  if (dofs_.size() < 3 * base_.size()) return;
+  const bool plane = std::ranges::all_of(model_.nodes.fixed, [](std::uint8_t held) { return held == componentZ; });
+  if (dofs_.size() < (plane ? 2 : 3) * base_.size()) return;
   const RigidMotion motion = rigidMotion(model_.nodes);
   constexpr double farTurn = 0.01;  // rad
   if (!(h * norm(motion.spin) > farTurn)) return;

@@ -42,8 +42,7 @@ std::vector<Spot> makeSpots(const SolidMesh& mesh, std::span<const Face> faces) 
     visitPoints(face.shape, [&](const FacePoint& point) {
       Spot spot{face.node, {}, corners.size(), 0.0};
       std::copy(point.N.begin(), point.N.end(), spot.N.begin());
-      spot.area = point.weight *
-                  norm(cross(interpolate(point.byXi, corners, mesh.X), interpolate(point.byEta, corners, mesh.X)));
+      spot.area = point.weight * norm(areaAt(mesh, face, point));
       spots.push_back(spot);
     });
   }
@@ -232,16 +231,18 @@ private:
 }  // namespace
 
 double contactPenalty(const SolidMesh& mesh, std::span<const Face> faces, const PointMaterial& material) {
-  requireFaces(faces, mesh.X.size(), "contactPenalty");
+  requireFaces(faces, mesh, "contactPenalty");
   double area = 0.0;
   for (const Spot& spot : makeSpots(mesh, faces)) area += spot.area;
-  return 10.0 * detail::moduliAtRest(material).confined / std::sqrt(area / static_cast<double>(faces.size()));
+  const double mean = area / static_cast<double>(faces.size());
+  const double size = dimensionOf(mesh) == 2 ? mean / mesh.thickness : std::sqrt(mean);
+  return 10.0 * detail::moduliAtRest(material).confined / size;
 }
 
 std::shared_ptr<ContactPlane> makeContactPlane(const SolidMesh& mesh, std::span<const Face> faces, const Plane& plane,
                                                const ContactOptions& options) {
   validate(options);
-  requireFaces(faces, mesh.X.size(), "makeContactPlane");
+  requireFaces(faces, mesh, "makeContactPlane");
   if (!(norm(plane.normal) > 0.0) || !isFinite(plane.normal) || !isFinite(plane.point))
     throw InputError("the plane is not defined", "makeContactPlane", "give a finite point and a normal with length");
   return std::make_shared<PlaneTerm>(mesh, faces, plane, options);

@@ -41,13 +41,9 @@ private:
 /// Calls visit(face, point, weight ∂X/∂ξ × ∂X/∂η) for all points of all faces.
 template <class Visit>
 void integrateFaces(const SolidMesh& mesh, std::span<const Face> faces, Visit&& visit) {
-  for (const Face& face : faces) {
-    const std::span<const int> nodes = nodesOf(face);
-    visitPoints(face.shape, [&](const FacePoint& point) {
-      visit(face, point,
-            point.weight * cross(interpolate(point.byXi, nodes, mesh.X), interpolate(point.byEta, nodes, mesh.X)));
-    });
-  }
+  for (const Face& face : faces)
+    visitPoints(face.shape,
+                [&](const FacePoint& point) { visit(face, point, point.weight * areaAt(mesh, face, point)); });
 }
 
 /// Σ N forceOn(vector of area) by nodes.
@@ -96,14 +92,14 @@ private:
 }  // namespace
 
 std::shared_ptr<Term> deadPressure(const SolidMesh& mesh, std::span<const Face> faces, Amplitude p, std::string name) {
-  requireFaces(faces, mesh.X.size(), "deadPressure");
+  requireFaces(faces, mesh, "deadPressure");
   const auto forces = nodalForces(mesh, faces, [](const Vec3& area) { return -area; });
   return std::make_shared<DeadLoad>(forces, std::move(p), std::move(name));
 }
 
 std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> faces, Vec3 traction, Amplitude scale,
                                    std::string name) {
-  requireFaces(faces, mesh.X.size(), "deadTraction");
+  requireFaces(faces, mesh, "deadTraction");
   if (!isFinite(traction)) throw InputError("the traction is not finite", "deadTraction", "give numbers");
   const auto forces = nodalForces(mesh, faces, [&](const Vec3& area) { return norm(area) * traction; });
   return std::make_shared<DeadLoad>(forces, std::move(scale), std::move(name));
@@ -111,7 +107,7 @@ std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> 
 
 std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> faces,
                                    std::function<Vec3(const Vec3&, double)> traction, std::string name) {
-  requireFaces(faces, mesh.X.size(), "deadTraction");
+  requireFaces(faces, mesh, "deadTraction");
   if (!traction) throw InputError("there is no function", "deadTraction", "give one, or a vector");
   return std::make_shared<TractionField>(mesh, faces, std::move(traction), std::move(name));
 }

@@ -12,8 +12,12 @@ namespace {
 
 class FollowingPressure : public Term {
 public:
-  FollowingPressure(std::span<const Face> faces, Amplitude p, bool potential, std::string name)
-      : faces_(faces.begin(), faces.end()), p_(std::move(p)), potential_(potential), name_(std::move(name)) {}
+  FollowingPressure(std::span<const Face> faces, double thickness, Amplitude p, bool potential, std::string name)
+      : faces_(faces.begin(), faces.end()),
+        thickness_(thickness),
+        p_(std::move(p)),
+        potential_(potential),
+        name_(std::move(name)) {}
   std::string name() const override { return name_; }
   bool isSymmetric() const override { return potential_; }
   bool hasEnergy() const override { return potential_ && p_.isConstant(); }
@@ -24,24 +28,22 @@ public:
     for (const Face& face : faces_) {
       const std::span<const int> corners = nodesOf(face);
       visitPoints(face.shape, [&](const FacePoint& point) {
-        const Vec3 load =
-            -p * point.weight * cross(sumOf(point.byXi, corners, nodes), sumOf(point.byEta, corners, nodes));
+        const Vec3 load = -p * point.weight * areaAt(face, point, nodes);
         for (std::size_t a = 0; a < corners.size(); ++a) f[static_cast<std::size_t>(corners[a])] += point.N[a] * load;
       });
     }
   }
 
-  /// p ⅓ ∫ x · da, up to a constant the volume behind the faces.
+  /// p ⅓ ∫ x · da, p ½ ∫ x · da in a plane: up to a constant the volume behind the faces.
   double energy(const Nodes& nodes, const Instant& now) override {
     double sum = 0.0;
     for (const Face& face : faces_) {
       const std::span<const int> corners = nodesOf(face);
       visitPoints(face.shape, [&](const FacePoint& point) {
-        sum += point.weight * dot(sumOf(point.N, corners, nodes),
-                                  cross(sumOf(point.byXi, corners, nodes), sumOf(point.byEta, corners, nodes)));
+        sum += point.weight * dot(sumOf(point.N, corners, nodes), areaAt(face, point, nodes));
       });
     }
-    return p_(now.t) * sum / 3.0;
+    return p_(now.t) * sum / dimensionOf(faces_[0].shape);
   }
 
   void addCouplings(Couplings& couplings) const override {
@@ -56,7 +58,7 @@ public:
       const std::size_t n = corners.size();
       matrix_.assign(9 * n * n, 0.0);
       visitPoints(face.shape, [&](const FacePoint& point) {
-        const Vec3 alongXi = sumOf(point.byXi, corners, nodes), alongEta = sumOf(point.byEta, corners, nodes);
+        const Vec3 alongXi = sumOf(point.byXi, corners, nodes), alongEta = alongEtaOf(face, point, nodes);
         for (std::size_t a = 0; a < n; ++a)
           for (std::size_t b = 0; b < n; ++b)
             addCross(a, b, n, p * point.weight * point.N[a] * (point.byEta[b] * alongXi - point.byXi[b] * alongEta));
@@ -68,6 +70,13 @@ public:
 private:
   static Vec3 sumOf(std::span<const double> coefficient, std::span<const int> corners, const Nodes& nodes) {
     return interpolate(coefficient, corners, nodes.X) + interpolate(coefficient, corners, nodes.u);
+  }
+  Vec3 alongEtaOf(const Face& face, const FacePoint& point, const Nodes& nodes) const {
+    return depthOf(face.shape, thickness_) + sumOf(point.byEta, nodesOf(face), nodes);
+  }
+  /// ∂x/∂ξ × ∂x/∂η.
+  Vec3 areaAt(const Face& face, const FacePoint& point, const Nodes& nodes) const {
+    return cross(sumOf(point.byXi, nodesOf(face), nodes), alongEtaOf(face, point, nodes));
   }
   /// Adds w ↦ r × w to block (a, b).
   void addCross(std::size_t a, std::size_t b, std::size_t n, const Vec3& r) {
@@ -82,6 +91,7 @@ private:
   }
 
   std::vector<Face> faces_;
+  double thickness_;  // of lines, m
   Amplitude p_;
   bool potential_;
   std::string name_;
@@ -92,10 +102,10 @@ private:
 
 std::shared_ptr<Term> followingPressure(const SolidMesh& mesh, std::span<const Face> faces, Amplitude p,
                                         std::span<const int> clamped, std::string name) {
-  requireFaces(faces, mesh.X.size(), "followingPressure");
+  requireFaces(faces, mesh, "followingPressure");
   const std::vector<int> rim = rimNodes(faces);
   const bool potential = std::includes(clamped.begin(), clamped.end(), rim.begin(), rim.end());
-  return std::make_shared<FollowingPressure>(faces, std::move(p), potential, std::move(name));
+  return std::make_shared<FollowingPressure>(faces, mesh.thickness, std::move(p), potential, std::move(name));
 }
 
 }  // namespace dovetail::fem

@@ -24,23 +24,23 @@ namespace dovetail::solid_io {
 namespace {
 
 struct VtkType {
-  int code, nodes, dimension, corners;
+  int code, nodes, dimension;
   fem::CellShape shape;
 };
 constexpr auto none = fem::CellShape::hex8;
-constexpr std::array<VtkType, 13> types = {{{VTK_HEXAHEDRON, 8, 3, 8, fem::CellShape::hex8},
-                                            {VTK_QUADRATIC_HEXAHEDRON, 20, 3, 8, fem::CellShape::hex20},
-                                            {VTK_TRIQUADRATIC_HEXAHEDRON, 27, 3, 8, fem::CellShape::hex27},
-                                            {VTK_TETRA, 4, 3, 4, fem::CellShape::tet4},
-                                            {VTK_QUADRATIC_TETRA, 10, 3, 4, fem::CellShape::tet10},
-                                            {VTK_TRIANGLE, 3, 2, 3, none},
-                                            {VTK_QUADRATIC_TRIANGLE, 6, 2, 3, none},
-                                            {VTK_QUAD, 4, 2, 4, none},
-                                            {VTK_QUADRATIC_QUAD, 8, 2, 4, none},
-                                            {VTK_BIQUADRATIC_QUAD, 9, 2, 4, none},
-                                            {VTK_VERTEX, 1, 0, 1, none},
-                                            {VTK_LINE, 2, 1, 2, none},
-                                            {VTK_QUADRATIC_EDGE, 3, 1, 2, none}}};
+constexpr std::array<VtkType, 13> types = {{{VTK_HEXAHEDRON, 8, 3, fem::CellShape::hex8},
+                                            {VTK_QUADRATIC_HEXAHEDRON, 20, 3, fem::CellShape::hex20},
+                                            {VTK_TRIQUADRATIC_HEXAHEDRON, 27, 3, fem::CellShape::hex27},
+                                            {VTK_TETRA, 4, 3, fem::CellShape::tet4},
+                                            {VTK_QUADRATIC_TETRA, 10, 3, fem::CellShape::tet10},
+                                            {VTK_TRIANGLE, 3, 2, none},
+                                            {VTK_QUADRATIC_TRIANGLE, 6, 2, none},
+                                            {VTK_QUAD, 4, 2, none},
+                                            {VTK_QUADRATIC_QUAD, 8, 2, none},
+                                            {VTK_BIQUADRATIC_QUAD, 9, 2, none},
+                                            {VTK_VERTEX, 1, 0, none},
+                                            {VTK_LINE, 2, 1, none},
+                                            {VTK_QUADRATIC_EDGE, 3, 1, none}}};
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& place, const std::string& problem,
                          const std::string& remedy) {
@@ -140,8 +140,9 @@ void readSets(vtkFieldData* data, MeshBuilder& builder, Add&& add) {
 
 void addCell(MeshBuilder& builder, const VtkType& type, Label label, std::span<const Label> nodes) {
   if (type.dimension == 3) builder.addCell(label, type.shape, nodes, 0);
-  if (type.dimension == 2) builder.addFace(label, nodes.first(static_cast<std::size_t>(type.corners)), 0, false);
-  if (type.dimension < 2) builder.addLine(label, nodes, 0);
+  if (type.dimension == 2) builder.addFace(label, surfaceOf(type.nodes), nodes, 0, false);
+  if (type.dimension < 2)
+    builder.addLine(label, nodes, 0, type.dimension == 1 ? MeshBuilder::LineUse::line : MeshBuilder::LineUse::names);
 }
 
 }  // namespace

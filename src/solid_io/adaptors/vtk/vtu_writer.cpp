@@ -23,8 +23,9 @@ namespace dovetail::solid_io {
 
 namespace {
 
-constexpr std::array<unsigned char, 5> cellTypes = {VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON,
-                                                    VTK_TRIQUADRATIC_HEXAHEDRON, VTK_TETRA, VTK_QUADRATIC_TETRA};
+constexpr std::array<unsigned char, 7> cellTypes = {
+    VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON, VTK_TETRA, VTK_QUADRATIC_TETRA,
+    VTK_QUAD,       VTK_QUADRATIC_QUAD};
 
 void setCells(vtkUnstructuredGrid* grid, const fem::SolidMesh& mesh) {
   vtkNew<vtkIdTypeArray> offsets, connectivity;

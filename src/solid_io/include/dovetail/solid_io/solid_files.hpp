@@ -2,9 +2,11 @@
 //
 // Rules of all readers. Coordinates are taken as they are; what they mean in metres is the caller's business. Nodes are
 // put into the order of fem::CellShape. Volume elements make the mesh; surface elements are taken as names for faces of
-// volume elements, lines and points as names for nodes. Nodes that no volume element uses are dropped, from the sets
-// too. Elements with the nodes of an earlier one are dropped, and their sets go to the earlier one. Nodes at equal
-// positions stay apart (fem::joinMeshes welds). What was dropped or passed over stands in `notes`.
+// volume elements, lines and points as names for nodes. Of a file without volume elements the quadrilaterals of four
+// and eight nodes make a mesh of plane strain, 1 m thick, if they lie in a plane z = const, counter-clockwise seen from
+// +z; its lines are names for faces then. Other surface elements are refused there. Nodes that no cell uses are
+// dropped, from the sets too. Elements with the nodes of an earlier one are dropped, and their sets go to the earlier
+// one. Nodes at equal positions stay apart (fem::joinMeshes welds). What was dropped or passed over stands in `notes`.
 //
 // Every reader throws InputError, naming the file and the line (or byte, in binary parts), for files that cannot be
 // read, break off, or hold other element types, numbers that occur twice, nodes or elements that do not exist, faces
@@ -32,20 +34,22 @@ struct SolidFile {
 
 /// Gmsh MSH 4.1 or 2.2, ASCII or binary of this machine's byte order. Physical groups become sets under their name, or
 /// their number where they have none: volumes an element set, surfaces a face set and a node set, curves and points a
-/// node set. Files without any physical group give sets "volume 1", "surface 3", "curve 2", "point 5" of the model's
-/// entities instead. Of meshes and element sets of several shapes each shape has a set of its own too, "tet4" or
-/// "steel tet4", for fem::makeSolid. Faces are turned outwards; one between two volumes belongs to that whose outward
-/// side is the surface element's own. Partitioned meshes are refused.
+/// node set; in plane strain surfaces an element set, curves a face set and a node set. Files without any physical
+/// group give sets "volume 1", "surface 3", "curve 2", "point 5" of the model's entities instead. Of meshes and element
+/// sets of several shapes each shape has a set of its own too, "tet4" or "steel tet4", for fem::makeSolid. Faces are
+/// turned outwards; one between two volumes belongs to that whose outward side is the surface element's own.
+/// Partitioned meshes are refused.
 SolidFile readGmsh(const std::filesystem::path& path);
 SolidFile gmshFromText(std::string_view bytes, const std::string& name);
 
 /// Abaqus INP: *NODE, *ELEMENT of types C3D8, C3D20, C3D27, C3D4, C3D10 with any suffix of R, I, H, M, S, which is
-/// noted and passed over (fem::Formulation chooses the integration), and shells, membranes, surface and plane elements
-/// of three to nine nodes as faces, trusses and beams as names for nodes, *NSET and *ELSET (GENERATE, names of other
-/// sets), *SURFACE of faces (sets or elements with S1 … S6) or nodes. One *PART with one *INSTANCE that is not moved is
-/// read as if it were flat. Cards of materials, steps and so on are passed over, cards that make or move nodes and
-/// elements elsewhere (*INCLUDE, *NGEN, *ELGEN, *SYSTEM …) are refused. Names are compared without regard to case,
-/// outside quotes, and kept as first written. A surface gives a node set too, unless there is one of that name.
+/// noted and passed over (fem::Formulation chooses the integration), or of CPE4 and CPE8 with the same suffixes, and
+/// shells, membranes, surface and plane elements of three to nine nodes as faces, trusses and beams as names for nodes,
+/// *NSET and *ELSET (GENERATE, names of other sets), *SURFACE of faces (sets or elements with S1 … S6) or nodes. One
+/// *PART with one *INSTANCE that is not moved is read as if it were flat. Cards of materials, steps and so on are
+/// passed over, cards that make or move nodes and elements elsewhere (*INCLUDE, *NGEN, *ELGEN, *SYSTEM …) are refused.
+/// Names are compared without regard to case, outside quotes, and kept as first written. A surface gives a node set
+/// too, unless there is one of that name.
 SolidFile readAbaqus(const std::filesystem::path& path);
 SolidFile abaqusFromText(std::string_view bytes, const std::string& name);
 
@@ -53,11 +57,12 @@ SolidFile abaqusFromText(std::string_view bytes, const std::string& name);
 /// @throws InputError also on another ending
 SolidFile readSolid(const std::filesystem::path& path);
 
-/// Gmsh MSH 2.2, ASCII; coordinates read back as the same doubles. Sets become physical groups; elements in several
-/// sets are written once for each, as Gmsh does.
+/// Gmsh MSH 2.2, ASCII; coordinates read back as the same doubles; a thickness is not written. Sets become physical
+/// groups; elements in several sets are written once for each, as Gmsh does.
 /// @throws InputError as fem::validate, or for a name with a quote or line break, a face that no element has
 void writeGmsh(const fem::SolidMesh& mesh, std::ostream& out);
-/// Abaqus INP of nodes, elements and sets alone, for an analysis by Abaqus or CalculiX to include; numbers count from
+/// Abaqus INP of nodes, elements and sets alone, without the thickness of plane strain, for an analysis by Abaqus or
+/// CalculiX to include; numbers count from
 /// 1. Names with blanks, commas, =, * or ', or that do not begin with a letter or _, are put in quotes, which CalculiX
 /// does not read; nor does it have C3D27 (hex27).
 /// @throws InputError as writeGmsh, and if two names of a kind differ in case alone

@@ -23,8 +23,9 @@ public:
   int element() const { return element_; }
   /// Σ N_a field_a: its displacement of nodes.u, its velocity of nodes.v.
   Vec3 valueOf(std::span<const Vec3> field) const;
-  /// Cauchy stress, Pa, row-major: the function of the element's parent coordinates, trilinear in bricks and linear in
-  /// tetrahedra, that comes nearest to the stresses at its quadrature points; their mean where they are too few for it.
+  /// Cauchy stress, Pa, row-major: the function of the element's parent coordinates, trilinear in bricks, bilinear in
+  /// plane cells and linear in tetrahedra, that comes nearest to the stresses at its quadrature points; their mean
+  /// where they are too few for it.
   /// @throws InputError if the sample is of a solid without this element
   std::array<double, 9> stress(const Solid::Sample& sample) const;
 

@@ -15,10 +15,12 @@
 namespace dovetail::fem {
 
 enum class Formulation {
-  /// Displacements alone; hex8 2×2×2, hex20 and hex27 3×3×3, tet4 1, tet10 4 points.
+  /// Displacements alone; hex8 2×2×2, hex20 and hex27 3×3×3, tet4 1, tet10 4, quad4 2×2, quad8 3×3 points.
   standard,
-  /// Bricks: the dilatation is a field of its own, constant in hex8 (Simo, Taylor & Pister 1985), linear in hex20 and
-  /// hex27; F̄ = (θ/J)^⅓ F with θ the projection of J. Does not lock as ν → ½; hex8 bends like `standard`. Derives from
+  /// Bricks and plane cells: the dilatation is a field of its own, constant in hex8 and quad4 (Simo, Taylor & Pister
+  /// 1985),
+  /// linear in hex20, hex27 and quad8; F̄ = (θ/J)^⅓ F with θ the projection of J. Does not lock as ν → ½; hex8 bends
+  /// like `standard`. Derives from
   /// the potential ∫W(F̄). Samples show F̄ and P(F̄).
   meanDilatation,
   /// hex8 only: enhanced strain with transposed Wilson modes (Glaser & Armero 1997): nine modes in each element, F =
@@ -30,7 +32,9 @@ enum class Formulation {
   /// stiffness). As exact in bending
   /// as `enhanced` for a tenth of the time. Samples show the stress of the displacements, not the assumed one.
   assumedStress,
-  /// hex8 only: one point and hourglass stiffness; its energy is reported on its own.
+  /// hex8: one point and hourglass stiffness; its energy is reported on its own. quad8: 2×2 points and nothing else;
+  /// the
+  /// one mode without stiffness that this leaves to an element cannot pass to a neighbour.
   reduced
 };
 const char* name(Formulation formulation);
@@ -39,7 +43,7 @@ struct SolidOptions {
   Formulation formulation = Formulation::standard;
   std::string elementSet{};  ///< empty = all elements of the mesh
   std::string name = "elastic";
-  double hourglassShare = 0.05;  ///< of the shear stiffness, for `reduced`
+  double hourglassShare = 0.05;  ///< of the shear stiffness, for `reduced` hex8
   /// Per node of the mesh, 0 … 1, interpolated to the points of every integral (energy, force, mass, tangent): the
   /// share of the solid where it overlaps something else. Empty = 1. Elements whose nodes all have 0 are left out.
   std::vector<double> share{};

@@ -12,13 +12,13 @@ namespace dovetail::fem {
 
 struct ElementQuality {
   /// Least value over the nodes, 1 for cubes and regular tetrahedra, 0 for flat elements, < 0 for inverted ones.
-  /// Bricks: det J over the product of the lengths of its columns. Tetrahedra: √2 det J over the largest product of the
-  /// lengths of the three edges at a corner of the local affine image (Knupp 2003).
+  /// Bricks and plane cells: det J over the product of the lengths of its columns. Tetrahedra: √2 det J over the
+  /// largest product of the lengths of the three edges at a corner of the local affine image (Knupp 2003).
   double scaledJacobian = 0.0;
-  /// Bricks: longest edge over shortest. Tetrahedra: longest edge over the radius of the inscribed ball, over 2√6; 1
-  /// for cubes and regular tetrahedra. Of the corners alone.
+  /// Bricks and plane cells: longest edge over shortest. Tetrahedra: longest edge over the radius of the inscribed
+  /// ball, over 2√6; 1 for cubes and regular tetrahedra. Of the corners alone.
   double aspect = 0.0;
-  double volume = 0.0;  ///< ∫ det J dξ, m³
+  double volume = 0.0;  ///< ∫ det J dξ, of plane cells times the thickness, m³
 };
 
 /// Elements of one shape together.

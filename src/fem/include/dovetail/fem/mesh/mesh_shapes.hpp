@@ -1,8 +1,9 @@
 // Structured meshes of bodies that verification cases and first models ask for.
 //
 // All of them are boxes of cells under a map of the nodes: nodes of second order lie where the map puts them, so that
-// curved sides are curved. Element shapes are bricks or tetrahedra unless said otherwise. Lengths in m, angles in rad.
-// Sets are both node and face sets.
+// curved sides are curved. Element shapes are any unless said otherwise; plane cells make one layer without sets "z-"
+// and "z+", and what is given as length along z is their thickness. Lengths in m, angles in rad. Sets are both node and
+// face sets.
 #pragma once
 
 #include <functional>
@@ -12,7 +13,7 @@
 
 namespace dovetail::fem {
 
-/// boxOf with every node moved to map(X).
+/// boxOf with every node moved to map(X); the thickness of plane cells stays.
 /// @throws InputError as boxOf and, if the map turns an element inside out or flattens it, as validate
 SolidMesh mappedBox(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 upper,
                     const std::function<Vec3(const Vec3&)>& map);
@@ -20,10 +21,11 @@ SolidMesh mappedBox(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 
 /// One mesh of several: nodes within `tolerance` of each other become one (the first of them keeps its place), sets of
 /// the same name are united, and faces that lie inside afterwards leave their sets. Elements are numbered part after
 /// part; consecutive groups of one shape are one group.
-/// @throws InputError if the tolerance is not > 0, or an element loses a node by it
+/// @throws InputError if the tolerance is not > 0, an element loses a node by it, or parts differ in thickness
 SolidMesh joinMeshes(std::span<const SolidMesh> parts, double tolerance);
 
-/// The same mesh of second order with straight edges: tet4 becomes tet10, hex8 hex20, or hex27 if `fullBricks`.
+/// The same mesh of second order with straight edges: tet4 becomes tet10, quad4 quad8, hex8 hex20, or hex27 if
+/// `fullBricks`.
 /// Elements and corner nodes keep their numbers. Faces of sets get their nodes. A node set gets the nodes between its
 /// members: on an edge if both ends belong to it, in a face or brick if all corners do; between nodes of the skin only
 /// where the edge or face lies on the skin itself.
@@ -45,7 +47,7 @@ SolidMesh roundBar(CellShape shape, std::array<int, 3> cells, double radius, dou
 
 /// Cook's membrane (Cook 1974), m: corners (0, 0), (0.048, 0.044), (0.048, 0.060), (0, 0.044), of one layer of cells
 /// in z. Sets: "clamped" (x = 0), "loaded" (x = 0.048), "y-", "y+", "z-", "z+", "skin"; node set "tip": the upper
-/// corner of the loaded edge, both layers.
+/// corner of the loaded edge, in all layers of nodes.
 /// @param cells  along x and y
 SolidMesh cookMembrane(CellShape shape, std::array<int, 2> cells, double thickness = 0.001);
 

@@ -1,4 +1,5 @@
-// Meshes of bricks and tetrahedra of first and second order, with named sets of nodes, faces and elements.
+// Meshes of bricks, tetrahedra and quadrilaterals of plane strain, of first and second order, with named sets of nodes,
+// faces and elements.
 #pragma once
 
 #include <array>
@@ -15,18 +16,27 @@ namespace dovetail::fem {
 /// Shapes of elements; nodes are numbered as VTK does: corners, then mid-edge, mid-face and centre nodes.
 /// hex20 edges: 01 12 23 30, 45 56 67 74, 04 15 26 37. hex27 adds the faces x−, x+, y−, y+, z−, z+ and the centre.
 /// tet10 edges: 01 12 20 03 13 23.
-enum class CellShape : std::uint8_t { hex8, hex20, hex27, tet4, tet10 };
-/// Faces of them, counter-clockwise seen from outside: corners, mid-edge nodes 01 12 …, centre.
-enum class FaceShape : std::uint8_t { quad4, quad8, quad9, tri3, tri6 };
+/// quad4 and quad8 are cells of plane strain in a plane z = const, corners counter-clockwise seen from +z, edges
+/// 01 12 23 30.
+enum class CellShape : std::uint8_t { hex8, hex20, hex27, tet4, tet10, quad4, quad8 };
+inline constexpr std::array allCellShapes = {CellShape::hex8,  CellShape::hex20, CellShape::hex27, CellShape::tet4,
+                                             CellShape::tet10, CellShape::quad4, CellShape::quad8};
+/// Faces of them, counter-clockwise seen from outside: corners, mid-edge nodes 01 12 …, centre. Those of plane cells
+/// are lines, ends first, that run around the cell counter-clockwise seen from +z: tangent × e_z points outwards.
+enum class FaceShape : std::uint8_t { quad4, quad8, quad9, tri3, tri6, line2, line3 };
 
 constexpr int nodesOf(CellShape shape) {
-  constexpr std::array<int, 5> counts = {8, 20, 27, 4, 10};
+  constexpr std::array<int, 7> counts = {8, 20, 27, 4, 10, 4, 8};
   return counts[static_cast<std::size_t>(shape)];
 }
 constexpr int nodesOf(FaceShape shape) {
-  constexpr std::array<int, 5> counts = {4, 8, 9, 3, 6};
+  constexpr std::array<int, 7> counts = {4, 8, 9, 3, 6, 2, 3};
   return counts[static_cast<std::size_t>(shape)];
 }
+/// 3, or 2 for plane strain.
+constexpr int dimensionOf(CellShape shape) { return shape == CellShape::quad4 || shape == CellShape::quad8 ? 2 : 3; }
+/// Of the cells that have such faces.
+constexpr int dimensionOf(FaceShape shape) { return shape == FaceShape::line2 || shape == FaceShape::line3 ? 2 : 3; }
 /// "hex8" and so on.
 const char* name(CellShape shape);
 
@@ -43,27 +53,36 @@ struct CellGroup {
   std::size_t size() const { return node.size() / static_cast<std::size_t>(nodesOf(shape)); }
 };
 
-/// Elements are numbered through all groups in their order.
+/// Elements are numbered through all groups in their order. All are of three dimensions or all of plane strain: then
+/// every node has the same z, and makeModel holds that component.
 struct SolidMesh {
   std::vector<Vec3> X;  ///< reference positions of the nodes, m
   std::vector<CellGroup> groups;
   std::map<std::string, std::vector<int>> nodeSets;  ///< ascending node numbers
   std::map<std::string, std::vector<Face>> faceSets;
   std::map<std::string, std::vector<int>> elementSets;  ///< ascending element numbers
+  /// Of a mesh of plane strain along z, m: forces, masses and energies are those of this length. Otherwise 1.
+  double thickness = 1.0;
 
   std::size_t elementCount() const;
 };
 
-/// A box of equal cells, with node and face sets "x-" … "z+" and "skin". Tetrahedra: six per brick cell.
-/// @param cells  along x, y and z
-/// @throws InputError for a count < 1 or a box without volume
+/// 3, or 2 for plane strain.
+int dimensionOf(const SolidMesh& mesh);
+
+/// A box of equal cells, with node and face sets "x-" … "z+" and "skin". Tetrahedra: six per brick cell. Plane cells
+/// lie at the lower z, with the height of the box as thickness, and have no sets "z-" and "z+".
+/// @param cells  along x, y and z; plane cells take 1 along z
+/// @throws InputError for a count < 1, more than one layer of plane cells, or a box without volume
 SolidMesh boxOf(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 upper);
 
 /// Faces of all elements that belong to one element only.
 std::vector<Face> boundaryFaces(const SolidMesh& mesh);
 
 /// @throws InputError naming the first element or set at fault: no nodes or elements, positions that are not finite,
-///         nodes that do not exist, an element that names a node twice, det ∂X/∂ξ ≤ 0 at a node or quadrature point
+///         nodes that do not exist, an element that names a node twice, det ∂X/∂ξ ≤ 0 at a node or quadrature point;
+///         for plane cells beside others, nodes of plane cells that differ in z by more than 1e-9 of the extent of the
+///         mesh, a thickness that is not > 0, or not 1 in three dimensions
 void validate(const SolidMesh& mesh);
 
 /// The sets of that name.

@@ -47,9 +47,8 @@ struct Constraints {
 class DofMap {
 public:
   /// Components held in nodes.fixed are free of q too (their displacement is what nodes.u says).
-  /// @throws InputError naming node and component that is constrained twice (holding it twice is no fault), a master
-  /// that
-  ///         is tied itself, a number out of range
+  /// @throws InputError naming node and component that is constrained twice (holding what is held, or fixed at rest
+  ///         without displacement, is no fault), a master that is tied itself, a number out of range
   DofMap(const Constraints& constraints, const Nodes& nodes);
 
   std::size_t size() const { return freeDofs_.size(); }  ///< entries of q
@@ -83,7 +82,7 @@ private:
     Tie::Master master;
   };
   std::size_t dofOf(int node, int component) const;
-  void claim(std::vector<State>& states, int node, int component, State state) const;
+  void claim(std::vector<State>& states, const Nodes& nodes, int node, int component, State state) const;
   void sortMasters(const std::vector<State>& states);
   template <class Motion>
   void setConstrained(std::span<Vec3> field, bool withOffsets, const Motion& motion) const;

@@ -33,7 +33,7 @@ struct Model {
   }
 };
 
-/// Nodes of the mesh at rest, without terms.
+/// Nodes of the mesh at rest, without terms; component z is held in plane strain.
 Model makeModel(const SolidMesh& mesh);
 /// Sets nodes.mass and bodyMass from the terms. @throws InputError naming a node that no term gives a mass
 void addMass(Model& model);

@@ -22,7 +22,8 @@ struct PeriodicTies {
 };
 
 /// u(X + L) − u(X) = (F(t) − 1) L for the nodes of opposite faces of a box along the axes; every node on an upper face
-/// is tied to its image on the lower faces (nodes on edges and corners to the one on all of them).
+/// is tied to its image on the lower faces (nodes on edges and corners to the one on all of them). In plane strain
+/// along x and y only, by these components of F.
 /// @param axes       which pairs of faces
 /// @param tolerance  how far a node may lie from the face and from the place of its image, over the longest side of the
 ///                   box, > 0
@@ -30,7 +31,8 @@ struct PeriodicTies {
 PeriodicTies periodicTies(const SolidMesh& mesh, const GradientFunction& F,
                           std::array<bool, 3> axes = {true, true, true}, double tolerance = 1e-6);
 
-/// Volume average of the first Piola–Kirchhoff stress of a cell in equilibrium, row-major, Pa: −Σ f ⊗ X / V.
+/// Volume average of the first Piola–Kirchhoff stress of a cell in equilibrium, row-major, Pa: −Σ f ⊗ X / V; without
+/// P_33 in plane strain, which no node feels.
 /// @param f       forces by the solid on its nodes, N (evaluateForces of a model without loads)
 /// @param volume  m³
 std::array<double, 9> averageFirstStress(const Nodes& nodes, std::span<const Vec3> f, double volume);

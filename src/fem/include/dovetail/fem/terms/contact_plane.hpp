@@ -50,7 +50,8 @@ public:
   virtual Report report(const Nodes& nodes, const Instant& now) const = 0;
 };
 
-/// A penalty for faces of a material, Pa/m: ten times its confined modulus at rest over the mean size √A of the faces.
+/// A penalty for faces of a material, Pa/m: ten times its confined modulus at rest over the mean size √A of the faces
+/// (of lines: their length).
 /// A pressure then penetrates by a tenth of what it compresses a layer of cubes. Explicit steps shrink to about a third
 /// by it; a tenth of it leaves them.
 /// @throws InputError for no faces, a node that does not exist

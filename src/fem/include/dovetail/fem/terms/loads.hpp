@@ -45,10 +45,10 @@ std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> 
 /// A pressure normal to the deformed faces: f_a = −p ∫ N_a ∂x/∂ξ × ∂x/∂η dξ dη, integrated exactly, with its exact
 /// tangent.
 ///
-/// It derives from a potential, p times the volume behind the faces, if they close a surface or if the nodes on their
-/// rim cannot move; only then is the (assembled, constrained) tangent symmetric. The term calls itself symmetric if
-/// every node on an edge that belongs to one face only is among `clamped`, and stores p V, J, if p is constant as well;
-/// otherwise the work is booked.
+/// It derives from a potential, p times the volume behind the faces (of lines: the area times the thickness), if they
+/// close a surface or if the nodes on their rim cannot move; only then is the (assembled, constrained) tangent
+/// symmetric. The term calls itself symmetric if every node on an edge that belongs to one face only is among
+/// `clamped`, and stores p V, J, if p is constant as well; otherwise the work is booked.
 /// @param p        Pa, positive where it pushes
 /// @param clamped  nodes that are held in all components; in ascending order
 std::shared_ptr<Term> followingPressure(const SolidMesh& mesh, std::span<const Face> faces, Amplitude p,

@@ -24,8 +24,9 @@ struct VtuFields {
 };
 
 /// The file's bytes: appended raw binary, compressed, doubles. Points are the reference positions; warp by
-/// "displacement" to see the deformed solid. Cells come in the order of the elements, as VTK's types 12, 25, 29, 10
-/// and 24. Node sets and element sets become arrays of zeros and ones under their names; face sets are not written.
+/// "displacement" to see the deformed solid. Cells come in the order of the elements, as VTK's types 12, 25, 29, 10,
+/// 24, 9 and 23; the thickness of plane strain is not written. Node sets and element sets become arrays of zeros and
+/// ones under their names; face sets are not written.
 /// @throws InputError as fem::validate; for a field of another size than the mesh, an empty name or one that occurs
 ///         twice (names of sets count)
 std::string vtuText(const fem::SolidMesh& mesh, const VtuFields& fields = {}, const io::KeyValues& provenance = {});
@@ -34,7 +35,8 @@ void writeVtu(const std::filesystem::path& path, const fem::SolidMesh& mesh, con
               const io::KeyValues& provenance = {});
 
 /// A solid from a VTU file, by the rules of solid_files.hpp: cells of types 12, 25, 29, 10 and 24 are elements; of
-/// types 5, 22, 9, 23 and 28 names for faces, of 1, 3 and 21 names for nodes. Arrays of whole numbers with one
+/// types 5, 22, 9, 23 and 28 names for faces, of 1, 3 and 21 names for nodes. Without volumes 9 and 23 are elements of
+/// plane strain, 3 and 21 names for their faces. Arrays of whole numbers with one
 /// component become sets: of zeros and ones, a set of the array's name where it is one; of other numbers, a set "name
 /// number" for each (arrays with more than 100 different numbers, such as identifiers, are passed over). Numbers of
 /// nodes and elements are those of points and cells from 0.
