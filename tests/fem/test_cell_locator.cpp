@@ -20,19 +20,22 @@ struct Motion {
 };
 constexpr std::array<Motion, 5> motions = {{{0, false}, {0, true}, {1e3, false}, {1e3, true}, {1e6, true}}};
 
-/// Twisted and waved, so that second-order cells are curved; corners and other nodes also moved at random.
+/// Twisted and waved, so that second-order cells are curved; corners and other nodes also moved at random. Plane cells
+/// stay in their plane.
 SolidMesh crooked(CellShape shape, const Motion& motion, unsigned seed) {
-  SolidMesh mesh = boxOf(shape, {3, 3, 3}, {}, {3, 3, 3});
+  const bool plane = dimensionOf(shape) == 2;
+  SolidMesh mesh = boxOf(shape, layered(shape, {3, 3, 3}), {}, {3, 3, 3});
   std::mt19937 random(seed);
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   if (motion.turned) {
-    const Vec3 axis = normalized(randomVec3(random, 1.0));
+    const Vec3 axis = plane ? Vec3{0, 0, 1} : normalized(randomVec3(random, 1.0));
     R = Eigen::AngleAxisd(2.0, Eigen::Vector3d(axis.x, axis.y, axis.z)).toRotationMatrix();
   }
   const Vec3 shift = motion.offset * Vec3{1.0, -0.7, 0.4};
   for (Vec3& X : mesh.X) {
     const Vec3 wave = 0.1 * Vec3{std::sin(1.9 * X.y + X.z), std::sin(2.1 * X.z + X.x), std::sin(1.7 * X.x - X.y)};
-    const Vec3 x = X + wave + randomVec3(random, 0.04);
+    Vec3 x = X + wave + randomVec3(random, 0.04);
+    if (plane) x.z = X.z;
     const Eigen::Vector3d turned = R * Eigen::Vector3d(x.x, x.y, x.z);
     X = Vec3{turned[0], turned[1], turned[2]} + shift;
   }
@@ -52,8 +55,12 @@ Vec3 at(const SolidMesh& mesh, std::span<const int> nodes, std::span<const doubl
 
 Vec3 randomParent(CellShape shape, std::mt19937& random) {
   std::uniform_real_distribution<double> d(0.0, 1.0);
-  if (parentNodes(shape)[0].x < 0.0) return randomVec3(random, 0.999);
   Vec3 xi;
+  if (parentNodes(shape)[0].x < 0.0) {
+    xi = randomVec3(random, 0.999);
+    if (dimensionOf(shape) == 2) xi.z = 0.0;
+    return xi;
+  }
   do xi = {d(random), d(random), d(random)};
   while (xi.x + xi.y + xi.z > 0.999);
   return xi;
@@ -107,7 +114,8 @@ FacePoint onFace(const SolidMesh& mesh, const Face& face, std::mt19937& random) 
   const std::span<const int> nodes(face.node.data(), static_cast<std::size_t>(nodesOf(face.shape)));
   const auto place = [&](double s, double t) { return at(mesh, nodes, shapeRow(face.shape, s, t)); };
   const double h = 1e-3;
-  const Vec3 a = place(xi + h, eta) - place(xi - h, eta), b = place(xi, eta + h) - place(xi, eta - h);
+  const Vec3 a = place(xi + h, eta) - place(xi - h, eta);
+  const Vec3 b = dimensionOf(face.shape) == 2 ? Vec3{0, 0, 1} : place(xi, eta + h) - place(xi, eta - h);
   return {place(xi, eta), normalized(cross(a, b))};
 }
 
