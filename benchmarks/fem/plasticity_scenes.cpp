@@ -180,6 +180,50 @@ double NeckingBar::considereForce() {
   return std::numbers::pi * radius * radius * greatest;
 }
 
+double NeckingStrip::considereForce() {
+  const J2Plasticity metal = NeckingBar::material();
+  double greatest = 0.0;
+  for (double a = 0.0; a < 0.5; a += 1e-5) {
+    const double stress = 2.0 / std::numbers::sqrt3 * metal.yield.stress(a);
+    const double elastic = (1.0 - 0.5 * metal.poissonRatio) * stress / metal.youngsModulus;
+    greatest = std::max(greatest, stress * std::exp(-0.5 * std::numbers::sqrt3 * a - elastic));
+  }
+  return 2.0 * halfWidth * greatest;
+}
+
+StripResult stretch(const NeckingStrip& strip) {
+  constexpr double length = NeckingStrip::halfLength;
+  const SolidMesh mesh = mappedBox(strip.shape, {strip.across, strip.along, 1}, {}, {1.0, 1.0, 1.0}, [](const Vec3& X) {
+    const double y = length * (0.25 * X.y + 0.75 * X.y * X.y);
+    return Vec3{NeckingStrip::halfWidth * X.x * (1.0 - NeckingBar::thinning * (1.0 - y / length)), y, X.z};
+  });
+  Model model = makeModel(mesh);
+  model.add(makeSolid(mesh, pointMaterial(NeckingBar::material()), {.formulation = strip.formulation}));
+  model.constraints.hold(nodeSet(mesh, "x-"), componentX);
+  model.constraints.hold(nodeSet(mesh, "y-"), componentY);
+  model.constraints.hold(nodesWhere(mesh, [](const Vec3&) { return true; }), componentZ);
+  model.constraints.prescribe(nodeSet(mesh, "y+"), 1, [](double t) { return t; });
+  const auto neck = static_cast<std::size_t>(nodesWhere(mesh, [](const Vec3& X) {
+    return X.y < closeness && X.x > NeckingStrip::halfWidth * (1.0 - NeckingBar::thinning) - closeness;
+  })[0]);
+  StripResult result{};
+  const StaticReport report =
+      solveStatics(model, strip.elongation,
+                   {.firstStep = 0.1 * strip.largestStep, .largestStep = strip.largestStep, .smallestStep = 1e-8},
+                   [&](const Model&, const StaticStep&) {
+                     evaluateForces(model, {model.t, 0.0});
+                     StripStep step{model.t, 0.0, mesh.X[neck].x + model.nodes.u[neck].x};
+                     for (const int n : nodeSet(mesh, "y+"))
+                       step.force -= 2.0 * model.nodes.f[static_cast<std::size_t>(n)].y;
+                     result.steps.push_back(step);
+                     return true;
+                   });
+  result.iterations = report.iterations;
+  result.cuts = report.cuts;
+  result.seconds = report.seconds;
+  return result;
+}
+
 double bridgmanFactor(double radius, double curvature) {
   const double ratio = 2.0 / (radius * curvature);  // 2R/a
   return (1.0 + ratio) * std::log1p(1.0 / ratio);

@@ -1,4 +1,4 @@
-// Bodies of plastic metal with known limits: a thick tube under pressure and a bar that necks.
+// Bodies of plastic metal with known limits: a thick tube under pressure, a bar and a strip that neck.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace dovetail::fem {
 
-/// A tube held in plane strain whose bore is pushed outwards, perfectly plastic, with so small an elastic strain that
-/// the geometry does not change. Bore 1 m, outer radius 2 m.
+/// A tube in plane strain (bricks are held) whose bore is pushed outwards, perfectly plastic, with so small an elastic
+/// strain that the geometry does not change. Bore 1 m, outer radius 2 m.
 struct Tube {
   static constexpr double inner = 1.0, outer = 2.0, young = 1e12, yieldStress = 1e8;
   CellShape shape = CellShape::hex8;
@@ -63,6 +63,33 @@ struct NeckingResult {
   double energyResidual;  ///< share of the work
 };
 NeckingResult stretch(const NeckingBar& bar);
+
+/// A strip of the same steel, length and taper in plane strain, as wide as the bar is thick: one quarter of it, its
+/// middle section in y = 0.
+struct NeckingStrip {
+  static constexpr double halfWidth = NeckingBar::radius, halfLength = NeckingBar::halfLength;  // m
+  CellShape shape = CellShape::quad4;
+  Formulation formulation = Formulation::meanDilatation;
+  int across = 4, along = 10;    ///< cells of the quarter
+  double elongation = 5e-3;      ///< of the half length, m
+  double largestStep = 0.25e-3;  ///< m
+
+  /// Greatest force of an even strip of the nominal width and 1 m thickness, N: 2 w₀ max (2/√3) σ_y(a) e^(−ε) with
+  /// ε = (√3/2) a and the elastic part (Considère 1885, in plane strain).
+  static double considereForce();
+};
+struct StripStep {
+  double elongation;     ///< of the half length, m
+  double force;          ///< on the whole section, 1 m thick, N
+  double neckHalfWidth;  ///< m
+};
+struct StripResult {
+  std::vector<StripStep> steps;
+  std::int64_t iterations;
+  int cuts;
+  double seconds;
+};
+StripResult stretch(const NeckingStrip& strip);
 
 /// Force over area and flow stress in a neck of radius a and curvature 1/R: (1 + 2R/a) ln(1 + a/2R)
 /// (Bridgman 1952, Studies in Large Plastic Flow and Fracture).

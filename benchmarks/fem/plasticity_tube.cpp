@@ -12,7 +12,10 @@ int main() {
     for (const auto& [shape, formulation] : {std::pair{CellShape::hex8, Formulation::meanDilatation},
                                              {CellShape::hex8, Formulation::enhanced},
                                              {CellShape::hex8, Formulation::standard},
-                                             {CellShape::hex20, Formulation::standard}})
+                                             {CellShape::hex20, Formulation::standard},
+                                             {CellShape::quad4, Formulation::meanDilatation},
+                                             {CellShape::quad8, Formulation::standard},
+                                             {CellShape::quad8, Formulation::reduced}})
       for (const int refinement : {1, 2, 4}) {
         const Tube tube{shape, formulation, nu, 5 * refinement, 3 * refinement};
         try {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "../mesh/parent_coordinates.hpp"
+#include "../mesh/shapes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 
