@@ -16,6 +16,14 @@ double seconds() { return std::chrono::duration<double>(std::chrono::steady_cloc
 
 double percent(double value, double reference) { return 100.0 * (value / reference - 1.0); }
 
+/// All kinds; those of plane strain where that is the case.
+std::vector<ElementKind> kindsFor(verification::Sides sides) {
+  std::vector<ElementKind> kinds = verification::allKinds();
+  if (sides == verification::Sides::held)
+    kinds.insert(kinds.end(), verification::planeKinds().begin(), verification::planeKinds().end());
+  return kinds;
+}
+
 void beams() {
   constexpr Vec3 csm1{-7.18777e-3, -66.1029e-3, 0.0}, csm2{-0.469006e-3, -16.9740e-3, 0.0};
   std::printf("\nBeam behind a cylinder (Turek and Hron), deviations from FeatFlow's finest mesh\n");
@@ -29,14 +37,6 @@ void beams() {
                   percent(a.x, csm1.x), percent(a.y, csm1.y), percent(b.x, csm2.x), percent(b.y, csm2.y),
                   seconds() - start);
     }
-}
-
-/// All kinds; those of plane strain where that is the case.
-std::vector<ElementKind> kindsFor(verification::Sides sides) {
-  std::vector<ElementKind> kinds = verification::allKinds();
-  if (sides == verification::Sides::held)
-    kinds.insert(kinds.end(), verification::planeKinds().begin(), verification::planeKinds().end());
-  return kinds;
 }
 
 void membranes(double poissonRatio, verification::Sides sides, const char* title) {
@@ -56,14 +56,18 @@ void membranes(double poissonRatio, verification::Sides sides, const char* title
 
 /// What scripts/compare-plane-peers computes with CalculiX.
 void planeMembranes() {
-  for (const auto& [law, title] : {std::pair(verification::MembraneLaw::neoHookean, "neo-Hookean"),
-                                   std::pair(verification::MembraneLaw::stVenantKirchhoff, "St Venant-Kirchhoff")}) {
+  for (const auto& [law, title] :
+       {std::pair(verification::MembraneLaw::neoHookean, "neo-Hookean, 1 N"),
+        std::pair(verification::MembraneLaw::stVenantKirchhoff, "St Venant-Kirchhoff, 0.5 N")}) {
+    // Under 1 N the corner of the clamp is pressed past the limit point of that law.
+    const double force = law == verification::MembraneLaw::neoHookean ? 1.0 : 0.5;
     std::printf("\nCook's membrane, nu = 0.3, plane strain, %s: u_y of the tip, mm, by cells per edge\n", title);
     std::printf("%-22s %9d %9d %9d %9d\n", "element", 4, 8, 16, 32);
     for (const ElementKind& kind : verification::planeKinds()) {
       std::printf("%-22s", kind.label().c_str());
       for (const int n : {4, 8, 16, 32})
-        std::printf(" %9.4f", 1e3 * verification::cooksMembrane(kind, n, 0.3, verification::Sides::held, law).tip);
+        std::printf(" %9.4f",
+                    1e3 * verification::cooksMembrane(kind, n, 0.3, verification::Sides::held, law, force).tip);
       std::printf("\n");
     }
   }

@@ -111,8 +111,9 @@ Vec3 beamBehindCylinder(const ElementKind& kind, std::array<int, 2> cells, doubl
   return displacement(model, fem::nodeSet(mesh, "tip").front());
 }
 
-Membrane cooksMembrane(const ElementKind& kind, int perEdge, double poissonRatio, Sides sides, MembraneLaw law) {
-  constexpr double thickness = 1e-3, height = 16e-3, force = 1.0, mu = shearModulusOfMembrane;
+Membrane cooksMembrane(const ElementKind& kind, int perEdge, double poissonRatio, Sides sides, MembraneLaw law,
+                       double force) {
+  constexpr double thickness = 1e-3, height = 16e-3, mu = shearModulusOfMembrane;
   const double young = 2.0 * mu * (1.0 + poissonRatio), kappa = young / (3.0 * (1.0 - 2.0 * poissonRatio));
   const fem::SolidMesh mesh = fem::cookMembrane(kind.shape, {perEdge, perEdge}, thickness);
   fem::Model model = fem::makeModel(mesh);

@@ -41,9 +41,10 @@ struct Membrane {
   std::vector<double> pressure;  ///< mean of −tr σ/3 over each cell, x first, Pa
   std::vector<Vec3> place;       ///< middle of each cell, m
 };
-/// Cook's membrane, 1 mm thick, μ = 422.5 kPa, an even traction of 1 N in all along y on its right edge.
+/// Cook's membrane, 1 mm thick, μ = 422.5 kPa, an even traction along y on its right edge.
+/// @param force  of the traction in all, N
 Membrane cooksMembrane(const ElementKind& kind, int perEdge, double poissonRatio, Sides sides = Sides::held,
-                       MembraneLaw law = MembraneLaw::neoHookean);
+                       MembraneLaw law = MembraneLaw::neoHookean, double force = 1.0);
 
 struct PressureSteps {
   double range;         ///< of the cell means, Pa
