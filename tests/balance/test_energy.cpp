@@ -62,6 +62,30 @@ TEST_P(EnergyImplicit, ErrorIsSecondOrder) {
 
 INSTANTIATE_TEST_SUITE_P(K, EnergyImplicit, ::testing::Values(1, 2, 3, 4));
 
+/// Contacts kick the nodes through the whole mass matrix; with lumped masses in its place energy would be made.
+TEST(EnergyConsistentMass, ErrorIsSecondOrder) {
+  for (const double share : {0.5, 1.0}) {
+    const auto drift = [&](double h) {
+      FlatModel model = flatModel({});
+      fem::ImplicitMotion solid(*model.solid,
+                                {.scheme = fem::newmark(), .massShare = share, .relativeTolerance = 1e-10});
+      const auto energy = [&] {
+        return storedEnergy(model) - fem::kineticEnergy(model.solid->nodes) + solid.kineticEnergy();
+      };
+      Profile profile;
+      start(model, h, profile);
+      const double initial = energy();
+      double worst = 0.0;
+      for (long w = 0; w < std::lround(duration / h); ++w) {
+        stepImplicit(model, solid, h, 1, {}, true, profile);
+        worst = std::max(worst, std::abs(energy() - initial));
+      }
+      return worst;
+    };
+    expectSecondOrder(drift);
+  }
+}
+
 TEST(EnergyScene, HasBouncesAndASolidThatTakesPart) {
   const Result result = runExplicit(flatModel({}), duration, 2e-4, 1);
   EXPECT_GT(result.withoutContact, result.steps / 10);

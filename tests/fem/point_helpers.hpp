@@ -29,17 +29,19 @@ inline std::vector<double> freshHistory(const PointMaterial& material) {
 
 /// Four points at once, each with its history.
 inline std::array<PointResult, 4> evaluateFour(const PointMaterial& material, const std::array<Eigen::Matrix3d, 4>& F,
-                                               const std::array<std::vector<double>, 4>& history, double dt) {
+                                               const std::array<std::vector<double>, 4>& history, double dt,
+                                               bool rateAtEnd = false) {
   const std::size_t size = material.historySize();
   std::vector<double> f(36), P(36), tangent(324), energy(4), dissipated(4), old(4 * size), fresh(4 * size);
   for (std::size_t l = 0; l < 4; ++l) {
     for (std::size_t i = 0; i < 9; ++i) f[4 * i + l] = F[l](static_cast<int>(i / 3), static_cast<int>(i % 3));
     std::copy(history[l].begin(), history[l].end(), old.begin() + static_cast<std::ptrdiff_t>(l * size));
   }
-  material.evaluate(
-      {1, f.data(), P.data(), tangent.data(), energy.data(), dissipated.data(), old.data(), fresh.data(), dt});
+  material.evaluate({1, f.data(), P.data(), tangent.data(), energy.data(), dissipated.data(), old.data(), fresh.data(),
+                     dt, rateAtEnd});
   std::vector<double> stressAlone(36);
-  material.evaluate({1, f.data(), stressAlone.data(), nullptr, nullptr, nullptr, old.data(), fresh.data(), dt});
+  material.evaluate(
+      {1, f.data(), stressAlone.data(), nullptr, nullptr, nullptr, old.data(), fresh.data(), dt, rateAtEnd});
   std::array<PointResult, 4> results;
   for (std::size_t l = 0; l < 4; ++l) {
     PointResult& r = results[l];
@@ -60,8 +62,8 @@ inline std::array<PointResult, 4> evaluateFour(const PointMaterial& material, co
 }
 
 inline PointResult evaluate(const PointMaterial& material, const Eigen::Matrix3d& F, const std::vector<double>& history,
-                            double dt = 0.0) {
-  return evaluateFour(material, {F, F, F, F}, {history, history, history, history}, dt)[0];
+                            double dt = 0.0, bool rateAtEnd = false) {
+  return evaluateFour(material, {F, F, F, F}, {history, history, history, history}, dt, rateAtEnd)[0];
 }
 inline PointResult evaluate(const PointMaterial& material, const Eigen::Matrix3d& F) {
   return evaluate(material, F, freshHistory(material));
@@ -69,14 +71,16 @@ inline PointResult evaluate(const PointMaterial& material, const Eigen::Matrix3d
 
 /// ∂P/∂F by central differences, extrapolated from two widths.
 inline Matrix9 differencedTangent(const PointMaterial& material, const Eigen::Matrix3d& F,
-                                  const std::vector<double>& history, double dt = 0.0, double h = 1e-4) {
+                                  const std::vector<double>& history, double dt = 0.0, double h = 1e-4,
+                                  bool rateAtEnd = false) {
   Matrix9 result;
   for (int k = 0; k < 9; ++k) {
     const auto difference = [&](double width) -> Eigen::Matrix3d {
       Eigen::Matrix3d up = F, down = F;
       up(k / 3, k % 3) += width;
       down(k / 3, k % 3) -= width;
-      return (evaluate(material, up, history, dt).P - evaluate(material, down, history, dt).P) / (2.0 * width);
+      return (evaluate(material, up, history, dt, rateAtEnd).P - evaluate(material, down, history, dt, rateAtEnd).P) /
+             (2.0 * width);
     };
     const Eigen::Matrix3d best = (4.0 * difference(0.5 * h) - difference(h)) / 3.0;
     for (int r = 0; r < 9; ++r) result(r, k) = best(r / 3, r % 3);

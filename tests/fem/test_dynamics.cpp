@@ -2,6 +2,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/laws/viscosity.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
 #include "dynamics_helpers.hpp"
@@ -63,6 +64,47 @@ TEST(Dynamics, SchemesAreOfSecondOrder) {
     EXPECT_NEAR(order, 2.0, 0.1) << scheme.name;
   }
   EXPECT_NEAR(observedOrder(explicitEnd, 400), 2.0, 0.1);
+}
+
+/// The same block of a material with viscosity, which is being stretched and sheared when the run begins.
+Model viscousBlock() {
+  const SolidMesh mesh = smallMesh();
+  Model model = makeModel(mesh);
+  model.add(makeSolid(mesh, pointMaterial(KelvinVoigt{std::make_shared<PlainNeoHookean>(1e6, 1e6), 1500.0, 1500.0})));
+  addMass(model);
+  for (std::size_t n = 0; n < mesh.X.size(); ++n)
+    model.nodes.v[n] = {4.0 * mesh.X[n].x, 10.0 * mesh.X[n].x * mesh.X[n].x, -3.0 * mesh.X[n].z};
+  model.constraints.hold(nodeSet(mesh, "x-"), allComponents);
+  model.add(deadTraction(mesh, faceSet(mesh, "x+"), {0, 1e4, 0}, sine(30.0, 1.0)));
+  return model;
+}
+
+TEST(Dynamics, ImplicitSchemesAreOfSecondOrderWithViscosity) {
+  for (const Scheme& scheme :
+       {newmark(), hht(-0.1), generalisedAlpha(0.5), generalisedAlpha(0.8), generalisedAlpha(1.0)}) {
+    const auto end = [&](int steps) {
+      Model model = viscousBlock();
+      ImplicitIntegrator integrator(model, orderTime / steps, optionsOf(scheme));
+      integrator.run(steps);
+      return model.nodes.u;
+    };
+    EXPECT_NEAR(observedOrder(end, 200), 2.0, 0.1) << scheme.name;
+  }
+}
+
+/// What the ledger misses is the error of the mean force, as for elastic solids.
+TEST(Dynamics, LedgerOfAViscousSolidClosesWithTheSquareOfTheStep) {
+  const auto missing = [](int steps) {
+    Model model = viscousBlock();
+    ImplicitIntegrator integrator(model, orderTime / steps, optionsOf(newmark()));
+    integrator.run(steps);
+    double dissipated = 0.0;
+    for (const auto& channel : integrator.ledger().channels())
+      if (channel.name == "dissipated by elastic") dissipated = channel.joules;
+    EXPECT_GT(dissipated, 0.1 * integrator.ledger().storedAtOpening());
+    return integrator.ledger().largestResidual();
+  };
+  EXPECT_NEAR(std::log2(missing(1600) / missing(6400)) / 2.0, 2.0, 0.1);
 }
 
 TEST(Dynamics, NewmarkWithDampingIsOfFirstOrder) {

@@ -23,12 +23,14 @@ TEST(KelvinVoigt, TangentIsTheDerivativeOfTheStress) {
       Eigen::Matrix3d F;
       const std::vector<double> history = loaded(*material, random, F);
       const Eigen::Matrix3d next = (Eigen::Matrix3d::Identity() + randomMatrix(random, 0.05)) * F;
-      const PointResult result = evaluate(*material, next, history, dt);
-      EXPECT_LT((result.tangent - differencedTangent(*material, next, history, dt, 1e-5)).norm(),
-                1e-6 * result.tangent.norm())
-          << material->name();
-      if (material->isSymmetric()) {
-        EXPECT_LT((result.tangent - result.tangent.transpose()).norm(), 1e-12 * result.tangent.norm());
+      for (const bool atEnd : {false, true}) {
+        const PointResult result = evaluate(*material, next, history, dt, atEnd);
+        EXPECT_LT((result.tangent - differencedTangent(*material, next, history, dt, 1e-5, atEnd)).norm(),
+                  1e-6 * result.tangent.norm())
+            << material->name();
+        if (material->isSymmetric()) {
+          EXPECT_LT((result.tangent - result.tangent.transpose()).norm(), 1e-12 * result.tangent.norm());
+        }
       }
     }
 }
@@ -50,6 +52,28 @@ TEST(KelvinVoigt, StressIsTheRateOfGreensStrain) {
   EXPECT_EQ(result.energy, elastic.energy);
 }
 
+/// Along a path with steps that change their length by half: the stress at the end of the last one is of second order.
+TEST(KelvinVoigt, RatesAtTheEndAreOfSecondOrder) {
+  const double bulk = 3e3, shear = 2e3;
+  const MaterialPointer base = pointMaterial(neoHookean(3e6, 0.3, rho));
+  const MaterialPointer material = pointMaterial(KelvinVoigt{base, bulk, shear});
+  std::mt19937 random(11);
+  const Eigen::Matrix3d A = randomMatrix(random, 0.2), B = randomMatrix(random, 0.2), one = Eigen::Matrix3d::Identity();
+  const auto F = [&](double t) -> Eigen::Matrix3d { return one + std::sin(t) * A + t * t * B; };
+  const auto rate = [&](double t) -> Eigen::Matrix3d { return std::cos(t) * A + 2.0 * t * B; };
+  const double end = 0.7;
+  const Eigen::Matrix3d change = 0.5 * (F(end).transpose() * rate(end) + rate(end).transpose() * F(end));
+  const Eigen::Matrix3d exact =
+      F(end) * (bulk * change.trace() * one + 2.0 * shear * deviatorOf(change)) + evaluate(*base, F(end)).P;
+  const auto errorOf = [&](double h, bool atEnd) {
+    std::vector<double> history = evaluate(*material, F(end - 2.5 * h), freshHistory(*material)).history;
+    history = evaluate(*material, F(end - h), history, 1.5 * h, atEnd).history;
+    return (evaluate(*material, F(end), history, h, atEnd).P - exact).norm();
+  };
+  EXPECT_NEAR(std::log2(errorOf(2e-3, true) / errorOf(1e-3, true)), 2.0, 0.05);
+  EXPECT_NEAR(std::log2(errorOf(2e-3, false) / errorOf(1e-3, false)), 1.0, 0.05);
+}
+
 TEST(KelvinVoigt, WithoutTimeThereIsNoViscousStress) {
   std::mt19937 random(3);
   for (const auto& [name, base] : laws()) {
@@ -59,7 +83,7 @@ TEST(KelvinVoigt, WithoutTimeThereIsNoViscousStress) {
     EXPECT_EQ(viscous.P, plain.P);
     EXPECT_EQ(viscous.tangent, plain.tangent);
     EXPECT_EQ(viscous.dissipated, plain.dissipated);
-    EXPECT_TRUE(std::equal(plain.history.begin(), plain.history.end(), viscous.history.begin() + 6));
+    EXPECT_TRUE(std::equal(plain.history.begin(), plain.history.end(), viscous.history.begin() + 13));
   }
 }
 

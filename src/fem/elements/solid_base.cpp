@@ -77,7 +77,7 @@ void SolidBase::openPoints() {
 void SolidBase::ask(const Nodes& nodes, const Instant& now, bool withTangent, bool toRead) {
   openPoints();
   FieldPoints* const field = points_->field();
-  if (field == nullptr || field->knows(nodes.u, now.dt, withTangent, toRead)) return;
+  if (field == nullptr || field->knows(nodes.u, now, withTangent, toRead)) return;
   needGeometry();
   parallelFor(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
     LaneVector F(9 * pointCount());
@@ -86,7 +86,7 @@ void SolidBase::ask(const Nodes& nodes, const Instant& now, bool withTangent, bo
       field->gather(b, F.data());
     }
   });
-  field->ask(nodes.u, now.dt, withTangent, options_.name);
+  field->ask(nodes.u, now, withTangent, options_.name);
 }
 
 void SolidBase::load(ByteReader& archive) {
@@ -96,11 +96,11 @@ void SolidBase::load(ByteReader& archive) {
 }
 
 void SolidBase::evaluate(const BatchTask& task, const Lane* F, Lane* P, Lane* tangent, Lane* energy, Lane* dissipated) {
-  points_->evaluate({task.batch, task.dt, F, P, tangent, energy, dissipated});
+  points_->evaluate({task.batch, task.dt, task.rateAtEnd, F, P, tangent, energy, dissipated});
 }
 
 BatchTask SolidBase::taskOf(std::size_t batch, const Nodes& nodes, const Instant& now, const Vec3* start) const {
-  return {batch, nodes.u.data(), start, now.dt, false, false};
+  return {batch, nodes.u.data(), start, now.dt, false, false, now.rateAtEnd};
 }
 
 /// Place of component i of local node a among the forces of a batch, in lanes.
@@ -196,7 +196,7 @@ SolidBase::Totals SolidBase::addAll(const Nodes& nodes, const Instant& now, cons
     return Totals{task.wantEnergy ? sumOfLanes(result.energy) : 0.0,
                   task.wantDissipation ? sumOfLanes(result.dissipated) : 0.0};
   });
-  if (remembers) evaluation_ = {nodes.u, now.dt, sum, true, false};
+  if (remembers) evaluation_ = {nodes.u, now.dt, now.rateAtEnd, sum, true, false};
   return sum;
 }
 
@@ -218,7 +218,8 @@ bool SolidBase::addConservingForces(const Nodes& nodes, std::span<const Vec3> u0
 }
 
 bool SolidBase::isKnown(const Nodes& nodes, const Instant& now) const {
-  return evaluation_.known && evaluation_.dt == now.dt && evaluation_.u == nodes.u;
+  return evaluation_.known && evaluation_.dt == now.dt && evaluation_.rateAtEnd == now.rateAtEnd &&
+         evaluation_.u == nodes.u;
 }
 
 /// Energy and dissipation at a state, asked of the material only if the last forces were not those of the same state.
@@ -239,7 +240,7 @@ SolidBase::Totals SolidBase::totals(const Nodes& nodes, const Instant& now) {
     }
     return part;
   });
-  if (remembers) evaluation_ = {nodes.u, now.dt, sum, true, false};
+  if (remembers) evaluation_ = {nodes.u, now.dt, now.rateAtEnd, sum, true, false};
   return sum;
 }
 

@@ -27,6 +27,7 @@ struct BatchTask {
   const Vec3* start;  ///< displacement at the start of the step for the conserving forces, else null
   double dt;
   bool wantEnergy, wantDissipation;
+  bool rateAtEnd = false;  ///< as in Instant
 };
 
 /// Who adds to which node where chunks of batches are computed at the same time: a node belongs to the first chunk that
@@ -48,6 +49,7 @@ public:
 
   std::string name() const override { return options_.name; }
   bool usesVelocity() const override { return false; }
+  bool feelsRates() const override { return points_->feelsRates(); }
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override;
   double addForcesAndEnergy(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override;
   void addCouplings(Couplings& couplings) const override;
@@ -125,6 +127,7 @@ private:
   struct Evaluation {
     std::vector<Vec3> u;
     double dt = 0.0;
+    bool rateAtEnd = false;
     Totals totals;
     bool known = false, committed = false;
   };

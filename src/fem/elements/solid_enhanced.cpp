@@ -30,6 +30,7 @@ struct alignas(laneBytes) Found {
   Displacements U{};
   Modes alpha{};
   double dt = 0.0;
+  bool rateAtEnd = false;
   bool isValid = false;
   bool wasHard = false;  ///< the kept inverse did not do
 };
@@ -50,7 +51,8 @@ public:
     requireSameNodes(nodes);
     const double dissipated = SolidBase::commit(nodes, now);
     parallelFor(cells_.batches(), 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t b = begin; b < end; ++b) adopt({b, nodes.u.data(), nullptr, now.dt, false, false});
+      for (std::size_t b = begin; b < end; ++b)
+        adopt({b, nodes.u.data(), nullptr, now.dt, false, false, now.rateAtEnd});
     });
     return dissipated;
   }
@@ -135,7 +137,8 @@ private:
 
   bool isFound(const BatchTask& task, const Displacements& U) const {
     const Found& found = found_[task.batch];
-    return found.isValid && found.dt == task.dt && std::memcmp(found.U.data(), U.data(), sizeof U) == 0;
+    return found.isValid && found.dt == task.dt && found.rateAtEnd == task.rateAtEnd &&
+           std::memcmp(found.U.data(), U.data(), sizeof U) == 0;
   }
 
   /// The state of the batch with the modes in equilibrium; NaN in the stress of elements without one, which solvers
@@ -147,7 +150,7 @@ private:
     const bool isKnown = isFound(task, U);
     if (!isKnown) {
       if (!committed_[task.batch].hasInverse()) keepInverse(task, Displacements{});
-      found = {U, committed_[task.batch].alpha, task.dt, true, false};
+      found = {U, committed_[task.batch].alpha, task.dt, task.rateAtEnd, true, false};
     }
     setDisplacements(cellsOf(task.batch), U, s);
     Unbalanced r;

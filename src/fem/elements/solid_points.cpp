@@ -16,6 +16,7 @@ public:
   double density() const override { return law_->density(); }
   bool isSymmetric() const override { return law_->isSymmetric(); }
   bool isElastic() const override { return law_->isElastic(); }
+  bool feelsRates() const override { return law_->feelsRates(); }
   /// A law without potential has no history either that would book what its work leaves.
   bool hasEnergy() const override { return law_->isElastic() || remembers(); }
   bool remembers() const override { return size_ > 0; }
@@ -48,6 +49,7 @@ public:
       batch.newHistory = newHistory_.data() + offset;
     }
     batch.dt = call.dt;
+    batch.rateAtEnd = call.rateAtEnd;
     law_->evaluate(batch);
   }
 
@@ -132,24 +134,26 @@ void FieldPoints::evaluate(const PointCall& call) {
     }
 }
 
-bool FieldPoints::knows(std::span<const Vec3> u, double dt, bool withTangent, bool toRead) const {
-  return asked_ && dt_ == dt && (toRead || !committed_) && (hasTangent_ || !withTangent) && std::ranges::equal(u_, u);
+bool FieldPoints::knows(std::span<const Vec3> u, const Instant& now, bool withTangent, bool toRead) const {
+  return asked_ && dt_ == now.dt && rateAtEnd_ == now.rateAtEnd && (toRead || !committed_) &&
+         (hasTangent_ || !withTangent) && std::ranges::equal(u_, u);
 }
 
-FieldRequest FieldPoints::request(double dt, bool moved, bool withTangent) {
+FieldRequest FieldPoints::request(const Instant& now, bool moved, bool withTangent) {
   if (withTangent) tangent_.resize(81 * places_.size());
-  return {F_,      dt,          moved,  P_, withTangent ? std::span<double>(tangent_) : std::span<double>{},
-          energy_, dissipated_, reason_};
+  return {F_,      now.dt,      moved,   P_,           withTangent ? std::span<double>(tangent_) : std::span<double>{},
+          energy_, dissipated_, reason_, now.rateAtEnd};
 }
 
-void FieldPoints::ask(std::span<const Vec3> u, double dt, bool withTangent, const std::string& name) {
-  const bool moved = !knows(u, dt, false, false);
+void FieldPoints::ask(std::span<const Vec3> u, const Instant& now, bool withTangent, const std::string& name) {
+  const bool moved = !knows(u, now, false, false);
   asked_ = false;
   std::ranges::fill(reason_, std::string{});
-  field_->evaluate(request(dt, moved, withTangent));
+  field_->evaluate(request(now, moved, withTangent));
   requireAnswers(name);
   u_.assign(u.begin(), u.end());
-  dt_ = dt;
+  dt_ = now.dt;
+  rateAtEnd_ = now.rateAtEnd;
   asked_ = true;
   hasTangent_ = withTangent;
   committed_ = false;
@@ -174,7 +178,7 @@ void FieldPoints::requireAnswers(const std::string& name) const {
 ModuliAtRest FieldPoints::moduliAtRest() {
   for (std::size_t p = 0; p < places_.size(); ++p)
     for (std::size_t k = 0; k < 9; ++k) F_[9 * p + k] = k % 4 == 0 ? 1.0 : 0.0;
-  field_->evaluate(request(0.0, true, true));
+  field_->evaluate(request(Instant{}, true, true));
   requireAnswers(field_->name());
   ModuliAtRest mean{0.0, 0.0};
   for (std::size_t p = 0; p < places_.size(); ++p) {

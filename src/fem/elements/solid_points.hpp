@@ -18,6 +18,7 @@ namespace dovetail::fem::detail {
 struct PointCall {
   std::size_t batch;
   double dt;
+  bool rateAtEnd;
   const Lane* F;
   Lane *P, *tangent, *energy, *dissipated;
 };
@@ -32,6 +33,7 @@ public:
   virtual double density() const = 0;
   virtual bool isSymmetric() const = 0;
   virtual bool isElastic() const = 0;
+  virtual bool feelsRates() const = 0;
   virtual bool hasEnergy() const = 0;
   /// Whether there is a state that changes in commit().
   virtual bool remembers() const = 0;
@@ -71,6 +73,7 @@ public:
   double density() const override { return field_->density(); }
   bool isSymmetric() const override { return field_->isSymmetric(); }
   bool isElastic() const override { return false; }
+  bool feelsRates() const override { return field_->feelsRates(); }
   bool hasEnergy() const override { return field_->hasEnergy(); }
   bool remembers() const override { return true; }
   FieldPoints* field() override { return this; }
@@ -86,17 +89,17 @@ public:
   std::string whyInvalid(const double* F, Scrutiny scrutiny) const override;
   std::size_t memory() const override;
 
-  /// Whether the answers are those of these displacements and this dt, and whether nothing was committed since (where
-  /// `toRead` that does not matter).
-  bool knows(std::span<const Vec3> u, double dt, bool withTangent, bool toRead) const;
+  /// Whether the answers are those of these displacements and this length of the step, and whether nothing was
+  /// committed since (where `toRead` that does not matter).
+  bool knows(std::span<const Vec3> u, const Instant& now, bool withTangent, bool toRead) const;
   /// Where F of all points belongs before ask(): lanes of a batch, [9 q + 3 i + J].
   void gather(std::size_t batch, const Lane* F);
   /// @throws NumericalError naming the first element and point without an answer, or with one that is not finite
-  void ask(std::span<const Vec3> u, double dt, bool withTangent, const std::string& name);
+  void ask(std::span<const Vec3> u, const Instant& now, bool withTangent, const std::string& name);
 
 private:
   void requireAnswers(const std::string& name) const;
-  FieldRequest request(double dt, bool moved, bool withTangent);
+  FieldRequest request(const Instant& now, bool moved, bool withTangent);
   std::size_t place(std::size_t batch, std::size_t point, std::size_t lane) const;
 
   std::shared_ptr<PointField> field_;
@@ -106,7 +109,7 @@ private:
   std::vector<std::string> reason_;
   std::vector<Vec3> u_;
   double dt_ = 0.0;
-  bool asked_ = false, hasTangent_ = false, committed_ = false;
+  bool rateAtEnd_ = false, asked_ = false, hasTangent_ = false, committed_ = false;
 };
 
 }  // namespace dovetail::fem::detail

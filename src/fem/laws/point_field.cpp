@@ -26,6 +26,7 @@ public:
   std::string name() const override { return law_->name(); }
   double density() const override { return law_->density(); }
   bool isSymmetric() const override { return law_->isSymmetric(); }
+  bool feelsRates() const override { return law_->feelsRates(); }
   bool hasEnergy() const override { return law_->isElastic() || size_ > 0; }
 
   void open(std::span<const PointPlace> places) override {
@@ -84,7 +85,8 @@ private:
                      group.dissipated.data(),
                      history_.data() + offset,
                      newHistory_.data() + offset,
-                     request.dt};
+                     request.dt,
+                     request.rateAtEnd};
     group.dissipated.fill(0.0);
     try {
       law_->evaluate(batch);

@@ -15,6 +15,8 @@ namespace dovetail::fem {
 namespace {
 
 constexpr std::size_t metricSize = 6;
+/// C at the start of the step; the mean rate of ½C in the step before it, and its length (0: there was none).
+constexpr std::size_t ownSize = 2 * metricSize + 1, ratePlace = metricSize, lengthPlace = 2 * metricSize;
 constexpr std::array<std::size_t, metricSize> metricEntry = {0, 4, 8, 1, 5, 2};  // of a Tensor
 
 class ViscousMaterial final : public PointMaterial {
@@ -26,13 +28,14 @@ public:
 
   std::string name() const override { return "viscous " + base_->name(); }
   double density() const override { return base_->density(); }
-  std::size_t historySize() const override { return metricSize + base_->historySize(); }
+  std::size_t historySize() const override { return ownSize + base_->historySize(); }
   void startHistory(std::span<double> history) const override {
-    std::fill_n(history.begin(), metricSize, 0.0);
+    std::fill_n(history.begin(), ownSize, 0.0);
     std::fill_n(history.begin(), 3, 1.0);
-    base_->startHistory(history.subspan(metricSize));
+    base_->startHistory(history.subspan(ownSize));
   }
   bool isElastic() const override { return false; }
+  bool feelsRates() const override { return true; }
   bool isSymmetric() const override { return base_->isSymmetric(); }
   std::string whyInvalid(const double* F) const override { return base_->whyInvalid(F); }
 
@@ -51,43 +54,91 @@ private:
     if (size == 0) return base_->evaluate(inner);
     std::vector<double> history(size * points), newHistory(size * points);
     for (std::size_t p = 0; p < points; ++p)
-      std::copy_n(batch.history + p * historySize() + metricSize, size, &history[p * size]);
+      std::copy_n(batch.history + p * historySize() + ownSize, size, &history[p * size]);
     inner.history = history.data();
     inner.newHistory = newHistory.data();
     base_->evaluate(inner);
     for (std::size_t p = 0; p < points; ++p)
-      std::copy_n(&newHistory[p * size], size, batch.newHistory + p * historySize() + metricSize);
+      std::copy_n(&newHistory[p * size], size, batch.newHistory + p * historySize() + ownSize);
+  }
+
+  /// Entry k of what the points of a group remember, and where the new ones go.
+  Four remembered(const PointBatch& batch, std::size_t group, std::size_t k) const {
+    Four value;
+    for (std::size_t lane = 0; lane < pointLanes; ++lane)
+      value.v[static_cast<int>(lane)] = batch.history[(pointLanes * group + lane) * historySize() + k];
+    return value;
+  }
+  void remember(const PointBatch& batch, std::size_t group, std::size_t k, const Four& value) const {
+    for (std::size_t lane = 0; lane < pointLanes; ++lane)
+      batch.newHistory[(pointLanes * group + lane) * historySize() + k] = value.v[static_cast<int>(lane)];
+  }
+
+  static void fillSymmetric(Tensor<Four>& tensor) {
+    tensor[3] = tensor[1];
+    tensor[6] = tensor[2];
+    tensor[7] = tensor[5];
   }
 
   /// C of the group to the new history; returns C − C_start.
   Tensor<Four> metricChange(const PointBatch& batch, std::size_t group, const Tensor<Four>& F) const {
     const Tensor<Four> C = gram(F);
     Tensor<Four> change;
-    for (std::size_t lane = 0; lane < pointLanes; ++lane)
-      for (std::size_t k = 0; k < metricSize; ++k) {
-        const std::size_t entry = metricEntry[k], place = (pointLanes * group + lane) * historySize() + k;
-        const double now = C[entry].v[static_cast<int>(lane)];
-        change[entry].v[static_cast<int>(lane)] = now - batch.history[place];
-        batch.newHistory[place] = now;
-      }
-    change[3] = change[1];
-    change[6] = change[2];
-    change[7] = change[5];
+    for (std::size_t k = 0; k < metricSize; ++k) {
+      change[metricEntry[k]] = C[metricEntry[k]] - remembered(batch, group, k);
+      remember(batch, group, k, C[metricEntry[k]]);
+    }
+    fillSymmetric(change);
     return change;
+  }
+
+  /// The rate of this step to the new history; where no time passes the old one stays.
+  void keepRate(const PointBatch& batch, std::size_t group, const Tensor<Four>& change) const {
+    const bool moves = batch.dt > 0.0;
+    for (std::size_t k = 0; k < metricSize; ++k)
+      remember(batch, group, ratePlace + k,
+               moves ? change[metricEntry[k]] / batch.dt : remembered(batch, group, ratePlace + k));
+    remember(batch, group, lengthPlace, moves ? Four(batch.dt) : remembered(batch, group, lengthPlace));
+  }
+
+  /// S of a rate of Green's strain. @param lambda, mu  viscosities, over the time that `strain` took
+  static Tensor<Four> stressOf(const Tensor<Four>& strain, const Four& lambda, const Four& mu) {
+    Tensor<Four> S = scaled(2.0 * mu, strain);
+    for (const std::size_t i : {0, 4, 8}) S[i] += lambda * trace(strain);
+    return S;
+  }
+
+  /// How far the line through the mean rates of two steps goes on behind the middle of the second one, in parts of
+  /// their difference: to its end, or nowhere.
+  Four beyond(const PointBatch& batch, std::size_t group) const {
+    Four part(0.0);
+    for (std::size_t lane = 0; batch.rateAtEnd && lane < pointLanes; ++lane)
+      if (const double before = remembered(batch, group, lengthPlace).v[static_cast<int>(lane)]; before > 0.0)
+        part.v[static_cast<int>(lane)] = batch.dt / (batch.dt + before);
+    return part;
   }
 
   void addViscous(const PointBatch& batch, std::size_t group) const {
     Tensor<Four> F;
     for (std::size_t i = 0; i < 9; ++i) F[i] = Four::load(batch.F + pointLanes * (9 * group + i));
     const Tensor<Four> change = scaled(0.5, metricChange(batch, group, F));
+    keepRate(batch, group, change);
     if (!(batch.dt > 0.0)) return;
-    const Four lambda = lambda_ / batch.dt, mu = mu_ / batch.dt;
-    Tensor<Four> S = scaled(2.0 * mu, change);
-    for (const std::size_t i : {0, 4, 8}) S[i] += lambda * trace(change);
-    const Tensor<Four> P = product(F, S);
+    Four lambda = lambda_ / batch.dt, mu = mu_ / batch.dt;
+    Tensor<Four> S = stressOf(change, lambda, mu);
     const auto add = [](double* place, const Four& x) { (Four::load(place) + x).store(place); };
-    for (std::size_t i = 0; i < 9; ++i) add(batch.P + pointLanes * (9 * group + i), P[i]);
     if (batch.dissipated) add(batch.dissipated + pointLanes * group, contraction(S, change));
+    if (batch.rateAtEnd) {
+      const Four part = beyond(batch, group);
+      Tensor<Four> before;
+      for (std::size_t k = 0; k < metricSize; ++k) before[metricEntry[k]] = remembered(batch, group, ratePlace + k);
+      fillSymmetric(before);
+      const Tensor<Four> rate = stressOf(before, lambda_, mu_);
+      for (std::size_t i = 0; i < 9; ++i) S[i] += part * (S[i] - rate[i]);
+      lambda = (1.0 + part) * lambda, mu = (1.0 + part) * mu;
+    }
+    const Tensor<Four> P = product(F, S);
+    for (std::size_t i = 0; i < 9; ++i) add(batch.P + pointLanes * (9 * group + i), P[i]);
     if (!batch.tangent) return;
     detail::forGreenModuli(F, S, lambda, mu, [&](std::size_t r, std::size_t c, const Four& entry) {
       double* tangent = batch.tangent + pointLanes * 81 * group;

@@ -21,6 +21,8 @@ struct ImplicitMotion::Impl {
   bool begun = false;
 
   Impl(Model& model, const ImplicitOptions& options);
+  /// The end of a part of length h that is over.
+  Instant accepted(double h) const { return {model.t, h, &mass, !options.scheme.conserving}; }
   /// Takes the present state as the start of a step of dt.
   void begin(double dt);
   /// Steps by h, halved until it works.

@@ -95,7 +95,7 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
     if (options.energyEvery > 0) bookWorks(h);
     model.t += h;
     const Profile::Stage stage(profile, "materials accept");
-    book.accept(model, {model.t, h, &mass}, options.energyEvery > 0);
+    book.accept(model, accepted(h), options.energyEvery > 0);
   }
 };
 

@@ -66,7 +66,7 @@ void ImplicitMotion::step(double dt) {
   Model& model = impl_->model;
   impl_->advance(dt, [&](double h) {
     model.t += h;
-    for (const auto& term : model.terms) term->commit(model.nodes, {model.t, h, &impl_->mass});
+    for (const auto& term : model.terms) term->commit(model.nodes, impl_->accepted(h));
   });
 }
 

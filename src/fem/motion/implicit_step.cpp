@@ -46,9 +46,27 @@ void ImplicitStep::begin(double h) {
   start_.evaluate(model_, model_.nodes, {model_.t, 0.0, &mass_}, start_.total,
                   false);  // terms that remember take their past from it
   if (conserving()) return;
+  addStartRates(h);
   std::fill(a0_.begin(), a0_.end(), Vec3{});
   dofs_.applyAcceleration(model_.t, h, a0_);
   mass_.accelerate(start_.total, a0_);
+}
+
+/// What terms that feel rates exert beside, because nodes are moving: the difference that moving on for a short time
+/// makes to their forces. (Their past says how they moved before whatever started this run, if it says anything.)
+void ImplicitStep::addStartRates(double h) {
+  if (std::ranges::none_of(model_.terms, [](const auto& term) { return term->feelsRates(); })) return;
+  constexpr double share = 1e-3;  // of the step
+  const Instant now{model_.t, share * h, &mass_};
+  Nodes moved = model_.nodes;
+  for (std::size_t n = 0; n < moved.u.size(); ++n) moved.u[n] += share * h * moved.v[n];
+  std::vector<Vec3> with(moved.u.size()), without(moved.u.size());
+  for (const auto& term : model_.terms)
+    if (term->feelsRates()) {
+      term->addForces(moved, now, with);
+      term->addForces(model_.nodes, now, without);
+    }
+  for (std::size_t n = 0; n < with.size(); ++n) start_.total[n] += with[n] - without[n];
 }
 
 /// Brings constraints into the correction, and u, v and the acceleration of the balance to what it says.

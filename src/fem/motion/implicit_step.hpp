@@ -53,8 +53,9 @@ public:
 
 private:
   bool conserving() const { return options_.scheme.conserving; }
-  Instant atEnd() const { return {model_.t + h_, h_, &mass_}; }
+  Instant atEnd() const { return {model_.t + h_, h_, &mass_, !conserving()}; }
   Instant inMiddle() const { return {model_.t + 0.5 * h_, 0.5 * h_, &mass_}; }
+  void addStartRates(double h);
   void setBase();
   void makeGuess(Guess guess);
   void applyCorrection();

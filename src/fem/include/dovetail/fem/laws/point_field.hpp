@@ -35,6 +35,7 @@ struct FieldRequest {
   std::span<double> energy;       ///< out: stored energy per reference volume, J/m³
   std::span<double> dissipated;   ///< out: energy dissipated in the step per reference volume, J/m³, ≥ 0
   std::span<std::string> reason;  ///< out: why a point has no answer and what to do; empty where it has one
+  bool rateAtEnd = false;         ///< as in PointBatch
 };
 
 /// All points of one solid with their states. Elements gather F of all points, ask once, and make forces or matrices
@@ -48,6 +49,8 @@ public:
   virtual double density() const = 0;
   /// Whether the tangent has the symmetry (iJ)(kL).
   virtual bool isSymmetric() const { return false; }
+  /// As in PointMaterial.
+  virtual bool feelsRates() const { return false; }
   /// Whether energy and dissipation account for all the work done on the points; if not, it is booked as it is done.
   virtual bool hasEnergy() const { return true; }
 

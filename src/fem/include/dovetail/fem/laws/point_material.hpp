@@ -28,6 +28,9 @@ struct PointBatch {
   const double* history;  ///< at the start of the step, historySize per point, [(4 g + l) · historySize + k]
   double* newHistory;     ///< out: at its end, same layout; may not overlap `history`
   double dt;              ///< length of the step, s; 0 where no time passes
+  /// Rates are asked for at the end of the step, as schemes of second order need them that weigh forces at both ends of
+  /// a step; else their means over the step, which are never sharper than what happened in it.
+  bool rateAtEnd = false;
 };
 
 /// A material at a point. One virtual call per batch; implementations keep no state of their own (everything that
@@ -47,6 +50,9 @@ public:
   virtual void startHistory(std::span<double> /*history*/) const {}
   /// Whether P = ∂W/∂F with the reported energy, always (elastic).
   virtual bool isElastic() const { return historySize() == 0; }
+  /// Whether the stress depends on how fast F changes, not on its past alone: dt counts, and so do velocities at the
+  /// start of a run.
+  virtual bool feelsRates() const { return false; }
   /// Whether the tangent has the symmetry (iJ)(kL); if not, solvers factorise without it.
   virtual bool isSymmetric() const { return true; }
   /// The law, if it is one that the hand-written kernels of bricks know.

@@ -26,6 +26,7 @@ struct Instant {
   double t = 0.0;
   double dt = 0.0;
   const ModelMass* mass = nullptr;  ///< of the integrator; null in statics, where velocities mean nothing
+  bool rateAtEnd = false;           ///< rates are asked for at t, else their means over the step will do
 };
 
 /// A force on the nodes that depends on u, v and t, its tangent and its energy. State that lasts over steps (plastic
@@ -46,6 +47,10 @@ public:
   }
   /// Whether its force may depend on v: time steps without any such term are spared a guess of v.
   virtual bool usesVelocity() const { return true; }
+
+  /// Whether its force depends on how fast u has changed since the last commit, by dt; v is not read. Runs that start
+  /// in motion then ask for it as if u had come to move by v.
+  virtual bool feelsRates() const { return false; }
 
   /// Names the groups of nodes that its tangent couples (a node with itself needs no mention).
   virtual void addCouplings(Couplings&) const {}

@@ -56,7 +56,7 @@ struct ExplicitOptions {
   /// energy is no longer kept for ever. 0 = dt throughout.
   double safety = 0.0;
   /// Most steps from one look at the bound to the next; as many fewer as it takes for the bound to change by 2 % in
-  /// between. A look costs about as much as a hundred steps of elastic hex8. Impact after free flight crushes elements
+  /// between. A look costs as much as 70 to 400 steps of elastic elements. Impact after free flight crushes elements
   /// within the time they take to pass their length: looks must come sooner.
   int measureEvery = 20;
   double shortest = 1e-3;  ///< share of the first step below which one that follows gives up
