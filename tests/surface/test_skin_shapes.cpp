@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/fem/mesh/shape.hpp"
 #include "scenes.hpp"
 
@@ -242,6 +243,21 @@ TEST(SkinShapes, OnlyFacesOfFourNodesHaveASmoothSurfaceOrSpreadLoads) {
                 SpreadLoad({{cg::KernelShape::lucy, 2, 1.0}, {}}, mesh.X, skin, faces);
               }).find("SpreadLoad"),
               std::string::npos);
+  }
+}
+
+TEST(SkinShapes, LinesOfPlaneMeshesAreRefused) {
+  for (const CellShape shape : {CellShape::quad4, CellShape::quad8}) {
+    const fem::SolidMesh mesh = fem::boxOf(shape, {2, 2, 1}, {0, 0, 0}, {1, 1, 1});
+    const std::vector<fem::Face>& faces = mesh.faceSets.at("skin");
+    try {
+      makeSkin(mesh.X, faces);
+      FAIL() << fem::name(shape);
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find(fem::name(faces[0].shape)), std::string::npos) << text;
+      EXPECT_NE(text.find("plane mesh"), std::string::npos) << text;
+    }
   }
 }
 
