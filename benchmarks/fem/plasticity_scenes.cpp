@@ -192,13 +192,11 @@ double NeckingStrip::considereForce() {
 }
 
 StripResult stretch(const NeckingStrip& strip) {
-  // Bricks as deep as they are wide: with a deep layer front and back neck on their own.
-  constexpr double length = NeckingStrip::halfLength, thickness = 1e-3;
-  const SolidMesh mesh =
-      mappedBox(strip.shape, {strip.across, strip.along, 1}, {}, {1.0, 1.0, thickness}, [](const Vec3& X) {
-        const double y = length * (0.25 * X.y + 0.75 * X.y * X.y);
-        return Vec3{NeckingStrip::halfWidth * X.x * (1.0 - NeckingBar::thinning * (1.0 - y / length)), y, X.z};
-      });
+  constexpr double length = NeckingStrip::halfLength;
+  const SolidMesh mesh = mappedBox(strip.shape, {strip.across, strip.along, 1}, {}, {1.0, 1.0, 1.0}, [](const Vec3& X) {
+    const double y = length * (0.25 * X.y + 0.75 * X.y * X.y);
+    return Vec3{NeckingStrip::halfWidth * X.x * (1.0 - NeckingBar::thinning * (1.0 - y / length)), y, X.z};
+  });
   Model model = makeModel(mesh);
   model.add(makeSolid(mesh, pointMaterial(NeckingBar::material()), {.formulation = strip.formulation}));
   model.constraints.hold(nodeSet(mesh, "x-"), componentX);
@@ -216,7 +214,7 @@ StripResult stretch(const NeckingStrip& strip) {
                      evaluateForces(model, {model.t, 0.0});
                      StripStep step{model.t, 0.0, mesh.X[neck].x + model.nodes.u[neck].x};
                      for (const int n : nodeSet(mesh, "y+"))
-                       step.force -= 2.0 / thickness * model.nodes.f[static_cast<std::size_t>(n)].y;
+                       step.force -= 2.0 * model.nodes.f[static_cast<std::size_t>(n)].y;
                      result.steps.push_back(step);
                      return true;
                    });
