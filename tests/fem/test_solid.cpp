@@ -1,4 +1,7 @@
 #include <gtest/gtest.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -300,6 +303,28 @@ TEST(Solid, AnElasticSolidStoresNoHistoryAndInvertedElementsAreNamed) {
     EXPECT_NE(std::string(error.what()).find("element 1"), std::string::npos) << error.what();
   }
 }
+
+#ifdef __GLIBC__
+TEST(Solid, MemoryIsWhatIsTakenFromTheHeap) {
+  const auto inUse = [] {
+    const struct mallinfo2 heap = mallinfo2();
+    return heap.uordblks + heap.hblkhd;
+  };
+  if (inUse() == 0) GTEST_SKIP() << "this heap does not count";
+  for (const SolidKind& kind : allSolidKinds()) {
+    SCOPED_TRACE(kind.label());
+    const SolidMesh mesh = boxOf(kind.shape, {8, 8, 16}, {}, {1.0, 1.0, 2.0});
+    Model model = makeModel(mesh);
+    BlockMatrix K = couplingPattern(sceneOf(mesh, std::make_shared<PlainNeoHookean>(2e6, 1e6)).model);
+    const std::size_t before = inUse();
+    const auto solid = makeSolid(mesh, std::make_shared<PlainNeoHookean>(2e6, 1e6), {.formulation = kind.formulation});
+    solid->addForces(model.nodes, {}, model.nodes.f);
+    solid->addTangent(model.nodes, {}, K);
+    const auto taken = static_cast<double>(inUse() - before);
+    EXPECT_NEAR(static_cast<double>(solid->memory()), taken, 0.02 * taken);
+  }
+}
+#endif
 
 TEST(Solid, WrongRequestsAreRefused) {
   const auto material = std::make_shared<PlainNeoHookean>(2e6, 1e6);

@@ -331,7 +331,8 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when, Scruti
 std::size_t SolidBase::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(cells_.number) + bytes(cells_.X) + bytes(cells_.share) + bytes(cells_.batchNode) + bytes(geometry_) +
-         points_->memory() + bytes(evaluation_.u) + shared_.memory() + bytes(places_) +
+         points_->memory() + bytes(evaluation_.u) + bytes(path_[0]) + bytes(path_[1]) + bytes(path_[2]) +
+         shared_.memory() + sizeof(std::uint32_t) * cells_.batches() + bytes(places_) +
          (bricks_ ? bricks_->memory() : 0) + formulationMemory();
 }
 

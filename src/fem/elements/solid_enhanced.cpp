@@ -60,9 +60,9 @@ public:
     energy(nodes, now);  // finds the modes
     return SolidBase::sample(nodes, now);
   }
-  std::size_t memory() const override {
-    return SolidBase::memory() + enhanced_.capacity() * sizeof(EnhancedGeometry) +
-           committed_.capacity() * sizeof(Committed) + found_.capacity() * sizeof(Found);
+  std::size_t formulationMemory() const override {
+    return enhanced_.capacity() * sizeof(EnhancedGeometry) + committed_.capacity() * sizeof(Committed) +
+           found_.capacity() * sizeof(Found);
   }
 
   void save(ByteWriter& archive) const override {

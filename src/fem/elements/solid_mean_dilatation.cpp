@@ -43,6 +43,7 @@ private:
     std::array<Lane, Q> pressure;  ///< what multiplies ∂J/∂F, Pa
   };
 
+  std::size_t formulationMemory() const override { return projection_.capacity() * sizeof(Gram); }
   const Vec3* gradients(std::size_t q) const { return &rule_->gradient[N * q]; }
   const PointGeometry& point(std::size_t batch, std::size_t q) const { return geometry_[batch * Q + q]; }
   double mode(std::size_t l, std::size_t q) const { return l == 0 ? 1.0 : rule_->point[q][static_cast<int>(l) - 1]; }

@@ -102,6 +102,7 @@ private:
   }
 
   std::size_t pointCount() const override { return 1; }
+  std::size_t formulationMemory() const override { return reduced_.capacity() * sizeof(ReducedGeometry); }
 
   void meanDeformation(std::size_t b, const Lane* U, Lane* F) const {
     for (std::size_t k = 0; k < 9; ++k) F[k] = Lane{};

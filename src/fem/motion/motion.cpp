@@ -96,12 +96,4 @@ double Motion::commit(double dt) {
 
 double Motion::kineticEnergy() const { return impl_->mass.kineticEnergy(impl_->model->nodes.v); }
 
-Vec3 Motion::momentum() const {
-  std::vector<Vec3> p(impl_->model->nodes.v.size());
-  impl_->mass.multiply(impl_->model->nodes.v, p);
-  Vec3 sum;
-  for (const Vec3& value : p) sum += value;
-  return sum;
-}
-
 }  // namespace dovetail::fem

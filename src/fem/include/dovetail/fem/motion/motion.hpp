@@ -53,8 +53,6 @@ public:
 
   /// ½ vᵀMv, J.
   double kineticEnergy() const;
-  /// Σ M v, kg m/s.
-  Vec3 momentum() const;
   /// What supports exert while the nodes have the accelerations `a` under the forces f, N.
   Vec3 supportForce(std::span<const Vec3> a, std::span<const Vec3> f) const { return mass().supportForce(a, f); }
 
