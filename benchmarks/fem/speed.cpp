@@ -80,9 +80,9 @@ ElementTimes timeSolid(Solid& solid, const SolidMesh& mesh, int threadCount) {
   Nodes states[2] = {model.nodes, model.nodes};
   bend(states[0], 1e-3);
   bend(states[1], 1.05e-3);
-  Couplings couplings(mesh.X.size());
-  solid.addCouplings(couplings);
-  BlockMatrix K(std::move(couplings));
+  MatrixPattern pattern(mesh.X.size());
+  solid.addPattern(pattern);
+  BlockMatrix K(std::move(pattern));
   ElementTimes times{};
   for (int run = 0; run < 2; ++run) {
     setThreads(run == 0 ? 1 : threadCount);
@@ -204,7 +204,7 @@ void countBytes() {
         bytes[count - 1] = each();
       }
       setThreads(1);
-      BlockMatrix K(couplingPattern(model));
+      BlockMatrix K(zeroTangent(model));
       solid.addTangent(model.nodes, {}, K);
       bytes[2] = each();
       std::printf("%-10s %-16s | %.0f %.0f %.0f\n", distorted ? "distorted" : "boxes", name(formulation), bytes[0],
@@ -287,9 +287,9 @@ void timeSolvers() {
     Solid& solid = model.add(makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.3, 1000.0))));
     model.constraints.hold(nodeSet(mesh, "z-"));
     const DofMap dofs(model.constraints, model.nodes);
-    Couplings couplings(mesh.X.size());
-    solid.addCouplings(couplings);
-    BlockMatrix K(std::move(couplings));
+    MatrixPattern pattern(mesh.X.size());
+    solid.addPattern(pattern);
+    BlockMatrix K(std::move(pattern));
     solid.addTangent(model.nodes, {}, K);
     std::vector<Vec3> load(mesh.X.size());
     for (const int node : nodeSet(mesh, "z+")) load[static_cast<std::size_t>(node)] = {1.0, 0.0, -2.0};

@@ -28,7 +28,7 @@ public:
   Operator(Model& model, Parts parts) : model_(model), parts_(parts) {
     if (parts.solid) {
       fem::Model& solid = model.solid->model();
-      tangent_ = fem::couplingPattern(solid);
+      tangent_ = fem::zeroTangent(solid);
       for (const auto& term : solid.terms) term->addTangent(solid.nodes, {solid.t, 0.0}, tangent_);
     }
     if (parts.particles) model.discrete.laws->addDemand(demand_, model.discrete.particles, model.discrete.pairs, touch);

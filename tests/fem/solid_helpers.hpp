@@ -142,9 +142,9 @@ inline Eigen::MatrixXd dense(const NodeMatrix& A) {
 
 /// The consistent mass of a term, one number per pair of nodes.
 inline Eigen::MatrixXd massMatrixOf(const Term& term, std::size_t nodes) {
-  Couplings couplings(nodes);
-  term.addCouplings(couplings);
-  NodeMatrix M(std::move(couplings));
+  MatrixPattern pattern(nodes);
+  term.addPattern(pattern);
+  NodeMatrix M(std::move(pattern));
   term.addConsistentMass(M);
   return dense(M);
 }
@@ -161,9 +161,9 @@ inline Eigen::Matrix3d meanFirstStress(const SolidScene& scene) {
 }
 
 inline BlockMatrix tangentOf(Term& term, const Nodes& nodes) {
-  Couplings couplings(nodes.u.size());
-  term.addCouplings(couplings);
-  BlockMatrix K(std::move(couplings));
+  MatrixPattern pattern(nodes.u.size());
+  term.addPattern(pattern);
+  BlockMatrix K(std::move(pattern));
   term.addTangent(nodes, {}, K);
   return K;
 }

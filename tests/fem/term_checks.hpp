@@ -60,9 +60,9 @@ inline void expectForceFromEnergy(Term& term, Nodes& nodes, const Instant& now, 
 }
 
 inline BlockMatrix matrixFor(const Term& term, const Nodes& nodes) {
-  Couplings couplings(nodes.u.size());
-  term.addCouplings(couplings);
-  return BlockMatrix(std::move(couplings));
+  MatrixPattern pattern(nodes.u.size());
+  term.addPattern(pattern);
+  return BlockMatrix(std::move(pattern));
 }
 
 inline void expectProduct(const BlockMatrix& K, const std::vector<Vec3>& d, const std::vector<Vec3>& slope,

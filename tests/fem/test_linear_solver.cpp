@@ -33,7 +33,7 @@ Eigen::MatrixXd transformation(const DofMap& dofs) {
 }
 
 BlockMatrix randomMatrix(const Model& model, unsigned seed) {
-  BlockMatrix K = couplingPattern(model);
+  BlockMatrix K = zeroTangent(model);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> value(-1.0, 1.0);
   for (double& entry : K.values()) entry = value(random);
@@ -114,7 +114,7 @@ TEST(LinearSolver, SingularMatricesAreReported) {
   const Model model = tiedModel(false);
   const DofMap dofs(model.constraints, model.nodes);
   LinearSolver solver(dofs);
-  const BlockMatrix zero = couplingPattern(model);
+  const BlockMatrix zero = zeroTangent(model);
   EXPECT_FALSE(solver.factor(zero, true));
   EXPECT_FALSE(solver.factor(zero, false));
   EXPECT_FALSE(solver.factored());

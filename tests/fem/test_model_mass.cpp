@@ -133,7 +133,7 @@ TEST(ModelMass, RowSumsAreTheLumpedMassesAndMatricesTakeIt) {
     EXPECT_NEAR(mass.kineticEnergy(ones), 0.5 * total * 14.0, 1e-9 * total);
     std::vector<Vec3> x(ones.size()), y(ones.size());
     setRandom(x, 1.0, 3);
-    BlockMatrix S = couplingPattern(model);
+    BlockMatrix S = zeroTangent(model);
     mass.addTo(S, -2.0);
     S.multiply(x, y);
     const std::vector<Vec3> expected = multiplied(mass, x);
@@ -202,7 +202,7 @@ TEST(ModelMass, ImpossibleInputIsRefused) {
   const DofMap dofs(model.constraints, model.nodes);
   EXPECT_THROW(ModelMass(model, dofs, -0.1), InputError);
   EXPECT_THROW(ModelMass(model, dofs, 1.1), InputError);
-  BlockMatrix other((Couplings(model.nodes.X.size())));
+  BlockMatrix other((MatrixPattern(model.nodes.X.size())));
   EXPECT_THROW(ModelMass(model, dofs, 0.5).addTo(other, 1.0), InputError);
   model.nodes.mass[3] = 0.0;
   EXPECT_THROW(ModelMass(model, dofs, 0.5), InputError);

@@ -20,7 +20,7 @@ public:
     f[0].z += pull - crack;
     f[1].z -= pull;
   }
-  void addCouplings(Couplings& couplings) const override { couplings.add(std::array{0, 1}); }
+  void addPattern(MatrixPattern& pattern) const override { pattern.add(std::array{0, 1}); }
   void addTangent(const Nodes& nodes, const Instant&, BlockMatrix& K) override {
     const double w = nodes.u[0].z;
     const double x = w / peak;

@@ -92,9 +92,9 @@ TEST(PeriodicTies, MeansOfAMixedCellAreTheMacroscopicOnes) {
       a_.addForces(nodes, now, f);
       b_.addForces(nodes, now, f);
     }
-    void addCouplings(Couplings& c) const override {
-      a_.addCouplings(c);
-      b_.addCouplings(c);
+    void addPattern(MatrixPattern& c) const override {
+      a_.addPattern(c);
+      b_.addPattern(c);
     }
     void addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) override {
       a_.addTangent(nodes, now, K);

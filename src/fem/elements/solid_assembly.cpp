@@ -61,11 +61,11 @@ void SolidBase::colourBatches() {
   }
 }
 
-void SolidBase::addCouplings(Couplings& couplings) const {
+void SolidBase::addPattern(MatrixPattern& pattern) const {
   std::vector<int> nodes(cells_.nodes);
   for (std::size_t e = 0; e < cells_.size(); ++e) {
     for (std::size_t a = 0; a < nodes.size(); ++a) nodes[a] = cells_.nodeOf(e, a);
-    couplings.add(nodes);
+    pattern.add(nodes);
   }
 }
 

@@ -52,7 +52,7 @@ public:
   bool feelsRates() const override { return points_->feelsRates(); }
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override;
   double addForcesAndEnergy(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override;
-  void addCouplings(Couplings& couplings) const override;
+  void addPattern(MatrixPattern& pattern) const override;
   void addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) override;
   bool addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
                            std::span<Vec3> f) override;

@@ -7,13 +7,13 @@
 
 namespace dovetail::fem {
 
-Couplings couplingsOf(const Model& model) {
-  Couplings couplings(model.nodes.X.size());
-  for (const auto& term : model.terms) term->addCouplings(couplings);
-  return couplings;
+MatrixPattern patternOf(const Model& model) {
+  MatrixPattern pattern(model.nodes.X.size());
+  for (const auto& term : model.terms) term->addPattern(pattern);
+  return pattern;
 }
 
-BlockMatrix couplingPattern(const Model& model) { return BlockMatrix(couplingsOf(model)); }
+BlockMatrix zeroTangent(const Model& model) { return BlockMatrix(patternOf(model)); }
 
 Model makeModel(const SolidMesh& mesh) {
   const std::size_t n = mesh.X.size();

@@ -104,7 +104,7 @@ ModelMass::ModelMass(const Model& model, const DofMap& dofs, double share)
     if (!(mass_[n] > 0.0) && model.nodes.fixed[n] != allComponents)
       throw InputError("it has no mass", "node " + std::to_string(n), "call addMass(model), or fix all its components");
   if (share == 0.0) return;
-  matrix_ = NodeMatrix(couplingsOf(model));
+  matrix_ = NodeMatrix(patternOf(model));
   for (const auto& term : model.terms) term->addConsistentMass(matrix_);
   for (double& value : matrix_.values()) value *= share;
   for (std::size_t n = 0; n < mass_.size(); ++n)
@@ -139,7 +139,7 @@ void ModelMass::addTo(BlockMatrix& S, double factor) const {
   }
   if (!std::ranges::equal(S.columns(), matrix_.columns()) || !std::ranges::equal(S.offsets(), matrix_.offsets()))
     throw InputError("the matrix has another pattern", "ModelMass::addTo",
-                     "make it with couplingPattern of the same model");
+                     "make it with zeroTangent of the same model");
   parallelFor(matrix_.values().size(), 16 * nodeGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) add(k, matrix_.values()[k]);
   });
@@ -162,7 +162,7 @@ void ModelMass::factorOnce() const {
 
 void ModelMass::solveTied(std::span<Vec3> f) const {
   if (!tiedSolver_) {
-    tied_ = share_ > 0.0 ? BlockMatrix(matrix_) : BlockMatrix(Couplings(mass_.size()));
+    tied_ = share_ > 0.0 ? BlockMatrix(matrix_) : BlockMatrix(MatrixPattern(mass_.size()));
     addTo(tied_, 1.0);
     tiedSolver_ = std::make_unique<LinearSolver>(*dofs_);
     if (!tiedSolver_->factor(tied_, true))

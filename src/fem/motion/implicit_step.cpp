@@ -29,7 +29,7 @@ ImplicitStep::ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, co
       options_(options),
       profile_(profile),
       solver_(dofs, options.linear),
-      matrix_(couplingPattern(model)),
+      matrix_(zeroTangent(model)),
       start_(model),
       end_(model),
       conserves_(model.terms.size(), 0),

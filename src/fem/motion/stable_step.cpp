@@ -16,7 +16,7 @@ double assembledStableStep(Model& model, double accuracy) {
   requireMass(model.nodes);
   const DofMap dofs(model.constraints, model.nodes);
   ModelMass mass(model, dofs, 0.0);
-  BlockMatrix K = couplingPattern(model);
+  BlockMatrix K = zeroTangent(model);
   for (const auto& term : model.terms) term->addTangent(model.nodes, {model.t, 0.0}, K);
   std::vector<Vec3> in(model.nodes.X.size()), out(in.size());
   const auto reduced = [&](const auto& product) {

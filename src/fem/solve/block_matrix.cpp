@@ -22,7 +22,7 @@ void sortAndUnite(std::vector<int>& list) {
 
 }  // namespace
 
-void Couplings::add(std::span<const int> group) {
+void MatrixPattern::add(std::span<const int> group) {
   for (const int a : group) {
     std::vector<int>& list = neighbours_[static_cast<std::size_t>(a)];
     list.insert(list.end(), group.begin(), group.end());
@@ -30,10 +30,10 @@ void Couplings::add(std::span<const int> group) {
   }
 }
 
-NodePairs::NodePairs(Couplings couplings) : patternId_(nextPatternId()) {
+NodePairs::NodePairs(MatrixPattern pattern) : patternId_(nextPatternId()) {
   offsets_.assign(1, 0);
-  for (std::size_t n = 0; n < couplings.neighbours_.size(); ++n) {
-    std::vector<int>& list = couplings.neighbours_[n];
+  for (std::size_t n = 0; n < pattern.neighbours_.size(); ++n) {
+    std::vector<int>& list = pattern.neighbours_[n];
     list.push_back(static_cast<int>(n));
     sortAndUnite(list);
     columns_.insert(columns_.end(), list.begin(), list.end());
@@ -42,7 +42,7 @@ NodePairs::NodePairs(Couplings couplings) : patternId_(nextPatternId()) {
   }
 }
 
-NodeMatrix::NodeMatrix(Couplings couplings) : NodePairs(std::move(couplings)), values_(columns().size(), 0.0) {}
+NodeMatrix::NodeMatrix(MatrixPattern pattern) : NodePairs(std::move(pattern)), values_(columns().size(), 0.0) {}
 
 void NodeMatrix::add(std::span<const int> nodes, std::span<const double> matrix) {
   const std::size_t n = nodes.size();
@@ -64,7 +64,7 @@ void NodeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
 
 BlockMatrix::BlockMatrix(const NodePairs& pairs) : NodePairs(pairs), values_(9 * columns().size(), 0.0) {}
 
-BlockMatrix::BlockMatrix(Couplings couplings) : NodePairs(std::move(couplings)), values_(9 * columns().size(), 0.0) {}
+BlockMatrix::BlockMatrix(MatrixPattern pattern) : NodePairs(std::move(pattern)), values_(9 * columns().size(), 0.0) {}
 
 void BlockMatrix::setZero() {
   parallelFor(values_.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
@@ -79,7 +79,7 @@ std::size_t NodePairs::place(int row, int column) const {
   const auto found = std::lower_bound(first, last, column);
   if (found == last || *found != column)
     throw InputError("nodes " + std::to_string(row) + " and " + std::to_string(column) + " are not coupled",
-                     "BlockMatrix", "name the group in addCouplings() of the term");
+                     "BlockMatrix", "name the group in addPattern() of the term");
   return static_cast<std::size_t>(found - columns_.begin());
 }
 

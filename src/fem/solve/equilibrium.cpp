@@ -71,7 +71,7 @@ double Balance::findForces() {
 Equilibrium::Equilibrium(Model& model, const NewtonOptions& options)
     : Balance(model, options.relativeTolerance, options.absoluteTolerance),
       solver_(dofs(), options.linear),
-      K_(couplingPattern(model)),
+      K_(zeroTangent(model)),
       increment_(dofs().size()),
       part_(dofs().size()) {}
 

@@ -78,8 +78,8 @@ public:
     });
     return sum;
   }
-  void addCouplings(Couplings& couplings) const override {
-    for (const Face& face : faces_) couplings.add(nodesOf(face));
+  void addPattern(MatrixPattern& pattern) const override {
+    for (const Face& face : faces_) pattern.add(nodesOf(face));
   }
   void addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) override {
     start(nodes.X, nodes.u, now.t);

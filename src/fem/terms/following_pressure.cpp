@@ -46,8 +46,8 @@ public:
     return p_(now.t) * sum / dimensionOf(faces_[0].shape);
   }
 
-  void addCouplings(Couplings& couplings) const override {
-    for (const Face& face : faces_) couplings.add(nodesOf(face));
+  void addPattern(MatrixPattern& pattern) const override {
+    for (const Face& face : faces_) pattern.add(nodesOf(face));
   }
 
   /// K_ab w = p ∫ N_a (∂N_b/∂ξ w × ∂x/∂η + ∂N_b/∂η ∂x/∂ξ × w).

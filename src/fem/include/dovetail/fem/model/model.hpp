@@ -39,9 +39,9 @@ Model makeModel(const SolidMesh& mesh);
 void addMass(Model& model);
 
 /// The groups of nodes that the terms couple.
-Couplings couplingsOf(const Model& model);
+MatrixPattern patternOf(const Model& model);
 /// A matrix with a block for every pair of nodes that a term couples; all zero.
-BlockMatrix couplingPattern(const Model& model);
+BlockMatrix zeroTangent(const Model& model);
 
 /// f = Σ forces of the terms at nodes.u, v.
 void evaluateForces(Model& model, const Instant& now);

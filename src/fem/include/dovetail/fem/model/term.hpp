@@ -13,7 +13,7 @@
 namespace dovetail::fem {
 
 class BlockMatrix;
-class Couplings;
+class MatrixPattern;
 class ModelMass;
 class NodeMatrix;
 
@@ -53,7 +53,7 @@ public:
   virtual bool feelsRates() const { return false; }
 
   /// Names the groups of nodes that its tangent couples (a node with itself needs no mention).
-  virtual void addCouplings(Couplings&) const {}
+  virtual void addPattern(MatrixPattern&) const {}
   /// K += −∂f/∂u, N/m.
   virtual void addTangent(const Nodes&, const Instant&, BlockMatrix&) {}
   /// C += −∂f/∂v, kg/s.

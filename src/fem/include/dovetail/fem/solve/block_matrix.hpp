@@ -10,9 +10,9 @@
 namespace dovetail::fem {
 
 /// Groups of nodes that share a term's tangent.
-class Couplings {
+class MatrixPattern {
 public:
-  explicit Couplings(std::size_t nodes) : neighbours_(nodes) {}
+  explicit MatrixPattern(std::size_t nodes) : neighbours_(nodes) {}
   /// Couples all nodes of the group with each other.
   void add(std::span<const int> group);
   std::size_t nodes() const { return neighbours_.size(); }
@@ -27,7 +27,7 @@ private:
 class NodePairs {
 public:
   NodePairs() = default;
-  explicit NodePairs(Couplings couplings);
+  explicit NodePairs(MatrixPattern pattern);
 
   std::size_t nodes() const { return offsets_.empty() ? 0 : offsets_.size() - 1; }
   /// Distinguishes patterns, so that terms may keep the places of their entries.
@@ -47,7 +47,7 @@ private:
 class NodeMatrix : public NodePairs {
 public:
   NodeMatrix() = default;
-  explicit NodeMatrix(Couplings couplings);
+  explicit NodeMatrix(MatrixPattern pattern);
 
   std::span<const double> values() const { return values_; }
   std::span<double> values() { return values_; }
@@ -64,7 +64,7 @@ private:
 class BlockMatrix : public NodePairs {
 public:
   BlockMatrix() = default;
-  explicit BlockMatrix(Couplings couplings);
+  explicit BlockMatrix(MatrixPattern pattern);
   /// With an entry for each of the pairs; all zero.
   explicit BlockMatrix(const NodePairs& pairs);
 
