@@ -23,12 +23,13 @@ class ViscousMaterial final : public PointMaterial {
 public:
   explicit ViscousMaterial(KelvinVoigt law)
       : base_(std::move(law.base)),
+        size_(ownSize + base_->historySize()),
         lambda_(law.bulkViscosity - 2.0 / 3.0 * law.shearViscosity),
         mu_(law.shearViscosity) {}
 
   std::string name() const override { return "viscous " + base_->name(); }
   double density() const override { return base_->density(); }
-  std::size_t historySize() const override { return ownSize + base_->historySize(); }
+  std::size_t historySize() const override { return size_; }
   void startHistory(std::span<double> history) const override {
     std::fill_n(history.begin(), ownSize, 0.0);
     std::fill_n(history.begin(), 3, 1.0);
@@ -54,24 +55,24 @@ private:
     if (size == 0) return base_->evaluate(inner);
     std::vector<double> history(size * points), newHistory(size * points);
     for (std::size_t p = 0; p < points; ++p)
-      std::copy_n(batch.history + p * historySize() + ownSize, size, &history[p * size]);
+      std::copy_n(batch.history + p * size_ + ownSize, size, &history[p * size]);
     inner.history = history.data();
     inner.newHistory = newHistory.data();
     base_->evaluate(inner);
     for (std::size_t p = 0; p < points; ++p)
-      std::copy_n(&newHistory[p * size], size, batch.newHistory + p * historySize() + ownSize);
+      std::copy_n(&newHistory[p * size], size, batch.newHistory + p * size_ + ownSize);
   }
 
   /// Entry k of what the points of a group remember, and where the new ones go.
   Four remembered(const PointBatch& batch, std::size_t group, std::size_t k) const {
     Four value;
     for (std::size_t lane = 0; lane < pointLanes; ++lane)
-      value.v[static_cast<int>(lane)] = batch.history[(pointLanes * group + lane) * historySize() + k];
+      value.v[static_cast<int>(lane)] = batch.history[(pointLanes * group + lane) * size_ + k];
     return value;
   }
   void remember(const PointBatch& batch, std::size_t group, std::size_t k, const Four& value) const {
     for (std::size_t lane = 0; lane < pointLanes; ++lane)
-      batch.newHistory[(pointLanes * group + lane) * historySize() + k] = value.v[static_cast<int>(lane)];
+      batch.newHistory[(pointLanes * group + lane) * size_ + k] = value.v[static_cast<int>(lane)];
   }
 
   static void fillSymmetric(Tensor<Four>& tensor) {
@@ -92,13 +93,19 @@ private:
     return change;
   }
 
-  /// The rate of this step to the new history; where no time passes the old one stays.
+  /// The rate of this step to the new history; where no time passes the old one stays. Only steps that ask for rates at
+  /// their end keep one.
   void keepRate(const PointBatch& batch, std::size_t group, const Tensor<Four>& change) const {
     const bool moves = batch.dt > 0.0;
+    if (moves && !batch.rateAtEnd) return forgetRate(batch, group);
     for (std::size_t k = 0; k < metricSize; ++k)
       remember(batch, group, ratePlace + k,
                moves ? change[metricEntry[k]] / batch.dt : remembered(batch, group, ratePlace + k));
     remember(batch, group, lengthPlace, moves ? Four(batch.dt) : remembered(batch, group, lengthPlace));
+  }
+  void forgetRate(const PointBatch& batch, std::size_t group) const {
+    for (std::size_t lane = 0; lane < pointLanes; ++lane)
+      std::fill_n(batch.newHistory + (pointLanes * group + lane) * size_ + ratePlace, metricSize + 1, 0.0);
   }
 
   /// S of a rate of Green's strain. @param lambda, mu  viscosities, over the time that `strain` took
@@ -148,6 +155,7 @@ private:
   }
 
   std::shared_ptr<const PointMaterial> base_;
+  std::size_t size_;  // numbers per point
   double lambda_, mu_;
 };
 
