@@ -40,7 +40,7 @@ Brick brick(const MaterialPointer& material) {
 
 /// Bending and compression, and some noise.
 void deform(Nodes& nodes, double amplitude, unsigned seed = 3) {
-  setRandom(nodes.u, 0.05 * amplitude, seed);
+  setRandom(nodes.u, 0.05 * std::abs(amplitude), seed);
   for (std::size_t n = 0; n < nodes.X.size(); ++n) {
     const Vec3& X = nodes.X[n];
     nodes.u[n] += amplitude * Vec3{X.x * X.z, 0.3 * X.y, -0.5 * X.z - 0.5 * X.x * X.x};

@@ -48,12 +48,12 @@ TEST(PlaneStrain, SamplesHaveTheThicknessAndNoStretchAcross) {
 TEST(PlaneStrain, StaticsUnderPressureAreThoseOfALayerOfBricks) {
   for (const auto& [material, pressure] :
        {std::pair<std::shared_ptr<const PointMaterial>, double>{rubber, 4e4}, {metal, 4e3}})
-    forEachPair(material, [&, pressure = pressure](Pair& pair) {
+    forEachPair(material, [&, pressure = pressure, name = material->name()](Pair& pair) {
       pair.both([&](Body& body) {
         load(body, pressure);
         solveStatics(body.model, 1.0, {.newton = {.relativeTolerance = 1e-13}, .firstStep = 0.25, .largestStep = 0.25});
       });
-      pair.expectSameDisplacements(1e-10, material->name());
+      pair.expectSameDisplacements(1e-10, name);
     });
 }
 
