@@ -369,13 +369,11 @@ void softened(Table& table) {
   model.constraints.hold(nodeSet(mesh, "z+"), componentY);
   model.constraints.prescribe(nodeSet(mesh, "z+"), 2, [](double t) { return -1e-3 * t; });
   model.constraints.prescribe(nodeSet(mesh, "z+"), 0, [](double t) { return 0.5 * t; });
-  double before = 0.0, least = 1e300;
   const StaticReport report = solveStatics(model, 1.0, {.firstStep = 0.01, .largestStep = 0.05});
-  least = report.dissipated - before;
   table.row("soil that softens to 1 %", "hex8 mean dilatation",
-            text("%zu steps, %d cuts, dissipated %.3e J, residual %+.1e J", report.steps.size(), report.cuts, least,
-                 report.energyResidual()),
-            least > 0.0 && std::abs(report.energyResidual()) < 0.05 * report.dissipated, watch.seconds());
+            text("%zu steps, %d cuts, dissipated %.3e J, residual %+.1e J", report.steps.size(), report.cuts,
+                 report.dissipated, report.energyResidual()),
+            report.dissipated > 0.0 && std::abs(report.energyResidual()) < 0.05 * report.dissipated, watch.seconds());
 }
 
 /// Cells of which one fails at a stretch of 1.2: the run stops there, in its last equilibrium, and names it.
