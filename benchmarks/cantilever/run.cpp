@@ -202,7 +202,7 @@ private:
       about += cross(model_.discrete.particles.x[i], contact);
       size += norm(contact);
     }
-    const surface::NodalLoad& load = model_.seam.load();
+    const coupling::NodalLoad& load = model_.seam.load();
     for (int node : load.touched) {
       force += load.force[node];
       about += cross(nodes().X[node] + nodes().u[node], load.force[node]);

@@ -9,7 +9,7 @@ namespace dovetail::surface {
 
 void requireCoupledSolid(const fem::Model& solid) { fem::requireBrickSolid(solid, "surface coupling"); }
 
-void kickTouched(const NodalLoad& load, fem::Nodes& nodes, double dt) {
+void kickTouched(const coupling::NodalLoad& load, fem::Nodes& nodes, double dt) {
   for (int node : load.touched) {
     const double scale = dt / nodes.mass[node];
     const unsigned held = nodes.fixed[node];
@@ -20,18 +20,18 @@ void kickTouched(const NodalLoad& load, fem::Nodes& nodes, double dt) {
   }
 }
 
-void kickTouched(const NodalLoad& load, fem::ImplicitMotion& solid, double dt) {
+void kickTouched(const coupling::NodalLoad& load, fem::ImplicitMotion& solid, double dt) {
   if (solid.mass().isDiagonal()) return kickTouched(load, solid.model().nodes, dt);
   if (!load.touched.empty()) solid.kick(load.force, dt);
 }
 
-double workOf(const NodalLoad& load, std::span<const Vec3> displacement, double scale) {
+double workOf(const coupling::NodalLoad& load, std::span<const Vec3> displacement, double scale) {
   double work = 0.0;
   for (int node : load.touched) work += dot(load.force[node], displacement[node]);
   return scale * work;
 }
 
-double splittingEnergy(const fem::Nodes& nodes, const NodalLoad& contact, double h) {
+double splittingEnergy(const fem::Nodes& nodes, const coupling::NodalLoad& contact, double h) {
   double sum = 0.0;
   for (std::size_t i = 0; i < nodes.X.size(); ++i) {
     const unsigned held = nodes.fixed[i];

@@ -19,7 +19,7 @@ SpreadLoad::SpreadLoad(const cg::SurfaceKernel& kernel, std::span<const Vec3> X,
     : quadrature_(kernel, gaussPoints(X, skin, faces)) {}
 
 void SpreadLoad::add(const Skin& skin, int facet, const std::array<double, 3>& weight, const Vec3& onParticle,
-                     NodalLoad& load) {
+                     coupling::NodalLoad& load) {
   const auto& vertex = skin.wall.facets[facet];
   Vec3 centre;
   for (int k = 0; k < 3; ++k) centre += weight[k] * skin.X[vertex[k]];

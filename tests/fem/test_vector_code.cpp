@@ -10,16 +10,23 @@
 namespace dovetail::fem {
 namespace {
 
-/// What a function of no arguments gives with the code for wide registers, and without.
+/// What a function of no arguments gives with every version of the code that the processor can run.
 template <class Function>
 void expectSameDigits(const std::string& what, Function&& numbers) {
-  if (!detail::wideVectors()) GTEST_SKIP() << "the processor has no wide registers";
-  const std::vector<double> wide = numbers();
-  detail::wideVectors() = false;
-  const std::vector<double> portable = numbers();
-  detail::wideVectors() = true;
-  ASSERT_EQ(wide.size(), portable.size());
-  for (std::size_t i = 0; i < wide.size(); ++i) ASSERT_EQ(wide[i], portable[i]) << what << ", number " << i;
+  using enum detail::VectorCode;
+  const detail::VectorCode best = detail::vectorCode();
+  if (best == portable) GTEST_SKIP() << "the processor has no wide registers";
+  detail::vectorCode() = portable;
+  const std::vector<double> expected = numbers();
+  for (const detail::VectorCode code : {avx2, avx512}) {
+    if (code > best) break;
+    detail::vectorCode() = code;
+    const std::vector<double> wide = numbers();
+    detail::vectorCode() = best;
+    ASSERT_EQ(wide.size(), expected.size());
+    for (std::size_t i = 0; i < wide.size(); ++i)
+      ASSERT_EQ(wide[i], expected[i]) << what << ", number " << i << ", version " << static_cast<int>(code);
+  }
 }
 
 std::vector<Named> timedAndOwn() {

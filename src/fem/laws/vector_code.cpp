@@ -1,14 +1,23 @@
 #include "dovetail/fem/laws/vector_code.hpp"
 
 namespace dovetail::fem::detail {
+namespace {
 
-bool& wideVectors() {
+VectorCode best() {
 #if defined(__x86_64__)
-  static bool wide = __builtin_cpu_supports("avx2");
-#else
-  static bool wide = false;
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+  if (avx512) return VectorCode::avx512;
+  if (__builtin_cpu_supports("avx2")) return VectorCode::avx2;
 #endif
-  return wide;
+  return VectorCode::portable;
+}
+
+}  // namespace
+
+VectorCode& vectorCode() {
+  static VectorCode code = best();
+  return code;
 }
 
 }  // namespace dovetail::fem::detail

@@ -12,7 +12,7 @@
 #include "dovetail/dem/walls/wall_candidates.hpp"
 #include "dovetail/dem/walls/wall_collide.hpp"
 #include "dovetail/dem/walls/wall_contacts.hpp"
-#include "dovetail/surface/nodal_load.hpp"
+#include "dovetail/coupling/nodal_load.hpp"
 #include "dovetail/surface/skin.hpp"
 #include "dovetail/surface/spread_load.hpp"
 
@@ -57,7 +57,7 @@ public:
   }
 
   /// Contact forces on the nodes of the last exchange, N.
-  const NodalLoad& load() const { return load_; }
+  const coupling::NodalLoad& load() const { return load_; }
   bool inContact() const { return contacts_.size() > 0; }
 
   /// Work the contacts did on the moving skin, J, from the first exchange after bookWallWork(true): trapezoidal between
@@ -85,7 +85,7 @@ private:
   std::optional<SpreadLoad> spread_;
   dem::WallCandidates candidates_;
   dem::WallContacts contacts_;
-  NodalLoad load_;
+  coupling::NodalLoad load_;
   std::vector<int> active_;                            // vertices of candidate facets
   std::vector<int> surfaceNodes_;                      // nodes that carry the skin
   std::vector<Vec3> particlesAtBuild_, nodesAtBuild_;  // positions, and those nodes' u, when the candidates were found

@@ -11,7 +11,7 @@
 #include "dovetail/dem/laws/contact_work.hpp"
 #include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/dem/walls/share_solver.hpp"
-#include "dovetail/surface/nodal_load.hpp"
+#include "dovetail/coupling/nodal_load.hpp"
 #include "dovetail/surface/smooth_surface.hpp"
 
 namespace dovetail::surface {
@@ -49,7 +49,7 @@ public:
     return work;
   }
 
-  const NodalLoad& load() const { return load_; }
+  const coupling::NodalLoad& load() const { return load_; }
   bool inContact() const { return contacts_.size() > 0; }
 
   /// As Coupling::wallWork.
@@ -87,7 +87,7 @@ private:
   SmoothSurface surface_;
   double margin_;
   SmoothContacts contacts_;
-  NodalLoad load_;
+  coupling::NodalLoad load_;
   std::vector<int> active_, offsets_, candidate_;  // control points in use; candidate faces per particle (CSR)
   std::vector<int> surfaceNodes_;
   std::vector<Vec3> particlesAtBuild_, nodesAtBuild_;

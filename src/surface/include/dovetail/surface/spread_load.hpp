@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dovetail/cg/surface_quadrature.hpp"
-#include "dovetail/surface/nodal_load.hpp"
+#include "dovetail/coupling/nodal_load.hpp"
 #include "dovetail/surface/skin.hpp"
 
 namespace dovetail::surface {
@@ -22,7 +22,7 @@ public:
              std::span<const fem::Face> faces);
 
   /// Adds the reaction to a force `onParticle` (N) whose contact point has the given weights in a facet of the skin.
-  void add(const Skin& skin, int facet, const std::array<double, 3>& weight, const Vec3& onParticle, NodalLoad& load);
+  void add(const Skin& skin, int facet, const std::array<double, 3>& weight, const Vec3& onParticle, coupling::NodalLoad& load);
 
 private:
   cg::SurfaceKernelQuadrature quadrature_;

@@ -14,7 +14,7 @@
 #include "dovetail/fem/model/model.hpp"
 #include "dovetail/fem/motion/implicit_motion.hpp"
 #include "dovetail/fem/motion/motion.hpp"
-#include "dovetail/surface/nodal_load.hpp"
+#include "dovetail/coupling/nodal_load.hpp"
 
 namespace dovetail::surface {
 
@@ -31,7 +31,7 @@ struct CoupledModel {
   std::optional<fem::Motion> motion{};  ///< of the solid, lumped masses; made by start
   double strainEnergy = 0.0;            ///< J, at the end of the last window that asked for it
   dem::ContactWork contact;             ///< of the last force evaluation
-  NodalLoad loadBefore{};               ///< staggered steps only: the load of the evaluation before the last
+  coupling::NodalLoad loadBefore{};               ///< staggered steps only: the load of the evaluation before the last
 };
 
 /// What a window did, to be booked.
@@ -47,11 +47,11 @@ struct WindowSums {
 void requireCoupledSolid(const fem::Model& solid);
 
 /// v += f/m dt on the touched nodes; held components stay.
-void kickTouched(const NodalLoad& load, fem::Nodes& nodes, double dt);
+void kickTouched(const coupling::NodalLoad& load, fem::Nodes& nodes, double dt);
 /// The same for an implicit solid: by its mass matrix where that couples nodes.
-void kickTouched(const NodalLoad& load, fem::ImplicitMotion& solid, double dt);
+void kickTouched(const coupling::NodalLoad& load, fem::ImplicitMotion& solid, double dt);
 /// Σ f · du over the touched nodes, J.
-double workOf(const NodalLoad& load, std::span<const Vec3> displacement, double scale);
+double workOf(const coupling::NodalLoad& load, std::span<const Vec3> displacement, double scale);
 
 /// What the impulses of a window of K > 1 DEM steps store, J: the leading term that does not vanish at rest of the
 /// energy that the multiple-time-step scheme conserves in place of the exact one,
@@ -59,7 +59,7 @@ double workOf(const NodalLoad& load, std::span<const Vec3> displacement, double 
 /// with g_s and g_c the gradients of strain and contact energy at node i. (From the Baker–Campbell–Hausdorff series of
 /// half kick · fast steps · half kick; the term in the velocities, h² v·V''v / 12, is left out.) A state function: it
 /// comes back when the load goes. Elastic forces are those in nodes.f.
-double splittingEnergy(const fem::Nodes& nodes, const NodalLoad& contact, double h);
+double splittingEnergy(const fem::Nodes& nodes, const coupling::NodalLoad& contact, double h);
 
 /// The places at which the schemes differ.
 struct Scheme {
@@ -218,15 +218,15 @@ namespace detail {
 /// The solid's equation of motion at the end of a step holds with the load of the last contact evaluation, that at its
 /// start with the load of the evaluation before: over the step this is the mean of the two, one step late.
 template <class Model>
-NodalLoad laggingLoad(const Model& model) {
-  NodalLoad load(model.solid->nodes.X.size());
-  for (const NodalLoad* part : {&model.loadBefore, &model.seam.load()})
+coupling::NodalLoad laggingLoad(const Model& model) {
+  coupling::NodalLoad load(model.solid->nodes.X.size());
+  for (const coupling::NodalLoad* part : {&model.loadBefore, &model.seam.load()})
     for (int node : part->touched) load.add(node, 0.5 * part->force[node]);
   return load;
 }
 
 template <class Model>
-void stepSolid(Model& model, fem::ImplicitMotion* implicit, const NodalLoad& load, double dt) {
+void stepSolid(Model& model, fem::ImplicitMotion* implicit, const coupling::NodalLoad& load, double dt) {
   if (implicit) {
     kickTouched(load, *implicit, 0.5 * dt);
     implicit->step(dt);
@@ -256,7 +256,7 @@ WindowSums stepStaggered(Model& model, fem::ImplicitMotion* implicit, double dt,
   const double before = detail::wallWork(model);
   fem::Nodes& nodes = model.solid->nodes;
   const std::vector<Vec3> oldU = nodes.u;
-  const NodalLoad load = detail::laggingLoad(model);
+  const coupling::NodalLoad load = detail::laggingLoad(model);
   model.loadBefore = model.seam.load();
   {
     Profile::Stage stage(profile, "solid step, load one step old");

@@ -37,8 +37,10 @@ enum class Half { first, second };
 /// per step.
 class Term {
 public:
-  /// In which order terms are asked for forces: those that damp need all others, bodies gather what their members got.
-  enum class Order { forces, damping, bodies };
+  /// In which order terms are asked for forces: those that bring the other side of a coupling up to date, those that
+  /// add forces, those that damp and need all others, constraints, which answer all of these, and bodies, which gather
+  /// what their members got.
+  enum class Order { partners, forces, damping, constraints, bodies };
 
   virtual ~Term() = default;
   /// For profiles, errors and checkpoints.

@@ -7,7 +7,7 @@
 
 #include "dovetail/core/vec3.hpp"
 
-namespace dovetail::surface {
+namespace dovetail::coupling {
 
 /// Forces on nodes, N, of which only `touched` differ from zero: clearing and kicking cost what the contacts touch and
 /// not what the mesh holds.
@@ -34,4 +34,4 @@ struct NodalLoad {
   }
 };
 
-}  // namespace dovetail::surface
+}  // namespace dovetail::coupling

@@ -1,0 +1,29 @@
+// A solid of a run, as connectors see it.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/coupling/nodal_load.hpp"
+#include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/model/model_mass.hpp"
+
+namespace dovetail::coupling {
+
+/// Positions and velocities of the nodes belong to the same instant as those of the particles, unless the solid lags
+/// (Stepping::staggered).
+struct SolidSide {
+  std::string name;
+  fem::Model* model = nullptr;
+  const fem::ModelMass* mass = nullptr;
+  NodalLoad load;  ///< N, of all connectors in the evaluation under way: they add to it
+  /// Forces of the solid's own terms in this evaluation, N, one per node; empty where they act at other instants only
+  /// (windows of several steps, implicit solids). For constraints, which answer the sum of all forces.
+  std::span<const Vec3> own;
+
+  fem::Nodes& nodes() { return model->nodes; }
+  const fem::Nodes& nodes() const { return model->nodes; }
+};
+
+}  // namespace dovetail::coupling
