@@ -1,9 +1,9 @@
-#include "energy_book.hpp"
+#include "dovetail/fem/motion/energy_book.hpp"
 
 #include "dovetail/core/error.hpp"
 #include "run_state.hpp"
 
-namespace dovetail::fem::detail {
+namespace dovetail::fem {
 
 EnergyBook::EnergyBook(const Model& model) : kinetic_(ledger_.addStored("kinetic")) {
   for (const auto& term : model.terms)
@@ -36,29 +36,29 @@ void EnergyBook::accept(Model& model, const Instant& now, bool wanted) {
 void EnergyBook::save(ByteWriter& archive) const {
   archive(static_cast<std::int64_t>(ledger_.channels().size()));
   for (const EnergyLedger::Channel& channel : ledger_.channels()) {
-    writeText(archive, channel.name);
+    detail::writeText(archive, channel.name);
     archive(static_cast<std::int64_t>(channel.kind), channel.joules, channel.joulesAtOpening);
   }
 }
 
 /// Builds the ledger anew: first with the values at the opening, then with the present ones.
 EnergyBook EnergyBook::read(ByteReader& archive) const {
-  const std::int64_t count = readCount(archive, "number of channels");
+  const std::int64_t count = detail::readCount(archive, "number of channels");
   const auto storedChannels = static_cast<std::int64_t>(1 + stored_.size());
   EnergyBook book = *this;
   book.ledger_ = {};
   book.booked_.clear();
   std::vector<double> present;
   for (std::int64_t k = 0; k < count; ++k) {
-    const std::string name = readText(archive);
+    const std::string name = detail::readText(archive);
     const bool stored =
-        readCount(archive, "kind of a channel") == static_cast<std::int64_t>(EnergyLedger::Kind::stored);
+        detail::readCount(archive, "kind of a channel") == static_cast<std::int64_t>(EnergyLedger::Kind::stored);
     const bool known = stored ? k < storedChannels && name == ledger_.channels()[static_cast<std::size_t>(k)].name
                               : k >= storedChannels && !book.booked_.contains(name);
     if (!known)
       throw InputError("the state has other terms", "channel \"" + name + "\"", "load it into the run that saved it");
-    present.push_back(readNumber(archive, "energy of a channel"));
-    const double opening = readNumber(archive, "energy of a channel");
+    present.push_back(detail::readNumber(archive, "energy of a channel"));
+    const double opening = detail::readNumber(archive, "energy of a channel");
     const EnergyLedger::Id id = stored ? book.ledger_.addStored(name) : book.ledger_.addBooked(name);
     if (!stored) book.booked_[name] = id;
     book.ledger_.set(id, opening);
@@ -70,4 +70,4 @@ EnergyBook EnergyBook::read(ByteReader& archive) const {
   return book;
 }
 
-}  // namespace dovetail::fem::detail
+}  // namespace dovetail::fem

@@ -1,7 +1,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
-#include "energy_book.hpp"
+#include "dovetail/fem/motion/energy_book.hpp"
 #include "implicit_advance.hpp"
 #include "run_state.hpp"
 
@@ -36,7 +36,7 @@ Scheme energyMomentum() { return {"energy-momentum", true}; }
 
 struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
   double dt;
-  detail::EnergyBook book;
+  EnergyBook book;
 
   Impl(Model& m, double step, const ImplicitOptions& o)
       : ImplicitMotion::Impl(m, o), dt(requirePositive(step, "dt")), book(m) {
@@ -161,7 +161,7 @@ void ImplicitIntegrator::save(ByteWriter& archive) {
 
 void ImplicitIntegrator::load(ByteReader& archive) {
   detail::ModelState state = detail::readModel(archive, impl_->kind(), impl_->model);
-  detail::EnergyBook book = impl_->book.read(archive);
+  EnergyBook book = impl_->book.read(archive);
   const std::int64_t steps = detail::readCount(archive, "number of steps");
   const std::int64_t cuts = detail::readCount(archive, "number of cuts");
   const std::int64_t iterations = detail::readCount(archive, "number of iterations");

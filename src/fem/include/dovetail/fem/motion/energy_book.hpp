@@ -8,7 +8,7 @@
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/fem/model/model.hpp"
 
-namespace dovetail::fem::detail {
+namespace dovetail::fem {
 
 /// A stored channel for kinetic energy and for each term with energy; booked channels appear with their first joule.
 class EnergyBook {
@@ -35,4 +35,4 @@ private:
   std::map<std::string, EnergyLedger::Id> booked_;
 };
 
-}  // namespace dovetail::fem::detail
+}  // namespace dovetail::fem

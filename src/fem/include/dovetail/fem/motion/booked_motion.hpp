@@ -1,0 +1,49 @@
+// The verbs of an explicit step with a ledger: what the explicit integrator and coupled runs are written with.
+#pragma once
+
+#include <vector>
+
+#include "dovetail/fem/motion/energy_book.hpp"
+#include "dovetail/fem/motion/motion.hpp"
+
+namespace dovetail::fem {
+
+/// Motion and its books. A step of length h from t is
+///
+///     halfKick(h, t + h/2) · motion.drift(h) · evaluate(h) · halfKick(h, t + h) · accept(h)
+///
+/// Works of terms without energy, of supports and of what materials dissipate are booked as kicks do them.
+class BookedMotion {
+public:
+  /// Puts prescribed and tied components in their place and finds the forces at the start.
+  /// @param h  s, of the steps to come
+  /// @throws InputError as Motion
+  BookedMotion(Model& model, double massShare, double h);
+
+  /// Forces at the present state, and accelerations where masses couple them. Forces that depend on the velocity see
+  /// the one that the last forces would lead to.
+  void evaluate(double h, bool withEnergies);
+  /// v += a h/2, constrained components as at `time`. @param books  whether works are booked
+  /// @return false if a velocity is not finite any more
+  bool halfKick(double h, double time, bool books);
+  /// The materials accept the step of length h that ends here.
+  void accept(double h, bool books) { book.accept(motion.model(), {motion.model().t, h, &motion.mass()}, books); }
+  /// Sets the stored channels: energies of the last evaluate with them, and kinetic energy.
+  void sample() { book.sample(motion.model(), motion.energies(), motion.kineticEnergy()); }
+  /// Work of a force on the nodes in a kick that has changed their velocities from `before`, of half the length h, J.
+  double workInHalfKick(std::span<const Vec3> force, std::span<const Vec3> before, double h) const;
+
+  bool supportsMove() const { return moving_; }
+  /// m/s², of the last forces; empty where M⁻¹ is a division.
+  std::vector<Vec3> acceleration;
+  Motion motion;
+  EnergyBook book;
+
+private:
+  void findForces(double h, bool withEnergies);
+  bool push(double h, double time);
+  bool guessesVelocity_, moving_;
+  std::vector<Vec3> before_;
+};
+
+}  // namespace dovetail::fem

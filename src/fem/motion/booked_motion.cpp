@@ -1,0 +1,73 @@
+#include "dovetail/fem/motion/booked_motion.hpp"
+
+#include <algorithm>
+
+#include "force_sum.hpp"
+
+namespace dovetail::fem {
+
+namespace {
+
+bool anySupportMoves(const Model& model, const DofMap& dofs) {
+  if (dofs.hasMotion()) return true;
+  for (std::size_t n = 0; n < model.nodes.fixed.size(); ++n)
+    for (int c = 0; c < 3; ++c)
+      if (model.nodes.fixed[n] >> c & 1 && model.nodes.v[n][c] != 0.0) return true;
+  return false;
+}
+
+}  // namespace
+
+BookedMotion::BookedMotion(Model& model, double massShare, double h)
+    : motion(model, massShare),
+      book(model),
+      guessesVelocity_(std::ranges::any_of(model.terms, [](const auto& term) { return term->usesVelocity(); })),
+      moving_(anySupportMoves(model, motion.dofs())) {
+  motion.dofs().apply(model.t, model.nodes.u);
+  motion.dofs().applyVelocity(model.t, h, model.nodes.v);
+  findForces(h, true);
+}
+
+void BookedMotion::findForces(double h, bool withEnergies) {
+  motion.forces(h, withEnergies);
+  if (motion.mass().isDiagonal()) return;
+  const Model& model = motion.model();
+  acceleration.assign(model.nodes.u.size(), {});
+  if (moving_) motion.dofs().applyAcceleration(model.t, h, acceleration);
+  motion.mass().accelerate(model.nodes.f, acceleration);
+}
+
+void BookedMotion::evaluate(double h, bool withEnergies) {
+  if (!guessesVelocity_) return findForces(h, withEnergies);
+  Model& model = motion.model();
+  std::vector<Vec3> guess = model.nodes.v;
+  push(h, model.t);
+  findForces(h, withEnergies);
+  model.nodes.v.swap(guess);
+}
+
+bool BookedMotion::push(double h, double time) {
+  const bool finite = motion.mass().isDiagonal() ? motion.kick(0.5 * h) : motion.kick(acceleration, 0.5 * h);
+  motion.dofs().applyVelocity(time, h, motion.model().nodes.v);
+  return finite;
+}
+
+double BookedMotion::workInHalfKick(std::span<const Vec3> force, std::span<const Vec3> before, double h) const {
+  return 0.25 * h * (detail::innerProduct(force, before) + detail::innerProduct(force, motion.model().nodes.v));
+}
+
+bool BookedMotion::halfKick(double h, double time, bool books) {
+  if (!books || (!moving_ && motion.loads().empty())) return push(h, time);
+  const Model& model = motion.model();
+  before_ = model.nodes.v;
+  const double kinetic = moving_ ? motion.kineticEnergy() : 0.0;
+  const bool finite = push(h, time);
+  std::size_t next = 0;
+  for (const auto& term : model.terms)
+    if (!term->hasEnergy())
+      book.spend("work of " + term->name(), -workInHalfKick(motion.loads()[next++], before_, h));
+  if (moving_) book.spend("supports", kinetic - motion.kineticEnergy() + workInHalfKick(model.nodes.f, before_, h));
+  return finite;
+}
+
+}  // namespace dovetail::fem
