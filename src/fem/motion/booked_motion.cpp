@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "force_sum.hpp"
+#include "run_state.hpp"
 
 namespace dovetail::fem {
 
@@ -30,11 +31,16 @@ BookedMotion::BookedMotion(Model& model, double massShare, double h)
 
 void BookedMotion::findForces(double h, bool withEnergies) {
   motion.forces(h, withEnergies);
-  if (motion.mass().isDiagonal()) return;
+  accelerated_ = false;
+}
+
+void BookedMotion::accelerate(double h) {
+  if (accelerated_) return;
   const Model& model = motion.model();
-  acceleration.assign(model.nodes.u.size(), {});
-  if (moving_) motion.dofs().applyAcceleration(model.t, h, acceleration);
-  motion.mass().accelerate(model.nodes.f, acceleration);
+  acceleration_.assign(model.nodes.u.size(), {});
+  if (moving_) motion.dofs().applyAcceleration(model.t, h, acceleration_);
+  motion.mass().accelerate(model.nodes.f, acceleration_);
+  accelerated_ = true;
 }
 
 void BookedMotion::evaluate(double h, bool withEnergies) {
@@ -47,7 +53,13 @@ void BookedMotion::evaluate(double h, bool withEnergies) {
 }
 
 bool BookedMotion::push(double h, double time) {
-  const bool finite = motion.mass().isDiagonal() ? motion.kick(0.5 * h) : motion.kick(acceleration, 0.5 * h);
+  bool finite = true;
+  if (motion.mass().isDiagonal()) {
+    finite = motion.kick(0.5 * h);
+  } else {
+    accelerate(h);
+    finite = motion.kick(acceleration_, 0.5 * h);
+  }
   motion.dofs().applyVelocity(time, h, motion.model().nodes.v);
   return finite;
 }
@@ -64,10 +76,39 @@ bool BookedMotion::halfKick(double h, double time, bool books) {
   const bool finite = push(h, time);
   std::size_t next = 0;
   for (const auto& term : model.terms)
-    if (!term->hasEnergy())
-      book.spend("work of " + term->name(), -workInHalfKick(motion.loads()[next++], before_, h));
+    if (!term->hasEnergy()) book.spend("work of " + term->name(), -workInHalfKick(motion.loads()[next++], before_, h));
   if (moving_) book.spend("supports", kinetic - motion.kineticEnergy() + workInHalfKick(model.nodes.f, before_, h));
   return finite;
+}
+
+void BookedMotion::save(ByteWriter& archive, const std::string& kind) const {
+  const Model& model = motion.model();
+  std::vector<Vec3> a = acceleration_;
+  a.resize(model.nodes.u.size());  // where masses are lumped, forces say it all
+  detail::writeModel(archive, kind, model);
+  book.save(archive);
+  detail::writeStart(archive, {a, model.nodes.f, {motion.loads().begin(), motion.loads().end()}});
+}
+
+struct BookedMotion::State {
+  detail::ModelState model;
+  EnergyBook book;
+  detail::StepStart start;
+};
+
+std::shared_ptr<BookedMotion::State> BookedMotion::read(ByteReader& archive, const std::string& kind) const {
+  detail::ModelState state = detail::readModel(archive, kind, motion.model());
+  EnergyBook books = book.read(archive);
+  return std::make_shared<State>(State{std::move(state), std::move(books), detail::readStart(archive, motion.model())});
+}
+
+void BookedMotion::adopt(State& state) {
+  detail::adopt(std::move(state.model), motion.model());
+  book = std::move(state.book);
+  acceleration_ = std::move(state.start.a);
+  accelerated_ = true;
+  motion.model().nodes.f = std::move(state.start.f);
+  motion.setLoads(std::move(state.start.loads));
 }
 
 }  // namespace dovetail::fem

@@ -3,8 +3,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/fem/motion/booked_motion.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
 #include "run_state.hpp"
 #include "step_control.hpp"
 
@@ -68,11 +68,6 @@ struct ExplicitIntegrator::Impl {
     if (parts <= 1.0) model.t = t;
     dt = control.dt();
   }
-  detail::StepStart start() const {
-    std::vector<Vec3> kept = solid.acceleration;
-    kept.resize(model.nodes.u.size());  // where masses are lumped, forces say it all
-    return {kept, model.nodes.f, {solid.motion.loads().begin(), solid.motion.loads().end()}};
-  }
   void check(bool finite) {
     if (finite && (options.checkEvery == 0 || steps % options.checkEvery != 0)) return;
     const Profile::Stage stage(profile, "checks");
@@ -118,28 +113,20 @@ DynamicsReport ExplicitIntegrator::report() const {
 }
 
 void ExplicitIntegrator::save(ByteWriter& archive) const {
-  detail::writeModel(archive, impl_->kind(), impl_->model);
-  impl_->solid.book.save(archive);
+  impl_->solid.save(archive, impl_->kind());
   archive(impl_->steps);
   impl_->control.save(archive);
-  detail::writeStart(archive, impl_->start());
 }
 
 void ExplicitIntegrator::load(ByteReader& archive) {
-  detail::ModelState state = detail::readModel(archive, impl_->kind(), impl_->model);
-  EnergyBook book = impl_->solid.book.read(archive);
+  const auto state = impl_->solid.read(archive, impl_->kind());
   const std::int64_t steps = detail::readCount(archive, "number of steps");
   detail::StepControl control = impl_->control.read(archive);
-  detail::StepStart start = detail::readStart(archive, impl_->model);
   detail::requireEnd(archive, "ExplicitIntegrator");
-  detail::adopt(std::move(state), impl_->model);
-  impl_->solid.book = std::move(book);
+  impl_->solid.adopt(*state);
   impl_->steps = steps;
   impl_->control = std::move(control);
   impl_->dt = impl_->control.dt();
-  impl_->solid.acceleration = std::move(start.a);
-  impl_->model.nodes.f = std::move(start.f);
-  impl_->solid.motion.setLoads(std::move(start.loads));
 }
 
 }  // namespace dovetail::fem

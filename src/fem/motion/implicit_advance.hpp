@@ -25,6 +25,8 @@ struct ImplicitMotion::Impl {
   Instant accepted(double h) const { return {model.t, h, &mass, !options.scheme.conserving}; }
   /// Takes the present state as the start of a step of dt.
   void begin(double dt);
+  /// v += dt M⁻¹ f on the free components.
+  void kick(std::span<const Vec3> f, double dt);
   /// Steps by h, halved until it works.
   /// @param accept  called with each part after it has converged, before the time moves on: commits the terms
   void advance(double h, const std::function<void(double)>& accept, int depth = 0);

@@ -113,6 +113,8 @@ void ImplicitIntegrator::run(std::int64_t steps) {
   for (std::int64_t k = 0; k < steps; ++k) step();
   impl_->model.nodes.f = impl_->solver.forces();
 }
+void ImplicitIntegrator::kick(std::span<const Vec3> f, double dt) { impl_->kick(f, dt); }
+const ModelMass& ImplicitIntegrator::mass() const { return impl_->mass; }
 const EnergyLedger& ImplicitIntegrator::ledger() const { return impl_->book.ledger(); }
 double ImplicitIntegrator::kineticEnergy() const { return impl_->mass.kineticEnergy(impl_->model.nodes.v); }
 

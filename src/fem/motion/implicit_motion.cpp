@@ -72,13 +72,13 @@ void ImplicitMotion::step(double dt) {
 
 void ImplicitMotion::restart() { impl_->begun = false; }
 
-void ImplicitMotion::kick(std::span<const Vec3> f, double dt) {
+void ImplicitMotion::Impl::kick(std::span<const Vec3> f, double dt) {
   std::vector<Vec3> a(f.begin(), f.end());
-  impl_->mass.solve(a);
-  std::vector<Vec3>& v = impl_->model.nodes.v;
-  for (std::size_t n = 0; n < v.size(); ++n) v[n] += dt * a[n];
+  mass.solve(a);
+  for (std::size_t n = 0; n < a.size(); ++n) model.nodes.v[n] += dt * a[n];
 }
 
+void ImplicitMotion::kick(std::span<const Vec3> f, double dt) { impl_->kick(f, dt); }
 double ImplicitMotion::kineticEnergy() const { return impl_->mass.kineticEnergy(impl_->model.nodes.v); }
 std::int64_t ImplicitMotion::steps() const { return impl_->steps; }
 

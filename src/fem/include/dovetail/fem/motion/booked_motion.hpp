@@ -1,6 +1,8 @@
 // The verbs of an explicit step with a ledger: what the explicit integrator and coupled runs are written with.
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "dovetail/fem/motion/energy_book.hpp"
@@ -20,8 +22,8 @@ public:
   /// @throws InputError as Motion
   BookedMotion(Model& model, double massShare, double h);
 
-  /// Forces at the present state, and accelerations where masses couple them. Forces that depend on the velocity see
-  /// the one that the last forces would lead to.
+  /// nodes.f = forces at the present state; whoever couples may add to them before the next kick. Forces that depend on
+  /// the velocity see the one that the last forces would lead to.
   void evaluate(double h, bool withEnergies);
   /// v += a h/2, constrained components as at `time`. @param books  whether works are booked
   /// @return false if a velocity is not finite any more
@@ -34,15 +36,24 @@ public:
   double workInHalfKick(std::span<const Vec3> force, std::span<const Vec3> before, double h) const;
 
   bool supportsMove() const { return moving_; }
-  /// m/s², of the last forces; empty where M⁻¹ is a division.
-  std::vector<Vec3> acceleration;
+  /// State of model, terms and books; a run that goes on from it has the same digits. @param kind  marks the state
+  void save(ByteWriter& archive, const std::string& kind) const;
+  struct State;
+  /// What save() wrote. @throws InputError if it is of another kind of run or model, is damaged or not finite
+  std::shared_ptr<State> read(ByteReader& archive, const std::string& kind) const;
+  /// Puts it in force. @throws InputError if a term refuses its part; nothing is changed then
+  void adopt(State& state);
+
   Motion motion;
   EnergyBook book;
 
 private:
   void findForces(double h, bool withEnergies);
+  void accelerate(double h);
   bool push(double h, double time);
   bool guessesVelocity_, moving_;
+  bool accelerated_ = false;        // acceleration_ is that of nodes.f
+  std::vector<Vec3> acceleration_;  // m/s²; empty where M⁻¹ is a division
   std::vector<Vec3> before_;
 };
 

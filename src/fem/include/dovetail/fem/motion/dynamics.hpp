@@ -11,6 +11,7 @@
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/core/profile.hpp"
 #include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/model/model_mass.hpp"
 #include "dovetail/fem/solve/linear_solver.hpp"
 
 namespace dovetail::fem {
@@ -158,6 +159,9 @@ public:
   void run(std::int64_t steps);
   const EnergyLedger& ledger() const;
   DynamicsReport report() const;
+  /// v += dt M⁻¹ f on the free components, between steps: see ImplicitMotion::step.
+  void kick(std::span<const Vec3> f, double dt);
+  const ModelMass& mass() const;
   double kineticEnergy() const;
   /// M v in total, kg m/s, and its moment about the origin, kg m²/s, with the mass in use.
   Vec3 momentum() const;
