@@ -77,8 +77,8 @@ std::unique_ptr<Term> emptyTerm(const std::string& name) {
   return nullptr;
 }
 
-[[noreturn]] void refuse(const std::string& problem, const std::filesystem::path& path, const std::string& remedy) {
-  throw InputError(problem, path.string(), remedy);
+[[noreturn]] void refuse(const std::string& problem, const std::string& path, const std::string& remedy) {
+  throw InputError(problem, path, remedy);
 }
 
 void saveTerms(ByteWriter& writer, const Model& m) {
@@ -108,7 +108,7 @@ std::vector<SavedTerm> readTerms(ByteReader& reader) {
 }
 
 /// Terms that no code stands behind, empty.
-Terms makeTerms(const std::vector<SavedTerm>& saved, const std::filesystem::path& path) {
+Terms makeTerms(const std::vector<SavedTerm>& saved, const std::string& path) {
   Terms terms;
   for (const SavedTerm& s : saved) {
     auto term = s.code.empty() ? emptyTerm(s.name) : nullptr;
@@ -120,7 +120,7 @@ Terms makeTerms(const std::vector<SavedTerm>& saved, const std::filesystem::path
   return terms;
 }
 
-void requireSameTerms(const std::vector<SavedTerm>& saved, const Terms& here, const std::filesystem::path& path) {
+void requireSameTerms(const std::vector<SavedTerm>& saved, const Terms& here, const std::string& path) {
   constexpr const char* remedy = "set the model up as it was when the checkpoint was written";
   auto term = here.begin();
   for (const SavedTerm& s : saved) {
@@ -136,7 +136,7 @@ void requireSameTerms(const std::vector<SavedTerm>& saved, const Terms& here, co
   if (term != here.end()) refuse("the model has '" + (*term)->name() + "', the checkpoint has not", path, remedy);
 }
 
-void loadTerms(const std::vector<SavedTerm>& saved, const Terms& terms, const std::filesystem::path& path) {
+void loadTerms(const std::vector<SavedTerm>& saved, const Terms& terms, const std::string& path) {
   auto term = terms.begin();
   for (const SavedTerm& s : saved) {
     ByteReader reader(s.bytes);
@@ -147,7 +147,7 @@ void loadTerms(const std::vector<SavedTerm>& saved, const Terms& terms, const st
   }
 }
 
-void requireSameLaws(ByteReader& reader, const Model& m, const std::filesystem::path& path) {
+void requireSameLaws(ByteReader& reader, const Model& m, const std::string& path) {
   std::vector<char> name, parameters;
   reader(name, parameters);
   const std::string here = m.laws ? m.laws->name() : "none";
@@ -175,7 +175,11 @@ void writeCheckpoint(const std::filesystem::path& path, const Model& m) {
 }
 
 void readCheckpoint(const std::filesystem::path& path, Model& m) {
-  ByteReader reader(readChecked(path, checkpointKind));
+  loadState(readChecked(path, checkpointKind), path.string(), m);
+}
+
+void loadState(const std::vector<char>& bytes, const std::string& path, Model& m) {
+  ByteReader reader(bytes);
   requireSameLaws(reader, m, path);
   Model restored = m;
   archiveScene(reader, restored);

@@ -12,22 +12,31 @@
 namespace dovetail::coupling {
 
 /// A term of the particles' model that also acts on the nodes of a solid: what it does to one side it does to the
-/// other, transposed. It is asked and told like any other term (dem::Term: check, renewed, renumber, leaving, addDemand,
-/// save, load …). In addForces it adds to particles.f, and to side().load the reaction; the nodes have then moved
-/// already. Constraints, which answer all other forces, have the order dem::Term::Order::constraints.
+/// other, transposed. It is asked and told like any other term (dem::Term: check, renewed, renumber, leaving,
+/// addDemand, save, load …). In addForces it adds to particles.f, and to side().load the reaction; the nodes have then
+/// moved already. Constraints, which answer all other forces, have the order dem::Term::Order::constraints.
+///
+/// The connector of a copy of the particles' model meets the solid where it is and loads nobody: its side is its own.
 class Connector : public dem::Term {
 public:
   explicit Connector(SolidSide& side) : side_(&side) {}
+  Connector(const Connector& other)
+      : dem::Term(other), own_(std::make_unique<SolidSide>(*other.side_)), side_(own_.get()) {}
+  Connector(Connector&&) = default;
+  Connector& operator=(const Connector&) = delete;
+  Connector& operator=(Connector&&) = default;
+
   SolidSide& side() const { return *side_; }
 
-  /// @throws InputError always: a copy would act on the same solid. Save the run and load it into another.
-  std::unique_ptr<dem::Term> clone() const final;
-
-  /// Forces that answer those of the solid's own terms where these act at the ends of windows only, as an impulse:
-  /// adds to `onParticles` and `load`, N. @param ownForce  of the solid, N @param window  s
-  virtual void constrainWindow(const dem::Model&, std::span<const Vec3> /*ownForce*/, double /*window*/,
-                               std::span<Vec3> /*onParticles*/, NodalLoad& /*load*/) {}
-  virtual bool constrains() const { return false; }
+  /// Whether it answers other forces: then it has the order `constraints`.
+  bool constrains() const { return order() == Order::constraints; }
+  /// Of constraints, in windows of several steps: the force, constant in both half windows around the present instant,
+  /// that answers forces which act there only: adds to `onParticles` and `load`, N.
+  /// @param ownForce  of the solid, N; empty if the solid is stepped implicitly, and velocities are to be made to
+  /// comply
+  /// @param half  window, s
+  virtual void constrainWindow(const dem::Model&, std::span<const Vec3> /*ownForce*/, double /*half*/,
+                               std::span<Vec3> /*onParticles*/, NodalLoad& /*load*/) const {}
 
   /// What it stores now and is in no book of the particles' model, J.
   virtual double stored() const { return 0.0; }
@@ -35,6 +44,7 @@ public:
   virtual double lost() const { return 0.0; }
 
 private:
+  std::unique_ptr<SolidSide> own_;
   SolidSide* side_;
 };
 

@@ -11,12 +11,17 @@
 
 namespace dovetail::coupling {
 
-/// Positions and velocities of the nodes belong to the same instant as those of the particles, unless the solid lags
-/// (Stepping::staggered).
+enum class Stepping {
+  explicitSteps,  ///< nodes drift with the particles, forces of the solid's own every K-th step
+  implicitSteps   ///< nodes stand still while particles make K steps, but for one jump in their middle
+};
+
+/// Positions and velocities of the nodes belong to the same instant as those of the particles.
 struct SolidSide {
   std::string name;
   fem::Model* model = nullptr;
   const fem::ModelMass* mass = nullptr;
+  Stepping stepping = Stepping::explicitSteps;
   NodalLoad load;  ///< N, of all connectors in the evaluation under way: they add to it
   /// Forces of the solid's own terms in this evaluation, N, one per node; empty where they act at other instants only
   /// (windows of several steps, implicit solids). For constraints, which answer the sum of all forces.

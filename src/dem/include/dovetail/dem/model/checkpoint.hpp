@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "dovetail/dem/model/model.hpp"
@@ -12,6 +13,8 @@ namespace dovetail::dem {
 /// term, the books. What is code is there by name only: a law of the caller's own, the function behind a moving wall, an
 /// external force, a drive.
 std::vector<char> saveState(const Model& m);
+/// Reads such bytes into a model, see readCheckpoint. @param where  they come from, for errors
+void loadState(const std::vector<char>& bytes, const std::string& where, Model& m);
 
 /// @throws InputError if the file cannot be written; what was there before is then still there
 void writeCheckpoint(const std::filesystem::path& path, const Model& m);

@@ -1,0 +1,142 @@
+// Explicit solids: kick · drift · kick, own forces at the ends of windows.
+#include <optional>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/fem/motion/booked_motion.hpp"
+#include "solid_stepper.hpp"
+
+namespace dovetail::coupling {
+
+namespace {
+
+class ExplicitStepper final : public SolidStepper {
+public:
+  using SolidStepper::SolidStepper;
+
+  void start(double dt, int K) override {
+    dt_ = dt;
+    K_ = K;
+    solid_.emplace(*model_, options_.massShare, window());
+    side.mass = &solid_->motion.mass();
+    solid_->sample();
+    showOwn();
+  }
+
+  void begin(bool sampled) override {
+    if (K_ > 1 && sampled) uBefore_ = model_->nodes.u, forceBefore_ = model_->nodes.f;
+    halfKick(model_->t + 0.5 * window());
+  }
+
+  void kickByLoad() override {
+    if (K_ == 1 || side.load.touched.empty()) return;
+    if (!solid_->supportsMove()) return push();
+    const std::vector<Vec3> before = model_->nodes.v;
+    const double kinetic = solid_->motion.kineticEnergy();
+    push();
+    solid_->book.spend("supports",
+                       kinetic - solid_->motion.kineticEnergy() + solid_->workInHalfKick(side.load.force, before, dt_));
+  }
+
+  void drift() override { solid_->motion.drift(dt_); }
+  void jump() override {}
+
+  void findForces(bool sampled) override {
+    sampled_ = sampled;
+    solid_->evaluate(window(), sampled);
+    showOwn();
+  }
+
+  /// Without sub-steps the load kicks together with the own forces.
+  void takeLoad() override {
+    if (K_ == 1) addToOwn(side.load);
+  }
+  void takeWindowLoad(const NodalLoad& load) override { addToOwn(load); }
+
+  void end() override {
+    halfKick(model_->t);
+    solid_->accept(window(), true);
+    if (sampled_) solid_->sample();
+  }
+
+  void stepUnder(const NodalLoad& load) override {
+    halfKick(model_->t + 0.5 * window());
+    kickTouched(load, 0.5 * window());
+    solid_->motion.drift(window());
+    findForces(true);
+    halfKick(model_->t);
+    kickTouched(load, 0.5 * window());
+    solid_->accept(window(), true);
+    solid_->sample();
+  }
+
+  double kineticEnergy() const override { return solid_->motion.kineticEnergy(); }
+
+  void sample(EnergyLedger& ledger) override {
+    copyChannels(solid_->book.ledger(), kineticEnergy(), ledger);
+    if (K_ > 1) setChannel(ledger, side.name + ": time splitting", EnergyLedger::Kind::stored, splitting());
+  }
+
+  void save(ByteWriter& archive) override { solid_->save(archive, "coupled explicit"); }
+  std::shared_ptr<SavedSolid> read(ByteReader& archive) const override {
+    return std::make_shared<Saved>(solid_->read(archive, "coupled explicit"));
+  }
+  void adopt(SavedSolid& state) override { solid_->adopt(*dynamic_cast<Saved&>(state).state); }
+
+private:
+  struct Saved final : SavedSolid {
+    explicit Saved(std::shared_ptr<fem::BookedMotion::State> s) : state(std::move(s)) {}
+    std::shared_ptr<fem::BookedMotion::State> state;
+  };
+
+  double window() const { return K_ * dt_; }
+  void showOwn() { side.own = K_ == 1 ? std::span<const Vec3>(model_->nodes.f) : std::span<const Vec3>(); }
+
+  void addToOwn(const NodalLoad& load) {
+    for (const int node : load.touched) {
+      const auto n = static_cast<std::size_t>(node);
+      model_->nodes.f[n] += load.force[n];
+    }
+  }
+
+  void halfKick(double time) {
+    if (!solid_->halfKick(window(), time, true))
+      requireFinite(model_->nodes.v, "node", "velocity", side.name + ", t = " + formatNumber(model_->t) + " s");
+  }
+
+  void push() {
+    if (side.mass->isDiagonal()) return kickTouched(side.load, 0.5 * dt_);
+    acceleration_ = side.load.force;
+    side.mass->solve(acceleration_);
+    solid_->motion.kick(acceleration_, 0.5 * dt_);
+  }
+
+  /// What impulses of windows of length h store, J: with V the energy of the solid's own forces, g and g_f the
+  /// gradients of V and of what acts at every step, the scheme conserves to leading order, beside the energy itself, h²
+  /// [v·V''v/12 − g·M⁻¹g_f/12 − g·M⁻¹g/24] (Baker–Campbell–Hausdorff series of half kick · fast steps · half kick), a
+  /// state function. V''v by the difference of the forces over the window.
+  double splitting() const {
+    const fem::Nodes& nodes = model_->nodes;
+    const double h = window();
+    std::vector<Vec3> own = nodes.f, fast = side.load.force;
+    side.mass->solve(own);
+    side.mass->solve(fast);
+    double sum = 0.0;
+    for (std::size_t n = 0; n < nodes.f.size(); ++n) {
+      sum -= h * h * dot(nodes.f[n], fast[n] / 12.0 + own[n] / 24.0);
+      if (!uBefore_.empty()) sum -= dot(nodes.f[n] - forceBefore_[n], nodes.u[n] - uBefore_[n]) / 12.0;
+    }
+    return sum;
+  }
+
+  std::optional<fem::BookedMotion> solid_;
+  bool sampled_ = true;
+  std::vector<Vec3> acceleration_, uBefore_, forceBefore_;
+};
+
+}  // namespace
+
+std::unique_ptr<SolidStepper> makeExplicitStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options) {
+  return std::make_unique<ExplicitStepper>(std::move(model), options);
+}
+
+}  // namespace dovetail::coupling

@@ -1,0 +1,79 @@
+// Implicit solids: connectors kick the standing nodes, then these move by a whole window.
+#include <optional>
+
+#include "solid_stepper.hpp"
+
+namespace dovetail::coupling {
+
+namespace {
+
+class ImplicitStepper final : public SolidStepper {
+public:
+  using SolidStepper::SolidStepper;
+
+  void start(double dt, int K) override {
+    dt_ = dt;
+    K_ = K;
+    fem::ImplicitOptions options = options_.implicitOptions;
+    options.massShare = options_.massShare;
+    solid_.emplace(*model_, window(), options);
+    side.mass = &solid_->mass();
+    side.own = {};
+  }
+
+  void begin(bool) override { kick(windowLoad, 0.5 * window()); }
+  void kickByLoad() override { kick(side.load, 0.5 * dt_); }
+  void drift() override {}
+  void jump() override { solid_->step(); }
+  void findForces(bool) override {}
+  void takeLoad() override {}
+  void takeWindowLoad(const NodalLoad& load) override { windowLoad = load; }
+  void end() override { kick(windowLoad, 0.5 * window()); }
+
+  void stepUnder(const NodalLoad& load) override {
+    kick(load, 0.5 * window());
+    solid_->step();
+    kick(load, 0.5 * window());
+  }
+
+  double kineticEnergy() const override { return solid_->kineticEnergy(); }
+  void sample(EnergyLedger& ledger) override { copyChannels(solid_->ledger(), kineticEnergy(), ledger); }
+
+  void save(ByteWriter& archive) override {
+    ByteWriter own;
+    solid_->save(own);
+    archive(own.bytes());
+  }
+  std::shared_ptr<SavedSolid> read(ByteReader& archive) const override {
+    auto state = std::make_shared<Saved>();
+    archive(state->bytes);
+    return state;
+  }
+  void adopt(SavedSolid& state) override {
+    ByteReader reader(dynamic_cast<Saved&>(state).bytes);
+    solid_->load(reader);
+  }
+
+private:
+  struct Saved final : SavedSolid {
+    std::vector<char> bytes;
+  };
+
+  double window() const { return K_ * dt_; }
+
+  void kick(const NodalLoad& load, double dt) {
+    if (load.touched.empty()) return;
+    if (side.mass->isDiagonal()) return kickTouched(load, dt);
+    solid_->kick(load.force, dt);
+  }
+
+  std::optional<fem::ImplicitIntegrator> solid_;
+};
+
+}  // namespace
+
+std::unique_ptr<SolidStepper> makeImplicitStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options) {
+  return std::make_unique<ImplicitStepper>(std::move(model), options);
+}
+
+}  // namespace dovetail::coupling

@@ -1,0 +1,119 @@
+// One run: particles, any number of solids, and what stands between them.
+//
+//     coupling::CoupledRun run;
+//     run.grains.laws = dem::makeContactLaws(law);
+//     dem::addParticle(run.grains.particles, …);
+//     coupling::SolidSide& beam = run.addSolid(std::move(model), {.name = "beam"});
+//     run.grains.terms.add(surface::SkinContact(beam, …));
+//     run.start(dt);
+//     run.advance(steps);
+//     std::cout << run.ledger();
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dovetail/core/ledger.hpp"
+#include "dovetail/core/profile.hpp"
+#include "dovetail/coupling/connector.hpp"
+#include "dovetail/coupling/solid_side.hpp"
+#include "dovetail/dem/model/model.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
+
+namespace dovetail::coupling {
+
+struct SolidOptions {
+  std::string name = "solid";  ///< in ledgers, errors and profiles
+  Stepping stepping = Stepping::explicitSteps;
+  double massShare = 0.0;  ///< of the consistent mass; 0 lumped
+  /// Of implicit steps; its massShare is the one above.
+  fem::ImplicitOptions implicitOptions{.scheme = fem::newmark(), .relativeTolerance = 1e-10};
+};
+
+/// Instants at which forces act. All but `none` are kept to compare with the literature: a load that lags gives energy
+/// to a solid that gives way as a mass, and takes it from one that gives way as a spring.
+enum class Lag {
+  none,        ///< all forces of a kick belong to one instant
+  load,        ///< the solid steps first, under the mean of the loads of the last two evaluations
+  loadAndSkin  ///< and the particles then see the solid where it was before its step
+};
+
+struct RunOptions {
+  /// K: particle steps per step of the solids. Explicit: impulse multiple time stepping (Tuckerman, Berne & Martyna,
+  /// J. Chem. Phys. 97, 1992), the solids' own forces kick the nodes at the ends of windows of K dt, connectors at
+  /// every step; K dt below the solids' limit and away from half the period of what connectors do. Implicit: ⌊K/2⌋
+  /// steps on the standing solid · the solid moves by K dt · ⌊K/2⌋ steps; for odd K it moves inside the step in the
+  /// middle.
+  int stepsPerWindow = 1;
+  Lag lag = Lag::none;
+};
+
+/// The largest stable step of the particles, and who sets it.
+struct StepLimit {
+  double dt;  ///< s
+  std::string owner;
+};
+
+/// Momentum and mass now.
+struct Totals {
+  Vec3 momentum;         ///< kg m/s
+  Vec3 angularMomentum;  ///< about the origin, kg m²/s
+  double mass = 0.0;     ///< kg
+};
+
+/// Windows are symmetric in time and symplectic unless a solid dissipates or lags, so the error of the energy is of
+/// second order in the step and does not drift.
+class CoupledRun {
+public:
+  explicit CoupledRun(dem::Model particles = {});
+  ~CoupledRun();
+  CoupledRun(const CoupledRun&) = delete;
+  CoupledRun& operator=(const CoupledRun&) = delete;
+
+  dem::Model grains;
+
+  /// Solids step together with the particles from here on; those at time zero only. Masses are set here if they are not
+  /// (fem::addMass). @return the side that connectors are made with; it stays where it is
+  SolidSide& addSolid(std::unique_ptr<fem::Model> model, const SolidOptions& options = {});
+  std::size_t solids() const;
+  SolidSide& solid(std::size_t k);
+  const SolidSide& solid(std::size_t k) const;
+
+  /// Forces at the start. Once before the first step, and again to change the step or the options.
+  /// @param dt  of the particles, s
+  /// @throws InputError as dem::check does, for a step beyond criticalStep (unless grains.refusesUnstableSteps is
+  /// false),
+  ///         or options out of range
+  void start(double dt, const RunOptions& options = {});
+  /// Windows of K steps. The last one's end is an instant at which positions and velocities agree.
+  /// @throws NumericalError naming the particle, node or element that breaks down
+  void advance(std::int64_t windows = 1);
+
+  double time() const { return grains.time; }
+  double dt() const;
+  double window() const;  ///< K dt, s
+
+  /// Sets all channels to the present state, and its extremes. Particles, solids and connectors by name; the baseline
+  /// is the state at the first start.
+  const EnergyLedger& ledger();
+  Totals totals() const;
+  /// Of steps with the contacts, elements and connectors as they are now. Forces of solids and of connectors act on the
+  /// same nodes: their ω² add up.
+  StepLimit criticalStep();
+
+  /// The state between windows. A run that is set up alike and started goes on from it with the same digits.
+  std::vector<char> save();
+  /// @throws InputError if the state is of another scene or damaged; the run is then as it was
+  void load(const std::vector<char>& state);
+
+  Profile profile;
+
+  struct Impl;
+
+private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dovetail::coupling

@@ -1,0 +1,194 @@
+#include "dovetail/coupling/run.hpp"
+
+#include <algorithm>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "run_impl.hpp"
+
+namespace dovetail::coupling {
+
+namespace {
+
+void requireOptions(const RunOptions& options, double dt) {
+  requirePositive(dt, "time step");
+  if (options.stepsPerWindow < 1)
+    throw InputError("stepsPerWindow is " + std::to_string(options.stepsPerWindow), "RunOptions", "give 1 or more");
+}
+
+}  // namespace
+
+CoupledRun::CoupledRun(dem::Model particles)
+    : grains(std::move(particles)), impl_(std::make_unique<Impl>(grains, profile)) {
+  grains.terms.add(std::unique_ptr<dem::Term>(std::make_unique<SolidsTerm>(impl_.get())));
+}
+CoupledRun::~CoupledRun() = default;
+
+SolidSide& CoupledRun::addSolid(std::unique_ptr<fem::Model> model, const SolidOptions& options) {
+  if (impl_->started)
+    throw InputError("the run has started", "solid \"" + options.name + "\"", "add solids before start()");
+  impl_->solids.push_back(makeStepper(std::move(model), options));
+  return impl_->solids.back()->side;
+}
+std::size_t CoupledRun::solids() const { return impl_->solids.size(); }
+SolidSide& CoupledRun::solid(std::size_t k) { return impl_->solids.at(k)->side; }
+const SolidSide& CoupledRun::solid(std::size_t k) const { return impl_->solids.at(k)->side; }
+double CoupledRun::dt() const { return impl_->dt; }
+double CoupledRun::window() const { return impl_->window(); }
+
+void CoupledRun::start(double dt, const RunOptions& options) {
+  requireOptions(options, dt);
+  Impl& run = *impl_;
+  run.dt = dt;
+  run.options = options;
+  for (const auto& solid : run.solids) solid->start(dt, options.stepsPerWindow);
+  const bool refuses = std::exchange(grains.refusesUnstableSteps, false);  // the limit of the whole decides
+  run.sampled = run.ownForcesDue = true;
+  dem::close(grains);
+  dem::findForces(grains);
+  run.ownForcesDue = false;
+  if (refuses) {
+    const StepLimit limit = criticalStep();
+    if (dt > limit.dt) {
+      grains.refusesUnstableSteps = true;
+      throw InputError("dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) + " s that " +
+                           limit.owner + " sets",
+                       "time step", "take a fifth of the limit or less, or an implicit solid if it sets the limit");
+    }
+  }
+  run.constrainWindow();
+  run.rememberLoads();
+  run.sampled = false;
+  if (run.started) return;
+  run.started = true;
+  ledger();
+  run.ledger.open();
+}
+
+void CoupledRun::advance(std::int64_t windows) {
+  if (!impl_->started) throw InputError("the run has not been started", "advance", "call start(dt) first");
+  for (std::int64_t w = 0; w < windows; ++w) impl_->window(w + 1 == windows);
+  dem::close(grains);
+}
+
+bool CoupledRun::Impl::anyImplicit() const {
+  return std::ranges::any_of(solids, [](const auto& s) { return s->side.stepping == Stepping::implicitSteps; });
+}
+
+void CoupledRun::Impl::window(bool wantsEnergies) {
+  if (options.lag != Lag::none) return lagWindow();
+  const bool jumpsBetween = K() % 2 == 0 && anyImplicit();
+  sampled = wantsEnergies;
+  if (!windowForce.empty()) kickByWindowForce();
+  for (int k = 0; k < K(); ++k) {
+    const bool last = k + 1 == K();
+    if (jumpsBetween && k == K() / 2) jumpBetweenSteps();
+    dem::move(grains, dt);
+    {
+      const Profile::Stage stage(profile, "solids kick and drift");
+      for (const auto& solid : solids) {
+        if (k == 0) solid->begin(wantsEnergies);
+        solid->kickByLoad();
+        solid->drift();
+      }
+    }
+    if (!jumpsBetween && k == K() / 2) {
+      const Profile::Stage stage(profile, "solids jump");
+      for (const auto& solid : solids) solid->jump();
+    }
+    stepParticles(last);
+    const Profile::Stage stage(profile, "solids kick and drift");
+    for (const auto& solid : solids) solid->kickByLoad();
+  }
+  constrainWindow();
+  for (const auto& solid : solids) solid->end();
+  if (!windowForce.empty()) kickByWindowForce();
+}
+
+/// Pairs, walls, connectors, and the solids' own forces with the last step of a window.
+void CoupledRun::Impl::stepParticles(bool last) {
+  dem::renew(grains);
+  ownForcesDue = last;
+  dem::addForces(grains);
+  ownForcesDue = false;
+}
+
+/// Even windows: the solid moves while no time passes for the particles.
+void CoupledRun::Impl::jumpBetweenSteps() {
+  dem::close(grains);
+  for (const auto& solid : solids) solid->jump();
+  dem::findForces(grains);
+}
+
+/// The forces with which constraints answer what acts at the ends of windows only.
+void CoupledRun::Impl::constrainWindow() {
+  windowForce.clear();
+  if (K() == 1 && !anyImplicit()) return;
+  for (const auto& term : grains.terms) {
+    const auto* const connector = dynamic_cast<const Connector*>(term.get());
+    if (!connector || !connector->constrains()) continue;
+    if (windowForce.empty()) {
+      dem::close(grains);
+      windowForce.assign(grains.particles.size(), {});
+    }
+    const auto owner = std::ranges::find_if(solids, [&](const auto& s) { return &s->side == &connector->side(); });
+    if (owner == solids.end()) continue;
+    windowLoad = NodalLoad(connector->side().nodes().X.size());
+    const bool implicit = connector->side().stepping == Stepping::implicitSteps;
+    connector->constrainWindow(grains, implicit ? std::span<const Vec3>() : connector->side().nodes().f, 0.5 * window(),
+                               windowForce, windowLoad);
+    (*owner)->takeWindowLoad(windowLoad);
+  }
+}
+
+void CoupledRun::Impl::kickByWindowForce() {
+  dem::Particles& p = grains.particles;
+  dem::close(grains);
+  for (std::size_t i = 0; i < windowForce.size() && i < p.size(); ++i)
+    p.v[i] += (0.5 * window() / (p.weightOf(i) * p.mass[i])) * windowForce[i];
+}
+
+void CoupledRun::Impl::rememberLoads() {
+  loadBefore.clear();
+  if (options.lag == Lag::none) return;
+  for (const auto& solid : solids) loadBefore.push_back(solid->side.load);
+}
+
+namespace {
+
+/// The solid's equation of motion at the end of a step holds with the load of the last evaluation, that at its start
+/// with the load of the evaluation before: over the step this is the mean of the two, one step late.
+NodalLoad meanOf(const NodalLoad& a, const NodalLoad& b) {
+  NodalLoad load(a.force.size());
+  for (const NodalLoad* part : {&a, &b})
+    for (const int node : part->touched) load.add(node, 0.5 * part->force[static_cast<std::size_t>(node)]);
+  return load;
+}
+
+}  // namespace
+
+/// The staggered window (Cheng et al. 2023, Fig. 8): the solids step under a load one step old, then the particles make
+/// K steps on solids that move from their old to their new place, or stay at the old one.
+void CoupledRun::Impl::lagWindow() {
+  std::vector<std::vector<Vec3>> before, after;
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    before.push_back(solids[s]->side.nodes().u);
+    const NodalLoad load = meanOf(loadBefore[s], solids[s]->side.load);
+    loadBefore[s] = solids[s]->side.load;
+    solids[s]->stepUnder(load);
+    after.push_back(solids[s]->side.nodes().u);
+  }
+  for (int k = 0; k < K(); ++k) {
+    dem::move(grains, dt);
+    const double share = options.lag == Lag::loadAndSkin ? 0.0 : static_cast<double>(k + 1) / K();
+    for (std::size_t s = 0; s < solids.size(); ++s) {
+      std::vector<Vec3>& u = solids[s]->side.nodes().u;
+      for (std::size_t n = 0; n < u.size(); ++n) u[n] = before[s][n] + share * (after[s][n] - before[s][n]);
+    }
+    stepParticles(false);
+  }
+  for (std::size_t s = 0; s < solids.size(); ++s) solids[s]->side.nodes().u.swap(after[s]);
+  dem::close(grains);
+}
+
+}  // namespace dovetail::coupling

@@ -1,0 +1,98 @@
+// What a run holds, what it can bear.
+#include <cmath>
+#include <limits>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/model/contact_step.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/motion/stable_step.hpp"
+#include "run_impl.hpp"
+
+namespace dovetail::coupling {
+
+namespace {
+
+using enum EnergyLedger::Kind;
+
+void setParticles(const dem::Model& grains, EnergyLedger& ledger) {
+  const dem::Energies e = dem::energies(grains);
+  setChannel(ledger, "particles: kinetic", stored, e.kinetic);
+  setChannel(ledger, "particles: contacts", stored, e.contacts);
+  setChannel(ledger, "particles: gravity", stored, e.gravity);
+  setChannel(ledger, "particles: dashpots", booked, e.lost.dissipatedPower);
+  setChannel(ledger, "particles: friction", booked, e.lost.frictionPower);
+  setChannel(ledger, "particles: rolling", booked, e.lost.rollingPower);
+  setChannel(ledger, "particles: plastic contacts", booked, e.lost.plasticPower);
+  setChannel(ledger, "particles: fracture", booked, e.lost.fracturePower);
+  setChannel(ledger, "particles: damping", booked, e.damping);
+  setChannel(ledger, "particles: left", booked, e.left);
+  setChannel(ledger, "particles: entered (minus)", booked, -e.entered);
+  setChannel(ledger, "particles: work of walls and drives (minus)", booked, -e.walls);
+  setChannel(ledger, "particles: work of external forces (minus)", booked, -e.external);
+  setChannel(ledger, "particles: lifted by periods (minus)", booked, -e.lifted);
+}
+
+bool hasElements(const fem::Model& model) {
+  for (const auto& term : model.terms)
+    if (dynamic_cast<const fem::Solid*>(term.get())) return true;
+  return false;
+}
+
+}  // namespace
+
+const EnergyLedger& CoupledRun::ledger() {
+  dem::close(grains);
+  EnergyLedger& ledger = impl_->ledger;
+  setParticles(grains, ledger);
+  for (const auto& solid : impl_->solids) solid->sample(ledger);
+  for (const auto& term : grains.terms)
+    if (const auto* const connector = dynamic_cast<const Connector*>(term.get())) {
+      if (const double joules = connector->stored(); joules != 0.0)
+        setChannel(ledger, connector->name() + ": stored", stored, joules);
+      setChannel(ledger, connector->name() + ": lost", booked, connector->lost());
+    }
+  ledger.close();
+  return ledger;
+}
+
+Totals CoupledRun::totals() const {
+  const dem::Momenta particles = dem::momenta(grains);
+  Totals sum{particles.linear, particles.angular, 0.0};
+  for (std::size_t i = 0; i < grains.particles.size(); ++i)
+    sum.mass += grains.particles.weightOf(i) * grains.particles.mass[i];
+  for (const auto& solid : impl_->solids) {
+    const fem::Nodes& nodes = solid->side.nodes();
+    std::vector<Vec3> momentum(nodes.v.size());
+    solid->side.mass->multiply(nodes.v, momentum);
+    for (std::size_t n = 0; n < momentum.size(); ++n) {
+      sum.momentum += momentum[n];
+      sum.angularMomentum += cross(nodes.X[n] + nodes.u[n], momentum[n]);
+      sum.mass += nodes.mass[n];
+    }
+  }
+  return sum;
+}
+
+StepLimit CoupledRun::criticalStep() {
+  const dem::ContactStep contacts = dem::criticalStep(grains);
+  double rate = 0.0;  // ω²/4 of the solids, at the particles' step
+  StepLimit limit{contacts.dt, contacts.particle < 0 ? "nobody" : dem::ownerOf(contacts, grains.particles)};
+  for (const auto& solid : impl_->solids) {
+    if (solid->side.stepping == Stepping::implicitSteps || !hasElements(*solid->side.model)) continue;
+    const fem::ModelStableStep stable = fem::stableStep(*solid->side.model);
+    const double least =
+        std::sqrt(1.0 - 26.0 / 27.0 * solid->side.mass->share());  // as little as blended masses can be
+    const double dt = stable.dt * least / impl_->K();
+    if (dt < limit.dt) limit = {dt, "element " + std::to_string(stable.element) + " of \"" + solid->side.name + "\""};
+    rate = std::max(rate, 1.0 / (dt * dt));
+  }
+  bool connected = false;
+  for (const auto& term : grains.terms) connected = connected || dynamic_cast<const Connector*>(term.get());
+  if (connected && impl_->K() == 1 && std::isfinite(contacts.dt) && rate > 0.0) {
+    const double together = 1.0 / std::sqrt(1.0 / (contacts.dt * contacts.dt) + rate);
+    limit.dt = std::min(limit.dt, together);
+  }
+  return limit;
+}
+
+}  // namespace dovetail::coupling

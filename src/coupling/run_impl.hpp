@@ -1,0 +1,64 @@
+// What a run keeps.
+#pragma once
+
+#include "dovetail/coupling/run.hpp"
+#include "solid_stepper.hpp"
+
+namespace dovetail::coupling {
+
+/// In the list of the particles' terms: opens an evaluation of forces for all connectors.
+class SolidsTerm final : public dem::Term {
+public:
+  explicit SolidsTerm(CoupledRun::Impl* run) : run_(run) {}
+  SolidsTerm(const SolidsTerm&) : run_(nullptr) {}  // a copy of the particles' model asks nothing of the solids
+
+  std::string name() const override { return "solids"; }
+  std::unique_ptr<dem::Term> clone() const override { return std::make_unique<SolidsTerm>(*this); }
+  Order order() const override { return Order::partners; }
+  void addForces(dem::Model& m, const dem::Step& step) override;
+  void book(dem::Model& m, const dem::Step& step) override;
+
+private:
+  bool ownForcesDue(const dem::Step& step) const;
+  CoupledRun::Impl* run_;
+};
+
+struct CoupledRun::Impl {
+  dem::Model& grains;
+  Profile& profile;
+  std::vector<std::unique_ptr<SolidStepper>> solids;
+  RunOptions options;
+  double dt = 0.0;
+  bool started = false;
+  EnergyLedger ledger;
+
+  // Of the evaluation under way.
+  bool ownForcesDue = false;  ///< the window ends with it
+  bool sampled = true;        ///< energies are wanted
+
+  // Of constraints in windows of several steps.
+  std::vector<Vec3> windowForce;  ///< on particles, N; empty without constraints
+  NodalLoad windowLoad;
+
+  Impl(dem::Model& g, Profile& p) : grains(g), profile(p) {}
+
+  struct State;
+  std::vector<char> save();
+  State read(const std::vector<char>& bytes) const;
+  void adopt(State state);
+
+  int K() const { return options.stepsPerWindow; }
+  double window() const { return K() * dt; }
+  bool anyImplicit() const;
+
+  void window(bool wantsEnergies);
+  void stepParticles(bool last);
+  void jumpBetweenSteps();
+  void constrainWindow();
+  void kickByWindowForce();
+  void lagWindow();
+  void rememberLoads();
+  std::vector<NodalLoad> loadBefore;  ///< per solid: of the evaluation before the last; only with a lag
+};
+
+}  // namespace dovetail::coupling

@@ -1,0 +1,117 @@
+// The state of a run in bytes, and back.
+#include "dovetail/core/error.hpp"
+#include "dovetail/dem/model/checkpoint.hpp"
+#include "run_impl.hpp"
+
+namespace dovetail::coupling {
+
+namespace {
+
+void saveLoad(ByteWriter& archive, const NodalLoad& load) {
+  std::vector<Vec3> force;
+  for (const int node : load.touched) force.push_back(load.force[static_cast<std::size_t>(node)]);
+  archive(load.touched, force);
+}
+
+NodalLoad readLoad(ByteReader& archive, std::size_t nodes) {
+  std::vector<int> touched;
+  std::vector<Vec3> force;
+  archive(touched, force);
+  NodalLoad load(nodes);
+  if (touched.size() != force.size())
+    throw InputError("loads and nodes are not of one number", "state", "load it into the run that saved it");
+  for (std::size_t k = 0; k < touched.size(); ++k) {
+    if (touched[k] < 0 || static_cast<std::size_t>(touched[k]) >= nodes)
+      throw InputError("there is no node " + std::to_string(touched[k]), "state", "load it into the run that saved it");
+    load.add(touched[k], force[k]);
+  }
+  return load;
+}
+
+void requireSame(bool same, const char* what) {
+  if (!same)
+    throw InputError(std::string("the state has other ") + what, "load", "load it into a run that is set up alike");
+}
+
+}  // namespace
+
+/// What has been read of a state.
+struct CoupledRun::Impl::State {
+  std::vector<Vec3> windowForce;
+  std::vector<char> particles;
+  struct Solid {
+    std::shared_ptr<SavedSolid> own;
+    NodalLoad load, window, before;
+  };
+  std::vector<Solid> solids;
+};
+
+std::vector<char> CoupledRun::Impl::save() {
+  ByteWriter archive;
+  archive(dt, options.stepsPerWindow, static_cast<int>(options.lag), static_cast<std::uint64_t>(solids.size()),
+          windowForce, dem::saveState(grains));
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    ByteWriter own;
+    solids[s]->save(own);
+    archive(own.bytes());
+    saveLoad(archive, solids[s]->side.load);
+    saveLoad(archive, solids[s]->windowLoad);
+    saveLoad(archive, loadBefore.empty() ? NodalLoad() : loadBefore[s]);
+  }
+  return archive.bytes();
+}
+
+CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) const {
+  ByteReader archive(bytes);
+  State state;
+  double step = 0.0;
+  int steps = 0, lag = 0;
+  std::uint64_t count = 0;
+  archive(step, steps, lag, count, state.windowForce, state.particles);
+  requireSame(step == dt && steps == options.stepsPerWindow && lag == static_cast<int>(options.lag),
+              "steps or options");
+  requireSame(count == solids.size(), "solids");
+  for (const auto& solid : solids) {
+    std::vector<char> own;
+    archive(own);
+    ByteReader reader(own);
+    const std::size_t nodes = solid->side.nodes().X.size();
+    state.solids.push_back({solid->read(reader), readLoad(archive, nodes), readLoad(archive, nodes), NodalLoad()});
+    requireSame(reader.atEnd(), "solids");
+    state.solids.back().before = readLoad(archive, nodes);
+  }
+  requireSame(archive.atEnd(), "data");
+  return state;
+}
+
+void CoupledRun::Impl::adopt(State state) {
+  dem::loadState(state.particles, "state of a run", grains);
+  loadBefore.clear();
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    solids[s]->adopt(*state.solids[s].own);
+    solids[s]->side.load = std::move(state.solids[s].load);
+    solids[s]->windowLoad = std::move(state.solids[s].window);
+    if (options.lag != Lag::none) loadBefore.push_back(std::move(state.solids[s].before));
+  }
+  windowForce = std::move(state.windowForce);
+}
+
+std::vector<char> CoupledRun::save() {
+  if (!impl_->started) throw InputError("the run has not been started", "save", "call start(dt) first");
+  dem::close(grains);
+  return impl_->save();
+}
+
+void CoupledRun::load(const std::vector<char>& bytes) {
+  if (!impl_->started)
+    throw InputError("the run has not been started", "load", "set it up as it was and call start(dt)");
+  Impl::State state = impl_->read(bytes), backup = impl_->read(save());
+  try {
+    impl_->adopt(std::move(state));
+  } catch (...) {
+    impl_->adopt(std::move(backup));
+    throw;
+  }
+}
+
+}  // namespace dovetail::coupling

@@ -1,0 +1,62 @@
+#include "solid_stepper.hpp"
+
+#include <algorithm>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+
+namespace dovetail::coupling {
+
+std::unique_ptr<SolidStepper> makeExplicitStepper(std::unique_ptr<fem::Model>, const SolidOptions&);
+std::unique_ptr<SolidStepper> makeImplicitStepper(std::unique_ptr<fem::Model>, const SolidOptions&);
+
+namespace {
+
+bool hasMass(const fem::Nodes& nodes) {
+  return std::ranges::any_of(nodes.mass, [](double mass) { return mass > 0.0; });
+}
+
+}  // namespace
+
+SolidStepper::SolidStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options)
+    : model_(std::move(model)), options_(options) {
+  if (!hasMass(model_->nodes)) fem::addMass(*model_);
+  side.name = options.name;
+  side.model = model_.get();
+  side.stepping = options.stepping;
+  side.load = NodalLoad(model_->nodes.X.size());
+}
+
+void SolidStepper::kickTouched(const NodalLoad& load, double dt) {
+  fem::Nodes& nodes = model_->nodes;
+  for (const int node : load.touched) {
+    const auto n = static_cast<std::size_t>(node);
+    const double scale = dt / nodes.mass[n];
+    const unsigned held = nodes.fixed[n];
+    for (int c = 0; c < 3; ++c)
+      if (!(held >> c & 1u)) nodes.v[n][c] += scale * load.force[n][c];
+  }
+}
+
+void SolidStepper::copyChannels(const EnergyLedger& own, double kinetic, EnergyLedger& ledger) const {
+  for (const EnergyLedger::Channel& channel : own.channels())
+    setChannel(ledger, side.name + ": " + channel.name, channel.kind,
+               channel.name == "kinetic" ? kinetic : channel.joules);
+}
+
+std::unique_ptr<SolidStepper> makeStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options) {
+  if (!model)
+    throw InputError("there is no model", "solid \"" + options.name + "\"", "give a fem::Model with its terms");
+  return options.stepping == Stepping::explicitSteps ? makeExplicitStepper(std::move(model), options)
+                                                     : makeImplicitStepper(std::move(model), options);
+}
+
+void setChannel(EnergyLedger& ledger, const std::string& name, EnergyLedger::Kind kind, double joules) {
+  const auto& channels = ledger.channels();
+  const auto found = std::ranges::find_if(channels, [&](const auto& channel) { return channel.name == name; });
+  if (found != channels.end()) return ledger.set(static_cast<EnergyLedger::Id>(found - channels.begin()), joules);
+  if (kind == EnergyLedger::Kind::booked && joules == 0.0) return;
+  ledger.set(kind == EnergyLedger::Kind::stored ? ledger.addStored(name) : ledger.addBooked(name), joules);
+}
+
+}  // namespace dovetail::coupling

@@ -1,0 +1,72 @@
+// How one solid of a run is stepped.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "dovetail/core/archive.hpp"
+#include "dovetail/core/ledger.hpp"
+#include "dovetail/coupling/run.hpp"
+
+namespace dovetail::coupling {
+
+/// What has been read of a state, to be put in force once all of it is read.
+struct SavedSolid {
+  virtual ~SavedSolid() = default;
+};
+
+/// A solid and the verbs of its window.
+class SolidStepper {
+public:
+  SolidStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options);
+  virtual ~SolidStepper() = default;
+
+  SolidSide side;
+  NodalLoad windowLoad;  ///< N, of implicit solids: what constraints do in both half windows around their ends
+
+  /// Forces at the start. @param dt  of particles, s @param K  steps per window
+  virtual void start(double dt, int K) = 0;
+  /// The half window's kick by its own forces, at the window's begin. @param sampled  energies will be asked for
+  virtual void begin(bool sampled) = 0;
+  /// Kick by the connectors' load for half a step, where it is no part of `begin` and `end`.
+  virtual void kickByLoad() = 0;
+  /// The nodes move along for one step of the particles.
+  virtual void drift() = 0;
+  /// The solid's own step in the middle of a window.
+  virtual void jump() = 0;
+  /// Own forces at the window's end. @param sampled  energies too
+  virtual void findForces(bool sampled) = 0;
+  /// All loads of the last evaluation are known.
+  virtual void takeLoad() = 0;
+  /// What constraints answer to forces that act at the ends of windows, for both half windows around this instant.
+  virtual void takeWindowLoad(const NodalLoad& load) = 0;
+  /// The half window's kick that ends it.
+  virtual void end() = 0;
+  /// A step of K dt under `load`, all else standing.
+  virtual void stepUnder(const NodalLoad& load) = 0;
+
+  virtual double kineticEnergy() const = 0;
+  /// Sets its channels, "name: channel".
+  virtual void sample(EnergyLedger& ledger) = 0;
+
+  virtual void save(ByteWriter& archive) = 0;
+  virtual std::shared_ptr<SavedSolid> read(ByteReader& archive) const = 0;
+  virtual void adopt(SavedSolid& state) = 0;
+
+protected:
+  /// v += dt/m f on the touched nodes, held components apart.
+  void kickTouched(const NodalLoad& load, double dt);
+  void copyChannels(const EnergyLedger& own, double kinetic, EnergyLedger& ledger) const;
+
+  std::unique_ptr<fem::Model> model_;
+  SolidOptions options_;
+  double dt_ = 0.0;
+  int K_ = 1;
+};
+
+std::unique_ptr<SolidStepper> makeStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options);
+
+/// Sets a channel of a ledger by its name, added when first met; booked ones appear with their first joule.
+void setChannel(EnergyLedger& ledger, const std::string& name, EnergyLedger::Kind kind, double joules);
+
+}  // namespace dovetail::coupling
