@@ -185,7 +185,7 @@ TEST(SpreadTransfer, CreatesPower) {
   EXPECT_GT(std::abs(atNodes - atContacts), 0.01 * std::abs(atContacts));
 }
 
-TEST(coupling::NodalLoad, ClearsOnlyWhatItTouched) {
+TEST(NodalLoad, ClearsOnlyWhatItTouched) {
   coupling::NodalLoad load(4);
   load.add(2, {1, 0, 0});
   load.add(0, {0, 1, 0});
