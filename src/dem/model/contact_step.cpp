@@ -12,19 +12,22 @@ void addContact(ContactDemand& demand, const Particles& particles, int particle,
                 const ContactSlopes& slopes, double scale, double effectiveMass) {
   demand.stiffness.resize(particles.size(), 0.0);
   demand.damping.resize(particles.size(), 0.0);
-  demand.links.push_back({particle, partner, StepOwner::contact, scale * slopes.normal.stiffness});
   const auto strongest = [&](double normal, double tangential, double rolling, double radius) {
     const double side = particles.rotates() ? 3.5 * tangential + 2.5 * rolling / (radius * radius) : tangential;
     return scale * std::max(normal, side);
   };
+  ContactDemand::Link link{particle, partner, StepOwner::contact, scale * slopes.normal.stiffness};
   for (const int k : {particle, partner}) {
     if (k < 0) continue;
     const auto i = static_cast<std::size_t>(k);
-    demand.stiffness[i] +=
+    link.asked =
         strongest(slopes.normal.stiffness, slopes.tangential.stiffness, slopes.rolling.stiffness, particles.radius[i]);
-    demand.damping[i] +=
+    link.askedDamping =
         strongest(slopes.normal.damping, slopes.tangential.damping, slopes.rolling.damping, particles.radius[i]);
+    demand.stiffness[i] += link.asked;
+    demand.damping[i] += link.askedDamping;
   }
+  demand.links.push_back(link);
   demand.twoBody = std::min(demand.twoBody, verletLimit(scale * slopes.normal.stiffness / effectiveMass,
                                                         scale * slopes.normal.damping / effectiveMass));
 }
@@ -68,9 +71,9 @@ ContactStep criticalStep(const ContactDemand& demand, const Particles& particles
   ContactStep step;
   step.twoBody = demand.twoBody;
   const Rates rates = ratesOf(demand, particles);
-  for (const auto& [particle, partner, owner, normal, wallStiff, wallDamped] : demand.links) {
-    double a = wallStiff, b = wallDamped;
-    for (const int k : {particle, partner}) {
+  for (const ContactDemand::Link& link : demand.links) {
+    double a = link.wallStiff, b = link.wallDamped;
+    for (const int k : {link.particle, link.partner}) {
       if (k < 0) continue;
       a += rates.stiff[static_cast<std::size_t>(k)];
       b += rates.damped[static_cast<std::size_t>(k)];
@@ -78,9 +81,9 @@ ContactStep criticalStep(const ContactDemand& demand, const Particles& particles
     const double dt = detail::verletLimit(a, b);
     if (dt < step.dt) {
       step.dt = dt;
-      step.particle = particle;
-      step.partner = partner;
-      step.owner = owner;
+      step.particle = link.particle;
+      step.partner = link.partner;
+      step.owner = link.owner;
     }
   }
   return step;

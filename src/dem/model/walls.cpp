@@ -17,20 +17,6 @@ namespace {
 /// Rows of the table of laws; 1: a single law serves all materials.
 int materialsOf(const Model& m) { return m.laws ? m.laws->materials() : 1; }
 
-Moves movesOf(const Model& m, const Step& step) {
-  return {step.moved, Moves::unknown, m.pairs.travel(), m.pairs.builds()};
-}
-
-/// What `sweep` gives. Where no time passes, what leavers' springs held is kept for a step in which it becomes a power.
-template <class Sweep>
-ContactWork sweepWall(const Step& step, EndedMemories& left, Sweep&& sweep) {
-  if (!step.timeless) return sweep();
-  EndedMemories kept = std::exchange(left, {});
-  const ContactWork work = sweep();
-  left = std::move(kept);
-  return work;
-}
-
 bool carried(const MeshWall& mesh) { return std::holds_alternative<WallOnBody>(mesh.motion); }
 
 template <class WallTerm>
@@ -43,6 +29,10 @@ auto& numbered(auto& m, std::size_t i, const char* kind) {
 }
 
 }  // namespace
+
+Moves movesOf(const Model& m, const Step& step) {
+  return {step.moved, Moves::unknown, m.pairs.travel(), m.pairs.builds()};
+}
 
 void PrimitiveWallTerm::check(const Model& m) const {
   requireLaws(m);
@@ -66,7 +56,7 @@ void PrimitiveWallTerm::addForces(Model& m, const Step& step) {
   wall.reach = m.pairs.reach();
   findContacts(m.particles, wall, movesOf(m, step), m.pairs.periodicity());
   const ContactWork work =
-      sweepWall(step, wall.contacts.left, [&] { return m.laws->wall(m.particles, wall, step.dt, m.booking); });
+      sweepWall(step.timeless, wall.contacts.left, [&] { return m.laws->wall(m.particles, wall, step.dt, m.booking); });
   stored = work.storedEnergy();
   m.work += work;
   m.rate.walls += drivingPower(wall);
@@ -156,7 +146,7 @@ void MeshWallTerm::addForces(Model& m, const Step& step) {
   if (step.timeless && carried(mesh)) moveWall(mesh, m.time, 0.0, &bodiesOf(m));
   mesh.candidates.reach = m.pairs.reach();
   findContacts(m.particles, mesh, movesOf(m, step), m.pairs.periodicity());
-  const ContactWork work = sweepWall(step, mesh.contacts.springs.left, [&] {
+  const ContactWork work = sweepWall(step.timeless, mesh.contacts.springs.left, [&] {
     return m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
   });
   stored = work.storedEnergy();

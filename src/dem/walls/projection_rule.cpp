@@ -22,6 +22,7 @@ struct Candidate {
 
 /// Whether an edge, or a facet at a vertex, has no neighbour there: the end of an open surface.
 bool onRim(const TriangulatedWall& wall, int facet, geometry::Feature feature) {
+  if (!wall.corner.empty()) return false;
   const auto open = [&](int f) {
     const auto& neighbours = wall.topology.neighbours[static_cast<std::size_t>(f)];
     return std::find(neighbours.begin(), neighbours.end(), -1) != neighbours.end();

@@ -13,9 +13,13 @@ namespace dovetail::dem::detail {
 
 namespace {
 
-bool touch(const geometry::Facet& a, const geometry::Facet& b) {
-  for (const int vertex : a)
-    if (std::find(b.begin(), b.end(), vertex) != b.end()) return true;
+bool touch(const TriangulatedWall& wall, int a, int b) {
+  const auto corner = [&](int vertex) {
+    return wall.corner.empty() ? vertex : wall.corner[static_cast<std::size_t>(vertex)];
+  };
+  for (const int mine : wall.facets[static_cast<std::size_t>(a)])
+    for (const int other : wall.facets[static_cast<std::size_t>(b)])
+      if (corner(mine) == corner(other)) return true;
   return false;
 }
 
@@ -40,9 +44,8 @@ std::size_t nearestSpring(const WallContacts& contacts, std::size_t c, std::size
 /// that pushes nearly the same way.
 std::size_t bestMatch(const WallContacts& contacts, const TriangulatedWall& wall, std::size_t c, std::size_t begin,
                       std::size_t end) {
-  const auto& facet = wall.facets[static_cast<std::size_t>(contacts.facet[c])];
   const std::size_t best = nearestSpring(contacts, c, begin, end, -2.0, [&](std::size_t o) {
-    return touch(facet, wall.facets[static_cast<std::size_t>(contacts.springs.facet[o])]);
+    return touch(wall, contacts.facet[c], contacts.springs.facet[o]);
   });
   if (best < end || contacts.image.empty()) return best;
   return nearestSpring(contacts, c, begin, end, 0.9, [](std::size_t) { return true; });

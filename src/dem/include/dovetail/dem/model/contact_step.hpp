@@ -28,6 +28,8 @@ struct ContactDemand {
     StepOwner owner;
     double stiffness = 0.0;                    ///< along its normal, N/m
     double wallStiff = 0.0, wallDamped = 0.0;  ///< of a wall that gives way: over its mass, 1/s² and 1/s
+    double asked = 0.0, askedDamping = 0.0;    ///< what it adds to the sums of each of its sides, N/m and N s/m
+    int contact = -1;                          ///< with a triangulated wall: its number among WallContacts
   };
   std::vector<double> stiffness;                             ///< N/m, per particle: sum over its contacts and bonds
   std::vector<double> damping;                               ///< N s/m, the same of the dashpots
@@ -121,6 +123,7 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
     contact.dt = 1.0;
     double memory[static_cast<std::size_t>(Law::memory) + 1] = {};
     addContact(demand, particles, contacts.particle[c], -1, law.slopes(contact, memory), 1.0, contact.effectiveMass);
+    demand.links.back().contact = static_cast<int>(c);
   }
 }
 

@@ -7,6 +7,9 @@
 
 namespace dovetail::dem {
 
+/// How far the particles of a model have moved, for lists of what is near a wall.
+Moves movesOf(const Model& m, const Step& step);
+
 /// A plane, cylinder or sphere that the particles meet.
 class PrimitiveWallTerm final : public Term {
 public:

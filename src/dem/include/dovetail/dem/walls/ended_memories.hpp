@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace dovetail::dem {
@@ -11,5 +12,15 @@ struct EndedMemories {
   std::vector<double> memory;
   std::vector<std::uint8_t> material;
 };
+
+/// What `sweep` gives. Where no time passes, what leavers' springs held is kept for a step in which it becomes a power.
+template <class Sweep>
+auto sweepWall(bool timeless, EndedMemories& left, Sweep&& sweep) {
+  if (!timeless) return sweep();
+  EndedMemories kept = std::exchange(left, {});
+  const auto work = sweep();
+  left = std::move(kept);
+  return work;
+}
 
 }  // namespace dovetail::dem

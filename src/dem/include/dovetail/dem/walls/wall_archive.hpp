@@ -21,20 +21,25 @@ void archiveWall(Archive& archive, Wall& w) {
 
 template <class Archive, class Candidates>
 void archiveCandidates(Archive& archive, Candidates& c) {
-  archive(c.particle, c.offsets, c.facet, c.image, c.position, c.period, c.flat, c.lastFacet, c.margin,
-          c.reach, c.reachAtBuild, c.builds,
-          c.particleRevision, c.facetsAtBuild, c.vertexAtBuild, c.smallestRadius, c.particleTravel, c.wallTravel);
+  archive(c.particle, c.offsets, c.facet, c.image, c.position, c.period, c.flat, c.lastFacet, c.margin, c.reach,
+          c.reachAtBuild, c.builds, c.particleRevision, c.facetsAtBuild, c.vertexAtBuild, c.smallestRadius,
+          c.particleTravel, c.wallTravel);
+}
+
+/// Of a triangulated wall.
+template <class Archive, class Contacts>
+void archiveContacts(Archive& archive, Contacts& c) {
+  auto& s = c.springs;
+  archive(s.particle, s.facet, s.normal, s.memory, s.left.memory, s.left.material);
+  archive(c.particle, c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyShare, c.force, c.couple, c.energy,
+          c.image, c.period);
 }
 
 template <class Archive, class Mesh>
 void archiveMesh(Archive& archive, Mesh& m) {
-  auto& s = m.contacts.springs;
   archive(m.wall.x, m.wall.v, m.wall.f, m.wall.rigid, m.wall.mass, m.step, m.belt, m.lookedAt);
   if (auto* servo = std::get_if<WallServo>(&m.motion)) archive(*servo);
-  archive(s.particle, s.facet, s.normal, s.memory, s.left.memory, s.left.material);
-  auto& c = m.contacts;
-  archive(c.particle, c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyShare, c.force, c.couple, c.energy,
-          c.image, c.period);
+  archiveContacts(archive, m.contacts);
   archiveCandidates(archive, m.candidates);
 }
 
