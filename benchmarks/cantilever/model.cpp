@@ -65,10 +65,10 @@ surface::Coupling makeSeam(const Settings& settings, const fem::SolidMesh& mesh)
   return seam;
 }
 
-surface::SmoothCoupling makeSmoothSeam(const Settings& settings, const fem::SolidMesh& mesh) {
+surface::Coupling makeSmoothSeam(const Settings& settings, const fem::SolidMesh& mesh) {
   surface::Skin skin = makeCarryingSkin(settings, mesh);
   if (settings.cgWidth == 0.0) surface::splitAtSharpEdges(skin);
-  surface::SmoothCoupling seam(surface::makeSmoothSurface(skin));
+  surface::Coupling seam(surface::makeSmoothSurface(skin));
   seam.bookWallWork(couplingIsUnbalanced(settings));
   return seam;
 }
@@ -82,20 +82,6 @@ std::unique_ptr<fem::Model> makeBeam(const Settings& settings, const fem::SolidM
   fem::addMass(*beam);
   fem::fix(beam->nodes, mesh.nodeSets.at("y-"));
   return beam;
-}
-
-template <class Seam>
-surface::CoupledModel<Seam> makeModel(const Settings& settings, const fem::SolidMesh& mesh, Seam seam) {
-  const dem::LinearSpringDashpot normal{contactStiffness(settings), settings.restitution, true};
-  surface::CoupledModel<Seam> model{
-      .discrete = {}, .wallLaw = {normal}, .solid = makeBeam(settings, mesh), .seam = std::move(seam), .contact = {}};
-  model.discrete.particles = makeParticles(settings);
-  model.discrete.laws = dem::makeContactLaws(dem::ElasticLaw{normal});
-  model.discrete.gravity = {0.0, 0.0, -Case{}.gravity};
-  model.discrete.pairs.setSkin(0.5 * Case{}.particleDiameter);
-  model.discrete.sortEvery = 0;
-  model.discrete.refusesUnstableSteps = false;  // chooseStep has refused them, with the skin's share
-  return model;
 }
 
 std::vector<double> inverseMasses(const fem::Nodes& nodes) {
@@ -117,31 +103,26 @@ fem::SolidMesh makeMesh(const Settings& settings) {
   return fem::boxOf(fem::CellShape::hex8, elementCounts(settings), lowerCorner, upperCorner);
 }
 
-FlatModel makeFlatModel(const Settings& settings, const fem::SolidMesh& mesh) {
-  return makeModel(settings, mesh, makeSeam(settings, mesh));
-}
-
-SmoothModel makeSmoothModel(const Settings& settings, const fem::SolidMesh& mesh) {
-  return makeModel(settings, mesh, makeSmoothSeam(settings, mesh));
+surface::CoupledModel makeModel(const Settings& settings, const fem::SolidMesh& mesh) {
+  const dem::LinearSpringDashpot normal{contactStiffness(settings), settings.restitution, true};
+  const auto laws = dem::makeContactLaws(dem::ElasticLaw{normal});
+  const bool smooth = settings.surface == Surface::smooth;
+  surface::CoupledModel model{.discrete = {},
+                              .wallLaw = laws,
+                              .solid = makeBeam(settings, mesh),
+                              .seam = smooth ? makeSmoothSeam(settings, mesh) : makeSeam(settings, mesh),
+                              .contact = {}};
+  model.discrete.particles = makeParticles(settings);
+  model.discrete.laws = laws;
+  model.discrete.gravity = {0.0, 0.0, -Case{}.gravity};
+  model.discrete.pairs.setSkin(0.5 * Case{}.particleDiameter);
+  model.discrete.sortEvery = 0;
+  model.discrete.refusesUnstableSteps = false;  // chooseStep has refused them, with the skin's share
+  return model;
 }
 
 double largestMobility(const surface::Coupling& seam, const fem::Nodes& nodes) {
-  const cg::Projection& carrier = seam.skin().carrier;
-  const std::vector<double> inverseMass = inverseMasses(nodes);
-  double largest = 0.0;
-  for (int row = 0; row < carrier.rows(); ++row) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < carrier.rowColumns(row).size(); ++k) {
-      const double weight = carrier.rowWeights(row)[k];
-      sum += weight * weight * inverseMass[carrier.rowColumns(row)[k]];
-    }
-    largest = std::max(largest, sum);
-  }
-  return largest;
-}
-
-double largestMobility(const surface::SmoothCoupling& seam, const fem::Nodes& nodes) {
-  return surface::largestMobility(seam.surface(), inverseMasses(nodes));
+  return seam.largestMobility(inverseMasses(nodes));
 }
 
 StepLimit criticalStep(const Settings& settings, fem::Model& beam, double mobility) {

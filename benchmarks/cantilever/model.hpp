@@ -6,15 +6,11 @@
 #include <string>
 
 #include "dovetail/surface/coupling.hpp"
-#include "dovetail/surface/smooth_coupling.hpp"
 #include "dovetail/surface/stepper.hpp"
 #include "reference/beam_case.hpp"
 #include "settings.hpp"
 
 namespace dovetail::cantilever {
-
-using FlatModel = surface::CoupledModel<surface::Coupling>;
-using SmoothModel = surface::CoupledModel<surface::SmoothCoupling>;
 
 /// Elements along x, y, z after refinement.
 std::array<int, 3> elementCounts(const Settings& settings);
@@ -22,8 +18,7 @@ std::array<int, 3> elementCounts(const Settings& settings);
 /// The model at rest with the particles at their static overlap. Axes: x across, y from the clamp, z up, z = 0 on the
 /// beam's axis.
 /// @throws InputError for impossible settings
-FlatModel makeFlatModel(const Settings& settings, const fem::SolidMesh& mesh);
-SmoothModel makeSmoothModel(const Settings& settings, const fem::SolidMesh& mesh);
+surface::CoupledModel makeModel(const Settings& settings, const fem::SolidMesh& mesh);
 fem::SolidMesh makeMesh(const Settings& settings);
 
 /// The largest stable step and who sets it.
@@ -34,7 +29,6 @@ struct StepLimit {
 
 /// The largest Σ_i S_i²/m_i of any point of the skin, 1/kg (an upper bound on the smooth surface).
 double largestMobility(const surface::Coupling& seam, const fem::Nodes& nodes);
-double largestMobility(const surface::SmoothCoupling& seam, const fem::Nodes& nodes);
 
 /// Bounds for the chosen integrators: contacts 2/ω_c with ω_c² = k (1/m_p + mobility); explicit solid 2/ω_e of its
 /// worst element, divided by K; both act together if K = 1: ω² = ω_c² + ω_e².

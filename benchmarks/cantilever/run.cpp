@@ -33,10 +33,9 @@ std::string moment(double time, std::int64_t step) {
 }
 
 /// Runs one model and gathers its figures.
-template <class Model>
 class Runner {
 public:
-  Runner(const Settings& settings, const fem::SolidMesh& mesh, Model model) : mesh_(mesh), model_(std::move(model)) {
+  Runner(const Settings& settings, const fem::SolidMesh& mesh) : mesh_(mesh), model_(makeModel(settings, mesh)) {
     result_.settings = settings;
     result_.profile = Profile(settings.profile);
     result_.series = io::TimeSeries(seriesNames);
@@ -264,7 +263,7 @@ private:
   }
 
   const fem::SolidMesh& mesh_;
-  Model model_;
+  surface::CoupledModel model_;
   Observer observer_;
   RunResult result_;
   Clock clock_;
@@ -283,12 +282,8 @@ PreparedRun prepareRun(const Settings& settings) {
   validate(settings);
   setThreads(settings.threads);
   const auto mesh = std::make_shared<const fem::SolidMesh>(makeMesh(settings));
-  const auto prepare = [&](auto model) -> PreparedRun {
-    const auto runner = std::make_shared<Runner<decltype(model)>>(settings, *mesh, std::move(model));
-    return [mesh, runner](const Observer& observer) { return runner->run(observer); };
-  };
-  if (settings.surface == Surface::smooth) return prepare(makeSmoothModel(settings, *mesh));
-  return prepare(makeFlatModel(settings, *mesh));
+  const auto runner = std::make_shared<Runner>(settings, *mesh);
+  return [mesh, runner](const Observer& observer) { return runner->run(observer); };
 }
 
 RunResult run(const Settings& settings, const Observer& observer) { return prepareRun(settings)(observer); }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dovetail/core/ledger.hpp"
-#include "dovetail/dem/laws/laws.hpp"
+#include "dovetail/dem/laws/contact_laws.hpp"
 #include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/surface/coupling.hpp"
 
@@ -51,7 +51,7 @@ int main() {
   for (int k = 0; k < 4; ++k)
     dem::addParticle(particles, {0.3 + 0.4 * (k % 2), 0.33 + 0.38 * (k / 2), 0.1}, {0.1, 0.0, -1.0 - 0.2 * k},
                      0.05 + 0.01 * k, dem::Density{150.0});
-  const dem::ElasticLaw law{{.stiffness = 2000.0}};
+  const auto laws = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 2000.0}});
   surface::Coupling seam(surface::makeSkin(net.X, net.faces));  // the net's nodes and openings become a skin
 
   dovetail::EnergyLedger ledger;
@@ -59,7 +59,7 @@ int main() {
              contact = ledger.addStored("contacts");
   const auto findForces = [&](double dt) {
     dem::clearForces(particles);
-    ledger.set(contact, seam.exchange(particles, net.u, net.v, law, dt).storedEnergy());
+    ledger.set(contact, seam.exchange(particles, net.u, net.v, *laws, dt).storedEnergy());
     net.f = seam.load().force;
     ledger.set(strain, net.addSpringForces());
   };

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
+#include "carried_points.hpp"
+#include "carrier.hpp"
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "travel.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/walls/wall_archive.hpp"
 
 namespace dovetail::surface {
-
-namespace {
 
 std::vector<int> sortedUnique(std::vector<int> values) {
   std::sort(values.begin(), values.end());
@@ -16,62 +20,158 @@ std::vector<int> sortedUnique(std::vector<int> values) {
   return values;
 }
 
+namespace {
+
+/// m; NaN if any place is NaN, so that a comparison with a margin fails.
+template <class Moved>
+double largestTravel(std::size_t n, Moved&& moved) {
+  return std::sqrt(parallelSum(n, 4096, [&](std::size_t begin, std::size_t end) {
+                     dem::Largest squared;
+                     for (std::size_t i = begin; i < end; ++i) squared.meet(squaredNorm(moved(i)));
+                     return squared;
+                   }).value);
+}
+
+[[noreturn]] void refuseOther(const char* asked, const char* is) {
+  throw InputError(std::string("it is on ") + is, "surface coupling", std::string("ask for ") + asked);
+}
+
 }  // namespace
 
 Coupling::Coupling(Skin skin, const CouplingOptions& options)
-    : skin_(std::move(skin)),
-      options_(options),
-      load_(static_cast<std::size_t>(skin_.carrier.columns)),
-      surfaceNodes_(sortedUnique(skin_.carrier.column)),
-      gain_(carrierGain(skin_)) {
-  requireNonNegative(options.margin, "the candidate margin");
+    : carrier_(makeCarrier(std::move(skin), options.edges)),
+      margin_(requireNonNegative(options.margin, "the candidate margin")),
+      onPoints_(carrier_->points().size()),
+      load_(static_cast<std::size_t>(carrier_->map().columns)),
+      surfaceNodes_(sortedUnique(carrier_->map().column)),
+      gain_(carrierGain(carrier_->map(), carrier_->turns())) {}
+
+Coupling::Coupling(SmoothSurface surface, const CouplingOptions& options)
+    : carrier_(makeCarrier(std::move(surface))),
+      margin_(requireNonNegative(options.margin, "the candidate margin")),
+      onPoints_(carrier_->points().size()),
+      load_(static_cast<std::size_t>(carrier_->map().columns)),
+      surfaceNodes_(sortedUnique(carrier_->map().column)),
+      gain_(carrierGain(carrier_->map(), carrier_->turns())) {}
+
+Coupling::~Coupling() = default;
+Coupling::Coupling(Coupling&&) noexcept = default;
+Coupling& Coupling::operator=(Coupling&&) noexcept = default;
+
+dem::ContactWork Coupling::exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
+                                    const dem::ContactLaws& laws, double dt, const ExchangeOptions& options) {
+  locate(particles, u, v, laws.reach(), options);
+  placeSurface(u, v);
+  carrier_->findContacts(particles, contacts_);
+  const dem::ContactWork work = dem::sweepWall(options.timeless, contacts_.springs.left, [&] {
+    return laws.wall(particles, carrier_->wall(), contacts_, dt, options.booking);
+  });
+  transfer();
+  return work;
 }
 
-bool Coupling::marginUsed(const dem::Particles& particles, std::span<const Vec3> u) const {
-  if (particles.revision != candidates_.particleRevision) return true;
-  const double travel =
-      largestTravel(particles.x, particlesAtBuild_) + gain_ * largestTravel(u, surfaceNodes_, nodesAtBuild_);
-  return !(travel <= candidates_.margin);  // so that a NaN asks for a new search, which names the culprit
-}
-
-void Coupling::locate(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v) {
-  if (candidates_.builds > 0 && !marginUsed(particles, u)) return;
-  requireFinite(u, "node", "displacement", "contact search with the skin");
-  place(skin_, u, v);
-  double margin = options_.margin;
-  if (margin == 0.0 && particles.size() > 0)
-    margin = 0.5 * *std::min_element(particles.radius.begin(), particles.radius.end());
-  dem::findWallCandidates(particles, skin_.wall, margin, candidates_);
-  particlesAtBuild_ = particles.x;
+void Coupling::locate(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v, double reach,
+                      const ExchangeOptions& options) {
+  if (!marginUsed(particles, u, reach, options)) return;
+  requireFinite(particles.x, "particle", "position", "contact search with a surface");
+  requireFinite(u, "node", "displacement", "contact search with a surface");
+  carrier_->placeAll(u, v);
+  marginAtBuild_ = margin_;
+  if (margin_ == 0.0 && particles.size() > 0)
+    marginAtBuild_ = 0.5 * *std::min_element(particles.radius.begin(), particles.radius.end());
+  carrier_->search(particles, marginAtBuild_, reach, options.periodicity);
+  ++builds_;
+  revision_ = particles.revision;
+  reachAtBuild_ = reach;
+  periodAtBuild_ = dem::periodsOf(options.periodicity);
+  if (options.moves)
+    travel_.reset(*options.moves);
+  else
+    particlesAtBuild_ = particles.x;
   nodesAtBuild_.clear();
   for (int node : surfaceNodes_) nodesAtBuild_.push_back(u[node]);
-  active_.clear();
-  for (int facet : candidates_.facet)
-    active_.insert(active_.end(), skin_.wall.facets[facet].begin(), skin_.wall.facets[facet].end());
-  active_ = sortedUnique(std::move(active_));
 }
 
-void Coupling::placeSkin(std::span<const Vec3> u, std::span<const Vec3> v) {
-  if (!booksWork_) return place(skin_, u, v, active_);
-  place(skin_, u, v);
-  if (previous_.empty()) previous_ = skin_.wall.x;
-  wallWork_ += 0.5 * contactWorkSinceLast();
+// Comparisons are written so that a NaN asks for a search, which then names the culprit.
+bool Coupling::marginUsed(const dem::Particles& particles, std::span<const Vec3> u, double reach,
+                          const ExchangeOptions& options) {
+  if (builds_ == 0 || particles.revision != revision_ || reach != reachAtBuild_ ||
+      !(dem::periodsOf(options.periodicity) == periodAtBuild_))
+    return true;
+  if (options.moves)
+    travel_.add(*options.moves);
+  else if (particlesAtBuild_.size() != particles.size())
+    return true;
+  const double ofParticles = options.moves ? travel_.bound : largestTravel(particles.size(), [&](std::size_t i) {
+    return particles.x[i] - particlesAtBuild_[i];
+  });
+  const double ofNodes =
+      largestTravel(surfaceNodes_.size(), [&](std::size_t k) { return u[surfaceNodes_[k]] - nodesAtBuild_[k]; });
+  return !(ofParticles + gain_ * ofNodes <= marginAtBuild_);
 }
 
-void Coupling::bookNewContacts() {
-  if (!booksWork_) return;
-  wallWork_ += 0.5 * contactWorkSinceLast();
-  previous_ = skin_.wall.x;
+void Coupling::placeSurface(std::span<const Vec3> u, std::span<const Vec3> v) {
+  if (!booksWork_) return carrier_->place(u, v);
+  carrier_->placeAll(u, v);
+  const auto now = carrier_->points();
+  if (previous_.empty()) previous_.assign(now.begin(), now.end());
+  wallWork_ += 0.5 * workSinceLast();
 }
 
-double Coupling::contactWorkSinceLast() const {
-  double work = 0.0;
+void Coupling::transfer() {
+  onPoints_.clear();
+  carrier_->addReaction(contacts_, onPoints_);
+  if (booksWork_) {
+    wallWork_ += 0.5 * workSinceLast();
+    previous_.assign(carrier_->points().begin(), carrier_->points().end());
+  }
+  load_.clear();
+  if (!spread_) return addLoadOfPoints(carrier_->map(), carrier_->turns(), onPoints_, load_);
   for (std::size_t c = 0; c < contacts_.size(); ++c)
-    for (int k = 0; k < 3; ++k) {
-      const int vertex = skin_.wall.facets[contacts_.facet[c]][k];
-      work -= contacts_.weight[c][k] * dot(contacts_.force[c], skin_.wall.x[vertex] - previous_[vertex]);
-    }
+    spread_->add(skin(), contacts_.facet[c], contacts_.weight[c], contacts_.force[c], load_);
+}
+
+double Coupling::workSinceLast() const {
+  double work = 0.0;
+  for (int point : onPoints_.touched) work += dot(onPoints_.force[point], carrier_->points()[point] - previous_[point]);
   return work;
+}
+
+void Coupling::check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity) const {
+  carrier_->check(laws, periodicity);
+}
+
+double Coupling::renumber(std::span<const int> newNumber, const dem::Particles& before) {
+  return dem::renumber(contacts_, newNumber, before);
+}
+
+const Skin& Coupling::skin() const {
+  if (!carrier_->skin()) refuseOther("smoothSurface()", "smooth patches");
+  return *carrier_->skin();
+}
+const SmoothSurface& Coupling::smoothSurface() const {
+  if (!carrier_->smooth()) refuseOther("skin()", "facets");
+  return *carrier_->smooth();
+}
+const dem::TriangulatedWall& Coupling::wall() const { return carrier_->wall(); }
+int Coupling::nodeCount() const { return carrier_->map().columns; }
+
+template <class Archive, class Self>
+void Coupling::archive(Archive& archive, Self& self) {
+  dem::archiveContacts(archive, self.contacts_);
+  archive(self.builds_, self.revision_, self.marginAtBuild_, self.reachAtBuild_, self.periodAtBuild_,
+          self.particlesAtBuild_, self.nodesAtBuild_, self.travel_, self.booksWork_, self.wallWork_, self.previous_);
+}
+
+void Coupling::save(ByteWriter& writer) const {
+  archive(writer, *this);
+  carrier_->save(writer);
+}
+
+void Coupling::load(ByteReader& reader) {
+  archive(reader, *this);
+  carrier_->load(reader);
+  transfer();
 }
 
 }  // namespace dovetail::surface

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
-#include "dovetail/cg/symmetric_kernel.hpp"
+#include "carried_points.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/fem/mesh/shape.hpp"
@@ -121,11 +122,12 @@ bool isClosed(const geometry::SurfaceTopology& topology) {
 }
 
 void resetWall(Skin& skin) {
+  const bool closed = skin.wall.oneSided;
   skin.wall.x = skin.X;
   skin.wall.v.assign(skin.X.size(), Vec3{});
   skin.wall.f.assign(skin.X.size(), Vec3{});
   skin.wall.topology = geometry::makeTopology(skin.wall.facets, static_cast<int>(skin.X.size()));
-  skin.wall.oneSided = isClosed(skin.wall.topology);
+  skin.wall.oneSided = closed || isClosed(skin.wall.topology);
 }
 
 cg::Projection selectRows(const cg::Projection& map, std::span<const int> rows) {
@@ -136,6 +138,19 @@ cg::Projection selectRows(const cg::Projection& map, std::span<const int> rows) 
     selected.offsets.push_back(static_cast<int>(selected.column.size()));
   }
   return selected;
+}
+
+std::vector<int> numbers(std::size_t count) {
+  std::vector<int> all(count);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+template <class T>
+std::vector<T> selected(const std::vector<T>& values, std::span<const int> which) {
+  std::vector<T> some;
+  for (int k : which) some.push_back(values[k]);
+  return some;
 }
 
 }  // namespace
@@ -174,61 +189,21 @@ void splitAtSharpEdges(Skin& skin) {
   for (const auto& [vertex, patch] : vertices.origin) origin.push_back(vertex);
   std::vector<Vec3> X;
   for (int vertex : origin) X.push_back(skin.X[vertex]);
+  skin.wall.corner = selected(skin.wall.corner.empty() ? numbers(skin.X.size()) : skin.wall.corner, origin);
   skin.X = std::move(X);
   skin.localMap = selectRows(skin.localMap, origin);
   skin.carrier = selectRows(skin.carrier, origin);
+  if (!skin.turns.empty()) {
+    skin.turns.offset = selected(skin.turns.offset, origin);
+    skin.turns.patch = selected(skin.turns.patch, origin);
+  }
   resetWall(skin);
 }
 
-void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel) {
-  cg::requireValid(kernel.kernel, true);
-  if (kernel.kernel.width == 0.0) {
-    skin.carrier = skin.localMap;
-    return;
-  }
-  splitAtSharpEdges(skin);
-  if (kernel.correction == cg::KernelCorrection::symmetric) {
-    skin.carrier = cg::symmetricKernelMap(kernel.kernel, skin.X, skin.wall.facets, skin.patchOfFacet, skin.localMap);
-    return;
-  }
-  const int vertexCount = static_cast<int>(skin.X.size());
-  cg::Projection carrier;
-  carrier.columns = skin.localMap.columns;
-  carrier.offsets.push_back(0);
-  cg::SurfaceKernelRows rows(kernel, skin.X, skin.wall.facets, skin.patchOfFacet, skin.localMap);
-  for (int v = 0; v < vertexCount; ++v) {
-    const int facet = skin.wall.topology.vertexFacets[skin.wall.topology.vertexFacetOffsets[v]];
-    std::array<double, 3> corner{};
-    for (int k = 0; k < 3; ++k) corner[k] = skin.wall.facets[facet][k] == v ? 1.0 : 0.0;
-    rows.row(facet, corner, carrier.column, carrier.weight);
-    carrier.offsets.push_back(static_cast<int>(carrier.column.size()));
-  }
-  skin.carrier = std::move(carrier);
-}
-
 void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> vertices) {
-  const cg::Projection& map = skin.carrier;
-  for (int vertex : vertices) {
-    skin.wall.x[vertex] = skin.X[vertex] + cg::applyRow(map, vertex, u);
-    skin.wall.v[vertex] = cg::applyRow(map, vertex, v);
-  }
+  placePoints(skin.carrier, skin.X, skin.turns, u, v, vertices, skin.wall.x, skin.wall.v);
 }
 
-void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v) {
-  cg::apply(skin.carrier, u, skin.wall.x);
-  for (std::size_t i = 0; i < skin.X.size(); ++i) skin.wall.x[i] += skin.X[i];
-  cg::apply(skin.carrier, v, skin.wall.v);
-}
-
-double carrierGain(const Skin& skin) {
-  double gain = 0.0;
-  for (std::size_t row = 0; row + 1 < skin.carrier.offsets.size(); ++row) {
-    double sum = 0.0;
-    for (int k = skin.carrier.offsets[row]; k < skin.carrier.offsets[row + 1]; ++k)
-      sum += std::abs(skin.carrier.weight[k]);
-    gain = std::max(gain, sum);
-  }
-  return gain;
-}
+void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v) { place(skin, u, v, numbers(skin.X.size())); }
 
 }  // namespace dovetail::surface

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "carried_points.hpp"
 #include "dovetail/core/error.hpp"
 #include "face_cut.hpp"
 
@@ -23,7 +24,10 @@ struct Crossing {
 std::vector<std::array<Crossing, 4>> makeCrossings(std::span<const std::array<int, 4>> quads) {
   std::map<std::pair<int, int>, Crossing> byEdge;
   for (std::size_t q = 0; q < quads.size(); ++q)
-    for (int e = 0; e < 4; ++e) byEdge[{quads[q][e], quads[q][(e + 1) % 4]}] = {static_cast<int>(q), e};
+    for (int e = 0; e < 4; ++e)
+      if (!byEdge.try_emplace({quads[q][e], quads[q][(e + 1) % 4]}, Crossing{static_cast<int>(q), e}).second)
+        throw InputError("another face has the same edge the same way round", "face " + std::to_string(q),
+                         "give each face of the surface once, counter-clockwise seen from outside");
   std::vector<std::array<Crossing, 4>> crossings(quads.size());
   for (std::size_t q = 0; q < quads.size(); ++q)
     for (int e = 0; e < 4; ++e)
@@ -131,81 +135,6 @@ private:
   std::map<Row, int> numbers_;
 };
 
-/// The uniform quadratic B-spline has its knots in the middles of the faces: left of the middle it takes the first
-/// three of the four control points, from there on the last three.
-std::array<double, 4> placed(const std::array<double, 3>& three, double t) {
-  return t < 0.5 ? std::array<double, 4>{three[0], three[1], three[2], 0.0}
-                 : std::array<double, 4>{0.0, three[0], three[1], three[2]};
-}
-double sinceKnot(double t) { return t < 0.5 ? t + 0.5 : t - 0.5; }
-std::array<double, 4> spline(double t) {
-  const double s = sinceKnot(t);
-  return placed({0.5 * (1.0 - s) * (1.0 - s), 0.5 + s * (1.0 - s), 0.5 * s * s}, t);
-}
-std::array<double, 4> splineSlope(double t) {
-  const double s = sinceKnot(t);
-  return placed({s - 1.0, 1.0 - 2.0 * s, s}, t);
-}
-std::array<double, 4> splineCurvature(double t) { return placed({1.0, -2.0, 1.0}, t); }
-
-struct PatchJet {
-  Vec3 s, sXi, sEta, sXiXi, sXiEta, sEtaEta;
-};
-
-PatchJet evaluate(const SmoothSurface& surface, int face, double xi, double eta) {
-  const auto b = spline(xi), db = splineSlope(xi), ddb = splineCurvature(xi);
-  const auto c = spline(eta), dc = splineSlope(eta), ddc = splineCurvature(eta);
-  PatchJet jet;
-  for (int j = 0; j < 4; ++j) {
-    Vec3 line, slope, curvature;
-    for (int i = 0; i < 4; ++i) {
-      const Vec3& point = surface.x[surface.control[face][i + 4 * j]];
-      line += b[i] * point;
-      slope += db[i] * point;
-      curvature += ddb[i] * point;
-    }
-    jet.s += c[j] * line;
-    jet.sXi += c[j] * slope;
-    jet.sXiXi += c[j] * curvature;
-    jet.sEta += dc[j] * line;
-    jet.sXiEta += dc[j] * slope;
-    jet.sEtaEta += ddc[j] * line;
-  }
-  return jet;
-}
-
-/// One projected Newton step for min ½|s(ξ) − p|² on [0, 1]²; returns the largest change of a parameter.
-double newtonStep(const PatchJet& jet, const Vec3& p, std::array<double, 2>& parameter) {
-  const Vec3 r = jet.s - p;
-  std::array<double, 2> gradient{dot(r, jet.sXi), dot(r, jet.sEta)};
-  double a = squaredNorm(jet.sXi) + dot(r, jet.sXiXi), d = squaredNorm(jet.sEta) + dot(r, jet.sEtaEta);
-  double b = dot(jet.sXi, jet.sEta) + dot(r, jet.sXiEta);
-  if (a <= 0.0 || d <= 0.0 || a * d - b * b <= 0.0) {  // not convex here: Gauss–Newton
-    a = squaredNorm(jet.sXi);
-    d = squaredNorm(jet.sEta);
-    b = dot(jet.sXi, jet.sEta);
-  }
-  std::array<bool, 2> held{};
-  for (int k = 0; k < 2; ++k)
-    held[k] = (parameter[k] <= 0.0 && gradient[k] > 0.0) || (parameter[k] >= 1.0 && gradient[k] < 0.0);
-  std::array<double, 2> change{};
-  if (!held[0] && !held[1]) {
-    const double determinant = a * d - b * b;
-    change = {-(d * gradient[0] - b * gradient[1]) / determinant, -(a * gradient[1] - b * gradient[0]) / determinant};
-  } else if (!held[0]) {
-    change[0] = -gradient[0] / a;
-  } else if (!held[1]) {
-    change[1] = -gradient[1] / d;
-  }
-  double largest = 0.0;
-  for (int k = 0; k < 2; ++k) {
-    const double moved = std::clamp(parameter[k] + change[k], 0.0, 1.0);
-    largest = std::max(largest, std::abs(moved - parameter[k]));
-    parameter[k] = moved;
-  }
-  return largest;
-}
-
 }  // namespace
 
 SmoothSurface makeSmoothSurface(const Skin& whole) {
@@ -229,9 +158,10 @@ SmoothSurface makeSmoothSurface(const Skin& whole) {
   surface.carrier.offsets.push_back(0);
   for (const Row& row : controls.rows) {
     Row nodes;
-    Vec3 X;
+    Vec3 X, offset;
     for (const auto& [vertex, weight] : row) {
       X += weight * skin.X[vertex];
+      if (!skin.turns.empty()) offset += weight * skin.turns.offset[vertex];
       for (int k = skin.carrier.offsets[vertex]; k < skin.carrier.offsets[vertex + 1]; ++k)
         nodes[skin.carrier.column[k]] += weight * skin.carrier.weight[k];
     }
@@ -241,61 +171,20 @@ SmoothSurface makeSmoothSurface(const Skin& whole) {
     }
     surface.carrier.offsets.push_back(static_cast<int>(surface.carrier.column.size()));
     surface.X.push_back(X);
+    if (skin.turns.empty()) continue;
+    surface.turns.offset.push_back(offset);
+    surface.turns.patch.push_back(skin.turns.patch[row.begin()->first]);
   }
+  surface.turns.frames = skin.turns.frames;
+  surface.oneSided = skin.wall.oneSided;
+  surface.material = skin.wall.material;
   surface.x = surface.X;
   surface.v.resize(surface.X.size());
   return surface;
 }
 
 void place(SmoothSurface& surface, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> controls) {
-  const cg::Projection& map = surface.carrier;
-  for (int c : controls) {
-    Vec3 displacement, velocity;
-    for (int k = map.offsets[c]; k < map.offsets[c + 1]; ++k) {
-      displacement += map.weight[k] * u[map.column[k]];
-      velocity += map.weight[k] * v[map.column[k]];
-    }
-    surface.x[c] = surface.X[c] + displacement;
-    surface.v[c] = velocity;
-  }
-}
-
-std::array<double, 16> patchWeights(double xi, double eta) {
-  const auto b = spline(xi), c = spline(eta);
-  std::array<double, 16> weight{};
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i) weight[i + 4 * j] = b[i] * c[j];
-  return weight;
-}
-
-PatchPoint closestPointOnPatch(const SmoothSurface& surface, int face, const Vec3& p, std::array<double, 2> start) {
-  PatchPoint closest;
-  closest.parameter = start;
-  PatchJet jet = evaluate(surface, face, start[0], start[1]);
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    if (newtonStep(jet, p, closest.parameter) < 1e-14) break;
-    jet = evaluate(surface, face, closest.parameter[0], closest.parameter[1]);
-  }
-  const auto [xi, eta] = closest.parameter;
-  closest.weight = patchWeights(xi, eta);
-  closest.point = jet.s;
-  closest.squaredDistance = squaredNorm(p - jet.s);
-  closest.edge = eta <= 0.0 ? 0 : xi >= 1.0 ? 1 : eta >= 1.0 ? 2 : xi <= 0.0 ? 3 : -1;
-  return closest;
-}
-
-bool leavesThrough(const SmoothSurface& surface, int face, const PatchPoint& foot, const Vec3& p) {
-  const PatchJet jet = evaluate(surface, face, foot.parameter[0], foot.parameter[1]);
-  const Vec3 r = jet.s - p;
-  const std::array<double, 2> slope{dot(r, jet.sXi), dot(r, jet.sEta)};
-  const double along = outward[foot.edge][0] * slope[0] + outward[foot.edge][1] * slope[1];
-  const double scale = norm(r) * (foot.edge % 2 == 1 ? norm(jet.sXi) : norm(jet.sEta));
-  return along < -1e-12 * scale;
-}
-
-Vec3 patchNormal(const SmoothSurface& surface, int face, const PatchPoint& at) {
-  const PatchJet jet = evaluate(surface, face, at.parameter[0], at.parameter[1]);
-  return normalized(cross(jet.sXi, jet.sEta));
+  placePoints(surface.carrier, surface.X, surface.turns, u, v, controls, surface.x, surface.v);
 }
 
 }  // namespace dovetail::surface

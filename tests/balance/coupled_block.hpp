@@ -11,13 +11,9 @@
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/surface/coupling.hpp"
-#include "dovetail/surface/smooth_coupling.hpp"
 #include "dovetail/surface/stepper.hpp"
 
 namespace dovetail::surface {
-
-using FlatModel = CoupledModel<Coupling>;
-using SmoothModel = CoupledModel<SmoothCoupling>;
 
 /// Average acceleration, lumped masses.
 inline fem::ImplicitOptions newmarkLumped() {
@@ -51,16 +47,17 @@ inline Skin blockSkin(const fem::SolidMesh& mesh, double width) {
   return skin;
 }
 
-template <class Seam>
-CoupledModel<Seam> makeModel(const BlockSetup& setup, const fem::SolidMesh& mesh, Seam seam, dem::Particles particles) {
+inline CoupledModel makeModel(const BlockSetup& setup, const fem::SolidMesh& mesh, Coupling seam,
+                              dem::Particles particles) {
   const dem::LinearSpringDashpot normal{2e4, setup.restitution, true};
-  CoupledModel<Seam> model{.discrete = {},
-                           .wallLaw = {normal},
-                           .solid = std::make_unique<fem::Model>(fem::makeModel(mesh)),
-                           .seam = std::move(seam),
-                           .contact = {}};
+  const auto laws = dem::makeContactLaws(dem::ElasticLaw{normal});
+  CoupledModel model{.discrete = {},
+                     .wallLaw = laws,
+                     .solid = std::make_unique<fem::Model>(fem::makeModel(mesh)),
+                     .seam = std::move(seam),
+                     .contact = {}};
   model.discrete.particles = std::move(particles);
-  model.discrete.laws = dem::makeContactLaws(dem::ElasticLaw{normal});
+  model.discrete.laws = laws;
   model.discrete.gravity = setup.gravity;
   model.discrete.pairs.setSkin(0.02);
   model.discrete.sortEvery = 0;
@@ -71,7 +68,7 @@ CoupledModel<Seam> makeModel(const BlockSetup& setup, const fem::SolidMesh& mesh
   return model;
 }
 
-inline FlatModel flatModel(const BlockSetup& setup) {
+inline CoupledModel flatModel(const BlockSetup& setup) {
   const fem::SolidMesh mesh = blockMesh();
   const auto faces = mesh.faceSets.at("skin");
   Coupling seam(blockSkin(mesh, setup.spread ? 0.0 : setup.width));
@@ -81,9 +78,9 @@ inline FlatModel flatModel(const BlockSetup& setup) {
   return makeModel(setup, mesh, std::move(seam), droppedParticles());
 }
 
-inline SmoothModel smoothModel(const BlockSetup& setup) {
+inline CoupledModel smoothModel(const BlockSetup& setup) {
   const fem::SolidMesh mesh = blockMesh();
-  SmoothCoupling seam(makeSmoothSurface(blockSkin(mesh, setup.width)));
+  Coupling seam(makeSmoothSurface(blockSkin(mesh, setup.width)));
   seam.bookWallWork(setup.booksWork);
   return makeModel(setup, mesh, std::move(seam), droppedParticles());
 }

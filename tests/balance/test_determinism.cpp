@@ -48,7 +48,7 @@ State runKind(Kind kind, int threadCount) {
   const BlockSetup setup{.restitution = 0.9};
   const Skin skin = blockSkin(mesh, kind == Kind::coarse ? 0.1 : 0.0);
   State state = kind == Kind::smooth
-                    ? stateAfter(makeModel(setup, mesh, SmoothCoupling(makeSmoothSurface(skin)), manyParticles()), kind)
+                    ? stateAfter(makeModel(setup, mesh, Coupling(makeSmoothSurface(skin)), manyParticles()), kind)
                     : stateAfter(makeModel(setup, mesh, Coupling(skin), manyParticles()), kind);
   setThreads(1);
   return state;
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Determinism,
 
 template <class Spoil>
 std::string failureAfter(Spoil&& spoil) {
-  FlatModel model = flatModel({});
+  CoupledModel model = flatModel({});
   Profile profile;
   start(model, dt, profile);
   spoil(model);
@@ -81,20 +81,20 @@ std::string failureAfter(Spoil&& spoil) {
 }
 
 TEST(Breakdown, ANaNInAParticleIsNamedWithinTheStep) {
-  const std::string said = failureAfter([](FlatModel& model) { model.discrete.particles.v[1].x = std::nan(""); });
+  const std::string said = failureAfter([](CoupledModel& model) { model.discrete.particles.v[1].x = std::nan(""); });
   EXPECT_NE(said.find("particle 1"), std::string::npos) << said;
 }
 
 TEST(Breakdown, ANaNInANodeOfTheSkinIsNamedWithinTheStep) {
   const fem::SolidMesh mesh = blockMesh();
   const int node = mesh.nodeSets.at("z+")[5];
-  const std::string said = failureAfter([&](FlatModel& model) { model.solid->nodes.v[node].y = std::nan(""); });
+  const std::string said = failureAfter([&](CoupledModel& model) { model.solid->nodes.v[node].y = std::nan(""); });
   EXPECT_NE(said.find("node " + std::to_string(node)), std::string::npos) << said;
 }
 
 /// A node inside the solid does not meet the seam: whoever runs the steps checks the nodes, and is told which.
 TEST(Breakdown, ANaNInsideTheSolidIsFoundByTheCheckOfTheNodes) {
-  FlatModel model = flatModel({});
+  CoupledModel model = flatModel({});
   const int inside = 16 + 5;
   Profile profile;
   start(model, dt, profile);

@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(K, EnergyImplicit, ::testing::Values(1, 2, 3, 4));
 TEST(EnergyConsistentMass, ErrorIsSecondOrder) {
   for (const double share : {0.5, 1.0}) {
     const auto drift = [&](double h) {
-      FlatModel model = flatModel({});
+      CoupledModel model = flatModel({});
       fem::ImplicitMotion solid(*model.solid,
                                 {.scheme = fem::newmark(), .massShare = share, .relativeTolerance = 1e-10});
       const auto energy = [&] {
@@ -127,7 +127,7 @@ TEST(EnergyLost, WithoutDashpotsNothingIsBooked) {
 }
 
 /// v·V″v of the solid, by central differences of its internal forces.
-double stiffnessAlongVelocity(const FlatModel& model) {
+double stiffnessAlongVelocity(const CoupledModel& model) {
   const double s = 1e-6;
   fem::Nodes& nodes = model.solid->nodes;
   const fem::Nodes kept = nodes;
@@ -145,7 +145,7 @@ double stiffnessAlongVelocity(const FlatModel& model) {
 TEST(EnergyExplicitSplitting, IsTheLeadingTermOfWhatTheWindowStores) {
   const double h = 8e-4;
   const int K = 32;
-  FlatModel model = flatModel({});
+  CoupledModel model = flatModel({});
   Profile profile;
   start(model, h / K, profile);
   const auto shadow = [&] {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/dem/laws/laws.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/surface/coupling.hpp"
-#include "dovetail/surface/smooth_coupling.hpp"
 
 namespace dovetail::surface {
 
@@ -90,49 +90,36 @@ struct Response {
   int contacts = 0;
 };
 
-/// A seam of either kind.
-class AnySeam {
-public:
-  AnySeam(const fem::SolidMesh& mesh, const Variant& variant)
-      : smooth_(variant.smooth),
-        flatSeam_(carriedSkin(mesh, variant)),
-        smoothSeam_(makeSmoothSurface(flatSeam_.skin())) {}
+/// On the skin that a variant says, or on the smooth surface of it.
+inline Coupling makeSeam(const fem::SolidMesh& mesh, const Variant& variant, const CouplingOptions& options = {}) {
+  const Skin skin = carriedSkin(mesh, variant);
+  return variant.smooth ? Coupling(makeSmoothSurface(skin), options) : Coupling(skin, options);
+}
 
-  Response respond(dem::Particles particles, std::span<const Vec3> u, std::span<const Vec3> v,
-                   const dem::ElasticLaw& law) {
-    return smooth_ ? exchange(smoothSeam_, particles, u, v, law) : exchange(flatSeam_, particles, u, v, law);
-  }
-  const Coupling& flat() const { return flatSeam_; }
-  const SmoothCoupling& smooth() const { return smoothSeam_; }
-  bool isSmooth() const { return smooth_; }
+inline Response respond(Coupling& seam, dem::Particles particles, std::span<const Vec3> u, std::span<const Vec3> v,
+                        const dem::ContactLaws& laws) {
+  dem::clearForces(particles);
+  Response response;
+  response.energy = seam.exchange(particles, u, v, laws, 1e-3).storedEnergy();
+  response.onParticles = particles.f;
+  response.onNodes = seam.load().force;
+  response.contacts = static_cast<int>(seam.contacts().size());
+  return response;
+}
 
-private:
-  template <class Seam>
-  static Response exchange(Seam& seam, dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
-                           const dem::ElasticLaw& law) {
-    dem::clearForces(particles);
-    Response response;
-    response.energy = seam.exchange(particles, u, v, law, 1e-3).storedEnergy();
-    response.onParticles = particles.f;
-    response.onNodes = seam.load().force;
-    response.contacts = static_cast<int>(seam.contacts().size());
-    return response;
-  }
-
-  bool smooth_;
-  Coupling flatSeam_;
-  SmoothCoupling smoothSeam_;
-};
+inline std::shared_ptr<const dem::ContactLaws> elasticLaws(double stiffness, double restitution = 1.0) {
+  return dem::makeContactLaws(dem::ElasticLaw{{stiffness, restitution}});
+}
 
 /// Moves particle 0 from `above` along `direction` until it touches, and `overlap` further.
-inline void pushDown(AnySeam& seam, dem::Particles& particles, std::span<const Vec3> u, const Vec3& above,
+inline void pushDown(Coupling& seam, dem::Particles& particles, std::span<const Vec3> u, const Vec3& above,
                      const Vec3& direction, double overlap) {
-  const dem::ElasticLaw law{{1.0}};
+  const auto laws = elasticLaws(1.0);
   const std::vector<Vec3> rest(u.size());
   const double step = 0.05 * particles.radius[0];
   const auto touches = [&](double way) {
     particles.x[0] = above + way * direction;
-    return seam.respond(particles, u, rest, law).contacts > 0;
+    return respond(seam, particles, u, rest, *laws).contacts > 0;
   };
   double way = 0.0;
   while (!touches(way) && way < 20.0 * particles.radius[0]) way += step;

@@ -45,11 +45,10 @@ struct Trace {
   }
 };
 
-template <class Seam>
-void record(Seam& seam, double t, const fem::SolidMesh& mesh, Trace& trace) {
+void record(Coupling& seam, double t, const fem::SolidMesh& mesh, Trace& trace) {
   dem::Particles particles = travellers(t);
   const auto u = wave(mesh, t);
-  seam.exchange(particles, u, std::vector<Vec3>(u.size()), dem::ElasticLaw{{1e4}}, 1e-3);
+  seam.exchange(particles, u, std::vector<Vec3>(u.size()), *elasticLaws(1e4), 1e-3);
   trace.force.insert(trace.force.end(), particles.f.begin(), particles.f.end());
   trace.contacts.push_back(static_cast<int>(seam.contacts().size()));
   const auto& who = seam.contacts().particle;
@@ -84,7 +83,7 @@ TEST(Candidates, OnTheSmoothSurfaceUpToItsTolerance) {
   const fem::SolidMesh mesh = strip();
   Trace traces[2];
   for (int k = 0; k < 2; ++k) {
-    SmoothCoupling seam(makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("skin"))), k == 0 ? 1e-9 : 0.0);
+    Coupling seam(makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("skin"))), {.margin = k == 0 ? 1e-9 : 0.0});
     for (int step = 0; step < steps; ++step) record(seam, 1e-3 * step, mesh, traces[k]);
   }
   EXPECT_EQ(traces[0].contacts, traces[1].contacts);
@@ -99,21 +98,20 @@ TEST(Candidates, AreMadeAnewForMoreParticles) {
   Coupling seam(carriedSkin(mesh, {"local"}));
   const std::vector<Vec3> rest(mesh.X.size());
   dem::Particles particles;
-  seam.exchange(particles, rest, rest, dem::ElasticLaw{{1e4}}, 1e-3);
+  seam.exchange(particles, rest, rest, *elasticLaws(1e4), 1e-3);
   EXPECT_FALSE(seam.inContact());
   dem::addParticle(particles, {1, 1, 0.29}, {}, radius, dem::Mass{1.0});
-  seam.exchange(particles, rest, rest, dem::ElasticLaw{{1e4}}, 1e-3);
+  seam.exchange(particles, rest, rest, *elasticLaws(1e4), 1e-3);
   EXPECT_TRUE(seam.inContact());
 }
 
-template <class Seam>
-std::string failure(Seam seam, const dem::Particles& good, const dem::Particles& bad, std::span<const Vec3> u,
+std::string failure(Coupling seam, const dem::Particles& good, const dem::Particles& bad, std::span<const Vec3> u,
                     std::span<const Vec3> badU) {
   dem::Particles particles = good;
-  seam.exchange(particles, u, u, dem::ElasticLaw{{1e4}}, 1e-3);
+  seam.exchange(particles, u, u, *elasticLaws(1e4), 1e-3);
   particles = bad;
   try {
-    seam.exchange(particles, badU, badU, dem::ElasticLaw{{1e4}}, 1e-3);
+    seam.exchange(particles, badU, badU, *elasticLaws(1e4), 1e-3);
   } catch (const NumericalError& error) {
     return error.what();
   }
@@ -133,9 +131,9 @@ TEST(Candidates, ANaNIsCaughtAtOnceWithItsNumber) {
   const std::string nodeName = "node " + std::to_string(node);
   EXPECT_NE(failure(Coupling(skin), good, bad, u, u).find("particle 3"), std::string::npos);
   EXPECT_NE(failure(Coupling(skin), good, good, u, badU).find(nodeName), std::string::npos);
-  const SmoothCoupling smooth(makeSmoothSurface(skin));
-  EXPECT_NE(failure(smooth, good, bad, u, u).find("particle 3"), std::string::npos);
-  EXPECT_NE(failure(smooth, good, good, u, badU).find(nodeName), std::string::npos);
+  const SmoothSurface smooth = makeSmoothSurface(skin);
+  EXPECT_NE(failure(Coupling(smooth), good, bad, u, u).find("particle 3"), std::string::npos);
+  EXPECT_NE(failure(Coupling(smooth), good, good, u, badU).find(nodeName), std::string::npos);
 }
 
 TEST(Candidates, RefuseABadMargin) {
@@ -143,7 +141,7 @@ TEST(Candidates, RefuseABadMargin) {
   const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
   EXPECT_THROW(Coupling(skin, {dem::EdgeRule::projected, -1.0}), InputError);
   EXPECT_THROW(Coupling(skin, {dem::EdgeRule::projected, std::nan("")}), InputError);
-  EXPECT_THROW(SmoothCoupling(makeSmoothSurface(skin), -1.0), InputError);
+  EXPECT_THROW(Coupling(makeSmoothSurface(skin), {.margin = -1.0}), InputError);
 }
 
 }  // namespace

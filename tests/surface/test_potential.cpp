@@ -9,7 +9,7 @@ namespace dovetail::surface {
 namespace {
 
 constexpr double radius = 0.35;
-const dem::ElasticLaw law{{1e4}};
+const auto laws = elasticLaws(1e4);
 
 struct State {
   std::vector<Vec3> u;
@@ -62,7 +62,7 @@ State overSharpEdge(const fem::SolidMesh& mesh, Random& random) {
 
 State overCorner(const fem::SolidMesh& mesh, Random& random) {
   State state = onFace(mesh, random);
-  const Vec3 outward = normalized({random(0.7, 1.3), random(0.7, 1.3), random(0.7, 1.3)});
+  const Vec3 outward = normalized(Vec3{random(0.7, 1.3), random(0.7, 1.3), random(0.7, 1.3)});
   state.above = Vec3{4.0, 4.0, 0.0} + outward;
   state.direction = -outward;
   return state;
@@ -95,17 +95,17 @@ struct Coverage {
   double worst = 0.0, worstOfSeveral = 0.0;
 };
 
-double energyAt(AnySeam& seam, const dem::Particles& particles, std::span<const Vec3> u, const Vec3& dx,
+double energyAt(Coupling& seam, const dem::Particles& particles, std::span<const Vec3> u, const Vec3& dx,
                 std::span<const Vec3> du, double h) {
   dem::Particles moved = particles;
   moved.x[0] += h * dx;
   std::vector<Vec3> displaced(u.begin(), u.end());
   for (std::size_t i = 0; i < displaced.size(); ++i) displaced[i] += h * du[i];
-  return seam.respond(moved, displaced, std::vector<Vec3>(u.size()), law).energy;
+  return respond(seam, moved, displaced, std::vector<Vec3>(u.size()), *laws).energy;
 }
 
 /// Largest |dV/ds + F·s| over directions s of particle, nodes and both, relative to the force and |s|.
-double gradientError(AnySeam& seam, const dem::Particles& particles, std::span<const Vec3> u, const Response& response,
+double gradientError(Coupling& seam, const dem::Particles& particles, std::span<const Vec3> u, const Response& response,
                      Random& random) {
   const double size = norm(response.onParticles[0]);
   double worst = 0.0;
@@ -123,7 +123,7 @@ double gradientError(AnySeam& seam, const dem::Particles& particles, std::span<c
 }
 
 Coverage survey(const fem::SolidMesh& mesh, const Variant& variant, const Draw& draw, int states, unsigned seed) {
-  AnySeam seam(mesh, variant);
+  Coupling seam = makeSeam(mesh, variant);
   Random random(seed);
   Coverage coverage;
   dem::Particles particles;
@@ -131,7 +131,7 @@ Coverage survey(const fem::SolidMesh& mesh, const Variant& variant, const Draw& 
   for (int s = 0; s < states; ++s) {
     const State state = draw(mesh, random);
     pushDown(seam, particles, state.u, state.above, state.direction, state.overlap);
-    const Response response = seam.respond(particles, state.u, std::vector<Vec3>(state.u.size()), law);
+    const Response response = respond(seam, particles, state.u, std::vector<Vec3>(state.u.size()), *laws);
     if (response.contacts == 0) continue;
     ++coverage.touching;
     const double error = gradientError(seam, particles, state.u, response, random);

@@ -144,7 +144,7 @@ TEST_P(SkinOf, KernelsGiveRowsThatSumToOne) {
   }
 }
 
-const dem::ElasticLaw law{{1e4}};
+const auto laws = elasticLaws(1e4);
 
 struct Answer {
   double energy;
@@ -166,7 +166,7 @@ public:
     dem::Particles moved = particles;
     moved.x[0] = x;
     dem::clearForces(moved);
-    const double energy = seam_.exchange(moved, displacement, v, law, 1e-3).storedEnergy();
+    const double energy = seam_.exchange(moved, displacement, v, *laws, 1e-3).storedEnergy();
     return {energy, moved.f[0], seam_.load().force};
   }
   const Coupling& seam() const { return seam_; }

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <type_traits>
 
 #include "scenes.hpp"
 
@@ -10,7 +9,7 @@ namespace dovetail::surface {
 namespace {
 
 constexpr double radius = 0.35;
-const dem::ElasticLaw law{{1e4}};
+const auto laws = elasticLaws(1e4);
 
 /// A prescribed motion of one particle and all nodes while they touch, t from 0 to 1. The contact stays in one facet,
 /// or on the smooth surface between the knots in the middles of the faces, because crossing would leave a kink in the
@@ -36,10 +35,9 @@ struct Books {
 };
 
 /// Trapezoidal work of the contact on the particle and of the load on the nodes, with `steps` exchanges.
-template <class Seam>
-Books book(Seam seam, int steps) {
+Books book(Coupling seam, int steps, double startX = 1.4) {
   Motion motion;
-  if constexpr (std::is_same_v<Seam, SmoothCoupling>) motion.startX = 1.65;
+  motion.startX = startX;
   seam.bookWallWork(true);
   Books books;
   dem::Particles particles;
@@ -52,7 +50,7 @@ Books book(Seam seam, int steps) {
     const auto u = motion.u(t);
     particles.x[0] = motion.x(t);
     particles.f[0] = {};
-    energy = seam.exchange(particles, u, std::vector<Vec3>(u.size()), law, 1.0 / steps).storedEnergy();
+    energy = seam.exchange(particles, u, std::vector<Vec3>(u.size()), *laws, 1.0 / steps).storedEnergy();
     EXPECT_GT(energy, 0.0);
     const auto load = seam.load().force;
     if (step == 0) {
@@ -74,8 +72,8 @@ Books book(Seam seam, int steps) {
 
 /// @param make  gives a new seam
 template <class Make>
-void expectSecondOrder(Make&& make) {
-  const Books coarse = book(make(), 100), fine = book(make(), 200);
+void expectSecondOrder(Make&& make, double startX = 1.4) {
+  const Books coarse = book(make(), 100, startX), fine = book(make(), 200, startX);
   EXPECT_GT(std::abs(fine.workOnSkin), 0.05 * std::abs(fine.energyChange));
   EXPECT_LT(std::abs(fine.residual()), 2e-3 * std::abs(fine.workOnSkin));
   const double order = std::log2(std::abs(coarse.residual() / fine.residual()));
@@ -93,7 +91,7 @@ TEST(WallWork, ClosesTheEnergyOfThePrescribedMotion) {
 
 TEST(WallWork, ClosesItOnTheSmoothSurface) {
   for (const Variant& variant : flatVariants())
-    expectSecondOrder([&] { return SmoothCoupling(makeSmoothSurface(carriedSkin(unitBlock(), variant))); });
+    expectSecondOrder([&] { return Coupling(makeSmoothSurface(carriedSkin(unitBlock(), variant))); }, 1.65);
 }
 
 TEST(WallWork, ClosesItForTheSpreadLoadWhoseNodesGetOtherWork) {
@@ -109,10 +107,17 @@ TEST(WallWork, ClosesItForTheSpreadLoadWhoseNodesGetOtherWork) {
   EXPECT_GT(std::abs(spread.workOnNodes - spread.workOnSkin), 0.05 * std::abs(spread.workOnSkin));
 }
 
+/// To round-off where vertices are linear in the nodes, else with the error of the trapezoidal rule.
 TEST(WallWork, IsTheWorkOfTheLoadForTheAdjointPair) {
   for (const Variant& variant : flatVariants()) {
-    const Books books = book(flatSeam(variant), 50);
-    EXPECT_NEAR(books.workOnNodes, books.workOnSkin, 1e-12 * std::abs(books.workOnSkin)) << variant.name;
+    const Books books = book(flatSeam(variant), 50), fine = book(flatSeam(variant), 100);
+    const double error = std::abs(books.workOnNodes - books.workOnSkin), size = std::abs(books.workOnSkin);
+    if (carriedSkin(unitBlock(), variant).turns.empty()) {
+      EXPECT_LT(error, 1e-12 * size) << variant.name;
+    } else {
+      EXPECT_LT(error, 1e-6 * size) << variant.name;
+      EXPECT_LT(std::abs(fine.workOnNodes - fine.workOnSkin), error / 3.5) << variant.name;
+    }
   }
 }
 
@@ -130,7 +135,7 @@ TEST(WallWork, StandsStillWhenSwitchedOff) {
   dem::addParticle(particles, motion.x(0), {}, radius, dem::Mass{1.0});
   for (double t : {0.0, 0.5, 1.0}) {
     const auto u = motion.u(t);
-    seam.exchange(particles, u, u, law, 0.5);
+    seam.exchange(particles, u, u, *laws, 0.5);
   }
   EXPECT_EQ(seam.wallWork(), 0.0);
 }

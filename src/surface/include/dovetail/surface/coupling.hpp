@@ -1,4 +1,4 @@
-// The seam between particles and a solid: contacts on the skin, their loads on the nodes.
+// Between particles and a solid: contacts on its surface, their loads on the nodes.
 #pragma once
 
 #include <cstdint>
@@ -7,92 +7,138 @@
 #include <span>
 #include <vector>
 
-#include "dovetail/cg/surface_kernel.hpp"
-#include "dovetail/dem/particles/particles.hpp"
-#include "dovetail/dem/walls/wall_candidates.hpp"
-#include "dovetail/dem/walls/wall_collide.hpp"
-#include "dovetail/dem/walls/wall_contacts.hpp"
+#include "dovetail/core/archive.hpp"
 #include "dovetail/coupling/nodal_load.hpp"
+#include "dovetail/dem/laws/contact_laws.hpp"
+#include "dovetail/dem/particles/particles.hpp"
+#include "dovetail/dem/walls/wall_contacts.hpp"
 #include "dovetail/surface/skin.hpp"
+#include "dovetail/surface/smooth_surface.hpp"
 #include "dovetail/surface/spread_load.hpp"
 
 namespace dovetail::surface {
 
+class Carrier;
+
 struct CouplingOptions {
-  dem::EdgeRule edges = dem::EdgeRule::projected;
+  dem::EdgeRule edges = dem::EdgeRule::projected;  ///< on facets
   /// Facets within radius + margin of a particle are kept as candidates until the motion has used the margin up, m;
   /// 0 = half the smallest radius.
   double margin = 0.0;
 };
 
-/// Couples particles to the nodes of any solid through its skin. It needs the nodes' u and v and gives nodal forces;
+/// What an exchange need not be told.
+struct ExchangeOptions {
+  dem::Booking booking = dem::Booking::on;
+  /// No time passes: what contacts remember stays, and what was left by leavers waits.
+  bool timeless = false;
+  /// How far particles have moved since the last exchange; not given: they are compared with where they were.
+  std::optional<dem::Moves> moves{};
+  geometry::Periodicity periodicity{};
+};
+
+/// Couples particles to the nodes of any solid through its surface. It needs the nodes' u and v and gives nodal forces;
 /// whoever owns the solid makes its own time step.
 ///
-/// Conservative pair (default): the contact's gap is that of the skin placed by the carrier S, the load goes back by
-/// Sᵀ. Particles + contacts + nodes then form one Hamiltonian system: the pair creates no energy for any kernel width.
+/// Conservative pair (default): the contact's gap is that of the surface placed by its carrier, the load goes back by
+/// the transpose. Particles + contacts + nodes then form one Hamiltonian system: the pair creates no energy for any
+/// kernel width, and forces and moments of contact balance at any turn. Couples of rolling and twisting act on the
+/// nodes as forces on the facet's vertices (dem::FacetSpin).
 class Coupling {
 public:
-  /// @param skin  see makeSkin and coarseGrain
+  /// @param skin  see makeSkin and coarseGrain; skin.wall.material is its row in a table of laws
   /// @throws InputError if the margin is negative or not finite
   explicit Coupling(Skin skin, const CouplingOptions& options = {});
+  /// On smooth patches, see there for the potential. Patches that a particle touches at once, in the valleys of sharp
+  /// edges, share the overlap as facets do (dem::projectWallContacts). For laws that remember nothing.
+  explicit Coupling(SmoothSurface surface, const CouplingOptions& options = {});
+  ~Coupling();
+  Coupling(Coupling&&) noexcept;
+  Coupling& operator=(Coupling&&) noexcept;
 
   /// The paper's transfer (Eqs. 14 and 15) in place of the adjoint one: the gap stays that of the local skin, the load
   /// is spread by the kernel at the contact point. Forces still balance; power does not (see wallWork).
   void spreadLoad(SpreadLoad spread) { spread_ = std::move(spread); }
 
-  /// Place the skin, find contacts, add their forces to the particles, and set load() to the reaction on the nodes.
+  /// Places the surface, finds contacts, adds their forces to the particles, and sets load() to the reaction on the
+  /// nodes.
   /// @param u, v  displacement, m, and velocity, m/s, of all nodes of the solid
-  /// @param dt    DEM step, s (for laws with history)
-  template <class Law>
-  dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v, const Law& law,
-                            double dt) {
-    locate(particles, u, v);
-    placeSkin(u, v);
-    dem::findWallContacts(particles, skin_.wall, candidates_, options_.edges, contacts_);
-    const dem::ContactWork work =
-        dem::detail::collide(particles, skin_.wall, contacts_, dem::prepare(law), dt, dem::Booking::on);
-    bookNewContacts();
-    transfer();
-    return work;
-  }
+  /// @param dt    DEM step, s (for laws that remember)
+  /// @throws InputError as check does, or for fields that are shorter than the solid; NumericalError naming a particle
+  ///         or node that is not finite, or a patch that has been crushed
+  dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
+                            const dem::ContactLaws& laws, double dt, const ExchangeOptions& options = {});
 
   /// Contact forces on the nodes of the last exchange, N.
   const coupling::NodalLoad& load() const { return load_; }
   bool inContact() const { return contacts_.size() > 0; }
 
-  /// Work the contacts did on the moving skin, J, from the first exchange after bookWallWork(true): trapezoidal between
-  /// exchanges. With the adjoint pair it equals the work of load() on the nodes.
+  /// Work the contacts did on the moving surface, J, from the first exchange after bookWallWork(true): trapezoidal
+  /// between exchanges. With the adjoint pair it is the work of load() on the nodes, where offsets turn with patches up
+  /// to the error of the trapezoidal rule.
   double wallWork() const { return wallWork_; }
   void bookWallWork(bool on) {
     booksWork_ = on;
     previous_.clear();
   }
 
-  const Skin& skin() const { return skin_; }
+  /// @throws InputError naming what of the laws, or of a space that repeats, cannot be had on this surface
+  void check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity = {}) const;
+  /// Particles get new numbers, < 0: gone; what their contacts remember follows. @return as dem::renumber, J
+  double renumber(std::span<const int> newNumber, const dem::Particles& before);
+  /// Adds what the contacts of the last exchange ask of the step, the surface giving way with its nodes: node i shares
+  /// its mass among all contacts by what they ask of it, k |S_i|, so that one alone has
+  ///   ω² = K/m + Σ_i |S_i| Q_i / m_i,   Q_i = Σ_contacts k |S_i|,
+  /// safe for any number of particles on a face (see ContactStep), while nothing else pulls at the nodes.
+  /// @param inverseMass  per node, 1/kg; 0 for a held node
+  void addDemand(dem::ContactDemand& demand, const dem::Particles& particles, const dem::ContactLaws& laws,
+                 std::span<const double> inverseMass) const;
+  /// The largest Σ_i S_i²/m_i of any point of the surface, 1/kg (an upper bound on a smooth one): a single particle on
+  /// it has ω² = k (1/m + that).
+  double largestMobility(std::span<const double> inverseMass) const;
+
+  /// Where it is: one of the two; the other is an error. @throws InputError
+  const Skin& skin() const;
+  const SmoothSurface& smoothSurface() const;
   const dem::WallContacts& contacts() const { return contacts_; }
-  std::int64_t candidateBuilds() const { return candidates_.builds; }
+  /// The wall whose facets the contacts are with.
+  const dem::TriangulatedWall& wall() const;
+  int nodeCount() const;
+  std::int64_t candidateBuilds() const { return builds_; }
+
+  /// All that is needed to go on as if it had never stopped.
+  void save(ByteWriter& writer) const;
+  void load(ByteReader& reader);
 
 private:
-  void locate(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v);
-  bool marginUsed(const dem::Particles& particles, std::span<const Vec3> u) const;
-  void placeSkin(std::span<const Vec3> u, std::span<const Vec3> v);
-  void bookNewContacts();
-  double contactWorkSinceLast() const;
+  void locate(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v, double reach,
+              const ExchangeOptions& options);
+  bool marginUsed(const dem::Particles& particles, std::span<const Vec3> u, double reach,
+                  const ExchangeOptions& options);
+  void placeSurface(std::span<const Vec3> u, std::span<const Vec3> v);
+  double workSinceLast() const;
   void transfer();
+  template <class Archive, class Self>
+  static void archive(Archive& archive, Self& self);
 
-  Skin skin_;
-  CouplingOptions options_;
+  std::unique_ptr<Carrier> carrier_;
+  double margin_;
   std::optional<SpreadLoad> spread_;
-  dem::WallCandidates candidates_;
   dem::WallContacts contacts_;
-  coupling::NodalLoad load_;
-  std::vector<int> active_;                            // vertices of candidate facets
-  std::vector<int> surfaceNodes_;                      // nodes that carry the skin
-  std::vector<Vec3> particlesAtBuild_, nodesAtBuild_;  // positions, and those nodes' u, when the candidates were found
+  coupling::NodalLoad onPoints_, load_;
+  std::vector<int> surfaceNodes_;  // that carry the surface
   double gain_;
+
+  // What candidates were found for.
+  std::int64_t builds_ = 0, revision_ = -1;
+  double marginAtBuild_ = 0.0, reachAtBuild_ = 0.0;
+  Vec3 periodAtBuild_;
+  std::vector<Vec3> particlesAtBuild_, nodesAtBuild_;  // nodes' u
+  dem::ParticleTravel travel_;
+
   bool booksWork_ = false;
   double wallWork_ = 0.0;
-  std::vector<Vec3> previous_;  // skin at the last exchange, only if work is booked
+  std::vector<Vec3> previous_;  // points at the last exchange, only if work is booked
 };
 
 }  // namespace dovetail::surface

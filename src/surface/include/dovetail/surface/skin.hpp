@@ -10,6 +10,7 @@
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/walls/wall.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
+#include "dovetail/surface/patch_turns.hpp"
 
 namespace dovetail::surface {
 
@@ -23,11 +24,13 @@ enum class QuadSplit { two, four };
 
 /// The triangulated boundary of a mesh and the linear map that ties it to the mesh nodes.
 ///
-/// Every vertex v moves as x_v = X_v + Σ_i S_vi u_i, where the rows of S (`carrier`) sum to one. Its transpose carries
-/// vertex forces to nodes: f_i = Σ_v S_vi f_v. Because one matrix serves both ways, the pair is adjoint: the power
-/// that the particles spend on the skin is the power the nodes receive, for any kernel width.
-/// The skin of a closed face set is a closed wall. Where kernels of two smooth patches meet at a sharp edge, each patch
-/// has its own vertices there (splitAtSharpEdges), because each has its own weights.
+/// Every vertex v moves as x_v = X_v + Σ_i S_vi u_i, where the rows of S (`carrier`) sum to one; where a kernel does
+/// not reproduce positions, what it is off by turns with the patch (PatchTurns). The transpose carries vertex forces to
+/// nodes: f_i = Σ_v S_vi f_v. Because one map serves both ways, the pair is adjoint: the power that the particles spend
+/// on the skin is the power the nodes receive, for any kernel width, and moments balance at any turn.
+/// The skin of a closed face set is a closed wall, pushes outwards only, and stays one: where kernels of two smooth
+/// patches meet at a sharp edge, each patch has its own vertices there (splitAtSharpEdges), because each has its own
+/// weights, and wall.corner says which of them are one corner.
 struct Skin {
   dem::TriangulatedWall wall;     ///< present positions, m, and velocities, m/s; facets counter-clockwise from outside
   std::vector<Vec3> X;            ///< reference position per vertex, m
@@ -36,6 +39,7 @@ struct Skin {
   std::vector<int> facetFace;     ///< face from which a facet was cut
   cg::Projection localMap;        ///< vertices × nodes: interpolation on the face
   cg::Projection carrier;         ///< vertices × nodes: the map in use (localMap unless coarse-grained)
+  PatchTurns turns;               ///< of the vertices; empty where the carrier reproduces positions
 };
 
 /// Cuts boundary faces of a mesh, of any shape, into triangles. Rows of `localMap` are the shape functions of the face
@@ -53,17 +57,21 @@ void splitAtSharpEdges(Skin& skin);
 
 /// Replaces the carrier by kernel weights: S_vi = Σ_q w_q W(|X_q − X_v|) ψ_i(X_q) / Σ_q w_q W (paper, Eqs. 14 and 15,
 /// with the kernel at the skin's vertices on the reference surface), after splitAtSharpEdges. Width 0 gives the local
-/// map and splits nothing. Rows sum to one; with linear correction Σ_i S_vi X_i = X_v as well, so that moments balance
-/// too, and with the symmetric one even tractions stay even (cg/symmetric_kernel.hpp).
+/// map and splits nothing. Rows sum to one; with linear correction Σ_i S_vi X_i = X_v as well, so that no offset need
+/// turn with the patch, and with the symmetric one even tractions stay even (cg/symmetric_kernel.hpp). On patches that
+/// are more than twice as long as wide, rows without linear correction get the factor 1 + β_v (s_i − s̄_v) of the
+/// lengthwise coordinate s that restores their first moment along it; their shares across stay what they were.
 /// @throws InputError for a width that is negative or not finite, before the skin is changed
 void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel);
 
-/// Moves the given vertices: wall.x = X + S u, wall.v = S v.
+/// Moves the given vertices: wall.x = X + S u, wall.v = S v, and what turns with the patch.
+/// @throws NumericalError naming a patch that has shrunk to a line, where offsets turn with it
 void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> vertices);
 /// Moves all vertices.
 void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v);
 
-/// Largest row sum of |S|: no vertex moves faster than this times the fastest node.
-double carrierGain(const Skin& skin);
+/// Largest row sum of |S|, and what turns of patches add: no carried point moves faster than this times the fastest
+/// node.
+double carrierGain(const cg::Projection& carrier, const PatchTurns& turns);
 
 }  // namespace dovetail::surface

@@ -23,15 +23,19 @@ struct SmoothSurface {
   std::vector<std::array<int, 16>> control;  ///< per face: control point (i, j) at index i + 4 j, i and j = −1 … 2
   std::vector<std::array<int, 4>> across;    ///< per face and edge: the face across it in the same patch, or −1
   cg::Projection carrier;                    ///< control points × nodes
+  PatchTurns turns;                          ///< of the control points, as those of a skin
   std::vector<Vec3> X, x, v;                 ///< control points: reference and present position, m; velocity, m/s
+  bool oneSided = false;                     ///< as dem::TriangulatedWall::oneSided
+  int material = 0;                          ///< row of a LawTable
 };
 
 /// Smooth patches end at sharp edges, whether or not the skin was split there.
-/// @throws InputError naming the face if it has other than four nodes, or if a vertex inside a smooth patch has other than
-///         four faces: such meshes need the flat surface.
+/// @throws InputError naming the face if it has other than four nodes, or if a vertex inside a smooth patch has other
+/// than
+///         four faces: such meshes need the flat surface; or if two faces have an edge the same way round.
 SmoothSurface makeSmoothSurface(const Skin& skin);
 
-/// Moves the given control points: x = X + S u, v = S v.
+/// Moves the given control points: x = X + S u, v = S v, and what turns with their patches.
 void place(SmoothSurface& surface, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> controls);
 
 /// The point of one face's patch closest to p; parameters in [0, 1]².
@@ -41,8 +45,14 @@ struct PatchPoint {
   Vec3 point;
   int edge = -1;  ///< edge of the face on which the point lies (0 … 3), −1 inside
   double squaredDistance = 0.0;
+  bool found = true;  ///< false: the search has not come to rest
 };
+/// By Newton's method, in steps that never go away from p. Of several closest points the one that lies downhill of
+/// `start`.
 PatchPoint closestPointOnPatch(const SmoothSurface& surface, int face, const Vec3& p, std::array<double, 2> start);
+
+/// Of a grid of points on the patch the parameters of the one closest to p: where a search may start.
+std::array<double, 2> roughlyClosest(const SmoothSurface& surface, int face, const Vec3& p);
 
 /// Whether the distance to p still falls when the foot leaves the face through the edge it lies on.
 bool leavesThrough(const SmoothSurface& surface, int face, const PatchPoint& foot, const Vec3& p);

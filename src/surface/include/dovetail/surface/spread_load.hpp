@@ -22,7 +22,8 @@ public:
              std::span<const fem::Face> faces);
 
   /// Adds the reaction to a force `onParticle` (N) whose contact point has the given weights in a facet of the skin.
-  void add(const Skin& skin, int facet, const std::array<double, 3>& weight, const Vec3& onParticle, coupling::NodalLoad& load);
+  void add(const Skin& skin, int facet, const std::array<double, 3>& weight, const Vec3& onParticle,
+           coupling::NodalLoad& load);
 
 private:
   cg::SurfaceKernelQuadrature quadrature_;

@@ -8,30 +8,30 @@
 
 #include "dovetail/core/profile.hpp"
 #include "dovetail/core/vec3.hpp"
+#include "dovetail/coupling/nodal_load.hpp"
+#include "dovetail/dem/laws/contact_laws.hpp"
 #include "dovetail/dem/laws/contact_work.hpp"
-#include "dovetail/dem/laws/laws.hpp"
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/fem/model/model.hpp"
 #include "dovetail/fem/motion/implicit_motion.hpp"
 #include "dovetail/fem/motion/motion.hpp"
-#include "dovetail/coupling/nodal_load.hpp"
+#include "dovetail/surface/coupling.hpp"
 
 namespace dovetail::surface {
 
-/// Particles, a solid and their seam. `Seam` is Coupling or SmoothCoupling.
-template <class Seam, class Law = dem::ElasticLaw>
+/// Particles, a solid and their seam.
 struct CoupledModel {
-  dem::Model discrete;  ///< particles with their laws and gravity, without terms of its own: see start
-  Law wallLaw;          ///< between particles and skin
+  dem::Model discrete;                              ///< particles with laws and gravity, no terms of its own: see start
+  std::shared_ptr<const dem::ContactLaws> wallLaw;  ///< between particles and skin
   /// hex8 of one elastic law that the hand-written kernels know, see start; nodes.f holds the internal forces of the
   /// last FEM step.
   std::unique_ptr<fem::Model> solid;
-  Seam seam;
+  Coupling seam;
 
   std::optional<fem::Motion> motion{};  ///< of the solid, lumped masses; made by start
   double strainEnergy = 0.0;            ///< J, at the end of the last window that asked for it
   dem::ContactWork contact;             ///< of the last force evaluation
-  coupling::NodalLoad loadBefore{};               ///< staggered steps only: the load of the evaluation before the last
+  coupling::NodalLoad loadBefore{};     ///< staggered steps only: the load of the evaluation before the last
 };
 
 /// What a window did, to be booked.
@@ -86,7 +86,7 @@ void evaluateContacts(Model& model, std::span<const Vec3> u, std::span<const Vec
     model.contact = model.discrete.work;
   }
   Profile::Stage stage(profile, "surface contacts");
-  model.contact += model.seam.exchange(model.discrete.particles, u, v, model.wallLaw, dt);
+  model.contact += model.seam.exchange(model.discrete.particles, u, v, *model.wallLaw, dt);
   sums.dissipated += 0.5 * dt * (lostBefore + model.contact.lostPower());
   sums.stepsWithoutContact += model.seam.inContact() ? 0 : 1;
 }
@@ -114,7 +114,7 @@ void start(Model& model, double dt, Profile&) {
   dem::findForces(model.discrete);
   model.contact = model.discrete.work;
   model.contact +=
-      model.seam.exchange(model.discrete.particles, model.solid->nodes.u, model.solid->nodes.v, model.wallLaw, dt);
+      model.seam.exchange(model.discrete.particles, model.solid->nodes.u, model.solid->nodes.v, *model.wallLaw, dt);
   model.loadBefore = model.seam.load();
 }
 

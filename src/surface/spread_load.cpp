@@ -1,5 +1,5 @@
-#include "dovetail/surface/coupling.hpp"
 #include "dovetail/surface/spread_load.hpp"
+
 #include "face_cut.hpp"
 
 namespace dovetail::surface {
@@ -30,26 +30,6 @@ void SpreadLoad::add(const Skin& skin, int facet, const std::array<double, 3>& w
   cg::localRow(skin.localMap, vertex, weight, localColumn_, localWeight_);
   quadrature_.row(centre, skin.patchOfFacet[facet], localColumn_, localWeight_, column_, weight_);
   for (std::size_t k = 0; k < column_.size(); ++k) load.add(column_[k], -weight_[k] * onParticle);
-}
-
-void Coupling::transfer() {
-  load_.clear();
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const int facet = contacts_.facet[c];
-    const auto& weight = contacts_.weight[c];
-    const Vec3& force = contacts_.force[c];
-    if (spread_) {
-      spread_->add(skin_, facet, weight, force, load_);
-      continue;
-    }
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 onVertex = -weight[k] * force;
-      const int vertex = skin_.wall.facets[facet][k];
-      const auto column = skin_.carrier.rowColumns(vertex);
-      const auto share = skin_.carrier.rowWeights(vertex);
-      for (std::size_t i = 0; i < column.size(); ++i) load_.add(column[i], share[i] * onVertex);
-    }
-  }
 }
 
 }  // namespace dovetail::surface

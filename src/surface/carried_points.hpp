@@ -1,0 +1,21 @@
+// Points that nodes carry: vertices of a skin, control points of a smooth surface.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dovetail/cg/projection.hpp"
+#include "dovetail/coupling/nodal_load.hpp"
+#include "dovetail/surface/patch_turns.hpp"
+
+namespace dovetail::surface {
+
+/// Places the given points: x = X + S u and v = S v, and what turns with their patches.
+void placePoints(const cg::Projection& carrier, std::span<const Vec3> X, PatchTurns& turns, std::span<const Vec3> u,
+                 std::span<const Vec3> v, std::span<const int> points, std::span<Vec3> x, std::span<Vec3> velocity);
+
+/// Adds what forces on points, N, are on the nodes: the transpose of placing.
+void addLoadOfPoints(const cg::Projection& carrier, const PatchTurns& turns, const coupling::NodalLoad& onPoints,
+                     coupling::NodalLoad& load);
+
+}  // namespace dovetail::surface

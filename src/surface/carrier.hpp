@@ -1,0 +1,57 @@
+// What a coupling asks of the surface that it is on: facets of a skin, or smooth patches.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "dovetail/core/archive.hpp"
+#include "dovetail/dem/laws/contact_laws.hpp"
+#include "dovetail/dem/walls/wall_contacts.hpp"
+#include "dovetail/surface/skin.hpp"
+#include "dovetail/surface/smooth_surface.hpp"
+
+namespace dovetail::surface {
+
+/// A surface whose points (vertices, control points) nodes carry, and on which particles make contacts.
+class Carrier {
+public:
+  virtual ~Carrier() = default;
+
+  virtual const cg::Projection& map() const = 0;     ///< points × nodes
+  virtual const PatchTurns& turns() const = 0;       ///< of the points
+  virtual std::span<const Vec3> points() const = 0;  ///< where they are, m
+  /// Null if it is the other one.
+  virtual const Skin* skin() const { return nullptr; }
+  virtual const SmoothSurface* smooth() const { return nullptr; }
+
+  /// @throws InputError naming what of the laws, or of a space that repeats, cannot be had on this surface
+  virtual void check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity) const = 0;
+  virtual void placeAll(std::span<const Vec3> u, std::span<const Vec3> v) = 0;
+  /// Those points that candidates may touch.
+  virtual void place(std::span<const Vec3> u, std::span<const Vec3> v) = 0;
+  /// Who may touch what before margin (m) is used up; all points are placed.
+  virtual void search(const dem::Particles& particles, double margin, double reach,
+                      const geometry::Periodicity& periodicity) = 0;
+  virtual void findContacts(const dem::Particles& particles, dem::WallContacts& contacts) = 0;
+
+  /// The wall that contacts are with: their facets, with positions and velocities there.
+  virtual const dem::TriangulatedWall& wall() const = 0;
+  /// Adds the reaction to the contacts' forces and couples on the points, N.
+  virtual void addReaction(const dem::WallContacts& contacts, coupling::NodalLoad& onPoints) const = 0;
+  /// Points that a contact is with and bounds on how fast it follows them: its weights, and if it exerts couples the
+  /// radius times the rate of its facet's spin.
+  virtual void follow(const dem::WallContacts& contacts, std::size_t contact, double radius, bool couples,
+                      std::vector<std::pair<int, double>>& points) const = 0;
+
+  virtual void save(ByteWriter& writer) const = 0;
+  virtual void load(ByteReader& reader) = 0;
+};
+
+std::unique_ptr<Carrier> makeCarrier(Skin skin, dem::EdgeRule rule);
+std::unique_ptr<Carrier> makeCarrier(SmoothSurface surface);
+
+std::vector<int> sortedUnique(std::vector<int> values);
+
+}  // namespace dovetail::surface

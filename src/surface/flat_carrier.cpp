@@ -1,0 +1,94 @@
+// Contacts with the facets of a skin, as with any triangulated wall.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "carried_points.hpp"
+#include "carrier.hpp"
+#include "dovetail/dem/walls/facet_spin.hpp"
+#include "dovetail/dem/walls/wall_archive.hpp"
+#include "dovetail/dem/walls/wall_candidates.hpp"
+
+namespace dovetail::surface {
+
+namespace {
+
+/// Of what is 1 at one vertex of a facet on the facet's spin, 1/m.
+std::array<double, 3> spinRates(const dem::TriangulatedWall& wall, const geometry::Facet& facet) {
+  const dem::FacetSpin spin(wall.x[facet[0]], wall.x[facet[1]], wall.x[facet[2]]);
+  std::array<double, 3> squared{};
+  for (const Vec3& couple : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+    const auto force = spin.forces(couple);
+    for (std::size_t k = 0; k < 3; ++k) squared[k] += squaredNorm(force[k]);
+  }
+  return {std::sqrt(squared[0]), std::sqrt(squared[1]), std::sqrt(squared[2])};
+}
+
+class FlatCarrier final : public Carrier {
+public:
+  FlatCarrier(Skin skin, dem::EdgeRule rule) : skin_(std::move(skin)), rule_(rule) {}
+
+  const cg::Projection& map() const override { return skin_.carrier; }
+  const PatchTurns& turns() const override { return skin_.turns; }
+  std::span<const Vec3> points() const override { return skin_.wall.x; }
+  const Skin* skin() const override { return &skin_; }
+  void check(const dem::ContactLaws&, const geometry::Periodicity&) const override {}
+
+  void placeAll(std::span<const Vec3> u, std::span<const Vec3> v) override { surface::place(skin_, u, v); }
+  void place(std::span<const Vec3> u, std::span<const Vec3> v) override { surface::place(skin_, u, v, active_); }
+
+  void search(const dem::Particles& particles, double margin, double reach,
+              const geometry::Periodicity& periodicity) override {
+    candidates_.reach = reach;
+    dem::findWallCandidates(particles, skin_.wall, margin, candidates_, periodicity);
+    findActive();
+  }
+  void findContacts(const dem::Particles& particles, dem::WallContacts& contacts) override {
+    dem::findWallContacts(particles, skin_.wall, candidates_, rule_, contacts);
+  }
+
+  const dem::TriangulatedWall& wall() const override { return skin_.wall; }
+  void addReaction(const dem::WallContacts& contacts, coupling::NodalLoad& onPoints) const override {
+    for (int facet : contacts.facet)
+      for (int vertex : skin_.wall.facets[facet]) onPoints.add(vertex, {});
+    dem::addWallForces(contacts, skin_.wall.x, skin_.wall.facets, onPoints.force);
+  }
+  void follow(const dem::WallContacts& contacts, std::size_t contact, double radius, bool couples,
+              std::vector<std::pair<int, double>>& points) const override {
+    const geometry::Facet& facet = skin_.wall.facets[contacts.facet[contact]];
+    const std::array<double, 3> rates = couples ? spinRates(skin_.wall, facet) : std::array<double, 3>{};
+    for (std::size_t k = 0; k < 3; ++k)
+      points.emplace_back(facet[k], std::abs(contacts.weight[contact][k]) + radius * rates[k]);
+  }
+
+  void save(ByteWriter& writer) const override {
+    dem::archiveCandidates(writer, candidates_);
+    writer(skin_.wall.x, skin_.wall.v);
+  }
+  void load(ByteReader& reader) override {
+    dem::archiveCandidates(reader, candidates_);
+    reader(skin_.wall.x, skin_.wall.v);
+    findActive();
+  }
+
+private:
+  void findActive() {
+    active_.clear();
+    for (int facet : candidates_.facet)
+      active_.insert(active_.end(), skin_.wall.facets[facet].begin(), skin_.wall.facets[facet].end());
+    active_ = sortedUnique(std::move(active_));
+  }
+
+  Skin skin_;
+  dem::EdgeRule rule_;
+  dem::WallCandidates candidates_;
+  std::vector<int> active_;  // vertices of candidate facets
+};
+
+}  // namespace
+
+std::unique_ptr<Carrier> makeCarrier(Skin skin, dem::EdgeRule rule) {
+  return std::make_unique<FlatCarrier>(std::move(skin), rule);
+}
+
+}  // namespace dovetail::surface

@@ -1,0 +1,200 @@
+// Contacts with smooth patches.
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "carried_points.hpp"
+#include "carrier.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/geometry/hierarchical_grid.hpp"
+#include "smooth_contacts.hpp"
+
+namespace dovetail::surface {
+
+namespace {
+
+/// A B-spline patch lies in the box of its control points.
+geometry::Box controlBox(const SmoothSurface& surface, std::size_t face, double margin) {
+  geometry::Box box{surface.x[surface.control[face][0]], surface.x[surface.control[face][0]]};
+  for (int c : surface.control[face])
+    for (int k = 0; k < 3; ++k) {
+      box.lower[k] = std::min(box.lower[k], surface.x[c][k]);
+      box.upper[k] = std::max(box.upper[k], surface.x[c][k]);
+    }
+  return geometry::expanded(box, margin);
+}
+
+class SmoothCarrier final : public Carrier {
+public:
+  explicit SmoothCarrier(SmoothSurface surface) : surface_(std::move(surface)), all_(surface_.X.size()) {
+    std::iota(all_.begin(), all_.end(), 0);
+    wall_.material = surface_.material;
+  }
+
+  const cg::Projection& map() const override { return surface_.carrier; }
+  const PatchTurns& turns() const override { return surface_.turns; }
+  std::span<const Vec3> points() const override { return surface_.x; }
+  const SmoothSurface* smooth() const override { return &surface_; }
+
+  void check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity) const override {
+    const auto refuse = [](const std::string& what) {
+      throw InputError(what, "smooth surface", "take the skin itself: facets know no such limits");
+    };
+    if (laws.memory() > 0) refuse("\"" + laws.name() + "\" remembers what no patch carries");
+    if (laws.reach() > 0.0) refuse("\"" + laws.name() + "\" acts beyond touch");
+    if (periodicity.any()) refuse("space repeats");
+  }
+
+  void placeAll(std::span<const Vec3> u, std::span<const Vec3> v) override { surface::place(surface_, u, v, all_); }
+  void place(std::span<const Vec3> u, std::span<const Vec3> v) override { surface::place(surface_, u, v, active_); }
+
+  void search(const dem::Particles& particles, double margin, double, const geometry::Periodicity&) override {
+    list(findPairs(particles, margin));
+    findActive();
+    start_.resize(face_.size());
+    parallelFor(particle_.size(), 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        for (int c = offsets_[k]; c < offsets_[k + 1]; ++c)
+          start_[c] = roughlyClosest(surface_, face_[c], particles.x[particle_[k]]);
+    });
+  }
+
+  void findContacts(const dem::Particles& particles, dem::WallContacts& contacts) override {
+    constexpr std::size_t grain = 16;
+    std::vector<std::vector<SmoothContact>> parts((particle_.size() + grain - 1) / grain);
+    parallelFor(particle_.size(), grain, [&](std::size_t begin, std::size_t end) {
+      thread_local SmoothScratch scratch;
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t first = static_cast<std::size_t>(offsets_[k]),
+                          last = static_cast<std::size_t>(offsets_[k + 1]);
+        const int i = particle_[k];
+        appendSmoothContacts(surface_, i, particles.x[i], particles.radius[i],
+                             std::span(face_).subspan(first, last - first),
+                             std::span(start_).subspan(first, last - first), scratch, parts[begin / grain]);
+      }
+    });
+    clear(contacts);
+    for (const auto& part : parts)
+      for (const SmoothContact& contact : part) append(contact, contacts);
+    contacts.force.assign(contacts.size(), Vec3{});
+  }
+
+  const dem::TriangulatedWall& wall() const override { return wall_; }
+  void addReaction(const dem::WallContacts& contacts, coupling::NodalLoad& onPoints) const override {
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      for (std::size_t k = 0; k < 16; ++k)
+        onPoints.add(surface_.control[contactFace_[c]][k], -contactWeight_[c][k] * contacts.force[c]);
+  }
+  void follow(const dem::WallContacts&, std::size_t contact, double, bool,
+              std::vector<std::pair<int, double>>& points) const override {
+    for (std::size_t k = 0; k < 16; ++k)
+      points.emplace_back(surface_.control[contactFace_[contact]][k], contactWeight_[contact][k]);
+  }
+
+  void save(ByteWriter& writer) const override { archive(writer, *this); }
+  void load(ByteReader& reader) override {
+    archive(reader, *this);
+    wall_.facets.clear();
+    for (int c = 0; c < static_cast<int>(contactFace_.size()); ++c) wall_.facets.push_back({c, c, c});
+    findActive();
+  }
+
+private:
+  using Found = std::vector<std::array<int, 2>>;  // particle, face
+
+  /// By face.
+  std::vector<Found> findPairs(const dem::Particles& particles, double margin) const {
+    constexpr std::size_t grain = 64;
+    geometry::HierarchicalGrid grid;
+    grid.build(particles.x, particles.radius);
+    std::vector<Found> parts((surface_.control.size() + grain - 1) / grain);
+    parallelFor(surface_.control.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t face = begin; face < end; ++face)
+        grid.query(controlBox(surface_, face, margin), [&](int particle) {
+          parts[begin / grain].push_back({particle, static_cast<int>(face)});
+        });
+    });
+    return parts;
+  }
+
+  /// By particle, faces ascending.
+  void list(const std::vector<Found>& parts) {
+    Found all;
+    for (const Found& part : parts) all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end());
+    particle_.clear();
+    offsets_.clear();
+    face_.clear();
+    for (const auto& [particle, face] : all) {
+      if (particle_.empty() || particle_.back() != particle) {
+        particle_.push_back(particle);
+        offsets_.push_back(static_cast<int>(face_.size()));
+      }
+      face_.push_back(face);
+    }
+    offsets_.push_back(static_cast<int>(face_.size()));
+  }
+
+  void findActive() {
+    active_.clear();
+    for (int face : face_) active_.insert(active_.end(), surface_.control[face].begin(), surface_.control[face].end());
+    active_ = sortedUnique(std::move(active_));
+  }
+
+  void clear(dem::WallContacts& contacts) {
+    contacts.particle.clear();
+    contacts.facet.clear();
+    contacts.weight.clear();
+    contacts.normal.clear();
+    contacts.overlap.clear();
+    contacts.engagement.clear();
+    contacts.energyShare.clear();
+    wall_.x.clear();
+    wall_.v.clear();
+    wall_.facets.clear();
+    contactFace_.clear();
+    contactWeight_.clear();
+  }
+
+  /// The wall has one vertex per contact, which is where the patch is touched.
+  void append(const SmoothContact& contact, dem::WallContacts& contacts) {
+    const int number = static_cast<int>(contacts.size());
+    contacts.particle.push_back(contact.particle);
+    contacts.facet.push_back(number);
+    contacts.weight.push_back({1.0, 0.0, 0.0});
+    contacts.normal.push_back(contact.normal);
+    contacts.overlap.push_back(contact.overlap);
+    contacts.engagement.push_back(contact.engagement);
+    contacts.energyShare.push_back(contact.energyShare);
+    Vec3 velocity;
+    for (std::size_t k = 0; k < 16; ++k) velocity += contact.weight[k] * surface_.v[surface_.control[contact.face][k]];
+    wall_.x.push_back(contact.foot);
+    wall_.v.push_back(velocity);
+    wall_.facets.push_back({number, number, number});
+    contactFace_.push_back(contact.face);
+    contactWeight_.push_back(contact.weight);
+  }
+
+  template <class Archive, class Self>
+  static void archive(Archive& archive, Self& self) {
+    archive(self.particle_, self.offsets_, self.face_, self.start_, self.wall_.x, self.wall_.v, self.contactFace_,
+            self.contactWeight_, self.surface_.x, self.surface_.v);
+  }
+
+  SmoothSurface surface_;
+  std::vector<int> all_, active_;                  // control points: all, those of candidates
+  std::vector<int> particle_, offsets_{0}, face_;  // candidates of particle_[k]: face_[offsets_[k]] …
+  std::vector<std::array<double, 2>> start_;       // per candidate: where the last search ended
+  dem::TriangulatedWall wall_;
+  std::vector<int> contactFace_;
+  std::vector<std::array<double, 16>> contactWeight_;
+};
+
+}  // namespace
+
+std::unique_ptr<Carrier> makeCarrier(SmoothSurface surface) {
+  return std::make_unique<SmoothCarrier>(std::move(surface));
+}
+
+}  // namespace dovetail::surface
