@@ -103,26 +103,31 @@ fem::SolidMesh makeMesh(const Settings& settings) {
   return fem::boxOf(fem::CellShape::hex8, elementCounts(settings), lowerCorner, upperCorner);
 }
 
-surface::CoupledModel makeModel(const Settings& settings, const fem::SolidMesh& mesh) {
-  const dem::LinearSpringDashpot normal{contactStiffness(settings), settings.restitution, true};
-  const auto laws = dem::makeContactLaws(dem::ElasticLaw{normal});
+Scene makeScene(const Settings& settings, const fem::SolidMesh& mesh) {
+  const auto laws = dem::makeContactLaws(
+      dem::ElasticLaw{dem::LinearSpringDashpot{contactStiffness(settings), settings.restitution, true}});
+  Scene scene{.run = std::make_unique<coupling::CoupledRun>()};
+  dem::Model& grains = scene.run->grains;
+  grains.particles = makeParticles(settings);
+  grains.laws = laws;
+  grains.gravity = {0.0, 0.0, -Case{}.gravity};
+  grains.pairs.setSkin(0.5 * Case{}.particleDiameter);
+  grains.sortEvery = 0;                 // particle 0 is the one in the tables
+  grains.refusesUnstableSteps = false;  // chooseStep refuses them, wherever on the skin the particles will be
+  const bool implicit = settings.fem == FemStepper::newmark;
+  scene.beam = &scene.run->addSolid(
+      makeBeam(settings, mesh),
+      {.name = "beam",
+       .stepping = implicit ? coupling::Stepping::implicitSteps : coupling::Stepping::explicitSteps,
+       .massShare = settings.mass == MassMatrix::consistent ? 1.0 : 0.0});
   const bool smooth = settings.surface == Surface::smooth;
-  surface::CoupledModel model{.discrete = {},
-                              .wallLaw = laws,
-                              .solid = makeBeam(settings, mesh),
-                              .seam = smooth ? makeSmoothSeam(settings, mesh) : makeSeam(settings, mesh),
-                              .contact = {}};
-  model.discrete.particles = makeParticles(settings);
-  model.discrete.laws = laws;
-  model.discrete.gravity = {0.0, 0.0, -Case{}.gravity};
-  model.discrete.pairs.setSkin(0.5 * Case{}.particleDiameter);
-  model.discrete.sortEvery = 0;
-  model.discrete.refusesUnstableSteps = false;  // chooseStep has refused them, with the skin's share
-  return model;
+  scene.contact = &scene.run->grains.terms.add(surface::SurfaceContact(
+      *scene.beam, smooth ? makeSmoothSeam(settings, mesh) : makeSeam(settings, mesh), laws, "contacts on the beam"));
+  return scene;
 }
 
-double largestMobility(const surface::Coupling& seam, const fem::Nodes& nodes) {
-  return seam.largestMobility(inverseMasses(nodes));
+double largestMobility(const Scene& scene) {
+  return scene.contact->coupling().largestMobility(inverseMasses(scene.beam->nodes()));
 }
 
 StepLimit criticalStep(const Settings& settings, fem::Model& beam, double mobility) {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "dovetail/surface/coupling.hpp"
-#include "dovetail/surface/stepper.hpp"
+#include "dovetail/coupling/run.hpp"
+#include "dovetail/surface/surface_contact.hpp"
 #include "reference/beam_case.hpp"
 #include "settings.hpp"
 
@@ -15,10 +15,17 @@ namespace dovetail::cantilever {
 /// Elements along x, y, z after refinement.
 std::array<int, 3> elementCounts(const Settings& settings);
 
-/// The model at rest with the particles at their static overlap. Axes: x across, y from the clamp, z up, z = 0 on the
+/// The run, and the two of its parts that are looked at.
+struct Scene {
+  std::unique_ptr<coupling::CoupledRun> run;
+  coupling::SolidSide* beam = nullptr;
+  surface::SurfaceContact* contact = nullptr;
+};
+
+/// The beam at rest with the particles at their static overlap. Axes: x across, y from the clamp, z up, z = 0 on the
 /// beam's axis.
 /// @throws InputError for impossible settings
-surface::CoupledModel makeModel(const Settings& settings, const fem::SolidMesh& mesh);
+Scene makeScene(const Settings& settings, const fem::SolidMesh& mesh);
 fem::SolidMesh makeMesh(const Settings& settings);
 
 /// The largest stable step and who sets it.
@@ -28,7 +35,7 @@ struct StepLimit {
 };
 
 /// The largest Σ_i S_i²/m_i of any point of the skin, 1/kg (an upper bound on the smooth surface).
-double largestMobility(const surface::Coupling& seam, const fem::Nodes& nodes);
+double largestMobility(const Scene& scene);
 
 /// Bounds for the chosen integrators: contacts 2/ω_c with ω_c² = k (1/m_p + mobility); explicit solid 2/ω_e of its
 /// worst element, divided by K; both act together if K = 1: ω² = ω_c² + ω_e².

@@ -35,9 +35,10 @@ std::string moment(double time, std::int64_t step) {
 /// Runs one model and gathers its figures.
 class Runner {
 public:
-  Runner(const Settings& settings, const fem::SolidMesh& mesh) : mesh_(mesh), model_(makeModel(settings, mesh)) {
+  Runner(const Settings& settings, const fem::SolidMesh& mesh) : mesh_(mesh), scene_(makeScene(settings, mesh)) {
     result_.settings = settings;
-    result_.profile = Profile(settings.profile);
+    scene_.run->profile = Profile(settings.profile);
+    if (settings.profile) grains().profile = &scene_.run->profile;
     result_.series = io::TimeSeries(seriesNames);
     prepareStep();
     prepareLedger();
@@ -61,22 +62,16 @@ public:
 private:
   RunFigures& figures() { return result_.figures; }
   const Settings& settings() const { return result_.settings; }
-  const fem::Nodes& nodes() const { return model_.solid->nodes; }
+  const fem::Nodes& nodes() const { return scene_.beam->nodes(); }
+  dem::Model& grains() const { return scene_.run->grains; }
 
   void prepareStep() {
-    const StepLimit limit = criticalStep(settings(), *model_.solid, largestMobility(model_.seam, nodes()));
+    const StepLimit limit = criticalStep(settings(), *scene_.beam->model, largestMobility(scene_));
     figures().criticalDt = limit.dt;
     figures().criticalSetter = limit.setter;
     clock_.dt = figures().dt = chooseStep(settings(), limit);
     requireFeasible(settings(), clock_.dt);
     clock_.substepsPerWindow = settings().femEvery;
-    scheme_.booksCoupling = couplingIsUnbalanced(settings());
-    scheme_.skinLags = settings().lag == Lag::loadAndSkin;
-    if (settings().fem == FemStepper::newmark) {
-      fem::ImplicitOptions options{.scheme = fem::newmark(), .relativeTolerance = 1e-10};
-      options.massShare = settings().mass == MassMatrix::consistent ? 1.0 : 0.0;
-      newmark_ = std::make_unique<fem::ImplicitMotion>(*model_.solid, options);
-    }
   }
 
   void prepareLedger() {
@@ -92,34 +87,29 @@ private:
   }
 
   /// Explicit solid, stepped every K > 1 DEM steps: the impulses store energy that is booked.
-  bool multirate() const { return clock_.substepsPerWindow > 1 && !newmark_ && settings().lag == Lag::none; }
-
-  double kineticBeam() const { return newmark_ ? newmark_->kineticEnergy() : fem::kineticEnergy(nodes()); }
-
-  void setLedger() {
-    EnergyLedger& ledger = result_.ledger;
-    double height = 0.0;
-    for (std::size_t i = 0; i < model_.discrete.particles.size(); ++i)
-      height += model_.discrete.particles.mass[i] * (model_.discrete.particles.x[i].z - startZ_);
-    ledger.set(kineticParticles_, dem::kineticEnergy(model_.discrete.particles));
-    ledger.set(elasticContacts_, model_.contact.storedEnergy());
-    ledger.set(gravity_, -model_.discrete.gravity.z * height);
-    ledger.set(kineticBeam_, kineticBeam());
-    ledger.set(elasticBeam_, model_.strainEnergy);
-    if (multirate()) ledger.set(splitting_, surface::splittingEnergy(nodes(), model_.seam.load(), clock_.coarseStep()));
+  bool multirate() const {
+    return clock_.substepsPerWindow > 1 && settings().fem == FemStepper::explicitDifferences &&
+           settings().lag == Lag::none;
   }
 
-  surface::WindowSums stepWindow(bool withEnergy) {
-    const int K = clock_.substepsPerWindow;
-    if (settings().lag != Lag::none)
-      return surface::stepStaggered(model_, newmark_.get(), clock_.dt, K, scheme_, withEnergy, result_.profile);
-    if (newmark_) return surface::stepImplicit(model_, *newmark_, clock_.dt, K, scheme_, withEnergy, result_.profile);
-    return surface::stepExplicit(model_, clock_.dt, K, scheme_, withEnergy, result_.profile);
+  /// The channels of the run under the names of the case; gravity counts from the particles' height at the start.
+  void setLedger() {
+    const EnergyLedger& run = scene_.run->ledger();
+    EnergyLedger& ledger = result_.ledger;
+    ledger.set(kineticParticles_, run.joules("particles: kinetic"));
+    ledger.set(elasticContacts_, run.joules("particles: contacts"));
+    ledger.set(gravity_, run.joules("particles: gravity") - gravityAtStart_);
+    ledger.set(kineticBeam_, run.joules("beam: kinetic"));
+    ledger.set(elasticBeam_, run.joules("beam: beam"));
+    if (multirate()) ledger.set(splitting_, run.joules("beam: time splitting"));
+    ledger.set(dashpots_, run.joules("particles: dashpots"));
+    ledger.set(coupling_,
+               run.joules("contacts on the beam: lost") + run.joules("loads one step old (minus what they made)"));
   }
 
   void loop() {
-    startZ_ = model_.discrete.particles.x[0].z;
-    surface::start(model_, clock_.dt, result_.profile);
+    scene_.run->start(clock_.dt, {.stepsPerWindow = settings().femEvery, .lag = settings().lag});
+    gravityAtStart_ = scene_.run->ledger().joules("particles: gravity");
     setLedger();
     result_.ledger.open();
     sampleTrajectory();
@@ -140,10 +130,10 @@ private:
       sampleEnergy();
       if (sample % trajectoryEvery == 0) sampleTrajectory();
       if (sample % seriesEvery == 0) {
-        model_.solid->terms.front()->requireValid(nodes(), moment(clock_.time(), clock_.step),
-                                                  fem::Scrutiny::inversion);
+        scene_.beam->model->terms.front()->requireValid(nodes(), moment(clock_.time(), clock_.step),
+                                                        fem::Scrutiny::inversion);
         sampleSeries();
-        const double y = model_.discrete.particles.x[0].y / Case{}.length;
+        const double y = grains().particles.x[0].y / Case{}.length;
         progress.update(settings().until ? clock_.time() / end : 1.0 - std::sqrt(std::max(0.0, 1.0 - y)),
                         "t = " + formatNumber(std::round(100.0 * clock_.time()) / 100.0) + " s");
       }
@@ -160,22 +150,20 @@ private:
   }
 
   void advance(bool withEnergy) {
-    const double yBefore = model_.discrete.particles.x[0].y;
-    const surface::WindowSums sums = stepWindow(withEnergy);
-    result_.ledger.add(dashpots_, sums.dissipated);
-    result_.ledger.add(coupling_, -sums.madeByCoupling);
+    const double yBefore = grains().particles.x[0].y;
+    scene_.run->step(withEnergy);
     clock_.advanceWindow();
     if (figures().left) return;
-    stepsWithoutContact_ += sums.stepsWithoutContact;
+    if (!scene_.contact->coupling().inContact()) stepsWithoutContact_ += clock_.substepsPerWindow;
     stepsOnBeam_ += clock_.substepsPerWindow;
-    const double y = model_.discrete.particles.x[0].y, length = Case{}.length;
+    const double y = grains().particles.x[0].y, length = Case{}.length;
     if (y <= length) return;
     figures().left = true;
     figures().leaveTime = clock_.time() - clock_.coarseStep() * (y - length) / (y - yBefore);
   }
 
   void sampleEnergy() {
-    dem::requireFinite(model_.discrete.particles, moment(clock_.time(), clock_.step));
+    dem::requireFinite(grains().particles, moment(clock_.time(), clock_.step));
     requireFinite(nodes().v, "node", "velocity", moment(clock_.time(), clock_.step));
     setLedger();
     if (figures().left) return;
@@ -186,8 +174,8 @@ private:
     const double allowed = result_.ledger.storedAtOpening() + std::max(0.0, workOfGravity);
     figures().largestExcess = std::max(figures().largestExcess, mechanical / allowed);
     const Case beam;
-    figures().lateralDrift = std::max({figures().lateralDrift, std::abs(model_.discrete.particles.x[0].x - beam.startX),
-                                       std::abs(model_.discrete.particles.x[1].x + beam.startX)});
+    figures().lateralDrift = std::max({figures().lateralDrift, std::abs(grains().particles.x[0].x - beam.startX),
+                                       std::abs(grains().particles.x[1].x + beam.startX)});
     sampleBalance();
   }
 
@@ -195,13 +183,13 @@ private:
   void sampleBalance() {
     Vec3 force, about;
     double size = 0.0;
-    for (std::size_t i = 0; i < model_.discrete.particles.size(); ++i) {
-      const Vec3 contact = model_.discrete.particles.f[i] - model_.discrete.particles.mass[i] * model_.discrete.gravity;
+    for (std::size_t i = 0; i < grains().particles.size(); ++i) {
+      const Vec3 contact = grains().particles.f[i] - grains().particles.mass[i] * grains().gravity;
       force += contact;
-      about += cross(model_.discrete.particles.x[i], contact);
+      about += cross(grains().particles.x[i], contact);
       size += norm(contact);
     }
-    const coupling::NodalLoad& load = model_.seam.load();
+    const coupling::NodalLoad& load = scene_.beam->load;
     for (int node : load.touched) {
       force += load.force[node];
       about += cross(nodes().X[node] + nodes().u[node], load.force[node]);
@@ -212,21 +200,21 @@ private:
   }
 
   void sampleTrajectory() {
-    result_.samples.push_back({clock_.time(), {model_.discrete.particles.x[0], model_.discrete.particles.x[1]}});
+    result_.samples.push_back({clock_.time(), {grains().particles.x[0], grains().particles.x[1]}});
   }
 
   void sampleSeries() {
     std::vector<double> row{clock_.time()};
     const auto push = [&](const Vec3& value) { row.insert(row.end(), {value.x, value.y, value.z}); };
     for (int i = 0; i < 2; ++i) {
-      push(model_.discrete.particles.x[i]);
-      push(model_.discrete.particles.v[i]);
+      push(grains().particles.x[i]);
+      push(grains().particles.v[i]);
     }
     double massParticles = 0.0, massBeam = 0.0;
-    for (double mass : model_.discrete.particles.mass) massParticles += mass;
+    for (double mass : grains().particles.mass) massParticles += mass;
     for (double mass : nodes().mass) massBeam += mass;
     row.insert(row.end(), {massParticles, massBeam});
-    push(dem::momentum(model_.discrete.particles));
+    push(dem::momentum(grains().particles));
     push(fem::momentum(nodes()));
     const auto& channels = result_.ledger.channels();
     for (EnergyLedger::Id id : {kineticParticles_, elasticContacts_, gravity_, kineticBeam_, elasticBeam_})
@@ -241,12 +229,13 @@ private:
 
   void observe() {
     if (!observer_) return;
-    auto& beam = dynamic_cast<fem::Solid&>(*model_.solid->terms.front());
+    auto& beam = dynamic_cast<fem::Solid&>(*scene_.beam->model->terms.front());
     const auto energies = beam.elementEnergies(nodes(), {clock_.time(), 0.0});
-    observer_({clock_.time(), mesh_, nodes(), model_.discrete.particles, model_.seam.load().force, energies});
+    observer_({clock_.time(), mesh_, nodes(), grains().particles, scene_.beam->load.force, energies});
   }
 
   void close() {
+    result_.profile = scene_.run->profile;
     RunFigures& f = figures();
     const EnergyLedger& ledger = result_.ledger;
     f.steps = clock_.step;
@@ -263,15 +252,13 @@ private:
   }
 
   const fem::SolidMesh& mesh_;
-  surface::CoupledModel model_;
+  Scene scene_;
   Observer observer_;
   RunResult result_;
   Clock clock_;
-  surface::Scheme scheme_;
-  std::unique_ptr<fem::ImplicitMotion> newmark_;
   EnergyLedger::Id kineticParticles_, elasticContacts_, gravity_, kineticBeam_, elasticBeam_, splitting_ = 0, dashpots_,
                                                                                               coupling_;
-  double startZ_ = 0.0;
+  double gravityAtStart_ = 0.0;
   int tipNode_ = 0;
   std::int64_t stepsWithoutContact_ = 0, stepsOnBeam_ = 0;
 };

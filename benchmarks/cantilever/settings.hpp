@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "dovetail/coupling/run.hpp"
+
 namespace dovetail::cantilever {
 
 /// The fixed data of the published case (Cheng et al. 2023, Table 1 and Fig. 11), SI.
@@ -26,7 +28,7 @@ double particleMass(const Case& beam);
 enum class Scheme { conservative, paper };
 /// Staggered steps: the load on the solid is that of the last contact evaluation (load), and the particles see the skin
 /// as it was before the solid's step (loadAndSkin).
-enum class Lag { none, load, loadAndSkin };
+using coupling::Lag;
 enum class Transfer { adjoint, spread };       ///< adjoint pair, or kernel at the contact with a local gap (14–15)
 enum class EdgeHandling { projected, paper };  ///< one projection, or the authors' face rule
 enum class Metric { reference, deformed };     ///< St Venant–Kirchhoff, or the authors' Eq. (34)

@@ -35,25 +35,27 @@ void EnergyLedger::close() {
   largestResidual_ = std::max(largestResidual_, std::abs(residual()));
 }
 
-double EnergyLedger::residual() const {
-  return (stored() - storedAtOpening_) + (booked() - bookedAtOpening_);
+double EnergyLedger::joules(const std::string& name) const {
+  const auto found = std::ranges::find_if(channels_, [&](const Channel& channel) { return channel.name == name; });
+  return found == channels_.end() ? 0.0 : found->joules;
 }
+
+double EnergyLedger::residual() const { return (stored() - storedAtOpening_) + (booked() - bookedAtOpening_); }
 
 std::ostream& operator<<(std::ostream& out, const EnergyLedger& ledger) {
   const auto row = [&](const std::string& name, double opening, double now) {
-    out << "  " << std::left << std::setw(34) << name << std::right << std::setw(14) << opening
-        << std::setw(14) << now << std::setw(14) << now - opening << '\n';
+    out << "  " << std::left << std::setw(34) << name << std::right << std::setw(14) << opening << std::setw(14) << now
+        << std::setw(14) << now - opening << '\n';
   };
   const auto flags = out.flags();
   const auto precision = out.precision(6);
   out << "  " << std::left << std::setw(34) << "channel (J)" << std::right << std::setw(14) << "at opening"
       << std::setw(14) << "now" << std::setw(14) << "change" << '\n';
   for (const auto& channel : ledger.channels())
-    row(channel.name + (channel.kind == EnergyLedger::Kind::booked ? " [booked]" : ""),
-        channel.joulesAtOpening, channel.joules);
+    row(channel.name + (channel.kind == EnergyLedger::Kind::booked ? " [booked]" : ""), channel.joulesAtOpening,
+        channel.joules);
   row("stored total", ledger.storedAtOpening(), ledger.stored());
-  out << "  " << std::left << std::setw(34) << "residual" << std::right << std::setw(42) << ledger.residual()
-      << '\n';
+  out << "  " << std::left << std::setw(34) << "residual" << std::right << std::setw(42) << ledger.residual() << '\n';
   out.flags(flags);
   out.precision(precision);
   return out;

@@ -47,9 +47,7 @@ public:
   }
 
   /// Without sub-steps the load kicks together with the own forces.
-  void takeLoad() override {
-    if (K_ == 1) addToOwn(side.load);
-  }
+  void takeLoad() override { addToOwn(side.load); }
   void takeWindowLoad(const NodalLoad& load) override { addToOwn(load); }
 
   void end() override {

@@ -71,6 +71,12 @@ void CoupledRun::advance(std::int64_t windows) {
   dem::close(grains);
 }
 
+void CoupledRun::step(bool withEnergies) {
+  if (!impl_->started) throw InputError("the run has not been started", "step", "call start(dt) first");
+  impl_->window(withEnergies);
+  dem::close(grains);
+}
+
 bool CoupledRun::Impl::anyImplicit() const {
   return std::ranges::any_of(solids, [](const auto& s) { return s->side.stepping == Stepping::implicitSteps; });
 }
@@ -150,8 +156,13 @@ void CoupledRun::Impl::kickByWindowForce() {
 
 void CoupledRun::Impl::rememberLoads() {
   loadBefore.clear();
+  lagSeen.clear();
   if (options.lag == Lag::none) return;
-  for (const auto& solid : solids) loadBefore.push_back(solid->side.load);
+  for (const auto& solid : solids) {
+    loadBefore.push_back(solid->side.load);
+    lagSeen.push_back(solid->side.nodes().u);
+  }
+  lagFrom = lagTo = lagSeen;
 }
 
 namespace {
@@ -165,30 +176,46 @@ NodalLoad meanOf(const NodalLoad& a, const NodalLoad& b) {
   return load;
 }
 
+double workOf(const NodalLoad& load, std::span<const Vec3> to, std::span<const Vec3> from) {
+  double work = 0.0;
+  for (const int node : load.touched) {
+    const auto n = static_cast<std::size_t>(node);
+    work += dot(load.force[n], to[n] - from[n]);
+  }
+  return work;
+}
+
 }  // namespace
 
 /// The staggered window (Cheng et al. 2023, Fig. 8): the solids step under a load one step old, then the particles make
 /// K steps on solids that move from their old to their new place, or stay at the old one.
 void CoupledRun::Impl::lagWindow() {
-  std::vector<std::vector<Vec3>> before, after;
   for (std::size_t s = 0; s < solids.size(); ++s) {
-    before.push_back(solids[s]->side.nodes().u);
-    const NodalLoad load = meanOf(loadBefore[s], solids[s]->side.load);
-    loadBefore[s] = solids[s]->side.load;
-    solids[s]->stepUnder(load);
-    after.push_back(solids[s]->side.nodes().u);
+    SolidStepper& solid = *solids[s];
+    lagFrom[s] = solid.side.nodes().u;
+    const NodalLoad load = meanOf(loadBefore[s], solid.side.load);
+    loadBefore[s] = solid.side.load;
+    solid.stepUnder(load);
+    lagTo[s] = solid.side.nodes().u;
+    madeByLag += workOf(load, lagTo[s], lagFrom[s]);
   }
   for (int k = 0; k < K(); ++k) {
     dem::move(grains, dt);
     const double share = options.lag == Lag::loadAndSkin ? 0.0 : static_cast<double>(k + 1) / K();
     for (std::size_t s = 0; s < solids.size(); ++s) {
-      std::vector<Vec3>& u = solids[s]->side.nodes().u;
-      for (std::size_t n = 0; n < u.size(); ++n) u[n] = before[s][n] + share * (after[s][n] - before[s][n]);
+      SolidSide& side = solids[s]->side;
+      for (std::size_t n = 0; n < side.nodes().u.size(); ++n)
+        side.nodes().u[n] = lagFrom[s][n] + share * (lagTo[s][n] - lagFrom[s][n]);
+      madeByLag -= 0.5 * workOf(side.load, side.nodes().u, lagSeen[s]);
     }
     stepParticles(false);
+    for (std::size_t s = 0; s < solids.size(); ++s) {
+      SolidSide& side = solids[s]->side;
+      madeByLag -= 0.5 * workOf(side.load, side.nodes().u, lagSeen[s]);
+      lagSeen[s] = side.nodes().u;
+    }
   }
-  for (std::size_t s = 0; s < solids.size(); ++s) solids[s]->side.nodes().u.swap(after[s]);
-  dem::close(grains);
+  for (std::size_t s = 0; s < solids.size(); ++s) solids[s]->side.nodes().u = lagTo[s];
 }
 
 }  // namespace dovetail::coupling

@@ -47,6 +47,8 @@ struct CoupledRun::Impl {
   State read(const std::vector<char>& bytes) const;
   void adopt(State state);
 
+  /// Whether loads kick explicit solids together with their own forces: without sub-steps and without a lag.
+  bool kicksTogether() const { return K() == 1 && options.lag == Lag::none; }
   int K() const { return options.stepsPerWindow; }
   double window() const { return K() * dt; }
   bool anyImplicit() const;
@@ -59,6 +61,8 @@ struct CoupledRun::Impl {
   void lagWindow();
   void rememberLoads();
   std::vector<NodalLoad> loadBefore;  ///< per solid: of the evaluation before the last; only with a lag
+  std::vector<std::vector<Vec3>> lagFrom, lagTo, lagSeen;  ///< u at the ends of its step, and as last seen; m
+  double madeByLag = 0.0;  ///< J: work of lagging loads on the nodes less that of the present ones
 };
 
 }  // namespace dovetail::coupling

@@ -38,10 +38,12 @@ void requireSame(bool same, const char* what) {
 /// What has been read of a state.
 struct CoupledRun::Impl::State {
   std::vector<Vec3> windowForce;
+  double madeByLag = 0.0;
   std::vector<char> particles;
   struct Solid {
     std::shared_ptr<SavedSolid> own;
     NodalLoad load, window, before;
+    std::vector<Vec3> seen;
   };
   std::vector<Solid> solids;
 };
@@ -49,7 +51,7 @@ struct CoupledRun::Impl::State {
 std::vector<char> CoupledRun::Impl::save() {
   ByteWriter archive;
   archive(dt, options.stepsPerWindow, static_cast<int>(options.lag), static_cast<std::uint64_t>(solids.size()),
-          windowForce, dem::saveState(grains));
+          windowForce, madeByLag, dem::saveState(grains));
   for (std::size_t s = 0; s < solids.size(); ++s) {
     ByteWriter own;
     solids[s]->save(own);
@@ -57,6 +59,7 @@ std::vector<char> CoupledRun::Impl::save() {
     saveLoad(archive, solids[s]->side.load);
     saveLoad(archive, solids[s]->windowLoad);
     saveLoad(archive, loadBefore.empty() ? NodalLoad() : loadBefore[s]);
+    archive(lagSeen.empty() ? std::vector<Vec3>() : lagSeen[s]);
   }
   return archive.bytes();
 }
@@ -67,7 +70,7 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
   double step = 0.0;
   int steps = 0, lag = 0;
   std::uint64_t count = 0;
-  archive(step, steps, lag, count, state.windowForce, state.particles);
+  archive(step, steps, lag, count, state.windowForce, state.madeByLag, state.particles);
   requireSame(step == dt && steps == options.stepsPerWindow && lag == static_cast<int>(options.lag),
               "steps or options");
   requireSame(count == solids.size(), "solids");
@@ -76,9 +79,11 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
     archive(own);
     ByteReader reader(own);
     const std::size_t nodes = solid->side.nodes().X.size();
-    state.solids.push_back({solid->read(reader), readLoad(archive, nodes), readLoad(archive, nodes), NodalLoad()});
+    state.solids.push_back({solid->read(reader), readLoad(archive, nodes), readLoad(archive, nodes), NodalLoad(), {}});
     requireSame(reader.atEnd(), "solids");
     state.solids.back().before = readLoad(archive, nodes);
+    archive(state.solids.back().seen);
+    requireSame(options.lag == Lag::none || state.solids.back().seen.size() == nodes, "solids");
   }
   requireSame(archive.atEnd(), "data");
   return state;
@@ -87,11 +92,15 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
 void CoupledRun::Impl::adopt(State state) {
   dem::loadState(state.particles, "state of a run", grains);
   loadBefore.clear();
+  lagSeen.clear();
+  madeByLag = state.madeByLag;
   for (std::size_t s = 0; s < solids.size(); ++s) {
     solids[s]->adopt(*state.solids[s].own);
     solids[s]->side.load = std::move(state.solids[s].load);
     solids[s]->windowLoad = std::move(state.solids[s].window);
-    if (options.lag != Lag::none) loadBefore.push_back(std::move(state.solids[s].before));
+    if (options.lag == Lag::none) continue;
+    loadBefore.push_back(std::move(state.solids[s].before));
+    lagSeen.push_back(std::move(state.solids[s].seen));
   }
   windowForce = std::move(state.windowForce);
 }

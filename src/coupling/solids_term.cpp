@@ -4,7 +4,7 @@ namespace dovetail::coupling {
 
 /// Also where forces are found anew between steps, if the solids' own kick together with the connectors'.
 bool SolidsTerm::ownForcesDue(const dem::Step& step) const {
-  return run_ && (run_->ownForcesDue || (step.timeless && run_->K() == 1));
+  return run_ && (run_->ownForcesDue || (step.timeless && run_->kicksTogether()));
 }
 
 void SolidsTerm::addForces(dem::Model&, const dem::Step& step) {
@@ -16,7 +16,7 @@ void SolidsTerm::addForces(dem::Model&, const dem::Step& step) {
 }
 
 void SolidsTerm::book(dem::Model&, const dem::Step& step) {
-  if (!ownForcesDue(step)) return;
+  if (!ownForcesDue(step) || !run_->kicksTogether()) return;
   for (const auto& solid : run_->solids) solid->takeLoad();
 }
 

@@ -18,6 +18,7 @@ namespace dovetail::surface {
 class Carrier {
 public:
   virtual ~Carrier() = default;
+  virtual std::unique_ptr<Carrier> clone() const = 0;
 
   virtual const cg::Projection& map() const = 0;     ///< points × nodes
   virtual const PatchTurns& turns() const = 0;       ///< of the points

@@ -56,7 +56,18 @@ Coupling::Coupling(SmoothSurface surface, const CouplingOptions& options)
 
 Coupling::~Coupling() = default;
 Coupling::Coupling(Coupling&&) noexcept = default;
+Coupling::Coupling(const Coupling&) = default;
+Coupling& Coupling::operator=(const Coupling&) = default;
 Coupling& Coupling::operator=(Coupling&&) noexcept = default;
+
+Coupling::OwnCarrier::OwnCarrier(std::unique_ptr<Carrier> carrier) : carrier_(std::move(carrier)) {}
+Coupling::OwnCarrier::~OwnCarrier() = default;
+Coupling::OwnCarrier::OwnCarrier(const OwnCarrier& other) : carrier_(other.carrier_->clone()) {}
+Coupling::OwnCarrier::OwnCarrier(OwnCarrier&&) noexcept = default;
+Coupling::OwnCarrier& Coupling::OwnCarrier::operator=(OwnCarrier other) noexcept {
+  carrier_.swap(other.carrier_);
+  return *this;
+}
 
 dem::ContactWork Coupling::exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
                                     const dem::ContactLaws& laws, double dt, const ExchangeOptions& options) {
@@ -66,7 +77,17 @@ dem::ContactWork Coupling::exchange(dem::Particles& particles, std::span<const V
   const dem::ContactWork work = dem::sweepWall(options.timeless, contacts_.springs.left, [&] {
     return laws.wall(particles, carrier_->wall(), contacts_, dt, options.booking);
   });
+  if (booksWork_ && uBefore_.empty()) uBefore_.assign(u.begin(), u.end());
+  if (booksWork_) nodeWork_ += 0.5 * nodeWorkSinceLast(u);
   transfer();
+  if (booksWork_) nodeWork_ += 0.5 * nodeWorkSinceLast(u);
+  if (booksWork_) uBefore_.assign(u.begin(), u.end());
+  return work;
+}
+
+double Coupling::nodeWorkSinceLast(std::span<const Vec3> u) const {
+  double work = 0.0;
+  for (const int node : load_.touched) work += dot(load_.force[node], u[node] - uBefore_[node]);
   return work;
 }
 
@@ -160,7 +181,8 @@ template <class Archive, class Self>
 void Coupling::archive(Archive& archive, Self& self) {
   dem::archiveContacts(archive, self.contacts_);
   archive(self.builds_, self.revision_, self.marginAtBuild_, self.reachAtBuild_, self.periodAtBuild_,
-          self.particlesAtBuild_, self.nodesAtBuild_, self.travel_, self.booksWork_, self.wallWork_, self.previous_);
+          self.particlesAtBuild_, self.nodesAtBuild_, self.travel_, self.booksWork_, self.wallWork_, self.nodeWork_,
+          self.previous_, self.uBefore_);
 }
 
 void Coupling::save(ByteWriter& writer) const {

@@ -28,6 +28,7 @@ class FlatCarrier final : public Carrier {
 public:
   FlatCarrier(Skin skin, dem::EdgeRule rule) : skin_(std::move(skin)), rule_(rule) {}
 
+  std::unique_ptr<Carrier> clone() const override { return std::make_unique<FlatCarrier>(*this); }
   const cg::Projection& map() const override { return skin_.carrier; }
   const PatchTurns& turns() const override { return skin_.turns; }
   std::span<const Vec3> points() const override { return skin_.wall.x; }

@@ -32,6 +32,7 @@ public:
     wall_.material = surface_.material;
   }
 
+  std::unique_ptr<Carrier> clone() const override { return std::make_unique<SmoothCarrier>(*this); }
   const cg::Projection& map() const override { return surface_.carrier; }
   const PatchTurns& turns() const override { return surface_.turns; }
   std::span<const Vec3> points() const override { return surface_.x; }

@@ -49,6 +49,8 @@ public:
   double largestResidual() const { return largestResidual_; }
 
   const std::vector<Channel>& channels() const { return channels_; }
+  /// Of the channel of that name, J; 0 if there is none: channels of what never happened may be absent.
+  double joules(const std::string& name) const;
 
 private:
   Id addChannel(std::string name, Kind kind);

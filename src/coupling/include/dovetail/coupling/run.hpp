@@ -90,6 +90,8 @@ public:
   /// Windows of K steps. The last one's end is an instant at which positions and velocities agree.
   /// @throws NumericalError naming the particle, node or element that breaks down
   void advance(std::int64_t windows = 1);
+  /// One window for whoever looks at every one: without energies where none are wanted, which a ledger() would want.
+  void step(bool withEnergies);
 
   double time() const { return grains.time; }
   double dt() const;

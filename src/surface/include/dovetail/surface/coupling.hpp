@@ -53,12 +53,14 @@ public:
   /// edges, share the overlap as facets do (dem::projectWallContacts). For laws that remember nothing.
   explicit Coupling(SmoothSurface surface, const CouplingOptions& options = {});
   ~Coupling();
+  Coupling(const Coupling&);
   Coupling(Coupling&&) noexcept;
+  Coupling& operator=(const Coupling&);
   Coupling& operator=(Coupling&&) noexcept;
 
   /// The paper's transfer (Eqs. 14 and 15) in place of the adjoint one: the gap stays that of the local skin, the load
   /// is spread by the kernel at the contact point. Forces still balance; power does not (see wallWork).
-  void spreadLoad(SpreadLoad spread) { spread_ = std::move(spread); }
+  void spreadLoad(SpreadLoad spread) { spread_ = std::make_shared<SpreadLoad>(std::move(spread)); }
 
   /// Places the surface, finds contacts, adds their forces to the particles, and sets load() to the reaction on the
   /// nodes.
@@ -80,7 +82,11 @@ public:
   void bookWallWork(bool on) {
     booksWork_ = on;
     previous_.clear();
+    uBefore_.clear();
   }
+  /// Work of load() on the nodes less that of the contacts on the surface, J, if they are booked: what a transfer that
+  /// is not adjoint has made.
+  double madeByTransfer() const { return nodeWork_ - wallWork_; }
 
   /// @throws InputError naming what of the laws, or of a space that repeats, cannot be had on this surface
   void check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity = {}) const;
@@ -117,13 +123,29 @@ private:
                   const ExchangeOptions& options);
   void placeSurface(std::span<const Vec3> u, std::span<const Vec3> v);
   double workSinceLast() const;
+  double nodeWorkSinceLast(std::span<const Vec3> u) const;
   void transfer();
   template <class Archive, class Self>
   static void archive(Archive& archive, Self& self);
 
-  std::unique_ptr<Carrier> carrier_;
+  /// A copy has a copy of it.
+  class OwnCarrier {
+  public:
+    explicit OwnCarrier(std::unique_ptr<Carrier> carrier);
+    ~OwnCarrier();
+    OwnCarrier(const OwnCarrier& other);
+    OwnCarrier(OwnCarrier&&) noexcept;
+    OwnCarrier& operator=(OwnCarrier other) noexcept;
+    Carrier* operator->() const { return carrier_.get(); }
+    Carrier& operator*() const { return *carrier_; }
+
+  private:
+    std::unique_ptr<Carrier> carrier_;
+  };
+
+  OwnCarrier carrier_;
   double margin_;
-  std::optional<SpreadLoad> spread_;
+  std::shared_ptr<SpreadLoad> spread_;  // keeps nothing from call to call, so copies may share it
   dem::WallContacts contacts_;
   coupling::NodalLoad onPoints_, load_;
   std::vector<int> surfaceNodes_;  // that carry the surface
@@ -137,8 +159,8 @@ private:
   dem::ParticleTravel travel_;
 
   bool booksWork_ = false;
-  double wallWork_ = 0.0;
-  std::vector<Vec3> previous_;  // points at the last exchange, only if work is booked
+  double wallWork_ = 0.0, nodeWork_ = 0.0;
+  std::vector<Vec3> previous_, uBefore_;  // points, and u, at the last exchange, only if work is booked
 };
 
 }  // namespace dovetail::surface

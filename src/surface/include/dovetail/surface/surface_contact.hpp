@@ -24,6 +24,9 @@ public:
   const dem::ContactLaws& laws() const { return *laws_; }
 
   std::string name() const override { return name_; }
+  std::unique_ptr<dem::Term> clone() const override { return std::make_unique<SurfaceContact>(*this); }
+  /// What a transfer that is not adjoint has taken, if its work is booked (Coupling::bookWallWork).
+  double lost() const override { return -coupling_.madeByTransfer(); }
   void check(const dem::Model& m) const override;
   double renumber(std::span<const int> newNumber, const dem::Particles& before) override;
   void addForces(dem::Model& m, const dem::Step& step) override;
