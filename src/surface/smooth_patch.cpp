@@ -58,31 +58,61 @@ PatchJet evaluate(const SmoothSurface& surface, int face, double xi, double eta)
 std::array<double, 2> newtonStep(const PatchJet& jet, const Vec3& p, std::array<double, 2> parameter) {
   const Vec3 r = jet.s - p;
   std::array<double, 2> gradient{dot(r, jet.sXi), dot(r, jet.sEta)};
-  double a = squaredNorm(jet.sXi) + dot(r, jet.sXiXi), d = squaredNorm(jet.sEta) + dot(r, jet.sEtaEta);
+  const double flatA = squaredNorm(jet.sXi), flatD = squaredNorm(jet.sEta);
+  double a = flatA + dot(r, jet.sXiXi), d = flatD + dot(r, jet.sEtaEta);
   double b = dot(jet.sXi, jet.sEta) + dot(r, jet.sXiEta);
-  if (a <= 0.0 || d <= 0.0 || a * d - b * b <= 0.0) {  // not convex here: Gauss–Newton
-    a = squaredNorm(jet.sXi);
-    d = squaredNorm(jet.sEta);
-    b = dot(jet.sXi, jet.sEta);
-  }
   std::array<bool, 2> held{};
   for (int k = 0; k < 2; ++k)
     held[k] = (parameter[k] <= 0.0 && gradient[k] > 0.0) || (parameter[k] >= 1.0 && gradient[k] < 0.0);
   std::array<double, 2> change{};
   if (!held[0] && !held[1]) {
+    if (a <= 0.0 || d <= 0.0 || a * d - b * b <= 0.0) {  // not convex here: Gauss–Newton
+      a = flatA;
+      d = flatD;
+      b = dot(jet.sXi, jet.sEta);
+    }
     const double determinant = a * d - b * b;
     change = {-(d * gradient[0] - b * gradient[1]) / determinant, -(a * gradient[1] - b * gradient[0]) / determinant};
   } else if (!held[0]) {
-    change[0] = -gradient[0] / a;
+    change[0] = -gradient[0] / (a > 0.0 ? a : flatA);
   } else if (!held[1]) {
-    change[1] = -gradient[1] / d;
+    change[1] = -gradient[1] / (d > 0.0 ? d : flatD);
   }
   for (int k = 0; k < 2; ++k) parameter[k] = std::clamp(parameter[k] + change[k], 0.0, 1.0);
   return parameter;
 }
 
+/// The same along the slope alone, which leads nearer from wherever it is not at rest.
+std::array<double, 2> slopeStep(const PatchJet& jet, const Vec3& p, std::array<double, 2> parameter) {
+  const Vec3 r = jet.s - p;
+  return {std::clamp(parameter[0] - dot(r, jet.sXi) / squaredNorm(jet.sXi), 0.0, 1.0),
+          std::clamp(parameter[1] - dot(r, jet.sEta) / squaredNorm(jet.sEta), 0.0, 1.0)};
+}
+
 double largestChange(const std::array<double, 2>& a, const std::array<double, 2>& b) {
   return std::max(std::abs(a[0] - b[0]), std::abs(a[1] - b[1]));
+}
+
+/// Where a search stands.
+struct Foot {
+  std::array<double, 2> parameter;
+  PatchJet jet;
+};
+
+/// Goes to `next`, or by halves of the way there until p is no farther; of the shortest ways round-off decides.
+/// @return false, and stays, if none of so many is nearer
+bool walk(const SmoothSurface& surface, int face, const Vec3& p, std::array<double, 2> next, int halves, Foot& foot) {
+  constexpr double shortest = 1e-8;
+  const double before = squaredNorm(p - foot.jet.s);
+  for (int k = 0; k <= halves; ++k) {
+    const PatchJet jet = evaluate(surface, face, next[0], next[1]);
+    if (squaredNorm(p - jet.s) <= before || largestChange(next, foot.parameter) < shortest) {
+      foot = {next, jet};
+      return true;
+    }
+    for (std::size_t c = 0; c < 2; ++c) next[c] = 0.5 * (next[c] + foot.parameter[c]);
+  }
+  return false;
 }
 
 }  // namespace
@@ -98,26 +128,19 @@ std::array<double, 16> patchWeights(double xi, double eta) {
 PatchPoint closestPointOnPatch(const SmoothSurface& surface, int face, const Vec3& p, std::array<double, 2> start) {
   constexpr double roundOff = 1e-14;
   PatchPoint closest;
-  closest.parameter = start;
   closest.found = false;
-  PatchJet jet = evaluate(surface, face, start[0], start[1]);
-  for (int iteration = 0; iteration < 60 && !closest.found; ++iteration) {
-    std::array<double, 2> next = newtonStep(jet, p, closest.parameter);
-    double change = largestChange(next, closest.parameter);
-    const double before = squaredNorm(p - jet.s);
-    if (change >= roundOff) jet = evaluate(surface, face, next[0], next[1]);
-    while (change >= 1e-8 && squaredNorm(p - jet.s) > before) {
-      for (int k = 0; k < 2; ++k) next[k] = 0.5 * (next[k] + closest.parameter[k]);
-      change *= 0.5;
-      jet = evaluate(surface, face, next[0], next[1]);
-    }
-    closest.parameter = next;
-    closest.found = change < (iteration < 20 ? roundOff : 1e-9);
+  Foot foot{start, evaluate(surface, face, start[0], start[1])};
+  for (int iteration = 0; iteration < 100 && !closest.found; ++iteration) {
+    const std::array<double, 2> before = foot.parameter, next = newtonStep(foot.jet, p, before);
+    if (largestChange(next, before) >= roundOff && !walk(surface, face, p, next, 2, foot))
+      walk(surface, face, p, slopeStep(foot.jet, p, before), 60, foot);
+    closest.found = largestChange(foot.parameter, before) < (iteration < 20 ? roundOff : 1e-9);
   }
+  closest.parameter = foot.parameter;
   const auto [xi, eta] = closest.parameter;
   closest.weight = patchWeights(xi, eta);
-  closest.point = jet.s;
-  closest.squaredDistance = squaredNorm(p - jet.s);
+  closest.point = foot.jet.s;
+  closest.squaredDistance = squaredNorm(p - foot.jet.s);
   closest.edge = eta <= 0.0 ? 0 : xi >= 1.0 ? 1 : eta >= 1.0 ? 2 : xi <= 0.0 ? 3 : -1;
   return closest;
 }

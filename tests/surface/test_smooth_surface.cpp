@@ -173,6 +173,38 @@ TEST(SmoothSurface, TheMobilityBoundHoldsEverywhereAndIsMetAtACorner) {
   }
 }
 
+/// From wherever it starts, within a face's size of patches that are bent sharply: it comes to rest, at a place no
+/// farther than the start, where no direction leads nearer.
+TEST(SmoothSurface, TheSearchComesToRestAndNeverGoesAway) {
+  const fem::SolidMesh mesh = unitBlock();
+  SmoothSurface surface = makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("z+")));
+  Random random(12);
+  int near = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    if (trial % 10 == 0) placeAll(surface, random.field(mesh.X.size(), 0.5));
+    const int face = trial % 16;
+    const Vec3 p{random(0, 4), random(0, 4), random(-1.0, 1.5)};
+    const std::array<double, 2> start{random(0, 1), random(0, 1)};
+    const PatchPoint foot = closestPointOnPatch(surface, face, p, start);
+    if (foot.squaredDistance > 1.0) continue;
+    ++near;
+    EXPECT_TRUE(foot.found) << trial;
+    EXPECT_LE(std::sqrt(foot.squaredDistance), norm(p - pointAt(surface, face, start).point) + 1e-14) << trial;
+    for (const auto& [dx, dy] : std::array<std::array<double, 2>, 4>{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}}) {
+      const std::array<double, 2> beside{std::clamp(foot.parameter[0] + 1e-5 * dx, 0.0, 1.0),
+                                         std::clamp(foot.parameter[1] + 1e-5 * dy, 0.0, 1.0)};
+      EXPECT_GE(squaredNorm(p - pointAt(surface, face, beside).point), foot.squaredDistance - 1e-13) << trial;
+    }
+  }
+  EXPECT_GT(near, 500);
+}
+
+TEST(SmoothSurface, RefusesFacesThatHaveAnEdgeTheSameWayRound) {
+  const std::vector<Vec3> X{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}};
+  EXPECT_NO_THROW(makeSmoothSurface(makeSkin(X, std::vector{quad(0, 1, 2, 3), quad(1, 4, 5, 2)})));
+  EXPECT_THROW(makeSmoothSurface(makeSkin(X, std::vector{quad(0, 1, 2, 3), quad(2, 5, 4, 1)})), InputError);
+}
+
 /// Three faces that meet in the middle of a hexagon.
 TEST(SmoothSurface, RefusesAnIrregularMeshByFace) {
   std::vector<Vec3> X{{0, 0, 0}};
