@@ -19,7 +19,12 @@ inline constexpr std::size_t laneBytes = 8 * laneCount;
 /// and may align it to less: the structures below therefore state their alignment.
 using Lane [[gnu::vector_size(laneBytes)]] = double;
 
+// Watched code is not worth the minutes that inlining all of it takes.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define DOVETAIL_INLINE inline
+#else
 #define DOVETAIL_INLINE [[gnu::always_inline]] inline
+#endif
 
 /// Aligned for wide registers, whatever a build for any processor thinks of Lane: what is handed to code for wide
 /// registers lies in such arrays.
