@@ -51,6 +51,7 @@ const EnergyLedger& CoupledRun::ledger() {
         setChannel(ledger, connector->name() + ": stored", stored, joules);
       setChannel(ledger, connector->name() + ": lost", booked, connector->lost());
     }
+  setChannel(ledger, "brought to rest", booked, impl_->broughtToRest);
   setChannel(ledger, "loads one step old (minus what they made)", booked, -impl_->madeByLag);
   ledger.close();
   return ledger;

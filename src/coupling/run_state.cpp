@@ -38,7 +38,7 @@ void requireSame(bool same, const char* what) {
 /// What has been read of a state.
 struct CoupledRun::Impl::State {
   std::vector<Vec3> windowForce;
-  double madeByLag = 0.0;
+  double madeByLag = 0.0, broughtToRest = 0.0;
   std::vector<char> particles;
   struct Solid {
     std::shared_ptr<SavedSolid> own;
@@ -51,7 +51,7 @@ struct CoupledRun::Impl::State {
 std::vector<char> CoupledRun::Impl::save() {
   ByteWriter archive;
   archive(dt, options.stepsPerWindow, static_cast<int>(options.lag), static_cast<std::uint64_t>(solids.size()),
-          windowForce, madeByLag, dem::saveState(grains));
+          windowForce, madeByLag, broughtToRest, dem::saveState(grains));
   for (std::size_t s = 0; s < solids.size(); ++s) {
     ByteWriter own;
     solids[s]->save(own);
@@ -70,7 +70,7 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
   double step = 0.0;
   int steps = 0, lag = 0;
   std::uint64_t count = 0;
-  archive(step, steps, lag, count, state.windowForce, state.madeByLag, state.particles);
+  archive(step, steps, lag, count, state.windowForce, state.madeByLag, state.broughtToRest, state.particles);
   requireSame(step == dt && steps == options.stepsPerWindow && lag == static_cast<int>(options.lag),
               "steps or options");
   requireSame(count == solids.size(), "solids");
@@ -94,6 +94,7 @@ void CoupledRun::Impl::adopt(State state) {
   loadBefore.clear();
   lagSeen.clear();
   madeByLag = state.madeByLag;
+  broughtToRest = state.broughtToRest;
   for (std::size_t s = 0; s < solids.size(); ++s) {
     solids[s]->adopt(*state.solids[s].own);
     solids[s]->side.load = std::move(state.solids[s].load);

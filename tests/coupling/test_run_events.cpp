@@ -1,6 +1,7 @@
 // Particles that are sorted, come and go, and copies of the particles' model, while solids are there.
 #include <gtest/gtest.h>
 
+#include "dovetail/core/error.hpp"
 #include "spring_scene.hpp"
 
 namespace dovetail::coupling {
@@ -25,6 +26,25 @@ TEST(RunEvents, ACopyOfTheParticlesLoadsNobody) {
   dem::run(copy, 1e-4, 5);
   EXPECT_EQ(before, run->solid(0).load.force);
   run->advance(5);
+}
+
+TEST(RunEvents, SettlesAndBooksWhatThatTook) {
+  for (const Stepping stepping : {Stepping::explicitSteps, Stepping::implicitSteps}) {
+    const auto run = springRun({.stepping = stepping, .held = true});
+    run->grains.gravity = {0.0, 0.0, -9.81};
+    run->start(2e-4);
+    const RestReport report = settle(*run);
+    EXPECT_TRUE(report.atRest) << report.kinetic;
+    const dem::Particles& p = run->grains.particles;
+    for (std::size_t i = 0; i < p.size(); ++i) EXPECT_LT(norm(p.f[i]), 2e-3 * 9.81 * p.mass[i]);
+    const double booked = run->ledger().joules("brought to rest");
+    EXPECT_GT(booked, 0.0);
+    EXPECT_LT(std::abs(run->ledger().residual()), 1e-2 * booked);
+  }
+  const auto run = springRun({});
+  run->start(1e-4);
+  EXPECT_THROW(settle(*run, {.kinetic = 0.0}), InputError);
+  EXPECT_FALSE(settle(*run, {.windows = 1}).atRest);
 }
 
 TEST(RunEvents, SortingChangesNothingButTheOrder) {

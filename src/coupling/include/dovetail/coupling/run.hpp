@@ -93,6 +93,11 @@ public:
   /// One window for whoever looks at every one: without energies where none are wanted, which a ledger() would want.
   void step(bool withEnergies);
 
+  /// All velocities to zero, between windows; what that takes is booked as "brought to rest".
+  void stop();
+  /// Of particles, bodies and solids, J.
+  double kineticEnergy() const;
+
   double time() const { return grains.time; }
   double dt() const;
   double window() const;  ///< K dt, s
@@ -117,5 +122,24 @@ public:
 private:
   std::unique_ptr<Impl> impl_;
 };
+
+struct RestOptions {
+  /// At rest when no swing has had a kinetic energy above this share of the elastic energy, twice in a row.
+  double kinetic = 1e-8;
+  std::int64_t windows = 200000;  ///< given up after so many
+};
+
+struct RestReport {
+  bool atRest = false;
+  double kinetic = 0.0;      ///< the largest of the last swing, over the elastic energy
+  std::int64_t windows = 0;  ///< taken
+  std::int64_t stops = 0;
+};
+
+/// Steps a started run until it is at rest under the loads that it has: whenever the kinetic energy has passed a peak
+/// everything is stopped (kinetic damping: Cundall 1976). Contacts remember as in any other step, so friction holds
+/// what it can. Time goes on by the windows taken, and loads that are functions of it with it.
+/// @throws InputError for options out of range; NumericalError as advance
+RestReport settle(CoupledRun& run, const RestOptions& options = {});
 
 }  // namespace dovetail::coupling

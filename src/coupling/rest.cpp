@@ -1,0 +1,59 @@
+// Runs that come to rest.
+#include <algorithm>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
+#include "run_impl.hpp"
+
+namespace dovetail::coupling {
+
+double CoupledRun::kineticEnergy() const {
+  dem::Energies e;
+  e.kinetic = dem::kineticEnergy(grains.particles);
+  for (const dem::BodyTerm* term : grains.terms.all<dem::BodyTerm>()) term->addEnergies(grains, e);
+  for (const auto& solid : impl_->solids) e.kinetic += solid->kineticEnergy();
+  return e.kinetic;
+}
+
+void CoupledRun::stop() {
+  dem::close(grains);
+  impl_->broughtToRest += kineticEnergy();
+  std::ranges::fill(grains.particles.v, Vec3{});
+  std::ranges::fill(grains.particles.omega, Vec3{});
+  for (dem::BodyTerm* term : grains.terms.all<dem::BodyTerm>()) {
+    std::ranges::fill(term->bodies.v, Vec3{});
+    std::ranges::fill(term->bodies.angularMomentum, Vec3{});
+  }
+  for (const auto& solid : impl_->solids) std::ranges::fill(solid->side.nodes().v, Vec3{});
+  impl_->broughtToRest -= kineticEnergy();
+}
+
+RestReport settle(CoupledRun& run, const RestOptions& options) {
+  requirePositive(options.kinetic, "kinetic energy at rest");
+  if (options.windows < 1)
+    throw InputError("windows is " + std::to_string(options.windows), "RestOptions", "give 1 or more");
+  RestReport report;
+  run.stop();
+  double before = 0.0;
+  int quiet = 0;
+  for (; report.windows < options.windows && quiet < 2; ++report.windows) {
+    run.step(true);
+    const double kinetic = run.kineticEnergy();
+    if (kinetic >= before) {
+      before = kinetic;
+      continue;
+    }
+    const EnergyLedger& ledger = run.ledger();
+    const double elastic = ledger.stored() - kinetic - ledger.joules("particles: gravity");
+    report.kinetic = elastic > 0.0 ? before / elastic : 1.0;
+    quiet = report.kinetic <= options.kinetic ? quiet + 1 : 0;
+    ++report.stops;
+    run.stop();
+    before = 0.0;
+  }
+  report.atRest = quiet == 2;
+  return report;
+}
+
+}  // namespace dovetail::coupling
