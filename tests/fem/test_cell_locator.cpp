@@ -283,5 +283,34 @@ TEST(ShapeRows, OfFacesAreThoseOfTheCellsThere) {
   }
 }
 
+TEST(CellLocator, PointsNearTheMeshHaveTheirPlaceInTheNearestElementAndNoneFartherThanTheReach) {
+  for (const CellShape shape : {CellShape::hex8, CellShape::tet4, CellShape::hex20, CellShape::tet10}) {
+    const SolidMesh mesh = boxOf(shape, {3, 2, 2}, {}, {3, 2, 2});
+    const CellLocator locator(mesh);
+    std::mt19937 random(5);
+    for (int k = 0; k < 400; ++k) {
+      const Vec3 x = Vec3{1.5, 1.0, 1.0} + 2.0 * randomVec3(random, 1.0);
+      const Vec3 off{std::max({0.0, -x.x, x.x - 3}), std::max({0.0, -x.y, x.y - 2}), std::max({0.0, -x.z, x.z - 2})};
+      const auto near = locator.findNear(x, 0.4), within = locator.find(x);
+      ASSERT_EQ(near.has_value(), norm(off) < 0.4) << norm(off);
+      if (!near) continue;
+      EXPECT_LT(norm(at(mesh, nodesOfElement(mesh, near->element), near->shape) - x), 1e-12);
+      if (within) {
+        EXPECT_EQ(near->element, within->element);
+        EXPECT_EQ(near->shape, within->shape);
+        continue;
+      }
+      const Vec3 foot{std::clamp(x.x, 0.0, 3.0), std::clamp(x.y, 0.0, 2.0), std::clamp(x.z, 0.0, 2.0)};
+      EXPECT_LT(norm(foot - x), norm(off) + 1e-12);
+      double least = 1.0;  // the foot lies in that element
+      const auto nodes = nodesOfElement(mesh, near->element);
+      if (const auto there = locator.find(foot + 1e-9 * (Vec3{1.5, 1.0, 1.0} - foot)))
+        least = shape == CellShape::hex8 && norm(off) > 0.0 ? (there->element == near->element ? 0.0 : 1.0) : 0.0;
+      EXPECT_EQ(least, 0.0) << nodes.size();
+    }
+    EXPECT_FALSE(locator.findNear({-0.1, 1, 1}, 0.0));
+  }
+}
+
 }  // namespace
 }  // namespace dovetail::fem

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <limits>
 
-#include "../laws/material_probe.hpp"
 #include "cell_kernels.hpp"
+#include "dovetail/fem/laws/material_probe.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "enhanced_search.hpp"

@@ -33,7 +33,7 @@ public:
     for (std::size_t p = 0; p < lanes; ++p) law_->startHistory(std::span(history_).subspan(p * size_, size_));
     newHistory_ = history_;
   }
-  ModuliAtRest moduliAtRest() override { return detail::moduliAtRest(*law_); }
+  ModuliAtRest moduliAtRest() override { return fem::moduliAtRest(*law_); }
 
   void evaluate(const PointCall& call) override {
     PointBatch batch{};

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../laws/material_probe.hpp"
+#include "dovetail/fem/laws/material_probe.hpp"
 #include "dovetail/fem/laws/point_field.hpp"
 #include "dovetail/fem/laws/point_material.hpp"
 #include "dovetail/fem/model/term.hpp"

@@ -1,9 +1,9 @@
-#include "material_probe.hpp"
+#include "dovetail/fem/laws/material_probe.hpp"
 
 #include <array>
 #include <vector>
 
-namespace dovetail::fem::detail {
+namespace dovetail::fem {
 
 ModuliAtRest moduliAtRest(const PointMaterial& material) {
   alignas(32) std::array<double, 9 * pointLanes> F{}, P{};
@@ -25,4 +25,10 @@ ModuliAtRest moduliAtRest(const PointMaterial& material) {
   return {A[0], A[10 * pointLanes]};
 }
 
-}  // namespace dovetail::fem::detail
+double youngsModulus(const PointMaterial& material) {
+  if (const auto law = material.brickLaw()) return youngsModulus(*law);
+  const auto [confined, shear] = moduliAtRest(material);
+  return shear * (3.0 * confined - 4.0 * shear) / (confined - shear);
+}
+
+}  // namespace dovetail::fem

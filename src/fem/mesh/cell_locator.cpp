@@ -8,7 +8,9 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/fem/mesh/shape.hpp"
+#include "dovetail/geometry/triangle.hpp"
 #include "parent_coordinates.hpp"
 #include "shapes.hpp"
 
@@ -44,6 +46,22 @@ void requireNodes(std::span<const CellGroup> groups, std::size_t count) {
     first += static_cast<int>(group.size());
   }
 }
+
+/// From a point outside to the faces between the corners of a cell, m.
+double distanceTo(CellShape shape, std::span<const Vec3> nodes, const Vec3& x) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Face& face : localFacesOf(shape)) {
+    const auto corner = [&](std::size_t k) { return nodes[static_cast<std::size_t>(face.node[k])]; };
+    const int corners = cornersOf(face.shape);
+    for (std::size_t k = 1; k == 1 || static_cast<int>(k) + 1 < corners; ++k) {
+      const Vec3 third = corners == 2 ? corner(1) : corner(k + 1);
+      nearest = std::min(nearest, norm(geometry::closestPointOnTriangle(x, corner(0), corner(k), third).point - x));
+    }
+  }
+  return nearest;
+}
+
+constexpr double nearer = 1e-9;  // relative: what is nearer by less is as near
 
 /// Positions of the nodes of one element.
 class CellNodes {
@@ -94,10 +112,13 @@ CellPlace CellLocator::placeAt(int element, const Vec3& xi) const {
   return {element, xi, shapeRow(cell(element).shape, xi)};
 }
 
-std::optional<CellPlace> CellLocator::find(const Vec3& point) const {
+Vec3 CellLocator::inPlane(const Vec3& point) const {
   if (!isFinite(point)) throw InputError("the point is not finite", "CellLocator", "give a position");
-  Vec3 x = point;
-  if (plane_) x.z = position_[static_cast<std::size_t>(cell(0).node[0])].z;
+  return plane_ ? Vec3{point.x, point.y, position_[static_cast<std::size_t>(cell(0).node[0])].z} : point;
+}
+
+std::optional<CellPlace> CellLocator::find(const Vec3& point) const {
+  const Vec3 x = inPlane(point);
   std::vector<int> beyond;  // elements that Newton's method left
   for (const int e : grid_.query({x, x})) {
     if (!contains(box_[static_cast<std::size_t>(e)], x)) continue;
@@ -112,6 +133,24 @@ std::optional<CellPlace> CellLocator::find(const Vec3& point) const {
     if (const auto xi = detail::searchParent(cell(e).shape, CellNodes(cell(e).node, position_), x, label(e)))
       return placeAt(e, *xi);
   return std::nullopt;
+}
+
+std::optional<CellPlace> CellLocator::findNear(const Vec3& point, double reach) const {
+  if (auto place = find(point); place || !(reach > 0.0)) return place;
+  const Vec3 x = inPlane(point);
+  double nearest = reach;
+  int element = -1;
+  Vec3 xi;
+  for (const int e : grid_.query(geometry::expanded({x, x}, reach))) {
+    if (!contains(geometry::expanded(box_[static_cast<std::size_t>(e)], reach), x)) continue;
+    const CellNodes nodes(cell(e).node, position_);
+    const detail::ParentGuess guess = detail::guessParent(cell(e).shape, nodes, x);
+    if (guess.verdict == detail::Verdict::unsettled) continue;
+    const double distance = distanceTo(cell(e).shape, nodes, x);
+    if (!(distance < nearest * (1.0 - nearer))) continue;
+    nearest = distance, element = e, xi = guess.xi;
+  }
+  return element < 0 ? std::nullopt : std::optional(placeAt(element, xi));
 }
 
 }  // namespace dovetail::fem

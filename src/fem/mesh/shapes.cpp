@@ -255,6 +255,13 @@ void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, st
       detail::tensorProduct(nodes[a], xi, shape == CellShape::hex27, value[a], gradient[a]);
 }
 
+Vec3 nearestInParent(CellShape shape, const Vec3& xi) {
+  if (!detail::isTet(shape))
+    return {std::clamp(xi.x, -1.0, 1.0), std::clamp(xi.y, -1.0, 1.0), std::clamp(xi.z, -1.0, 1.0)};
+  const Vec3 within{std::max(xi.x, 0.0), std::max(xi.y, 0.0), std::max(xi.z, 0.0)};
+  return (1.0 / std::max(1.0, within.x + within.y + within.z)) * within;
+}
+
 std::vector<double> shapeRow(CellShape shape, const Vec3& xi) {
   std::vector<double> row(static_cast<std::size_t>(nodesOf(shape)));
   std::array<Vec3, detail::maxCellNodes> gradient;

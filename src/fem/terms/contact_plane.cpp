@@ -1,10 +1,10 @@
+#include "dovetail/fem/laws/material_probe.hpp"
 #include "dovetail/fem/terms/contact_plane.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "../laws/material_probe.hpp"
 #include "../mesh/faces.hpp"
 #include "contact_point.hpp"
 #include "dovetail/core/error.hpp"
@@ -236,7 +236,7 @@ double contactPenalty(const SolidMesh& mesh, std::span<const Face> faces, const 
   for (const Spot& spot : makeSpots(mesh, faces)) area += spot.area;
   const double mean = area / static_cast<double>(faces.size());
   const double size = dimensionOf(mesh) == 2 ? mean / mesh.thickness : std::sqrt(mean);
-  return 10.0 * detail::moduliAtRest(material).confined / size;
+  return 10.0 * moduliAtRest(material).confined / size;
 }
 
 std::shared_ptr<ContactPlane> makeContactPlane(const SolidMesh& mesh, std::span<const Face> faces, const Plane& plane,

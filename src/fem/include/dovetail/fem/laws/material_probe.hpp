@@ -3,7 +3,7 @@
 
 #include "dovetail/fem/laws/point_material.hpp"
 
-namespace dovetail::fem::detail {
+namespace dovetail::fem {
 
 /// At F = 1, Pa: ∂P_00/∂F_00 and ∂P_01/∂F_01.
 struct ModuliAtRest {
@@ -11,4 +11,7 @@ struct ModuliAtRest {
 };
 ModuliAtRest moduliAtRest(const PointMaterial& material);
 
-}  // namespace dovetail::fem::detail
+/// Young's modulus, Pa: of a law of the hand-written kernels its own, else that of an isotropic law with these moduli.
+double youngsModulus(const PointMaterial& material);
+
+}  // namespace dovetail::fem
