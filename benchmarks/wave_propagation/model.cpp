@@ -141,7 +141,6 @@ arlequin::CouplingOptions couplingOptions(const Settings& s) {
   o.penalty = s.penalty;
   if (s.constraint == Constraint::dashpot && s.penalty == 0.0) o.penalty = publishedPenalty(s.particlesPerEdge);
   o.consistentDashpot = s.dashpotMatrix == DashpotMatrix::consistent;
-  o.contactStiffness = Case{}.youngsModulus * particleDiameter(s);
   o.absorberRate = s.absorber * waveSpeed() / Case{}.elementSize;
   return o;
 }
@@ -182,7 +181,7 @@ arlequin::Model makeBar(const Settings& s, double& penalty) {
   Settings used = s;
   used.penalty = penalty;
   arlequin::Model model = makeCoupledBar(used);
-  const bool stores = s.constraint == Constraint::penalty || s.constraint == Constraint::stress;
+  const bool stores = s.constraint == Constraint::penalty;
   if (s.femEvery == 1 || s.penalty > 0.0 || !stores) return model;
   const double critical = arlequin::criticalStep(model).together;
   const double dt = requestedStep(s, critical);

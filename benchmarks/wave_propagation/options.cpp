@@ -59,8 +59,7 @@ void addSchemeOptions(App& app, WrittenParts& w, Settings& s) {
   addPart<Constraint>(app, w, "--constraint", &Settings::constraint,
                       {{"penalty", Constraint::penalty},
                        {"multiplier", Constraint::multiplier},
-                       {"dashpot", Constraint::dashpot},
-                       {"stress", Constraint::stress}},
+                       {"dashpot", Constraint::dashpot}},
                       "what holds the two models together");
   addPart<Gap>(app, w, "--gap", &Settings::gap, {{"at-grains", Gap::atParticles}, {"nodal", Gap::nodal}},
                "where the two fields are compared");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "dovetail/io/provenance.hpp"
@@ -28,7 +29,10 @@ private:
     const arlequin::Solid& solid = *frame.model.solid;
     points_.resize(solid.nodes().X.size());
     for (std::size_t i = 0; i < points_.size(); ++i) points_[i] = solid.nodes().X[i] + solid.nodes().u[i];
-    io::HexFrame picture{points_, solid.mesh.elements, {}, {}, {}};
+    cells_.resize(solid.mesh.elementCount());
+    for (std::size_t e = 0; e < cells_.size(); ++e)
+      std::ranges::copy(arlequin::cellOf(solid.mesh, static_cast<int>(e)).node, cells_[e].begin());
+    io::HexFrame picture{points_, cells_, {}, {}, {}};
     picture.pointVectors = {{"displacement_m", solid.nodes().u}, {"velocity_m_per_s", solid.nodes().v}};
     picture.pointScalars = {{"particles_share", frame.model.coupling->overlap.nodalWeight}};
     solid_->write(frame.time, picture);
@@ -38,6 +42,7 @@ private:
   io::VtuSeries particles_;
   std::optional<io::VtuSeries> solid_;
   std::vector<Vec3> points_;
+  std::vector<std::array<int, 8>> cells_;
   std::vector<double> share_;
 };
 

@@ -107,7 +107,7 @@ private:
       mass -= particlesPerLayer(settings()) * particleMass(settings());
     }
     if (model_.solid) {
-      f.elements = model_.solid->mesh.elements.size();
+      f.elements = model_.solid->mesh.elementCount();
       f.overlapParticles = model_.coupling->overlap.size();
       f.coupledNodes = model_.coupling->rows();
       for (const double m : model_.solid->nodes().mass) mass += m;

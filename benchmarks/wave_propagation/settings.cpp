@@ -170,7 +170,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
           {"dem_length_m", text(s.demLength)},
           {"overlap_m", text(s.overlap)},
           {"fem_length_m", text(solidElements(s) * Case{}.elementSize)},
-          {"constraint", pick(static_cast<int>(s.constraint), {"penalty", "multiplier", "dashpot", "stress"})},
+          {"constraint", pick(static_cast<int>(s.constraint), {"penalty", "multiplier", "dashpot"})},
           {"gap", pick(static_cast<int>(s.gap), {"at-grains", "nodal"})},
           {"weight_floor", text(s.weightFloor)},
           {"weight_profile", pick(static_cast<int>(s.weightProfile), {"half-cosine", "linear", "smooth"})},

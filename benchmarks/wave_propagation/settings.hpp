@@ -18,7 +18,7 @@ struct Case {
 };
 
 enum class Scheme { conservative, paper };
-enum class Constraint { penalty, multiplier, dashpot, stress };
+enum class Constraint { penalty, multiplier, dashpot };
 enum class Gap { atParticles, nodal };
 enum class Kernel { lucy, gauss };
 enum class WeightProfile { halfCosine, linear, smooth };

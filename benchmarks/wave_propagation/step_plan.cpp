@@ -25,7 +25,7 @@ void refuseImplicit(const Settings& s, double dt, const arlequin::CriticalStep& 
     throw InputError("a step of " + formatNumber(dt) + " s is above that of the contacts, " +
                          formatNumber(critical.particles) + " s",
                      "--dt-factor", "give at most " + formatNumber(0.9 * critical.particles / contactTime(s)));
-  const bool stores = s.constraint == Constraint::penalty || s.constraint == Constraint::stress;
+  const bool stores = s.constraint == Constraint::penalty;
   if (stores && s.femEvery * dt > critical.together)
     throw InputError("the coupling acts every " + formatNumber(s.femEvery * dt) +
                          " s, more than its critical step of " + formatNumber(critical.together) + " s",

@@ -15,8 +15,6 @@ const char* nameOf(Constraint constraint) {
       return "multiplier";
     case Constraint::dashpot:
       return "dashpot";
-    case Constraint::stress:
-      return "stress";
   }
   return "";
 }
@@ -74,7 +72,7 @@ std::vector<StudyRow> constraintsPlan(const Settings& base) {
     settings.gap = gap;
     settings.constraint = Constraint::multiplier;
     rows.push_back(planned("multiplier" + form, settings));
-    for (const Constraint constraint : {Constraint::penalty, Constraint::stress, Constraint::dashpot})
+    for (const Constraint constraint : {Constraint::penalty, Constraint::dashpot})
       for (const double penalty : {1e7, 1e8, 1e9, 1e10, 1e11, 1e12}) {
         settings.constraint = constraint;
         settings.penalty = penalty;

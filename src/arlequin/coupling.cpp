@@ -9,23 +9,13 @@ namespace dovetail::arlequin {
 
 namespace {
 
-/// w must fall from 1 to 0 over at least one whole element.
-void requireWidth(const Overlap& overlap, const Solid& solid) {
-  for (const int e : overlap.elements) {
-    double least = 1.0, most = 0.0;
-    for (const int n : solid.mesh.elements[static_cast<std::size_t>(e)]) {
-      least = std::min(least, overlap.nodalWeight[static_cast<std::size_t>(n)]);
-      most = std::max(most, overlap.nodalWeight[static_cast<std::size_t>(n)]);
-    }
-    if (most - least < 1.0 - 1e-12) return;
-  }
-  throw InputError("the overlap is narrower than an element: the weights fall from 1 to 0 within one", "overlap",
-                   "widen the overlap or refine the mesh there");
-}
-
 /// By rows for the local map and for the nodal form; wide kernels at the particles need the metric of their rows.
 std::unique_ptr<Constraint> penaltyFor(const Coupling& c, double penalty) {
-  if (penaltyIsLocal(c.options)) return makePenalty(c.gap, penalty);
+  if (penaltyIsLocal(c.options)) {
+    std::vector<double> stiffness = c.gap.volume;
+    for (double& value : stiffness) value *= requirePositive(penalty, "penalty");
+    return makePenalty(std::move(stiffness));
+  }
   double mass = 0.0, volume = 0.0;
   for (const int i : c.overlap.particle) mass += c.fullMass[static_cast<std::size_t>(i)];
   for (const double v : c.gap.volume) volume += v;
@@ -36,19 +26,17 @@ std::unique_ptr<Constraint> penaltyFor(const Coupling& c, double penalty) {
 
 std::unique_ptr<Constraint> makeConstraint(const Coupling& c, const dem::Particles& particles, const Solid& solid) {
   const CouplingOptions& o = c.options;
-  const double automatic = automaticPenalty(
-      fem::youngsModulus(solid.material()),
-      elementSize(solid.mesh, solid.mesh.elements[static_cast<std::size_t>(c.overlap.elements.front())]));
+  const double automatic =
+      automaticPenalty(fem::youngsModulus(solid.material()), elementSize(solid.mesh, c.overlap.elements.front()));
   switch (o.constraint) {
     case ConstraintKind::penalty:
-    case ConstraintKind::stress:
       return penaltyFor(c, o.penalty == 0.0 ? automatic : o.penalty);
     case ConstraintKind::dashpot:
       return makeDashpot(c.gap, o.penalty, o.consistentDashpot);
     case ConstraintKind::multiplier:
       return makeMultiplier(c.gap, c.overlap, particles.mass, solid.motion());
   }
-  throw InputError("there is no such constraint", "coupling", "take penalty, multiplier, dashpot or stress");
+  throw InputError("there is no such constraint", "coupling", "take penalty, multiplier or dashpot");
 }
 
 /// How far outside of the mesh particles take part, m.
@@ -56,22 +44,13 @@ double reachOf(const CouplingOptions& o) { return o.projection.reachOut ? o.proj
 
 void setUp(Coupling& c, dem::Particles& particles, dem::PairList& pairs, const Solid& solid) {
   weighMass(c.overlap, c.fullMass, particles);
-  weighContacts(particles, solid.mesh.elements, solid.nodes(), c.overlap, pairs);
-  std::vector<Vec3> position(solid.nodes().X.size());
-  for (std::size_t n = 0; n < position.size(); ++n) position[n] = solid.nodes().X[n] + solid.nodes().u[n];
-  c.gap = makeGapOperator(c.overlap, solid.mesh, particles, c.fullMass, c.options.form, c.options.projection, position);
+  weighContacts(particles, solid.mesh, solid.nodes(), c.overlap, pairs);
+  c.gap = makeGapOperator(c.overlap, solid.mesh, c.fullMass, c.options.form, c.options.projection,
+                          positionsOf(solid.nodes().X, solid.nodes().u));
   c.constraint = makeConstraint(c, particles, solid);
   if (c.options.absorberRate > 0.0)
-    c.absorber = std::make_unique<Absorber>(
-        c.overlap, c.gap, interpolationAtParticles(c.overlap, solid.mesh.elements, solid.mesh.X.size()), particles.mass,
-        c.options.absorberRate);
-  if (c.options.constraint == ConstraintKind::stress) {
-    const fem::Material& material = solid.material();
-    c.stress = std::make_unique<StressTerm>(c.overlap, solid.mesh, solid.nodes(), particles, pairs,
-                                            requirePositive(c.options.contactStiffness, "contact stiffness"),
-                                            fem::youngsModulus(material), fem::poissonRatio(material),
-                                            c.options.stressPenalty);
-  }
+    c.absorber = std::make_unique<Absorber>(c.overlap, c.gap, interpolationAtParticles(c.overlap, solid.mesh),
+                                            particles.mass, c.options.absorberRate);
   c.increment.assign(c.rows(), {});
   c.nodeForce.assign(solid.nodes().X.size(), {});
 }
@@ -82,7 +61,7 @@ bool penaltyIsLocal(const CouplingOptions& options) {
   return options.projection.width == 0.0 || options.form == GapForm::nodal;
 }
 
-double Coupling::storedEnergy() const { return constraint->storedEnergy(gapNow) + (stress ? stress->energy() : 0.0); }
+double Coupling::storedEnergy() const { return constraint->storedEnergy(gapNow); }
 
 Coupling makeCoupling(dem::Particles& particles, dem::PairList& pairs, const Solid& solid,
                       std::span<const double> nodalWeight, const CouplingOptions& options) {
@@ -91,8 +70,8 @@ Coupling makeCoupling(dem::Particles& particles, dem::PairList& pairs, const Sol
   Coupling c;
   c.options = options;
   c.fullMass = particles.mass;
-  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes(), nodalWeight, reachOf(options));
-  requireWidth(c.overlap, solid);
+  c.overlap = locateOverlap(particles, solid.mesh, solid.nodes(), nodalWeight, reachOf(options), pairs.periodicity());
+  requireWidth(c.overlap, solid.mesh);
   setUp(c, particles, pairs, solid);
   c.gapNow.assign(c.rows(), {});
   c.lambda.assign(c.rows(), {});
@@ -108,7 +87,8 @@ Handover renew(Coupling& c, dem::Particles& particles, dem::PairList& pairs, con
   Handover handover;
   handover.energy = dem::kineticEnergy(particles) + c.storedEnergy();
   handover.momentum = dem::momentum(particles);
-  c.overlap = locateOverlap(particles, solid.mesh.elements, solid.nodes(), c.overlap.nodalWeight, reachOf(c.options));
+  c.overlap = locateOverlap(particles, solid.mesh, solid.nodes(), c.overlap.nodalWeight, reachOf(c.options),
+                            pairs.periodicity());
   setUp(c, particles, pairs, solid);
   std::map<int, std::size_t> rowOf;
   for (std::size_t r = 0; r < oldNode.size(); ++r) rowOf[oldNode[r]] = r;

@@ -17,7 +17,7 @@ Vec3 supportImpulse(const Solid& solid, std::span<const Vec3> acceleration, std:
 
 void weighNewContacts(Model& model) {
   if (!model.coupling || model.weighedRevision == model.discrete.pairs.revision()) return;
-  weighContacts(model.discrete.particles, model.solid->mesh.elements, model.solid->nodes(), model.coupling->overlap,
+  weighContacts(model.discrete.particles, model.solid->mesh, model.solid->nodes(), model.coupling->overlap,
                 model.discrete.pairs);
   model.weighedRevision = model.discrete.pairs.revision();
 }
@@ -88,9 +88,7 @@ void couplingForces(Model& model, double dt, std::span<const Vec3> solidForce, P
   c.constraint->evaluate({c.gapNow, c.increment, velocity, acceleration, dt}, c.lambda);
   pullParticles(c.gap, c.overlap, c.lambda, model.discrete.particles.f);
   for (const int n : c.gap.coupledNode) c.nodeForce[static_cast<std::size_t>(n)] = {};
-  if (c.stress) std::fill(c.nodeForce.begin(), c.nodeForce.end(), Vec3{});
   pullNodes(c.gap, c.lambda, c.nodeForce);
-  if (c.stress) c.stress->apply(model.discrete.particles, solid.nodes(), model.discrete.particles.f, c.nodeForce);
 }
 
 double couplingWorkOfStep(const Coupling& c) {

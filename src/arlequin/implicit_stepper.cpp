@@ -82,7 +82,6 @@ void stepImplicit(Model& model, fem::ImplicitMotion& solid, double dt, int K, St
   advanceGap(model, 1.0, difference(model.discrete.particles.x, x), difference(model.solid->nodes().u, u));
   separateCouplingForces(model, K * dt, profile);
   sums.couplingWork += couplingWorkOfStep(*model.coupling);
-  if (model.coupling->stress) sums.couplingWork += model.coupling->stress->workOfStep();
   kickByCoupling(model, 0.5 * K * dt, sums);
 }
 

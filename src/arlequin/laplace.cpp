@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "dovetail/arlequin/cells.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/fem/mesh/shape.hpp"
@@ -13,24 +14,29 @@ namespace dovetail::arlequin {
 
 namespace {
 
-using ElementMatrix = Eigen::Matrix<double, 8, 8>;
-
-/// ∫∇ψ_a·∇ψ_b dV with 2×2×2 Gauss points, m.
-ElementMatrix laplacian(const Bricks& mesh, const std::array<int, 8>& element) {
-  const double gauss = 1.0 / std::sqrt(3.0);
-  ElementMatrix K = ElementMatrix::Zero();
-  for (int p = 0; p < 8; ++p) {
-    const Vec3 xi{p & 1 ? gauss : -gauss, p & 2 ? gauss : -gauss, p & 4 ? gauss : -gauss};
-    const std::array<Vec3, 8> parent = fem::parentGradients(xi);
-    Eigen::Matrix<double, 3, 8> gradient;
+/// ∫∇ψ_a·∇ψ_b dV of the corners' hats, on the cell of first order with these corners, m. Bricks: 2×2×2 Gauss points.
+Eigen::MatrixXd laplacian(const fem::SolidMesh& mesh, const Cell& cell) {
+  const std::span<const int> node = cell.corner();
+  const bool brick = node.size() == 8;
+  const fem::CellShape shape = brick ? fem::CellShape::hex8 : fem::CellShape::tet4;
+  const double gauss = 1.0 / std::sqrt(3.0), weight = brick ? 1.0 : 1.0 / 6.0;
+  const auto count = static_cast<Eigen::Index>(node.size());
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(count, count);
+  std::vector<double> value(node.size());
+  std::vector<Vec3> parent(node.size());
+  for (int p = 0; p < (brick ? 8 : 1); ++p) {
+    const Vec3 xi = brick ? Vec3{p & 1 ? gauss : -gauss, p & 2 ? gauss : -gauss, p & 4 ? gauss : -gauss}
+                          : Vec3{0.25, 0.25, 0.25};
+    fem::shapeFunctions(shape, xi, value, parent);
+    Eigen::MatrixXd gradient(3, count);
     Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
-    for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t a = 0; a < node.size(); ++a)
       for (int i = 0; i < 3; ++i) {
         gradient(i, static_cast<Eigen::Index>(a)) = parent[a][i];
-        for (int j = 0; j < 3; ++j) J(i, j) += mesh.X[static_cast<std::size_t>(element[a])][i] * parent[a][j];
+        for (int j = 0; j < 3; ++j) J(i, j) += mesh.X[static_cast<std::size_t>(node[a])][i] * parent[a][j];
       }
     gradient = J.transpose().inverse() * gradient;
-    K += J.determinant() * gradient.transpose() * gradient;
+    K += weight * J.determinant() * gradient.transpose() * gradient;
   }
   return K;
 }
@@ -38,7 +44,7 @@ ElementMatrix laplacian(const Bricks& mesh, const std::array<int, 8>& element) {
 constexpr int unused = -1, fixedZero = -2, fixedOne = -3;
 
 /// Number of the unknown at each node, or why it has none.
-std::vector<int> unknowns(const Bricks& mesh, std::span<const int> elements, std::span<const int> zero,
+std::vector<int> unknowns(const fem::SolidMesh& mesh, std::span<const int> elements, std::span<const int> zero,
                           std::span<const int> one, int& count) {
   std::vector<int> row(mesh.X.size(), unused);
   count = 0;
@@ -56,14 +62,14 @@ std::vector<int> unknowns(const Bricks& mesh, std::span<const int> elements, std
   hold(zero, fixedZero);
   hold(one, fixedOne);
   for (const int e : elements)
-    for (const int n : mesh.elements[static_cast<std::size_t>(e)])
+    for (const int n : cellOf(mesh, e).corner())
       if (row[n] == unused) row[n] = count++;
   return row;
 }
 
 }  // namespace
 
-std::vector<double> laplaceCoordinate(const Bricks& mesh, std::span<const int> elements,
+std::vector<double> laplaceCoordinate(const fem::SolidMesh& mesh, std::span<const int> elements,
                                       std::span<const int> solidBorder, std::span<const int> particleBorder) {
   if (elements.empty() || solidBorder.empty() || particleBorder.empty())
     throw InputError("the elements or a border are missing", "laplaceCoordinate",
@@ -73,11 +79,12 @@ std::vector<double> laplaceCoordinate(const Bricks& mesh, std::span<const int> e
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd load = Eigen::VectorXd::Zero(count);
   for (const int e : elements) {
-    const std::array<int, 8>& element = mesh.elements[static_cast<std::size_t>(e)];
-    const ElementMatrix K = laplacian(mesh, element);
-    for (int a = 0; a < 8; ++a)
-      for (int b = 0; b < 8; ++b) {
-        const int i = row[element[static_cast<std::size_t>(a)]], j = row[element[static_cast<std::size_t>(b)]];
+    const Cell cell = cellOf(mesh, e);
+    const std::span<const int> corner = cell.corner();
+    const Eigen::MatrixXd K = laplacian(mesh, cell);
+    for (Eigen::Index a = 0; a < K.rows(); ++a)
+      for (Eigen::Index b = 0; b < K.rows(); ++b) {
+        const int i = row[corner[static_cast<std::size_t>(a)]], j = row[corner[static_cast<std::size_t>(b)]];
         if (i >= 0 && j >= 0) entries.emplace_back(i, j, K(a, b));
         if (i >= 0 && j == fixedOne) load[i] -= K(a, b);
       }
@@ -94,11 +101,20 @@ std::vector<double> laplaceCoordinate(const Bricks& mesh, std::span<const int> e
   }
   std::vector<bool> within(mesh.X.size(), false);
   for (const int e : elements)
-    for (const int n : mesh.elements[static_cast<std::size_t>(e)]) within[n] = true;
+    for (const int n : cellOf(mesh, e).corner()) within[n] = true;
   std::vector<double> s(mesh.X.size(), beyondOverlap);
   for (std::size_t n = 0; n < s.size(); ++n) {
     if (!within[n]) continue;
     s[n] = row[n] == fixedZero ? 0.0 : row[n] == fixedOne ? 1.0 : std::clamp(inner[row[n]], 0.0, 1.0);
+  }
+  for (const int e : elements) {
+    const Cell cell = cellOf(mesh, e);
+    const std::span<const Vec3> place = fem::parentNodes(cell.shape);
+    for (std::size_t a = cell.corner().size(); a < cell.node.size(); ++a) {
+      const std::vector<double> hat = cornerHats(cell.shape, place[a]);
+      double& mean = s[static_cast<std::size_t>(cell.node[a])] = 0.0;
+      for (std::size_t c = 0; c < hat.size(); ++c) mean += hat[c] * s[static_cast<std::size_t>(cell.node[c])];
+    }
   }
   return s;
 }

@@ -6,38 +6,27 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
 
 namespace dovetail::arlequin {
 
 namespace {
 
-std::vector<Vec3> currentPositions(const fem::Nodes& nodes) {
-  std::vector<Vec3> x(nodes.X.size());
-  for (std::size_t n = 0; n < x.size(); ++n) x[n] = nodes.X[n] + nodes.u[n];
-  return x;
-}
-
-double weightAt(const fem::CellPlace& place, std::span<const std::array<int, 8>> elements,
-                std::span<const double> nodal) {
-  const auto& element = elements[static_cast<std::size_t>(place.element)];
-  const double first = nodal[static_cast<std::size_t>(element[0])];
-  double weight = first;  // exact where the nodes agree
-  for (std::size_t a = 1; a < 8; ++a) weight += place.shape[a] * (nodal[static_cast<std::size_t>(element[a])] - first);
-  return std::clamp(weight, 0.0, 1.0);
+bool anyWeight(const Cell& cell, std::span<const double> weight) {
+  return std::ranges::any_of(cell.corner(), [&](int n) { return weight[static_cast<std::size_t>(n)] > 0.0; });
 }
 
 /// Around the nodes of elements with a weight above 0.
-geometry::Box boxOfWeights(std::span<const std::array<int, 8>> elements, const fem::Nodes& nodes,
-                           std::span<const double> weight) {
+geometry::Box boxOfWeights(const fem::SolidMesh& mesh, std::span<const Vec3> position, std::span<const double> weight) {
   constexpr double far = std::numeric_limits<double>::max();
   geometry::Box box{{far, far, far}, {-far, -far, -far}};
-  for (const auto& element : elements) {
-    const bool weighted =
-        std::any_of(element.begin(), element.end(), [&](int n) { return weight[static_cast<std::size_t>(n)] > 0.0; });
-    for (const int n : element)
-      for (int c = 0; weighted && c < 3; ++c) {
-        const double x = (nodes.X[static_cast<std::size_t>(n)] + nodes.u[static_cast<std::size_t>(n)])[c];
+  for (int e = 0; e < static_cast<int>(mesh.elementCount()); ++e) {
+    const Cell cell = cellOf(mesh, e);
+    if (!anyWeight(cell, weight)) continue;
+    for (const int n : cell.node)
+      for (int c = 0; c < 3; ++c) {
+        const double x = position[static_cast<std::size_t>(n)][c];
         box.lower[c] = std::min(box.lower[c], x);
         box.upper[c] = std::max(box.upper[c], x);
       }
@@ -51,10 +40,10 @@ bool contains(const geometry::Box& box, const Vec3& x) {
   return true;
 }
 
-void requireOverlap(const Overlap& overlap, std::span<const std::array<int, 8>> elements) {
+void requireOverlap(const Overlap& overlap, const fem::SolidMesh& mesh) {
   bool anyElement = false;
-  for (const auto& element : elements)
-    for (const int n : element) anyElement = anyElement || overlap.nodalWeight[static_cast<std::size_t>(n)] > 0.0;
+  for (int e = 0; e < static_cast<int>(mesh.elementCount()); ++e)
+    anyElement = anyElement || anyWeight(cellOf(mesh, e), overlap.nodalWeight);
   if (!anyElement)
     throw InputError("the overlap has no elements: no node has a weight above 0", "overlap",
                      "let the mesh reach into the particles");
@@ -62,38 +51,98 @@ void requireOverlap(const Overlap& overlap, std::span<const std::array<int, 8>> 
     throw InputError("the overlap has no particles", "overlap", "let the particles reach into the mesh");
 }
 
+struct Found {
+  fem::CellPlace place;  ///< element −1: nowhere
+  Vec3 x;                ///< m, the image that was found
+  bool outside = false;  ///< near the mesh, not within
+};
+
+/// A particle or an image of it, within the mesh or nearer to it than `radius`. A centre that touches a face from
+/// outside, up to round-off, is not near.
+Found locate(const fem::CellLocator& locator, const Vec3& x, double radius, const geometry::Periodicity& space) {
+  constexpr double touching = 1.0 - 1e-9;
+  if (auto place = locator.find(x)) return {*place, x};
+  std::vector<Vec3> images{x};
+  for (int k = 0; k < 3; ++k) {
+    if (!space.axes[static_cast<std::size_t>(k)]) continue;
+    for (std::size_t known = images.size(), i = 0; i < known; ++i)
+      for (const double side : {-1.0, 1.0}) {
+        images.push_back(images[i]);
+        images.back()[k] += side * space.length(k);
+      }
+  }
+  for (std::size_t i = 1; i < images.size(); ++i)
+    if (auto place = locator.find(images[i])) return {*place, images[i]};
+  for (const Vec3& image : images)
+    if (auto place = locator.findNear(image, touching * radius)) return {*place, image, true};
+  return {{}, x};
+}
+
 }  // namespace
 
-Overlap locateOverlap(const dem::Particles& particles, std::span<const std::array<int, 8>> elements,
-                      const fem::Nodes& nodes, std::span<const double> nodalWeight, double reach) {
+double weightAt(const fem::SolidMesh& mesh, const fem::CellPlace& place, std::span<const double> nodal) {
+  const Cell cell = cellOf(mesh, place.element);
+  const std::vector<double> hat = cornerHats(cell.shape, place.xi);
+  const std::span<const int> corner = cell.corner();
+  const double first = nodal[static_cast<std::size_t>(corner[0])];
+  double weight = first;  // exact where the nodes agree
+  for (std::size_t a = 1; a < corner.size(); ++a)
+    weight += hat[a] * (nodal[static_cast<std::size_t>(corner[a])] - first);
+  return std::clamp(weight, 0.0, 1.0);
+}
+
+Overlap locateOverlap(const dem::Particles& particles, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
+                      std::span<const double> nodalWeight, double reach, const geometry::Periodicity& space) {
   if (nodalWeight.size() != nodes.X.size())
     throw InputError(
         "there are " + std::to_string(nodalWeight.size()) + " weights for " + std::to_string(nodes.X.size()) + " nodes",
         "overlap", "give one per node");
+  requireSpatialCells(mesh);
   requireFinite(particles.x, "particle", "position", "search for the overlap");
-  const fem::CellLocator locator = locatorOf(elements, currentPositions(nodes));
+  const std::vector<Vec3> position = positionsOf(nodes.X, nodes.u);
+  const fem::CellLocator locator(mesh.groups, position);
   Overlap overlap;
   overlap.nodalWeight.assign(nodalWeight.begin(), nodalWeight.end());
-  const geometry::Box box = boxOfWeights(elements, nodes, nodalWeight), reached = geometry::expanded(box, reach);
+  const geometry::Box box = boxOfWeights(mesh, position, nodalWeight), reached = geometry::expanded(box, reach);
+  std::vector<Found> found(particles.size());
+  parallelFor(particles.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) found[i] = locate(locator, particles.x[i], particles.radius[i], space);
+  });
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const auto place = locator.find(particles.x[i]);
-    if (!place && contains(box, particles.x[i])) overlap.stray.push_back(static_cast<int>(i));
-    if (!place && (reach == 0.0 || !contains(reached, particles.x[i]))) continue;
-    if (!place) {
-      overlap.particle.push_back(static_cast<int>(i));
-      overlap.place.emplace_back();
-      overlap.weight.push_back(1.0);
-      continue;
-    }
+    if (found[i].outside && !(weightAt(mesh, found[i].place, nodalWeight) > 0.0)) found[i].place = {};
+    const bool hosted = found[i].place.element >= 0;
+    if (!hosted && contains(box, particles.x[i])) overlap.stray.push_back(static_cast<int>(i));
+    if (!hosted && (reach == 0.0 || !contains(reached, particles.x[i]))) continue;
     overlap.particle.push_back(static_cast<int>(i));
-    overlap.place.push_back(*place);
-    overlap.weight.push_back(weightAt(*place, elements, nodalWeight));
-    if (overlap.weight.back() > 0.0) overlap.elements.push_back(place->element);
+    overlap.x.push_back(found[i].x);
+    overlap.weight.push_back(hosted ? weightAt(mesh, found[i].place, nodalWeight) : 1.0);
+    if (hosted && overlap.weight.back() > 0.0) overlap.elements.push_back(found[i].place.element);
+    overlap.place.push_back(std::move(found[i].place));
   }
   std::sort(overlap.elements.begin(), overlap.elements.end());
   overlap.elements.erase(std::unique(overlap.elements.begin(), overlap.elements.end()), overlap.elements.end());
-  requireOverlap(overlap, elements);
+  requireOverlap(overlap, mesh);
   return overlap;
+}
+
+void requireWidth(const Overlap& overlap, const fem::SolidMesh& mesh) {
+  const std::vector<double>& w = overlap.nodalWeight;
+  double least = 1.0, most = 0.0;  // of the weights above 0
+  for (const double weight : w)
+    if (weight > 0.0) least = std::min(least, weight), most = std::max(most, weight);
+  double bottom = 1.0, top = 0.0, narrowest = 1.0;
+  for (const int e : overlap.elements) {
+    double lower = 1.0, upper = 0.0;
+    for (const int n : cellOf(mesh, e).corner())
+      lower = std::min(lower, w[static_cast<std::size_t>(n)]), upper = std::max(upper, w[static_cast<std::size_t>(n)]);
+    if (lower == 0.0 && upper <= least && upper < 0.5 * most) continue;  // beyond the particles' border
+    bottom = std::min(bottom, lower), top = std::max(top, upper);
+    narrowest = std::min(narrowest, upper - lower);
+  }
+  constexpr double roundOff = 1e-9;
+  if (top - bottom > roundOff && narrowest > (top - bottom) * (1.0 - roundOff))
+    throw InputError("the overlap is narrower than an element: the weights fall from 1 to 0 within one", "overlap",
+                     "widen the overlap or refine the mesh there");
 }
 
 std::vector<double> particleWeights(const Overlap& overlap, std::size_t particles) {
@@ -113,9 +162,10 @@ void weighMass(const Overlap& overlap, std::span<const double> fullMass, dem::Pa
   }
 }
 
-void weighContacts(const dem::Particles& particles, std::span<const std::array<int, 8>> elements,
-                   const fem::Nodes& nodes, const Overlap& overlap, dem::PairList& pairs) {
-  const fem::CellLocator locator = locatorOf(elements, currentPositions(nodes));
+void weighContacts(const dem::Particles& particles, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
+                   const Overlap& overlap, dem::PairList& pairs) {
+  const std::vector<Vec3> position = positionsOf(nodes.X, nodes.u);
+  const fem::CellLocator locator(mesh.groups, position);
   std::vector<bool> inside(particles.size(), false);
   for (const int i : overlap.particle) inside[static_cast<std::size_t>(i)] = true;
   const std::span<double> factors = pairs.writeFactors();
@@ -123,8 +173,10 @@ void weighContacts(const dem::Particles& particles, std::span<const std::array<i
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto i = static_cast<std::size_t>(pairs.pairs()[p][0]), j = static_cast<std::size_t>(pairs.pairs()[p][1]);
     if (!inside[i] && !inside[j]) continue;
-    const Vec3 middle = particles.x[i] + dem::pairContact(particles, i, j).armI;
-    if (const auto place = locator.find(middle)) factors[p] = weightAt(*place, elements, overlap.nodalWeight);
+    const double radius = std::min(particles.radius[i], particles.radius[j]);
+    const Vec3 middle = particles.x[i] + dem::pairContact(particles, i, j, pairs.shift(p)).armI;
+    const Found found = locate(locator, middle, radius, pairs.periodicity());
+    if (found.place.element >= 0) factors[p] = weightAt(mesh, found.place, overlap.nodalWeight);
   }
 }
 
@@ -134,18 +186,17 @@ std::vector<double> solidWeights(std::span<const double> nodalWeight) {
   return solid;
 }
 
-cg::Projection interpolationAtParticles(const Overlap& overlap, std::span<const std::array<int, 8>> elements,
-                                        std::size_t nodes) {
+cg::Projection interpolationAtParticles(const Overlap& overlap, const fem::SolidMesh& mesh) {
   std::vector<cg::ProjectionRow> rows(overlap.size());
   for (std::size_t k = 0; k < overlap.size(); ++k) {
     const fem::CellPlace& place = overlap.place[k];
     if (place.element < 0)
       throw InputError("particle " + std::to_string(overlap.particle[k]) + " is outside of the mesh",
                        "interpolationAtParticles", "locate the overlap without a reach");
-    for (std::size_t a = 0; a < 8; ++a)
-      rows[k].emplace_back(elements[static_cast<std::size_t>(place.element)][a], place.shape[a]);
+    const Cell cell = cellOf(mesh, place.element);
+    for (std::size_t a = 0; a < cell.node.size(); ++a) rows[k].emplace_back(cell.node[a], place.shape[a]);
   }
-  return cg::fromRows(static_cast<int>(nodes), rows);
+  return cg::fromRows(static_cast<int>(mesh.X.size()), rows);
 }
 
 }  // namespace dovetail::arlequin

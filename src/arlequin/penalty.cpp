@@ -9,9 +9,7 @@ namespace {
 
 class Penalty final : public Constraint {
 public:
-  Penalty(const GapOperator& gap, double penalty) : stiffness_(gap.volume) {
-    for (double& value : stiffness_) value *= penalty;
-  }
+  explicit Penalty(std::vector<double> stiffness) : stiffness_(std::move(stiffness)) {}
   void evaluate(const GapRates& rates, std::span<Vec3> lambda) const override {
     for (std::size_t r = 0; r < lambda.size(); ++r) lambda[r] = stiffness_[r] * rates.gap[r];
   }
@@ -81,8 +79,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Constraint> makePenalty(const GapOperator& gap, double penalty) {
-  return std::make_unique<Penalty>(gap, requirePositive(penalty, "penalty"));
+std::unique_ptr<Constraint> makePenalty(std::vector<double> stiffness) {
+  for (const double value : stiffness) requirePositive(value, "penalty");
+  return std::make_unique<Penalty>(std::move(stiffness));
 }
 
 std::unique_ptr<Constraint> makeMetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty,

@@ -19,9 +19,7 @@ void accelerateSolid(Model& model, bool withInternal) {
     solid.acceleration = solid.internalForce;
   else
     solid.acceleration.assign(solid.nodes().X.size(), {});
-  if (model.coupling && model.coupling->stress)
-    for (std::size_t n = 0; n < solid.acceleration.size(); ++n) solid.acceleration[n] += model.coupling->nodeForce[n];
-  else if (model.coupling)
+  if (model.coupling)
     for (const int n : model.coupling->gap.coupledNode)
       solid.acceleration[static_cast<std::size_t>(n)] += model.coupling->nodeForce[static_cast<std::size_t>(n)];
   solid.nodes().f = solid.acceleration;
@@ -86,7 +84,6 @@ double splittingEnergy(const Solid& solid, std::span<const Vec3> forceBefore, st
 
 void bookCoupling(Model& model, double dt, StepSums& sums) {
   sums.couplingWork += couplingWorkOfStep(*model.coupling);
-  if (model.coupling->stress) sums.couplingWork += model.coupling->stress->workOfStep();
   if (model.coupling->absorber) sums.absorbed += model.coupling->absorber->workOfStep(model.discrete.particles.v, dt);
 }
 

@@ -6,9 +6,11 @@
 #include <numbers>
 #include <string>
 
+#include "dovetail/arlequin/cells.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
+#include "dovetail/fem/mesh/shape.hpp"
 #include "dovetail/geometry/triangle.hpp"
 
 namespace dovetail::arlequin {
@@ -56,6 +58,19 @@ std::vector<double> nodalWeights(std::span<const double> s, const WeightOptions&
     weight[n] = s[n] > 1.0 ? 0.0 : options.floor + (1.0 - 2.0 * options.floor) * profile(options.profile, s[n]);
   }
   return weight;
+}
+
+void levelMidNodes(const fem::SolidMesh& mesh, std::span<double> weight) {
+  for (int e = 0; e < static_cast<int>(mesh.elementCount()); ++e) {
+    const Cell cell = cellOf(mesh, e);
+    const std::span<const Vec3> place = fem::parentNodes(cell.shape);
+    for (std::size_t a = cell.corner().size(); a < cell.node.size(); ++a) {
+      const std::vector<double> hat = cornerHats(cell.shape, place[a]);
+      double mean = 0.0;
+      for (std::size_t c = 0; c < hat.size(); ++c) mean += hat[c] * weight[static_cast<std::size_t>(cell.node[c])];
+      weight[static_cast<std::size_t>(cell.node[a])] = mean;
+    }
+  }
 }
 
 std::vector<Triangle> triangles(std::span<const Vec3> X, std::span<const fem::Face> faces) {

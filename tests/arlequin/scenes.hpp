@@ -84,15 +84,14 @@ inline Model makeBar(const SceneOptions& o) {
   const fem::SolidMesh mesh = barMesh(o);
   const std::vector<double> weight = barWeights(mesh, o);
   model.solid.emplace(makeSolid(mesh, weight, o));
-  CouplingOptions coupling = o.coupling;
-  coupling.contactStiffness = modulus * d;
-  model.coupling.emplace(makeCoupling(model.discrete.particles, model.discrete.pairs, *model.solid, weight, coupling));
+  model.coupling.emplace(
+      makeCoupling(model.discrete.particles, model.discrete.pairs, *model.solid, weight, o.coupling));
   return model;
 }
 
 /// An overlap without contacts or motion: mesh, particles within it, weights.
 struct Still {
-  Bricks mesh;
+  fem::SolidMesh mesh;
   fem::Nodes nodes;
   dem::Particles particles;
   std::vector<double> weight;
@@ -106,20 +105,24 @@ inline fem::Nodes nodesAt(const std::vector<Vec3>& X) {
   return std::move(fem::makeModel(points).nodes);
 }
 
-inline Still locate(Bricks mesh, dem::Particles particles, std::vector<double> weight) {
+inline Still locate(fem::SolidMesh mesh, dem::Particles particles, std::vector<double> weight) {
   Still still{std::move(mesh), {}, std::move(particles), std::move(weight), {}};
   still.nodes = nodesAt(still.mesh.X);
-  still.overlap = locateOverlap(still.particles, still.mesh.elements, still.nodes, still.weight);
+  still.overlap = locateOverlap(still.particles, still.mesh, still.nodes, still.weight);
   return still;
 }
 
 /// 4 × 4 × 2 bricks without those of one quadrant; particles reach in from the two legs' inner half.
 inline Still makeL(int n) {
-  Bricks mesh = bricksOf(fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0.0, 0.0, 0.0}, {4 * edge, 4 * edge, 2 * edge}));
-  std::erase_if(mesh.elements, [&](const std::array<int, 8>& e) {
-    const Vec3& corner = mesh.X[static_cast<std::size_t>(e[0])];
-    return corner.x >= 2 * edge - 1e-9 && corner.y >= 2 * edge - 1e-9;
-  });
+  fem::SolidMesh mesh =
+      fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0.0, 0.0, 0.0}, {4 * edge, 4 * edge, 2 * edge});
+  std::vector<int> kept;
+  for (int e = 0; e < static_cast<int>(mesh.elementCount()); ++e) {
+    const std::span<const int> node = cellOf(mesh, e).node;
+    const Vec3& corner = mesh.X[static_cast<std::size_t>(node[0])];
+    if (corner.x < 2 * edge - 1e-9 || corner.y < 2 * edge - 1e-9) kept.insert(kept.end(), node.begin(), node.end());
+  }
+  mesh.groups[0].node = std::move(kept);
   dem::Particles particles = lattice({0.0, 0.0, 0.0}, {4 * edge, 4 * edge, 2 * edge}, n);
   std::vector<double> weight;
   for (const Vec3& X : mesh.X) weight.push_back(0.1 + 0.8 * profile(WeightProfile::smooth, std::hypot(X.x, X.y) / 3.0));
@@ -131,7 +134,7 @@ inline Still makeCrooked(unsigned seed) {
   std::mt19937 random(seed);
   const fem::SolidMesh box =
       fem::boxOf(fem::CellShape::hex8, {3, 3, 3}, {0.0, 0.0, 0.0}, {3 * edge, 3 * edge, 3 * edge});
-  Bricks mesh = bricksOf(box);
+  fem::SolidMesh mesh = box;
   std::vector<bool> outer(mesh.X.size(), false);
   for (const int n : fem::nodeSet(box, "skin")) outer[static_cast<std::size_t>(n)] = true;
   for (std::size_t n = 0; n < mesh.X.size(); ++n)

@@ -114,44 +114,9 @@ TEST(Constraint, LumpedDashpotsAreTheRowSumsOfConsistentOnes) {
 TEST(Constraint, ImpossiblePenaltiesAreRefused) {
   const Model model = barWith(ConstraintKind::penalty, 0.0);
   for (const double p : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW(makePenalty(model.coupling->gap, p), InputError);
+    EXPECT_THROW(makePenalty({1.0, p}), InputError);
     EXPECT_THROW(makeDashpot(model.coupling->gap, p, false), InputError);
   }
-}
-
-TEST(StressTerm, ItsForcesAreMinusTheGradientOfItsEnergyAndSumToZeroOnEachModel) {
-  SceneOptions o;
-  o.coupling.constraint = ConstraintKind::stress;
-  Model model = makeBar(o);
-  StressTerm& term = *model.coupling->stress;
-  std::mt19937 random(9);
-  for (Vec3& x : model.discrete.particles.x) x.y += 1e-3 * randomVector(random, 1.0).y;
-  for (Vec3& u : model.solid->nodes().u) u = randomVector(random, 1e-3);
-  std::vector<Vec3> onParticles(model.discrete.particles.size()), onNodes(model.solid->nodes().X.size());
-  term.apply(model.discrete.particles, model.solid->nodes(), onParticles, onNodes);
-  Vec3 sum, other;
-  double size = 0.0;
-  for (const Vec3& f : onParticles) sum += f, size += norm(f);
-  for (const Vec3& f : onNodes) other += f, size += norm(f);
-  EXPECT_LT(norm(sum), 1e-12 * size);
-  EXPECT_LT(norm(other), 1e-12 * size);
-  const auto energy = [&] {
-    std::vector<Vec3> a(onParticles.size()), b(onNodes.size());
-    return term.apply(model.discrete.particles, model.solid->nodes(), a, b);
-  };
-  const auto check = [&](double& place, double force) {
-    const double before = place, step = 1e-6;
-    place = before + step;
-    const double above = energy();
-    place = before - step;
-    const double below = energy();
-    place = before;
-    EXPECT_NEAR(force, -(above - below) / (2.0 * step), 1e-5 * std::abs(force) + 1e-7 * size);
-  };
-  for (const int i : {model.coupling->overlap.particle.front(), model.coupling->overlap.particle[17]})
-    check(model.discrete.particles.x[static_cast<std::size_t>(i)].y, onParticles[static_cast<std::size_t>(i)].y);
-  for (const std::size_t n : {std::size_t{4}, std::size_t{13}})
-    for (int k = 0; k < 3; ++k) check(model.solid->nodes().u[n][k], onNodes[n][k]);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ std::vector<Still> allScenes() {
 }
 
 GapOperator operatorOf(const Still& s, GapForm form, double width) {
-  return makeGapOperator(s.overlap, s.mesh, s.particles, masses(s), form, {width, cg::KernelShape::lucy});
+  return makeGapOperator(s.overlap, s.mesh, masses(s), form, {width, cg::KernelShape::lucy});
 }
 
 double largestGap(const Still& s, const GapOperator& gap, const std::function<Vec3(const Vec3&)>& field) {

@@ -105,7 +105,7 @@ TEST(Handover, BothModelsMovingTogetherChangeNothing) {
 double stressOfElement(const Solid& solid, std::size_t element) {
   double strain = 0.0, share = 0.0;
   for (std::size_t a = 0; a < 8; ++a) {
-    const auto n = static_cast<std::size_t>(solid.mesh.elements[element][a]);
+    const auto n = static_cast<std::size_t>(cellOf(solid.mesh, static_cast<int>(element)).node[a]);
     strain += (a == 2 || a == 3 || a == 6 || a == 7 ? 0.25 : -0.25) * solid.nodes().u[n].y / edge;
     share += 0.125 * fem::requireBrickSolid(solid.model(), "test").share()[n];
   }

@@ -11,7 +11,7 @@ using namespace test;
 /// A lattice of particles off the faces of the elements, and bricks of 0.5 m.
 Overlap overlapAt(const Vec3& origin) {
   const fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {2, 6, 2}, {}, {1, 3, 1});
-  Bricks mesh = bricksOf(box);
+  fem::SolidMesh mesh = box;
   std::mt19937 random(3);
   for (Vec3& X : mesh.X) X += origin + randomVector(random, 0.05);
   dem::Particles particles;
@@ -19,7 +19,7 @@ Overlap overlapAt(const Vec3& origin) {
     dem::addParticle(particles, origin + Vec3{0.5, 1.5, 0.5} + randomVector(random, 1.3), {}, 0.05, dem::Mass{1.0});
   std::vector<double> weight;
   for (const Vec3& X : mesh.X) weight.push_back(0.3 + 0.1 * (X.y - origin.y));
-  return locateOverlap(particles, mesh.elements, nodesAt(mesh.X), weight, 0.2);
+  return locateOverlap(particles, mesh, nodesAt(mesh.X), weight, 0.2);
 }
 
 TEST(Overlap, IsTheSameFarFromTheOrigin) {
@@ -67,27 +67,29 @@ TEST(Overlap, NamesParticlesInItsBoxThatNoElementHolds) {
 }
 
 TEST(Overlap, WithoutParticlesElementsOrWidthItIsRefused) {
-  const Bricks mesh = bricksOf(fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {0.5, 2, 0.5}));
+  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {0.5, 2, 0.5});
   const fem::Nodes nodes = nodesAt(mesh.X);
   const std::vector<double> some(mesh.X.size(), 0.5), none(mesh.X.size(), 0.0), few(3, 0.5);
   const dem::Particles far = lattice({10, 10, 10}, {11, 11, 11}, 1), near = lattice({0, 0, 0}, {0.5, 1, 0.5}, 1);
-  EXPECT_THROW(locateOverlap(far, mesh.elements, nodes, some), InputError);
-  EXPECT_THROW(locateOverlap(near, mesh.elements, nodes, none), InputError);
-  EXPECT_THROW(locateOverlap(near, mesh.elements, nodes, few), InputError);
-  EXPECT_NO_THROW(locateOverlap(near, mesh.elements, nodes, some));
+  EXPECT_THROW(locateOverlap(far, mesh, nodes, some), InputError);
+  EXPECT_THROW(locateOverlap(near, mesh, nodes, none), InputError);
+  EXPECT_THROW(locateOverlap(near, mesh, nodes, few), InputError);
+  EXPECT_NO_THROW(locateOverlap(near, mesh, nodes, some));
   SceneOptions narrow;
   narrow.overlapElements = 1;
-  narrow.weights.floor = 0.0;
-  EXPECT_THROW(makeBar(narrow), InputError);
+  for (const double floor : {0.0, 1e-3, 0.1}) {
+    narrow.weights.floor = floor;
+    EXPECT_THROW(makeBar(narrow), InputError) << floor;
+  }
 }
 
 TEST(Overlap, AParticleWithoutWeightIsNamed) {
   dem::Particles particles = lattice({0, 0, 0}, {0.5, 2, 0.5}, 1);
-  const Bricks mesh = bricksOf(fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {0.5, 2, 0.5}));
+  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {0.5, 2, 0.5});
   std::vector<double> weight(mesh.X.size(), 0.0);
   for (std::size_t n = 0; n < 4; ++n) weight[n] = 1.0;
   const std::vector<double> full = particles.mass;
-  const Overlap overlap = locateOverlap(particles, mesh.elements, nodesAt(mesh.X), weight);
+  const Overlap overlap = locateOverlap(particles, mesh, nodesAt(mesh.X), weight);
   try {
     weighMass(overlap, full, particles);
     FAIL();

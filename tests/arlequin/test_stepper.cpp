@@ -80,8 +80,7 @@ TEST_P(EveryConstraint, AUniformVelocityGoesOnForEver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryConstraint,
-                         ::testing::Values(ConstraintKind::penalty, ConstraintKind::multiplier, ConstraintKind::dashpot,
-                                           ConstraintKind::stress));
+                         ::testing::Values(ConstraintKind::penalty, ConstraintKind::multiplier, ConstraintKind::dashpot));
 
 TEST(Stepper, PenaltyAndMultipliersDoNoNetWork) {
   for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier})

@@ -43,10 +43,10 @@ TEST(Weights, BadFloorsAndPlacesAreRefused) {
 /// Places of a bar between y = 0 and 3 by both ways.
 TEST(Weights, OnABarDistanceAndLaplaceAgreeWithTheStraightLine) {
   const fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {2, 6, 2}, {0, 0, 0}, {1, 3, 1});
-  const Bricks mesh = bricksOf(box);
+  const fem::SolidMesh& mesh = box;
   const auto solid = triangles(box.X, fem::faceSet(box, "y-")), particles = triangles(box.X, fem::faceSet(box, "y+"));
   const std::vector<double> byDistance = distanceCoordinate(mesh.X, solid, particles);
-  std::vector<int> all(mesh.elements.size());
+  std::vector<int> all(mesh.elementCount());
   for (std::size_t e = 0; e < all.size(); ++e) all[e] = static_cast<int>(e);
   const std::vector<double> byLaplace = laplaceCoordinate(mesh, all, fem::nodeSet(box, "y-"), fem::nodeSet(box, "y+"));
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {
@@ -57,7 +57,7 @@ TEST(Weights, OnABarDistanceAndLaplaceAgreeWithTheStraightLine) {
 
 TEST(Weights, LaplaceOnPartOfAMeshMarksTheRestAsBeyond) {
   const fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {1, 4, 1});
-  const Bricks mesh = bricksOf(box);
+  const fem::SolidMesh& mesh = box;
   std::vector<int> middle;
   for (std::size_t n = 0; n < mesh.X.size(); ++n)
     if (mesh.X[n].y == 2.0) middle.push_back(static_cast<int>(n));
@@ -68,7 +68,7 @@ TEST(Weights, LaplaceOnPartOfAMeshMarksTheRestAsBeyond) {
 
 TEST(Weights, BordersThatAreMissingOrMeetAreRefused) {
   const fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
-  const Bricks mesh = bricksOf(box);
+  const fem::SolidMesh& mesh = box;
   const auto face = triangles(box.X, fem::faceSet(box, "y-")), side = triangles(box.X, fem::faceSet(box, "x-"));
   EXPECT_THROW(distanceCoordinate(mesh.X, face, {}), InputError);
   EXPECT_THROW(distanceCoordinate(mesh.X, face, side), InputError);
@@ -84,7 +84,7 @@ TEST(Weights, ModelsShareEveryPointExactly) {
     for (std::size_t a = 0; a < 8; ++a)
       there +=
           s.overlap.place[k].shape[a] *
-          solid[static_cast<std::size_t>(s.mesh.elements[static_cast<std::size_t>(s.overlap.place[k].element)][a])];
+          solid[static_cast<std::size_t>(cellOf(s.mesh, s.overlap.place[k].element).node[a])];
     EXPECT_NEAR(s.overlap.weight[k] + there, 1.0, 1e-14);
   }
 }

@@ -38,9 +38,9 @@ public:
 
 /// λ_i = p V_i g_i on the accumulated gap: stores ½ Σ p V_i |g_i|², loses nothing. With shares w and 1 − w of density ρ
 /// and no other stiffness it is stable for p dt²/(ρ w (1 − w)) < 4.
-/// @param penalty  p, Pa/m² (N/m per m³)
-/// @throws InputError unless p is finite and > 0
-std::unique_ptr<Constraint> makePenalty(const GapOperator& gap, double penalty);
+/// @param stiffness  p V_i per row, N/m
+/// @throws InputError unless all are finite and > 0
+std::unique_ptr<Constraint> makePenalty(std::vector<double> stiffness);
 
 /// The penalty for wide kernels, whose rows overlap so much that the sum over rows sees long waves only: the energy is
 /// ½ p ∫|r|² of the part r of the particles' gap field that the rows of Π can see at all, ½ p gᵀ (Π D Πᵀ)⁺ g with D the

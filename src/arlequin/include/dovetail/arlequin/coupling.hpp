@@ -7,37 +7,15 @@
 #include <vector>
 
 #include "dovetail/arlequin/absorber.hpp"
-#include "dovetail/arlequin/bricks.hpp"
 #include "dovetail/arlequin/constraint.hpp"
+#include "dovetail/arlequin/coupling_options.hpp"
 #include "dovetail/arlequin/gap_operator.hpp"
 #include "dovetail/arlequin/overlap.hpp"
-#include "dovetail/arlequin/stress_term.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/model/model.hpp"
 #include "dovetail/fem/motion/motion.hpp"
 
 namespace dovetail::arlequin {
-
-enum class ConstraintKind {
-  penalty,     ///< on the accumulated gap, energy-storing (default)
-  multiplier,  ///< workless
-  dashpot,     ///< the paper's penalty on increments; loses what it damps
-  stress       ///< experimental: the penalty, and a second one on the difference of the stresses
-};
-
-struct CouplingOptions {
-  GapForm form = GapForm::atParticles;
-  ProjectionOptions projection;
-  ConstraintKind constraint = ConstraintKind::penalty;
-  double penalty = 0.0;            ///< p, or ε of the dashpot, Pa/m²; 0 = automaticPenalty (dashpot: none)
-  bool consistentDashpot = false;  ///< ∫ψ_iψ_j instead of its row sums
-  double stressPenalty = 0.05;     ///< of the stress constraint: its energy is this share of ∫|Δσ|²/2E
-  double contactStiffness = 0.0;   ///< k of the contacts, N/m; of use to the stress constraint only
-  double absorberRate = 0.0;       ///< 1/s; 0 = no absorber
-};
-
-/// Whether the penalty is one of rows (makePenalty); else it is makeMetricPenalty.
-bool penaltyIsLocal(const CouplingOptions& options);
 
 /// The solid of a volume coupling.
 class Solid {
@@ -47,7 +25,7 @@ public:
   /// @throws InputError naming what else the model has, or a node without mass
   Solid(const fem::SolidMesh& mesh, std::unique_ptr<fem::Model> model, double massShare = 0.0);
 
-  Bricks mesh;
+  fem::SolidMesh mesh;
   fem::Nodes& nodes() { return model_->nodes; }
   const fem::Nodes& nodes() const { return model_->nodes; }
   fem::Model& model() { return *model_; }
@@ -75,7 +53,6 @@ struct Coupling {
   GapOperator gap;
   std::unique_ptr<Constraint> constraint;
   std::unique_ptr<Absorber> absorber;  ///< absent = nothing is absorbed
-  std::unique_ptr<StressTerm> stress;  ///< absent unless the constraint is `stress`
 
   std::vector<Vec3> gapNow;                ///< accumulated since the start, m
   std::vector<Vec3> increment;             ///< of the last step, m

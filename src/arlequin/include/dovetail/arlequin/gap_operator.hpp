@@ -1,11 +1,10 @@
 // What is compared: the gap between particles and solid at the coarse nodes of the overlap, as one linear map.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
-#include "dovetail/arlequin/bricks.hpp"
+#include "dovetail/arlequin/cells.hpp"
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/cg/kernel.hpp"
 #include "dovetail/cg/projection.hpp"
@@ -42,7 +41,7 @@ struct ProjectionOptions {
 /// does.
 struct GapOperator {
   std::vector<int> node;          ///< coarse node of each row; ascending unless the rows are per element
-  std::vector<double> volume;     ///< ∫ψ_i dV over the overlap's elements, m³
+  std::vector<double> volume;     ///< ∫ψ_i dV over the overlap's elements, m³; ψ: the hats of the corners, throughout
   cg::Projection particles;       ///< Π; columns are the rows of Overlap
   cg::Projection nodes;           ///< B = ΠΦ, or the identity on the rows' nodes; columns are nodes
   cg::Projection particlesBack;   ///< Πᵀ, by particles
@@ -53,19 +52,20 @@ struct GapOperator {
   std::size_t rows() const { return node.size(); }
 };
 
-/// Cube root of a brick's volume, m.
-double elementSize(const Bricks& mesh, const std::array<int, 8>& element);
-
 /// Π for c = 0: Π_iα = m_α ψ_i(x_α) / Σ; for c > 0: ∫ m_α W(x − x_α) ψ_i dx / Σ over the overlap's elements (Eq. 27),
-/// by Gauss points as fine as the kernel asks for, normalised by the quadrature itself. Rows without a particle are
-/// left out.
+/// by Gauss points as fine as the kernel asks for, normalised by the quadrature itself. Rows that hang on no particle,
+/// or on less than a thousandth of the mean, are left out. Φ takes the solid's field with all shape functions.
 /// @param mass  full masses of all particles, kg
 /// @param mesh  reference configuration: volumes are counted there
 /// @param position  of the nodes when the overlap was located, for kernels, m; empty = mesh.X
 /// @throws InputError for a width that is negative or not finite
-GapOperator makeGapOperator(const Overlap& overlap, const Bricks& mesh, const dem::Particles& particles,
-                            std::span<const double> mass, GapForm form, const ProjectionOptions& options,
-                            std::span<const Vec3> position = {});
+GapOperator makeGapOperator(const Overlap& overlap, const fem::SolidMesh& mesh, std::span<const double> mass,
+                            GapForm form, const ProjectionOptions& options, std::span<const Vec3> position = {});
+
+/// Σ_α value_α ψ_i(x_α) per row, over the particles within the mesh; for rows per node.
+/// @param value  one per row of the overlap
+std::vector<double> sumsAtRows(const GapOperator& gap, const Overlap& overlap, const fem::SolidMesh& mesh,
+                               std::span<const double> value);
 
 /// out_i = Π v_particles − B v_nodes per row.
 /// @param particles  values of all particles   @param nodes  values of all nodes

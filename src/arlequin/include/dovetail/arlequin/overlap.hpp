@@ -1,42 +1,53 @@
-// The overlap: which particles lie in which brick, and what share of everything they carry.
+// The overlap: which particles lie in which element, and what share of everything they carry.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
-#include "dovetail/arlequin/bricks.hpp"
+#include "dovetail/arlequin/cells.hpp"
 #include "dovetail/cg/projection.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 #include "dovetail/dem/particles/particles.hpp"
+#include "dovetail/fem/mesh/cell_locator.hpp"
 #include "dovetail/fem/model/nodes.hpp"
 
 namespace dovetail::arlequin {
 
-/// Particles within the mesh, and those outside of it that kernels reach. Row k of every array is particle
-/// `particle[k]`.
+/// Particles within the mesh or nearer to it than their radius, and those farther outside that kernels reach. Row k of
+/// every array is particle `particle[k]`.
 struct Overlap {
-  std::vector<int> particle;          ///< ascending
-  std::vector<fem::CellPlace> place;  ///< host element (−1 outside of the mesh), parent coordinates, shape functions
-  std::vector<double> weight;         ///< w at the centre
+  std::vector<int> particle;  ///< ascending
+  /// Host element (−1: out of its reach), parent coordinates (beyond the parent cell for a centre outside of the mesh),
+  /// shape functions.
+  std::vector<fem::CellPlace> place;
+  std::vector<Vec3> x;                ///< centre when it was found, m; of particles in periodic space the image there
+  std::vector<double> weight;         ///< w at the centre; beyond a face of the mesh it goes on as it is on the face
   std::vector<int> elements;          ///< that host a particle in the overlap proper (w > 0 somewhere), ascending
   std::vector<double> nodalWeight;    ///< w at every node of the mesh
-  /// Particles, ascending, that lie in no element, but in the box around the elements with w > 0: beyond a free face
-  /// that is not along the axes, in a notch, or where the mesh was meant to be. They count in full and are tied to
-  /// nothing.
+  /// Particles, ascending, that no element holds or is near, but the box around the elements with w > 0: beyond a free
+  /// face that is not along the axes, in a notch, or where the mesh was meant to be. They count in full and are tied
+  /// to nothing.
   std::vector<int> stray;
 
   std::size_t size() const { return particle.size(); }
 };
 
-/// Finds the particles that lie within the mesh as it is now (X + u).
+/// w at a place of the mesh, by the hats of the corners. @param nodalWeight  w per node
+double weightAt(const fem::SolidMesh& mesh, const fem::CellPlace& place, std::span<const double> nodalWeight);
+
+/// Finds the particles that lie within the mesh as it is now (X + u), or outside and nearer to it than their radius.
 /// @param nodalWeight  w per node, 0 … 1
 /// @param reach  m: particles outside are taken in up to this distance from the box around the elements with w > 0
+/// @param space  whose images of particles count too
 /// @throws InputError if no particle lies in an element with w > 0 somewhere, if no element has one, or if weights are
 ///         not one per node; NumericalError naming a particle whose position is not finite
-Overlap locateOverlap(const dem::Particles& particles, std::span<const std::array<int, 8>> elements,
-                      const fem::Nodes& nodes, std::span<const double> nodalWeight, double reach = 0.0);
+Overlap locateOverlap(const dem::Particles& particles, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
+                      std::span<const double> nodalWeight, double reach = 0.0,
+                      const geometry::Periodicity& space = {});
+
+/// @throws InputError unless the weights take at least one whole element for their way from largest to smallest
+void requireWidth(const Overlap& overlap, const fem::SolidMesh& mesh);
 
 /// w of every particle: 1 outside of the mesh.
 std::vector<double> particleWeights(const Overlap& overlap, std::size_t particles);
@@ -46,15 +57,14 @@ std::vector<double> particleWeights(const Overlap& overlap, std::size_t particle
 void weighMass(const Overlap& overlap, std::span<const double> fullMass, dem::Particles& particles);
 
 /// Factors of the pairs: w at the middle of each pair's contact, 1 outside of the mesh.
-void weighContacts(const dem::Particles& particles, std::span<const std::array<int, 8>> elements,
-                   const fem::Nodes& nodes, const Overlap& overlap, dem::PairList& pairs);
+void weighContacts(const dem::Particles& particles, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
+                   const Overlap& overlap, dem::PairList& pairs);
 
 /// 1 − w per node, for fem::SolidOptions::share.
 std::vector<double> solidWeights(std::span<const double> nodalWeight);
 
 /// Φ: velocities of the nodes → of the solid at the centres of the overlap's particles. Rows sum to one.
-/// @throws InputError for a particle outside of the mesh
-cg::Projection interpolationAtParticles(const Overlap& overlap, std::span<const std::array<int, 8>> elements,
-                                        std::size_t nodes);
+/// @throws InputError for a particle out of the reach of the mesh
+cg::Projection interpolationAtParticles(const Overlap& overlap, const fem::SolidMesh& mesh);
 
 }  // namespace dovetail::arlequin

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "dovetail/arlequin/bricks.hpp"
 #include "dovetail/core/vec3.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 
 namespace dovetail::arlequin {
 
@@ -40,6 +40,10 @@ inline constexpr double beyondOverlap = 2.0;
 /// @param s  per node; NaN is refused
 std::vector<double> nodalWeights(std::span<const double> s, const WeightOptions& options);
 
+/// Gives mid-edge, mid-face and centre nodes of second-order cells the mean of the corners about them, so that the shares
+/// of both models add up to one everywhere: w goes by the hats of the corners.
+void levelMidNodes(const fem::SolidMesh& mesh, std::span<double> weight);
+
 using Triangle = std::array<Vec3, 3>;  ///< m
 
 /// Two triangles per face.
@@ -53,10 +57,11 @@ std::vector<double> distanceCoordinate(std::span<const Vec3> points, std::span<c
                                        std::span<const Triangle> particleBorder);
 
 /// s from Laplace's equation on the elements of the overlap: s = 0 on `solidBorder`, 1 on `particleBorder`, no flux
-/// elsewhere. Nodes without an element of the overlap get `beyondOverlap`.
+/// elsewhere. Nodes without an element of the overlap get `beyondOverlap`. Solved on the corners of the cells; nodes
+/// between get the mean of these.
 /// @param elements  numbers of the overlap's elements
 /// @throws InputError for an empty set, or a node in both sets; NumericalError if the system cannot be solved
-std::vector<double> laplaceCoordinate(const Bricks& mesh, std::span<const int> elements,
+std::vector<double> laplaceCoordinate(const fem::SolidMesh& mesh, std::span<const int> elements,
                                       std::span<const int> solidBorder, std::span<const int> particleBorder);
 
 }  // namespace dovetail::arlequin

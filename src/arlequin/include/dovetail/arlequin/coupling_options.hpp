@@ -1,0 +1,29 @@
+// What a volume coupling may be told.
+#pragma once
+
+#include "dovetail/arlequin/gap_operator.hpp"
+
+namespace dovetail::arlequin {
+
+enum class ConstraintKind {
+  penalty,     ///< on the accumulated gap, energy-storing (default)
+  multiplier,  ///< workless
+  dashpot      ///< the paper's penalty on increments; loses what it damps
+};
+
+struct CouplingOptions {
+  GapForm form = GapForm::atParticles;
+  ProjectionOptions projection;
+  ConstraintKind constraint = ConstraintKind::penalty;
+  double penalty = 0.0;            ///< p, or ε of the dashpot, Pa/m²; 0 = automaticPenalty (dashpot: none)
+  bool consistentDashpot = false;  ///< ∫ψ_iψ_j instead of its row sums
+  double absorberRate = 0.0;       ///< 1/s; 0 = no absorber
+  /// Particles with a smaller share have passed the border of the particles within the solid: they leave the scene. The
+  /// floor of the weights, or less.
+  double leastShare = 1e-3;
+};
+
+/// Whether the penalty is one of rows (makePenalty); else it is makeMetricPenalty.
+bool penaltyIsLocal(const CouplingOptions& options);
+
+}  // namespace dovetail::arlequin
