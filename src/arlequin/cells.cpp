@@ -27,12 +27,12 @@ std::vector<std::array<double, 2>> linePoints(int parts, bool curved) {
   const double size = 1.0 / parts, two = 1.0 / std::sqrt(3.0), three = std::sqrt(0.6);
   std::vector<std::array<double, 2>> line;
   for (int c = 0; c < parts; ++c) {
-    const double middle = -1.0 + size * (2.0 * c + 1.0);
+    const auto at = [&](double side) { return -1.0 + size * (2.0 * c + 1.0 + side); };
     if (!curved)
-      for (const double side : {-two, two}) line.push_back({middle + size * side, size});
+      for (const double side : {-two, two}) line.push_back({at(side), size});
     else
       for (const double side : {-three, 0.0, three})
-        line.push_back({middle + size * side, size * (side == 0.0 ? 8.0 : 5.0) / 9.0});
+        line.push_back({at(side), size * (side == 0.0 ? 8.0 : 5.0) / 9.0});
   }
   return line;
 }
