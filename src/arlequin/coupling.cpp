@@ -34,7 +34,7 @@ std::unique_ptr<Constraint> makeConstraint(const Coupling& c, const dem::Particl
     case ConstraintKind::dashpot:
       return makeDashpot(c.gap, o.penalty, o.consistentDashpot);
     case ConstraintKind::multiplier:
-      return makeMultiplier(c.gap, c.overlap, particles.mass, solid.motion());
+      return makeMultiplier(c.gap, c.overlap, particles.mass, solid.motion().mass());
   }
   throw InputError("there is no such constraint", "coupling", "take penalty, multiplier or dashpot");
 }

@@ -11,7 +11,7 @@ namespace {
 
 /// A for one component; nodes that are held in it do not yield.
 Matrix compliance(const GapOperator& gap, const Overlap& overlap, std::span<const double> particleMass,
-                  const fem::Motion& solid, int component) {
+                  const fem::ModelMass& solid, int component) {
   const auto rows = static_cast<Eigen::Index>(gap.rows());
   Matrix A = Matrix::Zero(rows, rows);
   const cg::Projection& back = gap.particlesBack;
@@ -21,12 +21,12 @@ Matrix compliance(const GapOperator& gap, const Overlap& overlap, std::span<cons
       for (int b = back.offsets[k]; b < back.offsets[k + 1]; ++b)
         A(back.column[a], back.column[b]) += yield * back.weight[a] * back.weight[b];
   }
-  std::vector<Vec3> response(solid.model().nodes.X.size());
+  std::vector<Vec3> response(static_cast<std::size_t>(gap.nodes.columns));
   for (Eigen::Index row = 0; row < rows; ++row) {
     std::fill(response.begin(), response.end(), Vec3{});
     for (int k = gap.nodes.offsets[row]; k < gap.nodes.offsets[row + 1]; ++k)
       response[gap.nodes.column[k]][component] = gap.nodes.weight[k];
-    solid.accelerate(response);
+    solid.solve(response);
     for (Eigen::Index other = 0; other < rows; ++other)
       for (int k = gap.nodes.offsets[other]; k < gap.nodes.offsets[other + 1]; ++k)
         A(other, row) += gap.nodes.weight[k] * response[gap.nodes.column[k]][component];
@@ -37,7 +37,7 @@ Matrix compliance(const GapOperator& gap, const Overlap& overlap, std::span<cons
 class Multiplier final : public Constraint {
 public:
   Multiplier(const GapOperator& gap, const Overlap& overlap, std::span<const double> particleMass,
-             const fem::Motion& solid, double rankTolerance)
+             const fem::ModelMass& solid, double rankTolerance)
       : rows_(gap.rows()) {
     const std::span<const int> row = solid.dofs().freeRow();
     const auto sameHeld = [&](std::size_t a, std::size_t b) {
@@ -77,7 +77,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Constraint> makeMultiplier(const GapOperator& gap, const Overlap& overlap,
-                                           std::span<const double> particleMass, const fem::Motion& solid,
+                                           std::span<const double> particleMass, const fem::ModelMass& solid,
                                            double rankTolerance) {
   requireFewRows(gap.rows(), "multiplier");
   return std::make_unique<Multiplier>(gap, overlap, particleMass, solid, rankTolerance);

@@ -8,6 +8,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
+#include "overlap_locator.hpp"
 
 namespace dovetail::arlequin {
 
@@ -51,33 +52,6 @@ void requireOverlap(const Overlap& overlap, const fem::SolidMesh& mesh) {
     throw InputError("the overlap has no particles", "overlap", "let the particles reach into the mesh");
 }
 
-struct Found {
-  fem::CellPlace place;  ///< element −1: nowhere
-  Vec3 x;                ///< m, the image that was found
-  bool outside = false;  ///< near the mesh, not within
-};
-
-/// A particle or an image of it, within the mesh or nearer to it than `radius`. A centre that touches a face from
-/// outside, up to round-off, is not near.
-Found locate(const fem::CellLocator& locator, const Vec3& x, double radius, const geometry::Periodicity& space) {
-  constexpr double touching = 1.0 - 1e-9;
-  if (auto place = locator.find(x)) return {*place, x};
-  std::vector<Vec3> images{x};
-  for (int k = 0; k < 3; ++k) {
-    if (!space.axes[static_cast<std::size_t>(k)]) continue;
-    for (std::size_t known = images.size(), i = 0; i < known; ++i)
-      for (const double side : {-1.0, 1.0}) {
-        images.push_back(images[i]);
-        images.back()[k] += side * space.length(k);
-      }
-  }
-  for (std::size_t i = 1; i < images.size(); ++i)
-    if (auto place = locator.find(images[i])) return {*place, images[i]};
-  for (const Vec3& image : images)
-    if (auto place = locator.findNear(image, touching * radius)) return {*place, image, true};
-  return {{}, x};
-}
-
 }  // namespace
 
 double weightAt(const fem::SolidMesh& mesh, const fem::CellPlace& place, std::span<const double> nodal) {
@@ -100,22 +74,21 @@ Overlap locateOverlap(const dem::Particles& particles, const fem::SolidMesh& mes
   requireSpatialCells(mesh);
   requireFinite(particles.x, "particle", "position", "search for the overlap");
   const std::vector<Vec3> position = positionsOf(nodes.X, nodes.u);
-  const fem::CellLocator locator(mesh.groups, position);
+  const OverlapLocator locator(mesh, position, nodalWeight, space);
   Overlap overlap;
   overlap.nodalWeight.assign(nodalWeight.begin(), nodalWeight.end());
   const geometry::Box box = boxOfWeights(mesh, position, nodalWeight), reached = geometry::expanded(box, reach);
-  std::vector<Found> found(particles.size());
+  std::vector<FoundParticle> found(particles.size());
   parallelFor(particles.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) found[i] = locate(locator, particles.x[i], particles.radius[i], space);
+    for (std::size_t i = begin; i < end; ++i) found[i] = locator.find(particles.x[i], particles.radius[i]);
   });
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (found[i].outside && !(weightAt(mesh, found[i].place, nodalWeight) > 0.0)) found[i].place = {};
     const bool hosted = found[i].place.element >= 0;
     if (!hosted && contains(box, particles.x[i])) overlap.stray.push_back(static_cast<int>(i));
     if (!hosted && (reach == 0.0 || !contains(reached, particles.x[i]))) continue;
     overlap.particle.push_back(static_cast<int>(i));
     overlap.x.push_back(found[i].x);
-    overlap.weight.push_back(hosted ? weightAt(mesh, found[i].place, nodalWeight) : 1.0);
+    overlap.weight.push_back(found[i].weight);
     if (hosted && overlap.weight.back() > 0.0) overlap.elements.push_back(found[i].place.element);
     overlap.place.push_back(std::move(found[i].place));
   }
@@ -165,7 +138,7 @@ void weighMass(const Overlap& overlap, std::span<const double> fullMass, dem::Pa
 void weighContacts(const dem::Particles& particles, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
                    const Overlap& overlap, dem::PairList& pairs) {
   const std::vector<Vec3> position = positionsOf(nodes.X, nodes.u);
-  const fem::CellLocator locator(mesh.groups, position);
+  const OverlapLocator locator(mesh, position, overlap.nodalWeight, pairs.periodicity());
   std::vector<bool> inside(particles.size(), false);
   for (const int i : overlap.particle) inside[static_cast<std::size_t>(i)] = true;
   const std::span<double> factors = pairs.writeFactors();
@@ -175,8 +148,7 @@ void weighContacts(const dem::Particles& particles, const fem::SolidMesh& mesh, 
     if (!inside[i] && !inside[j]) continue;
     const double radius = std::min(particles.radius[i], particles.radius[j]);
     const Vec3 middle = particles.x[i] + dem::pairContact(particles, i, j, pairs.shift(p)).armI;
-    const Found found = locate(locator, middle, radius, pairs.periodicity());
-    if (found.place.element >= 0) factors[p] = weightAt(mesh, found.place, overlap.nodalWeight);
+    factors[p] = locator.find(middle, radius).weight;
   }
 }
 

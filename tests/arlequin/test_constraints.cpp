@@ -84,6 +84,35 @@ TEST(Constraint, MultipliersTakeTheGapsAccelerationAway) {
     }
 }
 
+TEST(Constraint, ByIterationMultipliersAreTheSameForces) {
+  for (const double share : {0.0, 0.4})
+    for (const double width : {0.0, 0.9}) {
+      Model model = barWith(ConstraintKind::multiplier, width, share);
+      const Coupling& c = *model.coupling;
+      const auto iterative =
+          makeIterativeMultiplier(c.gap, c.overlap, model.discrete.particles.mass, model.solid->motion().mass());
+      std::mt19937 random(12);
+      std::vector<Vec3> a(model.discrete.particles.size()), b(model.solid->nodes().X.size()), gap(c.rows()),
+          none(c.rows()), direct(c.rows()), other(c.rows());
+      for (auto* values : {&a, &b})
+        for (Vec3& v : *values) v = randomVector(random, 1.0);
+      for (std::size_t n = 0; n < b.size(); ++n)
+        if (model.solid->nodes().fixed[n]) b[n] = {};
+      gapOf(c.gap, c.overlap, a, b, gap);
+      c.constraint->evaluate({none, none, none, gap, 1.0}, direct);
+      iterative->evaluate({none, none, none, gap, 1.0}, other);
+      std::vector<Vec3> f(a.size()), g(a.size());
+      pullParticles(c.gap, c.overlap, direct, f);
+      pullParticles(c.gap, c.overlap, other, g);
+      double difference = 0.0, size = 0.0;
+      for (std::size_t i = 0; i < f.size(); ++i) {
+        difference = std::max(difference, norm(f[i] - g[i]));
+        size = std::max(size, norm(f[i]));
+      }
+      EXPECT_LT(difference, (width == 0.0 ? 1e-8 : 1e-5) * size) << "width " << width << ", share " << share;
+    }
+}
+
 TEST(Constraint, DashpotsLoseWhateverTheIncrement) {
   const Model model = barWith(ConstraintKind::dashpot, 0.0);
   const Coupling& c = *model.coupling;

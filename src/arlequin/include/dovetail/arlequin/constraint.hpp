@@ -11,7 +11,7 @@
 #include "dovetail/arlequin/gap_operator.hpp"
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/fem/motion/motion.hpp"
+#include "dovetail/fem/model/model_mass.hpp"
 
 namespace dovetail::arlequin {
 
@@ -59,11 +59,19 @@ std::unique_ptr<Constraint> makeDashpot(const GapOperator& gap, double penalty, 
 /// Lagrange multipliers that keep the gap's rate at zero: λ = A⁺ (g̈ + ġ/dt) with A = Π M_DE⁻¹ Πᵀ + B M_FE⁻¹ Bᵀ.
 /// Workless. A is inverted once, by its eigenvalues: directions whose eigenvalue is below `rankTolerance` of the
 /// largest (rows that depend on others) are left out.
-/// @param particleMass  of all particles, weighted, kg   @param solid  gives M_FE⁻¹
-/// @throws InputError for more than 4000 rows (take the penalty, which needs no solve)
+/// @param particleMass  of all particles, weighted, kg; ∞ for one that does not yield   @param solid  gives M_FE⁻¹
+/// @throws InputError for more than 4000 rows (take makeIterativeMultiplier)
 std::unique_ptr<Constraint> makeMultiplier(const GapOperator& gap, const Overlap& overlap,
-                                           std::span<const double> particleMass, const fem::Motion& solid,
+                                           std::span<const double> particleMass, const fem::ModelMass& solid,
                                            double rankTolerance = 1e-8);
+
+/// The same by conjugate gradients on A, which is not formed: time and memory grow with the entries of Π and B. Solves
+/// to 1e-12 of the load; rows that depend on others do no harm, as the load has no part in what they leave out. For
+/// kernels that are not wide: the number of iterations grows as rows come close to each other.
+/// @param solid  must live as long as the constraint
+/// @throws NumericalError in evaluate if the iteration does not settle
+std::unique_ptr<Constraint> makeIterativeMultiplier(const GapOperator& gap, const Overlap& overlap,
+                                                    std::span<const double> particleMass, const fem::ModelMass& solid);
 
 /// 20 E/h², Pa/m²: the waveform is then within a tenth of a percentage point of the multipliers', and the critical step
 /// of cubes with a weight floor of 1e-3 is a seventeenth of h over the wave speed or more.

@@ -32,6 +32,7 @@ public:
   ModelMass(ModelMass&&) noexcept;
 
   double share() const { return share_; }
+  const DofMap& dofs() const { return *dofs_; }
   /// Whether M⁻¹ is a division.
   bool isDiagonal() const { return share_ == 0.0 && !dofs_->hasTies(); }
   /// y = M x.

@@ -1,0 +1,36 @@
+// Where in the mesh of an overlap a particle is, and what share of it counts there.
+#pragma once
+
+#include <span>
+
+#include "dovetail/arlequin/overlap.hpp"
+#include "dovetail/fem/mesh/cell_locator.hpp"
+#include "dovetail/geometry/hierarchical_grid.hpp"
+
+namespace dovetail::arlequin {
+
+struct FoundParticle {
+  fem::CellPlace place;  ///< element −1: nowhere
+  Vec3 x;                ///< m, the image that was found
+  double weight = 1.0;
+};
+
+class OverlapLocator {
+public:
+  /// @param position  of the nodes, m   @param nodalWeight  w per node; both must live as long as this
+  OverlapLocator(const fem::SolidMesh& mesh, std::span<const Vec3> position, std::span<const double> nodalWeight,
+                 const geometry::Periodicity& space)
+      : mesh_(mesh), weight_(nodalWeight), space_(space), cells_(mesh.groups, position) {}
+
+  /// A particle, or an image of it, within the mesh or nearer to it than its radius where the mesh has a weight above 0.
+  /// A centre that touches a face from outside, up to round-off, is not near. Any number of threads may ask.
+  FoundParticle find(const Vec3& x, double radius) const;
+
+private:
+  const fem::SolidMesh& mesh_;
+  std::span<const double> weight_;
+  geometry::Periodicity space_;
+  fem::CellLocator cells_;
+};
+
+}  // namespace dovetail::arlequin
