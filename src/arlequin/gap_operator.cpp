@@ -198,18 +198,25 @@ std::vector<double> sumsAtRows(const GapOperator& gap, const Overlap& overlap, c
   return sum;
 }
 
-void gapOf(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> particles, std::span<const Vec3> nodes,
-           std::span<Vec3> out) {
+void gapOfMembers(const GapOperator& gap, std::span<const Vec3> members, std::span<const Vec3> nodes,
+                  std::span<Vec3> out) {
   parallelFor(gap.rows(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
       Vec3 sum;
       for (int k = gap.particles.offsets[r]; k < gap.particles.offsets[r + 1]; ++k)
-        sum += gap.particles.weight[k] * particles[overlap.particle[gap.particles.column[k]]];
+        sum += gap.particles.weight[k] * members[gap.particles.column[k]];
       for (int k = gap.nodes.offsets[r]; k < gap.nodes.offsets[r + 1]; ++k)
         sum -= gap.nodes.weight[k] * nodes[gap.nodes.column[k]];
       out[r] = sum;
     }
   });
+}
+
+void gapOf(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> particles, std::span<const Vec3> nodes,
+           std::span<Vec3> out) {
+  std::vector<Vec3> members(overlap.size());
+  for (std::size_t k = 0; k < members.size(); ++k) members[k] = particles[overlap.particle[k]];
+  gapOfMembers(gap, members, nodes, out);
 }
 
 void pullParticles(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> lambda,

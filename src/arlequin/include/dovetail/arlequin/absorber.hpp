@@ -23,6 +23,10 @@ public:
 
   /// Adds the force to f (of all particles) and keeps it. @param v  velocities of all particles, m/s
   void apply(std::span<const Vec3> v, std::span<Vec3> f);
+  /// The particles have other numbers now. @param particle  one per row of the overlap
+  void renumber(std::span<const int> particle) { overlap_.particle.assign(particle.begin(), particle.end()); }
+  /// The last force, N, one per row of the overlap.
+  std::span<const Vec3> force() const { return force_; }
   /// Σ −½ (F_before + F_now)·dx over the step that led here, J; ≥ 0 but for the error of the step.
   /// @param dx  displacement of all particles in that step is dt v
   double workOfStep(std::span<const Vec3> v, double dt) const;

@@ -71,6 +71,9 @@ std::vector<double> sumsAtRows(const GapOperator& gap, const Overlap& overlap, c
 /// @param particles  values of all particles   @param nodes  values of all nodes
 void gapOf(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> particles, std::span<const Vec3> nodes,
            std::span<Vec3> out);
+/// The same from values of the overlap's particles, one per row of the overlap.
+void gapOfMembers(const GapOperator& gap, std::span<const Vec3> members, std::span<const Vec3> nodes,
+                  std::span<Vec3> out);
 /// particleForce −= Πᵀλ (all particles).
 void pullParticles(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> lambda,
                    std::span<Vec3> particleForce);

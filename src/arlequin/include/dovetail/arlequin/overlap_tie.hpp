@@ -1,0 +1,90 @@
+// Particles and a solid that share an overlap, as a connector of a run.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "dovetail/arlequin/coupling_options.hpp"
+#include "dovetail/arlequin/overlap.hpp"
+#include "dovetail/coupling/connector.hpp"
+
+namespace dovetail::arlequin {
+
+/// What an overlap looks like now.
+struct OverlapState {
+  std::size_t members = 0;    ///< particles that are tied
+  std::size_t rows = 0;       ///< of the gap operator
+  std::size_t voids = 0;      ///< elements within the overlap (w > 0 at all corners) that hold no particle
+  std::int64_t relocations = 0;  ///< how often some particle was located anew
+  std::int64_t admitted = 0;     ///< particles that came in
+  std::int64_t removed = 0;      ///< particles that passed the border of the particles and left the scene
+};
+
+/// Ties particles to the solid where both are: the gap g = Π(x − Φ x_FE) is held by a penalty, multipliers or a dashpot
+/// (CouplingOptions). Particles::weight holds the particles' share w, pairs the share at their contact.
+///
+/// A particle is tied to the material point of the solid that it was located at. If it moves relative to that by more
+/// than a tenth of the smallest radius in the overlap, it is located anew: what was its part of the gap is kept in the
+/// rows, where it turns with the solid; a gap longer than that length slips, and what the penalty stored in the excess
+/// is lost. A share that changes takes mass with it, at the solid's velocity, that is booked as left or entered
+/// (dem::Model); the momentum relative to the solid goes to the nodes by Φᵀ. Particles that come near the mesh from
+/// outside get their share when they are found there; those whose share falls below CouplingOptions::leastShare leave
+/// the scene. Rows per element are not followed: their particles stay as located.
+class OverlapTie final : public coupling::Connector {
+public:
+  ~OverlapTie() override;
+
+  std::string name() const override { return "overlap"; }
+  std::string code() const override { return "a mesh and a solid"; }
+  Order order() const override;
+  void check(const dem::Model& m) const override;
+  double move(dem::Model& m, const dem::Step& step) override;
+  void exchange(dem::Model& m, const dem::Step& step) override;
+  void renewed(dem::Model& m) override;
+  double renumber(std::span<const int> newNumber, const dem::Particles& before) override;
+  void addForces(dem::Model& m, const dem::Step& step) override;
+  void book(dem::Model& m, const dem::Step& step) override;
+  /// A safe bound with the penalty, both sides and their other stiffnesses; multipliers ask for nothing.
+  void addDemand(const dem::Model& m, dem::ContactDemand& demand) const override;
+  void save(ByteWriter& writer) const override;
+  void load(ByteReader& reader) override;
+
+  bool constrains() const override;
+  void constrainWindow(const dem::Model& m, std::span<const Vec3> ownForce, double window, std::span<Vec3> onParticles,
+                       coupling::NodalLoad& load) override;
+  double stored() const override;
+  double lost() const override;
+
+  const Overlap& overlap() const;
+  const GapOperator& operators() const;
+  std::span<const Vec3> gap() const;     ///< per row, m
+  std::span<const Vec3> lambda() const;  ///< per row, N: pulls the particles back and the nodes along
+  OverlapState state() const;
+
+private:
+  friend std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model&, const fem::SolidMesh&, std::vector<double>,
+                                                    coupling::SolidSide&, const CouplingOptions&);
+  explicit OverlapTie(coupling::SolidSide& side);
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Locates the overlap, sets Particles::weight, and makes the tie; the caller adds it to the run (or to grains.terms).
+/// Particles of the model that are already weighed by another overlap keep their share and are not tied.
+/// @param nodalWeight  w per node of the mesh; the elements of the solid must have the share 1 − w
+/// @param side         its mass may be set later
+/// @throws InputError as locateOverlap and requireWidth do; for a share of the solid that is not 1 − w, mid nodes that
+///   are not levelled, a particle with less than leastShare (beyond the border of the particles), members of clumps,
+///   kernels in periodic space, an automatic penalty where a field of points tells no modulus, kernels wider than 2.5
+///   elements with more than 4000 rows
+std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
+                                           std::vector<double> nodalWeight, coupling::SolidSide& side,
+                                           const CouplingOptions& options = {});
+
+/// Numbers of the particles within the mesh whose share is below leastShare: take them out before making a tie.
+std::vector<int> particlesBeyond(const dem::Model& grains, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
+                                 std::span<const double> nodalWeight, double leastShare = CouplingOptions{}.leastShare);
+
+}  // namespace dovetail::arlequin

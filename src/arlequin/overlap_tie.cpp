@@ -1,0 +1,336 @@
+// Forces of an overlap tie.
+#include "dovetail/arlequin/overlap_tie.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
+#include "dovetail/fem/mesh/shape.hpp"
+#include "kept_gap.hpp"
+#include "overlap_tie_impl.hpp"
+
+namespace dovetail::arlequin {
+
+namespace {
+
+constexpr std::size_t grain = 256;
+
+double sumOfProducts(std::span<const Vec3> a, std::span<const Vec3> b) {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < a.size(); ++r) sum += dot(a[r], b[r]);
+  return sum;
+}
+
+}  // namespace
+
+Vec3 OverlapTie::Impl::atMember(std::size_t k, std::span<const Vec3> field) const {
+  const fem::CellPlace& place = overlap.place[k];
+  Vec3 sum;
+  if (place.element < 0) return sum;
+  const Cell cell = cellOf(setting.mesh, place.element);
+  for (std::size_t a = 0; a < cell.node.size(); ++a)
+    sum += place.shape[a] * field[static_cast<std::size_t>(cell.node[a])];
+  return sum;
+}
+
+Vec3 OverlapTie::Impl::displacement(const dem::Model& m, std::size_t k) const {
+  const Vec3 moved = m.particles.x[static_cast<std::size_t>(overlap.particle[k])] - overlap.x[k];
+  const geometry::Periodicity& space = m.pairs.periodicity();
+  if (!space.any()) return moved;
+  const Vec3 carried = atMember(k, nodes().u);
+  return carried + space.minimumImage(moved - carried);
+}
+
+std::vector<Vec3> OverlapTie::Impl::displacements(const dem::Model& m) const {
+  std::vector<Vec3> q(overlap.size());
+  parallelFor(q.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) q[k] = displacement(m, k);
+  });
+  return q;
+}
+
+std::vector<Vec3> OverlapTie::Impl::freshGap(const dem::Model& m) const {
+  std::vector<Vec3> gap(parts.gap.rows());
+  gapOfMembers(parts.gap, displacements(m), nodes().u, gap);
+  return gap;
+}
+
+void OverlapTie::Impl::number(const dem::Particles& particles) {
+  memberOf.assign(particles.size(), -1);
+  for (std::size_t k = 0; k < overlap.size(); ++k)
+    memberOf[static_cast<std::size_t>(overlap.particle[k])] = static_cast<int>(k);
+  known = particles.revision;
+}
+
+/// Rows that were there keep their gap and their λ; others start without.
+void OverlapTie::Impl::ready(const dem::Model& m) {
+  if (known != m.particles.revision) number(m.particles);
+  if (stale) {
+    TieParts next = makeParts(setting, overlap, m);
+    addConstraint(setting, overlap, m, side, next);
+    parts = std::move(next);
+    stale = false;
+    if (rowNode != parts.gap.node) {
+      std::vector<int> rowOf(setting.mesh.X.size(), -1);
+      for (std::size_t r = 0; r < rowNode.size(); ++r) rowOf[static_cast<std::size_t>(rowNode[r])] = static_cast<int>(r);
+      for (auto* values : {&kept, &now, &increment, &lambda, &lambdaBefore}) {
+        std::vector<Vec3> moved(parts.gap.rows());
+        for (std::size_t r = 0; isFollowed() && r < moved.size(); ++r)
+          if (const int old = rowOf[static_cast<std::size_t>(parts.gap.node[r])]; old >= 0)
+            moved[r] = (*values)[static_cast<std::size_t>(old)];
+        *values = std::move(moved);
+      }
+      rowNode = parts.gap.node;
+    }
+  }
+  if (!refit) return;
+  refit = false;
+  lost += storedNow;
+  keepGap(m);
+  lost -= storedNow;
+}
+
+/// The kept part turns with the nodes of its row.
+void OverlapTie::Impl::turnKept() {
+  const std::vector<Vec3>& u = nodes().u;
+  if (turnsGap() && nodesBefore.size() == u.size() &&
+      std::ranges::any_of(kept, [](const Vec3& g) { return squaredNorm(g) > 0.0; })) {
+    const std::vector<Vec3> x = positions();
+    std::vector<Vec3> moved(u.size());
+    for (const int n : parts.gap.coupledNode) {
+      const auto at = static_cast<std::size_t>(n);
+      moved[at] = u[at] - nodesBefore[at];
+    }
+    parallelFor(kept.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r)
+        if (squaredNorm(kept[r]) > 0.0) kept[r] = turned(kept[r], RowSpin(parts.gap, r, x).of(moved));
+    });
+  }
+  nodesBefore = u;
+}
+
+void OverlapTie::Impl::updateGap(const dem::Model& m, bool timeless) {
+  turnKept();
+  std::vector<Vec3> next = freshGap(m);
+  for (std::size_t r = 0; r < next.size(); ++r) {
+    next[r] += kept[r];
+    if (!timeless) increment[r] = next[r] - now[r];
+  }
+  now = std::move(next);
+}
+
+/// What is beyond the slip length goes out of the kept part.
+void OverlapTie::Impl::slip() {
+  if (!turnsGap() || !isFollowed()) return;
+  const double longest = slipLength();
+  for (std::size_t r = 0; r < now.size(); ++r)
+    if (const double length = norm(now[r]); length > longest) {
+      const Vec3 excess = (1.0 - longest / length) * now[r];
+      kept[r] -= excess;
+      now[r] -= excess;
+    }
+}
+
+/// The impulses of multipliers that take the rate of the gap away at the start.
+void OverlapTie::Impl::comply(dem::Model& m) {
+  std::vector<Vec3> rate(parts.gap.rows()), none(rate.size()), impulses(rate.size());
+  gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
+  parts.constraint->evaluate({now, none, none, rate, 1.0}, impulses);
+  const std::vector<double> mass = yieldingMasses(m);
+  std::vector<Vec3> onParticles(m.particles.size()), onNodes(nodes().v.size());
+  pullParticles(parts.gap, overlap, impulses, onParticles);
+  pullNodes(parts.gap, impulses, onNodes);
+  side.mass->solve(onNodes);
+  for (const int i : overlap.particle) {
+    const auto at = static_cast<std::size_t>(i);
+    m.particles.v[at] += (1.0 / mass[at]) * onParticles[at];
+  }
+  for (std::size_t n = 0; n < onNodes.size(); ++n) side.nodes().v[n] += onNodes[n];
+  lost += 0.5 * sumOfProducts(impulses, rate);
+  complies = true;
+}
+
+void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
+  std::vector<Vec3> velocity, acceleration;
+  double dt = step.dt;
+  if (parts.constraint->needsRates()) {
+    velocity.resize(parts.gap.rows());
+    acceleration.resize(parts.gap.rows());
+    if (step.timeless)
+      dt = 1.0;
+    else
+      gapOf(parts.gap, overlap, m.particles.v, nodes().v, velocity);
+    const std::vector<double> mass = yieldingMasses(m);
+    std::vector<Vec3> ofMembers(overlap.size()), ofNodes = side.load.force;
+    for (std::size_t k = 0; k < ofMembers.size(); ++k) {
+      const auto i = static_cast<std::size_t>(overlap.particle[k]);
+      ofMembers[k] = (1.0 / mass[i]) * m.particles.f[i];
+    }
+    for (std::size_t n = 0; n < side.own.size(); ++n) ofNodes[n] += side.own[n];
+    side.mass->solve(ofNodes);
+    gapOfMembers(parts.gap, ofMembers, ofNodes, acceleration);
+  }
+  lambdaBefore = lambda;
+  parts.constraint->evaluate({now, increment, velocity, acceleration, dt}, lambda);
+}
+
+void OverlapTie::Impl::apply(dem::Model& m, const dem::Step& step) {
+  if (!impulse.empty() && !step.timeless) {
+    impulseForce = std::move(impulse);
+    impulse.clear();
+    for (std::size_t n = 0; n < impulseForce.size(); ++n)
+      if (squaredNorm(impulseForce[n]) > 0.0)
+        side.load.add(static_cast<int>(n), impulseForce[n] *= 1.0 / step.dt);
+  }
+  if (parts.absorber) parts.absorber->apply(m.particles.v, m.particles.f);
+  if (!complies && step.timeless && parts.constraint->needsRates()) comply(m);
+  evaluate(m, step);
+  pullParticles(parts.gap, overlap, lambda, m.particles.f);
+  for (std::size_t n = 0; n < parts.gap.coupledNode.size(); ++n)
+    side.load.add(parts.gap.coupledNode[n], cg::applyRow(parts.gap.nodesBack, static_cast<int>(n), lambda));
+  if (!turnsGap()) return;
+  std::vector<Vec3> x;
+  for (std::size_t r = 0; r < kept.size(); ++r) {
+    if (!(squaredNorm(kept[r]) > 0.0)) continue;
+    if (x.empty()) x = positions();
+    RowSpin(parts.gap, r, x).addForces(-cross(kept[r], lambda[r]), side.load);
+  }
+}
+
+OverlapTie::OverlapTie(coupling::SolidSide& side) : Connector(side), impl_(std::make_unique<Impl>(side)) {}
+OverlapTie::~OverlapTie() = default;
+
+dem::Term::Order OverlapTie::order() const { return constrains() ? Order::constraints : Order::forces; }
+
+bool OverlapTie::constrains() const { return impl_->setting.options.constraint == ConstraintKind::multiplier; }
+
+void OverlapTie::check(const dem::Model& m) const {
+  const std::vector<char> inBodies = dem::members(m);
+  for (std::size_t k = 0; k < impl_->overlap.size(); ++k) {
+    const auto i = static_cast<std::size_t>(impl_->overlap.particle[k]);
+    if (i >= m.particles.size())
+      throw InputError("particles have gone that the overlap was not told of", "overlap",
+                       "take particles out by removeParticles of the model, after the tie was added");
+    const std::string particle = "particle " + std::to_string(m.particles.id[i]);
+    if (m.particles.weightOf(i) != impl_->overlap.weight[k])
+      throw InputError("the weight of " + particle + " is not its share of the overlap", "overlap",
+                       "leave Particles::weight to the overlap");
+    if (!inBodies.empty() && inBodies[i] != 0)
+      throw InputError(particle + " of the overlap is a member of a clump, which counts as a whole", "overlap",
+                       "keep clumps out of the overlap");
+  }
+}
+
+void OverlapTie::addForces(dem::Model& m, const dem::Step& step) {
+  Impl& s = *impl_;
+  s.ready(m);
+  s.updateGap(m, step.timeless);
+  s.slip();
+  s.apply(m, step);
+  const double before = s.storedNow;
+  s.storedNow = s.parts.constraint->storedEnergy(s.now);
+  if (step.timeless) return;
+  double work = 0.0;
+  for (std::size_t r = 0; r < s.now.size(); ++r) work += 0.5 * dot(s.lambda[r] + s.lambdaBefore[r], s.increment[r]);
+  s.lost += work - (s.storedNow - before);
+}
+
+/// The absorber takes what its force does to the particles over the whole kick; the nodes get the work of the momentum
+/// that was handed to them.
+void OverlapTie::book(dem::Model& m, const dem::Step& step) {
+  Impl& s = *impl_;
+  s.power = 0.0;
+  if (s.parts.absorber)
+    for (std::size_t k = 0; k < s.overlap.size(); ++k) {
+      const auto i = static_cast<std::size_t>(s.overlap.particle[k]);
+      const double mass = m.particles.weightOf(i) * m.particles.mass[i];
+      const Vec3 mean = m.particles.v[i] + (0.5 * (step.timeless ? 0.0 : step.dt) / mass) * m.particles.f[i];
+      s.power -= dot(s.parts.absorber->force()[k], mean);
+    }
+  if (step.timeless) return;
+  s.lost += 0.5 * step.dt * s.power;
+  if (s.impulseForce.empty()) return;
+  std::vector<Vec3> acceleration = side().load.force;
+  for (std::size_t n = 0; n < side().own.size(); ++n) acceleration[n] += side().own[n];
+  side().mass->solve(acceleration);
+  for (std::size_t n = 0; n < acceleration.size(); ++n)
+    s.lost -= step.dt * dot(s.impulseForce[n], side().nodes().v[n] + 0.5 * step.dt * acceleration[n]);
+  s.impulseForce.clear();
+}
+
+double OverlapTie::move(dem::Model&, const dem::Step& step) {
+  impl_->lost += 0.5 * step.dt * impl_->power;
+  return 0.0;
+}
+
+void OverlapTie::constrainWindow(const dem::Model& m, std::span<const Vec3> ownForce, double window,
+                                 std::span<Vec3> onParticles, coupling::NodalLoad& load) {
+  Impl& s = *impl_;
+  if (!constrains()) return;
+  s.ready(m);
+  std::vector<Vec3> still(s.overlap.size()), none(s.parts.gap.rows()), acceleration(none.size()),
+      lambda(s.lambda), ofNodes(ownForce.begin(), ownForce.end());
+  side().mass->solve(ofNodes);
+  gapOfMembers(s.parts.gap, still, ofNodes, acceleration);
+  s.parts.constraint->evaluate({s.now, none, none, acceleration, window}, lambda);
+  pullParticles(s.parts.gap, s.overlap, lambda, onParticles);
+  for (std::size_t n = 0; n < s.parts.gap.coupledNode.size(); ++n)
+    load.add(s.parts.gap.coupledNode[n], cg::applyRow(s.parts.gap.nodesBack, static_cast<int>(n), lambda));
+}
+
+double OverlapTie::stored() const { return impl_->storedNow; }
+double OverlapTie::lost() const { return impl_->lost; }
+const Overlap& OverlapTie::overlap() const { return impl_->overlap; }
+const GapOperator& OverlapTie::operators() const { return impl_->parts.gap; }
+std::span<const Vec3> OverlapTie::gap() const { return impl_->now; }
+std::span<const Vec3> OverlapTie::lambda() const { return impl_->lambda; }
+
+OverlapState OverlapTie::state() const {
+  OverlapState state = impl_->events;
+  const Overlap& overlap = impl_->overlap;
+  state.members = overlap.size();
+  state.rows = impl_->rowNode.size();
+  std::vector<char> holds(impl_->setting.mesh.elementCount(), 0);
+  for (const fem::CellPlace& place : overlap.place)
+    if (place.element >= 0) holds[static_cast<std::size_t>(place.element)] = 1;
+  for (std::size_t e = 0; e < holds.size(); ++e)
+    if (!holds[e] && std::ranges::all_of(cellOf(impl_->setting.mesh, static_cast<int>(e)).corner(), [&](int n) {
+          return impl_->setting.nodalWeight[static_cast<std::size_t>(n)] > 0.0;
+        }))
+      ++state.voids;
+  return state;
+}
+
+void OverlapTie::save(ByteWriter& writer) const {
+  const Impl& s = *impl_;
+  std::vector<int> element;
+  std::vector<Vec3> xi;
+  for (const fem::CellPlace& place : s.overlap.place) {
+    element.push_back(place.element);
+    xi.push_back(place.xi);
+  }
+  writer(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
+         s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
+         s.memberTravel, s.farTravel, s.near, s.impulse, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
+  writer(s.events.relocations, s.events.admitted, s.events.removed, s.complies);
+}
+
+void OverlapTie::load(ByteReader& reader) {
+  Impl& s = *impl_;
+  std::vector<int> element;
+  std::vector<Vec3> xi;
+  reader(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
+         s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
+         s.memberTravel, s.farTravel, s.near, s.impulse, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
+  reader(s.events.relocations, s.events.admitted, s.events.removed, s.complies);
+  s.overlap.place.assign(element.size(), {});
+  for (std::size_t k = 0; k < element.size(); ++k)
+    if (element[k] >= 0)
+      s.overlap.place[k] = {element[k], xi[k], fem::shapeRow(cellOf(s.setting.mesh, element[k]).shape, xi[k])};
+  s.stale = true;
+  s.known = -1;
+}
+
+}  // namespace dovetail::arlequin

@@ -1,0 +1,77 @@
+// The state of an overlap tie.
+#pragma once
+
+#include "dovetail/arlequin/overlap_tie.hpp"
+#include "overlap_locator.hpp"
+#include "pair_shares.hpp"
+#include "tie_parts.hpp"
+
+namespace dovetail::arlequin {
+
+struct OverlapTie::Impl {
+  coupling::SolidSide& side;
+  TieSetting setting;
+  Overlap overlap;             // x: the material points at which particles are tied, m
+  std::vector<int> memberOf;   // row of each particle in the overlap, −1: none
+  std::int64_t known = -1;     // Particles::revision of the numbers
+  PairShares shares;
+  TieParts parts;
+  bool stale = true;           // the parts are not those of the overlap
+  bool refit = false;          // somebody has taken members out: rows keep their gap all the same
+
+  std::vector<Vec3> kept;               // per row: part of the gap that is not of the present ties, m
+  std::vector<Vec3> now, increment;     // the gap, and of the last step, m
+  std::vector<Vec3> lambda, lambdaBefore;  // N
+  std::vector<int> rowNode;             // to which the arrays above belong
+  std::vector<Vec3> nodesBefore;        // u at the last evaluation, m
+
+  double storedNow = 0.0, lost = 0.0, power = 0.0;  // J, J, W of the absorber
+  bool complies = false;                            // velocities have been made to comply with the multipliers
+  double memberTravel = 0.0, farTravel = 0.0;       // bounds on relative moves, m
+  double smallestRadius = 0.0, largestRadius = 0.0;  // m, of the members when the tie was made
+  std::vector<int> near;                            // particles outside that may come in, by number
+  std::vector<Vec3> impulse;                        // of changed shares, on nodes, kg m/s; empty: none
+  std::vector<Vec3> impulseForce;                   // the same as a force of the step under way, N
+  OverlapState events;
+
+  explicit Impl(coupling::SolidSide& s) : side(s) {}
+
+  const fem::Nodes& nodes() const { return side.nodes(); }
+  std::vector<Vec3> positions() const { return positionsOf(nodes().X, nodes().u); }
+  bool isFollowed() const { return !setting.options.projection.perElement; }
+  bool turnsGap() const {
+    return setting.options.constraint == ConstraintKind::penalty && setting.options.form == GapForm::atParticles;
+  }
+  /// A gap beyond it slips, and ties that are longer by half of it are made anew, m.
+  double slipLength() const { return 0.1 * smallestRadius; }
+
+  /// Solid's field of the nodes at a member.
+  Vec3 atMember(std::size_t k, std::span<const Vec3> field) const;
+  /// Displacement of a member from its material point, images left out.
+  Vec3 displacement(const dem::Model& m, std::size_t k) const;
+  std::vector<Vec3> displacements(const dem::Model& m) const;
+  /// The gap of the present ties alone.
+  std::vector<Vec3> freshGap(const dem::Model& m) const;
+
+  /// Parts that belong to the overlap; rows keep what they had.
+  void ready(const dem::Model& m);
+  void number(const dem::Particles& particles);
+  void turnKept();
+  void updateGap(const dem::Model& m, bool timeless);
+  void slip();
+  void comply(dem::Model& m);
+  void evaluate(dem::Model& m, const dem::Step& step);
+  void apply(dem::Model& m, const dem::Step& step);
+
+  void watch(dem::Model& m, const dem::Step& step);
+  void findNear(const dem::Model& m);
+  void relocate(dem::Model& m);
+  void handOver(dem::Model& m, std::size_t particle, double before, double after, const fem::CellPlace& place);
+  void keepGap(const dem::Model& m);
+  void weighPairs(dem::Model& m, std::span<const char> isMoved);
+};
+
+/// J that the contacts of the list store now. @param m  left as it is
+double contactEnergy(const dem::Model& m);
+
+}  // namespace dovetail::arlequin

@@ -1,0 +1,261 @@
+// Particles that move through an overlap: ties are made anew, shares change hands, some come and some go.
+#include <algorithm>
+#include <limits>
+
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
+#include "overlap_tie_impl.hpp"
+
+namespace dovetail::arlequin {
+
+namespace {
+
+constexpr std::size_t grain = 256;
+constexpr double shellRadii = 4.0;  // within which particles outside are watched one by one
+
+/// Around the nodes of elements with a weight above 0.
+geometry::Box boxOfWeights(const TieSetting& setting, std::span<const Vec3> position) {
+  constexpr double far = std::numeric_limits<double>::max();
+  geometry::Box box{{far, far, far}, {-far, -far, -far}};
+  for (std::size_t n = 0; n < position.size(); ++n)
+    if (setting.nodalWeight[n] > 0.0)
+      for (int c = 0; c < 3; ++c) {
+        box.lower[c] = std::min(box.lower[c], position[n][c]);
+        box.upper[c] = std::max(box.upper[c], position[n][c]);
+      }
+  return box;
+}
+
+bool contains(const geometry::Box& box, const Vec3& x, const geometry::Periodicity& space) {
+  for (int c = 0; c < 3; ++c)
+    if (!space.axes[static_cast<std::size_t>(c)] && (x[c] < box.lower[c] || x[c] > box.upper[c])) return false;
+  return true;
+}
+
+double largestSpeed(std::span<const Vec3> v, const Vec3& frame) {
+  return parallelMax(v.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    double largest = 0.0;
+    for (std::size_t n = begin; n < end; ++n) largest = std::max(largest, norm(v[n] - frame));
+    return largest;
+  });
+}
+
+double ownKinetic(const dem::Particles& p, std::size_t i) {
+  double energy = p.mass[i] * squaredNorm(p.v[i]);
+  if (p.rotates()) energy += dem::momentOfInertia(p, static_cast<int>(i)) * squaredNorm(p.omega[i]);
+  return 0.5 * energy;
+}
+
+void sortUnique(std::vector<int>& numbers) {
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+}  // namespace
+
+double contactEnergy(const dem::Model& m) {
+  if (!m.laws || m.pairs.particles() != m.particles.size() || m.pairs.size() == 0) return 0.0;
+  constexpr double noTime = 1e-100;  // s: memories stay
+  dem::Particles particles = m.particles;
+  dem::PairList pairs = m.pairs;
+  return m.laws->pairs(particles, pairs, noTime, dem::Booking::on).storedEnergy();
+}
+
+/// Bounds on how far particles have moved relative to the solid since ties and neighbours were looked at.
+void OverlapTie::Impl::watch(dem::Model& m, const dem::Step& step) {
+  std::vector<Vec3> ofRows;
+  for (const int n : rowNode) ofRows.push_back(nodes().v[static_cast<std::size_t>(n)]);
+  Vec3 frame;
+  for (const Vec3& v : ofRows) frame += (1.0 / static_cast<double>(ofRows.size())) * v;
+  double relative = 0.0;
+  for (const std::vector<int>* list : {&overlap.particle, &near})
+    relative = std::max(relative, parallelMax(list->size(), 4096, [&](std::size_t begin, std::size_t end) {
+      double largest = 0.0;
+      for (std::size_t k = begin; k < end; ++k)
+        largest = std::max(largest, norm(m.particles.v[static_cast<std::size_t>((*list)[k])] - frame));
+      return largest;
+    }));
+  memberTravel += step.dt * (relative + largestSpeed(ofRows, frame));
+  farTravel += step.moved + step.dt * largestSpeed(nodes().v, {});
+}
+
+void OverlapTie::Impl::findNear(const dem::Model& m) {
+  near.clear();
+  const std::vector<char> inBodies = dem::members(m);
+  const geometry::Box box =
+      geometry::expanded(boxOfWeights(setting, positions()), (shellRadii + 1.0) * largestRadius);
+  for (std::size_t i = 0; i < m.particles.size(); ++i)
+    if (memberOf[i] < 0 && m.particles.weightOf(i) == 1.0 && (inBodies.empty() || inBodies[i] == 0) &&
+        contains(box, m.particles.x[i], m.pairs.periodicity()))
+      near.push_back(static_cast<int>(i));
+  farTravel = 0.0;
+}
+
+/// Mass that a share gains or loses comes and goes with the solid's velocity; the rest of its momentum is the nodes'.
+void OverlapTie::Impl::handOver(dem::Model& m, std::size_t i, double before, double after,
+                                const fem::CellPlace& place) {
+  const double mass = (before - after) * m.particles.mass[i];
+  if (mass == 0.0) return;
+  const Cell cell = cellOf(setting.mesh, place.element);
+  Vec3 u;
+  for (std::size_t a = 0; a < cell.node.size(); ++a)
+    u += place.shape[a] * nodes().v[static_cast<std::size_t>(cell.node[a])];
+  impulse.resize(nodes().v.size());
+  for (std::size_t a = 0; a < cell.node.size(); ++a)
+    impulse[static_cast<std::size_t>(cell.node[a])] += (place.shape[a] * mass) * (m.particles.v[i] - u);
+  const double energy =
+      (before - after) * ownKinetic(m.particles, i) - mass * dot(m.gravity, m.particles.x[i]);
+  const bool leaves = mass > 0.0;
+  dem::Exchanged& exchanged = leaves ? m.left : m.entered;
+  const double sign = leaves ? 1.0 : -1.0;
+  exchanged.mass += sign * mass;
+  exchanged.momentum += (sign * mass) * u;
+  (leaves ? m.booked.left : m.booked.entered) += sign * energy;
+  m.particles.weight[i] = after;
+}
+
+/// Whatever the ties are now, the gap of the rows is what it was.
+void OverlapTie::Impl::keepGap(const dem::Model& m) {
+  const std::vector<Vec3> fresh = freshGap(m);
+  for (std::size_t r = 0; r < fresh.size(); ++r) kept[r] = now[r] - fresh[r];
+  storedNow = parts.constraint->storedEnergy(now);
+}
+
+void OverlapTie::Impl::weighPairs(dem::Model& m, std::span<const char> isMoved) {
+  shares.forget(isMoved);
+  const std::span<double> factors = m.pairs.writeFactors();
+  for (std::size_t p = 0; p < m.pairs.size(); ++p) {
+    const auto i = static_cast<std::size_t>(m.pairs.pairs()[p][0]), j = static_cast<std::size_t>(m.pairs.pairs()[p][1]);
+    if ((isMoved[i] || isMoved[j]) && factors[p] != 0.0)
+      factors[p] = 0.5 * (m.particles.weightOf(i) + m.particles.weightOf(j));
+  }
+  shares.update(m.particles, m.pairs, setting.mesh, overlap, positions(), memberOf);
+}
+
+void OverlapTie::Impl::relocate(dem::Model& m) {
+  const std::vector<Vec3> x = positions();
+  const OverlapLocator locator(setting.mesh, x, setting.nodalWeight, m.pairs.periodicity());
+  struct Change {
+    int particle;
+    double before;
+    FoundParticle found;
+    fem::CellPlace handedAt;  // whose nodes share the momentum
+  };
+  std::vector<Change> changes;
+  std::vector<char> isMoved(m.particles.size(), 0);
+  std::vector<int> beyond;
+  Overlap next;
+  next.nodalWeight = overlap.nodalWeight;
+  const auto add = [&](int particle, const FoundParticle& found, const Vec3& material) {
+    next.particle.push_back(particle);
+    next.place.push_back(found.place);
+    next.x.push_back(material);
+    next.weight.push_back(found.weight);
+  };
+  const auto materialOf = [&](const FoundParticle& found) {
+    Vec3 point = found.x;
+    const Cell cell = cellOf(setting.mesh, found.place.element);
+    for (std::size_t a = 0; a < cell.node.size(); ++a)
+      point -= found.place.shape[a] * nodes().u[static_cast<std::size_t>(cell.node[a])];
+    return point;
+  };
+  memberTravel = 0.0;
+  for (std::size_t k = 0; k < overlap.size(); ++k) {
+    const int i = overlap.particle[k];
+    const auto at = static_cast<std::size_t>(i);
+    const double slipped =
+        overlap.place[k].element < 0 ? 0.0 : norm(displacement(m, k) - atMember(k, nodes().u));
+    if (slipped <= 0.5 * slipLength()) {
+      memberTravel = std::max(memberTravel, slipped);
+      add(i, {overlap.place[k], overlap.x[k], overlap.weight[k]}, overlap.x[k]);
+      continue;
+    }
+    const FoundParticle found = locator.find(m.particles.x[at], m.particles.radius[at]);
+    isMoved[at] = 1;
+    if (found.place.element >= 0 && found.weight < setting.options.leastShare * (1.0 - 1e-6)) {
+      beyond.push_back(i);
+      continue;
+    }
+    const bool stays = found.place.element >= 0;
+    changes.push_back({i, overlap.weight[k], found, stays ? found.place : overlap.place[k]});
+    if (stays) add(i, found, materialOf(found));
+  }
+  for (const int i : near) {
+    const auto at = static_cast<std::size_t>(i);
+    const FoundParticle found = locator.find(m.particles.x[at], m.particles.radius[at]);
+    if (found.place.element < 0 || found.weight < setting.options.leastShare * (1.0 - 1e-6)) continue;
+    isMoved[at] = 1;
+    changes.push_back({i, 1.0, found, found.place});
+    add(i, found, materialOf(found));
+    ++events.admitted;
+  }
+  if (changes.empty() && beyond.empty()) return;
+  ++events.relocations;
+  for (const fem::CellPlace& place : next.place)
+    if (place.element >= 0) next.elements.push_back(place.element);
+  sortUnique(next.elements);
+
+  const double contactsBefore = contactEnergy(m), storedBefore = parts.constraint->storedEnergy(now);
+  overlap = std::move(next);
+  number(m.particles);
+  if (m.particles.weight.empty()) m.particles.weight.assign(m.particles.size(), 1.0);
+  for (const Change& change : changes)
+    handOver(m, static_cast<std::size_t>(change.particle), change.before, change.found.weight, change.handedAt);
+  stale = true;
+  ready(m);
+  keepGap(m);
+  if (!parts.constraint->needsRates()) parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
+  weighPairs(m, isMoved);
+  lost += contactsBefore - contactEnergy(m) + storedBefore - storedNow;
+  findNear(m);
+  if (beyond.empty()) return;
+  events.removed += static_cast<std::int64_t>(beyond.size());
+  dem::removeParticles(m, beyond);
+  number(m.particles);
+  findNear(m);
+}
+
+void OverlapTie::exchange(dem::Model& m, const dem::Step& step) {
+  Impl& s = *impl_;
+  if (!s.isFollowed()) return;
+  const bool others = s.known != m.particles.revision;
+  s.ready(m);
+  if (others) s.findNear(m);
+  s.watch(m, step);
+  if (s.farTravel > 0.5 * shellRadii * s.largestRadius) s.findNear(m);
+  if (!others && s.memberTravel <= s.slipLength()) return;
+  s.updateGap(m, true);
+  s.relocate(m);
+}
+
+void OverlapTie::renewed(dem::Model& m) {
+  Impl& s = *impl_;
+  if (s.known != m.particles.revision) s.number(m.particles);
+  s.shares.update(m.particles, m.pairs, s.setting.mesh, s.overlap, s.positions(), s.memberOf);
+}
+
+double OverlapTie::renumber(std::span<const int> newNumber, const dem::Particles&) {
+  Impl& s = *impl_;
+  s.shares.renumber(newNumber);
+  Overlap rest;
+  rest.nodalWeight = s.overlap.nodalWeight;
+  for (std::size_t k = 0; k < s.overlap.size(); ++k) {
+    const int number = newNumber[static_cast<std::size_t>(s.overlap.particle[k])];
+    if (number < 0) continue;
+    rest.particle.push_back(number);
+    rest.place.push_back(std::move(s.overlap.place[k]));
+    rest.x.push_back(s.overlap.x[k]);
+    rest.weight.push_back(s.overlap.weight[k]);
+    if (rest.place.back().element >= 0) rest.elements.push_back(rest.place.back().element);
+  }
+  sortUnique(rest.elements);
+  if (rest.size() != s.overlap.size()) s.stale = s.refit = true;
+  s.overlap = std::move(rest);
+  if (s.parts.absorber) s.parts.absorber->renumber(s.overlap.particle);
+  for (int& i : s.near) i = newNumber[static_cast<std::size_t>(i)];
+  std::erase_if(s.near, [](int i) { return i < 0; });
+  s.known = -1;
+  return 0.0;
+}
+
+}  // namespace dovetail::arlequin

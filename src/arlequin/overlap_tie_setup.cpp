@@ -1,0 +1,178 @@
+// How an overlap tie is made, and what it asks of the step.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "dovetail/arlequin/weights.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "overlap_tie_impl.hpp"
+
+namespace dovetail::arlequin {
+
+namespace {
+
+constexpr double roundOff = 1e-9;
+
+void requireShares(const fem::SolidMesh& mesh, const fem::Model& solid, std::span<const double> weight) {
+  std::vector<double> levelled(weight.begin(), weight.end());
+  levelMidNodes(mesh, levelled);
+  for (std::size_t n = 0; n < levelled.size(); ++n)
+    if (!(std::abs(levelled[n] - weight[n]) <= roundOff))
+      throw InputError("the weight of node " + std::to_string(n) + " is not the mean of the corners about it",
+                       "overlap", "call levelMidNodes for the weights of second-order meshes");
+  for (const auto& term : solid.terms) {
+    const auto* const elements = dynamic_cast<const fem::Solid*>(term.get());
+    if (elements == nullptr) continue;
+    const std::span<const double> share = elements->share();
+    for (std::size_t e = 0; e < elements->size(); ++e)
+      for (const int n : cellOf(mesh, elements->number(e)).node) {
+        const auto at = static_cast<std::size_t>(n);
+        if (!(std::abs((share.empty() ? 1.0 : share[at]) - (1.0 - weight[at])) <= roundOff))
+          throw InputError("the share of the solid at node " + std::to_string(n) + " is " +
+                               formatNumber(share.empty() ? 1.0 : share[at]) + ", the particles' weight there " +
+                               formatNumber(weight[at]),
+                           "overlap", "make the elements with SolidOptions::share = solidWeights(weights)");
+      }
+  }
+}
+
+/// Particles of another overlap keep their share.
+void leaveOthers(Overlap& overlap, const dem::Particles& particles) {
+  Overlap own = overlap;
+  own.particle.clear(), own.place.clear(), own.x.clear(), own.weight.clear();
+  for (std::size_t k = 0; k < overlap.size(); ++k) {
+    if (particles.weightOf(static_cast<std::size_t>(overlap.particle[k])) != 1.0) continue;
+    own.particle.push_back(overlap.particle[k]);
+    own.place.push_back(overlap.place[k]);
+    own.x.push_back(overlap.x[k]);
+    own.weight.push_back(overlap.weight[k]);
+  }
+  overlap = std::move(own);
+}
+
+void requireMembers(const Overlap& overlap, const dem::Model& m, double leastShare) {
+  const std::vector<char> inBodies = dem::members(m);
+  std::size_t few = 0;
+  std::int64_t first = -1;
+  for (std::size_t k = 0; k < overlap.size(); ++k) {
+    const auto i = static_cast<std::size_t>(overlap.particle[k]);
+    if (!inBodies.empty() && inBodies[i] != 0)
+      throw InputError("particle " + std::to_string(m.particles.id[i]) +
+                           " in the overlap is a member of a clump, which counts as a whole",
+                       "overlap", "keep clumps out of the overlap");
+    if (overlap.weight[k] >= leastShare * (1.0 - 1e-6)) continue;
+    if (few++ == 0) first = m.particles.id[i];
+  }
+  if (few > 0)
+    throw InputError(std::to_string(few) + " particles have a share below " + formatNumber(leastShare) +
+                         ", the first is " + std::to_string(first),
+                     "overlap", "take those out that particlesBeyond lists, or lower leastShare to the weights' floor");
+}
+
+/// Half the eigenfrequency bound of the solid's elements, squared: 4/dt².
+double stiffestElement(fem::Model& solid) {
+  double dt = std::numeric_limits<double>::infinity();
+  for (const auto& term : solid.terms)
+    if (auto* const elements = dynamic_cast<fem::Solid*>(term.get()))
+      dt = std::min(dt, elements->stableStep(solid.nodes).dt);
+  return 4.0 / (dt * dt);
+}
+
+}  // namespace
+
+std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
+                                           std::vector<double> nodalWeight, coupling::SolidSide& side,
+                                           const CouplingOptions& options) {
+  requireNonNegative(options.penalty, "penalty");
+  requireNonNegative(options.absorberRate, "absorber");
+  requirePositive(options.leastShare, "least share");
+  if (options.projection.width > 0.0 && grains.pairs.periodicity().any())
+    throw InputError("kernels do not reach across a period", "overlap", "take width 0 in periodic space");
+  std::unique_ptr<OverlapTie> tie(new OverlapTie(side));
+  OverlapTie::Impl& s = *tie->impl_;
+  const double reach = options.projection.reachOut ? options.projection.width : 0.0;
+  s.overlap = locateOverlap(grains.particles, mesh, side.nodes(), nodalWeight, reach, grains.pairs.periodicity());
+  requireWidth(s.overlap, mesh);
+  leaveOthers(s.overlap, grains.particles);
+  requireShares(mesh, *side.model, nodalWeight);
+  requireMembers(s.overlap, grains, options.leastShare);
+  s.setting = {mesh, options, std::move(nodalWeight), penaltyOfElements(mesh, *side.model, options), 0.0};
+  s.setting.bulkDensity = bulkDensityOf(s.overlap, mesh, grains.particles);
+  s.smallestRadius = std::numeric_limits<double>::infinity();
+  std::vector<double> weight = grains.particles.weight;
+  weight.resize(grains.particles.size(), 1.0);
+  for (std::size_t k = 0; k < s.overlap.size(); ++k) {
+    const auto i = static_cast<std::size_t>(s.overlap.particle[k]);
+    weight[i] = s.overlap.weight[k];
+    s.smallestRadius = std::min(s.smallestRadius, grains.particles.radius[i]);
+    s.largestRadius = std::max(s.largestRadius, grains.particles.radius[i]);
+    s.overlap.x[k] -= s.atMember(k, side.nodes().u);
+  }
+  grains.particles.weight = std::move(weight);
+  s.number(grains.particles);
+  s.findNear(grains);
+  return tie;
+}
+
+std::vector<int> particlesBeyond(const dem::Model& grains, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
+                                 std::span<const double> nodalWeight, double leastShare) {
+  const std::vector<Vec3> position = positionsOf(nodes.X, nodes.u);
+  const fem::CellLocator cells(mesh.groups, position);
+  std::vector<int> beyond;
+  for (std::size_t i = 0; i < grains.particles.size(); ++i)
+    if (const auto place = cells.find(grains.particles.x[i]);
+        place && weightAt(mesh, *place, nodalWeight) < leastShare * (1.0 - 1e-6))
+      beyond.push_back(static_cast<int>(i));
+  return beyond;
+}
+
+/// Jensen: with weights that sum to one, Σ_i p V_i |g_i|² ≤ Σ_k p Ω_k |x_k − Φ_k u|² (the metric penalty is a projection
+/// of the latter), so that every particle is held by a spring p Ω of its own to its place in the solid. A particle gives
+/// the spring its part of its mass, nodes give theirs, and what is left of them carries the elements.
+void OverlapTie::addDemand(const dem::Model& m, dem::ContactDemand& demand) const {
+  const Impl& s = *impl_;
+  const CouplingOptions& o = s.setting.options;
+  if (o.constraint == ConstraintKind::multiplier && !(o.absorberRate > 0.0)) return;
+  demand.stiffness.resize(m.particles.size(), 0.0);
+  demand.damping.resize(m.particles.size(), 0.0);
+  const double dashpot = o.constraint == ConstraintKind::dashpot ? 2.0 : 1.0;  // ε dt² < 2 where a spring has p dt² < 4
+  const std::vector<double>& mass = s.nodes().mass;
+  std::vector<double> ofNodes(mass.size(), 0.0);
+  const auto spring = [&](std::size_t k) {
+    const int element = s.overlap.place[k].element;
+    if (element < 0 || o.constraint == ConstraintKind::multiplier) return 0.0;
+    return dashpot * s.setting.penalty[static_cast<std::size_t>(element)] *
+           m.particles.mass[static_cast<std::size_t>(s.overlap.particle[k])] / s.setting.bulkDensity;
+  };
+  const auto eachNode = [&](std::size_t k, const auto& visit) {
+    if (s.overlap.place[k].element < 0) return;
+    const Cell cell = cellOf(s.setting.mesh, s.overlap.place[k].element);
+    for (std::size_t a = 0; a < cell.node.size(); ++a)
+      visit(static_cast<std::size_t>(cell.node[a]), std::abs(s.overlap.place[k].shape[a]));
+  };
+  for (std::size_t k = 0; k < s.overlap.size(); ++k) {
+    const auto i = static_cast<std::size_t>(s.overlap.particle[k]);
+    demand.stiffness[i] += spring(k);
+    demand.damping[i] += o.absorberRate * (1.0 - s.overlap.weight[k]) * m.particles.weightOf(i) * m.particles.mass[i];
+    eachNode(k, [&](std::size_t n, double shape) { ofNodes[n] += spring(k) * shape; });
+  }
+  // Consistent masses are at least 1/27 of the lumped ones (hex8).
+  const double share = side().mass == nullptr ? 0.0 : side().mass->share();
+  const double lightest = 1.0 - share + share / 27.0;
+  const double elements = stiffestElement(*side().model) / lightest;
+  for (std::size_t k = 0; k < s.overlap.size(); ++k) {
+    double worst = 0.0, sum = 0.0;
+    eachNode(k, [&](std::size_t n, double shape) {
+      sum += shape;
+      if (shape > 0.0 && mass[n] > 0.0) worst = std::max(worst, ofNodes[n] / (lightest * mass[n]) + elements);
+    });
+    demand.links.push_back({s.overlap.particle[k], -1, dem::StepOwner::contact, spring(k),
+                            std::max(1.0, sum) * worst, 0.0});
+  }
+}
+
+}  // namespace dovetail::arlequin

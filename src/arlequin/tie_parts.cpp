@@ -1,0 +1,129 @@
+#include "tie_parts.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/model/loads.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/material_probe.hpp"
+
+namespace dovetail::arlequin {
+
+namespace {
+
+constexpr std::size_t denseRows = 1000;  // beyond, multipliers are found by iteration
+constexpr double widestIterative = 2.5;  // element sizes
+
+double meanSize(const TieSetting& setting, const Overlap& overlap) {
+  double sum = 0.0;
+  for (const int e : overlap.elements) sum += elementSize(setting.mesh, e);
+  return sum / static_cast<double>(overlap.elements.size());
+}
+
+std::unique_ptr<Constraint> multiplier(const TieSetting& setting, const Overlap& overlap, const dem::Model& m,
+                                       const fem::ModelMass& mass, const GapOperator& gap) {
+  const std::vector<double> yielding = yieldingMasses(m);
+  if (gap.rows() <= denseRows) return makeMultiplier(gap, overlap, yielding, mass);
+  if (setting.options.projection.width > widestIterative * meanSize(setting, overlap) * (1.0 + 1e-9))
+    throw InputError(std::to_string(gap.rows()) + " rows of kernels wider than 2.5 elements depend too much on each other",
+                     "overlap", "take a narrower kernel, a coarser mesh, or the penalty with width 0");
+  return makeIterativeMultiplier(gap, overlap, yielding, mass);
+}
+
+std::unique_ptr<Constraint> penalty(const TieSetting& setting, const Overlap& overlap, const TieParts& parts) {
+  const CouplingOptions& o = setting.options;
+  if (!penaltyIsLocal(o)) return makeMetricPenalty(parts.gap, parts.stiffness, 1.0);
+  if (o.form == GapForm::atParticles && !o.projection.perElement)
+    return makePenalty(sumsAtRows(parts.gap, overlap, setting.mesh, parts.stiffness));
+  std::vector<double> stiffness = parts.gap.volume;
+  double largest = 0.0;
+  for (const int e : overlap.elements) largest = std::max(largest, setting.penalty[static_cast<std::size_t>(e)]);
+  for (double& value : stiffness) value *= largest;
+  return makePenalty(std::move(stiffness));
+}
+
+}  // namespace
+
+std::vector<double> penaltyOfElements(const fem::SolidMesh& mesh, const fem::Model& solid, const CouplingOptions& o) {
+  if (o.constraint == ConstraintKind::multiplier) return std::vector<double>(mesh.elementCount(), 0.0);
+  if (o.penalty > 0.0 || o.constraint == ConstraintKind::dashpot)
+    return std::vector<double>(mesh.elementCount(), requirePositive(o.penalty, "penalty"));
+  std::vector<double> p(mesh.elementCount(), 0.0);
+  for (const auto& term : solid.terms)
+    if (const auto* const elements = dynamic_cast<const fem::Solid*>(term.get())) {
+      if (elements->material() == nullptr)
+        throw InputError("\"" + elements->name() + "\" is a field of points, which tells no modulus", "penalty",
+                         "give the penalty, about 20 E/h² of the element size h");
+      const double young = fem::youngsModulus(*elements->material());
+      for (std::size_t e = 0; e < elements->size(); ++e)
+        p[static_cast<std::size_t>(elements->number(e))] =
+            automaticPenalty(young, elementSize(mesh, elements->number(e)));
+    }
+  return p;
+}
+
+double bulkDensityOf(const Overlap& overlap, const fem::SolidMesh& mesh, const dem::Particles& particles) {
+  std::vector<double> mass(mesh.elementCount(), 0.0), density;
+  for (std::size_t k = 0; k < overlap.size(); ++k)
+    if (overlap.place[k].element >= 0)
+      mass[static_cast<std::size_t>(overlap.place[k].element)] +=
+          particles.mass[static_cast<std::size_t>(overlap.particle[k])];
+  for (const int e : overlap.elements)
+    if (std::ranges::all_of(cellOf(mesh, e).corner(),
+                            [&](int n) { return overlap.nodalWeight[static_cast<std::size_t>(n)] > 0.0; }))
+      density.push_back(mass[static_cast<std::size_t>(e)] / cellVolume(mesh, e));
+  if (density.empty())
+    for (const int e : overlap.elements) density.push_back(mass[static_cast<std::size_t>(e)] / cellVolume(mesh, e));
+  const auto middle = density.begin() + static_cast<std::ptrdiff_t>(density.size() / 2);
+  std::nth_element(density.begin(), middle, density.end());
+  return *middle;
+}
+
+TieParts makeParts(const TieSetting& setting, const Overlap& overlap, const dem::Model& m) {
+  TieParts parts;
+  parts.gap = makeGapOperator(overlap, setting.mesh, m.particles.mass, setting.options.form, setting.options.projection);
+  for (std::size_t k = 0; k < overlap.size(); ++k) {
+    const int element = overlap.place[k].element;
+    const double p = element < 0 ? 0.0 : setting.penalty[static_cast<std::size_t>(element)];
+    parts.stiffness.push_back(p * m.particles.mass[static_cast<std::size_t>(overlap.particle[k])] / setting.bulkDensity);
+  }
+  return parts;
+}
+
+void addConstraint(const TieSetting& setting, const Overlap& overlap, const dem::Model& m,
+                   const coupling::SolidSide& side, TieParts& parts) {
+  const CouplingOptions& o = setting.options;
+  switch (o.constraint) {
+    case ConstraintKind::penalty:
+      parts.constraint = penalty(setting, overlap, parts);
+      break;
+    case ConstraintKind::dashpot:
+      parts.constraint = makeDashpot(parts.gap, o.penalty, o.consistentDashpot);
+      break;
+    case ConstraintKind::multiplier:
+      if (side.mass == nullptr)
+        throw InputError("the solid \"" + side.name + "\" has no mass yet", "overlap", "set the mass of its side first");
+      parts.constraint = multiplier(setting, overlap, m, *side.mass, parts.gap);
+      break;
+  }
+  if (!(o.absorberRate > 0.0)) return;
+  std::vector<double> mass(m.particles.size());
+  for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = m.particles.weightOf(i) * m.particles.mass[i];
+  parts.absorber = std::make_unique<Absorber>(overlap, parts.gap, interpolationAtParticles(overlap, setting.mesh), mass,
+                                              o.absorberRate);
+}
+
+std::vector<double> yieldingMasses(const dem::Model& m) {
+  std::vector<double> mass(m.particles.size());
+  for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = m.particles.weightOf(i) * m.particles.mass[i];
+  for (const auto* drive : m.terms.all<dem::DriveTerm>())
+    for (const std::int64_t id : drive->ids())
+      if (const int i = dem::find(m.particles, id); i >= 0)
+        mass[static_cast<std::size_t>(i)] = std::numeric_limits<double>::infinity();
+  return mass;
+}
+
+}  // namespace dovetail::arlequin

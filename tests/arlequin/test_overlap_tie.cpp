@@ -1,0 +1,151 @@
+#include <gtest/gtest.h>
+
+#include "dovetail/arlequin/critical_step.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "tie_scenes.hpp"
+
+namespace dovetail::arlequin {
+namespace {
+
+using namespace test;
+
+void excite(dem::Particles& particles) {
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const double y = particles.x[i].y;
+    if (y < 0.5) particles.v[i] = {0.002 * y, 0.1 * std::sin(2.0 * 3.14159265 * y), 0.001};
+  }
+}
+
+SceneOptions sceneOf(ConstraintKind kind, double width = 0.0) {
+  SceneOptions o;
+  o.coupling.constraint = kind;
+  o.coupling.projection.width = width;
+  if (kind == ConstraintKind::dashpot) o.coupling.penalty = 2e8;
+  o.massShare = 0.375;
+  return o;
+}
+
+constexpr std::array kinds = {ConstraintKind::penalty, ConstraintKind::multiplier, ConstraintKind::dashpot};
+
+TEST(OverlapTie, TakesTheStepsOfTheCoupledBar) {
+  for (const ConstraintKind kind : kinds)
+    for (const double width : {0.0, 0.9}) {
+      const SceneOptions o = sceneOf(kind, width);
+      Model old = makeBar(o);
+      TieRun run = tieBar(o);
+      excite(old.discrete.particles);
+      excite(run.grains.particles);
+      Profile profile;
+      StepSums sums;
+      arlequin::start(old, 1e-4, profile);
+      run.start();
+      for (int s = 0; s < 300; ++s) {
+        stepExplicit(old, 1e-4, 1, sums, false, profile);
+        run.step(1e-4);
+      }
+      double difference = 0.0;
+      for (std::size_t i = 0; i < old.discrete.particles.size(); ++i)
+        difference = std::max(difference, norm(old.discrete.particles.v[i] - run.grains.particles.v[i]));
+      for (std::size_t n = 0; n < run.solid->nodes.v.size(); ++n)
+        difference = std::max(difference, norm(old.solid->nodes().v[n] - run.solid->nodes.v[n]));
+      EXPECT_LT(difference, 1e-11) << static_cast<int>(kind) << " width " << width;
+    }
+}
+
+struct Residuals {
+  double energy, momentum, mass, first;
+};
+
+Residuals residuals(TieRun run, double dt, double time) {
+  excite(run.grains.particles);
+  run.start();
+  const double first = run.energy(), mass = run.mass();
+  const Vec3 momentum = run.momentum();
+  Residuals worst{0.0, 0.0, 0.0, first};
+  for (int s = 0; s < static_cast<int>(std::lround(time / dt)); ++s) {
+    run.step(dt);
+    worst.energy = std::max(worst.energy, std::abs(run.energy() - first));
+    worst.momentum = std::max(worst.momentum, norm(run.momentum() - momentum) / norm(momentum));
+    worst.mass = std::max(worst.mass, std::abs(run.mass() / mass - 1.0));
+  }
+  return worst;
+}
+
+TEST(OverlapTie, KeepsMomentumAndItsBooksInCellsOfAnyShape) {
+  for (const fem::CellShape shape : {fem::CellShape::hex8, fem::CellShape::hex20, fem::CellShape::hex27,
+                                     fem::CellShape::tet4, fem::CellShape::tet10})
+    for (const ConstraintKind kind : kinds) {
+      SceneOptions o = sceneOf(kind);
+      o.massShare = 0.0;
+      o.weights.floor = 0.02;
+      o.coupling.leastShare = 0.02;
+      if (kind == ConstraintKind::dashpot) o.coupling.penalty = 5e6;
+      o.across = 1;
+      const double dt = 1e-4;
+      const Residuals coarse = residuals(tieBar(o, shape), dt, 0.03), fine = residuals(tieBar(o, shape), 0.5 * dt, 0.03);
+      EXPECT_LT(coarse.momentum, 1e-12) << fem::name(shape) << static_cast<int>(kind);
+      EXPECT_LT(coarse.mass, 1e-13);
+      EXPECT_LT(fine.energy, 1e-2 * fine.first) << fem::name(shape) << static_cast<int>(kind);
+      EXPECT_NEAR(std::log2(coarse.energy / fine.energy), 2.0, 0.5) << fem::name(shape) << static_cast<int>(kind);
+    }
+}
+
+/// Random motion of both sides: forces against the gradient of the stored energy.
+TEST(OverlapTie, ForcesAreMinusTheGradientOfTheStoredEnergy) {
+  for (const double width : {0.0, 0.9}) {
+    TieRun run = tieBar(sceneOf(ConstraintKind::penalty, width), fem::CellShape::hex8);
+    run.start();
+    std::mt19937 random(3);
+    for (Vec3& x : run.grains.particles.x) x += randomVector(random, 1e-3);
+    for (Vec3& u : run.solid->nodes.u) u = randomVector(random, 1e-3);
+    const auto evaluate = [&] {
+      run.side.load.clear();
+      dem::clearForces(run.grains.particles);
+      dem::Step step;
+      step.dt = 1e-100;
+      step.timeless = true;
+      run.tie->addForces(run.grains, step);
+      return run.tie->stored();
+    };
+    evaluate();
+    const std::vector<Vec3> onParticles = run.grains.particles.f, onNodes = run.side.load.force;
+    const auto check = [&](double& place, double force, double size) {
+      const double before = place, step = 1e-5;
+      place = before + step;
+      const double above = evaluate();
+      place = before - step;
+      const double below = evaluate();
+      place = before;
+      EXPECT_NEAR(force, -(above - below) / (2.0 * step), 1e-6 * size);
+    };
+    double size = 0.0;
+    for (const Vec3& f : onNodes) size = std::max(size, norm(f));
+    for (int k = 0; k < 3; ++k) {
+      for (const std::size_t n : {std::size_t{4}, std::size_t{13}, std::size_t{22}})
+        check(run.solid->nodes.u[n][k], onNodes[n][k], size);
+      for (const int i : {run.tie->overlap().particle.front(), run.tie->overlap().particle[37]})
+        check(run.grains.particles.x[static_cast<std::size_t>(i)][k], onParticles[static_cast<std::size_t>(i)][k], size);
+    }
+  }
+}
+
+TEST(OverlapTie, GivesTheSameBitsForAnyNumberOfThreads) {
+  for (const ConstraintKind kind : kinds) {
+    SceneOptions o = sceneOf(kind);
+    o.coupling.absorberRate = 50.0;
+    const auto finish = [&](int threads) {
+      setThreads(threads);
+      TieRun run = tieBar(o);
+      excite(run.grains.particles);
+      run.start();
+      for (int s = 0; s < 100; ++s) run.step(1e-4);
+      setThreads(1);
+      return run.grains.particles.v;
+    };
+    EXPECT_TRUE(finish(1) == finish(2)) << static_cast<int>(kind);
+  }
+}
+
+}  // namespace
+}  // namespace dovetail::arlequin
