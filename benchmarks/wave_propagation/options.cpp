@@ -56,11 +56,10 @@ void addSchemeOptions(App& app, WrittenParts& w, Settings& s) {
   app.option_defaults()->group("Parts of the scheme");
   addChoice<Scheme>(app, "--scheme", s.scheme, {{"conservative", Scheme::conservative}, {"paper", Scheme::paper}},
                     "all parts at once, signal and dt factor included; what is given wins");
-  addPart<Constraint>(app, w, "--constraint", &Settings::constraint,
-                      {{"penalty", Constraint::penalty},
-                       {"multiplier", Constraint::multiplier},
-                       {"dashpot", Constraint::dashpot}},
-                      "what holds the two models together");
+  addPart<Constraint>(
+      app, w, "--constraint", &Settings::constraint,
+      {{"penalty", Constraint::penalty}, {"multiplier", Constraint::multiplier}, {"dashpot", Constraint::dashpot}},
+      "what holds the two models together");
   addPart<Gap>(app, w, "--gap", &Settings::gap, {{"at-grains", Gap::atParticles}, {"nodal", Gap::nodal}},
                "where the two fields are compared");
   addPart<WeightProfile>(app, w, "--weight-profile", &Settings::weightProfile,

@@ -12,9 +12,7 @@ namespace dovetail::arlequin {
 
 namespace {
 
-bool isTetrahedron(fem::CellShape shape) {
-  return shape == fem::CellShape::tet4 || shape == fem::CellShape::tet10;
-}
+bool isTetrahedron(fem::CellShape shape) { return shape == fem::CellShape::tet4 || shape == fem::CellShape::tet10; }
 bool isCurved(fem::CellShape shape) { return shape != fem::CellShape::hex8 && shape != fem::CellShape::tet4; }
 
 struct ParentPoint {
@@ -31,8 +29,7 @@ std::vector<std::array<double, 2>> linePoints(int parts, bool curved) {
     if (!curved)
       for (const double side : {-two, two}) line.push_back({at(side), size});
     else
-      for (const double side : {-three, 0.0, three})
-        line.push_back({at(side), size * (side == 0.0 ? 8.0 : 5.0) / 9.0});
+      for (const double side : {-three, 0.0, three}) line.push_back({at(side), size * (side == 0.0 ? 8.0 : 5.0) / 9.0});
   }
   return line;
 }
@@ -54,8 +51,14 @@ void addTetrahedron(const Corners& c, int depth, std::vector<ParentPoint>& point
     const auto middle = [&](std::size_t a, std::size_t b) { return 0.5 * (c[a] + c[b]); };
     const Vec3 ab = middle(0, 1), bc = middle(1, 2), ca = middle(2, 0), ad = middle(0, 3), bd = middle(1, 3),
                cd = middle(2, 3);
-    for (const Corners& part : {Corners{c[0], ab, ca, ad}, {ab, c[1], bc, bd}, {ca, bc, c[2], cd}, {ad, bd, cd, c[3]},
-                                {ab, bc, ca, bd}, {ab, ca, ad, bd}, {ca, cd, ad, bd}, {ca, bc, cd, bd}})
+    for (const Corners& part : {Corners{c[0], ab, ca, ad},
+                                {ab, c[1], bc, bd},
+                                {ca, bc, c[2], cd},
+                                {ad, bd, cd, c[3]},
+                                {ab, bc, ca, bd},
+                                {ab, ca, ad, bd},
+                                {ca, cd, ad, bd},
+                                {ca, bc, cd, bd}})
       addTetrahedron(part, depth - 1, points);
     return;
   }

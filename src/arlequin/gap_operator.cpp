@@ -81,8 +81,7 @@ void addKernelRows(const Overlap& overlap, const fem::SolidMesh& mesh, std::span
     }
   // A kernel so narrow that it falls between the points of the quadrature is the local map.
   for (std::size_t k = 0; k < overlap.size(); ++k)
-    if (whole[k] == 0.0)
-      addLocalRow(overlap, k, mesh, mass[static_cast<std::size_t>(overlap.particle[k])], row, rows);
+    if (whole[k] == 0.0) addLocalRow(overlap, k, mesh, mass[static_cast<std::size_t>(overlap.particle[k])], row, rows);
 }
 
 double sumOf(const cg::ProjectionRow& row) {
@@ -121,8 +120,7 @@ void dropEmptyRows(Rows& rows, std::vector<int>& node, RowNumbers& numbers) {
 }
 
 /// Volumes and ∫ψ_iψ_j of the rows.
-void addVolumes(const std::vector<int>& elements, const fem::SolidMesh& mesh, const RowNumbers& row,
-                GapOperator& gap) {
+void addVolumes(const std::vector<int>& elements, const fem::SolidMesh& mesh, const RowNumbers& row, GapOperator& gap) {
   gap.volume.assign(gap.rows(), 0.0);
   Rows products(gap.rows());
   for (const int e : elements) {
@@ -132,8 +130,7 @@ void addVolumes(const std::vector<int>& elements, const fem::SolidMesh& mesh, co
         if (corner[a] < 0) continue;
         gap.volume[corner[a]] += point.weight * point.hat[a];
         for (std::size_t b = 0; b < 8; ++b)
-          if (corner[b] >= 0)
-            products[corner[a]].emplace_back(corner[b], point.weight * point.hat[a] * point.hat[b]);
+          if (corner[b] >= 0) products[corner[a]].emplace_back(corner[b], point.weight * point.hat[a] * point.hat[b]);
       }
   }
   gap.volumeProducts = cg::fromRows(static_cast<int>(gap.rows()), products);
@@ -165,8 +162,7 @@ GapOperator makeGapOperator(const Overlap& overlap, const fem::SolidMesh& mesh, 
   if (options.width == 0.0)
     addLocalRows(overlap, mesh, mass, row, rows);
   else
-    addKernelRows(overlap, mesh, position.empty() ? std::span<const Vec3>(mesh.X) : position, mass, options, row,
-                  rows);
+    addKernelRows(overlap, mesh, position.empty() ? std::span<const Vec3>(mesh.X) : position, mass, options, row, rows);
   dropEmptyRows(rows, gap.node, row);
   normalise(rows);
   gap.particles = cg::fromRows(static_cast<int>(overlap.size()), rows);

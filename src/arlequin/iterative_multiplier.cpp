@@ -105,8 +105,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Constraint> makeIterativeMultiplier(const GapOperator& gap, const Overlap& overlap,
-                                                    std::span<const double> particleMass,
-                                                    const fem::ModelMass& solid) {
+                                                    std::span<const double> particleMass, const fem::ModelMass& solid) {
   return std::make_unique<IterativeMultiplier>(gap, overlap, particleMass, solid);
 }
 

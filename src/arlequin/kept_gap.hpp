@@ -24,7 +24,7 @@ private:
   Vec3 solve(const Vec3& moment) const;
   std::span<const int> node_;
   std::span<const double> weight_;
-  std::vector<Vec3> arm_;      // m
+  std::vector<Vec3> arm_;        // m
   std::array<Vec3, 3> inverse_;  // I⁻¹, by rows, 1/m²
 };
 

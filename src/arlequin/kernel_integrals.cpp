@@ -76,8 +76,7 @@ Rows kernelIntegrals(const Overlap& overlap, const fem::SolidMesh& mesh, std::sp
     for (std::size_t e = begin; e < end; ++e) {
       const double parts = std::ceil(1.5 * elementSize(mesh, elements[e]) / options.width);
       const int fine = static_cast<int>(std::clamp(parts, 1.0, 8.0));
-      const auto points =
-          cellPoints(mesh, position, elements[e], options.kernelCells > 0 ? options.kernelCells : fine);
+      const auto points = cellPoints(mesh, position, elements[e], options.kernelCells > 0 ? options.kernelCells : fine);
       shares[e] = sharesOf(overlap, points, kernel, reach);
     }
   });

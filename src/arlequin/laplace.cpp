@@ -25,8 +25,8 @@ Eigen::MatrixXd laplacian(const fem::SolidMesh& mesh, const Cell& cell) {
   std::vector<double> value(node.size());
   std::vector<Vec3> parent(node.size());
   for (int p = 0; p < (brick ? 8 : 1); ++p) {
-    const Vec3 xi = brick ? Vec3{p & 1 ? gauss : -gauss, p & 2 ? gauss : -gauss, p & 4 ? gauss : -gauss}
-                          : Vec3{0.25, 0.25, 0.25};
+    const Vec3 xi =
+        brick ? Vec3{p & 1 ? gauss : -gauss, p & 2 ? gauss : -gauss, p & 4 ? gauss : -gauss} : Vec3{0.25, 0.25, 0.25};
     fem::shapeFunctions(shape, xi, value, parent);
     Eigen::MatrixXd gradient(3, count);
     Eigen::Matrix3d J = Eigen::Matrix3d::Zero();

@@ -22,8 +22,8 @@ public:
                  const geometry::Periodicity& space)
       : mesh_(mesh), weight_(nodalWeight), space_(space), cells_(mesh.groups, position) {}
 
-  /// A particle, or an image of it, within the mesh or nearer to it than its radius where the mesh has a weight above 0.
-  /// A centre that touches a face from outside, up to round-off, is not near. Any number of threads may ask.
+  /// A particle, or an image of it, within the mesh or nearer to it than its radius where the mesh has a weight above
+  /// 0. A centre that touches a face from outside, up to round-off, is not near. Any number of threads may ask.
   FoundParticle find(const Vec3& x, double radius) const;
 
 private:

@@ -66,15 +66,16 @@ void OverlapTie::Impl::number(const dem::Particles& particles) {
 
 /// Rows that were there keep their gap and their λ; others start without.
 void OverlapTie::Impl::ready(const dem::Model& m) {
-  if (known != m.particles.revision) number(m.particles);
+  if (known != m.particles.revision || memberOf.size() != m.particles.size()) number(m.particles);
   if (stale) {
-    TieParts next = makeParts(setting, overlap, m);
+    TieParts next = makeParts(setting, overlap, part, m);
     addConstraint(setting, overlap, m, side, next);
     parts = std::move(next);
     stale = false;
     if (rowNode != parts.gap.node) {
       std::vector<int> rowOf(setting.mesh.X.size(), -1);
-      for (std::size_t r = 0; r < rowNode.size(); ++r) rowOf[static_cast<std::size_t>(rowNode[r])] = static_cast<int>(r);
+      for (std::size_t r = 0; r < rowNode.size(); ++r)
+        rowOf[static_cast<std::size_t>(rowNode[r])] = static_cast<int>(r);
       for (auto* values : {&kept, &now, &increment, &lambda, &lambdaBefore}) {
         std::vector<Vec3> moved(parts.gap.rows());
         for (std::size_t r = 0; isFollowed() && r < moved.size(); ++r)
@@ -119,6 +120,15 @@ void OverlapTie::Impl::updateGap(const dem::Model& m, bool timeless) {
     if (!timeless) increment[r] = next[r] - now[r];
   }
   now = std::move(next);
+}
+
+/// Brings the gap up to the step under way before ties change: λ of the step before does its half of the work.
+void OverlapTie::Impl::advance(const dem::Model& m) {
+  updateGap(m, false);
+  lost += 0.5 * sumOfProducts(lambda, increment) + storedNow;
+  storedNow = parts.constraint->storedEnergy(now);
+  lost -= storedNow;
+  advanced = true;
 }
 
 /// What is beyond the slip length goes out of the kept part.
@@ -177,13 +187,6 @@ void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
 }
 
 void OverlapTie::Impl::apply(dem::Model& m, const dem::Step& step) {
-  if (!impulse.empty() && !step.timeless) {
-    impulseForce = std::move(impulse);
-    impulse.clear();
-    for (std::size_t n = 0; n < impulseForce.size(); ++n)
-      if (squaredNorm(impulseForce[n]) > 0.0)
-        side.load.add(static_cast<int>(n), impulseForce[n] *= 1.0 / step.dt);
-  }
   if (parts.absorber) parts.absorber->apply(m.particles.v, m.particles.f);
   if (!complies && step.timeless && parts.constraint->needsRates()) comply(m);
   evaluate(m, step);
@@ -226,19 +229,20 @@ void OverlapTie::check(const dem::Model& m) const {
 void OverlapTie::addForces(dem::Model& m, const dem::Step& step) {
   Impl& s = *impl_;
   s.ready(m);
-  s.updateGap(m, step.timeless);
+  const bool halfIsBooked = s.advanced;
+  if (!s.advanced) s.updateGap(m, step.timeless);
   s.slip();
   s.apply(m, step);
   const double before = s.storedNow;
   s.storedNow = s.parts.constraint->storedEnergy(s.now);
   if (step.timeless) return;
-  double work = 0.0;
-  for (std::size_t r = 0; r < s.now.size(); ++r) work += 0.5 * dot(s.lambda[r] + s.lambdaBefore[r], s.increment[r]);
+  s.advanced = false;
+  double work = 0.5 * sumOfProducts(s.lambda, s.increment);
+  if (!halfIsBooked) work += 0.5 * sumOfProducts(s.lambdaBefore, s.increment);
   s.lost += work - (s.storedNow - before);
 }
 
-/// The absorber takes what its force does to the particles over the whole kick; the nodes get the work of the momentum
-/// that was handed to them.
+/// The absorber takes what its force does to the particles over the whole kick.
 void OverlapTie::book(dem::Model& m, const dem::Step& step) {
   Impl& s = *impl_;
   s.power = 0.0;
@@ -249,15 +253,7 @@ void OverlapTie::book(dem::Model& m, const dem::Step& step) {
       const Vec3 mean = m.particles.v[i] + (0.5 * (step.timeless ? 0.0 : step.dt) / mass) * m.particles.f[i];
       s.power -= dot(s.parts.absorber->force()[k], mean);
     }
-  if (step.timeless) return;
-  s.lost += 0.5 * step.dt * s.power;
-  if (s.impulseForce.empty()) return;
-  std::vector<Vec3> acceleration = side().load.force;
-  for (std::size_t n = 0; n < side().own.size(); ++n) acceleration[n] += side().own[n];
-  side().mass->solve(acceleration);
-  for (std::size_t n = 0; n < acceleration.size(); ++n)
-    s.lost -= step.dt * dot(s.impulseForce[n], side().nodes().v[n] + 0.5 * step.dt * acceleration[n]);
-  s.impulseForce.clear();
+  if (!step.timeless) s.lost += 0.5 * step.dt * s.power;
 }
 
 double OverlapTie::move(dem::Model&, const dem::Step& step) {
@@ -270,8 +266,8 @@ void OverlapTie::constrainWindow(const dem::Model& m, std::span<const Vec3> ownF
   Impl& s = *impl_;
   if (!constrains()) return;
   s.ready(m);
-  std::vector<Vec3> still(s.overlap.size()), none(s.parts.gap.rows()), acceleration(none.size()),
-      lambda(s.lambda), ofNodes(ownForce.begin(), ownForce.end());
+  std::vector<Vec3> still(s.overlap.size()), none(s.parts.gap.rows()), acceleration(none.size()), lambda(s.lambda),
+      ofNodes(ownForce.begin(), ownForce.end());
   side().mass->solve(ofNodes);
   gapOfMembers(s.parts.gap, still, ofNodes, acceleration);
   s.parts.constraint->evaluate({s.now, none, none, acceleration, window}, lambda);
@@ -313,8 +309,8 @@ void OverlapTie::save(ByteWriter& writer) const {
   }
   writer(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
          s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
-         s.memberTravel, s.farTravel, s.near, s.impulse, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
-  writer(s.events.relocations, s.events.admitted, s.events.removed, s.complies);
+         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
+  writer(s.part, s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies);
 }
 
 void OverlapTie::load(ByteReader& reader) {
@@ -323,14 +319,14 @@ void OverlapTie::load(ByteReader& reader) {
   std::vector<Vec3> xi;
   reader(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
          s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
-         s.memberTravel, s.farTravel, s.near, s.impulse, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
-  reader(s.events.relocations, s.events.admitted, s.events.removed, s.complies);
+         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
+  reader(s.part, s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies);
   s.overlap.place.assign(element.size(), {});
   for (std::size_t k = 0; k < element.size(); ++k)
     if (element[k] >= 0)
       s.overlap.place[k] = {element[k], xi[k], fem::shapeRow(cellOf(s.setting.mesh, element[k]).shape, xi[k])};
   s.stale = true;
-  s.known = -1;
+  s.memberOf.clear();
 }
 
 }  // namespace dovetail::arlequin

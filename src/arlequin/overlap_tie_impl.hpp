@@ -11,27 +11,29 @@ namespace dovetail::arlequin {
 struct OverlapTie::Impl {
   coupling::SolidSide& side;
   TieSetting setting;
-  Overlap overlap;             // x: the material points at which particles are tied, m
-  std::vector<int> memberOf;   // row of each particle in the overlap, −1: none
-  std::int64_t known = -1;     // Particles::revision of the numbers
+  Overlap overlap;            // x: the material points at which particles are tied, m
+  std::vector<int> memberOf;  // row of each particle in the overlap, −1: none
+  std::vector<double> part;   // of each member in the rows, 0 … 1: newcomers come in by and by
+  std::int64_t known = -1;    // Particles::revision of the numbers
+  std::int64_t knownIds = 0;  // Particles::nextId when newcomers were last looked for
   PairShares shares;
   TieParts parts;
-  bool stale = true;           // the parts are not those of the overlap
-  bool refit = false;          // somebody has taken members out: rows keep their gap all the same
+  bool stale = true;   // the parts are not those of the overlap
+  bool refit = false;  // somebody has taken members out: rows keep their gap all the same
 
-  std::vector<Vec3> kept;               // per row: part of the gap that is not of the present ties, m
-  std::vector<Vec3> now, increment;     // the gap, and of the last step, m
+  std::vector<Vec3> kept;                  // per row: part of the gap that is not of the present ties, m
+  std::vector<Vec3> now, increment;        // the gap, and of the last step, m
   std::vector<Vec3> lambda, lambdaBefore;  // N
-  std::vector<int> rowNode;             // to which the arrays above belong
-  std::vector<Vec3> nodesBefore;        // u at the last evaluation, m
+  std::vector<int> rowNode;                // to which the arrays above belong
+  std::vector<Vec3> nodesBefore;           // u at the last evaluation, m
 
-  double storedNow = 0.0, lost = 0.0, power = 0.0;  // J, J, W of the absorber
-  bool complies = false;                            // velocities have been made to comply with the multipliers
-  double memberTravel = 0.0, farTravel = 0.0;       // bounds on relative moves, m
+  bool advanced = false;  // the gap has been brought up to this step, and half of its work is booked
+
+  double storedNow = 0.0, lost = 0.0, power = 0.0;   // J, J, W of the absorber
+  bool complies = false;                             // velocities have been made to comply with the multipliers
+  double memberTravel = 0.0, farTravel = 0.0;        // bounds on relative moves, m
   double smallestRadius = 0.0, largestRadius = 0.0;  // m, of the members when the tie was made
-  std::vector<int> near;                            // particles outside that may come in, by number
-  std::vector<Vec3> impulse;                        // of changed shares, on nodes, kg m/s; empty: none
-  std::vector<Vec3> impulseForce;                   // the same as a force of the step under way, N
+  std::vector<int> near;                             // particles outside that may come in, by number
   OverlapState events;
 
   explicit Impl(coupling::SolidSide& s) : side(s) {}
@@ -58,6 +60,7 @@ struct OverlapTie::Impl {
   void number(const dem::Particles& particles);
   void turnKept();
   void updateGap(const dem::Model& m, bool timeless);
+  void advance(const dem::Model& m);
   void slip();
   void comply(dem::Model& m);
   void evaluate(dem::Model& m, const dem::Step& step);
@@ -66,7 +69,9 @@ struct OverlapTie::Impl {
   void watch(dem::Model& m, const dem::Step& step);
   void findNear(const dem::Model& m);
   void relocate(dem::Model& m);
-  void handOver(dem::Model& m, std::size_t particle, double before, double after, const fem::CellPlace& place);
+  void handOver(dem::Model& m, std::size_t particle, double before, double after, const fem::CellPlace& place,
+                std::vector<Vec3>& impulse);
+  void kickNodes(dem::Model& m, std::span<const Vec3> impulse);
   void keepGap(const dem::Model& m);
   void weighPairs(dem::Model& m, std::span<const char> isMoved);
 };

@@ -46,6 +46,14 @@ double ownKinetic(const dem::Particles& p, std::size_t i) {
   return 0.5 * energy;
 }
 
+/// The part of a particle in the rows after it was located anew: those who come and go do so by and by, so that λ does
+/// not jump.
+double partTowards(double before, double weight) {
+  constexpr double border = 0.1, most = 0.01;
+  const double goal = std::min({1.0, weight / border, (1.0 - weight) / border});
+  return std::clamp(goal, before - most, before + most);
+}
+
 void sortUnique(std::vector<int>& numbers) {
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -70,11 +78,12 @@ void OverlapTie::Impl::watch(dem::Model& m, const dem::Step& step) {
   double relative = 0.0;
   for (const std::vector<int>* list : {&overlap.particle, &near})
     relative = std::max(relative, parallelMax(list->size(), 4096, [&](std::size_t begin, std::size_t end) {
-      double largest = 0.0;
-      for (std::size_t k = begin; k < end; ++k)
-        largest = std::max(largest, norm(m.particles.v[static_cast<std::size_t>((*list)[k])] - frame));
-      return largest;
-    }));
+                          double largest = 0.0;
+                          for (std::size_t k = begin; k < end; ++k)
+                            largest =
+                                std::max(largest, norm(m.particles.v[static_cast<std::size_t>((*list)[k])] - frame));
+                          return largest;
+                        }));
   memberTravel += step.dt * (relative + largestSpeed(ofRows, frame));
   farTravel += step.moved + step.dt * largestSpeed(nodes().v, {});
 }
@@ -82,29 +91,27 @@ void OverlapTie::Impl::watch(dem::Model& m, const dem::Step& step) {
 void OverlapTie::Impl::findNear(const dem::Model& m) {
   near.clear();
   const std::vector<char> inBodies = dem::members(m);
-  const geometry::Box box =
-      geometry::expanded(boxOfWeights(setting, positions()), (shellRadii + 1.0) * largestRadius);
+  const geometry::Box box = geometry::expanded(boxOfWeights(setting, positions()), (shellRadii + 1.0) * largestRadius);
   for (std::size_t i = 0; i < m.particles.size(); ++i)
     if (memberOf[i] < 0 && m.particles.weightOf(i) == 1.0 && (inBodies.empty() || inBodies[i] == 0) &&
         contains(box, m.particles.x[i], m.pairs.periodicity()))
       near.push_back(static_cast<int>(i));
   farTravel = 0.0;
+  knownIds = m.particles.nextId;
 }
 
 /// Mass that a share gains or loses comes and goes with the solid's velocity; the rest of its momentum is the nodes'.
-void OverlapTie::Impl::handOver(dem::Model& m, std::size_t i, double before, double after,
-                                const fem::CellPlace& place) {
+void OverlapTie::Impl::handOver(dem::Model& m, std::size_t i, double before, double after, const fem::CellPlace& place,
+                                std::vector<Vec3>& impulse) {
   const double mass = (before - after) * m.particles.mass[i];
   if (mass == 0.0) return;
   const Cell cell = cellOf(setting.mesh, place.element);
   Vec3 u;
   for (std::size_t a = 0; a < cell.node.size(); ++a)
     u += place.shape[a] * nodes().v[static_cast<std::size_t>(cell.node[a])];
-  impulse.resize(nodes().v.size());
   for (std::size_t a = 0; a < cell.node.size(); ++a)
     impulse[static_cast<std::size_t>(cell.node[a])] += (place.shape[a] * mass) * (m.particles.v[i] - u);
-  const double energy =
-      (before - after) * ownKinetic(m.particles, i) - mass * dot(m.gravity, m.particles.x[i]);
+  const double energy = (before - after) * ownKinetic(m.particles, i) - mass * dot(m.gravity, m.particles.x[i]);
   const bool leaves = mass > 0.0;
   dem::Exchanged& exchanged = leaves ? m.left : m.entered;
   const double sign = leaves ? 1.0 : -1.0;
@@ -112,6 +119,18 @@ void OverlapTie::Impl::handOver(dem::Model& m, std::size_t i, double before, dou
   exchanged.momentum += (sign * mass) * u;
   (leaves ? m.booked.left : m.booked.entered) += sign * energy;
   m.particles.weight[i] = after;
+}
+
+/// What supports take of the impulse is booked as left.
+void OverlapTie::Impl::kickNodes(dem::Model& m, std::span<const Vec3> impulse) {
+  std::vector<Vec3> change(impulse.begin(), impulse.end());
+  side.mass->solve(change);
+  fem::Nodes& solid = side.nodes();
+  for (std::size_t n = 0; n < change.size(); ++n) {
+    lost -= dot(impulse[n], solid.v[n] + 0.5 * change[n]);
+    solid.v[n] += change[n];
+    m.left.momentum += impulse[n] - solid.mass[n] * change[n];
+  }
 }
 
 /// Whatever the ties are now, the gap of the rows is what it was.
@@ -146,7 +165,9 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   std::vector<int> beyond;
   Overlap next;
   next.nodalWeight = overlap.nodalWeight;
-  const auto add = [&](int particle, const FoundParticle& found, const Vec3& material) {
+  std::vector<double> nextPart;
+  const auto add = [&](int particle, const FoundParticle& found, const Vec3& material, double share) {
+    nextPart.push_back(share);
     next.particle.push_back(particle);
     next.place.push_back(found.place);
     next.x.push_back(material);
@@ -163,11 +184,10 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   for (std::size_t k = 0; k < overlap.size(); ++k) {
     const int i = overlap.particle[k];
     const auto at = static_cast<std::size_t>(i);
-    const double slipped =
-        overlap.place[k].element < 0 ? 0.0 : norm(displacement(m, k) - atMember(k, nodes().u));
+    const double slipped = overlap.place[k].element < 0 ? 0.0 : norm(displacement(m, k) - atMember(k, nodes().u));
     if (slipped <= 0.5 * slipLength()) {
       memberTravel = std::max(memberTravel, slipped);
-      add(i, {overlap.place[k], overlap.x[k], overlap.weight[k]}, overlap.x[k]);
+      add(i, {overlap.place[k], overlap.x[k], overlap.weight[k]}, overlap.x[k], part[k]);
       continue;
     }
     const FoundParticle found = locator.find(m.particles.x[at], m.particles.radius[at]);
@@ -178,7 +198,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     }
     const bool stays = found.place.element >= 0;
     changes.push_back({i, overlap.weight[k], found, stays ? found.place : overlap.place[k]});
-    if (stays) add(i, found, materialOf(found));
+    if (stays) add(i, found, materialOf(found), partTowards(part[k], found.weight));
   }
   for (const int i : near) {
     const auto at = static_cast<std::size_t>(i);
@@ -186,7 +206,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     if (found.place.element < 0 || found.weight < setting.options.leastShare * (1.0 - 1e-6)) continue;
     isMoved[at] = 1;
     changes.push_back({i, 1.0, found, found.place});
-    add(i, found, materialOf(found));
+    add(i, found, materialOf(found), partTowards(0.0, found.weight));
     ++events.admitted;
   }
   if (changes.empty() && beyond.empty()) return;
@@ -197,13 +217,19 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
 
   const double contactsBefore = contactEnergy(m), storedBefore = parts.constraint->storedEnergy(now);
   overlap = std::move(next);
+  part = std::move(nextPart);
   number(m.particles);
   if (m.particles.weight.empty()) m.particles.weight.assign(m.particles.size(), 1.0);
+  std::vector<Vec3> impulse(nodes().v.size());
   for (const Change& change : changes)
-    handOver(m, static_cast<std::size_t>(change.particle), change.before, change.found.weight, change.handedAt);
+    handOver(m, static_cast<std::size_t>(change.particle), change.before, change.found.weight, change.handedAt,
+             impulse);
+  kickNodes(m, impulse);
   stale = true;
   ready(m);
   keepGap(m);
+  gapOf(parts.gap, overlap, m.particles.v, nodes().v, increment);  // of the step, as the new ties see it
+  for (Vec3& change : increment) change *= m.step.dt;
   if (!parts.constraint->needsRates()) parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
   weighPairs(m, isMoved);
   lost += contactsBefore - contactEnergy(m) + storedBefore - storedNow;
@@ -218,13 +244,13 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
 void OverlapTie::exchange(dem::Model& m, const dem::Step& step) {
   Impl& s = *impl_;
   if (!s.isFollowed()) return;
-  const bool others = s.known != m.particles.revision;
   s.ready(m);
+  const bool others = s.knownIds != m.particles.nextId;
   if (others) s.findNear(m);
   s.watch(m, step);
   if (s.farTravel > 0.5 * shellRadii * s.largestRadius) s.findNear(m);
   if (!others && s.memberTravel <= s.slipLength()) return;
-  s.updateGap(m, true);
+  s.advance(m);
   s.relocate(m);
 }
 
@@ -239,6 +265,7 @@ double OverlapTie::renumber(std::span<const int> newNumber, const dem::Particles
   s.shares.renumber(newNumber);
   Overlap rest;
   rest.nodalWeight = s.overlap.nodalWeight;
+  std::vector<double> part;
   for (std::size_t k = 0; k < s.overlap.size(); ++k) {
     const int number = newNumber[static_cast<std::size_t>(s.overlap.particle[k])];
     if (number < 0) continue;
@@ -246,11 +273,13 @@ double OverlapTie::renumber(std::span<const int> newNumber, const dem::Particles
     rest.place.push_back(std::move(s.overlap.place[k]));
     rest.x.push_back(s.overlap.x[k]);
     rest.weight.push_back(s.overlap.weight[k]);
+    part.push_back(s.part[k]);
     if (rest.place.back().element >= 0) rest.elements.push_back(rest.place.back().element);
   }
   sortUnique(rest.elements);
   if (rest.size() != s.overlap.size()) s.stale = s.refit = true;
   s.overlap = std::move(rest);
+  s.part = std::move(part);
   if (s.parts.absorber) s.parts.absorber->renumber(s.overlap.particle);
   for (int& i : s.near) i = newNumber[static_cast<std::size_t>(i)];
   std::erase_if(s.near, [](int i) { return i < 0; });

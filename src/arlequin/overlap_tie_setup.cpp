@@ -101,6 +101,7 @@ std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidM
   requireShares(mesh, *side.model, nodalWeight);
   requireMembers(s.overlap, grains, options.leastShare);
   s.setting = {mesh, options, std::move(nodalWeight), penaltyOfElements(mesh, *side.model, options), 0.0};
+  s.part.assign(s.overlap.size(), 1.0);
   s.setting.bulkDensity = bulkDensityOf(s.overlap, mesh, grains.particles);
   s.smallestRadius = std::numeric_limits<double>::infinity();
   std::vector<double> weight = grains.particles.weight;
@@ -130,9 +131,9 @@ std::vector<int> particlesBeyond(const dem::Model& grains, const fem::SolidMesh&
   return beyond;
 }
 
-/// Jensen: with weights that sum to one, Σ_i p V_i |g_i|² ≤ Σ_k p Ω_k |x_k − Φ_k u|² (the metric penalty is a projection
-/// of the latter), so that every particle is held by a spring p Ω of its own to its place in the solid. A particle gives
-/// the spring its part of its mass, nodes give theirs, and what is left of them carries the elements.
+/// Jensen: with weights that sum to one, Σ_i p V_i |g_i|² ≤ Σ_k p Ω_k |x_k − Φ_k u|² (the metric penalty is a
+/// projection of the latter), so that every particle is held by a spring p Ω of its own to its place in the solid. A
+/// particle gives the spring its part of its mass, nodes give theirs, and what is left of them carries the elements.
 void OverlapTie::addDemand(const dem::Model& m, dem::ContactDemand& demand) const {
   const Impl& s = *impl_;
   const CouplingOptions& o = s.setting.options;
@@ -170,8 +171,8 @@ void OverlapTie::addDemand(const dem::Model& m, dem::ContactDemand& demand) cons
       sum += shape;
       if (shape > 0.0 && mass[n] > 0.0) worst = std::max(worst, ofNodes[n] / (lightest * mass[n]) + elements);
     });
-    demand.links.push_back({s.overlap.particle[k], -1, dem::StepOwner::contact, spring(k),
-                            std::max(1.0, sum) * worst, 0.0});
+    demand.links.push_back(
+        {s.overlap.particle[k], -1, dem::StepOwner::contact, spring(k), std::max(1.0, sum) * worst, 0.0});
   }
 }
 

@@ -36,9 +36,8 @@ Vec3 weightGradient(const fem::SolidMesh& mesh, const Overlap& overlap, std::siz
 }
 
 /// w where two particles touch, from what each of them knows of w about itself.
-double shareAt(const dem::Particles& particles, const dem::PairList& list, std::size_t pair,
-               const fem::SolidMesh& mesh, const Overlap& overlap, std::span<const Vec3> position,
-               std::span<const int> memberOf) {
+double shareAt(const dem::Particles& particles, const dem::PairList& list, std::size_t pair, const fem::SolidMesh& mesh,
+               const Overlap& overlap, std::span<const Vec3> position, std::span<const int> memberOf) {
   const auto i = static_cast<std::size_t>(list.pairs()[pair][0]), j = static_cast<std::size_t>(list.pairs()[pair][1]);
   const dem::PairContact contact = dem::pairContact(particles, i, j, list.shift(pair));
   double sum = 0.0, sides = 0.0, least = 1.0;

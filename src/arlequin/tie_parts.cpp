@@ -28,8 +28,9 @@ std::unique_ptr<Constraint> multiplier(const TieSetting& setting, const Overlap&
   const std::vector<double> yielding = yieldingMasses(m);
   if (gap.rows() <= denseRows) return makeMultiplier(gap, overlap, yielding, mass);
   if (setting.options.projection.width > widestIterative * meanSize(setting, overlap) * (1.0 + 1e-9))
-    throw InputError(std::to_string(gap.rows()) + " rows of kernels wider than 2.5 elements depend too much on each other",
-                     "overlap", "take a narrower kernel, a coarser mesh, or the penalty with width 0");
+    throw InputError(
+        std::to_string(gap.rows()) + " rows of kernels wider than 2.5 elements depend too much on each other",
+        "overlap", "take a narrower kernel, a coarser mesh, or the penalty with width 0");
   return makeIterativeMultiplier(gap, overlap, yielding, mass);
 }
 
@@ -82,14 +83,18 @@ double bulkDensityOf(const Overlap& overlap, const fem::SolidMesh& mesh, const d
   return *middle;
 }
 
-TieParts makeParts(const TieSetting& setting, const Overlap& overlap, const dem::Model& m) {
+TieParts makeParts(const TieSetting& setting, const Overlap& overlap, std::span<const double> part,
+                   const dem::Model& m) {
   TieParts parts;
-  parts.gap = makeGapOperator(overlap, setting.mesh, m.particles.mass, setting.options.form, setting.options.projection);
+  std::vector<double> mass = m.particles.mass;
   for (std::size_t k = 0; k < overlap.size(); ++k) {
+    const auto i = static_cast<std::size_t>(overlap.particle[k]);
+    mass[i] *= part[k];
     const int element = overlap.place[k].element;
     const double p = element < 0 ? 0.0 : setting.penalty[static_cast<std::size_t>(element)];
-    parts.stiffness.push_back(p * m.particles.mass[static_cast<std::size_t>(overlap.particle[k])] / setting.bulkDensity);
+    parts.stiffness.push_back(p * mass[i] / setting.bulkDensity);
   }
+  parts.gap = makeGapOperator(overlap, setting.mesh, mass, setting.options.form, setting.options.projection);
   return parts;
 }
 
@@ -105,7 +110,8 @@ void addConstraint(const TieSetting& setting, const Overlap& overlap, const dem:
       break;
     case ConstraintKind::multiplier:
       if (side.mass == nullptr)
-        throw InputError("the solid \"" + side.name + "\" has no mass yet", "overlap", "set the mass of its side first");
+        throw InputError("the solid \"" + side.name + "\" has no mass yet", "overlap",
+                         "set the mass of its side first");
       parts.constraint = multiplier(setting, overlap, m, *side.mass, parts.gap);
       break;
   }

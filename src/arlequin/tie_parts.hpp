@@ -23,19 +23,22 @@ struct TieSetting {
 
 struct TieParts {
   GapOperator gap;
-  std::vector<double> stiffness;          ///< p Ω per member, N/m; Ω: the volume that a particle fills
+  std::vector<double> stiffness;           ///< p Ω per member, N/m; Ω: the volume that a particle fills
   std::unique_ptr<Constraint> constraint;  ///< made when masses are known
   std::unique_ptr<Absorber> absorber;
 };
 
 /// p of every element: as given, or 20 E/h² of its own material and size.
 /// @throws InputError where no modulus is known
-std::vector<double> penaltyOfElements(const fem::SolidMesh& mesh, const fem::Model& solid, const CouplingOptions& options);
+std::vector<double> penaltyOfElements(const fem::SolidMesh& mesh, const fem::Model& solid,
+                                      const CouplingOptions& options);
 /// Median over the elements of the overlap of the mass of their particles over their volume, kg/m³.
 double bulkDensityOf(const Overlap& overlap, const fem::SolidMesh& mesh, const dem::Particles& particles);
 
 /// @param overlap   particles by number, with x the material point at which each is tied
-TieParts makeParts(const TieSetting& setting, const Overlap& overlap, const dem::Model& m);
+/// @param part      of each member in the rows, 0 … 1
+TieParts makeParts(const TieSetting& setting, const Overlap& overlap, std::span<const double> part,
+                   const dem::Model& m);
 /// Sets parts.constraint and absorber. @throws InputError if the solid has no mass yet
 void addConstraint(const TieSetting& setting, const Overlap& overlap, const dem::Model& m,
                    const coupling::SolidSide& side, TieParts& parts);

@@ -114,8 +114,7 @@ inline Still locate(fem::SolidMesh mesh, dem::Particles particles, std::vector<d
 
 /// 4 × 4 × 2 bricks without those of one quadrant; particles reach in from the two legs' inner half.
 inline Still makeL(int n) {
-  fem::SolidMesh mesh =
-      fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0.0, 0.0, 0.0}, {4 * edge, 4 * edge, 2 * edge});
+  fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0.0, 0.0, 0.0}, {4 * edge, 4 * edge, 2 * edge});
   std::vector<int> kept;
   for (int e = 0; e < static_cast<int>(mesh.elementCount()); ++e) {
     const std::span<const int> node = cellOf(mesh, e).node;

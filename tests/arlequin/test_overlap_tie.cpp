@@ -83,7 +83,8 @@ TEST(OverlapTie, KeepsMomentumAndItsBooksInCellsOfAnyShape) {
       if (kind == ConstraintKind::dashpot) o.coupling.penalty = 5e6;
       o.across = 1;
       const double dt = 1e-4;
-      const Residuals coarse = residuals(tieBar(o, shape), dt, 0.03), fine = residuals(tieBar(o, shape), 0.5 * dt, 0.03);
+      const Residuals coarse = residuals(tieBar(o, shape), dt, 0.03),
+                      fine = residuals(tieBar(o, shape), 0.5 * dt, 0.03);
       EXPECT_LT(coarse.momentum, 1e-12) << fem::name(shape) << static_cast<int>(kind);
       EXPECT_LT(coarse.mass, 1e-13);
       EXPECT_LT(fine.energy, 1e-2 * fine.first) << fem::name(shape) << static_cast<int>(kind);
@@ -125,7 +126,8 @@ TEST(OverlapTie, ForcesAreMinusTheGradientOfTheStoredEnergy) {
       for (const std::size_t n : {std::size_t{4}, std::size_t{13}, std::size_t{22}})
         check(run.solid->nodes.u[n][k], onNodes[n][k], size);
       for (const int i : {run.tie->overlap().particle.front(), run.tie->overlap().particle[37]})
-        check(run.grains.particles.x[static_cast<std::size_t>(i)][k], onParticles[static_cast<std::size_t>(i)][k], size);
+        check(run.grains.particles.x[static_cast<std::size_t>(i)][k], onParticles[static_cast<std::size_t>(i)][k],
+              size);
     }
   }
 }

@@ -80,7 +80,8 @@ TEST_P(EveryConstraint, AUniformVelocityGoesOnForEver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryConstraint,
-                         ::testing::Values(ConstraintKind::penalty, ConstraintKind::multiplier, ConstraintKind::dashpot));
+                         ::testing::Values(ConstraintKind::penalty, ConstraintKind::multiplier,
+                                           ConstraintKind::dashpot));
 
 TEST(Stepper, PenaltyAndMultipliersDoNoNetWork) {
   for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier})

@@ -82,9 +82,8 @@ TEST(Weights, ModelsShareEveryPointExactly) {
   for (std::size_t k = 0; k < s.overlap.size(); ++k) {
     double there = 0.0;
     for (std::size_t a = 0; a < 8; ++a)
-      there +=
-          s.overlap.place[k].shape[a] *
-          solid[static_cast<std::size_t>(cellOf(s.mesh, s.overlap.place[k].element).node[a])];
+      there += s.overlap.place[k].shape[a] *
+               solid[static_cast<std::size_t>(cellOf(s.mesh, s.overlap.place[k].element).node[a])];
     EXPECT_NEAR(s.overlap.weight[k] + there, 1.0, 1e-14);
   }
 }

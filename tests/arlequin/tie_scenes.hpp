@@ -99,9 +99,8 @@ inline TieRun tieBar(const SceneOptions& o, fem::CellShape shape = fem::CellShap
   run.grains.laws = dem::makeContactLaws(law);
   run.grains.sortEvery = 0;
   dem::findPairs(run.grains.particles, run.grains.pairs);
-  const fem::SolidMesh mesh =
-      fem::boxOf(shape, {o.across, o.solidElements, o.across}, {-half, solidStart(o), -half},
-                 {half, solidStart(o) + o.solidElements * edge, half});
+  const fem::SolidMesh mesh = fem::boxOf(shape, {o.across, o.solidElements, o.across}, {-half, solidStart(o), -half},
+                                         {half, solidStart(o) + o.solidElements * edge, half});
   std::vector<double> weight = barWeights(mesh, o);
   levelMidNodes(mesh, weight);
   run.solid = std::make_unique<fem::Model>(fem::makeModel(mesh));

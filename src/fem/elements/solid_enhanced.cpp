@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "cell_kernels.hpp"
-#include "dovetail/fem/laws/material_probe.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/laws/material_probe.hpp"
 #include "enhanced_search.hpp"
 #include "small_tensors.hpp"
 

@@ -1,4 +1,3 @@
-#include "dovetail/fem/laws/material_probe.hpp"
 #include "dovetail/fem/terms/contact_plane.hpp"
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include "contact_point.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/fem/laws/material_probe.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
 
 namespace dovetail::fem {

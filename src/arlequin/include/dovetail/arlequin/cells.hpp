@@ -12,7 +12,7 @@ namespace dovetail::arlequin {
 
 struct Cell {
   fem::CellShape shape;
-  std::span<const int> node;        ///< all its nodes
+  std::span<const int> node;            ///< all its nodes
   std::span<const int> corner() const;  ///< the first of them
 };
 

@@ -21,10 +21,10 @@ struct Overlap {
   /// Host element (−1: out of its reach), parent coordinates (beyond the parent cell for a centre outside of the mesh),
   /// shape functions.
   std::vector<fem::CellPlace> place;
-  std::vector<Vec3> x;                ///< centre when it was found, m; of particles in periodic space the image there
-  std::vector<double> weight;         ///< w at the centre; beyond a face of the mesh it goes on as it is on the face
-  std::vector<int> elements;          ///< that host a particle in the overlap proper (w > 0 somewhere), ascending
-  std::vector<double> nodalWeight;    ///< w at every node of the mesh
+  std::vector<Vec3> x;              ///< centre when it was found, m; of particles in periodic space the image there
+  std::vector<double> weight;       ///< w at the centre; beyond a face of the mesh it goes on as it is on the face
+  std::vector<int> elements;        ///< that host a particle in the overlap proper (w > 0 somewhere), ascending
+  std::vector<double> nodalWeight;  ///< w at every node of the mesh
   /// Particles, ascending, that no element holds or is near, but the box around the elements with w > 0: beyond a free
   /// face that is not along the axes, in a notch, or where the mesh was meant to be. They count in full and are tied
   /// to nothing.
@@ -43,8 +43,7 @@ double weightAt(const fem::SolidMesh& mesh, const fem::CellPlace& place, std::sp
 /// @throws InputError if no particle lies in an element with w > 0 somewhere, if no element has one, or if weights are
 ///         not one per node; NumericalError naming a particle whose position is not finite
 Overlap locateOverlap(const dem::Particles& particles, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
-                      std::span<const double> nodalWeight, double reach = 0.0,
-                      const geometry::Periodicity& space = {});
+                      std::span<const double> nodalWeight, double reach = 0.0, const geometry::Periodicity& space = {});
 
 /// @throws InputError unless the weights take at least one whole element for their way from largest to smallest
 void requireWidth(const Overlap& overlap, const fem::SolidMesh& mesh);

@@ -14,9 +14,9 @@ namespace dovetail::arlequin {
 
 /// What an overlap looks like now.
 struct OverlapState {
-  std::size_t members = 0;    ///< particles that are tied
-  std::size_t rows = 0;       ///< of the gap operator
-  std::size_t voids = 0;      ///< elements within the overlap (w > 0 at all corners) that hold no particle
+  std::size_t members = 0;       ///< particles that are tied
+  std::size_t rows = 0;          ///< of the gap operator
+  std::size_t voids = 0;         ///< elements within the overlap (w > 0 at all corners) that hold no particle
   std::int64_t relocations = 0;  ///< how often some particle was located anew
   std::int64_t admitted = 0;     ///< particles that came in
   std::int64_t removed = 0;      ///< particles that passed the border of the particles and left the scene

@@ -40,8 +40,8 @@ inline constexpr double beyondOverlap = 2.0;
 /// @param s  per node; NaN is refused
 std::vector<double> nodalWeights(std::span<const double> s, const WeightOptions& options);
 
-/// Gives mid-edge, mid-face and centre nodes of second-order cells the mean of the corners about them, so that the shares
-/// of both models add up to one everywhere: w goes by the hats of the corners.
+/// Gives mid-edge, mid-face and centre nodes of second-order cells the mean of the corners about them, so that the
+/// shares of both models add up to one everywhere: w goes by the hats of the corners.
 void levelMidNodes(const fem::SolidMesh& mesh, std::span<double> weight);
 
 using Triangle = std::array<Vec3, 3>;  ///< m

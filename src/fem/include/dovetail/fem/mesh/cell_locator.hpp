@@ -35,9 +35,9 @@ public:
   ///         InputError for a point that is not finite
   std::optional<CellPlace> find(const Vec3& point) const;
 
-  /// The same, and for a point outside that is nearer than `reach` (m) to the mesh the place in the nearest element: its
-  /// parent coordinates are then beyond the parent cell, so that Σ ψ_a x_a is the point. Which of several equally near
-  /// elements it is, is the one with the lowest number.
+  /// The same, and for a point outside that is nearer than `reach` (m) to the mesh the place in the nearest element:
+  /// its parent coordinates are then beyond the parent cell, so that Σ ψ_a x_a is the point. Which of several equally
+  /// near elements it is, is the one with the lowest number.
   std::optional<CellPlace> findNear(const Vec3& point, double reach) const;
 
 private:

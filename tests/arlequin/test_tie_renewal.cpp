@@ -1,0 +1,279 @@
+// Overlap ties: turns, flow, restarts, packings, and what is refused.
+#include <gtest/gtest.h>
+
+#include "dovetail/arlequin/critical_step.hpp"
+#include "dovetail/core/error.hpp"
+#include "tie_scenes.hpp"
+
+namespace dovetail::arlequin {
+namespace {
+
+using namespace test;
+
+/// Loose particles, which do not touch, over and in a bar that stays where it is or moves freely.
+TieRun loose(ConstraintKind kind, double penalty, bool hold = true) {
+  SceneOptions o;
+  o.across = 1;
+  o.holdEnd = hold;
+  o.weights = {WeightProfile::halfCosine, 1e-3};
+  TieRun run;
+  run.grains.particles = lattice({-0.25, 0, -0.25}, {0.25, 2.5, 0.25}, 2);
+  for (double& radius : run.grains.particles.radius) radius *= 0.8;
+  run.grains.pairs.setSkin(0.02);
+  dem::ElasticLaw law;
+  law.normal.stiffness = modulus * 0.25;
+  run.grains.laws = dem::makeContactLaws(law);
+  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
+  const std::vector<double> weight = barWeights(mesh, o);
+  run.solid = std::make_unique<fem::Model>(fem::makeModel(mesh));
+  if (hold) fem::fix(run.solid->nodes, fem::nodeSet(mesh, "y+"));
+  const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
+  run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.share = solidWeights(weight)}));
+  CouplingOptions coupling;
+  coupling.constraint = kind;
+  coupling.penalty = penalty;
+  run.couple(mesh, weight, coupling);
+  return run;
+}
+
+TEST(Flow, ParticlesComeAndGoWithMassMomentumAndEnergyInTheBooks) {
+  for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier}) {
+    const auto residual = [&](double dt) {
+      TieRun run = loose(kind, kind == ConstraintKind::penalty ? 2e5 : 0.0);
+      for (std::size_t i = 0; i < run.grains.particles.size(); ++i)
+        run.grains.particles.v[i] = {0.01 * run.grains.particles.x[i].z, 0.5, 0.0};
+      run.start();
+      const double first = run.energy(), mass = run.mass();
+      const Vec3 momentum = run.momentum();
+      double worst = 0.0;
+      const int steps = static_cast<int>(std::lround(0.6 / dt));
+      for (int s = 0; s < steps; ++s) {
+        run.step(dt);
+        worst = std::max(worst, std::abs(run.energy() - first) / first);
+        EXPECT_LT(std::abs(run.mass() / mass - 1.0), 1e-13);
+        EXPECT_LT(norm(run.momentum() - momentum), 1e-11 * norm(momentum));
+      }
+      EXPECT_GT(run.tie->state().relocations, 3);
+      return worst;
+    };
+    const double coarse = residual(2e-4), fine = residual(1e-4);
+    EXPECT_LT(fine, 1e-2) << static_cast<int>(kind);
+    EXPECT_LT(fine, 0.7 * coarse + 1e-6) << static_cast<int>(kind);
+  }
+}
+
+/// A bed that a belt pushes through the tie, ten elements far.
+TEST(Flow, ABedSlidesThroughWithoutACrash) {
+  for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::dashpot}) {
+    TieRun run = loose(kind, 1e4);
+    dem::Particles& p = run.grains.particles;
+    const dem::Particles layer = lattice({-0.25, -5.0, -0.25}, {0.25, 0.0, 0.25}, 2);
+    for (std::size_t i = 0; i < layer.size(); ++i)
+      dem::addParticle(p, layer.x[i], {}, 0.8 * layer.radius[i], dem::Mass{layer.mass[i]});
+    run.start();
+    const double mass = run.mass();
+    for (int s = 0; s < 12000; ++s) {
+      for (std::size_t i = 0; i < p.size(); ++i)
+        p.v[i] = {0.0, 2.0, 0.0};
+      run.step(2e-4);
+    }
+    EXPECT_GT(run.tie->state().removed, 20);
+    EXPECT_GT(run.tie->state().admitted, 20);
+    EXPECT_LT(std::abs(run.mass() / mass - 1.0), 1e-12);
+    dem::requireFinite(p, "the end");
+    for (const Vec3& v : run.solid->nodes.v) EXPECT_LT(norm(v), 10.0);
+  }
+}
+
+TEST(Turn, GapEnergyAndMomentsGoWithTheSolid) {
+  SceneOptions o;
+  o.holdEnd = false;
+  o.across = 1;
+  TieRun run = tieBar(o);
+  run.start();
+  std::mt19937 random(7);
+  for (Vec3& x : run.grains.particles.x) x += randomVector(random, 2e-3);
+  const auto evaluate = [&] {
+    run.side.load.clear();
+    dem::clearForces(run.grains.particles);
+    dem::Step step;
+    step.dt = 1e-100;
+    step.timeless = true;
+    run.tie->addForces(run.grains, step);
+    return run.tie->stored();
+  };
+  const auto moment = [&] {
+    Vec3 sum;
+    for (std::size_t i = 0; i < run.grains.particles.size(); ++i)
+      sum += cross(run.grains.particles.x[i], run.grains.particles.f[i]);
+    for (std::size_t n = 0; n < run.solid->nodes.X.size(); ++n)
+      sum += cross(run.solid->nodes.X[n] + run.solid->nodes.u[n], run.side.load.force[n]);
+    return sum;
+  };
+  const double stored = evaluate();
+  double size = 0.0;
+  for (const Vec3& f : run.grains.particles.f) size += norm(f);
+  EXPECT_LT(norm(moment()), 1e-12 * size);
+  const std::vector<Vec3> lambda(run.tie->lambda().begin(), run.tie->lambda().end());
+  const auto turn = [](const Vec3& x) { return Vec3{-x.y, x.x, x.z}; };
+  for (Vec3& x : run.grains.particles.x) x = turn(x);
+  for (std::size_t n = 0; n < run.solid->nodes.X.size(); ++n) {
+    const Vec3& X = run.solid->nodes.X[n];
+    run.solid->nodes.u[n] = turn(X + run.solid->nodes.u[n]) - X;
+  }
+  EXPECT_NEAR(evaluate(), stored, 1e-11 * stored);
+  EXPECT_LT(norm(moment()), 1e-11 * size);
+  for (std::size_t r = 0; r < lambda.size(); ++r)
+    EXPECT_LT(norm(run.tie->lambda()[r] - turn(lambda[r])), 1e-10 * (norm(lambda[r]) + 1.0));
+}
+
+/// Everything turns freely while a part of the gap is kept from earlier ties.
+TEST(Turn, TheKeptGapTurnsWithTheSolidAndMakesNoMoment) {
+  TieRun run = loose(ConstraintKind::penalty, 1e5, false);
+  for (Vec3& v : run.grains.particles.v) v.y = 0.3;
+  run.start();
+  while (run.tie->state().relocations < 5) run.step(2e-4);
+  const Vec3 centre{0.0, 1.5, 0.0}, spin{0.0, 0.0, 8.0};
+  Vec3 mean;
+  double mass = 0.0;
+  for (std::size_t n = 0; n < run.solid->nodes.X.size(); ++n) {
+    mean += run.solid->nodes.mass[n] * run.solid->nodes.v[n];
+    mass += run.solid->nodes.mass[n];
+  }
+  mean = mean / mass;
+  for (std::size_t i = 0; i < run.grains.particles.size(); ++i)
+    run.grains.particles.v[i] = mean + cross(spin, run.grains.particles.x[i] - centre);
+  for (std::size_t n = 0; n < run.solid->nodes.X.size(); ++n)
+    run.solid->nodes.v[n] = mean + cross(spin, run.solid->nodes.X[n] + run.solid->nodes.u[n] - centre);
+  run.start();
+  const double first = run.energy();
+  const Vec3 angular = run.angularMomentum();
+  const std::int64_t before = run.tie->state().relocations;
+  int steps = 0;
+  double worst = 0.0;
+  for (; steps < 600 && run.tie->state().relocations == before; ++steps) {
+    run.step(1e-4);
+    if (run.tie->state().relocations == before) worst = norm(run.angularMomentum() - angular);
+  }
+  EXPECT_GT(steps, 60);
+  EXPECT_LT(worst, 1e-11 * norm(angular));
+  EXPECT_NEAR(run.energy(), first, 1e-3 * first);
+}
+
+TEST(Renewal, LambdaDoesNotJump) {
+  TieRun run = loose(ConstraintKind::penalty, 1e5);
+  for (Vec3& v : run.grains.particles.v) v.y = 0.2;
+  run.start();
+  double worst = 0.0, largest = 0.0;
+  int looked = 0;
+  for (int s = 0; s < 4000; ++s) {
+    const std::int64_t before = run.tie->state().relocations;
+    const std::vector<Vec3> old(run.tie->lambda().begin(), run.tie->lambda().end());
+    const std::vector<int> nodes = run.tie->operators().node;
+    dem::move(run.grains, 1e-4);
+    run.kick(0.5e-4);
+    run.motion->drift(1e-4);
+    run.solidForces();
+    dem::Step still = run.grains.step;
+    still.timeless = true;
+    run.tie->addForces(run.grains, still);  // of this state, before the renewal
+    const std::vector<Vec3> here(run.tie->lambda().begin(), run.tie->lambda().end());
+    run.side.load.clear();
+    dem::startForces(run.grains.particles, run.grains.gravity);
+    run.tie->exchange(run.grains, run.grains.step);
+    if (run.tie->state().relocations != before) {
+      ++looked;
+      double size = 0.0, jump = 0.0;
+      for (const Vec3& l : here) size += squaredNorm(l);
+      for (std::size_t r = 0; r < run.tie->lambda().size(); ++r) {
+        const auto at = std::ranges::find(nodes, run.tie->operators().node[r]);
+        const Vec3 was = at == nodes.end() ? Vec3{} : here[static_cast<std::size_t>(at - nodes.begin())];
+        jump += squaredNorm(run.tie->lambda()[r] - was);
+      }
+      if (size > 0.0) worst = std::max(worst, std::sqrt(jump / size));
+      largest = std::max(largest, std::sqrt(size));
+    }
+    dem::renew(run.grains);
+    dem::addForces(run.grains);
+    run.accelerate();
+    dem::close(run.grains);
+    run.kick(0.5e-4);
+  }
+  EXPECT_GT(looked, 5);
+  EXPECT_GT(largest, 0.0);
+  EXPECT_LT(worst, 1e-2);
+  RecordProperty("largest_jump", std::to_string(worst));
+}
+
+TEST(Restart, GivesTheSameBits) {
+  for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier, ConstraintKind::dashpot}) {
+    const auto prepared = [&](TieRun& run) {
+      for (std::size_t i = 0; i < run.grains.particles.size(); ++i)
+        run.grains.particles.v[i] = {0.01 * run.grains.particles.x[i].z, 0.5, 0.0};
+      run.start();
+    };
+    const double penalty = kind == ConstraintKind::multiplier ? 0.0 : kind == ConstraintKind::penalty ? 2e5 : 1e5;
+    TieRun whole = loose(kind, penalty), resumed = loose(kind, penalty);
+    prepared(whole);
+    prepared(resumed);
+    for (int s = 0; s < 500; ++s) whole.step(2e-4);
+    ByteWriter writer;
+    whole.tie->save(writer);
+    resumed.grains.particles = whole.grains.particles;  // what the models' own checkpoints hold
+    resumed.grains.pairs = whole.grains.pairs;
+    resumed.grains.time = whole.grains.time, resumed.grains.steps = whole.grains.steps;
+    resumed.grains.timeBase = whole.grains.timeBase, resumed.grains.stepsBase = whole.grains.stepsBase;
+    resumed.grains.step = whole.grains.step, resumed.grains.open = whole.grains.open;
+    resumed.grains.forcesOf = whole.grains.forcesOf, resumed.grains.checkedStep = whole.grains.checkedStep;
+    resumed.grains.renewals = whole.grains.renewals, resumed.grains.smallestRadius = whole.grains.smallestRadius;
+    resumed.solid->nodes = whole.solid->nodes;
+    resumed.solid->t = whole.solid->t;
+    resumed.acceleration = whole.acceleration;
+    ByteReader reader(writer.bytes());
+    resumed.tie->load(reader);
+    EXPECT_TRUE(reader.atEnd());
+    for (int s = 0; s < 500; ++s) {
+      whole.step(2e-4);
+      resumed.step(2e-4);
+    }
+    EXPECT_TRUE(whole.grains.particles.v == resumed.grains.particles.v) << static_cast<int>(kind);
+    EXPECT_TRUE(whole.grains.particles.weight == resumed.grains.particles.weight);
+    EXPECT_TRUE(whole.solid->nodes.v == resumed.solid->nodes.v);
+    EXPECT_EQ(whole.tie->stored(), resumed.tie->stored());
+    EXPECT_EQ(whole.tie->lost(), resumed.tie->lost());
+    EXPECT_GT(whole.tie->state().relocations, 0);
+  }
+}
+
+TEST(Numbers, SortingInsertingAndRemovingAreFollowed) {
+  TieRun run = loose(ConstraintKind::penalty, 2e5);
+  for (Vec3& v : run.grains.particles.v) v.y = 0.3;
+  run.grains.sortEvery = 1;
+  run.start();
+  const double mass = run.mass();
+  const Vec3 momentum = run.momentum();
+  double added = 0.0;
+  for (int s = 0; s < 3000; ++s) {
+    run.step(2e-4);
+    if (s == 1000) {
+      dem::removeParticles(run.grains, std::vector<int>{3, 11, 30});
+      run.start();
+    }
+    if (s == 1500) {
+      const Vec3 x{0.05, -0.5, 0.0};
+      dem::addParticle(run.grains.particles, x, {0.0, 0.5, 0.0}, 0.05, dem::Mass{1.0});
+      added += 1.0;
+      run.start();
+    }
+    for (std::size_t k = 0; k < run.tie->overlap().size(); ++k) {
+      const auto i = static_cast<std::size_t>(run.tie->overlap().particle[k]);
+      ASSERT_LT(i, run.grains.particles.size());
+      ASSERT_EQ(run.grains.particles.weight[i], run.tie->overlap().weight[k]);
+    }
+  }
+  EXPECT_NEAR(run.mass(), mass + added, 1e-12 * mass);
+  EXPECT_LT(norm(run.momentum() - momentum - Vec3{0.0, 0.5 * added, 0.0}), 1e-10 * norm(momentum));
+}
+
+}  // namespace
+}  // namespace dovetail::arlequin
