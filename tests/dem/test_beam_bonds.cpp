@@ -1,6 +1,8 @@
 // Beams between particles: forces, balances, breakage.
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "beam_scenes.hpp"
 #include "dovetail/core/error.hpp"
 
@@ -272,6 +274,34 @@ TEST(BeamBonds, BadInputIsRefused) {
   addParticle(fewer, {}, {}, 0.1, Mass{1.0});
   switchOnRotation(fewer);
   EXPECT_THROW(exchangeBonds(fewer, scene.bonds, {}, 0.0), InputError);
+}
+
+TEST(BeamBonds, CountAsMuchAsTheirParticlesDo) {
+  const auto answered = [](double weight) {
+    Bonded scene;
+    addParticle(scene.particles, {0, 0, 0}, {}, 0.5, Mass{2.0});
+    addParticle(scene.particles, {1, 0, 0}, {}, 0.5, Mass{3.0});
+    switchOnRotation(scene.particles);
+    BondMaterial material = unbreakable();
+    material.tensileStrength = material.shearStrength = 1e9;
+    material.dampingTime = 1e-4;
+    addBond(scene.bonds, scene.particles, {}, 0, 1, material);
+    if (weight < 1.0) scene.particles.weight = {0.5 * weight, 1.5 * weight};
+    scene.particles.x[1] = {1.01, 0.02, -0.01};
+    scene.particles.v[1] = {0.3, -0.1, 0.2};
+    scene.particles.omega[0] = {0.1, 0.5, -0.3};
+    const ContactWork work = exchangeBonds(scene.particles, scene.bonds, {}, 1e-3);
+    return std::tuple{work, scene.particles.f[1], scene.particles.torque[0], scene.bonds.utilised[0],
+                      dashpotPower(scene.particles, scene.bonds, {}, scene.particles.v, scene.particles.omega)};
+  };
+  const auto [whole, force, torque, utilised, power] = answered(1.0);
+  const auto [part, partForce, partTorque, partUtilised, partPower] = answered(0.25);
+  EXPECT_NEAR(part.elasticEnergy, 0.25 * whole.elasticEnergy, 1e-12 * whole.elasticEnergy);
+  EXPECT_NEAR(part.dissipatedPower, 0.25 * whole.dissipatedPower, 1e-12 * whole.dissipatedPower);
+  EXPECT_NEAR(partPower, 0.25 * power, 1e-12 * power);
+  EXPECT_LT(norm(partForce - 0.25 * force), 1e-12 * norm(force));
+  EXPECT_LT(norm(partTorque - 0.25 * torque), 1e-12 * norm(torque));
+  EXPECT_EQ(partUtilised, utilised);
 }
 
 }  // namespace

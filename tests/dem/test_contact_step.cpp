@@ -214,5 +214,20 @@ TEST(MassScaling, MakesTheStepStableAndSaysWhatItDid) {
   EXPECT_THROW(scaleMasses(particles, {}, 0.0), InputError);
 }
 
+TEST(ContactStep, AtAWallAWeightedParticleAsksForNoShorterStep) {
+  const auto step = [](double weight) {
+    Model m;
+    addParticle(m.particles, {0, 0, 0.099}, {}, 0.1, Mass{1.0});
+    m.particles.weight = {weight};
+    ElasticLaw law;
+    law.normal.stiffness = 1e4;
+    m.laws = makeContactLaws(law);
+    addWall(m, makePlane({}, {0, 0, 1}));
+    findForces(m);
+    return criticalStep(m).dt;
+  };
+  EXPECT_NEAR(step(1e-3), step(1.0), 1e-12 * step(1.0));
+}
+
 }  // namespace
 }  // namespace dovetail::dem

@@ -34,8 +34,8 @@ struct Line {
 };
 
 Line lineOf(const Particles& particles, const Bond& bond, const geometry::Periodicity& space) {
-  const Vec3 d = space.minimumImage(particles.x[static_cast<std::size_t>(bond.j)] -
-                                    particles.x[static_cast<std::size_t>(bond.i)]);
+  const Vec3 d =
+      space.minimumImage(particles.x[static_cast<std::size_t>(bond.j)] - particles.x[static_cast<std::size_t>(bond.i)]);
   const double length = norm(d);
   return {length > 0.0 ? d / length : bond.directionI, length > 0.0 ? length : bond.length};
 }
@@ -84,6 +84,19 @@ double addDamping(const Bond& bond, const Line& line, const Vec3& velocity, cons
   return axial * along + dot(moment, sliding) + dot(couple, relative);
 }
 
+/// What of a bond is modelled here: the mean of the weights of its particles.
+double shareOf(const Particles& particles, const Bond& bond) {
+  if (particles.weight.empty()) return 1.0;
+  return 0.5 *
+         (particles.weight[static_cast<std::size_t>(bond.i)] + particles.weight[static_cast<std::size_t>(bond.j)]);
+}
+
+void weigh(Bonds::Forces& f, double share) {
+  f.force *= share;
+  f.torqueI *= share;
+  f.torqueJ *= share;
+}
+
 /// What a chunk of bonds stores and loses, and how many of it break.
 struct Answer {
   ContactWork work;
@@ -109,6 +122,9 @@ Answer answerBond(const Particles& particles, Bonds& bonds, const geometry::Peri
   Bonds::Forces& f = bonds.forces[b];
   f = elasticForces(bond, line, energy);
   bonds.utilised[b] = utilisation(bond, line, f);
+  const double share = shareOf(particles, bond);
+  energy *= share;
+  weigh(f, share);
   if (dt > 0.0 && bonds.utilised[b] > 1.0) {
     answer.work.fracturePower = energy / dt;
     answer.powerOfBroken =
@@ -118,8 +134,15 @@ Answer answerBond(const Particles& particles, Bonds& bonds, const geometry::Peri
     return answer;
   }
   answer.work.elasticEnergy = energy;
-  if (bond.dampingTime > 0.0)
-    answer.work.dissipatedPower = addDamping(bond, line, particles.v[j] - particles.v[i], omegaI, omegaJ, f);
+  if (bond.dampingTime > 0.0) {
+    Bonds::Forces damping;
+    answer.work.dissipatedPower =
+        share * addDamping(bond, line, particles.v[j] - particles.v[i], omegaI, omegaJ, damping);
+    weigh(damping, share);
+    f.force += damping.force;
+    f.torqueI += damping.torqueI;
+    f.torqueJ += damping.torqueJ;
+  }
   return answer;
 }
 
@@ -136,6 +159,7 @@ double dashpotPower(const Particles& particles, const Bonds& bonds, const geomet
       Bonds::Forces f;
       addDamping(bond, lineOf(particles, bond, space), particles.v[j] - particles.v[i], particles.omega[i],
                  particles.omega[j], f);
+      weigh(f, shareOf(particles, bond));
       power -= dot(f.force, v[j] - v[i]) + dot(f.torqueI, omega[i]) + dot(f.torqueJ, omega[j]);
     }
     return power;

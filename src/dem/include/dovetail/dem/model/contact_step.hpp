@@ -122,7 +122,9 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
     contact.normal = {0.0, 0.0, 1.0};
     contact.dt = 1.0;
     double memory[static_cast<std::size_t>(Law::memory) + 1] = {};
-    addContact(demand, particles, contacts.particle[c], -1, law.slopes(contact, memory), 1.0, contact.effectiveMass);
+    const double weight = particles.weightOf(i);
+    addContact(demand, particles, contacts.particle[c], -1, law.slopes(contact, memory), weight,
+               weight * contact.effectiveMass);
     demand.links.back().contact = static_cast<int>(c);
   }
 }
