@@ -78,7 +78,7 @@ TEST(BadInput, ARefusedRunLeavesNoFolder) {
 
 TEST(BadInput, WordsThatAreNoChoice) {
   const std::map<std::string, Words> choices{{"--scheme", {"conservative", "paper"}},
-                                             {"--constraint", {"penalty", "multiplier", "dashpot", "stress"}},
+                                             {"--constraint", {"penalty", "multiplier", "dashpot"}},
                                              {"--gap", {"at-grains", "nodal"}},
                                              {"--weight-profile", {"half-cosine", "linear", "smooth"}},
                                              {"--tension", {"on", "off"}},
