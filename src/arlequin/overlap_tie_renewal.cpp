@@ -180,17 +180,31 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
       point -= found.place.shape[a] * nodes().u[static_cast<std::size_t>(cell.node[a])];
     return point;
   };
+  const auto findAgain = [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    return locator.find(m.particles.x[at], m.particles.radius[at]);
+  };
+  std::vector<double> slips(overlap.size(), 0.0);
+  std::vector<FoundParticle> again(overlap.size()), arrived(near.size());
+  parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (overlap.place[k].element >= 0) slips[k] = norm(displacement(m, k) - atMember(k, nodes().u));
+      if (slips[k] > 0.5 * slipLength()) again[k] = findAgain(overlap.particle[k]);
+    }
+  });
+  parallelFor(near.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) arrived[k] = findAgain(near[k]);
+  });
   memberTravel = 0.0;
   for (std::size_t k = 0; k < overlap.size(); ++k) {
     const int i = overlap.particle[k];
     const auto at = static_cast<std::size_t>(i);
-    const double slipped = overlap.place[k].element < 0 ? 0.0 : norm(displacement(m, k) - atMember(k, nodes().u));
-    if (slipped <= 0.5 * slipLength()) {
-      memberTravel = std::max(memberTravel, slipped);
+    if (slips[k] <= 0.5 * slipLength()) {
+      memberTravel = std::max(memberTravel, slips[k]);
       add(i, {overlap.place[k], overlap.x[k], overlap.weight[k]}, overlap.x[k], part[k]);
       continue;
     }
-    const FoundParticle found = locator.find(m.particles.x[at], m.particles.radius[at]);
+    const FoundParticle& found = again[k];
     isMoved[at] = 1;
     if (found.place.element >= 0 && found.weight < setting.options.leastShare * (1.0 - 1e-6)) {
       beyond.push_back(i);
@@ -200,9 +214,10 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     changes.push_back({i, overlap.weight[k], found, stays ? found.place : overlap.place[k]});
     if (stays) add(i, found, materialOf(found), partTowards(part[k], found.weight));
   }
-  for (const int i : near) {
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    const int i = near[k];
     const auto at = static_cast<std::size_t>(i);
-    const FoundParticle found = locator.find(m.particles.x[at], m.particles.radius[at]);
+    const FoundParticle& found = arrived[k];
     if (found.place.element < 0 || found.weight < setting.options.leastShare * (1.0 - 1e-6)) continue;
     isMoved[at] = 1;
     changes.push_back({i, 1.0, found, found.place});
