@@ -125,13 +125,15 @@ void addVolumes(const std::vector<int>& elements, const fem::SolidMesh& mesh, co
   Rows products(gap.rows());
   for (const int e : elements) {
     const std::array<int, 8>& corner = row.of(e);
+    std::array<std::array<double, 8>, 8> product{};
     for (const CellPoint& point : cellPoints(mesh, mesh.X, e, 1))
       for (std::size_t a = 0; a < 8; ++a) {
-        if (corner[a] < 0) continue;
-        gap.volume[corner[a]] += point.weight * point.hat[a];
-        for (std::size_t b = 0; b < 8; ++b)
-          if (corner[b] >= 0) products[corner[a]].emplace_back(corner[b], point.weight * point.hat[a] * point.hat[b]);
+        if (corner[a] >= 0) gap.volume[corner[a]] += point.weight * point.hat[a];
+        for (std::size_t b = 0; b < 8; ++b) product[a][b] += point.weight * point.hat[a] * point.hat[b];
       }
+    for (std::size_t a = 0; a < 8; ++a)
+      for (std::size_t b = 0; b < 8; ++b)
+        if (corner[a] >= 0 && corner[b] >= 0) products[corner[a]].emplace_back(corner[b], product[a][b]);
   }
   gap.volumeProducts = cg::fromRows(static_cast<int>(gap.rows()), products);
 }
