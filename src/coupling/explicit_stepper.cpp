@@ -23,7 +23,7 @@ public:
   }
 
   void begin(bool sampled) override {
-    if (K_ > 1 && sampled) uBefore_ = model_->nodes.u, forceBefore_ = model_->nodes.f;
+    if (K_ > 1 && sampled) uBefore_ = model_->nodes.u, forceBefore_ = ownForce();
     halfKick(model_->t + 0.5 * window());
   }
 
@@ -42,13 +42,17 @@ public:
 
   void findForces(bool sampled) override {
     sampled_ = sampled;
+    added_ = {};
     solid_->evaluate(window(), sampled);
     showOwn();
   }
 
   /// Without sub-steps the load kicks together with the own forces.
   void takeLoad() override { addToOwn(side.load); }
-  void takeWindowLoad(const NodalLoad& load) override { addToOwn(load); }
+  void takeWindowLoad(const NodalLoad& load) override {
+    windowLoad = load;
+    addToOwn(load);
+  }
 
   void end() override {
     halfKick(model_->t);
@@ -74,15 +78,26 @@ public:
     if (K_ > 1) setChannel(ledger, side.name + ": time splitting", EnergyLedger::Kind::stored, splitting());
   }
 
-  void save(ByteWriter& archive) override { solid_->save(archive, "coupled explicit"); }
-  std::shared_ptr<SavedSolid> read(ByteReader& archive) const override {
-    return std::make_shared<Saved>(solid_->read(archive, "coupled explicit"));
+  void save(ByteWriter& archive) override {
+    archive(impulse, added_);
+    solid_->save(archive, "coupled explicit");
   }
-  void adopt(SavedSolid& state) override { solid_->adopt(*dynamic_cast<Saved&>(state).state); }
+  std::shared_ptr<SavedSolid> read(ByteReader& archive) const override {
+    auto state = std::make_shared<Saved>();
+    archive(state->impulse, state->added);
+    state->state = solid_->read(archive, "coupled explicit");
+    return state;
+  }
+  void adopt(SavedSolid& state) override {
+    auto& saved = dynamic_cast<Saved&>(state);
+    solid_->adopt(*saved.state);
+    impulse = saved.impulse;
+    added_ = saved.added;
+  }
 
 private:
   struct Saved final : SavedSolid {
-    explicit Saved(std::shared_ptr<fem::BookedMotion::State> s) : state(std::move(s)) {}
+    Vec3 impulse, added;
     std::shared_ptr<fem::BookedMotion::State> state;
   };
 
@@ -90,6 +105,7 @@ private:
   void showOwn() { side.own = K_ == 1 ? std::span<const Vec3>(model_->nodes.f) : std::span<const Vec3>(); }
 
   void addToOwn(const NodalLoad& load) {
+    added_ += totalOf(load);
     for (const int node : load.touched) {
       const auto n = static_cast<std::size_t>(node);
       model_->nodes.f[n] += load.force[n];
@@ -97,37 +113,49 @@ private:
   }
 
   void halfKick(double time) {
+    impulse += 0.5 * window() * added_;
     if (!solid_->halfKick(window(), time, true))
       requireFinite(model_->nodes.v, "node", "velocity", side.name + ", t = " + formatNumber(model_->t) + " s");
   }
 
   void push() {
     if (side.mass->isDiagonal()) return kickTouched(side.load, 0.5 * dt_);
+    impulse += 0.5 * dt_ * totalOf(side.load);
     acceleration_ = side.load.force;
     side.mass->solve(acceleration_);
     solid_->motion.kick(acceleration_, 0.5 * dt_);
   }
 
+  /// Without what constraints answer to them.
+  std::vector<Vec3> ownForce() const {
+    std::vector<Vec3> force = model_->nodes.f;
+    for (const int node : windowLoad.touched)
+      force[static_cast<std::size_t>(node)] -= windowLoad.force[static_cast<std::size_t>(node)];
+    return force;
+  }
+
   /// What impulses of windows of length h store, J: with V the energy of the solid's own forces, g and g_f the
   /// gradients of V and of what acts at every step, the scheme conserves to leading order, beside the energy itself, h²
   /// [v·V''v/12 − g·M⁻¹g_f/12 − g·M⁻¹g/24] (Baker–Campbell–Hausdorff series of half kick · fast steps · half kick), a
-  /// state function. V''v by the difference of the forces over the window.
+  /// state function; M⁻¹g as far as constraints let it. V''v by the difference of the forces over the window.
   double splitting() const {
     const fem::Nodes& nodes = model_->nodes;
     const double h = window();
-    std::vector<Vec3> own = nodes.f, fast = side.load.force;
-    side.mass->solve(own);
+    const std::vector<Vec3> force = ownForce();
+    std::vector<Vec3> slow = nodes.f, fast = side.load.force;
+    side.mass->solve(slow);
     side.mass->solve(fast);
     double sum = 0.0;
     for (std::size_t n = 0; n < nodes.f.size(); ++n) {
-      sum -= h * h * dot(nodes.f[n], fast[n] / 12.0 + own[n] / 24.0);
-      if (!uBefore_.empty()) sum -= dot(nodes.f[n] - forceBefore_[n], nodes.u[n] - uBefore_[n]) / 12.0;
+      sum -= h * h * dot(force[n], fast[n] / 12.0 + slow[n] / 24.0);
+      if (!uBefore_.empty()) sum -= dot(force[n] - forceBefore_[n], nodes.u[n] - uBefore_[n]) / 12.0;
     }
     return sum;
   }
 
   std::optional<fem::BookedMotion> solid_;
   bool sampled_ = true;
+  Vec3 added_;  // N: loads among the own forces
   std::vector<Vec3> acceleration_, uBefore_, forceBefore_;
 };
 

@@ -42,20 +42,23 @@ public:
   void save(ByteWriter& archive) override {
     ByteWriter own;
     solid_->save(own);
-    archive(own.bytes());
+    archive(impulse, own.bytes());
   }
   std::shared_ptr<SavedSolid> read(ByteReader& archive) const override {
     auto state = std::make_shared<Saved>();
-    archive(state->bytes);
+    archive(state->impulse, state->bytes);
     return state;
   }
   void adopt(SavedSolid& state) override {
-    ByteReader reader(dynamic_cast<Saved&>(state).bytes);
+    auto& saved = dynamic_cast<Saved&>(state);
+    ByteReader reader(saved.bytes);
     solid_->load(reader);
+    impulse = saved.impulse;
   }
 
 private:
   struct Saved final : SavedSolid {
+    Vec3 impulse;
     std::vector<char> bytes;
   };
 
@@ -64,6 +67,7 @@ private:
   void kick(const NodalLoad& load, double dt) {
     if (load.touched.empty()) return;
     if (side.mass->isDiagonal()) return kickTouched(load, dt);
+    impulse += dt * totalOf(load);
     solid_->kick(load.force, dt);
   }
 

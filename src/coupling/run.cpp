@@ -130,20 +130,23 @@ void CoupledRun::Impl::jumpBetweenSteps() {
 void CoupledRun::Impl::constrainWindow() {
   windowForce.clear();
   if (K() == 1 && !anyImplicit()) return;
-  for (const auto& term : grains.terms) {
-    const auto* const connector = dynamic_cast<const Connector*>(term.get());
-    if (!connector || !connector->constrains()) continue;
-    if (windowForce.empty()) {
-      dem::close(grains);
-      windowForce.assign(grains.particles.size(), {});
+  for (const auto& solid : solids) {
+    SolidSide& side = solid->side;
+    NodalLoad load(side.nodes().X.size());
+    bool any = false;
+    for (const auto& term : grains.terms) {
+      const auto* const connector = dynamic_cast<const Connector*>(term.get());
+      if (!connector || !connector->constrains() || &connector->side() != &side) continue;
+      if (windowForce.empty()) {
+        dem::close(grains);
+        windowForce.assign(grains.particles.size(), {});
+      }
+      const bool implicit = side.stepping == Stepping::implicitSteps;
+      connector->constrainWindow(grains, implicit ? std::span<const Vec3>() : side.nodes().f, 0.5 * window(),
+                                 windowForce, load);
+      any = true;
     }
-    const auto owner = std::ranges::find_if(solids, [&](const auto& s) { return &s->side == &connector->side(); });
-    if (owner == solids.end()) continue;
-    windowLoad = NodalLoad(connector->side().nodes().X.size());
-    const bool implicit = connector->side().stepping == Stepping::implicitSteps;
-    connector->constrainWindow(grains, implicit ? std::span<const Vec3>() : connector->side().nodes().f, 0.5 * window(),
-                               windowForce, windowLoad);
-    (*owner)->takeWindowLoad(windowLoad);
+    if (any) solid->takeWindowLoad(load);
   }
 }
 

@@ -59,10 +59,11 @@ const EnergyLedger& CoupledRun::ledger() {
 
 Totals CoupledRun::totals() const {
   const dem::Momenta particles = dem::momenta(grains);
-  Totals sum{particles.linear, particles.angular, 0.0};
+  Totals sum{particles.linear, particles.angular, 0.0, {}};
   for (std::size_t i = 0; i < grains.particles.size(); ++i)
     sum.mass += grains.particles.weightOf(i) * grains.particles.mass[i];
   for (const auto& solid : impl_->solids) {
+    sum.ontoSolids += solid->impulse;
     const fem::Nodes& nodes = solid->side.nodes();
     std::vector<Vec3> momentum(nodes.v.size());
     solid->side.mass->multiply(nodes.v, momentum);

@@ -38,7 +38,6 @@ struct CoupledRun::Impl {
 
   // Of constraints in windows of several steps.
   std::vector<Vec3> windowForce;  ///< on particles, N; empty without constraints
-  NodalLoad windowLoad;
 
   Impl(dem::Model& g, Profile& p) : grains(g), profile(p) {}
 

@@ -29,6 +29,7 @@ SolidStepper::SolidStepper(std::unique_ptr<fem::Model> model, const SolidOptions
 
 void SolidStepper::kickTouched(const NodalLoad& load, double dt) {
   fem::Nodes& nodes = model_->nodes;
+  impulse += dt * totalOf(load);
   for (const int node : load.touched) {
     const auto n = static_cast<std::size_t>(node);
     const double scale = dt / nodes.mass[n];
@@ -36,6 +37,12 @@ void SolidStepper::kickTouched(const NodalLoad& load, double dt) {
     for (int c = 0; c < 3; ++c)
       if (!(held >> c & 1u)) nodes.v[n][c] += scale * load.force[n][c];
   }
+}
+
+Vec3 totalOf(const NodalLoad& load) {
+  Vec3 sum;
+  for (const int node : load.touched) sum += load.force[static_cast<std::size_t>(node)];
+  return sum;
 }
 
 void SolidStepper::copyChannels(const EnergyLedger& own, double kinetic, EnergyLedger& ledger) const {

@@ -22,7 +22,9 @@ public:
   virtual ~SolidStepper() = default;
 
   SolidSide side;
-  NodalLoad windowLoad;  ///< N, of implicit solids: what constraints do in both half windows around their ends
+  NodalLoad windowLoad;  ///< N: what constraints do in both half windows around their ends
+
+  Vec3 impulse;  ///< of loads so far, kg m/s
 
   /// Forces at the start. @param dt  of particles, s @param K  steps per window
   virtual void start(double dt, int K) = 0;
@@ -63,6 +65,9 @@ protected:
   double dt_ = 0.0;
   int K_ = 1;
 };
+
+/// Sum of a load, N.
+Vec3 totalOf(const NodalLoad& load);
 
 std::unique_ptr<SolidStepper> makeStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options);
 

@@ -61,6 +61,7 @@ struct Totals {
   Vec3 momentum;         ///< kg m/s
   Vec3 angularMomentum;  ///< about the origin, kg m²/s
   double mass = 0.0;     ///< kg
+  Vec3 ontoSolids;       ///< impulse of the connectors on the solids so far, kg m/s
 };
 
 /// Windows are symmetric in time and symplectic unless a solid dissipates or lags, so the error of the energy is of
