@@ -1,10 +1,11 @@
 #include "model.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "dovetail/arlequin/critical_step.hpp"
+#include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/fem/elements/solid.hpp"
@@ -54,28 +55,30 @@ dem::DriveTerm raisedCosine(const Settings& s) {
   return {layerOf(s, 0), displacement, velocity};
 }
 
-void excite(const Settings& s, arlequin::Model& model) {
+void excite(const Settings& s, dem::Model& grains) {
   if (s.signal == Signal::cosine) {
-    model.discrete.terms.add(raisedCosine(s));
+    grains.terms.add(raisedCosine(s));
     return;
   }
   for (const std::int64_t i : layerOf(s, 0))
-    model.discrete.particles.v[static_cast<std::size_t>(i)].y = s.amplitude * Case{}.velocity * s.particlesPerEdge;
+    grains.particles.v[static_cast<std::size_t>(i)].y = s.amplitude * Case{}.velocity * s.particlesPerEdge;
 }
 
-arlequin::Model makeParticles(const Settings& s, double length) {
-  arlequin::Model model;
-  model.discrete.particles = makeLattice(s, length);
-  model.discrete.pairs.setSkin(0.1 * particleDiameter(s));
-  dem::findPairs(model.discrete.particles, model.discrete.pairs);
+Bar makeParticles(const Settings& s, double length) {
+  Bar bar;
+  bar.run = std::make_unique<coupling::CoupledRun>();
+  dem::Model& grains = bar.run->grains;
+  grains.particles = makeLattice(s, length);
+  grains.pairs.setSkin(0.1 * particleDiameter(s));
+  dem::findPairs(grains.particles, grains.pairs);
   dem::ElasticLaw law;
   law.normal.stiffness = Case{}.youngsModulus * particleDiameter(s);
   law.normal.bonded = s.tension;
-  model.discrete.laws = dem::makeContactLaws(law);
-  model.discrete.sortEvery = 0;
-  model.discrete.refusesUnstableSteps = false;  // arlequin::criticalStep knows the whole
-  excite(s, model);
-  return model;
+  grains.laws = dem::makeContactLaws(law);
+  grains.sortEvery = 0;                 // layers are told by number
+  grains.refusesUnstableSteps = false;  // planSteps knows the exact limit
+  excite(s, grains);
+  return bar;
 }
 
 fem::SolidMesh makeMesh(const Settings& s) {
@@ -120,12 +123,13 @@ fem::Material makeMaterial(const Settings& s) {
   return fem::StVenantKirchhoff{young, Case{}.poissonRatio, density};
 }
 
-arlequin::Solid makeSolid(const Settings& s, const std::vector<double>& weight) {
-  const fem::SolidMesh mesh = makeMesh(s);
+std::unique_ptr<fem::Model> makeSolid(const Settings& s, const fem::SolidMesh& mesh,
+                                      const std::vector<double>& weight) {
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   fem::fix(model->nodes, fem::nodeSet(mesh, "y+"));
-  model->add(fem::makeSolid(mesh, fem::pointMaterial(makeMaterial(s)), {.share = arlequin::solidWeights(weight)}));
-  return {mesh, std::move(model), massShare(s)};
+  model->add(fem::makeSolid(mesh, fem::pointMaterial(makeMaterial(s)),
+                            {.name = "elastic", .share = arlequin::solidWeights(weight)}));
+  return model;
 }
 
 arlequin::CouplingOptions couplingOptions(const Settings& s) {
@@ -141,33 +145,46 @@ arlequin::CouplingOptions couplingOptions(const Settings& s) {
   o.penalty = s.penalty;
   if (s.constraint == Constraint::dashpot && s.penalty == 0.0) o.penalty = publishedPenalty(s.particlesPerEdge);
   o.consistentDashpot = s.dashpotMatrix == DashpotMatrix::consistent;
+  o.dashpotLags = s.staggered;
+  o.leastShare = std::clamp(s.weightFloor, 1e-12, o.leastShare);
   o.absorberRate = s.absorber * waveSpeed() / Case{}.elementSize;
   return o;
 }
 
 }  // namespace
 
-arlequin::Model makeCoupledBar(const Settings& s) {
-  arlequin::Model model = makeParticles(s, s.demLength);
-  const std::vector<double> weight = makeWeights(s, makeMesh(s));
-  model.solid.emplace(makeSolid(s, weight));
-  model.coupling.emplace(
-      arlequin::makeCoupling(model.discrete.particles, model.discrete.pairs, *model.solid, weight, couplingOptions(s)));
-  return model;
+Bar makeCoupledBar(const Settings& s) {
+  Bar bar = makeParticles(s, s.demLength);
+  bar.mesh = makeMesh(s);
+  const std::vector<double> weight = makeWeights(s, bar.mesh);
+  const bool implicit = s.fem == FemStepper::newmark;
+  bar.solid =
+      &bar.run->addSolid(makeSolid(s, bar.mesh, weight),
+                         {.name = "solid",
+                          .stepping = implicit ? coupling::Stepping::implicitSteps : coupling::Stepping::explicitSteps,
+                          .massShare = massShare(s)});
+  auto tie = arlequin::makeOverlapTie(bar.run->grains, bar.mesh, weight, *bar.solid, couplingOptions(s));
+  bar.tie = tie.get();
+  bar.run->grains.terms.add(std::unique_ptr<dem::Term>(std::move(tie)));
+  return bar;
 }
 
-arlequin::Model makeParticleBar(const Settings& s) {
+Bar makeParticleBar(const Settings& s) {
   const int count = layers(s, barLength(s));
   // The last layer is the wall: held, and tied by bonds of twice the stiffness, it fixes the point midway.
-  arlequin::Model model = makeParticles(s, barLength(s) + particleDiameter(s));
+  Bar bar = makeParticles(s, barLength(s) + particleDiameter(s));
   const std::vector<std::int64_t> held = layerOf(s, count);
   const auto nothing = [](double) { return Vec3{}; };
-  dem::PairList& pairs = model.discrete.pairs;
+  dem::PairList& pairs = bar.run->grains.pairs;
   const std::span<double> factors = pairs.writeFactors();
   for (std::size_t p = 0; p < pairs.size(); ++p)
     factors[p] = pairs.pairs()[p][1] >= held.front() && pairs.pairs()[p][0] < held.front() ? 2.0 : 1.0;
-  model.discrete.terms.add(dem::DriveTerm(held, nothing, nothing));
-  return model;
+  bar.run->grains.terms.add(dem::DriveTerm(held, nothing, nothing));
+  return bar;
+}
+
+arlequin::CriticalStep criticalStep(const Settings& s, const Bar& bar) {
+  return arlequin::criticalStep(bar.run->grains, bar.solid, massShare(s), bar.tie);
 }
 
 double penaltyOf(const Settings& s) {
@@ -176,24 +193,19 @@ double penaltyOf(const Settings& s) {
   return arlequin::automaticPenalty(Case{}.youngsModulus * s.stiffnessRatio, Case{}.elementSize);
 }
 
-arlequin::Model makeBar(const Settings& s, double& penalty) {
+Bar makeBar(const Settings& s, double& penalty) {
   if (s.fullDem) return makeParticleBar(s);
   Settings used = s;
   used.penalty = penalty;
-  arlequin::Model model = makeCoupledBar(used);
+  Bar bar = makeCoupledBar(used);
   const bool stores = s.constraint == Constraint::penalty;
-  if (s.femEvery == 1 || s.penalty > 0.0 || !stores) return model;
-  const double critical = arlequin::criticalStep(model).together;
+  if (s.femEvery == 1 || s.penalty > 0.0 || !stores) return bar;
+  const double critical = criticalStep(s, bar).together;
   const double dt = requestedStep(s, critical);
   const double most = (s.fem == FemStepper::newmark ? 0.9 : 0.45 * std::numbers::pi) * critical;
-  if (s.femEvery * dt <= most) return model;
+  if (s.femEvery * dt <= most) return bar;
   used.penalty = penalty *= std::pow(most / (s.femEvery * dt), 2);
   return makeCoupledBar(used);
-}
-
-fem::ImplicitMotion makeNewmark(const Settings& s, arlequin::Model& model) {
-  return fem::ImplicitMotion(model.solid->model(),
-                             {.scheme = fem::newmark(), .massShare = massShare(s), .relativeTolerance = 1e-10});
 }
 
 }  // namespace dovetail::wave

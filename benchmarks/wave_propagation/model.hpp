@@ -4,7 +4,11 @@
 // dem length − overlap. Particles are numbered layer by layer along y.
 #pragma once
 
-#include "dovetail/arlequin/stepper.hpp"
+#include <memory>
+
+#include "dovetail/arlequin/critical_step.hpp"
+#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/coupling/run.hpp"
 #include "settings.hpp"
 
 namespace dovetail::wave {
@@ -15,23 +19,31 @@ double barLength(const Settings& settings);
 int particlesPerLayer(const Settings& settings);
 int layers(const Settings& settings, double length);
 
+/// The run, and the two of its parts that are looked at; null for particles alone.
+struct Bar {
+  std::unique_ptr<coupling::CoupledRun> run;
+  fem::SolidMesh mesh;
+  coupling::SolidSide* solid = nullptr;
+  arlequin::OverlapTie* tie = nullptr;
+};
+
 /// Particles and solid coupled in the overlap.
 /// @throws InputError for impossible settings
-arlequin::Model makeCoupledBar(const Settings& settings);
+Bar makeCoupledBar(const Settings& settings);
 /// Particles over the whole length and one layer more, which is the wall at the end: held, it fixes the bar's last
 /// point.
-arlequin::Model makeParticleBar(const Settings& settings);
+Bar makeParticleBar(const Settings& settings);
+
+/// Of the bar as it is, its pairs listed. @throws NumericalError as arlequin::criticalStep
+arlequin::CriticalStep criticalStep(const Settings& settings, const Bar& bar);
 
 /// What the constraint gets: as asked for, the published ε of the dashpot, or automatic, Pa/m².
 double penaltyOf(const Settings& settings);
 /// Either bar, with that penalty. With a solid that is stepped every K-th time the automatic penalty is softened as far
-/// as its oscillations ask for it: impulses every K dt must not meet them in resonance (K dt < π/ω), and a coupling
-/// that acts every K dt only must be stable (K dt < 2/ω).
+/// as its oscillations ask for it: impulses every K dt must not meet them in resonance (K dt < π/ω), and nodes that
+/// move every K dt only must not overshoot (implicit: K dt < 2/ω).
 /// @param penalty  what is used on return
 /// @throws InputError for impossible settings
-arlequin::Model makeBar(const Settings& settings, double& penalty);
-
-/// Newmark for the solid of a coupled bar, with the mass matrix of the settings.
-fem::ImplicitMotion makeNewmark(const Settings& settings, arlequin::Model& model);
+Bar makeBar(const Settings& settings, double& penalty);
 
 }  // namespace dovetail::wave

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "dovetail/arlequin/critical_step.hpp"
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/core/profile.hpp"
 #include "dovetail/io/time_series.hpp"
@@ -44,7 +43,7 @@ struct EnergySample {
 /// What the models look like at some time.
 struct Frame {
   double time;
-  const arlequin::Model& model;
+  const Bar& bar;
 };
 using Observer = std::function<void(const Frame&)>;
 

@@ -19,7 +19,8 @@ void refuseExplicit(const Settings& s, double dt, const arlequin::CriticalStep& 
       "--dt-factor", "give at most " + formatNumber(0.9 * critical.together / contactTime(s)) + ", or --dt auto");
 }
 
-/// With an implicit solid, contacts limit the particles' step, and the coupling's stiffness that of the solid.
+/// With an implicit solid, contacts limit the particles' step. Nodes that move every K dt only would overshoot what a
+/// stiff coupling wants.
 void refuseImplicit(const Settings& s, double dt, const arlequin::CriticalStep& critical) {
   if (dt > critical.particles)
     throw InputError("a step of " + formatNumber(dt) + " s is above that of the contacts, " +
@@ -27,8 +28,8 @@ void refuseImplicit(const Settings& s, double dt, const arlequin::CriticalStep& 
                      "--dt-factor", "give at most " + formatNumber(0.9 * critical.particles / contactTime(s)));
   const bool stores = s.constraint == Constraint::penalty;
   if (stores && s.femEvery * dt > critical.together)
-    throw InputError("the coupling acts every " + formatNumber(s.femEvery * dt) +
-                         " s, more than its critical step of " + formatNumber(critical.together) + " s",
+    throw InputError("the solid moves every " + formatNumber(s.femEvery * dt) +
+                         " s, more than the critical step of the coupling, " + formatNumber(critical.together) + " s",
                      "--penalty", "give a softer one, a smaller --dt-factor or --fem-every, or leave it out");
 }
 

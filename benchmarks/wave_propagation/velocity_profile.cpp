@@ -26,12 +26,12 @@ void append(io::TimeSeries& table, double time, Kind kind, const LayerSum& layer
   table.append({time, static_cast<double>(kind), layer.y / n, layer.velocity / n, layer.share / n});
 }
 
-void appendNodes(io::TimeSeries& table, double time, const arlequin::Model& model) {
+void appendNodes(io::TimeSeries& table, double time, const Bar& bar) {
   std::map<long, LayerSum> layers;  // by half element sizes, so that rounding cannot split a layer
-  const fem::Nodes& solid = model.solid->nodes();
+  const fem::Nodes& solid = bar.solid->nodes();
   for (std::size_t n = 0; n < solid.X.size(); ++n)
     layers[std::lround(2.0 * solid.X[n].y / Case{}.elementSize)].add(solid.X[n].y, solid.v[n].y,
-                                                                     model.coupling->overlap.nodalWeight[n]);
+                                                                     bar.tie->overlap().nodalWeight[n]);
   for (const auto& [place, layer] : layers) append(table, time, nodes, layer);
 }
 
@@ -42,14 +42,14 @@ io::TimeSeries emptyProfile() {
 }
 
 void appendProfile(io::TimeSeries& table, const Settings& s, const Frame& frame) {
-  if (frame.model.solid) appendNodes(table, frame.time, frame.model);
+  if (frame.bar.solid) appendNodes(table, frame.time, frame.bar);
   const auto perLayer = static_cast<std::size_t>(particlesPerLayer(s));
-  const dem::Particles& p = frame.model.discrete.particles;
+  const dem::Particles& p = frame.bar.run->grains.particles;
   const std::size_t count = p.size() / perLayer - (s.fullDem ? 1 : 0);  // without the wall
   for (std::size_t l = 0; l < count; ++l) {
     LayerSum layer;
     for (std::size_t i = l * perLayer; i < (l + 1) * perLayer; ++i)
-      layer.add((static_cast<double>(l) + 0.5) * particleDiameter(s), p.v[i].y, p.mass[i] / particleMass(s));
+      layer.add((static_cast<double>(l) + 0.5) * particleDiameter(s), p.v[i].y, p.weightOf(i));
     append(table, frame.time, particles, layer);
   }
 }

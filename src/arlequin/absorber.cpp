@@ -35,12 +35,11 @@ Absorber::Absorber(const Overlap& overlap, const GapOperator& gap, const cg::Pro
   for (std::size_t k = 0; k < overlap.size(); ++k)
     damping_.push_back(rate * (1.0 - overlap.weight[k]) * particleMass[overlap.particle[k]]);
   force_.assign(overlap.size(), {});
-  forceBefore_ = here_ = back_ = force_;
+  here_ = back_ = force_;
   rows_.resize(gap.rows());
 }
 
 void Absorber::apply(std::span<const Vec3> v, std::span<Vec3> f) {
-  forceBefore_.swap(force_);
   for (std::size_t k = 0; k < here_.size(); ++k) here_[k] = v[overlap_.particle[k]];
   cg::apply(coarse_, here_, rows_);
   cg::apply(fine_, rows_, back_);
@@ -51,13 +50,6 @@ void Absorber::apply(std::span<const Vec3> v, std::span<Vec3> f) {
     force_[k] = back_[k] - here_[k];
     f[overlap_.particle[k]] += force_[k];
   }
-}
-
-double Absorber::workOfStep(std::span<const Vec3> v, double dt) const {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < force_.size(); ++k)
-    sum -= 0.5 * dt * dot(force_[k] + forceBefore_[k], v[overlap_.particle[k]]);
-  return sum;
 }
 
 }  // namespace dovetail::arlequin

@@ -2,13 +2,12 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include "dovetail/core/error.hpp"
-#include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/fem/motion/largest_eigenvalue.hpp"
+#include "dovetail/fem/motion/motion.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
-#include "forces.hpp"
 
 namespace dovetail::arlequin {
 
@@ -23,43 +22,50 @@ struct Parts {
   bool particles, solid;
 };
 
+struct Scene {
+  dem::Model& grains;
+  fem::Model* solid;
+  const fem::ModelMass* mass;
+  OverlapTie* tie;
+};
+
 class Operator {
 public:
-  Operator(Model& model, Parts parts) : model_(model), parts_(parts) {
+  Operator(const Scene& scene, Parts parts) : scene_(scene), grains_(scene.grains), parts_(parts) {
     if (parts.solid) {
-      fem::Model& solid = model.solid->model();
+      fem::Model& solid = *scene.solid;
       tangent_ = fem::zeroTangent(solid);
       for (const auto& term : solid.terms) term->addTangent(solid.nodes, {solid.t, 0.0}, tangent_);
     }
-    if (parts.particles) model.discrete.laws->addDemand(demand_, model.discrete.particles, model.discrete.pairs, touch);
-    held_.assign(model.discrete.particles.size(), false);
-    for (const auto* drive : model.discrete.terms.all<dem::DriveTerm>())
-      for (const std::int64_t id : drive->ids())
-        held_[static_cast<std::size_t>(dem::find(model.discrete.particles, id))] = true;
+    const dem::Particles& p = grains_.particles;
+    if (parts.particles) grains_.laws->addDemand(demand_, p, grains_.pairs, touch);
+    held_.assign(p.size(), false);
+    for (const auto* drive : grains_.terms.all<dem::DriveTerm>())
+      for (const std::int64_t id : drive->ids()) held_[static_cast<std::size_t>(dem::find(p, id))] = true;
   }
 
   std::size_t size() const {
-    return 3 * ((parts_.particles ? model_.discrete.particles.size() : 0) +
-                (parts_.solid ? model_.solid->nodes().X.size() : 0));
+    return 3 * ((parts_.particles ? grains_.particles.size() : 0) + (parts_.solid ? scene_.solid->nodes.X.size() : 0));
   }
 
   Field stiffness(const Field& q) const {
     Field force{std::vector<Vec3>(q.particles.size()), std::vector<Vec3>(q.nodes.size())};
     if (parts_.particles) addContacts(q, force);
     if (parts_.solid) addElements(q, force);
-    if (parts_.particles && parts_.solid && model_.coupling) addCoupling(q, force);
+    if (parts_.particles && parts_.solid && scene_.tie)
+      scene_.tie->addStiffness(grains_, q.particles, q.nodes, force.particles, force.nodes);
     return force;
   }
   Field mass(const Field& q) const {
     Field p = q;
-    for (std::size_t i = 0; i < p.particles.size(); ++i) p.particles[i] *= model_.discrete.particles.mass[i];
+    for (std::size_t i = 0; i < p.particles.size(); ++i) p.particles[i] *= mass(i);
     if (!parts_.solid) return p;
-    model_.solid->motion().mass().multiply(q.nodes, p.nodes);
+    scene_.mass->multiply(q.nodes, p.nodes);
     return p;
   }
   Field inverseMass(Field f) const {
-    for (std::size_t i = 0; i < f.particles.size(); ++i) f.particles[i] *= 1.0 / model_.discrete.particles.mass[i];
-    if (parts_.solid) model_.solid->motion().accelerate(f.nodes);
+    for (std::size_t i = 0; i < f.particles.size(); ++i) f.particles[i] *= 1.0 / mass(i);
+    if (parts_.solid) scene_.mass->solve(f.nodes);
     return f;
   }
 
@@ -68,8 +74,8 @@ public:
   auto ofFree(const Function& f) const {
     return [this, f](std::span<const double> x, std::span<double> y) {
       Field q;
-      if (parts_.particles) q.particles.resize(model_.discrete.particles.size());
-      if (parts_.solid) q.nodes.resize(model_.solid->nodes().X.size());
+      if (parts_.particles) q.particles.resize(grains_.particles.size());
+      if (parts_.solid) q.nodes.resize(scene_.solid->nodes.X.size());
       std::size_t k = 0;
       for (auto* values : {&q.particles, &q.nodes})
         for (Vec3& v : *values)
@@ -90,14 +96,14 @@ private:
       if (held_[i]) field.particles[i] = {};
     for (std::size_t n = 0; n < field.nodes.size(); ++n)
       for (int c = 0; c < 3; ++c)
-        if (model_.solid->nodes().fixed[n] >> c & 1) field.nodes[n][c] = 0.0;
+        if (scene_.solid->nodes.fixed[n] >> c & 1) field.nodes[n][c] = 0.0;
   }
 
   void addContacts(const Field& q, Field& force) const {
-    const auto& x = model_.discrete.particles.x;
+    const auto& x = grains_.particles.x;
     for (const auto& link : demand_.links) {
       const auto i = static_cast<std::size_t>(link.particle), j = static_cast<std::size_t>(link.partner);
-      const Vec3 n = normalized(model_.discrete.pairs.periodicity().minimumImage(x[i] - x[j]));
+      const Vec3 n = normalized(grains_.pairs.periodicity().minimumImage(x[i] - x[j]));
       const Vec3 f = link.stiffness * dot(n, q.particles[i] - q.particles[j]) * n;
       force.particles[i] += f;
       force.particles[j] -= f;
@@ -106,17 +112,10 @@ private:
 
   void addElements(const Field& q, Field& force) const { tangent_.multiply(q.nodes, force.nodes); }
 
-  void addCoupling(const Field& q, Field& force) const {
-    const Coupling& c = *model_.coupling;
-    std::vector<Vec3> gap(c.rows()), lambda(c.rows());
-    gapOf(c.gap, c.overlap, q.particles, q.nodes, gap);
-    c.constraint->applyStiffness(gap, lambda);
-    for (Vec3& value : lambda) value = -value;
-    pullParticles(c.gap, c.overlap, lambda, force.particles);
-    pullNodes(c.gap, lambda, force.nodes);
-  }
+  double mass(std::size_t i) const { return grains_.particles.weightOf(i) * grains_.particles.mass[i]; }
 
-  Model& model_;
+  Scene scene_;
+  dem::Model& grains_;
   Parts parts_;
   fem::BlockMatrix tangent_;
   static constexpr double touch = 1e-300;  // m: all pairs of the list count, those apart as if they just touched
@@ -125,9 +124,9 @@ private:
 };
 
 /// 2/ω of the largest eigenvalue.
-double limitOf(Model& model, Parts parts) {
+double limitOf(const Scene& scene, Parts parts) {
   constexpr double accuracy = 1e-4;
-  const Operator A(model, parts);
+  const Operator A(scene, parts);
   return 2.0 / std::sqrt(fem::largestEigenvalue({A.size(), A.ofFree([&](const Field& q) { return A.stiffness(q); }),
                                                  A.ofFree([&](const Field& q) { return A.mass(q); }),
                                                  A.ofFree([&](const Field& q) { return A.inverseMass(q); })},
@@ -136,12 +135,16 @@ double limitOf(Model& model, Parts parts) {
 
 }  // namespace
 
-CriticalStep criticalStep(Model& model) {
+CriticalStep criticalStep(dem::Model& grains, coupling::SolidSide* side, double massShare, OverlapTie* tie) {
   constexpr double none = std::numeric_limits<double>::infinity();
   CriticalStep limit{none, none, none};
-  if (!model.discrete.pairs.pairs().empty()) limit.particles = limitOf(model, {true, false});
-  if (model.solid) limit.solid = limitOf(model, {false, true});
-  limit.together = model.solid ? limitOf(model, {true, true}) : limit.particles;
+  std::optional<fem::Motion> motion;
+  if (side) motion.emplace(*side->model, massShare);
+  if (tie) tie->renewed(grains);
+  const Scene scene{grains, side ? side->model : nullptr, side ? &motion->mass() : nullptr, tie};
+  if (!grains.pairs.pairs().empty()) limit.particles = limitOf(scene, {true, false});
+  if (side) limit.solid = limitOf(scene, {false, true});
+  limit.together = side ? limitOf(scene, {true, true}) : limit.particles;
   return limit;
 }
 

@@ -7,7 +7,6 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/pairs/pair_collide.hpp"
 #include "overlap_locator.hpp"
 
 namespace dovetail::arlequin {
@@ -116,40 +115,6 @@ void requireWidth(const Overlap& overlap, const fem::SolidMesh& mesh) {
   if (top - bottom > roundOff && narrowest > (top - bottom) * (1.0 - roundOff))
     throw InputError("the overlap is narrower than an element: the weights fall from 1 to 0 within one", "overlap",
                      "widen the overlap or refine the mesh there");
-}
-
-std::vector<double> particleWeights(const Overlap& overlap, std::size_t particles) {
-  std::vector<double> weight(particles, 1.0);
-  for (std::size_t k = 0; k < overlap.size(); ++k)
-    weight[static_cast<std::size_t>(overlap.particle[k])] = overlap.weight[k];
-  return weight;
-}
-
-void weighMass(const Overlap& overlap, std::span<const double> fullMass, dem::Particles& particles) {
-  const std::vector<double> weight = particleWeights(overlap, particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (!(weight[i] > 0.0))
-      throw InputError("the weight of particle " + std::to_string(i) + " is 0, it would be without mass", "overlap",
-                       "give a weight floor above 0, or remove particles beyond the overlap");
-    particles.mass[i] = weight[i] * fullMass[i];
-  }
-}
-
-void weighContacts(const dem::Particles& particles, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
-                   const Overlap& overlap, dem::PairList& pairs) {
-  const std::vector<Vec3> position = positionsOf(nodes.X, nodes.u);
-  const OverlapLocator locator(mesh, position, overlap.nodalWeight, pairs.periodicity());
-  std::vector<bool> inside(particles.size(), false);
-  for (const int i : overlap.particle) inside[static_cast<std::size_t>(i)] = true;
-  const std::span<double> factors = pairs.writeFactors();
-  std::fill(factors.begin(), factors.end(), 1.0);
-  for (std::size_t p = 0; p < pairs.size(); ++p) {
-    const auto i = static_cast<std::size_t>(pairs.pairs()[p][0]), j = static_cast<std::size_t>(pairs.pairs()[p][1]);
-    if (!inside[i] && !inside[j]) continue;
-    const double radius = std::min(particles.radius[i], particles.radius[j]);
-    const Vec3 middle = particles.x[i] + dem::pairContact(particles, i, j, pairs.shift(p)).armI;
-    factors[p] = locator.find(middle, radius).weight;
-  }
 }
 
 std::vector<double> solidWeights(std::span<const double> nodalWeight) {

@@ -7,7 +7,6 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
-#include "dovetail/fem/mesh/shape.hpp"
 #include "kept_gap.hpp"
 #include "overlap_tie_impl.hpp"
 
@@ -76,7 +75,7 @@ void OverlapTie::Impl::ready(const dem::Model& m) {
       std::vector<int> rowOf(setting.mesh.X.size(), -1);
       for (std::size_t r = 0; r < rowNode.size(); ++r)
         rowOf[static_cast<std::size_t>(rowNode[r])] = static_cast<int>(r);
-      for (auto* values : {&kept, &now, &increment, &lambda, &lambdaBefore}) {
+      for (auto* values : {&kept, &now, &increment, &windowIncrement, &atWindow, &lambda, &lambdaBefore}) {
         std::vector<Vec3> moved(parts.gap.rows());
         for (std::size_t r = 0; isFollowed() && r < moved.size(); ++r)
           if (const int old = rowOf[static_cast<std::size_t>(parts.gap.node[r])]; old >= 0)
@@ -125,6 +124,7 @@ void OverlapTie::Impl::updateGap(const dem::Model& m, bool timeless) {
 /// Brings the gap up to the step under way before ties change: λ of the step before does its half of the work.
 void OverlapTie::Impl::advance(const dem::Model& m) {
   updateGap(m, false);
+  if (actsInWindows()) return;
   lost += 0.5 * sumOfProducts(lambda, increment) + storedNow;
   storedNow = parts.constraint->storedEnergy(now);
   lost -= storedNow;
@@ -157,7 +157,7 @@ void OverlapTie::Impl::comply(dem::Model& m) {
     const auto at = static_cast<std::size_t>(i);
     m.particles.v[at] += (1.0 / mass[at]) * onParticles[at];
   }
-  for (std::size_t n = 0; n < onNodes.size(); ++n) side.nodes().v[n] += onNodes[n];
+  for (std::size_t n = 0; n < onNodes.size() && !loadsNobody; ++n) side.nodes().v[n] += onNodes[n];
   lost += 0.5 * sumOfProducts(impulses, rate);
   complies = true;
 }
@@ -189,6 +189,7 @@ void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
 void OverlapTie::Impl::apply(dem::Model& m, const dem::Step& step) {
   if (parts.absorber) parts.absorber->apply(m.particles.v, m.particles.f);
   if (!complies && step.timeless && parts.constraint->needsRates()) comply(m);
+  if (actsInWindows()) return;
   evaluate(m, step);
   pullParticles(parts.gap, overlap, lambda, m.particles.f);
   for (std::size_t n = 0; n < parts.gap.coupledNode.size(); ++n)
@@ -202,12 +203,33 @@ void OverlapTie::Impl::apply(dem::Model& m, const dem::Step& step) {
   }
 }
 
+/// λ at the end of a window, which acts in both half windows about it. Its work by the trapezoidal rule.
+void OverlapTie::Impl::evaluateWindow(const dem::Model& m, double half) {
+  std::vector<Vec3> rate(now.size()), change(now.size()), damped(now.size());
+  const std::vector<Vec3> none(now.size());
+  const bool lags = setting.options.dashpotLags;
+  for (std::size_t r = 0; r < now.size(); ++r) {
+    change[r] = now[r] - atWindow[r];
+    damped[r] = lags ? 0.5 * (change[r] + windowIncrement[r]) : change[r];
+  }
+  gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
+  lambdaBefore = lambda;
+  parts.constraint->evaluate({now, damped, rate, none, half}, lambda);
+  for (std::size_t r = 0; r < now.size(); ++r) lost += 0.5 * dot(lambda[r] + lambdaBefore[r], change[r]);
+  atWindow = now;
+  windowIncrement = std::move(change);
+}
+
 OverlapTie::OverlapTie(coupling::SolidSide& side) : Connector(side), impl_(std::make_unique<Impl>(side)) {}
+OverlapTie::OverlapTie(const OverlapTie& other)
+    : Connector(other), impl_(std::make_unique<Impl>(*other.impl_, this->side())) {}
+OverlapTie::OverlapTie(OverlapTie&&) noexcept = default;
 OverlapTie::~OverlapTie() = default;
 
-dem::Term::Order OverlapTie::order() const { return constrains() ? Order::constraints : Order::forces; }
-
-bool OverlapTie::constrains() const { return impl_->setting.options.constraint == ConstraintKind::multiplier; }
+dem::Term::Order OverlapTie::order() const {
+  const bool answers = impl_->setting.options.constraint == ConstraintKind::multiplier || impl_->actsInWindows();
+  return answers ? Order::constraints : Order::forces;
+}
 
 void OverlapTie::check(const dem::Model& m) const {
   const std::vector<char> inBodies = dem::members(m);
@@ -235,7 +257,7 @@ void OverlapTie::addForces(dem::Model& m, const dem::Step& step) {
   s.apply(m, step);
   const double before = s.storedNow;
   s.storedNow = s.parts.constraint->storedEnergy(s.now);
-  if (step.timeless) return;
+  if (step.timeless || s.actsInWindows()) return;
   s.advanced = false;
   double work = 0.5 * sumOfProducts(s.lambda, s.increment);
   if (!halfIsBooked) work += 0.5 * sumOfProducts(s.lambdaBefore, s.increment);
@@ -253,80 +275,54 @@ void OverlapTie::book(dem::Model& m, const dem::Step& step) {
       const Vec3 mean = m.particles.v[i] + (0.5 * (step.timeless ? 0.0 : step.dt) / mass) * m.particles.f[i];
       s.power -= dot(s.parts.absorber->force()[k], mean);
     }
-  if (!step.timeless) s.lost += 0.5 * step.dt * s.power;
+  if (!step.timeless) s.absorbed += 0.5 * step.dt * s.power;
 }
 
 double OverlapTie::move(dem::Model&, const dem::Step& step) {
-  impl_->lost += 0.5 * step.dt * impl_->power;
+  impl_->absorbed += 0.5 * step.dt * impl_->power;
   return 0.0;
 }
 
-void OverlapTie::constrainWindow(const dem::Model& m, std::span<const Vec3> ownForce, double window,
-                                 std::span<Vec3> onParticles, coupling::NodalLoad& load) {
-  Impl& s = *impl_;
+void OverlapTie::constrainWindow(const dem::Model& m, std::span<const Vec3> ownForce, double half,
+                                 std::span<Vec3> onParticles, coupling::NodalLoad& load) const {
   if (!constrains()) return;
+  Impl& s = *impl_;
   s.ready(m);
-  std::vector<Vec3> still(s.overlap.size()), none(s.parts.gap.rows()), acceleration(none.size()), lambda(s.lambda),
-      ofNodes(ownForce.begin(), ownForce.end());
-  side().mass->solve(ofNodes);
-  gapOfMembers(s.parts.gap, still, ofNodes, acceleration);
-  s.parts.constraint->evaluate({s.now, none, none, acceleration, window}, lambda);
+  std::vector<Vec3> lambda(s.parts.gap.rows());
+  if (s.actsInWindows()) {
+    s.evaluateWindow(m, half);
+    lambda = s.lambda;
+  } else {
+    const std::vector<Vec3> still(s.overlap.size()), none(lambda.size());
+    std::vector<Vec3> ofNodes(ownForce.begin(), ownForce.end()), acceleration(lambda.size());
+    side().mass->solve(ofNodes);
+    gapOfMembers(s.parts.gap, still, ofNodes, acceleration);
+    s.parts.constraint->evaluate({s.now, none, none, acceleration, half}, lambda);
+  }
   pullParticles(s.parts.gap, s.overlap, lambda, onParticles);
   for (std::size_t n = 0; n < s.parts.gap.coupledNode.size(); ++n)
     load.add(s.parts.gap.coupledNode[n], cg::applyRow(s.parts.gap.nodesBack, static_cast<int>(n), lambda));
 }
 
+void OverlapTie::addStiffness(const dem::Model& m, std::span<const Vec3> particles, std::span<const Vec3> nodes,
+                              std::span<Vec3> onParticles, std::span<Vec3> onNodes) const {
+  Impl& s = *impl_;
+  if (s.setting.options.constraint != ConstraintKind::penalty) return;
+  s.ready(m);
+  std::vector<Vec3> gap(s.parts.gap.rows()), lambda(gap.size());
+  gapOf(s.parts.gap, s.overlap, particles, nodes, gap);
+  s.parts.constraint->applyStiffness(gap, lambda);
+  for (Vec3& value : lambda) value = -value;
+  pullParticles(s.parts.gap, s.overlap, lambda, onParticles);
+  pullNodes(s.parts.gap, lambda, onNodes);
+}
+
 double OverlapTie::stored() const { return impl_->storedNow; }
-double OverlapTie::lost() const { return impl_->lost; }
+double OverlapTie::lost() const { return impl_->lost + impl_->absorbed; }
+double OverlapTie::absorbed() const { return impl_->absorbed; }
 const Overlap& OverlapTie::overlap() const { return impl_->overlap; }
 const GapOperator& OverlapTie::operators() const { return impl_->parts.gap; }
 std::span<const Vec3> OverlapTie::gap() const { return impl_->now; }
 std::span<const Vec3> OverlapTie::lambda() const { return impl_->lambda; }
-
-OverlapState OverlapTie::state() const {
-  OverlapState state = impl_->events;
-  const Overlap& overlap = impl_->overlap;
-  state.members = overlap.size();
-  state.rows = impl_->rowNode.size();
-  std::vector<char> holds(impl_->setting.mesh.elementCount(), 0);
-  for (const fem::CellPlace& place : overlap.place)
-    if (place.element >= 0) holds[static_cast<std::size_t>(place.element)] = 1;
-  for (std::size_t e = 0; e < holds.size(); ++e)
-    if (!holds[e] && std::ranges::all_of(cellOf(impl_->setting.mesh, static_cast<int>(e)).corner(), [&](int n) {
-          return impl_->setting.nodalWeight[static_cast<std::size_t>(n)] > 0.0;
-        }))
-      ++state.voids;
-  return state;
-}
-
-void OverlapTie::save(ByteWriter& writer) const {
-  const Impl& s = *impl_;
-  std::vector<int> element;
-  std::vector<Vec3> xi;
-  for (const fem::CellPlace& place : s.overlap.place) {
-    element.push_back(place.element);
-    xi.push_back(place.xi);
-  }
-  writer(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
-         s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
-         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
-  writer(s.part, s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies);
-}
-
-void OverlapTie::load(ByteReader& reader) {
-  Impl& s = *impl_;
-  std::vector<int> element;
-  std::vector<Vec3> xi;
-  reader(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
-         s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
-         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
-  reader(s.part, s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies);
-  s.overlap.place.assign(element.size(), {});
-  for (std::size_t k = 0; k < element.size(); ++k)
-    if (element[k] >= 0)
-      s.overlap.place[k] = {element[k], xi[k], fem::shapeRow(cellOf(s.setting.mesh, element[k]).shape, xi[k])};
-  s.stale = true;
-  s.memberOf.clear();
-}
 
 }  // namespace dovetail::arlequin

@@ -8,8 +8,8 @@
 
 namespace dovetail::arlequin {
 
-struct OverlapTie::Impl {
-  coupling::SolidSide& side;
+/// What a copy takes along and files hold.
+struct TieState {
   TieSetting setting;
   Overlap overlap;            // x: the material points at which particles are tied, m
   std::vector<int> memberOf;  // row of each particle in the overlap, −1: none
@@ -17,32 +17,45 @@ struct OverlapTie::Impl {
   std::int64_t known = -1;    // Particles::revision of the numbers
   std::int64_t knownIds = 0;  // Particles::nextId when newcomers were last looked for
   PairShares shares;
-  TieParts parts;
-  bool stale = true;   // the parts are not those of the overlap
   bool refit = false;  // somebody has taken members out: rows keep their gap all the same
 
   std::vector<Vec3> kept;                  // per row: part of the gap that is not of the present ties, m
   std::vector<Vec3> now, increment;        // the gap, and of the last step, m
+  std::vector<Vec3> atWindow;              // the gap at the last end of a window, m, of ties that act there
+  std::vector<Vec3> windowIncrement;       // of the window that ended there, m
   std::vector<Vec3> lambda, lambdaBefore;  // N
   std::vector<int> rowNode;                // to which the arrays above belong
   std::vector<Vec3> nodesBefore;           // u at the last evaluation, m
 
   bool advanced = false;  // the gap has been brought up to this step, and half of its work is booked
 
-  double storedNow = 0.0, lost = 0.0, power = 0.0;   // J, J, W of the absorber
+  double storedNow = 0.0, lost = 0.0;                // J
+  double absorbed = 0.0, power = 0.0;                // J, W
   bool complies = false;                             // velocities have been made to comply with the multipliers
   double memberTravel = 0.0, farTravel = 0.0;        // bounds on relative moves, m
   double smallestRadius = 0.0, largestRadius = 0.0;  // m, of the members when the tie was made
   std::vector<int> near;                             // particles outside that may come in, by number
   OverlapState events;
+};
+
+struct OverlapTie::Impl : TieState {
+  coupling::SolidSide& side;
+  bool loadsNobody = false;  // it belongs to a copy of the particles' model
+  TieParts parts;
+  bool stale = true;  // the parts are not those of the overlap
 
   explicit Impl(coupling::SolidSide& s) : side(s) {}
+  Impl(const TieState& state, coupling::SolidSide& s) : TieState(state), side(s), loadsNobody(true) {}
 
   const fem::Nodes& nodes() const { return side.nodes(); }
   std::vector<Vec3> positions() const { return positionsOf(nodes().X, nodes().u); }
   bool isFollowed() const { return !setting.options.projection.perElement; }
   bool turnsGap() const {
     return setting.options.constraint == ConstraintKind::penalty && setting.options.form == GapForm::atParticles;
+  }
+  /// On implicit solids multipliers and dashpots act at the ends of windows, whose increments and rates they see.
+  bool actsInWindows() const {
+    return setting.options.constraint != ConstraintKind::penalty && side.stepping == coupling::Stepping::implicitSteps;
   }
   /// A gap beyond it slips, and ties that are longer by half of it are made anew, m.
   double slipLength() const { return 0.1 * smallestRadius; }
@@ -65,6 +78,7 @@ struct OverlapTie::Impl {
   void comply(dem::Model& m);
   void evaluate(dem::Model& m, const dem::Step& step);
   void apply(dem::Model& m, const dem::Step& step);
+  void evaluateWindow(const dem::Model& m, double half);
 
   void watch(dem::Model& m, const dem::Step& step);
   void findNear(const dem::Model& m);

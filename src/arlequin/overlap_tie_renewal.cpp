@@ -128,7 +128,7 @@ void OverlapTie::Impl::kickNodes(dem::Model& m, std::span<const Vec3> impulse) {
   fem::Nodes& solid = side.nodes();
   for (std::size_t n = 0; n < change.size(); ++n) {
     lost -= dot(impulse[n], solid.v[n] + 0.5 * change[n]);
-    solid.v[n] += change[n];
+    if (!loadsNobody) solid.v[n] += change[n];
     m.left.momentum += impulse[n] - solid.mass[n] * change[n];
   }
 }
@@ -245,7 +245,8 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   keepGap(m);
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, increment);  // of the step, as the new ties see it
   for (Vec3& change : increment) change *= m.step.dt;
-  if (!parts.constraint->needsRates()) parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
+  if (!parts.constraint->needsRates() && !actsInWindows())
+    parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
   weighPairs(m, isMoved);
   lost += contactsBefore - contactEnergy(m) + storedBefore - storedNow;
   findNear(m);

@@ -73,15 +73,6 @@ void requireMembers(const Overlap& overlap, const dem::Model& m, double leastSha
                      "overlap", "take those out that particlesBeyond lists, or lower leastShare to the weights' floor");
 }
 
-/// Half the eigenfrequency bound of the solid's elements, squared: 4/dt².
-double stiffestElement(fem::Model& solid) {
-  double dt = std::numeric_limits<double>::infinity();
-  for (const auto& term : solid.terms)
-    if (auto* const elements = dynamic_cast<fem::Solid*>(term.get()))
-      dt = std::min(dt, elements->stableStep(solid.nodes).dt);
-  return 4.0 / (dt * dt);
-}
-
 }  // namespace
 
 std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
@@ -92,6 +83,10 @@ std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidM
   requirePositive(options.leastShare, "least share");
   if (options.projection.width > 0.0 && grains.pairs.periodicity().any())
     throw InputError("kernels do not reach across a period", "overlap", "take width 0 in periodic space");
+  if (options.dashpotLags &&
+      (options.constraint != ConstraintKind::dashpot || side.stepping != coupling::Stepping::implicitSteps))
+    throw InputError("only dashpots on implicit solids lag", "overlap",
+                     "take ConstraintKind::dashpot and Stepping::implicitSteps, or no lag");
   std::unique_ptr<OverlapTie> tie(new OverlapTie(side));
   OverlapTie::Impl& s = *tie->impl_;
   const double reach = options.projection.reachOut ? options.projection.width : 0.0;
@@ -133,7 +128,8 @@ std::vector<int> particlesBeyond(const dem::Model& grains, const fem::SolidMesh&
 
 /// Jensen: with weights that sum to one, Σ_i p V_i |g_i|² ≤ Σ_k p Ω_k |x_k − Φ_k u|² (the metric penalty is a
 /// projection of the latter), so that every particle is held by a spring p Ω of its own to its place in the solid. A
-/// particle gives the spring its part of its mass, nodes give theirs, and what is left of them carries the elements.
+/// particle gives the spring its part of its mass, and nodes give theirs. What the elements ask of the nodes is added
+/// by whoever steps both.
 void OverlapTie::addDemand(const dem::Model& m, dem::ContactDemand& demand) const {
   const Impl& s = *impl_;
   const CouplingOptions& o = s.setting.options;
@@ -164,12 +160,11 @@ void OverlapTie::addDemand(const dem::Model& m, dem::ContactDemand& demand) cons
   // Consistent masses are at least 1/27 of the lumped ones (hex8).
   const double share = side().mass == nullptr ? 0.0 : side().mass->share();
   const double lightest = 1.0 - share + share / 27.0;
-  const double elements = stiffestElement(*side().model) / lightest;
   for (std::size_t k = 0; k < s.overlap.size(); ++k) {
     double worst = 0.0, sum = 0.0;
     eachNode(k, [&](std::size_t n, double shape) {
       sum += shape;
-      if (shape > 0.0 && mass[n] > 0.0) worst = std::max(worst, ofNodes[n] / (lightest * mass[n]) + elements);
+      if (shape > 0.0 && mass[n] > 0.0) worst = std::max(worst, ofNodes[n] / (lightest * mass[n]));
     });
     demand.links.push_back(
         {s.overlap.particle[k], -1, dem::StepOwner::contact, spring(k), std::max(1.0, sum) * worst, 0.0});

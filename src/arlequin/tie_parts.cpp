@@ -34,6 +34,11 @@ std::unique_ptr<Constraint> multiplier(const TieSetting& setting, const Overlap&
   return makeIterativeMultiplier(gap, overlap, yielding, mass);
 }
 
+/// By rows for the local map and for the nodal form; wide kernels at the particles need the metric of their rows.
+bool penaltyIsLocal(const CouplingOptions& options) {
+  return options.projection.width == 0.0 || options.form == GapForm::nodal;
+}
+
 std::unique_ptr<Constraint> penalty(const TieSetting& setting, const Overlap& overlap, const TieParts& parts) {
   const CouplingOptions& o = setting.options;
   if (!penaltyIsLocal(o)) return makeMetricPenalty(parts.gap, parts.stiffness, 1.0);

@@ -7,9 +7,11 @@
 #include <random>
 #include <vector>
 
-#include "dovetail/arlequin/stepper.hpp"
+#include "dovetail/arlequin/coupling_options.hpp"
+#include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/model/model.hpp"
 
 namespace dovetail::arlequin::test {
 
@@ -59,34 +61,6 @@ inline std::vector<double> barWeights(const fem::SolidMesh& mesh, const SceneOpt
     s.push_back(place > 1.0 + 1e-9 ? beyondOverlap : std::clamp(place, 0.0, 1.0));
   }
   return nodalWeights(s, o.weights);
-}
-
-inline Solid makeSolid(const fem::SolidMesh& mesh, std::span<const double> weight, const SceneOptions& o) {
-  auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
-  if (o.holdEnd) fem::fix(model->nodes, fem::nodeSet(mesh, "y+"));
-  const fem::StVenantKirchhoff law{modulus, 0.0, bulk};
-  model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law)), {.share = solidWeights(weight)}));
-  return Solid(mesh, std::move(model), o.massShare);
-}
-
-inline Model makeBar(const SceneOptions& o) {
-  const double half = 0.5 * o.across * edge, d = edge / o.particlesPerEdge;
-  Model model;
-  model.discrete.particles = lattice({-half, 0.0, -half}, {half, particleEnd(o), half}, o.particlesPerEdge);
-  model.discrete.pairs.setSkin(0.1 * d);
-  dem::findPairs(model.discrete.particles, model.discrete.pairs);
-  dem::ElasticLaw law;
-  law.normal.stiffness = modulus * d;
-  law.normal.bonded = true;
-  model.discrete.laws = dem::makeContactLaws(law);
-  model.discrete.sortEvery = 0;
-  model.discrete.refusesUnstableSteps = false;  // criticalStep knows the whole
-  const fem::SolidMesh mesh = barMesh(o);
-  const std::vector<double> weight = barWeights(mesh, o);
-  model.solid.emplace(makeSolid(mesh, weight, o));
-  model.coupling.emplace(
-      makeCoupling(model.discrete.particles, model.discrete.pairs, *model.solid, weight, o.coupling));
-  return model;
 }
 
 /// An overlap without contacts or motion: mesh, particles within it, weights.

@@ -2,7 +2,7 @@
 
 #include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/core/error.hpp"
-#include "scenes.hpp"
+#include "tie_scenes.hpp"
 
 namespace dovetail::arlequin {
 namespace {
@@ -14,7 +14,7 @@ struct Setting {
   double width;
 };
 
-Model barWith(ConstraintKind kind, double width, double massShare = 0.0) {
+Bar barWith(ConstraintKind kind, double width, double massShare = 0.0) {
   SceneOptions o;
   o.coupling.constraint = kind;
   o.coupling.projection.width = width;
@@ -23,7 +23,7 @@ Model barWith(ConstraintKind kind, double width, double massShare = 0.0) {
   return makeBar(o);
 }
 
-std::vector<Vec3> randomRows(const Coupling& c, unsigned seed) {
+std::vector<Vec3> randomRows(const Bar& c, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<Vec3> rows(c.rows());
   for (Vec3& v : rows) v = randomVector(random, 1e-3);
@@ -32,8 +32,8 @@ std::vector<Vec3> randomRows(const Coupling& c, unsigned seed) {
 
 TEST(Constraint, ThePenaltyIsTheGradientOfItsEnergy) {
   for (const double width : {0.0, 0.9}) {
-    const Model model = barWith(ConstraintKind::penalty, width);
-    const Coupling& c = *model.coupling;
+    const Bar model = barWith(ConstraintKind::penalty, width);
+    const Bar& c = model;
     std::vector<Vec3> gap = randomRows(c, 4), lambda(c.rows()), tangent(c.rows());
     c.constraint->evaluate({gap, {}, {}, {}, 1.0}, lambda);
     c.constraint->applyStiffness(gap, tangent);
@@ -55,16 +55,16 @@ TEST(Constraint, ThePenaltyIsTheGradientOfItsEnergy) {
 TEST(Constraint, MultipliersTakeTheGapsAccelerationAway) {
   for (const double share : {0.0, 0.4})
     for (const double width : {0.0, 0.9}) {
-      Model model = barWith(ConstraintKind::multiplier, width, share);
-      Coupling& c = *model.coupling;
-      Solid& solid = *model.solid;
+      Bar model = barWith(ConstraintKind::multiplier, width, share);
+      Bar& c = model;
+      const fem::ModelMass& solid = model.mass();
       std::mt19937 random(8);
-      std::vector<Vec3> f(model.discrete.particles.size()), g(solid.nodes().X.size());
+      std::vector<Vec3> f(model.particles.size()), g(model.nodes().X.size());
       for (auto* forces : {&f, &g})
         for (Vec3& v : *forces) v = randomVector(random, 1.0);
       const auto accelerations = [&](std::vector<Vec3> onParticles, std::vector<Vec3> onNodes) {
-        for (std::size_t i = 0; i < onParticles.size(); ++i) onParticles[i] *= 1.0 / model.discrete.particles.mass[i];
-        solid.motion().accelerate(onNodes);
+        for (std::size_t i = 0; i < onParticles.size(); ++i) onParticles[i] *= 1.0 / model.particles.mass[i];
+        solid.solve(onNodes);
         std::vector<Vec3> gap(c.rows());
         gapOf(c.gap, c.overlap, onParticles, onNodes, gap);
         return gap;
@@ -87,17 +87,16 @@ TEST(Constraint, MultipliersTakeTheGapsAccelerationAway) {
 TEST(Constraint, ByIterationMultipliersAreTheSameForces) {
   for (const double share : {0.0, 0.4})
     for (const double width : {0.0, 0.9}) {
-      Model model = barWith(ConstraintKind::multiplier, width, share);
-      const Coupling& c = *model.coupling;
-      const auto iterative =
-          makeIterativeMultiplier(c.gap, c.overlap, model.discrete.particles.mass, model.solid->motion().mass());
+      Bar model = barWith(ConstraintKind::multiplier, width, share);
+      const Bar& c = model;
+      const auto iterative = makeIterativeMultiplier(c.gap, c.overlap, model.particles.mass, model.mass());
       std::mt19937 random(12);
-      std::vector<Vec3> a(model.discrete.particles.size()), b(model.solid->nodes().X.size()), gap(c.rows()),
-          none(c.rows()), direct(c.rows()), other(c.rows());
+      std::vector<Vec3> a(model.particles.size()), b(model.nodes().X.size()), gap(c.rows()), none(c.rows()),
+          direct(c.rows()), other(c.rows());
       for (auto* values : {&a, &b})
         for (Vec3& v : *values) v = randomVector(random, 1.0);
       for (std::size_t n = 0; n < b.size(); ++n)
-        if (model.solid->nodes().fixed[n]) b[n] = {};
+        if (model.nodes().fixed[n]) b[n] = {};
       gapOf(c.gap, c.overlap, a, b, gap);
       c.constraint->evaluate({none, none, none, gap, 1.0}, direct);
       iterative->evaluate({none, none, none, gap, 1.0}, other);
@@ -114,8 +113,8 @@ TEST(Constraint, ByIterationMultipliersAreTheSameForces) {
 }
 
 TEST(Constraint, DashpotsLoseWhateverTheIncrement) {
-  const Model model = barWith(ConstraintKind::dashpot, 0.0);
-  const Coupling& c = *model.coupling;
+  const Bar model = barWith(ConstraintKind::dashpot, 0.0);
+  const Bar& c = model;
   for (const bool consistent : {false, true}) {
     const auto dashpot = makeDashpot(c.gap, 1e8, consistent);
     for (unsigned seed = 0; seed < 20; ++seed) {
@@ -131,8 +130,8 @@ TEST(Constraint, DashpotsLoseWhateverTheIncrement) {
 }
 
 TEST(Constraint, LumpedDashpotsAreTheRowSumsOfConsistentOnes) {
-  const Model model = barWith(ConstraintKind::dashpot, 0.0);
-  const Coupling& c = *model.coupling;
+  const Bar model = barWith(ConstraintKind::dashpot, 0.0);
+  const Bar& c = model;
   const std::vector<Vec3> same(c.rows(), Vec3{1e-4, 2e-4, -1e-4});
   std::vector<Vec3> lumped(c.rows()), consistent(c.rows());
   makeDashpot(c.gap, 1e8, false)->evaluate({{}, same, {}, {}, 1.0}, lumped);
@@ -141,10 +140,10 @@ TEST(Constraint, LumpedDashpotsAreTheRowSumsOfConsistentOnes) {
 }
 
 TEST(Constraint, ImpossiblePenaltiesAreRefused) {
-  const Model model = barWith(ConstraintKind::penalty, 0.0);
+  const Bar model = barWith(ConstraintKind::penalty, 0.0);
   for (const double p : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW(makePenalty({1.0, p}), InputError);
-    EXPECT_THROW(makeDashpot(model.coupling->gap, p, false), InputError);
+    EXPECT_THROW(makeDashpot(model.gap, p, false), InputError);
   }
 }
 

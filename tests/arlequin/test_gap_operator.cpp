@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "scenes.hpp"
+#include "tie_scenes.hpp"
 
 namespace dovetail::arlequin {
 namespace {
@@ -17,10 +17,9 @@ std::vector<Still> allScenes() {
   scenes.push_back(makeL(2));
   scenes.push_back(makeCrooked(3));
   SceneOptions bar;
-  const Model model = makeBar(bar);
-  Still still{model.solid->mesh, model.solid->nodes(), model.discrete.particles, model.coupling->overlap.nodalWeight,
-              model.coupling->overlap};
-  still.particles.mass = model.coupling->fullMass;
+  const Bar model = makeBar(bar);
+  Still still{model.mesh, model.nodes(), model.particles, model.overlap.nodalWeight, model.overlap};
+  still.particles.mass = model.fullMass;
   scenes.push_back(std::move(still));
   return scenes;
 }
@@ -81,9 +80,8 @@ TEST(GapOperator, TheNodalFormMakesAFalseGapFromStrain) {
   const auto strained = [](const Vec3& x) { return Vec3{0.0, x.y, 0.0}; };
   SceneOptions bar;
   bar.particlesPerEdge = 1;
-  const Model model = makeBar(bar);
-  const Still s{model.solid->mesh, model.solid->nodes(), model.discrete.particles, model.coupling->overlap.nodalWeight,
-                model.coupling->overlap};
+  const Bar model = makeBar(bar);
+  const Still s{model.mesh, model.nodes(), model.particles, model.overlap.nodalWeight, model.overlap};
   for (const double width : widths) {
     const double residual = largestGap(s, operatorOf(s, GapForm::nodal, width), strained);
     RecordProperty("gap_over_edge_at_width_" + std::to_string(width), std::to_string(residual / edge));

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
-#include "scenes.hpp"
+#include "tie_scenes.hpp"
 
 namespace dovetail::arlequin {
 namespace {
@@ -40,10 +40,10 @@ TEST(Overlap, OfALongBarDoesNotDependOnWhereItsOriginIs) {
   SceneOptions options;
   options.particlesPerEdge = 3;
   options.particleElements = 304, options.solidElements = 8;
-  const Model far = makeBar(options);
+  const Bar far = makeBar(options);
   options.particleElements = 5;
-  const Model near = makeBar(options);
-  const Overlap &a = far.coupling->overlap, &b = near.coupling->overlap;
+  const Bar near = makeBar(options);
+  const Overlap &a = far.overlap, &b = near.overlap;
   ASSERT_EQ(a.size(), b.size());
   EXPECT_EQ(a.elements, b.elements);
   const int shift = a.particle[0] - b.particle[0];
@@ -62,8 +62,7 @@ TEST(Overlap, NamesParticlesInItsBoxThatNoElementHolds) {
     if (s.particles.x[i].x > 2 * edge && s.particles.x[i].y > 2 * edge) expected.push_back(static_cast<int>(i));
   ASSERT_EQ(expected.size(), 64u);
   EXPECT_EQ(s.overlap.stray, expected);
-  const std::vector<double> weight = particleWeights(s.overlap, s.particles.size());
-  for (const int i : s.overlap.stray) EXPECT_EQ(weight[static_cast<std::size_t>(i)], 1.0);
+  for (const int i : s.overlap.particle) EXPECT_FALSE(std::ranges::binary_search(expected, i));
 }
 
 TEST(Overlap, WithoutParticlesElementsOrWidthItIsRefused) {
@@ -80,21 +79,6 @@ TEST(Overlap, WithoutParticlesElementsOrWidthItIsRefused) {
   for (const double floor : {0.0, 1e-3, 0.1}) {
     narrow.weights.floor = floor;
     EXPECT_THROW(makeBar(narrow), InputError) << floor;
-  }
-}
-
-TEST(Overlap, AParticleWithoutWeightIsNamed) {
-  dem::Particles particles = lattice({0, 0, 0}, {0.5, 2, 0.5}, 1);
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {0.5, 2, 0.5});
-  std::vector<double> weight(mesh.X.size(), 0.0);
-  for (std::size_t n = 0; n < 4; ++n) weight[n] = 1.0;
-  const std::vector<double> full = particles.mass;
-  const Overlap overlap = locateOverlap(particles, mesh, nodesAt(mesh.X), weight);
-  try {
-    weighMass(overlap, full, particles);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("particle 2"), std::string::npos) << error.what();
   }
 }
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/dem/model/loads.hpp"
-#include "scenes.hpp"
+#include "tie_scenes.hpp"
 
 namespace dovetail::arlequin {
 namespace {
@@ -11,33 +11,35 @@ using namespace test;
 
 constexpr double stress = -1e3;  // Pa: strain −1e-3 at most
 
+/// The stretch of the lattice whose springs carry the stress; the bricks' St Venant-Kirchhoff law differs by 3/2 ε².
+void strain(dem::Particles& particles, fem::Nodes& nodes) {
+  for (Vec3& x : particles.x) x.y *= 1.0 + stress / modulus;
+  for (std::size_t n = 0; n < nodes.X.size(); ++n) nodes.u[n].y = stress / modulus * nodes.X[n].y;
+}
+
 /// A bar under the stress, uniformly strained, no motion; particles pressed at y = 0 by the force that the removed part
 /// of the bar would give, the solid held at its end.
-Model strainedBar(SceneOptions o) {
-  Model model = makeBar(o);
-  // The stretch of the lattice whose springs carry the stress; the bricks' St Venant-Kirchhoff law differs by 3/2 ε².
-  const double strain = stress / modulus;
-  for (Vec3& x : model.discrete.particles.x) x.y *= 1.0 + strain;
-  for (std::size_t n = 0; n < model.solid->nodes().X.size(); ++n)
-    model.solid->nodes().u[n].y = strain * model.solid->nodes().X[n].y;
+Bar strainedBar(SceneOptions o) {
+  Bar model = makeBar(o);
+  strain(model.particles, model.nodes());
   return model;
 }
 
 /// Forces without the coupling, the outer load on the first layer included.
-void innerForces(Model& model, int particlesPerEdge) {
-  dem::clearForces(model.discrete.particles);
-  model.discrete.laws->pairs(model.discrete.particles, model.discrete.pairs, 1.0, dem::Booking::on);
+void innerForces(Bar& model, int particlesPerEdge) {
+  dem::clearForces(model.particles);
+  model.run.grains.laws->pairs(model.particles, model.run.grains.pairs, 1.0, dem::Booking::on);
   const double d = edge / particlesPerEdge;
-  for (std::size_t i = 0; i < model.discrete.particles.size(); ++i)
-    if (model.discrete.particles.x[i].y < 0.9 * d) model.discrete.particles.f[i].y -= stress * d * d;
-  model.solid->motion().forces(0.0);
+  for (std::size_t i = 0; i < model.particles.size(); ++i)
+    if (model.particles.x[i].y < 0.9 * d) model.particles.f[i].y -= stress * d * d;
+  model.motion->forces(0.0);
 }
 
-double worstForce(const Model& model) {
+double worstForce(const Bar& model) {
   double worst = 0.0;
-  for (const Vec3& f : model.discrete.particles.f) worst = std::max(worst, norm(f));
-  for (std::size_t n = 0; n < model.solid->nodes().f.size(); ++n)
-    if (!model.solid->nodes().fixed[n]) worst = std::max(worst, norm(model.solid->nodes().f[n]));
+  for (const Vec3& f : model.particles.f) worst = std::max(worst, norm(f));
+  for (std::size_t n = 0; n < model.nodes().f.size(); ++n)
+    if (!model.nodes().fixed[n]) worst = std::max(worst, norm(model.nodes().f[n]));
   return worst;
 }
 
@@ -53,21 +55,19 @@ SceneOptions linearOptions(int n) {
 TEST_P(LinearWeights, MultipliersCarryTheStressToRoundOff) {
   SceneOptions o = linearOptions(GetParam());
   o.coupling.constraint = ConstraintKind::multiplier;
-  Model model = strainedBar(o);
+  Bar model = strainedBar(o);
   innerForces(model, o.particlesPerEdge);
   const double before = worstForce(model);
-  Coupling& c = *model.coupling;
-  Solid& solid = *model.solid;
-  std::vector<Vec3> a(model.discrete.particles.size()), b(solid.nodes().X.size()), gap(c.rows()), none(c.rows()),
+  Bar& c = model;
+  std::vector<Vec3> a(model.particles.size()), b(model.nodes().X.size()), gap(c.rows()), none(c.rows()),
       lambda(c.rows());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    a[i] = (1.0 / model.discrete.particles.mass[i]) * model.discrete.particles.f[i];
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = (1.0 / model.particles.mass[i]) * model.particles.f[i];
   for (std::size_t n = 0; n < b.size(); ++n)
-    if (!solid.nodes().fixed[n]) b[n] = (1.0 / solid.nodes().mass[n]) * solid.nodes().f[n];
+    if (!model.nodes().fixed[n]) b[n] = (1.0 / model.nodes().mass[n]) * model.nodes().f[n];
   gapOf(c.gap, c.overlap, a, b, gap);
   c.constraint->evaluate({none, none, none, gap, 1.0}, lambda);
-  pullParticles(c.gap, c.overlap, lambda, model.discrete.particles.f);
-  pullNodes(c.gap, lambda, solid.nodes().f);
+  pullParticles(c.gap, c.overlap, lambda, model.particles.f);
+  pullNodes(c.gap, lambda, model.nodes().f);
   // What is left is the difference of the materials, 3/2 ε² E.
   EXPECT_LT(worstForce(model), 3.0 * 1.5e-3 * before);
 }
@@ -76,15 +76,15 @@ TEST_P(LinearWeights, APenaltyCarriesItByAUniformGap) {
   SceneOptions o = linearOptions(GetParam());
   const double p = 8.0 * modulus / (edge * edge);
   o.coupling.penalty = p;
-  Model model = strainedBar(o);
+  Bar model = strainedBar(o);
   innerForces(model, o.particlesPerEdge);
   const double before = worstForce(model);
-  Coupling& c = *model.coupling;
+  Bar& c = model;
   const double length = o.overlapElements * edge;
   std::vector<Vec3> gap(c.rows(), Vec3{0.0, -stress / (p * length), 0.0}), lambda(c.rows());
   c.constraint->evaluate({gap, {}, {}, {}, 1.0}, lambda);
-  pullParticles(c.gap, c.overlap, lambda, model.discrete.particles.f);
-  pullNodes(c.gap, lambda, model.solid->nodes().f);
+  pullParticles(c.gap, c.overlap, lambda, model.particles.f);
+  pullNodes(c.gap, lambda, model.nodes().f);
   EXPECT_LT(worstForce(model), 3.0 * 1.5e-3 * before);
 }
 
@@ -100,17 +100,17 @@ double profileError(int elements) {
   o.solidElements = elements + 2;
   o.weights = {WeightProfile::halfCosine, 0.0};
   o.coupling.constraint = ConstraintKind::multiplier;
-  Model model = strainedBar(o);
+  Bar model = strainedBar(o);
   innerForces(model, 1);
   // The particles' imbalance is what λ must carry: force on each layer over its volume is −σ w′ at the layer.
   const double length = elements * edge;
   double error = 0.0, largest = 0.0;
-  for (const int i : model.coupling->overlap.particle) {
+  for (const int i : model.overlap.particle) {
     const auto k = static_cast<std::size_t>(i);
-    const double s = (model.discrete.particles.x[k].y / (1.0 + stress / modulus) - solidStart(o)) / length;
+    const double s = (model.particles.x[k].y / (1.0 + stress / modulus) - solidStart(o)) / length;
     if (s < 1.0 / elements || s > 1.0 - 1.0 / elements) continue;
     const double density = -stress * profileSlope(WeightProfile::halfCosine, s) / length;
-    const double carried = -model.discrete.particles.f[k].y / (edge * edge * edge);
+    const double carried = -model.particles.f[k].y / (edge * edge * edge);
     error = std::max(error, std::abs(carried - density));
     largest = std::max(largest, std::abs(density));
   }
@@ -125,7 +125,7 @@ TEST(HalfCosine, TheLoadConvergesToMinusStressTimesSlopeAtSecondOrder) {
 
 /// Gap after pulling with the stress for some steps, twice.
 struct Hold {
-  double early, late, force;
+  double early, late;
 };
 
 Hold hold(ConstraintKind kind, int steps, double epsilon, double dt) {
@@ -135,22 +135,17 @@ Hold hold(ConstraintKind kind, int steps, double epsilon, double dt) {
   o.weights = {WeightProfile::linear, 1e-3};
   o.coupling.constraint = kind;
   o.coupling.penalty = epsilon;
-  Model model = strainedBar(o);
-  Profile profile;
-  StepSums sums;
+  TieRun run = tieBar(o);
+  strain(run.grains.particles, run.solid->nodes);
   const auto nothing = [](double) { return Vec3{}; };  // the first layer stays where the strain has put it
-  model.discrete.terms.add(dem::DriveTerm({0}, nothing, nothing));
-  start(model, dt, profile);
-  const auto worstGap = [&] {
-    const auto& g = model.coupling->gapNow;
-    return norm(g[g.size() / 2]);
-  };
+  run.grains.terms.add(dem::DriveTerm({0}, nothing, nothing));
+  run.start(dt);
+  const auto gap = [&] { return norm(run.tie->gap()[run.tie->gap().size() / 2]); };
   Hold result{};
-  for (int s = 0; s < steps; ++s) {
-    stepExplicit(model, dt, 1, sums, false, profile);
-    if (s + 1 == steps / 2) result.early = worstGap();
-  }
-  result.late = worstGap();
+  run.run->advance(steps / 2);
+  result.early = gap();
+  run.run->advance(steps - steps / 2);
+  result.late = gap();
   return result;
 }
 

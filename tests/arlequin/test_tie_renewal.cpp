@@ -1,7 +1,6 @@
 // Overlap ties: turns, flow, restarts, packings, and what is refused.
 #include <gtest/gtest.h>
 
-#include "dovetail/arlequin/critical_step.hpp"
 #include "dovetail/core/error.hpp"
 #include "tie_scenes.hpp"
 
@@ -25,7 +24,7 @@ TieRun loose(ConstraintKind kind, double penalty, bool hold = true) {
   run.grains.laws = dem::makeContactLaws(law);
   const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
   const std::vector<double> weight = barWeights(mesh, o);
-  run.solid = std::make_unique<fem::Model>(fem::makeModel(mesh));
+  run.take(fem::makeModel(mesh));
   if (hold) fem::fix(run.solid->nodes, fem::nodeSet(mesh, "y+"));
   const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
   run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.share = solidWeights(weight)}));
@@ -42,7 +41,7 @@ TEST(Flow, ParticlesComeAndGoWithMassMomentumAndEnergyInTheBooks) {
       TieRun run = loose(kind, kind == ConstraintKind::penalty ? 2e5 : 0.0);
       for (std::size_t i = 0; i < run.grains.particles.size(); ++i)
         run.grains.particles.v[i] = {0.01 * run.grains.particles.x[i].z, 0.5, 0.0};
-      run.start();
+      run.start(dt);
       const double first = run.energy(), mass = run.mass();
       const Vec3 momentum = run.momentum();
       double worst = 0.0;
@@ -73,8 +72,7 @@ TEST(Flow, ABedSlidesThroughWithoutACrash) {
     run.start();
     const double mass = run.mass();
     for (int s = 0; s < 12000; ++s) {
-      for (std::size_t i = 0; i < p.size(); ++i)
-        p.v[i] = {0.0, 2.0, 0.0};
+      for (std::size_t i = 0; i < p.size(); ++i) p.v[i] = {0.0, 2.0, 0.0};
       run.step(2e-4);
     }
     EXPECT_GT(run.tie->state().removed, 20);
@@ -94,7 +92,7 @@ TEST(Turn, GapEnergyAndMomentsGoWithTheSolid) {
   std::mt19937 random(7);
   for (Vec3& x : run.grains.particles.x) x += randomVector(random, 2e-3);
   const auto evaluate = [&] {
-    run.side.load.clear();
+    run.side->load.clear();
     dem::clearForces(run.grains.particles);
     dem::Step step;
     step.dt = 1e-100;
@@ -107,7 +105,7 @@ TEST(Turn, GapEnergyAndMomentsGoWithTheSolid) {
     for (std::size_t i = 0; i < run.grains.particles.size(); ++i)
       sum += cross(run.grains.particles.x[i], run.grains.particles.f[i]);
     for (std::size_t n = 0; n < run.solid->nodes.X.size(); ++n)
-      sum += cross(run.solid->nodes.X[n] + run.solid->nodes.u[n], run.side.load.force[n]);
+      sum += cross(run.solid->nodes.X[n] + run.solid->nodes.u[n], run.side->load.force[n]);
     return sum;
   };
   const double stored = evaluate();
@@ -147,102 +145,107 @@ TEST(Turn, TheKeptGapTurnsWithTheSolidAndMakesNoMoment) {
     run.solid->nodes.v[n] = mean + cross(spin, run.solid->nodes.X[n] + run.solid->nodes.u[n] - centre);
   run.start();
   const double first = run.energy();
-  const Vec3 angular = run.angularMomentum();
+  const Vec3 angular = run.run->totals().angularMomentum;
   const std::int64_t before = run.tie->state().relocations;
   int steps = 0;
   double worst = 0.0;
   for (; steps < 600 && run.tie->state().relocations == before; ++steps) {
     run.step(1e-4);
-    if (run.tie->state().relocations == before) worst = norm(run.angularMomentum() - angular);
+    if (run.tie->state().relocations == before) worst = norm(run.run->totals().angularMomentum - angular);
   }
   EXPECT_GT(steps, 60);
   EXPECT_LT(worst, 1e-11 * norm(angular));
   EXPECT_NEAR(run.energy(), first, 1e-3 * first);
 }
 
+/// λ before and after the tie lets particles in and locates them anew, at one state.
+class Look final : public dem::Term {
+public:
+  Look(OverlapTie* tie, std::vector<Vec3>* lambda, std::vector<int>* node, Order order)
+      : tie_(tie), lambda_(lambda), node_(node), order_(order) {}
+  std::string name() const override { return "look"; }
+  std::unique_ptr<dem::Term> clone() const override { return std::make_unique<Look>(*this); }
+  Order order() const override { return order_; }
+  void exchange(dem::Model& m, const dem::Step& step) override {
+    if (order_ == Order::partners) {
+      dem::Step still = step;
+      still.timeless = true;
+      tie_->addForces(m, still);
+    }
+    lambda_->assign(tie_->lambda().begin(), tie_->lambda().end());
+    *node_ = tie_->operators().node;
+  }
+
+private:
+  OverlapTie* tie_;
+  std::vector<Vec3>* lambda_;
+  std::vector<int>* node_;
+  Order order_;
+};
+
 TEST(Renewal, LambdaDoesNotJump) {
   TieRun run = loose(ConstraintKind::penalty, 1e5);
   for (Vec3& v : run.grains.particles.v) v.y = 0.2;
+  std::vector<Vec3> here, there;
+  std::vector<int> nodesHere, nodesThere;
+  run.grains.terms.add(Look(run.tie, &here, &nodesHere, dem::Term::Order::partners));
+  run.grains.terms.add(Look(run.tie, &there, &nodesThere, dem::Term::Order::damping));
   run.start();
   double worst = 0.0, largest = 0.0;
   int looked = 0;
   for (int s = 0; s < 4000; ++s) {
     const std::int64_t before = run.tie->state().relocations;
-    const std::vector<Vec3> old(run.tie->lambda().begin(), run.tie->lambda().end());
-    const std::vector<int> nodes = run.tie->operators().node;
-    dem::move(run.grains, 1e-4);
-    run.kick(0.5e-4);
-    run.motion->drift(1e-4);
-    run.solidForces();
-    dem::Step still = run.grains.step;
-    still.timeless = true;
-    run.tie->addForces(run.grains, still);  // of this state, before the renewal
-    const std::vector<Vec3> here(run.tie->lambda().begin(), run.tie->lambda().end());
-    run.side.load.clear();
-    dem::startForces(run.grains.particles, run.grains.gravity);
-    run.tie->exchange(run.grains, run.grains.step);
-    if (run.tie->state().relocations != before) {
-      ++looked;
-      double size = 0.0, jump = 0.0;
-      for (const Vec3& l : here) size += squaredNorm(l);
-      for (std::size_t r = 0; r < run.tie->lambda().size(); ++r) {
-        const auto at = std::ranges::find(nodes, run.tie->operators().node[r]);
-        const Vec3 was = at == nodes.end() ? Vec3{} : here[static_cast<std::size_t>(at - nodes.begin())];
-        jump += squaredNorm(run.tie->lambda()[r] - was);
-      }
-      if (size > 0.0) worst = std::max(worst, std::sqrt(jump / size));
-      largest = std::max(largest, std::sqrt(size));
+    run.step(1e-4);
+    if (run.tie->state().relocations == before) continue;
+    ++looked;
+    double size = 0.0, jump = 0.0;
+    for (const Vec3& l : here) size += squaredNorm(l);
+    for (std::size_t r = 0; r < there.size(); ++r) {
+      const auto at = std::ranges::find(nodesHere, nodesThere[r]);
+      const Vec3 was = at == nodesHere.end() ? Vec3{} : here[static_cast<std::size_t>(at - nodesHere.begin())];
+      jump += squaredNorm(there[r] - was);
     }
-    dem::renew(run.grains);
-    dem::addForces(run.grains);
-    run.accelerate();
-    dem::close(run.grains);
-    run.kick(0.5e-4);
+    if (size > 0.0) worst = std::max(worst, std::sqrt(jump / size));
+    largest = std::max(largest, std::sqrt(size));
   }
   EXPECT_GT(looked, 5);
   EXPECT_GT(largest, 0.0);
-  EXPECT_LT(worst, 1e-2);
+  EXPECT_LT(worst, 2e-2);  // who comes or goes does so by hundredths
   RecordProperty("largest_jump", std::to_string(worst));
 }
 
-TEST(Restart, GivesTheSameBits) {
+TEST(Restart, GivesTheSameBitsWhileParticlesComeAndGo) {
   for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier, ConstraintKind::dashpot}) {
-    const auto prepared = [&](TieRun& run) {
-      for (std::size_t i = 0; i < run.grains.particles.size(); ++i)
-        run.grains.particles.v[i] = {0.01 * run.grains.particles.x[i].z, 0.5, 0.0};
-      run.start();
-    };
     const double penalty = kind == ConstraintKind::multiplier ? 0.0 : kind == ConstraintKind::penalty ? 2e5 : 1e5;
     TieRun whole = loose(kind, penalty), resumed = loose(kind, penalty);
-    prepared(whole);
-    prepared(resumed);
-    for (int s = 0; s < 500; ++s) whole.step(2e-4);
-    ByteWriter writer;
-    whole.tie->save(writer);
-    resumed.grains.particles = whole.grains.particles;  // what the models' own checkpoints hold
-    resumed.grains.pairs = whole.grains.pairs;
-    resumed.grains.time = whole.grains.time, resumed.grains.steps = whole.grains.steps;
-    resumed.grains.timeBase = whole.grains.timeBase, resumed.grains.stepsBase = whole.grains.stepsBase;
-    resumed.grains.step = whole.grains.step, resumed.grains.open = whole.grains.open;
-    resumed.grains.forcesOf = whole.grains.forcesOf, resumed.grains.checkedStep = whole.grains.checkedStep;
-    resumed.grains.renewals = whole.grains.renewals, resumed.grains.smallestRadius = whole.grains.smallestRadius;
-    resumed.solid->nodes = whole.solid->nodes;
-    resumed.solid->t = whole.solid->t;
-    resumed.acceleration = whole.acceleration;
-    ByteReader reader(writer.bytes());
-    resumed.tie->load(reader);
-    EXPECT_TRUE(reader.atEnd());
-    for (int s = 0; s < 500; ++s) {
-      whole.step(2e-4);
-      resumed.step(2e-4);
+    for (TieRun* run : {&whole, &resumed}) {
+      for (std::size_t i = 0; i < run->grains.particles.size(); ++i)
+        run->grains.particles.v[i] = {0.01 * run->grains.particles.x[i].z, 0.5, 0.0};
+      run->start(2e-4);
     }
-    EXPECT_TRUE(whole.grains.particles.v == resumed.grains.particles.v) << static_cast<int>(kind);
-    EXPECT_TRUE(whole.grains.particles.weight == resumed.grains.particles.weight);
-    EXPECT_TRUE(whole.solid->nodes.v == resumed.solid->nodes.v);
-    EXPECT_EQ(whole.tie->stored(), resumed.tie->stored());
-    EXPECT_EQ(whole.tie->lost(), resumed.tie->lost());
+    whole.run->advance(500);
+    resumed.run->load(whole.run->save());
+    EXPECT_EQ(resumed.run->save(), whole.run->save()) << static_cast<int>(kind);
+    whole.run->advance(500);
+    resumed.run->advance(500);
+    EXPECT_EQ(resumed.run->save(), whole.run->save()) << static_cast<int>(kind);
     EXPECT_GT(whole.tie->state().relocations, 0);
   }
+}
+
+TEST(Renewal, BothModelsMovingTogetherChangeNothing) {
+  SceneOptions o;
+  o.holdEnd = false;
+  TieRun run = tieBar(o);
+  const Vec3 v{0.1, 0.5, -0.2};
+  for (Vec3& each : run.grains.particles.v) each = v;
+  for (Vec3& each : run.solid->nodes.v) each = v;
+  run.start();
+  run.run->advance(3000);
+  EXPECT_EQ(run.tie->state().relocations, 0);
+  EXPECT_EQ(run.grains.left.mass, 0.0);
+  for (const Vec3& each : run.grains.particles.v) EXPECT_LT(norm(each - v), 1e-8);
+  for (const Vec3& each : run.solid->nodes.v) EXPECT_LT(norm(each - v), 1e-8);
 }
 
 TEST(Numbers, SortingInsertingAndRemovingAreFollowed) {

@@ -4,7 +4,7 @@
 
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/error.hpp"
-#include "scenes.hpp"
+#include "tie_scenes.hpp"
 
 namespace dovetail::arlequin {
 namespace {
@@ -90,10 +90,10 @@ TEST(Weights, ModelsShareEveryPointExactly) {
 
 TEST(Weights, MassIsShared) {
   SceneOptions o;
-  const Model model = makeBar(o);
+  const Bar model = makeBar(o);
   double mass = 0.0;
-  for (const double m : model.discrete.particles.mass) mass += m;
-  for (const double m : model.solid->nodes().mass) mass += m;
+  for (const double m : model.particles.mass) mass += m;
+  for (const double m : model.nodes().mass) mass += m;
   const double length = (o.particleElements - o.overlapElements + o.solidElements) * edge;
   EXPECT_NEAR(mass, bulk * length * edge * edge * o.across * o.across, 1e-3 * mass);
 }

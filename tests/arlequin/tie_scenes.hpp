@@ -1,94 +1,72 @@
-// A small explicit run of particles, a solid and an overlap, and scenes for it.
+// A run of particles, a solid and an overlap, and scenes for it.
 #pragma once
 
+#include <functional>
 #include <memory>
 
+#include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/coupling/run.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
+#include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/motion/motion.hpp"
 #include "scenes.hpp"
 
 namespace dovetail::arlequin::test {
 
-/// kick · drift · forces · kick of both models.
+/// A coupled run with one solid and one tie, and what the supports of the solid do.
 struct TieRun {
-  dem::Model grains;
-  std::unique_ptr<fem::Model> solid;
-  std::unique_ptr<fem::Motion> motion;
-  coupling::SolidSide side;
+  std::unique_ptr<coupling::CoupledRun> run = std::make_unique<coupling::CoupledRun>();
+  dem::Model& grains = run->grains;
+  fem::Model* solid = nullptr;
+  coupling::SolidSide* side = nullptr;
   OverlapTie* tie = nullptr;
-  std::vector<Vec3> own, acceleration;
-  double strain = 0.0, supportWork = 0.0;
-  Vec3 supportImpulse;
-  double openStep = 0.0;
+  coupling::SolidOptions options{.name = "solid"};
+  int K = 1;
+  Vec3 supportImpulse;  // K = 1 of explicit solids
 
-  void couple(const fem::SolidMesh& mesh, const std::vector<double>& weight, const CouplingOptions& options,
-              double massShare = 0.0) {
-    fem::addMass(*solid);
-    motion = std::make_unique<fem::Motion>(*solid, massShare);
-    side = {"solid", solid.get(), &motion->mass(), coupling::NodalLoad(mesh.X.size()), {}};
-    auto made = makeOverlapTie(grains, mesh, weight, side, options);
+  void take(fem::Model model) {
+    owned_ = std::make_unique<fem::Model>(std::move(model));
+    solid = owned_.get();
+  }
+  void couple(const fem::SolidMesh& mesh, const std::vector<double>& weight, const CouplingOptions& coupling) {
+    grains.refusesUnstableSteps = false;  // the tests choose
+    side = &run->addSolid(std::move(owned_), options);
+    auto made = makeOverlapTie(grains, mesh, weight, *side, coupling);
     tie = made.get();
     grains.terms.add(std::unique_ptr<dem::Term>(std::move(made)));
   }
 
-  void solidForces() {
-    side.load.clear();
-    strain = motion->forces(0.0, true);
-    for (std::size_t n = 0; n < solid->nodes.f.size(); ++n) solid->nodes.f[n] += solid->nodes.mass[n] * grains.gravity;
-    own = solid->nodes.f;
-    side.own = own;
-  }
-  void accelerate() {
-    acceleration = own;
-    for (const int n : side.load.touched) acceleration[static_cast<std::size_t>(n)] += side.load.force[n];
-    solid->nodes.f = acceleration;
-    motion->accelerate(acceleration);
-  }
-  void kick(double dt) {
-    motion->kick(acceleration, dt);
-    supportImpulse += dt * motion->supportForce(acceleration, solid->nodes.f);
-  }
-  void start() {
-    solidForces();
-    dem::findForces(grains);
-    accelerate();
-  }
+  void start(double dt = 1e-4) { run->start(dt, {.stepsPerWindow = K}); }
+  /// A window.
   void step(double dt) {
-    dem::move(grains, dt);
-    kick(0.5 * dt);
-    motion->drift(dt);
-    solidForces();
-    dem::renew(grains);
-    dem::addForces(grains);
-    accelerate();
-    dem::close(grains);
-    kick(0.5 * dt);
+    if (dt != run->dt()) start(dt);
+    const Vec3 before = support();
+    run->advance();
+    supportImpulse += 0.5 * dt * (before + support());
   }
-  double energy() const {
-    double gravity = 0.0;
-    for (std::size_t n = 0; n < solid->nodes.X.size(); ++n)
-      gravity -= solid->nodes.mass[n] * dot(grains.gravity, solid->nodes.X[n] + solid->nodes.u[n]);
-    return dem::energies(grains).balance() + motion->kineticEnergy() + strain + gravity + tie->stored() + tie->lost();
+  Vec3 support() const {
+    std::vector<Vec3> a = solid->nodes.f;
+    side->mass->solve(a);
+    return side->mass->supportForce(a, solid->nodes.f);
   }
+  double solidKinetic() const { return side->mass->kineticEnergy(solid->nodes.v); }
+  double energy() const { return run->ledger().stored() + run->ledger().booked(); }
   /// What entered and left taken into account.
   Vec3 momentum() const {
-    return dem::momenta(grains).linear + fem::momentum(solid->nodes) + grains.left.momentum - grains.entered.momentum -
-           supportImpulse;
+    return run->totals().momentum + grains.left.momentum - grains.entered.momentum - supportImpulse;
   }
-  Vec3 angularMomentum() const { return dem::momenta(grains).angular + fem::angularMomentum(solid->nodes); }
-  double mass() const {
-    double sum = grains.left.mass - grains.entered.mass;
-    for (std::size_t i = 0; i < grains.particles.size(); ++i)
-      sum += grains.particles.weightOf(i) * grains.particles.mass[i];
-    for (const double m : solid->nodes.mass) sum += m;
-    return sum;
-  }
+  double mass() const { return run->totals().mass + grains.left.mass - grains.entered.mass; }
+
+private:
+  std::unique_ptr<fem::Model> owned_;
 };
 
-/// The bar of makeBar, in cells of any shape.
-inline TieRun tieBar(const SceneOptions& o, fem::CellShape shape = fem::CellShape::hex8) {
+/// A bar in cells of any shape. @param place  changes the places of the particles, whose contacts are the lattice's
+inline TieRun tieBar(const SceneOptions& o, fem::CellShape shape = fem::CellShape::hex8,
+                     coupling::Stepping stepping = coupling::Stepping::explicitSteps,
+                     const std::function<void(Vec3&)>& place = {}) {
   const double half = 0.5 * o.across * edge, d = edge / o.particlesPerEdge;
   TieRun run;
   run.grains.particles = lattice({-half, 0.0, -half}, {half, particleEnd(o), half}, o.particlesPerEdge);
@@ -99,16 +77,64 @@ inline TieRun tieBar(const SceneOptions& o, fem::CellShape shape = fem::CellShap
   run.grains.laws = dem::makeContactLaws(law);
   run.grains.sortEvery = 0;
   dem::findPairs(run.grains.particles, run.grains.pairs);
+  for (Vec3& x : run.grains.particles.x)
+    if (place) place(x);
   const fem::SolidMesh mesh = fem::boxOf(shape, {o.across, o.solidElements, o.across}, {-half, solidStart(o), -half},
                                          {half, solidStart(o) + o.solidElements * edge, half});
   std::vector<double> weight = barWeights(mesh, o);
   levelMidNodes(mesh, weight);
-  run.solid = std::make_unique<fem::Model>(fem::makeModel(mesh));
+  run.take(fem::makeModel(mesh));
   if (o.holdEnd) fem::fix(run.solid->nodes, fem::nodeSet(mesh, "y+"));
   const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
   run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.share = solidWeights(weight)}));
-  run.couple(mesh, weight, o.coupling, o.massShare);
+  run.options.stepping = stepping;
+  run.options.massShare = o.massShare;
+  CouplingOptions coupling = o.coupling;
+  coupling.leastShare = std::clamp(o.weights.floor, 1e-9, coupling.leastShare);
+  run.couple(mesh, weight, coupling);
   return run;
+}
+
+/// The parts of a bar for who looks at them one by one.
+struct Bar {
+  TieRun run;
+  fem::SolidMesh mesh;
+  dem::Particles particles;  // of the run, their masses weighted
+  std::vector<double> fullMass;
+  std::unique_ptr<fem::Motion> motion;
+  Overlap overlap;
+  GapOperator gap;
+  std::unique_ptr<Constraint> constraint;
+
+  std::size_t rows() const { return gap.rows(); }
+  const fem::Nodes& nodes() const { return run.solid->nodes; }
+  fem::Nodes& nodes() { return run.solid->nodes; }
+  const fem::ModelMass& mass() const { return motion->mass(); }
+};
+
+inline Bar makeBar(const SceneOptions& o) {
+  Bar bar{tieBar(o), barMesh(o), {}, {}, nullptr, {}, {}, nullptr};
+  bar.run.tie->renewed(bar.run.grains);
+  bar.particles = bar.run.grains.particles;
+  bar.fullMass = bar.particles.mass;
+  for (std::size_t i = 0; i < bar.fullMass.size(); ++i) bar.particles.mass[i] *= bar.particles.weightOf(i);
+  bar.motion = std::make_unique<fem::Motion>(*bar.run.solid, o.massShare);
+  bar.overlap = bar.run.tie->overlap();
+  bar.gap = makeGapOperator(bar.overlap, bar.mesh, bar.fullMass, o.coupling.form, o.coupling.projection);
+  const double p = o.coupling.penalty > 0.0 ? o.coupling.penalty : automaticPenalty(modulus, edge);
+  if (o.coupling.constraint == ConstraintKind::multiplier)
+    bar.constraint = makeMultiplier(bar.gap, bar.overlap, bar.particles.mass, bar.mass());
+  else if (o.coupling.constraint == ConstraintKind::dashpot)
+    bar.constraint = makeDashpot(bar.gap, p, o.coupling.consistentDashpot);
+  else if (o.coupling.projection.width > 0.0)
+    bar.constraint =
+        makeMetricPenalty(bar.gap, std::vector<double>(bar.overlap.size(), std::pow(edge / o.particlesPerEdge, 3)), p);
+  else {
+    std::vector<double> stiffness = bar.gap.volume;
+    for (double& value : stiffness) value *= p;
+    bar.constraint = makePenalty(std::move(stiffness));
+  }
+  return bar;
 }
 
 }  // namespace dovetail::arlequin::test

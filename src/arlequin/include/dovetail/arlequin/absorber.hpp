@@ -27,15 +27,12 @@ public:
   void renumber(std::span<const int> particle) { overlap_.particle.assign(particle.begin(), particle.end()); }
   /// The last force, N, one per row of the overlap.
   std::span<const Vec3> force() const { return force_; }
-  /// Σ −½ (F_before + F_now)·dx over the step that led here, J; ≥ 0 but for the error of the step.
-  /// @param dx  displacement of all particles in that step is dt v
-  double workOfStep(std::span<const Vec3> v, double dt) const;
 
 private:
   Overlap overlap_;
   cg::Projection coarse_, coarseBack_, fine_, fineBack_;  // Π, Πᵀ, Φ on the gap's nodes, Φᵀ
   std::vector<double> damping_;                           // D, kg/s
-  std::vector<Vec3> force_, forceBefore_, here_, rows_, back_;
+  std::vector<Vec3> force_, here_, rows_, back_;
 };
 
 }  // namespace dovetail::arlequin

@@ -17,13 +17,13 @@ struct CouplingOptions {
   ConstraintKind constraint = ConstraintKind::penalty;
   double penalty = 0.0;            ///< p, or ε of the dashpot, Pa/m²; 0 = automaticPenalty (dashpot: none)
   bool consistentDashpot = false;  ///< ∫ψ_iψ_j instead of its row sums
-  double absorberRate = 0.0;       ///< 1/s; 0 = no absorber
+  /// The forces of a window's increment act over the whole of the next one, as the authors of the dashpot step (Cheng
+  /// et al. 2023); implicit solids only. Where two windows meet, the halves of both make their mean.
+  bool dashpotLags = false;
+  double absorberRate = 0.0;  ///< 1/s; 0 = no absorber
   /// Particles with a smaller share have passed the border of the particles within the solid: they leave the scene. The
   /// floor of the weights, or less.
   double leastShare = 1e-3;
 };
-
-/// Whether the penalty is one of rows (makePenalty); else it is makeMetricPenalty.
-bool penaltyIsLocal(const CouplingOptions& options);
 
 }  // namespace dovetail::arlequin

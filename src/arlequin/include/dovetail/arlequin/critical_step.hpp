@@ -1,21 +1,23 @@
-// The largest stable step of the coupled explicit integrator, and who sets it.
+// The largest stable step of particles and a solid that share an overlap, and who sets it.
 #pragma once
 
-#include "dovetail/arlequin/stepper.hpp"
+#include "dovetail/arlequin/overlap_tie.hpp"
 
 namespace dovetail::arlequin {
 
 /// 2/ω of velocity Verlet, s; infinite for a part that is absent.
 struct CriticalStep {
   double particles;  ///< contacts between weighted particles, all of them closed
-  double solid;      ///< weighted bricks with the mass matrix in use
-  double together;   ///< all, with the stiffness of the constraint
+  double solid;      ///< weighted elements with their mass matrix
+  double together;   ///< all, with the stiffness of the tie
 };
 
-/// From the largest eigenvalue of M⁻¹K of the model as it is now (Lanczos; the bound on its error is added, so the step
-/// errs on the small side). Multipliers only lower ω; dashpots and the absorber have limits of their own (see
-/// makeDashpot and Absorber).
+/// From the largest eigenvalue of M⁻¹K of the state as it is now (Lanczos; the bound on its error is added, so the step
+/// errs on the small side): sharper than CoupledRun::criticalStep and much dearer. Multipliers only lower ω; dashpots
+/// and the absorber have limits of their own (see makeDashpot and Absorber). Pairs must be listed.
+/// @param side       of the one solid; null: particles alone   @param massShare  of its consistent mass
+/// @param tie        null: none
 /// @throws NumericalError if the iteration meets a number that is not finite
-CriticalStep criticalStep(Model& model);
+CriticalStep criticalStep(dem::Model& grains, coupling::SolidSide* side, double massShare, OverlapTie* tie);
 
 }  // namespace dovetail::arlequin

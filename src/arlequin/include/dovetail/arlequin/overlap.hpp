@@ -48,17 +48,6 @@ Overlap locateOverlap(const dem::Particles& particles, const fem::SolidMesh& mes
 /// @throws InputError unless the weights take at least one whole element for their way from largest to smallest
 void requireWidth(const Overlap& overlap, const fem::SolidMesh& mesh);
 
-/// w of every particle: 1 outside of the mesh.
-std::vector<double> particleWeights(const Overlap& overlap, std::size_t particles);
-
-/// particles.mass = w · fullMass; so inertia, weight and kinetic energy are weighted.
-/// @throws InputError naming the particle whose weight is zero: it would be without mass
-void weighMass(const Overlap& overlap, std::span<const double> fullMass, dem::Particles& particles);
-
-/// Factors of the pairs: w at the middle of each pair's contact, 1 outside of the mesh.
-void weighContacts(const dem::Particles& particles, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
-                   const Overlap& overlap, dem::PairList& pairs);
-
 /// 1 − w per node, for fem::SolidOptions::share.
 std::vector<double> solidWeights(std::span<const double> nodalWeight);
 

@@ -23,7 +23,8 @@ struct OverlapState {
 };
 
 /// Ties particles to the solid where both are: the gap g = Π(x − Φ x_FE) is held by a penalty, multipliers or a dashpot
-/// (CouplingOptions). Particles::weight holds the particles' share w, pairs the share at their contact.
+/// (CouplingOptions). On implicit solids a penalty acts at every step of the particles, multipliers and dashpots at the
+/// ends of windows. Particles::weight holds the particles' share w, pairs the share at their contact.
 ///
 /// A particle is tied to the material point of the solid that it was located at. If it moves relative to that by more
 /// than a tenth of the smallest radius in the overlap, it is located anew: what was its part of the gap is kept in the
@@ -34,10 +35,13 @@ struct OverlapState {
 /// the scene. Rows per element are not followed: their particles stay as located.
 class OverlapTie final : public coupling::Connector {
 public:
+  OverlapTie(const OverlapTie& other);
+  OverlapTie(OverlapTie&&) noexcept;
   ~OverlapTie() override;
 
   std::string name() const override { return "overlap"; }
   std::string code() const override { return "a mesh and a solid"; }
+  std::unique_ptr<dem::Term> clone() const override { return std::make_unique<OverlapTie>(*this); }
   Order order() const override;
   void check(const dem::Model& m) const override;
   double move(dem::Model& m, const dem::Step& step) override;
@@ -46,16 +50,20 @@ public:
   double renumber(std::span<const int> newNumber, const dem::Particles& before) override;
   void addForces(dem::Model& m, const dem::Step& step) override;
   void book(dem::Model& m, const dem::Step& step) override;
-  /// A safe bound with the penalty, both sides and their other stiffnesses; multipliers ask for nothing.
+  /// A safe bound with the penalty on both sides; multipliers ask for nothing.
   void addDemand(const dem::Model& m, dem::ContactDemand& demand) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
 
-  bool constrains() const override;
-  void constrainWindow(const dem::Model& m, std::span<const Vec3> ownForce, double window, std::span<Vec3> onParticles,
-                       coupling::NodalLoad& load) override;
+  void constrainWindow(const dem::Model& m, std::span<const Vec3> ownForce, double half, std::span<Vec3> onParticles,
+                       coupling::NodalLoad& load) const override;
   double stored() const override;
   double lost() const override;
+  double absorbed() const;  ///< the part of it that the absorber took, J
+
+  /// force += what a penalty does against the motions, m, of all particles and nodes, N.
+  void addStiffness(const dem::Model& m, std::span<const Vec3> particles, std::span<const Vec3> nodes,
+                    std::span<Vec3> onParticles, std::span<Vec3> onNodes) const;
 
   const Overlap& overlap() const;
   const GapOperator& operators() const;

@@ -1,0 +1,57 @@
+// What an overlap tie says of itself, and its state in bytes.
+#include <algorithm>
+
+#include "dovetail/fem/mesh/shape.hpp"
+#include "overlap_tie_impl.hpp"
+
+namespace dovetail::arlequin {
+
+OverlapState OverlapTie::state() const {
+  OverlapState state = impl_->events;
+  const Overlap& overlap = impl_->overlap;
+  state.members = overlap.size();
+  state.rows = impl_->rowNode.size();
+  std::vector<char> holds(impl_->setting.mesh.elementCount(), 0);
+  for (const fem::CellPlace& place : overlap.place)
+    if (place.element >= 0) holds[static_cast<std::size_t>(place.element)] = 1;
+  for (std::size_t e = 0; e < holds.size(); ++e)
+    if (!holds[e] && std::ranges::all_of(cellOf(impl_->setting.mesh, static_cast<int>(e)).corner(), [&](int n) {
+          return impl_->setting.nodalWeight[static_cast<std::size_t>(n)] > 0.0;
+        }))
+      ++state.voids;
+  return state;
+}
+
+void OverlapTie::save(ByteWriter& writer) const {
+  const Impl& s = *impl_;
+  std::vector<int> element;
+  std::vector<Vec3> xi;
+  for (const fem::CellPlace& place : s.overlap.place) {
+    element.push_back(place.element);
+    xi.push_back(place.xi);
+  }
+  writer(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
+         s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
+         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
+  writer(s.part, s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies,
+         s.windowIncrement, s.atWindow, s.absorbed);
+}
+
+void OverlapTie::load(ByteReader& reader) {
+  Impl& s = *impl_;
+  std::vector<int> element;
+  std::vector<Vec3> xi;
+  reader(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
+         s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
+         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
+  reader(s.part, s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies,
+         s.windowIncrement, s.atWindow, s.absorbed);
+  s.overlap.place.assign(element.size(), {});
+  for (std::size_t k = 0; k < element.size(); ++k)
+    if (element[k] >= 0)
+      s.overlap.place[k] = {element[k], xi[k], fem::shapeRow(cellOf(s.setting.mesh, element[k]).shape, xi[k])};
+  s.stale = true;
+  s.memberOf.clear();
+}
+
+}  // namespace dovetail::arlequin

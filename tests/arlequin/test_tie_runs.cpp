@@ -1,0 +1,237 @@
+// Overlap ties in windows of every kind.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "tie_scenes.hpp"
+
+namespace dovetail::arlequin {
+namespace {
+
+using namespace test;
+using coupling::Stepping;
+
+struct Case {
+  const char* name;
+  ConstraintKind kind;
+  Stepping stepping;
+  int K;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+/// A pulse that runs from the particles into the solid, oblique to the bar.
+void excite(dem::Particles& particles) {
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const double y = particles.x[i].y;
+    if (y < 0.5) particles.v[i] = {0.002 * y, 0.1 * std::sin(2.0 * 3.14159265 * y), 0.001};
+  }
+}
+
+TieRun started(const Case& c, double dt, bool hold = true, double width = 0.0) {
+  SceneOptions o;
+  o.across = 1;
+  o.holdEnd = hold;
+  o.massShare = 0.375;
+  o.coupling.constraint = c.kind;
+  o.coupling.projection.width = width;
+  if (c.kind == ConstraintKind::penalty) o.coupling.penalty = 2.0 * modulus / (edge * edge);
+  if (c.kind == ConstraintKind::dashpot) o.coupling.penalty = 1e7;
+  TieRun run = tieBar(o, fem::CellShape::hex8, c.stepping);
+  excite(run.grains.particles);
+  run.K = c.K;
+  run.start(dt);
+  return run;
+}
+
+class TieRuns : public testing::TestWithParam<Case> {};
+
+/// Largest residual while the pulse goes through the overlap, over the energy at the start.
+double residualOf(TieRun run) {
+  const double first = run.run->ledger().storedAtOpening();
+  const auto windows = static_cast<std::int64_t>(std::llround(0.06 / run.run->window()));
+  double largest = 0.0;
+  for (std::int64_t w = 0; w < windows; ++w) {
+    run.run->advance();
+    largest = std::max(largest, std::abs(run.run->ledger().residual()));
+  }
+  return largest / first;
+}
+
+TEST_P(TieRuns, EnergyErrorIsOfSecondOrder) {
+  const double dt = 2e-4 / GetParam().K;
+  const double coarse = residualOf(started(GetParam(), dt)), fine = residualOf(started(GetParam(), 0.5 * dt));
+  EXPECT_LT(coarse, 2e-2);
+  if (GetParam().kind == ConstraintKind::dashpot) {  // it acts as ε dt: half a step is another case
+    EXPECT_LT(fine, 0.5 * coarse);
+    return;
+  }
+  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.4) << coarse << " " << fine;
+}
+
+TEST_P(TieRuns, MomentumAndMassStay) {
+  TieRun run = started(GetParam(), 1e-4 / GetParam().K, false);
+  const coupling::Totals before = run.run->totals();
+  run.run->advance(300);
+  const coupling::Totals after = run.run->totals();
+  const double tolerance = GetParam().stepping == Stepping::implicitSteps ? 1e-9 : 1e-12;  // of Newton's iteration
+  EXPECT_LT(norm(after.momentum - before.momentum), tolerance * norm(before.momentum));
+  EXPECT_DOUBLE_EQ(after.mass, before.mass);
+  const Vec3 ofParticles = dem::momentum(run.grains.particles);
+  EXPECT_LT(norm(ofParticles + after.ontoSolids - before.momentum), 1e-12 * norm(before.momentum));
+}
+
+TEST_P(TieRuns, ClosesTheGapOrStoresWhatItTakes) {
+  TieRun run = started(GetParam(), 1e-4 / GetParam().K);
+  double gap = 0.0;
+  for (int w = 0; w < 300; ++w) {
+    run.run->advance();
+    for (const Vec3& g : run.tie->gap()) gap = std::max(gap, norm(g));
+  }
+  const double first = run.run->ledger().storedAtOpening();
+  switch (GetParam().kind) {
+    case ConstraintKind::penalty:
+      EXPECT_GT(gap, 1e-7);
+      EXPECT_LT(std::abs(run.tie->lost()), 1e-9 * first);
+      break;
+    case ConstraintKind::multiplier:
+      EXPECT_LT(gap, GetParam().stepping == Stepping::implicitSteps ? 1e-6 : 1e-13);
+      EXPECT_LT(std::abs(run.tie->lost()),
+                GetParam().stepping == Stepping::implicitSteps ? 1e-2 * first : 1e-9 * first);
+      break;
+    case ConstraintKind::dashpot:
+      EXPECT_GT(run.tie->lost(), 1e-3 * first);
+      break;
+  }
+}
+
+TEST_P(TieRuns, StateGoesOnWithTheSameDigits) {
+  TieRun whole = started(GetParam(), 1e-4), parted = started(GetParam(), 1e-4);
+  whole.run->advance(30);
+  const std::vector<char> state = whole.run->save();
+  whole.run->advance(20);
+  parted.run->advance(3);
+  parted.run->load(state);
+  EXPECT_EQ(parted.run->save(), state);
+  parted.run->advance(20);
+  EXPECT_EQ(parted.run->save(), whole.run->save());
+}
+
+TEST_P(TieRuns, ThreadsChangeNoDigit) {
+  std::vector<std::vector<char>> states;
+  for (const int threads : {1, 2, 3}) {
+    setThreads(threads);
+    TieRun run = started(GetParam(), 1e-4, true, 0.9);
+    run.run->advance(20);
+    states.push_back(run.run->save());
+  }
+  setThreads(1);
+  EXPECT_EQ(states[0], states[1]);
+  EXPECT_EQ(states[0], states[2]);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Windows, TieRuns,
+    testing::Values(Case{"penaltyExplicit1", ConstraintKind::penalty, Stepping::explicitSteps, 1},
+                    Case{"penaltyExplicit4", ConstraintKind::penalty, Stepping::explicitSteps, 4},
+                    Case{"penaltyImplicit1", ConstraintKind::penalty, Stepping::implicitSteps, 1},
+                    Case{"penaltyImplicit3", ConstraintKind::penalty, Stepping::implicitSteps, 3},
+                    Case{"penaltyImplicit4", ConstraintKind::penalty, Stepping::implicitSteps, 4},
+                    Case{"multiplierExplicit1", ConstraintKind::multiplier, Stepping::explicitSteps, 1},
+                    Case{"multiplierExplicit4", ConstraintKind::multiplier, Stepping::explicitSteps, 4},
+                    Case{"multiplierImplicit1", ConstraintKind::multiplier, Stepping::implicitSteps, 1},
+                    Case{"multiplierImplicit3", ConstraintKind::multiplier, Stepping::implicitSteps, 3},
+                    Case{"multiplierImplicit4", ConstraintKind::multiplier, Stepping::implicitSteps, 4},
+                    Case{"dashpotExplicit1", ConstraintKind::dashpot, Stepping::explicitSteps, 1},
+                    Case{"dashpotExplicit4", ConstraintKind::dashpot, Stepping::explicitSteps, 4},
+                    Case{"dashpotImplicit1", ConstraintKind::dashpot, Stepping::implicitSteps, 1},
+                    Case{"dashpotImplicit3", ConstraintKind::dashpot, Stepping::implicitSteps, 3},
+                    Case{"dashpotImplicit4", ConstraintKind::dashpot, Stepping::implicitSteps, 4}),
+    [](const auto& c) { return c.param.name; });
+
+TEST(TieRunsMore, AUniformVelocityGoesOnForEver) {
+  for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier, ConstraintKind::dashpot}) {
+    SceneOptions o;
+    o.across = 1;
+    o.holdEnd = false;
+    o.coupling.constraint = kind;
+    if (kind == ConstraintKind::dashpot) o.coupling.penalty = 1e7;
+    TieRun run = tieBar(o);
+    const Vec3 v{0.3, -0.2, 0.1};
+    for (Vec3& each : run.grains.particles.v) each = v;
+    for (Vec3& each : run.solid->nodes.v) each = v;
+    run.start(2e-4);
+    run.run->advance(200);
+    for (const Vec3& each : run.grains.particles.v) EXPECT_LT(norm(each - v), 1e-9);
+    for (const Vec3& each : run.solid->nodes.v) EXPECT_LT(norm(each - v), 1e-9);
+  }
+}
+
+/// A copy of the particles' model has a tie of its own, which meets the solid and gives it nothing.
+TEST(TieRunsMore, ACopyOfTheParticlesLoadsNobody) {
+  for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier}) {
+    TieRun run = started({"", kind, Stepping::explicitSteps, 1}, 1e-4),
+           same = started({"", kind, Stepping::explicitSteps, 1}, 1e-4);
+    run.run->advance(50);
+    same.run->advance(50);
+    dem::Model copy = run.grains;
+    dem::run(copy, 1e-4, 20);
+    EXPECT_NE(copy.particles.v, run.grains.particles.v);
+    EXPECT_EQ(run.run->save(), same.run->save());
+    run.run->advance(10);
+    same.run->advance(10);
+    EXPECT_EQ(run.run->save(), same.run->save());
+  }
+}
+
+TEST(TieRunsMore, TheAbsorberTakesFluctuationsAndKeepsMomentum) {
+  const auto tied = [](double rate) {
+    SceneOptions o;
+    o.across = 1;
+    o.coupling.absorberRate = rate;
+    TieRun run = tieBar(o);
+    excite(run.grains.particles);
+    run.start(1e-4);
+    return run;
+  };
+  TieRun with = tied(100.0);
+  const Vec3 momentum = with.momentum();
+  const double first = with.energy();
+  for (int s = 0; s < 600; ++s) with.step(1e-4);
+  EXPECT_GT(with.tie->absorbed(), 1e-4 * first);
+  EXPECT_NEAR(with.tie->absorbed(), with.tie->lost(), 1e-9 * first);
+  EXPECT_LT(norm(with.momentum() - momentum), 1e-12 * norm(momentum));
+  EXPECT_NEAR(with.energy(), first, 2.0 * residualOf(tied(0.0)) * first + 1e-4 * first);
+}
+
+/// What lags acts over the window after the one in which it grew; nothing else may lag.
+TEST(TieRunsMore, OnlyDashpotsOnImplicitSolidsLag) {
+  const auto tied = [](ConstraintKind kind, Stepping stepping, bool lags) {
+    SceneOptions o;
+    o.across = 1;
+    o.coupling.constraint = kind;
+    o.coupling.penalty = 1e7;
+    o.coupling.dashpotLags = lags;
+    return tieBar(o, fem::CellShape::hex8, stepping);
+  };
+  EXPECT_THROW(tied(ConstraintKind::dashpot, Stepping::explicitSteps, true), InputError);
+  EXPECT_THROW(tied(ConstraintKind::penalty, Stepping::implicitSteps, true), InputError);
+  for (const bool lags : {false, true}) {
+    TieRun run = tied(ConstraintKind::dashpot, Stepping::implicitSteps, lags);
+    excite(run.grains.particles);
+    run.start(1e-4);
+    std::vector<Vec3> before;
+    Vec3 increment, last;
+    for (int s = 0; s < 100; ++s) {
+      before.assign(run.tie->gap().begin(), run.tie->gap().end());
+      run.run->advance();
+      last = std::exchange(increment, run.tie->gap()[1] - before[1]);
+    }
+    const Vec3 expected = 1e7 * run.tie->operators().volume[1] * (lags ? 0.5 * (increment + last) : increment);
+    EXPECT_LT(norm(run.tie->lambda()[1] - expected), 1e-6 * norm(expected));
+  }
+}
+
+}  // namespace
+}  // namespace dovetail::arlequin
