@@ -5,33 +5,38 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "dovetail/core/ledger.hpp"
+#include "dovetail/coupling/run.hpp"
+#include "dovetail/dem/laws/laws.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
-#include "dovetail/surface/coupling.hpp"
-#include "dovetail/surface/stepper.hpp"
+#include "dovetail/surface/surface_contact.hpp"
 
 namespace dovetail::surface {
 
-/// Average acceleration, lumped masses.
-inline fem::ImplicitOptions newmarkLumped() {
-  return {.scheme = fem::newmark(), .massShare = 0.0, .relativeTolerance = 1e-10, .energyEvery = 0};
-}
+using coupling::CoupledRun;
+using coupling::Lag;
+using coupling::Stepping;
 
 struct BlockSetup {
+  Stepping stepping = Stepping::explicitSteps;
+  double massShare = 0.0;
   bool held = true;            ///< at the bottom
   double youngsModulus = 1e6;  ///< Pa
   double restitution = 1.0;
   double width = 0.0;      ///< of the kernel, m
+  bool smooth = false;     ///< patches in place of facets
   bool spread = false;     ///< the paper's transfer
   bool booksWork = false;  ///< of the contacts on the skin
   Vec3 gravity{0.0, 0.0, -9.81};
 };
 
 /// 0.3 × 0.3 × 0.2 m, top at z = 0; the limit of its mesh is 2.3 ms, a contact lasts about 20 ms.
-inline fem::SolidMesh blockMesh() { return fem::boxOf(fem::CellShape::hex8, {3, 3, 2}, {0, 0, -0.2}, {0.3, 0.3, 0}); }
+inline fem::SolidMesh blockMesh(std::array<int, 3> cells = {3, 3, 2}) {
+  return fem::boxOf(fem::CellShape::hex8, cells, {0, 0, -0.2}, {0.3, 0.3, 0});
+}
 
 inline dem::Particles droppedParticles() {
   dem::Particles particles;
@@ -41,111 +46,74 @@ inline dem::Particles droppedParticles() {
   return particles;
 }
 
-inline Skin blockSkin(const fem::SolidMesh& mesh, double width) {
-  Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
-  coarseGrain(skin, {{cg::KernelShape::lucy, 2, width}, cg::KernelCorrection::none});
-  return skin;
+inline Coupling makeSeam(const BlockSetup& setup, const fem::SolidMesh& mesh) {
+  const cg::Kernel kernel{cg::KernelShape::lucy, 2, setup.width};
+  const auto& faces = mesh.faceSets.at("skin");
+  Skin skin = makeSkin(mesh.X, faces);
+  if (!setup.spread) coarseGrain(skin, {kernel, cg::KernelCorrection::none});
+  Coupling seam = setup.smooth ? Coupling(makeSmoothSurface(skin)) : Coupling(skin);
+  if (setup.spread) seam.spreadLoad(SpreadLoad({kernel, {}}, mesh.X, skin, faces));
+  seam.bookWallWork(setup.booksWork);
+  return seam;
 }
 
-inline CoupledModel makeModel(const BlockSetup& setup, const fem::SolidMesh& mesh, Coupling seam,
-                              dem::Particles particles) {
-  const dem::LinearSpringDashpot normal{2e4, setup.restitution, true};
-  const auto laws = dem::makeContactLaws(dem::ElasticLaw{normal});
-  CoupledModel model{.discrete = {},
-                     .wallLaw = laws,
-                     .solid = std::make_unique<fem::Model>(fem::makeModel(mesh)),
-                     .seam = std::move(seam),
-                     .contact = {}};
-  model.discrete.particles = std::move(particles);
-  model.discrete.laws = laws;
-  model.discrete.gravity = setup.gravity;
-  model.discrete.pairs.setSkin(0.02);
-  model.discrete.sortEvery = 0;
+inline std::unique_ptr<fem::Model> makeBlock(const BlockSetup& setup, const fem::SolidMesh& mesh) {
+  auto block = std::make_unique<fem::Model>(fem::makeModel(mesh));
   const fem::StVenantKirchhoff law{setup.youngsModulus, 0.3, 1000.0};
-  model.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law))));
-  fem::addMass(*model.solid);
-  if (setup.held) fem::fix(model.solid->nodes, mesh.nodeSets.at("z-"));
-  return model;
+  block->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law)), {.name = "elements"}));
+  if (setup.held) fem::fix(block->nodes, mesh.nodeSets.at("z-"));
+  return block;
 }
 
-inline CoupledModel flatModel(const BlockSetup& setup) {
-  const fem::SolidMesh mesh = blockMesh();
-  const auto faces = mesh.faceSets.at("skin");
-  Coupling seam(blockSkin(mesh, setup.spread ? 0.0 : setup.width));
-  if (setup.spread)
-    seam.spreadLoad(SpreadLoad({{cg::KernelShape::lucy, 2, setup.width}, {}}, mesh.X, seam.skin(), faces));
-  seam.bookWallWork(setup.booksWork);
-  return makeModel(setup, mesh, std::move(seam), droppedParticles());
+inline std::unique_ptr<CoupledRun> makeRun(const BlockSetup& setup, const fem::SolidMesh& mesh = blockMesh(),
+                                           dem::Particles particles = droppedParticles()) {
+  auto run = std::make_unique<CoupledRun>();
+  const auto laws = dem::makeContactLaws(dem::ElasticLaw{dem::LinearSpringDashpot{2e4, setup.restitution}});
+  run->grains.particles = std::move(particles);
+  run->grains.laws = laws;
+  run->grains.gravity = setup.gravity;
+  run->grains.pairs.setSkin(0.02);
+  coupling::SolidSide& side = run->addSolid(
+      makeBlock(setup, mesh), {.name = "block", .stepping = setup.stepping, .massShare = setup.massShare});
+  run->grains.terms.add(SurfaceContact(side, makeSeam(setup, mesh), laws, "contacts"));
+  return run;
 }
 
-inline CoupledModel smoothModel(const BlockSetup& setup) {
-  const fem::SolidMesh mesh = blockMesh();
-  Coupling seam(makeSmoothSurface(blockSkin(mesh, setup.width)));
-  seam.bookWallWork(setup.booksWork);
-  return makeModel(setup, mesh, std::move(seam), droppedParticles());
-}
-
-/// Stored energy, J.
-template <class Model>
-double storedEnergy(const Model& model) {
-  double height = 0.0;
-  for (std::size_t i = 0; i < model.discrete.particles.size(); ++i)
-    height -= model.discrete.particles.mass[i] * dot(model.discrete.gravity, model.discrete.particles.x[i]);
-  return dem::kineticEnergy(model.discrete.particles) + model.contact.storedEnergy() + height +
-         fem::kineticEnergy(model.solid->nodes) + model.strainEnergy;
+inline const Coupling& seamOf(const CoupledRun& run) {
+  for (const auto& term : run.grains.terms)
+    if (const auto* const contact = dynamic_cast<const SurfaceContact*>(term.get())) return contact->coupling();
+  throw std::logic_error("there is no seam");
 }
 
 struct Result {
-  double initial = 0.0, worstDrift = 0.0, worstResidual = 0.0;  ///< J
+  double initial = 0.0, worstDrift = 0.0, worstResidual = 0.0;  ///< J; drift: of the exact energy
+  double residualApart = 0.0;                                   ///< J, the worst while nobody touches the block
   double dissipated = 0.0, made = 0.0;                          ///< J
   double largestStrainEnergy = 0.0;                             ///< J
-  int withoutContact = 0, steps = 0;
+  int withoutContact = 0, windows = 0;
 };
 
-/// Steps a model for `time`; window(model) makes one window of K dt and returns its sums.
-template <class Model, class Window>
-Result runFor(Model& model, double time, double dt, int K, Window&& window) {
-  Profile profile;
-  start(model, dt, profile);
+/// Windows of h = K dt for `time`, looked at one by one.
+inline Result runFor(const BlockSetup& setup, double time, double h, int K, Lag lag = Lag::none) {
+  const auto run = makeRun(setup);
+  run->start(h / K, {.stepsPerWindow = K, .lag = lag});
+  const auto energy = [&] { return run->ledger().stored() - run->ledger().joules("block: time splitting"); };
   Result result;
-  result.initial = storedEnergy(model);
-  const auto windows = std::llround(time / (K * dt));
-  for (long w = 0; w < windows; ++w) {
-    const WindowSums sums = window(model, profile);
-    result.dissipated += sums.dissipated;
-    result.made += sums.madeByCoupling;
-    result.withoutContact += sums.stepsWithoutContact;
-    result.steps += K;
-    const double drift = storedEnergy(model) - result.initial;
-    result.worstDrift = std::max(result.worstDrift, std::abs(drift));
-    result.worstResidual = std::max(result.worstResidual, std::abs(drift + result.dissipated - result.made));
-    result.largestStrainEnergy = std::max(result.largestStrainEnergy, model.strainEnergy);
+  result.initial = energy();
+  result.windows = static_cast<int>(std::lround(time / h));
+  for (int w = 0; w < result.windows; ++w) {
+    run->advance();
+    result.worstDrift = std::max(result.worstDrift, std::abs(energy() - result.initial));
+    result.largestStrainEnergy = std::max(result.largestStrainEnergy, run->ledger().joules("block: elements"));
+    if (seamOf(*run).inContact()) continue;
+    ++result.withoutContact;
+    result.residualApart = std::max(result.residualApart, std::abs(run->ledger().residual()));
   }
+  const EnergyLedger& ledger = run->ledger();
+  result.worstResidual = ledger.largestResidual();
+  result.dissipated = ledger.joules("particles: dashpots");
+  result.made = -ledger.joules("contacts: lost") - ledger.joules("loads one step old (minus what they made)");
   return result;
 }
-
-template <class Model>
-Result runExplicit(Model model, double time, double dt, int K, const Scheme& scheme = {}) {
-  return runFor(model, time, dt, K,
-                [&](Model& m, Profile& profile) { return stepExplicit(m, dt, K, scheme, true, profile); });
-}
-
-template <class Model>
-Result runImplicit(Model model, double time, double dt, int K, const Scheme& scheme = {}) {
-  fem::ImplicitMotion solid(*model.solid, newmarkLumped());
-  return runFor(model, time, dt, K,
-                [&](Model& m, Profile& profile) { return stepImplicit(m, solid, dt, K, scheme, true, profile); });
-}
-
-template <class Model>
-Result runStaggered(Model model, double time, double dt, int K, bool implicitSolid, const Scheme& scheme = {}) {
-  std::unique_ptr<fem::ImplicitMotion> solid;
-  if (implicitSolid) solid = std::make_unique<fem::ImplicitMotion>(*model.solid, newmarkLumped());
-  return runFor(model, time, dt, K, [&](Model& m, Profile& profile) {
-    return stepStaggered(m, solid.get(), dt, K, scheme, true, profile);
-  });
-}
-
-inline double observedOrder(double coarse, double fine) { return std::log2(coarse / fine); }
 
 }  // namespace dovetail::surface

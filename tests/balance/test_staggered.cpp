@@ -1,4 +1,4 @@
-// What does not conserve energy is booked: staggered steps and the paper's spread load.
+// What does not conserve energy is booked: loads that lag and the paper's spread load.
 #include <gtest/gtest.h>
 
 #include "coupled_block.hpp"
@@ -9,22 +9,22 @@ namespace {
 constexpr double duration = 0.1;
 
 struct Case {
-  bool skinLags, implicitSolid, smooth;
+  Lag lag;
+  bool implicitSolid, smooth;
   int K;
 };
 std::ostream& operator<<(std::ostream& out, const Case& c) {
-  return out << (c.skinLags ? "skin lags" : "skin moves") << (c.implicitSolid ? ", implicit" : ", explicit")
-             << (c.smooth ? ", smooth" : ", flat") << ", K = " << c.K;
+  return out << (c.lag == Lag::loadAndSkin ? "skin lags" : "skin moves")
+             << (c.implicitSolid ? ", implicit" : ", explicit") << (c.smooth ? ", smooth" : ", flat")
+             << ", K = " << c.K;
 }
 
 class Staggered : public ::testing::TestWithParam<Case> {
 protected:
   static Result run(double h) {
-    const auto [skinLags, implicitSolid, smooth, K] = GetParam();
-    const BlockSetup setup{.booksWork = true};
-    const Scheme scheme{.booksCoupling = true, .skinLags = skinLags};
-    return smooth ? runStaggered(smoothModel(setup), duration, h / K, K, implicitSolid, scheme)
-                  : runStaggered(flatModel(setup), duration, h / K, K, implicitSolid, scheme);
+    const Case& c = GetParam();
+    const auto stepping = c.implicitSolid ? Stepping::implicitSteps : Stepping::explicitSteps;
+    return runFor({.stepping = stepping, .smooth = c.smooth}, duration, h, c.K, c.lag);
   }
 };
 
@@ -37,34 +37,28 @@ TEST_P(Staggered, TheLedgerClosesWithWhatTheLagMade) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Staggered,
-                         ::testing::Values(Case{false, false, false, 1}, Case{false, false, false, 4},
-                                           Case{false, true, false, 1}, Case{true, false, false, 1},
-                                           Case{true, true, false, 4}, Case{false, false, true, 1},
-                                           Case{true, true, true, 4}));
+                         ::testing::Values(Case{Lag::load, false, false, 1}, Case{Lag::load, false, false, 4},
+                                           Case{Lag::load, true, false, 1}, Case{Lag::loadAndSkin, false, false, 1},
+                                           Case{Lag::loadAndSkin, true, false, 4}, Case{Lag::load, false, true, 1},
+                                           Case{Lag::loadAndSkin, true, true, 4}));
 
 /// A block that answers the load as a spring takes energy from the lag, one that gives way as a mass is given some.
 TEST(StaggeredOnASoftBlock, CreatesEnergy) {
-  const BlockSetup setup{.youngsModulus = 1e4, .booksWork = true};
-  const Scheme scheme{.booksCoupling = true};
-  const Result coarse = runStaggered(flatModel(setup), duration, 2e-4, 1, false, scheme);
-  const Result fine = runStaggered(flatModel(setup), duration, 1e-4, 1, false, scheme);
+  const BlockSetup setup{.youngsModulus = 1e4};
+  const Result coarse = runFor(setup, duration, 2e-4, 1, Lag::load);
+  const Result fine = runFor(setup, duration, 1e-4, 1, Lag::load);
   EXPECT_GT(fine.made, 1e-3 * fine.initial);
   EXPECT_NEAR(coarse.made / fine.made, 2.0, 0.2);
   EXPECT_LT(fine.worstResidual, 0.02 * fine.made);
-  EXPECT_LT(runExplicit(flatModel(setup), duration, 1e-4, 1).worstDrift, 0.02 * fine.made);
+  EXPECT_LT(runFor(setup, duration, 1e-4, 1).worstDrift, 0.02 * fine.made);
 }
 
 /// The spread load makes or takes energy whatever the step; the books close to second order.
 TEST(Spread, TheLedgerClosesWithWhatTheTransferMade) {
-  const BlockSetup setup{.width = 0.15, .spread = true, .booksWork = true};
-  const Scheme scheme{.booksCoupling = true};
-  for (int K : {1, 4})
-    for (bool implicitSolid : {false, true}) {
-      const auto run = [&](double h) {
-        return implicitSolid ? runImplicit(flatModel(setup), duration, h / K, K, scheme)
-                             : runExplicit(flatModel(setup), duration, h / K, K, scheme);
-      };
-      const Result coarse = run(8e-4), fine = run(1e-4);
+  for (const int K : {1, 4})
+    for (const Stepping stepping : {Stepping::explicitSteps, Stepping::implicitSteps}) {
+      const BlockSetup setup{.stepping = stepping, .width = 0.15, .spread = true, .booksWork = true};
+      const Result coarse = runFor(setup, duration, 8e-4, K), fine = runFor(setup, duration, 1e-4, K);
       EXPECT_GT(std::abs(fine.made), 3e-3 * fine.initial);
       EXPECT_NEAR(fine.made, coarse.made, 0.1 * std::abs(fine.made)) << "no smaller step helps";
       EXPECT_LT(fine.worstResidual, 5e-3 * std::abs(fine.made));
@@ -75,17 +69,15 @@ TEST(Spread, TheLedgerClosesWithWhatTheTransferMade) {
 /// An adjoint pair makes nothing, and the books say so: to round-off where the skin is linear in the nodes, and to the
 /// error of the trapezoidal rule where offsets turn with patches.
 TEST(AdjointPair, MakesNothing) {
-  const Scheme scheme{.booksCoupling = true};
-  for (int K : {1, 4}) {
+  for (const int K : {1, 4})
     for (const double width : {0.0, 0.15}) {
-      const auto made = [&](double dt) {
-        const Result result = runExplicit(flatModel({.width = width, .booksWork = true}), duration, dt, K, scheme);
+      const auto made = [&](double h) {
+        const Result result = runFor({.width = width, .booksWork = true}, duration, h, K);
         return std::abs(result.made) / result.initial;
       };
-      EXPECT_LT(made(2e-4), width == 0.0 ? 1e-13 : 1e-10);
-      EXPECT_LT(made(1e-4), width == 0.0 ? 1e-13 : 0.35 * made(2e-4));
+      EXPECT_LT(made(K * 2e-4), width == 0.0 ? 1e-13 : 1e-10);
+      EXPECT_LT(made(K * 1e-4), width == 0.0 ? 1e-13 : 0.35 * made(K * 2e-4));
     }
-  }
 }
 
 }  // namespace
