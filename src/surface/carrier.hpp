@@ -39,6 +39,8 @@ public:
 
   /// The wall that contacts are with: their facets, with positions and velocities there.
   virtual const dem::TriangulatedWall& wall() const = 0;
+  /// Facets along the whole surface, where its points are now.
+  virtual const dem::TriangulatedWall& outline() = 0;
   /// Adds the reaction to the contacts' forces and couples on the points, N.
   virtual void addReaction(const dem::WallContacts& contacts, coupling::NodalLoad& onPoints) const = 0;
   /// Points that a contact is with and bounds on how fast it follows them: its weights, and if it exerts couples the

@@ -175,6 +175,10 @@ const SmoothSurface& Coupling::smoothSurface() const {
   return *carrier_->smooth();
 }
 const dem::TriangulatedWall& Coupling::wall() const { return carrier_->wall(); }
+const dem::TriangulatedWall& Coupling::outline(std::span<const Vec3> u, std::span<const Vec3> v) {
+  carrier_->placeAll(u, v);
+  return carrier_->outline();
+}
 int Coupling::nodeCount() const { return carrier_->map().columns; }
 
 template <class Archive, class Self>

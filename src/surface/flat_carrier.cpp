@@ -49,6 +49,7 @@ public:
   }
 
   const dem::TriangulatedWall& wall() const override { return skin_.wall; }
+  const dem::TriangulatedWall& outline() override { return skin_.wall; }
   void addReaction(const dem::WallContacts& contacts, coupling::NodalLoad& onPoints) const override {
     for (int facet : contacts.facet)
       for (int vertex : skin_.wall.facets[facet]) onPoints.add(vertex, {});

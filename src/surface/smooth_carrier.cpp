@@ -30,6 +30,11 @@ public:
   explicit SmoothCarrier(SmoothSurface surface) : surface_(std::move(surface)), all_(surface_.X.size()) {
     std::iota(all_.begin(), all_.end(), 0);
     wall_.material = surface_.material;
+    outline_.oneSided = surface_.oneSided;
+    for (const auto& c : surface_.control) {  // its four in the middle lie over the face's corners
+      outline_.facets.push_back({c[5], c[6], c[10]});
+      outline_.facets.push_back({c[5], c[10], c[9]});
+    }
   }
 
   std::unique_ptr<Carrier> clone() const override { return std::make_unique<SmoothCarrier>(*this); }
@@ -82,6 +87,10 @@ public:
   }
 
   const dem::TriangulatedWall& wall() const override { return wall_; }
+  const dem::TriangulatedWall& outline() override {
+    outline_.x = surface_.x;
+    return outline_;
+  }
   void addReaction(const dem::WallContacts& contacts, coupling::NodalLoad& onPoints) const override {
     for (std::size_t c = 0; c < contacts.size(); ++c)
       for (std::size_t k = 0; k < 16; ++k)
@@ -187,7 +196,7 @@ private:
   std::vector<int> all_, active_;                  // control points: all, those of candidates
   std::vector<int> particle_, offsets_{0}, face_;  // candidates of particle_[k]: face_[offsets_[k]] …
   std::vector<std::array<double, 2>> start_;       // per candidate: where the last search ended
-  dem::TriangulatedWall wall_;
+  dem::TriangulatedWall wall_, outline_;
   std::vector<int> contactFace_;
   std::vector<std::array<double, 16>> contactWeight_;
 };

@@ -7,6 +7,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/walls.hpp"
+#include "dovetail/dem/setup/insertion.hpp"
 
 namespace dovetail::surface {
 
@@ -63,6 +64,11 @@ void SurfaceContact::check(const dem::Model& m) const {
   if (materials > 1 && (own < 0 || own >= materials))
     throw InputError("there is no law for material " + std::to_string(own), name_,
                      "give skin.wall.material from 0 to " + std::to_string(materials - 1));
+}
+
+void SurfaceContact::surround(dem::Surroundings& around) {
+  around.placed.push_back(
+      [this]() -> const dem::TriangulatedWall& { return coupling_.outline(side().nodes().u, side().nodes().v); });
 }
 
 double SurfaceContact::renumber(std::span<const int> newNumber, const dem::Particles& before) {

@@ -6,6 +6,7 @@
 #include "../bodies/carried_walls.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/dem/setup/insertion.hpp"
 #include "dovetail/dem/walls/wall_archive.hpp"
 #include "dovetail/dem/walls/wall_checks.hpp"
 #include "events.hpp"
@@ -38,6 +39,9 @@ void PrimitiveWallTerm::check(const Model& m) const {
   requireLaws(m);
   validate(wall, materialsOf(m), m.pairs.periodicity());
 }
+
+void PrimitiveWallTerm::surround(Surroundings& around) { around.walls.push_back(&wall); }
+void MeshWallTerm::surround(Surroundings& around) { around.meshes.push_back(&mesh.wall); }
 
 double PrimitiveWallTerm::move(Model&, const Step& step) {
   kickWall(wall, 0.5 * (step.closing + step.dt));

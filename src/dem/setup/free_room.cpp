@@ -54,6 +54,7 @@ FreeRoom::FreeRoom(const Particles& particles, const Surroundings& surroundings,
     }
   sortIn();
   for (const TriangulatedWall* wall : surroundings.meshes) addFacets(*wall, region);
+  for (const auto& place : surroundings.placed) addFacets(place(), region);
 }
 
 void FreeRoom::addFacets(const TriangulatedWall& wall, const geometry::Box& region) {

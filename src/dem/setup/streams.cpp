@@ -16,8 +16,7 @@ namespace {
 
 Surroundings surroundingsOf(const Model& m) {
   Surroundings around{m.pairs.periodicity()};
-  for (const PrimitiveWallTerm* term : m.terms.all<PrimitiveWallTerm>()) around.walls.push_back(&term->wall);
-  for (const MeshWallTerm* term : m.terms.all<MeshWallTerm>()) around.meshes.push_back(&term->mesh.wall);
+  for (const auto& term : m.terms) term->surround(around);
   return around;
 }
 

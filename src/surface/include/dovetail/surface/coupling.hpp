@@ -109,6 +109,8 @@ public:
   const dem::WallContacts& contacts() const { return contacts_; }
   /// The wall whose facets the contacts are with.
   const dem::TriangulatedWall& wall() const;
+  /// The whole surface as facets (between the control points, of smooth patches), placed as told.
+  const dem::TriangulatedWall& outline(std::span<const Vec3> u, std::span<const Vec3> v);
   int nodeCount() const;
   std::int64_t candidateBuilds() const { return builds_; }
 

@@ -28,6 +28,7 @@ public:
   /// What a transfer that is not adjoint has taken, if its work is booked (Coupling::bookWallWork).
   double lost() const override { return -coupling_.madeByTransfer(); }
   void check(const dem::Model& m) const override;
+  void surround(dem::Surroundings& around) override;
   double renumber(std::span<const int> newNumber, const dem::Particles& before) override;
   void addForces(dem::Model& m, const dem::Step& step) override;
   void addDemand(const dem::Model& m, dem::ContactDemand& demand) const override;

@@ -19,6 +19,7 @@ struct Particles;
 struct ContactDemand;
 struct Energies;
 struct Momenta;
+struct Surroundings;
 
 /// The step under way.
 struct Step {
@@ -59,6 +60,8 @@ public:
   virtual bool prescribes() const { return false; }
   /// After half a kick: sets velocities. In the first half the particles are about to drift by step.dt.
   virtual void prescribe(Model&, const Step&, Half) {}
+  /// Adds what newcomers keep clear of; what it refers to is there until the end of the step.
+  virtual void surround(Surroundings&) {}
   /// Lets particles in and takes them out (insertParticles, removeParticles of the model).
   virtual void exchange(Model&, const Step&) {}
   /// The list of pairs is new: sets factors of pairs (PairList) that it wants muted or weighed.

@@ -22,6 +22,7 @@ public:
   std::string code() const override { return wall.motion ? "a motion" : ""; }
   void check(const Model& m) const override;
   double move(Model& m, const Step& step) override;
+  void surround(Surroundings& around) override;
   double renumber(std::span<const int> newNumber, const Particles& before) override;
   void addForces(Model& m, const Step& step) override;
   void close(Model& m, double dt) override;
@@ -43,6 +44,7 @@ public:
   std::string code() const override;
   void check(const Model& m) const override;
   double move(Model& m, const Step& step) override;
+  void surround(Surroundings& around) override;
   double renumber(std::span<const int> newNumber, const Particles& before) override;
   void addForces(Model& m, const Step& step) override;
   void close(Model& m, double dt) override;

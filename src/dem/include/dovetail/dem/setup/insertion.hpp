@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct Surroundings {
   geometry::Periodicity space{};                  ///< as that of the pair list
   std::vector<const PrimitiveWall*> walls{};      ///< newcomers lie on their particles' side
   std::vector<const TriangulatedWall*> meshes{};  ///< newcomers touch no facet; of one-sided ones they lie outside
+  /// Likewise, of what is put in its place when room is looked for.
+  std::vector<std::function<const TriangulatedWall&()>> placed{};
 };
 
 /// What enters, where and how fast: one of the two rates is > 0, or leavers are replaced.
