@@ -16,6 +16,7 @@ public:
   void start(double dt, int K) override {
     dt_ = dt;
     K_ = K;
+    if (solid_) carryOver(solid_->book.ledger());
     solid_.emplace(*model_, options_.massShare, window());
     side.mass = &solid_->motion.mass();
     solid_->sample();

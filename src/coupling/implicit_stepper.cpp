@@ -16,6 +16,7 @@ public:
     K_ = K;
     fem::ImplicitOptions options = options_.implicitOptions;
     options.massShare = options_.massShare;
+    if (solid_) carryOver(solid_->ledger());
     solid_.emplace(*model_, window(), options);
     side.mass = &solid_->mass();
     side.own = {};

@@ -16,17 +16,26 @@ void requireOptions(const RunOptions& options, double dt) {
     throw InputError("stepsPerWindow is " + std::to_string(options.stepsPerWindow), "RunOptions", "give 1 or more");
 }
 
+/// Names go into the ledger.
+void requireOwnName(const std::string& name, const std::vector<std::unique_ptr<SolidStepper>>& solids) {
+  const bool taken = std::ranges::any_of(solids, [&](const auto& other) { return other->side.name == name; });
+  if (taken || name == "particles")
+    throw InputError("there is something of that name already", "solid \"" + name + "\"",
+                     "give every solid a name of its own (SolidOptions::name)");
+}
+
 }  // namespace
 
 CoupledRun::CoupledRun(dem::Model particles)
     : grains(std::move(particles)), impl_(std::make_unique<Impl>(grains, profile)) {
-  grains.terms.add(std::unique_ptr<dem::Term>(std::make_unique<SolidsTerm>(impl_.get())));
+  impl_->joinParticles();
 }
 CoupledRun::~CoupledRun() = default;
 
 SolidSide& CoupledRun::addSolid(std::unique_ptr<fem::Model> model, const SolidOptions& options) {
   if (impl_->started)
     throw InputError("the run has started", "solid \"" + options.name + "\"", "add solids before start()");
+  requireOwnName(options.name, impl_->solids);
   impl_->solids.push_back(makeStepper(std::move(model), options));
   return impl_->solids.back()->side;
 }
@@ -39,17 +48,22 @@ double CoupledRun::window() const { return impl_->window(); }
 void CoupledRun::start(double dt, const RunOptions& options) {
   requireOptions(options, dt);
   Impl& run = *impl_;
-  run.dt = dt;
-  run.options = options;
+  run.joinParticles();
+  run.requireSides();
+  dem::close(grains);
+  const double lastDt = std::exchange(run.dt, dt);
+  const RunOptions lastOptions = std::exchange(run.options, options);
   for (const auto& solid : run.solids) solid->start(dt, options.stepsPerWindow);
   const bool refuses = std::exchange(grains.refusesUnstableSteps, false);  // the limit of the whole decides
   run.sampled = run.ownForcesDue = true;
-  dem::close(grains);
   dem::findForces(grains);
   run.ownForcesDue = false;
+  grains.refusesUnstableSteps = refuses;
   if (refuses) {
     const StepLimit limit = criticalStep();
     if (dt > limit.dt) {
+      grains.refusesUnstableSteps = false;
+      if (run.started) start(lastDt, lastOptions);
       grains.refusesUnstableSteps = true;
       throw InputError("dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) + " s that " +
                            limit.owner + " sets",
@@ -66,15 +80,39 @@ void CoupledRun::start(double dt, const RunOptions& options) {
 }
 
 void CoupledRun::advance(std::int64_t windows) {
-  if (!impl_->started) throw InputError("the run has not been started", "advance", "call start(dt) first");
+  impl_->requireStarted("advance");
   for (std::int64_t w = 0; w < windows; ++w) impl_->window(w + 1 == windows);
   dem::close(grains);
 }
 
 void CoupledRun::step(bool withEnergies) {
-  if (!impl_->started) throw InputError("the run has not been started", "step", "call start(dt) first");
+  impl_->requireStarted("step");
   impl_->window(withEnergies);
   dem::close(grains);
+}
+
+/// The particles' model may have been put in place of the one that the run began with.
+void CoupledRun::Impl::joinParticles() {
+  if (!joined()) grains.terms.add(std::unique_ptr<dem::Term>(std::make_unique<SolidsTerm>(this)));
+}
+
+bool CoupledRun::Impl::joined() const {
+  return std::ranges::any_of(grains.terms, [&](const auto& term) {
+    const auto* const own = dynamic_cast<const SolidsTerm*>(term.get());
+    return own && own->of(this);
+  });
+}
+
+void CoupledRun::Impl::requireSides() const {
+  for (const auto* connector : grains.terms.all<Connector>())
+    if (std::ranges::none_of(solids, [&](const auto& solid) { return &solid->side == &connector->side(); }))
+      throw InputError("its solid is not in this run", connector->name(),
+                       "make it with the side that addSolid of this run returned");
+}
+
+void CoupledRun::Impl::requireStarted(const char* what) const {
+  if (!started) throw InputError("the run has not been started", what, "call start(dt) first");
+  if (!joined()) throw InputError("another model has taken the place of the particles", what, "call start(dt) again");
 }
 
 bool CoupledRun::Impl::anyImplicit() const {

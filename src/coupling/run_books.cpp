@@ -1,6 +1,8 @@
 // What a run holds, what it can bear.
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
@@ -32,6 +34,23 @@ void setParticles(const dem::Model& grains, EnergyLedger& ledger) {
   setChannel(ledger, "particles: lifted by periods (minus)", booked, -e.lifted);
 }
 
+bool has(const EnergyLedger& ledger, const std::string& name) {
+  return std::ranges::any_of(ledger.channels(), [&](const auto& channel) { return channel.name == name; });
+}
+
+/// Those of one name together.
+void setConnectors(const dem::Model& grains, EnergyLedger& ledger) {
+  std::map<std::string, std::pair<double, double>> joules;  // stored, lost
+  for (const auto* connector : grains.terms.all<Connector>()) {
+    joules[connector->name()].first += connector->stored();
+    joules[connector->name()].second += connector->lost();
+  }
+  for (const auto& [name, sum] : joules) {
+    if (sum.first != 0.0 || has(ledger, name + ": stored")) setChannel(ledger, name + ": stored", stored, sum.first);
+    setChannel(ledger, name + ": lost", booked, sum.second);
+  }
+}
+
 bool hasElements(const fem::Model& model) {
   for (const auto& term : model.terms)
     if (dynamic_cast<const fem::Solid*>(term.get())) return true;
@@ -45,12 +64,7 @@ const EnergyLedger& CoupledRun::ledger() {
   EnergyLedger& ledger = impl_->ledger;
   setParticles(grains, ledger);
   for (const auto& solid : impl_->solids) solid->sample(ledger);
-  for (const auto& term : grains.terms)
-    if (const auto* const connector = dynamic_cast<const Connector*>(term.get())) {
-      if (const double joules = connector->stored(); joules != 0.0)
-        setChannel(ledger, connector->name() + ": stored", stored, joules);
-      setChannel(ledger, connector->name() + ": lost", booked, connector->lost());
-    }
+  setConnectors(grains, ledger);
   setChannel(ledger, "brought to rest", booked, impl_->broughtToRest);
   setChannel(ledger, "loads one step old (minus what they made)", booked, -impl_->madeByLag);
   ledger.close();

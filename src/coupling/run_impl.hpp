@@ -17,6 +17,8 @@ public:
   Order order() const override { return Order::partners; }
   void addForces(dem::Model& m, const dem::Step& step) override;
   void book(dem::Model& m, const dem::Step& step) override;
+  double renumber(std::span<const int> newNumber, const dem::Particles& before) override;
+  bool of(const CoupledRun::Impl* run) const { return run_ == run; }
 
 private:
   bool ownForcesDue(const dem::Step& step) const;
@@ -51,6 +53,10 @@ struct CoupledRun::Impl {
   int K() const { return options.stepsPerWindow; }
   double window() const { return K() * dt; }
   bool anyImplicit() const;
+  bool joined() const;
+  void joinParticles();
+  void requireSides() const;
+  void requireStarted(const char* what) const;
 
   void window(bool wantsEnergies);
   void stepParticles(bool last);

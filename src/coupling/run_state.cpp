@@ -42,6 +42,7 @@ struct CoupledRun::Impl::State {
   std::vector<char> particles;
   struct Solid {
     std::shared_ptr<SavedSolid> own;
+    double bookedBefore;
     NodalLoad load, window, before;
     std::vector<Vec3> seen;
   };
@@ -55,7 +56,7 @@ std::vector<char> CoupledRun::Impl::save() {
   for (std::size_t s = 0; s < solids.size(); ++s) {
     ByteWriter own;
     solids[s]->save(own);
-    archive(own.bytes());
+    archive(own.bytes(), solids[s]->bookedBefore);
     saveLoad(archive, solids[s]->side.load);
     saveLoad(archive, solids[s]->windowLoad);
     saveLoad(archive, loadBefore.empty() ? NodalLoad() : loadBefore[s]);
@@ -76,10 +77,12 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
   requireSame(count == solids.size(), "solids");
   for (const auto& solid : solids) {
     std::vector<char> own;
-    archive(own);
+    double bookedBefore = 0.0;
+    archive(own, bookedBefore);
     ByteReader reader(own);
     const std::size_t nodes = solid->side.nodes().X.size();
-    state.solids.push_back({solid->read(reader), readLoad(archive, nodes), readLoad(archive, nodes), NodalLoad(), {}});
+    state.solids.push_back(
+        {solid->read(reader), bookedBefore, readLoad(archive, nodes), readLoad(archive, nodes), NodalLoad(), {}});
     requireSame(reader.atEnd(), "solids");
     state.solids.back().before = readLoad(archive, nodes);
     archive(state.solids.back().seen);
@@ -97,6 +100,7 @@ void CoupledRun::Impl::adopt(State state) {
   broughtToRest = state.broughtToRest;
   for (std::size_t s = 0; s < solids.size(); ++s) {
     solids[s]->adopt(*state.solids[s].own);
+    solids[s]->bookedBefore = state.solids[s].bookedBefore;
     solids[s]->side.load = std::move(state.solids[s].load);
     solids[s]->windowLoad = std::move(state.solids[s].window);
     if (options.lag == Lag::none) continue;

@@ -49,6 +49,7 @@ void SolidStepper::copyChannels(const EnergyLedger& own, double kinetic, EnergyL
   for (const EnergyLedger::Channel& channel : own.channels())
     setChannel(ledger, side.name + ": " + channel.name, channel.kind,
                channel.name == "kinetic" ? kinetic : channel.joules);
+  setChannel(ledger, side.name + ": booked with earlier steps", EnergyLedger::Kind::booked, bookedBefore);
 }
 
 std::unique_ptr<SolidStepper> makeStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options) {

@@ -22,11 +22,12 @@ public:
   virtual ~SolidStepper() = default;
 
   SolidSide side;
-  NodalLoad windowLoad;  ///< N: what constraints do in both half windows around their ends
+  double bookedBefore = 0.0;  ///< J, before the last start
+  NodalLoad windowLoad;       ///< N: what constraints do in both half windows around their ends
+  Vec3 impulse;               ///< of loads so far, kg m/s
 
-  Vec3 impulse;  ///< of loads so far, kg m/s
-
-  /// Forces at the start. @param dt  of particles, s @param K  steps per window
+  /// Forces at the start; the books of what was before are kept as one sum. @param dt  of particles, s @param K  steps
+  /// per window
   virtual void start(double dt, int K) = 0;
   /// The half window's kick by its own forces, at the window's begin. @param sampled  energies will be asked for
   virtual void begin(bool sampled) = 0;
@@ -59,6 +60,7 @@ protected:
   /// v += dt/m f on the touched nodes, held components apart.
   void kickTouched(const NodalLoad& load, double dt);
   void copyChannels(const EnergyLedger& own, double kinetic, EnergyLedger& ledger) const;
+  void carryOver(const EnergyLedger& own) { bookedBefore += own.booked(); }
 
   std::unique_ptr<fem::Model> model_;
   SolidOptions options_;

@@ -20,4 +20,19 @@ void SolidsTerm::book(dem::Model&, const dem::Step& step) {
   for (const auto& solid : run_->solids) solid->takeLoad();
 }
 
+/// What constraints do in both half windows around their ends goes with its particles.
+double SolidsTerm::renumber(std::span<const int> newNumber, const dem::Particles&) {
+  if (!run_ || run_->windowForce.empty()) return 0.0;
+  std::vector<Vec3> moved(newNumber.size());
+  std::size_t stay = 0;
+  for (std::size_t i = 0; i < newNumber.size() && i < run_->windowForce.size(); ++i) {
+    if (newNumber[i] < 0) continue;
+    moved[static_cast<std::size_t>(newNumber[i])] = run_->windowForce[i];
+    ++stay;
+  }
+  moved.resize(stay);
+  run_->windowForce = std::move(moved);
+  return 0.0;
+}
+
 }  // namespace dovetail::coupling

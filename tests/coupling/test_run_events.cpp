@@ -47,6 +47,45 @@ TEST(RunEvents, SettlesAndBooksWhatThatTook) {
   EXPECT_FALSE(settle(*run, {.windows = 1}).atRest);
 }
 
+/// Pulls at one particle in both half windows around their ends.
+class Pull final : public Connector {
+public:
+  Pull(SolidSide& side, std::int64_t id, const Vec3& force) : Connector(side), id_(id), force_(force) {}
+  std::string name() const override { return "pull"; }
+  std::unique_ptr<dem::Term> clone() const override { return std::make_unique<Pull>(*this); }
+  Order order() const override { return Order::constraints; }
+  void constrainWindow(const dem::Model& m, std::span<const Vec3>, double, std::span<Vec3> onParticles,
+                       NodalLoad& load) const override {
+    onParticles[static_cast<std::size_t>(dem::find(m.particles, id_))] += force_;
+    load.add(0, -force_);
+  }
+
+private:
+  std::int64_t id_;
+  Vec3 force_;
+};
+
+TEST(RunEvents, WhatConstraintsDoToWindowsGoesWithItsParticle) {
+  CoupledRun run;
+  for (int k = 0; k < 4; ++k) dem::addParticle(run.grains.particles, {0.2 * k, 0.0, 1.0}, {}, 0.03, dem::Mass{0.5});
+  dem::ElasticLaw law;
+  law.normal.stiffness = 1e4;
+  run.grains.laws = dem::makeContactLaws(law);
+  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 1, 1}, {}, {0.2, 0.2, 0.2});
+  SolidSide& side = run.addSolid(block(mesh, false));
+  const Vec3 force{3.0, 0.0, 0.0};
+  run.grains.terms.add(Pull(side, 2, force));
+  run.start(1e-4, {.stepsPerWindow = 2});
+  run.advance(5);
+  dem::removeParticles(run.grains, std::vector<int>{0});
+  dem::addParticle(run.grains.particles, {0.0, 0.5, 1.0}, {}, 0.03, dem::Mass{0.5});
+  run.advance(5);
+  const dem::Particles& p = run.grains.particles;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    EXPECT_LT(norm(p.v[i] - (p.id[i] == 2 ? run.time() / 0.5 * force : Vec3{})), 1e-14) << p.id[i];
+  EXPECT_LT(norm(run.totals().momentum), 1e-14);
+}
+
 TEST(RunEvents, SortingChangesNothingButTheOrder) {
   const auto sorted = springRun({}), plain = springRun({});
   sorted->grains.sortEvery = 1;
