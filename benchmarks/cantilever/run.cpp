@@ -100,7 +100,8 @@ private:
     ledger.set(elasticContacts_, run.joules("particles: contacts"));
     ledger.set(gravity_, run.joules("particles: gravity") - gravityAtStart_);
     ledger.set(kineticBeam_, run.joules("beam: kinetic"));
-    ledger.set(elasticBeam_, run.joules("beam: beam"));
+    // A law without a potential stores the work done against it.
+    ledger.set(elasticBeam_, run.joules("beam: beam") + run.joules("beam: work of beam"));
     if (multirate()) ledger.set(splitting_, run.joules("beam: time splitting"));
     ledger.set(dashpots_, run.joules("particles: dashpots"));
     ledger.set(coupling_,

@@ -78,8 +78,7 @@ struct Settings {
 /// conservative: adjoint pair at the same instant, explicit; flat facets for width 0, the smooth surface and the
 /// symmetric correction for a kernel. paper: load spread by Eqs. 14 and 15 (16 for width 0), gap of the local facets,
 /// the authors' face rule, deformed metric, implicit FEM, restitution 0.99. The lag and the consistent mass go with
-/// width 0 only: there they reproduce the deposited growth to thousands of joules; the deposited run at 10 d gains so
-/// little that no lag can have acted.
+/// width 0 only: see the README for what is known of the authors' runs.
 void applyScheme(Settings& settings, Scheme scheme);
 
 /// @throws InputError naming the option, what is wrong with it and what to write instead

@@ -136,6 +136,19 @@ TEST(Conservation, ImplicitBeamAtTheSameInstantKeepsEnergy) {
   EXPECT_LE(f.momentResidual, roundOff);
 }
 
+/// The law without a potential keeps the work done against it.
+TEST(Conservation, TheDeformedMetricIsBookedAsTheReferenceIs) {
+  for (const FemStepper fem : {FemStepper::explicitDifferences, FemStepper::newmark}) {
+    Settings settings = shortSettings(0.5);
+    settings.metric = Metric::deformed;
+    settings.fem = fem;
+    const RunResult result = run(settings);
+    EXPECT_TRUE(result.figures.finished) << result.figures.failure;
+    EXPECT_GT(joulesOf(result, "elastic, beam"), 1e-3 * result.figures.energyInitial);
+    EXPECT_LE(result.figures.energyDrift, 1e-4);
+  }
+}
+
 TEST(Conservation, WhatALagCreatesIsBooked) {
   const auto check = [](double until, Lag lag, FemStepper fem) {
     SCOPED_TRACE(testing::Message() << "lag " << static_cast<int>(lag) << ", fem " << static_cast<int>(fem));
