@@ -60,7 +60,7 @@ void CoupledRun::start(double dt, const RunOptions& options) {
   run.ownForcesDue = false;
   grains.refusesUnstableSteps = refuses;
   if (refuses) {
-    const StepLimit limit = criticalStep();
+    const StepLimit limit = run.criticalStep();
     if (dt > limit.dt) {
       grains.refusesUnstableSteps = false;
       if (run.started) start(lastDt, lastOptions);

@@ -60,6 +60,7 @@ bool hasElements(const fem::Model& model) {
 }  // namespace
 
 const EnergyLedger& CoupledRun::ledger() {
+  impl_->requireStarted("ledger");
   dem::close(grains);
   EnergyLedger& ledger = impl_->ledger;
   setParticles(grains, ledger);
@@ -72,6 +73,7 @@ const EnergyLedger& CoupledRun::ledger() {
 }
 
 Totals CoupledRun::totals() const {
+  impl_->requireStarted("totals");
   const dem::Momenta particles = dem::momenta(grains);
   Totals sum{particles.linear, particles.angular, 0.0, {}};
   for (std::size_t i = 0; i < grains.particles.size(); ++i)
@@ -91,21 +93,27 @@ Totals CoupledRun::totals() const {
 }
 
 StepLimit CoupledRun::criticalStep() {
+  impl_->requireStarted("criticalStep");
+  return impl_->criticalStep();
+}
+
+StepLimit CoupledRun::Impl::criticalStep() {
   const dem::ContactStep contacts = dem::criticalStep(grains);
   double rate = 0.0;  // ω²/4 of the solids, at the particles' step
   StepLimit limit{contacts.dt, contacts.particle < 0 ? "nobody" : dem::ownerOf(contacts, grains.particles)};
-  for (const auto& solid : impl_->solids) {
+  for (const auto& solid : solids) {
     if (solid->side.stepping == Stepping::implicitSteps || !hasElements(*solid->side.model)) continue;
     const fem::ModelStableStep stable = fem::stableStep(*solid->side.model);
     const double least =
         std::sqrt(1.0 - 26.0 / 27.0 * solid->side.mass->share());  // as little as blended masses can be
-    const double dt = stable.dt * least / impl_->K();
-    if (dt < limit.dt) limit = {dt, "element " + std::to_string(stable.element) + " of \"" + solid->side.name + "\""};
-    rate = std::max(rate, 1.0 / (dt * dt));
+    const double most = stable.dt * least / K();
+    if (most < limit.dt)
+      limit = {most, "element " + std::to_string(stable.element) + " of \"" + solid->side.name + "\""};
+    rate = std::max(rate, 1.0 / (most * most));
   }
   bool connected = false;
   for (const auto& term : grains.terms) connected = connected || dynamic_cast<const Connector*>(term.get());
-  if (connected && impl_->K() == 1 && std::isfinite(contacts.dt) && rate > 0.0) {
+  if (connected && K() == 1 && std::isfinite(contacts.dt) && rate > 0.0) {
     const double together = 1.0 / std::sqrt(1.0 / (contacts.dt * contacts.dt) + rate);
     limit.dt = std::min(limit.dt, together);
   }

@@ -1,6 +1,8 @@
 // What a run keeps.
 #pragma once
 
+#include <optional>
+
 #include "dovetail/coupling/run.hpp"
 #include "solid_stepper.hpp"
 
@@ -46,6 +48,7 @@ struct CoupledRun::Impl {
   struct State;
   std::vector<char> save();
   State read(const std::vector<char>& bytes) const;
+  std::optional<State> readOwn();
   void adopt(State state);
 
   /// Whether loads kick explicit solids together with their own forces: without sub-steps and without a lag.
@@ -53,6 +56,7 @@ struct CoupledRun::Impl {
   int K() const { return options.stepsPerWindow; }
   double window() const { return K() * dt; }
   bool anyImplicit() const;
+  StepLimit criticalStep();
   bool joined() const;
   void joinParticles();
   void requireSides() const;

@@ -1,4 +1,6 @@
 // The state of a run in bytes, and back.
+#include <optional>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/checkpoint.hpp"
 #include "run_impl.hpp"
@@ -92,6 +94,16 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
   return state;
 }
 
+/// None of a run that has broken down: nothing of it is worth keeping.
+std::optional<CoupledRun::Impl::State> CoupledRun::Impl::readOwn() {
+  dem::close(grains);
+  try {
+    return read(save());
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 void CoupledRun::Impl::adopt(State state) {
   dem::loadState(state.particles, "state of a run", grains);
   loadBefore.clear();
@@ -119,11 +131,12 @@ std::vector<char> CoupledRun::save() {
 void CoupledRun::load(const std::vector<char>& bytes) {
   if (!impl_->started)
     throw InputError("the run has not been started", "load", "set it up as it was and call start(dt)");
-  Impl::State state = impl_->read(bytes), backup = impl_->read(save());
+  Impl::State state = impl_->read(bytes);
+  std::optional<Impl::State> backup = impl_->readOwn();
   try {
     impl_->adopt(std::move(state));
   } catch (...) {
-    impl_->adopt(std::move(backup));
+    if (backup) impl_->adopt(std::move(*backup));
     throw;
   }
 }

@@ -125,6 +125,9 @@ TEST(CoupledRuns, SaysWhatIsMissing) {
   CoupledRun run;
   EXPECT_THROW(run.advance(), InputError);
   EXPECT_THROW(run.save(), InputError);
+  EXPECT_THROW(run.ledger(), InputError);
+  EXPECT_THROW(run.totals(), InputError);
+  EXPECT_THROW(run.criticalStep(), InputError);
   EXPECT_THROW(run.start(0.0), InputError);
   EXPECT_THROW(run.start(1e-3, {.stepsPerWindow = 0}), InputError);
   EXPECT_THROW(run.addSolid(nullptr), InputError);

@@ -4,7 +4,7 @@
 //     run.grains.laws = dem::makeContactLaws(law);
 //     dem::addParticle(run.grains.particles, …);
 //     coupling::SolidSide& beam = run.addSolid(std::move(model), {.name = "beam"});
-//     run.grains.terms.add(surface::SkinContact(beam, …));
+//     run.grains.terms.add(surface::SurfaceContact(beam, …));
 //     run.start(dt);
 //     run.advance(steps);
 //     std::cout << run.ledger();
@@ -77,16 +77,18 @@ public:
 
   /// Solids step together with the particles from here on; those at time zero only. Masses are set here if they are not
   /// (fem::addMass). @return the side that connectors are made with; it stays where it is
+  /// @throws InputError if there is no model, the name is another's, or the run has started
   SolidSide& addSolid(std::unique_ptr<fem::Model> model, const SolidOptions& options = {});
   std::size_t solids() const;
   SolidSide& solid(std::size_t k);
   const SolidSide& solid(std::size_t k) const;
 
-  /// Forces at the start. Once before the first step, and again to change the step or the options.
+  /// Forces at the start. Once before the first step, and again to change the step or the options, or after `grains`
+  /// has been put in another's place; the books go on.
   /// @param dt  of the particles, s
   /// @throws InputError as dem::check does, for a step beyond criticalStep (unless grains.refusesUnstableSteps is
-  /// false),
-  ///         or options out of range
+  ///         false; the run then goes on as before), options out of range, or a connector whose solid is not in this
+  ///         run
   void start(double dt, const RunOptions& options = {});
   /// Windows of K steps. The last one's end is an instant at which positions and velocities agree.
   /// @throws NumericalError naming the particle, node or element that breaks down
@@ -103,6 +105,7 @@ public:
   double dt() const;
   double window() const;  ///< K dt, s
 
+  // What follows needs forces: InputError before start().
   /// Sets all channels to the present state, and its extremes. Particles, solids and connectors by name; the baseline
   /// is the state at the first start.
   const EnergyLedger& ledger();
