@@ -86,55 +86,5 @@ TEST(BrickSolid, AssumedStressTakesStVenantKirchhoffAlone) {
                InputError);
 }
 
-/// What requireBrickSolid says of a model; empty if it takes it.
-std::string refusal(const Model& model) {
-  try {
-    requireBrickSolid(model, "the coupling");
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("the coupling"), std::string::npos) << error.what();
-    return error.what();
-  }
-  return "";
-}
-
-TEST(BrickSolid, CouplingsTakeBricksOfElasticLawsWithSupportsAtRest) {
-  const SolidMesh mesh = testMesh({2, 1, 1}, true);
-  for (const Formulation formulation : brickFormulations) {
-    SolidScene scene = sceneOf(mesh, formulation, kirchhoff);
-    fix(scene.model.nodes, nodeSet(mesh, "x-"));
-    scene.model.constraints.hold(nodeSet(mesh, "x+"), componentY);
-    EXPECT_EQ(&requireBrickSolid(scene.model, "the coupling"), scene.solid.get());
-  }
-  EXPECT_EQ(refusal(sceneOf(mesh, Formulation::standard, AxialSprings{1e6, 1.0}).model), "");
-  EXPECT_EQ(refusal(sceneOf(mesh, Formulation::standard, DeformedMetricHooke{1e6, 0.3, 1.0}).model), "");
-}
-
-TEST(BrickSolid, CouplingsNameWhatTheyDoNotTake) {
-  const SolidMesh mesh = testMesh({2, 1, 1}, false);
-  const auto expectNamed = [](const Model& model, const std::string& what) {
-    const std::string text = refusal(model);
-    EXPECT_NE(text.find(what), std::string::npos) << what << ": " << text;
-  };
-  const auto bricks = [&] { return sceneOf(mesh, Formulation::standard, kirchhoff).model; };
-  expectNamed(makeModel(mesh), "no elements");
-  expectNamed(sceneOf(testSolidMesh(CellShape::tet4, false), Formulation::standard, kirchhoff).model, "tet4");
-  expectNamed(sceneOf(mesh, Formulation::enhanced, kirchhoff).model, "\"enhanced\"");
-  const auto rubber = pointMaterial(neoHookean(1e6, 0.3, 1000.0));
-  expectNamed(sceneOf(mesh, rubber).model, '"' + rubber->name() + '"');
-  EXPECT_NE(rubber->name().find("neo-Hookean"), std::string::npos);
-  Model model = bricks();
-  model.add(gravity(Vec3{0, 0, -9.81}));
-  expectNamed(model, "\"gravity\"");
-  model = bricks();
-  model.constraints.prescribe(nodeSet(mesh, "x-"), 0, [](double t) { return t; });
-  expectNamed(model, "prescribed motion");
-  model = bricks();
-  model.add(makeSolid(mesh, pointMaterial(kirchhoff), {.name = "second"}));
-  expectNamed(model, "several groups of elements");
-  model = bricks();
-  model.constraints.ties = {{0, 0, {{1, 0, 1.0}}, 0.0, {}}};
-  expectNamed(model, "ties");
-}
-
 }  // namespace
 }  // namespace dovetail::fem

@@ -42,15 +42,6 @@ void check(const Model& m) {
   for (const auto& term : m.terms) term->check(m);
 }
 
-void requirePlain(const Model& m, const std::string& coupling) {
-  constexpr const char* remedy = "leave it out: this coupling refers to particles by their numbers";
-  if (m.sortEvery > 0) throw InputError("the model sorts its particles", coupling, "set sortEvery = 0");
-  if (m.domain && m.domain->policy == EscapePolicy::remove)
-    throw InputError("the domain removes particles", coupling, "take the policy that refuses");
-  for (const auto& term : m.terms)
-    if (!term->prescribes()) throw InputError("the model has '" + term->name() + "'", coupling, remedy);
-}
-
 ContactStep criticalStep(const Model& m, double leastOverlap) {
   if (leastOverlap > 0.0 && !m.pairs.fits(m.particles) && m.particles.size() > 0) {
     Model now = m;

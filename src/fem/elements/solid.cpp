@@ -135,30 +135,4 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<PointFie
   return makeSolidOf(mesh, detail::pointsOf(std::move(field)), options);
 }
 
-const Solid& requireBrickSolid(const Model& model, const std::string& who) {
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(
-        "the solid has " + what, who,
-        "give a model of one solid of hex8 with an elastic law (St Venant-Kirchhoff, axial springs or Hooke "
-        "on the deformed metric), held by fix() or hold()");
-  };
-  const Solid* solid = nullptr;
-  for (const auto& term : model.terms) {
-    const auto* const own = dynamic_cast<const Solid*>(term.get());
-    if (own == nullptr) refuse("the term \"" + term->name() + "\"");
-    if (solid != nullptr) refuse("several groups of elements");
-    solid = own;
-  }
-  if (solid == nullptr) refuse("no elements");
-  if (solid->shape() != CellShape::hex8) refuse(std::string("elements of the shape ") + name(solid->shape()));
-  if (solid->formulation() != Formulation::standard && solid->formulation() != Formulation::assumedStress)
-    refuse(std::string("the formulation \"") + name(solid->formulation()) + "\"");
-  if (solid->material() == nullptr) refuse("a field of points");
-  if (!solid->material()->brickLaw()) refuse("the law \"" + solid->material()->name() + "\"");
-  if (!model.constraints.ties.empty()) refuse("ties");
-  for (const auto& p : model.constraints.prescribed)
-    if (p.displacement) refuse("prescribed motion");
-  return *solid;
-}
-
 }  // namespace dovetail::fem

@@ -121,10 +121,6 @@ Energies energies(const Model& m);
 /// Momentum and angular momentum now. @throws InputError between advance and close
 Momenta momenta(const Model& m);
 
-/// For couplings that refer to particles by number and know nothing but particles, pairs and drives.
-/// @throws InputError naming what of the model they could not follow: sorting, a domain that removes, terms
-void requirePlain(const Model& m, const std::string& coupling);
-
 /// Takes particles out; what they carried is booked as left. Pairs, bonds and walls forget them.
 /// @throws InputError on a number that does not exist
 void removeParticles(Model& m, std::span<const int> list);

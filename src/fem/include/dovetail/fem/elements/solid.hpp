@@ -95,12 +95,4 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const Po
 std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<PointField> field,
                                  const SolidOptions& options = {});
 
-struct Model;
-
-/// What couplings of particles and solids take today: one solid of hex8, standard or of assumed stress, with an elastic
-/// law of the hand-written kernels, supports at rest and nothing else.
-/// @param who  for the message
-/// @throws InputError naming what the model has beside, or has not
-const Solid& requireBrickSolid(const Model& model, const std::string& who);
-
 }  // namespace dovetail::fem
