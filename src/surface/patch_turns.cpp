@@ -103,7 +103,9 @@ void placeFrame(PatchFrame& frame, int patch, std::span<const Vec3> u, std::span
 }  // namespace
 
 PatchFrame makeFrame(std::vector<int> node, std::vector<double> area, std::span<const Vec3> X) {
-  PatchFrame frame{std::move(node), std::move(area), {}, {}, {}, {}, {}, {}, false};
+  PatchFrame frame;
+  frame.node = std::move(node);
+  frame.share = std::move(area);
   double whole = 0.0;
   for (double a : frame.share) whole += a;
   for (double& a : frame.share) a /= whole;
