@@ -49,7 +49,7 @@ double ownKinetic(const dem::Particles& p, std::size_t i) {
 /// The part of a particle in the rows after it was located anew: those who come and go do so by and by, so that λ does
 /// not jump.
 double partTowards(double before, double weight) {
-  constexpr double border = 0.1, most = 0.01;
+  constexpr double border = 0.1, most = 0.005;
   const double goal = std::min({1.0, weight / border, (1.0 - weight) / border});
   return std::clamp(goal, before - most, before + most);
 }
