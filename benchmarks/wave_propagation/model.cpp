@@ -163,9 +163,8 @@ Bar makeCoupledBar(const Settings& s) {
                          {.name = "solid",
                           .stepping = implicit ? coupling::Stepping::implicitSteps : coupling::Stepping::explicitSteps,
                           .massShare = massShare(s)});
-  auto tie = arlequin::makeOverlapTie(bar.run->grains, bar.mesh, weight, *bar.solid, couplingOptions(s));
-  bar.tie = tie.get();
-  bar.run->grains.terms.add(std::unique_ptr<dem::Term>(std::move(tie)));
+  bar.tie = &bar.run->grains.terms.add(
+      arlequin::makeOverlapTie(bar.run->grains, bar.mesh, weight, *bar.solid, couplingOptions(s)));
   return bar;
 }
 

@@ -93,7 +93,7 @@ void CoupledRun::step(bool withEnergies) {
 
 /// The particles' model may have been put in place of the one that the run began with.
 void CoupledRun::Impl::joinParticles() {
-  if (!joined()) grains.terms.add(std::unique_ptr<dem::Term>(std::make_unique<SolidsTerm>(this)));
+  if (!joined()) grains.terms.add(std::make_unique<SolidsTerm>(this));
 }
 
 bool CoupledRun::Impl::joined() const {

@@ -15,8 +15,15 @@ void placePoints(const cg::Projection& carrier, std::span<const Vec3> X, PatchTu
     for (std::size_t k = begin; k < end; ++k) {
       const int point = points[k];
       const auto p = static_cast<std::size_t>(point);
-      x[p] = X[p] + cg::applyRow(carrier, point, u);
-      velocity[p] = cg::applyRow(carrier, point, v);
+      const auto node = carrier.rowColumns(point);
+      const auto share = carrier.rowWeights(point);
+      Vec3 moved, speed;
+      for (std::size_t n = 0; n < node.size(); ++n) {
+        moved += share[n] * u[static_cast<std::size_t>(node[n])];
+        speed += share[n] * v[static_cast<std::size_t>(node[n])];
+      }
+      x[p] = X[p] + moved;
+      velocity[p] = speed;
       if (turns.empty()) continue;
       x[p] += turns.shift(p);
       velocity[p] += turns.velocity(p);
@@ -30,7 +37,8 @@ void addLoadOfPoints(const cg::Projection& carrier, const PatchTurns& turns, con
     const auto node = carrier.rowColumns(point);
     const auto share = carrier.rowWeights(point);
     const Vec3& force = onPoints.force[static_cast<std::size_t>(point)];
-    for (std::size_t k = 0; k < node.size(); ++k) load.add(node[k], share[k] * force);
+    for (const int n : node) load.touch(n);
+    for (std::size_t k = 0; k < node.size(); ++k) load.force[static_cast<std::size_t>(node[k])] += share[k] * force;
   }
   addTurningLoad(turns, onPoints, load);
 }

@@ -43,10 +43,12 @@ public:
   virtual const dem::TriangulatedWall& outline() = 0;
   /// Adds the reaction to the contacts' forces and couples on the points, N.
   virtual void addReaction(const dem::WallContacts& contacts, coupling::NodalLoad& onPoints) const = 0;
-  /// Points that a contact is with and bounds on how fast it follows them: its weights, and if it exerts couples the
-  /// radius times the rate of its facet's spin.
-  virtual void follow(const dem::WallContacts& contacts, std::size_t contact, double radius, bool couples,
+  /// Points that a contact is with, and its weights: how fast it is shifted with them.
+  virtual void follow(const dem::WallContacts& contacts, std::size_t contact,
                       std::vector<std::pair<int, double>>& points) const = 0;
+  /// The same points and how fast the facet is turned with them, 1/m. Nothing where contacts exert no couples.
+  virtual void turnWith(const dem::WallContacts& contacts, std::size_t contact,
+                        std::vector<std::pair<int, double>>& points) const = 0;
 
   virtual void save(ByteWriter& writer) const = 0;
   virtual void load(ByteReader& reader) = 0;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "dovetail/cg/symmetric_kernel.hpp"
+#include "dovetail/core/finite.hpp"
 #include "dovetail/surface/skin.hpp"
 
 namespace dovetail::surface {
@@ -123,6 +124,18 @@ void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel) {
   splitAtSharpEdges(skin);
   skin.carrier = kernelMap(skin, kernel);
   keepPlaces(skin, kernel.kernel.width);
+}
+
+cg::SurfaceKernel advisedKernel(const fem::SolidMesh& mesh) {
+  const Skin skin = makeSkin(mesh.X, fem::boundaryFaces(mesh), QuadSplit::two);
+  double volume = 0.0, area = 0.0;
+  for (const auto& [a, b, c] : skin.wall.facets) {
+    const Vec3 normal = 0.5 * cross(skin.X[b] - skin.X[a], skin.X[c] - skin.X[a]);
+    volume += dot(normal, skin.X[a] - skin.X[0]) / 3.0;
+    area += norm(normal);
+  }
+  requirePositive(volume, "volume within the boundary of the mesh, m³");
+  return {{.width = 2.0 * volume / area}, cg::KernelCorrection::symmetric};
 }
 
 }  // namespace dovetail::surface

@@ -55,12 +55,16 @@ public:
       for (int vertex : skin_.wall.facets[facet]) onPoints.add(vertex, {});
     dem::addWallForces(contacts, skin_.wall.x, skin_.wall.facets, onPoints.force);
   }
-  void follow(const dem::WallContacts& contacts, std::size_t contact, double radius, bool couples,
+  void follow(const dem::WallContacts& contacts, std::size_t contact,
               std::vector<std::pair<int, double>>& points) const override {
     const geometry::Facet& facet = skin_.wall.facets[contacts.facet[contact]];
-    const std::array<double, 3> rates = couples ? spinRates(skin_.wall, facet) : std::array<double, 3>{};
-    for (std::size_t k = 0; k < 3; ++k)
-      points.emplace_back(facet[k], std::abs(contacts.weight[contact][k]) + radius * rates[k]);
+    for (std::size_t k = 0; k < 3; ++k) points.emplace_back(facet[k], std::abs(contacts.weight[contact][k]));
+  }
+  void turnWith(const dem::WallContacts& contacts, std::size_t contact,
+                std::vector<std::pair<int, double>>& points) const override {
+    const geometry::Facet& facet = skin_.wall.facets[contacts.facet[contact]];
+    const std::array<double, 3> rates = spinRates(skin_.wall, facet);
+    for (std::size_t k = 0; k < 3; ++k) points.emplace_back(facet[k], rates[k]);
   }
 
   void save(ByteWriter& writer) const override {

@@ -106,21 +106,29 @@ void Coupling::addDemand(dem::ContactDemand& demand, const dem::Particles& parti
   const PatchTurns& turns = carrier_->turns();
   const std::size_t patches = turns.empty() ? 0 : turns.frames.size();
   Asked stiffness(inverseMass.size(), patches), damping(inverseMass.size(), patches);
-  std::vector<Following> contacts;
+  std::vector<Following> shifted, turned;
+  std::vector<std::pair<int, double>> points;
   for (std::size_t l = first; l < demand.links.size(); ++l) {
     const auto& link = demand.links[l];
-    std::vector<std::pair<int, double>> points;
-    carrier_->follow(contacts_, static_cast<std::size_t>(link.contact), particles.radius[link.particle], laws.rotates(),
-                     points);
-    contacts.push_back(following(*carrier_, points));
-    stiffness.add(contacts.back(), link.asked);
-    damping.add(contacts.back(), link.askedDamping);
+    const auto contact = static_cast<std::size_t>(link.contact);
+    points.clear();
+    carrier_->follow(contacts_, contact, points);
+    shifted.push_back(following(*carrier_, points));
+    stiffness.add(shifted.back(), link.shifting);
+    damping.add(shifted.back(), link.shiftingDamping);
+    points.clear();
+    if (link.turning > 0.0 || link.turningDamping > 0.0) carrier_->turnWith(contacts_, contact, points);
+    for (auto& [point, rate] : points) rate *= particles.radius[static_cast<std::size_t>(link.particle)];
+    turned.push_back(following(*carrier_, points));
+    stiffness.add(turned.back(), link.turning);
+    damping.add(turned.back(), link.turningDamping);
   }
   stiffness.handOn(turns, inverseMass);
   damping.handOn(turns, inverseMass);
   for (std::size_t l = first; l < demand.links.size(); ++l) {
-    demand.links[l].wallStiff = stiffness.meets(contacts[l - first]);
-    demand.links[l].wallDamped = damping.meets(contacts[l - first]);
+    const Following &shift = shifted[l - first], &turn = turned[l - first];
+    demand.links[l].wallStiff = std::max(stiffness.meets(shift), stiffness.meets(turn));
+    demand.links[l].wallDamped = std::max(damping.meets(shift), damping.meets(turn));
   }
 }
 

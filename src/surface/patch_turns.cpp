@@ -16,13 +16,20 @@ using Columns = std::array<Vec3, 3>;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Σ a x Dᵀ by columns; the mean of x need not be taken off, as Σ a D = 0, but digits are kept if x are displacements.
-Columns moments(const PatchFrame& frame, std::span<const Vec3> x) {
-  Columns sum;
-  const Vec3 origin = x[at(frame.node.front())];
+struct Moments {
+  Columns u, v;
+};
+/// Σ a u Dᵀ and Σ a v Dᵀ by columns; means need not be taken off, as Σ a D = 0.
+Moments moments(const PatchFrame& frame, std::span<const Vec3> u, std::span<const Vec3> v) {
+  Moments sum;
+  const Vec3 u0 = u[at(frame.node.front())], v0 = v[at(frame.node.front())];
   for (std::size_t k = 0; k < frame.node.size(); ++k) {
-    const Vec3 weighted = frame.share[k] * (x[at(frame.node[k])] - origin);
-    for (int c = 0; c < 3; ++c) sum[at(c)] += frame.arm[k][c] * weighted;
+    const Vec3 arm = frame.share[k] * frame.arm[k];
+    const Vec3 du = u[at(frame.node[k])] - u0, dv = v[at(frame.node[k])] - v0;
+    for (int c = 0; c < 3; ++c) {
+      sum.u[at(c)] += arm[c] * du;
+      sum.v[at(c)] += arm[c] * dv;
+    }
   }
   return sum;
 }
@@ -84,19 +91,20 @@ bool findTurn(PatchFrame& frame, const Columns& a) {
     const Columns s = turnedBack(frame.turn, a);
     if (!invertInertia(s, frame.inverse)) return false;
     const Vec3 step = times(frame.inverse, axial(s));
-    frame.turn = normalized(frame.turn * fromRotationVector(step));
+    // By 2 atan(|step|/2) about it, which is as good to a Newton step as |step|.
+    frame.turn = normalized(frame.turn * Quaternion{1.0, 0.5 * step.x, 0.5 * step.y, 0.5 * step.z});
     if (norm(step) < 1e-7) return invertInertia(turnedBack(frame.turn, a), frame.inverse);
   }
   return false;
 }
 
 void placeFrame(PatchFrame& frame, int patch, std::span<const Vec3> u, std::span<const Vec3> v) {
-  Columns a = moments(frame, u);
-  for (std::size_t c = 0; c < 3; ++c) a[c] += frame.moments[c];
-  if (!findTurn(frame, a))
+  Moments sum = moments(frame, u, v);
+  for (std::size_t c = 0; c < 3; ++c) sum.u[c] += frame.moments[c];
+  if (!findTurn(frame, sum.u))
     throw NumericalError("a smooth patch of the surface has shrunk so far that it has no direction",
                          "patch " + std::to_string(patch), "look for what has crushed the solid");
-  frame.spin = rotate(frame.turn, times(frame.inverse, axial(turnedBack(frame.turn, moments(frame, v)))));
+  frame.spin = rotate(frame.turn, times(frame.inverse, axial(turnedBack(frame.turn, sum.v))));
   frame.placed = true;
 }
 
@@ -147,9 +155,10 @@ void addTurningLoad(const PatchTurns& turns, const coupling::NodalLoad& onPoints
     const Vec3 g = times(frame.inverse, rotateBack(frame.turn, couple[patch]));
     const Columns onArm{rotate(frame.turn, cross(g, {1, 0, 0})), rotate(frame.turn, cross(g, {0, 1, 0})),
                         rotate(frame.turn, cross(g, {0, 0, 1}))};
+    for (const int node : frame.node) load.touch(node);
     for (std::size_t k = 0; k < frame.node.size(); ++k) {
-      const Vec3& arm = frame.arm[k];
-      load.add(frame.node[k], frame.share[k] * (arm.x * onArm[0] + arm.y * onArm[1] + arm.z * onArm[2]));
+      const Vec3 arm = frame.share[k] * frame.arm[k];
+      load.force[at(frame.node[k])] += arm.x * onArm[0] + arm.y * onArm[1] + arm.z * onArm[2];
     }
   }
 }

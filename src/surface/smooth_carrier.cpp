@@ -96,11 +96,12 @@ public:
       for (std::size_t k = 0; k < 16; ++k)
         onPoints.add(surface_.control[contactFace_[c]][k], -contactWeight_[c][k] * contacts.force[c]);
   }
-  void follow(const dem::WallContacts&, std::size_t contact, double, bool,
+  void follow(const dem::WallContacts&, std::size_t contact,
               std::vector<std::pair<int, double>>& points) const override {
     for (std::size_t k = 0; k < 16; ++k)
       points.emplace_back(surface_.control[contactFace_[contact]][k], contactWeight_[contact][k]);
   }
+  void turnWith(const dem::WallContacts&, std::size_t, std::vector<std::pair<int, double>>&) const override {}
 
   void save(ByteWriter& writer) const override { archive(writer, *this); }
   void load(ByteReader& reader) override {

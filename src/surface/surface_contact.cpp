@@ -84,15 +84,15 @@ void SurfaceContact::addForces(dem::Model& m, const dem::Step& step) {
 }
 
 void SurfaceContact::addDemand(const dem::Model& m, dem::ContactDemand& demand) const {
-  if (coupling_.inContact()) coupling_.addDemand(demand, m.particles, *laws_, inverseMasses(side()));
+  if (!coupling_.inContact()) return;
+  const std::size_t first = demand.links.size();
+  coupling_.addDemand(demand, m.particles, *laws_, inverseMasses(side()));
+  demand.surfaces.push_back(name_);
+  for (std::size_t l = first; l < demand.links.size(); ++l)
+    demand.links[l].surface = static_cast<int>(demand.surfaces.size()) - 1;
 }
 
 void SurfaceContact::save(ByteWriter& writer) const { coupling_.save(writer); }
 void SurfaceContact::load(ByteReader& reader) { coupling_.load(reader); }
-
-std::unique_ptr<SurfaceContact> makeSurfaceContact(coupling::SolidSide& side, Coupling coupling,
-                                                   std::shared_ptr<const dem::ContactLaws> laws, std::string name) {
-  return std::make_unique<SurfaceContact>(side, std::move(coupling), std::move(laws), std::move(name));
-}
 
 }  // namespace dovetail::surface

@@ -33,9 +33,7 @@ struct TieRun {
   void couple(const fem::SolidMesh& mesh, const std::vector<double>& weight, const CouplingOptions& coupling) {
     grains.refusesUnstableSteps = false;  // the tests choose
     side = &run->addSolid(std::move(owned_), options);
-    auto made = makeOverlapTie(grains, mesh, weight, *side, coupling);
-    tie = made.get();
-    grains.terms.add(std::unique_ptr<dem::Term>(std::move(made)));
+    tie = &grains.terms.add(makeOverlapTie(grains, mesh, weight, *side, coupling));
   }
 
   void start(double dt = 1e-4) { run->start(dt, {.stepsPerWindow = K}); }

@@ -61,9 +61,7 @@ public:
     grains.particles = std::move(particles);
     grains.laws = laws;
     grains.pairs.setSkin(0.01);
-    auto connector = makeSurfaceContact(side, makeSeam(mesh, variant), laws);
-    contact = connector.get();
-    grains.terms.add(std::unique_ptr<dem::Term>(std::move(connector)));
+    contact = &grains.terms.add(SurfaceContact(side, makeSeam(mesh, variant), laws, "contacts"));
   }
   ContactScene(const ContactScene&) = delete;
 

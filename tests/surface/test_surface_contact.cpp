@@ -285,14 +285,14 @@ TEST(SurfaceContact, RefusesWhatItCannotDo) {
   const fem::SolidMesh mesh = softBlock(CellShape::hex8), other = softBlock(CellShape::hex8, {2, 2, 1});
   ContactScene scene(mesh, slantingGrains(3, 5), rollingLaws());
   const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
-  EXPECT_THROW(makeSurfaceContact(scene.side, Coupling(makeSkin(other.X, other.faceSets.at("skin"))), rollingLaws()),
+  EXPECT_THROW(SurfaceContact(scene.side, Coupling(makeSkin(other.X, other.faceSets.at("skin"))), rollingLaws()),
                InputError);
-  EXPECT_THROW(makeSurfaceContact(scene.side, Coupling(skin), nullptr), InputError);
-  EXPECT_THROW(makeSurfaceContact(scene.side, Coupling(makeSmoothSurface(skin)), rollingLaws()), InputError);
+  EXPECT_THROW(SurfaceContact(scene.side, Coupling(skin), nullptr), InputError);
+  EXPECT_THROW(SurfaceContact(scene.side, Coupling(makeSmoothSurface(skin)), rollingLaws()), InputError);
   dem::Model still;
   still.laws = elasticLaws(1e4);
   dem::addParticle(still.particles, {0.3, 0.3, 0.1}, {}, 0.03, dem::Mass{1.0});
-  still.terms.add(std::unique_ptr<dem::Term>(makeSurfaceContact(scene.side, Coupling(skin), rollingLaws())));
+  still.terms.add(SurfaceContact(scene.side, Coupling(skin), rollingLaws(), "contacts"));
   EXPECT_THROW(dem::findForces(still), InputError) << "particles do not spin";
 }
 

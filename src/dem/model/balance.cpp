@@ -89,7 +89,7 @@ Momenta momenta(const Model& m) {
   return sums;
 }
 
-void Terms::add(std::unique_ptr<Term> term) {
+void Terms::insert(std::unique_ptr<Term> term) {
   auto place = terms_.begin();
   while (place != terms_.end() && (*place)->order() <= term->order()) ++place;
   terms_.insert(place, std::move(term));

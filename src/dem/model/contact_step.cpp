@@ -20,12 +20,17 @@ void addContact(ContactDemand& demand, const Particles& particles, int particle,
   for (const int k : {particle, partner}) {
     if (k < 0) continue;
     const auto i = static_cast<std::size_t>(k);
-    link.asked =
+    demand.stiffness[i] +=
         strongest(slopes.normal.stiffness, slopes.tangential.stiffness, slopes.rolling.stiffness, particles.radius[i]);
-    link.askedDamping =
+    demand.damping[i] +=
         strongest(slopes.normal.damping, slopes.tangential.damping, slopes.rolling.damping, particles.radius[i]);
-    demand.stiffness[i] += link.asked;
-    demand.damping[i] += link.askedDamping;
+  }
+  if (partner < 0) {
+    const double radius = particles.radius[static_cast<std::size_t>(particle)];
+    link.shifting = scale * std::max(slopes.normal.stiffness, slopes.tangential.stiffness);
+    link.shiftingDamping = scale * std::max(slopes.normal.damping, slopes.tangential.damping);
+    link.turning = scale * slopes.rolling.stiffness / (radius * radius);
+    link.turningDamping = scale * slopes.rolling.damping / (radius * radius);
   }
   demand.links.push_back(link);
   demand.twoBody = std::min(demand.twoBody, verletLimit(scale * slopes.normal.stiffness / effectiveMass,
@@ -84,6 +89,7 @@ ContactStep criticalStep(const ContactDemand& demand, const Particles& particles
       step.particle = link.particle;
       step.partner = link.partner;
       step.owner = link.owner;
+      step.surface = link.surface < 0 ? "" : demand.surfaces[static_cast<std::size_t>(link.surface)];
     }
   }
   return step;
@@ -103,7 +109,10 @@ std::string ownerOf(const ContactStep& step, const Particles& particles) {
   };
   if (step.particle < 0) return "nothing";
   return std::string(step.owner == StepOwner::bond ? "the bond" : "the contact") + " of " + name(step.particle) +
-         " with " + (step.partner < 0 ? "a wall" : name(step.partner));
+         " with " +
+         (step.partner >= 0      ? name(step.partner)
+          : step.surface.empty() ? "a wall"
+                                 : "\"" + step.surface + "\"");
 }
 
 MassScaling scaleMasses(Particles& particles, const ContactDemand& demand, double dt) {

@@ -18,11 +18,13 @@ struct NodalLoad {
 
   explicit NodalLoad(std::size_t nodes = 0) : force(nodes), isTouched(nodes, 0) {}
 
+  void touch(int node) {
+    if (isTouched[node]) return;
+    isTouched[node] = 1;
+    touched.push_back(node);
+  }
   void add(int node, const Vec3& f) {
-    if (!isTouched[node]) {
-      isTouched[node] = 1;
-      touched.push_back(node);
-    }
+    touch(node);
     force[node] += f;
   }
   void clear() {

@@ -95,7 +95,8 @@ public:
   /// Adds what the contacts of the last exchange ask of the step, the surface giving way with its nodes: node i shares
   /// its mass among all contacts by what they ask of it, k |S_i|, so that one alone has
   ///   ω² = K/m + Σ_i |S_i| Q_i / m_i,   Q_i = Σ_contacts k |S_i|,
-  /// safe for any number of particles on a face (see ContactStep), while nothing else pulls at the nodes.
+  /// safe for any number of particles on a face (see ContactStep), while nothing else pulls at the nodes. Couples count
+  /// as contacts of their own: k = k_r/R², S_i = R × the rate at which i turns the facet.
   /// @param inverseMass  per node, 1/kg; 0 for a held node
   void addDemand(dem::ContactDemand& demand, const dem::Particles& particles, const dem::ContactLaws& laws,
                  std::span<const double> inverseMass) const;

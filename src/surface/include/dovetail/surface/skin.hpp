@@ -64,6 +64,14 @@ void splitAtSharpEdges(Skin& skin);
 /// @throws InputError for a width that is negative or not finite, before the skin is changed
 void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel);
 
+/// The kernel for contact laws that know the compliance of a half-space (Hertz's and their like) on a body that bends. On
+/// single nodes (width 0) the mesh gives way once more under the load, the more the finer it is, and impacts on slender
+/// bodies get softer with every refinement. This kernel is as wide as twice the body's volume over its surface: the
+/// height of a plate, half the height of a square bar, a third of a cube's edge; what is left is the compliance of the
+/// section, that no half-space has, and no property of the mesh. Lucy's shape, symmetric.
+/// @throws InputError if the mesh has no boundary, or no volume
+cg::SurfaceKernel advisedKernel(const fem::SolidMesh& mesh);
+
 /// Moves the given vertices: wall.x = X + S u, wall.v = S v, and what turns with the patch.
 /// @throws NumericalError naming a patch that has shrunk to a line, where offsets turn with it
 void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> vertices);

@@ -14,11 +14,13 @@ namespace dovetail::surface {
 /// velocity before and the one after the kick, of particle and surface, as the laws do for all contacts.
 class SurfaceContact final : public coupling::Connector {
 public:
+  /// @param coupling  on the skin, or the smooth surface, of side's mesh
+  /// @param laws      between particles and surface; skin.wall.material is the surface's row in their table
+  /// @param name      in ledgers, errors and profiles
   /// @throws InputError if the surface belongs to a mesh with another number of nodes, there are no laws, or they
-  /// cannot
-  ///         be had on this surface
+  ///         cannot be had on this surface
   SurfaceContact(coupling::SolidSide& side, Coupling coupling, std::shared_ptr<const dem::ContactLaws> laws,
-                 std::string name);
+                 std::string name = "surface contacts");
 
   const Coupling& coupling() const { return coupling_; }
   const dem::ContactLaws& laws() const { return *laws_; }
@@ -40,12 +42,5 @@ private:
   std::shared_ptr<const dem::ContactLaws> laws_;
   std::string name_;
 };
-
-/// @param coupling  on the skin, or the smooth surface, of side's mesh
-/// @param laws      between particles and surface; skin.wall.material is the surface's row in their table
-/// @throws InputError as SurfaceContact does
-std::unique_ptr<SurfaceContact> makeSurfaceContact(coupling::SolidSide& side, Coupling coupling,
-                                                   std::shared_ptr<const dem::ContactLaws> laws,
-                                                   std::string name = "surface contacts");
 
 }  // namespace dovetail::surface

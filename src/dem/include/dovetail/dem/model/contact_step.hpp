@@ -28,12 +28,16 @@ struct ContactDemand {
     StepOwner owner;
     double stiffness = 0.0;                    ///< along its normal, N/m
     double wallStiff = 0.0, wallDamped = 0.0;  ///< of a wall that gives way: over its mass, 1/s² and 1/s
-    double asked = 0.0, askedDamping = 0.0;    ///< what it adds to the sums of each of its sides, N/m and N s/m
-    int contact = -1;                          ///< with a triangulated wall: its number among WallContacts
+    /// Of a wall's contact: what the wall itself feels of it by being shifted, and by being turned with the particle's
+    /// radius as lever, N/m and N s/m.
+    double shifting = 0.0, shiftingDamping = 0.0, turning = 0.0, turningDamping = 0.0;
+    int contact = -1;  ///< with a triangulated wall: its number among WallContacts
+    int surface = -1;  ///< number among `surfaces`, for messages
   };
   std::vector<double> stiffness;                             ///< N/m, per particle: sum over its contacts and bonds
   std::vector<double> damping;                               ///< N s/m, the same of the dashpots
   std::vector<Link> links;                                   ///< contacts and bonds
+  std::vector<std::string> surfaces;                         ///< names of what links without a partner are with
   double twoBody = std::numeric_limits<double>::infinity();  ///< see ContactStep
 
   std::vector<int> body;      ///< per particle: the body it is a member of, −1 = none; empty: there are no clumps
@@ -45,6 +49,7 @@ struct ContactStep {
   double dt = std::numeric_limits<double>::infinity();  ///< s, safe; infinite without contacts
   int particle = -1, partner = -1;                      ///< between which it is set; partner −1: a wall
   StepOwner owner = StepOwner::contact;                 ///< what sets it
+  std::string surface;                                  ///< what a partner −1 is called; empty: a wall
   /// s; the exact limit 2/ω (√(1 + ζ²) − ζ) of the fastest contact if it were alone and acted along its normal only.
   /// For information: with several contacts per particle it is not safe.
   double twoBody = std::numeric_limits<double>::infinity();

@@ -111,12 +111,14 @@ public:
   /// Behind those of the same order. @return the term, which stays where it is as long as this list lives
   template <class T>
   T& add(T term) {
-    auto owned = std::make_unique<T>(std::move(term));
-    T& reference = *owned;
-    add(std::unique_ptr<Term>(std::move(owned)));
-    return reference;
+    return add(std::make_unique<T>(std::move(term)));
   }
-  void add(std::unique_ptr<Term> term);
+  template <class T>
+  T& add(std::unique_ptr<T> term) {
+    T* const kept = term.get();
+    insert(std::move(term));
+    return *kept;
+  }
   /// All terms of a type, in their order.
   template <class T>
   std::vector<T*> all() {
@@ -135,6 +137,7 @@ public:
   auto end() const { return terms_.end(); }
 
 private:
+  void insert(std::unique_ptr<Term> term);
   template <class T, class List>
   static std::vector<T*> collect(List& list) {
     std::vector<T*> found;
