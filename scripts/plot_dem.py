@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the picture of one of the examples drum, hopper and column from what it wrote with --out DIR."""
+"""Draws the picture of one of the examples drum, hopper, column and footing from what it wrote with --out DIR."""
 
 import argparse
 import csv
@@ -142,7 +142,42 @@ def draw_column(folder, figure):
     axes.legend(frameon=False, fontsize=8)
 
 
-FIGURES = {"drum": (draw_drum, (10, 4.4)), "hopper": (draw_hopper, (12, 4.2)), "column": (draw_column, (10, 5.2))}
+def draw_section(axes, nodes, y, colour):
+    """A box of cells where it is cut by one of its planes of nodes: the grid of the nodes there, displaced."""
+    import numpy
+
+    here = numpy.abs(nodes["Y_m"] - y) < 1e-9
+    X, Z = nodes["X_m"][here], nodes["Z_m"][here]
+    x, z = 1e3 * (X + nodes["ux_m"][here]), 1e3 * (Z + nodes["uz_m"][here])
+    for lines, along in ((Z, X), (X, Z)):
+        for value in numpy.unique(numpy.round(lines, 9)):
+            row = numpy.flatnonzero(numpy.abs(lines - value) < 1e-9)
+            row = row[numpy.argsort(along[row])]
+            axes.plot(x[row], z[row], color=colour, linewidth=0.9)
+
+
+def draw_footing(folder, figure):
+    import numpy
+
+    grains, soil, plate, series = (read(folder, name)
+                                   for name in ("footing_grains", "footing_soil", "footing_plate", "footing"))
+    left, right = figure.subplots(1, 2, width_ratios=[1.25, 1])
+    middle = 0.5 * numpy.max(soil["Y_m"])
+    draw_beads(left, grains, numpy.abs(grains["y_m"] - middle) < 0.01, grains["speed_m_per_s"], label="speed (m/s)",
+               largest=0.2)
+    draw_section(left, soil, middle, RUN)
+    draw_section(left, plate, middle, LAW)
+    left.autoscale_view()
+    left.set_title("cut through the middle: plate, grains, overlap, soil", fontsize=10)
+    right.plot(1e3 * series["depth_m"], 1e-3 * series["load_N"], color=RUN)
+    right.set_xlabel("depth of the plate (mm)")
+    right.set_ylabel("load (kN)")
+    right.set_xlim(0, None)
+    right.set_ylim(0, None)
+
+
+FIGURES = {"drum": (draw_drum, (10, 4.4)), "hopper": (draw_hopper, (12, 4.2)), "column": (draw_column, (10, 5.2)),
+           "footing": (draw_footing, (10, 5.4))}
 
 
 def main():
@@ -163,7 +198,7 @@ def main():
     draw, size = FIGURES[arguments.example]
     image = arguments.image or arguments.folder / f"{arguments.example}.png"
     figure = pyplot.figure(figsize=size, layout="constrained")
-    figure.get_layout_engine().set(wspace=0.06)
+    figure.get_layout_engine().set(wspace=0.08)
     try:
         draw(arguments.folder, figure)
         figure.savefig(image, dpi=100)

@@ -61,4 +61,12 @@ void writeParticles(const std::filesystem::path& folder, const std::string& name
   writeVtu(folder, name, time, particles, provenance);
 }
 
+void writeNodes(const std::filesystem::path& folder, const std::string& name, std::span<const Vec3> X,
+                std::span<const Vec3> u, const io::KeyValues& provenance) {
+  io::prepareOutputFolder(folder, {name + ".csv"});
+  io::TimeSeries table({"X_m", "Y_m", "Z_m", "ux_m", "uy_m", "uz_m"});
+  for (std::size_t n = 0; n < X.size(); ++n) table.append({X[n].x, X[n].y, X[n].z, u[n].x, u[n].y, u[n].z});
+  io::writeCsv(folder / (name + ".csv"), table, provenance);
+}
+
 }  // namespace dovetail::example

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <span>
 #include <string>
 
 #include "dovetail/core/ledger.hpp"
@@ -31,6 +32,10 @@ void printStep(std::ostream& out, double dt, const dem::ContactStep& safe, const
 /// Positions, radii and speeds as <folder>/<name>.csv, and as frame 0 of <name>.pvd if the build has VTK.
 void writeParticles(const std::filesystem::path& folder, const std::string& name, double time,
                     const dem::Particles& particles, const io::KeyValues& provenance);
+
+/// Reference positions X, m, and displacements u, m, of a solid's nodes as <folder>/<name>.csv.
+void writeNodes(const std::filesystem::path& folder, const std::string& name, std::span<const Vec3> X,
+                std::span<const Vec3> u, const io::KeyValues& provenance);
 
 /// Does nothing in a build without VTK.
 void writeVtu(const std::filesystem::path& folder, const std::string& name, double time,

@@ -17,13 +17,14 @@
 #include "dovetail/fem/laws/plasticity.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/terms/loads.hpp"
+#include "dovetail/io/time_series.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 
 using namespace dovetail;
 
 constexpr double width = 0.24, top = 0.14, overlap = 0.06, depth = 0.18;  // m; grains begin at z = 0
 constexpr double radius = 0.01, density = 2500.0, solidFraction = 0.56;   // m, kg/m³
-constexpr double speed = 0.15;                                            // of the plate, m/s
+constexpr double gap = 0.01, speed = 0.15;  // m, of the plate above them; m/s // of the plate, m/s
 
 void addGrains(dem::Model& grains) {
   dem::ContactLaw<dem::LinearSpringDashpot, dem::TangentialSpring, dem::RollingAndTwisting> contact;
@@ -75,7 +76,7 @@ void addSoil(coupling::CoupledRun& run) {
 
 void addPlate(coupling::CoupledRun& run) {
   const fem::SolidMesh mesh =
-      fem::boxOf(fem::CellShape::tet10, {4, 4, 1}, {0.06, 0.06, top + 0.01}, {0.18, 0.18, top + 0.03});
+      fem::boxOf(fem::CellShape::tet10, {4, 4, 1}, {0.06, 0.06, top + gap}, {0.18, 0.18, top + gap + 0.02});
   auto plate = std::make_unique<fem::Model>(fem::makeModel(mesh));
   plate->add(fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(1e7, 0.3, 1200.0)), {.name = "tetrahedra"}));
   fem::fix(plate->nodes, mesh.nodeSets.at("z+"));
@@ -94,22 +95,51 @@ std::unique_ptr<coupling::CoupledRun> makeScene() {
   return run;
 }
 
+/// N, upwards on the plate.
+double loadOnPlate(const coupling::CoupledRun& run) {
+  double force = 0.0;
+  for (const auto* contacts : run.grains.terms.all<surface::SurfaceContact>())
+    for (const int node : contacts->coupling().load().touched)
+      force += contacts->coupling().load().force[static_cast<std::size_t>(node)].z;
+  return force;
+}
+
+void write(const std::filesystem::path& folder, const coupling::CoupledRun& run, const io::TimeSeries& series) {
+  example::writeParticles(folder, "footing_grains", run.time(), run.grains.particles, io::provenance({}));
+  for (std::size_t s = 0; s < run.solids(); ++s) {
+    const fem::Nodes& nodes = run.solid(s).nodes();
+    example::writeNodes(folder, "footing_" + run.solid(s).name, nodes.X, nodes.u, io::provenance({}));
+  }
+  io::writeCsv(folder / "footing.csv", series, io::provenance({}));
+}
+
 bool run(const example::Options& options) {
   const auto first = makeScene(), second = makeScene();
-  const std::int64_t half = options.quick ? 500 : 8000;
+  const int half = options.quick ? 10 : 200, windows = 40;
+  const auto goOn = [&](coupling::CoupledRun& run, io::TimeSeries& series) {
+    for (int k = 0; k < half; ++k) {
+      run.advance(windows);
+      series.append({run.time(), speed * run.time() - gap, loadOnPlate(run)});
+    }
+  };
   for (auto* scene : {first.get(), second.get()}) scene->start(1.25e-5);
-  first->advance(half);
+  io::TimeSeries series({"time_s", "depth_m", "load_N"});
+  goOn(*first, series);
   second->load(first->save());
-  for (auto* scene : {first.get(), second.get()}) scene->advance(half);
+  io::TimeSeries again = series;
+  goOn(*first, series);
+  goOn(*second, again);
   const bool same = first->save() == second->save();
   const EnergyLedger& ledger = second->ledger();
   const coupling::StepLimit limit = second->criticalStep();
   std::cout << second->grains.particles.size() << " spheres after " << second->time() << " s\n"
             << ledger << "step " << second->dt() << " s, at most " << limit.dt << " s, set by " << limit.owner
-            << "\nrestarted: " << (same ? "the same digits\n" : "OTHER digits\n");
-  if (!options.out.empty())
-    example::writeParticles(options.out, "footing", second->time(), second->grains.particles, io::provenance({}));
-  return same;
+            << "\nload on the plate " << loadOnPlate(*second)
+            << " N\nrestarted: " << (same ? "the same digits\n" : "OTHER digits\n");
+  if (!options.out.empty()) write(options.out, *second, series);
+  const double handedOver =
+      std::abs(ledger.joules("plate: supports")) + std::abs(ledger.joules("particles: entered (minus)"));
+  return same && std::abs(ledger.residual()) < 1e-3 * handedOver;
 }
 
 int main(int argc, char** argv) {
