@@ -114,13 +114,13 @@ bool handOver(arlequin::ConstraintKind constraint, const char* name) {
     ledger.set(ofTie, tie.stored() + tie.lost());
   };
 
-  const double dt = 2e-5;
+  const double dt = 5e-6;
   findForces();
   dem::findForces(grains);
   const Vec3 momentumAtStart = momentum();
   book();
   ledger.open();
-  for (int step = 0; step < 700; ++step) {
+  for (int step = 0; step < 2800; ++step) {
     dem::move(grains, dt);
     kick(0.5 * dt);
     fem::drift(net.nodes, dt);
