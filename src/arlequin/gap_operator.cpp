@@ -154,7 +154,8 @@ void addNodesBack(GapOperator& gap) {
 }  // namespace
 
 GapOperator makeGapOperator(const Overlap& overlap, const fem::SolidMesh& mesh, std::span<const double> mass,
-                            GapForm form, const ProjectionOptions& options, std::span<const Vec3> position) {
+                            GapForm form, const ProjectionOptions& options, std::span<const Vec3> position,
+                            RowVolumes volumes) {
   requireNonNegative(options.width, "coarse-graining width");
   GapOperator gap;
   const std::vector<int> elements =
@@ -177,7 +178,7 @@ GapOperator makeGapOperator(const Overlap& overlap, const fem::SolidMesh& mesh, 
     gap.nodes = cg::fromRows(static_cast<int>(mesh.X.size()), unit);
   }
   addNodesBack(gap);
-  addVolumes(elements, mesh, row, gap);
+  if (volumes == RowVolumes::integrated) addVolumes(elements, mesh, row, gap);
   return gap;
 }
 

@@ -68,7 +68,7 @@ void OverlapTie::Impl::ready(const dem::Model& m) {
   if (known != m.particles.revision || memberOf.size() != m.particles.size()) number(m.particles);
   if (stale) {
     TieParts next = makeParts(setting, overlap, part, m);
-    addConstraint(setting, overlap, m, side, next);
+    addConstraint(setting, overlap, m, side, next, std::move(parts.constraint));
     parts = std::move(next);
     stale = false;
     if (rowNode != parts.gap.node) {

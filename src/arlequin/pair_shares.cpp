@@ -4,12 +4,15 @@
 #include <array>
 #include <tuple>
 
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
 #include "dovetail/fem/mesh/shape.hpp"
 
 namespace dovetail::arlequin {
 
 namespace {
+
+constexpr std::size_t grain = 256;
 
 auto order(const PairShare& pair) { return std::tuple(pair.i, pair.j); }
 
@@ -56,18 +59,23 @@ double shareAt(const dem::Particles& particles, const dem::PairList& list, std::
 
 void PairShares::update(const dem::Particles& particles, dem::PairList& list, const fem::SolidMesh& mesh,
                         const Overlap& overlap, std::span<const Vec3> position, std::span<const int> memberOf) {
-  std::vector<PairShare> now;
+  std::vector<std::size_t> place;
+  for (std::size_t p = 0; p < list.size(); ++p)
+    if (const auto& [i, j] = list.pairs()[p];
+        memberOf[static_cast<std::size_t>(i)] >= 0 || memberOf[static_cast<std::size_t>(j)] >= 0)
+      place.push_back(p);
+  std::vector<PairShare> now(place.size());
   const std::span<double> factors = list.writeFactors();
-  for (std::size_t p = 0; p < list.size(); ++p) {
-    const auto& [i, j] = list.pairs()[p];
-    if (memberOf[static_cast<std::size_t>(i)] < 0 && memberOf[static_cast<std::size_t>(j)] < 0) continue;
-    PairShare pair{i, j, 0.0};
-    const auto known = std::ranges::lower_bound(pairs, order(pair), {}, order);
-    const bool listed = known != pairs.end() && order(*known) == order(pair);
-    pair.share = listed ? known->share : shareAt(particles, list, p, mesh, overlap, position, memberOf);
-    now.push_back(pair);
-    if (factors[p] != 0.0) factors[p] = pair.share;
-  }
+  parallelFor(place.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t p = place[k];
+      PairShare& pair = now[k] = {list.pairs()[p][0], list.pairs()[p][1], 0.0};
+      const auto known = std::ranges::lower_bound(pairs, order(pair), {}, order);
+      const bool listed = known != pairs.end() && order(*known) == order(pair);
+      pair.share = listed ? known->share : shareAt(particles, list, p, mesh, overlap, position, memberOf);
+      if (factors[p] != 0.0) factors[p] = pair.share;
+    }
+  });
   pairs = std::move(now);
 }
 

@@ -1,7 +1,7 @@
 // Constraints without a solve: the penalty on the accumulated gap, and the dashpot on its increments.
 #include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/core/finite.hpp"
-#include "pseudo_inverse.hpp"
+#include "gap_matrix.hpp"
 
 namespace dovetail::arlequin {
 
@@ -28,15 +28,8 @@ private:
 
 class MetricPenalty final : public Constraint {
 public:
-  MetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty, double rankTolerance)
-      : rows_(static_cast<Eigen::Index>(gap.rows())), metric_(Matrix::Zero(rows_, rows_)) {
-    const cg::Projection& back = gap.particlesBack;
-    for (int k = 0; k < back.rows(); ++k)
-      for (int a = back.offsets[k]; a < back.offsets[k + 1]; ++a)
-        for (int b = back.offsets[k]; b < back.offsets[k + 1]; ++b)
-          metric_(back.column[a], back.column[b]) += back.weight[a] * back.weight[b] / volume[k];
-    metric_ = penalty * pseudoInverse(metric_, rankTolerance);
-  }
+  MetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty)
+      : penalty_(penalty), metric_(metricOf(gap, volume)) {}
   void evaluate(const GapRates& rates, std::span<Vec3> lambda) const override { apply(rates.gap, lambda); }
   double storedEnergy(std::span<const Vec3> gap) const override {
     std::vector<Vec3> lambda(gap.size());
@@ -48,13 +41,24 @@ public:
   void applyStiffness(std::span<const Vec3> gap, std::span<Vec3> lambda) const override { apply(gap, lambda); }
 
 private:
-  void apply(std::span<const Vec3> gap, std::span<Vec3> lambda) const {
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> in(&gap[0].x, rows_, 3);
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> out(&lambda[0].x, rows_, 3);
-    out.noalias() = metric_ * in;
+  static fem::SparseMatrix metricOf(const GapOperator& gap, std::span<const double> volume) {
+    std::vector<double> inverse;
+    for (const double v : volume) inverse.push_back(1.0 / v);
+    const WeighedMap map{gap.particles, gap.particlesBack, inverse};
+    return gapMatrix({&map, 1});
   }
-  Eigen::Index rows_;
-  Matrix metric_;  // N/m
+  void apply(std::span<const Vec3> gap, std::span<Vec3> lambda) const {
+    const std::size_t rows = gap.size();
+    columns_.resize(3 * rows);
+    for (std::size_t r = 0; r < rows; ++r)
+      for (std::size_t c = 0; c < 3; ++c) columns_[c * rows + r] = penalty_ * gap[r][static_cast<int>(c)];
+    metric_.solve(columns_, 3);
+    for (std::size_t r = 0; r < rows; ++r)
+      for (std::size_t c = 0; c < 3; ++c) lambda[r][static_cast<int>(c)] = columns_[c * rows + r];
+  }
+  double penalty_;
+  GapInverse metric_;  // of Π D Πᵀ, m³
+  mutable std::vector<double> columns_;
 };
 
 class Dashpot final : public Constraint {
@@ -84,10 +88,8 @@ std::unique_ptr<Constraint> makePenalty(std::vector<double> stiffness) {
   return std::make_unique<Penalty>(std::move(stiffness));
 }
 
-std::unique_ptr<Constraint> makeMetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty,
-                                              double rankTolerance) {
-  requireFewRows(gap.rows(), "penalty with kernels");
-  return std::make_unique<MetricPenalty>(gap, volume, requirePositive(penalty, "penalty"), rankTolerance);
+std::unique_ptr<Constraint> makeMetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty) {
+  return std::make_unique<MetricPenalty>(gap, volume, requirePositive(penalty, "penalty"));
 }
 
 std::unique_ptr<Constraint> makeDashpot(const GapOperator& gap, double penalty, bool consistent) {

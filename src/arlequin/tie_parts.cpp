@@ -14,29 +14,15 @@ namespace dovetail::arlequin {
 
 namespace {
 
-constexpr std::size_t denseRows = 1000;  // beyond, multipliers are found by iteration
-constexpr double widestIterative = 2.5;  // element sizes
-
-double meanSize(const TieSetting& setting, const Overlap& overlap) {
-  double sum = 0.0;
-  for (const int e : overlap.elements) sum += elementSize(setting.mesh, e);
-  return sum / static_cast<double>(overlap.elements.size());
-}
-
-std::unique_ptr<Constraint> multiplier(const TieSetting& setting, const Overlap& overlap, const dem::Model& m,
-                                       const fem::ModelMass& mass, const GapOperator& gap) {
-  const std::vector<double> yielding = yieldingMasses(m);
-  if (gap.rows() <= denseRows) return makeMultiplier(gap, overlap, yielding, mass);
-  if (setting.options.projection.width > widestIterative * meanSize(setting, overlap) * (1.0 + 1e-9))
-    throw InputError(
-        std::to_string(gap.rows()) + " rows of kernels wider than 2.5 elements depend too much on each other",
-        "overlap", "take a narrower kernel, a coarser mesh, or the penalty with width 0");
-  return makeIterativeMultiplier(gap, overlap, yielding, mass);
-}
-
 /// By rows for the local map and for the nodal form; wide kernels at the particles need the metric of their rows.
 bool penaltyIsLocal(const CouplingOptions& options) {
   return options.projection.width == 0.0 || options.form == GapForm::nodal;
+}
+
+/// Dashpots and penalties per node or element of the mesh are scaled by volumes of the rows.
+bool needsVolumes(const CouplingOptions& o) {
+  if (o.constraint != ConstraintKind::penalty) return o.constraint == ConstraintKind::dashpot;
+  return penaltyIsLocal(o) && (o.form == GapForm::nodal || o.projection.perElement);
 }
 
 std::unique_ptr<Constraint> penalty(const TieSetting& setting, const Overlap& overlap, const TieParts& parts) {
@@ -99,12 +85,13 @@ TieParts makeParts(const TieSetting& setting, const Overlap& overlap, std::span<
     const double p = element < 0 ? 0.0 : setting.penalty[static_cast<std::size_t>(element)];
     parts.stiffness.push_back(p * mass[i] / setting.bulkDensity);
   }
-  parts.gap = makeGapOperator(overlap, setting.mesh, mass, setting.options.form, setting.options.projection);
+  parts.gap = makeGapOperator(overlap, setting.mesh, mass, setting.options.form, setting.options.projection, {},
+                              needsVolumes(setting.options) ? RowVolumes::integrated : RowVolumes::leftOut);
   return parts;
 }
 
 void addConstraint(const TieSetting& setting, const Overlap& overlap, const dem::Model& m,
-                   const coupling::SolidSide& side, TieParts& parts) {
+                   const coupling::SolidSide& side, TieParts& parts, std::unique_ptr<Constraint> before) {
   const CouplingOptions& o = setting.options;
   switch (o.constraint) {
     case ConstraintKind::penalty:
@@ -117,7 +104,7 @@ void addConstraint(const TieSetting& setting, const Overlap& overlap, const dem:
       if (side.mass == nullptr)
         throw InputError("the solid \"" + side.name + "\" has no mass yet", "overlap",
                          "set the mass of its side first");
-      parts.constraint = multiplier(setting, overlap, m, *side.mass, parts.gap);
+      parts.constraint = makeMultiplier(parts.gap, overlap, yieldingMasses(m), *side.mass, std::move(before));
       break;
   }
   if (!(o.absorberRate > 0.0)) return;

@@ -39,9 +39,10 @@ double bulkDensityOf(const Overlap& overlap, const fem::SolidMesh& mesh, const d
 /// @param part      of each member in the rows, 0 … 1
 TieParts makeParts(const TieSetting& setting, const Overlap& overlap, std::span<const double> part,
                    const dem::Model& m);
-/// Sets parts.constraint and absorber. @throws InputError if the solid has no mass yet
+/// Sets parts.constraint and absorber. @param before  the constraint that it takes the place of @throws InputError if
+/// the solid has no mass yet
 void addConstraint(const TieSetting& setting, const Overlap& overlap, const dem::Model& m,
-                   const coupling::SolidSide& side, TieParts& parts);
+                   const coupling::SolidSide& side, TieParts& parts, std::unique_ptr<Constraint> before);
 
 /// w m of every particle; ∞ for those that are driven.
 std::vector<double> yieldingMasses(const dem::Model& m);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
@@ -12,7 +14,8 @@ namespace dovetail::cg {
 
 namespace {
 
-constexpr std::size_t grain = 512;
+constexpr std::size_t grain = 512, rowGrain = 64;
+constexpr std::size_t fewChunks = 16;  // of loops with a work space as long as an input
 
 std::string rowName(int row) { return "projection row " + std::to_string(row); }
 
@@ -53,24 +56,41 @@ void scatterRows(const Projection& map, std::span<const Value> in, std::span<Val
 }  // namespace
 
 Projection fromRows(int columns, std::span<const ProjectionRow> rows) {
+  const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
+  const auto ascends = [](const auto& a, const auto& b) { return a.first >= b.first; };
+  std::vector<ProjectionRow> sorted(rows.size());  // of those that are not in order
   Projection map;
   map.columns = columns;
-  map.offsets.push_back(0);
-  ProjectionRow sorted;
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    for (const auto& [column, weight] : rows[row]) requireEntry(static_cast<int>(row), columns, column, weight);
-    sorted = rows[row];
-    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& [column, weight] : sorted) {
-      if (static_cast<int>(map.column.size()) > map.offsets.back() && map.column.back() == column) {
-        map.weight.back() += weight;
-      } else {
-        map.column.push_back(column);
-        map.weight.push_back(weight);
+  map.offsets.assign(rows.size() + 1, 0);
+  parallelFor(rows.size(), rowGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      for (const auto& [column, weight] : rows[row]) requireEntry(static_cast<int>(row), columns, column, weight);
+      map.offsets[row + 1] = static_cast<int>(rows[row].size());
+      if (std::ranges::adjacent_find(rows[row], ascends) == rows[row].end()) continue;
+      ProjectionRow& own = sorted[row] = rows[row];
+      std::ranges::stable_sort(own, before);
+      std::size_t last = 0;
+      for (std::size_t k = 1; k < own.size(); ++k)
+        if (own[k].first == own[last].first)
+          own[last].second += own[k].second;
+        else
+          own[++last] = own[k];
+      own.resize(last + 1);
+      map.offsets[row + 1] = static_cast<int>(own.size());
+    }
+  });
+  std::partial_sum(map.offsets.begin(), map.offsets.end(), map.offsets.begin());
+  map.column.resize(static_cast<std::size_t>(map.offsets.back()));
+  map.weight.resize(map.column.size());
+  parallelFor(rows.size(), rowGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      auto place = static_cast<std::size_t>(map.offsets[row]);
+      for (const auto& [column, weight] : sorted[row].empty() ? rows[row] : sorted[row]) {
+        map.column[place] = column;
+        map.weight[place++] = weight;
       }
     }
-    map.offsets.push_back(static_cast<int>(map.column.size()));
-  }
+  });
   return map;
 }
 
@@ -92,11 +112,29 @@ Projection product(const Projection& a, const Projection& b) {
     throw InputError(
         "the left map takes " + std::to_string(a.columns) + " values, the right one gives " + std::to_string(b.rows()),
         "product", "give maps with matching sizes");
-  std::vector<ProjectionRow> rows(static_cast<std::size_t>(a.rows()));
-  for (int row = 0; row < a.rows(); ++row)
-    for (int k = a.offsets[row]; k < a.offsets[row + 1]; ++k)
-      for (int m = b.offsets[a.column[k]]; m < b.offsets[a.column[k] + 1]; ++m)
-        rows[row].emplace_back(b.column[m], a.weight[k] * b.weight[m]);
+  const auto size = static_cast<std::size_t>(a.rows());
+  std::vector<ProjectionRow> rows(size);
+  parallelFor(size, std::max(rowGrain, size / fewChunks), [&](std::size_t begin, std::size_t end) {
+    std::vector<double> sum(static_cast<std::size_t>(b.columns), 0.0);
+    std::vector<char> isSeen(sum.size(), 0);
+    std::vector<int> seen;
+    for (std::size_t row = begin; row < end; ++row) {
+      for (int k = a.offsets[row]; k < a.offsets[row + 1]; ++k)
+        for (int m = b.offsets[a.column[k]]; m < b.offsets[a.column[k] + 1]; ++m) {
+          const auto column = static_cast<std::size_t>(b.column[m]);
+          if (!isSeen[column]) seen.push_back(b.column[m]);
+          isSeen[column] = 1;
+          sum[column] += a.weight[k] * b.weight[m];
+        }
+      std::ranges::sort(seen);
+      for (const int column : seen) {
+        const auto at = static_cast<std::size_t>(column);
+        rows[row].emplace_back(column, std::exchange(sum[at], 0.0));
+        isSeen[at] = 0;
+      }
+      seen.clear();
+    }
+  });
   return fromRows(b.columns, rows);
 }
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/core/error.hpp"
 #include "tie_scenes.hpp"
@@ -84,31 +86,126 @@ TEST(Constraint, MultipliersTakeTheGapsAccelerationAway) {
     }
 }
 
-TEST(Constraint, ByIterationMultipliersAreTheSameForces) {
+/// A⁺ b by the eigenvalues of A scaled to a unit diagonal; those below 1e-8 of the largest count as zero.
+Eigen::VectorXd solveDense(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  const Eigen::VectorXd scale = A.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(scale.asDiagonal() * A * scale.asDiagonal());
+  const double least = 1e-8 * spectrum.eigenvalues().maxCoeff();
+  const Eigen::VectorXd inverse =
+      spectrum.eigenvalues().unaryExpr([&](double value) { return value > least ? 1.0 / value : 0.0; });
+  const Eigen::MatrixXd& Q = spectrum.eigenvectors();
+  return scale.asDiagonal() * (Q * (inverse.asDiagonal() * (Q.transpose() * (scale.asDiagonal() * b))));
+}
+
+Eigen::VectorXd component(std::span<const Vec3> values, int c) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(values.size()));
+  for (std::size_t r = 0; r < values.size(); ++r) x[static_cast<Eigen::Index>(r)] = values[r][c];
+  return x;
+}
+
+/// What λ does to the overlap's particles.
+std::vector<Vec3> onParticles(const Bar& c, std::span<const Vec3> lambda) {
+  std::vector<Vec3> f(c.particles.size());
+  pullParticles(c.gap, c.overlap, lambda, f);
+  return f;
+}
+
+double largest(std::span<const Vec3> values) {
+  double most = 0.0;
+  for (const Vec3& v : values) most = std::max(most, norm(v));
+  return most;
+}
+
+std::vector<Vec3> difference(std::span<const Vec3> a, std::span<const Vec3> b) {
+  std::vector<Vec3> d(a.size());
+  for (std::size_t k = 0; k < d.size(); ++k) d[k] = a[k] - b[k];
+  return d;
+}
+
+/// Accelerations of the gap under random forces.
+std::vector<Vec3> randomRates(const Bar& c, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<Vec3> a(c.particles.size()), b(c.nodes().X.size()), gap(c.rows());
+  for (auto* values : {&a, &b})
+    for (Vec3& v : *values) v = randomVector(random, 1.0);
+  for (std::size_t n = 0; n < b.size(); ++n)
+    if (c.nodes().fixed[n]) b[n] = {};
+  gapOf(c.gap, c.overlap, a, b, gap);
+  return gap;
+}
+
+TEST(Constraint, SparseMultipliersAreTheDenseOnes) {
   for (const double share : {0.0, 0.4})
     for (const double width : {0.0, 0.9}) {
-      Bar model = barWith(ConstraintKind::multiplier, width, share);
-      const Bar& c = model;
-      const auto iterative = makeIterativeMultiplier(c.gap, c.overlap, model.particles.mass, model.mass());
-      std::mt19937 random(12);
-      std::vector<Vec3> a(model.particles.size()), b(model.nodes().X.size()), gap(c.rows()), none(c.rows()),
-          direct(c.rows()), other(c.rows());
-      for (auto* values : {&a, &b})
-        for (Vec3& v : *values) v = randomVector(random, 1.0);
-      for (std::size_t n = 0; n < b.size(); ++n)
-        if (model.nodes().fixed[n]) b[n] = {};
-      gapOf(c.gap, c.overlap, a, b, gap);
-      c.constraint->evaluate({none, none, none, gap, 1.0}, direct);
-      iterative->evaluate({none, none, none, gap, 1.0}, other);
-      std::vector<Vec3> f(a.size()), g(a.size());
-      pullParticles(c.gap, c.overlap, direct, f);
-      pullParticles(c.gap, c.overlap, other, g);
-      double difference = 0.0, size = 0.0;
-      for (std::size_t i = 0; i < f.size(); ++i) {
-        difference = std::max(difference, norm(f[i] - g[i]));
-        size = std::max(size, norm(f[i]));
+      const Bar c = barWith(ConstraintKind::multiplier, width, share);
+      const std::vector<Vec3> rates = randomRates(c, 12), none(c.rows());
+      std::vector<Vec3> lambda(c.rows()), dense(c.rows());
+      c.constraint->evaluate({none, none, none, rates, 1.0}, lambda);
+      const auto rows = static_cast<Eigen::Index>(c.rows());
+      Eigen::MatrixXd A(rows, rows);
+      for (std::size_t r = 0; r < c.rows(); ++r) {
+        std::vector<Vec3> unit(c.rows()), nodes(c.nodes().X.size()), answer(c.rows());
+        unit[r].x = 1.0;
+        std::vector<Vec3> particles = onParticles(c, unit);
+        for (std::size_t i = 0; i < particles.size(); ++i) particles[i] *= 1.0 / c.particles.mass[i];
+        pullNodes(c.gap, unit, nodes);
+        c.mass().solve(nodes);
+        gapOf(c.gap, c.overlap, particles, nodes, answer);
+        A.col(static_cast<Eigen::Index>(r)) = -component(answer, 0);
       }
-      EXPECT_LT(difference, (width == 0.0 ? 1e-8 : 1e-5) * size) << "width " << width << ", share " << share;
+      A = (0.5 * (A + A.transpose())).eval();
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::VectorXd x = solveDense(A, component(rates, k));
+        for (std::size_t r = 0; r < c.rows(); ++r) dense[r][k] = x[static_cast<Eigen::Index>(r)];
+      }
+      const std::vector<Vec3> forces = onParticles(c, dense);
+      EXPECT_LT(largest(difference(onParticles(c, lambda), forces)), 1e-10 * largest(forces))
+          << "width " << width << ", share " << share;
+    }
+}
+
+TEST(Constraint, SparseMetricPenaltiesAreTheDenseOnes) {
+  for (const double width : {0.3, 0.5, 0.9, 1.25}) {
+    const Bar c = barWith(ConstraintKind::penalty, width);
+    const std::vector<Vec3> gap = randomRates(c, 13);
+    std::vector<Vec3> lambda(c.rows()), dense(c.rows());
+    c.constraint->evaluate({gap, {}, {}, {}, 1.0}, lambda);
+    const auto rows = static_cast<Eigen::Index>(c.rows());
+    Eigen::MatrixXd P = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(c.overlap.size()));
+    for (int r = 0; r < c.gap.particles.rows(); ++r)
+      for (int k = c.gap.particles.offsets[r]; k < c.gap.particles.offsets[r + 1]; ++k)
+        P(r, c.gap.particles.column[k]) = c.gap.particles.weight[k];
+    const double springs = automaticPenalty(modulus, edge) * std::pow(edge / 2, 3);
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::VectorXd x = solveDense(P * P.transpose() / springs, component(gap, k));
+      for (std::size_t r = 0; r < c.rows(); ++r) dense[r][k] = x[static_cast<Eigen::Index>(r)];
+    }
+    const std::vector<Vec3> forces = onParticles(c, dense);
+    EXPECT_LT(largest(difference(onParticles(c, lambda), forces)), 1e-10 * largest(forces)) << "width " << width;
+  }
+}
+
+/// One particle in every element: there are more rows than particles.
+TEST(Constraint, RowsThatDependOnEachOtherDoNoHarm) {
+  for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier})
+    for (const double width : {0.0, 0.9}) {
+      SceneOptions o;
+      o.particlesPerEdge = 1;
+      o.coupling.constraint = kind;
+      o.coupling.projection.width = width;
+      const Bar c = makeBar(o);
+      const std::vector<Vec3> rates = randomRates(c, 14), none(c.rows());
+      std::vector<Vec3> lambda(c.rows());
+      c.constraint->evaluate({rates, none, none, rates, 1.0}, lambda);
+      for (const Vec3& force : lambda) ASSERT_TRUE(isFinite(force));
+      if (kind == ConstraintKind::penalty) continue;
+      std::vector<Vec3> particles = onParticles(c, lambda), nodes(c.nodes().X.size()), answer(c.rows());
+      for (std::size_t i = 0; i < particles.size(); ++i) particles[i] *= 1.0 / c.particles.mass[i];
+      pullNodes(c.gap, lambda, nodes);
+      c.mass().solve(nodes);
+      gapOf(c.gap, c.overlap, particles, nodes, answer);
+      for (std::size_t r = 0; r < c.rows(); ++r) answer[r] += rates[r];
+      EXPECT_LT(largest(answer), 1e-8 * largest(rates)) << "width " << width;
     }
 }
 

@@ -86,17 +86,18 @@ bool SparseCholesky::factor(const SparseMatrix& A) {
   return true;
 }
 
-void SparseCholesky::solve(std::span<double> b) {
+void SparseCholesky::solve(std::span<double> b, int columns) {
   const detail::OneBlasThread guard;
   Impl& m = *impl_;
   cholmod_dense right{};
-  right.nrow = right.nzmax = right.d = b.size();
-  right.ncol = 1;
+  right.ncol = static_cast<std::size_t>(columns);
+  right.nrow = right.d = b.size() / right.ncol;
+  right.nzmax = b.size();
   right.x = b.data();
   right.xtype = CHOLMOD_REAL;
   right.dtype = CHOLMOD_DOUBLE;
   if (!cholmod_l_solve2(CHOLMOD_A, m.factor, &right, nullptr, &m.solution, nullptr, &m.work, &m.more, &m.common))
-    throw NumericalError("CHOLMOD finds no memory for a solution", std::to_string(b.size()) + " unknowns",
+    throw NumericalError("CHOLMOD finds no memory for a solution", std::to_string(right.nrow) + " unknowns",
                          "take a coarser mesh, or a machine with more memory");
   const auto* x = static_cast<const double*>(m.solution->x);
   std::copy(x, x + b.size(), b.begin());

@@ -28,8 +28,8 @@ bool SparseCholesky::factor(const SparseMatrix& A) {
   return impl_->solver.info() == Eigen::Success && (impl_->solver.vectorD().array() > 0.0).all();
 }
 
-void SparseCholesky::solve(std::span<double> b) {
-  Eigen::Map<Eigen::VectorXd> x(b.data(), static_cast<Eigen::Index>(b.size()));
+void SparseCholesky::solve(std::span<double> b, int columns) {
+  Eigen::Map<Eigen::MatrixXd> x(b.data(), static_cast<Eigen::Index>(b.size()) / columns, columns);
   x = impl_->solver.solve(x).eval();
 }
 

@@ -45,9 +45,10 @@ std::unique_ptr<Constraint> makePenalty(std::vector<double> stiffness);
 /// The penalty for wide kernels, whose rows overlap so much that the sum over rows sees long waves only: the energy is
 /// ½ p ∫|r|² of the part r of the particles' gap field that the rows of Π can see at all, ½ p gᵀ (Π D Πᵀ)⁺ g with D the
 /// inverse volumes of the particles. It does not depend on the width as long as no direction is lost to round-off.
-/// @param volume  of each overlap particle, m³   @throws InputError as makeMultiplier
-std::unique_ptr<Constraint> makeMetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty,
-                                              double rankTolerance = 1e-8);
+/// Solved by sparse factors; where rows depend on each other, 1e-11 of the metric's diagonal is added to it.
+/// @param volume  of each overlap particle, m³
+/// @throws InputError unless the penalty is finite and > 0; NumericalError for rows that no factors can be found of
+std::unique_ptr<Constraint> makeMetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty);
 
 /// λ_i = ε V_i Δg_i on the increments of one step, or ε Σ_j ∫ψ_iψ_j Δg_j (`consistent`) (Cheng et al. 2023, Eqs.
 /// 29–32). It acts as a dashpot of ε dt V: halving dt halves it, and it loses what it damps. Stable, with shares w and
@@ -57,21 +58,16 @@ std::unique_ptr<Constraint> makeMetricPenalty(const GapOperator& gap, std::span<
 std::unique_ptr<Constraint> makeDashpot(const GapOperator& gap, double penalty, bool consistent);
 
 /// Lagrange multipliers that keep the gap's rate at zero: λ = A⁺ (g̈ + ġ/dt) with A = Π M_DE⁻¹ Πᵀ + B M_FE⁻¹ Bᵀ.
-/// Workless. A is inverted once, by its eigenvalues: directions whose eigenvalue is below `rankTolerance` of the
-/// largest (rows that depend on others) are left out.
-/// @param particleMass  of all particles, weighted, kg; ∞ for one that does not yield   @param solid  gives M_FE⁻¹
-/// @throws InputError for more than 4000 rows (take makeIterativeMultiplier)
+/// Workless. Conjugate gradients to 1e-12 of the load, led by sparse factors of A with lumped masses, made once: one or
+/// two iterations where these are the masses. λ is the better found the closer the one passed in is. Rows that depend
+/// on others do no harm, as the load has no part in what they leave out.
+/// @param particleMass  of all particles, weighted, kg; ∞ for one that does not yield
+/// @param solid   gives M_FE⁻¹; must live as long as the constraint
+/// @param before  multipliers that these take the place of: their analysis goes on where the pattern is the same
+/// @throws NumericalError, also in evaluate, if no factors can be found or the iteration does not settle
 std::unique_ptr<Constraint> makeMultiplier(const GapOperator& gap, const Overlap& overlap,
                                            std::span<const double> particleMass, const fem::ModelMass& solid,
-                                           double rankTolerance = 1e-8);
-
-/// The same by conjugate gradients on A, which is not formed: time and memory grow with the entries of Π and B. Solves
-/// to 1e-12 of the load; rows that depend on others do no harm, as the load has no part in what they leave out. For
-/// kernels that are not wide: the number of iterations grows as rows come close to each other.
-/// @param solid  must live as long as the constraint
-/// @throws NumericalError in evaluate if the iteration does not settle
-std::unique_ptr<Constraint> makeIterativeMultiplier(const GapOperator& gap, const Overlap& overlap,
-                                                    std::span<const double> particleMass, const fem::ModelMass& solid);
+                                           std::unique_ptr<Constraint> before = nullptr);
 
 /// 20 E/h², Pa/m²: the waveform is then within a tenth of a percentage point of the multipliers', and the critical step
 /// of cubes with a weight floor of 1e-3 is a seventeenth of h over the wave speed or more.

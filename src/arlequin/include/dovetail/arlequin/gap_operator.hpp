@@ -52,6 +52,9 @@ struct GapOperator {
   std::size_t rows() const { return node.size(); }
 };
 
+/// Whether GapOperator::volume and volumeProducts are wanted, which take as long as the rest.
+enum class RowVolumes { leftOut, integrated };
+
 /// Π for c = 0: Π_iα = m_α ψ_i(x_α) / Σ; for c > 0: ∫ m_α W(x − x_α) ψ_i dx / Σ over the overlap's elements (Eq. 27),
 /// by Gauss points as fine as the kernel asks for, normalised by the quadrature itself. Rows that hang on no particle,
 /// or on less than a thousandth of the mean, are left out. Φ takes the solid's field with all shape functions.
@@ -60,7 +63,8 @@ struct GapOperator {
 /// @param position  of the nodes when the overlap was located, for kernels, m; empty = mesh.X
 /// @throws InputError for a width that is negative or not finite
 GapOperator makeGapOperator(const Overlap& overlap, const fem::SolidMesh& mesh, std::span<const double> mass,
-                            GapForm form, const ProjectionOptions& options, std::span<const Vec3> position = {});
+                            GapForm form, const ProjectionOptions& options, std::span<const Vec3> position = {},
+                            RowVolumes volumes = RowVolumes::integrated);
 
 /// Σ_α value_α ψ_i(x_α) per row, over the particles within the mesh; for rows per node.
 /// @param value  one per row of the overlap

@@ -38,8 +38,8 @@ public:
   /// @return false if the matrix is not positive definite (then solve() must not be called)
   /// @throws FactorMemoryError
   bool factor(const SparseMatrix& A);
-  /// Overwrites b by A⁻¹ b.
-  void solve(std::span<double> b);
+  /// Overwrites b by A⁻¹ b. @param columns  of b, one right-hand side after the other
+  void solve(std::span<double> b, int columns = 1);
   /// "CHOLMOD" or "Eigen LDLT".
   static const char* name();
 
