@@ -163,7 +163,7 @@ Measured measure(int across, const Way& way) {
   m.grains = run.grains.particles.size();
   m.elements = scene->elements;
   const double begin = now();
-  run.start(0.02 * edge / std::sqrt(modulus / density));
+  run.start(0.004 * edge / std::sqrt(modulus / density));
   m.setUp = now() - begin;
   m.rows = scene->tie->state().rows;
   for (std::size_t i = 0; i < run.grains.particles.size(); ++i)

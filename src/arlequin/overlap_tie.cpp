@@ -131,9 +131,37 @@ void OverlapTie::Impl::advance(const dem::Model& m) {
   advanced = true;
 }
 
+std::vector<Vec3> OverlapTie::Impl::motionUnder(std::span<const Vec3> forces) const {
+  std::vector<Vec3> moved(overlap.size());
+  parallelFor(moved.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      moved[k] = (1.0 / parts.stiffness[k]) * cg::applyRow(parts.gap.particlesBack, static_cast<int>(k), forces);
+  });
+  return moved;
+}
+
+/// No member is held farther than the slip length from where the solid is.
+void OverlapTie::Impl::slipMembers() {
+  if (!keepsForces() || !isFollowed()) return;
+  const double longest = slipLength();
+  std::vector<Vec3> moved = motionUnder(lambda);
+  bool slips = false;
+  for (Vec3& q : moved)
+    if (const double length = norm(q); length > longest) {
+      q *= longest / length;
+      slips = true;
+    }
+  if (!slips) return;
+  std::vector<Vec3> next(now.size());
+  cg::apply(parts.gap.particles, moved, next);
+  for (std::size_t r = 0; r < next.size(); ++r) kept[r] += next[r] - now[r];
+  now = std::move(next);
+  parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
+}
+
 /// What is beyond the slip length goes out of the kept part.
 void OverlapTie::Impl::slip() {
-  if (!turnsGap() || !isFollowed()) return;
+  if (!turnsGap() || keepsForces() || !isFollowed()) return;
   const double longest = slipLength();
   for (std::size_t r = 0; r < now.size(); ++r)
     if (const double length = norm(now[r]); length > longest) {
@@ -184,6 +212,7 @@ void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
   }
   lambdaBefore = lambda;
   parts.constraint->evaluate({now, increment, velocity, acceleration, dt}, lambda);
+  slipMembers();
 }
 
 void OverlapTie::Impl::apply(dem::Model& m, const dem::Step& step) {

@@ -60,6 +60,12 @@ struct OverlapTie::Impl : TieState {
   /// A gap beyond it slips, and ties that are longer by half of it are made anew, m.
   double slipLength() const { return 0.1 * smallestRadius; }
 
+  /// Rows of wide kernels hang together: what one of them keeps, or slips by, alone is a wave that the metric of the
+  /// others answers with forces without bounds. There λ is what is kept, members slip, and the gap follows.
+  bool keepsForces() const { return turnsGap() && setting.options.projection.width > 0.0; }
+  /// D Πᵀλ, m: of the members on springs of their own, one by one.
+  std::vector<Vec3> motionUnder(std::span<const Vec3> forces) const;
+
   /// Solid's field of the nodes at a member.
   Vec3 atMember(std::size_t k, std::span<const Vec3> field) const;
   /// Displacement of a member from its material point, images left out.
@@ -75,6 +81,7 @@ struct OverlapTie::Impl : TieState {
   void updateGap(const dem::Model& m, bool timeless);
   void advance(const dem::Model& m);
   void slip();
+  void slipMembers();
   void comply(dem::Model& m);
   void evaluate(dem::Model& m, const dem::Step& step);
   void apply(dem::Model& m, const dem::Step& step);

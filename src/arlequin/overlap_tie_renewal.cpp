@@ -133,8 +133,9 @@ void OverlapTie::Impl::kickNodes(dem::Model& m, std::span<const Vec3> impulse) {
   }
 }
 
-/// Whatever the ties are now, the gap of the rows is what it was.
+/// Whatever the ties are now, the gap of the rows, or their λ, is what it was.
 void OverlapTie::Impl::keepGap(const dem::Model& m) {
+  if (keepsForces()) cg::apply(parts.gap.particles, motionUnder(lambda), now);
   const std::vector<Vec3> fresh = freshGap(m);
   for (std::size_t r = 0; r < fresh.size(); ++r) kept[r] = now[r] - fresh[r];
   storedNow = parts.constraint->storedEnergy(now);
@@ -240,6 +241,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     handOver(m, static_cast<std::size_t>(change.particle), change.before, change.found.weight, change.handedAt,
              impulse);
   kickNodes(m, impulse);
+  if (keepsForces()) parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
   stale = true;
   ready(m);
   keepGap(m);
