@@ -168,13 +168,13 @@ Measured measure(int across, const Way& way) {
   m.rows = scene->tie->state().rows;
   for (std::size_t i = 0; i < run.grains.particles.size(); ++i)
     run.grains.particles.v[i].z = 0.01 * std::sin(40.0 * run.grains.particles.x[i].x);
+  setThreads(1);
+  timeSteps(*scene, m.step, m.tie);
   setThreads(2);
   timeSteps(*scene, m.stepTwo, m.tieTwo);
   m.few = timeRenewal(*scene, m.stepTwo, 100);
   m.all = timeRenewal(*scene, m.stepTwo, 1);
   m.memory = resident() - before;
-  setThreads(1);
-  timeSteps(*scene, m.step, m.tie);
   return m;
 }
 

@@ -125,14 +125,18 @@ std::vector<double> solidWeights(std::span<const double> nodalWeight) {
 
 cg::Projection interpolationAtParticles(const Overlap& overlap, const fem::SolidMesh& mesh) {
   std::vector<cg::ProjectionRow> rows(overlap.size());
-  for (std::size_t k = 0; k < overlap.size(); ++k) {
-    const fem::CellPlace& place = overlap.place[k];
-    if (place.element < 0)
-      throw InputError("particle " + std::to_string(overlap.particle[k]) + " is outside of the mesh",
-                       "interpolationAtParticles", "locate the overlap without a reach");
-    const Cell cell = cellOf(mesh, place.element);
-    for (std::size_t a = 0; a < cell.node.size(); ++a) rows[k].emplace_back(cell.node[a], place.shape[a]);
-  }
+  parallelFor(rows.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const fem::CellPlace& place = overlap.place[k];
+      if (place.element < 0)
+        throw InputError("particle " + std::to_string(overlap.particle[k]) + " is outside of the mesh",
+                         "interpolationAtParticles", "locate the overlap without a reach");
+      const Cell cell = cellOf(mesh, place.element);
+      rows[k].reserve(cell.node.size());
+      for (std::size_t a = 0; a < cell.node.size(); ++a) rows[k].emplace_back(cell.node[a], place.shape[a]);
+      std::ranges::sort(rows[k], {}, [](const auto& entry) { return entry.first; });
+    }
+  });
   return cg::fromRows(static_cast<int>(mesh.X.size()), rows);
 }
 

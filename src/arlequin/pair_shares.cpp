@@ -13,6 +13,7 @@ namespace dovetail::arlequin {
 namespace {
 
 constexpr std::size_t grain = 256;
+constexpr std::size_t largestCell = 27;  // nodes
 
 auto order(const PairShare& pair) { return std::tuple(pair.i, pair.j); }
 
@@ -22,25 +23,27 @@ Vec3 weightGradient(const fem::SolidMesh& mesh, const Overlap& overlap, std::siz
   const fem::CellPlace& place = overlap.place[member];
   const Cell cell = cellOf(mesh, place.element);
   const Vec3 xi = fem::nearestInParent(cell.shape, place.xi);
-  std::vector<double> value(cell.node.size());
-  std::vector<Vec3> gradient(cell.node.size());
-  fem::shapeFunctions(cell.shape, xi, value, gradient);
+  std::array<double, largestCell> value;
+  std::array<Vec3, largestCell> gradient;
+  fem::shapeFunctions(cell.shape, xi, std::span(value).first(cell.node.size()),
+                      std::span(gradient).first(cell.node.size()));
   std::array<Vec3, 3> J{};  // column j = ∂x/∂ξ_j
   for (std::size_t a = 0; a < cell.node.size(); ++a)
     for (std::size_t j = 0; j < 3; ++j)
       J[j] += gradient[a][static_cast<int>(j)] * position[static_cast<std::size_t>(cell.node[a])];
-  const fem::CellShape first = cell.corner().size() == 8 ? fem::CellShape::hex8 : fem::CellShape::tet4;
-  fem::shapeFunctions(first, xi, value, gradient);
+  const std::span<const int> corner = cell.corner();
+  const fem::CellShape first = corner.size() == 8 ? fem::CellShape::hex8 : fem::CellShape::tet4;
+  fem::shapeFunctions(first, xi, std::span(value).first(corner.size()), std::span(gradient).first(corner.size()));
   Vec3 byParent;
-  for (std::size_t a = 0; a < cell.corner().size(); ++a)
-    byParent += overlap.nodalWeight[static_cast<std::size_t>(cell.corner()[a])] * gradient[a];
+  for (std::size_t a = 0; a < corner.size(); ++a)
+    byParent += overlap.nodalWeight[static_cast<std::size_t>(corner[a])] * gradient[a];
   const Vec3 dual = byParent.x * cross(J[1], J[2]) + byParent.y * cross(J[2], J[0]) + byParent.z * cross(J[0], J[1]);
   return dual / dot(J[0], cross(J[1], J[2]));
 }
 
 /// w where two particles touch, from what each of them knows of w about itself.
-double shareAt(const dem::Particles& particles, const dem::PairList& list, std::size_t pair, const fem::SolidMesh& mesh,
-               const Overlap& overlap, std::span<const Vec3> position, std::span<const int> memberOf) {
+double shareAt(const dem::Particles& particles, const dem::PairList& list, std::size_t pair, const Overlap& overlap,
+               std::span<const Vec3> gradient, std::span<const int> memberOf) {
   const auto i = static_cast<std::size_t>(list.pairs()[pair][0]), j = static_cast<std::size_t>(list.pairs()[pair][1]);
   const dem::PairContact contact = dem::pairContact(particles, i, j, list.shift(pair));
   double sum = 0.0, sides = 0.0, least = 1.0;
@@ -48,7 +51,7 @@ double shareAt(const dem::Particles& particles, const dem::PairList& list, std::
     const int member = memberOf[particle];
     if (member < 0 || overlap.place[static_cast<std::size_t>(member)].element < 0) continue;
     const auto k = static_cast<std::size_t>(member);
-    sum += overlap.weight[k] + dot(weightGradient(mesh, overlap, k, position), arm);
+    sum += overlap.weight[k] + dot(gradient[k], arm);
     least = std::min(least, overlap.weight[k]);
     sides += 1.0;
   }
@@ -65,15 +68,29 @@ void PairShares::update(const dem::Particles& particles, dem::PairList& list, co
         memberOf[static_cast<std::size_t>(i)] >= 0 || memberOf[static_cast<std::size_t>(j)] >= 0)
       place.push_back(p);
   std::vector<PairShare> now(place.size());
+  std::vector<char> isNew(place.size(), 0), isAsked(overlap.size(), 0);
+  parallelFor(place.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      PairShare& pair = now[k] = {list.pairs()[place[k]][0], list.pairs()[place[k]][1], 0.0};
+      const auto known = std::ranges::lower_bound(pairs, order(pair), {}, order);
+      isNew[k] = known == pairs.end() || order(*known) != order(pair);
+      if (!isNew[k]) pair.share = known->share;
+    }
+  });
+  for (std::size_t k = 0; k < now.size(); ++k)
+    for (const int i : {now[k].i, now[k].j})
+      if (const int member = memberOf[static_cast<std::size_t>(i)]; isNew[k] && member >= 0)
+        isAsked[static_cast<std::size_t>(member)] = overlap.place[static_cast<std::size_t>(member)].element >= 0;
+  std::vector<Vec3> gradient(overlap.size());
+  parallelFor(gradient.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (isAsked[k]) gradient[k] = weightGradient(mesh, overlap, k, position);
+  });
   const std::span<double> factors = list.writeFactors();
   parallelFor(place.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t p = place[k];
-      PairShare& pair = now[k] = {list.pairs()[p][0], list.pairs()[p][1], 0.0};
-      const auto known = std::ranges::lower_bound(pairs, order(pair), {}, order);
-      const bool listed = known != pairs.end() && order(*known) == order(pair);
-      pair.share = listed ? known->share : shareAt(particles, list, p, mesh, overlap, position, memberOf);
-      if (factors[p] != 0.0) factors[p] = pair.share;
+      if (isNew[k]) now[k].share = shareAt(particles, list, place[k], overlap, gradient, memberOf);
+      if (double& factor = factors[place[k]]; factor != 0.0) factor = now[k].share;
     }
   });
   pairs = std::move(now);
