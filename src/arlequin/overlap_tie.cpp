@@ -66,11 +66,12 @@ void OverlapTie::Impl::number(const dem::Particles& particles) {
 /// Rows that were there keep their gap and their λ; others start without.
 void OverlapTie::Impl::ready(const dem::Model& m) {
   if (known != m.particles.revision || memberOf.size() != m.particles.size()) number(m.particles);
-  if (stale) {
+  if (stale || (needsMass() && massOf != side.mass)) {
     TieParts next = makeParts(setting, overlap, part, m);
     addConstraint(setting, overlap, m, side, next, std::move(parts.constraint));
     parts = std::move(next);
     stale = false;
+    massOf = side.mass;
     if (rowNode != parts.gap.node) {
       std::vector<int> rowOf(setting.mesh.X.size(), -1);
       for (std::size_t r = 0; r < rowNode.size(); ++r)

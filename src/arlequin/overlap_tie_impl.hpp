@@ -42,7 +42,8 @@ struct OverlapTie::Impl : TieState {
   coupling::SolidSide& side;
   bool loadsNobody = false;  // it belongs to a copy of the particles' model
   TieParts parts;
-  bool stale = true;  // the parts are not those of the overlap
+  bool stale = true;                       // the parts are not those of the overlap
+  const fem::ModelMass* massOf = nullptr;  // that the parts were made with: every start of a run makes another
 
   explicit Impl(coupling::SolidSide& s) : side(s) {}
   Impl(const TieState& state, coupling::SolidSide& s) : TieState(state), side(s), loadsNobody(true) {}
@@ -57,6 +58,7 @@ struct OverlapTie::Impl : TieState {
   bool actsInWindows() const {
     return setting.options.constraint != ConstraintKind::penalty && side.stepping == coupling::Stepping::implicitSteps;
   }
+  bool needsMass() const { return setting.options.constraint == ConstraintKind::multiplier; }
   /// A gap beyond it slips, and ties that are longer by half of it are made anew, m.
   double slipLength() const { return 0.1 * smallestRadius; }
 

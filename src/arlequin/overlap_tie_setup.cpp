@@ -54,6 +54,27 @@ void leaveOthers(Overlap& overlap, const dem::Particles& particles) {
   overlap = std::move(own);
 }
 
+/// Rows of wide kernels meet so many others that factors grow with the square of their number.
+void requireNarrowKernels(const Overlap& overlap, const fem::SolidMesh& mesh, const CouplingOptions& options) {
+  constexpr double widest = 2.5 * (1.0 + 1e-9);  // element sizes
+  constexpr std::size_t fewRows = 4000;
+  const bool solves = options.constraint == ConstraintKind::multiplier ||
+                      (options.constraint == ConstraintKind::penalty && options.form == GapForm::atParticles);
+  if (!solves || options.projection.width == 0.0) return;
+  std::vector<char> isRow(mesh.X.size(), 0);
+  double size = 0.0;
+  for (const int e : overlap.elements) {
+    size += elementSize(mesh, e) / static_cast<double>(overlap.elements.size());
+    for (const int n : cellOf(mesh, e).corner()) isRow[static_cast<std::size_t>(n)] = 1;
+  }
+  const auto rows = static_cast<std::size_t>(std::ranges::count(isRow, 1));
+  if (rows > fewRows && options.projection.width > widest * size)
+    throw InputError(std::to_string(rows) +
+                         " coupled nodes are too many for kernels wider than 2.5 elements: each of " +
+                         "them meets thousands of others",
+                     "overlap", "take kernels of up to " + formatNumber(2.5 * size) + " m, or a coarser mesh");
+}
+
 void requireMembers(const Overlap& overlap, const dem::Model& m, double leastShare) {
   const std::vector<char> inBodies = dem::members(m);
   std::size_t few = 0;
@@ -92,6 +113,7 @@ std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidM
   const double reach = options.projection.reachOut ? options.projection.width : 0.0;
   s.overlap = locateOverlap(grains.particles, mesh, side.nodes(), nodalWeight, reach, grains.pairs.periodicity());
   requireWidth(s.overlap, mesh);
+  requireNarrowKernels(s.overlap, mesh, options);
   leaveOthers(s.overlap, grains.particles);
   requireShares(mesh, *side.model, nodalWeight);
   requireMembers(s.overlap, grains, options.leastShare);

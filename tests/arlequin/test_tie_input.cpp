@@ -242,6 +242,23 @@ TEST(TieInput, WhatCannotBeIsRefused) {
   EXPECT_THROW(dem::check(run.grains), InputError) << "somebody else wrote the weights";
 }
 
+TEST(TieInput, KernelsAreNarrowWhereThereAreManyRows) {
+  SceneOptions o;
+  o.across = 30;
+  o.particlesPerEdge = 1;
+  const auto attempt = [&](ConstraintKind kind, double width) {
+    o.coupling.constraint = kind;
+    o.coupling.projection.width = width * edge;
+    tieBar(o);
+  };
+  EXPECT_NO_THROW(attempt(ConstraintKind::penalty, 2.5));
+  EXPECT_NO_THROW(attempt(ConstraintKind::multiplier, 2.5));
+  EXPECT_THROW(attempt(ConstraintKind::penalty, 2.6), InputError);
+  EXPECT_THROW(attempt(ConstraintKind::multiplier, 2.6), InputError);
+  o.across = 2;
+  EXPECT_NO_THROW(attempt(ConstraintKind::penalty, 2.6));
+}
+
 TEST(TieInput, ParticlesBeyondTheBorderAreListed) {
   SceneOptions o;
   o.across = 1;

@@ -1,0 +1,93 @@
+#include "dovetail/arlequin/handed_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+
+namespace dovetail::arlequin {
+
+namespace {
+
+/// Dead forces of each node.
+class NodeForces final : public fem::Term {
+public:
+  std::string name() const override { return "load of the particles"; }
+  void addForces(const fem::Nodes&, const fem::Instant&, std::span<Vec3> f) override {
+    for (std::size_t n = 0; n < force.size(); ++n) f[n] += force[n];
+  }
+  std::vector<Vec3> force;  // N
+};
+
+double largest(std::span<const Vec3> values) {
+  double most = 0.0;
+  for (const Vec3& v : values) most = std::max(most, norm(v));
+  return most;
+}
+
+double largestChange(std::span<const Vec3> a, std::span<const Vec3> b) {
+  double most = 0.0;
+  for (std::size_t n = 0; n < a.size(); ++n) most = std::max(most, norm(a[n] - b[n]));
+  return most;
+}
+
+}  // namespace
+
+std::vector<Vec3> handedLoad(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
+                             std::span<const double> nodalWeight) {
+  constexpr double anyPenalty = 1.0;  // a tie that was just made has no gap
+  dem::Model weighed = grains;
+  coupling::SolidSide side;
+  side.name = "solid";
+  side.model = &solid;
+  side.load = coupling::NodalLoad(solid.nodes.X.size());
+  CouplingOptions options;
+  options.penalty = anyPenalty;
+  auto made = makeOverlapTie(weighed, mesh, {nodalWeight.begin(), nodalWeight.end()}, side, options);
+  const OverlapTie& tie = *made;
+  weighed.terms.add(std::unique_ptr<dem::Term>(std::move(made)));
+  dem::findForces(weighed);
+  std::vector<Vec3> load(solid.nodes.X.size());
+  for (std::size_t k = 0; k < tie.overlap().size(); ++k) {
+    const fem::CellPlace& place = tie.overlap().place[k];
+    const Vec3& force = weighed.particles.f[static_cast<std::size_t>(tie.overlap().particle[k])];
+    const Cell cell = cellOf(mesh, place.element);
+    for (std::size_t a = 0; a < cell.node.size(); ++a)
+      load[static_cast<std::size_t>(cell.node[a])] += place.shape[a] * force;
+  }
+  return load;
+}
+
+int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
+             std::span<const double> nodalWeight, const TakeOverOptions& options) {
+  requirePositive(options.tolerance, "tolerance of the handed load");
+  const double time = solid.t;
+  const auto load = std::make_shared<NodeForces>();
+  load->force = handedLoad(grains, mesh, solid, nodalWeight);
+  solid.terms.push_back(load);
+  int round = 1;
+  for (bool settled = false; !settled; ++round) {
+    try {
+      fem::solveStatics(solid, solid.t + 1.0, options.statics);
+    } catch (...) {
+      solid.terms.pop_back();
+      solid.t = time;
+      throw;
+    }
+    std::vector<Vec3> next = handedLoad(grains, mesh, solid, nodalWeight);
+    settled = largestChange(next, load->force) <= options.tolerance * largest(next);
+    load->force = std::move(next);
+    if (settled || round < options.rounds) continue;
+    solid.terms.pop_back();
+    solid.t = time;
+    throw NumericalError("the load that particles hand over still changes after " + std::to_string(round) + " rounds",
+                         "initial stress", "take a stiffer solid or a thicker overlap");
+  }
+  solid.terms.pop_back();
+  solid.t = time;
+  return round - 1;
+}
+
+}  // namespace dovetail::arlequin

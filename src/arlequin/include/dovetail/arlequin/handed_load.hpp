@@ -1,0 +1,38 @@
+// A solid in equilibrium with a packing that it takes over.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dovetail/core/vec3.hpp"
+#include "dovetail/dem/model/model.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
+#include "dovetail/fem/model/model.hpp"
+#include "dovetail/fem/solve/statics.hpp"
+
+namespace dovetail::arlequin {
+
+/// What particles at rest hand over to the solid that they are about to share an overlap with, N per node: Φᵀ of the
+/// forces that their weighed contacts, walls and weights leave out of balance, which is ∇w·σ with σ their stress. A tie
+/// exerts these forces in equilibrium.
+/// @param grains       at rest; without the tie, and without particles beyond the border (particlesBeyond)
+/// @param solid        where the mesh is now; its elements have the share 1 − w   @param nodalWeight  w per node
+/// @throws InputError as makeOverlapTie
+std::vector<Vec3> handedLoad(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
+                             std::span<const double> nodalWeight);
+
+struct TakeOverOptions {
+  fem::StaticOptions statics{.firstStep = 1.0};
+  double tolerance = 1e-6;  ///< largest change of the handed load between two rounds over the largest load
+  int rounds = 30;
+};
+
+/// Initial stress: deforms the solid until it is in equilibrium under its own terms and what the particles hand over
+/// where its mesh then is. Tie the particles after that: they are tied where they are, without a gap, and what a tie of
+/// elements cannot balance particle by particle is left to coupling::settle. Time and velocities of the solid stay.
+/// @throws InputError as handedLoad; NumericalError as fem::solveStatics, and if the load does not settle
+/// @return rounds taken
+int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
+             std::span<const double> nodalWeight, const TakeOverOptions& options = {});
+
+}  // namespace dovetail::arlequin
