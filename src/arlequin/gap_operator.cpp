@@ -214,7 +214,9 @@ void gapOfMembers(const GapOperator& gap, std::span<const Vec3> members, std::sp
 void gapOf(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> particles, std::span<const Vec3> nodes,
            std::span<Vec3> out) {
   std::vector<Vec3> members(overlap.size());
-  for (std::size_t k = 0; k < members.size(); ++k) members[k] = particles[overlap.particle[k]];
+  parallelFor(members.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) members[k] = particles[overlap.particle[k]];
+  });
   gapOfMembers(gap, members, nodes, out);
 }
 
@@ -227,8 +229,10 @@ void pullParticles(const GapOperator& gap, const Overlap& overlap, std::span<con
 }
 
 void pullNodes(const GapOperator& gap, std::span<const Vec3> lambda, std::span<Vec3> nodeForce) {
-  for (std::size_t n = 0; n < gap.coupledNode.size(); ++n)
-    nodeForce[gap.coupledNode[n]] += cg::applyRow(gap.nodesBack, static_cast<int>(n), lambda);
+  parallelFor(gap.coupledNode.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      nodeForce[gap.coupledNode[n]] += cg::applyRow(gap.nodesBack, static_cast<int>(n), lambda);
+  });
 }
 
 }  // namespace dovetail::arlequin

@@ -24,38 +24,6 @@ double sumOfProducts(std::span<const Vec3> a, std::span<const Vec3> b) {
 
 }  // namespace
 
-Vec3 OverlapTie::Impl::atMember(std::size_t k, std::span<const Vec3> field) const {
-  const fem::CellPlace& place = overlap.place[k];
-  Vec3 sum;
-  if (place.element < 0) return sum;
-  const Cell cell = cellOf(setting.mesh, place.element);
-  for (std::size_t a = 0; a < cell.node.size(); ++a)
-    sum += place.shape[a] * field[static_cast<std::size_t>(cell.node[a])];
-  return sum;
-}
-
-Vec3 OverlapTie::Impl::displacement(const dem::Model& m, std::size_t k) const {
-  const Vec3 moved = m.particles.x[static_cast<std::size_t>(overlap.particle[k])] - overlap.x[k];
-  const geometry::Periodicity& space = m.pairs.periodicity();
-  if (!space.any()) return moved;
-  const Vec3 carried = atMember(k, nodes().u);
-  return carried + space.minimumImage(moved - carried);
-}
-
-std::vector<Vec3> OverlapTie::Impl::displacements(const dem::Model& m) const {
-  std::vector<Vec3> q(overlap.size());
-  parallelFor(q.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) q[k] = displacement(m, k);
-  });
-  return q;
-}
-
-std::vector<Vec3> OverlapTie::Impl::freshGap(const dem::Model& m) const {
-  std::vector<Vec3> gap(parts.gap.rows());
-  gapOfMembers(parts.gap, displacements(m), nodes().u, gap);
-  return gap;
-}
-
 void OverlapTie::Impl::number(const dem::Particles& particles) {
   memberOf.assign(particles.size(), -1);
   for (std::size_t k = 0; k < overlap.size(); ++k)
@@ -93,35 +61,6 @@ void OverlapTie::Impl::ready(const dem::Model& m) {
   lost -= storedNow;
 }
 
-/// The kept part turns with the nodes of its row.
-void OverlapTie::Impl::turnKept() {
-  const std::vector<Vec3>& u = nodes().u;
-  if (turnsGap() && nodesBefore.size() == u.size() &&
-      std::ranges::any_of(kept, [](const Vec3& g) { return squaredNorm(g) > 0.0; })) {
-    const std::vector<Vec3> x = positions();
-    std::vector<Vec3> moved(u.size());
-    for (const int n : parts.gap.coupledNode) {
-      const auto at = static_cast<std::size_t>(n);
-      moved[at] = u[at] - nodesBefore[at];
-    }
-    parallelFor(kept.size(), grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t r = begin; r < end; ++r)
-        if (squaredNorm(kept[r]) > 0.0) kept[r] = turned(kept[r], RowSpin(parts.gap, r, x).of(moved));
-    });
-  }
-  nodesBefore = u;
-}
-
-void OverlapTie::Impl::updateGap(const dem::Model& m, bool timeless) {
-  turnKept();
-  std::vector<Vec3> next = freshGap(m);
-  for (std::size_t r = 0; r < next.size(); ++r) {
-    next[r] += kept[r];
-    if (!timeless) increment[r] = next[r] - now[r];
-  }
-  now = std::move(next);
-}
-
 /// Brings the gap up to the step under way before ties change: λ of the step before does its half of the work.
 void OverlapTie::Impl::advance(const dem::Model& m) {
   updateGap(m, false);
@@ -130,46 +69,6 @@ void OverlapTie::Impl::advance(const dem::Model& m) {
   storedNow = parts.constraint->storedEnergy(now);
   lost -= storedNow;
   advanced = true;
-}
-
-std::vector<Vec3> OverlapTie::Impl::motionUnder(std::span<const Vec3> forces) const {
-  std::vector<Vec3> moved(overlap.size());
-  parallelFor(moved.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      moved[k] = (1.0 / parts.stiffness[k]) * cg::applyRow(parts.gap.particlesBack, static_cast<int>(k), forces);
-  });
-  return moved;
-}
-
-/// No member is held farther than the slip length from where the solid is.
-void OverlapTie::Impl::slipMembers() {
-  if (!keepsForces() || !isFollowed()) return;
-  const double longest = slipLength();
-  std::vector<Vec3> moved = motionUnder(lambda);
-  bool slips = false;
-  for (Vec3& q : moved)
-    if (const double length = norm(q); length > longest) {
-      q *= longest / length;
-      slips = true;
-    }
-  if (!slips) return;
-  std::vector<Vec3> next(now.size());
-  cg::apply(parts.gap.particles, moved, next);
-  for (std::size_t r = 0; r < next.size(); ++r) kept[r] += next[r] - now[r];
-  now = std::move(next);
-  parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
-}
-
-/// What is beyond the slip length goes out of the kept part.
-void OverlapTie::Impl::slip() {
-  if (!turnsGap() || keepsForces() || !isFollowed()) return;
-  const double longest = slipLength();
-  for (std::size_t r = 0; r < now.size(); ++r)
-    if (const double length = norm(now[r]); length > longest) {
-      const Vec3 excess = (1.0 - longest / length) * now[r];
-      kept[r] -= excess;
-      now[r] -= excess;
-    }
 }
 
 /// The impulses of multipliers that take the rate of the gap away at the start.
@@ -203,11 +102,15 @@ void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
       gapOf(parts.gap, overlap, m.particles.v, nodes().v, velocity);
     const std::vector<double> mass = yieldingMasses(m);
     std::vector<Vec3> ofMembers(overlap.size()), ofNodes = side.load.force;
-    for (std::size_t k = 0; k < ofMembers.size(); ++k) {
-      const auto i = static_cast<std::size_t>(overlap.particle[k]);
-      ofMembers[k] = (1.0 / mass[i]) * m.particles.f[i];
-    }
-    for (std::size_t n = 0; n < side.own.size(); ++n) ofNodes[n] += side.own[n];
+    parallelFor(ofMembers.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto i = static_cast<std::size_t>(overlap.particle[k]);
+        ofMembers[k] = (1.0 / mass[i]) * m.particles.f[i];
+      }
+    });
+    parallelFor(side.own.size(), 16 * grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) ofNodes[n] += side.own[n];
+    });
     side.mass->solve(ofNodes);
     gapOfMembers(parts.gap, ofMembers, ofNodes, acceleration);
   }
@@ -216,14 +119,23 @@ void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
   slipMembers();
 }
 
+void OverlapTie::Impl::loadNodes(std::span<const Vec3> forces, coupling::NodalLoad& load) const {
+  const std::vector<int>& node = parts.gap.coupledNode;
+  std::vector<Vec3> onNodes(node.size());
+  parallelFor(node.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      onNodes[n] = cg::applyRow(parts.gap.nodesBack, static_cast<int>(n), forces);
+  });
+  for (std::size_t n = 0; n < node.size(); ++n) load.add(node[n], onNodes[n]);
+}
+
 void OverlapTie::Impl::apply(dem::Model& m, const dem::Step& step) {
   if (parts.absorber) parts.absorber->apply(m.particles.v, m.particles.f);
   if (!complies && step.timeless && parts.constraint->needsRates()) comply(m);
   if (actsInWindows()) return;
   evaluate(m, step);
   pullParticles(parts.gap, overlap, lambda, m.particles.f);
-  for (std::size_t n = 0; n < parts.gap.coupledNode.size(); ++n)
-    side.load.add(parts.gap.coupledNode[n], cg::applyRow(parts.gap.nodesBack, static_cast<int>(n), lambda));
+  loadNodes(lambda, side.load);
   if (!turnsGap()) return;
   std::vector<Vec3> x;
   for (std::size_t r = 0; r < kept.size(); ++r) {
@@ -330,8 +242,7 @@ void OverlapTie::constrainWindow(const dem::Model& m, std::span<const Vec3> ownF
     s.parts.constraint->evaluate({s.now, none, none, acceleration, half}, lambda);
   }
   pullParticles(s.parts.gap, s.overlap, lambda, onParticles);
-  for (std::size_t n = 0; n < s.parts.gap.coupledNode.size(); ++n)
-    load.add(s.parts.gap.coupledNode[n], cg::applyRow(s.parts.gap.nodesBack, static_cast<int>(n), lambda));
+  s.loadNodes(lambda, load);
 }
 
 void OverlapTie::addStiffness(const dem::Model& m, std::span<const Vec3> particles, std::span<const Vec3> nodes,

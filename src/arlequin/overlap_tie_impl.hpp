@@ -87,6 +87,7 @@ struct OverlapTie::Impl : TieState {
   void comply(dem::Model& m);
   void evaluate(dem::Model& m, const dem::Step& step);
   void apply(dem::Model& m, const dem::Step& step);
+  void loadNodes(std::span<const Vec3> forces, coupling::NodalLoad& load) const;
   void evaluateWindow(const dem::Model& m, double half);
 
   void watch(dem::Model& m, const dem::Step& step);

@@ -6,6 +6,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/material_probe.hpp"
@@ -116,7 +117,9 @@ void addConstraint(const TieSetting& setting, const Overlap& overlap, const dem:
 
 std::vector<double> yieldingMasses(const dem::Model& m) {
   std::vector<double> mass(m.particles.size());
-  for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = m.particles.weightOf(i) * m.particles.mass[i];
+  parallelFor(mass.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) mass[i] = m.particles.weightOf(i) * m.particles.mass[i];
+  });
   for (const auto* drive : m.terms.all<dem::DriveTerm>())
     for (const std::int64_t id : drive->ids())
       if (const int i = dem::find(m.particles, id); i >= 0)
