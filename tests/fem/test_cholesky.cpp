@@ -48,6 +48,21 @@ TEST(SparseCholesky, SolvesAndReusesItsAnalysis) {
   for (const double value : b) EXPECT_NEAR(value, 1.0, 1e-13);
 }
 
+TEST(SparseCholesky, SolvesForSeveralRightHandSides) {
+  SparseCholesky cholesky;
+  const SparseMatrix A = chain(50, 2.5);
+  ASSERT_TRUE(cholesky.factor(A));
+  std::vector<double> b(150);
+  for (std::size_t i = 0; i < 150; ++i) b[i] = std::sin(static_cast<double>(i * i));
+  std::vector<double> all = b;
+  cholesky.solve(all, 3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::vector<double> one(b.begin() + 50 * static_cast<int>(c), b.begin() + 50 * static_cast<int>(c + 1));
+    cholesky.solve(one);
+    for (std::size_t i = 0; i < 50; ++i) EXPECT_NEAR(all[50 * c + i], one[i], 1e-14);
+  }
+}
+
 TEST(SparseCholesky, IndefiniteMatricesAreReported) {
   SparseCholesky cholesky;
   EXPECT_FALSE(cholesky.factor(chain(20, 1.0)));
