@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "tie_scenes.hpp"
 
 namespace dovetail::arlequin {
@@ -237,6 +238,30 @@ TEST(Restart, GivesTheSameBitsWhileParticlesComeAndGo) {
     EXPECT_EQ(resumed.run->save(), whole.run->save()) << static_cast<int>(kind);
     EXPECT_GT(whole.tie->state().relocations, 0);
   }
+}
+
+/// So many rows, particles and pairs that every loop has several chunks.
+TEST(Threads, ChangeNoDigitOfLargeTiesThatAreMadeAnew) {
+  const auto bytes = [](ConstraintKind kind, double width, int threads) {
+    setThreads(threads);
+    SceneOptions o;
+    o.across = 10;
+    o.coupling.constraint = kind;
+    o.coupling.projection.width = width;
+    TieRun run = tieBar(o);
+    std::mt19937 random(3);
+    for (Vec3& v : run.grains.particles.v) v = Vec3{0.0, 30.0, 0.0} + randomVector(random, 1.0);
+    run.start(1e-4);
+    run.run->advance(10);
+    EXPECT_GT(run.tie->state().relocations, 0);
+    setThreads(detail::processors());
+    return run.run->save();
+  };
+  for (const auto& [kind, width] : {std::pair(ConstraintKind::penalty, 0.0),
+                                    {ConstraintKind::penalty, 0.5},
+                                    {ConstraintKind::multiplier, 0.0},
+                                    {ConstraintKind::multiplier, 0.5}})
+    EXPECT_EQ(bytes(kind, width, 1), bytes(kind, width, 3)) << static_cast<int>(kind) << ' ' << width;
 }
 
 TEST(Renewal, BothModelsMovingTogetherChangeNothing) {
