@@ -222,9 +222,13 @@ TEST(Renewal, LambdaDoesNotJump) {
 }
 
 TEST(Restart, GivesTheSameBitsWhileParticlesComeAndGo) {
-  for (const ConstraintKind kind : {ConstraintKind::penalty, ConstraintKind::multiplier, ConstraintKind::dashpot}) {
+  for (const auto& [kind, width] : {std::pair(ConstraintKind::penalty, 0.0),
+                                    {ConstraintKind::penalty, 0.5},
+                                    {ConstraintKind::multiplier, 0.0},
+                                    {ConstraintKind::multiplier, 0.5},
+                                    {ConstraintKind::dashpot, 0.0}}) {
     const double penalty = kind == ConstraintKind::multiplier ? 0.0 : kind == ConstraintKind::penalty ? 2e5 : 1e5;
-    TieRun whole = loose(kind, penalty), resumed = loose(kind, penalty);
+    TieRun whole = loose(kind, penalty, true, width), resumed = loose(kind, penalty, true, width);
     for (TieRun* run : {&whole, &resumed}) {
       for (std::size_t i = 0; i < run->grains.particles.size(); ++i)
         run->grains.particles.v[i] = {0.01 * run->grains.particles.x[i].z, 0.5, 0.0};
