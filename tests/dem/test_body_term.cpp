@@ -1,6 +1,7 @@
 // Clumps inside a model: they fall, roll, rest, go through periods, are sorted, saved and removed; each counts once.
 #include <gtest/gtest.h>
 
+#include "../io/scratch_folder.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
@@ -113,7 +114,8 @@ TEST(BodyTerm, AGasThroughPeriodsKeepsEnergyAndMomentumWhileItIsSorted) {
 }
 
 TEST(BodyTerm, RunsAreTheSameForAnyThreadsAndFromACheckpoint) {
-  const auto path = std::filesystem::temp_directory_path() / "dovetail_bodies.ckp";
+  const io::test::ScratchFolder scratch;
+  const auto path = scratch / "dovetail_bodies.ckp";
   std::vector<Vec3> once;
   for (const int count : {1, 2, 3}) {
     setThreads(count);
@@ -133,7 +135,6 @@ TEST(BodyTerm, RunsAreTheSameForAnyThreadsAndFromACheckpoint) {
     EXPECT_TRUE(model.particles.x == once) << count;
   }
   setThreads(1);
-  std::filesystem::remove(path);
 }
 
 TEST(BodyTerm, AMemberInAnOutletTakesItsWholeClumpAlongAndTheLedgerStays) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "../io/scratch_folder.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/checkpoint.hpp"
 #include "dovetail/dem/model/model.hpp"
@@ -62,7 +63,8 @@ TEST(BondedLists, KeepTheirBondsWhenOthersLeaveAndEnter) {
 }
 
 TEST(BondedLists, OfWhichBeadsLeaveAreTheSameForAnyThreadsAndFromACheckpoint) {
-  const auto path = std::filesystem::temp_directory_path() / "dovetail_bonded_list.ckp";
+  const io::test::ScratchFolder scratch;
+  const auto path = scratch / "dovetail_bonded_list.ckp";
   std::vector<Vec3> once;
   for (const int count : {1, 2, 3}) {
     setThreads(count);
@@ -86,7 +88,6 @@ TEST(BondedLists, OfWhichBeadsLeaveAreTheSameForAnyThreadsAndFromACheckpoint) {
     EXPECT_TRUE(model.particles.x == once) << count;
   }
   setThreads(1);
-  std::filesystem::remove(path);
 }
 
 TEST(BondedLists, WallsSeeTheirParticlesComeFromAfar) {

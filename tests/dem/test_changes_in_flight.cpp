@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "../io/scratch_folder.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/model/checkpoint.hpp"
@@ -113,7 +114,8 @@ TEST(ChangesInFlight, BondsMuteContactsFromTheStepInWhichTheyAreAdded) {
 }
 
 TEST(ChangesInFlight, ARestartGoesOnAsIfALawOrAWallHadJustChanged) {
-  const auto path = std::filesystem::temp_directory_path() / "dovetail_changes.ckp";
+  const io::test::ScratchFolder scratch;
+  const auto path = scratch / "dovetail_changes.ckp";
   Model m = oneOnFloor(makeContactLaws(rough()));
   m.particles.v[0].x = 0.3;
   for (int i = 0; i < 101; ++i) advance(m, 1e-4);
@@ -190,7 +192,8 @@ TEST(StreamsOfClumps, NeedNoBodiesFromTheStart) {
 }
 
 TEST(StreamsOfClumps, GoOnFromACheckpointInAModelThatIsSetUpAnew) {
-  const auto path = std::filesystem::temp_directory_path() / "dovetail_rods.ckp";
+  const io::test::ScratchFolder scratch;
+  const auto path = scratch / "dovetail_rods.ckp";
   Model m = rodsFallOut(false), other = rodsFallOut(false);
   for (int i = 0; i < 501; ++i) advance(m, 1e-4);
   writeCheckpoint(path, m);

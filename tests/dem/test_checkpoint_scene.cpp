@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "../io/scratch_folder.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
@@ -111,7 +112,8 @@ Model everything() {
 constexpr double dt = 1e-4;
 
 TEST(CheckpointScene, OfEveryTermGoesOnToTheLastBitForAnyThreads) {
-  const auto path = std::filesystem::temp_directory_path() / "dovetail_everything.ckp";
+  const io::test::ScratchFolder scratch;
+  const auto path = scratch / "dovetail_everything.ckp";
   std::vector<char> once;
   for (const int count : {1, 2, 3}) {
     setThreads(count);
@@ -139,7 +141,6 @@ TEST(CheckpointScene, OfEveryTermGoesOnToTheLastBitForAnyThreads) {
     EXPECT_TRUE(saveState(m) == once) << count;
   }
   setThreads(1);
-  std::filesystem::remove(path);
 }
 
 #if defined(__GLIBC__)
@@ -161,8 +162,9 @@ TEST(CheckpointScene, TheSameStateIsTheSameBytesWhateverMemoryHeldBefore) {
 /// What reading the checkpoint of `everything` into a model that differs says.
 template <class Change>
 std::string refusal(Change&& change) {
+  static const io::test::ScratchFolder scratch;
   static const auto path = [] {
-    const auto file = std::filesystem::temp_directory_path() / "dovetail_refusals.ckp";
+    const auto file = scratch / "dovetail_refusals.ckp";
     Model m = everything();
     run(m, dt, 3);
     writeCheckpoint(file, m);
@@ -219,7 +221,8 @@ TEST(CheckpointRefusals, WhatIsCodeIsNamedWhereItIsMissingOrNew) {
 }
 
 TEST(CheckpointRefusals, TermsOfCodeAloneAreNamedWithIt) {
-  const auto path = std::filesystem::temp_directory_path() / "dovetail_code_alone.ckp";
+  const io::test::ScratchFolder scratch;
+  const auto path = scratch / "dovetail_code_alone.ckp";
   const auto alone = [&](auto&& add) {
     Model m;
     m.laws = table(0.6);
@@ -246,7 +249,6 @@ TEST(CheckpointRefusals, TermsOfCodeAloneAreNamedWithIt) {
              }),
              "settings of an insertion");
   EXPECT_EQ(alone([](Model& m) { damping(m).local = 0.1; }), "nothing");
-  std::filesystem::remove(path);
 }
 
 TEST(CheckpointRefusals, OtherLawsAndOtherMeshesAre) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "../io/scratch_folder.hpp"
 #include "box_wall.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -152,7 +153,8 @@ TEST(FreeWalls, FlyThroughPeriodsAndKeepEnergyAndMomentum) {
 }
 
 TEST(FreeWalls, RunsAreTheSameForAnyThreadsAndFromACheckpoint) {
-  const auto path = std::filesystem::temp_directory_path() / "dovetail_free_walls.ckp";
+  const io::test::ScratchFolder scratch;
+  const auto path = scratch / "dovetail_free_walls.ckp";
   std::vector<char> once;
   for (const int count : {1, 2, 3}) {
     setThreads(count);
@@ -174,7 +176,6 @@ TEST(FreeWalls, RunsAreTheSameForAnyThreadsAndFromACheckpoint) {
     EXPECT_TRUE(saveState(model) == once) << count;
   }
   setThreads(1);
-  std::filesystem::remove(path);
 }
 
 TEST(FreeWalls, LightBodiesAskForShorterSteps) {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "../io/scratch_folder.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/checkpoint.hpp"
@@ -116,7 +117,8 @@ TEST(Model, ATriangulatedFloorGivesTheAnswerOfThePlane) {
 }
 
 TEST(Model, ARunFromACheckpointIsTheSameToTheLastBit) {
-  const auto path = std::filesystem::temp_directory_path() / "dovetail_model_checkpoint";
+  const io::test::ScratchFolder scratch;
+  const auto path = scratch / "dovetail_model_checkpoint";
   for (const bool meshFloor : {false, true}) {
     auto whole = pile(500, meshFloor);
     run(whole, 1e-4, 151);
@@ -130,11 +132,11 @@ TEST(Model, ARunFromACheckpointIsTheSameToTheLastBit) {
     run(resumed, 1e-4, 101);
     EXPECT_TRUE(saveState(whole) == saveState(resumed)) << meshFloor;
   }
-  std::filesystem::remove(path);
 }
 
 TEST(Model, DamagedAndForeignCheckpointsAreRefused) {
-  const auto path = std::filesystem::temp_directory_path() / "dovetail_model_damaged";
+  const io::test::ScratchFolder scratch;
+  const auto path = scratch / "dovetail_model_damaged";
   auto model = pile(20);
   const auto before = model.particles.x;
   writeCheckpoint(path, model);
@@ -158,7 +160,6 @@ TEST(Model, DamagedAndForeignCheckpointsAreRefused) {
   EXPECT_THROW(readCheckpoint(path, model), InputError);
   EXPECT_THROW(readCheckpoint(path / "nothing", model), InputError);
   EXPECT_EQ(model.particles.x, before);
-  std::filesystem::remove(path);
 }
 
 TEST(Model, WhoLeavesTheDomainIsRefusedOrRemovedAndCounted) {

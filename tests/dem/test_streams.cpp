@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "../io/scratch_folder.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
@@ -138,7 +139,8 @@ TEST(Streams, GrainsThatCirculateOverAHundredRenewalsKeepTheLedgerAndTheirContac
 }
 
 TEST(Streams, CirculationIsTheSameForAnyThreadsAndFromACheckpoint) {
-  const auto path = std::filesystem::temp_directory_path() / "dovetail_streams.ckp";
+  const io::test::ScratchFolder scratch;
+  const auto path = scratch / "dovetail_streams.ckp";
   std::vector<Vec3> once;
   for (const int count : {1, 2, 3}) {
     setThreads(count);
@@ -157,7 +159,6 @@ TEST(Streams, CirculationIsTheSameForAnyThreadsAndFromACheckpoint) {
     EXPECT_TRUE(model.particles.x == once) << count;
   }
   setThreads(1);
-  std::filesystem::remove(path);
 }
 
 }  // namespace

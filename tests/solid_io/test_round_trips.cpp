@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "../io/scratch_folder.hpp"
 #include "mesh_files.hpp"
 
 namespace dovetail::solid_io {
@@ -76,7 +77,8 @@ TEST(SolidFiles, MixedMeshesGoThereAndBack) {
 }
 
 TEST(SolidFiles, FilesAreToldApartByTheirEnding) {
-  const auto folder = std::filesystem::temp_directory_path() / "dovetail_solid_files";
+  const io::test::ScratchFolder scratch;
+  const auto folder = scratch / "dovetail_solid_files";
   std::filesystem::create_directories(folder);
   const fem::SolidMesh mesh = testMesh(fem::CellShape::tet10);
   for (const char* name : {"a.msh", "a.inp"}) {
@@ -87,7 +89,6 @@ TEST(SolidFiles, FilesAreToldApartByTheirEnding) {
   EXPECT_THROW(writeSolid(mesh, folder / "a.stl"), InputError);
   EXPECT_THROW(readSolid(folder / "a.stl"), InputError);
   EXPECT_THROW(readSolid(folder / "none.msh"), InputError);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(SolidFiles, WhatCannotBeWrittenIsRefused) {
