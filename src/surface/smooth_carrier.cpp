@@ -154,13 +154,7 @@ private:
   }
 
   void clear(dem::WallContacts& contacts) {
-    contacts.particle.clear();
-    contacts.facet.clear();
-    contacts.weight.clear();
-    contacts.normal.clear();
-    contacts.overlap.clear();
-    contacts.engagement.clear();
-    contacts.energyShare.clear();
+    dem::clear(contacts);
     wall_.x.clear();
     wall_.v.clear();
     wall_.facets.clear();

@@ -7,6 +7,17 @@
 
 namespace dovetail::dem {
 
+void clear(WallContacts& contacts) {
+  contacts.particle.clear();
+  contacts.facet.clear();
+  contacts.weight.clear();
+  contacts.normal.clear();
+  contacts.overlap.clear();
+  contacts.engagement.clear();
+  contacts.energyShare.clear();
+  contacts.image.clear();
+}
+
 void findWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                       EdgeRule rule, WallContacts& contacts) {
   switch (rule) {

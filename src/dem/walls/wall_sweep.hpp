@@ -43,17 +43,6 @@ inline Encounter encounter(const Particles& particles, const WallCandidates& can
   return e;
 }
 
-inline void clearContacts(WallContacts& contacts) {
-  contacts.particle.clear();
-  contacts.facet.clear();
-  contacts.weight.clear();
-  contacts.normal.clear();
-  contacts.overlap.clear();
-  contacts.engagement.clear();
-  contacts.energyShare.clear();
-  contacts.image.clear();
-}
-
 inline void addContact(WallContacts& contacts, const Encounter& e, std::size_t k, const std::array<double, 3>& weight,
                        const Vec3& normal, double overlap, double engagement, double energyShare) {
   contacts.particle.push_back(e.particle);
@@ -96,7 +85,7 @@ void sweepParticles(const Particles& particles, const WallCandidates& candidates
   const auto visit = [&](std::size_t begin, std::size_t end, WallContacts& into) {
     for (std::size_t k = begin; k < end; ++k) rule(k, encounter(particles, candidates, k), into);
   };
-  clearContacts(contacts);
+  clear(contacts);
   contacts.period = candidates.period;
   if (threads() == 1 || listed <= grain) {
     visit(0, listed, contacts);

@@ -57,6 +57,9 @@ struct WallContacts {
   Vec3 shift(std::size_t c) const { return image.empty() ? Vec3{} : shiftOf(image[c], period); }
 };
 
+/// No contacts; what those of the last step remember stays.
+void clear(WallContacts& contacts);
+
 /// Contact point on the wall, m.
 inline Vec3 contactPoint(const WallContacts& contacts, const TriangulatedWall& wall, std::size_t c) {
   const auto& vertex = wall.facets[static_cast<std::size_t>(contacts.facet[c])];
