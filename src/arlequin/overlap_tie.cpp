@@ -152,12 +152,11 @@ void OverlapTie::Impl::comply(dem::Model& m) {
   std::vector<Vec3> onParticles(m.particles.size()), onNodes(nodes().v.size());
   pullParticles(parts.gap, overlap, impulses, onParticles);
   pullNodes(parts.gap, impulses, onNodes);
-  side.mass->solve(onNodes);
   for (const int i : overlap.particle) {
     const auto at = static_cast<std::size_t>(i);
     m.particles.v[at] += (1.0 / mass[at]) * onParticles[at];
   }
-  for (std::size_t n = 0; n < onNodes.size() && !loadsNobody; ++n) side.nodes().v[n] += onNodes[n];
+  if (!loadsNobody) side.kick(onNodes);
   lost += 0.5 * sumOfProducts(impulses, rate);
   complies = true;
 }

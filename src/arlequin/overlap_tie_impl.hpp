@@ -85,7 +85,7 @@ struct OverlapTie::Impl : TieState {
   void relocate(dem::Model& m);
   void handOver(dem::Model& m, std::size_t particle, double before, double after, const fem::CellPlace& place,
                 std::vector<Vec3>& impulse);
-  void kickNodes(dem::Model& m, std::span<const Vec3> impulse);
+  void kickNodes(std::span<const Vec3> impulse);
   void keepGap(const dem::Model& m);
   void weighPairs(dem::Model& m, std::span<const char> isMoved);
 };

@@ -101,6 +101,7 @@ void OverlapTie::Impl::findNear(const dem::Model& m) {
 }
 
 /// Mass that a share gains or loses comes and goes with the solid's velocity; the rest of its momentum is the nodes'.
+/// Its spin goes too, and the moment of that momentum about where the nodes take it.
 void OverlapTie::Impl::handOver(dem::Model& m, std::size_t i, double before, double after, const fem::CellPlace& place,
                                 std::vector<Vec3>& impulse) {
   const double mass = (before - after) * m.particles.mass[i];
@@ -109,28 +110,31 @@ void OverlapTie::Impl::handOver(dem::Model& m, std::size_t i, double before, dou
   Vec3 u;
   for (std::size_t a = 0; a < cell.node.size(); ++a)
     u += place.shape[a] * nodes().v[static_cast<std::size_t>(cell.node[a])];
-  for (std::size_t a = 0; a < cell.node.size(); ++a)
-    impulse[static_cast<std::size_t>(cell.node[a])] += (place.shape[a] * mass) * (m.particles.v[i] - u);
+  Vec3 angular = cross(m.particles.x[i], mass * m.particles.v[i]);
+  if (m.particles.rotates())
+    angular += ((before - after) * dem::momentOfInertia(m.particles, static_cast<int>(i))) * m.particles.omega[i];
+  for (std::size_t a = 0; a < cell.node.size(); ++a) {
+    const auto n = static_cast<std::size_t>(cell.node[a]);
+    const Vec3 part = (place.shape[a] * mass) * (m.particles.v[i] - u);
+    impulse[n] += part;
+    angular -= cross(nodes().X[n] + nodes().u[n], part);
+  }
   const double energy = (before - after) * ownKinetic(m.particles, i) - mass * dot(m.gravity, m.particles.x[i]);
   const bool leaves = mass > 0.0;
   dem::Exchanged& exchanged = leaves ? m.left : m.entered;
   const double sign = leaves ? 1.0 : -1.0;
   exchanged.mass += sign * mass;
   exchanged.momentum += (sign * mass) * u;
+  exchanged.angularMomentum += sign * angular;
   (leaves ? m.booked.left : m.booked.entered) += sign * energy;
+  m.particles.f[i] -= mass * m.gravity;  // all that it holds before forces are asked for
   m.particles.weight[i] = after;
 }
 
-/// What supports take of the impulse is booked as left.
-void OverlapTie::Impl::kickNodes(dem::Model& m, std::span<const Vec3> impulse) {
-  std::vector<Vec3> change(impulse.begin(), impulse.end());
-  side.mass->solve(change);
-  fem::Nodes& solid = side.nodes();
-  for (std::size_t n = 0; n < change.size(); ++n) {
-    lost -= dot(impulse[n], solid.v[n] + 0.5 * change[n]);
-    if (!loadsNobody) solid.v[n] += change[n];
-    m.left.momentum += impulse[n] - solid.mass[n] * change[n];
-  }
+void OverlapTie::Impl::kickNodes(std::span<const Vec3> impulse) {
+  if (loadsNobody) return;
+  const std::vector<Vec3> change = side.kick(impulse);
+  for (std::size_t n = 0; n < change.size(); ++n) lost -= dot(impulse[n], nodes().v[n] - 0.5 * change[n]);
 }
 
 /// Whatever the ties are now, the gap of the rows is what it was.
@@ -239,7 +243,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   for (const Change& change : changes)
     handOver(m, static_cast<std::size_t>(change.particle), change.before, change.found.weight, change.handedAt,
              impulse);
-  kickNodes(m, impulse);
+  kickNodes(impulse);
   stale = true;
   ready(m);
   keepGap(m);
