@@ -202,7 +202,21 @@ void OverlapTie::Impl::apply(dem::Model& m, const dem::Step& step) {
   }
 }
 
-/// λ at the end of a window, which acts in both half windows about it. Its work by the trapezoidal rule.
+/// Rate of the gap that impulses of the rows, N s, take away, m/s.
+std::vector<Vec3> OverlapTie::Impl::answered(const dem::Model& m, std::span<const Vec3> impulses) const {
+  const std::vector<double> mass = yieldingMasses(m);
+  std::vector<Vec3> onParticles(m.particles.size()), onNodes(nodes().v.size()), rate(parts.gap.rows());
+  pullParticles(parts.gap, overlap, impulses, onParticles);
+  pullNodes(parts.gap, impulses, onNodes);
+  side.mass->solve(onNodes);
+  for (std::size_t i = 0; i < onParticles.size(); ++i) onParticles[i] *= 1.0 / mass[i];
+  gapOf(parts.gap, overlap, onParticles, onNodes, rate);
+  for (Vec3& value : rate) value = -value;
+  return rate;
+}
+
+/// λ at the end of a window, which acts in both half windows about it: what it takes is the work of these two kicks
+/// against the means of the rates before and after each. At a start there is the second one only.
 void OverlapTie::Impl::evaluateWindow(const dem::Model& m, double half) {
   std::vector<Vec3> rate(now.size()), change(now.size()), damped(now.size());
   const std::vector<Vec3> none(now.size());
@@ -212,9 +226,14 @@ void OverlapTie::Impl::evaluateWindow(const dem::Model& m, double half) {
     damped[r] = lags ? 0.5 * (change[r] + windowIncrement[r]) : change[r];
   }
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
-  lambdaBefore = lambda;
   parts.constraint->evaluate({now, damped, rate, none, half}, lambda);
-  for (std::size_t r = 0; r < now.size(); ++r) lost += 0.5 * dot(lambda[r] + lambdaBefore[r], change[r]);
+  std::vector<Vec3> impulses = lambda;
+  for (Vec3& impulse : impulses) impulse *= half;
+  const double against = sumOfProducts(impulses, rate), own = sumOfProducts(impulses, answered(m, impulses));
+  const bool ends = windowTime && m.time > *windowTime;
+  if (ends) lost += openingWork + against - 0.5 * own;
+  openingWork = against - (ends ? 1.5 : 0.5) * own;
+  windowTime = m.time;
   atWindow = now;
   windowIncrement = std::move(change);
 }

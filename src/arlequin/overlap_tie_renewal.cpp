@@ -1,6 +1,7 @@
 // Particles that move through an overlap: ties are made anew, shares change hands, some come and some go.
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
@@ -62,11 +63,15 @@ void sortUnique(std::vector<int>& numbers) {
 }  // namespace
 
 double contactEnergy(const dem::Model& m) {
-  if (!m.laws || m.pairs.particles() != m.particles.size() || m.pairs.size() == 0) return 0.0;
+  if (!m.laws || m.pairs.particles() != m.particles.size()) return 0.0;
   constexpr double noTime = 1e-100;  // s: memories stay
-  dem::Particles particles = m.particles;
-  dem::PairList pairs = m.pairs;
-  return m.laws->pairs(particles, pairs, noTime, dem::Booking::on).storedEnergy();
+  dem::Model copy = m;
+  copy.step = {.time = m.time, .dt = noTime, .moved = std::numeric_limits<double>::infinity(), .timeless = true};
+  copy.work = copy.laws->pairs(copy.particles, copy.pairs, noTime, dem::Booking::on);
+  for (const auto& term : copy.terms)
+    if (term->order() == dem::Term::Order::forces && !dynamic_cast<const OverlapTie*>(term.get()))
+      term->addForces(copy, copy.step);
+  return copy.work.storedEnergy();
 }
 
 /// Bounds on how far particles have moved relative to the solid since ties and neighbours were looked at.
@@ -144,6 +149,16 @@ void OverlapTie::Impl::keepGap(const dem::Model& m) {
   storedNow = parts.constraint->storedEnergy(now);
 }
 
+/// Where all particles have been located anew, none has moved from its material point: there is no gap, whose part from
+/// old ties would not turn with the solid. Increments go on from what they were.
+void OverlapTie::Impl::startGapAnew(const dem::Model& m) {
+  const std::vector<Vec3> before = std::exchange(now, freshGap(m));
+  for (std::size_t r = 0; r < now.size(); ++r) {
+    kept[r] = {};
+    atWindow[r] += now[r] - before[r];
+  }
+}
+
 void OverlapTie::Impl::weighPairs(dem::Model& m, std::span<const char> isMoved) {
   shares.forget(isMoved);
   const std::span<double> factors = m.pairs.writeFactors();
@@ -188,12 +203,13 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     const auto at = static_cast<std::size_t>(i);
     return locator.find(m.particles.x[at], m.particles.radius[at]);
   };
+  const double stays = turnsGap() ? 0.5 * slipLength() : 0.0;  // m: shorter ones are left as they are
   std::vector<double> slips(overlap.size(), 0.0);
   std::vector<FoundParticle> again(overlap.size()), arrived(near.size());
   parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (overlap.place[k].element >= 0) slips[k] = norm(displacement(m, k) - atMember(k, nodes().u));
-      if (slips[k] > 0.5 * slipLength()) again[k] = findAgain(overlap.particle[k]);
+      if (slips[k] > stays) again[k] = findAgain(overlap.particle[k]);
     }
   });
   parallelFor(near.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -203,7 +219,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   for (std::size_t k = 0; k < overlap.size(); ++k) {
     const int i = overlap.particle[k];
     const auto at = static_cast<std::size_t>(i);
-    if (slips[k] <= 0.5 * slipLength()) {
+    if (slips[k] <= stays) {
       memberTravel = std::max(memberTravel, slips[k]);
       add(i, {overlap.place[k], overlap.x[k], overlap.weight[k]}, overlap.x[k], part[k]);
       continue;
@@ -214,9 +230,9 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
       beyond.push_back(i);
       continue;
     }
-    const bool stays = found.place.element >= 0;
-    changes.push_back({i, overlap.weight[k], found, stays ? found.place : overlap.place[k]});
-    if (stays) add(i, found, materialOf(found), partTowards(part[k], found.weight));
+    const bool isTied = found.place.element >= 0;
+    changes.push_back({i, overlap.weight[k], found, isTied ? found.place : overlap.place[k]});
+    if (isTied) add(i, found, materialOf(found), partTowards(part[k], found.weight));
   }
   for (std::size_t k = 0; k < near.size(); ++k) {
     const int i = near[k];
@@ -246,7 +262,10 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   kickNodes(impulse);
   stale = true;
   ready(m);
-  keepGap(m);
+  if (turnsGap())
+    keepGap(m);
+  else
+    startGapAnew(m);
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, increment);  // of the step, as the new ties see it
   for (Vec3& change : increment) change *= m.step.dt;
   if (!parts.constraint->needsRates() && !actsInWindows())
