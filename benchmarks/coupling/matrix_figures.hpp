@@ -12,9 +12,11 @@ namespace dovetail::coupling_matrix {
 inline constexpr std::array<double, 3> shares{0.04, 0.02, 0.01};
 
 struct Figures {
-  std::string refused;              ///< why the combination cannot be; empty: it can, and what follows is measured
-  double dt = 0.0;                  ///< s, of the second share
-  std::array<double, 3> energy{};   ///< largest residual of the ledger over the energy turned over, by shares
+  std::string refused;  ///< why the combination cannot be; empty: it can, and what follows is measured
+  double dt = 0.0;      ///< s, of the second share
+  /// Residual of the ledger over the energy turned over, by shares: the median of ten looks in a run.
+  std::array<double, 3> energy{};
+  double largestEnergy = 0.0;       ///< the largest of these looks
   std::array<double, 3> angular{};  ///< residual of angular momentum over the moments of all impulses, by shares
   double momentum = 0.0;            ///< residual over the magnitudes of all impulses
   double mass = 0.0;                ///< residual over the mass
@@ -27,7 +29,8 @@ struct Figures {
   double angularOrder() const;  ///< the same
 };
 
-/// @param steps  of the particles at the second share; the others go on for the same time
+/// @param steps  of the particles at the second share, a multiple of 80; the others go on for the same time
+/// @throws InputError for another number of steps
 Figures measure(const Case& c, int steps);
 
 /// What is asked of a case: empty, or what falls short.

@@ -20,6 +20,7 @@ Json entryOf(const Row& row) {
   entry["dt_s"] = f.dt;
   for (std::size_t k = 0; k < shares.size(); ++k)
     entry[format("energy_at_%g", shares[k])] = benchmark::numberOrNull(f.energy[k]);
+  entry["largest_energy"] = f.largestEnergy;
   entry["energy_order"] = benchmark::numberOrNull(f.energyOrder());
   entry["momentum"] = f.momentum;
   for (std::size_t k = 0; k < shares.size(); ++k)
@@ -47,7 +48,7 @@ struct Worst {
       return;
     }
     if (!shortfall(row.c, f).empty()) ++shortOf;
-    energy = std::max(energy, f.energy[1]);
+    energy = std::max(energy, f.largestEnergy);
     order = std::min(order, f.energyOrder());
     momentum = std::max(momentum, f.momentum);
     double& angular = row.c.isImplicit() ? angularImplicit : angularExplicit;

@@ -143,7 +143,7 @@ void OverlapTie::Impl::slip() {
     }
 }
 
-/// The impulses of multipliers that take the rate of the gap away at the start.
+/// The impulses of multipliers that take the rate of the gap away, at the start and where ties have been made anew.
 void OverlapTie::Impl::comply(dem::Model& m) {
   std::vector<Vec3> rate(parts.gap.rows()), none(rate.size()), impulses(rate.size());
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);

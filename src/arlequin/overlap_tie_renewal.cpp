@@ -266,6 +266,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     keepGap(m);
   else
     startGapAnew(m);
+  if (setting.options.constraint == ConstraintKind::multiplier) comply(m);
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, increment);  // of the step, as the new ties see it
   for (Vec3& change : increment) change *= m.step.dt;
   if (!parts.constraint->needsRates() && !actsInWindows())

@@ -28,7 +28,7 @@ TEST(Cases, OfThePairwiseSetHoldEveryPair) {
 class Matrix : public testing::TestWithParam<Case> {};
 
 TEST_P(Matrix, TheBooksCloseAndDigitsStay) {
-  const Figures figures = measure(GetParam(), 200);
+  const Figures figures = measure(GetParam(), 160);
   EXPECT_EQ(figures.refused, "");
   EXPECT_EQ(shortfall(GetParam(), figures), "");
 }
