@@ -13,8 +13,8 @@ namespace dovetail::coupling_matrix {
 /// that times and densities stay: a scene of another length is the same scene.
 struct Placement {
   double length = 1.0;
-  Quaternion turn;
-  Vec3 shift;  ///< m, after the turn
+  Quaternion turn{};
+  Vec3 shift{};  ///< m, after the turn
   /// The solid's reference stays where it is and its nodes are displaced; else its reference is laid there too.
   bool byDisplacement = false;
 
