@@ -1,6 +1,7 @@
 // A scene is the same scene wherever it is laid: turned, far from the origin, small and large.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
@@ -51,11 +52,12 @@ protected:
     run->advance(windows);
     return places(*run, at);
   }
-  static std::vector<Vec3> atRest(const Case& c, const Placement& at) {
+  /// From rest, loaded by weight, stopped at every peak of the kinetic energy: far on the way to rest.
+  static std::vector<Vec3> loaded(const Case& c, const Placement& at) {
     const auto run = makeScene(c, at);
+    std::ranges::fill(run->grains.particles.v, Vec3{});
     startAt(*run, c, 0.2);
-    const coupling::RestReport report = settle(*run, {.kinetic = 1e-6, .windows = 20000});
-    EXPECT_TRUE(report.atRest) << report.kinetic;
+    EXPECT_GT(settle(*run, {.windows = c.joint == Joint::surface ? 150 : 500}).stops, 0);
     return places(*run, at);
   }
 };
@@ -68,10 +70,9 @@ TEST_P(Frames, ShortRunsAreTheSame) {
   }
 }
 
-/// At rest under gravity, friction and all, or nearly: runs on the way there part by round-off.
-TEST_P(Frames, ScenesComeToTheSameRest) {
+TEST_P(Frames, ScenesUnderWeightAreTheSame) {
   const Case c = scene(Windows::explicit1);
-  EXPECT_LE(largestDifference(atRest(c, {}), atRest(c, frame().at)), 1e3 * frame().tolerance * element);
+  EXPECT_LE(largestDifference(loaded(c, {}), loaded(c, frame().at)), 10.0 * frame().tolerance * element);
 }
 
 std::vector<Frame> frames() {
