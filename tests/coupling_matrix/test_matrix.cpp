@@ -33,6 +33,16 @@ TEST_P(Matrix, TheBooksCloseAndDigitsStay) {
   EXPECT_EQ(shortfall(GetParam(), figures), "");
 }
 
+/// Runs in which particles are located anew: shares of contacts at walls change with those of the particles.
+TEST(MatrixLong, TheBooksCloseWhereTiesAreMadeAnew) {
+  for (const Windows windows : {Windows::explicit1, Windows::implicit1})
+    for (const Joint joint : {Joint::penalty, Joint::multipliers}) {
+      const Case c{Element::hex8, SolidLaw::stVenantKirchhoff, joint, ContactKind::hertzMindlin, windows};
+      const Figures figures = measure(c, 640);
+      EXPECT_EQ(shortfall(c, figures), "") << nameOf(c);
+    }
+}
+
 std::string testName(const testing::TestParamInfo<Case>& c) {
   std::string name = nameOf(c.param);
   std::erase(name, '-');
