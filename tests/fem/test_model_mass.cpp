@@ -117,7 +117,7 @@ TEST(ModelMass, MomentaChangeByLoadAndSupports) {
       dofs.applyAcceleration(1.0, dt, a);
       mass.accelerate(f, a);
       const std::vector<Vec3> before = model.nodes.v;
-      const Momenta start = momentaOf(model.nodes, mass), load = dt * detail::momentaOf(model.nodes, f);
+      const Momenta start = momentaOf(model.nodes, mass), load = dt * momentaOf(model.nodes, f);
       for (std::size_t n = 0; n < a.size(); ++n) model.nodes.v[n] += dt * a[n];
       const SupportKick supports = supportKick(model.nodes, mass, before, f, dt);
       const Momenta left = momentaOf(model.nodes, mass) - start - load - supports.impulse;

@@ -89,7 +89,7 @@ bool BookedMotion::halfKick(double h, double time, bool books) {
 void BookedMotion::giveImpulses(double h, bool changes) {
   const Model& model = motion.model();
   if (outside_.empty()) {
-    for (const std::vector<Vec3>& load : motion.loads()) outside_.push_back(detail::momentaOf(model.nodes, load));
+    for (const std::vector<Vec3>& load : motion.loads()) outside_.push_back(momentaOf(model.nodes, load));
   }
   for (std::size_t k = 0; k < outside_.size(); ++k)
     if (!motion.loads()[k].empty() && !detail::isElements(*model.terms[k]))

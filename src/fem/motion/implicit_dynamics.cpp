@@ -97,7 +97,7 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
       mean.u.push_back(0.5 * (solver.startDisplacement()[k] + model.nodes.u[k]));
     for (std::size_t k = 0; k < model.terms.size(); ++k)
       if (!detail::isElements(*model.terms[k]))
-        impulses.give(model.terms[k]->name(), h * detail::momentaOf(mean, solver.meanLoad(k)));
+        impulses.give(model.terms[k]->name(), h * momentaOf(mean, solver.meanLoad(k)));
     // Ties pull at their masters; through a mass that is not lumped, prescribed motion pulls at its neighbours.
     const bool everyRow = dofs.hasTies() || (dofs.hasMotion() && !mass.isDiagonal());
     Momenta supports;

@@ -47,7 +47,13 @@ SupportKick supportKick(const Nodes& nodes, const ModelMass& mass, std::span<con
 Momenta momentaOf(const Nodes& nodes, const ModelMass& mass) {
   std::vector<Vec3> momentum(nodes.v.size());
   mass.multiply(nodes.v, momentum);
-  return detail::momentaOf(nodes, momentum);
+  return momentaOf(nodes, momentum);
+}
+
+Momenta momentaOf(const Nodes& nodes, std::span<const Vec3> force) {
+  Momenta sum;
+  for (std::size_t n = 0; n < force.size(); ++n) sum.add(nodes.X[n] + nodes.u[n], force[n]);
+  return sum;
 }
 
 }  // namespace dovetail::fem

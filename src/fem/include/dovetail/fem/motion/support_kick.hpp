@@ -29,14 +29,7 @@ SupportKick supportKick(const Nodes& nodes, const ModelMass& mass, std::span<con
 
 /// Momentum and angular momentum with the mass in use.
 Momenta momentaOf(const Nodes& nodes, const ModelMass& mass);
-
-namespace detail {
-/// Of forces on the nodes at their present places, N and N m.
-inline Momenta momentaOf(const Nodes& nodes, std::span<const Vec3> force) {
-  Momenta sum;
-  for (std::size_t n = 0; n < force.size(); ++n) sum.add(nodes.X[n] + nodes.u[n], force[n]);
-  return sum;
-}
-}  // namespace detail
+/// Sum of forces on the nodes, N, or impulses, and of their moments at the present places.
+Momenta momentaOf(const Nodes& nodes, std::span<const Vec3> force);
 
 }  // namespace dovetail::fem
