@@ -74,6 +74,20 @@ double orderOf(const std::array<double, 3>& errors) {
 double Figures::energyOrder() const { return orderOf(energy); }
 double Figures::angularOrder() const { return orderOf(angular); }
 
+namespace {
+void measureAll(const Case& c, int steps, Figures& figures) {
+  for (std::size_t k = 0; k < shares.size(); ++k) measureShare(c, k, steps, figures);
+  const int half = windowsOf(c, shares[1], steps) / 2;
+  const std::vector<char> one = stateAfter(c, half, 1);
+  figures.threads = one == stateAfter(c, half, 2);
+  const auto first = started(c, shares[1]), second = started(c, shares[1]);
+  first->advance(half);
+  second->load(first->save());
+  for (const auto& run : {first.get(), second.get()}) run->advance(half / 2);
+  figures.restart = first->save() == second->save();
+}
+}  // namespace
+
 Figures measure(const Case& c, int steps) {
   // Whole windows of four steps between looks, at the coarsest share too.
   const int unit = samples * 4 * static_cast<int>(std::lround(shares[0] / shares[1]));
@@ -88,21 +102,18 @@ Figures measure(const Case& c, int steps) {
     figures.refused = error.what();
     return figures;
   }
-  for (std::size_t k = 0; k < shares.size(); ++k) measureShare(c, k, steps, figures);
-  const int half = windowsOf(c, shares[1], steps) / 2;
-  const std::vector<char> one = stateAfter(c, half, 1);
-  figures.threads = one == stateAfter(c, half, 2);
-  const auto first = started(c, shares[1]), second = started(c, shares[1]);
-  first->advance(half);
-  second->load(first->save());
-  for (const auto& run : {first.get(), second.get()}) run->advance(half / 2);
-  figures.restart = first->save() == second->save();
+  try {
+    measureAll(c, steps, figures);
+  } catch (const NumericalError& error) {
+    figures.broke = error.what();
+  }
   figures.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return figures;
 }
 
 std::string shortfall(const Case& c, const Figures& figures) {
   if (!figures.refused.empty()) return {};
+  if (!figures.broke.empty()) return "breaks down: " + figures.broke;
   std::string text;
   const auto ask = [&](bool holds, const char* what) {
     if (!holds) text += (text.empty() ? "" : ", ") + std::string(what);

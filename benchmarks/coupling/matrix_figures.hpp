@@ -13,6 +13,7 @@ inline constexpr std::array<double, 3> shares{0.04, 0.02, 0.01};
 
 struct Figures {
   std::string refused;  ///< why the combination cannot be; empty: it can, and what follows is measured
+  std::string broke{};  ///< what the run broke down with; empty: it did not
   double dt = 0.0;      ///< s, of the second share
   /// Residual of the ledger over the energy turned over, by shares: the median of ten looks in a run.
   std::array<double, 3> energy{};

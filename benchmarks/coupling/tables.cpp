@@ -48,6 +48,7 @@ struct Worst {
       return;
     }
     if (!shortfall(row.c, f).empty()) ++shortOf;
+    if (!f.broke.empty()) return;
     energy = std::max(energy, f.largestEnergy);
     order = std::min(order, f.energyOrder());
     momentum = std::max(momentum, f.momentum);
