@@ -16,12 +16,6 @@ namespace {
 
 constexpr std::size_t grain = 256;
 
-double sumOfProducts(std::span<const Vec3> a, std::span<const Vec3> b) {
-  double sum = 0.0;
-  for (std::size_t r = 0; r < a.size(); ++r) sum += dot(a[r], b[r]);
-  return sum;
-}
-
 }  // namespace
 
 void OverlapTie::Impl::number(const dem::Particles& particles) {
@@ -71,7 +65,7 @@ void OverlapTie::Impl::advance(const dem::Model& m) {
   advanced = true;
 }
 
-/// The impulses of multipliers that take the rate of the gap away at the start.
+/// The impulses of multipliers that take the rate of the gap away, at the start and where ties have been made anew.
 void OverlapTie::Impl::comply(dem::Model& m) {
   std::vector<Vec3> rate(parts.gap.rows()), none(rate.size()), impulses(rate.size());
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
@@ -80,12 +74,11 @@ void OverlapTie::Impl::comply(dem::Model& m) {
   std::vector<Vec3> onParticles(m.particles.size()), onNodes(nodes().v.size());
   pullParticles(parts.gap, overlap, impulses, onParticles);
   pullNodes(parts.gap, impulses, onNodes);
-  side.mass->solve(onNodes);
   for (const int i : overlap.particle) {
     const auto at = static_cast<std::size_t>(i);
     m.particles.v[at] += (1.0 / mass[at]) * onParticles[at];
   }
-  for (std::size_t n = 0; n < onNodes.size() && !loadsNobody; ++n) side.nodes().v[n] += onNodes[n];
+  if (!loadsNobody) side.kick(onNodes);
   lost += 0.5 * sumOfProducts(impulses, rate);
   complies = true;
 }
@@ -143,23 +136,6 @@ void OverlapTie::Impl::apply(dem::Model& m, const dem::Step& step) {
     if (x.empty()) x = positions();
     RowSpin(parts.gap, r, x).addForces(-cross(kept[r], lambda[r]), side.load);
   }
-}
-
-/// λ at the end of a window, which acts in both half windows about it. Its work by the trapezoidal rule.
-void OverlapTie::Impl::evaluateWindow(const dem::Model& m, double half) {
-  std::vector<Vec3> rate(now.size()), change(now.size()), damped(now.size());
-  const std::vector<Vec3> none(now.size());
-  const bool lags = setting.options.dashpotLags;
-  for (std::size_t r = 0; r < now.size(); ++r) {
-    change[r] = now[r] - atWindow[r];
-    damped[r] = lags ? 0.5 * (change[r] + windowIncrement[r]) : change[r];
-  }
-  gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
-  lambdaBefore = lambda;
-  parts.constraint->evaluate({now, damped, rate, none, half}, lambda);
-  for (std::size_t r = 0; r < now.size(); ++r) lost += 0.5 * dot(lambda[r] + lambdaBefore[r], change[r]);
-  atWindow = now;
-  windowIncrement = std::move(change);
 }
 
 OverlapTie::OverlapTie(coupling::SolidSide& side) : Connector(side), impl_(std::make_unique<Impl>(side)) {}
@@ -223,26 +199,6 @@ void OverlapTie::book(dem::Model& m, const dem::Step& step) {
 double OverlapTie::move(dem::Model&, const dem::Step& step) {
   impl_->absorbed += 0.5 * step.dt * impl_->power;
   return 0.0;
-}
-
-void OverlapTie::constrainWindow(const dem::Model& m, std::span<const Vec3> ownForce, double half,
-                                 std::span<Vec3> onParticles, coupling::NodalLoad& load) const {
-  if (!constrains()) return;
-  Impl& s = *impl_;
-  s.ready(m);
-  std::vector<Vec3> lambda(s.parts.gap.rows());
-  if (s.actsInWindows()) {
-    s.evaluateWindow(m, half);
-    lambda = s.lambda;
-  } else {
-    const std::vector<Vec3> still(s.overlap.size()), none(lambda.size());
-    std::vector<Vec3> ofNodes(ownForce.begin(), ownForce.end()), acceleration(lambda.size());
-    side().mass->solve(ofNodes);
-    gapOfMembers(s.parts.gap, still, ofNodes, acceleration);
-    s.parts.constraint->evaluate({s.now, none, none, acceleration, half}, lambda);
-  }
-  pullParticles(s.parts.gap, s.overlap, lambda, onParticles);
-  s.loadNodes(lambda, load);
 }
 
 void OverlapTie::addStiffness(const dem::Model& m, std::span<const Vec3> particles, std::span<const Vec3> nodes,

@@ -1,6 +1,8 @@
 // The state of an overlap tie.
 #pragma once
 
+#include <optional>
+
 #include "dovetail/arlequin/overlap_tie.hpp"
 #include "overlap_locator.hpp"
 #include "pair_shares.hpp"
@@ -23,6 +25,8 @@ struct TieState {
   std::vector<Vec3> now, increment;        // the gap, and of the last step, m
   std::vector<Vec3> atWindow;              // the gap at the last end of a window, m, of ties that act there
   std::vector<Vec3> windowIncrement;       // of the window that ended there, m
+  std::optional<double> windowTime;        // of that end, s
+  double openingWork = 0.0;                // that the first half window's kick from there on takes, J
   std::vector<Vec3> lambda, lambdaBefore;  // N
   std::vector<int> rowNode;                // to which the arrays above belong
   std::vector<Vec3> nodesBefore;           // u at the last evaluation, m
@@ -89,18 +93,26 @@ struct OverlapTie::Impl : TieState {
   void apply(dem::Model& m, const dem::Step& step);
   void loadNodes(std::span<const Vec3> forces, coupling::NodalLoad& load) const;
   void evaluateWindow(const dem::Model& m, double half);
+  std::vector<Vec3> answered(const dem::Model& m, std::span<const Vec3> impulses) const;
 
   void watch(dem::Model& m, const dem::Step& step);
   void findNear(const dem::Model& m);
   void relocate(dem::Model& m);
   void handOver(dem::Model& m, std::size_t particle, double before, double after, const fem::CellPlace& place,
                 std::vector<Vec3>& impulse);
-  void kickNodes(dem::Model& m, std::span<const Vec3> impulse);
+  void kickNodes(std::span<const Vec3> impulse);
   void keepGap(const dem::Model& m);
+  void startGapAnew(const dem::Model& m);
   void weighPairs(dem::Model& m, std::span<const char> isMoved);
 };
 
-/// J that the contacts of the list store now. @param m  left as it is
+inline double sumOfProducts(std::span<const Vec3> a, std::span<const Vec3> b) {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < a.size(); ++r) sum += dot(a[r], b[r]);
+  return sum;
+}
+
+/// J that all contacts store now: of the list, at walls and surfaces, and bonds. @param m  left as it is
 double contactEnergy(const dem::Model& m);
 
 }  // namespace dovetail::arlequin

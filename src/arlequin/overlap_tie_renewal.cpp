@@ -1,6 +1,7 @@
 // Particles that move through an overlap: ties are made anew, shares change hands, some come and some go.
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
@@ -40,12 +41,6 @@ double largestSpeed(std::span<const Vec3> v, const Vec3& frame) {
   });
 }
 
-double ownKinetic(const dem::Particles& p, std::size_t i) {
-  double energy = p.mass[i] * squaredNorm(p.v[i]);
-  if (p.rotates()) energy += dem::momentOfInertia(p, static_cast<int>(i)) * squaredNorm(p.omega[i]);
-  return 0.5 * energy;
-}
-
 /// The part of a particle in the rows after it was located anew: those who come and go do so by and by, so that λ does
 /// not jump.
 double partTowards(double before, double weight) {
@@ -60,14 +55,6 @@ void sortUnique(std::vector<int>& numbers) {
 }
 
 }  // namespace
-
-double contactEnergy(const dem::Model& m) {
-  if (!m.laws || m.pairs.particles() != m.particles.size() || m.pairs.size() == 0) return 0.0;
-  constexpr double noTime = 1e-100;  // s: memories stay
-  dem::Particles particles = m.particles;
-  dem::PairList pairs = m.pairs;
-  return m.laws->pairs(particles, pairs, noTime, dem::Booking::on).storedEnergy();
-}
 
 /// Bounds on how far particles have moved relative to the solid since ties and neighbours were looked at.
 void OverlapTie::Impl::watch(dem::Model& m, const dem::Step& step) {
@@ -98,58 +85,6 @@ void OverlapTie::Impl::findNear(const dem::Model& m) {
       near.push_back(static_cast<int>(i));
   farTravel = 0.0;
   knownIds = m.particles.nextId;
-}
-
-/// Mass that a share gains or loses comes and goes with the solid's velocity; the rest of its momentum is the nodes'.
-void OverlapTie::Impl::handOver(dem::Model& m, std::size_t i, double before, double after, const fem::CellPlace& place,
-                                std::vector<Vec3>& impulse) {
-  const double mass = (before - after) * m.particles.mass[i];
-  if (mass == 0.0) return;
-  const Cell cell = cellOf(setting.mesh, place.element);
-  Vec3 u;
-  for (std::size_t a = 0; a < cell.node.size(); ++a)
-    u += place.shape[a] * nodes().v[static_cast<std::size_t>(cell.node[a])];
-  for (std::size_t a = 0; a < cell.node.size(); ++a)
-    impulse[static_cast<std::size_t>(cell.node[a])] += (place.shape[a] * mass) * (m.particles.v[i] - u);
-  const double energy = (before - after) * ownKinetic(m.particles, i) - mass * dot(m.gravity, m.particles.x[i]);
-  const bool leaves = mass > 0.0;
-  dem::Exchanged& exchanged = leaves ? m.left : m.entered;
-  const double sign = leaves ? 1.0 : -1.0;
-  exchanged.mass += sign * mass;
-  exchanged.momentum += (sign * mass) * u;
-  (leaves ? m.booked.left : m.booked.entered) += sign * energy;
-  m.particles.weight[i] = after;
-}
-
-/// What supports take of the impulse is booked as left.
-void OverlapTie::Impl::kickNodes(dem::Model& m, std::span<const Vec3> impulse) {
-  std::vector<Vec3> change(impulse.begin(), impulse.end());
-  side.mass->solve(change);
-  fem::Nodes& solid = side.nodes();
-  for (std::size_t n = 0; n < change.size(); ++n) {
-    lost -= dot(impulse[n], solid.v[n] + 0.5 * change[n]);
-    if (!loadsNobody) solid.v[n] += change[n];
-    m.left.momentum += impulse[n] - solid.mass[n] * change[n];
-  }
-}
-
-/// Whatever the ties are now, the gap of the rows, or their λ, is what it was.
-void OverlapTie::Impl::keepGap(const dem::Model& m) {
-  if (keepsForces()) cg::apply(parts.gap.particles, motionUnder(lambda), now);
-  const std::vector<Vec3> fresh = freshGap(m);
-  for (std::size_t r = 0; r < fresh.size(); ++r) kept[r] = now[r] - fresh[r];
-  storedNow = parts.constraint->storedEnergy(now);
-}
-
-void OverlapTie::Impl::weighPairs(dem::Model& m, std::span<const char> isMoved) {
-  shares.forget(isMoved);
-  const std::span<double> factors = m.pairs.writeFactors();
-  for (std::size_t p = 0; p < m.pairs.size(); ++p) {
-    const auto i = static_cast<std::size_t>(m.pairs.pairs()[p][0]), j = static_cast<std::size_t>(m.pairs.pairs()[p][1]);
-    if ((isMoved[i] || isMoved[j]) && factors[p] != 0.0)
-      factors[p] = 0.5 * (m.particles.weightOf(i) + m.particles.weightOf(j));
-  }
-  shares.update(m.particles, m.pairs, setting.mesh, overlap, positions(), memberOf);
 }
 
 void OverlapTie::Impl::relocate(dem::Model& m) {
@@ -185,12 +120,13 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     const auto at = static_cast<std::size_t>(i);
     return locator.find(m.particles.x[at], m.particles.radius[at]);
   };
+  const double stays = turnsGap() ? 0.5 * slipLength() : 0.0;  // m: shorter ones are left as they are
   std::vector<double> slips(overlap.size(), 0.0);
   std::vector<FoundParticle> again(overlap.size()), arrived(near.size());
   parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (overlap.place[k].element >= 0) slips[k] = norm(displacement(m, k) - atMember(k, nodes().u));
-      if (slips[k] > 0.5 * slipLength()) again[k] = findAgain(overlap.particle[k]);
+      if (slips[k] > stays) again[k] = findAgain(overlap.particle[k]);
     }
   });
   parallelFor(near.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -200,7 +136,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   for (std::size_t k = 0; k < overlap.size(); ++k) {
     const int i = overlap.particle[k];
     const auto at = static_cast<std::size_t>(i);
-    if (slips[k] <= 0.5 * slipLength()) {
+    if (slips[k] <= stays) {
       memberTravel = std::max(memberTravel, slips[k]);
       add(i, {overlap.place[k], overlap.x[k], overlap.weight[k]}, overlap.x[k], part[k]);
       continue;
@@ -211,9 +147,9 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
       beyond.push_back(i);
       continue;
     }
-    const bool stays = found.place.element >= 0;
-    changes.push_back({i, overlap.weight[k], found, stays ? found.place : overlap.place[k]});
-    if (stays) add(i, found, materialOf(found), partTowards(part[k], found.weight));
+    const bool isTied = found.place.element >= 0;
+    changes.push_back({i, overlap.weight[k], found, isTied ? found.place : overlap.place[k]});
+    if (isTied) add(i, found, materialOf(found), partTowards(part[k], found.weight));
   }
   for (std::size_t k = 0; k < near.size(); ++k) {
     const int i = near[k];
@@ -240,11 +176,15 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   for (const Change& change : changes)
     handOver(m, static_cast<std::size_t>(change.particle), change.before, change.found.weight, change.handedAt,
              impulse);
-  kickNodes(m, impulse);
+  kickNodes(impulse);
   if (keepsForces()) parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
   stale = true;
   ready(m);
-  keepGap(m);
+  if (turnsGap())
+    keepGap(m);
+  else
+    startGapAnew(m);
+  if (setting.options.constraint == ConstraintKind::multiplier) comply(m);
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, increment);  // of the step, as the new ties see it
   for (Vec3& change : increment) change *= m.step.dt;
   if (!parts.constraint->needsRates() && !actsInWindows())

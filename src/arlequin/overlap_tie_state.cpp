@@ -34,7 +34,7 @@ void OverlapTie::save(ByteWriter& writer) const {
          s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
          s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
   writer(s.part, s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies,
-         s.windowIncrement, s.atWindow, s.absorbed);
+         s.windowIncrement, s.atWindow, s.windowTime, s.openingWork, s.absorbed);
 }
 
 void OverlapTie::load(ByteReader& reader) {
@@ -45,7 +45,7 @@ void OverlapTie::load(ByteReader& reader) {
          s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
          s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
   reader(s.part, s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies,
-         s.windowIncrement, s.atWindow, s.absorbed);
+         s.windowIncrement, s.atWindow, s.windowTime, s.openingWork, s.absorbed);
   s.overlap.place.assign(element.size(), {});
   for (std::size_t k = 0; k < element.size(); ++k)
     if (element[k] >= 0)

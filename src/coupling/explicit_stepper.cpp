@@ -3,6 +3,7 @@
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/motion/booked_motion.hpp"
+#include "dovetail/fem/motion/support_kick.hpp"
 #include "solid_stepper.hpp"
 
 namespace dovetail::coupling {
@@ -30,15 +31,16 @@ public:
 
   void kickByLoad() override {
     if (K_ == 1 || side.load.touched.empty()) return;
-    if (!solid_->supportsMove()) return push();
-    const std::vector<Vec3> before = model_->nodes.v;
-    const double kinetic = solid_->motion.kineticEnergy();
     push();
-    solid_->book.spend("supports",
-                       kinetic - solid_->motion.kineticEnergy() + solid_->workInHalfKick(side.load.force, before, dt_));
   }
 
-  void drift() override { solid_->motion.drift(dt_); }
+  /// Prescribed paths leave the mean velocity of their window at its inner steps: supports carry the nodes there.
+  void drift() override {
+    if (K_ == 1 || !solid_->supportsMove()) return solid_->motion.drift(dt_);
+    const Momenta before = fem::momentaOf(model_->nodes, *side.mass);
+    solid_->motion.drift(dt_);
+    side.outside.give("supports", fem::momentaOf(model_->nodes, *side.mass) - before);
+  }
   void jump() override {}
 
   void findForces(bool sampled) override {
@@ -80,25 +82,29 @@ public:
   }
 
   void save(ByteWriter& archive) override {
-    archive(impulse, added_);
+    archive(loads.given, loads.turnedOver, loads.turnedOverAngular, added_);
     solid_->save(archive, "coupled explicit");
   }
   std::shared_ptr<SavedSolid> read(ByteReader& archive) const override {
     auto state = std::make_shared<Saved>();
-    archive(state->impulse, state->added);
+    archive(state->loads.given, state->loads.turnedOver, state->loads.turnedOverAngular, state->added);
     state->state = solid_->read(archive, "coupled explicit");
     return state;
   }
   void adopt(SavedSolid& state) override {
     auto& saved = dynamic_cast<Saved&>(state);
     solid_->adopt(*saved.state);
-    impulse = saved.impulse;
+    loads = std::move(saved.loads);
     added_ = saved.added;
   }
 
+protected:
+  const ImpulseBook& ownImpulses() const override { return solid_->impulses; }
+
 private:
   struct Saved final : SavedSolid {
-    Vec3 impulse, added;
+    ImpulseBook::Channel loads{"connectors", {}};
+    Momenta added;
     std::shared_ptr<fem::BookedMotion::State> state;
   };
 
@@ -106,7 +112,7 @@ private:
   void showOwn() { side.own = K_ == 1 ? std::span<const Vec3>(model_->nodes.f) : std::span<const Vec3>(); }
 
   void addToOwn(const NodalLoad& load) {
-    added_ += totalOf(load);
+    added_ += totalOf(load, model_->nodes);
     for (const int node : load.touched) {
       const auto n = static_cast<std::size_t>(node);
       model_->nodes.f[n] += load.force[n];
@@ -114,17 +120,17 @@ private:
   }
 
   void halfKick(double time) {
-    impulse += 0.5 * window() * added_;
+    loads.give(0.5 * window() * added_);
     if (!solid_->halfKick(window(), time, true))
       requireFinite(model_->nodes.v, "node", "velocity", side.name + ", t = " + formatNumber(model_->t) + " s");
   }
 
   void push() {
     if (side.mass->isDiagonal()) return kickTouched(side.load, 0.5 * dt_);
-    impulse += 0.5 * dt_ * totalOf(side.load);
-    acceleration_ = side.load.force;
-    side.mass->solve(acceleration_);
-    solid_->motion.kick(acceleration_, 0.5 * dt_);
+    loads.give(0.5 * dt_ * totalOf(side.load, model_->nodes));
+    std::vector<Vec3> given = side.load.force;
+    for (Vec3& value : given) value *= 0.5 * dt_;
+    side.kick(given);
   }
 
   /// Without what constraints answer to them.
@@ -156,8 +162,8 @@ private:
 
   std::optional<fem::BookedMotion> solid_;
   bool sampled_ = true;
-  Vec3 added_;  // N: loads among the own forces
-  std::vector<Vec3> acceleration_, uBefore_, forceBefore_;
+  Momenta added_;  // N, N m: loads among the own forces
+  std::vector<Vec3> uBefore_, forceBefore_;
 };
 
 }  // namespace

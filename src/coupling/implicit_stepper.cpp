@@ -43,23 +43,26 @@ public:
   void save(ByteWriter& archive) override {
     ByteWriter own;
     solid_->save(own);
-    archive(impulse, own.bytes());
+    archive(loads.given, loads.turnedOver, loads.turnedOverAngular, own.bytes());
   }
   std::shared_ptr<SavedSolid> read(ByteReader& archive) const override {
     auto state = std::make_shared<Saved>();
-    archive(state->impulse, state->bytes);
+    archive(state->loads.given, state->loads.turnedOver, state->loads.turnedOverAngular, state->bytes);
     return state;
   }
   void adopt(SavedSolid& state) override {
     auto& saved = dynamic_cast<Saved&>(state);
     ByteReader reader(saved.bytes);
     solid_->load(reader);
-    impulse = saved.impulse;
+    loads = std::move(saved.loads);
   }
+
+protected:
+  const ImpulseBook& ownImpulses() const override { return solid_->impulses(); }
 
 private:
   struct Saved final : SavedSolid {
-    Vec3 impulse;
+    ImpulseBook::Channel loads{"connectors", {}};
     std::vector<char> bytes;
   };
 
@@ -68,8 +71,10 @@ private:
   void kick(const NodalLoad& load, double dt) {
     if (load.touched.empty()) return;
     if (side.mass->isDiagonal()) return kickTouched(load, dt);
-    impulse += dt * totalOf(load);
-    solid_->kick(load.force, dt);
+    loads.give(dt * totalOf(load, model_->nodes));
+    std::vector<Vec3> given = load.force;
+    for (Vec3& value : given) value *= dt;
+    side.kick(given);
   }
 
   std::optional<fem::ImplicitIntegrator> solid_;

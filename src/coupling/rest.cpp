@@ -20,6 +20,7 @@ double CoupledRun::kineticEnergy() const {
 void CoupledRun::stop() {
   dem::close(grains);
   impl_->broughtToRest += kineticEnergy();
+  const Totals before = impl_->sums();
   std::ranges::fill(grains.particles.v, Vec3{});
   std::ranges::fill(grains.particles.omega, Vec3{});
   for (dem::BodyTerm* term : grains.terms.all<dem::BodyTerm>()) {
@@ -28,6 +29,9 @@ void CoupledRun::stop() {
   }
   for (const auto& solid : impl_->solids) std::ranges::fill(solid->side.nodes().v, Vec3{});
   impl_->broughtToRest -= kineticEnergy();
+  const Totals after = impl_->sums();
+  impl_->outside.given.give("brought to rest",
+                            {after.momentum - before.momentum, after.angularMomentum - before.angularMomentum});
 }
 
 /// Of contacts, elements and connectors, J: neither of weights nor of loads, whose zero is anywhere.

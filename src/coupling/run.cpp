@@ -77,6 +77,7 @@ void CoupledRun::start(double dt, const RunOptions& options) {
   run.started = true;
   ledger();
   run.ledger.open();
+  run.open();
 }
 
 void CoupledRun::advance(std::int64_t windows) {
@@ -236,7 +237,9 @@ void CoupledRun::Impl::lagWindow() {
     lagFrom[s] = solid.side.nodes().u;
     const NodalLoad load = meanOf(loadBefore[s], solid.side.load);
     loadBefore[s] = solid.side.load;
+    outside.given.give("loads one step old", 0.5 * window() * totalOf(load, solid.side.nodes()));
     solid.stepUnder(load);
+    outside.given.give("loads one step old", 0.5 * window() * totalOf(load, solid.side.nodes()));
     lagTo[s] = solid.side.nodes().u;
     madeByLag += workOf(load, lagTo[s], lagFrom[s]);
   }

@@ -72,26 +72,6 @@ const EnergyLedger& CoupledRun::ledger() {
   return ledger;
 }
 
-Totals CoupledRun::totals() const {
-  impl_->requireStarted("totals");
-  const dem::Momenta particles = dem::momenta(grains);
-  Totals sum{particles.linear, particles.angular, 0.0, {}};
-  for (std::size_t i = 0; i < grains.particles.size(); ++i)
-    sum.mass += grains.particles.weightOf(i) * grains.particles.mass[i];
-  for (const auto& solid : impl_->solids) {
-    sum.ontoSolids += solid->impulse;
-    const fem::Nodes& nodes = solid->side.nodes();
-    std::vector<Vec3> momentum(nodes.v.size());
-    solid->side.mass->multiply(nodes.v, momentum);
-    for (std::size_t n = 0; n < momentum.size(); ++n) {
-      sum.momentum += momentum[n];
-      sum.angularMomentum += cross(nodes.X[n] + nodes.u[n], momentum[n]);
-      sum.mass += nodes.mass[n];
-    }
-  }
-  return sum;
-}
-
 StepLimit CoupledRun::criticalStep() {
   impl_->requireStarted("criticalStep");
   return impl_->criticalStep();

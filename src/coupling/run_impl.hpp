@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "dovetail/coupling/run.hpp"
+#include "outside.hpp"
 #include "solid_stepper.hpp"
 
 namespace dovetail::coupling {
@@ -17,6 +18,7 @@ public:
   std::string name() const override { return "solids"; }
   std::unique_ptr<dem::Term> clone() const override { return std::make_unique<SolidsTerm>(*this); }
   Order order() const override { return Order::partners; }
+  double move(dem::Model& m, const dem::Step& step) override;
   void addForces(dem::Model& m, const dem::Step& step) override;
   void book(dem::Model& m, const dem::Step& step) override;
   double renumber(std::span<const int> newNumber, const dem::Particles& before) override;
@@ -35,6 +37,7 @@ struct CoupledRun::Impl {
   double dt = 0.0;
   bool started = false;
   EnergyLedger ledger;
+  Outside outside;  ///< impulses on the particles, and what there was at the first start
 
   // Of the evaluation under way.
   bool ownForcesDue = false;  ///< the window ends with it
@@ -56,6 +59,9 @@ struct CoupledRun::Impl {
   int K() const { return options.stepsPerWindow; }
   double window() const { return K() * dt; }
   bool anyImplicit() const;
+  /// Momentum and mass now.
+  Totals sums() const;
+  void open();
   StepLimit criticalStep();
   bool joined() const;
   void joinParticles();
@@ -69,6 +75,7 @@ struct CoupledRun::Impl {
   void kickByWindowForce();
   void lagWindow();
   void rememberLoads();
+  Momenta lateLoads() const;
   std::vector<NodalLoad> loadBefore;  ///< per solid: of the evaluation before the last; only with a lag
   std::vector<std::vector<Vec3>> lagFrom, lagTo, lagSeen;  ///< u at the ends of its step, and as last seen; m
   double broughtToRest = 0.0;                              ///< J, taken by stop()

@@ -47,7 +47,10 @@ struct CoupledRun::Impl::State {
     double bookedBefore;
     NodalLoad load, window, before;
     std::vector<Vec3> seen;
+    double supportWork = 0.0;
+    ImpulseBook outside;
   };
+  Outside outside;
   std::vector<Solid> solids;
 };
 
@@ -63,7 +66,10 @@ std::vector<char> CoupledRun::Impl::save() {
     saveLoad(archive, solids[s]->windowLoad);
     saveLoad(archive, loadBefore.empty() ? NodalLoad() : loadBefore[s]);
     archive(lagSeen.empty() ? std::vector<Vec3>() : lagSeen[s]);
+    archive(solids[s]->side.supportWork);
+    solids[s]->side.outside.save(archive);
   }
+  outside.save(archive);
   return archive.bytes();
 }
 
@@ -83,13 +89,22 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
     archive(own, bookedBefore);
     ByteReader reader(own);
     const std::size_t nodes = solid->side.nodes().X.size();
-    state.solids.push_back(
-        {solid->read(reader), bookedBefore, readLoad(archive, nodes), readLoad(archive, nodes), NodalLoad(), {}});
+    state.solids.push_back({solid->read(reader),
+                            bookedBefore,
+                            readLoad(archive, nodes),
+                            readLoad(archive, nodes),
+                            NodalLoad(),
+                            {},
+                            0.0,
+                            {}});
     requireSame(reader.atEnd(), "solids");
     state.solids.back().before = readLoad(archive, nodes);
     archive(state.solids.back().seen);
+    archive(state.solids.back().supportWork);
+    state.solids.back().outside.load(archive);
     requireSame(options.lag == Lag::none || state.solids.back().seen.size() == nodes, "solids");
   }
+  state.outside.load(archive);
   requireSame(archive.atEnd(), "data");
   return state;
 }
@@ -114,12 +129,15 @@ void CoupledRun::Impl::adopt(State state) {
     solids[s]->adopt(*state.solids[s].own);
     solids[s]->bookedBefore = state.solids[s].bookedBefore;
     solids[s]->side.load = std::move(state.solids[s].load);
+    solids[s]->side.supportWork = state.solids[s].supportWork;
+    solids[s]->side.outside = std::move(state.solids[s].outside);
     solids[s]->windowLoad = std::move(state.solids[s].window);
     if (options.lag == Lag::none) continue;
     loadBefore.push_back(std::move(state.solids[s].before));
     lagSeen.push_back(std::move(state.solids[s].seen));
   }
   windowForce = std::move(state.windowForce);
+  outside = std::move(state.outside);
 }
 
 std::vector<char> CoupledRun::save() {

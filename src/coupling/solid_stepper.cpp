@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/fem/motion/support_kick.hpp"
 
 namespace dovetail::coupling {
 
@@ -29,26 +30,59 @@ SolidStepper::SolidStepper(std::unique_ptr<fem::Model> model, const SolidOptions
 
 void SolidStepper::kickTouched(const NodalLoad& load, double dt) {
   fem::Nodes& nodes = model_->nodes;
-  impulse += dt * totalOf(load);
+  const std::span<const int> row = side.mass->dofs().freeRow();
+  loads.give(dt * totalOf(load, nodes));
+  Momenta supports;
   for (const int node : load.touched) {
     const auto n = static_cast<std::size_t>(node);
     const double scale = dt / nodes.mass[n];
-    const unsigned held = nodes.fixed[n];
+    Vec3 held;
     for (int c = 0; c < 3; ++c)
-      if (!(held >> c & 1u)) nodes.v[n][c] += scale * load.force[n][c];
+      if (row[3 * n + static_cast<std::size_t>(c)] >= 0)
+        nodes.v[n][c] += scale * load.force[n][c];
+      else
+        held[c] = -dt * load.force[n][c];
+    if (held == Vec3{}) continue;
+    supports.add(nodes.X[n] + nodes.u[n], held);
+    side.supportWork += dot(held, nodes.v[n]);
   }
+  side.outside.give("supports", supports);
 }
 
-Vec3 totalOf(const NodalLoad& load) {
-  Vec3 sum;
-  for (const int node : load.touched) sum += load.force[static_cast<std::size_t>(node)];
+ImpulseBook SolidStepper::given() const {
+  ImpulseBook sum = side.outside;
+  sum.add("", ownImpulses());
+  return sum;
+}
+
+std::vector<Vec3> SolidSide::kick(std::span<const Vec3> impulse) {
+  const std::vector<Vec3> before = nodes().v;
+  std::vector<Vec3> change(impulse.begin(), impulse.end());
+  mass->solve(change);
+  for (std::size_t n = 0; n < change.size(); ++n) nodes().v[n] += change[n];
+  const fem::SupportKick supports = fem::supportKick(nodes(), *mass, before, impulse, 1.0);
+  outside.give("supports", supports.impulse);
+  supportWork += supports.work;
+  return change;
+}
+
+Momenta totalOf(const NodalLoad& load, const fem::Nodes& nodes) {
+  Momenta sum;
+  for (const int node : load.touched) {
+    const auto n = static_cast<std::size_t>(node);
+    sum.add(nodes.X[n] + nodes.u[n], load.force[n]);
+  }
   return sum;
 }
 
 void SolidStepper::copyChannels(const EnergyLedger& own, double kinetic, EnergyLedger& ledger) const {
-  for (const EnergyLedger::Channel& channel : own.channels())
+  double supports = -side.supportWork;
+  for (const EnergyLedger::Channel& channel : own.channels()) {
+    if (channel.name == "supports") supports += channel.joules;
     setChannel(ledger, side.name + ": " + channel.name, channel.kind,
                channel.name == "kinetic" ? kinetic : channel.joules);
+  }
+  setChannel(ledger, side.name + ": supports", EnergyLedger::Kind::booked, supports);
   setChannel(ledger, side.name + ": booked with earlier steps", EnergyLedger::Kind::booked, bookedBefore);
 }
 

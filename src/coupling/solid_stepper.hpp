@@ -22,9 +22,9 @@ public:
   virtual ~SolidStepper() = default;
 
   SolidSide side;
-  double bookedBefore = 0.0;  ///< J, before the last start
-  NodalLoad windowLoad;       ///< N: what constraints do in both half windows around their ends
-  Vec3 impulse;               ///< of loads so far, kg m/s
+  double bookedBefore = 0.0;                     ///< J, before the last start
+  NodalLoad windowLoad;                          ///< N: what constraints do in both half windows around their ends
+  ImpulseBook::Channel loads{"connectors", {}};  ///< what they have given
 
   /// Forces at the start; the books of what was before are kept as one sum. @param dt  of particles, s @param K  steps
   /// per window
@@ -49,6 +49,8 @@ public:
   virtual void stepUnder(const NodalLoad& load) = 0;
 
   virtual double kineticEnergy() const = 0;
+  /// What loads of its own and supports have given.
+  ImpulseBook given() const;
   /// Sets its channels, "name: channel".
   virtual void sample(EnergyLedger& ledger) = 0;
 
@@ -57,10 +59,14 @@ public:
   virtual void adopt(SavedSolid& state) = 0;
 
 protected:
-  /// v += dt/m f on the touched nodes, held components apart.
+  virtual const ImpulseBook& ownImpulses() const = 0;
+  /// v += dt/m f on the touched nodes, held components apart: these give it to the supports.
   void kickTouched(const NodalLoad& load, double dt);
   void copyChannels(const EnergyLedger& own, double kinetic, EnergyLedger& ledger) const;
-  void carryOver(const EnergyLedger& own) { bookedBefore += own.booked(); }
+  void carryOver(const EnergyLedger& own) {
+    bookedBefore += own.booked();
+    side.outside.add("", ownImpulses());
+  }
 
   std::unique_ptr<fem::Model> model_;
   SolidOptions options_;
@@ -68,8 +74,8 @@ protected:
   int K_ = 1;
 };
 
-/// Sum of a load, N.
-Vec3 totalOf(const NodalLoad& load);
+/// Sum of a load at the present places, N and N m.
+Momenta totalOf(const NodalLoad& load, const fem::Nodes& nodes);
 
 std::unique_ptr<SolidStepper> makeStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options);
 

@@ -2,6 +2,11 @@
 
 namespace dovetail::coupling {
 
+double SolidsTerm::move(dem::Model&, const dem::Step& step) {
+  if (run_) run_->outside.begin(step.dt);
+  return 0.0;
+}
+
 /// Also where forces are found anew between steps, if the solids' own kick together with the connectors'.
 bool SolidsTerm::ownForcesDue(const dem::Step& step) const {
   return run_ && (run_->ownForcesDue || (step.timeless && run_->kicksTogether()));
@@ -15,13 +20,16 @@ void SolidsTerm::addForces(dem::Model&, const dem::Step& step) {
   }
 }
 
-void SolidsTerm::book(dem::Model&, const dem::Step& step) {
+void SolidsTerm::book(dem::Model& m, const dem::Step& step) {
+  if (!run_) return;
+  run_->outside.evaluated(m, step, run_->lateLoads());
   if (!ownForcesDue(step) || !run_->kicksTogether()) return;
   for (const auto& solid : run_->solids) solid->takeLoad();
 }
 
 /// What constraints do in both half windows around their ends goes with its particles.
-double SolidsTerm::renumber(std::span<const int> newNumber, const dem::Particles&) {
+double SolidsTerm::renumber(std::span<const int> newNumber, const dem::Particles& before) {
+  if (run_) run_->outside.left(run_->grains, newNumber, before);
   if (!run_ || run_->windowForce.empty()) return 0.0;
   std::vector<Vec3> moved(newNumber.size());
   std::size_t stay = 0;

@@ -24,7 +24,6 @@ struct TieRun {
   OverlapTie* tie = nullptr;
   coupling::SolidOptions options{.name = "solid"};
   int K = 1;
-  Vec3 supportImpulse;  // K = 1 of explicit solids
 
   void take(fem::Model model) {
     owned_ = std::make_unique<fem::Model>(std::move(model));
@@ -40,20 +39,14 @@ struct TieRun {
   /// A window.
   void step(double dt) {
     if (dt != run->dt()) start(dt);
-    const Vec3 before = support();
     run->advance();
-    supportImpulse += 0.5 * dt * (before + support());
-  }
-  Vec3 support() const {
-    std::vector<Vec3> a = solid->nodes.f;
-    side->mass->solve(a);
-    return side->mass->supportForce(a, solid->nodes.f);
   }
   double solidKinetic() const { return side->mass->kineticEnergy(solid->nodes.v); }
   double energy() const { return run->ledger().stored() + run->ledger().booked(); }
   /// What entered and left taken into account.
   Vec3 momentum() const {
-    return run->totals().momentum + grains.left.momentum - grains.entered.momentum - supportImpulse;
+    const coupling::Totals totals = run->totals();
+    return totals.momentum - totals.given.total().given.linear;
   }
   double mass() const { return run->totals().mass + grains.left.mass - grains.entered.mass; }
 

@@ -10,6 +10,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/loads.hpp"
+#include "dovetail/dem/particles/damping.hpp"
 
 namespace dovetail::dem {
 
@@ -24,6 +25,7 @@ double book(const Bodies& bodies, std::size_t b, const Vec3& gravity, const Vec3
   ++exchanged.count;
   exchanged.mass += bodies.mass[b];
   exchanged.momentum += bodies.mass[b] * v;
+  exchanged.angularMomentum += cross(bodies.x[b], bodies.mass[b] * v) + bodies.angularMomentum[b];
   return 0.5 * (bodies.mass[b] * squaredNorm(v) +
                 dot(bodies.angularMomentum[b], angularVelocity(bodies, static_cast<int>(b)))) -
          bodies.mass[b] * dot(gravity, bodies.x[b]);
@@ -72,7 +74,10 @@ void BodyTerm::leaving(Model& m, std::vector<char>& leaves) {
   for (std::size_t k = 0; k < clumps.size(); ++k)
     if (gone[at(clumps.body[k])] != 0) leaves[at(clumps.particle[k])] = booked;
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (gone[b] != 0) m.booked.left += dem::book(bodies, b, m.gravity, 0.5 * m.open * m.gravity, m.left);
+    if (gone[b] != 0) {
+      m.booked.left += dem::book(bodies, b, m.gravity, 0.5 * m.open * m.gravity, m.left);
+      beside_.add(bodies.x[b], (0.5 * m.open * bodies.mass[b]) * m.gravity);
+    }
   renumberCarriedWalls(m, gone);
 }
 
@@ -89,8 +94,10 @@ void BodyTerm::addForces(Model& m, const Step& step) {
   if (step.timeless || admitted_ < 0) return;
   // The step's last half kick is not for newcomers: it will be taken back from what they have.
   for (std::size_t b = at(std::exchange(admitted_, -1)); b < bodies.size(); ++b) {
-    bodies.v[b] -= (0.5 * step.dt / bodies.mass[b]) * bodies.f[b];
-    bodies.angularMomentum[b] -= 0.5 * step.dt * bodies.torque[b];
+    const Vec3 half = 0.5 * step.dt * bodies.f[b], turn = 0.5 * step.dt * bodies.torque[b];
+    bodies.v[b] -= (1.0 / bodies.mass[b]) * half;
+    bodies.angularMomentum[b] -= turn;
+    beside_ += {-half, -(cross(bodies.x[b], half) + turn)};
   }
 }
 
@@ -170,6 +177,20 @@ void BodyTerm::addMomenta(const Model& m, Momenta& sums) const {
   }
 }
 
+/// Dampings of bodies; those of single particles are the damping term's.
+void BodyTerm::addOutside(const Model& m, Momenta& force, Momenta& impulse) const {
+  impulse += beside_;
+  for (const DampingTerm* damping : m.terms.all<DampingTerm>())
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const auto taken = [&](const Vec3& whole, const Vec3& momentum, const Vec3& velocity) {
+        return dampingForce(whole, momentum, velocity, damping->viscousRate, damping->local);
+      };
+      force.add(bodies.x[b], taken(bodies.f[b], bodies.mass[b] * bodies.v[b], bodies.v[b]));
+      force.angular +=
+          taken(bodies.torque[b], bodies.angularMomentum[b], angularVelocity(bodies, static_cast<int>(b)));
+    }
+}
+
 namespace {
 template <class Archive, class B, class C>
 void archive(Archive& a, B& b, C& c) {
@@ -177,8 +198,14 @@ void archive(Archive& a, B& b, C& c) {
 }
 }  // namespace
 
-void BodyTerm::save(ByteWriter& writer) const { archive(writer, bodies, clumps); }
-void BodyTerm::load(ByteReader& reader) { archive(reader, bodies, clumps); }
+void BodyTerm::save(ByteWriter& writer) const { 
+  archive(writer, bodies, clumps);
+  writer(beside_);
+}
+void BodyTerm::load(ByteReader& reader) { 
+  archive(reader, bodies, clumps);
+  reader(beside_);
+}
 
 void BodyTerm::admit(Model& m, int first) {
   admitted_ = first;

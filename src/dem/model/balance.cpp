@@ -3,6 +3,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
 #include "events.hpp"
 
 namespace dovetail::dem {
@@ -87,6 +88,27 @@ Momenta momenta(const Model& m) {
   Momenta sums{momentum(m.particles), angularMomentum(m.particles)};
   for (const auto& term : m.terms) term->addMomenta(m, sums);
   return sums;
+}
+
+Momenta weight(const Model& m) {
+  if (m.gravity == Vec3{}) return {};
+  const Particles& p = m.particles;
+  const std::vector<char> skip = members(m);
+  Momenta sum = parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+    double mass = 0.0;
+    Vec3 first;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!skip.empty() && skip[i] != 0) continue;
+      const double own = p.weightOf(i) * p.mass[i];
+      mass += own;
+      first += own * p.x[i];
+    }
+    return Momenta{mass * m.gravity, cross(first, m.gravity)};
+  });
+  for (const BodyTerm* term : m.terms.all<BodyTerm>())
+    for (std::size_t b = 0; b < term->bodies.size(); ++b)
+      sum.add(term->bodies.x[b], term->bodies.mass[b] * m.gravity);
+  return sum;
 }
 
 void Terms::insert(std::unique_ptr<Term> term) {

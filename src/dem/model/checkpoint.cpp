@@ -20,7 +20,7 @@ void archiveFields(Archive& archive, T& step) {
 
 namespace {
 
-constexpr const char* checkpointKind = "dem model 4";
+constexpr const char* checkpointKind = "dem model 5";
 
 std::vector<char> letters(const std::string& text) { return {text.begin(), text.end()}; }
 std::string word(const std::vector<char>& text) { return {text.begin(), text.end()}; }

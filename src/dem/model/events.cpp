@@ -52,6 +52,11 @@ double book(const Model& m, std::size_t i, Exchanged& exchanged) {
   ++exchanged.count;
   exchanged.mass += mass;
   exchanged.momentum += mass * v;
+  exchanged.angularMomentum += cross(p.x[i], mass * v);
+  if (p.rotates()) {
+    const double inertia = p.weightOf(i) * momentOfInertia(p, static_cast<int>(i));
+    exchanged.angularMomentum += inertia * p.omega[i] + 0.5 * m.open * p.torque[i];
+  }
   return kineticEnergyOf(p, i) + 0.5 * mass * (squaredNorm(v) - squaredNorm(p.v[i])) + gravityOf(p, i, m.gravity);
 }
 

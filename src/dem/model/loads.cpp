@@ -149,6 +149,23 @@ void DampingTerm::book(Model& m, const Step& step) {
   });
 }
 
+void DampingTerm::addOutside(const Model& m, Momenta& force, Momenta&) const {
+  const Particles& p = m.particles;
+  const std::vector<char> skip = members(m);
+  force += parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+    Momenta sum;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!skip.empty() && skip[i] != 0) continue;
+      const double weight = p.weightOf(i);
+      sum.add(p.x[i], dampingForce(p.f[i], weight * p.mass[i] * p.v[i], p.v[i], viscousRate, local));
+      if (!p.rotates()) continue;
+      const double inertia = weight * momentOfInertia(p, static_cast<int>(i));
+      sum.angular += dampingForce(p.torque[i], inertia * p.omega[i], p.omega[i], viscousRate, local);
+    }
+    return sum;
+  });
+}
+
 DampingTerm& damping(Model& m) {
   const auto found = m.terms.all<DampingTerm>();
   return found.empty() ? m.terms.add(DampingTerm{}) : *found.front();
@@ -180,6 +197,14 @@ void ExternalForceTerm::book(Model& m, const Step& step) {
     double power = 0.0;
     for (std::size_t i = begin; i < end; ++i) power += dot(force_[i], mean.v[i]);
     return power;
+  });
+}
+
+void ExternalForceTerm::addOutside(const Model& m, Momenta& force, Momenta&) const {
+  force += parallelSum(force_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    Momenta sum;
+    for (std::size_t i = begin; i < end; ++i) sum.add(m.particles.x[i], force_[i]);
+    return sum;
   });
 }
 
@@ -222,6 +247,7 @@ void DriveTerm::prescribe(Model& m, const Step& step, Half half) {
     const Vec3 impulse = mass * (prescribed - p.v[i]);
     m.booked.walls += dot(impulse, mean);
     supportImpulse += impulse;
+    supportMoment += cross(p.x[i], impulse);
     p.v[i] = prescribed;
   }
 }
@@ -240,7 +266,11 @@ double DriveTerm::renumber(std::span<const int> newNumber, const Particles& befo
   return 0.0;
 }
 
-void DriveTerm::save(ByteWriter& writer) const { writer(ids_, supportImpulse); }
-void DriveTerm::load(ByteReader& reader) { reader(ids_, supportImpulse); }
+void DriveTerm::addOutside(const Model&, Momenta&, Momenta& impulse) const {
+  impulse += {supportImpulse, supportMoment};
+}
+
+void DriveTerm::save(ByteWriter& writer) const { writer(ids_, supportImpulse, supportMoment); }
+void DriveTerm::load(ByteReader& reader) { reader(ids_, supportImpulse, supportMoment); }
 
 }  // namespace dovetail::dem

@@ -147,10 +147,8 @@ void addForces(Model& m) {
   for (const auto& term : m.terms) term->book(m, m.step);
   welcome(m);
   m.rate.lost.dissipatedPower += m.work.dissipatedPower;
-  if (!m.step.timeless) {
-    bookHalf(m, dt);
-    if (m.booking == Booking::on) bookLosses(m, dt);
-  }
+  if (!m.step.timeless) bookHalf(m, dt);
+  if (m.booking == Booking::on) bookLosses(m, dt);  // those of springs that end or slide where no time passes, too
   m.forcesOf = m.particles.revision;
   m.forcesOfTerms = m.terms.revision();
   m.forcesOfLaws = m.laws;

@@ -111,6 +111,11 @@ void describeMesh(Archive& a, Mesh& m) {
 
 }  // namespace
 
+void PrimitiveWallTerm::addOutside(const Model&, Momenta& force, Momenta&) const {
+  force.linear -= wall.force;
+  force.angular -= wall.torque + cross(wall.point, wall.force);
+}
+
 void PrimitiveWallTerm::save(ByteWriter& writer) const {
   describe(writer, wall);
   archiveWall(writer, wall);
@@ -174,6 +179,17 @@ void MeshWallTerm::addDemand(const Model& m, ContactDemand& demand) const {
 
 void MeshWallTerm::addEnergies(const Model&, Energies& e) const {
   if (const auto* servo = std::get_if<WallServo>(&mesh.motion)) addServo(e, *servo);
+}
+
+/// A wall on a body gives to the body what it takes from the particles.
+void MeshWallTerm::addOutside(const Model&, Momenta& force, Momenta&) const {
+  if (carried(mesh)) return;
+  const WallContacts& contacts = mesh.contacts;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Vec3 point = contactPoint(contacts, mesh.wall, c);
+    force.add(contacts.image.empty() ? point : point - contacts.shift(c), contacts.force[c]);
+    if (c < contacts.couple.size()) force.angular += contacts.couple[c];
+  }
 }
 
 void MeshWallTerm::save(ByteWriter& writer) const {

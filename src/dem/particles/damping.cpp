@@ -59,4 +59,13 @@ double applyLocalDamping(Particles& particles, double alpha, std::span<const cha
   });
 }
 
+Vec3 dampingForce(const Vec3& force, const Vec3& momentum, const Vec3& velocity, double rate, double alpha) {
+  Vec3 damping = -rate * momentum;
+  for (int k = 0; k < 3; ++k) {
+    const double way = force[k] * velocity[k], sign = way > 0.0 ? 1.0 : way < 0.0 ? -1.0 : 0.0;
+    damping[k] -= alpha * sign / (1.0 - alpha * sign) * force[k];
+  }
+  return damping;
+}
+
 }  // namespace dovetail::dem

@@ -118,6 +118,7 @@ void OutletTerm::exchange(Model& m, const Step& step) {
   passed.count += m.left.count - before.count;
   passed.mass += m.left.mass - before.mass;
   passed.momentum += m.left.momentum - before.momentum;
+  passed.angularMomentum += m.left.angularMomentum - before.angularMomentum;
 }
 
 void OutletTerm::save(ByteWriter& writer) const {

@@ -220,23 +220,4 @@ void ModelMass::accelerate(std::span<const Vec3> f, std::span<Vec3> a) const {
   for (std::size_t n = 0; n < load.size(); ++n) a[n] += load[n];
 }
 
-Vec3 ModelMass::supportForce(std::span<const Vec3> a, std::span<const Vec3> f) const {
-  Vec3 sum;
-  for (std::size_t n = 0; n < f.size(); ++n) {
-    bool allFree = !dofs_->hasTies();  // ties pull at their masters too
-    for (int c = 0; c < 3; ++c) allFree = allFree && isFree(n, c);
-    if (allFree) continue;
-    Vec3 inertia = mass_[n] * a[n];
-    if (share_ > 0.0) {
-      inertia = {};
-      for (int k = matrix_.offsets()[n]; k < matrix_.offsets()[n + 1]; ++k)
-        inertia += matrix_.values()[static_cast<std::size_t>(k)] *
-                   a[static_cast<std::size_t>(matrix_.columns()[static_cast<std::size_t>(k)])];
-    }
-    for (int c = 0; c < 3; ++c)
-      if (!isFree(n, c) || dofs_->hasTies()) sum[c] += inertia[c] - f[n][c];
-  }
-  return sum;
-}
-
 }  // namespace dovetail::fem

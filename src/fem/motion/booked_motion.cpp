@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dovetail/fem/motion/support_kick.hpp"
 #include "force_sum.hpp"
 #include "run_state.hpp"
 
@@ -23,7 +24,8 @@ BookedMotion::BookedMotion(Model& model, double massShare, double h)
     : motion(model, massShare),
       book(model),
       guessesVelocity_(std::ranges::any_of(model.terms, [](const auto& term) { return term->usesVelocity(); })),
-      moving_(anySupportMoves(model, motion.dofs())) {
+      moving_(anySupportMoves(model, motion.dofs())),
+      worksAreBooked_(std::ranges::any_of(model.terms, [](const auto& term) { return !term->hasEnergy(); })) {
   motion.dofs().apply(model.t, model.nodes.u);
   motion.dofs().applyVelocity(model.t, h, model.nodes.v);
   findForces(h, true);
@@ -31,6 +33,7 @@ BookedMotion::BookedMotion(Model& model, double massShare, double h)
 
 void BookedMotion::findForces(double h, bool withEnergies) {
   motion.forces(h, withEnergies);
+  outside_.clear();
   accelerated_ = false;
 }
 
@@ -69,16 +72,30 @@ double BookedMotion::workInHalfKick(std::span<const Vec3> force, std::span<const
 }
 
 bool BookedMotion::halfKick(double h, double time, bool books) {
-  if (!books || (!moving_ && motion.loads().empty())) return push(h, time);
+  if (!books) return push(h, time);
   const Model& model = motion.model();
-  before_ = model.nodes.v;
+  const bool changes = moving_ || worksAreBooked_ || !motion.mass().isDiagonal();
+  if (changes) before_ = model.nodes.v;
   const double kinetic = moving_ ? motion.kineticEnergy() : 0.0;
   const bool finite = push(h, time);
-  std::size_t next = 0;
-  for (const auto& term : model.terms)
-    if (!term->hasEnergy()) book.spend("work of " + term->name(), -workInHalfKick(motion.loads()[next++], before_, h));
+  giveImpulses(h, changes);
+  for (std::size_t k = 0; k < model.terms.size(); ++k)
+    if (const Term& term = *model.terms[k]; !term.hasEnergy())
+      book.spend("work of " + term.name(), -workInHalfKick(motion.loads()[k], before_, h));
   if (moving_) book.spend("supports", kinetic - motion.kineticEnergy() + workInHalfKick(model.nodes.f, before_, h));
   return finite;
+}
+
+void BookedMotion::giveImpulses(double h, bool changes) {
+  const Model& model = motion.model();
+  if (outside_.empty()) {
+    for (const std::vector<Vec3>& load : motion.loads()) outside_.push_back(momentaOf(model.nodes, load));
+  }
+  for (std::size_t k = 0; k < outside_.size(); ++k)
+    if (!motion.loads()[k].empty() && !detail::isElements(*model.terms[k]))
+      impulses.give(model.terms[k]->name(), 0.5 * h * outside_[k]);
+  const std::span<const Vec3> before = changes ? std::span<const Vec3>(before_) : std::span<const Vec3>();
+  impulses.give("supports", supportKick(model.nodes, motion.mass(), before, model.nodes.f, 0.5 * h).impulse);
 }
 
 void BookedMotion::save(ByteWriter& archive, const std::string& kind) const {
@@ -87,24 +104,31 @@ void BookedMotion::save(ByteWriter& archive, const std::string& kind) const {
   a.resize(model.nodes.u.size());  // where masses are lumped, forces say it all
   detail::writeModel(archive, kind, model);
   book.save(archive);
+  impulses.save(archive);
   detail::writeStart(archive, {a, model.nodes.f, {motion.loads().begin(), motion.loads().end()}});
 }
 
 struct BookedMotion::State {
   detail::ModelState model;
   EnergyBook book;
+  ImpulseBook impulses;
   detail::StepStart start;
 };
 
 std::shared_ptr<BookedMotion::State> BookedMotion::read(ByteReader& archive, const std::string& kind) const {
   detail::ModelState state = detail::readModel(archive, kind, motion.model());
   EnergyBook books = book.read(archive);
-  return std::make_shared<State>(State{std::move(state), std::move(books), detail::readStart(archive, motion.model())});
+  ImpulseBook given;
+  given.load(archive);
+  return std::make_shared<State>(
+      State{std::move(state), std::move(books), std::move(given), detail::readStart(archive, motion.model())});
 }
 
 void BookedMotion::adopt(State& state) {
   detail::adopt(std::move(state.model), motion.model());
   book = std::move(state.book);
+  impulses = std::move(state.impulses);
+  outside_.clear();
   acceleration_ = std::move(state.start.a);
   accelerated_ = true;
   motion.model().nodes.f = std::move(state.start.f);

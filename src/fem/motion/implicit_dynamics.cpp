@@ -2,6 +2,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/fem/motion/energy_book.hpp"
+#include "dovetail/fem/motion/support_kick.hpp"
 #include "implicit_advance.hpp"
 #include "run_state.hpp"
 
@@ -37,6 +38,7 @@ Scheme energyMomentum() { return {"energy-momentum", true}; }
 struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
   double dt;
   EnergyBook book;
+  ImpulseBook impulses;
 
   Impl(Model& m, double step, const ImplicitOptions& o)
       : ImplicitMotion::Impl(m, o), dt(requirePositive(step, "dt")), book(m) {
@@ -67,12 +69,13 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
       change[k] = (model.nodes.v[k] - v0[k]) / h;
       ringing[k] = 0.5 * h * (model.nodes.v[k] + v0[k]) - motion[k];
     }
-    std::size_t next = 0;
-    for (const auto& term : model.terms)
-      if (!term->hasEnergy()) book.spend("work of " + term->name(), -solver.loadWork(next++, motion));
+    for (std::size_t k = 0; k < model.terms.size(); ++k)
+      if (const Term& term = *model.terms[k]; !term.hasEnergy())
+        book.spend("work of " + term.name(), -solver.loadWork(k, motion));
     mass.multiply(change, rate);
     const std::vector<Vec3> force = solver.meanForce(), follows = following(motion), freeRinging = following(ringing);
     double support = 0.0, lost = 0.0;
+    giveImpulses(h, rate, force, ringing);
     for (std::size_t k = 0; k < n; ++k) {
       const Vec3 reaction = rate[k] - force[k];
       // Prescribed velocities are not quite the mean of the motion: their kinetic energy comes from the support.
@@ -81,6 +84,45 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
     }
     book.spend("supports", -support);
     book.spend("dissipation of the scheme", lost);
+  }
+  bool isFree(std::size_t node, int component) const {
+    return dofs.freeRow()[3 * node + static_cast<std::size_t>(component)] >= 0;
+  }
+  /// Impulses over the step of length h that has just converged.
+  /// @param rate  M (v₁ − v₀)/h, N @param ringing  mean velocity times h less the motion, m
+  void giveImpulses(double h, std::span<const Vec3> rate, std::span<const Vec3> force, std::span<const Vec3> ringing) {
+    Nodes mean;
+    mean.X = model.nodes.X;
+    for (std::size_t k = 0; k < rate.size(); ++k)
+      mean.u.push_back(0.5 * (solver.startDisplacement()[k] + model.nodes.u[k]));
+    for (std::size_t k = 0; k < model.terms.size(); ++k)
+      if (!detail::isElements(*model.terms[k]))
+        impulses.give(model.terms[k]->name(), h * momentaOf(mean, solver.meanLoad(k)));
+    // Ties pull at their masters; through a mass that is not lumped, prescribed motion pulls at its neighbours.
+    const bool everyRow = dofs.hasTies() || (dofs.hasMotion() && !mass.isDiagonal());
+    Momenta supports;
+    for (std::size_t k = 0; k < rate.size(); ++k) {
+      Vec3 reaction;
+      for (int c = 0; c < 3; ++c)
+        if (everyRow || !isFree(k, c)) reaction[c] = h * (rate[k][c] - force[k][c]);
+      supports.add(mean.X[k] + mean.u[k], reaction);
+    }
+    if (dofs.hasMotion()) supports.angular -= momentOfRinging(ringing);
+    impulses.give("supports", supports);
+  }
+  /// Σ ringing × M v̄ over prescribed components: supports carry the nodes otherwise than by their mean velocities.
+  Vec3 momentOfRinging(std::span<const Vec3> ringing) const {
+    std::vector<Vec3> mean(ringing.size()), momentum(ringing.size());
+    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] = 0.5 * (solver.startVelocity()[k] + model.nodes.v[k]);
+    mass.multiply(mean, momentum);
+    Vec3 sum;
+    for (std::size_t k = 0; k < mean.size(); ++k) {
+      Vec3 held = ringing[k];
+      for (int c = 0; c < 3; ++c)
+        if (isFree(k, c)) held[c] = 0.0;
+      sum += cross(held, momentum[k]);
+    }
+    return sum;
   }
   /// The part of a motion that the free components make, ties included.
   std::vector<Vec3> following(const std::vector<Vec3>& motion) const {
@@ -113,8 +155,8 @@ void ImplicitIntegrator::run(std::int64_t steps) {
   for (std::int64_t k = 0; k < steps; ++k) step();
   impl_->model.nodes.f = impl_->solver.forces();
 }
-void ImplicitIntegrator::kick(std::span<const Vec3> f, double dt) { impl_->kick(f, dt); }
 const ModelMass& ImplicitIntegrator::mass() const { return impl_->mass; }
+const ImpulseBook& ImplicitIntegrator::impulses() const { return impl_->impulses; }
 const EnergyLedger& ImplicitIntegrator::ledger() const { return impl_->book.ledger(); }
 double ImplicitIntegrator::kineticEnergy() const { return impl_->mass.kineticEnergy(impl_->model.nodes.v); }
 
@@ -157,6 +199,7 @@ void ImplicitIntegrator::save(ByteWriter& archive) {
   impl_->solver.dropFactors();
   detail::writeModel(archive, impl_->kind(), impl_->model);
   impl_->book.save(archive);
+  impl_->impulses.save(archive);
   archive(impl_->steps, impl_->cuts, impl_->iterations, impl_->largestResidual);
   impl_->solver.save(archive);
 }
@@ -164,6 +207,8 @@ void ImplicitIntegrator::save(ByteWriter& archive) {
 void ImplicitIntegrator::load(ByteReader& archive) {
   detail::ModelState state = detail::readModel(archive, impl_->kind(), impl_->model);
   EnergyBook book = impl_->book.read(archive);
+  ImpulseBook impulses;
+  impulses.load(archive);
   const std::int64_t steps = detail::readCount(archive, "number of steps");
   const std::int64_t cuts = detail::readCount(archive, "number of cuts");
   const std::int64_t iterations = detail::readCount(archive, "number of iterations");
@@ -172,6 +217,7 @@ void ImplicitIntegrator::load(ByteReader& archive) {
   detail::requireEnd(archive, "ImplicitIntegrator");
   detail::adopt(std::move(state), impl_->model);
   impl_->book = std::move(book);
+  impl_->impulses = std::move(impulses);
   impl_->steps = steps;
   impl_->cuts = cuts;
   impl_->iterations = iterations;

@@ -114,18 +114,13 @@ void ImplicitStep::findConservingForces() {
     mean_.v[n] = (model_.nodes.u[n] - u0_[n]) / h_;
   }
   std::fill(end_.total.begin(), end_.total.end(), Vec3{});
-  std::size_t next = 0;
   for (std::size_t k = 0; k < model_.terms.size(); ++k) {
     Term& term = *model_.terms[k];
-    conserves_[k] = term.addConservingForces(model_.nodes, u0_, atEnd(), end_.total);
-    if (conserves_[k]) continue;
-    if (term.hasEnergy()) {
-      term.addForces(mean_, inMiddle(), end_.total);
-      continue;
-    }
-    std::vector<Vec3>& load = end_.loads[next++];
+    std::vector<Vec3>& load = end_.loads[k];
     std::fill(load.begin(), load.end(), Vec3{});
-    term.addForces(mean_, inMiddle(), load);
+    const std::span<Vec3> to = load.empty() ? std::span<Vec3>(end_.total) : std::span<Vec3>(load);
+    conserves_[k] = term.addConservingForces(model_.nodes, u0_, atEnd(), to);
+    if (!conserves_[k]) term.addForces(mean_, inMiddle(), to);
     for (std::size_t n = 0; n < load.size(); ++n) end_.total[n] += load[n];
   }
 }
@@ -150,7 +145,8 @@ double ImplicitStep::balance() {
   }
   dofs_.reduce(push, residual_);
   double largest = std::max(inertiaNorm, normOf(end_.total));
-  for (const std::vector<Vec3>& load : end_.loads) largest = std::max(largest, normOf(load));
+  for (std::size_t k = 0; k < end_.loads.size(); ++k)
+    if (!model_.terms[k]->hasEnergy()) largest = std::max(largest, normOf(end_.loads[k]));
   tolerance_ = options_.relativeTolerance * largest + options_.absoluteTolerance +
                resolution_.at(std::max(normOf(model_.nodes.u), normOf(base_)));
   return normOf(residual_);
@@ -237,9 +233,16 @@ std::vector<Vec3> ImplicitStep::meanForce() const {
   return mean;
 }
 
-double ImplicitStep::loadWork(std::size_t load, const std::vector<Vec3>& motion) const {
-  const double end = innerProduct(end_.loads[load], motion);
-  return conserving() ? end : 0.5 * (end + innerProduct(start_.loads[load], motion));
+double ImplicitStep::loadWork(std::size_t term, const std::vector<Vec3>& motion) const {
+  const double end = innerProduct(end_.loads[term], motion);
+  return conserving() ? end : 0.5 * (end + innerProduct(start_.loads[term], motion));
+}
+
+std::vector<Vec3> ImplicitStep::meanLoad(std::size_t term) const {
+  std::vector<Vec3> mean = end_.loads[term];
+  if (!conserving())
+    for (std::size_t n = 0; n < mean.size(); ++n) mean[n] = 0.5 * (mean[n] + start_.loads[term][n]);
+  return mean;
 }
 
 void ImplicitStep::accept() {

@@ -33,9 +33,10 @@ public:
   // Of the accepted step, for the ledger:
   const std::vector<Vec3>& startDisplacement() const { return u0_; }
   const std::vector<Vec3>& startVelocity() const { return v0_; }
-  /// Mean total force of the step (conserving: the force of the step), and of a term without energy.
+  /// Mean total force of the step (conserving: the force of the step), and of a term that is kept apart, by its number.
   std::vector<Vec3> meanForce() const;
-  double loadWork(std::size_t load, const std::vector<Vec3>& motion) const;
+  std::vector<Vec3> meanLoad(std::size_t term) const;
+  double loadWork(std::size_t term, const std::vector<Vec3>& motion) const;
   const LinearSolver& solver() const { return solver_; }
   /// Names of the terms with an energy that a conserving step does not keep.
   std::vector<std::string> termsAtMeanState() const;

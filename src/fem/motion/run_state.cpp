@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dovetail/core/error.hpp"
+#include "force_sum.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -112,14 +113,15 @@ void adopt(ModelState state, Model& model) {
 
 void writeStart(ByteWriter& archive, const StepStart& start) {
   archive(start.a, start.f);
-  for (const std::vector<Vec3>& load : start.loads) archive(load);
+  for (const std::vector<Vec3>& load : start.loads)
+    if (!load.empty()) archive(load);
 }
 
 StepStart readStart(ByteReader& archive, const Model& model) {
   const std::size_t nodes = model.nodes.u.size();
   StepStart start{readField(archive, nodes, "acceleration"), readField(archive, nodes, "force"), {}};
   for (const auto& term : model.terms)
-    if (!term->hasEnergy()) start.loads.push_back(readField(archive, nodes, "load"));
+    start.loads.push_back(isKeptApart(*term) ? readField(archive, nodes, "load") : std::vector<Vec3>());
   return start;
 }
 

@@ -21,7 +21,7 @@ struct ModelState {
 struct StepStart {
   std::vector<Vec3> a;                   ///< m/s²
   std::vector<Vec3> f;                   ///< N
-  std::vector<std::vector<Vec3>> loads;  ///< N, of each term without energy
+  std::vector<std::vector<Vec3>> loads;  ///< N, of each term that is kept apart; else empty
 };
 
 /// @param run  the kind of run: "explicit", "implicit", …

@@ -11,10 +11,12 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "dovetail/core/impulses.hpp"
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/core/profile.hpp"
 #include "dovetail/coupling/connector.hpp"
@@ -56,13 +58,27 @@ struct StepLimit {
   std::string owner;
 };
 
-/// Momentum and mass now.
+/// Momentum and mass now, and since the first start who gave what.
 struct Totals {
   Vec3 momentum;         ///< kg m/s
   Vec3 angularMomentum;  ///< about the origin, kg m²/s
   double mass = 0.0;     ///< kg
   Vec3 ontoSolids;       ///< impulse of the connectors on the solids so far, kg m/s
+
+  /// What came from outside, by who gave it: gravity, walls and loads of the particles; supports and loads of every
+  /// solid; what entered and left.
+  ImpulseBook given;
+  double massGained = 0.0;  ///< kg, by what entered and left
+  /// What there is less what there was at the first start and what was given: nothing but round-off for explicit
+  /// solids and Newmark's steps to the tolerance of their solver; the angular part of Newmark's steps falls with dt².
+  /// Where space repeats, moments across the axes that repeat are left out: those of the sides are nobody's.
+  Momenta residual;
+  double massResidual = 0.0;  ///< kg
+  /// Sums of the magnitudes of all impulses, of connectors too, to which the residual is relative; kg m/s, kg m²/s.
+  double turnedOver = 0.0, turnedOverAngular = 0.0;
 };
+/// A table: who gave what, and what is left over.
+std::ostream& operator<<(std::ostream& out, const Totals& totals);
 
 /// Windows are symmetric in time and symplectic unless a solid dissipates or lags, so the error of the energy is of
 /// second order in the step and does not drift.

@@ -3,7 +3,9 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
+#include "dovetail/core/impulses.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/coupling/nodal_load.hpp"
 #include "dovetail/fem/model/model.hpp"
@@ -26,6 +28,13 @@ struct SolidSide {
   /// Forces of the solid's own terms in this evaluation, N, one per node; empty where they act at other instants only
   /// (windows of several steps, implicit solids). For constraints, which answer the sum of all forces.
   std::span<const Vec3> own;
+
+  double supportWork = 0.0;  ///< J, by supports that move, in kicks by connectors
+  ImpulseBook outside;  ///< of supports in kicks by connectors, and whatever else gave impulses that are not the run's
+
+  /// v += M⁻¹ impulse (kg m/s) of the free components, between the kicks of a step; books what supports take of it.
+  /// @return M⁻¹ impulse, m/s
+  std::vector<Vec3> kick(std::span<const Vec3> impulse);
 
   fem::Nodes& nodes() { return model->nodes; }
   const fem::Nodes& nodes() const { return model->nodes; }

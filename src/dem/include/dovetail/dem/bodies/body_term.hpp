@@ -31,6 +31,7 @@ public:
   void addDemand(const Model& m, ContactDemand& demand) const override;
   void addEnergies(const Model& m, Energies& e) const override;
   void addMomenta(const Model& m, Momenta& sums) const override;
+  void addOutside(const Model& m, Momenta& force, Momenta& impulse) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
 
@@ -41,6 +42,7 @@ public:
 private:
   void damp(Model& m);
   int admitted_ = -1;  // the first of those who came in the step under way
+  Momenta beside_;     // half kicks that newcomers and leavers were not given, kg m/s
 };
 
 /// The bodies of the model, made when first asked for.

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "dovetail/core/vec3.hpp"
+#include "dovetail/core/impulses.hpp"
 #include "dovetail/dem/laws/contact_work.hpp"
 
 namespace dovetail::dem {
@@ -23,17 +23,14 @@ struct Energies {
   double balance() const { return stored() + lost.lostPower() + damping + left - walls - external - entered - lifted; }
 };
 
-/// Sums of momentum.
-struct Momenta {
-  Vec3 linear;   ///< kg m/s
-  Vec3 angular;  ///< about the origin, kg m²/s
-};
+using dovetail::Momenta;
 
 /// What has come in or gone out of the scene.
 struct Exchanged {
   std::int64_t count = 0;
-  double mass = 0.0;  ///< kg
-  Vec3 momentum;      ///< kg m/s
+  double mass = 0.0;     ///< kg
+  Vec3 momentum;         ///< kg m/s
+  Vec3 angularMomentum;  ///< about the origin, kg m²/s
 };
 
 }  // namespace dovetail::dem

@@ -44,6 +44,7 @@ public:
   void check(const Model& m) const override;
   void addForces(Model& m, const Step& step) override;
   void book(Model& m, const Step& step) override;
+  void addOutside(const Model& m, Momenta& force, Momenta& impulse) const override;
   void save(ByteWriter& writer) const override { writer(viscousRate, local); }
   void load(ByteReader& reader) override { reader(viscousRate, local); }
 };
@@ -61,6 +62,7 @@ public:
   void check(const Model& m) const override;
   void addForces(Model& m, const Step& step) override;
   void book(Model& m, const Step& step) override;
+  void addOutside(const Model& m, Momenta& force, Momenta& impulse) const override;
 
 private:
   std::string name_;
@@ -85,11 +87,13 @@ public:
   void prescribe(Model& m, const Step& step, Half half) override;
   void meanMotion(const Model& m, const Step& step, std::span<Vec3> v, std::span<Vec3> omega) const override;
   double renumber(std::span<const int> newNumber, const Particles& before) override;
+  void addOutside(const Model& m, Momenta& force, Momenta& impulse) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
 
   const std::vector<std::int64_t>& ids() const { return ids_; }
   Vec3 supportImpulse;  ///< given to the particles so far, kg m/s
+  Vec3 supportMoment;   ///< its moment about the origin, kg m²/s
 
 private:
   void locate(const Particles& particles);

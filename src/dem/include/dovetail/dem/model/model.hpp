@@ -93,7 +93,8 @@ void move(Model& m, double dt);
 void renew(Model& m);
 /// Gravity, pairs, terms; books what they lost.
 void addForces(Model& m);
-/// Forces of the state as it is: no time passes, nothing is booked. For those who have moved something between steps.
+/// Forces of the state as it is: no time passes. For those who have moved something between steps: nothing is booked
+/// but what springs lose whose contacts end by that, or slide.
 void findForces(Model& m);
 /// The half kick that ends a step, so that positions and velocities belong to one time. Does nothing if there is none
 /// to make.
@@ -120,6 +121,8 @@ void requireStableStep(const Model& m, double dt, double leastOverlap = 0.0);
 Energies energies(const Model& m);
 /// Momentum and angular momentum now. @throws InputError between advance and close
 Momenta momenta(const Model& m);
+/// Weight of particles and bodies, N, and its moment about the origin, N m.
+Momenta weight(const Model& m);
 
 /// Takes particles out; what they carried is booked as left. Pairs, bonds and walls forget them.
 /// @throws InputError on a number that does not exist

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dovetail/core/archive.hpp"
+#include "dovetail/core/impulses.hpp"
 #include "dovetail/core/vec3.hpp"
 
 namespace dovetail::dem {
@@ -18,7 +19,6 @@ struct Model;
 struct Particles;
 struct ContactDemand;
 struct Energies;
-struct Momenta;
 struct Surroundings;
 
 /// The step under way.
@@ -88,6 +88,10 @@ public:
   /// Adds what it stores and is not in model.work, J; takes out what sums over particles count wrongly.
   virtual void addEnergies(const Model&, Energies&) const {}
   virtual void addMomenta(const Model&, Momenta&) const {}
+  /// What does not act among particles and bodies but on them from outside, with its moments about the origin.
+  /// @param force    adds what the last forces hold of it, N and N m, at the places of the last evaluation
+  /// @param impulse  adds what it has given beside forces so far, kg m/s and kg m²/s
+  virtual void addOutside(const Model&, Momenta& /*force*/, Momenta& /*impulse*/) const {}
 
   /// State for checkpoints, and back into a term that is set up as the one that was saved.
   virtual void save(ByteWriter&) const {}

@@ -28,6 +28,7 @@ public:
   void close(Model& m, double dt) override;
   void addDemand(const Model& m, ContactDemand& demand) const override;
   void addEnergies(const Model& m, Energies& e) const override;
+  void addOutside(const Model& m, Momenta& force, Momenta& impulse) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
 };
@@ -50,6 +51,7 @@ public:
   void close(Model& m, double dt) override;
   void addDemand(const Model& m, ContactDemand& demand) const override;
   void addEnergies(const Model& m, Energies& e) const override;
+  void addOutside(const Model& m, Momenta& force, Momenta& impulse) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
 };

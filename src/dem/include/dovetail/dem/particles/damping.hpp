@@ -20,4 +20,8 @@ double applyViscousDamping(Particles& particles, double rate, std::span<const ch
 /// @throws InputError unless 0 ≤ α < 1
 double applyLocalDamping(Particles& particles, double alpha, std::span<const char> skip = {});
 
+/// What both have added to a force, N (or torque, N m), that holds them, viscous damping first.
+/// @param momentum  kg m/s @param velocity  that both have seen, m/s
+Vec3 dampingForce(const Vec3& force, const Vec3& momentum, const Vec3& velocity, double rate, double alpha);
+
 }  // namespace dovetail::dem

@@ -47,8 +47,6 @@ public:
   /// Accelerations under forces f: a = T (TᵀMT)⁻¹ Tᵀ(f − M a_g) + a_g.
   /// @param a  holds a_g, the accelerations of prescribed motion, at components that are not free; overwritten
   void accelerate(std::span<const Vec3> f, std::span<Vec3> a) const;
-  /// Σ (M a − f) over the components that are not free, and over all with ties, N: what supports and ties exert.
-  Vec3 supportForce(std::span<const Vec3> a, std::span<const Vec3> f) const;
 
 private:
   struct Factor;

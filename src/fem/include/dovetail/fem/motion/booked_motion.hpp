@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/core/impulses.hpp"
 #include "dovetail/fem/motion/energy_book.hpp"
 #include "dovetail/fem/motion/motion.hpp"
 
@@ -46,15 +47,18 @@ public:
 
   Motion motion;
   EnergyBook book;
+  ImpulseBook impulses;  ///< of supports and of the terms but the elements, in kicks that are booked
 
 private:
   void findForces(double h, bool withEnergies);
   void accelerate(double h);
   bool push(double h, double time);
-  bool guessesVelocity_, moving_;
+  void giveImpulses(double h, bool changes);
+  bool guessesVelocity_, moving_, worksAreBooked_;
   bool accelerated_ = false;        // acceleration_ is that of nodes.f
   std::vector<Vec3> acceleration_;  // m/s²; empty where M⁻¹ is a division
   std::vector<Vec3> before_;
+  std::vector<Momenta> outside_;  // forces per term of the last evaluation, N and N m; empty before they are asked for
 };
 
 }  // namespace dovetail::fem

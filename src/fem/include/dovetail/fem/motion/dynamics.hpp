@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dovetail/core/archive.hpp"
+#include "dovetail/core/impulses.hpp"
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/core/profile.hpp"
 #include "dovetail/fem/model/model.hpp"
@@ -159,10 +160,11 @@ public:
   void run(std::int64_t steps);
   const EnergyLedger& ledger() const;
   DynamicsReport report() const;
-  /// v += dt M⁻¹ f on the free components, between steps: see ImplicitMotion::step.
-  void kick(std::span<const Vec3> f, double dt);
   const ModelMass& mass() const;
   double kineticEnergy() const;
+  /// What supports and the terms but the elements have given, if there is a ledger: the means of both ends of a step
+  /// (conserving: the force of the step) at the mean positions.
+  const ImpulseBook& impulses() const;
   /// M v in total, kg m/s, and its moment about the origin, kg m²/s, with the mass in use.
   Vec3 momentum() const;
   Vec3 angularMomentum() const;

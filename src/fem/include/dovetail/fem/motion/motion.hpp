@@ -32,8 +32,8 @@ public:
   /// nodes.f = Σ forces of the terms at u, v, t. @param dt  length of the step that ends here, s
   /// @return their stored energy, J, if `withEnergy`, else 0
   double forces(double dt, bool withEnergy = false);
-  /// Of the last forces(): energy of each term, J (if asked for), and the force of each term that stores none, by
-  /// whose work ledgers tell them apart; in the order of model.terms.
+  /// Of the last forces(), by terms: energy, J (if asked for), and force, N, of all but elements that store an energy;
+  /// empty for these.
   std::span<const double> energies() const;
   std::span<const std::vector<Vec3>> loads() const;
   /// What loads() was when a state was saved.
@@ -53,8 +53,6 @@ public:
 
   /// ½ vᵀMv, J.
   double kineticEnergy() const;
-  /// What supports exert while the nodes have the accelerations `a` under the forces f, N.
-  Vec3 supportForce(std::span<const Vec3> a, std::span<const Vec3> f) const { return mass().supportForce(a, f); }
 
 private:
   struct Impl;

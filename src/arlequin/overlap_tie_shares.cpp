@@ -1,0 +1,97 @@
+// Shares that change: mass, momentum and energy change hands, gaps and contacts go on.
+#include <limits>
+#include <utility>
+
+#include "overlap_tie_impl.hpp"
+
+namespace dovetail::arlequin {
+
+namespace {
+
+double ownKinetic(const dem::Particles& p, std::size_t i) {
+  double energy = p.mass[i] * squaredNorm(p.v[i]);
+  if (p.rotates()) energy += dem::momentOfInertia(p, static_cast<int>(i)) * squaredNorm(p.omega[i]);
+  return 0.5 * energy;
+}
+
+}  // namespace
+
+double contactEnergy(const dem::Model& m) {
+  if (!m.laws || m.pairs.particles() != m.particles.size()) return 0.0;
+  constexpr double noTime = 1e-100;  // s: memories stay
+  dem::Model copy = m;
+  copy.step = {.time = m.time, .dt = noTime, .moved = std::numeric_limits<double>::infinity(), .timeless = true};
+  copy.work = copy.laws->pairs(copy.particles, copy.pairs, noTime, dem::Booking::on);
+  for (const auto& term : copy.terms)
+    if (term->order() == dem::Term::Order::forces && !dynamic_cast<const OverlapTie*>(term.get()))
+      term->addForces(copy, copy.step);
+  return copy.work.storedEnergy();
+}
+
+/// Mass that a share gains or loses comes and goes with the solid's velocity; the rest of its momentum is the nodes'.
+/// Its spin goes too, and the moment of that momentum about where the nodes take it.
+void OverlapTie::Impl::handOver(dem::Model& m, std::size_t i, double before, double after, const fem::CellPlace& place,
+                                std::vector<Vec3>& impulse) {
+  const double mass = (before - after) * m.particles.mass[i];
+  if (mass == 0.0) return;
+  const Cell cell = cellOf(setting.mesh, place.element);
+  Vec3 u;
+  for (std::size_t a = 0; a < cell.node.size(); ++a)
+    u += place.shape[a] * nodes().v[static_cast<std::size_t>(cell.node[a])];
+  Vec3 angular = cross(m.particles.x[i], mass * m.particles.v[i]);
+  if (m.particles.rotates())
+    angular += ((before - after) * dem::momentOfInertia(m.particles, static_cast<int>(i))) * m.particles.omega[i];
+  for (std::size_t a = 0; a < cell.node.size(); ++a) {
+    const auto n = static_cast<std::size_t>(cell.node[a]);
+    const Vec3 part = (place.shape[a] * mass) * (m.particles.v[i] - u);
+    impulse[n] += part;
+    angular -= cross(nodes().X[n] + nodes().u[n], part);
+  }
+  const double energy = (before - after) * ownKinetic(m.particles, i) - mass * dot(m.gravity, m.particles.x[i]);
+  const bool leaves = mass > 0.0;
+  dem::Exchanged& exchanged = leaves ? m.left : m.entered;
+  const double sign = leaves ? 1.0 : -1.0;
+  exchanged.mass += sign * mass;
+  exchanged.momentum += (sign * mass) * u;
+  exchanged.angularMomentum += sign * angular;
+  (leaves ? m.booked.left : m.booked.entered) += sign * energy;
+  m.particles.f[i] -= mass * m.gravity;  // all that it holds before forces are asked for
+  m.particles.weight[i] = after;
+}
+
+void OverlapTie::Impl::kickNodes(std::span<const Vec3> impulse) {
+  if (loadsNobody) return;
+  const std::vector<Vec3> change = side.kick(impulse);
+  for (std::size_t n = 0; n < change.size(); ++n) lost -= dot(impulse[n], nodes().v[n] - 0.5 * change[n]);
+}
+
+/// Whatever the ties are now, the gap of the rows, or their λ, is what it was.
+void OverlapTie::Impl::keepGap(const dem::Model& m) {
+  if (keepsForces()) cg::apply(parts.gap.particles, motionUnder(lambda), now);
+  const std::vector<Vec3> fresh = freshGap(m);
+  for (std::size_t r = 0; r < fresh.size(); ++r) kept[r] = now[r] - fresh[r];
+  storedNow = parts.constraint->storedEnergy(now);
+}
+
+/// Where all particles have been located anew, none has moved from its material point: there is no gap, whose part from
+/// old ties would not turn with the solid. Increments go on from what they were.
+void OverlapTie::Impl::startGapAnew(const dem::Model& m) {
+  const std::vector<Vec3> before = std::exchange(now, freshGap(m));
+  for (std::size_t r = 0; r < now.size(); ++r) {
+    kept[r] = {};
+    atWindow[r] += now[r] - before[r];
+  }
+}
+
+void OverlapTie::Impl::weighPairs(dem::Model& m, std::span<const char> isMoved) {
+  shares.forget(isMoved);
+  const std::span<double> factors = m.pairs.writeFactors();
+  for (std::size_t p = 0; p < m.pairs.size(); ++p) {
+    const auto i = static_cast<std::size_t>(m.pairs.pairs()[p][0]), j = static_cast<std::size_t>(m.pairs.pairs()[p][1]);
+    if ((isMoved[i] || isMoved[j]) && factors[p] != 0.0)
+      factors[p] = 0.5 * (m.particles.weightOf(i) + m.particles.weightOf(j));
+  }
+  shares.update(m.particles, m.pairs, setting.mesh, overlap, positions(), memberOf);
+}
+
+}  // namespace dovetail::arlequin

@@ -1,0 +1,62 @@
+// What overlap ties do at the ends of windows.
+#include "overlap_tie_impl.hpp"
+
+namespace dovetail::arlequin {
+
+/// Rate of the gap that impulses of the rows, N s, take away, m/s.
+std::vector<Vec3> OverlapTie::Impl::answered(const dem::Model& m, std::span<const Vec3> impulses) const {
+  const std::vector<double> mass = yieldingMasses(m);
+  std::vector<Vec3> onParticles(m.particles.size()), onNodes(nodes().v.size()), rate(parts.gap.rows());
+  pullParticles(parts.gap, overlap, impulses, onParticles);
+  pullNodes(parts.gap, impulses, onNodes);
+  side.mass->solve(onNodes);
+  for (std::size_t i = 0; i < onParticles.size(); ++i) onParticles[i] *= 1.0 / mass[i];
+  gapOf(parts.gap, overlap, onParticles, onNodes, rate);
+  for (Vec3& value : rate) value = -value;
+  return rate;
+}
+
+/// λ at the end of a window, which acts in both half windows about it: what it takes is the work of these two kicks
+/// against the means of the rates before and after each. At a start there is the second one only.
+void OverlapTie::Impl::evaluateWindow(const dem::Model& m, double half) {
+  std::vector<Vec3> rate(now.size()), change(now.size()), damped(now.size());
+  const std::vector<Vec3> none(now.size());
+  const bool lags = setting.options.dashpotLags;
+  for (std::size_t r = 0; r < now.size(); ++r) {
+    change[r] = now[r] - atWindow[r];
+    damped[r] = lags ? 0.5 * (change[r] + windowIncrement[r]) : change[r];
+  }
+  gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
+  parts.constraint->evaluate({now, damped, rate, none, half}, lambda);
+  std::vector<Vec3> impulses = lambda;
+  for (Vec3& impulse : impulses) impulse *= half;
+  const double against = sumOfProducts(impulses, rate), own = sumOfProducts(impulses, answered(m, impulses));
+  const bool ends = windowTime && m.time > *windowTime;
+  if (ends) lost += openingWork + against - 0.5 * own;
+  openingWork = against - (ends ? 1.5 : 0.5) * own;
+  windowTime = m.time;
+  atWindow = now;
+  windowIncrement = std::move(change);
+}
+
+void OverlapTie::constrainWindow(const dem::Model& m, std::span<const Vec3> ownForce, double half,
+                                 std::span<Vec3> onParticles, coupling::NodalLoad& load) const {
+  if (!constrains()) return;
+  Impl& s = *impl_;
+  s.ready(m);
+  std::vector<Vec3> lambda(s.parts.gap.rows());
+  if (s.actsInWindows()) {
+    s.evaluateWindow(m, half);
+    lambda = s.lambda;
+  } else {
+    const std::vector<Vec3> still(s.overlap.size()), none(lambda.size());
+    std::vector<Vec3> ofNodes(ownForce.begin(), ownForce.end()), acceleration(lambda.size());
+    side().mass->solve(ofNodes);
+    gapOfMembers(s.parts.gap, still, ofNodes, acceleration);
+    s.parts.constraint->evaluate({s.now, none, none, acceleration, half}, lambda);
+  }
+  pullParticles(s.parts.gap, s.overlap, lambda, onParticles);
+  s.loadNodes(lambda, load);
+}
+
+}  // namespace dovetail::arlequin

@@ -1,0 +1,59 @@
+#include "dovetail/core/impulses.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace dovetail {
+
+void ImpulseBook::Channel::give(const Momenta& impulse) {
+  given += impulse;
+  turnedOver += norm(impulse.linear);
+  turnedOverAngular += norm(impulse.angular);
+}
+
+void ImpulseBook::Channel::add(const Channel& other) {
+  given += other.given;
+  turnedOver += other.turnedOver;
+  turnedOverAngular += other.turnedOverAngular;
+}
+
+ImpulseBook::Channel& ImpulseBook::channel(const std::string& name) {
+  const auto found = std::ranges::find(channels_, name, &Channel::name);
+  return found != channels_.end() ? *found : channels_.emplace_back(Channel{name, {}});
+}
+
+void ImpulseBook::give(const std::string& name, const Momenta& impulse) {
+  if (impulse != Momenta{}) channel(name).give(impulse);
+}
+
+void ImpulseBook::add(const std::string& prefix, const ImpulseBook& other) {
+  for (const Channel& from : other.channels_) channel(prefix + from.name).add(from);
+}
+
+ImpulseBook::Channel ImpulseBook::total() const {
+  Channel sum{"total", {}};
+  for (const Channel& one : channels_) sum.add(one);
+  return sum;
+}
+
+void ImpulseBook::save(ByteWriter& archive) const {
+  archive(static_cast<std::uint64_t>(channels_.size()));
+  for (const Channel& one : channels_)
+    archive(std::vector<char>(one.name.begin(), one.name.end()), one.given, one.turnedOver, one.turnedOverAngular);
+}
+
+void ImpulseBook::load(ByteReader& archive) {
+  std::uint64_t count = 0;
+  archive(count);
+  std::vector<Channel> read;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    std::vector<char> name;
+    Channel one;
+    archive(name, one.given, one.turnedOver, one.turnedOverAngular);
+    one.name.assign(name.begin(), name.end());
+    read.push_back(std::move(one));
+  }
+  channels_ = std::move(read);
+}
+
+}  // namespace dovetail

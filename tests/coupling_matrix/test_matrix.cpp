@@ -1,0 +1,59 @@
+// Coupled scenes of elements, materials, couplings, contact laws and windows that hold every pair of these.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "matrix_figures.hpp"
+
+namespace dovetail::coupling_matrix {
+namespace {
+
+TEST(Cases, OfThePairwiseSetHoldEveryPair) {
+  std::set<std::array<int, 4>> pairs;
+  for (const Case& c : pairwiseCases()) {
+    const auto level = levelsOf(c);
+    EXPECT_EQ(levelsOf(caseOf(level)), level);
+    for (int a = 0; a < static_cast<int>(factors); ++a)
+      for (int b = a + 1; b < static_cast<int>(factors); ++b)
+        pairs.insert({a, level[static_cast<std::size_t>(a)], b, level[static_cast<std::size_t>(b)]});
+  }
+  std::size_t all = 0;
+  for (std::size_t a = 0; a < factors; ++a)
+    for (std::size_t b = a + 1; b < factors; ++b) all += static_cast<std::size_t>(levels[a] * levels[b]);
+  EXPECT_EQ(pairs.size(), all);
+  EXPECT_LE(pairwiseCases().size(), 30u);
+  EXPECT_EQ(allCases().size(), 720u);
+}
+
+class Matrix : public testing::TestWithParam<Case> {};
+
+TEST_P(Matrix, TheBooksCloseAndDigitsStay) {
+  const Figures figures = measure(GetParam(), 160);
+  EXPECT_EQ(figures.refused, "");
+  const std::string falls = shortfall(GetParam(), figures);
+  EXPECT_TRUE(falls.empty() || falls == energyInPassing) << falls;
+  EXPECT_LT(figures.largestEnergy, 1e-2);
+}
+
+/// Runs in which particles are located anew: shares of contacts at walls change with those of the particles.
+TEST(MatrixLong, TheBooksCloseWhereTiesAreMadeAnew) {
+  for (const Windows windows : {Windows::explicit1, Windows::implicit1})
+    for (const Joint joint : {Joint::penalty, Joint::multipliers}) {
+      const Case c{Element::hex8, SolidLaw::stVenantKirchhoff, joint, ContactKind::hertzMindlin, windows};
+      const Figures figures = measure(c, 640);
+      EXPECT_EQ(shortfall(c, figures), "") << nameOf(c);
+    }
+}
+
+std::string testName(const testing::TestParamInfo<Case>& c) {
+  std::string name = nameOf(c.param);
+  std::erase(name, '-');
+  for (char& letter : name)
+    if (letter == ' ') letter = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, Matrix, testing::ValuesIn(pairwiseCases()), testName);
+
+}  // namespace
+}  // namespace dovetail::coupling_matrix
