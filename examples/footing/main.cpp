@@ -130,12 +130,10 @@ bool run(const example::Options& options) {
   goOn(*first, series);
   goOn(*second, again);
   const bool same = first->save() == second->save();
+  coupling::report(*second, std::cout);
+  std::cout << "load on the plate " << loadOnPlate(*second) << " N\n";
+  std::cout << "restarted: " << (same ? "the same digits\n" : "OTHER digits\n");
   const EnergyLedger& ledger = second->ledger();
-  const coupling::StepLimit limit = second->criticalStep();
-  std::cout << second->grains.particles.size() << " spheres after " << second->time() << " s\n"
-            << ledger << "step " << second->dt() << " s, at most " << limit.dt << " s, set by " << limit.owner
-            << "\nload on the plate " << loadOnPlate(*second)
-            << " N\nrestarted: " << (same ? "the same digits\n" : "OTHER digits\n");
   if (!options.out.empty()) write(options.out, *second, series);
   const double handedOver =
       std::abs(ledger.joules("plate: supports")) + std::abs(ledger.joules("particles: entered (minus)"));

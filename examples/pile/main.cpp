@@ -62,11 +62,9 @@ bool run(const example::Options& options) {
   second->load(first->save());
   for (auto* scene : {first.get(), second.get()}) scene->advance(half);
   const bool same = first->save() == second->save();
+  coupling::report(*second, std::cout);
+  std::cout << "restarted: " << (same ? "the same digits\n" : "OTHER digits\n");
   const EnergyLedger& ledger = second->ledger();
-  const coupling::StepLimit limit = second->criticalStep();
-  std::cout << second->grains.particles.size() << " spheres after " << second->time() << " s\n"
-            << ledger << "step " << second->dt() << " s, at most " << limit.dt << " s, set by " << limit.owner
-            << "\nrestarted: " << (same ? "the same digits\n" : "OTHER digits\n");
   if (!options.out.empty())
     example::writeParticles(options.out, "pile", second->time(), second->grains.particles, io::provenance({}));
   return same && std::abs(ledger.residual()) < -1e-3 * ledger.joules("particles: entered (minus)");

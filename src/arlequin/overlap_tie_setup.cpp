@@ -190,7 +190,9 @@ void OverlapTie::addDemand(const dem::Model& m, dem::ContactDemand& demand) cons
     });
     demand.links.push_back(
         {s.overlap.particle[k], -1, dem::StepOwner::contact, spring(k), std::max(1.0, sum) * worst, 0.0});
+    demand.links.back().surface = static_cast<int>(demand.surfaces.size());
   }
+  demand.surfaces.push_back(name());
 }
 
 }  // namespace dovetail::arlequin

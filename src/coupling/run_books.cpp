@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <ostream>
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
@@ -98,6 +99,16 @@ StepLimit CoupledRun::Impl::criticalStep() {
     limit.dt = std::min(limit.dt, together);
   }
   return limit;
+}
+
+void report(CoupledRun& run, std::ostream& out) {
+  out << run.grains.particles.size() << " particles";
+  for (std::size_t k = 0; k < run.solids(); ++k)
+    out << ", \"" << run.solid(k).name << "\" of " << run.solid(k).nodes().X.size() << " nodes";
+  const StepLimit limit = run.criticalStep();
+  out << " at " << run.time() << " s\nstep " << run.dt() << " s, " << run.window() << " s of the solids; at most "
+      << limit.dt << " s, set by " << limit.owner << '\n'
+      << run.ledger() << run.totals() << run.profile;
 }
 
 }  // namespace dovetail::coupling

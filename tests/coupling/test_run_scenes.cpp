@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "dovetail/core/error.hpp"
 #include "full_scene.hpp"
@@ -126,6 +127,20 @@ TEST(Scene, OfASolidAloneMovesItself) {
   run.advance(200);
   EXPECT_GT(run.ledger().joules("block: elastic"), 0.05 * run.ledger().storedAtOpening());
   EXPECT_LT(std::abs(run.ledger().residual()), 1e-2 * run.ledger().storedAtOpening());
+}
+
+TEST(Scene, ReportsWhatItHoldsAndHasComeTo) {
+  const auto run = emptyRun();
+  addBlock(*run);
+  addLayer(*run, 12);
+  run->profile = Profile(true);
+  run->grains.profile = &run->profile;
+  run->start(dt);
+  run->advance(50);
+  std::ostringstream out;
+  report(*run, out);
+  for (const char* word : {"12 particles", "\"block\" of", "set by", "block: elastic", "residual", "momentum", "pairs"})
+    EXPECT_NE(out.str().find(word), std::string::npos) << word << " in\n" << out.str();
 }
 
 TEST(Scene, OfNothingPassesTheTime) {

@@ -281,6 +281,16 @@ TEST(SurfaceContact, OfACopyMeetsTheSolidAndLoadsNobody) {
   EXPECT_GT(copy.particles.f[0].z, scene.grains.particles.f[0].z);
 }
 
+TEST(SurfaceContact, NamesTheSurfaceThatSetsTheStep) {
+  const fem::SolidMesh mesh = softBlock(CellShape::hex8);
+  dem::Particles one;
+  dem::addParticle(one, {0.3, 0.3, 0.029}, {}, 0.03, dem::Mass{1.0});
+  ContactScene scene(mesh, one, rollingLaws());
+  scene.start(1e-5);
+  EXPECT_EQ(dem::ownerOf(dem::criticalStep(scene.grains), scene.grains.particles),
+            "the contact of particle 0 with \"contacts\"");
+}
+
 TEST(SurfaceContact, RefusesWhatItCannotDo) {
   const fem::SolidMesh mesh = softBlock(CellShape::hex8), other = softBlock(CellShape::hex8, {2, 2, 1});
   ContactScene scene(mesh, slantingGrains(3, 5), rollingLaws());

@@ -143,6 +143,10 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
+/// What a started run holds and has come to: sizes, time, its step beside the limit and who sets that, ledger, momenta,
+/// and the time per stage if Profile is on.
+void report(CoupledRun& run, std::ostream& out);
+
 struct RestOptions {
   /// At rest when no swing has had a kinetic energy above this share of the elastic energy, twice in a row.
   double kinetic = 1e-8;
