@@ -2,25 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "checks.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "sweep.hpp"
+#include "near_items.hpp"
 
 namespace dovetail::cg {
 
 namespace {
 
 Eigen::Vector3d eigen(const Vec3& a) { return {a.x, a.y, a.z}; }
-
-void requireSame(std::size_t a, std::size_t b, const char* what) {
-  if (a != b)
-    throw InputError("the lengths " + std::to_string(a) + " and " + std::to_string(b) + " differ", what,
-                     "give one value per item");
-}
 
 void requireBox(const AverageBox& box) {
   for (int k = 0; k < 3; ++k)
@@ -30,10 +24,10 @@ void requireBox(const AverageBox& box) {
 }
 
 void requireMatching(const BranchView& branches, const ParticleView& particles) {
-  requireSame(branches.from.size(), branches.to.size(), "contact branches");
-  requireSame(branches.from.size(), branches.force.size(), "contact branches and forces");
-  requireSame(particles.x.size(), particles.v.size(), "particle positions and velocities");
-  requireSame(particles.x.size(), particles.mass.size(), "particle positions and masses");
+  requireSameLength(branches.from.size(), branches.to.size(), "contact branches");
+  requireSameLength(branches.from.size(), branches.force.size(), "contact branches and forces");
+  requireSameLength(particles.x.size(), particles.v.size(), "particle positions and velocities");
+  requireSameLength(particles.x.size(), particles.mass.size(), "particle positions and masses");
 }
 
 bool inside(const Vec3& x, const AverageBox& box) {
@@ -79,17 +73,8 @@ Eigen::Matrix3d kineticSum(const ParticleView& particles, Wanted&& wanted) {
 
 }  // namespace
 
-std::vector<double> solidFractionField(const Kernel& kernel, std::span<const Vec3> points, std::span<const Vec3> x,
-                                       std::span<const double> radius) {
-  requireSame(x.size(), radius.size(), "positions and radii");
-  std::vector<double> volume;
-  for (const double r : radius) volume.push_back(4.0 / 3.0 * std::numbers::pi * r * r * r);
-  const std::vector<Vec3> rest(x.size());
-  return particleFields(kernel, points, {x, rest, volume}).density;
-}
-
 Coordination coordination(std::span<const int> first, std::span<const int> second, int particles, int least) {
-  requireSame(first.size(), second.size(), "particles of contacts");
+  requireSameLength(first.size(), second.size(), "particles of contacts");
   if (least < 0 || particles < 0)
     throw InputError("a number is below zero", "coordination", "give numbers of at least zero");
   for (std::size_t c = 0; c < first.size(); ++c)
@@ -137,18 +122,20 @@ Eigen::Matrix3d fabric(std::span<const Vec3> normal) {
 
 std::vector<Eigen::Matrix3d> fabricField(const Kernel& kernel, std::span<const Vec3> points,
                                          std::span<const Vec3> contact, std::span<const Vec3> normal) {
-  requireSame(contact.size(), normal.size(), "contact points and normals");
+  requireSameLength(contact.size(), normal.size(), "contact points and normals");
   requireValid(kernel);
-  const AxisSweep sweep(contact, "contact");
+  requireFiniteItems(points, "point", "position");
+  requireFiniteItems(contact, "contact", "position");
+  const NearItems near(kernel, contact, {}, {});
   std::vector<Eigen::Matrix3d> field(points.size(), Eigen::Matrix3d::Zero());
   parallelFor(points.size(), 32, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       double weight = 0.0;
-      for (int i : sweep.near(points[p], kernel.width)) {
-        const double w = profile(kernel.shape, norm(points[p] - contact[i]) / kernel.width);
+      near.forEach(points[p], [&](std::size_t i, const Vec3& place) {
+        const double w = profile(kernel.shape, norm(place - contact[i]) / kernel.width);
         weight += w;
         field[p] += w * eigen(normal[i]) * eigen(normal[i]).transpose();
-      }
+      });
       if (weight > 0.0) field[p] /= weight;
     }
   });
@@ -179,7 +166,7 @@ AverageStress loveWeberStress(const BranchView& branches, const ParticleView& pa
 }
 
 double solidFraction(std::span<const Vec3> x, std::span<const double> radius, const AverageBox& box) {
-  requireSame(x.size(), radius.size(), "positions and radii");
+  requireSameLength(x.size(), radius.size(), "positions and radii");
   requireBox(box);
   const double filled = parallelSum(x.size(), 256, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;

@@ -1,66 +1,129 @@
 #include "dovetail/cg/fields.hpp"
 
-#include <string>
-
-#include "dovetail/cg/stress.hpp"
-#include "dovetail/core/error.hpp"
+#include "checks.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "sweep.hpp"
+#include "kernel_sum.hpp"
+#include "near_items.hpp"
+#include "segment_mean.hpp"
 
 namespace dovetail::cg {
 
 namespace {
 
+using Eigen::Matrix3d;
+
 constexpr std::size_t grain = 32;
 
-void requireSame(std::size_t a, std::size_t b, const std::string& what) {
-  if (a != b)
-    throw InputError("the lengths " + std::to_string(a) + " and " + std::to_string(b) + " differ", what,
-                     "give one value per item");
-}
+Eigen::Vector3d eigen(const Vec3& a) { return {a.x, a.y, a.z}; }
 
-void requireDimension(const Kernel& kernel, int dimension) {
+void check(const Kernel& kernel, std::span<const Vec3> points, const SnapshotView& snapshot) {
   requireValid(kernel);
-  if (kernel.dimension != dimension)
-    throw InputError("the kernel's dimension is " + std::to_string(kernel.dimension), "kernel dimension",
-                     "give a kernel of dimension " + std::to_string(dimension));
+  requireFiniteItems(points, "point", "position");
+  const auto& [particles, branches, walls, space] = snapshot;
+  requireSameLength(particles.x.size(), particles.v.size(), "particle positions and velocities");
+  requireSameLength(particles.x.size(), particles.mass.size(), "particle positions and masses");
+  if (!particles.volume.empty())
+    requireSameLength(particles.x.size(), particles.volume.size(), "particle positions and volumes");
+  requireSameLength(branches.from.size(), branches.to.size(), "starts and ends of contact branches");
+  requireSameLength(branches.from.size(), branches.force.size(), "contact branches and forces");
+  requireSameLength(walls.point.size(), walls.force.size(), "contact points on walls and forces");
+  requireFiniteItems(particles.x, "particle", "position");
+  requireFiniteItems(particles.v, "particle", "velocity");
+  requireNotNegative(particles.mass, "particle", "mass");
+  requireNotNegative(particles.volume, "particle", "volume");
+  requireFiniteItems(branches.from, "contact branch", "start");
+  requireFiniteItems(branches.to, "contact branch", "end");
+  requireFiniteItems(branches.force, "contact branch", "force");
+  requireFiniteItems(walls.point, "wall contact", "position");
+  requireFiniteItems(walls.force, "wall contact", "force");
 }
 
-/// Σ −f W(x − x_c) at the points.
-std::vector<Vec3> spreadReactions(const Kernel& kernel, std::span<const Vec3> points, std::span<const Vec3> contact,
-                                  std::span<const Vec3> force) {
-  requireSame(contact.size(), force.size(), "contact points and forces");
+/// A particle in reach of a point, and its kernel there, 1/m^d.
+struct Reached {
+  std::size_t particle;
+  double kernel;
+};
+
+void setFields(const ParticleView& particles, std::span<const Reached> reached, std::size_t p, Fields& fields) {
+  double density = 0.0, volume = 0.0;
+  Vec3 momentum;
+  for (const auto& [i, kernel] : reached) {
+    density += particles.mass[i] * kernel;
+    momentum += (particles.mass[i] * kernel) * particles.v[i];
+    if (!particles.volume.empty()) volume += particles.volume[i] * kernel;
+  }
+  fields.density[p] = density;
+  fields.momentum[p] = momentum;
+  if (!particles.volume.empty()) fields.solidFraction[p] = volume;
+  if (!(density > 0.0)) return;
+  const Vec3 mean = momentum / density;
+  Matrix3d flux = Matrix3d::Zero();  // of momentum by fluctuations
+  for (const auto& [i, kernel] : reached) {
+    const Eigen::Vector3d v = eigen(particles.v[i] - mean);
+    flux += (particles.mass[i] * kernel) * v * v.transpose();
+  }
+  fields.velocity[p] = mean;
+  fields.kineticStress[p] = -flux;
+  fields.temperature[p] = flux.trace() / (3.0 * density);
+}
+
+void addParticles(const Kernel& kernel, std::span<const Vec3> points, const SnapshotView& snapshot, Fields& fields) {
+  const ParticleView& particles = snapshot.particles;
   const double peak = kernel.peak();
-  const AxisSweep sweep(contact, "contact");
-  std::vector<Vec3> density(points.size());
+  const NearItems near(kernel, particles.x, {}, snapshot.space);
   parallelFor(points.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-      for (int i : sweep.near(points[p], kernel.width))
-        density[p] -= peak * profile(kernel.shape, norm(points[p] - contact[i]) / kernel.width) * force[i];
+    std::vector<Reached> reached;
+    for (std::size_t p = begin; p < end; ++p) {
+      reached.clear();
+      near.forEach(points[p], [&](std::size_t i, const Vec3& place) {
+        const double value = profile(kernel.shape, norm(place - particles.x[i]) / kernel.width);
+        if (value > 0.0) reached.push_back({i, peak * value});
+      });
+      setFields(particles, reached, p, fields);
+    }
   });
-  return density;
+}
+
+void addBranches(const Kernel& kernel, std::span<const Vec3> points, const SnapshotView& snapshot, Fields& fields) {
+  const BranchView& branches = snapshot.branches;
+  std::vector<Vec3> middle(branches.from.size());
+  std::vector<double> half(branches.from.size());
+  for (std::size_t b = 0; b < middle.size(); ++b) {
+    middle[b] = branches.from[b] + 0.5 * (branches.to[b] - branches.from[b]);
+    half[b] = 0.5 * norm(branches.to[b] - branches.from[b]);
+  }
+  const double peak = kernel.peak();
+  const NearItems near(kernel, middle, half, snapshot.space);
+  parallelFor(points.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      Matrix3d sum = Matrix3d::Zero();
+      near.forEach(points[p], [&](std::size_t b, const Vec3& place) {
+        const Vec3 &from = branches.from[b], &to = branches.to[b];
+        const double mean = profileMean(kernel.shape, kernel.width, place - from, place - to);
+        if (mean > 0.0) sum += mean * eigen(branches.force[b]) * eigen(from - to).transpose();
+      });
+      fields.contactStress[p] = -peak * sum;
+    }
+  });
 }
 
 }  // namespace
 
-Fields particleFields(const Kernel& kernel, std::span<const Vec3> points, const ParticleView& particles) {
-  requireSame(particles.x.size(), particles.v.size(), "particle positions and velocities");
-  requireSame(particles.x.size(), particles.mass.size(), "particle positions and masses");
-  const double peak = kernel.peak();
-  const AxisSweep sweep(particles.x, "particle");
-  Fields fields{std::vector<double>(points.size()), std::vector<Vec3>(points.size()), std::vector<Vec3>(points.size())};
-  parallelFor(points.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      for (int i : sweep.near(points[p], kernel.width)) {
-        const double share =
-            particles.mass[i] * peak * profile(kernel.shape, norm(points[p] - particles.x[i]) / kernel.width);
-        fields.density[p] += share;
-        fields.momentum[p] += share * particles.v[i];
-      }
-      if (fields.density[p] > 0.0) fields.velocity[p] = fields.momentum[p] / fields.density[p];
-    }
-  });
+Fields sample(const Kernel& kernel, std::span<const Vec3> points, const SnapshotView& snapshot) {
+  check(kernel, points, snapshot);
+  const std::size_t n = points.size();
+  Fields fields{.density = std::vector<double>(n),
+                .solidFraction = std::vector<double>(snapshot.particles.volume.empty() ? 0 : n),
+                .momentum = std::vector<Vec3>(n),
+                .velocity = std::vector<Vec3>(n),
+                .temperature = std::vector<double>(n),
+                .kineticStress = std::vector<Matrix3d>(n, Matrix3d::Zero()),
+                .contactStress = std::vector<Matrix3d>(n, Matrix3d::Zero()),
+                .wallForce = std::vector<Vec3>(n)};
+  addParticles(kernel, points, snapshot, fields);
+  addBranches(kernel, points, snapshot, fields);
+  addKernels(kernel, points, snapshot.walls, snapshot.space, 1.0, fields.wallForce);
   return fields;
 }
 
@@ -80,29 +143,6 @@ std::vector<Vec3> gridPoints(const Grid& grid) {
     for (int j = 0; j < grid.count[1]; ++j)
       for (int i = 0; i < grid.count[0]; ++i) points.push_back({place(0, i), place(1, j), place(2, k)});
   return points;
-}
-
-std::vector<Vec3> boundaryForceDensity(const Kernel& kernel, std::span<const Vec3> points,
-                                       std::span<const Vec3> contact, std::span<const Vec3> force) {
-  return spreadReactions(kernel, points, contact, force);
-}
-
-std::vector<Vec3> surfaceTraction(const Kernel& kernel, std::span<const Vec3> points, std::span<const Vec3> contact,
-                                  std::span<const Vec3> force) {
-  requireDimension(kernel, 2);
-  return spreadReactions(kernel, points, contact, force);
-}
-
-void addKineticTraction(const Kernel& kernel, std::span<const Vec3> points, std::span<const Vec3> normal,
-                        const ParticleView& particles, std::span<Vec3> traction) {
-  requireDimension(kernel, 3);
-  requireSame(points.size(), normal.size(), "points and normals");
-  requireSame(points.size(), traction.size(), "points and tractions");
-  const std::vector<Eigen::Matrix3d> stress = kineticStress(kernel, points, particles);
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    const Eigen::Vector3d t = stress[p] * Eigen::Vector3d(normal[p].x, normal[p].y, normal[p].z);
-    traction[p] += {t[0], t[1], t[2]};
-  }
 }
 
 }  // namespace dovetail::cg

@@ -7,6 +7,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "segment_mean.hpp"
 
 namespace dovetail::cg {
 
@@ -94,13 +95,17 @@ Vec3 Kernel::gradient(const Vec3& offset) const {
 
 double Kernel::segmentMean(const Vec3& from, const Vec3& to) const {
   const double height = peak();
+  return height * profileMean(shape, width, from, to);
+}
+
+double profileMean(KernelShape shape, double width, const Vec3& from, const Vec3& to) {
   const Vec3 branch = (to - from) / width;
   const double length = norm(branch);
   if (length < 1e-4) {
     // The closed form below would lose digits by cancellation; three Gauss points are exact to round-off here.
     const auto at = [&](double s) { return profile(shape, norm(from + s * (to - from)) / width); };
     const double offset = 0.5 * std::sqrt(0.6);
-    return height * (5.0 * at(0.5 - offset) + 8.0 * at(0.5) + 5.0 * at(0.5 + offset)) / 18.0;
+    return (5.0 * at(0.5 - offset) + 8.0 * at(0.5) + 5.0 * at(0.5 + offset)) / 18.0;
   }
   const Vec3 direction = branch / length;
   const double start = dot(from, direction) / width;
@@ -109,7 +114,7 @@ double Kernel::segmentMean(const Vec3& from, const Vec3& to) const {
   const double half = std::sqrt((1.0 - p) * (1.0 + p));
   const double lower = std::max(start, -half), upper = std::min(start + length, half);
   if (!(upper > lower)) return 0.0;
-  return height * (lineIntegral(shape, p, upper) - lineIntegral(shape, p, lower)) / length;
+  return (lineIntegral(shape, p, upper) - lineIntegral(shape, p, lower)) / length;
 }
 
 }  // namespace dovetail::cg

@@ -78,11 +78,13 @@ TEST(SolidFraction, OfALatticeIsExactForAnyBoxOfWholePeriodsAndItsFieldIntegrate
   const std::vector<double> radius(x.size(), 0.5);
   EXPECT_NEAR(solidFraction(x, radius, {{0.3, 0.1, 0.75}, {2.3, 3.1, 1.75}}), pi / 6.0, 1e-11);
   const std::vector<Vec3> one{{0.1, 0.2, 0.3}};
-  const std::vector<double> r{0.4};
   const Kernel kernel{KernelShape::lucy, 3, 0.5};
   const double h = 0.02;
   double total = 0.0;
-  for (const double phi : solidFractionField(kernel, gridPoints({{-0.5, -0.4, -0.3}, {h, h, h}, {61, 61, 61}}), one, r))
+  const std::vector<Vec3> rest(1);
+  const std::vector<double> mass(1), volume{4.0 / 3.0 * pi * 0.064};
+  const auto points = gridPoints({{-0.5, -0.4, -0.3}, {h, h, h}, {61, 61, 61}});
+  for (const double phi : sample(kernel, points, {.particles = {one, rest, mass, volume}}).solidFraction)
     total += phi * h * h * h;
   EXPECT_NEAR(total, 4.0 / 3.0 * pi * 0.064, 1e-5);
 }
@@ -162,7 +164,8 @@ TEST(LoveWeber, OfAWideBoxIsTheVolumeIntegralOfTheCoarseGrainedStress) {
   const double h = 0.04;
   const auto points = gridPoints({{-0.7, -0.7, -0.7}, {h, h, h}, {36, 36, 36}});
   Matrix3d integral = Matrix3d::Zero();
-  for (const Matrix3d& s : contactStress({KernelShape::lucy, 3, 0.4}, points, {from, to, force}))
+  const SnapshotView branches{.particles = {}, .branches = {from, to, force}};
+  for (const Matrix3d& s : sample({KernelShape::lucy, 3, 0.4}, points, branches).contactStress)
     integral += h * h * h * s;
   const Matrix3d average = loveWeberStress({from, to, force}, {}, AverageBox{{-1, -1, -1}, {1, 1, 1}}).contact;
   EXPECT_LE((integral - 8.0 * average).norm(), 1e-4 * 8.0 * average.norm());

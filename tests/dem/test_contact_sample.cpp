@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/cg/averages.hpp"
-#include "dovetail/cg/images.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/sample.hpp"
@@ -286,52 +285,10 @@ TEST(JoinMembers, TheStressOfASqueezedClumpIsWhatSqueezesIt) {
   }
   const double volume = 0.01;
   EXPECT_GT((cg::loveWeberStress(branches(sample), {}, volume).contact - wanted / volume).norm(), 0.1 * wanted.norm());
-  joinMembers(particles, bodies, clumps, sample);
+  joinMembers(particles, bodies, clumps, {}, sample);
   EXPECT_LE((cg::loveWeberStress(branches(sample), {}, volume).contact - wanted / volume).norm(),
             1e-12 * wanted.norm() / volume);
   EXPECT_LT(wanted(0, 0), 0.0);
-}
-
-TEST(ContactSample, ItsCoarseGrainedStressBalancesTheForcesInAPeriodicCell) {
-  const auto laws = makeContactLaws(rubbing);
-  Random random(6);
-  Particles particles;
-  for (int i = 0; i < 200; ++i) addParticle(particles, random.vector(0.6), random.vector(1.0), 0.08, Density{1000.0});
-  PairList list;
-  list.setPeriodicity({{{0, 0, 0}, {1, 1, 1}}, {true, true, true}});
-  list.setSkin(0.01);
-  findPairs(particles, list);
-  laws->pairs(particles, list, 1e-4, Booking::on);
-  const ContactSample sample = laws->sample(particles, list);
-
-  const cg::Kernel kernel{cg::KernelShape::lucy, 3, 0.3};
-  const cg::AverageBox cell{{0, 0, 0}, {1, 1, 1}};
-  const std::array<bool, 3> axes{true, true, true};
-  const auto nearby = cg::periodicImages(particles.x, cell, axes, kernel.width + 0.1);
-  const auto x = nearby.moved(particles.x), f = nearby.copied<Vec3>(particles.f);
-  const auto across = cg::periodicImages(sample.from, cell, axes, kernel.width + 0.3);
-  const auto from = across.moved(sample.from), to = across.moved(sample.to), force = across.copied<Vec3>(sample.force);
-
-  // Σ f W(x − x_i) = ∇·σ_c, by central differences, in the cell and on its border.
-  const double h = 1e-4;
-  for (const Vec3& point : {Vec3{0.4, 0.5, 0.6}, Vec3{0, 0.3, 0.7}, Vec3{1, 1, 0}}) {
-    Eigen::Vector3d wanted = Eigen::Vector3d::Zero(), divergence = wanted;
-    double size = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const Vec3 share = kernel(norm(point - x[i])) * f[i];
-      wanted += Eigen::Vector3d(share.x, share.y, share.z);
-      size += norm(share);
-    }
-    for (int k = 0; k < 3; ++k) {
-      Vec3 shift;
-      shift[k] = h;
-      const std::vector<Vec3> ends{point + shift, point - shift};
-      const auto stress = cg::contactStress(kernel, ends, {from, to, force});
-      divergence += (stress[0] - stress[1]).col(k) / (2.0 * h);
-    }
-    EXPECT_GT(size, 0.0);
-    EXPECT_LE((divergence - wanted).norm(), 1e-5 * size);
-  }
 }
 
 }  // namespace

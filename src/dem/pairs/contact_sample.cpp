@@ -71,6 +71,7 @@ void PairsApart::take(const Particles& all, const PairList& from, std::size_t fi
   copy(particles.v, all.v);
   copy(particles.radius, all.radius);
   copy(particles.mass, all.mass);
+  copy(particles.weight, all.weight);  // dashpots are made for the share of the mass
   copy(particles.omega, all.omega);
   copy(particles.material, all.material);
   particles.torque.assign(particles.omega.size(), {});
@@ -136,11 +137,12 @@ void addWallContacts(const Particles& particles, const PrimitiveWall& wall, Cont
   }
 }
 
-void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps& clumps, ContactSample& sample) {
+void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps& clumps,
+                 const geometry::Periodicity& space, ContactSample& sample) {
   std::vector<Vec3> toCentre(particles.size());
   for (std::size_t m = 0; m < clumps.size(); ++m) {
     const auto i = static_cast<std::size_t>(clumps.particle[m]), b = static_cast<std::size_t>(clumps.body[m]);
-    toCentre[i] = bodies.x[b] - particles.x[i];
+    toCentre[i] = space.minimumImage(bodies.x[b] - particles.x[i]);
   }
   const auto moveEnd = [&](int particle, Vec3& end, const Vec3& force, Vec3& torque) {
     const Vec3& move = toCentre[static_cast<std::size_t>(particle)];

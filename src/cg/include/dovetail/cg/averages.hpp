@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "dovetail/cg/fields.hpp"
-#include "dovetail/cg/stress.hpp"
 #include "dovetail/core/vec3.hpp"
 
 namespace dovetail::cg {
@@ -25,11 +24,6 @@ double sphereInBox(const Vec3& centre, double radius, const AverageBox& box);
 /// Share of the box that spheres fill; overlaps count twice. Porosity is 1 minus this.
 /// @throws InputError as sphereInBox, or if the spans do not match
 double solidFraction(std::span<const Vec3> x, std::span<const double> radius, const AverageBox& box);
-
-/// φ(x) = Σ 4/3 π R³ W(x − x_i) at points, dimensionless for a 3-D kernel.
-/// @throws InputError for an invalid kernel or spans that do not match
-std::vector<double> solidFractionField(const Kernel& kernel, std::span<const Vec3> points, std::span<const Vec3> x,
-                                       std::span<const double> radius);
 
 /// How many contacts particles have.
 struct Coordination {
@@ -73,7 +67,7 @@ AverageStress loveWeberStress(const BranchView& branches, const ParticleView& pa
 
 /// The same for a box within the specimen: each branch counts with the share of its length that lies in the box, each
 /// particle if its centre does. This is the exact average over the box of the stress of straight branches
-/// (contactStress in the limit of no width), and boxes side by side add up to the whole.
+/// (Fields::contactStress in the limit of no width), and boxes side by side add up to the whole.
 /// @throws InputError as above, or unless lower < upper
 AverageStress loveWeberStress(const BranchView& branches, const ParticleView& particles, const AverageBox& box);
 

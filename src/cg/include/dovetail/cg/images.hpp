@@ -1,13 +1,12 @@
 // Periodic images, so that fields near the border of a periodic cell see what lies across it.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
-#include "dovetail/cg/averages.hpp"
 #include "dovetail/core/vec3.hpp"
+#include "dovetail/geometry/hierarchical_grid.hpp"
 
 namespace dovetail::cg {
 
@@ -34,9 +33,11 @@ struct PeriodicImages {
 
 /// All images of points that lie in the cell grown by `reach`, by item, then shift. Along periodic axes the points may
 /// lie anywhere; along the others every point counts once, wherever it is.
-/// @param reach m: the kernel's width, for particles; and the longest branch more, for branches by their `from`
-/// @throws InputError unless the cell is finite with lower < upper, reach is finite and ≥ 0, and points are finite
-PeriodicImages periodicImages(std::span<const Vec3> x, const AverageBox& cell, const std::array<bool, 3>& axes,
-                              double reach);
+/// @param space the cell and its periodic axes
+/// @param reach m: the kernel's width, for particles; and half the longest branch more, for branches by their middle
+/// @throws InputError unless the cell is finite with lower < upper along periodic axes, reach is finite, ≥ 0 and at
+/// most
+///         32 periods, and points are finite
+PeriodicImages periodicImages(std::span<const Vec3> x, const geometry::Periodicity& space, double reach);
 
 }  // namespace dovetail::cg

@@ -80,6 +80,8 @@ void addWallContacts(const Particles& particles, const PrimitiveWall& wall, Cont
 /// then. Points, normals, forces and the numbers of the particles stay. For the kinetic part of a stress take bodies
 /// instead of their members.
 /// @param particles, bodies as they were when the sample was taken
-void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps& clumps, ContactSample& sample);
+/// @param space the particles': members lie at any image
+void joinMembers(const Particles& particles, const Bodies& bodies, const Clumps& clumps,
+                 const geometry::Periodicity& space, ContactSample& sample);
 
 }  // namespace dovetail::dem
