@@ -109,6 +109,9 @@ TEST(Snapshot, ItsFieldsBalanceWhateverActsOnTheGrains) {
     findForces(m);  // of the velocities as they are now
     ASSERT_GT(norm(primitiveWall(m, 0).force), 1.0);
     ASSERT_GT(norm(totalForce(meshWall(m, 0).wall)), 1.0);
+    const Snapshot snapshot = takeSnapshot(m);
+    for (std::size_t c = 0; c < snapshot.from.size(); ++c)  // no branch goes round the cell, those of the clump neither
+      EXPECT_LT(norm(snapshot.from[c] - snapshot.to[c]), 0.3);
     const auto points = places(origin, random);
     for (const double width : {0.12, 0.4}) {
       const cg::Kernel kernel{cg::KernelShape::lucy, 3, width};
