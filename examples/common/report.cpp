@@ -69,4 +69,19 @@ void writeNodes(const std::filesystem::path& folder, const std::string& name, st
   io::writeCsv(folder / (name + ".csv"), table, provenance);
 }
 
+void writeFields(const std::filesystem::path& folder, const std::string& name, std::span<const Vec3> points,
+                 const cg::Fields& fields, const io::KeyValues& provenance) {
+  io::prepareOutputFolder(folder, {name + ".csv"});
+  io::TimeSeries table({"x_m", "y_m", "z_m", "density_kg_per_m3", "solid_fraction", "vx_m_per_s", "vy_m_per_s",
+                        "vz_m_per_s", "temperature_m2_per_s2", "stress_xx_Pa", "stress_yy_Pa", "stress_zz_Pa",
+                        "stress_yz_Pa", "stress_zx_Pa", "stress_xy_Pa"});
+  for (std::size_t p = 0; p < fields.size(); ++p) {
+    const Vec3 &x = points[p], &v = fields.velocity[p];
+    const Eigen::Matrix3d s = fields.stress(p);
+    table.append({x.x, x.y, x.z, fields.density[p], fields.solidFraction[p], v.x, v.y, v.z, fields.temperature[p],
+                  s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(2, 0), s(0, 1)});
+  }
+  io::writeCsv(folder / (name + ".csv"), table, provenance);
+}
+
 }  // namespace dovetail::example

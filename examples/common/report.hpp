@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "dovetail/cg/fields.hpp"
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
 #include "dovetail/dem/model/model.hpp"
@@ -36,6 +37,10 @@ void writeParticles(const std::filesystem::path& folder, const std::string& name
 /// Reference positions X, m, and displacements u, m, of a solid's nodes as <folder>/<name>.csv.
 void writeNodes(const std::filesystem::path& folder, const std::string& name, std::span<const Vec3> X,
                 std::span<const Vec3> u, const io::KeyValues& provenance);
+
+/// Continuum fields at points as <folder>/<name>.csv, one row per point. Stresses are positive in tension.
+void writeFields(const std::filesystem::path& folder, const std::string& name, std::span<const Vec3> points,
+                 const cg::Fields& fields, const io::KeyValues& provenance);
 
 /// Does nothing in a build without VTK.
 void writeVtu(const std::filesystem::path& folder, const std::string& name, double time,

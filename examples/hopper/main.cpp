@@ -7,6 +7,7 @@
 #include "common/report.hpp"
 #include "dovetail/core/profile.hpp"
 #include "dovetail/core/progress.hpp"
+#include "dovetail/dem/model/snapshot.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/time_series.hpp"
 
@@ -99,8 +100,23 @@ struct Outflow {
   std::vector<double> time, mass;  // s, kg since the hole was opened
 };
 
+/// Continuum fields on the middle plane of the silo, averaged over the steady flow.
+struct FlowFields {
+  std::vector<Vec3> points;
+  cg::TimeMean flow;
+  void add(const Scene& now, double duration) {
+    const cg::Kernel kernel{cg::KernelShape::lucy, 3, 1.5 * d};
+    addFrame(flow, cg::sample(kernel, points, cg::viewOf(dem::takeSnapshot(now))), duration);
+  }
+};
+
+std::vector<Vec3> middlePlane(const Size& size) {
+  const int across = static_cast<int>(2.0 * size.radius / d), up = static_cast<int>(size.height / d);
+  return cg::gridPoints({{-0.5 * (across - 1) * d, 0.0, 0.5 * d}, {d, d, d}, {across, 1, up}});
+}
+
 /// Opens a hole in a copy of the filled silo and weighs what comes out; `silo` is then as it was at the end.
-Outflow openHole(Scene& silo, double hole, double duration, Progress& progress, double& done) {
+Outflow openHole(Scene& silo, double hole, double duration, FlowFields& fields, Progress& progress, double& done) {
   dem::removeWall(silo, dem::primitiveWall(silo, 1));  // the closed bottom
   dem::addWall(silo, bottomWithHole(hole, dem::primitiveWall(silo, 0).radius));
   Outflow flow{.hole = hole, .time = {}, .mass = {}};
@@ -112,6 +128,7 @@ Outflow openHole(Scene& silo, double hole, double duration, Progress& progress, 
     if (flow.time.back() > 0.25 * duration) {
       steadyTime.push_back(flow.time.back());
       steadyMass.push_back(flow.mass.back());
+      if (!fields.points.empty()) fields.add(now, duration / 60.0);
     }
     progress.update(++done, "hole " + std::to_string(hole / d).substr(0, 3) + " d");
   });
@@ -119,7 +136,7 @@ Outflow openHole(Scene& silo, double hole, double duration, Progress& progress, 
   return flow;
 }
 
-void write(const Options& options, const std::vector<Outflow>& flows, const Scene& last) {
+void write(const Options& options, const std::vector<Outflow>& flows, const FlowFields& fields, const Scene& last) {
   const io::KeyValues origin = io::provenance({{"quick", options.quick ? "yes" : "no"}});
   io::TimeSeries series({"hole_m", "time_s", "discharged_kg"}), rates({"hole_m", "rate_kg_per_s"});
   for (const Outflow& flow : flows) {
@@ -129,6 +146,7 @@ void write(const Options& options, const std::vector<Outflow>& flows, const Scen
   io::writeCsv(options.out / "hopper.csv", series, origin);
   io::writeCsv(options.out / "hopper_rates.csv", rates, origin);
   writeParticles(options.out, "hopper_particles", last.time, last.particles, origin);
+  writeFields(options.out, "hopper_fields", fields.points, fields.flow.mean, origin);
 }
 
 /// Prints rates beside the law, fits C and k, and says whether all are within their tolerance. The short form weighs
@@ -163,7 +181,8 @@ bool compare(const std::vector<Outflow>& flows, double density, bool quick) {
 
 bool run(const Options& options) {
   if (!options.out.empty())
-    io::prepareOutputFolder(options.out, {"hopper.csv", "hopper_rates.csv", "hopper_particles.csv"});
+    io::prepareOutputFolder(options.out,
+                            {"hopper.csv", "hopper_rates.csv", "hopper_particles.csv", "hopper_fields.csv"});
   const std::vector<double> holes = options.quick ? std::vector{6.0, 8.0} : std::vector{5.0, 6.0, 7.0, 8.0};
   const Size size = options.quick ? Size{8.0 * d, 9.0 * d} : Size{9.0 * d, 16.0 * d};
   const double duration = (options.quick ? 6.0 : 15.0) * tau;
@@ -178,11 +197,13 @@ bool run(const Options& options) {
   std::vector<Outflow> flows;
   std::vector<ModelLedger> ledgers;
   Scene silo;
+  FlowFields fields;
   double done = 0.0, residual = 0.0;
   for (const double hole : holes) {
     silo = filled;
+    if (!options.out.empty() && hole == holes.back()) fields.points = middlePlane(size);
     ledgers.emplace_back(dem::energies(silo));
-    flows.push_back(openHole(silo, hole * d, duration, progress, done));
+    flows.push_back(openHole(silo, hole * d, duration, fields, progress, done));
     ledgers.back().set(dem::energies(silo));
     residual = std::max(residual, ledgers.back().relativeResidual());
   }
@@ -192,7 +213,7 @@ bool run(const Options& options) {
             << ledgers.back().ledger() << "  largest residual of all runs: " << residual << " of what was lost\n\n"
             << profile;
   const bool good = compare(flows, density, options.quick);
-  if (!options.out.empty()) write(options, flows, silo);
+  if (!options.out.empty()) write(options, flows, fields, silo);
   return good;
 }
 

@@ -1,5 +1,7 @@
 #include "dovetail/cg/fields.hpp"
 
+#include <cmath>
+
 #include "checks.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -18,7 +20,8 @@ constexpr std::size_t grain = 32;
 Eigen::Vector3d eigen(const Vec3& a) { return {a.x, a.y, a.z}; }
 
 void check(const Kernel& kernel, std::span<const Vec3> points, const SnapshotView& snapshot) {
-  requireValid(kernel);
+  if (!std::isfinite(kernel.peak()))
+    throw InputError("the kernel's peak is beyond what a number can hold", "kernel width", "give a larger width");
   requireFiniteItems(points, "point", "position");
   const auto& [particles, branches, walls, space] = snapshot;
   requireSameLength(particles.x.size(), particles.v.size(), "particle positions and velocities");

@@ -400,7 +400,8 @@ TEST(Fields, BadInputIsRefusedByName) {
   const std::vector<Vec3> points(2);
   const Kernel kernel{KernelShape::lucy, 3, 0.5};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(sample({KernelShape::lucy, 3, 0.0}, points, good.snapshot()), InputError);
+  for (const double width : {0.0, -1.0, 1e-200, nan})
+    EXPECT_THROW(sample({KernelShape::lucy, 3, width}, points, good.snapshot()), InputError) << width;
   const auto refused = [&](auto&& spoil, const std::string& name) {
     Cloud bad = good;
     auto at = points;

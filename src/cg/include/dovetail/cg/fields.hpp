@@ -82,8 +82,8 @@ struct Fields {
 /// Distances are Euclidean over all three coordinates. For a 1- or 2-D kernel give points and positions that differ
 /// only in the directions it is normalised on (drop the others to zero).
 /// @param points m; far from all particles they get zeros
-/// @throws InputError for an invalid kernel, spans that do not match, or naming what is not finite or a mass or volume
-///         below zero
+/// @throws InputError for an invalid kernel or one of more than 32 periods, spans that do not match, or naming what is
+///         not finite or a mass or volume below zero
 Fields sample(const Kernel& kernel, std::span<const Vec3> points, const SnapshotView& snapshot);
 
 /// Points of a regular grid, x fastest: point (i, j, k) has number i + count[0] (j + count[1] k).

@@ -24,7 +24,9 @@ struct Snapshot {
 };
 
 /// A model as it is now, with all its contacts and bonds.
-/// @throws InputError if forces have not been found yet, or between advance and close, when velocities lag behind
+/// @throws InputError if forces have not been found yet (those of bonds not since a restart either: call findForces),
+/// or
+///         between advance and close, when velocities lag behind
 Snapshot takeSnapshot(const Model& m);
 /// The same with other contacts, for those who add some that the model does not know: sampleContacts(m), and
 /// addWallContacts with the skin of a solid that the particles touch.
