@@ -102,6 +102,8 @@ void addBranches(const Kernel& kernel, std::span<const Vec3> points, const Snaps
     for (std::size_t p = begin; p < end; ++p) {
       Matrix3d sum = Matrix3d::Zero();
       near.forEach(points[p], [&](std::size_t b, const Vec3& place) {
+        const double reach = kernel.width + half[b];
+        if (squaredNorm(place - middle[b]) > reach * reach) return;
         const Vec3 &from = branches.from[b], &to = branches.to[b];
         const double mean = profileMean(kernel.shape, kernel.width, place - from, place - to);
         if (mean > 0.0) sum += mean * eigen(branches.force[b]) * eigen(from - to).transpose();
