@@ -10,7 +10,9 @@ namespace dovetail::coupling {
 
 Totals CoupledRun::Impl::sums() const {
   const dem::Momenta particles = dem::momenta(grains);
-  Totals sum{.momentum = particles.linear, .angularMomentum = particles.angular};
+  Totals sum;
+  sum.momentum = particles.linear;
+  sum.angularMomentum = particles.angular;
   for (std::size_t i = 0; i < grains.particles.size(); ++i)
     sum.mass += grains.particles.weightOf(i) * grains.particles.mass[i];
   for (const auto& solid : solids) {

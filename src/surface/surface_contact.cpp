@@ -7,6 +7,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/walls.hpp"
+#include "dovetail/dem/pairs/contact_sample.hpp"
 #include "dovetail/dem/setup/insertion.hpp"
 
 namespace dovetail::surface {
@@ -90,6 +91,10 @@ void SurfaceContact::addDemand(const dem::Model& m, dem::ContactDemand& demand) 
   demand.surfaces.push_back(name_);
   for (std::size_t l = first; l < demand.links.size(); ++l)
     demand.links[l].surface = static_cast<int>(demand.surfaces.size()) - 1;
+}
+
+void SurfaceContact::addContacts(const dem::Model& m, dem::ContactSample& sample) const {
+  dem::addWallContacts(m.particles, coupling_.wall(), coupling_.contacts(), sample);
 }
 
 void SurfaceContact::save(ByteWriter& writer) const { coupling_.save(writer); }

@@ -148,22 +148,6 @@ TEST(Snapshot, CarriesTheShareThatIsModelledHere) {
   EXPECT_GT(volume, mass / 1000.0);  // spheres of a clump overlap
 }
 
-TEST(Snapshot, TakesContactsThatTheModelDoesNotKnow) {
-  // A mesh that the model has, and the same one outside of it, as the skin of a solid is.
-  Model m = scene({});
-  findForces(m);
-  const Snapshot all = takeSnapshot(m);
-  const MeshWall mesh = meshWall(m, 0);
-  removeWall(m, meshWall(m, 0));
-  ContactSample contacts = sampleContacts(m);
-  addWallContacts(m.particles, mesh.wall, mesh.contacts, contacts);
-  const Snapshot same = takeSnapshot(m, contacts);
-  EXPECT_EQ(all.force, same.force);
-  EXPECT_EQ(all.to, same.to);
-  EXPECT_EQ(all.wallPoint, same.wallPoint);
-  EXPECT_LT(takeSnapshot(m).wallPoint.size(), all.wallPoint.size());
-}
-
 TEST(Snapshot, TractionOfItsWallsIsWhatTheyAreLoadedWith) {
   Model m = scene({});
   findForces(m);

@@ -59,11 +59,10 @@ void addBonds(const BondSample& bonds, ContactSample& sample) {
 
 }  // namespace
 
-Snapshot takeSnapshot(const Model& m) { return takeSnapshot(m, sampleContacts(m)); }
-
-Snapshot takeSnapshot(const Model& m, ContactSample contacts) {
+Snapshot takeSnapshot(const Model& m) {
   if (m.open != 0.0)
     throw InputError("velocities lag behind positions", "snapshot of a model", "call close(model) before");
+  ContactSample contacts = sampleContacts(m);
   Snapshot snapshot;
   snapshot.time = m.time;
   snapshot.space = m.pairs.periodicity();

@@ -6,6 +6,7 @@
 #include "../bodies/carried_walls.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/dem/pairs/contact_sample.hpp"
 #include "dovetail/dem/setup/insertion.hpp"
 #include "dovetail/dem/walls/wall_archive.hpp"
 #include "dovetail/dem/walls/wall_checks.hpp"
@@ -116,6 +117,10 @@ void PrimitiveWallTerm::addOutside(const Model&, Momenta& force, Momenta&) const
   force.angular -= wall.torque + cross(wall.point, wall.force);
 }
 
+void PrimitiveWallTerm::addContacts(const Model& m, ContactSample& sample) const {
+  addWallContacts(m.particles, wall, sample);
+}
+
 void PrimitiveWallTerm::save(ByteWriter& writer) const {
   describe(writer, wall);
   archiveWall(writer, wall);
@@ -179,6 +184,10 @@ void MeshWallTerm::addDemand(const Model& m, ContactDemand& demand) const {
 
 void MeshWallTerm::addEnergies(const Model&, Energies& e) const {
   if (const auto* servo = std::get_if<WallServo>(&mesh.motion)) addServo(e, *servo);
+}
+
+void MeshWallTerm::addContacts(const Model& m, ContactSample& sample) const {
+  addWallContacts(m.particles, mesh.wall, mesh.contacts, sample);
 }
 
 /// A wall on a body gives to the body what it takes from the particles.

@@ -6,9 +6,9 @@
 
 namespace dovetail::dem {
 
-/// Contacts that carry a force, as the last step left them: pairs, then those with primitive walls, then those with
-/// triangulated ones, walls in the order in which they were added. Bonds have a sample of their own (sampleBonds). For
-/// output, not for every step. The sum over a particle's contacts is what they add to its force and torque.
+/// Contacts that carry a force, as the last step left them: pairs, then those of the terms, which are walls and
+/// the skins of solids in coupled runs, in their order. Bonds have a sample of their own (sampleBonds). For output, not
+/// for every step. The sum over a particle's contacts is what they add to its force and torque.
 /// @throws InputError if forces have not been found yet
 ContactSample sampleContacts(const Model& m);
 

@@ -28,8 +28,5 @@ struct Snapshot {
 /// or
 ///         between advance and close, when velocities lag behind
 Snapshot takeSnapshot(const Model& m);
-/// The same with other contacts, for those who add some that the model does not know: sampleContacts(m), and
-/// addWallContacts with the skin of a solid that the particles touch.
-Snapshot takeSnapshot(const Model& m, ContactSample contacts);
 
 }  // namespace dovetail::dem

@@ -18,6 +18,7 @@ namespace dovetail::dem {
 struct Model;
 struct Particles;
 struct ContactDemand;
+struct ContactSample;
 struct Energies;
 struct Surroundings;
 
@@ -92,6 +93,8 @@ public:
   /// @param force    adds what the last forces hold of it, N and N m, at the places of the last evaluation
   /// @param impulse  adds what it has given beside forces so far, kg m/s and kg m²/s
   virtual void addOutside(const Model&, Momenta& /*force*/, Momenta& /*impulse*/) const {}
+  /// Appends the contacts of particles with what it stands for, as the last evaluation left them (see sampleContacts).
+  virtual void addContacts(const Model&, ContactSample&) const {}
 
   /// State for checkpoints, and back into a term that is set up as the one that was saved.
   virtual void save(ByteWriter&) const {}

@@ -29,6 +29,7 @@ public:
   void addDemand(const Model& m, ContactDemand& demand) const override;
   void addEnergies(const Model& m, Energies& e) const override;
   void addOutside(const Model& m, Momenta& force, Momenta& impulse) const override;
+  void addContacts(const Model& m, ContactSample& sample) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
 };
@@ -52,6 +53,7 @@ public:
   void addDemand(const Model& m, ContactDemand& demand) const override;
   void addEnergies(const Model& m, Energies& e) const override;
   void addOutside(const Model& m, Momenta& force, Momenta& impulse) const override;
+  void addContacts(const Model& m, ContactSample& sample) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
 };
