@@ -26,6 +26,12 @@ void ImpulseBook::give(const std::string& name, const Momenta& impulse) {
   if (impulse != Momenta{}) channel(name).give(impulse);
 }
 
+void ImpulseBook::give(const std::string& name, const Momenta& impulse, int& number) {
+  if (impulse == Momenta{}) return;
+  if (number < 0) number = static_cast<int>(&channel(name) - channels_.data());
+  channels_[static_cast<std::size_t>(number)].give(impulse);
+}
+
 void ImpulseBook::add(const std::string& prefix, const ImpulseBook& other) {
   for (const Channel& from : other.channels_) channel(prefix + from.name).add(from);
 }

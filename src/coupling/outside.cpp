@@ -30,7 +30,15 @@ std::pair<std::string, Momenta> read(ByteReader& archive) {
 }  // namespace
 
 void Outside::giveHalf(double dt) {
-  for (const auto& [name, force] : forces_) given.give(name, 0.5 * dt * force);
+  for (Source& source : forces_) given.give(source.name, 0.5 * dt * source.force, source.channel);
+}
+
+/// Sources come in the same order at every evaluation, or nearly so: their strings stay where they are.
+void Outside::put(const std::string& name, const Momenta& force) {
+  if (put_ == forces_.size()) forces_.emplace_back();
+  Source& source = forces_[put_++];
+  if (source.name != name) source = {name, {}};
+  source.force = force;
 }
 
 void Outside::begin(double dt) {
@@ -39,14 +47,17 @@ void Outside::begin(double dt) {
 }
 
 void Outside::evaluated(const dem::Model& m, const dem::Step& step, const Momenta& onSolids) {
-  forces_.clear();
-  forces_.emplace_back("particles: gravity", dem::weight(m));
-  collect(m, forces_);
-  if (onSolids != Momenta{}) forces_.emplace_back("loads one step old", -1.0 * onSolids);
+  static const std::string gravity = "particles: gravity";
+  put_ = 0;
+  put(gravity, dem::weight(m));
+  takeCounted(m, true);
+  if (onSolids != Momenta{}) put("loads one step old", -1.0 * onSolids);
+  forces_.resize(put_);
   if (step.timeless) return;
   giveHalf(step.dt);
   underWay_ = false;
   // Those who came in have the velocities of this moment: the half kick that is due is not for them.
+  if (m.newcomers.empty()) return;
   const std::vector<char> inBodies = dem::members(m);
   for (const std::int64_t id : m.newcomers)
     if (const int i = dem::find(m.particles, id); i >= 0 && (inBodies.empty() || inBodies[at(i)] == 0))
@@ -61,19 +72,17 @@ void Outside::left(const dem::Model& m, std::span<const int> newNumber, const de
       given.give("particles: gravity", kickOf(before, i, 0.5 * m.open));
 }
 
-void Outside::takeCounted(const dem::Model& m) {
-  Forces forces;
-  collect(m, forces);
-}
+void Outside::takeCounted(const dem::Model& m) { takeCounted(m, false); }
 
-/// Forces of the terms; what they count themselves is given up to now.
-void Outside::collect(const dem::Model& m, Forces& forces) {
+/// What terms count themselves is given up to now.
+void Outside::takeCounted(const dem::Model& m, bool withForces) {
   std::map<std::string, Momenta> now;
   for (const auto& term : m.terms) {
     Momenta force, counted;
     term->addOutside(m, force, counted);
+    if (force == Momenta{} && counted == Momenta{}) continue;
     const std::string name = "particles: " + term->name();
-    if (force != Momenta{}) forces.emplace_back(name, force);
+    if (withForces && force != Momenta{}) put(name, force);
     if (counted != Momenta{}) now[name] += counted;
   }
   for (const auto& [name, counted] : now) given.give(name, counted - counted_[name]);
@@ -83,7 +92,7 @@ void Outside::collect(const dem::Model& m, Forces& forces) {
 void Outside::save(ByteWriter& archive) const {
   archive(opening, massAtOpening, entered, gone, static_cast<std::uint64_t>(forces_.size()),
           static_cast<std::uint64_t>(counted_.size()));
-  for (const auto& [name, force] : forces_) write(archive, name, force);
+  for (const Source& source : forces_) write(archive, source.name, source.force);
   for (const auto& [name, impulse] : counted_) write(archive, name, impulse);
   given.save(archive);
 }
@@ -93,7 +102,10 @@ void Outside::load(ByteReader& archive) {
   archive(opening, massAtOpening, entered, gone, forces, counted);
   forces_.clear();
   counted_.clear();
-  for (std::uint64_t k = 0; k < forces; ++k) forces_.push_back(read(archive));
+  for (std::uint64_t k = 0; k < forces; ++k) {
+    auto [name, force] = read(archive);
+    forces_.push_back({std::move(name), force});
+  }
   for (std::uint64_t k = 0; k < counted; ++k) counted_.insert(read(archive));
   given.load(archive);
 }

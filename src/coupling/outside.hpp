@@ -3,7 +3,6 @@
 
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "dovetail/core/impulses.hpp"
@@ -36,10 +35,16 @@ public:
   void load(ByteReader& archive);
 
 private:
-  using Forces = std::vector<std::pair<std::string, Momenta>>;
+  struct Source {
+    std::string name;
+    Momenta force;     // N and N m
+    int channel = -1;  // of `given`
+  };
   void giveHalf(double dt);
-  void collect(const dem::Model& m, Forces& forces);
-  Forces forces_;                           // of the last evaluation, N and N m
+  void put(const std::string& name, const Momenta& force);
+  void takeCounted(const dem::Model& m, bool withForces);
+  std::vector<Source> forces_;              // of the last evaluation
+  std::size_t put_ = 0;                     // so many of them in the evaluation under way
   std::map<std::string, Momenta> counted_;  // by terms themselves, as last seen
   bool underWay_ = false;
 };

@@ -101,6 +101,8 @@ DofMap::DofMap(const Constraints& constraints, const Nodes& nodes)
     if (states[dof] == State::free) {
       freeRow_[dof] = static_cast<int>(freeDofs_.size());
       freeDofs_.push_back(static_cast<int>(dof));
+    } else if (const int node = static_cast<int>(dof / 3); boundNodes_.empty() || boundNodes_.back() != node) {
+      boundNodes_.push_back(node);
     }
 }
 

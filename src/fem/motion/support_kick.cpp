@@ -13,14 +13,14 @@ void add(const Nodes& nodes, std::size_t n, const Vec3& impulse, const Vec3& cha
   sum.work += dot(impulse, nodes.v[n] - 0.5 * change);
 }
 
-/// Nodes with a component that is not free; masses are lumped.
-SupportKick ofHeldNodes(const Nodes& nodes, const ModelMass& mass, std::span<const Vec3> before,
-                        std::span<const Vec3> f, double dt) {
-  const std::span<const int> row = mass.dofs().freeRow();
-  return parallelSum(nodes.v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+/// Masses are lumped.
+SupportKick ofBoundNodes(const Nodes& nodes, const ModelMass& mass, std::span<const Vec3> before,
+                         std::span<const Vec3> f, double dt) {
+  const std::span<const int> row = mass.dofs().freeRow(), bound = mass.dofs().boundNodes();
+  return parallelSum(bound.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
     SupportKick sum;
-    for (std::size_t n = begin; n < end; ++n) {
-      if (row[3 * n] >= 0 && row[3 * n + 1] >= 0 && row[3 * n + 2] >= 0) continue;
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto n = static_cast<std::size_t>(bound[k]);
       Vec3 impulse;
       const Vec3 change = before.empty() ? Vec3{} : nodes.v[n] - before[n];
       for (int c = 0; c < 3; ++c)
@@ -35,7 +35,7 @@ SupportKick ofHeldNodes(const Nodes& nodes, const ModelMass& mass, std::span<con
 
 SupportKick supportKick(const Nodes& nodes, const ModelMass& mass, std::span<const Vec3> before,
                         std::span<const Vec3> f, double dt) {
-  if (mass.isDiagonal()) return ofHeldNodes(nodes, mass, before, f, dt);
+  if (mass.isDiagonal()) return ofBoundNodes(nodes, mass, before, f, dt);
   std::vector<Vec3> impulse(nodes.v.size()), change(nodes.v.size());
   for (std::size_t n = 0; n < change.size(); ++n) change[n] = nodes.v[n] - before[n];
   mass.multiply(change, impulse);

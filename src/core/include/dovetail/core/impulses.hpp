@@ -43,6 +43,8 @@ public:
 
   /// Adds to the channel of that name, which appears with its first impulse.
   void give(const std::string& name, const Momenta& impulse);
+  /// The same for those who give at every step. @param number  of the channel, < 0: not known yet, and then set
+  void give(const std::string& name, const Momenta& impulse, int& number);
   /// Adds the channels of another book, each named prefix + its name.
   void add(const std::string& prefix, const ImpulseBook& other);
   const std::vector<Channel>& channels() const { return channels_; }

@@ -58,6 +58,8 @@ public:
   bool hasMotion() const;
   /// Entry of q that is component dof % 3 of node dof / 3, −1 if it is not free.
   std::span<const int> freeRow() const { return freeRow_; }
+  /// Nodes with a component that is not free, ascending.
+  std::span<const int> boundNodes() const { return boundNodes_; }
   /// Its inverse.
   std::span<const int> freeDofs() const { return freeDofs_; }
   /// With the free masters only: those at rest or prescribed have no entry of q.
@@ -88,7 +90,7 @@ private:
   void setConstrained(std::span<Vec3> field, bool withOffsets, const Motion& motion) const;
 
   std::size_t nodes_;
-  std::vector<int> freeRow_, freeDofs_;
+  std::vector<int> freeRow_, freeDofs_, boundNodes_;
   std::vector<Constraints::Prescribed> prescribed_;
   std::vector<Tie> ties_;
   std::vector<RestingMaster> restingMasters_;
