@@ -2,7 +2,9 @@
 
 #include <array>
 #include <fstream>
+#include <string_view>
 
+#include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
 
 namespace dovetail {
@@ -28,6 +30,12 @@ std::array<char, 16> kindOf(const std::string& kind) {
   return letters;
 }
 
+/// Whether the file is one of writeChecked, of any kind.
+bool isArchive(const std::filesystem::path& path) {
+  const Header header;
+  return headOf(path, header.magic.size()) == std::string_view(header.magic.data(), header.magic.size());
+}
+
 }  // namespace
 
 void ByteReader::requireLeft(std::uint64_t count, std::size_t size) const {
@@ -42,24 +50,13 @@ void ByteReader::extract(void* data, std::size_t size) {
 }
 
 void writeChecked(const std::filesystem::path& path, const std::string& kind, const std::vector<char>& bytes) {
+  requireFreeOrOurs(path, isArchive);
   Header header;
   header.kind = kindOf(kind);
   header.length = bytes.size();
   header.checksum = checksum(bytes);
-  std::filesystem::path part = path;
-  part += ".part";
-  {
-    std::ofstream out(part, std::ios::binary | std::ios::trunc);
-    out.write(reinterpret_cast<const char*>(&header), sizeof header);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.flush();
-    if (!out)
-      throw InputError("the file cannot be written", part.string(), "look at the folder's rights and free space");
-  }
-  std::error_code error;
-  std::filesystem::rename(part, path, error);
-  if (error)
-    throw InputError("the file cannot be put in place: " + error.message(), path.string(), "give another path");
+  const std::string_view head(reinterpret_cast<const char*>(&header), sizeof header);
+  replaceFile(path, {head, {bytes.data(), bytes.size()}}, isArchive);
 }
 
 std::vector<char> readChecked(const std::filesystem::path& path, const std::string& kind) {

@@ -37,13 +37,27 @@ std::span<const double> TimeSeries::column(std::string_view name) const {
 
 namespace {
 
-/// True for a unit with an optional exponent: "m", "m2", "kg".
+template <std::size_t n>
+bool isAmong(const std::array<std::string_view, n>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// True for a unit with an optional exponent, "m", "m2", "kg", and for a product, "Ns", "kNm", "kgm2".
 bool isUnit(std::string_view word) {
-  static constexpr std::array<std::string_view, 25> units{"m",  "mm",  "um",  "s",   "ms", "us",  "kg", "g",  "N",
-                                                          "kN", "mN",  "J",   "kJ",  "mJ", "uJ",  "W",  "kW", "Pa",
-                                                          "Hz", "kPa", "MPa", "GPa", "K",  "rad", "deg"};
+  static constexpr std::array<std::string_view, 27> units{"m",  "mm", "um", "s",   "ms",  "us",  "kg", "g",   "N",
+                                                          "kN", "mN", "MN", "J",   "kJ",  "mJ",  "uJ", "MJ",  "W",
+                                                          "kW", "Pa", "Hz", "kPa", "MPa", "GPa", "K",  "rad", "deg"};
+  static constexpr std::array<std::string_view, 5> firstFactors{"N", "kN", "mN", "MN", "kg"};
+  static constexpr std::array<std::string_view, 5> lastFactors{"m", "mm", "s", "ms", "us"};
   if (word.size() > 1 && word.back() >= '2' && word.back() <= '9') word.remove_suffix(1);
-  return std::find(units.begin(), units.end(), word) != units.end();
+  if (isAmong(units, word)) return true;
+  for (const std::string_view first : firstFactors) {
+    if (!word.starts_with(first)) continue;
+    std::string_view rest = word.substr(first.size());
+    if (rest.starts_with("m") && isAmong(lastFactors, rest.substr(1))) rest.remove_prefix(1);  // Nms
+    if (isAmong(lastFactors, rest)) return true;
+  }
+  return false;
 }
 
 }  // namespace

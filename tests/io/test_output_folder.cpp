@@ -1,4 +1,6 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
@@ -78,6 +80,54 @@ TEST(OutputFolder, RefusesNamesTakenByOthersBeforeTheRun) {
   });
   expectOneClearLine(message, (scratch / "energies.csv").string());
   EXPECT_EQ(readText(scratch / "energies.csv"), "mine");
+}
+
+TEST(OutputFolder, LosesWhatKilledRunsLeftAndNothingElse) {
+  const ScratchFolder scratch;
+  const std::string left = "series.csv.part-123-4";
+  writeText(scratch / left, marked("half a ro"));
+  const std::set<std::string> others{"mine.part-1-2", "series.csv.part-1", "series.csv.part-1-x",
+                                     "a.part--1",     "b.part-1-2.csv",    "series.csv.part"};
+  for (const std::string& name : others) writeText(scratch / name, name == "mine.part-1-2" ? "mine" : marked(""));
+  fs::create_symlink(left, scratch / "link.part-5-6");
+  prepareOutputFolder(scratch.path());
+  auto after = others;
+  after.insert("link.part-5-6");
+  EXPECT_EQ(scratch.content(), after);
+}
+
+TEST(OutputFolder, KeepsAFileThatAnotherProgramIsWriting) {
+  const ScratchFolder scratch;
+  const fs::path path = scratch / "series.csv.part-123-4";
+  writeText(path, marked("half a ro"));
+  const int file = ::open(path.c_str(), O_WRONLY);
+  ASSERT_EQ(::flock(file, LOCK_EX), 0);
+  prepareOutputFolder(scratch.path());
+  EXPECT_TRUE(fs::exists(path));
+  ::close(file);
+  prepareOutputFolder(scratch.path());
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST(OutputFolder, IsHeldByOneRunAtATime) {
+  const ScratchFolder scratch;
+  {
+    const FolderLock lock(scratch.path());
+    expectOneClearLine(messageOf<InputError>([&] { const FolderLock second(scratch.path()); }),
+                       scratch.path().string());
+  }
+  EXPECT_NO_THROW(FolderLock(scratch.path()));
+  EXPECT_TRUE(scratch.content().empty());
+}
+
+TEST(OwnFiles, AreRemovedAndOthersAreNot) {
+  const ScratchFolder scratch;
+  writeText(scratch / "old.csv", marked(""));
+  writeText(scratch / "notes", "mine");
+  removeOurs(scratch / "old.csv");
+  removeOurs(scratch / "absent");
+  EXPECT_THROW(removeOurs(scratch / "notes"), InputError);
+  EXPECT_EQ(scratch.content(), std::set<std::string>{"notes"});
 }
 
 TEST(OwnFiles, AreKnownByTheirMark) {

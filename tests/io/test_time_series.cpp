@@ -63,6 +63,11 @@ TEST(TimeSeries, UnitIsTheEndOfTheName) {
   EXPECT_EQ(unitOf("area_m2"), "m2");
   EXPECT_EQ(unitOf("line_load_N_per_m"), "N/m");
   EXPECT_EQ(unitOf("count_per_m3"), "1/m3");
+  EXPECT_EQ(unitOf("momentum_particles_x_Ns"), "Ns");
+  EXPECT_EQ(unitOf("torque_kNm"), "kNm");
+  EXPECT_EQ(unitOf("angular_momentum_z_Nms"), "Nms");
+  EXPECT_EQ(unitOf("inertia_kgm2"), "kgm2");
+  EXPECT_EQ(unitOf("wave_Nothing"), "1");
   EXPECT_EQ(unitOf("contacts"), "1");
   EXPECT_EQ(unitOf("wall_contacts"), "1");
   EXPECT_EQ(unitOf("contacts_per_particle"), "1");
@@ -110,6 +115,42 @@ TEST(Csv, ReplacesItsOwnAndNothingElse) {
   writeText(scratch / "other.csv", "x\n1\n");
   EXPECT_THROW(writeCsv(scratch / "other.csv", series, {}), InputError);
   EXPECT_EQ(test::readText(scratch / "other.csv"), "x\n1\n");
+}
+
+TEST(Csv, GrowsToTheBytesOfTheWholeTable) {
+  const ScratchFolder scratch;
+  writeCsv(scratch / "growing.csv", awkwardSeries(7), {});  // of an earlier run
+  const TimeSeries whole = awkwardSeries(100);
+  TimeSeries series(whole.names());
+  GrowingCsv file(scratch / "growing.csv", {{"dt", "1"}});
+  std::vector<double> row(whole.names().size());
+  for (std::size_t r = 0; r < whole.rows(); ++r) {
+    for (std::size_t c = 0; c < row.size(); ++c) row[c] = whole.column(c)[r];
+    series.append(row);
+    if (r % 7 != 3) continue;
+    file.write(series);
+    EXPECT_EQ(readCsv(scratch / "growing.csv").rows(), r + 1);
+  }
+  file.write(series);
+  file.write(series);
+  writeCsv(scratch / "whole.csv", whole, {{"dt", "1"}});
+  EXPECT_EQ(test::readText(scratch / "growing.csv"), test::readText(scratch / "whole.csv"));
+}
+
+TEST(Csv, ThatGrowsKeepsItsRowsWhenTheDiskIsFull) {
+  const ScratchFolder scratch;
+  TimeSeries series({"a"});
+  series.append({1.0});
+  GrowingCsv file(scratch / "series.csv", {});
+  file.write(series);
+  for (int k = 0; k < 500; ++k) series.append({1.0 / 3.0});
+  {
+    const test::FullDisk full(1000);
+    EXPECT_THROW(file.write(series), Error);
+  }
+  EXPECT_EQ(readCsv(scratch / "series.csv").rows(), 1u);
+  file.write(series);
+  EXPECT_EQ(readCsv(scratch / "series.csv").rows(), 501u);
 }
 
 TEST(Csv, NamesTheLineThatCannotBeRead) {

@@ -107,10 +107,10 @@ private:
   std::size_t next_ = 0;
 };
 
-/// Writes bytes behind a header with their kind, length and checksum: to a file beside it first, then in its place, so
-/// that a run cut off leaves the old one whole.
+/// Writes bytes behind a header with their kind, length and checksum, by replaceFile (atomic_file.hpp): whatever happens,
+/// the old file or the new one is there, and it replaces nothing but files of its own.
 /// @param kind up to 16 characters, told apart when read
-/// @throws InputError if the file cannot be written
+/// @throws InputError if the file cannot be written there; Error if writing breaks off (disk full)
 void writeChecked(const std::filesystem::path& path, const std::string& kind, const std::vector<char>& bytes);
 /// @throws InputError if the file cannot be read, is of another kind, is cut off, or has changed since it was written
 std::vector<char> readChecked(const std::filesystem::path& path, const std::string& kind);

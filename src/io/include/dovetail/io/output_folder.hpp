@@ -4,6 +4,9 @@
 // file with a provenance() has. A file of ours with the same name, from an earlier run, is replaced in one rename
 // when the new one is complete. Everything else in a folder is left as it is: no function here deletes or overwrites
 // a file without the mark, and none follows a symbolic link to replace what it points to.
+//
+// A program that is killed while it writes leaves a file "<name>.part-<process>-<number>"; the next run that prepares
+// the folder removes it.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +15,9 @@
 
 namespace dovetail::io {
 
-/// Makes `folder` (with its parents) if it is not there, and proves before a long run that a file can be written,
-/// by writing one and removing it. `fileNames` are the names the run will write in it: they must be free or ours.
+/// Makes `folder` (with its parents) if it is not there, proves before a long run that a file can be written, by
+/// writing one and removing it, and removes what killed runs left under temporary names. `fileNames` are the names the
+/// run will write in it: they must be free or ours.
 /// @return the folder
 /// @throws InputError if the path is empty or a file, if nothing can be written there, or if a name is taken
 std::filesystem::path prepareOutputFolder(const std::filesystem::path& folder,
@@ -31,5 +35,23 @@ bool isOurs(const std::filesystem::path& path);
 
 /// @throws InputError if something that is not ours is at `path`
 void requireFreeOrOurs(const std::filesystem::path& path);
+
+/// Removes a file of an earlier run of ours, so that it does not stand beside the results of a new one.
+/// @throws InputError if something that is not ours is at `path`; Error if it cannot be removed
+void removeOurs(const std::filesystem::path& path);
+
+/// Holds a folder for one run while it lives; the system lets go of it when the process ends, however it ends. Where
+/// the file system knows no locks, it holds nothing.
+class FolderLock {
+public:
+  /// @throws InputError if another run holds the folder
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+private:
+  int descriptor_;
+};
 
 }  // namespace dovetail::io

@@ -36,13 +36,31 @@ private:
   std::vector<std::vector<double>> columns_;
 };
 
-/// Unit in a column's name: "J" of "kinetic_particles_J", "m/s2" of "acceleration_m_per_s2", "1/m" of "count_per_m",
-/// "1" where the name ends with no unit.
+/// Unit in a column's name: "J" of "kinetic_particles_J", "m/s2" of "acceleration_m_per_s2", "Nm" of "torque_Nm", "1/m"
+/// of "count_per_m", "1" where the name ends with no unit. Units: m, g, s, N, J, W, Pa, Hz, K, rad, deg with the usual
+/// prefixes, an exponent, and products with N ("Ns", "Nms", "kNm").
 std::string unitOf(std::string_view columnName);
 
 /// Comma-separated: the provenance in leading '#' lines, a line of names, the rows. Numbers are the shortest that read
 /// back to the same bits. Replaces a file of ours at once (see output_folder.hpp for the rule and the errors).
 void writeCsv(const std::filesystem::path& path, const TimeSeries& series, const KeyValues& provenance);
+
+/// A CSV file that grows with its table, so that a run which is cut off leaves what it has computed.
+class GrowingCsv {
+public:
+  GrowingCsv(std::filesystem::path path, KeyValues provenance)
+      : path_(std::move(path)), provenance_(std::move(provenance)) {}
+
+  /// Brings the file up to the table, to which rows may have been added since the last call: the first call writes it
+  /// as writeCsv, later ones append. In the end the bytes are those of writeCsv.
+  /// @throws InputError, Error as writeCsv; the file then holds the rows of the call before
+  void write(const TimeSeries& series);
+
+private:
+  std::filesystem::path path_;
+  KeyValues provenance_;
+  std::size_t rows_ = 0;
+};
 
 /// Reads what writeCsv wrote, or any table of the same form. '#' lines are passed over.
 /// @throws InputError, naming the line, if the file cannot be read, a row has another count, or a field is no number

@@ -1,0 +1,32 @@
+// Signals that ask a program to end, heeded between two steps.
+#pragma once
+
+#include <array>
+#include <csignal>
+#include <string>
+
+namespace dovetail::io {
+
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP does not end the program but is noted for interruption(); the
+/// second one ends it as ever. Signals that are ignored (nohup) stay so. One at a time, on the main thread; it forgets
+/// what was noted when it is made.
+class InterruptionGuard {
+public:
+  InterruptionGuard();
+  ~InterruptionGuard();
+  InterruptionGuard(const InterruptionGuard&) = delete;
+  InterruptionGuard& operator=(const InterruptionGuard&) = delete;
+
+private:
+  std::array<struct sigaction, 3> before_{};
+};
+
+/// The number of the signal that asks this program to end, 0 if there is none. A run that finds one finishes its step,
+/// writes everything and says so; its program then ends with the exit code 128 + number, as shells have it. Costs a
+/// load from memory, so it may be asked at every step.
+int interruption();
+
+/// "interrupted by SIGTERM"
+std::string nameOfInterruption();
+
+}  // namespace dovetail::io
