@@ -22,6 +22,15 @@ int corner(const TextScanner& text, std::string_view word, std::size_t vertices)
   return static_cast<int>(number);
 }
 
+/// OBJ files have no end mark: one that was cut off within a line must not be taken with half a number.
+void requireLastLineWhole(std::string_view bytes, const std::filesystem::path& path) {
+  if (bytes.back() == '\n') return;
+  const std::string_view last = bytes.substr(bytes.rfind('\n') + 1);  // all, if there is one line
+  if (last.find_first_not_of(" \t\r") == std::string_view::npos || last.front() == '#') return;
+  refuse(path, "line " + std::to_string(1 + std::count(bytes.begin(), bytes.end(), '\n')),
+         "the file breaks off in this line", "give the whole file, or end its last line if it is whole");
+}
+
 void readFace(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners) {
   corners.clear();
   for (std::string_view word = text.wordOnLine(); !word.empty(); word = text.wordOnLine()) {
@@ -40,6 +49,7 @@ void readFace(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners) 
 
 TriangleMesh readObj(const std::filesystem::path& path) {
   const std::string bytes = readWhole(path);
+  requireLastLineWhole(bytes, path);
   TextScanner text(bytes, path);
   TriangleMesh mesh;
   std::vector<int> corners;

@@ -1,5 +1,6 @@
 #include "text_scanner.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -46,6 +47,11 @@ void requireFacets(const geometry::TriangleMesh& mesh, const std::filesystem::pa
   if (mesh.facets.empty()) refuse(path, "", "the file holds no facets", "give a file with a surface of triangles");
   if (mesh.x.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     refuse(path, "", "the file holds too many vertices", "cut the surface into several files");
+  constexpr double farthest = 1e15;  // m
+  for (std::size_t v = 0; v < mesh.x.size(); ++v)
+    if (!(std::max({std::abs(mesh.x[v].x), std::abs(mesh.x[v].y), std::abs(mesh.x[v].z)}) <= farthest))
+      refuse(path, "vertex " + std::to_string(v), "it lies farther than 1e15 m from the origin",
+             "give coordinates in metres");
 }
 
 void addFan(const std::vector<int>& corners, geometry::TriangleMesh& mesh) {

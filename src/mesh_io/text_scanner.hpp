@@ -21,7 +21,8 @@ std::string readWhole(const std::filesystem::path& path);
                          const std::string& remedy);
 
 /// What the last step of every reader makes sure of.
-/// @throws InputError if there are no facets or more vertices than int can count
+/// @throws InputError if there are no facets, more vertices than int can count, or one farther than 1e15 m from the
+///         origin
 void requireFacets(const geometry::TriangleMesh& mesh, const std::filesystem::path& path);
 
 /// Appends a fan around the first corner.

@@ -13,16 +13,31 @@ namespace {
 
 using Fields = std::vector<std::string_view>;
 
-/// A set of labels, and the spelling its name was first given in.
+/// first, first + step, … up to last, as GENERATE has it.
+struct LabelRange {
+  Label first, last, step;
+  std::size_t place;
+  auto operator<=>(const LabelRange&) const = default;
+};
+
+/// A set of labels, and the spelling its name was first given in. Ranges are counted out when all that they may name
+/// has been read: until then a line of a file could stand for any number of labels.
 struct LabelSet {
   std::string name;
   std::vector<Label> labels;
+  std::vector<LabelRange> ranges;
   std::size_t place;
 };
 using LabelSets = std::map<std::string, LabelSet>;
 
 bool isNumber(std::string_view field) {
   return !field.empty() && field.find_first_not_of("+-0123456789") == std::string_view::npos;
+}
+
+template <class Item>
+void sortUnique(std::vector<Item>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 std::string unquoted(std::string_view field) {
@@ -42,6 +57,8 @@ public:
 
   SolidFile read() {
     while (cards_.next()) readCard(cards_.keyword());
+    countOut(nodeSets_, builder_.nodeCount(), "nodes");
+    countOut(elementSets_, builder_.elementCount(), "elements");
     for (const auto& [key, set] : nodeSets_)
       for (const Label label : set.labels) builder_.addNodeToSet(set.name, label, set.place);
     for (const auto& [key, set] : elementSets_)
@@ -147,7 +164,7 @@ private:
   }
 
   LabelSet& setOf(LabelSets& sets, const std::string& name) {
-    return sets.try_emplace(lower(name), LabelSet{name, {}, cards_.place()}).first->second;
+    return sets.try_emplace(lower(name), LabelSet{name, {}, {}, cards_.place()}).first->second;
   }
 
   void readSet(LabelSets& sets, const std::string& parameter, LabelSet* into) {
@@ -173,21 +190,38 @@ private:
                         "give first, last and step");
     const Label first = source_.parseInteger(fields[0]), last = source_.parseInteger(fields[1]);
     const Label step = fields.size() > 2 && !fields[2].empty() ? source_.parseInteger(fields[2]) : 1;
-    constexpr Label most = 10'000'000;
-    if (step < 1 || first < 0 || last < first || last > std::numeric_limits<int>::max() || (last - first) / step > most)
+    if (step < 1 || first < 0 || last < first || last > std::numeric_limits<int>::max())
       cards_.refuseData("GENERATE from " + std::to_string(first) + " to " + std::to_string(last) + " in steps of " +
                             std::to_string(step) + " makes no sense",
                         "give first <= last and a step >= 1");
-    for (Label label = first; label <= last; label += step) set.labels.push_back(label);
+    set.ranges.push_back({first, last, step, cards_.dataPlace()});
+  }
+
+  /// Turns ranges into labels; one that names more than `existing` of them names some that do not exist.
+  void countOut(LabelSets& sets, std::size_t existing, const std::string& what) {
+    for (auto& [key, set] : sets) {
+      for (const LabelRange& range : set.ranges) {
+        const auto count = static_cast<std::size_t>((range.last - range.first) / range.step) + 1;
+        if (count > existing)
+          source_.refuseAt(range.place,
+                           "GENERATE names " + std::to_string(count) + " " + what + ", of which the file has " +
+                               std::to_string(existing),
+                           "name " + what + " that the file defines");
+        for (std::size_t k = 0; k < count; ++k) set.labels.push_back(range.first + static_cast<Label>(k) * range.step);
+        if (set.labels.size() > 4 * existing) sortUnique(set.labels);
+      }
+      set.ranges.clear();
+    }
   }
 
   void addOther(const LabelSets& sets, LabelSet& set, const std::string& name) {
     const auto other = sets.find(lower(name));
     if (other == sets.end()) cards_.refuseData("there is no set " + shown(name) + " yet", "define it further up");
-    const std::vector<Label> labels = other->second.labels;  // a set may name itself
-    set.labels.insert(set.labels.end(), labels.begin(), labels.end());
-    std::sort(set.labels.begin(), set.labels.end());
-    set.labels.erase(std::unique(set.labels.begin(), set.labels.end()), set.labels.end());
+    const LabelSet copy = other->second;  // a set may name itself
+    set.labels.insert(set.labels.end(), copy.labels.begin(), copy.labels.end());
+    set.ranges.insert(set.ranges.end(), copy.ranges.begin(), copy.ranges.end());
+    sortUnique(set.labels);
+    sortUnique(set.ranges);
   }
 
   struct SurfaceLine {

@@ -1,6 +1,7 @@
 #include "mesh_builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -29,6 +30,10 @@ void MeshBuilder::addNode(Label label, const Vec3& X, std::size_t place) {
     source_.refuseAt(place, "node " + std::to_string(label) + " occurs twice", "give each node a number of its own");
   if (X_.size() >= static_cast<std::size_t>(std::numeric_limits<int>::max()))
     source_.refuseAt(place, "the file holds too many nodes", "cut the mesh into several files");
+  constexpr double farthest = 1e15;  // m
+  if (!(std::max({std::abs(X.x), std::abs(X.y), std::abs(X.z)}) <= farthest))
+    source_.refuseAt(place, "node " + std::to_string(label) + " lies farther than 1e15 m from the origin",
+                     "give coordinates in metres");
   X_.push_back(X);
   nodeLabel_.push_back(label);
 }

@@ -31,6 +31,7 @@ class MeshBuilder {
 public:
   explicit MeshBuilder(const Source& source) : source_(source) {}
 
+  /// @param X  m; beyond ±1e15 it is refused
   void addNode(Label label, const Vec3& X, std::size_t place);
   /// @param nodes  in our order
   void addCell(Label label, fem::CellShape shape, std::span<const Label> nodes, std::size_t place);
@@ -54,6 +55,9 @@ public:
   void addSideToSet(const std::string& name, Label element, int side, std::size_t place);
   void note(const std::string& sentence) { notes_.push_back(sentence); }
 
+  std::size_t nodeCount() const { return X_.size(); }
+  /// Cells, surface elements and lines.
+  std::size_t elementCount() const { return cell_.size() + face_.size() + lines_.size(); }
   bool hasElement(Label label) const {
     return cells_.contains(label) || faces_.contains(label) || lines_.contains(label);
   }

@@ -92,6 +92,8 @@ TEST(BrokenFiles, TheErrorSaysWhatIsWrongAndWhere) {
   expectSays("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 4\n", ", line 5", "vertex 4 is named after 3");
   expectSays("a.obj", "v 0 0 0\nf 1 1\n", ", line 2", "a face has 2 vertices");
   expectSays("a.obj", "v 0 0\nv 1 0 0\n", ", line 1", "nothing is not a number");
+  expectSays("a.obj", "v 0 0 0\nv 12 0 0\nv 0 1 0\nf 1 2 3", ", line 4", "breaks off");
+  expectSays("a.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", ", vertex 1", "farther than 1e15 m");
   expectSays("a.obj", "%PDF-1.4\n", ", line 1", "'%PDF-1.4'");
   expectSays("a.ply", replaced(asciiPly(), "4 0 2 3 1", "4 0 2 8 1"), ", line 24", "names vertex 8");
   expectSays("a.ply", replaced(asciiPly(), "4 0 2 3 1", "4 0 2 -3 1"), ", line 24", "names vertex -3");

@@ -148,6 +148,7 @@ TEST(Abaqus, BrokenFilesAreRefusedWithTheirLine) {
       {good + "*NODE\n31\n", "entries"},
       {good + "*NODE\n31, a, 0., 0.\n", "'a' is not a number [test.inp, line"},
       {good + "*NODE\n31, inf, 0., 0.\n", "finite"},
+      {good + "*NODE\n31, 1e30, 0., 0.\n", "node 31 lies farther than 1e15 m"},
       {good + "*ELEMENT\n", "no parameter type"},
       {good + "*ELEMENT, TYPE=C3D6\n", "'C3D6'"},
       {good + "*ELEMENT, TYPE=C3D8X\n", "'C3D8X'"},
@@ -163,6 +164,7 @@ TEST(Abaqus, BrokenFilesAreRefusedWithTheirLine) {
       {good + "*NSET, NSET=a, GENERATE\n4, 1\n", "makes no sense"},
       {good + "*NSET, NSET=a, GENERATE\n1, 4, 0\n", "makes no sense"},
       {good + "*NSET, NSET=a, GENERATE\n1\n", "GENERATE has 1"},
+      {good + "*NSET, NSET=a, GENERATE\n1, 2000000000, 1\n", "GENERATE names 2000000000 nodes"},
       {good + "*ELSET, ELSET=a\n77\n", "element 77 does not exist"},
       {good + "*SURFACE, NAME=a\n7\n", "the face of a surface is nothing"},
       {good + "*SURFACE, NAME=a\n7, SPOS\n", "'spos'"},
@@ -171,6 +173,16 @@ TEST(Abaqus, BrokenFilesAreRefusedWithTheirLine) {
       {good + "*SURFACE, NAME=a, TYPE=CYLINDER\n", "'cylinder'"}};
   for (const auto& [file, wanted] : broken)
     EXPECT_NE(refusal(file).find(wanted), std::string::npos) << wanted << " not in: " << refusal(file);
+}
+
+TEST(Abaqus, ManyRangesOfManyLabelsTakeNoMemory) {
+  std::string text = nodes + elements + "*NSET, NSET=big, GENERATE\n";
+  for (int line = 0; line < 1000; ++line) text += "1, 2000000000, 1\n";
+  for (int line = 0; line < 60; ++line) text += "*NSET, NSET=big\nbig, big\n";
+  EXPECT_NE(refusal(text).find("GENERATE names 2000000000 nodes"), std::string::npos) << refusal(text);
+  text = nodes + elements + "*NSET, NSET=a, GENERATE\n";
+  for (int line = 0; line < 1000; ++line) text += "11, 14, 1\n";
+  EXPECT_EQ(fem::nodeSet(abaqusFromText(text, "test.inp").mesh, "a"), (std::vector<int>{4, 5, 6, 7}));
 }
 
 TEST(Abaqus, UpToTenBadElementsAreNamed) {

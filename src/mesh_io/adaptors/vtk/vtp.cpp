@@ -12,6 +12,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -105,12 +107,15 @@ geometry::TriangleMesh readVtp(const std::filesystem::path& path) {
   const vtkIdType points = data->GetNumberOfPoints();
   if (points > std::numeric_limits<int>::max())
     refuse(path, "", "the file holds too many vertices", "cut the surface into several files");
+  constexpr double farthest = 1e15;  // m
   for (vtkIdType i = 0; i < points; ++i) {
     double p[3];
     data->GetPoint(i, p);
     mesh.x.push_back({p[0], p[1], p[2]});
     if (!isFinite(mesh.x.back()))
       refuse(path, place("point", i), "a coordinate is NaN or infinite", "give finite numbers");
+    if (std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) > farthest)
+      refuse(path, place("point", i), "it lies farther than 1e15 m from the origin", "give coordinates in metres");
   }
   requireOffsets(data->GetPolys(), "polygon", path);
   requireOffsets(data->GetStrips(), "strip", path);

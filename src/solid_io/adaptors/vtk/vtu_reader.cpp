@@ -12,6 +12,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -127,6 +128,10 @@ void readSets(vtkFieldData* data, MeshBuilder& builder, Add&& add) {
       values.insert(array->GetComponent(i, 0));
     if (values.size() > most) {
       builder.note("The array \"" + name + "\" holds more than 100 different numbers and was passed over.");
+      continue;
+    }
+    if (!values.empty() && std::max(-*values.begin(), *values.rbegin()) >= 0x1p63) {
+      builder.note("The array \"" + name + "\" holds numbers beyond 2^63 and was passed over.");
       continue;
     }
     const bool flags = !values.empty() && *values.begin() >= 0.0 && *values.rbegin() <= 1.0;
