@@ -3,12 +3,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
+#include "../common/arguments.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/coupling/run.hpp"
@@ -88,8 +89,14 @@ void measure(int layers, int steps) {
 
 int main(int argc, char** argv) {
   try {
-    setThreads(argc > 1 ? std::atoi(argv[1]) : 1);
-    for (const int layers : {1, 3, 10}) measure(layers, argc > 2 ? std::atoi(argv[2]) : 400);
+    const std::string usage = "the arguments are [THREADS [STEPS]]";
+    benchmark::requireAtMost(2, argc, argv, usage);
+    setThreads(benchmark::positiveArgument(1, 1, argc, argv, usage));
+    const int steps = benchmark::positiveArgument(2, 400, argc, argv, usage);
+    for (const int layers : {1, 3, 10}) measure(layers, steps);
+  } catch (const InputError& error) {
+    std::cerr << error.what() << "\n";
+    return 2;
   } catch (const Error& error) {
     std::cerr << error.what() << "\n";
     return 1;

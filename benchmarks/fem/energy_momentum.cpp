@@ -4,10 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
+#include <string>
 #include <vector>
 
+#include "../common/arguments.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
@@ -71,7 +72,10 @@ Result run(const Nodes& start, double dt, double tolerance, long long steps) {
 
 int main(int argc, char** argv) try {
   setThreads(1);
-  const long long steps = argc > 1 ? std::atoll(argv[1]) : 100000;
+  const std::string usage = "energy_momentum [STEPS [MULTIPLE OF THE EXPLICIT STEP]]";
+  benchmark::requireAtMost(2, argc, argv, usage);
+  const auto steps = benchmark::positiveArgument<long long>(1, 100000, argc, argv, usage);
+  const double only = benchmark::positiveArgument<double>(2, 0.0, argc, argv, usage);
   Model model = makeBar();
   const double critical = assembledStableStep(model);
   const Nodes start = afterTheLoad(critical);
@@ -80,7 +84,7 @@ int main(int argc, char** argv) try {
       "| dt / explicit | tolerance | energy | momentum | angular momentum | iterations per step | us per step | cuts "
       "|\n");
   std::printf("|---|---|---|---|---|---|---|---|\n");
-  const std::vector<double> multiples = argc > 2 ? std::vector{std::atof(argv[2])} : std::vector{10.0, 100.0};
+  const std::vector<double> multiples = only > 0.0 ? std::vector{only} : std::vector{10.0, 100.0};
   for (const double multiple : multiples)
     for (const double tolerance : {1e-5, 1e-7, 1e-9, 1e-11}) {
       const Result r = run(start, multiple * critical, tolerance, steps);
@@ -89,6 +93,9 @@ int main(int argc, char** argv) try {
       std::fflush(stdout);
     }
   return 0;
+} catch (const InputError& error) {
+  std::fprintf(stderr, "energy_momentum: %s\n", error.what());
+  return 2;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "energy_momentum: %s\n", error.what());
   return 1;

@@ -1,10 +1,12 @@
 // Bearing capacity of a strip footing on Drucker-Prager soil, for friction angles, flow rules and meshes.
 #include <cstdio>
 
+#include "../common/arguments.hpp"
 #include "footing_scene.hpp"
 
-int main() {
+int main(int argc, char** argv) try {
   using namespace dovetail::fem;
+  dovetail::benchmark::requireAtMost(0, argc, argv, "plasticity_footing takes no arguments");
   std::printf("%8s %10s %10s %8s %10s %8s %11s %5s %8s\n", "friction", "dilatancy", "mesh", "q/c", "Prandtl", "ratio",
               "iterations", "cuts", "time, s");
   for (const auto& [friction, dilatancy] : {std::pair{0.0, 0.0}, {20.0, 20.0}, {20.0, 10.0}})
@@ -27,4 +29,7 @@ int main() {
         std::printf("%s\n", error.what());
       }
     }
+} catch (const dovetail::InputError& error) {
+  std::fprintf(stderr, "plasticity_footing: %s\n", error.what());
+  return 2;
 }

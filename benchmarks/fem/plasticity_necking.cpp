@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "../common/arguments.hpp"
 #include "plasticity_scenes.hpp"
 
 namespace {
@@ -56,7 +57,11 @@ void bars() {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) try {
+  benchmark::requireAtMost(0, argc, argv, "plasticity_necking takes no arguments");
   bars();
   strips();
+} catch (const InputError& error) {
+  std::fprintf(stderr, "plasticity_necking: %s\n", error.what());
+  return 2;
 }

@@ -1,10 +1,12 @@
 // Limit pressure of a thick tube of perfectly plastic metal, for elements and meshes.
 #include <cstdio>
 
+#include "../common/arguments.hpp"
 #include "plasticity_scenes.hpp"
 
-int main() {
+int main(int argc, char** argv) try {
   using namespace dovetail::fem;
+  dovetail::benchmark::requireAtMost(0, argc, argv, "plasticity_tube takes no arguments");
   std::printf("limit (2/sqrt 3) sigma_y ln(b/a) = %.4f sigma_y\n", Tube::limitPressure() / Tube::yieldStress);
   std::printf("%-8s %-16s %6s %8s %10s %8s %11s %9s\n", "cells", "formulation", "nu", "mesh", "p/sigma_y", "error",
               "iterations", "time, s");
@@ -29,4 +31,7 @@ int main() {
                       error.what());
         }
       }
+} catch (const dovetail::InputError& error) {
+  std::fprintf(stderr, "plasticity_tube: %s\n", error.what());
+  return 2;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../common/arguments.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/laws/plasticity.hpp"
 #include "dovetail/fem/laws/point_law.hpp"
@@ -70,7 +71,8 @@ void report(const std::string& name, const std::shared_ptr<const PointMaterial>&
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) try {
+  dovetail::benchmark::requireAtMost(0, argc, argv, "bench_point_laws takes no arguments");
   dovetail::setThreads(1);
   const NeoHookean rubber = neoHookean(3e6, 0.3, 1000.0);
   const J2Plasticity steel{200e9, 0.3, 7800.0, saturatingYield(0.4e9, 0.1e9, 0.7e9, 17.0)};
@@ -88,4 +90,7 @@ int main() {
   report("J2 with back stress, flowing", pointMaterial(kinematic), 0.1);
   report("Drucker-Prager", pointMaterial(DruckerPrager{50e6, 0.25, 2000.0, 1e4, 0.5, 0.1}), 0.05);
   report("viscous neo-Hookean", pointMaterial(kelvinVoigt(pointMaterial(rubber), 1e-3, 3e6, 0.3)), 0.1);
+} catch (const dovetail::InputError& error) {
+  std::fprintf(stderr, "bench_point_laws: %s\n", error.what());
+  return 2;
 }

@@ -6,7 +6,7 @@
 
 namespace dovetail::example {
 
-Options readOptions(int argc, char** argv, const std::string& program, const std::string& about) {
+Options readOptions(int argc, char** argv, const std::string& program, const std::string& about, Files files) {
   Options options;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
@@ -14,24 +14,26 @@ Options readOptions(int argc, char** argv, const std::string& program, const std
       options.quick = true;
     } else if (word == "--help") {
       options.help = true;
-    } else if (word == "--out" && i + 1 < argc && argv[i + 1][0] != '\0') {
+    } else if (word == "--out" && files == Files::some && i + 1 < argc && argv[i + 1][0] != '\0') {
       options.out = argv[++i];
     } else {
-      throw InputError(word == "--out" ? "--out lacks its folder" : "unknown option '" + word + "'", "",
-                       "give --quick, --out DIR or --help");
+      const bool lacks = word == "--out" && files == Files::some;
+      throw InputError(lacks ? "--out lacks its folder" : "unknown option '" + word + "'", "",
+                       files == Files::some ? "give --quick, --out DIR or --help" : "give --quick or --help");
     }
   }
-  if (options.help)
-    std::cout << about << "\nusage: " << program << " [--quick] [--out DIR]\n"
-              << "  --quick    fewer or coarser runs, looser tolerance\n"
-              << "  --out DIR  write CSV files (and VTU, if VTK is there) into DIR\n";
+  if (options.help) {
+    std::cout << about << "\nusage: " << program << (files == Files::some ? " [--quick] [--out DIR]\n" : " [--quick]\n")
+              << "  --quick    fewer or coarser runs, looser tolerance\n";
+    if (files == Files::some) std::cout << "  --out DIR  write CSV files (and VTU, if VTK is there) into DIR\n";
+  }
   return options;
 }
 
 int runExample(int argc, char** argv, const std::string& program, const std::string& about,
-               const std::function<bool(const Options&)>& example) {
+               const std::function<bool(const Options&)>& example, Files files) {
   try {
-    const Options options = readOptions(argc, argv, program, about);
+    const Options options = readOptions(argc, argv, program, about, files);
     if (options.help) return 0;
     return example(options) ? 0 : 1;
   } catch (const InputError& error) {

@@ -114,5 +114,5 @@ bool flyIntoTheWall(const example::Options& options) {
 
 int main(int argc, char** argv) {
   return example::runExample(argc, argv, "solid", "a copper bar flies into a rigid wall (Taylor's test)",
-                             flyIntoTheWall);
+                             flyIntoTheWall, example::Files::none);
 }

@@ -80,5 +80,6 @@ bool bend(const example::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return example::runExample(argc, argv, "strip", "a steel strip sags under its weight and a load (statics)", bend);
+  return example::runExample(argc, argv, "strip", "a steel strip sags under its weight and a load (statics)", bend,
+                             example::Files::none);
 }
