@@ -1,54 +1,40 @@
 #include <iostream>
-#include <memory>
 
-#include "dovetail/core/error.hpp"
+#include "common/program.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "reference_curves.hpp"
 #include "report.hpp"
 #include "run.hpp"
 #include "study.hpp"
-#include "summary.hpp"
 
 namespace {
 
 using namespace dovetail;
 using namespace dovetail::cantilever;
 
-int runOnce(const Settings& settings) {
+bool runOnce(const Settings& settings) {
   std::vector<ReferenceCurve> curves;
   if (!settings.reference.empty()) curves = readReferenceCurves(settings.reference);
   const PreparedRun compute = prepareRun(settings);  // refuses before a folder is made
-  const std::unique_ptr<FrameWriter> frames = prepareOutputs(settings);
-  Observer observer;
-  if (frames) observer = [&](const Frame& frame) { frames->write(frame); };
-
-  RunResult result = compute(observer);
+  Outputs outputs(settings);
+  RunResult result = compute(outputs.observer());
   compareWithReferences(result);
   if (!settings.quiet) printReport(std::cout, result);
   if (!settings.quiet && !curves.empty()) printComparison(std::cout, result, curves);
-  if (!settings.out.empty()) writeSeries(result);
-  if (!settings.summary.empty()) writeSummary(settings.summary, result);
-  if (result.figures.finished) return 0;
-  std::cerr << "cantilever: " << result.figures.failure << '\n';
-  return 1;
+  outputs.finish(result);
+  if (!result.figures.finished) std::cerr << "cantilever: " << result.figures.failure << '\n';
+  return result.figures.finished;
 }
 
 }  // namespace
 
-/// Exit code 0: the run finished; 1: it broke down, with when and where; 2: the request was refused.
+/// Exit code 0: the run finished; 1: it broke down, with when and where; 2: the request was refused; 130, 143: it was
+/// interrupted, and what it had computed is written.
 int main(int argc, char** argv) {
-  try {
+  return benchmark::runProgram("cantilever", [&] {
     Settings settings;
-    if (!parseOptions(argc, argv, settings)) return 0;
-    if (settings.study == Study::none) return runOnce(settings);
-    runStudy(settings);
-    return 0;
-  } catch (const InputError& error) {
-    std::cerr << "cantilever: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "cantilever: " << error.what() << '\n';
-    return 1;
-  }
+    if (!parseOptions(argc, argv, settings)) return true;
+    return settings.study == Study::none ? runOnce(settings) : runStudy(settings);
+  });
 }

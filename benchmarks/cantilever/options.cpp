@@ -130,6 +130,18 @@ void addRunOptions(CLI::App& app, Settings& s, std::string& dt) {
   app.add_flag("--quiet", s.quiet, "print nothing but errors");
 }
 
+void refuseIdleOptions(const CLI::App& app, const Settings& s) {
+  using benchmark::refuseIdle;
+  if (s.study != Study::none)
+    refuseIdle(app, {"--output-interval", "--profile"}, "with --study, which writes no pictures", "leave it out");
+  if (s.out.empty()) refuseIdle(app, {"--output-interval"}, "without --out", "add --out DIR, or leave it out");
+  if (s.cgWidth == 0.0 && s.study == Study::none)
+    refuseIdle(app, {"--kernel", "--kernel-correction"}, "without a kernel", "add --cg-width X, or leave it out");
+  if (s.quiet) refuseIdle(app, {"--reference"}, "with --quiet", "leave out one of them");
+  if (s.quiet && s.summary.empty())
+    refuseIdle(app, {"--profile"}, "with --quiet and no summary", "add --summary FILE, or leave out one of them");
+}
+
 }  // namespace
 
 bool parseOptions(int argc, char** argv, Settings& settings) {
@@ -147,6 +159,7 @@ bool parseOptions(int argc, char** argv, Settings& settings) {
   settings.dtCapped = settings.dtCapped && !settings.dtAuto && settings.femEvery == 1;
   mergeParts(written, settings);
   validate(settings);
+  refuseIdleOptions(app, settings);
   return true;
 }
 

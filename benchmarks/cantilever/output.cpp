@@ -1,30 +1,38 @@
 #include "output.hpp"
 
 #include "common/outputs.hpp"
-#include "dovetail/io/output_folder.hpp"
-#include "dovetail/io/provenance.hpp"
-#include "dovetail/io/time_series.hpp"
+#include "summary.hpp"
 
 namespace dovetail::cantilever {
 
-std::unique_ptr<FrameWriter> prepareOutputs(const Settings& settings) {
-  benchmark::requireOtherName(settings.summary, settings.out, {"series.csv", "series.h5", "beam.pvd", "particles.pvd"});
-  std::unique_ptr<FrameWriter> frames;
-  if (!settings.out.empty())
-    frames = benchmark::underName("--out", [&] {
-      io::prepareOutputFolder(settings.out, {"series.csv", "series.h5"});
-      return makeFrameWriter(settings.out, settings);
+Outputs::Outputs(const Settings& settings)
+    : folder_(settings.out), summary_(settings.summary), series_(folder_ / "series.csv", provenanceOf(settings)) {
+  benchmark::requireOtherName(summary_, folder_, {"series.csv", "series.h5", "beam.pvd", "particles.pvd"});
+  if (!folder_.empty())
+    benchmark::underName("--out", [&] {
+      io::prepareOutputFolder(folder_, {"series.csv", "series.h5"});
+      lock_.emplace(folder_);
+      frames_ = makeFrameWriter(folder_, settings);
     });
-  if (!settings.summary.empty()) benchmark::prepareSummary(settings.summary);
-  return frames;
+  if (!summary_.empty()) benchmark::prepareSummary(summary_);
+  if (!folder_.empty()) io::removeOurs(folder_ / "series.h5");
+  if (!summary_.empty()) io::removeOurs(summary_);
 }
 
-std::vector<std::string> writeSeries(const RunResult& result) {
-  const std::filesystem::path folder(result.settings.out);
-  std::vector<std::string> written{"series.csv"};
-  io::writeCsv(folder / "series.csv", result.series, io::provenance(describe(result.settings)));
-  if (writeSeriesHdf5(folder / "series.h5", result)) written.emplace_back("series.h5");
-  return written;
+Observer Outputs::observer() {
+  if (folder_.empty()) return {};
+  return [this](const Frame& frame) {
+    series_.write(frame.series);
+    if (frames_) frames_->write(frame);
+  };
+}
+
+void Outputs::finish(const RunResult& result) {
+  if (!folder_.empty()) {
+    series_.write(result.series);
+    writeSeriesHdf5(folder_ / "series.h5", result);
+  }
+  if (!summary_.empty()) writeSummary(summary_, result);
 }
 
 }  // namespace dovetail::cantilever

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 #include <memory>
-#include <string>
-#include <vector>
+#include <optional>
 
+#include "dovetail/io/output_folder.hpp"
 #include "run.hpp"
 
 namespace dovetail::cantilever {
@@ -22,11 +22,23 @@ std::unique_ptr<FrameWriter> makeFrameWriter(const std::filesystem::path& folder
 /// Does nothing in builds without HDF5 and returns false.
 bool writeSeriesHdf5(const std::filesystem::path& file, const RunResult& result);
 
-/// Makes the folders and checks file names before the run.
-/// @return the writer of frames; null without --out
-/// @throws InputError naming the option, with what to write instead
-std::unique_ptr<FrameWriter> prepareOutputs(const Settings& settings);
-/// Time series and energy ledger into --out. Returns the names of the files written.
-std::vector<std::string> writeSeries(const RunResult& result);
+/// The files of one run in --out, and --summary. series.csv grows with every frame, so that a run which is cut off
+/// leaves it as long as its frames; series.h5 and the summary are written at the end, and those of an earlier run are
+/// removed before the run.
+class Outputs {
+public:
+  /// Makes the folder, holds it for this run and checks the names. @throws InputError naming the option, with what to
+  /// write instead
+  explicit Outputs(const Settings& settings);
+  /// What a run is to call with its frames; empty without --out.
+  Observer observer();
+  void finish(const RunResult& result);
+
+private:
+  std::filesystem::path folder_, summary_;
+  std::optional<io::FolderLock> lock_;
+  std::unique_ptr<FrameWriter> frames_;
+  io::GrowingCsv series_;
+};
 
 }  // namespace dovetail::cantilever

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "dovetail/io/provenance.hpp"
 #include "dovetail/io_vtk/vtu_series.hpp"
 #include "output.hpp"
 
@@ -11,8 +10,7 @@ namespace {
 class VtuWriter : public FrameWriter {
 public:
   VtuWriter(const std::filesystem::path& folder, const Settings& settings)
-      : beam_(folder, "beam", io::provenance(describe(settings))),
-        particles_(folder, "particles", io::provenance(describe(settings))) {}
+      : beam_(folder, "beam", provenanceOf(settings)), particles_(folder, "particles", provenanceOf(settings)) {}
 
   void write(const Frame& frame) override {
     points_.resize(frame.nodes.X.size());

@@ -11,6 +11,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/io/interruption.hpp"
 #include "model.hpp"
 #include "series_names.hpp"
 
@@ -49,8 +50,7 @@ public:
     observer_ = observer;
     const auto begin = std::chrono::steady_clock::now();
     try {
-      loop();
-      figures().finished = true;
+      figures().finished = loop();
     } catch (const NumericalError& error) {
       figures().failure = error.what();
     }
@@ -108,7 +108,8 @@ private:
                run.joules("contacts on the beam: lost") + run.joules("loads one step old (minus what they made)"));
   }
 
-  void loop() {
+  /// Returns whether it went to the end; if it was interrupted, `failure` says so.
+  bool loop() {
     scene_.run->start(clock_.dt, {.stepsPerWindow = settings().femEvery, .lag = settings().lag});
     gravityAtStart_ = scene_.run->ledger().joules("particles: gravity");
     setLedger();
@@ -124,13 +125,17 @@ private:
     const std::int64_t seriesEvery = every(seriesInterval, sampled);
     const std::int64_t frameEvery = every(settings().outputInterval, sampled);
     Progress progress("cantilever", 1.0, !settings().quiet);
-    for (std::int64_t sample = 1; !done(end); ++sample) {
-      for (std::int64_t w = 1; w <= sampleEvery && !done(end); ++w)
-        advance(w == sampleEvery || clock_.time() + 1.5 * clock_.coarseStep() >= end);  // the last step is sampled too
+    bool stops = false;
+    for (std::int64_t sample = 1; !done(end) && !stops; ++sample) {
+      for (std::int64_t w = 1; w <= sampleEvery && !done(end) && !stops; ++w) {
+        stops = io::interruption() != 0;
+        // The last step is sampled too.
+        advance(w == sampleEvery || stops || clock_.time() + 1.5 * clock_.coarseStep() >= end);
+      }
       if (figures().left && !settings().until) break;
       sampleEnergy();
       if (sample % trajectoryEvery == 0) sampleTrajectory();
-      if (sample % seriesEvery == 0) {
+      if (sample % seriesEvery == 0 || stops) {
         scene_.beam->model->terms.front()->requireValid(nodes(), moment(clock_.time(), clock_.step),
                                                         fem::Scrutiny::inversion);
         sampleSeries();
@@ -138,12 +143,17 @@ private:
         progress.update(settings().until ? clock_.time() / end : 1.0 - std::sqrt(std::max(0.0, 1.0 - y)),
                         "t = " + formatNumber(std::round(100.0 * clock_.time()) / 100.0) + " s");
       }
-      if (observer_ && sample % frameEvery == 0) observe();
+      if (sample % frameEvery == 0 || stops) observe();
     }
     sampleTrajectory();
+    if (stops && !done(end)) {
+      figures().failure = Error(io::nameOfInterruption(), moment(clock_.time(), clock_.step), "run it again").what();
+      return false;
+    }
     if (!settings().until && !figures().left)
       throw NumericalError("particle 0 has not left the beam", moment(clock_.time(), clock_.step),
                            "look at the trajectory, or give --until");
+    return true;
   }
 
   bool done(double end) const {
@@ -232,7 +242,7 @@ private:
     if (!observer_) return;
     auto& beam = dynamic_cast<fem::Solid&>(*scene_.beam->model->terms.front());
     const auto energies = beam.elementEnergies(nodes(), {clock_.time(), 0.0});
-    observer_({clock_.time(), mesh_, nodes(), grains().particles, scene_.beam->load.force, energies});
+    observer_({clock_.time(), mesh_, nodes(), grains().particles, scene_.beam->load.force, energies, result_.series});
   }
 
   void close() {

@@ -25,6 +25,7 @@ struct Frame {
   const dem::Particles& particles;
   const std::vector<Vec3>& contactLoad;      ///< contact forces on the nodes, N
   const std::vector<double>& elementEnergy;  ///< J
+  const io::TimeSeries& series;              ///< up to now
 };
 using Observer = std::function<void(const Frame&)>;
 
@@ -68,7 +69,8 @@ struct RunResult {
 };
 
 /// A run that nothing stands in the way of; to be called once. The observer is called at t = 0 and every
-/// outputInterval; it may be empty. Breakdowns are reported in figures.failure, with the state so far.
+/// outputInterval; it may be empty. Breakdowns and interruptions (dovetail/io/interruption.hpp) are reported in
+/// figures.failure, with the state so far; an interrupted run is observed once more at its end.
 using PreparedRun = std::function<RunResult(const Observer& observer)>;
 
 /// Builds the model and chooses the step. @throws InputError for impossible settings

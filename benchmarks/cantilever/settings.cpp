@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/io/provenance.hpp"
 
 namespace dovetail::cantilever {
 
@@ -137,6 +138,27 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
   const std::array<int, 3> mesh = s.mesh.value_or(Case{}.elements);
   rows.emplace_back("mesh", std::to_string(mesh[0]) + "," + std::to_string(mesh[1]) + "," + std::to_string(mesh[2]));
   return rows;
+}
+
+std::vector<std::pair<std::string, std::string>> describeCase() {
+  const Case beam;
+  return {{"length_m", formatNumber(beam.length)},
+          {"side_m", formatNumber(beam.side)},
+          {"youngs_modulus_Pa", formatNumber(beam.youngsModulus)},
+          {"poisson_ratio", formatNumber(beam.poissonRatio)},
+          {"density_kg_per_m3", formatNumber(beam.density)},
+          {"particle_diameter_m", formatNumber(beam.particleDiameter)},
+          {"particle_density_kg_per_m3", formatNumber(beam.particleDensity)},
+          {"gravity_m_per_s2", formatNumber(beam.gravity)},
+          {"start_x_m", formatNumber(beam.startX)},
+          {"start_y_m", formatNumber(beam.startY)},
+          {"start_velocity_m_per_s", formatNumber(beam.startVelocity)}};
+}
+
+std::vector<std::pair<std::string, std::string>> provenanceOf(const Settings& settings) {
+  auto entries = describe(settings);
+  for (auto& entry : describeCase()) entries.push_back(std::move(entry));
+  return io::provenance(entries);
 }
 
 }  // namespace dovetail::cantilever

@@ -87,8 +87,12 @@ void validate(const Settings& settings);
 /// Whether the contacts and the solid exchange work that is not the same on both sides, so that it must be booked.
 bool couplingIsUnbalanced(const Settings& settings);
 
-/// Option names and values as text, for provenance and the summary.
 const char* nameOf(Correction correction);
+/// Option names and values as text, for provenance, the summary and the tables of studies.
 std::vector<std::pair<std::string, std::string>> describe(const Settings& settings);
+/// What no option changes: sizes and materials, by names that end with their units (SI).
+std::vector<std::pair<std::string, std::string>> describeCase();
+/// The entries of io::provenance with all of both.
+std::vector<std::pair<std::string, std::string>> provenanceOf(const Settings& settings);
 
 }  // namespace dovetail::cantilever

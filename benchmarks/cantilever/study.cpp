@@ -2,12 +2,14 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "common/text.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/progress.hpp"
+#include "dovetail/io/interruption.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "published.hpp"
@@ -68,7 +70,7 @@ void runRow(StudyRow& row) {
 
 /// Marks rows that no other row beats in both wall time and `measure`.
 template <class Measure, class Mark>
-void markFront(std::vector<StudyRow>& rows, Measure measure, Mark mark) {
+void markFront(std::span<StudyRow> rows, Measure measure, Mark mark) {
   for (StudyRow& row : rows) {
     if (row.outcome != "finished") continue;
     bool beaten = false;
@@ -81,9 +83,7 @@ void markFront(std::vector<StudyRow>& rows, Measure measure, Mark mark) {
 
 using benchmark::quoted;
 
-}  // namespace
-
-void markFronts(std::vector<StudyRow>& rows) {
+void markFronts(std::span<StudyRow> rows) {
   markFront(
       rows, [](const StudyRow& r) { return r.figures.errorDynamic; },
       [](StudyRow& r, bool on) { r.onErrorFront = on; });
@@ -107,7 +107,7 @@ void printRow(const StudyRow& row) {
   std::fflush(stdout);
 }
 
-void writeStudy(const std::string& folder, const std::string& name, const std::vector<StudyRow>& rows) {
+void writeStudy(const std::string& folder, const std::string& name, std::span<const StudyRow> rows) {
   std::ostringstream csv;
   csv << io::provenanceLines(io::provenance(), "# ");
   csv << "label,outcome,message,wall_seconds,steps,dt_s,leave_time_s,energy_initial_J,energy_min_J,energy_max_J,"
@@ -151,7 +151,9 @@ void writeStudy(const std::string& folder, const std::string& name, const std::v
   io::writeFileAtomically(where / (name + ".json"), json.dump(2) + "\n");
 }
 
-std::vector<StudyRow> runStudy(const Settings& settings) {
+}  // namespace
+
+bool runStudy(const Settings& settings) {
   const std::string name = nameOf(settings.study);
   const std::string folder = settings.out.empty() ? "." : settings.out;
   io::prepareOutputFolder(folder, {name + ".csv", name + ".json"});
@@ -161,13 +163,20 @@ std::vector<StudyRow> runStudy(const Settings& settings) {
     rows[i].settings.quiet = true;
     rows[i].settings.out.clear();
     progress.update(static_cast<double>(i), rows[i].label);
+    const std::span done(rows.data(), i + 1);
     runRow(rows[i]);
+    if (io::interruption() != 0) {
+      progress.finish();
+      std::fprintf(stderr, "cantilever: %s; %zu of %zu runs are written\n", io::nameOfInterruption().c_str(), i,
+                   rows.size());
+      return false;
+    }
     if (!settings.quiet) printRow(rows[i]);
+    if (settings.study == Study::pareto) markFronts(done);
+    writeStudy(folder, name, done);
   }
   progress.finish();
-  if (settings.study == Study::pareto) markFronts(rows);
-  writeStudy(folder, name, rows);
-  return rows;
+  return true;
 }
 
 }  // namespace dovetail::cantilever

@@ -19,8 +19,11 @@ struct StudyRow {
 };
 
 /// Runs the study named in the settings; other settings are the starting point of its variations. Prints a line per
-/// run unless quiet, and writes <study>.csv and <study>.json into --out (default: the current folder).
-std::vector<StudyRow> runStudy(const Settings& settings);
+/// run unless quiet, and writes <study>.csv and <study>.json into --out (default: the current folder), anew with every
+/// run.
+/// @return whether all runs were made; if it was interrupted (dovetail/io/interruption.hpp), it has said so on standard
+///         error, and the run that was under way has no row
+bool runStudy(const Settings& settings);
 
 /// Coarse-graining widths 0 … 20 d in both schemes.
 std::vector<StudyRow> widthsPlan(const Settings& settings);
@@ -30,9 +33,5 @@ std::vector<StudyRow> paretoPlan(const Settings& settings);
 std::vector<StudyRow> stabilityPlan(const Settings& settings);
 /// The parts of the paper's scheme one at a time.
 std::vector<StudyRow> ablationPlan(const Settings& settings);
-
-void markFronts(std::vector<StudyRow>& rows);
-void printRow(const StudyRow& row);
-void writeStudy(const std::string& folder, const std::string& name, const std::vector<StudyRow>& rows);
 
 }  // namespace dovetail::cantilever

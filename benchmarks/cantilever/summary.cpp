@@ -49,6 +49,7 @@ void writeSummary(const std::string& file, const RunResult& result) {
   json["ledger"] = benchmark::ledgerAsJson(result.ledger);
   if (!result.profile.rows().empty()) json["profile"] = benchmark::profileAsJson(result.profile);
   json["settings"] = benchmark::objectOf(describe(result.settings));
+  json["case"] = benchmark::objectOf(describeCase());
   json["provenance"] = benchmark::objectOf(io::provenance());
   io::writeFileAtomically(file, json.dump(2) + "\n");
 }

@@ -18,6 +18,12 @@ void refuseEmptyValues(const CLI::App& app) {
 
 }  // namespace
 
+void refuseIdle(const CLI::App& app, std::initializer_list<const char*> options, const std::string& when,
+                const std::string& remedy) {
+  for (const char* option : options)
+    if (app.get_option(option)->count() > 0) throw InputError("the option does nothing " + when, option, remedy);
+}
+
 bool parseCommandLine(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <string>
 
@@ -29,6 +30,12 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& target, co
   return addChoice<Value>(
       app, name, names, [&target](Value value) { target = value; }, help);
 }
+
+/// Refuses what is written on the command line but would do nothing. @param when that which makes it so, such as
+/// "--full-dem"; `remedy`: what to do instead
+/// @throws InputError naming the first of the options that was given
+void refuseIdle(const CLI::App& app, std::initializer_list<const char*> options, const std::string& when,
+                const std::string& remedy);
 
 /// Parses; prints the help to standard output and returns false for --help.
 /// @throws InputError in one line for unknown options, values that cannot be read, and empty ones

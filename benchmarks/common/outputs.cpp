@@ -17,6 +17,9 @@ void requireOtherName(const fs::path& summary, const fs::path& outFolder, const 
 
 void prepareSummary(const fs::path& summary) {
   const fs::path folder = summary.parent_path();
+  if (std::error_code error; !folder.empty() && !fs::exists(folder, error))
+    throw InputError("there is no folder " + folder.string(), "--summary " + summary.string(),
+                     "make it, or give a folder that exists");
   underName("--summary",
             [&] { return io::prepareOutputFolder(folder.empty() ? "." : folder, {summary.filename().string()}); });
 }

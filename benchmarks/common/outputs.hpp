@@ -24,7 +24,7 @@ auto underName(const std::string& option, Prepare prepare) {
 void requireOtherName(const std::filesystem::path& summary, const std::filesystem::path& outFolder,
                       const std::vector<std::string>& taken);
 
-/// Makes the folder of --summary FILE and checks that the file can be written. @throws InputError
+/// Checks that --summary FILE can be written, in a folder that is there. @throws InputError
 void prepareSummary(const std::filesystem::path& summary);
 
 }  // namespace dovetail::benchmark

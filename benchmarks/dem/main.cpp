@@ -3,6 +3,7 @@
 
 #include "common/command_line.hpp"
 #include "common/outputs.hpp"
+#include "common/program.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "studies.hpp"
 
@@ -10,6 +11,21 @@ namespace {
 
 using namespace dovetail;
 using namespace dovetail::dem_benchmark;
+
+void refuseIdleOptions(const CLI::App& app, const Settings& s) {
+  using benchmark::refuseIdle;
+  const std::string with = "with --study " + s.study, remedy = "leave it out";
+  if (!s.write.empty())
+    refuseIdle(app, {"--study", "--summary", "--scene", "--copies", "--steps", "--warm-up", "--repeat"}, "with --write",
+               remedy);
+  if (s.study != "peers") refuseIdle(app, {"--scene", "--copies"}, with, remedy);
+  if (s.study == "peers") refuseIdle(app, {"--quick"}, with, remedy);
+  if (s.study == "threads") refuseIdle(app, {"--threads"}, with, remedy);
+  if (s.study == "stability")
+    refuseIdle(app, {"--bed", "--summary", "--steps", "--warm-up", "--repeat", "--quick"}, with, remedy);
+  if (s.study == "accuracy") refuseIdle(app, {"--bed", "--summary", "--steps", "--warm-up"}, with, remedy);
+  if (s.study == "leaving-out" || s.study == "scaling") refuseIdle(app, {"--bed", "--warm-up"}, with, remedy);
+}
 
 bool parse(int argc, char** argv, Settings& s) {
   CLI::App app{"Times the particle engine, and checks it on stiff and extreme cases.", "dem"};
@@ -31,7 +47,9 @@ bool parse(int argc, char** argv, Settings& s) {
   app.add_option("--repeat", s.repeats, "timings, of which the median counts")->check(CLI::Range(1, 1000));
   app.add_option("--threads", s.threads, "threads")->check(CLI::Range(1, 256));
   app.add_flag("--quick", s.quick, "small scenes: to see whether all runs, not to time");
-  return benchmark::parseCommandLine(app, argc, argv);
+  if (!benchmark::parseCommandLine(app, argc, argv)) return false;
+  refuseIdleOptions(app, s);
+  return true;
 }
 
 }  // namespace
@@ -39,26 +57,20 @@ bool parse(int argc, char** argv, Settings& s) {
 /// Exit code 0: done; 1: a case of the stability study neither stayed bounded nor was refused; 2: the request was
 /// refused.
 int main(int argc, char** argv) {
-  try {
+  return benchmark::runProgram("dem", [&] {
     Settings s;
-    if (!parse(argc, argv, s)) return 0;
+    if (!parse(argc, argv, s)) return true;
     setThreads(s.threads);
     if (!s.summary.empty()) benchmark::prepareSummary(s.summary);
     if (!s.write.empty()) {
       writeScenes(s, std::cout);
-      return 0;
+      return true;
     }
-    if (s.study == "stability") return studyStability(s, std::cout) ? 0 : 1;
+    if (s.study == "stability") return studyStability(s, std::cout);
     const std::map<std::string, void (*)(const Settings&, std::ostream&)> studies{
         {"throughput", studyThroughput}, {"peers", studyPeers},     {"leaving-out", studyLeavingOut},
         {"scaling", studyScaling},       {"threads", studyThreads}, {"accuracy", studyAccuracy}};
     studies.at(s.study)(s, std::cout);
-    return 0;
-  } catch (const InputError& error) {
-    std::cerr << "dem: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "dem: " << error.what() << '\n';
-    return 1;
-  }
+    return true;
+  });
 }

@@ -1,12 +1,17 @@
 #include "scenes.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <random>
 #include <sstream>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/loads.hpp"
+#include "dovetail/io/output_folder.hpp"
+#include "dovetail/io/provenance.hpp"
 
 namespace dovetail::dem_benchmark {
 
@@ -17,11 +22,27 @@ double jitter(std::mt19937_64& random, double half) {
   return half * (2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0);
 }
 
-std::ofstream openForWriting(const std::filesystem::path& path) {
-  std::ofstream out(path);
-  if (!out) throw InputError("the file cannot be written", path.string(), "give another path");
+/// Numbers of these files read back to the same bits.
+std::ostringstream exactText() {
+  std::ostringstream out;
   out.precision(17);
   return out;
+}
+
+/// Refuses spheres that no bed could hold, and two in one place, whose contact would have no direction.
+void requireSensible(const Spheres& spheres, const std::vector<int>& lines, const std::string& file) {
+  constexpr double most = 1e6;  // diameters of a sphere of 1
+  std::map<std::array<double, 3>, int> seen;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const Vec3& x = spheres.x[i];
+    const std::string where = file + ", line " + std::to_string(lines[i]);
+    if (std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z), spheres.diameter[i]}) > most)
+      throw InputError("a sphere is larger or farther away than 1e6", where, "give a bed of spheres of diameter 1");
+    const auto [other, isNew] = seen.emplace(std::array{x.x, x.y, x.z}, lines[i]);
+    if (!isNew)
+      throw InputError("the sphere lies where that of line " + std::to_string(other->second) + " does", where,
+                       "give each sphere a place of its own");
+  }
 }
 
 double periodicDistance(const Vec3& a, const Vec3& b, double edge) {
@@ -36,8 +57,10 @@ Spheres readSpheres(const std::filesystem::path& path) {
   std::ifstream in(path);
   if (!in) throw InputError("the file cannot be read", path.string(), "give a file with lines 'x y z diameter'");
   Spheres spheres;
+  std::vector<int> lines;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
+    if (line.starts_with('#')) continue;
     std::istringstream fields(line);
     Vec3 x;
     double diameter = 0.0;
@@ -46,32 +69,41 @@ Spheres readSpheres(const std::filesystem::path& path) {
                        "give four numbers, the last one greater than zero");
     spheres.x.push_back(x);
     spheres.diameter.push_back(diameter);
+    lines.push_back(number);
+    if ((fields >> std::ws).eof()) continue;
     Vec3 v, omega;
-    if (!(fields >> v.x >> v.y >> v.z >> omega.x >> omega.y >> omega.z)) continue;
+    if (!(fields >> v.x >> v.y >> v.z >> omega.x >> omega.y >> omega.z) || !(fields >> std::ws).eof() || !isFinite(v) ||
+        !isFinite(omega))
+      throw InputError("something other than velocity and spin stands behind the diameter",
+                       path.string() + ", line " + std::to_string(number), "give 4 numbers or 10");
     spheres.v.push_back(v);
     spheres.omega.push_back(omega);
   }
   if (!spheres.v.empty() && spheres.v.size() != spheres.size())
     throw InputError("some lines have velocities and others have none", path.string(), "give them to all or to none");
   if (spheres.size() == 0) throw InputError("no spheres", path.string(), "give lines 'x y z diameter'");
+  requireSensible(spheres, lines, path.string());
   return spheres;
 }
 
 void writeSpheres(const std::filesystem::path& path, const Spheres& spheres) {
-  auto out = openForWriting(path);
+  auto out = exactText();
+  out << "# dovetail " << io::buildInfo().version << ": x y z diameter, then velocity and spin if they have one\n";
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     out << spheres.x[i].x << ' ' << spheres.x[i].y << ' ' << spheres.x[i].z << ' ' << spheres.diameter[i];
     if (!spheres.v.empty())
       for (const Vec3& a : {spheres.v[i], spheres.omega[i]}) out << ' ' << a.x << ' ' << a.y << ' ' << a.z;
     out << '\n';
   }
+  io::writeFileAtomically(path, out.str());
 }
 
 void writeLammpsData(const std::filesystem::path& path, const Spheres& spheres, const geometry::Box& box) {
-  auto out = openForWriting(path);
+  auto out = exactText();
   double smallest = spheres.diameter[0];
   for (const double d : spheres.diameter) smallest = std::min(smallest, d);
-  out << "spheres\n\n" << spheres.size() << " atoms\n2 atom types\n\n";
+  out << "spheres, written by dovetail " << io::buildInfo().version << "\n\n"
+      << spheres.size() << " atoms\n2 atom types\n\n";
   const char* names[] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k)
     out << box.lower[k] << ' ' << box.upper[k] << ' ' << names[k] << "lo " << names[k] << "hi\n";
@@ -79,13 +111,13 @@ void writeLammpsData(const std::filesystem::path& path, const Spheres& spheres, 
   for (std::size_t i = 0; i < spheres.size(); ++i)
     out << i + 1 << ' ' << (spheres.diameter[i] > 2.0 * smallest ? 2 : 1) << ' ' << spheres.diameter[i]
         << " 1.9098593171 " << spheres.x[i].x << ' ' << spheres.x[i].y << ' ' << spheres.x[i].z << '\n';
-  if (spheres.v.empty()) return;
-  out << "\nVelocities\n\n";
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
+  if (!spheres.v.empty()) out << "\nVelocities\n\n";
+  for (std::size_t i = 0; i < spheres.v.size(); ++i) {
     out << i + 1;
     for (const Vec3& a : {spheres.v[i], spheres.omega[i]}) out << ' ' << a.x << ' ' << a.y << ' ' << a.z;
     out << '\n';
   }
+  io::writeFileAtomically(path, out.str());
 }
 
 dem::FrictionalLaw frictionalLaw() {

@@ -1,10 +1,10 @@
 #include "tables.hpp"
 
-#include <fstream>
 #include <ostream>
 
 #include "common/json.hpp"
 #include "common/text.hpp"
+#include "dovetail/io/output_folder.hpp"
 
 namespace dovetail::dem_benchmark {
 
@@ -39,7 +39,8 @@ void writeSummary(const Settings& s, const std::vector<Figures>& rows, double tr
                               {"highest", f.rates.highest},
                               {"bytes_held_per_particle", f.bytesHeld},
                               {"bytes_moved_per_step", f.bytesMoved}});
-  std::ofstream(s.summary) << json.dump(2) << '\n';
+  json["provenance"] = benchmark::objectOf(io::provenance());
+  io::writeFileAtomically(s.summary, json.dump(2) + "\n");
 }
 
 }  // namespace dovetail::dem_benchmark

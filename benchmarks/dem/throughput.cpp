@@ -3,9 +3,11 @@
 #include <functional>
 #include <ostream>
 
+#include "common/outputs.hpp"
 #include "common/text.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/loads.hpp"
+#include "dovetail/io/output_folder.hpp"
 #include "measure.hpp"
 #include "scenes.hpp"
 #include "studies.hpp"
@@ -212,10 +214,12 @@ void studyThreads(const Settings& s, std::ostream& out) {
 }
 
 void writeScenes(const Settings& s, std::ostream& out) {
+  benchmark::underName("--write", [&] {
+    return io::prepareOutputFolder(s.write, {"bed.txt", "bed.data", "poly.txt", "poly.data", "drum.txt", "drum.data"});
+  });
   const Spheres bed = bedOf(s);
   double top = 0.0;
   for (const Vec3& x : bed.x) top = std::max(top, x.z);
-  std::filesystem::create_directories(s.write);
   writeSpheres(s.write / "bed.txt", bed);
   writeLammpsData(s.write / "bed.data", bed, {{0, 0, 0}, {20, 20, std::ceil(top) + 2.0}});
   const Spheres mixed = polydisperse(s);

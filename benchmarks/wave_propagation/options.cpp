@@ -154,6 +154,56 @@ void addOutputOptions(App& app, Settings& s) {
   app.add_flag("--quiet", s.quiet, "print nothing but errors");
 }
 
+void refuseIdleOutputOptions(const App& app, const Settings& s) {
+  using benchmark::refuseIdle;
+  if (s.study != Study::none)
+    refuseIdle(app, {"--output-interval", "--profile"}, "with --study, which writes no pictures", "leave it out");
+  if (s.out.empty()) refuseIdle(app, {"--output-interval"}, "without --out", "add --out DIR, or leave it out");
+  if (s.quiet) refuseIdle(app, {"--reference"}, "with --quiet", "leave out one of them");
+  if (s.quiet && s.summary.empty())
+    refuseIdle(app, {"--profile"}, "with --quiet and no summary", "add --summary FILE, or leave out one of them");
+}
+
+/// Of studies, whose runs differ in what these options say, only what no run could use is refused.
+void refuseIdleOptions(const App& app, const Settings& s) {
+  using benchmark::refuseIdle;
+  refuseIdleOutputOptions(app, s);
+  if (s.fullDem)
+    refuseIdle(app,
+               {"--stiffness-ratio",
+                "--density-ratio",
+                "--constraint",
+                "--gap",
+                "--weight-profile",
+                "--weight-floor",
+                "--material",
+                "--mass",
+                "--fem",
+                "--dashpot-matrix",
+                "--rows",
+                "--kernel-normalisation",
+                "--kernel-reach",
+                "--order",
+                "--cg-width",
+                "--kernel",
+                "--penalty",
+                "--absorber",
+                "--fem-every",
+                "--no-comparison"},
+               "with --full-dem, which has no solid", "leave out one of them");
+  if (s.signal == Signal::impulse && s.study == Study::none)
+    refuseIdle(app, {"--pulse-elements", "--omega", "--cycles"}, "for the impulse",
+               "add --signal cosine, or leave it out");
+  if (s.study != Study::none) return;
+  if (s.constraint == Constraint::multiplier)
+    refuseIdle(app, {"--penalty"}, "with --constraint multiplier", "leave out one of them");
+  if (s.constraint != Constraint::dashpot)
+    refuseIdle(app, {"--dashpot-matrix"}, "without a dashpot", "add --constraint dashpot, or leave it out");
+  if (s.cgWidth == 0.0)
+    refuseIdle(app, {"--kernel", "--kernel-normalisation", "--kernel-reach"}, "without a kernel",
+               "add --cg-width X, or leave it out");
+}
+
 }  // namespace
 
 bool parseOptions(int argc, char** argv, Settings& settings) {
@@ -173,6 +223,7 @@ bool parseOptions(int argc, char** argv, Settings& settings) {
   for (const auto& write : written) write(settings);
   settings.dtAuto = dt == "auto";
   validate(settings);
+  refuseIdleOptions(app, settings);
   return true;
 }
 

@@ -1,31 +1,49 @@
 #include "output.hpp"
 
 #include "common/outputs.hpp"
-#include "dovetail/io/output_folder.hpp"
-#include "dovetail/io/provenance.hpp"
-#include "dovetail/io/time_series.hpp"
+#include "summary.hpp"
+#include "velocity_profile.hpp"
 
 namespace dovetail::wave {
 
-std::unique_ptr<FrameWriter> prepareOutputs(const Settings& settings) {
-  benchmark::requireOtherName(settings.summary, settings.out,
+Outputs::Outputs(const Settings& settings)
+    : settings_(settings),
+      folder_(settings.out),
+      profile_(emptyProfile()),
+      seriesFile_(folder_ / "series.csv", provenanceOf(settings)),
+      profileFile_(folder_ / "profile.csv", provenanceOf(settings)) {
+  const std::filesystem::path summary(settings.summary);
+  benchmark::requireOtherName(summary, folder_,
                               {"series.csv", "series.h5", "profile.csv", "solid.pvd", "particles.pvd"});
-  std::unique_ptr<FrameWriter> frames;
-  if (!settings.out.empty())
-    frames = benchmark::underName("--out", [&] {
-      io::prepareOutputFolder(settings.out, {"series.csv", "series.h5", "profile.csv"});
-      return makeFrameWriter(settings.out, settings);
+  if (!folder_.empty())
+    benchmark::underName("--out", [&] {
+      io::prepareOutputFolder(folder_, {"series.csv", "series.h5", "profile.csv"});
+      lock_.emplace(folder_);
+      frames_ = makeFrameWriter(folder_, settings);
     });
-  if (!settings.summary.empty()) benchmark::prepareSummary(settings.summary);
-  return frames;
+  if (!summary.empty()) benchmark::prepareSummary(summary);
+  if (!folder_.empty()) io::removeOurs(folder_ / "series.h5");
+  if (!summary.empty()) io::removeOurs(summary);
 }
 
-void writeTables(const RunResult& result, const io::TimeSeries& profile) {
-  const std::filesystem::path folder(result.settings.out);
-  const io::KeyValues provenance = io::provenance(describe(result.settings));
-  io::writeCsv(folder / "series.csv", result.series, provenance);
-  io::writeCsv(folder / "profile.csv", profile, provenance);
-  writeSeriesHdf5(folder / "series.h5", result);
+Observer Outputs::observer() {
+  if (folder_.empty()) return {};
+  return [this](const Frame& frame) {
+    appendProfile(profile_, settings_, frame);
+    seriesFile_.write(frame.series);
+    profileFile_.write(profile_);
+    if (frames_) frames_->write(frame);
+  };
+}
+
+void Outputs::finish(const RunResult& result) {
+  if (!folder_.empty()) {
+    appendParticlesAlone(profile_, result);
+    seriesFile_.write(result.series);
+    profileFile_.write(profile_);
+    writeSeriesHdf5(folder_ / "series.h5", result);
+  }
+  if (!settings_.summary.empty()) writeSummary(settings_.summary, result);
 }
 
 }  // namespace dovetail::wave

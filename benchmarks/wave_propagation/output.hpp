@@ -1,9 +1,11 @@
-// Files of a run: VTU and PVD frames, time series as CSV and HDF5, velocity profiles as CSV.
+// Files of a run: VTU and PVD frames, time series as CSV and HDF5, velocity profiles as CSV, the summary as JSON.
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "dovetail/io/output_folder.hpp"
 #include "run.hpp"
 
 namespace dovetail::wave {
@@ -20,10 +22,25 @@ std::unique_ptr<FrameWriter> makeFrameWriter(const std::filesystem::path& folder
 /// Does nothing in builds without HDF5 and returns false.
 bool writeSeriesHdf5(const std::filesystem::path& file, const RunResult& result);
 
-/// Checks folder and file names before the run. Null without --out, and in builds without VTK.
-/// @throws InputError with what to write instead
-std::unique_ptr<FrameWriter> prepareOutputs(const Settings& settings);
-/// Time series (series.csv, series.h5) and velocity profiles (profile.csv) into --out.
-void writeTables(const RunResult& result, const io::TimeSeries& profile);
+/// The files of one run in --out, and --summary. series.csv and profile.csv grow with every frame, so that a run which
+/// is cut off leaves them as long as its frames; series.h5 and the summary are written at the end, and those of an
+/// earlier run are removed before the run.
+class Outputs {
+public:
+  /// Makes the folder, holds it for this run and checks the names. @throws InputError naming the option, with what to
+  /// write instead
+  explicit Outputs(const Settings& settings);
+  /// What a run is to call with its frames; empty without --out.
+  Observer observer();
+  void finish(const RunResult& result);
+
+private:
+  Settings settings_;
+  std::filesystem::path folder_;
+  std::optional<io::FolderLock> lock_;
+  std::unique_ptr<FrameWriter> frames_;
+  io::TimeSeries profile_;
+  io::GrowingCsv seriesFile_, profileFile_;
+};
 
 }  // namespace dovetail::wave

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "dovetail/io/provenance.hpp"
 #include "dovetail/io_vtk/vtu_series.hpp"
 #include "output.hpp"
 
@@ -12,8 +11,8 @@ namespace {
 class VtuWriter : public FrameWriter {
 public:
   VtuWriter(const std::filesystem::path& folder, const Settings& settings)
-      : particles_(folder, "particles", io::provenance(describe(settings))) {
-    if (!settings.fullDem) solid_.emplace(folder, "solid", io::provenance(describe(settings)));
+      : particles_(folder, "particles", provenanceOf(settings)) {
+    if (!settings.fullDem) solid_.emplace(folder, "solid", provenanceOf(settings));
   }
 
   void write(const Frame& frame) override {

@@ -11,6 +11,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/dem/model/loads.hpp"
+#include "dovetail/io/interruption.hpp"
 #include "step_plan.hpp"
 
 namespace dovetail::wave {
@@ -19,7 +20,7 @@ namespace {
 
 constexpr double stableFactor = 1.5;
 
-const std::vector<std::string> seriesNames{"t_s",
+const std::vector<std::string> seriesNames{"time_s",
                                            "mass_particles_kg",
                                            "mass_solid_kg",
                                            "momentum_particles_y_Ns",
@@ -59,8 +60,7 @@ public:
     observer_ = observer;
     const auto begin = std::chrono::steady_clock::now();
     try {
-      loop();
-      figures().finished = true;
+      figures().finished = loop();
     } catch (const NumericalError& error) {
       figures().failure = error.what();
     }
@@ -158,7 +158,8 @@ private:
     if (external_) ledger.set(*external_, -externalWork());
   }
 
-  void loop() {
+  /// Returns whether it went to the end; if it was interrupted, `failure` says so.
+  bool loop() {
     bar_.run->start(dt_, {.stepsPerWindow = K_});
     if (bar_.tie) figures().coupledNodes = bar_.tie->operators().rows();
     setLedger();
@@ -172,13 +173,18 @@ private:
     sample();
     observe();
     for (std::int64_t w = 1, samples = 0; w <= windows_; ++w) {
-      const bool now = w % sampleEvery == 0 || w == windows_;
+      const bool ends = w == windows_ || io::interruption() != 0, now = w % sampleEvery == 0 || ends;
       bar_.run->step(now);
       if (!now) continue;
       sample();
-      if (++samples % frameEvery == 0 || w == windows_) observe();
+      if (++samples % frameEvery == 0 || ends) observe();
       progress.update(grains().time / end, "t = " + formatNumber(std::round(1e5 * grains().time) / 1e5) + " s");
+      if (ends && w < windows_) {
+        figures().failure = Error(io::nameOfInterruption(), moment(grains().time, steps()), "run it again").what();
+        return false;
+      }
     }
+    return true;
   }
 
   void sample() {
@@ -232,7 +238,7 @@ private:
   void observe() {
     if (!observer_) return;
     const auto begin = std::chrono::steady_clock::now();
-    observer_({grains().time, bar_});
+    observer_({grains().time, bar_, result_.series});
     observerSeconds_ += secondsSince(begin);
   }
 

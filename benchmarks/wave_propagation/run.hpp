@@ -44,6 +44,7 @@ struct EnergySample {
 struct Frame {
   double time;
   const Bar& bar;
+  const io::TimeSeries& series;  ///< up to now
 };
 using Observer = std::function<void(const Frame&)>;
 
@@ -52,7 +53,7 @@ struct RunResult {
   RunFigures figures;
   EnergyLedger ledger;
   Profile profile;
-  io::TimeSeries series{{"t_s"}};
+  io::TimeSeries series{{"time_s"}};
   std::vector<EnergySample> energy;
   dem::Particles particles;  ///< at the end
   std::vector<double> contactScale;
@@ -62,7 +63,8 @@ struct RunResult {
 };
 
 /// A run that nothing stands in the way of; to be called once. The observer may be empty. A run that breaks down
-/// returns with `failure`.
+/// returns with `failure`, as does one that is interrupted (dovetail/io/interruption.hpp), which is observed once more
+/// at its end.
 using PreparedRun = std::function<RunResult(const Observer& observer)>;
 
 /// Builds the model and chooses the step. @throws InputError for impossible settings

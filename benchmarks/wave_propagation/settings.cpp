@@ -6,6 +6,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/io/provenance.hpp"
 
 namespace dovetail::wave {
 
@@ -200,6 +201,23 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
           {"stiffness_ratio", text(s.stiffnessRatio)},
           {"density_ratio", text(s.densityRatio)},
           {"threads", std::to_string(s.threads)}};
+}
+
+std::vector<std::pair<std::string, std::string>> describeCase() {
+  const Case bar;
+  return {{"side_m", formatNumber(bar.side)},
+          {"element_size_m", formatNumber(bar.elementSize)},
+          {"youngs_modulus_Pa", formatNumber(bar.youngsModulus)},
+          {"poisson_ratio", formatNumber(bar.poissonRatio)},
+          {"particle_density_kg_per_m3", formatNumber(bar.particleDensity)},
+          {"impulse_velocity_m_per_s", formatNumber(bar.velocity)},
+          {"cosine_velocity_m_per_s", formatNumber(bar.cosineVelocity)}};
+}
+
+std::vector<std::pair<std::string, std::string>> provenanceOf(const Settings& settings) {
+  auto entries = describe(settings);
+  for (auto& entry : describeCase()) entries.push_back(std::move(entry));
+  return io::provenance(entries);
 }
 
 }  // namespace dovetail::wave

@@ -97,7 +97,11 @@ void applyScheme(Settings& settings, Scheme scheme);
 /// @throws InputError naming the option, what is wrong with it and what to write instead
 void validate(const Settings& settings);
 
-/// Option names and values as text, for provenance and the summary.
+/// Option names and values as text, for provenance, the summary and the tables of studies.
 std::vector<std::pair<std::string, std::string>> describe(const Settings& settings);
+/// What no option changes: sizes and materials, by names that end with their units (SI).
+std::vector<std::pair<std::string, std::string>> describeCase();
+/// The entries of io::provenance with all of both.
+std::vector<std::pair<std::string, std::string>> provenanceOf(const Settings& settings);
 
 }  // namespace dovetail::wave

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <span>
 
 #include "common/fronts.hpp"
 #include "common/json.hpp"
@@ -11,6 +12,7 @@
 #include "common/text.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/progress.hpp"
+#include "dovetail/io/interruption.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "published.hpp"
@@ -72,7 +74,7 @@ void printRow(const StudyRow& row) {
   std::fflush(stdout);
 }
 
-void markFronts(std::vector<StudyRow>& rows) {
+void markFronts(std::span<StudyRow> rows) {
   const auto finished = [](const StudyRow& r) { return r.outcome == "finished"; };
   const auto seconds = [](const StudyRow& r) { return r.figures.wallSeconds; };
   const auto waveform =
@@ -93,7 +95,7 @@ Json publishedShare(const Settings& s) {
   return nullptr;
 }
 
-void writeStudy(const std::filesystem::path& folder, const std::string& name, const std::vector<StudyRow>& rows) {
+void writeStudy(const std::filesystem::path& folder, const std::string& name, std::span<const StudyRow> rows) {
   std::vector<Json> entries;
   for (const StudyRow& row : rows) {
     Json entry{{"label", row.label}, {"outcome", row.outcome}, {"message", row.message}};
@@ -114,7 +116,7 @@ void writeStudy(const std::filesystem::path& folder, const std::string& name, co
 
 }  // namespace
 
-std::vector<StudyRow> runStudy(const Settings& settings) {
+bool runStudy(const Settings& settings) {
   auto [name, rows] = planOf(settings);
   const std::filesystem::path folder = settings.out.empty() ? "." : settings.out;
   benchmark::underName("--out", [&, base = std::string(name)] {
@@ -125,13 +127,20 @@ std::vector<StudyRow> runStudy(const Settings& settings) {
     rows[i].settings.quiet = true;
     rows[i].settings.out.clear();
     progress.update(static_cast<double>(i), rows[i].label);
+    const std::span done(rows.data(), i + 1);
     runRow(rows[i]);
+    if (io::interruption() != 0) {
+      progress.finish();
+      std::fprintf(stderr, "wave_propagation: %s; %zu of %zu runs are written\n", io::nameOfInterruption().c_str(), i,
+                   rows.size());
+      return false;
+    }
     if (!settings.quiet) printRow(rows[i]);
+    if (settings.study == Study::pareto) markFronts(done);
+    writeStudy(folder, name, done);
   }
   progress.finish();
-  if (settings.study == Study::pareto) markFronts(rows);
-  writeStudy(folder, name, rows);
-  return rows;
+  return true;
 }
 
 }  // namespace dovetail::wave

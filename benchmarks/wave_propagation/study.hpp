@@ -18,8 +18,11 @@ struct StudyRow {
 };
 
 /// Runs the study named in the settings; other settings are the starting point of its variations. Prints a line per
-/// run unless quiet, and writes <study>.csv and <study>.json into --out (default: the current folder).
-std::vector<StudyRow> runStudy(const Settings& settings);
+/// run unless quiet, and writes <study>.csv and <study>.json into --out (default: the current folder), anew with every
+/// run.
+/// @return whether all runs were made; if it was interrupted (dovetail/io/interruption.hpp), it has said so on standard
+///         error, and the run that was under way has no row
+bool runStudy(const Settings& settings);
 
 /// Kernel widths 0 … 10 with penalty and multipliers, 0 … 2.5 in the paper's scheme.
 std::vector<StudyRow> widthsPlan(const Settings& settings);

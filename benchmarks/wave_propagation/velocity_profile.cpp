@@ -38,7 +38,7 @@ void appendNodes(io::TimeSeries& table, double time, const Bar& bar) {
 }  // namespace
 
 io::TimeSeries emptyProfile() {
-  return io::TimeSeries({"t_s", "model", "y_m", "velocity_y_m_per_s", "particles_share"});
+  return io::TimeSeries({"time_s", "model", "y_m", "velocity_y_m_per_s", "particles_share"});
 }
 
 void appendProfile(io::TimeSeries& table, const Settings& s, const Frame& frame) {

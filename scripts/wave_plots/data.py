@@ -39,11 +39,11 @@ class Run:
     @property
     def times(self):
         """Of the velocity profiles, s."""
-        return numpy.unique(self.profile["t_s"])
+        return numpy.unique(self.profile["time_s"])
 
     def layers(self, time, model):
         """(y, velocity, share of the particles) of one model at one time, by rising y."""
-        rows = (self.profile["t_s"] == time) & (self.profile["model"] == model)
+        rows = (self.profile["time_s"] == time) & (self.profile["model"] == model)
         return tuple(self.profile[name][rows] for name in ("y_m", "velocity_y_m_per_s", "particles_share"))
 
     @property

@@ -45,14 +45,14 @@ def _draw_pulse(axes, run, time, last):
 
 
 def _draw_energy(axes, run, beside):
-    time = 1e3 * run["t_s"]
+    time = 1e3 * run["time_s"]
     layers = [100 * run[column] / run.input for _, column, _ in CHANNELS]
     kept = [k for k, layer in enumerate(layers) if layer.max() > 0]
     axes.stackplot(time, *[layers[k] for k in kept], colors=[CHANNELS[k][2] for k in kept],
                    labels=[CHANNELS[k][0] for k in kept], linewidth=0)
     axes.plot(time, 100 * run["energy_total_J"] / run.input, color=BLACK, linewidth=2, label="total")
     if beside:
-        at, total = 1e3 * beside["t_s"], 100 * beside["energy_total_J"] / beside.input
+        at, total = 1e3 * beside["time_s"], 100 * beside["energy_total_J"] / beside.input
         axes.plot(at, total, color=VERMILLION, linewidth=2, linestyle="--", label=f"total of {beside.name}")
     axes.set_xlim(0, time[-1])
     axes.set_ylim(0, 128)

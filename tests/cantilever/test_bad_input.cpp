@@ -133,6 +133,15 @@ TEST(BadInput, ThingsThatDoNotGoTogether) {
   expectRefused({"--study", "widths", "--reference", "x"}, {"--reference", "leave out"});
 }
 
+TEST(BadInput, OptionsThatWouldDoNothing) {
+  expectRefused({"--kernel", "gauss"}, {"--kernel", "--cg-width"});
+  expectRefused({"--kernel-correction", "linear"}, {"--kernel-correction", "--cg-width"});
+  expectRefused({"--output-interval", "1"}, {"--output-interval", "--out DIR"});
+  expectRefused({"--study", "widths", "--out", "x", "--output-interval", "1"}, {"--output-interval", "--study"});
+  expectRefused({"--quiet", "--reference", "x"}, {"--reference", "--quiet"});
+  expectRefused({"--quiet", "--profile"}, {"--profile", "--summary FILE"});
+}
+
 TEST(BadInput, PlacesThatCannotBeWritten) {
   const ScratchFolder folder;
   writeText(folder / "file", "mine");
@@ -148,6 +157,7 @@ TEST(BadInput, PlacesThatCannotBeWritten) {
   expectRefused(with("--out", file + "/below"), {"--out", file, "give a folder"});
   expectRefused(with("--summary", "/proc/x"), {"--summary", "/proc", "give a folder"});
   expectRefused(with("--summary", file + "/x.json"), {"--summary", file, "give a folder"});
+  expectRefused(with("--summary", (folder / "typo/x.json").string()), {"--summary", "typo", "make it"});
   expectRefused(with("--summary", folder.path().string()), {"--summary", folder.path().string()});
   expectRefused({"--out", folder.path().string(), "--summary", (folder / "series.csv").string()},
                 {"--summary", "series.csv", "another name"});

@@ -126,6 +126,19 @@ TEST(BadInput, ThingsThatDoNotGoTogether) {
   expectRefused({"--study", "widths", "--reference", "x"}, {"--reference", "leave out"});
 }
 
+TEST(BadInput, OptionsThatWouldDoNothing) {
+  expectRefused({"--constraint", "multiplier", "--penalty", "1e10"}, {"--penalty", "--constraint multiplier"});
+  expectRefused({"--dashpot-matrix", "consistent"}, {"--dashpot-matrix", "--constraint dashpot"});
+  expectRefused({"--kernel", "gauss"}, {"--kernel", "--cg-width"});
+  expectRefused({"--signal", "impulse", "--cycles", "2"}, {"--cycles", "--signal cosine"});
+  expectRefused({"--scheme", "paper", "--omega", "0.5"}, {"--omega", "impulse"});
+  expectRefused({"--full-dem", "--gap", "nodal"}, {"--gap", "--full-dem"});
+  expectRefused({"--full-dem", "--absorber", "1"}, {"--absorber", "--full-dem"});
+  expectRefused({"--output-interval", "0.01"}, {"--output-interval", "--out DIR"});
+  expectRefused({"--study", "widths", "--profile"}, {"--profile", "--study"});
+  expectRefused({"--quiet", "--profile"}, {"--profile", "--summary FILE"});
+}
+
 TEST(BadInput, PlacesThatCannotBeWritten) {
   const ScratchFolder folder;
   writeText(folder / "file", "mine");
@@ -136,6 +149,7 @@ TEST(BadInput, PlacesThatCannotBeWritten) {
   expectRefused({"--study", "widths", "--out", file}, {"--out", file, "give a folder"});
   expectRefused({"--summary", "/proc/x"}, {"--summary", "/proc", "give a folder"});
   expectRefused({"--summary", file + "/x.json"}, {"--summary", file, "give a folder"});
+  expectRefused({"--summary", (folder / "typo/x.json").string()}, {"--summary", "typo", "make it"});
   expectRefused({"--summary", folder.path().string()}, {"--summary", folder.path().string()});
   for (const char* name : {"series.csv", "profile.csv", "solid.pvd"})
     expectRefused({"--out", folder.path().string(), "--summary", (folder / name).string()},

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "../cantilever/program.hpp"
+#include "dovetail/io/time_series.hpp"
 
 namespace dovetail::wave {
 namespace {
@@ -97,8 +98,8 @@ TEST(Program, AShortRunWritesItsFilesQuietlyAndAgainIntoTheSameFolder) {
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(outcome.err, "");
-    expectTable(readText(folder / "deep/out/series.csv"), "t_s,mass_particles_kg,", 20);
-    expectTable(readText(folder / "deep/out/profile.csv"), "t_s,model,y_m,velocity_y_m_per_s,particles_share", 60);
+    expectTable(readText(folder / "deep/out/series.csv"), "time_s,mass_particles_kg,", 20);
+    expectTable(readText(folder / "deep/out/profile.csv"), "time_s,model,y_m,velocity_y_m_per_s,particles_share", 60);
     expectSummary(parsed(summary));
     EXPECT_EQ(std::filesystem::exists(out + "/series.h5"), TEST_WITH_HDF5 == 1);
     for (const std::string name : {"solid", "particles"}) {
@@ -167,6 +168,38 @@ TEST(Program, ABreakdownSaysWhereAndWhenAndKeepsWhatThereIs) {
   EXPECT_EQ(json.at("finished"), false);
   EXPECT_EQ("wave_propagation: " + json.at("failure").get<std::string>() + "\n", outcome.err);
   EXPECT_FALSE(readText(folder / "out/series.csv").empty());
+}
+
+TEST(Program, AnInterruptedRunWritesWhatItHas) {
+  const ScratchFolder folder;
+  const std::filesystem::path out = folder / "out", summary = folder / "summary.json";
+  const auto words = [&](const std::string& factor) {
+    return Words{"--until",         "0.02",    "--dt-factor", factor,       "--output-interval", "1e-5",
+                 "--no-comparison", "--quiet", "--out",       out.string(), "--summary",         summary.string()};
+  };
+  cantilever::test::Running run(words("1e-5"));
+  ASSERT_TRUE(run.awaits(out / "profile.csv", "\n1"));
+  run.signal(SIGINT);
+  const Outcome outcome = run.outcome();
+  EXPECT_EQ(outcome.code, 130);
+  EXPECT_NE(outcome.err.find("interrupted by SIGINT"), std::string::npos) << outcome.err;
+  const auto json = parsed(summary);
+  EXPECT_EQ(json.at("finished"), false);
+  EXPECT_EQ("wave_propagation: " + json.at("failure").get<std::string>() + "\n", outcome.err);
+  for (const char* name : {"series.csv", "profile.csv"})
+    EXPECT_EQ(io::readCsv(out / name).column("time_s").back(), json.at("end_time_s").get<double>()) << name;
+  EXPECT_EQ(std::filesystem::exists(out / "series.h5"), TEST_WITH_HDF5 == 1);
+}
+
+TEST(Program, FilesSayWhatTheCaseIsMadeOf) {
+  const ScratchFolder folder;
+  const std::filesystem::path out = folder / "out", summary = folder / "summary.json";
+  ASSERT_EQ(
+      runShort({"--until", "0.002", "--no-comparison", "--quiet", "--out", out.string(), "--summary", summary.string()})
+          .code,
+      0);
+  EXPECT_NE(readText(out / "series.csv").find("# setting.youngs_modulus_Pa: 1e+08\n"), std::string::npos);
+  EXPECT_EQ(parsed(summary).at("case").at("particle_density_kg_per_m3"), "2500");
 }
 
 TEST(Program, AStudyReplacesItsOwnFilesHoweverLong) {

@@ -25,7 +25,7 @@ ProfileRun runWithProfile(const Settings& settings) {
 /// Sum over the rows of a model at the last time.
 template <class Part>
 double sumAtEnd(const io::TimeSeries& table, double model, Part part) {
-  const auto t = table.column("t_s"), kind = table.column("model");
+  const auto t = table.column("time_s"), kind = table.column("model");
   double sum = 0.0;
   for (std::size_t row = 0; row < table.rows(); ++row)
     if (t[row] == t.back() && kind[row] == model) sum += part(row);
