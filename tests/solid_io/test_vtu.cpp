@@ -86,6 +86,12 @@ TEST_F(Vtu, BadFilesAreRefused) {
       {asciiTet("0 1 2 9 0 1 2", "4 7", "10 5"), "point that does not exist"},
       {asciiTet("0 1 2 3 0 1 2", "3 7", "10 5"), "cell 0"},
       {asciiTet("0 2 1 3 0 1 2", "4 7", "10 5"), "inside out or too distorted: 0"},
+      {asciiTet("0 1 2 3 0 1 2", "4 7", "10 5",
+                "<DataArray type=\"Int32\" Name=\"part\" format=\"ascii\">1e30 8</DataArray>"),
+       "1e30 is no Int32"},
+      {asciiTet("0 1 2 3 0 1 2", "4 7", "10 5",
+                "<DataArray type=\"Int32\" Name=\"p\" NumberOfComponents=\"9223372036854775807\">3 8</DataArray>"),
+       "NumberOfComponents"},
       {asciiTet("0 1 2 0 1 2", "3 6", "5 5"), "no volume elements, and element 0 is a triangle"}};
   for (const auto& [text, wanted] : broken) {
     const auto path = write(text);
@@ -100,6 +106,26 @@ TEST_F(Vtu, TruncatedFilesAreRefused) {
   for (std::size_t end = 0; end + 20 < text.size(); end += 1 + text.size() / 60) {
     const auto path = write(text.substr(0, end));
     EXPECT_THROW(readVtu(path), InputError) << end;
+  }
+}
+
+/// What VTK's reader does to the program here, if it is asked for its message: it names an array that is not there.
+TEST_F(Vtu, DamagedBlocksAreRefused) {
+  const std::string good = vtuText(testMesh(fem::CellShape::hex8));
+  const std::size_t from = good.find('_', good.find("<AppendedData")), to = good.find("</AppendedData");
+  std::mt19937 random(1);
+  for (int round = 0; round < 100; ++round) {
+    std::string bad = good;
+    const std::size_t at = from + random() % (to - from);
+    if (round % 2 == 0)
+      bad[at] = static_cast<char>(random() % 256);
+    else
+      bad.erase(at, 1 + random() % 20);
+    try {
+      fem::validate(readVtu(write(bad)).mesh);
+    } catch (const InputError& error) {
+      EXPECT_GT(std::string(error.what()).size(), 20u);
+    }
   }
 }
 

@@ -1,12 +1,8 @@
 #include "dovetail/mesh_io_vtk/vtp.hpp"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
-#include <vtkCommand.h>
 #include <vtkDataArray.h>
-#include <vtkExecutive.h>
-#include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -17,52 +13,13 @@
 #include <limits>
 #include <string>
 
-#include "dovetail/core/error.hpp"
+#include "../../../io/adaptors/vtk/vtk_xml.hpp"
 
 namespace dovetail::mesh_io {
 
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& place, const std::string& problem,
-                         const std::string& remedy) {
-  throw InputError(problem, place.empty() ? path.string() : path.string() + ", " + place, remedy);
-}
-
-/// The first line that says something of what VTK would have printed.
-std::string firstLine(const std::string& text) {
-  const std::size_t colon = text.find("): ");
-  const std::size_t begin = colon == std::string::npos ? 0 : colon + 3;
-  return text.substr(begin, text.find('\n', begin) - begin);
-}
-
-vtkSmartPointer<vtkPolyData> readPolyData(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    refuse(path, "", "a surface cannot be read", "give a file that exists and may be read");
-  std::string complaint;
-  vtkNew<vtkCallbackCommand> listener;
-  listener->SetClientData(&complaint);
-  listener->SetCallback([](vtkObject*, unsigned long, void* client, void* text) {
-    auto& first = *static_cast<std::string*>(client);
-    if (first.empty()) first = text != nullptr ? firstLine(static_cast<const char*>(text)) : "VTK gives no reason";
-  });
-  vtkNew<vtkXMLPolyDataReader> reader;
-  for (const unsigned long event : {vtkCommand::ErrorEvent, vtkCommand::WarningEvent}) {
-    reader->AddObserver(event, listener);
-    reader->GetExecutive()->AddObserver(event, listener);
-  }
-  reader->SetReaderErrorObserver(listener);
-  reader->SetParserErrorObserver(listener);
-  if (reader->CanReadFile(path.c_str()) == 0)
-    refuse(path, "", "the file is no complete VTP file" + (complaint.empty() ? "" : " (" + complaint + ")"),
-           "give an XML file of VTK's type PolyData");
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  if (!complaint.empty() || reader->GetErrorCode() != 0)
-    refuse(path, "", "the file cannot be read" + (complaint.empty() ? "" : " (" + complaint + ")"),
-           "give a complete VTP file");
-  return reader->GetOutput();
-}
+using io::refuseVtk;
 
 std::string place(const char* kind, vtkIdType cell) { return std::string(kind) + " " + std::to_string(cell); }
 
@@ -77,12 +34,13 @@ void readCells(vtkCellArray* cells, const char* kind, const std::filesystem::pat
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
     iterator->GetCurrentCell(count, ids);
-    if (count < 3) refuse(path, place(kind, number), "it has " + std::to_string(count) + " vertices", "give 3 or more");
+    if (count < 3)
+      refuseVtk(path, place(kind, number), "it has " + std::to_string(count) + " vertices", "give 3 or more");
     corners.clear();
     for (vtkIdType k = 0; k < count; ++k) {
       if (ids[k] < 0 || ids[k] >= static_cast<vtkIdType>(mesh.x.size()))
-        refuse(path, place(kind, number), "it names vertex " + std::to_string(ids[k]),
-               "use 0 to " + std::to_string(static_cast<long>(mesh.x.size()) - 1));
+        refuseVtk(path, place(kind, number), "it names vertex " + std::to_string(ids[k]),
+                  "use 0 to " + std::to_string(static_cast<long>(mesh.x.size()) - 1));
       corners.push_back(static_cast<int>(ids[k]));
     }
     add(corners);
@@ -95,27 +53,27 @@ void requireOffsets(vtkCellArray* cells, const char* kind, const std::filesystem
   for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c) {
     const double begin = offsets->GetComponent(c, 0), end = offsets->GetComponent(c + 1, 0);
     if (begin < 0.0 || end < begin || end > static_cast<double>(cells->GetNumberOfConnectivityIds()))
-      refuse(path, place(kind, c), "its offsets do not fit", "give a complete VTP file");
+      refuseVtk(path, place(kind, c), "its offsets do not fit", "give a complete VTP file");
   }
 }
 
 }  // namespace
 
 geometry::TriangleMesh readVtp(const std::filesystem::path& path) {
-  const auto data = readPolyData(path);
+  const auto data = io::readVtkXml<vtkXMLPolyDataReader>(path, "VTP", "PolyData");
   geometry::TriangleMesh mesh;
   const vtkIdType points = data->GetNumberOfPoints();
   if (points > std::numeric_limits<int>::max())
-    refuse(path, "", "the file holds too many vertices", "cut the surface into several files");
+    refuseVtk(path, "", "the file holds too many vertices", "cut the surface into several files");
   constexpr double farthest = 1e15;  // m
   for (vtkIdType i = 0; i < points; ++i) {
     double p[3];
     data->GetPoint(i, p);
     mesh.x.push_back({p[0], p[1], p[2]});
     if (!isFinite(mesh.x.back()))
-      refuse(path, place("point", i), "a coordinate is NaN or infinite", "give finite numbers");
+      refuseVtk(path, place("point", i), "a coordinate is NaN or infinite", "give finite numbers");
     if (std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) > farthest)
-      refuse(path, place("point", i), "it lies farther than 1e15 m from the origin", "give coordinates in metres");
+      refuseVtk(path, place("point", i), "it lies farther than 1e15 m from the origin", "give coordinates in metres");
   }
   requireOffsets(data->GetPolys(), "polygon", path);
   requireOffsets(data->GetStrips(), "strip", path);
@@ -127,7 +85,7 @@ geometry::TriangleMesh readVtp(const std::filesystem::path& path) {
       mesh.facets.push_back(k % 2 == 0 ? geometry::Facet{v[k - 2], v[k - 1], v[k]}
                                        : geometry::Facet{v[k - 1], v[k - 2], v[k]});
   });
-  if (mesh.facets.empty()) refuse(path, "", "the file holds no facets", "give a file with a surface of polygons");
+  if (mesh.facets.empty()) refuseVtk(path, "", "the file holds no facets", "give a file with a surface of polygons");
   return mesh;
 }
 

@@ -1,13 +1,8 @@
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkCommand.h>
 #include <vtkDataArray.h>
-#include <vtkExecutive.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -16,7 +11,7 @@
 #include <cmath>
 #include <set>
 
-#include "dovetail/core/error.hpp"
+#include "../../../io/adaptors/vtk/vtk_xml.hpp"
 #include "dovetail/solid_io_vtk/solid_vtu.hpp"
 #include "mesh_builder.hpp"
 
@@ -43,51 +38,13 @@ constexpr std::array<VtkType, 13> types = {{{VTK_HEXAHEDRON, 8, 3, fem::CellShap
                                             {VTK_LINE, 2, 1, none},
                                             {VTK_QUADRATIC_EDGE, 3, 1, none}}};
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& place, const std::string& problem,
-                         const std::string& remedy) {
-  throw InputError(problem, place.empty() ? path.string() : path.string() + ", " + place, remedy);
-}
-
-/// The first line that says something of what VTK would have printed.
-std::string firstLine(const std::string& text) {
-  const std::size_t colon = text.find("): ");
-  const std::size_t begin = colon == std::string::npos ? 0 : colon + 3;
-  return text.substr(begin, text.find('\n', begin) - begin);
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    refuse(path, "", "a mesh cannot be read", "give a file that exists and may be read");
-  std::string complaint;
-  vtkNew<vtkCallbackCommand> listener;
-  listener->SetClientData(&complaint);
-  listener->SetCallback([](vtkObject*, unsigned long, void* client, void* text) {
-    auto& first = *static_cast<std::string*>(client);
-    if (first.empty()) first = text != nullptr ? firstLine(static_cast<const char*>(text)) : "VTK gives no reason";
-  });
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  for (const unsigned long event : {vtkCommand::ErrorEvent, vtkCommand::WarningEvent}) {
-    reader->AddObserver(event, listener);
-    reader->GetExecutive()->AddObserver(event, listener);
-  }
-  reader->SetReaderErrorObserver(listener);
-  reader->SetParserErrorObserver(listener);
-  const auto reason = [&] { return complaint.empty() ? "" : " (" + complaint + ")"; };
-  if (reader->CanReadFile(path.c_str()) == 0)
-    refuse(path, "", "the file is no complete VTU file" + reason(), "give an XML file of VTK's type UnstructuredGrid");
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  if (!complaint.empty() || reader->GetErrorCode() != 0)
-    refuse(path, "", "the file cannot be read" + reason(), "give a complete VTU file");
-  return reader->GetOutput();
-}
+using io::refuseVtk;
 
 const VtkType& requireType(int code, vtkIdType cell, const std::filesystem::path& path) {
   for (const VtkType& type : types)
     if (type.code == code) return type;
-  refuse(path, "cell " + std::to_string(cell), "cells of VTK's type " + std::to_string(code) + " are not known here",
-         "give hexahedra or tetrahedra of first or second order");
+  refuseVtk(path, "cell " + std::to_string(cell), "cells of VTK's type " + std::to_string(code) + " are not known here",
+            "give hexahedra or tetrahedra of first or second order");
 }
 
 /// The nodes of each cell, after offsets and indices have been checked.
@@ -101,12 +58,12 @@ std::vector<std::vector<Label>> cellNodes(vtkUnstructuredGrid* grid, const std::
     const double begin = offsets->GetComponent(static_cast<vtkIdType>(c), 0);
     const double end = offsets->GetComponent(static_cast<vtkIdType>(c) + 1, 0);
     if (begin < 0.0 || end < begin || end > static_cast<double>(cells->GetNumberOfConnectivityIds()))
-      refuse(path, place, "its offsets do not fit", "give a complete VTU file");
+      refuseVtk(path, place, "its offsets do not fit", "give a complete VTU file");
     for (auto k = static_cast<vtkIdType>(begin); k < static_cast<vtkIdType>(end); ++k) {
       const double id = ids->GetComponent(k, 0);
       if (id < 0.0 || id >= static_cast<double>(grid->GetNumberOfPoints()))
-        refuse(path, place, "it names a point that does not exist",
-               "use 0 to " + std::to_string(grid->GetNumberOfPoints() - 1));
+        refuseVtk(path, place, "it names a point that does not exist",
+                  "use 0 to " + std::to_string(grid->GetNumberOfPoints() - 1));
       result[c].push_back(static_cast<Label>(id));
     }
   }
@@ -153,7 +110,7 @@ void addCell(MeshBuilder& builder, const VtkType& type, Label label, std::span<c
 }  // namespace
 
 SolidFile readVtu(const std::filesystem::path& path) {
-  const auto grid = readGrid(path);
+  const auto grid = io::readVtkXml<vtkXMLUnstructuredGridReader>(path, "VTU", "UnstructuredGrid");
   const Source source("", path.string());
   MeshBuilder builder(source);
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) {
@@ -161,7 +118,7 @@ SolidFile readVtu(const std::filesystem::path& path) {
     grid->GetPoint(i, p);
     const Vec3 X{p[0], p[1], p[2]};
     if (!isFinite(X))
-      refuse(path, "point " + std::to_string(i), "a coordinate is NaN or infinite", "give finite numbers");
+      refuseVtk(path, "point " + std::to_string(i), "a coordinate is NaN or infinite", "give finite numbers");
     builder.addNode(i, X, 0);
   }
   const auto nodes = cellNodes(grid, path);
@@ -169,8 +126,8 @@ SolidFile readVtu(const std::filesystem::path& path) {
     const auto cell = static_cast<vtkIdType>(c);
     const VtkType& type = requireType(grid->GetCellType(cell), cell, path);
     if (nodes[c].size() != static_cast<std::size_t>(type.nodes))
-      refuse(path, "cell " + std::to_string(c), "it has " + std::to_string(nodes[c].size()) + " points",
-             "give " + std::to_string(type.nodes) + " for its type");
+      refuseVtk(path, "cell " + std::to_string(c), "it has " + std::to_string(nodes[c].size()) + " points",
+                "give " + std::to_string(type.nodes) + " for its type");
     addCell(builder, type, cell, nodes[c]);
   }
   readSets(grid->GetPointData(), builder,
