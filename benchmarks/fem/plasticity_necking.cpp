@@ -58,10 +58,10 @@ void bars() {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  benchmark::requireAtMost(0, argc, argv, "plasticity_necking takes no arguments");
+  dovetail::benchmark::requireAtMost(0, argc, argv, "plasticity_necking takes no arguments");
   bars();
   strips();
-} catch (const InputError& error) {
+} catch (const dovetail::InputError& error) {
   std::fprintf(stderr, "plasticity_necking: %s\n", error.what());
   return 2;
 }
