@@ -7,8 +7,8 @@
 
 namespace dovetail::io {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP does not end the program but is noted for interruption(); the
-/// second one ends it as ever. Signals that are ignored (nohup) stay so. One at a time, on the main thread; it forgets
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP does not end the program but is noted for interruption(); a
+/// second one of the same kind ends it as ever. Signals that are ignored (nohup) stay so. One at a time, on the main thread; it forgets
 /// what was noted when it is made.
 class InterruptionGuard {
 public:
