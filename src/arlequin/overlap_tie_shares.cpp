@@ -43,9 +43,9 @@ void OverlapTie::Impl::handOver(dem::Model& m, std::size_t i, double before, dou
     angular += ((before - after) * dem::momentOfInertia(m.particles, static_cast<int>(i))) * m.particles.omega[i];
   for (std::size_t a = 0; a < cell.node.size(); ++a) {
     const auto n = static_cast<std::size_t>(cell.node[a]);
-    const Vec3 part = (place.shape[a] * mass) * (m.particles.v[i] - u);
-    impulse[n] += part;
-    angular -= cross(nodes().X[n] + nodes().u[n], part);
+    const Vec3 taken = (place.shape[a] * mass) * (m.particles.v[i] - u);
+    impulse[n] += taken;
+    angular -= cross(nodes().X[n] + nodes().u[n], taken);
   }
   const double energy = (before - after) * ownKinetic(m.particles, i) - mass * dot(m.gravity, m.particles.x[i]);
   const bool leaves = mass > 0.0;
