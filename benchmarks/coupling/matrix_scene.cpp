@@ -80,7 +80,7 @@ std::shared_ptr<const dem::ContactLaws> lawsOf(ContactKind kind, double stiffnes
 void addGrains(dem::Model& grains, std::array<int, 3> count, double d, double bottom, double bulk,
                const Placement& at) {
   std::mt19937 random(7);
-  const auto drawn = [&](double size) { return size * (2.0 * (random() / 4294967295.0) - 1.0); };
+  const auto drawn = [&](double size) { return size * (2.0 * (static_cast<double>(random()) / 4294967295.0) - 1.0); };
   const double side = 0.5 * (width - count[0] * d);
   for (int k = 0; k < count[2]; ++k)
     for (int j = 0; j < count[1]; ++j)

@@ -109,7 +109,7 @@ double renumber(PrimitiveWall& wall, std::span<const int> newNumber, const Parti
     if (const int i = newNumber[static_cast<std::size_t>(contacts.particle[c])]; i >= 0)
       kept.emplace_back(i, c);
     else
-      detail::addEnded(contacts.left, before, contacts.particle[c], contacts.memory, c, components);
+      detail::addEnded(contacts.left, before, contacts.particle[c], contacts.memory, c, components, 1.0);
   std::sort(kept.begin(), kept.end());
   const std::vector<double> memory = std::move(contacts.memory);
   contacts.particle.clear();
@@ -149,7 +149,7 @@ void carryPart(const Particles& particles, PrimitiveContacts& contacts, std::siz
     if (c < last && contacts.particle[c] == contacts.oldParticle[o])
       std::copy_n(contacts.oldMemory.data() + o * components, components, place(c++));
     else
-      addEnded(ended, particles, contacts.oldParticle[o], contacts.oldMemory, o, components);
+      addEnded(ended, particles, contacts.oldParticle[o], contacts.oldMemory, o, components, 1.0);
   }
   startAnew(last);
 }
@@ -174,6 +174,7 @@ EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contact
   for (const EndedMemories& part : parts) {
     ended.memory.insert(ended.memory.end(), part.memory.begin(), part.memory.end());
     ended.material.insert(ended.material.end(), part.material.begin(), part.material.end());
+    ended.share.insert(ended.share.end(), part.share.begin(), part.share.end());
   }
   return ended;
 }

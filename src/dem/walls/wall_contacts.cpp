@@ -45,12 +45,13 @@ void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>&
 }
 
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
-              std::size_t contact, std::size_t components) {
+              std::size_t contact, std::size_t components, double share) {
   if (components == 0) return;
   const auto i = static_cast<std::size_t>(particle);
   ended.material.push_back(i < particles.material.size() ? particles.material[i] : std::uint8_t{0});
   const auto first = memory.begin() + static_cast<std::ptrdiff_t>(contact * components);
   ended.memory.insert(ended.memory.end(), first, first + static_cast<std::ptrdiff_t>(components));
+  ended.share.push_back(share * particles.weightOf(i));
 }
 
 }  // namespace detail
@@ -66,12 +67,13 @@ double renumber(WallContacts& contacts, std::span<const int> newNumber, const Pa
     if (const int i = newNumber[static_cast<std::size_t>(old.particle[c])]; i >= 0)
       kept.emplace_back(i, c);
     else
-      detail::addEnded(springs.left, before, old.particle[c], old.memory, c, components);
+      detail::addEnded(springs.left, before, old.particle[c], old.memory, c, components, old.share[c]);
   std::sort(kept.begin(), kept.end());
   for (const auto& [i, c] : kept) {
     springs.particle.push_back(i);
     springs.facet.push_back(old.facet[c]);
     springs.normal.push_back(old.normal[c]);
+    springs.share.push_back(old.share[c]);
     for (std::size_t m = 0; m < components; ++m) springs.memory.push_back(old.memory[c * components + m]);
   }
   return detail::energyOfLeavers(contacts.particle, contacts.energy, newNumber);

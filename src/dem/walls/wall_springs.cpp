@@ -30,7 +30,7 @@ std::size_t nearestSpring(const WallContacts& contacts, std::size_t c, std::size
   const WallSprings& old = contacts.springs;
   std::size_t best = end;
   for (std::size_t o = begin; o < end; ++o) {
-    if (old.taken[o] || !fits(o)) continue;
+    if (old.successor[o] >= 0 || !fits(o)) continue;
     const double here = dot(contacts.normal[c], old.normal[o]);
     if (here > cosine) {
       cosine = here;
@@ -61,7 +61,7 @@ EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, c
   const auto components = static_cast<std::size_t>(memory);
   startAnewIfOfAnother(memory, springs.particle.size(), springs.memory, springs.left);
   springs.next.assign(components * contacts.size(), 0.0);
-  springs.taken.assign(springs.particle.size(), 0);
+  springs.successor.assign(springs.particle.size(), -1);
   forParticleRuns(contacts.particle, [&](std::size_t first, std::size_t last) {
     if (first >= last) return;
     const std::vector<int>& old = springs.particle;
@@ -75,12 +75,15 @@ EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, c
       if (match == end) continue;
       for (std::size_t m = 0; m < components; ++m)
         springs.next[c * components + m] = springs.memory[match * components + m];
-      springs.taken[match] = 1;
+      springs.successor[match] = static_cast<int>(c);
     }
   });
   EndedMemories ended = std::exchange(springs.left, {});
-  for (std::size_t o = 0; o < springs.particle.size(); ++o)
-    if (!springs.taken[o]) addEnded(ended, particles, springs.particle[o], springs.memory, o, components);
+  for (std::size_t o = 0; o < springs.particle.size(); ++o) {
+    const int c = springs.successor[o];
+    const double lost = springs.share[o] - (c < 0 ? 0.0 : contacts.engagement[static_cast<std::size_t>(c)]);
+    if (c < 0 || lost != 0.0) addEnded(ended, particles, springs.particle[o], springs.memory, o, components, lost);
+  }
   return ended;
 }
 
@@ -89,6 +92,7 @@ void keepSprings(WallContacts& contacts) {
   springs.particle = contacts.particle;
   springs.facet = contacts.facet;
   springs.normal = contacts.normal;
+  springs.share = contacts.engagement;
   springs.memory.swap(springs.next);
 }
 

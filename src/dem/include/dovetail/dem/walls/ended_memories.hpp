@@ -11,6 +11,7 @@ namespace dovetail::dem {
 struct EndedMemories {
   std::vector<double> memory;
   std::vector<std::uint8_t> material;
+  std::vector<double> share;  ///< of what they stand for: of the particle, times that of the contact with its facet
 };
 
 /// What `sweep` gives. Where no time passes, what leavers' springs held is kept for a step in which it becomes a power.

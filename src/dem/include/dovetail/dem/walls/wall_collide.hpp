@@ -14,7 +14,7 @@ namespace detail {
 
 /// Fills contacts.springs.next with the memories carried over from the last step: from the same facet or one that
 /// shares a vertex, the nearest normal first. Returns those of contacts that have ended, leavers' (renumber) among
-/// them.
+/// them, and of contacts that act with another share now what they have less of it.
 EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, const TriangulatedWall& wall,
                            int memory);
 /// Remembers the contacts and what they remember for the next step.

@@ -28,9 +28,10 @@ struct WallSprings {
   std::vector<int> particle, facet;
   std::vector<Vec3> normal;
   std::vector<double> memory;  ///< of the law, contact by contact; a tangential spring takes three, its stretch, m
+  std::vector<double> share;   ///< engagement
 
   std::vector<double> next;  // those of this step, while they are being worked out
-  std::vector<char> taken;
+  std::vector<int> successor;  // of each of the last step in this one, −1: it has ended
   EndedMemories left;  // of particles that left, to be booked by the next sweep
 };
 
@@ -121,9 +122,10 @@ double energyOfLeavers(const std::vector<int>& particle, std::vector<double>& en
 /// Contacts that remember another number of values, as those of a law that was there before, start anew.
 /// @param memory numbers per contact
 void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered, EndedMemories& left);
-/// Remembers memory[from …] of a particle that leaves, or whose contact has ended.
+/// Remembers what a contact remembers of a particle that leaves, or that has ended. @param share  of the contact, or
+/// what it has less of it now
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
-              std::size_t contact, std::size_t components);
+              std::size_t contact, std::size_t components, double share);
 }  // namespace detail
 
 /// The reaction on the wall, N: f[vertex] −= weight × force for all contacts, and couples as forces on the vertices of

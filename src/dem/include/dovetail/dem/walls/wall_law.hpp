@@ -42,9 +42,14 @@ ContactWork bookEnded(const EndedMemories& ended, const PreparedLaws<Law>& laws,
   ContactWork work;
   if (ended.memory.size() != numbers * ended.material.size()) return work;  // of another law
   const bool several = laws.materials > 1;
-  for (std::size_t k = 0; k < ended.material.size(); ++k)
-    work += laws.at(several ? ended.material[k] : 0, several ? wallMaterial : 0)
-                .ended(ended.memory.data() + k * numbers, 1.0 / dt);
+  for (std::size_t k = 0; k < ended.material.size(); ++k) {
+    const ContactWork one = laws.at(several ? ended.material[k] : 0, several ? wallMaterial : 0)
+                                .ended(ended.memory.data() + k * numbers, 1.0 / dt);
+    work.frictionPower += ended.share[k] * one.frictionPower;
+    work.rollingPower += ended.share[k] * one.rollingPower;
+    work.plasticPower += ended.share[k] * one.plasticPower;
+    work.fracturePower += ended.share[k] * one.fracturePower;
+  }
   return work;
 }
 
