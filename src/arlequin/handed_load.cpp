@@ -63,6 +63,13 @@ std::vector<Vec3> handedLoad(const dem::Model& grains, const fem::SolidMesh& mes
 int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
              std::span<const double> nodalWeight, const TakeOverOptions& options) {
   requirePositive(options.tolerance, "tolerance of the handed load");
+  if (options.rounds < 1)
+    throw InputError("rounds is " + std::to_string(options.rounds), "TakeOverOptions", "give 1 or more");
+  for (const auto& term : grains.terms)
+    if (const auto* tie = dynamic_cast<const OverlapTie*>(term.get()); tie && tie->side().model == &solid)
+      throw InputError("the particles are tied to this solid already", "initial stress",
+                       "take over first and make the tie after that");
+  if (std::ranges::all_of(solid.nodes.mass, [](double mass) { return mass == 0.0; })) fem::addMass(solid);
   const double time = solid.t;
   const auto load = std::make_shared<NodeForces>();
   load->force = handedLoad(grains, mesh, solid, nodalWeight);

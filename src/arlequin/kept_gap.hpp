@@ -9,8 +9,9 @@
 
 namespace dovetail::arlequin {
 
-/// Spin of the nodes of a row, least squares with the weights of B: ω = I⁻¹ Σ B r × v, r from their mean. Its adjoint
-/// makes a couple τ into nodal forces (I⁻¹τ) × B r, which sum to zero and have the moment τ.
+/// Spin of the nodes of a row, least squares: ω = I⁻¹ Σ r × v, r from their mean. Its adjoint makes a couple τ into
+/// nodal forces (I⁻¹τ) × r, which sum to zero and have the moment τ. All nodes count alike: with the weights of B, I
+/// would be as good as singular wherever a row hangs on one particle near a node or an edge.
 class RowSpin {
 public:
   /// @param position  of the nodes, m
@@ -23,7 +24,6 @@ public:
 private:
   Vec3 solve(const Vec3& moment) const;
   std::span<const int> node_;
-  std::span<const double> weight_;
   std::vector<Vec3> arm_;        // m
   std::array<Vec3, 3> inverse_;  // I⁻¹, by rows, 1/m²
 };

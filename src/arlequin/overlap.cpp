@@ -70,6 +70,10 @@ Overlap locateOverlap(const dem::Particles& particles, const fem::SolidMesh& mes
     throw InputError(
         "there are " + std::to_string(nodalWeight.size()) + " weights for " + std::to_string(nodes.X.size()) + " nodes",
         "overlap", "give one per node");
+  for (std::size_t n = 0; n < nodalWeight.size(); ++n)
+    if (!(nodalWeight[n] >= 0.0 && nodalWeight[n] <= 1.0))
+      throw InputError("the weight of node " + std::to_string(n) + " is " + formatNumber(nodalWeight[n]), "overlap",
+                       "give weights from 0 to 1, such as those of nodalWeights");
   requireSpatialCells(mesh);
   requireFinite(particles.x, "particle", "position", "search for the overlap");
   const std::vector<Vec3> position = positionsOf(nodes.X, nodes.u);
@@ -113,8 +117,8 @@ void requireWidth(const Overlap& overlap, const fem::SolidMesh& mesh) {
   }
   constexpr double roundOff = 1e-9;
   if (top - bottom > roundOff && narrowest > (top - bottom) * (1.0 - roundOff))
-    throw InputError("the overlap is narrower than an element: the weights fall from 1 to 0 within one", "overlap",
-                     "widen the overlap or refine the mesh there");
+    throw InputError("the particles reach over less than an element of the overlap", "overlap",
+                     "fill the overlap with particles before it is made, widen it, or refine the mesh there");
 }
 
 std::vector<double> solidWeights(std::span<const double> nodalWeight) {

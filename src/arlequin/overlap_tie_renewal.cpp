@@ -33,7 +33,9 @@ bool contains(const geometry::Box& box, const Vec3& x, const geometry::Periodici
   return true;
 }
 
+/// m/s; 0 of nobody.
 double largestSpeed(std::span<const Vec3> v, const Vec3& frame) {
+  if (v.empty()) return 0.0;
   return parallelMax(v.size(), 4096, [&](std::size_t begin, std::size_t end) {
     double largest = 0.0;
     for (std::size_t n = begin; n < end; ++n) largest = std::max(largest, norm(v[n] - frame));

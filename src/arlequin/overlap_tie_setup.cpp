@@ -40,6 +40,14 @@ void requireShares(const fem::SolidMesh& mesh, const fem::Model& solid, std::spa
   }
 }
 
+/// The mesh is the solid's: the same nodes at the same places.
+void requireOwnMesh(const fem::SolidMesh& mesh, const fem::Nodes& nodes, const std::string& solid) {
+  for (std::size_t n = 0; n < std::max(mesh.X.size(), nodes.X.size()); ++n)
+    if (n >= mesh.X.size() || n >= nodes.X.size() || mesh.X[n] != nodes.X[n])
+      throw InputError("node " + std::to_string(n) + " of the mesh is not that of the solid \"" + solid + "\"",
+                       "overlap", "give the mesh that the solid was made of");
+}
+
 /// Particles of another overlap keep their share.
 void leaveOthers(Overlap& overlap, const dem::Particles& particles) {
   Overlap own = overlap;
@@ -108,6 +116,10 @@ std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidM
       (options.constraint != ConstraintKind::dashpot || side.stepping != coupling::Stepping::implicitSteps))
     throw InputError("only dashpots on implicit solids lag", "overlap",
                      "take ConstraintKind::dashpot and Stepping::implicitSteps, or no lag");
+  if (options.projection.kernelCells < 0)
+    throw InputError("kernelCells is " + std::to_string(options.projection.kernelCells), "ProjectionOptions",
+                     "give 0 (as many as they need) or more");
+  requireOwnMesh(mesh, side.nodes(), side.name);
   std::unique_ptr<OverlapTie> tie(new OverlapTie(side));
   OverlapTie::Impl& s = *tie->impl_;
   const double reach = options.projection.reachOut ? options.projection.width : 0.0;
@@ -115,6 +127,8 @@ std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidM
   requireWidth(s.overlap, mesh);
   requireNarrowKernels(s.overlap, mesh, options);
   leaveOthers(s.overlap, grains.particles);
+  if (s.overlap.size() == 0)
+    throw InputError("all its particles belong to another overlap", "overlap", "give each solid particles of its own");
   requireShares(mesh, *side.model, nodalWeight);
   requireMembers(s.overlap, grains, options.leastShare);
   s.setting = {mesh, options, std::move(nodalWeight), penaltyOfElements(mesh, *side.model, options), 0.0};

@@ -18,6 +18,7 @@ void requireOptions(const RunOptions& options, double dt) {
 
 /// Names go into the ledger.
 void requireOwnName(const std::string& name, const std::vector<std::unique_ptr<SolidStepper>>& solids) {
+  if (name.empty()) throw InputError("a solid has no name", "SolidOptions", "give every solid a name of its own");
   const bool taken = std::ranges::any_of(solids, [&](const auto& other) { return other->side.name == name; });
   if (taken || name == "particles")
     throw InputError("there is something of that name already", "solid \"" + name + "\"",
@@ -65,9 +66,11 @@ void CoupledRun::start(double dt, const RunOptions& options) {
       grains.refusesUnstableSteps = false;
       if (run.started) start(lastDt, lastOptions);
       grains.refusesUnstableSteps = true;
-      throw InputError("dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) + " s that " +
-                           limit.owner + " sets",
-                       "time step", "take a fifth of the limit or less, or an implicit solid if it sets the limit");
+      throw InputError(
+          "dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) + " s that " + limit.owner +
+              " sets",
+          "time step",
+          "take a fifth of the limit or less; if a solid sets it, fewer stepsPerWindow or an implicit solid");
     }
   }
   run.constrainWindow();
@@ -82,6 +85,7 @@ void CoupledRun::start(double dt, const RunOptions& options) {
 
 void CoupledRun::advance(std::int64_t windows) {
   impl_->requireStarted("advance");
+  if (windows < 0) throw InputError("windows is " + std::to_string(windows), "advance", "give 0 or more");
   for (std::int64_t w = 0; w < windows; ++w) impl_->window(w + 1 == windows);
   dem::close(grains);
 }

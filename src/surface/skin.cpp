@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
 
 #include "carried_points.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/fem/mesh/shape.hpp"
 #include "dovetail/geometry/surface_topology.hpp"
@@ -157,6 +159,8 @@ std::vector<T> selected(const std::vector<T>& values, std::span<const int> which
 
 Skin makeSkin(std::span<const Vec3> X, std::span<const fem::Face> faces, QuadSplit split, double sharpAngle) {
   checkFaces(X, faces);
+  if (!(sharpAngle > 0.0 && sharpAngle <= std::numbers::pi))
+    throw InputError("the sharp angle is " + formatNumber(sharpAngle), "makeSkin", "give radians above 0, up to π");
   const Triangles cut = triangulate(X, faces, split);
   Skin skin;
   skin.facetFace = cut.facetFace;

@@ -131,6 +131,9 @@ TEST(CoupledRuns, SaysWhatIsMissing) {
   EXPECT_THROW(run.start(0.0), InputError);
   EXPECT_THROW(run.start(1e-3, {.stepsPerWindow = 0}), InputError);
   EXPECT_THROW(run.addSolid(nullptr), InputError);
+  EXPECT_THROW(run.addSolid(std::make_unique<fem::Model>(), {.name = ""}), InputError);
+  run.start(1e-3);
+  EXPECT_THROW(run.advance(-1), InputError);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 #include "dovetail/core/error.hpp"
@@ -18,6 +19,12 @@ double area(const Skin& skin) {
   double sum = 0.0;
   for (std::size_t t = 0; t < skin.wall.facets.size(); ++t) sum += norm(areaVector(skin, t));
   return sum;
+}
+
+TEST(SkinInput, RefusesASharpAngleThatIsNone) {
+  const fem::SolidMesh mesh = unitBlock();
+  for (const double bad : {0.0, -1.0, 4.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(makeSkin(mesh.X, mesh.faceSets.at("skin"), QuadSplit::four, bad), InputError) << bad;
 }
 
 class SkinSplit : public ::testing::TestWithParam<QuadSplit> {};

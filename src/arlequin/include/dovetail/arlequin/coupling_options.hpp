@@ -13,7 +13,7 @@ enum class ConstraintKind {
 
 struct CouplingOptions {
   GapForm form = GapForm::atParticles;
-  ProjectionOptions projection;
+  ProjectionOptions projection{};
   ConstraintKind constraint = ConstraintKind::penalty;
   double penalty = 0.0;            ///< p, or ε of the dashpot, Pa/m²; 0 = automaticPenalty (dashpot: none)
   bool consistentDashpot = false;  ///< ∫ψ_iψ_j instead of its row sums

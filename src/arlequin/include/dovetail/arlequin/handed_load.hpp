@@ -29,8 +29,10 @@ struct TakeOverOptions {
 
 /// Initial stress: deforms the solid until it is in equilibrium under its own terms and what the particles hand over
 /// where its mesh then is. Tie the particles after that: they are tied where they are, without a gap, and what a tie of
-/// elements cannot balance particle by particle is left to coupling::settle. Time and velocities of the solid stay.
-/// @throws InputError as handedLoad; NumericalError as fem::solveStatics, and if the load does not settle
+/// elements cannot balance particle by particle is left to coupling::settle. Time and velocities of the solid stay;
+/// masses are set if they are not (fem::addMass).
+/// @throws InputError as handedLoad, for options out of range, or for particles that are tied to this solid already;
+///   NumericalError as fem::solveStatics, and if the load does not settle
 /// @return rounds taken
 int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
              std::span<const double> nodalWeight, const TakeOverOptions& options = {});

@@ -41,11 +41,12 @@ double weightAt(const fem::SolidMesh& mesh, const fem::CellPlace& place, std::sp
 /// @param reach  m: particles outside are taken in up to this distance from the box around the elements with w > 0
 /// @param space  whose images of particles count too
 /// @throws InputError if no particle lies in an element with w > 0 somewhere, if no element has one, or if weights are
-///         not one per node; NumericalError naming a particle whose position is not finite
+///         not one per node or not within 0 … 1; NumericalError naming a particle whose position is not finite
 Overlap locateOverlap(const dem::Particles& particles, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
                       std::span<const double> nodalWeight, double reach = 0.0, const geometry::Periodicity& space = {});
 
-/// @throws InputError unless the weights take at least one whole element for their way from largest to smallest
+/// @throws InputError unless the weights take more than one of the elements that hold particles for their way from
+///         largest to smallest
 void requireWidth(const Overlap& overlap, const fem::SolidMesh& mesh);
 
 /// 1 − w per node, for fem::SolidOptions::share.

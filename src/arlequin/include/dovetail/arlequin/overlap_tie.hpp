@@ -83,10 +83,11 @@ private:
 /// Particles of the model that are already weighed by another overlap keep their share and are not tied.
 /// @param nodalWeight  w per node of the mesh; the elements of the solid must have the share 1 − w
 /// @param side         its mass may be set later
-/// @throws InputError as locateOverlap and requireWidth do; for a share of the solid that is not 1 − w, mid nodes that
+/// @throws InputError as locateOverlap and requireWidth do; for a mesh that is not the solid's, a share of the solid
+/// that is not 1 − w, mid nodes that
 ///   are not levelled, a particle with less than leastShare (beyond the border of the particles), members of clumps,
-///   kernels in periodic space, an automatic penalty where a field of points tells no modulus, kernels wider than 2.5
-///   elements with more than 4000 rows
+///   kernels in periodic space, particles that all belong to another overlap, an automatic penalty where a field of
+///   points tells no modulus, kernels wider than 2.5 elements with more than 4000 rows
 std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
                                            std::vector<double> nodalWeight, coupling::SolidSide& side,
                                            const CouplingOptions& options = {});

@@ -93,7 +93,7 @@ public:
 
   /// Solids step together with the particles from here on; those at time zero only. Masses are set here if they are not
   /// (fem::addMass). @return the side that connectors are made with; it stays where it is
-  /// @throws InputError if there is no model, the name is another's, or the run has started
+  /// @throws InputError if there is no model, the name is empty or another's, or the run has started
   SolidSide& addSolid(std::unique_ptr<fem::Model> model, const SolidOptions& options = {});
   std::size_t solids() const;
   SolidSide& solid(std::size_t k);
@@ -107,7 +107,7 @@ public:
   ///         run
   void start(double dt, const RunOptions& options = {});
   /// Windows of K steps. The last one's end is an instant at which positions and velocities agree.
-  /// @throws NumericalError naming the particle, node or element that breaks down
+  /// @throws InputError if windows is negative; NumericalError naming the particle, node or element that breaks down
   void advance(std::int64_t windows = 1);
   /// One window for whoever looks at every one: without energies where none are wanted, which a ledger() would want.
   void step(bool withEnergies);

@@ -48,7 +48,7 @@ struct Skin {
 /// @param X      reference positions of all mesh nodes, m
 /// @param faces  node numbers, counter-clockwise seen from outside; entries beyond those of the shape are not looked at
 /// @throws InputError for no faces, a node number out of range, a face without area or with a repeated node, or a line
-///         of a plane mesh (named)
+///         of a plane mesh (named), or a sharp angle outside of (0, π]
 Skin makeSkin(std::span<const Vec3> X, std::span<const fem::Face> faces, QuadSplit split = QuadSplit::four,
               double sharpAngle = defaultSharpAngle);
 
@@ -64,11 +64,11 @@ void splitAtSharpEdges(Skin& skin);
 /// @throws InputError for a width that is negative or not finite, before the skin is changed
 void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel);
 
-/// The kernel for contact laws that know the compliance of a half-space (Hertz's and their like) on a body that bends. On
-/// single nodes (width 0) the mesh gives way once more under the load, the more the finer it is, and impacts on slender
-/// bodies get softer with every refinement. This kernel is as wide as twice the body's volume over its surface: the
-/// height of a plate, half the height of a square bar, a third of a cube's edge; what is left is the compliance of the
-/// section, that no half-space has, and no property of the mesh. Lucy's shape, symmetric.
+/// The kernel for contact laws that know the compliance of a half-space (Hertz's and their like) on a body that bends.
+/// On single nodes (width 0) the mesh gives way once more under the load, the more the finer it is, and impacts on
+/// slender bodies get softer with every refinement. This kernel is as wide as twice the body's volume over its surface:
+/// the height of a plate, half the height of a square bar, a third of a cube's edge; what is left is the compliance of
+/// the section, that no half-space has, and no property of the mesh. Lucy's shape, symmetric.
 /// @throws InputError if the mesh has no boundary, or no volume
 cg::SurfaceKernel advisedKernel(const fem::SolidMesh& mesh);
 
