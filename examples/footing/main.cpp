@@ -24,7 +24,7 @@ using namespace dovetail;
 
 constexpr double width = 0.24, top = 0.14, overlap = 0.06, depth = 0.18;  // m; grains begin at z = 0
 constexpr double radius = 0.01, density = 2500.0, solidFraction = 0.56;   // m, kg/m³
-constexpr double gap = 0.01, speed = 0.15;  // m, of the plate above them; m/s // of the plate, m/s
+constexpr double gap = 0.01, speed = 0.15;                                // of the plate above the grains, m; m/s
 
 void addGrains(dem::Model& grains) {
   dem::ContactLaw<dem::LinearSpringDashpot, dem::TangentialSpring, dem::RollingAndTwisting> contact;
