@@ -141,8 +141,8 @@ bool handOver(arlequin::ConstraintKind constraint, const char* name) {
 }
 
 int main() {
-  const bool good = handOver(arlequin::ConstraintKind::penalty, "penalty") &
-                    handOver(arlequin::ConstraintKind::multiplier, "multipliers");
+  bool good = handOver(arlequin::ConstraintKind::penalty, "penalty");
+  good = handOver(arlequin::ConstraintKind::multiplier, "multipliers") && good;
   std::cout << (good ? "balanced\n" : "NOT balanced\n");
   return good ? 0 : 1;
 }
