@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Windows, Books, windowCases, [](const auto& c) { return
 TEST_P(Books, CloseWithWallsSupportsClumpsInsertionAndOutlet) {
   const auto run = fullRun({.name = "block", .stepping = GetParam().stepping});
   dem::addWall(run->grains, dem::makePlane({0.06, 0, 0}, {1, 0, 0}));
-  dem::addWall(run->grains, {.wall = dem::makeWall({{0.55, -1, -1}, {0.55, 2, -1}, {0.55, 0.3, 2}}, {{0, 1, 2}})});
+  dem::addWall(run->grains, dem::MeshWall{}).wall = dem::makeWall({{0.55, -1, -1}, {0.55, 2, -1}, {0.55, 0.3, 2}}, {{0, 1, 2}});
   dem::damping(run->grains).viscousRate = 0.3;
   dem::damping(run->grains).local = 0.1;
   const std::vector<std::int64_t> driven{run->grains.particles.id[3]};
