@@ -16,11 +16,14 @@ namespace {
 /// Parser and the variables that it refers to.
 class Expression {
 public:
-  Expression(const std::string& text, bool withPlace) : text_(text) {
+  enum class Variables { none, time, timeAndPlace };
+  Expression(const std::string& text, Variables variables, const std::map<std::string, double>& constants = {})
+      : text_(text) {
     try {
       parser_.DefineConst("pi", std::numbers::pi);
-      parser_.DefineVar("t", &t_);
-      if (withPlace) {
+      for (const auto& [name, number] : constants) parser_.DefineConst(name, number);
+      if (variables != Variables::none) parser_.DefineVar("t", &t_);
+      if (variables == Variables::timeAndPlace) {
         parser_.DefineVar("x", &X_.x);
         parser_.DefineVar("y", &X_.y);
         parser_.DefineVar("z", &X_.z);
@@ -37,6 +40,13 @@ public:
   Expression(const Expression&) = delete;
   Expression& operator=(const Expression&) = delete;
 
+  /// Of constants.
+  double once() {
+    const double value = parser_.Eval();
+    if (!std::isfinite(value))
+      throw InputError("the expression gives " + formatNumber(value), quoted(), "write one that is finite");
+    return value;
+  }
   double at(const Vec3& X, double t) {
     X_ = X;
     t_ = t;
@@ -67,12 +77,12 @@ private:
 }  // namespace
 
 std::function<double(double)> timeFunction(const std::string& expression) {
-  return [parsed = std::make_shared<Expression>(expression, false)](double t) { return parsed->at({}, t); };
+  return [parsed = std::make_shared<Expression>(expression, Expression::Variables::time)](double t) { return parsed->at({}, t); };
 }
 
 std::function<double(const Vec3&, double)> fieldFunction(const std::string& expression) {
-  return
-      [parsed = std::make_shared<Expression>(expression, true)](const Vec3& X, double t) { return parsed->at(X, t); };
+  return [parsed = std::make_shared<Expression>(expression, Expression::Variables::timeAndPlace)](
+             const Vec3& X, double t) { return parsed->at(X, t); };
 }
 
 std::function<Vec3(const Vec3&, double)> vectorField(const std::array<std::string, 3>& expressions) {
@@ -80,6 +90,10 @@ std::function<Vec3(const Vec3&, double)> vectorField(const std::array<std::strin
              const Vec3& X, double t) {
     return Vec3{x(X, t), y(X, t), z(X, t)};
   };
+}
+
+double value(const std::string& expression, const std::map<std::string, double>& constants) {
+  return Expression(expression, Expression::Variables::none, constants).once();
 }
 
 }  // namespace dovetail::expressions

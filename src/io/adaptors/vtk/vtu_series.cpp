@@ -80,6 +80,16 @@ VtuSeries::VtuSeries(const std::filesystem::path& folder, std::string name, KeyV
   }
 }
 
+VtuSeries::VtuSeries(const std::filesystem::path& folder, std::string name, KeyValues provenance,
+                     std::vector<double> times)
+    : VtuSeries(folder, std::move(name), std::move(provenance)) {
+  for (std::size_t frame = 0; frame < times.size(); ++frame)
+    if (!isOurs(framePath(frame)))
+      throw InputError("a frame of the run that is to go on is missing", framePath(frame).string(),
+                       "put it back, or begin anew");
+  times_ = std::move(times);
+}
+
 std::filesystem::path VtuSeries::framePath(std::size_t frame) const { return folder_ / name_ / fileName(name_, frame); }
 
 void VtuSeries::write(double time, const HexFrame& frame) {
@@ -92,6 +102,11 @@ void VtuSeries::write(double time, const ParticleFrame& frame) {
   requireLater(time);
   requireConsistent(frame);
   commit(time, vtuText(time, frame, provenance_));
+}
+
+void VtuSeries::write(double time, const std::string& vtu) {
+  requireLater(time);
+  commit(time, vtu);
 }
 
 void VtuSeries::requireLater(double time) const {

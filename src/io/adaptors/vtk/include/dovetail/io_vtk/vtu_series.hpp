@@ -56,6 +56,9 @@ public:
   /// @throws InputError if that fails, if `name` is not made of ASCII letters, digits, '_', '-' and '.' starting with
   ///         a letter, or if one of the files is there and not ours (output_folder.hpp)
   VtuSeries(const std::filesystem::path& folder, std::string name, KeyValues provenance);
+  /// Goes on with a series that a run has begun: its first frames have these times, s.
+  /// @throws InputError also if one of these frames is not there
+  VtuSeries(const std::filesystem::path& folder, std::string name, KeyValues provenance, std::vector<double> times);
 
   /// Writes the next frame; `time` in s, larger than the one before. The state at t = 0 is a frame of its own: write
   /// it.
@@ -64,6 +67,8 @@ public:
   /// @throws Error if writing fails; the frames before are intact
   void write(double time, const HexFrame& frame);
   void write(double time, const ParticleFrame& frame);
+  /// The bytes of a VTU file that somebody else has made, which should carry the mark (output_folder.hpp).
+  void write(double time, const std::string& vtu);
 
   std::size_t frames() const { return times_.size(); }
   std::filesystem::path pvdPath() const { return folder_ / (name_ + ".pvd"); }

@@ -1,0 +1,139 @@
+// The command line of scenes.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/io/interruption.hpp"
+#include "dovetail/io/output_folder.hpp"
+#include "dovetail/io/provenance.hpp"
+#include "dovetail/scene/execute.hpp"
+#include "dovetail/scene/read.hpp"
+
+namespace {
+
+using namespace dovetail;
+
+const std::map<std::string, std::string>& starters() {
+  static const std::map<std::string, std::string> all{
+#include "starters.inc"
+  };
+  return all;
+}
+
+struct Options {
+  std::string file, out, kind;
+  std::vector<std::string> settings;
+  bool profile = false, markdown = false;
+};
+
+bool runScene(const Options& options) {
+  const scene::Scene scene = scene::readScene(options.file, options.settings);
+  const std::string folder =
+      options.out.empty() ? std::filesystem::path(options.file).stem().string() + "-out" : options.out;
+  return scene::run(scene, {.folder = folder, .profile = options.profile}, std::cout);
+}
+bool checkScene(const Options& options) {
+  scene::check(scene::readScene(options.file, options.settings), std::cout);
+  return true;
+}
+bool resumeRun(const Options& options) {
+  return scene::resume({.folder = options.file, .profile = options.profile}, std::cout);
+}
+bool tellFile(const Options& options) {
+  scene::tell(options.file, std::cout);
+  return true;
+}
+bool writeSchema(const Options& options) {
+  std::cout << (options.markdown ? scene::referenceText() : scene::schemaText());
+  return true;
+}
+bool writeStarter(const Options& options) {
+  const std::string text = "// dovetail " + io::buildInfo().version + "\n" + starters().at(options.kind);
+  if (options.file.empty())
+    std::cout << text;
+  else if (std::filesystem::exists(options.file))
+    throw InputError("there is a file of this name", options.file, "give another name");
+  else
+    io::writeFileAtomically(options.file, text);
+  return true;
+}
+
+struct Verb {
+  CLI::App* app;
+  bool (*act)(const Options&);
+};
+
+std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
+  std::vector<Verb> verbs;
+  const auto add = [&](const char* name, const char* help, bool (*act)(const Options&)) {
+    verbs.push_back({app.add_subcommand(name, help), act});
+    return verbs.back().app;
+  };
+  const auto takesScene = [&](CLI::App* verb) {
+    verb->add_option("SCENE", options.file, "scene file (JSON)")->required();
+    verb->add_option("--set", options.settings, "key=value: a parameter of \"let\", or a path such as steps.dt")
+        ->expected(1)
+        ->take_all();
+  };
+  CLI::App* const run = add("run", "runs a scene", runScene);
+  takesScene(run);
+  run->add_option("--out", options.out, "folder for all files; <scene>-out if not given");
+  run->add_flag("--profile", options.profile, "time per part of a step in the summary");
+  takesScene(add("check", "builds a scene, and tells sizes, limits of the step, memory and time", checkScene));
+  CLI::App* const resume = add("resume", "goes on from the last checkpoint of a run", resumeRun);
+  resume->add_option("FOLDER", options.file, "that the run wrote into")->required();
+  resume->add_flag("--profile", options.profile, "time per part of a step in the summary");
+  add("info", "tells what a file or folder holds", tellFile)->add_option("FILE", options.file)->required();
+  add("schema", "prints the JSON Schema of scenes", writeSchema)
+      ->add_flag("--markdown", options.markdown, "a reference of all keys instead");
+  CLI::App* const starter = add("new", "prints a commented starter scene, or writes it", writeStarter);
+  std::vector<std::string> kinds;
+  for (const auto& [kind, text] : starters()) kinds.push_back(kind);
+  starter->add_option("KIND", options.kind)->required()->check(CLI::IsMember(kinds));
+  starter->add_option("FILE", options.file, "new file; standard output if not given");
+  return verbs;
+}
+
+/// @return the verb that was asked for, null for --help and --version
+const Verb* parse(CLI::App& app, const std::vector<Verb>& verbs, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    app.exit(asked);
+    return nullptr;
+  } catch (const CLI::Error& error) {
+    throw InputError(error.what(), "command line", "see dovetail --help");
+  }
+  for (const Verb& verb : verbs)
+    if (verb.app->parsed()) return &verb;
+  return nullptr;
+}
+
+int act(int argc, char** argv) {
+  CLI::App app(
+      "Runs scenes of grains and solids. Exit codes: 0 done, 1 broke down, 2 refused, 128 + n ended by signal n.");
+  app.set_version_flag("--version", "dovetail " + io::buildInfo().version + " " + io::buildInfo().commit);
+  app.require_subcommand(1);
+  Options options;
+  const std::vector<Verb> verbs = addVerbs(app, options);
+  const Verb* const verb = parse(app, verbs, argc, argv);
+  if (!verb || verb->act(options)) return 0;
+  return 128 + io::interruption();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const io::InterruptionGuard guard;
+  try {
+    return act(argc, argv);
+  } catch (const InputError& error) {
+    std::cerr << "dovetail: " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "dovetail: " << error.what() << '\n';
+    return 1;
+  }
+}

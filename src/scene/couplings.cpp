@@ -1,0 +1,76 @@
+// Couplings of a scene.
+#include <algorithm>
+
+#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/weights.hpp"
+#include "dovetail/surface/surface_contact.hpp"
+#include "nearest.hpp"
+#include "parts.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+std::size_t solidNamed(const std::string& name, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Solid& solid : scene.solids) names.push_back(solid.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw InputError("there is no solid \"" + name + "\"", "",
+                     names.empty() ? "add it to solids" : adviceFor(name, names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+void add(Built& built, std::size_t solid, const Coupling& coupling, const SurfaceContact& contact) {
+  dem::Model& grains = built.run->grains;
+  const fem::SolidMesh& mesh = built.meshes[solid];
+  surface::Skin skin = surface::makeSkin(mesh.X, fem::faceSet(mesh, contact.on));
+  if (contact.kernel.word == "advised")
+    surface::coarseGrain(skin, surface::advisedKernel(mesh));
+  else if (contact.kernel.word.empty())
+    surface::coarseGrain(skin, {{.width = contact.kernel.number}, cg::KernelCorrection::symmetric});
+  grains.terms.add(surface::SurfaceContact(built.run->solid(solid), surface::Coupling(std::move(skin)),
+                                           contact.contact ? makeLaws(*contact.contact) : grains.laws,
+                                           "grains on " + coupling.solid + " (" + contact.on + ")"));
+}
+
+void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overlap) {
+  dem::Model& grains = built.run->grains;
+  const fem::SolidMesh& mesh = built.meshes[solid];
+  coupling::SolidSide& side = built.run->solid(solid);
+  const std::vector<double> weight = overlapWeights(overlap, mesh);
+  const std::vector<int> beyond = arlequin::particlesBeyond(grains, mesh, side.nodes(), weight);
+  if (!beyond.empty()) {
+    dem::removeParticles(grains, beyond);
+    built.notes.push_back(std::to_string(beyond.size()) + " grains beyond the border of the particles in \"" +
+                          side.name + "\" were left out.");
+  }
+  arlequin::CouplingOptions options;
+  options.projection.width = overlap.kernel;
+  options.penalty = overlap.penalty.number;
+  if (overlap.multipliers) options.constraint = arlequin::ConstraintKind::multiplier;
+  grains.terms.add(arlequin::makeOverlapTie(grains, mesh, weight, side, options));
+}
+
+}  // namespace
+
+std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh& mesh) {
+  const double length = overlap.solidBorder - overlap.particleBorder;
+  if (length == 0.0) throw InputError("the borders of an overlap are at one place", "", "give them some distance");
+  std::vector<double> place;
+  for (const Vec3& X : mesh.X) {
+    const double share = (X[overlap.axis] - overlap.particleBorder) / length;
+    place.push_back(share < -1e-9 ? arlequin::beyondOverlap : std::clamp(1.0 - share, 0.0, 1.0));
+  }
+  return arlequin::nodalWeights(place, {.profile = static_cast<arlequin::WeightProfile>(overlap.profile)});
+}
+
+void addCouplings(Built& built, const Scene& scene) {
+  for (const Coupling& coupling : scene.couplings)
+    atPlace(coupling.where, [&] {
+      const std::size_t solid = solidNamed(coupling.solid, scene);
+      std::visit([&](const auto& kind) { add(built, solid, coupling, kind); }, coupling.kind);
+    });
+}
+
+}  // namespace dovetail::scene

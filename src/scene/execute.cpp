@@ -1,0 +1,224 @@
+#include "dovetail/scene/execute.hpp"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <ostream>
+#include <sstream>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/core/progress.hpp"
+#include "dovetail/io/interruption.hpp"
+#include "dovetail/io/output_folder.hpp"
+#include "dovetail/scene/read.hpp"
+#include "outputs.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t lookEvery = 20;  // windows between two looks at signals
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// A run under way with its files.
+class Execution {
+public:
+  Execution(const Scene& scene, const RunSettings& settings, std::ostream& log, bool goesOn)
+      : scene_(scene),
+        settings_(settings),
+        log_(log),
+        text_(sceneText(scene)),
+        hash_(hashOf(text_)),
+        provenance_(io::provenance({{"scene", hash_}})),
+        lock_(io::prepareOutputFolder(settings.folder, {"scene.json", "series.csv", "summary.txt"})),
+        built_(build(scene)) {
+    built_.run->profile = Profile(settings.profile);
+    start(built_, scene);
+    if (scene.output.series) seriesEvery_ = windowsIn(*scene.output.series);
+    if (scene.output.frames) framesEvery_ = windowsIn(*scene.output.frames);
+    if (scene.output.checkpoints) checkpointsEvery_ = windowsIn(*scene.output.checkpoints);
+    if (seriesEvery_ > 0) series_ = std::make_unique<Series>(*built_.run, file("series.csv"), provenance_, 0);
+    if (goesOn) {
+      progress_ = readCheckpoint(settings.folder, hash_, *built_.run);
+      if (series_) series_ = std::make_unique<Series>(*built_.run, file("series.csv"), provenance_, progress_.rows);
+    }
+    if (framesEvery_ > 0) frames_ = std::make_unique<Frames>(built_, settings.folder, provenance_, progress_.frames);
+    for (const std::string& note : built_.notes) log_ << note << '\n';
+    if (goesOn) return;
+    for (const char* const old : {"checkpoint.state", "checkpoint.previous.state"}) io::removeOurs(file(old));
+    io::writeFileAtomically(file("scene.json"), io::provenanceLines(provenance_, "// ") + text_);
+    sample(0);
+    frame(0);
+  }
+
+  bool finish() {
+    for (; progress_.stage < scene_.stages.size(); ++progress_.stage, progress_.window = 0) {
+      const Clock::time_point begun = Clock::now();
+      const Stage& stage = scene_.stages[progress_.stage];
+      if (!std::visit([&](const auto& kind) { return execute(kind); }, stage.kind)) return stop();
+      note("stage " + std::to_string(progress_.stage + 1) + ": " + formatNumber(rounded(since(begun))) + " s");
+    }
+    summarise();
+    return true;
+  }
+
+private:
+  fs::path file(const char* name) const { return settings_.folder / name; }
+  static double rounded(double seconds) { return std::round(1e3 * seconds) / 1e3; }
+  std::int64_t windowsIn(double seconds) const {
+    return std::max<std::int64_t>(1, std::llround(seconds / built_.run->window()));
+  }
+  void note(const std::string& line) {
+    notes_ += line + "\n";
+    log_ << line << std::endl;
+  }
+
+  bool execute(const Settle& settle) {
+    const coupling::RestReport rest =
+        coupling::settle(*built_.run, {.kinetic = settle.kinetic, .windows = settle.windows});
+    note(std::string(rest.atRest ? "at rest" : "NOT at rest") + " after " + std::to_string(rest.windows) +
+         " windows, kinetic over elastic energy " + formatNumber(rest.kinetic));
+    sample(0);
+    frame(0);
+    return io::interruption() == 0;
+  }
+
+  bool execute(const RunFor& plan) {
+    coupling::CoupledRun& run = *built_.run;
+    const std::int64_t windows = windowsIn(plan.time);
+    dovetail::Progress shown("stage " + std::to_string(progress_.stage + 1), static_cast<double>(windows),
+                             settings_.progress);
+    const Clock::time_point begun = Clock::now();
+    const std::int64_t first = progress_.window;
+    while (progress_.window < windows) {
+      const std::int64_t before = progress_.window, next = nextLook(before, windows);
+      run.advance(next - before);
+      progress_.window = next;
+      const double rate = static_cast<double>(next - first) / since(begun);
+      shown.update(static_cast<double>(next),
+                   "t = " + formatNumber(run.time()) + " s  " + std::to_string(std::llround(rate)) + " windows/s");
+      if (!shown.shown() && 10 * next / windows > 10 * before / windows && next < windows)
+        log_ << "t = " << run.time() << " s, " << 100 * next / windows << " %, " << std::llround(rate) << " windows/s, "
+             << formatDuration(static_cast<double>(windows - next) / rate) << " to go" << std::endl;
+      sample(next == windows ? 0 : seriesEvery_);
+      frame(next == windows ? 0 : framesEvery_);
+      if (due(checkpointsEvery_) && next < windows) checkpoint();
+      if (io::interruption() != 0) return false;
+    }
+    return true;
+  }
+
+  /// Where the run is looked at next: the same places whenever a run is broken off.
+  std::int64_t nextLook(std::int64_t now, std::int64_t end) const {
+    std::int64_t next = std::min(end, (now / lookEvery + 1) * lookEvery);
+    for (const std::int64_t every : {seriesEvery_, framesEvery_, checkpointsEvery_})
+      if (every > 0) next = std::min(next, (now / every + 1) * every);
+    return next;
+  }
+  bool due(std::int64_t every) const { return every > 0 && progress_.window % every == 0; }
+
+  /// @param every  windows; 0: now
+  void sample(std::int64_t every) {
+    if (!series_ || (every > 0 && !due(every))) return;
+    series_->add(*built_.run);
+    progress_.rows = series_->rows();
+  }
+  void frame(std::int64_t every) {
+    if (!frames_ || (every > 0 && !due(every))) return;
+    frames_->add(built_);
+    progress_.frames = frames_->times();
+  }
+  void checkpoint() { writeCheckpoint(settings_.folder, hash_, progress_, *built_.run); }
+
+  bool stop() {
+    if (std::holds_alternative<Settle>(scene_.stages[progress_.stage].kind)) ++progress_.stage;
+    checkpoint();
+    log_ << io::nameOfInterruption() << " at t = " << built_.run->time() << " s; go on with: dovetail resume "
+         << settings_.folder.string() << std::endl;
+    return false;
+  }
+
+  void summarise() {
+    std::ostringstream text;
+    if (!scene_.title.empty()) text << scene_.title << '\n';
+    text << notes_;
+    coupling::report(*built_.run, text);
+    log_ << text.str();
+    io::writeFileAtomically(file("summary.txt"), io::provenanceLines(provenance_, "# ") + text.str());
+    log_ << "files in " << settings_.folder.string() << std::endl;
+  }
+
+  const Scene& scene_;
+  const RunSettings& settings_;
+  std::ostream& log_;
+  std::string text_, hash_;
+  io::KeyValues provenance_;
+  io::FolderLock lock_;
+  Built built_;
+  std::int64_t seriesEvery_ = 0, framesEvery_ = 0, checkpointsEvery_ = 0;
+  std::unique_ptr<Series> series_;
+  std::unique_ptr<Frames> frames_;
+  Progress progress_;
+  std::string notes_;
+};
+
+/// Bytes that this process holds.
+double residentBytes() {
+  long pages = 0, resident = 0;
+  if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%ld %ld", &pages, &resident) != 2) resident = 0;
+    std::fclose(file);
+  }
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+bool run(const Scene& scene, const RunSettings& settings, std::ostream& log) {
+  return Execution(scene, settings, log, false).finish();
+}
+
+bool resume(const RunSettings& settings, std::ostream& log) {
+  const fs::path file = settings.folder / "scene.json";
+  std::error_code error;
+  if (!fs::is_regular_file(file, error))
+    throw InputError("this is no folder of a run", settings.folder.string(), "give the one that the run wrote into");
+  const Scene scene = readScene(file);
+  return Execution(scene, settings, log, true).finish();
+}
+
+void check(const Scene& scene, std::ostream& log) {
+  Built built = build(scene);
+  start(built, scene);
+  coupling::CoupledRun& run = *built.run;
+  for (const std::string& note : built.notes) log << note << '\n';
+  log << run.grains.particles.size() << " particles, contacts: " << run.grains.laws->name() << '\n';
+  for (std::size_t s = 0; s < run.solids(); ++s)
+    log << "solid \"" << run.solid(s).name << "\": " << built.meshes[s].X.size() << " nodes, "
+        << built.meshes[s].elementCount() << " elements\n";
+  log << "step " << run.dt() << " s\n";
+  for (const Limit& limit : limits(built, scene))
+    log << "  at most " << limit.dt << " s: " << limit.owner << (run.dt() > limit.dt ? "  EXCEEDED" : "") << '\n';
+  double time = 0.0;
+  for (const Stage& stage : scene.stages)
+    if (const auto* const plan = std::get_if<RunFor>(&stage.kind)) time += plan->time;
+  const Clock::time_point begun = Clock::now();
+  std::int64_t windows = 0;
+  while (windows < 10 || (since(begun) < 1.0 && windows < 1000)) {
+    run.advance();
+    if (++windows >= 10 && since(begun) >= 1.0) break;
+  }
+  const double each = since(begun) / static_cast<double>(windows), wanted = std::ceil(time / run.window());
+  log << "stages run for " << time << " s: " << wanted << " windows of " << scene.steps.stepsPerWindow << " steps, "
+      << formatDuration(each * wanted) << " at " << 1e3 * each << " ms each as it is now\nmemory "
+      << std::round(residentBytes() / 1048576.0) << " MiB\n";
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,16 @@
+// Builds without VTK write no frames.
+#include "dovetail/core/error.hpp"
+#include "outputs.hpp"
+
+namespace dovetail::scene {
+
+struct Frames::Impl {};
+
+Frames::Frames(const Built&, const std::filesystem::path&, const io::KeyValues&, const std::vector<double>&) {
+  throw InputError("this build writes no frames", "output.frames", "leave them out, or build with VTK");
+}
+Frames::~Frames() = default;
+std::vector<double> Frames::times() const { return {}; }
+void Frames::add(const Built&) {}
+
+}  // namespace dovetail::scene

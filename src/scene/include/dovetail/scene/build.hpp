@@ -1,0 +1,40 @@
+// From a scene to a run.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dovetail/coupling/run.hpp"
+#include "dovetail/fem/mesh/solid_mesh.hpp"
+#include "dovetail/scene/scene.hpp"
+
+namespace dovetail::scene {
+
+/// A run, and what is known of it beside.
+struct Built {
+  std::unique_ptr<coupling::CoupledRun> run;
+  std::vector<fem::SolidMesh> meshes;  ///< of the solids, in their order
+  std::vector<std::string> notes;      ///< of what was done that the file does not say, one sentence each
+};
+
+/// Makes all parts; no step is made, and the run has not been started.
+/// @throws InputError with the place in the scene file of the part that cannot be
+Built build(const Scene& scene);
+
+/// A limit of the time step and who sets it.
+struct Limit {
+  std::string owner;
+  double dt;  ///< s, of the grains; infinite where nothing sets it
+};
+
+/// Starts the run with the scene's step. "auto": the share `safety` of the smallest of the critical step at the start,
+/// that of each explicit solid, and the exact one of two of the smallest grains of the scene, pressed together by a
+/// hundredth of their radius.
+/// @throws InputError as CoupledRun::start, or if nothing in the scene tells a step
+void start(Built& built, const Scene& scene);
+
+/// All limits there are, of the started run as it is now.
+std::vector<Limit> limits(Built& built, const Scene& scene);
+
+}  // namespace dovetail::scene

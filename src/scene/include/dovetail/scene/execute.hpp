@@ -1,0 +1,39 @@
+// Runs a scene: stages, outputs, checkpoints, interruptions.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+
+#include "dovetail/scene/build.hpp"
+
+namespace dovetail::scene {
+
+struct RunSettings {
+  std::filesystem::path folder;  ///< for all that is written
+  bool progress = true;          ///< shown on a terminal; elsewhere a line per tenth of a stage
+  bool profile = false;          ///< time per part of a step in the summary
+};
+
+/// Runs all stages and writes into the folder: scene.json (the scene in full), series.csv, summary.txt, frames
+/// (grains.pvd and one per solid) and checkpoint.state, the one before as checkpoint.previous.state. Every file names
+/// the build and the scene's hash. A run that is asked to end by a signal (io/interruption.hpp) ends within 20 windows
+/// with a checkpoint; one that brings a scene to rest, after that.
+/// @param log  for the summary and progress
+/// @return whether all was done; false: a signal asked to end
+/// @throws InputError before any step; NumericalError if the run breaks down: what was written stays
+bool run(const Scene& scene, const RunSettings& settings, std::ostream& log);
+
+/// Goes on from the last checkpoint in the folder to the same files with the same digits as without the break.
+/// @throws InputError also if there is no run, no checkpoint, or one of another scene
+bool resume(const RunSettings& settings, std::ostream& log);
+
+/// Builds and starts the scene, and tells its sizes, all limits of the step, and what steps, memory and time a run
+/// takes, from windows that are stepped for up to a second.
+/// @throws InputError as build and start; NumericalError if the first steps break down
+void check(const Scene& scene, std::ostream& log);
+
+/// What a file or folder of Dovetail's holds. @throws InputError if it is none
+void tell(const std::filesystem::path& file, std::ostream& out);
+
+}  // namespace dovetail::scene

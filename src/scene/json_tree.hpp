@@ -1,0 +1,45 @@
+// A JSON document whose values know where they stand.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::scene {
+
+struct Place {
+  int line = 0, column = 0;  ///< from 1; 0: not from a file
+};
+
+struct Node {
+  enum class Kind { null, boolean, number, text, list, object };
+  Kind kind = Kind::null;
+  bool boolean = false;
+  double number = 0.0;
+  bool whole = false;  ///< the number is written as an integer
+  std::string text;
+  std::vector<Node> items;
+  struct Member {
+    std::string key;
+    Place place;
+    std::vector<Node> value;  ///< one
+  };
+  std::vector<Member> members;  ///< in the order of the file
+  Place place;
+
+  const Node* find(const std::string& key) const;
+  Node* find(const std::string& key);
+};
+
+/// "an object", "the number 5", "the text \"a\""
+std::string nameOf(const Node& node);
+
+/// JSON with comments. @param name  of the file
+/// @throws InputError naming file, line and column: no JSON, a key twice in one object, more than 64 levels, a number
+/// beyond doubles, something behind the end
+Node parseJson(const std::string& text, const std::string& name);
+
+/// "scene.json:3:14", or the name alone
+std::string placeName(const std::string& name, const Place& place);
+
+}  // namespace dovetail::scene

@@ -1,0 +1,115 @@
+#include "outputs.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+
+#include "dovetail/core/archive.hpp"
+#include "dovetail/core/error.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "plate: work (minus)" → "plate_work_minus_J"
+std::string columnOf(const std::string& channel) {
+  std::string name;
+  for (const char c : channel)
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  if (!name.empty() && name.back() == '_') name.pop_back();
+  return name + "_J";
+}
+
+std::vector<std::string> columnsOf(const std::vector<std::string>& channels) {
+  std::vector<std::string> names{"time_s", "particles", "limit_s"};
+  for (const std::string& channel : channels) names.push_back(columnOf(channel));
+  for (const char* const name : {"others_J", "residual_J", "momentum_x_Ns", "momentum_y_Ns", "momentum_z_Ns",
+                                 "given_x_Ns", "given_y_Ns", "given_z_Ns"})
+    names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> channelsOf(coupling::CoupledRun& run) {
+  std::vector<std::string> names;
+  for (const auto& channel : run.ledger().channels()) names.push_back(channel.name);
+  return names;
+}
+
+const char* const kind = "dovetail scene";
+
+fs::path lastState(const fs::path& folder) { return folder / "checkpoint.state"; }
+fs::path stateBefore(const fs::path& folder) { return folder / "checkpoint.previous.state"; }
+
+}  // namespace
+
+Series::Series(coupling::CoupledRun& run, const fs::path& file, io::KeyValues provenance, std::uint64_t rows)
+    : channels_(channelsOf(run)), table_(columnsOf(channels_)), file_(file, std::move(provenance)) {
+  if (rows == 0) return;
+  const io::TimeSeries earlier = io::readCsv(file);
+  if (earlier.names() != table_.names() || earlier.rows() < rows)
+    throw InputError("the series is not that of the checkpoint", file.string(), "put it back, or begin anew");
+  std::vector<double> row(table_.names().size());
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (std::size_t c = 0; c < row.size(); ++c) row[c] = earlier.column(c)[k];
+    table_.append(row);
+  }
+  file_.write(table_);
+}
+
+void Series::add(coupling::CoupledRun& run) {
+  const EnergyLedger& ledger = run.ledger();
+  const coupling::Totals totals = run.totals();
+  std::vector<double> row{run.time(), static_cast<double>(run.grains.particles.size()), run.criticalStep().dt};
+  double others = 0.0;
+  for (const auto& channel : ledger.channels())
+    if (std::find(channels_.begin(), channels_.end(), channel.name) == channels_.end()) others += channel.joules;
+  for (const std::string& channel : channels_) row.push_back(ledger.joules(channel));
+  row.insert(row.end(), {others, ledger.residual()});
+  const Vec3 given = totals.given.total().given.linear;
+  for (const Vec3& v : {totals.momentum, given}) row.insert(row.end(), {v.x, v.y, v.z});
+  table_.append(row);
+  file_.write(table_);
+}
+
+void writeCheckpoint(const fs::path& folder, const std::string& hash, const Progress& progress,
+                     coupling::CoupledRun& run) {
+  ByteWriter archive;
+  archive(std::vector<char>(hash.begin(), hash.end()), run.time(), progress.stage, progress.window, progress.rows,
+          progress.frames, run.save());
+  std::error_code none;
+  fs::rename(lastState(folder), stateBefore(folder), none);  // the first one has none before it
+  writeChecked(lastState(folder), kind, archive.bytes());
+}
+
+Progress readCheckpoint(const fs::path& folder, const std::string& hash, coupling::CoupledRun& run) {
+  std::error_code error;
+  const bool last = fs::exists(lastState(folder), error);
+  const fs::path file = last ? lastState(folder) : stateBefore(folder);
+  if (!last && !fs::exists(file, error))
+    throw InputError("there is no checkpoint", folder.string(),
+                     "give the folder of a run with output.checkpoints, or one that a signal has ended");
+  ByteReader archive(readChecked(file, kind));
+  std::vector<char> ofScene, state;
+  double time = 0.0;
+  Progress progress;
+  archive(ofScene, time, progress.stage, progress.window, progress.rows, progress.frames, state);
+  if (std::string(ofScene.begin(), ofScene.end()) != hash)
+    throw InputError("the checkpoint is of another scene", file.string(), "put its scene.json back, or begin anew");
+  run.load(state);
+  return progress;
+}
+
+std::string hashOf(const std::string& text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+  return digits;
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,60 @@
+// Files that a run writes while it goes on.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dovetail/io/provenance.hpp"
+#include "dovetail/io/time_series.hpp"
+#include "dovetail/scene/build.hpp"
+
+namespace dovetail::scene {
+
+/// Where a run stands in its stages, and what it has written.
+struct Progress {
+  std::uint64_t stage = 0;
+  std::int64_t window = 0;     ///< in this stage
+  std::uint64_t rows = 0;      ///< of the series
+  std::vector<double> frames;  ///< their times, s
+};
+
+/// Rows of energies and momenta. @throws InputError before start()
+class Series {
+public:
+  /// @param rows  that are kept of what an earlier run has written
+  Series(coupling::CoupledRun& run, const std::filesystem::path& file, io::KeyValues provenance, std::uint64_t rows);
+  void add(coupling::CoupledRun& run);
+  std::uint64_t rows() const { return table_.rows(); }
+
+private:
+  std::vector<std::string> channels_;
+  io::TimeSeries table_;
+  io::GrowingCsv file_;
+};
+
+/// Frames for ParaView. In builds without VTK there are none, and wanting them is an InputError.
+class Frames {
+public:
+  Frames(const Built& built, const std::filesystem::path& folder, const io::KeyValues& provenance,
+         const std::vector<double>& times);
+  ~Frames();
+  void add(const Built& built);
+  std::vector<double> times() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Keeps the last checkpoint, and the one before.
+void writeCheckpoint(const std::filesystem::path& folder, const std::string& hash, const Progress& progress,
+                     coupling::CoupledRun& run);
+/// @return where the run stood. @throws InputError if there is none, or it is of another scene or damaged
+Progress readCheckpoint(const std::filesystem::path& folder, const std::string& hash, coupling::CoupledRun& run);
+
+/// 16 digits of FNV-1a.
+std::string hashOf(const std::string& text);
+
+}  // namespace dovetail::scene

@@ -1,0 +1,12 @@
+#include "dovetail/core/error.hpp"
+#include "parameters.hpp"
+
+namespace dovetail::scene {
+
+double valueOf(const std::string& expression, const Parameters& parameters) {
+  if (const auto found = parameters.find(expression); found != parameters.end()) return found->second;
+  throw InputError("this build has no expressions", "\"" + expression + "\"",
+                   "write a number or the name of a parameter, or build with muParser");
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,84 @@
+// Spheres of a scene.
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/setup/packing.hpp"
+#include "dovetail/io/time_series.hpp"
+#include "parts.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+struct Target {
+  dem::Model& grains;
+  const Particles& group;
+  const Scene& scene;
+  std::vector<std::string>& notes;
+};
+
+geometry::Periodicity spaceOf(const geometry::Box& box, const Scene& scene) {
+  geometry::Periodicity space{box, {}};
+  if (!scene.periodic) return space;
+  for (int k = 0; k < 3; ++k) {
+    const auto a = static_cast<std::size_t>(k);
+    const geometry::Box& all = scene.periodic->box;
+    space.axes[a] = scene.periodic->axes[a] && box.lower[k] == all.lower[k] && box.upper[k] == all.upper[k];
+  }
+  return space;
+}
+
+void add(const Target& to, const Lattice& lattice) {
+  const auto kind = static_cast<dem::Lattice>(lattice.kind);
+  dem::addPacking(
+      to.grains.particles,
+      dem::fillWithLattice(kind, lattice.box, lattice.radius, lattice.distance.value_or(2.0 * lattice.radius)),
+      {to.group.density}, to.group.velocity);
+}
+
+void add(const Target& to, const RandomPacking& packing) {
+  dem::PackingReport report;
+  const dem::Packing spheres = dem::growPacking(dem::UniformSizes{packing.radius.smallest, packing.radius.largest},
+                                                spaceOf(packing.box, to.scene),
+                                                {.solidFraction = packing.solidFraction,
+                                                 .overlap = packing.overlap,
+                                                 .seed = static_cast<std::uint64_t>(packing.seed)},
+                                                report);
+  if (!report.reached)
+    throw InputError("the packing jams at the solid fraction " + formatNumber(report.solidFraction), "",
+                     "ask for a solid_fraction below that");
+  to.notes.push_back("Random packing of " + std::to_string(spheres.centre.size()) + " spheres: solid fraction " +
+                     formatNumber(report.solidFraction) + ", largest overlap " + formatNumber(report.largestOverlap) +
+                     " radii.");
+  dem::addPacking(to.grains.particles, spheres, {to.group.density}, to.group.velocity);
+}
+
+void add(const Target& to, const SphereList& list) {
+  for (const Sphere& sphere : list.spheres)
+    dem::addParticle(to.grains.particles, sphere.at, to.group.velocity + sphere.velocity, sphere.radius,
+                     dem::Density{to.group.density});
+}
+
+void add(const Target& to, const SphereFile& from) {
+  const io::TimeSeries table = io::readCsv(from.file);
+  const auto x = table.column("x_m"), y = table.column("y_m"), z = table.column("z_m"), r = table.column("radius_m");
+  std::array<std::span<const double>, 3> v;
+  const std::vector<std::string>& names = table.names();
+  if (std::find(names.begin(), names.end(), "vx_m_per_s") != names.end())
+    v = {table.column("vx_m_per_s"), table.column("vy_m_per_s"), table.column("vz_m_per_s")};
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const Vec3 own = v[0].empty() ? Vec3{} : Vec3{v[0][i], v[1][i], v[2][i]};
+    dem::addParticle(to.grains.particles, {x[i], y[i], z[i]}, to.group.velocity + own, r[i],
+                     dem::Density{to.group.density});
+  }
+}
+
+}  // namespace
+
+void addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes) {
+  for (const Particles& group : scene.particles)
+    atPlace(group.where, [&] {
+      std::visit([&](const auto& source) { add({grains, group, scene, notes}, source); }, group.from);
+    });
+}
+
+}  // namespace dovetail::scene

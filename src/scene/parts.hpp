@@ -1,0 +1,49 @@
+// The parts of a scene, put into a run; one source file each.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/dem/laws/contact_laws.hpp"
+#include "dovetail/scene/build.hpp"
+
+namespace dovetail::fem {
+class PointMaterial;
+}
+namespace dovetail::geometry {
+struct TriangleMesh;
+}
+
+namespace dovetail::scene {
+
+/// Returns act(); what it refuses is told with the place in the file.
+template <class Act>
+auto atPlace(const std::string& where, Act act) {
+  try {
+    return act();
+  } catch (const InputError& error) {
+    throw InputError(error.what(), where, "");
+  }
+}
+
+std::shared_ptr<const dem::ContactLaws> makeLaws(const ContactLaw& law);
+/// 2/ω of two spheres of this radius and density, pressed together by a hundredth of the radius, s.
+double impactLimit(const ContactLaw& law, double radius, double density);
+
+void addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes);
+void addWalls(dem::Model& grains, const Scene& scene);
+void addClumpsAndStreams(dem::Model& grains, const Scene& scene);
+void addSolids(Built& built, const Scene& scene);
+void addCouplings(Built& built, const Scene& scene);
+
+std::shared_ptr<const fem::PointMaterial> makeMaterial(const SolidMaterial& material);
+/// w of the grains per node of the mesh. @throws InputError for borders between which no node lies
+std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh& mesh);
+
+// Files of kinds that depend on the build.
+geometry::TriangleMesh readTriangles(const std::string& file);
+fem::SolidMesh readMesh(const std::string& file);
+
+}  // namespace dovetail::scene

@@ -1,0 +1,324 @@
+// From JSON to the structures of a scene, strictly.
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/scene/read.hpp"
+#include "fields.hpp"
+#include "json_tree.hpp"
+#include "nearest.hpp"
+#include "parameters.hpp"
+#include "settings.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+/// What all objects of a file share.
+struct Document {
+  std::string name;
+  std::filesystem::path folder;
+  Parameters parameters{};
+};
+
+class Reader final : public Fields {
+public:
+  Reader(Document& document, const Node& node, std::string path)
+      : document_(document), node_(node), path_(std::move(path)) {
+    if (node.kind != Node::Kind::object) refuse(node, nameOf(node) + " where an object is wanted", "write { … }");
+  }
+
+  /// @throws InputError for keys that nobody asked for, or that were asked for and are not there
+  void finish() const {
+    for (const Node::Member& member : node_.members)
+      if (std::find(known_.begin(), known_.end(), member.key) == known_.end())
+        throw InputError("there is no key \"" + member.key.substr(0, 80) + "\"", where(member.place),
+                         adviceFor(member.key, absent()));
+    if (!missing_.empty())
+      throw InputError("the key \"" + missing_.front() + "\" is missing", where(node_.place), "give it a value");
+  }
+
+  void number(Key key, double& value, const Limits& limits) override {
+    if (const Node* node = take(key, std::isnan(value))) value = numberOf(*node, key, limits);
+  }
+  void number(Key key, std::optional<double>& value, const Limits& limits) override {
+    if (const Node* node = take(key, false)) value = numberOf(*node, key, limits);
+  }
+  void numberOrWord(Key key, NumberOrWord& value, const Limits& limits, Words words) override {
+    const Node* node = take(key, false);
+    if (!node) return;
+    if (node->kind == Node::Kind::text)
+      for (const char* const known : words)
+        if (node->text == known) {
+          value = {0.0, node->text};
+          return;
+        }
+    value = {numberOf(*node, key, limits, listOf(words)), ""};
+  }
+  void integer(Key key, std::int64_t& value, std::int64_t least, std::int64_t most) override {
+    const Node* node = take(key, value < least);
+    if (!node) return;
+    value = static_cast<std::int64_t>(wholeOf(*node, key, static_cast<double>(least), static_cast<double>(most)));
+  }
+  void vector(Key key, Vec3& value, const Dimension& dimension) override {
+    const Node* node = take(key, std::isnan(value.x));
+    if (node) value = vectorOf(*node, key, dimension);
+  }
+  void box(Key key, geometry::Box& value) override {
+    const Node* node = take(key, std::isnan(value.lower.x));
+    if (!node) return;
+    if (node->kind != Node::Kind::list || node->items.size() != 2)
+      refuse(*node, named(key) + " is " + nameOf(*node), "write two corners: [[0, 0, 0], [1, 1, 1]]");
+    value = {vectorOf(node->items[0], key, unit::length), vectorOf(node->items[1], key, unit::length)};
+    for (int k = 0; k < 3; ++k)
+      if (!(value.lower[k] < value.upper[k]))
+        refuse(*node, named(key) + " has no width along " + std::string(1, "xyz"[k]),
+               "write the lower corner first, each of its coordinates below that of the upper one");
+  }
+  void cells(Key key, std::array<int, 3>& value) override {
+    const Node* node = take(key, value[0] < 1);
+    if (!node) return;
+    if (node->kind != Node::Kind::list || node->items.size() != 3)
+      refuse(*node, named(key) + " is " + nameOf(*node), "write three counts: [4, 4, 2]");
+    for (std::size_t k = 0; k < 3; ++k) value[k] = static_cast<int>(wholeOf(node->items[k], key, 1.0, 1e4));
+  }
+  void flag(Key key, bool& value) override {
+    const Node* node = take(key, false);
+    if (!node) return;
+    if (node->kind != Node::Kind::boolean) refuse(*node, named(key) + " is " + nameOf(*node), "write true or false");
+    value = node->boolean;
+  }
+  void text(Key key, std::string& value, bool needed) override {
+    if (const Node* node = take(key, needed)) value = textOf(*node, key);
+  }
+  void file(Key key, std::string& value) override {
+    const Node* node = take(key, true);
+    if (!node) return;
+    const std::filesystem::path path = document_.folder / textOf(*node, key);
+    if (std::error_code error; !std::filesystem::is_regular_file(path, error))
+      refuse(*node, "there is no file " + path.string(), "correct the name, which is relative to the scene's folder");
+    value = std::filesystem::absolute(path).lexically_normal().string();
+  }
+  void word(Key key, std::string& value, Words words) override {
+    if (const Node* node = take(key, false)) value = wordOf(*node, key, words);
+  }
+  void wordList(Key key, std::vector<std::string>& value, Words words, bool needed) override {
+    const Node* node = take(key, needed);
+    if (!node) return;
+    if (node->kind != Node::Kind::list || (needed && node->items.empty()))
+      refuse(*node, named(key) + " is " + nameOf(*node), "write a list of " + listOf(words));
+    value.clear();
+    for (const Node& item : node->items) {
+      const std::string text = wordOf(item, key, words);
+      if (std::find(value.begin(), value.end(), text) != value.end())
+        refuse(item, "\"" + text + "\" is there twice in " + named(key), "leave one of them out");
+      value.push_back(text);
+    }
+  }
+  void where(std::string& value) override { value = where(node_.place); }
+  void parameters(Key key) override {
+    const Node* node = take(key, false);
+    if (!node) return;
+    if (node->kind != Node::Kind::object)
+      refuse(*node, named(key) + " is " + nameOf(*node), "write { \"name\": value }");
+    for (const Node::Member& member : node->members) {
+      requireParameterName(member);
+      const Key own{member.key.c_str(), ""};
+      document_.parameters[member.key] = anyNumberOf(member.value[0], own).value;
+    }
+  }
+
+protected:
+  std::size_t kindOf(Key key, std::size_t now, Words names) override {
+    const Node* node = take(key, true);
+    if (!node) {  // without it all other keys would look unknown
+      for (const Node::Member& member : node_.members)
+        if (const std::string near = nearest(member.key, {key.name}); !near.empty())
+          throw InputError("there is no key \"" + member.key + "\"", where(member.place), "write \"" + near + "\"");
+      throw InputError("the key \"" + std::string(key.name) + "\" is missing", where(node_.place),
+                       "give it one of " + listOf(names));
+    }
+    const std::string text = wordOf(*node, key, names);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (text == names[k]) return k;
+    return now;
+  }
+  bool optionalPart(Key key, bool) override {
+    known_.push_back(key.name);
+    return node_.find(key.name) != nullptr;
+  }
+  void part(Key key, bool, const std::function<void(Fields&)>& describePart) override {
+    if (std::find(known_.begin(), known_.end(), key.name) == known_.end()) known_.push_back(key.name);
+    static const Node none = [] {
+      Node node;
+      node.kind = Node::Kind::object;
+      return node;
+    }();
+    const Node* node = node_.find(key.name);
+    Reader reader(document_, node ? *node : none, path_ + (path_.empty() ? "" : ".") + key.name);
+    if (!node) reader.absentAt_ = node_.place;
+    describePart(reader);
+    if (!node && !reader.missing_.empty())
+      missing_.push_back(key.name);
+    else
+      reader.finish();
+  }
+  std::size_t sizeOf(Key key, std::size_t now, bool needed) override {
+    const Node* node = take(key, needed);
+    if (!node) return now;
+    if (node->kind != Node::Kind::list) refuse(*node, named(key) + " is " + nameOf(*node), "write a list: [ … ]");
+    if (needed && node->items.empty()) refuse(*node, named(key) + " is empty", "give one at least");
+    return node->items.size();
+  }
+  void parts(Key key, std::size_t count, const std::function<void(Fields&, std::size_t)>& describePart) override {
+    const Node* node = node_.find(key.name);
+    for (std::size_t k = 0; node && k < count; ++k) {
+      Reader reader(document_, node->items[k], path_ + (path_.empty() ? "" : ".") + key.name + "." + std::to_string(k));
+      describePart(reader, k);
+      reader.finish();
+    }
+  }
+
+private:
+  const Node* take(Key key, bool needed) {
+    known_.push_back(key.name);
+    const Node* node = node_.find(key.name);
+    if (!node && needed) missing_.push_back(key.name);
+    return node;
+  }
+  std::vector<std::string> absent() const {
+    std::vector<std::string> names;
+    for (const std::string& name : known_)
+      if (!node_.find(name)) names.push_back(name);
+    return names;
+  }
+  static std::string named(Key key) { return "\"" + std::string(key.name) + "\""; }
+  static std::string listOf(Words words) {
+    std::string list;
+    for (const char* const word : words) list += std::string(list.empty() ? "" : ", ") + "\"" + word + "\"";
+    return list;
+  }
+  std::string where(const Place& place) const {
+    const std::string name = placeName(document_.name, place.line == 0 ? absentAt_ : place);
+    return path_.empty() ? name : name + ", " + path_;
+  }
+  [[noreturn]] void refuse(const Node& node, const std::string& problem, const std::string& remedy) const {
+    throw InputError(problem, where(node.place), remedy);
+  }
+
+  std::string textOf(const Node& node, Key key) const {
+    if (node.kind != Node::Kind::text || node.text.empty())
+      refuse(node, named(key) + " is " + nameOf(node), "write a text in quotes");
+    return node.text;
+  }
+  std::string wordOf(const Node& node, Key key, Words words) const {
+    if (node.kind == Node::Kind::text)
+      for (const char* const word : words)
+        if (node.text == word) return node.text;
+    const std::vector<std::string> names(words.begin(), words.end());
+    refuse(node, named(key) + " is " + nameOf(node), adviceFor(node.kind == Node::Kind::text ? node.text : "", names));
+  }
+  /// A number, a quantity, or an expression, whose dimension nobody knows.
+  struct AnyNumber {
+    double value;
+    std::optional<Dimension> dimension;
+  };
+  AnyNumber anyNumberOf(const Node& node, Key key, const std::string& otherwise = "") const {
+    if (node.kind == Node::Kind::number) return {node.number, {}};
+    const std::string remedy = "write a number, one with a unit (\"5 mm\"), or an expression of parameters" +
+                               (otherwise.empty() ? "" : ", or " + otherwise);
+    if (node.kind != Node::Kind::text || node.text.empty()) refuse(node, named(key) + " is " + nameOf(node), remedy);
+    if (const auto quantity = quantityOf(node.text)) {
+      if (quantity->dimension == unit::none) return {quantity->value, {}};
+      return {quantity->value, quantity->dimension};
+    }
+    try {
+      return {valueOf(node.text, document_.parameters), {}};
+    } catch (const InputError& error) {
+      refuse(node,
+             named(key) + " is " + nameOf(node) +
+                 ", which is no number with a unit, and as an expression: " + error.what(),
+             remedy);
+    }
+  }
+  double numberOf(const Node& node, Key key, const Limits& limits, const std::string& otherwise = "") const {
+    const AnyNumber number = anyNumberOf(node, key, otherwise);
+    if (number.dimension && *number.dimension != limits.dimension) {
+      const std::string own = siName(limits.dimension);
+      refuse(node, named(key) + " is " + nameOf(node) + ", in " + siName(*number.dimension),
+             own.empty() ? "write a number without a unit" : "write one in " + own);
+    }
+    const double value = number.value;
+    const bool tooSmall = limits.openBelow ? !(value > limits.least) : !(value >= limits.least);
+    const bool tooLarge = limits.openAbove ? !(value < limits.most) : !(value <= limits.most);
+    if (!std::isfinite(value) || tooSmall || tooLarge)
+      refuse(node, named(key) + " is " + formatNumber(value), "write one " + textOf(limits));
+    return value;
+  }
+  static std::string textOf(const Limits& limits) {
+    const std::string own = siName(limits.dimension), tail = own.empty() ? "" : " " + own;
+    std::string text;
+    if (std::isfinite(limits.least))
+      text = std::string(limits.openBelow ? "above " : "of at least ") + formatNumber(limits.least) + tail;
+    if (std::isfinite(limits.most))
+      text += std::string(text.empty() ? "" : " and ") + (limits.openAbove ? "below " : "of at most ") +
+              formatNumber(limits.most) + tail;
+    return text.empty() ? "that is finite" : text;
+  }
+  double wholeOf(const Node& node, Key key, double least, double most) const {
+    const double value = numberOf(node, key, {unit::none, least, most});
+    if (value != std::floor(value)) refuse(node, named(key) + " is " + formatNumber(value), "write a whole number");
+    return value;
+  }
+  Vec3 vectorOf(const Node& node, Key key, const Dimension& dimension) const {
+    if (node.kind != Node::Kind::list || node.items.size() != 3)
+      refuse(node, named(key) + " is " + nameOf(node), "write three numbers: [0, 0, 1]");
+    Vec3 value;
+    for (int k = 0; k < 3; ++k) value[k] = numberOf(node.items[static_cast<std::size_t>(k)], key, any(dimension));
+    return value;
+  }
+  void requireParameterName(const Node::Member& member) const {
+    const auto isLetter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+    const bool fits = !member.key.empty() && isLetter(member.key.front()) &&
+                      std::all_of(member.key.begin(), member.key.end(), [&](char c) {
+                        return isLetter(c) || c == '_' || std::isdigit(static_cast<unsigned char>(c));
+                      });
+    if (!fits)
+      throw InputError("\"" + member.key + "\" cannot name a parameter", where(member.place),
+                       "use letters, digits and '_', with a letter first");
+  }
+
+  Document& document_;
+  const Node& node_;
+  std::string path_;
+  Place absentAt_;  // of the object that should hold this one
+  std::vector<std::string> known_, missing_;
+};
+
+}  // namespace
+
+Scene sceneFromText(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                    const std::vector<std::string>& settings) {
+  Node root = parseJson(text, name);
+  for (const std::string& setting : settings) applySetting(root, setting);
+  Document document{name, folder};
+  Scene scene;
+  Reader reader(document, root, "");
+  describe(reader, scene);
+  reader.finish();
+  return scene;
+}
+
+Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  std::ifstream stream(file, std::ios::binary);
+  std::error_code error;
+  if (!stream || !std::filesystem::is_regular_file(file, error))
+    throw InputError("the scene cannot be read", file.string(), "give the name of a JSON file that you may read");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return sceneFromText(text.str(), file.string(), file.parent_path(), settings);
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,85 @@
+// Solids of a scene.
+#include <algorithm>
+
+#include "dovetail/arlequin/overlap.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/terms/loads.hpp"
+#include "parts.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+fem::SolidMesh meshOf(const BoxMesh& box) {
+  const auto shape = std::find_if(fem::allCellShapes.begin(), fem::allCellShapes.end(),
+                                  [&](fem::CellShape one) { return box.shape == fem::name(one); });
+  return fem::boxOf(*shape, box.cells, box.box.lower, box.box.upper);
+}
+fem::SolidMesh meshOf(const MeshFile& from) {
+  fem::SolidMesh mesh = readMesh(from.file);
+  for (Vec3& X : mesh.X) X = from.scale * X;
+  if (!mesh.faceSets.contains("skin")) mesh.faceSets["skin"] = fem::boundaryFaces(mesh);
+  return mesh;
+}
+
+fem::Formulation formulationOf(const std::string& word) {
+  if (word == "mean-dilatation") return fem::Formulation::meanDilatation;
+  if (word == "enhanced") return fem::Formulation::enhanced;
+  if (word == "assumed-stress") return fem::Formulation::assumedStress;
+  return word == "reduced" ? fem::Formulation::reduced : fem::Formulation::standard;
+}
+
+void support(fem::Model& model, const fem::SolidMesh& mesh, const Support& support) {
+  const unsigned components = (support.x ? unsigned{fem::componentX} : 0U) |
+                              (support.y ? unsigned{fem::componentY} : 0U) |
+                              (support.z ? unsigned{fem::componentZ} : 0U);
+  const std::vector<int>& set = fem::nodeSet(mesh, support.on);
+  fem::fix(model.nodes, set, components);
+  for (const int node : set)
+    for (int c = 0; c < 3; ++c)
+      if (components >> c & 1U) model.nodes.v[static_cast<std::size_t>(node)][c] = support.velocity[c];
+}
+
+const Overlap* overlapWith(const Solid& solid, const Scene& scene) {
+  const Overlap* found = nullptr;
+  for (const Coupling& coupling : scene.couplings) {
+    const auto* const overlap = std::get_if<Overlap>(&coupling.kind);
+    if (!overlap || coupling.solid != solid.name) continue;
+    if (found)
+      throw InputError("\"" + solid.name + "\" has two overlaps", coupling.where, "give every solid one at most");
+    found = overlap;
+  }
+  return found;
+}
+
+void addElements(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap) {
+  fem::SolidOptions options{.formulation = formulationOf(solid.formulation), .name = "elements"};
+  if (overlap) options.share = arlequin::solidWeights(overlapWeights(*overlap, mesh));
+  for (const fem::CellGroup& group : mesh.groups) {
+    if (mesh.groups.size() > 1) options.elementSet = options.name = fem::name(group.shape);
+    model.add(fem::makeSolid(mesh, makeMaterial(solid.material), options));
+  }
+}
+
+void add(Built& built, const Solid& solid, const Scene& scene) {
+  const Overlap* const overlap = overlapWith(solid, scene);
+  built.meshes.push_back(std::visit([](const auto& source) { return meshOf(source); }, solid.mesh));
+  const fem::SolidMesh& mesh = built.meshes.back();
+  auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
+  addElements(*model, mesh, solid, overlap);
+  if (solid.gravity && norm(scene.gravity) > 0.0) model->add(fem::gravity(scene.gravity));
+  for (Vec3& v : model->nodes.v) v = solid.velocity;
+  for (const Support& one : solid.supports) atPlace(one.where, [&] { support(*model, mesh, one); });
+  built.run->addSolid(std::move(model), {.name = solid.name,
+                                         .stepping = solid.implicitSteps ? coupling::Stepping::implicitSteps
+                                                                         : coupling::Stepping::explicitSteps});
+}
+
+}  // namespace
+
+void addSolids(Built& built, const Scene& scene) {
+  built.meshes.reserve(scene.solids.size());
+  for (const Solid& solid : scene.solids) atPlace(solid.where, [&] { add(built, solid, scene); });
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,72 @@
+// What files hold.
+#include <algorithm>
+#include <fstream>
+#include <ostream>
+
+#include "dovetail/core/archive.hpp"
+#include "dovetail/core/atomic_file.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/io/output_folder.hpp"
+#include "dovetail/io/time_series.hpp"
+#include "dovetail/scene/execute.hpp"
+#include "dovetail/scene/read.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void tellScene(const fs::path& file, std::ostream& out) {
+  const Scene scene = readScene(file);
+  out << "scene" << (scene.title.empty() ? "" : ": " + scene.title) << '\n'
+      << scene.particles.size() << " groups of particles, " << scene.walls.size() << " walls, " << scene.clumps.size()
+      << " clumps, " << scene.insertions.size() << " insertions, " << scene.solids.size() << " solids, "
+      << scene.couplings.size() << " couplings, " << scene.stages.size() << " stages\n";
+}
+
+void tellTable(const fs::path& file, std::ostream& out) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line) && line.starts_with('#');) out << line.substr(1) << '\n';
+  const io::TimeSeries table = io::readCsv(file);
+  out << "table of " << table.rows() << " rows\n";
+  for (std::size_t c = 0; c < table.names().size() && table.rows() > 0; ++c)
+    out << "  " << table.names()[c] << ": " << table.column(c).front() << " … " << table.column(c).back() << '\n';
+}
+
+void tellState(const fs::path& file, std::ostream& out) {
+  ByteReader archive(readChecked(file, "dovetail scene"));
+  std::vector<char> hash, state;
+  double time = 0.0;
+  std::uint64_t stage = 0, rows = 0;
+  std::int64_t window = 0;
+  std::vector<double> frames;
+  archive(hash, time, stage, window, rows, frames, state);
+  out << "checkpoint of the scene " << std::string(hash.begin(), hash.end()) << " at t = " << time << " s: stage "
+      << stage + 1 << ", window " << window << ", " << rows << " rows and " << frames.size() << " frames written, "
+      << state.size() << " bytes\n";
+}
+
+}  // namespace
+
+void tell(const fs::path& file, std::ostream& out) {
+  std::error_code error;
+  if (fs::is_directory(file, error)) {
+    for (const char* const name : {"scene.json", "checkpoint.state", "series.csv"})
+      if (fs::is_regular_file(file / name, error)) {
+        out << "== " << name << '\n';
+        tell(file / name, out);
+      }
+    return;
+  }
+  if (!fs::is_regular_file(file, error)) throw InputError("there is no such file", file.string(), "correct its name");
+  const std::string ending = file.extension().string();
+  if (ending == ".json") return tellScene(file, out);
+  if (ending == ".csv") return tellTable(file, out);
+  if (ending == ".state") return tellState(file, out);
+  if (!io::isOurs(file))
+    throw InputError("this is no file of Dovetail's", file.string(), "give a scene, or a file that a run wrote");
+  out << "written by Dovetail\n";
+}
+
+}  // namespace dovetail::scene
