@@ -1,5 +1,6 @@
 // The command line of scenes.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -98,6 +99,12 @@ std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
 
 /// @return the verb that was asked for, null for --help and --version
 const Verb* parse(CLI::App& app, const std::vector<Verb>& verbs, int argc, char** argv) {
+  const auto isVerb = [&](const Verb& verb) { return verb.app->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && std::none_of(verbs.begin(), verbs.end(), isVerb)) {
+    std::string names;
+    for (const Verb& verb : verbs) names += (names.empty() ? "" : ", ") + verb.app->get_name();
+    throw InputError("there is no verb '" + std::string(argv[1]) + "'", "command line", "write one of " + names);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {

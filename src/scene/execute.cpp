@@ -44,10 +44,10 @@ public:
     if (scene.output.series) seriesEvery_ = windowsIn(*scene.output.series);
     if (scene.output.frames) framesEvery_ = windowsIn(*scene.output.frames);
     if (scene.output.checkpoints) checkpointsEvery_ = windowsIn(*scene.output.checkpoints);
-    if (seriesEvery_ > 0) series_ = std::make_unique<Series>(*built_.run, file("series.csv"), provenance_, 0);
+    if (seriesEvery_ > 0) series_ = std::make_unique<Series>(*built_.run, file("series.csv"), provenance_);
     if (goesOn) {
       progress_ = readCheckpoint(settings.folder, hash_, *built_.run);
-      if (series_) series_ = std::make_unique<Series>(*built_.run, file("series.csv"), provenance_, progress_.rows);
+      if (series_) series_->takeUp(progress_.rows);
     }
     if (framesEvery_ > 0) frames_ = std::make_unique<Frames>(built_, settings.folder, provenance_, progress_.frames);
     for (const std::string& note : built_.notes) log_ << note << '\n';
@@ -65,6 +65,7 @@ public:
       if (!std::visit([&](const auto& kind) { return execute(kind); }, stage.kind)) return stop();
       note("stage " + std::to_string(progress_.stage + 1) + ": " + formatNumber(rounded(since(begun))) + " s");
     }
+    if (checkpointsEvery_ > 0) checkpoint();
     summarise();
     return true;
   }
@@ -128,7 +129,15 @@ private:
   void sample(std::int64_t every) {
     if (!series_ || (every > 0 && !due(every))) return;
     series_->add(*built_.run);
+    warn();
     progress_.rows = series_->rows();
+  }
+  void warn() {
+    const coupling::StepLimit limit = built_.run->criticalStep();
+    if (warned_ || built_.run->dt() <= limit.dt) return;
+    warned_ = true;
+    note("WARNING: at t = " + formatNumber(built_.run->time()) + " s the step is beyond " + formatNumber(limit.dt) +
+         " s, which " + limit.owner + " sets: take a smaller steps.dt");
   }
   void frame(std::int64_t every) {
     if (!frames_ || (every > 0 && !due(every))) return;
@@ -167,6 +176,7 @@ private:
   std::unique_ptr<Frames> frames_;
   Progress progress_;
   std::string notes_;
+  bool warned_ = false;
 };
 
 /// Bytes that this process holds.

@@ -37,6 +37,11 @@ std::vector<std::string> columnsOf(const std::vector<std::string>& channels) {
 std::vector<std::string> channelsOf(coupling::CoupledRun& run) {
   std::vector<std::string> names;
   for (const auto& channel : run.ledger().channels()) names.push_back(channel.name);
+  for (const char* const later :
+       {"dashpots", "friction", "rolling", "left", "entered (minus)", "work of walls and drives (minus)"}) {
+    const std::string name = std::string("particles: ") + later;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
   return names;
 }
 
@@ -47,12 +52,14 @@ fs::path stateBefore(const fs::path& folder) { return folder / "checkpoint.previ
 
 }  // namespace
 
-Series::Series(coupling::CoupledRun& run, const fs::path& file, io::KeyValues provenance, std::uint64_t rows)
-    : channels_(channelsOf(run)), table_(columnsOf(channels_)), file_(file, std::move(provenance)) {
+Series::Series(coupling::CoupledRun& run, fs::path file, io::KeyValues provenance)
+    : channels_(channelsOf(run)), table_(columnsOf(channels_)), path_(file), file_(file, std::move(provenance)) {}
+
+void Series::takeUp(std::uint64_t rows) {
   if (rows == 0) return;
-  const io::TimeSeries earlier = io::readCsv(file);
+  const io::TimeSeries earlier = io::readCsv(path_);
   if (earlier.names() != table_.names() || earlier.rows() < rows)
-    throw InputError("the series is not that of the checkpoint", file.string(), "put it back, or begin anew");
+    throw InputError("the series is not that of the checkpoint", path_.string(), "put it back, or begin anew");
   std::vector<double> row(table_.names().size());
   for (std::size_t k = 0; k < rows; ++k) {
     for (std::size_t c = 0; c < row.size(); ++c) row[c] = earlier.column(c)[k];

@@ -20,17 +20,20 @@ struct Progress {
   std::vector<double> frames;  ///< their times, s
 };
 
-/// Rows of energies and momenta. @throws InputError before start()
+/// Rows of energies and momenta. Columns are those of the run at its start and of what grains may book later.
 class Series {
 public:
-  /// @param rows  that are kept of what an earlier run has written
-  Series(coupling::CoupledRun& run, const std::filesystem::path& file, io::KeyValues provenance, std::uint64_t rows);
+  Series(coupling::CoupledRun& run, std::filesystem::path file, io::KeyValues provenance);
+  /// Goes on with what an earlier run has written, of which so many rows are kept.
+  /// @throws InputError if the file does not hold them
+  void takeUp(std::uint64_t rows);
   void add(coupling::CoupledRun& run);
   std::uint64_t rows() const { return table_.rows(); }
 
 private:
   std::vector<std::string> channels_;
   io::TimeSeries table_;
+  std::filesystem::path path_;
   io::GrowingCsv file_;
 };
 

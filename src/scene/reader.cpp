@@ -21,6 +21,7 @@ struct Document {
   std::string name;
   std::filesystem::path folder;
   Parameters parameters{};
+  bool keysOnly = false;  ///< values are not looked at: keys are checked before any value
 };
 
 class Reader final : public Fields {
@@ -35,7 +36,7 @@ public:
     for (const Node::Member& member : node_.members)
       if (std::find(known_.begin(), known_.end(), member.key) == known_.end())
         throw InputError("there is no key \"" + member.key.substr(0, 80) + "\"", where(member.place),
-                         adviceFor(member.key, absent()));
+                         adviceOn(member.key));
     if (!missing_.empty())
       throw InputError("the key \"" + missing_.front() + "\" is missing", where(node_.place), "give it a value");
   }
@@ -132,7 +133,8 @@ public:
 
 protected:
   std::size_t kindOf(Key key, std::size_t now, Words names) override {
-    const Node* node = take(key, true);
+    take(key, false);
+    const Node* node = node_.find(key.name);
     if (!node) {  // without it all other keys would look unknown
       for (const Node::Member& member : node_.members)
         if (const std::string near = nearest(member.key, {key.name}); !near.empty())
@@ -166,7 +168,8 @@ protected:
       reader.finish();
   }
   std::size_t sizeOf(Key key, std::size_t now, bool needed) override {
-    const Node* node = take(key, needed);
+    take(key, needed);
+    const Node* node = node_.find(key.name);
     if (!node) return now;
     if (node->kind != Node::Kind::list) refuse(*node, named(key) + " is " + nameOf(*node), "write a list: [ … ]");
     if (needed && node->items.empty()) refuse(*node, named(key) + " is empty", "give one at least");
@@ -186,7 +189,14 @@ private:
     known_.push_back(key.name);
     const Node* node = node_.find(key.name);
     if (!node && needed) missing_.push_back(key.name);
-    return node;
+    return document_.keysOnly ? nullptr : node;
+  }
+  std::string adviceOn(const std::string& unknown) const {
+    const std::vector<std::string> others = absent();
+    if (nearest(unknown, others).empty())
+      if (const std::string near = nearest(unknown, known_); !near.empty())
+        return "leave it out: \"" + near + "\" is there already";
+    return adviceFor(unknown, others);
   }
   std::vector<std::string> absent() const {
     std::vector<std::string> names;
@@ -305,9 +315,13 @@ Scene sceneFromText(const std::string& text, const std::string& name, const std:
   for (const std::string& setting : settings) applySetting(root, setting);
   Document document{name, folder};
   Scene scene;
-  Reader reader(document, root, "");
-  describe(reader, scene);
-  reader.finish();
+  for (const bool keysOnly : {true, false}) {
+    document.keysOnly = keysOnly;
+    scene = {};
+    Reader reader(document, root, "");
+    describe(reader, scene);
+    reader.finish();
+  }
   return scene;
 }
 

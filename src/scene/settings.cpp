@@ -49,6 +49,14 @@ Node& memberOf(Node& holder, const std::string& key, const std::string& where, b
   return holder.members.back().value[0];
 }
 
+std::vector<std::string> namesIn(const Node& root, const Node* let) {
+  std::vector<std::string> names;
+  for (const Node* const holder : {let, &root})
+    if (holder)
+      for (const Node::Member& member : holder->members) names.push_back(member.key);
+  return names;
+}
+
 }  // namespace
 
 void applySetting(Node& root, const std::string& setting) {
@@ -60,10 +68,12 @@ void applySetting(Node& root, const std::string& setting) {
   Node* let = root.kind == Node::Kind::object ? root.find("let") : nullptr;
   const bool isParameter = let && let->kind == Node::Kind::object && let->find(path);
   Node* node = isParameter ? let : &root;
+  if (!isParameter && path.find('.') == std::string::npos && !root.find(path))
+    throw InputError("the scene has no parameter or key \"" + path + "\"", where, adviceFor(path, namesIn(root, let)));
   for (bool last = false; !last;) {
     const std::size_t dot = path.find('.');
     last = dot == std::string::npos;
-    node = &memberOf(*node, path.substr(0, dot), where, last && (isParameter || setting.find('.') < equals));
+    node = &memberOf(*node, path.substr(0, dot), where, last);
     if (!last) path.erase(0, dot + 1);
   }
   Node value = valueFrom(setting.substr(equals + 1), where);

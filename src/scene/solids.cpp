@@ -4,6 +4,7 @@
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/terms/loads.hpp"
+#include "dovetail/io/names.hpp"
 #include "parts.hpp"
 
 namespace dovetail::scene {
@@ -62,6 +63,10 @@ void addElements(fem::Model& model, const fem::SolidMesh& mesh, const Solid& sol
 }
 
 void add(Built& built, const Solid& solid, const Scene& scene) {
+  io::requirePlainName(solid.name, "name");
+  const bool meetsGrains = std::any_of(scene.couplings.begin(), scene.couplings.end(),
+                                       [&](const Coupling& coupling) { return coupling.solid == solid.name; });
+  if (!meetsGrains) built.notes.push_back("Solid \"" + solid.name + "\" has no coupling: grains pass through it.");
   const Overlap* const overlap = overlapWith(solid, scene);
   built.meshes.push_back(std::visit([](const auto& source) { return meshOf(source); }, solid.mesh));
   const fem::SolidMesh& mesh = built.meshes.back();

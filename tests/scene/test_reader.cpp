@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include "refusal.hpp"
+
+namespace dovetail::scene::test {
+namespace {
+
+const char* const starters[] = {"footing", "pile", "plate"};
+
+TEST(SceneReader, ValuesAreInSi) {
+  const Scene scene = sceneFromText(smallScene, "s.json", SCENES);
+  EXPECT_EQ(std::get<LinearContact>(scene.contact->normal).stiffness, 5000.0);
+  const Sphere& sphere = std::get<SphereList>(scene.particles.at(0).from).spheres.at(0);
+  EXPECT_EQ(sphere.radius, 0.01);
+  EXPECT_EQ(sphere.at.z, 0.015);
+  EXPECT_EQ(scene.particles[0].where, "s.json:9:5, particles.0");
+}
+
+TEST(SceneReader, AWrittenSceneReadsBackToTheSameText) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP() << "the starter scenes have expressions";
+  for (const char* name : starters) {
+    const std::string text = sceneText(readScene(std::string(SCENES) + "/" + name + ".json"));
+    EXPECT_EQ(sceneText(sceneFromText(text, "again", "/")), text) << name;
+    EXPECT_EQ(text.find("null"), std::string::npos) << name;
+  }
+}
+
+TEST(SceneReader, RefusalsNameThePlaceAndTheNearestName) {
+  const auto refusalOf = [](const char* from, const char* to) { return refusal(replaced(smallScene, from, to)); };
+  EXPECT_EQ(refusalOf("\"restitution\"", "\"restitusion\""),
+            "there is no key \"restitusion\" [s.json:6:5, contact]: write \"restitution\"");
+  EXPECT_EQ(refusalOf("\"5 kN/m\"", "\"5 kN\""),
+            "\"stiffness\" is the text \"5 kN\", in kg m/s2 [s.json:5:18, contact]: write one in N/m");
+  EXPECT_EQ(refusalOf("\"linear\"", "\"lineal\""),
+            "\"law\" is the text \"lineal\" [s.json:4:12, contact]: write \"linear\"");
+  EXPECT_EQ(refusalOf("2500", "-2500"), "\"density\" is -2500 [s.json:9:33, particles.0]: write one above 0 kg/m3");
+  EXPECT_EQ(refusalOf("\"radius\"", "\"radios\""),
+            "there is no key \"radios\" [s.json:10:42, particles.0.spheres.0]: write \"radius\"");
+  EXPECT_EQ(refusalOf("    \"stiffness\": \"5 kN/m\",\n", ""),
+            "the key \"stiffness\" is missing [s.json:3:14, contact]: give it a value");
+  EXPECT_EQ(refusalOf("0.1}", "0.1, \"time\": 3}"),
+            "the key \"time\" is there twice [s.json:14:41]: leave one of them out");
+  EXPECT_NE(refusalOf("\"steps\": {\"dt\": 1e-4},", "\"steps\": {\"dt\": 1e-4}").find("[s.json:14:"),
+            std::string::npos);
+}
+
+TEST(SceneReader, UnknownKeysAreToldBeforeValuesAreLookedAt) {
+  const std::string both = replaced(replaced(smallScene, "\"5 kN/m\"", "\"five\""), "\"walls\"", "\"wals\"");
+  EXPECT_EQ(refusal(both), "there is no key \"wals\" [s.json:12:3]: write \"walls\"");
+}
+
+TEST(SceneReader, CommentsAreAllowed) {
+  EXPECT_EQ(refusal("// one\n" + replaced(smallScene, "\"law\"", "/* two */ \"law\"")), "");
+}
+
+TEST(SceneReader, ParametersServeEveryNumberAndCanBeSet) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP();
+  const std::string text = replaced(replaced(smallScene, "{\n", "{\n\"let\": {\"r\": \"2 cm\", \"d\": \"2*r\"},\n"),
+                                    "\"1 cm\"", "\"sqrt(d^2)\"");
+  const auto radius = [&](const std::vector<std::string>& settings) {
+    const Scene scene = sceneFromText(text, "s.json", SCENES, settings);
+    return std::get<SphereList>(scene.particles[0].from).spheres[0].radius;
+  };
+  EXPECT_EQ(radius({}), 0.04);
+  EXPECT_EQ(radius({"r=1 mm"}), 0.002);
+  EXPECT_EQ(radius({"particles.0.spheres.0.radius=0.5"}), 0.5);
+  EXPECT_NE(refusal(text, {"q=1"}).find("no parameter or key \"q\" [--set q=1]"), std::string::npos);
+  EXPECT_NE(refusal(text, {"particles.7.density=1"}).find("no item \"7\""), std::string::npos);
+  EXPECT_NE(refusal(text, {"r"}).find("write --set key=value"), std::string::npos);
+  EXPECT_NE(refusal(text, {"r=2*w"}).find("Unexpected token \"w\""), std::string::npos);
+}
+
+TEST(SceneReader, DeepAndOddDocumentsAreRefused) {
+  EXPECT_NE(refusal(std::string(100000, '[')).find("64 levels"), std::string::npos);
+  for (const char* text : {"", " ", "null", "[]", "3", "\"a\"", "{", "{}", "{}{}", "{\"stages\": []}", "\xff",
+                           "{\"a\": \"\xff\"}", "{\"gravity\": [0, 0, 1e999]}", "{\"gravity\": [NaN, 0, 0]}"})
+    EXPECT_NE(refusal(text), "") << text;
+}
+
+}  // namespace
+}  // namespace dovetail::scene::test
