@@ -41,10 +41,12 @@ public:
         built_(build(scene)) {
     built_.run->profile = Profile(settings.profile);
     start(built_, scene);
+    for (const Stage& stage : scene.stages)
+      if (const auto* const plan = std::get_if<RunFor>(&stage.kind)) windowsIn(plan->time);
     if (scene.output.series) seriesEvery_ = windowsIn(*scene.output.series);
     if (scene.output.frames) framesEvery_ = windowsIn(*scene.output.frames);
     if (scene.output.checkpoints) checkpointsEvery_ = windowsIn(*scene.output.checkpoints);
-    if (seriesEvery_ > 0) series_ = std::make_unique<Series>(*built_.run, file("series.csv"), provenance_);
+    if (seriesEvery_ > 0) series_ = std::make_unique<Series>(built_, file("series.csv"), provenance_);
     if (goesOn) {
       progress_ = readCheckpoint(settings.folder, hash_, *built_.run);
       if (series_) series_->takeUp(progress_.rows);
@@ -74,7 +76,12 @@ private:
   fs::path file(const char* name) const { return settings_.folder / name; }
   static double rounded(double seconds) { return std::round(1e3 * seconds) / 1e3; }
   std::int64_t windowsIn(double seconds) const {
-    return std::max<std::int64_t>(1, std::llround(seconds / built_.run->window()));
+    const double count = seconds / built_.run->window();
+    if (!(count < 1e15))
+      throw InputError(
+          formatNumber(seconds) + " s are more than 1e15 windows of " + formatNumber(built_.run->window()) + " s",
+          scene_.steps.where, "take a shorter time or a larger step");
+    return std::max<std::int64_t>(1, std::llround(count));
   }
   void note(const std::string& line) {
     notes_ += line + "\n";
@@ -128,7 +135,7 @@ private:
   /// @param every  windows; 0: now
   void sample(std::int64_t every) {
     if (!series_ || (every > 0 && !due(every))) return;
-    series_->add(*built_.run);
+    series_->add(built_);
     warn();
     progress_.rows = series_->rows();
   }

@@ -52,7 +52,7 @@ std::shared_ptr<const dem::ContactLaws> lawsOf(const HertzContact& hertz, const 
 double stiffnessOf(const LinearContact& linear, double) { return linear.stiffness; }
 double stiffnessOf(const HertzContact& hertz, double radius) {
   const dem::Material material{hertz.youngsModulus, hertz.poissonRatio, 0.0};
-  return 2.0 * dem::effectiveModulus(material, material) * std::sqrt(0.5 * radius * 0.01 * radius);
+  return 2.0 * dem::effectiveModulus(material, material) * std::sqrt(0.5 * radius * 0.05 * radius);
 }
 
 }  // namespace

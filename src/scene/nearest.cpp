@@ -50,7 +50,8 @@ std::string adviceFor(const std::string& name, const std::vector<std::string>& c
   if (const std::string near = nearest(name, candidates); !near.empty()) return "write \"" + near + "\"";
   if (candidates.empty()) return "leave it out";
   std::string list;
-  for (const std::string& candidate : candidates) list += (list.empty() ? "" : ", ") + candidate;
+  for (const std::string& candidate : candidates)
+    list.append(list.empty() ? "\"" : ", \"").append(candidate).append("\"");
   return (candidates.size() == 1 ? "write " : "write one of ") + list;
 }
 

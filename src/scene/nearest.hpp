@@ -10,7 +10,7 @@ namespace dovetail::scene {
 /// count), if they are no more than a third of the longer one's; else empty.
 std::string nearest(const std::string& name, const std::vector<std::string>& candidates);
 
-/// "write \"radius\"", or "write one of a, b, c".
+/// "write \"radius\"", or "write one of \"a\", \"b\"".
 std::string adviceFor(const std::string& name, const std::vector<std::string>& candidates);
 
 }  // namespace dovetail::scene

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <utility>
 
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/surface/surface_contact.hpp"
 
 namespace dovetail::scene {
 
@@ -25,12 +27,14 @@ std::string columnOf(const std::string& channel) {
   return name + "_J";
 }
 
-std::vector<std::string> columnsOf(const std::vector<std::string>& channels) {
+std::vector<std::string> columnsOf(const std::vector<std::string>& channels, const Built& built) {
   std::vector<std::string> names{"time_s", "particles", "limit_s"};
   for (const std::string& channel : channels) names.push_back(columnOf(channel));
   for (const char* const name : {"others_J", "residual_J", "momentum_x_Ns", "momentum_y_Ns", "momentum_z_Ns",
                                  "given_x_Ns", "given_y_Ns", "given_z_Ns"})
     names.push_back(name);
+  for (const auto& [solid, force] : forcesOnSolids(built))
+    for (const char* const axis : {"_x_N", "_y_N", "_z_N"}) names.push_back("on_" + solid + axis);
   return names;
 }
 
@@ -52,8 +56,29 @@ fs::path stateBefore(const fs::path& folder) { return folder / "checkpoint.previ
 
 }  // namespace
 
-Series::Series(coupling::CoupledRun& run, fs::path file, io::KeyValues provenance)
-    : channels_(channelsOf(run)), table_(columnsOf(channels_)), path_(file), file_(file, std::move(provenance)) {}
+std::vector<std::pair<std::string, Vec3>> forcesOnSolids(const Built& built) {
+  const auto contacts = std::as_const(built.run->grains).terms.all<surface::SurfaceContact>();
+  std::vector<std::pair<std::string, Vec3>> forces;
+  for (std::size_t s = 0; s < built.run->solids(); ++s) {
+    const coupling::SolidSide& side = built.run->solid(s);
+    Vec3 force;
+    bool any = false;
+    for (const auto* const contact : contacts) {
+      if (&contact->side() != &side) continue;
+      any = true;
+      const coupling::NodalLoad& load = contact->coupling().load();
+      for (const int node : load.touched) force += load.force[static_cast<std::size_t>(node)];
+    }
+    if (any) forces.emplace_back(side.name, force);
+  }
+  return forces;
+}
+
+Series::Series(Built& built, fs::path file, io::KeyValues provenance)
+    : channels_(channelsOf(*built.run)),
+      table_(columnsOf(channels_, built)),
+      path_(file),
+      file_(file, std::move(provenance)) {}
 
 void Series::takeUp(std::uint64_t rows) {
   if (rows == 0) return;
@@ -68,7 +93,8 @@ void Series::takeUp(std::uint64_t rows) {
   file_.write(table_);
 }
 
-void Series::add(coupling::CoupledRun& run) {
+void Series::add(Built& built) {
+  coupling::CoupledRun& run = *built.run;
   const EnergyLedger& ledger = run.ledger();
   const coupling::Totals totals = run.totals();
   std::vector<double> row{run.time(), static_cast<double>(run.grains.particles.size()), run.criticalStep().dt};
@@ -79,6 +105,7 @@ void Series::add(coupling::CoupledRun& run) {
   row.insert(row.end(), {others, ledger.residual()});
   const Vec3 given = totals.given.total().given.linear;
   for (const Vec3& v : {totals.momentum, given}) row.insert(row.end(), {v.x, v.y, v.z});
+  for (const auto& [solid, force] : forcesOnSolids(built)) row.insert(row.end(), {force.x, force.y, force.z});
   table_.append(row);
   file_.write(table_);
 }

@@ -20,14 +20,18 @@ struct Progress {
   std::vector<double> frames;  ///< their times, s
 };
 
-/// Rows of energies and momenta. Columns are those of the run at its start and of what grains may book later.
+/// Sums of the surface contacts' forces on each solid that has some, N, in the order of the solids; with names.
+std::vector<std::pair<std::string, Vec3>> forcesOnSolids(const Built& built);
+
+/// Rows of energies, momenta and forces on solids. Columns are those of the run at its start and of what grains may
+/// book later.
 class Series {
 public:
-  Series(coupling::CoupledRun& run, std::filesystem::path file, io::KeyValues provenance);
+  Series(Built& built, std::filesystem::path file, io::KeyValues provenance);
   /// Goes on with what an earlier run has written, of which so many rows are kept.
   /// @throws InputError if the file does not hold them
   void takeUp(std::uint64_t rows);
-  void add(coupling::CoupledRun& run);
+  void add(Built& built);
   std::uint64_t rows() const { return table_.rows(); }
 
 private:

@@ -27,7 +27,14 @@ geometry::Periodicity spaceOf(const geometry::Box& box, const Scene& scene) {
   return space;
 }
 
+void requireBearableIn(const geometry::Box& box, double radius) {
+  const Vec3 edges = box.upper - box.lower;
+  requireBearable(edges.x / radius * (edges.y / radius) * (edges.z / radius) / 8.0, "spheres",
+                  "take larger ones, or a smaller box");
+}
+
 void add(const Target& to, const Lattice& lattice) {
+  requireBearableIn(lattice.box, lattice.radius);
   const auto kind = static_cast<dem::Lattice>(lattice.kind);
   dem::addPacking(
       to.grains.particles,
@@ -36,6 +43,7 @@ void add(const Target& to, const Lattice& lattice) {
 }
 
 void add(const Target& to, const RandomPacking& packing) {
+  requireBearableIn(packing.box, packing.radius.smallest);
   dem::PackingReport report;
   const dem::Packing spheres = dem::growPacking(dem::UniformSizes{packing.radius.smallest, packing.radius.largest},
                                                 spaceOf(packing.box, to.scene),

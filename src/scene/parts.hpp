@@ -28,8 +28,13 @@ auto atPlace(const std::string& where, Act act) {
   }
 }
 
+/// @throws InputError if so many spheres or cells cannot be meant
+inline void requireBearable(double count, const std::string& what, const std::string& remedy) {
+  if (!(count <= 1e8)) throw InputError("more than 1e8 " + what, "", remedy);
+}
+
 std::shared_ptr<const dem::ContactLaws> makeLaws(const ContactLaw& law);
-/// 2/ω of two spheres of this radius and density, pressed together by a hundredth of the radius, s.
+/// 2/ω of two spheres of this radius and density, pressed together by a twentieth of the radius, s.
 double impactLimit(const ContactLaw& law, double radius, double density);
 
 void addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes);

@@ -38,22 +38,21 @@ Node& itemOf(Node& list, const std::string& key, const std::string& where) {
   return list.items[number];
 }
 
-Node& memberOf(Node& holder, const std::string& key, const std::string& where, bool mayBeNew) {
+/// The member of that name, made if there is none: the reader tells names that nobody knows.
+Node& memberOf(Node& holder, const std::string& key, const std::string& where) {
   if (holder.kind == Node::Kind::list) return itemOf(holder, key, where);
-  if (Node* found = holder.kind == Node::Kind::object ? holder.find(key) : nullptr) return *found;
-  std::vector<std::string> names;
-  for (const Node::Member& member : holder.members) names.push_back(member.key);
-  if (holder.kind != Node::Kind::object || !mayBeNew)
-    throw InputError("the scene has no \"" + key + "\" there", where, adviceFor(key, names));
-  holder.members.push_back({key, {}, {Node{}}});
+  if (holder.kind != Node::Kind::object)
+    throw InputError(nameOf(holder) + " has no \"" + key + "\"", where, "give the path of keys of an object");
+  if (Node* found = holder.find(key)) return *found;
+  Node made;
+  made.kind = Node::Kind::object;
+  holder.members.push_back({key, {}, {made}});
   return holder.members.back().value[0];
 }
 
-std::vector<std::string> namesIn(const Node& root, const Node* let) {
+std::vector<std::string> namesIn(const Node& holder) {
   std::vector<std::string> names;
-  for (const Node* const holder : {let, &root})
-    if (holder)
-      for (const Node::Member& member : holder->members) names.push_back(member.key);
+  for (const Node::Member& member : holder.members) names.push_back(member.key);
   return names;
 }
 
@@ -68,12 +67,13 @@ void applySetting(Node& root, const std::string& setting) {
   Node* let = root.kind == Node::Kind::object ? root.find("let") : nullptr;
   const bool isParameter = let && let->kind == Node::Kind::object && let->find(path);
   Node* node = isParameter ? let : &root;
-  if (!isParameter && path.find('.') == std::string::npos && !root.find(path))
-    throw InputError("the scene has no parameter or key \"" + path + "\"", where, adviceFor(path, namesIn(root, let)));
+  if (let && !isParameter && !root.find(path.substr(0, path.find('.'))))
+    if (const std::string near = nearest(path, namesIn(*let)); !near.empty())
+      throw InputError("the scene has no parameter \"" + path + "\"", where, "write \"" + near + "\"");
   for (bool last = false; !last;) {
     const std::size_t dot = path.find('.');
     last = dot == std::string::npos;
-    node = &memberOf(*node, path.substr(0, dot), where, last);
+    node = &memberOf(*node, path.substr(0, dot), where);
     if (!last) path.erase(0, dot + 1);
   }
   Node value = valueFrom(setting.substr(equals + 1), where);

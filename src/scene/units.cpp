@@ -115,11 +115,13 @@ std::string siName(const Dimension& d) {
   for (const auto& [power, name] : parts) {
     std::string& side = power > 0 ? above : below;
     if (power == 0) continue;
-    side += (side.empty() ? "" : " ") + std::string(name);
+    if (!side.empty()) side += ' ';
+    side += name;
     if (std::abs(power) > 1) side += std::to_string(std::abs(power));
   }
   if (below.empty()) return above;
-  return (above.empty() ? "1" : above) + "/" + below;
+  if (above.empty()) above.push_back('1');
+  return above.append("/").append(below);
 }
 
 }  // namespace dovetail::scene

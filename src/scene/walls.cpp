@@ -44,7 +44,8 @@ void add(dem::Model& grains, const Wall& wall, const SurfaceFile& from) {
     x = from.scale * x + from.shift;
     middle += 1.0 / static_cast<double>(mesh.x.size()) * x;
   }
-  dem::MeshWall made{.wall = dem::makeWall(std::move(mesh.x), std::move(mesh.facets), from.closed)};
+  dem::MeshWall made;
+  made.wall = dem::makeWall(std::move(mesh.x), std::move(mesh.facets), from.closed);
   made.wall.rigid = true;
   if (norm(wall.velocity) > 0.0 || norm(wall.angularVelocity) > 0.0)
     dem::prescribe(made, dem::steadyMotion({middle, {}, wall.velocity, wall.angularVelocity}), middle);

@@ -45,5 +45,12 @@ TEST(Expressions, ValuesThatAreNotFiniteAreCaught) {
   EXPECT_THROW(f(0.5), NumericalError);
 }
 
+TEST(Expressions, ConstantsHaveAValue) {
+  EXPECT_EQ(value("2*radius^2 + min(a, b)", {{"radius", 3.0}, {"a", 1.0}, {"b", -1.0}}), 17.0);
+  EXPECT_DOUBLE_EQ(value("sin(pi/2)", {}), 1.0);
+  for (const char* wrong : {"", "t", "x", "2*r", "1/0", "sqrt(-1)", "1, 2", "1 = 2"})
+    EXPECT_THROW(value(wrong, {{"a", 1.0}}), InputError) << wrong;
+}
+
 }  // namespace
 }  // namespace dovetail::expressions

@@ -1,6 +1,7 @@
 // What the reader says to a text.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "dovetail/core/error.hpp"
@@ -34,6 +35,10 @@ inline const std::string smallScene = R"({
   "steps": {"dt": 1e-4},
   "stages": [{"do": "run", "time": 0.1}]
 })";
+
+inline std::filesystem::path starter(const std::string& name) {
+  return std::filesystem::path(SCENES) / (name + ".json");
+}
 
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);

@@ -18,7 +18,7 @@ void visit(const Json& value, const Json::json_pointer& place, std::vector<Json:
       visit(inner, value.is_array() ? place / static_cast<std::size_t>(std::stoul(key)) : place / key, places);
 }
 
-Json scene() { return Json::parse(sceneText(readScene(std::string(SCENES) + "/footing.json"))); }
+Json scene() { return Json::parse(sceneText(readScene(starter("footing")))); }
 
 void expectRefused(const std::string& text, const std::string& what) {
   const std::string message = refusal(text);

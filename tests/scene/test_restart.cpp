@@ -12,7 +12,7 @@ using cantilever::test::runProgram;
 using io::test::ScratchFolder;
 
 std::vector<std::string> words(const ScratchFolder& folder) {
-  std::vector<std::string> all{"run",      std::string(SCENES) + "/pile.json", "--out", folder.path().string(), "--set",
+  std::vector<std::string> all{"run",     std::string(SCENES) + "/pile.json", "--out", folder.path().string(), "--set",
                                "time=0.1"};
   const char* const output = WITH_FRAMES ? "output={\"series\": 2e-3, \"frames\": 0.02, \"checkpoints\": 0.02}"
                                          : "output={\"series\": 2e-3, \"checkpoints\": 0.02}";

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "dovetail/scene/build.hpp"
 #include "dovetail/scene/read.hpp"
 
 namespace dovetail::scene {
@@ -45,7 +47,7 @@ bool fits(const Json& schema, const Json& value) {
 }
 
 Json starter(const std::string& name) {
-  std::ifstream file(std::string(SCENES) + "/" + name + ".json");
+  std::ifstream file(std::filesystem::path(SCENES) / (name + ".json"));
   return Json::parse(file, nullptr, true, true);
 }
 
@@ -62,11 +64,25 @@ TEST(SceneSchema, StarterScenesFit) {
   }
 }
 
-TEST(SceneSchema, TheReferenceInTheDocumentsIsUpToDate) {
-  std::ifstream file(std::string(DOCS) + "/scene-keys.md");
+std::string textOf(const std::string& document) {
+  std::ifstream file(std::filesystem::path(DOCS) / document);
   std::ostringstream text;
   text << file.rdbuf();
-  EXPECT_EQ(text.str(), referenceText()) << "dovetail schema --markdown > docs/scene-keys.md";
+  return text.str();
+}
+
+TEST(SceneSchema, TheSceneInTheDocumentsCanBeBuilt) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP();
+  const std::string text = textOf("scenes.md"), fence = "```json\n";
+  const std::size_t begin = text.find(fence) + fence.size();
+  const Scene scene = sceneFromText(text.substr(begin, text.find("```", begin) - begin), "scenes.md", "/");
+  Built built = build(scene);
+  start(built, scene);
+  EXPECT_GT(built.run->grains.particles.size(), 100U);
+}
+
+TEST(SceneSchema, TheReferenceInTheDocumentsIsUpToDate) {
+  EXPECT_EQ(textOf("scene-keys.md"), referenceText()) << "dovetail schema --markdown > docs/scene-keys.md";
 }
 
 }  // namespace

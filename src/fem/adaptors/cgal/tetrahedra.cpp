@@ -76,7 +76,9 @@ SolidMesh fill(const geometry::TriangleMesh& surface, const TetrahedraOptions& o
                           parameters::facet_size = options.size, parameters::facet_distance = distance,
                           parameters::cell_radius_edge_ratio = options.radiusToEdge,
                           parameters::cell_size = options.size);
-  return toMesh(CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb()));
+  // CGAL's own limit on the removal of slivers is a time, and meshes would depend on how busy the machine is.
+  return toMesh(CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(),
+                                           parameters::exude(parameters::time_limit = 0.0)));
 }
 
 void requireOptions(const TetrahedraOptions& options) {

@@ -30,7 +30,7 @@ struct Limit {
 
 /// Starts the run with the scene's step. "auto": the share `safety` of the smallest of the critical step at the start,
 /// that of each explicit solid, and the exact one of two of the smallest grains of the scene, pressed together by a
-/// hundredth of their radius.
+/// twentieth of their radius.
 /// @throws InputError as CoupledRun::start, or if nothing in the scene tells a step
 void start(Built& built, const Scene& scene);
 
