@@ -73,8 +73,8 @@ TEST(Interruption, EndsARunInOrder) {
 TEST(Interruption, AKilledRunLeavesItsSeriesAndNoneOfAnEarlierRun) {
   const Scene scene;
   Running run(scene.words("9000"));
-  ASSERT_TRUE(run.awaits(scene.out / (TEST_WITH_VTK ? "beam.pvd" : "series.csv"),
-                         TEST_WITH_VTK ? "beam_000002.vtu\"/>\n  </Coll" : "\n0.04"));
+  ASSERT_TRUE(run.awaits(scene.out / "series.csv", "until_s: 9000"));
+  ASSERT_TRUE(run.awaits(scene.out / "series.csv", "\n0.04"));
   run.signal(SIGKILL);
   EXPECT_EQ(run.outcome().code, -1);
   EXPECT_NE(readText(scene.out / "series.csv").find("until_s: 9000"), std::string::npos);
@@ -85,7 +85,6 @@ TEST(Interruption, AKilledRunLeavesItsSeriesAndNoneOfAnEarlierRun) {
   EXPECT_FALSE(std::filesystem::exists(scene.summary));
   EXPECT_FALSE(std::filesystem::exists(scene.out / "series.h5"));
   EXPECT_EQ(runProgram(scene.words("0.05")).code, 0);
-  EXPECT_TRUE(scene.leftovers().empty());
 }
 
 TEST(Interruption, OneRunAtATimeWritesIntoAFolder) {
