@@ -49,8 +49,6 @@ std::vector<std::string> channelsOf(coupling::CoupledRun& run) {
   return names;
 }
 
-const char* const kind = "dovetail scene";
-
 fs::path lastState(const fs::path& folder) { return folder / "checkpoint.state"; }
 fs::path stateBefore(const fs::path& folder) { return folder / "checkpoint.previous.state"; }
 
@@ -117,7 +115,7 @@ void writeCheckpoint(const fs::path& folder, const std::string& hash, const Prog
           progress.frames, run.save());
   std::error_code none;
   fs::rename(lastState(folder), stateBefore(folder), none);  // the first one has none before it
-  writeChecked(lastState(folder), kind, archive.bytes());
+  writeChecked(lastState(folder), stateKind, archive.bytes());
 }
 
 Progress readCheckpoint(const fs::path& folder, const std::string& hash, coupling::CoupledRun& run) {
@@ -127,7 +125,7 @@ Progress readCheckpoint(const fs::path& folder, const std::string& hash, couplin
   if (!last && !fs::exists(file, error))
     throw InputError("there is no checkpoint", folder.string(),
                      "give the folder of a run with output.checkpoints, or one that a signal has ended");
-  ByteReader archive(readChecked(file, kind));
+  ByteReader archive(readChecked(file, stateKind));
   std::vector<char> ofScene, state;
   double time = 0.0;
   Progress progress;

@@ -50,6 +50,19 @@ void expectSameAfter(int signal, int code) {
 TEST(Restart, AfterAnInterruptionAllBytesAreTheSame) { expectSameAfter(SIGINT, 130); }
 TEST(Restart, AfterAKillAllBytesAreTheSame) { expectSameAfter(SIGKILL, -1); }
 
+TEST(Restart, AFolderServesAgainAndPartsOfStatesGo) {
+  const ScratchFolder folder;
+  const std::vector<std::string> run{
+      "run",   std::string(SCENES) + "/plate.json", "--out", folder.path().string(), "--set", "time=1e-4",
+      "--set", "output={\"checkpoints\": 5e-5}"};
+  ASSERT_EQ(runProgram(run).code, 0);
+  std::filesystem::copy_file(folder / "checkpoint.state", folder / "checkpoint.state.part-1-2");
+  const auto again = runProgram(run);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "checkpoint.state.part-1-2"));
+  EXPECT_EQ(runProgram({"resume", folder.path().string()}).code, 0);
+}
+
 TEST(Restart, StatesOfOtherScenesAndDamagedOnesAreRefused) {
   const ScratchFolder folder;
   ASSERT_EQ(runProgram({"run", std::string(SCENES) + "/plate.json", "--out", folder.path().string(), "--set",
