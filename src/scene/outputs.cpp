@@ -39,14 +39,19 @@ std::vector<std::string> columnsOf(const std::vector<std::string>& channels, con
   return names;
 }
 
+/// Channels of the run at its start, and those that it may come to have.
 std::vector<std::string> channelsOf(coupling::CoupledRun& run) {
   std::vector<std::string> names;
-  for (const auto& channel : run.ledger().channels()) names.push_back(channel.name);
-  for (const char* const later :
-       {"dashpots", "friction", "rolling", "left", "entered (minus)", "work of walls and drives (minus)"}) {
-    const std::string name = std::string("particles: ") + later;
+  const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
+  };
+  for (const auto& channel : run.ledger().channels()) add(channel.name);
+  for (const char* const later :
+       {"dashpots", "friction", "rolling", "left", "entered (minus)", "work of walls and drives (minus)"})
+    add(std::string("particles: ") + later);
+  for (std::size_t s = 0; s < run.solids(); ++s)
+    for (const char* const later : {": supports", ": dissipated by elements"}) add(run.solid(s).name + later);
+  add("brought to rest");
   return names;
 }
 
