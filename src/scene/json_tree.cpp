@@ -69,6 +69,7 @@ public:
   bool number_unsigned(std::uint64_t value) { return number(static_cast<double>(value), true); }
   bool number_float(double value, const std::string&) { return number(value, false); }
   bool string(std::string& value) {
+    requirePrintable(value);
     Node node;
     node.kind = Node::Kind::text;
     node.text = value;
@@ -80,6 +81,7 @@ public:
   bool end_object() { return end(); }
   bool end_array() { return end(); }
   bool key(std::string& value) {
+    requirePrintable(value);
     const Place place = placeOfToken(true);
     if (open_.back()->find(value))
       throw InputError("the key \"" + value + "\" is there twice", placeName(name_, place), "leave one of them out");
@@ -125,6 +127,12 @@ private:
     else
       holder.items.push_back(std::move(node));
     return true;
+  }
+  /// Texts go into messages, names of files and expressions.
+  void requirePrintable(const std::string& text) const {
+    if (std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }))
+      throw InputError("a text holds a line break or another control character", placeName(name_, placeOfToken(true)),
+                       "leave it out");
   }
   Place placeOfToken(bool quoted) const {
     auto end = static_cast<std::size_t>(taken_ - text_.data());

@@ -36,7 +36,7 @@ std::string nameOf(const Node& node);
 
 /// JSON with comments. @param name  of the file
 /// @throws InputError naming file, line and column: no JSON, a key twice in one object, more than 64 levels, a number
-/// beyond doubles, something behind the end
+/// beyond doubles, control characters in a text, something behind the end
 Node parseJson(const std::string& text, const std::string& name);
 
 /// "scene.json:3:14", or the name alone

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <map>
 #include <utility>
 
 #include "dovetail/core/archive.hpp"
@@ -54,8 +55,6 @@ std::vector<std::string> channelsOf(coupling::CoupledRun& run) {
   return names;
 }
 
-const char* const kind = "dovetail scene";
-
 fs::path lastState(const fs::path& folder) { return folder / "checkpoint.state"; }
 fs::path stateBefore(const fs::path& folder) { return folder / "checkpoint.previous.state"; }
 
@@ -100,14 +99,24 @@ void Series::takeUp(std::uint64_t rows) {
 
 void Series::add(Built& built) {
   coupling::CoupledRun& run = *built.run;
-  const EnergyLedger& ledger = run.ledger();
   const coupling::Totals totals = run.totals();
   std::vector<double> row{run.time(), static_cast<double>(run.grains.particles.size()), run.criticalStep().dt};
-  double others = 0.0;
-  for (const auto& channel : ledger.channels())
-    if (std::find(channels_.begin(), channels_.end(), channel.name) == channels_.end()) others += channel.joules;
-  for (const std::string& channel : channels_) row.push_back(ledger.joules(channel));
-  row.insert(row.end(), {others, ledger.residual()});
+  // A ledger has its channels in the order in which they came to be, which is another one in a run that was resumed:
+  // sums are made in an order of our own.
+  std::map<std::string, EnergyLedger::Channel> channels;
+  for (const auto& channel : run.ledger().channels()) channels[channel.name] = channel;
+  double residual = 0.0, others = 0.0;
+  for (const std::string& name : channels_) {
+    const EnergyLedger::Channel channel = channels[name];
+    row.push_back(channel.joules);
+    residual += channel.joules - channel.joulesAtOpening;
+    channels.erase(name);
+  }
+  for (const auto& [name, channel] : channels) {
+    others += channel.joules;
+    residual += channel.joules - channel.joulesAtOpening;
+  }
+  row.insert(row.end(), {others, residual});
   const Vec3 given = totals.given.total().given.linear;
   for (const Vec3& v : {totals.momentum, given}) row.insert(row.end(), {v.x, v.y, v.z});
   for (const auto& [solid, force] : forcesOnSolids(built)) row.insert(row.end(), {force.x, force.y, force.z});
@@ -122,7 +131,7 @@ void writeCheckpoint(const fs::path& folder, const std::string& hash, const Prog
           progress.frames, run.save());
   std::error_code none;
   fs::rename(lastState(folder), stateBefore(folder), none);  // the first one has none before it
-  writeChecked(lastState(folder), kind, archive.bytes());
+  writeChecked(lastState(folder), stateKind, archive.bytes());
 }
 
 Progress readCheckpoint(const fs::path& folder, const std::string& hash, coupling::CoupledRun& run) {
@@ -132,7 +141,7 @@ Progress readCheckpoint(const fs::path& folder, const std::string& hash, couplin
   if (!last && !fs::exists(file, error))
     throw InputError("there is no checkpoint", folder.string(),
                      "give the folder of a run with output.checkpoints, or one that a signal has ended");
-  ByteReader archive(readChecked(file, kind));
+  ByteReader archive(readChecked(file, stateKind));
   std::vector<char> ofScene, state;
   double time = 0.0;
   Progress progress;

@@ -55,6 +55,9 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
+/// What states of scenes are; with the mark of our files (output_folder.hpp).
+inline constexpr const char* stateKind = "dovetail 1 scene";
+
 /// Keeps the last checkpoint, and the one before.
 void writeCheckpoint(const std::filesystem::path& folder, const std::string& hash, const Progress& progress,
                      coupling::CoupledRun& run);

@@ -4,30 +4,21 @@
 #include <sstream>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/core/finite.hpp"
 #include "dovetail/scene/read.hpp"
 #include "fields.hpp"
 #include "json_tree.hpp"
 #include "nearest.hpp"
-#include "parameters.hpp"
 #include "settings.hpp"
+#include "values.hpp"
 
 namespace dovetail::scene {
 
 namespace {
 
-/// What all objects of a file share.
-struct Document {
-  std::string name;
-  std::filesystem::path folder;
-  Parameters parameters{};
-  bool keysOnly = false;  ///< values are not looked at: keys are checked before any value
-};
-
-class Reader final : public Fields {
+class Reader final : public Fields, Values {
 public:
   Reader(Document& document, const Node& node, std::string path)
-      : document_(document), node_(node), path_(std::move(path)) {
+      : Values(document, std::move(path)), document_(document), node_(node) {
     if (node.kind != Node::Kind::object) refuse(node, nameOf(node) + " where an object is wanted", "write { … }");
   }
 
@@ -35,10 +26,10 @@ public:
   void finish() const {
     for (const Node::Member& member : node_.members)
       if (std::find(known_.begin(), known_.end(), member.key) == known_.end())
-        throw InputError("there is no key \"" + member.key.substr(0, 80) + "\"", where(member.place),
+        throw InputError("there is no key \"" + member.key.substr(0, 80) + "\"", placeOf(member.place),
                          adviceOn(member.key));
     if (!missing_.empty())
-      throw InputError("the key \"" + missing_.front() + "\" is missing", where(node_.place), "give it a value");
+      throw InputError("the key \"" + missing_.front() + "\" is missing", placeOf(node_.place), "give it a value");
   }
 
   void number(Key key, double& value, const Limits& limits) override {
@@ -118,7 +109,7 @@ public:
       value.push_back(text);
     }
   }
-  void where(std::string& value) override { value = where(node_.place); }
+  void where(std::string& value) override { value = placeOf(node_.place); }
   void parameters(Key key) override {
     const Node* node = take(key, false);
     if (!node) return;
@@ -138,8 +129,8 @@ protected:
     if (!node) {  // without it all other keys would look unknown
       for (const Node::Member& member : node_.members)
         if (const std::string near = nearest(member.key, {key.name}); !near.empty())
-          throw InputError("there is no key \"" + member.key + "\"", where(member.place), "write \"" + near + "\"");
-      throw InputError("the key \"" + std::string(key.name) + "\" is missing", where(node_.place),
+          throw InputError("there is no key \"" + member.key + "\"", placeOf(member.place), "write \"" + near + "\"");
+      throw InputError(std::string("the key ").append(named(key)).append(" is missing"), placeOf(node_.place),
                        "give it one of " + listOf(names));
     }
     const std::string text = wordOf(*node, key, names);
@@ -204,91 +195,6 @@ private:
       if (!node_.find(name)) names.push_back(name);
     return names;
   }
-  static std::string named(Key key) { return "\"" + std::string(key.name) + "\""; }
-  static std::string listOf(Words words) {
-    std::string list;
-    for (const char* const word : words) list += std::string(list.empty() ? "" : ", ") + "\"" + word + "\"";
-    return list;
-  }
-  std::string where(const Place& place) const {
-    const std::string name = placeName(document_.name, place.line == 0 ? absentAt_ : place);
-    return path_.empty() ? name : name + ", " + path_;
-  }
-  [[noreturn]] void refuse(const Node& node, const std::string& problem, const std::string& remedy) const {
-    throw InputError(problem, where(node.place), remedy);
-  }
-
-  std::string textOf(const Node& node, Key key) const {
-    if (node.kind != Node::Kind::text || node.text.empty())
-      refuse(node, named(key) + " is " + nameOf(node), "write a text in quotes");
-    return node.text;
-  }
-  std::string wordOf(const Node& node, Key key, Words words) const {
-    if (node.kind == Node::Kind::text)
-      for (const char* const word : words)
-        if (node.text == word) return node.text;
-    const std::vector<std::string> names(words.begin(), words.end());
-    refuse(node, named(key) + " is " + nameOf(node), adviceFor(node.kind == Node::Kind::text ? node.text : "", names));
-  }
-  /// A number, a quantity, or an expression, whose dimension nobody knows.
-  struct AnyNumber {
-    double value;
-    std::optional<Dimension> dimension;
-  };
-  AnyNumber anyNumberOf(const Node& node, Key key, const std::string& otherwise = "") const {
-    if (node.kind == Node::Kind::number) return {node.number, {}};
-    const std::string remedy = "write a number, one with a unit (\"5 mm\"), or an expression of parameters" +
-                               (otherwise.empty() ? "" : ", or " + otherwise);
-    if (node.kind != Node::Kind::text || node.text.empty()) refuse(node, named(key) + " is " + nameOf(node), remedy);
-    if (const auto quantity = quantityOf(node.text)) {
-      if (quantity->dimension == unit::none) return {quantity->value, {}};
-      return {quantity->value, quantity->dimension};
-    }
-    try {
-      return {valueOf(node.text, document_.parameters), {}};
-    } catch (const InputError& error) {
-      refuse(node,
-             named(key) + " is " + nameOf(node) +
-                 ", which is no number with a unit, and as an expression: " + error.what(),
-             remedy);
-    }
-  }
-  double numberOf(const Node& node, Key key, const Limits& limits, const std::string& otherwise = "") const {
-    const AnyNumber number = anyNumberOf(node, key, otherwise);
-    if (number.dimension && *number.dimension != limits.dimension) {
-      const std::string own = siName(limits.dimension);
-      refuse(node, named(key) + " is " + nameOf(node) + ", in " + siName(*number.dimension),
-             own.empty() ? "write a number without a unit" : "write one in " + own);
-    }
-    const double value = number.value;
-    const bool tooSmall = limits.openBelow ? !(value > limits.least) : !(value >= limits.least);
-    const bool tooLarge = limits.openAbove ? !(value < limits.most) : !(value <= limits.most);
-    if (!std::isfinite(value) || tooSmall || tooLarge)
-      refuse(node, named(key) + " is " + formatNumber(value), "write one " + textOf(limits));
-    return value;
-  }
-  static std::string textOf(const Limits& limits) {
-    const std::string own = siName(limits.dimension), tail = own.empty() ? "" : " " + own;
-    std::string text;
-    if (std::isfinite(limits.least))
-      text = std::string(limits.openBelow ? "above " : "of at least ") + formatNumber(limits.least) + tail;
-    if (std::isfinite(limits.most))
-      text += std::string(text.empty() ? "" : " and ") + (limits.openAbove ? "below " : "of at most ") +
-              formatNumber(limits.most) + tail;
-    return text.empty() ? "that is finite" : text;
-  }
-  double wholeOf(const Node& node, Key key, double least, double most) const {
-    const double value = numberOf(node, key, {unit::none, least, most});
-    if (value != std::floor(value)) refuse(node, named(key) + " is " + formatNumber(value), "write a whole number");
-    return value;
-  }
-  Vec3 vectorOf(const Node& node, Key key, const Dimension& dimension) const {
-    if (node.kind != Node::Kind::list || node.items.size() != 3)
-      refuse(node, named(key) + " is " + nameOf(node), "write three numbers: [0, 0, 1]");
-    Vec3 value;
-    for (int k = 0; k < 3; ++k) value[k] = numberOf(node.items[static_cast<std::size_t>(k)], key, any(dimension));
-    return value;
-  }
   void requireParameterName(const Node::Member& member) const {
     const auto isLetter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
     const bool fits = !member.key.empty() && isLetter(member.key.front()) &&
@@ -296,14 +202,12 @@ private:
                         return isLetter(c) || c == '_' || std::isdigit(static_cast<unsigned char>(c));
                       });
     if (!fits)
-      throw InputError("\"" + member.key + "\" cannot name a parameter", where(member.place),
+      throw InputError("\"" + member.key + "\" cannot name a parameter", placeOf(member.place),
                        "use letters, digits and '_', with a letter first");
   }
 
   Document& document_;
   const Node& node_;
-  std::string path_;
-  Place absentAt_;  // of the object that should hold this one
   std::vector<std::string> known_, missing_;
 };
 

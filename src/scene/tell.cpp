@@ -10,6 +10,7 @@
 #include "dovetail/io/time_series.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
+#include "outputs.hpp"
 
 namespace dovetail::scene {
 
@@ -35,7 +36,7 @@ void tellTable(const fs::path& file, std::ostream& out) {
 }
 
 void tellState(const fs::path& file, std::ostream& out) {
-  ByteReader archive(readChecked(file, "dovetail scene"));
+  ByteReader archive(readChecked(file, stateKind));
   std::vector<char> hash, state;
   double time = 0.0;
   std::uint64_t stage = 0, rows = 0;

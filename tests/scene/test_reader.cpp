@@ -49,6 +49,13 @@ TEST(SceneReader, UnknownKeysAreToldBeforeValuesAreLookedAt) {
   EXPECT_EQ(refusal(both), "there is no key \"wals\" [s.json:12:3]: write \"walls\"");
 }
 
+TEST(SceneReader, ControlCharactersAreRefused) {
+  for (const char* text : {"a\\u0000b", "a\\nb", "\\u007f"}) {
+    EXPECT_NE(refusal(replaced(smallScene, "linear", text)).find("control character [s.json:4:12]"), std::string::npos);
+    EXPECT_NE(refusal(replaced(smallScene, "gravity", text)).find("control character [s.json:2:3]"), std::string::npos);
+  }
+}
+
 TEST(SceneReader, CommentsAreAllowed) {
   EXPECT_EQ(refusal("// one\n" + replaced(smallScene, "\"law\"", "/* two */ \"law\"")), "");
 }

@@ -1,0 +1,101 @@
+#include "values.hpp"
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "nearest.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+std::string textOfLimits(const Limits& limits) {
+  const std::string own = siName(limits.dimension), tail = own.empty() ? "" : " " + own;
+  std::string text;
+  if (std::isfinite(limits.least))
+    text = std::string(limits.openBelow ? "above " : "of at least ") + formatNumber(limits.least) + tail;
+  if (std::isfinite(limits.most))
+    text += std::string(text.empty() ? "" : " and ") + (limits.openAbove ? "below " : "of at most ") +
+            formatNumber(limits.most) + tail;
+  return text.empty() ? "that is finite" : text;
+}
+
+}  // namespace
+
+std::string Values::listOf(Words words) {
+  std::string list;
+  for (const char* const word : words) list += std::string(list.empty() ? "" : ", ") + "\"" + word + "\"";
+  return list;
+}
+
+std::string Values::placeOf(const Place& place) const {
+  const std::string name = placeName(document_.name, place.line == 0 ? absentAt_ : place);
+  return path_.empty() ? name : name + ", " + path_;
+}
+
+void Values::refuse(const Node& node, const std::string& problem, const std::string& remedy) const {
+  throw InputError(problem, placeOf(node.place), remedy);
+}
+
+std::string Values::textOf(const Node& node, Key key) const {
+  if (node.kind != Node::Kind::text || node.text.empty())
+    refuse(node, named(key) + " is " + nameOf(node), "write a text in quotes");
+  return node.text;
+}
+
+std::string Values::wordOf(const Node& node, Key key, Words words) const {
+  if (node.kind == Node::Kind::text)
+    for (const char* const word : words)
+      if (node.text == word) return node.text;
+  const std::vector<std::string> names(words.begin(), words.end());
+  refuse(node, named(key) + " is " + nameOf(node), adviceFor(node.kind == Node::Kind::text ? node.text : "", names));
+}
+
+Values::AnyNumber Values::anyNumberOf(const Node& node, Key key, const std::string& otherwise) const {
+  if (node.kind == Node::Kind::number) return {node.number, {}};
+  const std::string remedy = "write a number, one with a unit (\"5 mm\"), or an expression of parameters" +
+                             (otherwise.empty() ? "" : ", or " + otherwise);
+  if (node.kind != Node::Kind::text || node.text.empty()) refuse(node, named(key) + " is " + nameOf(node), remedy);
+  if (const auto quantity = quantityOf(node.text)) {
+    if (quantity->dimension == unit::none) return {quantity->value, {}};
+    return {quantity->value, quantity->dimension};
+  }
+  try {
+    return {valueOf(node.text, document_.parameters), {}};
+  } catch (const InputError& error) {
+    refuse(
+        node,
+        named(key) + " is " + nameOf(node) + ", which is no number with a unit, and as an expression: " + error.what(),
+        remedy);
+  }
+}
+
+double Values::numberOf(const Node& node, Key key, const Limits& limits, const std::string& otherwise) const {
+  const AnyNumber number = anyNumberOf(node, key, otherwise);
+  if (number.dimension && *number.dimension != limits.dimension) {
+    const std::string own = siName(limits.dimension);
+    refuse(node, named(key) + " is " + nameOf(node) + ", in " + siName(*number.dimension),
+           own.empty() ? "write a number without a unit" : "write one in " + own);
+  }
+  const double value = number.value;
+  const bool tooSmall = limits.openBelow ? !(value > limits.least) : !(value >= limits.least);
+  const bool tooLarge = limits.openAbove ? !(value < limits.most) : !(value <= limits.most);
+  if (!std::isfinite(value) || tooSmall || tooLarge)
+    refuse(node, named(key) + " is " + formatNumber(value), "write one " + textOfLimits(limits));
+  return value;
+}
+
+double Values::wholeOf(const Node& node, Key key, double least, double most) const {
+  const double value = numberOf(node, key, {unit::none, least, most});
+  if (value != std::floor(value)) refuse(node, named(key) + " is " + formatNumber(value), "write a whole number");
+  return value;
+}
+
+Vec3 Values::vectorOf(const Node& node, Key key, const Dimension& dimension) const {
+  if (node.kind != Node::Kind::list || node.items.size() != 3)
+    refuse(node, named(key) + " is " + nameOf(node), "write three numbers: [0, 0, 1]");
+  Vec3 value;
+  for (int k = 0; k < 3; ++k) value[k] = numberOf(node.items[static_cast<std::size_t>(k)], key, any(dimension));
+  return value;
+}
+
+}  // namespace dovetail::scene
