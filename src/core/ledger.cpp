@@ -35,7 +35,7 @@ void EnergyLedger::close() {
   largestResidual_ = std::max(largestResidual_, std::abs(residual()));
 }
 
-double EnergyLedger::joules(const std::string& name) const {
+double EnergyLedger::joules(std::string_view name) const {
   const auto found = std::ranges::find_if(channels_, [&](const Channel& channel) { return channel.name == name; });
   return found == channels_.end() ? 0.0 : found->joules;
 }

@@ -93,12 +93,14 @@ std::unique_ptr<SolidStepper> makeStepper(std::unique_ptr<fem::Model> model, con
                                                      : makeImplicitStepper(std::move(model), options);
 }
 
-void setChannel(EnergyLedger& ledger, const std::string& name, EnergyLedger::Kind kind, double joules) {
+void setChannel(EnergyLedger& ledger, std::string_view name, EnergyLedger::Kind kind, double joules) {
   const auto& channels = ledger.channels();
   const auto found = std::ranges::find_if(channels, [&](const auto& channel) { return channel.name == name; });
   if (found != channels.end()) return ledger.set(static_cast<EnergyLedger::Id>(found - channels.begin()), joules);
   if (kind == EnergyLedger::Kind::booked && joules == 0.0) return;
-  ledger.set(kind == EnergyLedger::Kind::stored ? ledger.addStored(name) : ledger.addBooked(name), joules);
+  std::string own(name);
+  ledger.set(kind == EnergyLedger::Kind::stored ? ledger.addStored(std::move(own)) : ledger.addBooked(std::move(own)),
+             joules);
 }
 
 }  // namespace dovetail::coupling

@@ -24,9 +24,7 @@ void placePoints(const cg::Projection& carrier, std::span<const Vec3> X, PatchTu
       }
       x[p] = X[p] + moved;
       velocity[p] = speed;
-      if (turns.empty()) continue;
-      x[p] += turns.shift(p);
-      velocity[p] += turns.velocity(p);
+      if (!turns.empty()) turns.carry(p, x[p], velocity[p]);
     }
   });
 }

@@ -57,7 +57,7 @@ std::vector<PatchFrame> makeFrames(const Skin& skin, std::span<const int> patchO
       patch.X.push_back(skin.X[v]);
     }
   std::vector<PatchFrame> frames;
-  for (Members& patch : patches) frames.push_back(makeFrame(std::move(patch.node), std::move(patch.area), patch.X));
+  for (Members& patch : patches) frames.push_back(makeFrame(std::move(patch.node), patch.area, patch.X));
   return frames;
 }
 

@@ -24,21 +24,13 @@ Moments moments(const PatchFrame& frame, std::span<const Vec3> u, std::span<cons
   Moments sum;
   const Vec3 u0 = u[at(frame.node.front())], v0 = v[at(frame.node.front())];
   for (std::size_t k = 0; k < frame.node.size(); ++k) {
-    const Vec3 arm = frame.share[k] * frame.arm[k];
+    const Vec3& arm = frame.arm[k];
     const Vec3 du = u[at(frame.node[k])] - u0, dv = v[at(frame.node[k])] - v0;
     for (int c = 0; c < 3; ++c) {
       sum.u[at(c)] += arm[c] * du;
       sum.v[at(c)] += arm[c] * dv;
     }
   }
-  return sum;
-}
-
-/// Σ a D Dᵀ by columns.
-Columns inertiaOf(const PatchFrame& frame) {
-  Columns sum;
-  for (std::size_t k = 0; k < frame.node.size(); ++k)
-    for (int c = 0; c < 3; ++c) sum[at(c)] += (frame.share[k] * frame.arm[k][c]) * frame.arm[k];
   return sum;
 }
 
@@ -110,17 +102,18 @@ void placeFrame(PatchFrame& frame, int patch, std::span<const Vec3> u, std::span
 
 }  // namespace
 
-PatchFrame makeFrame(std::vector<int> node, std::vector<double> area, std::span<const Vec3> X) {
+PatchFrame makeFrame(std::vector<int> node, std::span<const double> area, std::span<const Vec3> X) {
   PatchFrame frame;
   frame.node = std::move(node);
-  frame.share = std::move(area);
   double whole = 0.0;
-  for (double a : frame.share) whole += a;
-  for (double& a : frame.share) a /= whole;
+  for (const double a : area) whole += a;
   Vec3 centre;
-  for (std::size_t k = 0; k < X.size(); ++k) centre += frame.share[k] * (X[k] - X[0]);
-  for (const Vec3& x : X) frame.arm.push_back(x - X[0] - centre);
-  frame.moments = inertiaOf(frame);
+  for (std::size_t k = 0; k < X.size(); ++k) centre += (area[k] / whole) * (X[k] - X[0]);
+  for (std::size_t k = 0; k < X.size(); ++k) {
+    const Vec3 D = X[k] - X[0] - centre;
+    frame.arm.push_back((area[k] / whole) * D);
+    for (int c = 0; c < 3; ++c) frame.moments[at(c)] += frame.arm.back()[c] * D;
+  }
   Eigen::Matrix3d matrix;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) matrix(i, j) = frame.moments[at(j)][i];
@@ -157,7 +150,7 @@ void addTurningLoad(const PatchTurns& turns, const coupling::NodalLoad& onPoints
                         rotate(frame.turn, cross(g, {0, 0, 1}))};
     for (const int node : frame.node) load.touch(node);
     for (std::size_t k = 0; k < frame.node.size(); ++k) {
-      const Vec3 arm = frame.share[k] * frame.arm[k];
+      const Vec3& arm = frame.arm[k];
       load.force[at(frame.node[k])] += arm.x * onArm[0] + arm.y * onArm[1] + arm.z * onArm[2];
     }
   }
@@ -167,7 +160,7 @@ double turnRate(const PatchFrame& frame, std::size_t k) {
   double squared = 0.0;
   for (const Vec3& direction : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
     squared += squaredNorm(times(frame.inverse, cross(frame.arm[k], direction)));
-  return frame.share[k] * std::sqrt(squared);
+  return std::sqrt(squared);
 }
 
 double turningGain(const PatchTurns& turns) {

@@ -21,12 +21,11 @@ struct View {
 };
 
 /// None where a rim of a one-sided surface is seen from inside: there a face near by pushes.
-std::optional<View> viewPatch(const SmoothSurface& surface, int face, const PatchPoint& at, const Vec3& x,
-                              double radius) {
+std::optional<View> viewPatch(const SmoothSurface& surface, const PatchPoint& at, const Vec3& x, double radius) {
   const double distance = std::sqrt(at.squaredDistance);
-  if (!(distance > 1e-12 * radius)) return View{patchNormal(surface, face, at), 0.0};
+  if (!(distance > 1e-12 * radius)) return View{at.normal(), 0.0};
   const Vec3 normal = (x - at.point) / distance;
-  const double outward = surface.oneSided ? dot(normal, patchNormal(surface, face, at)) : 1.0;
+  const double outward = surface.oneSided ? dot(normal, at.normal()) : 1.0;
   if (outward >= -1e-8) return View{normal, distance};
   if (outward > -1.0 + 1e-6) return std::nullopt;
   return View{-normal, -distance};
@@ -60,10 +59,9 @@ private:
       start_[k] = at.parameter;
       if (!(at.squaredDistance < reach * reach)) continue;
       // The search ran into a side that another face continues: the true foot lies there.
-      if (at.edge >= 0 && surface_.across[faces_[k]][at.edge] >= 0 && leavesThrough(surface_, faces_[k], at, x_))
-        continue;
+      if (at.edge >= 0 && surface_.across[faces_[k]][at.edge] >= 0 && leavesThrough(at, x_)) continue;
       requireFound(at, faces_[k]);
-      const std::optional<View> seen = viewPatch(surface_, faces_[k], at, x_, radius_);
+      const std::optional<View> seen = viewPatch(surface_, at, x_, radius_);
       if (!seen || seen->distance <= -radius_) continue;
       const double overlap = radius_ - seen->distance;
       s_.hits.push_back({faces_[k], at, seen->normal, overlap, overlap, {}});
@@ -85,11 +83,11 @@ private:
     hit.at = closestPointOnPatch(surface_, hit.face, y, hit.at.parameter);
     for (int hop = 0; hop < 4; ++hop) {
       const int edge = hit.at.edge;
-      if (edge < 0 || surface_.across[hit.face][edge] < 0 || !leavesThrough(surface_, hit.face, hit.at, y)) break;
+      if (edge < 0 || surface_.across[hit.face][edge] < 0 || !leavesThrough(hit.at, y)) break;
       hit.face = surface_.across[hit.face][edge];
       hit.at = closestPointOnPatch(surface_, hit.face, y, {0.5, 0.5});
     }
-    const std::optional<View> seen = viewPatch(surface_, hit.face, hit.at, y, radius_);
+    const std::optional<View> seen = viewPatch(surface_, hit.at, y, radius_);
     if (seen) hit.normal = seen->normal;
     hit.overlap = seen ? radius_ - dot(hit.normal, x_ - hit.at.point) : 0.0;
   }

@@ -13,43 +13,40 @@ constexpr std::array<std::array<int, 2>, 4> outward{{{0, -1}, {1, 0}, {0, 1}, {-
 
 /// The uniform quadratic B-spline has its knots in the middles of the faces: left of the middle it takes the first
 /// three of the four control points, from there on the last three.
-std::array<double, 4> placed(const std::array<double, 3>& three, double t) {
-  return t < 0.5 ? std::array<double, 4>{three[0], three[1], three[2], 0.0}
-                 : std::array<double, 4>{0.0, three[0], three[1], three[2]};
-}
-double sinceKnot(double t) { return t < 0.5 ? t + 0.5 : t - 0.5; }
-std::array<double, 4> spline(double t) {
-  const double s = sinceKnot(t);
-  return placed({0.5 * (1.0 - s) * (1.0 - s), 0.5 + s * (1.0 - s), 0.5 * s * s}, t);
-}
-std::array<double, 4> splineSlope(double t) {
-  const double s = sinceKnot(t);
-  return placed({s - 1.0, 1.0 - 2.0 * s, s}, t);
-}
-std::array<double, 4> splineCurvature(double t) { return placed({1.0, -2.0, 1.0}, t); }
+struct Spline {
+  std::size_t first;
+  std::array<double, 3> value, slope, curvature;
+
+  explicit Spline(double t) : first(t < 0.5 ? 0 : 1) {
+    const double s = t < 0.5 ? t + 0.5 : t - 0.5;
+    value = {0.5 * (1.0 - s) * (1.0 - s), 0.5 + s * (1.0 - s), 0.5 * s * s};
+    slope = {s - 1.0, 1.0 - 2.0 * s, s};
+    curvature = {1.0, -2.0, 1.0};
+  }
+};
 
 struct PatchJet {
   Vec3 s, sXi, sEta, sXiXi, sXiEta, sEtaEta;
 };
 
 PatchJet evaluate(const SmoothSurface& surface, int face, double xi, double eta) {
-  const auto b = spline(xi), db = splineSlope(xi), ddb = splineCurvature(xi);
-  const auto c = spline(eta), dc = splineSlope(eta), ddc = splineCurvature(eta);
+  const Spline b(xi), c(eta);
+  const auto& control = surface.control[static_cast<std::size_t>(face)];
   PatchJet jet;
-  for (int j = 0; j < 4; ++j) {
+  for (std::size_t j = 0; j < 3; ++j) {
     Vec3 line, slope, curvature;
-    for (int i = 0; i < 4; ++i) {
-      const Vec3& point = surface.x[surface.control[face][i + 4 * j]];
-      line += b[i] * point;
-      slope += db[i] * point;
-      curvature += ddb[i] * point;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& point = surface.x[static_cast<std::size_t>(control[b.first + i + 4 * (c.first + j)])];
+      line += b.value[i] * point;
+      slope += b.slope[i] * point;
+      curvature += b.curvature[i] * point;
     }
-    jet.s += c[j] * line;
-    jet.sXi += c[j] * slope;
-    jet.sXiXi += c[j] * curvature;
-    jet.sEta += dc[j] * line;
-    jet.sXiEta += dc[j] * slope;
-    jet.sEtaEta += ddc[j] * line;
+    jet.s += c.value[j] * line;
+    jet.sXi += c.value[j] * slope;
+    jet.sXiXi += c.value[j] * curvature;
+    jet.sEta += c.slope[j] * line;
+    jet.sXiEta += c.slope[j] * slope;
+    jet.sEtaEta += c.curvature[j] * line;
   }
   return jet;
 }
@@ -115,33 +112,44 @@ bool walk(const SmoothSurface& surface, int face, const Vec3& p, std::array<doub
   return false;
 }
 
+PatchPoint pointAt(const Foot& foot) {
+  const auto [xi, eta] = foot.parameter;
+  PatchPoint at;
+  at.parameter = foot.parameter;
+  at.weight = patchWeights(xi, eta);
+  at.point = foot.jet.s;
+  at.tangent = {foot.jet.sXi, foot.jet.sEta};
+  at.edge = eta <= 0.0 ? 0 : xi >= 1.0 ? 1 : eta >= 1.0 ? 2 : xi <= 0.0 ? 3 : -1;
+  return at;
+}
+
 }  // namespace
 
 std::array<double, 16> patchWeights(double xi, double eta) {
-  const auto b = spline(xi), c = spline(eta);
+  const Spline b(xi), c(eta);
   std::array<double, 16> weight{};
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i) weight[i + 4 * j] = b[i] * c[j];
+  for (std::size_t j = 0; j < 3; ++j)
+    for (std::size_t i = 0; i < 3; ++i) weight[b.first + i + 4 * (c.first + j)] = b.value[i] * c.value[j];
   return weight;
+}
+
+PatchPoint pointOnPatch(const SmoothSurface& surface, int face, std::array<double, 2> parameter) {
+  return pointAt({parameter, evaluate(surface, face, parameter[0], parameter[1])});
 }
 
 PatchPoint closestPointOnPatch(const SmoothSurface& surface, int face, const Vec3& p, std::array<double, 2> start) {
   constexpr double roundOff = 1e-14;
-  PatchPoint closest;
-  closest.found = false;
+  bool found = false;
   Foot foot{start, evaluate(surface, face, start[0], start[1])};
-  for (int iteration = 0; iteration < 100 && !closest.found; ++iteration) {
+  for (int iteration = 0; iteration < 100 && !found; ++iteration) {
     const std::array<double, 2> before = foot.parameter, next = newtonStep(foot.jet, p, before);
     if (largestChange(next, before) >= roundOff && !walk(surface, face, p, next, 2, foot))
       walk(surface, face, p, slopeStep(foot.jet, p, before), 60, foot);
-    closest.found = largestChange(foot.parameter, before) < (iteration < 20 ? roundOff : 1e-9);
+    found = largestChange(foot.parameter, before) < (iteration < 20 ? roundOff : 1e-9);
   }
-  closest.parameter = foot.parameter;
-  const auto [xi, eta] = closest.parameter;
-  closest.weight = patchWeights(xi, eta);
-  closest.point = foot.jet.s;
+  PatchPoint closest = pointAt(foot);
   closest.squaredDistance = squaredNorm(p - foot.jet.s);
-  closest.edge = eta <= 0.0 ? 0 : xi >= 1.0 ? 1 : eta >= 1.0 ? 2 : xi <= 0.0 ? 3 : -1;
+  closest.found = found;
   return closest;
 }
 
@@ -157,18 +165,12 @@ std::array<double, 2> roughlyClosest(const SmoothSurface& surface, int face, con
   return best;
 }
 
-bool leavesThrough(const SmoothSurface& surface, int face, const PatchPoint& foot, const Vec3& p) {
-  const PatchJet jet = evaluate(surface, face, foot.parameter[0], foot.parameter[1]);
-  const Vec3 r = jet.s - p;
-  const std::array<double, 2> slope{dot(r, jet.sXi), dot(r, jet.sEta)};
+bool leavesThrough(const PatchPoint& foot, const Vec3& p) {
+  const Vec3 r = foot.point - p;
+  const std::array<double, 2> slope{dot(r, foot.tangent[0]), dot(r, foot.tangent[1])};
   const double along = outward[foot.edge][0] * slope[0] + outward[foot.edge][1] * slope[1];
-  const double scale = norm(r) * (foot.edge % 2 == 1 ? norm(jet.sXi) : norm(jet.sEta));
+  const double scale = norm(r) * norm(foot.tangent[foot.edge % 2 == 1 ? 0 : 1]);
   return along < -1e-12 * scale;
-}
-
-Vec3 patchNormal(const SmoothSurface& surface, int face, const PatchPoint& at) {
-  const PatchJet jet = evaluate(surface, face, at.parameter[0], at.parameter[1]);
-  return normalized(cross(jet.sXi, jet.sEta));
 }
 
 }  // namespace dovetail::surface

@@ -138,10 +138,14 @@ TEST(Skin, PlacesVerticesByTheCarrier) {
   for (int vertex : some) {
     EXPECT_EQ(skin.wall.x[vertex], all.wall.x[vertex]);
     EXPECT_EQ(skin.wall.v[vertex], all.wall.v[vertex]);
-    Vec3 x = skin.X[vertex] + skin.turns.shift(static_cast<std::size_t>(vertex));
-    for (std::size_t k = 0; k < skin.carrier.rowColumns(vertex).size(); ++k)
+    Vec3 x = skin.X[vertex], speed;
+    skin.turns.carry(static_cast<std::size_t>(vertex), x, speed);
+    for (std::size_t k = 0; k < skin.carrier.rowColumns(vertex).size(); ++k) {
       x += skin.carrier.rowWeights(vertex)[k] * u[skin.carrier.rowColumns(vertex)[k]];
+      speed += skin.carrier.rowWeights(vertex)[k] * v[skin.carrier.rowColumns(vertex)[k]];
+    }
     EXPECT_LE(norm(x - skin.wall.x[vertex]), 2e-15);
+    EXPECT_LE(norm(speed - skin.wall.v[vertex]), 2e-14);
   }
   EXPECT_EQ(skin.wall.x[4], skin.X[4]);
 }

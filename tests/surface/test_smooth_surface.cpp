@@ -98,10 +98,10 @@ TEST_P(SmoothNormals, AreContinuousWhereThoseOfFacetsJump) {
       ++boundaries;
       const int edge = edgeTowards(surface, other, face);
       for (double t : {0.0, 0.3, 1.0}) {
-        const PatchPoint here = pointAt(surface, face, onEdge(e, t)),
-                         there = pointAt(surface, other, onEdge(edge, 1 - t));
+        const PatchPoint here = pointOnPatch(surface, face, onEdge(e, t)),
+                         there = pointOnPatch(surface, other, onEdge(edge, 1 - t));
         gap = std::max(gap, norm(here.point - there.point));
-        jump = std::max(jump, norm(patchNormal(surface, face, here) - patchNormal(surface, other, there)));
+        jump = std::max(jump, norm(here.normal() - there.normal()));
       }
       const auto normalOf = [&](int facet) {
         const auto& v = skin.wall.facets[facet];
@@ -138,7 +138,7 @@ TEST(SmoothSurface, ClosestPointAgainstBruteForce) {
       EXPECT_LE(norm(pointAt(surface, face, closest.parameter).point - closest.point), 1e-13);
       EXPECT_NEAR(norm(p - closest.point), distance, 1e-13);
       if (closest.edge < 0) {
-        EXPECT_LE(norm(cross(p - closest.point, patchNormal(surface, face, closest))), 1e-12);
+        EXPECT_LE(norm(cross(p - closest.point, closest.normal())), 1e-12);
       }
     }
   }

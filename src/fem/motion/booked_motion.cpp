@@ -90,12 +90,13 @@ void BookedMotion::giveImpulses(double h, bool changes) {
   const Model& model = motion.model();
   if (outside_.empty()) {
     for (const std::vector<Vec3>& load : motion.loads()) outside_.push_back(momentaOf(model.nodes, load));
+    if (!changes) atSupports_ = supportKick(model.nodes, motion.mass(), {}, model.nodes.f, 1.0).impulse;
   }
   for (std::size_t k = 0; k < outside_.size(); ++k)
     if (!motion.loads()[k].empty() && !detail::isElements(*model.terms[k]))
       impulses.give(model.terms[k]->name(), 0.5 * h * outside_[k]);
-  const std::span<const Vec3> before = changes ? std::span<const Vec3>(before_) : std::span<const Vec3>();
-  impulses.give("supports", supportKick(model.nodes, motion.mass(), before, model.nodes.f, 0.5 * h).impulse);
+  impulses.give("supports", changes ? supportKick(model.nodes, motion.mass(), before_, model.nodes.f, 0.5 * h).impulse
+                                    : 0.5 * h * atSupports_);
 }
 
 void BookedMotion::save(ByteWriter& archive, const std::string& kind) const {

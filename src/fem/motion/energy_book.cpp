@@ -28,8 +28,8 @@ void EnergyBook::accept(Model& model, const Instant& now, bool wanted) {
   for (const auto& term : model.terms) {
     const double dissipated = term->commit(model.nodes, now);
     if (!wanted) continue;
-    spend("dissipated by " + term->name(), dissipated);
-    spend("motion of " + term->name(), -term->workOfMotion());
+    if (dissipated != 0.0) spend("dissipated by " + term->name(), dissipated);
+    if (const double work = term->workOfMotion(); work != 0.0) spend("motion of " + term->name(), -work);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "dovetail/fem/motion/motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "dovetail/core/parallel.hpp"
@@ -12,8 +13,33 @@ namespace {
 
 constexpr std::size_t nodeGrain = 4096;
 
-/// 0 · v is NaN if v is not finite, and a sum passes it on.
-double poison(const Vec3& v) { return 0.0 * (v.x + v.y + v.z); }
+static_assert(sizeof(Vec3) == 3 * sizeof(double));
+
+/// v += increment(k) of component k = 0, 1 … Whether v is finite: 0 · v is NaN if it is not, and sums pass it on;
+/// several side by side, so that none waits for the one before.
+template <class Increment>
+bool add(std::vector<Vec3>& v, Increment&& increment) {
+  constexpr std::size_t lanes = 24;
+  if (v.empty()) return true;
+  double* const value = &v.front().x;
+  const double sum = parallelSum(v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+    std::array<double, lanes> bad{};
+    std::size_t k = 3 * begin;
+    for (; k + lanes <= 3 * end; k += lanes)
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        value[k + lane] += increment(k + lane);
+        bad[lane] += 0.0 * value[k + lane];
+      }
+    for (; k < 3 * end; ++k) {
+      value[k] += increment(k);
+      bad[0] += 0.0 * value[k];
+    }
+    double all = 0.0;
+    for (const double one : bad) all += one;
+    return all;
+  });
+  return sum == 0.0;
+}
 
 }  // namespace
 
@@ -51,33 +77,14 @@ bool Motion::kick(double dt) {
     impl_->mass.solve(impl_->acceleration);
     return kick(impl_->acceleration, dt);
   }
-  const std::span<const int> row = impl_->dofs.freeRow();
-  const double sum = parallelSum(nodes.v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
-    double bad = 0.0;
-    for (std::size_t n = begin; n < end; ++n) {
-      Vec3& v = nodes.v[n];
-      const double factor = dt / nodes.mass[n];
-      if (row[3 * n] >= 0) v.x += factor * nodes.f[n].x;
-      if (row[3 * n + 1] >= 0) v.y += factor * nodes.f[n].y;
-      if (row[3 * n + 2] >= 0) v.z += factor * nodes.f[n].z;
-      bad += poison(v);
-    }
-    return bad;
-  });
-  return sum == 0.0;
+  const double* const f = &nodes.f.front().x;
+  const double* const inverse = impl_->mass.inverse().data();
+  return add(nodes.v, [=](std::size_t k) { return (dt * inverse[k]) * f[k]; });
 }
 
 bool Motion::kick(std::span<const Vec3> a, double dt) {
-  std::vector<Vec3>& v = impl_->model->nodes.v;
-  const double sum = parallelSum(v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
-    double bad = 0.0;
-    for (std::size_t n = begin; n < end; ++n) {
-      v[n] += dt * a[n];
-      bad += poison(v[n]);
-    }
-    return bad;
-  });
-  return sum == 0.0;
+  const double* const rate = &a.front().x;
+  return add(impl_->model->nodes.v, [=](std::size_t k) { return dt * rate[k]; });
 }
 
 void Motion::drift(double dt) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <iosfwd>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dovetail {
@@ -50,7 +51,7 @@ public:
 
   const std::vector<Channel>& channels() const { return channels_; }
   /// Of the channel of that name, J; 0 if there is none: channels of what never happened may be absent.
-  double joules(const std::string& name) const;
+  double joules(std::string_view name) const;
 
 private:
   Id addChannel(std::string name, Kind kind);

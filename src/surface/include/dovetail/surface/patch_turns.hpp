@@ -15,9 +15,8 @@ namespace dovetail::surface {
 /// shares of the patch's area.
 struct PatchFrame {
   std::vector<int> node;
-  std::vector<double> share;    ///< a, sums to one
-  std::vector<Vec3> arm;        ///< X_i − Σ a X, m
-  std::array<Vec3, 3> moments;  ///< Σ a D Dᵀ by columns, m², D = arm
+  std::vector<Vec3> arm;        ///< a D, m; D = X − Σ a X, a the node's share of the area, which sums to one
+  std::array<Vec3, 3> moments;  ///< Σ a D Dᵀ by columns, m²
   std::array<Vec3, 2> axis;     ///< unit; the directions in which the patch is largest
   bool slender = false;         ///< more than twice as long as wide
 
@@ -44,19 +43,17 @@ struct PatchTurns {
   std::vector<PatchFrame> frames;  ///< per patch
 
   bool empty() const { return offset.empty(); }
-  /// What a point moves beyond S u, m, and beyond S v, m/s. Its patch must have been placed.
-  Vec3 shift(std::size_t point) const {
-    const Vec3& d = offset[point];
-    return rotate(frames[static_cast<std::size_t>(patch[point])].turn, d) - d;
-  }
-  Vec3 velocity(std::size_t point) const {
+  /// Adds what a point moves beyond S u, m, and beyond S v, m/s. Its patch must have been placed.
+  void carry(std::size_t point, Vec3& x, Vec3& v) const {
     const PatchFrame& frame = frames[static_cast<std::size_t>(patch[point])];
-    return cross(frame.spin, rotate(frame.turn, offset[point]));
+    const Vec3 turned = rotate(frame.turn, offset[point]);
+    x += turned - offset[point];
+    v += cross(frame.spin, turned);
   }
 };
 
 /// A frame of nodes at X (m) with shares of an area > 0, in any unit.
-PatchFrame makeFrame(std::vector<int> node, std::vector<double> area, std::span<const Vec3> X);
+PatchFrame makeFrame(std::vector<int> node, std::span<const double> area, std::span<const Vec3> X);
 
 /// Places the patches of these points. @throws NumericalError naming a patch that has shrunk to a line
 void placeFrames(PatchTurns& turns, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> points);

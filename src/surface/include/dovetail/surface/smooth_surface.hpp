@@ -43,10 +43,15 @@ struct PatchPoint {
   std::array<double, 2> parameter{};
   std::array<double, 16> weight{};  ///< B-spline weights of the face's control points; sum to one
   Vec3 point;
-  int edge = -1;  ///< edge of the face on which the point lies (0 … 3), −1 inside
+  std::array<Vec3, 2> tangent;  ///< ∂point/∂parameter, m
+  int edge = -1;                ///< edge of the face on which the point lies (0 … 3), −1 inside
   double squaredDistance = 0.0;
   bool found = true;  ///< false: the search has not come to rest
+
+  /// Unit, outward for faces counter-clockwise from outside.
+  Vec3 normal() const { return normalized(cross(tangent[0], tangent[1])); }
 };
+PatchPoint pointOnPatch(const SmoothSurface& surface, int face, std::array<double, 2> parameter);
 /// By Newton's method, in steps that never go away from p. Of several closest points the one that lies downhill of
 /// `start`.
 PatchPoint closestPointOnPatch(const SmoothSurface& surface, int face, const Vec3& p, std::array<double, 2> start);
@@ -55,9 +60,7 @@ PatchPoint closestPointOnPatch(const SmoothSurface& surface, int face, const Vec
 std::array<double, 2> roughlyClosest(const SmoothSurface& surface, int face, const Vec3& p);
 
 /// Whether the distance to p still falls when the foot leaves the face through the edge it lies on.
-bool leavesThrough(const SmoothSurface& surface, int face, const PatchPoint& foot, const Vec3& p);
-/// Unit normal at a point of the patch, outward for faces counter-clockwise from outside.
-Vec3 patchNormal(const SmoothSurface& surface, int face, const PatchPoint& at);
+bool leavesThrough(const PatchPoint& foot, const Vec3& p);
 
 /// An upper bound of Σ_i S_i² / m_i over the surface, 1/kg, where S_i are the weights of a point's nodes: what the mass
 /// of the solid contributes to the stiffest contact, ω² = k (1/m_particle + Σ S_i²/m_i). It is the largest value at the

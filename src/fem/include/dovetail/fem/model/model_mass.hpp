@@ -35,6 +35,8 @@ public:
   const DofMap& dofs() const { return *dofs_; }
   /// Whether M⁻¹ is a division.
   bool isDiagonal() const { return share_ == 0.0 && !dofs_->hasTies(); }
+  /// M⁻¹ where it is a division, 1/kg: three per node, 0 at components that are not free.
+  std::span<const double> inverse() const { return inverse_; }
   /// y = M x.
   void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
   /// ½ vᵀMv, J.
@@ -58,8 +60,9 @@ private:
 
   const DofMap* dofs_;
   double share_;
-  std::vector<double> mass_;  // lumped, kg per node
-  NodeMatrix matrix_;         // share · consistent + (1 − share) · lumped; empty if lumped
+  std::vector<double> mass_;     // lumped, kg per node
+  std::vector<double> inverse_;  // empty unless M⁻¹ is a division
+  NodeMatrix matrix_;            // share · consistent + (1 − share) · lumped; empty if lumped
   mutable std::vector<Factor> factors_;
   mutable std::array<std::size_t, 3> factorOf_{};
   mutable BlockMatrix tied_;  // with ties

@@ -58,7 +58,9 @@ private:
   bool accelerated_ = false;        // acceleration_ is that of nodes.f
   std::vector<Vec3> acceleration_;  // m/s²; empty where M⁻¹ is a division
   std::vector<Vec3> before_;
-  std::vector<Momenta> outside_;  // forces per term of the last evaluation, N and N m; empty before they are asked for
+  // Of the last evaluation, N and N m: forces per term, empty before they are asked for, and those of supports at rest.
+  std::vector<Momenta> outside_;
+  Momenta atSupports_;
 };
 
 }  // namespace dovetail::fem
