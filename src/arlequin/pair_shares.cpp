@@ -108,7 +108,7 @@ void PairShares::renumber(std::span<const int> newNumber) {
     pair.i = std::min(i, j), pair.j = std::max(i, j);
   }
   std::erase_if(pairs, [](const PairShare& pair) { return pair.i < 0; });
-  std::ranges::sort(pairs, {}, order);
+  if (!std::ranges::is_sorted(pairs, {}, order)) std::ranges::sort(pairs, {}, order);
 }
 
 }  // namespace dovetail::arlequin
