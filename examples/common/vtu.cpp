@@ -6,13 +6,7 @@ namespace dovetail::example {
 void writeVtu(const std::filesystem::path& folder, const std::string& name, double time,
               const dem::Particles& particles, const io::KeyValues& provenance) {
   io::VtuSeries series(folder, name, provenance);
-  series.write(time, {.position = particles.x,
-                      .radius = particles.radius,
-                      .velocity = particles.v,
-                      .force = particles.f,
-                      .id = particles.id,
-                      .vectors = {},
-                      .scalars = {}});
+  series.write(time, io::frameOf(particles));
 }
 
 }  // namespace dovetail::example

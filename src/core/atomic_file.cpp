@@ -8,8 +8,10 @@
 #include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 #include "dovetail/core/error.hpp"
 
@@ -66,23 +68,34 @@ int writeAll(int file, std::string_view bytes) {
 }
 
 /// Returns 0, or the errno of the first failure.
-int fill(int file, std::initializer_list<std::string_view> pieces) {
+int fill(int file, std::initializer_list<std::string_view> pieces, Survives survives) {
   for (const std::string_view piece : pieces)
     if (const int failure = writeAll(file, piece); failure != 0) return failure;
+  if (survives == Survives::kills) return 0;
   return ::fsync(file) == 0 || errno == EINVAL ? 0 : errno;
 }
 
-/// "<name>.part-<digits>-<digits>"
-bool isTemporaryName(const std::string& name) {
+/// The process in "<name>.part-<process>-<number>"; nothing for other names.
+std::optional<pid_t> writerOf(const std::string& name) {
   const auto isNumber = [](std::string_view text) {
-    return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    return !text.empty() && text.size() < 10 &&
+           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
   };
   const std::string mark = ".part-";
   const std::size_t at = name.rfind(mark);
-  if (at == std::string::npos) return false;
+  if (at == std::string::npos) return {};
   const std::string_view numbers = std::string_view(name).substr(at + mark.size());
   const std::size_t dash = numbers.find('-');
-  return dash != std::string_view::npos && isNumber(numbers.substr(0, dash)) && isNumber(numbers.substr(dash + 1));
+  if (dash == std::string_view::npos || !isNumber(numbers.substr(0, dash)) || !isNumber(numbers.substr(dash + 1)))
+    return {};
+  return static_cast<pid_t>(std::stol(std::string(numbers.substr(0, dash))));
+}
+
+/// A program that is killed between making a file and filling it leaves one without a mark, but also without content.
+bool isEmptyOfDeadProgram(const fs::directory_entry& entry, pid_t writer) {
+  std::error_code error;
+  return fs::is_regular_file(entry.symlink_status(error)) && entry.file_size(error) == 0 && !error &&
+         ::kill(writer, 0) != 0 && errno == ESRCH;
 }
 
 }  // namespace
@@ -109,16 +122,17 @@ void requireFreeOrOurs(const fs::path& path, IsOurs isOurs) {
 void requireWritable(const fs::path& folder) {
   fs::path probe;
   const Descriptor file(openTemporary(folder / "probe", probe));
-  const int failure = fill(file.number, {"dovetail"});
+  const int failure = fill(file.number, {"dovetail"}, Survives::powerCuts);
   ::unlink(probe.c_str());
   if (failure != 0) refuse(folder, reason(failure));
 }
 
-void replaceFile(const fs::path& path, std::initializer_list<std::string_view> pieces, IsOurs isOurs) {
+void replaceFile(const fs::path& path, std::initializer_list<std::string_view> pieces, IsOurs isOurs,
+                 Survives survives) {
   fs::path temporary;
   const Descriptor file(openTemporary(path, temporary));
   ::flock(file.number, LOCK_EX | LOCK_NB);  // until it is renamed: see removeLeftovers
-  if (const int failure = fill(file.number, pieces); failure != 0) {
+  if (const int failure = fill(file.number, pieces, survives); failure != 0) {
     ::unlink(temporary.c_str());
     breakOff(path, failure);
   }
@@ -145,7 +159,8 @@ void appendToFile(const fs::path& path, std::string_view bytes, IsOurs isOurs) {
 void removeLeftovers(const fs::path& folder, IsOurs isOurs) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (!isTemporaryName(entry.path().filename().string()) || !isOurs(entry.path())) continue;
+    const std::optional<pid_t> writer = writerOf(entry.path().filename().string());
+    if (!writer || (!isOurs(entry.path()) && !isEmptyOfDeadProgram(entry, *writer))) continue;
     const Descriptor file(::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
     // A program that still writes it holds it locked.
     if (file.number >= 0 && ::flock(file.number, LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());

@@ -1,4 +1,6 @@
 // Runs that come to rest.
+#include "dovetail/coupling/rest.hpp"
+
 #include <algorithm>
 
 #include "dovetail/core/error.hpp"
@@ -47,30 +49,35 @@ static double elasticEnergy(CoupledRun& run) {
   return sum;
 }
 
-RestReport settle(CoupledRun& run, const RestOptions& options) {
+bool settleOn(CoupledRun& run, const RestOptions& options, RestProgress& progress, std::int64_t windows) {
   requirePositive(options.kinetic, "kinetic energy at rest");
   if (options.windows < 1)
     throw InputError("windows is " + std::to_string(options.windows), "RestOptions", "give 1 or more");
-  RestReport report;
-  run.stop();
-  double before = 0.0;
-  int quiet = 0;
-  for (; report.windows < options.windows && quiet < 2; ++report.windows) {
+  RestReport& report = progress.report;
+  if (report.windows == 0) run.stop();
+  const std::int64_t end = std::min(options.windows, report.windows + windows);
+  for (; report.windows < end && progress.quiet < 2; ++report.windows) {
     run.step(true);
     const double kinetic = run.kineticEnergy();
-    if (kinetic >= before) {
-      before = kinetic;
+    if (kinetic >= progress.before) {
+      progress.before = kinetic;
       continue;
     }
     const double elastic = elasticEnergy(run);
-    report.kinetic = elastic > 0.0 ? before / elastic : 1.0;
-    quiet = report.kinetic <= options.kinetic ? quiet + 1 : 0;
+    report.kinetic = elastic > 0.0 ? progress.before / elastic : 1.0;
+    progress.quiet = report.kinetic <= options.kinetic ? progress.quiet + 1 : 0;
     ++report.stops;
     run.stop();
-    before = 0.0;
+    progress.before = 0.0;
   }
-  report.atRest = quiet == 2;
-  return report;
+  report.atRest = progress.quiet == 2;
+  return report.atRest || report.windows >= options.windows;
+}
+
+RestReport settle(CoupledRun& run, const RestOptions& options) {
+  RestProgress progress;
+  settleOn(run, options, progress, options.windows);
+  return progress.report;
 }
 
 }  // namespace dovetail::coupling

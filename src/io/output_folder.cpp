@@ -41,7 +41,9 @@ void removeOurs(const fs::path& path) {
   if (error) throw Error("a file of an earlier run cannot be removed (" + error.message() + ")", path.string(), "");
 }
 
-void writeFileAtomically(const fs::path& path, const std::string& text) { replaceFile(path, {text}, isOurs); }
+void writeFileAtomically(const fs::path& path, const std::string& text, Survives survives) {
+  replaceFile(path, {text}, isOurs, survives);
+}
 
 fs::path prepareOutputFolder(const fs::path& folder, const std::vector<std::string>& fileNames) {
   if (folder.empty()) throw InputError("the output folder has no name", "output folder", "give one, for instance out");
@@ -54,6 +56,8 @@ fs::path prepareOutputFolder(const fs::path& folder, const std::vector<std::stri
   }
   requireWritable(folder);
   removeLeftovers(folder, isOurs);
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (fs::is_directory(entry.symlink_status(ignored))) removeLeftovers(entry.path(), isOurs);
   for (const std::string& name : fileNames) requireFreeOrOurs(folder / name);
   return folder;
 }

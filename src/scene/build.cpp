@@ -54,7 +54,7 @@ std::vector<Limit> limitsOfSolids(Built& built, int stepsPerWindow) {
 
 Built build(const Scene& scene) {
   if (scene.steps.threads > 0) setThreads(scene.steps.threads);
-  Built built{std::make_unique<coupling::CoupledRun>(), {}, {}};
+  Built built{std::make_unique<coupling::CoupledRun>(), {}, {}, {}};
   dem::Model& grains = built.run->grains;
   setLaws(grains, scene);
   grains.gravity = scene.gravity;
@@ -63,7 +63,7 @@ Built build(const Scene& scene) {
     grains.domain =
         dem::Domain{scene.domain->box, scene.domain->removes ? dem::EscapePolicy::remove : dem::EscapePolicy::refuse};
   addParticles(grains, scene, built.notes);
-  addWalls(grains, scene);
+  addWalls(built, scene);
   addClumpsAndStreams(grains, scene);
   addSolids(built, scene);
   addCouplings(built, scene);

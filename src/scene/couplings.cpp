@@ -4,22 +4,11 @@
 #include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/surface/surface_contact.hpp"
-#include "nearest.hpp"
 #include "parts.hpp"
 
 namespace dovetail::scene {
 
 namespace {
-
-std::size_t solidNamed(const std::string& name, const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Solid& solid : scene.solids) names.push_back(solid.name);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    throw InputError("there is no solid \"" + name + "\"", "",
-                     names.empty() ? "add it to solids" : adviceFor(name, names));
-  return static_cast<std::size_t>(found - names.begin());
-}
 
 void add(Built& built, std::size_t solid, const Coupling& coupling, const SurfaceContact& contact) {
   dem::Model& grains = built.run->grains;
@@ -68,7 +57,7 @@ std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh&
 void addCouplings(Built& built, const Scene& scene) {
   for (const Coupling& coupling : scene.couplings)
     atPlace(coupling.where, [&] {
-      const std::size_t solid = solidNamed(coupling.solid, scene);
+      const std::size_t solid = solidNamed(coupling.solid, *built.run);
       std::visit([&](const auto& kind) { add(built, solid, coupling, kind); }, coupling.kind);
     });
 }

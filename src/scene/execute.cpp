@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <ostream>
-#include <sstream>
 
+#include "checkpoints.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -14,7 +14,9 @@
 #include "dovetail/io/interruption.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/scene/read.hpp"
-#include "outputs.hpp"
+#include "frames.hpp"
+#include "series.hpp"
+#include "summary.hpp"
 
 namespace dovetail::scene {
 
@@ -27,6 +29,12 @@ constexpr std::int64_t lookEvery = 20;  // windows between two looks at signals
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+std::vector<std::string> fileNames(const Scene& scene) {
+  std::vector<std::string> names{"scene.json", "series.csv", "summary.txt", "summary.json"};
+  if (scene.output.hdf5) names.push_back("series.h5");
+  return names;
+}
+
 /// A run under way with its files.
 class Execution {
 public:
@@ -37,7 +45,7 @@ public:
         text_(sceneText(scene)),
         hash_(hashOf(text_)),
         provenance_(io::provenance({{"scene", hash_}})),
-        lock_(io::prepareOutputFolder(settings.folder, {"scene.json", "series.csv", "summary.txt"})),
+        lock_(io::prepareOutputFolder(settings.folder, fileNames(scene))),
         built_(build(scene)) {
     built_.run->profile = Profile(settings.profile);
     start(built_, scene);
@@ -46,15 +54,21 @@ public:
     if (scene.output.series) seriesEvery_ = windowsIn(*scene.output.series);
     if (scene.output.frames) framesEvery_ = windowsIn(*scene.output.frames);
     if (scene.output.checkpoints) checkpointsEvery_ = windowsIn(*scene.output.checkpoints);
-    if (seriesEvery_ > 0) series_ = std::make_unique<Series>(built_, file("series.csv"), provenance_);
+    if (seriesEvery_ > 0)
+      series_ = std::make_unique<Series>(built_, scene.output.probes,
+                                         SeriesFiles{settings.folder, provenance_, scene.output.hdf5});
+    else
+      refuseWithoutSeries();
     if (goesOn) {
       progress_ = readCheckpoint(settings.folder, hash_, *built_.run);
       if (series_) series_->takeUp(progress_.rows);
     }
-    if (framesEvery_ > 0) frames_ = std::make_unique<Frames>(built_, settings.folder, provenance_, progress_.frames);
+    if (framesEvery_ > 0)
+      frames_ = std::make_unique<Frames>(built_, scene, settings.folder, provenance_, progress_.frames);
     for (const std::string& note : built_.notes) log_ << note << '\n';
     if (goesOn) return;
-    for (const char* const old : {"checkpoint.state", "checkpoint.previous.state"}) io::removeOurs(file(old));
+    for (const char* const old : {"checkpoint.state", "checkpoint.previous.state", "summary.txt", "summary.json"})
+      io::removeOurs(file(old));
     io::writeFileAtomically(file("scene.json"), io::provenanceLines(provenance_, "// ") + text_);
     sample(0);
     frame(0);
@@ -65,9 +79,11 @@ public:
       const Clock::time_point begun = Clock::now();
       const Stage& stage = scene_.stages[progress_.stage];
       if (!std::visit([&](const auto& kind) { return execute(kind); }, stage.kind)) return stop();
+      notes_.stages.push_back({progress_.stage + 1, nameOf(stage), rounded(since(begun))});
       note("stage " + std::to_string(progress_.stage + 1) + ": " + formatNumber(rounded(since(begun))) + " s");
     }
     if (checkpointsEvery_ > 0) checkpoint();
+    if (series_) series_->close(text_);
     summarise();
     return true;
   }
@@ -83,19 +99,40 @@ private:
           scene_.steps.where, "take a shorter time or a larger step");
     return std::max<std::int64_t>(1, std::llround(count));
   }
+  static const char* nameOf(const Stage& stage) {
+    return std::holds_alternative<Settle>(stage.kind) ? "settle" : "run";
+  }
+  void refuseWithoutSeries() const {
+    const char* const asked = !scene_.output.probes.empty() ? "probes" : scene_.output.hdf5 ? "hdf5" : nullptr;
+    if (asked)
+      throw InputError(std::string("output has ") + asked + ", but no series", scene_.output.where,
+                       "give output.series an interval, or leave them out");
+  }
   void note(const std::string& line) {
-    notes_ += line + "\n";
+    notes_.lines.push_back(line);
     log_ << line << std::endl;
   }
 
   bool execute(const Settle& settle) {
-    const coupling::RestReport rest =
-        coupling::settle(*built_.run, {.kinetic = settle.kinetic, .windows = settle.windows});
-    note(std::string(rest.atRest ? "at rest" : "NOT at rest") + " after " + std::to_string(rest.windows) +
-         " windows, kinetic over elastic energy " + formatNumber(rest.kinetic));
+    coupling::RestProgress& rest = progress_.rest;
+    const coupling::RestOptions options{.kinetic = settle.kinetic, .windows = settle.windows};
+    for (bool ended = false; !ended;) {
+      const std::int64_t next = nextLook(progress_.window, settle.windows);
+      ended = coupling::settleOn(*built_.run, options, rest, next - progress_.window);
+      progress_.window = rest.report.windows;
+      if (ended) break;
+      if (due(checkpointsEvery_)) checkpoint();
+      if (io::interruption() != 0) return false;
+    }
+    const std::string line = std::string(rest.report.atRest ? "at rest" : "NOT at rest") + " after " +
+                             std::to_string(rest.report.windows) + " windows, kinetic over elastic energy " +
+                             formatNumber(rest.report.kinetic);
+    note(line);
+    if (!rest.report.atRest) notes_.warnings.push_back(line);
+    rest = {};
     sample(0);
     frame(0);
-    return io::interruption() == 0;
+    return true;
   }
 
   bool execute(const RunFor& plan) {
@@ -143,8 +180,9 @@ private:
     const coupling::StepLimit limit = built_.run->criticalStep();
     if (warned_ || built_.run->dt() <= limit.dt) return;
     warned_ = true;
-    note("WARNING: at t = " + formatNumber(built_.run->time()) + " s the step is beyond " + formatNumber(limit.dt) +
-         " s, which " + limit.owner + " sets: take a smaller steps.dt");
+    notes_.warnings.push_back("at t = " + formatNumber(built_.run->time()) + " s the step is beyond " +
+                              formatNumber(limit.dt) + " s, which " + limit.owner + " sets: take a smaller steps.dt");
+    note("WARNING: " + notes_.warnings.back());
   }
   void frame(std::int64_t every) {
     if (!frames_ || (every > 0 && !due(every))) return;
@@ -154,21 +192,16 @@ private:
   void checkpoint() { writeCheckpoint(settings_.folder, hash_, progress_, *built_.run); }
 
   bool stop() {
-    if (std::holds_alternative<Settle>(scene_.stages[progress_.stage].kind)) ++progress_.stage;
     checkpoint();
+    if (series_) series_->close(text_);
     log_ << io::nameOfInterruption() << " at t = " << built_.run->time() << " s; go on with: dovetail resume "
          << settings_.folder.string() << std::endl;
     return false;
   }
 
   void summarise() {
-    std::ostringstream text;
-    if (!scene_.title.empty()) text << scene_.title << '\n';
-    text << notes_;
-    coupling::report(*built_.run, text);
-    log_ << text.str();
-    io::writeFileAtomically(file("summary.txt"), io::provenanceLines(provenance_, "# ") + text.str());
-    log_ << "files in " << settings_.folder.string() << std::endl;
+    log_ << writeSummary(settings_.folder, provenance_, scene_, built_, notes_, series_ ? &series_->table() : nullptr)
+         << "files in " << settings_.folder.string() << std::endl;
   }
 
   const Scene& scene_;
@@ -182,7 +215,7 @@ private:
   std::unique_ptr<Series> series_;
   std::unique_ptr<Frames> frames_;
   Progress progress_;
-  std::string notes_;
+  RunNotes notes_;
   bool warned_ = false;
 };
 

@@ -149,6 +149,12 @@ void describe(Fields& f, Settle& v);
 void describe(Fields& f, RunFor& v);
 void describe(Fields& f, Stage& v);
 void describe(Fields& f, Steps& v);
+void describe(Fields& f, GrainProbe& v);
+void describe(Fields& f, NodeProbe& v);
+void describe(Fields& f, WallProbe& v);
+void describe(Fields& f, SupportProbe& v);
+void describe(Fields& f, RegionProbe& v);
+void describe(Fields& f, Probe& v);
 void describe(Fields& f, Output& v);
 void describe(Fields& f, Scene& v);
 

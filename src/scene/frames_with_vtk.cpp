@@ -1,23 +1,103 @@
-// Frames of grains and solids in VTU files.
-#include "dovetail/fem/model/model.hpp"
+// Frames of grains, contacts, bonds, solids and walls in files of VTK.
+#include <algorithm>
+
+#include "dovetail/dem/model/loads.hpp"
+#include "dovetail/dem/model/walls.hpp"
 #include "dovetail/io_vtk/vtu_series.hpp"
 #include "dovetail/solid_io_vtk/solid_vtu.hpp"
-#include "outputs.hpp"
+#include "frame_fields.hpp"
+#include "frames.hpp"
 
 namespace dovetail::scene {
 
 struct Frames::Impl {
+  std::vector<std::string> contents;
+  std::vector<SolidMaterial> materials;
   io::KeyValues provenance;
   std::vector<double> times;
-  io::VtuSeries grains;
-  std::vector<io::VtuSeries> solids{};
+  std::vector<io::VtuSeries> grains{}, contacts{}, bonds{};  // one, or none
+  std::vector<io::VtuSeries> solids{}, walls{};
+  std::vector<std::size_t> meshWalls{};  // of the model, in the order of walls
+
+  bool has(const char* word) const { return std::find(contents.begin(), contents.end(), word) != contents.end(); }
+  void addGrains(const dem::Particles& particles, double time);
+  void addSolid(std::size_t s, const Built& built, double time);
 };
 
-Frames::Frames(const Built& built, const std::filesystem::path& folder, const io::KeyValues& provenance,
-               const std::vector<double>& times)
-    : impl_(std::make_unique<Impl>(Impl{provenance, times, io::VtuSeries(folder, "grains", provenance, times)})) {
-  for (std::size_t s = 0; s < built.meshes.size(); ++s)
-    impl_->solids.emplace_back(folder, "solid_" + built.run->solid(s).name, provenance, times);
+namespace {
+
+void addLines(io::VtuSeries& series, double time, const ForceLines& lines) {
+  io::PolyFrame frame{.points = lines.ends,
+                      .lines = lines.line,
+                      .triangles = {},
+                      .vectors = {{"force", lines.force}},
+                      .scalars = {{"normal_force", lines.normal}, {"tangential_force", lines.tangential}},
+                      .integers = {{"first", lines.first}, {"second", lines.second}}};
+  if (!lines.utilised.empty()) frame.scalars.push_back({"utilised", lines.utilised});
+  series.write(time, frame);
+}
+
+void addWall(io::VtuSeries& series, double time, const dem::MeshWall& mesh) {
+  const WallFacets facets = wallFacets(mesh);
+  series.write(time, io::PolyFrame{.points = mesh.wall.x,
+                                   .lines = {},
+                                   .triangles = mesh.wall.facets,
+                                   .vectors = {{"traction", facets.traction}},
+                                   .scalars = {{"pressure", facets.pressure}},
+                                   .integers = {}});
+}
+
+}  // namespace
+
+void Frames::Impl::addGrains(const dem::Particles& particles, double time) {
+  io::ParticleFrame frame = io::frameOf(particles);
+  if (!has("forces")) frame.force = {};
+  if (has("spin") && particles.rotates()) frame.vectors.push_back({"spin", particles.omega});
+  if (has("weights") && !particles.weight.empty()) frame.scalars.push_back({"weight", particles.weight});
+  grains[0].write(time, frame);
+}
+
+void Frames::Impl::addSolid(std::size_t s, const Built& built, double time) {
+  const fem::Model& model = *built.run->solid(s).model;
+  const fem::SolidMesh& mesh = built.meshes[s];
+  const fem::Nodes& nodes = model.nodes;
+  solid_io::VtuFields fields{.displacement = nodes.u, .time = time};
+  fields.perPoint.push_back({"velocity", {&nodes.v[0].x, 3 * nodes.v.size()}, 3});
+  CellStress stress;
+  if (has("stress")) {
+    stress = cellStress(model, mesh.elementCount());
+    fields.perCell = {{"stress", stress.cauchy, 9}, {"von_mises", stress.vonMises}, {"pressure", stress.pressure}};
+  }
+  CellHistory history;
+  if (has("history")) history = cellHistory(model, mesh.elementCount(), materials[s]);
+  for (const CellHistory::Field& field : history.fields)
+    fields.perCell.push_back({field.name, field.values, field.components});
+  std::vector<double> share;
+  if (has("weights")) share = shareOf(model);
+  if (!share.empty()) fields.perPoint.push_back({"share", share});
+  solids[s].write(time, solid_io::vtuText(mesh, fields, io::withMark(provenance)));
+}
+
+Frames::Frames(const Built& built, const Scene& scene, const std::filesystem::path& folder,
+               const io::KeyValues& provenance, const std::vector<double>& times)
+    : impl_(std::make_unique<Impl>(Impl{scene.output.contents, {}, provenance, times})) {
+  for (const Solid& solid : scene.solids) impl_->materials.push_back(solid.material);
+  const auto add = [&](std::vector<io::VtuSeries>& to, const std::string& name, io::FrameFile file) {
+    to.emplace_back(folder, name, provenance, times, file);
+  };
+  if (impl_->has("grains")) add(impl_->grains, "grains", io::FrameFile::vtu);
+  if (impl_->has("contacts")) add(impl_->contacts, "contacts", io::FrameFile::vtp);
+  if (impl_->has("bonds") && !built.run->grains.terms.all<dem::BondTerm>().empty())
+    add(impl_->bonds, "bonds", io::FrameFile::vtp);
+  if (impl_->has("solids"))
+    for (std::size_t s = 0; s < built.meshes.size(); ++s)
+      add(impl_->solids, "solid_" + built.run->solid(s).name, io::FrameFile::vtu);
+  if (!impl_->has("walls")) return;
+  for (std::size_t w = 0; w < built.walls.size(); ++w)
+    if (built.walls[w].firstMesh < built.walls[w].endMesh) {
+      add(impl_->walls, "wall_" + std::to_string(w), io::FrameFile::vtp);
+      impl_->meshWalls.push_back(built.walls[w].firstMesh);
+    }
 }
 Frames::~Frames() = default;
 
@@ -25,21 +105,13 @@ std::vector<double> Frames::times() const { return impl_->times; }
 
 void Frames::add(const Built& built) {
   const double time = built.run->time();
-  const dem::Particles& particles = built.run->grains.particles;
-  impl_->grains.write(time, {.position = particles.x,
-                             .radius = particles.radius,
-                             .velocity = particles.v,
-                             .force = particles.f,
-                             .id = particles.id,
-                             .vectors = {},
-                             .scalars = {}});
-  for (std::size_t s = 0; s < built.meshes.size(); ++s) {
-    const fem::Nodes& nodes = built.run->solid(s).nodes();
-    const std::span<const double> velocity(&nodes.v[0].x, 3 * nodes.v.size());
-    impl_->solids[s].write(
-        time, solid_io::vtuText(built.meshes[s], {.perPoint = {{"velocity", velocity, 3}}, .displacement = nodes.u},
-                                io::withMark(impl_->provenance)));
-  }
+  const dem::Model& grains = built.run->grains;
+  if (!impl_->grains.empty()) impl_->addGrains(grains.particles, time);
+  if (!impl_->contacts.empty()) addLines(impl_->contacts[0], time, contactLines(grains));
+  if (!impl_->bonds.empty()) addLines(impl_->bonds[0], time, bondLines(grains));
+  for (std::size_t s = 0; s < impl_->solids.size(); ++s) impl_->addSolid(s, built, time);
+  for (std::size_t w = 0; w < impl_->walls.size(); ++w)
+    addWall(impl_->walls[w], time, dem::meshWall(grains, impl_->meshWalls[w]));
   impl_->times.push_back(time);
 }
 

@@ -280,13 +280,6 @@ void describe(Fields& f, Steps& v) {
   f.integer({"per_window", "K: steps of the grains per step of the solids"}, v.stepsPerWindow, 1, 100000);
   f.integer({"threads", "0: one per processor; results are the same for any number"}, v.threads, 0, 1024);
 }
-void describe(Fields& f, Output& v) {
-  f.where(v.where);
-  f.number({"series", "interval of rows of energies and momenta"}, v.series, positive(unit::time));
-  f.number({"frames", "interval of frames for ParaView"}, v.frames, positive(unit::time));
-  f.number({"checkpoints", "interval of states to go on from"}, v.checkpoints, positive(unit::time));
-}
-
 void describe(Fields& f, Scene& v) {
   f.text({"title", "one line about the scene"}, v.title, false);
   f.parameters({"let", "parameters of expressions: a number with or without a unit, or an expression of those above"});

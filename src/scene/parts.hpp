@@ -38,10 +38,12 @@ std::shared_ptr<const dem::ContactLaws> makeLaws(const ContactLaw& law);
 double impactLimit(const ContactLaw& law, double radius, double density);
 
 void addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes);
-void addWalls(dem::Model& grains, const Scene& scene);
+void addWalls(Built& built, const Scene& scene);
 void addClumpsAndStreams(dem::Model& grains, const Scene& scene);
 void addSolids(Built& built, const Scene& scene);
 void addCouplings(Built& built, const Scene& scene);
+/// Number of a solid. @throws InputError with the nearest name there is
+std::size_t solidNamed(const std::string& name, const coupling::CoupledRun& run);
 
 std::shared_ptr<const fem::PointMaterial> makeMaterial(const SolidMaterial& material);
 /// w of the grains per node of the mesh. @throws InputError for borders between which no node lies

@@ -218,15 +218,16 @@ Scene sceneFromText(const std::string& text, const std::string& name, const std:
   Node root = parseJson(text, name);
   for (const std::string& setting : settings) applySetting(root, setting);
   Document document{name, folder};
-  Scene scene;
-  for (const bool keysOnly : {true, false}) {
+  const auto read = [&](bool keysOnly) {
     document.keysOnly = keysOnly;
-    scene = {};
+    Scene scene;
     Reader reader(document, root, "");
     describe(reader, scene);
     reader.finish();
-  }
-  return scene;
+    return scene;
+  };
+  read(true);
+  return read(false);
 }
 
 Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& settings) {

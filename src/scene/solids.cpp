@@ -5,6 +5,7 @@
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/io/names.hpp"
+#include "nearest.hpp"
 #include "parts.hpp"
 
 namespace dovetail::scene {
@@ -82,6 +83,16 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
 }
 
 }  // namespace
+
+std::size_t solidNamed(const std::string& name, const coupling::CoupledRun& run) {
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < run.solids(); ++s) names.push_back(run.solid(s).name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw InputError("there is no solid \"" + name + "\"", "",
+                     names.empty() ? "add it to solids" : adviceFor(name, names));
+  return static_cast<std::size_t>(found - names.begin());
+}
 
 void addSolids(Built& built, const Scene& scene) {
   built.meshes.reserve(scene.solids.size());

@@ -3,14 +3,13 @@
 #include <fstream>
 #include <ostream>
 
-#include "dovetail/core/archive.hpp"
+#include "checkpoints.hpp"
 #include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/time_series.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
-#include "outputs.hpp"
 
 namespace dovetail::scene {
 
@@ -36,16 +35,11 @@ void tellTable(const fs::path& file, std::ostream& out) {
 }
 
 void tellState(const fs::path& file, std::ostream& out) {
-  ByteReader archive(readChecked(file, stateKind));
-  std::vector<char> hash, state;
-  double time = 0.0;
-  std::uint64_t stage = 0, rows = 0;
-  std::int64_t window = 0;
-  std::vector<double> frames;
-  archive(hash, time, stage, window, rows, frames, state);
-  out << "checkpoint of the scene " << std::string(hash.begin(), hash.end()) << " at t = " << time << " s: stage "
-      << stage + 1 << ", window " << window << ", " << rows << " rows and " << frames.size() << " frames written, "
-      << state.size() << " bytes\n";
+  const Checkpoint checkpoint = loadCheckpoint(file);
+  const Progress& progress = checkpoint.progress;
+  out << "checkpoint of the scene " << checkpoint.scene << " at t = " << checkpoint.time << " s: stage "
+      << progress.stage + 1 << ", window " << progress.window << ", " << progress.rows << " rows and "
+      << progress.frames.size() << " frames written, " << checkpoint.state.size() << " bytes\n";
 }
 
 }  // namespace

@@ -54,9 +54,18 @@ void add(dem::Model& grains, const Wall& wall, const SurfaceFile& from) {
 
 }  // namespace
 
-void addWalls(dem::Model& grains, const Scene& scene) {
+void addWalls(Built& built, const Scene& scene) {
+  dem::Model& grains = built.run->grains;
+  const auto primitives = [&] { return grains.terms.all<dem::PrimitiveWallTerm>().size(); };
+  const auto meshes = [&] { return grains.terms.all<dem::MeshWallTerm>().size(); };
   for (const Wall& wall : scene.walls)
-    atPlace(wall.where, [&] { std::visit([&](const auto& shape) { add(grains, wall, shape); }, wall.shape); });
+    atPlace(wall.where, [&] {
+      WallParts parts{.firstPrimitive = primitives(), .firstMesh = meshes()};
+      std::visit([&](const auto& shape) { add(grains, wall, shape); }, wall.shape);
+      parts.endPrimitive = primitives();
+      parts.endMesh = meshes();
+      built.walls.push_back(parts);
+    });
 }
 
 }  // namespace dovetail::scene

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/coupling/rest.hpp"
 #include "spring_scene.hpp"
 
 namespace dovetail::coupling {
@@ -45,6 +46,28 @@ TEST(RunEvents, SettlesAndBooksWhatThatTook) {
   run->start(1e-4);
   EXPECT_THROW(settle(*run, {.kinetic = 0.0}), InputError);
   EXPECT_FALSE(settle(*run, {.windows = 1}).atRest);
+}
+
+TEST(RunEvents, SettlesInPartsAsInOne) {
+  const auto made = [] {
+    auto run = springRun({.held = true});
+    run->grains.gravity = {0.0, 0.0, -9.81};
+    run->start(2e-4);
+    return run;
+  };
+  const auto whole = made(), parts = made();
+  const RestOptions options{.kinetic = 1e-6};
+  const RestReport report = settle(*whole, options);
+  ASSERT_TRUE(report.atRest);
+  RestProgress progress;
+  int calls = 1;
+  for (; !settleOn(*parts, options, progress, 7); ++calls) parts->load(parts->save());
+  EXPECT_EQ(calls, (report.windows + 6) / 7);
+  EXPECT_EQ(progress.report.windows, report.windows);
+  EXPECT_EQ(progress.report.stops, report.stops);
+  EXPECT_EQ(progress.report.kinetic, report.kinetic);
+  EXPECT_EQ(parts->grains.particles.x, whole->grains.particles.x);
+  EXPECT_EQ(parts->solid(0).nodes().u, whole->solid(0).nodes().u);
 }
 
 /// Pulls at one particle in both half windows around their ends.

@@ -1,13 +1,19 @@
 #include <gtest/gtest.h>
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkVariant.h>
 #include <vtkXMLDataElement.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUtilities.h>
 
@@ -183,12 +189,11 @@ TEST(VtuSeries, FrameWithoutParticlesOpens) {
   EXPECT_EQ(grid->GetNumberOfCells(), 0);
 }
 
-TEST(VtuSeries, FilesAreCompressedAppendedAndOurs) {
+TEST(VtuSeries, MeshesAreCompressedAppendedAndOurs) {
   const ScratchFolder scratch;
   const std::vector<Vec3> x(100000);
-  const std::vector<double> radius(100000, 0.5);
-  VtuSeries series(scratch.path(), "grains", {});
-  series.write(0.0, ParticleFrame{x, radius, {}, {}, {}, {}, {}});
+  VtuSeries series(scratch.path(), "solid", {});
+  series.write(0.0, HexFrame{x, {}, {}, {}, {}});
   const std::string text = readText(series.framePath(0));
   EXPECT_NE(text.find("vtkZLibDataCompressor"), std::string::npos);
   EXPECT_NE(text.find("<AppendedData encoding=\"raw\">"), std::string::npos);
@@ -197,6 +202,75 @@ TEST(VtuSeries, FilesAreCompressedAppendedAndOurs) {
   EXPECT_LT(text.size(), x.size() * sizeof(Vec3) / 2);
   EXPECT_TRUE(isOurs(series.framePath(0)));
   EXPECT_TRUE(isOurs(series.pvdPath()));
+}
+
+vtkSmartPointer<vtkPolyData> readPoly(const std::filesystem::path& path) {
+  vtkNew<vtkXMLPolyDataReader> reader;
+  EXPECT_NE(reader->CanReadFile(path.c_str()), 0);
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  EXPECT_EQ(reader->GetErrorCode(), 0u);
+  return reader->GetOutput();
+}
+
+TEST(VtuSeries, LinesAndTrianglesRoundTripToTheLastBit) {
+  RandomData data;
+  const ScratchFolder scratch;
+  const std::vector<Vec3> x = data.vectors(4), force = data.vectors(2);
+  const std::vector<double> normal = data.numbers(2);
+  const std::vector<std::int64_t> id{-1, std::int64_t{1} << 60};
+  const std::vector<std::array<int, 2>> lines{{0, 1}, {2, 3}};
+  const std::vector<std::array<int, 3>> triangles{{0, 1, 2}, {3, 2, 1}};
+  VtuSeries series(scratch.path(), "lines", {}, {}, FrameFile::vtp),
+      wall(scratch.path(), "wall", {}, {}, FrameFile::vtp);
+  series.write(0.25, PolyFrame{x, lines, {}, {{"force", force}}, {{"normal", normal}}, {{"id", id}}});
+  wall.write(0.25, PolyFrame{x, {}, triangles, {{"force", force}}, {}, {}});
+  EXPECT_EQ(series.framePath(0).extension(), ".vtp");
+  EXPECT_TRUE(isOurs(series.framePath(0)));
+  const auto poly = readPoly(series.framePath(0));
+  ASSERT_EQ(poly->GetNumberOfLines(), 2);
+  expectSame(poly->GetCellData(), "force", force);
+  for (vtkIdType i = 0; i < 2; ++i) {
+    EXPECT_EQ(bits(poly->GetCellData()->GetArray("normal")->GetComponent(i, 0)),
+              bits(normal[static_cast<std::size_t>(i)]));
+    EXPECT_EQ(poly->GetCellData()->GetArray("id")->GetVariantValue(i).ToTypeInt64(), id[static_cast<std::size_t>(i)]);
+    for (int k = 0; k < 2; ++k)
+      EXPECT_EQ(poly->GetCell(i)->GetPointId(k), lines[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]);
+  }
+  EXPECT_EQ(poly->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 0.25);
+  const auto facets = readPoly(wall.framePath(0));
+  ASSERT_EQ(facets->GetNumberOfPolys(), 2);
+  EXPECT_EQ(facets->GetCell(1)->GetPointId(2), 1);
+  expectSame(facets->GetCellData(), "force", force);
+  EXPECT_THROW(series.write(0.5, PolyFrame{x, lines, triangles, {}, {}, {}}), InputError);
+  EXPECT_THROW(series.write(0.5, PolyFrame{{x.data(), 3}, lines, {}, {}, {}, {}}), InputError);
+  EXPECT_THROW(series.write(0.5, PolyFrame{x, lines, {}, {}, {{"normal", {normal.data(), 1}}}, {}}), InputError);
+}
+
+TEST(VtuSeries, GridsRoundTripToTheLastBit) {
+  RandomData data;
+  const ScratchFolder scratch;
+  const std::vector<double> density = data.numbers(24), stress = data.numbers(9 * 24);
+  const GridFrame grid{{1, 2, 3}, {0.5, 0.25, 2}, {4, 3, 2}, {{"density", density}, {"stress", stress, 9}}};
+  writeText(scratch / "fields.vti", vtiText(1.5, grid, {}));
+  EXPECT_TRUE(isOurs(scratch / "fields.vti"));
+  vtkNew<vtkXMLImageDataReader> reader;
+  reader->SetFileName((scratch / "fields.vti").c_str());
+  reader->Update();
+  vtkImageData* const image = reader->GetOutput();
+  ASSERT_EQ(image->GetNumberOfPoints(), 24);
+  EXPECT_EQ(image->GetPoint(4 + 1)[0], 1.5);
+  EXPECT_EQ(image->GetPoint(4 + 1)[1], 2.25);
+  for (vtkIdType p = 0; p < 24; ++p) {
+    const auto n = static_cast<std::size_t>(p);
+    EXPECT_EQ(bits(image->GetPointData()->GetArray("density")->GetComponent(p, 0)), bits(density[n]));
+    for (int c = 0; c < 9; ++c)
+      EXPECT_EQ(bits(image->GetPointData()->GetArray("stress")->GetComponent(p, c)),
+                bits(stress[9 * n + static_cast<std::size_t>(c)]));
+  }
+  GridFrame wrong = grid;
+  wrong.fields[0].values = {density.data(), 23};
+  EXPECT_THROW(vtiText(1.5, wrong, {}), InputError);
 }
 
 TEST(VtuSeries, PvdListsEveryFrameAfterEachWrite) {

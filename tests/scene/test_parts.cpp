@@ -14,32 +14,12 @@
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/solid_io/solid_files.hpp"
 #include "refusal.hpp"
+#include "scene_parts.hpp"
 
 namespace dovetail::scene::test {
 namespace {
 
 using io::test::ScratchFolder;
-
-const std::string law = R"("contact": {"law": "linear", "stiffness": 1e4, "restitution": 0.8, "friction": 0.3},)";
-const std::string end = R"("steps": {"dt": 1e-5}, "stages": [{"do": "run", "time": 1e-3}])";
-
-Scene sceneOf(const std::string& middle, const std::filesystem::path& folder = "/") {
-  return sceneFromText("{" + law + middle + end + "}", "s.json", folder);
-}
-Built started(const Scene& scene) {
-  Built built = build(scene);
-  start(built, scene);
-  return built;
-}
-/// The message with which the run is refused.
-std::string refusalOfRun(const std::string& middle) {
-  try {
-    started(sceneOf(middle));
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
 
 TEST(SceneParts, ParticlesOfAllSources) {
   const ScratchFolder folder;

@@ -11,29 +11,41 @@ using cantilever::test::Running;
 using cantilever::test::runProgram;
 using io::test::ScratchFolder;
 
-std::vector<std::string> words(const ScratchFolder& folder) {
-  std::vector<std::string> all{"run",     std::string(SCENES) + "/pile.json", "--out", folder.path().string(), "--set",
-                               "time=0.2"};
-  const char* const output = WITH_FRAMES ? "output={\"series\": 2e-3, \"frames\": 0.02, \"checkpoints\": 0.02}"
-                                         : "output={\"series\": 2e-3, \"checkpoints\": 0.02}";
-  all.insert(all.end(), {"--set", output});
+using Words = std::vector<std::string>;
+
+/// With all outputs that the build has.
+Words words(const ScratchFolder& folder, const std::string& scene, const Words& settings, const std::string& every) {
+  Words all{"run", std::string(SCENES) + "/" + scene, "--out", folder.path().string()};
+  for (const std::string& setting : settings) all.insert(all.end(), {"--set", setting});
+  std::string output = "output={\"series\": 2e-3, \"checkpoints\": " + every;
+  if (WITH_FRAMES)
+    output +=
+        ", \"frames\": 0.02, \"contents\": [\"grains\", \"spin\", \"forces\", \"weights\", \"contacts\", "
+        "\"solids\", \"stress\", \"history\"]";
+  if (WITH_HDF5) output += ", \"hdf5\": true";
+  all.insert(all.end(), {"--set", output + ", \"probes\": [{\"name\": \"g\", \"of\": \"grain\", \"at\": [0, 0, 0]}]}"});
   return all;
 }
+Words pile(const ScratchFolder& folder) { return words(folder, "pile.json", {"time=0.2"}, "0.02"); }
 
-/// All bytes but those of the summary, which tells times.
+/// All bytes but those of the summaries, which tell times.
 std::map<std::string, std::string> digits(const ScratchFolder& folder) {
   auto bytes = everyByte(folder);
-  bytes.erase("summary.txt");
+  for (const char* const name : {"summary.txt", "summary.json"}) bytes.erase(name);
   bytes.erase("checkpoint.previous.state");
   return bytes;
 }
 
-/// Grains meet the clay, so that books get channels after the state that is gone on from.
-void expectSameAfter(int signal, int code) {
+struct Case {
+  Words (*words)(const ScratchFolder&);
+  const char *file, *text;  ///< the signal is sent when the file holds the text
+};
+
+void expectSameAfter(const Case& one, int signal, int code) {
   const ScratchFolder whole, broken;
-  ASSERT_EQ(runProgram(words(whole)).code, 0);
-  Running running(words(broken));
-  ASSERT_TRUE(running.awaits(broken / "series.csv", "\n0.13"));
+  ASSERT_EQ(runProgram(one.words(whole)).code, 0);
+  Running running(one.words(broken));
+  ASSERT_TRUE(running.awaits(broken / one.file, one.text));
   running.signal(signal);
   const auto outcome = running.outcome();
   ASSERT_EQ(outcome.code, code) << outcome.err;
@@ -48,8 +60,22 @@ void expectSameAfter(int signal, int code) {
   EXPECT_EQ(found.size(), expected.size());
 }
 
-TEST(Restart, AfterAnInterruptionAllBytesAreTheSame) { expectSameAfter(SIGINT, 130); }
-TEST(Restart, AfterAKillAllBytesAreTheSame) { expectSameAfter(SIGKILL, -1); }
+/// Grains meet the clay, so that books get channels after the state that is gone on from.
+const Case pouring{pile, "series.csv", "\n0.13"};
+TEST(Restart, AfterAnInterruptionAllBytesAreTheSame) { expectSameAfter(pouring, SIGINT, 130); }
+TEST(Restart, AfterAKillAllBytesAreTheSame) { expectSameAfter(pouring, SIGKILL, -1); }
+
+/// Ended while all is brought to rest, by a checkpoint's first bytes.
+const Case settling{[](const ScratchFolder& folder) {
+                      return words(
+                          folder, "pile.json",
+                          {"stages=[{\"do\": \"run\", \"time\": 0.02}, {\"do\": \"settle\", \"kinetic\": 1e-12, "
+                           "\"windows\": 3000}, {\"do\": \"run\", \"time\": 4e-3}]"},
+                          "0.1");
+                    },
+                    "checkpoint.previous.state", "dovetail"};
+TEST(Restart, AnInterruptedRestGoesOn) { expectSameAfter(settling, SIGTERM, 143); }
+TEST(Restart, AKilledRestGoesOn) { expectSameAfter(settling, SIGKILL, -1); }
 
 TEST(Restart, AFolderServesAgainAndPartsOfStatesGo) {
   const ScratchFolder folder;

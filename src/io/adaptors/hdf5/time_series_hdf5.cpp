@@ -63,20 +63,23 @@ void writeStrings(hid_t object, const std::string& name, const std::vector<std::
 void writeColumn(hid_t file, const std::string& name, std::span<const double> values) {
   const hsize_t count = values.size();
   const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, "space");
-  const Handle dataset(H5Dcreate2(file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "dataset properties");
+  require(H5Pset_obj_track_times(creation, false), "leaving out times");
+  const Handle dataset(H5Dcreate2(file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
                        H5Dclose, "dataset");
   if (count > 0)
     require(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "writing a dataset");
   writeStrings(dataset, "unit", {unitOf(name)}, true);
 }
 
-/// The bytes of the file. HDF5 builds it in memory, because a file that it cannot close on a full disk makes the
+/// The bytes of the file, without the times of its parts: equal series are equal files. HDF5 builds it in memory, because a file that it cannot close on a full disk makes the
 /// program crash at exit.
 std::string fileImage(const TimeSeries& series, const KeyValues& provenance) {
   constexpr unsigned order = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file properties");
   require(H5Pset_attr_creation_order(creation, order), "order of attributes");
   require(H5Pset_link_creation_order(creation, order), "order of datasets");
+  require(H5Pset_obj_track_times(creation, false), "leaving out times");
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file properties");
   require(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "a file in memory");
   const Handle file(H5Fcreate("image", H5F_ACC_TRUNC, creation, access), H5Fclose, "creating the file");

@@ -39,12 +39,17 @@ private:
   std::set<std::string> seen_;
 };
 
+template <std::size_t n>
+void requirePoints(std::span<const std::array<int, n>> cells, std::size_t points, const char* item) {
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+    for (const int node : cells[cell])
+      if (node < 0 || static_cast<std::size_t>(node) >= points)
+        throw InputError(std::string(item) + " " + std::to_string(cell) + " names point " + std::to_string(node),
+                         "frame", "use 0 to " + std::to_string(points) + " (excluded)");
+}
+
 void requireConsistent(const HexFrame& frame) {
-  for (std::size_t cell = 0; cell < frame.cells.size(); ++cell)
-    for (const int node : frame.cells[cell])
-      if (node < 0 || static_cast<std::size_t>(node) >= frame.points.size())
-        throw InputError("cell " + std::to_string(cell) + " names point " + std::to_string(node), "frame",
-                         "use 0 to " + std::to_string(frame.points.size()) + " (excluded)");
+  requirePoints(frame.cells, frame.points.size(), "cell");
   FieldCheck perPoint("point", frame.points.size());
   perPoint.all(frame.pointVectors);
   perPoint.all(frame.pointScalars);
@@ -62,27 +67,33 @@ void requireConsistent(const ParticleFrame& frame) {
   perParticle.all(frame.scalars);
 }
 
-std::string fileName(const std::string& series, std::size_t frame) {
-  const std::string number = std::to_string(frame);
-  return series + "_" + std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number + ".vtu";
+void requireConsistent(const PolyFrame& frame) {
+  if (!frame.lines.empty() && !frame.triangles.empty())
+    throw InputError("a frame has lines and triangles", "frame", "write them as two series");
+  requirePoints(frame.lines, frame.points.size(), "line");
+  requirePoints(frame.triangles, frame.points.size(), "triangle");
+  FieldCheck perCell("cell", frame.lines.size() + frame.triangles.size());
+  perCell.all(frame.vectors);
+  perCell.all(frame.scalars);
+  perCell.all(frame.integers);
 }
 
 }  // namespace
 
 VtuSeries::VtuSeries(const std::filesystem::path& folder, std::string name, KeyValues provenance)
-    : folder_(folder), name_(std::move(name)), provenance_(withMark(std::move(provenance))) {
+    : VtuSeries(folder, std::move(name), std::move(provenance), {}) {}
+
+VtuSeries::VtuSeries(const std::filesystem::path& folder, std::string name, KeyValues provenance,
+                     std::vector<double> times, FrameFile file)
+    : folder_(folder), name_(std::move(name)), provenance_(withMark(std::move(provenance))), file_(file) {
   requirePlainName(name_, "VTU series");
   prepareOutputFolder(folder_, {name_ + ".pvd"});
   prepareOutputFolder(folder_ / name_);
+  const std::string ending = framePath(0).extension().string();
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / name_)) {
-    const std::string file = entry.path().filename().string();
-    if (file.rfind(name_ + "_", 0) == 0 && entry.path().extension() == ".vtu") requireFreeOrOurs(entry.path());
+    const std::string found = entry.path().filename().string();
+    if (found.starts_with(name_ + "_") && entry.path().extension() == ending) requireFreeOrOurs(entry.path());
   }
-}
-
-VtuSeries::VtuSeries(const std::filesystem::path& folder, std::string name, KeyValues provenance,
-                     std::vector<double> times)
-    : VtuSeries(folder, std::move(name), std::move(provenance)) {
   for (std::size_t frame = 0; frame < times.size(); ++frame)
     if (!isOurs(framePath(frame)))
       throw InputError("a frame of the run that is to go on is missing", framePath(frame).string(),
@@ -90,7 +101,13 @@ VtuSeries::VtuSeries(const std::filesystem::path& folder, std::string name, KeyV
   times_ = std::move(times);
 }
 
-std::filesystem::path VtuSeries::framePath(std::size_t frame) const { return folder_ / name_ / fileName(name_, frame); }
+std::string VtuSeries::fileName(std::size_t frame) const {
+  const std::string number = std::to_string(frame);
+  return name_ + "_" + std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number +
+         (file_ == FrameFile::vtu ? ".vtu" : ".vtp");
+}
+
+std::filesystem::path VtuSeries::framePath(std::size_t frame) const { return folder_ / name_ / fileName(frame); }
 
 void VtuSeries::write(double time, const HexFrame& frame) {
   requireLater(time);
@@ -102,6 +119,12 @@ void VtuSeries::write(double time, const ParticleFrame& frame) {
   requireLater(time);
   requireConsistent(frame);
   commit(time, vtuText(time, frame, provenance_));
+}
+
+void VtuSeries::write(double time, const PolyFrame& frame) {
+  requireLater(time);
+  requireConsistent(frame);
+  commit(time, vtpText(time, frame, provenance_));
 }
 
 void VtuSeries::write(double time, const std::string& vtu) {
@@ -117,15 +140,15 @@ void VtuSeries::requireLater(double time) const {
 }
 
 void VtuSeries::commit(double time, const std::string& vtu) {
-  writeFileAtomically(framePath(frames()), vtu);
+  writeFileAtomically(framePath(frames()), vtu, Survives::kills);
   std::string text = "<?xml version=\"1.0\"?>\n<!-- dovetail " + buildInfo().version +
                      " -->\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
   std::vector<double> times = times_;
   times.push_back(time);
   for (std::size_t i = 0; i < times.size(); ++i)
     text += "    <DataSet timestep=\"" + formatNumber(times[i]) + "\" group=\"\" part=\"0\" file=\"" + name_ + "/" +
-            fileName(name_, i) + "\"/>\n";
-  writeFileAtomically(pvdPath(), text + "  </Collection>\n</VTKFile>\n");
+            fileName(i) + "\"/>\n";
+  writeFileAtomically(pvdPath(), text + "  </Collection>\n</VTKFile>\n", Survives::kills);
   times_ = std::move(times);
 }
 

@@ -1,13 +1,9 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSignedCharArray.h>
-#include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -15,6 +11,7 @@
 #include <algorithm>
 #include <set>
 
+#include "../../../io/adaptors/vtk/vtk_arrays.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/solid_io_vtk/solid_vtu.hpp"
@@ -83,22 +80,6 @@ private:
   std::set<std::string> seen_;
 };
 
-std::string toText(vtkUnstructuredGrid* grid) {
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetInputData(grid);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
-  writer->SetHeaderTypeToUInt64();
-  writer->WriteToOutputStringOn();
-  if (writer->Write() == 0) throw Error("VTK could not write a solid", "", "see what it printed above");
-  std::string text = writer->GetOutputString();
-  // The mark of our files; offsets in the file count from the appended section behind it.
-  const std::size_t root = text.find("<VTKFile");
-  if (root == std::string::npos) throw Error("VTK wrote a solid without a root element", "", "check its version");
-  return text.insert(root, "<!-- dovetail " + io::buildInfo().version + " -->\n");
-}
-
 }  // namespace
 
 std::string vtuText(const fem::SolidMesh& mesh, const VtuFields& fields, const io::KeyValues& provenance) {
@@ -118,11 +99,9 @@ std::string vtuText(const fem::SolidMesh& mesh, const VtuFields& fields, const i
   Arrays perCell(grid->GetCellData(), mesh.elementCount(), "cell");
   for (const VtuField& field : fields.perCell) perCell.add(field);
   for (const auto& [name, elements] : mesh.elementSets) perCell.addSet(name, elements);
-  vtkNew<vtkStringArray> lines;
-  lines->SetName("provenance");
-  for (const auto& [key, value] : io::withMark(provenance)) lines->InsertNextValue(key + ": " + value);
-  grid->GetFieldData()->AddArray(lines);
-  return toText(grid);
+  io::addProvenance(grid, io::withMark(provenance));
+  if (fields.time) io::addTime(grid, *fields.time);
+  return io::xmlText<vtkXMLUnstructuredGridWriter>(grid);
 }
 
 void writeVtu(const std::filesystem::path& path, const fem::SolidMesh& mesh, const VtuFields& fields,

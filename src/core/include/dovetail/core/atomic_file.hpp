@@ -20,18 +20,25 @@ void requireFreeOrOurs(const std::filesystem::path& path, IsOurs isOurs);
 /// Proves that files can be written in `folder`, by writing one and removing it. @throws InputError if not
 void requireWritable(const std::filesystem::path& folder);
 
-/// Writes the pieces one behind the other to a new file "<path>.part-<process>-<number>", forces them onto the disk and
-/// renames the file, so that a reader, a crash or a power cut finds the old bytes or the new ones.
+/// What a file has to survive. Bytes that have to survive a power cut are forced onto the disk, which takes
+/// milliseconds; a program that is killed leaves whole files either way.
+enum class Survives { powerCuts, kills };
+
+/// Writes the pieces one behind the other to a new file "<path>.part-<process>-<number>", forces them onto the disk if
+/// that is asked for, and renames the file, so that a reader, a crash or a power cut finds the old bytes or the new
+/// ones.
 /// @throws InputError if nothing can be written there, or if `path` is taken by something that is not ours: the new
 ///         file then stays under its temporary name, which the error gives
 /// @throws Error if writing breaks off (disk full); what was there is intact, and nothing is left
-void replaceFile(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces, IsOurs isOurs);
+void replaceFile(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces, IsOurs isOurs,
+                 Survives survives = Survives::powerCuts);
 
 /// Appends to a file of ours. A killed program may leave a part of the bytes.
 /// @throws InputError if there is none that can be written; Error if writing breaks off: the file is as it was
 void appendToFile(const std::filesystem::path& path, std::string_view bytes, IsOurs isOurs);
 
-/// Removes from `folder` (not from folders in it) the temporary files of ours that killed programs left.
+/// Removes from `folder` (not from folders in it) the temporary files of ours that killed programs left, those too into
+/// which nothing had been written yet.
 void removeLeftovers(const std::filesystem::path& folder, IsOurs isOurs);
 
 }  // namespace dovetail

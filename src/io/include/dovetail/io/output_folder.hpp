@@ -13,22 +13,25 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/core/atomic_file.hpp"
+
 namespace dovetail::io {
 
 /// Makes `folder` (with its parents) if it is not there, proves before a long run that a file can be written, by
-/// writing one and removing it, and removes what killed runs left under temporary names. `fileNames` are the names the
-/// run will write in it: they must be free or ours.
+/// writing one and removing it, and removes what killed runs left under temporary names, also in the folders in it.
+/// `fileNames` are the names the run will write in it: they must be free or ours.
 /// @return the folder
 /// @throws InputError if the path is empty or a file, if nothing can be written there, or if a name is taken
 std::filesystem::path prepareOutputFolder(const std::filesystem::path& folder,
                                           const std::vector<std::string>& fileNames = {});
 
-/// Writes `text` under a temporary name beside `path` and renames it. The text should carry the mark (see above), or
+/// Writes `text` under a temporary name beside `path` and renames it; see Survives for files that come often. The text should carry the mark (see above), or
 /// a later run will not replace it.
 /// @throws InputError if nothing can be written there, or if `path` is taken by something that is not ours: the text
 ///         then stays under its temporary name, which the error gives
 /// @throws Error if writing breaks off (disk full); what was there is intact
-void writeFileAtomically(const std::filesystem::path& path, const std::string& text);
+void writeFileAtomically(const std::filesystem::path& path, const std::string& text,
+                         Survives survives = Survives::powerCuts);
 
 /// True if `path` is a file of an earlier run of ours, by the rule above.
 bool isOurs(const std::filesystem::path& path);

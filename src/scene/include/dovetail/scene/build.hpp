@@ -11,10 +11,16 @@
 
 namespace dovetail::scene {
 
+/// What an item of a scene's walls has become: numbers of dem::primitiveWall and dem::meshWall, ends excluded.
+struct WallParts {
+  std::size_t firstPrimitive = 0, endPrimitive = 0, firstMesh = 0, endMesh = 0;
+};
+
 /// A run, and what is known of it beside.
 struct Built {
   std::unique_ptr<coupling::CoupledRun> run;
   std::vector<fem::SolidMesh> meshes;  ///< of the solids, in their order
+  std::vector<WallParts> walls;        ///< of the scene's walls, in their order
   std::vector<std::string> notes;      ///< of what was done that the file does not say, one sentence each
 };
 

@@ -15,10 +15,10 @@ struct RunSettings {
   bool profile = false;          ///< time per part of a step in the summary
 };
 
-/// Runs all stages and writes into the folder: scene.json (the scene in full), series.csv, summary.txt, frames
-/// (grains.pvd and one per solid) and checkpoint.state, the one before as checkpoint.previous.state. Every file names
-/// the build and the scene's hash. A run that is asked to end by a signal (io/interruption.hpp) ends within 20 windows
-/// with a checkpoint; one that brings a scene to rest, after that.
+/// Runs all stages and writes into the folder: scene.json (the scene in full), series.csv and, if wanted, series.h5,
+/// summary.txt and summary.json, frames (docs/outputs.md) and checkpoint.state, the one before as
+/// checkpoint.previous.state. Every file names the build and the scene's hash. A run that is asked to end by a signal
+/// (io/interruption.hpp) ends within 20 windows with a checkpoint.
 /// @param log  for the summary and progress
 /// @return whether all was done; false: a signal asked to end
 /// @throws InputError before any step; NumericalError if the run breaks down: what was written stays

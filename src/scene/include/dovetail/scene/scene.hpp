@@ -222,8 +222,37 @@ struct Steps {
   int threads = 0;  ///< 0: all processors
   std::string where;
 };
+/// Position and velocity of the grain that is nearest at the start.
+struct GrainProbe {
+  Vec3 at = requiredVector;  ///< m
+};
+/// Displacement of the node that is nearest at the start.
+struct NodeProbe {
+  std::string solid;
+  Vec3 at = requiredVector;  ///< m
+};
+/// Force of the grains on a wall.
+struct WallProbe {
+  int wall = 0;  ///< item of `walls`
+};
+/// Force of a support on its solid.
+struct SupportProbe {
+  std::string solid, on;  ///< node set
+};
+/// Number and mean velocity of the grains in a box.
+struct RegionProbe {
+  geometry::Box box = requiredBox;  ///< m
+};
+struct Probe {
+  std::string name;
+  std::variant<GrainProbe, NodeProbe, WallProbe, SupportProbe, RegionProbe> of;
+  std::string where;
+};
 struct Output {
-  std::optional<double> series, frames, checkpoints;  ///< intervals, s; not given: none
+  std::optional<double> series, frames, checkpoints;                ///< intervals, s; not given: none
+  std::vector<std::string> contents{"grains", "solids", "stress"};  ///< of frames
+  bool hdf5 = false;                                                ///< the series as HDF5 too
+  std::vector<Probe> probes;                                        ///< columns of the series
   std::string where;
 };
 

@@ -23,6 +23,11 @@ struct ScalarField {
   std::span<const double> values;
 };
 
+struct IntegerField {
+  std::string name;
+  std::span<const std::int64_t> values;
+};
+
 /// A mesh of 8-node hexahedra. Points: where the nodes are now, m. Node order of a cell:
 /// (−,−,−) (+,−,−) (+,+,−) (−,+,−) (−,−,+) (+,−,+) (+,+,+) (−,+,+). Point fields have one value per point, cell
 /// fields one per cell.
@@ -46,10 +51,50 @@ struct ParticleFrame {
   std::vector<ScalarField> scalars;
 };
 
-/// Writes <folder>/<name>/<name>_000000.vtu, …, and <folder>/<name>.pvd, which lists the frames written so far and is
-/// renewed after each of them, so that a run that breaks off leaves a series that opens. VTU: appended raw binary,
-/// zlib-compressed, doubles; field data "TimeValue" (s) and "provenance" (strings "key: value").
-/// Files of an earlier run are replaced one by one as the frames of the same number come; later ones stay, unlisted.
+/// The view of what holds these arrays by these names, such as dem::Particles. @param particles  must outlive the view
+template <class Particles>
+ParticleFrame frameOf(const Particles& particles) {
+  return {.position = particles.x,
+          .radius = particles.radius,
+          .velocity = particles.v,
+          .force = particles.f,
+          .id = particles.id,
+          .vectors = {},
+          .scalars = {}};
+}
+
+/// Lines, or triangles (VTP files), with points of their own: fields have one value per line or triangle.
+struct PolyFrame {
+  std::span<const Vec3> points;                   // m
+  std::span<const std::array<int, 2>> lines;      // numbers of points
+  std::span<const std::array<int, 3>> triangles;  // of these or of lines there are none
+  std::vector<VectorField> vectors;
+  std::vector<ScalarField> scalars;
+  std::vector<IntegerField> integers;
+};
+
+/// Values on a regular grid, x fastest. Fields: one value, vector or tensor (nine, row-major) per point.
+struct GridFrame {
+  Vec3 lower, spacing;       // first point, distance of points, m
+  std::array<int, 3> count;  // of points per direction
+  struct Field {
+    std::string name;
+    std::span<const double> values;
+    int components = 1;
+  };
+  std::vector<Field> fields;
+};
+/// Its bytes as a VTI file. @throws InputError if a field has another size than the grid; Error if VTK fails
+std::string vtiText(double time, const GridFrame& frame, const KeyValues& provenance);
+
+/// What the frames of a series are files of.
+enum class FrameFile { vtu, vtp };
+
+/// Writes <folder>/<name>/<name>_000000.vtu (or .vtp), …, and <folder>/<name>.pvd, which lists the frames written so
+/// far and is renewed after each of them, so that a run that breaks off leaves a series that opens. Frames survive
+/// kills, not power cuts (core/atomic_file.hpp). Appended raw binary, doubles; particles are not compressed, which
+/// would take longer than the rest; field data "TimeValue" (s) and "provenance" (strings "key: value"). Files of an
+/// earlier run are replaced one by one as the frames of the same number come; later ones stay, unlisted.
 class VtuSeries {
 public:
   /// Makes the folders and checks that they can be written; writes no frame.
@@ -58,7 +103,8 @@ public:
   VtuSeries(const std::filesystem::path& folder, std::string name, KeyValues provenance);
   /// Goes on with a series that a run has begun: its first frames have these times, s.
   /// @throws InputError also if one of these frames is not there
-  VtuSeries(const std::filesystem::path& folder, std::string name, KeyValues provenance, std::vector<double> times);
+  VtuSeries(const std::filesystem::path& folder, std::string name, KeyValues provenance, std::vector<double> times,
+            FrameFile file = FrameFile::vtu);
 
   /// Writes the next frame; `time` in s, larger than the one before. The state at t = 0 is a frame of its own: write
   /// it.
@@ -67,6 +113,7 @@ public:
   /// @throws Error if writing fails; the frames before are intact
   void write(double time, const HexFrame& frame);
   void write(double time, const ParticleFrame& frame);
+  void write(double time, const PolyFrame& frame);
   /// The bytes of a VTU file that somebody else has made, which should carry the mark (output_folder.hpp).
   void write(double time, const std::string& vtu);
 
@@ -77,10 +124,12 @@ public:
 private:
   void requireLater(double time) const;
   void commit(double time, const std::string& vtu);
+  std::string fileName(std::size_t frame) const;
 
   std::filesystem::path folder_;
   std::string name_;
   KeyValues provenance_;
+  FrameFile file_ = FrameFile::vtu;
   std::vector<double> times_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct VtuField {
 struct VtuFields {
   std::vector<VtuField> perPoint{}, perCell{};
   std::span<const Vec3> displacement{};  ///< m; written as point field "displacement"; empty = none
+  std::optional<double> time{};          ///< s; written as field data "TimeValue"
 };
 
 /// The file's bytes: appended raw binary, compressed, doubles. Points are the reference positions; warp by

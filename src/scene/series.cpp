@@ -1,20 +1,15 @@
-#include "outputs.hpp"
+#include "series.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <map>
-#include <utility>
 
-#include "dovetail/core/archive.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 
 namespace dovetail::scene {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// "plate: work (minus)" → "plate_work_minus_J"
 std::string columnOf(const std::string& channel) {
@@ -28,7 +23,8 @@ std::string columnOf(const std::string& channel) {
   return name + "_J";
 }
 
-std::vector<std::string> columnsOf(const std::vector<std::string>& channels, const Built& built) {
+std::vector<std::string> columnsOf(const std::vector<std::string>& channels, const Built& built,
+                                   const std::vector<std::string>& probes) {
   std::vector<std::string> names{"time_s", "particles", "limit_s"};
   for (const std::string& channel : channels) names.push_back(columnOf(channel));
   for (const char* const name : {"others_J", "residual_J", "momentum_x_Ns", "momentum_y_Ns", "momentum_z_Ns",
@@ -36,6 +32,7 @@ std::vector<std::string> columnsOf(const std::vector<std::string>& channels, con
     names.push_back(name);
   for (const auto& [solid, force] : forcesOnSolids(built))
     for (const char* const axis : {"_x_N", "_y_N", "_z_N"}) names.push_back("on_" + solid + axis);
+  names.insert(names.end(), probes.begin(), probes.end());
   return names;
 }
 
@@ -54,9 +51,6 @@ std::vector<std::string> channelsOf(coupling::CoupledRun& run) {
   add("brought to rest");
   return names;
 }
-
-fs::path lastState(const fs::path& folder) { return folder / "checkpoint.state"; }
-fs::path stateBefore(const fs::path& folder) { return folder / "checkpoint.previous.state"; }
 
 }  // namespace
 
@@ -78,11 +72,15 @@ std::vector<std::pair<std::string, Vec3>> forcesOnSolids(const Built& built) {
   return forces;
 }
 
-Series::Series(Built& built, fs::path file, io::KeyValues provenance)
+Series::Series(Built& built, const std::vector<Probe>& probes, SeriesFiles files)
     : channels_(channelsOf(*built.run)),
-      table_(columnsOf(channels_, built)),
-      path_(file),
-      file_(file, std::move(provenance)) {}
+      probes_(built, probes),
+      table_(columnsOf(channels_, built, probes_.names())),
+      files_(std::move(files)),
+      path_(files_.folder / "series.csv"),
+      file_(path_, files_.provenance) {
+  if (files_.hdf5) requireHdf5();
+}
 
 void Series::takeUp(std::uint64_t rows) {
   if (rows == 0) return;
@@ -120,44 +118,16 @@ void Series::add(Built& built) {
   const Vec3 given = totals.given.total().given.linear;
   for (const Vec3& v : {totals.momentum, given}) row.insert(row.end(), {v.x, v.y, v.z});
   for (const auto& [solid, force] : forcesOnSolids(built)) row.insert(row.end(), {force.x, force.y, force.z});
+  probes_.add(built, row);
   table_.append(row);
   file_.write(table_);
 }
 
-void writeCheckpoint(const fs::path& folder, const std::string& hash, const Progress& progress,
-                     coupling::CoupledRun& run) {
-  ByteWriter archive;
-  archive(std::vector<char>(hash.begin(), hash.end()), run.time(), progress.stage, progress.window, progress.rows,
-          progress.frames, run.save());
-  std::error_code none;
-  fs::rename(lastState(folder), stateBefore(folder), none);  // the first one has none before it
-  writeChecked(lastState(folder), stateKind, archive.bytes());
-}
-
-Progress readCheckpoint(const fs::path& folder, const std::string& hash, coupling::CoupledRun& run) {
-  std::error_code error;
-  const bool last = fs::exists(lastState(folder), error);
-  const fs::path file = last ? lastState(folder) : stateBefore(folder);
-  if (!last && !fs::exists(file, error))
-    throw InputError("there is no checkpoint", folder.string(),
-                     "give the folder of a run with output.checkpoints, or one that a signal has ended");
-  ByteReader archive(readChecked(file, stateKind));
-  std::vector<char> ofScene, state;
-  double time = 0.0;
-  Progress progress;
-  archive(ofScene, time, progress.stage, progress.window, progress.rows, progress.frames, state);
-  if (std::string(ofScene.begin(), ofScene.end()) != hash)
-    throw InputError("the checkpoint is of another scene", file.string(), "put its scene.json back, or begin anew");
-  run.load(state);
-  return progress;
-}
-
-std::string hashOf(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
+void Series::close(const std::string& scene) const {
+  if (!files_.hdf5) return;
+  io::KeyValues provenance = files_.provenance;
+  provenance.emplace_back("scene", scene);
+  writeSeriesHdf5(files_.folder / "series.h5", table_, provenance);
 }
 
 }  // namespace dovetail::scene

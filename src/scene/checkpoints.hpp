@@ -1,0 +1,46 @@
+// States of runs, to go on from.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dovetail/coupling/rest.hpp"
+#include "dovetail/coupling/run.hpp"
+
+namespace dovetail::scene {
+
+/// Where a run stands in its stages, and what it has written.
+struct Progress {
+  std::uint64_t stage = 0;
+  std::int64_t window = 0;      ///< in this stage
+  std::uint64_t rows = 0;       ///< of the series
+  std::vector<double> frames;   ///< their times, s
+  coupling::RestProgress rest;  ///< of a stage that brings to rest
+};
+
+/// A state as it lies in a file.
+struct Checkpoint {
+  std::string scene;  ///< hash of the scene in full
+  double time = 0.0;  ///< s
+  Progress progress;
+  std::vector<char> state;  ///< of the run
+};
+
+/// The last state in a folder, or the one before if a program was killed between the two.
+/// @throws InputError if there is none
+std::filesystem::path lastCheckpoint(const std::filesystem::path& folder);
+/// @throws InputError if the file is none, or damaged
+Checkpoint loadCheckpoint(const std::filesystem::path& file);
+
+/// Keeps the last checkpoint, and the one before.
+void writeCheckpoint(const std::filesystem::path& folder, const std::string& hash, const Progress& progress,
+                     coupling::CoupledRun& run);
+/// @return where the run stood. @throws InputError if there is none, or it is of another scene or damaged
+Progress readCheckpoint(const std::filesystem::path& folder, const std::string& hash, coupling::CoupledRun& run);
+
+/// 16 digits of FNV-1a.
+std::string hashOf(const std::string& text);
+
+}  // namespace dovetail::scene

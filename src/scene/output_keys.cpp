@@ -1,0 +1,46 @@
+// The keys of what is written.
+#include "fields.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+void solid(Fields& f, std::string& value) { f.text({"solid", "name of the solid"}, value, true); }
+}  // namespace
+
+void describe(Fields& f, GrainProbe& v) {
+  f.vector({"at", "place; the grain is the one that is nearest to it at the start"}, v.at, unit::length);
+}
+void describe(Fields& f, NodeProbe& v) {
+  solid(f, v.solid);
+  f.vector({"at", "place; the node is the one that is nearest to it at the start"}, v.at, unit::length);
+}
+void describe(Fields& f, WallProbe& v) {
+  f.integer({"wall", "which item of \"walls\", counted from 0"}, v.wall, 0, 1000000);
+}
+void describe(Fields& f, SupportProbe& v) {
+  solid(f, v.solid);
+  f.text({"on", "name of a node set of the mesh that is held or moved"}, v.on, true);
+}
+void describe(Fields& f, RegionProbe& v) { f.box({"box", "two corners"}, v.box); }
+void describe(Fields& f, Probe& v) {
+  static constexpr const char* kinds[] = {"grain", "node", "wall", "support", "region"};
+  f.where(v.where);
+  f.text({"name", "of its columns: letters, digits, '_', '-' and '.', with a letter first"}, v.name, true);
+  f.oneOf({"of",
+           "position and velocity of a grain, displacement of a node, force of the grains on a wall, of a support on "
+           "its solid, or number and mean velocity of the grains in a region"},
+          v.of, kinds);
+}
+void describe(Fields& f, Output& v) {
+  static constexpr const char* contents[] = {"grains", "spin",   "forces", "weights", "contacts",
+                                             "bonds",  "solids", "stress", "history", "walls"};
+  f.where(v.where);
+  f.number({"series", "interval of rows of energies and momenta"}, v.series, positive(unit::time));
+  f.list({"probes", "further columns of the series"}, v.probes);
+  f.flag({"hdf5", "whether the series is written as series.h5 too"}, v.hdf5);
+  f.number({"frames", "interval of frames for ParaView"}, v.frames, positive(unit::time));
+  f.wordList({"contents", "of the frames"}, v.contents, contents, false);
+  f.number({"checkpoints", "interval of states to go on from"}, v.checkpoints, positive(unit::time));
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,152 @@
+#include "probes.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "dovetail/dem/model/walls.hpp"
+#include "dovetail/io/names.hpp"
+#include "parts.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+void append(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), {v.x, v.y, v.z}); }
+
+/// Number of the place that is nearest. @param places  at least one
+std::size_t nearestTo(const Vec3& at, const std::vector<Vec3>& places) {
+  const auto nearer = [&](const Vec3& a, const Vec3& b) { return squaredNorm(a - at) < squaredNorm(b - at); };
+  return static_cast<std::size_t>(std::min_element(places.begin(), places.end(), nearer) - places.begin());
+}
+
+/// Forces on all nodes but those of supports, N. Implicit solids keep none; elsewhere Nodes::f holds the connectors'
+/// load where that acts at the same instants.
+std::vector<Vec3> forcesOn(const coupling::SolidSide& side) {
+  const fem::Model& model = *side.model;
+  std::vector<Vec3> force = model.nodes.f;
+  if (side.stepping == coupling::Stepping::implicitSteps) {
+    force.assign(model.nodes.X.size(), {});
+    for (const auto& term : model.terms) term->addForces(model.nodes, {.t = model.t, .mass = side.mass}, force);
+  }
+  if (side.own.empty())
+    for (const int node : side.load.touched)
+      force[static_cast<std::size_t>(node)] += side.load.force[static_cast<std::size_t>(node)];
+  return force;
+}
+
+/// Of the supports on some nodes, N.
+Vec3 reactionOn(const coupling::SolidSide& side, const std::vector<int>& set) {
+  const std::vector<Vec3> force = forcesOn(side);
+  Vec3 sum;
+  for (const int node : set) {
+    const auto n = static_cast<std::size_t>(node);
+    for (int c = 0; c < 3; ++c)
+      if (side.nodes().fixed[n] >> c & 1U) sum[c] -= force[n][c];
+  }
+  return sum;
+}
+
+Vec3 forceOn(const dem::Model& grains, const WallParts& parts) {
+  Vec3 force;
+  for (std::size_t i = parts.firstPrimitive; i < parts.endPrimitive; ++i) force += dem::primitiveWall(grains, i).force;
+  for (std::size_t i = parts.firstMesh; i < parts.endMesh; ++i) force += dem::totalForce(dem::meshWall(grains, i).wall);
+  return force;
+}
+
+void appendRegion(const dem::Particles& particles, const geometry::Box& box, std::vector<double>& row) {
+  double count = 0.0, mass = 0.0;
+  Vec3 momentum;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vec3& x = particles.x[i];
+    bool inside = true;
+    for (int c = 0; c < 3; ++c) inside = inside && x[c] >= box.lower[c] && x[c] <= box.upper[c];
+    if (!inside) continue;
+    const double m = particles.mass[i] * particles.weightOf(i);
+    count += 1.0;
+    mass += m;
+    momentum += m * particles.v[i];
+  }
+  row.push_back(count);
+  append(row, mass > 0.0 ? 1.0 / mass * momentum : Vec3{});
+}
+
+}  // namespace
+
+void Probes::nameVector(const std::string& name, const std::string& unit) {
+  for (const char* const axis : {"x", "y", "z"}) names_.push_back(name + axis + "_" + unit);
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const std::string& name, const GrainProbe& kind) {
+  const dem::Particles& particles = built.run->grains.particles;
+  if (particles.size() == 0) throw InputError("there are no grains at the start", "", "leave the probe out");
+  const std::int64_t id = particles.id[nearestTo(kind.at, particles.x)];
+  nameVector(name + "_", "m");
+  nameVector(name + "_v", "m_per_s");
+  return [id](const Built& now, std::vector<double>& row) {
+    const dem::Particles& all = now.run->grains.particles;
+    const int number = dem::find(all, id);
+    constexpr double gone = std::numeric_limits<double>::quiet_NaN();
+    if (number < 0) return void(row.insert(row.end(), 6, gone));
+    append(row, all.x[static_cast<std::size_t>(number)]);
+    append(row, all.v[static_cast<std::size_t>(number)]);
+  };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const std::string& name, const NodeProbe& kind) {
+  const std::size_t solid = solidNamed(kind.solid, *built.run);
+  const std::size_t node = nearestTo(kind.at, built.run->solid(solid).nodes().X);
+  nameVector(name + "_u", "m");
+  return [solid, node](const Built& now, std::vector<double>& row) {
+    append(row, std::as_const(*now.run).solid(solid).nodes().u[node]);
+  };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const std::string& name, const WallProbe& kind) {
+  const auto item = static_cast<std::size_t>(kind.wall);
+  if (item >= built.walls.size())
+    throw InputError("there is no wall " + std::to_string(kind.wall), "",
+                     "the scene has " + std::to_string(built.walls.size()) + ", counted from 0");
+  nameVector(name + "_", "N");
+  return [item](const Built& now, std::vector<double>& row) { append(row, forceOn(now.run->grains, now.walls[item])); };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const std::string& name, const SupportProbe& kind) {
+  const std::size_t solid = solidNamed(kind.solid, *built.run);
+  const std::vector<int>& set = fem::nodeSet(built.meshes[solid], kind.on);
+  const fem::Nodes& nodes = built.run->solid(solid).nodes();
+  if (std::none_of(set.begin(), set.end(), [&](int n) { return nodes.fixed[static_cast<std::size_t>(n)] != 0; }))
+    throw InputError("nothing holds the nodes \"" + kind.on + "\" of \"" + kind.solid + "\"", "",
+                     "give the solid a support there, or leave the probe out");
+  nameVector(name + "_", "N");
+  return [solid, set](const Built& now, std::vector<double>& row) {
+    append(row, reactionOn(std::as_const(*now.run).solid(solid), set));
+  };
+}
+
+template <>
+Probes::Values Probes::find(const Built&, const std::string& name, const RegionProbe& kind) {
+  names_.push_back(name + "_particles");
+  nameVector(name + "_v", "m_per_s");
+  return [box = kind.box](const Built& now, std::vector<double>& row) {
+    appendRegion(now.run->grains.particles, box, row);
+  };
+}
+
+Probes::Probes(const Built& built, const std::vector<Probe>& probes) {
+  for (const Probe& probe : probes)
+    atPlace(probe.where, [&] {
+      io::requirePlainName(probe.name, "name");
+      std::visit([&](const auto& kind) { values_.push_back(find(built, probe.name, kind)); }, probe.of);
+    });
+}
+
+void Probes::add(const Built& built, std::vector<double>& row) const {
+  for (const Values& values : values_) values(built, row);
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,52 @@
+// Rows of energies, momenta, forces and probes that a run writes while it goes on.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dovetail/io/time_series.hpp"
+#include "dovetail/scene/build.hpp"
+#include "probes.hpp"
+
+namespace dovetail::scene {
+
+/// Sums of the surface contacts' forces on each solid that has some, N, in the order of the solids; with names.
+std::vector<std::pair<std::string, Vec3>> forcesOnSolids(const Built& built);
+
+/// Where the series goes, series.csv as it grows and, if wanted, series.h5 when it is closed.
+struct SeriesFiles {
+  std::filesystem::path folder;
+  io::KeyValues provenance;
+  bool hdf5 = false;
+};
+
+/// Columns are those of the run at its start, of what grains may book later, and of probes.
+class Series {
+public:
+  /// @throws InputError for a probe of what is not there, and where HDF5 is wanted of a build without
+  Series(Built& built, const std::vector<Probe>& probes, SeriesFiles files);
+  /// Goes on with what an earlier run has written, of which so many rows are kept.
+  /// @throws InputError if the file does not hold them
+  void takeUp(std::uint64_t rows);
+  void add(Built& built);
+  std::uint64_t rows() const { return table_.rows(); }
+  const io::TimeSeries& table() const { return table_; }
+  /// Writes what is not written as it grows. @param scene  in full
+  void close(const std::string& scene) const;
+
+private:
+  std::vector<std::string> channels_;
+  Probes probes_;
+  io::TimeSeries table_;
+  SeriesFiles files_;
+  std::filesystem::path path_;
+  io::GrowingCsv file_;
+};
+
+/// Does nothing but throw in builds without HDF5. @throws InputError
+void requireHdf5();
+void writeSeriesHdf5(const std::filesystem::path& path, const io::TimeSeries& table, const io::KeyValues& provenance);
+
+}  // namespace dovetail::scene

@@ -1,0 +1,33 @@
+// What a run has come to, for readers and for programs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dovetail/io/provenance.hpp"
+#include "dovetail/io/time_series.hpp"
+#include "dovetail/scene/build.hpp"
+
+namespace dovetail::scene {
+
+/// What is told of a run beside its end.
+struct RunNotes {
+  struct Stage {
+    std::size_t number;  ///< from 1
+    const char* what;
+    double seconds;  ///< of this program; what was done before a restart is not in it
+  };
+  std::vector<Stage> stages;
+  std::vector<std::string> lines, warnings;
+};
+
+/// Writes summary.txt (coupling::report) and summary.json: provenance, sizes, step beside the limit and who sets it,
+/// channels of the ledger, momenta, first, last and extreme values of the series' columns, time per stage and, with a
+/// profile, per part of a step, warnings, and the scene in full. Values that are not finite are null.
+/// @param table  null without a series
+/// @return the text without its provenance
+std::string writeSummary(const std::filesystem::path& folder, const io::KeyValues& provenance, const Scene& scene,
+                         Built& built, const RunNotes& notes, const io::TimeSeries* table);
+
+}  // namespace dovetail::scene
