@@ -11,6 +11,7 @@
 #include "dovetail/io/provenance.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
+#include "verbs.hpp"
 
 namespace {
 
@@ -61,15 +62,13 @@ bool writeStarter(const Options& options) {
   return true;
 }
 
-struct Verb {
-  CLI::App* app;
-  bool (*act)(const Options&);
-};
+using program::Verb;
 
 std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
   std::vector<Verb> verbs;
   const auto add = [&](const char* name, const char* help, bool (*act)(const Options&)) {
-    verbs.push_back({app.add_subcommand(name, help), act});
+    verbs.push_back(
+        {app.add_subcommand(name, help), [act, &options] { return act(options) ? 0 : 128 + io::interruption(); }});
     return verbs.back().app;
   };
   const auto takesScene = [&](CLI::App* verb) {
@@ -89,6 +88,8 @@ std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
   add("info", "tells what a file or folder holds", tellFile)->add_option("FILE", options.file)->required();
   add("schema", "prints the JSON Schema of scenes", writeSchema)
       ->add_flag("--markdown", options.markdown, "a reference of all keys instead");
+  verbs.push_back(program::addCompare(app));
+  verbs.push_back(program::addFields(app));
   CLI::App* const starter = add("new", "prints a commented starter scene, or writes it", writeStarter);
   std::vector<std::string> kinds;
   for (const auto& [kind, text] : starters()) kinds.push_back(kind);
@@ -120,14 +121,14 @@ const Verb* parse(CLI::App& app, const std::vector<Verb>& verbs, int argc, char*
 
 int act(int argc, char** argv) {
   CLI::App app(
-      "Runs scenes of grains and solids. Exit codes: 0 done, 1 broke down, 2 refused, 128 + n ended by signal n.");
+      "Runs scenes of grains and solids. Exit codes: 0 done, 1 broke down or differs, 2 refused, 128 + n ended by "
+      "signal n.");
   app.set_version_flag("--version", "dovetail " + io::buildInfo().version + " " + io::buildInfo().commit);
   app.require_subcommand(1);
   Options options;
   const std::vector<Verb> verbs = addVerbs(app, options);
   const Verb* const verb = parse(app, verbs, argc, argv);
-  if (!verb || verb->act(options)) return 0;
-  return 128 + io::interruption();
+  return verb ? verb->act() : 0;
 }
 
 }  // namespace

@@ -235,12 +235,16 @@ bool run(const Scene& scene, const RunSettings& settings, std::ostream& log) {
   return Execution(scene, settings, log, false).finish();
 }
 
-bool resume(const RunSettings& settings, std::ostream& log) {
-  const fs::path file = settings.folder / "scene.json";
+Scene readRun(const fs::path& folder) {
+  const fs::path file = folder / "scene.json";
   std::error_code error;
   if (!fs::is_regular_file(file, error))
-    throw InputError("this is no folder of a run", settings.folder.string(), "give the one that the run wrote into");
-  const Scene scene = readScene(file);
+    throw InputError("this is no folder of a run", folder.string(), "give the one that the run wrote into");
+  return readScene(file);
+}
+
+bool resume(const RunSettings& settings, std::ostream& log) {
+  const Scene scene = readRun(settings.folder);
   return Execution(scene, settings, log, true).finish();
 }
 

@@ -4,12 +4,13 @@
 #include <ostream>
 
 #include "checkpoints.hpp"
-#include "dovetail/core/atomic_file.hpp"
+#include "comparing.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/time_series.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
+#include "telling.hpp"
 
 namespace dovetail::scene {
 
@@ -25,13 +26,23 @@ void tellScene(const fs::path& file, std::ostream& out) {
       << scene.couplings.size() << " couplings, " << scene.stages.size() << " stages\n";
 }
 
-void tellTable(const fs::path& file, std::ostream& out) {
+void tellCsv(const fs::path& file, std::ostream& out) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line) && line.starts_with('#');) out << line.substr(1) << '\n';
-  const io::TimeSeries table = io::readCsv(file);
-  out << "table of " << table.rows() << " rows\n";
-  for (std::size_t c = 0; c < table.names().size() && table.rows() > 0; ++c)
-    out << "  " << table.names()[c] << ": " << table.column(c).front() << " … " << table.column(c).back() << '\n';
+  tellTable(io::readCsv(file), out);
+}
+
+void tellHdf5(const fs::path& file, std::ostream& out) {
+  const io::TimeSeries table = readSeriesHdf5(file);
+  for (const auto& [key, value] : readProvenanceHdf5(file))
+    out << ' ' << key << ": " << (key == "scene" ? std::to_string(value.size()) + " bytes of JSON" : value) << '\n';
+  tellTable(table, out);
+}
+
+/// Of files of ours that are told as they are.
+void tellText(const fs::path& file, std::ostream& out) {
+  std::ifstream stream(file);
+  out << stream.rdbuf();
 }
 
 void tellState(const fs::path& file, std::ostream& out) {
@@ -44,23 +55,35 @@ void tellState(const fs::path& file, std::ostream& out) {
 
 }  // namespace
 
+void tellTable(const io::TimeSeries& table, std::ostream& out) {
+  out << "table of " << table.rows() << " rows\n";
+  for (std::size_t c = 0; c < table.names().size() && table.rows() > 0; ++c)
+    out << "  " << table.names()[c] << ": " << table.column(c).front() << " … " << table.column(c).back() << '\n';
+}
+
 void tell(const fs::path& file, std::ostream& out) {
   std::error_code error;
   if (fs::is_directory(file, error)) {
-    for (const char* const name : {"scene.json", "checkpoint.state", "series.csv"})
+    bool any = false;
+    for (const char* const name : {"scene.json", "summary.json", "checkpoint.state", "series.csv"})
       if (fs::is_regular_file(file / name, error)) {
         out << "== " << name << '\n';
         tell(file / name, out);
+        any = true;
       }
+    if (!any) throw InputError("this is no folder of a run", file.string(), "give the one that a run wrote into");
     return;
   }
   if (!fs::is_regular_file(file, error)) throw InputError("there is no such file", file.string(), "correct its name");
+  if (tellSummary(file, out) || tellFrames(file, out) || tellShape(file, out)) return;
   const std::string ending = file.extension().string();
   if (ending == ".json") return tellScene(file, out);
-  if (ending == ".csv") return tellTable(file, out);
+  if (ending == ".csv") return tellCsv(file, out);
+  if (ending == ".h5") return tellHdf5(file, out);
   if (ending == ".state") return tellState(file, out);
   if (!io::isOurs(file))
     throw InputError("this is no file of Dovetail's", file.string(), "give a scene, or a file that a run wrote");
+  if (ending == ".txt") return tellText(file, out);
   out << "written by Dovetail\n";
 }
 

@@ -96,6 +96,25 @@ TEST(OutputFolder, LosesWhatKilledRunsLeftAndNothingElse) {
   EXPECT_EQ(scratch.content(), after);
 }
 
+TEST(OutputFolder, LosesPartsInItsFoldersAndEmptyOnesOfDeadPrograms) {
+  const ScratchFolder scratch, elsewhere;
+  const std::string alive = "series.csv.part-" + std::to_string(::getpid()) + "-7", dead = "frame.vtu.part-999999998-7";
+  for (const char* const folder : {"grains", "solid"}) {
+    fs::create_directory(scratch / folder);
+    writeText(scratch.path() / folder / "frame.vtu.part-12-3", marked("half a fra"));
+    for (const std::string& name : {alive, dead}) writeText(scratch.path() / folder / name, "");
+  }
+  writeText(elsewhere / "a.part-1-2", marked(""));
+  fs::create_symlink(elsewhere.path(), scratch / "link");
+  prepareOutputFolder(scratch.path());
+  for (const char* const folder : {"grains", "solid"}) {
+    EXPECT_FALSE(fs::exists(scratch.path() / folder / "frame.vtu.part-12-3"));
+    EXPECT_FALSE(fs::exists(scratch.path() / folder / dead));
+    EXPECT_TRUE(fs::exists(scratch.path() / folder / alive)) << "its program may be about to write it";
+  }
+  EXPECT_TRUE(fs::exists(elsewhere / "a.part-1-2"));
+}
+
 TEST(OutputFolder, KeepsAFileThatAnotherProgramIsWriting) {
   const ScratchFolder scratch;
   const fs::path path = scratch / "series.csv.part-123-4";

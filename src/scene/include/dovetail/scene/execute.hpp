@@ -24,6 +24,9 @@ struct RunSettings {
 /// @throws InputError before any step; NumericalError if the run breaks down: what was written stays
 bool run(const Scene& scene, const RunSettings& settings, std::ostream& log);
 
+/// The scene of a run. @throws InputError if this is no folder of one
+Scene readRun(const std::filesystem::path& folder);
+
 /// Goes on from the last checkpoint in the folder to the same files with the same digits as without the break.
 /// @throws InputError also if there is no run, no checkpoint, or one of another scene
 bool resume(const RunSettings& settings, std::ostream& log);

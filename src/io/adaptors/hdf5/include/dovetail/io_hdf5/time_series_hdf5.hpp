@@ -16,4 +16,9 @@ namespace dovetail::io {
 /// @throws Error if HDF5 fails (a repeated key of the provenance) or writing breaks off (disk full)
 void writeHdf5(const std::filesystem::path& path, const TimeSeries& series, const KeyValues& provenance);
 
+/// What writeHdf5 wrote. @throws InputError if the file is none, or damaged
+TimeSeries readHdf5(const std::filesystem::path& path);
+/// The string attributes of its root group but "columns", in their order.
+KeyValues readHdf5Provenance(const std::filesystem::path& path);
+
 }  // namespace dovetail::io

@@ -1,4 +1,6 @@
 // Frames of grains, contacts, bonds, solids and walls in files of VTK.
+#include "frames.hpp"
+
 #include <algorithm>
 
 #include "dovetail/dem/model/loads.hpp"
@@ -6,7 +8,6 @@
 #include "dovetail/io_vtk/vtu_series.hpp"
 #include "dovetail/solid_io_vtk/solid_vtu.hpp"
 #include "frame_fields.hpp"
-#include "frames.hpp"
 
 namespace dovetail::scene {
 

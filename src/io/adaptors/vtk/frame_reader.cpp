@@ -1,0 +1,115 @@
+#include "dovetail/io_vtk/frame_reader.hpp"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include "vtk_xml.hpp"
+
+namespace dovetail::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path) {
+  throw InputError("the file is no frame, or damaged", path.string(), "give a complete VTU, VTP or VTI file");
+}
+
+void addArrays(FrameContent& content, vtkFieldData* data, bool perCell) {
+  for (int k = 0; k < data->GetNumberOfArrays(); ++k) {
+    vtkDataArray* const array = data->GetArray(k);
+    if (!array || !array->GetName()) continue;
+    FrameArray& added = content.arrays.emplace_back();
+    added.name = array->GetName();
+    added.perCell = perCell;
+    added.components = array->GetNumberOfComponents();
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+      for (int c = 0; c < added.components; ++c) added.values.push_back(array->GetComponent(i, c));
+  }
+}
+
+void addFieldData(FrameContent& content, vtkFieldData* data) {
+  if (vtkDataArray* const time = data->GetArray("TimeValue"); time && time->GetNumberOfTuples() > 0)
+    content.time = time->GetComponent(0, 0);
+  if (auto* const lines = vtkStringArray::SafeDownCast(data->GetAbstractArray("provenance")))
+    for (vtkIdType i = 0; i < lines->GetNumberOfValues(); ++i) content.provenance.push_back(lines->GetValue(i));
+}
+
+FrameContent contentOf(vtkDataSet* set, const char* kind) {
+  FrameContent content;
+  content.kind = kind;
+  content.cells = static_cast<std::size_t>(set->GetNumberOfCells());
+  for (vtkIdType i = 0; i < set->GetNumberOfPoints(); ++i) {
+    double x[3];
+    set->GetPoint(i, x);
+    content.position.push_back({x[0], x[1], x[2]});
+  }
+  addArrays(content, set->GetPointData(), false);
+  addArrays(content, set->GetCellData(), true);
+  addFieldData(content, set->GetFieldData());
+  return content;
+}
+
+/// Frames without points count, so VTK's word for a good file is that it reads it.
+template <class Reader>
+FrameContent read(const fs::path& path, const char* kind) {
+  detail::requireReadable(path);
+  const int before = vtkObject::GetGlobalWarningDisplay();
+  vtkObject::GlobalWarningDisplayOff();  // see isReadQuietly
+  vtkNew<Reader> reader;
+  reader->SetFileName(path.c_str());
+  bool good = reader->CanReadFile(path.c_str()) != 0;
+  try {
+    if (good) reader->Update();
+  } catch (const std::exception&) {  // std::bad_alloc, std::length_error
+    good = false;
+  }
+  vtkObject::SetGlobalWarningDisplay(before);
+  if (!good || reader->GetErrorCode() != 0 || !reader->GetOutput()) refuse(path);
+  return contentOf(reader->GetOutput(), kind);
+}
+
+}  // namespace
+
+const FrameArray* FrameContent::find(const std::string& name, bool perCell) const {
+  for (const FrameArray& array : arrays)
+    if (array.name == name && array.perCell == perCell) return &array;
+  return nullptr;
+}
+
+FrameContent readFrame(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) throw InputError("there is no such file", path.string(), "correct its name");
+  const std::string ending = path.extension().string();
+  if (ending == ".vtu") return read<vtkXMLUnstructuredGridReader>(path, "VTU");
+  if (ending == ".vtp") return read<vtkXMLPolyDataReader>(path, "VTP");
+  if (ending == ".vti") return read<vtkXMLImageDataReader>(path, "VTI");
+  refuse(path);
+}
+
+std::vector<std::pair<double, fs::path>> readPvd(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (text.find("type=\"Collection\"") == std::string::npos)
+    throw InputError("the file is no PVD series", path.string(), "give one that a run wrote");
+  std::vector<std::pair<double, fs::path>> frames;
+  for (std::size_t at = text.find("<DataSet"); at != std::string::npos; at = text.find("<DataSet", at + 1)) {
+    const std::string_view tag = std::string_view(text).substr(at, text.find('>', at) - at);
+    double time = 0.0;
+    if (!detail::isWholly(detail::attribute(tag, "timestep", ""), time))
+      throw InputError("a frame of the series has no time", path.string(), "give a complete file");
+    frames.emplace_back(time, path.parent_path() / detail::attribute(tag, "file", ""));
+  }
+  return frames;
+}
+
+}  // namespace dovetail::io

@@ -1,0 +1,79 @@
+// What summaries, surfaces and meshes hold.
+#include <fstream>
+#include <iterator>
+#include <ostream>
+
+#include "dovetail/geometry/triangle_mesh.hpp"
+#include "json_tree.hpp"
+#include "parts.hpp"
+#include "telling.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void tellNumber(const Node& root, const char* part, const char* key, const char* unit, std::ostream& out) {
+  const Node* const inner = root.find(part);
+  const Node* const value = inner ? inner->find(key) : nullptr;
+  if (value && value->kind == Node::Kind::number)
+    out << "  " << part << ", " << key << ": " << value->number << unit << '\n';
+}
+
+void tellTexts(const Node& root, const char* key, std::ostream& out) {
+  const Node* const list = root.find(key);
+  if (!list) return;
+  for (const Node& item : list->items) out << "  " << key << ": " << item.text << '\n';
+}
+
+void tellBox(const std::vector<Vec3>& places, std::ostream& out) {
+  if (places.empty()) return;
+  Vec3 least = places[0], most = least;
+  for (const Vec3& x : places)
+    for (int c = 0; c < 3; ++c) least[c] = std::min(least[c], x[c]), most[c] = std::max(most[c], x[c]);
+  for (int c = 0; c < 3; ++c)
+    out << "  "
+        << "xyz"[c] << ": " << least[c] << " … " << most[c] << '\n';
+}
+
+}  // namespace
+
+bool tellSummary(const fs::path& file, std::ostream& out) {
+  if (file.filename() != "summary.json") return false;
+  std::ifstream stream(file);
+  const Node root = parseJson({std::istreambuf_iterator<char>(stream), {}}, file.string());
+  if (root.kind != Node::Kind::object || !root.find("provenance") || !root.find("times")) return false;
+  out << "summary" << (root.find("title") ? ": " + root.find("title")->text : "") << '\n';
+  for (const Node::Member& entry : root.find("provenance")->members)
+    out << "  " << entry.key << ": " << entry.value[0].text << '\n';
+  for (const char* const key : {"time_s", "particles"})
+    if (const Node* const value = root.find(key)) out << "  " << key << ": " << value->number << '\n';
+  tellNumber(root, "step", "dt_s", "", out);
+  tellNumber(root, "step", "limit_s", "", out);
+  tellNumber(root, "energy", "residual_J", "", out);
+  tellNumber(root, "energy", "largest_residual_J", "", out);
+  for (const char* const key : {"notes", "warnings"}) tellTexts(root, key, out);
+  return true;
+}
+
+bool tellShape(const fs::path& file, std::ostream& out) {
+  const std::string ending = file.extension().string();
+  if (ending == ".stl" || ending == ".obj" || ending == ".ply") {
+    const geometry::TriangleMesh mesh = readTriangles(file.string());
+    out << "surface of " << mesh.x.size() << " vertices and " << mesh.facets.size() << " facets\n";
+    tellBox(mesh.x, out);
+    return true;
+  }
+  if (ending != ".msh" && ending != ".inp") return false;
+  const fem::SolidMesh mesh = readMesh(file.string());
+  out << "mesh of " << mesh.X.size() << " nodes\n";
+  for (const fem::CellGroup& group : mesh.groups)
+    out << "  " << group.size() << " elements " << fem::name(group.shape) << '\n';
+  for (const auto& [name, nodes] : mesh.nodeSets) out << "  node set \"" << name << "\": " << nodes.size() << '\n';
+  for (const auto& [name, faces] : mesh.faceSets) out << "  face set \"" << name << "\": " << faces.size() << '\n';
+  tellBox(mesh.X, out);
+  return true;
+}
+
+}  // namespace dovetail::scene
