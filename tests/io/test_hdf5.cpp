@@ -147,5 +147,25 @@ TEST(Hdf5, RefusesPlacesWhereNothingCanBeWritten) {
   EXPECT_EQ(scratch.content(), std::set<std::string>{"file"});
 }
 
+TEST(Hdf5, ReadsWhatItWroteAndRefusesDamagedFiles) {
+  const ScratchFolder scratch;
+  const TimeSeries series = randomSeries(50);
+  const KeyValues source{{"version", "dovetail " + buildInfo().version}, {"scene", std::string(100000, 'x')}};
+  writeHdf5(scratch / "a.h5", series, source);
+  const TimeSeries back = readHdf5(scratch / "a.h5");
+  ASSERT_EQ(back.names(), series.names());
+  for (std::size_t c = 0; c < series.names().size(); ++c)
+    for (std::size_t k = 0; k < series.rows(); ++k) EXPECT_EQ(bits(back.column(c)[k]), bits(series.column(c)[k]));
+  EXPECT_EQ(readHdf5Provenance(scratch / "a.h5"), source);
+  writeHdf5(scratch / "b.h5", series, source);
+  const std::string bytes = test::readText(scratch / "a.h5");
+  EXPECT_EQ(bytes, test::readText(scratch / "b.h5"));
+  for (const std::size_t size : {std::size_t{0}, std::size_t{100}, bytes.size() / 2, bytes.size() - 1}) {
+    test::writeText(scratch / "cut.h5", bytes.substr(0, size));
+    EXPECT_THROW(readHdf5(scratch / "cut.h5"), InputError) << size;
+  }
+  EXPECT_THROW(readHdf5(scratch / "none.h5"), InputError);
+}
+
 }  // namespace
 }  // namespace dovetail::io

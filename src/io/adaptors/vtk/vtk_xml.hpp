@@ -129,9 +129,9 @@ inline std::string firstLine(const std::string& text) {
 }
 
 /// Whether VTK gets through the file. Its messages are off, since putting one together about an array that cannot be
-/// read is what ends the program (VTK 9.1); a file that gives no points counts as not read.
+/// read is what ends the program (VTK 9.1); a file that gives no points counts as not read, unless there may be none.
 template <class Reader>
-bool isReadQuietly(const std::filesystem::path& path) {
+bool isReadQuietly(const std::filesystem::path& path, std::size_t leastPoints) {
   const int before = vtkObject::GetGlobalWarningDisplay();
   vtkObject::GlobalWarningDisplayOff();
   vtkNew<Reader> reader;
@@ -143,15 +143,18 @@ bool isReadQuietly(const std::filesystem::path& path) {
     good = false;
   }
   vtkObject::SetGlobalWarningDisplay(before);
-  return good && reader->GetErrorCode() == 0 && reader->GetOutput()->GetNumberOfPoints() > 0;
+  return good && reader->GetErrorCode() == 0 &&
+         static_cast<std::size_t>(reader->GetOutput()->GetNumberOfPoints()) >= leastPoints;
 }
 
 }  // namespace detail
 
 /// What the reader makes of the file. @param kind "VTU"; `type`: VTK's name of what the file must hold
+/// @param leastPoints  0: files of frames in which nothing was there are read too
 /// @throws InputError with VTK's first complaint
 template <class Reader>
-auto readVtkXml(const std::filesystem::path& path, const std::string& kind, const std::string& type) {
+auto readVtkXml(const std::filesystem::path& path, const std::string& kind, const std::string& type,
+                std::size_t leastPoints = 1) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     refuseVtk(path, "", "a mesh cannot be read", "give a file that exists and may be read");
@@ -175,7 +178,7 @@ auto readVtkXml(const std::filesystem::path& path, const std::string& kind, cons
     refuseVtk(path, "", "the file is no complete " + kind + " file" + reason(),
               "give an XML file of VTK's type " + type);
   detail::requireReadable(path);
-  if (!detail::isReadQuietly<Reader>(path))
+  if (!detail::isReadQuietly<Reader>(path, leastPoints))
     refuseVtk(path, "", "the file cannot be read, or is empty", "give a complete " + kind + " file");
   reader->SetFileName(path.c_str());
   reader->Update();

@@ -13,10 +13,10 @@ namespace dovetail::scene {
 
 struct GridSettings {
   cg::KernelShape shape = cg::KernelShape::lucy;
-  std::optional<double> width;       ///< of the kernel, m; not given: 1.5 mean diameters
-  std::optional<double> spacing;     ///< of the points, m; not given: half the width
-  std::optional<geometry::Box> box;  ///< m; not given: around all centres
-  std::filesystem::path file;        ///< .vti
+  std::optional<double> width{};       ///< of the kernel, m; not given: 1.5 mean diameters
+  std::optional<double> spacing{};     ///< of the points, m; not given: half the width
+  std::optional<geometry::Box> box{};  ///< m; not given: around all centres
+  std::filesystem::path file{};        ///< .vti
 };
 
 /// Builds the scene of a run, goes to its last checkpoint and writes cg::sample of its grains as a VTI file: density

@@ -1,0 +1,176 @@
+// Frames and fields in the files of a run.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+
+#include "../../src/scene/frame_fields.hpp"
+#include "../io/scratch_folder.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/io_vtk/frame_reader.hpp"
+#include "dovetail/io_vtk/vtu_series.hpp"
+#include "dovetail/scene/compare.hpp"
+#include "dovetail/scene/execute.hpp"
+#include "dovetail/scene/grid_fields.hpp"
+#include "scene_parts.hpp"
+
+namespace dovetail::scene::test {
+namespace {
+
+using io::test::ScratchFolder;
+
+/// Grains in a box that hands over to a solid, and another solid that lies on them. @param output  further keys of it
+Scene scene(const std::string& output) {
+  return sceneFromText(R"({"gravity": [0, 0, -9.81],
+  "contact": {"law": "linear", "stiffness": 5e4, "restitution": 0.4, "friction": 0.5},
+  "particles": [{"from": "packing", "box": [[0, 0, 0], [0.12, 0.12, 0.1]], "radius": {"smallest": 0.008, "largest": 0.012},
+                 "solid_fraction": 0.5, "overlap": 1e-4, "density": 2500}],
+  "walls": [{"shape": "box", "box": [[0, 0, 0], [0.12, 0.12, 1]], "open": ["z-", "z+"]}],
+  "solids": [
+    {"name": "soil", "mesh": "box", "cells": [3, 3, 4], "box": [[0, 0, -0.06], [0.12, 0.12, 0.06]],
+     "material": {"law": "Drucker-Prager", "youngs_modulus": 2e6, "poisson_ratio": 0.25, "density": 1250,
+                  "cohesion": 500, "friction_angle": 0.5},
+     "supports": [{"on": "z-"}]},
+    {"name": "plate", "mesh": "box", "cell": "tet10", "cells": [2, 2, 1], "box": [[0.02, 0.02, 0.101], [0.1, 0.1, 0.12]],
+     "material": {"law": "neo-Hookean", "youngs_modulus": 1e7, "poisson_ratio": 0.3, "density": 1200},
+     "velocity": [0, 0, -1], "supports": [{"on": "z+", "velocity": [0, 0, -1]}]}],
+  "couplings": [{"type": "overlap", "solid": "soil", "solid_border": 0.06, "particle_border": 0},
+                {"type": "surface", "solid": "plate"}],
+  "steps": {"dt": 1e-5}, "stages": [{"do": "run", "time": 2e-3}],
+  "output": {"frames": 1e-3)" +
+                           output + "}}",
+                       "s.json", "/");
+}
+
+void runIn(const ScratchFolder& folder, const std::string& output) {
+  std::ostringstream log;
+  ASSERT_TRUE(run(scene(output), {.folder = folder / "out", .progress = false}, log));
+}
+
+std::set<std::string> arraysIn(const std::filesystem::path& pvd) {
+  const auto frames = io::readPvd(pvd);
+  EXPECT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames.front().first, 0.0);
+  const io::FrameContent frame = io::readFrame(frames.back().second);
+  EXPECT_EQ(frame.time, frames.back().first);
+  EXPECT_FALSE(frame.provenance.empty());
+  std::set<std::string> names;
+  for (const io::FrameArray& array : frame.arrays)
+    if (!array.name.ends_with("-") && !array.name.ends_with("+")) names.insert(array.name);
+  names.erase("skin");
+  return names;
+}
+using Names = std::set<std::string>;
+
+TEST(Frames, HoldWhatIsAskedFor) {
+  const ScratchFolder few, all;
+  runIn(few, R"(, "contents": ["grains"])");
+  EXPECT_EQ(arraysIn(few / "out/grains.pvd"), (Names{"id", "radius", "velocity"}));
+  EXPECT_FALSE(std::filesystem::exists(few / "out/solid_soil.pvd"));
+  runIn(
+      all,
+      R"(, "contents": ["grains", "spin", "forces", "weights", "contacts", "bonds", "solids", "stress", "history", "walls"])");
+  EXPECT_EQ(arraysIn(all / "out/grains.pvd"), (Names{"id", "radius", "velocity", "force", "spin", "weight"}));
+  EXPECT_EQ(arraysIn(all / "out/contacts.pvd"),
+            (Names{"first", "second", "force", "normal_force", "tangential_force"}));
+  EXPECT_EQ(arraysIn(all / "out/solid_soil.pvd"), (Names{"displacement", "velocity", "share", "stress", "von_mises",
+                                                         "pressure", "plastic_strain", "plastic_volume"}));
+  EXPECT_EQ(arraysIn(all / "out/solid_plate.pvd"),
+            (Names{"displacement", "velocity", "stress", "von_mises", "pressure"}));
+  for (const char* const none : {"bonds.pvd", "wall_0.pvd"})
+    EXPECT_FALSE(std::filesystem::exists(all / "out" / none)) << none;
+  EXPECT_TRUE(compare(few / "out/grains.pvd", few / "out/grains.pvd").within(0.0));
+  // Arrays that only one has are told, and no more: the two are the same run.
+  const Comparison found = compare(few / "out/grains.pvd", all / "out/grains.pvd");
+  EXPECT_EQ(found.unlike.size(), 3U * 3U);
+  for (const Difference& one : found.differences) EXPECT_EQ(one.largest, 0.0) << one.what;
+}
+
+TEST(Frames, WeightsOfBothSidesAddUpToOne) {
+  const ScratchFolder folder;
+  runIn(folder, R"(, "contents": ["grains", "solids", "weights"])");
+  const io::FrameContent grains = io::readFrame(folder / "out/grains/grains_000000.vtu");
+  const io::FrameContent soil = io::readFrame(folder / "out/solid_soil/solid_soil_000000.vtu");
+  const io::FrameArray& share = *soil.find("share", false);
+  const io::FrameArray& weight = *grains.find("weight", false);
+  // The weight is linear within a layer of elements: between those of the layers' borders.
+  const auto solidShareAt = [&](double z) {
+    for (std::size_t n = 0; n < soil.position.size(); ++n)
+      if (std::abs(soil.position[n].z - z) < 1e-12) return share.values[n];
+    throw std::runtime_error("no such node");
+  };
+  int within = 0;
+  for (std::size_t i = 0; i < grains.position.size(); ++i) {
+    const double z = grains.position[i].z;
+    if (z >= 0.06) continue;
+    const double low = z < 0.03 ? 0.0 : 0.03, part = (z - low) / 0.03;
+    EXPECT_NEAR(weight.values[i], 1.0 - (1.0 - part) * solidShareAt(low) - part * solidShareAt(low + 0.03), 1e-12) << z;
+    ++within;
+  }
+  EXPECT_GT(within, 20);
+}
+
+TEST(Frames, AreComparedByIds) {
+  const ScratchFolder folder;
+  std::vector<Vec3> x{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}, v{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+  std::vector<double> radius{0.1, 0.2, 0.3};
+  std::vector<std::int64_t> id{5, 7, 9};
+  const auto write = [&](const char* name) {
+    io::VtuSeries(folder.path(), name, {}).write(0.5, io::ParticleFrame{x, radius, v, {}, id, {}, {}});
+  };
+  write("a");
+  std::swap(x[0], x[2]), std::swap(v[0], v[2]), std::swap(radius[0], radius[2]), std::swap(id[0], id[2]);
+  write("b");
+  v[1].y += 0.5;
+  write("c");
+  id[1] = 8;
+  write("d");
+  EXPECT_TRUE(compare(folder / "a.pvd", folder / "b.pvd").within(0.0));
+  const Comparison found = compare(folder / "a.pvd", folder / "c.pvd");
+  for (const Difference& one : found.differences)
+    EXPECT_EQ(one.largest, one.what == "a velocity" ? 0.5 : 0.0) << one.what;
+  EXPECT_FALSE(compare(folder / "a.pvd", folder / "d.pvd").unlike.empty());
+}
+
+TEST(Frames, DamagedFilesAreRefused) {
+  const ScratchFolder folder;
+  runIn(folder, R"(, "contents": ["grains"])");
+  const auto file = folder / "out/grains/grains_000001.vtu";
+  const std::string whole = io::test::readText(file);
+  for (const std::size_t size : {std::size_t{0}, std::size_t{40}, whole.size() / 3, whole.size() - 100}) {
+    io::test::writeText(folder / "cut.vtu", whole.substr(0, size));
+    EXPECT_THROW(io::readFrame(folder / "cut.vtu"), InputError) << size;
+  }
+  io::test::writeText(folder / "cut.pvd", "<VTKFile/>");
+  EXPECT_THROW(io::readPvd(folder / "cut.pvd"), InputError);
+  EXPECT_THROW(io::readFrame(folder / "none.vtu"), InputError);
+  std::ostringstream out;
+  for (const char* const name :
+       {"out/grains.pvd", "out/grains/grains_000001.vtu", "out/summary.json", "out/summary.txt", "out"})
+    EXPECT_NO_THROW(tell(folder / name, out)) << name;
+}
+
+TEST(GridFields, HoldTheMassOfTheGrains) {
+  const ScratchFolder folder;
+  runIn(folder, R"(, "checkpoints": 1e-3)");
+  std::ostringstream log;
+  const geometry::Box box{{-0.1, -0.1, -0.1}, {0.22, 0.22, 0.22}};
+  writeGridFields(folder / "out", {.width = 0.03, .spacing = 0.01, .box = box, .file = folder / "f.vti"}, log);
+  const io::FrameContent grid = io::readFrame(folder / "f.vti");
+  const io::FrameContent grains = io::readFrame(folder / "out/grains/grains_000002.vtu");
+  EXPECT_EQ(grid.position.size(), 33U * 33U * 33U);
+  ASSERT_TRUE(grid.time.has_value());
+  EXPECT_EQ(*grid.time, *grains.time);
+  const Scene file = scene("");
+  Built built = build(file);
+  const dem::Particles& p = built.run->grains.particles;
+  double expected = 0.0, found = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i) expected += p.mass[i] * p.weightOf(i);
+  for (const double density : grid.find("density", false)->values) found += 1e-6 * density;
+  EXPECT_NEAR(found, expected, 5e-3 * expected);  // midpoint rule at a third of the width
+  EXPECT_THROW(writeGridFields(folder / "out", {.spacing = 1e-5, .file = folder / "g.vti"}, log), InputError);
+  EXPECT_THROW(writeGridFields(folder.path(), {.file = folder / "g.vti"}, log), InputError);
+}
+
+}  // namespace
+}  // namespace dovetail::scene::test
