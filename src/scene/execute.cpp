@@ -30,7 +30,8 @@ constexpr std::int64_t lookEvery = 20;  // windows between two looks at signals
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 std::vector<std::string> fileNames(const Scene& scene) {
-  std::vector<std::string> names{"scene.json", "series.csv", "summary.txt", "summary.json"};
+  std::vector<std::string> names{"scene.json",   "series.csv",       "summary.txt",
+                                 "summary.json", "checkpoint.state", "checkpoint.previous.state"};
   if (scene.output.hdf5) names.push_back("series.h5");
   return names;
 }
@@ -67,8 +68,7 @@ public:
       frames_ = std::make_unique<Frames>(built_, scene, settings.folder, provenance_, progress_.frames);
     for (const std::string& note : built_.notes) log_ << note << '\n';
     if (goesOn) return;
-    for (const char* const old : {"checkpoint.state", "checkpoint.previous.state", "summary.txt", "summary.json"})
-      io::removeOurs(file(old));
+    removeEarlierRun();
     io::writeFileAtomically(file("scene.json"), io::provenanceLines(provenance_, "// ") + text_);
     sample(0);
     frame(0);
@@ -98,6 +98,16 @@ private:
           formatNumber(seconds) + " s are more than 1e15 windows of " + formatNumber(built_.run->window()) + " s",
           scene_.steps.where, "take a shorter time or a larger step");
     return std::max<std::int64_t>(1, std::llround(count));
+  }
+  /// Files that this run may not write, or only at its end.
+  void removeEarlierRun() const {
+    for (const char* const old : {"checkpoint.state", "checkpoint.previous.state", "summary.txt", "summary.json",
+                                  "series.csv", "series.h5", "fields.vti"})
+      if (io::isOurs(file(old))) io::removeOurs(file(old));
+    std::vector<fs::path> frames;
+    for (const auto& entry : fs::directory_iterator(settings_.folder))
+      if (entry.path().extension() == ".pvd" && io::isOurs(entry.path())) frames.push_back(entry.path());
+    for (const fs::path& old : frames) io::removeOurs(old);
   }
   static const char* nameOf(const Stage& stage) {
     return std::holds_alternative<Settle>(stage.kind) ? "settle" : "run";

@@ -50,7 +50,7 @@ TEST_P(Starters, RunAndCloseTheirBooks) {
 INSTANTIATE_TEST_SUITE_P(All, Starters,
                          testing::Values(Shortened{"footing", "5e-4"}, Shortened{"pile", "0.01"},
                                          Shortened{"plate", "2e-4"}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 TEST(Program, ChecksWithoutAFile) {
   const Outcome outcome = runProgram({"check", starter("plate")});
@@ -85,6 +85,45 @@ TEST(Program, StarterScenesAreWrittenOnceAndChecked) {
   EXPECT_EQ(runProgram({"new", "plate", file}).code, 0);
   EXPECT_EQ(runProgram({"check", file}).code, 0);
   expectRefused(runProgram({"new", "plate", file}), "a file of this name");
+}
+
+/// What a run writes depends on its own scene alone, whatever an earlier one has left.
+TEST(Program, NothingOfAnEarlierRunStandsBesideANewOne) {
+  const ScratchFolder folder;
+  const auto run = [&](const std::string& output) {
+    const Outcome outcome = runProgram(
+        {"run", starter("plate"), "--out", folder.path().string(), "--set", "time=1e-4", "--set", "output=" + output});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  };
+  run(std::string(R"({"series": 1e-5, "checkpoints": 5e-5)") + (WITH_HDF5 ? R"(, "hdf5": true)" : "") +
+      (WITH_FRAMES ? R"(, "frames": 5e-5, "contents": ["grains", "contacts"])" : "") + "}");
+  EXPECT_EQ(std::filesystem::exists(folder / "series.h5"), WITH_HDF5 != 0);
+  EXPECT_EQ(std::filesystem::exists(folder / "contacts.pvd"), WITH_FRAMES != 0);
+  run("{}");
+  for (const char* const old : {"series.csv", "series.h5", "contacts.pvd", "grains.pvd", "checkpoint.state"})
+    EXPECT_FALSE(std::filesystem::exists(folder / old)) << old;
+}
+
+TEST(Program, ComparesRunsAndWritesFields) {
+  const ScratchFolder folder;
+  for (const char* const name : {"a", "b", "c"})
+    ASSERT_EQ(runProgram({"run", starter("plate"), "--out", (folder / name).string(), "--set", "time=1e-4", "--set",
+                          R"(output={"series": 1e-5, "checkpoints": 5e-5})", "--set",
+                          std::string("steps.safety=") + (name[0] == 'c' ? "0.1" : "0.2")})
+                  .code,
+              0);
+  const std::string a = (folder / "a").string();
+  const Outcome same = runProgram({"compare", a, (folder / "b").string()});
+  EXPECT_EQ(same.code, 0) << same.out << same.err;
+  const Outcome other = runProgram({"compare", a, (folder / "c").string(), "--rows", "3"});
+  EXPECT_EQ(other.code, 1) << other.out;
+  EXPECT_NE(other.out.find("NOT the same"), std::string::npos) << other.out;
+  expectRefused(runProgram({"compare", a, (folder / "none").string()}), "no such file");
+  expectRefused(runProgram({"compare", a}), "B is required");
+  const Outcome fields = runProgram({"fields", a, "--width", "0.05"});
+  EXPECT_EQ(fields.code, WITH_FRAMES ? 0 : 2) << fields.err;
+  EXPECT_EQ(std::filesystem::exists(folder / "a/fields.vti"), WITH_FRAMES != 0);
+  if (WITH_FRAMES) expectRefused(runProgram({"fields", a, "--width=-1"}), "width");
 }
 
 TEST(Program, OtherPeoplesFilesStay) {
