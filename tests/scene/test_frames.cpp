@@ -86,6 +86,16 @@ TEST(Frames, HoldWhatIsAskedFor) {
   for (const Difference& one : found.differences) EXPECT_EQ(one.largest, 0.0) << one.what;
 }
 
+TEST(Frames, WordsThatWouldDoNothingAreRefused) {
+  const ScratchFolder folder;
+  std::ostringstream log;
+  for (const char* const words : {R"(["grains", "stress"])", R"(["solids", "spin"])"})
+    EXPECT_THROW(
+        run(scene(std::string(R"(, "contents": )") + words), {.folder = folder / "out", .progress = false}, log),
+        InputError)
+        << words;
+}
+
 TEST(Frames, WeightsOfBothSidesAddUpToOne) {
   const ScratchFolder folder;
   runIn(folder, R"(, "contents": ["grains", "solids", "weights"])");
