@@ -83,7 +83,7 @@ public:
       note("stage " + std::to_string(progress_.stage + 1) + ": " + formatNumber(rounded(since(begun))) + " s");
     }
     if (checkpointsEvery_ > 0) checkpoint();
-    if (series_) series_->close(text_);
+    close();
     summarise();
     return true;
   }
@@ -106,7 +106,8 @@ private:
       if (io::isOurs(file(old))) io::removeOurs(file(old));
     std::vector<fs::path> frames;
     for (const auto& entry : fs::directory_iterator(settings_.folder))
-      if (entry.path().extension() == ".pvd" && io::isOurs(entry.path())) frames.push_back(entry.path());
+      if ((entry.path().extension() == ".pvd" || entry.path().extension() == ".vtkhdf") && io::isOurs(entry.path()))
+        frames.push_back(entry.path());
     for (const fs::path& old : frames) io::removeOurs(old);
   }
   static const char* nameOf(const Stage& stage) {
@@ -199,11 +200,16 @@ private:
     frames_->add(built_);
     progress_.frames = frames_->times();
   }
+  /// Writes what does not grow with the run.
+  void close() {
+    if (series_) series_->close(text_);
+    if (scene_.output.hdf5) writeSolidsHdf5(settings_.folder, built_, scene_, provenance_);
+  }
   void checkpoint() { writeCheckpoint(settings_.folder, hash_, progress_, *built_.run); }
 
   bool stop() {
     checkpoint();
-    if (series_) series_->close(text_);
+    close();
     log_ << io::nameOfInterruption() << " at t = " << built_.run->time() << " s; go on with: dovetail resume "
          << settings_.folder.string() << std::endl;
     return false;

@@ -1,6 +1,8 @@
 #include "frame_fields.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/sample.hpp"
@@ -84,7 +86,7 @@ CellStress cellStress(const fem::Model& model, std::size_t elements) {
   return stress;
 }
 
-CellHistory cellHistory(const fem::Model& model, std::size_t elements, const SolidMaterial& material) {
+std::vector<MeshField> cellHistory(const fem::Model& model, std::size_t elements, const SolidMaterial& material) {
   const bool flows =
       std::holds_alternative<J2Plastic>(material.law) || std::holds_alternative<DruckerPrager>(material.law);
   std::size_t size = 0;
@@ -105,8 +107,8 @@ CellHistory cellHistory(const fem::Model& model, std::size_t elements, const Sol
       volume.add(sample.element[q], sample.volume[q], &v);
     }
   });
-  if (flows) return {{{"plastic_strain", strain.take(), 1}, {"plastic_volume", volume.take(), 1}}};
-  return {{{"history", all.take(), static_cast<int>(size)}}};
+  if (flows) return {{"plastic_strain", strain.take()}, {"plastic_volume", volume.take()}};
+  return {{"history", all.take(), static_cast<int>(size)}};
 }
 
 std::vector<double> shareOf(const fem::Model& model) {
@@ -114,6 +116,30 @@ std::vector<double> shareOf(const fem::Model& model) {
     if (const auto* const solid = dynamic_cast<const fem::Solid*>(term.get()))
       if (const auto share = solid->share(); !share.empty()) return {share.begin(), share.end()};
   return {};
+}
+
+std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const SolidMaterial& material,
+                                   const std::vector<std::string>& contents) {
+  const auto has = [&](const char* word) {
+    return std::find(contents.begin(), contents.end(), word) != contents.end();
+  };
+  const auto flat = [](const std::vector<Vec3>& vectors) {
+    return std::vector<double>(&vectors[0].x, &vectors[0].x + 3 * vectors.size());
+  };
+  std::vector<MeshField> fields{{"displacement", flat(model.nodes.u), 3, false},
+                                {"velocity", flat(model.nodes.v), 3, false}};
+  if (has("stress")) {
+    CellStress stress = cellStress(model, elements);
+    fields.push_back({"stress", std::move(stress.cauchy), 9});
+    fields.push_back({"von_mises", std::move(stress.vonMises)});
+    fields.push_back({"pressure", std::move(stress.pressure)});
+  }
+  if (has("history"))
+    for (MeshField& field : cellHistory(model, elements, material)) fields.push_back(std::move(field));
+  if (has("weights"))
+    if (std::vector<double> share = shareOf(model); !share.empty())
+      fields.push_back({"share", std::move(share), 1, false});
+  return fields;
 }
 
 ForceLines contactLines(const dem::Model& grains) {

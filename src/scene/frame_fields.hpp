@@ -20,21 +20,26 @@ struct CellStress {
 };
 CellStress cellStress(const fem::Model& model, std::size_t elements);
 
-/// What the material of a solid remembers, element by element: means of its points by their reference volumes.
-struct CellHistory {
-  struct Field {
-    std::string name;
-    std::vector<double> values;
-    int components = 1;
-  };
-  /// "plastic_strain" (accumulated, √⅔ times its rate's norm) and "plastic_volume" (det Fₚ) of laws that flow;
-  /// "history", all numbers, of others that remember something.
-  std::vector<Field> fields;
+/// Values side by side, per point or cell.
+struct MeshField {
+  std::string name;
+  std::vector<double> values;
+  int components = 1;
+  bool perCell = true;
 };
-CellHistory cellHistory(const fem::Model& model, std::size_t elements, const SolidMaterial& material);
+
+/// What the material of a solid remembers, element by element: means of its points by their reference volumes.
+/// "plastic_strain" (accumulated, √⅔ times its rate's norm) and "plastic_volume" (det Fₚ) of laws that flow; "history",
+/// all numbers, of others that remember something.
+std::vector<MeshField> cellHistory(const fem::Model& model, std::size_t elements, const SolidMaterial& material);
 
 /// Share of the solid per node, 1 − w in an overlap, interpolated in the elements; empty if all is the solid's.
 std::vector<double> shareOf(const fem::Model& model);
+
+/// What frames of a solid show, by the words of `output.contents`: displacement (m), velocity (m/s), stress, history,
+/// weights.
+std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const SolidMaterial& material,
+                                   const std::vector<std::string>& contents);
 
 /// Contacts or bonds, as lines from the centre of the first grain to that of the second, or to the contact point on a
 /// wall.

@@ -74,21 +74,10 @@ void Frames::Impl::addGrains(const dem::Particles& particles, double time) {
 void Frames::Impl::addSolid(std::size_t s, const Built& built, double time) {
   const fem::Model& model = *built.run->solid(s).model;
   const fem::SolidMesh& mesh = built.meshes[s];
-  const fem::Nodes& nodes = model.nodes;
-  solid_io::VtuFields fields{.displacement = nodes.u, .time = time};
-  fields.perPoint.push_back({"velocity", {&nodes.v[0].x, 3 * nodes.v.size()}, 3});
-  CellStress stress;
-  if (has("stress")) {
-    stress = cellStress(model, mesh.elementCount());
-    fields.perCell = {{"stress", stress.cauchy, 9}, {"von_mises", stress.vonMises}, {"pressure", stress.pressure}};
-  }
-  CellHistory history;
-  if (has("history")) history = cellHistory(model, mesh.elementCount(), materials[s]);
-  for (const CellHistory::Field& field : history.fields)
-    fields.perCell.push_back({field.name, field.values, field.components});
-  std::vector<double> share;
-  if (has("weights")) share = shareOf(model);
-  if (!share.empty()) fields.perPoint.push_back({"share", share});
+  const std::vector<MeshField> values = solidFields(model, mesh.elementCount(), materials[s], contents);
+  solid_io::VtuFields fields{.time = time};
+  for (const MeshField& field : values)
+    (field.perCell ? fields.perCell : fields.perPoint).push_back({field.name, field.values, field.components});
   solids[s].write(time, solid_io::vtuText(mesh, fields, io::withMark(provenance)));
 }
 

@@ -37,7 +37,7 @@ void describe(Fields& f, Output& v) {
   f.where(v.where);
   f.number({"series", "interval of rows of energies and momenta"}, v.series, positive(unit::time));
   f.list({"probes", "further columns of the series"}, v.probes);
-  f.flag({"hdf5", "whether the series is written as series.h5 too"}, v.hdf5);
+  f.flag({"hdf5", "whether the series is written as series.h5 too, and solids at the end as .vtkhdf"}, v.hdf5);
   f.number({"frames", "interval of frames for ParaView"}, v.frames, positive(unit::time));
   f.wordList({"contents", "of the frames"}, v.contents, contents, false);
   f.number({"checkpoints", "interval of states to go on from"}, v.checkpoints, positive(unit::time));

@@ -49,4 +49,8 @@ private:
 void requireHdf5();
 void writeSeriesHdf5(const std::filesystem::path& path, const io::TimeSeries& table, const io::KeyValues& provenance);
 
+/// The solids as they are now, solid_<name>.vtkhdf, with what `output.contents` says of them.
+void writeSolidsHdf5(const std::filesystem::path& folder, const Built& built, const Scene& scene,
+                     const io::KeyValues& provenance);
+
 }  // namespace dovetail::scene

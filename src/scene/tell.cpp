@@ -32,10 +32,14 @@ void tellCsv(const fs::path& file, std::ostream& out) {
   tellTable(io::readCsv(file), out);
 }
 
-void tellHdf5(const fs::path& file, std::ostream& out) {
-  const io::TimeSeries table = readSeriesHdf5(file);
+void tellProvenance(const fs::path& file, std::ostream& out) {
   for (const auto& [key, value] : readProvenanceHdf5(file))
     out << ' ' << key << ": " << (key == "scene" ? std::to_string(value.size()) + " bytes of JSON" : value) << '\n';
+}
+
+void tellHdf5(const fs::path& file, std::ostream& out) {
+  const io::TimeSeries table = readSeriesHdf5(file);
+  tellProvenance(file, out);
   tellTable(table, out);
 }
 
@@ -80,6 +84,7 @@ void tell(const fs::path& file, std::ostream& out) {
   if (ending == ".json") return tellScene(file, out);
   if (ending == ".csv") return tellCsv(file, out);
   if (ending == ".h5") return tellHdf5(file, out);
+  if (ending == ".vtkhdf") return tellProvenance(file, out);
   if (ending == ".state") return tellState(file, out);
   if (!io::isOurs(file))
     throw InputError("this is no file of Dovetail's", file.string(), "give a scene, or a file that a run wrote");

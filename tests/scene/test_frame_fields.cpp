@@ -63,18 +63,17 @@ TEST(FrameFields, PlasticStrainIsWhatWasDissipated) {
     deform(model.nodes, {1, 1e-3 * step, 0, 0, 1, 0, 0, 0, 1});
     for (const auto& term : model.terms) dissipated += term->commit(model.nodes, {.dt = 1.0});
   }
-  const CellHistory history = cellHistory(model, 8, scene.solids[0].material);
-  ASSERT_EQ(history.fields.size(), 2U);
-  EXPECT_EQ(history.fields[0].name, "plastic_strain");
+  const std::vector<MeshField> history = cellHistory(model, 8, scene.solids[0].material);
+  ASSERT_EQ(history.size(), 2U);
+  EXPECT_EQ(history[0].name, "plastic_strain");
   double sum = 0.0;
   for (std::size_t e = 0; e < 8; ++e) {
-    sum += 1e3 * history.fields[0].values[e] / 8.0;  // yield stress · strain · volume
-    EXPECT_NEAR(history.fields[1].values[e], 1.0, 1e-12);
+    sum += 1e3 * history[0].values[e] / 8.0;  // yield stress · strain · volume
+    EXPECT_NEAR(history[1].values[e], 1.0, 1e-12);
   }
   EXPECT_GT(sum, 1.0);
   EXPECT_NEAR(sum, dissipated, 1e-3 * dissipated);  // of second order in the strain
-  EXPECT_TRUE(
-      cellHistory(*build(sceneOf(block)).run->solid(0).model, 8, sceneOf(block).solids[0].material).fields.empty());
+  EXPECT_TRUE(cellHistory(*build(sceneOf(block)).run->solid(0).model, 8, sceneOf(block).solids[0].material).empty());
 }
 
 const std::string grains = R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],

@@ -26,7 +26,7 @@ Words words(const ScratchFolder& folder, const std::string& scene, const Words& 
   all.insert(all.end(), {"--set", output + ", \"probes\": [{\"name\": \"g\", \"of\": \"grain\", \"at\": [0, 0, 0]}]}"});
   return all;
 }
-Words pile(const ScratchFolder& folder) { return words(folder, "pile.json", {"time=0.2"}, "0.02"); }
+Words pile(const ScratchFolder& folder) { return words(folder, "pile.json", {"time=0.16"}, "0.02"); }
 
 /// All bytes but those of the summaries, which tell times.
 std::map<std::string, std::string> digits(const ScratchFolder& folder) {
@@ -70,8 +70,8 @@ const Case settling{[](const ScratchFolder& folder) {
                       return words(
                           folder, "pile.json",
                           {"stages=[{\"do\": \"run\", \"time\": 0.02}, {\"do\": \"settle\", \"kinetic\": 1e-12, "
-                           "\"windows\": 3000}, {\"do\": \"run\", \"time\": 4e-3}]"},
-                          "0.1");
+                           "\"windows\": 1000}, {\"do\": \"run\", \"time\": 4e-3}]"},
+                          "0.02");
                     },
                     "checkpoint.previous.state", "dovetail"};
 TEST(Restart, AnInterruptedRestGoesOn) { expectSameAfter(settling, SIGTERM, 143); }

@@ -14,15 +14,16 @@
 #include "../../../io/adaptors/vtk/vtk_arrays.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
+#include "dovetail/solid_io/vtk_cell_types.hpp"
 #include "dovetail/solid_io_vtk/solid_vtu.hpp"
 
 namespace dovetail::solid_io {
 
 namespace {
 
-constexpr std::array<unsigned char, 7> cellTypes = {
-    VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON, VTK_TRIQUADRATIC_HEXAHEDRON, VTK_TETRA, VTK_QUADRATIC_TETRA,
-    VTK_QUAD,       VTK_QUADRATIC_QUAD};
+static_assert(vtkCellTypes == std::array<std::uint8_t, 7>{VTK_HEXAHEDRON, VTK_QUADRATIC_HEXAHEDRON,
+                                                          VTK_TRIQUADRATIC_HEXAHEDRON, VTK_TETRA, VTK_QUADRATIC_TETRA,
+                                                          VTK_QUAD, VTK_QUADRATIC_QUAD});
 
 void setCells(vtkUnstructuredGrid* grid, const fem::SolidMesh& mesh) {
   vtkNew<vtkIdTypeArray> offsets, connectivity;
@@ -32,7 +33,7 @@ void setCells(vtkUnstructuredGrid* grid, const fem::SolidMesh& mesh) {
     for (const int node : group.node) connectivity->InsertNextValue(node);
     for (std::size_t e = 0; e < group.size(); ++e) {
       offsets->InsertNextValue(offsets->GetValue(offsets->GetNumberOfValues() - 1) + fem::nodesOf(group.shape));
-      types->InsertNextValue(cellTypes[static_cast<std::size_t>(group.shape)]);
+      types->InsertNextValue(vtkCellType(group.shape));
     }
   }
   vtkNew<vtkCellArray> cells;
