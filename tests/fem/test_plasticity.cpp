@@ -82,6 +82,12 @@ TEST(Plasticity, TurningThePointTurnsTheStress) {
   }
 }
 
+/// What flow alone changes of a history: not the elastic strain of volume, which soils remember.
+std::vector<double> flowOf(std::vector<double> history) {
+  if (history.size() == 11) history.pop_back();
+  return history;
+}
+
 TEST(Plasticity, UnloadingIsElastic) {
   std::mt19937 random(5);
   for (const auto& [name, material] : laws()) {
@@ -92,7 +98,7 @@ TEST(Plasticity, UnloadingIsElastic) {
     // A frictional point unloads under more pressure.
     const Eigen::Matrix3d back = 0.9995 * stretches(0.9004, 1.06, 1.03);
     const PointResult unloaded = evaluate(*material, back, loadedPoint.history);
-    EXPECT_EQ(unloaded.history, loadedPoint.history) << name;
+    EXPECT_EQ(flowOf(unloaded.history), flowOf(loadedPoint.history)) << name;
     EXPECT_EQ(unloaded.dissipated, 0.0);
     const Eigen::Matrix3d again = kirchhoff(evaluate(*material, F, loadedPoint.history), F);
     EXPECT_LT((again - kirchhoff(loadedPoint, F)).norm(), 1e-12 * loadedPoint.tangent.norm());
@@ -159,11 +165,18 @@ double imbalance(const PointMaterial& material, int steps) {
   return std::abs(work - stored - dissipated) / std::abs(work);
 }
 
-TEST(Plasticity, WorkIsStoredOrDissipatedToFirstOrderInTheStep) {
+/// The largest of a few numbers of steps: the step in which flow begins errs by where in it that is.
+double largestImbalance(const PointMaterial& material, int steps) {
+  double largest = 0.0;
+  for (const int more : {0, 3, 7, 12}) largest = std::max(largest, imbalance(material, steps + more));
+  return largest;
+}
+
+TEST(Plasticity, WorkIsStoredOrDissipatedToSecondOrderInTheStep) {
   for (const auto& [name, material] : laws()) {
-    const double coarse = imbalance(*material, 500), fine = imbalance(*material, 1000);
-    EXPECT_LT(fine, 5e-3) << name;
-    EXPECT_LT(fine, 0.6 * coarse + 1e-6) << name;
+    const double coarse = largestImbalance(*material, 150), fine = largestImbalance(*material, 600);
+    EXPECT_LT(fine, 3e-5) << name;
+    EXPECT_GT(std::log(coarse / fine) / std::log(4.0), 1.6) << name;
   }
 }
 

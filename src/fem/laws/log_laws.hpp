@@ -61,7 +61,8 @@ struct DruckerPragerFlow {
   bool hardens;
 
   const char* name() const { return "Drucker-Prager"; }
-  std::size_t variables() const { return 1; }
+  /// Accumulated plastic strain and the elastic strain of volume, which tells the pressure at the start of a step.
+  std::size_t variables() const { return 2; }
   bool isSymmetric() const { return cone.friction == cone.dilatancy && !hardens; }
   bool isCoaxial() const { return true; }
   /// What the yield function falls by per multiplier of flow: by the elastic stress, by dc/da, and by both.

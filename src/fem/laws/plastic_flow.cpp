@@ -128,6 +128,7 @@ FlowAnswer J2Flow::advance(const TrialStrain& frame, std::span<const double> his
     std::copy(history.begin() + 1, history.end(), backStrain.begin());
     backStrain = frame.toFrame(backStrain);
   }
+  const Six backBefore = backStrain;
   const double modulus = 2.0 / 3.0 * kinematic;
   const J2Step step(*this, deviator(answer.stress), times(modulus, backStrain), history[0]);
   const Return start = step.at(0.0);
@@ -145,7 +146,9 @@ FlowAnswer J2Flow::advance(const TrialStrain& frame, std::span<const double> his
       const Six turned = frame.fromFrame(backStrain);
       std::copy(turned.begin(), turned.end(), newHistory.begin() + 1);
     }
-    answer.dissipated = (yield.stress(0.0) + recovery * modulus * dot(backStrain, backStrain)) * state.increment;
+    // What recovery takes of the back strain, γ α Δa with α at the end, it takes against the mean back stress.
+    const double recovered = 0.5 * (dot(backBefore, backStrain) + dot(backStrain, backStrain));
+    answer.dissipated = std::max(0.0, yield.stress(0.0) + recovery * modulus * recovered) * state.increment;
   }
   answer.stored += yield.stored(newHistory[0]) + 0.5 * modulus * dot(backStrain, backStrain);
   return answer;
@@ -165,6 +168,7 @@ FlowAnswer DruckerPragerFlow::advance(const TrialStrain& frame, std::span<const 
   const Six& strain = frame.strain;
   FlowAnswer answer = elasticAnswer(elasticity, strain, stiffness);
   newHistory[0] = history[0];
+  newHistory[1] = trace(strain);
   const double mu = elasticity.mu, kappa = elasticity.kappa, strength = cone.cohesive * cohesion.stress(history[0]);
   const Six s = deviator(answer.stress);
   const double norm = std::sqrt(dot(s, s)), root = norm / std::numbers::sqrt2, p = trace(answer.stress) / 3.0;
@@ -186,7 +190,11 @@ FlowAnswer DruckerPragerFlow::advance(const TrialStrain& frame, std::span<const 
   Six elastic = times(onCone ? left / (2.0 * mu) : 0.0, s);
   for (std::size_t i = 0; i < 3; ++i) elastic[i] += pressure / (3.0 * kappa);
   relax(answer, elasticity, elastic);
-  answer.dissipated = std::max(0.0, dot(answer.stress, plus(strain, -1.0, elastic)));
+  newHistory[1] = pressure / kappa;
+  const double meanStrength = 0.5 * (strength + cone.cohesive * cohesion.stress(newHistory[0]));
+  const double meanPressure = 0.5 * (kappa * history[1] + pressure);
+  answer.dissipated = onCone ? gamma * std::max(0.0, meanStrength - (cone.friction - cone.dilatancy) * meanPressure)
+                             : meanStrength / cone.friction * (p - pressure) / kappa;
   if (!stiffness) return answer;
   const Six direction = norm > 0.0 ? times(1.0 / norm, s) : Six{};
   *stiffness = left * root > shearless || cone.friction == 0.0

@@ -4,11 +4,13 @@
 // rotation: small-strain return mappings hold as they are (Simo 1992, Comput. Methods Appl. Mech. Engng 99; de Souza
 // Neto, Perić & Owen, Computational Methods for Plasticity, 2008, ch. 14). At constant F the elastic strain relaxes by
 // dε = −N dγ without elastic rotation; where N and ε have the same axes, which is always so without kinematic
-// hardening, this is the exponential map Fₚ ← e^(γN) Fₚ. Dissipation is booked with the stresses at the end of the
-// step, so it is never negative; work, stored energy and dissipation then balance to first order in the step.
+// hardening, this is the exponential map Fₚ ← e^(γN) Fₚ. Dissipation is booked with the means over the step of what
+// resists the flow: yield stress, pressure, back stress. It is never negative, and work, which steps in time do with
+// the mean of the forces at both ends, stored energy and dissipation balance to second order in the step.
 //
-// History: Fₚ⁻¹ row-major (9), accumulated plastic strain (1), and for kinematic hardening the back strain, a symmetric
-// tensor in the intermediate configuration, 11, 22, 33, √2·12, √2·23, √2·31 (6).
+// History: Fₚ⁻¹ row-major (9), accumulated plastic strain (1); for kinematic hardening the back strain, a symmetric
+// tensor in the intermediate configuration, 11, 22, 33, √2·12, √2·23, √2·31 (6); for DruckerPrager the elastic strain
+// of volume, tr ε (1).
 #pragma once
 
 #include <functional>
