@@ -57,12 +57,19 @@ void OverlapTie::Impl::ready(const dem::Model& m) {
 
 /// Brings the gap up to the step under way before ties change: λ of the step before does its half of the work.
 void OverlapTie::Impl::advance(const dem::Model& m) {
+  const bool stood = side.stepping == coupling::Stepping::implicitSteps && nodesBefore == nodes().u;
   updateGap(m, false);
   if (actsInWindows()) return;
   lost += 0.5 * sumOfProducts(lambda, increment) + storedNow;
   storedNow = parts.constraint->storedEnergy(now);
   lost -= storedNow;
   advanced = true;
+  if (!stood) return;
+  // The solid's jump has stored what half a kick to come was to do to the nodes: now the new ties do it.
+  std::vector<Vec3> ofNodes(now.size());
+  gapOfMembers(parts.gap, std::vector<Vec3>(overlap.size()), nodes().v, ofNodes);
+  parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
+  lost -= 0.5 * m.step.dt * sumOfProducts(lambda, ofNodes);
 }
 
 /// The impulses of multipliers that take the rate of the gap away, at the start and where ties have been made anew.

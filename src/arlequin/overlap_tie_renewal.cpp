@@ -205,9 +205,11 @@ void OverlapTie::exchange(dem::Model& m, const dem::Step& step) {
   Impl& s = *impl_;
   if (!s.isFollowed()) return;
   s.ready(m);
-  const bool others = s.knownIds != m.particles.nextId;
+  // Ties made while the solid is behind or ahead would keep that as a gap, across which λ turns the whole.
+  const bool inStep = s.side.isInStep, others = inStep && s.knownIds != m.particles.nextId;
   if (others) s.findNear(m);
   s.watch(m, step);
+  if (!inStep) return;
   if (s.farTravel > 0.5 * shellRadii * s.largestRadius) s.findNear(m);
   if (!others && s.memberTravel <= s.slipLength()) return;
   s.advance(m);

@@ -156,6 +156,8 @@ void CoupledRun::Impl::window(bool wantsEnergies) {
 
 /// Pairs, walls, connectors, and the solids' own forces with the last step of a window.
 void CoupledRun::Impl::stepParticles(bool last) {
+  for (const auto& solid : solids)
+    solid->side.isInStep = last || solid->side.stepping == Stepping::explicitSteps || options.lag != Lag::none;
   dem::renew(grains);
   ownForcesDue = last;
   dem::addForces(grains);

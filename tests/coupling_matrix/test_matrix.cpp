@@ -35,9 +35,10 @@ TEST_P(Matrix, TheBooksCloseAndDigitsStay) {
   EXPECT_LT(figures.largestEnergy, 1e-2);
 }
 
-/// Runs in which particles are located anew: shares of contacts at walls change with those of the particles.
+/// Runs in which particles are located anew: shares of contacts at walls change with those of the particles, and in
+/// windows of several steps ties are made where solid and particles are at the same instant.
 TEST(MatrixLong, TheBooksCloseWhereTiesAreMadeAnew) {
-  for (const Windows windows : {Windows::explicit1, Windows::implicit1})
+  for (const Windows windows : {Windows::explicit1, Windows::implicit1, Windows::implicit4})
     for (const Joint joint : {Joint::penalty, Joint::multipliers}) {
       const Case c{Element::hex8, SolidLaw::stVenantKirchhoff, joint, ContactKind::hertzMindlin, windows};
       const Figures figures = measure(c, 640);

@@ -18,13 +18,15 @@ enum class Stepping {
   implicitSteps   ///< nodes stand still while particles make K steps, but for one jump in their middle
 };
 
-/// Positions and velocities of the nodes belong to the same instant as those of the particles.
+/// Positions and velocities of the nodes belong to the same instant as those of the particles, but within windows of
+/// solids that are stepped implicitly: there nodes are behind or ahead by up to half a window.
 struct SolidSide {
   std::string name;
   fem::Model* model = nullptr;
   const fem::ModelMass* mass = nullptr;
   Stepping stepping = Stepping::explicitSteps;
-  NodalLoad load;  ///< N, of all connectors in the evaluation under way: they add to it
+  bool isInStep = true;  ///< nodes and particles are at the same instant; what is located, is located then
+  NodalLoad load;        ///< N, of all connectors in the evaluation under way: they add to it
   /// Forces of the solid's own terms in this evaluation, N, one per node; empty where they act at other instants only
   /// (windows of several steps, implicit solids). For constraints, which answer the sum of all forces.
   std::span<const Vec3> own;
