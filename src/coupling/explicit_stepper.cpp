@@ -42,6 +42,8 @@ public:
     side.outside.give("supports", fem::momentaOf(model_->nodes, *side.mass) - before);
   }
   void jump() override {}
+  void showVelocities(bool) override {}
+  void hideVelocities() override {}
 
   void findForces(bool sampled) override {
     sampled_ = sampled;

@@ -1,5 +1,6 @@
 // Implicit solids: connectors kick the standing nodes, then these move by a whole window.
 #include <optional>
+#include <utility>
 
 #include "solid_stepper.hpp"
 
@@ -20,12 +21,35 @@ public:
     solid_.emplace(*model_, window(), options);
     side.mass = &solid_->mass();
     side.own = {};
+    byOwnForces_.clear();
   }
 
-  void begin(bool) override { kick(windowLoad, 0.5 * window()); }
+  void begin(bool) override {
+    steps_ = 0;
+    jumped_ = false;
+    kick(windowLoad, 0.5 * window());
+  }
   void kickByLoad() override { kick(side.load, 0.5 * dt_); }
   void drift() override {}
-  void jump() override { solid_->step(); }
+  void jump() override {
+    byOwnForces_ = model_->nodes.v;
+    solid_->step();
+    for (std::size_t n = 0; n < byOwnForces_.size(); ++n) byOwnForces_[n] = model_->nodes.v[n] - byOwnForces_[n];
+    jumped_ = true;
+  }
+  /// Own forces act within the jump, connectors throughout the window: velocities go up and down by as much as either
+  /// does in a window, which is much where nodes are light. Connectors see them as if own forces acted throughout too.
+  void showVelocities(bool timeless) override {
+    if (!timeless) ++steps_;
+    if (byOwnForces_.empty()) return;
+    const double share = (steps_ - 0.5) / K_ - (jumped_ ? 1.0 : 0.0);  // velocities of forces are those half a step ago
+    std::vector<Vec3>& v = model_->nodes.v;
+    hidden_ = v;
+    for (std::size_t n = 0; n < v.size(); ++n) v[n] += share * byOwnForces_[n];
+  }
+  void hideVelocities() override {
+    if (!hidden_.empty()) model_->nodes.v = std::exchange(hidden_, {});
+  }
   void findForces(bool) override {}
   void takeLoad() override {}
   void takeWindowLoad(const NodalLoad& load) override { windowLoad = load; }
@@ -43,11 +67,12 @@ public:
   void save(ByteWriter& archive) override {
     ByteWriter own;
     solid_->save(own);
-    archive(loads.given, loads.turnedOver, loads.turnedOverAngular, own.bytes());
+    archive(loads.given, loads.turnedOver, loads.turnedOverAngular, byOwnForces_, own.bytes());
   }
   std::shared_ptr<SavedSolid> read(ByteReader& archive) const override {
     auto state = std::make_shared<Saved>();
-    archive(state->loads.given, state->loads.turnedOver, state->loads.turnedOverAngular, state->bytes);
+    archive(state->loads.given, state->loads.turnedOver, state->loads.turnedOverAngular, state->byOwnForces,
+            state->bytes);
     return state;
   }
   void adopt(SavedSolid& state) override {
@@ -55,6 +80,7 @@ public:
     ByteReader reader(saved.bytes);
     solid_->load(reader);
     loads = std::move(saved.loads);
+    byOwnForces_ = std::move(saved.byOwnForces);
   }
 
 protected:
@@ -63,6 +89,7 @@ protected:
 private:
   struct Saved final : SavedSolid {
     ImpulseBook::Channel loads{"connectors", {}};
+    std::vector<Vec3> byOwnForces;
     std::vector<char> bytes;
   };
 
@@ -78,6 +105,10 @@ private:
   }
 
   std::optional<fem::ImplicitIntegrator> solid_;
+  int steps_ = 0;                  // of the particles in this window so far
+  bool jumped_ = false;            // in this window
+  std::vector<Vec3> byOwnForces_;  // change of velocity in the last jump, m/s
+  std::vector<Vec3> hidden_;       // velocities while others are shown, m/s
 };
 
 }  // namespace

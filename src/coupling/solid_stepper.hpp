@@ -37,6 +37,10 @@ public:
   virtual void drift() = 0;
   /// The solid's own step in the middle of a window.
   virtual void jump() = 0;
+  /// Puts the velocities that connectors are to see in the place of the nodes' own. @param timeless  the evaluation
+  virtual void showVelocities(bool timeless) = 0;
+  /// Puts the nodes' own back.
+  virtual void hideVelocities() = 0;
   /// Own forces at the window's end. @param sampled  energies too
   virtual void findForces(bool sampled) = 0;
   /// All loads of the last evaluation are known.

@@ -15,6 +15,7 @@ bool SolidsTerm::ownForcesDue(const dem::Step& step) const {
 void SolidsTerm::addForces(dem::Model&, const dem::Step& step) {
   if (!run_) return;
   for (const auto& solid : run_->solids) {
+    solid->showVelocities(step.timeless);
     solid->side.load.clear();
     if (ownForcesDue(step)) solid->findForces(run_->sampled);
   }
@@ -22,6 +23,7 @@ void SolidsTerm::addForces(dem::Model&, const dem::Step& step) {
 
 void SolidsTerm::book(dem::Model& m, const dem::Step& step) {
   if (!run_) return;
+  for (const auto& solid : run_->solids) solid->hideVelocities();
   run_->outside.evaluated(m, step, run_->lateLoads());
   if (!ownForcesDue(step) || !run_->kicksTogether()) return;
   for (const auto& solid : run_->solids) solid->takeLoad();
