@@ -42,7 +42,8 @@ public:
   void showVelocities(bool timeless) override {
     if (!timeless) ++steps_;
     if (byOwnForces_.empty()) return;
-    const double share = (steps_ - 0.5) / K_ - (jumped_ ? 1.0 : 0.0);  // velocities of forces are those half a step ago
+    // Between steps particles have the velocities of the instant, within steps those of half a step before.
+    const double share = (timeless ? steps_ : steps_ - 0.5) / K_ - (jumped_ ? 1.0 : 0.0);
     std::vector<Vec3>& v = model_->nodes.v;
     hidden_ = v;
     for (std::size_t n = 0; n < v.size(); ++n) v[n] += share * byOwnForces_[n];

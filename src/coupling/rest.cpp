@@ -71,7 +71,10 @@ bool settleOn(CoupledRun& run, const RestOptions& options, RestProgress& progres
     progress.before = 0.0;
   }
   report.atRest = progress.quiet == 2;
-  return report.atRest || report.windows >= options.windows;
+  const bool givenUp = !report.atRest && report.windows >= options.windows;
+  if (const double elastic = givenUp ? elasticEnergy(run) : 0.0; elastic > 0.0)
+    report.kinetic = std::max(report.kinetic, progress.before / elastic);
+  return report.atRest || givenUp;
 }
 
 RestReport settle(CoupledRun& run, const RestOptions& options) {

@@ -70,6 +70,40 @@ TEST(RunEvents, SettlesInPartsAsInOne) {
   EXPECT_EQ(parts->solid(0).nodes().u, whole->solid(0).nodes().u);
 }
 
+/// The fastest node that connectors see.
+class Watch final : public Connector {
+public:
+  using Connector::Connector;
+  std::string name() const override { return "watch"; }
+  std::unique_ptr<dem::Term> clone() const override { return std::make_unique<Watch>(*this); }
+  void addForces(dem::Model&, const dem::Step&) override {
+    for (const Vec3& v : side().nodes().v) fastest = std::max(fastest, norm(v));
+  }
+  double fastest = 0.0;
+};
+
+TEST(RunEvents, ConnectorsSeeImplicitSolidsRestWhereTheyRest) {
+  const auto run = springRun({.stepping = Stepping::implicitSteps, .held = true});
+  run->grains.gravity = {0.0, 0.0, -9.81};
+  run->grains.terms.add(Watch(run->solid(0)));
+  run->start(1e-3);
+  EXPECT_TRUE(settle(*run, {.kinetic = 1e-18}).atRest);
+  // Between own forces, which act at once, and what connectors do all the time, nodes rush by this speed.
+  const fem::Nodes& nodes = run->solid(0).nodes();
+  double rush = 0.0;
+  for (std::size_t n = 0; n < nodes.X.size(); ++n)
+    rush = std::max(rush, run->dt() * norm(run->solid(0).load.force[n]) / nodes.mass[n]);
+  EXPECT_GT(rush, 1e-2);
+  for (const int K : {1, 2, 3, 4, 7}) {
+    run->start(1e-3, {.stepsPerWindow = K});
+    run->advance(2);
+    Watch& watch = *run->grains.terms.all<Watch>().front();
+    watch.fastest = 0.0;
+    run->advance(3);
+    EXPECT_LT(watch.fastest, 1e-4 * rush) << K;
+  }
+}
+
 /// Pulls at one particle in both half windows around their ends.
 class Pull final : public Connector {
 public:

@@ -155,14 +155,16 @@ struct RestOptions {
 
 struct RestReport {
   bool atRest = false;
-  double kinetic = 0.0;      ///< the largest of the last swing, over the elastic energy
+  double kinetic = 0.0;      ///< the largest of the last swing, or since, over the elastic energy
   std::int64_t windows = 0;  ///< taken
   std::int64_t stops = 0;
 };
 
 /// Steps a started run until it is at rest under the loads that it has: whenever the kinetic energy has passed a peak
 /// everything is stopped (kinetic damping: Cundall 1976). Contacts remember as in any other step, so friction holds
-/// what it can. Time goes on by the windows taken, and loads that are functions of it with it.
+/// what it can. Time goes on by the windows taken, and loads that are functions of it with it. Windows count, not the
+/// accuracy on the way: a step of half the limit rests in a third of the windows that a fifth takes. Spheres without
+/// rolling resistance may roll on for ever.
 /// @throws InputError for options out of range; NumericalError as advance
 RestReport settle(CoupledRun& run, const RestOptions& options = {});
 
