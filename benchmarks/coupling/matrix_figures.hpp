@@ -34,9 +34,6 @@ struct Figures {
 /// @throws InputError for another number of steps
 Figures measure(const Case& c, int steps);
 
-/// Falls short at single looks only: where a contact fades out at an edge of facets its tangential spring is in no
-/// book for a few steps, until it ends.
-inline constexpr const char* energyInPassing = "energy in passing";
 /// What is asked of a case: empty, or what falls short.
 std::string shortfall(const Case& c, const Figures& figures);
 

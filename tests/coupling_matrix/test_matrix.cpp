@@ -30,9 +30,7 @@ class Matrix : public testing::TestWithParam<Case> {};
 TEST_P(Matrix, TheBooksCloseAndDigitsStay) {
   const Figures figures = measure(GetParam(), 160);
   EXPECT_EQ(figures.refused, "");
-  const std::string falls = shortfall(GetParam(), figures);
-  EXPECT_TRUE(falls.empty() || falls == energyInPassing) << falls;
-  EXPECT_LT(figures.largestEnergy, 1e-2);
+  EXPECT_EQ(shortfall(GetParam(), figures), "");
 }
 
 /// Runs in which particles are located anew: shares of contacts at walls change with those of the particles, and in
@@ -44,6 +42,12 @@ TEST(MatrixLong, TheBooksCloseWhereTiesAreMadeAnew) {
       const Figures figures = measure(c, 640);
       EXPECT_EQ(shortfall(c, figures), "") << nameOf(c);
     }
+}
+
+/// Soil that is pulled up again flows at its apex, where it has no stiffness, in some points of an element.
+TEST(MatrixLong, EnhancedBricksOfSoilFindTheirModesUnderGrains) {
+  const Case c{Element::enhanced, SolidLaw::druckerPrager, Joint::surface, ContactKind::rolling, Windows::explicit1};
+  EXPECT_EQ(shortfall(c, measure(c, 400)), "");
 }
 
 std::string testName(const testing::TestParamInfo<Case>& c) {

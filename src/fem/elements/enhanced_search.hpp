@@ -17,6 +17,9 @@ inline constexpr int maxIterations = 40;
 inline constexpr double relativeTolerance = 1e-10;
 /// A kept inverse is good enough while each step is at most this share of the one before.
 inline constexpr double goodContraction = 0.25;
+/// Broyden's steps wander before they close in: one start or another does.
+inline constexpr int maxLearningSteps = 300;
+inline constexpr std::array guards{1.0, 0.1, 10.0};
 /// With more steps than this it is worth a new one.
 inline constexpr int fewIterations = 5;
 
@@ -71,6 +74,23 @@ void copyLanes(unsigned lanes, const Lanes<size>& from, Lanes<size>& x) {
   for (int lane = 0; lane < laneCount; ++lane)
     if (lanes >> lane & 1)
       for (std::size_t k = 0; k < size; ++k) x[k][lane] = from[k][lane];
+}
+
+/// Broyden's good update of K⁻¹ after a step −K⁻¹ r that led from the residual `before` to `after`.
+inline void learn(const Modes& before, const Modes& after, const Modes& step, ModeMatrix& inverse) {
+  for (int lane = 0; lane < laneCount; ++lane) {
+    std::array<double, M> image{}, along{};  // K⁻¹ Δr, and Δαᵀ K⁻¹
+    double size = 0.0;
+    for (std::size_t m = 0; m < M; ++m)
+      for (std::size_t n = 0; n < M; ++n) {
+        image[m] += inverse[M * m + n][lane] * (after[n][lane] - before[n][lane]);
+        along[n] -= step[m][lane] * inverse[M * m + n][lane];
+      }
+    for (std::size_t m = 0; m < M; ++m) size -= step[m][lane] * image[m];
+    if (!(std::abs(size) > 0.0)) continue;
+    for (std::size_t m = 0; m < M; ++m)
+      for (std::size_t n = 0; n < M; ++n) inverse[M * m + n][lane] += (-step[m][lane] - image[m]) * along[n] / size;
+  }
 }
 
 /// What is left of the balance of the modes, and the lanes in which it is not zero.

@@ -39,7 +39,8 @@ class EnhancedSolid final : public SolidBase {
 public:
   EnhancedSolid(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options)
       : SolidBase(std::move(cells), std::move(points), options),
-        resolution_(16.0 * std::numeric_limits<double>::epsilon() * points_->moduliAtRest().confined) {
+        confined_(points_->moduliAtRest().confined),
+        resolution_(16.0 * std::numeric_limits<double>::epsilon() * confined_) {
     const std::vector<PointGeometry> centre = geometryAt(cells_, centreRule(CellShape::hex8));
     enhanced_.resize(cells_.batches());
     for (std::size_t b = 0; b < cells_.batches(); ++b) setGeometry(b, centre[b]);
@@ -166,6 +167,10 @@ private:
     if (newton(task, s, found.alpha, search, r)) return true;
     copyLanes(r.open, Modes{}, found.alpha);
     if (newton(task, s, found.alpha, search, r)) return true;
+    for (const double guard : guards) {
+      copyLanes(r.open, committed_[task.batch].alpha, found.alpha);
+      if (learning(task, s, found.alpha, guard, r)) return true;
+    }
     copyLanes(r.open, Modes{}, found.alpha);
     for (Lane& stress : s.P)
       for (int lane = 0; lane < laneCount; ++lane)
@@ -226,6 +231,31 @@ private:
     }
     balance(task, alpha, s, nullptr, r);
     return r.open == 0;
+  }
+
+  /// Broyden's (1965) steps from A + guard · (confined modulus at rest) 1: they learn from the way what the moduli are
+  /// between two places, which Newton's method cannot where what flows has none, or other ones beyond an edge.
+  /// @return false if lanes are open still
+  bool learning(const BatchTask& task, State& s, Modes& alpha, double guard, Unbalanced& r) {
+    Moduli A;
+    balance(task, alpha, s, &A, r);
+    for (std::size_t q = 0; q < Q; ++q)
+      for (std::size_t k = 0; k < 9; ++k) A[81 * q + 10 * k] += guard * confined_;
+    ModeMatrix inverse;
+    inverseOfModes(cellsOf(task.batch), s, A, inverse);
+    for (int iteration = 0; iteration < maxLearningSteps; ++iteration) {
+      Modes step;
+      modeStep(inverse, r.residual, step);
+      Modes next;
+      for (std::size_t m = 0; m < M; ++m) next[m] = alpha[m] - step[m];
+      copyLanes(r.open, next, alpha);
+      Unbalanced there;
+      balance(task, alpha, s, nullptr, there);
+      learn(r.residual, there.residual, step, inverse);
+      r = there;
+      if (r.open == 0) return true;
+    }
+    return false;
   }
 
   void keepInverse(const BatchTask& task, const Displacements& U) {
@@ -290,6 +320,7 @@ private:
   std::vector<EnhancedGeometry> enhanced_;
   std::vector<Committed> committed_;
   std::vector<Found> found_;
+  double confined_;    // modulus at rest, Pa
   double resolution_;  // of stress, Pa: what round-off of F does
 };
 
