@@ -31,7 +31,8 @@ INSTANTIATE_TEST_SUITE_P(Windows, Books, windowCases, [](const auto& c) { return
 TEST_P(Books, CloseWithWallsSupportsClumpsInsertionAndOutlet) {
   const auto run = fullRun({.name = "block", .stepping = GetParam().stepping});
   dem::addWall(run->grains, dem::makePlane({0.06, 0, 0}, {1, 0, 0}));
-  dem::addWall(run->grains, dem::MeshWall{}).wall = dem::makeWall({{0.55, -1, -1}, {0.55, 2, -1}, {0.55, 0.3, 2}}, {{0, 1, 2}});
+  dem::addWall(run->grains, dem::MeshWall{}).wall =
+      dem::makeWall({{0.55, -1, -1}, {0.55, 2, -1}, {0.55, 0.3, 2}}, {{0, 1, 2}});
   dem::damping(run->grains).viscousRate = 0.3;
   dem::damping(run->grains).local = 0.1;
   const std::vector<std::int64_t> driven{run->grains.particles.id[3]};
@@ -57,6 +58,24 @@ TEST_P(Books, CloseWithWallsSupportsClumpsInsertionAndOutlet) {
   for (const char* name : {"particles: gravity", "particles: walls", "particles: mesh walls", "particles: damping",
                            "particles: drive", "block: supports", "entered", "left"})
     EXPECT_TRUE(hasChannel(totals, name)) << name;
+}
+
+/// Newmark's steps keep angular momentum to second order, energy–momentum steps to the tolerance of their solver, and
+/// loads kick either alike.
+TEST(EnergyMomentumWindows, KeepAngularMomentumToTheTolerance) {
+  const auto residual = [](const fem::ImplicitOptions& implicitOptions, int K) {
+    const auto run =
+        fullRun({.name = "block", .stepping = Stepping::implicitSteps, .implicitOptions = implicitOptions});
+    run->start(dt, {.stepsPerWindow = K});
+    run->advance(800 / K);
+    EXPECT_LT(std::abs(run->ledger().residual()), 1e-2 * run->ledger().storedAtOpening());
+    return residuals(*run)[1];
+  };
+  for (const int K : {1, 4}) {
+    const fem::ImplicitOptions conserving{.scheme = fem::energyMomentum(), .relativeTolerance = 1e-12};
+    EXPECT_LT(residual(conserving, K), 1e-12) << K;
+    EXPECT_GT(residual({.scheme = fem::newmark(), .relativeTolerance = 1e-12}, K), 1e-11) << K;
+  }
 }
 
 /// Everything that acts on a solid but its elements: supports that move, held through the list of constraints, a mass
