@@ -76,8 +76,11 @@ private:
 
 }  // namespace
 
-std::function<double(double)> timeFunction(const std::string& expression) {
-  return [parsed = std::make_shared<Expression>(expression, Expression::Variables::time)](double t) { return parsed->at({}, t); };
+std::function<double(double)> timeFunction(const std::string& expression,
+                                           const std::map<std::string, double>& constants) {
+  return [parsed = std::make_shared<Expression>(expression, Expression::Variables::time, constants)](double t) {
+    return parsed->at({}, t);
+  };
 }
 
 std::function<double(const Vec3&, double)> fieldFunction(const std::string& expression) {

@@ -16,26 +16,13 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void setLaws(dem::Model& grains, const Scene& scene) {
-  if (scene.contact) {
-    grains.laws = makeLaws(*scene.contact);
+  if (scene.contact || !scene.contacts.empty()) {
+    grains.laws = makeLaws(scene);
     return;
   }
   if (!scene.particles.empty() || !scene.clumps.empty() || !scene.insertions.empty())
     throw InputError("grains have no contact law", scene.steps.where, "give the scene a key \"contact\"");
   grains.laws = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 1.0}});  // of a scene without grains
-}
-
-/// Of two of the smallest grains that the scene has or lets in.
-Limit impactLimitOf(const dem::Particles& particles, const Scene& scene) {
-  Limit limit{"an impact of the smallest grains", infinity};
-  if (!scene.contact) return limit;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const double r = particles.radius[i], volume = 4.0 / 3.0 * std::acos(-1.0) * r * r * r;
-    limit.dt = std::min(limit.dt, impactLimit(*scene.contact, r, particles.mass[i] / volume));
-  }
-  for (const Insertion& in : scene.insertions)
-    limit.dt = std::min(limit.dt, impactLimit(*scene.contact, in.radius.smallest, in.density));
-  return limit;
 }
 
 std::vector<Limit> limitsOfSolids(Built& built, int stepsPerWindow) {
@@ -62,7 +49,9 @@ Built build(const Scene& scene) {
   if (scene.domain)
     grains.domain =
         dem::Domain{scene.domain->box, scene.domain->removes ? dem::EscapePolicy::remove : dem::EscapePolicy::refuse};
-  addParticles(grains, scene, built.notes);
+  const Groups groups = addParticles(grains, scene, built.notes);
+  if (std::isinf(grains.laws->reach())) dem::findPairs(grains.particles, grains.pairs);  // those that hold together
+  addBondsAndDrives(grains, scene, groups, built.notes);
   addWalls(built, scene);
   addClumpsAndStreams(grains, scene);
   addSolids(built, scene);
@@ -85,7 +74,7 @@ void start(Built& built, const Scene& scene) {
 
 std::vector<Limit> limits(Built& built, const Scene& scene) {
   std::vector<Limit> found = limitsOfSolids(built, scene.steps.stepsPerWindow);
-  found.push_back(impactLimitOf(built.run->grains.particles, scene));
+  found.push_back({"an impact of the smallest grains", impactLimit(scene, built.run->grains.particles)});
   const coupling::StepLimit now = built.run->criticalStep();
   found.push_back({"the whole as it is now (" + now.owner + ")", now.dt});
   return found;

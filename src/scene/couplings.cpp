@@ -10,10 +10,13 @@ namespace dovetail::scene {
 
 namespace {
 
-void add(Built& built, std::size_t solid, const Coupling& coupling, const SurfaceContact& contact) {
+void add(Built& built, std::size_t solid, const Coupling& coupling, const SurfaceContact& contact, const Scene& scene) {
   dem::Model& grains = built.run->grains;
   const fem::SolidMesh& mesh = built.meshes[solid];
+  if (contact.contact && !contact.contactMaterial.empty())
+    throw InputError("these contacts have a law and a material", "", "leave contact or contact_material out");
   surface::Skin skin = surface::makeSkin(mesh.X, fem::faceSet(mesh, contact.on));
+  skin.wall.material = contactRow(scene, contact.contactMaterial);
   if (contact.kernel.word == "advised")
     surface::coarseGrain(skin, surface::advisedKernel(mesh));
   else if (contact.kernel.word.empty())
@@ -23,7 +26,7 @@ void add(Built& built, std::size_t solid, const Coupling& coupling, const Surfac
                                            "grains on " + coupling.solid + " (" + contact.on + ")"));
 }
 
-void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overlap) {
+void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overlap, const Scene&) {
   dem::Model& grains = built.run->grains;
   const fem::SolidMesh& mesh = built.meshes[solid];
   coupling::SolidSide& side = built.run->solid(solid);
@@ -58,7 +61,7 @@ void addCouplings(Built& built, const Scene& scene) {
   for (const Coupling& coupling : scene.couplings)
     atPlace(coupling.where, [&] {
       const std::size_t solid = solidNamed(coupling.solid, *built.run);
-      std::visit([&](const auto& kind) { add(built, solid, coupling, kind); }, coupling.kind);
+      std::visit([&](const auto& kind) { add(built, solid, coupling, kind, scene); }, coupling.kind);
     });
 }
 

@@ -269,6 +269,7 @@ void check(const Scene& scene, std::ostream& log) {
   start(built, scene);
   coupling::CoupledRun& run = *built.run;
   for (const std::string& note : built.notes) log << note << '\n';
+  for (const std::string& warning : warnings(built, scene)) log << "WARNING: " << warning << '\n';
   log << run.grains.particles.size() << " particles, contacts: " << run.grains.laws->name() << '\n';
   for (std::size_t s = 0; s < run.solids(); ++s)
     log << "solid \"" << run.solid(s).name << "\": " << built.meshes[s].X.size() << " nodes, "

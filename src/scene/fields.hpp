@@ -43,6 +43,10 @@ public:
   virtual void integer(Key key, std::int64_t& value, std::int64_t least, std::int64_t most) = 0;
   virtual void vector(Key key, Vec3& value, const Dimension& dimension) = 0;
   virtual void box(Key key, geometry::Box& value) = 0;
+  /// A value that may be a function of time.
+  virtual void function(Key key, TimeValue& value, const Limits& limits) = 0;
+  virtual void functions(Key key, TimeVector& value, const Dimension& dimension) = 0;
+  virtual void functions(Key key, std::optional<TimeVector>& value, const Dimension& dimension) = 0;
   virtual void cells(Key key, std::array<int, 3>& value) = 0;
   virtual void flag(Key key, bool& value) = 0;
   virtual void text(Key key, std::string& value, bool needed) = 0;
@@ -55,7 +59,9 @@ public:
   /// Where the structure stands in its file; no key.
   virtual void where(std::string& value) = 0;
   /// The parameters of expressions.
-  virtual void parameters(Key key) = 0;
+  virtual void parameters(Key key, Parameters& values) = 0;
+  /// Other scenes, which have become part of this one when it is looked at (include.hpp).
+  virtual void includes(Key key) = 0;
 
   template <class T>
   void integer(Key key, T& value, std::int64_t least, std::int64_t most) {
@@ -110,41 +116,56 @@ private:
   }
 };
 
-// keys.cpp
+// keys_grains.cpp, keys_solids.cpp, keys.cpp
 void describe(Fields& f, Rolling& v);
 void describe(Fields& f, LinearContact& v);
 void describe(Fields& f, HertzContact& v);
 void describe(Fields& f, ContactLaw& v);
-void describe(Fields& f, Periodic& v);
-void describe(Fields& f, Domain& v);
+void describe(Fields& f, PairLaw& v);
 void describe(Fields& f, SizeRange& v);
 void describe(Fields& f, Lattice& v);
 void describe(Fields& f, RandomPacking& v);
 void describe(Fields& f, Sphere& v);
 void describe(Fields& f, SphereList& v);
 void describe(Fields& f, SphereFile& v);
+void describe(Fields& f, SphereFrame& v);
 void describe(Fields& f, Particles& v);
 void describe(Fields& f, Plane& v);
 void describe(Fields& f, BoxWalls& v);
 void describe(Fields& f, Cylinder& v);
 void describe(Fields& f, SphereWall& v);
 void describe(Fields& f, SurfaceFile& v);
+void describe(Fields& f, Turn& v);
 void describe(Fields& f, Wall& v);
 void describe(Fields& f, Clump& v);
 void describe(Fields& f, Insertion& v);
 void describe(Fields& f, Outlet& v);
+void describe(Fields& f, BondGroup& v);
+void describe(Fields& f, Drive& v);
 void describe(Fields& f, BoxMesh& v);
 void describe(Fields& f, MeshFile& v);
 void describe(Fields& f, StVenantKirchhoff& v);
 void describe(Fields& f, NeoHookean& v);
 void describe(Fields& f, J2Plastic& v);
 void describe(Fields& f, DruckerPrager& v);
+void describe(Fields& f, AxialSprings& v);
 void describe(Fields& f, SolidMaterial& v);
+void describe(Fields& f, PlaceInBox& v);
+void describe(Fields& f, PlaceOnPlane& v);
+void describe(Fields& f, PlaceInSphere& v);
+void describe(Fields& f, PlaceAtSide& v);
+void describe(Fields& f, NamedSet& v);
 void describe(Fields& f, Support& v);
+void describe(Fields& f, PressureLoad& v);
+void describe(Fields& f, TractionLoad& v);
+void describe(Fields& f, Load& v);
+void describe(Fields& f, MeshTie& v);
 void describe(Fields& f, Solid& v);
 void describe(Fields& f, SurfaceContact& v);
 void describe(Fields& f, Overlap& v);
 void describe(Fields& f, Coupling& v);
+void describe(Fields& f, Periodic& v);
+void describe(Fields& f, Domain& v);
 void describe(Fields& f, Settle& v);
 void describe(Fields& f, RunFor& v);
 void describe(Fields& f, Stage& v);

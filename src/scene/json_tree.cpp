@@ -22,7 +22,7 @@ std::vector<std::size_t> lineStarts(const std::string& text) {
 
 Place placeAt(const std::vector<std::size_t>& starts, std::size_t offset) {
   const auto line = std::upper_bound(starts.begin(), starts.end(), offset) - starts.begin();
-  return {static_cast<int>(line), 1 + static_cast<int>(offset - starts[static_cast<std::size_t>(line - 1)])};
+  return {static_cast<int>(line), 1 + static_cast<int>(offset - starts[static_cast<std::size_t>(line - 1)]), nullptr};
 }
 
 /// Characters of the text, counted as the parser takes them.
@@ -187,7 +187,8 @@ std::string nameOf(const Node& node) {
 
 std::string placeName(const std::string& name, const Place& place) {
   if (place.line == 0) return name;
-  return name + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+  return (place.file ? place.file->string() : name) + ":" + std::to_string(place.line) + ":" +
+         std::to_string(place.column);
 }
 
 Node parseJson(const std::string& text, const std::string& name) {

@@ -1,6 +1,8 @@
 // A JSON document whose values know where they stand.
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +11,8 @@ namespace dovetail::scene {
 
 struct Place {
   int line = 0, column = 0;  ///< from 1; 0: not from a file
+  /// Of the file; none: of the one that all is read from.
+  std::shared_ptr<const std::filesystem::path> file{};
 };
 
 struct Node {
@@ -39,7 +43,18 @@ std::string nameOf(const Node& node);
 /// beyond doubles, control characters in a text, something behind the end
 Node parseJson(const std::string& text, const std::string& name);
 
-/// "scene.json:3:14", or the name alone
+/// Calls act(place) for the places of the node and of all within it.
+template <class Act>
+void forEachPlace(Node& node, const Act& act) {
+  act(node.place);
+  for (Node& item : node.items) forEachPlace(item, act);
+  for (Node::Member& member : node.members) {
+    act(member.place);
+    for (Node& value : member.value) forEachPlace(value, act);
+  }
+}
+
+/// "scene.json:3:14", or the name alone; that of the place's own file where it has one.
 std::string placeName(const std::string& name, const Place& place);
 
 }  // namespace dovetail::scene

@@ -21,6 +21,9 @@ auto make(const DruckerPrager& law, double density) {
   return fem::pointMaterial(fem::DruckerPrager{law.youngsModulus, law.poissonRatio, density, law.cohesion,
                                                law.frictionAngle, law.dilatancyAngle});
 }
+auto make(const AxialSprings& law, double density) {
+  return fem::pointMaterial(fem::AxialSprings{law.youngsModulus, density});
+}
 
 }  // namespace
 

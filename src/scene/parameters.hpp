@@ -1,15 +1,20 @@
 // Parameters of a scene and the expressions that use them.
 #pragma once
 
-#include <map>
+#include <functional>
 #include <string>
 
-namespace dovetail::scene {
+#include "dovetail/scene/basics.hpp"
 
-using Parameters = std::map<std::string, double>;
+namespace dovetail::scene {
 
 /// The value of an expression of SI numbers and parameters.
 /// @throws InputError if it cannot be read or is not finite, or if the build has no expressions
 double valueOf(const std::string& expression, const Parameters& parameters);
+
+/// The expression as a function of the time t, s. Copies may not be evaluated by several threads at once.
+/// @throws InputError if it cannot be read, or if the build has no expressions; when evaluated, NumericalError if the
+///         value is not finite
+std::function<double(double)> functionOf(const std::string& expression, const Parameters& parameters);
 
 }  // namespace dovetail::scene

@@ -1,4 +1,6 @@
 // Spheres of a scene.
+#include <algorithm>
+
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/dem/setup/packing.hpp"
@@ -66,6 +68,8 @@ void add(const Target& to, const SphereList& list) {
                      dem::Density{to.group.density});
 }
 
+void add(const Target& to, const SphereFrame& from) { add(to, SphereList{readSpheres(from.file)}); }
+
 void add(const Target& to, const SphereFile& from) {
   const io::TimeSeries table = io::readCsv(from.file);
   const auto x = table.column("x_m"), y = table.column("y_m"), z = table.column("z_m"), r = table.column("radius_m");
@@ -82,11 +86,27 @@ void add(const Target& to, const SphereFile& from) {
 
 }  // namespace
 
-void addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes) {
+void setContactMaterial(dem::Particles& particles, std::size_t first, int row) {
+  if (row == 0) return;
+  particles.material.resize(particles.size(), 0);
+  std::fill(particles.material.begin() + static_cast<std::ptrdiff_t>(first), particles.material.end(),
+            static_cast<std::uint8_t>(row));
+}
+
+Groups addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes) {
+  Groups groups;
   for (const Particles& group : scene.particles)
     atPlace(group.where, [&] {
+      const std::size_t first = grains.particles.size();
       std::visit([&](const auto& source) { add({grains, group, scene, notes}, source); }, group.from);
+      setContactMaterial(grains.particles, first, contactRow(scene, group.contactMaterial));
+      if (group.name.empty()) return;
+      const auto& ids = grains.particles.id;
+      const bool isNew =
+          groups.try_emplace(group.name, ids.begin() + static_cast<std::ptrdiff_t>(first), ids.end()).second;
+      if (!isNew) throw InputError("there are two groups \"" + group.name + "\"", "", "give one another name");
     });
+  return groups;
 }
 
 }  // namespace dovetail::scene

@@ -1,6 +1,8 @@
 // The parts of a scene, put into a run; one source file each.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -34,16 +36,33 @@ inline void requireBearable(double count, const std::string& what, const std::st
 }
 
 std::shared_ptr<const dem::ContactLaws> makeLaws(const ContactLaw& law);
-/// 2/ω of two spheres of this radius and density, pressed together by a twentieth of the radius, s.
-double impactLimit(const ContactLaw& law, double radius, double density);
+/// Of all pairs of contact materials. @throws InputError telling the place of the law at fault
+std::shared_ptr<const dem::ContactLaws> makeLaws(const Scene& scene);
+/// Of a contact material in these laws. @throws InputError if no law names it
+int contactRow(const Scene& scene, const std::string& name);
+/// The least 2/ω of two equal spheres, of those there are and those that enter, pressed together by a twentieth of the
+/// radius under the stiffest law of their material, s.
+double impactLimit(const Scene& scene, const dem::Particles& particles);
 
-void addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes);
+/// Particles of groups that have a name, by Particles::id.
+using Groups = std::map<std::string, std::vector<std::int64_t>>;
+
+Groups addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes);
+void addBondsAndDrives(dem::Model& grains, const Scene& scene, const Groups& groups, std::vector<std::string>& notes);
 void addWalls(Built& built, const Scene& scene);
 void addClumpsAndStreams(dem::Model& grains, const Scene& scene);
 void addSolids(Built& built, const Scene& scene);
 void addCouplings(Built& built, const Scene& scene);
 /// Number of a solid. @throws InputError with the nearest name there is
 std::size_t solidNamed(const std::string& name, const coupling::CoupledRun& run);
+
+/// Gives particles from number `first` on their row in the table of laws.
+void setContactMaterial(dem::Particles& particles, std::size_t first, int row);
+
+/// Puts supports, loads and ties on a solid.
+void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene);
+/// Adds the sets of the scene to those of the mesh. @throws InputError for names that are there, and empty sets
+void addSets(fem::SolidMesh& mesh, const Solid& solid);
 
 std::shared_ptr<const fem::PointMaterial> makeMaterial(const SolidMaterial& material);
 /// w of the grains per node of the mesh. @throws InputError for borders between which no node lies
@@ -52,5 +71,6 @@ std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh&
 // Files of kinds that depend on the build.
 geometry::TriangleMesh readTriangles(const std::string& file);
 fem::SolidMesh readMesh(const std::string& file);
+std::vector<Sphere> readSpheres(const std::string& file);
 
 }  // namespace dovetail::scene

@@ -1,11 +1,11 @@
 // From JSON to the structures of a scene, strictly.
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+#include <set>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/scene/read.hpp"
 #include "fields.hpp"
+#include "include.hpp"
 #include "json_tree.hpp"
 #include "nearest.hpp"
 #include "settings.hpp"
@@ -69,6 +69,15 @@ public:
         refuse(*node, named(key) + " has no width along " + std::string(1, "xyz"[k]),
                "write the lower corner first, each of its coordinates below that of the upper one");
   }
+  void function(Key key, TimeValue& value, const Limits& limits) override {
+    if (const Node* node = take(key, std::isnan(value.number))) value = timeValueOf(*node, key, limits);
+  }
+  void functions(Key key, TimeVector& value, const Dimension& dimension) override {
+    if (const Node* node = take(key, std::isnan(value[0].number))) value = timeVectorOf(*node, key, dimension);
+  }
+  void functions(Key key, std::optional<TimeVector>& value, const Dimension& dimension) override {
+    if (const Node* node = take(key, false)) value = timeVectorOf(*node, key, dimension);
+  }
   void cells(Key key, std::array<int, 3>& value) override {
     const Node* node = take(key, value[0] < 1);
     if (!node) return;
@@ -88,7 +97,7 @@ public:
   void file(Key key, std::string& value) override {
     const Node* node = take(key, true);
     if (!node) return;
-    const std::filesystem::path path = document_.folder / textOf(*node, key);
+    const std::filesystem::path path = folderOf(*node) / textOf(*node, key);
     if (std::error_code error; !std::filesystem::is_regular_file(path, error))
       refuse(*node, "there is no file " + path.string(), "correct the name, which is relative to the scene's folder");
     value = std::filesystem::absolute(path).lexically_normal().string();
@@ -110,7 +119,8 @@ public:
     }
   }
   void where(std::string& value) override { value = placeOf(node_.place); }
-  void parameters(Key key) override {
+  void includes(Key) override {}  // is in the node already
+  void parameters(Key key, Parameters& values) override {
     const Node* node = take(key, false);
     if (!node) return;
     if (node->kind != Node::Kind::object)
@@ -120,6 +130,7 @@ public:
       const Key own{member.key.c_str(), ""};
       document_.parameters[member.key] = anyNumberOf(member.value[0], own).value;
     }
+    values = document_.parameters;
   }
 
 protected:
@@ -204,6 +215,12 @@ private:
     if (!fits)
       throw InputError("\"" + member.key + "\" cannot name a parameter", placeOf(member.place),
                        "use letters, digits and '_', with a letter first");
+    if (member.key == "t")
+      throw InputError("\"t\" cannot name a parameter", placeOf(member.place),
+                       "take another name: t is the time in expressions");
+  }
+  const std::filesystem::path folderOf(const Node& node) const {
+    return node.place.file ? node.place.file->parent_path() : document_.folder;
   }
 
   Document& document_;
@@ -211,11 +228,23 @@ private:
   std::vector<std::string> known_, missing_;
 };
 
+/// Leaves parameters out that no function of time names.
+void keepUsed(Parameters& parameters, const std::string& expressions) {
+  const auto isPart = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  std::set<std::string> words;
+  for (auto at = expressions.begin(); at != expressions.end();) {
+    const auto end = std::find_if_not(at, expressions.end(), isPart);
+    words.emplace(at, end);
+    at = std::find_if(end, expressions.end(), isPart);
+  }
+  std::erase_if(parameters, [&](const auto& one) { return !words.contains(one.first); });
+}
+
 }  // namespace
 
 Scene sceneFromText(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                     const std::vector<std::string>& settings) {
-  Node root = parseJson(text, name);
+  Node root = withIncludes(parseJson(text, name), name, folder);
   for (const std::string& setting : settings) applySetting(root, setting);
   Document document{name, folder};
   const auto read = [&](bool keysOnly) {
@@ -227,17 +256,13 @@ Scene sceneFromText(const std::string& text, const std::string& name, const std:
     return scene;
   };
   read(true);
-  return read(false);
+  Scene scene = read(false);
+  keepUsed(scene.parameters, document.functionsOfTime);
+  return scene;
 }
 
 Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& settings) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code error;
-  if (!stream || !std::filesystem::is_regular_file(file, error))
-    throw InputError("the scene cannot be read", file.string(), "give the name of a JSON file that you may read");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return sceneFromText(text.str(), file.string(), file.parent_path(), settings);
+  return sceneFromText(textOfScene(file, file.string()), file.string(), file.parent_path(), settings);
 }
 
 }  // namespace dovetail::scene

@@ -40,6 +40,18 @@ public:
     Json& entry = add(key, listSchema(numberSchema(any(dimension)), 3), std::isnan(value.x));
     if (!std::isnan(value.x)) entry["default"] = Json::array({value.x, value.y, value.z});
   }
+  void function(Key key, TimeValue& value, const Limits& limits) override {
+    Json& entry = add(key, numberSchema(limits), std::isnan(value.number));
+    if (!std::isnan(value.number)) entry["default"] = value.number;
+  }
+  void functions(Key key, TimeVector& value, const Dimension& dimension) override {
+    const bool needed = std::isnan(value[0].number);
+    Json& entry = add(key, listSchema(numberSchema(any(dimension)), 3), needed);
+    if (!needed) entry["default"] = Json::array({value[0].number, value[1].number, value[2].number});
+  }
+  void functions(Key key, std::optional<TimeVector>&, const Dimension& dimension) override {
+    add(key, listSchema(numberSchema(any(dimension)), 3), false);
+  }
   void box(Key key, geometry::Box& value) override {
     add(key, listSchema(listSchema(numberSchema(any(unit::length)), 3), 2), std::isnan(value.lower.x));
   }
@@ -63,7 +75,10 @@ public:
       entry["default"] = value;
   }
   void where(std::string&) override {}
-  void parameters(Key key) override {
+  void includes(Key key) override {
+    add(key, {{"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}, {"uniqueItems", true}}, false);
+  }
+  void parameters(Key key, Parameters&) override {
     add(key, {{"type", "object"}, {"additionalProperties", {{"type", Json::array({"number", "string"})}}}}, false);
   }
 

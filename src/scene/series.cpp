@@ -5,6 +5,7 @@
 #include <map>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/dem/model/loads.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 
 namespace dovetail::scene {
@@ -46,6 +47,7 @@ std::vector<std::string> channelsOf(coupling::CoupledRun& run) {
   for (const char* const later :
        {"dashpots", "friction", "rolling", "left", "entered (minus)", "work of walls and drives (minus)"})
     add(std::string("particles: ") + later);
+  if (!run.grains.terms.all<dem::BondTerm>().empty()) add("particles: fracture");
   for (std::size_t s = 0; s < run.solids(); ++s)
     for (const char* const later : {": supports", ": dissipated by elements"}) add(run.solid(s).name + later);
   add("brought to rest");

@@ -20,15 +20,6 @@ Node valueFrom(const std::string& text, const std::string& where) {
   return node;
 }
 
-void forgetPlaces(Node& node) {
-  node.place = {};
-  for (Node& item : node.items) forgetPlaces(item);
-  for (Node::Member& member : node.members) {
-    member.place = {};
-    for (Node& value : member.value) forgetPlaces(value);
-  }
-}
-
 Node& itemOf(Node& list, const std::string& key, const std::string& where) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
@@ -46,7 +37,9 @@ Node& memberOf(Node& holder, const std::string& key, const std::string& where) {
   if (Node* found = holder.find(key)) return *found;
   Node made;
   made.kind = Node::Kind::object;
-  holder.members.push_back({key, {}, {made}});
+  Node::Member member{key, {}, {}};
+  member.value.push_back(std::move(made));
+  holder.members.push_back(std::move(member));
   return holder.members.back().value[0];
 }
 
@@ -77,7 +70,7 @@ void applySetting(Node& root, const std::string& setting) {
     if (!last) path.erase(0, dot + 1);
   }
   Node value = valueFrom(setting.substr(equals + 1), where);
-  forgetPlaces(value);
+  forEachPlace(value, [](Place& place) { place = {}; });
   *node = std::move(value);
 }
 

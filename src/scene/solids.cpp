@@ -32,17 +32,6 @@ fem::Formulation formulationOf(const std::string& word) {
   return word == "reduced" ? fem::Formulation::reduced : fem::Formulation::standard;
 }
 
-void support(fem::Model& model, const fem::SolidMesh& mesh, const Support& support) {
-  const unsigned components = (support.x ? unsigned{fem::componentX} : 0U) |
-                              (support.y ? unsigned{fem::componentY} : 0U) |
-                              (support.z ? unsigned{fem::componentZ} : 0U);
-  const std::vector<int>& set = fem::nodeSet(mesh, support.on);
-  fem::fix(model.nodes, set, components);
-  for (const int node : set)
-    for (int c = 0; c < 3; ++c)
-      if (components >> c & 1U) model.nodes.v[static_cast<std::size_t>(node)][c] = support.velocity[c];
-}
-
 const Overlap* overlapWith(const Solid& solid, const Scene& scene) {
   const Overlap* found = nullptr;
   for (const Coupling& coupling : scene.couplings) {
@@ -71,15 +60,17 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   if (!meetsGrains) built.notes.push_back("Solid \"" + solid.name + "\" has no coupling: grains pass through it.");
   const Overlap* const overlap = overlapWith(solid, scene);
   built.meshes.push_back(std::visit([](const auto& source) { return meshOf(source); }, solid.mesh));
+  addSets(built.meshes.back(), solid);
   const fem::SolidMesh& mesh = built.meshes.back();
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   addElements(*model, mesh, solid, overlap);
   if (solid.gravity && norm(scene.gravity) > 0.0) model->add(fem::gravity(scene.gravity));
   for (Vec3& v : model->nodes.v) v = solid.velocity;
-  for (const Support& one : solid.supports) atPlace(one.where, [&] { support(*model, mesh, one); });
+  addBoundaries(*model, mesh, solid, scene);
   built.run->addSolid(std::move(model), {.name = solid.name,
                                          .stepping = solid.implicitSteps ? coupling::Stepping::implicitSteps
-                                                                         : coupling::Stepping::explicitSteps});
+                                                                         : coupling::Stepping::explicitSteps,
+                                         .massShare = solid.massShare});
 }
 
 }  // namespace

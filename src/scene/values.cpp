@@ -19,6 +19,17 @@ std::string textOfLimits(const Limits& limits) {
   return text.empty() ? "that is finite" : text;
 }
 
+/// Whether evaluate() refuses nothing.
+template <class Evaluate>
+bool isExpression(const Evaluate& evaluate) {
+  try {
+    evaluate();
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::string Values::listOf(Words words) {
@@ -90,9 +101,40 @@ double Values::wholeOf(const Node& node, Key key, double least, double most) con
   return value;
 }
 
-Vec3 Values::vectorOf(const Node& node, Key key, const Dimension& dimension) const {
+TimeValue Values::timeValueOf(const Node& node, Key key, const Limits& limits) {
+  // "2*t" is two tonnes where a mass is wanted, and the time doubled elsewhere.
+  const auto quantity = node.kind == Node::Kind::text ? quantityOf(node.text) : std::nullopt;
+  const bool isNumber = node.kind != Node::Kind::text ||
+                        (quantity && (quantity->dimension == limits.dimension || quantity->dimension == unit::none));
+  if (isNumber || isExpression([&] { valueOf(node.text, document_.parameters); }))
+    return {numberOf(node, key, limits), ""};
+  try {
+    functionOf(node.text, document_.parameters);
+  } catch (const InputError& error) {
+    if (quantity) return {numberOf(node, key, limits), ""};  // refused: it has another unit
+    refuse(
+        node,
+        named(key) + " is " + nameOf(node) + ", which is no number with a unit, and as an expression: " + error.what(),
+        "write a number, one with a unit (\"5 mm\"), or an expression of parameters and the time t");
+  }
+  document_.functionsOfTime += node.text + " ";
+  return {0.0, node.text};
+}
+
+TimeVector Values::timeVectorOf(const Node& node, Key key, const Dimension& dimension) {
+  requireThree(node, key);
+  TimeVector value;
+  for (std::size_t k = 0; k < 3; ++k) value[k] = timeValueOf(node.items[k], key, any(dimension));
+  return value;
+}
+
+void Values::requireThree(const Node& node, Key key) const {
   if (node.kind != Node::Kind::list || node.items.size() != 3)
     refuse(node, named(key) + " is " + nameOf(node), "write three numbers: [0, 0, 1]");
+}
+
+Vec3 Values::vectorOf(const Node& node, Key key, const Dimension& dimension) const {
+  requireThree(node, key);
   Vec3 value;
   for (int k = 0; k < 3; ++k) value[k] = numberOf(node.items[static_cast<std::size_t>(k)], key, any(dimension));
   return value;

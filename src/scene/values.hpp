@@ -16,14 +16,15 @@ struct Document {
   std::string name;
   std::filesystem::path folder;
   Parameters parameters{};
-  bool keysOnly = false;  ///< values are not looked at: keys are checked before any value
+  std::string functionsOfTime{};  ///< all expressions of t, one after the other
+  bool keysOnly = false;          ///< values are not looked at: keys are checked before any value
 };
 
 /// Values within one object. All but the constructor throw InputError with the place of what they refuse.
 class Values {
 protected:
   /// @param path  of the object, "walls.0"
-  Values(const Document& document, std::string path) : document_(document), path_(std::move(path)) {}
+  Values(Document& document, std::string path) : document_(document), path_(std::move(path)) {}
 
   /// "scene.json:3:14, walls.0"
   std::string placeOf(const Place& place) const;
@@ -40,13 +41,17 @@ protected:
   AnyNumber anyNumberOf(const Node& node, Key key, const std::string& otherwise = "") const;
   double numberOf(const Node& node, Key key, const Limits& limits, const std::string& otherwise = "") const;
   double wholeOf(const Node& node, Key key, double least, double most) const;
+  TimeValue timeValueOf(const Node& node, Key key, const Limits& limits);
+  TimeVector timeVectorOf(const Node& node, Key key, const Dimension& dimension);
   Vec3 vectorOf(const Node& node, Key key, const Dimension& dimension) const;
 
   static std::string named(Key key) { return std::string("\"").append(key.name).append("\""); }
   static std::string listOf(Words words);
 
 private:
-  const Document& document_;
+  void requireThree(const Node& node, Key key) const;
+
+  Document& document_;
 
 protected:
   std::string path_;

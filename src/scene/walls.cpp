@@ -5,38 +5,81 @@
 
 #include "dovetail/geometry/triangle_mesh.hpp"
 #include "parts.hpp"
+#include "time_functions.hpp"
 
 namespace dovetail::scene {
 
 namespace {
 
-void add(dem::Model& grains, dem::PrimitiveWall made, const Wall& wall) {
-  made.velocity = wall.velocity;
-  made.angularVelocity = wall.angularVelocity;
-  dem::addWall(grains, std::move(made));
+/// A wall with what it needs to move.
+struct Target {
+  coupling::CoupledRun& run;
+  const Wall& wall;
+  const Scene& scene;
+  bool isSteady() const { return !wall.displacement && !wall.turn && isConstant(wall.velocity); }
+};
+
+/// Where a wall is at a time, from how it is described; `about` is its point.
+dem::PrescribedMotion motionOf(const Target& to, const Vec3& about) {
+  const Wall& wall = to.wall;
+  if (wall.turn && norm(wall.angularVelocity) > 0.0)
+    throw InputError("there is an angular velocity and a turn", "", "leave one of them out");
+  if (wall.turn && norm(wall.turn->axis) == 0.0)
+    throw InputError("the axis of the turn has no length", "", "give it a direction, such as [0, 0, 1]");
+  const Path path = pathOf(wall.velocity, wall.displacement, to.scene);
+  const double speed = norm(wall.angularVelocity);
+  const Vec3 axis = wall.turn ? normalized(wall.turn->axis) : speed > 0.0 ? wall.angularVelocity / speed : Vec3{};
+  const Travel angle = wall.turn ? travelOf(wall.turn->angle, to.scene) : travelAt({speed, ""}, to.scene);
+  return [=](double t) {
+    return dem::RigidMotion{about + path.displacement(t), fromRotationVector(angle.displacement(t) * axis),
+                            path.velocity(t), angle.velocity(t) * axis};
+  };
 }
-void add(dem::Model& grains, const Wall& wall, const Plane& plane) {
-  add(grains, dem::makePlane(plane.point, plane.normal), wall);
+
+/// The wall as `motion` has it at a time, or so that it drifts there in a step that long.
+void place(dem::PrimitiveWall& wall, const dem::RigidMotion& now, const Vec3& axis, double dt) {
+  wall.velocity = now.v;
+  wall.angularVelocity = now.omega;
+  wall.point = now.x - dt * now.v;
+  wall.axis = rotate(fromRotationVector(-dt * now.omega) * now.turn, axis);
 }
-void add(dem::Model& grains, const Wall& wall, const BoxWalls& box) {
-  if (norm(wall.angularVelocity) > 0.0)
-    throw InputError("the walls of a box cannot turn", "", "give planes, or a mesh, or leave angular_velocity out");
+
+void add(const Target& to, dem::PrimitiveWall made) {
+  made.material = contactRow(to.scene, to.wall.contactMaterial);
+  if (to.isSteady()) {
+    made.velocity = constantOf(to.wall.velocity);
+    made.angularVelocity = to.wall.angularVelocity;
+  } else {
+    const dem::PrescribedMotion motion = motionOf(to, made.point);
+    const coupling::CoupledRun* const run = &to.run;
+    place(made, motion(0.0), made.axis, 0.0);
+    made.motion = [run, motion, axis = made.axis](double t, dem::PrimitiveWall& wall) {
+      place(wall, motion(t), axis, run->dt());
+    };
+  }
+  dem::addWall(to.run.grains, std::move(made));
+}
+void add(const Target& to, const Plane& plane) { add(to, dem::makePlane(plane.point, plane.normal)); }
+void add(const Target& to, const BoxWalls& box) {
+  if (norm(to.wall.angularVelocity) > 0.0 || to.wall.turn)
+    throw InputError("the walls of a box cannot turn", "",
+                     "give planes, or a mesh, or leave angular_velocity and turn out");
   for (const bool upper : {false, true})
     for (int k = 0; k < 3; ++k) {
       const std::string side = std::string(1, "xyz"[k]) + (upper ? "+" : "-");
       if (std::find(box.open.begin(), box.open.end(), side) != box.open.end()) continue;
       Vec3 normal;
       normal[k] = upper ? -1.0 : 1.0;
-      add(grains, dem::makePlane(upper ? box.box.upper : box.box.lower, normal), wall);
+      add(to, dem::makePlane(upper ? box.box.upper : box.box.lower, normal));
     }
 }
-void add(dem::Model& grains, const Wall& wall, const Cylinder& cylinder) {
-  add(grains, dem::makeCylinder(cylinder.point, cylinder.axis, cylinder.radius, cylinder.inside), wall);
+void add(const Target& to, const Cylinder& cylinder) {
+  add(to, dem::makeCylinder(cylinder.point, cylinder.axis, cylinder.radius, cylinder.inside));
 }
-void add(dem::Model& grains, const Wall& wall, const SphereWall& sphere) {
-  add(grains, dem::makeSphere(sphere.centre, sphere.radius, sphere.inside), wall);
+void add(const Target& to, const SphereWall& sphere) {
+  add(to, dem::makeSphere(sphere.centre, sphere.radius, sphere.inside));
 }
-void add(dem::Model& grains, const Wall& wall, const SurfaceFile& from) {
+void add(const Target& to, const SurfaceFile& from) {
   geometry::TriangleMesh mesh = readTriangles(from.file);
   geometry::repairSurface(mesh);
   Vec3 middle;
@@ -47,9 +90,15 @@ void add(dem::Model& grains, const Wall& wall, const SurfaceFile& from) {
   dem::MeshWall made;
   made.wall = dem::makeWall(std::move(mesh.x), std::move(mesh.facets), from.closed);
   made.wall.rigid = true;
-  if (norm(wall.velocity) > 0.0 || norm(wall.angularVelocity) > 0.0)
-    dem::prescribe(made, dem::steadyMotion({middle, {}, wall.velocity, wall.angularVelocity}), middle);
-  dem::addWall(grains, std::move(made));
+  made.wall.material = contactRow(to.scene, to.wall.contactMaterial);
+  const Vec3 velocity = constantOf(to.wall.velocity);
+  if (!to.isSteady()) {
+    dem::prescribe(made, motionOf(to, middle), middle);
+    dem::moveWall(made, 0.0, 0.0);
+  } else if (norm(velocity) > 0.0 || norm(to.wall.angularVelocity) > 0.0) {
+    dem::prescribe(made, dem::steadyMotion({middle, {}, velocity, to.wall.angularVelocity}), middle);
+  }
+  dem::addWall(to.run.grains, std::move(made));
 }
 
 }  // namespace
@@ -61,7 +110,7 @@ void addWalls(Built& built, const Scene& scene) {
   for (const Wall& wall : scene.walls)
     atPlace(wall.where, [&] {
       WallParts parts{.firstPrimitive = primitives(), .firstMesh = meshes()};
-      std::visit([&](const auto& shape) { add(grains, wall, shape); }, wall.shape);
+      std::visit([&](const auto& shape) { add({*built.run, wall, scene}, shape); }, wall.shape);
       parts.endPrimitive = primitives();
       parts.endMesh = meshes();
       built.walls.push_back(parts);

@@ -11,6 +11,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json listOf(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json textOf(const TimeValue& v) { return v.expression.empty() ? Json(v.number) : Json(v.expression); }
+Json listOf(const TimeVector& v) { return Json::array({textOf(v[0]), textOf(v[1]), textOf(v[2])}); }
 
 class Writer final : public Fields {
 public:
@@ -28,6 +30,11 @@ public:
   void box(Key key, geometry::Box& value) override {
     json[key.name] = Json::array({listOf(value.lower), listOf(value.upper)});
   }
+  void function(Key key, TimeValue& value, const Limits&) override { json[key.name] = textOf(value); }
+  void functions(Key key, TimeVector& value, const Dimension&) override { json[key.name] = listOf(value); }
+  void functions(Key key, std::optional<TimeVector>& value, const Dimension&) override {
+    if (value) json[key.name] = listOf(*value);
+  }
   void cells(Key key, std::array<int, 3>& value) override { json[key.name] = value; }
   void flag(Key key, bool& value) override { json[key.name] = value; }
   void text(Key key, std::string& value, bool) override {
@@ -37,7 +44,11 @@ public:
   void word(Key key, std::string& value, Words) override { json[key.name] = value; }
   void wordList(Key key, std::vector<std::string>& value, Words, bool) override { json[key.name] = value; }
   void where(std::string&) override {}
-  void parameters(Key) override {}  // their values are in the numbers
+  void includes(Key) override {}  // what they say is here
+  /// Those of functions of time; the values of all others are in the numbers.
+  void parameters(Key key, Parameters& values) override {
+    if (!values.empty()) json[key.name] = values;
+  }
 
 protected:
   std::size_t kindOf(Key key, std::size_t now, Words names) override {

@@ -1,6 +1,9 @@
 // Small scenes of the tests.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <initializer_list>
 #include <string>
 
 #include "dovetail/scene/build.hpp"
@@ -28,6 +31,22 @@ inline std::string refusalOfRun(const std::string& middle) {
   } catch (const InputError& error) {
     return error.what();
   }
+}
+
+/// @param laws  keys of contacts, with a comma behind
+inline Built startedWith(const std::string& laws, const std::string& middle) {
+  return started(sceneFromText("{" + laws + middle + end + "}", "s.json", "/"));
+}
+inline std::string refusalWith(const std::string& laws, const std::string& middle) {
+  try {
+    startedWith(laws, middle);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+inline void expectParts(const std::string& message, std::initializer_list<const char*> parts) {
+  for (const char* const part : parts) EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
 }
 
 }  // namespace dovetail::scene::test

@@ -38,6 +38,40 @@ TEST(SceneParts, ParticlesOfAllSources) {
   EXPECT_NEAR(p.mass[2] / p.mass[0], 3.0, 1e-14);
 }
 
+TEST(SceneParts, ParticlesOfFramesOfOtherRuns) {
+  if (!WITH_FRAMES) GTEST_SKIP() << "frames need VTK";
+  const ScratchFolder folder;
+  std::ostringstream log;
+  const Scene first = sceneOf(R"("particles": [
+      {"from": "list", "density": 3, "spheres": [{"at": [9, 0, 0], "radius": 0.1, "velocity": [0, 1, 0]}, {"at": [1, 2, 3], "radius": 0.2}]}],
+      "output": {"frames": 1},)");
+  ASSERT_TRUE(run(first, {.folder = folder.path(), .progress = false}, log));
+  std::string frame;
+  for (const std::string& name : folder.content())
+    if (name.ends_with(".vtu") && name.find("grains") != std::string::npos) frame = std::max(frame, name);
+  const auto from = [&](const std::string& file) {
+    return sceneOf(R"("particles": [{"from": "vtk", "file": ")" + file + R"(", "density": 3, "velocity": [1, 0, 0]}],)",
+                   folder.path());
+  };
+  const Built built = build(from(frame));
+  const dem::Particles& p = built.run->grains.particles;
+  ASSERT_EQ(p.size(), 2U);
+  const std::size_t moved = p.radius[0] == 0.1 ? 0 : 1;  // frames are sorted
+  EXPECT_NEAR(p.x[moved].y, 1e-3, 1e-16);
+  EXPECT_EQ(p.v[moved], (Vec3{1, 1, 0}));
+  EXPECT_EQ(p.radius[1 - moved], 0.2);
+  std::ofstream(folder / "points.vtp")
+      << R"(<VTKFile type="PolyData" version="1.0"><PolyData><Piece NumberOfPoints="1"><PointData></PointData>)"
+      << R"(<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">1 2 3</DataArray></Points>)"
+      << "</Piece></PolyData></VTKFile>";
+  try {
+    build(from("points.vtp"));
+    FAIL();
+  } catch (const InputError& error) {
+    expectParts(error.what(), {"no array \"radius\"", "points.vtp", "particles.0"});
+  }
+}
+
 TEST(SceneParts, WallsOfAllShapesMove) {
   const ScratchFolder folder;
   const std::vector<Vec3> x{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};

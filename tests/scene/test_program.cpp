@@ -13,7 +13,7 @@ using cantilever::test::runProgram;
 using io::test::readText;
 using io::test::ScratchFolder;
 
-std::string starter(const std::string& name) { return std::string(SCENES) + "/" + name + ".json"; }
+std::string starter(const std::string& name) { return (std::filesystem::path(SCENES) / (name + ".json")).string(); }
 
 void expectRefused(const Outcome& outcome, const std::string& part) {
   EXPECT_EQ(outcome.code, 2) << outcome.err;
@@ -48,9 +48,17 @@ TEST_P(Starters, RunAndCloseTheirBooks) {
     EXPECT_EQ(runProgram({"info", (folder / file).string()}).code, 0) << file;
 }
 INSTANTIATE_TEST_SUITE_P(All, Starters,
-                         testing::Values(Shortened{"footing", "5e-4"}, Shortened{"pile", "0.01"},
-                                         Shortened{"plate", "2e-4"}),
-                         [](const auto& one) { return std::string(one.param.name); });
+                         testing::Values(Shortened{"bonded-beam", "1e-3"}, Shortened{"cantilever", "0.1"},
+                                         Shortened{"column", "2e-3"}, Shortened{"digging", "2e-3"},
+                                         Shortened{"drum", "2e-3"}, Shortened{"footing", "5e-4"},
+                                         Shortened{"hopper", "2e-3"}, Shortened{"pile", "0.01"},
+                                         Shortened{"plate", "2e-4"}, Shortened{"tray", "0.01"},
+                                         Shortened{"wave", "2e-3"}),
+                         [](const auto& one) {
+                           std::string name = one.param.name;
+                           std::erase(name, '-');
+                           return name;
+                         });
 
 TEST(Program, ChecksWithoutAFile) {
   const Outcome outcome = runProgram({"check", starter("plate")});

@@ -53,6 +53,8 @@ Json starter(const std::string& name) {
 
 TEST(SceneSchema, StarterScenesFit) {
   const Json schema = Json::parse(schemaText());
+  for (const char* name : {"bonded-beam", "cantilever", "column", "digging", "drum", "hopper", "tray", "wave"})
+    EXPECT_TRUE(fits(schema, starter(name))) << name;
   for (const char* name : {"footing", "pile", "plate"}) {
     Json scene = starter(name);
     EXPECT_TRUE(fits(schema, scene)) << name;

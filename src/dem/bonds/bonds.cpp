@@ -83,10 +83,11 @@ int addBond(Bonds& bonds, const Particles& particles, const geometry::Periodicit
 }
 
 int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list, double gap,
-                 const BondMaterial& material) {
+                 const BondMaterial& material, const std::function<bool(int i, int j)>& wanted) {
   int count = 0;
   for (std::size_t p = 0; p < list.size(); ++p) {
     const auto [i, j] = list.pairs()[p];
+    if (wanted && !wanted(i, j)) continue;
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     const double distance = norm(particles.x[a] - particles.x[b] + list.shift(p));
     if (distance > particles.radius[a] + particles.radius[b] + gap) continue;

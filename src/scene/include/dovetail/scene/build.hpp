@@ -40,6 +40,11 @@ struct Limit {
 /// @throws InputError as CoupledRun::start, or if nothing in the scene tells a step
 void start(Built& built, const Scene& scene);
 
+/// What is likely not meant, one sentence each, with what to write instead: deep overlaps at the start, grains in solids,
+/// densities and moduli that do not go together in an overlap, overlaps and kernels of odd widths, meshes and walls with
+/// faults, names that nobody uses. Of a started run.
+std::vector<std::string> warnings(const Built& built, const Scene& scene);
+
 /// All limits there are, of the started run as it is now.
 std::vector<Limit> limits(Built& built, const Scene& scene);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -76,8 +77,9 @@ int addBond(Bonds& bonds, const Particles& particles, const geometry::Periodicit
             const BondMaterial& material);
 
 /// Bonds all pairs of the list whose gap is at most `gap`, m; returns how many.
+/// @param wanted  whether particles i and j are to be bonded; empty: all are
 int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list, double gap,
-                 const BondMaterial& material);
+                 const BondMaterial& material, const std::function<bool(int i, int j)>& wanted = {});
 
 /// Turns the bonds' ends with the particles' spins over dt, adds forces and torques, and removes bonds whose stress
 /// exceeds their strength (the last bond takes the number of one that breaks). Call once per step, after drift; dt = 0
@@ -96,9 +98,9 @@ int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list,
 ///         dt is not finite and ≥ 0
 ContactWork exchangeBonds(Particles& particles, Bonds& bonds, const geometry::Periodicity& space, double dt);
 
-/// Power that the dashpots of the bonds, as they stand after an exchange, take from particles that move with v and omega,
-/// W. The dashpots' forces are those of that exchange, made of the particles' own velocities: with the means of the
-/// velocities before and after the kick that these forces make it is what they lose in it.
+/// Power that the dashpots of the bonds, as they stand after an exchange, take from particles that move with v and
+/// omega, W. The dashpots' forces are those of that exchange, made of the particles' own velocities: with the means of
+/// the velocities before and after the kick that these forces make it is what they lose in it.
 /// @param v, omega m/s, rad/s, per particle
 double dashpotPower(const Particles& particles, const Bonds& bonds, const geometry::Periodicity& space,
                     std::span<const Vec3> v, std::span<const Vec3> omega);

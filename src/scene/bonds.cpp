@@ -1,0 +1,82 @@
+// Bonds and drives of a scene.
+#include "dovetail/dem/bonds/bonds.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "dovetail/dem/model/loads.hpp"
+#include "nearest.hpp"
+#include "parts.hpp"
+#include "time_functions.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+const std::vector<std::int64_t>& groupNamed(const Groups& groups, const std::string& name) {
+  if (const auto found = groups.find(name); found != groups.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, ids] : groups) names.push_back(known);
+  throw InputError("there is no group of particles \"" + name + "\"", "",
+                   names.empty() ? "give the group in particles this name" : adviceFor(name, names));
+}
+
+/// Marks of the particles of a group, by number.
+std::vector<char> membersOf(const dem::Particles& particles, const Groups& groups, const std::string& name) {
+  std::vector<char> member(particles.size(), 0);
+  for (const std::int64_t id : groupNamed(groups, name)) member[static_cast<std::size_t>(find(particles, id))] = 1;
+  return member;
+}
+
+dem::BondMaterial materialOf(const BondGroup& group) {
+  constexpr double unbreakable = std::numeric_limits<double>::infinity();
+  return {.youngsModulus = group.youngsModulus,
+          .poissonRatio = group.poissonRatio,
+          .radiusRatio = group.radiusRatio,
+          .tensileStrength = group.tensileStrength.value_or(unbreakable),
+          .shearStrength = group.shearStrength.value_or(unbreakable),
+          .momentContribution = group.momentContribution,
+          .dampingTime = group.dampingTime};
+}
+
+void add(dem::Model& grains, const BondGroup& group, const Groups& groups, std::vector<std::string>& notes) {
+  const std::vector<char> one = membersOf(grains.particles, groups, group.group);
+  const std::vector<char> other = group.with.empty() ? one : membersOf(grains.particles, groups, group.with);
+  dem::PairList near;
+  near.setPeriodicity(grains.pairs.periodicity());
+  near.setSkin(group.gap + 1e-9 * *std::max_element(grains.particles.radius.begin(), grains.particles.radius.end()));
+  dem::findPairs(grains.particles, near);
+  const int count =
+      dem::bondTouching(dem::bonds(grains), grains.particles, near, group.gap, materialOf(group), [&](int i, int j) {
+        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+        return (one[a] && other[b]) || (one[b] && other[a]);
+      });
+  if (count == 0) throw InputError("no two grains are that close", "", "give a larger gap, or put them closer");
+  notes.push_back(std::to_string(count) + " bonds in \"" + group.group + "\"" +
+                  (group.with.empty() ? "." : " with \"" + group.with + "\"."));
+}
+
+void requireAlike(const std::vector<BondGroup>& all) {
+  for (const BondGroup& group : all)
+    if (group.contacts != all.front().contacts)
+      throw InputError("\"contacts\" is not that of the other bonds", group.where, "give all bonds the same");
+}
+
+}  // namespace
+
+void addBondsAndDrives(dem::Model& grains, const Scene& scene, const Groups& groups, std::vector<std::string>& notes) {
+  requireAlike(scene.bonds);
+  if (!scene.bonds.empty()) {
+    dem::switchOnRotation(grains.particles);
+    dem::bonds(grains);
+    grains.terms.all<dem::BondTerm>().front()->mutesContacts = !scene.bonds.front().contacts;
+  }
+  for (const BondGroup& group : scene.bonds) atPlace(group.where, [&] { add(grains, group, groups, notes); });
+  for (const Drive& drive : scene.drives)
+    atPlace(drive.where, [&] {
+      Path path = pathOf(drive.velocity, drive.displacement, scene);
+      grains.terms.add(dem::DriveTerm(groupNamed(groups, drive.group), path.displacement, path.velocity));
+    });
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,140 @@
+// Sets, supports, loads and ties of solids of a scene.
+#include <algorithm>
+#include <cmath>
+
+#include "dovetail/fem/mesh/mesh_places.hpp"
+#include "dovetail/fem/model/ties.hpp"
+#include "dovetail/fem/terms/loads.hpp"
+#include "parts.hpp"
+#include "time_functions.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+geometry::Box extentOf(const fem::SolidMesh& mesh) {
+  geometry::Box box{mesh.X.front(), mesh.X.front()};
+  for (const Vec3& X : mesh.X)
+    for (int k = 0; k < 3; ++k) {
+      box.lower[k] = std::min(box.lower[k], X[k]);
+      box.upper[k] = std::max(box.upper[k], X[k]);
+    }
+  return box;
+}
+
+fem::Place placeOf(const PlaceInBox& place, const geometry::Box&) {
+  return fem::inBox(place.box.lower, place.box.upper);
+}
+fem::Place placeOf(const PlaceOnPlane& place, const geometry::Box& extent) {
+  if (norm(place.normal) == 0.0)
+    throw InputError("the normal has no length", "", "give it a direction, such as [0, 0, 1]");
+  const Vec3 normal = normalized(place.normal);
+  const double tolerance = place.tolerance.value_or(1e-6 * norm(extent.upper - extent.lower));
+  return [=, point = place.point](const Vec3& X) { return std::abs(dot(X - point, normal)) <= tolerance; };
+}
+fem::Place placeOf(const PlaceInSphere& place, const geometry::Box&) {
+  return [=](const Vec3& X) { return norm(X - place.centre) <= place.radius; };
+}
+fem::Place placeOf(const PlaceAtSide& place, const geometry::Box& extent) {
+  const int axis = place.side[0] - 'x';
+  const bool upper = place.side[1] == '+';
+  const double tolerance = 1e-6 * norm(extent.upper - extent.lower);
+  const double end = upper ? extent.upper[axis] : extent.lower[axis];
+  return [=](const Vec3& X) { return std::abs(X[axis] - end) <= tolerance; };
+}
+
+void add(fem::SolidMesh& mesh, const NamedSet& set) {
+  if (mesh.nodeSets.contains(set.name) || mesh.faceSets.contains(set.name))
+    throw InputError("the mesh has a set \"" + set.name + "\"", "", "give this one another name");
+  const fem::Place place = std::visit([&](const auto& kind) { return placeOf(kind, extentOf(mesh)); }, set.place);
+  mesh.nodeSets[set.name] = fem::nodesWhere(mesh, place);
+  const std::vector<fem::Face> boundary = fem::boundaryFaces(mesh);
+  if (std::any_of(boundary.begin(), boundary.end(), [&](const fem::Face& face) {
+        return std::all_of(face.node.begin(), face.node.begin() + fem::nodesOf(face.shape),
+                           [&](int n) { return place(mesh.X[static_cast<std::size_t>(n)]); });
+      }))
+    mesh.faceSets[set.name] = fem::facesWhere(mesh, place);
+}
+
+unsigned componentsOf(const Support& support) {
+  return (support.x ? unsigned{fem::componentX} : 0U) | (support.y ? unsigned{fem::componentY} : 0U) |
+         (support.z ? unsigned{fem::componentZ} : 0U);
+}
+
+void add(fem::Model& model, const fem::SolidMesh& mesh, const Support& support, const Scene& scene) {
+  const unsigned components = componentsOf(support);
+  const std::vector<int>& set = fem::nodeSet(mesh, support.on);
+  if (support.displacement || !isConstant(support.velocity)) {
+    const std::array<Travel, 3> path = travels(support.velocity, support.displacement, scene);
+    for (int c = 0; c < 3; ++c)
+      if (components >> c & 1U) model.constraints.prescribe(set, c, path[static_cast<std::size_t>(c)].displacement);
+    return;
+  }
+  const Vec3 velocity = constantOf(support.velocity);
+  fem::fix(model.nodes, set, components);
+  for (const int node : set)
+    for (int c = 0; c < 3; ++c)
+      if (components >> c & 1U) model.nodes.v[static_cast<std::size_t>(node)][c] = velocity[c];
+}
+
+/// A number, which lets the load store energy, or a function.
+fem::Amplitude amplitudeOf(const TimeValue& value, const Scene& scene) {
+  if (isConstant(value)) return value.number;
+  return functionOf(value, scene);
+}
+
+/// Nodes that are held in all components, ascending.
+std::vector<int> clampedIn(const fem::Model& model) {
+  std::vector<int> nodes;
+  for (std::size_t n = 0; n < model.nodes.fixed.size(); ++n)
+    if (model.nodes.fixed[n] == fem::allComponents) nodes.push_back(static_cast<int>(n));
+  return nodes;
+}
+
+struct Loaded {
+  fem::Model& model;
+  const fem::SolidMesh& mesh;
+  const std::vector<fem::Face>& faces;
+  std::string name;
+  const Scene& scene;
+};
+void add(const Loaded& to, const PressureLoad& load) {
+  const fem::Amplitude pressure = amplitudeOf(load.pressure, to.scene);
+  if (load.follows)
+    to.model.add(fem::followingPressure(to.mesh, to.faces, pressure, clampedIn(to.model), to.name));
+  else
+    to.model.add(fem::deadPressure(to.mesh, to.faces, pressure, to.name));
+}
+void add(const Loaded& to, const TractionLoad& load) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (isConstant(load.traction[c]) && load.traction[c].number == 0.0) continue;
+    Vec3 direction;
+    direction[static_cast<int>(c)] = 1.0;
+    to.model.add(fem::deadTraction(to.mesh, to.faces, direction, amplitudeOf(load.traction[c], to.scene),
+                                   to.name + " along " + "xyz"[c]));
+  }
+}
+
+}  // namespace
+
+void addSets(fem::SolidMesh& mesh, const Solid& solid) {
+  for (const NamedSet& set : solid.sets) atPlace(set.where, [&] { add(mesh, set); });
+}
+
+void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene) {
+  for (const Support& one : solid.supports) atPlace(one.where, [&] { add(model, mesh, one, scene); });
+  for (std::size_t k = 0; k < solid.loads.size(); ++k)
+    atPlace(solid.loads[k].where, [&] {
+      const Load& load = solid.loads[k];
+      const Loaded to{model, mesh, fem::faceSet(mesh, load.on), "load " + std::to_string(k) + " on " + load.on, scene};
+      std::visit([&](const auto& kind) { add(to, kind); }, load.kind);
+    });
+  for (const MeshTie& tie : solid.ties)
+    atPlace(tie.where, [&] {
+      const auto made =
+          fem::tieInterface(mesh, fem::nodeSet(mesh, tie.nodes), fem::faceSet(mesh, tie.faces), tie.tolerance);
+      model.constraints.ties.insert(model.constraints.ties.end(), made.begin(), made.end());
+    });
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,153 @@
+// Grains of a scene and what acts on them: contacts, walls, bonds, drives, streams.
+#pragma once
+
+#include "dovetail/scene/basics.hpp"
+
+namespace dovetail::scene {
+
+/// Resistance to rolling or twisting, see dem::RollingResistance.
+struct Rolling {
+  double friction = required, stiffnessRatio = required, dampingRatio = 0.0;
+};
+struct LinearContact {
+  double stiffness = required;                ///< N/m
+  std::optional<double> tangentialStiffness;  ///< N/m; not given: 2/7 of the normal one
+  /// Grains that touch at the start, or nearly so, hold together; no others ever meet.
+  bool bonded = false;
+};
+struct HertzContact {
+  double youngsModulus = required;  ///< Pa
+  double poissonRatio = required;
+};
+/// The law of contacts between grains, and of grains with walls and solids.
+struct ContactLaw {
+  std::variant<LinearContact, HertzContact> normal;
+  double restitution = 1.0, friction = 0.0, tangentialDampingRatio = 0.0;
+  std::optional<Rolling> rolling, twisting;
+  std::string where;  ///< in the file, of all structures: for messages
+};
+
+/// The law between two contact materials, which are known by the names that laws give them.
+struct PairLaw {
+  std::string first, second;
+  ContactLaw law;
+  std::optional<HertzContact> ofSecond;  ///< with Hertz's law; not given: as the first
+};
+
+struct SizeRange {
+  double smallest = required, largest = required;  ///< radii, m
+};
+struct Lattice {
+  enum class Kind { simpleCubic, bodyCentred, faceCentred, hexagonal };
+  Kind kind = Kind::hexagonal;
+  geometry::Box box = requiredBox;  ///< m
+  double radius = required;         ///< m
+  std::optional<double> distance;   ///< of centres, m; not given: twice the radius
+};
+struct RandomPacking {
+  geometry::Box box = requiredBox;  ///< m
+  SizeRange radius;
+  double solidFraction = 0.55, overlap = 1e-3;
+  std::int64_t seed = 1;
+};
+struct Sphere {
+  Vec3 at = requiredVector;  ///< m
+  double radius = required;  ///< m
+  Vec3 velocity;             ///< m/s
+};
+struct SphereList {
+  std::vector<Sphere> spheres;
+};
+/// Columns x_m, y_m, z_m, radius_m and, if there, vx_m_per_s, vy_m_per_s, vz_m_per_s.
+struct SphereFile {
+  std::string file;
+};
+/// Points with the arrays radius and, if there, velocity.
+struct SphereFrame {
+  std::string file;
+};
+struct Particles {
+  std::variant<Lattice, RandomPacking, SphereList, SphereFile, SphereFrame> from;
+  std::string name;             ///< of the group, for bonds and drives
+  std::string contactMaterial;  ///< empty: that of the law in "contact"
+  double density = required;    ///< kg/m³
+  Vec3 velocity;                ///< m/s, beside those of single spheres
+  std::string where;
+};
+
+struct Plane {
+  Vec3 point = requiredVector, normal = requiredVector;  ///< m; towards the grains
+};
+struct BoxWalls {
+  geometry::Box box = requiredBox;  ///< m; grains are inside
+  std::vector<std::string> open;    ///< sides without a wall: "x-" … "z+"
+};
+struct Cylinder {
+  Vec3 point = requiredVector, axis = requiredVector;  ///< m
+  double radius = required;                            ///< m
+  bool inside = true;
+};
+struct SphereWall {
+  Vec3 centre = requiredVector;  ///< m
+  double radius = required;      ///< m
+  bool inside = true;
+};
+struct SurfaceFile {
+  std::string file;
+  double scale = 1.0;  ///< m per unit of the file
+  Vec3 shift;          ///< m, after scaling
+  bool closed = false;
+};
+struct Wall {
+  std::variant<Plane, BoxWalls, Cylinder, SphereWall, SurfaceFile> shape;
+  std::string contactMaterial;
+  TimeVector velocity;                     ///< m/s
+  std::optional<TimeVector> displacement;  ///< m, from where the wall is described; in place of a velocity
+  Vec3 angularVelocity;                    ///< rad/s about `point`, `centre`, or the mean of the vertices
+  std::optional<Turn> turn;                ///< about the same, in place of an angular velocity
+  std::string where;
+};
+
+struct Clump {
+  std::vector<Sphere> spheres;  ///< in a frame of its own
+  std::string contactMaterial;
+  double density = required;  ///< kg/m³
+  Vec3 at = requiredVector;   ///< of the centre of mass, m
+  Vec3 velocity, spin;        ///< m/s, rad/s
+  std::string where;
+};
+struct Insertion {
+  geometry::Box region = requiredBox;  ///< m
+  SizeRange radius;
+  std::string contactMaterial;
+  double density = required;                             ///< kg/m³
+  Vec3 velocity;                                         ///< m/s
+  std::optional<double> numberPerSecond, massPerSecond;  ///< one of the two; 1/s, kg/s
+  std::int64_t seed = 1;
+  std::string where;
+};
+struct Outlet {
+  geometry::Box region = requiredBox;  ///< m
+  std::string where;
+};
+
+/// Elastic beams between grains that lie close to each other, see dem::BondMaterial.
+struct BondGroup {
+  std::string group, with;  ///< of particles; `with` not given: within the group
+  double gap = 0.0;         ///< m, between surfaces
+  double youngsModulus = required, poissonRatio = required;
+  double radiusRatio = 1.0;
+  std::optional<double> tensileStrength, shearStrength;  ///< Pa; not given: they do not break
+  double momentContribution = 1.0, dampingTime = 0.0;    ///< share; s
+  bool contacts = true;                                  ///< whether bonded grains touch as well
+  std::string where;
+};
+/// Grains that follow a path.
+struct Drive {
+  std::string group;
+  TimeVector velocity;                     ///< m/s
+  std::optional<TimeVector> displacement;  ///< m; in place of a velocity
+  std::string where;
+};
+
+}  // namespace dovetail::scene

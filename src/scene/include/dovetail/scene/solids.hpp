@@ -1,0 +1,123 @@
+// Solids of a scene and their couplings to grains.
+#pragma once
+
+#include "dovetail/scene/grains.hpp"
+
+namespace dovetail::scene {
+
+struct BoxMesh {
+  std::string shape = "hex8";
+  std::array<int, 3> cells{};
+  geometry::Box box = requiredBox;  ///< m
+};
+struct MeshFile {
+  std::string file;
+  double scale = 1.0;  ///< m per unit of the file
+};
+struct StVenantKirchhoff {
+  double youngsModulus = required, poissonRatio = required;
+};
+struct NeoHookean {
+  double youngsModulus = required, poissonRatio = required;
+};
+struct J2Plastic {
+  double youngsModulus = required, poissonRatio = required, yieldStress = required, hardening = 0.0;
+};
+struct DruckerPrager {
+  double youngsModulus = required, poissonRatio = required, cohesion = required;
+  double frictionAngle = required, dilatancyAngle = 0.0;  ///< rad
+};
+/// As a cubic lattice of springs, see fem::AxialSprings.
+struct AxialSprings {
+  double youngsModulus = required;
+};
+struct SolidMaterial {
+  std::variant<StVenantKirchhoff, NeoHookean, J2Plastic, DruckerPrager, AxialSprings> law;
+  double density = required;  ///< kg/m³
+};
+struct Support {
+  std::string on;  ///< node set
+  bool x = true, y = true, z = true;
+  TimeVector velocity;                     ///< of the held components, m/s
+  std::optional<TimeVector> displacement;  ///< of the held components, m; in place of a velocity
+  std::string where;
+};
+/// Normal to the faces.
+struct PressureLoad {
+  TimeValue pressure{required, ""};  ///< Pa, > 0 where it pushes
+  bool follows = true;               ///< the faces as they turn and stretch
+};
+/// Per reference area.
+struct TractionLoad {
+  TimeVector traction{TimeValue{required, ""}};  ///< Pa
+};
+struct Load {
+  std::string on;  ///< face set
+  std::variant<PressureLoad, TractionLoad> kind;
+  std::string where;
+};
+/// Nodes that go with the faces next to them, where meshes do not match.
+struct MeshTie {
+  std::string nodes, faces;     ///< sets
+  double tolerance = required;  ///< m
+  std::string where;
+};
+
+struct PlaceInBox {
+  geometry::Box box = requiredBox;  ///< m
+};
+struct PlaceOnPlane {
+  Vec3 point = requiredVector, normal = requiredVector;  ///< m; of any length
+  std::optional<double> tolerance;                       ///< m; not given: 1e-6 of the mesh's extent
+};
+struct PlaceInSphere {
+  Vec3 centre = requiredVector;  ///< m
+  double radius = required;      ///< m
+};
+struct PlaceAtSide {
+  std::string side = "x-";
+};
+/// Nodes, and faces of the boundary, in a place of the mesh.
+struct NamedSet {
+  std::string name;
+  std::variant<PlaceAtSide, PlaceInBox, PlaceOnPlane, PlaceInSphere> place;
+  std::string where;
+};
+struct Solid {
+  std::string name;
+  std::variant<BoxMesh, MeshFile> mesh;
+  SolidMaterial material;
+  std::string formulation = "standard";
+  bool gravity = true;
+  bool implicitSteps = false;
+  double massShare = 0.0;  ///< of the consistent mass
+  Vec3 velocity;           ///< of all nodes at the start, m/s
+  std::vector<NamedSet> sets;
+  std::vector<Support> supports;
+  std::vector<Load> loads;
+  std::vector<MeshTie> ties;
+  std::string where;
+};
+
+struct SurfaceContact {
+  std::string on = "skin";           ///< face set
+  NumberOrWord kernel{0.0, "none"};  ///< width, m, or "none" or "advised"
+  std::optional<ContactLaw> contact;
+  std::string contactMaterial;
+};
+/// A solid and grains that share the layer between two planes across an axis.
+struct Overlap {
+  int axis = 2;
+  double solidBorder = required;      ///< m: where the solid ends, within the grains
+  double particleBorder = required;   ///< m: where the grains end, within the solid
+  int profile = 0;                    ///< arlequin::WeightProfile
+  bool multipliers = false;           ///< in place of a penalty
+  NumberOrWord penalty{0.0, "auto"};  ///< Pa/m²
+  double kernel = 0.0;                ///< width, m
+};
+struct Coupling {
+  std::string solid;
+  std::variant<SurfaceContact, Overlap> kind;
+  std::string where;
+};
+}  // namespace dovetail::scene

@@ -1,0 +1,123 @@
+// What does not go together in an overlap.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/fem/mesh/mesh_quality.hpp"
+#include "warnings.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+/// Bulk modulus of grains in a packing of this solid fraction, Pa: φ Z k/(3π d), six contacts each (those of a cubic
+/// lattice, exactly). Walton, J. Mech. Phys. Solids 35 (1987), for springs.
+double bulkModulusOf(const LinearContact& contact, double diameter, double solidFraction) {
+  return solidFraction * 6.0 * contact.stiffness / (3.0 * std::numbers::pi * diameter);
+}
+double bulkModulusOf(const SolidMaterial& material) {
+  return std::visit(
+      [](const auto& law) {
+        double poisson = 0.0;
+        if constexpr (requires { law.poissonRatio; }) poisson = law.poissonRatio;
+        return law.youngsModulus / (3.0 * (1.0 - 2.0 * poisson));
+      },
+      material.law);
+}
+
+/// What lies between the borders of an overlap.
+struct Shared {
+  double mass = 0.0, volumeOfGrains = 0.0, diameter = 0.0;  ///< kg, m³, m (mean)
+  double volume = 0.0, elementSize = 0.0;                   ///< m³; m, mean along the axis
+  std::size_t grains = 0, elements = 0;
+};
+
+void addElements(Shared& shared, const fem::SolidMesh& mesh, int axis, double lower, double upper) {
+  const fem::MeshQuality quality = fem::measureQuality(mesh, 0);
+  const double margin = 1e-6 * (upper - lower);
+  std::size_t number = 0;
+  for (const fem::CellGroup& group : mesh.groups) {
+    const auto corners = static_cast<std::size_t>(fem::nodesOf(group.shape));
+    for (std::size_t e = 0; e < group.size(); ++e, ++number) {
+      double least = std::numeric_limits<double>::infinity(), most = -least;
+      for (std::size_t a = 0; a < corners; ++a) {
+        const double place = mesh.X[static_cast<std::size_t>(group.node[corners * e + a])][axis];
+        least = std::min(least, place), most = std::max(most, place);
+      }
+      if (least < lower - margin || most > upper + margin) continue;
+      ++shared.elements;
+      shared.volume += quality.element[number].volume;
+      shared.elementSize += most - least;
+    }
+  }
+  shared.elementSize /= static_cast<double>(std::max<std::size_t>(1, shared.elements));
+}
+
+Shared sharedPart(const Built& built, const arlequin::OverlapTie& tie, const fem::SolidMesh& mesh,
+                  const Overlap& overlap) {
+  const auto [lower, upper] = std::minmax(overlap.solidBorder, overlap.particleBorder);
+  Shared shared;
+  const dem::Particles& p = built.run->grains.particles;
+  for (const int number : tie.overlap().particle) {
+    const auto i = static_cast<std::size_t>(number);
+    const double r = p.radius[i], place = p.x[i][overlap.axis];
+    if (place < lower || place > upper) continue;
+    ++shared.grains;
+    shared.mass += p.mass[i];
+    shared.volumeOfGrains += 4.0 / 3.0 * std::numbers::pi * r * r * r;
+    shared.diameter += 2.0 * r;
+  }
+  shared.diameter /= static_cast<double>(std::max<std::size_t>(1, shared.grains));
+  addElements(shared, mesh, overlap.axis, lower, upper);
+  return shared;
+}
+
+}  // namespace
+
+std::string rounded(double value) {
+  const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(std::abs(value))));
+  return formatNumber(value == 0.0 ? 0.0 : std::round(value * scale) / scale);
+}
+
+void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, const Overlap& overlap, Lines& lines) {
+  const auto ties = std::as_const(built.run->grains).terms.all<arlequin::OverlapTie>();
+  const auto found =
+      std::find_if(ties.begin(), ties.end(), [&](const auto* tie) { return &tie->side() == &built.run->solid(solid); });
+  if (found == ties.end()) return;
+  const Solid& file = scene.solids[solid];
+  const Shared shared = sharedPart(built, **found, built.meshes[solid], overlap);
+  const std::string name = "the overlap with " + quoted(file.name);
+  if (shared.grains == 0 || shared.elements == 0) {
+    lines.push_back("Between the borders of " + name +
+                    " there is no whole element, or no grain: put them where both are.");
+    return;
+  }
+  const double thickness = std::abs(overlap.solidBorder - overlap.particleBorder);
+  if (thickness < 1.99 * shared.elementSize || thickness < 2.9 * shared.diameter)
+    lines.push_back(name + " is " + rounded(thickness) + " m thick, with elements of " + rounded(shared.elementSize) +
+                    " m and grains of " + rounded(shared.diameter) +
+                    " m: give it two elements and three grains at least.");
+  if (overlap.kernel > thickness)
+    lines.push_back("The kernel of " + name + " is wider than it is thick: take one below " + rounded(thickness) +
+                    " m.");
+  if (const std::size_t voids = (*found)->state().voids; voids > 0)
+    lines.push_back(std::to_string(voids) + " elements within " + name +
+                    " hold no grain: take larger elements, or smaller grains.");
+  const double bulk = shared.mass / shared.volume;
+  if (std::abs(bulk / file.material.density - 1.0) > 0.15)
+    lines.push_back("In " + name + " grains have " + rounded(bulk) + " kg/m3 and the solid " +
+                    rounded(file.material.density) + ": give the solid the density " + rounded(bulk) + ".");
+  const auto* const linear = scene.contact ? std::get_if<LinearContact>(&scene.contact->normal) : nullptr;
+  if (!linear) return;
+  const double grains = bulkModulusOf(*linear, shared.diameter, shared.volumeOfGrains / shared.volume);
+  const double ratio = bulkModulusOf(file.material) / grains;
+  if (ratio > 4.0 || ratio < 0.25)
+    lines.push_back("In " + name + " the bulk modulus of the solid is " + rounded(ratio) +
+                    " times that of the grains, about " + rounded(grains) +
+                    " Pa, so that waves are reflected: bring youngs_modulus and stiffness closer.");
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,38 @@
+// Functions of time of a scene: values, and paths with their velocities.
+#pragma once
+
+#include <functional>
+
+#include "dovetail/scene/scene.hpp"
+
+namespace dovetail::scene {
+
+using TimeFunction = std::function<double(double)>;
+
+/// The value at time t ≥ 0, s. Copies may not be evaluated by several threads at once.
+TimeFunction functionOf(const TimeValue& value, const Scene& scene);
+bool isConstant(const TimeValue& value);
+bool isConstant(const TimeVector& value);
+/// The numbers of a constant one.
+Vec3 constantOf(const TimeVector& value);
+
+/// How far something has come since t = 0, and how fast it goes. Before t = 0 it went on as it did just after.
+struct Travel {
+  TimeFunction displacement, velocity;
+};
+/// Of a displacement: the velocity is its central difference over a millionth of the time that the scene runs.
+Travel travelOf(const TimeValue& displacement, const Scene& scene);
+/// Of a velocity: integrated by Gauss' rule of three points over pieces of 1e-5 of the time that the scene runs, from
+/// t = 0 on, so that it is the same at the same time, whatever was asked for before.
+Travel travelAt(const TimeValue& velocity, const Scene& scene);
+
+struct Path {
+  std::function<Vec3(double)> displacement, velocity;  ///< m, m/s
+};
+/// What a structure with a velocity or a displacement in its place tells, component by component.
+/// @throws InputError if both are there
+std::array<Travel, 3> travels(const TimeVector& velocity, const std::optional<TimeVector>& displacement,
+                              const Scene& scene);
+Path pathOf(const TimeVector& velocity, const std::optional<TimeVector>& displacement, const Scene& scene);
+
+}  // namespace dovetail::scene

@@ -1,0 +1,128 @@
+// What `check` warns of.
+#include "../io/scratch_folder.hpp"
+#include "dovetail/fem/mesh/mesh_shapes.hpp"
+#include "dovetail/mesh_io/surface_files.hpp"
+#include "refusal.hpp"
+#include "scene_parts.hpp"
+
+namespace dovetail::scene::test {
+namespace {
+
+/// All warnings about a scene, one behind the other.
+std::string warningsOf(const Scene& scene) {
+  const Built built = started(scene);
+  std::string all;
+  for (const std::string& one : warnings(built, scene)) all += one + "\n";
+  return all;
+}
+std::string warningsOf(const std::string& middle, const std::filesystem::path& folder = "/") {
+  return warningsOf(sceneOf(middle, folder));
+}
+
+const std::string block =
+    R"("solids": [{"name": "b", "mesh": "box", "cells": [2, 2, 2], "box": [[0, 0, 0], [1, 1, 1]],
+      "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000}, "supports": [{"on": "z-"}])";
+const std::string onBlock = R"(}], "couplings": [{"type": "surface", "solid": "b", "kernel": "advised"}],)";
+
+std::string spheres(const std::string& places) {
+  return R"("particles": [{"from": "list", "density": 2500, "spheres": [)" + places + "]}],";
+}
+
+TEST(SceneWarnings, StarterScenesHaveNone) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP();
+  for (const char* const name : {"cantilever", "wave", "plate", "tray", "bonded-beam"})
+    EXPECT_EQ(warningsOf(readScene(starter(name))), "") << name;
+}
+
+TEST(SceneWarnings, DeepContactsAndGrainsInSolids) {
+  expectParts(warningsOf(spheres(R"({"at": [0, 0, 0], "radius": 0.1}, {"at": [0.18, 0, 0], "radius": 0.1},
+                                    {"at": [5, 0, 0], "radius": 0.1}, {"at": [5.199, 0, 0], "radius": 0.1})")),
+              {"1 contacts are deeper than 5 % of a radius", "20 % (particle 0 with particle 1)"});
+  const std::string floor = R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],)";
+  expectParts(warningsOf(floor + spheres(R"({"at": [0, 0, 0.08], "radius": 0.1})")), {"20 % (particle 0 with a wall)"});
+  EXPECT_EQ(warningsOf(floor + spheres(R"({"at": [0, 0, 0.099], "radius": 0.1})")), "");
+  expectParts(warningsOf(block + onBlock + spheres(R"({"at": [0.5, 0.5, 0.5], "radius": 0.01})")),
+              {"1 grains have their centres in \"b\""});
+  EXPECT_EQ(warningsOf(block + onBlock + spheres(R"({"at": [0.5, 0.5, 1.02], "radius": 0.01})")), "");
+}
+
+TEST(SceneWarnings, NamesThatNobodyUses) {
+  const std::string sets = R"(, "sets": [{"name": "top", "place": "side", "side": "z+"},
+      {"name": "mid", "place": "plane", "point": [0, 0, 0.5], "normal": [0, 0, 1]}],
+      "loads": [{"type": "pressure", "on": "top", "pressure": 1}])";
+  const std::string found = warningsOf(block + sets + onBlock);
+  expectParts(found, {"the set \"mid\" is used by nobody"});
+  EXPECT_EQ(found.find("\"top\""), std::string::npos);
+  expectParts(
+      warningsOf(R"("contacts": [{"between": "a", "and": "a", "law": "linear", "stiffness": 1e4}], "particles": [
+      {"from": "list", "name": "beam", "density": 1, "spheres": [{"at": [0, 0, 0], "radius": 1}]}],)"),
+      {"group of particles \"beam\"", "contact material \"a\""});
+}
+
+TEST(SceneWarnings, HertzOnSingleNodesAndSolidsThatFall) {
+  const std::string hertz = R"("contact": {"law": "Hertz", "youngs_modulus": 1e6, "poisson_ratio": 0.3},)";
+  const auto of = [&](const std::string& kernel, const std::string& supports) {
+    return warningsOf(sceneFromText("{" + hertz + R"("gravity": [0, 0, -1],)" +
+                                        replaced(block, R"("supports": [{"on": "z-"}])", supports) +
+                                        replaced(onBlock, "\"advised\"", kernel) + end + "}",
+                                    "s.json", "/"));
+  };
+  expectParts(of("\"none\"", R"("supports": [])"),
+              {"write \"kernel\": \"advised\"", "\"b\" has no supports and falls"});
+  expectParts(of("5", R"("supports": [{"on": "z-"}])"), {"times as wide as advised"});
+  EXPECT_EQ(of("\"advised\"", R"("supports": [{"on": "z-"}])"), "");
+}
+
+TEST(SceneWarnings, WallsThatAreOpenClosedOrCutThemselves) {
+  const io::test::ScratchFolder folder;
+  const std::vector<Vec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::vector<geometry::Facet> closed{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  mesh_io::writeStl(folder / "closed.stl", x, closed);
+  const std::vector<Vec3> crossing{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, -1}, {0.2, 0.2, 1}, {0.4, 0.2, 1}};
+  mesh_io::writeStl(folder / "crossing.stl", crossing, std::vector<geometry::Facet>{{0, 1, 2}, {3, 4, 5}});
+  const auto wall = [&](const std::string& file, const std::string& more) {
+    return warningsOf(R"("walls": [{"shape": "mesh", "file": ")" + file + "\"" + more + "}],", folder.path());
+  };
+  expectParts(wall("closed.stl", ""), {"Mesh wall 0 is closed, but counts as a sheet"});
+  EXPECT_EQ(wall("closed.stl", R"(, "closed": true)"), "");
+  expectParts(wall("crossing.stl", ""), {"cuts itself at 1 pairs of facets, the first 0 and 1"});
+}
+
+TEST(SceneWarnings, SettlingWhileWallsMove) {
+  const auto of = [](const std::string& speed) {
+    return warningsOf(
+        sceneFromText(R"({"walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1], "velocity": [0, 0, )" +
+                          speed + R"(]}], "steps": {"dt": 1e-4}, "stages": [{"do": "settle"}]})",
+                      "s.json", "/"));
+  };
+  expectParts(of("1"), {"settles while walls"});
+  EXPECT_EQ(of("0"), "");
+}
+
+/// A lattice of grains on a bar; the last two keys are the solid's modulus and density.
+std::string overlapWarnings(const std::string& borders, double modulus, double density, const std::string& cells) {
+  const std::string particles =
+      R"("particles": [{"from": "lattice", "lattice": "simple-cubic", "density": 2500, "radius": 0.05,
+      "box": [[0, 0, 0], [0.4, 0.4, 2]]}],)";
+  return warningsOf(sceneFromText(
+      R"({"contact": {"law": "linear", "stiffness": 1e6},)" + particles +
+          R"("solids": [{"name": "b", "mesh": "box", "cells": )" + cells + R"(, "box": [[0, 0, 1], [0.4, 0.4, 3]],
+      "material": {"law": "neo-Hookean", "poisson_ratio": 0, "youngs_modulus": )" +
+          std::to_string(modulus) + R"(, "density": )" + std::to_string(density) + R"(}, "supports": [{"on": "z+"}]}],
+      "couplings": [{"type": "overlap", "solid": "b", )" +
+          borders + R"(}], "steps": {"dt": "auto", "safety": 0.1}, "stages": [{"do": "run", "time": 1}]})",
+      "s.json", "/"));
+}
+
+TEST(SceneWarnings, OverlapsWhoseModelsDoNotGoTogether) {
+  const std::string borders = R"("solid_border": 1, "particle_border": 2)";
+  const double bulk = 2500.0 * std::acos(-1.0) / 6.0, modulus = 1e6 / 0.1;
+  EXPECT_EQ(overlapWarnings(borders, modulus, bulk, "[1, 1, 10]"), "");
+  expectParts(overlapWarnings(borders, modulus, 2.0 * bulk, "[1, 1, 10]"), {"give the solid the density 1310"});
+  expectParts(overlapWarnings(borders, 10.0 * modulus, bulk, "[1, 1, 10]"), {"10 times that of the grains"});
+  expectParts(overlapWarnings(R"("solid_border": 1, "particle_border": 1.25)", modulus, bulk, "[1, 1, 20]"),
+              {"0.25 m thick, with elements of 0.1 m and grains of 0.1 m"});
+}
+
+}  // namespace
+}  // namespace dovetail::scene::test
