@@ -11,6 +11,7 @@
 #include "dovetail/io/provenance.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
+#include "program/run.hpp"
 #include "verbs.hpp"
 
 namespace {
@@ -95,6 +96,7 @@ std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
   for (const auto& [kind, text] : starters()) kinds.push_back(kind);
   starter->add_option("KIND", options.kind)->required()->check(CLI::IsMember(kinds));
   starter->add_option("FILE", options.file, "new file; standard output if not given");
+  for (const program::OwnVerb& verb : program::ownVerbs) add(verb.name, verb.help, nullptr);  // for the help
   return verbs;
 }
 
@@ -119,7 +121,9 @@ const Verb* parse(CLI::App& app, const std::vector<Verb>& verbs, int argc, char*
   return nullptr;
 }
 
-int act(int argc, char** argv) {
+bool act(int argc, char** argv) {
+  for (const program::OwnVerb& verb : program::ownVerbs)
+    if (argc > 1 && std::string(argv[1]) == verb.name) return verb.act(argc - 1, argv + 1);
   CLI::App app(
       "Runs scenes of grains and solids. Exit codes: 0 done, 1 broke down or differs, 2 refused, 128 + n ended by "
       "signal n.");
@@ -128,20 +132,11 @@ int act(int argc, char** argv) {
   Options options;
   const std::vector<Verb> verbs = addVerbs(app, options);
   const Verb* const verb = parse(app, verbs, argc, argv);
-  return verb ? verb->act() : 0;
+  return !verb || verb->act() == 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const io::InterruptionGuard guard;
-  try {
-    return act(argc, argv);
-  } catch (const InputError& error) {
-    std::cerr << "dovetail: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "dovetail: " << error.what() << '\n';
-    return 1;
-  }
+  return program::runProgram("dovetail", [&] { return act(argc, argv); });
 }

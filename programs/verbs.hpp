@@ -16,4 +16,19 @@ Verb addCompare(CLI::App& app);
 /// fields RUN: coarse-grained fields of its last checkpoint.
 Verb addFields(CLI::App& app);
 
+/// A verb that reads its own command line.
+struct OwnVerb {
+  const char *name, *help;
+  /// @param argv  the verb, then its arguments @return whether all was done. @throws InputError
+  bool (*act)(int argc, char** argv);
+};
+
+bool studyScene(int argc, char** argv);
+bool reportRun(int argc, char** argv);
+
+inline constexpr OwnVerb ownVerbs[] = {
+    {"study", "runs a scene over lists of parameters, in several processes", studyScene},
+    {"report", "writes a page (HTML, Markdown) on a run", reportRun},
+};
+
 }  // namespace dovetail::program

@@ -1,83 +1,24 @@
 #include "reference_curves.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <sstream>
 
+#include "common/curves.hpp"
 #include "dovetail/core/error.hpp"
 #include "settings.hpp"
 
 namespace dovetail::cantilever {
 
-namespace {
-
-using Columns = std::map<std::string, std::vector<double>>;
-
-double parseNumber(const std::string& text, const std::string& where) {
-  double value = 0.0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !std::isfinite(value))
-    throw InputError("'" + text + "' is no number", where, "give comma-separated numbers below one header line");
-  return value;
-}
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) {
-    field.erase(std::remove(field.begin(), field.end(), '\r'), field.end());
-    fields.push_back(field);
-  }
-  return fields;
-}
-
-Columns readColumns(const std::string& file) {
-  std::ifstream stream(file);
-  std::string line;
-  if (!std::getline(stream, line)) throw InputError("the file cannot be read", file, "give a readable CSV file");
-  const std::vector<std::string> names = split(line);
-  Columns columns;
-  for (std::size_t row = 2; std::getline(stream, line); ++row) {
-    const auto fields = split(line);
-    const std::string where = file + ", line " + std::to_string(row);
-    if (fields.size() != names.size())
-      throw InputError(
-          "the line has " + std::to_string(fields.size()) + " fields instead of " + std::to_string(names.size()), where,
-          "restore the file");
-    for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(parseNumber(fields[k], where));
-  }
-  if (columns.empty()) throw InputError("there are no rows", file, "restore the file");
-  return columns;
-}
-
-ReferenceCurve readCurve(const std::string& file, double width) {
-  Columns columns = readColumns(file);
-  const auto take = [&](const std::string& name) {
-    if (!columns.contains(name)) throw InputError("column " + name + " is missing", file, "restore the file");
-    return columns[name];
-  };
-  ReferenceCurve curve{width,        take("t_s"),  take("x1_m"), take("y1_m"),   take("z1_m"),
-                       take("x2_m"), take("y2_m"), take("z2_m"), take("Etot_J"), take("Eel_DE_J")};
-  const double midSpan = 0.5 * Case{}.length;
-  for (double& y : curve.y1) y += midSpan;
-  for (double& y : curve.y2) y += midSpan;
-  return curve;
-}
-
-}  // namespace
-
 std::vector<ReferenceCurve> readReferenceCurves(const std::string& folder) {
   std::vector<ReferenceCurve> curves;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string(), head = "cantilever_c", tail = "d.csv";
-    if (!name.starts_with(head) || !name.ends_with(tail)) continue;
-    const std::string number = name.substr(head.size(), name.size() - head.size() - tail.size());
-    curves.push_back(readCurve(entry.path().string(), parseNumber(number, entry.path().string())));
+  for (const auto& [path, width] : benchmark::filesNamed(folder, "cantilever_c", "d.csv")) {
+    const auto c =
+        benchmark::readColumns(path, {"t_s", "x1_m", "y1_m", "z1_m", "x2_m", "y2_m", "z2_m", "Etot_J", "Eel_DE_J"});
+    curves.push_back({benchmark::numberInName(width, path, "cantilever_c2.5d.csv"), c[0], c[1], c[2], c[3], c[4], c[5],
+                      c[6], c[7], c[8]});
+    const double midSpan = 0.5 * Case{}.length;
+    for (double& y : curves.back().y1) y += midSpan;
+    for (double& y : curves.back().y2) y += midSpan;
   }
   if (curves.empty())
     throw InputError("no cantilever_c*d.csv in " + folder, "--reference",

@@ -1,106 +1,85 @@
-#include "report.hpp"
-
 #include <algorithm>
 #include <ostream>
 
-#include "common/text.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/io/provenance.hpp"
+#include "dovetail/report/text.hpp"
 #include "model.hpp"
 #include "published.hpp"
+#include "run.hpp"
 
 namespace dovetail::cantilever {
 
-using benchmark::format;
+using report::format, report::Json;
 
 namespace {
 
-void printCase(std::ostream& out, const RunResult& result) {
-  const Settings& s = result.settings;
-  const auto counts = elementCounts(s);
-  const auto build = io::buildInfo();
-  out << "Two particles slide over an elastic cantilever\n"
-      << "  " << build.version << " (" << build.commit.substr(0, 12) << "), " << build.compiler << ", "
-      << io::processorName() << '\n'
-      << "  beam       " << counts[0] << " x " << counts[1] << " x " << counts[2] << ' ' << s.element << '\n'
-      << "  changed    ";
-  Settings asItComes;
-  asItComes.dtCapped = true;
-  const auto standard = describe(asItComes);
-  bool any = false;
-  for (const auto& row : describe(s))
-    if (std::find(standard.begin(), standard.end(), row) == standard.end()) {
-      out << (any ? ", " : "") << row.first << ' ' << row.second;
-      any = true;
-    }
-  out << (any ? "" : "nothing: all settings as they come") << '\n';
+/// Time-mean errors in m, printed in mm.
+benchmark::Lines errorLines(const RunFigures& f) {
+  const auto mm = [](const char* key, double metres, const std::string& label) {
+    return benchmark::Line{key, report::numberOrNull(metres), label, "%.3f mm", 1e3};
+  };
+  const std::string locked = format("  with EI x %.4f (locked brick)", f.lockingFactor);
+  const bool locks = f.lockingFactor != 1.0;
+  return {
+      {"", nullptr, "Error: time mean until leaving of the root of the summed squares of dx and dz of both particles;\n"
+           "  static formula: Euler-Bernoulli; moving-mass beam: Timoshenko"},
+      mm("time_mean_error_m", f.errorStatic, "static formula, arm from the clamp"),
+      mm("time_mean_error_vertical_m", f.errorStaticVertical, "  dz alone"),
+      mm("time_mean_error_authors_arm_m", f.errorStaticAuthors,
+         "static formula, arm from the start (authors)"),
+      mm("time_mean_error_dynamic_m", f.errorDynamic, "moving-mass beam, at the particle's own y"),
+      mm("time_mean_error_dynamic_same_time_m", f.errorDynamicSameTime,
+         "moving-mass beam, at the same time"),
+      mm("time_mean_error_dynamic_locked_m", f.errorDynamicLocked, locks ? locked + ", own y" : ""),
+      mm("time_mean_error_dynamic_locked_same_time_m", f.errorDynamicLockedSameTime,
+         locks ? locked + ", same time" : ""),
+      {"locking_factor", f.lockingFactor},
+      {"leave_time_dynamic_reference_s", f.referenceLeaveTime, "moving-mass beam: particle 1 leaves at", "%.4f s"}};
 }
 
-void printErrors(std::ostream& out, const RunFigures& f, bool besideBeam) {
-  const auto line = [&](const char* what, double metres) { out << format("  %-66s %9.3f mm\n", what, 1e3 * metres); };
-  out << "Error: time mean until leaving of the root of the summed squares of dx and dz of both particles\n";
-  line("static Euler-Bernoulli, arm from the clamp", f.errorStatic);
-  line("  dz alone", f.errorStaticVertical);
-  line("static Euler-Bernoulli, arm from the start point (as the authors)", f.errorStaticAuthors);
-  if (!besideBeam) {
-    out << "  moving-mass Timoshenko beam: not compared, the run ends before leaving\n";
-    return;
-  }
-  line("moving-mass Timoshenko beam, at the particle's own y", f.errorDynamic);
-  line("moving-mass Timoshenko beam, at the same time", f.errorDynamicSameTime);
-  if (f.lockingFactor == 1.0) return;
-  line(format("  the same with EI x %.4f (locked brick), own y", f.lockingFactor).c_str(), f.errorDynamicLocked);
-  line(format("  the same with EI x %.4f (locked brick), same time", f.lockingFactor).c_str(),
-       f.errorDynamicLockedSameTime);
-}
-
-void printMotion(std::ostream& out, const RunFigures& f) {
-  if (f.left)
-    out << format("  particle 1 leaves at   %.4f s (moving-mass beam %.4f s)\n", f.leaveTime, f.referenceLeaveTime);
-  else
-    out << format("  not left by            %.4f s\n", f.endTime);
-  out << format("  lateral drift          %.3g m\n", f.lateralDrift)
-      << format("  without contact        %.3g %% of the time\n", 100.0 * f.noContactShare);
-}
-
-void printEnergy(std::ostream& out, const RunResult& result) {
-  const RunFigures& f = result.figures;
-  out << "Energy, until leaving\n"
-      << format("  total at the start     %.6f J, least %.6f, largest %.6f\n", f.energyInitial, f.energyMin,
-                f.energyMax)
-      << format("  drift                  %.3e of the start\n", f.energyDrift)
-      << format("  ledger residual        %.3e of the start, every booked channel counted\n", f.ledgerResidual)
-      << format("  force, moment residual %.3e, %.3e of the contact force (x 12 m)\n", f.forceResidual,
-                f.momentResidual)
-      << "Ledger at the end\n"
-      << result.ledger;
-}
-
-void printTime(std::ostream& out, const RunResult& result) {
-  const RunFigures& f = result.figures;
-  const double steps = static_cast<double>(f.steps);
-  out << "Time\n"
-      << format("  %.0f steps in %.3f s, %.2f us per step", steps, f.wallSeconds, 1e6 * f.wallSeconds / steps)
-      << format(" (authors' code: about %.0f us)\n", 1e6 * publishedSecondsPerStep)
-      << format("  dt %.4e s = %.4f t_c, %.1f %% of the critical step %.4e s\n", f.dt, f.dt / contactTime(Case{}),
-                100.0 * f.dt / f.criticalDt, f.criticalDt)
-      << "  the critical step is set by " << f.criticalSetter << '\n'
-      << result.profile;
+double joulesOf(const EnergyLedger& ledger, const std::string& beginning) {
+  double sum = 0.0;
+  for (const auto& channel : ledger.channels())
+    if (channel.name.starts_with(beginning)) sum += channel.joules;
+  return sum;
 }
 
 }  // namespace
 
+benchmark::Lines linesOf(const RunResult& result) {
+  const RunFigures& f = result.figures;
+  const auto counts = elementCounts(result.settings);
+  benchmark::Lines lines{
+      {"", format("%d x %d x %d ", counts[0], counts[1], counts[2]) + result.settings.element, "beam"},
+      {"left", f.left},
+      {"leave_time_s", f.left ? Json(f.leaveTime) : Json(nullptr), "particle 1 leaves at", "%.4f s"},
+      {"lateral_drift_m", f.lateralDrift, "lateral drift", "%.3g m"},
+      {"no_contact_share", f.noContactShare, "without contact", "%.3g %% of the time", 100.0}};
+  const auto add = [&](const benchmark::Lines& more) { lines.insert(lines.end(), more.begin(), more.end()); };
+  add(errorLines(f));
+  add({{"", nullptr, "Energy, until leaving"},
+       {"energy_initial_J", f.energyInitial, "total at the start", "%.6f J"},
+       {"energy_min_J", f.energyMin, "  least", "%.6f J"},
+       {"energy_max_J", f.energyMax, "  largest", "%.6f J"},
+       {"energy_drift_relative", f.energyDrift, "drift", "%.3e of the start"},
+       {"ledger_residual_relative", f.ledgerResidual, "ledger residual",
+        "%.3e of the start, every booked channel counted"},
+       {"force_residual_relative", f.forceResidual, "force residual", "%.3e of the contact force"},
+       {"moment_residual_relative", f.momentResidual, "moment residual", "%.3e of the contact force x 12 m"},
+       {"made_by_coupling_J", -joulesOf(result.ledger, "coupling")},
+       {"dashpots_J", joulesOf(result.ledger, "dashpots")}});
+  add(benchmark::timeLines(f, contactTime(Case{}), f.criticalDt));
+  add({{"dt_critical_s", f.criticalDt, "critical step", "%.4e s"},
+       {"dt_critical_set_by", f.criticalSetter, "set by"},
+       {"", publishedSecondsPerStep, "a step of the authors' code", "about %.0f us", 1e6}});
+  return lines;
+}
+
 void printReport(std::ostream& out, const RunResult& result) {
-  printCase(out, result);
-  printMotion(out, result.figures);
-  printErrors(out, result.figures, comparesWithBeam(result));
-  printEnergy(out, result);
-  printTime(out, result);
-  if (!result.figures.failure.empty())
-    out << "The run broke down: " << result.figures.failure << '\n';
-  else if (!result.figures.stable)
-    out << format("Not stable: kinetic + elastic energy reached %.3g times what was available\n",
-                  result.figures.largestExcess);
+  Settings asItComes;
+  asItComes.dtCapped = true;
+  benchmark::printReport(out, "Two particles slide over an elastic cantilever", describe(result.settings),
+                         describe(asItComes), linesOf(result), result.figures, result);
 }
 
 void printComparison(std::ostream& out, const RunResult& result, const std::vector<ReferenceCurve>& curves) {

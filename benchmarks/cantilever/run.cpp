@@ -4,18 +4,19 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "dovetail/core/clock.hpp"
-#include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/io/interruption.hpp"
 #include "model.hpp"
-#include "series_names.hpp"
 
 namespace dovetail::cantilever {
+
+using benchmark::moment;
 
 namespace {
 
@@ -29,10 +30,6 @@ std::int64_t every(double interval, double window) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(std::min(interval / window, 1e18))));
 }
 
-std::string moment(double time, std::int64_t step) {
-  return "t = " + formatNumber(time) + " s, step " + std::to_string(step);
-}
-
 /// Runs one model and gathers its figures.
 class Runner {
 public:
@@ -40,21 +37,14 @@ public:
     result_.settings = settings;
     scene_.run->profile = Profile(settings.profile);
     if (settings.profile) grains().profile = &scene_.run->profile;
-    result_.series = io::TimeSeries(seriesNames);
     prepareStep();
-    prepareLedger();
+    prepareBooks();
     tipNode_ = mesh_.nodeSets.at("y+").back();
   }
 
   RunResult run(const Observer& observer) {
     observer_ = observer;
-    const auto begin = std::chrono::steady_clock::now();
-    try {
-      figures().finished = loop();
-    } catch (const NumericalError& error) {
-      figures().failure = error.what();
-    }
-    figures().wallSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    benchmark::conduct(figures(), [this] { return loop(); });
     close();
     return std::move(result_);
   }
@@ -74,48 +64,56 @@ private:
     clock_.substepsPerWindow = settings().femEvery;
   }
 
-  void prepareLedger() {
-    EnergyLedger& ledger = result_.ledger;
-    kineticParticles_ = ledger.addStored("kinetic, particles");
-    elasticContacts_ = ledger.addStored("elastic, contacts");
-    gravity_ = ledger.addStored("gravity, particles");
-    kineticBeam_ = ledger.addStored("kinetic, beam");
-    elasticBeam_ = ledger.addStored("elastic, beam");
-    if (multirate()) splitting_ = ledger.addBooked("time splitting");
-    dashpots_ = ledger.addBooked("dashpots");
-    coupling_ = ledger.addBooked("coupling (minus what it made)");
-  }
-
-  /// Explicit solid, stepped every K > 1 DEM steps: the impulses store energy that is booked.
-  bool multirate() const {
-    return clock_.substepsPerWindow > 1 && settings().fem == FemStepper::explicitDifferences &&
-           settings().lag == Lag::none;
-  }
-
   /// The channels of the run under the names of the case; gravity counts from the particles' height at the start.
-  void setLedger() {
-    const EnergyLedger& run = scene_.run->ledger();
-    EnergyLedger& ledger = result_.ledger;
-    ledger.set(kineticParticles_, run.joules("particles: kinetic"));
-    ledger.set(elasticContacts_, run.joules("particles: contacts"));
-    ledger.set(gravity_, run.joules("particles: gravity") - gravityAtStart_);
-    ledger.set(kineticBeam_, run.joules("beam: kinetic"));
+  void prepareBooks() {
+    const auto of = [this](const char* channel) { return scene_.run->ledger().joules(channel); };
+    const auto kinetic = books_.stored("kinetic, particles", [of] { return of("particles: kinetic"); });
+    const auto contacts = books_.stored("elastic, contacts", [of] { return of("particles: contacts"); });
+    gravity_ = books_.stored("gravity, particles", [of, this] { return of("particles: gravity") - gravityAtStart_; });
+    const auto kineticBeam = books_.stored("kinetic, beam", [of] { return of("beam: kinetic"); });
     // A law without a potential stores the work done against it.
-    ledger.set(elasticBeam_, run.joules("beam: beam") + run.joules("beam: work of beam"));
-    if (multirate()) ledger.set(splitting_, run.joules("beam: time splitting"));
-    ledger.set(dashpots_, run.joules("particles: dashpots"));
-    ledger.set(coupling_,
-               run.joules("contacts on the beam: lost") + run.joules("loads one step old (minus what they made)"));
+    const auto beam = books_.stored("elastic, beam", [of] { return of("beam: beam") + of("beam: work of beam"); });
+    // Explicit solid, stepped every K > 1 DEM steps: the impulses store energy that is booked.
+    if (clock_.substepsPerWindow > 1 && settings().fem == FemStepper::explicitDifferences &&
+        settings().lag == Lag::none)
+      books_.booked("time splitting", [of] { return of("beam: time splitting"); });
+    const auto dashpots = books_.booked("dashpots", [of] { return of("particles: dashpots"); });
+    const auto coupling = books_.booked("coupling (minus what it made)", [of] {
+      return of("contacts on the beam: lost") + of("loads one step old (minus what they made)");
+    });
+
+    books_.column("time_s", [this] { return clock_.time(); });
+    for (const std::size_t i : {0, 1}) {
+      books_.columns("", std::to_string(i + 1) + "_m", [this, i] { return grains().particles.x[i]; });
+      books_.columns("v", std::to_string(i + 1) + "_m_per_s", [this, i] { return grains().particles.v[i]; });
+    }
+    const auto sum = [](const std::vector<double>& masses) {
+      return std::accumulate(masses.begin(), masses.end(), 0.0);
+    };
+    books_.column("mass_particles_kg", [this, sum] { return sum(grains().particles.mass); });
+    books_.column("mass_beam_kg", [this, sum] { return sum(nodes().mass); });
+    books_.columns("momentum_particles_", "_Ns", [this] { return dem::momentum(grains().particles); });
+    books_.columns("momentum_beam_", "_Ns", [this] { return fem::momentum(nodes()); });
+    books_.column("kinetic_particles_J", kinetic);
+    books_.column("elastic_contacts_J", contacts);
+    books_.column("gravity_particles_J", gravity_);
+    books_.column("kinetic_beam_J", kineticBeam);
+    books_.column("elastic_beam_J", beam);
+    books_.column("energy_total_J", [this] { return result_.ledger.stored(); });
+    books_.column("dashpots_J", dashpots);
+    books_.column("made_by_coupling_J", [this, coupling] { return -result_.ledger.channels()[coupling].joules; });
+    books_.column("ledger_residual_J", [this] { return result_.ledger.residual(); });
+    books_.columns("tip_d", "_m", [this] { return nodes().u[static_cast<std::size_t>(tipNode_)]; });
   }
 
   /// Returns whether it went to the end; if it was interrupted, `failure` says so.
   bool loop() {
     scene_.run->start(clock_.dt, {.stepsPerWindow = settings().femEvery, .lag = settings().lag});
     gravityAtStart_ = scene_.run->ledger().joules("particles: gravity");
-    setLedger();
+    books_.setLedger();
     result_.ledger.open();
     sampleTrajectory();
-    sampleSeries();
+    books_.addRow();
     observe();
 
     const double end = settings().until.value_or(longestRun);
@@ -138,7 +136,7 @@ private:
       if (sample % seriesEvery == 0 || stops) {
         scene_.beam->model->terms.front()->requireValid(nodes(), moment(clock_.time(), clock_.step),
                                                         fem::Scrutiny::inversion);
-        sampleSeries();
+        books_.addRow();
         const double y = grains().particles.x[0].y / Case{}.length;
         progress.update(settings().until ? clock_.time() / end : 1.0 - std::sqrt(std::max(0.0, 1.0 - y)),
                         "t = " + formatNumber(std::round(100.0 * clock_.time()) / 100.0) + " s");
@@ -147,7 +145,7 @@ private:
     }
     sampleTrajectory();
     if (stops && !done(end)) {
-      figures().failure = Error(io::nameOfInterruption(), moment(clock_.time(), clock_.step), "run it again").what();
+      figures().failure = benchmark::interrupted(clock_.time(), clock_.step);
       return false;
     }
     if (!settings().until && !figures().left)
@@ -176,7 +174,7 @@ private:
   void sampleEnergy() {
     dem::requireFinite(grains().particles, moment(clock_.time(), clock_.step));
     requireFinite(nodes().v, "node", "velocity", moment(clock_.time(), clock_.step));
-    setLedger();
+    books_.setLedger();
     if (figures().left) return;
     result_.ledger.close();
     const auto& channels = result_.ledger.channels();
@@ -214,35 +212,22 @@ private:
     result_.samples.push_back({clock_.time(), {grains().particles.x[0], grains().particles.x[1]}});
   }
 
-  void sampleSeries() {
-    std::vector<double> row{clock_.time()};
-    const auto push = [&](const Vec3& value) { row.insert(row.end(), {value.x, value.y, value.z}); };
-    for (int i = 0; i < 2; ++i) {
-      push(grains().particles.x[i]);
-      push(grains().particles.v[i]);
-    }
-    double massParticles = 0.0, massBeam = 0.0;
-    for (double mass : grains().particles.mass) massParticles += mass;
-    for (double mass : nodes().mass) massBeam += mass;
-    row.insert(row.end(), {massParticles, massBeam});
-    push(dem::momentum(grains().particles));
-    push(fem::momentum(nodes()));
-    const auto& channels = result_.ledger.channels();
-    for (EnergyLedger::Id id : {kineticParticles_, elasticContacts_, gravity_, kineticBeam_, elasticBeam_})
-      row.push_back(channels[id].joules);
-    row.push_back(result_.ledger.stored());
-    row.push_back(channels[dashpots_].joules);
-    row.push_back(-channels[coupling_].joules);
-    row.push_back(result_.ledger.residual());
-    push(nodes().u[tipNode_]);
-    result_.series.append(row);
-  }
-
   void observe() {
     if (!observer_) return;
+    const auto begin = std::chrono::steady_clock::now();
     auto& beam = dynamic_cast<fem::Solid&>(*scene_.beam->model->terms.front());
     const auto energies = beam.elementEnergies(nodes(), {clock_.time(), 0.0});
-    observer_({clock_.time(), mesh_, nodes(), grains().particles, scene_.beam->load.force, energies, result_.series});
+    observer_({clock_.time(),
+               &mesh_,
+               &nodes(),
+               grains().particles,
+               result_.series,
+               nullptr,
+               {{"contact_load_N", scene_.beam->load.force}},
+               {},
+               {{"strain_energy_J", energies}},
+               {}});
+    figures().wallSeconds -= std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
   void close() {
@@ -267,8 +252,8 @@ private:
   Observer observer_;
   RunResult result_;
   Clock clock_;
-  EnergyLedger::Id kineticParticles_, elasticContacts_, gravity_, kineticBeam_, elasticBeam_, splitting_ = 0, dashpots_,
-                                                                                              coupling_;
+  benchmark::Recorder books_{result_};
+  EnergyLedger::Id gravity_ = 0;
   double gravityAtStart_ = 0.0;
   int tipNode_ = 0;
   std::int64_t stepsWithoutContact_ = 0, stepsOnBeam_ = 0;

@@ -1,44 +1,23 @@
 // One coupled run and its figures.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "dovetail/core/ledger.hpp"
-#include "dovetail/core/profile.hpp"
-#include "dovetail/dem/particles/particles.hpp"
-#include "dovetail/fem/mesh/solid_mesh.hpp"
-#include "dovetail/fem/model/nodes.hpp"
-#include "dovetail/io/time_series.hpp"
+#include "common/outputs.hpp"
+#include "common/report.hpp"
 #include "reference/error_norms.hpp"
+#include "reference_curves.hpp"
 #include "settings.hpp"
 
 namespace dovetail::cantilever {
 
-/// What an observer sees of a frame.
-struct Frame {
-  double time;
-  const fem::SolidMesh& mesh;
-  const fem::Nodes& nodes;
-  const dem::Particles& particles;
-  const std::vector<Vec3>& contactLoad;      ///< contact forces on the nodes, N
-  const std::vector<double>& elementEnergy;  ///< J
-  const io::TimeSeries& series;              ///< up to now
-};
-using Observer = std::function<void(const Frame&)>;
+using benchmark::Frame, benchmark::Observer;
 
-struct RunFigures {
-  bool finished = false;  ///< reached the end it was told
-  bool left = false;      ///< particle 1 has passed the free end
-  bool stable = false;    ///< finished, no NaN, K + U never above 1.5 (initial + work of gravity)
-  std::string failure;    ///< what broke down, when and where
-
-  std::int64_t steps = 0;    ///< DEM steps
-  double endTime = 0.0;      ///< s
-  double wallSeconds = 0.0;  ///< loop only
-  double dt = 0.0, criticalDt = 0.0;
+struct RunFigures : benchmark::RunFigures {
+  bool left = false;  ///< particle 1 has passed the free end
+  double criticalDt = 0.0;
   std::string criticalSetter;
 
   double leaveTime = 0.0;                                        ///< s, 0 if not left
@@ -48,7 +27,6 @@ struct RunFigures {
   double momentResidual = 0.0;  ///< |moments of particle and nodal loads together| / (Σ|f| × beam length)
   double forceResidual = 0.0;   ///< |particle and nodal loads together| / Σ|f|
   double noContactShare = 0.0;
-  double largestExcess = 0.0;  ///< max (K + U) / (initial + work of gravity)
 
   double errorStatic = 0.0, errorStaticAuthors = 0.0;  ///< m, true arm and the authors' arm
   double errorStaticVertical = 0.0;                    ///< m, true arm, Δz alone: what lateral drift does not touch
@@ -59,13 +37,10 @@ struct RunFigures {
   double referenceLeaveTime = 0.0;  ///< s, moving-mass beam with the exact EI
 };
 
-struct RunResult {
+struct RunResult : benchmark::RunData {
   Settings settings;
   RunFigures figures;
-  EnergyLedger ledger;
-  Profile profile;
   std::vector<PairSample> samples;  ///< trajectory until the end
-  io::TimeSeries series{{"time_s"}};
 };
 
 /// A run that nothing stands in the way of; to be called once. The observer is called at t = 0 and every
@@ -90,5 +65,16 @@ void compareWithReferences(RunResult& result);
 
 /// The moving-mass beam for the settings' contact stiffness and the given bending factor; kept after the first call.
 const DynamicReference& dynamicReference(const Settings& settings, double bendingFactor);
+
+/// All figures, as reports and summaries have them.
+benchmark::Lines linesOf(const RunResult& result);
+/// What was computed, its errors, its energy balance, its time, dt against the critical step and who sets it.
+void printReport(std::ostream& out, const RunResult& result);
+/// The run beside the authors' deposited curves.
+void printComparison(std::ostream& out, const RunResult& result, const std::vector<ReferenceCurve>& curves);
+
+/// Runs the study named in the settings, which are the starting point of its variations.
+/// @return whether all runs were made, as report::runStudy
+bool runStudy(const Settings& settings);
 
 }  // namespace dovetail::cantilever

@@ -1,6 +1,8 @@
 #include "settings.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
@@ -39,45 +41,135 @@ bool couplingIsUnbalanced(const Settings& settings) {
 
 namespace {
 
-void checkRange(bool good, const std::string& option, const std::string& value, const std::string& remedy) {
-  if (!good) throw InputError("the value " + value + " is not possible", option, remedy);
+const benchmark::RunWords words{
+    "0.9",
+    ", 4.5465 ms; default 0.05 or a third of the critical step",
+    "leaving",
+    "cantilever_c*d.csv",
+    {{"widths", "widths"}, {"pareto", "pareto"}, {"stability", "stability"}, {"ablation", "ablation"}}};
+
+std::string meshText(const Settings& s) {
+  const auto mesh = s.mesh.value_or(Case{}.elements);
+  return std::to_string(mesh[0]) + "," + std::to_string(mesh[1]) + "," + std::to_string(mesh[2]);
 }
 
-void checkNumber(double value, bool good, const std::string& option, const std::string& remedy) {
-  checkRange(std::isfinite(value) && good, option, formatNumber(value), remedy);
+void readMesh(Settings& s, const std::string& text) {
+  std::array<int, 3> mesh{};
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%d,%d,%d%c", &mesh[0], &mesh[1], &mesh[2], &rest) != 3)
+    throw InputError("'" + text + "' are no three counts", "--mesh", "give three whole numbers, as in 2,30,2");
+  s.mesh = mesh;
+}
+
+void addPartOptions(program::Options& o, Settings& s) {
+  o.choice<Lag>("--lag", s.lag, {{"none", Lag::none}, {"load", Lag::load}, {"load-and-skin", Lag::loadAndSkin}},
+                "staggered steps: the load, or load and skin, one step old")
+      .tell("lag");
+  o.choice<Transfer>("--transfer", s.transfer, {{"adjoint", Transfer::adjoint}, {"spread", Transfer::spread}},
+                     "gap and load by the same weights, or the load alone spread over the kernel (14-15)")
+      .tell("transfer");
+  o.choice<EdgeHandling>("--edges", s.edges, {{"projected", EdgeHandling::projected}, {"paper", EdgeHandling::paper}},
+                         "rule where a particle touches several facets")
+      .tell("edges");
+  o.choice<Metric>("--metric", s.metric, {{"reference", Metric::reference}, {"deformed", Metric::deformed}},
+                   "St Venant-Kirchhoff, or the authors' Eq. (34)")
+      .tell("metric");
+  o.choice<FemStepper>("--fem", s.fem,
+                       {{"explicit", FemStepper::explicitDifferences}, {"newmark", FemStepper::newmark}},
+                       "time integration of the beam")
+      .tell("fem");
+  o.choice<MassMatrix>("--mass", s.mass, {{"lumped", MassMatrix::lumped}, {"consistent", MassMatrix::consistent}},
+                       "of the beam; consistent with --fem newmark --lag load only")
+      .tell("mass");
+  o.number("--restitution E", s.restitution, {0.0, 1.0, false, true, "a number above 0 and up to 1"},
+           "of a particle on a rigid wall, 0 < e <= 1")
+      .tell("restitution");
+  o.choice<Correction>(
+       "--kernel-correction", s.correction,
+       {{"none", Correction::none}, {"linear", Correction::linear}, {"symmetric", Correction::symmetric}},
+       "for the adjoint transfer: linear keeps moments, symmetric keeps even loads even (default)")
+      .tell("kernel_correction");
+  o.choice<Surface>("--surface", s.surface, {{"flat", Surface::flat}, {"smooth", Surface::smooth}},
+                    "flat facets (default for width 0) or B-spline patches (default for a kernel)")
+      .tell("surface");
+}
+
+program::Options optionsOf(Settings& s) {
+  program::Options o(
+      "cantilever",
+      "Two particles slide over an elastic cantilever (Cheng et al., CMAME 403 (2023) 115651, sec. 6.1).");
+  o.choice<Scheme>("--scheme", s.scheme, {{"conservative", Scheme::conservative}, {"paper", Scheme::paper}},
+                   "all parts at once; parts given below win")
+      .tell("scheme");
+  o.number("--cg-width X", s.cgWidth, program::notNegative("0 (local) or a positive number of particle diameters"),
+           "kernel width c in particle diameters, 0 = local")
+      .tell("cg_width_diameters");
+  o.choice<KernelName>("--kernel", s.kernel, {{"lucy", KernelName::lucy}, {"gauss", KernelName::gauss}}, "kernel shape")
+      .tell("kernel");
+  o.choice<std::string>("--element", s.element, {{"hex8", "hex8"}, {"hybrid8", "hybrid8"}},
+                        "hex8 (as the paper) or hybrid8 (locking-free)")
+      .tellAs("element", [&s] { return s.element; });
+  o.integer("--refine N", s.refine, 1, 16, "divides every element edge by N").tell("refine");
+  o.add(
+       "--mesh NX,NY,NZ", "elements along x, y (axis), z; default 2,30,2",
+       [&s](const std::string& text) { readMesh(s, text); }, [&s] { return meshText(s); })
+      .tell("mesh");
+  o.number("--stiffness-ratio R", s.stiffnessRatio, program::positive(), "contact stiffness over E d")
+      .tell("stiffness_ratio");
+  addPartOptions(o, s);
+  program::Option& factor = benchmark::addTimeOptions(o, s, words);
+  factor.read = [read = factor.read, &s](const std::string& text) {
+    read(text);
+    s.dtCapped = false;
+  };
+  o.add("", "", {}, [&s] { return std::string(s.dtCapped ? "yes" : "no"); }).tell("dt_capped");
+  benchmark::addOutputOptions(o, s, words);
+  return o;
+}
+
+/// What follows from parts that were written, where nothing else was.
+void settleParts(const program::Options& o, Settings& s) {
+  const bool spread = s.transfer == Transfer::spread;
+  if (!o.given("--kernel-correction") && spread) s.correction = Correction::none;
+  if (!o.given("--surface") && (spread || s.edges == EdgeHandling::paper)) s.surface = Surface::flat;
+  if (!o.given("--mass") && !(s.lag != Lag::none && s.fem == FemStepper::newmark)) s.mass = MassMatrix::lumped;
 }
 
 }  // namespace
 
-void validate(const Settings& s) {
-  checkNumber(s.cgWidth, s.cgWidth >= 0.0, "--cg-width", "give 0 (local) or a positive number of particle diameters");
-  checkNumber(s.dtFactor, s.dtFactor > 0.0, "--dt-factor", "give a positive share of the contact time, or --dt auto");
-  checkNumber(s.restitution, s.restitution > 0.0 && s.restitution <= 1.0, "--restitution",
-              "give a number above 0 and up to 1");
-  checkNumber(s.stiffnessRatio, s.stiffnessRatio > 0.0, "--stiffness-ratio", "give a positive number");
-  if (s.until) checkNumber(*s.until, *s.until > 0.0, "--until", "give a positive time in seconds");
-  checkNumber(s.outputInterval, s.outputInterval > 0.0, "--output-interval", "give a positive time in seconds");
-  checkRange(s.refine >= 1 && s.refine <= 16, "--refine", std::to_string(s.refine), "give a whole number from 1 to 16");
-  checkRange(s.femEvery >= 1 && s.femEvery <= 1000, "--fem-every", std::to_string(s.femEvery),
-             "give a whole number from 1 to 1000");
-  checkRange(s.threads >= 1 && s.threads <= 1024, "--threads", std::to_string(s.threads),
-             "give a whole number from 1 to 1024");
-  if (s.mesh)
-    for (int count : *s.mesh)
-      checkRange(count >= 1 && count <= 2000, "--mesh", std::to_string(count),
-                 "give three counts of at least 1, as in 2,30,2");
+bool parseOptions(int argc, char** argv, Settings& s) {
+  s.dtCapped = true;
+  program::Options o = optionsOf(s);
+  if (!o.parse(argc, argv, [&s] { applyScheme(s, s.scheme); })) return false;
+  o.refuseBoth("--dt", "--dt-factor");
+  s.dtCapped = s.dtCapped && !s.dtAuto && s.femEvery == 1;
+  settleParts(o, s);
+  validate(s);
+  benchmark::refuseIdleRunOptions(o, s);
+  if (s.cgWidth == 0.0 && s.study.empty())
+    o.refuseIdle({"--kernel", "--kernel-correction"}, "without a kernel", "add --cg-width X, or leave it out");
+  return true;
+}
+
+io::KeyValues describe(const Settings& settings) {
+  Settings s = settings;
+  return optionsOf(s).described();
+}
+
+void validate(const Settings& settings) {
+  Settings s = settings;
+  optionsOf(s).check();
+  benchmark::checkRun(s);
+  const std::array<int, 3> mesh = s.mesh.value_or(Case{}.elements);
+  for (const int count : mesh)
+    benchmark::require(count >= 1 && count <= 2000, "--mesh", std::to_string(count),
+                       "give three counts of at least 1, as in 2,30,2");
   if (s.element != "hex8" && s.element != "hybrid8")
     throw InputError("there is no element " + s.element, "--element", "take hex8 or hybrid8");
-  const std::array<int, 3> mesh = s.mesh.value_or(Case{}.elements);
   const double elements = 1.0 * mesh[0] * mesh[1] * mesh[2] * std::pow(s.refine, 3);
   if (elements > 4e6)
     throw InputError(formatNumber(elements) + " elements are too many", "--mesh and --refine",
                      "give fewer, at most 4 million together");
-  if (s.study != Study::none && !s.summary.empty())
-    throw InputError("a study writes its own summary", "--summary", "take --out DIR, which gets <study>.json");
-  if (s.study != Study::none && !s.reference.empty())
-    throw InputError("a study is not compared with the published curves", "--reference",
-                     "leave out --study or --reference");
   if (s.metric == Metric::deformed && s.element != "hex8")
     throw InputError("element " + s.element + " has no deformed metric", "--metric deformed",
                      "take --element hex8, or --metric reference");
@@ -108,39 +200,7 @@ const char* nameOf(Correction correction) {
   return "none";
 }
 
-std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
-  const auto text = [](double value) { return formatNumber(value); };
-  std::vector<std::pair<std::string, std::string>> rows{
-      {"scheme", s.scheme == Scheme::paper ? "paper" : "conservative"},
-      {"lag", s.lag == Lag::none   ? "none"
-              : s.lag == Lag::load ? "load"
-                                   : "load-and-skin"},
-      {"transfer", s.transfer == Transfer::spread ? "spread" : "adjoint"},
-      {"edges", s.edges == EdgeHandling::paper ? "paper" : "projected"},
-      {"metric", s.metric == Metric::deformed ? "deformed" : "reference"},
-      {"fem", s.fem == FemStepper::newmark ? "newmark" : "explicit"},
-      {"mass", s.mass == MassMatrix::consistent ? "consistent" : "lumped"},
-      {"restitution", text(s.restitution)},
-      {"cg_width_diameters", text(s.cgWidth)},
-      {"kernel", s.kernel == KernelName::gauss ? "gauss" : "lucy"},
-      {"kernel_correction", nameOf(s.correction)},
-      {"surface", s.surface == Surface::smooth ? "smooth" : "flat"},
-      {"element", s.element},
-      {"refine", std::to_string(s.refine)},
-      {"dt_factor", s.dtAuto            ? "auto"
-                    : s.shareOfCritical ? text(*s.shareOfCritical) + " of critical"
-                                        : text(s.dtFactor)},
-      {"dt_capped", s.dtCapped ? "yes" : "no"},
-      {"fem_every", std::to_string(s.femEvery)},
-      {"until_s", s.until ? text(*s.until) : "leaving"},
-      {"stiffness_ratio", text(s.stiffnessRatio)},
-      {"threads", std::to_string(s.threads)}};
-  const std::array<int, 3> mesh = s.mesh.value_or(Case{}.elements);
-  rows.emplace_back("mesh", std::to_string(mesh[0]) + "," + std::to_string(mesh[1]) + "," + std::to_string(mesh[2]));
-  return rows;
-}
-
-std::vector<std::pair<std::string, std::string>> describeCase() {
+io::KeyValues describeCase() {
   const Case beam;
   return {{"length_m", formatNumber(beam.length)},
           {"side_m", formatNumber(beam.side)},
@@ -155,7 +215,7 @@ std::vector<std::pair<std::string, std::string>> describeCase() {
           {"start_velocity_m_per_s", formatNumber(beam.startVelocity)}};
 }
 
-std::vector<std::pair<std::string, std::string>> provenanceOf(const Settings& settings) {
+io::KeyValues provenanceOf(const Settings& settings) {
   auto entries = describe(settings);
   for (auto& entry : describeCase()) entries.push_back(std::move(entry));
   return io::provenance(entries);

@@ -4,9 +4,8 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
+#include "common/settings.hpp"
 #include "dovetail/coupling/run.hpp"
 
 namespace dovetail::cantilever {
@@ -37,9 +36,10 @@ enum class FemStepper { explicitDifferences, newmark };
 enum class Surface { flat, smooth };
 enum class KernelName { lucy, gauss };
 enum class Correction { none, linear, symmetric };
-enum class Study { none, widths, pareto, stability, ablation };
 
-struct Settings {
+struct Settings : benchmark::RunSettings {
+  Settings() { dtFactor = 0.05, outputInterval = 0.25; }
+
   Scheme scheme = Scheme::conservative;
   // The parts in which the two schemes differ; each can be switched on its own.
   Lag lag = Lag::none;
@@ -57,20 +57,7 @@ struct Settings {
   std::string element = "hex8";
   int refine = 1;
   std::optional<std::array<int, 3>> mesh;  ///< elements along x, y, z before refinement
-  double dtFactor = 0.05;                  ///< of the contact time
-  bool dtCapped = false;                   ///< but no more than a third of the critical step (the program's default)
-  bool dtAuto = false;                     ///< 0.9 of the critical step
-  std::optional<double> shareOfCritical;   ///< dt over the critical step, wins over dtFactor (studies)
-  bool beyondCritical = false;             ///< do not refuse a step above the critical one (studies)
-  int femEvery = 1;
-  std::optional<double> until;  ///< s; default: until particle 1 has left
-  double stiffnessRatio = 1.0;  ///< k_n over E d
-  int threads = 1;
-
-  std::string out, summary, reference;
-  double outputInterval = 0.25;  ///< s between pictures in --out
-  Study study = Study::none;
-  bool profile = false, quiet = false;
+  bool dtCapped = false;  ///< the step is no more than a third of the critical one (the program's default)
 };
 
 /// Sets the scheme's parts for the settings' kernel width.
@@ -84,15 +71,19 @@ void applyScheme(Settings& settings, Scheme scheme);
 /// @throws InputError naming the option, what is wrong with it and what to write instead
 void validate(const Settings& settings);
 
+/// Reads the command line. @throws InputError for unknown options and impossible values
+/// @return false for --help, which is printed
+bool parseOptions(int argc, char** argv, Settings& settings);
+
 /// Whether the contacts and the solid exchange work that is not the same on both sides, so that it must be booked.
 bool couplingIsUnbalanced(const Settings& settings);
 
 const char* nameOf(Correction correction);
 /// Option names and values as text, for provenance, the summary and the tables of studies.
-std::vector<std::pair<std::string, std::string>> describe(const Settings& settings);
+io::KeyValues describe(const Settings& settings);
 /// What no option changes: sizes and materials, by names that end with their units (SI).
-std::vector<std::pair<std::string, std::string>> describeCase();
+io::KeyValues describeCase();
 /// The entries of io::provenance with all of both.
-std::vector<std::pair<std::string, std::string>> provenanceOf(const Settings& settings);
+io::KeyValues provenanceOf(const Settings& settings);
 
 }  // namespace dovetail::cantilever

@@ -1,182 +1,157 @@
-#include "study.hpp"
+#include "common/study.hpp"
 
-#include <cstdio>
-#include <nlohmann/json.hpp>
-#include <span>
-#include <sstream>
+#include <map>
 
-#include "common/text.hpp"
-#include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/core/progress.hpp"
-#include "dovetail/io/interruption.hpp"
-#include "dovetail/io/output_folder.hpp"
-#include "dovetail/io/provenance.hpp"
 #include "published.hpp"
-#include "summary.hpp"
+#include "run.hpp"
 
 namespace dovetail::cantilever {
 
 namespace {
 
-const char* nameOf(Study study) {
-  switch (study) {
-    case Study::widths:
-      return "widths";
-    case Study::pareto:
-      return "pareto";
-    case Study::stability:
-      return "stability";
-    case Study::ablation:
-      return "ablation";
-    case Study::none:
-      break;
-  }
-  return "none";
+using Plan = benchmark::Plan<Settings>;
+
+void setFactor(Settings& settings, double factor) {
+  settings.dtFactor = factor;
+  settings.dtCapped = false;
 }
 
-std::vector<StudyRow> planOf(const Settings& settings) {
-  switch (settings.study) {
-    case Study::widths:
-      return widthsPlan(settings);
-    case Study::pareto:
-      return paretoPlan(settings);
-    case Study::stability:
-      return stabilityPlan(settings);
-    case Study::ablation:
-      return ablationPlan(settings);
-    case Study::none:
-      break;
-  }
-  return {};
+Settings withWidth(Settings settings, double width, Scheme scheme) {
+  settings.cgWidth = width;
+  applyScheme(settings, scheme);
+  return settings;
 }
 
-void runRow(StudyRow& row) {
-  try {
-    RunResult result = run(row.settings);
-    compareWithReferences(result);
-    row.figures = result.figures;
-    row.outcome = result.figures.finished ? (result.figures.stable ? "finished" : "not stable") : "broke down";
-    row.message = result.figures.failure;
-    for (const auto& channel : result.ledger.channels()) {
-      if (channel.name.starts_with("dashpots")) row.lostToDashpots = channel.joules;
-      if (channel.name.starts_with("coupling")) row.madeByCoupling = -channel.joules;
+/// Coarse-graining widths 0 … 20 d in both schemes.
+Plan widthsPlan(const Settings& base) {
+  struct Variant {
+    const char* name;
+    Scheme scheme;
+    Correction correction;
+  };
+  Plan plan;
+  for (const Variant& variant : {Variant{"conservative", Scheme::conservative, Correction::symmetric},
+                                 Variant{"conservative, linear", Scheme::conservative, Correction::linear},
+                                 Variant{"conservative, no correction", Scheme::conservative, Correction::none},
+                                 Variant{"paper", Scheme::paper, Correction::none}})
+    for (const double width : {0.0, 2.0, 4.0, 6.0, 10.0, 15.0, 20.0}) {
+      Settings settings = withWidth(base, width, variant.scheme);
+      settings.correction = variant.correction;
+      if (variant.scheme == Scheme::paper) setFactor(settings, 0.02);
+      plan.emplace_back(std::string(variant.name) + ", c = " + formatNumber(width) + " d", settings);
     }
-  } catch (const InputError& error) {
-    row.outcome = "refused";
-    row.message = error.what();
-  }
+  return plan;
 }
 
-/// Marks rows that no other row beats in both wall time and `measure`.
-template <class Measure, class Mark>
-void markFront(std::span<StudyRow> rows, Measure measure, Mark mark) {
-  for (StudyRow& row : rows) {
-    if (row.outcome != "finished") continue;
-    bool beaten = false;
-    for (const StudyRow& other : rows)
-      beaten = beaten || (other.outcome == "finished" && other.figures.wallSeconds < row.figures.wallSeconds &&
-                          measure(other) < measure(row));
-    mark(row, !beaten);
-  }
+/// Elements × meshes × time steps × FEM sub-steps.
+Plan paretoPlan(const Settings& base) {
+  using Mesh = std::pair<const char*, std::array<int, 3>>;
+  Plan plan;
+  Settings settings = withWidth(base, base.cgWidth, Scheme::conservative);
+  for (const char* element : {"hex8", "hybrid8"})
+    for (const auto& [mesh, elements] :
+         {Mesh{"2x15x1", {2, 15, 1}}, Mesh{"2x30x2", {2, 30, 2}}, Mesh{"4x60x4", {4, 60, 4}}})
+      for (const double factor : {0.0, 0.1, 0.05, 0.02})
+        for (const int every : {1, 2, 4}) {
+          settings.element = element;
+          settings.mesh = elements;
+          settings.dtAuto = factor == 0.0;
+          setFactor(settings, settings.dtAuto ? 0.05 : factor);
+          settings.femEvery = every;
+          plan.emplace_back(std::string(element) + ", " + mesh + ", dt " +
+                                (settings.dtAuto ? "auto" : formatNumber(factor)) + ", FEM every " +
+                                std::to_string(every),
+                            settings);
+        }
+  return plan;
 }
 
-using benchmark::quoted;
-
-void markFronts(std::span<StudyRow> rows) {
-  markFront(
-      rows, [](const StudyRow& r) { return r.figures.errorDynamic; },
-      [](StudyRow& r, bool on) { r.onErrorFront = on; });
-  markFront(
-      rows, [](const StudyRow& r) { return r.figures.energyDrift; }, [](StudyRow& r, bool on) { r.onDriftFront = on; });
-}
-
-void printRow(const StudyRow& row) {
-  const RunFigures& f = row.figures;
-  std::printf("%-58s %-10s", row.label.c_str(), row.outcome.c_str());
-  if (row.outcome == "refused") {
-    std::printf(" %s\n", row.message.c_str());
-    return;
-  }
-  std::printf(" %8.3f s  drift %9.2e  E %9.3g ... %9.3g J", f.wallSeconds, f.energyDrift, f.energyMin, f.energyMax);
-  if (f.left)
-    std::printf("  leaves %7.3f s  error %8.3f mm static (%.3f mm in z) %8.3f mm dynamic", f.leaveTime,
-                1e3 * f.errorStatic, 1e3 * f.errorStaticVertical, 1e3 * f.errorDynamic);
-  if (!row.message.empty()) std::printf("  %s", row.message.c_str());
-  std::printf("\n");
-  std::fflush(stdout);
-}
-
-void writeStudy(const std::string& folder, const std::string& name, std::span<const StudyRow> rows) {
-  std::ostringstream csv;
-  csv << io::provenanceLines(io::provenance(), "# ");
-  csv << "label,outcome,message,wall_seconds,steps,dt_s,leave_time_s,energy_initial_J,energy_min_J,energy_max_J,"
-         "energy_drift_relative,ledger_residual_relative,made_by_coupling_J,dashpots_J,lateral_drift_m,"
-         "moment_residual_relative,no_contact_share,time_mean_error_m,time_mean_error_vertical_m,time_mean_error_"
-         "authors_arm_m,"
-         "time_mean_error_dynamic_m,time_mean_error_dynamic_same_time_m,on_error_front,on_drift_front";
-  for (const auto& [key, value] : describe(Settings{})) csv << ',' << key;
-  csv << '\n';
-  nlohmann::ordered_json json;
-  json["study"] = name;
-  for (const auto& [key, value] : io::provenance())
-    json["provenance"][key] = value;  // early: it marks the file as ours
-  json["published_code"] = {{"seconds_per_step", publishedSecondsPerStep}, {"dt_factor", publishedDtFactor}};
-  for (const StudyRow& row : rows) {
-    const RunFigures& f = row.figures;
-    csv << quoted(row.label) << ',' << row.outcome << ',' << quoted(row.message);
-    for (double value : {f.wallSeconds, static_cast<double>(f.steps), f.dt, f.leaveTime, f.energyInitial, f.energyMin,
-                         f.energyMax, f.energyDrift, f.ledgerResidual, row.madeByCoupling, row.lostToDashpots,
-                         f.lateralDrift, f.momentResidual, f.noContactShare, f.errorStatic, f.errorStaticVertical,
-                         f.errorStaticAuthors, f.errorDynamic, f.errorDynamicSameTime})
-      csv << ',' << formatNumber(value);
-    csv << ',' << row.onErrorFront << ',' << row.onDriftFront;
-    nlohmann::ordered_json entry = figuresAsJson(f);
-    entry["label"] = row.label;
-    entry["outcome"] = row.outcome;
-    entry["message"] = row.message;
-    entry["made_by_coupling_J"] = row.madeByCoupling;
-    entry["dashpots_J"] = row.lostToDashpots;
-    entry["on_error_front"] = row.onErrorFront;
-    entry["on_drift_front"] = row.onDriftFront;
-    for (const auto& [key, value] : describe(row.settings)) {
-      csv << ',' << quoted(value);
-      entry["settings"][key] = value;
+/// Time steps around the critical one, stiffness ratios 1e-3 … 1e4, widths to 40 d.
+Plan stabilityPlan(Settings base) {
+  Plan plan;
+  base.until = base.until.value_or(2.0);
+  Settings settings = base;
+  settings.dtAuto = false;
+  for (const double share : {0.5, 0.9, 0.99, 1.01, 1.2, 1.4, 1.5, 2.0})
+    for (const bool insisted : {false, true}) {
+      if (insisted && share <= 1.0) continue;
+      settings.shareOfCritical = share;
+      settings.beyondCritical = insisted;
+      plan.emplace_back("dt at " + formatNumber(share) + " of the critical step" + (insisted ? ", insisted on" : ""),
+                        settings);
     }
-    csv << '\n';
-    json["runs"].push_back(entry);
+  settings = base;
+  for (const double ratio : {1e-3, 1e-2, 1e-1, 1.0, 1e1, 1e2, 1e3, 1e4}) {
+    settings.stiffnessRatio = ratio;
+    settings.dtAuto = ratio > 1.0;
+    plan.emplace_back("stiffness ratio " + formatNumber(ratio), settings);
   }
-  const std::filesystem::path where = folder.empty() ? "." : folder;
-  io::writeFileAtomically(where / (name + ".csv"), csv.str());
-  io::writeFileAtomically(where / (name + ".json"), json.dump(2) + "\n");
+  for (const double width : {0.01, 1.0, 10.0, 20.0, 40.0})
+    for (const KernelName kernel : {KernelName::lucy, KernelName::gauss}) {
+      settings = withWidth(base, width, base.scheme);
+      settings.kernel = kernel;
+      plan.emplace_back("width " + formatNumber(width) + " d, " + (kernel == KernelName::lucy ? "Lucy" : "Gauss"),
+                        settings);
+    }
+  return plan;
+}
+
+/// The parts of the paper's scheme one at a time.
+Plan ablationPlan(const Settings& base) {
+  Plan plan;
+  for (const double width : {0.0, 10.0}) {
+    const std::string at = ", c = " + formatNumber(width) + " d";
+    Settings plain = withWidth(base, width, Scheme::conservative);
+    plain.surface = Surface::flat;
+    setFactor(plain, 0.02);
+    plain.correction = Correction::none;
+    plan.emplace_back("conservative" + at, plain);
+    const auto add = [&](const char* part, auto change) {
+      Settings settings = plain;
+      change(settings);
+      plan.emplace_back(std::string("+ ") + part + at, settings);
+    };
+    add("load one step old", [](Settings& s) { s.lag = Lag::load; });
+    add("load and skin one step old", [](Settings& s) { s.lag = Lag::loadAndSkin; });
+    add("spread load, local gap", [](Settings& s) { s.transfer = Transfer::spread; });
+    add("the authors' face rule", [](Settings& s) { s.edges = EdgeHandling::paper; });
+    add("deformed metric", [](Settings& s) { s.metric = Metric::deformed; });
+    add("implicit FEM", [](Settings& s) { s.fem = FemStepper::newmark; });
+    add("restitution 0.99", [](Settings& s) { s.restitution = 0.99; });
+    add("load one step old, implicit FEM, consistent mass", [](Settings& s) {
+      s.lag = Lag::load;
+      s.fem = FemStepper::newmark;
+      s.mass = MassMatrix::consistent;
+    });
+    plan.emplace_back("the paper's scheme" + at, withWidth(plain, width, Scheme::paper));
+  }
+  return plan;
 }
 
 }  // namespace
 
 bool runStudy(const Settings& settings) {
-  const std::string name = nameOf(settings.study);
-  const std::string folder = settings.out.empty() ? "." : settings.out;
-  io::prepareOutputFolder(folder, {name + ".csv", name + ".json"});
-  std::vector<StudyRow> rows = planOf(settings);
-  Progress progress("study " + name, static_cast<double>(rows.size()), !settings.quiet);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].settings.quiet = true;
-    rows[i].settings.out.clear();
-    progress.update(static_cast<double>(i), rows[i].label);
-    const std::span done(rows.data(), i + 1);
-    runRow(rows[i]);
-    if (io::interruption() != 0) {
-      progress.finish();
-      std::fprintf(stderr, "cantilever: %s; %zu of %zu runs are written\n", io::nameOfInterruption().c_str(), i,
-                   rows.size());
-      return false;
-    }
-    if (!settings.quiet) printRow(rows[i]);
-    if (settings.study == Study::pareto) markFronts(done);
-    writeStudy(folder, name, done);
-  }
-  progress.finish();
-  return true;
+  static const std::map<std::string, Plan (*)(const Settings&)> plans{
+      {"widths", widthsPlan}, {"pareto", paretoPlan}, {"ablation", ablationPlan}, {"stability", [](const Settings& s) {
+                                                                                     return stabilityPlan(s);
+                                                                                   }}};
+  report::Study study;
+  study.program = "cantilever";
+  study.fronts = {{"time_mean_error_dynamic_m", "on_error_front"}, {"energy_drift_relative", "on_drift_front"}};
+  study.shown = {"energy_drift_relative",
+                 "energy_min_J",
+                 "energy_max_J",
+                 "leave_time_s",
+                 "time_mean_error_m",
+                 "time_mean_error_vertical_m",
+                 "time_mean_error_dynamic_m"};
+  study.about["published_code"] = {{"seconds_per_step", publishedSecondsPerStep}, {"dt_factor", publishedDtFactor}};
+  return benchmark::runPlan(study, settings, plans.at(settings.study)(settings), [](const Settings& one) {
+    RunResult result = run(one);
+    compareWithReferences(result);
+    return benchmark::figuresAsJson(linesOf(result));
+  });
 }
 
 }  // namespace dovetail::cantilever

@@ -3,10 +3,10 @@
 #include <fstream>
 #include <iostream>
 
-#include "common/command_line.hpp"
-#include "common/outputs.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
+#include "program/options.hpp"
+#include "program/run.hpp"
 #include "tables.hpp"
 
 namespace {
@@ -21,12 +21,12 @@ struct Settings {
 };
 
 bool parse(int argc, char** argv, Settings& s) {
-  CLI::App app{"Runs coupled scenes of every combination and looks at their books.", "coupling"};
-  app.add_flag("--pairwise", s.pairwise, "the few that hold every pair of levels, not all");
-  app.add_option("--only", s.only, "cases whose name holds this, such as 'tet4 StVK'");
-  app.add_option("--steps", s.steps, "particle steps at a fiftieth of the critical one, a multiple of 80");
-  app.add_option("--out", s.out, "folder for matrix.csv and matrix.md");
-  return benchmark::parseCommandLine(app, argc, argv);
+  program::Options o("coupling", "Runs coupled scenes of every combination and looks at their books.");
+  o.flag("--pairwise", s.pairwise, "the few that hold every pair of levels, not all");
+  o.text("--only TEXT", s.only, "cases whose name holds this, such as 'tet4 StVK'");
+  o.integer("--steps N", s.steps, 80, 1000000, "particle steps at a fiftieth of the critical one, a multiple of 80");
+  o.text("--out DIR", s.out, "folder for matrix.csv and matrix.md");
+  return o.parse(argc, argv);
 }
 
 std::vector<Row> rowsOf(const Settings& s) {
@@ -67,15 +67,8 @@ bool run(const Settings& s) {
 
 /// Exit code 0: every case holds what is asked; 1: one falls short, or broke down; 2: the request was refused.
 int main(int argc, char** argv) {
-  try {
+  return program::runProgram("coupling", [&] {
     Settings s;
-    if (!parse(argc, argv, s)) return 0;
-    return run(s) ? 0 : 1;
-  } catch (const InputError& error) {
-    std::cerr << "coupling: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "coupling: " << error.what() << '\n';
-    return 1;
-  }
+    return !parse(argc, argv, s) || run(s);
+  });
 }

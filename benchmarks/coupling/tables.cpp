@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <map>
 
-#include "common/json.hpp"
-#include "common/text.hpp"
+#include "dovetail/report/table.hpp"
+#include "dovetail/report/text.hpp"
 
 namespace dovetail::coupling_matrix {
 
 namespace {
 
-using benchmark::format;
-using benchmark::Json;
+using report::format;
+using report::Json;
 
 Json entryOf(const Row& row) {
   const Figures& f = row.figures;
@@ -19,12 +19,12 @@ Json entryOf(const Row& row) {
   for (std::size_t k = 0; k < factors; ++k) entry[factorNames[k]] = levelName(k, levelsOf(row.c)[k]);
   entry["dt_s"] = f.dt;
   for (std::size_t k = 0; k < shares.size(); ++k)
-    entry[format("energy_at_%g", shares[k])] = benchmark::numberOrNull(f.energy[k]);
+    entry[format("energy_at_%g", shares[k])] = report::numberOrNull(f.energy[k]);
   entry["largest_energy"] = f.largestEnergy;
-  entry["energy_order"] = benchmark::numberOrNull(f.energyOrder());
+  entry["energy_order"] = report::numberOrNull(f.energyOrder());
   entry["momentum"] = f.momentum;
   for (std::size_t k = 0; k < shares.size(); ++k)
-    entry[format("angular_at_%g", shares[k])] = benchmark::numberOrNull(f.angular[k]);
+    entry[format("angular_at_%g", shares[k])] = report::numberOrNull(f.angular[k]);
   entry["mass"] = f.mass;
   entry["friction_share"] = f.friction;
   entry["same_for_threads"] = f.threads;
@@ -95,7 +95,7 @@ std::string listed(const std::map<std::string, std::vector<std::string>>& cases,
 std::string csvOf(const std::vector<Row>& rows, const io::KeyValues& provenance) {
   std::vector<Json> entries;
   for (const Row& row : rows) entries.push_back(entryOf(row));
-  return benchmark::csvOf(entries, provenance);
+  return report::csvOf(entries, provenance);
 }
 
 std::string markdownOf(const std::vector<Row>& rows) {

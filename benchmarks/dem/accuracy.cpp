@@ -5,7 +5,7 @@
 #include <ostream>
 #include <random>
 
-#include "common/text.hpp"
+#include "dovetail/report/text.hpp"
 #include "dovetail/core/error.hpp"
 #include "measure.hpp"
 #include "scenes.hpp"
@@ -15,7 +15,7 @@ namespace dovetail::dem_benchmark {
 
 namespace {
 
-using benchmark::format;
+using report::format;
 using Laws = std::shared_ptr<const dem::ContactLaws>;
 
 /// How long a linear contact of two of 1 kg lasts, s; the others are as stiff.

@@ -1,10 +1,11 @@
 #include <iostream>
 #include <map>
+#include <set>
 
-#include "common/command_line.hpp"
 #include "common/outputs.hpp"
-#include "common/program.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "program/options.hpp"
+#include "program/run.hpp"
 #include "studies.hpp"
 
 namespace {
@@ -12,43 +13,53 @@ namespace {
 using namespace dovetail;
 using namespace dovetail::dem_benchmark;
 
-void refuseIdleOptions(const CLI::App& app, const Settings& s) {
-  using benchmark::refuseIdle;
+void refuseIdleOptions(const program::Options& o, const Settings& s) {
   const std::string with = "with --study " + s.study, remedy = "leave it out";
   if (!s.write.empty())
-    refuseIdle(app, {"--study", "--summary", "--scene", "--copies", "--steps", "--warm-up", "--repeat"}, "with --write",
-               remedy);
-  if (s.study != "peers") refuseIdle(app, {"--scene", "--copies"}, with, remedy);
-  if (s.study == "peers") refuseIdle(app, {"--quick"}, with, remedy);
-  if (s.study == "threads") refuseIdle(app, {"--threads"}, with, remedy);
+    o.refuseIdle({"--study", "--summary", "--scene", "--copies", "--steps", "--warm-up", "--repeat"}, "with --write",
+                 remedy);
+  if (s.study != "peers") o.refuseIdle({"--scene", "--copies"}, with, remedy);
+  if (s.study == "peers") o.refuseIdle({"--quick"}, with, remedy);
+  if (s.study == "threads") o.refuseIdle({"--threads"}, with, remedy);
   if (s.study == "stability")
-    refuseIdle(app, {"--bed", "--summary", "--steps", "--warm-up", "--repeat", "--quick"}, with, remedy);
-  if (s.study == "accuracy") refuseIdle(app, {"--bed", "--summary", "--steps", "--warm-up"}, with, remedy);
-  if (s.study == "leaving-out" || s.study == "scaling") refuseIdle(app, {"--bed", "--warm-up"}, with, remedy);
+    o.refuseIdle({"--bed", "--summary", "--steps", "--warm-up", "--repeat", "--quick"}, with, remedy);
+  if (s.study == "accuracy") o.refuseIdle({"--bed", "--summary", "--steps", "--warm-up"}, with, remedy);
+  if (s.study == "leaving-out" || s.study == "scaling") o.refuseIdle({"--bed", "--warm-up"}, with, remedy);
 }
 
 bool parse(int argc, char** argv, Settings& s) {
-  CLI::App app{"Times the particle engine, and checks it on stiff and extreme cases.", "dem"};
-  app.add_option("--study", s.study, "what to do")
-      ->check(CLI::IsMember({"throughput", "peers", "leaving-out", "scaling", "threads", "stability", "accuracy"})
-                  .description(""))
-      ->option_text("throughput|peers|leaving-out|scaling|threads|stability|accuracy");
-  app.add_option("--bed", s.bed,
-                 "spheres of a settled bed, lines 'x y z diameter'; without it one is settled first; peers: the folder "
-                 "of --write");
-  app.add_option("--write", s.write, "write the scenes into this folder, for other programs, and stop");
-  app.add_option("--summary", s.summary, "write the figures as JSON");
-  app.add_option("--scene", s.scenes, "peers: what to time")
-      ->check(CLI::IsMember({"bed", "hertz", "lattice", "polydisperse", "drum"}).description(""))
-      ->option_text("bed|hertz|lattice|polydisperse|drum ...");
-  app.add_option("--copies", s.copies, "peers: beds or drums side by side")->check(CLI::Range(1, 1000));
-  app.add_option("--steps", s.steps, "steps per timing")->check(CLI::Range(2, 1000000));
-  app.add_option("--warm-up", s.warmUp, "steps before the timings")->check(CLI::Range(1, 1000000));
-  app.add_option("--repeat", s.repeats, "timings, of which the median counts")->check(CLI::Range(1, 1000));
-  app.add_option("--threads", s.threads, "threads")->check(CLI::Range(1, 256));
-  app.add_flag("--quick", s.quick, "small scenes: to see whether all runs, not to time");
-  if (!benchmark::parseCommandLine(app, argc, argv)) return false;
-  refuseIdleOptions(app, s);
+  program::Options o("dem", "Times the particle engine, and checks it on stiff and extreme cases.");
+  o.choice<std::string>("--study", s.study,
+                        {{"throughput", "throughput"},
+                         {"peers", "peers"},
+                         {"leaving-out", "leaving-out"},
+                         {"scaling", "scaling"},
+                         {"threads", "threads"},
+                         {"stability", "stability"},
+                         {"accuracy", "accuracy"}},
+                        "what to do");
+  std::string bed, write, summary;
+  std::vector<std::string> scenes;
+  o.text("--bed FILE", bed,
+         "spheres of a settled bed, lines 'x y z diameter'; without it one is settled first; peers: the folder of "
+         "--write");
+  o.text("--write DIR", write, "write the scenes into this folder, for other programs, and stop");
+  o.text("--summary FILE", summary, "write the figures as JSON");
+  o.texts("--scene bed|hertz|lattice|polydisperse|drum", scenes, "peers: what to time; may be given several times");
+  o.integer("--copies N", s.copies, 1, 1000, "peers: beds or drums side by side");
+  o.integer("--steps N", s.steps, 2, 1000000, "steps per timing");
+  o.integer("--warm-up N", s.warmUp, 1, 1000000, "steps before the timings");
+  o.integer("--repeat N", s.repeats, 1, 1000, "timings, of which the median counts");
+  o.integer("--threads N", s.threads, 1, 256, "threads");
+  o.flag("--quick", s.quick, "small scenes: to see whether all runs, not to time");
+  if (!o.parse(argc, argv)) return false;
+  s.bed = bed, s.write = write, s.summary = summary;
+  if (!scenes.empty()) s.scenes = scenes;
+  for (const std::string& scene : s.scenes)
+    if (const std::set<std::string> known{"bed", "hertz", "lattice", "polydisperse", "drum"}; !known.contains(scene))
+      throw InputError("there is no scene '" + scene + "'", "--scene",
+                       "take one of bed, hertz, lattice, polydisperse, drum");
+  refuseIdleOptions(o, s);
   return true;
 }
 
@@ -57,7 +68,7 @@ bool parse(int argc, char** argv, Settings& s) {
 /// Exit code 0: done; 1: a case of the stability study neither stayed bounded nor was refused; 2: the request was
 /// refused.
 int main(int argc, char** argv) {
-  return benchmark::runProgram("dem", [&] {
+  return program::runProgram("dem", [&] {
     Settings s;
     if (!parse(argc, argv, s)) return true;
     setThreads(s.threads);

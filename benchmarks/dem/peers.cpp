@@ -1,7 +1,7 @@
 // The scenes that are compared with other programs, one by one.
 #include <ostream>
 
-#include "common/text.hpp"
+#include "dovetail/report/text.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "scenes.hpp"

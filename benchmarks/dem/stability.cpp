@@ -4,7 +4,7 @@
 #include <limits>
 #include <ostream>
 
-#include "common/text.hpp"
+#include "dovetail/report/text.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "studies.hpp"
@@ -13,7 +13,7 @@ namespace dovetail::dem_benchmark {
 
 namespace {
 
-using benchmark::format;
+using report::format;
 using dem::Mass;
 
 template <class Law>

@@ -2,13 +2,13 @@
 
 #include <ostream>
 
-#include "common/json.hpp"
-#include "common/text.hpp"
+#include "dovetail/report/table.hpp"
+#include "dovetail/report/text.hpp"
 #include "dovetail/io/output_folder.hpp"
 
 namespace dovetail::dem_benchmark {
 
-using benchmark::format;
+using report::format;
 
 void Table::header() const {
   out << format("%-34s %9s %6s %6s %9s %15s %7s %7s %7s %6s %6s\n", "scene", "particles", "pairs", "cont.", "M steps/s",
@@ -28,7 +28,7 @@ const Figures& Table::add(Figures f) {
 
 void writeSummary(const Settings& s, const std::vector<Figures>& rows, double triad) {
   if (s.summary.empty()) return;
-  benchmark::Json json;
+  report::Json json;
   json["study"] = s.study;
   json["triad_GB_per_s"] = triad;
   for (const Figures& f : rows)
@@ -39,7 +39,7 @@ void writeSummary(const Settings& s, const std::vector<Figures>& rows, double tr
                               {"highest", f.rates.highest},
                               {"bytes_held_per_particle", f.bytesHeld},
                               {"bytes_moved_per_step", f.bytesMoved}});
-  json["provenance"] = benchmark::objectOf(io::provenance());
+  json["provenance"] = report::objectOf(io::provenance());
   io::writeFileAtomically(s.summary, json.dump(2) + "\n");
 }
 

@@ -4,7 +4,7 @@
 #include <ostream>
 
 #include "common/outputs.hpp"
-#include "common/text.hpp"
+#include "dovetail/report/text.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/io/output_folder.hpp"
@@ -17,7 +17,7 @@ namespace dovetail::dem_benchmark {
 
 namespace {
 
-using benchmark::format;
+using report::format;
 
 Spheres bedOf(const Settings& s) {
   if (!s.bed.empty()) return readSpheres(s.bed);

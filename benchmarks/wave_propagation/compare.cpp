@@ -78,8 +78,8 @@ private:
 
 void compareSolid(RunResult& result, const RunResult& alone) {
   const Settings& s = result.settings;
-  result.aloneVelocity = layerMeans(s, alone.particles);
-  const CubicSpline layer(result.aloneVelocity);  // layer l lies at (l + ½) d
+  const std::vector<Vec3> means = layerMeans(s, alone.particles);
+  const CubicSpline layer(means);  // layer l lies at (l + ½) d
   double error = 0.0, size = 0.0;
   for (std::size_t n = 0; n < result.nodePosition.size(); ++n) {
     if (result.nodePosition[n].y <= s.demLength + 1e-9) continue;
@@ -87,7 +87,9 @@ void compareSolid(RunResult& result, const RunResult& alone) {
     error += squaredNorm(result.nodeVelocity[n] - reference);
     size += squaredNorm(reference);
   }
-  result.aloneVelocity.pop_back();  // the wall's
+  for (std::size_t l = 0; l + 1 < means.size(); ++l)  // without the wall's
+    result.velocityProfile.append(
+        {result.figures.endTime, 2.0, (static_cast<double>(l) + 0.5) * particleDiameter(s), means[l].y, 1.0});
   result.figures.waveformErrorFem = std::sqrt(error / size);
 }
 

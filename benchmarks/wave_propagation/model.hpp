@@ -4,6 +4,7 @@
 // dem length − overlap. Particles are numbered layer by layer along y.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "dovetail/arlequin/critical_step.hpp"
@@ -45,5 +46,17 @@ double penaltyOf(const Settings& settings);
 /// @param penalty  what is used on return
 /// @throws InputError for impossible settings
 Bar makeBar(const Settings& settings, double& penalty);
+
+/// The step that the settings ask for, s: before it is made to divide the end time.
+double requestedStep(const Settings& settings, double critical);
+
+struct StepPlan {
+  double dt;             ///< s
+  int stepsPerWindow;    ///< particle steps per step of the solid
+  std::int64_t windows;  ///< whole windows that end at the end time
+};
+/// @throws InputError for a step above the critical one (implicit solid: above that of the contacts, or a window above
+///         that of a coupling with stiffness) unless the settings insist on it, and for endless runs
+StepPlan planSteps(const Settings& settings, const arlequin::CriticalStep& critical);
 
 }  // namespace dovetail::wave

@@ -1,76 +1,66 @@
 #include "reference_curves.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
+#include <limits>
 
+#include "common/curves.hpp"
 #include "dovetail/core/error.hpp"
 
 namespace dovetail::wave {
 
 namespace {
 
-/// "1.5" of "wave_1P_c1.5dX.csv" for head "_c" and tail "dX.csv"; nothing if the name has another form.
-std::optional<std::string> between(const std::string& text, const std::string& head, const std::string& tail) {
-  if (text.size() < head.size() + tail.size() || !text.starts_with(head) || !text.ends_with(tail)) return std::nullopt;
-  return text.substr(head.size(), text.size() - head.size() - tail.size());
-}
-
-double parseNumber(const std::string& text, const std::string& where) {
-  double value = 0.0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !(value >= 0.0) || !std::isfinite(value))
-    throw InputError("'" + text + "' is no number", where, "name the file as in wave_1P_c1.5dX.csv");
-  return value;
-}
-
 std::vector<EnergySample> readEnergy(const std::filesystem::path& file) {
-  const io::TimeSeries table = io::readCsv(file);
-  for (const char* name : {"t_s", "Etot_J"})
-    if (std::find(table.names().begin(), table.names().end(), name) == table.names().end())
-      throw InputError(std::string("column ") + name + " is missing", file.string(), "restore the file");
-  const auto t = table.column("t_s"), energy = table.column("Etot_J");
-  if (table.rows() == 0) throw InputError("there are no rows", file.string(), "restore the file");
+  const auto columns = benchmark::readColumns(file, {"t_s", "Etot_J"});
   std::vector<EnergySample> samples;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (!std::isfinite(t[row]) || !std::isfinite(energy[row]) || (row > 0 && t[row] <= t[row - 1]))
-      throw InputError("row " + std::to_string(row + 1) + " is not finite or no later than the one before",
-                       file.string(), "restore the file");
-    samples.push_back({t[row], energy[row]});
+  for (std::size_t row = 0; row < columns[0].size(); ++row) {
+    if (row > 0 && columns[0][row] <= columns[0][row - 1])
+      throw InputError("row " + std::to_string(row + 1) + " is no later than the one before", file.string(),
+                       "restore the file");
+    samples.push_back({columns[0][row], columns[1][row]});
   }
-  if (energy[0] <= 0.0) throw InputError("the energy at the start is not positive", file.string(), "restore the file");
+  if (samples.front().joules <= 0.0)
+    throw InputError("the energy at the start is not positive", file.string(), "restore the file");
   return samples;
-}
-
-std::optional<ReferenceCurve> readCurve(const std::filesystem::path& file) {
-  const std::string name = file.filename().string();
-  const std::size_t mark = name.find("P_", 0);
-  if (!name.starts_with("wave_") || mark == std::string::npos) return std::nullopt;
-  const std::string rest = name.substr(mark);
-  const auto width = between(rest, "P_c", "dX.csv");
-  if (!width && rest != "P_fullDEM.csv") return std::nullopt;
-  ReferenceCurve curve;
-  const double perElement = parseNumber(name.substr(5, mark - 5), file.string());
-  curve.particlesPerEdge = static_cast<int>(std::lround(std::cbrt(perElement)));
-  if (width) curve.cgWidth = parseNumber(*width, file.string());
-  curve.energy = readEnergy(file);
-  return curve;
 }
 
 }  // namespace
 
 std::vector<ReferenceCurve> readReferenceCurves(const std::string& folder) {
+  const std::string example = "wave_1P_c1.5dX.csv";
   std::vector<ReferenceCurve> curves;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (auto curve = readCurve(entry.path())) curves.push_back(std::move(*curve));
+  for (const auto& [path, middle] : benchmark::filesNamed(folder, "wave_", ".csv")) {
+    const std::size_t mark = middle.find("P_");
+    const std::string rest = mark == std::string::npos ? "" : middle.substr(mark + 2);
+    const bool alone = rest == "fullDEM";
+    if (!alone && !(rest.starts_with("c") && rest.ends_with("dX"))) continue;
+    ReferenceCurve curve;
+    curve.particlesPerEdge =
+        static_cast<int>(std::lround(std::cbrt(benchmark::numberInName(middle.substr(0, mark), path, example))));
+    if (!alone) curve.cgWidth = benchmark::numberInName(rest.substr(1, rest.size() - 3), path, example);
+    curve.energy = readEnergy(path);
+    curves.push_back(std::move(curve));
+  }
   if (curves.empty())
     throw InputError("no wave_*P_c*dX.csv in " + folder, "--reference",
                      "name the folder that holds the published curves");
   const auto key = [](const ReferenceCurve& c) { return std::pair(c.particlesPerEdge, c.cgWidth.value_or(1e300)); };
   std::sort(curves.begin(), curves.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
   return curves;
+}
+
+double energyAt(const std::vector<EnergySample>& energy, double t) {
+  const auto after =
+      std::lower_bound(energy.begin(), energy.end(), t, [](const EnergySample& s, double time) { return s.t < time; });
+  if (after == energy.end() || after == energy.begin()) return std::numeric_limits<double>::quiet_NaN();
+  const EnergySample &a = *(after - 1), &b = *after;
+  return a.joules + (b.joules - a.joules) * (t - a.t) / (b.t - a.t);
+}
+
+double dissipatedShare(const std::vector<EnergySample>& energy, int particlesPerEdge) {
+  const bool one = particlesPerEdge == 1;
+  return 1.0 - energyAt(energy, one ? 60.8e-3 : 81.7e-3) / energyAt(energy, one ? 19.3e-3 : 19.9e-3);
 }
 
 bool fits(const ReferenceCurve& curve, const Settings& s) {

@@ -1,29 +1,21 @@
-#include "report.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <ostream>
 
-#include "common/text.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/io/provenance.hpp"
+#include "dovetail/report/text.hpp"
+#include "reference_curves.hpp"
 
 namespace dovetail::wave {
 
-using benchmark::format;
+using benchmark::Line, benchmark::Lines, report::format, report::Json;
 
 namespace {
 
-void printChanged(std::ostream& out, const Settings& s) {
-  out << "  changed    ";
-  const auto standard = describe(Settings{});
-  bool any = false;
-  for (const auto& row : describe(s)) {
-    if (std::find(standard.begin(), standard.end(), row) != standard.end()) continue;
-    out << (any ? ", " : "") << row.first << ' ' << row.second;
-    any = true;
-  }
-  out << (any ? "" : "nothing: all settings as they come") << '\n';
+/// The part that limits the step.
+std::string criticalSetter(const arlequin::CriticalStep& c) {
+  if (c.together < 0.98 * std::min(c.particles, c.solid)) return "the coupling";
+  return c.particles <= c.solid ? "the contacts" : "the bricks of the solid";
 }
 
 std::string signalText(const Settings& s) {
@@ -33,89 +25,75 @@ std::string signalText(const Settings& s) {
                 1e-3 * angularFrequency(s), 2.0 * s.amplitude * Case{}.cosineVelocity);
 }
 
-void printCase(std::ostream& out, const RunResult& result) {
-  const Settings& s = result.settings;
-  const RunFigures& f = result.figures;
-  const auto build = io::buildInfo();
-  out << "A pulse goes from particles into an elastic solid\n"
-      << "  " << build.version << " (" << build.commit.substr(0, 12) << "), " << build.compiler << ", "
-      << io::processorName() << '\n'
-      << format("  bar        %g x %g x %g m, %d^3 particles per element\n", barLength(s), Case{}.side, Case{}.side,
-                s.particlesPerEdge);
-  if (s.fullDem)
-    out << format("  models     %zu particles alone\n", f.particles);
-  else
-    out << format("  models     %zu particles over %g m, %zu bricks over %g m\n", f.particles, s.demLength, f.elements,
-                  solidElements(s) * Case{}.elementSize)
-        << format("  overlap    %g m: %zu particles, %zu rows of the coupling\n", s.overlap, f.overlapParticles,
-                  f.coupledNodes);
-  out << "  signal     " << signalText(s) << '\n';
-  printChanged(out, s);
+/// What is printed of particles alone has no label.
+Lines caseLines(const Settings& s, const RunFigures& f) {
+  const bool coupled = !s.fullDem;
+  return {
+      {"",
+       format("%g x %g x %g m, %d^3 particles per element", barLength(s), Case{}.side, Case{}.side, s.particlesPerEdge),
+       "bar"},
+      {"particles", f.particles, coupled ? "particles" : "particles, alone", "%.0f"},
+      {"elements", f.elements, coupled ? "bricks" : "", "%.0f"},
+      {"overlap_particles", f.overlapParticles, coupled ? "particles in the overlap" : "", "%.0f"},
+      {"coupling_rows", f.coupledNodes, coupled ? "rows of the coupling" : "", "%.0f"},
+      {"penalty_used_Pa_m2", f.penalty, f.penalty > 0.0 ? "penalty" : "", "%.4g Pa/m2"},
+      {"", signalText(s), "signal"}};
 }
 
-void printErrors(std::ostream& out, const RunFigures& f) {
-  if (!f.compared) return;
-  out << "Beside particles alone, at the end\n"
-      << format("  waveform error, solid past the overlap     %.3e of the wave there\n", f.waveformErrorFem)
-      << format("  waveform error, particles before it        %.3e of the whole wave\n", f.waveformErrorDem)
-      << format("  reflected energy                           %.3e of the input\n", f.reflectedShare)
-      << format("  run time over that of particles alone      %.3g\n", f.speedRatio);
+Lines comparisonLines(const RunFigures& f) {
+  const auto compared = [&](double value) { return f.compared ? report::numberOrNull(value) : Json(nullptr); };
+  return {{"", nullptr, f.compared ? "Beside particles alone, at the end" : ""},
+          {"waveform_error_fem", compared(f.waveformErrorFem), "waveform error, solid past the overlap",
+           "%.3e of the wave there"},
+          {"waveform_error_dem", compared(f.waveformErrorDem), "waveform error, particles before it",
+           "%.3e of the whole wave"},
+          {"reflected_energy_share", compared(f.reflectedShare), "reflected energy", "%.3e of the input"},
+          {"speed_ratio_to_full_dem", compared(f.speedRatio), "run time over that of particles alone", "%.3g"}};
 }
 
-void printEnergy(std::ostream& out, const RunResult& result) {
-  const RunFigures& f = result.figures;
-  out << "Energy\n"
-      << format("  put in                                     %.6g J\n", f.energyInput)
-      << format("  left at the end                            %.6g J\n", f.energyFinal)
-      << format("  lost, not absorbed on purpose              %.3e of the input\n", f.lostShare);
-  if (!result.settings.fullDem)
-    out << format("  lost (-) or made (+) by the coupling       %.3e\n", f.couplingWorkShare);
-  if (result.settings.absorber > 0.0)
-    out << format("  absorbed                                   %.3e\n", f.absorbedShare);
-  if (std::isfinite(f.paperDissipatedShare))
-    out << format("  dissipated as the authors count it         %.4f\n", f.paperDissipatedShare);
-  out << format("  ledger residual, largest                   %.3e, every booked channel counted\n", f.ledgerResidual)
-      << "Balance\n"
-      << format("  momentum residual                          %.3e of the largest momentum\n", f.momentumResidual)
-      << format("  mass residual                              %.3e of the bar's mass\n", f.massResidual);
-  if (!result.settings.fullDem)
-    out << format("  speeds of the models in the overlap differ %.3e (rms) of the speed there\n", f.overlapMismatch)
-        << format("  largest gap                                %.3e m\n", f.gapMax);
-  out << "Ledger at the end\n" << result.ledger;
-}
-
-void printTime(std::ostream& out, const RunResult& result) {
-  const RunFigures& f = result.figures;
-  const double steps = static_cast<double>(f.steps);
-  out << "Time\n"
-      << format("  %.0f steps in %.3f s, %.2f us per step\n", steps, f.wallSeconds, 1e6 * f.wallSeconds / steps)
-      << format("  dt %.4e s = %.4g t_c, %.1f %% of the critical step %.4e s\n", f.dt,
-                f.dt / contactTime(result.settings), 100.0 * f.dt / f.critical.together, f.critical.together)
-      << format("  critical step: contacts %.4e s", f.critical.particles);
-  if (!result.settings.fullDem)
-    out << format(", solid %.4e s, with the coupling %.4e s", f.critical.solid, f.critical.together);
-  out << "; set by " << criticalSetter(f.critical) << '\n';
-  if (!result.profile.rows().empty()) out << result.profile;
+Lines balanceLines(const Settings& s, const RunFigures& f) {
+  const bool coupled = !s.fullDem;
+  return {
+      {"", nullptr, "Energy"},
+      {"energy_input_J", f.energyInput, "put in", "%.6g J"},
+      {"energy_final_J", f.energyFinal, "left at the end", "%.6g J"},
+      {"energy_lost_share", f.lostShare, "lost, not absorbed on purpose", "%.3e of the input"},
+      {"coupling_work_share", f.couplingWorkShare, coupled ? "lost (-) or made (+) by the coupling" : ""},
+      {"energy_absorbed_share", f.absorbedShare, s.absorber > 0.0 ? "absorbed" : ""},
+      {"paper_dissipated_share", report::numberOrNull(f.paperDissipatedShare), "dissipated as the authors count it",
+       "%.4f"},
+      {"ledger_residual_relative", f.ledgerResidual, "ledger residual, largest", "%.3e, every booked channel counted"},
+      {"", nullptr, "Balance"},
+      {"momentum_residual_relative", f.momentumResidual, "momentum residual", "%.3e of the largest momentum"},
+      {"mass_residual_relative", f.massResidual, "mass residual", "%.3e of the bar's mass"},
+      {"overlap_mismatch", f.overlapMismatch, coupled ? "speeds of the models in the overlap differ" : "",
+       "%.3e (rms) of the speed there"},
+      {"gap_max_m", f.gapMax, coupled ? "largest gap" : "", "%.3e m"}};
 }
 
 }  // namespace
 
-std::string criticalSetter(const arlequin::CriticalStep& c) {
-  const double apart = std::min(c.particles, c.solid);
-  if (c.together < 0.98 * apart) return "the coupling";
-  return c.particles <= c.solid ? "the contacts" : "the bricks of the solid";
+Lines linesOf(const RunResult& result) {
+  const RunFigures& f = result.figures;
+  const arlequin::CriticalStep& c = f.critical;
+  Lines lines = caseLines(result.settings, f);
+  for (const Lines& more : {comparisonLines(f), balanceLines(result.settings, f),
+                            benchmark::timeLines(f, contactTime(result.settings), c.together)})
+    lines.insert(lines.end(), more.begin(), more.end());
+  const Json steps{{"particles", report::numberOrNull(c.particles)},
+                   {"solid", report::numberOrNull(c.solid)},
+                   {"together", report::numberOrNull(c.together)}};
+  lines.insert(lines.end(),
+               {Line{"", c.particles, "critical step of the contacts", "%.4e s"},
+                Line{"", report::numberOrNull(c.solid), "  of the solid", "%.4e s"},
+                Line{"", c.together, "  of both, with the coupling", "%.4e s"}, Line{"critical_step_s", steps},
+                Line{"critical_step_set_by", criticalSetter(c), "set by"}});
+  return lines;
 }
 
 void printReport(std::ostream& out, const RunResult& result) {
-  printCase(out, result);
-  printErrors(out, result.figures);
-  printEnergy(out, result);
-  printTime(out, result);
-  if (!result.figures.failure.empty())
-    out << "The run broke down: " << result.figures.failure << '\n';
-  else if (!result.figures.stable)
-    out << format("Not stable: kinetic + elastic energy reached %.3g times what was put in\n",
-                  result.figures.largestExcess);
+  benchmark::printReport(out, "A pulse goes from particles into an elastic solid", describe(result.settings),
+                         describe(Settings{}), linesOf(result), result.figures, result);
 }
 
 void printComparison(std::ostream& out, const RunResult& result, const std::vector<ReferenceCurve>& curves) {

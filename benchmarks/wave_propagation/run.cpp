@@ -4,45 +4,42 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/io/interruption.hpp"
-#include "step_plan.hpp"
 
 namespace dovetail::wave {
+
+using benchmark::moment;
 
 namespace {
 
 constexpr double stableFactor = 1.5;
 
-const std::vector<std::string> seriesNames{"time_s",
-                                           "mass_particles_kg",
-                                           "mass_solid_kg",
-                                           "momentum_particles_y_Ns",
-                                           "momentum_solid_y_Ns",
-                                           "kinetic_particles_J",
-                                           "elastic_contacts_J",
-                                           "kinetic_solid_J",
-                                           "elastic_solid_J",
-                                           "stored_coupling_J",
-                                           "energy_total_J",
-                                           "coupling_work_J",
-                                           "absorbed_J",
-                                           "external_work_J",
-                                           "ledger_residual_J"};
-
-std::string moment(double time, std::int64_t step) {
-  return "t = " + formatNumber(time) + " s, step " + std::to_string(step);
-}
-
 double secondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
+
+/// Mean of a layer of particles or nodes.
+struct LayerSum {
+  double y = 0.0, velocity = 0.0, share = 0.0;
+  int count = 0;
+
+  void add(double place, double speed, double weight) {
+    y += place;
+    velocity += speed;
+    share += weight;
+    ++count;
+  }
+  void append(io::TimeSeries& table, double time, int model) const {
+    table.append({time, static_cast<double>(model), y / count, velocity / count, share / count});
+  }
+};
 
 class Runner {
 public:
@@ -50,21 +47,14 @@ public:
     result_.settings = settings;
     bar_.run->profile = Profile(settings.profile);
     if (settings.profile) grains().profile = &bar_.run->profile;
-    result_.series = io::TimeSeries(seriesNames);
     prepareStep();
-    prepareLedger();
+    prepareBooks();
     countParts();
   }
 
   RunResult run(const Observer& observer) {
     observer_ = observer;
-    const auto begin = std::chrono::steady_clock::now();
-    try {
-      figures().finished = loop();
-    } catch (const NumericalError& error) {
-      figures().failure = error.what();
-    }
-    figures().wallSeconds = secondsSince(begin) - observerSeconds_;
+    benchmark::conduct(figures(), [this] { return loop(); });
     close();
     return std::move(result_);
   }
@@ -74,7 +64,6 @@ private:
   const Settings& settings() const { return result_.settings; }
   dem::Model& grains() { return bar_.run->grains; }
   const dem::Particles& particles() { return grains().particles; }
-  bool splits() const { return bar_.solid && K_ > 1 && settings().fem == FemStepper::explicitDifferences; }
 
   void prepareStep() {
     const Settings& s = settings();
@@ -85,19 +74,44 @@ private:
     figures().dt = dt_ = plan.dt;
   }
 
-  void prepareLedger() {
-    EnergyLedger& ledger = result_.ledger;
-    kineticParticles_ = ledger.addStored("kinetic, particles");
-    elasticContacts_ = ledger.addStored("elastic, contacts");
+  /// The channels of the run under the names of the case.
+  void prepareBooks() {
+    const auto of = [this](const char* channel) {
+      return [this, channel] { return bar_.run->ledger().joules(channel); };
+    };
+    const auto kinetic = books_.stored("kinetic, particles", of("particles: kinetic"));
+    const auto contacts = books_.stored("elastic, contacts", of("particles: contacts"));
+    std::optional<EnergyLedger::Id> kineticSolid, elasticSolid;
     if (bar_.solid) {
-      kineticSolid_ = ledger.addStored("kinetic, solid");
-      elasticSolid_ = ledger.addStored("elastic, solid");
-      stored_ = ledger.addStored("stored in the coupling");
-      coupling_ = ledger.addBooked("lost in the coupling");
+      kineticSolid = books_.stored("kinetic, solid", of("solid: kinetic"));
+      elasticSolid = books_.stored("elastic, solid", of("solid: elastic"));
+      stored_ = books_.stored("stored in the coupling", [this] { return bar_.tie->stored(); });
+      books_.booked("lost in the coupling", [this] { return bar_.tie->lost() - bar_.tie->absorbed(); });
     }
-    if (splits()) splitting_ = ledger.addStored("time splitting");
-    if (settings().absorber > 0.0 && bar_.solid) absorbed_ = ledger.addBooked("absorber");
-    if (!grains().terms.all<dem::DriveTerm>().empty()) external_ = ledger.addBooked("drive (minus its work)");
+    if (bar_.solid && K_ > 1 && settings().fem == FemStepper::explicitDifferences)
+      books_.stored("time splitting", of("solid: time splitting"));
+    if (settings().absorber > 0.0 && bar_.solid) books_.booked("absorber", [this] { return absorbed(); });
+    if (!grains().terms.all<dem::DriveTerm>().empty())
+      books_.booked("drive (minus its work)", [this] { return -externalWork(); });
+
+    const auto column = [this](const char* name, std::optional<EnergyLedger::Id> id) {
+      id ? books_.column(name, *id) : books_.column(name, [] { return 0.0; });
+    };
+    books_.column("time_s", [this] { return grains().time; });
+    books_.column("mass_particles_kg", [this] { return massOfParticles(); });
+    books_.column("mass_solid_kg", [this] { return massOfSolid(); });
+    books_.column("momentum_particles_y_Ns", [this] { return dem::momentum(particles()).y; });
+    books_.column("momentum_solid_y_Ns", [this] { return bar_.solid ? fem::momentum(bar_.solid->nodes()).y : 0.0; });
+    column("kinetic_particles_J", kinetic);
+    column("elastic_contacts_J", contacts);
+    column("kinetic_solid_J", kineticSolid);
+    column("elastic_solid_J", elasticSolid);
+    column("stored_coupling_J", stored_);
+    books_.column("energy_total_J", [this] { return result_.ledger.stored(); });
+    books_.column("coupling_work_J", [this] { return couplingWork(); });
+    books_.column("absorbed_J", [this] { return absorbed(); });
+    books_.column("external_work_J", [this] { return externalWork(); });
+    books_.column("ledger_residual_J", [this] { return result_.ledger.residual(); });
   }
 
   void countParts() {
@@ -124,6 +138,13 @@ private:
     return mass;
   }
 
+  double massOfSolid() const {
+    double mass = 0.0;
+    if (bar_.solid)
+      for (const double m : bar_.solid->nodes().mass) mass += m;
+    return mass;
+  }
+
   /// What the coupling did to both models together: what its store gives back, less what it loses, J.
   double couplingWork() const {
     return bar_.tie ? -bar_.tie->stored() - (bar_.tie->lost() - bar_.tie->absorbed()) : 0.0;
@@ -141,28 +162,11 @@ private:
     return sum;
   }
 
-  /// The channels of the run under the names of the case.
-  void setLedger() {
-    const EnergyLedger& run = bar_.run->ledger();
-    EnergyLedger& ledger = result_.ledger;
-    ledger.set(kineticParticles_, run.joules("particles: kinetic"));
-    ledger.set(elasticContacts_, run.joules("particles: contacts"));
-    if (bar_.solid) {
-      ledger.set(kineticSolid_, run.joules("solid: kinetic"));
-      ledger.set(elasticSolid_, run.joules("solid: elastic"));
-      ledger.set(stored_, bar_.tie->stored());
-      ledger.set(coupling_, bar_.tie->lost() - bar_.tie->absorbed());
-    }
-    if (splitting_) ledger.set(*splitting_, run.joules("solid: time splitting"));
-    if (absorbed_) ledger.set(*absorbed_, absorbed());
-    if (external_) ledger.set(*external_, -externalWork());
-  }
-
   /// Returns whether it went to the end; if it was interrupted, `failure` says so.
   bool loop() {
     bar_.run->start(dt_, {.stepsPerWindow = K_});
     if (bar_.tie) figures().coupledNodes = bar_.tie->operators().rows();
-    setLedger();
+    books_.setLedger();
     result_.ledger.open();
     start_ = balance();
     const std::int64_t sampleEvery = std::clamp<std::int64_t>(windows_ / 2000, 8 / std::min(8, K_), 1000);
@@ -180,7 +184,7 @@ private:
       if (++samples % frameEvery == 0 || ends) observe();
       progress.update(grains().time / end, "t = " + formatNumber(std::round(1e5 * grains().time) / 1e5) + " s");
       if (ends && w < windows_) {
-        figures().failure = Error(io::nameOfInterruption(), moment(grains().time, steps()), "run it again").what();
+        figures().failure = benchmark::interrupted(grains().time, steps());
         return false;
       }
     }
@@ -190,7 +194,7 @@ private:
   void sample() {
     dem::requireFinite(particles(), moment(grains().time, steps()));
     if (bar_.solid) requireFinite(bar_.solid->nodes().v, "node", "velocity", moment(grains().time, steps()));
-    setLedger();
+    books_.setLedger();
     result_.ledger.close();
     const double booked = externalWork() + result_.ledger.storedAtOpening();
     largestStored_ = std::max(largestStored_, result_.ledger.stored());
@@ -203,9 +207,9 @@ private:
         std::max(largestMomentumGap_, norm(now.momentum - start_.momentum - (now.given - start_.given)));
     if (bar_.tie) sampleGap();
     double stored = result_.ledger.stored();
-    if (bar_.solid) stored -= result_.ledger.channels()[stored_].joules;
+    if (stored_) stored -= result_.ledger.channels()[*stored_].joules;
     result_.energy.push_back({grains().time, stored});
-    sampleSeries();
+    books_.addRow();
   }
 
   void sampleGap() {
@@ -220,26 +224,48 @@ private:
     for (const Vec3& g : tie.gap()) figures().gapMax = std::max(figures().gapMax, norm(g));
   }
 
-  void sampleSeries() {
-    double massSolid = 0.0, momentumSolid = 0.0;
-    if (bar_.solid) {
-      for (const double m : bar_.solid->nodes().mass) massSolid += m;
-      momentumSolid = fem::momentum(bar_.solid->nodes()).y;
-    }
-    const auto& channels = result_.ledger.channels();
-    const auto joules = [&](EnergyLedger::Id id) { return bar_.solid ? channels[id].joules : 0.0; };
-    result_.series.append(std::vector<double>{grains().time, massOfParticles(), massSolid, dem::momentum(particles()).y,
-                                              momentumSolid, channels[kineticParticles_].joules,
-                                              channels[elasticContacts_].joules, joules(kineticSolid_),
-                                              joules(elasticSolid_), joules(stored_), result_.ledger.stored(),
-                                              couplingWork(), absorbed(), externalWork(), result_.ledger.residual()});
-  }
-
   void observe() {
     if (!observer_) return;
     const auto begin = std::chrono::steady_clock::now();
-    observer_({grains().time, bar_, result_.series});
-    observerSeconds_ += secondsSince(begin);
+    std::vector<double> share;
+    for (std::size_t i = 0; i < particles().size(); ++i) share.push_back(particles().weightOf(i));
+    Frame frame{grains().time,
+                nullptr,
+                nullptr,
+                particles(),
+                result_.series,
+                &result_.velocityProfile,
+                {},
+                {},
+                {},
+                {{"particles_share", share}}};
+    if (bar_.solid) {
+      frame.mesh = &bar_.mesh;
+      frame.nodes = &bar_.solid->nodes();
+      frame.nodeScalars = {{"particles_share", bar_.tie->overlap().nodalWeight}};
+    }
+    addProfile(frame);
+    observer_(frame);
+    figures().wallSeconds -= secondsSince(begin);
+  }
+
+  /// Layers of nodes, then of particles, each by rising y.
+  void addProfile(const Frame& frame) {
+    std::map<long, LayerSum> nodes;  // by half element sizes, so that rounding cannot split a layer
+    for (std::size_t n = 0; frame.nodes && n < frame.nodes->X.size(); ++n) {
+      const double y = frame.nodes->X[n].y;
+      nodes[std::lround(2.0 * y / Case{}.elementSize)].add(y, frame.nodes->v[n].y, bar_.tie->overlap().nodalWeight[n]);
+    }
+    for (const auto& [place, layer] : nodes) layer.append(result_.velocityProfile, frame.time, 0);
+    const auto perLayer = static_cast<std::size_t>(particlesPerLayer(settings()));
+    const std::size_t count = particles().size() / perLayer - (settings().fullDem ? 1 : 0);  // without the wall
+    for (std::size_t l = 0; l < count; ++l) {
+      LayerSum layer;
+      for (std::size_t i = l * perLayer; i < (l + 1) * perLayer; ++i)
+        layer.add((static_cast<double>(l) + 0.5) * particleDiameter(settings()), particles().v[i].y,
+                  particles().weightOf(i));
+      layer.append(result_.velocityProfile, frame.time, 1);
+    }
   }
 
   std::int64_t steps() { return std::llround(grains().time / dt_); }
@@ -255,7 +281,7 @@ private:
     f.energyFinal = ledger.stored();
     f.absorbedShare = absorbed() / input;
     f.lostShare = (externalWork() + ledger.storedAtOpening() - f.energyFinal - absorbed()) / input;
-    const double storedInCoupling = bar_.tie ? ledger.channels()[stored_].joules : 0.0;
+    const double storedInCoupling = stored_ ? ledger.channels()[*stored_].joules : 0.0;
     f.couplingWorkShare = (couplingWork() + storedInCoupling) / input;
     f.ledgerResidual = ledger.largestResidual() / input;
     f.momentumResidual = largestMomentum_ > 0.0 ? largestMomentumGap_ / largestMomentum_ : 0.0;
@@ -276,15 +302,14 @@ private:
   Bar bar_;
   Observer observer_;
   RunResult result_;
-  EnergyLedger::Id kineticParticles_ = 0, elasticContacts_ = 0, kineticSolid_ = 0, elasticSolid_ = 0, stored_ = 0,
-                   coupling_ = 0;
-  std::optional<EnergyLedger::Id> splitting_, absorbed_, external_;
+  benchmark::Recorder books_{result_};
+  std::optional<EnergyLedger::Id> stored_;  // of the coupling
   int K_ = 1;
   std::int64_t windows_ = 0;
   double dt_ = 0.0;
   Balance start_;
   double largestMomentum_ = 0.0, largestMomentumGap_ = 0.0, largestStored_ = 0.0, mostInput_ = 0.0;
-  double mismatchSquared_ = 0.0, speedSquared_ = 0.0, observerSeconds_ = 0.0;
+  double mismatchSquared_ = 0.0, speedSquared_ = 0.0;
 };
 
 }  // namespace

@@ -1,33 +1,28 @@
 // Runs a bar and gathers its figures.
 #pragma once
 
-#include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
-#include "dovetail/core/ledger.hpp"
-#include "dovetail/core/profile.hpp"
-#include "dovetail/io/time_series.hpp"
+#include "common/outputs.hpp"
+#include "common/report.hpp"
 #include "model.hpp"
 #include "settings.hpp"
 
 namespace dovetail::wave {
 
-struct RunFigures {
-  bool finished = false, stable = false;
-  std::string failure;
-  std::int64_t steps = 0;
+using benchmark::Frame, benchmark::Observer;
+
+struct RunFigures : benchmark::RunFigures {
   std::size_t particles = 0, overlapParticles = 0, elements = 0, coupledNodes = 0;
-  double wallSeconds = 0.0;  ///< of the loop, sampling included, writing of frames not
-  double dt = 0.0, endTime = 0.0;
   arlequin::CriticalStep critical{};
   double penalty = 0.0;  ///< in use, Pa/m²
 
   double energyInput = 0.0, energyFinal = 0.0;  ///< J; final without booked channels
   double lostShare = 0.0, absorbedShare = 0.0, couplingWorkShare = 0.0;
   double ledgerResidual = 0.0, momentumResidual = 0.0, massResidual = 0.0;
-  double largestExcess = 0.0;  ///< kinetic + elastic energy over what was put in
   double overlapMismatch = 0.0, gapMax = 0.0;
   double paperDissipatedShare = 0.0;
 
@@ -40,26 +35,16 @@ struct EnergySample {
   double t, joules;
 };
 
-/// What the models look like at some time.
-struct Frame {
-  double time;
-  const Bar& bar;
-  const io::TimeSeries& series;  ///< up to now
-};
-using Observer = std::function<void(const Frame&)>;
-
-struct RunResult {
+struct RunResult : benchmark::RunData {
   Settings settings;
   RunFigures figures;
-  EnergyLedger ledger;
-  Profile profile;
-  io::TimeSeries series{{"time_s"}};
+  /// Velocity along the bar, a row per layer and frame that was observed. "model": 0 nodes of the solid, 1 particles,
+  /// 2 particles alone over the whole bar, at the end, once compared; "particles_share": the weight w there, 0 … 1.
+  io::TimeSeries velocityProfile{{"time_s", "model", "y_m", "velocity_y_m_per_s", "particles_share"}};
   std::vector<EnergySample> energy;
   dem::Particles particles;  ///< at the end
-  std::vector<double> contactScale;
   dem::PairList pairs;
   std::vector<Vec3> nodePosition, nodeVelocity;  ///< at the end; empty without a solid
-  std::vector<Vec3> aloneVelocity;  ///< mean of each layer of particles alone at the end, m/s; empty if not compared
 };
 
 /// A run that nothing stands in the way of; to be called once. The observer may be empty. A run that breaks down
@@ -83,5 +68,15 @@ double energyAt(const std::vector<EnergySample>& energy, double t);
 /// Share of the energy that is lost while the impulse passes the overlap, as the authors count it: from 19.3 to 60.8 ms
 /// for one particle per element, from 19.9 to 81.7 ms else. NaN if the samples do not cover that time.
 double dissipatedShare(const std::vector<EnergySample>& energy, int particlesPerEdge);
+
+/// All figures, as reports and summaries have them.
+benchmark::Lines linesOf(const RunResult& result);
+/// What was computed, its errors against particles alone, its balances, its time, dt against the critical step and who
+/// sets it.
+void printReport(std::ostream& out, const RunResult& result);
+
+/// Runs the study named in the settings, which are the starting point of its variations.
+/// @return whether all runs were made, as report::runStudy
+bool runStudy(const Settings& settings);
 
 }  // namespace dovetail::wave

@@ -70,32 +70,180 @@ void applyScheme(Settings& s, Scheme scheme) {
 
 namespace {
 
-void check(bool good, const std::string& option, const std::string& value, const std::string& remedy) {
-  if (!good) throw InputError("the value " + value + " is not possible", option, remedy);
+const benchmark::RunWords words{
+    "0.5",
+    "",
+    "until the pulse has left the overlap",
+    "wave_*P_c*dX.csv",
+    {{"widths", "widths"}, {"pareto", "pareto"}, {"stability", "stability"}, {"constraints", "constraints"}}};
+using program::Options, program::positive, program::notNegative;
+
+void addBarOptions(Options& o, Settings& s) {
+  const program::Range length{0.0, 4000.0, false, true, "a multiple of the element size, 0.4 m, up to 4000 m"};
+  o.group("Bar");
+  o.integer("--particles-per-edge N", s.particlesPerEdge, 1, 8, "n: an element holds n^3 particles")
+      .tell("particles_per_edge");
+  o.number("--dem-length L", s.demLength, length, "of the part with particles, m").tell("dem_length_m");
+  o.number("--overlap L", s.overlap, length, "of particles and solid, m; at least 0.8").tell("overlap_m");
+  o.number("--fem-length L", s.femLength, length, "of the solid, m; made longer if the pulse would reach its end")
+      .tellAs("fem_length_m", [&s] { return formatNumber(solidElements(s) * Case{}.elementSize); });
+  o.number("--stiffness-ratio R", s.stiffnessRatio, positive(), "E of the solid over that of the particles")
+      .tell("stiffness_ratio");
+  o.number("--density-ratio R", s.densityRatio, positive(), "density of the solid over that of the particles")
+      .tell("density_ratio");
+  o.flag("--full-dem", s.fullDem, "particles alone over the whole length").tell("full_dem");
 }
 
-void checkNumber(double value, bool good, const std::string& option, const std::string& remedy) {
-  check(std::isfinite(value) && good, option, formatNumber(value), remedy);
+void addSchemeOptions(Options& o, Settings& s) {
+  using Switch = program::Names<bool>;
+  const Switch onOrOff{{"on", true}, {"off", false}};
+  o.group("Parts of the scheme");
+  o.choice<Scheme>("--scheme", s.scheme, {{"conservative", Scheme::conservative}, {"paper", Scheme::paper}},
+                   "all parts at once, signal and dt factor included; what is given wins")
+      .tell("scheme");
+  o.choice<Constraint>(
+       "--constraint", s.constraint,
+       {{"penalty", Constraint::penalty}, {"multiplier", Constraint::multiplier}, {"dashpot", Constraint::dashpot}},
+       "what holds the two models together")
+      .tell("constraint");
+  o.choice<Gap>("--gap", s.gap, {{"at-grains", Gap::atParticles}, {"nodal", Gap::nodal}},
+                "where the two fields are compared")
+      .tell("gap");
+  o.choice<WeightProfile>("--weight-profile", s.weightProfile,
+                          {{"half-cosine", WeightProfile::halfCosine},
+                           {"linear", WeightProfile::linear},
+                           {"smooth", WeightProfile::smooth}},
+                          "share of the particles across the overlap")
+      .tell("weight_profile");
+  o.number("--weight-floor W", s.weightFloor, {0.0, 0.5, true, false, "a number from 0 to below 0.5"},
+           "least share of either model in the overlap")
+      .tell("weight_floor");
+  o.choice<bool>("--tension", s.tension, onOrOff, "contacts that also pull").tell("tension");
+  o.choice<Material>("--material", s.material, {{"springs", Material::springs}, {"kirchhoff", Material::kirchhoff}},
+                     "of the solid: the lattice's continuum, or St Venant-Kirchhoff")
+      .tell("material");
+  o.choice<Mass>("--mass", s.mass,
+                 {{"lumped", Mass::lumped}, {"consistent", Mass::consistent}, {"matched", Mass::matched}},
+                 "of the solid; matched: with the dispersion of the lattice")
+      .tell("mass");
+  o.choice<FemStepper>("--fem", s.fem,
+                       {{"explicit", FemStepper::explicitDifferences}, {"newmark", FemStepper::newmark}},
+                       "time integration of the solid")
+      .tell("fem");
+  o.choice<DashpotMatrix>("--dashpot-matrix", s.dashpotMatrix,
+                          {{"lumped", DashpotMatrix::lumped}, {"consistent", DashpotMatrix::consistent}},
+                          "of the dashpot: row sums, or the products of the shape functions")
+      .tell("dashpot_matrix");
+  o.choice<Rows>("--rows", s.rows, {{"per-node", Rows::perNode}, {"per-element", Rows::perElement}},
+                 "of the projection")
+      .tell("rows");
+  o.choice<bool>("--kernel-normalisation", s.normaliseKernels, onOrOff, "of kernels cut at a border")
+      .tell("kernel_normalisation");
+  o.choice<KernelReach>("--kernel-reach", s.kernelReach,
+                        {{"overlap", KernelReach::overlap}, {"outside", KernelReach::outside}},
+                        "kernels within the overlap, or also from outside")
+      .tell("kernel_reach");
+  o.choice<bool>("--order", s.staggered, {{"symmetric", false}, {"staggered", true}},
+                 "coupling forces of the same instant, or of the last step")
+      .tell("order");
+  o.group("Kernel, penalty, absorber");
+  o.number("--cg-width X", s.cgWidth, notNegative("0 (local) or a positive number of element sizes, up to 100", 100.0),
+           "kernel width c in element sizes, 0 = local")
+      .tell("cg_width_elements");
+  o.choice<Kernel>("--kernel", s.kernel, {{"lucy", Kernel::lucy}, {"gauss", Kernel::gauss}}, "kernel shape")
+      .tell("kernel");
+  o.number("--penalty P", s.penalty, notNegative("a positive number in Pa/m2, or leave it out (automatic)"),
+           "Pa/m2; default: from E and the element size (dashpot: as published)")
+      .tellAs("penalty_Pa_m2", [&s] { return s.penalty == 0.0 ? "auto" : formatNumber(s.penalty); });
+  o.number("--absorber A", s.absorber, notNegative("0 (none) or a positive rate, about 1"),
+           "damps what the mesh cannot carry, wave speed / element size; 0 = none")
+      .tell("absorber");
 }
 
-void checkWholeElements(double length, const std::string& option) {
-  const double h = Case{}.elementSize, count = length / h;
-  checkNumber(length, length >= h * (1.0 - 1e-9) && length <= 4000.0 && std::abs(count - std::round(count)) < 1e-6,
-              option, "give a multiple of the element size, 0.4 m, up to 4000 m");
+void addSignalOptions(Options& o, Settings& s) {
+  o.group("Signal");
+  o.choice<Signal>("--signal", s.signal, {{"impulse", Signal::impulse}, {"cosine", Signal::cosine}},
+                   "velocity of the first layer at t = 0, or raised cosine")
+      .tell("signal");
+  o.number("--pulse-elements L", s.pulseElements, positive("a positive number of elements, up to 1000", 1000.0),
+           "length of a cycle in elements")
+      .tell("pulse_elements");
+  o.add("--omega W", "the same as angular frequency, rad/ms",
+        [&s](const std::string& text) {
+          double perMillisecond = 0.0;
+          Options one("", "");
+          one.number("--omega", perMillisecond, positive("a positive angular frequency in rad/ms"), "").read(text);
+          one.check();
+          s.pulseElements = 2.0 * pi * waveSpeed() / (1e3 * perMillisecond * Case{}.elementSize);
+        },
+        {});
+  o.integer("--cycles M", s.cycles, 1, 100, "of the raised cosine").tell("cycles");
+  o.number("--amplitude A", s.amplitude, positive("a positive factor on the published signal, up to 100", 100.0),
+           "over the published signal")
+      .tell("amplitude");
+}
+
+Options optionsOf(Settings& s) {
+  Options o("wave_propagation",
+            "A pulse goes from particles into an elastic solid (Cheng et al., CMAME 403 (2023) 115651, sec. 6.2).");
+  addBarOptions(o, s);
+  addSchemeOptions(o, s);
+  addSignalOptions(o, s);
+  o.group("Time");
+  benchmark::addTimeOptions(o, s, words);
+  benchmark::addOutputOptions(o, s, words);
+  o.flag("--no-comparison", s.compare, "no run of particles alone to compare with", false);
+  return o;
+}
+
+/// Of studies, whose runs differ in what these options say, only what no run could use is refused.
+void refuseIdleOptions(const Options& o, const Settings& s) {
+  benchmark::refuseIdleRunOptions(o, s);
+  if (s.fullDem)
+    o.refuseIdle({"--stiffness-ratio",
+                  "--density-ratio",
+                  "--constraint",
+                  "--gap",
+                  "--weight-profile",
+                  "--weight-floor",
+                  "--material",
+                  "--mass",
+                  "--fem",
+                  "--dashpot-matrix",
+                  "--rows",
+                  "--kernel-normalisation",
+                  "--kernel-reach",
+                  "--order",
+                  "--cg-width",
+                  "--kernel",
+                  "--penalty",
+                  "--absorber",
+                  "--fem-every",
+                  "--no-comparison"},
+                 "with --full-dem, which has no solid", "leave out one of them");
+  if (!s.study.empty()) return;
+  if (s.signal == Signal::impulse)
+    o.refuseIdle({"--pulse-elements", "--omega", "--cycles"}, "for the impulse",
+                 "add --signal cosine, or leave it out");
+  if (s.constraint == Constraint::multiplier)
+    o.refuseIdle({"--penalty"}, "with --constraint multiplier", "leave out one of them");
+  if (s.constraint != Constraint::dashpot)
+    o.refuseIdle({"--dashpot-matrix"}, "without a dashpot", "add --constraint dashpot, or leave it out");
+  if (s.cgWidth == 0.0)
+    o.refuseIdle({"--kernel", "--kernel-normalisation", "--kernel-reach"}, "without a kernel",
+                 "add --cg-width X, or leave it out");
 }
 
 void checkLengths(const Settings& s) {
-  checkWholeElements(s.demLength, "--dem-length");
-  checkWholeElements(s.femLength, "--fem-length");
-  if (!(s.overlap > 0.0))
-    throw InputError("an overlap of " + formatNumber(s.overlap) + " m has no particles and no elements", "--overlap",
-                     "give a multiple of the element size, 0.4 m, of at least 0.8 m");
-  checkNumber(s.overlap, true, "--overlap", "give a length in metres");
-  if (s.overlap < 2.0 * Case{}.elementSize * (1.0 - 1e-9))
+  const double h = Case{}.elementSize;
+  for (const auto& [option, length] :
+       {std::pair{"--dem-length", s.demLength}, {"--fem-length", s.femLength}, {"--overlap", s.overlap}})
+    benchmark::require(length >= h * (1.0 - 1e-9) && std::abs(length / h - std::round(length / h)) < 1e-6, option,
+                       formatNumber(length), "give a multiple of the element size, 0.4 m, up to 4000 m");
+  if (s.overlap < 2.0 * h * (1.0 - 1e-9))
     throw InputError("an overlap of " + formatNumber(s.overlap) +
                          " m is too narrow: its weights would fall from 1 to 0 within one element",
                      "--overlap", "give at least two elements, 0.8 m");
-  checkWholeElements(s.overlap, "--overlap");
   if (s.overlap >= s.demLength || s.overlap >= s.femLength)
     throw InputError("the overlap of " + formatNumber(s.overlap) + " m is not shorter than both models", "--overlap",
                      "give less than --dem-length and --fem-length");
@@ -113,11 +261,6 @@ void checkSize(const Settings& s) {
 }
 
 void checkCombinations(const Settings& s) {
-  if (s.study != Study::none && !s.summary.empty())
-    throw InputError("a study writes its own summary", "--summary", "take --out DIR, which gets <study>.json");
-  if (s.study != Study::none && !s.reference.empty())
-    throw InputError("a study is not compared with the published curves", "--reference",
-                     "leave out --study or --reference");
   if (s.staggered && (s.fem != FemStepper::newmark || s.constraint != Constraint::dashpot))
     throw InputError("staggered steps are made for the dashpot and an implicit solid", "--order staggered",
                      "add --constraint dashpot --fem newmark, or take --order symmetric");
@@ -132,78 +275,32 @@ void checkCombinations(const Settings& s) {
 
 }  // namespace
 
-void validate(const Settings& s) {
-  check(s.particlesPerEdge >= 1 && s.particlesPerEdge <= 8, "--particles-per-edge", std::to_string(s.particlesPerEdge),
-        "give a whole number from 1 to 8");
+bool parseOptions(int argc, char** argv, Settings& s) {
+  Options o = optionsOf(s);
+  if (!o.parse(argc, argv, [&s] { applyScheme(s, s.scheme); })) return false;
+  o.refuseBoth("--dt", "--dt-factor");
+  o.refuseBoth("--omega", "--pulse-elements");
+  validate(s);
+  refuseIdleOptions(o, s);
+  return true;
+}
+
+void validate(const Settings& settings) {
+  Settings s = settings;
+  optionsOf(s).check();
+  benchmark::checkRun(s);
   checkLengths(s);
-  checkNumber(s.cgWidth, s.cgWidth >= 0.0 && s.cgWidth <= 100.0, "--cg-width",
-              "give 0 (local) or a positive number of element sizes, up to 100");
-  checkNumber(s.penalty, s.penalty >= 0.0, "--penalty", "give a positive number in Pa/m2, or leave it out (automatic)");
-  checkNumber(s.weightFloor, s.weightFloor >= 0.0 && s.weightFloor < 0.5, "--weight-floor",
-              "give a number from 0 to below 0.5");
-  checkNumber(s.pulseElements, s.pulseElements > 0.0 && s.pulseElements <= 1000.0, "--pulse-elements",
-              "give a positive number of elements, up to 1000");
-  check(s.cycles >= 1 && s.cycles <= 100, "--cycles", std::to_string(s.cycles), "give a whole number from 1 to 100");
-  checkNumber(s.amplitude, s.amplitude > 0.0 && s.amplitude <= 100.0, "--amplitude",
-              "give a positive factor on the published signal, up to 100");
-  checkNumber(s.absorber, s.absorber >= 0.0, "--absorber", "give 0 (none) or a positive rate, about 1");
-  checkNumber(s.dtFactor, s.dtFactor > 0.0, "--dt-factor", "give a positive share of the contact time, or --dt auto");
-  if (s.until)
-    checkNumber(*s.until, *s.until > 0.0 && *s.until <= 100.0, "--until", "give a time in seconds, up to 100");
-  checkNumber(s.outputInterval, s.outputInterval > 0.0, "--output-interval", "give a positive time in seconds");
-  checkNumber(s.stiffnessRatio, s.stiffnessRatio > 0.0, "--stiffness-ratio", "give a positive number");
-  checkNumber(s.densityRatio, s.densityRatio > 0.0, "--density-ratio", "give a positive number");
-  check(s.femEvery >= 1 && s.femEvery <= 1000, "--fem-every", std::to_string(s.femEvery),
-        "give a whole number from 1 to 1000");
-  check(s.threads >= 1 && s.threads <= 1024, "--threads", std::to_string(s.threads),
-        "give a whole number from 1 to 1024");
   checkSize(s);
   checkCombinations(s);
 }
 
-std::vector<std::pair<std::string, std::string>> describe(const Settings& s) {
-  const auto text = [](double value) { return formatNumber(value); };
-  const auto pick = [](int value, std::initializer_list<const char*> names) {
-    return std::string(names.begin()[value]);
-  };
-  return {{"scheme", pick(static_cast<int>(s.scheme), {"conservative", "paper"})},
-          {"particles_per_edge", std::to_string(s.particlesPerEdge)},
-          {"dem_length_m", text(s.demLength)},
-          {"overlap_m", text(s.overlap)},
-          {"fem_length_m", text(solidElements(s) * Case{}.elementSize)},
-          {"constraint", pick(static_cast<int>(s.constraint), {"penalty", "multiplier", "dashpot"})},
-          {"gap", pick(static_cast<int>(s.gap), {"at-grains", "nodal"})},
-          {"weight_floor", text(s.weightFloor)},
-          {"weight_profile", pick(static_cast<int>(s.weightProfile), {"half-cosine", "linear", "smooth"})},
-          {"tension", s.tension ? "on" : "off"},
-          {"mass", pick(static_cast<int>(s.mass), {"lumped", "consistent", "matched"})},
-          {"fem", pick(static_cast<int>(s.fem), {"explicit", "newmark"})},
-          {"dashpot_matrix", pick(static_cast<int>(s.dashpotMatrix), {"lumped", "consistent"})},
-          {"rows", pick(static_cast<int>(s.rows), {"per-node", "per-element"})},
-          {"kernel_normalisation", s.normaliseKernels ? "on" : "off"},
-          {"kernel_reach", pick(static_cast<int>(s.kernelReach), {"overlap", "outside"})},
-          {"material", pick(static_cast<int>(s.material), {"springs", "kirchhoff"})},
-          {"order", s.staggered ? "staggered" : "symmetric"},
-          {"cg_width_elements", text(s.cgWidth)},
-          {"kernel", pick(static_cast<int>(s.kernel), {"lucy", "gauss"})},
-          {"penalty_Pa_m2", s.penalty == 0.0 ? "auto" : text(s.penalty)},
-          {"signal", pick(static_cast<int>(s.signal), {"impulse", "cosine"})},
-          {"pulse_elements", text(s.pulseElements)},
-          {"cycles", std::to_string(s.cycles)},
-          {"amplitude", text(s.amplitude)},
-          {"absorber", text(s.absorber)},
-          {"full_dem", s.fullDem ? "yes" : "no"},
-          {"dt_factor", s.dtAuto            ? "auto"
-                        : s.shareOfCritical ? text(*s.shareOfCritical) + " of critical"
-                                            : text(s.dtFactor)},
-          {"fem_every", std::to_string(s.femEvery)},
-          {"until_s", text(endTime(s))},
-          {"stiffness_ratio", text(s.stiffnessRatio)},
-          {"density_ratio", text(s.densityRatio)},
-          {"threads", std::to_string(s.threads)}};
+io::KeyValues describe(const Settings& settings) {
+  Settings s = settings;
+  s.until = endTime(s);
+  return optionsOf(s).described();
 }
 
-std::vector<std::pair<std::string, std::string>> describeCase() {
+io::KeyValues describeCase() {
   const Case bar;
   return {{"side_m", formatNumber(bar.side)},
           {"element_size_m", formatNumber(bar.elementSize)},
@@ -214,7 +311,7 @@ std::vector<std::pair<std::string, std::string>> describeCase() {
           {"cosine_velocity_m_per_s", formatNumber(bar.cosineVelocity)}};
 }
 
-std::vector<std::pair<std::string, std::string>> provenanceOf(const Settings& settings) {
+io::KeyValues provenanceOf(const Settings& settings) {
   auto entries = describe(settings);
   for (auto& entry : describeCase()) entries.push_back(std::move(entry));
   return io::provenance(entries);

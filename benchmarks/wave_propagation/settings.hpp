@@ -1,10 +1,7 @@
 // Everything a wave run can be told, with the published case as the default.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
+#include "common/settings.hpp"
 
 namespace dovetail::wave {
 
@@ -29,9 +26,10 @@ enum class DashpotMatrix { lumped, consistent };
 enum class Rows { perNode, perElement };
 enum class KernelReach { overlap, outside };
 enum class Material { springs, kirchhoff };
-enum class Study { none, widths, pareto, stability, constraints };
 
-struct Settings {
+struct Settings : benchmark::RunSettings {
+  Settings() { dtFactor = 0.02, outputInterval = 2e-3; }
+
   Scheme scheme = Scheme::conservative;
   int particlesPerEdge = 1;
   double demLength = 12.0, overlap = 4.0, femLength = 12.0;  // m
@@ -60,20 +58,8 @@ struct Settings {
   double amplitude = 1.0;  ///< of the signal, over the published one
   double absorber = 0.0;   ///< rate in units of wave speed / element size
   bool fullDem = false;
-  double dtFactor = 0.02;                 ///< of the contact time
-  bool dtAuto = false;                    ///< 0.5 of the critical step
-  std::optional<double> shareOfCritical;  ///< dt over the critical step, wins over dtFactor (studies)
-  bool beyondCritical = false;            ///< do not refuse a step above the critical one (studies)
-  int femEvery = 1;
-  std::optional<double> until;                      ///< s; default: t_m
-  double stiffnessRatio = 1.0, densityRatio = 1.0;  ///< solid over particles
-  int threads = 1;
-
-  std::string out, summary, reference;
-  double outputInterval = 2e-3;  ///< s between pictures in --out
-  bool compare = true;           ///< with a run of particles alone
-  Study study = Study::none;
-  bool profile = false, quiet = false;
+  double densityRatio = 1.0;  ///< solid over particles, as is stiffnessRatio
+  bool compare = true;        ///< with a run of particles alone
 };
 
 double particleDiameter(const Settings& settings);  ///< m
@@ -97,11 +83,15 @@ void applyScheme(Settings& settings, Scheme scheme);
 /// @throws InputError naming the option, what is wrong with it and what to write instead
 void validate(const Settings& settings);
 
+/// Reads the command line. @throws InputError for unknown options and impossible values
+/// @return false for --help, which is printed
+bool parseOptions(int argc, char** argv, Settings& settings);
+
 /// Option names and values as text, for provenance, the summary and the tables of studies.
-std::vector<std::pair<std::string, std::string>> describe(const Settings& settings);
+io::KeyValues describe(const Settings& settings);
 /// What no option changes: sizes and materials, by names that end with their units (SI).
-std::vector<std::pair<std::string, std::string>> describeCase();
+io::KeyValues describeCase();
 /// The entries of io::provenance with all of both.
-std::vector<std::pair<std::string, std::string>> provenanceOf(const Settings& settings);
+io::KeyValues provenanceOf(const Settings& settings);
 
 }  // namespace dovetail::wave

@@ -1,146 +1,187 @@
-#include "study.hpp"
+#include "common/study.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <span>
+#include <map>
 
-#include "common/fronts.hpp"
-#include "common/json.hpp"
-#include "common/outputs.hpp"
-#include "common/text.hpp"
-#include "dovetail/core/error.hpp"
-#include "dovetail/core/progress.hpp"
-#include "dovetail/io/interruption.hpp"
-#include "dovetail/io/output_folder.hpp"
-#include "dovetail/io/provenance.hpp"
-#include "published.hpp"
-#include "summary.hpp"
+#include "dovetail/core/finite.hpp"
+#include "reference_curves.hpp"
 
 namespace dovetail::wave {
 
 namespace {
 
-using benchmark::Json;
+using Plan = benchmark::Plan<Settings>;
 
-struct Plan {
-  const char* name;
-  std::vector<StudyRow> rows;
-};
-
-Plan planOf(const Settings& settings) {
-  switch (settings.study) {
-    case Study::widths:
-      return {"widths", widthsPlan(settings)};
-    case Study::pareto:
-      return {"pareto", paretoPlan(settings)};
-    case Study::stability:
-      return {"stability", stabilityPlan(settings)};
-    case Study::constraints:
-      return {"constraints", constraintsPlan(settings)};
-    case Study::none:
-      break;
-  }
-  return {"none", {}};
+std::string nameOf(Constraint constraint) {
+  return constraint == Constraint::penalty      ? "penalty"
+         : constraint == Constraint::multiplier ? "multiplier"
+                                                : "dashpot";
 }
 
-void runRow(StudyRow& row) {
-  try {
-    RunResult result = run(row.settings);
-    if (row.settings.compare) compareWithParticles(result);
-    row.figures = result.figures;
-    row.outcome = result.figures.finished ? (result.figures.stable ? "finished" : "not stable") : "broke down";
-    row.message = result.figures.failure;
-    if (row.outcome == "not stable")
-      row.message = benchmark::format("energy reached %.3g times what was put in", result.figures.largestExcess);
-  } catch (const InputError& error) {
-    row.outcome = "refused";
-    row.message = error.what();
+/// The settings as they are if they are of that scheme already.
+Settings withScheme(Settings settings, Scheme scheme) {
+  if (settings.scheme != scheme) applyScheme(settings, scheme);
+  return settings;
+}
+
+/// The paper's scheme on the bar, with the signal and up to the time of `plain`.
+Settings paperUnderTheSignalOf(const Settings& plain) {
+  Settings paper = withScheme(plain, Scheme::paper);
+  paper.signal = plain.signal;
+  paper.until = endTime(plain);
+  paper.femLength = solidElements(plain) * Case{}.elementSize;
+  return paper;
+}
+
+/// Kernel widths 0 … 10 with penalty and multipliers, 0 … 2.5 in the paper's scheme.
+Plan widthsPlan(const Settings& base) {
+  Plan rows;
+  const auto label = [](const std::string& what, double width) {
+    return what + ", c = " + formatNumber(width) + " elements";
+  };
+  Settings settings = withScheme(base, Scheme::conservative);
+  for (const Constraint constraint : {Constraint::penalty, Constraint::multiplier})
+    for (const double width : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 5.0, 7.5, 10.0}) {
+      settings.constraint = constraint;
+      settings.cgWidth = width;
+      rows.emplace_back(label(nameOf(constraint), width), settings);
+    }
+  settings = withScheme(base, Scheme::paper);
+  for (const double width : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5}) {
+    settings.cgWidth = width;
+    rows.emplace_back(label("paper", width), settings);
+  }
+  return rows;
+}
+
+/// All constraints and both forms of the gap, by penalty.
+Plan constraintsPlan(const Settings& base) {
+  Plan rows;
+  const Settings plain = withScheme(base, Scheme::conservative);
+  for (const Gap gap : {Gap::atParticles, Gap::nodal}) {
+    const std::string form = gap == Gap::nodal ? ", nodal gap" : ", gap at the particles";
+    Settings settings = plain;
+    settings.gap = gap;
+    settings.constraint = Constraint::multiplier;
+    rows.emplace_back("multiplier" + form, settings);
+    for (const Constraint constraint : {Constraint::penalty, Constraint::dashpot})
+      for (const double penalty : {1e7, 1e8, 1e9, 1e10, 1e11, 1e12}) {
+        settings.constraint = constraint;
+        settings.penalty = penalty;
+        // A stiff spring asks for a shorter step; a dashpot for a floor that leaves both models mass to damp.
+        settings.shareOfCritical.reset();
+        if (constraint != Constraint::dashpot && penalty > 1e10) settings.shareOfCritical = 0.9;
+        settings.weightFloor = constraint == Constraint::dashpot ? 0.1 : plain.weightFloor;
+        rows.emplace_back(nameOf(constraint) + form + ", " + formatNumber(penalty) + " Pa/m2", settings);
+      }
+  }
+  return rows;
+}
+
+/// Particles per element × width × constraint × time step, and the paper's scheme under the same signal.
+Plan paretoPlan(const Settings& base) {
+  Plan rows;
+  Settings settings = withScheme(base, Scheme::conservative);
+  for (const int n : {1, 2, 4}) {
+    settings.particlesPerEdge = n;
+    const std::string start = "n = " + std::to_string(n);
+    for (const double width : {0.0, 1.5})
+      for (const Constraint constraint : {Constraint::penalty, Constraint::multiplier})
+        for (const double factor : {0.0, 0.02, 0.005}) {
+          settings.cgWidth = width;
+          settings.constraint = constraint;
+          settings.dtAuto = factor == 0.0;
+          settings.dtFactor = settings.dtAuto ? 0.02 : factor;
+          rows.emplace_back(start + ", " + nameOf(constraint) + ", c = " + formatNumber(width) + ", dt " +
+                                (settings.dtAuto ? "auto" : formatNumber(factor)),
+                            settings);
+        }
+    settings.cgWidth = 0.0;
+    settings.dtAuto = false;
+    rows.emplace_back(start + ", the paper's scheme, c = 0, dt 0.01", paperUnderTheSignalOf(settings));
+  }
+  return rows;
+}
+
+void planSteps(const Settings& base, Plan& rows) {
+  for (const Constraint constraint : {Constraint::penalty, Constraint::multiplier}) {
+    Settings settings = base;
+    settings.constraint = constraint;
+    const std::string start = nameOf(constraint) + ", dt at ";
+    for (const double share : {0.5, 0.9, 0.99, 1.01, 1.05, 1.2, 1.5, 2.0}) {
+      settings.shareOfCritical = share;
+      settings.beyondCritical = false;
+      rows.emplace_back(start + formatNumber(share) + " of the critical step", settings);
+      settings.beyondCritical = true;
+      if (share > 1.0) rows.emplace_back(start + formatNumber(share) + " of the critical step, insisted on", settings);
+    }
   }
 }
 
-void printRow(const StudyRow& row) {
-  const RunFigures& f = row.figures;
-  std::printf("%-56s %-10s", row.label.c_str(), row.outcome.c_str());
-  if (row.outcome != "refused") {
-    std::printf(" %8.3f s %8.2f us/step  lost %9.2e", f.wallSeconds,
-                1e6 * f.wallSeconds / static_cast<double>(std::max<std::int64_t>(1, f.steps)), f.lostShare);
-    if (f.compared) std::printf("  waveform %9.2e  reflected %8.1e", f.waveformErrorFem, f.reflectedShare);
-    if (row.settings.signal == Signal::impulse) std::printf("  dissipated %6.4f", f.paperDissipatedShare);
-  }
-  if (!row.message.empty()) std::printf("  %s", row.message.c_str());
-  std::printf("\n");
-  std::fflush(stdout);
+/// With the step as it comes, and with an automatic one.
+template <class Change>
+void planDecades(const Settings& base, Constraint constraint, const std::string& what,
+                 const std::vector<double>& values, Change change, Plan& rows) {
+  for (const double value : values)
+    for (const bool automatic : {false, true}) {
+      Settings settings = base;
+      settings.constraint = constraint;
+      settings.dtAuto = automatic;
+      change(settings, value);
+      rows.emplace_back(nameOf(constraint) + ", " + what + " " + formatNumber(value) + (automatic ? ", dt auto" : ""),
+                        settings);
+    }
 }
 
-void markFronts(std::span<StudyRow> rows) {
-  const auto finished = [](const StudyRow& r) { return r.outcome == "finished"; };
-  const auto seconds = [](const StudyRow& r) { return r.figures.wallSeconds; };
-  const auto waveform =
-      benchmark::onFront(rows, finished, seconds, [](const StudyRow& r) { return r.figures.waveformErrorFem; });
-  const auto energy =
-      benchmark::onFront(rows, finished, seconds, [](const StudyRow& r) { return std::abs(r.figures.lostShare); });
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].onWaveformFront = waveform[i];
-    rows[i].onEnergyFront = energy[i];
+/// Time steps around the critical one, weight floors to 0, penalties over six decades, stiffness and density ratios
+/// 1e-3 … 1e3.
+Plan stabilityPlan(const Settings& base) {
+  Plan rows;
+  Settings plain = withScheme(base, Scheme::conservative);
+  plain.compare = false;
+  plain.dtAuto = false;
+  planSteps(plain, rows);
+  const std::vector<double> ratios{1e-3, 1e-2, 1e-1, 1.0, 1e1, 1e2, 1e3};
+  for (const Constraint constraint : {Constraint::penalty, Constraint::multiplier}) {
+    planDecades(
+        plain, constraint, "weight floor", {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0},
+        [](Settings& s, double value) { s.weightFloor = value; }, rows);
+    planDecades(
+        plain, constraint, "stiffness ratio", ratios, [](Settings& s, double value) { s.stiffnessRatio = value; },
+        rows);
+    planDecades(
+        plain, constraint, "density ratio", ratios, [](Settings& s, double value) { s.densityRatio = value; }, rows);
   }
+  planDecades(
+      plain, Constraint::penalty, "penalty", {1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13},
+      [](Settings& s, double value) { s.penalty = value; }, rows);
+  return rows;
 }
 
 /// The authors' figure for the row's n and width, if it is one of their runs.
-Json publishedShare(const Settings& s) {
+report::Json publishedShare(const Settings& s) {
   if (s.scheme != Scheme::paper || s.signal != Signal::impulse) return nullptr;
   for (const PublishedRun& run : publishedRuns)
     if (run.particlesPerEdge == s.particlesPerEdge && run.cgWidth == s.cgWidth) return run.dissipatedShare;
   return nullptr;
 }
 
-void writeStudy(const std::filesystem::path& folder, const std::string& name, std::span<const StudyRow> rows) {
-  std::vector<Json> entries;
-  for (const StudyRow& row : rows) {
-    Json entry{{"label", row.label}, {"outcome", row.outcome}, {"message", row.message}};
-    entry.update(figuresAsJson(row.figures));
-    entry["published_dissipated_share"] = publishedShare(row.settings);
-    entry["on_waveform_front"] = row.onWaveformFront;
-    entry["on_energy_front"] = row.onEnergyFront;
-    entry["settings"] = benchmark::objectOf(describe(row.settings));
-    entries.push_back(std::move(entry));
-  }
-  io::writeFileAtomically(folder / (name + ".csv"), benchmark::csvOf(entries, io::provenance()));
-  Json json;
-  json["study"] = name;
-  json["provenance"] = benchmark::objectOf(io::provenance());
-  json["runs"] = entries;
-  io::writeFileAtomically(folder / (name + ".json"), json.dump(2) + "\n");
-}
-
 }  // namespace
 
 bool runStudy(const Settings& settings) {
-  auto [name, rows] = planOf(settings);
-  const std::filesystem::path folder = settings.out.empty() ? "." : settings.out;
-  benchmark::underName("--out", [&, base = std::string(name)] {
-    return io::prepareOutputFolder(folder, {base + ".csv", base + ".json"});
+  static const std::map<std::string, Plan (*)(const Settings&)> plans{
+      {"widths", widthsPlan}, {"pareto", paretoPlan}, {"stability", stabilityPlan}, {"constraints", constraintsPlan}};
+  report::Study study;
+  study.program = "wave_propagation";
+  study.fronts = {{"waveform_error_fem", "on_waveform_front"}, {"energy_lost_share", "on_energy_front"}};
+  study.shown = {"seconds_per_step", "energy_lost_share", "waveform_error_fem", "reflected_energy_share",
+                 "paper_dissipated_share"};
+  return benchmark::runPlan(study, settings, plans.at(settings.study)(settings), [](const Settings& one) {
+    RunResult result = run(one);
+    if (one.compare) compareWithParticles(result);
+    report::Json figures = benchmark::figuresAsJson(linesOf(result));
+    figures["published_dissipated_share"] = publishedShare(one);
+    return figures;
   });
-  Progress progress(std::string("study ") + name, static_cast<double>(rows.size()), !settings.quiet);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].settings.quiet = true;
-    rows[i].settings.out.clear();
-    progress.update(static_cast<double>(i), rows[i].label);
-    const std::span done(rows.data(), i + 1);
-    runRow(rows[i]);
-    if (io::interruption() != 0) {
-      progress.finish();
-      std::fprintf(stderr, "wave_propagation: %s; %zu of %zu runs are written\n", io::nameOfInterruption().c_str(), i,
-                   rows.size());
-      return false;
-    }
-    if (!settings.quiet) printRow(rows[i]);
-    if (settings.study == Study::pareto) markFronts(done);
-    writeStudy(folder, name, done);
-  }
-  progress.finish();
-  return true;
 }
 
 }  // namespace dovetail::wave

@@ -41,6 +41,7 @@ TEST(Program, HelpListsEveryOption) {
                                "--study",
                                "--reference",
                                "--profile",
+                               "--workers",
                                "--quiet",
                                "--help",
                                "--lag",
@@ -170,7 +171,7 @@ TEST(Program, AStudyWritesOneRowPerRun) {
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(outcome.err, "");
-  EXPECT_EQ(folder.content(), (std::set<std::string>{"ablation.csv", "ablation.json"}));
+  EXPECT_EQ(folder.content(), (std::set<std::string>{"ablation.csv", "ablation.json", "ablation.md", "ablation.svg"}));
   const auto json = nlohmann::json::parse(readText(folder / "ablation.json"));
   ASSERT_EQ(json.at("runs").size(), 20u);
   for (const auto& entry : json["runs"]) EXPECT_EQ(entry.at("outcome"), "finished") << entry.at("label");

@@ -86,10 +86,10 @@ TEST(ReferenceCurves, ABadFileNamesTheFileAndWhatIsWrong) {
   };
   check("t_s,x1_m\n0,1\n", {"y1_m", "missing"});
   check(header + "0,0.2,-5.8,0.5,-0.2,-5.8,here,0.1,0.87\n", {"line 2", "'here'"});
-  check(header + rows + "30,0.2,-5.8,nan,-0.2,-5.8,0.5,0.1,0.87\n", {"line 5", "'nan'"});
-  check(header + "0,0.2,-5.8,0.5\n", {"line 2", "4 fields", "9"});
+  check(header + rows + "30,0.2,-5.8,nan,-0.2,-5.8,0.5,0.1,0.87\n", {"z1_m", "row 4", "finite"});
+  check(header + "0,0.2,-5.8,0.5\n", {"line 2", "4 values", "9"});
   check(header, {"no rows"});
-  check("", {"cannot be read"});
+  check("", {"no line of names"});
 }
 
 TEST(ReferenceCurves, AWidthThatIsNoNumberIsRefused) {

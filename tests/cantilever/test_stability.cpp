@@ -54,8 +54,8 @@ TEST(Repeatability, AnObserverSeesTheRunAndDoesNotChangeIt) {
   const RunResult watched = run(settings, [&](const Frame& frame) {
     times.push_back(frame.time);
     EXPECT_EQ(frame.particles.size(), 2u);
-    EXPECT_EQ(frame.elementEnergy.size(), frame.mesh.elementCount());
-    EXPECT_EQ(frame.contactLoad.size(), frame.nodes.X.size());
+    EXPECT_EQ(frame.cellScalars.at(0).second.size(), frame.mesh->elementCount());
+    EXPECT_EQ(frame.nodeVectors.at(0).second.size(), frame.nodes->X.size());
   });
   expectSameBits(watched, run(settings));
   ASSERT_GE(times.size(), 6u);

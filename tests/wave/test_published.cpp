@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "published.hpp"
+#include "reference_curves.hpp"
 #include "short_bar.hpp"
 
 namespace dovetail::wave {

@@ -1,7 +1,0 @@
-#include "output.hpp"
-
-namespace dovetail::cantilever {
-
-std::unique_ptr<FrameWriter> makeFrameWriter(const std::filesystem::path&, const Settings&) { return nullptr; }
-
-}  // namespace dovetail::cantilever

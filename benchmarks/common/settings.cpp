@@ -1,0 +1,61 @@
+#include "common/settings.hpp"
+
+#include "dovetail/core/finite.hpp"
+
+namespace dovetail::benchmark {
+
+program::Option& addTimeOptions(program::Options& o, RunSettings& s, const RunWords& words) {
+  program::Option& factor =
+      o.number("--dt-factor F", s.dtFactor, program::positive("a positive share of the contact time, or --dt auto"),
+               "time step over the contact time" + words.dtDefault);
+  factor.tellAs("dt_factor", [&s] {
+    if (s.dtAuto) return std::string("auto");
+    return s.shareOfCritical ? formatNumber(*s.shareOfCritical) + " of critical" : formatNumber(s.dtFactor);
+  });
+  o.choice<bool>("--dt", s.dtAuto, {{"auto", true}}, words.automaticStep + " of the critical step");
+  o.integer("--fem-every K", s.femEvery, 1, 1000, "DEM steps per FEM step").tell("fem_every");
+  o.number("--until T", s.until, program::positive("a positive time in seconds, up to 1e6", 1e6), words.endDefault,
+           "end, s; default: " + words.endDefault)
+      .tell("until_s");
+  o.integer("--threads N", s.threads, 1, 1024, "results do not depend on it").tell("threads");
+  return factor;
+}
+
+void addOutputOptions(program::Options& o, RunSettings& s, const RunWords& words) {
+  o.group("Output, studies");
+  o.text("--out DIR", s.out, "folder for VTU, PVD, CSV and HDF5 files");
+  o.number("--output-interval T", s.outputInterval, program::positive("a positive time in seconds"),
+           "time between frames, s");
+  o.text("--summary FILE", s.summary, "JSON file of all figures");
+  o.choice<std::string>("--study", s.study, words.studies, "a set of runs; tables and figures go to --out");
+  o.integer("--workers N", s.workers, 0, 1024,
+            "processes of a study; 0 (default): one run after the other, which times best");
+  o.text("--reference DIR", s.reference, "folder with the published curves (" + words.curves + ")");
+  o.flag("--profile", s.profile, "time per stage");
+  o.flag("--quiet", s.quiet, "print nothing but errors");
+}
+
+void checkRun(const RunSettings& s) {
+  if (s.study.empty()) return;
+  if (!s.summary.empty())
+    throw InputError("a study writes its own summary", "--summary", "take --out DIR, which gets <study>.json");
+  if (!s.reference.empty())
+    throw InputError("a study is not compared with the published curves", "--reference",
+                     "leave out --study or --reference");
+}
+
+void refuseIdleRunOptions(const program::Options& o, const RunSettings& s) {
+  if (!s.study.empty())
+    o.refuseIdle({"--output-interval", "--profile"}, "with --study, which writes no pictures", "leave it out");
+  if (s.study.empty()) o.refuseIdle({"--workers"}, "without --study", "leave it out");
+  if (s.out.empty()) o.refuseIdle({"--output-interval"}, "without --out", "add --out DIR, or leave it out");
+  if (s.quiet) o.refuseIdle({"--reference"}, "with --quiet", "leave out one of them");
+  if (s.quiet && s.summary.empty())
+    o.refuseIdle({"--profile"}, "with --quiet and no summary", "add --summary FILE, or leave out one of them");
+}
+
+void require(bool good, const std::string& option, const std::string& value, const std::string& remedy) {
+  if (!good) throw InputError("the value " + value + " is not possible", option, remedy);
+}
+
+}  // namespace dovetail::benchmark

@@ -1,0 +1,24 @@
+#include "program/run.hpp"
+
+#include <iostream>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/io/interruption.hpp"
+
+namespace dovetail::program {
+
+int runProgram(const std::string& name, const std::function<bool()>& body) {
+  const io::InterruptionGuard guard;
+  try {
+    if (body()) return 0;
+    return io::interruption() != 0 ? 128 + io::interruption() : 1;
+  } catch (const InputError& error) {
+    std::cerr << name << ": " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << name << ": " << error.what() << '\n';
+    return 1;
+  }
+}
+
+}  // namespace dovetail::program

@@ -1,0 +1,20 @@
+// dovetail report
+#include <iostream>
+
+#include "dovetail/report/run_report.hpp"
+#include "program/options.hpp"
+#include "verbs.hpp"
+
+namespace dovetail::program {
+
+bool reportRun(int argc, char** argv) {
+  Options options("dovetail report",
+                  "Writes report.html, which needs no other file, and report.md into a run's folder.");
+  std::string folder;
+  options.text("FOLDER", folder, "that the run wrote into").require();
+  if (!options.parse(argc, argv)) return true;
+  std::cout << report::writeRunReport(folder).string() << '\n';
+  return true;
+}
+
+}  // namespace dovetail::program

@@ -1,0 +1,151 @@
+#include "dovetail/report/page.hpp"
+
+#include <charconv>
+#include <cstdlib>
+
+namespace dovetail::report {
+
+namespace {
+
+bool isNumber(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return !text.empty() && (end == text.c_str() + text.size() || std::string(end) == " %");
+}
+
+const char* const style = R"(
+:root{color-scheme:light dark;--ink:#222;--paper:#fff;--line:#ddd;--soft:#f5f5f3}
+@media (prefers-color-scheme:dark){:root{--ink:#ddd;--paper:#181a1b;--line:#3a3d3f;--soft:#222526}}
+*{box-sizing:border-box}
+body{margin:0 auto;padding:1rem;max-width:76rem;font:16px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper)}
+h1{font-size:1.5rem;line-height:1.25;margin:.5rem 0}
+h2{font-size:1.15rem;margin:2rem 0 .5rem;border-bottom:1px solid var(--line)}
+p{margin:.5rem 0;overflow-wrap:anywhere}
+.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,26rem),1fr));gap:1rem}
+.table{overflow-x:auto;margin:.5rem 0}
+table{border-collapse:collapse;font-size:.9rem}
+th,td{padding:.2rem .7rem .2rem 0;text-align:left;vertical-align:top;border-bottom:1px solid var(--line);overflow-wrap:anywhere}
+.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums;overflow-wrap:normal}
+details{margin:.5rem 0;background:var(--soft);padding:.4rem .7rem;border-radius:4px}
+summary{cursor:pointer}
+pre{overflow-x:auto;font-size:.8rem;line-height:1.35}
+)";
+
+class Html {
+public:
+  std::string text;
+
+  void operator()(const Paragraph& p) { close(), text += "<p>" + escaped(p.text) + "</p>\n"; }
+  void operator()(const Figure& figure) {
+    if (!inFigures_) text += "<div class=\"figures\">\n";
+    inFigures_ = true;
+    text += svgOf(figure);
+  }
+  void operator()(const Table& table) {
+    close();
+    text += "<div class=\"table\"><table>\n";
+    if (!table.head.empty()) line(table.head, "th", table.rows);
+    for (const auto& cells : table.rows) line(cells, "td", {cells});
+    text += "</table></div>\n";
+  }
+  void operator()(const Listing& listing) {
+    close();
+    text += "<details><summary>" + escaped(listing.title) + "</summary><pre>" + escaped(listing.text) +
+            "</pre></details>\n";
+  }
+  void close() {
+    if (inFigures_) text += "</div>\n";
+    inFigures_ = false;
+  }
+
+private:
+  /// Cells stand to the right where those of `like` are numbers.
+  void line(const std::vector<std::string>& cells, const std::string& tag,
+            const std::vector<std::vector<std::string>>& like) {
+    text += "<tr>";
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const bool number = !like.empty() && k < like.front().size() && isNumber(like.front()[k]);
+      text += "<" + tag + (number ? " class=\"n\">" : ">") + escaped(cells[k]) + "</" + tag + ">";
+    }
+    text += "</tr>\n";
+  }
+  bool inFigures_ = false;
+};
+
+/// Text in which what has a meaning in tables of Markdown is written so that it has none.
+std::string plain(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    if (c == '|')
+      out += "\\|";
+    else if (c == '\n')
+      out += ' ';
+    else if (c == '<')
+      out += "&lt;";
+    else
+      out += c;
+  return out;
+}
+
+struct Markdown {
+  std::string text, figureFile;
+
+  void operator()(const Paragraph& p) { text += p.text + "\n\n"; }
+  void operator()(const Figure& f) { text += "![" + f.title + "](" + figureFile + f.name + ".svg)\n\n"; }
+  void operator()(const Table& table) { text += markdownOf(table) + "\n"; }
+  void operator()(const Listing& l) {
+    text += l.title + ":\n\n````\n" + l.text + (l.text.ends_with("\n") ? "" : "\n") + "````\n\n";
+  }
+};
+
+}  // namespace
+
+std::string htmlOf(const Page& page, const std::string& mark) {
+  Html html;
+  html.text = "<!doctype html>\n<!-- " + mark + " -->\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" +
+              "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" + escaped(page.title) +
+              "</title>\n<style>" + style + figureStyle() + "</style>\n</head>\n<body>\n<h1>" + escaped(page.title) +
+              "</h1>\n";
+  for (const Section& section : page.sections) {
+    if (section.blocks.empty()) continue;
+    html.text += "<h2>" + escaped(section.heading) + "</h2>\n";
+    for (const Block& block : section.blocks) std::visit(html, block);
+    html.close();
+  }
+  return html.text + "</body>\n</html>\n";
+}
+
+std::string markdownOf(const Table& table) {
+  const auto line = [](const std::vector<std::string>& cells) {
+    std::string text = "|";
+    for (const std::string& cell : cells) text += " " + plain(cell) + " |";
+    return text + "\n";
+  };
+  const std::size_t columns = table.head.empty() && !table.rows.empty() ? table.rows.front().size() : table.head.size();
+  std::string rule = "|";
+  for (std::size_t k = 0; k < columns; ++k)
+    rule += !table.rows.empty() && k < table.rows.front().size() && isNumber(table.rows.front()[k]) ? "---:|" : "---|";
+  std::string text = line(table.head.empty() ? std::vector<std::string>(columns) : table.head) + rule + "\n";
+  for (const auto& cells : table.rows) text += line(cells);
+  return text;
+}
+
+std::string markdownOf(const Page& page, const std::string& figureFile) {
+  Markdown markdown{"# " + page.title + "\n\n", figureFile};
+  for (const Section& section : page.sections) {
+    if (section.blocks.empty()) continue;
+    markdown.text += "## " + section.heading + "\n\n";
+    for (const Block& block : section.blocks) std::visit(markdown, block);
+  }
+  return markdown.text;
+}
+
+std::vector<const Figure*> figuresOf(const Page& page) {
+  std::vector<const Figure*> figures;
+  for (const Section& section : page.sections)
+    for (const Block& block : section.blocks)
+      if (const auto* const figure = std::get_if<Figure>(&block)) figures.push_back(figure);
+  return figures;
+}
+
+}  // namespace dovetail::report

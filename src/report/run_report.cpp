@@ -1,0 +1,188 @@
+#include "dovetail/report/run_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/io/output_folder.hpp"
+#include "dovetail/report/text.hpp"
+
+namespace dovetail::report {
+
+namespace {
+
+constexpr std::size_t mostCurves = 8;
+
+double reachOf(std::span<const double> values) {
+  double largest = 0.0;
+  for (const double value : values)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+bool isConstant(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
+}
+
+/// "plate_kinetic_J" → "plate kinetic"
+std::string nameOf(const std::string& column) {
+  const std::string unit = io::unitOf(column);
+  std::string name = column;
+  if (unit != "1") {
+    std::string ending = "_" + unit;
+    if (const std::size_t slash = ending.find('/'); slash != std::string::npos) ending.replace(slash, 1, "_per_");
+    if (name.ends_with(ending)) name.resize(name.size() - ending.size());
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+bool isResidual(const std::string& column) { return column.find("residual") != std::string::npos; }
+
+/// The columns over time, largest first where there are too many; nothing if all of them are 0.
+void addFigure(std::vector<Block>& blocks, const io::TimeSeries& series, const std::string& name,
+               const std::string& title, const std::string& axis, std::vector<std::string> columns) {
+  const auto reach = [&](const std::string& column) { return reachOf(series.column(column)); };
+  std::erase_if(columns, [&](const std::string& column) { return reach(column) == 0.0; });
+  if (columns.empty() || series.rows() < 2) return;
+  if (columns.size() > mostCurves) {
+    std::stable_sort(columns.begin(), columns.end(), [&](const auto& a, const auto& b) { return reach(a) > reach(b); });
+    columns.resize(mostCurves);
+  }
+  const auto time = series.column("time_s");
+  Figure figure{name, title, {"time (s)"}, {axis}, {}, {}};
+  for (const std::string& column : columns) {
+    const auto values = series.column(column);
+    figure.curves.push_back({nameOf(column), {time.begin(), time.end()}, {values.begin(), values.end()}});
+  }
+  blocks.emplace_back(std::move(figure));
+}
+
+/// Figures of a series by unit: stored and booked energies, residual, momenta, forces, and what else there is.
+std::vector<Block> figuresOfSeries(const io::TimeSeries& series) {
+  std::vector<std::string> energies, residuals, momenta, given;
+  std::map<std::string, std::vector<std::string>> others;
+  for (const std::string& column : series.names()) {
+    const std::string unit = io::unitOf(column);
+    if (column == "time_s") continue;
+    if (isResidual(column))
+      residuals.push_back(column);
+    else if (unit == "J")
+      energies.push_back(column);
+    else if (column.starts_with("momentum"))
+      momenta.push_back(column);
+    else if (column.starts_with("given"))
+      given.push_back(column);
+    else
+      others[unit].push_back(column);
+  }
+  std::vector<Block> blocks;
+  addFigure(blocks, series, "energies", "Energies", "energy (J)", energies);
+  addFigure(blocks, series, "residual", "What the energy balance leaves over", "energy (J)", residuals);
+  addFigure(blocks, series, "momenta", "Momentum", "momentum (Ns)", momenta);
+  addFigure(blocks, series, "given", "Momentum given from outside", "momentum (Ns)", given);
+  addFigure(blocks, series, "forces", "Forces", "force (N)", others["N"]);
+  int number = 0;
+  for (auto& [unit, columns] : others) {
+    std::erase_if(columns, [&](const std::string& column) { return isConstant(series.column(column)); });
+    if (unit != "N")
+      addFigure(blocks, series, "series_" + std::to_string(++number),
+                columns.size() == 1 ? nameOf(columns.front()) : "In " + unit, unit, columns);
+  }
+  return blocks;
+}
+
+std::vector<Block> energyBalance(const RunRecord& record) {
+  if (record.channels.empty()) return {};
+  Table table{{"channel", "at opening (J)", "at the end (J)", "change (J)"}, {}};
+  double stored = 0.0, residual = 0.0, atOpening = 0.0;
+  const auto add = [&](const std::string& name, double before, double after) {
+    table.rows.push_back({name, format("%.6g", before), format("%.6g", after), format("%.6g", after - before)});
+  };
+  for (const auto& c : record.channels) {
+    const bool booked = c.kind == EnergyLedger::Kind::booked;
+    add(c.name + (booked ? " (spent)" : ""), c.joulesAtOpening, c.joules);
+    residual += c.joules - c.joulesAtOpening;
+    if (booked) continue;
+    stored += c.joules;
+    atOpening += c.joulesAtOpening;
+  }
+  add("stored in all", atOpening, stored);
+  table.rows.push_back({"left over", "", "", format("%.3g", record.residual.value_or(residual))});
+  return {std::move(table)};
+}
+
+std::vector<Block> timePerStage(const RunRecord& record) {
+  if (record.stages.empty()) return {};
+  double all = 0.0;
+  for (const auto& stage : record.stages) all += stage.seconds;
+  Table table{{"part of a step", "seconds", "share", "µs per call"}, {}};
+  for (const auto& stage : record.stages)
+    table.rows.push_back(
+        {stage.name, format("%.4g", stage.seconds), format("%.1f %%", all > 0.0 ? 100.0 * stage.seconds / all : 0.0),
+         format("%.4g", stage.calls > 0 ? 1e6 * stage.seconds / static_cast<double>(stage.calls) : 0.0)});
+  Figure figure{"stages", "Time per part of a step", {}, {"s"}, {}, {}};
+  for (const auto& stage : record.stages) figure.bars.emplace_back(stage.name, stage.seconds);
+  return {std::move(figure), std::move(table)};
+}
+
+/// Figures of the summary whose name holds one of the words; they are taken out.
+std::vector<Block> take(io::KeyValues& figures, std::initializer_list<const char*> words) {
+  Table table{{"figure", "value"}, {}};
+  std::erase_if(figures, [&](const auto& figure) {
+    const bool fits = words.size() == 0 || std::any_of(words.begin(), words.end(), [&](const char* word) {
+                        return figure.first.find(word) != std::string::npos;
+                      });
+    if (fits) table.rows.push_back({figure.first, figure.second});
+    return fits;
+  });
+  if (table.rows.empty()) return {};
+  return {std::move(table)};
+}
+
+std::vector<Block> linesOf(const std::vector<std::string>& lines) {
+  std::vector<Block> blocks;
+  for (const std::string& line : lines) blocks.emplace_back(Paragraph{line});
+  return blocks;
+}
+
+}  // namespace
+
+Page pageOf(const RunRecord& record) {
+  Page page{record.title, {}};
+  std::vector<Block> state = linesOf(record.notes);
+  if (!record.finished) state.emplace_back(Paragraph{"The run has not finished: there is no summary of it."});
+  page.sections.push_back({"Run", std::move(state)});
+  page.sections.push_back({"Warnings", linesOf(record.warnings)});
+  if (record.series) page.sections.push_back({"Over time", figuresOfSeries(*record.series)});
+  page.sections.push_back({"Energy balance", energyBalance(record)});
+  io::KeyValues figures = record.figures;
+  page.sections.push_back({"Balances", take(figures, {"residual"})});
+  page.sections.push_back({"Errors beside references", take(figures, {"error"})});
+  page.sections.push_back({"Time and step", take(figures, {"seconds", "step", "set by", "set_by", "dt_"})});
+  page.sections.push_back({"Time per part of a step", timePerStage(record)});
+  page.sections.push_back({"More figures", take(figures, {})});
+  Table origin{{"entry", "value"}, {}};
+  for (const auto& [key, value] : record.provenance) origin.rows.push_back({key, value});
+  std::vector<Block> texts;
+  if (!origin.rows.empty()) texts.emplace_back(std::move(origin));
+  if (!record.summary.empty()) texts.emplace_back(Listing{"Summary", record.summary});
+  if (!record.scene.empty()) texts.emplace_back(Listing{"Scene with every key", record.scene});
+  page.sections.push_back({"Where it comes from", std::move(texts)});
+  return page;
+}
+
+std::filesystem::path writeRunReport(const std::filesystem::path& folder) {
+  const Page page = pageOf(readRunFolder(folder));
+  const std::string mark = "dovetail " + io::buildInfo().version;
+  io::requireFreeOrOurs(folder / "report.md");
+  io::writeFileAtomically(folder / "report.html", htmlOf(page, mark));
+  io::writeFileAtomically(folder / "report.md", "<!-- " + mark + " -->\n\n" + markdownOf(page, "report_"));
+  for (const Figure* const figure : figuresOf(page))
+    io::writeFileAtomically(folder / ("report_" + figure->name + ".svg"),
+                            "<!-- " + mark + " -->\n" + svgFileOf(*figure));
+  return folder / "report.html";
+}
+
+}  // namespace dovetail::report

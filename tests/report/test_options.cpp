@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include "program/options.hpp"
+
+namespace dovetail::program {
+namespace {
+
+enum class Shape { round, square };
+
+struct Settings {
+  double width = 1.0;
+  int count = 2;
+  Shape shape = Shape::round;
+  std::optional<double> until;
+  bool quiet = false;
+  std::vector<std::string> over;
+  std::string file;
+};
+
+Options tableOf(Settings& s) {
+  Options o("test", "");
+  o.text("FILE", s.file, "");
+  o.number("--width W", s.width, between(0.0, 2.0), "").tell("width_m");
+  o.integer("--count N", s.count, 1, 9, "").tell("count");
+  o.choice<Shape>("--shape", s.shape, {{"round", Shape::round}, {"square", Shape::square}}, "").tell("shape");
+  o.number("--until T", s.until, positive(), "end", "").tell("until_s");
+  o.flag("--quiet", s.quiet, "");
+  o.texts("--over KEY", s.over, "");
+  return o;
+}
+
+bool parse(
+    Settings& s, std::vector<std::string> words, const std::function<void()>& between = [] {}) {
+  std::vector<char*> argv{const_cast<char*>("test")};
+  for (std::string& word : words) argv.push_back(word.data());
+  return tableOf(s).parse(static_cast<int>(argv.size()), argv.data(), between);
+}
+
+std::string refusal(std::vector<std::string> words) {
+  Settings s;
+  try {
+    parse(s, std::move(words));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Options, AreReadAndToldByOneTable) {
+  Settings s;
+  EXPECT_TRUE(parse(s, {"a.json", "--width", "1.5", "--shape=square", "--over", "a=1", "--over", "b=2", "--quiet"}));
+  EXPECT_EQ(s.file, "a.json");
+  EXPECT_EQ(s.over, (std::vector<std::string>{"a=1", "b=2"}));
+  EXPECT_TRUE(s.quiet);
+  EXPECT_EQ(tableOf(s).described(),
+            (io::KeyValues{{"width_m", "1.5"}, {"count", "2"}, {"shape", "square"}, {"until_s", "end"}}));
+  tableOf(s).set("until", "3");
+  EXPECT_EQ(s.until, 3.0);
+}
+
+TEST(Options, WhatIsWrittenWinsOverWhatIsSetBetween) {
+  Settings s;
+  parse(s, {"--width", "1.5"}, [&] { s.width = 0.5, s.count = 7; });
+  EXPECT_EQ(s.width, 1.5);
+  EXPECT_EQ(s.count, 7);
+}
+
+TEST(Options, RefuseWhatCannotBeNamingTheOption) {
+  EXPECT_EQ(refusal({"--width", "3"}), "the value 3 is not possible [--width]: give a number from 0 to 2");
+  EXPECT_EQ(refusal({"--width", "nan"}), "the value nan is not possible [--width]: give a number from 0 to 2");
+  EXPECT_EQ(refusal({"--width", "two"}), "'two' is no number [--width]: give a number");
+  EXPECT_EQ(refusal({"--count", "1.5"}), "'1.5' is no whole number [--count]: give a whole number");
+  EXPECT_EQ(refusal({"--shape", "0"}), "there is no '0' [--shape]: take one of round, square");
+  EXPECT_EQ(refusal({"--width", ""}), "the value is empty [--width]: give one, or leave the option out");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--widht", "1"}, {"--width"}, {"--width", "1", "--width", "2"}, {"a", "b"}})
+    EXPECT_NE(refusal(words).find("test --help"), std::string::npos) << refusal(words);
+}
+
+}  // namespace
+}  // namespace dovetail::program

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../cantilever/program.hpp"
+#include "dovetail/io/time_series.hpp"
+#include "dovetail/report/table.hpp"
+
+namespace dovetail::report {
+namespace {
+
+using cantilever::test::Outcome;
+using cantilever::test::runProgram;
+using io::test::readText;
+using io::test::ScratchFolder;
+using io::test::writeText;
+
+/// A grain on a spring-like wall: its energy is off by what the step leaves.
+const char* const scene = R"({
+  "title": "A grain bounces", "let": {"speed": "1 m/s", "share": 0.1}, "gravity": [0, 0, 0],
+  "contact": {"law": "linear", "stiffness": 1e4, "restitution": 1},
+  "particles": [{"from": "list", "density": 2500,
+    "spheres": [{"at": [0, 0, 0.0101], "radius": "1 cm", "velocity": [0, 0, "-speed"]}]}],
+  "walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],
+  "steps": {"dt": "auto", "safety": "share"}, "stages": [{"do": "run", "time": "0.5 ms"}],
+  "output": {"series": "0.1 ms"}
+})";
+
+struct Bounce {
+  ScratchFolder folder;
+  std::string file = (folder / "bounce.json").string(), out = (folder / "out").string();
+  Bounce() { writeText(file, scene); }
+};
+
+TEST(StudyVerb, RunsEveryCombinationAndMarksTheFront) {
+  const Bounce bounce;
+  const Outcome outcome = runProgram({"study", bounce.file, "--over", "share=0.05,0.1,0.2", "--set", "speed=2",
+                                      "--workers", "2", "--out", bounce.out});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json json = Json::parse(readText(bounce.folder / "out/study.json"));
+  ASSERT_EQ(json["runs"].size(), 3u);
+  double before = 0.0;
+  int front = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Json& run = json["runs"][k];
+    EXPECT_EQ(run["outcome"], "finished") << run["message"];
+    EXPECT_EQ(run["settings"]["share"], k == 0 ? "0.05" : k == 1 ? "0.1" : "0.2");
+    const io::TimeSeries series =
+        io::readCsv(bounce.folder / ("out/" + run["settings"]["folder"].get<std::string>()) / "series.csv");
+    EXPECT_EQ(run["particles_kinetic_J"], series.column("particles_kinetic_J").back());
+    EXPECT_NEAR(series.column("particles_kinetic_J").front(), 0.5 * 4.0 * 2500.0 * 4.0 / 3.0 * M_PI * 1e-6,
+                1e-12);                                          // --set
+    EXPECT_GT(run["largest_residual_J"].get<double>(), before);  // grows with the step
+    before = run["largest_residual_J"];
+    front += run["on_front"].get<bool>() ? 1 : 0;
+  }
+  EXPECT_GE(front, 1);
+  EXPECT_NE(readText(bounce.folder / "out/study.md").find("| share=0.1 | finished |"), std::string::npos);
+  EXPECT_NE(readText(bounce.folder / "out/study.svg").find("<circle"), std::string::npos);
+  EXPECT_NE(readText(bounce.folder / "out/study.csv").find(",particles_kinetic_J,"), std::string::npos);
+}
+
+TEST(StudyVerb, RefusesBeforeAnythingIsRun) {
+  const Bounce bounce;
+  const auto refused = [&](std::vector<std::string> more, const std::string& part) {
+    more.insert(more.begin(), {"study", bounce.file, "--out", bounce.out});
+    const Outcome outcome = runProgram(more);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(bounce.out));
+  };
+  refused({"--over", "share"}, "key=a,b,c");
+  refused({"--over", "share=1,,2"}, "a value is empty");
+  refused({"--over", "shore=0.1"}, "share");
+  refused({"--over", "share=0.1,wide"}, "wide");
+  refused({"--over", "share=0.1", "--workers", "0"}, "--workers");
+  refused({}, "--over");
+}
+
+TEST(StudyVerb, SaysWhichColumnIsMissingOrRefusedByTheRun) {
+  const Bounce bounce;
+  const Outcome outcome =
+      runProgram({"study", bounce.file, "--over", "share=0.1", "--error", "speed_J", "--out", bounce.out});
+  EXPECT_NE(outcome.out.find("--error speed_J"), std::string::npos) << outcome.out << outcome.err;
+}
+
+TEST(ReportVerb, WritesAPageOnARunWithItsNumbers) {
+  const Bounce bounce;
+  ASSERT_EQ(runProgram({"run", bounce.file, "--out", bounce.out}).code, 0);
+  const Outcome outcome = runProgram({"report", bounce.out});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, bounce.out + "/report.html\n");
+  const std::string html = readText(bounce.folder / "out/report.html");
+  for (const char* part :
+       {"<h1>A grain bounces</h1>", "particles: kinetic", "particles kinetic", "critical step", "<svg"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_EQ(runProgram({"report", bounce.folder.path().string()}).code, 2);
+}
+
+}  // namespace
+}  // namespace dovetail::report
