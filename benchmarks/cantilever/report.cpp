@@ -4,7 +4,6 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/report/text.hpp"
 #include "model.hpp"
-#include "published.hpp"
 #include "run.hpp"
 
 namespace dovetail::cantilever {
@@ -20,21 +19,19 @@ benchmark::Lines errorLines(const RunFigures& f) {
   };
   const std::string locked = format("  with EI x %.4f (locked brick)", f.lockingFactor);
   const bool locks = f.lockingFactor != 1.0;
-  return {
-      {"", nullptr, "Error: time mean until leaving of the root of the summed squares of dx and dz of both particles;\n"
+  return {{"", nullptr,
+           "Error: time mean until leaving of the root of the summed squares of dx and dz of both particles;\n"
            "  static formula: Euler-Bernoulli; moving-mass beam: Timoshenko"},
-      mm("time_mean_error_m", f.errorStatic, "static formula, arm from the clamp"),
-      mm("time_mean_error_vertical_m", f.errorStaticVertical, "  dz alone"),
-      mm("time_mean_error_authors_arm_m", f.errorStaticAuthors,
-         "static formula, arm from the start (authors)"),
-      mm("time_mean_error_dynamic_m", f.errorDynamic, "moving-mass beam, at the particle's own y"),
-      mm("time_mean_error_dynamic_same_time_m", f.errorDynamicSameTime,
-         "moving-mass beam, at the same time"),
-      mm("time_mean_error_dynamic_locked_m", f.errorDynamicLocked, locks ? locked + ", own y" : ""),
-      mm("time_mean_error_dynamic_locked_same_time_m", f.errorDynamicLockedSameTime,
-         locks ? locked + ", same time" : ""),
-      {"locking_factor", f.lockingFactor},
-      {"leave_time_dynamic_reference_s", f.referenceLeaveTime, "moving-mass beam: particle 1 leaves at", "%.4f s"}};
+          mm("time_mean_error_m", f.errorStatic, "static formula, arm from the clamp"),
+          mm("time_mean_error_vertical_m", f.errorStaticVertical, "  dz alone"),
+          mm("time_mean_error_authors_arm_m", f.errorStaticAuthors, "static formula, arm from the start (authors)"),
+          mm("time_mean_error_dynamic_m", f.errorDynamic, "moving-mass beam, at the particle's own y"),
+          mm("time_mean_error_dynamic_same_time_m", f.errorDynamicSameTime, "moving-mass beam, at the same time"),
+          mm("time_mean_error_dynamic_locked_m", f.errorDynamicLocked, locks ? locked + ", own y" : ""),
+          mm("time_mean_error_dynamic_locked_same_time_m", f.errorDynamicLockedSameTime,
+             locks ? locked + ", same time" : ""),
+          {"locking_factor", f.lockingFactor},
+          {"leave_time_dynamic_reference_s", f.referenceLeaveTime, "moving-mass beam: particle 1 leaves at", "%.4f s"}};
 }
 
 double joulesOf(const EnergyLedger& ledger, const std::string& beginning) {

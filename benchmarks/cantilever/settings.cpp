@@ -41,12 +41,8 @@ bool couplingIsUnbalanced(const Settings& settings) {
 
 namespace {
 
-const benchmark::RunWords words{
-    "0.9",
-    ", 4.5465 ms; default 0.05 or a third of the critical step",
-    "leaving",
-    "cantilever_c*d.csv",
-    {{"widths", "widths"}, {"pareto", "pareto"}, {"stability", "stability"}, {"ablation", "ablation"}}};
+const benchmark::RunWords words{"0.9", ", 4.5465 ms; default 0.05 or a third of the critical step", "leaving",
+                                "cantilever_c*d.csv", "widths|pareto|stability|ablation"};
 
 std::string meshText(const Settings& s) {
   const auto mesh = s.mesh.value_or(Case{}.elements);
@@ -62,67 +58,43 @@ void readMesh(Settings& s, const std::string& text) {
 }
 
 void addPartOptions(program::Options& o, Settings& s) {
-  o.choice<Lag>("--lag", s.lag, {{"none", Lag::none}, {"load", Lag::load}, {"load-and-skin", Lag::loadAndSkin}},
-                "staggered steps: the load, or load and skin, one step old")
-      .tell("lag");
-  o.choice<Transfer>("--transfer", s.transfer, {{"adjoint", Transfer::adjoint}, {"spread", Transfer::spread}},
-                     "gap and load by the same weights, or the load alone spread over the kernel (14-15)")
-      .tell("transfer");
-  o.choice<EdgeHandling>("--edges", s.edges, {{"projected", EdgeHandling::projected}, {"paper", EdgeHandling::paper}},
-                         "rule where a particle touches several facets")
-      .tell("edges");
-  o.choice<Metric>("--metric", s.metric, {{"reference", Metric::reference}, {"deformed", Metric::deformed}},
-                   "St Venant-Kirchhoff, or the authors' Eq. (34)")
-      .tell("metric");
-  o.choice<FemStepper>("--fem", s.fem,
-                       {{"explicit", FemStepper::explicitDifferences}, {"newmark", FemStepper::newmark}},
-                       "time integration of the beam")
-      .tell("fem");
-  o.choice<MassMatrix>("--mass", s.mass, {{"lumped", MassMatrix::lumped}, {"consistent", MassMatrix::consistent}},
-                       "of the beam; consistent with --fem newmark --lag load only")
-      .tell("mass");
+  o.choice("--lag", s.lag, "none|load|load-and-skin", "staggered steps: the load, or load and skin, one step old");
+  o.choice("--transfer", s.transfer, "adjoint|spread",
+           "gap and load by the same weights, or the load alone spread over the kernel (14-15)");
+  o.choice("--edges", s.edges, "projected|paper", "rule where a particle touches several facets");
+  o.choice("--metric", s.metric, "reference|deformed", "St Venant-Kirchhoff, or the authors' Eq. (34)");
+  o.choice("--fem", s.fem, "explicit|newmark", "time integration of the beam");
+  o.choice("--mass", s.mass, "lumped|consistent", "of the beam; consistent with --fem newmark --lag load only");
   o.number("--restitution E", s.restitution, {0.0, 1.0, false, true, "a number above 0 and up to 1"},
-           "of a particle on a rigid wall, 0 < e <= 1")
-      .tell("restitution");
-  o.choice<Correction>(
-       "--kernel-correction", s.correction,
-       {{"none", Correction::none}, {"linear", Correction::linear}, {"symmetric", Correction::symmetric}},
-       "for the adjoint transfer: linear keeps moments, symmetric keeps even loads even (default)")
-      .tell("kernel_correction");
-  o.choice<Surface>("--surface", s.surface, {{"flat", Surface::flat}, {"smooth", Surface::smooth}},
-                    "flat facets (default for width 0) or B-spline patches (default for a kernel)")
-      .tell("surface");
+           "of a particle on a rigid wall, 0 < e <= 1");
+  o.choice("--kernel-correction", s.correction, "none|linear|symmetric",
+           "for the adjoint transfer: linear keeps moments, symmetric keeps even loads even (default)");
+  o.choice("--surface", s.surface, "flat|smooth",
+           "flat facets (default for width 0) or B-spline patches (default for a kernel)");
 }
 
 program::Options optionsOf(Settings& s) {
   program::Options o(
       "cantilever",
       "Two particles slide over an elastic cantilever (Cheng et al., CMAME 403 (2023) 115651, sec. 6.1).");
-  o.choice<Scheme>("--scheme", s.scheme, {{"conservative", Scheme::conservative}, {"paper", Scheme::paper}},
-                   "all parts at once; parts given below win")
-      .tell("scheme");
+  o.choice("--scheme", s.scheme, "conservative|paper", "all parts at once; parts given below win");
   o.number("--cg-width X", s.cgWidth, program::notNegative("0 (local) or a positive number of particle diameters"),
            "kernel width c in particle diameters, 0 = local")
-      .tell("cg_width_diameters");
-  o.choice<KernelName>("--kernel", s.kernel, {{"lucy", KernelName::lucy}, {"gauss", KernelName::gauss}}, "kernel shape")
-      .tell("kernel");
-  o.choice<std::string>("--element", s.element, {{"hex8", "hex8"}, {"hybrid8", "hybrid8"}},
-                        "hex8 (as the paper) or hybrid8 (locking-free)")
-      .tellAs("element", [&s] { return s.element; });
-  o.integer("--refine N", s.refine, 1, 16, "divides every element edge by N").tell("refine");
+      .in("diameters");
+  o.choice("--kernel", s.kernel, "lucy|gauss", "kernel shape");
+  o.word("--element", s.element, "hex8|hybrid8", "hex8 (as the paper) or hybrid8 (locking-free)");
+  o.integer("--refine N", s.refine, 1, 16, "divides every element edge by N");
   o.add(
-       "--mesh NX,NY,NZ", "elements along x, y (axis), z; default 2,30,2",
-       [&s](const std::string& text) { readMesh(s, text); }, [&s] { return meshText(s); })
-      .tell("mesh");
-  o.number("--stiffness-ratio R", s.stiffnessRatio, program::positive(), "contact stiffness over E d")
-      .tell("stiffness_ratio");
+      "--mesh NX,NY,NZ", "elements along x, y (axis), z; default 2,30,2",
+      [&s](const std::string& text) { readMesh(s, text); }, [&s] { return meshText(s); });
+  o.number("--stiffness-ratio R", s.stiffnessRatio, program::positive(), "contact stiffness over E d");
   addPartOptions(o, s);
   program::Option& factor = benchmark::addTimeOptions(o, s, words);
   factor.read = [read = factor.read, &s](const std::string& text) {
     read(text);
     s.dtCapped = false;
   };
-  o.add("", "", {}, [&s] { return std::string(s.dtCapped ? "yes" : "no"); }).tell("dt_capped");
+  o.add("", "", {}, [&s] { return std::string(s.dtCapped ? "yes" : "no"); }).key = "dt_capped";
   benchmark::addOutputOptions(o, s, words);
   return o;
 }
@@ -147,7 +119,7 @@ bool parseOptions(int argc, char** argv, Settings& s) {
   validate(s);
   benchmark::refuseIdleRunOptions(o, s);
   if (s.cgWidth == 0.0 && s.study.empty())
-    o.refuseIdle({"--kernel", "--kernel-correction"}, "without a kernel", "add --cg-width X, or leave it out");
+    o.refuseIdle("--kernel --kernel-correction", "without a kernel", "add --cg-width X, or leave it out");
   return true;
 }
 

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "dovetail/core/finite.hpp"
-#include "published.hpp"
 #include "run.hpp"
 
 namespace dovetail::cantilever {

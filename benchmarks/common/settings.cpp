@@ -8,26 +8,31 @@ program::Option& addTimeOptions(program::Options& o, RunSettings& s, const RunWo
   program::Option& factor =
       o.number("--dt-factor F", s.dtFactor, program::positive("a positive share of the contact time, or --dt auto"),
                "time step over the contact time" + words.dtDefault);
-  factor.tellAs("dt_factor", [&s] {
+  factor.tellAs([&s] {
     if (s.dtAuto) return std::string("auto");
     return s.shareOfCritical ? formatNumber(*s.shareOfCritical) + " of critical" : formatNumber(s.dtFactor);
   });
-  o.choice<bool>("--dt", s.dtAuto, {{"auto", true}}, words.automaticStep + " of the critical step");
-  o.integer("--fem-every K", s.femEvery, 1, 1000, "DEM steps per FEM step").tell("fem_every");
+  o.add("--dt auto", words.automaticStep + " of the critical step",
+        [&s](const std::string& text) {
+          if (text != "auto") throw InputError("there is no '" + text + "'", "--dt", "write auto, or take --dt-factor");
+          s.dtAuto = true;
+        },
+        {});
+  o.integer("--fem-every K", s.femEvery, 1, 1000, "DEM steps per FEM step");
   o.number("--until T", s.until, program::positive("a positive time in seconds, up to 1e6", 1e6), words.endDefault,
            "end, s; default: " + words.endDefault)
-      .tell("until_s");
-  o.integer("--threads N", s.threads, 1, 1024, "results do not depend on it").tell("threads");
+      .in("s");
+  o.integer("--threads N", s.threads, 1, 1024, "results do not depend on it");
   return factor;
 }
 
 void addOutputOptions(program::Options& o, RunSettings& s, const RunWords& words) {
-  o.group("Output, studies");
+  o.group("Output, studies", false);
   o.text("--out DIR", s.out, "folder for VTU, PVD, CSV and HDF5 files");
   o.number("--output-interval T", s.outputInterval, program::positive("a positive time in seconds"),
            "time between frames, s");
   o.text("--summary FILE", s.summary, "JSON file of all figures");
-  o.choice<std::string>("--study", s.study, words.studies, "a set of runs; tables and figures go to --out");
+  o.word("--study", s.study, words.studies, "a set of runs; tables and figures go to --out");
   o.integer("--workers N", s.workers, 0, 1024,
             "processes of a study; 0 (default): one run after the other, which times best");
   o.text("--reference DIR", s.reference, "folder with the published curves (" + words.curves + ")");
@@ -46,12 +51,12 @@ void checkRun(const RunSettings& s) {
 
 void refuseIdleRunOptions(const program::Options& o, const RunSettings& s) {
   if (!s.study.empty())
-    o.refuseIdle({"--output-interval", "--profile"}, "with --study, which writes no pictures", "leave it out");
-  if (s.study.empty()) o.refuseIdle({"--workers"}, "without --study", "leave it out");
-  if (s.out.empty()) o.refuseIdle({"--output-interval"}, "without --out", "add --out DIR, or leave it out");
-  if (s.quiet) o.refuseIdle({"--reference"}, "with --quiet", "leave out one of them");
+    o.refuseIdle("--output-interval --profile", "with --study, which writes no pictures", "leave it out");
+  if (s.study.empty()) o.refuseIdle("--workers", "without --study", "leave it out");
+  if (s.out.empty()) o.refuseIdle("--output-interval", "without --out", "add --out DIR, or leave it out");
+  if (s.quiet) o.refuseIdle("--reference", "with --quiet", "leave out one of them");
   if (s.quiet && s.summary.empty())
-    o.refuseIdle({"--profile"}, "with --quiet and no summary", "add --summary FILE, or leave out one of them");
+    o.refuseIdle("--profile", "with --quiet and no summary", "add --summary FILE, or leave out one of them");
 }
 
 void require(bool good, const std::string& option, const std::string& value, const std::string& remedy) {

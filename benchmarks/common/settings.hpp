@@ -27,8 +27,7 @@ struct RunSettings {
 
 /// Words in which the cases differ.
 struct RunWords {
-  std::string automaticStep, dtDefault, endDefault, curves;
-  std::initializer_list<std::pair<const char*, std::string>> studies;
+  std::string automaticStep, dtDefault, endDefault, curves, studies;
 };
 
 /// Adds --dt-factor … --threads, then the group of outputs and studies.

@@ -16,28 +16,18 @@ using namespace dovetail::dem_benchmark;
 void refuseIdleOptions(const program::Options& o, const Settings& s) {
   const std::string with = "with --study " + s.study, remedy = "leave it out";
   if (!s.write.empty())
-    o.refuseIdle({"--study", "--summary", "--scene", "--copies", "--steps", "--warm-up", "--repeat"}, "with --write",
-                 remedy);
-  if (s.study != "peers") o.refuseIdle({"--scene", "--copies"}, with, remedy);
-  if (s.study == "peers") o.refuseIdle({"--quick"}, with, remedy);
-  if (s.study == "threads") o.refuseIdle({"--threads"}, with, remedy);
-  if (s.study == "stability")
-    o.refuseIdle({"--bed", "--summary", "--steps", "--warm-up", "--repeat", "--quick"}, with, remedy);
-  if (s.study == "accuracy") o.refuseIdle({"--bed", "--summary", "--steps", "--warm-up"}, with, remedy);
-  if (s.study == "leaving-out" || s.study == "scaling") o.refuseIdle({"--bed", "--warm-up"}, with, remedy);
+    o.refuseIdle("--study --summary --scene --copies --steps --warm-up --repeat", "with --write", remedy);
+  if (s.study != "peers") o.refuseIdle("--scene --copies", with, remedy);
+  if (s.study == "peers") o.refuseIdle("--quick", with, remedy);
+  if (s.study == "threads") o.refuseIdle("--threads", with, remedy);
+  if (s.study == "stability") o.refuseIdle("--bed --summary --steps --warm-up --repeat --quick", with, remedy);
+  if (s.study == "accuracy") o.refuseIdle("--bed --summary --steps --warm-up", with, remedy);
+  if (s.study == "leaving-out" || s.study == "scaling") o.refuseIdle("--bed --warm-up", with, remedy);
 }
 
 bool parse(int argc, char** argv, Settings& s) {
   program::Options o("dem", "Times the particle engine, and checks it on stiff and extreme cases.");
-  o.choice<std::string>("--study", s.study,
-                        {{"throughput", "throughput"},
-                         {"peers", "peers"},
-                         {"leaving-out", "leaving-out"},
-                         {"scaling", "scaling"},
-                         {"threads", "threads"},
-                         {"stability", "stability"},
-                         {"accuracy", "accuracy"}},
-                        "what to do");
+  o.word("--study", s.study, "throughput|peers|leaving-out|scaling|threads|stability|accuracy", "what to do");
   std::string bed, write, summary;
   std::vector<std::string> scenes;
   o.text("--bed FILE", bed,

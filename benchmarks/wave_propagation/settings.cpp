@@ -70,104 +70,63 @@ void applyScheme(Settings& s, Scheme scheme) {
 
 namespace {
 
-const benchmark::RunWords words{
-    "0.5",
-    "",
-    "until the pulse has left the overlap",
-    "wave_*P_c*dX.csv",
-    {{"widths", "widths"}, {"pareto", "pareto"}, {"stability", "stability"}, {"constraints", "constraints"}}};
+const benchmark::RunWords words{"0.5", "", "until the pulse has left the overlap", "wave_*P_c*dX.csv",
+                                "widths|pareto|stability|constraints"};
 using program::Options, program::positive, program::notNegative;
 
 void addBarOptions(Options& o, Settings& s) {
   const program::Range length{0.0, 4000.0, false, true, "a multiple of the element size, 0.4 m, up to 4000 m"};
   o.group("Bar");
-  o.integer("--particles-per-edge N", s.particlesPerEdge, 1, 8, "n: an element holds n^3 particles")
-      .tell("particles_per_edge");
-  o.number("--dem-length L", s.demLength, length, "of the part with particles, m").tell("dem_length_m");
-  o.number("--overlap L", s.overlap, length, "of particles and solid, m; at least 0.8").tell("overlap_m");
+  o.integer("--particles-per-edge N", s.particlesPerEdge, 1, 8, "n: an element holds n^3 particles");
+  o.number("--dem-length L", s.demLength, length, "of the part with particles, m").in("m");
+  o.number("--overlap L", s.overlap, length, "of particles and solid, m; at least 0.8").in("m");
   o.number("--fem-length L", s.femLength, length, "of the solid, m; made longer if the pulse would reach its end")
-      .tellAs("fem_length_m", [&s] { return formatNumber(solidElements(s) * Case{}.elementSize); });
-  o.number("--stiffness-ratio R", s.stiffnessRatio, positive(), "E of the solid over that of the particles")
-      .tell("stiffness_ratio");
-  o.number("--density-ratio R", s.densityRatio, positive(), "density of the solid over that of the particles")
-      .tell("density_ratio");
-  o.flag("--full-dem", s.fullDem, "particles alone over the whole length").tell("full_dem");
+      .in("m")
+      .tellAs([&s] { return formatNumber(solidElements(s) * Case{}.elementSize); });
+  o.number("--stiffness-ratio R", s.stiffnessRatio, positive(), "E of the solid over that of the particles");
+  o.number("--density-ratio R", s.densityRatio, positive(), "density of the solid over that of the particles");
+  o.flag("--full-dem", s.fullDem, "particles alone over the whole length");
 }
 
 void addSchemeOptions(Options& o, Settings& s) {
-  using Switch = program::Names<bool>;
-  const Switch onOrOff{{"on", true}, {"off", false}};
   o.group("Parts of the scheme");
-  o.choice<Scheme>("--scheme", s.scheme, {{"conservative", Scheme::conservative}, {"paper", Scheme::paper}},
-                   "all parts at once, signal and dt factor included; what is given wins")
-      .tell("scheme");
-  o.choice<Constraint>(
-       "--constraint", s.constraint,
-       {{"penalty", Constraint::penalty}, {"multiplier", Constraint::multiplier}, {"dashpot", Constraint::dashpot}},
-       "what holds the two models together")
-      .tell("constraint");
-  o.choice<Gap>("--gap", s.gap, {{"at-grains", Gap::atParticles}, {"nodal", Gap::nodal}},
-                "where the two fields are compared")
-      .tell("gap");
-  o.choice<WeightProfile>("--weight-profile", s.weightProfile,
-                          {{"half-cosine", WeightProfile::halfCosine},
-                           {"linear", WeightProfile::linear},
-                           {"smooth", WeightProfile::smooth}},
-                          "share of the particles across the overlap")
-      .tell("weight_profile");
+  o.choice("--scheme", s.scheme, "conservative|paper",
+           "all parts at once, signal and dt factor included; what is given wins");
+  o.choice("--constraint", s.constraint, "penalty|multiplier|dashpot", "what holds the two models together");
+  o.choice("--gap", s.gap, "at-grains|nodal", "where the two fields are compared");
+  o.choice("--weight-profile", s.weightProfile, "half-cosine|linear|smooth",
+           "share of the particles across the overlap");
   o.number("--weight-floor W", s.weightFloor, {0.0, 0.5, true, false, "a number from 0 to below 0.5"},
-           "least share of either model in the overlap")
-      .tell("weight_floor");
-  o.choice<bool>("--tension", s.tension, onOrOff, "contacts that also pull").tell("tension");
-  o.choice<Material>("--material", s.material, {{"springs", Material::springs}, {"kirchhoff", Material::kirchhoff}},
-                     "of the solid: the lattice's continuum, or St Venant-Kirchhoff")
-      .tell("material");
-  o.choice<Mass>("--mass", s.mass,
-                 {{"lumped", Mass::lumped}, {"consistent", Mass::consistent}, {"matched", Mass::matched}},
-                 "of the solid; matched: with the dispersion of the lattice")
-      .tell("mass");
-  o.choice<FemStepper>("--fem", s.fem,
-                       {{"explicit", FemStepper::explicitDifferences}, {"newmark", FemStepper::newmark}},
-                       "time integration of the solid")
-      .tell("fem");
-  o.choice<DashpotMatrix>("--dashpot-matrix", s.dashpotMatrix,
-                          {{"lumped", DashpotMatrix::lumped}, {"consistent", DashpotMatrix::consistent}},
-                          "of the dashpot: row sums, or the products of the shape functions")
-      .tell("dashpot_matrix");
-  o.choice<Rows>("--rows", s.rows, {{"per-node", Rows::perNode}, {"per-element", Rows::perElement}},
-                 "of the projection")
-      .tell("rows");
-  o.choice<bool>("--kernel-normalisation", s.normaliseKernels, onOrOff, "of kernels cut at a border")
-      .tell("kernel_normalisation");
-  o.choice<KernelReach>("--kernel-reach", s.kernelReach,
-                        {{"overlap", KernelReach::overlap}, {"outside", KernelReach::outside}},
-                        "kernels within the overlap, or also from outside")
-      .tell("kernel_reach");
-  o.choice<bool>("--order", s.staggered, {{"symmetric", false}, {"staggered", true}},
-                 "coupling forces of the same instant, or of the last step")
-      .tell("order");
+           "least share of either model in the overlap");
+  o.choice("--tension", s.tension, "off|on", "contacts that also pull");
+  o.choice("--material", s.material, "springs|kirchhoff",
+           "of the solid: the lattice's continuum, or St Venant-Kirchhoff");
+  o.choice("--mass", s.mass, "lumped|consistent|matched", "of the solid; matched: with the dispersion of the lattice");
+  o.choice("--fem", s.fem, "explicit|newmark", "time integration of the solid");
+  o.choice("--dashpot-matrix", s.dashpotMatrix, "lumped|consistent",
+           "of the dashpot: row sums, or the products of the shape functions");
+  o.choice("--rows", s.rows, "per-node|per-element", "of the projection");
+  o.choice("--kernel-normalisation", s.normaliseKernels, "off|on", "of kernels cut at a border");
+  o.choice("--kernel-reach", s.kernelReach, "overlap|outside", "kernels within the overlap, or also from outside");
+  o.choice("--order", s.staggered, "symmetric|staggered", "coupling forces of the same instant, or of the last step");
   o.group("Kernel, penalty, absorber");
   o.number("--cg-width X", s.cgWidth, notNegative("0 (local) or a positive number of element sizes, up to 100", 100.0),
            "kernel width c in element sizes, 0 = local")
-      .tell("cg_width_elements");
-  o.choice<Kernel>("--kernel", s.kernel, {{"lucy", Kernel::lucy}, {"gauss", Kernel::gauss}}, "kernel shape")
-      .tell("kernel");
+      .in("elements");
+  o.choice("--kernel", s.kernel, "lucy|gauss", "kernel shape");
   o.number("--penalty P", s.penalty, notNegative("a positive number in Pa/m2, or leave it out (automatic)"),
            "Pa/m2; default: from E and the element size (dashpot: as published)")
-      .tellAs("penalty_Pa_m2", [&s] { return s.penalty == 0.0 ? "auto" : formatNumber(s.penalty); });
+      .in("Pa_m2")
+      .tellAs([&s] { return s.penalty == 0.0 ? "auto" : formatNumber(s.penalty); });
   o.number("--absorber A", s.absorber, notNegative("0 (none) or a positive rate, about 1"),
-           "damps what the mesh cannot carry, wave speed / element size; 0 = none")
-      .tell("absorber");
+           "damps what the mesh cannot carry, wave speed / element size; 0 = none");
 }
 
 void addSignalOptions(Options& o, Settings& s) {
   o.group("Signal");
-  o.choice<Signal>("--signal", s.signal, {{"impulse", Signal::impulse}, {"cosine", Signal::cosine}},
-                   "velocity of the first layer at t = 0, or raised cosine")
-      .tell("signal");
+  o.choice("--signal", s.signal, "impulse|cosine", "velocity of the first layer at t = 0, or raised cosine");
   o.number("--pulse-elements L", s.pulseElements, positive("a positive number of elements, up to 1000", 1000.0),
-           "length of a cycle in elements")
-      .tell("pulse_elements");
+           "length of a cycle in elements");
   o.add("--omega W", "the same as angular frequency, rad/ms",
         [&s](const std::string& text) {
           double perMillisecond = 0.0;
@@ -177,10 +136,9 @@ void addSignalOptions(Options& o, Settings& s) {
           s.pulseElements = 2.0 * pi * waveSpeed() / (1e3 * perMillisecond * Case{}.elementSize);
         },
         {});
-  o.integer("--cycles M", s.cycles, 1, 100, "of the raised cosine").tell("cycles");
+  o.integer("--cycles M", s.cycles, 1, 100, "of the raised cosine");
   o.number("--amplitude A", s.amplitude, positive("a positive factor on the published signal, up to 100", 100.0),
-           "over the published signal")
-      .tell("amplitude");
+           "over the published signal");
 }
 
 Options optionsOf(Settings& s) {
@@ -200,37 +158,20 @@ Options optionsOf(Settings& s) {
 void refuseIdleOptions(const Options& o, const Settings& s) {
   benchmark::refuseIdleRunOptions(o, s);
   if (s.fullDem)
-    o.refuseIdle({"--stiffness-ratio",
-                  "--density-ratio",
-                  "--constraint",
-                  "--gap",
-                  "--weight-profile",
-                  "--weight-floor",
-                  "--material",
-                  "--mass",
-                  "--fem",
-                  "--dashpot-matrix",
-                  "--rows",
-                  "--kernel-normalisation",
-                  "--kernel-reach",
-                  "--order",
-                  "--cg-width",
-                  "--kernel",
-                  "--penalty",
-                  "--absorber",
-                  "--fem-every",
-                  "--no-comparison"},
-                 "with --full-dem, which has no solid", "leave out one of them");
+    o.refuseIdle(
+        "--stiffness-ratio --density-ratio --constraint --gap --weight-profile --weight-floor --material "
+        "--mass --fem --dashpot-matrix --rows --kernel-normalisation --kernel-reach --order --cg-width "
+        "--kernel --penalty --absorber --fem-every --no-comparison",
+        "with --full-dem, which has no solid", "leave out one of them");
   if (!s.study.empty()) return;
   if (s.signal == Signal::impulse)
-    o.refuseIdle({"--pulse-elements", "--omega", "--cycles"}, "for the impulse",
-                 "add --signal cosine, or leave it out");
+    o.refuseIdle("--pulse-elements --omega --cycles", "for the impulse", "add --signal cosine, or leave it out");
   if (s.constraint == Constraint::multiplier)
-    o.refuseIdle({"--penalty"}, "with --constraint multiplier", "leave out one of them");
+    o.refuseIdle("--penalty", "with --constraint multiplier", "leave out one of them");
   if (s.constraint != Constraint::dashpot)
-    o.refuseIdle({"--dashpot-matrix"}, "without a dashpot", "add --constraint dashpot, or leave it out");
+    o.refuseIdle("--dashpot-matrix", "without a dashpot", "add --constraint dashpot, or leave it out");
   if (s.cgWidth == 0.0)
-    o.refuseIdle({"--kernel", "--kernel-normalisation", "--kernel-reach"}, "without a kernel",
+    o.refuseIdle("--kernel --kernel-normalisation --kernel-reach", "without a kernel",
                  "add --cg-width X, or leave it out");
 }
 

@@ -117,18 +117,16 @@ void planSteps(const Settings& base, Plan& rows) {
   }
 }
 
-/// With the step as it comes, and with an automatic one.
-template <class Change>
-void planDecades(const Settings& base, Constraint constraint, const std::string& what,
-                 const std::vector<double>& values, Change change, Plan& rows) {
+/// Values of one setting, each with the step as it comes and with an automatic one.
+void planDecades(const Settings& base, const char* what, double Settings::*part, const std::vector<double>& values,
+                 Plan& rows) {
   for (const double value : values)
     for (const bool automatic : {false, true}) {
       Settings settings = base;
-      settings.constraint = constraint;
       settings.dtAuto = automatic;
-      change(settings, value);
-      rows.emplace_back(nameOf(constraint) + ", " + what + " " + formatNumber(value) + (automatic ? ", dt auto" : ""),
-                        settings);
+      settings.*part = value;
+      rows.emplace_back(
+          nameOf(base.constraint) + ", " + what + " " + formatNumber(value) + (automatic ? ", dt auto" : ""), settings);
     }
 }
 
@@ -137,23 +135,18 @@ void planDecades(const Settings& base, Constraint constraint, const std::string&
 Plan stabilityPlan(const Settings& base) {
   Plan rows;
   Settings plain = withScheme(base, Scheme::conservative);
-  plain.compare = false;
-  plain.dtAuto = false;
+  plain.compare = plain.dtAuto = false;
   planSteps(plain, rows);
   const std::vector<double> ratios{1e-3, 1e-2, 1e-1, 1.0, 1e1, 1e2, 1e3};
   for (const Constraint constraint : {Constraint::penalty, Constraint::multiplier}) {
-    planDecades(
-        plain, constraint, "weight floor", {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0},
-        [](Settings& s, double value) { s.weightFloor = value; }, rows);
-    planDecades(
-        plain, constraint, "stiffness ratio", ratios, [](Settings& s, double value) { s.stiffnessRatio = value; },
-        rows);
-    planDecades(
-        plain, constraint, "density ratio", ratios, [](Settings& s, double value) { s.densityRatio = value; }, rows);
+    plain.constraint = constraint;
+    planDecades(plain, "weight floor", &Settings::weightFloor, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0},
+                rows);
+    planDecades(plain, "stiffness ratio", &Settings::stiffnessRatio, ratios, rows);
+    planDecades(plain, "density ratio", &Settings::densityRatio, ratios, rows);
   }
-  planDecades(
-      plain, Constraint::penalty, "penalty", {1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13},
-      [](Settings& s, double value) { s.penalty = value; }, rows);
+  plain.constraint = Constraint::penalty;
+  planDecades(plain, "penalty", &Settings::penalty, {1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13}, rows);
   return rows;
 }
 

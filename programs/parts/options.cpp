@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <iostream>
+#include <sstream>
 
 #include "dovetail/core/finite.hpp"
 
@@ -38,13 +40,14 @@ Range positive(const std::string& words, double most) { return {0.0, most, false
 Range notNegative(const std::string& words, double most) { return {0.0, most, true, true, words}; }
 
 Option& Options::add(const std::string& name, const std::string& help, std::function<void(const std::string&)> read,
-                     std::function<std::string()> text, const std::vector<std::string>& words) {
+                     std::function<std::string()> text) {
   Option option;
   option.name = plainName(name);
   option.letter = name.find(' ') == std::string::npos ? "" : name.substr(name.find(' ') + 1);
-  for (const std::string& word : words) option.letter += (option.letter.empty() ? "" : "|") + word;
   option.help = help;
   option.group = group_;
+  if (told_ && text) option.key = option.name.substr(option.name.starts_with("--") ? 2 : 0);
+  for (char& c : option.key) c = c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   option.read = std::move(read);
   option.text = std::move(text);
   all_.push_back(std::move(option));
@@ -111,12 +114,24 @@ Option& Options::flag(const std::string& name, bool& value, const std::string& h
   return option;
 }
 
-std::size_t Options::placeOf(const std::string& text, const std::vector<std::string>& words, const std::string& name) {
-  const auto at = std::find(words.begin(), words.end(), text);
-  if (at != words.end()) return static_cast<std::size_t>(at - words.begin());
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  throw InputError("there is no '" + text + "'", name, "take one of " + list);
+std::string Options::wordAt(const std::string& words, std::size_t place) {
+  std::size_t begin = 0;
+  for (; place > 0; --place) begin = words.find('|', begin) + 1;
+  return words.substr(begin, words.find('|', begin) - begin);
+}
+
+std::size_t Options::placeOf(const std::string& text, const std::string& words, const std::string& name) {
+  const auto count = static_cast<std::size_t>(1 + std::count(words.begin(), words.end(), '|'));
+  for (std::size_t place = 0; place < count; ++place)
+    if (wordAt(words, place) == text) return place;
+  throw InputError("there is no '" + text + "'", name, "take one of " + words);
+}
+
+Option& Options::word(const std::string& name, std::string& value, const std::string& words, const std::string& help) {
+  return add(
+      name + " " + words, help,
+      [&value, words, name](const std::string& text) { value = wordAt(words, placeOf(text, words, name)); },
+      [&value] { return value; });
 }
 
 bool Options::parse(int argc, char** argv, const std::function<void()>& between) {
@@ -174,9 +189,9 @@ io::KeyValues Options::described() const {
   return rows;
 }
 
-void Options::refuseIdle(std::initializer_list<const char*> names, const std::string& when,
-                         const std::string& remedy) const {
-  for (const char* const name : names)
+void Options::refuseIdle(const std::string& names, const std::string& when, const std::string& remedy) const {
+  std::istringstream words(names);
+  for (std::string name; words >> name;)
     if (given(name)) throw InputError("the option does nothing " + when, name, remedy);
 }
 

@@ -11,7 +11,7 @@ WEIGHT = 2 * 2e4 * math.pi / 6 * (2 * RADIUS) ** 3 * 9.81  # of both particles, 
 BENDING = YOUNG * SIDE**4 / 12  # EI, N m^2
 START_ENERGY = 0.8716  # J, exact
 
-# Cheng et al., CMAME 403 (2023) 115651, and the output deposited with it, as in benchmarks/cantilever/published.hpp:
+# Cheng et al., CMAME 403 (2023) 115651, and the output deposited with it, as in benchmarks/cantilever/README.md:
 # largest total energy before leaving (J), and time-mean error against the static formula, arm from the clamp (m).
 PUBLISHED_PEAK = {0.0: 4965.0, 10.0: 1.99}
 PUBLISHED_ERROR = {0.0: 0.052, 4.0: 0.0175, 10.0: 0.0049}

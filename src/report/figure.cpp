@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <numeric>
 
 #include "dovetail/report/text.hpp"
 
@@ -11,7 +13,7 @@ namespace dovetail::report {
 namespace {
 
 // Sizes in units of a column 440 wide.
-constexpr double width = 440.0, left = 58.0, right = 12.0, plotHeight = 210.0, letter = 7.0, row = 18.0;
+constexpr double width = 440.0, left = 58.0, right = 12.0, plotHeight = 210.0, row = 18.0;
 constexpr int colours = 8;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
@@ -152,10 +154,13 @@ std::string textAt(double x, double y, const char* anchor, const std::string& te
          "</text>\n";
 }
 
-/// Letters of UTF-8 text.
+/// About as wide as the text will be.
 double lengthOf(const std::string& text) {
-  return letter *
-         static_cast<double>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  const auto widthOf = [](char c) {
+    if ((c & 0xC0) == 0x80) return 0.0;  // goes on with a letter
+    return std::strchr("mwMW", c) ? 11.0 : std::strchr("fijlrt.,:;' ", c) ? 4.5 : 7.3;
+  };
+  return std::accumulate(text.begin(), text.end(), 0.0, [&](double sum, char c) { return sum + widthOf(c); });
 }
 
 std::string gridOf(const Scale& x, const Scale& y, double top) {

@@ -21,11 +21,13 @@ body{margin:0 auto;padding:1rem;max-width:76rem;font:16px/1.5 system-ui,sans-ser
 h1{font-size:1.5rem;line-height:1.25;margin:.5rem 0}
 h2{font-size:1.15rem;margin:2rem 0 .5rem;border-bottom:1px solid var(--line)}
 p{margin:.5rem 0;overflow-wrap:anywhere}
-.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,26rem),1fr));gap:1rem}
+.figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,26rem),1fr));gap:1rem}
 .table{overflow-x:auto;margin:.5rem 0}
 table{border-collapse:collapse;font-size:.9rem}
-th,td{padding:.2rem .7rem .2rem 0;text-align:left;vertical-align:top;border-bottom:1px solid var(--line);overflow-wrap:anywhere}
-.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums;overflow-wrap:normal}
+th,td{padding:.2rem .7rem .2rem 0;text-align:left;vertical-align:top;border-bottom:1px solid var(--line)}
+td:first-child{min-width:9em}
+td:last-child:not(.n){overflow-wrap:anywhere;min-width:12em}
+.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
 details{margin:.5rem 0;background:var(--soft);padding:.4rem .7rem;border-radius:4px}
 summary{cursor:pointer}
 pre{overflow-x:auto;font-size:.8rem;line-height:1.35}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
 #include "dovetail/core/finite.hpp"
@@ -127,6 +128,20 @@ std::vector<Block> timePerStage(const RunRecord& record) {
   return {std::move(figure), std::move(table)};
 }
 
+/// "time_mean_error_m" → "time mean error (m)"; names with blanks stay
+std::string labelOf(const std::string& key) {
+  if (key.find(' ') != std::string::npos) return key;
+  const std::string unit = io::unitOf(key);
+  return nameOf(key) + (unit == "1" ? "" : " (" + unit + ")");
+}
+
+/// Six digits of a number.
+std::string shortened(const std::string& value) {
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  return value.empty() || *end != '\0' || value.size() < 8 ? value : format("%.6g", number);
+}
+
 /// Figures of the summary whose name holds one of the words; they are taken out.
 std::vector<Block> take(io::KeyValues& figures, std::initializer_list<const char*> words) {
   Table table{{"figure", "value"}, {}};
@@ -134,7 +149,7 @@ std::vector<Block> take(io::KeyValues& figures, std::initializer_list<const char
     const bool fits = words.size() == 0 || std::any_of(words.begin(), words.end(), [&](const char* word) {
                         return figure.first.find(word) != std::string::npos;
                       });
-    if (fits) table.rows.push_back({figure.first, figure.second});
+    if (fits) table.rows.push_back({labelOf(figure.first), shortened(figure.second)});
     return fits;
   });
   if (table.rows.empty()) return {};

@@ -19,12 +19,13 @@ struct Settings {
 
 Options tableOf(Settings& s) {
   Options o("test", "");
-  o.text("FILE", s.file, "");
-  o.number("--width W", s.width, between(0.0, 2.0), "").tell("width_m");
-  o.integer("--count N", s.count, 1, 9, "").tell("count");
-  o.choice<Shape>("--shape", s.shape, {{"round", Shape::round}, {"square", Shape::square}}, "").tell("shape");
-  o.number("--until T", s.until, positive(), "end", "").tell("until_s");
+  o.number("--width W", s.width, between(0.0, 2.0), "").in("m");
+  o.integer("--count N", s.count, 1, 9, "");
+  o.choice("--shape", s.shape, "round|square", "");
+  o.number("--until T", s.until, positive(), "end", "").in("s");
+  o.group("Not in files", false);
   o.flag("--quiet", s.quiet, "");
+  o.text("FILE", s.file, "");
   o.texts("--over KEY", s.over, "");
   return o;
 }
@@ -70,7 +71,7 @@ TEST(Options, RefuseWhatCannotBeNamingTheOption) {
   EXPECT_EQ(refusal({"--width", "nan"}), "the value nan is not possible [--width]: give a number from 0 to 2");
   EXPECT_EQ(refusal({"--width", "two"}), "'two' is no number [--width]: give a number");
   EXPECT_EQ(refusal({"--count", "1.5"}), "'1.5' is no whole number [--count]: give a whole number");
-  EXPECT_EQ(refusal({"--shape", "0"}), "there is no '0' [--shape]: take one of round, square");
+  EXPECT_EQ(refusal({"--shape", "0"}), "there is no '0' [--shape]: take one of round|square");
   EXPECT_EQ(refusal({"--width", ""}), "the value is empty [--width]: give one, or leave the option out");
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"--widht", "1"}, {"--width"}, {"--width", "1", "--width", "2"}, {"a", "b"}})

@@ -4,7 +4,6 @@
 
 #include <deque>
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,16 +34,12 @@ struct Option {
   bool flag = false, needed = false, many = false;
   std::vector<std::string> written;  ///< on the command line
 
-  Option& tell(const std::string& newKey) { return key = newKey, *this; }
+  /// Adds the unit to the key: "width_m".
+  Option& in(const std::string& unit) { return key += "_" + unit, *this; }
   Option& require() { return needed = true, *this; }
   /// The value in files, where it is not what was written.
-  Option& tellAs(const std::string& newKey, std::function<std::string()> newText) {
-    return key = newKey, text = std::move(newText), *this;
-  }
+  Option& tellAs(std::function<std::string()> newText) { return text = std::move(newText), *this; }
 };
-
-template <class Value>
-using Names = std::initializer_list<std::pair<const char*, Value>>;
 
 /// Names "--word LETTER" are options, "WORD" alone is an argument by its place; rows without a name are told in
 /// files alone.
@@ -52,8 +47,12 @@ class Options {
 public:
   Options(std::string program, std::string about) : program_(std::move(program)), about_(std::move(about)) {}
 
-  /// Options added from now on stand below this title in the help.
-  void group(const std::string& title) { group_ = title; }
+  /// Options added from now on stand below this title in the help, and are told in files or not: under their names, "_"
+  /// for "-".
+  void group(const std::string& title, bool told = true) {
+    group_ = title;
+    told_ = told;
+  }
 
   Option& number(const std::string& name, double& value, const Range& range, const std::string& help);
   Option& integer(const std::string& name, int& value, int low, int high, const std::string& help);
@@ -63,26 +62,19 @@ public:
   /// @param without  what files say where there is no value
   Option& number(const std::string& name, std::optional<double>& value, const Range& range, const std::string& without,
                  const std::string& help);
+  /// @param words  "a|b|c", in the order of the enumerators
   template <class Value>
-  Option& choice(const std::string& name, Value& value, Names<Value> names, const std::string& help) {
-    const std::vector<std::pair<const char*, Value>> all(names);
-    std::vector<std::string> words;
-    for (const auto& [word, meaning] : all) words.emplace_back(word);
+  Option& choice(const std::string& name, Value& value, const std::string& words, const std::string& help) {
     return add(
-        name, help,
-        [&value, all, words, plain = plainName(name)](const std::string& text) {
-          value = all[placeOf(text, words, plain)].second;
-        },
-        [&value, all] {
-          for (const auto& [word, meaning] : all)
-            if (meaning == value) return std::string(word);
-          return std::string("none");
-        },
-        words);
+        name + " " + words, help,
+        [&value, words, name](const std::string& text) { value = static_cast<Value>(placeOf(text, words, name)); },
+        [&value, words] { return wordAt(words, static_cast<std::size_t>(value)); });
   }
+  /// The value is one of the words.
+  Option& word(const std::string& name, std::string& value, const std::string& words, const std::string& help);
   /// An option of another kind. @param read  @throws InputError
   Option& add(const std::string& name, const std::string& help, std::function<void(const std::string&)> read,
-              std::function<std::string()> text, const std::vector<std::string>& words = {});
+              std::function<std::string()> text);
 
   /// Reads the command line twice, in the order of the table, and calls `between` after the first time: what it sets
   /// gives way to what was written. Prints the help and returns false for --help.
@@ -98,18 +90,21 @@ public:
   /// Keys and values for files, in the order of the table.
   io::KeyValues described() const;
 
-  /// Refuses what was written but would do nothing. @param when  that which makes it so, such as "with --full-dem"
+  /// Refuses what was written but would do nothing. @param names  with blanks between them @param when  that which
+  /// makes it so, such as "with --full-dem"
   /// @throws InputError naming the first of the options that was given
-  void refuseIdle(std::initializer_list<const char*> names, const std::string& when, const std::string& remedy) const;
+  void refuseIdle(const std::string& names, const std::string& when, const std::string& remedy) const;
   /// @throws InputError if both were written
   void refuseBoth(const std::string& one, const std::string& other) const;
 
 private:
   static std::string plainName(const std::string& name) { return name.substr(0, name.find(' ')); }
-  static std::size_t placeOf(const std::string& text, const std::vector<std::string>& words, const std::string& name);
+  static std::size_t placeOf(const std::string& text, const std::string& words, const std::string& name);
+  static std::string wordAt(const std::string& words, std::size_t place);
   const Option& find(const std::string& name) const;
 
   std::string program_, about_, group_;
+  bool told_ = true;
   std::deque<Option> all_;
 };
 
