@@ -25,8 +25,8 @@ void Recorder::columns(const std::string& head, const std::string& tail, const s
   column(head + "z" + tail, [value] { return value().z; });
 }
 
-void Recorder::column(const std::string& name, EnergyLedger::Id channel) {
-  column(name, [this, channel] { return data_.ledger.channels()[channel].joules; });
+void Recorder::column(const std::string& name, std::optional<EnergyLedger::Id> channel) {
+  column(name, [this, channel] { return channel ? data_.ledger.channels()[*channel].joules : 0.0; });
 }
 
 void Recorder::setLedger() {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct Line {
   std::string key;
   report::Json value;
   std::string label = {}, pattern = "%.3e";  ///< of std::printf, with the unit
-  double factor = 1.0;                  ///< from the value to what is printed
+  double factor = 1.0;                       ///< from the value to what is printed
 };
 using Lines = std::vector<Line>;
 
@@ -59,8 +60,8 @@ public:
   void column(const std::string& name, Value value);
   /// Columns <head>x<tail>, <head>y<tail>, <head>z<tail>.
   void columns(const std::string& head, const std::string& tail, const std::function<Vec3()>& value);
-  /// A column of what the ledger has in the channel.
-  void column(const std::string& name, EnergyLedger::Id channel);
+  /// A column of what the ledger has in the channel, 0 without one.
+  void column(const std::string& name, std::optional<EnergyLedger::Id> channel);
 
   void setLedger();
   void addRow();

@@ -1,6 +1,7 @@
-// A coupled run beside particles alone over the whole length.
+// Layers of the bar: velocities along it, and a coupled run beside particles alone over the whole length.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "dovetail/dem/pairs/pair_collide.hpp"
@@ -9,6 +10,22 @@
 namespace dovetail::wave {
 
 namespace {
+
+/// Mean of a layer of particles or nodes.
+struct LayerSum {
+  double y = 0.0, velocity = 0.0, share = 0.0;
+  int count = 0;
+
+  void add(double place, double speed, double weight) {
+    y += place;
+    velocity += speed;
+    share += weight;
+    ++count;
+  }
+  void append(io::TimeSeries& table, double time, int model) const {
+    table.append({time, static_cast<double>(model), y / count, velocity / count, share / count});
+  }
+};
 
 /// Settings of the run of particles alone; those that do not concern it are set to one value.
 Settings particlesAlone(const Settings& settings, double dt) {
@@ -118,6 +135,24 @@ void compareParticles(RunResult& result, const RunResult& alone) {
 }
 
 }  // namespace
+
+void addLayers(io::TimeSeries& table, const Settings& s, const Frame& frame) {
+  std::map<long, LayerSum> nodes;  // by half element sizes, so that rounding cannot split a layer
+  for (std::size_t n = 0; frame.nodes && n < frame.nodes->X.size(); ++n) {
+    const double y = frame.nodes->X[n].y;
+    nodes[std::lround(2.0 * y / Case{}.elementSize)].add(y, frame.nodes->v[n].y, frame.nodeScalars[0].second[n]);
+  }
+  for (const auto& [place, layer] : nodes) layer.append(table, frame.time, 0);
+  const auto perLayer = static_cast<std::size_t>(particlesPerLayer(s));
+  const dem::Particles& p = frame.particles;
+  const std::size_t count = p.size() / perLayer - (s.fullDem ? 1 : 0);  // without the wall
+  for (std::size_t l = 0; l < count; ++l) {
+    LayerSum layer;
+    for (std::size_t i = l * perLayer; i < (l + 1) * perLayer; ++i)
+      layer.add((static_cast<double>(l) + 0.5) * particleDiameter(s), p.v[i].y, p.weightOf(i));
+    layer.append(table, frame.time, 1);
+  }
+}
 
 void compareWithParticles(RunResult& result) {
   if (result.settings.fullDem || !result.figures.finished) return;

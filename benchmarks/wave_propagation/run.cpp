@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 
 #include "dovetail/core/finite.hpp"
@@ -24,22 +23,6 @@ constexpr double stableFactor = 1.5;
 double secondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
-
-/// Mean of a layer of particles or nodes.
-struct LayerSum {
-  double y = 0.0, velocity = 0.0, share = 0.0;
-  int count = 0;
-
-  void add(double place, double speed, double weight) {
-    y += place;
-    velocity += speed;
-    share += weight;
-    ++count;
-  }
-  void append(io::TimeSeries& table, double time, int model) const {
-    table.append({time, static_cast<double>(model), y / count, velocity / count, share / count});
-  }
-};
 
 class Runner {
 public:
@@ -94,19 +77,16 @@ private:
     if (!grains().terms.all<dem::DriveTerm>().empty())
       books_.booked("drive (minus its work)", [this] { return -externalWork(); });
 
-    const auto column = [this](const char* name, std::optional<EnergyLedger::Id> id) {
-      id ? books_.column(name, *id) : books_.column(name, [] { return 0.0; });
-    };
     books_.column("time_s", [this] { return grains().time; });
     books_.column("mass_particles_kg", [this] { return massOfParticles(); });
     books_.column("mass_solid_kg", [this] { return massOfSolid(); });
     books_.column("momentum_particles_y_Ns", [this] { return dem::momentum(particles()).y; });
     books_.column("momentum_solid_y_Ns", [this] { return bar_.solid ? fem::momentum(bar_.solid->nodes()).y : 0.0; });
-    column("kinetic_particles_J", kinetic);
-    column("elastic_contacts_J", contacts);
-    column("kinetic_solid_J", kineticSolid);
-    column("elastic_solid_J", elasticSolid);
-    column("stored_coupling_J", stored_);
+    books_.column("kinetic_particles_J", kinetic);
+    books_.column("elastic_contacts_J", contacts);
+    books_.column("kinetic_solid_J", kineticSolid);
+    books_.column("elastic_solid_J", elasticSolid);
+    books_.column("stored_coupling_J", stored_);
     books_.column("energy_total_J", [this] { return result_.ledger.stored(); });
     books_.column("coupling_work_J", [this] { return couplingWork(); });
     books_.column("absorbed_J", [this] { return absorbed(); });
@@ -125,7 +105,7 @@ private:
     if (bar_.solid) {
       f.elements = bar_.mesh.elementCount();
       f.overlapParticles = bar_.tie->overlap().size();
-      for (const double m : bar_.solid->nodes().mass) mass += m;
+      mass += massOfSolid();
       f.penalty = penalty_;
     }
     const double side = Case{}.side, exact = bulkDensity() * side * side * barLength(settings());
@@ -244,28 +224,9 @@ private:
       frame.nodes = &bar_.solid->nodes();
       frame.nodeScalars = {{"particles_share", bar_.tie->overlap().nodalWeight}};
     }
-    addProfile(frame);
+    addLayers(result_.velocityProfile, settings(), frame);
     observer_(frame);
     figures().wallSeconds -= secondsSince(begin);
-  }
-
-  /// Layers of nodes, then of particles, each by rising y.
-  void addProfile(const Frame& frame) {
-    std::map<long, LayerSum> nodes;  // by half element sizes, so that rounding cannot split a layer
-    for (std::size_t n = 0; frame.nodes && n < frame.nodes->X.size(); ++n) {
-      const double y = frame.nodes->X[n].y;
-      nodes[std::lround(2.0 * y / Case{}.elementSize)].add(y, frame.nodes->v[n].y, bar_.tie->overlap().nodalWeight[n]);
-    }
-    for (const auto& [place, layer] : nodes) layer.append(result_.velocityProfile, frame.time, 0);
-    const auto perLayer = static_cast<std::size_t>(particlesPerLayer(settings()));
-    const std::size_t count = particles().size() / perLayer - (settings().fullDem ? 1 : 0);  // without the wall
-    for (std::size_t l = 0; l < count; ++l) {
-      LayerSum layer;
-      for (std::size_t i = l * perLayer; i < (l + 1) * perLayer; ++i)
-        layer.add((static_cast<double>(l) + 0.5) * particleDiameter(settings()), particles().v[i].y,
-                  particles().weightOf(i));
-      layer.append(result_.velocityProfile, frame.time, 1);
-    }
   }
 
   std::int64_t steps() { return std::llround(grains().time / dt_); }

@@ -62,6 +62,9 @@ RunResult run(const Settings& settings, const Observer& observer = {});
 /// that concerns it and kept.
 void compareWithParticles(RunResult& result);
 
+/// Adds the layers of a frame to a velocity profile: nodes, then particles, each by rising y.
+void addLayers(io::TimeSeries& table, const Settings& settings, const Frame& frame);
+
 /// Energy at time t, linear between samples, J; NaN outside.
 double energyAt(const std::vector<EnergySample>& energy, double t);
 

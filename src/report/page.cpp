@@ -28,6 +28,7 @@ th,td{padding:.2rem .7rem .2rem 0;text-align:left;vertical-align:top;border-bott
 td:first-child{min-width:9em}
 td:last-child:not(.n){overflow-wrap:anywhere;min-width:12em}
 .n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
+@media (max-width:30rem){table{font-size:.78rem}th,td{padding-right:.4rem}td:first-child{min-width:6em}}
 details{margin:.5rem 0;background:var(--soft);padding:.4rem .7rem;border-radius:4px}
 summary{cursor:pointer}
 pre{overflow-x:auto;font-size:.8rem;line-height:1.35}

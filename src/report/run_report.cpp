@@ -89,7 +89,7 @@ std::vector<Block> figuresOfSeries(const io::TimeSeries& series) {
     std::erase_if(columns, [&](const std::string& column) { return isConstant(series.column(column)); });
     if (unit != "N")
       addFigure(blocks, series, "series_" + std::to_string(++number),
-                columns.size() == 1 ? nameOf(columns.front()) : "In " + unit, unit, columns);
+                columns.size() == 1 ? nameOf(columns.front()) : "In " + unit, unit == "1" ? "number" : unit, columns);
   }
   return blocks;
 }
