@@ -13,7 +13,7 @@ namespace dovetail::report {
 namespace {
 
 // Sizes in units of a column 440 wide.
-constexpr double width = 440.0, left = 58.0, right = 12.0, plotHeight = 210.0, row = 18.0;
+constexpr double width = 440.0, left = 64.0, right = 12.0, plotHeight = 210.0, row = 18.0;
 constexpr int colours = 8;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
@@ -179,7 +179,7 @@ std::string gridOf(const Scale& x, const Scale& y, double top) {
   svg += format("<path class=\"axis\" d=\"M%.1f %.1fV%.1fH%.1f\"/>\n", left, top, bottom, width - right);
   svg += textAt(left + 0.5 * across, bottom + 34.0, "middle", x.label);
   const double middle = top + 0.5 * plotHeight;
-  return svg + textAt(14.0, middle, "middle", y.label, format(" transform=\"rotate(-90 14 %.1f)\"", middle));
+  return svg + textAt(13.0, middle, "middle", y.label, format(" transform=\"rotate(-90 13 %.1f)\"", middle));
 }
 
 std::string pathOf(const Curve& curve, const Drawn& drawn, std::size_t number) {

@@ -1,6 +1,6 @@
 #include "dovetail/report/page.hpp"
 
-#include <charconv>
+#include <algorithm>
 #include <cstdlib>
 
 namespace dovetail::report {
@@ -11,6 +11,16 @@ bool isNumber(const std::string& text) {
   char* end = nullptr;
   std::strtod(text.c_str(), &end);
   return !text.empty() && (end == text.c_str() + text.size() || std::string(end) == " %");
+}
+
+/// Whether all that stands in a column is numbers: these are set to the right.
+std::vector<bool> numbersIn(const Table& table) {
+  std::vector<bool> numbers;
+  for (const auto& cells : table.rows) {
+    numbers.resize(std::max(numbers.size(), cells.size()), true);
+    for (std::size_t k = 0; k < cells.size(); ++k) numbers[k] = numbers[k] && (cells[k].empty() || isNumber(cells[k]));
+  }
+  return numbers;
 }
 
 const char* const style = R"(
@@ -47,8 +57,9 @@ public:
   void operator()(const Table& table) {
     close();
     text += "<div class=\"table\"><table>\n";
-    if (!table.head.empty()) line(table.head, "th", table.rows);
-    for (const auto& cells : table.rows) line(cells, "td", {cells});
+    const std::vector<bool> numbers = numbersIn(table);
+    if (!table.head.empty()) line(table.head, "th", numbers);
+    for (const auto& cells : table.rows) line(cells, "td", numbers);
     text += "</table></div>\n";
   }
   void operator()(const Listing& listing) {
@@ -62,14 +73,11 @@ public:
   }
 
 private:
-  /// Cells stand to the right where those of `like` are numbers.
-  void line(const std::vector<std::string>& cells, const std::string& tag,
-            const std::vector<std::vector<std::string>>& like) {
+  void line(const std::vector<std::string>& cells, const std::string& tag, const std::vector<bool>& numbers) {
     text += "<tr>";
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      const bool number = !like.empty() && k < like.front().size() && isNumber(like.front()[k]);
-      text += "<" + tag + (number ? " class=\"n\">" : ">") + escaped(cells[k]) + "</" + tag + ">";
-    }
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      text +=
+          "<" + tag + (k < numbers.size() && numbers[k] ? " class=\"n\">" : ">") + escaped(cells[k]) + "</" + tag + ">";
     text += "</tr>\n";
   }
   bool inFigures_ = false;
@@ -126,8 +134,8 @@ std::string markdownOf(const Table& table) {
   };
   const std::size_t columns = table.head.empty() && !table.rows.empty() ? table.rows.front().size() : table.head.size();
   std::string rule = "|";
-  for (std::size_t k = 0; k < columns; ++k)
-    rule += !table.rows.empty() && k < table.rows.front().size() && isNumber(table.rows.front()[k]) ? "---:|" : "---|";
+  const std::vector<bool> numbers = numbersIn(table);
+  for (std::size_t k = 0; k < columns; ++k) rule += k < numbers.size() && numbers[k] ? "---:|" : "---|";
   std::string text = line(table.head.empty() ? std::vector<std::string>(columns) : table.head) + rule + "\n";
   for (const auto& cells : table.rows) text += line(cells);
   return text;

@@ -1,5 +1,6 @@
 #include "dovetail/report/run_record.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -42,22 +43,61 @@ void takeScene(const std::string& text, RunRecord& record) {
   if (json.is_object() && json.contains("title") && json["title"].is_string()) record.title = json["title"];
 }
 
+void addFigure(RunRecord& record, const std::string& name, const Json& value) {
+  if (const std::string figure = textOf(value); !figure.empty()) record.figures.emplace_back(name, figure);
+}
+
+double numberOf(const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
+
+void addChannel(RunRecord& record, const std::string& name, const Json& row, const char* before, const char* now) {
+  record.channels.push_back({name, row.at("kind") == "booked" ? EnergyLedger::Kind::booked : EnergyLedger::Kind::stored,
+                             numberOf(row.at(now)), numberOf(row.at(before))});
+}
+
+void takeSceneSummary(const Json& json, RunRecord& record) {
+  const Json& energy = json.at("energy");
+  for (const auto& [name, row] : energy.at("channels").items()) addChannel(record, name, row, "at_start_J", "now_J");
+  record.residual = numberOf(energy.at("residual_J"));
+  addFigure(record, "largest residual of the energy (J)", energy.at("largest_residual_J"));
+  const Json& momentum = json.at("momentum");
+  const char* const axes[] = {"x", "y", "z"};
+  for (std::size_t k = 0; k < 3; ++k)
+    addFigure(record, std::string("residual of the momentum, ") + axes[k] + " (Ns)",
+              momentum.at("residual").at("linear_Ns").at(k));
+  addFigure(record, "all impulses, beside that residual (Ns)", momentum.at("turned_over_Ns"));
+  addFigure(record, "residual of the mass (kg)", momentum.at("mass_residual_kg"));
+  const Json& step = json.at("step");
+  addFigure(record, "step (s)", step.at("dt_s"));
+  addFigure(record, "critical step at the end (s)", step.at("limit_s"));
+  addFigure(record, "set by", step.at("limited_by"));
+  for (const Json& stage : json.at("times").at("stages"))
+    addFigure(record, "seconds of stage " + textOf(stage.at("stage")) + " (" + textOf(stage.at("do")) + ")",
+              stage.at("seconds"));
+  for (const Json& row : json.at("times").at("parts"))
+    record.stages.push_back({row.at("part"), numberOf(row.at("seconds")), row.at("calls")});
+  for (const Json& line : json.at("warnings")) record.warnings.push_back(line);
+}
+
+void takeBenchmarkSummary(const Json& json, RunRecord& record) {
+  for (const auto& [key, value] : json.items()) addFigure(record, key, value);
+  if (json.contains("failure") && textOf(json["failure"]) != "") record.warnings.push_back(textOf(json["failure"]));
+  for (const Json& row : json.value("ledger", Json::array()))
+    addChannel(record, row.at("channel"), row, "at_opening_J", "at_end_J");
+  for (const Json& row : json.value("profile", Json::array()))
+    record.stages.push_back({row.at("stage"), row.at("seconds"), row.at("calls")});
+  if (record.scene.empty() && json.contains("settings")) record.scene = json["settings"].dump(2) + "\n";
+}
+
 }  // namespace
 
 void readSummaryJson(const std::string& text, const std::string& where, RunRecord& record) {
   try {
     const Json json = Json::parse(text);
     if (!json.is_object()) throw InputError("this is no summary of a run", where, "remove it");
-    for (const auto& [key, value] : json.items())
-      if (const std::string figure = textOf(value); !figure.empty()) record.figures.emplace_back(key, figure);
-    if (json.contains("failure") && textOf(json["failure"]) != "") record.warnings.push_back(textOf(json["failure"]));
-    for (const Json& row : json.value("ledger", Json::array()))
-      record.channels.push_back({row.at("channel"),
-                                 row.at("kind") == "booked" ? EnergyLedger::Kind::booked : EnergyLedger::Kind::stored,
-                                 row.at("at_end_J"), row.at("at_opening_J")});
-    for (const Json& row : json.value("profile", Json::array()))
-      record.stages.push_back({row.at("stage"), row.at("seconds"), row.at("calls")});
-    if (record.scene.empty() && json.contains("settings")) record.scene = json["settings"].dump(2) + "\n";
+    if (json.contains("energy"))
+      takeSceneSummary(json, record);
+    else
+      takeBenchmarkSummary(json, record);
   } catch (const Json::exception& error) {
     throw InputError(error.what(), where, "remove it, or run again");
   }

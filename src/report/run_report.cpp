@@ -192,6 +192,12 @@ std::filesystem::path writeRunReport(const std::filesystem::path& folder) {
   const Page page = pageOf(readRunFolder(folder));
   const std::string mark = "dovetail " + io::buildInfo().version;
   io::requireFreeOrOurs(folder / "report.md");
+  std::vector<std::filesystem::path> earlier;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".svg" && entry.path().filename().string().starts_with("report_") &&
+        io::isOurs(entry.path()))
+      earlier.push_back(entry.path());
+  for (const auto& path : earlier) io::removeOurs(path);
   io::writeFileAtomically(folder / "report.html", htmlOf(page, mark));
   io::writeFileAtomically(folder / "report.md", "<!-- " + mark + " -->\n\n" + markdownOf(page, "report_"));
   for (const Figure* const figure : figuresOf(page))

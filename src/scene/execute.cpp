@@ -102,12 +102,15 @@ private:
   /// Files that this run may not write, or only at its end.
   void removeEarlierRun() const {
     for (const char* const old : {"checkpoint.state", "checkpoint.previous.state", "summary.txt", "summary.json",
-                                  "series.csv", "series.h5", "fields.vti"})
+                                  "series.csv", "series.h5", "fields.vti", "report.html", "report.md"})
       if (io::isOurs(file(old))) io::removeOurs(file(old));
     std::vector<fs::path> frames;
-    for (const auto& entry : fs::directory_iterator(settings_.folder))
-      if ((entry.path().extension() == ".pvd" || entry.path().extension() == ".vtkhdf") && io::isOurs(entry.path()))
-        frames.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(settings_.folder)) {
+      const fs::path& path = entry.path();
+      const bool figure = path.extension() == ".svg" && path.filename().string().starts_with("report_");
+      if ((figure || path.extension() == ".pvd" || path.extension() == ".vtkhdf") && io::isOurs(path))
+        frames.push_back(path);
+    }
     for (const fs::path& old : frames) io::removeOurs(old);
   }
   static const char* nameOf(const Stage& stage) {

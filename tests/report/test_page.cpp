@@ -73,6 +73,28 @@ TEST(RunRecord, TakesWhatAJsonSummarySays) {
               std::string::npos);
 }
 
+TEST(RunRecord, TakesWhatTheJsonSummaryOfASceneSays) {
+  RunRecord record;
+  readSummaryJson(R"({"time_s": 1, "step": {"dt_s": 1e-6, "window_s": 1e-6, "limit_s": 4e-6, "limited_by": "node 7"},
+    "energy": {"channels": {"plate: kinetic": {"kind": "stored", "now_J": 2.5, "at_start_J": 1},
+                            "plate: work": {"kind": "booked", "now_J": null, "at_start_J": 0}},
+               "residual_J": -1e-7, "largest_residual_J": 2e-7},
+    "momentum": {"residual": {"linear_Ns": [1e-15, 0, null]}, "turned_over_Ns": 3, "mass_residual_kg": 0},
+    "times": {"stages": [{"stage": 1, "do": "run", "seconds": 12.5}], "parts": [{"part": "sweep", "seconds": 0.5, "calls": 10}]},
+    "warnings": ["WARNING: beyond"]})",
+                  "summary.json", record);
+  ASSERT_EQ(record.channels.size(), 2u);
+  EXPECT_EQ(record.channels[0].joules, 2.5);
+  EXPECT_EQ(record.channels[0].joulesAtOpening, 1.0);
+  EXPECT_EQ(record.channels[1].kind, EnergyLedger::Kind::booked);
+  EXPECT_EQ(record.residual, -1e-7);
+  EXPECT_EQ(figure(record, "critical step at the end (s)"), "4e-06");
+  EXPECT_EQ(figure(record, "set by"), "node 7");
+  EXPECT_EQ(figure(record, "seconds of stage 1 (run)"), "12.5");
+  EXPECT_EQ(record.stages.at(0).name, "sweep");
+  EXPECT_EQ(record.warnings, (std::vector<std::string>{"WARNING: beyond"}));
+}
+
 TEST(RunReport, IsOnePageWithFiguresTablesAndOrigin) {
   const ScratchFolder folder;
   writeText(folder / "summary.txt", summary);

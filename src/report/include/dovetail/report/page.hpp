@@ -12,7 +12,7 @@ namespace dovetail::report {
 struct Paragraph {
   std::string text;
 };
-/// A cell that reads as a number is set to the right.
+/// Columns of numbers are set to the right.
 struct Table {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;

@@ -32,8 +32,9 @@ RunRecord readRunFolder(const std::filesystem::path& folder);
 /// Takes what a summary.txt says into the record.
 void readSummaryText(const std::string& text, RunRecord& record);
 
-/// Takes what a summary.json says into the record: numbers and texts of its top level by their keys; "ledger": a list
-/// of {channel, kind, at_opening_J, at_end_J}; "profile": a list of {stage, seconds, calls}; "settings".
+/// Takes what a summary.json says into the record: that of a scene (docs/outputs.md), or that of a benchmark, which is
+/// numbers and texts by their keys, "ledger": a list of {channel, kind, at_opening_J, at_end_J}, "profile": a list of
+/// {stage, seconds, calls}, and "settings".
 /// @throws InputError if it is no such file. @param where  for messages
 void readSummaryJson(const std::string& text, const std::string& where, RunRecord& record);
 
