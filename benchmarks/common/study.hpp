@@ -23,7 +23,8 @@ bool runPlan(report::Study study, const Settings& asked, const Plan<Settings>& p
   study.folder = asked.out.empty() ? "." : asked.out;
   study.workers = asked.workers;
   study.quiet = asked.quiet;
-  for (auto [label, settings] : plan) {
+  for (const auto& [label, planned] : plan) {
+    Settings settings = planned;
     settings.quiet = true;
     settings.study = settings.out = "";
     study.cases.push_back({label, describe(settings), [settings, figuresOf] { return figuresOf(settings); }});
