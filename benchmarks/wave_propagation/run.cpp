@@ -105,7 +105,7 @@ private:
     if (bar_.solid) {
       f.elements = bar_.mesh.elementCount();
       f.overlapParticles = bar_.tie->overlap().size();
-      mass += massOfSolid();
+      for (const double m : bar_.solid->nodes().mass) mass += m;
       f.penalty = penalty_;
     }
     const double side = Case{}.side, exact = bulkDensity() * side * side * barLength(settings());
