@@ -5,7 +5,6 @@
 
 #include "benchmarks/cantilever/model.hpp"
 #include "benchmarks/wave_propagation/model.hpp"
-#include "benchmarks/wave_propagation/step_plan.hpp"
 #include "dovetail/scene/build.hpp"
 #include "dovetail/scene/read.hpp"
 

@@ -14,7 +14,7 @@ using io::test::ScratchFolder;
 using io::test::writeText;
 
 std::vector<std::string> snippets() {
-  const std::string text = readText(std::string(DOCS) + "/outputs.md"), fence = "```python\n";
+  const std::string text = readText(std::filesystem::path(DOCS) / "outputs.md"), fence = "```python\n";
   std::vector<std::string> found;
   for (std::size_t at = text.find(fence); at != std::string::npos; at = text.find(fence, at + 1)) {
     const std::size_t begin = at + fence.size();
