@@ -25,6 +25,17 @@ void OverlapTie::Impl::number(const dem::Particles& particles) {
   known = particles.revision;
 }
 
+/// Values of the rows at some nodes, for the rows that there are now: 0 where there was none.
+std::vector<Vec3> OverlapTie::Impl::inRows(std::span<const Vec3> values, std::span<const int> nodes) const {
+  std::vector<int> rowOf(setting.mesh.X.size(), -1);
+  for (std::size_t r = 0; r < nodes.size(); ++r) rowOf[static_cast<std::size_t>(nodes[r])] = static_cast<int>(r);
+  std::vector<Vec3> moved(parts.gap.rows());
+  for (std::size_t r = 0; r < moved.size(); ++r)
+    if (const int old = rowOf[static_cast<std::size_t>(parts.gap.node[r])]; old >= 0)
+      moved[r] = values[static_cast<std::size_t>(old)];
+  return moved;
+}
+
 /// Rows that were there keep their gap and their λ; others start without.
 void OverlapTie::Impl::ready(const dem::Model& m) {
   if (known != m.particles.revision || memberOf.size() != m.particles.size()) number(m.particles);
@@ -35,16 +46,8 @@ void OverlapTie::Impl::ready(const dem::Model& m) {
     stale = false;
     massOf = side.mass;
     if (rowNode != parts.gap.node) {
-      std::vector<int> rowOf(setting.mesh.X.size(), -1);
-      for (std::size_t r = 0; r < rowNode.size(); ++r)
-        rowOf[static_cast<std::size_t>(rowNode[r])] = static_cast<int>(r);
-      for (auto* values : {&kept, &now, &increment, &windowIncrement, &atWindow, &lambda, &lambdaBefore}) {
-        std::vector<Vec3> moved(parts.gap.rows());
-        for (std::size_t r = 0; isFollowed() && r < moved.size(); ++r)
-          if (const int old = rowOf[static_cast<std::size_t>(parts.gap.node[r])]; old >= 0)
-            moved[r] = (*values)[static_cast<std::size_t>(old)];
-        *values = std::move(moved);
-      }
+      for (auto* values : {&kept, &now, &increment, &windowIncrement, &atWindow, &lambda, &lambdaBefore})
+        *values = isFollowed() ? inRows(*values, rowNode) : std::vector<Vec3>(parts.gap.rows());
       rowNode = parts.gap.node;
     }
   }
@@ -72,11 +75,13 @@ void OverlapTie::Impl::advance(const dem::Model& m) {
   lost -= 0.5 * m.step.dt * sumOfProducts(lambda, ofNodes);
 }
 
-/// The impulses of multipliers that take the rate of the gap away, at the start and where ties have been made anew.
-void OverlapTie::Impl::comply(dem::Model& m) {
-  std::vector<Vec3> rate(parts.gap.rows()), none(rate.size()), impulses(rate.size());
+/// The impulses of multipliers that bring the rate of the gap to `goal`, m/s, at the start and where ties have been
+/// made anew.
+void OverlapTie::Impl::comply(dem::Model& m, std::span<const Vec3> goal) {
+  std::vector<Vec3> rate(parts.gap.rows()), excess(rate.size()), none(rate.size()), impulses(rate.size());
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
-  parts.constraint->evaluate({now, none, none, rate, 1.0}, impulses);
+  for (std::size_t r = 0; r < rate.size(); ++r) excess[r] = rate[r] - goal[r];
+  parts.constraint->evaluate({now, none, none, excess, 1.0}, impulses);
   const std::vector<double> mass = yieldingMasses(m);
   std::vector<Vec3> onParticles(m.particles.size()), onNodes(nodes().v.size());
   pullParticles(parts.gap, overlap, impulses, onParticles);
@@ -86,8 +91,22 @@ void OverlapTie::Impl::comply(dem::Model& m) {
     m.particles.v[at] += (1.0 / mass[at]) * onParticles[at];
   }
   if (!loadsNobody) side.kick(onNodes);
-  lost += 0.5 * sumOfProducts(impulses, rate);
+  lost += 0.5 * (sumOfProducts(impulses, rate) + sumOfProducts(impulses, goal));
   complies = true;
+}
+
+std::vector<Vec3> OverlapTie::Impl::accelerationUnder(const dem::Model& m, std::vector<Vec3> onNodes) const {
+  const std::vector<double> mass = yieldingMasses(m);
+  std::vector<Vec3> ofMembers(overlap.size()), acceleration(parts.gap.rows());
+  parallelFor(ofMembers.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto i = static_cast<std::size_t>(overlap.particle[k]);
+      ofMembers[k] = (1.0 / mass[i]) * m.particles.f[i];
+    }
+  });
+  side.mass->solve(onNodes);
+  gapOfMembers(parts.gap, ofMembers, onNodes, acceleration);
+  return acceleration;
 }
 
 void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
@@ -95,24 +114,15 @@ void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
   double dt = step.dt;
   if (parts.constraint->needsRates()) {
     velocity.resize(parts.gap.rows());
-    acceleration.resize(parts.gap.rows());
     if (step.timeless)
       dt = 1.0;
     else
       gapOf(parts.gap, overlap, m.particles.v, nodes().v, velocity);
-    const std::vector<double> mass = yieldingMasses(m);
-    std::vector<Vec3> ofMembers(overlap.size()), ofNodes = side.load.force;
-    parallelFor(ofMembers.size(), grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        const auto i = static_cast<std::size_t>(overlap.particle[k]);
-        ofMembers[k] = (1.0 / mass[i]) * m.particles.f[i];
-      }
-    });
+    std::vector<Vec3> onNodes = side.load.force;
     parallelFor(side.own.size(), 16 * grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n) ofNodes[n] += side.own[n];
+      for (std::size_t n = begin; n < end; ++n) onNodes[n] += side.own[n];
     });
-    side.mass->solve(ofNodes);
-    gapOfMembers(parts.gap, ofMembers, ofNodes, acceleration);
+    acceleration = accelerationUnder(m, std::move(onNodes));
   }
   lambdaBefore = lambda;
   parts.constraint->evaluate({now, increment, velocity, acceleration, dt}, lambda);
@@ -131,7 +141,7 @@ void OverlapTie::Impl::loadNodes(std::span<const Vec3> forces, coupling::NodalLo
 
 void OverlapTie::Impl::apply(dem::Model& m, const dem::Step& step) {
   if (parts.absorber) parts.absorber->apply(m.particles.v, m.particles.f);
-  if (!complies && step.timeless && parts.constraint->needsRates()) comply(m);
+  if (!complies && step.timeless && parts.constraint->needsRates()) comply(m, std::vector<Vec3>(parts.gap.rows()));
   if (actsInWindows()) return;
   evaluate(m, step);
   pullParticles(parts.gap, overlap, lambda, m.particles.f);

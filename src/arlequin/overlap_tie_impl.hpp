@@ -82,16 +82,21 @@ struct OverlapTie::Impl : TieState {
 
   /// Parts that belong to the overlap; rows keep what they had.
   void ready(const dem::Model& m);
+  std::vector<Vec3> inRows(std::span<const Vec3> values, std::span<const int> nodes) const;
   void number(const dem::Particles& particles);
   void turnKept();
   void updateGap(const dem::Model& m, bool timeless);
   void advance(const dem::Model& m);
   void slip();
   void slipMembers();
-  void comply(dem::Model& m);
+  void comply(dem::Model& m, std::span<const Vec3> goal);
   void evaluate(dem::Model& m, const dem::Step& step);
   void apply(dem::Model& m, const dem::Step& step);
   void loadNodes(std::span<const Vec3> forces, coupling::NodalLoad& load) const;
+  /// Of the gap, m/s², under the forces of the particles and those on the nodes, N.
+  std::vector<Vec3> accelerationUnder(const dem::Model& m, std::vector<Vec3> onNodes) const;
+  void answerForces(const dem::Model& m);
+  void answerWindow(const GapRates& rates, bool ends);
   void evaluateWindow(const dem::Model& m, double half);
   std::vector<Vec3> answered(const dem::Model& m, std::span<const Vec3> impulses) const;
 

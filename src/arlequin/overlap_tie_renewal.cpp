@@ -169,6 +169,10 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     if (place.element >= 0) next.elements.push_back(place.element);
   sortUnique(next.elements);
 
+  // In windows the rate between the kicks about their ends is half of what other forces do: new ties keep it.
+  const std::vector<int> nodesOfRows = rowNode;
+  std::vector<Vec3> rate(rowNode.size());
+  if (actsInWindows()) gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
   const double contactsBefore = contactEnergy(m), storedBefore = parts.constraint->storedEnergy(now);
   overlap = std::move(next);
   part = std::move(nextPart);
@@ -186,7 +190,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     keepGap(m);
   else
     startGapAnew(m);
-  if (setting.options.constraint == ConstraintKind::multiplier) comply(m);
+  if (setting.options.constraint == ConstraintKind::multiplier) comply(m, inRows(rate, nodesOfRows));
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, increment);  // of the step, as the new ties see it
   for (Vec3& change : increment) change *= m.step.dt;
   if (!parts.constraint->needsRates() && !actsInWindows())

@@ -1,4 +1,6 @@
 // What overlap ties do at the ends of windows.
+#include <utility>
+
 #include "overlap_tie_impl.hpp"
 
 namespace dovetail::arlequin {
@@ -16,6 +18,30 @@ std::vector<Vec3> OverlapTie::Impl::answered(const dem::Model& m, std::span<cons
   return rate;
 }
 
+/// Multipliers at the first start: those that answer all forces there.
+void OverlapTie::Impl::answerForces(const dem::Model& m) {
+  const std::vector<Vec3> before = side.model->nodes.f, none(now.size());
+  fem::evaluateForces(*side.model, {.t = side.model->t, .mass = side.mass});
+  std::vector<Vec3> onNodes = std::exchange(side.model->nodes.f, before);
+  for (const int node : side.load.touched)
+    onNodes[static_cast<std::size_t>(node)] += side.load.force[static_cast<std::size_t>(node)];
+  parts.constraint->evaluate({now, none, none, accelerationUnder(m, std::move(onNodes)), 1.0}, lambda);
+}
+
+/// Multipliers at the ends of windows of length h. Other forces change the rate of the gap by c within a window, λ by
+/// −h A λ in the two kicks about its end. λ' after which rates comply between these kicks holds c/(h A) as a mean, but
+/// what it is off changes its sign from window to window for ever. Of λ = ¼ λ_before + ¾ λ' it falls by half in each,
+/// and λ takes h²/12 of Δ(λ·A λ), a function of the state, and of Δλ·A Δλ, which is never negative. At a start the
+/// second kick is the only one, and half of the c that λ before tells is yet to come.
+void OverlapTie::Impl::answerWindow(const GapRates& rates, bool ends) {
+  constexpr double kept = 0.25;
+  const std::vector<Vec3> before = lambda;
+  parts.constraint->evaluate(rates, lambda);
+  if (!parts.constraint->needsRates()) return;
+  for (std::size_t r = 0; r < lambda.size(); ++r)
+    lambda[r] = ends ? (1.0 - kept) * lambda[r] + kept * before[r] : lambda[r] + before[r];
+}
+
 /// λ at the end of a window, which acts in both half windows about it: what it takes is the work of these two kicks
 /// against the means of the rates before and after each. At a start there is the second one only.
 void OverlapTie::Impl::evaluateWindow(const dem::Model& m, double half) {
@@ -27,11 +53,12 @@ void OverlapTie::Impl::evaluateWindow(const dem::Model& m, double half) {
     damped[r] = lags ? 0.5 * (change[r] + windowIncrement[r]) : change[r];
   }
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
-  parts.constraint->evaluate({now, damped, rate, none, half}, lambda);
+  const bool ends = windowTime && m.time > *windowTime;
+  if (!windowTime && parts.constraint->needsRates()) answerForces(m);
+  answerWindow({now, damped, rate, none, half}, ends);
   std::vector<Vec3> impulses = lambda;
   for (Vec3& impulse : impulses) impulse *= half;
   const double against = sumOfProducts(impulses, rate), own = sumOfProducts(impulses, answered(m, impulses));
-  const bool ends = windowTime && m.time > *windowTime;
   if (ends) lost += openingWork + against - 0.5 * own;
   openingWork = against - (ends ? 1.5 : 0.5) * own;
   windowTime = m.time;

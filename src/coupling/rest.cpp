@@ -31,6 +31,7 @@ void CoupledRun::stop() {
   }
   for (const auto& solid : impl_->solids) std::ranges::fill(solid->side.nodes().v, Vec3{});
   impl_->broughtToRest -= kineticEnergy();
+  impl_->tellVelocities();
   const Totals after = impl_->sums();
   impl_->outside.given.give("brought to rest",
                             {after.momentum - before.momentum, after.angularMomentum - before.angularMomentum});

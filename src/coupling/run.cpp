@@ -195,6 +195,17 @@ void CoupledRun::Impl::constrainWindow() {
   }
 }
 
+/// The second of the kicks about the end of a window meets other velocities than the first has left.
+void CoupledRun::Impl::tellVelocities() {
+  for (const auto* connector : grains.terms.all<Connector>()) {
+    SolidSide& side = connector->side();
+    if (!connector->constrains() || side.stepping != Stepping::implicitSteps) continue;
+    std::vector<Vec3> same(grains.particles.size());
+    NodalLoad load(side.nodes().X.size());
+    connector->constrainWindow(grains, {}, 0.5 * window(), same, load);
+  }
+}
+
 void CoupledRun::Impl::kickByWindowForce() {
   dem::Particles& p = grains.particles;
   dem::close(grains);

@@ -72,6 +72,7 @@ struct CoupledRun::Impl {
   void stepParticles(bool last);
   void jumpBetweenSteps();
   void constrainWindow();
+  void tellVelocities();
   void kickByWindowForce();
   void lagWindow();
   void rememberLoads();
