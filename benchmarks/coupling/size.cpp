@@ -1,6 +1,7 @@
 // Overlaps from 1e4 grains and elements to 1e5: memory, time per step and of its tie, price of a renewal, exponents.
 //
 //     coupling_size [cells across …] [part of a coupling's name]     by default 17 30 54, and all of them
+//     coupling_size flow [part of a coupling's name]                 what renewals take of a run in which a bed slides
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -184,6 +185,63 @@ Measured measure(int across, const Way& way) {
   return m;
 }
 
+struct Flow {
+  double between = 0.0;  // steps from one renewal to the next
+  double price = 0.0;    // of a renewal, in other steps
+  double share = 0.0;    // of the run's time that renewals take
+};
+
+/// A bed that is pushed down through the overlap with a hundredth of the wave speed, past a solid that is held where it
+/// is: over two periods from renewal to renewal, by two threads.
+Flow measureFlow(Scene& scene, double dt) {
+  coupling::CoupledRun& run = scene.run;
+  run.start(dt);
+  const Vec3 velocity{0.0, 0.0, -0.01 * std::sqrt(modulus / density)};
+  double plain = 0.0, all = 0.0;
+  int steps = 0, renewals = 0;
+  for (bool counts = false; renewals < 2;) {
+    std::ranges::fill(run.grains.particles.v, velocity);
+    std::ranges::fill(run.solid(0).nodes().v, Vec3{});
+    std::ranges::fill(run.solid(0).nodes().u, Vec3{});
+    const std::int64_t before = scene.tie->state().relocations;
+    const double begin = now();
+    run.step(false);
+    const double took = now() - begin;
+    const bool renews = scene.tie->state().relocations > before;
+    if (counts) {
+      all += took;
+      ++steps;
+      if (renews)
+        ++renewals;
+      else
+        plain += took;
+    }
+    counts = counts || renews;
+  }
+  const double one = plain / (steps - renewals), ofRenewals = all - steps * one;
+  return {static_cast<double>(steps) / renewals, ofRenewals / one / renewals, ofRenewals / all};
+}
+
+void printFlows(const std::string& only) {
+  constexpr int across = 17;
+  const double crossing = edge / std::sqrt(modulus / density);
+  std::printf("A bed slides at 0.01 c, %d cells across, 2 threads. Steps in element sizes over c.\n", across);
+  std::printf("%-22s %8s %14s %15s %10s\n", "coupling", "step", "steps between", "price in steps", "share / %");
+  for (const Way& way : ways) {
+    if (std::string(way.name).find(only) == std::string::npos) continue;
+    for (const bool atLimit : {false, true}) {
+      const auto scene = makeScene(across, way);
+      double dt = 0.004 * crossing;
+      scene->run.start(dt);
+      if (atLimit) dt = 0.2 * scene->run.criticalStep().dt;
+      const Flow flow = measureFlow(*scene, dt);
+      std::printf("%-22s %8.4f %14.0f %15.1f %10.1f\n", way.name, dt / crossing, flow.between, flow.price,
+                  100.0 * flow.share);
+      std::fflush(stdout);
+    }
+  }
+}
+
 void print(int across, const Way& way, const Measured& m) {
   std::printf("%-22s %4d %7zu %7zu %6zu %7.0f %8.2f %9.2f %9.2f %6.2f %9.2f %6.2f %8.1f %8.1f\n", way.name, across,
               m.grains, m.elements, m.rows, m.memory, m.setUp, 1e3 * m.step, 1e3 * m.tie, m.tie / m.tieTwo,
@@ -196,11 +254,15 @@ void print(int across, const Way& way, const Measured& m) {
 int main(int argc, char** argv) try {
   std::vector<int> sizes;
   std::string only;
+  bool flows = false;
   for (int k = 1; k < argc; ++k)
     if (const int across = std::atoi(argv[k]); across > 0)
       sizes.push_back(across);
+    else if (argv[k] == std::string("flow"))
+      flows = true;
     else
       only = argv[k];
+  if (flows) return printFlows(only), 0;
   if (sizes.empty()) sizes = {17, 30, 54};
   std::printf("Threads: 2 unless told. Renewals in steps by two threads.\n");
   std::printf("%-22s %4s %7s %7s %6s %7s %8s %9s %9s %6s %9s %6s %8s %8s\n", "coupling", "wide", "grains", "bricks",

@@ -140,15 +140,16 @@ void addVolumes(const std::vector<int>& elements, const fem::SolidMesh& mesh, co
 
 /// Bᵀ by the nodes that it touches.
 void addNodesBack(GapOperator& gap) {
-  const cg::Projection all = cg::transposed(gap.nodes);
-  Rows rows;
-  for (int n = 0; n < all.rows(); ++n) {
-    if (all.rowColumns(n).empty()) continue;
-    gap.coupledNode.push_back(n);
-    rows.emplace_back();
-    for (int k = all.offsets[n]; k < all.offsets[n + 1]; ++k) rows.back().emplace_back(all.column[k], all.weight[k]);
-  }
-  gap.nodesBack = cg::fromRows(all.columns, rows);
+  gap.nodesBack = cg::transposed(gap.nodes);
+  std::vector<int>& offsets = gap.nodesBack.offsets;
+  for (std::size_t n = 0; n + 1 < offsets.size(); ++n)
+    if (offsets[n + 1] > offsets[n]) {
+      offsets[gap.coupledNode.size()] = offsets[n];
+      gap.coupledNode.push_back(static_cast<int>(n));
+    }
+  const int end = offsets.back();
+  offsets.resize(gap.coupledNode.size() + 1);
+  offsets.back() = end;
 }
 
 }  // namespace
