@@ -72,8 +72,9 @@ public:
   OverlapState state() const;
 
 private:
-  friend std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model&, const fem::SolidMesh&, std::vector<double>,
-                                                    coupling::SolidSide&, const CouplingOptions&);
+  friend std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
+                                                    std::vector<double> nodalWeight, coupling::SolidSide& side,
+                                                    const CouplingOptions& options);
   explicit OverlapTie(coupling::SolidSide& side);
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -32,9 +32,9 @@ public:
   bool constrains() const { return order() == Order::constraints; }
   /// Of constraints, in windows of several steps: the force, constant in both half windows around the present instant,
   /// that answers forces which act there only: adds to `onParticles` and `load`, N.
-  /// @param ownForce  of the solid, N; empty if the solid is stepped implicitly, and velocities are to be made to
-  /// comply
-  /// @param half  window, s
+  /// `ownForce` is that of the solid, N; empty if the solid is stepped implicitly, and velocities are to be made to
+  /// comply.
+  /// `half` is half a window, s.
   virtual void constrainWindow(const dem::Model&, std::span<const Vec3> /*ownForce*/, double /*half*/,
                                std::span<Vec3> /*onParticles*/, NodalLoad& /*load*/) const {}
 

@@ -32,7 +32,7 @@ KeyValues provenance(const KeyValues& settings = {});
 /// The same entries, with "version" put first if it is missing: the mark by which a later run knows its own files.
 KeyValues withMark(KeyValues provenance);
 
-/// One line per entry, "<prefix>key: value\n"; line breaks and backslashes of a value become \n, \r and \\.
+/// One line per entry, `<prefix>key: value\n`; line breaks and backslashes of a value become `\n`, `\r` and `\\`.
 std::string provenanceLines(const KeyValues& provenance, const std::string& prefix = "");
 
 }  // namespace dovetail::io

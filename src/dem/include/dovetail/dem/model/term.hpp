@@ -90,8 +90,8 @@ public:
   virtual void addEnergies(const Model&, Energies&) const {}
   virtual void addMomenta(const Model&, Momenta&) const {}
   /// What does not act among particles and bodies but on them from outside, with its moments about the origin.
-  /// @param force    adds what the last forces hold of it, N and N m, at the places of the last evaluation
-  /// @param impulse  adds what it has given beside forces so far, kg m/s and kg m²/s
+  /// Adds to the first what the last forces hold of it, N and N m, at the places of the last evaluation; to the second
+  /// what it has given beside forces so far, kg m/s and kg m²/s.
   virtual void addOutside(const Model&, Momenta& /*force*/, Momenta& /*impulse*/) const {}
   /// Appends the contacts of particles with what it stands for, as the last evaluation left them (see sampleContacts).
   virtual void addContacts(const Model&, ContactSample&) const {}

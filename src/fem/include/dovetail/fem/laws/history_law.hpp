@@ -95,15 +95,15 @@ private:
 
 /// Wraps a law with history. It has
 ///
-///   std::size_t historySize() const;
-///   template <class T> void step(PointStep<T>& step) const;   // T = double and Jet<double, 1>; may branch
+///     std::size_t historySize() const;
+///     template <class T> void step(PointStep<T>& step) const;   // T = double and Jet<double, 1>; may branch
 ///
 /// reads step.F, dt and history, and writes P, newHistory (through valueOf()), energy and dissipated. The tangent is
 /// differentiated, through iterations too if they do one more round after they have converged. It may have
 ///
-///   void start(std::span<double> history) const;              // of a point never loaded; otherwise zeros
+///     void start(std::span<double> history) const;              // of a point never loaded; otherwise zeros
 ///   bool isSymmetric() const;                                 // otherwise false
-///   std::string whyInvalid(const double* F) const;
+///     std::string whyInvalid(const double* F) const;
 ///
 /// For speed it may have, in place of the template, a step that writes the tangent unless the pointer is null:
 ///

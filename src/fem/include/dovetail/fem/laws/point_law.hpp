@@ -200,18 +200,18 @@ public:
 /// Wraps an elastic law. It has, for T = double, Four and Jets of both (so: no branch on the values of T, and functions
 /// found by `using std::sqrt, std::log …`):
 ///
-///   template <class T> T energy(const Tensor<T>& F) const;           // J/m³; stress and tangent are differentiated
+///     template <class T> T energy(const Tensor<T>& F) const;           // J/m³; stress and tangent are differentiated
 ///
 /// and may have
 ///
-///   template <class T> Tensor<T> stress(const Tensor<T>& F) const;   // P, Pa; only the tangent is differentiated
-///   static constexpr bool hasPotential = false;                      // stress is not the derivative of energy
-///   static constexpr bool branches = true;                           // one point at a time: T is double or Jets of it
-///   std::string whyInvalid(const double* F) const;
+///     template <class T> Tensor<T> stress(const Tensor<T>& F) const;   // P, Pa; only the tangent is differentiated
+///     static constexpr bool hasPotential = false;                      // stress is not the derivative of energy
+///     static constexpr bool branches = true;                           // one point at a time: T is double or Jets of
+///     it std::string whyInvalid(const double* F) const;
 ///
 /// For speed it may do everything itself: write P, write the tangent unless the pointer is null, return the energy:
 ///
-///   template <class T> T respond(const Tensor<T>& F, Tensor<T>& P, const TangentOut<T>* tangent) const;
+///     template <class T> T respond(const Tensor<T>& F, Tensor<T>& P, const TangentOut<T>* tangent) const;
 ///
 /// Where det F ≤ 0 the stress becomes NaN, whatever the law says.
 /// @param density  reference, kg/m³
