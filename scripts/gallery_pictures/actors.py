@@ -79,16 +79,18 @@ def bar(field, table):
     made.SetTextPositionToPrecedeScalarBar()
     made.SetVerticalTitleSeparation(6)
     made.SetBarRatio(0.3)
-    for text, size in ((made.GetTitleTextProperty(), 17), (made.GetLabelTextProperty(), 15)):
+    for text in (made.GetTitleTextProperty(), made.GetLabelTextProperty()):
         text.SetColor(0.15, 0.15, 0.15)
-        text.SetFontSize(size)
         text.ItalicOff()
         text.BoldOff()
         text.ShadowOff()
     return made
 
 
-def place_bar(made, number, count):
+def place_bar(made, number, count, rows):
+    """@param rows  of pixels of the picture"""
+    made.GetTitleTextProperty().SetFontSize(rows * 17 // 600)
+    made.GetLabelTextProperty().SetFontSize(rows * 15 // 600)
     width = min(0.3, 0.66 / count)
     made.SetWidth(width)
     made.SetHeight(0.11)
@@ -204,7 +206,7 @@ def solid(path, name, picture):
     actor.SetMapper(mapper)
     actor.GetProperty().SetAmbient(0.25)
     actor.GetProperty().SetOpacity(picture.solid_opacity)
-    actor.GetProperty().EdgeVisibilityOn()
+    actor.GetProperty().SetEdgeVisibility(not picture.cut)  # cuts go through elements
     actor.GetProperty().SetEdgeColor(0.45, 0.42, 0.42)
     return actor, made_bar
 

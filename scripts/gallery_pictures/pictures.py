@@ -42,7 +42,7 @@ PICTURES = (
             contents="solids,stress,history", solids={"clay": "plastic_strain"}, direction=(0.5, -1.0, 0.7)),
     Picture("footing", "Cut open: through the overlap the weight of the grains falls from 1 to 0, and the share of the soil rises as much.",
             contents="solids,stress,weights", grains="weight", solids={"soil": "share", "plate": "von_mises"},
-            cut=("y", 0.105, 0.12), direction=(0.35, -1.0, 0.3), zoom=1.2),
+            cut=("y", 0.105, 0.12), direction=(0.35, -1.0, 0.3), zoom=1.1),
     Picture("footing", "The force of the plate goes down in chains of contacts, and on into the soil as stress.",
             contents="contacts,solids,stress", grain_opacity=0.12, lines="contacts", line_radius=(0.0002, 0.004),
             direction=(0.35, -1.0, 0.3), name="footing-forces"),

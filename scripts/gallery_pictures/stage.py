@@ -79,7 +79,7 @@ class Stage:
         text.SetPosition(12, self.size[1] - self.size[1] // 16)
         self.renderer.AddViewProp(text)
         for number, bar in enumerate(bars):
-            actors.place_bar(bar, number, len(bars))
+            actors.place_bar(bar, number, len(bars), self.size[1])
             self.renderer.AddViewProp(bar)
 
     def place_camera(self):
@@ -98,7 +98,8 @@ class Stage:
     def extent(self):
         """Of the box around everything, in the window: −1 … 1 across and upwards."""
         bounds = self.renderer.ComputeVisiblePropBounds()
-        matrix = self.renderer.GetActiveCamera().GetCompositeProjectionTransformMatrix(self.size[0] / self.size[1], 0, 1)
+        camera = self.renderer.GetActiveCamera()
+        matrix = camera.GetCompositeProjectionTransformMatrix(self.size[0] / self.size[1], 0, 1)
         seen = []
         for corner in itertools.product(bounds[0:2], bounds[2:4], bounds[4:6]):
             x, y, _, w = matrix.MultiplyPoint((*corner, 1.0))
