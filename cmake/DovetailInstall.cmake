@@ -54,10 +54,10 @@ install(FILES "${PROJECT_BINARY_DIR}/dovetailConfig.cmake" "${PROJECT_BINARY_DIR
         DESTINATION "${package_folder}")
 
 # The documents lie as in the source tree, so that their links hold.
-foreach(file README.md CONTRIBUTING.md LICENSE)
+foreach(file README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff LICENSE)
   install(FILES "${PROJECT_SOURCE_DIR}/${file}" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 endforeach()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" "${PROJECT_SOURCE_DIR}/examples" "${PROJECT_SOURCE_DIR}/scenes"
-        DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+        DESTINATION "${CMAKE_INSTALL_DOCDIR}" PATTERN Doxyfile.in EXCLUDE)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/benchmarks" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
         FILES_MATCHING PATTERN "*.md")

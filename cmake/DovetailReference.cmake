@@ -13,7 +13,8 @@ list(REMOVE_DUPLICATES header_folders)
 file(GLOB_RECURSE readmes "${PROJECT_SOURCE_DIR}/benchmarks/*.md" "${PROJECT_SOURCE_DIR}/examples/*.md"
      "${PROJECT_SOURCE_DIR}/scenes/*.md")
 file(GLOB documents "${PROJECT_SOURCE_DIR}/docs/*.md")
-set(inputs "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CONTRIBUTING.md" ${documents} ${readmes})
+set(inputs "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CONTRIBUTING.md"
+    "${PROJECT_SOURCE_DIR}/CHANGELOG.md" ${documents} ${readmes})
 list(JOIN header_folders "\" \"" REFERENCE_HEADERS)
 list(JOIN inputs "\" \"" REFERENCE_INPUT)
 set(REFERENCE_HEADERS "\"${REFERENCE_HEADERS}\"")

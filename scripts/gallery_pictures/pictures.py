@@ -37,7 +37,7 @@ PICTURES = (
     Picture("plate", "The plate bends under the layer; stress is largest at the clamp, and beads at the rim are on their way up.",
             frame=0.45, direction=(-0.35, -1.0, 0.5)),
     Picture("tray", "The rubber sags under the weight; stress is largest along the two clamped sides.",
-            contents="solids,stress", direction=(0.45, -1.0, 0.55)),
+            direction=(0.45, -1.0, 0.55)),
     Picture("pile", "Clay that has yielded keeps the dents of the first impacts.",
             contents="solids,stress,history", solids={"clay": "plastic_strain"}, direction=(0.5, -1.0, 0.7)),
     Picture("footing", "Cut open: through the overlap the weight of the grains falls from 1 to 0, and the share of the soil rises as much.",

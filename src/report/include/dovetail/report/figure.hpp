@@ -29,8 +29,8 @@ struct Figure {
 /// Round ticks that cover low … high: 1, 2 or 5 times a power of ten apart, at most `most`; at least two. high > low.
 std::vector<double> roundTicks(double low, double high, int most);
 
-/// The figure as an <svg> element with ticks, labels and legend. Colours are classes (see figureStyle), sizes those of
-/// a column that is 440 wide, so that it can be read on a telephone. Long curves keep their extremes at each place.
+/// The figure as an `<svg>` element with ticks, labels and legend. Colours are classes (see figureStyle), sizes those
+/// of a column that is 440 wide, so that it can be read on a telephone. Long curves keep their extremes at each place.
 std::string svgOf(const Figure& figure);
 
 /// The same with its colours, for a file of its own.

@@ -32,7 +32,7 @@ struct Study {
   std::vector<StudyCase> cases;
   std::vector<Front> fronts;
   std::vector<std::string> shown;  ///< figures for the printed lines and the Markdown
-  Json about = Json::object();     ///< goes into <name>.json
+  Json about = Json::object();     ///< goes into `<name>.json`
   int workers = 0;                 ///< processes at once; 0: one run after the other in this process
   bool quiet = false;              ///< no lines, no progress
 };
@@ -40,7 +40,7 @@ struct Study {
 /// Names of the files that a study writes.
 std::vector<std::string> filesOf(const Study& study);
 
-/// Runs all cases, prints a line for each, and writes <name>.csv, .json, .md and, with a front, .svg into the folder,
+/// Runs all cases, prints a line for each, and writes `<name>.csv`, .json, .md and, with a front, .svg into the folder,
 /// anew with every run, rows in the order of the cases. A column "outcome" tells finished, not stable, broke down or
 /// refused, "message" why. Signals that ask to end (io/interruption.hpp) are handed on to the processes.
 /// @return whether all were run; if not, `error` got a line that says so, and runs that were under way have no row
