@@ -1,7 +1,8 @@
 #!/bin/bash
 # run_tutorial.sh DOCUMENT FOLDER PROGRAM: does what the tutorial says, with the run of its scene shortened.
 set -eu
-export PATH="$(dirname "$3"):$PATH" OMP_NUM_THREADS=1
+programs="$(dirname "$3")"
+export PATH="$programs:$PATH" OMP_NUM_THREADS=1
 rm -rf "$2"
 bash "$(dirname "$0")/extract.sh" "$1" "$2"
 cd "$2"
