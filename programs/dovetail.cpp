@@ -33,8 +33,11 @@ struct Options {
 
 bool runScene(const Options& options) {
   const scene::Scene scene = scene::readScene(options.file, options.settings);
-  const std::string folder =
+  const std::filesystem::path folder =
       options.out.empty() ? std::filesystem::path(options.file).stem().string() + "-out" : options.out;
+  if (std::error_code error; std::filesystem::equivalent(options.file, folder / "scene.json", error))
+    throw InputError("the run would put the scene in full in place of this file", options.file,
+                     "give another folder by --out, or resume the run of this folder");
   return scene::run(scene, {.folder = folder, .profile = options.profile}, std::cout);
 }
 bool checkScene(const Options& options) {

@@ -168,6 +168,10 @@ dem::Term::Order OverlapTie::order() const {
 
 void OverlapTie::check(const dem::Model& m) const {
   const std::vector<char> inBodies = dem::members(m);
+  for (const int number : impl_->near)
+    if (number < 0 || static_cast<std::size_t>(number) >= m.particles.size())
+      throw InputError("there is no particle " + std::to_string(number), "near the overlap",
+                       "take an older checkpoint");
   for (std::size_t k = 0; k < impl_->overlap.size(); ++k) {
     const auto i = static_cast<std::size_t>(impl_->overlap.particle[k]);
     if (i >= m.particles.size())

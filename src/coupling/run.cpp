@@ -22,7 +22,7 @@ void requireOwnName(const std::string& name, const std::vector<std::unique_ptr<S
   const bool taken = std::ranges::any_of(solids, [&](const auto& other) { return other->side.name == name; });
   if (taken || name == "particles")
     throw InputError("there is something of that name already", "solid \"" + name + "\"",
-                     "give every solid a name of its own (SolidOptions::name)");
+                     "give every solid a name of its own");
 }
 
 }  // namespace
@@ -46,21 +46,35 @@ const SolidSide& CoupledRun::solid(std::size_t k) const { return impl_->solids.a
 double CoupledRun::dt() const { return impl_->dt; }
 double CoupledRun::window() const { return impl_->window(); }
 
+void CoupledRun::Impl::findForces(double step, const RunOptions& with) {
+  joinParticles();
+  requireSides();
+  dem::close(grains);
+  dt = step;
+  options = with;
+  for (const auto& solid : solids) solid->start(dt, K());
+  const bool refuses = std::exchange(grains.refusesUnstableSteps, false);  // the limit of the whole decides
+  sampled = ownForcesDue = true;
+  dem::findForces(grains);
+  ownForcesDue = false;
+  grains.refusesUnstableSteps = refuses;
+}
+
+StepLimit CoupledRun::limitAtStart(const RunOptions& options) {
+  constexpr double noTime = 1e-12;  // s: prescribed paths are looked at over so much
+  requireOptions(options, noTime);
+  if (impl_->started) throw InputError("the run has started", "limitAtStart", "call criticalStep()");
+  impl_->findForces(noTime, options);
+  return impl_->criticalStep();
+}
+
 void CoupledRun::start(double dt, const RunOptions& options) {
   requireOptions(options, dt);
   Impl& run = *impl_;
-  run.joinParticles();
-  run.requireSides();
-  dem::close(grains);
-  const double lastDt = std::exchange(run.dt, dt);
-  const RunOptions lastOptions = std::exchange(run.options, options);
-  for (const auto& solid : run.solids) solid->start(dt, options.stepsPerWindow);
-  const bool refuses = std::exchange(grains.refusesUnstableSteps, false);  // the limit of the whole decides
-  run.sampled = run.ownForcesDue = true;
-  dem::findForces(grains);
-  run.ownForcesDue = false;
-  grains.refusesUnstableSteps = refuses;
-  if (refuses) {
+  const double lastDt = run.dt;
+  const RunOptions lastOptions = run.options;
+  run.findForces(dt, options);
+  if (grains.refusesUnstableSteps) {
     const StepLimit limit = run.criticalStep();
     if (dt > limit.dt) {
       grains.refusesUnstableSteps = false;
@@ -70,7 +84,7 @@ void CoupledRun::start(double dt, const RunOptions& options) {
           "dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) + " s that " + limit.owner +
               " sets",
           "time step",
-          "take a fifth of the limit or less; if a solid sets it, fewer stepsPerWindow or an implicit solid");
+          "take a fifth of the limit or less; if a solid sets it, fewer steps per window or an implicit solid");
     }
   }
   run.constrainWindow();

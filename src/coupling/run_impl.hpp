@@ -67,6 +67,8 @@ struct CoupledRun::Impl {
   void joinParticles();
   void requireSides() const;
   void requireStarted(const char* what) const;
+  /// Of the particles, solids and connectors as they are, for steps that long.
+  void findForces(double step, const RunOptions& with);
 
   void window(bool wantsEnergies);
   void stepParticles(bool last);

@@ -44,7 +44,9 @@ void add(dem::Model& grains, const BondGroup& group, const Groups& groups, std::
   const std::vector<char> other = group.with.empty() ? one : membersOf(grains.particles, groups, group.with);
   dem::PairList near;
   near.setPeriodicity(grains.pairs.periodicity());
-  near.setSkin(group.gap + 1e-9 * *std::max_element(grains.particles.radius.begin(), grains.particles.radius.end()));
+  double largest = 0.0;  // m
+  for (const double radius : grains.particles.radius) largest = std::max(largest, radius);
+  near.setSkin(group.gap + 1e-9 * largest);
   dem::findPairs(grains.particles, near);
   const int count =
       dem::bondTouching(dem::bonds(grains), grains.particles, near, group.gap, materialOf(group), [&](int i, int j) {

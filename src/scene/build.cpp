@@ -8,12 +8,11 @@
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
 #include "parts.hpp"
+#include "time_functions.hpp"
 
 namespace dovetail::scene {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void setLaws(dem::Model& grains, const Scene& scene) {
   if (scene.contact || !scene.contacts.empty()) {
@@ -25,21 +24,46 @@ void setLaws(dem::Model& grains, const Scene& scene) {
   grains.laws = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 1.0}});  // of a scene without grains
 }
 
-std::vector<Limit> limitsOfSolids(Built& built, int stepsPerWindow) {
+/// Those that do not depend on how things lie now.
+std::vector<Limit> limitsOfParts(Built& built, const Scene& scene) {
   std::vector<Limit> found;
   for (std::size_t s = 0; s < built.run->solids(); ++s) {
     coupling::SolidSide& side = built.run->solid(s);
     if (side.stepping == coupling::Stepping::implicitSteps) continue;
     const fem::ModelStableStep stable = fem::stableStep(*side.model);
-    found.push_back(
-        {"element " + std::to_string(stable.element) + " of \"" + side.name + "\"", stable.dt / stepsPerWindow});
+    found.push_back({"element " + std::to_string(stable.element) + " of \"" + side.name + "\"",
+                     stable.dt / scene.steps.stepsPerWindow});
   }
+  found.push_back({"an impact of the smallest grains", impactLimit(scene, built.run->grains.particles)});
   return found;
+}
+
+bool goesOn(const TimeVector& velocity, const Vec3& angularVelocity = {}) {
+  return norm(constantOf(velocity)) > 0.0 || norm(angularVelocity) > 0.0;
+}
+
+/// What has a steady velocity goes on while a stage settles, or is stopped with all else.
+void requireStandstill(const Scene& scene) {
+  const auto settles = [](const Stage& stage) { return std::holds_alternative<Settle>(stage.kind); };
+  if (std::none_of(scene.stages.begin(), scene.stages.end(), settles)) return;
+  const auto refuse = [](const std::string& what, const std::string& where) {
+    throw InputError("a stage settles, but " + what + " has a steady velocity", where,
+                     "run for a time in place of settling, or let it begin later by a displacement such as "
+                     "\"0.1*max(0, t - 1)\"");
+  };
+  for (const Wall& wall : scene.walls)
+    if (goesOn(wall.velocity, wall.angularVelocity)) refuse("a wall", wall.where);
+  for (const Drive& drive : scene.drives)
+    if (goesOn(drive.velocity)) refuse("a drive", drive.where);
+  for (const Solid& solid : scene.solids)
+    for (const Support& support : solid.supports)
+      if (goesOn(support.velocity)) refuse("a support", support.where);
 }
 
 }  // namespace
 
 Built build(const Scene& scene) {
+  requireStandstill(scene);
   if (scene.steps.threads > 0) setThreads(scene.steps.threads);
   Built built{std::make_unique<coupling::CoupledRun>(), {}, {}, {}};
   dem::Model& grains = built.run->grains;
@@ -63,9 +87,8 @@ void start(Built& built, const Scene& scene) {
   const coupling::RunOptions options{.stepsPerWindow = scene.steps.stepsPerWindow};
   atPlace(scene.steps.where, [&] {
     if (scene.steps.dt.word.empty()) return built.run->start(scene.steps.dt.number, options);
-    built.run->start(1e-12, options);
-    double smallest = infinity;
-    for (const Limit& limit : limits(built, scene)) smallest = std::min(smallest, limit.dt);
+    double smallest = built.run->limitAtStart(options).dt;
+    for (const Limit& limit : limitsOfParts(built, scene)) smallest = std::min(smallest, limit.dt);
     if (!std::isfinite(smallest))
       throw InputError("nothing in the scene tells a step", "", "give steps.dt a number, such as \"1e-4 s\"");
     built.run->start(scene.steps.safety * smallest, options);
@@ -73,8 +96,7 @@ void start(Built& built, const Scene& scene) {
 }
 
 std::vector<Limit> limits(Built& built, const Scene& scene) {
-  std::vector<Limit> found = limitsOfSolids(built, scene.steps.stepsPerWindow);
-  found.push_back({"an impact of the smallest grains", impactLimit(scene, built.run->grains.particles)});
+  std::vector<Limit> found = limitsOfParts(built, scene);
   const coupling::StepLimit now = built.run->criticalStep();
   found.push_back({"the whole as it is now (" + now.owner + ")", now.dt});
   return found;

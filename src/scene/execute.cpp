@@ -1,7 +1,5 @@
 #include "dovetail/scene/execute.hpp"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <cmath>
 #include <ostream>
@@ -15,6 +13,7 @@
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/scene/read.hpp"
 #include "frames.hpp"
+#include "plan.hpp"
 #include "series.hpp"
 #include "summary.hpp"
 
@@ -50,21 +49,15 @@ public:
         built_(build(scene)) {
     built_.run->profile = Profile(settings.profile);
     start(built_, scene);
-    for (const Stage& stage : scene.stages)
-      if (const auto* const plan = std::get_if<RunFor>(&stage.kind)) windowsIn(plan->time);
-    if (scene.output.series) seriesEvery_ = windowsIn(*scene.output.series);
-    if (scene.output.frames) framesEvery_ = windowsIn(*scene.output.frames);
-    if (scene.output.checkpoints) checkpointsEvery_ = windowsIn(*scene.output.checkpoints);
-    if (seriesEvery_ > 0)
+    plan_ = planOf(built_, scene);
+    if (plan_.series > 0)
       series_ = std::make_unique<Series>(built_, scene.output.probes,
-                                         SeriesFiles{settings.folder, provenance_, scene.output.hdf5});
-    else
-      refuseWithoutSeries();
+                                         SeriesFiles{settings.folder, provenance_, scene.output.hdf5, plan_.series});
     if (goesOn) {
       progress_ = readCheckpoint(settings.folder, hash_, *built_.run);
       if (series_) series_->takeUp(progress_.rows);
     }
-    if (framesEvery_ > 0)
+    if (plan_.frames > 0)
       frames_ = std::make_unique<Frames>(built_, scene, settings.folder, provenance_, progress_.frames);
     for (const std::string& note : built_.notes) log_ << note << '\n';
     if (goesOn) return;
@@ -78,11 +71,12 @@ public:
     for (; progress_.stage < scene_.stages.size(); ++progress_.stage, progress_.window = 0) {
       const Clock::time_point begun = Clock::now();
       const Stage& stage = scene_.stages[progress_.stage];
-      if (!std::visit([&](const auto& kind) { return execute(kind); }, stage.kind)) return stop();
+      const auto* const settle = std::get_if<Settle>(&stage.kind);
+      if (!(settle ? comeToRest(*settle) : runFor(plan_.stages[progress_.stage]))) return stop();
       notes_.stages.push_back({progress_.stage + 1, nameOf(stage), rounded(since(begun))});
       note("stage " + std::to_string(progress_.stage + 1) + ": " + formatNumber(rounded(since(begun))) + " s");
     }
-    if (checkpointsEvery_ > 0) checkpoint();
+    if (plan_.checkpoints > 0) checkpoint();
     close();
     summarise();
     return true;
@@ -91,14 +85,6 @@ public:
 private:
   fs::path file(const char* name) const { return settings_.folder / name; }
   static double rounded(double seconds) { return std::round(1e3 * seconds) / 1e3; }
-  std::int64_t windowsIn(double seconds) const {
-    const double count = seconds / built_.run->window();
-    if (!(count < 1e15))
-      throw InputError(
-          formatNumber(seconds) + " s are more than 1e15 windows of " + formatNumber(built_.run->window()) + " s",
-          scene_.steps.where, "take a shorter time or a larger step");
-    return std::max<std::int64_t>(1, std::llround(count));
-  }
   /// Files that this run may not write, or only at its end.
   void removeEarlierRun() const {
     for (const char* const old : {"checkpoint.state", "checkpoint.previous.state", "summary.txt", "summary.json",
@@ -116,18 +102,12 @@ private:
   static const char* nameOf(const Stage& stage) {
     return std::holds_alternative<Settle>(stage.kind) ? "settle" : "run";
   }
-  void refuseWithoutSeries() const {
-    const char* const asked = !scene_.output.probes.empty() ? "probes" : scene_.output.hdf5 ? "hdf5" : nullptr;
-    if (asked)
-      throw InputError(std::string("output has ") + asked + ", but no series", scene_.output.where,
-                       "give output.series an interval, or leave them out");
-  }
   void note(const std::string& line) {
     notes_.lines.push_back(line);
     log_ << line << std::endl;
   }
 
-  bool execute(const Settle& settle) {
+  bool comeToRest(const Settle& settle) {
     coupling::RestProgress& rest = progress_.rest;
     const coupling::RestOptions options{.kinetic = settle.kinetic, .windows = settle.windows};
     for (bool ended = false; !ended;) {
@@ -135,12 +115,13 @@ private:
       ended = coupling::settleOn(*built_.run, options, rest, next - progress_.window);
       progress_.window = rest.report.windows;
       if (ended) break;
-      if (due(checkpointsEvery_)) checkpoint();
+      if (due(plan_.checkpoints)) checkpoint();
       if (io::interruption() != 0) return false;
     }
     const std::string line = std::string(rest.report.atRest ? "at rest" : "NOT at rest") + " after " +
                              std::to_string(rest.report.windows) + " windows, kinetic over elastic energy " +
-                             formatNumber(rest.report.kinetic);
+                             formatNumber(rest.report.kinetic) +
+                             (rest.report.atRest ? "" : ": give it more windows, or run for a time instead");
     note(line);
     if (!rest.report.atRest) notes_.warnings.push_back(line);
     rest = {};
@@ -149,9 +130,8 @@ private:
     return true;
   }
 
-  bool execute(const RunFor& plan) {
+  bool runFor(std::int64_t windows) {
     coupling::CoupledRun& run = *built_.run;
-    const std::int64_t windows = windowsIn(plan.time);
     dovetail::Progress shown("stage " + std::to_string(progress_.stage + 1), static_cast<double>(windows),
                              settings_.progress);
     const Clock::time_point begun = Clock::now();
@@ -166,9 +146,9 @@ private:
       if (!shown.shown() && 10 * next / windows > 10 * before / windows && next < windows)
         log_ << "t = " << run.time() << " s, " << 100 * next / windows << " %, " << std::llround(rate) << " windows/s, "
              << formatDuration(static_cast<double>(windows - next) / rate) << " to go" << std::endl;
-      sample(next == windows ? 0 : seriesEvery_);
-      frame(next == windows ? 0 : framesEvery_);
-      if (due(checkpointsEvery_) && next < windows) checkpoint();
+      sample(next == windows ? 0 : plan_.series);
+      frame(next == windows ? 0 : plan_.frames);
+      if (due(plan_.checkpoints) && next < windows) checkpoint();
       if (io::interruption() != 0) return false;
     }
     return true;
@@ -177,7 +157,7 @@ private:
   /// Where the run is looked at next: the same places whenever a run is broken off.
   std::int64_t nextLook(std::int64_t now, std::int64_t end) const {
     std::int64_t next = std::min(end, (now / lookEvery + 1) * lookEvery);
-    for (const std::int64_t every : {seriesEvery_, framesEvery_, checkpointsEvery_})
+    for (const std::int64_t every : {plan_.series, plan_.frames, plan_.checkpoints})
       if (every > 0) next = std::min(next, (now / every + 1) * every);
     return next;
   }
@@ -191,8 +171,8 @@ private:
     progress_.rows = series_->rows();
   }
   void warn() {
-    const coupling::StepLimit limit = built_.run->criticalStep();
-    if (warned_ || built_.run->dt() <= limit.dt) return;
+    if (warned_ || !series_->limit() || built_.run->dt() <= series_->limit()->dt) return;
+    const coupling::StepLimit& limit = *series_->limit();
     warned_ = true;
     notes_.warnings.push_back("at t = " + formatNumber(built_.run->time()) + " s the step is beyond " +
                               formatNumber(limit.dt) + " s, which " + limit.owner + " sets: take a smaller steps.dt");
@@ -230,23 +210,13 @@ private:
   io::KeyValues provenance_;
   io::FolderLock lock_;
   Built built_;
-  std::int64_t seriesEvery_ = 0, framesEvery_ = 0, checkpointsEvery_ = 0;
+  Plan plan_;
   std::unique_ptr<Series> series_;
   std::unique_ptr<Frames> frames_;
   Progress progress_;
   RunNotes notes_;
   bool warned_ = false;
 };
-
-/// Bytes that this process holds.
-double residentBytes() {
-  long pages = 0, resident = 0;
-  if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(file, "%ld %ld", &pages, &resident) != 2) resident = 0;
-    std::fclose(file);
-  }
-  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
 
 }  // namespace
 
@@ -265,34 +235,6 @@ Scene readRun(const fs::path& folder) {
 bool resume(const RunSettings& settings, std::ostream& log) {
   const Scene scene = readRun(settings.folder);
   return Execution(scene, settings, log, true).finish();
-}
-
-void check(const Scene& scene, std::ostream& log) {
-  Built built = build(scene);
-  start(built, scene);
-  coupling::CoupledRun& run = *built.run;
-  for (const std::string& note : built.notes) log << note << '\n';
-  for (const std::string& warning : warnings(built, scene)) log << "WARNING: " << warning << '\n';
-  log << run.grains.particles.size() << " particles, contacts: " << run.grains.laws->name() << '\n';
-  for (std::size_t s = 0; s < run.solids(); ++s)
-    log << "solid \"" << run.solid(s).name << "\": " << built.meshes[s].X.size() << " nodes, "
-        << built.meshes[s].elementCount() << " elements\n";
-  log << "step " << run.dt() << " s\n";
-  for (const Limit& limit : limits(built, scene))
-    log << "  at most " << limit.dt << " s: " << limit.owner << (run.dt() > limit.dt ? "  EXCEEDED" : "") << '\n';
-  double time = 0.0;
-  for (const Stage& stage : scene.stages)
-    if (const auto* const plan = std::get_if<RunFor>(&stage.kind)) time += plan->time;
-  const Clock::time_point begun = Clock::now();
-  std::int64_t windows = 0;
-  while (windows < 10 || (since(begun) < 1.0 && windows < 1000)) {
-    run.advance();
-    if (++windows >= 10 && since(begun) >= 1.0) break;
-  }
-  const double each = since(begun) / static_cast<double>(windows), wanted = std::ceil(time / run.window());
-  log << "stages run for " << time << " s: " << wanted << " windows of " << scene.steps.stepsPerWindow << " steps, "
-      << formatDuration(each * wanted) << " at " << 1e3 * each << " ms each as it is now\nmemory "
-      << std::round(residentBytes() / 1048576.0) << " MiB\n";
 }
 
 }  // namespace dovetail::scene

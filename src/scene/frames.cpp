@@ -49,8 +49,9 @@ void addWall(io::VtuSeries& series, double time, const dem::MeshWall& mesh) {
                                    .integers = {}});
 }
 
-/// Words that would do nothing.
-void requireBearers(const Output& output) {
+}  // namespace
+
+void requireFrames(const Output& output) {
   const auto has = [&](const char* word) {
     return std::find(output.contents.begin(), output.contents.end(), word) != output.contents.end();
   };
@@ -60,8 +61,6 @@ void requireBearers(const Output& output) {
       throw InputError(std::string("contents has \"") + word + "\", but no \"" + bearer + "\"", output.where,
                        std::string("add \"") + bearer + "\", or leave it out");
 }
-
-}  // namespace
 
 void Frames::Impl::addGrains(const dem::Particles& particles, double time) {
   io::ParticleFrame frame = io::frameOf(particles);
@@ -84,7 +83,7 @@ void Frames::Impl::addSolid(std::size_t s, const Built& built, double time) {
 Frames::Frames(const Built& built, const Scene& scene, const std::filesystem::path& folder,
                const io::KeyValues& provenance, const std::vector<double>& times)
     : impl_(std::make_unique<Impl>(Impl{scene.output.contents, {}, provenance, times})) {
-  requireBearers(scene.output);
+  requireFrames(scene.output);
   for (const Solid& solid : scene.solids) impl_->materials.push_back(solid.material);
   const auto add = [&](std::vector<io::VtuSeries>& to, const std::string& name, io::FrameFile file) {
     to.emplace_back(folder, name, provenance, times, file);

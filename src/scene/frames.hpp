@@ -10,7 +10,10 @@
 
 namespace dovetail::scene {
 
-/// In builds without VTK there are none, and wanting them is an InputError.
+/// @throws InputError for contents that would do nothing, and in builds without VTK
+void requireFrames(const Output& output);
+
+/// @throws InputError as requireFrames
 class Frames {
 public:
   /// @param times  of the frames that an earlier run has written and this one goes on with, s

@@ -125,6 +125,7 @@ public:
     if (!node) return;
     if (node->kind != Node::Kind::object)
       refuse(*node, named(key) + " is " + nameOf(*node), "write { \"name\": value }");
+    for (const Node::Member& member : node->members) document_.names.insert(member.key);
     for (const Node::Member& member : node->members) {
       requireParameterName(member);
       const Key own{member.key.c_str(), ""};
@@ -230,13 +231,7 @@ private:
 
 /// Leaves parameters out that no function of time names.
 void keepUsed(Parameters& parameters, const std::string& expressions) {
-  const auto isPart = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-  std::set<std::string> words;
-  for (auto at = expressions.begin(); at != expressions.end();) {
-    const auto end = std::find_if_not(at, expressions.end(), isPart);
-    words.emplace(at, end);
-    at = std::find_if(end, expressions.end(), isPart);
-  }
+  const std::set<std::string> words = wordsIn(expressions);
   std::erase_if(parameters, [&](const auto& one) { return !words.contains(one.first); });
 }
 
@@ -244,8 +239,15 @@ void keepUsed(Parameters& parameters, const std::string& expressions) {
 
 Scene sceneFromText(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                     const std::vector<std::string>& settings) {
-  Node root = withIncludes(parseJson(text, name), name, folder);
-  for (const std::string& setting : settings) applySetting(root, setting);
+  Node root = parseJson(text, name);
+  const auto includes = [](const std::string& setting) {
+    return setting.starts_with("include=") || setting.starts_with("include.");
+  };
+  for (const std::string& setting : settings)
+    if (includes(setting)) applySetting(root, setting);
+  root = withIncludes(std::move(root), name, folder);
+  for (const std::string& setting : settings)
+    if (!includes(setting)) applySetting(root, setting);
   Document document{name, folder};
   const auto read = [&](bool keysOnly) {
     document.keysOnly = keysOnly;

@@ -1,7 +1,9 @@
 // Rows of energies, momenta, forces and probes that a run writes while it goes on.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,9 +22,11 @@ struct SeriesFiles {
   std::filesystem::path folder;
   io::KeyValues provenance;
   bool hdf5 = false;
+  std::int64_t every = 1;  ///< windows between two rows
 };
 
-/// Columns are those of the run at its start, of what grains may book later, and of probes.
+/// The limit of the step takes the eigenvalues of all elements: rows closer than 2000 windows repeat the last one
+/// found. Columns are those of the run at its start, of what grains may book later, and of probes.
 class Series {
 public:
   /// @throws InputError for a probe of what is not there, and where HDF5 is wanted of a build without
@@ -31,8 +35,12 @@ public:
   /// @throws InputError if the file does not hold them
   void takeUp(std::uint64_t rows);
   void add(Built& built);
+  /// Whether the next row does; counted in rows, so that it is the same where a run goes on.
+  bool looksAtLimit() const;
   std::uint64_t rows() const { return table_.rows(); }
   const io::TimeSeries& table() const { return table_; }
+  /// As last found by this program, if it was.
+  const std::optional<coupling::StepLimit>& limit() const { return limit_; }
   /// Writes what is not written as it grows. @param scene  in full
   void close(const std::string& scene) const;
 
@@ -43,6 +51,7 @@ private:
   SeriesFiles files_;
   std::filesystem::path path_;
   io::GrowingCsv file_;
+  std::optional<coupling::StepLimit> limit_;
 };
 
 /// Does nothing but throw in builds without HDF5. @throws InputError

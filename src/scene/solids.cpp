@@ -55,6 +55,9 @@ void addElements(fem::Model& model, const fem::SolidMesh& mesh, const Solid& sol
 
 void add(Built& built, const Solid& solid, const Scene& scene) {
   io::requirePlainName(solid.name, "name");
+  if (solid.name.size() > 100)
+    throw InputError("the name '" + solid.name.substr(0, 20) + "…' is too long for files", "name",
+                     "use 100 letters at most");
   const bool meetsGrains = std::any_of(scene.couplings.begin(), scene.couplings.end(),
                                        [&](const Coupling& coupling) { return coupling.solid == solid.name; });
   if (!meetsGrains) built.notes.push_back("Solid \"" + solid.name + "\" has no coupling: grains pass through it.");

@@ -93,7 +93,9 @@ std::optional<Quantity> quantityOf(const std::string& whole) {
   if (error != std::errc{} || !std::isfinite(quantity.value)) return {};
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   bool divides = false;
-  for (skipBlanks(text); !text.empty(); skipBlanks(text)) {
+  skipBlanks(text);
+  quantity.joined = text.starts_with('*') || text.starts_with('/');
+  for (; !text.empty(); skipBlanks(text)) {
     if (text.front() == '/' || text.front() == '*') {
       divides = text.front() == '/';
       text.remove_prefix(1);

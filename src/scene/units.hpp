@@ -24,6 +24,7 @@ std::string siName(const Dimension& dimension);
 struct Quantity {
   double value;  ///< SI
   Dimension dimension;
+  bool joined = false;  ///< by "*" or "/" behind the number, as an expression would be
 };
 
 /// "5 mm", "2e6 Pa", "9.81 m/s2", "30 deg", "7": a number and a product of units, each with an exponent, such behind a

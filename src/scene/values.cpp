@@ -1,5 +1,8 @@
 #include "values.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "nearest.hpp"
@@ -32,6 +35,17 @@ bool isExpression(const Evaluate& evaluate) {
 
 }  // namespace
 
+std::set<std::string> wordsIn(const std::string& expression) {
+  const auto isPart = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  std::set<std::string> words;
+  for (auto at = expression.begin(); at != expression.end();) {
+    const auto end = std::find_if_not(at, expression.end(), isPart);
+    words.emplace(at, end);
+    at = std::find_if(end, expression.end(), isPart);
+  }
+  return words;
+}
+
 std::string Values::listOf(Words words) {
   std::string list;
   for (const char* const word : words) list += std::string(list.empty() ? "" : ", ") + "\"" + word + "\"";
@@ -45,6 +59,14 @@ std::string Values::placeOf(const Place& place) const {
 
 void Values::refuse(const Node& node, const std::string& problem, const std::string& remedy) const {
   throw InputError(problem, placeOf(node.place), remedy);
+}
+
+std::optional<Quantity> Values::quantityIn(const std::string& text) const {
+  const auto quantity = quantityOf(text);
+  if (!quantity || !quantity->joined) return quantity;
+  const std::set<std::string> words = wordsIn(text);
+  const auto isName = [&](const std::string& word) { return document_.names.contains(word); };
+  return std::any_of(words.begin(), words.end(), isName) ? std::nullopt : quantity;
 }
 
 std::string Values::textOf(const Node& node, Key key) const {
@@ -66,7 +88,7 @@ Values::AnyNumber Values::anyNumberOf(const Node& node, Key key, const std::stri
   const std::string remedy = "write a number, one with a unit (\"5 mm\"), or an expression of parameters" +
                              (otherwise.empty() ? "" : ", or " + otherwise);
   if (node.kind != Node::Kind::text || node.text.empty()) refuse(node, named(key) + " is " + nameOf(node), remedy);
-  if (const auto quantity = quantityOf(node.text)) {
+  if (const auto quantity = quantityIn(node.text)) {
     if (quantity->dimension == unit::none) return {quantity->value, {}};
     return {quantity->value, quantity->dimension};
   }
@@ -103,7 +125,7 @@ double Values::wholeOf(const Node& node, Key key, double least, double most) con
 
 TimeValue Values::timeValueOf(const Node& node, Key key, const Limits& limits) {
   // "2*t" is two tonnes where a mass is wanted, and the time doubled elsewhere.
-  const auto quantity = node.kind == Node::Kind::text ? quantityOf(node.text) : std::nullopt;
+  const auto quantity = node.kind == Node::Kind::text ? quantityIn(node.text) : std::nullopt;
   const bool isNumber = node.kind != Node::Kind::text ||
                         (quantity && (quantity->dimension == limits.dimension || quantity->dimension == unit::none));
   if (isNumber || isExpression([&] { valueOf(node.text, document_.parameters); }))

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "fields.hpp"
 #include "json_tree.hpp"
 #include "parameters.hpp"
+#include "units.hpp"
 
 namespace dovetail::scene {
 
@@ -15,10 +17,14 @@ namespace dovetail::scene {
 struct Document {
   std::string name;
   std::filesystem::path folder;
-  Parameters parameters{};
+  std::set<std::string> names{};  ///< of all parameters
+  Parameters parameters{};        ///< those that have a value so far
   std::string functionsOfTime{};  ///< all expressions of t, one after the other
   bool keysOnly = false;          ///< values are not looked at: keys are checked before any value
 };
+
+/// Names and numbers within an expression.
+std::set<std::string> wordsIn(const std::string& expression);
 
 /// Values within one object. All but the constructor throw InputError with the place of what they refuse.
 class Values {
@@ -49,6 +55,8 @@ protected:
   static std::string listOf(Words words);
 
 private:
+  /// "2*h" is no quantity where there is a parameter h, "2 h" is two hours everywhere.
+  std::optional<Quantity> quantityIn(const std::string& text) const;
   void requireThree(const Node& node, Key key) const;
 
   Document& document_;

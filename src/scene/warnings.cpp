@@ -12,6 +12,7 @@
 #include "dovetail/geometry/surface_checks.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
 #include "dovetail/surface/skin.hpp"
+#include "overlap_audit.hpp"
 #include "time_functions.hpp"
 
 namespace dovetail::scene {
@@ -54,6 +55,13 @@ geometry::TriangleMesh skinOf(const fem::SolidMesh& mesh, const fem::Nodes& node
   return {skin.wall.x, skin.wall.facets};
 }
 
+/// Bodies that touch do not overlap.
+void shrink(geometry::TriangleMesh& mesh) {
+  Vec3 middle;
+  for (const Vec3& x : mesh.x) middle += 1.0 / static_cast<double>(mesh.x.size()) * x;
+  for (Vec3& x : mesh.x) x += 1e-6 * (middle - x);
+}
+
 void lookForGrainsWithin(const Built& built, std::size_t solid, Lines& lines) {
   const coupling::SolidSide& side = built.run->solid(solid);
   const geometry::TriangleMesh skin = skinOf(built.meshes[solid], side.nodes());
@@ -73,6 +81,32 @@ void lookForGrainsWithin(const Built& built, std::size_t solid, Lines& lines) {
   if (count > 0)
     lines.push_back(std::to_string(count) + " grains have their centres in " + quoted(side.name) +
                     " at the start: move them out, or give the two an overlap.");
+}
+
+std::string nameOfBody(const Scene& scene, std::size_t body, const std::vector<std::size_t>& walls) {
+  return body < scene.solids.size() ? quoted(scene.solids[body].name)
+                                    : "wall " + std::to_string(walls[body - scene.solids.size()]);
+}
+
+/// Solids see grains only: neither each other nor walls.
+void lookForBodiesWithin(const Built& built, const Scene& scene, Lines& lines) {
+  std::vector<geometry::TriangleMesh> bodies;
+  for (std::size_t s = 0; s < built.meshes.size(); ++s) {
+    bodies.push_back(skinOf(built.meshes[s], built.run->solid(s).nodes()));
+    shrink(bodies.back());
+  }
+  std::vector<std::size_t> walls;
+  const auto meshes = std::as_const(built.run->grains).terms.all<dem::MeshWallTerm>();
+  for (std::size_t w = 0; w < built.walls.size(); ++w)
+    for (std::size_t m = built.walls[w].firstMesh; m < built.walls[w].endMesh; ++m) {
+      bodies.push_back({meshes[m]->mesh.wall.x, meshes[m]->mesh.wall.facets});
+      walls.push_back(w);
+    }
+  for (const auto& [i, j] : overlapping(bodies))
+    if (static_cast<std::size_t>(i) < scene.solids.size())
+      lines.push_back("Of " + nameOfBody(scene, static_cast<std::size_t>(i), walls) + " and " +
+                      nameOfBody(scene, static_cast<std::size_t>(j), walls) +
+                      " one lies in the other at the start, and nothing keeps them apart: move one of them.");
 }
 
 // ---- surfaces and meshes
@@ -164,12 +198,14 @@ void lookAtSets(const Scene& scene, const Solid& solid, Lines& lines) {
   lookForUnused(sets, used, "Of " + quoted(solid.name) + " the set", lines);
 }
 
-/// What moves has no rest.
+/// What moves has no rest; steady velocities are refused.
 void lookAtStages(const Scene& scene, Lines& lines) {
   const auto settles = [](const Stage& stage) { return std::holds_alternative<Settle>(stage.kind); };
   if (std::none_of(scene.stages.begin(), scene.stages.end(), settles)) return;
   const auto moves = [](const auto& one) {
-    return one.displacement || !isConstant(one.velocity) || norm(constantOf(one.velocity)) > 0.0;
+    if constexpr (requires { one.turn; })
+      if (one.turn && !isConstant(one.turn->angle)) return true;
+    return !isConstant(one.displacement.value_or(one.velocity));
   };
   bool any = std::any_of(scene.walls.begin(), scene.walls.end(), moves) ||
              std::any_of(scene.drives.begin(), scene.drives.end(), moves);
@@ -204,6 +240,7 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene) {
     if (solid.supports.empty() && solid.gravity && norm(scene.gravity) > 0.0)
       lines.push_back(quoted(solid.name) + " has no supports and falls: hold some of its nodes, or leave gravity out.");
   }
+  lookForBodiesWithin(built, scene, lines);
   lookAtNames(scene, lines);
   lookAtStages(scene, lines);
   return lines;

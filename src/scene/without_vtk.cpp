@@ -9,9 +9,12 @@ namespace dovetail::scene {
 
 struct Frames::Impl {};
 
-Frames::Frames(const Built&, const Scene&, const std::filesystem::path&, const io::KeyValues&,
-               const std::vector<double>&) {
+void requireFrames(const Output&) {
   throw InputError("this build writes no frames", "output.frames", "leave them out, or build with VTK");
+}
+Frames::Frames(const Built&, const Scene& scene, const std::filesystem::path&, const io::KeyValues&,
+               const std::vector<double>&) {
+  requireFrames(scene.output);
 }
 Frames::~Frames() = default;
 std::vector<double> Frames::times() const { return {}; }

@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include "carried_points.hpp"
 #include "carrier.hpp"
+#include "dovetail/core/error.hpp"
 #include "dovetail/dem/walls/facet_spin.hpp"
 #include "dovetail/dem/walls/wall_archive.hpp"
 #include "dovetail/dem/walls/wall_candidates.hpp"
@@ -74,6 +76,10 @@ public:
   void load(ByteReader& reader) override {
     dem::archiveCandidates(reader, candidates_);
     reader(skin_.wall.x, skin_.wall.v);
+    for (const int facet : candidates_.facet)
+      if (facet < 0 || static_cast<std::size_t>(facet) >= skin_.wall.facets.size())
+        throw InputError("there is no facet " + std::to_string(facet), "contacts on a surface",
+                         "take an older checkpoint");
     findActive();
   }
 

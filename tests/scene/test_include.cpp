@@ -54,6 +54,15 @@ TEST_F(SceneInclude, WhatIsIncludedTwiceCountsOnce) {
   EXPECT_EQ(readScene(folder / "b.json").walls.size(), 1U);
 }
 
+TEST_F(SceneInclude, SettingsIncludeToo) {
+  write("light.json", R"({"gravity": [0, 0, -1]})");
+  write("mine.json", "{" + stages + "}");
+  EXPECT_EQ(readScene(folder / "mine.json", {R"(include=["light.json"])"}).gravity.z, -1.0);
+  EXPECT_EQ(readScene(folder / "mine.json", {"gravity=[0, 0, -2]", R"(include=["light.json"])"}).gravity.z, -2.0);
+  write("other.json", R"({"include": ["none.json"], )" + stages + "}");
+  EXPECT_EQ(readScene(folder / "other.json", {"include.0=light.json"}).gravity.z, -1.0);
+}
+
 TEST_F(SceneInclude, CyclesAreRefusedWithTheirChain) {
   write("a.json", R"({"include": ["sub/b.json"], )" + stages + "}");
   write("sub/b.json", "{\n  \"include\": [\"../a.json\"]}");

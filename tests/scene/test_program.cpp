@@ -141,5 +141,15 @@ TEST(Program, OtherPeoplesFilesStay) {
   EXPECT_EQ(readText(folder / "summary.txt"), "mine");
 }
 
+/// Starter scenes name the program, as its own files do.
+TEST(Program, ScenesStayThatLieWhereARunWrites) {
+  const ScratchFolder folder;
+  const std::string file = (folder / "scene.json").string();
+  ASSERT_EQ(runProgram({"new", "plate", file}).code, 0);
+  const std::string text = readText(file);
+  expectRefused(runProgram({"run", file, "--out", folder.path().string()}), "in place of this file");
+  EXPECT_EQ(readText(file), text);
+}
+
 }  // namespace
 }  // namespace dovetail::scene

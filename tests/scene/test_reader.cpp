@@ -79,6 +79,24 @@ TEST(SceneReader, ParametersServeEveryNumberAndCanBeSet) {
   EXPECT_NE(refusal(text, {"r=2*w"}).find("Unexpected token \"w\""), std::string::npos);
 }
 
+/// "2*h" is twice the parameter where there is one, "2 h" is two hours everywhere.
+TEST(SceneReader, ParametersMayBeNamedLikeUnits) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP() << "products are expressions";
+  const auto time = [](const std::string& let, const std::string& value) {
+    const std::string text = replaced(smallScene, "\"time\": 0.1", "\"time\": " + value);
+    return std::get<RunFor>(
+               sceneFromText(replaced(text, "{", "{\"let\": " + let + ","), "s.json", SCENES).stages[0].kind)
+        .time;
+  };
+  EXPECT_EQ(time(R"({"h": 0.25})", R"("2*h")"), 0.5);
+  EXPECT_EQ(time(R"({"h": 0.25})", R"("2 h")"), 7200.0);
+  EXPECT_EQ(time(R"({"a": 0.25})", R"("2*h")"), 7200.0);
+  EXPECT_EQ(time(R"({"s": 4})", R"("2/s")"), 0.5);
+  EXPECT_EQ(time(R"({"h": 0.25, "a": "2*h"})", R"("a")"), 0.5);
+  const std::string below = replaced(smallScene, "{", R"({"let": {"a": "2*h", "h": 0.25},)");
+  EXPECT_NE(refusal(below).find("as an expression"), std::string::npos) << refusal(below);
+}
+
 TEST(SceneReader, DeepAndOddDocumentsAreRefused) {
   EXPECT_NE(refusal(std::string(100000, '[')).find("64 levels"), std::string::npos);
   for (const char* text : {"", " ", "null", "[]", "3", "\"a\"", "{", "{}", "{}{}", "{\"stages\": []}", "\xff",

@@ -192,6 +192,7 @@ void loadState(const std::vector<char>& bytes, const std::string& path, Model& m
   else
     requireSameTerms(saved, m.terms, path);
   loadTerms(saved, restored.terms, path);
+  for (const auto& term : restored.terms) term->check(restored);
   Terms own = std::move(m.terms);  // the caller may hold references to them
   m = std::move(restored);
   m.forcesOfTerms = anew ? m.terms.revision() : own.revision();

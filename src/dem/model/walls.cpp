@@ -1,6 +1,8 @@
 #include "dovetail/dem/model/walls.hpp"
 
 #include <algorithm>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "../bodies/carried_walls.hpp"
@@ -36,9 +38,21 @@ Moves movesOf(const Model& m, const Step& step) {
   return {step.moved, Moves::unknown, m.pairs.travel(), m.pairs.builds()};
 }
 
+namespace {
+/// Lists that were made for these particles, as a damaged checkpoint may not have them.
+void requireNumbers(std::span<const int> list, std::size_t end, const char* what) {
+  for (const int number : list)
+    if (number < 0 || static_cast<std::size_t>(number) >= end)
+      throw InputError(std::string("there is no ").append(what).append(" ") + std::to_string(number),
+                       "list of what is near a wall", "take an older checkpoint");
+}
+}  // namespace
+
 void PrimitiveWallTerm::check(const Model& m) const {
   requireLaws(m);
   validate(wall, materialsOf(m), m.pairs.periodicity());
+  if (wall.search.particleRevision == m.particles.revision)
+    requireNumbers(wall.search.near, m.particles.size(), "particle");
 }
 
 void PrimitiveWallTerm::surround(Surroundings& around) { around.walls.push_back(&wall); }
@@ -135,6 +149,9 @@ void PrimitiveWallTerm::load(ByteReader& reader) {
 void MeshWallTerm::check(const Model& m) const {
   requireLaws(m);
   validate(mesh, materialsOf(m));
+  requireNumbers(mesh.candidates.facet, mesh.wall.facets.size(), "facet");
+  if (mesh.candidates.particleRevision == m.particles.revision)
+    requireNumbers(mesh.candidates.particle, m.particles.size(), "particle");
   if (const auto* carrier = std::get_if<WallOnBody>(&mesh.motion)) checkCarrier(m, *carrier, mesh.wall.x.size());
 }
 

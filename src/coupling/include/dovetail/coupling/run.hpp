@@ -106,6 +106,9 @@ public:
   ///         false; the run then goes on as before), options out of range, or a connector whose solid is not in this
   ///         run
   void start(double dt, const RunOptions& options = {});
+  /// The limit of the step at the start, for whoever chooses the step by it: finds forces and opens no books.
+  /// @throws InputError as start, but for the step, and if the run has started
+  StepLimit limitAtStart(const RunOptions& options = {});
   /// Windows of K steps. The last one's end is an instant at which positions and velocities agree.
   /// @throws InputError if windows is negative; NumericalError naming the particle, node or element that breaks down
   void advance(std::int64_t windows = 1);

@@ -1,0 +1,85 @@
+// All of a scene short of running it.
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+
+#include "dovetail/core/progress.hpp"
+#include "dovetail/scene/execute.hpp"
+#include "plan.hpp"
+#include "series.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+/// Bytes that this process holds.
+double residentBytes() {
+  long pages = 0, resident = 0;
+  if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%ld %ld", &pages, &resident) != 2) resident = 0;
+    std::fclose(file);
+  }
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+void tellParts(Built& built, const Scene& scene, std::ostream& log) {
+  const coupling::CoupledRun& run = *built.run;
+  for (const std::string& note : built.notes) log << note << '\n';
+  for (const std::string& warning : warnings(built, scene)) log << "WARNING: " << warning << '\n';
+  log << run.grains.particles.size() << " particles, contacts: " << run.grains.laws->name() << '\n';
+  for (std::size_t s = 0; s < run.solids(); ++s)
+    log << "solid \"" << run.solid(s).name << "\": " << built.meshes[s].X.size() << " nodes, "
+        << built.meshes[s].elementCount() << " elements\n";
+  log << "step " << run.dt() << " s\n";
+  for (const Limit& limit : limits(built, scene))
+    log << "  at most " << limit.dt << " s: " << limit.owner << (run.dt() > limit.dt ? "  EXCEEDED" : "") << '\n';
+}
+
+/// Seconds that a window takes, from ten at least, for up to a second.
+double secondsPerWindow(coupling::CoupledRun& run) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begun = Clock::now();
+  double seconds = 0.0;
+  int windows = 0;
+  while (windows < 10 || (seconds < 1.0 && windows < 1000)) {
+    run.advance();
+    ++windows;
+    seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+  }
+  return seconds / windows;
+}
+
+void tellCost(Built& built, const Scene& scene, const Plan& plan, std::ostream& log) {
+  std::int64_t wanted = 0, atMost = 0;
+  double time = 0.0;
+  for (std::size_t k = 0; k < plan.stages.size(); ++k)
+    if (const auto* const run = std::get_if<RunFor>(&scene.stages[k].kind)) {
+      wanted += plan.stages[k];
+      time += run->time;
+    } else {
+      atMost += plan.stages[k];
+    }
+  const double each = secondsPerWindow(*built.run);
+  log << "stages run for " << time << " s: " << wanted << " windows of " << scene.steps.stepsPerWindow << " steps, "
+      << formatDuration(each * static_cast<double>(wanted)) << " at " << 1e3 * each << " ms each as it is now\n";
+  if (atMost > 0)
+    log << "stages settle in at most " << atMost << " windows, " << formatDuration(each * static_cast<double>(atMost))
+        << '\n';
+  log << "memory " << std::round(residentBytes() / 1048576.0) << " MiB\n";
+}
+
+}  // namespace
+
+void check(const Scene& scene, std::ostream& log) {
+  Built built = build(scene);
+  start(built, scene);
+  const Plan plan = planOf(built, scene);
+  if (plan.series > 0) const Series columns(built, scene.output.probes, {});
+  tellParts(built, scene, log);
+  tellCost(built, scene, plan, log);
+}
+
+}  // namespace dovetail::scene
