@@ -35,7 +35,8 @@ void tellParts(Built& built, const Scene& scene, std::ostream& log) {
         << built.meshes[s].elementCount() << " elements\n";
   log << "step " << run.dt() << " s\n";
   for (const Limit& limit : limits(built, scene))
-    log << "  at most " << limit.dt << " s: " << limit.owner << (run.dt() > limit.dt ? "  EXCEEDED" : "") << '\n';
+    if (std::isfinite(limit.dt))
+      log << "  at most " << limit.dt << " s: " << limit.owner << (run.dt() > limit.dt ? "  EXCEEDED" : "") << '\n';
 }
 
 /// Seconds that a window takes, from ten at least, for up to a second.

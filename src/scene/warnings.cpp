@@ -104,9 +104,9 @@ void lookForBodiesWithin(const Built& built, const Scene& scene, Lines& lines) {
     }
   for (const auto& [i, j] : overlapping(bodies))
     if (static_cast<std::size_t>(i) < scene.solids.size())
-      lines.push_back("Of " + nameOfBody(scene, static_cast<std::size_t>(i), walls) + " and " +
+      lines.push_back(nameOfBody(scene, static_cast<std::size_t>(i), walls) + " and " +
                       nameOfBody(scene, static_cast<std::size_t>(j), walls) +
-                      " one lies in the other at the start, and nothing keeps them apart: move one of them.");
+                      " overlap at the start, and nothing keeps them apart: move one of them.");
 }
 
 // ---- surfaces and meshes

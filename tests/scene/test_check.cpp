@@ -43,8 +43,8 @@ std::string refusalOfCheck(const std::string& parts, const std::string& stages =
 /// Looking for the step leaves nothing in the books.
 TEST(SceneStart, AutomaticStepsBookAllImpulses) {
   if (!WITH_EXPRESSIONS) GTEST_SKIP() << "the support follows an expression";
-  Built built = started(
-      whole(R"("solids": [)" + block(0.0, "b", R"(, "displacement": [0, 0, "5*t - 900*t^2"])") + "],"));
+  Built built =
+      started(whole(R"("solids": [)" + block(0.0, "b", R"(, "displacement": [0, 0, "5*t - 900*t^2"])") + "],"));
   built.run->advance(50);
   const coupling::Totals totals = built.run->totals();
   EXPECT_GT(norm(totals.momentum), 0.1);
@@ -87,10 +87,11 @@ TEST(SceneCheck, TellsBodiesThatLieInEachOther) {
   const auto of = [](double x) {
     return textOfCheck(whole(R"("solids": [)" + block(0.0, "one") + "," + block(x, "other") + "],"));
   };
-  expectParts(of(0.19), {R"(Of "one" and "other" one lies in the other)"});
-  for (const double x : {0.2, 0.3}) EXPECT_EQ(of(x).find("lies in the other"), std::string::npos) << x;
-  const std::string wall = R"("walls": [{"shape": "mesh", "file": "bucket.stl", "shift": [0, 0, -0.05]}],)";
-  expectParts(textOfCheck(whole(wall + R"("solids": [)" + block(-0.1, "one") + "],")), {R"(Of "one" and wall 0)"});
+  expectParts(of(0.19), {R"("one" and "other" overlap at the start)"});
+  for (const double x : {0.2, 0.3}) EXPECT_EQ(of(x).find("overlap at the start"), std::string::npos) << x;
+  const std::string wall =
+      R"("walls": [{"shape": "mesh", "file": "bucket.stl", "scale": 0.001, "shift": [0, 0, -0.05]}],)";
+  expectParts(textOfCheck(whole(wall + R"("solids": [)" + block(-0.1, "one") + "],")), {R"("one" and wall 0 overlap)"});
 }
 
 }  // namespace

@@ -168,6 +168,9 @@ int insert(Insertion& insertion, Particles& particles, Bodies* bodies, Clumps* c
     throw InputError("the particles do not spin", "spin of inserted particles", "call switchOnRotation before");
   if (!s.shapes.empty() && !bodies)
     throw InputError("clumps are due, and there are no bodies", "insertion", "call insertParticles with bodies");
+  if (!(insertion.due <= 1e6 * price()))
+    throw InputError("more than a million are due in one step", "insertion",
+                     "lower its rate, or take an older checkpoint");
   insertion.waited = 0.0;
   FreeRoom room(particles, surroundings, s.region);
   int entered = 0;
