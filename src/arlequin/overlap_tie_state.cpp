@@ -1,5 +1,6 @@
 // What an overlap tie says of itself, and its state in bytes.
 #include <algorithm>
+#include <string>
 
 #include "dovetail/fem/mesh/shape.hpp"
 #include "overlap_tie_impl.hpp"
@@ -46,6 +47,16 @@ void OverlapTie::load(ByteReader& reader) {
          s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
   reader(s.part, s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies,
          s.windowIncrement, s.atWindow, s.windowTime, s.openingWork, s.absorbed);
+  const std::size_t members = s.overlap.particle.size();
+  for (const std::size_t count : {element.size(), xi.size(), s.overlap.x.size(), s.overlap.weight.size()})
+    if (count != members)
+      throw InputError("the lists of a state do not fit each other", "overlap", "take an older checkpoint");
+  for (const int number : element)
+    if (number >= static_cast<int>(s.setting.mesh.elementCount()))
+      throw InputError("there is no element " + std::to_string(number), "overlap", "take an older checkpoint");
+  for (const int node : s.rowNode)
+    if (node < 0 || static_cast<std::size_t>(node) >= s.setting.mesh.X.size())
+      throw InputError("there is no node " + std::to_string(node), "overlap", "take an older checkpoint");
   s.overlap.place.assign(element.size(), {});
   for (std::size_t k = 0; k < element.size(); ++k)
     if (element[k] >= 0)

@@ -200,6 +200,16 @@ void Coupling::save(ByteWriter& writer) const {
 void Coupling::load(ByteReader& reader) {
   archive(reader, *this);
   carrier_->load(reader);
+  const auto refuse = [] {
+    throw InputError("lists of a state do not fit each other", "contacts on a surface", "take an older checkpoint");
+  };
+  if ((booksWork_ || !previous_.empty()) && previous_.size() != carrier_->points().size()) refuse();
+  const std::size_t count = contacts_.size();
+  for (const std::size_t size : {contacts_.facet.size(), contacts_.weight.size(), contacts_.normal.size(),
+                                 contacts_.overlap.size(), contacts_.force.size()})
+    if (size != count) refuse();
+  for (const int facet : contacts_.facet)
+    if (facet < 0 || static_cast<std::size_t>(facet) >= carrier_->wall().facets.size()) refuse();
   transfer();
 }
 

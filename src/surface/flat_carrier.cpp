@@ -47,6 +47,8 @@ public:
     findActive();
   }
   void findContacts(const dem::Particles& particles, dem::WallContacts& contacts) override {
+    if (!candidates_.particle.empty() && static_cast<std::size_t>(candidates_.particle.back()) >= particles.size())
+      refuse("a particle that is not there");
     dem::findWallContacts(particles, skin_.wall, candidates_, rule_, contacts);
   }
 
@@ -75,15 +77,31 @@ public:
   }
   void load(ByteReader& reader) override {
     dem::archiveCandidates(reader, candidates_);
+    const std::size_t points = skin_.wall.x.size();
     reader(skin_.wall.x, skin_.wall.v);
-    for (const int facet : candidates_.facet)
-      if (facet < 0 || static_cast<std::size_t>(facet) >= skin_.wall.facets.size())
-        throw InputError("there is no facet " + std::to_string(facet), "contacts on a surface",
-                         "take an older checkpoint");
+    if (skin_.wall.x.size() != points) refuse("another number of points");
+    requireWhole();
     findActive();
   }
 
 private:
+  [[noreturn]] static void refuse(const char* what) {
+    throw InputError(std::string("a state has ").append(what), "contacts on a surface", "take an older checkpoint");
+  }
+  /// What a damaged state may not be.
+  void requireWhole() const {
+    const dem::WallCandidates& c = candidates_;
+    const auto ascend = [](const std::vector<int>& list) {
+      return std::is_sorted(list.begin(), list.end()) && (list.empty() || list.front() >= 0);
+    };
+    const bool ends = c.offsets.empty() ? c.facet.empty() && c.particle.empty()
+                                        : c.offsets.size() == c.particle.size() + 1 && c.offsets.front() == 0 &&
+                                              static_cast<std::size_t>(c.offsets.back()) == c.facet.size();
+    if (!ends || !ascend(c.offsets) || !ascend(c.particle)) refuse("lists that do not fit each other");
+    for (const int facet : c.facet)
+      if (facet < 0 || static_cast<std::size_t>(facet) >= skin_.wall.facets.size()) refuse("a facet that is not there");
+    if (skin_.wall.x.size() != skin_.wall.v.size()) refuse("lists that do not fit each other");
+  }
   void findActive() {
     active_.clear();
     for (int facet : candidates_.facet)

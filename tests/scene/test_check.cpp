@@ -1,6 +1,8 @@
 // Starts, and what is refused or told before any step.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstring>
 #include <sstream>
 
 #include "dovetail/scene/execute.hpp"
@@ -92,6 +94,34 @@ TEST(SceneCheck, TellsBodiesThatLieInEachOther) {
   const std::string wall =
       R"("walls": [{"shape": "mesh", "file": "bucket.stl", "scale": 0.001, "shift": [0, 0, -0.05]}],)";
   expectParts(textOfCheck(whole(wall + R"("solids": [)" + block(-0.1, "one") + "],")), {R"("one" and wall 0 overlap)"});
+}
+
+/// Numbers within a state are looked at before they are used: the bytes of a checkpoint may be whole and still not fit.
+TEST(SceneState, NumbersOutOfRangeAreRefused) {
+  const std::string wall = R"("walls": [{"shape": "plane", "point": [0.081, 0, 0], "normal": [1, 0, 0]}],)";
+  const std::string touched = replaced(block(0.0), "0.2, 0]]", "0.2, 0.081]]");
+  Built built = started(whole(wall + R"("solids": [)" + touched +
+                              R"(], "couplings": [{"type": "surface", "solid": "b"}], "steps": {"dt": 1e-5},)"));
+  const auto goOn = [&] {
+    built.run->advance(3);
+    return built.run->save();
+  };
+  const std::vector<char> good = goOn(), later = goOn();
+  std::size_t refused = 0;
+  for (std::size_t at = 0; at + 4 <= good.size(); at += 4) {
+    std::vector<char> bytes = good;
+    const std::int32_t number = 1 << 24;
+    std::memcpy(&bytes[at], &number, sizeof number);
+    try {
+      built.run->load(bytes);
+      built.run->advance(1);
+    } catch (const Error&) {
+      ++refused;
+    }
+    built.run->load(good);
+  }
+  EXPECT_GT(refused, 100U);
+  EXPECT_EQ(goOn(), later);
 }
 
 }  // namespace
