@@ -41,10 +41,20 @@ std::string nameOf(const std::string& column) {
 
 bool isResidual(const std::string& column) { return column.find("residual") != std::string::npos; }
 
-/// The columns over time, largest first where there are too many; nothing if all of them are 0.
+enum class Zero { asTheyAre, atTheStart };
+
+/// The columns over time, or their changes, largest first where there are too many; nothing if all of them are 0.
 void addFigure(std::vector<Block>& blocks, const io::TimeSeries& series, const std::string& name,
-               const std::string& title, const std::string& axis, std::vector<std::string> columns) {
-  const auto reach = [&](const std::string& column) { return reachOf(series.column(column)); };
+               const std::string& title, const std::string& axis, std::vector<std::string> columns,
+               Zero zero = Zero::asTheyAre) {
+  const auto valuesOf = [&](const std::string& column) {
+    const auto stored = series.column(column);
+    std::vector<double> values(stored.begin(), stored.end());
+    if (zero == Zero::atTheStart && !values.empty())
+      for (double& value : values) value -= stored.front();
+    return values;
+  };
+  const auto reach = [&](const std::string& column) { return reachOf(valuesOf(column)); };
   std::erase_if(columns, [&](const std::string& column) { return reach(column) == 0.0; });
   if (columns.empty() || series.rows() < 2) return;
   if (columns.size() > mostCurves) {
@@ -53,10 +63,8 @@ void addFigure(std::vector<Block>& blocks, const io::TimeSeries& series, const s
   }
   const auto time = series.column("time_s");
   Figure figure{name, title, {"time (s)"}, {axis}, {}, {}};
-  for (const std::string& column : columns) {
-    const auto values = series.column(column);
-    figure.curves.push_back({nameOf(column), {time.begin(), time.end()}, {values.begin(), values.end()}});
-  }
+  for (const std::string& column : columns)
+    figure.curves.push_back({nameOf(column), {time.begin(), time.end()}, valuesOf(column)});
   blocks.emplace_back(std::move(figure));
 }
 
@@ -79,7 +87,7 @@ std::vector<Block> figuresOfSeries(const io::TimeSeries& series) {
       others[unit].push_back(column);
   }
   std::vector<Block> blocks;
-  addFigure(blocks, series, "energies", "Energies", "energy (J)", energies);
+  addFigure(blocks, series, "energies", "Energies, less those at the start", "energy (J)", energies, Zero::atTheStart);
   addFigure(blocks, series, "residual", "What the energy balance leaves over", "energy (J)", residuals);
   addFigure(blocks, series, "momenta", "Momentum", "momentum (Ns)", momenta);
   addFigure(blocks, series, "given", "Momentum given from outside", "momentum (Ns)", given);
