@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "dovetail/core/finite.hpp"
 #include "verbs.hpp"
 
 namespace dovetail::program {
@@ -23,10 +24,10 @@ Verb addCompare(CLI::App& app) {
   verb->add_option("A", options->first, "folder of a run, or file")->required();
   verb->add_option("B", options->second, "of the same kind")->required();
   verb->add_option("--tolerance", options->tolerance, "of differences over the scale of their quantity")
-      ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->capture_default_str();
   verb->add_option("--rows", options->rows, "of the table, at most")->capture_default_str();
   return {verb, [options] {
+            requireNonNegative(options->tolerance, "--tolerance");
             const scene::Comparison comparison = scene::compare(options->first, options->second);
             scene::print(comparison, options->tolerance, options->rows, std::cout);
             return comparison.within(options->tolerance) ? 0 : 1;
