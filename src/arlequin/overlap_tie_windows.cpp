@@ -34,12 +34,12 @@ void OverlapTie::Impl::answerForces(const dem::Model& m) {
 /// and λ takes h²/12 of Δ(λ·A λ), a function of the state, and of Δλ·A Δλ, which is never negative. At a start the
 /// second kick is the only one, and half of the c that λ before tells is yet to come.
 void OverlapTie::Impl::answerWindow(const GapRates& rates, bool ends) {
-  constexpr double kept = 0.25;
+  constexpr double old = 0.25;
   const std::vector<Vec3> before = lambda;
   parts.constraint->evaluate(rates, lambda);
   if (!parts.constraint->needsRates()) return;
   for (std::size_t r = 0; r < lambda.size(); ++r)
-    lambda[r] = ends ? (1.0 - kept) * lambda[r] + kept * before[r] : lambda[r] + before[r];
+    lambda[r] = ends ? (1.0 - old) * lambda[r] + old * before[r] : lambda[r] + before[r];
 }
 
 /// λ at the end of a window, which acts in both half windows about it: what it takes is the work of these two kicks
