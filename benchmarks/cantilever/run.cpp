@@ -64,9 +64,14 @@ private:
     clock_.substepsPerWindow = settings().femEvery;
   }
 
+  void setLedger() {
+    ofRun_ = &scene_.run->ledger();
+    books_.setLedger();
+  }
+
   /// The channels of the run under the names of the case; gravity counts from the particles' height at the start.
   void prepareBooks() {
-    const auto of = [this](const char* channel) { return scene_.run->ledger().joules(channel); };
+    const auto of = [this](const char* channel) { return ofRun_->joules(channel); };
     const auto kinetic = books_.stored("kinetic, particles", [of] { return of("particles: kinetic"); });
     const auto contacts = books_.stored("elastic, contacts", [of] { return of("particles: contacts"); });
     gravity_ = books_.stored("gravity, particles", [of, this] { return of("particles: gravity") - gravityAtStart_; });
@@ -110,7 +115,7 @@ private:
   bool loop() {
     scene_.run->start(clock_.dt, {.stepsPerWindow = settings().femEvery, .lag = settings().lag});
     gravityAtStart_ = scene_.run->ledger().joules("particles: gravity");
-    books_.setLedger();
+    setLedger();
     result_.ledger.open();
     sampleTrajectory();
     books_.addRow();
@@ -174,7 +179,7 @@ private:
   void sampleEnergy() {
     dem::requireFinite(grains().particles, moment(clock_.time(), clock_.step));
     requireFinite(nodes().v, "node", "velocity", moment(clock_.time(), clock_.step));
-    books_.setLedger();
+    setLedger();
     if (figures().left) return;
     result_.ledger.close();
     const auto& channels = result_.ledger.channels();
@@ -253,6 +258,7 @@ private:
   RunResult result_;
   Clock clock_;
   benchmark::Recorder books_{result_};
+  const EnergyLedger* ofRun_ = nullptr;
   EnergyLedger::Id gravity_ = 0;
   double gravityAtStart_ = 0.0;
   int tipNode_ = 0;

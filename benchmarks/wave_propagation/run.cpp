@@ -57,11 +57,14 @@ private:
     figures().dt = dt_ = plan.dt;
   }
 
+  void setLedger() {
+    ofRun_ = &bar_.run->ledger();
+    books_.setLedger();
+  }
+
   /// The channels of the run under the names of the case.
   void prepareBooks() {
-    const auto of = [this](const char* channel) {
-      return [this, channel] { return bar_.run->ledger().joules(channel); };
-    };
+    const auto of = [this](const char* channel) { return [this, channel] { return ofRun_->joules(channel); }; };
     const auto kinetic = books_.stored("kinetic, particles", of("particles: kinetic"));
     const auto contacts = books_.stored("elastic, contacts", of("particles: contacts"));
     std::optional<EnergyLedger::Id> kineticSolid, elasticSolid;
@@ -146,7 +149,7 @@ private:
   bool loop() {
     bar_.run->start(dt_, {.stepsPerWindow = K_});
     if (bar_.tie) figures().coupledNodes = bar_.tie->operators().rows();
-    books_.setLedger();
+    setLedger();
     result_.ledger.open();
     start_ = balance();
     const std::int64_t sampleEvery = std::clamp<std::int64_t>(windows_ / 2000, 8 / std::min(8, K_), 1000);
@@ -174,7 +177,7 @@ private:
   void sample() {
     dem::requireFinite(particles(), moment(grains().time, steps()));
     if (bar_.solid) requireFinite(bar_.solid->nodes().v, "node", "velocity", moment(grains().time, steps()));
-    books_.setLedger();
+    setLedger();
     result_.ledger.close();
     const double booked = externalWork() + result_.ledger.storedAtOpening();
     largestStored_ = std::max(largestStored_, result_.ledger.stored());
@@ -264,6 +267,7 @@ private:
   Observer observer_;
   RunResult result_;
   benchmark::Recorder books_{result_};
+  const EnergyLedger* ofRun_ = nullptr;
   std::optional<EnergyLedger::Id> stored_;  // of the coupling
   int K_ = 1;
   std::int64_t windows_ = 0;
