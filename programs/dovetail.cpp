@@ -125,6 +125,7 @@ const Verb* parse(CLI::App& app, const std::vector<Verb>& verbs, int argc, char*
 }
 
 bool act(int argc, char** argv) {
+  program::offerTetrahedra();
   for (const program::OwnVerb& verb : program::ownVerbs)
     if (argc > 1 && std::string(argv[1]) == verb.name) return verb.act(argc - 1, argv + 1);
   CLI::App app(

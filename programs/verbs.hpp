@@ -16,6 +16,9 @@ Verb addCompare(CLI::App& app);
 /// fields RUN: coarse-grained fields of its last checkpoint.
 Verb addFields(CLI::App& app);
 
+/// Lets scenes fill surfaces with tetrahedra, where the program is built for it (DOVETAIL_PROGRAM_CGAL).
+void offerTetrahedra();
+
 /// A verb that reads its own command line.
 struct OwnVerb {
   const char *name, *help;

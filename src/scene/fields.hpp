@@ -144,6 +144,7 @@ void describe(Fields& f, BondGroup& v);
 void describe(Fields& f, Drive& v);
 void describe(Fields& f, BoxMesh& v);
 void describe(Fields& f, MeshFile& v);
+void describe(Fields& f, TetrahedraMesh& v);
 void describe(Fields& f, StVenantKirchhoff& v);
 void describe(Fields& f, NeoHookean& v);
 void describe(Fields& f, J2Plastic& v);

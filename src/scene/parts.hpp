@@ -59,6 +59,9 @@ std::size_t solidNamed(const std::string& name, const coupling::CoupledRun& run)
 /// Gives particles from number `first` on their row in the table of laws.
 void setContactMaterial(dem::Particles& particles, std::size_t first, int row);
 
+/// @throws InputError if no VolumeMesher is there, or the surface cannot be filled
+fem::SolidMesh meshOf(const TetrahedraMesh& from);
+
 /// Puts supports, loads and ties on a solid.
 void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene);
 /// Adds the sets of the scene to those of the mesh. @throws InputError for names that are there, and empty sets

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "../cantilever/program.hpp"
+#include "surfaces.hpp"
 
 namespace dovetail::scene {
 namespace {
@@ -132,6 +133,21 @@ TEST(Program, ComparesRunsAndWritesFields) {
   EXPECT_EQ(fields.code, WITH_FRAMES ? 0 : 2) << fields.err;
   EXPECT_EQ(std::filesystem::exists(folder / "a/fields.vti"), WITH_FRAMES != 0);
   if (WITH_FRAMES) expectRefused(runProgram({"fields", a, "--width=-1"}), "width");
+}
+
+/// CGAL is under the GPL: a program gets it only where it was configured with DOVETAIL_PROGRAM_CGAL.
+TEST(Program, SurfacesAreFilledWhereCgalIsLinked) {
+  const ScratchFolder folder;
+  test::writeBlock(folder / "b.stl");
+  std::ofstream(folder / "s.json") << '{' << test::solidInside("b.stl", "0.1")
+                                   << R"("stages": [{"do": "run", "time": 1e-4}]})";
+  const Outcome outcome = runProgram({"check", (folder / "s.json").string()});
+  if (WITH_CGAL) {
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("solid \"b\": "), std::string::npos) << outcome.out;
+  } else {
+    expectRefused(outcome, "DOVETAIL_PROGRAM_CGAL=ON");
+  }
 }
 
 TEST(Program, OtherPeoplesFilesStay) {

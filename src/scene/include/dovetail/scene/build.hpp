@@ -1,12 +1,14 @@
 // From a scene to a run.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
+#include "dovetail/geometry/triangle_mesh.hpp"
 #include "dovetail/scene/scene.hpp"
 
 namespace dovetail::scene {
@@ -23,6 +25,16 @@ struct Built {
   std::vector<WallParts> walls;        ///< of the scene's walls, in their order
   std::vector<std::string> notes;      ///< of what was done that the file does not say, one sentence each
 };
+
+/// Fills a closed, welded and oriented surface with elements; sets: "skin".
+/// @param size, surfaceDistance  m, as of TetrahedraMesh
+using VolumeMesher =
+    std::function<fem::SolidMesh(const geometry::TriangleMesh& surface, double size, double surfaceDistance)>;
+
+/// What makes solids with "mesh": "tetrahedra" from now on, in the whole program; without one, scenes that have them are
+/// refused. This component links none, since CGAL's is under the GPL: programs that are content with that give
+/// fem::tetrahedraInside (component fem_cgal). Not to be called while scenes are built.
+void useVolumeMesher(VolumeMesher mesher);
 
 /// Makes all parts; no step is made, and the run has not been started.
 /// @throws InputError with the place in the scene file of the part that cannot be

@@ -14,6 +14,13 @@ struct MeshFile {
   std::string file;
   double scale = 1.0;  ///< m per unit of the file
 };
+/// Tetrahedra inside a closed surface, see VolumeMesher (build.hpp).
+struct TetrahedraMesh {
+  std::string file;
+  double scale = 1.0;                     ///< m per unit of the file
+  double size = required;                 ///< of the tetrahedra, m
+  std::optional<double> surfaceDistance;  ///< m; not given: a twentieth of the size
+};
 struct StVenantKirchhoff {
   double youngsModulus = required, poissonRatio = required;
 };
@@ -85,7 +92,7 @@ struct NamedSet {
 };
 struct Solid {
   std::string name;
-  std::variant<BoxMesh, MeshFile> mesh;
+  std::variant<BoxMesh, MeshFile, TetrahedraMesh> mesh;
   SolidMaterial material;
   std::string formulation = "standard";
   bool gravity = true;
