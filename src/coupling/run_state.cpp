@@ -154,7 +154,10 @@ void CoupledRun::load(const std::vector<char>& bytes) {
   try {
     impl_->adopt(std::move(state));
   } catch (...) {
-    if (backup) impl_->adopt(std::move(*backup));
+    try {
+      if (backup) impl_->adopt(std::move(*backup));
+    } catch (const InputError&) {  // numbers that are not finite: of a run that has broken down
+    }
     throw;
   }
 }

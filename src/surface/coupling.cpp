@@ -12,6 +12,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/walls/wall_archive.hpp"
+#include "dovetail/dem/walls/wall_checks.hpp"
 
 namespace dovetail::surface {
 
@@ -165,6 +166,11 @@ void Coupling::check(const dem::ContactLaws& laws, const geometry::Periodicity& 
   carrier_->check(laws, periodicity);
 }
 
+void Coupling::check(const dem::Particles& particles, int materials) const {
+  dem::requireRows(contacts_, {particles.size(), carrier_->wall().facets.size(), materials},
+                   revision_ == particles.revision);
+}
+
 double Coupling::renumber(std::span<const int> newNumber, const dem::Particles& before) {
   return dem::renumber(contacts_, newNumber, before);
 }
@@ -204,12 +210,11 @@ void Coupling::load(ByteReader& reader) {
     throw InputError("lists of a state do not fit each other", "contacts on a surface", "take an older checkpoint");
   };
   if ((booksWork_ || !previous_.empty()) && previous_.size() != carrier_->points().size()) refuse();
-  const std::size_t count = contacts_.size();
-  for (const std::size_t size : {contacts_.facet.size(), contacts_.weight.size(), contacts_.normal.size(),
-                                 contacts_.overlap.size(), contacts_.force.size()})
-    if (size != count) refuse();
+  dem::requireWhole(contacts_);
   for (const int facet : contacts_.facet)
     if (facet < 0 || static_cast<std::size_t>(facet) >= carrier_->wall().facets.size()) refuse();
+  if (builds_ != 0 && nodesAtBuild_.size() != surfaceNodes_.size()) refuse();
+  if (!uBefore_.empty() && uBefore_.size() != static_cast<std::size_t>(nodeCount())) refuse();
   transfer();
 }
 

@@ -1,5 +1,6 @@
 // Contacts with smooth patches.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 
@@ -67,6 +68,8 @@ public:
   }
 
   void findContacts(const dem::Particles& particles, dem::WallContacts& contacts) override {
+    if (!particle_.empty() && static_cast<std::size_t>(particle_.back()) >= particles.size())
+      refuse("a particle that is not there");
     constexpr std::size_t grain = 16;
     std::vector<std::vector<SmoothContact>> parts((particle_.size() + grain - 1) / grain);
     parallelFor(particle_.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -105,13 +108,43 @@ public:
 
   void save(ByteWriter& writer) const override { archive(writer, *this); }
   void load(ByteReader& reader) override {
+    const std::size_t points = surface_.x.size();
     archive(reader, *this);
+    requireWhole(points);
     wall_.facets.clear();
     for (int c = 0; c < static_cast<int>(contactFace_.size()); ++c) wall_.facets.push_back({c, c, c});
     findActive();
   }
 
 private:
+  [[noreturn]] static void refuse(const char* what) {
+    throw InputError(std::string("a state has ").append(what), "contacts on a smooth surface",
+                     "take an older checkpoint");
+  }
+  /// What a damaged state may not be.
+  void requireWhole(std::size_t points) const {
+    if (surface_.x.size() != points || surface_.v.size() != points) refuse("another number of points");
+    const bool ends = offsets_.size() == particle_.size() + 1 && offsets_.front() == 0 &&
+                      static_cast<std::size_t>(offsets_.back()) == face_.size() && start_.size() == face_.size();
+    if (!ends || !std::is_sorted(offsets_.begin(), offsets_.end())) refuse("lists that do not fit each other");
+    for (const std::size_t size : {wall_.x.size(), wall_.v.size(), contactWeight_.size()})
+      if (size != contactFace_.size()) refuse("lists that do not fit each other");
+    if (!std::is_sorted(particle_.begin(), particle_.end()) || (!particle_.empty() && particle_.front() < 0))
+      refuse("a particle that is not there");
+    for (const auto* const faces : {&face_, &contactFace_})
+      for (const int face : *faces)
+        if (face < 0 || static_cast<std::size_t>(face) >= surface_.control.size()) refuse("a patch that is not there");
+    requireFinite(surface_.x), requireFinite(surface_.v), requireFinite(wall_.x), requireFinite(wall_.v);
+    for (const auto& [a, b] : start_)
+      if (!std::isfinite(a + b)) refuse("a place that is not finite");
+    for (const auto& weights : contactWeight_)
+      for (const double weight : weights)
+        if (!std::isfinite(weight)) refuse("a weight that is not finite");
+  }
+  static void requireFinite(std::span<const Vec3> values) {
+    for (const Vec3& value : values)
+      if (!isFinite(value)) refuse("a number that is not finite");
+  }
   using Found = std::vector<std::array<int, 2>>;  // particle, face
 
   /// By face.

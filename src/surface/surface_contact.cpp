@@ -62,6 +62,7 @@ void SurfaceContact::check(const dem::Model& m) const {
     throw InputError("its laws exert torques, but the particles do not spin", name_,
                      "call switchOnRotation(particles), or set Model::rotation to off");
   const int materials = laws_->materials(), own = coupling_.wall().material;
+  coupling_.check(m.particles, materials);
   if (materials > 1 && (own < 0 || own >= materials))
     throw InputError("there is no law for material " + std::to_string(own), name_,
                      "give skin.wall.material from 0 to " + std::to_string(materials - 1));

@@ -5,6 +5,7 @@
 #endif
 
 #include <filesystem>
+#include <limits>
 
 #include "../io/scratch_folder.hpp"
 #include "dovetail/core/error.hpp"
@@ -96,8 +97,14 @@ Model everything() {
   m.terms.add(ExternalForceTerm("wind", [](const Particles& p, double time, std::span<Vec3> f) {
     for (std::size_t i = 0; i < p.size(); ++i) f[i].y += 0.1 * std::sin(9.0 * time) * p.mass[i];
   }));
-  m.terms.add(DriveTerm({3}, [](double t) { return Vec3{0, 0, 0.05 * std::sin(8.0 * t)}; },
-                        [](double t) { return Vec3{0, 0, 0.4 * std::cos(8.0 * t)}; }));
+  m.terms.add(DriveTerm(
+      {3},
+      [](double t) {
+        return Vec3{0, 0, 0.05 * std::sin(8.0 * t)};
+      },
+      [](double t) {
+        return Vec3{0, 0, 0.4 * std::cos(8.0 * t)};
+      }));
   addOutlet(m, geometry::Box{{0.72, 0.22, 0.0}, {0.9, 0.38, 0.3}}).every = 3;
   addInsertion(m, {.region = {{0, 0, 0.7}, {1, 0.6, 0.8}},
                    .sizes = UniformSizes{0.03, 0.04},
@@ -183,7 +190,7 @@ std::string refusal(Change&& change) {
 }
 
 void expectSaid(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << text;
+  EXPECT_NE(text.find(part), std::string::npos) << text << " lacks " << part;
 }
 
 /// Puts a term in the place of the first of its type.
@@ -192,7 +199,9 @@ void without(Model& m) {
   m.terms.remove(*m.terms.all<T>().at(0));
 }
 
-TEST(CheckpointRefusals, NothingIsRefusedWhereAllIsThere) { EXPECT_EQ(refusal([](Model&) {}), "nothing"); }
+TEST(CheckpointRefusals, NothingIsRefusedWhereAllIsThere) {
+  EXPECT_EQ(refusal([](Model&) {}), "nothing");
+}
 
 TEST(CheckpointRefusals, EveryMissingTermIsNamed) {
   expectSaid(refusal([](Model& m) { without<BondTerm>(m); }), "'bonds'");
@@ -260,6 +269,81 @@ TEST(CheckpointRefusals, OtherLawsAndOtherMeshesAre) {
   expectSaid(refusal([](Model& m) { meshWall(m, 0).wall.x[3].z += 1e-9; }), "another one");
   expectSaid(refusal([](Model& m) { std::swap(meshWall(m, 0).wall.facets[0], meshWall(m, 0).wall.facets[1]); }),
              "another one");
+}
+
+/// What is said of a state whose bytes are whole, but not what they hold.
+template <class Damage>
+std::string refusalOfDamaged(Damage&& damage) {
+  static const Model whole = [] {
+    Model m = everything();
+    run(m, dt, 600);
+    return m;
+  }();
+  Model m = whole;
+  damage(m);
+  Model resumed = everything();
+  const std::vector<char> before = saveState(resumed);
+  try {
+    loadState(saveState(m), "state", resumed);
+  } catch (const InputError& error) {
+    EXPECT_TRUE(saveState(resumed) == before);
+    return error.what();
+  }
+  return "nothing";
+}
+
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+TEST(DamagedStates, WholeOnesAreNotRefused) {
+  EXPECT_EQ(refusalOfDamaged([](Model&) {}), "nothing");
+}
+
+TEST(DamagedStates, ParticlesWithoutNumbersAreNamed) {
+  expectSaid(refusalOfDamaged([](Model& m) { m.particles.v[7].y = notANumber; }), "velocity");
+  expectSaid(refusalOfDamaged([](Model& m) { m.particles.x[7].y = infinite; }), "position");
+  expectSaid(refusalOfDamaged([](Model& m) { m.particles.omega[7].y = notANumber; }), "angular velocity");
+  expectSaid(refusalOfDamaged([](Model& m) { m.particles.mass[7] = -1.0; }), "mass");
+  expectSaid(refusalOfDamaged([](Model& m) { m.particles.f[7].x = notANumber; }), "force");
+  expectSaid(refusalOfDamaged([](Model& m) { m.particles.torque.pop_back(); }), "torque");
+}
+
+TEST(DamagedStates, ContactsOfPrimitiveWallsAreLookedAt) {
+  const auto contacts = [](auto&& damage) {
+    return refusalOfDamaged([&](Model& m) { damage(primitiveWall(m, 0).contacts); });
+  };
+  expectSaid(contacts([](PrimitiveContacts& c) { c.overlap.at(0) = notANumber; }), "not finite");
+  expectSaid(contacts([](PrimitiveContacts& c) { c.normal.at(0).z = infinite; }), "not finite");
+  expectSaid(contacts([](PrimitiveContacts& c) { c.memory.at(0) = notANumber; }), "not finite");
+  expectSaid(contacts([](PrimitiveContacts& c) { c.memory.pop_back(); }), "do not fit");
+  expectSaid(contacts([](PrimitiveContacts& c) { c.force.pop_back(); }), "do not fit");
+  expectSaid(contacts([](PrimitiveContacts& c) { c.particle.back() = 1 << 24; }), "no particle 16777216");
+  expectSaid(contacts([](PrimitiveContacts& c) { c.particle.at(0) = -1; }), "no particle -1");
+  expectSaid(contacts([](PrimitiveContacts& c) {
+               c.left.material = {9};
+               c.left.share = {1.0};
+             }),
+             "no material 9");
+}
+
+TEST(DamagedStates, ContactsOfMeshWallsAreLookedAt) {
+  const auto contacts = [](auto&& damage) {
+    return refusalOfDamaged([&](Model& m) {
+      for (const std::size_t k : {0, 1})
+        if (meshWall(m, k).contacts.size() > 0) return damage(meshWall(m, k).contacts);
+      FAIL() << "nobody touches a mesh wall";
+    });
+  };
+  expectSaid(contacts([](WallContacts& c) { c.engagement.at(0) = notANumber; }), "not finite");
+  expectSaid(contacts([](WallContacts& c) { c.weight.at(0)[1] = notANumber; }), "not finite");
+  expectSaid(contacts([](WallContacts& c) { c.force.at(0).x = infinite; }), "not finite");
+  expectSaid(contacts([](WallContacts& c) { c.normal.pop_back(); }), "do not fit");
+  expectSaid(contacts([](WallContacts& c) { c.facet.at(0) = 1 << 24; }), "no facet 16777216");
+  expectSaid(contacts([](WallContacts& c) { c.particle.back() = 1 << 24; }), "no particle 16777216");
+  expectSaid(contacts([](WallContacts& c) { c.springs.particle.at(0) = 1 << 24; }), "no particle 16777216");
+  expectSaid(contacts([](WallContacts& c) { c.springs.facet.at(0) = -2; }), "no facet -2");
+  expectSaid(contacts([](WallContacts& c) { c.springs.memory.at(0) = notANumber; }), "not finite");
+  expectSaid(contacts([](WallContacts& c) { c.springs.share.clear(); }), "do not fit");
 }
 
 }  // namespace

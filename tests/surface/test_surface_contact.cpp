@@ -306,5 +306,45 @@ TEST(SurfaceContact, RefusesWhatItCannotDo) {
   EXPECT_THROW(dem::findForces(still), InputError) << "particles do not spin";
 }
 
+/// Bytes of a state may be whole and not fit: they are refused, or the contacts are found anew.
+TEST(SurfaceContact, DamagedStatesNeverCrash) {
+  const fem::SolidMesh mesh = softBlock(fem::CellShape::hex8);
+  const std::vector<Vec3> rest(mesh.X.size());
+  dem::Particles particles = slantingGrains(12, 3);
+  for (Vec3& x : particles.x) x.z -= 0.004;
+  const auto laws = elasticLaws(1e4);
+  for (const bool smooth : {false, true}) {
+    Coupling good = makeSeam(mesh, {.name = "", .smooth = smooth});
+    respond(good, particles, rest, rest, *laws);
+    ASSERT_GT(good.contacts().size(), 5U);
+    ByteWriter writer;
+    good.save(writer);
+    std::size_t refused = 0;
+    const auto load = [&](const std::vector<char>& bytes) {
+      Coupling other = good;
+      try {
+        ByteReader reader(bytes);
+        other.load(reader);
+        other.check(particles, 1);
+        respond(other, particles, rest, rest, *laws);
+      } catch (const Error&) {
+        ++refused;
+      }
+    };
+    load(writer.bytes());
+    EXPECT_EQ(refused, 0U);
+    const std::int32_t number = 1 << 24;
+    const double notANumber = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t at = 0; at + 8 <= writer.bytes().size(); at += 4) {
+      std::vector<char> bytes = writer.bytes();
+      std::memcpy(&bytes[at], &number, sizeof number);
+      load(bytes);
+      std::memcpy(&bytes[at], &notANumber, sizeof notANumber);
+      load(bytes);
+    }
+    EXPECT_GT(refused, 200U) << smooth;
+  }
+}
+
 }  // namespace
 }  // namespace dovetail::surface

@@ -159,6 +159,15 @@ void requireSameLaws(ByteReader& reader, const Model& m, const std::string& path
            "set the laws that wrote it");
 }
 
+/// Of arrays that runs compute with before they look at them.
+void requireNumbers(const Particles& particles) {
+  validate(particles);
+  for (const auto* const field : {&particles.f, &particles.torque})
+    for (const Vec3& value : *field)
+      if (!isFinite(value))
+        throw InputError("a force or torque is not finite", "particles of a checkpoint", "take an older checkpoint");
+}
+
 }  // namespace
 
 std::vector<char> saveState(const Model& m) {
@@ -183,6 +192,7 @@ void loadState(const std::vector<char>& bytes, const std::string& path, Model& m
   requireSameLaws(reader, m, path);
   Model restored = m;
   archiveScene(reader, restored);
+  requireNumbers(restored.particles);
   loadDomain(reader, restored);
   const std::vector<SavedTerm> saved = readTerms(reader);
   if (!reader.atEnd()) refuse("there is more in the file than a model", path, "give a checkpoint of this version");

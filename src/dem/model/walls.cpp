@@ -53,6 +53,7 @@ void PrimitiveWallTerm::check(const Model& m) const {
   validate(wall, materialsOf(m), m.pairs.periodicity());
   if (wall.search.particleRevision == m.particles.revision)
     requireNumbers(wall.search.near, m.particles.size(), "particle");
+  requireRows(wall.contacts, {m.particles.size(), 0, materialsOf(m)});
 }
 
 void PrimitiveWallTerm::surround(Surroundings& around) { around.walls.push_back(&wall); }
@@ -143,6 +144,7 @@ void PrimitiveWallTerm::save(ByteWriter& writer) const {
 void PrimitiveWallTerm::load(ByteReader& reader) {
   describe(reader, wall);
   archiveWall(reader, wall);
+  requireWhole(wall.contacts);
   reader(stored);
 }
 
@@ -150,8 +152,9 @@ void MeshWallTerm::check(const Model& m) const {
   requireLaws(m);
   validate(mesh, materialsOf(m));
   requireNumbers(mesh.candidates.facet, mesh.wall.facets.size(), "facet");
-  if (mesh.candidates.particleRevision == m.particles.revision)
-    requireNumbers(mesh.candidates.particle, m.particles.size(), "particle");
+  const bool current = mesh.candidates.particleRevision == m.particles.revision;
+  if (current) requireNumbers(mesh.candidates.particle, m.particles.size(), "particle");
+  requireRows(mesh.contacts, {m.particles.size(), mesh.wall.facets.size(), materialsOf(m)}, current);
   if (const auto* carrier = std::get_if<WallOnBody>(&mesh.motion)) checkCarrier(m, *carrier, mesh.wall.x.size());
 }
 
@@ -234,6 +237,7 @@ void MeshWallTerm::load(ByteReader& reader) {
     throw InputError("the triangulated wall is another one than that of the checkpoint", "checkpoint",
                      "set the model up as it was when the checkpoint was written");
   archiveMesh(reader, mesh);
+  requireWhole(mesh.contacts);
   mesh.wall.topology = geometry::makeTopology(mesh.wall.facets, static_cast<int>(mesh.wall.x.size()));
   reader(stored);
 }

@@ -1,5 +1,6 @@
 #include "dovetail/dem/walls/wall_checks.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -66,6 +67,96 @@ void validate(const MeshWall& mesh, int materials) {
   }
   if (const auto* servo = std::get_if<WallServo>(&mesh.motion))
     makeServo(servo->direction, servo->load, servo->mass, servo->damping);
+}
+
+namespace {
+
+[[noreturn]] void refuseContacts(const std::string& problem) {
+  throw InputError(problem, "contacts with a wall", "take an older checkpoint");
+}
+
+/// Numbers that are not finite, and lists that are not there for each of so many items.
+class Lists {
+public:
+  explicit Lists(std::size_t items) : items_(items) {}
+  /// @return itself, for one list after the other
+  template <class... List>
+  const Lists& each(const List&... lists) const {
+    (need(lists.size() == items_, lists), ...);
+    return *this;
+  }
+  /// Those that are empty where nobody uses them.
+  template <class... List>
+  const Lists& eachOrNone(const List&... lists) const {
+    (need(lists.empty() || lists.size() == items_, lists), ...);
+    return *this;
+  }
+  /// As many of each, whatever number that is.
+  const Lists& several(const std::vector<double>& list) const {
+    need(items_ == 0 ? list.empty() : list.size() % items_ == 0, list);
+    return *this;
+  }
+
+private:
+  static bool finite(double x) { return std::isfinite(x); }
+  static bool finite(const Vec3& x) { return isFinite(x); }
+  static bool finite(const std::array<double, 3>& x) { return isFinite({x[0], x[1], x[2]}); }
+  template <class Whole>
+  static bool finite(const Whole&) {
+    return true;
+  }
+  template <class List>
+  static void need(bool fits, const List& list) {
+    if (!fits) refuseContacts("lists of a state do not fit each other");
+    for (const auto& value : list)
+      if (!finite(value)) refuseContacts("a number of a state is not finite");
+  }
+  std::size_t items_;
+};
+
+void requireWhole(const EndedMemories& left) { Lists(left.material.size()).each(left.share).several(left.memory); }
+
+template <class Number>
+void requireBelow(const std::vector<Number>& list, std::size_t end, const char* what) {
+  for (const auto number : list)
+    if (number < 0 || static_cast<std::size_t>(number) >= end)
+      refuseContacts(std::string("there is no ").append(what).append(" ") + std::to_string(number));
+}
+
+void requireMaterials(const EndedMemories& left, int materials) {
+  if (materials > 1) requireBelow(left.material, static_cast<std::size_t>(materials), "material");
+}
+
+}  // namespace
+
+/// The numbers of particles are kept where some have left since contacts were found, the rest is not cut to length.
+void requireWhole(const PrimitiveContacts& c) {
+  Lists(c.normal.size()).each(c.normal, c.overlap, c.force).eachOrNone(c.couple, c.energy, c.image);
+  Lists(c.particle.size()).several(c.memory);
+  if (c.particle.size() > c.normal.size()) refuseContacts("lists of a state do not fit each other");
+  requireWhole(c.left);
+}
+
+void requireWhole(const WallContacts& c) {
+  Lists(c.particle.size())
+      .each(c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyShare, c.force)
+      .eachOrNone(c.couple, c.energy, c.image);
+  const WallSprings& s = c.springs;
+  Lists(s.particle.size()).each(s.facet, s.normal, s.share).several(s.memory);
+  requireWhole(s.left);
+}
+
+void requireRows(const PrimitiveContacts& contacts, const WallRows& rows) {
+  requireBelow(contacts.particle, rows.particles, "particle");
+  requireMaterials(contacts.left, rows.materials);
+}
+
+void requireRows(const WallContacts& contacts, const WallRows& rows, bool current) {
+  requireBelow(contacts.springs.particle, rows.particles, "particle");
+  requireBelow(contacts.springs.facet, rows.facets, "facet");
+  requireMaterials(contacts.springs.left, rows.materials);
+  requireBelow(contacts.facet, rows.facets, "facet");
+  if (current) requireBelow(contacts.particle, rows.particles, "particle");
 }
 
 namespace {

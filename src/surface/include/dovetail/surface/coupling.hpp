@@ -90,6 +90,9 @@ public:
 
   /// @throws InputError naming what of the laws, or of a space that repeats, cannot be had on this surface
   void check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity = {}) const;
+  /// @param materials  rows of the laws' table
+  /// @throws InputError for contacts of particles or materials that are not there, as a damaged state may have them
+  void check(const dem::Particles& particles, int materials) const;
   /// Particles get new numbers, < 0: gone; what their contacts remember follows. @return as dem::renumber, J
   double renumber(std::span<const int> newNumber, const dem::Particles& before);
   /// Adds what the contacts of the last exchange ask of the step, the surface giving way with its nodes: node i shares
