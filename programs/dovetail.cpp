@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <optional>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/interruption.hpp"
@@ -29,9 +30,15 @@ struct Options {
   std::string file, out, kind;
   std::vector<std::string> settings;
   bool profile = false, markdown = false;
+  std::optional<double> maxWallSeconds;
 };
 
+void limitTime(const Options& options) {
+  if (options.maxWallSeconds) io::interruptAfter(*options.maxWallSeconds);
+}
+
 bool runScene(const Options& options) {
+  limitTime(options);
   const scene::Scene scene = scene::readScene(options.file, options.settings);
   const std::filesystem::path folder =
       options.out.empty() ? std::filesystem::path(options.file).stem().string() + "-out" : options.out;
@@ -45,6 +52,7 @@ bool checkScene(const Options& options) {
   return true;
 }
 bool resumeRun(const Options& options) {
+  limitTime(options);
   return scene::resume({.folder = options.file, .profile = options.profile}, std::cout);
 }
 bool tellFile(const Options& options) {
@@ -81,14 +89,19 @@ std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
         ->expected(1)
         ->take_all();
   };
+  const auto steps = [&](CLI::App* verb) {
+    verb->add_flag("--profile", options.profile, "time per part of a step in the summary");
+    verb->add_option("--max-wall-seconds", options.maxWallSeconds,
+                     "ends with a checkpoint and exit code 142 when so much time has passed, set-up included");
+  };
   CLI::App* const run = add("run", "runs a scene", runScene);
   takesScene(run);
   run->add_option("--out", options.out, "folder for all files; <scene>-out if not given");
-  run->add_flag("--profile", options.profile, "time per part of a step in the summary");
+  steps(run);
   takesScene(add("check", "builds a scene, and tells sizes, limits of the step, memory and time", checkScene));
   CLI::App* const resume = add("resume", "goes on from the last checkpoint of a run", resumeRun);
   resume->add_option("FOLDER", options.file, "that the run wrote into")->required();
-  resume->add_flag("--profile", options.profile, "time per part of a step in the summary");
+  steps(resume);
   add("info", "tells what a file or folder holds", tellFile)->add_option("FILE", options.file)->required();
   add("schema", "prints the JSON Schema of scenes", writeSchema)
       ->add_flag("--markdown", options.markdown, "a reference of all keys instead");
@@ -130,7 +143,7 @@ bool act(int argc, char** argv) {
     if (argc > 1 && std::string(argv[1]) == verb.name) return verb.act(argc - 1, argv + 1);
   CLI::App app(
       "Runs scenes of grains and solids. Exit codes: 0 done, 1 broke down or differs, 2 refused, 128 + n ended by "
-      "signal n.");
+      "signal n, 142 when the time of --max-wall-seconds was up.");
   app.set_version_flag("--version", "dovetail " + io::buildInfo().version + " " + io::buildInfo().commit);
   app.require_subcommand(1);
   Options options;

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Settings {
-  std::string scene, out, error = "largest_residual_J";
+  std::string scene, out, error;
   std::vector<std::string> over, set;
   std::optional<double> exact;
   int workers = threads();
@@ -86,6 +86,23 @@ void addSeries(const fs::path& file, report::Json& figures) {
     figures[series.names()[c]] = report::numberOrNull(series.column(c).back());
 }
 
+constexpr const char* ownError = "largest_residual_J";
+
+/// Before hours are spent on runs that have no such figure.
+void requireColumn(const scene::Scene& scene, const std::string& name) {
+  if (name == ownError) return;
+  std::vector<std::string> columns;
+  try {
+    columns = scene::seriesColumns(scene);
+  } catch (const InputError&) {  // its row will say why; others may do
+    return;
+  }
+  if (std::find(columns.begin(), columns.end(), name) != columns.end()) return;
+  std::string list = ownError;
+  for (const std::string& column : columns) list += ", " + column;
+  throw InputError("the series has no column of this name", "--error " + name, "take one of " + list);
+}
+
 report::Json runCase(const scene::Scene& scene, const fs::path& folder, const Settings& settings) {
   setThreads(std::max(1, detail::processors() / settings.workers));
   const auto begun = std::chrono::steady_clock::now();
@@ -123,6 +140,7 @@ report::Study planOf(const Settings& settings) {
     if (!scene.output.series)
       throw InputError("the scene writes no series to compare", settings.scene,
                        "add output.series, or --set output.series=1ms");
+    if (study.cases.empty()) requireColumn(scene, settings.error);
     const fs::path folder = study.folder / report::format("%03zu", study.cases.size() + 1);
     values.emplace_back("folder", folder.filename().string());
     study.cases.push_back({label, values, [scene, folder, &settings] { return runCase(scene, folder, settings); }});
@@ -134,6 +152,7 @@ report::Study planOf(const Settings& settings) {
 
 bool studyScene(int argc, char** argv) {
   Settings settings;
+  settings.error = ownError;
   Options options("dovetail study",
                   "Runs a scene with every combination of values; writes study.csv, .json, .md and .svg.");
   options.text("SCENE", settings.scene, "scene file (JSON)").require();

@@ -1,6 +1,7 @@
 #include "program/run.hpp"
 
 #include <iostream>
+#include <new>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/interruption.hpp"
@@ -15,6 +16,9 @@ int runProgram(const std::string& name, const std::function<bool()>& body) {
   } catch (const InputError& error) {
     std::cerr << name << ": " << error.what() << '\n';
     return 2;
+  } catch (const std::bad_alloc&) {
+    std::cerr << name << ": there is not enough memory: take fewer grains or cells, or a machine with more\n";
+    return 1;
   } catch (const std::exception& error) {
     std::cerr << name << ": " << error.what() << '\n';
     return 1;

@@ -1,6 +1,12 @@
 #include "dovetail/io/interruption.hpp"
 
+#include <sys/time.h>
+
 #include <atomic>
+#include <cmath>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
 
 namespace dovetail::io {
 
@@ -8,9 +14,12 @@ namespace {
 
 struct Signal {
   int number;
-  const char* name;
+  const char* told;
 };
-constexpr std::array<Signal, 3> heeded{{{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}}};
+constexpr std::array<Signal, 4> heeded{{{SIGINT, "interrupted by SIGINT"},
+                                        {SIGTERM, "interrupted by SIGTERM"},
+                                        {SIGHUP, "interrupted by SIGHUP"},
+                                        {SIGALRM, "its time was up"}}};
 
 std::atomic<int> noted{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal's handler may touch nothing else");
@@ -37,9 +46,18 @@ InterruptionGuard::~InterruptionGuard() {
 
 int interruption() { return noted.load(std::memory_order_relaxed); }
 
+void interruptAfter(double seconds) {
+  if (!(seconds >= 1e-6 && seconds <= 1e8))
+    throw InputError("the limit is " + formatNumber(seconds) + " s", "wall-clock time", "give 1e-6 to 1e8 s");
+  const double whole = std::floor(seconds);
+  itimerval timer{};
+  timer.it_value = {static_cast<time_t>(whole), static_cast<suseconds_t>(1e6 * (seconds - whole))};
+  setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
 std::string nameOfInterruption() {
   for (const Signal& signal : heeded)
-    if (signal.number == interruption()) return std::string("interrupted by ") + signal.name;
+    if (signal.number == interruption()) return signal.told;
   return "not interrupted";
 }
 

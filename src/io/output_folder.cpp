@@ -62,6 +62,19 @@ fs::path prepareOutputFolder(const fs::path& folder, const std::vector<std::stri
   return folder;
 }
 
+FolderOnTrial::FolderOnTrial(const fs::path& folder) {
+  std::error_code error;
+  fs::path inner = fs::absolute(folder, error).lexically_normal();
+  if (!inner.has_filename()) inner = inner.parent_path();
+  for (; !inner.empty() && !fs::exists(fs::symlink_status(inner, error)); inner = inner.parent_path())
+    missing_.push_back(inner);
+}
+
+FolderOnTrial::~FolderOnTrial() {
+  std::error_code error;
+  for (const fs::path& folder : missing_) fs::remove(folder, error);  // which leaves folders that are not empty
+}
+
 FolderLock::FolderLock(const fs::path& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;

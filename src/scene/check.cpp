@@ -1,11 +1,9 @@
 // All of a scene short of running it.
-#include <unistd.h>
-
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ostream>
 
+#include "dovetail/core/memory.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "plan.hpp"
@@ -14,16 +12,6 @@
 namespace dovetail::scene {
 
 namespace {
-
-/// Bytes that this process holds.
-double residentBytes() {
-  long pages = 0, resident = 0;
-  if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(file, "%ld %ld", &pages, &resident) != 2) resident = 0;
-    std::fclose(file);
-  }
-  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
 
 void tellParts(Built& built, const Scene& scene, std::ostream& log) {
   const coupling::CoupledRun& run = *built.run;
@@ -53,6 +41,8 @@ double secondsPerWindow(coupling::CoupledRun& run) {
   return seconds / windows;
 }
 
+double mebibytes(double bytes) { return std::round(bytes / 1048576.0); }
+
 void tellCost(Built& built, const Scene& scene, const Plan& plan, std::ostream& log) {
   std::int64_t wanted = 0, atMost = 0;
   double time = 0.0;
@@ -69,10 +59,18 @@ void tellCost(Built& built, const Scene& scene, const Plan& plan, std::ostream& 
   if (atMost > 0)
     log << "stages settle in at most " << atMost << " windows, " << formatDuration(each * static_cast<double>(atMost))
         << '\n';
-  log << "memory " << std::round(residentBytes() / 1048576.0) << " MiB\n";
+  log << "memory " << mebibytes(residentMemory()) << " MiB";
+  if (const double left = availableMemory(); std::isfinite(left)) log << ", " << mebibytes(left) << " MiB are free";
+  log << '\n';
 }
 
 }  // namespace
+
+std::vector<std::string> seriesColumns(const Scene& scene) {
+  Built built = build(scene);
+  start(built, scene);
+  return Series(built, scene.output.probes, {}).table().names();
+}
 
 void check(const Scene& scene, std::ostream& log) {
   Built built = build(scene);

@@ -1,9 +1,11 @@
 #include "checkpoints.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/io/time_series.hpp"
 
 namespace dovetail::scene {
 
@@ -12,7 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What states of scenes are; with the mark of our files (output_folder.hpp).
-constexpr const char* stateKind = "dovetail 2 scene";
+constexpr const char* stateKind = "dovetail 3 scene";
+
+constexpr const char* timesFile = "times.csv";
 
 fs::path lastState(const fs::path& folder) { return folder / "checkpoint.state"; }
 fs::path stateBefore(const fs::path& folder) { return folder / "checkpoint.previous.state"; }
@@ -20,7 +24,7 @@ fs::path stateBefore(const fs::path& folder) { return folder / "checkpoint.previ
 template <class Archive, class P>
 void archiveProgress(Archive& archive, P& p) {
   archive(p.stage, p.window, p.rows, p.frames, p.rest.report.atRest, p.rest.report.kinetic, p.rest.report.windows,
-          p.rest.report.stops, p.rest.before, p.rest.quiet);
+          p.rest.report.stops, p.rest.before, p.rest.quiet, p.remarks, p.toldOfStep);
 }
 
 }  // namespace
@@ -62,6 +66,26 @@ Progress readCheckpoint(const fs::path& folder, const std::string& hash, couplin
     throw InputError("the checkpoint is of another scene", file.string(), "put its scene.json back, or begin anew");
   run.load(checkpoint.state);
   return checkpoint.progress;
+}
+
+void writeTimes(const fs::path& folder, const io::KeyValues& provenance, const std::vector<double>& seconds) {
+  io::TimeSeries table({"stage", "wall_s"});
+  for (std::size_t k = 0; k < seconds.size(); ++k) table.append({static_cast<double>(k + 1), seconds[k]});
+  io::writeCsv(folder / timesFile, table, provenance);
+}
+
+std::vector<double> readTimes(const fs::path& folder, std::size_t stages) {
+  std::vector<double> seconds(stages, 0.0);
+  std::error_code error;
+  if (!fs::exists(folder / timesFile, error)) return seconds;
+  try {
+    const io::TimeSeries table = io::readCsv(folder / timesFile);
+    const auto column = table.column("wall_s");
+    for (std::size_t k = 0; k < std::min(stages, column.size()); ++k)
+      if (column[k] >= 0.0) seconds[k] = column[k];
+  } catch (const InputError&) {  // a run goes on without what only tells times
+  }
+  return seconds;
 }
 
 std::string hashOf(const std::string& text) {

@@ -4,12 +4,24 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "dovetail/coupling/rest.hpp"
 #include "dovetail/coupling/run.hpp"
+#include "dovetail/io/provenance.hpp"
 
 namespace dovetail::scene {
+
+/// A sentence on what has happened, without what depends on the machine.
+struct Remark {
+  std::vector<char> text;
+  bool warns = false;
+};
+template <class Archive, class R>
+void archiveFields(Archive& archive, R& remark) requires std::is_same_v<std::remove_const_t<R>, Remark> {
+  archive(remark.text, remark.warns);
+}
 
 /// Where a run stands in its stages, and what it has written.
 struct Progress {
@@ -18,6 +30,8 @@ struct Progress {
   std::uint64_t rows = 0;       ///< of the series
   std::vector<double> frames;   ///< their times, s
   coupling::RestProgress rest;  ///< of a stage that brings to rest
+  std::vector<Remark> remarks;
+  bool toldOfStep = false;  ///< that it has become too large
 };
 
 /// A state as it lies in a file.
@@ -39,6 +53,13 @@ void writeCheckpoint(const std::filesystem::path& folder, const std::string& has
                      coupling::CoupledRun& run);
 /// @return where the run stood. @throws InputError if there is none, or it is of another scene or damaged
 Progress readCheckpoint(const std::filesystem::path& folder, const std::string& hash, coupling::CoupledRun& run);
+
+/// Seconds of wall-clock time that each stage has taken in all programs that worked on it, beside the state: it has the
+/// same bytes on every machine, times.csv has not.
+void writeTimes(const std::filesystem::path& folder, const io::KeyValues& provenance,
+                const std::vector<double>& seconds);
+/// @return a number per stage, 0 for what no file tells
+std::vector<double> readTimes(const std::filesystem::path& folder, std::size_t stages);
 
 /// 16 digits of FNV-1a.
 std::string hashOf(const std::string& text);

@@ -26,11 +26,13 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t lookEvery = 20;  // windows between two looks at signals
 
+std::string textOf(const Remark& remark) { return {remark.text.begin(), remark.text.end()}; }
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 std::vector<std::string> fileNames(const Scene& scene) {
   std::vector<std::string> names{"scene.json",   "series.csv",       "summary.txt",
-                                 "summary.json", "checkpoint.state", "checkpoint.previous.state"};
+                                 "summary.json", "checkpoint.state", "checkpoint.previous.state",
+                                 "times.csv"};
   if (scene.output.hdf5) names.push_back("series.h5");
   return names;
 }
@@ -45,9 +47,11 @@ public:
         text_(sceneText(scene)),
         hash_(hashOf(text_)),
         provenance_(io::provenance({{"scene", hash_}})),
+        trial_(settings.folder),
         lock_(io::prepareOutputFolder(settings.folder, fileNames(scene))),
         built_(build(scene)) {
     built_.run->profile = Profile(settings.profile);
+    built_.run->grains.profile = settings.profile ? &built_.run->profile : nullptr;
     start(built_, scene);
     plan_ = planOf(built_, scene);
     if (plan_.series > 0)
@@ -56,11 +60,13 @@ public:
     if (goesOn) {
       progress_ = readCheckpoint(settings.folder, hash_, *built_.run);
       if (series_) series_->takeUp(progress_.rows);
+      seconds_ = readTimes(settings.folder, scene.stages.size());
     }
     if (plan_.frames > 0)
       frames_ = std::make_unique<Frames>(built_, scene, settings.folder, provenance_, progress_.frames);
     for (const std::string& note : built_.notes) log_ << note << '\n';
     if (goesOn) return;
+    trial_.keep();
     removeEarlierRun();
     io::writeFileAtomically(file("scene.json"), io::provenanceLines(provenance_, "// ") + text_);
     sample(0);
@@ -68,13 +74,12 @@ public:
   }
 
   bool finish() {
+    counted_ = Clock::now();
     for (; progress_.stage < scene_.stages.size(); ++progress_.stage, progress_.window = 0) {
-      const Clock::time_point begun = Clock::now();
-      const Stage& stage = scene_.stages[progress_.stage];
-      const auto* const settle = std::get_if<Settle>(&stage.kind);
+      const auto* const settle = std::get_if<Settle>(&scene_.stages[progress_.stage].kind);
       if (!(settle ? comeToRest(*settle) : runFor(plan_.stages[progress_.stage]))) return stop();
-      notes_.stages.push_back({progress_.stage + 1, nameOf(stage), rounded(since(begun))});
-      note("stage " + std::to_string(progress_.stage + 1) + ": " + formatNumber(rounded(since(begun))) + " s");
+      countTime();
+      log_ << lineOf(progress_.stage) << std::endl;
     }
     if (plan_.checkpoints > 0) checkpoint();
     close();
@@ -88,7 +93,7 @@ private:
   /// Files that this run may not write, or only at its end.
   void removeEarlierRun() const {
     for (const char* const old : {"checkpoint.state", "checkpoint.previous.state", "summary.txt", "summary.json",
-                                  "series.csv", "series.h5", "fields.vti", "report.html", "report.md"})
+                                  "times.csv", "series.csv", "series.h5", "fields.vti", "report.html", "report.md"})
       if (io::isOurs(file(old))) io::removeOurs(file(old));
     std::vector<fs::path> frames;
     for (const auto& entry : fs::directory_iterator(settings_.folder)) {
@@ -102,9 +107,16 @@ private:
   static const char* nameOf(const Stage& stage) {
     return std::holds_alternative<Settle>(stage.kind) ? "settle" : "run";
   }
-  void note(const std::string& line) {
-    notes_.lines.push_back(line);
-    log_ << line << std::endl;
+  std::string lineOf(std::size_t stage) const {
+    return "stage " + std::to_string(stage + 1) + ": " + formatNumber(rounded(seconds_[stage])) + " s";
+  }
+  void countTime() {
+    if (progress_.stage < seconds_.size()) seconds_[progress_.stage] += since(counted_);
+    counted_ = Clock::now();
+  }
+  void remark(const std::string& line, bool warns) {
+    progress_.remarks.push_back({{line.begin(), line.end()}, warns});
+    log_ << (warns ? "WARNING: " : "") << line << std::endl;
   }
 
   bool comeToRest(const Settle& settle) {
@@ -122,8 +134,7 @@ private:
                              std::to_string(rest.report.windows) + " windows, kinetic over elastic energy " +
                              formatNumber(rest.report.kinetic) +
                              (rest.report.atRest ? "" : ": give it more windows, or run for a time instead");
-    note(line);
-    if (!rest.report.atRest) notes_.warnings.push_back(line);
+    remark(line, !rest.report.atRest);
     rest = {};
     sample(0);
     frame(0);
@@ -171,12 +182,12 @@ private:
     progress_.rows = series_->rows();
   }
   void warn() {
-    if (warned_ || !series_->limit() || built_.run->dt() <= series_->limit()->dt) return;
+    if (progress_.toldOfStep || !series_->limit() || built_.run->dt() <= series_->limit()->dt) return;
     const coupling::StepLimit& limit = *series_->limit();
-    warned_ = true;
-    notes_.warnings.push_back("at t = " + formatNumber(built_.run->time()) + " s the step is beyond " +
-                              formatNumber(limit.dt) + " s, which " + limit.owner + " sets: take a smaller steps.dt");
-    note("WARNING: " + notes_.warnings.back());
+    progress_.toldOfStep = true;
+    remark("at t = " + formatNumber(built_.run->time()) + " s the step is beyond " + formatNumber(limit.dt) +
+               " s, which " + limit.owner + " sets: take a smaller steps.dt",
+           true);
   }
   void frame(std::int64_t every) {
     if (!frames_ || (every > 0 && !due(every))) return;
@@ -188,7 +199,11 @@ private:
     if (series_) series_->close(text_);
     if (scene_.output.hdf5) writeSolidsHdf5(settings_.folder, built_, scene_, provenance_);
   }
-  void checkpoint() { writeCheckpoint(settings_.folder, hash_, progress_, *built_.run); }
+  void checkpoint() {
+    countTime();
+    writeTimes(settings_.folder, provenance_, seconds_);
+    writeCheckpoint(settings_.folder, hash_, progress_, *built_.run);
+  }
 
   bool stop() {
     checkpoint();
@@ -199,7 +214,16 @@ private:
   }
 
   void summarise() {
-    log_ << writeSummary(settings_.folder, provenance_, scene_, built_, notes_, series_ ? &series_->table() : nullptr)
+    RunNotes notes;
+    for (const Remark& one : progress_.remarks) {
+      notes.lines.push_back((one.warns ? "WARNING: " : "") + textOf(one));
+      if (one.warns) notes.warnings.push_back(textOf(one));
+    }
+    for (std::size_t k = 0; k < scene_.stages.size(); ++k) {
+      notes.stages.push_back({k + 1, nameOf(scene_.stages[k]), rounded(seconds_[k])});
+      notes.lines.push_back(lineOf(k));
+    }
+    log_ << writeSummary(settings_.folder, provenance_, scene_, built_, notes, series_ ? &series_->table() : nullptr)
          << "files in " << settings_.folder.string() << std::endl;
   }
 
@@ -208,14 +232,15 @@ private:
   std::ostream& log_;
   std::string text_, hash_;
   io::KeyValues provenance_;
+  io::FolderOnTrial trial_;
   io::FolderLock lock_;
   Built built_;
   Plan plan_;
   std::unique_ptr<Series> series_;
   std::unique_ptr<Frames> frames_;
   Progress progress_;
-  RunNotes notes_;
-  bool warned_ = false;
+  std::vector<double> seconds_ = std::vector<double>(scene_.stages.size(), 0.0);  ///< of each stage, in all programs
+  Clock::time_point counted_;                                                     ///< until then
 };
 
 }  // namespace

@@ -16,12 +16,14 @@ void describe(Fields& f, MeshFile& v) {
   f.number({"scale", "metres per unit of the file"}, v.scale, positive(unit::none));
 }
 void describe(Fields& f, TetrahedraMesh& v) {
-  f.file({"file", "closed surface: STL, OBJ, PLY, or VTP where the build has VTK; the set skin is its boundary"}, v.file);
+  f.file({"file", "closed surface: STL, OBJ, PLY, or VTP where the build has VTK; the set skin is its boundary"},
+         v.file);
   f.number({"scale", "metres per unit of the file"}, v.scale, positive(unit::none));
   f.number({"size", "largest radius of the spheres around tetrahedra, and largest edge along sharp edges"}, v.size,
            positive(unit::length));
-  f.number({"surface_distance", "largest distance of the boundary from the surface; a twentieth of the size if not given"},
-           v.surfaceDistance, positive(unit::length));
+  f.number(
+      {"surface_distance", "largest distance of the boundary from the surface; a twentieth of the size if not given"},
+      v.surfaceDistance, positive(unit::length));
 }
 void describe(Fields& f, StVenantKirchhoff& v) {
   young(f, v.youngsModulus);
@@ -105,7 +107,9 @@ void describe(Fields& f, Solid& v) {
   f.where(v.where);
   f.text({"name", "for couplings, reports and files: letters, digits, '_', '-' and '.', with a letter first"}, v.name,
          true);
-  f.oneOf({"mesh", "a box of cells, one from a file, or tet4 in a closed surface where the build has CGAL in the program"}, v.mesh, meshes);
+  f.oneOf(
+      {"mesh", "a box of cells, one from a file, or tet4 in a closed surface where the build has CGAL in the program"},
+      v.mesh, meshes);
   f.object({"material", "of the solid"}, v.material);
   f.word({"formulation", "of the elements"}, v.formulation, formulations);
   f.flag({"gravity", "whether gravity acts on it"}, v.gravity);

@@ -1,5 +1,7 @@
 // Spheres of a scene.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/model.hpp"
@@ -29,14 +31,15 @@ geometry::Periodicity spaceOf(const geometry::Box& box, const Scene& scene) {
   return space;
 }
 
-void requireBearableIn(const geometry::Box& box, double radius) {
+/// @param length  edge of the cube of which each holds one sphere
+void requireBearableIn(const geometry::Box& box, double length) {
   const Vec3 edges = box.upper - box.lower;
-  requireBearable(edges.x / radius * (edges.y / radius) * (edges.z / radius) / 8.0, "spheres",
+  requireBearable(edges.x / length * (edges.y / length) * (edges.z / length), "spheres", BytesPer::grain,
                   "take larger ones, or a smaller box");
 }
 
 void add(const Target& to, const Lattice& lattice) {
-  requireBearableIn(lattice.box, lattice.radius);
+  requireBearableIn(lattice.box, lattice.distance.value_or(2.0 * lattice.radius));
   const auto kind = static_cast<dem::Lattice>(lattice.kind);
   dem::addPacking(
       to.grains.particles,
@@ -45,7 +48,9 @@ void add(const Target& to, const Lattice& lattice) {
 }
 
 void add(const Target& to, const RandomPacking& packing) {
-  requireBearableIn(packing.box, packing.radius.smallest);
+  const auto [least, most] = packing.radius;  // equally frequent between these
+  const double meanCube = 0.25 * (least + most) * (least * least + most * most);
+  requireBearableIn(packing.box, std::cbrt(4.0 / 3.0 * std::numbers::pi * meanCube / packing.solidFraction));
   dem::PackingReport report;
   const dem::Packing spheres = dem::growPacking(dem::UniformSizes{packing.radius.smallest, packing.radius.largest},
                                                 spaceOf(packing.box, to.scene),

@@ -30,10 +30,13 @@ auto atPlace(const std::string& where, Act act) {
   }
 }
 
-/// @throws InputError if so many spheres or cells cannot be meant
-inline void requireBearable(double count, const std::string& what, const std::string& remedy) {
-  if (!(count <= 1e8)) throw InputError("more than 1e8 " + what, "", remedy);
-}
+/// What things take in a run at least, bytes: measured with `dovetail check` on scenes of a million.
+struct BytesPer {
+  static constexpr double grain = 500.0, cell = 1000.0;
+};
+/// Before memory is taken. @throws InputError if so many spheres or cells cannot be meant, or do not fit the memory that
+/// is free
+void requireBearable(double count, const std::string& what, double bytesEach, const std::string& remedy);
 
 std::shared_ptr<const dem::ContactLaws> makeLaws(const ContactLaw& law);
 /// Of all pairs of contact materials. @throws InputError telling the place of the law at fault

@@ -13,7 +13,7 @@ namespace dovetail::scene {
 namespace {
 
 fem::SolidMesh meshOf(const BoxMesh& box) {
-  requireBearable(1.0 * box.cells[0] * box.cells[1] * box.cells[2], "cells", "take fewer");
+  requireBearable(1.0 * box.cells[0] * box.cells[1] * box.cells[2], "cells", BytesPer::cell, "take fewer");
   const auto shape = std::find_if(fem::allCellShapes.begin(), fem::allCellShapes.end(),
                                   [&](fem::CellShape one) { return box.shape == fem::name(one); });
   return fem::boxOf(*shape, box.cells, box.box.lower, box.box.upper);

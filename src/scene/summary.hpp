@@ -16,7 +16,7 @@ struct RunNotes {
   struct Stage {
     std::size_t number;  ///< from 1
     const char* what;
-    double seconds;  ///< of this program; what was done before a restart is not in it
+    double seconds;  ///< in all programs that worked on it
   };
   std::vector<Stage> stages;
   std::vector<std::string> lines, warnings;

@@ -26,7 +26,7 @@ void requireClosed(const geometry::TriangleMesh& surface, const std::string& fil
 /// A regular tetrahedron in a sphere of radius R has the volume 8/(9 √3) R³; no other one there is larger.
 void requireBearableIn(const geometry::TriangleMesh& surface, double size) {
   requireBearable(geometry::signedVolume(surface.x, surface.facets) / (0.5132 * size * size * size), "tetrahedra",
-                  "take a larger size");
+                  BytesPer::cell, "take a larger size");
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
+
+#include "dovetail/core/error.hpp"
 #include "dovetail/io/interruption.hpp"
 
 namespace dovetail::io {
@@ -43,6 +46,16 @@ TEST(Interruption, AskedForTwiceEndsTheProgram) {
   });
   ASSERT_TRUE(WIFSIGNALED(status)) << status;
   EXPECT_EQ(WTERMSIG(status), SIGTERM);
+}
+
+TEST(Interruption, ComesWhenTheTimeIsUp) {
+  const InterruptionGuard guard;
+  interruptAfter(0.02);
+  EXPECT_EQ(interruption(), 0);
+  for (int look = 0; look < 1000 && interruption() == 0; ++look) ::usleep(1000);
+  EXPECT_EQ(interruption(), SIGALRM);
+  EXPECT_EQ(nameOfInterruption(), "its time was up");
+  for (const double odd : {0.0, -1.0, 1e9, std::nan("")}) EXPECT_THROW(interruptAfter(odd), InputError) << odd;
 }
 
 TEST(Interruption, LeavesIgnoredSignalsIgnored) {

@@ -31,6 +31,23 @@ TEST(OutputFolder, IsMadeWithItsParentsAndLeftEmpty) {
   EXPECT_EQ(scratch.content(), (std::set<std::string>{"a", "a/b"}));
 }
 
+TEST(OutputFolder, OnTrialGoesUnlessItIsKeptOrUsed) {
+  const ScratchFolder scratch;
+  const auto tryOut = [&](const fs::path& folder, auto&& use) {
+    FolderOnTrial trial(folder);
+    prepareOutputFolder(folder);
+    const FolderLock lock(folder);
+    use(trial);
+  };
+  fs::create_directory(scratch / "mine");
+  const auto nothing = [](FolderOnTrial&) {};
+  for (const char* const name : {"a/b/c", "a/b/c/", "mine/d", "mine"}) tryOut(scratch / name, nothing);
+  EXPECT_EQ(scratch.content(), std::set<std::string>{"mine"});
+  tryOut(scratch / "kept", [](FolderOnTrial& trial) { trial.keep(); });
+  tryOut(scratch / "used/in", [&](FolderOnTrial&) { writeText(scratch / "used/log", "mine"); });
+  EXPECT_EQ(scratch.content(), (std::set<std::string>{"mine", "kept", "used", "used/log"}));
+}
+
 TEST(OutputFolder, KeepsWhatIsThere) {
   const ScratchFolder scratch;
   writeText(scratch / "notes.txt", "mine");

@@ -74,14 +74,9 @@ TEST(StudyVerb, RefusesBeforeAnythingIsRun) {
   refused({"--over", "shore=0.1"}, "share");
   refused({"--over", "share=0.1,wide"}, "wide");
   refused({"--over", "share=0.1", "--workers", "0"}, "--workers");
+  refused({"--over", "share=0.1", "--error", "speed_J"}, "--error speed_J");
+  refused({"--over", "share=0.1", "--error", "wall_seconds"}, "take one of largest_residual_J, time_s, ");
   refused({}, "--over");
-}
-
-TEST(StudyVerb, SaysWhichColumnIsMissingOrRefusedByTheRun) {
-  const Bounce bounce;
-  const Outcome outcome =
-      runProgram({"study", bounce.file, "--over", "share=0.1", "--error", "speed_J", "--out", bounce.out});
-  EXPECT_NE(outcome.out.find("--error speed_J"), std::string::npos) << outcome.out << outcome.err;
 }
 
 TEST(ReportVerb, WritesAPageOnARunWithItsNumbers) {

@@ -1,5 +1,8 @@
 // What stands in a run that was made of a scene.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <sstream>
@@ -131,6 +134,31 @@ TEST(SceneParts, StepsThatAreAutomaticAreAShareOfTheSmallestLimit) {
   // Two spheres of mass m on a spring: 2/ω = 2 √(m/2k).
   EXPECT_NEAR(smallest, 2.0 * std::sqrt(0.5 * built.run->grains.particles.mass[0] / 5e3), 1e-12);
   EXPECT_EQ(built.run->dt(), 0.1 * smallest);
+}
+
+/// In a process of its own, which has little address space.
+TEST(SceneParts, WhatMemoryDoesNotHoldIsRefusedBeforeItIsTaken) {
+  const auto refused = [](const std::string& middle) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      const rlimit limit{1ULL << 32, 1ULL << 32};
+      setrlimit(RLIMIT_AS, &limit);
+      const std::string message = refusalOfRun(middle);
+      ::_exit(message.find("of memory, and") != std::string::npos && message.find("[s.json:") != std::string::npos ? 0
+                                                                                                                  : 1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  };
+  EXPECT_TRUE(refused(
+      R"("particles": [{"from": "lattice", "box": [[0, 0, 0], [1, 1, 1]], "radius": 1.2e-3, "density": 1}],)"));
+  EXPECT_TRUE(refused(
+      R"("particles": [{"from": "packing", "box": [[0, 0, 0], [1, 1, 1]], "radius": {"smallest": 1e-3, "largest": 1.4e-3},
+          "density": 1}],)"));
+  EXPECT_TRUE(refused(
+      R"("solids": [{"name": "b", "mesh": "box", "cells": [450, 450, 450], "box": [[0, 0, 0], [1, 1, 1]],
+         "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000}}],)"));
 }
 
 TEST(SceneParts, WhatCannotBeIsRefusedWithItsPlace) {

@@ -85,7 +85,7 @@ TEST(Program, RefusesInOneLine) {
   expectRefused(runProgram({"resume", folder.path().string()}), "no folder of a run");
   expectRefused(runProgram({"info", (folder / "none").string()}), "no such file");
   expectRefused(runProgram({"new", "plait"}), "plait");
-  EXPECT_FALSE(std::filesystem::exists(folder / "out/series.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 TEST(Program, StarterScenesAreWrittenOnceAndChecked) {

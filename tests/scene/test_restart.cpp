@@ -31,7 +31,7 @@ Words pile(const ScratchFolder& folder) { return words(folder, "pile.json", {"ti
 /// All bytes but those of the summaries, which tell times.
 std::map<std::string, std::string> digits(const ScratchFolder& folder) {
   auto bytes = everyByte(folder);
-  for (const char* const name : {"summary.txt", "summary.json"}) bytes.erase(name);
+  for (const char* const name : {"summary.txt", "summary.json", "times.csv"}) bytes.erase(name);
   bytes.erase("checkpoint.previous.state");
   return bytes;
 }
@@ -76,6 +76,27 @@ const Case settling{[](const ScratchFolder& folder) {
                     "checkpoint.previous.state", "dovetail"};
 TEST(Restart, AnInterruptedRestGoesOn) { expectSameAfter(settling, SIGTERM, 143); }
 TEST(Restart, AKilledRestGoesOn) { expectSameAfter(settling, SIGKILL, -1); }
+
+/// Parts of a time that is up at once are as long as a look takes; the last one has time enough.
+TEST(Restart, RunsWhoseTimeIsUpGoOn) {
+  const ScratchFolder whole, parted;
+  const auto limited = [](Words all, const char* seconds) {
+    all.insert(all.end(), {"--max-wall-seconds", seconds});
+    return runProgram(all);
+  };
+  const auto of = [](const ScratchFolder& folder) { return words(folder, "pile.json", {"time=0.04"}, "0.02"); };
+  ASSERT_EQ(runProgram(of(whole)).code, 0);
+  auto outcome = limited(of(parted), "1e-3");
+  const Words on{"resume", parted.path().string()};
+  for (int part = 0; part < 3; ++part) {
+    ASSERT_EQ(outcome.code, 142) << outcome.err;
+    EXPECT_NE(outcome.out.find("its time was up at t = "), std::string::npos) << outcome.out;
+    outcome = limited(on, part < 2 ? "1e-3" : "600");
+  }
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(digits(parted) == digits(whole));
+  for (const char* const odd : {"0", "nan", "-5", "soon"}) EXPECT_EQ(limited(on, odd).code, 2) << odd;
+}
 
 TEST(Restart, AFolderServesAgainAndPartsOfStatesGo) {
   const ScratchFolder folder;

@@ -7,7 +7,7 @@
 
 namespace dovetail::io {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP does not end the program but is noted for interruption(); a
+/// While it lives, the first SIGINT, SIGTERM, SIGHUP or SIGALRM does not end the program but is noted for interruption(); a
 /// second one of the same kind ends it as ever. Signals that are ignored (nohup) stay so. One at a time, on the main thread; it forgets
 /// what was noted when it is made.
 class InterruptionGuard {
@@ -18,7 +18,7 @@ public:
   InterruptionGuard& operator=(const InterruptionGuard&) = delete;
 
 private:
-  std::array<struct sigaction, 3> before_{};
+  std::array<struct sigaction, 4> before_{};
 };
 
 /// The number of the signal that asks this program to end, 0 if there is none. A run that finds one finishes its step,
@@ -26,7 +26,13 @@ private:
 /// load from memory, so it may be asked at every step.
 int interruption();
 
-/// "interrupted by SIGTERM"
+/// Lets SIGALRM come after so many seconds of wall-clock time, once: within a guard, a limit to what a run may take.
+/// Takes the place of an earlier limit and of any other timer of alarm(2). A process that forks does not hand it on.
+/// @param seconds  from 1e-6 to 1e8
+/// @throws InputError for others
+void interruptAfter(double seconds);
+
+/// "interrupted by SIGTERM"; "its time was up" for SIGALRM
 std::string nameOfInterruption();
 
 }  // namespace dovetail::io

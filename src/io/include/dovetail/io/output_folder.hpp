@@ -43,6 +43,21 @@ void requireFreeOrOurs(const std::filesystem::path& path);
 /// @throws InputError if something that is not ours is at `path`; Error if it cannot be removed
 void removeOurs(const std::filesystem::path& path);
 
+/// Takes back a folder that prepareOutputFolder has made, with those above it that it made, as far as they are empty,
+/// unless it is told to keep them: for runs that may be refused before they write.
+class FolderOnTrial {
+public:
+  /// Before the folder is made.
+  explicit FolderOnTrial(const std::filesystem::path& folder);
+  ~FolderOnTrial();
+  FolderOnTrial(const FolderOnTrial&) = delete;
+  FolderOnTrial& operator=(const FolderOnTrial&) = delete;
+  void keep() { missing_.clear(); }
+
+private:
+  std::vector<std::filesystem::path> missing_;  ///< the innermost first
+};
+
 /// Holds a folder for one run while it lives; the system lets go of it when the process ends, however it ends. Where
 /// the file system knows no locks, it holds nothing.
 class FolderLock {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "dovetail/scene/build.hpp"
 
@@ -35,6 +36,10 @@ bool resume(const RunSettings& settings, std::ostream& log);
 /// takes, from windows that are stepped for up to a second.
 /// @throws InputError as build and start; NumericalError if the first steps break down
 void check(const Scene& scene, std::ostream& log);
+
+/// Columns of the series that a run of the scene would write. Builds and starts the scene.
+/// @throws InputError as build and start
+std::vector<std::string> seriesColumns(const Scene& scene);
 
 /// What a file or folder of Dovetail's holds. @throws InputError if it is none
 void tell(const std::filesystem::path& file, std::ostream& out);
