@@ -6,6 +6,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/solve/nested_dissection.hpp"
 
 namespace dovetail::arlequin {
 
@@ -83,7 +84,7 @@ fem::SparseMatrix gapMatrix(std::span<const WeighedMap> maps) {
   return A;
 }
 
-GapInverse::GapInverse(fem::SparseMatrix A, GapInverse* before)
+GapInverse::GapInverse(fem::SparseMatrix A, std::span<const Vec3> X, GapInverse* before)
     : size_(static_cast<std::size_t>(A.size)), scale_(size_, 0.0) {
   if (before) factors_ = std::move(before->factors_);
   for (std::size_t c = 0; c < size_; ++c)
@@ -93,12 +94,13 @@ GapInverse::GapInverse(fem::SparseMatrix A, GapInverse* before)
       const auto r = static_cast<std::size_t>(A.row[k]);
       A.value[k] = r == c ? 1.0 : A.value[k] * (scale_[c] * scale_[r]);
     }
+  const std::vector<int> order = fem::nestedDissection(A, X);
   // A vector that does not come back tells that rows depend on each other.
   constexpr double accuracy = 1e-6;
   std::mt19937 random(1);
   std::vector<double> probe(size_);
   for (double& value : probe) value = static_cast<double>(random()) / 4294967296.0 - 0.5;
-  if (factors_.factor(A)) {
+  if (factors_.factor(A, order)) {
     std::vector<double> back = multiplySymmetric(A, probe);
     factors_.solve(back, 1);
     double error = 0.0;
@@ -106,7 +108,7 @@ GapInverse::GapInverse(fem::SparseMatrix A, GapInverse* before)
     if (error <= accuracy) return;
   }
   for (std::size_t c = 0; c < size_; ++c) A.value[A.offsets[c]] += shift;
-  if (!factors_.factor(A))
+  if (!factors_.factor(A, order))
     throw NumericalError("the matrix of the gap's rows is not positive definite", "overlap",
                          "take a narrower kernel, or more particles per element");
 }

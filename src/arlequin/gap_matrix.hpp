@@ -21,8 +21,9 @@ fem::SparseMatrix gapMatrix(std::span<const WeighedMap> maps);
 class GapInverse {
 public:
   /// @param A       lower triangle
+  /// @param X       of the rows' nodes, m
   /// @param before  of another matrix: its analysis goes on where the pattern is the same
-  explicit GapInverse(fem::SparseMatrix A, GapInverse* before = nullptr);
+  GapInverse(fem::SparseMatrix A, std::span<const Vec3> X, GapInverse* before = nullptr);
   /// b ← A⁻¹ b; where rows depend on each other up to round-off, (A + shift diag A)⁻¹ b.
   /// @param columns  of b, one right-hand side after the other
   void solve(std::span<double> b, int columns) const;

@@ -168,6 +168,7 @@ GapOperator makeGapOperator(const Overlap& overlap, const fem::SolidMesh& mesh, 
   else
     addKernelRows(overlap, mesh, position.empty() ? std::span<const Vec3>(mesh.X) : position, mass, options, row, rows);
   dropEmptyRows(rows, gap.node, row);
+  for (const int n : gap.node) gap.X.push_back(mesh.X[static_cast<std::size_t>(n)]);
   normalise(rows);
   gap.particles = cg::fromRows(static_cast<int>(overlap.size()), rows);
   gap.particlesBack = cg::transposed(gap.particles);

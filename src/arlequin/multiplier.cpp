@@ -41,7 +41,7 @@ public:
     for (const LumpedNodes& of : nodes) {
       const WeighedMap maps[] = {{gap.particles, gap.particlesBack, compliance_.yield()}, {of.map, of.back, of.yield}};
       const std::size_t place = systems_.size();
-      systems_.emplace_back(gapMatrix(maps),
+      systems_.emplace_back(gapMatrix(maps), gap.X,
                             before && place < before->systems_.size() ? &before->systems_[place] : nullptr);
     }
   }

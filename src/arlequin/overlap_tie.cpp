@@ -53,9 +53,17 @@ void OverlapTie::Impl::ready(const dem::Model& m) {
   }
   if (!refit) return;
   refit = false;
-  lost += storedNow;
   keepGap(m);
+  if (!parts.constraint->stores()) return;
+  std::vector<Vec3> forces(now.size());
+  parts.constraint->evaluate({now, increment, {}, {}, 1.0}, forces);
+  lost += storedNow;
+  storedNow = storedWith(forces);
   lost -= storedNow;
+}
+
+double OverlapTie::Impl::storedWith(std::span<const Vec3> forces) const {
+  return parts.constraint->stores() ? 0.5 * sumOfProducts(now, forces) : 0.0;
 }
 
 /// Brings the gap up to the step under way before ties change: λ of the step before does its half of the work.
@@ -64,14 +72,14 @@ void OverlapTie::Impl::advance(const dem::Model& m) {
   updateGap(m, false);
   if (actsInWindows()) return;
   lost += 0.5 * sumOfProducts(lambda, increment) + storedNow;
-  storedNow = parts.constraint->storedEnergy(now);
+  if (!parts.constraint->needsRates()) parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
+  storedNow = storedWith(lambda);
   lost -= storedNow;
   advanced = true;
   if (!stood) return;
   // The solid's jump has stored what half a kick to come was to do to the nodes: now the new ties do it.
   std::vector<Vec3> ofNodes(now.size());
   gapOfMembers(parts.gap, std::vector<Vec3>(overlap.size()), nodes().v, ofNodes);
-  parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
   lost -= 0.5 * m.step.dt * sumOfProducts(lambda, ofNodes);
 }
 
@@ -195,7 +203,7 @@ void OverlapTie::addForces(dem::Model& m, const dem::Step& step) {
   s.slip();
   s.apply(m, step);
   const double before = s.storedNow;
-  s.storedNow = s.parts.constraint->storedEnergy(s.now);
+  s.storedNow = s.storedWith(s.lambda);
   if (step.timeless || s.actsInWindows()) return;
   s.advanced = false;
   double work = 0.5 * sumOfProducts(s.lambda, s.increment);

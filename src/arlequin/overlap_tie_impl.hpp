@@ -86,6 +86,8 @@ struct OverlapTie::Impl : TieState {
   void number(const dem::Particles& particles);
   void turnKept();
   void updateGap(const dem::Model& m, bool timeless);
+  /// J. @param forces  that answer the present gap
+  double storedWith(std::span<const Vec3> forces) const;
   void advance(const dem::Model& m);
   void slip();
   void slipMembers();

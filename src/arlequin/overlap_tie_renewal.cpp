@@ -173,7 +173,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   const std::vector<int> nodesOfRows = rowNode;
   std::vector<Vec3> rate(rowNode.size());
   if (actsInWindows()) gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
-  const double contactsBefore = contactEnergy(m), storedBefore = parts.constraint->storedEnergy(now);
+  const double contactsBefore = contactEnergy(m), storedBefore = storedNow;
   overlap = std::move(next);
   part = std::move(nextPart);
   number(m.particles);
@@ -183,7 +183,6 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     handOver(m, static_cast<std::size_t>(change.particle), change.before, change.found.weight, change.handedAt,
              impulse);
   kickNodes(impulse);
-  if (keepsForces()) parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
   stale = true;
   ready(m);
   if (turnsGap())
@@ -195,6 +194,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   for (Vec3& change : increment) change *= m.step.dt;
   if (!parts.constraint->needsRates() && !actsInWindows())
     parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
+  storedNow = storedWith(lambda);
   weighPairs(m, isMoved);
   lost += contactsBefore - contactEnergy(m) + storedBefore - storedNow;
   findNear(m);

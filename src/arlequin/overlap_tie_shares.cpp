@@ -76,7 +76,6 @@ void OverlapTie::Impl::keepGap(const dem::Model& m) {
   if (keepsForces()) cg::apply(parts.gap.particles, motionUnder(lambda), now);
   const std::vector<Vec3> fresh = freshGap(m);
   for (std::size_t r = 0; r < fresh.size(); ++r) kept[r] = now[r] - fresh[r];
-  storedNow = parts.constraint->storedEnergy(now);
 }
 
 /// Where all particles have been located anew, none has moved from its material point: there is no gap, whose part from

@@ -13,11 +13,7 @@ public:
   void evaluate(const GapRates& rates, std::span<Vec3> lambda) const override {
     for (std::size_t r = 0; r < lambda.size(); ++r) lambda[r] = stiffness_[r] * rates.gap[r];
   }
-  double storedEnergy(std::span<const Vec3> gap) const override {
-    double sum = 0.0;
-    for (std::size_t r = 0; r < gap.size(); ++r) sum += 0.5 * stiffness_[r] * squaredNorm(gap[r]);
-    return sum;
-  }
+  bool stores() const override { return true; }
   void applyStiffness(std::span<const Vec3> gap, std::span<Vec3> lambda) const override {
     for (std::size_t r = 0; r < gap.size(); ++r) lambda[r] = stiffness_[r] * gap[r];
   }
@@ -29,15 +25,9 @@ private:
 class MetricPenalty final : public Constraint {
 public:
   MetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty)
-      : penalty_(penalty), metric_(metricOf(gap, volume)) {}
+      : penalty_(penalty), metric_(metricOf(gap, volume), gap.X) {}
   void evaluate(const GapRates& rates, std::span<Vec3> lambda) const override { apply(rates.gap, lambda); }
-  double storedEnergy(std::span<const Vec3> gap) const override {
-    std::vector<Vec3> lambda(gap.size());
-    apply(gap, lambda);
-    double sum = 0.0;
-    for (std::size_t r = 0; r < gap.size(); ++r) sum += 0.5 * dot(gap[r], lambda[r]);
-    return sum;
-  }
+  bool stores() const override { return true; }
   void applyStiffness(std::span<const Vec3> gap, std::span<Vec3> lambda) const override { apply(gap, lambda); }
 
 private:

@@ -16,7 +16,7 @@ SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-bool SparseCholesky::factor(const SparseMatrix& A) {
+bool SparseCholesky::factor(const SparseMatrix& A, std::span<const int>) {
   const Eigen::Map<const Eigen::SparseMatrix<double>> matrix(A.size, A.size, static_cast<int>(A.value.size()),
                                                              A.offsets.data(), A.row.data(), A.value.data());
   if (impl_->offsets != A.offsets || impl_->row != A.row) {

@@ -30,8 +30,8 @@ public:
   /// λ per row, N: positive along the gap; the particles get −Πᵀλ, the nodes Bᵀλ.
   virtual void evaluate(const GapRates& rates, std::span<Vec3> lambda) const = 0;
   virtual bool needsRates() const { return false; }
-  /// J, a function of the accumulated gap; 0 for constraints that store nothing.
-  virtual double storedEnergy(std::span<const Vec3>) const { return 0.0; }
+  /// Whether λ is linear in the accumulated gap and derives from the energy ½ Σ gap · λ, J; others store nothing.
+  virtual bool stores() const { return false; }
   /// lambda = ∂λ/∂gap · gap, untouched by constraints without stiffness. For the critical step.
   virtual void applyStiffness(std::span<const Vec3>, std::span<Vec3>) const {}
 };

@@ -41,6 +41,7 @@ struct ProjectionOptions {
 /// does.
 struct GapOperator {
   std::vector<int> node;       ///< coarse node of each row; ascending unless the rows are per element
+  std::vector<Vec3> X;         ///< of these nodes, m
   std::vector<double> volume;  ///< ∫ψ_i dV over the overlap's elements, m³; ψ: the hats of the corners, throughout
   cg::Projection particles;    ///< Π; columns are the rows of Overlap
   cg::Projection nodes;        ///< B = ΠΦ, or the identity on the rows' nodes; columns are nodes

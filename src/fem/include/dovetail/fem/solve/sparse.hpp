@@ -34,10 +34,11 @@ public:
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-  /// Reads the lower triangle only; the symbolic analysis is reused while the pattern stays.
+  /// Reads the lower triangle only; the symbolic analysis is reused while the pattern and the order stay.
+  /// @param order  in which CHOLMOD eliminates the unknowns; empty: in one of its own
   /// @return false if the matrix is not positive definite (then solve() must not be called)
   /// @throws FactorMemoryError
-  bool factor(const SparseMatrix& A);
+  bool factor(const SparseMatrix& A, std::span<const int> order = {});
   /// Overwrites b by A⁻¹ b. @param columns  of b, one right-hand side after the other
   void solve(std::span<double> b, int columns = 1);
   /// "CHOLMOD" or "Eigen LDLT".
