@@ -1,9 +1,13 @@
 // Planes, cylinders and spheres: their search while they move, and under periods.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/laws/materials.hpp"
+#include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/walls/primitive_wall.hpp"
 #include "wall_scenes.hpp"
 
@@ -199,6 +203,35 @@ struct MeshTouch {
     return renumber(contacts, number, before);
   }
 };
+
+/// A sphere of 2 kg rests on a plane under 10 m/s², which moves up and aside by v (1 − cos 2πt)/2 and stops.
+double largestImbalance(double dt) {
+  Model m;
+  addParticle(m.particles, {0, 0, 0.1 - 2e-4}, {}, 0.1, Mass{2.0});
+  FrictionalLaw law;
+  law.normal.stiffness = 1e5;
+  law.tangential = {.stiffness = 8e4, .friction = 0.3};
+  m.laws = makeContactLaws(law);
+  m.gravity = {0, 0, -10};
+  addWall(m, makePlane({}, {0, 0, 1})).motion = [](double t, PrimitiveWall& wall) {
+    wall.velocity = t < 1.0 ? 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * t)) * Vec3{0.05, 0, 0.1} : Vec3{};
+  };
+  run(m, dt, 1);
+  const double start = energies(m).balance();
+  double worst = 0.0;
+  for (double t = 0.0; t < 1.2; t += 0.05) {
+    run(m, dt, std::lround(0.05 / dt));
+    worst = std::max(worst, std::abs(energies(m).balance() - start));
+  }
+  EXPECT_GT(energies(m).walls, 0.9);  // 20 N over 0.05 m
+  return worst;
+}
+
+TEST(PrimitiveWalls, TheWorkOfAMotionThatChangesIsBookedAsItIsDone) {
+  const double coarse = largestImbalance(5e-4), fine = largestImbalance(2.5e-4);
+  EXPECT_LT(fine, 1e-6);
+  EXPECT_GT(coarse / fine, 3.0) << "of second order in the step";
+}
 
 TEST(Walls, WhatALeaverStoredAndRememberedIsBooked) {
   expectLeaverIsBooked(PlaneTouch{});

@@ -59,9 +59,14 @@ void PrimitiveWallTerm::check(const Model& m) const {
 void PrimitiveWallTerm::surround(Surroundings& around) { around.walls.push_back(&wall); }
 void MeshWallTerm::surround(Surroundings& around) { around.meshes.push_back(&mesh.wall); }
 
-double PrimitiveWallTerm::move(Model&, const Step& step) {
+double PrimitiveWallTerm::move(Model& m, const Step& step) {
   kickWall(wall, 0.5 * (step.closing + step.dt));
-  if (wall.motion) wall.motion(step.time, wall);
+  if (wall.motion) {
+    const double power = drivingPower(wall);
+    wall.motion(step.time, wall);
+    // The half kick that begins the step has been booked with the velocity of the step before.
+    m.booked.walls += 0.5 * step.dt * (drivingPower(wall) - power);
+  }
   drift(wall, step.dt);
   return 0.0;
 }

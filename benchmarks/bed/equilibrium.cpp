@@ -1,0 +1,77 @@
+#include "equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dovetail::bed {
+
+namespace {
+
+SolidPlace placeOf(const EquilibriumSettings& s) {
+  return {.width = s.size.width,
+          .bottom = -s.below * s.element,
+          .border = 0.0,
+          .top = s.overlap * s.element,
+          .element = s.element,
+          .across = 2};
+}
+
+Elastic elasticOf(const dem::Model& packing, const EquilibriumSettings& s) {
+  const double density = bulkDensity(packing.particles, s.size.width, grain::diameter, s.overlap * s.element);
+  return {density, 0.25 * grain::stiffness / grain::diameter, 0.2};
+}
+
+double elastic(coupling::CoupledRun& run) {
+  const EnergyLedger& l = run.ledger();
+  return l.joules("particles: contacts") + l.joules("solid: elastic") + l.joules("overlap: stored");
+}
+
+}  // namespace
+
+Corrected runCorrected(const dem::Model& packing, const EquilibriumSettings& s) {
+  const SolidPlace place = placeOf(s);
+  const auto column = joinSolid(packing, 0, place, elasticOf(packing, s), {});
+  coupling::CoupledRun& run = column->run;
+  startWith(run, s.share);
+  const coupling::RestReport rest = coupling::settle(run, {.kinetic = s.rest});
+  Corrected result;
+  result.atRest = rest.atRest;
+  result.rounds = column->rounds;
+  result.windows = rest.windows;
+  const double stored = elastic(run);
+  result.broughtToRest = run.ledger().joules("brought to rest") / stored;
+  result.layers = layersOf(*column, place);
+  const double residual = run.ledger().residual();
+  const std::vector<Vec3> x = run.grains.particles.x;
+  const std::int64_t looks = 100;
+  for (std::int64_t look = 0; look < looks; ++look) {
+    run.advance(s.steps / looks);
+    result.kinetic = std::max(result.kinetic, run.kineticEnergy() / stored);
+  }
+  result.residual = (run.ledger().residual() - residual) / stored;
+  for (std::size_t i = 0; i < x.size() && run.grains.particles.size() == x.size(); ++i)
+    result.moved = std::max(result.moved, norm(run.grains.particles.x[i] - x[i]) / grain::diameter);
+  const std::vector<LayerStress> after = layersOf(*column, place);
+  const dem::Particles& p = packing.particles;
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    result.stressDrift = std::max(result.stressDrift, std::abs(after[k].carried() / result.layers[k].carried() - 1.0));
+    result.packingAbove.push_back(weightAbove(p, s.size.width, after[k].lower, after[k].upper));
+  }
+  result.meanDensity = bulkDensity(p, s.size.width, grain::diameter, 0.8 * s.size.height);
+  result.surface = weightAbove(p, s.size.width, -1.0, 0.0) / (standardGravity * result.meanDensity);
+  return result;
+}
+
+double peakWithout(const dem::Model& packing, const EquilibriumSettings& s, bool takeOver) {
+  constexpr int looks = 400, steps = 10;
+  const auto column = joinSolid(packing, 0, placeOf(s), elasticOf(packing, s), {.takeOver = takeOver});
+  startWith(column->run, s.share);
+  double most = 0.0;
+  for (int look = 0; look < looks; ++look) {
+    column->run.advance(steps);
+    most = std::max(most, column->run.kineticEnergy() / elastic(column->run));
+  }
+  return most;
+}
+
+}  // namespace dovetail::bed

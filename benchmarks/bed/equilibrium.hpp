@@ -1,0 +1,39 @@
+// A column under gravity that is joined to a solid: with the correction that brings both to equilibrium, and without.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "stress.hpp"
+
+namespace dovetail::bed {
+
+struct EquilibriumSettings {
+  ColumnSize size{.width = 5.0 * grain::diameter, .height = 24.0 * grain::diameter, .seed = 1};
+  double element = 2.5 * grain::diameter;  ///< m
+  int overlap = 6, below = 2;              ///< elements
+  double share = 0.5;                      ///< of the critical step
+  double rest = 1e-8;                      ///< kinetic over elastic energy that the correction ends at
+  std::int64_t steps = 100000;             ///< afterwards
+};
+
+/// The column with its correction: arlequin::takeOver, and coupling::settle, whose loss has the channel "brought to rest".
+struct Corrected {
+  bool atRest = false;
+  int rounds = 0;             ///< of takeOver
+  std::int64_t windows = 0;   ///< of settle
+  double broughtToRest = 0.0; ///< over the elastic energy
+  double kinetic = 0.0;       ///< largest over the elastic energy, in the steps afterwards
+  double moved = 0.0;         ///< by any grain in these steps, in diameters
+  double residual = 0.0;      ///< of the ledger in these steps over the elastic energy
+  double stressDrift = 0.0;   ///< largest change of a layer's stress in these steps, relative
+  double meanDensity = 0.0, surface = 0.0;  ///< of the packing, kg/m³; height of as much with that density, m
+  std::vector<LayerStress> layers;
+  std::vector<double> packingAbove;  ///< weight in the packing alone above the same layers, Pa
+};
+Corrected runCorrected(const dem::Model& packing, const EquilibriumSettings& settings);
+
+/// Largest kinetic energy over the elastic one after a start without any correction, or with takeOver alone.
+double peakWithout(const dem::Model& packing, const EquilibriumSettings& settings, bool takeOver);
+
+}  // namespace dovetail::bed

@@ -1,0 +1,139 @@
+#include "wave_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <numeric>
+
+#include "dovetail/core/archive.hpp"
+#include "dovetail/report/study.hpp"
+#include "dovetail/report/text.hpp"
+
+namespace dovetail::bed {
+
+namespace {
+
+using report::format;
+using report::Json;
+
+constexpr double axialSpeed = 75.0, shearSpeed = 50.0;  // m/s, a little below those of the packings
+constexpr const char* kindOfFile = "bed waveforms";
+
+struct Kind {
+  const char* name;
+  bool shear;
+};
+constexpr Kind kinds[] = {{"P", false}, {"S", true}};
+
+WaveSettings settingsOf(const WaveStudy& study, const Kind& kind) {
+  WaveSettings s;
+  s.shear = kind.shear;
+  s.speed = kind.shear ? shearSpeed : axialSpeed;
+  s.strain = study.strain;
+  s.share = study.share;
+  return s;
+}
+
+std::filesystem::path fileOf(const WaveStudy& study, int packing, const Kind& kind) {
+  return study.folder / format("wave-%02d-%s.bin", packing, kind.name);
+}
+
+template <class Archive>
+void archiveForm(Archive& archive, auto& form) {
+  std::size_t times = form.velocity.size();
+  archive(form.depth, form.mass, form.time, times);
+  if constexpr (Archive::reads) form.velocity.resize(times);
+  for (auto& v : form.velocity) archive(v);
+}
+
+/// Full, then joined.
+void keep(const WavePair& pair, const std::filesystem::path& file) {
+  ByteWriter writer;
+  archiveForm(writer, pair.full.form);
+  archiveForm(writer, pair.joined.form);
+  writeChecked(file, kindOfFile, writer.bytes());
+}
+std::array<Waveform, 2> kept(const std::filesystem::path& file) {
+  ByteReader reader(readChecked(file, kindOfFile));
+  std::array<Waveform, 2> forms;
+  for (Waveform& form : forms) archiveForm(reader, form);
+  return forms;
+}
+
+void addFigures(Json& figures, const std::string& name, const WaveSettings& s, const WavePair& pair) {
+  const Reflected back = reflected(pair);
+  const double pulse = pair.full.pulse;
+  figures[name + "_dt_s"] = pair.full.dt;
+  figures[name + "_pulse_J"] = pulse;
+  figures[name + "_residual_full"] = pair.full.residual / pulse;
+  figures[name + "_residual_joined"] = pair.joined.residual / pulse;
+  figures[name + "_friction_full"] = pair.full.friction / pulse;
+  figures[name + "_friction_joined"] = pair.joined.friction / pulse;
+  figures[name + "_overlap_lost"] = pair.joined.overlap / pulse;
+  figures[name + "_reflected_by_grain"] = back.byGrain;
+  figures[name + "_reflected_by_slab"] = back.bySlab;
+  figures[name + "_misfit"] = misfit(pair.joined.form, pair.full.form, s.alone());
+  figures[name + "_seconds_full"] = pair.full.seconds;
+  figures[name + "_seconds_joined"] = pair.joined.seconds;
+}
+
+Json runPacking(const WaveStudy& study, int number) {
+  const double height = 1.04 * settingsOf(study, kinds[0]).depth();
+  const dem::Model packing = pressedColumn(
+      {.width = study.width, .height = height, .seed = static_cast<std::uint64_t>(number)}, WaveSettings{}.pressure);
+  const Moduli moduli = probe(packing);
+  Json figures{{"particles", packing.particles.size()},
+               {"pressure_Pa", moduli.pressure},
+               {"density", moduli.density},
+               {"axial_Pa", moduli.axial},
+               {"shear_Pa", moduli.shear}};
+  for (const Kind& kind : kinds) {
+    const WaveSettings settings = settingsOf(study, kind);
+    const WavePair pair = runPair(packing, settings, moduli);
+    addFigures(figures, kind.name, settings, pair);
+    keep(pair, fileOf(study, number, kind));
+  }
+  figures["finished"] = figures["stable"] = true;
+  return figures;
+}
+
+/// Of the waveforms with the numbers that are given, all in grains (0) or joined (1).
+Waveform meanOf(const std::vector<std::array<Waveform, 2>>& all, std::size_t which, std::size_t first,
+                std::size_t step) {
+  std::vector<const Waveform*> forms;
+  for (std::size_t k = first; k < all.size(); k += step) forms.push_back(&all[k][which]);
+  return mean(forms);
+}
+
+void printEnsemble(const WaveStudy& study, const Kind& kind) {
+  std::vector<std::array<Waveform, 2>> all;
+  for (int k = 1; k <= study.packings; ++k) all.push_back(kept(fileOf(study, k, kind)));
+  const double depth = settingsOf(study, kind).alone();
+  const double joined = misfit(meanOf(all, 1, 0, 1), meanOf(all, 0, 0, 1), depth);
+  std::cout << format("%s: misfit of the mean of %d packings %.2f %%", kind.name, study.packings, 100.0 * joined);
+  if (study.packings > 1) {
+    const double halves = misfit(meanOf(all, 0, 0, 2), meanOf(all, 0, 1, 2), depth);
+    std::cout << format(", of the halves of all-grain runs %.2f %%; at most %.2f %% is asked", 100.0 * halves,
+                        std::max(5.0, 150.0 * halves));
+  }
+  std::cout << '\n';
+}
+
+}  // namespace
+
+bool runWaveStudy(const WaveStudy& study) {
+  report::Study runs;
+  runs.program = "bed";
+  runs.name = "wave";
+  runs.folder = study.folder;
+  runs.workers = study.workers > 1 ? study.workers : 0;
+  runs.shown = {"P_residual_joined", "P_reflected_by_grain", "P_misfit",
+                "S_residual_joined", "S_reflected_by_grain", "S_misfit"};
+  for (int k = 1; k <= study.packings; ++k)
+    runs.cases.push_back({format("packing %d", k), {}, [study, k] { return runPacking(study, k); }});
+  if (!report::runStudy(runs, std::cout, std::cerr)) return false;
+  for (const Kind& kind : kinds) printEnsemble(study, kind);
+  return true;
+}
+
+}  // namespace dovetail::bed

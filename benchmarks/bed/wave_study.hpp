@@ -1,0 +1,23 @@
+// Pulses through an ensemble of packings.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "wave.hpp"
+
+namespace dovetail::bed {
+
+struct WaveStudy {
+  int packings = 10;
+  int workers = 1;
+  double width = 4.0 * grain::diameter;  ///< m
+  double strain = 2e-5, share = 0.3;     ///< as in WaveSettings
+  std::filesystem::path folder = ".";
+};
+
+/// Runs P and S pulses through every packing, with tables of each in the folder, and prints what the ensemble says.
+/// @return whether all packings were run
+bool runWaveStudy(const WaveStudy& study);
+
+}  // namespace dovetail::bed
