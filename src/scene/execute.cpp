@@ -48,6 +48,7 @@ public:
         lock_(io::prepareOutputFolder(settings.folder, fileNames(scene))),
         built_(build(scene)) {
     built_.run->profile = Profile(settings.profile);
+    if (settings.profile) built_.run->grains.profile = &built_.run->profile;
     start(built_, scene);
     plan_ = planOf(built_, scene);
     if (plan_.series > 0)
