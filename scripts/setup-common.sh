@@ -37,6 +37,9 @@ require_packages() {
     fail 2 "apt-get could not install: ${missing[*]}"
 }
 
+# Options of the configuration that the script needs, whatever an earlier one of the folder has set.
+needs=()
+
 # build_preset <preset> [target…]: configures and builds with all cores.
 build_preset() {
   local preset="$1"
@@ -45,7 +48,7 @@ build_preset() {
     export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
   fi
   say "Configuring build/$preset"
-  (cd "$root" && cmake --preset "$preset") || fail 1 "the configuration failed"
+  (cd "$root" && cmake --preset "$preset" "${needs[@]}") || fail 1 "the configuration failed"
   say "Building with $(nproc) jobs"
   (cd "$root" && cmake --build --preset "$preset" --parallel "$(nproc)" ${1:+--target "$@"}) || fail 1 "the build failed"
 }

@@ -25,7 +25,7 @@ const DynamicReference& dynamicReference(const Settings& settings, double bendin
 
 bool comparesWithBeam(const RunResult& result) { return result.figures.left || !result.settings.until; }
 
-void compareWithReferences(RunResult& result) {
+void compare(RunResult& result) {
   RunFigures& f = result.figures;
   if (result.samples.size() < 2) return;
   const BeamCase beam = beamCase(result.settings);

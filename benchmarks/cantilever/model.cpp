@@ -42,11 +42,7 @@ fem::Material makeMaterial(const Settings& settings) {
 }
 
 cg::SurfaceKernel makeKernel(const Settings& settings) {
-  const auto shape = settings.kernel == KernelName::gauss ? cg::KernelShape::gauss : cg::KernelShape::lucy;
-  const auto correction = settings.correction == Correction::linear      ? cg::KernelCorrection::linear
-                          : settings.correction == Correction::symmetric ? cg::KernelCorrection::symmetric
-                                                                         : cg::KernelCorrection::none;
-  return {{shape, 2, settings.cgWidth * Case{}.particleDiameter}, correction};
+  return {{settings.kernel, 2, settings.cgWidth * Case{}.particleDiameter}, settings.correction};
 }
 
 surface::Skin makeCarryingSkin(const Settings& settings, const fem::SolidMesh& mesh) {
@@ -56,9 +52,7 @@ surface::Skin makeCarryingSkin(const Settings& settings, const fem::SolidMesh& m
 }
 
 surface::Coupling makeSeam(const Settings& settings, const fem::SolidMesh& mesh) {
-  surface::CouplingOptions options;
-  options.edges = settings.edges == EdgeHandling::paper ? dem::EdgeRule::paper : dem::EdgeRule::projected;
-  surface::Coupling seam(makeCarryingSkin(settings, mesh), options);
+  surface::Coupling seam(makeCarryingSkin(settings, mesh), {.edges = settings.edges});
   if (settings.transfer == Transfer::spread)
     seam.spreadLoad(surface::SpreadLoad(makeKernel(settings), mesh.X, seam.skin(), mesh.faceSets.at("skin")));
   seam.bookWallWork(couplingIsUnbalanced(settings));

@@ -33,7 +33,7 @@ std::int64_t every(double interval, double window) {
 /// Runs one model and gathers its figures.
 class Runner {
 public:
-  Runner(const Settings& settings, const fem::SolidMesh& mesh) : mesh_(mesh), scene_(makeScene(settings, mesh)) {
+  explicit Runner(const Settings& settings) : mesh_(makeMesh(settings)), scene_(makeScene(settings, mesh_)) {
     result_.settings = settings;
     scene_.run->profile = Profile(settings.profile);
     if (settings.profile) grains().profile = &scene_.run->profile;
@@ -232,7 +232,7 @@ private:
                {},
                {{"strain_energy_J", energies}},
                {}});
-    figures().wallSeconds -= std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    figures().wallSeconds -= benchmark::secondsSince(begin);
   }
 
   void close() {
@@ -252,7 +252,7 @@ private:
     f.lockingFactor = lockingFactor(settings());
   }
 
-  const fem::SolidMesh& mesh_;
+  const fem::SolidMesh mesh_;
   Scene scene_;
   Observer observer_;
   RunResult result_;
@@ -267,12 +267,10 @@ private:
 
 }  // namespace
 
-PreparedRun prepareRun(const Settings& settings) {
+benchmark::PreparedRun<RunResult> prepareRun(const Settings& settings) {
   validate(settings);
   setThreads(settings.threads);
-  const auto mesh = std::make_shared<const fem::SolidMesh>(makeMesh(settings));
-  const auto runner = std::make_shared<Runner>(settings, *mesh);
-  return [mesh, runner](const Observer& observer) { return runner->run(observer); };
+  return [runner = std::make_shared<Runner>(settings)](const Observer& observer) { return runner->run(observer); };
 }
 
 RunResult run(const Settings& settings, const Observer& observer) { return prepareRun(settings)(observer); }

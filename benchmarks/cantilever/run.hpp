@@ -1,12 +1,12 @@
 // One coupled run and its figures.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "common/outputs.hpp"
 #include "common/report.hpp"
+#include "common/study.hpp"
 #include "reference/error_norms.hpp"
 #include "reference_curves.hpp"
 #include "settings.hpp"
@@ -47,13 +47,8 @@ struct RunResult : benchmark::RunData {
   std::vector<PairSample> samples;  ///< trajectory until the end
 };
 
-/// A run that nothing stands in the way of; to be called once. The observer is called at t = 0 and every
-/// outputInterval; it may be empty. Breakdowns and interruptions (dovetail/io/interruption.hpp) are reported in
-/// figures.failure, with the state so far; an interrupted run is observed once more at its end.
-using PreparedRun = std::function<RunResult(const Observer& observer)>;
-
 /// Builds the model and chooses the step. @throws InputError for impossible settings
-PreparedRun prepareRun(const Settings& settings);
+benchmark::PreparedRun<RunResult> prepareRun(const Settings& settings);
 
 /// Prepares and runs.
 RunResult run(const Settings& settings, const Observer& observer = {});
@@ -65,7 +60,7 @@ bool comparesWithBeam(const RunResult& result);
 /// Fills in the errors against the static and dynamic references. The dynamic ones are computed once per case; NaN
 /// where they were not compared, where there is no reference (a contact too stiff for it), or where the run went where
 /// the reference never was.
-void compareWithReferences(RunResult& result);
+void compare(RunResult& result);
 
 /// The moving-mass beam for the settings' contact stiffness and the given bending factor; kept after the first call.
 const DynamicReference& dynamicReference(const Settings& settings, double bendingFactor);
@@ -77,8 +72,7 @@ void printReport(std::ostream& out, const RunResult& result);
 /// The run beside the authors' deposited curves.
 void printComparison(std::ostream& out, const RunResult& result, const std::vector<ReferenceCurve>& curves);
 
-/// Runs the study named in the settings, which are the starting point of its variations.
-/// @return whether all runs were made, as report::runStudy
-bool runStudy(const Settings& settings);
+/// The studies that settings can name, whose variations start from theirs.
+benchmark::CaseStudy<Settings> studyOf(const Settings& settings);
 
 }  // namespace dovetail::cantilever

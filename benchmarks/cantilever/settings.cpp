@@ -7,7 +7,6 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/io/provenance.hpp"
 
 namespace dovetail::cantilever {
 
@@ -161,19 +160,10 @@ void validate(const Settings& settings) {
 }
 
 const char* nameOf(Correction correction) {
-  switch (correction) {
-    case Correction::linear:
-      return "linear";
-    case Correction::symmetric:
-      return "symmetric";
-    case Correction::none:
-      break;
-  }
-  return "none";
+  return std::array{"none", "linear", "symmetric"}[static_cast<std::size_t>(correction)];
 }
 
-io::KeyValues describeCase() {
-  const Case beam;
+io::KeyValues describeCase(const Case& beam) {
   return {{"length_m", formatNumber(beam.length)},
           {"side_m", formatNumber(beam.side)},
           {"youngs_modulus_Pa", formatNumber(beam.youngsModulus)},
@@ -185,12 +175,6 @@ io::KeyValues describeCase() {
           {"start_x_m", formatNumber(beam.startX)},
           {"start_y_m", formatNumber(beam.startY)},
           {"start_velocity_m_per_s", formatNumber(beam.startVelocity)}};
-}
-
-io::KeyValues provenanceOf(const Settings& settings) {
-  auto entries = describe(settings);
-  for (auto& entry : describeCase()) entries.push_back(std::move(entry));
-  return io::provenance(entries);
 }
 
 }  // namespace dovetail::cantilever

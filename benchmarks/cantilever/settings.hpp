@@ -6,7 +6,9 @@
 #include <string>
 
 #include "common/settings.hpp"
+#include "dovetail/cg/surface_kernel.hpp"
 #include "dovetail/coupling/run.hpp"
+#include "dovetail/dem/walls/wall_contacts.hpp"
 
 namespace dovetail::cantilever {
 
@@ -28,16 +30,17 @@ enum class Scheme { conservative, paper };
 /// Staggered steps: the load on the solid is that of the last contact evaluation (load), and the particles see the skin
 /// as it was before the solid's step (loadAndSkin).
 using coupling::Lag;
-enum class Transfer { adjoint, spread };       ///< adjoint pair, or kernel at the contact with a local gap (14–15)
-enum class EdgeHandling { projected, paper };  ///< one projection, or the authors' face rule
-enum class Metric { reference, deformed };     ///< St Venant–Kirchhoff, or the authors' Eq. (34)
+enum class Transfer { adjoint, spread };    ///< adjoint pair, or kernel at the contact with a local gap (14–15)
+using EdgeHandling = dem::EdgeRule;         ///< one projection, or the authors' face rule
+enum class Metric { reference, deformed };  ///< St Venant–Kirchhoff, or the authors' Eq. (34)
 enum class MassMatrix { lumped, consistent };
 enum class FemStepper { explicitDifferences, newmark };
 enum class Surface { flat, smooth };
-enum class KernelName { lucy, gauss };
-enum class Correction { none, linear, symmetric };
+using KernelName = cg::KernelShape;
+using Correction = cg::KernelCorrection;
 
 struct Settings : benchmark::RunSettings {
+  using Fixed = Case;
   Settings() { dtFactor = 0.05, outputInterval = 0.25; }
 
   Scheme scheme = Scheme::conservative;
@@ -82,8 +85,6 @@ const char* nameOf(Correction correction);
 /// Option names and values as text, for provenance, the summary and the tables of studies.
 io::KeyValues describe(const Settings& settings);
 /// What no option changes: sizes and materials, by names that end with their units (SI).
-io::KeyValues describeCase();
-/// The entries of io::provenance with all of both.
-io::KeyValues provenanceOf(const Settings& settings);
+io::KeyValues describeCase(const Case& fixed);
 
 }  // namespace dovetail::cantilever

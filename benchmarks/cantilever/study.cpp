@@ -1,7 +1,3 @@
-#include "common/study.hpp"
-
-#include <map>
-
 #include "dovetail/core/finite.hpp"
 #include "run.hpp"
 
@@ -67,8 +63,9 @@ Plan paretoPlan(const Settings& base) {
 }
 
 /// Time steps around the critical one, stiffness ratios 1e-3 … 1e4, widths to 40 d.
-Plan stabilityPlan(Settings base) {
+Plan stabilityPlan(const Settings& asked) {
   Plan plan;
+  Settings base = asked;
   base.until = base.until.value_or(2.0);
   Settings settings = base;
   settings.dtAuto = false;
@@ -130,12 +127,10 @@ Plan ablationPlan(const Settings& base) {
 
 }  // namespace
 
-bool runStudy(const Settings& settings) {
-  static const std::map<std::string, Plan (*)(const Settings&)> plans{
-      {"widths", widthsPlan}, {"pareto", paretoPlan}, {"ablation", ablationPlan}, {"stability", [](const Settings& s) {
-                                                                                     return stabilityPlan(s);
-                                                                                   }}};
-  report::Study study;
+benchmark::CaseStudy<Settings> studyOf(const Settings&) {
+  benchmark::CaseStudy<Settings> study;
+  study.plans = {
+      {"widths", widthsPlan}, {"pareto", paretoPlan}, {"ablation", ablationPlan}, {"stability", stabilityPlan}};
   study.program = "cantilever";
   study.fronts = {{"time_mean_error_dynamic_m", "on_error_front"}, {"energy_drift_relative", "on_drift_front"}};
   study.shown = {"energy_drift_relative",
@@ -146,11 +141,7 @@ bool runStudy(const Settings& settings) {
                  "time_mean_error_vertical_m",
                  "time_mean_error_dynamic_m"};
   study.about["published_code"] = {{"seconds_per_step", publishedSecondsPerStep}, {"dt_factor", publishedDtFactor}};
-  return benchmark::runPlan(study, settings, plans.at(settings.study)(settings), [](const Settings& one) {
-    RunResult result = run(one);
-    compareWithReferences(result);
-    return benchmark::figuresAsJson(linesOf(result));
-  });
+  return study;
 }
 
 }  // namespace dovetail::cantilever

@@ -55,11 +55,11 @@ Observer Outputs::observer() {
   };
 }
 
-void Outputs::finish(const io::TimeSeries& series, const io::TimeSeries* profile) {
+void Outputs::finish(const RunData& result) {
   if (folder_.empty()) return;
-  series_.write(series);
-  if (profile) profile_.write(*profile);
-  writeSeriesHdf5(folder_ / "series.h5", series, provenance_);
+  series_.write(result.series);
+  if (result.velocityProfile) profile_.write(*result.velocityProfile);
+  writeSeriesHdf5(folder_ / "series.h5", result.series, provenance_);
 }
 
 }  // namespace dovetail::benchmark

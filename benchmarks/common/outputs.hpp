@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/report.hpp"
 #include "common/settings.hpp"
 #include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
@@ -48,6 +49,12 @@ struct Frame {
 };
 using Observer = std::function<void(const Frame&)>;
 
+/// A run that nothing stands in the way of; to be called once. The observer is called at t = 0 and every
+/// outputInterval; it may be empty. Breakdowns and interruptions (dovetail/io/interruption.hpp) are reported in
+/// figures.failure, with the state so far; an interrupted run is observed once more at its end.
+template <class Result>
+using PreparedRun = std::function<Result(const Observer& observer)>;
+
 /// Writes frames of solid and particles while the run goes on. Which formats exist is settled at build time.
 class FrameWriter {
 public:
@@ -71,7 +78,7 @@ public:
   Outputs(const RunSettings& settings, const std::string& solid, bool withProfile, io::KeyValues provenance);
   /// What a run is to call with its frames; empty without --out.
   Observer observer();
-  void finish(const io::TimeSeries& series, const io::TimeSeries* profile);
+  void finish(const RunData& result);
 
 private:
   std::filesystem::path folder_;

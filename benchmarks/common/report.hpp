@@ -42,6 +42,8 @@ struct RunData {
   EnergyLedger ledger;
   Profile profile;
   io::TimeSeries series{{"time_s"}};
+  /// Velocity along a bar, a row per layer and frame that was observed, if the case has one.
+  std::optional<io::TimeSeries> velocityProfile;
 };
 
 /// Fills the ledger and the series from what they are told to be made of, in the order in which it is told.
@@ -72,6 +74,10 @@ private:
   std::vector<std::string> names_;
 };
 
+inline double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 /// Runs `loop`, which returns whether it went to the end, and notes its time and its breakdown.
 template <class Loop>
 void conduct(RunFigures& figures, Loop loop) {
@@ -81,7 +87,7 @@ void conduct(RunFigures& figures, Loop loop) {
   } catch (const NumericalError& error) {
     figures.failure = error.what();
   }
-  figures.wallSeconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  figures.wallSeconds += secondsSince(begin);
 }
 
 /// "t = 0.5 s, step 100"
@@ -101,5 +107,9 @@ report::Json figuresAsJson(const Lines& lines);
 /// @throws InputError as io::writeFileAtomically
 void writeSummary(const std::string& file, const Lines& lines, const RunData& data, const io::KeyValues& settings,
                   const io::KeyValues& caseData);
+template <class Settings>
+void writeSummary(const Settings& settings, const Lines& lines, const RunData& data) {
+  writeSummary(settings.summary, lines, data, describe(settings), describeCase(typename Settings::Fixed{}));
+}
 
 }  // namespace dovetail::benchmark

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "program/options.hpp"
 
@@ -38,6 +39,14 @@ void addOutputOptions(program::Options& options, RunSettings& settings, const Ru
 /// @throws InputError for what no run can use together
 void checkRun(const RunSettings& settings);
 void refuseIdleRunOptions(const program::Options& options, const RunSettings& settings);
+
+/// Entries of io::provenance with what the options say and what none of them changes.
+template <class Settings>
+io::KeyValues provenanceOf(const Settings& settings) {
+  auto entries = describe(settings);
+  for (auto& entry : describeCase(typename Settings::Fixed{})) entries.push_back(std::move(entry));
+  return io::provenance(entries);
+}
 
 /// @throws InputError for an impossible value of the option
 void require(bool good, const std::string& option, const std::string& value, const std::string& remedy);

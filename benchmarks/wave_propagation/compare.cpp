@@ -105,7 +105,7 @@ void compareSolid(RunResult& result, const RunResult& alone) {
     size += squaredNorm(reference);
   }
   for (std::size_t l = 0; l + 1 < means.size(); ++l)  // without the wall's
-    result.velocityProfile.append(
+    result.velocityProfile->append(
         {result.figures.endTime, 2.0, (static_cast<double>(l) + 0.5) * particleDiameter(s), means[l].y, 1.0});
   result.figures.waveformErrorFem = std::sqrt(error / size);
 }
@@ -154,8 +154,8 @@ void addLayers(io::TimeSeries& table, const Settings& s, const Frame& frame) {
   }
 }
 
-void compareWithParticles(RunResult& result) {
-  if (result.settings.fullDem || !result.figures.finished) return;
+void compare(RunResult& result) {
+  if (!result.settings.compare || result.settings.fullDem || !result.figures.finished) return;
   const RunResult& alone = keptRun(particlesAlone(result.settings, result.figures.dt));
   if (!alone.figures.finished) return;
   compareSolid(result, alone);

@@ -100,22 +100,12 @@ std::vector<double> makeWeights(const Settings& s, const fem::SolidMesh& mesh) {
       arlequin::distanceCoordinate(mesh.X, arlequin::triangles(mesh.X, fem::faceSet(mesh, "y-")), particleBorder);
   for (std::size_t n = 0; n < place.size(); ++n)
     if (mesh.X[n].y > end + 1e-9) place[n] = arlequin::beyondOverlap;
-  const auto profile = s.weightProfile == WeightProfile::linear   ? arlequin::WeightProfile::linear
-                       : s.weightProfile == WeightProfile::smooth ? arlequin::WeightProfile::smooth
-                                                                  : arlequin::WeightProfile::halfCosine;
-  return arlequin::nodalWeights(place, {profile, s.weightFloor});
+  return arlequin::nodalWeights(place, {s.weightProfile, s.weightFloor});
 }
 
 double massShare(const Settings& s) {
-  switch (s.mass) {
-    case Mass::lumped:
-      return 0.0;
-    case Mass::consistent:
-      return 1.0;
-    case Mass::matched:
-      return fem::matchedShare(particleDiameter(s), Case{}.elementSize);
-  }
-  return 0.0;
+  if (s.mass == Mass::matched) return fem::matchedShare(particleDiameter(s), Case{}.elementSize);
+  return s.mass == Mass::consistent ? 1.0 : 0.0;
 }
 
 fem::Material makeMaterial(const Settings& s) {
@@ -135,16 +125,15 @@ std::unique_ptr<fem::Model> makeSolid(const Settings& s, const fem::SolidMesh& m
 
 arlequin::CouplingOptions couplingOptions(const Settings& s) {
   arlequin::CouplingOptions o;
-  o.form = s.gap == Gap::nodal ? arlequin::GapForm::nodal : arlequin::GapForm::atParticles;
+  o.form = s.gap;
   o.projection = {s.cgWidth * Case{}.elementSize,
-                  s.kernel == Kernel::gauss ? cg::KernelShape::gauss : cg::KernelShape::lucy,
+                  s.kernel,
                   s.normaliseKernels,
                   s.rows == Rows::perElement,
                   s.kernelReach == KernelReach::outside,
                   s.rows == Rows::perElement ? 1 : 0};
-  o.constraint = static_cast<arlequin::ConstraintKind>(s.constraint);
+  o.constraint = s.constraint;
   o.penalty = s.penalty;
-  if (s.constraint == Constraint::dashpot && s.penalty == 0.0) o.penalty = publishedPenalty(s.particlesPerEdge);
   o.consistentDashpot = s.dashpotMatrix == DashpotMatrix::consistent;
   o.dashpotLags = s.staggered;
   o.leastShare = std::clamp(s.weightFloor, 1e-12, o.leastShare);

@@ -71,6 +71,14 @@ Lines balanceLines(const Settings& s, const RunFigures& f) {
       {"gap_max_m", f.gapMax, coupled ? "largest gap" : "", "%.3e m"}};
 }
 
+/// The authors' figure for the run's n and width, if it is one of theirs.
+Json publishedShare(const Settings& s) {
+  if (s.scheme != Scheme::paper || s.signal != Signal::impulse) return nullptr;
+  for (const PublishedRun& run : publishedRuns)
+    if (run.particlesPerEdge == s.particlesPerEdge && run.cgWidth == s.cgWidth) return run.dissipatedShare;
+  return nullptr;
+}
+
 }  // namespace
 
 Lines linesOf(const RunResult& result) {
@@ -83,11 +91,11 @@ Lines linesOf(const RunResult& result) {
   const Json steps{{"particles", report::numberOrNull(c.particles)},
                    {"solid", report::numberOrNull(c.solid)},
                    {"together", report::numberOrNull(c.together)}};
-  lines.insert(lines.end(),
-               {Line{"", c.particles, "critical step of the contacts", "%.4e s"},
-                Line{"", report::numberOrNull(c.solid), "  of the solid", "%.4e s"},
-                Line{"", c.together, "  of both, with the coupling", "%.4e s"}, Line{"critical_step_s", steps},
-                Line{"critical_step_set_by", criticalSetter(c), "set by"}});
+  lines.insert(lines.end(), {Line{"", c.particles, "critical step of the contacts", "%.4e s"},
+                             Line{"", report::numberOrNull(c.solid), "  of the solid", "%.4e s"},
+                             Line{"", c.together, "  of both, with the coupling", "%.4e s"},
+                             Line{"critical_step_s", steps}, Line{"critical_step_set_by", criticalSetter(c), "set by"},
+                             Line{"published_dissipated_share", publishedShare(result.settings)}});
   return lines;
 }
 

@@ -20,10 +20,6 @@ namespace {
 
 constexpr double stableFactor = 1.5;
 
-double secondsSince(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 class Runner {
 public:
   explicit Runner(const Settings& settings) : penalty_(penaltyOf(settings)), bar_(makeBar(settings, penalty_)) {
@@ -217,7 +213,7 @@ private:
                 nullptr,
                 particles(),
                 result_.series,
-                &result_.velocityProfile,
+                &*result_.velocityProfile,
                 {},
                 {},
                 {},
@@ -227,9 +223,9 @@ private:
       frame.nodes = &bar_.solid->nodes();
       frame.nodeScalars = {{"particles_share", bar_.tie->overlap().nodalWeight}};
     }
-    addLayers(result_.velocityProfile, settings(), frame);
+    addLayers(*result_.velocityProfile, settings(), frame);
     observer_(frame);
-    figures().wallSeconds -= secondsSince(begin);
+    figures().wallSeconds -= benchmark::secondsSince(begin);
   }
 
   std::int64_t steps() { return std::llround(grains().time / dt_); }
@@ -279,11 +275,10 @@ private:
 
 }  // namespace
 
-PreparedRun prepareRun(const Settings& settings) {
+benchmark::PreparedRun<RunResult> prepareRun(const Settings& settings) {
   validate(settings);
   setThreads(settings.threads);
-  const auto runner = std::make_shared<Runner>(settings);
-  return [runner](const Observer& observer) { return runner->run(observer); };
+  return [runner = std::make_shared<Runner>(settings)](const Observer& observer) { return runner->run(observer); };
 }
 
 RunResult run(const Settings& settings, const Observer& observer) { return prepareRun(settings)(observer); }

@@ -1,13 +1,13 @@
 // Runs a bar and gathers its figures.
 #pragma once
 
-#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "common/outputs.hpp"
 #include "common/report.hpp"
+#include "common/study.hpp"
 #include "model.hpp"
 #include "settings.hpp"
 
@@ -35,32 +35,30 @@ struct EnergySample {
   double t, joules;
 };
 
+/// Of the velocity profile, "model": 0 nodes of the solid, 1 particles, 2 particles alone over the whole bar, at the
+/// end, once compared; "particles_share": the weight w there, 0 … 1.
 struct RunResult : benchmark::RunData {
+  RunResult() {
+    velocityProfile.emplace(
+        std::vector<std::string>{"time_s", "model", "y_m", "velocity_y_m_per_s", "particles_share"});
+  }
   Settings settings;
   RunFigures figures;
-  /// Velocity along the bar, a row per layer and frame that was observed. "model": 0 nodes of the solid, 1 particles,
-  /// 2 particles alone over the whole bar, at the end, once compared; "particles_share": the weight w there, 0 … 1.
-  io::TimeSeries velocityProfile{{"time_s", "model", "y_m", "velocity_y_m_per_s", "particles_share"}};
   std::vector<EnergySample> energy;
   dem::Particles particles;  ///< at the end
   dem::PairList pairs;
   std::vector<Vec3> nodePosition, nodeVelocity;  ///< at the end; empty without a solid
 };
 
-/// A run that nothing stands in the way of; to be called once. The observer may be empty. A run that breaks down
-/// returns with `failure`, as does one that is interrupted (dovetail/io/interruption.hpp), which is observed once more
-/// at its end.
-using PreparedRun = std::function<RunResult(const Observer& observer)>;
-
 /// Builds the model and chooses the step. @throws InputError for impossible settings
-PreparedRun prepareRun(const Settings& settings);
+benchmark::PreparedRun<RunResult> prepareRun(const Settings& settings);
 
 /// Prepares and runs.
 RunResult run(const Settings& settings, const Observer& observer = {});
 
-/// Compares a coupled run with particles alone over the whole length, which is run once for settings that agree in all
-/// that concerns it and kept.
-void compareWithParticles(RunResult& result);
+/// Compares a coupled run, if the settings say so, with particles alone over the whole length, which is run once for
+/// settings that agree in all that concerns it and kept.
+void compare(RunResult& result);
 
 /// Adds the layers of a frame to a velocity profile: nodes, then particles, each by rising y.
 void addLayers(io::TimeSeries& table, const Settings& settings, const Frame& frame);
@@ -78,8 +76,7 @@ benchmark::Lines linesOf(const RunResult& result);
 /// sets it.
 void printReport(std::ostream& out, const RunResult& result);
 
-/// Runs the study named in the settings, which are the starting point of its variations.
-/// @return whether all runs were made, as report::runStudy
-bool runStudy(const Settings& settings);
+/// The studies that settings can name, whose variations start from theirs.
+benchmark::CaseStudy<Settings> studyOf(const Settings& settings);
 
 }  // namespace dovetail::wave

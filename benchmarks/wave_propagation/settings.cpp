@@ -6,7 +6,6 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/io/provenance.hpp"
 
 namespace dovetail::wave {
 
@@ -241,8 +240,7 @@ io::KeyValues describe(const Settings& settings) {
   return optionsOf(s).described();
 }
 
-io::KeyValues describeCase() {
-  const Case bar;
+io::KeyValues describeCase(const Case& bar) {
   return {{"side_m", formatNumber(bar.side)},
           {"element_size_m", formatNumber(bar.elementSize)},
           {"youngs_modulus_Pa", formatNumber(bar.youngsModulus)},
@@ -250,12 +248,6 @@ io::KeyValues describeCase() {
           {"particle_density_kg_per_m3", formatNumber(bar.particleDensity)},
           {"impulse_velocity_m_per_s", formatNumber(bar.velocity)},
           {"cosine_velocity_m_per_s", formatNumber(bar.cosineVelocity)}};
-}
-
-io::KeyValues provenanceOf(const Settings& settings) {
-  auto entries = describe(settings);
-  for (auto& entry : describeCase()) entries.push_back(std::move(entry));
-  return io::provenance(entries);
 }
 
 }  // namespace dovetail::wave

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "common/settings.hpp"
+#include "dovetail/arlequin/coupling_options.hpp"
+#include "dovetail/arlequin/weights.hpp"
 
 namespace dovetail::wave {
 
@@ -15,10 +17,10 @@ struct Case {
 };
 
 enum class Scheme { conservative, paper };
-enum class Constraint { penalty, multiplier, dashpot };
-enum class Gap { atParticles, nodal };
-enum class Kernel { lucy, gauss };
-enum class WeightProfile { halfCosine, linear, smooth };
+using Constraint = arlequin::ConstraintKind;
+using Gap = arlequin::GapForm;
+using Kernel = cg::KernelShape;
+using WeightProfile = arlequin::WeightProfile;
 enum class Signal { impulse, cosine };
 enum class Mass { lumped, consistent, matched };
 enum class FemStepper { explicitDifferences, newmark };
@@ -28,6 +30,7 @@ enum class KernelReach { overlap, outside };
 enum class Material { springs, kirchhoff };
 
 struct Settings : benchmark::RunSettings {
+  using Fixed = Case;
   Settings() { dtFactor = 0.02, outputInterval = 2e-3; }
 
   Scheme scheme = Scheme::conservative;
@@ -90,8 +93,6 @@ bool parseOptions(int argc, char** argv, Settings& settings);
 /// Option names and values as text, for provenance, the summary and the tables of studies.
 io::KeyValues describe(const Settings& settings);
 /// What no option changes: sizes and materials, by names that end with their units (SI).
-io::KeyValues describeCase();
-/// The entries of io::provenance with all of both.
-io::KeyValues provenanceOf(const Settings& settings);
+io::KeyValues describeCase(const Case& fixed);
 
 }  // namespace dovetail::wave

@@ -1,9 +1,7 @@
-#include "common/study.hpp"
-
-#include <map>
+#include <array>
 
 #include "dovetail/core/finite.hpp"
-#include "reference_curves.hpp"
+#include "run.hpp"
 
 namespace dovetail::wave {
 
@@ -12,9 +10,7 @@ namespace {
 using Plan = benchmark::Plan<Settings>;
 
 std::string nameOf(Constraint constraint) {
-  return constraint == Constraint::penalty      ? "penalty"
-         : constraint == Constraint::multiplier ? "multiplier"
-                                                : "dashpot";
+  return std::array{"penalty", "multiplier", "dashpot"}[static_cast<std::size_t>(constraint)];
 }
 
 /// The settings as they are if they are of that scheme already.
@@ -150,31 +146,17 @@ Plan stabilityPlan(const Settings& base) {
   return rows;
 }
 
-/// The authors' figure for the row's n and width, if it is one of their runs.
-report::Json publishedShare(const Settings& s) {
-  if (s.scheme != Scheme::paper || s.signal != Signal::impulse) return nullptr;
-  for (const PublishedRun& run : publishedRuns)
-    if (run.particlesPerEdge == s.particlesPerEdge && run.cgWidth == s.cgWidth) return run.dissipatedShare;
-  return nullptr;
-}
-
 }  // namespace
 
-bool runStudy(const Settings& settings) {
-  static const std::map<std::string, Plan (*)(const Settings&)> plans{
+benchmark::CaseStudy<Settings> studyOf(const Settings&) {
+  benchmark::CaseStudy<Settings> study;
+  study.plans = {
       {"widths", widthsPlan}, {"pareto", paretoPlan}, {"stability", stabilityPlan}, {"constraints", constraintsPlan}};
-  report::Study study;
   study.program = "wave_propagation";
   study.fronts = {{"waveform_error_fem", "on_waveform_front"}, {"energy_lost_share", "on_energy_front"}};
   study.shown = {"seconds_per_step", "energy_lost_share", "waveform_error_fem", "reflected_energy_share",
                  "paper_dissipated_share"};
-  return benchmark::runPlan(study, settings, plans.at(settings.study)(settings), [](const Settings& one) {
-    RunResult result = run(one);
-    if (one.compare) compareWithParticles(result);
-    report::Json figures = benchmark::figuresAsJson(linesOf(result));
-    figures["published_dissipated_share"] = publishedShare(one);
-    return figures;
-  });
+  return study;
 }
 
 }  // namespace dovetail::wave

@@ -78,6 +78,7 @@ def bar(field, table):
     made.UnconstrainedFontSizeOn()
     made.SetTextPositionToPrecedeScalarBar()
     made.SetVerticalTitleSeparation(6)
+    made.SetTextPad(6)
     made.SetBarRatio(0.3)
     for text in (made.GetTitleTextProperty(), made.GetLabelTextProperty()):
         text.SetColor(0.15, 0.15, 0.15)

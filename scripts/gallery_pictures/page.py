@@ -19,7 +19,7 @@ def write(file, pictures, titles):
     """`titles` by scene."""
     parts = [HEAD]
     for picture in pictures:
-        title = titles[picture.scene]
+        title = picture.heading or titles[picture.scene]
         parts.append(f"## {title}\n\n{picture.look}\n\n![{title}](images/gallery/{picture.file}.png)\n")
         if picture.animated:
             parts.append(f"![{title}, animated](images/gallery/{picture.file}.gif)\n")

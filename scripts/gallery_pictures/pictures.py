@@ -27,6 +27,7 @@ class Picture:
     range: dict = field(default_factory=dict)  # of colours, by field; that of the frame if not given
     animated: bool = False
     name: str = ""
+    heading: str = ""  # the scene's title if not given
 
     @property
     def file(self):
@@ -45,7 +46,7 @@ PICTURES = (
             cut=("y", 0.105, 0.12), direction=(0.35, -1.0, 0.3), zoom=1.1),
     Picture("footing", "The force of the plate goes down in chains of contacts, and on into the soil as stress.",
             contents="contacts,solids,stress", grain_opacity=0.12, lines="contacts", line_radius=(0.0002, 0.004),
-            direction=(0.35, -1.0, 0.3), name="footing-forces"),
+            direction=(0.35, -1.0, 0.3), name="footing-forces", heading="Chains of forces under the plate"),
     Picture("digging", "Cut open: gravel in the bucket and before it goes along; what lies below and behind it rests.",
             contents="walls", frame=0.7, direction=(-0.2, -1.0, 0.35), cut=("y", 0.09, 0.0), wall_opacity=0.8),
     Picture("hopper", "Cut open: beads speed up in the neck and fall freely below it, those at the wall hardly move.",

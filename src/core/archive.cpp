@@ -49,6 +49,16 @@ void ByteReader::extract(void* data, std::size_t size) {
   next_ += size;
 }
 
+bool ByteReader::extractTruth() {
+  static_assert(sizeof(bool) == 1);
+  unsigned char byte = 0;
+  extract(&byte, 1);
+  if (byte > 1)
+    throw InputError("a byte that stands for yes or no is " + std::to_string(byte), "checkpoint",
+                     "write it anew with this version of the program");
+  return byte == 1;
+}
+
 void writeChecked(const std::filesystem::path& path, const std::string& kind, const std::vector<char>& bytes) {
   requireFreeOrOurs(path, isArchive);
   Header header;

@@ -38,7 +38,8 @@ table{border-collapse:collapse;font-size:.9rem}
 th,td{padding:.2rem .7rem .2rem 0;text-align:left;vertical-align:top;border-bottom:1px solid var(--line)}
 td:first-child{min-width:9em}
 td:last-child:not(.n){overflow-wrap:anywhere;min-width:12em}
-.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
+.n{text-align:right;font-variant-numeric:tabular-nums}
+td.n{white-space:nowrap}
 @media (max-width:30rem){table{font-size:.78rem}th,td{padding-right:.4rem}td:first-child{min-width:6em}}
 details{margin:.5rem 0;background:var(--soft);padding:.4rem .7rem;border-radius:4px}
 summary{cursor:pointer}

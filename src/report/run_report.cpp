@@ -1,6 +1,7 @@
 #include "dovetail/report/run_report.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -36,7 +37,16 @@ std::string nameOf(const std::string& column) {
     if (name.ends_with(ending)) name.resize(name.size() - ending.size());
   }
   std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
+  return name == "limit" ? "largest stable step" : name;
+}
+
+/// Title and axis of the columns of a unit that have no figure of their own.
+std::pair<std::string, std::string> titleAndAxis(const std::string& unit, const std::vector<std::string>& columns) {
+  std::string name = columns.size() == 1 ? nameOf(columns.front()) : "";
+  if (name.empty()) return {unit == "1" ? "Numbers" : "In " + unit, unit == "1" ? "number" : unit};
+  const std::string axis = unit == "1" ? "number" : name + " (" + unit + ")";
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  return {name, axis};
 }
 
 bool isResidual(const std::string& column) { return column.find("residual") != std::string::npos; }
@@ -95,9 +105,9 @@ std::vector<Block> figuresOfSeries(const io::TimeSeries& series) {
   int number = 0;
   for (auto& [unit, columns] : others) {
     std::erase_if(columns, [&](const std::string& column) { return isConstant(series.column(column)); });
-    if (unit != "N")
-      addFigure(blocks, series, "series_" + std::to_string(++number),
-                columns.size() == 1 ? nameOf(columns.front()) : "In " + unit, unit == "1" ? "number" : unit, columns);
+    if (unit == "N") continue;
+    const auto [title, axis] = titleAndAxis(unit, columns);
+    addFigure(blocks, series, "series_" + std::to_string(++number), title, axis, columns);
   }
   return blocks;
 }

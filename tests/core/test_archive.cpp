@@ -64,6 +64,25 @@ TEST(CheckedFile, KeepsTheOldStateWhenTheDiskIsFull) {
   EXPECT_EQ(scratch.content(), std::set<std::string>{"state"});
 }
 
+TEST(ByteReader, TruthsAreNoughtOrOne) {
+  ByteWriter writer;
+  writer(true, std::optional<double>{2.5}, false);
+  bool first = false, last = true;
+  std::optional<double> number;
+  const auto read = [&](const std::vector<char>& bytes) {
+    ByteReader reader(bytes);
+    reader(first, number, last);
+  };
+  read(writer.bytes());
+  EXPECT_TRUE(first && number == 2.5 && !last);
+  for (const std::size_t place : {std::size_t{0}, std::size_t{1}, writer.bytes().size() - 1})
+    for (const char wrong : {'\2', '%', '\377'}) {
+      std::vector<char> damaged = writer.bytes();
+      damaged[place] = wrong;
+      EXPECT_THROW(read(damaged), InputError) << place;
+    }
+}
+
 bool startsWithMine(const fs::path& path) { return headOf(path, 4) == "mine"; }
 
 TEST(AtomicFile, AppendsToItsOwnAndTakesBackWhatDoesNotFit) {

@@ -116,6 +116,14 @@ TEST(RunReport, IsOnePageWithFiguresTablesAndOrigin) {
   writeRunReport(folder.path());  // anew
 }
 
+TEST(RunReport, FiguresOfOneColumnSayWhatItIs) {
+  const ScratchFolder folder;
+  writeText(folder / "series.csv", "time_s,particles,limit_s\n0,2,1e-4\n1,3,2e-4\n");
+  const std::string html = readText(writeRunReport(folder.path()));
+  for (const char* part : {">Particles<", ">number<", ">Largest stable step<", "largest stable step (s)"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+}
+
 TEST(RunReport, OfARunThatWasBrokenOffSaysSo) {
   const ScratchFolder folder;
   writeText(folder / "series.csv", "time_s,plate_kinetic_J\n0,1\n");

@@ -113,6 +113,17 @@ TEST(Program, NothingOfAnEarlierRunStandsBesideANewOne) {
     EXPECT_FALSE(std::filesystem::exists(folder / old)) << old;
 }
 
+TEST(Program, AProfileTellsOfGrainsAndSolids) {
+  const ScratchFolder folder;
+  ASSERT_EQ(runProgram({"run", starter("plate"), "--out", folder.path().string(), "--set", "time=1e-4", "--set",
+                        "output={}", "--profile"})
+                .code,
+            0);
+  const std::string text = readText(folder / "summary.txt");
+  for (const char* const part : {"solids kick and drift", "find pairs", "grains on plate"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+}
+
 TEST(Program, ComparesRunsAndWritesFields) {
   const ScratchFolder folder;
   for (const char* const name : {"a", "b", "c"})

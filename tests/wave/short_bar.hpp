@@ -22,7 +22,7 @@ inline Settings shortBar() {
 
 inline RunResult runAndCompare(const Settings& settings) {
   RunResult result = run(settings);
-  compareWithParticles(result);
+  compare(result);
   return result;
 }
 

@@ -15,8 +15,8 @@ struct ProfileRun {
 ProfileRun runWithProfile(const Settings& settings) {
   ProfileRun profile;
   profile.result = run(settings, [](const Frame&) {});
-  compareWithParticles(profile.result);
-  profile.table = profile.result.velocityProfile;
+  compare(profile.result);
+  profile.table = *profile.result.velocityProfile;
   return profile;
 }
 

@@ -57,7 +57,7 @@ private:
 };
 
 /// Hands bytes out again, in the order in which they were written.
-/// @throws InputError if there are not enough
+/// @throws InputError if there are not enough, or one stands for a truth and is neither 0 nor 1
 class ByteReader {
 public:
   static constexpr bool reads = true;
@@ -73,6 +73,8 @@ private:
   void read(T& value) {
     if constexpr (requires { archiveFields(*this, value); }) {
       archiveFields(*this, value);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      value = extractTruth();
     } else {
       static_assert(std::is_trivially_copyable_v<T>);
       extract(&value, sizeof value);
@@ -103,6 +105,7 @@ private:
   }
   void requireLeft(std::uint64_t count, std::size_t size) const;
   void extract(void* data, std::size_t size);
+  bool extractTruth();
   std::vector<char> bytes_;
   std::size_t next_ = 0;
 };
