@@ -15,6 +15,8 @@ struct Verb {
 Verb addCompare(CLI::App& app);
 /// fields RUN: coarse-grained fields of its last checkpoint.
 Verb addFields(CLI::App& app);
+/// calibrate FILE; refused where the build has no Ceres.
+Verb addCalibrate(CLI::App& app);
 
 /// A verb that reads its own command line.
 struct OwnVerb {

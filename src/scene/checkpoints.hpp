@@ -8,6 +8,7 @@
 
 #include "dovetail/coupling/rest.hpp"
 #include "dovetail/coupling/run.hpp"
+#include "dovetail/scene/files.hpp"
 
 namespace dovetail::scene {
 
@@ -39,8 +40,5 @@ void writeCheckpoint(const std::filesystem::path& folder, const std::string& has
                      coupling::CoupledRun& run);
 /// @return where the run stood. @throws InputError if there is none, or it is of another scene or damaged
 Progress readCheckpoint(const std::filesystem::path& folder, const std::string& hash, coupling::CoupledRun& run);
-
-/// 16 digits of FNV-1a.
-std::string hashOf(const std::string& text);
 
 }  // namespace dovetail::scene
