@@ -46,6 +46,20 @@ public:
     return found;
   }
 
+  /// @throws InputError if an experiment cannot be done where the parameters start
+  void requireStart() {
+    const std::vector<double> values = starts();
+    for (const Target& target : file_.targets) {
+      const Experiment& experiment = experimentNamed(target.of);
+      const Outcome& outcome = perform(experiment, settingsOf(values));
+      if (!outcome.failure.empty())
+        throw InputError("the experiment \"" + experiment.name + "\" cannot be done where the parameters start: " +
+                             outcome.failure,
+                         experiment.where, "");
+      outcome.value(target.quantity, target.at, target.where);
+    }
+  }
+
   /// A fit to targets, which may be others than the file's.
   FitResult fitTo(const std::vector<double>& targets, const std::vector<double>& deviations,
                   const std::vector<double>& start) {
@@ -81,8 +95,6 @@ public:
   Rehearsal rehearse(int draws, std::uint64_t seed) {
     Rehearsal found{draws, seed, starts(), {}, {}};
     const std::vector<double> truth = model(found.truth);
-    if (truth.empty())
-      throw NumericalError("an experiment breaks down at the parameters' starts", "rehearsal", "begin elsewhere");
     dem::RandomStream random(seed);
     for (int draw = 0; draw < draws && !stops(); ++draw) {
       std::vector<double> targets, deviations, start;
@@ -165,10 +177,11 @@ CalibrationResult calibrate(const Calibration& file, const CalibrationSettings& 
   Calibrating work(file, laboratory, log);
   CalibrationResult result;
   result.value = work.starts();
+  if (settings.rehearsals > 0 && file.parameters.empty())
+    throw InputError("there are no parameters to recover", "--rehearse", "give the file parameters and targets");
   try {
+    if (!file.parameters.empty()) work.requireStart();
     if (settings.rehearsals > 0) {
-      if (file.parameters.empty())
-        throw InputError("there are no parameters to recover", "--rehearse", "give the file parameters and targets");
       result.rehearsal = work.rehearse(settings.rehearsals, settings.seed);
     } else if (file.search && !file.parameters.empty()) {
       result.optimum = work.search();
@@ -186,7 +199,7 @@ CalibrationResult calibrate(const Calibration& file, const CalibrationSettings& 
       result.whyStopped = "all " + std::to_string(file.evaluations) + " evaluations are used up: raise \"evaluations\"; "
                           "what was evaluated is kept";
     if (!result.rehearsal && io::interruption() == 0) addOutcomes(work, file, result);
-  } catch (const NumericalError&) {
+  } catch (const Error&) {
     laboratory.save();
     if (io::interruption() == 0) throw;
   }

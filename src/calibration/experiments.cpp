@@ -86,6 +86,22 @@ scene::Scene sceneOf(const Experiment& experiment, const std::vector<std::string
   return scene::readScene(experiment.scene, settings);
 }
 
+/// Nothing but grains and their contacts can be a cell.
+void requireGrainsAlone(const scene::Scene& scene, const std::string& where) {
+  const std::pair<bool, const char*> others[] = {
+      {!scene.walls.empty(), "walls"},           {!scene.clumps.empty(), "clumps"},   {!scene.bonds.empty(), "bonds"},
+      {!scene.drives.empty(), "drives"},         {!scene.solids.empty(), "solids"},   {!scene.outlets.empty(), "outlets"},
+      {!scene.insertions.empty(), "insertions"}, {norm(scene.gravity) > 0.0, "gravity"}};
+  for (const auto& [there, name] : others)
+    if (there)
+      throw InputError(std::string("the scene of a cell has ") + name, where,
+                       "probe a scene of grains alone in periodic space, or let the experiment \"do\": \"run\"");
+  const bool repeats = scene.periodic && scene.periodic->axes == std::array{true, true, true};
+  if (!repeats)
+    throw InputError("the scene of a cell does not repeat along all axes", where,
+                     "give it \"periodic\" with \"axes\": [\"x\", \"y\", \"z\"]");
+}
+
 }  // namespace
 
 double Outcome::value(const std::string& quantity, const std::optional<double>& at, const std::string& where) const {
@@ -149,7 +165,11 @@ const dem::Model& Laboratory::prepared(const scene::Scene& scene, const Preparat
   const std::string name = scene::hashOf(scene::sceneText(own) + formatNumber(preparation.pressure));
   for (const auto& [known, cell] : cells_)
     if (known == name) return cell;
-  dem::Model cell = scene::build(own).run->grains;
+  scene::Built built = scene::build(own);
+  dem::Model cell;
+  cell.particles = std::move(built.run->grains.particles);
+  cell.pairs = std::move(built.run->grains.pairs);
+  cell.laws = built.run->grains.laws;
   compressCell(cell, {.pressure = preparation.pressure});
   if (cells_.size() == kept) cells_.erase(cells_.begin());
   return cells_.emplace_back(name, std::move(cell)).second;
@@ -157,6 +177,7 @@ const dem::Model& Laboratory::prepared(const scene::Scene& scene, const Preparat
 
 Outcome Laboratory::simulate(const Experiment& experiment, const scene::Scene& scene) {
   const auto cellFor = [&](const Preparation& preparation) {
+    requireGrainsAlone(scene, experiment.where);
     dem::Model cell = prepared(scene, preparation);
     scene::Scene lawsAlone;
     lawsAlone.contact = scene.contact;
@@ -191,7 +212,7 @@ const Outcome& Laboratory::perform(const Experiment& experiment, const std::vect
   Outcome outcome;
   try {
     outcome = simulate(experiment, scene);
-  } catch (const NumericalError& error) {
+  } catch (const Error& error) {  // broke down, or was refused with these values
     if (io::interruption() != 0) throw;
     outcome.failure = error.what();
   }

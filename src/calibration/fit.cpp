@@ -1,6 +1,7 @@
 #include "dovetail/calibration/fit.hpp"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +34,14 @@ public:
     if (!at(u, here)) return false;
     std::copy(here.begin(), here.end(), residuals);
     if (!jacobians || !jacobians[0]) return true;
-    for (std::size_t k = 0; k < u.size(); ++k)
-      if (!differentiate(u, k, here, jacobians[0])) return false;
+    if (!isNear(u)) {
+      std::vector<double> made(n * u.size());
+      for (std::size_t k = 0; k < u.size(); ++k)
+        if (!differentiate(u, k, here, made.data())) return false;
+      derivativesAt_ = u;
+      derivatives_ = std::move(made);
+    }
+    std::copy(derivatives_.begin(), derivatives_.end(), jacobians[0]);
     return true;
   }
 
@@ -48,6 +55,12 @@ public:
   std::exception_ptr thrown() const { return thrown_; }
 
 private:
+  /// Whether the derivatives that were taken last serve here: differences say nothing about less than their steps.
+  bool isNear(const std::vector<double>& u) const {
+    for (std::size_t k = 0; k < u.size(); ++k)
+      if (derivativesAt_.empty() || std::abs(u[k] - derivativesAt_[k]) > 0.5 * parameters_[k].step) return false;
+    return true;
+  }
   bool at(const std::vector<double>& u, std::vector<double>& residuals) const {
     if (thrown_ || (stop_ && stop_())) return false;
     try {
@@ -75,6 +88,7 @@ private:
   const Residuals& evaluate_;
   const std::function<bool()>& stop_;
   mutable std::exception_ptr thrown_;
+  mutable std::vector<double> derivativesAt_, derivatives_;  // by u, row by row
 };
 
 void check(std::span<const FitParameter> parameters, int residuals) {
@@ -118,13 +132,22 @@ ceres::Solver::Options optionsOf(const FitSettings& settings) {
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = settings.iterations;
   options.parameter_tolerance = settings.tolerance;
-  options.function_tolerance = 1e-8;
-  options.gradient_tolerance = 1e-12;
+  options.function_tolerance = settings.tolerance;
+  options.gradient_tolerance = 1e-14;
   options.max_num_consecutive_invalid_steps = 10;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
   return options;
 }
+
+/// Ceres tells of evaluations that fail on the standard error stream; here they are part of the way.
+struct QuietLog {
+  QuietLog() : before(std::exchange(FLAGS_minloglevel, google::GLOG_FATAL)) {}
+  ~QuietLog() { FLAGS_minloglevel = before; }
+  QuietLog(const QuietLog&) = delete;
+  QuietLog& operator=(const QuietLog&) = delete;
+  google::int32 before;
+};
 
 }  // namespace
 
@@ -141,6 +164,7 @@ FitResult fit(std::span<const FitParameter> parameters, int residuals, const Res
     problem.SetParameterLowerBound(u.data(), k, 0.0);
     problem.SetParameterUpperBound(u.data(), k, 1.0);
   }
+  const QuietLog quiet;
   ceres::Solver::Summary summary;
   ceres::Solve(optionsOf(settings), &problem, &summary);
   if (model->thrown()) std::rethrow_exception(model->thrown());

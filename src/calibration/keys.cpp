@@ -76,7 +76,7 @@ void describe(Fields& f, Calibration& v) {
   f.list({"targets", "what experiments should give"}, v.targets);
   f.object({"search", "samples the measure of all targets in place of fitting, and tells how flat its optimum is"}, v.search);
   f.integer({"evaluations", "of the simulator at most; those in the cache are free"}, v.evaluations, 1, 1000000);
-  f.number({"tolerance", "a fit ends when parameters change by less, over most - least"}, v.tolerance,
+  f.number({"tolerance", "a fit ends when parameters, over most - least, or the sum of squares change by less"}, v.tolerance,
            scene::between(0.0, 0.1, true));
 }
 

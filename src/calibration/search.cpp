@@ -64,7 +64,7 @@ private:
     double low = parameters_[k].least, high = parameters_[k].most;
     for (int pass = 0; pass <= settings_.refinements && !stopped(); ++pass) {
       for (int s = 0; s < settings_.samples && !stopped(); ++s)
-        sample(k, low + (high - low) * s / (settings_.samples - 1), line);
+        sample(k, s + 1 == settings_.samples ? high : low + (high - low) * s / (settings_.samples - 1), line);
       if (pass == 0) sample(k, found_.value[k], line);
       if (line.empty()) break;
       const auto least = std::min_element(line.begin(), line.end(),

@@ -18,7 +18,7 @@ struct Outcome {
   std::map<std::string, double> numbers;
   std::map<std::string, std::vector<double>> curves;
   std::string abscissa;  ///< curve over which the others are: strain, time_s; empty without curves
-  std::string failure;   ///< why it broke down; empty: it did not
+  std::string failure;   ///< why it broke down, or was refused with the values; empty: it was done
   double seconds = 0.0;  ///< that it took
 
   /// A number, or the value of a curve at a place, linear between its points, or its end.
@@ -41,7 +41,7 @@ public:
   Laboratory& operator=(const Laboratory&) = delete;
 
   /// @param values  of the parameters, "key=value"; the experiment's scene must know the keys
-  /// @throws InputError for scenes that cannot be read or are no cells
+  /// @throws InputError for scenes that cannot be read
   const Outcome& perform(const Experiment& experiment, const std::vector<std::string>& values);
 
   std::int64_t simulated = 0, recalled = 0;  ///< experiments done, and those remembered

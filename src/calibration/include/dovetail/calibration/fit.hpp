@@ -20,7 +20,7 @@ struct FitParameter {
 using Residuals = std::function<bool(std::span<const double> parameters, std::span<double> residuals)>;
 
 struct FitSettings {
-  double tolerance = 1e-4;  ///< ends when all parameters change by less, over most − least
+  double tolerance = 1e-3;  ///< ends when the parameters, over most − least, or χ² change by less, relatively
   int iterations = 50;
   std::function<bool()> stop{};  ///< asked between evaluations: whether to end here
 };
@@ -42,7 +42,8 @@ struct FitResult {
   double reducedChiSquared() const { return freedom > 0 ? chiSquared / freedom : 0.0; }
 };
 
-/// Derivatives are central differences with the parameters' own steps, one-sided at bounds. Uncertainties are those of
+/// Derivatives are central differences with the parameters' own steps, one-sided at bounds; they are kept until a
+/// parameter has moved by more than half its step. Uncertainties are those of
 /// (JᵀJ)⁻¹, times √(χ²/freedom) where that is above 1: if the fit is worse than the targets' uncertainties allow, these
 /// are taken to be too small.
 /// @throws InputError for parameters without a range, or fewer residuals than parameters; NumericalError if the model
