@@ -107,6 +107,7 @@ std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
       ->add_flag("--markdown", options.markdown, "a reference of all keys instead");
   verbs.push_back(program::addCompare(app));
   verbs.push_back(program::addFields(app));
+  verbs.push_back(program::addCalibrate(app));
   CLI::App* const starter = add("new", "prints a commented starter scene, or writes it", writeStarter);
   std::vector<std::string> kinds;
   for (const auto& [kind, text] : starters()) kinds.push_back(kind);

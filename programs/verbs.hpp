@@ -15,6 +15,8 @@ struct Verb {
 Verb addCompare(CLI::App& app);
 /// fields RUN: coarse-grained fields of its last checkpoint.
 Verb addFields(CLI::App& app);
+/// calibrate FILE; refused where the build has no Ceres.
+Verb addCalibrate(CLI::App& app);
 
 /// Lets scenes fill surfaces with tetrahedra, where the program is built for it (DOVETAIL_PROGRAM_CGAL).
 void offerTetrahedra();

@@ -10,6 +10,7 @@
 #include "dovetail/coupling/rest.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/io/provenance.hpp"
+#include "dovetail/scene/files.hpp"
 
 namespace dovetail::scene {
 
@@ -60,8 +61,5 @@ void writeTimes(const std::filesystem::path& folder, const io::KeyValues& proven
                 const std::vector<double>& seconds);
 /// @return a number per stage, 0 for what no file tells
 std::vector<double> readTimes(const std::filesystem::path& folder, std::size_t stages);
-
-/// 16 digits of FNV-1a.
-std::string hashOf(const std::string& text);
 
 }  // namespace dovetail::scene

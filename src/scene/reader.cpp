@@ -3,6 +3,7 @@
 #include <set>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/scene/files.hpp"
 #include "dovetail/scene/read.hpp"
 #include "fields.hpp"
 #include "include.hpp"
@@ -48,6 +49,13 @@ public:
           return;
         }
     value = {numberOf(*node, key, limits, listOf(words)), ""};
+  }
+  void quantity(Key key, Quantity& value) override {
+    const Node* node = take(key, std::isnan(value.value));
+    if (!node) return;
+    const AnyNumber number = anyNumberOf(*node, key);
+    if (!std::isfinite(number.value)) refuse(*node, named(key) + " is not finite", "write a finite number");
+    value = {number.value, number.dimension.value_or(unit::none)};
   }
   void integer(Key key, std::int64_t& value, std::int64_t least, std::int64_t most) override {
     const Node* node = take(key, value < least);
@@ -237,34 +245,45 @@ void keepUsed(Parameters& parameters, const std::string& expressions) {
 
 }  // namespace
 
-Scene sceneFromText(const std::string& text, const std::string& name, const std::filesystem::path& folder,
-                    const std::vector<std::string>& settings) {
-  Node root = parseJson(text, name);
+std::string readFields(const FileText& file, const std::vector<std::string>& settings,
+                       const std::function<void(Fields&)>& describeFile) {
+  Node root = parseJson(file.text, file.name);
   const auto includes = [](const std::string& setting) {
     return setting.starts_with("include=") || setting.starts_with("include.");
   };
   for (const std::string& setting : settings)
     if (includes(setting)) applySetting(root, setting);
-  root = withIncludes(std::move(root), name, folder);
+  root = withIncludes(std::move(root), file.name, file.folder);
   for (const std::string& setting : settings)
     if (!includes(setting)) applySetting(root, setting);
-  Document document{name, folder};
-  const auto read = [&](bool keysOnly) {
+  Document document{file.name, file.folder};
+  for (const bool keysOnly : {true, false}) {
     document.keysOnly = keysOnly;
-    Scene scene;
     Reader reader(document, root, "");
-    describe(reader, scene);
+    describeFile(reader);
     reader.finish();
-    return scene;
-  };
-  read(true);
-  Scene scene = read(false);
-  keepUsed(scene.parameters, document.functionsOfTime);
+  }
+  return document.functionsOfTime;
+}
+
+Scene sceneFromText(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                    const std::vector<std::string>& settings) {
+  Scene scene;
+  const std::string functions = readFields({text, name, folder}, settings, [&](Fields& fields) {
+    scene = {};
+    describe(fields, scene);
+  });
+  keepUsed(scene.parameters, functions);
   return scene;
 }
 
+FileText textOfFile(const std::filesystem::path& file) {
+  return {textOfScene(file, file.string()), file.string(), file.parent_path()};
+}
+
 Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& settings) {
-  return sceneFromText(textOfScene(file, file.string()), file.string(), file.parent_path(), settings);
+  const FileText text = textOfFile(file);
+  return sceneFromText(text.text, text.name, text.folder, settings);
 }
 
 }  // namespace dovetail::scene

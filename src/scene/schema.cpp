@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "dovetail/core/finite.hpp"
+#include "dovetail/scene/files.hpp"
 #include "dovetail/scene/read.hpp"
 #include "fields.hpp"
 
@@ -30,6 +31,9 @@ public:
     Json schema = numberSchema(limits);
     schema["words"] = listOf(words);
     add(key, std::move(schema), false)["default"] = value.word.empty() ? Json(value.number) : Json(value.word);
+  }
+  void quantity(Key key, Quantity& value) override {
+    add(key, {{"type", Json::array({"number", "string"})}}, std::isnan(value.value));
   }
   void integer(Key key, std::int64_t& value, std::int64_t least, std::int64_t most) override {
     Json& entry =
@@ -142,12 +146,15 @@ Json schemaOf(const std::function<void(Fields&)>& describePart) {
   return alternatives.size() == 1 ? alternatives[0] : Json{{"oneOf", std::move(alternatives)}};
 }
 
-Json sceneSchema() {
-  Scene scene;
-  Json schema = schemaOf([&](Fields& fields) { describe(fields, scene); });
-  Json whole = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Dovetail scene"}};
-  whole.update(schema);
+Json wholeSchema(const std::string& kind, const std::function<void(Fields&)>& describeFile) {
+  Json whole = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Dovetail " + kind}};
+  whole.update(schemaOf(describeFile));
   return whole;
+}
+
+void describeScene(Fields& fields) {
+  Scene scene;
+  describe(fields, scene);
 }
 
 std::string valueText(const Json& key) {
@@ -175,12 +182,13 @@ std::string valueText(const Json& key) {
   return text;
 }
 
-void writeTables(const std::string& title, const Json& schema, std::ostream& out) {
+/// @param kind  of the file: the title of its outermost table
+void writeTables(const std::string& kind, const std::string& title, const Json& schema, std::ostream& out) {
   if (schema.contains("oneOf")) {
     for (const Json& alternative : schema["oneOf"])
       for (const auto& [name, key] : alternative["properties"].items())
         if (key.contains("const"))
-          writeTables(title + ", `" + name + "`: `" + key["const"].get<std::string>() + "`", alternative, out);
+          writeTables(kind, title + ", `" + name + "`: `" + key["const"].get<std::string>() + "`", alternative, out);
     return;
   }
   if (!schema.contains("properties")) return;
@@ -195,20 +203,25 @@ void writeTables(const std::string& title, const Json& schema, std::ostream& out
         << " | " << key["description"].get<std::string>() << " |\n";
   }
   for (const auto& [name, key] : schema["properties"].items()) {
-    const std::string inner = title == "scene" ? "`" + name + "`" : title + " → `" + name + "`";
-    writeTables(inner, key.contains("items") ? key["items"] : key, out);
+    const std::string inner = title == kind ? "`" + name + "`" : title + " → `" + name + "`";
+    writeTables(kind, inner, key.contains("items") ? key["items"] : key, out);
   }
 }
 
 }  // namespace
 
-std::string schemaText() { return sceneSchema().dump(2) + "\n"; }
+std::string schemaText(const std::string& kind, const std::function<void(Fields&)>& describeFile) {
+  return wholeSchema(kind, describeFile).dump(2) + "\n";
+}
+std::string schemaText() { return schemaText("scene", describeScene); }
 
-std::string referenceText() {
+std::string referenceText(const std::string& kind, const std::function<void(Fields&)>& describeFile) {
   std::ostringstream out;
-  out << "# Keys of a scene file\n\nMade by `dovetail schema --markdown`.\n";
-  writeTables("scene", sceneSchema(), out);
+  writeTables(kind, kind, wholeSchema(kind, describeFile), out);
   return out.str();
+}
+std::string referenceText() {
+  return "# Keys of a scene file\n\nMade by `dovetail schema --markdown`.\n" + referenceText("scene", describeScene);
 }
 
 }  // namespace dovetail::scene

@@ -1,4 +1,4 @@
-#include "units.hpp"
+#include "dovetail/scene/units.hpp"
 
 #include <array>
 #include <charconv>

@@ -6,10 +6,9 @@
 #include <set>
 #include <string>
 
-#include "fields.hpp"
+#include "dovetail/scene/fields.hpp"
 #include "json_tree.hpp"
 #include "parameters.hpp"
-#include "units.hpp"
 
 namespace dovetail::scene {
 

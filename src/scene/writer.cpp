@@ -1,6 +1,7 @@
 // A scene in full.
 #include <nlohmann/json.hpp>
 
+#include "dovetail/scene/files.hpp"
 #include "dovetail/scene/read.hpp"
 #include "fields.hpp"
 
@@ -25,6 +26,7 @@ public:
   void numberOrWord(Key key, NumberOrWord& value, const Limits&, Words) override {
     json[key.name] = value.word.empty() ? Json(value.number) : Json(value.word);
   }
+  void quantity(Key key, Quantity& value) override { json[key.name] = value.value; }
   void integer(Key key, std::int64_t& value, std::int64_t, std::int64_t) override { json[key.name] = value; }
   void vector(Key key, Vec3& value, const Dimension&) override { json[key.name] = listOf(value); }
   void box(Key key, geometry::Box& value) override {
@@ -76,11 +78,15 @@ protected:
 
 }  // namespace
 
+std::string textOf(const std::function<void(Fields&)>& describeFile) {
+  Writer writer;
+  describeFile(writer);
+  return writer.json.dump(2) + "\n";
+}
+
 std::string sceneText(const Scene& scene) {
   Scene copy = scene;
-  Writer writer;
-  describe(writer, copy);
-  return writer.json.dump(2) + "\n";
+  return textOf([&](Fields& fields) { describe(fields, copy); });
 }
 
 }  // namespace dovetail::scene

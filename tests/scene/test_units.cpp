@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "../../src/scene/units.hpp"
+#include "dovetail/scene/units.hpp"
 
 namespace dovetail::scene {
 

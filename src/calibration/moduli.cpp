@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "dovetail/calibration/cell_probes.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/setup/cell.hpp"
+#include "dovetail/dem/setup/relax.hpp"
+
+namespace dovetail::calibration {
+
+namespace {
+
+/// Pressures at rest after a strain along one axis, Pa.
+Vec3 probed(dem::Model cell, int axis, double strain, const ModuliSettings& settings) {
+  Vec3 strains{};
+  strains[axis] = std::expm1(strain);
+  dem::strainCell(cell, strains);
+  const dem::RelaxationReport report =
+      dem::relax(cell, {.unbalanced = settings.unbalanced, .steps = settings.steps, .lookEvery = 50});
+  if (!report.atRest)
+    throw NumericalError("a cell strained by " + formatNumber(strain) + " does not come to rest: unbalanced forces are " +
+                             formatNumber(report.unbalanced) + " of the contacts'",
+                         std::string("probe along ") + "xyz"[axis], "take more steps, or allow more unbalanced force");
+  return cellPressures(cell);
+}
+
+double largestOff(const std::array<double, 3>& values, double mean) {
+  double off = 0.0;
+  for (const double value : values) off = std::max(off, std::abs(value - mean));
+  return off / mean;
+}
+
+}  // namespace
+
+Moduli smallStrainModuli(const dem::Model& start, const ModuliSettings& settings) {
+  requirePositive(settings.strain, "strain of the probes");
+  dem::Model cell = start;
+  dem::findForces(cell);
+  Moduli found;
+  found.density = cellDensity(cell);
+  found.solidFraction = cellSolidFraction(cell);
+  const Vec3 rest = cellPressures(cell);
+  found.pressure = meanOf(rest);
+  std::array<double, 3> along{}, bothWays{};
+  double across = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const Vec3 shortened = probed(cell, axis, -settings.strain, settings);
+    const Vec3 stretched = probed(cell, axis, settings.strain, settings);
+    for (int row = 0; row < 3; ++row) {
+      const double slope = (shortened[row] - stretched[row]) / (2.0 * settings.strain);
+      found.stiffness[static_cast<std::size_t>(row)][a] = slope;
+      if (row != axis) across += slope / 6.0;
+    }
+    along[a] = found.stiffness[a][a];
+    bothWays[a] = (shortened[axis] - 2.0 * rest[axis] + stretched[axis]) / settings.strain;
+  }
+  const double mean = (along[0] + along[1] + along[2]) / 3.0;
+  found.anisotropy = largestOff(along, mean);
+  for (const double difference : bothWays) found.nonlinearity = std::max(found.nonlinearity, std::abs(difference) / mean);
+  found.bulk = (mean + 2.0 * across) / 3.0;
+  found.shear = 0.5 * (mean - across);
+  found.youngsModulus = 9.0 * found.bulk * found.shear / (3.0 * found.bulk + found.shear);
+  found.poissonRatio = across / (mean + across);
+  found.pWaveSpeed = std::sqrt((found.bulk + 4.0 / 3.0 * found.shear) / found.density);
+  found.sWaveSpeed = std::sqrt(found.shear / found.density);
+  return found;
+}
+
+}  // namespace dovetail::calibration

@@ -1,0 +1,148 @@
+#include "dovetail/calibration/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+
+namespace dovetail::calibration {
+
+namespace {
+
+constexpr double nearlyBest = 1.05;
+constexpr int rounds = 4;
+
+/// Samples of a measure along one parameter.
+using Line = std::map<double, double>;
+
+class Search {
+public:
+  Search(std::span<const FitParameter> parameters, const Measure& measure, const SearchSettings& settings)
+      : parameters_(parameters), measure_(measure), settings_(settings) {
+    for (const FitParameter& p : parameters) found_.value.push_back(p.start);
+  }
+
+  Optimum run() {
+    bool better = true;
+    for (int round = 0; round < rounds && better && !stopped(); ++round) {
+      better = false;
+      for (std::size_t k = 0; k < parameters_.size() && !stopped(); ++k) better = improve(k) || better;
+      if (parameters_.size() == 1) break;
+    }
+    for (std::size_t k = 0; k < parameters_.size() && !stopped(); ++k)
+      found_.profiles.push_back(profileOf(parameters_[k], sampled(k)));
+    found_.measure = best_.value_or(0.0);
+    found_.stopped = stopped();
+    if (!best_ && !found_.stopped)
+      throw NumericalError("the measure could not be evaluated anywhere", "search",
+                           "narrow the bounds to where the experiments can be done");
+    return found_;
+  }
+
+private:
+  bool stopped() const { return settings_.stop && settings_.stop(); }
+
+  /// Moves one parameter to its best sample. Returns whether that is another one than before.
+  bool improve(std::size_t k) {
+    const Line line = sampled(k);
+    if (line.empty()) return false;
+    const auto least = std::min_element(line.begin(), line.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (best_ && !(least->second < *best_)) return false;
+    best_ = least->second;
+    const bool moved = found_.value[k] != least->first;
+    found_.value[k] = least->first;
+    return moved;
+  }
+
+  /// From bound to bound, then between the neighbours of the best sample.
+  Line sampled(std::size_t k) {
+    Line line;
+    double low = parameters_[k].least, high = parameters_[k].most;
+    for (int pass = 0; pass <= settings_.refinements && !stopped(); ++pass) {
+      for (int s = 0; s < settings_.samples && !stopped(); ++s)
+        sample(k, s + 1 == settings_.samples ? high : low + (high - low) * s / (settings_.samples - 1), line);
+      if (pass == 0) sample(k, found_.value[k], line);
+      if (line.empty()) break;
+      const auto least = std::min_element(line.begin(), line.end(),
+                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+      low = least == line.begin() ? least->first : std::prev(least)->first;
+      high = std::next(least) == line.end() ? least->first : std::next(least)->first;
+    }
+    return line;
+  }
+
+  void sample(std::size_t k, double at, Line& line) {
+    if (line.contains(at)) return;
+    std::vector<double> values = found_.value;
+    values[k] = at;
+    if (const auto value = measure_(values)) line[at] = *value;
+  }
+
+  static Profile profileOf(const FitParameter& parameter, const Line& line) {
+    Profile profile;
+    for (const auto& [at, value] : line) {
+      profile.at.push_back(at);
+      profile.measure.push_back(value);
+    }
+    if (line.empty()) return profile;
+    const auto least = static_cast<std::size_t>(
+        std::min_element(profile.measure.begin(), profile.measure.end()) - profile.measure.begin());
+    profile.best = profile.at[least];
+    profile.curvature = curvatureAt(profile, least);
+    profile.lower = reach(profile, least, -1);
+    profile.upper = reach(profile, least, 1);
+    profile.lowerOpen = profile.lower == parameter.least;
+    profile.upperOpen = profile.upper == parameter.most;
+    return profile;
+  }
+
+  /// Of the parabola through the best sample and the nearest ones to both sides that lie beyond the flat bottom.
+  static double curvatureAt(const Profile& p, std::size_t least) {
+    std::size_t a = least, b = least;
+    while (a > 0 && p.measure[a] < nearlyBest * p.measure[least]) --a;
+    while (b + 1 < p.at.size() && p.measure[b] < nearlyBest * p.measure[least]) ++b;
+    if (a == least || b == least || !(p.measure[least] > 0.0)) return 0.0;
+    const double left = (p.measure[least] - p.measure[a]) / (p.at[least] - p.at[a]);
+    const double right = (p.measure[b] - p.measure[least]) / (p.at[b] - p.at[least]);
+    return 2.0 * (right - left) / (p.at[b] - p.at[a]) * p.best * p.best / p.measure[least];
+  }
+
+  /// How far the measure stays within 5 % of the least, linear between samples.
+  static double reach(const Profile& p, std::size_t least, int sense) {
+    const double limit = nearlyBest * p.measure[least];
+    std::size_t k = least;
+    while (true) {
+      if ((sense < 0 && k == 0) || (sense > 0 && k + 1 == p.at.size())) return p.at[k];
+      const std::size_t next = sense < 0 ? k - 1 : k + 1;
+      if (p.measure[next] > limit)
+        return p.at[k] + (p.at[next] - p.at[k]) * (limit - p.measure[k]) / (p.measure[next] - p.measure[k]);
+      k = next;
+    }
+  }
+
+  std::span<const FitParameter> parameters_;
+  const Measure& measure_;
+  const SearchSettings& settings_;
+  Optimum found_;
+  std::optional<double> best_;
+};
+
+}  // namespace
+
+Optimum searchOptimum(std::span<const FitParameter> parameters, const Measure& measure,
+                      const SearchSettings& settings) {
+  if (settings.samples < 3)
+    throw InputError(std::to_string(settings.samples) + " samples", "search", "give 3 at least");
+  if (parameters.empty()) throw InputError("there are no parameters", "search", "give one at least");
+  for (const FitParameter& p : parameters)
+    if (!(p.least < p.most && p.least <= p.start && p.start <= p.most))
+      throw InputError("the start " + formatNumber(p.start) + " does not lie between bounds in order", p.name,
+                       "give least < most, and a start between them");
+  return Search(parameters, measure, settings).run();
+}
+
+}  // namespace dovetail::calibration

@@ -1,0 +1,16 @@
+// A periodic cell as a specimen: strained with all that is in it.
+#pragma once
+
+#include "dovetail/dem/model/model.hpp"
+
+namespace dovetail::dem {
+
+/// Strains a periodic cell along its axes: the box about its lower corner, and the particles with it, x ← (1 + ε) x.
+/// Contacts feel the motion as any other: tangential springs stretch and slide. Velocities stay, no time passes, and
+/// forces are those of the state before until findForces or relax is called.
+/// @param strain  ε per axis, > 0 stretches
+/// @throws InputError unless forces have been found, every axis along which it strains repeats, ε is finite and > −1,
+///   and there are but particles and contacts
+void strainCell(Model& m, const Vec3& strain);
+
+}  // namespace dovetail::dem
