@@ -1,7 +1,9 @@
 // Studies of the benchmarks.
 #pragma once
 
+#include <algorithm>
 #include <iostream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,19 @@ namespace dovetail::benchmark {
 template <class Settings>
 using Plan = std::vector<std::pair<std::string, Settings>>;
 
+/// The runs of the plan that `only` asks for. @throws InputError if there are none
+template <class Settings>
+Plan<Settings> chosen(const Plan<Settings>& plan, const std::string& only) {
+  const bool isLabel = std::ranges::any_of(plan, [&](const auto& one) { return one.first == only; });
+  Plan<Settings> runs;
+  for (const auto& one : plan)
+    if (isLabel ? one.first == only : one.first.find(only) != std::string::npos) runs.push_back(one);
+  if (runs.empty())
+    throw InputError("no run of the study is called so: " + only, "--only",
+                     "take a label as the study prints it, such as '" + plan.front().first + "'");
+  return runs;
+}
+
 /// Runs the plan as report::runStudy; `study` has the name of the program, fronts, and what is shown.
 /// @param figuresOf  runs settings and returns the figures
 template <class Settings, class Figures>
@@ -23,10 +38,10 @@ bool runPlan(report::Study study, const Settings& asked, const Plan<Settings>& p
   study.folder = asked.out.empty() ? "." : asked.out;
   study.workers = asked.workers;
   study.quiet = asked.quiet;
-  for (const auto& [label, planned] : plan) {
+  for (const auto& [label, planned] : chosen(plan, asked.only)) {
     Settings settings = planned;
     settings.quiet = true;
-    settings.study = settings.out = "";
+    settings.study = settings.out = settings.only = "";
     study.cases.push_back({label, describe(settings), [settings, figuresOf] { return figuresOf(settings); }});
   }
   return underName("--out", [&] { return report::runStudy(study, std::cout, std::cerr); });
