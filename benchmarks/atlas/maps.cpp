@@ -79,9 +79,8 @@ const Rule rules[] = {
 
 /// "penalty, dt auto" of "penalty, weight floor 0.1, dt auto"
 std::string rowOf(const std::string& label, const std::smatch& found, const Rule& rule) {
-  std::string row = std::string(rule.y) == "constraint" ? label.substr(0, label.find(',')) : found[2].str();
-  if (std::string(rule.y) == "constraint") row += found[2].str();
-  return row;
+  const bool byConstraint = std::string(rule.y) == "constraint";
+  return (byConstraint ? label.substr(0, label.find(',')) : std::string()) + found[2].str();
 }
 
 std::vector<Placed> cellsOf(const Result& study, const Rule& rule) {

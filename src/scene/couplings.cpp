@@ -1,8 +1,10 @@
 // Couplings of a scene.
 #include <algorithm>
 
+#include "dovetail/arlequin/handed_load.hpp"
 #include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/arlequin/weights.hpp"
+#include "dovetail/core/finite.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 #include "parts.hpp"
 
@@ -26,6 +28,15 @@ void add(Built& built, std::size_t solid, const Coupling& coupling, const Surfac
                                            "grains on " + coupling.solid + " (" + contact.on + ")"));
 }
 
+/// Initial stress of a solid under its loads and those of the grains.
+void takeOver(Built& built, const fem::SolidMesh& mesh, coupling::SolidSide& side, const std::vector<double>& weight) {
+  const int rounds = arlequin::takeOver(built.run->grains, mesh, *side.model, weight);
+  double farthest = 0.0;
+  for (const Vec3& u : side.nodes().u) farthest = std::max(farthest, norm(u));
+  built.notes.push_back("\"" + side.name + "\" took over its grains in " + std::to_string(rounds) +
+                        " rounds: its nodes moved by up to " + formatNumber(farthest) + " m.");
+}
+
 void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overlap, const Scene&) {
   dem::Model& grains = built.run->grains;
   const fem::SolidMesh& mesh = built.meshes[solid];
@@ -37,6 +48,7 @@ void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overla
     built.notes.push_back(std::to_string(beyond.size()) + " grains beyond the border of the particles in \"" +
                           side.name + "\" were left out.");
   }
+  if (overlap.takeOver) takeOver(built, mesh, side, weight);
   arlequin::CouplingOptions options;
   options.projection.width = overlap.kernel;
   options.penalty = overlap.penalty.number;
