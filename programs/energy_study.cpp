@@ -71,7 +71,8 @@ Json readJson(const fs::path& path) {
 
 std::vector<Run> readRuns(const fs::path& folder) {
   std::vector<Run> runs;
-  for (const Json& row : readJson(folder / "study.json")["runs"]) {
+  const Json study = readJson(folder / "study.json");
+  for (const Json& row : study["runs"]) {
     if (row["outcome"] != "finished") continue;
     Run run{.label = row["label"], .settings = {}, .figures = row, .series = io::TimeSeries({"time_s"}), .order = {}};
     fs::path place = folder;
