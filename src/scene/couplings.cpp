@@ -28,6 +28,16 @@ void add(Built& built, std::size_t solid, const Coupling& coupling, const Surfac
                                            "grains on " + coupling.solid + " (" + contact.on + ")"));
 }
 
+/// Takes out the grains beyond their border.
+void leaveOut(Built& built, const fem::SolidMesh& mesh, const coupling::SolidSide& side,
+              const std::vector<double>& weight) {
+  const std::vector<int> beyond = arlequin::particlesBeyond(built.run->grains, mesh, side.nodes(), weight);
+  if (beyond.empty()) return;
+  dem::removeParticles(built.run->grains, beyond);
+  built.notes.push_back(std::to_string(beyond.size()) + " grains beyond the border of the particles in \"" + side.name +
+                        "\" were left out.");
+}
+
 /// Initial stress of a solid under its loads and those of the grains.
 void takeOver(Built& built, const fem::SolidMesh& mesh, coupling::SolidSide& side, const std::vector<double>& weight) {
   // A thousandth of the load is far below what a tie of elements cannot balance grain by grain anyway.
@@ -43,13 +53,11 @@ void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overla
   const fem::SolidMesh& mesh = built.meshes[solid];
   coupling::SolidSide& side = built.run->solid(solid);
   const std::vector<double> weight = overlapWeights(overlap, mesh);
-  const std::vector<int> beyond = arlequin::particlesBeyond(grains, mesh, side.nodes(), weight);
-  if (!beyond.empty()) {
-    dem::removeParticles(grains, beyond);
-    built.notes.push_back(std::to_string(beyond.size()) + " grains beyond the border of the particles in \"" +
-                          side.name + "\" were left out.");
+  leaveOut(built, mesh, side, weight);
+  if (overlap.takeOver) {
+    takeOver(built, mesh, side, weight);
+    leaveOut(built, mesh, side, weight);  // the border has moved with the mesh
   }
-  if (overlap.takeOver) takeOver(built, mesh, side, weight);
   arlequin::CouplingOptions options;
   options.projection.width = overlap.kernel;
   options.penalty = overlap.penalty.number;
