@@ -15,6 +15,7 @@
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
 #include "program/options.hpp"
+#include "energy_study.hpp"
 #include "verbs.hpp"
 
 namespace dovetail::program {
@@ -28,6 +29,7 @@ struct Settings {
   std::vector<std::string> over, set;
   std::optional<double> exact;
   int workers = threads();
+  bool energy = false;
 };
 
 /// A key and the values that it is given.
@@ -75,13 +77,11 @@ std::vector<io::KeyValues> combinations(const std::vector<Axis>& axes) {
   return all;
 }
 
-/// What a series ends with, by column, and the largest residual of the energy balance.
+/// What a series ends with, by column, and what became of the energy.
 void addSeries(const fs::path& file, report::Json& figures) {
   const io::TimeSeries series = io::readCsv(file);
   if (series.rows() == 0) return;
-  double residual = 0.0;
-  for (const double value : series.column("residual_J")) residual = std::max(residual, std::abs(value));
-  figures["largest_residual_J"] = residual;
+  figures.update(energyFigures(series));
   for (std::size_t c = 0; c < series.names().size(); ++c)
     figures[series.names()[c]] = report::numberOrNull(series.column(c).back());
 }
@@ -163,15 +163,20 @@ bool studyScene(int argc, char** argv) {
                "of the series: its magnitude at the end is the error; default: the largest residual");
   options.number("--exact VALUE", settings.exact, {-1e300, 1e300, true, true, "a number"}, "none",
                  "what the column ought to be: the error is the difference");
+  options.flag("--energy", settings.energy,
+               "writes energy.html and .csv too: residual of the energy, its order in the step, growth and channels");
   options.integer("--workers N", settings.workers, 1, 1024, "processes at once; default: one for each processor");
   options.text("--out DIR", settings.out, "folder; <scene>-study if not given");
   if (!options.parse(argc, argv)) return true;
   report::Study study = planOf(settings);
   study.about["settings"] = report::objectOf(options.described());
-  io::prepareOutputFolder(study.folder, report::filesOf(study));
+  std::vector<std::string> files = report::filesOf(study);
+  if (settings.energy) std::ranges::copy(energyStudyFiles(), std::back_inserter(files));
+  io::prepareOutputFolder(study.folder, files);
   for (std::size_t k = 0; k < study.cases.size(); ++k)
     io::prepareOutputFolder(study.folder / report::format("%03zu", k + 1));
   if (!report::runStudy(study, std::cout, std::cerr)) return false;
+  if (settings.energy) writeEnergyStudy(study.folder);
   std::cout << "tables and figure in " << study.folder.string() << '\n';
   return true;
 }

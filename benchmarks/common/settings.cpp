@@ -33,6 +33,7 @@ void addOutputOptions(program::Options& o, RunSettings& s, const RunWords& words
            "time between frames, s");
   o.text("--summary FILE", s.summary, "JSON file of all figures");
   o.word("--study", s.study, words.studies, "a set of runs; tables and figures go to --out");
+  o.text("--only TEXT", s.only, "of a study, the run with this label, or those whose labels hold it");
   o.integer("--workers N", s.workers, 0, 1024,
             "processes of a study; 0 (default): one run after the other, which times best");
   o.text("--reference DIR", s.reference, "folder with the published curves (" + words.curves + ")");
@@ -52,7 +53,7 @@ void checkRun(const RunSettings& s) {
 void refuseIdleRunOptions(const program::Options& o, const RunSettings& s) {
   if (!s.study.empty())
     o.refuseIdle("--output-interval --profile", "with --study, which writes no pictures", "leave it out");
-  if (s.study.empty()) o.refuseIdle("--workers", "without --study", "leave it out");
+  if (s.study.empty()) o.refuseIdle("--workers --only", "without --study", "leave it out");
   if (s.out.empty()) o.refuseIdle("--output-interval", "without --out", "add --out DIR, or leave it out");
   if (s.quiet) o.refuseIdle("--reference", "with --quiet", "leave out one of them");
   if (s.quiet && s.summary.empty())

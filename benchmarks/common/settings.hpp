@@ -21,6 +21,7 @@ struct RunSettings {
   int threads = 1;
 
   std::string out, summary, reference, study;
+  std::string only;             ///< runs of a study whose label is this, or, if none is, holds this
   double outputInterval = 0.0;  ///< s between pictures in --out
   int workers = 0;              ///< processes of a study; 0: one run after the other in this one
   bool profile = false, quiet = false;

@@ -10,6 +10,7 @@
 #include "measure.hpp"
 #include "scenes.hpp"
 #include "studies.hpp"
+#include "tables.hpp"
 
 namespace dovetail::dem_benchmark {
 
@@ -122,17 +123,25 @@ void studyAccuracy(const Settings& s, std::ostream& out) {
   const int count = s.quick ? 200 : 4000, finest = s.quick ? 640 : 2560;
   out << format("%d collisions of pairs, oblique and spinning; reference: %d steps per contact\n", count, finest)
       << format("%-32s %8s %10s %10s %12s %14s\n", "law", "steps", "error", "residual", "ns per step", "us per impact");
+  report::Json rows = report::Json::array();
   for (const Named& law : laws()) {
     const Run reference = collide(law.laws, count, finest);
     for (const int steps : {10, 20, 40, 80, 160}) {
       Run best = collide(law.laws, count, steps);
       for (int repeat = 1; repeat < s.repeats; ++repeat)
         best.nanoseconds = std::min(best.nanoseconds, collide(law.laws, count, steps).nanoseconds);
-      out << format("%-32s %8d %10.1e %10.1e %12.1f %14.3f\n", steps == 10 ? law.name : "", steps,
-                    errorOf(best.motion, reference.motion), best.residual, best.nanoseconds,
-                    2e-3 * best.nanoseconds * contactTimes * steps);
+      const double error = errorOf(best.motion, reference.motion);
+      const double perImpact = 2e-3 * best.nanoseconds * contactTimes * steps;  // µs
+      out << format("%-32s %8d %10.1e %10.1e %12.1f %14.3f\n", steps == 10 ? law.name : "", steps, error,
+                    best.residual, best.nanoseconds, perImpact);
+      rows.push_back({{"law", law.name},
+                      {"steps_per_contact", steps},
+                      {"error", error},
+                      {"residual", best.residual},
+                      {"us_per_impact", perImpact}});
     }
   }
+  writeSummary(s, {{"runs", rows}});
 }
 
 }  // namespace dovetail::dem_benchmark

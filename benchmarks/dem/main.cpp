@@ -16,12 +16,13 @@ using namespace dovetail::dem_benchmark;
 void refuseIdleOptions(const program::Options& o, const Settings& s) {
   const std::string with = "with --study " + s.study, remedy = "leave it out";
   if (!s.write.empty())
-    o.refuseIdle("--study --summary --scene --copies --steps --warm-up --repeat", "with --write", remedy);
+    o.refuseIdle("--study --summary --only --scene --copies --steps --warm-up --repeat", "with --write", remedy);
   if (s.study != "peers") o.refuseIdle("--scene --copies", with, remedy);
+  if (s.study != "stability") o.refuseIdle("--only", with, remedy);
   if (s.study == "peers") o.refuseIdle("--quick", with, remedy);
   if (s.study == "threads") o.refuseIdle("--threads", with, remedy);
-  if (s.study == "stability") o.refuseIdle("--bed --summary --steps --warm-up --repeat --quick", with, remedy);
-  if (s.study == "accuracy") o.refuseIdle("--bed --summary --steps --warm-up", with, remedy);
+  if (s.study == "stability") o.refuseIdle("--bed --steps --warm-up --repeat --quick", with, remedy);
+  if (s.study == "accuracy") o.refuseIdle("--bed --steps --warm-up", with, remedy);
   if (s.study == "leaving-out" || s.study == "scaling") o.refuseIdle("--bed --warm-up", with, remedy);
 }
 
@@ -35,6 +36,7 @@ bool parse(int argc, char** argv, Settings& s) {
          "--write");
   o.text("--write DIR", write, "write the scenes into this folder, for other programs, and stop");
   o.text("--summary FILE", summary, "write the figures as JSON");
+  o.text("--only TEXT", s.only, "stability: cases whose name holds this");
   o.texts("--scene bed|hertz|lattice|polydisperse|drum", scenes, "peers: what to time; may be given several times");
   o.integer("--copies N", s.copies, 1, 1000, "peers: beds or drums side by side");
   o.integer("--steps N", s.steps, 2, 1000000, "steps per timing");

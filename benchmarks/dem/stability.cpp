@@ -7,6 +7,7 @@
 #include "dovetail/report/text.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/walls.hpp"
+#include "tables.hpp"
 #include "studies.hpp"
 
 namespace dovetail::dem_benchmark {
@@ -155,11 +156,14 @@ std::vector<Case> cases() {
 
 }  // namespace
 
-bool studyStability(const Settings&, std::ostream& out) {
-  bool sound = true;
+bool studyStability(const Settings& s, std::ostream& out) {
+  bool sound = true, any = false;
+  report::Json rows = report::Json::array();
   out << format("%-40s %-14s %-10s %s\n", "case", "figure", "value", "outcome");
   for (const Case& c : cases()) {
-    std::string value = "-", outcome;
+    if (std::string(c.name).find(s.only) == std::string::npos) continue;
+    any = true;
+    std::string value = "-", outcome, message;
     try {
       const double figure = c.figure();
       const bool bounded = figure <= c.limit;
@@ -167,10 +171,16 @@ bool studyStability(const Settings&, std::ostream& out) {
       outcome = bounded ? "bounded" : "NOT BOUNDED";
       sound = sound && bounded;
     } catch (const Error& error) {
-      outcome = std::string("refused: ") + error.what();
+      outcome = "refused";
+      message = error.what();
     }
-    out << format("%-40s %-14s %-10s %s\n", c.name, c.wanted, value.c_str(), outcome.c_str());
+    out << format("%-40s %-14s %-10s %s%s%s\n", c.name, c.wanted, value.c_str(), outcome.c_str(),
+                  message.empty() ? "" : ": ", message.c_str());
+    rows.push_back(
+        {{"label", c.name}, {"figure", c.wanted}, {"value", value}, {"outcome", outcome}, {"message", message}});
   }
+  if (!any) throw InputError("no case holds '" + s.only + "' in its name", "--only", "leave it out to see all names");
+  writeSummary(s, {{"runs", rows}});
   return sound;
 }
 

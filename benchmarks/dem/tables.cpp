@@ -2,7 +2,6 @@
 
 #include <ostream>
 
-#include "dovetail/report/table.hpp"
 #include "dovetail/report/text.hpp"
 #include "dovetail/io/output_folder.hpp"
 
@@ -27,10 +26,7 @@ const Figures& Table::add(Figures f) {
 }
 
 void writeSummary(const Settings& s, const std::vector<Figures>& rows, double triad) {
-  if (s.summary.empty()) return;
-  report::Json json;
-  json["study"] = s.study;
-  json["triad_GB_per_s"] = triad;
+  report::Json json{{"triad_GB_per_s", triad}};
   for (const Figures& f : rows)
     json["scenes"].push_back({{"name", f.name},
                               {"particles", f.particles},
@@ -39,6 +35,13 @@ void writeSummary(const Settings& s, const std::vector<Figures>& rows, double tr
                               {"highest", f.rates.highest},
                               {"bytes_held_per_particle", f.bytesHeld},
                               {"bytes_moved_per_step", f.bytesMoved}});
+  writeSummary(s, json);
+}
+
+void writeSummary(const Settings& s, const report::Json& content) {
+  if (s.summary.empty()) return;
+  report::Json json{{"study", s.study}};
+  json.update(content);
   json["provenance"] = report::objectOf(io::provenance());
   io::writeFileAtomically(s.summary, json.dump(2) + "\n");
 }

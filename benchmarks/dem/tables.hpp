@@ -4,6 +4,7 @@
 #include <iosfwd>
 #include <vector>
 
+#include "dovetail/report/table.hpp"
 #include "measure.hpp"
 #include "studies.hpp"
 
@@ -17,5 +18,7 @@ struct Table {
 };
 
 void writeSummary(const Settings& settings, const std::vector<Figures>& rows, double triad);
+/// The name of the study, the content and where it comes from, as JSON, if a summary is asked for.
+void writeSummary(const Settings& settings, const report::Json& content);
 
 }  // namespace dovetail::dem_benchmark

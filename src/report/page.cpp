@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "map_text.hpp"
+
 namespace dovetail::report {
 
 namespace {
@@ -69,6 +71,10 @@ public:
     text += "<details><summary>" + escaped(listing.title) + "</summary><pre>" + escaped(listing.text) +
             "</pre></details>\n";
   }
+  void operator()(const Map& map) {
+    close();
+    text += htmlOf(map, maps_++);
+  }
   void close() {
     if (inFigures_) text += "</div>\n";
     inFigures_ = false;
@@ -83,9 +89,11 @@ private:
     text += "</tr>\n";
   }
   bool inFigures_ = false;
+  int maps_ = 0;
 };
 
-/// Text in which what has a meaning in tables of Markdown is written so that it has none.
+}  // namespace
+
 std::string plain(const std::string& text) {
   std::string out;
   for (const char c : text)
@@ -100,12 +108,15 @@ std::string plain(const std::string& text) {
   return out;
 }
 
+namespace {
+
 struct Markdown {
   std::string text, figureFile;
 
   void operator()(const Paragraph& p) { text += p.text + "\n\n"; }
   void operator()(const Figure& f) { text += "![" + f.title + "](" + figureFile + f.name + ".svg)\n\n"; }
   void operator()(const Table& table) { text += markdownOf(table) + "\n"; }
+  void operator()(const Map& map) { text += markdownOf(map); }
   void operator()(const Listing& l) {
     text += l.title + ":\n\n````\n" + l.text + (l.text.ends_with("\n") ? "" : "\n") + "````\n\n";
   }
@@ -117,7 +128,7 @@ std::string htmlOf(const Page& page, const std::string& mark) {
   Html html;
   html.text = "<!doctype html>\n<!-- " + mark + " -->\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" +
               "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" + escaped(page.title) +
-              "</title>\n<style>" + style + figureStyle() + "</style>\n</head>\n<body>\n<h1>" + escaped(page.title) +
+              "</title>\n<style>" + style + figureStyle() + mapStyle() + "</style>\n</head>\n<body>\n<h1>" + escaped(page.title) +
               "</h1>\n";
   for (const Section& section : page.sections) {
     if (section.blocks.empty()) continue;

@@ -1,8 +1,10 @@
 // Couplings of a scene.
 #include <algorithm>
 
+#include "dovetail/arlequin/handed_load.hpp"
 #include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/arlequin/weights.hpp"
+#include "dovetail/core/finite.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 #include "parts.hpp"
 
@@ -26,16 +28,35 @@ void add(Built& built, std::size_t solid, const Coupling& coupling, const Surfac
                                            "grains on " + coupling.solid + " (" + contact.on + ")"));
 }
 
+/// Takes out the grains beyond their border.
+void leaveOut(Built& built, const fem::SolidMesh& mesh, const coupling::SolidSide& side,
+              const std::vector<double>& weight) {
+  const std::vector<int> beyond = arlequin::particlesBeyond(built.run->grains, mesh, side.nodes(), weight);
+  if (beyond.empty()) return;
+  dem::removeParticles(built.run->grains, beyond);
+  built.notes.push_back(std::to_string(beyond.size()) + " grains beyond the border of the particles in \"" + side.name +
+                        "\" were left out.");
+}
+
+/// Initial stress of a solid under its loads and those of the grains.
+void takeOver(Built& built, const fem::SolidMesh& mesh, coupling::SolidSide& side, const std::vector<double>& weight) {
+  // A thousandth of the load is far below what a tie of elements cannot balance grain by grain anyway.
+  const int rounds = arlequin::takeOver(built.run->grains, mesh, *side.model, weight, {.tolerance = 1e-3});
+  double farthest = 0.0;
+  for (const Vec3& u : side.nodes().u) farthest = std::max(farthest, norm(u));
+  built.notes.push_back("\"" + side.name + "\" took over its grains in " + std::to_string(rounds) +
+                        " rounds: its nodes moved by up to " + formatNumber(farthest) + " m.");
+}
+
 void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overlap, const Scene&) {
   dem::Model& grains = built.run->grains;
   const fem::SolidMesh& mesh = built.meshes[solid];
   coupling::SolidSide& side = built.run->solid(solid);
   const std::vector<double> weight = overlapWeights(overlap, mesh);
-  const std::vector<int> beyond = arlequin::particlesBeyond(grains, mesh, side.nodes(), weight);
-  if (!beyond.empty()) {
-    dem::removeParticles(grains, beyond);
-    built.notes.push_back(std::to_string(beyond.size()) + " grains beyond the border of the particles in \"" +
-                          side.name + "\" were left out.");
+  leaveOut(built, mesh, side, weight);
+  if (overlap.takeOver) {
+    takeOver(built, mesh, side, weight);
+    leaveOut(built, mesh, side, weight);  // the border has moved with the mesh
   }
   arlequin::CouplingOptions options;
   options.projection.width = overlap.kernel;

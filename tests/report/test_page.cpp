@@ -139,6 +139,18 @@ TEST(RunReport, RefusesWhatIsNoRunAndWhatOthersWrote) {
   EXPECT_EQ(readText(folder / "report.html"), "mine");
 }
 
+TEST(Page, MapsTellTheirOutcomesAndOpenTheirDetails) {
+  Map map{"Steps", "dt", "mass", {"1", "2"}, {"<heavy>"}, {{{Map::Outcome::survived, "1e-5", "as asked\nrun --dt 1"}, {}}}};
+  map.cells[0][1] = {Map::Outcome::refused, "", "too long"};
+  const std::string html = htmlOf({"t", {{"h", {map, map}}}}, "mark");
+  for (const char* part : {"class=\"survived\"", ">1e-5</button>", "run --dt 1", "mass &lt;heavy&gt;, dt 2: refused",
+                           "popovertarget=\"map0-0-0\"", "id=\"map1-0-1\""})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  const std::string markdown = markdownOf({"t", {{"h", {map}}}}, "");
+  EXPECT_NE(markdown.find("| &lt;heavy> | 1e-5 survived | refused |"), std::string::npos) << markdown;
+  EXPECT_NE(markdown.find("- mass &lt;heavy>, dt 2: too long"), std::string::npos) << markdown;
+}
+
 TEST(Page, CellsOfTablesCannotBreakThem) {
   const Table table{{"name", "value"}, {{"a|b <c>\nd", "1.5"}}};
   EXPECT_EQ(markdownOf(table), "| name | value |\n|---|---:|\n| a\\|b &lt;c> d | 1.5 |\n");

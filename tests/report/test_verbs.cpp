@@ -60,6 +60,29 @@ TEST(StudyVerb, RunsEveryCombinationAndMarksTheFront) {
   EXPECT_NE(readText(bounce.folder / "out/study.csv").find(",particles_kinetic_J,"), std::string::npos);
 }
 
+TEST(StudyVerb, TellsTheOrderAndTheGrowthOfTheEnergy) {
+  const Bounce bounce;
+  const Outcome outcome = runProgram({"study", bounce.file, "--over", "share=0.04,0.02", "--energy", "--set",
+                                      "output.series=2 us", "--out", bounce.out});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json runs = Json::parse(readText(bounce.folder / "out/study.json"))["runs"];
+  ASSERT_EQ(runs.size(), 2u);
+  const double kinetic = 0.5 * 2500.0 * 4.0 / 3.0 * M_PI * 1e-6;
+  for (const Json& run : runs) {
+    // All of the kinetic energy goes into the spring and comes back.
+    EXPECT_NEAR(run["changed_hands_J"].get<double>(), kinetic, 0.02 * kinetic);
+    EXPECT_NEAR(run["largest_residual_share"].get<double>(),
+                run["largest_residual_J"].get<double>() / run["changed_hands_J"].get<double>(), 1e-15);
+  }
+  const std::string csv = readText(bounce.folder / "out/energy.csv"), html = readText(bounce.folder / "out/energy.html");
+  const double ratio =
+      runs[0]["largest_residual_share"].get<double>() / runs[1]["largest_residual_share"].get<double>();
+  EXPECT_NEAR(std::log2(ratio), 2.0, 0.3);  // of the second order, told in the table
+  EXPECT_NE(html.find("Residual against step"), std::string::npos);
+  EXPECT_NE(html.find("particles_kinetic_J"), std::string::npos);
+  EXPECT_NE(csv.find("residual_growth"), std::string::npos);
+}
+
 TEST(StudyVerb, RefusesBeforeAnythingIsRun) {
   const Bounce bounce;
   const auto refused = [&](std::vector<std::string> more, const std::string& part) {

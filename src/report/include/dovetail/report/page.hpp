@@ -21,7 +21,22 @@ struct Table {
 struct Listing {
   std::string title, text;
 };
-using Block = std::variant<Paragraph, Table, Figure, Listing>;
+/// What came out at every pair of two values, coloured by its outcome.
+struct Map {
+  enum class Outcome { none, survived, refused, failed };
+  struct Cell {
+    Outcome outcome = Outcome::none;
+    std::string value;   ///< short: stands in the cell
+    std::string detail;  ///< opened by the cell: what happened, and the command that repeats it
+  };
+  std::string title, x, y;                 ///< what the columns and the rows are
+  std::vector<std::string> columns, rows;  ///< their values
+  std::vector<std::vector<Cell>> cells;    ///< [row][column]
+};
+/// "survived"; "" for none.
+const char* wordOf(Map::Outcome outcome);
+
+using Block = std::variant<Paragraph, Table, Figure, Listing, Map>;
 
 struct Section {
   std::string heading;

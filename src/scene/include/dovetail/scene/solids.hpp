@@ -121,6 +121,7 @@ struct Overlap {
   bool multipliers = false;           ///< in place of a penalty
   NumberOrWord penalty{0.0, "auto"};  ///< Pa/m²
   double kernel = 0.0;                ///< width, m
+  bool takeOver = false;              ///< the solid begins in equilibrium (arlequin::takeOver)
 };
 struct Coupling {
   std::string solid;
