@@ -77,8 +77,8 @@ def bar(field, table):
     made.SetOrientationToHorizontal()
     made.UnconstrainedFontSizeOn()
     made.SetTextPositionToPrecedeScalarBar()
-    made.SetVerticalTitleSeparation(6)
-    made.SetTextPad(6)
+    made.SetVerticalTitleSeparation(0)
+    made.SetTextPad(5)
     made.SetBarRatio(0.3)
     for text in (made.GetTitleTextProperty(), made.GetLabelTextProperty()):
         text.SetColor(0.15, 0.15, 0.15)
@@ -94,7 +94,7 @@ def place_bar(made, number, count, rows):
     made.GetLabelTextProperty().SetFontSize(rows * 15 // 600)
     width = min(0.3, 0.66 / count)
     made.SetWidth(width)
-    made.SetHeight(0.11)
+    made.SetHeight(0.15)
     made.SetPosition((number + 1) / (count + 1) - 0.5 * width, 0.015)
 
 

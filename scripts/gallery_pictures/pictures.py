@@ -52,7 +52,7 @@ PICTURES = (
     Picture("hopper", "Cut open: beads speed up in the neck and fall freely below it, those at the wall hardly move.",
             contents="walls", frame=0.75, cut=("y", 0.0, 0.0), wall_top=0.13, direction=(0.2, -1.0, 0.25), animated=True),
     Picture("drum", "A thin layer flows down the slope, several times as fast as the wall; under it is a core that hardly moves.",
-            direction=(0.15, -1.0, 0.1)),
+            direction=(0.15, -1.0, 0.1), zoom=0.93),
     Picture("column", "The toe runs away and a wedge at the wall stays at rest.",
             frame=0.55, direction=(0.25, -1.0, 0.35)),
     Picture("bonded-beam", "The bonds in the middle have failed in tension; both halves swing.",
