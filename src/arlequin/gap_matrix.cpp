@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -19,34 +20,74 @@ struct Column {
   std::vector<double> value;
 };
 
+constexpr int blockRows = 32;
+
+/// The blocks of rows that each column of a map meets, ascending.
+struct MetBlocks {
+  std::vector<std::size_t> offsets{0};
+  std::vector<int> block;
+
+  explicit MetBlocks(const cg::Projection& back) {
+    for (int middle = 0; middle < back.rows(); ++middle) {
+      for (const int row : back.rowColumns(middle))
+        if (block.size() == offsets.back() || block.back() != row / blockRows) block.push_back(row / blockRows);
+      offsets.push_back(block.size());
+    }
+  }
+  std::span<const int> of(int middle) const {
+    const std::size_t begin = offsets[static_cast<std::size_t>(middle)];
+    return std::span(block).subspan(begin, offsets[static_cast<std::size_t>(middle) + 1] - begin);
+  }
+};
+
+/// Adds up a column in an array as long as it, of which it only looks at blocks that are met: they are few, and the
+/// sums need not ask whether they are the first.
+struct ColumnSums {
+  std::vector<double> sum;
+  std::vector<char> isMet;  // blocks
+  std::vector<int> met;
+
+  explicit ColumnSums(std::size_t size)
+      : sum((size / blockRows + 1) * blockRows, 0.0), isMet(size / blockRows + 1, 0) {}
+
+  void meet(std::span<const int> blocks) {
+    for (const int b : blocks)
+      if (!std::exchange(isMet[static_cast<std::size_t>(b)], 1)) met.push_back(b);
+  }
+  void add(std::span<const int> rows, std::span<const double> weights, double factor) {
+    for (std::size_t k = 0; k < rows.size(); ++k) sum[static_cast<std::size_t>(rows[k])] += factor * weights[k];
+  }
+  /// Clears the sums. @param c  diagonal, part of the column in any case
+  Column take(int c) {
+    Column column{{c}, {std::exchange(sum[static_cast<std::size_t>(c)], 0.0)}};
+    std::ranges::sort(met);
+    for (const int b : met) {
+      isMet[static_cast<std::size_t>(b)] = 0;
+      for (int r = b * blockRows; r < (b + 1) * blockRows; ++r)
+        if (const double value = std::exchange(sum[static_cast<std::size_t>(r)], 0.0); r > c && value != 0.0) {
+          column.row.push_back(r);
+          column.value.push_back(value);
+        }
+    }
+    met.clear();
+    return column;
+  }
+};
+
 /// Rows c and below of column c.
-Column columnOf(std::span<const WeighedMap> maps, int c, std::vector<double>& sum, std::vector<char>& seen) {
-  Column column;
-  for (const WeighedMap& m : maps)
+Column columnOf(std::span<const WeighedMap> maps, std::span<const MetBlocks> blocks, int c, ColumnSums& sums) {
+  for (std::size_t at = 0; at < maps.size(); ++at) {
+    const WeighedMap& m = maps[at];
     for (int k = m.map.offsets[c]; k < m.map.offsets[c + 1]; ++k) {
       const int middle = m.map.column[k];
-      const double factor = m.map.weight[k] * m.d[static_cast<std::size_t>(middle)];
-      const std::span<const int> rows = m.back.rowColumns(middle);
-      const std::span<const double> weights = m.back.rowWeights(middle);
-      const auto first = std::ranges::lower_bound(rows, c) - rows.begin();
-      for (auto j = static_cast<std::size_t>(first); j < rows.size(); ++j) {
-        const auto r = static_cast<std::size_t>(rows[j]);
-        if (!seen[r]) {
-          seen[r] = 1;
-          column.row.push_back(rows[j]);
-        }
-        sum[r] += factor * weights[j];
-      }
+      const std::span<const int> rows = m.back.rowColumns(middle), met = blocks[at].of(middle);
+      const auto first = static_cast<std::size_t>(std::ranges::lower_bound(rows, c) - rows.begin());
+      sums.meet(met.subspan(static_cast<std::size_t>(std::ranges::lower_bound(met, c / blockRows) - met.begin())));
+      sums.add(rows.subspan(first), m.back.rowWeights(middle).subspan(first),
+               m.map.weight[k] * m.d[static_cast<std::size_t>(middle)]);
     }
-  if (!seen[static_cast<std::size_t>(c)]) column.row.push_back(c);
-  std::ranges::sort(column.row);
-  for (const int r : column.row) {
-    const auto at = static_cast<std::size_t>(r);
-    column.value.push_back(sum[at]);
-    sum[at] = 0.0;
-    seen[at] = 0;
   }
-  return column;
+  return sums.take(c);
 }
 
 std::vector<double> multiplySymmetric(const fem::SparseMatrix& A, std::span<const double> x) {
@@ -65,10 +106,11 @@ std::vector<double> multiplySymmetric(const fem::SparseMatrix& A, std::span<cons
 fem::SparseMatrix gapMatrix(std::span<const WeighedMap> maps) {
   const auto size = static_cast<std::size_t>(maps.front().map.rows());
   std::vector<Column> columns(size);
+  std::vector<MetBlocks> blocks;
+  for (const WeighedMap& m : maps) blocks.emplace_back(m.back);
   parallelFor(size, std::max(grain, size / fewChunks), [&](std::size_t begin, std::size_t end) {
-    std::vector<double> sum(size, 0.0);
-    std::vector<char> seen(size, 0);
-    for (std::size_t c = begin; c < end; ++c) columns[c] = columnOf(maps, static_cast<int>(c), sum, seen);
+    ColumnSums sums(size);
+    for (std::size_t c = begin; c < end; ++c) columns[c] = columnOf(maps, blocks, static_cast<int>(c), sums);
   });
   fem::SparseMatrix A;
   A.size = static_cast<int>(size);

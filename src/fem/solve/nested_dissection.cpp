@@ -43,7 +43,8 @@ int longestSide(std::span<const int> set, std::span<const Vec3> point) {
 }
 
 /// Puts a set into its order of elimination. @param isLower  a mark per unknown, all clear
-void dissect(std::span<int> set, const Neighbours& neighbours, std::span<const Vec3> point, std::vector<char>& isLower) {
+void dissect(std::span<int> set, const Neighbours& neighbours, std::span<const Vec3> point,
+             std::vector<char>& isLower) {
   if (set.size() <= smallest) return;
   const int axis = longestSide(set, point);
   const auto before = [&](int a, int b) {
@@ -53,8 +54,8 @@ void dissect(std::span<int> set, const Neighbours& neighbours, std::span<const V
   const auto middle = set.begin() + static_cast<std::ptrdiff_t>(set.size() / 2);
   std::nth_element(set.begin(), middle, set.end(), before);
   const double cut = point[static_cast<std::size_t>(*middle)][axis];
-  const auto upper = std::stable_partition(
-      set.begin(), set.end(), [&](int a) { return point[static_cast<std::size_t>(a)][axis] < cut; });
+  const auto upper = std::stable_partition(set.begin(), set.end(),
+                                           [&](int a) { return point[static_cast<std::size_t>(a)][axis] < cut; });
   for (auto a = set.begin(); a != upper; ++a) isLower[*a] = 1;
   const auto separator = std::stable_partition(upper, set.end(), [&](int a) {
     return std::ranges::none_of(neighbours.of(a), [&](int b) { return isLower[b] != 0; });
@@ -69,9 +70,9 @@ void dissect(std::span<int> set, const Neighbours& neighbours, std::span<const V
 
 std::vector<int> nestedDissection(const SparseMatrix& A, std::span<const Vec3> point) {
   if (point.size() != static_cast<std::size_t>(A.size))
-    throw InputError("there are " + std::to_string(point.size()) + " points for " + std::to_string(A.size) +
-                         " unknowns",
-                     "nestedDissection", "give one point per unknown");
+    throw InputError(
+        "there are " + std::to_string(point.size()) + " points for " + std::to_string(A.size) + " unknowns",
+        "nestedDissection", "give one point per unknown");
   std::vector<int> order(point.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<char> isLower(point.size(), 0);

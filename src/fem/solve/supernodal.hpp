@@ -10,8 +10,8 @@
 namespace dovetail::fem::detail {
 
 /// Pattern of a lower triangular L by supernodes, columns that share their rows. Supernode s has the columns from
-/// firstColumn[s] to firstColumn[s + 1]; its rows, from row[firstRow[s]] on, ascend and begin with those of its columns;
-/// values are dense by columns from firstValue[s] on. Supernodes come in postorder of the elimination tree.
+/// firstColumn[s] to firstColumn[s + 1]; its rows, from row[firstRow[s]] on, ascend and begin with those of its
+/// columns; values are dense by columns from firstValue[s] on. Supernodes come in postorder of the elimination tree.
 struct SupernodalPattern {
   std::span<const std::int64_t> firstColumn, firstRow, firstValue;  ///< supernodes + 1 entries
   std::span<const std::int64_t> row;
@@ -38,9 +38,9 @@ struct SupernodalPlan {
     std::size_t begin, end;  ///< supernodes; the last one is its root
     double work;             ///< entries of L
   };
-  std::vector<Subtree> subtrees;           ///< the most work first
-  std::vector<std::size_t> above;          ///< supernodes of no subtree, ascending
-  std::vector<std::size_t> parent;         ///< of each supernode; their number for roots
+  std::vector<Subtree> subtrees;                   ///< the most work first
+  std::vector<std::size_t> above;                  ///< supernodes of no subtree, ascending
+  std::vector<std::size_t> parent;                 ///< of each supernode; their number for roots
   std::vector<std::vector<std::size_t>> children;  ///< ascending
 };
 SupernodalPlan planOf(const SupernodalPattern& pattern);
@@ -57,7 +57,7 @@ private:
   template <int count>
   void solveTogether(const SupernodalPattern& L, const SupernodalPlan& plan, const double* values, Vectors<count> x);
 
-  std::vector<std::size_t> outsideFrom_;   // of each subtree: the rows of its root beyond it, in outsideRow_
+  std::vector<std::size_t> outsideFrom_;  // of each subtree: the rows of its root beyond it, in outsideRow_
   std::vector<std::int64_t> outsideRow_;
   std::vector<int> place_;  // of every entry of L.row that lies beyond its subtree, among the subtree's rows outside
   std::vector<double> outside_;

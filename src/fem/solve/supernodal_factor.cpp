@@ -132,8 +132,8 @@ private:
     parallelFor(rows.size(), tile / 8, [&](std::size_t begin, std::size_t end) {
       for (std::size_t j = begin; j < end; ++j) {
         const bool isOwn = at[j] < columns;
-        double* const to = isOwn ? own.first + at[j] * own.stride
-                                 : rest.first + (at[j] - columns) * rest.stride - columns;
+        double* const to =
+            isOwn ? own.first + at[j] * own.stride : rest.first + (at[j] - columns) * rest.stride - columns;
         const double* const from = update.data() + j * rows.size();
         for (std::size_t k = j; k < rows.size(); ++k) to[at[k]] += from[k];
       }

@@ -1,8 +1,7 @@
-#include "supernodal.hpp"
-
 #include <algorithm>
 
 #include "dovetail/core/parallel.hpp"
+#include "supernodal.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -43,7 +42,7 @@ void goUp(const SupernodalPattern& L, const double* values, std::size_t s, Vecto
     });
   }
   forRows(all.rows - width, width, [&](std::size_t begin, std::size_t end) {
-    std::array<double, blockRows * static_cast<std::size_t>(count)> change{};
+    std::array<double, blockRows* static_cast<std::size_t>(count)> change{};
     const Vectors<count> below{change.data(), blockRows};
     panel::subtractProduct(all.part(width + begin, 0, end - begin, width), own, below);
     subtract(begin, end, below);
