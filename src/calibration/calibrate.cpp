@@ -53,9 +53,9 @@ public:
       const Experiment& experiment = experimentNamed(target.of);
       const Outcome& outcome = perform(experiment, settingsOf(values));
       if (!outcome.failure.empty())
-        throw InputError("the experiment \"" + experiment.name + "\" cannot be done where the parameters start: " +
-                             outcome.failure,
-                         experiment.where, "");
+        throw InputError(
+            "the experiment \"" + experiment.name + "\" cannot be done where the parameters start: " + outcome.failure,
+            experiment.where, "");
       outcome.value(target.quantity, target.at, target.where);
     }
   }
@@ -65,14 +65,13 @@ public:
                   const std::vector<double>& start) {
     std::vector<FitParameter> parameters = fitParameters();
     for (std::size_t k = 0; k < start.size(); ++k) parameters[k].start = start[k];
-    return fit(
-        parameters, static_cast<int>(targets.size()),
-        [&](std::span<const double> values, std::span<double> residuals) {
-          const std::vector<double> now = model(values);
-          for (std::size_t k = 0; k < now.size(); ++k) residuals[k] = (now[k] - targets[k]) / deviations[k];
-          return !now.empty();
-        },
-        {.tolerance = file_.tolerance, .stop = [this] { return stops(); }});
+    return fit(parameters, static_cast<int>(targets.size()),
+               [&](std::span<const double> values, std::span<double> residuals) {
+                 const std::vector<double> now = model(values);
+                 for (std::size_t k = 0; k < now.size(); ++k) residuals[k] = (now[k] - targets[k]) / deviations[k];
+                 return !now.empty();
+               },
+               {.tolerance = file_.tolerance, .stop = [this] { return stops(); }});
   }
 
   Optimum search() {
@@ -87,9 +86,9 @@ public:
       return std::sqrt(sum);
     };
     return searchOptimum(fitParameters(), measure,
-                         {.samples = file_.search->samples,
-                          .refinements = file_.search->refinements,
-                          .stop = [this] { return stops(); }});
+                         {.samples = file_.search->samples, .refinements = file_.search->refinements, .stop = [this] {
+                            return stops();
+                          }});
   }
 
   Rehearsal rehearse(int draws, std::uint64_t seed) {
@@ -129,7 +128,9 @@ public:
     if (laboratory_.simulated > before) {
       log_ << "evaluation " << laboratory_.simulated << ", " << experiment.name;
       for (const std::string& setting : settings) log_ << ", " << setting;
-      log_ << ": " << (outcome.failure.empty() ? formatNumber(std::round(1e3 * outcome.seconds) / 1e3) + " s" : outcome.failure) << std::endl;
+      log_ << ": "
+           << (outcome.failure.empty() ? formatNumber(std::round(1e3 * outcome.seconds) / 1e3) + " s" : outcome.failure)
+           << std::endl;
     }
     return outcome;
   }
@@ -196,7 +197,8 @@ CalibrationResult calibrate(const Calibration& file, const CalibrationSettings& 
       result.value = result.fit->value;
     }
     if (work.stops() && io::interruption() == 0 && !file.parameters.empty())
-      result.whyStopped = "all " + std::to_string(file.evaluations) + " evaluations are used up: raise \"evaluations\"; "
+      result.whyStopped = "all " + std::to_string(file.evaluations) +
+                          " evaluations are used up: raise \"evaluations\"; "
                           "what was evaluated is kept";
     if (!result.rehearsal && io::interruption() == 0) addOutcomes(work, file, result);
   } catch (const Error&) {

@@ -47,7 +47,8 @@ void requireCell(const dem::Model& m) {
     if (!space.axes[static_cast<std::size_t>(k)])
       throw InputError(std::string("space does not repeat along ") + "xyz"[k], "periodic cell",
                        "make it periodic along x, y and z");
-  if (norm(m.gravity) > 0.0) throw InputError("there is gravity", "periodic cell", "leave it out: nothing holds a cell");
+  if (norm(m.gravity) > 0.0)
+    throw InputError("there is gravity", "periodic cell", "leave it out: nothing holds a cell");
   if (m.particles.size() == 0) throw InputError("there are no grains", "periodic cell", "put some in");
 }
 
@@ -91,10 +92,10 @@ double compressCell(dem::Model& m, const CompressionSettings& settings) {
     const double each = std::expm1(-strain / 3.0);
     dem::strainCell(m, {each, each, each});
   }
-  throw NumericalError("the cell is at " + formatNumber(pressure) + " Pa after " + std::to_string(settings.strains) +
-                           " strains",
-                       "compression to " + formatNumber(settings.pressure) + " Pa",
-                       "begin with another solid fraction, or take a larger tolerance");
+  throw NumericalError(
+      "the cell is at " + formatNumber(pressure) + " Pa after " + std::to_string(settings.strains) + " strains",
+      "compression to " + formatNumber(settings.pressure) + " Pa",
+      "begin with another solid fraction, or take a larger tolerance");
 }
 
 }  // namespace dovetail::calibration

@@ -89,8 +89,9 @@ scene::Scene sceneOf(const Experiment& experiment, const std::vector<std::string
 /// Nothing but grains and their contacts can be a cell.
 void requireGrainsAlone(const scene::Scene& scene, const std::string& where) {
   const std::pair<bool, const char*> others[] = {
-      {!scene.walls.empty(), "walls"},           {!scene.clumps.empty(), "clumps"},   {!scene.bonds.empty(), "bonds"},
-      {!scene.drives.empty(), "drives"},         {!scene.solids.empty(), "solids"},   {!scene.outlets.empty(), "outlets"},
+      {!scene.walls.empty(), "walls"},           {!scene.clumps.empty(), "clumps"},
+      {!scene.bonds.empty(), "bonds"},           {!scene.drives.empty(), "drives"},
+      {!scene.solids.empty(), "solids"},         {!scene.outlets.empty(), "outlets"},
       {!scene.insertions.empty(), "insertions"}, {norm(scene.gravity) > 0.0, "gravity"}};
   for (const auto& [there, name] : others)
     if (there)

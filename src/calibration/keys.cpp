@@ -74,15 +74,14 @@ void describe(Fields& f, Calibration& v) {
   f.list({"experiments", "what is simulated"}, v.experiments, true);
   f.list({"parameters", "of the scenes, that are sought; none: experiments are only done"}, v.parameters);
   f.list({"targets", "what experiments should give"}, v.targets);
-  f.object({"search", "samples the measure of all targets in place of fitting, and tells how flat its optimum is"}, v.search);
+  f.object({"search", "samples the measure of all targets in place of fitting, and tells how flat its optimum is"},
+           v.search);
   f.integer({"evaluations", "of the simulator at most; those in the cache are free"}, v.evaluations, 1, 1000000);
-  f.number({"tolerance", "a fit ends when parameters, over most - least, or the sum of squares change by less"}, v.tolerance,
-           scene::between(0.0, 0.1, true));
+  f.number({"tolerance", "a fit ends when parameters, over most - least, or the sum of squares change by less"},
+           v.tolerance, scene::between(0.0, 0.1, true));
 }
 
-double Target::deviation() const {
-  return uncertainty.value > 0.0 ? uncertainty.value : 0.01 * std::abs(value.value);
-}
+double Target::deviation() const { return uncertainty.value > 0.0 ? uncertainty.value : 0.01 * std::abs(value.value); }
 
 namespace {
 
@@ -118,7 +117,8 @@ void check(const Calibration& all) {
   for (const Experiment& experiment : all.experiments) {
     io::requirePlainName(experiment.name, experiment.where);
     if (!names.insert(experiment.name).second)
-      throw InputError("there are two experiments \"" + experiment.name + "\"", experiment.where, "give them other names");
+      throw InputError("there are two experiments \"" + experiment.name + "\"", experiment.where,
+                       "give them other names");
   }
   for (const Parameter& parameter : all.parameters) check(parameter);
   for (const Target& target : all.targets) check(target, all);

@@ -20,8 +20,9 @@ Vec3 probed(dem::Model cell, int axis, double strain, const ModuliSettings& sett
   const dem::RelaxationReport report =
       dem::relax(cell, {.unbalanced = settings.unbalanced, .steps = settings.steps, .lookEvery = 50});
   if (!report.atRest)
-    throw NumericalError("a cell strained by " + formatNumber(strain) + " does not come to rest: unbalanced forces are " +
-                             formatNumber(report.unbalanced) + " of the contacts'",
+    throw NumericalError("a cell strained by " + formatNumber(strain) +
+                             " does not come to rest: unbalanced forces are " + formatNumber(report.unbalanced) +
+                             " of the contacts'",
                          std::string("probe along ") + "xyz"[axis], "take more steps, or allow more unbalanced force");
   return cellPressures(cell);
 }
@@ -59,7 +60,8 @@ Moduli smallStrainModuli(const dem::Model& start, const ModuliSettings& settings
   }
   const double mean = (along[0] + along[1] + along[2]) / 3.0;
   found.anisotropy = largestOff(along, mean);
-  for (const double difference : bothWays) found.nonlinearity = std::max(found.nonlinearity, std::abs(difference) / mean);
+  for (const double difference : bothWays)
+    found.nonlinearity = std::max(found.nonlinearity, std::abs(difference) / mean);
   found.bulk = (mean + 2.0 * across) / 3.0;
   found.shear = 0.5 * (mean - across);
   found.youngsModulus = 9.0 * found.bulk * found.shear / (3.0 * found.bulk + found.shear);

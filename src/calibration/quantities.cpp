@@ -12,29 +12,33 @@ namespace unit = scene::unit;
 using Units = std::map<std::string, scene::Dimension>;
 
 const Units& unitsOf(const ModuliProbe&) {
-  static const Units units{{"density", unit::density},       {"solid_fraction", unit::none},
-                           {"pressure", unit::pressure},     {"bulk_modulus", unit::pressure},
-                           {"shear_modulus", unit::pressure}, {"youngs_modulus", unit::pressure},
-                           {"poisson_ratio", unit::none},    {"anisotropy", unit::none},
-                           {"nonlinearity", unit::none},     {"p_wave_speed", unit::velocity},
-                           {"s_wave_speed", unit::velocity}};
+  static const Units units{
+      {"density", unit::density},       {"solid_fraction", unit::none},    {"pressure", unit::pressure},
+      {"bulk_modulus", unit::pressure}, {"shear_modulus", unit::pressure}, {"youngs_modulus", unit::pressure},
+      {"poisson_ratio", unit::none},    {"anisotropy", unit::none},        {"nonlinearity", unit::none},
+      {"p_wave_speed", unit::velocity}, {"s_wave_speed", unit::velocity}};
   return units;
 }
 const Units& unitsOf(const TriaxialProbe&) {
-  static const Units units{{"strain", unit::none},          {"volumetric_strain", unit::none},
-                           {"axial_pressure", unit::pressure}, {"lateral_pressure", unit::pressure},
-                           {"deviator", unit::pressure},    {"stress_ratio", unit::none},
-                           {"friction_angle", unit::angle}, {"peak_friction_angle", unit::angle},
-                           {"peak_strain", unit::none},     {"residual_friction_angle", unit::angle},
-                           {"dilatancy_angle", unit::angle}, {"density", unit::density}};
+  static const Units units{{"strain", unit::none},
+                           {"volumetric_strain", unit::none},
+                           {"axial_pressure", unit::pressure},
+                           {"lateral_pressure", unit::pressure},
+                           {"deviator", unit::pressure},
+                           {"stress_ratio", unit::none},
+                           {"friction_angle", unit::angle},
+                           {"peak_friction_angle", unit::angle},
+                           {"peak_strain", unit::none},
+                           {"residual_friction_angle", unit::angle},
+                           {"dilatancy_angle", unit::angle},
+                           {"density", unit::density}};
   return units;
 }
 
 /// By the end of a column's name.
 std::optional<scene::Dimension> unitOfColumn(const std::string& name) {
-  static const Units units{{"_m", unit::length},   {"_s", unit::time},       {"_m_per_s", unit::velocity},
-                           {"_J", {2, 1, -2}},     {"_N", {1, 1, -2}},       {"_Ns", {1, 1, -1}},
-                           {"_Pa", unit::pressure}};
+  static const Units units{{"_m", unit::length}, {"_s", unit::time},  {"_m_per_s", unit::velocity}, {"_J", {2, 1, -2}},
+                           {"_N", {1, 1, -2}},   {"_Ns", {1, 1, -1}}, {"_Pa", unit::pressure}};
   std::optional<scene::Dimension> found;
   std::size_t longest = 0;
   for (const auto& [ending, dimension] : units)

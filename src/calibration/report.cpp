@@ -35,8 +35,9 @@ double median(std::vector<double> values) {
 std::string textOf(const Calibration& file, const FitResult& fit) {
   std::string text = line("%-34s %14s %14s\n", "parameter", "estimate", "uncertainty");
   for (std::size_t k = 0; k < fit.value.size() && k < fit.uncertainty.size(); ++k)
-    text += line("%-34s %14.6g %14.3g%s\n", withUnit(file.parameters[k].key, file.parameters[k].start.dimension).c_str(),
-                 fit.value[k], fit.uncertainty[k], fit.atBound[k] ? "  at its bound" : "");
+    text +=
+        line("%-34s %14.6g %14.3g%s\n", withUnit(file.parameters[k].key, file.parameters[k].start.dimension).c_str(),
+             fit.value[k], fit.uncertainty[k], fit.atBound[k] ? "  at its bound" : "");
   text += line("\nchi squared %.4g with %d degrees of freedom: %.3g each; %d iterations, %s\n", fit.chiSquared,
                fit.freedom, fit.reducedChiSquared(), fit.iterations, fit.converged ? "converged" : "NOT converged");
   if (fit.correlation.size() > 1) {
@@ -84,9 +85,8 @@ Recovery recoveryOf(const Rehearsal& rehearsal, std::size_t k) {
 
 std::string textOf(const Calibration& file, const Rehearsal& rehearsal) {
   std::string text = line("%zu of %d draws, seed %llu; relative to the truth:\n%-34s %12s %12s %12s %12s %12s\n",
-                          rehearsal.estimate.size(), rehearsal.draws,
-                          static_cast<unsigned long long>(rehearsal.seed), "parameter", "truth", "median error", "bias",
-                          "scatter", "stated");
+                          rehearsal.estimate.size(), rehearsal.draws, static_cast<unsigned long long>(rehearsal.seed),
+                          "parameter", "truth", "median error", "bias", "scatter", "stated");
   for (std::size_t k = 0; !rehearsal.estimate.empty() && k < rehearsal.truth.size(); ++k) {
     const Recovery r = recoveryOf(rehearsal, k);
     text += line("%-34s %12.6g %12.4g %12.4g %12.4g %12.4g\n",
@@ -104,15 +104,16 @@ std::string textOf(const std::string& name, const Outcome& outcome) {
       text.insert(text.size() - 1, line("  (%.4g deg)", value * 180.0 / 3.14159265358979324));
   }
   if (!outcome.curves.empty() && !outcome.abscissa.empty())
-    text += line("  a curve of %zu points over %s\n", outcome.curves.at(outcome.abscissa).size(), outcome.abscissa.c_str());
+    text +=
+        line("  a curve of %zu points over %s\n", outcome.curves.at(outcome.abscissa).size(), outcome.abscissa.c_str());
   return text;
 }
 
 Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json jsonOf(const FitResult& fit) {
-  Json json{{"converged", fit.converged},   {"iterations", fit.iterations}, {"chi_squared", fit.chiSquared},
-            {"degrees_of_freedom", fit.freedom}, {"message", fit.message}, {"correlation", fit.correlation}};
+  Json json{{"converged", fit.converged},        {"iterations", fit.iterations}, {"chi_squared", fit.chiSquared},
+            {"degrees_of_freedom", fit.freedom}, {"message", fit.message},       {"correlation", fit.correlation}};
   json["uncertainty"] = Json::array();
   for (const double u : fit.uncertainty) json["uncertainty"].push_back(numberOrNull(u));
   json["at_bound"] = fit.atBound;
@@ -145,8 +146,10 @@ Json jsonOf(const Calibration& file, const CalibrationResult& result) {
   if (result.fit) json["fit"] = jsonOf(*result.fit);
   if (result.optimum) json["search"] = jsonOf(*result.optimum);
   if (result.rehearsal)
-    json["rehearsal"] = {{"draws", result.rehearsal->draws},       {"seed", result.rehearsal->seed},
-                         {"truth", result.rehearsal->truth},       {"estimates", result.rehearsal->estimate},
+    json["rehearsal"] = {{"draws", result.rehearsal->draws},
+                         {"seed", result.rehearsal->seed},
+                         {"truth", result.rehearsal->truth},
+                         {"estimates", result.rehearsal->estimate},
                          {"uncertainties", result.rehearsal->uncertainty}};
   for (const Comparison& c : result.targets)
     json["targets"].push_back({{"of", c.target->of},
@@ -182,9 +185,11 @@ std::string reportOf(const Calibration& file, const CalibrationResult& result) {
   if (!result.targets.empty()) text += "\n";
   for (const auto& [name, outcome] : result.outcomes) text += textOf(name, outcome);
   if (result.cone)
-    text += line("cone of Drucker and Prager: friction angle %.4g deg, cohesion %.4g Pa, dilatancy angle %.4g deg, misfit %.3g\n",
-                 result.cone->frictionAngle * 180.0 / 3.14159265358979324, result.cone->cohesion,
-                 result.cone->dilatancyAngle * 180.0 / 3.14159265358979324, result.cone->misfit);
+    text += line(
+        "cone of Drucker and Prager: friction angle %.4g deg, cohesion %.4g Pa, dilatancy angle %.4g deg, misfit "
+        "%.3g\n",
+        result.cone->frictionAngle * 180.0 / 3.14159265358979324, result.cone->cohesion,
+        result.cone->dilatancyAngle * 180.0 / 3.14159265358979324, result.cone->misfit);
   text += line("\n%lld experiments done in %.2f s, %lld remembered; %.2f s in all\n",
                static_cast<long long>(result.simulated), result.simulatorSeconds,
                static_cast<long long>(result.recalled), result.seconds);

@@ -49,8 +49,8 @@ private:
   bool improve(std::size_t k) {
     const Line line = sampled(k);
     if (line.empty()) return false;
-    const auto least = std::min_element(line.begin(), line.end(),
-                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto least =
+        std::min_element(line.begin(), line.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     if (best_ && !(least->second < *best_)) return false;
     best_ = least->second;
     const bool moved = found_.value[k] != least->first;
@@ -67,8 +67,8 @@ private:
         sample(k, s + 1 == settings_.samples ? high : low + (high - low) * s / (settings_.samples - 1), line);
       if (pass == 0) sample(k, found_.value[k], line);
       if (line.empty()) break;
-      const auto least = std::min_element(line.begin(), line.end(),
-                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+      const auto least =
+          std::min_element(line.begin(), line.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
       low = least == line.begin() ? least->first : std::prev(least)->first;
       high = std::next(least) == line.end() ? least->first : std::next(least)->first;
     }
@@ -89,8 +89,8 @@ private:
       profile.measure.push_back(value);
     }
     if (line.empty()) return profile;
-    const auto least = static_cast<std::size_t>(
-        std::min_element(profile.measure.begin(), profile.measure.end()) - profile.measure.begin());
+    const auto least = static_cast<std::size_t>(std::min_element(profile.measure.begin(), profile.measure.end()) -
+                                                profile.measure.begin());
     profile.best = profile.at[least];
     profile.curvature = curvatureAt(profile, least);
     profile.lower = reach(profile, least, -1);

@@ -18,7 +18,8 @@ namespace {
 
 void check(const TriaxialSettings& s) {
   if (!(s.strain > 0.0 && s.strain <= 1.0))
-    throw InputError("the strain is " + formatNumber(s.strain), "triaxial compression", "give one above 0, of at most 1");
+    throw InputError("the strain is " + formatNumber(s.strain), "triaxial compression",
+                     "give one above 0, of at most 1");
   if (s.increments < 10 || s.increments > 1000000)
     throw InputError("the number of increments is " + std::to_string(s.increments), "triaxial compression",
                      "give 10 to 1000000");
@@ -99,9 +100,9 @@ TriaxialCurve triaxialCompression(dem::Model cell, const TriaxialSettings& setti
 
 double atStrain(const TriaxialCurve& curve, std::span<const double> values, double strain) {
   if (!(strain >= 0.0) || curve.strain.empty() || strain > curve.strain.back() * (1.0 + 1e-9))
-    throw InputError("there is nothing at a strain of " + formatNumber(strain), "triaxial compression",
-                     curve.strain.empty() ? "the curve is empty"
-                                          : "take one from 0 to " + formatNumber(curve.strain.back()));
+    throw InputError(
+        "there is nothing at a strain of " + formatNumber(strain), "triaxial compression",
+        curve.strain.empty() ? "the curve is empty" : "take one from 0 to " + formatNumber(curve.strain.back()));
   const auto above = std::upper_bound(curve.strain.begin() + 1, curve.strain.end() - 1, strain);
   const auto k = static_cast<std::size_t>(above - curve.strain.begin());
   const double share = (strain - curve.strain[k - 1]) / (curve.strain[k] - curve.strain[k - 1]);
@@ -110,8 +111,7 @@ double atStrain(const TriaxialCurve& curve, std::span<const double> values, doub
 
 Strength strengthOf(const TriaxialCurve& curve) {
   const std::size_t n = curve.size();
-  if (n < 11)
-    throw InputError("a curve of " + std::to_string(n) + " points", "strength", "take 10 increments or more");
+  if (n < 11) throw InputError("a curve of " + std::to_string(n) + " points", "strength", "take 10 increments or more");
   Strength found;
   for (std::size_t k = 0; k < n; ++k)
     if (curve.mobilisedAngle(k) > found.peakAngle) {
@@ -127,7 +127,8 @@ Strength strengthOf(const TriaxialCurve& curve) {
   const std::size_t window = n / 10;
   double steepest = 1e300;
   for (std::size_t k = window; k < n; ++k)
-    steepest = std::min(steepest, (curve.volume[k] - curve.volume[k - window]) / (curve.strain[k] - curve.strain[k - window]));
+    steepest =
+        std::min(steepest, (curve.volume[k] - curve.volume[k - window]) / (curve.strain[k] - curve.strain[k - window]));
   found.dilatancyAngle = std::asin(-steepest / (2.0 - steepest));
   return found;
 }

@@ -95,8 +95,7 @@ TEST(Cell, StressIsThatOfTheContacts) {
   dem::findForces(m);
   const dem::ContactSample contacts = dem::sampleContacts(m);
   Vec3 sum;
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    sum += scaled(contacts.force[c], contacts.from[c] - contacts.to[c]);
+  for (std::size_t c = 0; c < contacts.size(); ++c) sum += scaled(contacts.force[c], contacts.from[c] - contacts.to[c]);
   const Vec3 found = cellPressures(m);
   EXPECT_NEAR(norm(found - (1.0 / cellVolume(m)) * sum), 0.0, 1e-12 * norm(found));
   EXPECT_GT(found.x, found.z);

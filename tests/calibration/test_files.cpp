@@ -11,8 +11,8 @@
 namespace dovetail::calibration {
 namespace {
 
-using io::test::ScratchFolder;
 using io::test::readText;
+using io::test::ScratchFolder;
 
 std::string example(const char* name) { return std::string(SCENES) + "/calibration/" + name; }
 

@@ -24,10 +24,12 @@ TEST(Fit, OfAStraightLineIsTheClosedForm) {
       n += 1.0, st += t[k], stt += t[k] * t[k], sy += y[k], sty += t[k] * y[k];
     }
     const double det = n * stt - st * st, b = (n * sty - st * sy) / det, a = (sy - b * st) / n;
-    const FitResult found = fit(line, 12, [&](std::span<const double> p, std::span<double> r) {
-      for (std::size_t k = 0; k < t.size(); ++k) r[k] = (p[0] + p[1] * t[k] - y[k]) / sigma;
-      return true;
-    }, {.tolerance = 1e-14});
+    const FitResult found = fit(line, 12,
+                                [&](std::span<const double> p, std::span<double> r) {
+                                  for (std::size_t k = 0; k < t.size(); ++k) r[k] = (p[0] + p[1] * t[k] - y[k]) / sigma;
+                                  return true;
+                                },
+                                {.tolerance = 1e-14});
     EXPECT_TRUE(found.converged) << found.message;
     EXPECT_NEAR(found.value[0], a, 1e-6);
     EXPECT_NEAR(found.value[1], b, 1e-6);
@@ -52,10 +54,12 @@ TEST(Fit, EndsAtABoundAndSaysSo) {
 
 TEST(Fit, GoesRoundPlacesThatCannotBeEvaluated) {
   const std::vector<FitParameter> one{{"p", 0.1, 0.0, 1.0}};
-  const FitResult found = fit(one, 1, [](std::span<const double> p, std::span<double> r) {
-    r[0] = std::log(p[0] / 0.6);  // the first step leads beyond 1
-    return p[0] < 0.95;
-  }, {.tolerance = 1e-8});
+  const FitResult found = fit(one, 1,
+                              [](std::span<const double> p, std::span<double> r) {
+                                r[0] = std::log(p[0] / 0.6);  // the first step leads beyond 1
+                                return p[0] < 0.95;
+                              },
+                              {.tolerance = 1e-8});
   EXPECT_NEAR(found.value[0], 0.6, 1e-4);
 }
 

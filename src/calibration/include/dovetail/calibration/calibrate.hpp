@@ -33,10 +33,10 @@ struct Rehearsal {
 struct CalibrationResult {
   std::optional<FitResult> fit;
   std::optional<Optimum> optimum;
-  std::vector<double> value;                ///< of the parameters
-  std::vector<Comparison> targets;          ///< at these
+  std::vector<double> value;                              ///< of the parameters
+  std::vector<Comparison> targets;                        ///< at these
   std::vector<std::pair<std::string, Outcome>> outcomes;  ///< by experiment, at these
-  std::optional<Cone> cone;                 ///< through all triaxial experiments
+  std::optional<Cone> cone;                               ///< through all triaxial experiments
   std::optional<Rehearsal> rehearsal;
   std::int64_t simulated = 0, recalled = 0;
   double seconds = 0.0, simulatorSeconds = 0.0;
@@ -50,10 +50,10 @@ struct CalibrationSettings {
   std::uint64_t seed = 1;
 };
 
-/// Does the experiments, or fits or searches the parameters; a line for each new evaluation goes to the log. What has been
-/// evaluated is kept in the folder, so the same call goes on where an earlier one was broken off.
-/// With rehearsals, the parameters' starts are the truth: targets are made from them with normal noise of the targets'
-/// deviations, and each fit begins at random in the middle half of the bounds.
+/// Does the experiments, or fits or searches the parameters; a line for each new evaluation goes to the log. What has
+/// been evaluated is kept in the folder, so the same call goes on where an earlier one was broken off. With rehearsals,
+/// the parameters' starts are the truth: targets are made from them with normal noise of the targets' deviations, and
+/// each fit begins at random in the middle half of the bounds.
 /// @throws InputError as readCalibration and Laboratory; NumericalError if experiments without parameters break down
 CalibrationResult calibrate(const Calibration& file, const CalibrationSettings& settings, std::ostream& log);
 

@@ -1,5 +1,5 @@
-// What a calibration file says, as plain structures: experiments on scenes, what they should give, and the parameters of
-// the scenes that are sought. All quantities are in SI units. Keys, help and limits are in keys.cpp.
+// What a calibration file says, as plain structures: experiments on scenes, what they should give, and the parameters
+// of the scenes that are sought. All quantities are in SI units. Keys, help and limits are in keys.cpp.
 #pragma once
 
 #include <filesystem>
@@ -61,7 +61,7 @@ struct Parameter {
 /// What a quantity of an experiment should be.
 struct Target {
   std::string of, quantity;
-  std::optional<double> at;                   ///< strain or time, of curves; not given: the end
+  std::optional<double> at;  ///< strain or time, of curves; not given: the end
   scene::Quantity value = requiredQuantity;
   scene::Quantity uncertainty{0.0, {}, false};  ///< standard deviation; 0: 1 % of the value
   std::string where;
@@ -82,7 +82,7 @@ struct Calibration {
   std::vector<Parameter> parameters;
   std::vector<Target> targets;
   std::optional<Search> search;
-  int evaluations = 500;     ///< of the simulator, at most
+  int evaluations = 500;    ///< of the simulator, at most
   double tolerance = 1e-3;  ///< see FitSettings
 };
 
@@ -97,7 +97,8 @@ void describe(scene::Fields& f, Search& v);
 void describe(scene::Fields& f, Calibration& v);
 
 /// Reads a calibration file, by the rules of scenes.
-/// @throws InputError as scene::readScene; for names of experiments that occur twice, targets of none, quantities that an
+/// @throws InputError as scene::readScene; for names of experiments that occur twice, targets of none, quantities that
+/// an
 ///   experiment does not have or of another unit, and bounds that do not enclose the start
 Calibration readCalibration(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 

@@ -1,6 +1,6 @@
 // What continuum a periodic cell of grains is: density, elastic moduli, speeds of waves, strength. The cell is strained
-// along its axes in small steps and brought to rest after each (dem::strainCell, dem::relax); stresses are those of Love
-// and Weber. Stresses and strains count positive in compression here, as is common in soil mechanics.
+// along its axes in small steps and brought to rest after each (dem::strainCell, dem::relax); stresses are those of
+// Love and Weber. Stresses and strains count positive in compression here, as is common in soil mechanics.
 #pragma once
 
 #include <array>
@@ -24,9 +24,9 @@ double cellDensity(const dem::Model& m);
 double cellSolidFraction(const dem::Model& m);
 
 struct CompressionSettings {
-  double pressure = 0.0;      ///< wanted, Pa
-  double tolerance = 1e-4;    ///< of the pressure, relative
-  double unbalanced = 1e-6;   ///< see dem::RelaxationSettings
+  double pressure = 0.0;       ///< wanted, Pa
+  double tolerance = 1e-3;     ///< of the pressure, relative
+  double unbalanced = 1e-5;    ///< see dem::RelaxationSettings
   std::int64_t strains = 400;  ///< given up after so many
 };
 /// Strains a cell isotropically until it rests at the pressure wanted under its own contact law, friction included.
@@ -36,8 +36,8 @@ struct CompressionSettings {
 double compressCell(dem::Model& m, const CompressionSettings& settings);
 
 struct ModuliSettings {
-  double strain = 1e-5;       ///< of the probes, to both sides
-  double unbalanced = 1e-8;   ///< at rest; see dem::RelaxationSettings
+  double strain = 1e-5;      ///< of the probes, to both sides
+  double unbalanced = 1e-8;  ///< at rest; see dem::RelaxationSettings
   std::int64_t steps = 200000;
 };
 /// Elastic moduli of a cell about the state that it is in, small strains to both sides. Only strains along the axes are
@@ -45,12 +45,12 @@ struct ModuliSettings {
 /// lattices in their planes at 45°). Stresses are those of the strained cell, so they hold terms of the order of the
 /// pressure.
 struct Moduli {
-  double density = 0.0;                             ///< kg/m³
+  double density = 0.0;  ///< kg/m³
   double solidFraction = 0.0;
-  double pressure = 0.0;                            ///< Pa, of the state
+  double pressure = 0.0;                             ///< Pa, of the state
   std::array<std::array<double, 3>, 3> stiffness{};  ///< ∂σ_row/∂ε_column, Pa
-  double bulk = 0.0, shear = 0.0;                   ///< Pa, means over the axes
-  double youngsModulus = 0.0;                       ///< Pa, 9 K G/(3 K + G)
+  double bulk = 0.0, shear = 0.0;                    ///< Pa, means over the axes
+  double youngsModulus = 0.0;                        ///< Pa, 9 K G/(3 K + G)
   double poissonRatio = 0.0;
   double anisotropy = 0.0;    ///< largest deviation of a stiffness along an axis from their mean, over it
   double nonlinearity = 0.0;  ///< largest difference of stiffness along an axis between both senses, over the mean
@@ -60,7 +60,7 @@ struct Moduli {
 Moduli smallStrainModuli(const dem::Model& cell, const ModuliSettings& settings = {});
 
 struct TriaxialSettings {
-  double strain = 0.05;        ///< along z at the end, logarithmic
+  double strain = 0.05;  ///< along z at the end, logarithmic
   int increments = 100;
   double tolerance = 5e-3;     ///< of the pressures across, relative
   double unbalanced = 1e-4;    ///< at rest after each increment
@@ -69,10 +69,10 @@ struct TriaxialSettings {
 /// Drained triaxial compression: shortened along z while the pressures along x and y stay. One entry per increment, the
 /// first before any.
 struct TriaxialCurve {
-  std::vector<double> strain;    ///< along z, logarithmic
-  std::vector<double> volume;    ///< volumetric strain, compression > 0
-  std::vector<double> axial;     ///< Pa
-  std::vector<double> lateral;   ///< Pa, mean of x and y
+  std::vector<double> strain;   ///< along z, logarithmic
+  std::vector<double> volume;   ///< volumetric strain, compression > 0
+  std::vector<double> axial;    ///< Pa
+  std::vector<double> lateral;  ///< Pa, mean of x and y
   double largestUnbalanced = 0.0;
 
   std::size_t size() const { return strain.size(); }
@@ -103,8 +103,8 @@ struct Cone {
   double dilatancyAngle = 0.0;  ///< rad, mean of the curves', at least 0
   double misfit = 0.0;          ///< largest |q − q of the cone| over q among the peaks
 };
-/// The line q = M p + b through the peaks of the curves, least squares (through the origin for one curve or where b < 0):
-/// sin φ = 3 M/(6 + M), c = b (3 − sin φ)/(6 cos φ). @throws InputError without curves
+/// The line q = M p + b through the peaks of the curves, least squares (through the origin for one curve or where b <
+/// 0): sin φ = 3 M/(6 + M), c = b (3 − sin φ)/(6 cos φ). @throws InputError without curves
 Cone coneThrough(std::span<const TriaxialCurve> curves);
 
 }  // namespace dovetail::calibration

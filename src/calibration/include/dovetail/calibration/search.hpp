@@ -23,8 +23,9 @@ struct SearchSettings {
 struct Profile {
   std::vector<double> at, measure;  ///< ascending; what could not be evaluated is left out
   double best = 0.0;                ///< of the parameter
-  double curvature = 0.0;  ///< ∂²m/∂p² over m, times p²: by how many times m a change of p by itself would raise it, twice
-  double lower = 0.0, upper = 0.0;  ///< between which the measure is within 5 % of the least
+  double curvature =
+      0.0;  ///< ∂²m/∂p² over m, times p²: by how many times m a change of p by itself would raise it, twice
+  double lower = 0.0, upper = 0.0;            ///< between which the measure is within 5 % of the least
   bool lowerOpen = false, upperOpen = false;  ///< whether that goes on beyond the bound
 };
 
