@@ -33,7 +33,7 @@ Corrected runCorrected(const dem::Model& packing, const EquilibriumSettings& s) 
   const auto column = joinSolid(packing, 0, place, elasticOf(packing, s), {});
   coupling::CoupledRun& run = column->run;
   startWith(run, s.share);
-  const coupling::RestReport rest = coupling::settle(run, {.kinetic = s.rest});
+  const coupling::RestReport rest = coupling::settle(run, {.kinetic = s.rest, .windows = 40000});
   Corrected result;
   result.atRest = rest.atRest;
   result.rounds = column->rounds;

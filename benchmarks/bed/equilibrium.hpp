@@ -9,11 +9,11 @@
 namespace dovetail::bed {
 
 struct EquilibriumSettings {
-  ColumnSize size{.width = 5.0 * grain::diameter, .height = 24.0 * grain::diameter, .seed = 1};
-  double element = 2.5 * grain::diameter;  ///< m
+  ColumnSize size{.width = 4.0 * grain::diameter, .height = 18.0 * grain::diameter, .seed = 1};
+  double element = 2.0 * grain::diameter;  ///< m
   int overlap = 6, below = 2;              ///< elements
   double share = 0.5;                      ///< of the critical step
-  double rest = 1e-8;                      ///< kinetic over elastic energy that the correction ends at
+  double rest = 1e-7;                      ///< kinetic over elastic energy that the correction ends at
   std::int64_t steps = 100000;             ///< afterwards
 };
 
