@@ -73,7 +73,11 @@ std::vector<Point> pointsOf(const Result& study, const std::string& error, Group
 }
 
 /// The authors' runs of 398 000 steps of 26 ms (benchmarks/cantilever/README.md): kernels of 0, 4 and 10 diameters.
-Curve publishedCantilever() { return {"authors' code", {10348, 10348, 10348}, {52e-3, 17e-3, 4.9e-3}, false, true}; }
+std::vector<Curve> publishedCantilever() {
+  return {{"authors' code, c = 0", {10348}, {52e-3}, false, true},
+          {"c = 4 d", {10348}, {17e-3}, false, true},
+          {"c = 10 d", {10348}, {4.9e-3}, false, true}};
+}
 
 void addCantilever(const std::vector<Result>& results, Chapter& chapter) {
   const Result* const study = find(results, "cantilever-pareto");
@@ -88,7 +92,7 @@ void addCantilever(const std::vector<Result>& results, Chapter& chapter) {
         figureOf("cantilever_dynamic", "Off the moving-mass beam", "run time (s)", "time-mean error (m)",
                  pointsOf(*study, "time_mean_error_dynamic_m", byElement), {}, chapter),
         figureOf("cantilever_static", "Off the static formula", "run time (s)", "time-mean error (m)",
-                 pointsOf(*study, "time_mean_error_m", byElement), {publishedCantilever()}, chapter),
+                 pointsOf(*study, "time_mean_error_m", byElement), publishedCantilever(), chapter),
         figureOf("cantilever_drift", "Drift of the energy", "run time (s)", "drift over the energy",
                  pointsOf(*study, "energy_drift_relative", byElement), {}, chapter)}});
 }

@@ -9,6 +9,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/fem/elements/solid.hpp"
+#include "overlap_locator.hpp"
 #include "overlap_tie_impl.hpp"
 
 namespace dovetail::arlequin {
@@ -153,11 +154,10 @@ std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidM
 std::vector<int> particlesBeyond(const dem::Model& grains, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
                                  std::span<const double> nodalWeight, double leastShare) {
   const std::vector<Vec3> position = positionsOf(nodes.X, nodes.u);
-  const fem::CellLocator cells(mesh.groups, position);
+  const OverlapLocator locator(mesh, position, nodalWeight, grains.pairs.periodicity());  // as the tie finds them
   std::vector<int> beyond;
   for (std::size_t i = 0; i < grains.particles.size(); ++i)
-    if (const auto place = cells.find(grains.particles.x[i]);
-        place && weightAt(mesh, *place, nodalWeight) < leastShare * (1.0 - 1e-6))
+    if (locator.find(grains.particles.x[i], grains.particles.radius[i]).weight < leastShare * (1.0 - 1e-6))
       beyond.push_back(static_cast<int>(i));
   return beyond;
 }

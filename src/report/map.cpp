@@ -69,7 +69,8 @@ std::string mapStyle() {
 .map figcaption{font-weight:600}
 .map table{border-spacing:2px;border-collapse:separate;font-size:.85rem}
 .map th{border:0;padding:.2rem .5rem;white-space:nowrap}
-.map td{border:0;padding:0;min-width:4.2rem}
+.map td,.map td:last-child:not(.n){border:0;padding:0;min-width:4.2rem}
+.map td:first-child{min-width:0}
 .map td button{all:unset;box-sizing:border-box;display:block;width:100%;padding:.35rem .4rem;text-align:center;cursor:pointer}
 .map td button:focus-visible{outline:2px solid var(--ink)}
 .map .survived{background:#cfe8d5}.map .refused{background:#f3e2b3}.map .failed{background:#e9a8a0}

@@ -268,6 +268,18 @@ TEST(TieInput, ParticlesBeyondTheBorderAreListed) {
   EXPECT_EQ(particlesBeyond(run.grains, mesh, run.solid->nodes, barWeights(mesh, o)), std::vector<int>{number});
 }
 
+TEST(TieInput, ParticlesBeyondTheBorderAreListedThroughAPeriod) {
+  SceneOptions o;
+  o.across = 1;
+  TieRun run = tieBar(o);
+  const fem::SolidMesh mesh = barMesh(o);
+  const auto [least, most] = std::ranges::minmax(mesh.X, {}, [](const Vec3& X) { return X.x; });
+  run.grains.pairs.setPeriodicity({{{least.x, -10.0, -10.0}, {most.x, 10.0, 10.0}}, {true, false, false}});
+  const Vec3 image{most.x - least.x, 2.9, 0.0};  // of the place of the test above
+  const int number = dem::addParticle(run.grains.particles, image, {}, 0.1, dem::Mass{1.0});
+  EXPECT_EQ(particlesBeyond(run.grains, mesh, run.solid->nodes, barWeights(mesh, o)), std::vector<int>{number});
+}
+
 TEST(TieWalls, PushLightParticlesAsTheirShareAsks) {
   SceneOptions o;
   o.across = 1;
