@@ -24,7 +24,9 @@ TEST(SceneTetrahedra, FillASurfaceThatIsHeldAndSags) {
   const fem::Nodes& nodes = built.run->solid(0).nodes();
   double lowest = 0.0;
   for (std::size_t n = 0; n < nodes.X.size(); ++n) {
-    if (nodes.X[n].z == 0.0) EXPECT_EQ(nodes.u[n], Vec3{});
+    if (nodes.X[n].z == 0.0) {
+      EXPECT_EQ(nodes.u[n], Vec3{});
+    }
     lowest = std::min(lowest, nodes.u[n].z);
   }
   EXPECT_LT(lowest, 0.0);
