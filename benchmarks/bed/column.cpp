@@ -19,11 +19,11 @@ namespace dovetail::bed {
 
 namespace {
 
-constexpr double looseFraction = 0.58;  // grains hardly touch
+constexpr double looseFraction = 0.58;   // grains hardly touch
 constexpr double denseFraction = 0.645;  // a little more than grains at the pressure fill: to rest is quick there
 constexpr double softOverlap = 0.05;     // over the radius, largest, before the pressure is set
-constexpr double restitution = 0.5;     // while they come to rest
-constexpr double sheared = 2e-4;        // strain by which the lid presses with friction
+constexpr double restitution = 0.5;      // while they come to rest
+constexpr double sheared = 2e-4;         // strain by which the lid presses with friction
 
 std::shared_ptr<const dem::ContactLaws> laws(double e) {
   dem::FrictionalLaw law;
@@ -126,9 +126,10 @@ std::unique_ptr<JoinedColumn> joinSolid(const dem::Model& packing, std::size_t f
   grains = packing;
   column->weights = options.weights;
   dem::removeWall(grains, dem::primitiveWall(grains, floor));
-  column->mesh = fem::boxOf(fem::CellShape::hex8,
-                            {place.across, place.across, static_cast<int>(std::lround((place.top - place.bottom) / place.element))},
-                            {0, 0, place.bottom}, {place.width, place.width, place.top});
+  column->mesh = fem::boxOf(
+      fem::CellShape::hex8,
+      {place.across, place.across, static_cast<int>(std::lround((place.top - place.bottom) / place.element))},
+      {0, 0, place.bottom}, {place.width, place.width, place.top});
   const fem::SolidMesh& mesh = column->mesh;
   std::vector<double> s;
   for (const Vec3& X : mesh.X)

@@ -16,10 +16,10 @@ namespace dovetail::bed {
 
 /// Grains of all columns: radii evenly from 0.4 d to 0.6 d, linear springs and friction, rotation, no dashpots.
 namespace grain {
-inline constexpr double diameter = 0.01;       ///< d, the mean, m
-inline constexpr double density = 2500.0;      ///< kg/m³
-inline constexpr double stiffness = 1e5;       ///< N/m
-inline constexpr double tangential = 0.8e5;    ///< N/m
+inline constexpr double diameter = 0.01;     ///< d, the mean, m
+inline constexpr double density = 2500.0;    ///< kg/m³
+inline constexpr double stiffness = 1e5;     ///< N/m
+inline constexpr double tangential = 0.8e5;  ///< N/m
 inline constexpr double friction = 0.5;
 }  // namespace grain
 inline constexpr double standardGravity = 9.81;  ///< m/s²
@@ -33,8 +33,9 @@ struct ColumnSize {
 /// At rest under gravity on a floor at z = 0. @throws NumericalError if it does not come to rest
 dem::Model fallenColumn(const ColumnSize& size);
 
-/// At rest without gravity between a floor and a lid: brought to the pressure, within 3 %, from all sides without friction, and then
-/// pressed by the lid with friction, by a strain of 2e-4. Sides and height come out a little different from those asked.
+/// At rest without gravity between a floor and a lid: brought to the pressure, within 3 %, from all sides without
+/// friction, and then pressed by the lid with friction, by a strain of 2e-4. Sides and height come out a little
+/// different from those asked.
 /// @throws NumericalError if it does not come to rest
 dem::Model pressedColumn(const ColumnSize& size, double pressure);
 double widthOf(const dem::Model& column);  ///< m
@@ -47,21 +48,21 @@ double bulkDensity(const dem::Particles& p, double width, double lower, double u
 
 /// What a solid is in place of grains.
 struct Elastic {
-  double density;          ///< kg/m³
-  double young, poisson;   ///< Pa, 1
+  double density;         ///< kg/m³
+  double young, poisson;  ///< Pa, 1
 };
 
 /// Where the solid is: from `bottom` to `top`; grains from `border` upwards, and weighed in between.
 struct SolidPlace {
-  double width = 0.0;                    ///< m
+  double width = 0.0;                            ///< m
   double bottom = 0.0, border = 0.0, top = 0.0;  ///< m
-  double element = 0.0;                  ///< height of an element, m
-  int across = 1;                        ///< elements
+  double element = 0.0;                          ///< height of an element, m
+  int across = 1;                                ///< elements
 };
 
 struct JoinOptions {
-  bool takeOver = true;      ///< the solid carries what it is handed; otherwise it is without stress
-  double massShare = 0.0;    ///< of the consistent mass
+  bool takeOver = true;    ///< the solid carries what it is handed; otherwise it is without stress
+  double massShare = 0.0;  ///< of the consistent mass
   arlequin::WeightOptions weights{.floor = 0.01};
   arlequin::CouplingOptions coupling{};
 };

@@ -17,16 +17,17 @@ struct EquilibriumSettings {
   std::int64_t steps = 100000;             ///< afterwards
 };
 
-/// The column with its correction: arlequin::takeOver, and coupling::settle, whose loss has the channel "brought to rest".
+/// The column with its correction: arlequin::takeOver, and coupling::settle, whose loss has the channel "brought to
+/// rest".
 struct Corrected {
   bool atRest = false;
-  int rounds = 0;             ///< of takeOver
-  std::int64_t windows = 0;   ///< of settle
-  double broughtToRest = 0.0; ///< over the elastic energy
-  double kinetic = 0.0;       ///< largest over the elastic energy, in the steps afterwards
-  double moved = 0.0;         ///< by any grain in these steps, in diameters
-  double residual = 0.0;      ///< of the ledger in these steps over the elastic energy
-  double stressDrift = 0.0;   ///< largest change of a layer's stress in these steps, relative
+  int rounds = 0;                           ///< of takeOver
+  std::int64_t windows = 0;                 ///< of settle
+  double broughtToRest = 0.0;               ///< over the elastic energy
+  double kinetic = 0.0;                     ///< largest over the elastic energy, in the steps afterwards
+  double moved = 0.0;                       ///< by any grain in these steps, in diameters
+  double residual = 0.0;                    ///< of the ledger in these steps over the elastic energy
+  double stressDrift = 0.0;                 ///< largest change of a layer's stress in these steps, relative
   double meanDensity = 0.0, surface = 0.0;  ///< of the packing, kg/m³; height of as much with that density, m
   std::vector<LayerStress> layers;
   std::vector<double> packingAbove;  ///< weight in the packing alone above the same layers, Pa

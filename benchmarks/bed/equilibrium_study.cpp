@@ -45,7 +45,9 @@ void runEquilibriumStudy(const EquilibriumStudy& study) {
   const dem::Model packing = fallenColumn(settings.size);
   const Corrected corrected = runCorrected(packing, settings);
   std::string text = "## Column under gravity\n\n" + correctedText(corrected, settings.steps) + stressTable(corrected);
-  text += "\n| overlap, diameters | peak of kinetic over elastic energy without correction | with takeOver alone |\n|---|---|---|\n";
+  text +=
+      "\n| overlap, diameters | peak of kinetic over elastic energy without correction | with takeOver alone "
+      "|\n|---|---|---|\n";
   for (const int overlap : study.quick ? std::vector{2, 6} : std::vector{2, 3, 4, 6}) {
     settings.overlap = overlap;
     text += format("| %.1f | %.2e | %.2e |\n", overlap * settings.element / grain::diameter,

@@ -26,7 +26,8 @@ bool parse(int argc, char** argv, Settings& s) {
   o.integer("--packings N", s.packings, 1, 1000, "of the ensemble for the wave");
   o.integer("--steps N", s.steps, 100, 100000000, "of the column after it has come to rest");
   o.number("--strain X", s.strain, program::positive("a positive number", 1e-3), "largest of the pulse");
-  o.number("--step-share X", s.share, program::positive("a number up to 0.9", 0.9), "of the critical step, for the wave");
+  o.number("--step-share X", s.share, program::positive("a number up to 0.9", 0.9),
+           "of the critical step, for the wave");
   o.integer("--workers N", s.workers, 1, 1024, "processes, one packing each");
   o.text("--out DIR", s.out, "folder for tables");
   if (!o.parse(argc, argv)) return false;

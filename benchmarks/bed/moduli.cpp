@@ -43,7 +43,8 @@ double Moduli::shearSpeed() const { return std::sqrt(shear / density); }
 
 Moduli probe(const dem::Model& column, double strain) {
   const dem::PrimitiveWall& lid = dem::primitiveWall(column, lidOfPressed);
-  const double floorHeight = dem::primitiveWall(column, floorOfPressed).point.z, width = widthOf(column), area = width * width;
+  const double floorHeight = dem::primitiveWall(column, floorOfPressed).point.z, width = widthOf(column),
+               area = width * width;
   Moduli m{};
   m.pressure = lid.force.z / area;
   const double height = lid.point.z - floorHeight;

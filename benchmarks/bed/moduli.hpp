@@ -7,10 +7,10 @@ namespace dovetail::bed {
 
 /// Of a column under pressure, in the state that it has now.
 struct Moduli {
-  double pressure;  ///< on the lid, Pa
-  double density;   ///< kg/m³
-  double axial;     ///< M = dσ_zz/dε_zz, no strain sideways, Pa
-  double shear;     ///< G = dσ_xz/dγ_xz, Pa
+  double pressure;            ///< on the lid, Pa
+  double density;             ///< kg/m³
+  double axial;               ///< M = dσ_zz/dε_zz, no strain sideways, Pa
+  double shear;               ///< G = dσ_xz/dγ_xz, Pa
   double axialSpeed() const;  ///< √(M/ρ), m/s
   double shearSpeed() const;
 };

@@ -53,9 +53,11 @@ std::vector<LayerStress> layersOf(JoinedColumn& column, const SolidPlace& place)
   };
   std::vector<LayerStress> layers;
   for (double Z = place.border; Z < place.top - 0.5 * place.element; Z += place.element) {
-    LayerStress layer{.lower = heightOf(Z), .upper = heightOf(Z + place.element), .grains = 0.0, .solid = 0.0, .above = 0.0};
+    LayerStress layer{
+        .lower = heightOf(Z), .upper = heightOf(Z + place.element), .grains = 0.0, .solid = 0.0, .above = 0.0};
     // Wide enough for branches that hang over the sides.
-    const cg::AverageBox box{{-place.width, -place.width, layer.lower}, {2 * place.width, 2 * place.width, layer.upper}};
+    const cg::AverageBox box{{-place.width, -place.width, layer.lower},
+                             {2 * place.width, 2 * place.width, layer.upper}};
     layer.grains = -9.0 * cg::loveWeberStress({contacts.from, contacts.to, contacts.force}, {}, box).contact(2, 2);
     layer.solid = pushOfSolid(column, sample, place, Z) / (area * (layer.upper - layer.lower));
     layer.above = weightAbove(grains.particles, place.width, layer.lower, layer.upper);

@@ -55,9 +55,11 @@ public:
       : height_(static_cast<std::size_t>(std::lround((place.top - place.bottom) / place.element)) + 1, 0.0),
         count_(height_.size(), 0.0) {
     const fem::Nodes& nodes = column.run.solid(0).nodes();
-    for (const Vec3& X : column.mesh.X) plane_.push_back(static_cast<std::size_t>(std::lround((X.z - place.bottom) / place.element)));
+    for (const Vec3& X : column.mesh.X)
+      plane_.push_back(static_cast<std::size_t>(std::lround((X.z - place.bottom) / place.element)));
     for (std::size_t n = 0; n < plane_.size(); ++n) count_[plane_[n]] += 1.0;
-    for (std::size_t n = 0; n < plane_.size(); ++n) height_[plane_[n]] += (nodes.X[n].z + nodes.u[n].z) / count_[plane_[n]];
+    for (std::size_t n = 0; n < plane_.size(); ++n)
+      height_[plane_[n]] += (nodes.X[n].z + nodes.u[n].z) / count_[plane_[n]];
   }
   void take(const fem::Nodes& nodes, int axis) {
     value_.assign(height_.size(), 0.0);
@@ -166,9 +168,9 @@ WaveRun send(coupling::CoupledRun& run, const JoinedColumn* column, const SolidP
 void rest(coupling::CoupledRun& run, double kinetic) {
   const coupling::RestReport report = coupling::settle(run, {.kinetic = kinetic, .windows = 60000});
   if (!report.atRest)
-    throw NumericalError("the column does not come to rest: kinetic energy is " + std::to_string(report.kinetic) +
-                             " of the elastic one",
-                         "wave in a column", "take another seed");
+    throw NumericalError(
+        "the column does not come to rest: kinetic energy is " + std::to_string(report.kinetic) + " of the elastic one",
+        "wave in a column", "take another seed");
 }
 
 }  // namespace
@@ -202,8 +204,8 @@ Reflected reflected(const WavePair& pair) {
     if (a.id[k] >= static_cast<std::int64_t>(partner.size())) continue;
     const std::size_t j = partner[static_cast<std::size_t>(a.id[k])];
     if (j == b.id.size()) continue;
-    energy += a.mass[k] * (squaredNorm(a.v[k] - b.v[j]) +
-                           0.4 * a.radius[k] * a.radius[k] * squaredNorm(a.omega[k] - b.omega[j]));
+    energy += a.mass[k] *
+              (squaredNorm(a.v[k] - b.v[j]) + 0.4 * a.radius[k] * a.radius[k] * squaredNorm(a.omega[k] - b.omega[j]));
   }
   double slabs = 0.0;
   const std::vector<double>&va = a.form.velocity.back(), &vb = b.form.velocity.back();

@@ -11,20 +11,22 @@ namespace dovetail::bed {
 /// Lengths in elements; an element is `element` high.
 struct WaveSettings {
   bool shear = false;
-  double speed = 0.0;                        ///< near that of the wave: the pulse lasts pulse × element / speed, m/s
-  double pressure = 1e4;                     ///< Pa
-  double element = 3.75 * grain::diameter;   ///< m
+  double speed = 0.0;                       ///< near that of the wave: the pulse lasts pulse × element / speed, m/s
+  double pressure = 1e4;                    ///< Pa
+  double element = 3.75 * grain::diameter;  ///< m
   int grains = 9, overlap = 4, solid = 10;  ///< alone, shared, alone
   double pulse = 8.0;
-  double strain = 2e-5;      ///< largest of the pulse
-  double share = 0.3;        ///< of the critical step
-  double rest = 1e-9;        ///< kinetic over elastic energy, at most, before the pulse
+  double strain = 2e-5;  ///< largest of the pulse
+  double share = 0.3;    ///< of the critical step
+  double rest = 1e-9;    ///< kinetic over elastic energy, at most, before the pulse
   JoinOptions join{.massShare = 0.46};
-  double shared() const { return grains * element; }              ///< depth below the lid where the solid begins, m
-  double alone() const { return (grains + overlap) * element; }   ///< and where grains end
+  double shared() const { return grains * element; }             ///< depth below the lid where the solid begins, m
+  double alone() const { return (grains + overlap) * element; }  ///< and where grains end
   double depth() const { return (grains + overlap + solid) * element; }
-  double duration() const { return pulse * element / speed; }     ///< s
-  double end() const { return (grains + overlap + pulse + 0.5) * element / speed; }  ///< s, the tail has left the overlap
+  double duration() const { return pulse * element / speed; }  ///< s
+  double end() const {
+    return (grains + overlap + pulse + 0.5) * element / speed;
+  }  ///< s, the tail has left the overlap
 };
 
 /// Means over the section in slabs two diameters thick, from the lid downwards, at equal times.
@@ -38,9 +40,9 @@ struct Waveform {
 /// What a pulse did. Energies in J.
 struct WaveRun {
   Waveform form;
-  double pulse = 0.0;      ///< twice the kinetic energy when the lid has stopped: that of the travelling wave
+  double pulse = 0.0;  ///< twice the kinetic energy when the lid has stopped: that of the travelling wave
   double friction = 0.0, overlap = 0.0, residual = 0.0;  ///< booked since the pulse began
-  double atRest = 0.0;     ///< kinetic energy when it began
+  double atRest = 0.0;                                   ///< kinetic energy when it began
   double dt = 0.0, seconds = 0.0;
   std::vector<std::int64_t> id;  ///< of the grains above the overlap, ascending
   std::vector<Vec3> v, omega;    ///< their velocities at the end, m/s, rad/s
@@ -55,8 +57,8 @@ struct WavePair {
 };
 WavePair runPair(const dem::Model& packing, const WaveSettings& settings, const Moduli& moduli);
 
-/// Energy of the difference field above the overlap over that of the pulse: twice the kinetic energy of v_joined − v_full, grain
-/// by grain, and of the means of slabs.
+/// Energy of the difference field above the overlap over that of the pulse: twice the kinetic energy of v_joined −
+/// v_full, grain by grain, and of the means of slabs.
 struct Reflected {
   double byGrain, bySlab;
 };

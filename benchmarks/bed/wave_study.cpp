@@ -1,9 +1,9 @@
 #include "wave_study.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <chrono>
 #include <iostream>
-#include <numeric>
 
 #include "dovetail/core/archive.hpp"
 #include "dovetail/report/study.hpp"
@@ -78,6 +78,7 @@ void addFigures(Json& figures, const std::string& name, const WaveSettings& s, c
 }
 
 Json runPacking(const WaveStudy& study, int number) {
+  const auto begin = std::chrono::steady_clock::now();
   const double height = 1.04 * settingsOf(study, kinds[0]).depth();
   const dem::Model packing = pressedColumn(
       {.width = study.width, .height = height, .seed = static_cast<std::uint64_t>(number)}, WaveSettings{}.pressure);
@@ -93,6 +94,7 @@ Json runPacking(const WaveStudy& study, int number) {
     addFigures(figures, kind.name, settings, pair);
     keep(pair, fileOf(study, number, kind));
   }
+  figures["wall_seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   figures["finished"] = figures["stable"] = true;
   return figures;
 }
