@@ -10,10 +10,10 @@ namespace {
 /// A column of squeezed grains, periodic sideways, on a solid: 2 N in every vertical contact.
 std::string column(const std::string& more, double modulus) {
   return R"({"contact": {"law": "linear", "stiffness": 1e4},
-    "periodic": {"box": [[0, 0, -2], [0.1996, 0.1996, 2]], "axes": ["x", "y"]},
+    "periodic": {"box": [[0, 0, -2], [0.3992, 0.3992, 2]], "axes": ["x", "y"]},
     "particles": [{"from": "lattice", "lattice": "simple-cubic", "radius": 0.05, "distance": 0.0998, "density": 2500,
-                   "box": [[0, 0, 0], [0.1997, 0.1997, 1.2]]}],
-    "solids": [{"name": "soil", "mesh": "box", "cells": [1, 1, 8], "box": [[0, 0, -0.4], [0.1996, 0.1996, 0.4]],
+                   "box": [[0, 0, 0], [0.3993, 0.3993, 1.2]]}],
+    "solids": [{"name": "soil", "mesh": "box", "cells": [1, 1, 8], "box": [[0, 0, -0.4], [0.3992, 0.3992, 0.4]],
       "material": {"law": "St-Venant-Kirchhoff", "poisson_ratio": 0, "density": 1300, "youngs_modulus": )" +
          std::to_string(modulus) + R"(},
       "supports": [{"on": "z-"}, {"on": "x-", "components": ["x"]}, {"on": "x+", "components": ["x"]},
