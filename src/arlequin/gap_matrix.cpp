@@ -90,17 +90,6 @@ Column columnOf(std::span<const WeighedMap> maps, std::span<const MetBlocks> blo
   return sums.take(c);
 }
 
-std::vector<double> multiplySymmetric(const fem::SparseMatrix& A, std::span<const double> x) {
-  std::vector<double> y(x.size(), 0.0);
-  for (std::size_t c = 0; c < x.size(); ++c)
-    for (int k = A.offsets[c]; k < A.offsets[c + 1]; ++k) {
-      const auto r = static_cast<std::size_t>(A.row[k]);
-      y[r] += A.value[k] * x[c];
-      if (r != c) y[c] += A.value[k] * x[r];
-    }
-  return y;
-}
-
 }  // namespace
 
 fem::SparseMatrix gapMatrix(std::span<const WeighedMap> maps) {
@@ -143,7 +132,7 @@ GapInverse::GapInverse(fem::SparseMatrix A, std::span<const Vec3> X, GapInverse*
   std::vector<double> probe(size_);
   for (double& value : probe) value = static_cast<double>(random()) / 4294967296.0 - 0.5;
   if (factors_.factor(A, order)) {
-    std::vector<double> back = multiplySymmetric(A, probe);
+    std::vector<double> back = fem::multiplySymmetric(A, probe);
     factors_.solve(back, 1);
     double error = 0.0;
     for (std::size_t c = 0; c < size_; ++c) error = std::max(error, std::abs(back[c] - probe[c]));

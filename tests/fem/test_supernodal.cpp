@@ -44,17 +44,6 @@ Lattice randomLattice(int nx, int ny, int nz) {
   return lattice;
 }
 
-std::vector<double> symmetricProduct(const SparseMatrix& A, std::span<const double> x) {
-  std::vector<double> y(x.size(), 0.0);
-  for (std::size_t c = 0; c < x.size(); ++c)
-    for (int k = A.offsets[c]; k < A.offsets[c + 1]; ++k) {
-      const auto r = static_cast<std::size_t>(A.row[k]);
-      y[r] += A.value[k] * x[c];
-      if (r != c) y[c] += A.value[k] * x[r];
-    }
-  return y;
-}
-
 std::vector<double> randomNumbers(std::size_t count) {
   std::mt19937 random(7);
   std::vector<double> numbers(count);
@@ -78,7 +67,7 @@ TEST(SparseCholesky, SolvesLargeMatricesWithTheSameDigitsForAnyNumberOfThreads) 
       const std::vector<double> x = randomNumbers(size * static_cast<std::size_t>(columns));
       std::vector<double> b;
       for (std::size_t first = 0; first < x.size(); first += size)
-        for (const double value : symmetricProduct(lattice.A, std::span(x).subspan(first, size))) b.push_back(value);
+        for (const double value : multiplySymmetric(lattice.A, std::span(x).subspan(first, size))) b.push_back(value);
       const auto solved = [&](int threads) {
         return onThreads(threads, [&] {
           SparseCholesky cholesky;

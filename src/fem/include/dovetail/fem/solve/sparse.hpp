@@ -24,6 +24,8 @@ class FactorMemoryError : public NumericalError {
 
 /// y = A x.
 std::vector<double> multiply(const SparseMatrix& A, std::span<const double> x);
+/// The same for a symmetric matrix of which A is the lower triangle.
+std::vector<double> multiplySymmetric(const SparseMatrix& A, std::span<const double> x);
 
 /// Owns the factorisation of a symmetric positive definite matrix (CHOLMOD if it was built in, else Eigen's LDLᵀ).
 /// Results do not depend on the number of threads: the BLAS is held to one while it works.
