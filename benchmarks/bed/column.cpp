@@ -56,7 +56,6 @@ void bringToRest(dem::Model& m) {
     throw NumericalError("the packing does not come to rest: its unbalanced force is " +
                              std::to_string(report.unbalanced) + " of the mean contact force",
                          "column of grains", "take another seed");
-  m.laws = laws(1.0);
 }
 
 /// Held at its bottom, the same on opposite sides.
@@ -94,6 +93,7 @@ dem::Model pressedColumn(const ColumnSize& size, double pressure) {
   dem::addWall(m, dem::makePlane(packing.space.box.upper, {0, 0, -1}));
   dem::addWall(m, dem::makePlane(packing.space.box.lower, {0, 0, 1}));
   bringToRest(m);
+  m.laws = laws(1.0);
   moveLid(m, {0, 0, -sheared * packing.space.length(2)});
   return m;
 }
@@ -124,7 +124,6 @@ std::unique_ptr<JoinedColumn> joinSolid(const dem::Model& packing, std::size_t f
   auto column = std::make_unique<JoinedColumn>();
   dem::Model& grains = column->run.grains;
   grains = packing;
-  column->weights = options.weights;
   dem::removeWall(grains, dem::primitiveWall(grains, floor));
   column->mesh = fem::boxOf(
       fem::CellShape::hex8,

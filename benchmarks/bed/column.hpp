@@ -14,7 +14,8 @@
 
 namespace dovetail::bed {
 
-/// Grains of all columns: radii evenly from 0.4 d to 0.6 d, linear springs and friction, rotation, no dashpots.
+/// Grains of all columns: radii evenly from 0.4 d to 0.6 d, linear springs and friction, rotation; dashpots
+/// (restitution 0.5) but under a lid.
 namespace grain {
 inline constexpr double diameter = 0.01;     ///< d, the mean, m
 inline constexpr double density = 2500.0;    ///< kg/m³
@@ -72,7 +73,6 @@ struct JoinedColumn {
   coupling::CoupledRun run;
   fem::SolidMesh mesh;
   arlequin::OverlapTie* tie = nullptr;
-  arlequin::WeightOptions weights;
   int rounds = 0;  ///< of arlequin::takeOver
 };
 

@@ -14,19 +14,12 @@ namespace {
 /// Share of a layer that lies below a height.
 double shareBelow(double z, double lower, double upper) { return std::clamp((z - lower) / (upper - lower), 0.0, 1.0); }
 
-/// −∫ P_zz (1 − w) dV over the layer of elements that begins at the reference height, N m.
-double pushOfSolid(const JoinedColumn& column, const fem::Solid::Sample& sample, const SolidPlace& place, double Z) {
-  const auto shareAt = [&](double z) {
-    const double s = (place.top - z) / (place.top - place.border);
-    return 1.0 - arlequin::nodalWeights(std::vector{s}, column.weights).front();
-  };
+/// −∫ P_zz (1 − w) dV over the layer of elements that begins at the reference height, N m; the volumes of the points
+/// are those of the solid's share.
+double pushOfSolid(const fem::Solid::Sample& sample, const SolidPlace& place, double Z) {
   double sum = 0.0;
-  for (std::size_t q = 0; q < sample.X.size(); ++q) {
-    const double z = sample.X[q].z, along = (z - Z) / place.element;
-    if (along < 0.0 || along > 1.0) continue;
-    const double share = (1.0 - along) * shareAt(Z) + along * shareAt(Z + place.element);
-    sum -= share * sample.P[9 * q + 8] * sample.volume[q];
-  }
+  for (std::size_t q = 0; q < sample.X.size(); ++q)
+    if (sample.X[q].z > Z && sample.X[q].z < Z + place.element) sum -= sample.P[9 * q + 8] * sample.volume[q];
   return sum;
 }
 
@@ -59,7 +52,7 @@ std::vector<LayerStress> layersOf(JoinedColumn& column, const SolidPlace& place)
     const cg::AverageBox box{{-place.width, -place.width, layer.lower},
                              {2 * place.width, 2 * place.width, layer.upper}};
     layer.grains = -9.0 * cg::loveWeberStress({contacts.from, contacts.to, contacts.force}, {}, box).contact(2, 2);
-    layer.solid = pushOfSolid(column, sample, place, Z) / (area * (layer.upper - layer.lower));
+    layer.solid = pushOfSolid(sample, place, Z) / (area * (layer.upper - layer.lower));
     layer.above = weightAbove(grains.particles, place.width, layer.lower, layer.upper);
     for (std::size_t n = 0; n < solid.nodes.X.size(); ++n)
       layer.above += standardGravity * solid.nodes.mass[n] / area *
