@@ -76,7 +76,8 @@ TEST(StudyVerb, TellsTheOrderAndTheGrowthOfTheEnergy) {
     EXPECT_NEAR(run["largest_residual_share"].get<double>(),
                 run["largest_residual_J"].get<double>() / run["changed_hands_J"].get<double>(), 1e-15);
   }
-  const std::string csv = readText(bounce.folder / "out/energy.csv"), html = readText(bounce.folder / "out/energy.html");
+  const std::string csv = readText(bounce.folder / "out/energy.csv"),
+                    html = readText(bounce.folder / "out/energy.html");
   const double ratio =
       runs[0]["largest_residual_share"].get<double>() / runs[1]["largest_residual_share"].get<double>();
   EXPECT_NEAR(std::log2(ratio), 2.0, 0.3);  // of the second order, told in the table
