@@ -108,14 +108,16 @@ void findOrders(std::vector<Run>& runs) {
   for (Run& run : runs) {
     const Run* const other = coarser(runs, run);
     if (!other) continue;
-    const double ratio = numberIn(other->figures, "largest_residual_share") / numberIn(run.figures, "largest_residual_share");
+    const double ratio =
+        numberIn(other->figures, "largest_residual_share") / numberIn(run.figures, "largest_residual_share");
     run.order = std::log(ratio) / std::log(other->dt / run.dt);
   }
 }
 
 report::Table tableOf(const std::vector<Run>& runs) {
-  report::Table table{{"run", "step (s)", "steps", "largest residual (J)", "over what changed hands", "order", "growth", "seconds"},
-                      {}};
+  report::Table table{
+      {"run", "step (s)", "steps", "largest residual (J)", "over what changed hands", "order", "growth", "seconds"},
+      {}};
   const auto text = [](double value, const char* pattern = "%.3g") {
     char line[64];
     std::snprintf(line, sizeof line, pattern, value);
@@ -123,12 +125,11 @@ report::Table tableOf(const std::vector<Run>& runs) {
   };
   for (const Run& run : runs) {
     const double time = run.series.column("time_s").back();
-    table.rows.push_back({run.label, text(run.dt), text(std::round(time / run.dt), "%.0f"),
-                          text(numberIn(run.figures, "largest_residual_J")),
-                          text(numberIn(run.figures, "largest_residual_share")),
-                          run.order ? text(*run.order, "%.2f") : "",
-                          text(numberIn(run.figures, "residual_growth"), "%.2f"),
-                          text(numberIn(run.figures, "wall_seconds"))});
+    table.rows.push_back(
+        {run.label, text(run.dt), text(std::round(time / run.dt), "%.0f"),
+         text(numberIn(run.figures, "largest_residual_J")), text(numberIn(run.figures, "largest_residual_share")),
+         run.order ? text(*run.order, "%.2f") : "", text(numberIn(run.figures, "residual_growth"), "%.2f"),
+         text(numberIn(run.figures, "wall_seconds"))});
   }
   return table;
 }
@@ -145,7 +146,8 @@ report::Figure againstStep(const std::vector<Run>& runs) {
 /// Of so many runs at most: more curves cannot be told apart.
 report::Figure againstTime(const std::vector<Run>& runs) {
   constexpr std::size_t most = 8;
-  report::Figure figure{"energy_time", "Residual over time", {"time (s)", false}, {"over what changed hands", true}, {}, {}};
+  report::Figure figure{
+      "energy_time", "Residual over time", {"time (s)", false}, {"over what changed hands", true}, {}, {}};
   for (std::size_t k = 0; k < std::min(most, runs.size()); ++k) {
     const io::TimeSeries& series = runs[k].series;
     const double scale = numberIn(runs[k].figures, "changed_hands_J");
@@ -200,7 +202,8 @@ void writeEnergyStudy(const fs::path& folder) {
       "Energy",
       {{"Runs",
         {report::Paragraph{
-             "Residual: what nobody accounts for, the largest of the run. Order: of the residual's share, beside the run with "
+             "Residual: what nobody accounts for, the largest of the run. Order: of the residual's share, beside the "
+             "run with "
              "the next larger step that differs in nothing else. Growth: exponent of the largest residual over time: 0 "
              "bounded, 0.5 a random walk, 1 a drift."},
          tableOf(runs), againstStep(runs), againstTime(runs)}},
@@ -209,7 +212,8 @@ void writeEnergyStudy(const fs::path& folder) {
   std::vector<Json> rows;
   for (const Run& run : runs) {
     Json row{{"label", run.label}, {"dt_s", run.dt}, {"order", run.order ? Json(*run.order) : Json(nullptr)}};
-    for (const char* key : {"largest_residual_J", "changed_hands_J", "largest_residual_share", "residual_growth", "wall_seconds"})
+    for (const char* key :
+         {"largest_residual_J", "changed_hands_J", "largest_residual_share", "residual_growth", "wall_seconds"})
       row[key] = run.figures.contains(key) ? run.figures[key] : Json(nullptr);
     row["settings"] = report::objectOf(run.settings);
     rows.push_back(std::move(row));

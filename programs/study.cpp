@@ -14,8 +14,8 @@
 #include "dovetail/report/text.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
-#include "program/options.hpp"
 #include "energy_study.hpp"
+#include "program/options.hpp"
 #include "verbs.hpp"
 
 namespace dovetail::program {

@@ -66,8 +66,8 @@ std::vector<Point> pointsOf(const Result& study, const std::string& error, Group
   for (const Json& row : study.content["runs"]) {
     if (wordOf(row, "outcome") != "finished") continue;
     const std::string label = wordOf(row, "label");
-    points.push_back({label, groupOf(label), numberOf(row, "wall_seconds"), std::abs(numberOf(row, error)),
-                      repeated(study, label)});
+    points.push_back(
+        {label, groupOf(label), numberOf(row, "wall_seconds"), std::abs(numberOf(row, error)), repeated(study, label)});
   }
   return points;
 }
@@ -85,10 +85,11 @@ void addCantilever(const std::vector<Result>& results, Chapter& chapter) {
   const auto byElement = [](const std::string& label) { return label.substr(0, label.find(',')); };
   chapter.sections.push_back(
       {"Error against run time: two particles slide over a cantilever",
-       {report::Paragraph{"Surface coupling. Elements, meshes, steps and sub-steps of the solid; time of one core until the "
-                          "first particle leaves the beam. Against the static formula, which leaves inertia out, no run "
-                          "comes below some tenths of a millimetre; the authors' runs (CMAME 403, 115651: output "
-                          "deposited with the paper, 26 ms a step) stand there."},
+       {report::Paragraph{
+            "Surface coupling. Elements, meshes, steps and sub-steps of the solid; time of one core until the "
+            "first particle leaves the beam. Against the static formula, which leaves inertia out, no run "
+            "comes below some tenths of a millimetre; the authors' runs (CMAME 403, 115651: output "
+            "deposited with the paper, 26 ms a step) stand there."},
         figureOf("cantilever_dynamic", "Off the moving-mass beam", "run time (s)", "time-mean error (m)",
                  pointsOf(*study, "time_mean_error_dynamic_m", byElement), {}, chapter),
         figureOf("cantilever_static", "Off the static formula", "run time (s)", "time-mean error (m)",
@@ -133,8 +134,8 @@ void addElements(const std::vector<Result>& results, Chapter& chapter) {
   report::Section section{"Error against run time: elements of the solid", {}};
   int number = 0;
   for (const auto& [name, points] : cases)
-    section.blocks.push_back(figureOf(format("elements_%d", ++number), name, "run time (s)", "relative error", points,
-                                      {}, chapter));
+    section.blocks.push_back(
+        figureOf(format("elements_%d", ++number), name, "run time (s)", "relative error", points, {}, chapter));
   chapter.sections.push_back(std::move(section));
 }
 
@@ -162,8 +163,7 @@ void addFlagship(const std::vector<Result>& results, Chapter& chapter) {
   const Result* const study = find(results, "flagship");
   if (!study) return;
   report::Table table{{"quantity", "value"}, {}};
-  for (const auto& [key, value] : study->content["figures"].items())
-    table.rows.push_back({key, report::textOf(value)});
+  for (const auto& [key, value] : study->content["figures"].items()) table.rows.push_back({key, report::textOf(value)});
   chapter.sections.push_back({"A pile is pushed into a bed: both couplings beside grains alone",
                               {report::Paragraph{study->command}, std::move(table)}});
 }

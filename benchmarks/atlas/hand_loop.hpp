@@ -20,7 +20,7 @@ public:
   /// @param dt  s; the first step makes half a kick, as the engine's first does
   void step(double dt);
 
-  std::vector<Vec3> x, v, f;         ///< m, m/s, N, in the order of the model
+  std::vector<Vec3> x, v, f;                 ///< m, m/s, N, in the order of the model
   bool listIsGood() const { return good_; }  ///< whether no sphere has moved by half of the list's inner skin
   std::size_t bytes() const;                 ///< held
 

@@ -73,7 +73,8 @@ std::vector<IdleFeature> idleFeatures(int edge, int steps, int turns) {
   std::vector<IdleFeature> features;
   for (const auto& [name, make] : scenes) {
     const Scene with = make();
-    const Duel time = duel(turns, [&] { bare.advance(steps); }, [&] { with.advance(steps); });
+    const Duel time = duel(
+        turns, [&] { bare.advance(steps); }, [&] { with.advance(steps); });
     features.push_back({name, time, (with.bytes - bare.bytes) / grains});
   }
   return features;

@@ -51,9 +51,14 @@ Json besideHandLoop(const Settings& s) {
       "and %.3f); positions differ by %.1e m after %d steps; list %s\n",
       grains, each * time.first, each * time.second, time.ratio, time.lower, time.upper, apart, steps * s.turns,
       loop.listIsGood() ? "good to the end" : "OUTLIVED");
-  return {{"grains", grains},          {"hand_ns", each * time.first}, {"ns", each * time.second},
-          {"ratio", time.ratio},       {"ratio_lower_quartile", time.lower}, {"ratio_upper_quartile", time.upper},
-          {"largest_difference_m", apart}, {"list_is_good", loop.listIsGood()}};
+  return {{"grains", grains},
+          {"hand_ns", each * time.first},
+          {"ns", each * time.second},
+          {"ratio", time.ratio},
+          {"ratio_lower_quartile", time.lower},
+          {"ratio_upper_quartile", time.upper},
+          {"largest_difference_m", apart},
+          {"list_is_good", loop.listIsGood()}};
 }
 
 Json idle(const Settings& s) {

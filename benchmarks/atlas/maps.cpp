@@ -45,7 +45,8 @@ Map::Outcome outcomeOf(const Json& row) {
 
 std::string detailOf(const Json& row, const std::string& figure, const std::string& repeat) {
   const std::string why = wordOf(row, "message");
-  return wordOf(row, "outcome") + (figure.empty() ? "" : ", " + figure) + (why.empty() ? "" : ": " + why) + "\n\n" + repeat;
+  return wordOf(row, "outcome") + (figure.empty() ? "" : ", " + figure) + (why.empty() ? "" : ": " + why) + "\n\n" +
+         repeat;
 }
 
 /// Labels of a study that belong to one map. The first group of the pattern is the column, the others make the row.
@@ -61,18 +62,20 @@ struct Rule {
 const Rule rules[] = {
     {"cantilever-stability", R"(dt at ([^ ]+) of the critical step()())", "Surface coupling: time step",
      "step over the critical step", "", "energy_drift_relative"},
-    {"cantilever-stability", R"(stiffness ratio ([^ ]+)()())", "Surface coupling: stiffness", "contact stiffness over E d",
-     "", "energy_drift_relative"},
+    {"cantilever-stability", R"(stiffness ratio ([^ ]+)()())", "Surface coupling: stiffness",
+     "contact stiffness over E d", "", "energy_drift_relative"},
     {"cantilever-stability", R"(width ([^ ]+) d, (Lucy|Gauss)())", "Surface coupling: kernel width",
      "width over the particle's diameter", "kernel", "energy_drift_relative"},
-    {"wave-stability", R"((?:penalty|multiplier), dt at ([^ ]+) of the critical step()())", "Volume coupling: time step",
-     "step over the critical step", "constraint", "ledger_residual_relative"},
-    {"wave-stability", R"((?:penalty|multiplier), weight floor ([^ ,]+)(, dt auto)?())", "Volume coupling: weight floor",
-     "least weight of either model", "constraint", "ledger_residual_relative"},
-    {"wave-stability", R"((?:penalty|multiplier), stiffness ratio ([^ ,]+)(, dt auto)?())", "Volume coupling: modulus ratio",
-     "E of the solid over that of the particles", "constraint", "ledger_residual_relative"},
-    {"wave-stability", R"((?:penalty|multiplier), density ratio ([^ ,]+)(, dt auto)?())", "Volume coupling: density ratio",
-     "density of the solid over that of the particles", "constraint", "ledger_residual_relative"},
+    {"wave-stability", R"((?:penalty|multiplier), dt at ([^ ]+) of the critical step()())",
+     "Volume coupling: time step", "step over the critical step", "constraint", "ledger_residual_relative"},
+    {"wave-stability", R"((?:penalty|multiplier), weight floor ([^ ,]+)(, dt auto)?())",
+     "Volume coupling: weight floor", "least weight of either model", "constraint", "ledger_residual_relative"},
+    {"wave-stability", R"((?:penalty|multiplier), stiffness ratio ([^ ,]+)(, dt auto)?())",
+     "Volume coupling: modulus ratio", "E of the solid over that of the particles", "constraint",
+     "ledger_residual_relative"},
+    {"wave-stability", R"((?:penalty|multiplier), density ratio ([^ ,]+)(, dt auto)?())",
+     "Volume coupling: density ratio", "density of the solid over that of the particles", "constraint",
+     "ledger_residual_relative"},
     {"wave-stability", R"(penalty, penalty ([^ ,]+)(, dt auto)?())", "Volume coupling: penalty", "penalty (Pa/m²)",
      "constraint", "ledger_residual_relative"},
 };
@@ -142,11 +145,12 @@ std::vector<Placed> cellsOfScenes(const Result& study, std::string& x, std::stri
     ++at;
     x = at.key();
     const double share = numberOf(row, "largest_residual_share");
-    placed.push_back({rowName,
-                      at.value(),
-                      {outcomeOfScene(row, share), std::isfinite(share) ? format("%.0e", share) : "",
-                       detailOf(row, std::isfinite(share) ? format("energy left over %.3e of what changed hands", share) : "",
-                                sceneCommand(study, wordOf(row, "label")))}});
+    placed.push_back(
+        {rowName,
+         at.value(),
+         {outcomeOfScene(row, share), std::isfinite(share) ? format("%.0e", share) : "",
+          detailOf(row, std::isfinite(share) ? format("energy left over %.3e of what changed hands", share) : "",
+                   sceneCommand(study, wordOf(row, "label")))}});
   }
   return placed;
 }
@@ -173,10 +177,10 @@ public:
     if (maps_.empty()) return chapter;
     const auto count = [&](Map::Outcome outcome) { return counts_.contains(outcome) ? counts_.at(outcome) : 0; };
     report::Section section{"Stability", {}};
-    section.blocks.push_back(report::Paragraph{
-        format("%zu cells: %d survived, %d refused with a reason, %d failed. Press a cell for what happened and the "
-               "command that repeats it. The number is the relative error of the energy.",
-               rows_.size(), count(Map::Outcome::survived), count(Map::Outcome::refused), count(Map::Outcome::failed))});
+    section.blocks.push_back(report::Paragraph{format(
+        "%zu cells: %d survived, %d refused with a reason, %d failed. Press a cell for what happened and the "
+        "command that repeats it. The number is the relative error of the energy.",
+        rows_.size(), count(Map::Outcome::survived), count(Map::Outcome::refused), count(Map::Outcome::failed))});
     for (const Map& map : maps_) section.blocks.push_back(map);
     chapter.sections.push_back(std::move(section));
     return chapter;

@@ -22,12 +22,13 @@ report::Section studiesOf(const std::vector<Result>& results, const io::KeyValue
   }
   std::string origin;
   for (const auto& [key, value] : provenance) origin += key + ": " + value + "\n";
-  return {"How it was made",
-          {report::Paragraph{report::format("%zu studies in %.0f s. Commands are those of the project's root; numbers are "
-                                            "in atlas.json, atlas_fronts.csv, atlas_map.csv and atlas_prices.csv beside "
-                                            "this page.",
-                                            results.size(), seconds)},
-           std::move(table), report::Listing{"Where these numbers come from", origin}}};
+  return {
+      "How it was made",
+      {report::Paragraph{report::format("%zu studies in %.0f s. Commands are those of the project's root; numbers are "
+                                        "in atlas.json, atlas_fronts.csv, atlas_map.csv and atlas_prices.csv beside "
+                                        "this page.",
+                                        results.size(), seconds)},
+       std::move(table), report::Listing{"Where these numbers come from", origin}}};
 }
 
 void write(const fs::path& folder) {
@@ -56,7 +57,8 @@ int main(int argc, char** argv) {
     program::Options o("atlas_page", "Writes atlas.html and its numbers from the studies that scripts/atlas has run.");
     o.text("FOLDER", folder, "in which runs.json and the results of the studies are").require();
     if (!o.parse(argc, argv)) return true;
-    io::prepareOutputFolder(folder, {"atlas.html", "atlas.json", "atlas_fronts.csv", "atlas_map.csv", "atlas_prices.csv"});
+    io::prepareOutputFolder(folder,
+                            {"atlas.html", "atlas.json", "atlas_fronts.csv", "atlas_map.csv", "atlas_prices.csv"});
     write(folder);
     std::cout << (fs::path(folder) / "atlas.html").string() << '\n';
     return true;

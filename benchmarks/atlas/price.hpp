@@ -31,7 +31,7 @@ inline double median(std::vector<double> values) {
 
 /// Two pieces of work done turn by turn.
 struct Duel {
-  double first = 0.0, second = 0.0;         ///< s per turn: the least of all turns
+  double first = 0.0, second = 0.0;              ///< s per turn: the least of all turns
   double ratio = 0.0, lower = 0.0, upper = 0.0;  ///< second over first: median of the turns, and its quartiles
 };
 /// @param turns  each does the first and the second work, which of them begins alternates

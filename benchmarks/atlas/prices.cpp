@@ -9,13 +9,15 @@ namespace {
 using report::format, report::Json;
 
 void addHandLoop(const Json& hand, report::Section& section) {
-  section.blocks.push_back(report::Paragraph{format(
-      "The barest scene, %.0f frictionless spheres on a lattice: %.2f ns per grain step, where a loop written by hand over "
-      "the same pairs takes %.2f. Ratio, median of turns: %.3f (quartiles %.3f and %.3f); asked: at most 1.05. Positions "
-      "of both differ by %.1e m at the end.",
-      numberOf(hand, "grains"), numberOf(hand, "ns"), numberOf(hand, "hand_ns"), numberOf(hand, "ratio"),
-      numberOf(hand, "ratio_lower_quartile"), numberOf(hand, "ratio_upper_quartile"),
-      numberOf(hand, "largest_difference_m"))});
+  section.blocks.push_back(
+      report::Paragraph{format("The barest scene, %.0f frictionless spheres on a lattice: %.2f ns per grain step, "
+                               "where a loop written by hand over "
+                               "the same pairs takes %.2f. Ratio, median of turns: %.3f (quartiles %.3f and %.3f); "
+                               "asked: at most 1.05. Positions "
+                               "of both differ by %.1e m at the end.",
+                               numberOf(hand, "grains"), numberOf(hand, "ns"), numberOf(hand, "hand_ns"),
+                               numberOf(hand, "ratio"), numberOf(hand, "ratio_lower_quartile"),
+                               numberOf(hand, "ratio_upper_quartile"), numberOf(hand, "largest_difference_m"))});
 }
 
 void addIdle(const Json& rows, report::Section& section) {
@@ -26,9 +28,10 @@ void addIdle(const Json& rows, report::Section& section) {
                           format("%+.2f", 100.0 * numberOf(row, "lower_quartile")),
                           format("%+.2f", 100.0 * numberOf(row, "upper_quartile")),
                           format("%+.2f", numberOf(row, "bytes_per_grain"))});
-  section.blocks.push_back(report::Paragraph{
-      "What is there and not used, over the barest scene, turn by turn; asked: at most 1 % and no byte. \"nothing\" is the "
-      "same scene twice, and tells what the machine's noise is."});
+  section.blocks.push_back(
+      report::Paragraph{"What is there and not used, over the barest scene, turn by turn; asked: at most 1 % and no "
+                        "byte. \"nothing\" is the "
+                        "same scene twice, and tells what the machine's noise is."});
   section.blocks.push_back(std::move(table));
 }
 
@@ -42,14 +45,16 @@ void addLadder(const Json& rows, report::Section& section) {
     time.bars.emplace_back(wordOf(row, "rung"), each);
   }
   section.blocks.push_back(report::Paragraph{
-      "Each rung has all that the rungs above it in the table have (the plate takes the place of the lower wall, the far "
+      "Each rung has all that the rungs above it in the table have (the plate takes the place of the lower wall, the "
+      "far "
       "field that of the upper one). Bytes are all that the scene has allocated, over its grains; one thread."});
   section.blocks.push_back(std::move(table));
   section.blocks.push_back(std::move(time));
 }
 
 void addPrograms(const Result& programs, Chapter& chapter) {
-  report::Table table{{"program", "what it does", "size, MB", "shared libraries", "of them numerical or graphical"}, {}};
+  report::Table table{{"program", "what it does", "size, MB", "shared libraries", "of them numerical or graphical"},
+                      {}};
   for (const Json& row : programs.content) {
     table.rows.push_back({wordOf(row, "program"), wordOf(row, "does"), format("%.2f", 1e-6 * numberOf(row, "bytes")),
                           format("%.0f", numberOf(row, "libraries")), wordOf(row, "packages")});

@@ -19,15 +19,15 @@ struct Result {
   report::Json content;  ///< of its JSON file; null if it left none
 };
 
-/// Reads runs.json in the folder: [{"id", "command", "seconds", "status", "result"}, …], and the files named by "result",
-/// relative to the folder.
+/// Reads runs.json in the folder: [{"id", "command", "seconds", "status", "result"}, …], and the files named by
+/// "result", relative to the folder.
 /// @throws InputError if a file is damaged, or there is no runs.json
 std::vector<Result> readResults(const std::filesystem::path& folder);
 
 /// The result of that name with a content, or null.
 const Result* find(const std::vector<Result>& results, const std::string& id);
 
-double numberOf(const report::Json& row, const std::string& key);  ///< nan unless it is one
+double numberOf(const report::Json& row, const std::string& key);     ///< nan unless it is one
 std::string wordOf(const report::Json& row, const std::string& key);  ///< "" unless it is text
 
 /// A section of the page, and the same numbers as rows.

@@ -5,8 +5,8 @@
 #include <ostream>
 #include <random>
 
-#include "dovetail/report/text.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/report/text.hpp"
 #include "measure.hpp"
 #include "scenes.hpp"
 #include "studies.hpp"
@@ -132,8 +132,8 @@ void studyAccuracy(const Settings& s, std::ostream& out) {
         best.nanoseconds = std::min(best.nanoseconds, collide(law.laws, count, steps).nanoseconds);
       const double error = errorOf(best.motion, reference.motion);
       const double perImpact = 2e-3 * best.nanoseconds * contactTimes * steps;  // µs
-      out << format("%-32s %8d %10.1e %10.1e %12.1f %14.3f\n", steps == 10 ? law.name : "", steps, error,
-                    best.residual, best.nanoseconds, perImpact);
+      out << format("%-32s %8d %10.1e %10.1e %12.1f %14.3f\n", steps == 10 ? law.name : "", steps, error, best.residual,
+                    best.nanoseconds, perImpact);
       rows.push_back({{"law", law.name},
                       {"steps_per_contact", steps},
                       {"error", error},

@@ -4,18 +4,18 @@
 #include <limits>
 #include <ostream>
 
-#include "dovetail/report/text.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/walls.hpp"
-#include "tables.hpp"
+#include "dovetail/report/text.hpp"
 #include "studies.hpp"
+#include "tables.hpp"
 
 namespace dovetail::dem_benchmark {
 
 namespace {
 
-using report::format;
 using dem::Mass;
+using report::format;
 
 template <class Law>
 dem::Model sceneOf(const Law& law, double skin = 0.1) {

@@ -13,7 +13,7 @@ struct Settings {
   std::filesystem::path bed;    ///< spheres of a settled bed, 20 × 20 wide; empty: settle one; peers: folder of scenes
   std::filesystem::path write;  ///< folder: writes the scenes for other programs, and stops
   std::filesystem::path summary;
-  std::string only;  ///< of the stability study: cases whose name holds this
+  std::string only;                        ///< of the stability study: cases whose name holds this
   std::vector<std::string> scenes{"bed"};  ///< of the study of peers
   int steps = 100, warmUp = 300, repeats = 5, threads = 1, copies = 5;
   bool quick = false;  ///< small scenes, few steps: to see whether all runs

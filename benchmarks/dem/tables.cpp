@@ -2,8 +2,8 @@
 
 #include <ostream>
 
-#include "dovetail/report/text.hpp"
 #include "dovetail/io/output_folder.hpp"
+#include "dovetail/report/text.hpp"
 
 namespace dovetail::dem_benchmark {
 

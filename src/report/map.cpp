@@ -34,9 +34,10 @@ std::string cellOf(const Map::Cell& cell, const std::string& title, const std::s
 }  // namespace
 
 std::string htmlOf(const Map& map, int number) {
-  std::string text = "<figure class=\"map\"><figcaption>" + escaped(map.title) + "</figcaption><div class=\"table\"><table>\n";
-  text += "<tr><th></th><th colspan=\"" + std::to_string(map.columns.size()) + "\">" + escaped(map.x) + "</th></tr>\n<tr><th>" +
-          escaped(map.y) + "</th>";
+  std::string text =
+      "<figure class=\"map\"><figcaption>" + escaped(map.title) + "</figcaption><div class=\"table\"><table>\n";
+  text += "<tr><th></th><th colspan=\"" + std::to_string(map.columns.size()) + "\">" + escaped(map.x) +
+          "</th></tr>\n<tr><th>" + escaped(map.y) + "</th>";
   for (const std::string& column : map.columns) text += "<th>" + escaped(column) + "</th>";
   text += "</tr>\n";
   for (std::size_t r = 0; r < map.rows.size(); ++r) {

@@ -128,8 +128,8 @@ std::string htmlOf(const Page& page, const std::string& mark) {
   Html html;
   html.text = "<!doctype html>\n<!-- " + mark + " -->\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" +
               "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" + escaped(page.title) +
-              "</title>\n<style>" + style + figureStyle() + mapStyle() + "</style>\n</head>\n<body>\n<h1>" + escaped(page.title) +
-              "</h1>\n";
+              "</title>\n<style>" + style + figureStyle() + mapStyle() + "</style>\n</head>\n<body>\n<h1>" +
+              escaped(page.title) + "</h1>\n";
   for (const Section& section : page.sections) {
     if (section.blocks.empty()) continue;
     html.text += "<h2>" + escaped(section.heading) + "</h2>\n";

@@ -147,7 +147,8 @@ void describe(Fields& f, Overlap& v) {
   f.choice({"constraint", "what holds the two together"}, v.multipliers, constraints);
   f.numberOrWord({"penalty", "stiffness per volume"}, v.penalty, positive(unit::penalty), automatic);
   f.number({"kernel", "width over which gaps are averaged; 0: none"}, v.kernel, notNegative(unit::length));
-  f.flag({"take_over", "whether the solid begins deformed until it carries its loads and the grains, which should be at rest"},
+  f.flag({"take_over",
+          "whether the solid begins deformed until it carries its loads and the grains, which should be at rest"},
          v.takeOver);
 }
 void describe(Fields& f, Coupling& v) {

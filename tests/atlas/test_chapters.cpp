@@ -50,7 +50,8 @@ TEST(Maps, TellSurvivedRefusedAndFailedWithTheCommandThatRepeatsThem) {
 }
 
 TEST(Maps, OfScenesAskForTheEnergy) {
-  const Result study = resultOf("map: Grains", "dovetail study a.json --over m=1,2 --over k=3,4 --out there", R"({"runs": [
+  const Result study =
+      resultOf("map: Grains", "dovetail study a.json --over m=1,2 --over k=3,4 --out there", R"({"runs": [
     {"label": "m=1, k=3", "outcome": "finished", "message": "", "largest_residual_share": 1e-4, "settings": {"m": "1", "k": "3"}},
     {"label": "m=1, k=4", "outcome": "finished", "message": "", "largest_residual_share": 0.6, "settings": {"m": "1", "k": "4"}},
     {"label": "m=2, k=3", "outcome": "finished", "message": "", "largest_residual_share": null, "settings": {"m": "2", "k": "3"}}]})");

@@ -32,7 +32,8 @@ TEST(HandLoop, MovesTheLatticeAsTheEngineDoes) {
 
 /// Idle features change no digit; bytes are counted, times are for a quiet machine.
 TEST(IdleFeatures, TakeNoBytePerGrain) {
-  for (const IdleFeature& feature : idleFeatures(12, 1, 4)) EXPECT_LT(std::abs(feature.bytesPerGrain), 12.0) << feature.name;
+  for (const IdleFeature& feature : idleFeatures(12, 1, 4))
+    EXPECT_LT(std::abs(feature.bytesPerGrain), 12.0) << feature.name;
 }
 
 TEST(Ladder, EveryRungRunsAndKeepsItsEnergy) {

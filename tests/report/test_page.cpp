@@ -140,7 +140,8 @@ TEST(RunReport, RefusesWhatIsNoRunAndWhatOthersWrote) {
 }
 
 TEST(Page, MapsTellTheirOutcomesAndOpenTheirDetails) {
-  Map map{"Steps", "dt", "mass", {"1", "2"}, {"<heavy>"}, {{{Map::Outcome::survived, "1e-5", "as asked\nrun --dt 1"}, {}}}};
+  Map map{"Steps",    "dt",        "mass",
+          {"1", "2"}, {"<heavy>"}, {{{Map::Outcome::survived, "1e-5", "as asked\nrun --dt 1"}, {}}}};
   map.cells[0][1] = {Map::Outcome::refused, "", "too long"};
   const std::string html = htmlOf({"t", {{"h", {map, map}}}}, "mark");
   for (const char* part : {"class=\"survived\"", ">1e-5</button>", "run --dt 1", "mass &lt;heavy&gt;, dt 2: refused",

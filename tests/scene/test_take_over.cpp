@@ -18,7 +18,8 @@ std::string column(const std::string& more, double modulus) {
          std::to_string(modulus) + R"(},
       "supports": [{"on": "z-"}, {"on": "x-", "components": ["x"]}, {"on": "x+", "components": ["x"]},
                    {"on": "y-", "components": ["y"]}, {"on": "y+", "components": ["y"]}]}],
-    "couplings": [{"type": "overlap", "solid": "soil", "solid_border": 0.4, "particle_border": 0)" + more + R"(}],
+    "couplings": [{"type": "overlap", "solid": "soil", "solid_border": 0.4, "particle_border": 0)" +
+         more + R"(}],
     "steps": {"dt": 1e-5}, "stages": [{"do": "run", "time": 1e-3}]})";
 }
 
