@@ -63,9 +63,11 @@ double PrimitiveWallTerm::move(Model& m, const Step& step) {
   kickWall(wall, 0.5 * (step.closing + step.dt));
   if (wall.motion) {
     const double power = drivingPower(wall);
+    const Vec3 point = wall.point, axis = wall.axis;
     wall.motion(step.time, wall);
-    // The half kick that begins the step has been booked with the velocity of the step before.
-    m.booked.walls += 0.5 * step.dt * (drivingPower(wall) - power);
+    // The half kick that begins the step has been booked with the velocity of the step before. A motion that places the
+    // wall as well gives velocities at instants, which are those of the half kicks on both sides.
+    if (wall.point == point && wall.axis == axis) m.booked.walls += 0.5 * step.dt * (drivingPower(wall) - power);
   }
   drift(wall, step.dt);
   return 0.0;

@@ -1,4 +1,4 @@
-// Cholesky factors by supernodes, made and solved with on several threads.
+// Cholesky factors by supernodes, solved with on several threads.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <numeric>
 
@@ -53,16 +52,23 @@ void solveBelow(Block L, Block B, std::size_t m, std::size_t n) {
   dtrsm_("R", "L", "T", "N", &rows, &columns, &one, L.first, &strideL, B.first, &strideB);
 }
 
+/// body(begin, end) over [0, n), a tile at a time and one after the other: a serial BLAS, OpenBLAS's for one, keeps its
+/// buffers in places that threads would share.
+template <class Body>
+void forTiles(std::size_t n, const Body& body) {
+  for (std::size_t begin = 0; begin < n; begin += tile) body(begin, std::min(begin + tile, n));
+}
+
 /// Columns of L of one supernode, block by block. @param rows  at least as many as columns
 bool factorPanel(Block L, std::size_t rows, std::size_t columns) {
   for (std::size_t j = 0; j < columns; j += block) {
     const std::size_t n = std::min(block, columns - j);
     if (j > 0)
-      parallelFor(rows - j, tile, [&](std::size_t begin, std::size_t end) {
+      forTiles(rows - j, [&](std::size_t begin, std::size_t end) {
         subtractProduct(L.part(j + begin, 0), L.part(j, 0), L.part(j + begin, j), end - begin, n, j);
       });
     if (!factorDiagonal(L.part(j, j), n)) return false;
-    parallelFor(rows - j - n, tile, [&](std::size_t begin, std::size_t end) {
+    forTiles(rows - j - n, [&](std::size_t begin, std::size_t end) {
       solveBelow(L.part(j, j), L.part(j + n + begin, j), end - begin, n);
     });
   }
@@ -71,15 +77,11 @@ bool factorPanel(Block L, std::size_t rows, std::size_t columns) {
 
 /// C −= B Bᵀ on and below the diagonal, and somewhat above.
 void subtractSquare(Block B, Block C, std::size_t rows, std::size_t columns) {
-  const std::size_t tiles = (rows + tile - 1) / tile;
-  parallelFor(tiles * (tiles + 1) / 2, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      std::size_t j = 0, before = 0;
-      while (before + tiles - j <= t) before += tiles - j++;
-      const std::size_t row = (j + t - before) * tile, column = j * tile;
-      subtractProduct(B.part(row, 0), B.part(column, 0), C.part(row, column), std::min(tile, rows - row),
-                      std::min(tile, rows - column), columns);
-    }
+  forTiles(rows, [&](std::size_t left, std::size_t right) {
+    forTiles(rows - left, [&](std::size_t begin, std::size_t end) {
+      subtractProduct(B.part(left + begin, 0), B.part(left, 0), C.part(left + begin, left), end - begin, right - left,
+                      columns);
+    });
   });
 }
 
@@ -89,17 +91,10 @@ public:
       : L_(L), plan_(plan), A_(A), values_(values), update_(L.supernodes()) {}
 
   bool factorise() {
-    std::atomic<bool> works{true};
-    const auto follow = [&](std::size_t s, std::vector<int>& place) {
-      if (works && !eliminate(s, place)) works = false;
-    };
-    parallelTasks(plan_.subtrees.size(), [&](std::size_t task) {
-      std::vector<int> place(L_.size());
-      for (std::size_t s = plan_.subtrees[task].begin; s < plan_.subtrees[task].end; ++s) follow(s, place);
-    });
     std::vector<int> place(L_.size());
-    for (const std::size_t s : plan_.above) follow(s, place);
-    return works;
+    for (std::size_t s = 0; s < L_.supernodes(); ++s)
+      if (!eliminate(s, place)) return false;
+    return true;
   }
 
 private:

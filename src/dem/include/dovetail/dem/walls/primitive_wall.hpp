@@ -64,7 +64,8 @@ struct PrimitiveWall {
   /// the wall, which it does not move.
   Vec3 surfaceVelocity;
   int material = 0;  ///< row of a LawTable
-  /// Sets velocity and angularVelocity for the step that ends at `time`, s; empty: they stay.
+  /// Sets velocity and angularVelocity for the step that ends at `time`, s; empty: they stay. If it sets point or axis
+  /// too, whence the wall drifts, the velocities are those at `time`.
   std::function<void(double time, PrimitiveWall& wall)> motion;
   std::optional<WallServo> servo;  ///< what moves it along the servo's direction, where `velocity` then follows
   /// m: particles closer than their radius + skin are looked at. Unset: 0.15 of their mean diameter; 0: all, at every
