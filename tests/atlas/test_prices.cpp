@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "dem/scenes.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -34,8 +35,9 @@ TEST(HandLoop, MovesTheLatticeAsTheEngineDoes) {
 /// Idle features change no digit; bytes are counted, times are for a quiet machine.
 TEST(IdleFeatures, TakeNoBytePerGrain) {
   setThreads(1);  // what other threads allocate is not counted
-  for (const IdleFeature& feature : idleFeatures(12, 1, 4))
-    EXPECT_LT(std::abs(feature.bytesPerGrain), 12.0) << feature.name;
+  const std::vector<IdleFeature> features = idleFeatures(12, 1, 4);
+  for (const IdleFeature& feature : features)  // the first one is the bare scene once more
+    EXPECT_LT(std::abs(feature.bytesPerGrain - features[0].bytesPerGrain), 2.0) << feature.name;
 }
 
 TEST(Ladder, EveryRungRunsAndKeepsItsEnergy) {
