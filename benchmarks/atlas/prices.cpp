@@ -8,81 +8,101 @@ namespace {
 
 using report::format, report::Json;
 
+std::string percent(const Json& row, const std::string& key) { return format("%+.2f", 100.0 * numberOf(row, key)); }
+
+/// "12 / 9", each of them times a factor.
+std::string pairOf(const char* pattern, double factor, const Json& row, const std::string& scene,
+                   const std::string& program) {
+  return format(pattern, factor * numberOf(row, scene)) + " / " + format(pattern, factor * numberOf(row, program));
+}
+
 void addHandLoop(const Json& hand, report::Section& section) {
-  section.blocks.push_back(
-      report::Paragraph{format("The barest scene, %.0f frictionless spheres on a lattice: %.2f ns per grain step, "
-                               "where a loop written by hand over "
-                               "the same pairs takes %.2f. Ratio, median of turns: %.3f (quartiles %.3f and %.3f); "
-                               "asked: at most 1.05. Positions "
-                               "of both differ by %.1e m at the end.",
-                               numberOf(hand, "grains"), numberOf(hand, "ns"), numberOf(hand, "hand_ns"),
-                               numberOf(hand, "ratio"), numberOf(hand, "ratio_lower_quartile"),
-                               numberOf(hand, "ratio_upper_quartile"), numberOf(hand, "largest_difference_m"))});
+  section.blocks.push_back(report::Paragraph{format(
+      "The barest scene, %.0f frictionless spheres on a lattice: %.2f ns per grain step, where a loop written by hand "
+      "over the same pairs takes %.2f. Ratio, median of turns: %.3f (quartiles %.3f and %.3f); asked: at most 1.05. "
+      "Positions of both differ by %.1e m at the end.",
+      numberOf(hand, "grains"), numberOf(hand, "ns"), numberOf(hand, "hand_ns"), numberOf(hand, "ratio"),
+      numberOf(hand, "ratio_lower_quartile"), numberOf(hand, "ratio_upper_quartile"),
+      numberOf(hand, "largest_difference_m"))});
 }
 
-void addIdle(const Json& rows, report::Section& section) {
-  report::Table table{
-      {"there, but not used", "time, % (median)", "lower quartile", "upper quartile", "bytes per grain"}, {}};
+void addFeatures(const Json& rows, report::Section& section) {
+  const std::vector<std::string> head{"ns per grain step", "over the barest scene, %", "lower quartile",
+                                      "upper quartile", "bytes per grain"};
+  report::Table idle{head, {}}, used{head, {}};
+  idle.head.insert(idle.head.begin(), "there, but not used");
+  used.head.insert(used.head.begin(), "used");
   for (const Json& row : rows)
-    table.rows.push_back({wordOf(row, "feature"), format("%+.2f", 100.0 * numberOf(row, "cost_share")),
-                          format("%+.2f", 100.0 * numberOf(row, "lower_quartile")),
-                          format("%+.2f", 100.0 * numberOf(row, "upper_quartile")),
-                          format("%+.2f", numberOf(row, "bytes_per_grain"))});
+    (row.value("used", false) ? used : idle)
+        .rows.push_back({wordOf(row, "feature"), format("%.1f", numberOf(row, "ns")), percent(row, "cost_share"),
+                         percent(row, "lower_quartile"), percent(row, "upper_quartile"),
+                         format("%+.1f", numberOf(row, "bytes_per_grain"))});
   section.blocks.push_back(
-      report::Paragraph{"What is there and not used, over the barest scene, turn by turn; asked: at most 1 % and no "
-                        "byte. \"nothing\" is the "
-                        "same scene twice, and tells what the machine's noise is."});
-  section.blocks.push_back(std::move(table));
+      report::Paragraph{"Single features over the barest scene, turn by turn, medians and quartiles; asked of what is "
+                        "not used: at most 1 % and no byte. \"nothing\" is the same scene twice, and tells the noise "
+                        "of the machine."});
+  section.blocks.push_back(std::move(idle));
+  section.blocks.push_back(std::move(used));
 }
 
-void addLadder(const Json& rows, report::Section& section) {
-  report::Table table{{"scene", "grains", "ns per grain step", "bytes per grain", "libraries of the project"}, {}};
-  report::Figure time{"ladder", "Time of a rung", {"", false}, {"ns per grain step", false}, {}, {}};
-  for (const Json& row : rows) {
-    const double each = numberOf(row, "ns_per_grain_step");
-    table.rows.push_back({wordOf(row, "rung"), format("%.0f", numberOf(row, "grains")), format("%.1f", each),
-                          format("%.0f", numberOf(row, "bytes_per_grain")), wordOf(row, "components")});
-    time.bars.emplace_back(wordOf(row, "rung"), each);
-  }
-  section.blocks.push_back(report::Paragraph{
-      "Each rung has all that the rungs above it in the table have (the plate takes the place of the lower wall, the "
-      "far "
-      "field that of the upper one). Bytes are all that the scene has allocated, over its grains; one thread."});
-  section.blocks.push_back(std::move(table));
-  section.blocks.push_back(std::move(time));
+std::string profileOf(const Json& rows) {
+  std::string text;
+  for (const Json& row : rows)
+    text += (text.empty() ? "" : ", ") + wordOf(row, "part") + format(" %.0f", 100.0 * numberOf(row, "share"));
+  return text;
 }
 
-void addPrograms(const Result& programs, Chapter& chapter) {
-  report::Table table{{"program", "what it does", "size, MB", "shared libraries", "of them numerical or graphical"},
+void addParts(const Json& content, report::Section& section) {
+  const std::string unit = wordOf(content, "unit");
+  report::Table table{{"parts", "grains", "elements", "program, MB", "libraries", "start-up, ms", "bytes each",
+                       "steps, " + unit, "scene costs, %"},
                       {}};
-  for (const Json& row : programs.content) {
-    table.rows.push_back({wordOf(row, "program"), wordOf(row, "does"), format("%.2f", 1e-6 * numberOf(row, "bytes")),
-                          format("%.0f", numberOf(row, "libraries")), wordOf(row, "packages")});
-    chapter.rows.push_back(row);
+  report::Table profiles{{"parts", "where a scene's steps go, %"}, {}};
+  for (const Json& row : content["parts"]) {
+    table.rows.push_back(
+        {wordOf(row, "part"), format("%.0f", numberOf(row, "grains")), format("%.0f", numberOf(row, "elements")),
+         format("%.1f", 1e-6 * numberOf(row, "bytes")), std::to_string(row["libraries"].size()),
+         pairOf("%.0f", 1e3, row, "start_scene_s", "start_program_s"),
+         pairOf("%.0f", 1.0, row, "bytes_each_scene", "bytes_each_program"),
+         pairOf("%.3g", 1.0, row, "cost_scene", "cost_program"),
+         format("%+.1f", 100.0 * (numberOf(row, "cost_scene") / numberOf(row, "cost_program") - 1.0))});
+    profiles.rows.push_back({wordOf(row, "part"), profileOf(row["profile"])});
   }
-  chapter.sections.back().blocks.push_back(report::Paragraph{"What programs link, as ldd lists it:"});
-  chapter.sections.back().blocks.push_back(std::move(table));
+  section.blocks.push_back(report::Paragraph{format(
+      "The same scenes by dovetail and by C++ programs that link no more than they use (scene / program): size without "
+      "symbols, libraries beside the system's, start-up, growth of the peak of memory per grain or element, %.0f "
+      "steps, one thread. dovetail itself: %.1f MB, %zu libraries.",
+      numberOf(content["parts"][0], "steps"), 1e-6 * numberOf(content["dovetail"], "bytes"),
+      content["dovetail"]["libraries"].size())});
+  section.blocks.push_back(std::move(table));
+  section.blocks.push_back(std::move(profiles));
+}
+
+/// The numbers alone: lists become what they count or say.
+void addRows(const Json& content, Chapter& chapter) {
+  for (const char* part : {"by_hand", "features", "parts", "dovetail"}) {
+    const Json rows = content[part].is_array() ? content[part] : Json::array({content[part]});
+    for (Json row : rows) {
+      if (row.contains("libraries")) row["libraries"] = row["libraries"].size();
+      if (row.contains("profile")) row["profile"] = profileOf(row["profile"]);
+      row["table"] = part;
+      chapter.rows.push_back(std::move(row));
+    }
+  }
 }
 
 }  // namespace
 
 Chapter pricesOf(const std::vector<Result>& results) {
   Chapter chapter;
-  const Result* const ladder = find(results, "ladder");
-  if (!ladder) return chapter;
+  const Result* const prices = find(results, "prices");
+  if (!prices) return chapter;
   report::Section section{"What a scene pays", {}};
-  addHandLoop(ladder->content["by_hand"], section);
-  addIdle(ladder->content["idle"], section);
-  addLadder(ladder->content["ladder"], section);
-  for (const char* part : {"by_hand", "idle", "ladder"}) {
-    const Json rows = ladder->content[part].is_array() ? ladder->content[part] : Json::array({ladder->content[part]});
-    for (Json row : rows) {
-      row["part"] = part;
-      chapter.rows.push_back(std::move(row));
-    }
-  }
+  addHandLoop(prices->content["by_hand"], section);
+  addFeatures(prices->content["features"], section);
+  addParts(prices->content, section);
+  addRows(prices->content, chapter);
   chapter.sections.push_back(std::move(section));
-  if (const Result* const programs = find(results, "programs")) addPrograms(*programs, chapter);
   return chapter;
 }
 

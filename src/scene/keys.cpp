@@ -40,7 +40,8 @@ void describe(Fields& f, Steps& v) {
   static constexpr const char* automatic[] = {"auto"};
   f.where(v.where);
   f.numberOrWord({"dt", "time step of the grains"}, v.dt, positive(unit::time), automatic);
-  f.number({"safety", "share of the critical step that \"auto\" takes"}, v.safety, between(0.0, 1.0, true));
+  f.number({"safety", "share of the critical step that \"auto\" takes; impacts take eight steps, or more"}, v.safety,
+           between(0.0, 1.0, true));
   f.integer({"per_window", "K: steps of the grains per step of the solids"}, v.stepsPerWindow, 1, 100000);
   f.integer({"threads", "0: one per processor; results are the same for any number"}, v.threads, 0, 1024);
 }

@@ -53,7 +53,7 @@ TEST(Maps, OfScenesAskForTheEnergy) {
   const Result study =
       resultOf("map: Grains", "dovetail study a.json --over m=1,2 --over k=3,4 --out there", R"({"runs": [
     {"label": "m=1, k=3", "outcome": "finished", "message": "", "largest_residual_share": 1e-4, "settings": {"m": "1", "k": "3"}},
-    {"label": "m=1, k=4", "outcome": "finished", "message": "", "largest_residual_share": 0.6, "settings": {"m": "1", "k": "4"}},
+    {"label": "m=1, k=4", "outcome": "finished", "message": "", "largest_residual_share": 0.12, "settings": {"m": "1", "k": "4"}},
     {"label": "m=2, k=3", "outcome": "finished", "message": "", "largest_residual_share": null, "settings": {"m": "2", "k": "3"}}]})");
   const Chapter chapter = mapsOf({study});
   ASSERT_EQ(chapter.rows.size(), 3u);
@@ -62,6 +62,24 @@ TEST(Maps, OfScenesAskForTheEnergy) {
   EXPECT_EQ(chapter.rows[2]["outcome"], "failed");  // nothing is known of its energy
   EXPECT_NE(chapter.rows[1]["detail"].get<std::string>().find("dovetail run a.json --set 'm=1' --set 'k=4'"),
             std::string::npos);
+}
+
+TEST(Prices, AreTablesAndRowsOfNumbers) {
+  const Result study = resultOf("prices", "scripts/prices", R"({"unit": "s",
+    "by_hand": {"grains": 27000, "hand_ns": 23, "ns": 24, "ratio": 1.04, "ratio_lower_quartile": 1.03, "ratio_upper_quartile": 1.06},
+    "features": [{"feature": "nothing", "used": false, "ns": 24, "cost_share": 0.001},
+                 {"feature": "friction", "used": true, "ns": 60, "cost_share": 1.5, "bytes_per_grain": 137}],
+    "parts": [{"part": "grains only", "grains": 8000, "elements": 0, "bytes": 1500000, "libraries": ["libA", "libB"],
+               "start_scene_s": 0.02, "start_program_s": 0.01, "bytes_each_scene": 580, "bytes_each_program": 570, "steps": 100,
+               "cost_scene": 1.01, "cost_program": 1.0, "profile": [{"part": "pairs", "share": 0.8}, {"part": "move", "share": 0.2}]}],
+    "dovetail": {"bytes": 9000000, "libraries": ["libA"]}})");
+  const Chapter chapter = pricesOf({study});
+  ASSERT_EQ(chapter.rows.size(), 5u);
+  EXPECT_EQ(chapter.rows[3]["libraries"], 2);
+  EXPECT_EQ(chapter.rows[3]["profile"], "pairs 80, move 20");
+  const std::string page = report::markdownOf({"Prices", chapter.sections}, "");
+  for (const char* const told : {"1.040", "nothing", "friction", "+150.00", "20 / 10", "+1.0", "9.0 MB, 1 libraries"})
+    EXPECT_NE(page.find(told), std::string::npos) << told << " in " << page;
 }
 
 TEST(Results, AreReadFromTheirFolderOrRefused) {

@@ -5,11 +5,10 @@
 
 #include "dem/scenes.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "features.hpp"
 #include "hand_loop.hpp"
-#include "idle_features.hpp"
-#include "rungs.hpp"
 
-namespace dovetail::atlas {
+namespace dovetail::prices {
 namespace {
 
 /// The loop that times are compared with does the same work: it gives the same motion.
@@ -32,26 +31,19 @@ TEST(HandLoop, MovesTheLatticeAsTheEngineDoes) {
   EXPECT_LT(apart, 1e-12);
 }
 
-/// Idle features change no digit; bytes are counted, times are for a quiet machine.
-TEST(IdleFeatures, TakeNoBytePerGrain) {
+/// Bytes are counted; times are for a quiet machine.
+TEST(Features, TakeNoBytePerGrainUnlessUsed) {
   setThreads(1);  // what other threads allocate is not counted
-  const std::vector<IdleFeature> features = idleFeatures(12, 1, 4);
-  for (const IdleFeature& feature : features)  // the first one is the bare scene once more
-    EXPECT_LT(std::abs(feature.bytesPerGrain - features[0].bytesPerGrain), 2.0) << feature.name;
-}
-
-TEST(Ladder, EveryRungRunsAndKeepsItsEnergy) {
-  for (std::size_t rung = 0; rung < ladder().size(); ++rung) {
-    const auto run = makeRung(rung, 12);
-    run->start(dem_benchmark::timeStep);
-    run->advance(50);
-    if (rung == 0) continue;  // books nothing
-    double turned = 0.0;
-    for (const auto& channel : run->ledger().channels()) turned += std::abs(channel.joules - channel.joulesAtOpening);
-    EXPECT_GT(turned, 0.0) << ladder()[rung].name;
-    EXPECT_LT(std::abs(run->ledger().residual()), 1e-3 * turned) << ladder()[rung].name;
+  const std::vector<Feature> features = featuresOf(12, 1, 4);
+  const double noise = features[0].bytesPerGrain;  // of the bare scene once more
+  double most = 0.0;
+  for (const Feature& feature : features) {
+    EXPECT_GT(feature.time.second, 0.0) << feature.name;
+    if (!feature.used) EXPECT_LT(std::abs(feature.bytesPerGrain - noise), 2.0) << feature.name;
+    if (feature.used) most = std::max(most, feature.bytesPerGrain - noise);
   }
+  EXPECT_GT(most, 72.0);  // three pairs a grain remember three numbers each
 }
 
 }  // namespace
-}  // namespace dovetail::atlas
+}  // namespace dovetail::prices

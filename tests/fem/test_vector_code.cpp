@@ -1,8 +1,8 @@
 // The code for wide registers and the portable one give the same digits.
 #include <gtest/gtest.h>
 
+#include "../core/every_vector_code.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
-#include "dovetail/fem/laws/vector_code.hpp"
 #include "dovetail/fem/laws/viscosity.hpp"
 #include "plastic_laws.hpp"
 #include "solid_helpers.hpp"
@@ -10,24 +10,7 @@
 namespace dovetail::fem {
 namespace {
 
-/// What a function of no arguments gives with every version of the code that the processor can run.
-template <class Function>
-void expectSameDigits(const std::string& what, Function&& numbers) {
-  using enum detail::VectorCode;
-  const detail::VectorCode best = detail::vectorCode();
-  if (best == portable) GTEST_SKIP() << "the processor has no wide registers";
-  detail::vectorCode() = portable;
-  const std::vector<double> expected = numbers();
-  for (const detail::VectorCode code : {avx2, avx512}) {
-    if (code > best) break;
-    detail::vectorCode() = code;
-    const std::vector<double> wide = numbers();
-    detail::vectorCode() = best;
-    ASSERT_EQ(wide.size(), expected.size());
-    for (std::size_t i = 0; i < wide.size(); ++i)
-      ASSERT_EQ(wide[i], expected[i]) << what << ", number " << i << ", version " << static_cast<int>(code);
-  }
-}
+using test::expectSameDigitsOfEveryVectorCode;
 
 std::vector<Named> timedAndOwn() {
   std::vector<Named> named = laws();
@@ -42,7 +25,7 @@ std::vector<Named> timedAndOwn() {
 
 TEST(VectorCode, GivesTheDigitsOfPortableCodeForEveryLaw) {
   for (const Named& law : timedAndOwn())
-    expectSameDigits(law.name, [&] {
+    expectSameDigitsOfEveryVectorCode(law.name, [&] {
       std::mt19937 random(5);
       std::vector<double> numbers;
       std::vector<double> history = freshHistory(*law.material);
@@ -62,7 +45,7 @@ TEST(VectorCode, GivesTheDigitsOfPortableCodeForEveryLaw) {
 
 TEST(VectorCode, GivesTheDigitsOfPortableCodeForEveryElement) {
   for (const SolidKind& kind : allSolidKinds())
-    expectSameDigits(kind.label(), [&] {
+    expectSameDigitsOfEveryVectorCode(kind.label(), [&] {
       SolidScene scene = solidScene(kind, true);
       setRandom(scene.model.nodes.u, 0.02, 7);
       const std::vector<Vec3> f = forcesOf(*scene.solid, scene.model.nodes);
@@ -77,7 +60,7 @@ TEST(VectorCode, GivesTheDigitsOfPortableCodeForEveryElement) {
 TEST(VectorCode, GivesTheDigitsOfPortableCodeForTheKernelsOfBricks) {
   for (const Formulation formulation : {Formulation::standard, Formulation::assumedStress})
     for (const bool distorted : {false, true})
-      expectSameDigits("kernel", [&] {
+      expectSameDigitsOfEveryVectorCode("kernel", [&] {
         SolidScene scene = sceneOf(testMesh({2, 3, 3}, distorted), formulation, StVenantKirchhoff{1.0e6, 0.3, 1.0});
         Nodes& nodes = scene.model.nodes;
         setRandom(nodes.u, 0.01, 3);

@@ -4,7 +4,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "../io/scratch_folder.hpp"
@@ -136,6 +138,43 @@ TEST(SceneParts, StepsThatAreAutomaticAreAShareOfTheSmallestLimit) {
   EXPECT_EQ(built.run->dt(), 0.1 * smallest);
 }
 
+/// Two spheres of mass 4.19 kg that are about to meet.
+Scene twoSpheres(const std::string& contact, const std::string& safety) {
+  return sceneFromText(R"({"contact": {"law": "linear", "stiffness": 1e4, )" + contact + R"(},
+      "particles": [{"from": "list", "density": 1000, "spheres": [
+        {"at": [0, 0, 0], "radius": 0.1, "velocity": [0.4, 0.2, 0]}, {"at": [0.20001, 0, 0], "radius": 0.1}]}],
+      "steps": {"dt": "auto", "safety": )" +
+                           safety + R"(}, "stages": [{"do": "run", "time": 0.1}], "output": {"series": 1e-3}})",
+                       "s.json", "/");
+}
+
+TEST(SceneParts, AutomaticStepsGoThroughImpacts) {
+  const std::string rebounds = R"("restitution": 0.8, "friction": 0.3)";
+  const Built bold = started(twoSpheres(rebounds, "1")), careful = started(twoSpheres(rebounds, "0.05"));
+  const double halfPeriod = std::numbers::pi * std::sqrt(0.5 * bold.run->grains.particles.mass[0] / 1e4);
+  EXPECT_NEAR(bold.run->dt(), 0.4 / std::numbers::pi * halfPeriod, 1e-12 * halfPeriod);
+  ASSERT_EQ(bold.notes.size(), 1U);
+  expectParts(bold.notes[0], {"eight steps", "impact", "steps.dt"});
+  EXPECT_NEAR(careful.run->dt(), 0.1 / std::numbers::pi * halfPeriod, 1e-12 * halfPeriod);
+  EXPECT_TRUE(careful.notes.empty());
+  const Built bonded = started(twoSpheres(R"("bonded": true)", "0.9"));  // meets nobody anew
+  EXPECT_NEAR(bonded.run->dt(), 1.8 / std::numbers::pi * halfPeriod, 1e-12 * halfPeriod);
+}
+
+/// However large a share of the limit is asked for.
+TEST(SceneParts, AutomaticStepsKeepTheEnergyOfImpacts) {
+  const ScratchFolder folder;
+  std::ostringstream log;
+  ASSERT_TRUE(run(twoSpheres(R"("restitution": 0.8, "friction": 0.3)", "1"),
+                  {.folder = folder.path(), .progress = false}, log));
+  const io::TimeSeries series = io::readCsv(folder / "series.csv");
+  const auto kinetic = series.column("particles_kinetic_J"), residual = series.column("residual_J");
+  const double changedHands = kinetic.front() - *std::min_element(kinetic.begin(), kinetic.end());
+  EXPECT_GT(changedHands, 0.3 * kinetic.front());
+  EXPECT_LT(kinetic.front() - kinetic.back(), 0.5 * changedHands);  // they have parted again
+  EXPECT_LT(std::abs(residual.back()), 0.05 * changedHands);
+}
+
 /// In a process of its own, which has little address space.
 TEST(SceneParts, WhatMemoryDoesNotHoldIsRefusedBeforeItIsTaken) {
   const auto refused = [](const std::string& middle) {
@@ -145,14 +184,14 @@ TEST(SceneParts, WhatMemoryDoesNotHoldIsRefusedBeforeItIsTaken) {
       setrlimit(RLIMIT_AS, &limit);
       const std::string message = refusalOfRun(middle);
       ::_exit(message.find("of memory, and") != std::string::npos && message.find("[s.json:") != std::string::npos ? 0
-                                                                                                                  : 1);
+                                                                                                                   : 1);
     }
     int status = 0;
     ::waitpid(child, &status, 0);
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
   };
-  EXPECT_TRUE(refused(
-      R"("particles": [{"from": "lattice", "box": [[0, 0, 0], [1, 1, 1]], "radius": 1.2e-3, "density": 1}],)"));
+  EXPECT_TRUE(
+      refused(R"("particles": [{"from": "lattice", "box": [[0, 0, 0], [1, 1, 1]], "radius": 1.2e-3, "density": 1}],)"));
   EXPECT_TRUE(refused(
       R"("particles": [{"from": "packing", "box": [[0, 0, 0], [1, 1, 1]], "radius": {"smallest": 1e-3, "largest": 1.4e-3},
           "density": 1}],)"));

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/vector_code.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
 #include "vectors.hpp"
 
@@ -11,11 +12,13 @@ namespace dovetail::dem::detail {
 
 namespace {
 
-/// Separations, velocities and, if they turn, spins. Places up to the next multiple of four repeat the last pair.
+/// What is asked of the motion of two particles, each with what stands before it.
+enum class Asked { places, velocities, spinSums, spinDifferences };
+
+/// Places up to the next multiple of four repeat the last pair.
 /// @tparam within  none of the pairs is of the last particle, behind which nothing may be read
-template <bool turns, bool within>
-void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, bool spinDifferences,
-                  ContactBlock& block) {
+template <Asked asked, bool within>
+void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, ContactBlock& block) {
   const Vec3 *const x = particles.x.data(), *const v = particles.v.data(), *const omega = particles.omega.data();
   const auto four = [&](std::size_t l, const std::array<int, 2>* of) {
     const auto apart = [&](const Vec3* values, int k) {
@@ -25,12 +28,12 @@ void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, s
       return load<within>(values[of[k][0]]) + load<within>(values[of[k][1]]);
     };
     setRows(block.separation, l, apart(x, 0), apart(x, 1), apart(x, 2), apart(x, 3));
-    setRows(block.velocity, l, apart(v, 0), apart(v, 1), apart(v, 2), apart(v, 3));
-    if constexpr (turns) {
+    if constexpr (asked >= Asked::velocities)
+      setRows(block.velocity, l, apart(v, 0), apart(v, 1), apart(v, 2), apart(v, 3));
+    if constexpr (asked >= Asked::spinSums)
       setRows(block.spinSum, l, sum(omega, 0), sum(omega, 1), sum(omega, 2), sum(omega, 3));
-      if (spinDifferences)
-        setRows(block.spinDifference, l, apart(omega, 0), apart(omega, 1), apart(omega, 2), apart(omega, 3));
-    }
+    if constexpr (asked >= Asked::spinDifferences)
+      setRows(block.spinDifference, l, apart(omega, 0), apart(omega, 1), apart(omega, 2), apart(omega, 3));
   };
   std::size_t l = 0;
   for (; l + 4 <= n; l += 4) four(l, pairs + l);
@@ -40,24 +43,29 @@ void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, s
   four(l, rest.data());
 }
 
-void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, const PairRows& rows,
-                  bool within, ContactBlock& block) {
-  if (rows.turns)
-    within ? gatherStates<true, true>(particles, pairs, n, rows.spinDifferences, block)
-           : gatherStates<true, false>(particles, pairs, n, rows.spinDifferences, block);
-  else
-    within ? gatherStates<false, true>(particles, pairs, n, false, block)
-           : gatherStates<false, false>(particles, pairs, n, false, block);
+template <Asked asked>
+void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, bool within,
+                  ContactBlock& block) {
+  withVectors([&] {
+    within ? gatherStates<asked, true>(particles, pairs, n, block)
+           : gatherStates<asked, false>(particles, pairs, n, block);
+  });
 }
 
-void gatherRadii(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, bool same,
-                 ContactBlock& block) {
+void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, const PairRows& rows,
+                  bool within, ContactBlock& block) {
+  if (rows.turns && rows.spinDifferences)
+    gatherStates<Asked::spinDifferences>(particles, pairs, n, within, block);
+  else if (rows.turns)
+    gatherStates<Asked::spinSums>(particles, pairs, n, within, block);
+  else if (rows.velocities)
+    gatherStates<Asked::velocities>(particles, pairs, n, within, block);
+  else
+    gatherStates<Asked::places>(particles, pairs, n, within, block);
+}
+
+void gatherRadii(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, ContactBlock& block) {
   const double* const radius = particles.radius.data();
-  if (same) {
-    std::fill_n(block.radiusI.begin(), n, radius[0]);
-    std::fill_n(block.radiusJ.begin(), n, radius[0]);
-    return;
-  }
   for (std::size_t l = 0; l < n; ++l) {
     block.radiusI[l] = radius[pairs[l][0]];
     block.radiusJ[l] = radius[pairs[l][1]];
@@ -147,7 +155,7 @@ void requireMaterials(const Particles& particles, int materials) {
 void findUniform(const Particles& particles, PairRows& rows) {
   requireMaterials(particles, rows.materials);
   // Where the ends differ nobody looks between them: sizes are either the same or mixed, as a rule.
-  const auto uniform = [](const std::vector<double>& values) {
+  const auto uniform = [](const auto& values) {
     if (values.empty() || values.front() != values.back()) return false;
     return parallelSum(values.size(), 16384, [&](std::size_t begin, std::size_t end) {
              int differ = 0;
@@ -155,6 +163,8 @@ void findUniform(const Particles& particles, PairRows& rows) {
              return differ;
            }) == 0;
   };
+  if (rows.materials > 1 && !particles.material.empty())
+    rows.material = uniform(particles.material) ? particles.material[0] : -1;
   rows.oneRadius = uniform(particles.radius);
   rows.turns = rows.spins && particles.rotates();
   rows.spinDifferences = rows.rolls || !rows.oneRadius;
@@ -167,6 +177,11 @@ void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& 
     row.y.fill(0.0);
     row.z.fill(0.0);
   };
+  if (!rows.velocities) clear(block.velocity);
+  if (rows.oneRadius) {
+    block.radiusI.fill(particles.radius[0]);
+    block.radiusJ.fill(particles.radius[0]);
+  }
   if (rows.spins && !rows.turns) clear(block.spinSum);
   if (rows.spins && !(rows.turns && rows.spinDifferences)) clear(block.spinDifference);
   if (!rows.mass)
@@ -218,7 +233,7 @@ std::size_t gatherPairs(const Particles& particles, PairParts& list, const PairR
     const std::size_t l = image.pair - first;
     block.separation.set(l, block.separation.at(l) + shiftOf(list.periodicity, image));
   }
-  gatherRadii(particles, pairs, n, rows.oneRadius, block);
+  if (!rows.oneRadius) gatherRadii(particles, pairs, n, block);
   if (rows.mass && !rows.oneMass) gatherMasses(particles, {pairs, n}, block);
   if (rows.radius && !rows.oneRadius) makeRadii(n, block);
   if (rows.varied) gatherVaried(particles, list, first, rows.materials, n, block);
@@ -231,12 +246,14 @@ std::size_t gatherPairs(const Particles& particles, PairParts& list, const PairR
 
 void scatterPairs(const PairParts& list, const PairRows& rows, std::size_t n, PairCursor& cursor,
                   const ContactBlock& block) {
-  if (!rows.turns)
-    addToSums<false, false>(list, cursor, n, block);
-  else if (rows.spinDifferences)
-    addToSums<true, false>(list, cursor, n, block);
-  else
-    addToSums<true, true>(list, cursor, n, block);
+  withVectors([&] {
+    if (!rows.turns)
+      addToSums<false, false>(list, cursor, n, block);
+    else if (rows.spinDifferences)
+      addToSums<true, false>(list, cursor, n, block);
+    else
+      addToSums<true, true>(list, cursor, n, block);
+  });
   cursor.pair += n;
 }
 

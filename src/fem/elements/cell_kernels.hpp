@@ -1,7 +1,7 @@
 // From displacements of four elements to deformation gradients, and from stresses and moduli to forces and tangents.
 #pragma once
 
-#include "dovetail/fem/laws/vector_code.hpp"
+#include "dovetail/core/vector_code.hpp"
 #include "solid_base.hpp"
 
 namespace dovetail::fem::detail {

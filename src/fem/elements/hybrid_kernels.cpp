@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dovetail/fem/laws/vector_code.hpp"
+#include "dovetail/core/vector_code.hpp"
 #include "hybrid_tangent.hpp"
 
 namespace dovetail::fem::detail::bricks {

@@ -1,7 +1,7 @@
 // The kernels of hex8, and the choice of the kernel of a batch.
 #pragma once
 
-#include "dovetail/fem/laws/vector_code.hpp"
+#include "dovetail/core/vector_code.hpp"
 #include "kernels.hpp"
 #include "lane_laws.hpp"
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "dovetail/core/finite.hpp"
-#include "dovetail/fem/laws/vector_code.hpp"
+#include "dovetail/core/vector_code.hpp"
 #include "log_laws.hpp"
 
 namespace dovetail::fem::detail {

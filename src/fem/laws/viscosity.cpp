@@ -6,9 +6,9 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/vector_code.hpp"
 #include "dovetail/fem/laws/lanes.hpp"
 #include "dovetail/fem/laws/materials.hpp"
-#include "dovetail/fem/laws/vector_code.hpp"
 #include "green_moduli.hpp"
 
 namespace dovetail::fem {
@@ -42,7 +42,7 @@ public:
 
   void evaluate(const PointBatch& batch) const override {
     evaluateBase(batch);
-    detail::withVectors([&] {
+    withVectors([&] {
       for (std::size_t group = 0; group < batch.groups; ++group) addViscous(batch, group);
     });
   }
@@ -54,8 +54,7 @@ private:
     const std::size_t size = base_->historySize(), points = pointLanes * batch.groups;
     if (size == 0) return base_->evaluate(inner);
     std::vector<double> history(size * points), newHistory(size * points);
-    for (std::size_t p = 0; p < points; ++p)
-      std::copy_n(batch.history + p * size_ + ownSize, size, &history[p * size]);
+    for (std::size_t p = 0; p < points; ++p) std::copy_n(batch.history + p * size_ + ownSize, size, &history[p * size]);
     inner.history = history.data();
     inner.newHistory = newHistory.data();
     base_->evaluate(inner);

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "dovetail/fem/laws/vector_code.hpp"
+#include "dovetail/core/vector_code.hpp"
 
 namespace dovetail::fem::detail {
 

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/core/vector_code.hpp"
 #include "dovetail/dem/laws/contact_block.hpp"
-#include "dovetail/dem/laws/law_table.hpp"
+#include "dovetail/dem/laws/listed_laws.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 
 namespace dovetail::dem {
@@ -37,12 +38,14 @@ void requireStep(double dt);
 
 /// What a law asks for, and what all particles share.
 struct PairRows {
-  bool spins, rolls, mass, radius, varied;
-  int memory, materials;
+  bool spins = false, rolls = false, mass = false, radius = false, varied = false;
+  int memory = 0, materials = 1;
   bool turns = false;            ///< the law exerts torques and the particles spin
   bool spinDifferences = false;  ///< not only sums of spins count, and torques differ
   bool oneRadius = false;        ///< all particles have the same
   bool oneMass = false;
+  bool velocities = true;  ///< the law sees how fast particles move
+  int material = 0;        ///< of all particles; −1: they differ
 };
 /// Where a sweep over the pairs of a chunk stands.
 struct PairCursor {
@@ -53,13 +56,13 @@ struct PairCursor {
   /// crossing pair.
   double __attribute__((vector_size(32))) * sums;
 };
-/// Looks whether all particles have one radius and one mass, which saves gathering them.
+/// Looks whether all particles have one radius, one mass and one material, which saves gathering them.
 /// @throws InputError naming a particle whose material has no law
 void findUniform(const Particles& particles, PairRows& rows);
 PairCursor startOfChunk(const Particles& particles, const PairParts& list, const PairRows& rows, std::size_t chunk);
 /// Adds the sums to the particles of the chunk, and keeps those for others.
 void finishChunk(Particles& particles, PairParts& list, const PairRows& rows, const PairCursor& cursor);
-/// Fills the rows of effective masses and radii once for all pairs, if they share them or nobody asks for them.
+/// Fills the rows of radii, masses and velocities once for all pairs, if they share them or nobody asks for them.
 void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block);
 void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>> pairs, ContactBlock& block);
 /// Effective radii from the radii.
@@ -100,16 +103,24 @@ ContactWork bookEnded(const EndedPairs& left, const PreparedLaws<Law>& laws, dou
   return work;
 }
 
+/// Whether forces depend on how fast particles move. Of the laws that the library lists, those that remember nothing
+/// ask for velocities in their dashpots alone, as they do for masses.
+template <class Law>
+bool seesVelocities(const PreparedLaws<Law>& laws) {
+  return Law::memory > 0 || !isListed<Law> || laws.usesMass();
+}
+
+/// @param laws  the table, or the only law that occurs
 template <class Law, BlockOptions options>
 ContactWork collideChunk(Particles& particles, PairParts& list, std::size_t chunk, const PairRows& rows,
-                         const PreparedLaws<Law>& laws, double dt) {
+                         const typename Law::Prepared* laws, double dt) {
   ContactBlock block;
   shareSizes(particles, rows, block);
   ContactWork work;
   PairCursor cursor = startOfChunk(particles, list, rows, chunk);
   while (cursor.pair < cursor.end) {
     const std::size_t n = gatherPairs(particles, list, rows, cursor, block);
-    answer<Law, options>(block, n, laws.table.data(), dt);
+    withVectors([&] { answer<Law, options>(block, n, laws, dt); });
     scatterPairs(list, rows, n, cursor, block);
     if constexpr (options.booked) work += sumWork(block, n);
   }
@@ -118,8 +129,8 @@ ContactWork collideChunk(Particles& particles, PairParts& list, std::size_t chun
 }
 
 template <class Law, BlockOptions options>
-ContactWork collideChunks(Particles& particles, PairParts& list, const PairRows& rows, const PreparedLaws<Law>& laws,
-                          double dt) {
+ContactWork collideChunks(Particles& particles, PairParts& list, const PairRows& rows,
+                          const typename Law::Prepared* laws, double dt) {
   const ContactWork work = parallelSum(list.chunks.count(), 1, [&](std::size_t chunk, std::size_t) {
     return collideChunk<Law, options>(particles, list, chunk, rows, laws, dt);
   });
@@ -136,21 +147,27 @@ ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law
     list.prepareMemory(Law::memory, Law::turns);
   }
   PairParts& parts = partsOf(list);
-  const bool varied = !parts.factors.empty() || laws.materials > 1;
-  PairRows rows{Law::rotates, Law::needsSpin, Law::needsMass && laws.usesMass(), Law::needsRadius, varied,
-                Law::memory,  laws.materials};
+  PairRows rows{.spins = Law::rotates,
+                .rolls = Law::needsSpin,
+                .mass = Law::needsMass && laws.usesMass(),
+                .radius = Law::needsRadius,
+                .memory = Law::memory,
+                .materials = laws.materials,
+                .velocities = seesVelocities(laws)};
   findUniform(particles, rows);
+  rows.varied = !parts.factors.empty() || rows.material < 0;
+  const auto* const table = rows.varied ? laws.table.data() : &laws.at(rows.material, rows.material);
   constexpr bool spins = Law::rotates;
   if constexpr (spins) parts.chunks.torque.resize(parts.chunks.force.size());
   const bool booked = booking == Booking::on;
-  if (varied && booked)
-    work += collideChunks<Law, BlockOptions{spins, false, true, true}>(particles, parts, rows, laws, dt);
-  else if (varied)
-    collideChunks<Law, BlockOptions{spins, false, true, false}>(particles, parts, rows, laws, dt);
+  if (rows.varied && booked)
+    work += collideChunks<Law, BlockOptions{spins, false, true, true}>(particles, parts, rows, table, dt);
+  else if (rows.varied)
+    collideChunks<Law, BlockOptions{spins, false, true, false}>(particles, parts, rows, table, dt);
   else if (booked)
-    work += collideChunks<Law, BlockOptions{spins, false, false, true}>(particles, parts, rows, laws, dt);
+    work += collideChunks<Law, BlockOptions{spins, false, false, true}>(particles, parts, rows, table, dt);
   else
-    collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, parts, rows, laws, dt);
+    collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, parts, rows, table, dt);
   const EndedPairs left = list.takeEnded();
   if (booked && dt > 0.0) work += bookEnded(left, laws, dt);
   return work;

@@ -19,10 +19,10 @@
 #include <utility>
 
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/vector_code.hpp"
 #include "dovetail/fem/laws/jet.hpp"
 #include "dovetail/fem/laws/point_material.hpp"
 #include "dovetail/fem/laws/tensor.hpp"
-#include "dovetail/fem/laws/vector_code.hpp"
 
 namespace dovetail::fem {
 

@@ -1,8 +1,8 @@
 // Vector code for the processor that a program runs on, in libraries compiled for any x86-64.
 #pragma once
 
-// Without optimisation nothing would be inlined, under sanitizers every version would be watched; and a build for AVX2 has
-// it everywhere. Where there are versions, only those for wide registers are worth the time of inlining all.
+// Without optimisation nothing would be inlined, under sanitizers every version would be watched; and a build for AVX2
+// has it everywhere. Where there are versions, only those for wide registers are worth the time of inlining all.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define DOVETAIL_HAS_WIDE_CODE 0
 #define DOVETAIL_FLATTEN
@@ -14,7 +14,7 @@
 #define DOVETAIL_FLATTEN [[gnu::flatten]]
 #endif
 
-namespace dovetail::fem::detail {
+namespace dovetail {
 
 /// Versions of the code, each for processors that have more than the one before.
 enum class VectorCode { portable, avx2, avx512 };
@@ -47,4 +47,4 @@ DOVETAIL_FLATTEN void withVectors(const Body& body) {
   body();
 }
 
-}  // namespace dovetail::fem::detail
+}  // namespace dovetail

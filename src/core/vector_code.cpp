@@ -1,6 +1,6 @@
-#include "dovetail/fem/laws/vector_code.hpp"
+#include "dovetail/core/vector_code.hpp"
 
-namespace dovetail::fem::detail {
+namespace dovetail {
 namespace {
 
 VectorCode best() {
@@ -20,4 +20,4 @@ VectorCode& vectorCode() {
   return code;
 }
 
-}  // namespace dovetail::fem::detail
+}  // namespace dovetail

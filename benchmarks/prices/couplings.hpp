@@ -5,7 +5,7 @@
 #include "grains.hpp"
 #include "solids.hpp"
 
-namespace dovetail::parts {
+namespace dovetail::prices {
 
 /// Steps a run whose parts are there, and prints what its grains and solids have.
 inline void finish(coupling::CoupledRun& run, const Size& size) {
@@ -16,4 +16,4 @@ inline void finish(coupling::CoupledRun& run, const Size& size) {
   printEnergy(kinetic);
 }
 
-}  // namespace dovetail::parts
+}  // namespace dovetail::prices

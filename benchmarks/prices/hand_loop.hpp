@@ -7,7 +7,7 @@
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/model/model.hpp"
 
-namespace dovetail::atlas {
+namespace dovetail::prices {
 
 /// Arrays and a list of pairs of a frictionless periodic lattice, and a loop over them: velocity Verlet, one kick per
 /// step, and a look at how far the spheres have moved since the list was made, which is what a step of the engine does.
@@ -36,4 +36,4 @@ private:
   bool first_ = true, good_ = true;
 };
 
-}  // namespace dovetail::atlas
+}  // namespace dovetail::prices

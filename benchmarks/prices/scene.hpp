@@ -6,7 +6,7 @@
 
 #include "dovetail/core/vec3.hpp"
 
-namespace dovetail::parts {
+namespace dovetail::prices {
 
 inline constexpr double radius = 5e-3, density = 2500.0, stiffness = 1e4;  // of grains: m, kg/m³, N/m
 inline constexpr double dt = 2e-5;                                         // s
@@ -28,4 +28,4 @@ inline double widthOf(const Size& size) { return 2.0 * radius * size.edge + 1e-4
 /// For whoever compares programs.
 inline void printEnergy(double kinetic) { std::printf("kinetic_J %.17g\n", kinetic); }
 
-}  // namespace dovetail::parts
+}  // namespace dovetail::prices

@@ -4,11 +4,11 @@
 #include "couplings.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 
-namespace dovetail::parts {
+namespace dovetail::prices {
 
 inline void touch(coupling::CoupledRun& run, coupling::SolidSide& side, const fem::SolidMesh& mesh, const char* set) {
   run.grains.terms.add(surface::SurfaceContact(
       side, surface::Coupling(surface::makeSkin(mesh.X, mesh.faceSets.at(set))), run.grains.laws, "contacts"));
 }
 
-}  // namespace dovetail::parts
+}  // namespace dovetail::prices

@@ -8,7 +8,7 @@
 #include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/arlequin/weights.hpp"
 
-namespace dovetail::parts {
+namespace dovetail::prices {
 
 inline void shareLayers(coupling::CoupledRun& run, const Size& size) {
   constexpr int shared = 2;
@@ -21,4 +21,4 @@ inline void shareLayers(coupling::CoupledRun& run, const Size& size) {
   run.grains.terms.add(arlequin::makeOverlapTie(run.grains, mesh, weight, side, {}));
 }
 
-}  // namespace dovetail::parts
+}  // namespace dovetail::prices

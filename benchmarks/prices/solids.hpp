@@ -10,7 +10,7 @@
 #include "dovetail/fem/terms/loads.hpp"
 #include "scene.hpp"
 
-namespace dovetail::parts {
+namespace dovetail::prices {
 
 inline constexpr double brick = 4.0 * radius;  // m
 inline constexpr int layers = 5;               // below z = 0
@@ -44,4 +44,4 @@ inline std::unique_ptr<fem::Model> makePlate(const fem::SolidMesh& mesh) {
   return model;
 }
 
-}  // namespace dovetail::parts
+}  // namespace dovetail::prices

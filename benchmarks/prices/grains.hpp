@@ -9,7 +9,7 @@
 #include "dovetail/dem/setup/packing.hpp"
 #include "scene.hpp"
 
-namespace dovetail::parts {
+namespace dovetail::prices {
 
 /// A cube of grains above z = 0 between four walls. @param floor  whether there is a fifth
 inline void addGrains(dem::Model& grains, const Size& size, bool floor) {
@@ -30,4 +30,4 @@ inline void addGrains(dem::Model& grains, const Size& size, bool floor) {
   if (floor) dem::addWall(grains, dem::makePlane({}, {0, 0, 1}));
 }
 
-}  // namespace dovetail::parts
+}  // namespace dovetail::prices

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dovetail::atlas {
+namespace dovetail::prices {
 
 HandLoop::HandLoop(const dem::Model& model, double stiffness)
     : x(model.particles.x),
@@ -57,4 +57,4 @@ std::size_t HandLoop::bytes() const {
   return 4 * x.size() * sizeof(Vec3) + within_.size() * sizeof(within_[0]) + across_.size() * sizeof(across_[0]);
 }
 
-}  // namespace dovetail::atlas
+}  // namespace dovetail::prices

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-namespace dovetail::atlas {
+namespace dovetail::prices {
 
 /// Processor time of this thread, s: goes on only while the thread runs.
 inline double processorTime() {
@@ -53,4 +53,4 @@ inline Duel duel(int turns, const std::function<void()>& first, const std::funct
           ratios[(3 * ratios.size()) / 4]};
 }
 
-}  // namespace dovetail::atlas
+}  // namespace dovetail::prices

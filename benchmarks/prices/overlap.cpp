@@ -4,9 +4,9 @@
 using namespace dovetail;
 
 int main(int argc, char** argv) {
-  const parts::Size size = parts::sizeFrom(argc, argv);
+  const prices::Size size = prices::sizeFrom(argc, argv);
   coupling::CoupledRun run;
-  parts::addGrains(run.grains, size, false);
-  parts::shareLayers(run, size);
-  parts::finish(run, size);
+  prices::addGrains(run.grains, size, false);
+  prices::shareLayers(run, size);
+  prices::finish(run, size);
 }
