@@ -54,19 +54,19 @@ std::string profileOf(const Json& rows) {
 
 void addParts(const Json& content, report::Section& section) {
   const std::string unit = wordOf(content, "unit");
-  report::Table table{{"parts", "grains", "elements", "program, MB", "libraries", "start-up, ms", "bytes each",
-                       "steps, " + unit, "scene costs, %"},
-                      {}};
+  report::Table links{{"parts", "program, MB", "libraries", "start-up, ms", "bytes each"}, {}};
+  report::Table steps{{"parts", "grains", "elements", "steps, " + unit, "scene costs, %"}, {}};
   report::Table profiles{{"parts", "where a scene's steps go, %"}, {}};
   for (const Json& row : content["parts"]) {
-    table.rows.push_back(
-        {wordOf(row, "part"), format("%.0f", numberOf(row, "grains")), format("%.0f", numberOf(row, "elements")),
-         format("%.1f", 1e-6 * numberOf(row, "bytes")), std::to_string(row["libraries"].size()),
-         pairOf("%.0f", 1e3, row, "start_scene_s", "start_program_s"),
-         pairOf("%.0f", 1.0, row, "bytes_each_scene", "bytes_each_program"),
+    const std::string part = wordOf(row, "part");
+    links.rows.push_back({part, format("%.1f", 1e-6 * numberOf(row, "bytes")), std::to_string(row["libraries"].size()),
+                          pairOf("%.0f", 1e3, row, "start_scene_s", "start_program_s"),
+                          pairOf("%.0f", 1.0, row, "bytes_each_scene", "bytes_each_program")});
+    steps.rows.push_back(
+        {part, format("%.0f", numberOf(row, "grains")), format("%.0f", numberOf(row, "elements")),
          pairOf("%.3g", 1.0, row, "cost_scene", "cost_program"),
          format("%+.1f", 100.0 * (numberOf(row, "cost_scene") / numberOf(row, "cost_program") - 1.0))});
-    profiles.rows.push_back({wordOf(row, "part"), profileOf(row["profile"])});
+    profiles.rows.push_back({part, profileOf(row["profile"])});
   }
   section.blocks.push_back(report::Paragraph{format(
       "The same scenes by dovetail and by C++ programs that link no more than they use (scene / program): size without "
@@ -74,8 +74,7 @@ void addParts(const Json& content, report::Section& section) {
       "steps, one thread. dovetail itself: %.1f MB, %zu libraries.",
       numberOf(content["parts"][0], "steps"), 1e-6 * numberOf(content["dovetail"], "bytes"),
       content["dovetail"]["libraries"].size())});
-  section.blocks.push_back(std::move(table));
-  section.blocks.push_back(std::move(profiles));
+  for (report::Table* const table : {&links, &steps, &profiles}) section.blocks.push_back(std::move(*table));
 }
 
 /// The numbers alone: lists become what they count or say.

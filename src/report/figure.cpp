@@ -182,6 +182,13 @@ std::string gridOf(const Scale& x, const Scale& y, double top) {
   return svg + textAt(13.0, middle, "middle", y.label, format(" transform=\"rotate(-90 13 %.1f)\"", middle));
 }
 
+/// A disc; a ring where the colours have come round, so that no two curves look alike up to twice as many.
+std::string markAt(double x, double y, std::size_t number) {
+  const bool ring = number / colours % 2 == 1;
+  return format("<circle class=\"%s%d\" cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"/>\n", ring ? "ring c" : "mc",
+                static_cast<int>(number % colours), x, y, ring ? "3" : "3.5");
+}
+
 std::string pathOf(const Curve& curve, const Drawn& drawn, std::size_t number) {
   const std::string colour = "c" + std::to_string(number % colours);
   std::string d, svg;
@@ -190,8 +197,7 @@ std::string pathOf(const Curve& curve, const Drawn& drawn, std::size_t number) {
   if (curve.line && !d.empty()) svg += "<path class=\"" + colour + "\" d=\"" + d + "\"/>\n";
   if (!curve.marks) return svg;
   for (const auto& part : drawn.parts())
-    for (const Point& p : part)
-      svg += format("<circle class=\"m%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/>\n", colour.c_str(), p.x, p.y);
+    for (const Point& p : part) svg += markAt(p.x, p.y, number);
   return svg;
 }
 
@@ -210,8 +216,7 @@ std::string legendOf(const Figure& figure, double& y) {
     }
     const std::string colour = "c" + std::to_string(k % colours);
     if (curves[k].line) svg += format("<path class=\"%s\" d=\"M%.1f %.1fh18\"/>\n", colour.c_str(), x, y - 4.0);
-    if (curves[k].marks)
-      svg += format("<circle class=\"m%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/>\n", colour.c_str(), x + 9.0, y - 4.0);
+    if (curves[k].marks) svg += markAt(x + 9.0, y - 4.0, k);
     svg += textAt(x + 23.0, y, "start", curves[k].name);
     x += length;
   }
@@ -294,6 +299,7 @@ std::string figureStyle() {
   };
   return ".figure{max-width:100%;height:auto;font:12px system-ui,sans-serif;fill:#222}\n"
          ".figure path{fill:none;stroke-width:1.6;stroke-linejoin:round;stroke-linecap:round}\n"
+         ".figure .ring{fill:none;stroke-width:1.6}\n"
          ".figure .grid{stroke:#8883;stroke-width:1}\n"
          ".figure .axis{stroke:#888;stroke-width:1}\n"
          ".figure .title{font-weight:600;font-size:13px}\n" +

@@ -33,8 +33,9 @@ class Prices(unittest.TestCase):
         self.assertEqual(prices.libraries(listed), ["libblas", "libumfpack"])
 
     def test_profile_tells_shares_the_largest_first(self):
-        summary = {"times": {"parts": [{"part": "move", "seconds": 1.0}, {"part": "pairs", "seconds": 3.0}]}}
-        self.assertEqual(prices.profile_of(summary), [{"part": "pairs", "share": 0.75}, {"part": "move", "share": 0.25}])
+        summary = {"times": {"parts": [{"part": "move", "seconds": 1.0}, {"part": "pairs", "seconds": 3.0},
+                                       {"part": "solids", "seconds": 0.001}]}}
+        self.assertEqual(prices.profile_of(summary), [{"part": "pairs", "share": 3.0 / 4.001}, {"part": "move", "share": 1.0 / 4.001}])
 
     def test_tables_are_of_one_width(self):
         lines = prices.table(["a", "b"], [["1", "2"], ["3", "4"]]).splitlines()

@@ -33,6 +33,14 @@ TEST(RoundTicks, AreRoundAndLieInTheRange) {
   EXPECT_EQ(roundTicks(0.0, 1.0, 6), (std::vector<double>{0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0}));
 }
 
+TEST(Svg, MarksOfManyCurvesDiffer) {
+  Figure figure{"f", "", {"x"}, {"y"}, {}, {}};
+  for (int k = 0; k < 12; ++k) figure.curves.push_back({"c" + std::to_string(k), {0, 1}, {0.0, k + 1.0}, false, true});
+  const std::string svg = svgOf(figure);
+  for (const char* const mark : {"\"mc3\"", "\"ring c3\"", "\"mc7\""}) EXPECT_EQ(count(svg, mark), 3u) << mark;
+  EXPECT_EQ(count(svg, "\"ring c7\""), 0u);
+}
+
 TEST(Svg, HasAxesLegendAndOneLinePerCurve) {
   const Figure figure{"f",
                       "A <title>",

@@ -106,7 +106,7 @@ std::shared_ptr<const ContactLaws> behindOneCall(PreparedLaws<Law> laws, std::st
 
 /// Laws for a scene. Those of listed_laws.hpp, and those that differ from them in a part they can stand for, are
 /// compiled in the library. For any other put the call in a file of its own that includes own_laws.hpp; there
-/// -O3 -fno-math-errno lets its loops vectorise.
+/// -O3 -fno-math-errno -fno-trapping-math lets its loops vectorise.
 /// @throws InputError as validate does, naming the materials
 template <class Law>
 std::shared_ptr<const ContactLaws> makeContactLaws(const LawTable<Law>& laws) {

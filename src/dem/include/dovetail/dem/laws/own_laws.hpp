@@ -1,5 +1,5 @@
 // Compiles a law that the library does not list, in the file that includes this one and calls makeContactLaws. Let it
-// be a file of its own, with -O3 -fno-math-errno.
+// be a file of its own, with -O3 -fno-math-errno -fno-trapping-math.
 #pragma once
 
 #include <limits>
