@@ -21,10 +21,11 @@ template <Asked asked, bool within>
 void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, std::size_t n, ContactBlock& block) {
   const Vec3 *const x = particles.x.data(), *const v = particles.v.data(), *const omega = particles.omega.data();
   const auto four = [&](std::size_t l, const std::array<int, 2>* of) {
-    const auto apart = [&](const Vec3* values, int k) {
+    // Inlined, because functions that give a Four differ in their registers from version to version.
+    const auto apart = [&](const Vec3* values, int k) __attribute__((always_inline)) {
       return load<within>(values[of[k][0]]) - load<within>(values[of[k][1]]);
     };
-    const auto sum = [&](const Vec3* values, int k) {
+    const auto sum = [&](const Vec3* values, int k) __attribute__((always_inline)) {
       return load<within>(values[of[k][0]]) + load<within>(values[of[k][1]]);
     };
     setRows(block.separation, l, apart(x, 0), apart(x, 1), apart(x, 2), apart(x, 3));
