@@ -36,7 +36,8 @@ double kick(std::vector<double>& v, const std::vector<double>& force, const std:
   }
   return laneSum(v.size(), [&](std::size_t i) {
     const double before = to[i], against = damping * std::abs(f[i]);
-    const double drag = before > 0.0 ? against : (before < 0.0 ? -against : 0.0);
+    // Without branches: signs are guessed wrong too often.
+    const double drag = against * (static_cast<double>(before > 0.0) - static_cast<double>(before < 0.0));
     to[i] = before + dt * (f[i] - drag) / m[i];
     return 0.5 * dt * drag * (before + to[i]);
   });
@@ -45,14 +46,17 @@ double kick(std::vector<double>& v, const std::vector<double>& force, const std:
 double largestSpeed2(const CellState& s) {
   double lane[4] = {};
   const std::size_t n = s.v[0].size();
-  const bool plane = s.v[2].empty();
   const double* const x = s.v[0].data();
   const double* const y = s.v[1].data();
-  const double* const z = plane ? nullptr : s.v[2].data();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double speed2 = x[i] * x[i] + y[i] * y[i] + (plane ? 0.0 : z[i] * z[i]);
-    lane[i % 4] = lane[i % 4] < speed2 ? speed2 : lane[i % 4];
-  }
+  const double* const z = s.v[2].empty() ? nullptr : s.v[2].data();
+  const auto see = [&](std::size_t i, double& most) {
+    const double speed2 = x[i] * x[i] + y[i] * y[i] + (z ? z[i] * z[i] : 0.0);
+    most = most < speed2 ? speed2 : most;
+  };
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4)
+    for (std::size_t l = 0; l < 4; ++l) see(i + l, lane[l]);
+  for (; i < n; ++i) see(i, lane[0]);
   return std::max(std::max(lane[0], lane[1]), std::max(lane[2], lane[3]));
 }
 

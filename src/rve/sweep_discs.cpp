@@ -1,21 +1,77 @@
-#include <algorithm>
 #include <cmath>
 
-#include "sweep.hpp"
+#include "touching_rows.hpp"
 
 namespace dovetail::rve {
+
+namespace {
+
+/// What the law takes and gives, contact by contact.
+struct DiscRows {
+  Row radiusI, radiusJ, stiffness, stretch, roll;
+  Row speedX, speedY, spinI, spinJ;      // of j less i; of each
+  Row forceX, forceY, torqueI, torqueJ;  // on i; on each
+  Row slipped;
+};
+
+struct DiscLaw {
+  double ratio, slipShare, rolling, rollShare;
+  double dt, xx, xy, yy;  // step, and rates of strain
+};
+
+inline double within(double value, double most) {
+  const double below = value < most ? value : most;
+  return below > -most ? below : -most;
+}
+
+template <bool slides, bool rolls>
+void applyLaw(const DiscLaw law, const TouchingRows<2>& __restrict at, DiscRows& __restrict r) {
+  const int count = at.count;
+  for (int m = 0; m < count; ++m) {
+    const double bx = at.branch[0][m], by = at.branch[1][m];
+    const double d = std::sqrt(at.squared[m]), inverse = 1.0 / d, nx = bx * inverse, ny = by * inverse;
+    const double overlap = r.radiusI[m] + r.radiusJ[m] - d, k = r.stiffness[m], press = k * overlap;
+    double hold = 0.0, moment = 0.0, slipped = 0.0;
+    const double armI = 0.5 * (d + r.radiusI[m] - r.radiusJ[m]), armJ = d - armI;
+    if constexpr (slides) {
+      const double wx = r.speedX[m] + law.xx * bx + law.xy * by, wy = r.speedY[m] + law.xy * bx + law.yy * by;
+      const double tried = r.stretch[m] + (wy * nx - wx * ny - armI * r.spinI[m] - armJ * r.spinJ[m]) * law.dt;
+      const double u = within(tried, law.slipShare * overlap);
+      hold = law.ratio * k * u;
+      slipped = hold * (tried - u);
+      r.stretch[m] = u;
+    }
+    if constexpr (rolls) {
+      const double product = r.radiusI[m] * r.radiusJ[m];
+      const double least = r.radiusI[m] < r.radiusJ[m] ? r.radiusI[m] : r.radiusJ[m];
+      const double tried = r.roll[m] + (r.spinI[m] - r.spinJ[m]) * law.dt;
+      const double turn = within(tried, law.rollShare * overlap * least / product);
+      moment = law.rolling * law.ratio * k * product * turn;
+      slipped += moment * (tried - turn);
+      r.roll[m] = turn;
+    }
+    r.forceX[m] = -press * nx - hold * ny;
+    r.forceY[m] = -press * ny + hold * nx;
+    r.torqueI[m] = armI * hold - moment;
+    r.torqueJ[m] = armJ * hold + moment;
+    r.slipped[m] = slipped;
+  }
+}
+
+}  // namespace
 
 template <bool slides, bool rolls>
 void sweepDiscs(Cell& cell, double dt, const Eigen::Matrix3d& L) {
   CellState& s = cell.state;
-  const std::array<Vec3, 27> shift = imageShifts(s.lattice);
-  const double Dxx = L(0, 0), Dyy = L(1, 1), Dxy = 0.5 * (L(0, 1) + L(1, 0));
-  const double ratio = cell.springs.tangential;
-  // Springs slip where stretched beyond these shares of the overlap (and of the lesser radius).
-  const double slipShare = slides ? cell.springs.friction / ratio : 0.0;
-  const double rollShare = rolls ? cell.springs.rollingLimit / (ratio * cell.springs.rolling) : 0.0;
-  const double* const x = s.x[0].data();
-  const double* const y = s.x[1].data();
+  const Springs& springs = cell.springs;
+  const DiscLaw law{springs.tangential,
+                    slides ? slipShareOf(springs) : 0.0,
+                    springs.rolling,
+                    rolls ? springs.rollingLimit / (springs.tangential * springs.rolling) : 0.0,
+                    dt,
+                    L(0, 0),
+                    0.5 * (L(0, 1) + L(1, 0)),
+                    L(1, 1)};
   const double* const vx = s.v[0].data();
   const double* const vy = s.v[1].data();
   const double* const spin = s.spin[2].data();
@@ -23,66 +79,53 @@ void sweepDiscs(Cell& cell, double dt, const Eigen::Matrix3d& L) {
   double* const fx = s.force[0].data();
   double* const fy = s.force[1].data();
   double* const torque = s.torque[2].data();
-  Contacts& contacts = s.contacts;
-  const int* const other = contacts.other.data();
-  const std::uint8_t* const image = contacts.image.data();
-  const double* const stiffness = contacts.stiffness.data();
-  double* const stretch = contacts.stretch[0].data();
-  double* const roll = rolls ? contacts.roll.data() : nullptr;
+  const double* const stiffness = s.contacts.stiffness.data();
+  double* const stretch = s.contacts.stretch[0].data();
+  double* const roll = s.contacts.roll.data();
   double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0, slipped = 0.0;
-  const std::size_t n = cell.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double xi = x[i], yi = y[i], ri = radius[i], vxi = vx[i], vyi = vy[i], spinI = spin[i];
-    double fxi = 0.0, fyi = 0.0, torqueI = 0.0;
-    for (int c = contacts.first[i]; c < contacts.first[i + 1]; ++c) {
-      const int j = other[c];
-      const Vec3& away = shift[image[c]];
-      const double bx = x[j] + away.x - xi, by = y[j] + away.y - yi;
-      const double rj = radius[j], reach = ri + rj, squared = bx * bx + by * by;
-      if (squared >= reach * reach) {
-        if constexpr (slides) stretch[c] = 0.0;
-        if constexpr (rolls) roll[c] = 0.0;
-        continue;
-      }
-      const double d = std::sqrt(squared), nx = bx / d, ny = by / d, overlap = reach - d, k = stiffness[c];
-      const double press = k * overlap;
-      double forceX = -press * nx, forceY = -press * ny;
+  DiscRows r;
+  const auto release = [&](int c, bool touches) {
+    if constexpr (slides) stretch[c] = touches ? stretch[c] : 0.0;
+    if constexpr (rolls) roll[c] = touches ? roll[c] : 0.0;
+  };
+  forTouchingBlocks<2>(cell, release, [&](const TouchingRows<2>& at) {
+    for (int m = 0; m < at.count; ++m) {
+      const int i = at.i[m], j = at.j[m], c = at.contact[m];
+      r.radiusI[m] = radius[i];
+      r.radiusJ[m] = radius[j];
+      r.stiffness[m] = stiffness[c];
       if constexpr (slides) {
-        const double armI = 0.5 * (d + ri - rj), armJ = d - armI;
-        const double wx = vx[j] - vxi + Dxx * bx + Dxy * by, wy = vy[j] - vyi + Dxy * bx + Dyy * by;
-        const double tried = stretch[c] + (wy * nx - wx * ny - armI * spinI - armJ * spin[j]) * dt;
-        const double most = slipShare * overlap, u = std::clamp(tried, -most, most);
-        const double hold = ratio * k * u;
-        slipped += hold * (tried - u);
-        stretch[c] = u;
-        forceX -= hold * ny;
-        forceY += hold * nx;
-        torqueI += armI * hold;
-        torque[j] += armJ * hold;
+        r.stretch[m] = stretch[c];
+        r.speedX[m] = vx[j] - vx[i];
+        r.speedY[m] = vy[j] - vy[i];
       }
-      if constexpr (rolls) {
-        const double stiff = cell.springs.rolling * ratio * k * ri * rj;
-        const double tried = roll[c] + (spinI - spin[j]) * dt;
-        const double most = rollShare * overlap * std::min(ri, rj) / (ri * rj), turn = std::clamp(tried, -most, most);
-        const double moment = stiff * turn;
-        slipped += moment * (tried - turn);
-        roll[c] = turn;
-        torqueI -= moment;
-        torque[j] += moment;
+      if constexpr (slides || rolls) {
+        r.spinI[m] = spin[i];
+        r.spinJ[m] = spin[j];
       }
-      fxi += forceX;
-      fyi += forceY;
-      fx[j] -= forceX;
-      fy[j] -= forceY;
-      xx += forceX * bx;
-      xy += forceX * by;
-      yx += forceY * bx;
-      yy += forceY * by;
+      if constexpr (rolls) r.roll[m] = roll[c];
     }
-    fx[i] += fxi;
-    fy[i] += fyi;
-    torque[i] += torqueI;
-  }
+    applyLaw<slides, rolls>(law, at, r);
+    for (int m = 0; m < at.count; ++m) {
+      const int i = at.i[m], j = at.j[m], c = at.contact[m];
+      const double x = r.forceX[m], y = r.forceY[m];
+      fx[i] += x;
+      fy[i] += y;
+      fx[j] -= x;
+      fy[j] -= y;
+      xx += x * at.branch[0][m];
+      xy += x * at.branch[1][m];
+      yx += y * at.branch[0][m];
+      yy += y * at.branch[1][m];
+      if constexpr (slides) stretch[c] = r.stretch[m];
+      if constexpr (rolls) roll[c] = r.roll[m];
+      if constexpr (slides || rolls) {
+        torque[i] += r.torqueI[m];
+        torque[j] += r.torqueJ[m];
+        slipped += r.slipped[m];
+      }
+    }
+  });
   s.dyad << xx, xy, 0.0, yx, yy, 0.0, 0.0, 0.0, 0.0;
   s.book.friction += slipped;
 }
