@@ -51,6 +51,12 @@ inline Components randomMotion(const Components& like, double size, std::mt19937
   return w;
 }
 
+inline Components scaled(Components w, double factor) {
+  for (auto& component : w)
+    for (double& value : component) value *= factor;
+  return w;
+}
+
 inline Eigen::Matrix3d plane(double a, double b, double c, double d) {
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F.topLeftCorner<2, 2>() << a, b, c, d;

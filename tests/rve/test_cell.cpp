@@ -27,11 +27,7 @@ void expectForcesAreSlopesOfTheEnergy(Cell cell) {
   const double slope = -scalarProduct(cell.state.force, w) - scalarProduct(cell.state.torque, theta);
   const auto energyAt = [&](double way) {
     Cell moved = cell;
-    Components u = w, turn = theta;
-    for (Components* field : {&u, &turn})
-      for (auto& component : *field)
-        for (double& value : component) value *= way;
-    displace(moved, u, turn);
+    displace(moved, scaled(w, way), scaled(theta, way));
     return storedEnergy(moved);
   };
   EXPECT_NEAR(0.5 * (energyAt(1.0) - energyAt(-1.0)), slope, 2e-5 * std::abs(slope));

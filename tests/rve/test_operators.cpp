@@ -156,10 +156,7 @@ void expectContactsAreLinear(Cell cell, int& slipping) {
   const Components theta = randomMotion(cell.state.spin, 2e-4, random);
   displace(cell, w, theta);
   const double h = 1e-6;
-  Components more = w, turn = theta;
-  for (Components* field : {&more, &turn})
-    for (auto& component : *field)
-      for (double& value : component) value *= h;
+  const Components more = scaled(w, h), turn = scaled(theta, h);
   Cell after = cell;
   displace(after, more, turn);
   ASSERT_EQ(after.state.contacts.other, cell.state.contacts.other);
