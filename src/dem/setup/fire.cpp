@@ -1,4 +1,4 @@
-#include "fire.hpp"
+#include "dovetail/dem/setup/fire.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -13,7 +13,7 @@
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
-#include "fire.hpp"
+#include "dovetail/dem/setup/fire.hpp"
 
 namespace dovetail::dem {
 

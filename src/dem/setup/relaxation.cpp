@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "dovetail/core/parallel.hpp"
-#include "fire.hpp"
+#include "dovetail/dem/setup/fire.hpp"
 
 namespace dovetail::dem {
 

@@ -1,0 +1,98 @@
+// What a cell is asked: stress, balance, energies.
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dovetail/rve/cell.hpp"
+#include "projection.hpp"
+#include "touching.hpp"
+
+namespace dovetail::rve {
+
+Stress stress(const Cell& cell) {
+  const Eigen::Matrix3d whole = cell.state.dyad / volume(cell);
+  Stress found;
+  found.cauchy = 0.5 * (whole + whole.transpose());
+  const double size = found.cauchy.norm();
+  found.asymmetry = size > 0.0 ? (whole - found.cauchy).norm() / size : 0.0;
+  found.pressure = -found.cauchy.trace() / cell.dimension();
+  return found;
+}
+
+Eigen::Matrix3d nominalStress(const Cell& cell) {
+  const Eigen::Matrix3d& F = cell.state.F;
+  return F.determinant() * stress(cell).cauchy * F.inverse().transpose();
+}
+
+namespace {
+
+/// Largest force on a grain that no reaction holds, N.
+double largestFreeForce(const Cell& cell) {
+  Components a = cell.state.force, alpha = cell.state.torque;
+  for (std::vector<double>& component : a)
+    for (std::size_t i = 0; i < component.size(); ++i) component[i] /= cell.mass[i];
+  for (std::vector<double>& component : alpha)
+    for (std::size_t i = 0; i < component.size(); ++i) component[i] /= cell.inertia[i];
+  project(cell, a, alpha);
+  double most = 0.0;
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    double force2 = 0.0, torque2 = 0.0;
+    for (const std::vector<double>& component : a)
+      if (!component.empty()) force2 += component[i] * component[i];
+    for (const std::vector<double>& component : alpha)
+      if (!component.empty()) torque2 += component[i] * component[i];
+    most = std::max({most, cell.mass[i] * std::sqrt(force2), cell.inertia[i] * std::sqrt(torque2) / cell.radius[i]});
+  }
+  return most;
+}
+
+}  // namespace
+
+Balance balance(const Cell& cell) {
+  Balance found;
+  std::vector<char> touched(cell.size(), 0);
+  double forces = 0.0, shares = 0.0;
+  forEachTouch(cell, [&](const Touch& touch) {
+    ++found.contacts;
+    touched[touch.i] = touched[touch.j] = 1;
+    forces += norm(contactForce(cell, touch));
+    shares += cell.frame.empty()
+                  ? 1.0
+                  : touch.stiffness / normalStiffness(cell.springs, cell.radius[touch.i], cell.radius[touch.j]);
+    if (cell.springs.slides() && norm(touch.stretch) >= (1.0 - 1e-9) * slipLimit(cell.springs, touch)) ++found.sliding;
+  });
+  std::size_t grains = cell.size();
+  if (!cell.frame.empty())
+    for (const std::vector<int>& group : cell.frame.alike) grains -= group.size() - 1;
+  found.rattlers = static_cast<int>(std::count(touched.begin(), touched.end(), 0));
+  found.coordination = 2.0 * shares / static_cast<double>(grains);
+  const double most = largestFreeForce(cell);
+  if (found.contacts > 0) found.meanForce = forces / found.contacts;
+  found.unbalanced = most == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+  if (found.meanForce > 0.0) found.unbalanced = most / found.meanForce;
+  return found;
+}
+
+double storedEnergy(const Cell& cell) {
+  double sum = 0.0;
+  const double tangential = cell.springs.slides() ? cell.springs.tangential : 0.0;
+  forEachTouch(cell, [&](const Touch& touch) {
+    sum += 0.5 * touch.stiffness * (touch.overlap * touch.overlap + tangential * squaredNorm(touch.stretch)) +
+           0.5 * rollingStiffness(cell, touch) * touch.roll * touch.roll;
+  });
+  return sum;
+}
+
+double kineticEnergy(const Cell& cell) {
+  double twice = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < cell.state.v[k].size(); ++i)
+      twice += cell.mass[i] * cell.state.v[k][i] * cell.state.v[k][i];
+    for (std::size_t i = 0; i < cell.state.spin[k].size(); ++i)
+      twice += cell.inertia[i] * cell.state.spin[k][i] * cell.state.spin[k][i];
+  }
+  return 0.5 * twice;
+}
+
+}  // namespace dovetail::rve

@@ -1,0 +1,36 @@
+// Stiffness operators ∂P/∂F of a cell at rest.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dovetail/rve/cell.hpp"
+
+namespace dovetail::rve {
+
+/// ∂P_iJ/∂F_kL at row 3i + J, column 3k + L, Pa; discs: what lies in the plane, else 0.
+using Tangent = Eigen::Matrix<double, 9, 9>;
+
+/// Linear answer of the network of contacts, none of which slips: what grains do to stay balanced is eliminated,
+/// (K_LL − K_Lw K_ww⁻¹ K_wL)/V, with the forces that contacts carry, grains' turns and the conditions of the frame.
+/// Analytic twin of elasticProbe (PSTLO of Desrues et al. 2019).
+/// @throws NumericalError if the matrix of the network is singular
+Tangent network(const Cell& cell);
+
+/// The same with springs that slip where they are at the limit of friction.
+Tangent slidingNetwork(const Cell& cell);
+
+/// All grains move, and turn, with F, nothing slips, and what contacts carry is left out: Kruyt's bound, above the
+/// network's (UKO; Desrues et al. 2019, eq. 33, with the spin of F for the grains').
+Tangent uniformStrain(const Cell& cell);
+
+struct ProbeSettings {
+  double strain = 1e-7;       ///< either way, > 0
+  double unbalanced = 1e-10;  ///< of the probes, as Balance::unbalanced, > 0
+};
+
+/// Central differences of P from states relaxed after small deformations of each component, during which nothing slips
+/// (DEMQO; Desrues et al. 2019, eq. 32). The cell stays as it is.
+/// @throws InputError if a setting is not > 0; NumericalError if a probe does not come to rest
+Tangent elasticProbe(const Cell& cell, const ProbeSettings& settings = {});
+
+}  // namespace dovetail::rve

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "contact_list.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/rve/cell.hpp"
+#include "sweep.hpp"
+
+namespace dovetail::rve {
+
+namespace {
+
+constexpr const char* where = "cell of grains";
+
+void check(const Grains& grains, const geometry::Lattice& lattice) {
+  const std::size_t n = grains.centre.size();
+  if (n == 0 || grains.radius.size() != n)
+    throw InputError(std::to_string(n) + " centres and " + std::to_string(grains.radius.size()) + " radii", where,
+                     "give one of each per grain, and at least one grain");
+  requirePositive(grains.density, "density of the grains");
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::string grain = "grain " + std::to_string(i);
+    if (!isFinite(grains.centre[i])) throw InputError("the centre is not finite", grain, "give a finite one");
+    if (!(grains.radius[i] > 0.0) || !std::isfinite(grains.radius[i]))
+      throw InputError("the radius is " + formatNumber(grains.radius[i]) + " m", grain, "give one above 0");
+    if (grains.shape == Shape::disc && grains.centre[i].z != 0.0)
+      throw InputError("a disc lies at z = " + formatNumber(grains.centre[i].z) + " m", grain, "put it at z = 0");
+  }
+  if (grains.shape == Shape::sphere) return;
+  const auto& [a, b, c] = lattice.period;
+  if (a.z != 0.0 || b.z != 0.0 || c.x != 0.0 || c.y != 0.0 || lattice.axes[2])
+    throw InputError("the periods do not go with a plane", where,
+                     "let the first two lie in z = 0, and the third, which does not repeat, along z");
+}
+
+void setMasses(Cell& cell, const Grains& grains, double thickness) {
+  for (const double r : cell.radius) {
+    const bool disc = cell.shape == Shape::disc;
+    const double mass = grains.density * std::numbers::pi * r * r * (disc ? thickness : 4.0 / 3.0 * r);
+    cell.mass.push_back(mass);
+    cell.inertia.push_back((disc ? 0.5 : 0.4) * mass * r * r);
+  }
+}
+
+void place(Cell& cell, const Grains& grains) {
+  const bool disc = cell.shape == Shape::disc;
+  for (int k = 0; k < 3; ++k) {
+    const auto a = static_cast<std::size_t>(k);
+    if (!disc || k < 2) {
+      cell.state.v[a].assign(cell.size(), 0.0);
+      for (const Vec3& x : grains.centre) cell.state.x[a].push_back(x[k]);
+    }
+    if (!disc || k == 2) cell.state.spin[a].assign(cell.size(), 0.0);
+  }
+  cell.state.force = cell.state.v;
+  cell.state.torque = cell.state.spin;
+}
+
+}  // namespace
+
+void validate(const Springs& springs) {
+  requireNonNegative(springs.modulus, "modulus of the springs");
+  requireNonNegative(springs.stiffness, "stiffness of the springs");
+  if ((springs.modulus > 0.0) == (springs.stiffness > 0.0))
+    throw InputError("the modulus is " + formatNumber(springs.modulus) + " Pa and the stiffness " +
+                         formatNumber(springs.stiffness) + " N/m",
+                     "springs", "give one of them, and 0 for the other");
+  requireNonNegative(springs.tangential, "ratio of tangential and normal stiffness");
+  if (!(springs.friction >= 0.0))
+    throw InputError("friction is " + formatNumber(springs.friction), "springs", "give a coefficient of 0 or more");
+  requireNonNegative(springs.rolling, "ratio of rolling stiffness");
+  requireNonNegative(springs.rollingLimit, "limit of rolling resistance");
+}
+
+Cell makeCell(const Grains& grains, const geometry::Lattice& lattice, const Springs& springs) {
+  validate(springs);
+  check(grains, lattice);
+  Cell cell;
+  cell.shape = grains.shape;
+  cell.springs = springs;
+  if (springs.rolls() && grains.shape == Shape::sphere)
+    throw InputError("spheres resist rolling", where, "leave rolling resistance to discs");
+  cell.radius = grains.radius;
+  cell.density = grains.density;
+  cell.skin = 0.2 * meanDiameter(cell) * 0.5;
+  cell.state.lattice = lattice;
+  static_cast<void>(geometry::inverse(lattice));
+  const std::array<double, 3> widths = lattice.widths();
+  for (std::size_t k = 0; k < 3; ++k)
+    if (lattice.axes[k] && widths[k] < 2.0 * listReach(cell))
+      throw InputError("faces across period " + std::to_string(k + 1) + " are " + formatNumber(widths[k]) + " m apart",
+                       where,
+                       "take more grains: " + formatNumber(2.0 * listReach(cell)) +
+                           " m, two of the largest diameters and skins, are the least");
+  cell.volume = lattice.volume();
+  setMasses(cell, grains, norm(lattice.period[2]));
+  place(cell, grains);
+  renew(cell);
+  sweep(cell, 0.0, Eigen::Matrix3d::Zero());
+  return cell;
+}
+
+double volume(const Cell& cell) { return cell.state.lattice.volume(); }
+
+double meanDiameter(const Cell& cell) {
+  double sum = 0.0;
+  for (const double r : cell.radius) sum += r;
+  return 2.0 * sum / static_cast<double>(cell.size());
+}
+
+double solidFraction(const Cell& cell) {
+  double mass = 0.0;
+  for (const double m : cell.mass) mass += m;
+  return mass / (cell.density * volume(cell));
+}
+
+void setSprings(Cell& cell, const Springs& springs) {
+  validate(springs);
+  if (springs.rolls() && cell.shape == Shape::sphere)
+    throw InputError("spheres resist rolling", where, "leave rolling resistance to discs");
+  cell.springs = springs;
+  cell.state.contacts.roll.resize(springs.rolls() ? cell.state.contacts.size() : 0, 0.0);
+  renew(cell);
+  sweep(cell, 0.0, Eigen::Matrix3d::Zero());
+}
+
+}  // namespace dovetail::rve

@@ -1,0 +1,109 @@
+#include "dovetail/rve/operators.hpp"
+
+#include <Eigen/LU>
+#include <limits>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/rve/equilibrium.hpp"
+#include "network.hpp"
+
+namespace dovetail::rve {
+
+namespace {
+
+/// From strains δF F⁻¹ to δF, and from the stress Σ f ⊗ b to V₀ P.
+Tangent pulledBack(const Cell& cell, const Eigen::MatrixXd& spatial) {
+  const int dimension = cell.dimension();
+  const Eigen::Matrix3d inverse = cell.state.F.inverse();
+  Tangent tangent = Tangent::Zero();
+  for (int i = 0; i < dimension; ++i)
+    for (int J = 0; J < dimension; ++J)
+      for (int k = 0; k < dimension; ++k)
+        for (int L = 0; L < dimension; ++L)
+          for (int m = 0; m < dimension; ++m)
+            for (int n = 0; n < dimension; ++n)
+              tangent(3 * i + J, 3 * k + L) +=
+                  inverse(J, m) * inverse(L, n) * spatial(dimension * i + m, dimension * k + n) / cell.volume;
+  return tangent;
+}
+
+Eigen::Matrix3d probed(Cell cell, const Eigen::Matrix3d& F, const ProbeSettings& settings) {
+  deform(cell, relativeDeformation(cell, F));
+  RestReport rest = polish(cell, settings.unbalanced);
+  if (!rest.atRest) {
+    relax(cell, {.unbalanced = 1e-6});
+    rest = polish(cell, settings.unbalanced);
+  }
+  if (!rest.atRest)
+    throw NumericalError("forces are out of balance by " + formatNumber(rest.unbalanced), "elastic probe of a cell",
+                         "relax the cell first, or take a larger tolerance or another strain");
+  return nominalStress(cell);
+}
+
+}  // namespace
+
+Tangent network(const Cell& cell) { return pulledBack(cell, Network(cell, {}).relaxedStressByStrain()); }
+
+Tangent slidingNetwork(const Cell& cell) {
+  return pulledBack(cell, Network(cell, {.slips = true}).relaxedStressByStrain());
+}
+
+Tangent uniformStrain(const Cell& cell) {
+  return pulledBack(cell, Network(cell, {.prestress = false}).stressByStrain());
+}
+
+Tangent elasticProbe(const Cell& start, const ProbeSettings& settings) {
+  requirePositive(settings.strain, "strain of the probe");
+  requirePositive(settings.unbalanced, "unbalanced share of forces");
+  Cell cell = start;
+  stop(cell);
+  if (cell.springs.slides()) {
+    Springs sticking = cell.springs;
+    sticking.friction = std::numeric_limits<double>::infinity();
+    setSprings(cell, sticking);
+  }
+  Tangent tangent = Tangent::Zero();
+  for (int k = 0; k < cell.dimension(); ++k)
+    for (int L = 0; L < cell.dimension(); ++L) {
+      Eigen::Matrix3d more = cell.state.F, less = more;
+      more(k, L) += settings.strain;
+      less(k, L) -= settings.strain;
+      const Eigen::Matrix3d slope =
+          (probed(cell, more, settings) - probed(cell, less, settings)) / (2.0 * settings.strain);
+      for (int i = 0; i < 3; ++i)
+        for (int J = 0; J < 3; ++J) tangent(3 * i + J, 3 * k + L) = slope(i, J);
+    }
+  return tangent;
+}
+
+RestReport polish(Cell& cell, double unbalanced, int iterations) {
+  requirePositive(unbalanced, "unbalanced share of forces");
+  stop(cell);
+  RestReport report;
+  report.unbalanced = balance(cell).unbalanced;
+  CellState best;
+  for (int k = 0; k < iterations && report.unbalanced > unbalanced; ++k) {
+    save(cell, best);
+    bool better = false;
+    for (const bool slips : {true, false}) {
+      Components w, theta;
+      Network(cell, {.slips = slips}).solve(w, theta);
+      displace(cell, w, theta);
+      const double now = balance(cell).unbalanced;
+      better = now < report.unbalanced;
+      if (better) report.unbalanced = now;
+      if (better || balance(cell).sliding == 0) break;
+      restore(cell, best);
+    }
+    if (!better) {
+      restore(cell, best);
+      break;
+    }
+    ++report.steps;
+  }
+  report.atRest = report.unbalanced <= unbalanced;
+  return report;
+}
+
+}  // namespace dovetail::rve

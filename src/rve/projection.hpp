@@ -1,0 +1,12 @@
+// The space of fluctuations of a framed cell.
+#pragma once
+
+#include "dovetail/rve/cell.hpp"
+
+namespace dovetail::rve {
+
+/// Takes velocities, or accelerations, to the nearest ones, in the norm of the masses, that the frame's conditions
+/// allow. What that takes is what reactions do. Nothing happens in cells that repeat.
+void project(const Cell& cell, Components& v, Components& spin);
+
+}  // namespace dovetail::rve

@@ -1,0 +1,138 @@
+#include <cmath>
+
+#include "touching_rows.hpp"
+
+namespace dovetail::rve {
+
+namespace {
+
+/// What the law takes and gives, contact by contact.
+struct DiscRows {
+  Row radiusI, radiusJ, stiffness, stretch, roll;
+  Row speedX, speedY, spinI, spinJ;      // of j less i; of each
+  Row forceX, forceY, torqueI, torqueJ;  // on i; on each
+  Row slipped;
+};
+
+struct DiscLaw {
+  double ratio, slipShare, rolling, rollShare;
+  double dt, xx, xy, yy;  // step, and rates of strain
+};
+
+inline double within(double value, double most) {
+  const double below = value < most ? value : most;
+  return below > -most ? below : -most;
+}
+
+template <bool slides, bool rolls>
+void applyLaw(const DiscLaw law, const TouchingRows<2>& __restrict at, DiscRows& __restrict r) {
+  const int count = at.count;
+  for (int m = 0; m < count; ++m) {
+    const double bx = at.branch[0][m], by = at.branch[1][m];
+    const double d = std::sqrt(at.squared[m]), inverse = 1.0 / d, nx = bx * inverse, ny = by * inverse;
+    const double overlap = r.radiusI[m] + r.radiusJ[m] - d, k = r.stiffness[m], press = k * overlap;
+    double hold = 0.0, moment = 0.0, slipped = 0.0;
+    const double armI = 0.5 * (d + r.radiusI[m] - r.radiusJ[m]), armJ = d - armI;
+    if constexpr (slides) {
+      const double wx = r.speedX[m] + law.xx * bx + law.xy * by, wy = r.speedY[m] + law.xy * bx + law.yy * by;
+      const double tried = r.stretch[m] + (wy * nx - wx * ny - armI * r.spinI[m] - armJ * r.spinJ[m]) * law.dt;
+      const double u = within(tried, law.slipShare * overlap);
+      hold = law.ratio * k * u;
+      slipped = hold * (tried - u);
+      r.stretch[m] = u;
+    }
+    if constexpr (rolls) {
+      const double product = r.radiusI[m] * r.radiusJ[m];
+      const double least = r.radiusI[m] < r.radiusJ[m] ? r.radiusI[m] : r.radiusJ[m];
+      const double tried = r.roll[m] + (r.spinI[m] - r.spinJ[m]) * law.dt;
+      const double turn = within(tried, law.rollShare * overlap * least / product);
+      moment = law.rolling * law.ratio * k * product * turn;
+      slipped += moment * (tried - turn);
+      r.roll[m] = turn;
+    }
+    r.forceX[m] = -press * nx - hold * ny;
+    r.forceY[m] = -press * ny + hold * nx;
+    r.torqueI[m] = armI * hold - moment;
+    r.torqueJ[m] = armJ * hold + moment;
+    r.slipped[m] = slipped;
+  }
+}
+
+}  // namespace
+
+template <bool slides, bool rolls>
+void sweepDiscs(Cell& cell, double dt, const Eigen::Matrix3d& L) {
+  CellState& s = cell.state;
+  const Springs& springs = cell.springs;
+  const DiscLaw law{springs.tangential,
+                    slides ? slipShareOf(springs) : 0.0,
+                    springs.rolling,
+                    rolls ? springs.rollingLimit / (springs.tangential * springs.rolling) : 0.0,
+                    dt,
+                    L(0, 0),
+                    0.5 * (L(0, 1) + L(1, 0)),
+                    L(1, 1)};
+  const double* const vx = s.v[0].data();
+  const double* const vy = s.v[1].data();
+  const double* const spin = s.spin[2].data();
+  const double* const radius = cell.radius.data();
+  double* const fx = s.force[0].data();
+  double* const fy = s.force[1].data();
+  double* const torque = s.torque[2].data();
+  const double* const stiffness = s.contacts.stiffness.data();
+  double* const stretch = s.contacts.stretch[0].data();
+  double* const roll = s.contacts.roll.data();
+  double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0, slipped = 0.0;
+  DiscRows r;
+  const auto release = [&](int c, bool touches) {
+    if constexpr (slides) stretch[c] = touches ? stretch[c] : 0.0;
+    if constexpr (rolls) roll[c] = touches ? roll[c] : 0.0;
+  };
+  forTouchingBlocks<2>(cell, release, [&](const TouchingRows<2>& at) {
+    for (int m = 0; m < at.count; ++m) {
+      const int i = at.i[m], j = at.j[m], c = at.contact[m];
+      r.radiusI[m] = radius[i];
+      r.radiusJ[m] = radius[j];
+      r.stiffness[m] = stiffness[c];
+      if constexpr (slides) {
+        r.stretch[m] = stretch[c];
+        r.speedX[m] = vx[j] - vx[i];
+        r.speedY[m] = vy[j] - vy[i];
+      }
+      if constexpr (slides || rolls) {
+        r.spinI[m] = spin[i];
+        r.spinJ[m] = spin[j];
+      }
+      if constexpr (rolls) r.roll[m] = roll[c];
+    }
+    applyLaw<slides, rolls>(law, at, r);
+    for (int m = 0; m < at.count; ++m) {
+      const int i = at.i[m], j = at.j[m], c = at.contact[m];
+      const double x = r.forceX[m], y = r.forceY[m];
+      fx[i] += x;
+      fy[i] += y;
+      fx[j] -= x;
+      fy[j] -= y;
+      xx += x * at.branch[0][m];
+      xy += x * at.branch[1][m];
+      yx += y * at.branch[0][m];
+      yy += y * at.branch[1][m];
+      if constexpr (slides) stretch[c] = r.stretch[m];
+      if constexpr (rolls) roll[c] = r.roll[m];
+      if constexpr (slides || rolls) {
+        torque[i] += r.torqueI[m];
+        torque[j] += r.torqueJ[m];
+        slipped += r.slipped[m];
+      }
+    }
+  });
+  s.dyad << xx, xy, 0.0, yx, yy, 0.0, 0.0, 0.0, 0.0;
+  s.book.friction += slipped;
+}
+
+template void sweepDiscs<false, false>(Cell&, double, const Eigen::Matrix3d&);
+template void sweepDiscs<true, false>(Cell&, double, const Eigen::Matrix3d&);
+template void sweepDiscs<false, true>(Cell&, double, const Eigen::Matrix3d&);
+template void sweepDiscs<true, true>(Cell&, double, const Eigen::Matrix3d&);
+
+}  // namespace dovetail::rve

@@ -1,0 +1,143 @@
+#include <cmath>
+
+#include "touching_rows.hpp"
+
+namespace dovetail::rve {
+
+namespace {
+
+/// What the law takes and gives, contact by contact.
+struct SphereRows {
+  Row radiusI, radiusJ, stiffness;
+  Row stretch[3], speed[3], spinI[3], spinJ[3];  // speed of j less i
+  Row force[3], couple[3], armI, armJ;           // on i; n × force
+  Row slipped;
+};
+
+struct SphereLaw {
+  double ratio, slipShare, dt;
+  double rate[6];  // of strain: xx, yy, zz, xy, yz, xz
+  double spin[3];  // of L
+};
+
+template <bool slides>
+void applyLaw(const SphereLaw law, const TouchingRows<3>& __restrict at, SphereRows& __restrict r) {
+  const int count = at.count;
+  for (int m = 0; m < count; ++m) {
+    const double bx = at.branch[0][m], by = at.branch[1][m], bz = at.branch[2][m];
+    const double d = std::sqrt(at.squared[m]), inverse = 1.0 / d;
+    const double nx = bx * inverse, ny = by * inverse, nz = bz * inverse;
+    const double k = r.stiffness[m], overlap = r.radiusI[m] + r.radiusJ[m] - d, press = k * overlap;
+    if constexpr (!slides) {
+      r.force[0][m] = -press * nx;
+      r.force[1][m] = -press * ny;
+      r.force[2][m] = -press * nz;
+    } else {
+      const double armI = 0.5 * (d + r.radiusI[m] - r.radiusJ[m]), armJ = d - armI;
+      const double turnX = armI * r.spinI[0][m] + armJ * r.spinJ[0][m],
+                   turnY = armI * r.spinI[1][m] + armJ * r.spinJ[1][m],
+                   turnZ = armI * r.spinI[2][m] + armJ * r.spinJ[2][m];
+      const double wx =
+          r.speed[0][m] + law.rate[0] * bx + law.rate[3] * by + law.rate[5] * bz - (turnY * nz - turnZ * ny);
+      const double wy =
+          r.speed[1][m] + law.rate[3] * bx + law.rate[1] * by + law.rate[4] * bz - (turnZ * nx - turnX * nz);
+      const double wz =
+          r.speed[2][m] + law.rate[5] * bx + law.rate[4] * by + law.rate[2] * bz - (turnX * ny - turnY * nx);
+      // The spring turns about the normal with the mean spin of both, and tilts with the normal.
+      const double twist = law.dt * ((0.5 * (r.spinI[0][m] + r.spinJ[0][m]) + law.spin[0]) * nx +
+                                     (0.5 * (r.spinI[1][m] + r.spinJ[1][m]) + law.spin[1]) * ny +
+                                     (0.5 * (r.spinI[2][m] + r.spinJ[2][m]) + law.spin[2]) * nz);
+      const double ux = r.stretch[0][m], uy = r.stretch[1][m], uz = r.stretch[2][m];
+      const double sx = ux + twist * (ny * uz - nz * uy) + law.dt * wx,
+                   sy = uy + twist * (nz * ux - nx * uz) + law.dt * wy,
+                   sz = uz + twist * (nx * uy - ny * ux) + law.dt * wz;
+      const double along = sx * nx + sy * ny + sz * nz;
+      const double tx = sx - along * nx, ty = sy - along * ny, tz = sz - along * nz;
+      const double length = std::sqrt(tx * tx + ty * ty + tz * tz), most = law.slipShare * overlap;
+      const double kept = most / (length > most ? length : most);
+      const double stiff = law.ratio * k * kept, hx = stiff * tx, hy = stiff * ty, hz = stiff * tz;
+      r.slipped[m] = stiff * length * (length - kept * length);
+      r.stretch[0][m] = kept * tx;
+      r.stretch[1][m] = kept * ty;
+      r.stretch[2][m] = kept * tz;
+      r.force[0][m] = hx - press * nx;
+      r.force[1][m] = hy - press * ny;
+      r.force[2][m] = hz - press * nz;
+      r.couple[0][m] = ny * hz - nz * hy;
+      r.couple[1][m] = nz * hx - nx * hz;
+      r.couple[2][m] = nx * hy - ny * hx;
+      r.armI[m] = armI;
+      r.armJ[m] = armJ;
+    }
+  }
+}
+
+SphereLaw lawOf(const Springs& springs, double dt, const Eigen::Matrix3d& L) {
+  return {springs.tangential,
+          springs.slides() ? slipShareOf(springs) : 0.0,
+          dt,
+          {L(0, 0), L(1, 1), L(2, 2), 0.5 * (L(0, 1) + L(1, 0)), 0.5 * (L(1, 2) + L(2, 1)), 0.5 * (L(0, 2) + L(2, 0))},
+          {0.5 * (L(2, 1) - L(1, 2)), 0.5 * (L(0, 2) - L(2, 0)), 0.5 * (L(1, 0) - L(0, 1))}};
+}
+
+}  // namespace
+
+template <bool slides>
+void sweepSpheres(Cell& cell, double dt, const Eigen::Matrix3d& L) {
+  CellState& s = cell.state;
+  const SphereLaw law = lawOf(cell.springs, dt, L);
+  const double *v[3], *spin[3], *const radius = cell.radius.data(), *const stiffness = s.contacts.stiffness.data();
+  double *force[3], *torque[3], *stretch[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    v[k] = s.v[k].data();
+    spin[k] = s.spin[k].data();
+    force[k] = s.force[k].data();
+    torque[k] = s.torque[k].data();
+    stretch[k] = s.contacts.stretch[k].data();
+  }
+  double dyad[3][3] = {}, slipped = 0.0;
+  SphereRows r;
+  const auto release = [&](int c, bool touches) {
+    if constexpr (slides)
+      for (double* const u : stretch) u[c] = touches ? u[c] : 0.0;
+  };
+  forTouchingBlocks<3>(cell, release, [&](const TouchingRows<3>& at) {
+    for (int m = 0; m < at.count; ++m) {
+      const int i = at.i[m], j = at.j[m], c = at.contact[m];
+      r.radiusI[m] = radius[i];
+      r.radiusJ[m] = radius[j];
+      r.stiffness[m] = stiffness[c];
+      if constexpr (slides)
+        for (int k = 0; k < 3; ++k) {
+          r.stretch[k][m] = stretch[k][c];
+          r.speed[k][m] = v[k][j] - v[k][i];
+          r.spinI[k][m] = spin[k][i];
+          r.spinJ[k][m] = spin[k][j];
+        }
+    }
+    applyLaw<slides>(law, at, r);
+    for (int m = 0; m < at.count; ++m) {
+      const int i = at.i[m], j = at.j[m], c = at.contact[m];
+      for (int k = 0; k < 3; ++k) {
+        const double f = r.force[k][m];
+        force[k][i] += f;
+        force[k][j] -= f;
+        for (int l = 0; l < 3; ++l) dyad[k][l] += f * at.branch[l][m];
+        if constexpr (slides) {
+          stretch[k][c] = r.stretch[k][m];
+          torque[k][i] += r.armI[m] * r.couple[k][m];
+          torque[k][j] += r.armJ[m] * r.couple[k][m];
+        }
+      }
+      if constexpr (slides) slipped += r.slipped[m];
+    }
+  });
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) s.dyad(k, l) = dyad[k][l];
+  s.book.friction += slipped;
+}
+
+template void sweepSpheres<false>(Cell&, double, const Eigen::Matrix3d&);
+template void sweepSpheres<true>(Cell&, double, const Eigen::Matrix3d&);
+
+}  // namespace dovetail::rve

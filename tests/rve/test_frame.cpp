@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "../../src/rve/projection.hpp"
+#include "../../src/rve/touching.hpp"
+#include "cells.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/rve/operators.hpp"
+
+namespace dovetail::rve {
+namespace {
+
+TEST(Frame, AreasCloseAndMeasureTheVolume) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Cell cell = framed(pressedDiscs(100, seed), everywhere(Condition::periodic));
+    const Frame& frame = cell.frame;
+    Vec3 sum;
+    Eigen::Matrix2d volumes = Eigen::Matrix2d::Zero();
+    double size = 0.0;
+    for (std::size_t q = 0; q < frame.grain.size(); ++q) {
+      sum += frame.area[q];
+      size += norm(frame.area[q]);
+      volumes +=
+          Eigen::Vector2d(frame.place[q].x, frame.place[q].y) * Eigen::RowVector2d(frame.area[q].x, frame.area[q].y);
+    }
+    EXPECT_LT(norm(sum), 1e-12 * size);
+    EXPECT_LT((volumes - cell.volume * Eigen::Matrix2d::Identity()).norm(), 1e-12 * cell.volume);
+  }
+}
+
+TEST(Frame, ArraysHaveTheirStressAtFullAndHalfWeight) {
+  // −σ₁₁/k_n = 0.02 n/(n − 1) with contacts along the frame at full weight (Liu 2018, Fig. 2.4), 0.02 with half of it.
+  const double full[] = {0.0250, 0.0222, 0.0214};
+  int k = 0;
+  for (const int n : {5, 10, 15}) {
+    Cell cell = framed(squareArray(n - 1), everywhere(Condition::displacement));
+    ASSERT_EQ(cell.size(), static_cast<std::size_t>(n * n));
+    EXPECT_NEAR(-stressOfReactions(cell)(0, 0) / 1e4, 0.02, 1e-12);
+    cell.state.contacts.stiffness.assign(cell.state.contacts.size(), 1e4);
+    displace(cell, cell.state.v, cell.state.spin);
+    EXPECT_NEAR(-stressOfReactions(cell)(0, 0) / 1e4, full[k++], 1e-4);
+  }
+}
+
+TEST(Frame, PeriodicFramesAnswerAsCellsThatRepeat) {
+  Cell wrapped = pressedDiscs(100);
+  Cell cut = framed(wrapped, everywhere(Condition::periodic));
+  EXPECT_LT((nominalStress(cut) - nominalStress(wrapped)).norm(), 1e-12 * nominalStress(wrapped).norm());
+  for (int k = 1; k <= 3; ++k) {
+    const Eigen::Matrix3d F = plane(1.0 + 2e-4 * k, 3e-4 * k, 0.0, 1.0 - 4e-4 * k);
+    for (Cell* cell : {&wrapped, &cut}) {
+      deform(*cell, relativeDeformation(*cell, F));
+      const RestReport rest = polish(*cell, 1e-11, 30);
+      ASSERT_TRUE(rest.atRest) << rest.unbalanced;
+    }
+    EXPECT_LT((nominalStress(cut) - nominalStress(wrapped)).norm(), 1e-9 * nominalStress(wrapped).norm());
+    EXPECT_LT((stressOfReactions(cut) - nominalStress(cut)).norm(), 1e-9 * nominalStress(cut).norm());
+  }
+}
+
+/// V P̄ : δF against the virtual work of all contacts, for a random δF and any fluctuation that the conditions leave.
+double hillMandelError(const Cell& cell, std::mt19937& random) {
+  Components w = randomMotion(cell.state.v, 1e-2 * meanDiameter(cell), random);
+  Components theta = randomMotion(cell.state.spin, 1e-2, random);
+  project(cell, w, theta);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  const Eigen::Matrix2d dF = Eigen::Matrix2d::NullaryExpr([&] { return u(random); });
+  const Eigen::Matrix2d L = dF * cell.state.F.topLeftCorner<2, 2>().inverse();
+  const double spin = 0.5 * (L(1, 0) - L(0, 1));
+  const auto moved = [&](std::size_t i) {
+    return Vec3{L(0, 0) * cell.state.x[0][i] + L(0, 1) * cell.state.x[1][i] + w[0][i],
+                L(1, 0) * cell.state.x[0][i] + L(1, 1) * cell.state.x[1][i] + w[1][i], 0.0};
+  };
+  double work = 0.0;
+  forEachTouch(cell, [&](const Touch& touch) {
+    const Vec3 force = contactForce(cell, touch);
+    const double couple = cross(touch.normal, force).z;
+    const double armI = 0.5 * (touch.distance + cell.radius[touch.i] - cell.radius[touch.j]);
+    work += dot(force, moved(touch.j) - moved(touch.i)) - armI * couple * (theta[2][touch.i] + spin) -
+            (touch.distance - armI) * couple * (theta[2][touch.j] + spin);
+  });
+  const double given = cell.volume * stressOfReactions(cell).topLeftCorner<2, 2>().cwiseProduct(dF).sum();
+  return std::abs(given - work) / std::abs(given);
+}
+
+TEST(Frame, HillAndMandelsConditionHoldsInEverySpaceInSlidingStates) {
+  std::mt19937 random(4);
+  const Cell start = pressedDiscs(100);
+  const Condition D = Condition::displacement, P = Condition::periodic, T = Condition::traction;
+  for (const Conditions& conditions :
+       {everywhere(D), everywhere(P), everywhere(T), Conditions{.bottom = D, .right = P, .top = T, .left = P}}) {
+    Cell cell = framed(start, conditions);
+    for (int k = 1; k <= 5; ++k) followPath(cell, plane(1, 0.02 * k, 0, 1), {.rest = {.unbalanced = 1e-4}});
+    const RestReport rest = relax(cell, {.unbalanced = 1e-8, .steps = 40000});
+    EXPECT_TRUE(rest.atRest) << rest.unbalanced;
+    EXPECT_GT(cell.state.book.friction, 0.1 * cell.state.book.work);
+    for (int k = 0; k < 3; ++k) EXPECT_LT(hillMandelError(cell, random), 1e-6);
+  }
+}
+
+TEST(Frame, ConditionsHoldOnTheWay) {
+  Cell cell = framed(pressedDiscs(100), everywhere(Condition::traction));
+  followPath(cell, plane(1, 0.01, 0, 1), {.rest = {.unbalanced = 1e-9}});
+  const Eigen::Matrix2d F = cell.state.F.topLeftCorner<2, 2>();
+  Eigen::Matrix2d mean = Eigen::Matrix2d::Zero();
+  double size = 0.0;
+  for (std::size_t q = 0; q < cell.frame.grain.size(); ++q) {
+    const auto g = static_cast<std::size_t>(cell.frame.grain[q]);
+    const Eigen::Vector2d X(cell.frame.place[q].x, cell.frame.place[q].y),
+        A(cell.frame.area[q].x, cell.frame.area[q].y), x(cell.state.x[0][g], cell.state.x[1][g]);
+    mean += x * A.transpose();
+    size += (x - F * X).norm() * A.norm();
+  }
+  EXPECT_LT((mean / cell.volume - F).norm(), 1e-12);
+  EXPECT_GT(size, 1e-5 * cell.volume);
+  const std::vector<Vec3> a = reactions(cell);
+  const Eigen::Matrix2d P = stressOfReactions(cell).topLeftCorner<2, 2>();
+  for (std::size_t q = 0; q < a.size(); ++q) {
+    const Eigen::Vector2d expected = P * Eigen::Vector2d(cell.frame.area[q].x, cell.frame.area[q].y);
+    EXPECT_LT(std::hypot(a[q].x - expected[0], a[q].y - expected[1]), 1e-7 * P.norm() * norm(cell.frame.area[q]));
+  }
+}
+
+TEST(Frame, WhatCannotBeFramedIsRefused) {
+  EXPECT_THROW(framed(pressedSpheres(48), everywhere(Condition::periodic)), InputError);
+  const Cell cell = squareArray(4);
+  const Cell cut = framed(cell, everywhere(Condition::periodic));
+  EXPECT_THROW(framed(cut, everywhere(Condition::periodic)), InputError);
+  EXPECT_THROW(framed(cell, {.bottom = Condition::displacement}), InputError);
+  Cell pressed = cut;
+  EXPECT_THROW(compress(pressed, {}), InputError);
+}
+
+}  // namespace
+}  // namespace dovetail::rve

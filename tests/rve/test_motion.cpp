@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cells.hpp"
+#include "dovetail/core/error.hpp"
+
+namespace dovetail::rve {
+namespace {
+
+TEST(Motion, ATurnInManyStepsTurnsTheStress) {
+  Cell start = pressedDiscs(60);
+  followPath(start, plane(1.005, 0.004, 0.0, 0.99));
+  const Eigen::Matrix3d R = turned(0.6), expected = R * stress(start).cauchy * R.transpose();
+  const auto errorOf = [&](int steps) {
+    Cell cell = start;
+    for (int k = 0; k < steps; ++k) deform(cell, turned(0.6 / steps));
+    return (stress(cell).cauchy - expected).norm() / expected.norm();
+  };
+  // Discs keep their springs' lengths, and Cayley's rate of a turn is no strain.
+  EXPECT_LT(errorOf(1), 1e-11);
+  EXPECT_LT(errorOf(50), 1e-11);
+}
+
+TEST(Motion, SpheresTurnWithTheirCellAsStepsShrink) {
+  Cell start = pressedSpheres(48);
+  Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
+  shear(0, 1) = 0.01;
+  shear(2, 2) = 0.99;
+  followPath(start, shear);
+  const auto turnedBy = [](double angle) {
+    return Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  };
+  const Eigen::Matrix3d expected = turnedBy(0.5) * stress(start).cauchy * turnedBy(0.5).transpose();
+  const auto errorOf = [&](int steps) {
+    Cell cell = start;
+    for (int k = 0; k < steps; ++k) deform(cell, turnedBy(0.5 / steps));
+    return (stress(cell).cauchy - expected).norm() / expected.norm();
+  };
+  const double coarse = errorOf(80), fine = errorOf(160);
+  EXPECT_LT(fine, 5e-4);
+  EXPECT_NEAR(coarse / fine, 2.0, 0.1) << coarse << " " << fine;
+}
+
+TEST(Motion, TheLedgerOfAPathClosesAndHalvesWithTheStep) {
+  const Cell start = pressedDiscs(100);
+  const auto residualOf = [&](double stepShare) {
+    Cell cell = start;
+    const double before = storedEnergy(cell);
+    for (int k = 1; k <= 4; ++k)
+      followPath(cell, plane(1.0 + 0.005 * k, 0, 0, 1.0 - 0.007 * k), {.stepShare = stepShare, .rest = {.steps = 0}});
+    const EnergyBook& book = cell.state.book;
+    EXPECT_GT(book.friction, 0.1 * book.work);
+    return (book.work - (storedEnergy(cell) - before) - kineticEnergy(cell) - book.friction - book.damping) / book.work;
+  };
+  const double coarse = residualOf(0.8), fine = residualOf(0.2);
+  EXPECT_LT(std::abs(coarse), 1e-3);
+  EXPECT_LT(std::abs(fine), 0.5 * std::abs(coarse));
+}
+
+TEST(Motion, AClosedLoopWithoutSlippingReturnsItsWork) {
+  Cell cell = pressedDiscs(60);
+  Springs smooth = cell.springs;
+  smooth.friction = 0.0;
+  setSprings(cell, smooth);
+  polish(cell, 1e-9);
+  const double stored = storedEnergy(cell);
+  for (const double a : {1e-5, -1e-5, 0.0}) {
+    deform(cell, relativeDeformation(cell, plane(1.0 + a, a, 0.0, 1.0)));
+    relax(cell, {.unbalanced = 1e-6});
+    polish(cell, 1e-9);
+  }
+  EXPECT_NEAR(storedEnergy(cell), stored, 1e-6 * stored);
+}
+
+TEST(Motion, ReductionOfTheLatticeOnTheWayIsNotFelt) {
+  // A shear of more than one, in which a reduced lattice and its images change several times.
+  Cell cell = squareArray(6, 1.001e-3);
+  Springs smooth = cell.springs;
+  smooth.friction = 0.0;
+  setSprings(cell, smooth);
+  const Stress before = stress(cell);
+  for (int k = 0; k < 200; ++k) deform(cell, plane(1, 0.005, 0, 1));
+  EXPECT_NEAR(cell.state.F(0, 1), 1.0, 1e-12);
+  EXPECT_LT(std::abs(cell.state.lattice.period[1].x), 0.51 * 12e-3);
+  // Sheared by one, a square lattice of grains is itself.
+  EXPECT_LT((stress(cell).cauchy - before.cauchy).norm(), 1e-9 * before.cauchy.norm());
+}
+
+TEST(Motion, PathsTellHowFastTheyWereAndEndWhereTheyShall) {
+  Cell cell = pressedDiscs(60);
+  const Eigen::Matrix3d F = plane(1.002, 0.003, -0.001, 0.996);
+  const PathReport report = followPath(cell, F, {.inertialNumber = 1e-3, .rest = {.unbalanced = 1e-6}});
+  EXPECT_LT((cell.state.F - F).norm(), 1e-14);
+  EXPECT_TRUE(report.rest.atRest);
+  EXPECT_LT(report.kineticShare, 1e-2);
+  EXPECT_GT(report.steps, 10);
+  EXPECT_EQ(kineticEnergy(cell), 0.0);
+  EXPECT_LT(stress(cell).asymmetry, 1e-5);
+}
+
+TEST(Motion, PathsThatCannotBeGoneAreRefused) {
+  Cell cell = pressedDiscs(40);
+  EXPECT_THROW(followPath(cell, plane(1.06, 0, 0, 1)), InputError);
+  EXPECT_THROW(followPath(cell, plane(1, 0, 0, -1)), InputError);
+  EXPECT_THROW(followPath(cell, 1.01 * Eigen::Matrix3d::Identity()), InputError);
+  EXPECT_THROW(followPath(cell, plane(1.01, 0, 0, 1), {.inertialNumber = 0.1}), InputError);
+  EXPECT_THROW(followPath(cell, plane(1.01, 0, 0, 1), {.damping = 1.0}), InputError);
+  EXPECT_THROW(relax(cell, {.unbalanced = 0.0}), InputError);
+  EXPECT_THROW(relax(cell, {.stepShare = 1.5}), InputError);
+}
+
+}  // namespace
+}  // namespace dovetail::rve

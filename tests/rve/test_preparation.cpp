@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cells.hpp"
+#include "dovetail/core/error.hpp"
+
+namespace dovetail::rve {
+namespace {
+
+TEST(Preparation, CellsPressAsWantedAndRest) {
+  Cell cell = randomCell({.count = 150, .seed = 3}, ordinarySprings());
+  compress(cell, {.pressure = {1e5, 1.3e5, 0}, .friction = 0.2});
+  const Eigen::Matrix3d now = stress(cell).cauchy;
+  EXPECT_NEAR(-now(0, 0), 1e5, 1e2);
+  EXPECT_NEAR(-now(1, 1), 1.3e5, 1.3e2);
+  EXPECT_LE(balance(cell).unbalanced, 1e-4);
+  EXPECT_EQ(cell.state.F, Eigen::Matrix3d::Identity());
+  EXPECT_NEAR(cell.volume, volume(cell), 1e-15 * cell.volume);
+}
+
+TEST(Preparation, LessFrictionMakesDenserCells) {
+  const auto solidAt = [](double friction) {
+    Cell cell = randomCell({.count = 200}, ordinarySprings());
+    compress(cell, {.friction = friction});
+    return solidFraction(cell);
+  };
+  EXPECT_GT(solidAt(0.0), solidAt(0.5) + 0.005);
+}
+
+TEST(Preparation, SpheresArePreparedAlike) {
+  const Cell cell = pressedSpheres(64);
+  EXPECT_NEAR(stress(cell).pressure, 1e6, 1e3);
+  EXPECT_GT(solidFraction(cell), 0.6);
+  EXPECT_GT(balance(cell).coordination, 5.0);
+}
+
+TEST(Preparation, SameSeedSameCell) {
+  EXPECT_EQ(pressedDiscs(50, 4).state.x, pressedDiscs(50, 4).state.x);
+  EXPECT_NE(pressedDiscs(50, 4).state.x, pressedDiscs(50, 5).state.x);
+}
+
+TEST(Preparation, BadSettingsAreRefused) {
+  Cell cell = squareArray(4);
+  EXPECT_THROW(compress(cell, {.pressure = {-1e5, 1e5, 1e5}}), InputError);
+  EXPECT_THROW(compress(cell, {.tolerance = 0.0}), InputError);
+  EXPECT_THROW(compress(cell, {.friction = -0.1}), InputError);
+  EXPECT_THROW(randomCell({.count = 0}, ordinarySprings()), InputError);
+  EXPECT_THROW(randomCell({.solidFraction = 1.2}, ordinarySprings()), InputError);
+  EXPECT_THROW(randomCell({.count = 2}, ordinarySprings()), InputError);
+}
+
+}  // namespace
+}  // namespace dovetail::rve
