@@ -177,6 +177,9 @@ TEST(SceneParts, AutomaticStepsKeepTheEnergyOfImpacts) {
 
 /// In a process of its own, which has little address space.
 TEST(SceneParts, WhatMemoryDoesNotHoldIsRefusedBeforeItIsTaken) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take more address space than the limit";
+#endif
   const auto refused = [](const std::string& middle) {
     const pid_t child = ::fork();
     if (child == 0) {

@@ -111,6 +111,9 @@ TEST_F(Vtu, TruncatedFilesAreRefused) {
 
 /// What VTK's reader does to the program here, if it is asked for its message: it names an array that is not there.
 TEST_F(Vtu, DamagedBlocksAreRefused) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the allocator of the sanitizer ends the program where VTK's reader gets std::bad_alloc";
+#endif
   const std::string good = vtuText(testMesh(fem::CellShape::hex8));
   const std::size_t from = good.find('_', good.find("<AppendedData")), to = good.find("</AppendedData");
   std::mt19937 random(1);
