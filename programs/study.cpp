@@ -118,6 +118,22 @@ report::Json runCase(const scene::Scene& scene, const fs::path& folder, const Se
   return figures;
 }
 
+/// Nothing if the values cannot be: then the refusal says why.
+std::optional<scene::Scene> sceneOf(const Settings& settings, const std::vector<std::string>& values,
+                                    std::optional<InputError>& refusal) {
+  try {
+    scene::Scene scene = scene::readScene(settings.scene, values);
+    if (scene.output.series) return scene;
+    refusal.emplace("the scene writes no series to compare", settings.scene,
+                    "add output.series, or --set output.series=1ms");
+  } catch (const InputError& error) {
+    refusal = error;
+  }
+  return {};
+}
+
+/// A scene that a value makes impossible is a row that says why; what makes all of them so is refused before anything
+/// is run.
 report::Study planOf(const Settings& settings) {
   std::vector<Axis> axes;
   for (const std::string& text : settings.over) axes.push_back(axisOf(text));
@@ -129,6 +145,8 @@ report::Study planOf(const Settings& settings) {
   study.fronts = {{settings.exact ? "error" : settings.error, "on_front"}};
   study.shown = {settings.error};
   if (settings.exact) study.shown.emplace_back("error");
+  std::optional<InputError> first;
+  bool anyRuns = false;
   for (io::KeyValues& values : combinations(axes)) {
     std::vector<std::string> all = settings.set;
     std::string label;
@@ -136,15 +154,19 @@ report::Study planOf(const Settings& settings) {
       all.push_back(key + "=" + value);
       label += (label.empty() ? "" : ", ") + all.back();
     }
-    const scene::Scene scene = scene::readScene(settings.scene, all);  // refuses before anything is run
-    if (!scene.output.series)
-      throw InputError("the scene writes no series to compare", settings.scene,
-                       "add output.series, or --set output.series=1ms");
-    if (study.cases.empty()) requireColumn(scene, settings.error);
     const fs::path folder = study.folder / report::format("%03zu", study.cases.size() + 1);
     values.emplace_back("folder", folder.filename().string());
-    study.cases.push_back({label, values, [scene, folder, &settings] { return runCase(scene, folder, settings); }});
+    std::optional<InputError> refusal;
+    const std::optional<scene::Scene> scene = sceneOf(settings, all, refusal);
+    if (scene && !anyRuns) requireColumn(*scene, settings.error);
+    anyRuns = anyRuns || scene;
+    if (!first) first = refusal;
+    study.cases.push_back({label, values, [=, &settings] {
+                             if (refusal) throw InputError(*refusal);
+                             return runCase(*scene, folder, settings);
+                           }});
   }
+  if (!anyRuns) throw InputError(*first);
   return study;
 }
 

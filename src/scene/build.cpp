@@ -39,19 +39,30 @@ std::vector<Limit> limitsOfParts(Built& built, const Scene& scene) {
 }
 
 /// Stability asks for no more than two steps in an impact, which then knows nothing of its energy. A fifth of its limit
-/// gives it eight, and the books are right to a twentieth of what changes hands. Bonded springs last.
-double automaticStep(Built& built, const Scene& scene, double limit) {
+/// gives it eight, and the books are right to a twentieth of what changes hands. Bonded springs last: infinite.
+double resolvedStep(const Built& built, const Scene& scene) {
   constexpr double shareOfImpact = 0.2;
-  const double share = scene.steps.safety * limit;
   const dem::Model& grains = built.run->grains;
-  if (std::isinf(grains.laws->reach())) return share;
-  const double resolved = shareOfImpact * impactLimit(scene, grains.particles);
+  return std::isinf(grains.laws->reach()) ? grains.laws->reach() : shareOfImpact * impactLimit(scene, grains.particles);
+}
+
+double automaticStep(Built& built, const Scene& scene, double limit) {
+  const double share = scene.steps.safety * limit, resolved = resolvedStep(built, scene);
   if (share <= resolved) return share;
   built.notes.push_back("The step is " + formatNumber(resolved) +
                         " s, so that an impact of the smallest grains takes eight steps; the share " +
                         formatNumber(scene.steps.safety) + " of the limit is " + formatNumber(share) +
                         " s. Give steps.dt a number if no grains meet in impacts.");
   return resolved;
+}
+
+void noteCoarseStep(Built& built, const Scene& scene, double dt) {
+  const double resolved = resolvedStep(built, scene);
+  if (dt <= resolved) return;
+  built.notes.push_back("The step, " + formatNumber(dt) + " s, gives an impact of the smallest grains " +
+                        formatNumber(std::floor(80.0 * resolved / dt) / 10.0) +
+                        " steps, too few to keep its energy; eight ask for " + formatNumber(resolved) +
+                        " s. It will do where no grains meet in impacts.");
 }
 
 bool goesOn(const TimeVector& velocity, const Vec3& angularVelocity = {}) {
@@ -102,7 +113,10 @@ Built build(const Scene& scene) {
 void start(Built& built, const Scene& scene) {
   const coupling::RunOptions options{.stepsPerWindow = scene.steps.stepsPerWindow};
   atPlace(scene.steps.where, [&] {
-    if (scene.steps.dt.word.empty()) return built.run->start(scene.steps.dt.number, options);
+    if (scene.steps.dt.word.empty()) {
+      built.run->start(scene.steps.dt.number, options);
+      return noteCoarseStep(built, scene, scene.steps.dt.number);
+    }
     double smallest = built.run->limitAtStart(options).dt;
     for (const Limit& limit : limitsOfParts(built, scene)) smallest = std::min(smallest, limit.dt);
     if (!std::isfinite(smallest))

@@ -308,6 +308,16 @@ TEST(DamagedStates, ParticlesWithoutNumbersAreNamed) {
   expectSaid(refusalOfDamaged([](Model& m) { m.particles.torque.pop_back(); }), "torque");
 }
 
+TEST(DamagedStates, EnumerationsStandForSomething) {
+  for (const int wrong : {-1, 2, 1 << 20}) {
+    const std::string number = std::to_string(wrong);
+    expectSaid(refusalOfDamaged([&](Model& m) { m.rotation = static_cast<Rotation>(wrong); }), number);
+    expectSaid(refusalOfDamaged([&](Model& m) { m.booking = static_cast<Booking>(wrong); }), number);
+    expectSaid(refusalOfDamaged([&](Model& m) { m.domain->policy = static_cast<EscapePolicy>(wrong); }), number);
+  }
+  expectSaid(refusalOfDamaged([](Model& m) { m.terms.all<InsertionTerm>()[0]->insertion.nextShape = 5; }), "no shape 5");
+}
+
 TEST(DamagedStates, ContactsOfPrimitiveWallsAreLookedAt) {
   const auto contacts = [](auto&& damage) {
     return refusalOfDamaged([&](Model& m) { damage(primitiveWall(m, 0).contacts); });

@@ -32,6 +32,21 @@ struct Bounce {
   Bounce() { writeText(file, scene); }
 };
 
+TEST(StudyVerb, AValueThatCannotBeIsARowThatSaysWhy) {
+  const Bounce bounce;
+  const Outcome some = runProgram({"study", bounce.file, "--over", "share=-1,0.1", "--out", bounce.out});
+  ASSERT_EQ(some.code, 0) << some.err;
+  const Json runs = Json::parse(readText(bounce.folder / "out/study.json"))["runs"];
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0]["outcome"], "refused");
+  EXPECT_NE(runs[0]["message"].get<std::string>().find("safety"), std::string::npos) << runs[0]["message"];
+  EXPECT_EQ(runs[1]["outcome"], "finished") << runs[1]["message"];
+
+  const Outcome none = runProgram({"study", bounce.file, "--over", "share=-1,-2", "--out", bounce.out + "2"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_FALSE(std::filesystem::exists(bounce.out + "2"));
+}
+
 TEST(StudyVerb, RunsEveryCombinationAndMarksTheFront) {
   const Bounce bounce;
   const Outcome outcome = runProgram({"study", bounce.file, "--over", "share=0.05,0.1,0.2", "--set", "speed=2",

@@ -161,6 +161,19 @@ TEST(SceneParts, AutomaticStepsGoThroughImpacts) {
   EXPECT_NEAR(bonded.run->dt(), 1.8 / std::numbers::pi * halfPeriod, 1e-12 * halfPeriod);
 }
 
+TEST(SceneParts, GivenStepsThatAreCoarseForImpactsAreTold) {
+  const auto given = [](double stepsInAnImpact) {
+    Scene scene = twoSpheres(R"("restitution": 0.8, "friction": 0.3)", "1");
+    const double resolved = started(scene).run->dt();
+    scene.steps.dt = {8.0 * resolved / stepsInAnImpact, ""};
+    return started(scene);
+  };
+  const Built coarse = given(4.0);
+  ASSERT_EQ(coarse.notes.size(), 1U);
+  expectParts(coarse.notes[0], {"an impact of the smallest grains 4 steps", "eight ask for"});
+  EXPECT_TRUE(given(8.1).notes.empty());
+}
+
 /// However large a share of the limit is asked for.
 TEST(SceneParts, AutomaticStepsKeepTheEnergyOfImpacts) {
   const ScratchFolder folder;

@@ -43,6 +43,15 @@ void archivePairs(ByteReader& reader, Model& m) {
   m.pairs.load(reader);
 }
 
+/// @param last  of the enumeration, which counts from 0
+template <class Enumeration>
+void requireKnown(Enumeration value, Enumeration last, const char* what) {
+  const int number = static_cast<int>(value);
+  if (number < 0 || number > static_cast<int>(last))
+    throw InputError(std::string(what) + " has the number " + std::to_string(number) + ", which stands for nothing",
+                     "checkpoint", "take an older checkpoint");
+}
+
 template <class Archive, class M>
 void archiveScene(Archive& archive, M& m) {
   archiveParticles(archive, m.particles);
@@ -51,7 +60,11 @@ void archiveScene(Archive& archive, M& m) {
   std::int64_t forcesOf = hasForces(m) ? m.forcesOf : -1;
   archive(m.time, m.steps, m.open, m.step, m.work, m.booked, m.rate, m.entered, m.left, forcesOf, m.smallestRadius,
           m.timeBase, m.stepsBase, m.checkedStep, m.renewals);
-  if constexpr (Archive::reads) m.forcesOf = forcesOf;
+  if constexpr (Archive::reads) {
+    m.forcesOf = forcesOf;
+    requireKnown(m.rotation, Rotation::off, "the rotation of grains");
+    requireKnown(m.booking, Booking::off, "the booking of energies");
+  }
 }
 
 void saveDomain(ByteWriter& writer, const Model& m) {
@@ -63,6 +76,7 @@ void loadDomain(ByteReader& reader, Model& m) {
   bool there = false;
   Domain domain;
   reader(there, domain.box, domain.policy);
+  requireKnown(domain.policy, EscapePolicy::remove, "what becomes of grains that leave");
   m.domain = there ? std::optional(domain) : std::nullopt;
 }
 

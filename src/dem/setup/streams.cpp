@@ -58,6 +58,10 @@ void requireValid(const HalfSpace& space) {
 void InsertionTerm::check(const Model& m) const {
   requireLaws(m);
   const InsertionSettings& s = insertion.settings;
+  const int shapes = static_cast<int>(s.shapes.size());
+  if (insertion.nextShape < 0 || insertion.nextShape >= std::max(1, shapes))
+    throw InputError("there is no shape " + std::to_string(insertion.nextShape) + " of " + std::to_string(shapes),
+                     "insertion", "take an older checkpoint");
   if (squaredNorm(s.spin) > 0.0 && m.particles.size() > 0 && !m.particles.rotates())
     throw InputError("the particles do not spin", "spin of inserted particles", "call switchOnRotation before");
   if (m.laws && m.laws->materials() > 1 && s.material >= m.laws->materials())
