@@ -126,9 +126,9 @@ double secondsOf(const Profile& profile, const std::string& stage) {
 
 /// Seconds per step and of its tie: the least of some groups of steps.
 void timeSteps(Scene& scene, double& step, double& tie) {
-  scene.run.step(false);
+  scene.run.advance(1, false);
   const double first = now();
-  scene.run.step(false);
+  scene.run.advance(1, false);
   const double one = now() - first;
   const int steps = std::clamp(static_cast<int>(0.3 / one), 2, 50);
   step = tie = 1e30;
@@ -154,7 +154,7 @@ double timeRenewal(Scene& scene, double step, std::size_t every) {
       p.v[i] += ((time % 2 == 0 ? 0.15 : -0.15) * p.radius[0] / scene.run.dt()) * Vec3{1, 0, 0};
     const std::int64_t before = scene.tie->state().relocations;
     const double begin = now();
-    scene.run.step(false);
+    scene.run.advance(1, false);
     least = std::min(least, now() - begin);
     p.v = v;
     if (scene.tie->state().relocations == before) throw NumericalError("nothing was located anew", "renewal", "");
@@ -205,7 +205,7 @@ Flow measureFlow(Scene& scene, double dt) {
     std::ranges::fill(run.solid(0).nodes().u, Vec3{});
     const std::int64_t before = scene.tie->state().relocations;
     const double begin = now();
-    run.step(false);
+    run.advance(1, false);
     const double took = now() - begin;
     const bool renews = scene.tie->state().relocations > before;
     if (counts) {

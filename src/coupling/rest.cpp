@@ -58,7 +58,7 @@ bool settleOn(CoupledRun& run, const RestOptions& options, RestProgress& progres
   if (report.windows == 0) run.stop();
   const std::int64_t end = std::min(options.windows, report.windows + windows);
   for (; report.windows < end && progress.quiet < 2; ++report.windows) {
-    run.step(true);
+    run.advance();
     const double kinetic = run.kineticEnergy();
     if (kinetic >= progress.before) {
       progress.before = kinetic;

@@ -97,16 +97,10 @@ void CoupledRun::start(double dt, const RunOptions& options) {
   run.open();
 }
 
-void CoupledRun::advance(std::int64_t windows) {
+void CoupledRun::advance(std::int64_t windows, bool withEnergies) {
   impl_->requireStarted("advance");
   if (windows < 0) throw InputError("windows is " + std::to_string(windows), "advance", "give 0 or more");
-  for (std::int64_t w = 0; w < windows; ++w) impl_->window(w + 1 == windows);
-  dem::close(grains);
-}
-
-void CoupledRun::step(bool withEnergies) {
-  impl_->requireStarted("step");
-  impl_->window(withEnergies);
+  for (std::int64_t w = 0; w < windows; ++w) impl_->window(withEnergies && w + 1 == windows);
   dem::close(grains);
 }
 

@@ -1,5 +1,7 @@
 #include "dovetail/scene/execute.hpp"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <ostream>
@@ -149,7 +151,7 @@ private:
     const std::int64_t first = progress_.window;
     while (progress_.window < windows) {
       const std::int64_t before = progress_.window, next = nextLook(before, windows);
-      run.advance(next - before);
+      run.advance(next - before, next == windows || isLookedInto(next));
       progress_.window = next;
       const double rate = static_cast<double>(next - first) / since(begun);
       shown.update(static_cast<double>(next),
@@ -171,6 +173,11 @@ private:
     for (const std::int64_t every : {plan_.series, plan_.frames, plan_.checkpoints})
       if (every > 0) next = std::min(next, (now / every + 1) * every);
     return next;
+  }
+  /// Looks at signals alone ask nobody for energies.
+  bool isLookedInto(std::int64_t window) const {
+    return std::ranges::any_of(std::array{plan_.series, plan_.frames, plan_.checkpoints},
+                               [&](std::int64_t every) { return every > 0 && window % every == 0; });
   }
   bool due(std::int64_t every) const { return every > 0 && progress_.window % every == 0; }
 

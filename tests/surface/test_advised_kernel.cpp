@@ -47,7 +47,7 @@ double peakForce(int overHeight, bool withKernel) {
   double largest = 0.0;
   double force = 0.0;
   while (run.time() < 1e-4 && force >= 0.9 * largest) {  // up to a little after the peak
-    run.step(false);
+    run.advance(1, false);
     force = run.grains.particles.f[0].z;
     largest = std::max(largest, force);
   }

@@ -110,10 +110,9 @@ public:
   /// @throws InputError as start, but for the step, and if the run has started
   StepLimit limitAtStart(const RunOptions& options = {});
   /// Windows of K steps. The last one's end is an instant at which positions and velocities agree.
+  /// @param withEnergies  false: there will be no ledger() at the end, which saves its energies
   /// @throws InputError if windows is negative; NumericalError naming the particle, node or element that breaks down
-  void advance(std::int64_t windows = 1);
-  /// One window for whoever looks at every one: without energies where none are wanted, which a ledger() would want.
-  void step(bool withEnergies);
+  void advance(std::int64_t windows = 1, bool withEnergies = true);
 
   /// All velocities to zero, between windows; what that takes is booked as "brought to rest".
   void stop();
