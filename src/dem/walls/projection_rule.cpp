@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "dovetail/core/vector_code.hpp"
 #include "dovetail/dem/walls/share_solver.hpp"
 #include "facet_view.hpp"
 #include "wall_sweep.hpp"
@@ -119,6 +120,11 @@ private:
 
   /// Facets closer than reach; false if there are none.
   bool collect(double reach) {
+    withVectors([&] { look(reach); });
+    return !scratch_.candidates.empty();
+  }
+
+  void look(double reach) {
     Candidates& candidates = scratch_.candidates;
     candidates.clear();
     nearest_ = 0;
@@ -145,7 +151,6 @@ private:
       next = &candidates.next();
     }
     if (candidates.empty() && anySunk) bringInSunk();
-    return !candidates.empty();
   }
 
   /// Inside the skin, where an edge (of a valley) is nearer than any face.
