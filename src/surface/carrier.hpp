@@ -35,7 +35,8 @@ public:
   /// Who may touch what before margin (m) is used up; all points are placed.
   virtual void search(const dem::Particles& particles, double margin, double reach,
                       const geometry::Periodicity& periodicity) = 0;
-  virtual void findContacts(const dem::Particles& particles, dem::WallContacts& contacts) = 0;
+  /// @param travelled  bound on how far any particle and any point together have come since the search, m
+  virtual void findContacts(const dem::Particles& particles, double travelled, dem::WallContacts& contacts) = 0;
 
   /// The wall that contacts are with: their facets, with positions and velocities there.
   virtual const dem::TriangulatedWall& wall() const = 0;

@@ -28,11 +28,13 @@ namespace {
 template <class Moved>
 double largestTravel(std::size_t n, Moved&& moved) {
   return std::sqrt(parallelSum(n, 4096, [&](std::size_t begin, std::size_t end) {
-                     std::array<dem::Largest, 4> squared;  // side by side, so that none waits for the one before
-                     for (std::size_t i = begin; i < end; ++i) squared[i % 4].meet(squaredNorm(moved(i)));
-                     squared[0] += squared[1];
-                     squared[2] += squared[3];
-                     return squared[0] += squared[2];
+                     double largest = 0.0, sum = 0.0;  // the sum is there for a NaN to show
+                     for (std::size_t i = begin; i < end; ++i) {
+                       const double squared = squaredNorm(moved(i));
+                       largest = squared > largest ? squared : largest;
+                       sum += squared;
+                     }
+                     return dem::Largest{std::isnan(sum) ? sum : largest};
                    }).value);
 }
 
@@ -77,7 +79,7 @@ dem::ContactWork Coupling::exchange(dem::Particles& particles, std::span<const V
                                     const dem::ContactLaws& laws, double dt, const ExchangeOptions& options) {
   locate(particles, u, v, laws.reach(), options);
   placeSurface(u, v);
-  carrier_->findContacts(particles, contacts_);
+  carrier_->findContacts(particles, travelled_, contacts_);
   const dem::ContactWork work = dem::sweepWall(options.timeless, contacts_.springs.left, [&] {
     return laws.wall(particles, carrier_->wall(), contacts_, dt, options.booking);
   });
@@ -106,6 +108,7 @@ void Coupling::locate(const dem::Particles& particles, std::span<const Vec3> u, 
     marginAtBuild_ = 0.5 * *std::min_element(particles.radius.begin(), particles.radius.end());
   carrier_->search(particles, marginAtBuild_, reach, options.periodicity);
   ++builds_;
+  travelled_ = 0.0;
   revision_ = particles.revision;
   reachAtBuild_ = reach;
   periodAtBuild_ = dem::periodsOf(options.periodicity);
@@ -132,7 +135,8 @@ bool Coupling::marginUsed(const dem::Particles& particles, std::span<const Vec3>
   });
   const double ofNodes =
       largestTravel(surfaceNodes_.size(), [&](std::size_t k) { return u[surfaceNodes_[k]] - nodesAtBuild_[k]; });
-  return !(ofParticles + gain_ * ofNodes <= marginAtBuild_);
+  travelled_ = ofParticles + gain_ * ofNodes;
+  return !(travelled_ <= marginAtBuild_);
 }
 
 void Coupling::placeSurface(std::span<const Vec3> u, std::span<const Vec3> v) {

@@ -9,7 +9,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/walls/facet_spin.hpp"
 #include "dovetail/dem/walls/wall_archive.hpp"
-#include "dovetail/dem/walls/wall_candidates.hpp"
+#include "dovetail/dem/walls/wall_clearances.hpp"
 
 namespace dovetail::surface {
 
@@ -44,12 +44,14 @@ public:
               const geometry::Periodicity& periodicity) override {
     candidates_.reach = reach;
     dem::findWallCandidates(particles, skin_.wall, margin, candidates_, periodicity);
+    clearances_ = dem::clearancesNow(particles, skin_.wall, candidates_);
     findActive();
   }
-  void findContacts(const dem::Particles& particles, dem::WallContacts& contacts) override {
+  void findContacts(const dem::Particles& particles, double travelled, dem::WallContacts& contacts) override {
     if (!candidates_.particle.empty() && static_cast<std::size_t>(candidates_.particle.back()) >= particles.size())
       refuse("a particle that is not there");
-    dem::findWallContacts(particles, skin_.wall, candidates_, rule_, contacts);
+    clearances_.travelled = travelled;
+    dem::findWallContacts(particles, skin_.wall, candidates_, clearances_, rule_, contacts);
   }
 
   const dem::TriangulatedWall& wall() const override { return skin_.wall; }
@@ -73,12 +75,12 @@ public:
 
   void save(ByteWriter& writer) const override {
     dem::archiveCandidates(writer, candidates_);
-    writer(skin_.wall.x, skin_.wall.v);
+    writer(clearances_.whenListed, skin_.wall.x, skin_.wall.v);
   }
   void load(ByteReader& reader) override {
     dem::archiveCandidates(reader, candidates_);
     const std::size_t points = skin_.wall.x.size();
-    reader(skin_.wall.x, skin_.wall.v);
+    reader(clearances_.whenListed, skin_.wall.x, skin_.wall.v);
     if (skin_.wall.x.size() != points) refuse("another number of points");
     requireWhole();
     findActive();
@@ -98,6 +100,7 @@ private:
                                         : c.offsets.size() == c.particle.size() + 1 && c.offsets.front() == 0 &&
                                               static_cast<std::size_t>(c.offsets.back()) == c.facet.size();
     if (!ends || !ascend(c.offsets) || !ascend(c.particle)) refuse("lists that do not fit each other");
+    if (clearances_.whenListed.size() != c.facet.size()) refuse("lists that do not fit each other");
     for (const int facet : c.facet)
       if (facet < 0 || static_cast<std::size_t>(facet) >= skin_.wall.facets.size()) refuse("a facet that is not there");
     if (skin_.wall.x.size() != skin_.wall.v.size()) refuse("lists that do not fit each other");
@@ -112,6 +115,7 @@ private:
   Skin skin_;
   dem::EdgeRule rule_;
   dem::WallCandidates candidates_;
+  dem::WallClearances clearances_;
   std::vector<int> active_;  // vertices of candidate facets
 };
 

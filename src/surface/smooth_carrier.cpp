@@ -67,7 +67,7 @@ public:
     });
   }
 
-  void findContacts(const dem::Particles& particles, dem::WallContacts& contacts) override {
+  void findContacts(const dem::Particles& particles, double, dem::WallContacts& contacts) override {
     if (!particle_.empty() && static_cast<std::size_t>(particle_.back()) >= particles.size())
       refuse("a particle that is not there");
     constexpr std::size_t grain = 16;

@@ -7,12 +7,13 @@ namespace dovetail::dem {
 void appendBeyondTouch(const Encounter& e, const TriangulatedWall& wall, double reach, double alike, std::size_t first,
                        WallContacts& contacts) {
   while (true) {
-    FacetView nearest;
+    FacetView nearest, seen;
     std::size_t entry = 0;
     for (std::size_t k = 0; k < e.size(); ++k) {
+      if (!e.mayBeWithin(k, reach)) continue;
       const FacetCorners corners(wall, e.facet[k], e.seenFrom(k));
       if (corners.beyond(e.radius + reach)) continue;
-      const FacetView seen = viewFacet({}, corners, e.radius, e.radius + reach, wall.oneSided);
+      viewFacet({}, corners, e.radius, e.radius + reach, wall.oneSided, seen);
       if (!(seen.distance >= e.radius && seen.distance < e.radius + reach && seen.distance < nearest.distance)) continue;
       const auto isAlike = [&](std::size_t c) { return dot(contacts.normal[c], seen.normal) > alike; };
       bool met = false;

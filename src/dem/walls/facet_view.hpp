@@ -67,12 +67,16 @@ inline Vec3 normalOnEdge(const Vec3& areaNormal) {
 /// @param q       the point, in the same frame as the corners
 /// @param radius  of the particle; a one-sided face reaches this far below itself
 /// @param reach   facets beyond it need not be seen
-inline FacetView viewFacet(const Vec3& q, const FacetCorners& t, double radius, double reach, bool oneSided) {
-  FacetView view;
+/// @param view    filled in place, as clearing one would cost as much as looking; of a facet that is not seen only
+///   distance and sunk, and where it is sunk the rest as well
+inline void viewFacet(const Vec3& q, const FacetCorners& t, double radius, double reach, bool oneSided,
+                      FacetView& view) {
+  view.distance = FacetView::unseen;
+  view.sunk = 0.0;
   const geometry::ClosestPoint closest = geometry::closestPointOnTriangle(q, t.a, t.b, t.c);
   const Vec3 d = q - closest.point;
   const double d2 = squaredNorm(d);
-  if (!(d2 < reach * reach)) return view;
+  if (!(d2 < reach * reach)) return;
   view.foot = closest.point;
   view.weight = closest.barycentric;
   view.feature = closest.feature;
@@ -80,7 +84,7 @@ inline FacetView viewFacet(const Vec3& q, const FacetCorners& t, double radius, 
   if (view.face()) {
     detail::viewFace(d, areaNormal, oneSided, view);
     if (view.distance <= -radius) view.distance = FacetView::unseen;
-    return view;
+    return;
   }
   const double distance = std::sqrt(d2);
   if (oneSided) {
@@ -89,12 +93,11 @@ inline FacetView viewFacet(const Vec3& q, const FacetCorners& t, double radius, 
     if (dot(areaNormal, d) < -roundOff) {
       view.sunk = distance;
       view.normal = d / -distance;
-      return view;
+      return;
     }
   }
   view.distance = distance;
   view.normal = distance > 1e-13 * radius ? d / distance : detail::normalOnEdge(areaNormal);
-  return view;
 }
 
 }  // namespace dovetail::dem

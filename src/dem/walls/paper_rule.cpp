@@ -17,10 +17,12 @@ void paperContacts(const Encounter& e, const TriangulatedWall& wall, std::vector
                    WallContacts& contacts) {
   touches.clear();
   std::size_t largest = 0;
+  FacetView view;
   for (std::size_t k = 0; k < e.size(); ++k) {
+    if (!e.mayBeWithin(k, 0.0)) continue;
     const FacetCorners corners(wall, e.facet[k], e.seenFrom(k));
     if (corners.beyond(e.radius)) continue;
-    const FacetView view = viewFacet({}, corners, e.radius, e.radius, wall.oneSided);
+    viewFacet({}, corners, e.radius, e.radius, wall.oneSided, view);
     if (!(view.distance < e.radius)) continue;
     touches.push_back({k, view});
     if (view.distance < touches[largest].view.distance) largest = touches.size() - 1;
@@ -34,22 +36,27 @@ void paperContacts(const Encounter& e, const TriangulatedWall& wall, std::vector
     if (kept(i)) sum += e.radius - touches[i].view.distance;
   for (std::size_t i = 0; i < touches.size(); ++i) {
     if (!kept(i)) continue;
-    const FacetView& view = touches[i].view;
-    const double overlap = e.radius - view.distance, share = overlap / sum;
-    addContact(contacts, e, touches[i].entry, view.weight, view.normal, share * overlap, share, share);
+    const FacetView& seen = touches[i].view;
+    const double overlap = e.radius - seen.distance, share = overlap / sum;
+    addContact(contacts, e, touches[i].entry, seen.weight, seen.normal, share * overlap, share, share);
   }
 }
 
 }  // namespace
 
 void paperWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
-                       WallContacts& contacts) {
-  sweepParticles(particles, candidates, contacts, [&](std::size_t, const Encounter& e, WallContacts& into) {
+                       const WallClearances* clearances, WallContacts& contacts) {
+  sweepParticles(particles, candidates, clearances, contacts, [&](std::size_t, const Encounter& e, WallContacts& into) {
     thread_local std::vector<Touch> touches;
     const std::size_t first = into.size();
     paperContacts(e, wall, touches, into);
     if (candidates.reach > 0.0) appendBeyondTouch(e, wall, candidates.reach, 0.2, first, into);
   });
+}
+
+void paperWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
+                       WallContacts& contacts) {
+  paperWallContacts(particles, wall, candidates, nullptr, contacts);
 }
 
 }  // namespace dovetail::dem

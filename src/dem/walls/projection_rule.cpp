@@ -1,7 +1,9 @@
 // EdgeRule::projected: contacts with a wall as the gradient of one potential.
 #include <algorithm>
+#include <span>
 #include <vector>
 
+#include "dovetail/core/vector_code.hpp"
 #include "dovetail/dem/walls/share_solver.hpp"
 #include "facet_view.hpp"
 #include "wall_sweep.hpp"
@@ -15,9 +17,9 @@ constexpr int largestIterations = 200;  // contraction is about overlap/radius p
 
 /// One facet in reach. Positions are relative to the particle's centre.
 struct Candidate {
-  std::size_t entry;  // of the encounter
-  FacetView view;     // from `position`
-  Vec3 position;      // yᵢ − x
+  std::size_t entry = 0;  // of the encounter
+  FacetView view;         // from `position`
+  Vec3 position;          // yᵢ − x
 };
 
 /// Whether an edge, or a facet at a vertex, has no neighbour there: the end of an open surface.
@@ -33,9 +35,31 @@ bool onRim(const TriangulatedWall& wall, int facet, geometry::Feature feature) {
   return std::any_of(around.begin(), around.end(), open);
 }
 
+/// A list that keeps its elements when it is emptied: those at its end are filled in place before they count.
+class Candidates {
+public:
+  void clear() { count_ = 0; }
+  std::size_t size() const { return count_; }
+  bool empty() const { return count_ == 0; }
+  /// The element behind the last one.
+  Candidate& next() {
+    if (count_ == kept_.size()) kept_.emplace_back();
+    return kept_[count_];
+  }
+  void keepNext() { ++count_; }
+  Candidate& operator[](std::size_t i) { return kept_[i]; }
+  const Candidate& operator[](std::size_t i) const { return kept_[i]; }
+  std::span<Candidate> all() { return {kept_.data(), count_}; }
+
+private:
+  std::vector<Candidate> kept_;
+  std::size_t count_ = 0;
+};
+
 /// Memory that is kept between particles and steps.
 struct Scratch {
-  std::vector<Candidate> candidates;
+  Candidates candidates;
+  Candidate sunk{};
   std::vector<Share> shares;
   ShareSolver solver;
 };
@@ -71,7 +95,8 @@ public:
   /// @param last where to look first, and where the foot was found
   bool appendFlat(int& last, WallContacts& contacts) const {
     const auto tryEntry = [&](std::size_t k) {
-      const FacetView seen = view(k, {}, FacetView::unseen);
+      FacetView seen;
+      view(k, {}, seen);
       if (!seen.face()) return false;
       last = static_cast<int>(k);
       if (seen.distance < radius_ + beyond_)
@@ -85,41 +110,57 @@ public:
   }
 
 private:
-  FacetView view(std::size_t entry, const Vec3& position, double reach) const {
-    return viewFacet(position, FacetCorners(wall_, encounter_.facet[entry], encounter_.seenFrom(entry)), radius_, reach,
-                     wall_.oneSided);
+  /// However far away it is.
+  void view(std::size_t entry, const Vec3& position, FacetView& seen) const {
+    viewFacet(position, FacetCorners(wall_, encounter_.facet[entry], encounter_.seenFrom(entry)), radius_,
+              FacetView::unseen, wall_.oneSided, seen);
   }
   const Candidate& nearest() const { return scratch_.candidates[nearest_]; }
   double nearestOverlap() const { return radius_ - nearest().view.distance; }
 
   /// Facets closer than reach; false if there are none.
   bool collect(double reach) {
-    scratch_.candidates.clear();
+    withVectors([&] { look(reach); });
+    return !scratch_.candidates.empty();
+  }
+
+  void look(double reach) {
+    Candidates& candidates = scratch_.candidates;
+    candidates.clear();
     nearest_ = 0;
     double least = reach;
     bool anySunk = false;
-    Candidate sunk{0, {}, {}};
+    Candidate* next = &candidates.next();
     for (std::size_t k = 0; k < encounter_.size(); ++k) {
+      if (!encounter_.mayBeWithin(k, reach - radius_)) continue;
       const FacetCorners corners(wall_, encounter_.facet[k], encounter_.seenFrom(k));
       if (corners.beyond(reach)) continue;
-      const FacetView seen = viewFacet({}, corners, radius_, reach, wall_.oneSided);
-      if (seen.sunk > 0.0 && (!anySunk || seen.sunk < sunk.view.sunk)) {
+      viewFacet({}, corners, radius_, reach, wall_.oneSided, next->view);
+      next->entry = k;
+      const FacetView& seen = next->view;
+      if (seen.sunk > 0.0 && (!anySunk || seen.sunk < scratch_.sunk.view.sunk)) {
         anySunk = true;
-        sunk = {k, seen, {}};
+        scratch_.sunk = *next;
       }
       if (!(seen.distance < reach)) continue;
       if (seen.distance < least) {
         least = seen.distance;
-        nearest_ = scratch_.candidates.size();
+        nearest_ = candidates.size();
       }
-      scratch_.candidates.push_back({k, seen, {}});
+      candidates.keepNext();
+      next = &candidates.next();
     }
-    if (scratch_.candidates.empty() && anySunk && !onRim(wall_, encounter_.facet[sunk.entry], sunk.view.feature)) {
-      // Inside the skin, where an edge (of a valley) is nearer than any face.
-      sunk.view.distance = -sunk.view.sunk;
-      scratch_.candidates.push_back(sunk);
-    }
-    return !scratch_.candidates.empty();
+    if (candidates.empty() && anySunk) bringInSunk();
+  }
+
+  /// Inside the skin, where an edge (of a valley) is nearer than any face.
+  void bringInSunk() {
+    const Candidate& sunk = scratch_.sunk;
+    if (onRim(wall_, encounter_.facet[sunk.entry], sunk.view.feature)) return;
+    Candidate& only = scratch_.candidates.next();
+    only = sunk;
+    only.view.distance = -sunk.view.sunk;
+    scratch_.candidates.keepNext();
   }
 
   /// Whether stepping out of the nearest facet clears all others. Distance to a facet is a convex function, so that
@@ -132,7 +173,8 @@ private:
       const double g = dot(other.view.normal, normal);
       if (i == nearest_ || coupling(g) * depth >= radius_ - other.view.distance - slack) continue;
       if (g <= 0.0) return false;
-      const FacetView after = view(other.entry, depth * normal, FacetView::unseen);
+      FacetView after;
+      view(other.entry, depth * normal, after);
       if (after.distance == FacetView::unseen) continue;
       if (after.distance < radius_ - slack || dot(after.normal, normal) < couplingBlend) return false;
     }
@@ -148,14 +190,14 @@ private:
   void guess() {
     scratch_.shares.assign(scratch_.candidates.size(), Share{});
     const Vec3 step = nearestOverlap() * nearest().view.normal;
-    for (Candidate& c : scratch_.candidates) c.position = dot(c.view.normal, step) >= 0.0 ? step : Vec3{};
+    for (Candidate& c : scratch_.candidates.all()) c.position = dot(c.view.normal, step) >= 0.0 ? step : Vec3{};
   }
 
   /// The facets as seen from the yᵢ: δᵢ = R − nᵢ·(x − cᵢ).
   void linearise() {
     for (std::size_t i = 0; i < scratch_.candidates.size(); ++i) {
       Candidate& c = scratch_.candidates[i];
-      c.view = view(c.entry, c.position, FacetView::unseen);
+      view(c.entry, c.position, c.view);
       scratch_.shares[i].normal = c.view.normal;
       scratch_.shares[i].overlap =
           c.view.distance == FacetView::unseen ? 0.0 : radius_ + dot(c.view.normal, c.view.foot);
@@ -206,13 +248,18 @@ private:
 }  // namespace
 
 void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
-                         WallContacts& contacts) {
-  sweepParticles(particles, candidates, contacts, [&](std::size_t k, const Encounter& e, WallContacts& into) {
+                         const WallClearances* clearances, WallContacts& contacts) {
+  sweepParticles(particles, candidates, clearances, contacts, [&](std::size_t k, const Encounter& e, WallContacts& into) {
     thread_local Scratch scratch;
     Projection projection(e, wall, candidates.reach, scratch);
     if (!candidates.flat.empty() && candidates.flat[k] && projection.appendFlat(candidates.lastFacet[k], into)) return;
     projection.appendTo(into);
   });
+}
+
+void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
+                         WallContacts& contacts) {
+  projectWallContacts(particles, wall, candidates, nullptr, contacts);
 }
 
 }  // namespace dovetail::dem

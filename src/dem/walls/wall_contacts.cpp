@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "dovetail/dem/walls/facet_spin.hpp"
+#include "wall_sweep.hpp"
 
 namespace dovetail::dem {
 
@@ -18,14 +19,28 @@ void clear(WallContacts& contacts) {
   contacts.image.clear();
 }
 
-void findWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
-                      EdgeRule rule, WallContacts& contacts) {
+namespace {
+
+void findContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
+                  const WallClearances* clearances, EdgeRule rule, WallContacts& contacts) {
   switch (rule) {
     case EdgeRule::projected:
-      return projectWallContacts(particles, wall, candidates, contacts);
+      return projectWallContacts(particles, wall, candidates, clearances, contacts);
     case EdgeRule::paper:
-      return paperWallContacts(particles, wall, candidates, contacts);
+      return paperWallContacts(particles, wall, candidates, clearances, contacts);
   }
+}
+
+}  // namespace
+
+void findWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
+                      EdgeRule rule, WallContacts& contacts) {
+  findContacts(particles, wall, candidates, nullptr, rule, contacts);
+}
+
+void findWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
+                      const WallClearances& clearances, EdgeRule rule, WallContacts& contacts) {
+  findContacts(particles, wall, candidates, &clearances, rule, contacts);
 }
 
 namespace detail {

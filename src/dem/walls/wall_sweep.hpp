@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/walls/wall_contacts.hpp"
+#include "dovetail/dem/walls/wall_clearances.hpp"
 
 namespace dovetail::dem {
 
@@ -18,13 +18,20 @@ struct Encounter {
   std::span<const Image> image;  ///< empty unless space repeats
   Image wrapped{};               ///< by how many periods x is off the particle's position
   Vec3 period;
+  const WallClearances* clearances = nullptr;  ///< of all candidates; null: unknown
+  std::size_t first = 0;                       ///< the entry of all candidates that `facet` begins with
 
   std::size_t size() const { return facet.size(); }
   /// Where the particle is as seen from entry k, m.
   Vec3 seenFrom(std::size_t k) const { return image.empty() ? x : x + shiftOf(image[k], period); }
+  /// Whether facet k may be closer than radius + beyond, m.
+  bool mayBeWithin(std::size_t k, double beyond) const {
+    return !clearances || clearances->mayBeWithin(first + k, radius, beyond);
+  }
 };
 
-inline Encounter encounter(const Particles& particles, const WallCandidates& candidates, std::size_t k) {
+inline Encounter encounter(const Particles& particles, const WallCandidates& candidates,
+                           const WallClearances* clearances, std::size_t k) {
   const auto i = static_cast<std::size_t>(candidates.particle[k]);
   const auto first = static_cast<std::size_t>(candidates.offsets[k]);
   const auto count = static_cast<std::size_t>(candidates.offsets[k + 1]) - first;
@@ -34,7 +41,9 @@ inline Encounter encounter(const Particles& particles, const WallCandidates& can
               std::span<const int>(candidates.facet).subspan(first, count),
               {},
               {},
-              {}};
+              {},
+              clearances,
+              first};
   if (candidates.image.empty()) return e;
   e.image = std::span<const Image>(candidates.image).subspan(first, count);
   e.period = candidates.period;
@@ -77,13 +86,20 @@ inline void appendContacts(WallContacts& contacts, const WallContacts& more) {
   append(contacts.image, more.image);
 }
 
+/// @param clearances  null if nobody has watched
+void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
+                         const WallClearances* clearances, WallContacts& contacts);
+void paperWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
+                       const WallClearances* clearances, WallContacts& contacts);
+
 /// rule(k, encounter, contacts) appends the contacts of one particle, number k of the list.
 template <class Rule>
-void sweepParticles(const Particles& particles, const WallCandidates& candidates, WallContacts& contacts, Rule&& rule) {
+void sweepParticles(const Particles& particles, const WallCandidates& candidates, const WallClearances* clearances,
+                    WallContacts& contacts, Rule&& rule) {
   constexpr std::size_t grain = 64;
   const std::size_t listed = candidates.particle.size();
   const auto visit = [&](std::size_t begin, std::size_t end, WallContacts& into) {
-    for (std::size_t k = begin; k < end; ++k) rule(k, encounter(particles, candidates, k), into);
+    for (std::size_t k = begin; k < end; ++k) rule(k, encounter(particles, candidates, clearances, k), into);
   };
   clear(contacts);
   contacts.period = candidates.period;

@@ -160,6 +160,7 @@ private:
   // What candidates were found for.
   std::int64_t builds_ = 0, revision_ = -1;
   double marginAtBuild_ = 0.0, reachAtBuild_ = 0.0;
+  double travelled_ = 0.0;  // since the search, particles and points together, m
   Vec3 periodAtBuild_;
   std::vector<Vec3> particlesAtBuild_, nodesAtBuild_;  // nodes' u
   dem::ParticleTravel travel_;
