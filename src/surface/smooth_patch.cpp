@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dovetail/surface/smooth_surface.hpp"
+#include "packed.hpp"
 
 namespace dovetail::surface {
 
@@ -29,25 +30,33 @@ struct PatchJet {
   Vec3 s, sXi, sEta, sXiXi, sXiEta, sEtaEta;
 };
 
-PatchJet evaluate(const SmoothSurface& surface, int face, double xi, double eta) {
-  const Spline b(xi), c(eta);
+[[gnu::always_inline]] inline void evaluateInto(const SmoothSurface& surface, int face, const Spline& b,
+                                                const Spline& c, PatchJet& jet) {
   const auto& control = surface.control[static_cast<std::size_t>(face)];
-  PatchJet jet;
+  Packed s{}, sXi{}, sEta{}, sXiXi{}, sXiEta{}, sEtaEta{};
   for (std::size_t j = 0; j < 3; ++j) {
-    Vec3 line, slope, curvature;
+    Packed line{}, slope{}, curvature{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3& point = surface.x[static_cast<std::size_t>(control[b.first + i + 4 * (c.first + j)])];
+      const Packed point =
+          packed(surface.x[static_cast<std::size_t>(control[b.first + i + 4 * (c.first + j)])]);
       line += b.value[i] * point;
       slope += b.slope[i] * point;
       curvature += b.curvature[i] * point;
     }
-    jet.s += c.value[j] * line;
-    jet.sXi += c.value[j] * slope;
-    jet.sXiXi += c.value[j] * curvature;
-    jet.sEta += c.slope[j] * line;
-    jet.sXiEta += c.slope[j] * slope;
-    jet.sEtaEta += c.curvature[j] * line;
+    s += c.value[j] * line;
+    sXi += c.value[j] * slope;
+    sXiXi += c.value[j] * curvature;
+    sEta += c.slope[j] * line;
+    sXiEta += c.slope[j] * slope;
+    sEtaEta += c.curvature[j] * line;
   }
+  jet = {unpacked(s), unpacked(sXi), unpacked(sEta), unpacked(sXiXi), unpacked(sXiEta), unpacked(sEtaEta)};
+}
+
+PatchJet evaluate(const SmoothSurface& surface, int face, double xi, double eta) {
+  const Spline b(xi), c(eta);
+  PatchJet jet;
+  withVectors([&] { evaluateInto(surface, face, b, c, jet); });
   return jet;
 }
 
