@@ -55,10 +55,12 @@ void placePoints(const cg::Projection& carrier, std::span<const Vec3> X, PatchTu
 void addLoadOfPoints(const cg::Projection& carrier, const PatchTurns& turns, const coupling::NodalLoad& onPoints,
                      coupling::NodalLoad& load) {
   for (const int point : onPoints.touched)
-    for (const int node : carrier.rowColumns(point)) load.touch(node);
+    if (bears(onPoints, point))
+      for (const int node : carrier.rowColumns(point)) load.touch(node);
   withVectors([&] {
     for (const int point : onPoints.touched)
-      addLoadOfPoint(carrier, point, onPoints.force[static_cast<std::size_t>(point)], load.force);
+      if (bears(onPoints, point))
+        addLoadOfPoint(carrier, point, onPoints.force[static_cast<std::size_t>(point)], load.force);
   });
   addTurningLoad(turns, onPoints, load);
 }

@@ -7,6 +7,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "carried_points.hpp"
 #include "packed.hpp"
 
 namespace dovetail::surface {
@@ -164,6 +165,7 @@ void addTurningLoad(const PatchTurns& turns, const coupling::NodalLoad& onPoints
   if (turns.empty()) return;
   std::vector<Vec3> couple(turns.frames.size());
   for (int point : onPoints.touched) {
+    if (!bears(onPoints, point)) continue;
     const std::size_t p = at(point), patch = at(turns.patch[p]);
     couple[patch] += cross(rotate(turns.frames[patch].turn, turns.offset[p]), onPoints.force[p]);
   }
