@@ -5,39 +5,63 @@
 
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/surface/skin.hpp"
+#include "packed.hpp"
 
 namespace dovetail::surface {
+
+namespace {
+
+[[gnu::always_inline]] inline void placePoint(const cg::Projection& carrier, std::span<const Vec3> u,
+                                              std::span<const Vec3> v, int point, Vec3& x, Vec3& velocity) {
+  const auto node = carrier.rowColumns(point);
+  const auto share = carrier.rowWeights(point);
+  Packed moved{}, speed{};
+  for (std::size_t n = 0; n < node.size(); ++n) {
+    moved += share[n] * packed(u[static_cast<std::size_t>(node[n])]);
+    speed += share[n] * packed(v[static_cast<std::size_t>(node[n])]);
+  }
+  x += unpacked(moved);
+  velocity = unpacked(speed);
+}
+
+[[gnu::always_inline]] inline void addLoadOfPoint(const cg::Projection& carrier, int point, const Vec3& force,
+                                                  std::span<Vec3> onNodes) {
+  const auto node = carrier.rowColumns(point);
+  const auto share = carrier.rowWeights(point);
+  const Packed f = packed(force);
+  for (std::size_t k = 0; k < node.size(); ++k) {
+    Vec3& sum = onNodes[static_cast<std::size_t>(node[k])];
+    sum = unpacked(packed(sum) + share[k] * f);
+  }
+}
+
+}  // namespace
 
 void placePoints(const cg::Projection& carrier, std::span<const Vec3> X, PatchTurns& turns, std::span<const Vec3> u,
                  std::span<const Vec3> v, std::span<const int> points, std::span<Vec3> x, std::span<Vec3> velocity) {
   if (!turns.empty()) placeFrames(turns, u, v, points);
   parallelFor(points.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const int point = points[k];
-      const auto p = static_cast<std::size_t>(point);
-      const auto node = carrier.rowColumns(point);
-      const auto share = carrier.rowWeights(point);
-      Vec3 moved, speed;
-      for (std::size_t n = 0; n < node.size(); ++n) {
-        moved += share[n] * u[static_cast<std::size_t>(node[n])];
-        speed += share[n] * v[static_cast<std::size_t>(node[n])];
+    withVectors([&] {
+      for (const int point : points.subspan(begin, end - begin)) {
+        const auto p = static_cast<std::size_t>(point);
+        x[p] = X[p];
+        placePoint(carrier, u, v, point, x[p], velocity[p]);
+        if (!turns.empty()) turns.carry(p, x[p], velocity[p]);
       }
-      x[p] = X[p] + moved;
-      velocity[p] = speed;
-      if (!turns.empty()) turns.carry(p, x[p], velocity[p]);
-    }
+    });
   });
 }
 
 void addLoadOfPoints(const cg::Projection& carrier, const PatchTurns& turns, const coupling::NodalLoad& onPoints,
                      coupling::NodalLoad& load) {
-  for (int point : onPoints.touched) {
-    const auto node = carrier.rowColumns(point);
-    const auto share = carrier.rowWeights(point);
-    const Vec3& force = onPoints.force[static_cast<std::size_t>(point)];
-    for (const int n : node) load.touch(n);
-    for (std::size_t k = 0; k < node.size(); ++k) load.force[static_cast<std::size_t>(node[k])] += share[k] * force;
-  }
+  for (const int point : onPoints.touched)
+    if (bears(onPoints, point))
+      for (const int node : carrier.rowColumns(point)) load.touch(node);
+  withVectors([&] {
+    for (const int point : onPoints.touched)
+      if (bears(onPoints, point))
+        addLoadOfPoint(carrier, point, onPoints.force[static_cast<std::size_t>(point)], load.force);
+  });
   addTurningLoad(turns, onPoints, load);
 }
 

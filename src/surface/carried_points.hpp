@@ -14,6 +14,11 @@ namespace dovetail::surface {
 void placePoints(const cg::Projection& carrier, std::span<const Vec3> X, PatchTurns& turns, std::span<const Vec3> u,
                  std::span<const Vec3> v, std::span<const int> points, std::span<Vec3> x, std::span<Vec3> velocity);
 
+/// Whether there is a force on a touched point: at seven of the sixteen control points of a contact there is none.
+inline bool bears(const coupling::NodalLoad& onPoints, int point) {
+  return onPoints.force[static_cast<std::size_t>(point)] != Vec3{};
+}
+
 /// Adds what forces on points, N, are on the nodes: the transpose of placing.
 void addLoadOfPoints(const cg::Projection& carrier, const PatchTurns& turns, const coupling::NodalLoad& onPoints,
                      coupling::NodalLoad& load);

@@ -13,6 +13,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/walls/wall_archive.hpp"
 #include "dovetail/dem/walls/wall_checks.hpp"
+#include "packed.hpp"
 
 namespace dovetail::surface {
 
@@ -24,17 +25,40 @@ std::vector<int> sortedUnique(std::vector<int> values) {
 
 namespace {
 
-/// m; NaN if any place is NaN, so that a comparison with a margin fails.
-template <class Moved>
-double largestTravel(std::size_t n, Moved&& moved) {
-  return std::sqrt(parallelSum(n, 4096, [&](std::size_t begin, std::size_t end) {
-                     double largest = 0.0, sum = 0.0;  // the sum is there for a NaN to show
-                     for (std::size_t i = begin; i < end; ++i) {
-                       const double squared = squaredNorm(moved(i));
-                       largest = squared > largest ? squared : largest;
-                       sum += squared;
-                     }
-                     return dem::Largest{std::isnan(sum) ? sum : largest};
+/// Four at once of max |a − b|². A NaN stays in the sum.
+struct LargestOfFour {
+  Packed largest{}, sum{};
+
+  /// a[0] − b[0] … a[3] − b[3]
+  [[gnu::always_inline]] void meet(const std::array<const Vec3*, 4>& a, const Vec3* b) {
+    const Packed x = Packed{a[0]->x, a[1]->x, a[2]->x, a[3]->x} - Packed{b[0].x, b[1].x, b[2].x, b[3].x},
+                 y = Packed{a[0]->y, a[1]->y, a[2]->y, a[3]->y} - Packed{b[0].y, b[1].y, b[2].y, b[3].y},
+                 z = Packed{a[0]->z, a[1]->z, a[2]->z, a[3]->z} - Packed{b[0].z, b[1].z, b[2].z, b[3].z};
+    const Packed squared = x * x + y * y + z * z;
+    largest = squared > largest ? squared : largest;
+    sum += squared;
+  }
+  [[gnu::always_inline]] dem::Largest value() const {
+    const double whole = sum[0] + sum[1] + sum[2] + sum[3];
+    return {std::isnan(whole) ? whole : std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3]))};
+  }
+};
+
+/// Largest |now(i) − before[i]|, m; NaN if any place is NaN, so that a comparison with a margin fails.
+/// @param now  of i: a reference to where it is
+template <class Now>
+double largestTravel(std::span<const Vec3> before, const Now& now) {
+  return std::sqrt(parallelSum(before.size(), 4096, [&](std::size_t begin, std::size_t end) {
+                     dem::Largest squared;
+                     withVectors([&] {
+                       LargestOfFour four;
+                       std::size_t i = begin;
+                       for (; i + 4 <= end; i += 4)
+                         four.meet({&now(i), &now(i + 1), &now(i + 2), &now(i + 3)}, &before[i]);
+                       squared = four.value();
+                       for (; i < end; ++i) squared.meet(squaredNorm(now(i) - before[i]));
+                     });
+                     return squared;
                    }).value);
 }
 
@@ -130,11 +154,11 @@ bool Coupling::marginUsed(const dem::Particles& particles, std::span<const Vec3>
     travel_.add(*options.moves);
   else if (particlesAtBuild_.size() != particles.size())
     return true;
-  const double ofParticles = options.moves ? travel_.bound : largestTravel(particles.size(), [&](std::size_t i) {
-    return particles.x[i] - particlesAtBuild_[i];
-  });
+  const double ofParticles =
+      options.moves ? travel_.bound
+                    : largestTravel(particlesAtBuild_, [&](std::size_t i) -> const Vec3& { return particles.x[i]; });
   const double ofNodes =
-      largestTravel(surfaceNodes_.size(), [&](std::size_t k) { return u[surfaceNodes_[k]] - nodesAtBuild_[k]; });
+      largestTravel(nodesAtBuild_, [&](std::size_t k) -> const Vec3& { return u[surfaceNodes_[k]]; });
   travelled_ = ofParticles + gain_ * ofNodes;
   return !(travelled_ <= marginAtBuild_);
 }

@@ -7,6 +7,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "carried_points.hpp"
+#include "packed.hpp"
 
 namespace dovetail::surface {
 
@@ -19,19 +21,43 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 struct Moments {
   Columns u, v;
 };
+
+[[gnu::always_inline]] inline void sumMoments(const PatchFrame& frame, std::span<const Vec3> u,
+                                              std::span<const Vec3> v, Moments& sum) {
+  std::array<Packed, 3> ofU{}, ofV{};
+  const Packed u0 = packed(u[at(frame.node.front())]), v0 = packed(v[at(frame.node.front())]);
+  for (std::size_t k = 0; k < frame.node.size(); ++k) {
+    const Vec3& arm = frame.arm[k];
+    const Packed du = packed(u[at(frame.node[k])]) - u0, dv = packed(v[at(frame.node[k])]) - v0;
+    ofU[0] += arm.x * du;
+    ofU[1] += arm.y * du;
+    ofU[2] += arm.z * du;
+    ofV[0] += arm.x * dv;
+    ofV[1] += arm.y * dv;
+    ofV[2] += arm.z * dv;
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    sum.u[c] = unpacked(ofU[c]);
+    sum.v[c] = unpacked(ofV[c]);
+  }
+}
+
 /// Σ a u Dᵀ and Σ a v Dᵀ by columns; means need not be taken off, as Σ a D = 0.
 Moments moments(const PatchFrame& frame, std::span<const Vec3> u, std::span<const Vec3> v) {
   Moments sum;
-  const Vec3 u0 = u[at(frame.node.front())], v0 = v[at(frame.node.front())];
+  withVectors([&] { sumMoments(frame, u, v, sum); });
+  return sum;
+}
+
+/// f_i += a_i D_i · columns.
+[[gnu::always_inline]] inline void addOnArms(const PatchFrame& frame, const Columns& columns,
+                                             std::span<Vec3> force) {
+  const Packed x = packed(columns[0]), y = packed(columns[1]), z = packed(columns[2]);
   for (std::size_t k = 0; k < frame.node.size(); ++k) {
     const Vec3& arm = frame.arm[k];
-    const Vec3 du = u[at(frame.node[k])] - u0, dv = v[at(frame.node[k])] - v0;
-    for (int c = 0; c < 3; ++c) {
-      sum.u[at(c)] += arm[c] * du;
-      sum.v[at(c)] += arm[c] * dv;
-    }
+    Vec3& f = force[at(frame.node[k])];
+    f = unpacked(packed(f) + (arm.x * x + arm.y * y + arm.z * z));
   }
-  return sum;
 }
 
 Columns turnedBack(const Quaternion& turn, const Columns& a) {
@@ -139,6 +165,7 @@ void addTurningLoad(const PatchTurns& turns, const coupling::NodalLoad& onPoints
   if (turns.empty()) return;
   std::vector<Vec3> couple(turns.frames.size());
   for (int point : onPoints.touched) {
+    if (!bears(onPoints, point)) continue;
     const std::size_t p = at(point), patch = at(turns.patch[p]);
     couple[patch] += cross(rotate(turns.frames[patch].turn, turns.offset[p]), onPoints.force[p]);
   }
@@ -149,10 +176,7 @@ void addTurningLoad(const PatchTurns& turns, const coupling::NodalLoad& onPoints
     const Columns onArm{rotate(frame.turn, cross(g, {1, 0, 0})), rotate(frame.turn, cross(g, {0, 1, 0})),
                         rotate(frame.turn, cross(g, {0, 0, 1}))};
     for (const int node : frame.node) load.touch(node);
-    for (std::size_t k = 0; k < frame.node.size(); ++k) {
-      const Vec3& arm = frame.arm[k];
-      load.force[at(frame.node[k])] += arm.x * onArm[0] + arm.y * onArm[1] + arm.z * onArm[2];
-    }
+    withVectors([&] { addOnArms(frame, onArm, load.force); });
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dovetail/surface/smooth_surface.hpp"
+#include "packed.hpp"
 
 namespace dovetail::surface {
 
@@ -32,23 +33,24 @@ struct PatchJet {
 PatchJet evaluate(const SmoothSurface& surface, int face, double xi, double eta) {
   const Spline b(xi), c(eta);
   const auto& control = surface.control[static_cast<std::size_t>(face)];
-  PatchJet jet;
+  Packed s{}, sXi{}, sEta{}, sXiXi{}, sXiEta{}, sEtaEta{};
   for (std::size_t j = 0; j < 3; ++j) {
-    Vec3 line, slope, curvature;
+    Packed line{}, slope{}, curvature{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3& point = surface.x[static_cast<std::size_t>(control[b.first + i + 4 * (c.first + j)])];
+      const Packed point =
+          packed(surface.x[static_cast<std::size_t>(control[b.first + i + 4 * (c.first + j)])]);
       line += b.value[i] * point;
       slope += b.slope[i] * point;
       curvature += b.curvature[i] * point;
     }
-    jet.s += c.value[j] * line;
-    jet.sXi += c.value[j] * slope;
-    jet.sXiXi += c.value[j] * curvature;
-    jet.sEta += c.slope[j] * line;
-    jet.sXiEta += c.slope[j] * slope;
-    jet.sEtaEta += c.curvature[j] * line;
+    s += c.value[j] * line;
+    sXi += c.value[j] * slope;
+    sXiXi += c.value[j] * curvature;
+    sEta += c.slope[j] * line;
+    sXiEta += c.slope[j] * slope;
+    sEtaEta += c.curvature[j] * line;
   }
-  return jet;
+  return {unpacked(s), unpacked(sXi), unpacked(sEta), unpacked(sXiXi), unpacked(sXiEta), unpacked(sEtaEta)};
 }
 
 /// One projected Newton step for min ½|s(ξ) − p|² on [0, 1]²: where it leads.
@@ -112,6 +114,18 @@ bool walk(const SmoothSurface& surface, int face, const Vec3& p, std::array<doub
   return false;
 }
 
+/// From `foot` to the closest point. @return false if the search has not come to rest
+bool descend(const SmoothSurface& surface, int face, const Vec3& p, Foot& foot) {
+  constexpr double roundOff = 1e-14;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const std::array<double, 2> before = foot.parameter, next = newtonStep(foot.jet, p, before);
+    if (largestChange(next, before) >= roundOff && !walk(surface, face, p, next, 2, foot))
+      walk(surface, face, p, slopeStep(foot.jet, p, before), 60, foot);
+    if (largestChange(foot.parameter, before) < (iteration < 20 ? roundOff : 1e-9)) return true;
+  }
+  return false;
+}
+
 PatchPoint pointAt(const Foot& foot) {
   const auto [xi, eta] = foot.parameter;
   PatchPoint at;
@@ -138,15 +152,12 @@ PatchPoint pointOnPatch(const SmoothSurface& surface, int face, std::array<doubl
 }
 
 PatchPoint closestPointOnPatch(const SmoothSurface& surface, int face, const Vec3& p, std::array<double, 2> start) {
-  constexpr double roundOff = 1e-14;
   bool found = false;
-  Foot foot{start, evaluate(surface, face, start[0], start[1])};
-  for (int iteration = 0; iteration < 100 && !found; ++iteration) {
-    const std::array<double, 2> before = foot.parameter, next = newtonStep(foot.jet, p, before);
-    if (largestChange(next, before) >= roundOff && !walk(surface, face, p, next, 2, foot))
-      walk(surface, face, p, slopeStep(foot.jet, p, before), 60, foot);
-    found = largestChange(foot.parameter, before) < (iteration < 20 ? roundOff : 1e-9);
-  }
+  Foot foot;
+  withVectors([&] {
+    foot = {start, evaluate(surface, face, start[0], start[1])};
+    found = descend(surface, face, p, foot);
+  });
   PatchPoint closest = pointAt(foot);
   closest.squaredDistance = squaredNorm(p - foot.jet.s);
   closest.found = found;
