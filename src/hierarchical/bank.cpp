@@ -23,9 +23,9 @@ void validateCell(const rve::Cell& cell, const rve::Cell& first, double unbalanc
                      "compress() it first");
   const double now = rve::balance(cell).unbalanced;
   if (!(now <= unbalanced) || rve::kineticEnergy(cell) > 0.0)
-    throw InputError("it is not at rest: forces on grains are out of balance by " + formatNumber(now) +
-                         " of the mean contact force",
-                     where, "relax() or polish() it to " + formatNumber(unbalanced) + " first");
+    throw InputError(
+        "it is not at rest: forces on grains are out of balance by " + formatNumber(now) + " of the mean contact force",
+        where, "relax() or polish() it to " + formatNumber(unbalanced) + " first");
 }
 
 }  // namespace
@@ -62,7 +62,8 @@ std::string nameOf(const std::vector<rve::Cell>& bank) {
   if (most->size() > fewest->size()) name += " to " + std::to_string(most->size());
   name += bank.front().shape == rve::Shape::disc ? " discs" : " spheres";
   for (const rve::Cell& cell : bank)
-    if (const std::string why = whySmall(cell); !why.empty()) return name + " (too small to be representative: " + why + ")";
+    if (const std::string why = whySmall(cell); !why.empty())
+      return name + " (too small to be representative: " + why + ")";
   return name;
 }
 

@@ -18,10 +18,9 @@ void settle(rve::Cell& cell, const Eigen::Matrix3d& F, const RestingCells& setti
     rest = rve::relax(cell, further);
   }
   if (!rest.atRest)
-    throw NumericalError("forces on grains are out of balance by " + formatNumber(rest.unbalanced) +
-                             " of the mean contact force",
-                         "cell of grains",
-                         "take a smaller step or more steps to rest; past the peak, go on by explicit dynamics");
+    throw NumericalError(
+        "forces on grains are out of balance by " + formatNumber(rest.unbalanced) + " of the mean contact force",
+        "cell of grains", "take a smaller step or more steps to rest; past the peak, go on by explicit dynamics");
   if (rve::balance(cell).contacts == 0)
     throw NumericalError("no grains touch", "cell of grains", "keep it under pressure: there is no cohesion");
 }
@@ -32,7 +31,8 @@ void stepTo(rve::Cell& cell, const Eigen::Matrix3d& F, const MovingCells& settin
                      "give an F that is finite and turns nothing inside out");
   const Eigen::Matrix3d start = cell.state.F, way = F - start;
   const Eigen::Matrix3d G = rve::relativeDeformation(cell, F) - Eigen::Matrix3d::Identity();
-  const int steps = static_cast<int>(std::max(1.0, std::ceil(0.5 * (G + G.transpose()).norm() / settings.strainPerStep)));
+  const int steps =
+      static_cast<int>(std::max(1.0, std::ceil(0.5 * (G + G.transpose()).norm() / settings.strainPerStep)));
   for (int k = 1; k <= steps; ++k) {
     const Eigen::Matrix3d next = k == steps ? F : Eigen::Matrix3d(start + way * (double(k) / steps));
     rve::step(cell, settings.stepShare * cell.state.criticalStep, rve::relativeDeformation(cell, next),

@@ -28,11 +28,11 @@ void listFields(Archive& archive, State& state, Matrix& F, Matrix& dyad) {
   archive(contacts.first, contacts.other, contacts.image, contacts.stiffness, contacts.roll);
 }
 
-/// FNV-1a of what does not change.
+/// FNV-1a of what does not change; inertias tell discs from spheres.
 std::uint64_t checksum(const Cell& cell) {
   ByteWriter constant;
-  constant(cell.shape, cell.springs, cell.radius, cell.mass, cell.inertia, cell.density, cell.volume, cell.skin,
-           cell.frame.grain, cell.frame.on, cell.frame.area);
+  constant(cell.springs, cell.radius, cell.mass, cell.inertia, cell.density, cell.volume, cell.skin, cell.frame.grain,
+           cell.frame.on, cell.frame.area);
   std::uint64_t hash = 14695981039346656037u;
   for (const char byte : constant.bytes()) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211u;
   return hash;
@@ -70,8 +70,8 @@ bool fits(const Cell& cell, const CellState& state) {
   for (const Vec3& period : state.lattice.period)
     if (!std::isfinite(norm(period))) return false;
   const EnergyBook& book = state.book;
-  return state.F.allFinite() && state.F.determinant() > 0.0 && state.dyad.allFinite() &&
-         state.lattice.volume() > 0.0 && std::isfinite(state.room) && state.criticalStep > 0.0 &&
+  return state.F.allFinite() && state.F.determinant() > 0.0 && state.dyad.allFinite() && state.lattice.volume() > 0.0 &&
+         std::isfinite(state.room) && state.criticalStep > 0.0 &&
          std::isfinite(book.work + book.friction + book.damping) && fits(state.x, own.x, cell.size()) &&
          fits(state.v, own.v, cell.size()) && fits(state.spin, own.spin, cell.size()) &&
          fits(state.force, own.force, cell.size()) && fits(state.torque, own.torque, cell.size()) &&

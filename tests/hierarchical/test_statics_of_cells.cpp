@@ -17,6 +17,7 @@ TEST(StaticsOfCells, PointsOfAnElementAreStandAloneCellsToTheLastBit) {
       return true;
     });
     ASSERT_EQ(samples.size(), 2u);
+    double side = 0.0, height = 0.0;
     for (std::size_t p = 0; p < 4; ++p) {
       rve::Cell cell = threeCells()[0];
       for (const fem::Solid::Sample& sample : samples) {
@@ -24,9 +25,11 @@ TEST(StaticsOfCells, PointsOfAnElementAreStandAloneCellsToTheLastBit) {
         rve::polish(cell, 1e-6);
         EXPECT_EQ(matrixAt(sample.P, p), rve::nominalStress(cell));
       }
-      EXPECT_NEAR(samples.back().F[9 * p + 4], 0.999, 1e-12);
-      EXPECT_NEAR(samples.back().P[9 * p], -1e5 * samples.back().F[9 * p + 4], 10.0);
+      side += 0.25 * samples.back().P[9 * p];
+      height += 0.25 * samples.back().F[9 * p + 4];
     }
+    EXPECT_NEAR(height, 0.999, 1e-12);
+    EXPECT_NEAR(side, -1e5 * height, 5.0);
   }
 }
 
@@ -46,8 +49,7 @@ TEST(StaticsOfCells, ThreadsDoNotChangeADigit) {
 TEST(StaticsOfCells, APatchOfEqualCellsIsHomogeneous) {
   for (const CellShape shape : {CellShape::quad4, CellShape::quad8}) {
     fem::SolidMesh mesh = fem::boxOf(shape, {2, 2, 1}, {}, {0.2, 0.2, 0.1});
-    for (Vec3& X : mesh.X)
-      X += Vec3{0.1 * X.y * (0.2 - X.y), 0.4 * X.x * (0.2 - X.x) * (0.3 + X.y), 0.0};
+    for (Vec3& X : mesh.X) X += Vec3{0.1 * X.y * (0.2 - X.y), 0.4 * X.x * (0.2 - X.x) * (0.3 + X.y), 0.0};
     fem::Model model = fem::makeModel(mesh);
     const auto solid = fem::makeSolid(mesh, cellField(oneCell(), RestingCells{.unbalanced = 1e-9}));
     model.add(solid);
@@ -63,19 +65,18 @@ TEST(StaticsOfCells, APatchOfEqualCellsIsHomogeneous) {
     const auto repeated = std::ranges::unique(border);
     border.erase(repeated.begin(), repeated.end());
     for (const int node : border)
-      for (int c = 0; c < 2; ++c) model.constraints.prescribe(std::array{node}, c, [&, node, c](double t) {
-        return t * affine(node, c);
-      });
+      for (int c = 0; c < 2; ++c)
+        model.constraints.prescribe(std::array{node}, c, [&, node, c](double t) { return t * affine(node, c); });
     fem::solveStatics(model, 1.0, roughly(1e-8, 1.0));
     const auto sample = solid->sample(model.nodes, {1.0, 0.0});
     const Eigen::Matrix3d P = matrixAt(sample.P, 0);
-    for (std::size_t p = 0; p < sample.volume.size(); ++p) EXPECT_LT((matrixAt(sample.P, p) - P).norm(), 1e-6 * P.norm());
+    for (std::size_t p = 0; p < sample.volume.size(); ++p)
+      EXPECT_LT((matrixAt(sample.P, p) - P).norm(), 1e-6 * P.norm());
     int inside = 0;
     for (int node = 0; node < static_cast<int>(mesh.X.size()); ++node) {
       if (std::ranges::binary_search(border, node)) continue;
       ++inside;
-      for (int c = 0; c < 2; ++c)
-        EXPECT_NEAR(model.nodes.u[static_cast<std::size_t>(node)][c], affine(node, c), 1e-10);
+      for (int c = 0; c < 2; ++c) EXPECT_NEAR(model.nodes.u[static_cast<std::size_t>(node)][c], affine(node, c), 1e-10);
     }
     EXPECT_GT(inside, 0);
   }
@@ -86,14 +87,13 @@ TEST(StaticsOfCells, EnergyIsBalancedAcrossTheScales) {
     Biaxial body({1, 1}, cellField(oneCell(), RestingCells{.path = {.inertialNumber = inertialNumber}}));
     const fem::StaticReport report = fem::solveStatics(body.model, 1.0, roughly(1e-6, step));
     EXPECT_GT(report.dissipated, 0.0);
-    const double work = std::abs(report.supportWork) + std::abs(report.loadWork);
-    std::printf("step %g I %g: residual %g of %g, dissipated %g\n", step, inertialNumber, report.energyResidual(), work, report.dissipated);
-    return std::abs(report.energyResidual()) / work;
+    return std::abs(report.energyResidual()) / (std::abs(report.supportWork) + std::abs(report.loadWork));
   };
-  residual(0.5, 1e-3);
-  residual(0.25, 1e-3);
-  residual(0.125, 1e-3);
-  residual(0.25, 1e-4);
+  // Work of the solid is summed between states of rest, that of the cells along their paths: the pace parts them.
+  const double slow = residual(0.5, 1e-4);
+  EXPECT_LT(slow, 1e-3);
+  EXPECT_LT(slow, 0.4 * residual(1.0, 1e-4));
+  EXPECT_LT(slow, 0.4 * residual(0.5, 1e-3));
 }
 
 TEST(StaticsOfCells, RunsGoOnFromBytesWithTheSameDigits) {
@@ -131,7 +131,8 @@ TEST(StaticsOfCells, TheNetworkConvergesFasterThanUniformStrainToTheSame) {
 
 TEST(StaticsOfCells, WhatStagnatesIsNeverAccepted) {
   // Cells that are hardly at rest cannot be balanced to this.
-  Biaxial body({1, 1}, cellField(threeCells(), RestingCells{.path = {.rest = {.unbalanced = 1e-2}}, .unbalanced = 1e-2}));
+  Biaxial body({1, 1},
+               cellField(threeCells(), RestingCells{.path = {.rest = {.unbalanced = 1e-2}}, .unbalanced = 1e-2}));
   fem::StaticOptions options = roughly(1e-12);
   options.newton.maxIterations = 6;
   options.smallestStep = 0.1;

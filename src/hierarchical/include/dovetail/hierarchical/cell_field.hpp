@@ -20,8 +20,8 @@ enum class Operator {
 
 /// Statics: every answer is a path from the committed cell to F, then rest.
 struct RestingCells {
-  rve::PathSettings path{};   ///< its `rest` comes before the polish
-  double unbalanced = 1e-6;   ///< at rest when Balance::unbalanced is no more than this, > 0
+  rve::PathSettings path{};  ///< its `rest` comes before the polish
+  double unbalanced = 1e-6;  ///< at rest when Balance::unbalanced is no more than this, > 0
   Operator tangent = Operator::network;
 };
 
