@@ -3,8 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
 
 namespace dovetail::rve {
 
@@ -42,10 +44,14 @@ bool finite(const std::vector<double>& values) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
-/// Whether components are in use as in the cell's own state, n numbers each.
-bool fits(const Components& field, const Components& own, std::size_t n) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (field[k].size() != (own[k].empty() ? 0 : n) || !finite(field[k])) return false;
+enum class Use { moves, turns };
+
+/// Whether there is one number a grain of the components in use: of discs x, y of motions and z of turns.
+bool fits(const Cell& cell, const Components& field, Use use) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool inUse = cell.shape == Shape::sphere || (k == 2) == (use == Use::turns);
+    if (field[k].size() != (inUse ? cell.size() : 0) || !finite(field[k])) return false;
+  }
   return true;
 }
 
@@ -66,16 +72,52 @@ bool fits(const Cell& cell, const Contacts& contacts) {
 }
 
 bool fits(const Cell& cell, const CellState& state) {
-  const CellState& own = cell.state;
   for (const Vec3& period : state.lattice.period)
     if (!std::isfinite(norm(period))) return false;
   const EnergyBook& book = state.book;
   return state.F.allFinite() && state.F.determinant() > 0.0 && state.dyad.allFinite() && state.lattice.volume() > 0.0 &&
-         std::isfinite(state.room) && state.criticalStep > 0.0 &&
-         std::isfinite(book.work + book.friction + book.damping) && fits(state.x, own.x, cell.size()) &&
-         fits(state.v, own.v, cell.size()) && fits(state.spin, own.spin, cell.size()) &&
-         fits(state.force, own.force, cell.size()) && fits(state.torque, own.torque, cell.size()) &&
-         fits(cell, state.contacts);
+         std::isfinite(state.room) && std::isfinite(state.criticalStep) && state.criticalStep > 0.0 &&
+         std::isfinite(book.work + book.friction + book.damping) && fits(cell, state.x, Use::moves) &&
+         fits(cell, state.v, Use::moves) && fits(cell, state.force, Use::moves) && fits(cell, state.spin, Use::turns) &&
+         fits(cell, state.torque, Use::turns) && fits(cell, state.contacts);
+}
+
+constexpr const char* bankKind = "cells of grains";
+
+/// What a cell is made of, for both ways; axes as numbers, so that any byte is one.
+struct Made {
+  std::uint8_t isDisc = 0;
+  std::array<std::uint8_t, 3> repeats{};
+  std::array<Vec3, 3> period;
+  Springs springs;
+  double density = 0.0, volume = 0.0;
+  std::vector<Vec3> centre;
+  std::vector<double> radius;
+};
+
+template <class Archive, class AnyMade>
+requires std::is_same_v<std::remove_const_t<AnyMade>, Made>
+void archiveFields(Archive& archive, AnyMade& made) {
+  archive(made.isDisc, made.repeats, made.period, made.springs, made.density, made.volume, made.centre, made.radius);
+}
+
+Made madeOf(const Cell& cell) {
+  const CellState& state = cell.state;
+  Made made{
+      cell.shape == Shape::disc, {}, state.lattice.period, cell.springs, cell.density, cell.volume, {}, cell.radius};
+  for (std::size_t k = 0; k < 3; ++k) made.repeats[k] = state.lattice.axes[k];
+  for (std::size_t i = 0; i < cell.size(); ++i)
+    made.centre.push_back({state.x[0][i], state.x[1][i], state.x[2].empty() ? 0.0 : state.x[2][i]});
+  return made;
+}
+
+Cell cellOf(const Made& made) {
+  geometry::Lattice lattice{.period = made.period};
+  for (std::size_t k = 0; k < 3; ++k) lattice.axes[k] = made.repeats[k] != 0;
+  Cell cell = makeCell({made.isDisc ? Shape::disc : Shape::sphere, made.centre, made.radius, made.density}, lattice,
+                       made.springs);
+  cell.volume = requirePositive(made.volume, "volume of a cell");
+  return cell;
 }
 
 }  // namespace
@@ -101,6 +143,32 @@ CellState readState(const Cell& cell, ByteReader& archive) {
   if (!fits(cell, state))
     throw InputError("the state does not hold together", "cell of grains", "take an older file, this one is damaged");
   return state;
+}
+
+void writeBank(const std::filesystem::path& path, std::span<const Cell> cells) {
+  ByteWriter archive;
+  archive(static_cast<std::uint64_t>(cells.size()));
+  for (const Cell& cell : cells) {
+    if (!cell.frame.empty())
+      throw InputError("a cell has a frame", path.string(), "write the cell that repeats, and cut it after reading");
+    archive(madeOf(cell));
+    writeState(cell, cell.state, archive);
+  }
+  writeChecked(path, bankKind, archive.bytes());
+}
+
+std::vector<Cell> readBank(const std::filesystem::path& path) {
+  ByteReader archive(readChecked(path, bankKind));
+  std::uint64_t count = 0;
+  archive(count);
+  std::vector<Cell> cells;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    Made made;
+    archive(made);
+    cells.push_back(cellOf(made));
+    cells.back().state = readState(cells.back(), archive);
+  }
+  return cells;
 }
 
 }  // namespace dovetail::rve
