@@ -1,0 +1,139 @@
+#include "dovetail/hierarchical/cell_field.hpp"
+
+#include <algorithm>
+
+#include "bank.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/rve/cell_archive.hpp"
+#include "dovetail/rve/operators.hpp"
+
+namespace dovetail::hierarchical {
+
+namespace {
+
+using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+struct Resting {
+  RestingCells settings;
+
+  /// A cell that is to stay where it was committed is at rest there already.
+  void go(rve::Cell& cell, const Eigen::Matrix3d& F, double, bool stays) const {
+    if (!stays) settle(cell, F, settings);
+  }
+  rve::Tangent tangent(const rve::Cell& cell) const {
+    return settings.tangent == Operator::network ? rve::network(cell) : rve::uniformStrain(cell);
+  }
+};
+
+struct Moving {
+  MovingCells settings;
+
+  void go(rve::Cell& cell, const Eigen::Matrix3d& F, double dt, bool stays) const {
+    if (!stays || dt > 0.0) stepTo(cell, F, settings);
+  }
+  rve::Tangent tangent(const rve::Cell& cell) const { return rve::uniformStrain(cell); }
+};
+
+/// Discs have no answer out of their plane, which F̄ of a mean dilatation leaves.
+void requirePlane(const rve::Cell& cell, const Eigen::Matrix3d& F) {
+  if (cell.shape == rve::Shape::sphere) return;
+  if (F.col(2) == Eigen::Vector3d::UnitZ() && F.row(2) == Eigen::RowVector3d::Unit(2)) return;
+  throw InputError("F33 is " + formatNumber(F(2, 2)) + ", discs are asked out of their plane", "cell of grains",
+                   "use quad4 or quad8 with Formulation::standard or reduced; meanDilatation changes F33");
+}
+
+/// The committed cell, and what the last answer made of it.
+template <class Manner>
+class CellPoint final : public fem::FieldPoint {
+public:
+  CellPoint(const rve::Cell& cell, Manner manner) : cell_(cell), committed_(cell.state), manner_(manner) {}
+
+  void evaluate(std::span<const double, 9> F, double dt, bool moved, fem::PointAnswer answer) override {
+    const Eigen::Matrix3d wanted = Eigen::Map<const RowMajor>(F.data());
+    if (!known_ || dt != dt_ || wanted != F_) {
+      known_ = false;
+      requirePlane(cell_, wanted);
+      rve::restore(cell_, committed_);
+      manner_.go(cell_, wanted, dt, wanted == committedF_);
+      F_ = wanted;
+      dt_ = dt;
+      known_ = true;
+    }
+    if (moved) tell(answer);
+    if (!answer.tangent.empty())
+      Eigen::Map<Eigen::Matrix<double, 9, 9, Eigen::RowMajor>>(answer.tangent.data()) = manner_.tangent(cell_);
+  }
+
+  void commit() override {
+    if (!known_) return;
+    std::swap(committed_, cell_.state);
+    committedF_ = F_;
+    known_ = false;
+  }
+  void revert() override { known_ = false; }
+
+  void save(ByteWriter& archive) const override {
+    rve::writeState(cell_, committed_, archive);
+    std::array<double, 9> F;
+    Eigen::Map<RowMajor>(F.data()) = committedF_;
+    archive(F);
+  }
+  void load(ByteReader& archive) override {
+    committed_ = rve::readState(cell_, archive);
+    std::array<double, 9> F;
+    archive(F);
+    committedF_ = Eigen::Map<const RowMajor>(F.data());
+    if (!((committedF_ - committed_.F).norm() <= 1e-9 * committed_.F.norm()))
+      throw InputError("the deformation is not that of the cell", "cell of grains", "take an older file");
+    known_ = false;
+  }
+
+private:
+  void tell(fem::PointAnswer& answer) const {
+    Eigen::Map<RowMajor>(answer.P.data()) = rve::nominalStress(cell_);
+    const rve::EnergyBook &now = cell_.state.book, &before = committed_.book;
+    answer.energy = (rve::storedEnergy(cell_) + rve::kineticEnergy(cell_)) / cell_.volume;
+    answer.dissipated = (now.friction - before.friction + now.damping - before.damping) / cell_.volume;
+  }
+
+  rve::Cell cell_;
+  rve::CellState committed_;
+  Manner manner_;
+  Eigen::Matrix3d F_, committedF_ = Eigen::Matrix3d::Identity();
+  double dt_ = 0.0;
+  bool known_ = false;  ///< whether the cell is the answer for F_ and dt_
+};
+
+template <class Manner>
+std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Cell> bank, double unbalanced, Manner manner) {
+  validateBank(bank, unbalanced);
+  rve::Cell tried = bank.front();
+  manner.go(tried, tried.state.F, 1.0, false);  // says what is wrong with the settings
+  const fem::FieldTraits traits{.name = nameOf(bank), .density = meanDensity(bank)};
+  return fem::pointField(traits, [bank = std::move(bank), manner](const fem::PointPlace& place) {
+    const auto number = static_cast<std::size_t>(place.element + place.point) % bank.size();
+    return std::make_unique<CellPoint<Manner>>(bank[number], manner);
+  });
+}
+
+}  // namespace
+
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const RestingCells& settings) {
+  requirePositive(settings.unbalanced, "unbalanced share of forces");
+  if (settings.path.rest.steps < 1)
+    throw InputError("cells are not to come to rest", "cellField", "give path.rest.steps, or MovingCells");
+  return fieldOf(std::move(bank), settings.unbalanced, Resting{settings});
+}
+
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const MovingCells& settings) {
+  requirePositive(settings.strainPerStep, "strain of a step");
+  if (!(settings.damping >= 0.0 && settings.damping < 1.0))
+    throw InputError("damping is " + formatNumber(settings.damping), "cellField", "give a share of 0 or more, below 1");
+  if (!(settings.stepShare > 0.0 && settings.stepShare < 1.0))
+    throw InputError("the share of the critical step is " + formatNumber(settings.stepShare), "cellField",
+                     "give one above 0 and below 1");
+  return fieldOf(std::move(bank), rve::RestSettings{}.unbalanced, Moving{settings});
+}
+
+}  // namespace dovetail::hierarchical

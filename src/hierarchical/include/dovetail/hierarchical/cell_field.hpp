@@ -1,0 +1,59 @@
+// Cells of grains at the quadrature points of a solid (FEM × DEM). Nothing in it regularises a solid that softens.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dovetail/fem/laws/point_field.hpp"
+#include "dovetail/rve/cell.hpp"
+#include "dovetail/rve/equilibrium.hpp"
+
+namespace dovetail::hierarchical {
+
+/// ∂P/∂F that cells hand to Newton's method (rve/operators.hpp).
+enum class Operator {
+  network,       ///< converges fastest while little slips; a factorisation of each cell
+  uniformStrain  ///< stiffer, without solving: more iterations, each cheaper
+};
+
+/// Statics: every answer is a path from the committed cell to F, then rest.
+struct RestingCells {
+  rve::PathSettings path{};  ///< its `rest` comes before the polish
+  double unbalanced = 1e-6;  ///< at rest when Balance::unbalanced is no more than this, > 0
+  Operator tangent = Operator::network;
+};
+
+/// Explicit dynamics: cells are stepped along and never wait for rest. Their clock is their own: of a contact law
+/// without rates, only how far they are from rest depends on it.
+struct MovingCells {
+  double strainPerStep = 3e-5;  ///< at most, of a step of the grains; > 0
+  double damping = 0.1;         ///< as in rve::step, in [0, 1)
+  double stepShare = 0.8;       ///< of the cell's critical step, in (0, 1)
+};
+
+/// Points of a solid that own a cell each. Disc cells answer for F in the plane (plane strain: quad4, quad8), sphere
+/// cells for any F. Point q of element e begins as cell (e + q) modulo their number. The density is the mean of the
+/// cells'. Each point is one task, longest first and serial inside: digits do not depend on the number of threads.
+/// The tangent is not symmetric. A point that has no answer says why: the step is cut.
+/// @param bank  cells of the same shape and springs, at rest and under pressure at F = 1
+/// @throws InputError for no cells, one that is not of that kind, or a setting that is not valid
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const RestingCells& settings = {});
+
+/// The same for explicit dynamics. The tangent, from which stable steps follow, is uniformStrain: an upper bound.
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const MovingCells& settings);
+
+/// From the present deformation to F and to rest there, as points do in statics.
+/// @throws InputError as rve::followPath; NumericalError if the cell does not come to rest, or no grains touch there
+void settle(rve::Cell& cell, const Eigen::Matrix3d& F, const RestingCells& settings);
+
+/// From the present deformation to F, in as many steps as strainPerStep asks for, at least one.
+/// @throws InputError for F with det F ≤ 0 or, for discs, out of the plane; NumericalError as rve::step
+void stepTo(rve::Cell& cell, const Eigen::Matrix3d& F, const MovingCells& settings);
+
+/// Why a cell is too small to stand for its material, empty if it is not: fewer than 100 grains, or thinner than 6 mean
+/// diameters. Names of fields of such cells say so.
+std::string whySmall(const rve::Cell& cell);
+
+}  // namespace dovetail::hierarchical

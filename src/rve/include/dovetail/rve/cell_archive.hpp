@@ -1,0 +1,27 @@
+// Cells and their states to bytes and files, and back.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "dovetail/core/archive.hpp"
+#include "dovetail/rve/cell.hpp"
+
+namespace dovetail::rve {
+
+/// Writes a state of this cell, with a checksum of what the cell is.
+void writeState(const Cell& cell, const CellState& state, ByteWriter& archive);
+
+/// Reads one back; a cell that gets it goes on with the same digits.
+/// @throws InputError if it was written for other grains or springs, or is damaged
+CellState readState(const Cell& cell, ByteReader& archive);
+
+/// Writes cells to a file with a checksum, for programs that share them.
+/// @throws InputError for framed cells (cut them after reading), or if the file cannot be written there
+void writeBank(const std::filesystem::path& path, std::span<const Cell> cells);
+
+/// @throws InputError if the file cannot be read, is of another kind, or has changed since it was written
+std::vector<Cell> readBank(const std::filesystem::path& path);
+
+}  // namespace dovetail::rve

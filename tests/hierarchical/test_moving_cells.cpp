@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include "dovetail/fem/model/model_mass.hpp"
+#include "dovetail/fem/motion/dynamics.hpp"
+#include "solids_of_cells.hpp"
+
+namespace dovetail::hierarchical {
+namespace {
+
+using rve::plane;
+
+TEST(MovingCells, StepsOfGrainsStrainThemNoMoreThanAsked) {
+  const MovingCells settings{.strainPerStep = 1e-5, .damping = 0.2};
+  rve::Cell whole = threeCells()[0], parts = whole;
+  const Eigen::Matrix3d F = plane(1.0, 0.0, 0.0, 1.0 - 9.5e-5);
+  stepTo(whole, F, settings);
+  for (int k = 1; k <= 10; ++k) {
+    const Eigen::Matrix3d next = k == 10 ? F : plane(1.0, 0.0, 0.0, 1.0 - 9.5e-5 * (k / 10.0));
+    rve::step(parts, 0.8 * parts.state.criticalStep, rve::relativeDeformation(parts, next), 0.2);
+  }
+  EXPECT_LT((rve::nominalStress(whole) - rve::nominalStress(parts)).norm(), 1e-9 * rve::nominalStress(parts).norm());
+  EXPECT_GT(rve::kineticEnergy(whole), 0.0);
+}
+
+/// The biaxial body, sheared at a speed that the waves in it pass many times.
+struct Moving : Biaxial {
+  explicit Moving(std::vector<rve::Cell> bank = threeCells(), double rate = 0.05)
+      : Biaxial({1, 2}, cellField(std::move(bank), MovingCells{}), fem::CellShape::quad4, rate) {
+    fem::addMass(model);
+  }
+};
+
+constexpr double dt = 2e-5;
+
+TEST(MovingCells, PointsOfARunAreStandAloneCellsToTheLastBit) {
+  Moving body;
+  fem::ExplicitIntegrator run(body.model, dt);
+  std::vector<rve::Cell> cells;
+  for (int p = 0; p < 8; ++p) cells.push_back(threeCells()[static_cast<std::size_t>(p / 4 + p % 4) % 3]);
+  for (int k = 0; k < 50; ++k) {
+    run.step();
+    const auto sample = body.solid->sample(body.model.nodes, {body.model.t, dt});
+    for (std::size_t p = 0; p < cells.size(); ++p) stepTo(cells[p], matrixAt(sample.F, p), {});
+  }
+  const auto sample = body.solid->sample(body.model.nodes, {body.model.t, dt});
+  for (std::size_t p = 0; p < cells.size(); ++p) EXPECT_EQ(matrixAt(sample.P, p), rve::nominalStress(cells[p]));
+}
+
+TEST(MovingCells, RunsGoOnFromBytesOnAnyNumberOfThreads) {
+  Moving whole, first, second;
+  fem::ExplicitIntegrator all(whole.model, dt), before(first.model, dt), after(second.model, dt);
+  all.run(60);
+  before.run(25);
+  ByteWriter archive;
+  before.save(archive);
+  ByteReader bytes(archive.bytes());
+  after.load(bytes);
+  fem::onThreads(3, [&] {
+    after.run(35);
+    return 0;
+  });
+  EXPECT_EQ(whole.model.nodes.u, second.model.nodes.u);
+  EXPECT_EQ(whole.model.nodes.v, second.model.nodes.v);
+}
+
+TEST(MovingCells, EnergyIsBalancedAcrossTheScales) {
+  Moving body;
+  fem::ExplicitIntegrator run(body.model, dt);
+  run.run(500);
+  const EnergyLedger& ledger = run.ledger();
+  EXPECT_GT(ledger.joules("dissipated by sand"), 1e-3);
+  EXPECT_LT(ledger.largestResidual(), 1e-3 * std::abs(ledger.joules("supports")));
+}
+
+TEST(MovingCells, SlowRunsAreNearRest) {
+  Moving moving(oneCell(), 0.01);
+  fem::ExplicitIntegrator run(moving.model, dt);
+  run.runUntil(0.02);
+  Biaxial resting({1, 2}, cellField(oneCell()), fem::CellShape::quad4, 0.01);
+  fem::solveStatics(resting.model, 0.02, roughly(1e-5, 0.01));
+  const Eigen::Matrix3d P = matrixAt(moving.sample().P, 0), Q = matrixAt(resting.sample().P, 0);
+  EXPECT_LT(Q(1, 1), -1.2e5);
+  EXPECT_NEAR(P(1, 1), Q(1, 1), 0.1 * std::abs(Q(1, 1) + 1e5));
+}
+
+TEST(MovingCells, StepsOutOfReachAreRefused) {
+  rve::Cell cell = threeCells()[0];
+  EXPECT_THROW(stepTo(cell, plane(-1.0, 0, 0, 1.0), {}), InputError);
+  Eigen::Matrix3d outward = plane(1, 0, 0, 1);
+  outward(2, 2) = 1.001;
+  EXPECT_THROW(stepTo(cell, outward, {}), InputError);
+}
+
+}  // namespace
+}  // namespace dovetail::hierarchical
