@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/dem/walls/wall_clearances.hpp"
 #include "dovetail/geometry/triangle.hpp"
 #include "wall_scenes.hpp"
 
@@ -95,6 +96,69 @@ TEST(WallCandidates, ListOnlyWhatIsNearTheWall) {
     const Vec3& x = particles.x[static_cast<std::size_t>(i)];
     EXPECT_LE(std::abs(x.z - 0.3 * x.x + 0.2 * x.y) / std::sqrt(1.13),
               particles.radius[static_cast<std::size_t>(i)] + 0.02 + 1e-12);
+  }
+}
+
+/// On rough ground, while particles and vertices move at random and together by no more than is told.
+void expectSameWithClearances(const Vec3& origin, double reach, const geometry::Periodicity& periodicity,
+                              unsigned seed) {
+  Random random(seed);
+  auto wall = squares(10, 10, 0.2);
+  for (Vec3& x : wall.x) x += origin + Vec3{0, 0, random(-0.03, 0.03)};
+  Particles particles;
+  for (int i = 0; i < 300; ++i)
+    addParticle(particles, origin + Vec3{random(0, 2), random(0, 2), random(-0.2, 0.2)}, {}, random(0.02, 0.15),
+                Mass{1.0});
+  WallCandidates candidates;
+  candidates.reach = reach;
+  findWallCandidates(particles, wall, 0.1, candidates, periodicity);
+  WallClearances clearances = clearancesNow(particles, wall, candidates);
+  const double travel = 0.08;
+  for (const double share : {0.0, 0.3, 1.0}) {
+    clearances.travelled = share * travel;
+    for (Vec3& x : particles.x) x += (share * travel / 4.0) * normalized(random.vector(1.0));
+    for (Vec3& x : wall.x) x += (share * travel / 4.0) * normalized(random.vector(1.0));
+    for (const EdgeRule rule : {EdgeRule::projected, EdgeRule::paper}) {
+      WallContacts all, spared;
+      findWallContacts(particles, wall, candidates, rule, all);
+      findWallContacts(particles, wall, candidates, clearances, rule, spared);
+      ASSERT_GT(all.size(), 100u);
+      EXPECT_EQ(all.particle, spared.particle);
+      EXPECT_EQ(all.facet, spared.facet);
+      EXPECT_EQ(all.weight, spared.weight);
+      EXPECT_EQ(all.normal, spared.normal);
+      EXPECT_EQ(all.overlap, spared.overlap);
+      EXPECT_EQ(all.image, spared.image);
+    }
+  }
+}
+
+TEST(WallCandidates, ClearancesChangeNoDigit) {
+  const geometry::Periodicity periodic{{{0, 0, -1}, {2, 2, 1}}, {true, true, false}};
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    expectSameWithClearances({}, 0.0, {}, seed);
+    expectSameWithClearances({1e6, -2e6, 3e5}, 0.0, {}, seed);
+    expectSameWithClearances({}, 0.04, {}, seed);
+    expectSameWithClearances({}, 0.0, periodic, seed);
+  }
+}
+
+TEST(WallCandidates, ClearancesSpareWhatIsFar) {
+  const auto wall = squares(2, 2, 1.0);
+  Particles particles;
+  addParticle(particles, {0.3, 0.2, 0.15}, {}, 0.1, Mass{1.0});
+  WallCandidates candidates;
+  findWallCandidates(particles, wall, 0.3, candidates);
+  WallClearances clearances = clearancesNow(particles, wall, candidates);
+  ASSERT_EQ(clearances.whenListed.size(), candidates.facet.size());
+  EXPECT_NEAR(*std::min_element(clearances.whenListed.begin(), clearances.whenListed.end()), 0.05, 1e-15);
+  for (std::size_t k = 0; k < clearances.whenListed.size(); ++k) {
+    const double clearance = clearances.whenListed[k];
+    clearances.travelled = clearance - 1e-3;
+    EXPECT_FALSE(clearances.mayBeWithin(k, 0.1, 0.0));
+    EXPECT_TRUE(clearances.mayBeWithin(k, 0.1, 2e-3));
+    clearances.travelled = clearance + 1e-3;
+    EXPECT_TRUE(clearances.mayBeWithin(k, 0.1, 0.0));
   }
 }
 
