@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
+#include "carried_points.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "carried_points.hpp"
 #include "packed.hpp"
 
 namespace dovetail::surface {
@@ -22,8 +22,8 @@ struct Moments {
   Columns u, v;
 };
 
-[[gnu::always_inline]] inline void sumMoments(const PatchFrame& frame, std::span<const Vec3> u,
-                                              std::span<const Vec3> v, Moments& sum) {
+[[gnu::always_inline]] inline void sumMoments(const PatchFrame& frame, std::span<const Vec3> u, std::span<const Vec3> v,
+                                              Moments& sum) {
   std::array<Packed, 3> ofU{}, ofV{};
   const Packed u0 = packed(u[at(frame.node.front())]), v0 = packed(v[at(frame.node.front())]);
   for (std::size_t k = 0; k < frame.node.size(); ++k) {
@@ -50,8 +50,7 @@ Moments moments(const PatchFrame& frame, std::span<const Vec3> u, std::span<cons
 }
 
 /// f_i += a_i D_i · columns.
-[[gnu::always_inline]] inline void addOnArms(const PatchFrame& frame, const Columns& columns,
-                                             std::span<Vec3> force) {
+[[gnu::always_inline]] inline void addOnArms(const PatchFrame& frame, const Columns& columns, std::span<Vec3> force) {
   const Packed x = packed(columns[0]), y = packed(columns[1]), z = packed(columns[2]);
   for (std::size_t k = 0; k < frame.node.size(); ++k) {
     const Vec3& arm = frame.arm[k];

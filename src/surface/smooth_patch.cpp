@@ -37,8 +37,7 @@ PatchJet evaluate(const SmoothSurface& surface, int face, double xi, double eta)
   for (std::size_t j = 0; j < 3; ++j) {
     Packed line{}, slope{}, curvature{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const Packed point =
-          packed(surface.x[static_cast<std::size_t>(control[b.first + i + 4 * (c.first + j)])]);
+      const Packed point = packed(surface.x[static_cast<std::size_t>(control[b.first + i + 4 * (c.first + j)])]);
       line += b.value[i] * point;
       slope += b.slope[i] * point;
       curvature += b.curvature[i] * point;

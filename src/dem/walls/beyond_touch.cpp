@@ -14,7 +14,8 @@ void appendBeyondTouch(const Encounter& e, const TriangulatedWall& wall, double 
       const FacetCorners corners(wall, e.facet[k], e.seenFrom(k));
       if (corners.beyond(e.radius + reach)) continue;
       viewFacet({}, corners, e.radius, e.radius + reach, wall.oneSided, seen);
-      if (!(seen.distance >= e.radius && seen.distance < e.radius + reach && seen.distance < nearest.distance)) continue;
+      if (!(seen.distance >= e.radius && seen.distance < e.radius + reach && seen.distance < nearest.distance))
+        continue;
       const auto isAlike = [&](std::size_t c) { return dot(contacts.normal[c], seen.normal) > alike; };
       bool met = false;
       for (std::size_t c = first; c < contacts.size() && !met; ++c) met = isAlike(c);

@@ -249,12 +249,14 @@ private:
 
 void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                          const WallClearances* clearances, WallContacts& contacts) {
-  sweepParticles(particles, candidates, clearances, contacts, [&](std::size_t k, const Encounter& e, WallContacts& into) {
-    thread_local Scratch scratch;
-    Projection projection(e, wall, candidates.reach, scratch);
-    if (!candidates.flat.empty() && candidates.flat[k] && projection.appendFlat(candidates.lastFacet[k], into)) return;
-    projection.appendTo(into);
-  });
+  sweepParticles(
+      particles, candidates, clearances, contacts, [&](std::size_t k, const Encounter& e, WallContacts& into) {
+        thread_local Scratch scratch;
+        Projection projection(e, wall, candidates.reach, scratch);
+        if (!candidates.flat.empty() && candidates.flat[k] && projection.appendFlat(candidates.lastFacet[k], into))
+          return;
+        projection.appendTo(into);
+      });
 }
 
 void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
