@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <type_traits>
 
@@ -30,13 +31,18 @@ void listFields(Archive& archive, State& state, Matrix& F, Matrix& dyad) {
   archive(contacts.first, contacts.other, contacts.image, contacts.stiffness, contacts.roll);
 }
 
-/// FNV-1a of what does not change; inertias tell discs from spheres.
+/// FNV-1a, number by number, of what does not change; inertias tell discs from spheres.
 std::uint64_t checksum(const Cell& cell) {
-  ByteWriter constant;
-  constant(cell.springs, cell.radius, cell.mass, cell.inertia, cell.density, cell.volume, cell.skin, cell.frame.grain,
-           cell.frame.on, cell.frame.area);
   std::uint64_t hash = 14695981039346656037u;
-  for (const char byte : constant.bytes()) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211u;
+  const auto add = [&hash](double number) { hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211u; };
+  const Springs& springs = cell.springs;
+  for (const double number : {springs.modulus, springs.stiffness, springs.tangential, springs.friction, springs.rolling,
+                              springs.rollingLimit, cell.density, cell.volume, cell.skin})
+    add(number);
+  for (const std::vector<double>* numbers : {&cell.radius, &cell.mass, &cell.inertia})
+    for (const double number : *numbers) add(number);
+  for (const int grain : cell.frame.grain) add(grain);
+  for (const Condition condition : cell.frame.on) add(static_cast<double>(condition));
   return hash;
 }
 
@@ -147,7 +153,6 @@ CellState readState(const Cell& cell, ByteReader& archive) {
 
 void writeBank(const std::filesystem::path& path, std::span<const Cell> cells) {
   ByteWriter archive;
-  archive(static_cast<std::uint64_t>(cells.size()));
   for (const Cell& cell : cells) {
     if (!cell.frame.empty())
       throw InputError("a cell has a frame", path.string(), "write the cell that repeats, and cut it after reading");
@@ -159,10 +164,8 @@ void writeBank(const std::filesystem::path& path, std::span<const Cell> cells) {
 
 std::vector<Cell> readBank(const std::filesystem::path& path) {
   ByteReader archive(readChecked(path, bankKind));
-  std::uint64_t count = 0;
-  archive(count);
   std::vector<Cell> cells;
-  for (std::uint64_t k = 0; k < count; ++k) {
+  while (!archive.atEnd()) {
     Made made;
     archive(made);
     cells.push_back(cellOf(made));

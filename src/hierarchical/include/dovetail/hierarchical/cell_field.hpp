@@ -14,13 +14,14 @@ namespace dovetail::hierarchical {
 
 /// ∂P/∂F that cells hand to Newton's method (rve/operators.hpp).
 enum class Operator {
-  network,       ///< converges fastest while little slips; a factorisation of each cell
+  network,       ///< converges fastest while little slips; a factorisation of each cell, twice the price of an answer
   uniformStrain  ///< stiffer, without solving: more iterations, each cheaper
 };
 
-/// Statics: every answer is a path from the committed cell to F, then rest.
+/// Statics: every answer is a path from the committed cell to F, then rest: by FIRE to path.rest.unbalanced, from there
+/// to `unbalanced`, if that is less, by Newton's method.
 struct RestingCells {
-  rve::PathSettings path{};  ///< its `rest` comes before the polish
+  rve::PathSettings path{.rest = {.unbalanced = 1e-6}};
   double unbalanced = 1e-6;  ///< at rest when Balance::unbalanced is no more than this, > 0
   Operator tangent = Operator::network;
 };
