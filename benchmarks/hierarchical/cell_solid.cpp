@@ -1,12 +1,12 @@
 // Biaxial compression of solids whose points own cells of 400 discs: one element against the cell alone, and how many
-// iterations and seconds the operators take for 2 × 4 quad8 with 2 × 2 points. Desrues et al. 2019, Table 1, print
-// twice as many iterations with the operator of uniform strain as with that of the network.
+// iterations and seconds of the processor the operators take for 2 × 4 quad8 with 2 × 2 points. Desrues et al. 2019,
+// Table 1, print twice as many iterations with the operator of uniform strain as with that of the network.
 #include <Eigen/LU>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 
 #include "dovetail/core/error.hpp"
@@ -85,7 +85,8 @@ fem::StaticOptions options(double reuse) {
   return {.newton = {.relativeTolerance = 1e-4, .lineSearch = false, .reuseContraction = reuse},
           .firstStep = 1.0,
           .largestStep = 1.0,
-          .smallestStep = 0.2};
+          .smallestStep = 0.2,
+          .iterationTarget = 1000};  // steps are the same for all
 }
 
 void compareWithCell(int steps) {
@@ -102,10 +103,12 @@ void compareWithCell(int steps) {
   }
 }
 
+double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
 double secondsOf(int times, const std::function<void()>& act) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = processorSeconds();
   for (int k = 0; k < times; ++k) act();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / times;
+  return (processorSeconds() - start) / times;
 }
 
 /// What an answer is made of: the state taken back, the path with its rest, the operators.
@@ -142,16 +145,16 @@ void study(const char* name, hierarchical::Operator tangent, double reuse, const
     most = std::max(most, step.iterations);
     return true;
   };
-  const auto start = std::chrono::steady_clock::now();
+  const double start = processorSeconds();
   std::string end = "all steps";
   try {
     cuts = fem::solveStatics(body.model, steps, options(reuse), count).cuts;
   } catch (const NumericalError& error) {
     end = error.what();
   }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const double seconds = processorSeconds() - start;
   std::printf("%-24s %6d %6.1f %6d %6d %9.2f %10.1f %8.1f  %s\n", name, accepted, double(iterations) / accepted, most,
-              cuts, 100.0 * strainOfStep * body.model.t, 1e-3 * body.axial(), seconds.count(), end.c_str());
+              cuts, 100.0 * strainOfStep * body.model.t, 1e-3 * body.axial(), seconds, end.c_str());
 }
 
 }  // namespace
