@@ -165,7 +165,7 @@ private:
 
   void advance(bool withEnergy) {
     const double yBefore = grains().particles.x[0].y;
-    scene_.run->step(withEnergy);
+    scene_.run->advance(1, withEnergy);
     clock_.advanceWindow();
     if (figures().left) return;
     if (!scene_.contact->coupling().inContact()) stepsWithoutContact_ += clock_.substepsPerWindow;

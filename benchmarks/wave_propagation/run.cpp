@@ -157,7 +157,7 @@ private:
     observe();
     for (std::int64_t w = 1, samples = 0; w <= windows_; ++w) {
       const bool ends = w == windows_ || io::interruption() != 0, now = w % sampleEvery == 0 || ends;
-      bar_.run->step(now);
+      bar_.run->advance(1, now);
       if (!now) continue;
       sample();
       if (++samples % frameEvery == 0 || ends) observe();
