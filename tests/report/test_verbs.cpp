@@ -113,7 +113,7 @@ TEST(StudyVerb, RefusesBeforeAnythingIsRun) {
   refused({"--over", "share"}, "key=a,b,c");
   refused({"--over", "share=1,,2"}, "a value is empty");
   refused({"--over", "shore=0.1"}, "share");
-  refused({"--over", "share=0.1,wide"}, "wide");
+  refused({"--over", "share=wide,broad"}, "wide");
   refused({"--over", "share=0.1", "--workers", "0"}, "--workers");
   refused({"--over", "share=0.1", "--error", "speed_J"}, "--error speed_J");
   refused({"--over", "share=0.1", "--error", "wall_seconds"}, "take one of largest_residual_J, time_s, ");
