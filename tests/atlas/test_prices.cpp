@@ -33,6 +33,9 @@ TEST(HandLoop, MovesTheLatticeAsTheEngineDoes) {
 
 /// Bytes are counted; times are for a quiet machine.
 TEST(Features, TakeNoBytePerGrainUnlessUsed) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the heap of sanitizers does not count";
+#endif
   setThreads(1);  // what other threads allocate is not counted
   const std::vector<Feature> features = featuresOf(12, 1, 4);
   const double noise = features[0].bytesPerGrain;  // of the bare scene once more
