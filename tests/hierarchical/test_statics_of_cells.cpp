@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "solids_of_cells.hpp"
 
 namespace dovetail::hierarchical {
@@ -61,8 +63,7 @@ TEST(StaticsOfCells, APatchOfEqualCellsIsHomogeneous) {
     for (const char* side : {"x-", "x+", "y-", "y+"})
       border.insert(border.end(), fem::nodeSet(mesh, side).begin(), fem::nodeSet(mesh, side).end());
     std::ranges::sort(border);
-    const auto repeated = std::ranges::unique(border);
-    border.erase(repeated.begin(), repeated.end());
+    border.erase(std::unique(border.begin(), border.end()), border.end());
     for (const int node : border)
       for (int c = 0; c < 2; ++c)
         model.constraints.prescribe(std::array{node}, c, [&, node, c](double t) { return t * affine(node, c); });
