@@ -34,32 +34,37 @@ std::vector<Limit> limitsOfParts(Built& built, const Scene& scene) {
     found.push_back({"element " + std::to_string(stable.element) + " of \"" + side.name + "\"",
                      stable.dt / scene.steps.stepsPerWindow});
   }
-  found.push_back({"an impact of the smallest grains", impactLimit(scene, built.run->grains.particles)});
+  const Impact impact = briefestImpact(scene, built.run->grains.particles);
+  found.push_back({"an impact of the smallest grains" + impact.materials, impact.limit});
   return found;
 }
 
 /// Stability asks for no more than two steps in an impact, which then knows nothing of its energy. A fifth of its limit
 /// gives it eight, and the books are right to a twentieth of what changes hands. Bonded springs last: infinite.
-double resolvedStep(const Built& built, const Scene& scene) {
+Impact resolvedImpact(const Built& built, const Scene& scene) {
   constexpr double shareOfImpact = 0.2;
   const dem::Model& grains = built.run->grains;
-  return std::isinf(grains.laws->reach()) ? grains.laws->reach() : shareOfImpact * impactLimit(scene, grains.particles);
+  if (std::isinf(grains.laws->reach())) return {};
+  Impact impact = briefestImpact(scene, grains.particles);
+  impact.limit *= shareOfImpact;
+  return impact;
 }
 
 double automaticStep(Built& built, const Scene& scene, double limit) {
-  const double share = scene.steps.safety * limit, resolved = resolvedStep(built, scene);
+  const auto [resolved, materials] = resolvedImpact(built, scene);
+  const double share = scene.steps.safety * limit;
   if (share <= resolved) return share;
   built.notes.push_back("The step is " + formatNumber(resolved) +
-                        " s, so that an impact of the smallest grains takes eight steps; the share " +
+                        " s, so that an impact of the smallest grains" + materials + " takes eight steps; the share " +
                         formatNumber(scene.steps.safety) + " of the limit is " + formatNumber(share) +
                         " s. Give steps.dt a number if no grains meet in impacts.");
   return resolved;
 }
 
 void noteCoarseStep(Built& built, const Scene& scene, double dt) {
-  const double resolved = resolvedStep(built, scene);
+  const auto [resolved, materials] = resolvedImpact(built, scene);
   if (dt <= resolved) return;
-  built.notes.push_back("The step, " + formatNumber(dt) + " s, gives an impact of the smallest grains " +
+  built.notes.push_back("The step, " + formatNumber(dt) + " s, gives an impact of the smallest grains" + materials + " " +
                         formatNumber(std::floor(80.0 * resolved / dt) / 10.0) +
                         " steps, too few to keep its energy; eight ask for " + formatNumber(resolved) +
                         " s. It will do where no grains meet in impacts.");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <sstream>
 
 #include "dovetail/dem/laws/materials.hpp"
 #include "dovetail/dem/laws/rolling.hpp"
@@ -202,6 +203,25 @@ Table tableOf(const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+std::string namesOf(const std::vector<std::string>& rows, int a, int b) {
+  if (rows.size() == 1) return "";
+  std::ostringstream text;
+  const auto write = [&](int row) {
+    const std::string& given = rows[static_cast<std::size_t>(row)];
+    given.empty() ? text << "unnamed" : text << '"' << given << '"';
+  };
+  text << " (";
+  write(a);
+  text << " on ";
+  write(b);
+  text << ")";
+  return text.str();
+}
+
+}  // namespace
+
 std::shared_ptr<const dem::ContactLaws> makeLaws(const ContactLaw& law) {
   return atPlace(law.where, [&] { return lawsOf(Table{1, std::vector<Entry>{Entry{&law}}}); });
 }
@@ -221,18 +241,23 @@ int contactRow(const Scene& scene, const std::string& name) {
   return static_cast<int>(found - rows.begin());
 }
 
-double impactLimit(const Scene& scene, const dem::Particles& particles) {
-  double smallest = std::numeric_limits<double>::infinity();
-  if (!scene.contact && scene.contacts.empty()) return smallest;
+Impact briefestImpact(const Scene& scene, const dem::Particles& particles) {
+  Impact briefest;
+  if (!scene.contact && scene.contacts.empty()) return briefest;
   const Table table = tableOf(scene);
+  const std::vector<std::string> rows = rowsOf(scene);
   const auto look = [&](int row, double radius, double mass) {
     double stiffness = 0.0;
+    int stiffest = 0;
     for (int other = 0; other < table.rows; ++other) {
       const Entry& entry = table.at(row, other);
       const auto of = [&](const auto& kind) { return stiffnessOf(kind, entry, radius); };
-      stiffness = std::max(stiffness, std::visit(of, entry.law->normal));
+      const double found = std::visit(of, entry.law->normal);
+      if (found > stiffness) stiffest = other;
+      stiffness = std::max(stiffness, found);
     }
-    smallest = std::min(smallest, 2.0 * std::sqrt(0.5 * mass / stiffness));
+    const double limit = 2.0 * std::sqrt(0.5 * mass / stiffness);
+    if (limit < briefest.limit) briefest = {limit, namesOf(rows, row, stiffest)};
   };
   for (std::size_t i = 0; i < particles.size(); ++i)
     look(particles.material.empty() ? 0 : particles.material[i], particles.radius[i], particles.mass[i]);
@@ -240,7 +265,7 @@ double impactLimit(const Scene& scene, const dem::Particles& particles) {
     const double r = in.radius.smallest;
     look(contactRow(scene, in.contactMaterial), r, in.density * 4.0 / 3.0 * std::numbers::pi * r * r * r);
   }
-  return smallest;
+  return briefest;
 }
 
 }  // namespace dovetail::scene

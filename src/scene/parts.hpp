@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -43,9 +44,14 @@ std::shared_ptr<const dem::ContactLaws> makeLaws(const ContactLaw& law);
 std::shared_ptr<const dem::ContactLaws> makeLaws(const Scene& scene);
 /// Of a contact material in these laws. @throws InputError if no law names it
 int contactRow(const Scene& scene, const std::string& name);
+/// The briefest impact of a scene.
+struct Impact {
+  double limit = std::numeric_limits<double>::infinity();  ///< 2/ω, s
+  std::string materials;  ///< of the two that meet, as " (\"rock\" on \"steel\")"; empty if the scene has one law for all
+};
 /// The least 2/ω of two equal spheres, of those there are and those that enter, pressed together by a twentieth of the
-/// radius under the stiffest law of their material, s.
-double impactLimit(const Scene& scene, const dem::Particles& particles);
+/// radius under the stiffest law of their material.
+Impact briefestImpact(const Scene& scene, const dem::Particles& particles);
 
 /// Particles of groups that have a name, by Particles::id.
 using Groups = std::map<std::string, std::vector<std::int64_t>>;

@@ -14,7 +14,7 @@ namespace {
 using io::test::readText;
 using io::test::ScratchFolder;
 
-std::string example(const char* name) { return std::string(SCENES) + "/calibration/" + name; }
+std::string example(const char* name) { return std::string(SCENES "/calibration/") + name; }
 
 std::string refusalOf(const std::vector<std::string>& settings, const char* file = "stiffness.json") {
   try {

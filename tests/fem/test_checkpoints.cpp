@@ -152,6 +152,25 @@ TEST(Checkpoints, WithNumbersThatAreNotFiniteAreRefused) {
   expectNumbersThatAreNotFiniteToBeRefused<ImplicitIntegrator>();
 }
 
+TEST(Checkpoints, KindsOfChannelsStandForSomething) {
+  ImplicitRun run(rememberingBrick(), 20);
+  const Bytes state = run.save();
+  const EnergyLedger& ledger = run.integrator.ledger();
+  int booked = 0;
+  for (const EnergyLedger::Channel& channel : ledger.channels()) {
+    if (channel.kind != EnergyLedger::Kind::booked) continue;
+    ++booked;
+    const auto name = std::search(state.begin(), state.end(), channel.name.begin(), channel.name.end());
+    ASSERT_NE(name, state.end());
+    Bytes damaged = state;
+    const auto kind = damaged.begin() + (name - state.begin()) + static_cast<std::ptrdiff_t>(channel.name.size());
+    ASSERT_EQ(*kind, 1) << channel.name;
+    *kind = 2;
+    EXPECT_FALSE(takes(run, damaged)) << channel.name;
+  }
+  EXPECT_GT(booked, 0);
+}
+
 Bytes mutated(const Bytes& state, std::mt19937& random) {
   Bytes bytes = state;
   const auto below = [&](std::size_t count) {

@@ -174,6 +174,22 @@ TEST(SceneParts, GivenStepsThatAreCoarseForImpactsAreTold) {
   EXPECT_TRUE(given(8.1).notes.empty());
 }
 
+TEST(SceneParts, CoarseStepsNameTheMaterialsThatMeet) {
+  const auto law = [](const char* a, const char* b, const char* stiffness) {
+    return std::string(R"({"between": ")") + a + R"(", "and": ")" + b + R"(", "law": "linear", "stiffness": )" +
+           stiffness + R"(, "restitution": 0.8})";
+  };
+  const Built coarse = started(sceneFromText(
+      R"({"contacts": [)" + law("rock", "rock", "1e4") + "," + law("rock", "steel", "4e4") + R"(],
+      "particles": [{"from": "list", "density": 1000, "contact_material": "rock", "spheres": [
+        {"at": [0, 0, 0], "radius": 0.1}]}],
+      "walls": [{"shape": "plane", "point": [0, 0, -0.1], "normal": [0, 0, 1], "contact_material": "steel"}],
+      "steps": {"dt": "auto", "safety": 1}, "stages": [{"do": "run", "time": 0.1}]})",
+      "s.json", "/"));
+  ASSERT_EQ(coarse.notes.size(), 1U);
+  expectParts(coarse.notes[0], {R"(("rock" on "steel") takes eight steps)"});
+}
+
 /// However large a share of the limit is asked for.
 TEST(SceneParts, AutomaticStepsKeepTheEnergyOfImpacts) {
   const ScratchFolder folder;

@@ -41,6 +41,18 @@ void EnergyBook::save(ByteWriter& archive) const {
   }
 }
 
+namespace {
+
+EnergyLedger::Kind readKind(ByteReader& archive) {
+  const std::int64_t kind = detail::readCount(archive, "kind of a channel");
+  if (kind > static_cast<std::int64_t>(EnergyLedger::Kind::booked))
+    throw InputError("the kind of a channel has the number " + std::to_string(kind) + ", which stands for nothing",
+                     "ledger", "take an older checkpoint");
+  return static_cast<EnergyLedger::Kind>(kind);
+}
+
+}  // namespace
+
 /// Builds the ledger anew: first with the values at the opening, then with the present ones.
 EnergyBook EnergyBook::read(ByteReader& archive) const {
   const std::int64_t count = detail::readCount(archive, "number of channels");
@@ -51,8 +63,7 @@ EnergyBook EnergyBook::read(ByteReader& archive) const {
   std::vector<double> present;
   for (std::int64_t k = 0; k < count; ++k) {
     const std::string name = detail::readText(archive);
-    const bool stored =
-        detail::readCount(archive, "kind of a channel") == static_cast<std::int64_t>(EnergyLedger::Kind::stored);
+    const bool stored = readKind(archive) == EnergyLedger::Kind::stored;
     const bool known = stored ? k < storedChannels && name == ledger_.channels()[static_cast<std::size_t>(k)].name
                               : k >= storedChannels && !book.booked_.contains(name);
     if (!known)
