@@ -65,7 +65,7 @@ void addParts(const Json& content, report::Section& section) {
     steps.rows.push_back(
         {part, format("%.0f", numberOf(row, "grains")), format("%.0f", numberOf(row, "elements")),
          pairOf("%.3g", 1.0, row, "cost_scene", "cost_program"),
-         format("%+.1f", 100.0 * (numberOf(row, "cost_scene") / numberOf(row, "cost_program") - 1.0))});
+         format("%+.1f", 100.0 * numberOf(row, "cost_share"))});
     profiles.rows.push_back({part, profileOf(row["profile"])});
   }
   section.blocks.push_back(report::Paragraph{format(

@@ -13,9 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What states of scenes are; with the mark of our files (output_folder.hpp).
-constexpr const char* stateKind = "dovetail 3 scene";
-
 constexpr const char* timesFile = "times.csv";
 
 fs::path lastState(const fs::path& folder) { return folder / "checkpoint.state"; }
@@ -38,7 +35,7 @@ fs::path lastCheckpoint(const fs::path& folder) {
 }
 
 Checkpoint loadCheckpoint(const fs::path& file) {
-  ByteReader archive(readChecked(file, stateKind));
+  ByteReader archive(readChecked(file, checkpointKind));
   Checkpoint checkpoint;
   std::vector<char> hash;
   archive(hash, checkpoint.time);
@@ -56,7 +53,7 @@ void writeCheckpoint(const fs::path& folder, const std::string& hash, const Prog
   archive(run.save());
   std::error_code none;
   fs::rename(lastState(folder), stateBefore(folder), none);  // the first one has none before it
-  writeChecked(lastState(folder), stateKind, archive.bytes());
+  writeChecked(lastState(folder), checkpointKind, archive.bytes());
 }
 
 Progress readCheckpoint(const fs::path& folder, const std::string& hash, coupling::CoupledRun& run) {

@@ -35,6 +35,9 @@ struct Progress {
   bool toldOfStep = false;  ///< that it has become too large
 };
 
+/// What states of scenes are; with the mark of our files (output_folder.hpp).
+inline constexpr const char* checkpointKind = "dovetail 3 scene";
+
 /// A state as it lies in a file.
 struct Checkpoint {
   std::string scene;  ///< hash of the scene in full

@@ -217,13 +217,14 @@ private:
   }
   void requireParameterName(const Node::Member& member) const {
     const auto isLetter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
-    const bool fits = !member.key.empty() && isLetter(member.key.front()) &&
+    constexpr std::size_t mostCharacters = 100;  // muParser reads no longer ones
+    const bool fits = !member.key.empty() && member.key.size() < mostCharacters && isLetter(member.key.front()) &&
                       std::all_of(member.key.begin(), member.key.end(), [&](char c) {
                         return isLetter(c) || c == '_' || std::isdigit(static_cast<unsigned char>(c));
                       });
     if (!fits)
       throw InputError("\"" + member.key + "\" cannot name a parameter", placeOf(member.place),
-                       "use letters, digits and '_', with a letter first");
+                       "use letters, digits and '_', with a letter first, less than 100 in all");
     if (member.key == "t")
       throw InputError("\"t\" cannot name a parameter", placeOf(member.place),
                        "take another name: t is the time in expressions");

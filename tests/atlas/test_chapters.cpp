@@ -71,14 +71,14 @@ TEST(Prices, AreTablesAndRowsOfNumbers) {
                  {"feature": "friction", "used": true, "ns": 60, "cost_share": 1.5, "bytes_per_grain": 137}],
     "parts": [{"part": "grains only", "grains": 8000, "elements": 0, "bytes": 1500000, "libraries": ["libA", "libB"],
                "start_scene_s": 0.02, "start_program_s": 0.01, "bytes_each_scene": 580, "bytes_each_program": 570, "steps": 100,
-               "cost_scene": 1.01, "cost_program": 1.0, "profile": [{"part": "pairs", "share": 0.8}, {"part": "move", "share": 0.2}]}],
+               "cost_scene": 1.01, "cost_program": 1.0, "cost_share": 0.011, "profile": [{"part": "pairs", "share": 0.8}, {"part": "move", "share": 0.2}]}],
     "dovetail": {"bytes": 9000000, "libraries": ["libA"]}})");
   const Chapter chapter = pricesOf({study});
   ASSERT_EQ(chapter.rows.size(), 5u);
   EXPECT_EQ(chapter.rows[3]["libraries"], 2);
   EXPECT_EQ(chapter.rows[3]["profile"], "pairs 80, move 20");
   const std::string page = report::markdownOf({"Prices", chapter.sections}, "");
-  for (const char* const told : {"1.040", "nothing", "friction", "+150.00", "20 / 10", "+1.0", "9.0 MB, 1 libraries"})
+  for (const char* const told : {"1.040", "nothing", "friction", "+150.00", "20 / 10", "+1.1", "9.0 MB, 1 libraries"})
     EXPECT_NE(page.find(told), std::string::npos) << told << " in " << page;
 }
 

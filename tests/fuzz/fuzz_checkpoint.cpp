@@ -116,7 +116,7 @@ void readFile(const Bytes& bytes) {
 
 void readState(const Bytes& bytes) {
   const fs::path file = folder() / "whole.state";
-  writeChecked(file, "dovetail 2 scene", bytes);
+  writeChecked(file, scene::checkpointKind, bytes);
   try {
     loadBytes(scene::loadCheckpoint(file).state);
   } catch (const InputError&) {
@@ -152,7 +152,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   if (size > 64 && seed % 64 != 0) return LLVMFuzzerMutate(data, size, most);
   if (seed % 3 == 0) return begin(2, goodState());
   scene::writeCheckpoint(folder(), hash, scene::Progress{.frames = {0.0, 1e-3}}, run());
-  if (seed % 3 == 1) return begin(1, readChecked(folder() / "checkpoint.state", "dovetail 2 scene"));
+  if (seed % 3 == 1) return begin(1, readChecked(folder() / "checkpoint.state", scene::checkpointKind));
   std::ifstream stream(folder() / "checkpoint.state", std::ios::binary);
   return begin(0, Bytes(std::istreambuf_iterator<char>(stream), {}));
 }

@@ -19,7 +19,7 @@ namespace {
 
 void requireGoodRefusal(const std::string& message) {
   if (message.find('\n') != std::string::npos) fail("a message of more than one line", message);
-  if (message.find("s.json") == std::string::npos) fail("a message that does not say where", message);
+  if (message.find(".json") == std::string::npos) fail("a message that does not say where", message);
 }
 
 }  // namespace
