@@ -24,6 +24,8 @@ constexpr double denseFraction = 0.645;  // a little more than grains at the pre
 constexpr double softOverlap = 0.05;     // over the radius, largest, before the pressure is set
 constexpr double restitution = 0.5;      // while they come to rest
 constexpr double sheared = 2e-4;         // strain by which the lid presses with friction
+constexpr double shaken = 5e-5;          // strain to each side while the lid shakes a column down
+constexpr int shakes = 8;                // afterwards a shake changes the pressure by 1e-4
 
 std::shared_ptr<const dem::ContactLaws> laws(double e) {
   dem::FrictionalLaw law;
@@ -58,6 +60,21 @@ void bringToRest(dem::Model& m) {
                          "column of grains", "take another seed");
 }
 
+void addLidAndFloor(dem::Model& m) {
+  const auto& box = m.pairs.periodicity().box;
+  dem::addWall(m, dem::makePlane(box.upper, {0, 0, -1}));
+  dem::addWall(m, dem::makePlane(box.lower, {0, 0, 1}));
+}
+
+/// Brings lid and grains closer to the floor in proportion, so that no part is compacted before others.
+void shorten(dem::Model& m, double strain) {
+  const double floor = dem::primitiveWall(m, floorOfPressed).point.z;
+  double& lid = dem::primitiveWall(m, lidOfPressed).point.z;
+  lid = floor + (1.0 - strain) * (lid - floor);
+  for (Vec3& x : m.particles.x) x.z = floor + (1.0 - strain) * (x.z - floor);
+  dem::relax(m, {.unbalanced = 1e-3, .steps = 5000});
+}
+
 /// Held at its bottom, the same on opposite sides.
 std::unique_ptr<fem::Model> heldColumn(const fem::SolidMesh& mesh, const Elastic& e, std::vector<double> share,
                                        const Vec3& gravity) {
@@ -90,11 +107,31 @@ dem::Model pressedColumn(const ColumnSize& size, double pressure) {
   if (!report.reached)
     throw NumericalError("the packing does not reach its pressure", "column of grains", "take another seed");
   dem::Model m = columnOf(packing);
-  dem::addWall(m, dem::makePlane(packing.space.box.upper, {0, 0, -1}));
-  dem::addWall(m, dem::makePlane(packing.space.box.lower, {0, 0, 1}));
+  addLidAndFloor(m);
   bringToRest(m);
   m.laws = laws(1.0);
   moveLid(m, {0, 0, -sheared * packing.space.length(2)});
+  return m;
+}
+
+dem::Model columnPressedWithFriction(const ColumnSize& size, double pressure) {
+  constexpr int presses = 400;  // strains of a tenth and more, far beyond what it takes
+  dem::Model m = columnOf(grown(size, looseFraction, 1e-3));
+  addLidAndFloor(m);
+  const double wanted = pressure * size.width * size.width;  // N
+  const dem::PrimitiveWall& lid = dem::primitiveWall(m, lidOfPressed);
+  for (int k = 0; k < presses && lid.force.z < 0.5 * wanted; ++k) shorten(m, 1e-3);
+  bringToRest(m);
+  m.laws = laws(1.0);
+  const double strain = sheared * size.height;
+  for (int k = 0; k < presses && lid.force.z < 0.97 * wanted; ++k) moveLid(m, {0, 0, -strain});
+  if (std::abs(lid.force.z / wanted - 1.0) > 0.1)
+    throw NumericalError("the packing is at " + std::to_string(lid.force.z / wanted) + " of its pressure",
+                         "column of grains", "take another seed");
+  const double way = shaken * size.height;
+  for (int k = 0; k < shakes; ++k)
+    for (const Vec3& motion : {Vec3{0, 0, way}, {0, 0, -2.0 * way}, {0, 0, way}, {way, 0, 0}, {-2.0 * way, 0, 0}, {way, 0, 0}})
+      moveLid(m, motion);
   return m;
 }
 

@@ -10,14 +10,14 @@ namespace {
 SolidPlace placeOf(const EquilibriumSettings& s) {
   return {.width = s.size.width,
           .bottom = -s.below * s.element,
-          .border = 0.0,
-          .top = s.overlap * s.element,
+          .border = (s.solid - s.overlap) * s.element,
+          .top = s.solid * s.element,
           .element = s.element,
           .across = 2};
 }
 
 Elastic elasticOf(const dem::Model& packing, const EquilibriumSettings& s) {
-  const double density = bulkDensity(packing.particles, s.size.width, grain::diameter, s.overlap * s.element);
+  const double density = bulkDensity(packing.particles, s.size.width, grain::diameter, s.solid * s.element);
   return {density, 0.25 * grain::stiffness / grain::diameter, 0.2};
 }
 
@@ -62,16 +62,18 @@ Corrected runCorrected(const dem::Model& packing, const EquilibriumSettings& s) 
   return result;
 }
 
-double peakWithout(const dem::Model& packing, const EquilibriumSettings& s, bool takeOver) {
+Start peakWithout(const dem::Model& packing, const EquilibriumSettings& s, bool takeOver) {
   constexpr int looks = 400, steps = 10;
   const auto column = joinSolid(packing, 0, placeOf(s), elasticOf(packing, s), {.takeOver = takeOver});
   startWith(column->run, s.share);
-  double most = 0.0;
+  Start start;
   for (int look = 0; look < looks; ++look) {
     column->run.advance(steps);
-    most = std::max(most, column->run.kineticEnergy() / elastic(column->run));
+    const double kinetic = column->run.kineticEnergy();
+    start.joules = std::max(start.joules, kinetic);
+    start.overElastic = std::max(start.overElastic, kinetic / elastic(column->run));
   }
-  return most;
+  return start;
 }
 
 }  // namespace dovetail::bed

@@ -11,7 +11,8 @@ namespace dovetail::bed {
 struct EquilibriumSettings {
   ColumnSize size{.width = 4.0 * grain::diameter, .height = 18.0 * grain::diameter, .seed = 1};
   double element = 2.0 * grain::diameter;  ///< m
-  int overlap = 6, below = 2;              ///< elements
+  int solid = 6;                           ///< height of its top above the packing's floor, elements
+  int overlap = 6, below = 2;              ///< elements: below the solid's top, and below the packing's floor
   double share = 0.5;                      ///< of the critical step
   double rest = 1e-7;                      ///< kinetic over elastic energy that the correction ends at
   std::int64_t steps = 100000;             ///< afterwards
@@ -34,7 +35,11 @@ struct Corrected {
 };
 Corrected runCorrected(const dem::Model& packing, const EquilibriumSettings& settings);
 
-/// Largest kinetic energy over the elastic one after a start without any correction, or with takeOver alone.
-double peakWithout(const dem::Model& packing, const EquilibriumSettings& settings, bool takeOver);
+/// Largest kinetic energy after a start without any correction, or with takeOver alone.
+struct Start {
+  double joules = 0.0;
+  double overElastic = 0.0;  ///< over the elastic energy at the same instant
+};
+Start peakWithout(const dem::Model& packing, const EquilibriumSettings& settings, bool takeOver);
 
 }  // namespace dovetail::bed

@@ -14,7 +14,7 @@ using namespace dovetail::bed;
 
 struct Settings {
   std::string study = "all", out = "bed-output";
-  bool quick = false;
+  bool quick = false, friction = false;
   int packings = 10, workers = 1, steps = 100000;
   double strain = 2e-5, share = 0.3;
 };
@@ -28,6 +28,7 @@ bool parse(int argc, char** argv, Settings& s) {
   o.number("--strain X", s.strain, program::positive("a positive number", 1e-3), "largest of the pulse");
   o.number("--step-share X", s.share, program::positive("a number up to 0.9", 0.9),
            "of the critical step, for the wave");
+  o.flag("--with-friction", s.friction, "presses the packings for the wave with friction, and shakes them down");
   o.integer("--workers N", s.workers, 1, 1024, "processes, one packing each");
   o.text("--out DIR", s.out, "folder for tables");
   if (!o.parse(argc, argv)) return false;
@@ -40,8 +41,12 @@ bool run(const Settings& s) {
   std::filesystem::create_directories(s.out);
   if (s.study != "wave") runEquilibriumStudy({.steps = s.steps, .quick = s.quick, .folder = s.out});
   if (s.study == "equilibrium") return true;
-  return runWaveStudy(
-      {.packings = s.packings, .workers = s.workers, .strain = s.strain, .share = s.share, .folder = s.out});
+  return runWaveStudy({.packings = s.packings,
+                       .workers = s.workers,
+                       .friction = s.friction,
+                       .strain = s.strain,
+                       .share = s.share,
+                       .folder = s.out});
 }
 
 }  // namespace

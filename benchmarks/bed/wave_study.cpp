@@ -16,7 +16,10 @@ namespace {
 using report::format;
 using report::Json;
 
-constexpr double axialSpeed = 75.0, shearSpeed = 50.0;  // m/s, a little below those of the packings
+struct Speeds {
+  double axial, shear;  // m/s, a little below those of the packings
+};
+constexpr Speeds pressedWithout{75.0, 50.0}, pressedWith{55.0, 31.0};
 constexpr const char* kindOfFile = "bed waveforms";
 
 struct Kind {
@@ -28,7 +31,8 @@ constexpr Kind kinds[] = {{"P", false}, {"S", true}};
 WaveSettings settingsOf(const WaveStudy& study, const Kind& kind) {
   WaveSettings s;
   s.shear = kind.shear;
-  s.speed = kind.shear ? shearSpeed : axialSpeed;
+  const Speeds& speeds = study.friction ? pressedWith : pressedWithout;
+  s.speed = kind.shear ? speeds.shear : speeds.axial;
   s.strain = study.strain;
   s.share = study.share;
   return s;
@@ -80,8 +84,8 @@ void addFigures(Json& figures, const std::string& name, const WaveSettings& s, c
 Json runPacking(const WaveStudy& study, int number) {
   const auto begin = std::chrono::steady_clock::now();
   const double height = 1.04 * settingsOf(study, kinds[0]).depth();
-  const dem::Model packing = pressedColumn(
-      {.width = study.width, .height = height, .seed = static_cast<std::uint64_t>(number)}, WaveSettings{}.pressure);
+  const ColumnSize size{.width = study.width, .height = height, .seed = static_cast<std::uint64_t>(number)};
+  const dem::Model packing = (study.friction ? columnPressedWithFriction : pressedColumn)(size, WaveSettings{}.pressure);
   const Moduli moduli = probe(packing);
   Json figures{{"particles", packing.particles.size()},
                {"pressure_Pa", moduli.pressure},

@@ -11,6 +11,7 @@ namespace dovetail::bed {
 struct WaveStudy {
   int packings = 10;
   int workers = 1;
+  bool friction = false;                 ///< packings are pressed with it: columnPressedWithFriction
   double width = 4.0 * grain::diameter;  ///< m
   double strain = 2e-5, share = 0.3;     ///< as in WaveSettings
   std::filesystem::path folder = ".";

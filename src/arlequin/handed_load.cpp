@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/core/error.hpp"
@@ -33,10 +34,17 @@ double largestChange(std::span<const Vec3> a, std::span<const Vec3> b) {
   return most;
 }
 
-}  // namespace
+/// Who hands over, round by round. A particle that has once been found outside of the overlap, or at another image of
+/// itself in periodic space, is struck off: to and fro it would change the load for ever.
+struct Givers {
+  explicit Givers(std::size_t particles) : gives(particles, 1), at(particles) {}
+  std::vector<char> gives;
+  std::vector<std::optional<Vec3>> at;  // where the mesh has the particle, m; none before the first round
+};
 
-std::vector<Vec3> handedLoad(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
-                             std::span<const double> nodalWeight) {
+/// As handedLoad, of those that still give.
+std::vector<Vec3> loadOf(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
+                         std::span<const double> nodalWeight, Givers& givers) {
   constexpr double anyPenalty = 1.0;  // a tie that was just made has no gap
   dem::Model weighed = grains;
   coupling::SolidSide side;
@@ -50,14 +58,33 @@ std::vector<Vec3> handedLoad(const dem::Model& grains, const fem::SolidMesh& mes
   weighed.terms.add(std::unique_ptr<dem::Term>(std::move(made)));
   dem::findForces(weighed);
   std::vector<Vec3> load(solid.nodes.X.size());
+  std::vector<char> stays(givers.gives.size(), 0);
   for (std::size_t k = 0; k < tie.overlap().size(); ++k) {
+    const auto i = static_cast<std::size_t>(tie.overlap().particle[k]);
+    if (!givers.gives[i]) continue;
     const fem::CellPlace& place = tie.overlap().place[k];
-    const Vec3& force = weighed.particles.f[static_cast<std::size_t>(tie.overlap().particle[k])];
     const Cell cell = cellOf(mesh, place.element);
+    Vec3 at;
+    for (std::size_t a = 0; a < cell.node.size(); ++a) {
+      const auto n = static_cast<std::size_t>(cell.node[a]);
+      at += place.shape[a] * (solid.nodes.X[n] + solid.nodes.u[n]);
+    }
+    if (givers.at[i] && norm(at - *givers.at[i]) > weighed.particles.radius[i]) continue;
+    givers.at[i] = at;
+    stays[i] = 1;
     for (std::size_t a = 0; a < cell.node.size(); ++a)
-      load[static_cast<std::size_t>(cell.node[a])] += place.shape[a] * force;
+      load[static_cast<std::size_t>(cell.node[a])] += place.shape[a] * weighed.particles.f[i];
   }
+  givers.gives = std::move(stays);
   return load;
+}
+
+}  // namespace
+
+std::vector<Vec3> handedLoad(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
+                             std::span<const double> nodalWeight) {
+  Givers all(grains.particles.size());
+  return loadOf(grains, mesh, solid, nodalWeight, all);
 }
 
 int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
@@ -72,7 +99,8 @@ int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& s
   if (std::ranges::all_of(solid.nodes.mass, [](double mass) { return mass == 0.0; })) fem::addMass(solid);
   const double time = solid.t;
   const auto load = std::make_shared<NodeForces>();
-  load->force = handedLoad(grains, mesh, solid, nodalWeight);
+  Givers givers(grains.particles.size());
+  load->force = loadOf(grains, mesh, solid, nodalWeight, givers);
   solid.terms.push_back(load);
   int round = 1;
   for (bool settled = false; !settled; ++round) {
@@ -83,7 +111,7 @@ int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& s
       solid.t = time;
       throw;
     }
-    std::vector<Vec3> next = handedLoad(grains, mesh, solid, nodalWeight);
+    std::vector<Vec3> next = loadOf(grains, mesh, solid, nodalWeight, givers);
     settled = largestChange(next, load->force) <= options.tolerance * largest(next);
     load->force = std::move(next);
     if (settled || round < options.rounds) continue;

@@ -161,5 +161,27 @@ TEST(TakeOver, SetsMassesAndRefusesWhatIsTied) {
   EXPECT_THROW(takeOver(bed.run.grains, bed.mesh, *bed.run.solid(0).model, bed.weight), InputError);
 }
 
+// A heavy grain that reaches just into the soil: with its weight the surface sinks and leaves it outside, without it the
+// surface rises to it again.
+TEST(TakeOver, SettlesThoughAGrainAtTheEdgeComesAndGoes) {
+  const Vec3 gravity{0.0, 0.0, -9.81};
+  Bed without;
+  without.run.grains.gravity = gravity;
+  takeOver(without.run.grains, without.mesh, *without.soil, without.weight);
+  const fem::Nodes& nodes = without.soil->nodes;
+  const Vec3 place{size, size, top};
+  const auto corner = std::ranges::find_if(nodes.X, [&](const Vec3& X) { return norm(X - place) < 1e-9; });
+  ASSERT_NE(corner, nodes.X.end());
+  const Vec3 surface = *corner + nodes.u[static_cast<std::size_t>(corner - nodes.X.begin())];
+  constexpr double radius = 0.002;  // m: clear of the others
+  Bed bed;
+  bed.run.grains.gravity = gravity;
+  dem::addParticle(bed.run.grains.particles, surface + Vec3{0.0, 0.0, radius - 1e-7}, {}, radius, dem::Density{1e5});
+  const int rounds = takeOver(bed.run.grains, bed.mesh, *bed.soil, bed.weight);
+  EXPECT_LT(rounds, 10);
+  const double moved = bed.soil->nodes.u[static_cast<std::size_t>(corner - nodes.X.begin())].z - (surface - place).z;
+  EXPECT_NEAR(moved, 0.0, 1e-8);  // nobody hands the grain's weight over
+}
+
 }  // namespace
 }  // namespace dovetail::arlequin

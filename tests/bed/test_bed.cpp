@@ -50,6 +50,18 @@ TEST(BedColumn, APressedColumnIsAtRestUnderItsPressureAndBearsTheSameOnBothEnds)
   EXPECT_GT(moduli.shear, 0.1 * grain::stiffness / grain::diameter);
 }
 
+// Shaken down, it is as stiff under a push as under a pull; monotonic pressing alone leaves it softer for a push.
+TEST(BedColumn, AColumnPressedWithFrictionAndShakenDownIsAsStiffBothWays) {
+  const ColumnSize size{.width = 4.0 * grain::diameter, .height = 8.0 * grain::diameter};
+  const dem::Model column = columnPressedWithFriction(size, 1e4);
+  EXPECT_LT(dem::restOf(column).unbalanced, 2e-6);
+  const double lid = dem::primitiveWall(column, lidOfPressed).force.z / (widthOf(column) * widthOf(column));
+  EXPECT_NEAR(lid, 1e4, 1e3);
+  const Moduli pull = probe(column, 2e-5), push = probe(column, -2e-5);
+  EXPECT_NEAR(push.axial, pull.axial, 0.03 * pull.axial);
+  EXPECT_NEAR(push.shear, pull.shear, 0.03 * pull.shear);
+}
+
 TEST(BedStress, WeightAboveIsThatOfTheGrainsAbove) {
   dem::Particles p;
   for (const double z : {0.1, 0.35, 0.6}) dem::addParticle(p, {0, 0, z}, {}, 0.05, dem::Mass{2.0});

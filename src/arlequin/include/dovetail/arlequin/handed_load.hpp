@@ -29,7 +29,8 @@ struct TakeOverOptions {
 
 /// Initial stress: deforms the solid until it is in equilibrium under its own terms and what the particles hand over
 /// where its mesh then is. Tie the particles after that: they are tied where they are, without a gap, and what a tie of
-/// elements cannot balance particle by particle is left to coupling::settle. Time and velocities of the solid stay;
+/// elements cannot balance particle by particle is left to coupling::settle. A particle that is found
+/// outside the overlap in one round, or elsewhere in periodic space, hands nothing over from then on. Time and velocities of the solid stay;
 /// masses are set if they are not (fem::addMass).
 /// @throws InputError as handedLoad, for options out of range, or for particles that are tied to this solid already;
 ///   NumericalError as fem::solveStatics, and if the load does not settle
