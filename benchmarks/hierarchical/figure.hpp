@@ -1,0 +1,32 @@
+// Figures that papers print, and what comes out here.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace dovetail::benchmark {
+
+struct FigureRow {
+  std::string what;      ///< quantity with its unit, and the case if there are several
+  double here = 0.0;     ///< mean
+  double scatter = 0.0;  ///< standard deviation over the packings, 0 if there is one
+  double printed = 0.0;  ///< what is to be shown; NaN: nothing is printed, the row informs
+  double allowed = 0.0;  ///< difference that is allowed
+  std::string note = {};
+
+  bool judged() const { return std::isfinite(printed); }
+  bool holds() const { return std::abs(here - printed) <= allowed; }
+};
+using FigureRows = std::vector<FigureRow>;
+
+struct Figure {
+  std::string name;    ///< as --only takes it
+  std::string source;  ///< paper, figure or table
+  FigureRows (*run)(bool quick);
+};
+
+// One source file each.
+FigureRows squareArrays(bool quick);
+
+}  // namespace dovetail::benchmark

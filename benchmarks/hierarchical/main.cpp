@@ -1,0 +1,69 @@
+// The published figures on cells of grains, alone and in solids, beside what comes out here: one Markdown table.
+#include <chrono>
+#include <cstdio>
+
+#include "dovetail/core/error.hpp"
+#include "figure.hpp"
+#include "program/options.hpp"
+#include "program/run.hpp"
+
+namespace {
+
+using namespace dovetail;
+using namespace dovetail::benchmark;
+
+const std::vector<Figure> figures{
+    {"square-arrays", "Liu 2018, Fig. 2.4", squareArrays},
+};
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+std::string verdict(const FigureRow& row) {
+  if (!row.judged()) return "";
+  return row.holds() ? "holds" : "**missed**";
+}
+
+/// Rows of the table; false if one that is judged is missed.
+bool show(const Figure& figure, bool quick) {
+  const double start = seconds();
+  const FigureRows rows = figure.run(quick);
+  const double took = seconds() - start;
+  bool all = true;
+  for (const FigureRow& row : rows) {
+    all = all && (!row.judged() || row.holds());
+    std::printf("| %s | %s | %.5g ± %.2g | ", figure.name.c_str(), row.what.c_str(), row.here, row.scatter);
+    if (row.judged()) std::printf("%.5g ± %.2g", row.printed, row.allowed);
+    std::printf(" | %s | %s |\n", verdict(row).c_str(), row.note.c_str());
+  }
+  std::printf("| %s | seconds (%s) | %.1f | | | |\n", figure.name.c_str(), figure.source.c_str(), took);
+  std::fflush(stdout);
+  return all;
+}
+
+std::string names() {
+  std::string text;
+  for (const Figure& figure : figures) text += (text.empty() ? "" : "|") + figure.name;
+  return text;
+}
+
+bool run(bool quick, const std::string& only) {
+  std::printf("| figure | quantity | here | printed | | note |\n|---|---|---|---|---|---|\n");
+  bool all = true;
+  for (const Figure& figure : figures)
+    if (only == "all" || only == figure.name) all = show(figure, quick) && all;
+  return all;
+}
+
+}  // namespace
+
+/// Exit code 0: all figures hold; 1: one is missed or broke down; 2: the request was refused.
+int main(int argc, char** argv) {
+  return program::runProgram("cell_figures", [&] {
+    bool quick = false;
+    std::string only = "all";
+    program::Options o("cell_figures", "Published figures on cells of grains, beside what comes out here.");
+    o.flag("--quick", quick, "fewer packings, smaller solids");
+    o.word("--only WORD", only, "all|" + names(), "one figure");
+    return !o.parse(argc, argv) || run(quick, only);
+  });
+}
