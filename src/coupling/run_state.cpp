@@ -30,6 +30,21 @@ NodalLoad readLoad(ByteReader& archive, std::size_t nodes) {
   return load;
 }
 
+/// What a state begins with.
+struct Head {
+  double dt = 0.0;
+  int stepsPerWindow = 0, lag = 0;
+  std::uint64_t solids = 0;
+  std::vector<Vec3> windowForce = {};
+  double madeByLag = 0.0, broughtToRest = 0.0;
+  std::vector<char> particles = {};
+};
+template <class Archive>
+void archiveHead(Archive& archive, Head& head) {
+  archive(head.dt, head.stepsPerWindow, head.lag, head.solids, head.windowForce, head.madeByLag, head.broughtToRest,
+          head.particles);
+}
+
 void requireSame(bool same, const char* what) {
   if (!same)
     throw InputError(std::string("the state has other ") + what, "load", "load it into a run that is set up alike");
@@ -39,9 +54,7 @@ void requireSame(bool same, const char* what) {
 
 /// What has been read of a state.
 struct CoupledRun::Impl::State {
-  std::vector<Vec3> windowForce;
-  double madeByLag = 0.0, broughtToRest = 0.0;
-  std::vector<char> particles;
+  Head head;
   struct Solid {
     std::shared_ptr<SavedSolid> own;
     double bookedBefore;
@@ -54,10 +67,18 @@ struct CoupledRun::Impl::State {
   std::vector<Solid> solids;
 };
 
+std::vector<char> particlesOf(const std::vector<char>& state) {
+  ByteReader archive(state);
+  Head head;
+  archiveHead(archive, head);
+  return head.particles;
+}
+
 std::vector<char> CoupledRun::Impl::save() {
   ByteWriter archive;
-  archive(dt, options.stepsPerWindow, static_cast<int>(options.lag), static_cast<std::uint64_t>(solids.size()),
-          windowForce, madeByLag, broughtToRest, dem::saveState(grains));
+  Head head{dt,        options.stepsPerWindow, static_cast<int>(options.lag), solids.size(), windowForce,
+            madeByLag, broughtToRest,          dem::saveState(grains)};
+  archiveHead(archive, head);
   for (std::size_t s = 0; s < solids.size(); ++s) {
     ByteWriter own;
     solids[s]->save(own);
@@ -76,13 +97,12 @@ std::vector<char> CoupledRun::Impl::save() {
 CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) const {
   ByteReader archive(bytes);
   State state;
-  double step = 0.0;
-  int steps = 0, lag = 0;
-  std::uint64_t count = 0;
-  archive(step, steps, lag, count, state.windowForce, state.madeByLag, state.broughtToRest, state.particles);
-  requireSame(step == dt && steps == options.stepsPerWindow && lag == static_cast<int>(options.lag),
-              "steps or options");
-  requireSame(count == solids.size(), "solids");
+  archiveHead(archive, state.head);
+  const Head& head = state.head;
+  requireSame(
+      head.dt == dt && head.stepsPerWindow == options.stepsPerWindow && head.lag == static_cast<int>(options.lag),
+      "steps or options");
+  requireSame(head.solids == solids.size(), "solids");
   for (const auto& solid : solids) {
     std::vector<char> own;
     double bookedBefore = 0.0;
@@ -120,11 +140,11 @@ std::optional<CoupledRun::Impl::State> CoupledRun::Impl::readOwn() {
 }
 
 void CoupledRun::Impl::adopt(State state) {
-  dem::loadState(state.particles, "state of a run", grains);
+  dem::loadState(state.head.particles, "state of a run", grains);
   loadBefore.clear();
   lagSeen.clear();
-  madeByLag = state.madeByLag;
-  broughtToRest = state.broughtToRest;
+  madeByLag = state.head.madeByLag;
+  broughtToRest = state.head.broughtToRest;
   for (std::size_t s = 0; s < solids.size(); ++s) {
     solids[s]->adopt(*state.solids[s].own);
     solids[s]->bookedBefore = state.solids[s].bookedBefore;
@@ -136,7 +156,7 @@ void CoupledRun::Impl::adopt(State state) {
     loadBefore.push_back(std::move(state.solids[s].before));
     lagSeen.push_back(std::move(state.solids[s].seen));
   }
-  windowForce = std::move(state.windowForce);
+  windowForce = std::move(state.head.windowForce);
   outside = std::move(state.outside);
 }
 

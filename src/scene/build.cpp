@@ -54,9 +54,9 @@ double automaticStep(Built& built, const Scene& scene, double limit) {
   const auto [resolved, materials] = resolvedImpact(built, scene);
   const double share = scene.steps.safety * limit;
   if (share <= resolved) return share;
-  built.notes.push_back("The step is " + formatNumber(resolved) +
-                        " s, so that an impact of the smallest grains" + materials + " takes eight steps; the share " +
-                        formatNumber(scene.steps.safety) + " of the limit is " + formatNumber(share) +
+  built.notes.push_back("The step is " + formatNumber(resolved) + " s, so that an impact of the smallest grains" +
+                        materials + " takes eight steps; the share " + formatNumber(scene.steps.safety) +
+                        " of the limit is " + formatNumber(share) +
                         " s. Give steps.dt a number if no grains meet in impacts.");
   return resolved;
 }
@@ -64,8 +64,8 @@ double automaticStep(Built& built, const Scene& scene, double limit) {
 void noteCoarseStep(Built& built, const Scene& scene, double dt) {
   const auto [resolved, materials] = resolvedImpact(built, scene);
   if (dt <= resolved) return;
-  built.notes.push_back("The step, " + formatNumber(dt) + " s, gives an impact of the smallest grains" + materials + " " +
-                        formatNumber(std::floor(80.0 * resolved / dt) / 10.0) +
+  built.notes.push_back("The step, " + formatNumber(dt) + " s, gives an impact of the smallest grains" + materials +
+                        " " + formatNumber(std::floor(80.0 * resolved / dt) / 10.0) +
                         " steps, too few to keep its energy; eight ask for " + formatNumber(resolved) +
                         " s. It will do where no grains meet in impacts.");
 }

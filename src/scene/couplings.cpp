@@ -30,8 +30,8 @@ void add(Built& built, std::size_t solid, const Coupling& coupling, const Surfac
 
 /// Takes out the grains beyond their border.
 void leaveOut(Built& built, const fem::SolidMesh& mesh, const coupling::SolidSide& side,
-              const std::vector<double>& weight) {
-  const std::vector<int> beyond = arlequin::particlesBeyond(built.run->grains, mesh, side.nodes(), weight);
+              const std::vector<double>& weight, double leastShare) {
+  const std::vector<int> beyond = arlequin::particlesBeyond(built.run->grains, mesh, side.nodes(), weight, leastShare);
   if (beyond.empty()) return;
   dem::removeParticles(built.run->grains, beyond);
   built.notes.push_back(std::to_string(beyond.size()) + " grains beyond the border of the particles in \"" + side.name +
@@ -39,9 +39,11 @@ void leaveOut(Built& built, const fem::SolidMesh& mesh, const coupling::SolidSid
 }
 
 /// Initial stress of a solid under its loads and those of the grains.
-void takeOver(Built& built, const fem::SolidMesh& mesh, coupling::SolidSide& side, const std::vector<double>& weight) {
+void takeOver(Built& built, const fem::SolidMesh& mesh, coupling::SolidSide& side, const std::vector<double>& weight,
+              double leastShare) {
   // A thousandth of the load is far below what a tie of elements cannot balance grain by grain anyway.
-  const int rounds = arlequin::takeOver(built.run->grains, mesh, *side.model, weight, {.tolerance = 1e-3});
+  const int rounds =
+      arlequin::takeOver(built.run->grains, mesh, *side.model, weight, {.tolerance = 1e-3, .leastShare = leastShare});
   double farthest = 0.0;
   for (const Vec3& u : side.nodes().u) farthest = std::max(farthest, norm(u));
   built.notes.push_back("\"" + side.name + "\" took over its grains in " + std::to_string(rounds) +
@@ -53,14 +55,12 @@ void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overla
   const fem::SolidMesh& mesh = built.meshes[solid];
   coupling::SolidSide& side = built.run->solid(solid);
   const std::vector<double> weight = overlapWeights(overlap, mesh);
-  leaveOut(built, mesh, side, weight);
-  if (overlap.takeOver) {
-    takeOver(built, mesh, side, weight);
-    leaveOut(built, mesh, side, weight);  // the border has moved with the mesh
-  }
+  if (overlap.takeOver) takeOver(built, mesh, side, weight, overlap.floor);
+  leaveOut(built, mesh, side, weight, overlap.floor);  // after that: the border moves with the mesh
   arlequin::CouplingOptions options;
   options.projection.width = overlap.kernel;
   options.penalty = overlap.penalty.number;
+  options.leastShare = overlap.floor;
   if (overlap.multipliers) options.constraint = arlequin::ConstraintKind::multiplier;
   grains.terms.add(arlequin::makeOverlapTie(grains, mesh, weight, side, options));
 }
@@ -75,7 +75,8 @@ std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh&
     const double share = (X[overlap.axis] - overlap.particleBorder) / length;
     place.push_back(share < -1e-9 ? arlequin::beyondOverlap : std::clamp(1.0 - share, 0.0, 1.0));
   }
-  return arlequin::nodalWeights(place, {.profile = static_cast<arlequin::WeightProfile>(overlap.profile)});
+  return arlequin::nodalWeights(
+      place, {.profile = static_cast<arlequin::WeightProfile>(overlap.profile), .floor = overlap.floor});
 }
 
 void addCouplings(Built& built, const Scene& scene) {

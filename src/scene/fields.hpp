@@ -19,6 +19,7 @@ void describe(Fields& f, Sphere& v);
 void describe(Fields& f, SphereList& v);
 void describe(Fields& f, SphereFile& v);
 void describe(Fields& f, SphereFrame& v);
+void describe(Fields& f, GrainsOfState& v);
 void describe(Fields& f, Particles& v);
 void describe(Fields& f, Plane& v);
 void describe(Fields& f, BoxWalls& v);

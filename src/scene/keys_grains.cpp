@@ -54,6 +54,7 @@ void describe(Fields& f, Lattice& v) {
   f.box({"box", "that whole spheres fill from the lower corner"}, v.box);
   f.number({"radius", "of all spheres"}, v.radius, positive(unit::length));
   f.number({"distance", "of nearest centres; twice the radius if not given"}, v.distance, positive(unit::length));
+  density(f, v.density);
 }
 void describe(Fields& f, RandomPacking& v) {
   f.box({"box", "that is filled; along periodic axes that it spans the packing repeats"}, v.box);
@@ -62,28 +63,39 @@ void describe(Fields& f, RandomPacking& v) {
            between(0.0, 0.74, true, true));
   f.number({"overlap", "largest one that is left, over the smaller radius"}, v.overlap, between(0.0, 0.1, true));
   f.integer({"seed", "the same seed gives the same packing"}, v.seed, 0, anySeed);
+  density(f, v.density);
 }
 void describe(Fields& f, Sphere& v) {
   f.vector({"at", "centre"}, v.at, unit::length);
   f.number({"radius", "of the sphere"}, v.radius, positive(unit::length));
   velocity(f, v.velocity, "at the start");
 }
-void describe(Fields& f, SphereList& v) { f.list({"spheres", "one by one"}, v.spheres, true); }
+void describe(Fields& f, SphereList& v) {
+  f.list({"spheres", "one by one"}, v.spheres, true);
+  density(f, v.density);
+}
 void describe(Fields& f, SphereFile& v) {
   f.file({"file", "CSV with columns x_m, y_m, z_m, radius_m and, if there, vx_m_per_s, vy_m_per_s, vz_m_per_s"},
          v.file);
+  density(f, v.density);
 }
 void describe(Fields& f, SphereFrame& v) {
   f.file({"file", "VTP or VTU with point arrays radius and, if there, velocity, such as a frame of another run"},
          v.file);
+  density(f, v.density);
+}
+void describe(Fields& f, GrainsOfState& v) {
+  f.file({"file",
+          "checkpoint of another run with the same contact laws: all its grains with their masses, spins and "
+          "contacts' springs, so that what was at rest stays so; clumps and bonds do not come along"},
+         v.file);
 }
 void describe(Fields& f, Particles& v) {
-  static constexpr const char* sources[] = {"lattice", "packing", "list", "csv", "vtk"};
+  static constexpr const char* sources[] = {"lattice", "packing", "list", "csv", "vtk", "state"};
   f.where(v.where);
   f.oneOf({"from", "where the spheres come from"}, v.from, sources);
   f.text({"name", "of the group, for bonds and drives"}, v.name, false);
   contactMaterial(f, v.contactMaterial);
-  density(f, v.density);
   velocity(f, v.velocity, "of all at the start");
 }
 

@@ -144,6 +144,8 @@ void describe(Fields& f, Overlap& v) {
   f.number({"particle_border", "coordinate at which the grains end, within the solid"}, v.particleBorder,
            any(unit::length));
   f.choice({"profile", "of the weights between the borders"}, v.profile, profiles);
+  f.number({"floor", "least share of either model at the borders; the more, the larger the steps of the grains there"},
+           v.floor, between(0.0, 0.5, true, true));
   f.choice({"constraint", "what holds the two together"}, v.multipliers, constraints);
   f.numberOrWord({"penalty", "stiffness per volume"}, v.penalty, positive(unit::penalty), automatic);
   f.number({"kernel", "width over which gaps are averaged; 0: none"}, v.kernel, notNegative(unit::length));

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "checkpoints.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/dem/model/checkpoint.hpp"
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/dem/setup/packing.hpp"
 #include "dovetail/io/time_series.hpp"
@@ -44,7 +46,7 @@ void add(const Target& to, const Lattice& lattice) {
   dem::addPacking(
       to.grains.particles,
       dem::fillWithLattice(kind, lattice.box, lattice.radius, lattice.distance.value_or(2.0 * lattice.radius)),
-      {to.group.density}, to.group.velocity);
+      {lattice.density}, to.group.velocity);
 }
 
 void add(const Target& to, const RandomPacking& packing) {
@@ -64,16 +66,26 @@ void add(const Target& to, const RandomPacking& packing) {
   to.notes.push_back("Random packing of " + std::to_string(spheres.centre.size()) + " spheres: solid fraction " +
                      formatNumber(report.solidFraction) + ", largest overlap " + formatNumber(report.largestOverlap) +
                      " radii.");
-  dem::addPacking(to.grains.particles, spheres, {to.group.density}, to.group.velocity);
+  dem::addPacking(to.grains.particles, spheres, {packing.density}, to.group.velocity);
 }
 
 void add(const Target& to, const SphereList& list) {
   for (const Sphere& sphere : list.spheres)
     dem::addParticle(to.grains.particles, sphere.at, to.group.velocity + sphere.velocity, sphere.radius,
-                     dem::Density{to.group.density});
+                     dem::Density{list.density});
 }
 
-void add(const Target& to, const SphereFrame& from) { add(to, SphereList{readSpheres(from.file)}); }
+void add(const Target& to, const SphereFrame& from) { add(to, SphereList{{from.density}, readSpheres(from.file)}); }
+
+void add(const Target& to, const GrainsOfState& from) {
+  if (to.grains.particles.size() > 0)
+    throw InputError("grains of a state stand behind others", "", "put them first in \"particles\"");
+  const Checkpoint checkpoint = loadCheckpoint(from.file);
+  dem::loadGrains(coupling::particlesOf(checkpoint.state), from.file, to.grains);
+  for (Vec3& v : to.grains.particles.v) v += to.group.velocity;
+  to.notes.push_back(std::to_string(to.grains.particles.size()) + " grains are those of a run at " +
+                     formatNumber(checkpoint.time) + " s.");
+}
 
 void add(const Target& to, const SphereFile& from) {
   const io::TimeSeries table = io::readCsv(from.file);
@@ -85,7 +97,7 @@ void add(const Target& to, const SphereFile& from) {
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const Vec3 own = v[0].empty() ? Vec3{} : Vec3{v[0][i], v[1][i], v[2][i]};
     dem::addParticle(to.grains.particles, {x[i], y[i], z[i]}, to.group.velocity + own, r[i],
-                     dem::Density{to.group.density});
+                     dem::Density{from.density});
   }
 }
 

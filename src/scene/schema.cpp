@@ -83,9 +83,11 @@ public:
     add(key, {{"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}, {"uniqueItems", true}}, false);
   }
   void parameters(Key key, Parameters&) override {
-    add(key, {{"type", "object"},
-              {"propertyNames", {{"pattern", "^[A-Za-z][A-Za-z0-9_]{0,98}$"}}},
-              {"additionalProperties", {{"type", Json::array({"number", "string"})}}}}, false);
+    add(key,
+        {{"type", "object"},
+         {"propertyNames", {{"pattern", "^[A-Za-z][A-Za-z0-9_]{0,98}$"}}},
+         {"additionalProperties", {{"type", Json::array({"number", "string"})}}}},
+        false);
   }
 
 protected:

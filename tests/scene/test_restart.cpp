@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "../cantilever/program.hpp"
+#include "dovetail/io/time_series.hpp"
 
 namespace dovetail::scene {
 namespace {
@@ -128,6 +129,40 @@ TEST(Restart, StatesOfOtherScenesAndDamagedOnesAreRefused) {
   EXPECT_NE(refusal().find("another scene"), std::string::npos);
   std::ofstream(folder / "checkpoint.state") << state.substr(0, state.size() / 2);
   EXPECT_NE(refusal().find("checkpoint.state"), std::string::npos);
+}
+
+/// Two layers of grains that rub against each other.
+std::string rubbing(const std::string& particles, double time) {
+  return R"({"contact": {"law": "linear", "stiffness": 1e4, "friction": 0.6},
+    "periodic": {"box": [[0, 0, 0], [0.4, 0.4, 0.4]], "axes": ["x", "y", "z"]}, "particles": [)" +
+         particles + R"(], "steps": {"dt": 1e-4}, "stages": [{"do": "run", "time": )" + std::to_string(time) +
+         R"(}], "output": {"series": 0.001, "checkpoints": 1}})";
+}
+
+TEST(GrainsOfAState, GoOnInAnotherScene) {
+  const ScratchFolder scenes, first, whole, second;
+  const std::string layer = R"({"from": "lattice", "lattice": "simple-cubic", "radius": 0.05, "distance": 0.0999,
+    "density": 2500, "box": [[0, 0, )";
+  const std::string layers = layer + R"(0], [0.4, 0.4, 0.2]], "velocity": [0.1, 0, 0]}, )" + layer +
+                             R"(0.2], [0.4, 0.4, 0.4]], "velocity": [-0.1, 0, 0]})";
+  const std::string taken = R"({"from": "state", "file": ")" + (first / "checkpoint.state").string() + R"("})";
+  const auto runs = [&](const std::string& name, const std::string& text, const ScratchFolder& out) {
+    io::test::writeText(scenes / name, text);
+    const auto outcome = runProgram({"run", (scenes / name).string(), "--out", out.path().string()});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return io::readCsv(out / "series.csv");
+  };
+  runs("first.json", rubbing(layers, 0.02), first);
+  const io::TimeSeries all = runs("whole.json", rubbing(layers, 0.03), whole);
+  const io::TimeSeries rest = runs("second.json", rubbing(taken, 0.01), second);
+  for (const char* const name : {"particles_kinetic_J", "particles_contacts_J"}) {
+    const double expected = all.column(name).back();
+    EXPECT_NEAR(rest.column(name).back(), expected, 1e-11 * std::abs(expected)) << name;
+  }
+  io::test::writeText(scenes / "behind.json", rubbing(layers + ", " + taken, 0.01));
+  const auto refused = runProgram({"check", (scenes / "behind.json").string()});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("put them first"), std::string::npos) << refused.err;
 }
 
 }  // namespace

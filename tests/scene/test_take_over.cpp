@@ -1,4 +1,5 @@
 // Overlaps whose solid begins in equilibrium.
+#include <algorithm>
 #include <cmath>
 
 #include "refusal.hpp"
@@ -37,6 +38,18 @@ TEST(SceneTakeOver, StressesTheSolidAsItsGrainsAre) {
   EXPECT_NEAR(highestDisplacement(with), 0.8 * stress / modulus, 0.02 * 0.8 * stress / modulus);
   ASSERT_FALSE(with.notes.empty());
   EXPECT_NE(with.notes.back().find("\"soil\" took over its grains"), std::string::npos);
+}
+
+// A soil sinks under its own weight, and the overlap with it: a layer of grains that was beyond the border stays.
+TEST(SceneTakeOver, TheOverlapGoesDownWithTheSoil) {
+  std::string text = column(R"(, "take_over": true)", 3e5);
+  text.insert(1, R"("gravity": [0, 0, -9.81], )");
+  const std::string from = R"("box": [[0, 0, 0], [0.3993)", to = R"("box": [[0, 0, -0.053], [0.3993)";
+  text.replace(text.find(from), from.size(), to);
+  const Built built = build(sceneFromText(text, "s.json", "/"));
+  double lowest = 1.0;
+  for (const Vec3& x : built.run->grains.particles.x) lowest = std::min(lowest, x.z);
+  EXPECT_NEAR(lowest, -0.003, 1e-9);
 }
 
 }  // namespace

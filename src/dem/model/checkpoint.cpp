@@ -201,6 +201,26 @@ void readCheckpoint(const std::filesystem::path& path, Model& m) {
   loadState(readChecked(path, checkpointKind), path.string(), m);
 }
 
+void loadGrains(const std::vector<char>& bytes, const std::string& path, Model& m) {
+  if (m.particles.size() > 0) refuse("the model holds particles already", path, "load into an empty one");
+  ByteReader reader(bytes);
+  requireSameLaws(reader, m, path);
+  Model saved = m;
+  archiveScene(reader, saved);
+  requireNumbers(saved.particles);
+  loadDomain(reader, saved);
+  for (const SavedTerm& term : readTerms(reader))
+    if (term.name == "bodies" || term.name == "bonds")
+      refuse("the state has " + term.name + ", which grains alone do not bring along", path,
+             "take the state of a run without them");
+  if (!saved.particles.weight.empty())
+    refuse("an overlap weighs grains of the state", path, "take the state of a run without overlaps");
+  if (!(saved.pairs.periodicity() == m.pairs.periodicity()))
+    refuse("the state repeats in another way", path, "give the model the same periodic box and axes");
+  m.particles = std::move(saved.particles);
+  m.pairs = std::move(saved.pairs);
+}
+
 void loadState(const std::vector<char>& bytes, const std::string& path, Model& m) {
   ByteReader reader(bytes);
   requireSameLaws(reader, m, path);

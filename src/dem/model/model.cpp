@@ -156,7 +156,7 @@ void addForces(Model& m) {
 
 void findForces(Model& m) {
   constexpr double noTime = 1e-100;  // s: so short that no memory advances
-  const bool otherTerms = m.forcesOfTerms != m.terms.revision();
+  const bool otherTerms = m.forcesOfTerms != m.terms.revision(), first = m.forcesOf < 0;
   if (!hasForces(m)) {
     if (m.rotation == Rotation::automatic && m.laws && m.laws->rotates()) switchOnRotation(m.particles);
     check(m);
@@ -172,7 +172,7 @@ void findForces(Model& m) {
   EndedPairs ended = m.pairs.takeEnded();  // whose energy becomes a power only when time passes
   startForces(m.particles, m.gravity);
   addForces(m);
-  m.pairs.putEnded(std::move(ended));
+  if (!first) m.pairs.putEnded(std::move(ended));  // those of pairs taken from a state are in no book
   m.work.frictionPower = m.work.rollingPower = m.work.plasticPower = m.work.fracturePower = 0.0;
   m.step = last;
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "dovetail/arlequin/coupling_options.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
@@ -15,23 +16,26 @@ namespace dovetail::arlequin {
 /// What particles at rest hand over to the solid that they are about to share an overlap with, N per node: Φᵀ of the
 /// forces that their weighed contacts, walls and weights leave out of balance, which is ∇w·σ with σ their stress. A tie
 /// exerts these forces in equilibrium.
-/// @param grains       at rest; without the tie, and without particles beyond the border (particlesBeyond)
+/// @param grains       at rest, without the tie; those beyond the border (particlesBeyond) hand nothing over
 /// @param solid        where the mesh is now; its elements have the share 1 − w   @param nodalWeight  w per node
+/// @param leastShare   as CouplingOptions::leastShare
 /// @throws InputError as makeOverlapTie
 std::vector<Vec3> handedLoad(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
-                             std::span<const double> nodalWeight);
+                             std::span<const double> nodalWeight, double leastShare = CouplingOptions{}.leastShare);
 
 struct TakeOverOptions {
   fem::StaticOptions statics{.firstStep = 1.0};
   double tolerance = 1e-6;  ///< largest change of the handed load between two rounds over the largest load
   int rounds = 30;
+  double leastShare = CouplingOptions{}.leastShare;  ///< of the tie that is to be made
 };
 
 /// Initial stress: deforms the solid until it is in equilibrium under its own terms and what the particles hand over
-/// where its mesh then is. Tie the particles after that: they are tied where they are, without a gap, and what a tie of
-/// elements cannot balance particle by particle is left to coupling::settle. A particle that is found
-/// outside the overlap in one round, or elsewhere in periodic space, hands nothing over from then on. Time and velocities of the solid stay;
-/// masses are set if they are not (fem::addMass).
+/// where its mesh then is: the overlap moves with the mesh, so give all particles, and take those beyond the border
+/// (particlesBeyond) out afterwards, before you tie. They are tied where they are, without a gap, and what a tie of
+/// elements cannot balance particle by particle is left to coupling::settle. A particle that has left the overlap in
+/// one round, or is elsewhere in periodic space, hands nothing over from then on. Time and velocities of the solid
+/// stay; masses are set if they are not (fem::addMass).
 /// @throws InputError as handedLoad, for options out of range, or for particles that are tied to this solid already;
 ///   NumericalError as fem::solveStatics, and if the load does not settle
 /// @return rounds taken

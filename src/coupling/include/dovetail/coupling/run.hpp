@@ -162,6 +162,10 @@ struct RestReport {
   std::int64_t stops = 0;
 };
 
+/// The bytes of the particles' model (dem::saveState) within those of CoupledRun::save.
+/// @throws InputError if they are cut off
+std::vector<char> particlesOf(const std::vector<char>& state);
+
 /// Steps a started run until it is at rest under the loads that it has: whenever the kinetic energy has passed a peak
 /// everything is stopped (kinetic damping: Cundall 1976). Contacts remember as in any other step, so friction holds
 /// what it can. Time goes on by the windows taken, and loads that are functions of it with it. Windows count, not the

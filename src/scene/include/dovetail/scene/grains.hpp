@@ -37,14 +37,18 @@ struct PairLaw {
 struct SizeRange {
   double smallest = required, largest = required;  ///< radii, m
 };
-struct Lattice {
+/// What all sources say of the spheres that they make.
+struct MadeOf {
+  double density = required;  ///< kg/m³
+};
+struct Lattice : MadeOf {
   enum class Kind { simpleCubic, bodyCentred, faceCentred, hexagonal };
   Kind kind = Kind::hexagonal;
   geometry::Box box = requiredBox;  ///< m
   double radius = required;         ///< m
   std::optional<double> distance;   ///< of centres, m; not given: twice the radius
 };
-struct RandomPacking {
+struct RandomPacking : MadeOf {
   geometry::Box box = requiredBox;  ///< m
   SizeRange radius;
   double solidFraction = 0.55, overlap = 1e-3;
@@ -55,22 +59,25 @@ struct Sphere {
   double radius = required;  ///< m
   Vec3 velocity;             ///< m/s
 };
-struct SphereList {
+struct SphereList : MadeOf {
   std::vector<Sphere> spheres;
 };
 /// Columns x_m, y_m, z_m, radius_m and, if there, vx_m_per_s, vy_m_per_s, vz_m_per_s.
-struct SphereFile {
+struct SphereFile : MadeOf {
   std::string file;
 };
 /// Points with the arrays radius and, if there, velocity.
-struct SphereFrame {
+struct SphereFrame : MadeOf {
+  std::string file;
+};
+/// The grains of another run's checkpoint, with what their contacts remember.
+struct GrainsOfState {
   std::string file;
 };
 struct Particles {
-  std::variant<Lattice, RandomPacking, SphereList, SphereFile, SphereFrame> from;
+  std::variant<Lattice, RandomPacking, SphereList, SphereFile, SphereFrame, GrainsOfState> from;
   std::string name;             ///< of the group, for bonds and drives
   std::string contactMaterial;  ///< empty: that of the law in "contact"
-  double density = required;    ///< kg/m³
   Vec3 velocity;                ///< m/s, beside those of single spheres
   std::string where;
 };

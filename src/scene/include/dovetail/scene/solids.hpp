@@ -118,6 +118,7 @@ struct Overlap {
   double solidBorder = required;      ///< m: where the solid ends, within the grains
   double particleBorder = required;   ///< m: where the grains end, within the solid
   int profile = 0;                    ///< arlequin::WeightProfile
+  double floor = 1e-3;                ///< arlequin::WeightOptions::floor
   bool multipliers = false;           ///< in place of a penalty
   NumberOrWord penalty{0.0, "auto"};  ///< Pa/m²
   double kernel = 0.0;                ///< width, m

@@ -10,11 +10,17 @@
 namespace dovetail::dem {
 
 /// The whole state as bytes: particles, periodicity, pairs with their memories, the laws' parts and parameters, every
-/// term, the books. What is code is there by name only: a law of the caller's own, the function behind a moving wall, an
-/// external force, a drive.
+/// term, the books. What is code is there by name only: a law of the caller's own, the function behind a moving wall,
+/// an external force, a drive.
 std::vector<char> saveState(const Model& m);
 /// Reads such bytes into a model, see readCheckpoint. @param where  they come from, for errors
 void loadState(const std::vector<char>& bytes, const std::string& where, Model& m);
+
+/// Of such bytes the grains alone, into a model without any: particles and pairs, with what these remember, but no
+/// terms and no books. What walls remember of their contacts stays behind.
+/// @throws InputError if the laws or the periods are not those of the state, grains are members of bodies or bonded, or
+///   an overlap weighs them; the model is then as it was
+void loadGrains(const std::vector<char>& bytes, const std::string& where, Model& m);
 
 /// @throws InputError if the file cannot be written; what was there before is then still there
 void writeCheckpoint(const std::filesystem::path& path, const Model& m);
@@ -22,7 +28,8 @@ void writeCheckpoint(const std::filesystem::path& path, const Model& m);
 /// Reads a state into a model. The model has the same terms as the one that was saved, in the same order, or none at
 /// all: then those that are no code are made anew. Its laws are those that were saved, to the last bit. Domain,
 /// booking, sorting and gravity come from the file.
-/// @throws InputError if the file is foreign, cut off or changed, if laws or terms differ or code is missing, naming it;
+/// @throws InputError if the file is foreign, cut off or changed, if laws or terms differ or code is missing, naming
+/// it;
 ///         the model is then as it was
 void readCheckpoint(const std::filesystem::path& path, Model& m);
 
