@@ -126,6 +126,13 @@ void addToSums(const PairParts& list, PairCursor& cursor, std::size_t n, const C
   cursor.crossing = static_cast<std::size_t>(crossing - size);
 }
 
+/// Adds four vectors (x, y, z, ·) to those that lie one behind the other.
+[[gnu::always_inline]] inline void addFour(double* to, const Four* of) {
+  store(to, loadRow(to) + __builtin_shufflevector(of[0], of[1], 0, 1, 2, 4));
+  store(to + 4, loadRow(to + 4) + __builtin_shufflevector(of[1], of[2], 1, 2, 4, 5));
+  store(to + 8, loadRow(to + 8) + __builtin_shufflevector(of[2], of[3], 2, 4, 5, 6));
+}
+
 /// Room for the sums of a chunk, aligned; the thread keeps it.
 Four* roomForSums(std::size_t size) {
   struct Room {
@@ -139,38 +146,6 @@ Four* roomForSums(std::size_t size) {
 }
 
 }  // namespace
-
-void requireMaterials(const Particles& particles, int materials) {
-  if (materials == 1) return;
-  parallelFor(particles.material.size(), 16384, [&](std::size_t begin, std::size_t end) {
-    const auto first = particles.material.begin();
-    const auto unknown = std::find_if(first + static_cast<std::ptrdiff_t>(begin),
-                                      first + static_cast<std::ptrdiff_t>(end), [=](int m) { return m >= materials; });
-    if (const auto i = static_cast<std::size_t>(unknown - first); i < end)
-      throw InputError("material " + std::to_string(particles.material[i]) + " has no law",
-                       "particle " + std::to_string(i) + ", material",
-                       "give materials from 0 to " + std::to_string(materials - 1) + ", or a larger table of laws");
-  });
-}
-
-void findUniform(const Particles& particles, PairRows& rows) {
-  requireMaterials(particles, rows.materials);
-  // Where the ends differ nobody looks between them: sizes are either the same or mixed, as a rule.
-  const auto uniform = [](const auto& values) {
-    if (values.empty() || values.front() != values.back()) return false;
-    return parallelSum(values.size(), 16384, [&](std::size_t begin, std::size_t end) {
-             int differ = 0;
-             for (std::size_t i = begin; i < end; ++i) differ += values[i] != values[0] ? 1 : 0;
-             return differ;
-           }) == 0;
-  };
-  if (rows.materials > 1 && !particles.material.empty())
-    rows.material = uniform(particles.material) ? particles.material[0] : -1;
-  rows.oneRadius = uniform(particles.radius);
-  rows.turns = rows.spins && particles.rotates();
-  rows.spinDifferences = rows.rolls || !rows.oneRadius;
-  rows.oneMass = rows.mass && particles.weight.empty() && uniform(particles.mass);
-}
 
 void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block) {
   const auto clear = [](ContactBlock::Rows3& row) {
@@ -213,7 +188,13 @@ PairCursor startOfChunk(const Particles& particles, const PairParts& list, const
 void finishChunk(Particles& particles, PairParts& list, const PairRows& rows, const PairCursor& cursor) {
   const Four* sum = cursor.sums;
   const auto take = [&] { return vectorOf(*sum++); };
-  for (std::size_t i = cursor.firstParticle; i < cursor.firstParticle + cursor.particles; ++i) {
+  std::size_t i = cursor.firstParticle;
+  const std::size_t end = i + cursor.particles;
+  if (!rows.turns)
+    withVectors([&] {
+      for (; i + 4 <= end; i += 4, sum += 4) addFour(&particles.f[i].x, sum);
+    });
+  for (; i < end; ++i) {
     particles.f[i] += take();
     if (rows.turns) particles.torque[i] += take();
   }
