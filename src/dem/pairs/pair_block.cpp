@@ -126,11 +126,23 @@ void addToSums(const PairParts& list, PairCursor& cursor, std::size_t n, const C
   cursor.crossing = static_cast<std::size_t>(crossing - size);
 }
 
-/// Adds four vectors (x, y, z, ·) to those that lie one behind the other.
-[[gnu::always_inline]] inline void addFour(double* to, const Four* of) {
-  store(to, loadRow(to) + __builtin_shufflevector(of[0], of[1], 0, 1, 2, 4));
-  store(to + 4, loadRow(to + 4) + __builtin_shufflevector(of[1], of[2], 1, 2, 4, 5));
-  store(to + 8, loadRow(to + 8) + __builtin_shufflevector(of[2], of[3], 2, 4, 5, 6));
+/// Adds vectors (x, y, z, ·) to vectors of three, or puts them there. Goes by fours; returns how many it took.
+template <bool adds>
+std::size_t layDown(const Four* of, std::size_t count, Vec3* vectors) {
+  const std::size_t most = count - count % 4;
+  if (most > 0)
+    withVectors([=] {
+      double* to = &vectors->x;
+      const auto put = [](double* row, const Four& values) __attribute__((always_inline)) {
+        store(row, adds ? loadRow(row) + values : values);
+      };
+      for (const Four *four = of, *const end = of + most; four != end; four += 4, to += 12) {
+        put(to, __builtin_shufflevector(four[0], four[1], 0, 1, 2, 4));
+        put(to + 4, __builtin_shufflevector(four[1], four[2], 1, 2, 4, 5));
+        put(to + 8, __builtin_shufflevector(four[2], four[3], 2, 4, 5, 6));
+      }
+    });
+  return most;
 }
 
 /// Room for the sums of a chunk, aligned; the thread keeps it.
@@ -186,22 +198,22 @@ PairCursor startOfChunk(const Particles& particles, const PairParts& list, const
 }
 
 void finishChunk(Particles& particles, PairParts& list, const PairRows& rows, const PairCursor& cursor) {
+  PairChunks& chunks = list.chunks;
+  const std::size_t begin = chunks.crosses[cursor.chunk], crossing = chunks.crosses[cursor.chunk + 1] - begin;
   const Four* sum = cursor.sums;
   const auto take = [&] { return vectorOf(*sum++); };
-  std::size_t i = cursor.firstParticle;
-  const std::size_t end = i + cursor.particles;
-  if (!rows.turns)
-    withVectors([&] {
-      for (; i + 4 <= end; i += 4, sum += 4) addFour(&particles.f[i].x, sum);
-    });
-  for (; i < end; ++i) {
-    particles.f[i] += take();
-    if (rows.turns) particles.torque[i] += take();
+  std::size_t done = 0, crossed = 0;
+  if (!rows.turns) {
+    done = layDown<true>(sum, cursor.particles, particles.f.data() + cursor.firstParticle);
+    crossed = layDown<false>(sum + cursor.particles, crossing, chunks.force.data() + begin);
   }
-  PairChunks& chunks = list.chunks;
-  for (std::size_t k = chunks.crosses[cursor.chunk]; k < chunks.crosses[cursor.chunk + 1]; ++k) {
-    chunks.force[k] = take();
-    if (rows.turns) chunks.torque[k] = take();
+  for (sum += done; done < cursor.particles; ++done) {
+    particles.f[cursor.firstParticle + done] += take();
+    if (rows.turns) particles.torque[cursor.firstParticle + done] += take();
+  }
+  for (sum += crossed; crossed < crossing; ++crossed) {
+    chunks.force[begin + crossed] = take();
+    if (rows.turns) chunks.torque[begin + crossed] = take();
   }
 }
 

@@ -27,9 +27,13 @@ void findUniform(const Particles& particles, PairRows& rows) {
     if (values.empty() || values.front() != values.back()) return false;
     return parallelSum(values.size(), 16384, [&](std::size_t begin, std::size_t end) {
              std::int64_t differ = 0;  // as wide as what is compared
-             const auto first = values[0];
-             withVectors([&] {
-               for (std::size_t i = begin; i < end; ++i) differ += values[i] != first ? 1 : 0;
+             withVectors([&, begin, end] {
+               const auto* const value = values.data();
+               const auto first = value[0];
+               const std::size_t last = end;  // a copy that nothing else can change
+               std::int64_t count = 0;
+               for (std::size_t i = begin; i < last; ++i) count += value[i] != first ? 1 : 0;
+               differ = count;
              });
              return differ;
            }) == 0;

@@ -107,12 +107,15 @@ double sweepAll(Particles& particles, const Sweep& sweep) {
     };
     std::size_t i = begin;
     if constexpr (!spins && !weighted)
-      withVectors([&] {
+      withVectors([&, end] {
+        const Sweep now = sweep;  // copies that nothing else can change
+        std::size_t k = i;
         Four largestOfFour{};
-        for (; i + 4 <= end; i += 4)
-          if (!detail::advanceFour(particles, i, sweep, largestOfFour)) [[unlikely]]
-            for (std::size_t k = i; k < i + 4; ++k) take(advance<spins, weighted>(particles, k, sweep));
-        for (int k = 0; k < 4; ++k) take(largestOfFour[k]);
+        for (; k + 4 <= end; k += 4)
+          if (!detail::advanceFour(particles, k, now, largestOfFour)) [[unlikely]]
+            for (std::size_t one = k; one < k + 4; ++one) take(advance<spins, weighted>(particles, one, now));
+        for (int one = 0; one < 4; ++one) take(largestOfFour[one]);
+        i = k;
       });
     for (; i < end; ++i) take(advance<spins, weighted>(particles, i, sweep));
     return Largest{finite ? largest : infinity};
