@@ -25,7 +25,11 @@ Verb addFields(CLI::App& app) {
   verb->add_option("RUN", options->run, "folder of a run with a checkpoint")->required();
   verb->add_option("--out", options->file, "file; RUN/fields.vti if not given");
   verb->add_option("--kernel", options->settings.shape, "lucy or gauss")->transform(CLI::CheckedTransformer(shapes));
-  verb->add_option("--width", options->settings.width, "of the kernel, m; 1.5 mean diameters if not given");
+  CLI::Option* const width =
+      verb->add_option("--width", options->settings.width, "of the kernel, m; 1.5 mean diameters if not given");
+  verb->add_flag("--advise-width", options->settings.advisesWidth,
+                 "take the width on which density and velocity depend the least; tells how flat that optimum is")
+      ->excludes(width);
   verb->add_option("--spacing", options->settings.spacing, "of the points, m; half the width if not given");
   verb->add_option("--box", options->box,
                    "x y z of the lower and of the upper corner, m; around all grains if not given")

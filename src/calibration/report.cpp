@@ -51,14 +51,10 @@ std::string textOf(const Calibration& file, const FitResult& fit) {
 }
 
 std::string textOf(const Calibration& file, const Optimum& optimum) {
-  std::string text = line("least measure %.6g\n\n%-34s %12s %28s %10s\n", optimum.measure, "parameter", "best",
-                          "within 5 % of the least", "curvature");
-  for (std::size_t k = 0; k < optimum.profiles.size(); ++k) {
-    const Profile& p = optimum.profiles[k];
-    text += line("%-34s %12.6g %12.6g%s to %10.6g%s %10.3g\n",
-                 withUnit(file.parameters[k].key, file.parameters[k].start.dimension).c_str(), p.best, p.lower,
-                 p.lowerOpen ? " (bound)" : "", p.upper, p.upperOpen ? " (bound)" : "", p.curvature);
-  }
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < optimum.profiles.size(); ++k)
+    names.push_back(withUnit(file.parameters[k].key, file.parameters[k].start.dimension));
+  std::string text = line("least measure %.6g\n\n", optimum.measure) + optimaText(names, optimum.profiles);
   for (std::size_t k = 0; k < optimum.profiles.size(); ++k) {
     text += line("\n%-20s %14s\n", file.parameters[k].key.c_str(), "measure");
     for (std::size_t s = 0; s < optimum.profiles[k].at.size(); ++s)
@@ -122,7 +118,7 @@ Json jsonOf(const FitResult& fit) {
 
 Json jsonOf(const Optimum& optimum) {
   Json json{{"measure", optimum.measure}, {"profiles", Json::array()}};
-  for (const Profile& p : optimum.profiles)
+  for (const MeasureCurve& p : optimum.profiles)
     json["profiles"].push_back({{"best", p.best},
                                 {"within_5_percent", {p.lower, p.upper}},
                                 {"open", {p.lowerOpen, p.upperOpen}},

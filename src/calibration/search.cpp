@@ -12,7 +12,6 @@ namespace dovetail::calibration {
 
 namespace {
 
-constexpr double nearlyBest = 1.05;
 constexpr int rounds = 4;
 
 /// Samples of a measure along one parameter.
@@ -33,7 +32,7 @@ public:
       if (parameters_.size() == 1) break;
     }
     for (std::size_t k = 0; k < parameters_.size() && !stopped(); ++k)
-      found_.profiles.push_back(profileOf(parameters_[k], sampled(k)));
+      found_.profiles.push_back(curveThrough(sampled(k), parameters_[k].least, parameters_[k].most));
     found_.measure = best_.value_or(0.0);
     found_.stopped = stopped();
     if (!best_ && !found_.stopped)
@@ -80,48 +79,6 @@ private:
     std::vector<double> values = found_.value;
     values[k] = at;
     if (const auto value = measure_(values)) line[at] = *value;
-  }
-
-  static Profile profileOf(const FitParameter& parameter, const Line& line) {
-    Profile profile;
-    for (const auto& [at, value] : line) {
-      profile.at.push_back(at);
-      profile.measure.push_back(value);
-    }
-    if (line.empty()) return profile;
-    const auto least = static_cast<std::size_t>(std::min_element(profile.measure.begin(), profile.measure.end()) -
-                                                profile.measure.begin());
-    profile.best = profile.at[least];
-    profile.curvature = curvatureAt(profile, least);
-    profile.lower = reach(profile, least, -1);
-    profile.upper = reach(profile, least, 1);
-    profile.lowerOpen = profile.lower == parameter.least;
-    profile.upperOpen = profile.upper == parameter.most;
-    return profile;
-  }
-
-  /// Of the parabola through the best sample and the nearest ones to both sides that lie beyond the flat bottom.
-  static double curvatureAt(const Profile& p, std::size_t least) {
-    std::size_t a = least, b = least;
-    while (a > 0 && p.measure[a] < nearlyBest * p.measure[least]) --a;
-    while (b + 1 < p.at.size() && p.measure[b] < nearlyBest * p.measure[least]) ++b;
-    if (a == least || b == least || !(p.measure[least] > 0.0)) return 0.0;
-    const double left = (p.measure[least] - p.measure[a]) / (p.at[least] - p.at[a]);
-    const double right = (p.measure[b] - p.measure[least]) / (p.at[b] - p.at[least]);
-    return 2.0 * (right - left) / (p.at[b] - p.at[a]) * p.best * p.best / p.measure[least];
-  }
-
-  /// How far the measure stays within 5 % of the least, linear between samples.
-  static double reach(const Profile& p, std::size_t least, int sense) {
-    const double limit = nearlyBest * p.measure[least];
-    std::size_t k = least;
-    while (true) {
-      if ((sense < 0 && k == 0) || (sense > 0 && k + 1 == p.at.size())) return p.at[k];
-      const std::size_t next = sense < 0 ? k - 1 : k + 1;
-      if (p.measure[next] > limit)
-        return p.at[k] + (p.at[next] - p.at[k]) * (limit - p.measure[k]) / (p.measure[next] - p.measure[k]);
-      k = next;
-    }
   }
 
   std::span<const FitParameter> parameters_;

@@ -13,6 +13,7 @@
 #include "dovetail/scene/build.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
+#include "width_advice.hpp"
 
 namespace dovetail::scene {
 
@@ -96,11 +97,14 @@ void writeGridFields(const std::filesystem::path& folder, const GridSettings& se
   if (grains.particles.size() == 0) throw InputError("there are no grains", folder.string(), "give a run with some");
   dem::findForces(grains);  // of bonds, which states do not hold
   const dem::Snapshot now = dem::takeSnapshot(grains);
-  const double width = settings.width.value_or(1.5 * meanDiameter(grains.particles));
+  const geometry::Box around = boxAround(grains.particles.x);
+  const double diameter = meanDiameter(grains.particles);
+  const double width = settings.advisesWidth ? advisedWidth(cg::viewOf(now), around, diameter, settings, log)
+                                             : settings.width.value_or(1.5 * diameter);
   const double spacing = settings.spacing.value_or(0.5 * width);
   requirePositive(width, "width");
   requirePositive(spacing, "spacing");
-  const cg::Grid grid = gridOver(settings.box ? *settings.box : boxAround(grains.particles.x), spacing);
+  const cg::Grid grid = gridOver(settings.box.value_or(around), spacing);
   const cg::Fields fields = cg::sample({settings.shape, 3, width}, cg::gridPoints(grid), cg::viewOf(now));
   const io::KeyValues provenance =
       io::provenance({{"scene", hash},

@@ -17,7 +17,7 @@ TEST(Search, FindsTheBottomOfABowlAndItsWidth) {
       {.samples = 21, .refinements = 2});
   EXPECT_NEAR(found.value[0], 0.3, 1e-3);
   EXPECT_NEAR(found.value[1], 1.0, 1e-2);
-  const Profile& x = found.profiles[0];
+  const MeasureCurve& x = found.profiles[0];
   EXPECT_NEAR(x.lower, 0.3 - std::sqrt(0.05), 2e-3);
   EXPECT_NEAR(x.upper, 0.3 + std::sqrt(0.05), 2e-3);
   EXPECT_NEAR(x.curvature, 2.0 * 0.3 * 0.3, 1e-3);

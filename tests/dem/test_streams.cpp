@@ -17,7 +17,8 @@
 namespace dovetail::dem {
 namespace {
 
-const FrictionalLaw frictional{{.stiffness = 2e4, .restitution = 0.7, .tension = true}, {.stiffness = 6e3, .friction = 0.4}};
+const FrictionalLaw frictional{{.stiffness = 2e4, .restitution = 0.7, .tension = true},
+                               {.stiffness = 6e3, .friction = 0.4}};
 
 TEST(Outlets, BookWhatAParticleCarriedToTheLastDigit) {
   Model model;
@@ -34,6 +35,50 @@ TEST(Outlets, BookWhatAParticleCarriedToTheLastDigit) {
   EXPECT_NEAR(model.left.momentum.x, 2.0, 1e-15);
   EXPECT_NEAR(model.booked.left, 1.0, 2e-2);  // ½ m v² + m g z of free fall from rest in z
   EXPECT_NEAR(energies(model).balance(), 1.0, 2e-2);
+}
+
+/// Grains that fly through a box that repeats and never meet, fast and slow.
+Model flyingApart() {
+  Model model;
+  model.laws = makeContactLaws(ElasticLaw{{.stiffness = 2e4}});
+  model.pairs.setPeriodicity({{{0, 0, 0}, {10, 10, 10}}, {true, true, false}});
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 12; ++j)
+      addParticle(model.particles, {0.8 * i + 0.5, 0.8 * j + 0.5, 0.5 * ((5 * i + 7 * j) % 12)},
+                  {0.02 * (i + 1), 0.05 * (j - 6), 0.3}, 1e-3, Mass{1.0});
+  model.pairs.setSkin(0.04);
+  return model;
+}
+
+TEST(Outlets, LetNobodyPassUnseenBetweenSearches) {
+  for (const OutletTerm::Region& region : {OutletTerm::Region(geometry::Box{{4, 2, 3}, {6, 8, 3.5}}),
+                                           OutletTerm::Region(HalfSpace{{0, 0, 6}, {1, 2, 3}})}) {
+    Model model = flyingApart(), all = flyingApart();
+    OutletTerm& outlet = addOutlet(model, region);
+    outlet.region = HalfSpace{{0, 0, 1e3}, {0, 0, 1}};  // out of the way, and then somewhere else
+    std::vector<char> in(all.particles.size(), 0);
+    std::size_t left = 0;
+    for (int step = 0; step < 1500; ++step) {
+      if (step == 20) outlet.region = region;
+      move(all, 2e-3);
+      for (std::size_t i = 0; step >= 20 && i < in.size(); ++i) {
+        const Vec3& x = all.particles.x[i];
+        const auto* const box = std::get_if<geometry::Box>(&region);
+        const bool isIn = box ? x.x >= 4 && x.x <= 6 && x.y >= 2 && x.y <= 8 && x.z >= 3 && x.z <= 3.5
+                              : x.x + 2 * x.y + 3 * (x.z - 6) > 0;
+        char& was = in[static_cast<std::size_t>(all.particles.id[i])];
+        if (isIn && was == 0) ++left;
+        was = static_cast<char>(was | static_cast<char>(isIn));
+      }
+      renew(all);
+      addForces(all);
+      advance(model, 2e-3);
+      ASSERT_EQ(model.particles.size(), in.size() - left) << "step " << step;
+    }
+    EXPECT_GT(left, 10U);
+    EXPECT_LT(left, in.size());
+    for (const std::int64_t id : model.particles.id) EXPECT_EQ(in[static_cast<std::size_t>(id)], 0);
+  }
 }
 
 TEST(Outlets, BadOnesAreRefused) {

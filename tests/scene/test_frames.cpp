@@ -182,5 +182,21 @@ TEST(GridFields, HoldTheMassOfTheGrains) {
   EXPECT_THROW(writeGridFields(folder.path(), {.file = folder / "g.vti"}, log), InputError);
 }
 
+TEST(GridFields, TakeTheWidthThatTheyAdvise) {
+  const ScratchFolder folder;
+  runIn(folder, R"(, "checkpoints": 1e-3)");
+  std::ostringstream log;
+  const geometry::Box box{{0.03, 0.03, 0.03}, {0.09, 0.09, 0.09}};
+  writeGridFields(folder / "out", {.advisesWidth = true, .box = box, .file = folder / "f.vti"}, log);
+  const std::string told = log.str();
+  std::istringstream best(told.substr(told.find("width, m", told.find("within 5 %")) + 8));
+  double width = 0.0;
+  best >> width;
+  EXPECT_GT(width, 0.0);
+  std::ostringstream kernel;
+  kernel << "kernel of " << width << " m";
+  EXPECT_NE(told.find(kernel.str()), std::string::npos) << told;
+}
+
 }  // namespace
 }  // namespace dovetail::scene::test

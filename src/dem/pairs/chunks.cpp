@@ -7,7 +7,7 @@
 namespace dovetail::dem::detail {
 
 /// A thread should have several chunks, and a chunk few neighbours beyond its border.
-std::size_t chunkSize(std::size_t particles) { return std::clamp<std::size_t>(particles / 128, 256, 4096); }
+std::size_t chunkSize(std::size_t particles) { return std::clamp<std::size_t>(particles / 64, 256, 4096); }
 
 void findRanges(std::size_t particles, const Pairs& sorted, std::vector<std::size_t>& begin) {
   const std::size_t size = chunkSize(particles), count = (particles + size - 1) / size;

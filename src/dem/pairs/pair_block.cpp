@@ -126,6 +126,25 @@ void addToSums(const PairParts& list, PairCursor& cursor, std::size_t n, const C
   cursor.crossing = static_cast<std::size_t>(crossing - size);
 }
 
+/// Adds vectors (x, y, z, ·) to vectors of three, or puts them there. Goes by fours; returns how many it took.
+template <bool adds>
+std::size_t layDown(const Four* of, std::size_t count, Vec3* vectors) {
+  const std::size_t most = count - count % 4;
+  if (most > 0)
+    withVectors([=] {
+      double* to = &vectors->x;
+      const auto put = [](double* row, const Four& values) __attribute__((always_inline)) {
+        store(row, adds ? loadRow(row) + values : values);
+      };
+      for (const Four *four = of, *const end = of + most; four != end; four += 4, to += 12) {
+        put(to, __builtin_shufflevector(four[0], four[1], 0, 1, 2, 4));
+        put(to + 4, __builtin_shufflevector(four[1], four[2], 1, 2, 4, 5));
+        put(to + 8, __builtin_shufflevector(four[2], four[3], 2, 4, 5, 6));
+      }
+    });
+  return most;
+}
+
 /// Room for the sums of a chunk, aligned; the thread keeps it.
 Four* roomForSums(std::size_t size) {
   struct Room {
@@ -139,38 +158,6 @@ Four* roomForSums(std::size_t size) {
 }
 
 }  // namespace
-
-void requireMaterials(const Particles& particles, int materials) {
-  if (materials == 1) return;
-  parallelFor(particles.material.size(), 16384, [&](std::size_t begin, std::size_t end) {
-    const auto first = particles.material.begin();
-    const auto unknown = std::find_if(first + static_cast<std::ptrdiff_t>(begin),
-                                      first + static_cast<std::ptrdiff_t>(end), [=](int m) { return m >= materials; });
-    if (const auto i = static_cast<std::size_t>(unknown - first); i < end)
-      throw InputError("material " + std::to_string(particles.material[i]) + " has no law",
-                       "particle " + std::to_string(i) + ", material",
-                       "give materials from 0 to " + std::to_string(materials - 1) + ", or a larger table of laws");
-  });
-}
-
-void findUniform(const Particles& particles, PairRows& rows) {
-  requireMaterials(particles, rows.materials);
-  // Where the ends differ nobody looks between them: sizes are either the same or mixed, as a rule.
-  const auto uniform = [](const auto& values) {
-    if (values.empty() || values.front() != values.back()) return false;
-    return parallelSum(values.size(), 16384, [&](std::size_t begin, std::size_t end) {
-             int differ = 0;
-             for (std::size_t i = begin; i < end; ++i) differ += values[i] != values[0] ? 1 : 0;
-             return differ;
-           }) == 0;
-  };
-  if (rows.materials > 1 && !particles.material.empty())
-    rows.material = uniform(particles.material) ? particles.material[0] : -1;
-  rows.oneRadius = uniform(particles.radius);
-  rows.turns = rows.spins && particles.rotates();
-  rows.spinDifferences = rows.rolls || !rows.oneRadius;
-  rows.oneMass = rows.mass && particles.weight.empty() && uniform(particles.mass);
-}
 
 void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& block) {
   const auto clear = [](ContactBlock::Rows3& row) {
@@ -211,16 +198,22 @@ PairCursor startOfChunk(const Particles& particles, const PairParts& list, const
 }
 
 void finishChunk(Particles& particles, PairParts& list, const PairRows& rows, const PairCursor& cursor) {
+  PairChunks& chunks = list.chunks;
+  const std::size_t begin = chunks.crosses[cursor.chunk], crossing = chunks.crosses[cursor.chunk + 1] - begin;
   const Four* sum = cursor.sums;
   const auto take = [&] { return vectorOf(*sum++); };
-  for (std::size_t i = cursor.firstParticle; i < cursor.firstParticle + cursor.particles; ++i) {
-    particles.f[i] += take();
-    if (rows.turns) particles.torque[i] += take();
+  std::size_t done = 0, crossed = 0;
+  if (!rows.turns) {
+    done = layDown<true>(sum, cursor.particles, particles.f.data() + cursor.firstParticle);
+    crossed = layDown<false>(sum + cursor.particles, crossing, chunks.force.data() + begin);
   }
-  PairChunks& chunks = list.chunks;
-  for (std::size_t k = chunks.crosses[cursor.chunk]; k < chunks.crosses[cursor.chunk + 1]; ++k) {
-    chunks.force[k] = take();
-    if (rows.turns) chunks.torque[k] = take();
+  for (sum += done; done < cursor.particles; ++done) {
+    particles.f[cursor.firstParticle + done] += take();
+    if (rows.turns) particles.torque[cursor.firstParticle + done] += take();
+  }
+  for (sum += crossed; crossed < crossing; ++crossed) {
+    chunks.force[begin + crossed] = take();
+    if (rows.turns) chunks.torque[begin + crossed] = take();
   }
 }
 

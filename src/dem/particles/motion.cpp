@@ -6,7 +6,9 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/core/vector_code.hpp"
 #include "dovetail/dem/particles/particles.hpp"
+#include "four_moves.hpp"
 
 namespace dovetail::dem {
 
@@ -53,13 +55,7 @@ void drift(Particles& particles, double dt) {
 
 namespace {
 
-/// What one sweep does to a particle.
-struct Sweep {
-  double dt;
-  int halfKicks;      // before the drift
-  bool startsForces;  // after it
-  Vec3 g;
-};
+using detail::Four, detail::Sweep;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -109,7 +105,19 @@ double sweepAll(Particles& particles, const Sweep& sweep) {
       finite = finite && d2 < infinity;
       largest = d2 > largest ? d2 : largest;
     };
-    for (std::size_t i = begin; i < end; ++i) take(advance<spins, weighted>(particles, i, sweep));
+    std::size_t i = begin;
+    if constexpr (!spins && !weighted)
+      withVectors([&, end] {
+        const Sweep now = sweep;  // copies that nothing else can change
+        std::size_t k = i;
+        Four largestOfFour{};
+        for (; k + 4 <= end; k += 4)
+          if (!detail::advanceFour(particles, k, now, largestOfFour)) [[unlikely]]
+            for (std::size_t one = k; one < k + 4; ++one) take(advance<spins, weighted>(particles, one, now));
+        for (int one = 0; one < 4; ++one) take(largestOfFour[one]);
+        i = k;
+      });
+    for (; i < end; ++i) take(advance<spins, weighted>(particles, i, sweep));
     return Largest{finite ? largest : infinity};
   };
   return std::sqrt(parallelSum(particles.size(), grain, part).value);
@@ -180,7 +188,8 @@ void requireFinite(const Particles& particles, const std::string& when) {
         throw NumericalError("its " + std::string(field) + " is not finite, " + when,
                              "particle " + std::to_string(particles.id[i]), remedy);
   };
-  constexpr const char *set = "look for who has set it", *thrown = "take a smaller time step, or look for what has thrown it";
+  constexpr const char *set = "look for who has set it",
+                       *thrown = "take a smaller time step, or look for what has thrown it";
   look(particles.mass, "mass", set);
   look(particles.radius, "radius", set);
   look(particles.weight, "weight", set);

@@ -27,6 +27,14 @@ bool inside(const geometry::Box& box, const Vec3& x) {
 }
 bool inside(const HalfSpace& space, const Vec3& x) { return dot(x - space.point, space.normal) > 0.0; }
 
+geometry::Box widened(const geometry::Box& box, double by) {
+  const Vec3 all{by, by, by};
+  return {box.lower - all, box.upper + all};
+}
+HalfSpace widened(const HalfSpace& space, double by) {
+  return {space.point - by * normalized(space.normal), space.normal};
+}
+
 std::vector<int> particlesIn(const Particles& particles, const OutletTerm::Region& region) {
   std::vector<char> in(particles.size(), 0);
   parallelFor(in.size(), 4096, [&](std::size_t begin, std::size_t end) {
@@ -113,9 +121,27 @@ void OutletTerm::check(const Model&) const {
     throw InputError("it is looked at in every " + std::to_string(every) + " steps", "outlet", "give 1 or more");
 }
 
+/// Nobody has moved by more than the skin from then until the list is made anew, as half of it bounds both moves since
+/// the search.
+void OutletTerm::lookAround(const Model& m) {
+  constexpr double slack = 1.001;  // far above rounding
+  const double margin = slack * m.pairs.skin().value_or(0.0);
+  near_ = {particlesIn(m.particles, std::visit([&](const auto& r) { return Region(widened(r, margin)); }, region)),
+           m.pairs.builds(), m.particles.revision, region};
+}
+
 void OutletTerm::exchange(Model& m, const Step& step) {
   if (step.number % every != 0) return;
-  const std::vector<int> list = particlesIn(m.particles, region);
+  const bool lasts = near_.builds == m.pairs.builds() && near_.revision == m.particles.revision &&
+                     near_.region == region && !m.pairs.maySearch(m.particles, step.moved);
+  if (!lasts) lookAround(m);
+  std::vector<int> list;
+  std::visit(
+      [&](const auto& r) {
+        for (const int i : near_.particles)
+          if (inside(r, m.particles.x[static_cast<std::size_t>(i)])) list.push_back(i);
+      },
+      region);
   if (list.empty()) return;
   const Exchanged before = m.left;
   removeParticles(m, list);
@@ -139,6 +165,7 @@ void OutletTerm::load(ByteReader& reader) {
     region = inBox;
   else
     region = behind;
+  near_ = {};
 }
 
 InsertionTerm& addInsertion(Model& m, const InsertionSettings& settings) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dovetail/calibration/fit.hpp"
+#include "dovetail/core/measure_curve.hpp"
 
 namespace dovetail::calibration {
 
@@ -19,20 +20,11 @@ struct SearchSettings {
   std::function<bool()> stop{};
 };
 
-/// The measure along one parameter, the others at their best.
-struct Profile {
-  std::vector<double> at, measure;  ///< ascending; what could not be evaluated is left out
-  double best = 0.0;                ///< of the parameter
-  double curvature =
-      0.0;  ///< ∂²m/∂p² over m, times p²: by how many times m a change of p by itself would raise it, twice
-  double lower = 0.0, upper = 0.0;            ///< between which the measure is within 5 % of the least
-  bool lowerOpen = false, upperOpen = false;  ///< whether that goes on beyond the bound
-};
-
 struct Optimum {
   std::vector<double> value;  ///< of the parameters
   double measure = 0.0;
-  std::vector<Profile> profiles;  ///< one per parameter
+  std::vector<MeasureCurve>
+      profiles;  ///< one per parameter, the others at their best; without what could not be evaluated
   bool stopped = false;
 };
 

@@ -14,6 +14,7 @@ namespace dovetail::scene {
 struct GridSettings {
   cg::KernelShape shape = cg::KernelShape::lucy;
   std::optional<double> width{};       ///< of the kernel, m; not given: 1.5 mean diameters
+  bool advisesWidth = false;           ///< the width is that for which the fields depend on it the least, and told
   std::optional<double> spacing{};     ///< of the points, m; not given: half the width
   std::optional<geometry::Box> box{};  ///< m; not given: around all centres
   std::filesystem::path file{};        ///< .vti

@@ -32,6 +32,7 @@ private:
 struct HalfSpace {
   Vec3 point;   ///< m
   Vec3 normal;  ///< of any length but 0
+  friend constexpr bool operator==(const HalfSpace&, const HalfSpace&) = default;
 };
 
 /// Takes particles out whose centres lie in a region, clumps as soon as one member does. What they carried is booked as
@@ -49,6 +50,16 @@ public:
   void exchange(Model& m, const Step& step) override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
+
+private:
+  /// Who may come into the region before pairs are searched for again: all within the skin of the list.
+  struct Near {
+    std::vector<int> particles;
+    std::int64_t builds = -1, revision = -1;  ///< of the pair list and of the particles
+    Region region;
+  };
+  Near near_;
+  void lookAround(const Model& m);
 };
 
 /// Starts an insertion; it and outlets act in the order in which they were added.
