@@ -2,11 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
-#include <Eigen/SparseLU>
-#include <memory>
+#include <optional>
 #include <vector>
 
+#include "fronts.hpp"
 #include "linear_contact.hpp"
 
 namespace dovetail::rve {
@@ -30,18 +29,20 @@ private:
   void add(const Touch& touch, const Linearisation& what);
   void addMultipliers();
   void factor();
-  int unknown(std::size_t grain, int component) const {
-    return unknown_[grain * static_cast<std::size_t>(perGrain_) + static_cast<std::size_t>(component)];
-  }
+  int componentOf(int k) const { return perGrain_ == 3 ? discComponents[static_cast<std::size_t>(k)] : k; }
+  int unknown(std::size_t grain, int k) const { return node_[grain] < 0 ? -1 : node_[grain] * perGrain_ + k; }
+
+  /// Components of (displacement, turn) that a disc has.
+  static constexpr std::array<int, 3> discComponents{0, 1, 5};
 
   const Cell& cell_;
   int perGrain_, strains_;
-  std::vector<int> unknown_;
-  int size_ = 0;
+  std::vector<int> node_;  // of a grain; those that move alike have the same, those that are held −1
+  int nodes_ = 0, size_ = 0;
   double stiffest_ = 0.0;
-  std::vector<Eigen::Triplet<double>> entries_;
+  std::optional<Fronts> matrix_;
+  bool factored_ = false;
   Eigen::MatrixXd forceByStrain_, stressByUnknown_, stressByStrain_;
-  std::unique_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> factors_;
 };
 
 }  // namespace dovetail::rve
