@@ -2,10 +2,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "contact_list.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/vector_code.hpp"
 #include "dovetail/rve/cell.hpp"
 #include "projection.hpp"
 #include "sweep.hpp"
@@ -14,84 +16,74 @@ namespace dovetail::rve {
 
 namespace {
 
-/// Sums of successive items in four lanes, in an order of its own.
-template <class Term>
-double laneSum(std::size_t n, const Term& term) {
-  double lane[4] = {};
+constexpr std::size_t lanes = 8;
+using Lanes = double[lanes];
+
+/// Calls body(first, count) for eight items at a time and then for the rest: loops over count become vectors, and sums
+/// in lanes have an order of their own.
+template <class Body>
+void inLanes(std::size_t n, const Body& body) {
   std::size_t i = 0;
-  for (; i + 4 <= n; i += 4)
-    for (std::size_t l = 0; l < 4; ++l) lane[l] += term(i + l);
-  for (; i < n; ++i) lane[0] += term(i);
-  return (lane[0] + lane[1]) + (lane[2] + lane[3]);
+  for (; i + lanes <= n; i += lanes) body(i, std::integral_constant<std::size_t, lanes>{});
+  if (i < n) body(i, n - i);
 }
+
+double sumOf(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
 
 double kick(std::vector<double>& v, const std::vector<double>& force, const std::vector<double>& mass, double dt,
             double damping) {
-  double* const to = v.data();
-  const double* const f = force.data();
-  const double* const m = mass.data();
-  if (damping == 0.0) {
-    for (std::size_t i = 0; i < v.size(); ++i) to[i] += dt * f[i] / m[i];
-    return 0.0;
-  }
-  return laneSum(v.size(), [&](std::size_t i) {
-    const double before = to[i], against = damping * std::abs(f[i]);
-    // Without branches: signs are guessed wrong too often.
-    const double drag = against * (static_cast<double>(before > 0.0) - static_cast<double>(before < 0.0));
-    to[i] = before + dt * (f[i] - drag) / m[i];
-    return 0.5 * dt * drag * (before + to[i]);
+  double* const __restrict to = v.data();
+  const double* const __restrict f = force.data();
+  const double* const __restrict m = mass.data();
+  Lanes taken = {};
+  inLanes(v.size(), [&](std::size_t i, auto count) {
+    for (std::size_t l = 0; l < count; ++l) {
+      const double before = to[i + l], push = f[i + l], against = damping * std::abs(push);
+      // Without branches: signs are guessed wrong too often.
+      const double drag = against * (static_cast<double>(before > 0.0) - static_cast<double>(before < 0.0));
+      const double after = before + dt * (push - drag) / m[i + l];
+      taken[l] += 0.5 * dt * drag * (before + after);
+      to[i + l] = after;
+    }
   });
+  return sumOf(taken);
 }
 
-double largestSpeed2(const CellState& s) {
-  double lane[4] = {};
-  const std::size_t n = s.v[0].size();
-  const double* const x = s.v[0].data();
-  const double* const y = s.v[1].data();
-  const double* const z = s.v[2].empty() ? nullptr : s.v[2].data();
-  const auto see = [&](std::size_t i, double& most) {
-    const double speed2 = x[i] * x[i] + y[i] * y[i] + (z ? z[i] * z[i] : 0.0);
-    most = most < speed2 ? speed2 : most;
-  };
-  std::size_t i = 0;
-  for (; i + 4 <= n; i += 4)
-    for (std::size_t l = 0; l < 4; ++l) see(i + l, lane[l]);
-  for (; i < n; ++i) see(i, lane[0]);
-  return std::max(std::max(lane[0], lane[1]), std::max(lane[2], lane[3]));
-}
-
-void drift(CellState& s, double dt) {
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t i = 0; i < s.x[k].size(); ++i) s.x[k][i] += dt * s.v[k][i];
+/// x ← G (x + v dt). Returns the largest |v|².
+template <int dimension>
+double advance(CellState& s, double dt, const Eigen::Matrix3d& G) {
+  double* x[dimension];
+  const double* v[dimension];
+  double g[dimension][dimension];
+  for (int k = 0; k < dimension; ++k) {
+    x[k] = s.x[static_cast<std::size_t>(k)].data();
+    v[k] = s.v[static_cast<std::size_t>(k)].data();
+    for (int l = 0; l < dimension; ++l) g[k][l] = G(k, l);
+  }
+  Lanes most = {};
+  inLanes(s.x[0].size(), [&](std::size_t i, auto count) {
+    double moved[dimension][lanes];
+    Lanes speed2 = {};
+    for (int k = 0; k < dimension; ++k)
+      for (std::size_t l = 0; l < count; ++l) {
+        const double speed = v[k][i + l];
+        moved[k][l] = x[k][i + l] + dt * speed;
+        speed2[l] += speed * speed;
+      }
+    for (int k = 0; k < dimension; ++k)
+      for (std::size_t l = 0; l < count; ++l) {
+        double sum = g[k][0] * moved[0][l];
+        for (int j = 1; j < dimension; ++j) sum += g[k][j] * moved[j][l];
+        x[k][i + l] = sum;
+      }
+    for (std::size_t l = 0; l < count; ++l) most[l] = most[l] < speed2[l] ? speed2[l] : most[l];
+  });
+  return *std::max_element(most, most + lanes);
 }
 
 Vec3 product(const Eigen::Matrix3d& G, const Vec3& a) {
   return {G(0, 0) * a.x + G(0, 1) * a.y + G(0, 2) * a.z, G(1, 0) * a.x + G(1, 1) * a.y + G(1, 2) * a.z,
           G(2, 0) * a.x + G(2, 1) * a.y + G(2, 2) * a.z};
-}
-
-void carry(CellState& s, const Eigen::Matrix3d& G) {
-  const std::size_t n = s.x[0].size();
-  double* const x = s.x[0].data();
-  double* const y = s.x[1].data();
-  if (s.x[2].empty()) {
-    const double a = G(0, 0), b = G(0, 1), c = G(1, 0), d = G(1, 1);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double xi = x[i], yi = y[i];
-      x[i] = a * xi + b * yi;
-      y[i] = c * xi + d * yi;
-    }
-  } else {
-    double* const z = s.x[2].data();
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec3 moved = product(G, {x[i], y[i], z[i]});
-      x[i] = moved.x;
-      y[i] = moved.y;
-      z[i] = moved.z;
-    }
-  }
-  for (Vec3& period : s.lattice.period) period = product(G, period);
-  s.F = G * s.F;
 }
 
 void requireAnswer(const Cell& cell) {
@@ -111,7 +103,6 @@ void move(Cell& cell, double dt, const Eigen::Matrix3d& G) {
   CellState& s = cell.state;
   const bool deforms = G != Eigen::Matrix3d::Identity();
   Eigen::Matrix3d L = Eigen::Matrix3d::Zero();
-  drift(s, dt);
   if (deforms) {
     if (!(G.determinant() > 0.0))
       throw NumericalError("the determinant of the step's deformation is " + formatNumber(G.determinant()),
@@ -121,10 +112,13 @@ void move(Cell& cell, double dt, const Eigen::Matrix3d& G) {
     const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
     L = (2.0 / dt) * (G - one) * (G + one).inverse();
     s.book.work += 0.5 * dt * s.dyad.cwiseProduct(0.5 * (L + L.transpose())).sum();
-    carry(s, G);
+    for (Vec3& period : s.lattice.period) period = product(G, period);
+    s.F = G * s.F;
   }
+  double fastest2 = 0.0;
+  withVectors([&] { fastest2 = cell.shape == Shape::disc ? advance<2>(s, dt, G) : advance<3>(s, dt, G); });
   const Eigen::Matrix3d D = 0.5 * (L + L.transpose());
-  s.room -= dt * (2.0 * std::sqrt(largestSpeed2(s)) + D.norm() * listReach(cell));
+  s.room -= dt * (2.0 * std::sqrt(fastest2) + D.norm() * listReach(cell));
   if (!(s.room > 0.0)) renew(cell);
   sweep(cell, dt, L);
   requireAnswer(cell);
@@ -135,10 +129,12 @@ void move(Cell& cell, double dt, const Eigen::Matrix3d& G) {
 
 void step(Cell& cell, double dt, const Eigen::Matrix3d& G, double damping) {
   CellState& s = cell.state;
-  for (std::size_t k = 0; k < 3; ++k) {
-    s.book.damping += kick(s.v[k], s.force[k], cell.mass, dt, damping);
-    s.book.damping += kick(s.spin[k], s.torque[k], cell.inertia, dt, damping);
-  }
+  withVectors([&] {
+    for (std::size_t k = 0; k < 3; ++k) {
+      s.book.damping += kick(s.v[k], s.force[k], cell.mass, dt, damping);
+      s.book.damping += kick(s.spin[k], s.torque[k], cell.inertia, dt, damping);
+    }
+  });
   project(cell, s.v, s.spin);
   move(cell, dt, G);
 }

@@ -9,8 +9,8 @@ namespace {
 /// What the law takes and gives, contact by contact.
 struct DiscRows {
   Row radiusI, radiusJ, stiffness, stretch, roll;
-  Row speedX, speedY, spinI, spinJ;      // of j less i; of each
-  Row forceX, forceY, torqueI, torqueJ;  // on i; on each
+  Row speedX, speedY, spinI, spinJ;  // of j less i; of each
+  Row force[2], torqueI, torqueJ;    // on i; on each
   Row slipped;
 };
 
@@ -26,8 +26,8 @@ inline double within(double value, double most) {
 
 template <bool slides, bool rolls>
 void applyLaw(const DiscLaw law, const TouchingRows<2>& __restrict at, DiscRows& __restrict r) {
-  const int count = at.count;
-  for (int m = 0; m < count; ++m) {
+  const int padded = at.padded;
+  for (int m = 0; m < padded; ++m) {
     const double bx = at.branch[0][m], by = at.branch[1][m];
     const double d = std::sqrt(at.squared[m]), inverse = 1.0 / d, nx = bx * inverse, ny = by * inverse;
     const double overlap = r.radiusI[m] + r.radiusJ[m] - d, k = r.stiffness[m], press = k * overlap;
@@ -50,8 +50,8 @@ void applyLaw(const DiscLaw law, const TouchingRows<2>& __restrict at, DiscRows&
       slipped += moment * (tried - turn);
       r.roll[m] = turn;
     }
-    r.forceX[m] = -press * nx - hold * ny;
-    r.forceY[m] = -press * ny + hold * nx;
+    r.force[0][m] = -press * nx - hold * ny;
+    r.force[1][m] = -press * ny + hold * nx;
     r.torqueI[m] = armI * hold - moment;
     r.torqueJ[m] = armJ * hold + moment;
     r.slipped[m] = slipped;
@@ -82,18 +82,15 @@ void sweepDiscs(Cell& cell, double dt, const Eigen::Matrix3d& L) {
   const double* const stiffness = s.contacts.stiffness.data();
   double* const stretch = s.contacts.stretch[0].data();
   double* const roll = s.contacts.roll.data();
-  double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0, slipped = 0.0;
+  double* const memory[] = {stretch, roll};
+  ContactSums<2> sums;
   DiscRows r;
-  const auto release = [&](int c, bool touches) {
-    if constexpr (slides) stretch[c] = touches ? stretch[c] : 0.0;
-    if constexpr (rolls) roll[c] = touches ? roll[c] : 0.0;
-  };
-  forTouchingBlocks<2>(cell, release, [&](const TouchingRows<2>& at) {
-    for (int m = 0; m < at.count; ++m) {
+  forTouchingBlocks<2>(cell, {memory, rolls ? 2u : (slides ? 1u : 0u)}, [&](const TouchingRows<2>& at) {
+    for (int m = 0; m < at.padded; ++m) {
       const int i = at.i[m], j = at.j[m], c = at.contact[m];
       r.radiusI[m] = radius[i];
       r.radiusJ[m] = radius[j];
-      r.stiffness[m] = stiffness[c];
+      r.stiffness[m] = m < at.count ? stiffness[c] : 0.0;
       if constexpr (slides) {
         r.stretch[m] = stretch[c];
         r.speedX[m] = vx[j] - vx[i];
@@ -105,29 +102,26 @@ void sweepDiscs(Cell& cell, double dt, const Eigen::Matrix3d& L) {
       }
       if constexpr (rolls) r.roll[m] = roll[c];
     }
-    applyLaw<slides, rolls>(law, at, r);
+    withVectors([&] {
+      applyLaw<slides, rolls>(law, at, r);
+      sums.add(r.force, at);
+      if constexpr (slides || rolls) sums.slipped.add(r.slipped, at.padded);
+    });
     for (int m = 0; m < at.count; ++m) {
       const int i = at.i[m], j = at.j[m], c = at.contact[m];
-      const double x = r.forceX[m], y = r.forceY[m];
-      fx[i] += x;
-      fy[i] += y;
-      fx[j] -= x;
-      fy[j] -= y;
-      xx += x * at.branch[0][m];
-      xy += x * at.branch[1][m];
-      yx += y * at.branch[0][m];
-      yy += y * at.branch[1][m];
+      fx[i] += r.force[0][m];
+      fy[i] += r.force[1][m];
+      fx[j] -= r.force[0][m];
+      fy[j] -= r.force[1][m];
       if constexpr (slides) stretch[c] = r.stretch[m];
       if constexpr (rolls) roll[c] = r.roll[m];
       if constexpr (slides || rolls) {
         torque[i] += r.torqueI[m];
         torque[j] += r.torqueJ[m];
-        slipped += r.slipped[m];
       }
     }
   });
-  s.dyad << xx, xy, 0.0, yx, yy, 0.0, 0.0, 0.0, 0.0;
-  s.book.friction += slipped;
+  sums.book(s);
 }
 
 template void sweepDiscs<false, false>(Cell&, double, const Eigen::Matrix3d&);

@@ -22,8 +22,8 @@ struct SphereLaw {
 
 template <bool slides>
 void applyLaw(const SphereLaw law, const TouchingRows<3>& __restrict at, SphereRows& __restrict r) {
-  const int count = at.count;
-  for (int m = 0; m < count; ++m) {
+  const int padded = at.padded;
+  for (int m = 0; m < padded; ++m) {
     const double bx = at.branch[0][m], by = at.branch[1][m], bz = at.branch[2][m];
     const double d = std::sqrt(at.squared[m]), inverse = 1.0 / d;
     const double nx = bx * inverse, ny = by * inverse, nz = bz * inverse;
@@ -95,18 +95,14 @@ void sweepSpheres(Cell& cell, double dt, const Eigen::Matrix3d& L) {
     torque[k] = s.torque[k].data();
     stretch[k] = s.contacts.stretch[k].data();
   }
-  double dyad[3][3] = {}, slipped = 0.0;
+  ContactSums<3> sums;
   SphereRows r;
-  const auto release = [&](int c, bool touches) {
-    if constexpr (slides)
-      for (double* const u : stretch) u[c] = touches ? u[c] : 0.0;
-  };
-  forTouchingBlocks<3>(cell, release, [&](const TouchingRows<3>& at) {
-    for (int m = 0; m < at.count; ++m) {
+  forTouchingBlocks<3>(cell, {stretch, slides ? 3u : 0u}, [&](const TouchingRows<3>& at) {
+    for (int m = 0; m < at.padded; ++m) {
       const int i = at.i[m], j = at.j[m], c = at.contact[m];
       r.radiusI[m] = radius[i];
       r.radiusJ[m] = radius[j];
-      r.stiffness[m] = stiffness[c];
+      r.stiffness[m] = m < at.count ? stiffness[c] : 0.0;
       if constexpr (slides)
         for (int k = 0; k < 3; ++k) {
           r.stretch[k][m] = stretch[k][c];
@@ -115,26 +111,26 @@ void sweepSpheres(Cell& cell, double dt, const Eigen::Matrix3d& L) {
           r.spinJ[k][m] = spin[k][j];
         }
     }
-    applyLaw<slides>(law, at, r);
+    withVectors([&] {
+      applyLaw<slides>(law, at, r);
+      sums.add(r.force, at);
+      if constexpr (slides) sums.slipped.add(r.slipped, at.padded);
+    });
     for (int m = 0; m < at.count; ++m) {
       const int i = at.i[m], j = at.j[m], c = at.contact[m];
       for (int k = 0; k < 3; ++k) {
         const double f = r.force[k][m];
         force[k][i] += f;
         force[k][j] -= f;
-        for (int l = 0; l < 3; ++l) dyad[k][l] += f * at.branch[l][m];
         if constexpr (slides) {
           stretch[k][c] = r.stretch[k][m];
           torque[k][i] += r.armI[m] * r.couple[k][m];
           torque[k][j] += r.armJ[m] * r.couple[k][m];
         }
       }
-      if constexpr (slides) slipped += r.slipped[m];
     }
   });
-  for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l) s.dyad(k, l) = dyad[k][l];
-  s.book.friction += slipped;
+  sums.book(s);
 }
 
 template void sweepSpheres<false>(Cell&, double, const Eigen::Matrix3d&);
