@@ -20,6 +20,10 @@ struct FigureRow {
 };
 using FigureRows = std::vector<FigureRow>;
 
+/// A row of the values of several packings.
+FigureRow rowOf(const std::string& what, const std::vector<double>& values, double printed, double allowed,
+                const std::string& note = {});
+
 struct Figure {
   std::string name;    ///< as --only takes it
   std::string source;  ///< paper, figure or table
@@ -27,6 +31,11 @@ struct Figure {
 };
 
 // One source file each.
+FigureRows biaxial(bool quick);
+FigureRows explicitBiaxial(bool quick);
+FigureRows lz19Cell(bool quick);
+FigureRows operators(bool quick);
 FigureRows squareArrays(bool quick);
+FigureRows stringOfDiscs(bool quick);
 
 }  // namespace dovetail::benchmark

@@ -9,7 +9,7 @@
 #include "dovetail/fem/solve/statics.hpp"
 #include "dovetail/fem/terms/contact_plane.hpp"
 #include "dovetail/fem/terms/loads.hpp"
-#include "solid_helpers.hpp"
+#include "dynamics_helpers.hpp"
 
 namespace dovetail::fem {
 namespace {
@@ -228,6 +228,31 @@ TEST(ArcLength, MultipliersOfContactSettleInEveryStep) {
   const ContactPlane::Report report = contact.report(b.model.nodes, {1.0, 0.0});
   EXPECT_NEAR(report.force.z, 9e4, 1.0);
   EXPECT_LT(report.deepest, 1e-7);  // the penalty alone: 9e4 N/m² / 2e7 N/m³ = 4.5e-3 m
+}
+
+TEST(Statics, MixingConvergesFasterToTheSameWithTheSameFactors) {
+  const auto shear = [](int mixing) {
+    Bar b = bar({CellShape::hex8, Formulation::standard}, {2, 2, 2}, {1.0, 1.0, 1.0}, 2e6, 1e6);
+    b.model.constraints.hold(nodesAt(b.mesh, 2, 0.0));
+    b.model.constraints.prescribe(nodesAt(b.mesh, 2, 1.0), 2, [](double t) { return 0.2 * t; });
+    b.model.constraints.prescribe(nodesAt(b.mesh, 2, 1.0), 0, [](double t) { return 0.1 * t; });
+    StaticOptions options{.newton = {.maxIterations = 200, .lineSearch = false, .reuseContraction = 0.99}};
+    options.firstStep = options.largestStep = 1.0;
+    options.newton.mixing = mixing;
+    const StaticReport report = solveStatics(b.model, 1.0, options);
+    EXPECT_EQ(report.cuts, 0);
+    for (const StaticStep& step : report.steps) EXPECT_LE(step.residual, step.tolerance);
+    return std::tuple(report.iterations, report.factorisations, b.model.nodes.u);
+  };
+  const auto [plain, factors, u] = shear(0);
+  const auto [mixed, mixedFactors, w] = shear(5);
+  EXPECT_LE(mixedFactors, factors);
+  EXPECT_LT(4 * mixed, 3 * plain);
+  EXPECT_LT(largestDifference(u, w), 1e-7);
+  EXPECT_GT(largestDifference(u, std::vector<Vec3>(u.size())), 0.05);
+  Bar b = bar({CellShape::hex8, Formulation::standard}, {1, 1, 1}, {1, 1, 1}, 1e6, 1e6);
+  EXPECT_THROW(solveStatics(b.model, 1.0, {.newton = {.mixing = 5}}), InputError);
+  EXPECT_THROW(solveStatics(b.model, 1.0, {.newton = {.reuseContraction = 0.5, .mixing = -1}}), InputError);
 }
 
 TEST(Statics, AFailureLeavesTheLastEquilibriumAndSaysWhy) {

@@ -172,6 +172,32 @@ TEST(StaticsOfCells, WhatStagnatesIsNeverAccepted) {
   EXPECT_EQ(body.model.t, accepted);
 }
 
+TEST(StaticsOfCells, PastThePeakNodesMoveToRestWhereIterationsFail) {
+  const auto press = [](int motionIterations) {
+    auto body = std::make_unique<Biaxial>(std::array{1, 1}, cellField(oneCell()), CellShape::quad4, 2e-4);
+    fem::addMass(body->model);
+    fem::StaticOptions options = roughly(1e-4, 1.0);
+    options.newton.maxIterations = 6;
+    options.smallestStep = 1.0;
+    options.motionIterations = motionIterations;
+    return std::pair(std::move(body), options);
+  };
+  auto [stopped, none] = press(0);
+  EXPECT_THROW(fem::solveStatics(stopped->model, 16.0, none), NumericalError);
+  auto [body, some] = press(4000);
+  const fem::StaticReport report = fem::solveStatics(body->model, 16.0, some);
+  EXPECT_EQ(body->model.t, 16.0);
+  EXPECT_GT(report.motions, 0);
+  EXPECT_LT(report.motions, 16);
+  int moved = 0;
+  for (const fem::StaticStep& step : report.steps) {
+    EXPECT_LE(step.residual, step.tolerance);
+    moved += step.byMotion;
+  }
+  EXPECT_EQ(moved, report.motions);
+  EXPECT_LT(std::abs(report.energyResidual()), 0.05 * std::abs(report.supportWork));
+}
+
 TEST(StaticsOfCells, APointWithoutAnAnswerIsNamed) {
   Biaxial body({1, 2}, cellField(oneCell()), CellShape::quad4, 0.04);
   fem::StaticOptions options = roughly(1e-5, 1.0);

@@ -279,7 +279,7 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
     model.t = now.t;
     report.iterations += result.iterations;
     const bool regular = path.findRate(now.t);
-    report.steps.push_back({now.t, result.iterations, result.residual, equilibrium.negativePivots()});
+    report.steps.push_back({now.t, result.iterations, result.residual, equilibrium.negativePivots(), result.tolerance});
     if (!regular || (observer && !observer(model, report.steps.back()))) break;
     const double growth = std::sqrt(static_cast<double>(options.iterationTarget) / std::max(1, result.iterations));
     length = std::min(largest, length * std::clamp(growth, 0.5, 2.0));

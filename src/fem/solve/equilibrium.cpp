@@ -23,6 +23,10 @@ void validate(const NewtonOptions& options) {
   requireNonNegative(options.reuseContraction, "reuseContraction");
   if (options.maxIterations < 1)
     throw InputError("no iterations are allowed", "NewtonOptions", "give maxIterations of 1 or more");
+  if (options.mixing < 0 || (options.mixing > 0 && options.reuseContraction == 0.0))
+    throw InputError(
+        "mixing is " + std::to_string(options.mixing) + ", reuseContraction " + formatNumber(options.reuseContraction),
+        "NewtonOptions", "increments mix with those of the same factors: keep these by reuseContraction");
 }
 
 void requireLater(double tEnd, const Model& model, const char* where) {
@@ -73,7 +77,9 @@ Equilibrium::Equilibrium(Model& model, const NewtonOptions& options)
       solver_(dofs(), options.linear),
       K_(zeroTangent(model)),
       increment_(dofs().size()),
-      part_(dofs().size()) {}
+      part_(dofs().size()) {
+  if (options.mixing > 0) mixing_.emplace(options.mixing);
+}
 
 bool Equilibrium::factor(bool) {
   const auto start = Clock::now();
@@ -84,6 +90,7 @@ bool Equilibrium::factor(bool) {
   const auto middle = Clock::now();
   const bool symmetric = std::ranges::all_of(model().terms, [](const auto& term) { return term->isSymmetric(); });
   const bool done = solver_.factor(K_, symmetric);
+  if (mixing_) mixing_->clear();
   solverSeconds_ += since(middle);
   return done;
 }
@@ -97,11 +104,13 @@ void Equilibrium::solve(std::span<const double> r, std::span<double> x) {
 bool Equilibrium::direct() {
   start_ = model().nodes.u;
   solve(residual(), increment_);
+  if (mixing_) mixing_->better(increment_);
   return true;
 }
 
 void Equilibrium::moveTo(double share) {
   for (std::size_t i = 0; i < part_.size(); ++i) part_[i] = share * increment_[i];
+  if (mixing_) mixing_->moved(part_);
   model().nodes.u = start_;
   dofs().addIncrement(part_, model().nodes.u);
 }

@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "dovetail/fem/solve/statics.hpp"
+#include "mixing.hpp"
 #include "newton.hpp"
 #include "newton_tools.hpp"
 
@@ -76,6 +78,10 @@ public:
   const BlockMatrix& stiffness() const { return K_; }
 
   void forget() override { solver_.drop(); }
+  /// A new step begins.
+  void beginStep() {
+    if (mixing_) mixing_->clear();
+  }
   int negativePivots() const override { return solver_.negativePivots(); }
   void describe(StaticReport& report) const override;
 
@@ -84,6 +90,7 @@ private:
   BlockMatrix K_;
   std::vector<Vec3> start_;
   std::vector<double> increment_, part_;
+  std::optional<Mixing> mixing_;
   double solverSeconds_ = 0.0;
 };
 
@@ -109,10 +116,19 @@ struct LoadSteps {
 };
 /// @throws InputError for lengths ≤ 0
 void validate(const LoadSteps& steps);
-/// Takes the model from model.t to tEnd by attempts that leave it as it was if they fail; cuts those.
-/// @param name  of the caller, for errors   @param remedy  if the smallest step fails
+/// How a step is made.
+struct StepWays {
+  std::function<NewtonResult(const Instant&)> attempt;  ///< leaves the model as it was if it fails; is cut then
+  /// Where the smallest fails: accepts histories and books what it does; empty: none.
+  std::function<NewtonResult(const Instant&, StaticReport&)> motion;
+};
+/// For errors.
+struct StepWords {
+  std::string name;    ///< of the caller
+  std::string remedy;  ///< if the smallest step fails
+};
+/// Takes the model from model.t to tEnd.
 StaticReport takeSteps(Balance& balance, double tEnd, LoadSteps steps, const StaticObserver& observer,
-                       const std::function<NewtonResult(const Instant&)>& attempt, const std::string& name,
-                       const std::string& remedy);
+                       const StepWays& ways, const StepWords& words);
 
 }  // namespace dovetail::fem::detail

@@ -20,6 +20,12 @@ std::ostream& operator<<(std::ostream& out, const StaticReport& report) {
   joules("work of loads", report.loadWork);
   joules("work of supports", report.supportWork);
   joules("dissipated", report.dissipated);
+  if (report.motions > 0) {
+    row("moved to rest",
+        std::to_string(report.motions) + " steps, " + std::to_string(report.motionIterations) + " iterations");
+    joules("damped", report.damped);
+    joules("kinetic, largest", report.largestKinetic);
+  }
   joules("residual", report.energyResidual());
   row("assembly", formatNumber(report.assemblySeconds) + " s");
   row("linear solver", formatNumber(report.solverSeconds) + " s");

@@ -1,6 +1,10 @@
 #include "dovetail/fem/solve/statics.hpp"
 
+#include <optional>
+
+#include "dovetail/core/error.hpp"
 #include "equilibrium.hpp"
+#include "swing.hpp"
 
 namespace dovetail::fem {
 
@@ -9,16 +13,27 @@ StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& option
   const detail::LoadSteps steps{options.firstStep, options.largestStep, options.smallestStep, options.iterationTarget};
   detail::validate(steps);
   detail::requireLater(tEnd, model, "solveStatics");
+  if (options.motionIterations < 0)
+    throw InputError("motionIterations is below 0", "StaticOptions", "give a number of iterations, or 0 for none");
   detail::Equilibrium equilibrium(model, options.newton);
-  const auto attempt = [&](const Instant& now) {
+  detail::StepWays ways;
+  ways.attempt = [&](const Instant& now) {
     equilibrium.aim(now);
     return detail::attemptStep(model, now, options.maxAugmentations, [&]() -> detail::NewtonResult {
+      equilibrium.beginStep();
       if (!equilibrium.predict()) return {0, 0.0, 0.0, "the tangent is singular or not finite"};
       return detail::newton(equilibrium, detail::policyOf(options.newton));
     });
   };
-  return detail::takeSteps(equilibrium, tEnd, steps, observer, attempt, "solveStatics",
-                           "a limit point of the load can be passed by followPath");
+  std::optional<detail::Swing> swing;
+  if (options.motionIterations > 0) {
+    swing.emplace(equilibrium, 0.0);
+    ways.motion = [&](const Instant& now, StaticReport& report) {
+      return detail::moveToRest(equilibrium, *swing, now, options.motionIterations, options.maxAugmentations, report);
+    };
+  }
+  return detail::takeSteps(equilibrium, tEnd, steps, observer, ways,
+                           {"solveStatics", "a limit point of the load can be passed by followPath"});
 }
 
 }  // namespace dovetail::fem

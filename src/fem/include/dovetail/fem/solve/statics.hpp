@@ -22,6 +22,9 @@ struct NewtonOptions {
   /// Keeps the factors while each iteration shrinks the force out of balance below this share (modified Newton);
   /// 0 factorises in every iteration.
   double reuseContraction = 0.0;
+  /// While factors are kept: of how many earlier increments with the same factors each new one is bettered, by the
+  /// least squares of Anderson (1965; type II); 0 = none. For solveStatics; needs reuseContraction > 0.
+  int mixing = 0;
   LinearOptions linear{};
 };
 
@@ -32,14 +35,20 @@ struct StaticOptions {
   double smallestStep = 1e-6;  ///< s; below it the run stops
   int iterationTarget = 6;     ///< steps grow if fewer iterations were needed and shrink if more
   int maxAugmentations = 30;   ///< per step, for contact by augmented Lagrangian
+  /// Where the smallest step fails, for materials that jump: the nodes move to rest at the end of that step as in
+  /// relax(), with the histories accepted at every one of at most so many iterations; then Newton's method goes on from
+  /// there. 0 = none, the run stops. Needs nodes.mass.
+  int motionIterations = 0;
 };
 
 /// One accepted step.
 struct StaticStep {
-  double t;            ///< s
-  int iterations;      ///< linear solves
-  double residual;     ///< force out of balance, N
-  int negativePivots;  ///< of the tangent: more than 0 if the equilibrium is not stable, −1 if not known
+  double t;               ///< s
+  int iterations;         ///< linear solves, of a motion evaluations of the forces
+  double residual;        ///< force out of balance, N
+  int negativePivots;     ///< of the tangent: more than 0 if the equilibrium is not stable, −1 if not known
+  double tolerance = 0;   ///< of the residual, N
+  bool byMotion = false;  ///< Newton's method had failed, and the nodes moved there
 };
 
 struct StaticReport {
@@ -48,12 +57,16 @@ struct StaticReport {
   std::int64_t iterations = 0, factorisations = 0;
   double storedBefore = 0.0, storedAfter = 0.0;  ///< J
   double loadWork = 0.0;                         ///< J, by terms without energy (trapezoidal sum)
-  double supportWork = 0.0;  ///< J, by prescribed motion and moving contact planes (trapezoidal sum)
-  double dissipated = 0.0;   ///< J, by materials and friction
+  double supportWork = 0.0;           ///< J, by prescribed motion and moving contact planes (trapezoidal sum)
+  double dissipated = 0.0;            ///< J, by materials and friction
+  int motions = 0;                    ///< steps that were gone by motion to rest
+  std::int64_t motionIterations = 0;  ///< of them, in all; not among `iterations`
+  double largestKinetic = 0.0;        ///< J, of any motion
+  double damped = 0.0;                ///< J, by the damping of motions
   double seconds = 0.0, assemblySeconds = 0.0, solverSeconds = 0.0;
   std::string solver;  ///< "CHOLMOD", …
-  /// stored + dissipated − work, J: what the trapezoidal sums leave, second order in the step.
-  double energyResidual() const { return storedAfter - storedBefore + dissipated - loadWork - supportWork; }
+  /// stored + dissipated + damped − work, J: what the trapezoidal sums leave, second order in the step.
+  double energyResidual() const { return storedAfter - storedBefore + dissipated + damped - loadWork - supportWork; }
 };
 
 /// A page of text.

@@ -1,0 +1,144 @@
+// Operators of cells in Newton's method: iterations, answers of cells and seconds of the processor for 2 × 4 quad8 with
+// 2 × 2 points, before the peak. Also one element against the cell alone, and what an answer costs.
+#include "dovetail/rve/operators.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "biaxial_solid.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/fem/solve/statics.hpp"
+#include "figure.hpp"
+
+namespace dovetail::benchmark {
+
+namespace {
+
+using hierarchical::Operator;
+using hierarchical::RestingCells;
+
+constexpr double strainOfStep = 1e-3;
+
+double sinks(double t) { return 2.0 * strainOfStep * t; }
+
+fem::StaticOptions options(double reuse, int mixing) {
+  return {.newton = {.relativeTolerance = 1e-4, .lineSearch = false, .reuseContraction = reuse, .mixing = mixing},
+          .firstStep = 1.0,
+          .largestStep = 1.0,
+          .smallestStep = 0.2,
+          .iterationTarget = 1000};  // steps are the same for all
+}
+
+/// −P₂₂ of the cell alone at F₂₂ = 1 − strain under the side pressure, Pa: Newton's method for F₁₁.
+double axialAlone(rve::Cell& cell, double strain, const RestingCells& settings) {
+  constexpr double pressure = 1e5;
+  Eigen::Matrix3d F = cell.state.F;
+  F(1, 1) = 1.0 - strain;
+  rve::CellState committed;
+  rve::save(cell, committed);
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    rve::restore(cell, committed);
+    hierarchical::settle(cell, F, settings);
+    const Eigen::Matrix3d P = rve::nominalStress(cell);
+    const double excess = P(0, 0) + pressure * F(1, 1);
+    if (std::abs(excess) < 1e-5 * pressure) return -P(1, 1);
+    F(0, 0) -= excess / rve::network(cell)(0, 0);
+  }
+  return std::nan("");
+}
+
+FigureRow oneElementAgainstTheCell() {
+  const RestingCells settings;
+  rve::Cell cell = sand(1);
+  BiaxialSolid body({.straight = true}, hierarchical::cellField({cell}, settings), sinks);
+  fem::StaticOptions fine = options(0.0, 0);
+  fine.newton.relativeTolerance = 1e-6;
+  double worst = 0.0;
+  for (int k = 1; k <= 3; ++k) {
+    fem::solveStatics(body.model, k, fine);
+    worst = std::max(worst, std::abs(body.axial() - axialAlone(cell, strainOfStep * k, settings)));
+  }
+  return {"one quad4 less the cell alone to 0.3 %, largest, Pa", worst, 0.0, 0.0, 1.0, "of 170 kPa"};
+}
+
+double secondsOf(int times, const std::function<void()>& act) {
+  const double start = processorSeconds();
+  for (int k = 0; k < times; ++k) act();
+  return (processorSeconds() - start) / times;
+}
+
+/// What an answer is made of: the state taken back, the path with its rest, the operators.
+void addPrices(FigureRows& rows) {
+  const rve::Cell start = sand(1);
+  rve::Cell cell = start;
+  Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+  F(1, 1) -= strainOfStep;
+  const auto answer = [&](double first) {
+    const RestingCells settings{.path = {.rest = {.unbalanced = first}}, .unbalanced = 1e-6};
+    return secondsOf(5, [&] {
+      rve::restore(cell, start.state);
+      hierarchical::settle(cell, F, settings);
+    });
+  };
+  const auto add = [&](const std::string& what, double seconds) {
+    rows.push_back({what + ", ms", 1e3 * seconds, 0.0, std::nan("")});
+  };
+  add("answer to 0.1 % of strain, rest by FIRE", answer(1e-6));
+  add("the same, rest ended by Newton's method", answer(1e-4));
+  add("state taken back", secondsOf(200, [&] { rve::restore(cell, start.state); }));
+  add("network of a cell", secondsOf(5, [&] { rve::network(cell); }));
+  add("uniformStrain of a cell", secondsOf(5, [&] { rve::uniformStrain(cell); }));
+}
+
+struct Way {
+  std::string name;
+  Operator tangent;
+  double reuse;
+  int mixing = 0;
+};
+
+/// Iterations of a step, mean.
+double study(const Way& way, const std::vector<rve::Cell>& bank, int steps, FigureRows& rows) {
+  BiaxialSolid body({.elements = {2, 4}, .shape = fem::CellShape::quad8, .formulation = fem::Formulation::reduced},
+                    hierarchical::cellField(bank, RestingCells{.tangent = way.tangent}), sinks);
+  int most = 0;
+  const auto look = [&](const fem::Model&, const fem::StaticStep& step) {
+    most = std::max(most, step.iterations);
+    return true;
+  };
+  const double start = processorSeconds();
+  const fem::StaticReport report = fem::solveStatics(body.model, steps, options(way.reuse, way.mixing), look);
+  const double seconds = processorSeconds() - start, accepted = static_cast<double>(report.steps.size());
+  const double mean = static_cast<double>(report.iterations) / accepted;
+  char note[200];
+  std::snprintf(note, sizeof note, "most %d, cuts %d, %d answers of cells, %lld factorisations, %.1f s, %.1f kPa", most,
+                report.cuts, static_cast<int>(32 * (report.iterations + steps)),
+                static_cast<long long>(report.factorisations), seconds, 1e-3 * body.axial());
+  rows.push_back({"iterations a step, " + way.name, mean, 0.0, std::nan(""), 0.0, note});
+  return mean;
+}
+
+}  // namespace
+
+FigureRows operators(bool quick) {
+  FigureRows rows;
+  addPrices(rows);
+  rows.push_back(oneElementAgainstTheCell());
+  std::vector<rve::Cell> bank;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) bank.push_back(sand(seed));
+  const int steps = quick ? 4 : 10;
+  const double network = study({"network", Operator::network, 0.0}, bank, steps, rows);
+  study({"network, frozen", Operator::network, 0.5}, bank, steps, rows);
+  study({"network, frozen and mixed", Operator::network, 0.5, 5}, bank, steps, rows);
+  const double uniform = study({"uniformStrain", Operator::uniformStrain, 0.0}, bank, steps, rows);
+  const double frozen = study({"uniformStrain, frozen", Operator::uniformStrain, 0.9}, bank, steps, rows);
+  const double mixed = study({"uniformStrain, frozen and mixed", Operator::uniformStrain, 0.9, 5}, bank, steps, rows);
+  rows.push_back({"iterations, uniformStrain over network", uniform / network, 0.0, 2.0, 0.6, "1.4 or more is wanted"});
+  rows.push_back({"iterations saved by mixing, %", 100.0 * (1.0 - mixed / frozen), 0.0, std::nan(""), 0.0});
+  return rows;
+}
+
+}  // namespace dovetail::benchmark
