@@ -28,5 +28,7 @@ struct Figure {
 
 // One source file each.
 FigureRows squareArrays(bool quick);
+FigureRows simpleShear(bool quick);
+FigureRows mixedLayer(bool quick);
 
 }  // namespace dovetail::benchmark

@@ -14,6 +14,8 @@ using namespace dovetail::benchmark;
 
 const std::vector<Figure> figures{
     {"square-arrays", "Liu 2018, Fig. 2.4", squareArrays},
+    {"simple-shear", "Liu 2018, Figs 2.7 and 2.10", simpleShear},
+    {"mixed-layer", "Liu 2018, Fig. 2.11", mixedLayer},
 };
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
