@@ -28,5 +28,6 @@ struct Figure {
 
 // One source file each.
 FigureRows squareArrays(bool quick);
+FigureRows spheres(bool quick);
 
 }  // namespace dovetail::benchmark

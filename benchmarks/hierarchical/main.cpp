@@ -14,6 +14,7 @@ using namespace dovetail::benchmark;
 
 const std::vector<Figure> figures{
     {"square-arrays", "Liu 2018, Fig. 2.4", squareArrays},
+    {"spheres", "Liu et al. 2015, Tables I, II", spheres},
 };
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }

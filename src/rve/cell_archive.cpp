@@ -28,7 +28,7 @@ void listFields(Archive& archive, State& state, Matrix& F, Matrix& dyad) {
   for (auto* field : {&state.x, &state.v, &state.spin, &state.force, &state.torque, &state.contacts.stretch})
     for (auto& component : *field) archive(component);
   auto& contacts = state.contacts;
-  archive(contacts.first, contacts.other, contacts.image, contacts.stiffness, contacts.roll);
+  archive(contacts.first, contacts.other, contacts.image, contacts.stiffness, contacts.roll, contacts.tangent);
 }
 
 /// FNV-1a, number by number, of what does not change; inertias tell discs from spheres.
@@ -36,8 +36,8 @@ std::uint64_t checksum(const Cell& cell) {
   std::uint64_t hash = 14695981039346656037u;
   const auto add = [&hash](double number) { hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211u; };
   const Springs& springs = cell.springs;
-  for (const double number : {springs.modulus, springs.stiffness, springs.tangential, springs.friction, springs.rolling,
-                              springs.rollingLimit, cell.density, cell.volume, cell.skin})
+  for (const double number : {springs.modulus, springs.stiffness, springs.hertz, springs.tangential, springs.friction,
+                              springs.rolling, springs.rollingLimit, cell.density, cell.volume, cell.skin})
     add(number);
   for (const std::vector<double>* numbers : {&cell.radius, &cell.mass, &cell.inertia})
     for (const double number : *numbers) add(number);
@@ -74,7 +74,9 @@ bool fits(const Cell& cell, const Contacts& contacts) {
   return std::ranges::all_of(contacts.other, isGrain) && contacts.image.size() == size &&
          std::ranges::all_of(contacts.image, [](std::uint8_t image) { return image < 27; }) &&
          contacts.stiffness.size() == size && finite(contacts.stiffness) &&
-         contacts.roll.size() == (cell.springs.rolls() ? size : 0) && finite(contacts.roll);
+         contacts.roll.size() == (cell.springs.rolls() ? size : 0) && finite(contacts.roll) &&
+         contacts.tangent.size() == (cell.springs.elasticSpheres() && cell.springs.slides() ? size : 0) &&
+         finite(contacts.tangent);
 }
 
 bool fits(const Cell& cell, const CellState& state) {

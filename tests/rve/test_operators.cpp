@@ -141,6 +141,9 @@ TEST(Operators, PeriodicFramesHaveTheOperatorOfCellsThatRepeat) {
 
 TEST(Operators, SlidingSoftens) {
   Cell cell = pressedDiscs(100);
+  Springs slippery = cell.springs;
+  slippery.friction = 0.2;
+  setSprings(cell, slippery);
   followPath(cell, plane(1.004, 0.0, 0.0, 0.992), {.rest = {.unbalanced = 1e-6}});
   ASSERT_GT(balance(cell).sliding, 0);
   EXPECT_LT(component(slidingNetwork(cell), 1, 1, 1, 1), component(network(cell), 1, 1, 1, 1));
