@@ -21,6 +21,7 @@ const std::vector<Figure> figures{
     {"string", "Liu 2018, Figs 4.4, 4.5", stringOfDiscs},
     {"biaxial", "Liu 2018, Figs 3.4, 3.10", biaxial},
     {"explicit-biaxial", "measured beforehand: 10 × 20 quad4, 800 cells", explicitBiaxial},
+    {"spheres", "Liu et al. 2015, Tables I, II", spheres},
 };
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }

@@ -1,4 +1,5 @@
-// What a step of a cell costs: discs and spheres with friction under shear, alone and with 512 cells in turn.
+// What a step of a cell costs: discs and both kinds of spheres with friction under shear, alone and with 512 cells in
+// turn.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -48,6 +49,9 @@ int main() {
       {.modulus = 6e8, .tangential = 0.8, .friction = 0.5});
   rve::compress(spheres, {.pressure = {1e6, 1e6, 1e6}, .friction = 0.3});
   report("spheres with friction", spheres, 512);
+  rve::setSprings(spheres, rve::hertzMindlin(29e7, 0.15, 0.5));
+  rve::compress(spheres, {.pressure = {1e6, 1e6, 1e6}, .friction = 0.3});
+  report("Hertz and Mindlin's spheres", spheres, 512);
   rve::CellState kept;
   const auto begin = std::chrono::steady_clock::now();
   for (int k = 0; k < 1000; ++k) {

@@ -85,8 +85,9 @@ Balance balance(const Cell& cell) {
 double storedEnergy(const Cell& cell) {
   double sum = 0.0;
   const double tangential = cell.springs.slides() ? cell.springs.tangential : 0.0;
+  const double share = cell.springs.elasticSpheres() ? 0.4 : 0.5;
   forEachTouch(cell, [&](const Touch& touch) {
-    sum += 0.5 * touch.stiffness * (touch.overlap * touch.overlap + tangential * squaredNorm(touch.stretch)) +
+    sum += share * touch.press * touch.overlap + 0.5 * tangential * touch.stiffness * squaredNorm(touch.stretch) +
            0.5 * rollingStiffness(cell, touch) * touch.roll * touch.roll;
   });
   forEachBond(cell, [&](const BondTouch& bond) { sum += bond.energy(); });

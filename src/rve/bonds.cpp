@@ -79,8 +79,7 @@ void bond(Cell& cell, const BondLaw& law) {
       return stiffness > 0.0 ? force / (share * stiffness) : 0.0;
     };
     const double hold = dot(contactForce(cell, touch), Vec3{-touch.normal.y, touch.normal.x, 0.0});
-    bonds[touch.contact] = {touch.distance + stretchFor(touch.stiffness * touch.overlap, law.normal), share,
-                            stretchFor(hold, law.shear),
+    bonds[touch.contact] = {touch.distance + stretchFor(touch.press, law.normal), share, stretchFor(hold, law.shear),
                             stretchFor(rollingStiffness(cell, touch) * touch.roll, law.bending)};
   });
   cell.bonds = law;

@@ -28,7 +28,8 @@ void listFields(Archive& archive, State& state, Matrix& F, Matrix& dyad) {
   for (auto* field : {&state.x, &state.v, &state.spin, &state.force, &state.torque, &state.contacts.stretch})
     for (auto& component : *field) archive(component);
   auto& contacts = state.contacts;
-  archive(contacts.first, contacts.other, contacts.image, contacts.stiffness, contacts.roll, contacts.bond);
+  archive(contacts.first, contacts.other, contacts.image, contacts.stiffness, contacts.roll, contacts.tangent,
+          contacts.bond);
 }
 
 /// FNV-1a, number by number, of what does not change; inertias tell discs from spheres.
@@ -37,9 +38,9 @@ std::uint64_t checksum(const Cell& cell) {
   const auto add = [&hash](double number) { hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211u; };
   const Springs& springs = cell.springs;
   for (const double number :
-       {springs.modulus, springs.stiffness, springs.tangential, springs.friction, springs.rolling, springs.rollingLimit,
-        cell.bonds.normal, cell.bonds.shear, cell.bonds.bending, cell.bonds.tensileStrength, cell.bonds.shearStrength,
-        cell.bonds.bendingStrength, cell.density, cell.volume, cell.skin})
+       {springs.modulus, springs.stiffness, springs.hertz, springs.tangential, springs.friction, springs.rolling,
+        springs.rollingLimit, cell.bonds.normal, cell.bonds.shear, cell.bonds.bending, cell.bonds.tensileStrength,
+        cell.bonds.shearStrength, cell.bonds.bendingStrength, cell.density, cell.volume, cell.skin})
     add(number);
   for (const std::vector<double>* numbers : {&cell.radius, &cell.mass, &cell.inertia})
     for (const double number : *numbers) add(number);
@@ -85,7 +86,8 @@ bool fits(const Cell& cell, const Contacts& contacts) {
          std::ranges::all_of(contacts.image, [](std::uint8_t image) { return image < 27; }) &&
          contacts.stiffness.size() == size && finite(contacts.stiffness) &&
          contacts.roll.size() == (cell.springs.rolls() ? size : 0) && finite(contacts.roll) &&
-         fits(cell, contacts.bond, size);
+         contacts.tangent.size() == (cell.springs.elasticSpheres() && cell.springs.slides() ? size : 0) &&
+         finite(contacts.tangent) && fits(cell, contacts.bond, size);
 }
 
 bool fits(const Cell& cell, const CellState& state) {

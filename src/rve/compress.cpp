@@ -28,9 +28,15 @@ double pressureOff(const Cell& cell, const Vec3& wanted) {
   return most;
 }
 
+/// k_n, N/m, of mean grains that press each other with the force of a pressure on their section.
+double meanSlope(const Cell& cell, double pressure) {
+  const double d = meanDiameter(cell), k = normalStiffness(cell.springs, 0.5 * d, 0.5 * d);
+  return slopeAt(cell.springs, k, std::pow(1.5 * pressure * d * d / k, 2.0 / 3.0));
+}
+
 /// Strain of one step: in proportion to what is missing, no faster than the inertial number allows.
 Eigen::Matrix3d servoStep(const Cell& cell, const CompressionSettings& settings, double dt) {
-  const double d = meanDiameter(cell), k = normalStiffness(cell.springs, 0.5 * d, 0.5 * d);
+  const double d = meanDiameter(cell), k = meanSlope(cell, settings.pressure.x);
   const double stiffness = k / (cell.shape == Shape::disc ? norm(cell.state.lattice.period[2]) : d);
   const double mean = stress(cell).pressure, least = 1e-2 * settings.pressure.x;
   const double fastest = settings.inertialNumber * std::sqrt(std::max(mean, least) / cell.density) / d * dt;

@@ -102,6 +102,9 @@ private:
   std::vector<int> first_, member_;
 };
 
+/// Overlap in radii that elastic spheres which touch nobody shall be able to meet.
+constexpr double loneOverlap = 1e-3;
+
 void list(const Cell& cell, const std::array<Vec3, 3>& rows, Contacts& contacts) {
   const Bins bins(cell, rows, listReach(cell));
   struct Found {
@@ -149,36 +152,21 @@ void inherit(Contacts& contacts, const Contacts& old, const geometry::IntegerMat
           if (!old.stretch[k].empty()) contacts.stretch[k][to] = old.stretch[k][from];
         if (!old.roll.empty()) contacts.roll[to] = old.roll[from];
         if (!old.bond.empty()) contacts.bond[to] = old.bond[from];
+        if (!old.tangent.empty()) contacts.tangent[to] = old.tangent[from];
       }
     }
 }
 
-/// 2/ω with ω² ≤ max 2 Σ k/m over the pairs of a grain, k the stiffer of pressing and sliding with turning: the matrix
-/// of a pair is at most twice its blocks of each grain, and in one block normal and tangent are orthogonal.
-double criticalStep(const Cell& cell) {
-  const Springs& springs = cell.springs;
-  const double roundness = cell.shape == Shape::disc ? 0.5 : 0.4;
-  const double tangent = springs.tangential * (1.0 + 1.0 / roundness);
-  const double turn = springs.rolls() ? springs.rolling * springs.tangential / roundness : 0.0;
-  const double factor = std::max(1.0, (springs.slides() ? tangent : 0.0) + turn);
-  std::vector<double> sum(cell.size(), 0.0);
-  const Contacts& contacts = cell.state.contacts;
-  const double radii = *std::max_element(cell.radius.begin(), cell.radius.end()) /
-                       *std::min_element(cell.radius.begin(), cell.radius.end());
-  // A roll of k_r = β k_t r_i r_j is felt by the smaller grain as β k_t r_j / r_i of its own.
-  const double widest = springs.rolls() ? std::max(1.0, radii) : 1.0;
-  for (std::size_t i = 0; i < cell.size(); ++i)
+/// Σ k_n over the pairs of a grain, N/m.
+std::vector<double> sumsOf(const Contacts& contacts, std::size_t grains) {
+  std::vector<double> sums(grains, 0.0);
+  for (std::size_t i = 0; i < grains; ++i)
     for (int c = contacts.first[i]; c < contacts.first[i + 1]; ++c) {
-      const double k = factor * widest * contacts.stiffness[static_cast<std::size_t>(c)];
-      sum[i] += k;
-      sum[static_cast<std::size_t>(contacts.other[static_cast<std::size_t>(c)])] += k;
+      const double k = contacts.stiffness[static_cast<std::size_t>(c)];
+      sums[i] += k;
+      sums[static_cast<std::size_t>(contacts.other[static_cast<std::size_t>(c)])] += k;
     }
-  double omega2 = 0.0;
-  for (std::size_t i = 0; i < cell.size(); ++i) {
-    const double alone = factor * widest * normalStiffness(springs, cell.radius[i], cell.radius[i]);
-    omega2 = std::max(omega2, 2.0 * std::max(sum[i], alone) / cell.mass[i]);
-  }
-  return 2.0 / std::sqrt(omega2);
+  return sums;
 }
 
 }  // namespace
@@ -210,6 +198,22 @@ double shareOf(const Frame& frame, int p, int q) {
   return 1.0 / places;
 }
 
+double criticalStep(const Cell& cell, std::span<const double> stiffness) {
+  const Springs& springs = cell.springs;
+  const double roundness = cell.shape == Shape::disc ? 0.5 : 0.4;
+  const double tangent = springs.tangential * (1.0 + 1.0 / roundness);
+  const double turn = springs.rolls() ? springs.rolling * springs.tangential / roundness : 0.0;
+  const double factor = std::max(1.0, (springs.slides() ? tangent : 0.0) + turn);
+  const auto [least, most] = std::minmax_element(cell.radius.begin(), cell.radius.end());
+  // A roll of k_r = β k_t r_i r_j is felt by the smaller grain as β k_t r_j / r_i of its own.
+  const double widest = springs.rolls() ? *most / *least : 1.0;
+  // Of grains that touch nobody the smallest would swing fastest.
+  const double alone = slopeAt(springs, normalStiffness(springs, *least, *least), loneOverlap * *least);
+  double omega2 = alone / cell.mass[static_cast<std::size_t>(least - cell.radius.begin())];
+  for (std::size_t i = 0; i < cell.size(); ++i) omega2 = std::max(omega2, stiffness[i] / cell.mass[i]);
+  return 2.0 / std::sqrt(2.0 * factor * widest * omega2);
+}
+
 void renew(Cell& cell) {
   CellState& s = cell.state;
   const geometry::IntegerMatrix map = geometry::reduce(s.lattice);
@@ -228,11 +232,12 @@ void renew(Cell& cell) {
   for (std::size_t k = 0; k < (cell.shape == Shape::disc ? 1u : 3u); ++k) contacts.stretch[k].assign(size, 0.0);
   if (cell.springs.rolls()) contacts.roll.assign(size, 0.0);
   if (!s.contacts.bond.empty()) contacts.bond.resize(size);
+  if (cell.springs.elasticSpheres() && cell.springs.slides()) contacts.tangent.assign(size, 0.0);
   inherit(contacts, s.contacts, map, was);
   if (!contacts.bond.empty()) boundStiffness(cell, s.contacts, contacts);
   s.contacts = std::move(contacts);
   s.room = cell.skin;
-  s.criticalStep = criticalStep(cell);
+  if (!cell.springs.elasticSpheres()) s.criticalStep = criticalStep(cell, sumsOf(s.contacts, cell.size()));
   leaveToBonds(s.contacts);
 }
 

@@ -1,6 +1,8 @@
 // Who may touch whom.
 #pragma once
 
+#include <span>
+
 #include "dovetail/rve/cell.hpp"
 
 namespace dovetail::rve {
@@ -9,6 +11,11 @@ namespace dovetail::rve {
 /// remember. Sets the room and the critical step.
 /// @throws NumericalError if faces are closer than two of the largest diameters and skins
 void renew(Cell& cell);
+
+/// 2/ω with ω² ≤ max 2 Σ k/m over the pairs of a grain, k the stiffer of pressing and sliding with turning: the matrix
+/// of a pair is at most twice its blocks of each grain, and in one block normal and tangent are orthogonal.
+/// @param stiffness  Σ k_n of each grain, N/m
+double criticalStep(const Cell& cell, std::span<const double> stiffness);
 
 /// Largest distance of centres at which pairs are listed, m.
 double listReach(const Cell& cell);

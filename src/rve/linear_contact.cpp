@@ -77,7 +77,7 @@ ContactMatrix linearised(const Cell& cell, const Touch& touch, const Linearisati
   const Vector3d n = vector(touch.normal);
   const Vector3d force = what.prestress ? vector(contactForce(cell, touch)) : Vector3d::Zero();
   const Matrix3d tilt = (Matrix3d::Identity() - n * n.transpose()) / d;
-  const double press = what.prestress ? touch.stiffness * touch.overlap : 0.0;
+  const double press = what.prestress ? touch.press : 0.0;
   const Hold hold = holdOf(cell, touch, what, armI, armJ);
   ContactMatrix m = ContactMatrix::Zero();
   m.block<3, 3>(0, 0) = touch.stiffness * n * n.transpose() - press * tilt + hold.byBranch;

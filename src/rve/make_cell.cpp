@@ -36,6 +36,13 @@ void check(const Grains& grains, const geometry::Lattice& lattice) {
                      "let the first two lie in z = 0, and the third, which does not repeat, along z");
 }
 
+void checkShape(Shape shape, const Springs& springs) {
+  if (springs.rolls() && shape == Shape::sphere)
+    throw InputError("spheres resist rolling", where, "leave rolling resistance to discs");
+  if (springs.elasticSpheres() && shape == Shape::disc)
+    throw InputError("discs have the springs of elastic spheres", where, "give discs a modulus or a stiffness");
+}
+
 void setMasses(Cell& cell, const Grains& grains, double thickness) {
   for (const double r : cell.radius) {
     const bool disc = cell.shape == Shape::disc;
@@ -64,15 +71,26 @@ void place(Cell& cell, const Grains& grains) {
 void validate(const Springs& springs) {
   requireNonNegative(springs.modulus, "modulus of the springs");
   requireNonNegative(springs.stiffness, "stiffness of the springs");
-  if ((springs.modulus > 0.0) == (springs.stiffness > 0.0))
-    throw InputError("the modulus is " + formatNumber(springs.modulus) + " Pa and the stiffness " +
-                         formatNumber(springs.stiffness) + " N/m",
-                     "springs", "give one of them, and 0 for the other");
+  requireNonNegative(springs.hertz, "modulus of elastic spheres");
+  if ((springs.modulus > 0.0) + (springs.stiffness > 0.0) + (springs.hertz > 0.0) != 1)
+    throw InputError("the modulus is " + formatNumber(springs.modulus) + " Pa, the stiffness " +
+                         formatNumber(springs.stiffness) + " N/m, the modulus of elastic spheres " +
+                         formatNumber(springs.hertz) + " Pa",
+                     "springs", "give one of them, and 0 for the others");
   requireNonNegative(springs.tangential, "ratio of tangential and normal stiffness");
   if (!(springs.friction >= 0.0))
     throw InputError("friction is " + formatNumber(springs.friction), "springs", "give a coefficient of 0 or more");
   requireNonNegative(springs.rolling, "ratio of rolling stiffness");
   requireNonNegative(springs.rollingLimit, "limit of rolling resistance");
+}
+
+Springs hertzMindlin(double shearModulus, double poisson, double friction) {
+  requirePositive(shearModulus, "shear modulus of the spheres");
+  if (!(poisson > -1.0 && poisson <= 0.5))
+    throw InputError("Poisson's ratio is " + formatNumber(poisson), "springs", "give one above -1, of at most 0.5");
+  return {.hertz = shearModulus / (1.0 - poisson),
+          .tangential = 2.0 * (1.0 - poisson) / (2.0 - poisson),
+          .friction = friction};
 }
 
 Cell makeCell(const Grains& grains, const geometry::Lattice& lattice, const Springs& springs) {
@@ -81,8 +99,7 @@ Cell makeCell(const Grains& grains, const geometry::Lattice& lattice, const Spri
   Cell cell;
   cell.shape = grains.shape;
   cell.springs = springs;
-  if (springs.rolls() && grains.shape == Shape::sphere)
-    throw InputError("spheres resist rolling", where, "leave rolling resistance to discs");
+  checkShape(grains.shape, springs);
   cell.radius = grains.radius;
   cell.density = grains.density;
   cell.skin = 0.2 * meanDiameter(cell) * 0.5;
@@ -119,10 +136,11 @@ double solidFraction(const Cell& cell) {
 
 void setSprings(Cell& cell, const Springs& springs) {
   validate(springs);
-  if (springs.rolls() && cell.shape == Shape::sphere)
-    throw InputError("spheres resist rolling", where, "leave rolling resistance to discs");
+  checkShape(cell.shape, springs);
   cell.springs = springs;
-  cell.state.contacts.roll.resize(springs.rolls() ? cell.state.contacts.size() : 0, 0.0);
+  Contacts& contacts = cell.state.contacts;
+  contacts.roll.resize(springs.rolls() ? contacts.size() : 0, 0.0);
+  contacts.tangent.resize(springs.elasticSpheres() && springs.slides() ? contacts.size() : 0, 0.0);
   renew(cell);
   sweep(cell, 0.0, Eigen::Matrix3d::Zero());
 }

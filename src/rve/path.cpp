@@ -36,7 +36,7 @@ void check(const Cell& cell, const Eigen::Matrix3d& F, const PathSettings& setti
 
 /// Pressures below which durations are no longer told by the stress.
 double leastPressure(const Cell& cell) {
-  const double r = 0.5 * meanDiameter(cell), k = normalStiffness(cell.springs, r, r);
+  const double r = 0.5 * meanDiameter(cell), k = slopeAt(cell.springs, normalStiffness(cell.springs, r, r), 1e-4 * r);
   return 1e-6 * k / (cell.shape == Shape::disc ? norm(cell.state.lattice.period[2]) : 2.0 * r);
 }
 

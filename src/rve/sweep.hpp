@@ -13,7 +13,7 @@ void sweep(Cell& cell, double dt, const Eigen::Matrix3d& L);
 
 template <bool slides, bool rolls>
 void sweepDiscs(Cell& cell, double dt, const Eigen::Matrix3d& L);
-template <bool slides>
+template <bool slides, bool elastic>
 void sweepSpheres(Cell& cell, double dt, const Eigen::Matrix3d& L);
 
 /// What a contact's image is away by, m, by Contacts::image.

@@ -15,6 +15,7 @@ struct Touch {
   double distance;      ///< |b|, m
   double overlap;       ///< m
   double stiffness;     ///< k_n, N/m
+  double press;         ///< normal force, N
   Vec3 stretch;         ///< of the tangential spring, m
   double roll;          ///< rad
 };
@@ -39,14 +40,15 @@ void forEachTouch(const Cell& cell, const Visit& visit) {
       const Vec3 n = b / d;
       const Vec3 u = disc ? contacts.stretch[0][at] * Vec3{-n.y, n.x, 0.0}
                           : Vec3{contacts.stretch[0][at], contacts.stretch[1][at], contacts.stretch[2][at]};
-      visit(Touch{at, i, j, b, n, d, reach - d, contacts.stiffness[at], u,
-                  contacts.roll.empty() ? 0.0 : contacts.roll[at]});
+      const double overlap = reach - d, k = slopeAt(cell.springs, contacts.stiffness[at], overlap);
+      const double press = (cell.springs.elasticSpheres() ? 2.0 / 3.0 : 1.0) * k * overlap;
+      visit(Touch{at, i, j, b, n, d, overlap, k, press, u, contacts.roll.empty() ? 0.0 : contacts.roll[at]});
     }
 }
 
 /// Where the tangential spring slips, m.
 inline double slipLimit(const Springs& springs, const Touch& touch) {
-  return springs.slides() ? springs.friction * touch.overlap / springs.tangential : 0.0;
+  return springs.slides() ? springs.friction * touch.press / (springs.tangential * touch.stiffness) : 0.0;
 }
 
 /// k_r, N m.
@@ -59,7 +61,7 @@ inline double rollingStiffness(const Cell& cell, const Touch& touch) {
 /// Force on i, N.
 inline Vec3 contactForce(const Cell& cell, const Touch& touch) {
   const double hold = cell.springs.slides() ? cell.springs.tangential * touch.stiffness : 0.0;
-  return (-touch.stiffness * touch.overlap) * touch.normal + hold * touch.stretch;
+  return -touch.press * touch.normal + hold * touch.stretch;
 }
 
 }  // namespace dovetail::rve

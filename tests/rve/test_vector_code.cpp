@@ -18,12 +18,13 @@ std::vector<double> numbersAfterSteps(Cell cell) {
 }
 
 TEST(VectorCode, CellsHaveTheSameDigits) {
-  Cell rolling = pressedDiscs(60);
+  Cell rolling = pressedDiscs(60), elastic = pressedSpheres(48);
   Springs springs = rolling.springs;
   springs.rolling = 0.5;
   springs.rollingLimit = 0.1;
   setSprings(rolling, springs);
-  for (const Cell& cell : {pressedDiscs(60), rolling, pressedSpheres(48)})
+  setSprings(elastic, hertzMindlin(29e7, 0.15, 0.5));
+  for (const Cell& cell : {pressedDiscs(60), rolling, pressedSpheres(48), elastic})
     test::expectSameDigitsOfEveryVectorCode("cell", [&] { return numbersAfterSteps(cell); });
 }
 

@@ -28,9 +28,11 @@ struct Contacts {
   std::vector<int> first{0};
   std::vector<int> other;           ///< j
   std::vector<std::uint8_t> image;  ///< (n₀ + 1) + 3 (n₁ + 1) + 9 (n₂ + 1), n of −1, 0, 1
-  std::vector<double> stiffness;    ///< k_n, N/m; in a framed cell times the share of the contact that lies here
+  std::vector<double> stiffness;    ///< k_n, N/m (elastic spheres: k_n/√δ); in a framed cell times the share of the
+                                    ///< contact that lies here
   Components stretch;               ///< of the tangential spring, m; discs: the first alone, along e_z × n
   std::vector<double> roll;         ///< of the rolling spring, rad; empty where grains roll freely
+  std::vector<double> tangent;      ///< k_t of elastic spheres that slide, N/m, as it was last; else empty
   std::vector<Bond> bond;           ///< empty if there are none; bonded contacts have `stiffness` 0
 
   std::size_t size() const { return other.size(); }
@@ -55,7 +57,7 @@ struct CellState {
   Contacts contacts;
   Eigen::Matrix3d dyad = Eigen::Matrix3d::Zero();  ///< Σ f ⊗ b, J; f acts on i
   double room = 0.0;                               ///< m that pairs may still approach before the list is made anew
-  double criticalStep = 0.0;                       ///< s, bound that holds until then
+  double criticalStep = 0.0;                       ///< s, bound that holds until then; elastic spheres: now
   EnergyBook book;
 };
 
