@@ -1,6 +1,7 @@
 // Packings like those of Liu 2018: dense, made without friction, cut open.
 #pragma once
 
+#include <Eigen/LU>
 #include <cstdint>
 
 #include "dovetail/core/error.hpp"

@@ -234,7 +234,7 @@ void renew(Cell& cell) {
   if (!s.contacts.bond.empty()) contacts.bond.resize(size);
   if (cell.springs.elasticSpheres() && cell.springs.slides()) contacts.tangent.assign(size, 0.0);
   inherit(contacts, s.contacts, map, was);
-  if (!contacts.bond.empty()) boundStiffness(cell, s.contacts, contacts);
+  if (!s.contacts.bond.empty()) boundStiffness(cell, s.contacts, contacts);
   s.contacts = std::move(contacts);
   s.room = cell.skin;
   if (!cell.springs.elasticSpheres()) s.criticalStep = criticalStep(cell, sumsOf(s.contacts, cell.size()));
