@@ -94,7 +94,8 @@ private:
     Eigen::Map<RowMajor>(answer.P.data()) = rve::nominalStress(cell_);
     const rve::EnergyBook &now = cell_.state.book, &before = committed_.book;
     answer.energy = (rve::storedEnergy(cell_) + rve::kineticEnergy(cell_)) / cell_.volume;
-    answer.dissipated = (now.friction - before.friction + now.damping - before.damping) / cell_.volume;
+    answer.dissipated =
+        (now.friction - before.friction + now.damping - before.damping + now.bonds - before.bonds) / cell_.volume;
   }
 
   rve::Cell cell_;

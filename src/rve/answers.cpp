@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bonded.hpp"
 #include "dovetail/rve/cell.hpp"
 #include "projection.hpp"
 #include "touching.hpp"
@@ -62,6 +63,13 @@ Balance balance(const Cell& cell) {
                   : touch.stiffness / normalStiffness(cell.springs, cell.radius[touch.i], cell.radius[touch.j]);
     if (cell.springs.slides() && norm(touch.stretch) >= (1.0 - 1e-9) * slipLimit(cell.springs, touch)) ++found.sliding;
   });
+  forEachBond(cell, [&](const BondTouch& bond) {
+    ++found.contacts;
+    ++found.bonds;
+    touched[bond.i] = touched[bond.j] = 1;
+    forces += norm(bond.forceOnI());
+    shares += bond.share;
+  });
   std::size_t grains = cell.size();
   if (!cell.frame.empty())
     for (const std::vector<int>& group : cell.frame.alike) grains -= group.size() - 1;
@@ -81,6 +89,7 @@ double storedEnergy(const Cell& cell) {
     sum += 0.5 * touch.stiffness * (touch.overlap * touch.overlap + tangential * squaredNorm(touch.stretch)) +
            0.5 * rollingStiffness(cell, touch) * touch.roll * touch.roll;
   });
+  forEachBond(cell, [&](const BondTouch& bond) { sum += bond.energy(); });
   return sum;
 }
 

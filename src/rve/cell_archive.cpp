@@ -28,7 +28,7 @@ void listFields(Archive& archive, State& state, Matrix& F, Matrix& dyad) {
   for (auto* field : {&state.x, &state.v, &state.spin, &state.force, &state.torque, &state.contacts.stretch})
     for (auto& component : *field) archive(component);
   auto& contacts = state.contacts;
-  archive(contacts.first, contacts.other, contacts.image, contacts.stiffness, contacts.roll);
+  archive(contacts.first, contacts.other, contacts.image, contacts.stiffness, contacts.roll, contacts.bond);
 }
 
 /// FNV-1a, number by number, of what does not change; inertias tell discs from spheres.
@@ -36,8 +36,10 @@ std::uint64_t checksum(const Cell& cell) {
   std::uint64_t hash = 14695981039346656037u;
   const auto add = [&hash](double number) { hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211u; };
   const Springs& springs = cell.springs;
-  for (const double number : {springs.modulus, springs.stiffness, springs.tangential, springs.friction, springs.rolling,
-                              springs.rollingLimit, cell.density, cell.volume, cell.skin})
+  for (const double number :
+       {springs.modulus, springs.stiffness, springs.tangential, springs.friction, springs.rolling, springs.rollingLimit,
+        cell.bonds.normal, cell.bonds.shear, cell.bonds.bending, cell.bonds.tensileStrength, cell.bonds.shearStrength,
+        cell.bonds.bendingStrength, cell.density, cell.volume, cell.skin})
     add(number);
   for (const std::vector<double>* numbers : {&cell.radius, &cell.mass, &cell.inertia})
     for (const double number : *numbers) add(number);
@@ -61,6 +63,14 @@ bool fits(const Cell& cell, const Components& field, Use use) {
   return true;
 }
 
+/// Bonds are all there or none, and a cell without a law has none.
+bool fits(const Cell& cell, const std::vector<Bond>& bonds, std::size_t contacts) {
+  if (bonds.empty()) return true;
+  return bonds.size() == contacts && cell.bonds.normal > 0.0 && std::ranges::all_of(bonds, [](const Bond& b) {
+           return std::isfinite(b.length + b.share + b.stretch + b.turn) && b.length >= 0.0 && b.share >= 0.0;
+         });
+}
+
 bool fits(const Cell& cell, const Contacts& contacts) {
   const std::size_t n = cell.size(), size = contacts.size();
   if (contacts.first.size() != n + 1 || contacts.first.front() != 0 ||
@@ -74,7 +84,8 @@ bool fits(const Cell& cell, const Contacts& contacts) {
   return std::ranges::all_of(contacts.other, isGrain) && contacts.image.size() == size &&
          std::ranges::all_of(contacts.image, [](std::uint8_t image) { return image < 27; }) &&
          contacts.stiffness.size() == size && finite(contacts.stiffness) &&
-         contacts.roll.size() == (cell.springs.rolls() ? size : 0) && finite(contacts.roll);
+         contacts.roll.size() == (cell.springs.rolls() ? size : 0) && finite(contacts.roll) &&
+         fits(cell, contacts.bond, size);
 }
 
 bool fits(const Cell& cell, const CellState& state) {
@@ -83,7 +94,7 @@ bool fits(const Cell& cell, const CellState& state) {
   const EnergyBook& book = state.book;
   return state.F.allFinite() && state.F.determinant() > 0.0 && state.dyad.allFinite() && state.lattice.volume() > 0.0 &&
          std::isfinite(state.room) && std::isfinite(state.criticalStep) && state.criticalStep > 0.0 &&
-         std::isfinite(book.work + book.friction + book.damping) && fits(cell, state.x, Use::moves) &&
+         std::isfinite(book.work + book.friction + book.damping + book.bonds) && fits(cell, state.x, Use::moves) &&
          fits(cell, state.v, Use::moves) && fits(cell, state.force, Use::moves) && fits(cell, state.spin, Use::turns) &&
          fits(cell, state.torque, Use::turns) && fits(cell, state.contacts);
 }
@@ -96,6 +107,7 @@ struct Made {
   std::array<std::uint8_t, 3> repeats{};
   std::array<Vec3, 3> period;
   Springs springs;
+  BondLaw bonds;
   double density = 0.0, volume = 0.0;
   std::vector<Vec3> centre;
   std::vector<double> radius;
@@ -104,13 +116,21 @@ struct Made {
 template <class Archive, class AnyMade>
 requires std::is_same_v<std::remove_const_t<AnyMade>, Made>
 void archiveFields(Archive& archive, AnyMade& made) {
-  archive(made.isDisc, made.repeats, made.period, made.springs, made.density, made.volume, made.centre, made.radius);
+  archive(made.isDisc, made.repeats, made.period, made.springs, made.bonds, made.density, made.volume, made.centre,
+          made.radius);
 }
 
 Made madeOf(const Cell& cell) {
   const CellState& state = cell.state;
-  Made made{
-      cell.shape == Shape::disc, {}, state.lattice.period, cell.springs, cell.density, cell.volume, {}, cell.radius};
+  Made made{cell.shape == Shape::disc,
+            {},
+            state.lattice.period,
+            cell.springs,
+            cell.bonds,
+            cell.density,
+            cell.volume,
+            {},
+            cell.radius};
   for (std::size_t k = 0; k < 3; ++k) made.repeats[k] = state.lattice.axes[k];
   for (std::size_t i = 0; i < cell.size(); ++i)
     made.centre.push_back({state.x[0][i], state.x[1][i], state.x[2].empty() ? 0.0 : state.x[2][i]});
@@ -122,6 +142,7 @@ Cell cellOf(const Made& made) {
   for (std::size_t k = 0; k < 3; ++k) lattice.axes[k] = made.repeats[k] != 0;
   Cell cell = makeCell({made.isDisc ? Shape::disc : Shape::sphere, made.centre, made.radius, made.density}, lattice,
                        made.springs);
+  cell.bonds = made.bonds;
   cell.volume = requirePositive(made.volume, "volume of a cell");
   return cell;
 }

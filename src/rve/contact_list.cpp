@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "bonded.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 
@@ -147,6 +148,7 @@ void inherit(Contacts& contacts, const Contacts& old, const geometry::IntegerMat
         for (std::size_t k = 0; k < 3; ++k)
           if (!old.stretch[k].empty()) contacts.stretch[k][to] = old.stretch[k][from];
         if (!old.roll.empty()) contacts.roll[to] = old.roll[from];
+        if (!old.bond.empty()) contacts.bond[to] = old.bond[from];
       }
     }
 }
@@ -225,10 +227,13 @@ void renew(Cell& cell) {
   const std::size_t size = contacts.size();
   for (std::size_t k = 0; k < (cell.shape == Shape::disc ? 1u : 3u); ++k) contacts.stretch[k].assign(size, 0.0);
   if (cell.springs.rolls()) contacts.roll.assign(size, 0.0);
+  if (!s.contacts.bond.empty()) contacts.bond.resize(size);
   inherit(contacts, s.contacts, map, was);
+  if (!contacts.bond.empty()) boundStiffness(cell, s.contacts, contacts);
   s.contacts = std::move(contacts);
   s.room = cell.skin;
   s.criticalStep = criticalStep(cell);
+  leaveToBonds(s.contacts);
 }
 
 }  // namespace dovetail::rve

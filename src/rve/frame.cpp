@@ -30,6 +30,8 @@ Condition atCorner(Condition one, Condition other) {
 void check(const Cell& cell, const Conditions& conditions) {
   if (cell.shape != Shape::disc) throw InputError("the grains are spheres", where, "let spheres repeat");
   if (!cell.frame.empty()) throw InputError("the cell has a frame already", where, "give a cell that repeats");
+  if (!cell.state.contacts.bond.empty())
+    throw InputError("the cell is bonded", where, "cut a cell that is not, and bond it then");
   const auto differ = [](Condition a, Condition b) { return (a == Condition::periodic) != (b == Condition::periodic); };
   if (differ(conditions.left, conditions.right) || differ(conditions.bottom, conditions.top))
     throw InputError("a side is periodic and the opposite one is not", where, "make both periodic, or none");

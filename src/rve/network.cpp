@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bonded.hpp"
 #include "dovetail/core/error.hpp"
 
 namespace dovetail::rve {
@@ -11,12 +12,12 @@ namespace {
 /// Sᵀ m, where S makes branch and turns of both grains of the strains (k, n): δb = e_k b_n, and half the curl.
 template <class Matrix>
 Eigen::Matrix<double, Eigen::Dynamic, Matrix::ColsAtCompileTime, 0, 9, Matrix::MaxColsAtCompileTime> ofStrains(
-    const Touch& touch, int dimension, const Matrix& m) {
+    const Vec3& branch, int dimension, const Matrix& m) {
   Eigen::Matrix<double, Eigen::Dynamic, Matrix::ColsAtCompileTime, 0, 9, Matrix::MaxColsAtCompileTime> result(
       dimension * dimension, m.cols());
   for (int k = 0; k < dimension; ++k)
     for (int n = 0; n < dimension; ++n) {
-      result.row(dimension * k + n) = touch.branch[n] * m.row(k);
+      result.row(dimension * k + n) = branch[n] * m.row(k);
       if (k == n) continue;
       const int axis = 3 - k - n;
       const double turn = (n + 1) % 3 == k ? 0.5 : -0.5;  // e_n × e_k = ± e_axis
@@ -33,7 +34,14 @@ Network::Network(const Cell& cell, const Linearisation& what)
   forceByStrain_ = Eigen::MatrixXd::Zero(size_, strains_);
   stressByUnknown_ = Eigen::MatrixXd::Zero(strains_, size_);
   stressByStrain_ = Eigen::MatrixXd::Zero(strains_, strains_);
-  forEachTouch(cell, [&](const Touch& touch) { add(touch, what); });
+  forEachTouch(cell, [&](const Touch& touch) {
+    stiffest_ = std::max(stiffest_, touch.stiffness);
+    add(touch.i, touch.j, touch.branch, linearised(cell, touch, what));
+  });
+  forEachBond(cell, [&](const BondTouch& bond) {
+    stiffest_ = std::max(stiffest_, bond.normalStiffness);
+    add(bond.i, bond.j, bond.branch, linearised(cell, bond, what));
+  });
   addMultipliers();
 }
 
@@ -63,22 +71,20 @@ void Network::numberUnknowns() {
   matrix_.emplace(std::move(first), multiplied ? nodes_ : -1);
 }
 
-void Network::add(const Touch& touch, const Linearisation& what) {
+void Network::add(std::size_t i, std::size_t j, const Vec3& branch, ContactMatrix m) {
   // Virtual work of the contact: force on b, less moments on turns.
-  ContactMatrix m = linearised(cell_, touch, what);
   m.bottomRows<6>() *= -1.0;
-  stiffest_ = std::max(stiffest_, touch.stiffness);
   const ContactMatrix transposed = m.transpose();
-  const auto stressed = ofStrains(touch, cell_.dimension(), m);
-  const auto strained = ofStrains(touch, cell_.dimension(), transposed);
-  stressByStrain_ += ofStrains(touch, cell_.dimension(), strained.transpose().eval());
+  const auto stressed = ofStrains(branch, cell_.dimension(), m);
+  const auto strained = ofStrains(branch, cell_.dimension(), transposed);
+  stressByStrain_ += ofStrains(branch, cell_.dimension(), strained.transpose().eval());
   // How b and the turns follow the components of both grains that are unknown.
   std::array<int, 12> follows, at;
   std::array<double, 12> sign;
   std::size_t count = 0;
   for (const int grain : {0, 1})
     for (int k = 0; k < perGrain_; ++k) {
-      const int u = unknown(grain == 0 ? touch.i : touch.j, k), component = componentOf(k);
+      const int u = unknown(grain == 0 ? i : j, k), component = componentOf(k);
       if (u < 0) continue;
       follows[count] = component < 3 ? component : component + 3 * grain;
       sign[count] = component < 3 && grain == 0 ? -1.0 : 1.0;
@@ -94,8 +100,8 @@ void Network::add(const Touch& touch, const Linearisation& what) {
     forceByStrain_.row(at[c]) -= sign[c] * strained.col(follows[c]).transpose();
     stressByUnknown_.col(at[c]) += sign[c] * stressed.col(follows[c]);
   }
-  const int i = node_[touch.i], j = node_[touch.j];
-  matrix_->add(i < 0 ? j : i, i < 0 ? -1 : j, forces);
+  const int a = node_[i], b = node_[j];
+  matrix_->add(a < 0 ? b : a, a < 0 ? -1 : b, forces);
 }
 
 void Network::addMultipliers() {

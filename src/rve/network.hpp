@@ -26,7 +26,8 @@ public:
 
 private:
   void numberUnknowns();
-  void add(const Touch& touch, const Linearisation& what);
+  /// Both grains of a contact, its branch, m, force and moments by these.
+  void add(std::size_t i, std::size_t j, const Vec3& branch, ContactMatrix m);
   void addMultipliers();
   void factor();
   int componentOf(int k) const { return perGrain_ == 3 ? discComponents[static_cast<std::size_t>(k)] : k; }

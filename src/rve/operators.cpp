@@ -5,7 +5,6 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/rve/equilibrium.hpp"
 #include "network.hpp"
 
 namespace dovetail::rve {
@@ -41,6 +40,27 @@ Eigen::Matrix3d probed(Cell cell, const Eigen::Matrix3d& F, const ProbeSettings&
   return nominalStress(cell);
 }
 
+Eigen::Matrix3d answered(Cell cell, const Eigen::Matrix3d& F, const PathSettings& path) {
+  const RestReport rest = followPath(cell, F, path).rest;
+  if (!rest.atRest)
+    throw NumericalError("forces are out of balance by " + formatNumber(rest.unbalanced), "path probe of a cell",
+                         "allow more steps of rest, or a larger tolerance");
+  return nominalStress(cell);
+}
+
+/// What changes by each component, at the tangent's columns.
+template <class Slope>
+Tangent byComponents(const Cell& cell, const Slope& slope) {
+  Tangent tangent = Tangent::Zero();
+  for (int k = 0; k < cell.dimension(); ++k)
+    for (int L = 0; L < cell.dimension(); ++L) {
+      const Eigen::Matrix3d change = slope(k, L);
+      for (int i = 0; i < 3; ++i)
+        for (int J = 0; J < 3; ++J) tangent(3 * i + J, 3 * k + L) = change(i, J);
+    }
+  return tangent;
+}
+
 }  // namespace
 
 Tangent network(const Cell& cell) { return pulledBack(cell, Network(cell, {}).relaxedStressByStrain()); }
@@ -63,18 +83,34 @@ Tangent elasticProbe(const Cell& start, const ProbeSettings& settings) {
     sticking.friction = std::numeric_limits<double>::infinity();
     setSprings(cell, sticking);
   }
-  Tangent tangent = Tangent::Zero();
-  for (int k = 0; k < cell.dimension(); ++k)
-    for (int L = 0; L < cell.dimension(); ++L) {
-      Eigen::Matrix3d more = cell.state.F, less = more;
-      more(k, L) += settings.strain;
-      less(k, L) -= settings.strain;
-      const Eigen::Matrix3d slope =
-          (probed(cell, more, settings) - probed(cell, less, settings)) / (2.0 * settings.strain);
-      for (int i = 0; i < 3; ++i)
-        for (int J = 0; J < 3; ++J) tangent(3 * i + J, 3 * k + L) = slope(i, J);
-    }
-  return tangent;
+  const double never = std::numeric_limits<double>::infinity();
+  cell.bonds.tensileStrength = cell.bonds.shearStrength = cell.bonds.bendingStrength = never;
+  return byComponents(cell, [&](int k, int L) -> Eigen::Matrix3d {
+    Eigen::Matrix3d more = cell.state.F, less = more;
+    more(k, L) += settings.strain;
+    less(k, L) -= settings.strain;
+    return (probed(cell, more, settings) - probed(cell, less, settings)) / (2.0 * settings.strain);
+  });
+}
+
+Tangent pathProbe(const Cell& committed, const Eigen::Matrix3d& F, const PathProbeSettings& settings) {
+  requirePositive(settings.strain, "strain of the probe");
+  const Eigen::Matrix3d P = answered(committed, F, settings.path);
+  return byComponents(committed, [&](int k, int L) -> Eigen::Matrix3d {
+    Eigen::Matrix3d more = F;
+    more(k, L) += settings.strain;
+    return (answered(committed, more, settings.path) - P) / settings.strain;
+  });
+}
+
+Tangent FrozenMean::next(const Eigen::Matrix3d& F, const Eigen::Matrix3d& P, const std::function<Tangent()>& probe) {
+  if (count_ > 0 && F != F_ && (P - P_).cwiseProduct(F - F_).sum() <= 0.0) frozen_ = true;
+  if (frozen_) return mean_;
+  F_ = F;
+  P_ = P;
+  const Tangent now = probe();
+  mean_ += (now - mean_) / ++count_;
+  return now;
 }
 
 RestReport polish(Cell& cell, double unbalanced, int iterations) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bonded.hpp"
+
 namespace dovetail::rve {
 
 void sweep(Cell& cell, double dt, const Eigen::Matrix3d& L) {
@@ -14,6 +16,7 @@ void sweep(Cell& cell, double dt, const Eigen::Matrix3d& L) {
     slides ? sweepDiscs<true, true>(cell, dt, L) : sweepDiscs<false, true>(cell, dt, L);
   else
     slides ? sweepDiscs<true, false>(cell, dt, L) : sweepDiscs<false, false>(cell, dt, L);
+  if (!cell.state.contacts.bond.empty()) sweepBonds(cell, dt, L);
 }
 
 }  // namespace dovetail::rve

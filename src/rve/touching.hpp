@@ -19,7 +19,7 @@ struct Touch {
   double roll;          ///< rad
 };
 
-/// Calls visit(touch) for each contact with an overlap, in the order of the list.
+/// Calls visit(touch) for each contact with an overlap that is not bonded, in the order of the list.
 template <class Visit>
 void forEachTouch(const Cell& cell, const Visit& visit) {
   const CellState& s = cell.state;
@@ -30,6 +30,7 @@ void forEachTouch(const Cell& cell, const Visit& visit) {
   for (std::size_t i = 0; i < cell.size(); ++i)
     for (int c = contacts.first[i]; c < contacts.first[i + 1]; ++c) {
       const auto at = static_cast<std::size_t>(c);
+      if (!contacts.bond.empty() && contacts.bond[at].length > 0.0) continue;
       const auto j = static_cast<std::size_t>(contacts.other[at]);
       const Vec3 b = centre(j) + shift[contacts.image[at]] - centre(i);
       const double reach = cell.radius[i] + cell.radius[j];

@@ -30,6 +30,7 @@ TEST(Motion, SpheresTurnWithTheirCellAsStepsShrink) {
   shear(0, 1) = 0.01;
   shear(2, 2) = 0.99;
   followPath(start, shear);
+  // What slips on the way would not come back as the steps shrink.
   Springs sticking = start.springs;
   sticking.friction = std::numeric_limits<double>::infinity();
   setSprings(start, sticking);

@@ -141,6 +141,9 @@ TEST(Operators, PeriodicFramesHaveTheOperatorOfCellsThatRepeat) {
 
 TEST(Operators, SlidingSoftens) {
   Cell cell = pressedDiscs(100);
+  Springs slippery = cell.springs;
+  slippery.friction = 0.2;
+  setSprings(cell, slippery);
   followPath(cell, plane(1.004, 0.0, 0.0, 0.992), {.rest = {.unbalanced = 1e-6}});
   ASSERT_GT(balance(cell).sliding, 0);
   EXPECT_LT(component(slidingNetwork(cell), 1, 1, 1, 1), component(network(cell), 1, 1, 1, 1));
@@ -201,10 +204,62 @@ TEST(Operators, ContactsAreLinearisedSlippingOrNot) {
   }
 }
 
+TEST(Operators, ThePathProbeIsTheNetworkWhereNothingSlips) {
+  Cell cell = pressedDiscs(60);
+  Springs smooth = cell.springs;
+  smooth.friction = 0.0;
+  setSprings(cell, smooth);
+  const Eigen::Matrix3d F = plane(1.0, 1e-5, 0.0, 0.9999);
+  Cell after = cell;
+  followPath(after, F, {.rest = {.unbalanced = 1e-7}});
+  const Tangent A = network(after);
+  const auto errorOf = [&](double strain) {
+    return (pathProbe(cell, F, {.strain = strain, .path = {.rest = {.unbalanced = 1e-7}}}) - A).norm() / A.norm();
+  };
+  const double fine = errorOf(1e-6);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_LT(fine, 0.5 * errorOf(1e-4));
+}
+
+TEST(Operators, ThePathProbeSlips) {
+  Cell cell = pressedDiscs(100);
+  followPath(cell, plane(1.004, 0.0, 0.0, 0.992), {.rest = {.unbalanced = 1e-6}});
+  const Eigen::Matrix3d F = plane(1.0045, 0.0, 0.0, 0.991);
+  Cell after = cell;
+  followPath(after, F, {.rest = {.unbalanced = 1e-6}});
+  ASSERT_GT(balance(after).sliding, 0);
+  // Less shortening: the path ends earlier, on the same branch; the network of what sticks is stiffer.
+  EXPECT_LT(component(pathProbe(cell, F, {.strain = 1e-4}), 1, 1, 1, 1), component(network(after), 1, 1, 1, 1));
+  EXPECT_GT((pathProbe(cell, F, {.strain = 1e-4}) - network(after)).norm(), 0.02 * network(after).norm());
+}
+
+TEST(Operators, TheFrozenMeanFreezesAtTheFirstSofteningStep) {
+  FrozenMean operators;
+  int probes = 0;
+  const auto probe = [&] {
+    ++probes;
+    return Tangent(probes * Tangent::Identity());
+  };
+  const auto at = [&](double strain, double stress) {
+    return operators.next((1.0 + strain) * Eigen::Matrix3d::Identity(), stress * Eigen::Matrix3d::Identity(), probe)(0,
+                                                                                                                     0);
+  };
+  EXPECT_EQ(at(0.0, 0.0), 1.0);
+  EXPECT_EQ(at(0.1, 1.0), 2.0);
+  EXPECT_EQ(at(0.2, 1.5), 3.0);
+  EXPECT_FALSE(operators.frozen());
+  EXPECT_EQ(at(0.3, 1.4), 2.0);
+  EXPECT_EQ(at(0.4, 9.0), 2.0);
+  EXPECT_TRUE(operators.frozen());
+  EXPECT_EQ(probes, 3);
+}
+
 TEST(Operators, BadProbesAreRefused) {
   const Cell cell = squareArray(4);
   EXPECT_THROW(elasticProbe(cell, {.strain = 0.0}), InputError);
   EXPECT_THROW(elasticProbe(cell, {.unbalanced = -1.0}), InputError);
+  EXPECT_THROW(pathProbe(cell, cell.state.F, {.strain = 0.0}), InputError);
+  EXPECT_THROW(pathProbe(cell, cell.state.F, {.path = {.rest = {.unbalanced = 1e-14, .steps = 20}}}), NumericalError);
 }
 
 }  // namespace

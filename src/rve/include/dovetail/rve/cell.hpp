@@ -10,6 +10,7 @@
 
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/geometry/lattice.hpp"
+#include "dovetail/rve/bonds.hpp"
 #include "dovetail/rve/frame.hpp"
 #include "dovetail/rve/springs.hpp"
 
@@ -30,6 +31,7 @@ struct Contacts {
   std::vector<double> stiffness;    ///< k_n, N/m; in a framed cell times the share of the contact that lies here
   Components stretch;               ///< of the tangential spring, m; discs: the first alone, along e_z × n
   std::vector<double> roll;         ///< of the rolling spring, rad; empty where grains roll freely
+  std::vector<Bond> bond;           ///< empty if there are none; bonded contacts have `stiffness` 0
 
   std::size_t size() const { return other.size(); }
 };
@@ -39,6 +41,7 @@ struct EnergyBook {
   double work = 0.0;      ///< ∫ V σ : sym(L) dt
   double friction = 0.0;  ///< slipping springs
   double damping = 0.0;   ///< of the fluctuations, and motion that relaxing has taken
+  double bonds = 0.0;     ///< what was stored in bonds that broke and is not in the contacts that they are now
 };
 
 /// All that changes. Copies are snapshots: a cell that gets one back goes on with the same digits.
@@ -59,6 +62,7 @@ struct CellState {
 struct Cell {
   Shape shape = Shape::disc;
   Springs springs;
+  BondLaw bonds;                ///< of contacts that are bonded (bond)
   std::vector<double> radius;   ///< m
   std::vector<double> mass;     ///< kg
   std::vector<double> inertia;  ///< kg m²
@@ -77,7 +81,7 @@ struct Grains {
   Shape shape = Shape::disc;
   std::vector<Vec3> centre{};    ///< m; discs: z = 0
   std::vector<double> radius{};  ///< m
-  double density = 2650.0;     ///< kg/m³; the length of discs is that of the third period
+  double density = 2650.0;       ///< kg/m³; the length of discs is that of the third period
 };
 
 /// A cell that repeats, at rest, with contacts as the grains lie and no tangential springs stretched.
@@ -141,10 +145,11 @@ struct Balance {
   int contacts = 0;           ///< that touch
   int rattlers = 0;           ///< grains that touch nobody
   int sliding = 0;            ///< contacts at the limit of friction
+  int bonds = 0;              ///< contacts that are bonded
 };
 Balance balance(const Cell& cell);
 
-/// Energy in the springs, J.
+/// Energy in the springs and bonds, J.
 double storedEnergy(const Cell& cell);
 /// Kinetic energy of the fluctuations, J.
 double kineticEnergy(const Cell& cell);

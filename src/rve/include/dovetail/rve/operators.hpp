@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 
 #include "dovetail/rve/cell.hpp"
+#include "dovetail/rve/equilibrium.hpp"
 
 namespace dovetail::rve {
 
@@ -32,5 +34,31 @@ struct ProbeSettings {
 /// (DEMQO; Desrues et al. 2019, eq. 32). The cell stays as it is.
 /// @throws InputError if a setting is not > 0; NumericalError if a probe does not come to rest
 Tangent elasticProbe(const Cell& cell, const ProbeSettings& settings = {});
+
+struct PathProbeSettings {
+  double strain = 1e-5;  ///< > 0
+  PathSettings path{.rest = {.unbalanced = 1e-6}};
+};
+
+/// Differences of the answers themselves: P of the paths from the committed cell to F and to F with each component a
+/// little larger, contacts slipping as they do (CTO; Desrues et al. 2019, eq. 31). One path for each component and one
+/// more. The cell stays as it is.
+/// @throws InputError as followPath, or if the strain is not > 0; NumericalError if a path does not end at rest
+Tangent pathProbe(const Cell& committed, const Eigen::Matrix3d& F, const PathProbeSettings& settings = {});
+
+/// Operators of a cell as long as it hardens, and from its first softening step on, for good, the mean of those so far
+/// (AEO; Desrues et al. 2019, sec. 2.5, with pathProbe). A step ΔF, ΔP softens if ΔP : ΔF ≤ 0 (Hill).
+class FrozenMean {
+public:
+  /// The operator to go on with from a committed state, F and P (Pa); `probe` is called as long as the cell hardens.
+  Tangent next(const Eigen::Matrix3d& F, const Eigen::Matrix3d& P, const std::function<Tangent()>& probe);
+  bool frozen() const { return frozen_; }
+
+private:
+  Eigen::Matrix3d F_ = Eigen::Matrix3d::Zero(), P_ = Eigen::Matrix3d::Zero();  // committed before
+  Tangent mean_ = Tangent::Zero();
+  int count_ = 0;
+  bool frozen_ = false;
+};
 
 }  // namespace dovetail::rve
