@@ -229,7 +229,7 @@ void renew(Cell& cell) {
   if (cell.springs.rolls()) contacts.roll.assign(size, 0.0);
   if (!s.contacts.bond.empty()) contacts.bond.resize(size);
   inherit(contacts, s.contacts, map, was);
-  if (!contacts.bond.empty()) boundStiffness(cell, s.contacts, contacts);
+  if (!s.contacts.bond.empty()) boundStiffness(cell, s.contacts, contacts);
   s.contacts = std::move(contacts);
   s.room = cell.skin;
   s.criticalStep = criticalStep(cell);
