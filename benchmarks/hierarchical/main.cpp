@@ -14,8 +14,6 @@ using namespace dovetail::benchmark;
 
 const std::vector<Figure> figures{
     {"square-arrays", "Liu 2018, Fig. 2.4", squareArrays},
-    {"simple-shear", "Liu 2018, Figs 2.7 and 2.10", simpleShear},
-    {"mixed-layer", "Liu 2018, Fig. 2.11", mixedLayer},
     {"lz19-cell", "Liang & Zhao 2019, biaxial compression", lz19Cell},
     {"operators", "Desrues et al. 2019, Table 1", operators},
     {"string", "Liu 2018, Figs 4.4, 4.5", stringOfDiscs},

@@ -15,7 +15,6 @@
 #include "dovetail/dem/model/checkpoint.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
-#include "dovetail/dem/setup/packing.hpp"
 #include "dovetail/dem/setup/streams.hpp"
 #include "own_law.hpp"
 #include "wall_scenes.hpp"
@@ -271,88 +270,6 @@ TEST(CheckpointRefusals, OtherLawsAndOtherMeshesAre) {
   expectSaid(refusal([](Model& m) { meshWall(m, 0).wall.x[3].z += 1e-9; }), "another one");
   expectSaid(refusal([](Model& m) { std::swap(meshWall(m, 0).wall.facets[0], meshWall(m, 0).wall.facets[1]); }),
              "another one");
-}
-
-std::shared_ptr<const ContactLaws> sliding(double friction) {
-  return makeContactLaws(FrictionalLaw{{.stiffness = 2e4}, {.stiffness = 6e3, .friction = friction}});
-}
-
-/// Spheres that rub against each other in a periodic box.
-Model rubbing() {
-  Model m;
-  m.laws = sliding(0.6);
-  m.pairs.setPeriodicity({{{0, 0, 0}, {0.4, 0.4, 0.4}}, {true, true, true}});
-  addPacking(m.particles, fillWithLattice(Lattice::simpleCubic, {{0, 0, 0}, {0.4, 0.4, 0.4}}, 0.05, 0.0999), {2500.0});
-  for (std::size_t i = 0; i < m.particles.size(); ++i) m.particles.v[i].y = m.particles.x[i].x < 0.2 ? 0.1 : -0.1;
-  return m;
-}
-
-std::string refusalOfGrains(const Model& from, Model to) {
-  const std::vector<char> before = saveState(to);
-  try {
-    loadGrains(saveState(from), "state", to);
-  } catch (const InputError& error) {
-    EXPECT_TRUE(saveState(to) == before);
-    return error.what();
-  }
-  return "nothing";
-}
-
-TEST(GrainsOfAState, GoOnWithTheSpringsOfTheirContacts) {
-  Model whole = rubbing();
-  run(whole, dt, 200);
-  Model empty = rubbing();
-  empty.particles = {};
-  Model taken = empty;
-  loadGrains(saveState(whole), "state", taken);
-  Model forgetful = empty;
-  forgetful.particles = whole.particles;
-  for (Model* m : {&whole, &taken, &forgetful}) run(*m, dt, 100);
-  double apart = 0.0, without = 0.0;
-  for (std::size_t i = 0; i < whole.particles.size(); ++i) {
-    apart = std::max(apart, norm(taken.particles.v[i] - whole.particles.v[i]));
-    without = std::max(without, norm(forgetful.particles.v[i] - whole.particles.v[i]));
-  }
-  EXPECT_LT(apart, 1e-13);
-  EXPECT_GT(without, 1e-4);
-  EXPECT_EQ(taken.steps, 100);
-}
-
-TEST(GrainsOfAState, ThoseTakenOutBeforeTheStartAreInNoBook) {
-  Model whole = rubbing();
-  run(whole, dt, 200);
-  Model taken = rubbing();
-  taken.particles = {};
-  loadGrains(saveState(whole), "state", taken);
-  removeParticles(taken, std::vector<int>{0, 1, 2, 3});
-  findForces(taken);
-  const double before = energies(taken).balance();
-  advance(taken, dt);
-  close(taken);
-  EXPECT_NEAR(energies(taken).balance(), before, 1e-4 * energies(taken).contacts);
-}
-
-TEST(GrainsOfAState, AreRefusedWhereTheyDoNotFit) {
-  Model empty = rubbing();
-  empty.particles = {};
-  EXPECT_EQ(refusalOfGrains(rubbing(), empty), "nothing");
-  expectSaid(refusalOfGrains(rubbing(), rubbing()), "holds particles already");
-  Model other = empty;
-  other.laws = sliding(0.61);
-  expectSaid(refusalOfGrains(rubbing(), other), "parameters of the laws");
-  other = empty;
-  other.pairs.setPeriodicity({{{0, 0, 0}, {0.4, 0.4, 0.5}}, {true, true, true}});
-  expectSaid(refusalOfGrains(rubbing(), other), "repeats in another way");
-  Model weighed = rubbing();
-  weighed.particles.weight.assign(weighed.particles.size(), 0.5);
-  expectSaid(refusalOfGrains(weighed, empty), "an overlap weighs");
-  expectSaid(refusalOfGrains(everything(),
-                             [] {
-                               Model m;
-                               m.laws = everything().laws;
-                               return m;
-                             }()),
-             "which grains alone do not bring along");
 }
 
 /// What is said of a state whose bytes are whole, but not what they hold.

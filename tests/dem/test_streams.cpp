@@ -51,8 +51,9 @@ Model flyingApart() {
 }
 
 TEST(Outlets, LetNobodyPassUnseenBetweenSearches) {
-  for (const OutletTerm::Region& region : {OutletTerm::Region(geometry::Box{{4, 2, 3}, {6, 8, 3.5}}),
-                                           OutletTerm::Region(HalfSpace{{0, 0, 6}, {1, 2, 3}})}) {
+  for (const OutletTerm::Region& region :
+       {OutletTerm::Region(geometry::Box{{2, 2, 3}, {8, 8, 3.5}}),
+        OutletTerm::Region(HalfSpace{{0, 0, 6}, {0, 0, 3}})}) {  // both far from where positions wrap
     Model model = flyingApart(), all = flyingApart();
     OutletTerm& outlet = addOutlet(model, region);
     outlet.region = HalfSpace{{0, 0, 1e3}, {0, 0, 1}};  // out of the way, and then somewhere else
@@ -64,8 +65,7 @@ TEST(Outlets, LetNobodyPassUnseenBetweenSearches) {
       for (std::size_t i = 0; step >= 20 && i < in.size(); ++i) {
         const Vec3& x = all.particles.x[i];
         const auto* const box = std::get_if<geometry::Box>(&region);
-        const bool isIn = box ? x.x >= 4 && x.x <= 6 && x.y >= 2 && x.y <= 8 && x.z >= 3 && x.z <= 3.5
-                              : x.x + 2 * x.y + 3 * (x.z - 6) > 0;
+        const bool isIn = box ? x.x >= 2 && x.x <= 8 && x.y >= 2 && x.y <= 8 && x.z >= 3 && x.z <= 3.5 : x.z > 6;
         char& was = in[static_cast<std::size_t>(all.particles.id[i])];
         if (isIn && was == 0) ++left;
         was = static_cast<char>(was | static_cast<char>(isIn));
@@ -75,7 +75,7 @@ TEST(Outlets, LetNobodyPassUnseenBetweenSearches) {
       advance(model, 2e-3);
       ASSERT_EQ(model.particles.size(), in.size() - left) << "step " << step;
     }
-    EXPECT_GT(left, 10U);
+    EXPECT_GT(left, 5U);
     EXPECT_LT(left, in.size());
     for (const std::int64_t id : model.particles.id) EXPECT_EQ(in[static_cast<std::size_t>(id)], 0);
   }

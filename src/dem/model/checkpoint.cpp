@@ -182,6 +182,18 @@ void requireNumbers(const Particles& particles) {
         throw InputError("a force or torque is not finite", "particles of a checkpoint", "take an older checkpoint");
 }
 
+/// All of a state but its terms, into `restored`, a copy of the model that it is for. Returns the terms.
+std::vector<SavedTerm> readModel(const std::vector<char>& bytes, const std::string& path, Model& restored) {
+  ByteReader reader(bytes);
+  requireSameLaws(reader, restored, path);
+  archiveScene(reader, restored);
+  requireNumbers(restored.particles);
+  loadDomain(reader, restored);
+  std::vector<SavedTerm> terms = readTerms(reader);
+  if (!reader.atEnd()) refuse("there is more in the file than a model", path, "give a checkpoint of this version");
+  return terms;
+}
+
 }  // namespace
 
 std::vector<char> saveState(const Model& m) {
@@ -203,13 +215,8 @@ void readCheckpoint(const std::filesystem::path& path, Model& m) {
 
 void loadGrains(const std::vector<char>& bytes, const std::string& path, Model& m) {
   if (m.particles.size() > 0) refuse("the model holds particles already", path, "load into an empty one");
-  ByteReader reader(bytes);
-  requireSameLaws(reader, m, path);
   Model saved = m;
-  archiveScene(reader, saved);
-  requireNumbers(saved.particles);
-  loadDomain(reader, saved);
-  for (const SavedTerm& term : readTerms(reader))
+  for (const SavedTerm& term : readModel(bytes, path, saved))
     if (term.name == "bodies" || term.name == "bonds")
       refuse("the state has " + term.name + ", which grains alone do not bring along", path,
              "take the state of a run without them");
@@ -222,14 +229,8 @@ void loadGrains(const std::vector<char>& bytes, const std::string& path, Model& 
 }
 
 void loadState(const std::vector<char>& bytes, const std::string& path, Model& m) {
-  ByteReader reader(bytes);
-  requireSameLaws(reader, m, path);
   Model restored = m;
-  archiveScene(reader, restored);
-  requireNumbers(restored.particles);
-  loadDomain(reader, restored);
-  const std::vector<SavedTerm> saved = readTerms(reader);
-  if (!reader.atEnd()) refuse("there is more in the file than a model", path, "give a checkpoint of this version");
+  const std::vector<SavedTerm> saved = readModel(bytes, path, restored);
   const bool anew = m.terms.empty();
   if (anew)
     restored.terms = makeTerms(saved, path);
