@@ -34,7 +34,9 @@ struct Figure {
 FigureRows biaxial(bool quick);
 FigureRows explicitBiaxial(bool quick);
 FigureRows lz19Cell(bool quick);
+FigureRows mixedLayer(bool quick);
 FigureRows operators(bool quick);
+FigureRows simpleShear(bool quick);
 FigureRows spheres(bool quick);
 FigureRows squareArrays(bool quick);
 FigureRows stringOfDiscs(bool quick);

@@ -5,6 +5,7 @@
 #include "biaxial_solid.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "figure.hpp"
+#include "servo.hpp"
 
 namespace dovetail::benchmark {
 
@@ -16,13 +17,6 @@ struct Curve {
   double voidRatio = 0.0, peak = 0.0, late = 0.0, side = 0.0;  // Pa, means over 100 steps
 };
 
-/// The side gives way in proportion to what presses on it too much, which leaves it some per cent too high.
-double sideStrain(const rve::Cell& cell, double most) {
-  const double k = rve::normalStiffness(cell.springs, 5e-3, 5e-3) / norm(cell.state.lattice.period[2]);
-  const double excess = -rve::stress(cell).cauchy(0, 0) - pressure;
-  return std::clamp(excess / (10.0 * k), -most, most);
-}
-
 Curve compressed(std::uint64_t seed) {
   rve::Cell cell = sand(seed);
   Curve curve{.voidRatio = 1.0 / rve::solidFraction(cell) - 1.0};
@@ -32,7 +26,8 @@ Curve compressed(std::uint64_t seed) {
   while (strain < 0.1) {
     const double dt = 0.8 * cell.state.criticalStep;
     Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
-    G(0, 0) += sideStrain(cell, 4.0 * rate * dt);
+    // What leaves the side some per cent too high.
+    G(0, 0) += givingWay(cell, 0, pressure, 4.0 * rate * dt);
     G(1, 1) -= rate * dt;
     rve::step(cell, dt, G, 0.1);
     strain += rate * dt;

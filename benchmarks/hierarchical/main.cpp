@@ -16,6 +16,8 @@ const std::vector<Figure> figures{
     {"square-arrays", "Liu 2018, Fig. 2.4", squareArrays},
     {"lz19-cell", "Liang & Zhao 2019, biaxial compression", lz19Cell},
     {"operators", "Desrues et al. 2019, Table 1", operators},
+    {"simple-shear", "Liu 2018, Figs 2.7 and 2.10", simpleShear},
+    {"mixed-layer", "Liu 2018, Fig. 2.11", mixedLayer},
     {"string", "Liu 2018, Figs 4.4, 4.5", stringOfDiscs},
     {"biaxial", "Liu 2018, Figs 3.4, 3.10", biaxial},
     {"explicit-biaxial", "measured beforehand: 10 × 20 quad4, 800 cells", explicitBiaxial},

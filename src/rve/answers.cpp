@@ -30,20 +30,16 @@ namespace {
 
 /// Largest force on a grain that no reaction holds, N.
 double largestFreeForce(const Cell& cell) {
-  Components a = cell.state.force, alpha = cell.state.torque;
-  for (std::vector<double>& component : a)
-    for (std::size_t i = 0; i < component.size(); ++i) component[i] /= cell.mass[i];
-  for (std::vector<double>& component : alpha)
-    for (std::size_t i = 0; i < component.size(); ++i) component[i] /= cell.inertia[i];
-  project(cell, a, alpha);
+  Components force, torque;
+  freeForces(cell, force, torque);
   double most = 0.0;
   for (std::size_t i = 0; i < cell.size(); ++i) {
     double force2 = 0.0, torque2 = 0.0;
-    for (const std::vector<double>& component : a)
+    for (const std::vector<double>& component : force)
       if (!component.empty()) force2 += component[i] * component[i];
-    for (const std::vector<double>& component : alpha)
+    for (const std::vector<double>& component : torque)
       if (!component.empty()) torque2 += component[i] * component[i];
-    most = std::max({most, cell.mass[i] * std::sqrt(force2), cell.inertia[i] * std::sqrt(torque2) / cell.radius[i]});
+    most = std::max({most, std::sqrt(force2), std::sqrt(torque2) / cell.radius[i]});
   }
   return most;
 }

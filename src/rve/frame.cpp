@@ -143,18 +143,12 @@ Cell framed(const Cell& cell, const Conditions& conditions) {
 }
 
 std::vector<Vec3> reactions(const Cell& cell) {
-  Components a = cell.state.force, alpha = cell.state.torque;
-  for (std::size_t i = 0; i < cell.size(); ++i) {
-    a[0][i] /= cell.mass[i];
-    a[1][i] /= cell.mass[i];
-    alpha[2][i] /= cell.inertia[i];
-  }
-  project(cell, a, alpha);
+  Components force, torque;
+  freeForces(cell, force, torque);
   std::vector<Vec3> found;
   for (const int g : cell.frame.grain) {
     const std::size_t i = at(g);
-    found.push_back(
-        {cell.mass[i] * a[0][i] - cell.state.force[0][i], cell.mass[i] * a[1][i] - cell.state.force[1][i], 0.0});
+    found.push_back({force[0][i] - cell.state.force[0][i], force[1][i] - cell.state.force[1][i], 0.0});
   }
   return found;
 }

@@ -125,17 +125,44 @@ void move(Cell& cell, double dt, const Eigen::Matrix3d& G) {
   if (deforms) s.book.work += 0.5 * dt * s.dyad.cwiseProduct(D).sum();
 }
 
+/// Kicks all grains; returns what damping has taken, J.
+double kickAll(Cell& cell, const Components& force, const Components& torque, double dt, double damping) {
+  CellState& s = cell.state;
+  double taken = 0.0;
+  withVectors([&] {
+    for (std::size_t k = 0; k < 3; ++k) {
+      taken += kick(s.v[k], force[k], cell.mass, dt, damping);
+      taken += kick(s.spin[k], torque[k], cell.inertia, dt, damping);
+    }
+  });
+  return taken;
+}
+
+double workOf(const Components& force, const Components& v, double dt) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < force[k].size(); ++i) sum += dt * force[k][i] * v[k][i];
+  return sum;
+}
+
+/// The same within the space of the frame: reactions are not damped, and hold what damping does to their conditions.
+double kickFramed(Cell& cell, double dt, double damping) {
+  CellState& s = cell.state;
+  Components force, torque;
+  freeForces(cell, force, torque);
+  const auto halfWork = [&] { return workOf(force, s.v, 0.5 * dt) + workOf(torque, s.spin, 0.5 * dt); };
+  double taken = halfWork() + kineticEnergy(cell);
+  kickAll(cell, force, torque, dt, damping);
+  project(cell, s.v, s.spin);
+  taken += halfWork() - kineticEnergy(cell);
+  return taken;
+}
+
 }  // namespace
 
 void step(Cell& cell, double dt, const Eigen::Matrix3d& G, double damping) {
   CellState& s = cell.state;
-  withVectors([&] {
-    for (std::size_t k = 0; k < 3; ++k) {
-      s.book.damping += kick(s.v[k], s.force[k], cell.mass, dt, damping);
-      s.book.damping += kick(s.spin[k], s.torque[k], cell.inertia, dt, damping);
-    }
-  });
-  project(cell, s.v, s.spin);
+  s.book.damping += cell.frame.empty() ? kickAll(cell, s.force, s.torque, dt, damping) : kickFramed(cell, dt, damping);
   move(cell, dt, G);
 }
 

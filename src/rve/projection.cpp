@@ -55,4 +55,24 @@ void project(const Cell& cell, Components& v, Components& spin) {
   }
 }
 
+namespace {
+
+void scale(Components& values, const std::vector<double>& mass, bool divide) {
+  for (std::vector<double>& component : values)
+    for (std::size_t i = 0; i < component.size(); ++i) component[i] *= divide ? 1.0 / mass[i] : mass[i];
+}
+
+}  // namespace
+
+void freeForces(const Cell& cell, Components& force, Components& torque) {
+  force = cell.state.force;
+  torque = cell.state.torque;
+  if (cell.frame.empty()) return;
+  scale(force, cell.mass, true);
+  scale(torque, cell.inertia, true);
+  project(cell, force, torque);
+  scale(force, cell.mass, false);
+  scale(torque, cell.inertia, false);
+}
+
 }  // namespace dovetail::rve

@@ -9,4 +9,7 @@ namespace dovetail::rve {
 /// allow. What that takes is what reactions do. Nothing happens in cells that repeat.
 void project(const Cell& cell, Components& v, Components& spin);
 
+/// Forces and torques less what the reactions of the frame hold, N and N m: masses times projected accelerations.
+void freeForces(const Cell& cell, Components& force, Components& torque);
+
 }  // namespace dovetail::rve

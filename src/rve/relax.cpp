@@ -21,34 +21,15 @@ namespace {
 
 constexpr std::int64_t lookEvery = 10;
 
-/// Accelerations that the conditions of the frame leave.
-struct Accelerations {
-  Components linear, angular;
-
-  void find(const Cell& cell) {
-    divide(cell.state.force, cell.mass, linear);
-    divide(cell.state.torque, cell.inertia, angular);
-    project(cell, linear, angular);
-  }
-
-private:
-  static void divide(const Components& forces, const std::vector<double>& by, Components& result) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      result[k].resize(forces[k].size());
-      for (std::size_t i = 0; i < forces[k].size(); ++i) result[k][i] = forces[k][i] / by[i];
-    }
-  }
-};
-
-void addSums(const Components& v, const Components& a, const std::vector<double>& mass, dem::FireSums& sums) {
+void addSums(const Components& v, const Components& force, const std::vector<double>& mass, dem::FireSums& sums) {
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < v[k].size(); ++i)
-      sums += {mass[i] * a[k][i] * v[k][i], mass[i] * v[k][i] * v[k][i], mass[i] * a[k][i] * a[k][i]};
+      sums += {force[k][i] * v[k][i], mass[i] * v[k][i] * v[k][i], force[k][i] * force[k][i] / mass[i]};
 }
 
-void lean(Components& v, const Components& a, const dem::FireMix& mix) {
+void lean(Components& v, const Components& force, const std::vector<double>& mass, const dem::FireMix& mix) {
   for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t i = 0; i < v[k].size(); ++i) v[k][i] = mix.keep * v[k][i] + mix.lean * a[k][i];
+    for (std::size_t i = 0; i < v[k].size(); ++i) v[k][i] = mix.keep * v[k][i] + mix.lean * force[k][i] / mass[i];
 }
 
 }  // namespace
@@ -58,7 +39,7 @@ RestReport relax(Cell& cell, const RestSettings& settings) {
   CellState& s = cell.state;
   stop(cell);
   dem::Fire fire(settings.stepShare * s.criticalStep);
-  Accelerations accelerations;
+  Components force, torque;
   RestReport report;
   for (;; ++report.steps) {
     if (report.steps % lookEvery == 0 || report.steps >= settings.steps) {
@@ -67,13 +48,13 @@ RestReport relax(Cell& cell, const RestSettings& settings) {
       if (report.atRest || report.steps >= settings.steps) break;
       fire.setLongest(settings.stepShare * s.criticalStep);
     }
-    accelerations.find(cell);
+    freeForces(cell, force, torque);
     dem::FireSums sums;
-    addSums(s.v, accelerations.linear, cell.mass, sums);
-    addSums(s.spin, accelerations.angular, cell.inertia, sums);
+    addSums(s.v, force, cell.mass, sums);
+    addSums(s.spin, torque, cell.inertia, sums);
     const dem::FireMix mix = fire.next(sums);
-    lean(s.v, accelerations.linear, mix);
-    lean(s.spin, accelerations.angular, mix);
+    lean(s.v, force, cell.mass, mix);
+    lean(s.spin, torque, cell.inertia, mix);
     s.book.damping += 0.5 * sums.speed - kineticEnergy(cell);
     step(cell, fire.dt());
   }

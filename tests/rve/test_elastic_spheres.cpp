@@ -78,7 +78,7 @@ TEST(ElasticSpheres, TheLedgerOfAPathClosesAndHalvesWithTheStep) {
   const auto residualOf = [&](double stepShare) {
     Cell cell = start;
     const double before = storedEnergy(cell);
-    for (int k = 1; k <= 4; ++k) followPath(cell, sheared(0.005 * k), {.stepShare = stepShare, .rest = {.steps = 0}});
+    for (int k = 1; k <= 6; ++k) followPath(cell, sheared(0.005 * k), {.stepShare = stepShare, .rest = {.steps = 0}});
     const EnergyBook& book = cell.state.book;
     EXPECT_GT(book.friction, 0.1 * book.work);
     return (book.work - (storedEnergy(cell) - before) - kineticEnergy(cell) - book.friction - book.damping) / book.work;

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/rve/operators.hpp"
@@ -44,6 +45,10 @@ TEST(Frame, ArraysHaveTheirStressAtFullAndHalfWeight) {
 
 TEST(Frame, PeriodicFramesAnswerAsCellsThatRepeat) {
   Cell wrapped = pressedDiscs(100);
+  // What slips depends on the last digits.
+  Springs sticking = wrapped.springs;
+  sticking.friction = std::numeric_limits<double>::infinity();
+  setSprings(wrapped, sticking);
   Cell cut = framed(wrapped, everywhere(Condition::periodic));
   EXPECT_LT((nominalStress(cut) - nominalStress(wrapped)).norm(), 1e-12 * nominalStress(wrapped).norm());
   for (int k = 1; k <= 3; ++k) {
@@ -72,6 +77,51 @@ TEST(Frame, HillAndMandelsConditionHoldsInEverySpaceInSlidingStates) {
     EXPECT_GT(cell.state.book.friction, 0.1 * cell.state.book.work);
     for (int k = 0; k < 3; ++k) EXPECT_LT(hillMandelError(cell, random), 1e-6);
   }
+}
+
+TEST(Frame, TheLedgerOfAPathClosesInEverySpaceAsStepsShrink) {
+  const Cell start = pressedDiscs(100);
+  const Condition D = Condition::displacement, P = Condition::periodic, T = Condition::traction;
+  for (const Conditions& conditions :
+       {everywhere(D), everywhere(P), everywhere(T), Conditions{.bottom = D, .right = P, .top = T, .left = P}}) {
+    const Cell cut = framed(start, conditions);
+    const double before = storedEnergy(cut);
+    const auto residualOf = [&](double stepShare) {
+      Cell cell = cut;
+      for (int k = 1; k <= 3; ++k)
+        followPath(cell, plane(1, 0.005 * k, 0, 1 - 0.002 * k), {.stepShare = stepShare, .rest = {.steps = 0}});
+      const EnergyBook& book = cell.state.book;
+      EXPECT_GT(book.damping, 1e-3 * book.work);
+      EXPECT_GT(book.friction, 0.02 * book.work);
+      return (book.work - (storedEnergy(cell) - before) - kineticEnergy(cell) - book.friction - book.damping) /
+             book.work;
+    };
+    const double coarse = std::abs(residualOf(0.8)), fine = std::abs(residualOf(0.1));
+    EXPECT_LT(coarse, 1e-3);
+    EXPECT_LT(fine, 0.5 * coarse);
+  }
+}
+
+/// Mean over packings of the largest shear stress on a path to 1 % of shear under a little compression.
+double meanShearStress(Condition condition) {
+  double sum = 0.0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    Cell cell = framed(pressedDiscs(100, seed), everywhere(condition));
+    double most = 0.0;
+    for (int k = 1; k <= 4; ++k) {
+      followPath(cell, plane(1, 0.0025 * k, 0, 1 - 0.001 * k), {.rest = {.unbalanced = 1e-3}});
+      most = std::max(most, std::abs(stress(cell).cauchy(0, 1)));
+    }
+    sum += most / 5.0;
+  }
+  return sum;
+}
+
+TEST(Frame, MeansOfPathsAreStifferTheLessTheyLeaveFree) {
+  const double D = meanShearStress(Condition::displacement), P = meanShearStress(Condition::periodic),
+               T = meanShearStress(Condition::traction);
+  EXPECT_GT(D, P);
+  EXPECT_GT(P, T);
 }
 
 TEST(Frame, ConditionsHoldOnTheWay) {

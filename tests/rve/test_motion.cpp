@@ -79,6 +79,24 @@ TEST(Motion, AClosedLoopWithoutSlippingReturnsItsWork) {
   EXPECT_NEAR(storedEnergy(cell), stored, 1e-6 * stored);
 }
 
+TEST(Motion, APathInPartsConverges) {
+  const Cell start = pressedDiscs(100);
+  const auto stressAfter = [&](int parts) {
+    Cell cell = start;
+    for (int k = 1; k <= parts; ++k) {
+      deform(cell, relativeDeformation(cell, plane(1 + 0.002 * k / parts, 0, 0, 1 - 0.004 * k / parts)));
+      EXPECT_TRUE(relax(cell, {.unbalanced = 1e-5}).atRest);
+    }
+    EXPECT_GT(cell.state.book.friction, 1e-3 * cell.state.book.work);
+    return stress(cell).cauchy;
+  };
+  const Eigen::Matrix3d fine = stressAfter(1000);
+  const auto errorOf = [&](int parts) { return (stressAfter(parts) - fine).norm() / fine.norm(); };
+  const double one = errorOf(1), ten = errorOf(10), hundred = errorOf(100);
+  EXPECT_LT(ten, 0.5 * one);
+  EXPECT_LT(hundred, 0.5 * ten);
+}
+
 TEST(Motion, ReductionOfTheLatticeOnTheWayIsNotFelt) {
   // A shear of more than one, in which a reduced lattice and its images change several times.
   Cell cell = squareArray(6, 1.001e-3);
