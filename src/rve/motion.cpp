@@ -162,6 +162,10 @@ double kickFramed(Cell& cell, double dt, double damping) {
 
 void step(Cell& cell, double dt, const Eigen::Matrix3d& G, double damping) {
   CellState& s = cell.state;
+  if (!(dt > 0.0 && dt <= s.criticalStep))
+    throw InputError(
+        "a step of " + formatNumber(dt) + " s where the critical one is " + formatNumber(s.criticalStep) + " s",
+        "cell of grains", "take a share below 1 of CellState::criticalStep");
   s.book.damping += cell.frame.empty() ? kickAll(cell, s.force, s.torque, dt, damping) : kickFramed(cell, dt, damping);
   move(cell, dt, G);
 }

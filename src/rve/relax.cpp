@@ -46,8 +46,8 @@ RestReport relax(Cell& cell, const RestSettings& settings) {
       report.unbalanced = balance(cell).unbalanced;
       report.atRest = report.unbalanced <= settings.unbalanced;
       if (report.atRest || report.steps >= settings.steps) break;
-      fire.setLongest(settings.stepShare * s.criticalStep);
     }
+    fire.setLongest(settings.stepShare * s.criticalStep);
     freeForces(cell, force, torque);
     dem::FireSums sums;
     addSums(s.v, force, cell.mass, sums);

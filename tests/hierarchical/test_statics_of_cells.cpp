@@ -18,7 +18,7 @@ TEST(StaticsOfCells, PointsOfAnElementAreStandAloneCellsToTheLastBit) {
       samples.push_back(body.sample());
       return true;
     });
-    ASSERT_EQ(samples.size(), 2u);
+    ASSERT_GE(samples.size(), 2u);
     double side = 0.0, height = 0.0;
     for (std::size_t p = 0; p < 4; ++p) {
       rve::Cell cell = threeCells()[0];

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <random>
+#include <vector>
 
 #include "dovetail/rve/cell.hpp"
 #include "dovetail/rve/equilibrium.hpp"
@@ -72,6 +73,12 @@ inline double scalarProduct(const Components& a, const Components& b) {
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < a[k].size(); ++i) sum += a[k][i] * b[k][i];
   return sum;
+}
+
+/// Every condition all round, and a sheared layer's.
+inline std::vector<Conditions> kindsOfFrames() {
+  const Condition D = Condition::displacement, P = Condition::periodic, T = Condition::traction;
+  return {everywhere(D), everywhere(P), everywhere(T), {.bottom = D, .right = P, .top = T, .left = P}};
 }
 
 }  // namespace dovetail::rve

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cells.hpp"
 #include "dovetail/core/error.hpp"
+#include "ledger.hpp"
 
 namespace dovetail::rve {
 namespace {
@@ -48,20 +48,9 @@ TEST(Motion, SpheresTurnWithTheirCellAsStepsShrink) {
   EXPECT_NEAR(coarse / fine, 2.0, 0.1) << coarse << " " << fine;
 }
 
-TEST(Motion, TheLedgerOfAPathClosesAndHalvesWithTheStep) {
-  const Cell start = pressedDiscs(100);
-  const auto residualOf = [&](double stepShare) {
-    Cell cell = start;
-    const double before = storedEnergy(cell);
-    for (int k = 1; k <= 4; ++k)
-      followPath(cell, plane(1.0 + 0.005 * k, 0, 0, 1.0 - 0.007 * k), {.stepShare = stepShare, .rest = {.steps = 0}});
-    const EnergyBook& book = cell.state.book;
-    EXPECT_GT(book.friction, 0.1 * book.work);
-    return (book.work - (storedEnergy(cell) - before) - kineticEnergy(cell) - book.friction - book.damping) / book.work;
-  };
-  const double coarse = residualOf(0.8), fine = residualOf(0.2);
-  EXPECT_LT(std::abs(coarse), 1e-3);
-  EXPECT_LT(std::abs(fine), 0.5 * std::abs(coarse));
+TEST(Motion, TheLedgerOfAPathClosesAsStepsShrink) {
+  expectLedgerClosesAsStepsShrink(pressedDiscs(100), 4,
+                                  [](int k) { return plane(1.0 + 0.005 * k, 0, 0, 1.0 - 0.007 * k); });
 }
 
 TEST(Motion, AClosedLoopWithoutSlippingReturnsItsWork) {
@@ -121,6 +110,15 @@ TEST(Motion, PathsTellHowFastTheyWereAndEndWhereTheyShall) {
   EXPECT_GT(report.steps, 10);
   EXPECT_EQ(kineticEnergy(cell), 0.0);
   EXPECT_LT(stress(cell).asymmetry, 1e-5);
+}
+
+TEST(Motion, StepsAboveTheCriticalOneAreRefused) {
+  Cell cell = pressedDiscs(40);
+  const CellState before = cell.state;
+  for (const double dt : {1.01 * before.criticalStep, 0.0, -1e-9, std::nan("")})
+    EXPECT_THROW(step(cell, dt), InputError);
+  EXPECT_EQ(cell.state.v, before.v);
+  step(cell, before.criticalStep);
 }
 
 TEST(Motion, PathsThatCannotBeGoneAreRefused) {

@@ -109,7 +109,8 @@ void setSprings(Cell& cell, const Springs& springs);
 /// A step of length dt: fluctuations are kicked by the forces, less damping (Cundall's: of each force the share
 /// `damping` against the velocity, of fluctuations only), then all moves: x ← G (x + v dt), H ← G H, F ← G F.
 /// Symplectic Euler; m dv/dt = f, which leaves the inertia of L x out (Desrues et al. 2019, eq. 15 at rest).
-/// @throws NumericalError if det G ≤ 0, a force is not finite, or faces have come too close
+/// @throws InputError if dt is not above 0 or is above criticalStep; NumericalError if det G ≤ 0, a force is not finite,
+///   or faces have come too close
 void step(Cell& cell, double dt, const Eigen::Matrix3d& G = Eigen::Matrix3d::Identity(), double damping = 0.0);
 
 /// Deforms the cell by G, grains and all; no time passes, velocities stay. Every contact feels it as one step of its

@@ -1,0 +1,37 @@
+// That nothing vanishes on a path.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cells.hpp"
+
+namespace dovetail::rve {
+
+/// What no channel of the book has of the work, over the work; `stored` was the energy in the springs when the book
+/// began.
+inline double ledgerResidual(const Cell& cell, double stored) {
+  const EnergyBook& book = cell.state.book;
+  return (book.work - (storedEnergy(cell) - stored) - kineticEnergy(cell) - book.friction - book.damping - book.bonds) /
+         book.work;
+}
+
+/// Follows F(1), F(2) … F(parts) from a state whose book is empty, without rest, with long and with short steps.
+template <class Deformation>
+void expectLedgerClosesAsStepsShrink(const Cell& start, int parts, const Deformation& F) {
+  const double stored = storedEnergy(start);
+  const auto residualOf = [&](double stepShare) {
+    Cell cell = start;
+    for (int k = 1; k <= parts; ++k) followPath(cell, F(k), {.stepShare = stepShare, .rest = {.steps = 0}});
+    const EnergyBook& book = cell.state.book;
+    EXPECT_GT(book.friction, 0.05 * book.work);
+    EXPECT_GT(book.damping, 1e-5 * book.work);
+    return std::abs(ledgerResidual(cell, stored));
+  };
+  const double coarse = residualOf(0.8), fine = residualOf(0.1);
+  EXPECT_LT(coarse, 1e-3);
+  EXPECT_LT(fine, 0.5 * coarse);
+}
+
+}  // namespace dovetail::rve
