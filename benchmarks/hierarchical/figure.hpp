@@ -32,6 +32,7 @@ struct Figure {
 
 // One source file each.
 FigureRows biaxial(bool quick);
+FigureRows column(bool quick);
 FigureRows explicitBiaxial(bool quick);
 FigureRows lz19Cell(bool quick);
 FigureRows mixedLayer(bool quick);

@@ -22,6 +22,7 @@ const std::vector<Figure> figures{
     {"biaxial", "Liu 2018, Figs 3.4, 3.10", biaxial},
     {"explicit-biaxial", "measured beforehand: 10 × 20 quad4, 800 cells", explicitBiaxial},
     {"spheres", "Liu et al. 2015, Tables I, II", spheres},
+    {"column", "Liu et al. 2015, sec. 3.3, Fig. 8", column},
 };
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }

@@ -6,6 +6,7 @@
 #include "dovetail/rve/equilibrium.hpp"
 #include "dovetail/rve/operators.hpp"
 #include "dovetail/rve/packing.hpp"
+#include "elastic_spheres.hpp"
 #include "figure.hpp"
 
 namespace dovetail::benchmark {
@@ -13,25 +14,6 @@ namespace dovetail::benchmark {
 namespace {
 
 constexpr double pressure = 416e3;  // Pa
-
-/// Table I of Liu, Sun, Yuan & Fish 2015. Density, distribution of sizes and the friction of the preparation are not
-/// printed: 1650 kg/m³ over the solid fraction, even numbers of all diameters, and no friction, which gives the
-/// contacts.
-rve::Cell pressed(int count, std::uint64_t seed) {
-  rve::Cell cell = rve::randomCell({.shape = rve::Shape::sphere,
-                                    .count = count,
-                                    .sizes = dem::UniformSizes{0.215e-3, 0.59e-3},
-                                    .solidFraction = 0.6,
-                                    .density = 2492.0,
-                                    .seed = seed},
-                                   rve::hertzMindlin(29e9, 0.15, 0.5));
-  rve::compress(cell, {.pressure = {pressure, pressure, pressure}, .friction = 0.0, .rest = {.unbalanced = 1e-3}});
-  return cell;
-}
-
-struct Moduli {
-  double bulk = 0.0, shear = 0.0;  // Pa
-};
 
 /// Isotropic part of ∂P/∂F, less what turns.
 Moduli isotropicPart(const rve::Tangent& A) {
@@ -46,7 +28,33 @@ Moduli isotropicPart(const rve::Tangent& A) {
   return m;
 }
 
-/// Differences of relaxed states under a small strain either way, during which nothing slips.
+/// Shear modulus from rest to a shear strain, grains slipping as they do, Pa.
+double secantShear(rve::Cell cell, double gamma) {
+  const double before = rve::stress(cell).cauchy(0, 1);
+  constexpr int parts = 10;
+  for (int k = 1; k <= parts; ++k) {
+    Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+    F(0, 1) = F(1, 0) = 0.5 * gamma * k / parts;
+    rve::deform(cell, rve::relativeDeformation(cell, F));
+    rve::relax(cell, {.unbalanced = 1e-4});
+  }
+  return (rve::stress(cell).cauchy(0, 1) - before) / gamma;
+}
+
+}  // namespace
+
+rve::Cell elasticSpheres(int count, std::uint64_t seed) {
+  rve::Cell cell = rve::randomCell({.shape = rve::Shape::sphere,
+                                    .count = count,
+                                    .sizes = dem::UniformSizes{0.215e-3, 0.59e-3},
+                                    .solidFraction = 0.6,
+                                    .density = 2492.0,
+                                    .seed = seed},
+                                   rve::hertzMindlin(29e9, 0.15, 0.5));
+  rve::compress(cell, {.pressure = {pressure, pressure, pressure}, .friction = 0.0, .rest = {.unbalanced = 1e-4}});
+  return cell;
+}
+
 Moduli probed(rve::Cell cell) {
   rve::Springs sticking = cell.springs;
   sticking.friction = std::numeric_limits<double>::infinity();
@@ -77,25 +85,10 @@ Moduli probed(rve::Cell cell) {
   return m;
 }
 
-/// Shear modulus from rest to a shear strain, grains slipping as they do, Pa.
-double secantShear(rve::Cell cell, double gamma) {
-  const double before = rve::stress(cell).cauchy(0, 1);
-  constexpr int parts = 10;
-  for (int k = 1; k <= parts; ++k) {
-    Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
-    F(0, 1) = F(1, 0) = 0.5 * gamma * k / parts;
-    rve::deform(cell, rve::relativeDeformation(cell, F));
-    rve::relax(cell, {.unbalanced = 1e-4});
-  }
-  return (rve::stress(cell).cauchy(0, 1) - before) / gamma;
-}
-
-}  // namespace
-
 FigureRows spheres(bool quick) {
   std::vector<double> porosity, contacts, bulk, shear, young, poisson, secant, bulkBound, shearBound;
   for (std::uint64_t seed = 1; seed <= (quick ? 1u : 3u); ++seed) {
-    const rve::Cell cell = pressed(quick ? 1000 : 4096, seed);
+    const rve::Cell cell = elasticSpheres(quick ? 1000 : 4096, seed);
     porosity.push_back(1.0 - rve::solidFraction(cell));
     contacts.push_back(rve::balance(cell).coordination);
     const Moduli m = probed(cell), bound = isotropicPart(rve::uniformStrain(cell));

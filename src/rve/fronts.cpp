@@ -163,8 +163,9 @@ void Fronts::eliminate(Front& front, const std::vector<int>& children, const std
   const auto& factors = front.pivots.matrixLU();
   if (!factors.allFinite() || (factors.diagonal().array() == 0.0).any()) failSingular();
   front.upper = front.pivots.permutationP() * dense.topRightCorner(own, rest);
-  factors.triangularView<Eigen::UnitLower>().solveInPlace(front.upper);
   front.lower = dense.bottomLeftCorner(rest, own);
+  if (rest == 0) return;
+  factors.triangularView<Eigen::UnitLower>().solveInPlace(front.upper);
   factors.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(front.lower);
   front.left = dense.bottomRightCorner(rest, rest);
   front.left.noalias() -= front.lower * front.upper;
