@@ -41,5 +41,6 @@ FigureRows simpleShear(bool quick);
 FigureRows spheres(bool quick);
 FigureRows squareArrays(bool quick);
 FigureRows stringOfDiscs(bool quick);
+FigureRows strips(bool quick);
 
 }  // namespace dovetail::benchmark

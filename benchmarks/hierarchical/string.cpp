@@ -8,6 +8,7 @@
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/hierarchical/cell_field.hpp"
 #include "figure.hpp"
+#include "wave_records.hpp"
 
 namespace dovetail::benchmark {
 
@@ -89,16 +90,6 @@ Record solid(int elements, double period) {
     record.far.push_back(model.nodes.u[far].x);
   }
   return record;
-}
-
-/// √Σ(a − b)²/√Σb², %.
-double difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double squares = 0.0, whole = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    squares += (a[k] - b[k]) * (a[k] - b[k]);
-    whole += b[k] * b[k];
-  }
-  return 100.0 * std::sqrt(squares / whole);
 }
 
 double timeOfPeak(const std::vector<double>& u) {

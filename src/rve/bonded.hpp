@@ -61,8 +61,7 @@ ContactMatrix linearised(const Cell& cell, const BondTouch& bond, const Linearis
 
 /// What bonds ask of lists made anew: contacts that are bonded are as stiff as the stiffer of contact and bond in
 /// `boundStiffness`, and press by their bond alone afterwards.
-/// @throws NumericalError if one has become longer than pairs are listed
-void boundStiffness(const Cell& cell, const Contacts& old, Contacts& contacts);
+void boundStiffness(const Cell& cell, Contacts& contacts);
 void leaveToBonds(Contacts& contacts);
 
 }  // namespace dovetail::rve

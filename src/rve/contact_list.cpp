@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "bonded.hpp"
@@ -105,13 +106,44 @@ private:
 /// Overlap in radii that elastic spheres which touch nobody shall be able to meet.
 constexpr double loneOverlap = 1e-3;
 
-void list(const Cell& cell, const std::array<Vec3, 3>& rows, Contacts& contacts) {
+struct Neighbour {
+  int j;
+  std::uint8_t image;
+  bool operator==(const Neighbour&) const = default;
+};
+
+/// How images are numbered anew: by the reduction of the lattice and by the period in which each grain was.
+struct Renumbering {
+  geometry::IntegerMatrix map;
+  std::vector<Image> was;
+
+  Image of(std::size_t i, std::size_t j, std::uint8_t code) const {
+    Image n = geometry::product(map, imageOf(code));
+    for (std::size_t k = 0; k < 3; ++k) n[k] += was[j][k] - was[i][k];
+    return n;
+  }
+};
+
+/// Pairs that bonds hold together, however long, grain by grain; empty where there are none.
+std::vector<std::vector<Neighbour>> bondedPairs(const Contacts& old, const Renumbering& renumbering) {
+  std::vector<std::vector<Neighbour>> pairs(old.bond.empty() ? 0 : old.first.size() - 1);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    for (int c = old.first[i]; c < old.first[i + 1]; ++c) {
+      const auto at = static_cast<std::size_t>(c);
+      if (!isBonded(old, at)) continue;
+      const Image n = renumbering.of(i, static_cast<std::size_t>(old.other[at]), old.image[at]);
+      if (std::ranges::any_of(n, [](int k) { return std::abs(k) > 1; }))
+        throw NumericalError("a bond has become longer than the cell", "cell of grains",
+                             "give bonds a tensile strength");
+      pairs[i].push_back({old.other[at], codeOf(n)});
+    }
+  return pairs;
+}
+
+void list(const Cell& cell, const std::array<Vec3, 3>& rows, const std::vector<std::vector<Neighbour>>& bonded,
+          Contacts& contacts) {
   const Bins bins(cell, rows, listReach(cell));
-  struct Found {
-    int j;
-    std::uint8_t image;
-  };
-  std::vector<Found> found;
+  std::vector<Neighbour> found;
   contacts.first.assign(1, 0);
   for (std::size_t i = 0; i < cell.size(); ++i) {
     found.clear();
@@ -123,9 +155,12 @@ void list(const Cell& cell, const std::array<Vec3, 3>& rows, Contacts& contacts)
       if (squaredNorm(placeOf(cell, at) + cell.state.lattice.shift(n) - xi) < reach * reach)
         found.push_back({j, codeOf(n)});
     });
+    if (!bonded.empty())
+      for (const Neighbour& far : bonded[i])
+        if (std::ranges::find(found, far) == found.end()) found.push_back(far);
     std::sort(found.begin(), found.end(),
-              [](const Found& a, const Found& b) { return a.j != b.j ? a.j < b.j : a.image < b.image; });
-    for (const Found& f : found) {
+              [](const Neighbour& a, const Neighbour& b) { return a.j != b.j ? a.j < b.j : a.image < b.image; });
+    for (const Neighbour& f : found) {
       contacts.other.push_back(f.j);
       contacts.image.push_back(f.image);
       const double share = cell.frame.empty() ? 1.0 : shareOf(cell.frame, static_cast<int>(i), f.j);
@@ -136,15 +171,13 @@ void list(const Cell& cell, const std::array<Vec3, 3>& rows, Contacts& contacts)
   }
 }
 
-/// Contacts keep their stretch: the same pair through the image that `map` and the wrapping make of the old one.
-void inherit(Contacts& contacts, const Contacts& old, const geometry::IntegerMatrix& map,
-             const std::vector<Image>& was) {
+/// Contacts keep their stretch: the same pair through the image that has another number now.
+void inherit(Contacts& contacts, const Contacts& old, const Renumbering& renumbering) {
   for (std::size_t i = 0; i + 1 < old.first.size(); ++i)
     for (int c = old.first[i]; c < old.first[i + 1]; ++c) {
       const auto from = static_cast<std::size_t>(c);
       const auto j = static_cast<std::size_t>(old.other[from]);
-      Image n = geometry::product(map, imageOf(old.image[from]));
-      for (std::size_t k = 0; k < 3; ++k) n[k] += was[j][k] - was[i][k];
+      const Image n = renumbering.of(i, j, old.image[from]);
       for (int e = contacts.first[i]; e < contacts.first[i + 1]; ++e) {
         const auto to = static_cast<std::size_t>(e);
         if (contacts.other[to] != old.other[from] || imageOf(contacts.image[to]) != n) continue;
@@ -225,16 +258,16 @@ void renew(Cell& cell) {
                            "take more grains: two of the largest diameters and skins, " + formatNumber(2.0 * reach) +
                                " m, are the least");
   const std::array<Vec3, 3> rows = geometry::inverse(s.lattice);
-  const std::vector<Image> was = wrap(cell, rows);
+  const Renumbering renumbering{map, wrap(cell, rows)};
   Contacts contacts;
-  list(cell, rows, contacts);
+  list(cell, rows, bondedPairs(s.contacts, renumbering), contacts);
   const std::size_t size = contacts.size();
   for (std::size_t k = 0; k < (cell.shape == Shape::disc ? 1u : 3u); ++k) contacts.stretch[k].assign(size, 0.0);
   if (cell.springs.rolls()) contacts.roll.assign(size, 0.0);
   if (!s.contacts.bond.empty()) contacts.bond.resize(size);
   if (cell.springs.elasticSpheres() && cell.springs.slides()) contacts.tangent.assign(size, 0.0);
-  inherit(contacts, s.contacts, map, was);
-  if (!s.contacts.bond.empty()) boundStiffness(cell, s.contacts, contacts);
+  inherit(contacts, s.contacts, renumbering);
+  if (!s.contacts.bond.empty()) boundStiffness(cell, contacts);
   s.contacts = std::move(contacts);
   s.room = cell.skin;
   if (!cell.springs.elasticSpheres()) s.criticalStep = criticalStep(cell, sumsOf(s.contacts, cell.size()));
