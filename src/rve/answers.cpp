@@ -44,6 +44,12 @@ double largestFreeForce(const Cell& cell) {
   return most;
 }
 
+/// Of a contact that lies in several places of a framed cell, what is here.
+double shareHere(const Cell& cell, const Touch& touch) {
+  if (cell.frame.empty()) return 1.0;
+  return touch.stiffness / normalStiffness(cell.springs, cell.radius[touch.i], cell.radius[touch.j]);
+}
+
 }  // namespace
 
 Balance balance(const Cell& cell) {
@@ -54,9 +60,7 @@ Balance balance(const Cell& cell) {
     ++found.contacts;
     touched[touch.i] = touched[touch.j] = 1;
     forces += norm(contactForce(cell, touch));
-    shares += cell.frame.empty()
-                  ? 1.0
-                  : touch.stiffness / normalStiffness(cell.springs, cell.radius[touch.i], cell.radius[touch.j]);
+    shares += shareHere(cell, touch);
     if (cell.springs.slides() && norm(touch.stretch) >= (1.0 - 1e-9) * slipLimit(cell.springs, touch)) ++found.sliding;
   });
   forEachBond(cell, [&](const BondTouch& bond) {
@@ -76,6 +80,17 @@ Balance balance(const Cell& cell) {
   found.unbalanced = most == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
   if (found.meanForce > 0.0) found.unbalanced = most / found.meanForce;
   return found;
+}
+
+Eigen::Matrix3d fabric(const Cell& cell) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  const auto add = [&sum](const Vec3& normal, double share) {
+    const Eigen::Vector3d n(normal.x, normal.y, normal.z);
+    sum += share * n * n.transpose();
+  };
+  forEachTouch(cell, [&](const Touch& touch) { add(touch.normal, shareHere(cell, touch)); });
+  forEachBond(cell, [&](const BondTouch& bond) { add(bond.normal, bond.share); });
+  return sum.trace() > 0.0 ? Eigen::Matrix3d(sum / sum.trace()) : sum;
 }
 
 double storedEnergy(const Cell& cell) {

@@ -35,6 +35,20 @@ TEST(Preparation, SpheresArePreparedAlike) {
   EXPECT_GT(balance(cell).coordination, 5.0);
 }
 
+TEST(Preparation, FabricIsThatOfArraysAndTurnsWithTheCell) {
+  EXPECT_LT((fabric(squareArray(6)) - Eigen::Vector3d(0.5, 0.5, 0.0).asDiagonal().toDenseMatrix()).norm(), 1e-14);
+  const Cell start = pressedDiscs(80);
+  const Eigen::Matrix3d before = fabric(start), R = turned(0.4);
+  EXPECT_NEAR(before.trace(), 1.0, 1e-14);
+  Cell cell = start;
+  deform(cell, R);
+  EXPECT_LT((fabric(cell) - R * before * R.transpose()).norm(), 1e-12);
+  // Shortened along y: more contacts lie that way.
+  followPath(cell = start, plane(1.004, 0, 0, 0.99));
+  EXPECT_GT(fabric(cell)(1, 1), before(1, 1));
+  EXPECT_LT((fabric(framed(start, everywhere(Condition::periodic))) - before).norm(), 1e-12);
+}
+
 TEST(Preparation, SameSeedSameCell) {
   EXPECT_EQ(pressedDiscs(50, 4).state.x, pressedDiscs(50, 4).state.x);
   EXPECT_NE(pressedDiscs(50, 4).state.x, pressedDiscs(50, 5).state.x);

@@ -152,6 +152,9 @@ struct Balance {
 };
 Balance balance(const Cell& cell);
 
+/// Mean of n ⊗ n over the contacts and bonds, n their unit normals: trace 1, or 0 where nothing touches (Satake 1982).
+Eigen::Matrix3d fabric(const Cell& cell);
+
 /// Energy in the springs and bonds, J.
 double storedEnergy(const Cell& cell);
 /// Kinetic energy of the fluctuations, J.
