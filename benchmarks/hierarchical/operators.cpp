@@ -1,9 +1,10 @@
-// Operators of cells in Newton's method: iterations, answers of cells and seconds of the processor for 2 × 4 quad8 with
-// 2 × 2 points, before the peak. Also one element against the cell alone, and what an answer costs.
+// Operators of cells in Newton's method: iterations, answers of cells and seconds of the processor for 32 or 128 quad8
+// with 2 × 2 points, before the peak. Also one element against the cell alone, and what an answer costs.
 #include "dovetail/rve/operators.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -98,24 +99,33 @@ struct Way {
   Operator tangent;
   double reuse;
   int mixing = 0;
+  int paths = 0;  ///< of cells, for a tangent
+};
+
+struct Size {
+  std::array<int, 2> elements;
+  int steps;
 };
 
 /// Iterations of a step, mean.
-double study(const Way& way, const std::vector<rve::Cell>& bank, int steps, FigureRows& rows) {
-  BiaxialSolid body({.elements = {2, 4}, .shape = fem::CellShape::quad8, .formulation = fem::Formulation::reduced},
-                    hierarchical::cellField(bank, RestingCells{.tangent = way.tangent}), sinks);
+double study(const Way& way, const std::vector<rve::Cell>& bank, const Size& size, FigureRows& rows) {
+  BiaxialSolid body(
+      {.elements = size.elements, .shape = fem::CellShape::quad8, .formulation = fem::Formulation::reduced},
+      hierarchical::cellField(bank, RestingCells{.tangent = way.tangent}), sinks);
   int most = 0;
   const auto look = [&](const fem::Model&, const fem::StaticStep& step) {
     most = std::max(most, step.iterations);
     return true;
   };
   const double start = processorSeconds();
-  const fem::StaticReport report = fem::solveStatics(body.model, steps, options(way.reuse, way.mixing), look);
+  const fem::StaticReport report = fem::solveStatics(body.model, size.steps, options(way.reuse, way.mixing), look);
   const double seconds = processorSeconds() - start, accepted = static_cast<double>(report.steps.size());
   const double mean = static_cast<double>(report.iterations) / accepted;
+  const int cells = 4 * size.elements[0] * size.elements[1];
   char note[200];
-  std::snprintf(note, sizeof note, "most %d, cuts %d, %d answers of cells, %lld factorisations, %.1f s, %.1f kPa", most,
-                report.cuts, static_cast<int>(32 * (report.iterations + steps)),
+  std::snprintf(note, sizeof note, "most %d, cuts %d, %d paths of cells, %lld factorisations, %.1f s, %.1f kPa", most,
+                report.cuts,
+                static_cast<int>(cells * (report.iterations + size.steps + way.paths * report.factorisations)),
                 static_cast<long long>(report.factorisations), seconds, 1e-3 * body.axial());
   rows.push_back({"iterations a step, " + way.name, mean, 0.0, std::nan(""), 0.0, note});
   return mean;
@@ -129,13 +139,16 @@ FigureRows operators(bool quick) {
   rows.push_back(oneElementAgainstTheCell());
   std::vector<rve::Cell> bank;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) bank.push_back(sand(seed));
-  const int steps = quick ? 4 : 10;
-  const double network = study({"network", Operator::network, 0.0}, bank, steps, rows);
-  study({"network, frozen", Operator::network, 0.5}, bank, steps, rows);
-  study({"network, frozen and mixed", Operator::network, 0.5, 5}, bank, steps, rows);
-  const double uniform = study({"uniformStrain", Operator::uniformStrain, 0.0}, bank, steps, rows);
-  const double frozen = study({"uniformStrain, frozen", Operator::uniformStrain, 0.9}, bank, steps, rows);
-  const double mixed = study({"uniformStrain, frozen and mixed", Operator::uniformStrain, 0.9, 5}, bank, steps, rows);
+  const Size size = quick ? Size{{4, 8}, 4} : Size{{8, 16}, 10};
+  const auto iterations = [&](const Way& way) { return study(way, bank, size, rows); };
+  const double network = iterations({"network", Operator::network, 0.0});
+  iterations({"network, frozen", Operator::network, 0.5});
+  iterations({"network, frozen and mixed", Operator::network, 0.5, 5});
+  iterations({"slidingNetwork", Operator::slidingNetwork, 0.0});
+  const double uniform = iterations({"uniformStrain", Operator::uniformStrain, 0.0});
+  const double frozen = iterations({"uniformStrain, frozen", Operator::uniformStrain, 0.9});
+  const double mixed = iterations({"uniformStrain, frozen and mixed", Operator::uniformStrain, 0.9, 5});
+  iterations({"pathProbe", Operator::pathProbe, 0.0, 0, 5});
   rows.push_back({"iterations, uniformStrain over network", uniform / network, 0.0, 2.0, 0.6, "1.4 or more is wanted"});
   rows.push_back({"iterations saved by mixing, %", 100.0 * (1.0 - mixed / frozen), 0.0, std::nan(""), 0.0});
   return rows;

@@ -12,6 +12,7 @@
 #include "dovetail/hierarchical/cell_field.hpp"
 #include "dovetail/rve/packing.hpp"
 #include "figure.hpp"
+#include "tiles.hpp"
 #include "wave_records.hpp"
 
 namespace dovetail::benchmark {
@@ -56,18 +57,10 @@ struct Record {
 };
 
 /// Tiles side by side that repeat upwards, with a rigid one at either end and a gap between these.
-rve::Cell sideBySide(const rve::Cell& cell, int tiles, bool bonded) {
-  const Vec3 along = cell.state.lattice.period[0];
-  rve::Grains grains{.density = cell.density};
-  for (int k = 0; k < tiles; ++k)
-    for (std::size_t i = 0; i < cell.size(); ++i) {
-      const double x = cell.state.x[0][i], inTile = x - std::floor(x / along.x) * along.x;
-      grains.centre.push_back({inTile + k * along.x, cell.state.x[1][i], 0.0});
-      grains.radius.push_back(cell.radius[i]);
-    }
+rve::Cell sideBySide(const rve::Cell& cell, int tilesInAll, bool bonded) {
   geometry::Lattice lattice = cell.state.lattice;
-  lattice.period[0] = (tiles + 0.2) * along;
-  rve::Cell strip = rve::makeCell(grains, lattice, cell.springs);
+  lattice.period[0] = (tilesInAll + 0.2) * lattice.period[0];
+  rve::Cell strip = rve::makeCell(tiles(cell, tilesInAll, 1), lattice, cell.springs);
   if (bonded) rve::bond(strip, bonds());
   constexpr double rigid = 1e30;
   for (std::size_t i = 0; i < cell.size(); ++i)

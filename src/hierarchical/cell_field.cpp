@@ -1,6 +1,8 @@
 #include "dovetail/hierarchical/cell_field.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "bank.hpp"
 #include "dovetail/core/error.hpp"
@@ -14,15 +16,72 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-struct Resting {
-  RestingCells settings;
+/// By rows, to an archive or from it.
+template <class Archive, class Matrix>
+void passMatrix(Archive& archive, Matrix& matrix) {
+  constexpr int n = Matrix::RowsAtCompileTime;
+  std::array<double, n * n> values;
+  Eigen::Map<Eigen::Matrix<double, n, n, Eigen::RowMajor>> rows(values.data());
+  rows = matrix;
+  archive(values);
+  matrix = rows;
+}
+
+class Resting {
+public:
+  explicit Resting(const RestingCells& settings) : settings_(settings) {}
 
   /// A cell that is to stay where it was committed is at rest there already.
   void go(rve::Cell& cell, const Eigen::Matrix3d& F, double, bool stays) const {
-    if (!stays) settle(cell, F, settings);
+    if (!stays) settle(cell, F, settings_);
   }
-  rve::Tangent tangent(const rve::Cell& cell) const {
-    return settings.tangent == Operator::network ? rve::network(cell) : rve::uniformStrain(cell);
+  /// @param cell  the answer  @param committed  what its path started from
+  rve::Tangent tangent(const rve::Cell& cell, const rve::CellState& committed) {
+    switch (settings_.tangent) {
+      case Operator::network:
+        return rve::network(cell);
+      case Operator::slidingNetwork:
+        return rve::slidingNetwork(cell);
+      case Operator::uniformStrain:
+        return rve::uniformStrain(cell);
+      case Operator::elasticProbe:
+        return rve::elasticProbe(cell);
+      case Operator::pathProbe:
+        return pathProbe(cell, committed);
+      case Operator::frozenMean:
+        break;
+    }
+    if (history_.frozen) return history_.mean;
+    last_ = pathProbe(cell, committed);
+    asked_ = true;
+    return last_;
+  }
+  void commit(const rve::Cell& cell) {
+    if (settings_.tangent == Operator::frozenMean && asked_)
+      history_.next(cell.state.F, rve::nominalStress(cell), [this] { return last_; });
+  }
+  template <class Archive>
+  void pass(Archive& archive) {
+    if (settings_.tangent != Operator::frozenMean) return;
+    passMatrix(archive, history_.F);
+    passMatrix(archive, history_.P);
+    passMatrix(archive, history_.mean);
+    passMatrix(archive, last_);
+    archive(history_.count, history_.frozen, asked_);
+  }
+
+private:
+  RestingCells settings_;
+  rve::FrozenMean history_;
+  rve::Tangent last_ = rve::Tangent::Zero();
+  bool asked_ = false;  ///< whether there is a last one
+
+  rve::Tangent pathProbe(const rve::Cell& cell, const rve::CellState& committed) const {
+    rve::Cell start = cell;
+    start.state = committed;
+    rve::PathSettings path = settings_.path;
+    path.rest.unbalanced = settings_.unbalanced;
+    return rve::pathProbe(start, cell.state.F, {.path = path});
   }
 };
 
@@ -32,7 +91,10 @@ struct Moving {
   void go(rve::Cell& cell, const Eigen::Matrix3d& F, double dt, bool stays) const {
     if (!stays || dt > 0.0) stepTo(cell, F, settings);
   }
-  rve::Tangent tangent(const rve::Cell& cell) const { return rve::uniformStrain(cell); }
+  rve::Tangent tangent(const rve::Cell& cell, const rve::CellState&) const { return rve::uniformStrain(cell); }
+  void commit(const rve::Cell&) {}
+  template <class Archive>
+  void pass(Archive&) {}
 };
 
 /// Discs have no answer out of their plane, which F̄ of a mean dilatation leaves.
@@ -62,11 +124,13 @@ public:
     }
     if (moved) tell(answer);
     if (!answer.tangent.empty())
-      Eigen::Map<Eigen::Matrix<double, 9, 9, Eigen::RowMajor>>(answer.tangent.data()) = manner_.tangent(cell_);
+      Eigen::Map<Eigen::Matrix<double, 9, 9, Eigen::RowMajor>>(answer.tangent.data()) =
+          manner_.tangent(cell_, committed_);
   }
 
   void commit() override {
     if (!known_) return;
+    manner_.commit(cell_);
     std::swap(committed_, cell_.state);
     committedF_ = F_;
     known_ = false;
@@ -75,17 +139,22 @@ public:
 
   void save(ByteWriter& archive) const override {
     rve::writeState(cell_, committed_, archive);
-    std::array<double, 9> F;
-    Eigen::Map<RowMajor>(F.data()) = committedF_;
-    archive(F);
+    Eigen::Matrix3d F = committedF_;
+    passMatrix(archive, F);
+    Manner manner = manner_;
+    manner.pass(archive);
   }
   void load(ByteReader& archive) override {
-    committed_ = rve::readState(cell_, archive);
-    std::array<double, 9> F;
-    archive(F);
-    committedF_ = Eigen::Map<const RowMajor>(F.data());
-    if (!((committedF_ - committed_.F).norm() <= 1e-9 * committed_.F.norm()))
+    rve::CellState state = rve::readState(cell_, archive);
+    Eigen::Matrix3d F = committedF_;
+    passMatrix(archive, F);
+    if (!((F - state.F).norm() <= 1e-9 * state.F.norm()))
       throw InputError("the deformation is not that of the cell", "cell of grains", "take an older file");
+    Manner manner = manner_;
+    manner.pass(archive);
+    committed_ = std::move(state);
+    committedF_ = F;
+    manner_ = manner;
     known_ = false;
   }
 

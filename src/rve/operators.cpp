@@ -103,13 +103,14 @@ Tangent pathProbe(const Cell& committed, const Eigen::Matrix3d& F, const PathPro
   });
 }
 
-Tangent FrozenMean::next(const Eigen::Matrix3d& F, const Eigen::Matrix3d& P, const std::function<Tangent()>& probe) {
-  if (count_ > 0 && F != F_ && (P - P_).cwiseProduct(F - F_).sum() <= 0.0) frozen_ = true;
-  if (frozen_) return mean_;
-  F_ = F;
-  P_ = P;
+Tangent FrozenMean::next(const Eigen::Matrix3d& nowF, const Eigen::Matrix3d& nowP,
+                         const std::function<Tangent()>& probe) {
+  if (count > 0 && nowF != F && (nowP - P).cwiseProduct(nowF - F).sum() <= 0.0) frozen = true;
+  if (frozen) return mean;
+  F = nowF;
+  P = nowP;
   const Tangent now = probe();
-  mean_ += (now - mean_) / ++count_;
+  mean += (now - mean) / ++count;
   return now;
 }
 

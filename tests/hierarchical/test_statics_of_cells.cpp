@@ -152,6 +152,46 @@ TEST(StaticsOfCells, TheNetworkConvergesFasterThanUniformStrainToTheSame) {
   }
 }
 
+TEST(StaticsOfCells, EveryOperatorLeadsToTheSame) {
+  const auto run = [](Operator tangent) {
+    Biaxial body({1, 1}, cellField(threeCells(), RestingCells{.tangent = tangent}));
+    const fem::StaticReport report = fem::solveStatics(body.model, 1.0, roughly(1e-5));
+    EXPECT_EQ(report.cuts, 0);
+    return std::pair(report.iterations, body.sample().P);
+  };
+  const auto [iterations, P] = run(Operator::network);
+  for (const Operator other :
+       {Operator::slidingNetwork, Operator::elasticProbe, Operator::pathProbe, Operator::frozenMean}) {
+    const auto [count, Q] = run(other);
+    for (std::size_t p = 0; p < 4; ++p)
+      EXPECT_LT((matrixAt(Q, p) - matrixAt(P, p)).norm(), 1e-3 * matrixAt(P, p).norm());
+    EXPECT_LE(count, other == Operator::slidingNetwork ? 2 * iterations : iterations);
+  }
+}
+
+TEST(StaticsOfCells, FrozenMeansFreezeWherePointsSoftenAndGoToBytes) {
+  const auto field = [] { return cellField(oneCell(), RestingCells{.tangent = Operator::frozenMean}); };
+  Asked cell(field());
+  const auto at = [](int step) { return rve::plane(1.0 + 3e-3 * step, 0.0, 0.0, 1.0 - 3e-3 * step); };
+  rve::FrozenMean expected;
+  int steps = 0;
+  while (!expected.frozen && ++steps < 40) {
+    const rve::Tangent tangent = cell.tangentAt(at(steps));
+    cell.field().commit();
+    expected.next(at(steps), matrixAt(cell.P, 0), [&] { return tangent; });
+  }
+  ASSERT_TRUE(expected.frozen);
+  EXPECT_GT(expected.count, 1);
+  EXPECT_EQ(cell.tangentAt(at(steps)), expected.mean);
+  EXPECT_EQ(cell.tangentAt(at(steps + 1)), expected.mean);
+  ByteWriter bytes;
+  cell.field().save(bytes);
+  Asked again(field());
+  ByteReader reader(bytes.bytes());
+  again.field().load(reader);
+  EXPECT_EQ(again.tangentAt(at(steps + 1)), expected.mean);
+}
+
 TEST(StaticsOfCells, WhatStagnatesIsNeverAccepted) {
   // Cells that are hardly at rest cannot be balanced to this.
   Biaxial body({1, 1},
@@ -172,19 +212,20 @@ TEST(StaticsOfCells, WhatStagnatesIsNeverAccepted) {
   EXPECT_EQ(body.model.t, accepted);
 }
 
+std::pair<std::unique_ptr<Biaxial>, fem::StaticOptions> pastThePeak(int motionIterations) {
+  auto body = std::make_unique<Biaxial>(std::array{1, 1}, cellField(oneCell()), CellShape::quad4, 2e-4);
+  fem::addMass(body->model);
+  fem::StaticOptions options = roughly(1e-4, 1.0);
+  options.newton.maxIterations = 6;
+  options.smallestStep = 1.0;
+  options.motionIterations = motionIterations;
+  return {std::move(body), options};
+}
+
 TEST(StaticsOfCells, PastThePeakNodesMoveToRestWhereIterationsFail) {
-  const auto press = [](int motionIterations) {
-    auto body = std::make_unique<Biaxial>(std::array{1, 1}, cellField(oneCell()), CellShape::quad4, 2e-4);
-    fem::addMass(body->model);
-    fem::StaticOptions options = roughly(1e-4, 1.0);
-    options.newton.maxIterations = 6;
-    options.smallestStep = 1.0;
-    options.motionIterations = motionIterations;
-    return std::pair(std::move(body), options);
-  };
-  auto [stopped, none] = press(0);
+  auto [stopped, none] = pastThePeak(0);
   EXPECT_THROW(fem::solveStatics(stopped->model, 16.0, none), NumericalError);
-  auto [body, some] = press(4000);
+  auto [body, some] = pastThePeak(4000);
   const fem::StaticReport report = fem::solveStatics(body->model, 16.0, some);
   EXPECT_EQ(body->model.t, 16.0);
   EXPECT_GT(report.motions, 0);
@@ -196,6 +237,19 @@ TEST(StaticsOfCells, PastThePeakNodesMoveToRestWhereIterationsFail) {
   }
   EXPECT_EQ(moved, report.motions);
   EXPECT_LT(std::abs(report.energyResidual()), 0.05 * std::abs(report.supportWork));
+}
+
+TEST(StaticsOfCells, MotionsThatDoNotEndLeaveTheLastEquilibrium) {
+  const auto stoppedAt = [](int motionIterations) {
+    auto [body, options] = pastThePeak(motionIterations);
+    EXPECT_THROW(fem::solveStatics(body->model, 16.0, options), NumericalError);
+    EXPECT_GT(body->model.t, 0.0);
+    EXPECT_LT(body->model.t, 16.0);
+    ByteWriter archive;
+    fem::save(body->model, archive);
+    return archive.bytes();
+  };
+  EXPECT_EQ(stoppedAt(0), stoppedAt(20));
 }
 
 TEST(StaticsOfCells, APointWithoutAnAnswerIsNamed) {

@@ -252,10 +252,10 @@ TEST(Operators, TheFrozenMeanFreezesAtTheFirstSofteningStep) {
   EXPECT_EQ(at(0.0, 0.0), 1.0);
   EXPECT_EQ(at(0.1, 1.0), 2.0);
   EXPECT_EQ(at(0.2, 1.5), 3.0);
-  EXPECT_FALSE(operators.frozen());
+  EXPECT_FALSE(operators.frozen);
   EXPECT_EQ(at(0.3, 1.4), 2.0);
   EXPECT_EQ(at(0.4, 9.0), 2.0);
-  EXPECT_TRUE(operators.frozen());
+  EXPECT_TRUE(operators.frozen);
   EXPECT_EQ(probes, 3);
 }
 

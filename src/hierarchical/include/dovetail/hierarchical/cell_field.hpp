@@ -14,8 +14,12 @@ namespace dovetail::hierarchical {
 
 /// ∂P/∂F that cells hand to Newton's method (rve/operators.hpp).
 enum class Operator {
-  network,       ///< converges fastest while little slips; a factorisation of each cell, twice the price of an answer
-  uniformStrain  ///< stiffer, without solving: more iterations, each cheaper
+  network,         ///< converges fast while little slips; a factorisation of each cell, half the price of an answer
+  slidingNetwork,  ///< the same where loading goes on as before
+  uniformStrain,   ///< stiffer, without solving: more iterations, each cheaper
+  elasticProbe,    ///< a check of `network`, many times its price
+  pathProbe,       ///< of the answers themselves, five more of discs, ten of spheres
+  frozenMean       ///< pathProbe until the point softens, then the mean of those that it had at accepted steps
 };
 
 /// Statics: every answer is a path from the committed cell to F, then rest: by FIRE to path.rest.unbalanced, from there

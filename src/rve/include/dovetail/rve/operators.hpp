@@ -48,17 +48,15 @@ Tangent pathProbe(const Cell& committed, const Eigen::Matrix3d& F, const PathPro
 
 /// Operators of a cell as long as it hardens, and from its first softening step on, for good, the mean of those so far
 /// (AEO; Desrues et al. 2019, sec. 2.5, with pathProbe). A step ΔF, ΔP softens if ΔP : ΔF ≤ 0 (Hill).
-class FrozenMean {
-public:
-  /// The operator to go on with from a committed state, F and P (Pa); `probe` is called as long as the cell hardens.
-  Tangent next(const Eigen::Matrix3d& F, const Eigen::Matrix3d& P, const std::function<Tangent()>& probe);
-  bool frozen() const { return frozen_; }
+struct FrozenMean {
+  Eigen::Matrix3d F = Eigen::Matrix3d::Zero();  ///< committed last while the cell hardened
+  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();  ///< there, Pa
+  Tangent mean = Tangent::Zero();
+  int count = 0;  ///< of operators that the mean is of
+  bool frozen = false;
 
-private:
-  Eigen::Matrix3d F_ = Eigen::Matrix3d::Zero(), P_ = Eigen::Matrix3d::Zero();  // committed before
-  Tangent mean_ = Tangent::Zero();
-  int count_ = 0;
-  bool frozen_ = false;
+  /// The operator to go on with from a committed state; `probe` is called as long as the cell hardens.
+  Tangent next(const Eigen::Matrix3d& nowF, const Eigen::Matrix3d& nowP, const std::function<Tangent()>& probe);
 };
 
 }  // namespace dovetail::rve
