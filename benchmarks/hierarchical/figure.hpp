@@ -37,6 +37,7 @@ FigureRows explicitBiaxial(bool quick);
 FigureRows lz19Cell(bool quick);
 FigureRows mixedLayer(bool quick);
 FigureRows operators(bool quick);
+FigureRows servoFrame(bool quick);
 FigureRows simpleShear(bool quick);
 FigureRows spheres(bool quick);
 FigureRows squareArrays(bool quick);

@@ -17,6 +17,7 @@ const std::vector<Figure> figures{
     {"lz19-cell", "Liang & Zhao 2019, biaxial compression", lz19Cell},
     {"operators", "Desrues et al. 2019, Table 1", operators},
     {"simple-shear", "Liu 2018, Figs 2.7 and 2.10", simpleShear},
+    {"servo", "Liu 2018, eqs 2.33, 2.34, Table 2.3", servoFrame},
     {"mixed-layer", "Liu 2018, Fig. 2.11", mixedLayer},
     {"string", "Liu 2018, Figs 4.4, 4.5", stringOfDiscs},
     {"strips", "Liu 2018, Figs 4.8 and 4.10", strips},
