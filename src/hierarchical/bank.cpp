@@ -1,7 +1,6 @@
 #include "bank.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 
 #include "dovetail/core/error.hpp"
@@ -38,14 +37,7 @@ void validateBank(const std::vector<rve::Cell>& bank, double unbalanced) {
 
 double meanDensity(const std::vector<rve::Cell>& bank) {
   double sum = 0.0;
-  for (const rve::Cell& cell : bank) {
-    std::vector<double> mass = cell.mass;
-    // Copies of a frame's grains are one grain.
-    for (const std::vector<int>& group : cell.frame.alike)
-      for (std::size_t k = 1; k < group.size(); ++k)
-        mass[static_cast<std::size_t>(cell.frame.grain[static_cast<std::size_t>(group[k])])] = 0.0;
-    sum += std::accumulate(mass.begin(), mass.end(), 0.0) / cell.volume;
-  }
+  for (const rve::Cell& cell : bank) sum += cell.density * rve::solidFraction(cell);
   return sum / static_cast<double>(bank.size());
 }
 

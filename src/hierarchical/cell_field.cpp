@@ -190,19 +190,10 @@ std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Cell> bank, double unb
 }  // namespace
 
 std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const RestingCells& settings) {
-  requirePositive(settings.unbalanced, "unbalanced share of forces");
-  if (settings.path.rest.steps < 1)
-    throw InputError("cells are not to come to rest", "cellField", "give path.rest.steps, or MovingCells");
   return fieldOf(std::move(bank), settings.unbalanced, Resting{settings});
 }
 
 std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const MovingCells& settings) {
-  requirePositive(settings.strainPerStep, "strain of a step");
-  if (!(settings.damping >= 0.0 && settings.damping < 1.0))
-    throw InputError("damping is " + formatNumber(settings.damping), "cellField", "give a share of 0 or more, below 1");
-  if (!(settings.stepShare > 0.0 && settings.stepShare < 1.0))
-    throw InputError("the share of the critical step is " + formatNumber(settings.stepShare), "cellField",
-                     "give one above 0 and below 1");
   return fieldOf(std::move(bank), rve::RestSettings{}.unbalanced, Moving{settings});
 }
 

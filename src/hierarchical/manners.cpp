@@ -9,7 +9,39 @@
 
 namespace dovetail::hierarchical {
 
+namespace {
+
+constexpr const char* where = "cell of grains";
+
+void validate(const RestingCells& settings) {
+  requirePositive(settings.unbalanced, "unbalanced share of forces");
+  if (settings.path.rest.steps < 1)
+    throw InputError("cells are not to come to rest", where, "give path.rest.steps, or MovingCells");
+}
+
+void validate(const MovingCells& settings) {
+  requirePositive(settings.strainPerStep, "strain of a step");
+  if (!(settings.damping >= 0.0 && settings.damping < 1.0))
+    throw InputError("damping is " + formatNumber(settings.damping), where, "give a share of 0 or more, below 1");
+  if (!(settings.stepShare > 0.0 && settings.stepShare < 1.0))
+    throw InputError("the share of the critical step is " + formatNumber(settings.stepShare), where,
+                     "give one above 0 and below 1");
+}
+
+/// @throws NumericalError if there are more than a run could want
+int stepsFor(double strain, const MovingCells& settings) {
+  const double steps = std::max(1.0, std::ceil(strain / settings.strainPerStep));
+  if (!(steps <= 1e6))
+    throw NumericalError(
+        "F is a strain of " + formatNumber(strain) + " away, " + formatNumber(steps) + " steps of the grains", where,
+        "take shorter steps of the solid, or a larger strainPerStep");
+  return static_cast<int>(steps);
+}
+
+}  // namespace
+
 void settle(rve::Cell& cell, const Eigen::Matrix3d& F, const RestingCells& settings) {
+  validate(settings);
   rve::RestReport rest = rve::followPath(cell, F, settings.path).rest;
   if (rest.atRest && rest.unbalanced > settings.unbalanced) rest = rve::polish(cell, settings.unbalanced);
   if (!rest.atRest) {  // contacts began or ended to touch or slip, or the first rest was not enough
@@ -19,20 +51,20 @@ void settle(rve::Cell& cell, const Eigen::Matrix3d& F, const RestingCells& setti
   }
   if (!rest.atRest)
     throw NumericalError(
-        "forces on grains are out of balance by " + formatNumber(rest.unbalanced) + " of the mean contact force",
-        "cell of grains", "take a smaller step or more steps to rest; past the peak, go on by explicit dynamics");
+        "forces on grains are out of balance by " + formatNumber(rest.unbalanced) + " of the mean contact force", where,
+        "take a smaller step or more steps to rest; past the peak, go on by explicit dynamics");
   if (rve::balance(cell).contacts == 0)
-    throw NumericalError("no grains touch", "cell of grains", "keep it under pressure: there is no cohesion");
+    throw NumericalError("no grains touch", where, "keep it under pressure: there is no cohesion");
 }
 
 void stepTo(rve::Cell& cell, const Eigen::Matrix3d& F, const MovingCells& settings) {
+  validate(settings);
   if (!F.allFinite() || !(F.determinant() > 0.0))
-    throw InputError("the determinant of F is " + formatNumber(F.determinant()), "cell of grains",
+    throw InputError("the determinant of F is " + formatNumber(F.determinant()), where,
                      "give an F that is finite and turns nothing inside out");
   const Eigen::Matrix3d start = cell.state.F, way = F - start;
   const Eigen::Matrix3d G = rve::relativeDeformation(cell, F) - Eigen::Matrix3d::Identity();
-  const int steps =
-      static_cast<int>(std::max(1.0, std::ceil(0.5 * (G + G.transpose()).norm() / settings.strainPerStep)));
+  const int steps = stepsFor(0.5 * (G + G.transpose()).norm(), settings);
   for (int k = 1; k <= steps; ++k) {
     const Eigen::Matrix3d next = k == steps ? F : Eigen::Matrix3d(start + way * (double(k) / steps));
     rve::step(cell, settings.stepShare * cell.state.criticalStep, rve::relativeDeformation(cell, next),

@@ -28,7 +28,7 @@ Eigen::Matrix3d nominalStress(const Cell& cell) {
 
 namespace {
 
-/// Largest force on a grain that no reaction holds, N.
+/// Largest force on a grain that no reaction holds, N; NaN if one is not finite.
 double largestFreeForce(const Cell& cell) {
   Components force, torque;
   freeForces(cell, force, torque);
@@ -39,7 +39,9 @@ double largestFreeForce(const Cell& cell) {
       if (!component.empty()) force2 += component[i] * component[i];
     for (const std::vector<double>& component : torque)
       if (!component.empty()) torque2 += component[i] * component[i];
-    most = std::max({most, std::sqrt(force2), std::sqrt(torque2) / cell.radius[i]});
+    const double now = std::max(std::sqrt(force2), std::sqrt(torque2) / cell.radius[i]);
+    if (!std::isfinite(force2 + torque2)) return std::nan("");
+    most = std::max(most, now);
   }
   return most;
 }
@@ -78,7 +80,7 @@ Balance balance(const Cell& cell) {
   const double most = largestFreeForce(cell);
   if (found.contacts > 0) found.meanForce = forces / found.contacts;
   found.unbalanced = most == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
-  if (found.meanForce > 0.0) found.unbalanced = most / found.meanForce;
+  if (found.meanForce > 0.0 && std::isfinite(most)) found.unbalanced = most / found.meanForce;
   return found;
 }
 

@@ -8,6 +8,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "make_cell.hpp"
 
 namespace dovetail::rve {
 
@@ -95,10 +96,10 @@ bool fits(const Cell& cell, const CellState& state) {
     if (!std::isfinite(norm(period))) return false;
   const EnergyBook& book = state.book;
   return state.F.allFinite() && state.F.determinant() > 0.0 && state.dyad.allFinite() && state.lattice.volume() > 0.0 &&
-         std::isfinite(state.room) && std::isfinite(state.criticalStep) && state.criticalStep > 0.0 &&
-         std::isfinite(book.work + book.friction + book.damping + book.bonds) && fits(cell, state.x, Use::moves) &&
-         fits(cell, state.v, Use::moves) && fits(cell, state.force, Use::moves) && fits(cell, state.spin, Use::turns) &&
-         fits(cell, state.torque, Use::turns) && fits(cell, state.contacts);
+         state.room <= cell.skin && std::isfinite(state.room) && std::isfinite(state.criticalStep) &&
+         state.criticalStep > 0.0 && std::isfinite(book.work + book.friction + book.damping + book.bonds) &&
+         fits(cell, state.x, Use::moves) && fits(cell, state.v, Use::moves) && fits(cell, state.force, Use::moves) &&
+         fits(cell, state.spin, Use::turns) && fits(cell, state.torque, Use::turns) && fits(cell, state.contacts);
 }
 
 constexpr const char* bankKind = "cells of grains";
@@ -111,6 +112,7 @@ struct Made {
   Springs springs;
   BondLaw bonds;
   double density = 0.0, volume = 0.0;
+  double skin = 0.0;
   std::vector<Vec3> centre;
   std::vector<double> radius;
 };
@@ -118,8 +120,8 @@ struct Made {
 template <class Archive, class AnyMade>
 requires std::is_same_v<std::remove_const_t<AnyMade>, Made>
 void archiveFields(Archive& archive, AnyMade& made) {
-  archive(made.isDisc, made.repeats, made.period, made.springs, made.bonds, made.density, made.volume, made.centre,
-          made.radius);
+  archive(made.isDisc, made.repeats, made.period, made.springs, made.bonds, made.density, made.volume, made.skin,
+          made.centre, made.radius);
 }
 
 Made madeOf(const Cell& cell) {
@@ -131,6 +133,7 @@ Made madeOf(const Cell& cell) {
             cell.bonds,
             cell.density,
             cell.volume,
+            cell.skin,
             {},
             cell.radius};
   for (std::size_t k = 0; k < 3; ++k) made.repeats[k] = state.lattice.axes[k];
@@ -142,16 +145,20 @@ Made madeOf(const Cell& cell) {
 Cell cellOf(const Made& made) {
   geometry::Lattice lattice{.period = made.period};
   for (std::size_t k = 0; k < 3; ++k) lattice.axes[k] = made.repeats[k] != 0;
-  Cell cell = makeCell({made.isDisc ? Shape::disc : Shape::sphere, made.centre, made.radius, made.density}, lattice,
-                       made.springs);
+  Cell cell = cellWithoutContacts({made.isDisc ? Shape::disc : Shape::sphere, made.centre, made.radius, made.density},
+                                  lattice, made.springs);
   cell.bonds = made.bonds;
   cell.volume = requirePositive(made.volume, "volume of a cell");
+  cell.skin = requirePositive(made.skin, "skin of a cell");
   return cell;
 }
 
 }  // namespace
 
 void writeState(const Cell& cell, const CellState& state, ByteWriter& archive) {
+  if (!(state.springs == cell.springs))
+    throw InputError("the state was saved with other springs", "cell of grains",
+                     "write it with the cell that saved it");
   archive(checksum(cell));
   const Numbers F = numbersOf(state.F), dyad = numbersOf(state.dyad);
   listFields(archive, state, F, dyad);
@@ -165,6 +172,7 @@ CellState readState(const Cell& cell, ByteReader& archive) {
                      "read it into the cell that wrote it");
   CellState state;
   state.lattice.axes = cell.state.lattice.axes;
+  state.springs = cell.springs;
   Numbers F, dyad;
   listFields(archive, state, F, dyad);
   state.F = Eigen::Map<const Eigen::Matrix3d>(F.data());

@@ -1,3 +1,5 @@
+#include "make_cell.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +10,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/rve/cell.hpp"
 #include "sweep.hpp"
+#include "touching.hpp"
 
 namespace dovetail::rve {
 
@@ -93,7 +96,7 @@ Springs hertzMindlin(double shearModulus, double poisson, double friction) {
           .friction = friction};
 }
 
-Cell makeCell(const Grains& grains, const geometry::Lattice& lattice, const Springs& springs) {
+Cell cellWithoutContacts(const Grains& grains, const geometry::Lattice& lattice, const Springs& springs) {
   validate(springs);
   check(grains, lattice);
   Cell cell;
@@ -103,20 +106,28 @@ Cell makeCell(const Grains& grains, const geometry::Lattice& lattice, const Spri
   cell.radius = grains.radius;
   cell.density = grains.density;
   cell.skin = 0.2 * meanDiameter(cell) * 0.5;
-  cell.state.lattice = lattice;
+  cell.state.springs = springs;
   static_cast<void>(geometry::inverse(lattice));
-  const std::array<double, 3> widths = lattice.widths();
+  cell.state.lattice = lattice;
+  geometry::reduce(cell.state.lattice);
+  cell.volume = lattice.volume();
+  setMasses(cell, grains, norm(lattice.period[2]));
+  place(cell, grains);
+  return cell;
+}
+
+Cell makeCell(const Grains& grains, const geometry::Lattice& lattice, const Springs& springs) {
+  Cell cell = cellWithoutContacts(grains, lattice, springs);
+  const std::array<double, 3> widths = cell.state.lattice.widths();
   for (std::size_t k = 0; k < 3; ++k)
     if (lattice.axes[k] && widths[k] < 2.0 * listReach(cell))
       throw InputError("faces across period " + std::to_string(k + 1) + " are " + formatNumber(widths[k]) + " m apart",
                        where,
                        "take more grains: " + formatNumber(2.0 * listReach(cell)) +
                            " m, two of the largest diameters and skins, are the least");
-  cell.volume = lattice.volume();
-  setMasses(cell, grains, norm(lattice.period[2]));
-  place(cell, grains);
   renew(cell);
   sweep(cell, 0.0, Eigen::Matrix3d::Zero());
+  requireFiniteForces(cell);
   return cell;
 }
 
@@ -131,18 +142,42 @@ double meanDiameter(const Cell& cell) {
 double solidFraction(const Cell& cell) {
   double mass = 0.0;
   for (const double m : cell.mass) mass += m;
+  for (const std::vector<int>& group : cell.frame.alike)
+    for (std::size_t k = 1; k < group.size(); ++k)
+      mass -= cell.mass[static_cast<std::size_t>(cell.frame.grain[static_cast<std::size_t>(group[k])])];
   return mass / (cell.density * volume(cell));
 }
+
+namespace {
+
+/// What springs hold that have no friction or limit any more is lost.
+void release(Cell& cell, const Springs& springs) {
+  const double stored = storedEnergy(cell);
+  Contacts& contacts = cell.state.contacts;
+  if (!springs.slides())
+    for (std::vector<double>& component : contacts.stretch) std::ranges::fill(component, 0.0);
+  if (!springs.rolls()) std::ranges::fill(contacts.roll, 0.0);
+  cell.state.book.friction += stored - storedEnergy(cell);
+}
+
+}  // namespace
 
 void setSprings(Cell& cell, const Springs& springs) {
   validate(springs);
   checkShape(cell.shape, springs);
-  cell.springs = springs;
+  release(cell, springs);
+  EnergyBook& book = cell.state.book;
+  const double before = storedEnergy(cell) + book.friction;
+  cell.springs = cell.state.springs = springs;
   Contacts& contacts = cell.state.contacts;
   contacts.roll.resize(springs.rolls() ? contacts.size() : 0, 0.0);
-  contacts.tangent.resize(springs.elasticSpheres() && springs.slides() ? contacts.size() : 0, 0.0);
+  contacts.tangent.clear();
   renew(cell);
+  if (!contacts.tangent.empty())  // stretches stay, whatever k_t was
+    forEachTouch(cell,
+                 [&](const Touch& touch) { contacts.tangent[touch.contact] = springs.tangential * touch.stiffness; });
   sweep(cell, 0.0, Eigen::Matrix3d::Zero());
+  book.work += storedEnergy(cell) + book.friction - before;
 }
 
 }  // namespace dovetail::rve

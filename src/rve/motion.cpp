@@ -49,7 +49,7 @@ double kick(std::vector<double>& v, const std::vector<double>& force, const std:
   return sumOf(taken);
 }
 
-/// x ← G (x + v dt). Returns the largest |v|².
+/// x ← G (x + v dt). Returns the largest |v|², NaN if one is not finite.
 template <int dimension>
 double advance(CellState& s, double dt, const Eigen::Matrix3d& G) {
   double* x[dimension];
@@ -60,7 +60,7 @@ double advance(CellState& s, double dt, const Eigen::Matrix3d& G) {
     v[k] = s.v[static_cast<std::size_t>(k)].data();
     for (int l = 0; l < dimension; ++l) g[k][l] = G(k, l);
   }
-  Lanes most = {};
+  Lanes most = {}, sum2 = {};
   inLanes(s.x[0].size(), [&](std::size_t i, auto count) {
     double moved[dimension][lanes];
     Lanes speed2 = {};
@@ -76,9 +76,13 @@ double advance(CellState& s, double dt, const Eigen::Matrix3d& G) {
         for (int j = 1; j < dimension; ++j) sum += g[k][j] * moved[j][l];
         x[k][i + l] = sum;
       }
-    for (std::size_t l = 0; l < count; ++l) most[l] = most[l] < speed2[l] ? speed2[l] : most[l];
+    for (std::size_t l = 0; l < count; ++l) {
+      most[l] = most[l] < speed2[l] ? speed2[l] : most[l];
+      sum2[l] += speed2[l];
+    }
   });
-  return *std::max_element(most, most + lanes);
+  const double fastest2 = *std::max_element(most, most + lanes);
+  return std::isfinite(sumOf(sum2)) ? fastest2 : std::nan("");
 }
 
 Vec3 product(const Eigen::Matrix3d& G, const Vec3& a) {
@@ -86,9 +90,13 @@ Vec3 product(const Eigen::Matrix3d& G, const Vec3& a) {
           G(2, 0) * a.x + G(2, 1) * a.y + G(2, 2) * a.z};
 }
 
-void requireAnswer(const Cell& cell) {
-  if (cell.state.dyad.allFinite()) return;
-  throw NumericalError("forces are not finite", "cell of grains", "take shorter steps");
+[[noreturn]] void throwNotFinite(const Components& v) {
+  for (std::size_t i = 0; i < v[0].size(); ++i)
+    for (const std::vector<double>& component : v)
+      if (!component.empty() && !std::isfinite(component[i] * component[i]))
+        throw NumericalError("the velocity is " + formatNumber(component[i]) + " m/s",
+                             "grain " + std::to_string(i) + " of a cell", "take shorter steps");
+  throw NumericalError("velocities are not finite", "cell of grains", "take shorter steps");
 }
 
 void requirePlane(const Cell& cell, const Eigen::Matrix3d& G) {
@@ -110,6 +118,8 @@ void move(Cell& cell, double dt, const Eigen::Matrix3d& G) {
     requirePlane(cell, G);
     // Cayley's: a turn has no rate of strain.
     const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+    if (!((G + one).determinant() > 0.1))
+      throw NumericalError("a step turns the cell by nearly half a turn", "cell of grains", "turn it in smaller steps");
     L = (2.0 / dt) * (G - one) * (G + one).inverse();
     s.book.work += 0.5 * dt * s.dyad.cwiseProduct(0.5 * (L + L.transpose())).sum();
     for (Vec3& period : s.lattice.period) period = product(G, period);
@@ -117,11 +127,12 @@ void move(Cell& cell, double dt, const Eigen::Matrix3d& G) {
   }
   double fastest2 = 0.0;
   withVectors([&] { fastest2 = cell.shape == Shape::disc ? advance<2>(s, dt, G) : advance<3>(s, dt, G); });
+  if (!std::isfinite(fastest2)) throwNotFinite(s.v);
   const Eigen::Matrix3d D = 0.5 * (L + L.transpose());
   s.room -= dt * (2.0 * std::sqrt(fastest2) + D.norm() * listReach(cell));
   if (!(s.room > 0.0)) renew(cell);
   sweep(cell, dt, L);
-  requireAnswer(cell);
+  requireFiniteForces(cell);
   if (deforms) s.book.work += 0.5 * dt * s.dyad.cwiseProduct(D).sum();
 }
 
@@ -166,6 +177,8 @@ void step(Cell& cell, double dt, const Eigen::Matrix3d& G, double damping) {
     throw InputError(
         "a step of " + formatNumber(dt) + " s where the critical one is " + formatNumber(s.criticalStep) + " s",
         "cell of grains", "take a share below 1 of CellState::criticalStep");
+  if (!(damping >= 0.0 && damping < 1.0))
+    throw InputError("damping is " + formatNumber(damping), "cell of grains", "give a share of 0 or more, below 1");
   s.book.damping += cell.frame.empty() ? kickAll(cell, s.force, s.torque, dt, damping) : kickFramed(cell, dt, damping);
   move(cell, dt, G);
 }
@@ -190,7 +203,26 @@ Eigen::Matrix3d relativeDeformation(const Cell& cell, const Eigen::Matrix3d& F) 
   return G;
 }
 
+namespace {
+
+void requireLike(const Components& field, const Components& own, const char* what) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (field[k].size() != own[k].size())
+      throw InputError("component " + std::to_string(k) + " has " + std::to_string(field[k].size()) + " numbers for " +
+                           std::to_string(own[k].size()),
+                       what, "give one a grain of the components that CellState has");
+    const auto bad = std::ranges::find_if(field[k], [](double value) { return !std::isfinite(value); });
+    if (bad != field[k].end())
+      throw InputError("the one of grain " + std::to_string(bad - field[k].begin()) + " is " + formatNumber(*bad), what,
+                       "give finite numbers");
+  }
+}
+
+}  // namespace
+
 void displace(Cell& cell, Components w, Components theta) {
+  requireLike(w, cell.state.v, "displacements of a cell's grains");
+  requireLike(theta, cell.state.spin, "turns of a cell's grains");
   Components v = std::move(cell.state.v), spin = std::move(cell.state.spin);
   cell.state.v = std::move(w);
   cell.state.spin = std::move(theta);
@@ -208,10 +240,13 @@ void stop(Cell& cell) {
 void save(const Cell& cell, CellState& kept) { kept = cell.state; }
 
 void restore(Cell& cell, const CellState& kept) {
-  if (kept.x[0].size() != cell.size())
+  if (kept.x[0].size() != cell.size() || kept.x[2].size() != cell.state.x[2].size())
     throw InputError(
         "the state is of " + std::to_string(kept.x[0].size()) + " grains, the cell has " + std::to_string(cell.size()),
         "cell of grains", "give back what this cell has saved");
+  if (!(kept.springs == cell.springs))
+    throw InputError("the state was saved with other springs", "cell of grains",
+                     "setSprings() those it was saved with before, and the new ones afterwards");
   cell.state = kept;
 }
 

@@ -4,6 +4,7 @@
 
 #include "bonded.hpp"
 #include "dovetail/core/error.hpp"
+#include "projection.hpp"
 
 namespace dovetail::rve {
 
@@ -110,14 +111,23 @@ void Network::addMultipliers() {
   if (free.empty()) return;
   // In units of stiffness, for the sake of the pivots.
   const double unit = stiffest_ / norm(frame.area[static_cast<std::size_t>(free.front())]);
+  Eigen::Matrix2d areas = Eigen::Matrix2d::Zero();
   for (const int q : free) {
     const auto place = static_cast<std::size_t>(q);
+    const Eigen::Vector2d area(frame.area[place].x, frame.area[place].y);
+    areas += area * area.transpose();
     Eigen::MatrixXd part = Eigen::MatrixXd::Zero(perGrain_ + 4, perGrain_ + 4);
     for (int k = 0; k < 2; ++k)
       for (int n = 0; n < 2; ++n)
         part(perGrain_ + 2 * k + n, k) = part(k, perGrain_ + 2 * k + n) = unit * frame.area[place][n];
     matrix_->add(node_[static_cast<std::size_t>(frame.grain[place])], nodes_, part);
   }
+  // Of areas that are all parallel, half of the multipliers have nothing to do, and stay 0.
+  const Eigen::Matrix2d idle = Eigen::Matrix2d::Identity() - areas * inverseOfAreas(areas);
+  if (idle.norm() < 0.5) return;
+  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(4, 4);
+  held.topLeftCorner<2, 2>() = held.bottomRightCorner<2, 2>() = stiffest_ * idle;
+  matrix_->add(nodes_, -1, held);
 }
 
 void Network::factor() {

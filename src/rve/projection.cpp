@@ -27,6 +27,12 @@ void joinAlike(const Cell& cell, const std::vector<int>& group, Components& v, C
 
 }  // namespace
 
+Eigen::Matrix2d inverseOfAreas(const Eigen::Matrix2d& areas) {
+  const double trace = areas.trace();
+  if (areas.determinant() > 1e-12 * trace * trace) return areas.inverse();
+  return areas / (trace * trace);
+}
+
 void project(const Cell& cell, Components& v, Components& spin) {
   const Frame& frame = cell.frame;
   if (frame.empty()) return;
@@ -45,7 +51,7 @@ void project(const Cell& cell, Components& v, Components& spin) {
     motion += Eigen::Vector2d(v[0][g], v[1][g]) * area.transpose();
     areas += area * area.transpose() / cell.mass[g];
   }
-  const Eigen::Matrix2d multiplier = motion * areas.inverse();
+  const Eigen::Matrix2d multiplier = motion * inverseOfAreas(areas);
   for (const int q : free) {
     const std::size_t g = at(frame.grain[at(q)]);
     const Eigen::Vector2d area(frame.area[at(q)].x, frame.area[at(q)].y);

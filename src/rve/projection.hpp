@@ -12,4 +12,7 @@ void project(const Cell& cell, Components& v, Components& spin);
 /// Forces and torques less what the reactions of the frame hold, N and N m: masses times projected accelerations.
 void freeForces(const Cell& cell, Components& force, Components& torque);
 
+/// Inverse of Σ A ⊗ A of area vectors; if all are parallel, along these.
+Eigen::Matrix2d inverseOfAreas(const Eigen::Matrix2d& areas);
+
 }  // namespace dovetail::rve

@@ -1,8 +1,11 @@
 #include "sweep.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "bonded.hpp"
+#include "dovetail/core/error.hpp"
 
 namespace dovetail::rve {
 
@@ -19,6 +22,17 @@ void sweep(Cell& cell, double dt, const Eigen::Matrix3d& L) {
   else
     slides ? sweepDiscs<true, false>(cell, dt, L) : sweepDiscs<false, false>(cell, dt, L);
   if (!cell.state.contacts.bond.empty()) sweepBonds(cell, dt, L);
+}
+
+void requireFiniteForces(const Cell& cell) {
+  if (cell.state.dyad.allFinite()) return;
+  std::size_t grain = 0;
+  for (const std::vector<double>& component : cell.state.force) {
+    const auto at = std::ranges::find_if(component, [](double f) { return !std::isfinite(f); });
+    if (at != component.end()) grain = static_cast<std::size_t>(at - component.begin());
+  }
+  throw NumericalError("forces are not finite", "grain " + std::to_string(grain) + " of a cell",
+                       "take shorter steps, and keep centres apart");
 }
 
 }  // namespace dovetail::rve

@@ -11,6 +11,9 @@ namespace dovetail::rve {
 /// @param L  velocity gradient of that motion, 1/s, on top of which the grains have v and spin
 void sweep(Cell& cell, double dt, const Eigen::Matrix3d& L);
 
+/// @throws NumericalError naming a grain whose force is not finite
+void requireFiniteForces(const Cell& cell);
+
 template <bool slides, bool rolls>
 void sweepDiscs(Cell& cell, double dt, const Eigen::Matrix3d& L);
 template <bool slides, bool elastic>

@@ -91,5 +91,16 @@ TEST(MovingCells, StepsOutOfReachAreRefused) {
   EXPECT_THROW(stepTo(cell, outward, {}), InputError);
 }
 
+TEST(MovingCells, StepsWithoutEndAndBadSettingsAreRefused) {
+  rve::Cell cell = threeCells()[0];
+  const Eigen::Matrix3d F = rve::plane(1.0, 0.0, 0.0, 0.999);
+  EXPECT_THROW(stepTo(cell, F, {.strainPerStep = 1e-13}), NumericalError);
+  EXPECT_THROW(stepTo(cell, rve::plane(1e6, 0.0, 0.0, 1.0), {}), NumericalError);
+  EXPECT_THROW(stepTo(cell, F, {.strainPerStep = -1.0}), InputError);
+  EXPECT_THROW(stepTo(cell, F, {.damping = 1.0}), InputError);
+  EXPECT_THROW(settle(cell, F, {.unbalanced = 0.0}), InputError);
+  EXPECT_EQ(cell.state.F, Eigen::Matrix3d::Identity());
+}
+
 }  // namespace
 }  // namespace dovetail::hierarchical

@@ -50,11 +50,13 @@ std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const Re
 std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const MovingCells& settings);
 
 /// From the present deformation to F and to rest there, as points do in statics.
-/// @throws InputError as rve::followPath; NumericalError if the cell does not come to rest, or no grains touch there
+/// @throws InputError as rve::followPath, or if a setting is not valid; NumericalError if the cell does not come to
+/// rest, or no grains touch there
 void settle(rve::Cell& cell, const Eigen::Matrix3d& F, const RestingCells& settings);
 
 /// From the present deformation to F, in as many steps as strainPerStep asks for, at least one.
-/// @throws InputError for F with det F ≤ 0 or, for discs, out of the plane; NumericalError as rve::step
+/// @throws InputError for F with det F ≤ 0 or, for discs, out of the plane, or if a setting is not valid;
+///   NumericalError as rve::step, or if a million steps are not enough
 void stepTo(rve::Cell& cell, const Eigen::Matrix3d& F, const MovingCells& settings);
 
 /// Why a cell is too small to stand for its material, empty if it is not: fewer than 100 grains, or thinner than 6 mean

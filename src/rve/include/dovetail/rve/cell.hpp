@@ -40,7 +40,7 @@ struct Contacts {
 
 /// Energies (J) since the cell was made: what the boundary has put in, and where it has gone for good.
 struct EnergyBook {
-  double work = 0.0;      ///< ∫ V σ : sym(L) dt
+  double work = 0.0;      ///< ∫ V σ : sym(L) dt, and what other springs store (setSprings)
   double friction = 0.0;  ///< slipping springs
   double damping = 0.0;   ///< of the fluctuations, and motion that relaxing has taken
   double bonds = 0.0;     ///< what was stored in bonds that broke and is not in the contacts that they are now
@@ -55,6 +55,7 @@ struct CellState {
   Components spin;                                  ///< rad/s, fluctuations: on top of the spin of L
   Components force, torque;                         ///< N, N m: by contacts, on each grain
   Contacts contacts;
+  Springs springs;                                 ///< that the contacts were made with
   Eigen::Matrix3d dyad = Eigen::Matrix3d::Zero();  ///< Σ f ⊗ b, J; f acts on i
   double room = 0.0;                               ///< m that pairs may still approach before the list is made anew
   double criticalStep = 0.0;                       ///< s, bound that holds until then; elastic spheres: now
@@ -89,28 +90,31 @@ struct Grains {
 /// A cell that repeats, at rest, with contacts as the grains lie and no tangential springs stretched.
 /// @param lattice  discs: the third period along z, which does not repeat
 /// @throws InputError naming the grain whose centre or radius is not finite or > 0; if there are none, the springs or
-///   the density are not valid, a period is not finite, or faces are closer than two of the largest diameters and skins
+///   the density are not valid, a period is not finite, or faces are closer than two of the largest diameters and
+///   skins; NumericalError naming a grain whose force is not finite, as that of two at one place
 Cell makeCell(const Grains& grains, const geometry::Lattice& lattice, const Springs& springs);
 
 /// Current volume, m³.
 double volume(const Cell& cell);
 double meanDiameter(const Cell& cell);
-/// Share of the volume that grains fill; overlaps count twice.
+/// Share of the volume that grains fill; overlaps count twice, copies of a frame's grains once.
 double solidFraction(const Cell& cell);
 
 /// Puts the state aside; the room that `kept` has is used again.
 void save(const Cell& cell, CellState& kept);
-/// Takes it back. @throws InputError if it is of another number of grains
+/// Takes it back. @throws InputError if it is of other grains, or of other springs (setSprings)
 void restore(Cell& cell, const CellState& kept);
 
-/// New springs of all contacts; stretches stay as far as friction holds them. @throws InputError as validate
+/// New springs of all contacts; stretches stay as far as friction holds them, and what it does not hold is booked as
+/// friction. @throws InputError as validate, or if the springs do not go with the shape
 void setSprings(Cell& cell, const Springs& springs);
 
 /// A step of length dt: fluctuations are kicked by the forces, less damping (Cundall's: of each force the share
 /// `damping` against the velocity, of fluctuations only), then all moves: x ← G (x + v dt), H ← G H, F ← G F.
 /// Symplectic Euler; m dv/dt = f, which leaves the inertia of L x out (Desrues et al. 2019, eq. 15 at rest).
-/// @throws InputError if dt is not above 0 or is above criticalStep; NumericalError if det G ≤ 0, a force is not finite,
-///   or faces have come too close
+/// @throws InputError if dt is not above 0 or is above criticalStep, or damping is not in [0, 1); NumericalError if
+///   det G ≤ 0, G is nearly half a turn, faces have come too close, or a velocity or force is not finite, naming the
+///   grain
 void step(Cell& cell, double dt, const Eigen::Matrix3d& G = Eigen::Matrix3d::Identity(), double damping = 0.0);
 
 /// Deforms the cell by G, grains and all; no time passes, velocities stay. Every contact feels it as one step of its
@@ -123,6 +127,7 @@ void deform(Cell& cell, const Eigen::Matrix3d& G);
 Eigen::Matrix3d relativeDeformation(const Cell& cell, const Eigen::Matrix3d& F);
 
 /// Moves and turns grains by w (m) and θ (rad), components as in CellState; contacts feel it as with deform.
+/// @throws InputError if they are not of the cell's size or not finite; NumericalError as step
 void displace(Cell& cell, Components w, Components theta);
 
 /// Stops all grains; what energy that takes is booked as damping.

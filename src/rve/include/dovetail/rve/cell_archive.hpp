@@ -10,11 +10,13 @@
 
 namespace dovetail::rve {
 
-/// Writes a state of this cell, with a checksum of what the cell is.
+/// Writes a state of this cell, with a checksum of what the cell is. @throws InputError if it was saved with other
+/// springs
 void writeState(const Cell& cell, const CellState& state, ByteWriter& archive);
 
 /// Reads one back; a cell that gets it goes on with the same digits.
-/// @throws InputError if it was written for other grains or springs, or is damaged
+/// @throws InputError if it was written for other grains or springs, or does not hold together. Numbers that have
+///   changed to others that might be are for a checksum to find, as files of states have (writeBank, writeChecked)
 CellState readState(const Cell& cell, ByteReader& archive);
 
 /// Writes cells to a file with a checksum, for programs that share them.

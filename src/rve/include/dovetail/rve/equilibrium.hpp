@@ -59,8 +59,8 @@ struct CompressionSettings {
 };
 
 /// Strains a cell that repeats along its axes until it presses as wanted, at rest. Each strain rate is in proportion to
-/// what is missing. The springs have the cell's own friction again afterwards, which may let contacts slip where it is
-/// less; F = 1 and volume are those of the new state, and the book begins anew.
+/// what is missing. Then the springs have the cell's own friction again; if contacts slip by that, the same is done
+/// with it. F = 1 and volume are those of the new state, and the book begins anew.
 /// @throws InputError if a setting is not valid or the cell is framed; NumericalError if it gives up, or as
 /// step; the cell is then where it got to, with the friction of the preparation
 void compress(Cell& cell, const CompressionSettings& settings);
