@@ -100,8 +100,9 @@ FigureRows biaxial(bool quick) {
     }
     const std::string mesh = std::to_string(elements[0]) + " × " + std::to_string(elements[1]) +
                              (turns ? ", discs turn" : ", turns blocked");
-    rows.push_back(rowOf("largest stress ratio, " + mesh, peaks, printed, 0.03,
-                         turns ? "solid fraction 0.854, printed 0.846" : "inertia 1e12 times that of discs"));
+    rows.push_back(
+        rowOf("largest stress ratio, " + mesh, peaks, printed, 0.03,
+              turns ? "solid fraction 0.854, printed 0.846" : "all discs are held; printed: those inside the frame"));
     rows.push_back(rowOf("strain there, %, " + mesh, strains, std::nan(""), 0.0));
     rows.push_back(rowOf("stress ratio from 6.5 to 8 %, " + mesh, late, std::nan(""), 0.0));
     if (!turns) return;

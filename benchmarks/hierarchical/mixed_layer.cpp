@@ -111,7 +111,7 @@ FigureRows mixedLayer(bool quick) {
     strongRatio.push_back(strong[k].peak / plain[k].peak);
     worst = std::max({worst, plain[k].worst, bonded[k].worst});
   }
-  const std::string flat = "tolerance of reading a flat peak";
+  const std::string flat = "the peak is flat: ratios within 2 % of it spread over 0.05";
   return {rowOf("σ₁₂/σ₂₂, F₁₂ = 0.15 to 0.2", residual, 0.28, 0.03,
                 "σ₂₂ off by at most " + std::to_string(worst).substr(0, 5) + " of that wanted"),
           rowOf("peak of σ₁₂/σ₂₂", peak, std::nan(""), 0.0),

@@ -104,7 +104,7 @@ FigureRows spheres(bool quick) {
   return {rowOf("porosity", porosity, 0.338, 0.005, "distribution of sizes not printed"),
           rowOf("contacts per sphere", contacts, 5.6, 0.1),
           rowOf("K, MPa", bulk, 335.0, 0.05 * 335.0),
-          rowOf("G, MPa", shear, 241.0, 0.1 * 241.0),
+          rowOf("G, MPa", shear, 241.0, 0.1 * 241.0, "of contacts that stick; they slip on the way to larger shears"),
           rowOf("G to a shear of 5e-4, MPa", secant, none, 0.0, "how far the printed one went is not printed"),
           rowOf("E, MPa", young, 584.0, 0.1 * 584.0),
           rowOf("Poisson's ratio", poisson, 0.2, 0.05),
