@@ -61,6 +61,23 @@ TEST(Model, TheLedgerClosesWithTheStep) {
   EXPECT_LT(fine, 0.5 * coarse);  // first order: dashpots switch on and off suddenly
 }
 
+TEST(Model, WeightIsTheSumOverAllParticles) {
+  for (const int n : {1, 7, 8, 9, 31, 64}) {
+    Model all = pile(n);
+    all.gravity = {1.0, -2.0, -10.0};
+    Momenta sum;
+    for (std::size_t i = 0; i < all.particles.size(); ++i)
+      sum.add(all.particles.x[i], all.particles.mass[i] * all.gravity);
+    Model shared = all;
+    shared.particles.weight.assign(shared.particles.size(), 0.5);
+    for (const auto& [model, share] : {std::pair(&all, 1.0), std::pair(&shared, 0.5)}) {
+      const Momenta found = weight(*model);
+      EXPECT_LT(norm(found.linear - share * sum.linear), 1e-14 * norm(sum.linear));
+      EXPECT_LT(norm(found.angular - share * sum.angular), 1e-13 * norm(sum.angular));
+    }
+  }
+}
+
 TEST(Model, AdvanceAndCloseHaveTheDigitsOfTheVerbs) {
   auto model = pile(60);
   auto plain = pile(60);
