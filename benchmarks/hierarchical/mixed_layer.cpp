@@ -18,8 +18,9 @@ constexpr double stiffness = 1e8, pressure = 1.05e6;  // N/m (Liu, thesis TU Ein
 constexpr double inertialNumber = 1e-3, damping = 0.7, shear = 0.2;
 
 struct Curve {
-  double peak = 0.0, where = 0.0, residual = 0.0, worst = 0.0;  ///< worst: |σ₂₂/σ₂₂* − 1| of the means
+  double peak = 0.0, where = 0.0, residual = 0.0;
   int bonds = 0, left = 0;
+  int lost = 0;  ///< windows in which σ₂₂ was off by more than a twentieth: grains of the frame had been pushed in
 };
 
 /// A step of simple shear by dγ at the pressure that is wanted.
@@ -63,11 +64,13 @@ Curve sheared(rve::Cell cell) {
   for (int k = 1; k <= pressing; ++k)
     go(cell, 0.8 * cell.state.criticalStep, 0.0, 1e-5, pressure * std::min(1.0, 2.0 * k / pressing));
   const std::vector<Window> all = windows(cell, rate);
-  const auto peak = std::ranges::max_element(all, {}, &Window::ratio);
+  const auto pressed = [](const Window& window) { return std::abs(window.normal / pressure - 1.0) <= 0.05; };
+  curve.lost = static_cast<int>(all.size() - static_cast<std::size_t>(std::ranges::count_if(all, pressed)));
+  const auto peak =
+      std::ranges::max_element(all, {}, [&](const Window& window) { return pressed(window) ? window.ratio : 0.0; });
   curve.peak = peak->ratio;
   curve.where = 0.005 * (0.5 + static_cast<double>(peak - all.begin()));
   for (auto window = all.end() - 10; window != all.end(); ++window) curve.residual += 0.1 * window->ratio;
-  for (const Window& window : all) curve.worst = std::max(curve.worst, std::abs(window.normal / pressure - 1.0));
   curve.left = rve::balance(cell).bonds;
   return curve;
 }
@@ -101,7 +104,7 @@ FigureRows mixedLayer(bool quick) {
     strong[k] = shearedWithBonds(cell, 10.0);
   });
   std::vector<double> residual, peak, where, bondedWhere, ratio, strongRatio;
-  double worst = 0.0;
+  int lost = 0, lostBonded = 0;
   for (std::size_t k = 0; k < plain.size(); ++k) {
     residual.push_back(plain[k].residual);
     peak.push_back(plain[k].peak);
@@ -109,11 +112,13 @@ FigureRows mixedLayer(bool quick) {
     bondedWhere.push_back(bonded[k].where);
     ratio.push_back(bonded[k].peak / plain[k].peak);
     strongRatio.push_back(strong[k].peak / plain[k].peak);
-    worst = std::max({worst, plain[k].worst, bonded[k].worst});
+    lost += plain[k].lost;
+    lostBonded += bonded[k].lost;
   }
   const std::string flat = "the peak is flat: ratios within 2 % of it spread over 0.05";
   return {rowOf("σ₁₂/σ₂₂, F₁₂ = 0.15 to 0.2", residual, 0.28, 0.03,
-                "σ₂₂ off by at most " + std::to_string(worst).substr(0, 5) + " of that wanted"),
+                "σ₂₂ was not held in " + std::to_string(lost) + " of " + std::to_string(40 * plain.size()) +
+                    " windows, with bonds in " + std::to_string(lostBonded)),
           rowOf("peak of σ₁₂/σ₂₂", peak, std::nan(""), 0.0),
           rowOf("F₁₂ at the peak", where, 0.06, 0.02, flat),
           rowOf("F₁₂ at the peak, bonded", bondedWhere, 0.07, 0.02, flat),
