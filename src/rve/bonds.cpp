@@ -82,11 +82,11 @@ void bond(Cell& cell, const BondLaw& law) {
     bonds[touch.contact] = {touch.distance + stretchFor(touch.press, law.normal), share, stretchFor(hold, law.shear),
                             stretchFor(rollingStiffness(cell, touch) * touch.roll, law.bending)};
   });
-  cell.bonds = law;
+  cell.bonds = cell.state.bonds = law;
   contacts.bond = std::move(bonds);
   leaveToBonds(contacts);
-  setSprings(cell, cell.springs);  // lists, steps and forces anew
   cell.state.book.bonds += before - storedEnergy(cell);
+  setSprings(cell, cell.springs);  // lists, steps and forces anew; what is too weak breaks
 }
 
 void sweepBonds(Cell& cell, double dt, const Eigen::Matrix3d& L) {

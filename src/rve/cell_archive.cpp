@@ -9,6 +9,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "make_cell.hpp"
+#include "own_state.hpp"
 
 namespace dovetail::rve {
 
@@ -156,9 +157,7 @@ Cell cellOf(const Made& made) {
 }  // namespace
 
 void writeState(const Cell& cell, const CellState& state, ByteWriter& archive) {
-  if (!(state.springs == cell.springs))
-    throw InputError("the state was saved with other springs", "cell of grains",
-                     "write it with the cell that saved it");
+  requireOwn(cell, state);
   archive(checksum(cell));
   const Numbers F = numbersOf(state.F), dyad = numbersOf(state.dyad);
   listFields(archive, state, F, dyad);
@@ -173,6 +172,7 @@ CellState readState(const Cell& cell, ByteReader& archive) {
   CellState state;
   state.lattice.axes = cell.state.lattice.axes;
   state.springs = cell.springs;
+  state.bonds = cell.bonds;
   Numbers F, dyad;
   listFields(archive, state, F, dyad);
   state.F = Eigen::Map<const Eigen::Matrix3d>(F.data());

@@ -167,7 +167,8 @@ void setSprings(Cell& cell, const Springs& springs) {
   checkShape(cell.shape, springs);
   release(cell, springs);
   EnergyBook& book = cell.state.book;
-  const double before = storedEnergy(cell) + book.friction;
+  const auto accounted = [&] { return storedEnergy(cell) + book.friction + book.bonds; };
+  const double before = accounted();
   cell.springs = cell.state.springs = springs;
   Contacts& contacts = cell.state.contacts;
   contacts.roll.resize(springs.rolls() ? contacts.size() : 0, 0.0);
@@ -177,7 +178,7 @@ void setSprings(Cell& cell, const Springs& springs) {
     forEachTouch(cell,
                  [&](const Touch& touch) { contacts.tangent[touch.contact] = springs.tangential * touch.stiffness; });
   sweep(cell, 0.0, Eigen::Matrix3d::Zero());
-  book.work += storedEnergy(cell) + book.friction - before;
+  book.work += accounted() - before;
 }
 
 }  // namespace dovetail::rve

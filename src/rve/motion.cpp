@@ -9,6 +9,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/vector_code.hpp"
 #include "dovetail/rve/cell.hpp"
+#include "own_state.hpp"
 #include "projection.hpp"
 #include "sweep.hpp"
 
@@ -240,13 +241,7 @@ void stop(Cell& cell) {
 void save(const Cell& cell, CellState& kept) { kept = cell.state; }
 
 void restore(Cell& cell, const CellState& kept) {
-  if (kept.x[0].size() != cell.size() || kept.x[2].size() != cell.state.x[2].size())
-    throw InputError(
-        "the state is of " + std::to_string(kept.x[0].size()) + " grains, the cell has " + std::to_string(cell.size()),
-        "cell of grains", "give back what this cell has saved");
-  if (!(kept.springs == cell.springs))
-    throw InputError("the state was saved with other springs", "cell of grains",
-                     "setSprings() those it was saved with before, and the new ones afterwards");
+  requireOwn(cell, kept);
   cell.state = kept;
 }
 

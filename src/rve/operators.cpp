@@ -85,6 +85,7 @@ Tangent elasticProbe(const Cell& start, const ProbeSettings& settings) {
   }
   const double never = std::numeric_limits<double>::infinity();
   cell.bonds.tensileStrength = cell.bonds.shearStrength = cell.bonds.bendingStrength = never;
+  cell.state.bonds = cell.bonds;
   return byComponents(cell, [&](int k, int L) -> Eigen::Matrix3d {
     Eigen::Matrix3d more = cell.state.F, less = more;
     more(k, L) += settings.strain;

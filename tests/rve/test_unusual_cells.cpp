@@ -117,6 +117,34 @@ TEST(UnusualCells, StatesOfOtherSpringsAreRefused) {
   EXPECT_THROW(restore(cell, pressedSpheres(60).state), InputError);
 }
 
+TEST(UnusualCells, StatesFromBeforeCompressionOrOfOtherBondsAreRefused) {
+  Cell cell = pressedDiscs(60);
+  CellState kept;
+  save(cell, kept);
+  Cell denser = cell;
+  compress(denser, {.pressure = {5e5, 5e5, 0.0}});
+  EXPECT_THROW(restore(denser, kept), InputError);
+  EXPECT_THROW(restore(cell, pressedDiscs(60, 2).state), InputError);
+  Cell bonded = cell, other = cell;
+  bond(bonded, {.normal = 1e8, .shear = 1e8});
+  bond(other, {.normal = 1e9, .shear = 1e8});
+  EXPECT_THROW(restore(cell, bonded.state), InputError);
+  EXPECT_THROW(restore(other, bonded.state), InputError);
+  restore(bonded, kept);
+  EXPECT_EQ(balance(bonded).bonds, 0);
+}
+
+TEST(UnusualCells, BondsThatBreakAsTheyAreMadeAreInTheBook) {
+  for (const double strength : {1.0, 5.0, 1e9}) {
+    Cell cell = shearedDiscs();
+    const double before = unaccounted(cell), stored = storedEnergy(cell), work = cell.state.book.work;
+    bond(cell, {.normal = 6e8, .shear = 3e8, .tensileStrength = 1e9, .shearStrength = strength});
+    EXPECT_NEAR(unaccounted(cell), before, 1e-12 * stored);
+    EXPECT_NEAR(cell.state.book.work, work, 1e-12 * stored);
+    EXPECT_EQ(balance(cell).bonds < balance(cell).contacts, strength < 1e9);
+  }
+}
+
 TEST(UnusualCells, WhatIsNotFiniteIsRefused) {
   Cell cell = pressedDiscs(60);
   const CellState before = cell.state;

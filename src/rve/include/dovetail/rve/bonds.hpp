@@ -17,6 +17,8 @@ struct BondLaw {
   double tensileStrength = std::numeric_limits<double>::infinity();  ///< f_n^u, N, > 0
   double shearStrength = std::numeric_limits<double>::infinity();    ///< f_s^u, N, > 0
   double bendingStrength = std::numeric_limits<double>::infinity();  ///< m^u, N m, > 0
+
+  friend bool operator==(const BondLaw&, const BondLaw&) = default;
 };
 
 /// Of a contact that is bonded.

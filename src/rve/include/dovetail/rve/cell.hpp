@@ -56,6 +56,7 @@ struct CellState {
   Components force, torque;                         ///< N, N m: by contacts, on each grain
   Contacts contacts;
   Springs springs;                                 ///< that the contacts were made with
+  BondLaw bonds;                                   ///< the same
   Eigen::Matrix3d dyad = Eigen::Matrix3d::Zero();  ///< Σ f ⊗ b, J; f acts on i
   double room = 0.0;                               ///< m that pairs may still approach before the list is made anew
   double criticalStep = 0.0;                       ///< s, bound that holds until then; elastic spheres: now
@@ -102,7 +103,8 @@ double solidFraction(const Cell& cell);
 
 /// Puts the state aside; the room that `kept` has is used again.
 void save(const Cell& cell, CellState& kept);
-/// Takes it back. @throws InputError if it is of other grains, or of other springs (setSprings)
+/// Takes it back. @throws InputError if it is of other springs or bonds, of another number or volume of grains, or from
+/// before F was made 1 anew (compress)
 void restore(Cell& cell, const CellState& kept);
 
 /// New springs of all contacts; stretches stay as far as friction holds them, and what it does not hold is booked as

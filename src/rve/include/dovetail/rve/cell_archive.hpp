@@ -10,8 +10,7 @@
 
 namespace dovetail::rve {
 
-/// Writes a state of this cell, with a checksum of what the cell is. @throws InputError if it was saved with other
-/// springs
+/// Writes a state of this cell, with a checksum of what the cell is. @throws InputError as restore
 void writeState(const Cell& cell, const CellState& state, ByteWriter& archive);
 
 /// Reads one back; a cell that gets it goes on with the same digits.

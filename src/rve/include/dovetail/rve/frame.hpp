@@ -52,8 +52,8 @@ Cell framed(const Cell& cell, const Conditions& conditions);
 /// Reactions on the frame grains, N: the multipliers of the conditions, −f at rest.
 std::vector<Vec3> reactions(const Cell& cell);
 
-/// P̄ = (1/V) Σ a_q ⊗ X_q, Pa, of a framed cell (Liu 2018, eq. 2.23), with P̄ Fᵀ made symmetric: the skew part is what the
-/// couples do that hold the turns of the frame's grains.
+/// P̄ = (1/V) Σ a_q ⊗ X_q, Pa, of a framed cell (Liu 2018, eq. 2.23), with P̄ Fᵀ made symmetric: the skew part is what
+/// the couples do that hold the turns of the frame's grains.
 Eigen::Matrix3d stressOfReactions(const Cell& cell);
 
 }  // namespace dovetail::rve
