@@ -20,7 +20,7 @@ const std::vector<Figure> figures{
     {"servo", "Liu 2018, eqs 2.33, 2.34, Table 2.3", servoFrame},
     {"mixed-layer", "Liu 2018, Fig. 2.11", mixedLayer},
     {"string", "Liu 2018, Figs 4.4, 4.5", stringOfDiscs},
-    {"strips", "Liu 2018, Figs 4.8 and 4.10", strips},
+    {"strips", "Liu 2018, Figs 4.6 to 4.8 and 4.10", strips},
     {"biaxial", "Liu 2018, Figs 3.4, 3.10", biaxial},
     {"explicit-biaxial", "measured beforehand: 10 × 20 quad4, 800 cells", explicitBiaxial},
     {"spheres", "Liu et al. 2015, Tables I, II", spheres},

@@ -115,7 +115,7 @@ FigureRows mixedLayer(bool quick) {
     lost += plain[k].lost;
     lostBonded += bonded[k].lost;
   }
-  const std::string flat = "the peak is flat: ratios within 2 % of it spread over 0.05";
+  const std::string flat = "a flat peak: several windows of 0.005 are within 2 % of it";
   return {rowOf("σ₁₂/σ₂₂, F₁₂ = 0.15 to 0.2", residual, 0.28, 0.03,
                 "σ₂₂ was not held in " + std::to_string(lost) + " of " + std::to_string(40 * plain.size()) +
                     " windows, with bonds in " + std::to_string(lostBonded)),

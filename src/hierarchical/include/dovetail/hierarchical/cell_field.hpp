@@ -14,11 +14,11 @@ namespace dovetail::hierarchical {
 
 /// ∂P/∂F that cells hand to Newton's method (rve/operators.hpp).
 enum class Operator {
-  network,         ///< converges fast while little slips; a factorisation of each cell, half the price of an answer
+  network,         ///< converges fast while little slips; a factorisation of each cell, about an answer's price
   slidingNetwork,  ///< the same where loading goes on as before
   uniformStrain,   ///< stiffer, without solving: more iterations, each cheaper
   elasticProbe,    ///< a check of `network`, many times its price
-  pathProbe,       ///< of the answers themselves, five more of discs, ten of spheres
+  pathProbe,       ///< of the answers themselves: five more paths of discs, ten of spheres
   frozenMean       ///< pathProbe until the point softens, then the mean of those that it had at accepted steps
 };
 

@@ -55,7 +55,7 @@ struct FrozenMean {
   int count = 0;  ///< of operators that the mean is of
   bool frozen = false;
 
-  /// The operator to go on with from a committed state; `probe` is called as long as the cell hardens.
+  /// The operator to go on with from a committed state, P in Pa; `probe` is called as long as the cell hardens.
   Tangent next(const Eigen::Matrix3d& nowF, const Eigen::Matrix3d& nowP, const std::function<Tangent()>& probe);
 };
 
