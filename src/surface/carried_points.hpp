@@ -10,7 +10,7 @@
 
 namespace dovetail::surface {
 
-/// Places the given points: x = X + S u and v = S v, and what turns with their patches.
+/// Places the given points: x = X + S u and v = S v, and what goes with their patches.
 void placePoints(const cg::Projection& carrier, std::span<const Vec3> X, PatchTurns& turns, std::span<const Vec3> u,
                  std::span<const Vec3> v, std::span<const int> points, std::span<Vec3> x, std::span<Vec3> velocity);
 

@@ -68,7 +68,7 @@ void straighten(Skin& skin, std::span<const Vec3> nodeX, const PatchTurns& turns
     if (!frame.slender) continue;
     const auto node = skin.carrier.rowColumns(v);
     double* const weight = skin.carrier.weight.data() + skin.carrier.offsets[v];
-    const auto along = [&](std::size_t k) { return dot(nodeX[node[k]] - skin.X[v], frame.axis[0]); };
+    const auto along = [&](std::size_t k) { return dot(nodeX[node[k]] - skin.X[v], frame.longest); };
     double mean = 0.0, square = 0.0;
     for (std::size_t k = 0; k < node.size(); ++k) mean += weight[k] * along(k);
     for (std::size_t k = 0; k < node.size(); ++k) square += weight[k] * (along(k) - mean) * (along(k) - mean);
@@ -90,7 +90,7 @@ void keepPlaces(Skin& skin, double width) {
     for (std::size_t k = 0; k < skin.carrier.rowColumns(v).size(); ++k)
       offset += skin.carrier.rowWeights(v)[k] * (skin.X[v] - nodeX[skin.carrier.rowColumns(v)[k]]);
     needed = needed || norm(offset) > roundOff * width;
-    turns.offset.push_back(offset);
+    turns.offset.push_back(turns.frames[turns.patch[v]].scaled(offset));
   }
   skin.turns = needed ? std::move(turns) : PatchTurns{};
 }

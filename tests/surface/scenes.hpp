@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/core/quaternion.hpp"
 #include "dovetail/dem/laws/laws.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/surface/coupling.hpp"

@@ -123,12 +123,60 @@ TEST(SlenderPatches, KeepPlacesLengthwiseAndEvenLoadsEvenAcross) {
   }
 }
 
-TEST(PatchTurns, ACrushedPatchIsNamed) {
-  const fem::SolidMesh mesh = unitBlock();
-  Skin skin = carriedSkin(mesh, {"", 1.3});
-  std::vector<Vec3> u, rest(mesh.X.size());
-  for (const Vec3& X : mesh.X) u.push_back(Vec3{2.0, 2.0, X.z} - X);
-  EXPECT_THROW(place(skin, u, rest), NumericalError);
+double volumeIn(const Skin& skin) {
+  double volume = 0.0;
+  for (const auto& [a, b, c] : skin.wall.facets)
+    volume += dot(skin.wall.x[a], cross(skin.wall.x[b], skin.wall.x[c])) / 6.0;
+  return volume;
+}
+
+TEST(PatchTurns, ACubeUnderAHomogeneousGradientHasItsSkinThere) {
+  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {6, 6, 6}, {0, 0, 0}, {1, 1, 1});
+  const std::array<std::array<Vec3, 3>, 4> gradients{
+      {{Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 0.9}},
+       {Vec3{1, 0, 0}, {0.2, 1, 0}, {0, 0, 1}},
+       {rotate(skew, {1, 0, 0}), rotate(skew, {0, 1, 0}), rotate(skew, {0, 0, 1})},
+       {Vec3{0.8, 0.1, -0.3}, {0.2, 1.1, 0.1}, {0.0, -0.2, 0.9}}}};
+  const std::vector<Vec3> rest(mesh.X.size());
+  for (const auto correction : {cg::KernelCorrection::none, cg::KernelCorrection::symmetric}) {
+    cg::SurfaceKernel kernel = advisedKernel(mesh);
+    kernel.correction = correction;
+    Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
+    coarseGrain(skin, kernel);
+    ASSERT_FALSE(skin.turns.empty());
+    for (const auto& F : gradients) {
+      const auto moved = [&](const Vec3& X) { return X.x * F[0] + X.y * F[1] + X.z * F[2]; };
+      std::vector<Vec3> u;
+      for (const Vec3& X : mesh.X) u.push_back(moved(X) - X);
+      place(skin, u, rest);
+      double worst = 0.0;
+      for (std::size_t v = 0; v < skin.X.size(); ++v) worst = std::max(worst, norm(skin.wall.x[v] - moved(skin.X[v])));
+      EXPECT_LT(worst, 5e-13);
+      EXPECT_NEAR(volumeIn(skin), dot(F[0], cross(F[1], F[2])), 1e-12);
+    }
+  }
+}
+
+/// Where a patch is not flat, but nearly so, nodes move its vertices by no more. Heights below 1e-7 of it are nothing.
+TEST(PatchTurns, ADomeOfAnyHeightFollowsAHomogeneousGradient) {
+  for (const double height : {1e-1, 1e-4, 1e-7, 1e-10, 0.0}) {
+    fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {6, 6, 1}, {-1, -1, -1}, {1, 1, 0});
+    for (Vec3& X : mesh.X)
+      if (X.z == 0.0) X.z = height * (1.0 - X.x * X.x) * (1.0 - X.y * X.y);
+    Skin skin = makeSkin(mesh.X, mesh.faceSets.at("z+"));
+    coarseGrain(skin, {{.width = 0.8}, cg::KernelCorrection::symmetric});
+    std::vector<Vec3> u, rest(mesh.X.size());
+    for (const Vec3& X : mesh.X) u.push_back(Vec3{0.1 * X.z, -0.1 * X.y, 0.2 * X.x - 0.1 * X.z});
+    place(skin, u, rest);
+    double worst = 0.0;
+    for (std::size_t v = 0; v < skin.X.size(); ++v) {
+      const Vec3& X = skin.X[v];
+      worst = std::max(worst, norm(skin.wall.x[v] - X - Vec3{0.1 * X.z, -0.1 * X.y, 0.2 * X.x - 0.1 * X.z}));
+    }
+    EXPECT_LT(worst, height > 1e-6 ? 1e-12 : 1e-8) << height;
+    std::vector<double> inverseMass(mesh.X.size(), 1.0);
+    EXPECT_LT(Coupling(skin).largestMobility(inverseMass), 2.0) << height;
+  }
 }
 
 /// A grain whose centre has sunk into a coarse-grained box comes out where it went in.

@@ -110,14 +110,8 @@ TEST(WallWork, ClosesItForTheSpreadLoadWhoseNodesGetOtherWork) {
 /// To round-off where vertices are linear in the nodes, else with the error of the trapezoidal rule.
 TEST(WallWork, IsTheWorkOfTheLoadForTheAdjointPair) {
   for (const Variant& variant : flatVariants()) {
-    const Books books = book(flatSeam(variant), 50), fine = book(flatSeam(variant), 100);
-    const double error = std::abs(books.workOnNodes - books.workOnSkin), size = std::abs(books.workOnSkin);
-    if (carriedSkin(unitBlock(), variant).turns.empty()) {
-      EXPECT_LT(error, 1e-12 * size) << variant.name;
-    } else {
-      EXPECT_LT(error, 1e-6 * size) << variant.name;
-      EXPECT_LT(std::abs(fine.workOnNodes - fine.workOnSkin), error / 3.5) << variant.name;
-    }
+    const Books books = book(flatSeam(variant), 50);
+    EXPECT_NEAR(books.workOnNodes, books.workOnSkin, 1e-12 * std::abs(books.workOnSkin)) << variant.name;
   }
 }
 

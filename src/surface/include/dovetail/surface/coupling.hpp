@@ -67,7 +67,7 @@ public:
   /// @param u, v  displacement, m, and velocity, m/s, of all nodes of the solid
   /// @param dt    DEM step, s (for laws that remember)
   /// @throws InputError as check does, or for fields that are shorter than the solid; NumericalError naming a particle
-  ///         or node that is not finite, or a patch that has been crushed
+  ///         or node that is not finite
   dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
                             const dem::ContactLaws& laws, double dt, const ExchangeOptions& options = {});
 
@@ -76,8 +76,7 @@ public:
   bool inContact() const { return contacts_.size() > 0; }
 
   /// Work the contacts did on the moving surface, J, from the first exchange after bookWallWork(true): trapezoidal
-  /// between exchanges. With the adjoint pair it is the work of load() on the nodes, where offsets turn with patches up
-  /// to the error of the trapezoidal rule.
+  /// between exchanges. With the adjoint pair it is the work of load() on the nodes.
   double wallWork() const { return wallWork_; }
   void bookWallWork(bool on) {
     booksWork_ = on;

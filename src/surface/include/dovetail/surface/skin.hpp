@@ -25,7 +25,7 @@ enum class QuadSplit { two, four };
 /// The triangulated boundary of a mesh and the linear map that ties it to the mesh nodes.
 ///
 /// Every vertex v moves as x_v = X_v + Σ_i S_vi u_i, where the rows of S (`carrier`) sum to one; where a kernel does
-/// not reproduce positions, what it is off by turns with the patch (PatchTurns). The transpose carries vertex forces to
+/// not reproduce positions, what it is off by goes with the patch (PatchTurns). The transpose carries vertex forces to
 /// nodes: f_i = Σ_v S_vi f_v. Because one map serves both ways, the pair is adjoint: the power that the particles spend
 /// on the skin is the power the nodes receive, for any kernel width, and moments balance at any turn.
 /// The skin of a closed face set is a closed wall, pushes outwards only, and stays one: where kernels of two smooth
@@ -58,7 +58,7 @@ void splitAtSharpEdges(Skin& skin);
 /// Replaces the carrier by kernel weights: S_vi = Σ_q w_q W(|X_q − X_v|) ψ_i(X_q) / Σ_q w_q W (paper, Eqs. 14 and 15,
 /// with the kernel at the skin's vertices on the reference surface), after splitAtSharpEdges. Width 0 gives the local
 /// map and splits nothing. Rows sum to one; with linear correction Σ_i S_vi X_i = X_v as well, so that no offset need
-/// turn with the patch, and with the symmetric one even tractions stay even (cg/symmetric_kernel.hpp). On patches that
+/// go with the patch, and with the symmetric one even tractions stay even (cg/symmetric_kernel.hpp). On patches that
 /// are more than twice as long as wide, rows without linear correction get the factor 1 + β_v (s_i − s̄_v) of the
 /// lengthwise coordinate s that restores their first moment along it; their shares across stay what they were.
 /// @throws InputError for a width that is negative or not finite, before the skin is changed
@@ -72,14 +72,13 @@ void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel);
 /// @throws InputError if the mesh has no boundary, or no volume
 cg::SurfaceKernel advisedKernel(const fem::SolidMesh& mesh);
 
-/// Moves the given vertices: wall.x = X + S u, wall.v = S v, and what turns with the patch.
-/// @throws NumericalError naming a patch that has shrunk to a line, where offsets turn with it
+/// Moves the given vertices: wall.x = X + S u, wall.v = S v, and what goes with the patch.
 void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> vertices);
 /// Moves all vertices.
 void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v);
 
-/// Largest row sum of |S|, and what turns of patches add: no carried point moves faster than this times the fastest
-/// node.
+/// Largest row sum of |S|, and what offsets that go with patches add: no carried point moves faster than this times the
+/// fastest node.
 double carrierGain(const cg::Projection& carrier, const PatchTurns& turns);
 
 }  // namespace dovetail::surface

@@ -35,7 +35,7 @@ struct SmoothSurface {
 ///         four faces: such meshes need the flat surface; or if two faces have an edge the same way round.
 SmoothSurface makeSmoothSurface(const Skin& skin);
 
-/// Moves the given control points: x = X + S u, v = S v, and what turns with their patches.
+/// Moves the given control points: x = X + S u, v = S v, and what goes with their patches.
 void place(SmoothSurface& surface, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> controls);
 
 /// The point of one face's patch closest to p; parameters in [0, 1]².
