@@ -32,8 +32,11 @@ Absorber::Absorber(const Overlap& overlap, const GapOperator& gap, const cg::Pro
       fine_(onRows(interpolation, gap.node)),
       fineBack_(cg::transposed(fine_)) {
   requirePositive(rate, "absorber");
-  for (std::size_t k = 0; k < overlap.size(); ++k)
-    damping_.push_back(rate * (1.0 - overlap.weight[k]) * particleMass[overlap.particle[k]]);
+  for (std::size_t k = 0; k < overlap.size(); ++k) {
+    // No node of its element has a row: there is no mean that it fluctuates about.
+    const bool isAlone = fine_.rowColumns(static_cast<int>(k)).empty();
+    damping_.push_back(isAlone ? 0.0 : rate * (1.0 - overlap.weight[k]) * particleMass[overlap.particle[k]]);
+  }
   force_.assign(overlap.size(), {});
   here_ = back_ = force_;
   rows_.resize(gap.rows());

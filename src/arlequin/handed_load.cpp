@@ -28,12 +28,6 @@ double largest(std::span<const Vec3> values) {
   return most;
 }
 
-double largestChange(std::span<const Vec3> a, std::span<const Vec3> b) {
-  double most = 0.0;
-  for (std::size_t n = 0; n < a.size(); ++n) most = std::max(most, norm(a[n] - b[n]));
-  return most;
-}
-
 /// Who hands over, round by round. A particle that has left the overlap, or is at another image of itself in periodic
 /// space, is struck off: to and fro it would change the load for ever.
 struct Givers {
@@ -88,6 +82,28 @@ std::vector<Vec3> loadOf(const dem::Model& grains, const fem::SolidMesh& mesh, f
   return load;
 }
 
+/// To the equilibrium under the load at the solid's time: in one step, or in several in which what is out of balance is
+/// let go of part by part.
+void balance(fem::Model& solid, NodeForces& load, const fem::StaticOptions& statics) {
+  const std::vector<Vec3> goal = load.force;
+  fem::evaluateForces(solid, {solid.t, 0.0});
+  const std::vector<Vec3> left = solid.nodes.f;  // out of balance at the start, N
+  double done = 0.0, part = 1.0;
+  while (done < 1.0) {
+    const double next = std::min(1.0, done + part);
+    for (std::size_t n = 0; n < goal.size(); ++n) load.force[n] = goal[n] - (1.0 - next) * left[n];
+    try {
+      fem::solveStatics(solid, solid.t, statics);
+    } catch (const NumericalError&) {
+      part *= 0.4;
+      if (part < statics.smallestStep) throw;
+      continue;
+    }
+    done = next;
+    part *= 2.0;
+  }
+}
+
 }  // namespace
 
 std::vector<Vec3> handedLoad(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
@@ -96,8 +112,48 @@ std::vector<Vec3> handedLoad(const dem::Model& grains, const fem::SolidMesh& mes
   return loadOf(grains, mesh, solid, nodalWeight, leastShare, all);
 }
 
-int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
-             std::span<const double> nodalWeight, const TakeOverOptions& options) {
+namespace {
+
+/// What a solid carries for as long as this lives.
+class Hold {
+public:
+  explicit Hold(fem::Model& solid) : solid_(solid) { solid.terms.push_back(load_); }
+  ~Hold() { solid_.terms.pop_back(); }
+  Hold(const Hold&) = delete;
+  Hold& operator=(const Hold&) = delete;
+
+  std::vector<Vec3>& force() { return load_->force; }
+  void balance(const fem::StaticOptions& statics) { arlequin::balance(solid_, *load_, statics); }
+  /// Goes on towards the load that is handed over now. A contact whose share jumps where the solid is (a particle
+  /// passes a face of an element) changes it to and fro: steps that turn back are halved, and the solid comes to stand
+  /// where it jumps. @return whether that is done, or nothing changes; change: over the largest of the load
+  bool follow(const std::vector<Vec3>& next, double tolerance, double& change) {
+    double along = 0.0;
+    before_.resize(next.size());
+    for (std::size_t n = 0; n < next.size(); ++n) {
+      const Vec3 difference = next[n] - load_->force[n];
+      along += dot(difference, before_[n]);
+      before_[n] = difference;
+    }
+    step_ = along < 0.0 ? 0.5 * step_ : std::min(1.0, 1.2 * step_);
+    const double all = largest(next), most = largest(before_);
+    change = all > 0.0 ? most / all : 0.0;
+    if (change <= tolerance || (along < 0.0 && step_ * change <= tolerance)) return true;
+    for (std::size_t n = 0; n < next.size(); ++n) load_->force[n] += step_ * before_[n];
+    return false;
+  }
+
+private:
+  fem::Model& solid_;
+  std::shared_ptr<NodeForces> load_ = std::make_shared<NodeForces>();
+  std::vector<Vec3> before_;  // the change before, N
+  double step_ = 1.0;         // of the change that is gone
+};
+
+}  // namespace
+
+TakeOverReport takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
+                        std::span<const double> nodalWeight, const TakeOverOptions& options) {
   requirePositive(options.tolerance, "tolerance of the handed load");
   if (options.rounds < 1)
     throw InputError("rounds is " + std::to_string(options.rounds), "TakeOverOptions", "give 1 or more");
@@ -106,32 +162,23 @@ int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& s
       throw InputError("the particles are tied to this solid already", "initial stress",
                        "take over first and make the tie after that");
   if (std::ranges::all_of(solid.nodes.mass, [](double mass) { return mass == 0.0; })) fem::addMass(solid);
-  const double time = solid.t;
-  const auto load = std::make_shared<NodeForces>();
   Givers givers(grains.particles.size());
-  load->force = loadOf(grains, mesh, solid, nodalWeight, options.leastShare, givers);
-  solid.terms.push_back(load);
-  int round = 1;
-  for (bool settled = false; !settled; ++round) {
-    try {
-      fem::solveStatics(solid, solid.t + 1.0, options.statics);
-    } catch (...) {
-      solid.terms.pop_back();
-      solid.t = time;
-      throw;
-    }
-    std::vector<Vec3> next = loadOf(grains, mesh, solid, nodalWeight, options.leastShare, givers);
-    settled = largestChange(next, load->force) <= options.tolerance * largest(next);
-    load->force = std::move(next);
-    if (settled || round < options.rounds) continue;
-    solid.terms.pop_back();
-    solid.t = time;
-    throw NumericalError("the load that particles hand over still changes after " + std::to_string(round) + " rounds",
-                         "initial stress", "take a stiffer solid or a thicker overlap");
+  const auto handed = [&] { return loadOf(grains, mesh, solid, nodalWeight, options.leastShare, givers); };
+  std::vector<Vec3> first = handed();
+  Hold hold(solid);
+  hold.force() = std::move(first);
+  TakeOverReport report;
+  for (report.rounds = 1;; ++report.rounds) {
+    hold.balance(options.statics);
+    if (hold.follow(handed(), options.tolerance, report.change)) return report;
+    if (report.rounds == options.rounds)
+      throw NumericalError("after " + std::to_string(report.rounds) +
+                               " rounds the load that particles hand over still changes by " +
+                               formatNumber(report.change) + " of the largest of a node",
+                           "initial stress",
+                           "allow more rounds if that falls; if it grows, the solid gives way under what it takes over: " +
+                               std::string("take a stiffer one, or a thicker overlap"));
   }
-  solid.terms.pop_back();
-  solid.t = time;
-  return round - 1;
 }
 
 }  // namespace dovetail::arlequin

@@ -35,4 +35,10 @@ FoundParticle OverlapLocator::find(const Vec3& x, double radius) const {
   return {{}, x, 1.0};
 }
 
+std::optional<double> OverlapLocator::weightWithin(const Vec3& x) const {
+  for (const Vec3& image : imagesOf(x, space_))
+    if (const auto place = cells_.find(image)) return weightAt(mesh_, *place, weight_);
+  return std::nullopt;
+}
+
 }  // namespace dovetail::arlequin

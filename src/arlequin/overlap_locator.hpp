@@ -1,6 +1,7 @@
 // Where in the mesh of an overlap a particle is, and what share of it counts there.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "dovetail/arlequin/overlap.hpp"
@@ -25,6 +26,9 @@ public:
   /// A particle, or an image of it, within the mesh or nearer to it than its radius where the mesh has a weight above
   /// 0. A centre that touches a face from outside, up to round-off, is not near. Any number of threads may ask.
   FoundParticle find(const Vec3& x, double radius) const;
+
+  /// Whether a point, or an image of it, is within the mesh, and its share there.
+  std::optional<double> weightWithin(const Vec3& x) const;
 
 private:
   const fem::SolidMesh& mesh_;

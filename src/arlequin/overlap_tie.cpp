@@ -40,7 +40,7 @@ std::vector<Vec3> OverlapTie::Impl::inRows(std::span<const Vec3> values, std::sp
 void OverlapTie::Impl::ready(const dem::Model& m) {
   if (known != m.particles.revision || memberOf.size() != m.particles.size()) number(m.particles);
   if (stale || (needsMass() && massOf != side.mass)) {
-    TieParts next = makeParts(setting, overlap, part, m);
+    TieParts next = makeParts(setting, overlap, m);
     addConstraint(setting, overlap, m, side, next, std::move(parts.constraint));
     parts = std::move(next);
     stale = false;
@@ -53,7 +53,7 @@ void OverlapTie::Impl::ready(const dem::Model& m) {
   }
   if (!refit) return;
   refit = false;
-  keepGap(m);
+  hasWideRows() ? keepForces(m) : keepGap(m);
   if (!parts.constraint->stores()) return;
   std::vector<Vec3> forces(now.size());
   parts.constraint->evaluate({now, increment, {}, {}, 1.0}, forces);
@@ -134,7 +134,7 @@ void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
   }
   lambdaBefore = lambda;
   parts.constraint->evaluate({now, increment, velocity, acceleration, dt}, lambda);
-  slipMembers();
+  slipMembers(m);
 }
 
 void OverlapTie::Impl::loadNodes(std::span<const Vec3> forces, coupling::NodalLoad& load) const {
@@ -241,6 +241,12 @@ void OverlapTie::addStiffness(const dem::Model& m, std::span<const Vec3> particl
   for (Vec3& value : lambda) value = -value;
   pullParticles(s.parts.gap, s.overlap, lambda, onParticles);
   pullNodes(s.parts.gap, lambda, onNodes);
+}
+
+bool OverlapTie::ties(const dem::Particles& particles, std::size_t particle) const {
+  Impl& s = *impl_;
+  if (s.known != particles.revision || s.memberOf.size() != particles.size()) s.number(particles);
+  return s.memberOf[particle] >= 0;
 }
 
 double OverlapTie::stored() const { return impl_->storedNow; }

@@ -85,15 +85,26 @@ std::vector<Vec3> OverlapTie::Impl::motionUnder(std::span<const Vec3> forces) co
   return moved;
 }
 
-/// No member is held farther than the slip length from where the solid is.
-void OverlapTie::Impl::slipMembers() {
-  if (!keepsForces() || !isFollowed()) return;
-  const double longest = slipLength();
+std::vector<Vec3> OverlapTie::Impl::gapUnder(std::span<const Vec3> forces) const {
+  std::vector<Vec3> gap(forces.size());
+  if (hasWideRows()) {
+    cg::apply(parts.gap.particles, motionUnder(forces), gap);
+    return gap;
+  }
+  const std::vector<Vec3> unit(forces.size(), Vec3{1.0, 0.0, 0.0});
+  parts.constraint->applyStiffness(unit, gap);
+  for (std::size_t r = 0; r < gap.size(); ++r) gap[r] = (1.0 / gap[r].x) * forces[r];
+  return gap;
+}
+
+/// No member is held farther than its slip length from where the solid is.
+void OverlapTie::Impl::slipMembers(const dem::Model& m) {
+  if (!hasWideRows() || !isFollowed()) return;
   std::vector<Vec3> moved = motionUnder(lambda);
   bool slips = false;
-  for (Vec3& q : moved)
-    if (const double length = norm(q); length > longest) {
-      q *= longest / length;
+  for (std::size_t k = 0; k < moved.size(); ++k)
+    if (const double length = norm(moved[k]), longest = slipLength(m, k); length > longest) {
+      moved[k] *= longest / length;
       slips = true;
     }
   if (!slips) return;
@@ -106,10 +117,9 @@ void OverlapTie::Impl::slipMembers() {
 
 /// What is beyond the slip length goes out of the kept part.
 void OverlapTie::Impl::slip() {
-  if (!turnsGap() || keepsForces() || !isFollowed()) return;
-  const double longest = slipLength();
+  if (!turnsGap() || hasWideRows() || !isFollowed()) return;
   for (std::size_t r = 0; r < now.size(); ++r)
-    if (const double length = norm(now[r]); length > longest) {
+    if (const double length = norm(now[r]), longest = parts.slipLength[r]; length > longest) {
       const Vec3 excess = (1.0 - longest / length) * now[r];
       kept[r] -= excess;
       now[r] -= excess;

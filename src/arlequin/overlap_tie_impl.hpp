@@ -15,7 +15,6 @@ struct TieState {
   TieSetting setting;
   Overlap overlap;            // x: the material points at which particles are tied, m
   std::vector<int> memberOf;  // row of each particle in the overlap, −1: none
-  std::vector<double> part;   // of each member in the rows, 0 … 1: newcomers come in by and by
   std::int64_t known = -1;    // Particles::revision of the numbers
   std::int64_t knownIds = 0;  // Particles::nextId when newcomers were last looked for
   PairShares shares;
@@ -36,9 +35,11 @@ struct TieState {
   double storedNow = 0.0, lost = 0.0;                // J
   double absorbed = 0.0, power = 0.0;                // J, W
   bool complies = false;                             // velocities have been made to comply with the multipliers
-  double memberTravel = 0.0, farTravel = 0.0;        // bounds on relative moves, m
-  double smallestRadius = 0.0, largestRadius = 0.0;  // m, of the members when the tie was made
-  std::vector<int> near;                             // particles outside that may come in, by number
+  double memberTravel = 0.0;                     // bound on relative moves of members over their slip lengths
+  double farTravel = 0.0;                        // bound on moves of all others, m
+  double meanRadius = 0.0, largestRadius = 0.0;  // m, of the members when the tie was made, the mean by mass
+  std::vector<int> near;                         // particles outside that may come in, by number
+  std::vector<std::int64_t> strangers;           // ids of OverlapState::strangers, ascending
   OverlapState events;
 };
 
@@ -63,12 +64,15 @@ struct OverlapTie::Impl : TieState {
     return setting.options.constraint != ConstraintKind::penalty && side.stepping == coupling::Stepping::implicitSteps;
   }
   bool needsMass() const { return setting.options.constraint == ConstraintKind::multiplier; }
-  /// A gap beyond it slips, and ties that are longer by half of it are made anew, m.
-  double slipLength() const { return 0.1 * smallestRadius; }
+  double slipLength(const dem::Model& m, std::size_t k) const {
+    return slipLengthOf(m.particles.radius[static_cast<std::size_t>(overlap.particle[k])]);
+  }
 
   /// Rows of wide kernels hang together: what one of them keeps, or slips by, alone is a wave that the metric of the
-  /// others answers with forces without bounds. There λ is what is kept, members slip, and the gap follows.
-  bool keepsForces() const { return turnsGap() && setting.options.projection.width > 0.0; }
+  /// others answers with forces without bounds. There members slip one by one, and the gap follows.
+  bool hasWideRows() const { return turnsGap() && setting.options.projection.width > 0.0; }
+  /// The gap that a penalty answers with these forces, m.
+  std::vector<Vec3> gapUnder(std::span<const Vec3> forces) const;
   /// D Πᵀλ, m: of the members on springs of their own, one by one.
   std::vector<Vec3> motionUnder(std::span<const Vec3> forces) const;
 
@@ -90,7 +94,7 @@ struct OverlapTie::Impl : TieState {
   double storedWith(std::span<const Vec3> forces) const;
   void advance(const dem::Model& m);
   void slip();
-  void slipMembers();
+  void slipMembers(const dem::Model& m);
   void comply(dem::Model& m, std::span<const Vec3> goal);
   void evaluate(dem::Model& m, const dem::Step& step);
   void apply(dem::Model& m, const dem::Step& step);
@@ -104,10 +108,12 @@ struct OverlapTie::Impl : TieState {
 
   void watch(dem::Model& m, const dem::Step& step);
   void findNear(const dem::Model& m);
+  void findStrangers(const dem::Model& m, const OverlapLocator& locator);
   void relocate(dem::Model& m);
   void handOver(dem::Model& m, std::size_t particle, double before, double after, const fem::CellPlace& place,
                 std::vector<Vec3>& impulse);
   void kickNodes(std::span<const Vec3> impulse);
+  void keepForces(const dem::Model& m);
   void keepGap(const dem::Model& m);
   void startGapAnew(const dem::Model& m);
   void weighPairs(dem::Model& m, std::span<const char> isMoved);

@@ -16,12 +16,12 @@ namespace {
 constexpr std::size_t grain = 256;
 constexpr double shellRadii = 4.0;  // within which particles outside are watched one by one
 
-/// Around the nodes of elements with a weight above 0.
-geometry::Box boxOfWeights(const TieSetting& setting, std::span<const Vec3> position) {
+/// Around all nodes, or those with a weight above 0.
+geometry::Box boxOf(const TieSetting& setting, std::span<const Vec3> position, bool weighed) {
   constexpr double far = std::numeric_limits<double>::max();
   geometry::Box box{{far, far, far}, {-far, -far, -far}};
   for (std::size_t n = 0; n < position.size(); ++n)
-    if (setting.nodalWeight[n] > 0.0)
+    if (!weighed || setting.nodalWeight[n] > 0.0)
       for (int c = 0; c < 3; ++c) {
         box.lower[c] = std::min(box.lower[c], position[n][c]);
         box.upper[c] = std::max(box.upper[c], position[n][c]);
@@ -47,14 +47,6 @@ double largestSpeed(std::size_t n, const Vec3& frame, Velocity&& velocity) {
   }));
 }
 
-/// The part of a particle in the rows after it was located anew: those who come and go do so by and by, so that λ does
-/// not jump.
-double partTowards(double before, double weight) {
-  constexpr double border = 0.1, most = 0.005;
-  const double goal = std::min({1.0, weight / border, (1.0 - weight) / border});
-  return std::clamp(goal, before - most, before + most);
-}
-
 void sortUnique(std::vector<int>& numbers) {
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -73,20 +65,38 @@ void OverlapTie::Impl::watch(dem::Model& m, const dem::Step& step) {
     relative = std::max(relative, largestSpeed(list->size(), frame, [&](std::size_t k) {
                           return m.particles.v[static_cast<std::size_t>((*list)[k])];
                         }));
-  memberTravel += step.dt * (relative + largestSpeed(rowNode.size(), frame, ofRow));
+  memberTravel += step.dt * (relative + largestSpeed(rowNode.size(), frame, ofRow)) / slipLengthOf(meanRadius);
   farTravel += step.moved + step.dt * largestSpeed(v.size(), {}, [&](std::size_t n) { return v[n]; });
+  if (!std::isfinite(memberTravel + farTravel))
+    throw NumericalError("velocities are not finite", "overlap with \"" + side.name + "\"", "take a smaller step");
 }
 
 void OverlapTie::Impl::findNear(const dem::Model& m) {
   near.clear();
   const std::vector<char> inBodies = dem::members(m);
-  const geometry::Box box = geometry::expanded(boxOfWeights(setting, positions()), (shellRadii + 1.0) * largestRadius);
+  const geometry::Box box = geometry::expanded(boxOf(setting, positions(), true), (shellRadii + 1.0) * largestRadius);
   for (std::size_t i = 0; i < m.particles.size(); ++i)
     if (memberOf[i] < 0 && m.particles.weightOf(i) == 1.0 && (inBodies.empty() || inBodies[i] == 0) &&
         contains(box, m.particles.x[i], m.pairs.periodicity()))
       near.push_back(static_cast<int>(i));
   farTravel = 0.0;
   knownIds = m.particles.nextId;
+}
+
+void OverlapTie::Impl::findStrangers(const dem::Model& m, const OverlapLocator& locator) {
+  const std::vector<char> inBodies = dem::members(m);
+  const geometry::Box box = boxOf(setting, positions(), false);
+  const double least = setting.options.leastShare * (1.0 - 1e-6);
+  for (std::size_t i = 0; i < m.particles.size(); ++i) {
+    if (memberOf[i] >= 0 || m.particles.weightOf(i) != 1.0) continue;
+    if (!contains(box, m.particles.x[i], m.pairs.periodicity())) continue;
+    const std::optional<double> weight = locator.weightWithin(m.particles.x[i]);
+    if (!weight || (*weight >= least && (inBodies.empty() || inBodies[i] == 0))) continue;
+    const auto place = std::ranges::lower_bound(strangers, m.particles.id[i]);
+    if (place != strangers.end() && *place == m.particles.id[i]) continue;
+    if (strangers.empty()) events.firstStranger = m.particles.id[i], events.strangerAt = m.particles.x[i];
+    strangers.insert(place, m.particles.id[i]);
+  }
 }
 
 void OverlapTie::Impl::relocate(dem::Model& m) {
@@ -103,9 +113,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   std::vector<int> beyond;
   Overlap next;
   next.nodalWeight = overlap.nodalWeight;
-  std::vector<double> nextPart;
-  const auto add = [&](int particle, const FoundParticle& found, const Vec3& material, double share) {
-    nextPart.push_back(share);
+  const auto add = [&](int particle, const FoundParticle& found, const Vec3& material) {
     next.particle.push_back(particle);
     next.place.push_back(found.place);
     next.x.push_back(material);
@@ -122,12 +130,12 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     const auto at = static_cast<std::size_t>(i);
     return locator.find(m.particles.x[at], m.particles.radius[at]);
   };
-  const double stays = turnsGap() ? 0.5 * slipLength() : 0.0;  // m: shorter ones are left as they are
-  std::vector<double> slips(overlap.size(), 0.0);
+  const double stays = turnsGap() ? 0.5 : 0.0;   // shorter ones are left as they are
+  std::vector<double> slips(overlap.size(), 0.0);  // over their slip lengths
   std::vector<FoundParticle> again(overlap.size()), arrived(near.size());
   parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      if (overlap.place[k].element >= 0) slips[k] = norm(displacement(m, k) - atMember(k, nodes().u));
+      if (overlap.place[k].element >= 0) slips[k] = norm(displacement(m, k) - atMember(k, nodes().u)) / slipLength(m, k);
       if (slips[k] > stays) again[k] = findAgain(overlap.particle[k]);
     }
   });
@@ -140,7 +148,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     const auto at = static_cast<std::size_t>(i);
     if (slips[k] <= stays) {
       memberTravel = std::max(memberTravel, slips[k]);
-      add(i, {overlap.place[k], overlap.x[k], overlap.weight[k]}, overlap.x[k], part[k]);
+      add(i, {overlap.place[k], overlap.x[k], overlap.weight[k]}, overlap.x[k]);
       continue;
     }
     const FoundParticle& found = again[k];
@@ -151,7 +159,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     }
     const bool isTied = found.place.element >= 0;
     changes.push_back({i, overlap.weight[k], found, isTied ? found.place : overlap.place[k]});
-    if (isTied) add(i, found, materialOf(found), partTowards(part[k], found.weight));
+    if (isTied) add(i, found, materialOf(found));
   }
   for (std::size_t k = 0; k < near.size(); ++k) {
     const int i = near[k];
@@ -160,9 +168,10 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     if (found.place.element < 0 || found.weight < setting.options.leastShare * (1.0 - 1e-6)) continue;
     isMoved[at] = 1;
     changes.push_back({i, 1.0, found, found.place});
-    add(i, found, materialOf(found), partTowards(0.0, found.weight));
+    add(i, found, materialOf(found));
     ++events.admitted;
   }
+  findStrangers(m, locator);
   if (changes.empty() && beyond.empty()) return;
   ++events.relocations;
   for (const fem::CellPlace& place : next.place)
@@ -175,7 +184,6 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   if (actsInWindows()) gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
   const double contactsBefore = contactEnergy(m), storedBefore = storedNow;
   overlap = std::move(next);
-  part = std::move(nextPart);
   number(m.particles);
   if (m.particles.weight.empty()) m.particles.weight.assign(m.particles.size(), 1.0);
   std::vector<Vec3> impulse(nodes().v.size());
@@ -186,7 +194,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   stale = true;
   ready(m);
   if (turnsGap())
-    keepGap(m);
+    keepForces(m);
   else
     startGapAnew(m);
   if (setting.options.constraint == ConstraintKind::multiplier) comply(m, inRows(rate, nodesOfRows));
@@ -214,8 +222,12 @@ void OverlapTie::exchange(dem::Model& m, const dem::Step& step) {
   if (others) s.findNear(m);
   s.watch(m, step);
   if (!inStep) return;
-  if (s.farTravel > 0.5 * shellRadii * s.largestRadius) s.findNear(m);
-  if (!others && s.memberTravel <= s.slipLength()) return;
+  if (s.farTravel > 0.5 * shellRadii * s.largestRadius) {
+    s.findNear(m);
+    const std::vector<Vec3> x = s.positions();
+    s.findStrangers(m, OverlapLocator(s.setting.mesh, x, s.setting.nodalWeight, m.pairs.periodicity()));
+  }
+  if (!others && s.memberTravel <= 1.0) return;
   s.advance(m);
   s.relocate(m);
 }
@@ -231,7 +243,6 @@ double OverlapTie::renumber(std::span<const int> newNumber, const dem::Particles
   s.shares.renumber(newNumber);
   Overlap rest;
   rest.nodalWeight = s.overlap.nodalWeight;
-  std::vector<double> part;
   for (std::size_t k = 0; k < s.overlap.size(); ++k) {
     const int number = newNumber[static_cast<std::size_t>(s.overlap.particle[k])];
     if (number < 0) continue;
@@ -239,13 +250,11 @@ double OverlapTie::renumber(std::span<const int> newNumber, const dem::Particles
     rest.place.push_back(std::move(s.overlap.place[k]));
     rest.x.push_back(s.overlap.x[k]);
     rest.weight.push_back(s.overlap.weight[k]);
-    part.push_back(s.part[k]);
     if (rest.place.back().element >= 0) rest.elements.push_back(rest.place.back().element);
   }
   sortUnique(rest.elements);
   if (rest.size() != s.overlap.size()) s.stale = s.refit = true;
   s.overlap = std::move(rest);
-  s.part = std::move(part);
   if (s.parts.absorber) s.parts.absorber->renumber(s.overlap.particle);
   for (int& i : s.near) i = newNumber[static_cast<std::size_t>(i)];
   std::erase_if(s.near, [](int i) { return i < 0; });

@@ -1,7 +1,6 @@
 // How an overlap tie is made, and what it asks of the step.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "dovetail/arlequin/weights.hpp"
@@ -133,18 +132,19 @@ std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidM
   requireShares(mesh, *side.model, nodalWeight);
   requireMembers(s.overlap, grains, options.leastShare);
   s.setting = {mesh, options, std::move(nodalWeight), penaltyOfElements(mesh, *side.model, options), 0.0};
-  s.part.assign(s.overlap.size(), 1.0);
   s.setting.bulkDensity = bulkDensityOf(s.overlap, mesh, grains.particles);
-  s.smallestRadius = std::numeric_limits<double>::infinity();
+  double mass = 0.0;
   std::vector<double> weight = grains.particles.weight;
   weight.resize(grains.particles.size(), 1.0);
   for (std::size_t k = 0; k < s.overlap.size(); ++k) {
     const auto i = static_cast<std::size_t>(s.overlap.particle[k]);
     weight[i] = s.overlap.weight[k];
-    s.smallestRadius = std::min(s.smallestRadius, grains.particles.radius[i]);
+    mass += grains.particles.mass[i];
+    s.meanRadius += grains.particles.mass[i] * grains.particles.radius[i];
     s.largestRadius = std::max(s.largestRadius, grains.particles.radius[i]);
     s.overlap.x[k] -= s.atMember(k, side.nodes().u);
   }
+  s.meanRadius /= mass;
   grains.particles.weight = std::move(weight);
   s.number(grains.particles);
   s.findNear(grains);

@@ -71,9 +71,15 @@ void OverlapTie::Impl::kickNodes(std::span<const Vec3> impulse) {
   for (std::size_t n = 0; n < change.size(); ++n) lost -= dot(impulse[n], nodes().v[n] - 0.5 * change[n]);
 }
 
-/// Whatever the ties are now, the gap of the rows, or their λ, is what it was.
+/// Whatever the ties are now, λ is what it was: those who come in are tied where they are, without a gap of their own,
+/// and make that of their rows shorter as they make these stiffer.
+void OverlapTie::Impl::keepForces(const dem::Model& m) {
+  now = gapUnder(lambda);
+  keepGap(m);
+}
+
+/// Whatever the ties are now, the gap of the rows is what it was: those who are gone take their part of λ along.
 void OverlapTie::Impl::keepGap(const dem::Model& m) {
-  if (keepsForces()) cg::apply(parts.gap.particles, motionUnder(lambda), now);
   const std::vector<Vec3> fresh = freshGap(m);
   for (std::size_t r = 0; r < fresh.size(); ++r) kept[r] = now[r] - fresh[r];
 }

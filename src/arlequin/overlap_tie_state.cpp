@@ -12,6 +12,7 @@ OverlapState OverlapTie::state() const {
   const Overlap& overlap = impl_->overlap;
   state.members = overlap.size();
   state.rows = impl_->rowNode.size();
+  state.strangers = static_cast<std::int64_t>(impl_->strangers.size());
   std::vector<char> holds(impl_->setting.mesh.elementCount(), 0);
   for (const fem::CellPlace& place : overlap.place)
     if (place.element >= 0) holds[static_cast<std::size_t>(place.element)] = 1;
@@ -33,9 +34,10 @@ void OverlapTie::save(ByteWriter& writer) const {
   }
   writer(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
          s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
-         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
-  writer(s.part, s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies,
-         s.windowIncrement, s.atWindow, s.windowTime, s.openingWork, s.absorbed);
+         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
+  writer(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies,
+         s.windowIncrement, s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers,
+         s.events.firstStranger, s.events.strangerAt);
 }
 
 void OverlapTie::load(ByteReader& reader) {
@@ -44,9 +46,10 @@ void OverlapTie::load(ByteReader& reader) {
   std::vector<Vec3> xi;
   reader(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
          s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
-         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.smallestRadius, s.largestRadius);
-  reader(s.part, s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies,
-         s.windowIncrement, s.atWindow, s.windowTime, s.openingWork, s.absorbed);
+         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
+  reader(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies,
+         s.windowIncrement, s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers,
+         s.events.firstStranger, s.events.strangerAt);
   const std::size_t members = s.overlap.particle.size();
   for (const std::size_t count : {element.size(), xi.size(), s.overlap.x.size(), s.overlap.weight.size()})
     if (count != members)

@@ -41,6 +41,19 @@ Vec3 weightGradient(const fem::SolidMesh& mesh, const Overlap& overlap, std::siz
   return dual / dot(J[0], cross(J[1], J[2]));
 }
 
+/// Of a pair with a particle of another overlap: the mean of both shares as they are now. Both overlaps write it, and
+/// agree whoever is the last; neither remembers it.
+bool isBetweenOverlaps(const dem::Particles& particles, const PairShare& pair, std::span<const int> memberOf) {
+  const auto isOthers = [&](int i) {
+    return memberOf[static_cast<std::size_t>(i)] < 0 && particles.weightOf(static_cast<std::size_t>(i)) != 1.0;
+  };
+  return isOthers(pair.i) || isOthers(pair.j);
+}
+double meanShare(const dem::Particles& particles, const PairShare& pair) {
+  return 0.5 * (particles.weightOf(static_cast<std::size_t>(pair.i)) +
+                particles.weightOf(static_cast<std::size_t>(pair.j)));
+}
+
 /// w where two particles touch, from what each of them knows of w about itself.
 double shareAt(const dem::Particles& particles, const dem::PairList& list, std::size_t pair, const Overlap& overlap,
                std::span<const Vec3> gradient, std::span<const int> memberOf) {
@@ -75,6 +88,9 @@ void PairShares::update(const dem::Particles& particles, dem::PairList& list, co
       const auto known = std::ranges::lower_bound(pairs, order(pair), {}, order);
       isNew[k] = known == pairs.end() || order(*known) != order(pair);
       if (!isNew[k]) pair.share = known->share;
+      if (!isBetweenOverlaps(particles, pair, memberOf)) continue;
+      isNew[k] = 0;
+      pair.share = meanShare(particles, pair);
     }
   });
   for (std::size_t k = 0; k < now.size(); ++k)

@@ -24,9 +24,13 @@ struct TieSetting {
 struct TieParts {
   GapOperator gap;
   std::vector<double> stiffness;           ///< p Ω per member, N/m; Ω: the volume that a particle fills
+  std::vector<double> slipLength;          ///< of each row, m: those of its members, in the mean by mass
   std::unique_ptr<Constraint> constraint;  ///< made when masses are known
   std::unique_ptr<Absorber> absorber;
 };
+
+/// A member whose part of the gap is longer slips, and ties that are longer by half of it are made anew, m.
+inline double slipLengthOf(double radius) { return 0.1 * radius; }
 
 /// p of every element: as given, or 20 E/h² of its own material and size.
 /// @throws InputError where no modulus is known
@@ -36,9 +40,7 @@ std::vector<double> penaltyOfElements(const fem::SolidMesh& mesh, const fem::Mod
 double bulkDensityOf(const Overlap& overlap, const fem::SolidMesh& mesh, const dem::Particles& particles);
 
 /// @param overlap   particles by number, with x the material point at which each is tied
-/// @param part      of each member in the rows, 0 … 1
-TieParts makeParts(const TieSetting& setting, const Overlap& overlap, std::span<const double> part,
-                   const dem::Model& m);
+TieParts makeParts(const TieSetting& setting, const Overlap& overlap, const dem::Model& m);
 /// Sets parts.constraint and absorber. @param before  the constraint that it takes the place of @throws InputError if
 /// the solid has no mass yet
 void addConstraint(const TieSetting& setting, const Overlap& overlap, const dem::Model& m,

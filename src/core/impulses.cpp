@@ -28,8 +28,12 @@ void ImpulseBook::give(const std::string& name, const Momenta& impulse) {
 
 void ImpulseBook::give(const std::string& name, const Momenta& impulse, int& number) {
   if (impulse == Momenta{}) return;
-  if (number < 0) number = static_cast<int>(&channel(name) - channels_.data());
-  channels_[static_cast<std::size_t>(number)].give(impulse);
+  auto at = static_cast<std::size_t>(number);
+  if (number < 0 || at >= channels_.size() || channels_[at].name != name) {
+    at = static_cast<std::size_t>(&channel(name) - channels_.data());
+    number = static_cast<int>(at);
+  }
+  channels_[at].give(impulse);
 }
 
 void ImpulseBook::add(const std::string& prefix, const ImpulseBook& other) {

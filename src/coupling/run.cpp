@@ -182,11 +182,14 @@ void CoupledRun::Impl::jumpBetweenSteps() {
 /// The forces with which constraints answer what acts at the ends of windows only.
 void CoupledRun::Impl::constrainWindow() {
   windowForce.clear();
-  if (K() == 1 && !anyImplicit()) return;
+  if (K() == 1 && !anyImplicit()) {
+    for (const auto& solid : solids) solid->windowLoad.clear();
+    return;
+  }
   for (const auto& solid : solids) {
     SolidSide& side = solid->side;
     NodalLoad load(side.nodes().X.size());
-    bool any = false;
+    bool any = !solid->windowLoad.touched.empty();
     for (const auto& term : grains.terms) {
       const auto* const connector = dynamic_cast<const Connector*>(term.get());
       if (!connector || !connector->constrains() || &connector->side() != &side) continue;

@@ -25,6 +25,7 @@ public:
   bool of(const CoupledRun::Impl* run) const { return run_ == run; }
 
 private:
+  bool isAwake() const;
   bool ownForcesDue(const dem::Step& step) const;
   CoupledRun::Impl* run_;
 };
@@ -58,6 +59,8 @@ struct CoupledRun::Impl {
   bool kicksTogether() const { return K() == 1 && options.lag == Lag::none; }
   int K() const { return options.stepsPerWindow; }
   double window() const { return K() * dt; }
+  /// Solids have a step: until then the particles' model steps alone.
+  bool hasStep() const { return dt > 0.0; }
   bool anyImplicit() const;
   /// Momentum and mass now.
   Totals sums() const;

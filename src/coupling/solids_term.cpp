@@ -3,9 +3,11 @@
 namespace dovetail::coupling {
 
 double SolidsTerm::move(dem::Model&, const dem::Step& step) {
-  if (run_) run_->outside.begin(step.dt);
+  if (isAwake()) run_->outside.begin(step.dt);
   return 0.0;
 }
+
+bool SolidsTerm::isAwake() const { return run_ && run_->hasStep(); }
 
 /// Also where forces are found anew between steps, if the solids' own kick together with the connectors'.
 bool SolidsTerm::ownForcesDue(const dem::Step& step) const {
@@ -14,15 +16,16 @@ bool SolidsTerm::ownForcesDue(const dem::Step& step) const {
 
 void SolidsTerm::addForces(dem::Model&, const dem::Step& step) {
   if (!run_) return;
+  for (const auto& solid : run_->solids) solid->side.load.clear();
+  if (!isAwake()) return;
   for (const auto& solid : run_->solids) {
     solid->showVelocities(step.timeless);
-    solid->side.load.clear();
     if (ownForcesDue(step)) solid->findForces(run_->sampled);
   }
 }
 
 void SolidsTerm::book(dem::Model& m, const dem::Step& step) {
-  if (!run_) return;
+  if (!isAwake()) return;
   for (const auto& solid : run_->solids) solid->hideVelocities();
   run_->outside.evaluated(m, step, run_->lateLoads());
   if (!ownForcesDue(step) || !run_->kicksTogether()) return;
@@ -31,7 +34,7 @@ void SolidsTerm::book(dem::Model& m, const dem::Step& step) {
 
 /// What constraints do in both half windows around their ends goes with its particles.
 double SolidsTerm::renumber(std::span<const int> newNumber, const dem::Particles& before) {
-  if (run_) run_->outside.left(run_->grains, newNumber, before);
+  if (isAwake()) run_->outside.left(run_->grains, newNumber, before);
   if (!run_ || run_->windowForce.empty()) return 0.0;
   std::vector<Vec3> moved(newNumber.size());
   std::size_t stay = 0;

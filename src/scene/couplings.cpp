@@ -7,6 +7,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 #include "parts.hpp"
+#include "warnings.hpp"
 
 namespace dovetail::scene {
 
@@ -41,13 +42,18 @@ void leaveOut(Built& built, const fem::SolidMesh& mesh, const coupling::SolidSid
 /// Initial stress of a solid under its loads and those of the grains.
 void takeOver(Built& built, const fem::SolidMesh& mesh, coupling::SolidSide& side, const std::vector<double>& weight,
               double leastShare) {
+  constexpr double tolerance = 1e-3;
   // A thousandth of the load is far below what a tie of elements cannot balance grain by grain anyway.
-  const int rounds =
-      arlequin::takeOver(built.run->grains, mesh, *side.model, weight, {.tolerance = 1e-3, .leastShare = leastShare});
+  const arlequin::TakeOverReport report =
+      arlequin::takeOver(built.run->grains, mesh, *side.model, weight, {.tolerance = tolerance, .leastShare = leastShare});
   double farthest = 0.0;
   for (const Vec3& u : side.nodes().u) farthest = std::max(farthest, norm(u));
-  built.notes.push_back("\"" + side.name + "\" took over its grains in " + std::to_string(rounds) +
-                        " rounds: its nodes moved by up to " + formatNumber(farthest) + " m.");
+  built.notes.push_back("\"" + side.name + "\" took over its grains in " + std::to_string(report.rounds) +
+                        " rounds: its nodes moved by up to " + formatNumber(farthest) + " m." +
+                        (report.change > tolerance
+                             ? " What is handed over jumps by " + rounded(100.0 * report.change) +
+                                   " % of the largest force on a node there, as grains pass the faces of elements."
+                             : ""));
 }
 
 void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overlap, const Scene&) {

@@ -18,6 +18,7 @@
 #include "plan.hpp"
 #include "series.hpp"
 #include "summary.hpp"
+#include "warnings.hpp"
 
 namespace dovetail::scene {
 
@@ -225,6 +226,10 @@ private:
     for (const Remark& one : progress_.remarks) {
       notes.lines.push_back((one.warns ? "WARNING: " : "") + textOf(one));
       if (one.warns) notes.warnings.push_back(textOf(one));
+    }
+    for (const std::string& text : strangersIn(built_)) {
+      notes.lines.push_back("WARNING: " + text);
+      notes.warnings.push_back(text);
     }
     for (std::size_t k = 0; k < scene_.stages.size(); ++k) {
       notes.stages.push_back({k + 1, nameOf(scene_.stages[k]), rounded(seconds_[k])});

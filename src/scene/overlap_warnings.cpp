@@ -120,4 +120,18 @@ void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, co
                     " Pa, so that waves are reflected: bring youngs_modulus and stiffness closer.");
 }
 
+Lines strangersIn(const Built& built) {
+  Lines lines;
+  for (const auto* tie : std::as_const(built.run->grains).terms.all<arlequin::OverlapTie>()) {
+    const arlequin::OverlapState state = tie->state();
+    if (state.strangers == 0) continue;
+    const Vec3& x = state.strangerAt;
+    lines.push_back(std::to_string(state.strangers) + " grains came into " + quoted(tie->side().name) +
+                    " where its overlap does not hold them, as clumps or beyond the border of the particles; the first is " +
+                    std::to_string(state.firstStranger) + ", seen at (" + rounded(x.x) + ", " + rounded(x.y) + ", " +
+                    rounded(x.z) + ") m: give the sides of the solid a surface coupling, and fill the overlap.");
+  }
+  return lines;
+}
+
 }  // namespace dovetail::scene

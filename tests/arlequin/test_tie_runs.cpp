@@ -233,6 +233,62 @@ TEST(TieRunsMore, OnlyDashpotsOnImplicitSolidsLag) {
   }
 }
 
+TEST(TieRunsMore, ATieThatIsTakenOutLeavesNothingBehind) {
+  for (const Stepping stepping : {Stepping::explicitSteps, Stepping::implicitSteps})
+    for (const int K : {1, 4})
+      for (const bool startsAnew : {true, false}) {
+        SceneOptions o;
+        o.across = 1;
+        o.holdEnd = false;
+        o.coupling.constraint = ConstraintKind::multiplier;
+        TieRun run = tieBar(o, fem::CellShape::hex8, stepping);
+        run.grains.gravity = {0.0, -9.81, 0.0};
+        run.K = K;
+        run.start(2e-4);
+        run.run->advance(100 / K);
+        run.grains.terms.remove(*run.tie);
+        if (startsAnew) run.start(2e-4);
+        run.run->advance();  // kicked once more by what acted at the end of the window before
+        const auto momentum = [&] {
+          Vec3 sum;
+          for (std::size_t n = 0; n < run.solid->nodes.v.size(); ++n)
+            sum += run.solid->nodes.mass[n] * run.solid->nodes.v[n];
+          return sum;
+        };
+        const Vec3 before = momentum();
+        run.run->advance(100 / K);
+        EXPECT_LT(norm(momentum() - before), 1e-8 * norm(before)) << K << startsAnew;
+      }
+}
+
+/// A speck alone in its elements: without a row it has no mean of its own to fluctuate about.
+TEST(TieRunsMore, TheAbsorberIsBlindToAVelocityOfAll) {
+  for (const double radius : {0.02, 0.06, 0.125}) {
+    TieRun run;
+    const double half = 0.25;
+    run.grains.particles = lattice({-half, 0.0, -half}, {half, 1.0, half}, 2);
+    dem::addParticle(run.grains.particles, {0.05, 2.25, 0.05}, {}, radius, dem::Density{1000});
+    dem::ElasticLaw law;
+    law.normal.stiffness = 1e5;
+    run.grains.laws = dem::makeContactLaws(law);
+    const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 6, 1}, {-half, 0.0, -half}, {half, 3.0, half});
+    std::vector<double> place;
+    for (const Vec3& X : mesh.X) place.push_back(X.y > 2.5 + 1e-9 ? beyondOverlap : X.y / 2.5);
+    const std::vector<double> weight = nodalWeights(place, {});
+    run.take(fem::makeModel(mesh));
+    const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.share = solidWeights(weight)}));
+    const Vec3 velocity{1.0, 2.0, 3.0};
+    run.solid->nodes.v.assign(mesh.X.size(), velocity);
+    run.grains.particles.v.assign(run.grains.particles.size(), velocity);
+    run.couple(mesh, weight, {.absorberRate = 50.0});
+    run.start(1e-4);
+    run.run->advance(1000);
+    EXPECT_LT(norm(run.grains.particles.v.back() - velocity), 1e-9) << radius;
+    EXPECT_LT(std::abs(run.tie->absorbed()), 1e-9) << radius;
+  }
+}
+
 /// How far λ changes from one window to the next, over its size: the largest of 20.
 double changeOfLambda(TieRun& run) {
   double largest = 0.0, size = 0.0;

@@ -3,6 +3,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/coupling/rest.hpp"
+#include "dovetail/dem/model/walls.hpp"
+#include "dovetail/dem/setup/relax.hpp"
 #include "spring_scene.hpp"
 
 namespace dovetail::coupling {
@@ -46,6 +48,29 @@ TEST(RunEvents, SettlesAndBooksWhatThatTook) {
   run->start(1e-4);
   EXPECT_THROW(settle(*run, {.kinetic = 0.0}), InputError);
   EXPECT_FALSE(settle(*run, {.windows = 1}).atRest);
+}
+
+/// Relaxation, steps and removals of walls, with and without a solid in the run: the books begin at the first start.
+TEST(RunEvents, GrainsMayComeToRestAloneBeforeTheRunStarts) {
+  for (const bool withSolid : {false, true}) {
+    const auto run = withSolid ? springRun({.held = true}) : std::make_unique<CoupledRun>();
+    dem::Model& grains = run->grains;
+    if (!withSolid) {
+      grains.laws = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 2e4}});
+      for (int i = 0; i < 3; ++i)
+        dem::addParticle(grains.particles, {0.03 * i, 0.0, 0.0099}, {}, 0.01, dem::Density{2500});
+    }
+    grains.gravity = {0.0, 0.0, -9.81};
+    dem::addWall(grains, dem::makePlane({}, {0.0, 0.0, 1.0}));
+    dem::addWall(grains, dem::makePlane({-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}));
+    dem::relax(grains, {.unbalanced = 1e-3, .steps = 2000});
+    dem::removeWall(grains, dem::primitiveWall(grains, 0));
+    run->start(1e-4);
+    run->advance(20);
+    const Totals totals = run->totals();
+    EXPECT_LT(norm(totals.residual.linear), 1e-12 * totals.turnedOver) << withSolid;
+    EXPECT_EQ(totals.given.channels()[0].name, "particles: gravity");
+  }
 }
 
 TEST(RunEvents, SettlesInPartsAsInOne) {

@@ -1,6 +1,7 @@
 #include "dovetail/dem/model/checkpoint.hpp"
 
 #include <concepts>
+#include <limits>
 #include <type_traits>
 
 #include "dovetail/core/error.hpp"
@@ -57,7 +58,8 @@ void archiveScene(Archive& archive, M& m) {
   archiveParticles(archive, m.particles);
   archivePairs(archive, m);
   archive(m.gravity, m.rotation, m.booking, m.sortEvery, m.refusesUnstableSteps);
-  std::int64_t forcesOf = hasForces(m) ? m.forcesOf : -1;
+  constexpr auto outdated = std::numeric_limits<std::int64_t>::max();  // of particles, terms or laws before a change
+  std::int64_t forcesOf = hasForces(m) || m.forcesOf < 0 ? m.forcesOf : outdated;
   archive(m.time, m.steps, m.open, m.step, m.work, m.booked, m.rate, m.entered, m.left, forcesOf, m.smallestRadius,
           m.timeBase, m.stepsBase, m.checkedStep, m.renewals);
   if constexpr (Archive::reads) {

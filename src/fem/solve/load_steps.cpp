@@ -112,10 +112,10 @@ StaticReport takeSteps(Balance& balance, double tEnd, LoadSteps steps, const Sta
   const Model& model = balance.model();
   LoadPath path(balance, tEnd, steps, ways, words);
   bool goesOn = true;
-  while (goesOn && model.t < tEnd) {
+  do {
     path.advance();
     goesOn = !observer || observer(model, path.report.steps.back());
-  }
+  } while (goesOn && model.t < tEnd);
   path.showForces();
   finishReport(balance, start, path.report);
   return path.report;

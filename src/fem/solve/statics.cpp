@@ -12,7 +12,7 @@ StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& option
   detail::validate(options.newton);
   const detail::LoadSteps steps{options.firstStep, options.largestStep, options.smallestStep, options.iterationTarget};
   detail::validate(steps);
-  detail::requireLater(tEnd, model, "solveStatics");
+  if (!(tEnd == model.t)) detail::requireLater(tEnd, model, "solveStatics");
   if (options.motionIterations < 0)
     throw InputError("motionIterations is below 0", "StaticOptions", "give a number of iterations, or 0 for none");
   detail::Equilibrium equilibrium(model, options.newton);

@@ -20,6 +20,11 @@ struct OverlapState {
   std::int64_t relocations = 0;  ///< how often some particle was located anew
   std::int64_t admitted = 0;     ///< particles that came in
   std::int64_t removed = 0;      ///< particles that passed the border of the particles and left the scene
+  /// Particles seen within the solid so far that nobody holds, as they are members of clumps, or came in where the
+  /// particles' share is nothing, from a side or by hand. They go through with all of their weight.
+  std::int64_t strangers = 0;
+  std::int64_t firstStranger = -1;  ///< its id
+  Vec3 strangerAt;                  ///< where that was first seen, m
 };
 
 /// Ties particles to the solid where both are: the gap g = Π(x − Φ x_FE) is held by a penalty, multipliers or a dashpot
@@ -27,11 +32,11 @@ struct OverlapState {
 /// ends of windows. Particles::weight holds the particles' share w, pairs the share at their contact.
 ///
 /// A particle is tied to the material point of the solid that it was located at. If it moves relative to that by more
-/// than a tenth of the smallest radius in the overlap, it is located anew: what was its part of the gap is kept in the
-/// rows, where it turns with the solid; a gap longer than that length slips, and what the penalty stored in the excess
-/// is lost. A share that changes takes mass with it, at the solid's velocity, that is booked as left or entered
+/// than a tenth of its radius, it is located anew: λ stays, and what was its part of the gap is kept in the rows, where
+/// it turns with the solid; a gap longer than a tenth of the radii about a row, in the mean by mass, slips, and what the
+/// penalty stored in the excess is lost. Specks that are lost among much larger particles are not held. A share that changes takes mass with it, at the solid's velocity, that is booked as left or entered
 /// (dem::Model); the momentum relative to the solid goes to the nodes by Φᵀ. Particles that come near the mesh from
-/// outside get their share when they are found there; those whose share falls below CouplingOptions::leastShare leave
+/// outside get their share when they are found there, and hold on at once, without a gap of their own; those whose share falls below CouplingOptions::leastShare leave
 /// the scene. Rows per element are not followed: their particles stay as located.
 class OverlapTie final : public coupling::Connector {
 public:
@@ -66,6 +71,8 @@ public:
                     std::span<Vec3> onParticles, std::span<Vec3> onNodes) const;
 
   const Overlap& overlap() const;
+  /// Whether a particle of the model, by number, is tied.
+  bool ties(const dem::Particles& particles, std::size_t particle) const;
   const GapOperator& operators() const;
   std::span<const Vec3> gap() const;     ///< per row, m
   std::span<const Vec3> lambda() const;  ///< per row, N: pulls the particles back and the nodes along

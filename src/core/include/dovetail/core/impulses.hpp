@@ -43,7 +43,8 @@ public:
 
   /// Adds to the channel of that name, which appears with its first impulse.
   void give(const std::string& name, const Momenta& impulse);
-  /// The same for those who give at every step. @param number  of the channel, < 0: not known yet, and then set
+  /// The same for those who give at every step. @param number  where the channel was last; looked up and set where that
+  /// is another's by now
   void give(const std::string& name, const Momenta& impulse, int& number);
   /// Adds the channels of another book, each named prefix + its name.
   void add(const std::string& prefix, const ImpulseBook& other);

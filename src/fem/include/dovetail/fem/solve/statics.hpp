@@ -76,9 +76,10 @@ std::ostream& operator<<(std::ostream& out, const StaticReport& report);
 using StaticObserver = std::function<bool(const Model& model, const StaticStep& step)>;
 
 /// Takes the model from model.t to tEnd through equilibria; loads and prescribed motions are functions of t. Time is
-/// real for laws that creep, relax or depend on rates; velocities mean nothing.
+/// real for laws that creep, relax or depend on rates; velocities mean nothing. tEnd = model.t: to the equilibrium of
+/// that instant, in one step in which no time passes.
 /// @throws NumericalError, with the reason, if the smallest step fails, whatever the terms or the solver threw; what
-///         else is thrown passes through: FactorMemoryError, InputError for tEnd ≤ model.t, options out of range,
+///         else is thrown passes through: FactorMemoryError, InputError for tEnd < model.t, options out of range,
 ///         constraints at odds. The model is then in its last equilibrium.
 StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& options = {},
                           const StaticObserver& observer = {});
