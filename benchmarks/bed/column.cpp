@@ -177,7 +177,7 @@ std::unique_ptr<JoinedColumn> joinSolid(const dem::Model& packing, std::size_t f
   for (std::size_t i = 0; i < grains.particles.size(); ++i)
     if (grains.particles.x[i].z < place.border) below.push_back(static_cast<int>(i));
   dem::removeParticles(grains, below);
-  if (options.takeOver) column->rounds = arlequin::takeOver(grains, mesh, *solid, weight).rounds;
+  if (options.takeOver) column->rounds = arlequin::takeOver(grains, mesh, *solid, weight);
   coupling::SolidSide& side = column->run.addSolid(std::move(solid), {.massShare = options.massShare});
   auto tie = arlequin::makeOverlapTie(grains, mesh, weight, side, options.coupling);
   column->tie = tie.get();

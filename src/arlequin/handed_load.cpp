@@ -152,8 +152,8 @@ private:
 
 }  // namespace
 
-TakeOverReport takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
-                        std::span<const double> nodalWeight, const TakeOverOptions& options) {
+int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
+             std::span<const double> nodalWeight, const TakeOverOptions& options, double* change) {
   requirePositive(options.tolerance, "tolerance of the handed load");
   if (options.rounds < 1)
     throw InputError("rounds is " + std::to_string(options.rounds), "TakeOverOptions", "give 1 or more");
@@ -167,17 +167,19 @@ TakeOverReport takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fe
   std::vector<Vec3> first = handed();
   Hold hold(solid);
   hold.force() = std::move(first);
-  TakeOverReport report;
-  for (report.rounds = 1;; ++report.rounds) {
+  for (int round = 1;; ++round) {
     hold.balance(options.statics);
-    if (hold.follow(handed(), options.tolerance, report.change)) return report;
-    if (report.rounds == options.rounds)
-      throw NumericalError("after " + std::to_string(report.rounds) +
-                               " rounds the load that particles hand over still changes by " +
-                               formatNumber(report.change) + " of the largest of a node",
+    double left = 0.0;
+    const bool settled = hold.follow(handed(), options.tolerance, left);
+    if (change) *change = left;
+    if (settled) return round;
+    if (round == options.rounds)
+      throw NumericalError("after " + std::to_string(round) +
+                               " rounds the load that particles hand over still changes by " + formatNumber(left) +
+                               " of the largest of a node",
                            "initial stress",
-                           "allow more rounds if that falls; if it grows, the solid gives way under what it takes over: " +
-                               std::string("take a stiffer one, or a thicker overlap"));
+                           "allow more rounds if that falls; if it grows, the solid gives way under what it takes "
+                           "over: take a stiffer one, or a thicker overlap");
   }
 }
 

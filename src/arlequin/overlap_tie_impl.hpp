@@ -32,9 +32,9 @@ struct TieState {
 
   bool advanced = false;  // the gap has been brought up to this step, and half of its work is booked
 
-  double storedNow = 0.0, lost = 0.0;                // J
-  double absorbed = 0.0, power = 0.0;                // J, W
-  bool complies = false;                             // velocities have been made to comply with the multipliers
+  double storedNow = 0.0, lost = 0.0;            // J
+  double absorbed = 0.0, power = 0.0;            // J, W
+  bool complies = false;                         // velocities have been made to comply with the multipliers
   double memberTravel = 0.0;                     // bound on relative moves of members over their slip lengths
   double farTravel = 0.0;                        // bound on moves of all others, m
   double meanRadius = 0.0, largestRadius = 0.0;  // m, of the members when the tie was made, the mean by mass

@@ -130,12 +130,13 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     const auto at = static_cast<std::size_t>(i);
     return locator.find(m.particles.x[at], m.particles.radius[at]);
   };
-  const double stays = turnsGap() ? 0.5 : 0.0;   // shorter ones are left as they are
+  const double stays = turnsGap() ? 0.5 : 0.0;     // shorter ones are left as they are
   std::vector<double> slips(overlap.size(), 0.0);  // over their slip lengths
   std::vector<FoundParticle> again(overlap.size()), arrived(near.size());
   parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      if (overlap.place[k].element >= 0) slips[k] = norm(displacement(m, k) - atMember(k, nodes().u)) / slipLength(m, k);
+      if (overlap.place[k].element >= 0)
+        slips[k] = norm(displacement(m, k) - atMember(k, nodes().u)) / slipLength(m, k);
       if (slips[k] > stays) again[k] = findAgain(overlap.particle[k]);
     }
   });

@@ -35,9 +35,9 @@ void OverlapTie::save(ByteWriter& writer) const {
   writer(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
          s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
          s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
-  writer(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies,
-         s.windowIncrement, s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers,
-         s.events.firstStranger, s.events.strangerAt);
+  writer(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies, s.windowIncrement,
+         s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers, s.events.firstStranger,
+         s.events.strangerAt);
 }
 
 void OverlapTie::load(ByteReader& reader) {
@@ -47,9 +47,9 @@ void OverlapTie::load(ByteReader& reader) {
   reader(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
          s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
          s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
-  reader(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies,
-         s.windowIncrement, s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers,
-         s.events.firstStranger, s.events.strangerAt);
+  reader(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies, s.windowIncrement,
+         s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers, s.events.firstStranger,
+         s.events.strangerAt);
   const std::size_t members = s.overlap.particle.size();
   for (const std::size_t count : {element.size(), xi.size(), s.overlap.x.size(), s.overlap.weight.size()})
     if (count != members)

@@ -50,8 +50,8 @@ bool isBetweenOverlaps(const dem::Particles& particles, const PairShare& pair, s
   return isOthers(pair.i) || isOthers(pair.j);
 }
 double meanShare(const dem::Particles& particles, const PairShare& pair) {
-  return 0.5 * (particles.weightOf(static_cast<std::size_t>(pair.i)) +
-                particles.weightOf(static_cast<std::size_t>(pair.j)));
+  return 0.5 *
+         (particles.weightOf(static_cast<std::size_t>(pair.i)) + particles.weightOf(static_cast<std::size_t>(pair.j)));
 }
 
 /// w where two particles touch, from what each of them knows of w about itself.

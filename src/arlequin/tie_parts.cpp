@@ -97,7 +97,8 @@ std::vector<char> specksOf(const TieSetting& setting, const Overlap& overlap, co
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (std::size_t k = 0; k < overlap.size(); ++k) least = std::min(least, radius(k)), most = std::max(most, radius(k));
   if (!(most > alike * least)) return isSpeck;
-  std::vector<std::vector<std::pair<double, double>>> finer(setting.mesh.X.size());  // radius; mass, then that of all finer
+  std::vector<std::vector<std::pair<double, double>>> finer(
+      setting.mesh.X.size());  // radius; mass, then that of all finer
   for (std::size_t k = 0; k < overlap.size(); ++k)
     eachCorner(setting, overlap.place[k], [&](std::size_t n, double hat) {
       finer[n].emplace_back(radius(k), hat * particles.mass[static_cast<std::size_t>(overlap.particle[k])]);
@@ -109,7 +110,8 @@ std::vector<char> specksOf(const TieSetting& setting, const Overlap& overlap, co
   for (std::size_t k = 0; k < overlap.size(); ++k) {
     bool isLost = alike * radius(k) < most && overlap.place[k].element >= 0;
     eachCorner(setting, overlap.place[k], [&](std::size_t n, double) {
-      const auto next = std::ranges::upper_bound(finer[n], radius(k), {}, [](const auto& entry) { return entry.first; });
+      const auto next =
+          std::ranges::upper_bound(finer[n], radius(k), {}, [](const auto& entry) { return entry.first; });
       isLost = isLost && std::prev(next)->second < few * finer[n].back().second;
     });
     isSpeck[k] = isLost ? 1 : 0;

@@ -44,14 +44,15 @@ void takeOver(Built& built, const fem::SolidMesh& mesh, coupling::SolidSide& sid
               double leastShare) {
   constexpr double tolerance = 1e-3;
   // A thousandth of the load is far below what a tie of elements cannot balance grain by grain anyway.
-  const arlequin::TakeOverReport report =
-      arlequin::takeOver(built.run->grains, mesh, *side.model, weight, {.tolerance = tolerance, .leastShare = leastShare});
+  double change = 0.0;
+  const int rounds = arlequin::takeOver(built.run->grains, mesh, *side.model, weight,
+                                        {.tolerance = tolerance, .leastShare = leastShare}, &change);
   double farthest = 0.0;
   for (const Vec3& u : side.nodes().u) farthest = std::max(farthest, norm(u));
-  built.notes.push_back("\"" + side.name + "\" took over its grains in " + std::to_string(report.rounds) +
+  built.notes.push_back("\"" + side.name + "\" took over its grains in " + std::to_string(rounds) +
                         " rounds: its nodes moved by up to " + formatNumber(farthest) + " m." +
-                        (report.change > tolerance
-                             ? " What is handed over jumps by " + rounded(100.0 * report.change) +
+                        (change > tolerance
+                             ? " What is handed over jumps by " + rounded(100.0 * change) +
                                    " % of the largest force on a node there, as grains pass the faces of elements."
                              : ""));
 }

@@ -126,10 +126,11 @@ Lines strangersIn(const Built& built) {
     const arlequin::OverlapState state = tie->state();
     if (state.strangers == 0) continue;
     const Vec3& x = state.strangerAt;
-    lines.push_back(std::to_string(state.strangers) + " grains came into " + quoted(tie->side().name) +
-                    " where its overlap does not hold them, as clumps or beyond the border of the particles; the first is " +
-                    std::to_string(state.firstStranger) + ", seen at (" + rounded(x.x) + ", " + rounded(x.y) + ", " +
-                    rounded(x.z) + ") m: give the sides of the solid a surface coupling, and fill the overlap.");
+    lines.push_back(
+        std::to_string(state.strangers) + " grains came into " + scene::quoted(tie->side().name) +
+        " where its overlap does not hold them, as clumps or beyond the border of the particles; the first is " +
+        std::to_string(state.firstStranger) + ", seen at (" + rounded(x.x) + ", " + rounded(x.y) + ", " + rounded(x.z) +
+        ") m: give the sides of the solid a surface coupling, and fill the overlap.");
   }
   return lines;
 }

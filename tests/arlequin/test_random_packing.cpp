@@ -88,7 +88,7 @@ std::unique_ptr<Scene> handOver(const dem::Model& packing, ConstraintKind kind) 
                             {.share = solidWeights(scene->weight)}));
   solid->add(fem::gravity({0, 0, -fall}));
   fem::addMass(*solid);
-  EXPECT_LT(takeOver(grains, scene->mesh, *solid, scene->weight).rounds, 10);
+  EXPECT_LT(takeOver(grains, scene->mesh, *solid, scene->weight), 10);
   coupling::SolidSide& partner = scene->run.addSolid(std::move(solid));
   CouplingOptions options;
   options.constraint = kind;

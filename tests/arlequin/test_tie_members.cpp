@@ -14,7 +14,8 @@ namespace {
 
 using namespace test;
 
-/// Force at the held end of a bonded bar that is pulled at its grains' end by 4 %, with a loose grain in the overlap, N.
+/// Force at the held end of a bonded bar that is pulled at its grains' end by 4 %, with a loose grain in the overlap,
+/// N.
 double heldForce(double dust) {
   const double half = 0.25;
   TieRun run;
@@ -43,8 +44,13 @@ double heldForce(double dust) {
   const std::vector<std::int64_t> pulled(run.grains.particles.id.begin(), run.grains.particles.id.begin() + 4);
   constexpr double time = 0.4, way = 0.14;  // s, m
   run.grains.terms.add(dem::DriveTerm(
-      pulled, [](double t) { return Vec3{0.0, -way * std::min(1.0, t / time), 0.0}; },
-      [](double t) { return Vec3{0.0, t < time ? -way / time : 0.0, 0.0}; }));
+      pulled,
+      [](double t) {
+        return Vec3{0.0, -way * std::min(1.0, t / time), 0.0};
+      },
+      [](double t) {
+        return Vec3{0.0, t < time ? -way / time : 0.0, 0.0};
+      }));
   run.start(2.5e-4);
   run.run->advance(3200);
   double force = 0.0;
@@ -85,9 +91,10 @@ struct Pit {
           dem::addParticle(g.particles, {radius * (2 * i + 1), radius * (2 * j + 1), radius * (2 * k + 1)}, {},
                            0.999 * radius, dem::Density{2000});
     dem::switchOnRotation(g.particles);
-    for (const auto& [place, normal] :
-         {std::pair{Vec3{}, Vec3{1, 0, 0}}, {Vec3{}, Vec3{0, 1, 0}}, {Vec3{width, width, 0}, Vec3{-1, 0, 0}},
-          {Vec3{width, width, 0}, Vec3{0, -1, 0}}})
+    for (const auto& [place, normal] : {std::pair{Vec3{}, Vec3{1, 0, 0}},
+                                        {Vec3{}, Vec3{0, 1, 0}},
+                                        {Vec3{width, width, 0}, Vec3{-1, 0, 0}},
+                                        {Vec3{width, width, 0}, Vec3{0, -1, 0}}})
       dem::addWall(g, dem::makePlane(place, normal));
     mesh = fem::boxOf(fem::CellShape::hex8, {3, 3, 7}, {0, 0, -0.3}, {width, width, top});
     std::vector<double> place;

@@ -30,22 +30,19 @@ struct TakeOverOptions {
   double leastShare = CouplingOptions{}.leastShare;  ///< of the tie that is to be made
 };
 
-struct TakeOverReport {
-  int rounds = 0;
-  /// Between what the solid carries and what it is handed where it then is, over the largest load of a node. More than
-  /// the tolerance where the share of a contact jumps at the place where the solid comes to stand.
-  double change = 0.0;
-};
-
 /// Initial stress: deforms the solid until it is in equilibrium under its own terms and what the particles hand over
 /// where its mesh then is: the overlap moves with the mesh, so give all particles, and take those beyond the border
 /// (particlesBeyond) out afterwards, before you tie. They are tied where they are, without a gap, and what a tie of
 /// elements cannot balance particle by particle is left to coupling::settle. A particle that has left the overlap in
-/// one round, or is elsewhere in periodic space, hands nothing over from then on. Loads and prescribed motions are those
-/// of the solid's time, in which nothing creeps; velocities stay; masses are set if they are not (fem::addMass).
+/// one round, or is elsewhere in periodic space, hands nothing over from then on. Loads and prescribed motions are
+/// those of the solid's time, in which nothing creeps; velocities stay; masses are set if they are not (fem::addMass).
+/// @param change  if given: what is left between the load that the solid carries and that which it is handed where it
+///   then is, over the largest of a node. More than the tolerance where the share of a contact jumps at the place where
+///   the solid comes to stand
 /// @throws InputError as handedLoad, for options out of range, or for particles that are tied to this solid already;
 ///   NumericalError as fem::solveStatics, and if the load still changes after the last round, telling by how much
-TakeOverReport takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
-                        std::span<const double> nodalWeight, const TakeOverOptions& options = {});
+/// @return rounds taken
+int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
+             std::span<const double> nodalWeight, const TakeOverOptions& options = {}, double* change = nullptr);
 
 }  // namespace dovetail::arlequin

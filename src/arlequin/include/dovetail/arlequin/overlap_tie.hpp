@@ -33,11 +33,12 @@ struct OverlapState {
 ///
 /// A particle is tied to the material point of the solid that it was located at. If it moves relative to that by more
 /// than a tenth of its radius, it is located anew: λ stays, and what was its part of the gap is kept in the rows, where
-/// it turns with the solid; a gap longer than a tenth of the radii about a row, in the mean by mass, slips, and what the
-/// penalty stored in the excess is lost. Specks that are lost among much larger particles are not held. A share that changes takes mass with it, at the solid's velocity, that is booked as left or entered
-/// (dem::Model); the momentum relative to the solid goes to the nodes by Φᵀ. Particles that come near the mesh from
-/// outside get their share when they are found there, and hold on at once, without a gap of their own; those whose share falls below CouplingOptions::leastShare leave
-/// the scene. Rows per element are not followed: their particles stay as located.
+/// it turns with the solid; a gap longer than a tenth of the radii about a row, in the mean by mass, slips, and what
+/// the penalty stored in the excess is lost. Specks that are lost among much larger particles are not held. A share
+/// that changes takes mass with it, at the solid's velocity, that is booked as left or entered (dem::Model); the
+/// momentum relative to the solid goes to the nodes by Φᵀ. Particles that come near the mesh from outside get their
+/// share when they are found there, and hold on at once, without a gap of their own; those whose share falls below
+/// CouplingOptions::leastShare leave the scene. Rows per element are not followed: their particles stay as located.
 class OverlapTie final : public coupling::Connector {
 public:
   OverlapTie(const OverlapTie& other);
