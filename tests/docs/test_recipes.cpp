@@ -57,8 +57,9 @@ TEST(Recipes, ContactsOnASurfaceAndGrainsAddedByHand) {
   const fem::SolidMesh mesh = soilMesh();
   auto model = soilOf(mesh);
   model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(5e6, 0.25, 1450.0))));
-#include "coupling/step.inc"
 #include "coupling/surface.inc"
+  EXPECT_EQ(run.solids(), 1U);
+#include "coupling/step.inc"
   const Vec3 x{0.03, 0.03, 0.045}, v{0.0, 0.0, -0.1};
   const double radius = 0.004;
 #include "coupling/insertion.inc"
