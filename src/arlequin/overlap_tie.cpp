@@ -249,6 +249,11 @@ bool OverlapTie::ties(const dem::Particles& particles, std::size_t particle) con
   return s.memberOf[particle] >= 0;
 }
 
+std::vector<double> OverlapTie::solidShare() const { return solidWeights(impl_->overlap.nodalWeight); }
+void OverlapTie::markTied(std::span<std::uint8_t> tied) const {
+  for (std::size_t k = 0; k < impl_->overlap.size(); ++k)
+    if (impl_->overlap.place[k].element >= 0) tied[static_cast<std::size_t>(impl_->overlap.particle[k])] = 1;
+}
 double OverlapTie::stored() const { return impl_->storedNow; }
 double OverlapTie::lost() const { return impl_->lost + impl_->absorbed; }
 double OverlapTie::absorbed() const { return impl_->absorbed; }

@@ -126,6 +126,6 @@ inline double sumOfProducts(std::span<const Vec3> a, std::span<const Vec3> b) {
 }
 
 /// J that all contacts store now: of the list, at walls and surfaces, and bonds. @param m  left as it is
-double contactEnergy(const dem::Model& m);
+double contactEnergy(const dem::Model& m, const fem::Model* solid);
 
 }  // namespace dovetail::arlequin

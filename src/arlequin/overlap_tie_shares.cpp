@@ -16,7 +16,7 @@ double ownKinetic(const dem::Particles& p, std::size_t i) {
 
 }  // namespace
 
-double contactEnergy(const dem::Model& m) {
+double contactEnergy(const dem::Model& m, const fem::Model* solid) {
   if (!m.laws || m.pairs.particles() != m.particles.size()) return 0.0;
   constexpr double noTime = 1e-100;  // s: memories stay
   dem::Model copy;
@@ -25,8 +25,11 @@ double contactEnergy(const dem::Model& m) {
   copy.laws = m.laws;
   copy.gravity = m.gravity;
   copy.time = m.time;
-  for (const auto& term : m.terms)  // overlaps are large, and are not asked
-    if (!dynamic_cast<const OverlapTie*>(term.get())) copy.terms.add(term->clone());
+  for (const auto& term : m.terms) {  // overlaps are large, and are not asked; the solid's surface meets no members
+    const auto* const connector = dynamic_cast<const coupling::Connector*>(term.get());
+    if (!connector || (connector->side().model != solid && !dynamic_cast<const OverlapTie*>(connector)))
+      copy.terms.add(term->clone());
+  }
   copy.step = {.time = m.time, .dt = noTime, .moved = std::numeric_limits<double>::infinity(), .timeless = true};
   copy.work = copy.laws->pairs(copy.particles, copy.pairs, noTime, dem::Booking::on);
   for (const auto& term : copy.terms)

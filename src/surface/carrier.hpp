@@ -32,6 +32,8 @@ public:
   virtual void placeAll(std::span<const Vec3> u, std::span<const Vec3> v) = 0;
   /// Those points that candidates may touch.
   virtual void place(std::span<const Vec3> u, std::span<const Vec3> v) = 0;
+  /// From here on `place` places the points of these contacts, which somebody else has found.
+  virtual void activate(const dem::WallContacts&) {}
   /// Who may touch what before margin (m) is used up; all points are placed.
   virtual void search(const dem::Particles& particles, double margin, double reach,
                       const geometry::Periodicity& periodicity) = 0;

@@ -62,6 +62,11 @@ double largestTravel(std::span<const Vec3> before, const Now& now) {
                    }).value);
 }
 
+/// As numbers of a list do.
+bool ascends(const std::vector<int>& numbers) {
+  return std::ranges::is_sorted(numbers) && (numbers.empty() || numbers.front() >= 0);
+}
+
 [[noreturn]] void refuseOther(const char* asked, const char* is) {
   throw InputError(std::string("it is on ") + is, "surface coupling", std::string("ask for ") + asked);
 }
@@ -70,7 +75,7 @@ double largestTravel(std::span<const Vec3> before, const Now& now) {
 
 Coupling::Coupling(Skin skin, const CouplingOptions& options)
     : carrier_(makeCarrier(std::move(skin), options.edges)),
-      margin_(requireNonNegative(options.margin, "the candidate margin")),
+      options_{options.edges, requireNonNegative(options.margin, "the candidate margin")},
       onPoints_(carrier_->points().size()),
       load_(static_cast<std::size_t>(carrier_->map().columns)),
       surfaceNodes_(sortedUnique(carrier_->map().column)),
@@ -78,7 +83,7 @@ Coupling::Coupling(Skin skin, const CouplingOptions& options)
 
 Coupling::Coupling(SmoothSurface surface, const CouplingOptions& options)
     : carrier_(makeCarrier(std::move(surface))),
-      margin_(requireNonNegative(options.margin, "the candidate margin")),
+      options_{options.edges, requireNonNegative(options.margin, "the candidate margin")},
       onPoints_(carrier_->points().size()),
       load_(static_cast<std::size_t>(carrier_->map().columns)),
       surfaceNodes_(sortedUnique(carrier_->map().column)),
@@ -101,9 +106,24 @@ Coupling::OwnCarrier& Coupling::OwnCarrier::operator=(OwnCarrier other) noexcept
 
 dem::ContactWork Coupling::exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
                                     const dem::ContactLaws& laws, double dt, const ExchangeOptions& options) {
-  locate(particles, u, v, laws.reach(), options);
+  find(particles, u, v, laws.reach(), options);
+  const dem::ContactWork work = answer(particles, u, laws, dt, options);
+  if (!options.share.empty()) shares_.book(contacts_.particle, contacts_.energy);
+  return work;
+}
+
+void Coupling::find(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v, double reach,
+                    const ExchangeOptions& options) {
+  if (particles.revision != revision_) sunk_.clear();
+  locate(particles, u, v, reach, options);
   placeSurface(u, v);
   carrier_->findContacts(particles, travelled_, contacts_);
+  if (carrier_->wall().oneSided) requireNoneThrough(particles, options.tied);
+  if (!options.share.empty()) weigh(particles, options);
+}
+
+dem::ContactWork Coupling::answer(dem::Particles& particles, std::span<const Vec3> u, const dem::ContactLaws& laws,
+                                  double dt, const ExchangeOptions& options) {
   const dem::ContactWork work = dem::sweepWall(options.timeless, contacts_.springs.left, [&] {
     return laws.wall(particles, carrier_->wall(), contacts_, dt, options.booking);
   });
@@ -113,6 +133,62 @@ dem::ContactWork Coupling::exchange(dem::Particles& particles, std::span<const V
   if (booksWork_) nodeWork_ += 0.5 * nodeWorkSinceLast(u);
   if (booksWork_) uBefore_.assign(u.begin(), u.end());
   return work;
+}
+
+/// A face pushes centres out down to a radius below it. They get there in small steps: who was inside and is not pushed
+/// any more has come through.
+void Coupling::requireNoneThrough(const dem::Particles& particles, std::span<const std::uint8_t> tied) {
+  const auto touches = [&](int i) { return std::ranges::binary_search(contacts_.particle, i); };
+  const auto isTied = [&](int i) { return !tied.empty() && tied[static_cast<std::size_t>(i)] != 0; };
+  for (const int i : sunk_) {
+    if (touches(i) || isTied(i)) continue;
+    const auto at = static_cast<std::size_t>(i);
+    throw NumericalError("it has sunk deeper into a closed surface than its radius, where nothing pushes it out",
+                         "particle " + std::to_string(particles.id.empty() ? i : particles.id[at]),
+                         "take a smaller step, a stiffer contact or a slower start");
+  }
+  sunk_.clear();
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const int i = contacts_.particle[c];
+    if (contacts_.overlap[c] > particles.radius[static_cast<std::size_t>(i)] && !isTied(i) &&
+        (sunk_.empty() || sunk_.back() != i))
+      sunk_.push_back(i);
+  }
+}
+
+double Coupling::shareAt(std::size_t contact, std::span<const double> share) const {
+  const cg::Projection& map = carrier_->skin() ? carrier_->skin()->localMap : carrier_->map();
+  std::vector<std::pair<int, double>> points;
+  carrier_->follow(contacts_, contact, points);
+  double sum = 0.0;
+  for (const auto& [point, weight] : points)
+    for (std::size_t n = 0; n < map.rowColumns(point).size(); ++n)
+      sum += weight * map.rowWeights(point)[n] * share[static_cast<std::size_t>(map.rowColumns(point)[n])];
+  return std::clamp(sum, 0.0, 1.0);
+}
+
+/// Contacts get the share of the solid; those of tied particles go.
+void Coupling::weigh(const dem::Particles& particles, const ExchangeOptions& options) {
+  dem::WallContacts& all = contacts_;
+  shares_.begin();
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    const auto i = static_cast<std::size_t>(all.particle[c]);
+    const bool tied = !options.tied.empty() && options.tied[i] != 0;
+    const double share = !tied ? shareAt(c, options.share) : shares_.acted(all.particle[c]) ? ShareBook::faded : 0.0;
+    shares_.add(all.particle[c], particles.weightOf(i), std::abs(all.overlap[c]), share);
+    if (!(share > 0.0)) continue;
+    all.particle[kept] = all.particle[c];
+    all.facet[kept] = all.facet[c];
+    all.weight[kept] = all.weight[c];
+    all.normal[kept] = all.normal[c];
+    all.overlap[kept] = share * all.overlap[c];
+    all.engagement[kept] = share * all.engagement[c];
+    all.energyShare[kept] = share * all.energyShare[c];
+    if (!all.image.empty()) all.image[kept] = all.image[c];
+    ++kept;
+  }
+  dem::resize(all, kept);
 }
 
 double Coupling::nodeWorkSinceLast(std::span<const Vec3> u) const {
@@ -127,8 +203,8 @@ void Coupling::locate(const dem::Particles& particles, std::span<const Vec3> u, 
   requireFinite(particles.x, "particle", "position", "contact search with a surface");
   requireFinite(u, "node", "displacement", "contact search with a surface");
   carrier_->placeAll(u, v);
-  marginAtBuild_ = margin_;
-  if (margin_ == 0.0 && particles.size() > 0)
+  marginAtBuild_ = options_.margin;
+  if (options_.margin == 0.0 && particles.size() > 0)
     marginAtBuild_ = 0.5 * *std::min_element(particles.radius.begin(), particles.radius.end());
   carrier_->search(particles, marginAtBuild_, reach, options.periodicity);
   ++builds_;
@@ -190,18 +266,44 @@ double Coupling::workSinceLast() const {
   return work;
 }
 
+/// Of their skins, or control points: where nodes at rest have them.
+void Coupling::requireFits(std::span<const Vec3> X) const {
+  const std::vector<Vec3>& points = carrier_->skin() ? carrier_->skin()->X : carrier_->smooth()->X;
+  const cg::Projection& map = carrier_->skin() ? carrier_->skin()->localMap : carrier_->map();
+  const bool keepsPlaces = carrier_->skin() || carrier_->turns().empty();
+  double size = 0.0, worst = 0.0;
+  for (std::size_t p = 0; p < points.size() && keepsPlaces; ++p) {
+    Vec3 off = points[p];
+    const int row = static_cast<int>(p);
+    for (std::size_t n = 0; n < map.rowColumns(row).size(); ++n)
+      off -= map.rowWeights(row)[n] * X[static_cast<std::size_t>(map.rowColumns(row)[n])];
+    worst = std::max(worst, norm(off));
+    size = std::max(size, norm(points[p] - points[0]));
+  }
+  if (!(worst <= 1e-6 * size))
+    throw InputError("its surface is up to " + formatNumber(worst) + " m off the nodes of the solid",
+                     "surface coupling", "make the skin from the nodes of the solid it is to be on");
+}
+
 void Coupling::check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity) const {
   carrier_->check(laws, periodicity);
 }
 
 void Coupling::check(const dem::Particles& particles, int materials) const {
+  const auto count = static_cast<int>(particles.size());
+  if ((revision_ == particles.revision && !sunk_.empty() && sunk_.back() >= count) ||
+      (!shares_.now.particle.empty() && shares_.now.particle.back() >= count))
+    throw InputError("a state has a particle that is not there", "contacts on a surface", "take an older checkpoint");
   dem::requireRows(contacts_, {particles.size(), carrier_->wall().facets.size(), materials},
                    revision_ == particles.revision);
 }
 
 double Coupling::renumber(std::span<const int> newNumber, const dem::Particles& before) {
+  shares_.renumber(newNumber);
   return dem::renumber(contacts_, newNumber, before);
 }
+
+bool Coupling::onFacets() const { return carrier_->skin() != nullptr; }
 
 const Skin& Coupling::skin() const {
   if (!carrier_->skin()) refuseOther("smoothSurface()", "smooth patches");
@@ -218,9 +320,35 @@ const dem::TriangulatedWall& Coupling::outline(std::span<const Vec3> u, std::spa
 }
 int Coupling::nodeCount() const { return carrier_->map().columns; }
 
+/// Contacts of a part, whose facets begin with number `first` of the whole.
+void Coupling::take(const Coupling& whole, int first, double reach, std::span<const Vec3> u, std::span<const Vec3> v) {
+  const dem::WallContacts& all = whole.contacts_;
+  const int end = first + static_cast<int>(carrier_->wall().facets.size());
+  dem::clear(contacts_);
+  contacts_.image.clear();
+  contacts_.period = all.period;
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    if (all.facet[c] < first || all.facet[c] >= end || !(all.overlap[c] > -reach)) continue;
+    contacts_.particle.push_back(all.particle[c]);
+    contacts_.facet.push_back(all.facet[c] - first);
+    contacts_.weight.push_back(all.weight[c]);
+    contacts_.normal.push_back(all.normal[c]);
+    contacts_.overlap.push_back(all.overlap[c]);
+    contacts_.engagement.push_back(all.engagement[c]);
+    contacts_.energyShare.push_back(all.energyShare[c]);
+    if (!all.image.empty()) contacts_.image.push_back(all.image[c]);
+  }
+  contacts_.force.assign(contacts_.size(), Vec3{});
+  revision_ = whole.revision_;
+  carrier_->activate(contacts_);
+  placeSurface(u, v);
+}
+
 template <class Archive, class Self>
 void Coupling::archive(Archive& archive, Self& self) {
   dem::archiveContacts(archive, self.contacts_);
+  ShareBook::archive(archive, self.shares_);
+  archive(self.sunk_);
   archive(self.builds_, self.revision_, self.marginAtBuild_, self.reachAtBuild_, self.periodAtBuild_,
           self.particlesAtBuild_, self.nodesAtBuild_, self.travel_, self.booksWork_, self.wallWork_, self.nodeWork_,
           self.previous_, self.uBefore_);
@@ -237,6 +365,7 @@ void Coupling::load(ByteReader& reader) {
   const auto refuse = [] {
     throw InputError("lists of a state do not fit each other", "contacts on a surface", "take an older checkpoint");
   };
+  if (!shares_.isWhole() || !ascends(sunk_)) refuse();
   if ((booksWork_ || !previous_.empty()) && previous_.size() != carrier_->points().size()) refuse();
   dem::requireWhole(contacts_);
   for (const int facet : contacts_.facet)

@@ -40,12 +40,14 @@ public:
   void placeAll(std::span<const Vec3> u, std::span<const Vec3> v) override { surface::place(skin_, u, v); }
   void place(std::span<const Vec3> u, std::span<const Vec3> v) override { surface::place(skin_, u, v, active_); }
 
+  void activate(const dem::WallContacts& contacts) override { activate(contacts.facet); }
+
   void search(const dem::Particles& particles, double margin, double reach,
               const geometry::Periodicity& periodicity) override {
     candidates_.reach = reach;
     dem::findWallCandidates(particles, skin_.wall, margin, candidates_, periodicity);
     clearances_ = dem::clearancesNow(particles, skin_.wall, candidates_);
-    findActive();
+    activate(candidates_.facet);
   }
   void findContacts(const dem::Particles& particles, double travelled, dem::WallContacts& contacts) override {
     if (!candidates_.particle.empty() && static_cast<std::size_t>(candidates_.particle.back()) >= particles.size())
@@ -83,7 +85,7 @@ public:
     reader(clearances_.whenListed, skin_.wall.x, skin_.wall.v);
     if (skin_.wall.x.size() != points) refuse("another number of points");
     requireWhole();
-    findActive();
+    activate(candidates_.facet);
   }
 
 private:
@@ -105,9 +107,9 @@ private:
       if (facet < 0 || static_cast<std::size_t>(facet) >= skin_.wall.facets.size()) refuse("a facet that is not there");
     if (skin_.wall.x.size() != skin_.wall.v.size()) refuse("lists that do not fit each other");
   }
-  void findActive() {
+  void activate(const std::vector<int>& facets) {
     active_.clear();
-    for (int facet : candidates_.facet)
+    for (int facet : facets)
       active_.insert(active_.end(), skin_.wall.facets[facet].begin(), skin_.wall.facets[facet].end());
     active_ = sortedUnique(std::move(active_));
   }

@@ -1,7 +1,9 @@
 #include "dovetail/surface/surface_contact.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -43,16 +45,22 @@ std::vector<double> inverseMasses(const coupling::SolidSide& side) {
   return inverse;
 }
 
+std::int64_t newId() {
+  static std::atomic<std::int64_t> last{0};
+  return ++last;
+}
+
 }  // namespace
 
 SurfaceContact::SurfaceContact(coupling::SolidSide& side, Coupling coupling,
                                std::shared_ptr<const dem::ContactLaws> laws, std::string name)
-    : Connector(side), coupling_(std::move(coupling)), laws_(std::move(laws)), name_(std::move(name)) {
+    : Connector(side), coupling_(std::move(coupling)), laws_(std::move(laws)), name_(std::move(name)), id_(newId()) {
   if (!laws_) throw InputError("there are no contact laws", name_, "give makeContactLaws(law)");
   const auto nodes = static_cast<std::size_t>(coupling_.nodeCount());
   if (!side.model || side.nodes().X.size() != nodes)
     throw InputError("its surface belongs to a mesh of " + std::to_string(nodes) + " nodes", name_,
                      "make the skin from the nodes of the solid \"" + side.name + "\"");
+  coupling_.requireFits(side.nodes().X);
   coupling_.check(*laws_);
 }
 
@@ -66,6 +74,78 @@ void SurfaceContact::check(const dem::Model& m) const {
   if (materials > 1 && (own < 0 || own >= materials))
     throw InputError("there is no law for material " + std::to_string(own), name_,
                      "give skin.wall.material from 0 to " + std::to_string(materials - 1));
+  const std::vector<const SurfaceContact*> parts = partsIn(m);
+  if (parts.size() > 1 && parts.front() == this && !surface_) requireJoinable(parts);
+}
+
+/// Of the solid's surface, those that are facets; or this one alone, if it is not.
+std::vector<const SurfaceContact*> SurfaceContact::partsIn(const dem::Model& m) const {
+  if (!coupling_.onFacets()) return {this};
+  std::vector<const SurfaceContact*> parts;
+  for (const auto* one : m.terms.all<SurfaceContact>())
+    if (one->side().model == side().model && one->coupling_.onFacets()) parts.push_back(one);
+  return parts;
+}
+
+void SurfaceContact::requireJoinable(std::span<const SurfaceContact* const> parts) const {
+  std::vector<const Skin*> skins;
+  for (const SurfaceContact* part : parts) {
+    skins.push_back(&part->coupling_.skin());
+    if (part->coupling_.options().edges != coupling_.options().edges)
+      throw InputError("its contacts are combined by another rule than those of \"" + part->name_ + "\" on this solid",
+                       name_, "give both the same CouplingOptions::edges");
+  }
+  try {
+    joined(skins);
+  } catch (const InputError& error) {
+    throw InputError(error.what(), name_, "");
+  }
+}
+
+void SurfaceContact::join(dem::Model& m) {
+  company_ = {};
+  company_.terms = &m.terms;
+  company_.revision = m.terms.revision();
+  const std::vector<const SurfaceContact*> parts = partsIn(m);
+  if (parts.front() != this) {
+    surface_.reset();
+    surfaceOf_.clear();
+    return;
+  }
+  std::vector<std::int64_t> ids;
+  for (auto* one : m.terms.all<SurfaceContact>())
+    if (std::ranges::find(parts, one) != parts.end()) {
+      company_.parts.push_back(one);
+      ids.push_back(one->id_);
+    }
+  for (const auto* one : m.terms.all<Connector>()) {
+    if (one->side().model != side().model) continue;
+    const std::vector<double> share = one->solidShare();
+    if (share.empty()) continue;
+    company_.overlaps.push_back(one);
+    if (company_.share.empty()) company_.share.assign(share.size(), 1.0);
+    for (std::size_t i = 0; i < share.size(); ++i) company_.share[i] = std::min(company_.share[i], share[i]);
+  }
+  if (parts.size() == 1) {
+    surface_.reset();
+  } else if (ids != surfaceOf_) {
+    surface_.emplace(surfaceParts());
+  }
+  surfaceOf_ = std::move(ids);
+  if (surface_ && !state_.empty()) {
+    ByteReader reader(std::exchange(state_, {}));
+    surface_->load(reader);
+  }
+}
+
+std::vector<SurfacePart> SurfaceContact::surfaceParts() const {
+  std::vector<SurfacePart> parts;
+  for (SurfaceContact* part : company_.parts) parts.push_back({&part->coupling_, part->laws_.get()});
+  return parts;
+}
+
+double SurfaceContact::lost() const {
+  return -coupling_.madeByTransfer() - coupling_.madeByShares() - (surface_ ? surface_->madeByShares() : 0.0);
 }
 
 void SurfaceContact::surround(dem::Surroundings& around) {
@@ -74,15 +154,28 @@ void SurfaceContact::surround(dem::Surroundings& around) {
 }
 
 double SurfaceContact::renumber(std::span<const int> newNumber, const dem::Particles& before) {
+  if (surface_) surface_->renumber(newNumber, before);
   return coupling_.renumber(newNumber, before);
 }
 
 void SurfaceContact::addForces(dem::Model& m, const dem::Step& step) {
+  if (company_.terms != &m.terms || company_.revision != m.terms.revision()) join(m);
+  if (company_.parts.empty()) return;
+  ExchangeOptions options{m.booking, step.timeless, dem::movesOf(m, step), m.pairs.periodicity(), company_.share, {}};
+  if (!company_.overlaps.empty()) {
+    tied_.assign(m.particles.size(), 0);
+    for (const coupling::Connector* overlap : company_.overlaps) overlap->markTied(tied_);
+    options.tied = tied_;
+  }
   const fem::Nodes& nodes = side().nodes();
-  m.work += coupling_.exchange(m.particles, nodes.u, nodes.v, *laws_, step.dt,
-                               {m.booking, step.timeless, dem::movesOf(m, step), m.pairs.periodicity()});
-  const coupling::NodalLoad& load = coupling_.load();
-  for (int node : load.touched) side().load.add(node, load.force[static_cast<std::size_t>(node)]);
+  if (surface_)
+    m.work += surface_->exchange(surfaceParts(), m.particles, nodes.u, nodes.v, step.dt, options);
+  else
+    m.work += coupling_.exchange(m.particles, nodes.u, nodes.v, *laws_, step.dt, options);
+  for (const SurfaceContact* part : company_.parts) {
+    const coupling::NodalLoad& load = part->coupling_.load();
+    for (int node : load.touched) part->side().load.add(node, load.force[static_cast<std::size_t>(node)]);
+  }
 }
 
 void SurfaceContact::addDemand(const dem::Model& m, dem::ContactDemand& demand) const {
@@ -98,7 +191,18 @@ void SurfaceContact::addContacts(const dem::Model& m, dem::ContactSample& sample
   dem::addWallContacts(m.particles, coupling_.wall(), coupling_.contacts(), sample);
 }
 
-void SurfaceContact::save(ByteWriter& writer) const { coupling_.save(writer); }
-void SurfaceContact::load(ByteReader& reader) { coupling_.load(reader); }
+void SurfaceContact::save(ByteWriter& writer) const {
+  coupling_.save(writer);
+  ByteWriter whole;
+  if (surface_) surface_->save(whole);
+  writer(surface_ ? whole.bytes() : state_);
+}
+void SurfaceContact::load(ByteReader& reader) {
+  coupling_.load(reader);
+  reader(state_);
+  if (!surface_ || state_.empty()) return;
+  ByteReader whole(std::exchange(state_, {}));
+  surface_->load(whole);
+}
 
 }  // namespace dovetail::surface

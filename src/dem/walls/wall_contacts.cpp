@@ -8,15 +8,18 @@
 
 namespace dovetail::dem {
 
-void clear(WallContacts& contacts) {
-  contacts.particle.clear();
-  contacts.facet.clear();
-  contacts.weight.clear();
-  contacts.normal.clear();
-  contacts.overlap.clear();
-  contacts.engagement.clear();
-  contacts.energyShare.clear();
-  contacts.image.clear();
+void clear(WallContacts& contacts) { resize(contacts, 0); }
+
+void resize(WallContacts& contacts, std::size_t count) {
+  contacts.particle.resize(count);
+  contacts.facet.resize(count);
+  contacts.weight.resize(count);
+  contacts.normal.resize(count);
+  contacts.overlap.resize(count);
+  contacts.engagement.resize(count);
+  contacts.energyShare.resize(count);
+  if (!contacts.image.empty()) contacts.image.resize(count);
+  contacts.force.resize(count);
 }
 
 namespace {

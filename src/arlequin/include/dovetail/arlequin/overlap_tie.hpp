@@ -63,6 +63,8 @@ public:
 
   void constrainWindow(const dem::Model& m, std::span<const Vec3> ownForce, double half, std::span<Vec3> onParticles,
                        coupling::NodalLoad& load) const override;
+  std::vector<double> solidShare() const override;
+  void markTied(std::span<std::uint8_t> tied) const override;
   double stored() const override;
   double lost() const override;
   double absorbed() const;  ///< the part of it that the absorber took, J

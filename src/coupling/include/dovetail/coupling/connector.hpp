@@ -1,9 +1,11 @@
 // What stands between the particles of a run and one of its solids.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/coupling/solid_side.hpp"
@@ -37,6 +39,11 @@ public:
   /// `half` is half a window, s.
   virtual void constrainWindow(const dem::Model&, std::span<const Vec3> /*ownForce*/, double /*half*/,
                                std::span<Vec3> /*onParticles*/, NodalLoad& /*load*/) const {}
+
+  /// Of those that share a volume with their solid: 1 − w of the solid per node, and marks of the particles that are
+  /// tied to it (not 0): its surface acts with that share, and does not meet these. Nothing of others.
+  virtual std::vector<double> solidShare() const { return {}; }
+  virtual void markTied(std::span<std::uint8_t> /*tied*/) const {}
 
   /// What it stores now and is in no book of the particles' model, J.
   virtual double stored() const { return 0.0; }

@@ -12,6 +12,7 @@
 #include "dovetail/dem/laws/contact_laws.hpp"
 #include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/dem/walls/wall_contacts.hpp"
+#include "dovetail/surface/share_book.hpp"
 #include "dovetail/surface/skin.hpp"
 #include "dovetail/surface/smooth_surface.hpp"
 #include "dovetail/surface/spread_load.hpp"
@@ -35,6 +36,11 @@ struct ExchangeOptions {
   /// How far particles have moved since the last exchange; not given: they are compared with where they were.
   std::optional<dem::Moves> moves{};
   geometry::Periodicity periodicity{};
+  /// Of an overlap with the same solid: the solid's share 1 − w per node. Contacts act with the share at their point;
+  /// what its changes give to what they store, or take, is booked (madeByShares). Empty: all act in full.
+  std::span<const double> share{};
+  /// Particles that are tied to the solid there do not meet its surface: one entry per particle, 0 = meets it.
+  std::span<const std::uint8_t> tied{};
 };
 
 /// Couples particles to the nodes of any solid through its surface. It needs the nodes' u and v and gives nodal forces;
@@ -67,9 +73,15 @@ public:
   /// @param u, v  displacement, m, and velocity, m/s, of all nodes of the solid
   /// @param dt    DEM step, s (for laws that remember)
   /// @throws InputError as check does, or for fields that are shorter than the solid; NumericalError naming a particle
-  ///         or node that is not finite
+  ///         or node that is not finite, or a particle that has sunk deeper into a closed skin than its radius
   dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
                             const dem::ContactLaws& laws, double dt, const ExchangeOptions& options = {});
+
+  /// Its two halves: contacts, and what they do. Between them a surface of several parts hands each its contacts.
+  void find(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v, double reach,
+            const ExchangeOptions& options);
+  dem::ContactWork answer(dem::Particles& particles, std::span<const Vec3> u, const dem::ContactLaws& laws, double dt,
+                          const ExchangeOptions& options);
 
   /// Contact forces on the nodes of the last exchange, N.
   const coupling::NodalLoad& load() const { return load_; }
@@ -86,6 +98,8 @@ public:
   /// Work of load() on the nodes less that of the contacts on the surface, J, if they are booked: what a transfer that
   /// is not adjoint has made.
   double madeByTransfer() const { return nodeWork_ - wallWork_; }
+  /// What changes of the solid's share (ExchangeOptions) have given to contacts so far, J.
+  double madeByShares() const { return shares_.made; }
 
   /// @throws InputError naming what of the laws, or of a space that repeats, cannot be had on this surface
   void check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity = {}) const;
@@ -106,6 +120,7 @@ public:
   /// it has ω² = k (1/m + that).
   double largestMobility(std::span<const double> inverseMass) const;
 
+  bool onFacets() const;
   /// Where it is: one of the two; the other is an error. @throws InputError
   const Skin& skin() const;
   const SmoothSurface& smoothSurface() const;
@@ -115,6 +130,9 @@ public:
   /// The whole surface as facets (between the control points, of smooth patches), placed as told.
   const dem::TriangulatedWall& outline(std::span<const Vec3> u, std::span<const Vec3> v);
   int nodeCount() const;
+  const CouplingOptions& options() const { return options_; }
+  /// @throws InputError unless the nodes at X, m, have the surface where it is
+  void requireFits(std::span<const Vec3> X) const;
   std::int64_t candidateBuilds() const { return builds_; }
 
   /// All that is needed to go on as if it had never stopped.
@@ -126,7 +144,11 @@ private:
               const ExchangeOptions& options);
   bool marginUsed(const dem::Particles& particles, std::span<const Vec3> u, double reach,
                   const ExchangeOptions& options);
+  void take(const Coupling& whole, int first, double reach, std::span<const Vec3> u, std::span<const Vec3> v);
   void placeSurface(std::span<const Vec3> u, std::span<const Vec3> v);
+  double shareAt(std::size_t contact, std::span<const double> share) const;
+  void weigh(const dem::Particles& particles, const ExchangeOptions& options);
+  void requireNoneThrough(const dem::Particles& particles, std::span<const std::uint8_t> tied);
   double workSinceLast() const;
   double nodeWorkSinceLast(std::span<const Vec3> u) const;
   void transfer();
@@ -148,11 +170,15 @@ private:
     std::unique_ptr<Carrier> carrier_;
   };
 
+  friend class SolidSurface;
+
   OwnCarrier carrier_;
-  double margin_;
+  CouplingOptions options_;
   std::shared_ptr<SpreadLoad> spread_;  // keeps nothing from call to call, so copies may share it
   dem::WallContacts contacts_;
   coupling::NodalLoad onPoints_, load_;
+  ShareBook shares_;
+  std::vector<int> sunk_;          // particles whose centres were inside at the last evaluation, ascending
   std::vector<int> surfaceNodes_;  // that carry the surface
   double gain_;
 

@@ -55,6 +55,11 @@ Skin makeSkin(std::span<const Vec3> X, std::span<const fem::Face> faces, QuadSpl
 /// Gives every smooth patch its own copies of the vertices on sharp edges.
 void splitAtSharpEdges(Skin& skin);
 
+/// Several skins on the same nodes as one, facets behind one another: vertices that move alike are one, and where
+/// kernels of different skins end at an edge that they share, wall.corner says so. Closed if all are, or all together.
+/// @throws InputError naming two that have a face in common
+Skin joined(std::span<const Skin* const> skins);
+
 /// Replaces the carrier by kernel weights: S_vi = Σ_q w_q W(|X_q − X_v|) ψ_i(X_q) / Σ_q w_q W (paper, Eqs. 14 and 15,
 /// with the kernel at the skin's vertices on the reference surface), after splitAtSharpEdges. Width 0 gives the local
 /// map and splits nothing. Rows sum to one; with linear correction Σ_i S_vi X_i = X_v as well, so that no offset need

@@ -1,24 +1,34 @@
 // Contacts of grains with the surface of a solid, as a connector of a run.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "dovetail/coupling/connector.hpp"
 #include "dovetail/surface/coupling.hpp"
+#include "dovetail/surface/solid_surface.hpp"
 
 namespace dovetail::surface {
 
 /// What a Coupling does, done between the particles of a model and the nodes of a solid. What contacts store and lose
 /// is in the books of the particles' model (dem::Model::work), as with walls. Dashpots are booked with both the
 /// velocity before and the one after the kick, of particle and surface, as the laws do for all contacts.
+///
+/// A solid has one surface: those on one solid are parts of it, each with its faces, law, material and kernel. The
+/// first of them in the model finds the contacts of all, one per place also where parts meet, and owns what belongs to
+/// none of them. In an overlap of the same solid contacts act with the solid's share, and tied particles do not meet
+/// the surface.
 class SurfaceContact final : public coupling::Connector {
 public:
   /// @param coupling  on the skin, or the smooth surface, of side's mesh
   /// @param laws      between particles and surface; skin.wall.material is the surface's row in their table
   /// @param name      in ledgers, errors and profiles
-  /// @throws InputError if the surface belongs to a mesh with another number of nodes, there are no laws, or they
-  ///         cannot be had on this surface
+  /// @throws InputError if the surface is not where the nodes of the solid have it, there are no laws, or they cannot
+  /// be
+  ///         had on this surface
   SurfaceContact(coupling::SolidSide& side, Coupling coupling, std::shared_ptr<const dem::ContactLaws> laws,
                  std::string name = "surface contacts");
 
@@ -27,8 +37,9 @@ public:
 
   std::string name() const override { return name_; }
   std::unique_ptr<dem::Term> clone() const override { return std::make_unique<SurfaceContact>(*this); }
-  /// What a transfer that is not adjoint has taken, if its work is booked (Coupling::bookWallWork).
-  double lost() const override { return -coupling_.madeByTransfer(); }
+  /// What a transfer that is not adjoint has taken, if its work is booked (Coupling::bookWallWork), and changes of the
+  /// solid's share.
+  double lost() const override;
   void check(const dem::Model& m) const override;
   void surround(dem::Surroundings& around) override;
   double renumber(std::span<const int> newNumber, const dem::Particles& before) override;
@@ -39,9 +50,34 @@ public:
   void load(ByteReader& reader) override;
 
 private:
+  /// Of a model's terms as they are now: who has a part of the solid's surface, and who shares its volume. A copy, or
+  /// what has been moved elsewhere, looks anew.
+  struct Company {
+    Company() = default;
+    Company(const Company&) {}
+    Company& operator=(const Company& other) = default;
+
+    const dem::Terms* terms = nullptr;
+    std::int64_t revision = 0;
+    std::vector<SurfaceContact*> parts;  ///< all of them if this is the first, else none
+    std::vector<const coupling::Connector*> overlaps;
+    std::vector<double> share;  ///< 1 − w per node; empty without overlaps
+  };
+
+  std::vector<const SurfaceContact*> partsIn(const dem::Model& m) const;
+  void join(dem::Model& m);
+  void requireJoinable(std::span<const SurfaceContact* const> parts) const;
+  std::vector<SurfacePart> surfaceParts() const;
+
   Coupling coupling_;
   std::shared_ptr<const dem::ContactLaws> laws_;
   std::string name_;
+  std::int64_t id_;  // of it and its copies
+  Company company_;
+  std::optional<SolidSurface> surface_;  // of several parts
+  std::vector<std::int64_t> surfaceOf_;  // their numbers
+  std::vector<char> state_;              // of a surface that is yet to be made
+  std::vector<std::uint8_t> tied_;
 };
 
 }  // namespace dovetail::surface

@@ -60,6 +60,8 @@ struct WallContacts {
 
 /// No contacts; what those of the last step remember stays.
 void clear(WallContacts& contacts);
+/// The first so many of those that have just been found.
+void resize(WallContacts& contacts, std::size_t count);
 
 /// Contact point on the wall, m.
 inline Vec3 contactPoint(const WallContacts& contacts, const TriangulatedWall& wall, std::size_t c) {

@@ -1,0 +1,133 @@
+// An overlap, and contacts on the surface, of one solid.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/weights.hpp"
+#include "full_scene.hpp"
+
+namespace dovetail::coupling {
+namespace {
+
+/// A bar along y of 1 × 1 m, grains up to y = 2.5, a solid from y = 0.5 to 3.5, in common 2 m.
+struct Bar {
+  std::unique_ptr<CoupledRun> run = std::make_unique<CoupledRun>();
+  fem::SolidMesh mesh;
+  SolidSide* side = nullptr;
+  arlequin::OverlapTie* tie = nullptr;
+};
+
+constexpr double stiffness = 2.5e5;
+
+std::shared_ptr<const dem::ContactLaws> laws(bool bonded) {
+  dem::ElasticLaw law;
+  law.normal.stiffness = stiffness;
+  law.normal.bonded = bonded;
+  return dem::makeContactLaws(law);
+}
+
+Bar makeBar(Stepping stepping, bool bonded, double shift = 0.0) {
+  Bar bar;
+  dem::Model& grains = bar.run->grains;
+  constexpr double d = 0.25;
+  for (int j = 0; j < 10; ++j)
+    for (int k = 0; k < 4; ++k)
+      for (int i = 0; i < 4; ++i)
+        dem::addParticle(grains.particles, {-0.5 + d * (i + 0.5), d * (j + 0.5), -0.5 + d * (k + 0.5)}, {}, 0.5 * d,
+                         dem::Mass{15.0});
+  grains.laws = laws(bonded);
+  grains.pairs.setSkin(0.025);
+  grains.sortEvery = 0;
+  dem::findPairs(grains.particles, grains.pairs);
+  for (Vec3& x : grains.particles.x) x.x += shift;
+  bar.mesh = fem::boxOf(fem::CellShape::hex8, {2, 6, 2}, {-0.5, 0.5, -0.5}, {0.5, 3.5, 0.5});
+  std::vector<double> place;
+  for (const Vec3& X : bar.mesh.X)
+    place.push_back(X.y > 2.5 + 1e-9 ? arlequin::beyondOverlap : std::clamp(0.5 * (X.y - 0.5), 0.0, 1.0));
+  const std::vector<double> weight = arlequin::nodalWeights(place, {});
+  auto model = std::make_unique<fem::Model>(fem::makeModel(bar.mesh));
+  fem::fix(model->nodes, fem::nodeSet(bar.mesh, "y+"));
+  model->add(fem::makeSolid(bar.mesh, fem::pointMaterial(fem::Material(fem::StVenantKirchhoff{1e6, 0.0, 1000.0})),
+                            {.share = arlequin::solidWeights(weight)}));
+  bar.side = &bar.run->addSolid(std::move(model), {.name = "bar", .stepping = stepping});
+  bar.tie = &grains.terms.add(arlequin::makeOverlapTie(grains, bar.mesh, weight, *bar.side));
+  return bar;
+}
+
+/// The skin, in two parts.
+void coupleSkin(Bar& bar) {
+  std::vector<fem::Face> sides, ends;
+  for (const char* side : {"x-", "x+", "z-", "z+"})
+    for (const fem::Face& face : bar.mesh.faceSets.at(side)) sides.push_back(face);
+  for (const char* end : {"y-", "y+"})
+    for (const fem::Face& face : bar.mesh.faceSets.at(end)) ends.push_back(face);
+  for (const auto& faces : {sides, ends})
+    bar.run->grains.terms.add(surface::SurfaceContact(
+        *bar.side, surface::Coupling(surface::makeSkin(bar.mesh.X, faces)), laws(false), "skin"));
+}
+
+class OverlapAndSurface : public testing::TestWithParam<Case> {};
+
+/// Grains that are tied to the solid are within it by right.
+TEST_P(OverlapAndSurface, TiedGrainsDoNotMeetTheSkin) {
+  Bar alone = makeBar(GetParam().stepping, true, 0.005), both = makeBar(GetParam().stepping, true, 0.005);
+  coupleSkin(both);
+  for (Bar* bar : {&alone, &both}) {
+    bar->run->grains.particles.v[3] = {0.01, 0.0, 0.02};
+    bar->run->start(5e-5, {.stepsPerWindow = GetParam().K});
+  }
+  EXPECT_EQ(dem::energies(both.run->grains).contacts, dem::energies(alone.run->grains).contacts);
+  alone.run->advance(400 / GetParam().K);
+  both.run->advance(400 / GetParam().K);
+  const auto& x = alone.run->grains.particles.x;
+  double moved = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    moved = std::max(moved, norm(both.run->grains.particles.x[i] - x[i]));
+  }
+  // Beyond the solid's end the skin acts with a thousandth of its stiffness.
+  EXPECT_LT(moved, 1e-7);
+  EXPECT_NEAR(both.run->ledger().residual(), alone.run->ledger().residual(), 1e-7);
+}
+
+INSTANTIATE_TEST_SUITE_P(Windows, OverlapAndSurface,
+                         testing::Values(Case{"explicit1", Stepping::explicitSteps, 1},
+                                         Case{"explicit4", Stepping::explicitSteps, 4},
+                                         Case{"implicit1", Stepping::implicitSteps, 1},
+                                         Case{"implicit4", Stepping::implicitSteps, 4},
+                                         Case{"implicit16", Stepping::implicitSteps, 16}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+/// One that was there when the tie was made is tied, with its share; one that comes later meets the skin first.
+TEST(OverlapAndSurface, ABallAtTheSideIsPushedOnce) {
+  for (const double y : {0.875, 1.375, 1.875, 2.125}) {
+    Bar bar = makeBar(Stepping::explicitSteps, false);
+    coupleSkin(bar);
+    constexpr double overlap = 0.002;
+    const int ball =
+        dem::addParticle(bar.run->grains.particles, {0.625 - overlap, y, 0.125}, {}, 0.125, dem::Mass{15.0});
+    bar.run->grains.refusesUnstableSteps = false;
+    bar.run->start(1e-7);
+    const auto b = static_cast<std::size_t>(ball);
+    EXPECT_LE(bar.run->grains.particles.f[b].x, 1.001 * stiffness * overlap) << y;
+    EXPECT_GE(bar.run->grains.particles.f[b].x, 0.9 * bar.run->grains.particles.weightOf(b) * stiffness * overlap) << y;
+  }
+}
+
+TEST(OverlapAndSurface, ABallThatIsTiedAsItHitsTheSideIsBooked) {
+  double residuals[2];
+  for (int k = 0; k < 2; ++k) {
+    Bar bar = makeBar(Stepping::explicitSteps, false);
+    coupleSkin(bar);
+    dem::addParticle(bar.run->grains.particles, {0.64, 1.4, 0.1}, {-2.0, 0.7, 0.0}, 0.125, dem::Mass{15.0});
+    const double step = k == 0 ? 1e-4 : 5e-5;
+    bar.run->start(step);
+    bar.run->advance(static_cast<std::int64_t>(std::lround(0.05 / step)));
+    residuals[k] = std::abs(bar.run->ledger().residual());
+  }
+  EXPECT_LT(residuals[0], 1e-3 * 30.0);
+  EXPECT_LT(residuals[1], 0.4 * residuals[0]);
+}
+
+}  // namespace
+}  // namespace dovetail::coupling
