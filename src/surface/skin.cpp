@@ -204,6 +204,20 @@ void splitAtSharpEdges(Skin& skin) {
   resetWall(skin);
 }
 
+bool meetsPeriod(const Skin& skin, const geometry::Periodicity& periodicity) {
+  constexpr double roundOff = 1e-9;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!periodicity.axes[static_cast<std::size_t>(axis)]) continue;
+    const auto [least, largest] = std::ranges::minmax(skin.X, {}, [&](const Vec3& X) { return X[axis]; });
+    if (largest[axis] - least[axis] > (1.0 - roundOff) * periodicity.length(axis)) return true;
+  }
+  return false;
+}
+
+bool hasKernel(const Skin& skin) {
+  return skin.carrier.column != skin.localMap.column || skin.carrier.weight != skin.localMap.weight;
+}
+
 void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> vertices) {
   placePoints(skin.carrier, skin.X, skin.turns, u, v, vertices, skin.wall.x, skin.wall.v);
 }

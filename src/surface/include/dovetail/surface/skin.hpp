@@ -10,6 +10,7 @@
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/walls/wall.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
+#include "dovetail/geometry/hierarchical_grid.hpp"
 #include "dovetail/surface/patch_turns.hpp"
 
 namespace dovetail::surface {
@@ -76,6 +77,11 @@ void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel);
 /// the section, that no half-space has, and no property of the mesh. Lucy's shape, symmetric.
 /// @throws InputError if the mesh has no boundary, or no volume
 cg::SurfaceKernel advisedKernel(const fem::SolidMesh& mesh);
+
+/// Whether a skin is as long as a period along its axis: it goes on beyond the side, and kernels end there.
+bool meetsPeriod(const Skin& skin, const geometry::Periodicity& periodicity);
+/// Whether it has another map than the local one.
+bool hasKernel(const Skin& skin);
 
 /// Moves the given vertices: wall.x = X + S u, wall.v = S v, and what goes with the patch.
 void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> vertices);
