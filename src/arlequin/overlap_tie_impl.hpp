@@ -125,7 +125,17 @@ inline double sumOfProducts(std::span<const Vec3> a, std::span<const Vec3> b) {
   return sum;
 }
 
-/// J that all contacts store now: of the list, at walls and surfaces, and bonds. @param m  left as it is
-double contactEnergy(const dem::Model& m, const fem::Model* solid);
+/// Contacts of some particles: pairs of the list, at walls and surfaces, and bonds.
+class ContactsOf {
+public:
+  /// @param isMoved  one per particle   @param solid  whose surface does not meet them
+  ContactsOf(const dem::Model& m, std::span<const char> isMoved, const fem::Model* solid);
+  /// J that they store with the shares that they have now. @param m  left as it is, with the same pairs and terms
+  double energy(const dem::Model& m) const;
+
+private:
+  std::vector<std::size_t> pairs_;
+  std::vector<const dem::Term*> terms_;
+};
 
 }  // namespace dovetail::arlequin

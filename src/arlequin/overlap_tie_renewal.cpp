@@ -183,7 +183,8 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   const std::vector<int> nodesOfRows = rowNode;
   std::vector<Vec3> rate(rowNode.size());
   if (actsInWindows()) gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
-  const double contactsBefore = contactEnergy(m, side.model), storedBefore = storedNow;
+  const ContactsOf contacts(m, isMoved, side.model);
+  const double contactsBefore = contacts.energy(m), storedBefore = storedNow;
   overlap = std::move(next);
   number(m.particles);
   if (m.particles.weight.empty()) m.particles.weight.assign(m.particles.size(), 1.0);
@@ -205,7 +206,7 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
     parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
   storedNow = storedWith(lambda);
   weighPairs(m, isMoved);
-  lost += contactsBefore - contactEnergy(m, side.model) + storedBefore - storedNow;
+  lost += contactsBefore - contacts.energy(m) + storedBefore - storedNow;
   findNear(m);
   if (beyond.empty()) return;
   events.removed += static_cast<std::int64_t>(beyond.size());

@@ -1,7 +1,10 @@
 // Shares that change: mass, momentum and energy change hands, gaps and contacts go on.
+#include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "dovetail/dem/model/loads.hpp"
+#include "dovetail/dem/pairs/contact_sample.hpp"
 #include "overlap_tie_impl.hpp"
 
 namespace dovetail::arlequin {
@@ -16,25 +19,51 @@ double ownKinetic(const dem::Particles& p, std::size_t i) {
 
 }  // namespace
 
-double contactEnergy(const dem::Model& m, const fem::Model* solid) {
-  if (!m.laws || m.pairs.particles() != m.particles.size()) return 0.0;
+ContactsOf::ContactsOf(const dem::Model& m, std::span<const char> isMoved, const fem::Model* solid) {
+  if (!m.laws || m.pairs.particles() != m.particles.size()) return;
+  for (std::size_t p = 0; p < m.pairs.size(); ++p)
+    if (const auto& [i, j] = m.pairs.pairs()[p];
+        isMoved[static_cast<std::size_t>(i)] || isMoved[static_cast<std::size_t>(j)])
+      pairs_.push_back(p);
+  const auto touches = [&](const dem::Term& term) {
+    dem::ContactSample contacts;
+    term.addContacts(m, contacts);
+    return std::ranges::any_of(contacts.first, [&](int i) { return isMoved[static_cast<std::size_t>(i)] != 0; });
+  };
+  bool meetsSolids = false;
+  std::vector<const dem::Term*> surfaces;
+  for (const auto& term : m.terms)
+    if (const auto* const connector = dynamic_cast<const coupling::Connector*>(term.get())) {
+      // Overlaps are large, and are not asked; the solid's own surface meets no members.
+      if (connector->side().model == solid || dynamic_cast<const OverlapTie*>(connector)) continue;
+      surfaces.push_back(connector);
+      meetsSolids = meetsSolids || touches(*connector);
+    } else if (dynamic_cast<const dem::BondTerm*>(term.get()) || touches(*term)) {
+      terms_.push_back(term.get());
+    }
+  if (meetsSolids) terms_.insert(terms_.end(), surfaces.begin(), surfaces.end());  // those of one solid act together
+}
+
+double ContactsOf::energy(const dem::Model& m) const {
   constexpr double noTime = 1e-100;  // s: memories stay
+  double sum = 0.0;
+  if (!pairs_.empty()) {
+    const int memory = static_cast<int>(m.pairs.memory().size() / m.pairs.size());
+    dem::detail::PairsApart one(1);
+    for (const std::size_t p : pairs_) {
+      one.take(m.particles, m.pairs, p, memory);
+      sum += m.laws->pairs(one.particles, one.list, noTime, dem::Booking::on).storedEnergy();
+    }
+  }
+  if (terms_.empty()) return sum;
   dem::Model copy;
   copy.particles = m.particles;
-  copy.pairs = m.pairs;
   copy.laws = m.laws;
-  copy.gravity = m.gravity;
-  copy.time = m.time;
-  for (const auto& term : m.terms) {  // overlaps are large, and are not asked; the solid's surface meets no members
-    const auto* const connector = dynamic_cast<const coupling::Connector*>(term.get());
-    if (!connector || (connector->side().model != solid && !dynamic_cast<const OverlapTie*>(connector)))
-      copy.terms.add(term->clone());
-  }
+  copy.pairs.setPeriodicity(m.pairs.periodicity());
   copy.step = {.time = m.time, .dt = noTime, .moved = std::numeric_limits<double>::infinity(), .timeless = true};
-  copy.work = copy.laws->pairs(copy.particles, copy.pairs, noTime, dem::Booking::on);
-  for (const auto& term : copy.terms)
-    if (term->order() == dem::Term::Order::forces) term->addForces(copy, copy.step);
-  return copy.work.storedEnergy();
+  for (const dem::Term* term : terms_) copy.terms.add(term->clone());
+  for (const auto& term : copy.terms) term->addForces(copy, copy.step);
+  return sum + copy.work.storedEnergy();
 }
 
 /// Mass that a share gains or loses comes and goes with the solid's velocity; the rest of its momentum is the nodes'.
