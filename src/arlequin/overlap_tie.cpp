@@ -46,7 +46,7 @@ void OverlapTie::Impl::ready(const dem::Model& m) {
     stale = false;
     massOf = side.mass;
     if (rowNode != parts.gap.node) {
-      for (auto* values : {&kept, &now, &increment, &windowIncrement, &atWindow, &lambda, &lambdaBefore})
+      for (auto* values : {&kept, &now, &increment, &windowIncrement, &atWindow, &lambda})
         *values = isFollowed() ? inRows(*values, rowNode) : std::vector<Vec3>(parts.gap.rows());
       rowNode = parts.gap.node;
     }
@@ -132,7 +132,6 @@ void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
     });
     acceleration = accelerationUnder(m, std::move(onNodes));
   }
-  lambdaBefore = lambda;
   parts.constraint->evaluate({now, increment, velocity, acceleration, dt}, lambda);
   slipMembers(m);
 }
@@ -201,14 +200,12 @@ void OverlapTie::addForces(dem::Model& m, const dem::Step& step) {
   const bool halfIsBooked = s.advanced;
   if (!s.advanced) s.updateGap(m, step.timeless);
   s.slip();
+  const double before = s.storedNow, halfBefore = halfIsBooked ? 0.0 : 0.5 * sumOfProducts(s.lambda, s.increment);
   s.apply(m, step);
-  const double before = s.storedNow;
   s.storedNow = s.storedWith(s.lambda);
   if (step.timeless || s.actsInWindows()) return;
   s.advanced = false;
-  double work = 0.5 * sumOfProducts(s.lambda, s.increment);
-  if (!halfIsBooked) work += 0.5 * sumOfProducts(s.lambdaBefore, s.increment);
-  s.lost += work - (s.storedNow - before);
+  s.lost += halfBefore + 0.5 * sumOfProducts(s.lambda, s.increment) - (s.storedNow - before);
 }
 
 /// The absorber takes what its force does to the particles over the whole kick.
@@ -241,12 +238,6 @@ void OverlapTie::addStiffness(const dem::Model& m, std::span<const Vec3> particl
   for (Vec3& value : lambda) value = -value;
   pullParticles(s.parts.gap, s.overlap, lambda, onParticles);
   pullNodes(s.parts.gap, lambda, onNodes);
-}
-
-bool OverlapTie::ties(const dem::Particles& particles, std::size_t particle) const {
-  Impl& s = *impl_;
-  if (s.known != particles.revision || s.memberOf.size() != particles.size()) s.number(particles);
-  return s.memberOf[particle] >= 0;
 }
 
 std::vector<double> OverlapTie::solidShare() const { return solidWeights(impl_->overlap.nodalWeight); }

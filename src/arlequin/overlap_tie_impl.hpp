@@ -20,15 +20,15 @@ struct TieState {
   PairShares shares;
   bool refit = false;  // somebody has taken members out: rows keep their gap all the same
 
-  std::vector<Vec3> kept;                  // per row: part of the gap that is not of the present ties, m
-  std::vector<Vec3> now, increment;        // the gap, and of the last step, m
-  std::vector<Vec3> atWindow;              // the gap at the last end of a window, m, of ties that act there
-  std::vector<Vec3> windowIncrement;       // of the window that ended there, m
-  std::optional<double> windowTime;        // of that end, s
-  double openingWork = 0.0;                // that the first half window's kick from there on takes, J
-  std::vector<Vec3> lambda, lambdaBefore;  // N
-  std::vector<int> rowNode;                // to which the arrays above belong
-  std::vector<Vec3> nodesBefore;           // u at the last evaluation, m
+  std::vector<Vec3> kept;             // per row: part of the gap that is not of the present ties, m
+  std::vector<Vec3> now, increment;   // the gap, and of the last step, m
+  std::vector<Vec3> atWindow;         // the gap at the last end of a window, m, of ties that act there
+  std::vector<Vec3> windowIncrement;  // of the window that ended there, m
+  std::optional<double> windowTime;   // of that end, s
+  double openingWork = 0.0;           // that the first half window's kick from there on takes, J
+  std::vector<Vec3> lambda;           // N
+  std::vector<int> rowNode;           // to which the arrays above belong
+  std::vector<Vec3> nodesBefore;      // u at the last evaluation, m
 
   bool advanced = false;  // the gap has been brought up to this step, and half of its work is booked
 
@@ -41,6 +41,29 @@ struct TieState {
   std::vector<int> near;                         // particles outside that may come in, by number
   std::vector<std::int64_t> strangers;           // ids of OverlapState::strangers, ascending
   OverlapState events;
+};
+
+/// Members as they will be.
+struct Renewal {
+  struct Change {
+    int particle;
+    double before, after;  // shares
+    fem::CellPlace place;  // whose nodes share the momentum
+  };
+  Overlap next;
+  std::vector<Change> changes;
+  std::vector<char> isMoved;  // one per particle
+  std::vector<int> beyond;    // particles that have passed their border
+
+  Renewal(const std::vector<double>& nodalWeight, std::size_t particles) : isMoved(particles, 0) {
+    next.nodalWeight = nodalWeight;
+  }
+  void tie(int particle, const FoundParticle& found, const Vec3& material) {
+    next.particle.push_back(particle);
+    next.place.push_back(found.place);
+    next.x.push_back(material);
+    next.weight.push_back(found.weight);
+  }
 };
 
 struct OverlapTie::Impl : TieState {
@@ -110,8 +133,12 @@ struct OverlapTie::Impl : TieState {
   void findNear(const dem::Model& m);
   void findStrangers(const dem::Model& m, const OverlapLocator& locator);
   void relocate(dem::Model& m);
-  void handOver(dem::Model& m, std::size_t particle, double before, double after, const fem::CellPlace& place,
-                std::vector<Vec3>& impulse);
+  Renewal lookAgain(const dem::Model& m, const OverlapLocator& locator);
+  bool isBeyond(const FoundParticle& found) const;
+  void change(Renewal& renewal, int particle, double before, const FoundParticle& found,
+              const fem::CellPlace& last) const;
+  void tieAnew(dem::Model& m, Renewal& renewal);
+  void handOver(dem::Model& m, const Renewal::Change& change, std::vector<Vec3>& impulse);
   void kickNodes(std::span<const Vec3> impulse);
   void keepForces(const dem::Model& m);
   void keepGap(const dem::Model& m);

@@ -99,33 +99,8 @@ void OverlapTie::Impl::findStrangers(const dem::Model& m, const OverlapLocator& 
   }
 }
 
-void OverlapTie::Impl::relocate(dem::Model& m) {
-  const std::vector<Vec3> x = positions();
-  const OverlapLocator locator(setting.mesh, x, setting.nodalWeight, m.pairs.periodicity());
-  struct Change {
-    int particle;
-    double before;
-    FoundParticle found;
-    fem::CellPlace handedAt;  // whose nodes share the momentum
-  };
-  std::vector<Change> changes;
-  std::vector<char> isMoved(m.particles.size(), 0);
-  std::vector<int> beyond;
-  Overlap next;
-  next.nodalWeight = overlap.nodalWeight;
-  const auto add = [&](int particle, const FoundParticle& found, const Vec3& material) {
-    next.particle.push_back(particle);
-    next.place.push_back(found.place);
-    next.x.push_back(material);
-    next.weight.push_back(found.weight);
-  };
-  const auto materialOf = [&](const FoundParticle& found) {
-    Vec3 point = found.x;
-    const Cell cell = cellOf(setting.mesh, found.place.element);
-    for (std::size_t a = 0; a < cell.node.size(); ++a)
-      point -= found.place.shape[a] * nodes().u[static_cast<std::size_t>(cell.node[a])];
-    return point;
-  };
+/// Where members that have moved and those near are now.
+Renewal OverlapTie::Impl::lookAgain(const dem::Model& m, const OverlapLocator& locator) {
   const auto findAgain = [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     return locator.find(m.particles.x[at], m.particles.radius[at]);
@@ -143,76 +118,85 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
   parallelFor(near.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) arrived[k] = findAgain(near[k]);
   });
+  Renewal renewal(overlap.nodalWeight, m.particles.size());
   memberTravel = 0.0;
-  for (std::size_t k = 0; k < overlap.size(); ++k) {
-    const int i = overlap.particle[k];
-    const auto at = static_cast<std::size_t>(i);
-    if (slips[k] <= stays) {
+  for (std::size_t k = 0; k < overlap.size(); ++k)
+    if (slips[k] > stays) {
+      change(renewal, overlap.particle[k], overlap.weight[k], again[k], overlap.place[k]);
+    } else {
       memberTravel = std::max(memberTravel, slips[k]);
-      add(i, {overlap.place[k], overlap.x[k], overlap.weight[k]}, overlap.x[k]);
-      continue;
+      renewal.tie(overlap.particle[k], {overlap.place[k], overlap.x[k], overlap.weight[k]}, overlap.x[k]);
     }
-    const FoundParticle& found = again[k];
-    isMoved[at] = 1;
-    if (found.place.element >= 0 && found.weight < setting.options.leastShare * (1.0 - 1e-6)) {
-      beyond.push_back(i);
-      continue;
-    }
-    const bool isTied = found.place.element >= 0;
-    changes.push_back({i, overlap.weight[k], found, isTied ? found.place : overlap.place[k]});
-    if (isTied) add(i, found, materialOf(found));
-  }
   for (std::size_t k = 0; k < near.size(); ++k) {
-    const int i = near[k];
-    const auto at = static_cast<std::size_t>(i);
-    const FoundParticle& found = arrived[k];
-    if (found.place.element < 0 || found.weight < setting.options.leastShare * (1.0 - 1e-6)) continue;
-    isMoved[at] = 1;
-    changes.push_back({i, 1.0, found, found.place});
-    add(i, found, materialOf(found));
+    if (arrived[k].place.element < 0 || isBeyond(arrived[k])) continue;
+    change(renewal, near[k], 1.0, arrived[k], arrived[k].place);
     ++events.admitted;
   }
-  findStrangers(m, locator);
-  if (changes.empty() && beyond.empty()) return;
-  ++events.relocations;
-  for (const fem::CellPlace& place : next.place)
-    if (place.element >= 0) next.elements.push_back(place.element);
-  sortUnique(next.elements);
+  for (const fem::CellPlace& place : renewal.next.place)
+    if (place.element >= 0) renewal.next.elements.push_back(place.element);
+  sortUnique(renewal.next.elements);
+  return renewal;
+}
 
+bool OverlapTie::Impl::isBeyond(const FoundParticle& found) const {
+  return found.place.element >= 0 && found.weight < setting.options.leastShare * (1.0 - 1e-6);
+}
+
+/// @param last  where it was, whose nodes share the momentum if it is nowhere now
+void OverlapTie::Impl::change(Renewal& renewal, int particle, double before, const FoundParticle& found,
+                              const fem::CellPlace& last) const {
+  renewal.isMoved[static_cast<std::size_t>(particle)] = 1;
+  if (isBeyond(found)) return renewal.beyond.push_back(particle);
+  const bool isTied = found.place.element >= 0;
+  renewal.changes.push_back({particle, before, found.weight, isTied ? found.place : last});
+  if (!isTied) return;
+  Vec3 material = found.x;
+  const Cell cell = cellOf(setting.mesh, found.place.element);
+  for (std::size_t a = 0; a < cell.node.size(); ++a)
+    material -= found.place.shape[a] * nodes().u[static_cast<std::size_t>(cell.node[a])];
+  renewal.tie(particle, found, material);
+}
+
+void OverlapTie::Impl::relocate(dem::Model& m) {
+  const std::vector<Vec3> x = positions();
+  const OverlapLocator locator(setting.mesh, x, setting.nodalWeight, m.pairs.periodicity());
+  Renewal renewal = lookAgain(m, locator);
+  findStrangers(m, locator);
+  if (renewal.changes.empty() && renewal.beyond.empty()) return;
+  ++events.relocations;
+  const ContactsOf contacts(m, renewal.isMoved, side.model);
+  const double before = contacts.energy(m) + storedNow;
+  tieAnew(m, renewal);
+  weighPairs(m, renewal.isMoved);
+  lost += before - contacts.energy(m) - storedNow;
+  findNear(m);
+  if (renewal.beyond.empty()) return;
+  events.removed += static_cast<std::int64_t>(renewal.beyond.size());
+  dem::removeParticles(m, renewal.beyond);
+  number(m.particles);
+  findNear(m);
+}
+
+/// Shares change hands, and the rows are made of the new members.
+void OverlapTie::Impl::tieAnew(dem::Model& m, Renewal& renewal) {
   // In windows the rate between the kicks about their ends is half of what other forces do: new ties keep it.
   const std::vector<int> nodesOfRows = rowNode;
-  std::vector<Vec3> rate(rowNode.size());
+  std::vector<Vec3> rate(rowNode.size()), impulse(nodes().v.size());
   if (actsInWindows()) gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
-  const ContactsOf contacts(m, isMoved, side.model);
-  const double contactsBefore = contacts.energy(m), storedBefore = storedNow;
-  overlap = std::move(next);
+  overlap = std::move(renewal.next);
   number(m.particles);
   if (m.particles.weight.empty()) m.particles.weight.assign(m.particles.size(), 1.0);
-  std::vector<Vec3> impulse(nodes().v.size());
-  for (const Change& change : changes)
-    handOver(m, static_cast<std::size_t>(change.particle), change.before, change.found.weight, change.handedAt,
-             impulse);
+  for (const Renewal::Change& change : renewal.changes) handOver(m, change, impulse);
   kickNodes(impulse);
   stale = true;
   ready(m);
-  if (turnsGap())
-    keepForces(m);
-  else
-    startGapAnew(m);
+  turnsGap() ? keepForces(m) : startGapAnew(m);
   if (setting.options.constraint == ConstraintKind::multiplier) comply(m, inRows(rate, nodesOfRows));
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, increment);  // of the step, as the new ties see it
   for (Vec3& change : increment) change *= m.step.dt;
   if (!parts.constraint->needsRates() && !actsInWindows())
     parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
   storedNow = storedWith(lambda);
-  weighPairs(m, isMoved);
-  lost += contactsBefore - contacts.energy(m) + storedBefore - storedNow;
-  findNear(m);
-  if (beyond.empty()) return;
-  events.removed += static_cast<std::int64_t>(beyond.size());
-  dem::removeParticles(m, beyond);
-  number(m.particles);
-  findNear(m);
 }
 
 void OverlapTie::exchange(dem::Model& m, const dem::Step& step) {

@@ -68,24 +68,25 @@ double ContactsOf::energy(const dem::Model& m) const {
 
 /// Mass that a share gains or loses comes and goes with the solid's velocity; the rest of its momentum is the nodes'.
 /// Its spin goes too, and the moment of that momentum about where the nodes take it.
-void OverlapTie::Impl::handOver(dem::Model& m, std::size_t i, double before, double after, const fem::CellPlace& place,
-                                std::vector<Vec3>& impulse) {
-  const double mass = (before - after) * m.particles.mass[i];
+void OverlapTie::Impl::handOver(dem::Model& m, const Renewal::Change& change, std::vector<Vec3>& impulse) {
+  const auto i = static_cast<std::size_t>(change.particle);
+  const double share = change.before - change.after, mass = share * m.particles.mass[i];
   if (mass == 0.0) return;
+  const fem::CellPlace& place = change.place;
   const Cell cell = cellOf(setting.mesh, place.element);
   Vec3 u;
   for (std::size_t a = 0; a < cell.node.size(); ++a)
     u += place.shape[a] * nodes().v[static_cast<std::size_t>(cell.node[a])];
   Vec3 angular = cross(m.particles.x[i], mass * m.particles.v[i]);
   if (m.particles.rotates())
-    angular += ((before - after) * dem::momentOfInertia(m.particles, static_cast<int>(i))) * m.particles.omega[i];
+    angular += (share * dem::momentOfInertia(m.particles, static_cast<int>(i))) * m.particles.omega[i];
   for (std::size_t a = 0; a < cell.node.size(); ++a) {
     const auto n = static_cast<std::size_t>(cell.node[a]);
     const Vec3 taken = (place.shape[a] * mass) * (m.particles.v[i] - u);
     impulse[n] += taken;
     angular -= cross(nodes().X[n] + nodes().u[n], taken);
   }
-  const double energy = (before - after) * ownKinetic(m.particles, i) - mass * dot(m.gravity, m.particles.x[i]);
+  const double energy = share * ownKinetic(m.particles, i) - mass * dot(m.gravity, m.particles.x[i]);
   const bool leaves = mass > 0.0;
   dem::Exchanged& exchanged = leaves ? m.left : m.entered;
   const double sign = leaves ? 1.0 : -1.0;
@@ -94,7 +95,7 @@ void OverlapTie::Impl::handOver(dem::Model& m, std::size_t i, double before, dou
   exchanged.angularMomentum += sign * angular;
   (leaves ? m.booked.left : m.booked.entered) += sign * energy;
   m.particles.f[i] -= mass * m.gravity;  // all that it holds before forces are asked for
-  m.particles.weight[i] = after;
+  m.particles.weight[i] = change.after;
 }
 
 void OverlapTie::Impl::kickNodes(std::span<const Vec3> impulse) {

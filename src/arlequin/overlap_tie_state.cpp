@@ -33,8 +33,8 @@ void OverlapTie::save(ByteWriter& writer) const {
     xi.push_back(place.xi);
   }
   writer(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
-         s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
-         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
+         s.now, s.increment, s.lambda, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power, s.memberTravel,
+         s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
   writer(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies, s.windowIncrement,
          s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers, s.events.firstStranger,
          s.events.strangerAt);
@@ -45,8 +45,8 @@ void OverlapTie::load(ByteReader& reader) {
   std::vector<int> element;
   std::vector<Vec3> xi;
   reader(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
-         s.now, s.increment, s.lambda, s.lambdaBefore, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power,
-         s.memberTravel, s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
+         s.now, s.increment, s.lambda, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power, s.memberTravel,
+         s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
   reader(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies, s.windowIncrement,
          s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers, s.events.firstStranger,
          s.events.strangerAt);

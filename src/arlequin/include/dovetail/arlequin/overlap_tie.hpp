@@ -74,8 +74,6 @@ public:
                     std::span<Vec3> onParticles, std::span<Vec3> onNodes) const;
 
   const Overlap& overlap() const;
-  /// Whether a particle of the model, by number, is tied.
-  bool ties(const dem::Particles& particles, std::size_t particle) const;
   const GapOperator& operators() const;
   std::span<const Vec3> gap() const;     ///< per row, m
   std::span<const Vec3> lambda() const;  ///< per row, N: pulls the particles back and the nodes along
