@@ -1,10 +1,12 @@
 // Couplings of a scene.
 #include <algorithm>
+#include <set>
 
 #include "dovetail/arlequin/handed_load.hpp"
 #include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 #include "parts.hpp"
 #include "warnings.hpp"
@@ -13,17 +15,52 @@ namespace dovetail::scene {
 
 namespace {
 
-void add(Built& built, std::size_t solid, const Coupling& coupling, const SurfaceContact& contact, const Scene& scene) {
-  dem::Model& grains = built.run->grains;
-  const fem::SolidMesh& mesh = built.meshes[solid];
-  if (contact.contact && !contact.contactMaterial.empty())
-    throw InputError("these contacts have a law and a material", "", "leave contact or contact_material out");
-  surface::Skin skin = surface::makeSkin(mesh.X, fem::faceSet(mesh, contact.on));
-  skin.wall.material = contactRow(scene, contact.contactMaterial);
-  if (contact.kernel.word == "advised")
+void requireApart(const fem::SolidMesh& mesh, const std::string& set, const std::string& other) {
+  const auto cornersOf = [](const fem::Face& face) {
+    std::vector<int> node(face.node.begin(), face.node.begin() + fem::cornersOf(face.shape));
+    std::sort(node.begin(), node.end());
+    return node;
+  };
+  std::set<std::vector<int>> faces;
+  for (const fem::Face& face : fem::faceSet(mesh, set)) faces.insert(cornersOf(face));
+  for (const fem::Face& face : fem::faceSet(mesh, other))
+    if (faces.contains(cornersOf(face)))
+      throw InputError("\"" + set + "\" and \"" + other + "\", of two couplings of the solid, have faces in common", "",
+                       "give every face one coupling, by sets of the solid for example");
+}
+
+/// The faces of all couplings of a solid with the same kernel, carried together, and those of one of them.
+surface::Skin skinOf(Built& built, const fem::SolidMesh& mesh, const Coupling& coupling, const SurfaceContact& contact,
+                     const Scene& scene) {
+  std::vector<fem::Face> faces;
+  std::size_t first = 0, end = 0;
+  for (const Coupling& one : scene.couplings) {
+    const auto* const other = std::get_if<SurfaceContact>(&one.kind);
+    if (!other || one.solid != coupling.solid) continue;
+    if (other != &contact) requireApart(mesh, contact.on, other->on);
+    if (!(other->kernel == contact.kernel)) continue;
+    const std::vector<fem::Face>& own = fem::faceSet(mesh, other->on);
+    if (other == &contact) first = faces.size(), end = first + own.size();
+    faces.insert(faces.end(), own.begin(), own.end());
+  }
+  surface::Skin skin = surface::makeSkin(mesh.X, faces);
+  const bool alone = first == 0 && end == faces.size();
+  if (contact.kernel.word == "advised" && surface::meetsPeriod(skin, built.run->grains.pairs.periodicity()))
+    built.notes.push_back("Contacts on \"" + coupling.solid + "\" (" + contact.on +
+                          ") have no kernel, as it goes on beyond a side of the periodic space.");
+  else if (contact.kernel.word == "advised")
     surface::coarseGrain(skin, surface::advisedKernel(mesh));
   else if (contact.kernel.word.empty())
     surface::coarseGrain(skin, {{.width = contact.kernel.number}, cg::KernelCorrection::symmetric});
+  return alone ? skin : surface::partOf(skin, first, end);
+}
+
+void add(Built& built, std::size_t solid, const Coupling& coupling, const SurfaceContact& contact, const Scene& scene) {
+  dem::Model& grains = built.run->grains;
+  if (contact.contact && !contact.contactMaterial.empty())
+    throw InputError("these contacts have a law and a material", "", "leave contact or contact_material out");
+  surface::Skin skin = skinOf(built, built.meshes[solid], coupling, contact, scene);
+  skin.wall.material = contactRow(scene, contact.contactMaterial);
   grains.terms.add(surface::SurfaceContact(built.run->solid(solid), surface::Coupling(std::move(skin)),
                                            contact.contact ? makeLaws(*contact.contact) : grains.laws,
                                            "grains on " + coupling.solid + " (" + contact.on + ")"));

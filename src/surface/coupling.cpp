@@ -303,6 +303,11 @@ double Coupling::renumber(std::span<const int> newNumber, const dem::Particles& 
   return dem::renumber(contacts_, newNumber, before);
 }
 
+bool Coupling::meets(const Coupling& other) const {
+  return std::ranges::any_of(surfaceNodes_,
+                             [&](int node) { return std::ranges::binary_search(other.surfaceNodes_, node); });
+}
+
 bool Coupling::onFacets() const { return carrier_->skin() != nullptr; }
 
 const Skin& Coupling::skin() const {

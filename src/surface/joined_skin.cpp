@@ -79,24 +79,24 @@ private:
     whole_.turns.frames.insert(whole_.turns.frames.end(), skin.turns.frames.begin(), skin.turns.frames.end());
   }
 
-  /// Vertices on single nodes, or in the middle of a face, are the same whoever has them; those of kernels are not.
+  /// Those that the same nodes carry are the same, whoever has them; those of kernels of their own are not.
   int numberOf(const Skin& skin, int vertex) {
     const auto v = static_cast<std::size_t>(vertex);
     const Row local = rowOf(skin.localMap, vertex);
+    const Vec3 offset = skin.turns.empty() ? Vec3{} : skin.turns.offset[v];
     const auto next = static_cast<int>(whole_.X.size());
     const int corner = corners_.try_emplace(local, static_cast<int>(corners_.size())).first->second;
-    if (local == rowOf(skin.carrier, vertex)) {
-      const auto [place, isNew] = vertices_.try_emplace(local, next);
-      if (!isNew) return place->second;
-    }
+    const auto [place, isNew] = vertices_.try_emplace({local, rowOf(skin.carrier, vertex)}, next);
+    if (!isNew && (!turns_ || whole_.turns.offset[static_cast<std::size_t>(place->second)] == offset))
+      return place->second;
     whole_.X.push_back(skin.X[v]);
     whole_.wall.corner.push_back(corner);
     append(whole_.localMap, skin.localMap, vertex);
     append(whole_.carrier, skin.carrier, vertex);
     if (turns_) {
-      const bool goes = !skin.turns.empty();
-      whole_.turns.offset.push_back(goes ? skin.turns.offset[v] : Vec3{});
-      whole_.turns.patch.push_back(goes ? static_cast<int>(whole_.turns.frames.size()) + skin.turns.patch[v] : 0);
+      const auto frames = static_cast<int>(whole_.turns.frames.size());
+      whole_.turns.offset.push_back(offset);
+      whole_.turns.patch.push_back(skin.turns.empty() ? 0 : frames + skin.turns.patch[v]);
     }
     return next;
   }
@@ -122,7 +122,8 @@ private:
 
   std::span<const Skin* const> skins_;
   Skin whole_;
-  std::map<Row, int> corners_, vertices_;
+  std::map<Row, int> corners_;
+  std::map<std::pair<Row, Row>, int> vertices_;
   std::map<std::vector<int>, int> owner_;
   bool turns_ = false;
   int patches_ = 0;

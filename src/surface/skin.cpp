@@ -204,6 +204,33 @@ void splitAtSharpEdges(Skin& skin) {
   resetWall(skin);
 }
 
+Skin partOf(const Skin& skin, std::size_t first, std::size_t end) {
+  Skin part;
+  Renumbering<int> vertices;
+  part.faces.assign(skin.faces.begin() + static_cast<std::ptrdiff_t>(first),
+                    skin.faces.begin() + static_cast<std::ptrdiff_t>(end));
+  for (fem::Face& face : part.faces)
+    for (int k = 0; k < fem::nodesOf(face.shape); ++k) face.node[k] = vertices.number(face.node[k]);
+  for (std::size_t t = 0; t < skin.wall.facets.size(); ++t) {
+    const auto face = static_cast<std::size_t>(skin.facetFace[t]);
+    if (face < first || face >= end) continue;
+    const auto& [a, b, c] = skin.wall.facets[t];
+    part.wall.facets.push_back({vertices.number(a), vertices.number(b), vertices.number(c)});
+    part.patchOfFacet.push_back(skin.patchOfFacet[t]);
+    part.facetFace.push_back(static_cast<int>(face - first));
+  }
+  part.X = selected(skin.X, vertices.origin);
+  part.wall.corner = skin.wall.corner.empty() ? std::vector<int>{} : selected(skin.wall.corner, vertices.origin);
+  part.localMap = selectRows(skin.localMap, vertices.origin);
+  part.carrier = selectRows(skin.carrier, vertices.origin);
+  if (!skin.turns.empty())
+    part.turns = {selected(skin.turns.offset, vertices.origin), selected(skin.turns.patch, vertices.origin),
+                  skin.turns.frames};
+  resetWall(part);
+  part.wall.material = skin.wall.material;
+  return part;
+}
+
 bool meetsPeriod(const Skin& skin, const geometry::Periodicity& periodicity) {
   constexpr double roundOff = 1e-9;
   for (int axis = 0; axis < 3; ++axis) {

@@ -79,6 +79,11 @@ void SurfaceContact::check(const dem::Model& m) const {
                      "give skin.wall.material from 0 to " + std::to_string(materials - 1));
   const std::vector<const SurfaceContact*> parts = partsIn(m);
   if (parts.size() > 1 && parts.front() == this && !surface_) requireJoinable(parts);
+  if (coupling_.onFacets()) return;
+  for (const auto* other : m.terms.all<SurfaceContact>())
+    if (other != this && other->side().model == side().model && other->coupling_.meets(coupling_))
+      throw InputError("its smooth surface meets that of \"" + other->name_ + "\" on the same solid", name_,
+                       "take skins for both, which know each other");
 }
 
 /// Of the solid's surface, those that are facets; or this one alone, if it is not.
@@ -110,11 +115,7 @@ void SurfaceContact::join(dem::Model& m) {
   company_.terms = &m.terms;
   company_.revision = m.terms.revision();
   const std::vector<const SurfaceContact*> parts = partsIn(m);
-  if (parts.front() != this) {
-    surface_.reset();
-    surfaceOf_.clear();
-    return;
-  }
+  if (parts.front() != this) return rejoin({});
   std::vector<std::int64_t> ids;
   for (auto* one : m.terms.all<SurfaceContact>())
     if (std::ranges::find(parts, one) != parts.end()) {
@@ -129,16 +130,20 @@ void SurfaceContact::join(dem::Model& m) {
     if (company_.share.empty()) company_.share.assign(share.size(), 1.0);
     for (std::size_t i = 0; i < share.size(); ++i) company_.share[i] = std::min(company_.share[i], share[i]);
   }
-  if (parts.size() == 1) {
-    surface_.reset();
-  } else if (ids != surfaceOf_) {
-    surface_.emplace(surfaceParts());
-  }
-  surfaceOf_ = std::move(ids);
+  rejoin(parts.size() > 1 ? std::move(ids) : std::vector<std::int64_t>{});
   if (surface_ && !state_.empty()) {
     ByteReader reader(std::exchange(state_, {}));
     surface_->load(reader);
   }
+}
+
+/// The surface of the parts with these numbers; what was booked on that of others stays.
+void SurfaceContact::rejoin(std::vector<std::int64_t> ids) {
+  if (ids == surfaceOf_) return;
+  if (surface_) booked_ += surface_->madeByShares();
+  surface_.reset();
+  if (!ids.empty()) surface_.emplace(surfaceParts());
+  surfaceOf_ = std::move(ids);
 }
 
 std::vector<SurfacePart> SurfaceContact::surfaceParts() const {
@@ -148,7 +153,7 @@ std::vector<SurfacePart> SurfaceContact::surfaceParts() const {
 }
 
 double SurfaceContact::lost() const {
-  return -coupling_.madeByTransfer() - coupling_.madeByShares() - (surface_ ? surface_->madeByShares() : 0.0);
+  return -coupling_.madeByTransfer() - coupling_.madeByShares() - booked_ - (surface_ ? surface_->madeByShares() : 0.0);
 }
 
 void SurfaceContact::surround(dem::Surroundings& around) {
@@ -198,11 +203,11 @@ void SurfaceContact::save(ByteWriter& writer) const {
   coupling_.save(writer);
   ByteWriter whole;
   if (surface_) surface_->save(whole);
-  writer(surface_ ? whole.bytes() : state_);
+  writer(booked_, surface_ ? whole.bytes() : state_);
 }
 void SurfaceContact::load(ByteReader& reader) {
   coupling_.load(reader);
-  reader(state_);
+  reader(booked_, state_);
   if (!surface_ || state_.empty()) return;
   ByteReader whole(std::exchange(state_, {}));
   surface_->load(whole);

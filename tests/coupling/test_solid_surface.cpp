@@ -205,9 +205,52 @@ TEST(SolidSurface, PushesOnceWhereKernelsEnd) {
   }
 }
 
+/// Parts of one kernel that goes on from part to part are as one coupling.
+TEST(SolidSurface, OfOneKernelInPartsMovesAsOneCouplingDoes) {
+  const fem::SolidMesh mesh = brick();
+  const auto moved = [&](const std::vector<std::vector<fem::Face>>& parts) {
+    auto run = std::make_unique<CoupledRun>();
+    run->grains.laws = frictionalLaws();
+    run->grains.sortEvery = 0;
+    SolidSide& side = run->addSolid(block(mesh, true));
+    surface::Skin whole = surface::makeSkin(mesh.X, together(parts).front());
+    surface::coarseGrain(whole, {{.width = 0.2}, cg::KernelCorrection::symmetric});
+    std::size_t first = 0;
+    for (const auto& faces : parts) {
+      const std::size_t end = first + faces.size();
+      run->grains.terms.add(surface::SurfaceContact(
+          side, surface::Coupling(parts.size() == 1 ? whole : surface::partOf(whole, first, end)), frictionalLaws()));
+      first = end;
+    }
+    for (int k = 0; k < 10; ++k)
+      dem::addParticle(run->grains.particles, {0.28 + 0.002 * k, 0.03 + 0.06 * k, 0.0248}, {0.5, 0.02 * k, -0.05},
+                       0.025, dem::Density{2000.0});
+    run->grains.gravity = {0.0, 0.0, -9.81};
+    dem::switchOnRotation(run->grains.particles);
+    run->start(dt);
+    run->advance(500);
+    return run->grains.particles.x;
+  };
+  for (const int count : {2, 4}) {
+    const auto parts = partsOf(mesh, count, true);
+    const std::vector<Vec3> once = moved(together(parts)), inParts = moved(parts);
+    for (std::size_t i = 0; i < once.size(); ++i) EXPECT_LT(norm(inParts[i] - once[i]), 1e-12) << count;
+  }
+}
+
 TEST(SolidSurface, RefusesAFaceThatTwoCouplingsHave) {
   const fem::SolidMesh mesh = brick();
   auto run = brickRun({mesh.faceSets.at("skin"), mesh.faceSets.at("z+")}, elastic());
+  dem::addParticle(run->grains.particles, {0.3, 0.3, 0.1}, {}, 0.025, dem::Mass{1.0});
+  EXPECT_THROW(run->start(1e-5), InputError);
+}
+
+TEST(SolidSurface, RefusesASmoothSurfaceBesideAnother) {
+  const fem::SolidMesh mesh = brick();
+  auto run = brickRun({mesh.faceSets.at("x+")}, elastic());
+  run->grains.terms.add(surface::SurfaceContact(
+      run->solid(0), surface::Coupling(surface::makeSmoothSurface(surface::makeSkin(mesh.X, mesh.faceSets.at("z+")))),
+      elastic()));
   dem::addParticle(run->grains.particles, {0.3, 0.3, 0.1}, {}, 0.025, dem::Mass{1.0});
   EXPECT_THROW(run->start(1e-5), InputError);
 }

@@ -27,6 +27,8 @@ using Parameters = std::map<std::string, double>;
 struct NumberOrWord {
   double number = 0.0;
   std::string word;  ///< empty: the number counts
+
+  friend bool operator==(const NumberOrWord&, const NumberOrWord&) = default;
 };
 
 /// A number, or a function of time: an expression of t (s) and parameters.

@@ -108,7 +108,7 @@ struct Solid {
 
 struct SurfaceContact {
   std::string on = "skin";           ///< face set
-  NumberOrWord kernel{0.0, "none"};  ///< width, m, or "none" or "advised"
+  NumberOrWord kernel{0.0, "advised"};  ///< width, m, or "none" or "advised"
   std::optional<ContactLaw> contact;
   std::string contactMaterial;
 };

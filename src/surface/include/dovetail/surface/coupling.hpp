@@ -121,6 +121,8 @@ public:
   double largestMobility(std::span<const double> inverseMass) const;
 
   bool onFacets() const;
+  /// Whether some node carries both.
+  bool meets(const Coupling& other) const;
   /// Where it is: one of the two; the other is an error. @throws InputError
   const Skin& skin() const;
   const SmoothSurface& smoothSurface() const;

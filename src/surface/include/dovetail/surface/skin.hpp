@@ -56,6 +56,10 @@ Skin makeSkin(std::span<const Vec3> X, std::span<const fem::Face> faces, QuadSpl
 /// Gives every smooth patch its own copies of the vertices on sharp edges.
 void splitAtSharpEdges(Skin& skin);
 
+/// The faces from number `first` to before `end` of a skin, as they are carried there: parts of a surface with one
+/// kernel. An open sheet.
+Skin partOf(const Skin& skin, std::size_t first, std::size_t end);
+
 /// Several skins on the same nodes as one, facets behind one another: vertices that move alike are one, and where
 /// kernels of different skins end at an edge that they share, wall.corner says so. Closed if all are, or all together.
 /// @throws InputError naming two that have a face in common

@@ -20,15 +20,14 @@ namespace dovetail::surface {
 /// A solid has one surface: those on one solid are parts of it, each with its faces, law, material and kernel. The
 /// first of them in the model finds the contacts of all, one per place also where parts meet, and owns what belongs to
 /// none of them. In an overlap of the same solid contacts act with the solid's share, and tied particles do not meet
-/// the surface.
+/// the surface. A smooth surface is no part, and meets no other.
 class SurfaceContact final : public coupling::Connector {
 public:
   /// @param coupling  on the skin, or the smooth surface, of side's mesh
   /// @param laws      between particles and surface; skin.wall.material is the surface's row in their table
   /// @param name      in ledgers, errors and profiles
-  /// @throws InputError if the surface is not where the nodes of the solid have it, there are no laws, or they cannot
-  /// be
-  ///         had on this surface
+  /// @throws InputError if the surface is not where the nodes of the solid have it, there are no laws, or these cannot
+  ///         be had on it
   SurfaceContact(coupling::SolidSide& side, Coupling coupling, std::shared_ptr<const dem::ContactLaws> laws,
                  std::string name = "surface contacts");
 
@@ -66,6 +65,7 @@ private:
 
   std::vector<const SurfaceContact*> partsIn(const dem::Model& m) const;
   void join(dem::Model& m);
+  void rejoin(std::vector<std::int64_t> ids);
   void requireJoinable(std::span<const SurfaceContact* const> parts) const;
   std::vector<SurfacePart> surfaceParts() const;
 
@@ -76,6 +76,7 @@ private:
   Company company_;
   std::optional<SolidSurface> surface_;  // of several parts
   std::vector<std::int64_t> surfaceOf_;  // their numbers
+  double booked_ = 0.0;                  // J, made by shares on surfaces of other parts
   std::vector<char> state_;              // of a surface that is yet to be made
   std::vector<std::uint8_t> tied_;
 };
