@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
 #include "dovetail/dem/setup/insertion.hpp"
@@ -176,10 +177,15 @@ void SurfaceContact::addForces(dem::Model& m, const dem::Step& step) {
     options.tied = tied_;
   }
   const fem::Nodes& nodes = side().nodes();
-  if (surface_)
-    m.work += surface_->exchange(surfaceParts(), m.particles, nodes.u, nodes.v, step.dt, options);
-  else
-    m.work += coupling_.exchange(m.particles, nodes.u, nodes.v, *laws_, step.dt, options);
+  try {
+    if (surface_)
+      m.work += surface_->exchange(surfaceParts(), m.particles, nodes.u, nodes.v, step.dt, options);
+    else
+      m.work += coupling_.exchange(m.particles, nodes.u, nodes.v, *laws_, step.dt, options);
+  } catch (const NumericalError& error) {
+    throw NumericalError(error.what(),
+                         name_ + ", t = " + formatNumber(step.time) + " s, step " + std::to_string(step.number), "");
+  }
   for (const SurfaceContact* part : company_.parts) {
     const coupling::NodalLoad& load = part->coupling_.load();
     for (int node : load.touched) part->side().load.add(node, load.force[static_cast<std::size_t>(node)]);
