@@ -174,7 +174,6 @@ dem::Term::Order OverlapTie::order() const {
 }
 
 void OverlapTie::check(const dem::Model& m) const {
-  const std::vector<char> inBodies = dem::members(m);
   for (const int number : impl_->near)
     if (number < 0 || static_cast<std::size_t>(number) >= m.particles.size())
       throw InputError("there is no particle " + std::to_string(number), "near the overlap",
@@ -188,7 +187,7 @@ void OverlapTie::check(const dem::Model& m) const {
     if (m.particles.weightOf(i) != impl_->overlap.weight[k])
       throw InputError("the weight of " + particle + " is not its share of the overlap", "overlap",
                        "leave Particles::weight to the overlap");
-    if (!inBodies.empty() && inBodies[i] != 0)
+    if (m.particles.isMember(i))
       throw InputError(particle + " of the overlap is a member of a clump, which counts as a whole", "overlap",
                        "keep clumps out of the overlap");
   }

@@ -73,10 +73,9 @@ void OverlapTie::Impl::watch(dem::Model& m, const dem::Step& step) {
 
 void OverlapTie::Impl::findNear(const dem::Model& m) {
   near.clear();
-  const std::vector<char> inBodies = dem::members(m);
   const geometry::Box box = geometry::expanded(boxOf(setting, positions(), true), (shellRadii + 1.0) * largestRadius);
   for (std::size_t i = 0; i < m.particles.size(); ++i)
-    if (memberOf[i] < 0 && m.particles.weightOf(i) == 1.0 && (inBodies.empty() || inBodies[i] == 0) &&
+    if (memberOf[i] < 0 && m.particles.weightOf(i) == 1.0 && !m.particles.isMember(i) &&
         contains(box, m.particles.x[i], m.pairs.periodicity()))
       near.push_back(static_cast<int>(i));
   farTravel = 0.0;
@@ -84,14 +83,13 @@ void OverlapTie::Impl::findNear(const dem::Model& m) {
 }
 
 void OverlapTie::Impl::findStrangers(const dem::Model& m, const OverlapLocator& locator) {
-  const std::vector<char> inBodies = dem::members(m);
   const geometry::Box box = boxOf(setting, positions(), false);
   const double least = setting.options.leastShare * (1.0 - 1e-6);
   for (std::size_t i = 0; i < m.particles.size(); ++i) {
     if (memberOf[i] >= 0 || m.particles.weightOf(i) != 1.0) continue;
     if (!contains(box, m.particles.x[i], m.pairs.periodicity())) continue;
     const std::optional<double> weight = locator.weightWithin(m.particles.x[i]);
-    if (!weight || (*weight >= least && (inBodies.empty() || inBodies[i] == 0))) continue;
+    if (!weight || (*weight >= least && !m.particles.isMember(i))) continue;
     const auto place = std::ranges::lower_bound(strangers, m.particles.id[i]);
     if (place != strangers.end() && *place == m.particles.id[i]) continue;
     if (strangers.empty()) events.firstStranger = m.particles.id[i], events.strangerAt = m.particles.x[i];

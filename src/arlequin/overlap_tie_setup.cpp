@@ -84,12 +84,11 @@ void requireNarrowKernels(const Overlap& overlap, const fem::SolidMesh& mesh, co
 }
 
 void requireMembers(const Overlap& overlap, const dem::Model& m, double leastShare) {
-  const std::vector<char> inBodies = dem::members(m);
   std::size_t few = 0;
   std::int64_t first = -1;
   for (std::size_t k = 0; k < overlap.size(); ++k) {
     const auto i = static_cast<std::size_t>(overlap.particle[k]);
-    if (!inBodies.empty() && inBodies[i] != 0)
+    if (m.particles.isMember(i))
       throw InputError("particle " + std::to_string(m.particles.id[i]) +
                            " in the overlap is a member of a clump, which counts as a whole",
                        "overlap", "keep clumps out of the overlap");

@@ -58,18 +58,15 @@ void Outside::evaluated(const dem::Model& m, const dem::Step& step, const Moment
   underWay_ = false;
   // Those who came in have the velocities of this moment: the half kick that is due is not for them.
   if (m.newcomers.empty()) return;
-  const std::vector<char> inBodies = dem::members(m);
   for (const std::int64_t id : m.newcomers)
-    if (const int i = dem::find(m.particles, id); i >= 0 && (inBodies.empty() || inBodies[at(i)] == 0))
+    if (const int i = dem::find(m.particles, id); i >= 0 && !m.particles.isMember(at(i)))
       given.give("entered", kickOf(m.particles, at(i), -0.5 * step.dt));
 }
 
 void Outside::left(const dem::Model& m, std::span<const int> newNumber, const dem::Particles& before) {
   if (!underWay_) return;
-  const std::vector<char> inBodies = dem::members(m);
   for (std::size_t i = 0; i < newNumber.size(); ++i)
-    if (newNumber[i] < 0 && (inBodies.empty() || inBodies[i] == 0))
-      given.give("particles: gravity", kickOf(before, i, 0.5 * m.open));
+    if (newNumber[i] < 0 && !before.isMember(i)) given.give("particles: gravity", kickOf(before, i, 0.5 * m.open));
 }
 
 void Outside::takeCounted(const dem::Model& m) { takeCounted(m, false); }

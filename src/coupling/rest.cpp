@@ -5,30 +5,23 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/dem/bodies/body_term.hpp"
+#include "dovetail/dem/setup/relax.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "run_impl.hpp"
 
 namespace dovetail::coupling {
 
 double CoupledRun::kineticEnergy() const {
-  dem::Energies e;
-  e.kinetic = dem::kineticEnergy(grains.particles);
-  for (const dem::BodyTerm* term : grains.terms.all<dem::BodyTerm>()) term->addEnergies(grains, e);
-  for (const auto& solid : impl_->solids) e.kinetic += solid->kineticEnergy();
-  return e.kinetic;
+  double sum = dem::kineticEnergy(grains);
+  for (const auto& solid : impl_->solids) sum += solid->kineticEnergy();
+  return sum;
 }
 
 void CoupledRun::stop() {
   dem::close(grains);
   impl_->broughtToRest += kineticEnergy();
   const Totals before = impl_->sums();
-  std::ranges::fill(grains.particles.v, Vec3{});
-  std::ranges::fill(grains.particles.omega, Vec3{});
-  for (dem::BodyTerm* term : grains.terms.all<dem::BodyTerm>()) {
-    std::ranges::fill(term->bodies.v, Vec3{});
-    std::ranges::fill(term->bodies.angularMomentum, Vec3{});
-  }
+  dem::stop(grains);
   for (const auto& solid : impl_->solids) std::ranges::fill(solid->side.nodes().v, Vec3{});
   impl_->broughtToRest -= kineticEnergy();
   impl_->tellVelocities();

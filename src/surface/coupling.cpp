@@ -124,9 +124,7 @@ void Coupling::find(const dem::Particles& particles, std::span<const Vec3> u, st
 
 dem::ContactWork Coupling::answer(dem::Particles& particles, std::span<const Vec3> u, const dem::ContactLaws& laws,
                                   double dt, const ExchangeOptions& options) {
-  const dem::ContactWork work = dem::sweepWall(options.timeless, contacts_.springs.left, [&] {
-    return laws.wall(particles, carrier_->wall(), contacts_, dt, options.booking);
-  });
+  const dem::ContactWork work = laws.wall(particles, carrier_->wall(), contacts_, dt, options.booking);
   if (booksWork_ && uBefore_.empty()) uBefore_.assign(u.begin(), u.end());
   if (booksWork_) nodeWork_ += 0.5 * nodeWorkSinceLast(u);
   transfer();
@@ -289,18 +287,17 @@ void Coupling::check(const dem::ContactLaws& laws, const geometry::Periodicity& 
   carrier_->check(laws, periodicity);
 }
 
-void Coupling::check(const dem::Particles& particles, int materials) const {
+void Coupling::check(const dem::Particles& particles) const {
   const auto count = static_cast<int>(particles.size());
   if ((revision_ == particles.revision && !sunk_.empty() && sunk_.back() >= count) ||
       (!shares_.now.particle.empty() && shares_.now.particle.back() >= count))
     throw InputError("a state has a particle that is not there", "contacts on a surface", "take an older checkpoint");
-  dem::requireRows(contacts_, {particles.size(), carrier_->wall().facets.size(), materials},
-                   revision_ == particles.revision);
+  dem::requireRows(contacts_, {particles.size(), carrier_->wall().facets.size()}, revision_ == particles.revision);
 }
 
-double Coupling::renumber(std::span<const int> newNumber, const dem::Particles& before) {
+double Coupling::renumber(std::span<const int> newNumber) {
   shares_.renumber(newNumber);
-  return dem::renumber(contacts_, newNumber, before);
+  return dem::renumber(contacts_, newNumber);
 }
 
 bool Coupling::meets(const Coupling& other) const {

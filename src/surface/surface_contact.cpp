@@ -74,7 +74,7 @@ void SurfaceContact::check(const dem::Model& m) const {
     throw InputError("its laws exert torques, but the particles do not spin", name_,
                      "call switchOnRotation(particles), or set Model::rotation to off");
   const int materials = laws_->materials(), own = coupling_.wall().material;
-  coupling_.check(m.particles, materials);
+  coupling_.check(m.particles);
   if (materials > 1 && (own < 0 || own >= materials))
     throw InputError("there is no law for material " + std::to_string(own), name_,
                      "give skin.wall.material from 0 to " + std::to_string(materials - 1));
@@ -162,15 +162,15 @@ void SurfaceContact::surround(dem::Surroundings& around) {
       [this]() -> const dem::TriangulatedWall& { return coupling_.outline(side().nodes().u, side().nodes().v); });
 }
 
-double SurfaceContact::renumber(std::span<const int> newNumber, const dem::Particles& before) {
-  if (surface_) surface_->renumber(newNumber, before);
-  return coupling_.renumber(newNumber, before);
+double SurfaceContact::renumber(std::span<const int> newNumber, const dem::Particles&) {
+  if (surface_) surface_->renumber(newNumber);
+  return coupling_.renumber(newNumber);
 }
 
 void SurfaceContact::addForces(dem::Model& m, const dem::Step& step) {
   if (company_.terms != &m.terms || company_.revision != m.terms.revision()) join(m);
   if (company_.parts.empty()) return;
-  ExchangeOptions options{m.booking, step.timeless, dem::movesOf(m, step), m.pairs.periodicity(), company_.share, {}};
+  ExchangeOptions options{m.booking, dem::movesOf(m, step), m.pairs.periodicity(), company_.share, {}};
   if (!company_.overlaps.empty()) {
     tied_.assign(m.particles.size(), 0);
     for (const coupling::Connector* overlap : company_.overlaps) overlap->markTied(tied_);

@@ -331,11 +331,6 @@ TEST(DamagedStates, ContactsOfPrimitiveWallsAreLookedAt) {
   expectSaid(contacts([](PrimitiveContacts& c) { c.force.pop_back(); }), "do not fit");
   expectSaid(contacts([](PrimitiveContacts& c) { c.particle.back() = 1 << 24; }), "no particle 16777216");
   expectSaid(contacts([](PrimitiveContacts& c) { c.particle.at(0) = -1; }), "no particle -1");
-  expectSaid(contacts([](PrimitiveContacts& c) {
-               c.left.material = {9};
-               c.left.share = {1.0};
-             }),
-             "no material 9");
 }
 
 TEST(DamagedStates, ContactsOfMeshWallsAreLookedAt) {

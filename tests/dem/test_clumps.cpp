@@ -131,14 +131,14 @@ TEST(Clumps, AGasOfRodsAndSpheresKeepsMomentumAndEnergy) {
   Vec3 spin, spinNow;
   const Vec3 linear = totalMomentum(scene, &spin);
   clearForces(scene.particles);
-  const double energy = kineticEnergy(scene.particles, scene.bodies, scene.clumps) +
+  const double energy = kineticEnergy(scene.particles, scene.bodies) +
                         law->pairs(scene.particles, scene.list, 0.0, Booking::on).storedEnergy();
   gatherForces(scene.particles, scene.clumps, scene.bodies);
   double worst = 0.0, mostStored = 0.0;
   for (int k = 0; k < 6000; ++k) {
     const double stored = step(scene, law, 2e-5).storedEnergy();
     mostStored = std::max(mostStored, stored);
-    worst = std::max(worst, std::abs(kineticEnergy(scene.particles, scene.bodies, scene.clumps) + stored - energy));
+    worst = std::max(worst, std::abs(kineticEnergy(scene.particles, scene.bodies) + stored - energy));
   }
   EXPECT_GT(mostStored, 0.01 * energy);
   EXPECT_LE(worst, 2e-4 * energy);
@@ -148,8 +148,8 @@ TEST(Clumps, AGasOfRodsAndSpheresKeepsMomentumAndEnergy) {
 }
 
 TEST(Clumps, WithFrictionAndDampingMomentumStaysAndTheThreadsDoNotMatter) {
-  const auto law = makeContactLaws(
-      FrictionalLaw{{.stiffness = 2e4, .restitution = 0.7}, {.stiffness = 6e3, .friction = 0.4}});
+  const auto law =
+      makeContactLaws(FrictionalLaw{{.stiffness = 2e4, .restitution = 0.7}, {.stiffness = 6e3, .friction = 0.4}});
   std::vector<Vec3> first;
   for (const int count : {1, 2}) {
     setThreads(count);
@@ -315,8 +315,8 @@ TEST(Clumps, StayTogetherWhenParticlesAreSorted) {
 }
 
 TEST(Clumps, OneSphereAloneIsASpinningParticle) {
-  const auto law = makeContactLaws(
-      FrictionalLaw{{.stiffness = 2e4, .restitution = 0.8}, {.stiffness = 6e3, .friction = 0.3}});
+  const auto law =
+      makeContactLaws(FrictionalLaw{{.stiffness = 2e4, .restitution = 0.8}, {.stiffness = 6e3, .friction = 0.3}});
   const ClumpShape ball = makeClumpShape(std::vector<Vec3>{{0, 0, 0}}, std::vector<double>{0.05}, Density{1000.0});
   Scene alone, clumped;
   Random random(11);

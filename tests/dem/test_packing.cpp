@@ -102,6 +102,14 @@ TEST(Lattices, HaveTheirSolidFractionAndNeighbours) {
       for (int k = 0; k < 3; ++k) EXPECT_TRUE(x[k] >= 1.5 - 1e-12 && x[k] <= (Vec3{6.5, 5.5, 4.5})[k] + 1e-8);
   }
   EXPECT_EQ(fillWithLattice(Lattice::simpleCubic, {{0, 0, 0}, {3, 2, 1}}, 0.5, 1.0).centre.size(), 6u);
+  const double cell = std::sqrt(2.0);  // of faces-centred cubes
+  const auto repeated = [&](double x) {
+    return fillWithLattice(Lattice::faceCentred, {{0, 0, 0}, {x, 3 * cell, 3 * cell}}, 0.5, 1.0, {true, true, true});
+  };
+  EXPECT_EQ(repeated(3 * cell).centre.size(), 108u);
+  EXPECT_EQ(repeated(3 * cell * (1.0 + 1e-8)).centre.size(), 108u);
+  EXPECT_THROW(repeated(3 * cell + 1e-5), InputError);
+  EXPECT_THROW(repeated(0.4 * cell), InputError);
   EXPECT_THROW(fillWithLattice(Lattice::simpleCubic, {{0, 0, 0}, {3, 2, 0.9}}, 0.5, 1.0), InputError);
   EXPECT_THROW(latticeBlock(Lattice::hexagonal, {1, 0, 1}, 0.5, 1.0), InputError);
 }

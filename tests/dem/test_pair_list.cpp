@@ -134,7 +134,8 @@ TEST(PairList, ThinnerInnerSkinsWhereTheCandidatesLastLonger) {
     step(3 * life);
     const std::int64_t builds = list.builds(), revision = list.revision();
     step(8 * life);
-    const double prunings = static_cast<double>(list.revision() - revision) / static_cast<double>(list.builds() - builds);
+    const double prunings =
+        static_cast<double>(list.revision() - revision) / static_cast<double>(list.builds() - builds);
     EXPECT_NEAR(prunings, std::sqrt(0.7 * life), 0.15 * std::sqrt(0.7 * life) + 0.5) << life;
   }
 }
@@ -162,7 +163,7 @@ TEST(PairList, WhatLeaversHoldIsBookedWithTheirMaterials) {
   updatePairs(particles, list, 0.0);
   clearForces(particles);
   const ContactWork after = laws->pairs(particles, list, dt, Booking::on);
-  EXPECT_NEAR(after.dissipatedPower * dt, 0.5 * 4e3 * 0.02 * 0.02, 1e-12);
+  EXPECT_NEAR(after.fracturePower * dt, 0.5 * 4e3 * 0.02 * 0.02, 1e-12);
   EXPECT_NEAR(after.frictionPower * dt, 0.5 * 3e3 * 1e-6, 1e-12);
   EXPECT_NEAR(after.storedEnergy() + after.lostPower() * dt, before.storedEnergy(), 1e-12);
 }

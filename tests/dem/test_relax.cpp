@@ -60,11 +60,10 @@ TEST(Relax, ClumpsComeToRestAmongGrains) {
   const RelaxationReport report = relax(model, {.unbalanced = 1e-3});
   ASSERT_TRUE(report.atRest) << report.unbalanced << " after " << report.steps;
   const Bodies& rods = bodies(model).bodies;
-  const std::vector<char> inRods = members(model);
   double weight = 0.0;
   for (const double mass : rods.mass) weight += 9.81 * mass;
-  for (std::size_t i = 0; i < inRods.size(); ++i)
-    if (inRods[i] == 0) weight += 9.81 * model.particles.mass[i];
+  for (std::size_t i = 0; i < model.particles.size(); ++i)
+    if (!model.particles.isMember(i)) weight += 9.81 * model.particles.mass[i];
   Vec3 onWalls;
   for (const PrimitiveWallTerm* wall : model.terms.all<PrimitiveWallTerm>()) onWalls += wall->wall.force;
   EXPECT_LE(norm(onWalls + Vec3{0, 0, weight}), 2e-2 * weight);

@@ -59,10 +59,9 @@ Model scene(const Vec3& origin) {
 Snapshot withForces(const Model& m) {
   Snapshot snapshot = takeSnapshot(m);
   const BodyTerm& rigid = *m.terms.all<BodyTerm>()[0];
-  const auto isMember = members(m.particles, rigid.clumps);
   std::size_t item = 0;
   for (std::size_t i = 0; i < m.particles.size(); ++i)
-    if (!isMember[i]) {
+    if (!m.particles.isMember(i)) {
       snapshot.v[item] = m.particles.f[i] / snapshot.mass[item];
       ++item;
     }
@@ -126,9 +125,8 @@ TEST(Snapshot, CarriesTheShareThatIsModelledHere) {
   Model m = scene({});
   Random random(4);
   m.particles.weight.assign(m.particles.size(), 1.0);
-  const auto isMember = members(m);
   for (std::size_t i = 0; i < m.particles.size(); ++i)
-    if (!isMember[i]) m.particles.weight[i] = random(0.2, 1.0);
+    if (!m.particles.isMember(i)) m.particles.weight[i] = random(0.2, 1.0);
   findForces(m);
   for (double& factor : m.pairs.writeFactors())
     if (factor > 0.0) factor = random(0.2, 1.0);  // members of one clump stay muted
@@ -143,7 +141,7 @@ TEST(Snapshot, CarriesTheShareThatIsModelledHere) {
   }
   double wanted = bodies(m).bodies.mass[0];
   for (std::size_t i = 0; i < m.particles.size(); ++i)
-    if (!isMember[i]) wanted += m.particles.weight[i] * m.particles.mass[i];
+    if (!m.particles.isMember(i)) wanted += m.particles.weight[i] * m.particles.mass[i];
   EXPECT_NEAR(mass, wanted, 1e-12 * wanted);
   EXPECT_GT(volume, mass / 1000.0);  // spheres of a clump overlap
 }

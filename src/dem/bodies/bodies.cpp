@@ -6,6 +6,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/particles/damping.hpp"
 
 namespace dovetail::dem {
 
@@ -166,16 +167,9 @@ double applyLocalDamping(Bodies& bodies, double alpha) {
   if (!(alpha >= 0.0 && alpha < 1.0))
     throw InputError("the local damping is " + formatNumber(alpha), "local damping", "give 0 ≤ α < 1, such as 0.7");
   double power = 0.0;
-  const auto resist = [&](Vec3& force, const Vec3& velocity) {
-    for (int k = 0; k < 3; ++k) {
-      const double size = alpha * std::abs(force[k]);
-      power += size * std::abs(velocity[k]);
-      if (velocity[k] != 0.0) force[k] -= std::copysign(size, velocity[k]);
-    }
-  };
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    resist(bodies.f[b], bodies.v[b]);
-    resist(bodies.torque[b], angularVelocity(bodies, static_cast<int>(b)));
+    power += resist(bodies.f[b], bodies.v[b], alpha);
+    power += resist(bodies.torque[b], angularVelocity(bodies, static_cast<int>(b)), alpha);
   }
   return power;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "../model/events.hpp"
@@ -18,19 +19,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Counts a body as exchanged; its kinetic energy and m g·x, J.
-/// @param missing velocity that it has not been given yet, m/s
-double book(const Bodies& bodies, std::size_t b, const Vec3& gravity, const Vec3& missing, Exchanged& exchanged) {
-  const Vec3 v = bodies.v[b] + missing;
-  ++exchanged.count;
-  exchanged.mass += bodies.mass[b];
-  exchanged.momentum += bodies.mass[b] * v;
-  exchanged.angularMomentum += cross(bodies.x[b], bodies.mass[b] * v) + bodies.angularMomentum[b];
-  return 0.5 * (bodies.mass[b] * squaredNorm(v) +
-                dot(bodies.angularMomentum[b], angularVelocity(bodies, static_cast<int>(b)))) -
-         bodies.mass[b] * dot(gravity, bodies.x[b]);
-}
-
 /// Angular velocity that belongs to an angular momentum.
 Vec3 spinOf(const Bodies& bodies, std::size_t b, const Vec3& angularMomentum) {
   const Quaternion& q = bodies.orientation[b];
@@ -38,11 +26,25 @@ Vec3 spinOf(const Bodies& bodies, std::size_t b, const Vec3& angularMomentum) {
   return rotate(q, {l.x / inertia.x, l.y / inertia.y, l.z / inertia.z});
 }
 
+/// Counts a body as exchanged; its kinetic energy and m g·x, J.
+/// @param lag for so long the forces that it has are yet to act, s
+double book(const Bodies& bodies, std::size_t b, const Vec3& gravity, double lag, Exchanged& exchanged) {
+  const Vec3 v = bodies.v[b] + (lag / bodies.mass[b]) * bodies.f[b];
+  const Vec3 angular = bodies.angularMomentum[b] + lag * bodies.torque[b];
+  ++exchanged.count;
+  exchanged.mass += bodies.mass[b];
+  exchanged.momentum += bodies.mass[b] * v;
+  exchanged.angularMomentum += cross(bodies.x[b], bodies.mass[b] * v) + angular;
+  return 0.5 * (bodies.mass[b] * squaredNorm(v) + dot(angular, spinOf(bodies, b, angular))) -
+         bodies.mass[b] * dot(gravity, bodies.x[b]);
+}
+
 }  // namespace
 
 void BodyTerm::check(const Model& m) const {
   validate(bodies);
   dem::check(m.particles, bodies, clumps);
+  requireShorter(m.particles, clumps, m.pairs.periodicity());
   for (std::size_t k = 0; k < clumps.size(); ++k)
     if (const double weight = m.particles.weightOf(at(clumps.particle[k])); weight != 1.0)
       throw InputError("its member, particle " + std::to_string(m.particles.id[at(clumps.particle[k])]) +
@@ -54,6 +56,8 @@ double BodyTerm::move(Model& m, const Step& step) {
   if (step.closing > 0.0) kickBodies(bodies, 0.5 * step.closing);
   kickBodies(bodies, 0.5 * step.dt);
   driftBodies(bodies, step.dt);
+  clearForces(bodies);
+  applyGravity(bodies, m.gravity);  // all that is known of the forces to come
   placeCarriedWalls(m, bodies, step.time);
   const double moved = placeMembers(bodies, clumps, m.pairs.periodicity(), m.particles);
   if (!std::isfinite(moved)) requireFinite(bodies, when(m));
@@ -75,9 +79,11 @@ void BodyTerm::leaving(Model& m, std::vector<char>& leaves) {
     if (gone[at(clumps.body[k])] != 0) leaves[at(clumps.particle[k])] = booked;
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (gone[b] != 0) {
-      m.booked.left += dem::book(bodies, b, m.gravity, 0.5 * m.open * m.gravity, m.left);
+      m.booked.left += dem::book(bodies, b, m.gravity, 0.5 * m.open, m.left);
       beside_.add(bodies.x[b], (0.5 * m.open * bodies.mass[b]) * m.gravity);
     }
+  known_ -=
+      static_cast<int>(std::count(gone.begin(), gone.begin() + std::min<std::ptrdiff_t>(known_, std::ssize(gone)), 1));
   renumberCarriedWalls(m, gone);
 }
 
@@ -91,9 +97,9 @@ void BodyTerm::addForces(Model& m, const Step& step) {
   gatherForces(m.particles, clumps, bodies, m.gravity);
   gatherCarriedWalls(m, bodies);
   damp(m);
-  if (step.timeless || admitted_ < 0) return;
+  if (step.timeless) return;
   // The step's last half kick is not for newcomers: it will be taken back from what they have.
-  for (std::size_t b = at(std::exchange(admitted_, -1)); b < bodies.size(); ++b) {
+  for (std::size_t b = at(std::exchange(known_, static_cast<int>(bodies.size()))); b < bodies.size(); ++b) {
     const Vec3 half = 0.5 * step.dt * bodies.f[b], turn = 0.5 * step.dt * bodies.torque[b];
     bodies.v[b] -= (1.0 / bodies.mass[b]) * half;
     bodies.angularMomentum[b] -= turn;
@@ -108,26 +114,26 @@ void BodyTerm::damp(Model& m) {
   }
 }
 
+namespace {
+/// What damping has added to the force and the torque on a body, N, N m.
+Momenta dampingOn(const Bodies& bodies, std::size_t b, const DampingTerm& damping) {
+  const auto added = [&](const Vec3& whole, const Vec3& momentum, const Vec3& velocity) {
+    return dampingForce(whole, momentum, velocity, damping.viscousRate, damping.local);
+  };
+  return {added(bodies.f[b], bodies.mass[b] * bodies.v[b], bodies.v[b]),
+          added(bodies.torque[b], bodies.angularMomentum[b], angularVelocity(bodies, static_cast<int>(b)))};
+}
+}  // namespace
+
 /// With the mean of the velocities before and after the kick that the damping forces are part of.
 void BodyTerm::book(Model& m, const Step& step) {
-  for (const DampingTerm* damping : m.terms.all<DampingTerm>()) {
-    const auto taken = [&](const Vec3& force, const Vec3& momentum, const Vec3& v, const Vec3& mean) {
-      double power = damping->viscousRate * dot(momentum, mean);
-      for (int k = 0; k < 3; ++k) {
-        const double sign = force[k] * v[k] > 0.0 ? 1.0 : force[k] * v[k] < 0.0 ? -1.0 : 0.0;
-        power += damping->local * sign / (1.0 - damping->local * sign) * force[k] * mean[k];
-      }
-      return power;
-    };
+  for (const DampingTerm* damping : m.terms.all<DampingTerm>())
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const Vec3 omega = angularVelocity(bodies, static_cast<int>(b));
-      const Vec3 &l = bodies.angularMomentum[b], half = 0.5 * step.dt * bodies.torque[b];
-      const Vec3 turned = omega + spinOf(bodies, b, half);
-      m.rate.damping += (taken(bodies.f[b], bodies.mass[b] * bodies.v[b], bodies.v[b],
-                               bodies.v[b] + (0.5 * step.dt / bodies.mass[b]) * bodies.f[b]) +
-                         taken(bodies.torque[b], l, omega, turned));
+      const Momenta force = dampingOn(bodies, b, *damping);
+      const Vec3 turned = spinOf(bodies, b, bodies.angularMomentum[b] + 0.5 * step.dt * bodies.torque[b]);
+      m.rate.damping -=
+          dot(force.linear, bodies.v[b] + (0.5 * step.dt / bodies.mass[b]) * bodies.f[b]) + dot(force.angular, turned);
     }
-  }
 }
 
 void BodyTerm::meanMotion(const Model&, const Step& step, std::span<Vec3> v, std::span<Vec3> omega) const {
@@ -182,12 +188,9 @@ void BodyTerm::addOutside(const Model& m, Momenta& force, Momenta& impulse) cons
   impulse += beside_;
   for (const DampingTerm* damping : m.terms.all<DampingTerm>())
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const auto taken = [&](const Vec3& whole, const Vec3& momentum, const Vec3& velocity) {
-        return dampingForce(whole, momentum, velocity, damping->viscousRate, damping->local);
-      };
-      force.add(bodies.x[b], taken(bodies.f[b], bodies.mass[b] * bodies.v[b], bodies.v[b]));
-      force.angular +=
-          taken(bodies.torque[b], bodies.angularMomentum[b], angularVelocity(bodies, static_cast<int>(b)));
+      const Momenta added = dampingOn(bodies, b, *damping);
+      force.add(bodies.x[b], added.linear);
+      force.angular += added.angular;
     }
 }
 
@@ -198,21 +201,33 @@ void archive(Archive& a, B& b, C& c) {
 }
 }  // namespace
 
-void BodyTerm::save(ByteWriter& writer) const { 
+void BodyTerm::save(ByteWriter& writer) const {
   archive(writer, bodies, clumps);
-  writer(beside_);
+  writer(beside_, known_);
 }
-void BodyTerm::load(ByteReader& reader) { 
+void BodyTerm::load(ByteReader& reader) {
   archive(reader, bodies, clumps);
-  reader(beside_);
+  reader(beside_, known_);
+}
+
+void BodyTerm::takeIn(Model& m, bool first) {
+  for (std::size_t b = first ? bodies.size() : at(known_); b < bodies.size(); ++b)
+    m.booked.entered += dem::book(bodies, b, m.gravity, 0.0, m.entered);
+  known_ = static_cast<int>(bodies.size());
+  spinMembers(bodies, clumps, m.particles);
 }
 
 void BodyTerm::admit(Model& m, int first) {
-  admitted_ = first;
   for (std::size_t b = at(first); b < bodies.size(); ++b)
-    m.booked.entered += dem::book(bodies, b, m.gravity, {}, m.entered);
-  for (std::size_t k = 0; k < clumps.size(); ++k)
-    if (clumps.body[k] >= first) m.particles.f[at(clumps.particle[k])] = bodies.mass[at(clumps.body[k])] * m.gravity;
+    m.booked.entered += dem::book(bodies, b, m.gravity, 0.0, m.entered);
+  spinMembers(bodies, clumps, m.particles);
+  for (std::size_t k = 0; k < clumps.size(); ++k) {
+    if (clumps.body[k] < first) continue;
+    const std::size_t i = at(clumps.particle[k]);
+    m.particles.f[i] = bodies.mass[at(clumps.body[k])] * m.gravity;
+    m.newcomers.push_back(m.particles.id[i]);
+  }
+  m.newcomersTouch = true;
 }
 
 BodyTerm& bodies(Model& m) {
@@ -223,16 +238,8 @@ BodyTerm& bodies(Model& m) {
 int addClump(Model& m, const ClumpShape& shape, const Vec3& x, const Quaternion& turn, const Vec3& v,
              const Vec3& omega) {
   BodyTerm& term = bodies(m);
+  requireShorter(shape, m.pairs.periodicity(), "clump of body " + std::to_string(term.bodies.size()));
   return addClump(m.particles, term.bodies, term.clumps, shape, x, turn, v, omega);
-}
-
-std::vector<char> members(const Model& m) {
-  std::vector<char> mask;
-  for (const BodyTerm* term : m.terms.all<BodyTerm>()) {
-    mask.resize(m.particles.size(), 0);
-    for (const int i : term->clumps.particle) mask[at(i)] = 1;
-  }
-  return mask;
 }
 
 }  // namespace dovetail::dem

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
 #include "turnability.hpp"
@@ -47,6 +48,7 @@ int addClump(Particles& particles, Bodies& bodies, Clumps& clumps, const ClumpSh
     const int particle =
         addParticle(particles, x + arm, v + cross(omega, arm), shape.radius[k], Mass{shape.properties.mass});
     if (particles.rotates()) particles.omega[at(particle)] = omega;
+    setOwner(particles, particle, Owner::body);
     clumps.particle.push_back(particle);
     clumps.body.push_back(body);
     clumps.offset.push_back(rotateBack(bodies.orientation[at(body)], arm));
@@ -80,6 +82,12 @@ double placeMembers(const Bodies& bodies, const Clumps& clumps, const geometry::
   double largest = 0.0;
   for (const double s : squared) largest = std::max(largest, s);
   return std::sqrt(largest);
+}
+
+void spinMembers(const Bodies& bodies, const Clumps& clumps, Particles& particles) {
+  if (!particles.rotates()) return;
+  for (std::size_t m = 0; m < clumps.size(); ++m)
+    particles.omega[at(clumps.particle[m])] = angularVelocity(bodies, clumps.body[m]);
 }
 
 void gatherForces(Particles& particles, const Clumps& clumps, Bodies& bodies, const Vec3& gravity) {
@@ -125,12 +133,6 @@ void renumber(Bodies& bodies, Clumps& clumps, std::span<const int> newNumber) {
   clumps.offset.resize(kept);
 }
 
-std::vector<char> members(const Particles& particles, const Clumps& clumps) {
-  std::vector<char> member(particles.size(), 0);
-  for (const int i : clumps.particle) member[at(i)] = 1;
-  return member;
-}
-
 void check(const Particles& particles, const Bodies& bodies, const Clumps& clumps) {
   if (clumps.body.size() != clumps.size() || clumps.offset.size() != clumps.size())
     throw InputError("the arrays differ in length", "clumps", "add clumps with addClump");
@@ -151,6 +153,36 @@ void check(const Particles& particles, const Bodies& bodies, const Clumps& clump
       throw InputError("particle " + std::to_string(i) + " is not as heavy as its body", where,
                        "give members the mass of the body");
     if (!isFinite(clumps.offset[m])) throw InputError("an offset is not finite", where, "give three finite numbers");
+  }
+}
+
+void requireShorter(const ClumpShape& shape, const geometry::Periodicity& space, const std::string& where) {
+  double least = std::numeric_limits<double>::infinity(), reach = 0.0, length = 0.0;
+  for (int k = 0; k < 3; ++k)
+    if (space.axes[static_cast<std::size_t>(k)]) least = std::min(least, space.length(k));
+  for (std::size_t a = 0; a < shape.offset.size(); ++a)
+    reach = std::max(reach, norm(shape.offset[a]) + shape.radius[a]);
+  if (2.0 * reach < least) return;
+  for (std::size_t a = 0; a < shape.offset.size(); ++a)
+    for (std::size_t b = 0; b <= a; ++b)
+      length = std::max(length, norm(shape.offset[a] - shape.offset[b]) + shape.radius[a] + shape.radius[b]);
+  for (int k = 0; k < 3; ++k)
+    if (space.axes[static_cast<std::size_t>(k)] && !(length < space.length(k)))
+      throw InputError("it is " + formatNumber(length) + " m long, and space repeats every " +
+                           formatNumber(space.length(k)) + " m along " + "xyz"[k],
+                       where, "take a shorter clump or a longer period: it would meet its own image");
+}
+
+void requireShorter(const Particles& particles, const Clumps& clumps, const geometry::Periodicity& space) {
+  if (!space.any()) return;
+  for (std::size_t m = 0; m < clumps.size();) {
+    const int body = clumps.body[m];
+    ClumpShape shape;
+    for (; m < clumps.size() && clumps.body[m] == body; ++m) {
+      shape.offset.push_back(clumps.offset[m]);
+      shape.radius.push_back(particles.radius[at(clumps.particle[m])]);
+    }
+    requireShorter(shape, space, "clump of body " + std::to_string(body));
   }
 }
 
@@ -195,12 +227,11 @@ void addDemand(ContactDemand& demand, const Particles& particles, const Bodies& 
   }
 }
 
-double freeKineticEnergy(const Particles& particles, const Clumps& clumps) {
-  const std::vector<char> member = members(particles, clumps);
+double freeKineticEnergy(const Particles& particles) {
   return parallelSum(particles.size(), 4096, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
-      if (member[i]) continue;
+      if (particles.isMember(i)) continue;
       sum += 0.5 * particles.mass[i] * squaredNorm(particles.v[i]);
       if (particles.rotates())
         sum += 0.5 * momentOfInertia(particles, static_cast<int>(i)) * squaredNorm(particles.omega[i]);

@@ -172,9 +172,7 @@ ContactWork exchangeBonds(Particles& particles, Bonds& bonds, const geometry::Pe
   bonds.forces.resize(bonds.size());
   bonds.energy.resize(bonds.size());
   bonds.utilised.resize(bonds.size());
-  Answer answer;
-  if (dt > 0.0) answer.work.fracturePower = std::exchange(bonds.ended, 0.0) / dt;
-  answer += parallelSum(bonds.size(), 512, [&](std::size_t begin, std::size_t end) {
+  const Answer answer = parallelSum(bonds.size(), 512, [&](std::size_t begin, std::size_t end) {
     Answer sum;
     for (std::size_t b = begin; b < end; ++b) sum += answerBond(particles, bonds, space, b, dt);
     return sum;

@@ -82,16 +82,46 @@ int addBond(Bonds& bonds, const Particles& particles, const geometry::Periodicit
   return static_cast<int>(bonds.size()) - 1;
 }
 
+namespace {
+
+/// A list of all pairs that may be as close as `gap`.
+PairList pairsWithin(const Particles& particles, const PairList& of, double gap) {
+  PairList list;
+  list.setPeriodicity(of.periodicity());
+  const auto largest = std::max_element(particles.radius.begin(), particles.radius.end());
+  list.setSkin(std::max(0.0, gap) + 1e-9 * (largest == particles.radius.end() ? 1.0 : *largest));
+  Particles placed = particles;  // the search moves them by periods
+  findPairs(placed, list);
+  return list;
+}
+
+/// Pairs that are bonded, the lower number first, ascending.
+std::vector<std::array<int, 2>> bondedPairs(const Bonds& bonds) {
+  std::vector<std::array<int, 2>> pairs;
+  pairs.reserve(bonds.size());
+  for (const Bond& bond : bonds.bonds) pairs.push_back({std::min(bond.i, bond.j), std::max(bond.i, bond.j)});
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+}  // namespace
+
 int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list, double gap,
                  const BondMaterial& material, const std::function<bool(int i, int j)>& wanted) {
+  const bool serves =
+      list.fits(particles) && (std::isinf(list.travel()) || gap + 2.0 * list.travel() <= list.innerSkin());
+  const PairList own = serves ? PairList{} : pairsWithin(particles, list, gap);
+  const geometry::Periodicity& space = list.periodicity();
+  const std::vector<std::array<int, 2>> bonded = bondedPairs(bonds);
   int count = 0;
-  for (std::size_t p = 0; p < list.size(); ++p) {
-    const auto [i, j] = list.pairs()[p];
+  for (const auto& pair : (serves ? list : own).pairs()) {
+    const auto [i, j] = pair;
     if (wanted && !wanted(i, j)) continue;
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-    const double distance = norm(particles.x[a] - particles.x[b] + list.shift(p));
+    const double distance = norm(space.minimumImage(particles.x[a] - particles.x[b]));
     if (distance > particles.radius[a] + particles.radius[b] + gap) continue;
-    addBond(bonds, particles, list.periodicity(), i, j, material);
+    if (std::binary_search(bonded.begin(), bonded.end(), pair)) continue;
+    addBond(bonds, particles, space, i, j, material);
     ++count;
   }
   return count;
@@ -121,8 +151,9 @@ void sortByParticle(Bonds& bonds) {
 
 }  // namespace
 
-void renumber(Bonds& bonds, std::span<const int> newNumber) {
+double renumber(Bonds& bonds, std::span<const int> newNumber) {
   std::size_t kept = 0;
+  double gone = 0.0;
   bonds.ends = {};
   bonds.forces.clear();
   bonds.utilised.clear();
@@ -132,7 +163,7 @@ void renumber(Bonds& bonds, std::span<const int> newNumber) {
     bond.i = newNumber[static_cast<std::size_t>(bond.i)];
     bond.j = newNumber[static_cast<std::size_t>(bond.j)];
     if (bond.i < 0 || bond.j < 0) {
-      bonds.ended += bonds.energy[b];
+      gone += bonds.energy[b];
       continue;
     }
     bonds.energy[kept] = bonds.energy[b];
@@ -141,6 +172,7 @@ void renumber(Bonds& bonds, std::span<const int> newNumber) {
   bonds.bonds.resize(kept);
   bonds.energy.resize(kept);
   sortByParticle(bonds);
+  return gone;
 }
 
 void muteBonded(const Bonds& bonds, PairList& list) {

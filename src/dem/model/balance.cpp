@@ -2,8 +2,8 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/model/model.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
+#include "dovetail/dem/model/model.hpp"
 #include "events.hpp"
 
 namespace dovetail::dem {
@@ -93,12 +93,11 @@ Momenta momenta(const Model& m) {
 Momenta weight(const Model& m) {
   if (m.gravity == Vec3{}) return {};
   const Particles& p = m.particles;
-  const std::vector<char> skip = members(m);
   Momenta sum = parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
     double mass = 0.0;
     Vec3 first;
     for (std::size_t i = begin; i < end; ++i) {
-      if (!skip.empty() && skip[i] != 0) continue;
+      if (p.isMember(i)) continue;
       const double own = p.weightOf(i) * p.mass[i];
       mass += own;
       first += own * p.x[i];
@@ -106,8 +105,7 @@ Momenta weight(const Model& m) {
     return Momenta{mass * m.gravity, cross(first, m.gravity)};
   });
   for (const BodyTerm* term : m.terms.all<BodyTerm>())
-    for (std::size_t b = 0; b < term->bodies.size(); ++b)
-      sum.add(term->bodies.x[b], term->bodies.mass[b] * m.gravity);
+    for (std::size_t b = 0; b < term->bodies.size(); ++b) sum.add(term->bodies.x[b], term->bodies.mass[b] * m.gravity);
   return sum;
 }
 

@@ -1,7 +1,6 @@
 #include "dovetail/dem/model/checkpoint.hpp"
 
 #include <concepts>
-#include <limits>
 #include <type_traits>
 
 #include "dovetail/core/error.hpp"
@@ -21,7 +20,7 @@ void archiveFields(Archive& archive, T& step) {
 
 namespace {
 
-constexpr const char* checkpointKind = "dem model 5";
+constexpr const char* checkpointKind = "dem model 6";
 
 std::vector<char> letters(const std::string& text) { return {text.begin(), text.end()}; }
 std::string word(const std::vector<char>& text) { return {text.begin(), text.end()}; }
@@ -58,10 +57,9 @@ void archiveScene(Archive& archive, M& m) {
   archiveParticles(archive, m.particles);
   archivePairs(archive, m);
   archive(m.gravity, m.rotation, m.booking, m.sortEvery, m.refusesUnstableSteps);
-  constexpr auto outdated = std::numeric_limits<std::int64_t>::max();  // of particles, terms or laws before a change
-  std::int64_t forcesOf = hasForces(m) || m.forcesOf < 0 ? m.forcesOf : outdated;
-  archive(m.time, m.steps, m.open, m.step, m.work, m.booked, m.rate, m.entered, m.left, forcesOf, m.smallestRadius,
-          m.timeBase, m.stepsBase, m.checkedStep, m.renewals);
+  std::int64_t forcesOf = hasForces(m) || m.forcesOf == Model::never ? m.forcesOf : Model::outdated;
+  archive(m.time, m.steps, m.open, m.step, m.work, m.booked, m.rate, m.entered, m.left, forcesOf, m.knownIds,
+          m.smallestRadius, m.timeBase, m.stepsBase, m.checkedStep, m.renewals);
   if constexpr (Archive::reads) {
     m.forcesOf = forcesOf;
     requireKnown(m.rotation, Rotation::off, "the rotation of grains");

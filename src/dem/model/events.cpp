@@ -44,22 +44,6 @@ std::vector<int> thoseOf(std::size_t particles, Is&& is) {
   return those;
 }
 
-/// Adds a particle to what was exchanged; its energy, J. Where velocities lag, what its forces will have given counts.
-double book(const Model& m, std::size_t i, Exchanged& exchanged) {
-  const Particles& p = m.particles;
-  const double mass = p.weightOf(i) * p.mass[i];
-  const Vec3 v = p.v[i] + (0.5 * m.open / mass) * p.f[i];
-  ++exchanged.count;
-  exchanged.mass += mass;
-  exchanged.momentum += mass * v;
-  exchanged.angularMomentum += cross(p.x[i], mass * v);
-  if (p.rotates()) {
-    const double inertia = p.weightOf(i) * momentOfInertia(p, static_cast<int>(i));
-    exchanged.angularMomentum += inertia * p.omega[i] + 0.5 * m.open * p.torque[i];
-  }
-  return kineticEnergyOf(p, i) + 0.5 * mass * (squaredNorm(v) - squaredNorm(p.v[i])) + gravityOf(p, i, m.gravity);
-}
-
 void letEscape(Model& m) {
   if (!m.domain) return;
   const std::vector<int> out = thoseOf(
@@ -106,11 +90,10 @@ bool wrapsLift(const Model& m) {
 /// What the moves from `before` to where particles are now have given them in gravity, J; bodies book theirs.
 double liftedFrom(const std::vector<Vec3>& before, const Model& m) {
   const Particles& p = m.particles;
-  const std::vector<char> skip = members(m);
   return parallelSum(p.size(), 4096, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i)
-      if (skip.empty() || skip[i] == 0) sum -= p.weightOf(i) * p.mass[i] * dot(m.gravity, p.x[i] - before[i]);
+      if (!p.isMember(i)) sum -= p.weightOf(i) * p.mass[i] * dot(m.gravity, p.x[i] - before[i]);
     return sum;
   });
 }
@@ -173,10 +156,20 @@ void requireShortMoves(const Particles& particles, double dt, const std::string&
                        name(particles, i), "take a smaller time step, or look for what has thrown it");
 }
 
-double kineticEnergyOf(const Particles& p, std::size_t i) {
-  double energy = p.mass[i] * squaredNorm(p.v[i]);
-  if (p.rotates()) energy += momentOfInertia(p, static_cast<int>(i)) * squaredNorm(p.omega[i]);
-  return 0.5 * p.weightOf(i) * energy;
+double bookParticle(const Model& m, std::size_t i, Exchanged& exchanged) {
+  const Particles& p = m.particles;
+  const double mass = p.weightOf(i) * p.mass[i], half = 0.5 * m.open;
+  const Vec3 v = p.v[i] + (half / mass) * p.f[i];
+  ++exchanged.count;
+  exchanged.mass += mass;
+  exchanged.momentum += mass * v;
+  exchanged.angularMomentum += cross(p.x[i], mass * v);
+  const double energy = 0.5 * mass * squaredNorm(v) + gravityOf(p, i, m.gravity);
+  if (!p.rotates()) return energy;
+  const double inertia = p.weightOf(i) * momentOfInertia(p, static_cast<int>(i));
+  const Vec3 spin = p.omega[i] + (half / inertia) * p.torque[i];
+  exchanged.angularMomentum += inertia * spin;
+  return energy + 0.5 * inertia * squaredNorm(spin);
 }
 
 double gravityOf(const Particles& p, std::size_t i, const Vec3& gravity) {
@@ -199,6 +192,17 @@ void renewPairs(Model& m) {
   if (m.pairs.revision() != revision) setFactors(m);
 }
 
+namespace {
+/// @return J that the contacts of those who go had stored
+double renumberPairs(Model& m, std::span<const int> newNumber) {
+  EndedPairs earlier = m.pairs.takeEnded();
+  renumber(m.pairs, newNumber, m.particles);
+  const EndedPairs gone = m.pairs.takeEnded();
+  m.pairs.putEnded(std::move(earlier));
+  return m.laws && m.booking == Booking::on ? m.laws->held(gone) : 0.0;
+}
+}  // namespace
+
 void removeParticles(Model& m, std::span<const int> list) {
   if (list.empty()) return;
   std::vector<char> leaves(m.particles.size(), 0);
@@ -208,17 +212,20 @@ void removeParticles(Model& m, std::span<const int> list) {
   std::vector<int> all;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (leaves[i] != 0) all.push_back(static_cast<int>(i));
-    if (leaves[i] == 1) m.booked.left += book(m, i, m.left);
+    if (leaves[i] == 1) m.booked.left += bookParticle(m, i, m.left);
   }
   const std::vector<int> newNumber = numbersWithout(m.particles, all);
-  renumber(m.pairs, newNumber, m.particles);
-  for (const auto& term : m.terms) m.booked.left += term->renumber(newNumber, m.particles);
+  double held = renumberPairs(m, newNumber);
+  for (const auto& term : m.terms) held += term->renumber(newNumber, m.particles);
+  m.booked.left += held;
+  m.work.elasticEnergy -= held;
   renumber(m.particles, newNumber);
 }
 
 void admitParticles(Model& m, std::size_t first) {
+  m.newcomersTouch = true;
   for (std::size_t i = first; i < m.particles.size(); ++i) {
-    m.booked.entered += book(m, i, m.entered);
+    m.booked.entered += bookParticle(m, i, m.entered);
     m.particles.f[i] = (m.particles.weightOf(i) * m.particles.mass[i]) * m.gravity;
     m.smallestRadius = std::min(m.smallestRadius, m.particles.radius[i]);
     m.newcomers.push_back(m.particles.id[i]);

@@ -36,8 +36,9 @@ struct MeanMotion {
 };
 MeanMotion meanMotion(const Model& m, const Step& step);
 
-/// Kinetic energy of one particle, and m g·x, J.
-double kineticEnergyOf(const Particles& particles, std::size_t i);
+/// Adds a particle to what was exchanged; its energy, J. Where velocities lag, what its forces will have given counts.
+double bookParticle(const Model& m, std::size_t i, Exchanged& exchanged);
+/// m g·x, J.
 double gravityOf(const Particles& particles, std::size_t i, const Vec3& gravity);
 
 }  // namespace dovetail::dem

@@ -26,14 +26,11 @@ void BondTerm::renewed(Model& m) {
   if (mutesContacts) muteBonded(bonds, m.pairs);
 }
 
-double BondTerm::renumber(std::span<const int> newNumber, const Particles&) {
-  dem::renumber(bonds, newNumber);
-  return 0.0;
-}
+double BondTerm::renumber(std::span<const int> newNumber, const Particles&) { return dem::renumber(bonds, newNumber); }
 
 void BondTerm::addForces(Model& m, const Step& step) {
   lost_ = 0.0;
-  if (bonds.size() == 0 && bonds.ended == 0.0) return;
+  if (bonds.size() == 0) return;
   ContactWork work = exchangeBonds(m.particles, bonds, m.pairs.periodicity(), step.timeless ? 0.0 : step.dt);
   // The last force of a bond that breaks is that of the step before, which acted half of the way: there it broke.
   work.fracturePower += 0.5 * bonds.powerOfBroken;
@@ -91,8 +88,8 @@ void BondTerm::book(Model& m, const Step& step) {
 
 void BondTerm::addDemand(const Model& m, ContactDemand& demand) const { dem::addDemand(demand, m.particles, bonds); }
 
-void BondTerm::save(ByteWriter& writer) const { writer(bonds.bonds, bonds.energy, bonds.ended, mutesContacts); }
-void BondTerm::load(ByteReader& reader) { reader(bonds.bonds, bonds.energy, bonds.ended, mutesContacts); }
+void BondTerm::save(ByteWriter& writer) const { writer(bonds.bonds, bonds.energy, mutesContacts); }
+void BondTerm::load(ByteReader& reader) { reader(bonds.bonds, bonds.energy, mutesContacts); }
 
 Bonds& bonds(Model& m) {
   const auto found = m.terms.all<BondTerm>();
@@ -111,56 +108,46 @@ void DampingTerm::check(const Model&) const {
 
 /// Bodies damp themselves (BodyTerm), once for all their members.
 void DampingTerm::addForces(Model& m, const Step&) {
-  const std::vector<char> skip = members(m);
-  if (viscousRate != 0.0) applyViscousDamping(m.particles, viscousRate, skip);
-  if (local != 0.0) applyLocalDamping(m.particles, local, skip);
+  if (viscousRate != 0.0) applyViscousDamping(m.particles, viscousRate);
+  if (local != 0.0) applyLocalDamping(m.particles, local);
 }
 
-namespace {
-/// Power of the damping forces against the mean of the velocities before and after the kick, W.
-/// @param force the whole, damping included @param inertia mass or moment
-double dampingPower(const Vec3& force, const Vec3& v, double inertia, const DampingTerm& damping, double dt) {
-  const Vec3 mean = v + (0.5 * dt / inertia) * force;
-  const double viscous = damping.viscousRate * inertia * dot(v, mean);
-  if (damping.local == 0.0) return viscous;
-  double power = viscous;
-  for (int c = 0; c < 3; ++c) {
-    const double way = force[c] * v[c], sign = way > 0.0 ? 1.0 : way < 0.0 ? -1.0 : 0.0;
-    power += damping.local * sign / (1.0 - damping.local * sign) * force[c] * mean[c];
-  }
-  return power;
-}
-}  // namespace
-
+/// Against the means of the velocities before and after the kick.
 void DampingTerm::book(Model& m, const Step& step) {
   const Particles& p = m.particles;
-  const std::vector<char> skip = members(m);
-  m.rate.damping += parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+  const MeanMotion mean = dem::meanMotion(m, step);
+  m.rate.damping -= parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
     double power = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
-      if (!skip.empty() && skip[i] != 0) continue;
-      const double weight = p.weightOf(i);
-      power += dampingPower(p.f[i], p.v[i], weight * p.mass[i], *this, step.dt);
-      if (p.rotates())
-        power +=
-            dampingPower(p.torque[i], p.omega[i], weight * momentOfInertia(p, static_cast<int>(i)), *this, step.dt);
+      if (p.isMember(i)) continue;
+      const Momenta force = forceOn(p, i);
+      power += dot(force.linear, mean.v[i]);
+      if (p.rotates()) power += dot(force.angular, mean.omega[i]);
     }
     return power;
   });
 }
 
+/// What it has added to the force and torque on a particle, N, N m.
+Momenta DampingTerm::forceOn(const Particles& p, std::size_t i) const {
+  const double weight = p.weightOf(i);
+  Momenta force{dampingForce(p.f[i], weight * p.mass[i] * p.v[i], p.v[i], viscousRate, local), {}};
+  if (p.rotates()) {
+    const double inertia = weight * momentOfInertia(p, static_cast<int>(i));
+    force.angular = dampingForce(p.torque[i], inertia * p.omega[i], p.omega[i], viscousRate, local);
+  }
+  return force;
+}
+
 void DampingTerm::addOutside(const Model& m, Momenta& force, Momenta&) const {
   const Particles& p = m.particles;
-  const std::vector<char> skip = members(m);
   force += parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
     Momenta sum;
     for (std::size_t i = begin; i < end; ++i) {
-      if (!skip.empty() && skip[i] != 0) continue;
-      const double weight = p.weightOf(i);
-      sum.add(p.x[i], dampingForce(p.f[i], weight * p.mass[i] * p.v[i], p.v[i], viscousRate, local));
-      if (!p.rotates()) continue;
-      const double inertia = weight * momentOfInertia(p, static_cast<int>(i));
-      sum.angular += dampingForce(p.torque[i], inertia * p.omega[i], p.omega[i], viscousRate, local);
+      if (p.isMember(i)) continue;
+      const Momenta own = forceOn(p, i);
+      sum.add(p.x[i], own.linear);
+      sum.angular += own.angular;
     }
     return sum;
   });
@@ -207,70 +194,5 @@ void ExternalForceTerm::addOutside(const Model& m, Momenta& force, Momenta&) con
     return sum;
   });
 }
-
-// ---- drives
-
-void DriveTerm::check(const Model& m) const {
-  if (!displacement_ || !velocity_)
-    throw InputError("the path is missing", "drive", "give displacement and velocity as functions of time");
-  const std::vector<char> inBodies = members(m);
-  for (const std::int64_t id : ids_) {
-    const int i = find(m.particles, id);
-    if (i < 0)
-      throw InputError("there is no particle " + std::to_string(id), "drive", "give ids of particles of the model");
-    if (!inBodies.empty() && inBodies[at(i)] != 0)
-      throw InputError("particle " + std::to_string(id) + " is a member of a clump, which moves it", "drive",
-                       "give ids of single particles");
-  }
-}
-
-void DriveTerm::locate(const Particles& particles) {
-  if (located_ == particles.revision) return;
-  particle_.clear();
-  for (const std::int64_t id : ids_) particle_.push_back(find(particles, id));
-  located_ = particles.revision;
-}
-
-void DriveTerm::prescribe(Model& m, const Step& step, Half half) {
-  Particles& p = m.particles;
-  locate(p);
-  // The mean velocity of the step that begins, so that positions are those of the path; then the path's own.
-  const Vec3 prescribed = half == Half::first
-                              ? (1.0 / step.dt) * (displacement_(step.time) - displacement_(step.time - step.dt))
-                              : velocity_(step.time);
-  for (const int k : particle_) {
-    const std::size_t i = at(k);
-    const double mass = p.weightOf(i) * p.mass[i];
-    // Both halves of the support's impulse act while the particle moves at the mean velocity of its step: that is the
-    // velocity after the first half, and before the forces of the second.
-    const Vec3 mean = half == Half::first ? prescribed : p.v[i] - (0.5 * step.dt / mass) * p.f[i];
-    const Vec3 impulse = mass * (prescribed - p.v[i]);
-    m.booked.walls += dot(impulse, mean);
-    supportImpulse += impulse;
-    supportMoment += cross(p.x[i], impulse);
-    p.v[i] = prescribed;
-  }
-}
-
-/// The path's velocity is that mean to second order.
-void DriveTerm::meanMotion(const Model& m, const Step& step, std::span<Vec3> v, std::span<Vec3>) const {
-  const Vec3 along = velocity_(step.time);
-  for (const std::int64_t id : ids_) v[at(find(m.particles, id))] = along;
-}
-
-double DriveTerm::renumber(std::span<const int> newNumber, const Particles& before) {
-  std::erase_if(ids_, [&](std::int64_t id) {
-    const int i = find(before, id);
-    return i >= 0 && newNumber[at(i)] < 0;
-  });
-  return 0.0;
-}
-
-void DriveTerm::addOutside(const Model&, Momenta&, Momenta& impulse) const {
-  impulse += {supportImpulse, supportMoment};
-}
-
-void DriveTerm::save(ByteWriter& writer) const { writer(ids_, supportImpulse, supportMoment); }
-void DriveTerm::load(ByteReader& reader) { reader(ids_, supportImpulse, supportMoment); }
 
 }  // namespace dovetail::dem

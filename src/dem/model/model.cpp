@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "dovetail/core/finite.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
+#include "dovetail/dem/model/loads.hpp"
 #include "events.hpp"
 
 namespace dovetail::dem {
@@ -81,11 +85,45 @@ void bookLosses(Model& m, double dt) {
   lost.fracturePower += dt * m.work.fracturePower;
 }
 
+void setOwners(Model& m) {
+  m.particles.owner.clear();
+  for (const BodyTerm* term : m.terms.all<BodyTerm>())
+    for (const int i : term->clumps.particle) setOwner(m.particles, i, Owner::body);
+  for (DriveTerm* term : m.terms.all<DriveTerm>())
+    for (const int i : term->numbers(m.particles)) setOwner(m.particles, i, Owner::drive);
+}
+
+/// What somebody has changed between steps: the step before ends, and who has come in counts as entered.
+void takeIn(Model& m, bool first) {
+  if (m.open > 0.0) {
+    validate(m.particles);
+    close(m);
+  }
+  if (m.rotation == Rotation::automatic && m.laws && m.laws->rotates()) switchOnRotation(m.particles);
+  check(m);
+  m.smallestRadius = smallestRadius(m.particles);
+  setOwners(m);
+  for (BodyTerm* term : m.terms.all<BodyTerm>()) term->takeIn(m, first);
+  if (first || m.knownIds == m.particles.nextId) return;
+  for (std::size_t i = 0; i < m.particles.size(); ++i)
+    if (m.particles.id[i] >= m.knownIds && !m.particles.isMember(i)) m.booked.entered += bookParticle(m, i, m.entered);
+}
+
+/// J that contacts of some particles store.
+double storedBy(const Model& m, std::span<const int> particles) {
+  Model without = m;
+  removeParticles(without, particles);
+  return m.work.elasticEnergy - without.work.elasticEnergy;
+}
+
 /// The step's last half kick is not for those who came in at its end: it will be taken back from what they have.
 void welcome(Model& m) {
+  std::vector<int> newcomers;
   for (const std::int64_t id : m.newcomers) {
     const int number = find(m.particles, id);
     if (number < 0) continue;  // gone again
+    newcomers.push_back(number);
+    if (m.particles.isMember(static_cast<std::size_t>(number))) continue;  // its body's affair
     const auto i = static_cast<std::size_t>(number);
     const double half = 0.5 * m.step.dt / m.particles.weightOf(i);
     m.particles.v[i] -= (half / m.particles.mass[i]) * m.particles.f[i];
@@ -93,6 +131,7 @@ void welcome(Model& m) {
       m.particles.omega[i] -= (half / momentOfInertia(m.particles, static_cast<int>(i))) * m.particles.torque[i];
   }
   m.newcomers.clear();
+  if (std::exchange(m.newcomersTouch, false) && m.booking == Booking::on) m.booked.entered += storedBy(m, newcomers);
 }
 
 /// Everything that must be right before particles move: once at the start, and when somebody has added or taken out
@@ -100,10 +139,6 @@ void welcome(Model& m) {
 void prepare(Model& m, double dt) {
   const bool changed = !hasForces(m);
   if (!changed && dt == m.checkedStep) return;
-  if (changed && m.open > 0.0) {
-    validate(m.particles);
-    close(m);
-  }
   if (changed) findForces(m);
   if (m.refusesUnstableSteps) requireStableStep(m, dt);
   m.checkedStep = dt;
@@ -149,6 +184,7 @@ void addForces(Model& m) {
   m.rate.lost.dissipatedPower += m.work.dissipatedPower;
   if (!m.step.timeless) bookHalf(m, dt);
   if (m.booking == Booking::on) bookLosses(m, dt);  // those of springs that end or slide where no time passes, too
+  m.knownIds = m.particles.nextId;
   m.forcesOf = m.particles.revision;
   m.forcesOfTerms = m.terms.revision();
   m.forcesOfLaws = m.laws;
@@ -156,12 +192,9 @@ void addForces(Model& m) {
 
 void findForces(Model& m) {
   constexpr double noTime = 1e-100;  // s: so short that no memory advances
-  const bool otherTerms = m.forcesOfTerms != m.terms.revision(), first = m.forcesOf < 0;
-  if (!hasForces(m)) {
-    if (m.rotation == Rotation::automatic && m.laws && m.laws->rotates()) switchOnRotation(m.particles);
-    check(m);
-    m.smallestRadius = smallestRadius(m.particles);
-  }
+  const bool otherTerms = m.forcesOfTerms != m.terms.revision(), first = m.forcesOf == Model::never;
+  const bool changed = !hasForces(m), books = changed && !first && m.booking == Booking::on;
+  if (changed) takeIn(m, first);
   const Step last = m.step;
   m.step.dt = noTime;
   m.step.timeless = true;
@@ -169,10 +202,11 @@ void findForces(Model& m) {
   renewPairs(m);
   if (otherTerms)
     for (const auto& term : m.terms) term->renewed(m);
-  EndedPairs ended = m.pairs.takeEnded();  // whose energy becomes a power only when time passes
+  const double before = m.work.storedEnergy() + m.booked.lost.lostPower();
+  if (first) m.pairs.takeEnded();  // those of pairs taken from a state are in no book
   startForces(m.particles, m.gravity);
   addForces(m);
-  if (!first) m.pairs.putEnded(std::move(ended));  // those of pairs taken from a state are in no book
+  if (books) m.booked.entered += m.work.storedEnergy() + m.booked.lost.lostPower() - before;
   m.work.frictionPower = m.work.rollingPower = m.work.plasticPower = m.work.fracturePower = 0.0;
   m.step = last;
 }

@@ -23,9 +23,9 @@ void addParticle(Snapshot& snapshot, const Vec3& x, const Vec3& v, double mass, 
   snapshot.volume.push_back(volume);
 }
 
-void addFreeParticles(const Particles& particles, std::span<const char> isMember, Snapshot& snapshot) {
+void addFreeParticles(const Particles& particles, Snapshot& snapshot) {
   for (std::size_t i = 0; i < particles.size(); ++i)
-    if (isMember.empty() || !isMember[i])
+    if (!particles.isMember(i))
       addParticle(snapshot, particles.x[i], particles.v[i], particles.weightOf(i) * particles.mass[i],
                   volumeOf(particles, i));
 }
@@ -67,7 +67,7 @@ Snapshot takeSnapshot(const Model& m) {
   snapshot.time = m.time;
   snapshot.space = m.pairs.periodicity();
   const auto rigid = m.terms.all<BodyTerm>();
-  addFreeParticles(m.particles, rigid.empty() ? std::vector<char>{} : members(m.particles, rigid[0]->clumps), snapshot);
+  addFreeParticles(m.particles, snapshot);
   for (const BondTerm* term : m.terms.all<BondTerm>())
     addBonds(sampleBonds(m.particles, term->bonds, snapshot.space), contacts);
   for (const BodyTerm* term : rigid) {

@@ -53,7 +53,7 @@ void PrimitiveWallTerm::check(const Model& m) const {
   validate(wall, materialsOf(m), m.pairs.periodicity());
   if (wall.search.particleRevision == m.particles.revision)
     requireNumbers(wall.search.near, m.particles.size(), "particle");
-  requireRows(wall.contacts, {m.particles.size(), 0, materialsOf(m)});
+  requireRows(wall.contacts, {m.particles.size(), 0});
 }
 
 void PrimitiveWallTerm::surround(Surroundings& around) { around.walls.push_back(&wall); }
@@ -73,8 +73,8 @@ double PrimitiveWallTerm::move(Model& m, const Step& step) {
   return 0.0;
 }
 
-double PrimitiveWallTerm::renumber(std::span<const int> newNumber, const Particles& before) {
-  const double gone = dem::renumber(wall, newNumber, before);
+double PrimitiveWallTerm::renumber(std::span<const int> newNumber, const Particles&) {
+  const double gone = dem::renumber(wall, newNumber);
   stored -= gone;
   return gone;
 }
@@ -82,8 +82,7 @@ double PrimitiveWallTerm::renumber(std::span<const int> newNumber, const Particl
 void PrimitiveWallTerm::addForces(Model& m, const Step& step) {
   wall.reach = m.pairs.reach();
   findContacts(m.particles, wall, movesOf(m, step), m.pairs.periodicity());
-  const ContactWork work =
-      sweepWall(step.timeless, wall.contacts.left, [&] { return m.laws->wall(m.particles, wall, step.dt, m.booking); });
+  const ContactWork work = m.laws->wall(m.particles, wall, step.dt, m.booking);
   stored = work.storedEnergy();
   m.work += work;
   m.rate.walls += drivingPower(wall);
@@ -161,7 +160,7 @@ void MeshWallTerm::check(const Model& m) const {
   requireNumbers(mesh.candidates.facet, mesh.wall.facets.size(), "facet");
   const bool current = mesh.candidates.particleRevision == m.particles.revision;
   if (current) requireNumbers(mesh.candidates.particle, m.particles.size(), "particle");
-  requireRows(mesh.contacts, {m.particles.size(), mesh.wall.facets.size(), materialsOf(m)}, current);
+  requireRows(mesh.contacts, {m.particles.size(), mesh.wall.facets.size()}, current);
   if (const auto* carrier = std::get_if<WallOnBody>(&mesh.motion)) checkCarrier(m, *carrier, mesh.wall.x.size());
 }
 
@@ -177,8 +176,8 @@ double MeshWallTerm::move(Model&, const Step& step) {
   return 0.0;
 }
 
-double MeshWallTerm::renumber(std::span<const int> newNumber, const Particles& before) {
-  const double gone = dem::renumber(mesh.contacts, newNumber, before);
+double MeshWallTerm::renumber(std::span<const int> newNumber, const Particles&) {
+  const double gone = dem::renumber(mesh.contacts, newNumber);
   stored -= gone;
   return gone;
 }
@@ -187,9 +186,7 @@ void MeshWallTerm::addForces(Model& m, const Step& step) {
   if (step.timeless && carried(mesh)) moveWall(mesh, m.time, 0.0, &bodiesOf(m));
   mesh.candidates.reach = m.pairs.reach();
   findContacts(m.particles, mesh, movesOf(m, step), m.pairs.periodicity());
-  const ContactWork work = sweepWall(step.timeless, mesh.contacts.springs.left, [&] {
-    return m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
-  });
+  const ContactWork work = m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
   stored = work.storedEnergy();
   m.work += work;
   addWallForces(mesh.contacts, mesh.wall);

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t grain = 4096;
 
-/// Takes α |f| sign(v) off every component; returns its power.
+}  // namespace
+
 double resist(Vec3& force, const Vec3& velocity, double alpha) {
   double power = 0.0;
   for (int k = 0; k < 3; ++k) {
@@ -24,14 +25,12 @@ double resist(Vec3& force, const Vec3& velocity, double alpha) {
   return power;
 }
 
-}  // namespace
-
-double applyViscousDamping(Particles& particles, double rate, std::span<const char> skip) {
+double applyViscousDamping(Particles& particles, double rate) {
   requireNonNegative(rate, "damping rate");
   return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
     double power = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
-      if (!skip.empty() && skip[i] != 0) continue;
+      if (particles.isMember(i)) continue;
       const double weighted = rate * particles.weightOf(i);
       const Vec3 force = (weighted * particles.mass[i]) * particles.v[i];
       particles.f[i] -= force;
@@ -45,13 +44,13 @@ double applyViscousDamping(Particles& particles, double rate, std::span<const ch
   });
 }
 
-double applyLocalDamping(Particles& particles, double alpha, std::span<const char> skip) {
+double applyLocalDamping(Particles& particles, double alpha) {
   if (!(alpha >= 0.0 && alpha < 1.0))
     throw InputError("the local damping is " + formatNumber(alpha), "local damping", "give 0 ≤ α < 1, such as 0.7");
   return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
     double power = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
-      if (!skip.empty() && skip[i] != 0) continue;
+      if (particles.isMember(i)) continue;
       power += resist(particles.f[i], particles.v[i], alpha);
       if (particles.rotates()) power += resist(particles.torque[i], particles.omega[i], alpha);
     }

@@ -82,6 +82,7 @@ int addParticle(Particles& particles, const Vec3& x, const Vec3& v, double radiu
   }
   if (!particles.material.empty()) particles.material.push_back(0);
   if (!particles.weight.empty()) particles.weight.push_back(1.0);
+  if (!particles.owner.empty()) particles.owner.push_back(Owner::nobody);
   particles.id.push_back(particles.nextId++);
   ++particles.revision;
   particles.x.push_back(x);
@@ -161,6 +162,11 @@ std::vector<int> removeParticles(Particles& particles, std::span<const int> list
   return number;
 }
 
+void setOwner(Particles& particles, int particle, Owner owner) {
+  particles.owner.resize(particles.size(), Owner::nobody);
+  particles.owner[static_cast<std::size_t>(particle)] = owner;
+}
+
 void switchOnRotation(Particles& particles) {
   particles.omega.resize(particles.size());
   particles.torque.resize(particles.size());
@@ -174,6 +180,7 @@ void validate(const Particles& particles) {
   checkLength(particles.mass.size(), n, "mass");
   if (!particles.material.empty()) checkLength(particles.material.size(), n, "material");
   if (!particles.weight.empty()) checkLength(particles.weight.size(), n, "weight");
+  if (!particles.owner.empty()) checkLength(particles.owner.size(), n, "owner");
   checkLength(particles.id.size(), n, "id");
   if (particles.rotates() || !particles.torque.empty()) {
     checkLength(particles.omega.size(), n, "angular velocity");

@@ -11,11 +11,11 @@ namespace {
 constexpr std::size_t grain = 4096;
 }
 
-FireSums fireSums(const Particles& p, const std::vector<char>& skip) {
+FireSums fireSums(const Particles& p) {
   return parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
     FireSums sums;
     for (std::size_t i = begin; i < end; ++i) {
-      if (!skip.empty() && skip[i] != 0) continue;
+      if (p.ownerOf(i) != Owner::nobody) continue;
       sums += {dot(p.f[i], p.v[i]), squaredNorm(p.v[i]), squaredNorm(p.f[i])};
       if (!p.rotates()) continue;
       const double r2 = p.radius[i] * p.radius[i];
@@ -28,6 +28,7 @@ FireSums fireSums(const Particles& p, const std::vector<char>& skip) {
 void steer(Particles& p, const FireMix& mix, double dt) {
   parallelFor(p.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      if (p.ownerOf(i) != Owner::nobody) continue;
       const Vec3 kick = (0.5 * dt / p.mass[i]) * p.f[i];
       Vec3 v = mix.keep * p.v[i] + mix.lean * p.f[i];
       const double fastest = 0.5 * p.radius[i] / dt, squared = squaredNorm(v + kick);

@@ -1,4 +1,5 @@
 // Regular packings.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -64,22 +65,48 @@ Packing latticeBlock(Lattice lattice, const std::array<int, 3>& cells, double ra
   return packing;
 }
 
-Packing fillWithLattice(Lattice lattice, const geometry::Box& box, double radius, double distance) {
+namespace {
+
+/// Cells along an axis of a box in which spheres lie between walls; `room` is that of their centres, m.
+double cellsBetweenWalls(double room, double edge, double slack, int axis) {
+  if (!(std::isfinite(room) && room >= -slack))
+    throw InputError("no sphere fits between the walls along axis " + std::to_string(axis), "lattice",
+                     "give a finite box of at least one diameter");
+  return std::floor(room / edge + 1e-9) + 1.0;
+}
+
+/// Along an axis on which the box repeats.
+double cellsInPeriod(double length, double edge, int axis) {
+  const double cells = std::max(1.0, std::round(length / edge));
+  if (!(std::abs(length - cells * edge) <= 1e-6 * edge))
+    throw InputError("the box is " + formatNumber(length) + " m long along the periodic axis " + "xyz"[axis] +
+                         ", which is no multiple of the lattice's cell, " + formatNumber(edge) + " m",
+                     "lattice",
+                     "make it " + formatNumber(cells * edge) + " m, or the distance of the centres " +
+                         formatNumber(length / (cells * edge)) + " times as large");
+  return cells;
+}
+
+}  // namespace
+
+Packing fillWithLattice(Lattice lattice, const geometry::Box& box, double radius, double distance,
+                        const std::array<bool, 3>& periodic) {
   requirePositive(radius, "radius of a lattice");
   requirePositive(distance, "distance of a lattice");
-  const Cell cell = cellOf(lattice);
-  Packing packing{{}, {}, {box, {false, false, false}}};
+  Cell cell = cellOf(lattice);
+  const geometry::Periodicity space{box, periodic};
+  Packing packing{{}, {}, space};
   const double slack = 1e-9 * distance;  // so that a box made for a whole number of spheres holds them
   std::array<int, 3> cells{};
   Vec3 room;
   for (int k = 0; k < 3; ++k) {
-    room[k] = box.upper[k] - box.lower[k] - 2.0 * radius;
-    if (!(std::isfinite(box.lower[k]) && std::isfinite(room[k]) && room[k] >= -slack))
-      throw InputError("no sphere fits between the walls along axis " + std::to_string(k), "lattice",
-                       "give a finite box of at least one diameter");
-    const double count = std::floor(room[k] / (cell.edge[k] * distance) + 1e-9) + 1.0;
-    if (count > 1e6) throw InputError("the box is too large for the lattice", "lattice", "give a smaller box");
+    const bool repeats = periodic[static_cast<std::size_t>(k)];
+    room[k] = repeats ? space.length(k) : space.length(k) - 2.0 * radius;
+    const double edge = cell.edge[k] * distance;
+    const double count = repeats ? cellsInPeriod(room[k], edge, k) : cellsBetweenWalls(room[k], edge, slack, k);
+    if (!(count <= 1e6)) throw InputError("the box is too large for the lattice", "lattice", "give a smaller box");
     cells[static_cast<std::size_t>(k)] = static_cast<int>(count);
+    if (repeats) cell.edge[k] = room[k] / count / distance;
   }
   const Vec3 first = box.lower + Vec3{radius, radius, radius};
   forEachPlace(cell, cells, distance, [&](const Vec3& x) {

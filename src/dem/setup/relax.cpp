@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
+#include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
 #include "dovetail/dem/setup/fire.hpp"
@@ -63,34 +65,37 @@ void steer(Model& m, BodyTerm& term, const FireMix& mix, double dt) {
   }
 }
 
+/// Those of a model, const or not.
+auto servosOf(auto& m) {
+  using Servo = std::conditional_t<std::is_const_v<std::remove_reference_t<decltype(m)>>, const WallServo, WallServo>;
+  std::vector<Servo*> servos;
+  for (auto* term : m.terms.template all<PrimitiveWallTerm>())
+    if (term->wall.servo) servos.push_back(&*term->wall.servo);
+  for (auto* term : m.terms.template all<MeshWallTerm>())
+    if (auto* const servo = std::get_if<WallServo>(&term->mesh.motion)) servos.push_back(servo);
+  return servos;
+}
+
 void steer(Model& m, const FireMix& mix, double dt) {
   steer(m.particles, mix, dt);
+  const double fastest = 0.5 * m.smallestRadius / dt;
+  for (WallServo* servo : servosOf(m))
+    servo->speed = std::clamp(mix.keep * servo->speed + mix.lean * servo->unbalanced(), -fastest, fastest);
   for (BodyTerm* term : m.terms.all<BodyTerm>()) steer(m, *term, mix, dt);
 }
 
-void stop(Model& m) {
-  std::fill(m.particles.v.begin(), m.particles.v.end(), Vec3{});
-  std::fill(m.particles.omega.begin(), m.particles.omega.end(), Vec3{});
-  for (BodyTerm* term : m.terms.all<BodyTerm>()) {
-    std::fill(term->bodies.v.begin(), term->bodies.v.end(), Vec3{});
-    std::fill(term->bodies.angularMomentum.begin(), term->bodies.angularMomentum.end(), Vec3{});
-  }
-}
-
-double kineticEnergyOf(const Model& m) {
-  Energies e;
-  e.kinetic = kineticEnergy(m.particles);
-  for (const BodyTerm* term : m.terms.all<BodyTerm>()) term->addEnergies(m, e);
-  return e.kinetic;
-}
-
 FireSums fireSums(const Model& m) {
-  FireSums sums = fireSums(m.particles, members(m));
+  FireSums sums = fireSums(m.particles);
+  for (const WallServo* servo : servosOf(m)) {
+    const double force = servo->unbalanced();
+    sums += {force * servo->speed, servo->speed * servo->speed, force * force};
+  }
   for (const BodyTerm* term : m.terms.all<BodyTerm>()) sums += fireSums(term->bodies);
   return sums;
 }
 
 void check(const Model& m, const RelaxationSettings& s) {
+  constexpr const char* beltRemedy = "set its surface velocity to zero until then";
   requirePositive(s.unbalanced, "unbalanced force at rest");
   if (!(s.stepShare > 0.0 && s.stepShare < 1.0))
     throw InputError("the share of the critical step is " + formatNumber(s.stepShare), "relaxation",
@@ -98,12 +103,22 @@ void check(const Model& m, const RelaxationSettings& s) {
   if (s.lookEvery < 1 || s.steps < 0)
     throw InputError("a number of steps is not valid", "relaxation", "give lookEvery ≥ 1 and steps ≥ 0");
   for (const PrimitiveWallTerm* term : m.terms.all<PrimitiveWallTerm>())
-    if (term->wall.motion || norm(term->wall.velocity) + norm(term->wall.angularVelocity) > 0.0)
+    if (const Vec3 along = term->wall.servo ? term->wall.servo->direction : Vec3{};
+        term->wall.motion || norm(term->wall.angularVelocity) > 0.0 ||
+        norm(term->wall.velocity - dot(term->wall.velocity, along) * along) > 0.0)
       throw InputError("a wall moves", "relaxation", "let walls stand");
+    else if (norm(term->wall.surfaceVelocity) > 0.0)
+      throw InputError("the surface of a wall runs as a belt", "relaxation", beltRemedy);
   for (const MeshWallTerm* term : m.terms.all<MeshWallTerm>())
     if (std::holds_alternative<PrescribedMotion>(term->mesh.motion))
       throw InputError("a triangulated wall moves along a path", "relaxation",
                        "let walls stand, or free (addFreeWall)");
+    else if (norm(term->mesh.surfaceVelocity) > 0.0)
+      throw InputError("the surface of a triangulated wall runs as a belt", "relaxation", beltRemedy);
+  for (const DriveTerm* term : m.terms.all<DriveTerm>())
+    if (const Momenta motion = term->motionAt(m.time); norm(motion.linear) + norm(motion.angular) > 0.0)
+      throw InputError("a drive moves or turns its particles", "relaxation",
+                       "let it begin later, or add it afterwards");
 }
 
 /// So long that a particle crosses a tenth of its radius, where nobody touches anybody yet.
@@ -115,9 +130,27 @@ double longestStep(const Model& m, double share) {
 
 }  // namespace
 
+void stop(Model& m) {
+  for (WallServo* servo : servosOf(m)) servo->speed = 0.0;
+  std::fill(m.particles.v.begin(), m.particles.v.end(), Vec3{});
+  std::fill(m.particles.omega.begin(), m.particles.omega.end(), Vec3{});
+  for (BodyTerm* term : m.terms.all<BodyTerm>()) {
+    std::fill(term->bodies.v.begin(), term->bodies.v.end(), Vec3{});
+    std::fill(term->bodies.angularMomentum.begin(), term->bodies.angularMomentum.end(), Vec3{});
+  }
+}
+
+double kineticEnergy(const Model& m) {
+  Energies e;
+  e.kinetic = kineticEnergy(m.particles);
+  for (const BodyTerm* term : m.terms.all<BodyTerm>()) term->addEnergies(m, e);
+  for (const WallServo* servo : servosOf(m)) e.kinetic += servo->kineticEnergy();
+  return e.kinetic;
+}
+
 namespace {
 
-/// A contact of a particle with another one or a wall (< 0), and its force, N.
+/// A contact or bond of a particle with another one, or a contact with a wall (< 0), and its force, N.
 struct Held {
   int first, second;
   double force;
@@ -129,6 +162,9 @@ std::vector<Held> contactsOf(const Model& m) {
   const ContactSample sample = m.laws->sample(m.particles, m.pairs);
   for (std::size_t c = 0; c < sample.size(); ++c)
     found.push_back({sample.first[c], sample.second[c], norm(sample.force[c])});
+  for (const BondTerm* term : m.terms.all<BondTerm>())
+    for (std::size_t b = 0; b < term->bonds.forces.size(); ++b)
+      found.push_back({term->bonds.bonds[b].i, term->bonds.bonds[b].j, norm(term->bonds.forces[b].force)});
   for (const PrimitiveWallTerm* term : m.terms.all<PrimitiveWallTerm>())
     for (std::size_t c = 0; c < term->wall.contacts.size(); ++c)
       found.push_back({term->wall.contacts.particle[c], -1, norm(term->wall.contacts.force[c])});
@@ -157,9 +193,8 @@ RelaxationReport restOf(const Model& m) {
     ++counted;
     report.rattlers += !touched && force == 0.0;
   };
-  const std::vector<char> inBodies = members(m);
   for (std::size_t i = 0; i < p.size(); ++i)
-    if (inBodies.empty() || inBodies[i] == 0) count(norm(p.f[i]), touches[i] != 0);
+    if (p.ownerOf(i) == Owner::nobody) count(norm(p.f[i]), touches[i] != 0);
   for (const BodyTerm* term : m.terms.all<BodyTerm>()) {
     const Bodies& bodies = term->bodies;
     std::vector<char> touched(bodies.size(), 0);
@@ -173,16 +208,25 @@ RelaxationReport restOf(const Model& m) {
   const auto held = static_cast<double>(counted - report.rattlers);
   if (residual > 0.0)
     report.unbalanced = contactForce > 0.0 ? residual / held / contactForce : std::numeric_limits<double>::infinity();
+  for (const WallServo* servo : servosOf(m))
+    if (const double most = std::max(std::abs(servo->load), std::abs(servo->contact)); most > 0.0)
+      report.unbalanced = std::max(report.unbalanced, std::abs(servo->unbalanced()) / most);
   return report;
 }
 
 namespace {
 /// The step follows the limit at every look; in between a model that is on its way to rest may be a little beyond.
-struct UnstableStepsPass {
-  explicit UnstableStepsPass(Model& m) : model(m), refuses(std::exchange(m.refusesUnstableSteps, false)) {}
-  ~UnstableStepsPass() { model.refusesUnstableSteps = refuses; }
-  UnstableStepsPass(const UnstableStepsPass&) = delete;
-  UnstableStepsPass& operator=(const UnstableStepsPass&) = delete;
+/// Driven particles are held, as the time of the steps is none in which they are to get on.
+struct RelaxingModel {
+  explicit RelaxingModel(Model& m) : model(m), refuses(std::exchange(m.refusesUnstableSteps, false)) {
+    for (DriveTerm* drive : m.terms.all<DriveTerm>()) drive->stands = true;
+  }
+  ~RelaxingModel() {
+    model.refusesUnstableSteps = refuses;
+    for (DriveTerm* drive : model.terms.all<DriveTerm>()) drive->stands = false;
+  }
+  RelaxingModel(const RelaxingModel&) = delete;
+  RelaxingModel& operator=(const RelaxingModel&) = delete;
   Model& model;
   bool refuses;
 };
@@ -191,7 +235,7 @@ struct UnstableStepsPass {
 RelaxationReport relax(Model& m, const RelaxationSettings& settings) {
   check(m, settings);
   findForces(m);
-  const UnstableStepsPass pass(m);
+  const RelaxingModel relaxing(m);
   Fire fire(longestStep(m, settings.stepShare));
   RelaxationReport report;
   for (std::int64_t step = 0;; ++step) {
@@ -202,13 +246,13 @@ RelaxationReport relax(Model& m, const RelaxationSettings& settings) {
       if (report.atRest || step == settings.steps || (settings.enough && settings.enough(m))) break;
       fire.setLongest(longestStep(m, settings.stepShare));
     }
-    const double before = kineticEnergyOf(m);
+    const double before = kineticEnergy(m);
     const FireMix mix = fire.next(fireSums(m));
     steer(m, mix, fire.dt());
-    m.booked.damping += before - kineticEnergyOf(m);
+    m.booked.damping += before - kineticEnergy(m);
     run(m, fire.dt(), 1);
   }
-  m.booked.damping += kineticEnergyOf(m);
+  m.booked.damping += kineticEnergy(m);
   stop(m);
   for (const BodyTerm* term : m.terms.all<BodyTerm>()) placeCarriedWalls(m, term->bodies, m.time);
   return report;

@@ -67,6 +67,7 @@ void InsertionTerm::check(const Model& m) const {
   requireLaws(m);
   const InsertionSettings& s = insertion.settings;
   const int shapes = static_cast<int>(s.shapes.size());
+  for (const ClumpShape& shape : s.shapes) requireShorter(shape, m.pairs.periodicity(), "clumps of an insertion");
   if (insertion.nextShape < 0 || insertion.nextShape >= std::max(1, shapes))
     throw InputError("there is no shape " + std::to_string(insertion.nextShape) + " of " + std::to_string(shapes),
                      "insertion", "take an older checkpoint");
@@ -82,18 +83,24 @@ void InsertionTerm::exchange(Model& m, const Step& step) {
     insertion.due += static_cast<double>(m.left.count - replaced_);
     replaced_ = m.left.count;
   }
+  const auto rotate = [&] {
+    if (m.rotation == Rotation::automatic && m.laws && m.laws->rotates()) switchOnRotation(m.particles);
+  };
+  const bool touching = m.newcomersTouch;
   const Surroundings around = surroundingsOf(m);
   const std::size_t particles = m.particles.size();
   if (insertion.settings.shapes.empty()) {
     if (insertParticles(insertion, m.particles, around, step.dt) == 0) return;
+    rotate();
     admitParticles(m, particles);
   } else {
     BodyTerm& rigid = bodies(m);
     const auto count = static_cast<int>(rigid.bodies.size());
     if (insertParticles(insertion, m.particles, rigid.bodies, rigid.clumps, around, step.dt) == 0) return;
+    rotate();
     rigid.admit(m, count);
   }
-  if (m.rotation == Rotation::automatic && m.laws && m.laws->rotates()) switchOnRotation(m.particles);
+  m.newcomersTouch = touching;  // as these touch nobody
   const double smallest =
       *std::min_element(m.particles.radius.begin() + static_cast<std::ptrdiff_t>(particles), m.particles.radius.end());
   m.smallestRadius = particles == 0 ? smallest : std::min(m.smallestRadius, smallest);

@@ -100,16 +100,13 @@ double drivingPower(const PrimitiveWall& wall) {
   return -dot(wall.force, driven) - dot(wall.torque, wall.angularVelocity);
 }
 
-double renumber(PrimitiveWall& wall, std::span<const int> newNumber, const Particles& before) {
+double renumber(PrimitiveWall& wall, std::span<const int> newNumber) {
   PrimitiveContacts& contacts = wall.contacts;
   const double stored = detail::energyOfLeavers(contacts.particle, contacts.energy, newNumber);
   const std::size_t old = contacts.size(), components = old == 0 ? 0 : contacts.memory.size() / old;
   std::vector<std::pair<int, std::size_t>> kept;
   for (std::size_t c = 0; c < old; ++c)
-    if (const int i = newNumber[static_cast<std::size_t>(contacts.particle[c])]; i >= 0)
-      kept.emplace_back(i, c);
-    else
-      detail::addEnded(contacts.left, before, contacts.particle[c], contacts.memory, c, components, 1.0);
+    if (const int i = newNumber[static_cast<std::size_t>(contacts.particle[c])]; i >= 0) kept.emplace_back(i, c);
   std::sort(kept.begin(), kept.end());
   const std::vector<double> memory = std::move(contacts.memory);
   contacts.particle.clear();
@@ -160,9 +157,9 @@ EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contact
   constexpr std::size_t grain = 1024;
   const auto components = static_cast<std::size_t>(memory);
   const std::size_t old = contacts.oldParticle.size();
-  startAnewIfOfAnother(memory, old, contacts.oldMemory, contacts.left);
+  startAnewIfOfAnother(memory, old, contacts.oldMemory);
   contacts.memory.resize(components * contacts.size());
-  EndedMemories ended = std::exchange(contacts.left, {});
+  EndedMemories ended;
   if (old == 0) {
     std::fill(contacts.memory.begin(), contacts.memory.end(), 0.0);
     return ended;

@@ -114,17 +114,11 @@ private:
   std::size_t items_;
 };
 
-void requireWhole(const EndedMemories& left) { Lists(left.material.size()).each(left.share).several(left.memory); }
-
 template <class Number>
 void requireBelow(const std::vector<Number>& list, std::size_t end, const char* what) {
   for (const auto number : list)
     if (number < 0 || static_cast<std::size_t>(number) >= end)
       refuseContacts(std::string("there is no ").append(what).append(" ") + std::to_string(number));
-}
-
-void requireMaterials(const EndedMemories& left, int materials) {
-  if (materials > 1) requireBelow(left.material, static_cast<std::size_t>(materials), "material");
 }
 
 }  // namespace
@@ -134,7 +128,6 @@ void requireWhole(const PrimitiveContacts& c) {
   Lists(c.normal.size()).each(c.normal, c.overlap, c.force).eachOrNone(c.couple, c.energy, c.image);
   Lists(c.particle.size()).several(c.memory);
   if (c.particle.size() > c.normal.size()) refuseContacts("lists of a state do not fit each other");
-  requireWhole(c.left);
 }
 
 void requireWhole(const WallContacts& c) {
@@ -143,18 +136,15 @@ void requireWhole(const WallContacts& c) {
       .eachOrNone(c.couple, c.energy, c.image);
   const WallSprings& s = c.springs;
   Lists(s.particle.size()).each(s.facet, s.normal, s.share).several(s.memory);
-  requireWhole(s.left);
 }
 
 void requireRows(const PrimitiveContacts& contacts, const WallRows& rows) {
   requireBelow(contacts.particle, rows.particles, "particle");
-  requireMaterials(contacts.left, rows.materials);
 }
 
 void requireRows(const WallContacts& contacts, const WallRows& rows, bool current) {
   requireBelow(contacts.springs.particle, rows.particles, "particle");
   requireBelow(contacts.springs.facet, rows.facets, "facet");
-  requireMaterials(contacts.springs.left, rows.materials);
   requireBelow(contacts.facet, rows.facets, "facet");
   if (current) requireBelow(contacts.particle, rows.particles, "particle");
 }

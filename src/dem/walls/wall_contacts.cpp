@@ -56,10 +56,9 @@ double energyOfLeavers(const std::vector<int>& particle, std::vector<double>& en
   return sum;
 }
 
-void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered, EndedMemories& left) {
+void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered) {
   const auto components = static_cast<std::size_t>(memory);
   if (remembered.size() != components * contacts) remembered.assign(components * contacts, 0.0);
-  if (left.memory.size() != components * left.material.size()) left = {};
 }
 
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
@@ -74,18 +73,14 @@ void addEnded(EndedMemories& ended, const Particles& particles, int particle, co
 
 }  // namespace detail
 
-double renumber(WallContacts& contacts, std::span<const int> newNumber, const Particles& before) {
+double renumber(WallContacts& contacts, std::span<const int> newNumber) {
   WallSprings& springs = contacts.springs;
   WallSprings old = std::move(springs);
   springs = {};
-  springs.left = std::move(old.left);
   const std::size_t count = old.particle.size(), components = count == 0 ? 0 : old.memory.size() / count;
   std::vector<std::pair<int, std::size_t>> kept;
   for (std::size_t c = 0; c < count; ++c)
-    if (const int i = newNumber[static_cast<std::size_t>(old.particle[c])]; i >= 0)
-      kept.emplace_back(i, c);
-    else
-      detail::addEnded(springs.left, before, old.particle[c], old.memory, c, components, old.share[c]);
+    if (const int i = newNumber[static_cast<std::size_t>(old.particle[c])]; i >= 0) kept.emplace_back(i, c);
   std::sort(kept.begin(), kept.end());
   for (const auto& [i, c] : kept) {
     springs.particle.push_back(i);

@@ -59,7 +59,7 @@ EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, c
                            int memory) {
   WallSprings& springs = contacts.springs;
   const auto components = static_cast<std::size_t>(memory);
-  startAnewIfOfAnother(memory, springs.particle.size(), springs.memory, springs.left);
+  startAnewIfOfAnother(memory, springs.particle.size(), springs.memory);
   springs.next.assign(components * contacts.size(), 0.0);
   springs.successor.assign(springs.particle.size(), -1);
   forParticleRuns(contacts.particle, [&](std::size_t first, std::size_t last) {
@@ -78,7 +78,7 @@ EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, c
       springs.successor[match] = static_cast<int>(c);
     }
   });
-  EndedMemories ended = std::exchange(springs.left, {});
+  EndedMemories ended;
   for (std::size_t o = 0; o < springs.particle.size(); ++o) {
     const int c = springs.successor[o];
     const double lost = springs.share[o] - (c < 0 ? 0.0 : contacts.engagement[static_cast<std::size_t>(c)]);

@@ -31,8 +31,6 @@ struct CouplingOptions {
 /// What an exchange need not be told.
 struct ExchangeOptions {
   dem::Booking booking = dem::Booking::on;
-  /// No time passes: what contacts remember stays, and what was left by leavers waits.
-  bool timeless = false;
   /// How far particles have moved since the last exchange; not given: they are compared with where they were.
   std::optional<dem::Moves> moves{};
   geometry::Periodicity periodicity{};
@@ -103,11 +101,10 @@ public:
 
   /// @throws InputError naming what of the laws, or of a space that repeats, cannot be had on this surface
   void check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity = {}) const;
-  /// @param materials  rows of the laws' table
-  /// @throws InputError for contacts of particles or materials that are not there, as a damaged state may have them
-  void check(const dem::Particles& particles, int materials) const;
+  /// @throws InputError for contacts of particles that are not there, as a damaged state may have them
+  void check(const dem::Particles& particles) const;
   /// Particles get new numbers, < 0: gone; what their contacts remember follows. @return as dem::renumber, J
-  double renumber(std::span<const int> newNumber, const dem::Particles& before);
+  double renumber(std::span<const int> newNumber);
   /// Adds what the contacts of the last exchange ask of the step, the surface giving way with its nodes: node i shares
   /// its mass among all contacts by what they ask of it, k |S_i|, so that one alone has
   ///   ω² = K/m + Σ_i |S_i| Q_i / m_i,   Q_i = Σ_contacts k |S_i|,

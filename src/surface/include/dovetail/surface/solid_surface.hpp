@@ -26,9 +26,7 @@ public:
   /// As Coupling::exchange, for all parts, which are those it was made of or copies of them. Each has then its load().
   dem::ContactWork exchange(std::span<const SurfacePart> parts, dem::Particles& particles, std::span<const Vec3> u,
                             std::span<const Vec3> v, double dt, const ExchangeOptions& options);
-  double renumber(std::span<const int> newNumber, const dem::Particles& before) {
-    return whole_.renumber(newNumber, before);
-  }
+  double renumber(std::span<const int> newNumber) { return whole_.renumber(newNumber); }
   double madeByShares() const { return whole_.madeByShares(); }
   const Coupling& whole() const { return whole_; }
 

@@ -38,11 +38,14 @@ public:
   /// For those who have appended bodies from number `first` on within a step: they are booked as entered, and their
   /// velocities count as of this moment.
   void admit(Model& m, int first);
+  /// Between steps: those who have come since are booked as entered, unless all are there for the first time. Members
+  /// spin as their bodies.
+  void takeIn(Model& m, bool first);
 
 private:
   void damp(Model& m);
-  int admitted_ = -1;  // the first of those who came in the step under way
-  Momenta beside_;     // half kicks that newcomers and leavers were not given, kg m/s
+  int known_ = 0;   // those behind have just come, and are yet to be booked or in the midst of a step
+  Momenta beside_;  // half kicks that newcomers and leavers were not given, kg m/s
 };
 
 /// The bodies of the model, made when first asked for.
@@ -50,7 +53,5 @@ BodyTerm& bodies(Model& m);
 /// Appends a clump as addClump does. Returns the body's number.
 int addClump(Model& m, const ClumpShape& shape, const Vec3& x, const Quaternion& turn = {}, const Vec3& v = {},
              const Vec3& omega = {});
-/// One entry per particle: 1 for members of bodies; empty if the model has none.
-std::vector<char> members(const Model& m);
 
 }  // namespace dovetail::dem

@@ -9,11 +9,12 @@
 //
 // What kick and drift do to members is overwritten by placeMembers. A member's mass is that of its body, which is what
 // a dashpot in its contact should be made for; sums over the particles therefore count clumps wrongly, and are put
-// right by kineticEnergy(particles, bodies, clumps) and gatherForces' parameter for gravity. Lever arms, by which a
+// right by kineticEnergy(particles, bodies) and gatherForces' parameter for gravity. Lever arms, by which a
 // contact meets less than a body's whole mass, enter the critical step by addDemand.
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "dovetail/dem/bodies/bodies.hpp"
@@ -61,6 +62,9 @@ int addClump(Particles& particles, Bodies& bodies, Clumps& clumps, const ClumpSh
 double placeMembers(const Bodies& bodies, const Clumps& clumps, const geometry::Periodicity& space,
                     Particles& particles);
 
+/// Spins of all members, if particles spin: those of their bodies.
+void spinMembers(const Bodies& bodies, const Clumps& clumps, Particles& particles);
+
 /// f += Σ fᵢ, torque += Σ armᵢ × fᵢ + torqueᵢ over each body's members, arms as placeMembers has them; then their
 /// forces and torques are zero.
 /// @param gravity what applyGravity(particles, gravity) has given to the members, m/s²; every body gets
@@ -72,12 +76,14 @@ void gatherForces(Particles& particles, const Clumps& clumps, Bodies& bodies, co
 /// @throws InputError naming the body of which some members are gone and others not; nothing is changed then
 void renumber(Bodies& bodies, Clumps& clumps, std::span<const int> newNumber);
 
-/// One entry per particle: 1 if it is a member of a body, else 0.
-std::vector<char> members(const Particles& particles, const Clumps& clumps);
-
 /// @throws InputError if arrays differ in length, bodies are not in ascending order, or naming the body whose member is
 ///   no particle, a member of two bodies, or not as heavy as its body
 void check(const Particles& particles, const Bodies& bodies, const Clumps& clumps);
+
+/// Pairs of a body's own members are muted, so that it would pass through its own image.
+/// @throws InputError if a clump is longer than a period
+void requireShorter(const ClumpShape& shape, const geometry::Periodicity& space, const std::string& where);
+void requireShorter(const Particles& particles, const Clumps& clumps, const geometry::Periodicity& space);
 
 /// Factor 0 (PairList::factors) on the pairs within one body, so that members that overlap make no force and store no
 /// energy. Again for every new list; any number of times.
@@ -98,10 +104,10 @@ CriticalStep criticalStep(const Bodies& bodies, const Clumps& clumps, const Line
 void addDemand(ContactDemand& demand, const Particles& particles, const Bodies& bodies, const Clumps& clumps);
 
 /// ½ Σ m v² (+ ½ Σ I ω²) of the particles that are no members, J.
-double freeKineticEnergy(const Particles& particles, const Clumps& clumps);
+double freeKineticEnergy(const Particles& particles);
 /// Of bodies and free particles together, J; each counted once.
-inline double kineticEnergy(const Particles& particles, const Bodies& bodies, const Clumps& clumps) {
-  return freeKineticEnergy(particles, clumps) + kineticEnergy(bodies);
+inline double kineticEnergy(const Particles& particles, const Bodies& bodies) {
+  return freeKineticEnergy(particles) + kineticEnergy(bodies);
 }
 
 }  // namespace dovetail::dem

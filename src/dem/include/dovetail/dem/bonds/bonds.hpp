@@ -55,7 +55,6 @@ struct BondEnds {
 /// `space`, which is the pair list's.
 struct Bonds {
   std::vector<Bond> bonds;
-  double ended = 0.0;  ///< J stored in bonds that have left with their particles, booked by the next exchange
 
   struct Forces {
     Vec3 force, torqueI, torqueJ;
@@ -76,7 +75,8 @@ struct Bonds {
 int addBond(Bonds& bonds, const Particles& particles, const geometry::Periodicity& space, int i, int j,
             const BondMaterial& material);
 
-/// Bonds all pairs of the list whose gap is at most `gap`, m; returns how many.
+/// Bonds all pairs whose gap is at most `gap`, m, and that have no bond yet; returns how many.
+/// @param list  for its pairs, if it holds all that are so close, and for its periods
 /// @param wanted  whether particles i and j are to be bonded; empty: all are
 int bondTouching(Bonds& bonds, const Particles& particles, const PairList& list, double gap,
                  const BondMaterial& material, const std::function<bool(int i, int j)>& wanted = {});
@@ -106,9 +106,9 @@ double dashpotPower(const Particles& particles, const Bonds& bonds, const geomet
                     std::span<const Vec3> v, std::span<const Vec3> omega);
 
 /// Gives the bonds the new numbers of their particles (see sortParticles), and sorts them by these; bonds of particles
-/// that are gone (< 0) leave, and what they held is booked by the next exchange.
+/// that are gone (< 0) leave. Returns what these held, J, for the caller to book.
 /// @param newNumber one per particle with which the bonds were last used
-void renumber(Bonds& bonds, std::span<const int> newNumber);
+double renumber(Bonds& bonds, std::span<const int> newNumber);
 
 /// Sets PairList::factors to 0 for bonded pairs, so that only the bond acts between them. Again for every new list; any
 /// number of times. A pair whose bond breaks (Bonds::broken) stays muted until its factor is set again,

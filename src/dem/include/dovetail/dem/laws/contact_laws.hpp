@@ -12,6 +12,7 @@
 namespace dovetail::dem {
 
 class PairList;
+struct EndedPairs;
 struct ContactDemand;
 struct ContactSample;
 struct Particles;
@@ -45,8 +46,8 @@ public:
   virtual ContactWork wall(Particles& particles, const TriangulatedWall& wall, WallContacts& contacts, double dt,
                            Booking booking) const = 0;
 
-  /// Adds what the contacts, as they are, ask of the step (see contact_step.hpp): the stiffness and the dashpot that the
-  /// law has at their overlap. A wall does not give way.
+  /// Adds what the contacts, as they are, ask of the step (see contact_step.hpp): the stiffness and the dashpot that
+  /// the law has at their overlap. A wall does not give way.
   /// @param leastOverlap m; if > 0, all pairs of the list count, with this overlap at least: for a scene that is yet to
   ///        collide, under laws that stiffen
   /// @throws InputError if there is no law for a pair of materials
@@ -62,6 +63,9 @@ public:
   /// @param list that of the last sweep, with the same particles
   /// @throws InputError if the law remembers something and the list has not been through `pairs`
   virtual ContactSample sample(const Particles& particles, const PairList& list) const = 0;
+
+  /// What the springs of pairs hold that went with a particle, J.
+  virtual double held(const EndedPairs& pairs) const = 0;
 
   /// Numbers that a contact remembers.
   virtual int memory() const = 0;

@@ -43,6 +43,8 @@ public:
     return samplePairs(particles, list, laws_);
   }
 
+  double held(const EndedPairs& pairs) const override { return endedWork(pairs, laws_).lostPower(); }
+
   int memory() const override { return Law::memory; }
   bool rotates() const override { return Law::rotates; }
   double reach() const override { return laws_.reach(); }

@@ -15,7 +15,7 @@ struct Energies {
   double damping = 0.0;   ///< taken by viscous and local damping
   double walls = 0.0;     ///< done by moving walls and drives on what they touch
   double external = 0.0;  ///< done by external forces
-  double entered = 0.0;   ///< brought in by inserted particles
+  double entered = 0.0;   ///< brought in by particles, and by terms and laws that were exchanged between steps
   double left = 0.0;      ///< taken out with particles that were removed or escaped
   double lifted = 0.0;    ///< given in gravity by moves of whole periods, which lift what falls along a periodic axis
   double stored() const { return kinetic + gravity + contacts; }

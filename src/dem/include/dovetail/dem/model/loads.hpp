@@ -47,6 +47,9 @@ public:
   void addOutside(const Model& m, Momenta& force, Momenta& impulse) const override;
   void save(ByteWriter& writer) const override { writer(viscousRate, local); }
   void load(ByteReader& reader) override { reader(viscousRate, local); }
+
+private:
+  Momenta forceOn(const Particles& particles, std::size_t i) const;
 };
 
 /// Forces of the caller's on the particles: drag, fields, another solver. Their work is booked.
@@ -70,14 +73,20 @@ private:
   std::vector<Vec3> force_;
 };
 
-/// Particles that follow a prescribed path; those of zero displacement are held. What holds them gives impulse and work.
+/// Particles that follow a prescribed path and spin; those of zero displacement are held. Where particles spin, driven
+/// ones keep the spin that is prescribed, zero unless another one is given. What holds them gives impulse and work; a
+/// jump, as where a drive takes hold of what moves otherwise, does its work with the mean velocity.
 class DriveTerm final : public Term {
 public:
+  using Path = std::function<Vec3(double time)>;
   /// @param ids of the particles (Particles::id)
   /// @param displacement of time (s) since the start of the model, m; smooth enough for `velocity`, its derivative, m/s
-  DriveTerm(std::vector<std::int64_t> ids, std::function<Vec3(double)> displacement,
-            std::function<Vec3(double)> velocity)
-      : ids_(std::move(ids)), displacement_(std::move(displacement)), velocity_(std::move(velocity)) {}
+  /// @param spin  of time, rad/s; empty: none
+  DriveTerm(std::vector<std::int64_t> ids, Path displacement, Path velocity, Path spin = {})
+      : ids_(std::move(ids)),
+        displacement_(std::move(displacement)),
+        velocity_(std::move(velocity)),
+        spin_(std::move(spin)) {}
 
   std::string name() const override { return "drive"; }
   std::unique_ptr<Term> clone() const override { return std::make_unique<DriveTerm>(*this); }
@@ -92,13 +101,20 @@ public:
   void load(ByteReader& reader) override;
 
   const std::vector<std::int64_t>& ids() const { return ids_; }
+  /// Numbers of its particles as they are now.
+  const std::vector<int>& numbers(const Particles& particles);
+  /// Velocity, m/s, and spin, rad/s, that it prescribes at a time.
+  Momenta motionAt(double time) const;
+
+  bool stands = false;  ///< holds the particles where they are, whatever their path, until it is set back
   Vec3 supportImpulse;  ///< given to the particles so far, kg m/s
   Vec3 supportMoment;   ///< its moment about the origin, kg m²/s
+  Momenta support;  ///< force on the particles at the end of the last step, N, and its moment about their centre, N m
 
 private:
-  void locate(const Particles& particles);
+  Momenta motionIn(const Step& step, Half half) const;
   std::vector<std::int64_t> ids_;
-  std::function<Vec3(double)> displacement_, velocity_;
+  Path displacement_, velocity_, spin_;
   std::vector<int> particle_;
   std::int64_t located_ = -1;
 };

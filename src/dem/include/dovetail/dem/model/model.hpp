@@ -67,7 +67,9 @@ struct Model {
   Energies rate;      ///< W: lost to dashpots, damping, walls, external with the forces of the last step
   Exchanged entered, left;
 
-  std::int64_t forcesOf = -1;      ///< Particles::revision that the forces belong to; −1 before the first
+  static constexpr std::int64_t never = -1, outdated = -2;
+  std::int64_t forcesOf = never;   ///< Particles::revision that the forces belong to; `never` before the first
+  std::int64_t knownIds = 0;       ///< ids of all that have been booked are below
   std::int64_t forcesOfTerms = 0;  ///< Terms::revision of the same
   std::shared_ptr<const ContactLaws> forcesOfLaws;  ///< laws of the same
   double smallestRadius = 0.0;                      ///< m; moves beyond it are looked at one by one
@@ -76,6 +78,7 @@ struct Model {
   double checkedStep = 0.0;             ///< s: the dt that has been compared with the critical step
   std::int64_t renewals = 0;            ///< how often the grid was asked for pairs
   std::vector<std::int64_t> newcomers;  ///< ids of those who entered in the step under way
+  bool newcomersTouch = false;          ///< somebody, perhaps, whose contacts bring energy then
 };
 
 /// The parts of a step, for those who do something between them:
@@ -94,7 +97,8 @@ void renew(Model& m);
 /// Gravity, pairs, terms; books what they lost.
 void addForces(Model& m);
 /// Forces of the state as it is: no time passes. For those who have moved something between steps: nothing is booked
-/// but what springs lose whose contacts end by that, or slide.
+/// but what springs lose whose contacts end by that, or slide. Where particles, terms or laws have been added, taken
+/// out or exchanged since forces were last found, what contacts store more by that is booked as entered.
 void findForces(Model& m);
 /// The half kick that ends a step, so that positions and velocities belong to one time. Does nothing if there is none
 /// to make.
@@ -128,7 +132,8 @@ Momenta weight(const Model& m);
 /// @throws InputError on a number that does not exist
 void removeParticles(Model& m, std::span<const int> list);
 /// For those who have just appended particles from number `first` on within a step: what they bring is booked as
-/// entered, and their velocities count as of this moment.
+/// entered, contacts that they have at once included, and their velocities count as of this moment. Particles that are
+/// appended between steps count as entered when forces are next found.
 void admitParticles(Model& m, std::size_t first);
 
 }  // namespace dovetail::dem

@@ -78,9 +78,10 @@ void addCrossing(Particles& particles, const PairParts& list, bool spins);
 /// The contact of a pair that went with a particle, as if nobody moved.
 Contact atRest(const EndedPair& pair);
 
-/// What pairs that have left the list take with them.
+/// What pairs that have left the list hold, J in place of W. Those that went with a particle and still touch hold their
+/// normal springs' energy, which counts as fracture, and have lost nothing else yet.
 template <class Law>
-ContactWork bookEnded(const EndedPairs& left, const PreparedLaws<Law>& laws, double dt) {
+ContactWork endedWork(const EndedPairs& left, const PreparedLaws<Law>& laws) {
   constexpr auto numbers = static_cast<std::size_t>(Law::memory);
   ContactWork work;
   if (left.memory.size() != numbers * left.pairs.size()) return work;
@@ -90,16 +91,25 @@ ContactWork bookEnded(const EndedPairs& left, const PreparedLaws<Law>& laws, dou
     const auto& law = laws.materials == 1 ? laws.table[0] : laws.at(pair.materials[0], pair.materials[1]);
     double memory[numbers + 1] = {};
     std::copy_n(left.memory.data() + k * numbers, numbers, memory);
-    ContactWork ended = law.ended(memory, 1.0 / dt);
-    if (!(pair.overlap > -law.reach()))
-      work.fracturePower += pair.factor * ended.fracturePower;
-    else
-      ended.dissipatedPower += law.respond(atRest(pair), memory).work.elasticEnergy / dt;
-    work.dissipatedPower += pair.factor * ended.dissipatedPower;
+    ContactWork ended = law.ended(memory, 1.0);
+    if (pair.overlap > -law.reach()) {
+      ended.fracturePower = law.respond(atRest(pair), memory).work.elasticEnergy;
+      ended.plasticPower = 0.0;
+    }
     work.frictionPower += pair.factor * ended.frictionPower;
     work.rollingPower += pair.factor * ended.rollingPower;
     work.plasticPower += pair.factor * ended.plasticPower;
+    work.fracturePower += pair.factor * ended.fracturePower;
   }
+  return work;
+}
+
+/// All of it, as lost in one step, W: whole, whatever the next step's length.
+template <class Law>
+ContactWork bookEnded(const EndedPairs& left, const PreparedLaws<Law>& laws, double dt) {
+  ContactWork work = endedWork(left, laws);
+  for (double* const power : {&work.frictionPower, &work.rollingPower, &work.plasticPower, &work.fracturePower})
+    *power /= dt;
   return work;
 }
 

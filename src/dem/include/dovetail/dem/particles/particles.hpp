@@ -11,6 +11,9 @@
 
 namespace dovetail::dem {
 
+/// Who moves a particle in place of its own forces: the body of its clump, or a drive.
+enum class Owner : std::uint8_t { nobody, body, drive };
+
 /// Spheres. All arrays that are in use have one entry per particle. What refers to a particle by its number is out of
 /// date as soon as `revision` has changed; what must last refers to it by its id.
 struct Particles {
@@ -26,6 +29,7 @@ struct Particles {
   /// Share of a particle that is modelled here, in (0, 1], the rest being another model's; empty = 1. Inertia, weight
   /// and energies count it; mass and radius are those of the whole particle.
   std::vector<double> weight;
+  std::vector<Owner> owner;      ///< empty = nobody
   std::vector<std::int64_t> id;  ///< names that stay when particles are sorted or removed; no id is given twice
 
   std::int64_t nextId = 0;
@@ -37,6 +41,8 @@ struct Particles {
 
   std::size_t size() const { return x.size(); }
   bool rotates() const { return !omega.empty(); }
+  Owner ownerOf(std::size_t i) const { return owner.empty() ? Owner::nobody : owner[i]; }
+  bool isMember(std::size_t i) const { return ownerOf(i) == Owner::body; }
   double weightOf(std::size_t i) const { return weight.empty() ? 1.0 : weight[i]; }
 };
 
@@ -52,6 +58,7 @@ void forEachArray(P& p, Act&& act) {
   act(p.torque);
   act(p.material);
   act(p.weight);
+  act(p.owner);
   act(p.id);
 }
 
@@ -85,6 +92,8 @@ void renumber(Particles& particles, std::span<const int> newNumber);
 
 /// numbersWithout and renumber, where nobody else refers to particles or is told later. Returns the new numbers.
 std::vector<int> removeParticles(Particles& particles, std::span<const int> list);
+
+void setOwner(Particles& particles, int particle, Owner owner);
 
 /// Gives every particle a spin (zero) and a torque. Needed for friction to roll particles; without it they only slide.
 void switchOnRotation(Particles& particles);

@@ -18,14 +18,14 @@ struct FireSums {
     return *this;
   }
 };
-/// @param skip one per particle, those ≠ 0 do not count; empty: all do
-FireSums fireSums(const Particles& particles, const std::vector<char>& skip = {});
+/// Of those that nobody else moves.
+FireSums fireSums(const Particles& particles);
 
 /// v ← keep v + lean f
 struct FireMix {
   double keep = 0.0, lean = 0.0;
 };
-/// Of all particles; and nobody will drift farther than half its radius in a step.
+/// Of the same; and nobody will drift farther than half its radius in a step.
 void steer(Particles& particles, const FireMix& mix, double dt);
 
 /// The steps' length and how far velocities lean towards forces.

@@ -36,9 +36,12 @@ enum class Lattice { simpleCubic, bodyCentred, faceCentred, hexagonal };
 /// @throws InputError if radius or distance is not finite and > 0, or a number of cells below 1
 Packing latticeBlock(Lattice lattice, const std::array<int, 3>& cells, double radius, double distance);
 
-/// As much of a lattice as fits with whole spheres between the walls of a box, beginning in its lower corner.
-/// @throws InputError if the box is not finite, radius or distance not finite and > 0, or not even one sphere fits
-Packing fillWithLattice(Lattice lattice, const geometry::Box& box, double radius, double distance);
+/// As much of a lattice as fits with whole spheres between the walls of a box, beginning in its lower corner. Along
+/// periodic axes it repeats, with cells stretched by what the box differs from whole ones.
+/// @throws InputError if the box is not finite, radius or distance not finite and > 0, not even one sphere fits, or a
+///   period is no multiple of the cell (to 1e-6 of it), saying the nearest that is
+Packing fillWithLattice(Lattice lattice, const geometry::Box& box, double radius, double distance,
+                        const std::array<bool, 3>& periodic = {});
 
 /// What came out of a random packing.
 struct PackingReport {

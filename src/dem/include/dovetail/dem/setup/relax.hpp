@@ -18,8 +18,9 @@ struct RelaxationSettings {
 
 struct RelaxationReport {
   bool atRest = false;
-  /// Mean force on a particle or body over the mean contact force; rattlers left out. A body's torque counts as the
-  /// force that exerts it at the surface of the sphere of the same mass and mean moment of inertia.
+  /// Mean force on a particle or body over the mean contact force; rattlers and driven particles left out. A body's
+  /// torque counts as the force that exerts it at the surface of the sphere of the same mass and mean moment of
+  /// inertia. Where a servo's load is further from being carried, relative to it, that counts.
   double unbalanced = 0.0;
   std::int64_t steps = 0;     ///< taken
   std::int64_t rattlers = 0;  ///< particles and bodies that touch nobody and feel no force
@@ -30,9 +31,16 @@ struct RelaxationReport {
 /// towards forces and stop wherever they point uphill; what that takes is booked as damping. Contacts remember as in
 /// any other step, so friction holds what it can. Afterwards velocities are zero, and time has gone on by the steps
 /// taken.
-/// Bodies move and turn as a whole, free walls among them.
-/// @throws InputError if a setting is not valid, or the model has moving walls; NumericalError as advance
+/// Bodies move and turn as a whole, free walls among them; walls with a servo move until they carry its load. Driven
+/// particles are held where they are, and go on along their path afterwards.
+/// @throws InputError if a setting is not valid, or walls, their surfaces or driven particles move; NumericalError as
+///   advance
 RelaxationReport relax(Model& m, const RelaxationSettings& settings = {});
+
+/// ½ Σ m v² + ½ Σ ω·L of particles, bodies and walls with a servo, J.
+double kineticEnergy(const Model& m);
+/// Sets the velocities and spins of all these to zero.
+void stop(Model& m);
 
 /// Mean force on a particle over the mean contact force, and who rattles, as the model lies now; forces have been asked
 /// for. Contacts with walls count. Infinite where there are forces and no contacts.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace dovetail::dem {
@@ -13,15 +12,5 @@ struct EndedMemories {
   std::vector<std::uint8_t> material;
   std::vector<double> share;  ///< of what they stand for: of the particle, times that of the contact with its facet
 };
-
-/// What `sweep` gives. Where no time passes, what leavers' springs held is kept for a step in which it becomes a power.
-template <class Sweep>
-auto sweepWall(bool timeless, EndedMemories& left, Sweep&& sweep) {
-  if (!timeless) return sweep();
-  EndedMemories kept = std::exchange(left, {});
-  const auto work = sweep();
-  left = std::move(kept);
-  return work;
-}
 
 }  // namespace dovetail::dem

@@ -20,7 +20,7 @@ struct PrimitiveContacts {
   std::vector<Vec3> normal;         ///< unit, from the wall to the particle
   std::vector<double> overlap;      ///< m, > 0; where the law reaches farther than touch down to −reach
   std::vector<Vec3> force, couple;  ///< on the particle, N, N m
-  std::vector<double> energy;       ///< of the normal springs, J; if booked
+  std::vector<double> energy;       ///< of its springs, J; if booked
   std::vector<double> memory;       ///< of the law, contact by contact
   /// Only where space repeats: which image of the particle touches; and the periods, m.
   std::vector<Image> image;
@@ -29,7 +29,6 @@ struct PrimitiveContacts {
   // Those of the last step.
   std::vector<int> oldParticle;
   std::vector<double> oldMemory;
-  EndedMemories left;  ///< of particles that left, to be booked by the next sweep
   std::size_t size() const { return particle.size(); }
   /// What is to be added to the particle's position to have it next to the wall, m.
   Vec3 shift(std::size_t c) const { return image.empty() ? Vec3{} : shiftOf(image[c], period); }
@@ -120,15 +119,14 @@ void findContacts(const Particles& particles, PrimitiveWall& wall, const Moves& 
 ///         does not fit into a period
 void requireRepeats(const PrimitiveWall& wall, const geometry::Periodicity& periodicity, double reach);
 
-/// Gives the wall's memory the new numbers of particles (< 0: gone). What leavers' contacts remember is booked as lost
-/// by the next sweep; returns what their normal springs stored, J, for the caller to book.
-/// @param before the particles as they were numbered
-double renumber(PrimitiveWall& wall, std::span<const int> newNumber, const Particles& before);
+/// Gives the wall's memory the new numbers of particles (< 0: gone). Returns what the
+/// springs of leavers' contacts stored, J, for the caller to book.
+double renumber(PrimitiveWall& wall, std::span<const int> newNumber);
 
 inline WallShare shareOf(const PrimitiveContacts& contacts, std::size_t c) { return {contacts.overlap[c], 1.0, 1.0}; }
 
 namespace detail {
-/// Memories from the last step to this one; returns those whose contact has ended, leavers' (renumber) among them.
+/// Memories from the last step to this one; returns those whose contact has ended.
 EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contacts, int memory);
 /// Velocity of the particle relative to the wall at the contact, m/s.
 Vec3 relativeVelocity(const Particles& particles, const PrimitiveWall& wall, std::size_t c, bool spins);
@@ -156,6 +154,8 @@ ContactWork collide(Particles& particles, PrimitiveWall& wall, const PreparedLaw
     requireStep(dt);
     const EndedMemories ended = carryMemory(particles, contacts, Law::memory);
     if (booking == Booking::on) work += bookEnded<Law>(ended, laws, wall.material, dt);
+  } else {
+    contacts.memory.clear();  // of a law that was there before
   }
   work += answerWall<Law>(particles, contacts, contacts.memory, laws, {.material = wall.material}, dt, booking,
                           AgainstPrimitive{particles, wall, Law::rotates && particles.rotates()});

@@ -15,8 +15,7 @@ void archiveWall(Archive& archive, Wall& w) {
   archive(s.near, s.margin, s.builds, s.particleRevision, s.point, s.axis, s.radius, s.extent, s.smallestRadius,
           s.travel, s.lastPoint, s.lastAxis);
   if (w.servo) archive(*w.servo);
-  archive(c.particle, c.normal, c.overlap, c.force, c.couple, c.memory, c.image, c.period, c.energy, c.left.memory,
-          c.left.material, c.left.share);
+  archive(c.particle, c.normal, c.overlap, c.force, c.couple, c.memory, c.image, c.period, c.energy);
 }
 
 template <class Archive, class Candidates>
@@ -30,7 +29,7 @@ void archiveCandidates(Archive& archive, Candidates& c) {
 template <class Archive, class Contacts>
 void archiveContacts(Archive& archive, Contacts& c) {
   auto& s = c.springs;
-  archive(s.particle, s.facet, s.normal, s.memory, s.share, s.left.memory, s.left.material, s.left.share);
+  archive(s.particle, s.facet, s.normal, s.memory, s.share);
   archive(c.particle, c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyShare, c.force, c.couple, c.energy,
           c.image, c.period);
 }

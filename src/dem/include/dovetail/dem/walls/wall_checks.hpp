@@ -19,7 +19,8 @@ void validate(const PrimitiveWall& wall, int materials = std::numeric_limits<int
 ///   skin; a material without a law; a surface velocity that is not finite; an empty motion, or one without offsets
 void validate(const MeshWall& mesh, int materials = std::numeric_limits<int>::max());
 
-/// Of what has been read from a state, whose bytes may be damaged: lists of unlike lengths, numbers that are not finite.
+/// Of what has been read from a state, whose bytes may be damaged: lists of unlike lengths, numbers that are not
+/// finite.
 /// @throws InputError
 void requireWhole(const PrimitiveContacts& contacts);
 void requireWhole(const WallContacts& contacts);
@@ -27,10 +28,9 @@ void requireWhole(const WallContacts& contacts);
 /// What the rows of contacts refer to.
 struct WallRows {
   std::size_t particles, facets;
-  int materials;
 };
 /// What contacts remember, which is told of every change in the particles' numbers.
-/// @throws InputError naming a particle, facet or material that is not there
+/// @throws InputError naming a particle or facet that is not there
 void requireRows(const PrimitiveContacts& contacts, const WallRows& rows);
 /// @param current  whether particles have the numbers that they had when contacts were found
 void requireRows(const WallContacts& contacts, const WallRows& rows, bool current);

@@ -13,8 +13,8 @@ inline WallShare shareOf(const WallContacts& contacts, std::size_t c) {
 namespace detail {
 
 /// Fills contacts.springs.next with the memories carried over from the last step: from the same facet or one that
-/// shares a vertex, the nearest normal first. Returns those of contacts that have ended, leavers' (renumber) among
-/// them, and of contacts that act with another share now what they have less of it.
+/// shares a vertex, the nearest normal first. Returns those of contacts that have ended, and of contacts that act with
+/// another share now what they have less of it.
 EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, const TriangulatedWall& wall,
                            int memory);
 /// Remembers the contacts and what they remember for the next step.
@@ -42,6 +42,8 @@ ContactWork collide(Particles& particles, const TriangulatedWall& wall, WallCont
     requireStep(dt);
     const EndedMemories ended = carrySprings(particles, contacts, wall, Law::memory);
     if (booking == Booking::on) work += bookEnded<Law>(ended, laws, wall.material, dt);
+  } else {
+    contacts.springs = {};  // of a law that was there before
   }
   if constexpr (Law::rotates) contacts.couple.assign(contacts.size(), Vec3{});
   const bool spins = Law::rotates && particles.rotates();

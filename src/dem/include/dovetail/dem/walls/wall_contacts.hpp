@@ -30,9 +30,8 @@ struct WallSprings {
   std::vector<double> memory;  ///< of the law, contact by contact; a tangential spring takes three, its stretch, m
   std::vector<double> share;   ///< engagement
 
-  std::vector<double> next;  // those of this step, while they are being worked out
+  std::vector<double> next;    // those of this step, while they are being worked out
   std::vector<int> successor;  // of each of the last step in this one, −1: it has ended
-  EndedMemories left;  // of particles that left, to be booked by the next sweep
 };
 
 /// Contacts of one wall, by particle, then facet. Arrays keep their memory between steps.
@@ -47,7 +46,7 @@ struct WallContacts {
   std::vector<double> energyShare;  ///< share of what it stores at that overlap
   std::vector<Vec3> force;          ///< on the particle, N; set by ContactLaws::wall
   std::vector<Vec3> couple;         ///< on the particle beyond arm × force, N m; if the law exerts torques
-  std::vector<double> energy;       ///< of the normal springs, J; if booked
+  std::vector<double> energy;       ///< of its springs, J; if booked
   /// Only where space repeats: which image of the particle touches; and the periods, m.
   std::vector<Image> image;
   Vec3 period;
@@ -113,18 +112,17 @@ void projectWallContacts(const Particles& particles, const TriangulatedWall& wal
 void paperWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                        WallContacts& contacts);
 
-/// Gives what contacts remember the new numbers of their particles (< 0: gone). What leavers' contacts remember is
-/// booked as lost by the next sweep; returns what their normal springs stored, J, for the caller to book.
-/// @param before the particles as they were numbered
-double renumber(WallContacts& contacts, std::span<const int> newNumber, const Particles& before);
+/// Gives what contacts remember the new numbers of their particles (< 0: gone). Returns what
+/// the springs of leavers' contacts stored, J, for the caller to book.
+double renumber(WallContacts& contacts, std::span<const int> newNumber);
 
 namespace detail {
 /// Energies of the contacts of those who leave; the contacts' own are cleared, as their numbers are no longer true.
 double energyOfLeavers(const std::vector<int>& particle, std::vector<double>& energy, std::span<const int> newNumber);
 /// Contacts that remember another number of values, as those of a law that was there before, start anew.
 /// @param memory numbers per contact
-void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered, EndedMemories& left);
-/// Remembers what a contact remembers of a particle that leaves, or that has ended. @param share  of the contact, or
+void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered);
+/// Remembers what a contact remembers that has ended. @param share  of the contact, or
 /// what it has less of it now
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
               std::size_t contact, std::size_t components, double share);
