@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "dovetail/calibration/cell_probes.hpp"
 #include "dovetail/core/error.hpp"
@@ -31,6 +32,22 @@ double largestOff(const std::array<double, 3>& values, double mean) {
   double off = 0.0;
   for (const double value : values) off = std::max(off, std::abs(value - mean));
   return off / mean;
+}
+
+/// Grains that do not touch, or not across all periods, resist nothing.
+void requireModuli(const Moduli& m) {
+  const std::pair<double, const char*> all[] = {{m.bulk, "bulk modulus"},
+                                                {m.shear, "shear modulus"},
+                                                {m.youngsModulus, "Young's modulus"},
+                                                {m.poissonRatio, "Poisson's ratio"},
+                                                {m.anisotropy, "anisotropy"},
+                                                {m.nonlinearity, "nonlinearity"},
+                                                {m.pWaveSpeed, "speed of pressure waves"},
+                                                {m.sWaveSpeed, "speed of shear waves"}};
+  for (const auto& [value, name] : all)
+    if (!std::isfinite(value))
+      throw NumericalError(std::string("its ") + name + " is " + formatNumber(value), "probes of a cell",
+                           "let its grains touch along all axes: make the cell denser, or the pressure higher");
 }
 
 }  // namespace
@@ -68,6 +85,7 @@ Moduli smallStrainModuli(const dem::Model& start, const ModuliSettings& settings
   found.poissonRatio = across / (mean + across);
   found.pWaveSpeed = std::sqrt((found.bulk + 4.0 / 3.0 * found.shear) / found.density);
   found.sWaveSpeed = std::sqrt(found.shear / found.density);
+  requireModuli(found);
   return found;
 }
 

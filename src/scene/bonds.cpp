@@ -2,6 +2,7 @@
 #include "dovetail/dem/bonds/bonds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "dovetail/dem/model/loads.hpp"
@@ -53,9 +54,21 @@ void add(dem::Model& grains, const BondGroup& group, const Groups& groups, std::
         const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
         return (one[a] && other[b]) || (one[b] && other[a]);
       });
-  if (count == 0) throw InputError("no two grains are that close", "", "give a larger gap, or put them closer");
+  if (count == 0)
+    throw InputError("no two grains without a bond are that close", "", "give a larger gap, or put them closer");
   notes.push_back(std::to_string(count) + " bonds in \"" + group.group + "\"" +
                   (group.with.empty() ? "." : " with \"" + group.with + "\"."));
+}
+
+/// Empty if there is none.
+std::function<Vec3(double)> spinOf(const Drive& drive, const Scene& scene) {
+  if (isConstant(drive.spin) && norm(constantOf(drive.spin)) == 0.0) return {};
+  std::array<TimeFunction, 3> parts;
+  for (std::size_t c = 0; c < 3; ++c) parts[c] = functionOf(drive.spin[c], scene);
+  return [parts](double t) {
+    const double from = std::max(0.0, t);
+    return Vec3{parts[0](from), parts[1](from), parts[2](from)};
+  };
 }
 
 void requireAlike(const std::vector<BondGroup>& all) {
@@ -77,7 +90,9 @@ void addBondsAndDrives(dem::Model& grains, const Scene& scene, const Groups& gro
   for (const Drive& drive : scene.drives)
     atPlace(drive.where, [&] {
       Path path = pathOf(drive.velocity, drive.displacement, scene);
-      grains.terms.add(dem::DriveTerm(groupNamed(groups, drive.group), path.displacement, path.velocity));
+      const auto spin = spinOf(drive, scene);
+      if (spin) dem::switchOnRotation(grains.particles);
+      grains.terms.add(dem::DriveTerm(groupNamed(groups, drive.group), path.displacement, path.velocity, spin));
     });
 }
 

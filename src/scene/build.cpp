@@ -86,7 +86,7 @@ void requireStandstill(const Scene& scene) {
   for (const Wall& wall : scene.walls)
     if (goesOn(wall.velocity, wall.angularVelocity)) refuse("a wall", wall.where);
   for (const Drive& drive : scene.drives)
-    if (goesOn(drive.velocity)) refuse("a drive", drive.where);
+    if (goesOn(drive.velocity, constantOf(drive.spin))) refuse("a drive", drive.where);
   for (const Solid& solid : scene.solids)
     for (const Support& support : solid.supports)
       if (goesOn(support.velocity)) refuse("a support", support.where);

@@ -86,6 +86,7 @@ public:
     }
     if (plan_.checkpoints > 0) checkpoint();
     close();
+    countRoom();
     summarise();
     return true;
   }
@@ -122,6 +123,27 @@ private:
     log_ << (warns ? "WARNING: " : "") << line << std::endl;
   }
 
+  /// Newcomers that find no room are dropped: told as soon as it is seen, and counted at the end.
+  void lookForRoom() {
+    const std::vector<const dem::Insertion*> all = insertionsOf(built_);
+    for (std::size_t k = 0; !toldOfRoom_ && k < all.size(); ++k) {
+      if (all[k]->refused == 0) continue;
+      toldOfRoom_ = true;
+      log_ << "WARNING: t = " << built_.run->time() << " s, insertion " << k << ": " << all[k]->refused << " of "
+           << all[k]->refused + all[k]->inserted << " newcomers have found no room" << std::endl;
+    }
+  }
+  void countRoom() {
+    const std::vector<const dem::Insertion*> all = insertionsOf(built_);
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (all[k]->refused > 0)
+        remark("insertion " + std::to_string(k) + ": " + std::to_string(all[k]->refused) + " of " +
+                   std::to_string(all[k]->refused + all[k]->inserted) +
+                   " newcomers found no room and were dropped: make its region larger or its rate lower, or let them "
+                   "come in faster",
+               true);
+  }
+
   bool comeToRest(const Settle& settle) {
     coupling::RestProgress& rest = progress_.rest;
     const coupling::RestOptions options{.kinetic = settle.kinetic, .windows = settle.windows};
@@ -129,6 +151,7 @@ private:
       const std::int64_t next = nextLook(progress_.window, settle.windows);
       ended = coupling::settleOn(*built_.run, options, rest, next - progress_.window);
       progress_.window = rest.report.windows;
+      lookForRoom();
       if (ended) break;
       if (due(plan_.checkpoints)) checkpoint();
       if (io::interruption() != 0) return false;
@@ -160,6 +183,7 @@ private:
       if (!shown.shown() && 10 * next / windows > 10 * before / windows && next < windows)
         log_ << "t = " << run.time() << " s, " << 100 * next / windows << " %, " << std::llround(rate) << " windows/s, "
              << formatDuration(static_cast<double>(windows - next) / rate) << " to go" << std::endl;
+      lookForRoom();
       sample(next == windows ? 0 : plan_.series);
       frame(next == windows ? 0 : plan_.frames);
       if (due(plan_.checkpoints) && next < windows) checkpoint();
@@ -253,6 +277,7 @@ private:
   Progress progress_;
   std::vector<double> seconds_ = std::vector<double>(scene_.stages.size(), 0.0);  ///< of each stage, in all programs
   Clock::time_point counted_;                                                     ///< until then
+  bool toldOfRoom_ = false;
 };
 
 }  // namespace

@@ -14,11 +14,11 @@ geometry::TriangleMesh readTriangles(const std::string& file) {
 fem::SolidMesh readMesh(const std::string& file) {
   return file.ends_with(".vtu") ? solid_io::readVtu(file).mesh : solid_io::readSolid(file).mesh;
 }
-std::vector<Sphere> readSpheres(const std::string& file) {
+std::vector<MovingSphere> readSpheres(const std::string& file) {
   const io::SphereTable table = io::readSpheres(file);
-  std::vector<Sphere> spheres;
+  std::vector<MovingSphere> spheres;
   for (std::size_t i = 0; i < table.position.size(); ++i)
-    spheres.push_back({table.position[i], table.radius[i], table.velocity.empty() ? Vec3{} : table.velocity[i]});
+    spheres.push_back({{table.position[i], table.radius[i]}, table.velocity.empty() ? Vec3{} : table.velocity[i]});
   return spheres;
 }
 

@@ -7,7 +7,7 @@ namespace dovetail::scene {
 
 geometry::TriangleMesh readTriangles(const std::string& file) { return mesh_io::readSurface(file); }
 fem::SolidMesh readMesh(const std::string& file) { return solid_io::readSolid(file).mesh; }
-std::vector<Sphere> readSpheres(const std::string& file) {
+std::vector<MovingSphere> readSpheres(const std::string& file) {
   throw InputError("this build reads no files of VTK", file, "give a CSV file, or build with VTK");
 }
 

@@ -51,7 +51,8 @@ void describe(Fields& f, SizeRange& v) {
 void describe(Fields& f, Lattice& v) {
   static constexpr const char* kinds[] = {"simple-cubic", "body-centred", "face-centred", "hexagonal"};
   f.choice({"lattice", "its kind"}, v.kind, kinds);
-  f.box({"box", "that whole spheres fill from the lower corner"}, v.box);
+  f.box({"box", "that whole spheres fill from the lower corner; along periodic axes that it spans the lattice repeats"},
+        v.box);
   f.number({"radius", "of all spheres"}, v.radius, positive(unit::length));
   f.number({"distance", "of nearest centres; twice the radius if not given"}, v.distance, positive(unit::length));
   density(f, v.density);
@@ -68,6 +69,9 @@ void describe(Fields& f, RandomPacking& v) {
 void describe(Fields& f, Sphere& v) {
   f.vector({"at", "centre"}, v.at, unit::length);
   f.number({"radius", "of the sphere"}, v.radius, positive(unit::length));
+}
+void describe(Fields& f, MovingSphere& v) {
+  describe(f, static_cast<Sphere&>(v));
   velocity(f, v.velocity, "at the start");
 }
 void describe(Fields& f, SphereList& v) {
@@ -125,6 +129,7 @@ void describe(Fields& f, SurfaceFile& v) {
   f.number({"scale", "metres per unit of the file"}, v.scale, positive(unit::none));
   f.vector({"shift", "after scaling"}, v.shift, unit::length);
   f.flag({"closed", "a closed skin that pushes outwards only; otherwise a sheet that pushes to both sides"}, v.closed);
+  f.vector({"point", "that it turns about; the centroid of the surface if not given"}, v.point, unit::length);
 }
 void describe(Fields& f, Turn& v) {
   f.vector({"axis", "of any length"}, v.axis, unit::none);
@@ -137,8 +142,8 @@ void describe(Fields& f, Wall& v) {
   f.oneOf({"shape", "of the wall"}, v.shape, shapes);
   contactMaterial(f, v.contactMaterial);
   path(f, v.velocity, v.displacement);
-  f.vector({"angular_velocity", "steady, about the point or centre (of a mesh: the mean of its vertices)"},
-           v.angularVelocity, unit::spin);
+  f.vector({"angular_velocity", "steady, about its own direction through the point or centre"}, v.angularVelocity,
+           unit::spin);
   f.object({"turn", "about the same, in place of an angular velocity"}, v.turn);
 }
 
@@ -189,6 +194,7 @@ void describe(Fields& f, Drive& v) {
   f.where(v.where);
   f.text({"group", "of particles, by its name"}, v.group, true);
   path(f, v.velocity, v.displacement);
+  f.functions({"spin", "that they keep if grains spin: may be expressions of the time t"}, v.spin, unit::spin);
 }
 
 }  // namespace dovetail::scene

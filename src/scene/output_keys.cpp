@@ -17,19 +17,23 @@ void describe(Fields& f, NodeProbe& v) {
 void describe(Fields& f, WallProbe& v) {
   f.integer({"wall", "which item of \"walls\", counted from 0"}, v.wall, 0, 1000000);
 }
+void describe(Fields& f, DriveProbe& v) {
+  f.integer({"drive", "which item of \"drives\", counted from 0"}, v.drive, 0, 1000000);
+}
 void describe(Fields& f, SupportProbe& v) {
   solid(f, v.solid);
   f.text({"on", "name of a node set of the mesh that is held or moved"}, v.on, true);
 }
 void describe(Fields& f, RegionProbe& v) { f.box({"box", "two corners"}, v.box); }
 void describe(Fields& f, Probe& v) {
-  static constexpr const char* kinds[] = {"grain", "node", "wall", "support", "region"};
+  static constexpr const char* kinds[] = {"grain", "node", "wall", "drive", "support", "region"};
   f.where(v.where);
   f.text({"name", "of its columns: letters, digits, '_', '-' and '.', with a letter first"}, v.name, true);
-  f.oneOf({"of",
-           "position and velocity of a grain, displacement of a node, force of the grains on a wall, of a support on "
-           "its solid, or number and mean velocity of the grains in a region"},
-          v.of, kinds);
+  f.oneOf(
+      {"of",
+       "position and velocity of a grain, displacement of a node, force of the grains on a wall, force and moment of "
+       "a drive on its grains, force of a support on its solid, or number and mean velocity of the grains in a region"},
+      v.of, kinds);
 }
 void describe(Fields& f, Output& v) {
   static constexpr const char* contents[] = {"grains", "spin",   "forces", "weights", "contacts",

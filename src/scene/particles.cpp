@@ -45,7 +45,8 @@ void add(const Target& to, const Lattice& lattice) {
   const auto kind = static_cast<dem::Lattice>(lattice.kind);
   dem::addPacking(
       to.grains.particles,
-      dem::fillWithLattice(kind, lattice.box, lattice.radius, lattice.distance.value_or(2.0 * lattice.radius)),
+      dem::fillWithLattice(kind, lattice.box, lattice.radius, lattice.distance.value_or(2.0 * lattice.radius),
+                           spaceOf(lattice.box, to.scene).axes),
       {lattice.density}, to.group.velocity);
 }
 
@@ -70,7 +71,7 @@ void add(const Target& to, const RandomPacking& packing) {
 }
 
 void add(const Target& to, const SphereList& list) {
-  for (const Sphere& sphere : list.spheres)
+  for (const MovingSphere& sphere : list.spheres)
     dem::addParticle(to.grains.particles, sphere.at, to.group.velocity + sphere.velocity, sphere.radius,
                      dem::Density{list.density});
 }

@@ -83,6 +83,6 @@ std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh&
 // Files of kinds that depend on the build.
 geometry::TriangleMesh readTriangles(const std::string& file);
 fem::SolidMesh readMesh(const std::string& file);
-std::vector<Sphere> readSpheres(const std::string& file);
+std::vector<MovingSphere> readSpheres(const std::string& file);
 
 }  // namespace dovetail::scene

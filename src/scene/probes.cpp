@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/io/names.hpp"
 #include "parts.hpp"
@@ -112,6 +113,21 @@ Probes::Values Probes::find(const Built& built, const std::string& name, const W
                      "the scene has " + std::to_string(built.walls.size()) + ", counted from 0");
   nameVector(name + "_", "N");
   return [item](const Built& now, std::vector<double>& row) { append(row, forceOn(now.run->grains, now.walls[item])); };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const std::string& name, const DriveProbe& kind) {
+  const auto item = static_cast<std::size_t>(kind.drive);
+  if (const auto there = std::as_const(built.run->grains).terms.all<dem::DriveTerm>().size(); item >= there)
+    throw InputError("there is no drive " + std::to_string(kind.drive), "",
+                     "the scene has " + std::to_string(there) + ", counted from 0");
+  nameVector(name + "_", "N");
+  nameVector(name + "_m", "Nm");
+  return [item](const Built& now, std::vector<double>& row) {
+    const Momenta& support = std::as_const(now.run->grains).terms.all<dem::DriveTerm>()[item]->support;
+    append(row, support.linear);
+    append(row, support.angular);
+  };
 }
 
 template <>

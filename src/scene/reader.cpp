@@ -66,6 +66,9 @@ public:
     const Node* node = take(key, std::isnan(value.x));
     if (node) value = vectorOf(*node, key, dimension);
   }
+  void vector(Key key, std::optional<Vec3>& value, const Dimension& dimension) override {
+    if (const Node* node = take(key, false)) value = vectorOf(*node, key, dimension);
+  }
   void box(Key key, geometry::Box& value) override {
     const Node* node = take(key, std::isnan(value.lower.x));
     if (!node) return;
@@ -271,7 +274,7 @@ Scene sceneFromText(const std::string& text, const std::string& name, const std:
                     const std::vector<std::string>& settings) {
   Scene scene;
   const std::string functions = readFields({text, name, folder}, settings, [&](Fields& fields) {
-    scene = {};
+    scene = Scene{};
     describe(fields, scene);
   });
   keepUsed(scene.parameters, functions);

@@ -44,6 +44,9 @@ public:
     Json& entry = add(key, listSchema(numberSchema(any(dimension)), 3), std::isnan(value.x));
     if (!std::isnan(value.x)) entry["default"] = Json::array({value.x, value.y, value.z});
   }
+  void vector(Key key, std::optional<Vec3>&, const Dimension& dimension) override {
+    add(key, listSchema(numberSchema(any(dimension)), 3), false);
+  }
   void function(Key key, TimeValue& value, const Limits& limits) override {
     Json& entry = add(key, numberSchema(limits), std::isnan(value.number));
     if (!std::isnan(value.number)) entry["default"] = value.number;

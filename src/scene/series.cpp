@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <numeric>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/loads.hpp"
@@ -33,6 +34,7 @@ std::vector<std::string> columnsOf(const std::vector<std::string>& channels, con
     names.push_back(name);
   for (const auto& [solid, force] : forcesOnSolids(built))
     for (const char* const axis : {"_x_N", "_y_N", "_z_N"}) names.push_back("on_" + solid + axis);
+  if (!insertionsOf(built).empty()) names.push_back("no_room");
   names.insert(names.end(), probes.begin(), probes.end());
   return names;
 }
@@ -72,6 +74,13 @@ std::vector<std::pair<std::string, Vec3>> forcesOnSolids(const Built& built) {
     if (any) forces.emplace_back(side.name, force);
   }
   return forces;
+}
+
+std::vector<const dem::Insertion*> insertionsOf(const Built& built) {
+  std::vector<const dem::Insertion*> all;
+  for (const auto* const term : std::as_const(built.run->grains).terms.all<dem::InsertionTerm>())
+    all.push_back(&term->insertion);
+  return all;
 }
 
 Series::Series(Built& built, const std::vector<Probe>& probes, SeriesFiles files)
@@ -128,6 +137,9 @@ void Series::add(Built& built) {
   const Vec3 given = totals.given.total().given.linear;
   for (const Vec3& v : {totals.momentum, given}) row.insert(row.end(), {v.x, v.y, v.z});
   for (const auto& [solid, force] : forcesOnSolids(built)) row.insert(row.end(), {force.x, force.y, force.z});
+  if (const auto insertions = insertionsOf(built); !insertions.empty())
+    row.push_back(std::accumulate(insertions.begin(), insertions.end(), 0.0,
+                                  [](double sum, const auto* one) { return sum + static_cast<double>(one->refused); }));
   probes_.add(built, row);
   table_.append(row);
   file_.write(table_);

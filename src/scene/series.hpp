@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "dovetail/dem/setup/streams.hpp"
 #include "dovetail/io/time_series.hpp"
 #include "dovetail/scene/build.hpp"
 #include "probes.hpp"
@@ -16,6 +17,9 @@ namespace dovetail::scene {
 
 /// Sums of the surface contacts' forces on each solid that has some, N, in the order of the solids; with names.
 std::vector<std::pair<std::string, Vec3>> forcesOnSolids(const Built& built);
+
+/// In the order of the scene's.
+std::vector<const dem::Insertion*> insertionsOf(const Built& built);
 
 /// Where the series goes, series.csv as it grows and, if wanted, series.h5 when it is closed.
 struct SeriesFiles {

@@ -8,6 +8,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/scene/read.hpp"
+#include "series.hpp"
 
 namespace dovetail::scene {
 
@@ -30,6 +31,16 @@ Json solidsOf(const Built& built) {
 Json stepOf(coupling::CoupledRun& run) {
   const coupling::StepLimit limit = run.criticalStep();
   return {{"dt_s", run.dt()}, {"window_s", run.window()}, {"limit_s", limit.dt}, {"limited_by", limit.owner}};
+}
+
+Json insertionsListed(const Built& built) {
+  Json list = Json::array();
+  for (const dem::Insertion* const one : insertionsOf(built))
+    list.push_back({{"entered", one->inserted},
+                    {"entered_kg", one->insertedMass},
+                    {"no_room", one->refused},
+                    {"no_room_kg", one->refusedMass}});
+  return list;
 }
 
 Json energyOf(const EnergyLedger& ledger) {
@@ -94,6 +105,7 @@ std::string writeSummary(const std::filesystem::path& folder, const io::KeyValue
   json["time_s"] = run.time();
   json["particles"] = run.grains.particles.size();
   json["solids"] = solidsOf(built);
+  json["insertions"] = insertionsListed(built);
   json["step"] = stepOf(run);
   json["energy"] = energyOf(run.ledger());
   json["momentum"] = momentumOf(run.totals());

@@ -79,24 +79,34 @@ void add(const Target& to, const Cylinder& cylinder) {
 void add(const Target& to, const SphereWall& sphere) {
   add(to, dem::makeSphere(sphere.centre, sphere.radius, sphere.inside));
 }
+/// Of the surface, whatever its triangulation.
+Vec3 centroidOf(const geometry::TriangleMesh& mesh) {
+  double area = 0.0;
+  Vec3 sum;
+  for (const geometry::Facet& facet : mesh.facets) {
+    const auto at = [&](std::size_t k) { return mesh.x[static_cast<std::size_t>(facet[k])]; };
+    const double twice = norm(cross(at(1) - at(0), at(2) - at(0)));
+    area += twice;
+    sum += twice / 3.0 * (at(0) + at(1) + at(2));
+  }
+  return 1.0 / area * sum;
+}
+
 void add(const Target& to, const SurfaceFile& from) {
   geometry::TriangleMesh mesh = readTriangles(from.file);
   geometry::repairSurface(mesh);
-  Vec3 middle;
-  for (Vec3& x : mesh.x) {
-    x = from.scale * x + from.shift;
-    middle += 1.0 / static_cast<double>(mesh.x.size()) * x;
-  }
+  for (Vec3& x : mesh.x) x = from.scale * x + from.shift;
+  const Vec3 about = from.point.value_or(centroidOf(mesh));
   dem::MeshWall made;
   made.wall = dem::makeWall(std::move(mesh.x), std::move(mesh.facets), from.closed);
   made.wall.rigid = true;
   made.wall.material = contactRow(to.scene, to.wall.contactMaterial);
   const Vec3 velocity = constantOf(to.wall.velocity);
   if (!to.isSteady()) {
-    dem::prescribe(made, motionOf(to, middle), middle);
+    dem::prescribe(made, motionOf(to, about), about);
     dem::moveWall(made, 0.0, 0.0);
   } else if (norm(velocity) > 0.0 || norm(to.wall.angularVelocity) > 0.0) {
-    dem::prescribe(made, dem::steadyMotion({middle, {}, velocity, to.wall.angularVelocity}), middle);
+    dem::prescribe(made, dem::steadyMotion({about, {}, velocity, to.wall.angularVelocity}), about);
   }
   dem::addWall(to.run.grains, std::move(made));
 }

@@ -205,6 +205,8 @@ void lookAtStages(const Scene& scene, Lines& lines) {
   const auto moves = [](const auto& one) {
     if constexpr (requires { one.turn; })
       if (one.turn && !isConstant(one.turn->angle)) return true;
+    if constexpr (requires { one.spin; })
+      if (!isConstant(one.spin)) return true;
     return !isConstant(one.displacement.value_or(one.velocity));
   };
   bool any = std::any_of(scene.walls.begin(), scene.walls.end(), moves) ||

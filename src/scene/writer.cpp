@@ -29,6 +29,9 @@ public:
   void quantity(Key key, Quantity& value) override { json[key.name] = value.value; }
   void integer(Key key, std::int64_t& value, std::int64_t, std::int64_t) override { json[key.name] = value; }
   void vector(Key key, Vec3& value, const Dimension&) override { json[key.name] = listOf(value); }
+  void vector(Key key, std::optional<Vec3>& value, const Dimension&) override {
+    if (value) json[key.name] = listOf(*value);
+  }
   void box(Key key, geometry::Box& value) override {
     json[key.name] = Json::array({listOf(value.lower), listOf(value.upper)});
   }

@@ -52,6 +52,16 @@ TEST(Cell, ModulusOfTheCubicLatticeIsStiffnessOverDistance) {
   EXPECT_NEAR(found.pWaveSpeed, std::sqrt(normalStiffness / distance / found.density), 1e-2);
 }
 
+TEST(Cell, ModuliOfGrainsThatDoNotTouchAreRefused) {
+  const dem::Packing apart = dem::latticeBlock(dem::Lattice::simpleCubic, {3, 3, 3}, 0.004, 0.01);
+  try {
+    smallStrainModuli(cellOf(apart, 0.0), {.strain = 1e-6});
+    FAIL();
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("let its grains touch"), std::string::npos) << error.what();
+  }
+}
+
 // Every contact, alone: n, overlap and slip follow from the strain, f = k δ n − k_t (motion across n).
 TEST(Cell, StrainStretchesNormalAndTangentialSprings) {
   dem::Model m = cellOf(randomPacking(0.045), 1e9);

@@ -44,6 +44,7 @@ public:
   virtual void quantity(Key key, Quantity& value) = 0;
   virtual void integer(Key key, std::int64_t& value, std::int64_t least, std::int64_t most) = 0;
   virtual void vector(Key key, Vec3& value, const Dimension& dimension) = 0;
+  virtual void vector(Key key, std::optional<Vec3>& value, const Dimension& dimension) = 0;
   virtual void box(Key key, geometry::Box& value) = 0;
   /// A value that may be a function of time.
   virtual void function(Key key, TimeValue& value, const Limits& limits) = 0;

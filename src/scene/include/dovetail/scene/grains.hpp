@@ -57,10 +57,12 @@ struct RandomPacking : MadeOf {
 struct Sphere {
   Vec3 at = requiredVector;  ///< m
   double radius = required;  ///< m
-  Vec3 velocity;             ///< m/s
+};
+struct MovingSphere : Sphere {
+  Vec3 velocity;  ///< m/s
 };
 struct SphereList : MadeOf {
-  std::vector<Sphere> spheres;
+  std::vector<MovingSphere> spheres;
 };
 /// Columns x_m, y_m, z_m, radius_m and, if there, vx_m_per_s, vy_m_per_s, vz_m_per_s.
 struct SphereFile : MadeOf {
@@ -104,13 +106,14 @@ struct SurfaceFile {
   double scale = 1.0;  ///< m per unit of the file
   Vec3 shift;          ///< m, after scaling
   bool closed = false;
+  std::optional<Vec3> point;  ///< that it turns about, m; not given: the centroid of the surface
 };
 struct Wall {
   std::variant<Plane, BoxWalls, Cylinder, SphereWall, SurfaceFile> shape;
   std::string contactMaterial;
   TimeVector velocity;                     ///< m/s
   std::optional<TimeVector> displacement;  ///< m, from where the wall is described; in place of a velocity
-  Vec3 angularVelocity;                    ///< rad/s about `point`, `centre`, or the mean of the vertices
+  Vec3 angularVelocity;                    ///< rad/s about `point` or `centre`
   std::optional<Turn> turn;                ///< about the same, in place of an angular velocity
   std::string where;
 };
@@ -149,9 +152,10 @@ struct BondGroup {
   bool contacts = true;                                  ///< whether bonded grains touch as well
   std::string where;
 };
-/// Grains that follow a path.
+/// Grains that follow a path; if they spin, they keep the spin given.
 struct Drive {
   std::string group;
+  TimeVector spin;                         ///< rad/s
   TimeVector velocity;                     ///< m/s
   std::optional<TimeVector> displacement;  ///< m; in place of a velocity
   std::string where;

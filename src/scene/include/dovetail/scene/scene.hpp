@@ -47,6 +47,10 @@ struct NodeProbe {
 struct WallProbe {
   int wall = 0;  ///< item of `walls`
 };
+/// Force of a drive on its grains, and its moment about their centre.
+struct DriveProbe {
+  int drive = 0;  ///< item of `drives`
+};
 /// Force of a support on its solid.
 struct SupportProbe {
   std::string solid, on;  ///< node set
@@ -57,7 +61,7 @@ struct RegionProbe {
 };
 struct Probe {
   std::string name;
-  std::variant<GrainProbe, NodeProbe, WallProbe, SupportProbe, RegionProbe> of;
+  std::variant<GrainProbe, NodeProbe, WallProbe, DriveProbe, SupportProbe, RegionProbe> of;
   std::string where;
 };
 struct Output {
