@@ -102,7 +102,7 @@ double drivingPower(const PrimitiveWall& wall) {
 
 double renumber(PrimitiveWall& wall, std::span<const int> newNumber) {
   PrimitiveContacts& contacts = wall.contacts;
-  const double stored = detail::energyOfLeavers(contacts.particle, contacts.energy, newNumber);
+  const double stored = detail::energyOfLeavers(contacts, newNumber);
   const std::size_t old = contacts.size(), components = old == 0 ? 0 : contacts.memory.size() / old;
   std::vector<std::pair<int, std::size_t>> kept;
   for (std::size_t c = 0; c < old; ++c)

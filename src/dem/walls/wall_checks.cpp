@@ -125,7 +125,7 @@ void requireBelow(const std::vector<Number>& list, std::size_t end, const char* 
 
 /// The numbers of particles are kept where some have left since contacts were found, the rest is not cut to length.
 void requireWhole(const PrimitiveContacts& c) {
-  Lists(c.normal.size()).each(c.normal, c.overlap, c.force).eachOrNone(c.couple, c.energy, c.image);
+  Lists(c.normal.size()).each(c.normal, c.overlap, c.force).eachOrNone(c.couple, c.energy, c.sideEnergy, c.image);
   Lists(c.particle.size()).several(c.memory);
   if (c.particle.size() > c.normal.size()) refuseContacts("lists of a state do not fit each other");
 }
@@ -133,7 +133,7 @@ void requireWhole(const PrimitiveContacts& c) {
 void requireWhole(const WallContacts& c) {
   Lists(c.particle.size())
       .each(c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyShare, c.force)
-      .eachOrNone(c.couple, c.energy, c.image);
+      .eachOrNone(c.couple, c.energy, c.sideEnergy, c.image);
   const WallSprings& s = c.springs;
   Lists(s.particle.size()).each(s.facet, s.normal, s.share).several(s.memory);
 }

@@ -48,14 +48,6 @@ void findWallContacts(const Particles& particles, const TriangulatedWall& wall, 
 
 namespace detail {
 
-double energyOfLeavers(const std::vector<int>& particle, std::vector<double>& energy, std::span<const int> newNumber) {
-  double sum = 0.0;
-  for (std::size_t c = 0; c < energy.size() && c < particle.size(); ++c)
-    if (newNumber[static_cast<std::size_t>(particle[c])] < 0) sum += energy[c];
-  energy.clear();
-  return sum;
-}
-
 void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered) {
   const auto components = static_cast<std::size_t>(memory);
   if (remembered.size() != components * contacts) remembered.assign(components * contacts, 0.0);
@@ -89,7 +81,7 @@ double renumber(WallContacts& contacts, std::span<const int> newNumber) {
     springs.share.push_back(old.share[c]);
     for (std::size_t m = 0; m < components; ++m) springs.memory.push_back(old.memory[c * components + m]);
   }
-  return detail::energyOfLeavers(contacts.particle, contacts.energy, newNumber);
+  return detail::energyOfLeavers(contacts, newNumber);
 }
 
 void addWallForces(const WallContacts& contacts, std::span<const Vec3> x, std::span<const geometry::Facet> facets,

@@ -20,7 +20,8 @@ struct PrimitiveContacts {
   std::vector<Vec3> normal;         ///< unit, from the wall to the particle
   std::vector<double> overlap;      ///< m, > 0; where the law reaches farther than touch down to −reach
   std::vector<Vec3> force, couple;  ///< on the particle, N, N m
-  std::vector<double> energy;       ///< of its springs, J; if booked
+  std::vector<double> energy;       ///< of the normal springs, J; if booked
+  std::vector<double> sideEnergy;   ///< of those that the law remembers
   std::vector<double> memory;       ///< of the law, contact by contact
   /// Only where space repeats: which image of the particle touches; and the periods, m.
   std::vector<Image> image;

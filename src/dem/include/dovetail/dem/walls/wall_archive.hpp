@@ -15,7 +15,7 @@ void archiveWall(Archive& archive, Wall& w) {
   archive(s.near, s.margin, s.builds, s.particleRevision, s.point, s.axis, s.radius, s.extent, s.smallestRadius,
           s.travel, s.lastPoint, s.lastAxis);
   if (w.servo) archive(*w.servo);
-  archive(c.particle, c.normal, c.overlap, c.force, c.couple, c.memory, c.image, c.period, c.energy);
+  archive(c.particle, c.normal, c.overlap, c.force, c.couple, c.memory, c.image, c.period, c.energy, c.sideEnergy);
 }
 
 template <class Archive, class Candidates>
@@ -31,7 +31,7 @@ void archiveContacts(Archive& archive, Contacts& c) {
   auto& s = c.springs;
   archive(s.particle, s.facet, s.normal, s.memory, s.share);
   archive(c.particle, c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyShare, c.force, c.couple, c.energy,
-          c.image, c.period);
+          c.sideEnergy, c.image, c.period);
 }
 
 template <class Archive, class Mesh>

@@ -46,7 +46,8 @@ struct WallContacts {
   std::vector<double> energyShare;  ///< share of what it stores at that overlap
   std::vector<Vec3> force;          ///< on the particle, N; set by ContactLaws::wall
   std::vector<Vec3> couple;         ///< on the particle beyond arm × force, N m; if the law exerts torques
-  std::vector<double> energy;       ///< of its springs, J; if booked
+  std::vector<double> energy;       ///< of the normal springs, J; if booked
+  std::vector<double> sideEnergy;   ///< of those that the law remembers
   /// Only where space repeats: which image of the particle touches; and the periods, m.
   std::vector<Image> image;
   Vec3 period;
@@ -118,7 +119,16 @@ double renumber(WallContacts& contacts, std::span<const int> newNumber);
 
 namespace detail {
 /// Energies of the contacts of those who leave; the contacts' own are cleared, as their numbers are no longer true.
-double energyOfLeavers(const std::vector<int>& particle, std::vector<double>& energy, std::span<const int> newNumber);
+template <class Contacts>
+double energyOfLeavers(Contacts& contacts, std::span<const int> newNumber) {
+  double sum = 0.0;
+  for (std::vector<double>* const energy : {&contacts.energy, &contacts.sideEnergy}) {
+    for (std::size_t c = 0; c < energy->size() && c < contacts.particle.size(); ++c)
+      if (newNumber[static_cast<std::size_t>(contacts.particle[c])] < 0) sum += (*energy)[c];
+    energy->clear();
+  }
+  return sum;
+}
 /// Contacts that remember another number of values, as those of a law that was there before, start anew.
 /// @param memory numbers per contact
 void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered);

@@ -114,13 +114,15 @@ ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vect
       contacts.force[first + l] = block.force.at(l);
       if constexpr (Law::rotates) contacts.couple[first + l] = block.couple.at(l);
       for (std::size_t m = 0; m < Law::memory; ++m) memory[(first + l) * Law::memory + m] = block.memory[m][l];
-      contacts.energy[first + l] =
-          booking == Booking::on ? block.work[0][l] + block.work[2][l] + block.work[4][l] : 0.0;
+      contacts.energy[first + l] = booking == Booking::on ? block.work[0][l] : 0.0;
+      if constexpr (Law::memory > 0)
+        contacts.sideEnergy[first + l] = booking == Booking::on ? block.work[2][l] + block.work[4][l] : 0.0;
     }
     return booking == Booking::on ? sumWork(block, n) : ContactWork{};
   };
   const std::size_t count = contacts.particle.size();
   contacts.energy.resize(count);
+  contacts.sideEnergy.resize(Law::memory > 0 ? count : 0);
   if (count == 0) return {};
   requireWallMaterials(particles, contacts.particle, laws.materials, wall.material);
   return count <= blockSize ? answerBlock(0, count) : parallelSum(count, blockSize, answerBlock);
