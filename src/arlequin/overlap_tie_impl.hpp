@@ -99,6 +99,7 @@ struct OverlapTie::Impl : TieState {
   /// D Πᵀλ, m: of the members on springs of their own, one by one.
   std::vector<Vec3> motionUnder(std::span<const Vec3> forces) const;
 
+  double springOf(const dem::Model& m, std::size_t k) const;
   /// Solid's field of the nodes at a member.
   Vec3 atMember(std::size_t k, std::span<const Vec3> field) const;
   /// Displacement of a member from its material point, images left out.

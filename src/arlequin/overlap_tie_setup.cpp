@@ -162,50 +162,48 @@ std::vector<int> particlesBeyond(const dem::Model& grains, const fem::SolidMesh&
 }
 
 /// Jensen: with weights that sum to one, Σ_i p V_i |g_i|² ≤ Σ_k p Ω_k |x_k − Φ_k u|² (the metric penalty is a
-/// projection of the latter), so that every particle is held by a spring p Ω of its own to its place in the solid. A
-/// particle gives the spring its part of its mass, and nodes give theirs. What the elements ask of the nodes is added
-/// by whoever steps both.
+/// projection of the latter), so that every particle is held by a spring p Ω of its own to its place in the solid.
+/// Multipliers ask for nothing, but make elements and contacts pull at the same masses.
 void OverlapTie::addDemand(const dem::Model& m, dem::ContactDemand& demand) const {
   const Impl& s = *impl_;
   const CouplingOptions& o = s.setting.options;
-  if (o.constraint == ConstraintKind::multiplier && !(o.absorberRate > 0.0)) return;
   demand.stiffness.resize(m.particles.size(), 0.0);
   demand.damping.resize(m.particles.size(), 0.0);
-  const double dashpot = o.constraint == ConstraintKind::dashpot ? 2.0 : 1.0;  // ε dt² < 2 where a spring has p dt² < 4
-  const std::vector<double>& mass = s.nodes().mass;
-  std::vector<double> ofNodes(mass.size(), 0.0);
-  const auto spring = [&](std::size_t k) {
-    const int element = s.overlap.place[k].element;
-    if (element < 0 || o.constraint == ConstraintKind::multiplier) return 0.0;
-    return dashpot * s.setting.penalty[static_cast<std::size_t>(element)] *
-           m.particles.mass[static_cast<std::size_t>(s.overlap.particle[k])] / s.setting.bulkDensity;
-  };
-  const auto eachNode = [&](std::size_t k, const auto& visit) {
-    if (s.overlap.place[k].element < 0) return;
-    const Cell cell = cellOf(s.setting.mesh, s.overlap.place[k].element);
-    for (std::size_t a = 0; a < cell.node.size(); ++a)
-      visit(static_cast<std::size_t>(cell.node[a]), std::abs(s.overlap.place[k].shape[a]));
-  };
+  const bool inWindows = s.actsInWindows() && o.constraint == ConstraintKind::dashpot;
+  if (inWindows) demand.atWindows.resize(m.particles.size(), 0.0);
+  const int side = this->side().addTo(demand);
+  const auto firstNode = static_cast<int>(demand.sides[static_cast<std::size_t>(side)].first);
+  std::vector<dem::ContactDemand::Share> shares;
   for (std::size_t k = 0; k < s.overlap.size(); ++k) {
     const auto i = static_cast<std::size_t>(s.overlap.particle[k]);
-    demand.stiffness[i] += spring(k);
+    const double spring = s.springOf(m, k);
+    (inWindows ? demand.atWindows : demand.stiffness)[i] += spring;
     demand.damping[i] += o.absorberRate * (1.0 - s.overlap.weight[k]) * m.particles.weightOf(i) * m.particles.mass[i];
-    eachNode(k, [&](std::size_t n, double shape) { ofNodes[n] += spring(k) * shape; });
-  }
-  // Consistent masses are at least 1/27 of the lumped ones (hex8).
-  const double share = side().mass == nullptr ? 0.0 : side().mass->share();
-  const double lightest = 1.0 - share + share / 27.0;
-  for (std::size_t k = 0; k < s.overlap.size(); ++k) {
-    double worst = 0.0, sum = 0.0;
-    eachNode(k, [&](std::size_t n, double shape) {
-      sum += shape;
-      if (shape > 0.0 && mass[n] > 0.0) worst = std::max(worst, ofNodes[n] / (lightest * mass[n]));
-    });
-    demand.links.push_back(
-        {s.overlap.particle[k], -1, dem::StepOwner::contact, spring(k), std::max(1.0, sum) * worst, 0.0});
-    demand.links.back().surface = static_cast<int>(demand.surfaces.size());
+    shares.clear();
+    if (s.overlap.place[k].element >= 0) {
+      const Cell cell = cellOf(s.setting.mesh, s.overlap.place[k].element);
+      for (std::size_t a = 0; a < cell.node.size(); ++a)
+        shares.push_back({firstNode + cell.node[a], std::abs(s.overlap.place[k].shape[a])});
+    }
+    demand.links.push_back({.particle = s.overlap.particle[k],
+                            .partner = -1,
+                            .owner = dem::StepOwner::contact,
+                            .stiffness = spring,
+                            .shifting = spring,
+                            .surface = static_cast<int>(demand.surfaces.size()),
+                            .side = side,
+                            .shifted = demand.add(shares)});
   }
   demand.surfaces.push_back(name());
+}
+
+/// p Ω of a member, N/m; of dashpots what asks for the same step: ε dt² < 2 where a spring has p dt² < 4.
+double OverlapTie::Impl::springOf(const dem::Model& m, std::size_t k) const {
+  const int element = overlap.place[k].element;
+  if (element < 0 || setting.options.constraint == ConstraintKind::multiplier) return 0.0;
+  return (setting.options.constraint == ConstraintKind::dashpot ? 2.0 : 1.0) *
+         setting.penalty[static_cast<std::size_t>(element)] *
+         m.particles.mass[static_cast<std::size_t>(overlap.particle[k])] / setting.bulkDensity;
 }
 
 }  // namespace dovetail::arlequin

@@ -87,6 +87,8 @@ void CoupledRun::start(double dt, const RunOptions& options) {
           "take a fifth of the limit or less; if a solid sets it, fewer steps per window or an implicit solid");
     }
   }
+  grains.passed.reset();
+  grains.checkedStep = dt;
   run.constrainWindow();
   run.rememberLoads();
   run.sampled = false;
@@ -100,7 +102,10 @@ void CoupledRun::start(double dt, const RunOptions& options) {
 void CoupledRun::advance(std::int64_t windows, bool withEnergies) {
   impl_->requireStarted("advance");
   if (windows < 0) throw InputError("windows is " + std::to_string(windows), "advance", "give 0 or more");
-  for (std::int64_t w = 0; w < windows; ++w) impl_->window(withEnergies && w + 1 == windows);
+  for (std::int64_t w = 0; w < windows; ++w) {
+    impl_->window(withEnergies && w + 1 == windows);
+    impl_->lookAtLimit();
+  }
   dem::close(grains);
 }
 

@@ -1,14 +1,8 @@
-// What a run holds, what it can bear.
+// What a run holds.
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <ostream>
 
-#include "dovetail/core/finite.hpp"
-#include "dovetail/dem/model/contact_step.hpp"
-#include "dovetail/fem/elements/solid.hpp"
-#include "dovetail/fem/motion/stable_step.hpp"
 #include "run_impl.hpp"
 
 namespace dovetail::coupling {
@@ -52,12 +46,6 @@ void setConnectors(const dem::Model& grains, EnergyLedger& ledger) {
   }
 }
 
-bool hasElements(const fem::Model& model) {
-  for (const auto& term : model.terms)
-    if (dynamic_cast<const fem::Solid*>(term.get())) return true;
-  return false;
-}
-
 }  // namespace
 
 const EnergyLedger& CoupledRun::ledger() {
@@ -71,34 +59,6 @@ const EnergyLedger& CoupledRun::ledger() {
   setChannel(ledger, "loads one step old (minus what they made)", booked, -impl_->madeByLag);
   ledger.close();
   return ledger;
-}
-
-StepLimit CoupledRun::criticalStep() {
-  impl_->requireStarted("criticalStep");
-  return impl_->criticalStep();
-}
-
-StepLimit CoupledRun::Impl::criticalStep() {
-  const dem::ContactStep contacts = dem::criticalStep(grains);
-  double rate = 0.0;  // ω²/4 of the solids, at the particles' step
-  StepLimit limit{contacts.dt, contacts.particle < 0 ? "nobody" : dem::ownerOf(contacts, grains.particles)};
-  for (const auto& solid : solids) {
-    if (solid->side.stepping == Stepping::implicitSteps || !hasElements(*solid->side.model)) continue;
-    const fem::ModelStableStep stable = fem::stableStep(*solid->side.model);
-    const double least =
-        std::sqrt(1.0 - 26.0 / 27.0 * solid->side.mass->share());  // as little as blended masses can be
-    const double most = stable.dt * least / K();
-    if (most < limit.dt)
-      limit = {most, "element " + std::to_string(stable.element) + " of \"" + solid->side.name + "\""};
-    rate = std::max(rate, 1.0 / (most * most));
-  }
-  bool connected = false;
-  for (const auto& term : grains.terms) connected = connected || dynamic_cast<const Connector*>(term.get());
-  if (connected && K() == 1 && std::isfinite(contacts.dt) && rate > 0.0) {
-    const double together = 1.0 / std::sqrt(1.0 / (contacts.dt * contacts.dt) + rate);
-    limit.dt = std::min(limit.dt, together);
-  }
-  return limit;
 }
 
 void report(CoupledRun& run, std::ostream& out) {

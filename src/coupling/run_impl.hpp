@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "dovetail/coupling/run.hpp"
+#include "dovetail/fem/motion/stable_step.hpp"
 #include "outside.hpp"
 #include "solid_stepper.hpp"
 
@@ -44,6 +45,8 @@ struct CoupledRun::Impl {
   bool ownForcesDue = false;  ///< the window ends with it
   bool sampled = true;        ///< energies are wanted
 
+  std::vector<fem::ModelStableStep> elements;  ///< as last looked at, of explicit solids; 0 s: of none
+
   // Of constraints in windows of several steps.
   std::vector<Vec3> windowForce;  ///< on particles, N; empty without constraints
 
@@ -65,7 +68,11 @@ struct CoupledRun::Impl {
   /// Momentum and mass now.
   Totals sums() const;
   void open();
+  /// Of the state alone. @param looksAtElements  anew: it costs as much as hundreds of steps
+  StepLimit limitNow(dem::ContactDemand& demand, bool looksAtElements);
+  double rateOf(const void* model) const;
   StepLimit criticalStep();
+  void lookAtLimit();
   bool joined() const;
   void joinParticles();
   void requireSides() const;

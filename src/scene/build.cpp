@@ -7,6 +7,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
+#include "impacts.hpp"
 #include "parts.hpp"
 #include "time_functions.hpp"
 
@@ -31,8 +32,7 @@ std::vector<Limit> limitsOfParts(Built& built, const Scene& scene) {
     coupling::SolidSide& side = built.run->solid(s);
     if (side.stepping == coupling::Stepping::implicitSteps) continue;
     const fem::ModelStableStep stable = fem::stableStep(*side.model);
-    found.push_back({"element " + std::to_string(stable.element) + " of \"" + side.name + "\"",
-                     stable.dt / scene.steps.stepsPerWindow});
+    found.push_back({stable.owner(side.name), stable.dt / scene.steps.stepsPerWindow});
   }
   const Impact impact = briefestImpact(scene, built.run->grains.particles);
   found.push_back({"an impact of the smallest grains" + impact.materials, impact.limit});
@@ -50,9 +50,22 @@ Impact resolvedImpact(const Built& built, const Scene& scene) {
   return impact;
 }
 
+/// Dashpots see the velocity of half a step ago, which counts where restitution is low.
+double stepForRebound(Built& built, const Scene& scene, double longest) {
+  const Rebound coarse = worstRebound(built, scene, longest);
+  double dt = longest;
+  while (worstRebound(built, scene, dt).error() > reboundTolerance && dt > 0.05 * longest) dt *= 0.8;
+  built.notes.push_back("The step is " + formatNumber(dt) + " s, so that impacts rebound by their restitution " +
+                        formatNumber(coarse.right) + " to " + formatNumber(reboundTolerance) + "; with " +
+                        formatNumber(longest) + " s it may be " + rounded(coarse.found) + ".");
+  return dt;
+}
+
 double automaticStep(Built& built, const Scene& scene, double limit) {
   const auto [resolved, materials] = resolvedImpact(built, scene);
   const double share = scene.steps.safety * limit;
+  if (const double dt = std::min(share, resolved); worstRebound(built, scene, dt).error() > reboundTolerance)
+    return stepForRebound(built, scene, dt);
   if (share <= resolved) return share;
   built.notes.push_back("The step is " + formatNumber(resolved) + " s, so that an impact of the smallest grains" +
                         materials + " takes eight steps; the share " + formatNumber(scene.steps.safety) +
@@ -62,6 +75,9 @@ double automaticStep(Built& built, const Scene& scene, double limit) {
 }
 
 void noteCoarseStep(Built& built, const Scene& scene, double dt) {
+  if (const Rebound rebound = worstRebound(built, scene, dt); rebound.error() > reboundTolerance)
+    built.notes.push_back("At this step impacts of the smallest grains may rebound with " + rounded(rebound.found) +
+                          " where their restitution is " + formatNumber(rebound.right) + ": take a smaller steps.dt.");
   const auto [resolved, materials] = resolvedImpact(built, scene);
   if (dt <= resolved) return;
   built.notes.push_back("The step, " + formatNumber(dt) + " s, gives an impact of the smallest grains" + materials +

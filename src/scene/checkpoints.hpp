@@ -11,6 +11,7 @@
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "dovetail/scene/files.hpp"
+#include "impacts.hpp"
 
 namespace dovetail::scene {
 
@@ -33,6 +34,7 @@ struct Progress {
   coupling::RestProgress rest;  ///< of a stage that brings to rest
   std::vector<Remark> remarks;
   bool toldOfStep = false;  ///< that it has become too large
+  DeepGrains deep;
 };
 
 /// What states of scenes are; with the mark of our files (output_folder.hpp).

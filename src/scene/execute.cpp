@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <ostream>
+#include <utility>
 
 #include "checkpoints.hpp"
 #include "dovetail/core/error.hpp"
@@ -84,6 +85,11 @@ public:
       countTime();
       log_ << lineOf(progress_.stage) << std::endl;
     }
+    if (!progress_.toldOfStep) {
+      const coupling::StepLimit limit = built_.run->criticalStep();
+      if (built_.run->dt() > limit.dt) tellOfStep(built_.run->time(), limit.dt, limit.owner);
+    }
+    if (const std::string line = scene::lineOf(std::exchange(progress_.deep, {})); !line.empty()) remark(line, true);
     if (plan_.checkpoints > 0) checkpoint();
     close();
     countRoom();
@@ -152,6 +158,7 @@ private:
       ended = coupling::settleOn(*built_.run, options, rest, next - progress_.window);
       progress_.window = rest.report.windows;
       lookForRoom();
+      warn();
       if (ended) break;
       if (due(plan_.checkpoints)) checkpoint();
       if (io::interruption() != 0) return false;
@@ -177,6 +184,7 @@ private:
       const std::int64_t before = progress_.window, next = nextLook(before, windows);
       run.advance(next - before, next == windows || isLookedInto(next));
       progress_.window = next;
+      warn();
       const double rate = static_cast<double>(next - first) / since(begun);
       shown.update(static_cast<double>(next),
                    "t = " + formatNumber(run.time()) + " s  " + std::to_string(std::llround(rate)) + " windows/s");
@@ -214,11 +222,17 @@ private:
     progress_.rows = series_->rows();
   }
   void warn() {
-    if (progress_.toldOfStep || !series_->limit() || built_.run->dt() <= series_->limit()->dt) return;
-    const coupling::StepLimit& limit = *series_->limit();
+    lookForDeepGrains(built_.run->grains, progress_.deep);
+    if (progress_.toldOfStep) return;
+    const coupling::CoupledRun& run = *built_.run;
+    if (const auto& passed = run.grains.passed) return tellOfStep(passed->time, passed->limit, passed->owner);
+    if (series_ && series_->limit() && run.dt() > series_->limit()->dt)
+      tellOfStep(run.time(), series_->limit()->dt, series_->limit()->owner);
+  }
+  void tellOfStep(double time, double limit, const std::string& owner) {
     progress_.toldOfStep = true;
-    remark("at t = " + formatNumber(built_.run->time()) + " s the step is beyond " + formatNumber(limit.dt) +
-               " s, which " + limit.owner + " sets: take a smaller steps.dt",
+    remark("at t = " + formatNumber(time) + " s the step is beyond " + formatNumber(limit) + " s, which " + owner +
+               " sets: take a smaller steps.dt",
            true);
   }
   void frame(std::int64_t every) {

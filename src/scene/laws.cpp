@@ -241,6 +241,17 @@ int contactRow(const Scene& scene, const std::string& name) {
   return static_cast<int>(found - rows.begin());
 }
 
+double softestSpring(const Scene& scene, int row, double radius) {
+  const Table table = tableOf(scene);
+  double softest = std::numeric_limits<double>::infinity();
+  for (int other = 0; other < table.rows; ++other) {
+    const Entry& entry = table.at(row, other);
+    const auto of = [&](const auto& kind) { return stiffnessOf(kind, entry, radius); };
+    softest = std::min(softest, std::visit(of, entry.law->normal));
+  }
+  return softest;
+}
+
 Impact briefestImpact(const Scene& scene, const dem::Particles& particles) {
   Impact briefest;
   if (!scene.contact && scene.contacts.empty()) return briefest;

@@ -35,8 +35,8 @@ auto atPlace(const std::string& where, Act act) {
 struct BytesPer {
   static constexpr double grain = 500.0, cell = 1000.0;
 };
-/// Before memory is taken. @throws InputError if so many spheres or cells cannot be meant, or do not fit the memory that
-/// is free
+/// Before memory is taken. @throws InputError if so many spheres or cells cannot be meant, or do not fit the memory
+/// that is free
 void requireBearable(double count, const std::string& what, double bytesEach, const std::string& remedy);
 
 std::shared_ptr<const dem::ContactLaws> makeLaws(const ContactLaw& law);
@@ -47,11 +47,14 @@ int contactRow(const Scene& scene, const std::string& name);
 /// The briefest impact of a scene.
 struct Impact {
   double limit = std::numeric_limits<double>::infinity();  ///< 2/ω, s
-  std::string materials;  ///< of the two that meet, as " (\"rock\" on \"steel\")"; empty if the scene has one law for all
+  std::string
+      materials;  ///< of the two that meet, as " (\"rock\" on \"steel\")"; empty if the scene has one law for all
 };
 /// The least 2/ω of two equal spheres, of those there are and those that enter, pressed together by a twentieth of the
 /// radius under the stiffest law of their material.
 Impact briefestImpact(const Scene& scene, const dem::Particles& particles);
+/// Of the softest law of a material, N/m, pressed together likewise.
+double softestSpring(const Scene& scene, int row, double radius);
 
 /// Particles of groups that have a name, by Particles::id.
 using Groups = std::map<std::string, std::vector<std::int64_t>>;

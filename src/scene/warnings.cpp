@@ -12,6 +12,7 @@
 #include "dovetail/geometry/surface_checks.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
 #include "dovetail/surface/skin.hpp"
+#include "impacts.hpp"
 #include "overlap_audit.hpp"
 #include "time_functions.hpp"
 
@@ -223,6 +224,7 @@ void lookAtStages(const Scene& scene, Lines& lines) {
 std::vector<std::string> warnings(const Built& built, const Scene& scene) {
   Lines lines;
   lookAtContacts(built, lines);
+  lookAtSoftness(built, scene, lines);
   lookAtWalls(built, lines);
   for (std::size_t s = 0; s < scene.solids.size(); ++s) {
     const Solid& solid = scene.solids[s];

@@ -1,4 +1,4 @@
-// How far the nodes give way under contacts, and what that asks of the time step.
+// How far the nodes give way under contacts.
 #include <algorithm>
 #include <cmath>
 
@@ -39,96 +39,68 @@ std::vector<double> rootTurnMobility(const PatchTurns& turns, std::span<const do
 
 double squared(double x) { return x * x; }
 
-/// How much a contact follows the nodes: by its own weights, ascending, and by turns of patches, m.
-struct Following {
-  std::vector<std::pair<int, double>> nodes, patches;
-};
-
-std::vector<std::pair<int, double>> gathered(std::vector<std::pair<int, double>> all) {
-  std::sort(all.begin(), all.end());
-  std::vector<std::pair<int, double>> sums;
-  for (const auto& [number, value] : all)
-    if (!sums.empty() && sums.back().first == number)
-      sums.back().second += value;
-    else
-      sums.emplace_back(number, value);
-  return sums;
-}
-
-Following following(const Carrier& carrier, std::span<const std::pair<int, double>> points) {
-  Following all;
-  for (const auto& [point, weight] : points) {
-    const auto node = carrier.map().rowColumns(point);
-    for (std::size_t k = 0; k < node.size(); ++k)
-      all.nodes.emplace_back(node[k], weight * std::abs(carrier.map().rowWeights(point)[k]));
-    if (carrier.turns().empty()) continue;
-    const auto p = static_cast<std::size_t>(point);
-    all.patches.emplace_back(carrier.turns().patch[p], weight * norm(carrier.turns().offset[p]));
-  }
-  return {gathered(std::move(all.nodes)), gathered(std::move(all.patches))};
-}
-
-/// What contacts ask of nodes: directly, and of patches by turning them, N/m or N s/m (of patches times m).
-struct Asked {
-  std::vector<double> ofNode, ofPatch;
-  Asked(std::size_t nodes, std::size_t patches) : ofNode(nodes, 0.0), ofPatch(patches, 0.0) {}
-
-  void add(const Following& contact, double slope) {
-    for (const auto& [node, share] : contact.nodes) ofNode[node] += slope * share;
-    for (const auto& [patch, arm] : contact.patches) ofPatch[patch] += slope * arm;
-  }
-  /// Hands what is asked of patches on to their nodes; then of patches what their nodes give way.
-  void handOn(const PatchTurns& turns, std::span<const double> inverseMass) {
-    for (std::size_t p = 0; p < ofPatch.size(); ++p)
-      for (std::size_t k = 0; k < turns.frames[p].node.size(); ++k)
-        ofNode[turns.frames[p].node[k]] += ofPatch[p] * turnRate(turns.frames[p], k);
-    for (std::size_t i = 0; i < ofNode.size(); ++i) ofNode[i] *= inverseMass[i];
-    for (std::size_t p = 0; p < ofPatch.size(); ++p) {
-      ofPatch[p] = 0.0;
-      for (std::size_t k = 0; k < turns.frames[p].node.size(); ++k)
-        ofPatch[p] += turnRate(turns.frames[p], k) * ofNode[turns.frames[p].node[k]];
+/// The masses of a demand that the points of a carrier go with: nodes, and patches that nodes turn.
+class CarriedMasses {
+public:
+  CarriedMasses(const Carrier& carrier, dem::ContactDemand& demand, int side)
+      : carrier_(carrier),
+        demand_(demand),
+        firstNode_(static_cast<int>(demand.sides[static_cast<std::size_t>(side)].first)),
+        firstPatch_(static_cast<int>(demand.masses.size())) {
+    if (carrier.turns().empty()) return;
+    for (const PatchFrame& frame : carrier.turns().frames) {
+      shares_.clear();
+      for (std::size_t k = 0; k < frame.node.size(); ++k)
+        shares_.push_back({firstNode_ + frame.node[k], turnRate(frame, k)});
+      demand.masses.push_back({.carriedBy = demand.add(shares_)});
     }
   }
-  double meets(const Following& contact) const {
-    double sum = 0.0;
-    for (const auto& [node, share] : contact.nodes) sum += share * ofNode[node];
-    for (const auto& [patch, arm] : contact.patches) sum += arm * ofPatch[patch];
-    return sum;
+
+  /// @param points  of the carrier, and how fast they go along
+  dem::ContactDemand::Range follow(std::span<const std::pair<int, double>> points) {
+    shares_.clear();
+    for (const auto& [point, weight] : points) {
+      const auto node = carrier_.map().rowColumns(point);
+      for (std::size_t k = 0; k < node.size(); ++k)
+        add(firstNode_ + node[k], weight * std::abs(carrier_.map().rowWeights(point)[k]));
+      if (carrier_.turns().empty()) continue;
+      const auto p = static_cast<std::size_t>(point);
+      add(firstPatch_ + carrier_.turns().patch[p], weight * norm(carrier_.turns().offset[p]));
+    }
+    return demand_.add(shares_);
   }
+
+private:
+  void add(int mass, double share) {
+    if (share > 0.0) shares_.push_back({mass, share});
+  }
+
+  const Carrier& carrier_;
+  dem::ContactDemand& demand_;
+  int firstNode_, firstPatch_;
+  std::vector<dem::ContactDemand::Share> shares_;
 };
 
 }  // namespace
 
 void Coupling::addDemand(dem::ContactDemand& demand, const dem::Particles& particles, const dem::ContactLaws& laws,
-                         std::span<const double> inverseMass) const {
+                         int side) const {
   const std::size_t first = demand.links.size();
   laws.addDemand(demand, particles, carrier_->wall(), contacts_);
-  const PatchTurns& turns = carrier_->turns();
-  const std::size_t patches = turns.empty() ? 0 : turns.frames.size();
-  Asked stiffness(inverseMass.size(), patches), damping(inverseMass.size(), patches);
-  std::vector<Following> shifted, turned;
+  CarriedMasses masses(*carrier_, demand, side);
   std::vector<std::pair<int, double>> points;
   for (std::size_t l = first; l < demand.links.size(); ++l) {
-    const auto& link = demand.links[l];
+    dem::ContactDemand::Link& link = demand.links[l];
     const auto contact = static_cast<std::size_t>(link.contact);
+    link.side = side;
     points.clear();
     carrier_->follow(contacts_, contact, points);
-    shifted.push_back(following(*carrier_, points));
-    stiffness.add(shifted.back(), link.shifting);
-    damping.add(shifted.back(), link.shiftingDamping);
+    link.shifted = masses.follow(points);
+    if (!(link.turning > 0.0 || link.turningDamping > 0.0)) continue;
     points.clear();
-    if (link.turning > 0.0 || link.turningDamping > 0.0) carrier_->turnWith(contacts_, contact, points);
+    carrier_->turnWith(contacts_, contact, points);
     for (auto& [point, rate] : points) rate *= particles.radius[static_cast<std::size_t>(link.particle)];
-    turned.push_back(following(*carrier_, points));
-    stiffness.add(turned.back(), link.turning);
-    damping.add(turned.back(), link.turningDamping);
-  }
-  stiffness.handOn(turns, inverseMass);
-  damping.handOn(turns, inverseMass);
-  for (std::size_t l = first; l < demand.links.size(); ++l) {
-    const Following &shift = shifted[l - first], &turn = turned[l - first];
-    demand.links[l].wallStiff = std::max(stiffness.meets(shift), stiffness.meets(turn));
-    demand.links[l].wallDamped = std::max(damping.meets(shift), damping.meets(turn));
+    link.turned = masses.follow(points);
   }
 }
 

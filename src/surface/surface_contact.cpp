@@ -9,6 +9,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/dem/model/impact.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
 #include "dovetail/dem/setup/insertion.hpp"
@@ -16,35 +17,6 @@
 namespace dovetail::surface {
 
 namespace {
-
-/// The largest vᵀ M_lumped v / vᵀ M v: how much lighter nodes are than their lumped masses. By the power method, which
-/// tends to it from below; a tenth is added.
-double lightness(const coupling::SolidSide& side) {
-  if (!side.mass || side.mass->isDiagonal()) return 1.0;
-  const std::vector<double>& lumped = side.nodes().mass;
-  std::vector<Vec3> x(lumped.size());
-  double angle = 0.0;
-  for (Vec3& entry : x) entry = {std::cos(angle += 2.4), std::cos(1.3 * angle), std::cos(1.7 * angle)};
-  double ratio = 1.0;
-  for (int iteration = 0; iteration < 40; ++iteration) {
-    double size = 0.0, grown = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) size += lumped[i] * squaredNorm(x[i]);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= lumped[i] / std::sqrt(size);
-    side.mass->solve(x);
-    for (std::size_t i = 0; i < x.size(); ++i) grown += lumped[i] * squaredNorm(x[i]);
-    ratio = std::sqrt(grown);
-  }
-  return 1.1 * std::max(ratio, 1.0);
-}
-
-std::vector<double> inverseMasses(const coupling::SolidSide& side) {
-  const fem::Nodes& nodes = side.nodes();
-  const double factor = lightness(side);
-  std::vector<double> inverse(nodes.mass.size(), 0.0);
-  for (std::size_t i = 0; i < inverse.size(); ++i)
-    if (nodes.fixed[i] != fem::allComponents) inverse[i] = factor / nodes.mass[i];
-  return inverse;
-}
 
 std::int64_t newId() {
   static std::atomic<std::int64_t> last{0};
@@ -195,10 +167,28 @@ void SurfaceContact::addForces(dem::Model& m, const dem::Step& step) {
 void SurfaceContact::addDemand(const dem::Model& m, dem::ContactDemand& demand) const {
   if (!coupling_.inContact()) return;
   const std::size_t first = demand.links.size();
-  coupling_.addDemand(demand, m.particles, *laws_, inverseMasses(side()));
+  coupling_.addDemand(demand, m.particles, *laws_, side().addTo(demand));
   demand.surfaces.push_back(name_);
   for (std::size_t l = first; l < demand.links.size(); ++l)
     demand.links[l].surface = static_cast<int>(demand.surfaces.size()) - 1;
+}
+
+void SurfaceContact::addPartners(const dem::Model&, std::vector<dem::ImpactPartner>& partners) const {
+  geometry::Box box{coupling_.wall().x.front(), coupling_.wall().x.front()};
+  for (const Vec3& x : coupling_.wall().x)
+    for (int c = 0; c < 3; ++c)
+      box.lower[c] = std::min(box.lower[c], x[c]), box.upper[c] = std::max(box.upper[c], x[c]);
+  double speed = 0.0;
+  for (const Vec3& v : side().nodes().v) speed = std::max(speed, norm(v));
+  partners.push_back(
+      {.name = '"' + name_ + '"',
+       .laws = laws_.get(),
+       .material = coupling_.wall().material,
+       .inverseMass = coupling_.largestMobility(side().inverseMasses(coupling::SolidSide::Forces::atOnePlace)),
+       .speed = speed,
+       .box = box,
+       .of = side().model,
+       .inWindows = side().stepping == coupling::Stepping::implicitSteps});
 }
 
 void SurfaceContact::addContacts(const dem::Model& m, dem::ContactSample& sample) const {

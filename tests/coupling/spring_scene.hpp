@@ -41,11 +41,18 @@ public:
   void addDemand(const dem::Model& m, dem::ContactDemand& demand) const override {
     demand.stiffness.resize(m.particles.size(), 0.0);
     demand.damping.resize(m.particles.size(), 0.0);
+    const int side = this->side().addTo(demand);
     for (const Spring& spring : springs_) {
       const int i = dem::find(m.particles, spring.id);
       demand.stiffness[static_cast<std::size_t>(i)] += stiffness_;
-      const double mass = side().nodes().mass[static_cast<std::size_t>(spring.node)];
-      demand.links.push_back({i, -1, dem::StepOwner::contact, stiffness_, stiffness_ / mass});
+      const auto node = static_cast<int>(demand.sides[static_cast<std::size_t>(side)].first) + spring.node;
+      const dem::ContactDemand::Share whole{node, 1.0};
+      demand.links.push_back({.particle = i,
+                              .partner = -1,
+                              .owner = dem::StepOwner::contact,
+                              .shifting = stiffness_,
+                              .side = side,
+                              .shifted = demand.add({&whole, 1})});
     }
   }
   double stored() const override { return energy_; }

@@ -109,10 +109,10 @@ TEST(WallServo, ItsMassEntersTheStep) {
   ContactDemand demand;
   const auto laws = makeContactLaws(press.law);
   laws->addDemand(demand, press.particles, press.ground);
-  const DemandBefore before = demandBefore(demand);
+  const std::size_t first = demand.links.size();
   laws->addDemand(demand, press.particles, press.lid);
   const double fixed = criticalStep(demand, press.particles).dt;
-  addServoDemand(demand, *press.lid.servo, before);
+  demand.standOn(first, &*press.lid.servo, 1.0 / plate);
   const double safe = criticalStep(demand, press.particles).dt;
   EXPECT_NEAR(fixed, 2.0 / std::sqrt(2.0 * k / ball), 1e-12);
   EXPECT_NEAR(safe, 2.0 / std::sqrt(2.0 * k / ball + k / plate), 1e-12);

@@ -23,8 +23,8 @@ void forEachCarried(Model& m, Visit&& visit) {
     if (auto* carrier = std::get_if<WallOnBody>(&term->mesh.motion)) visit(term->mesh, *carrier);
 }
 
-/// Bound on 1/(effective mass) that a force at a contact meets, 1/kg. What demands hold of rolling resistance is over
-/// 2/5 of the squared radius of the particle.
+/// Bound on 1/(effective mass) that a force at a contact meets, 1/kg. Rolling resistance counts over 2/5 of the
+/// squared radius of the particle.
 double yielding(const Bodies& bodies, std::size_t b, const Particles& particles, int particle, const Vec3& arm) {
   const Vec3& inertia = bodies.inertia[b];
   const double translation = 1.0 / bodies.mass[b] + turnability(rotateBack(bodies.orientation[b], arm), inertia);
@@ -84,26 +84,20 @@ void renumberCarriedWalls(Model& m, std::span<const char> gone) {
 
 void addCarriedDemand(const Model& m, const Bodies& bodies, ContactDemand& demand) {
   if (!m.laws) return;
-  std::vector<std::array<double, 2>> ofBody(bodies.size(), {0.0, 0.0});
-  std::vector<int> bodyOf(demand.links.size(), -1);
   forEachCarried(m, [&](const MeshWall& mesh, const WallOnBody& carrier) {
-    if (mesh.contacts.size() == 0) return;
-    const DemandBefore before = demandBefore(demand);
+    const std::size_t first = demand.links.size();
     m.laws->addDemand(demand, m.particles, mesh.wall, mesh.contacts);
-    const DemandBefore now = demandBefore(demand);
     double most = 0.0;
     for (std::size_t c = 0; c < mesh.contacts.size(); ++c)
       most = std::max(most, yielding(bodies, at(carrier.body), m.particles, mesh.contacts.particle[c],
                                      contactPoint(mesh.contacts, mesh.wall, c) - bodies.x[at(carrier.body)]));
-    ofBody[at(carrier.body)][0] += most * (now.stiffness - before.stiffness);
-    ofBody[at(carrier.body)][1] += most * (now.damping - before.damping);
-    bodyOf.resize(demand.links.size(), carrier.body);
+    for (std::size_t k = first; k < demand.links.size(); ++k) {
+      ContactDemand::Link& link = demand.links[k];
+      link.shifting = std::max(link.shifting, 2.5 * link.turning);
+      link.shiftingDamping = std::max(link.shiftingDamping, 2.5 * link.turningDamping);
+    }
+    demand.standOn(first, &bodies.mass[at(carrier.body)], most);
   });
-  for (std::size_t k = 0; k < bodyOf.size(); ++k) {
-    if (bodyOf[k] < 0) continue;
-    demand.links[k].wallStiff = ofBody[at(bodyOf[k])][0];
-    demand.links[k].wallDamped = ofBody[at(bodyOf[k])][1];
-  }
 }
 
 std::vector<double> wallExtents(const Model& m, const Bodies& bodies) {

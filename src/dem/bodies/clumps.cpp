@@ -197,19 +197,6 @@ void muteMemberPairs(const Clumps& clumps, PairList& list) {
   }
 }
 
-CriticalStep criticalStep(const Bodies& bodies, const Clumps& clumps, const LinearSpringDashpot& normal,
-                          Partners partners, int contacts) {
-  Particles members;
-  for (std::size_t m = 0; m < clumps.size(); ++m) {
-    const std::size_t b = at(clumps.body[m]);
-    const double mass = 1.0 / (1.0 / bodies.mass[b] + turnability(clumps.offset[m], bodies.inertia[b]));
-    addParticle(members, {}, {}, 1.0, Mass{mass});
-  }
-  CriticalStep step = criticalStep(members, normal, partners, contacts);
-  if (step.particle >= 0) step.particle = clumps.particle[at(step.particle)];
-  return step;
-}
-
 void addDemand(ContactDemand& demand, const Particles& particles, const Bodies& bodies, const Clumps& clumps) {
   if (clumps.size() == 0) return;
   demand.body.resize(particles.size(), -1);

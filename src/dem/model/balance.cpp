@@ -1,8 +1,11 @@
 // What a model holds, what it can bear.
+#include <algorithm>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
+#include "dovetail/dem/model/impact.hpp"
 #include "dovetail/dem/model/model.hpp"
 #include "events.hpp"
 
@@ -49,19 +52,34 @@ ContactStep criticalStep(const Model& m, double leastOverlap) {
     findForces(now);  // for its list of pairs
     return criticalStep(now, leastOverlap);
   }
+  return criticalStep(demandOf(m, leastOverlap), m.particles);
+}
+
+ContactDemand demandOf(const Model& m, double leastOverlap) {
   ContactDemand demand;
   if (m.laws) m.laws->addDemand(demand, m.particles, m.pairs, leastOverlap);
   for (const auto& term : m.terms) term->addDemand(m, demand);
-  return criticalStep(demand, m.particles);
+  return demand;
 }
 
 void requireStableStep(const Model& m, double dt, double leastOverlap) {
-  const ContactStep limit = criticalStep(m, leastOverlap);
-  if (dt <= limit.dt) return;
-  throw InputError("dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) + " s that " +
-                       ownerOf(limit, m.particles) + " sets",
+  const ContactDemand demand = demandOf(m, leastOverlap);
+  const ContactStep contacts = criticalStep(demand, m.particles);
+  const ImpactLimit impact = impactLimit(m, demand);
+  const double limit = std::min(contacts.dt, impact.dt);
+  if (dt <= limit) return;
+  throw InputError("dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit) + " s that " +
+                       (impact.dt < contacts.dt ? impact.owner : ownerOf(contacts, m.particles)) + " sets",
                    "time step",
                    "take a fifth of the limit or less, softer contacts, or scaleMasses for quasi-static scenes");
+}
+
+bool looksAtLimit(std::int64_t step) { return step == 32 || step == 128 || step == 512 || step % 2048 == 0; }
+
+void lookAtLimit(Model& m) {
+  if (m.passed) return;
+  const ContactStep limit = criticalStep(m);
+  if (m.step.dt > limit.dt) m.passed = {m.step.dt, limit.dt, ownerOf(limit, m.particles), m.time};
 }
 
 Energies energies(const Model& m) {

@@ -1,5 +1,8 @@
 #include "dovetail/dem/model/contact_step.hpp"
 
+#include <numbers>
+
+#include "contact_directions.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/laws/contact_laws.hpp"
@@ -25,7 +28,11 @@ void addContact(ContactDemand& demand, const Particles& particles, int particle,
     demand.damping[i] +=
         strongest(slopes.normal.damping, slopes.tangential.damping, slopes.rolling.damping, particles.radius[i]);
   }
-  if (partner < 0) {
+  if (partner >= 0) {  // as it is across its normal: see Directions
+    link.shiftingDamping = scale * slopes.normal.damping;
+    link.turning = scale * std::max(slopes.tangential.stiffness, slopes.rolling.stiffness);
+    link.turningDamping = scale * std::max(slopes.tangential.damping, slopes.rolling.damping);
+  } else {
     const double radius = particles.radius[static_cast<std::size_t>(particle)];
     link.shifting = scale * std::max(slopes.normal.stiffness, slopes.tangential.stiffness);
     link.shiftingDamping = scale * std::max(slopes.normal.damping, slopes.tangential.damping);
@@ -37,17 +44,64 @@ void addContact(ContactDemand& demand, const Particles& particles, int particle,
                                                         scale * slopes.normal.damping / effectiveMass));
 }
 
+double windowLimit(const LinkRates& r, int K) {
+  if (K == 1 || (r.windowStiff == 0.0 && r.windowDamped == 0.0))
+    return verletLimit(r.stiff + r.windowStiff, r.damped + r.windowDamped);
+  const auto bears = [&](double dt) {
+    const double window = K * dt, sine = 0.5 * dt * std::sqrt(r.stiff);
+    const double half = sine < 1.0 ? std::asin(sine) : std::numbers::pi;  // φ/2
+    if (!(K * half < 0.5 * std::numbers::pi)) return false;
+    const double left = 1.0 - sine * sine - 0.5 * dt * r.damped;
+    const double share = half > 0.0 ? K * std::tan(half) / std::tan(K * half) : 1.0;
+    return window * (window * r.windowStiff + 2.0 * r.windowDamped) <= 4.0 * left * share;
+  };
+  double least = 0.0, most = verletLimit(r.windowStiff, r.windowDamped) / K;
+  most = std::min(most, verletLimit(r.stiff, r.damped));
+  for (int halving = 0; halving < 48; ++halving) {
+    const double middle = 0.5 * (least + most);
+    (bears(middle) ? least : most) = middle;
+  }
+  return least;
+}
+
 }  // namespace detail
+
+int ContactDemand::sideOf(const void* of, std::span<const double> inverseMass) {
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    if (sides[s].of == of) return static_cast<int>(s);
+  sides.push_back({of, masses.size(), masses.size() + inverseMass.size()});
+  for (const double inverse : inverseMass) masses.push_back({.inverse = inverse});
+  return static_cast<int>(sides.size()) - 1;
+}
+
+void ContactDemand::standOn(std::size_t first, const void* of, double inverseMass) {
+  const int side = sideOf(of, {&inverseMass, 1});
+  const std::size_t mass = sides[static_cast<std::size_t>(side)].first;
+  masses[mass].inverse = std::max(masses[mass].inverse, inverseMass);
+  const Share whole{static_cast<int>(mass), 1.0};
+  for (std::size_t k = first; k < links.size(); ++k) {
+    links[k].side = side;
+    links[k].shifted = add({&whole, 1});
+  }
+}
+
+ContactDemand::Range ContactDemand::add(std::span<const Share> some) {
+  const std::size_t first = shares.size();
+  shares.insert(shares.end(), some.begin(), some.end());
+  return {first, shares.size()};
+}
 
 namespace {
 
 /// What is asked over the mass that answers, per particle: 1/s² and 1/s.
 struct Rates {
-  std::vector<double> stiff, damped;
+  std::vector<double> stiff, damped, atWindows;
+  std::vector<double> inverse;  // 1/kg, 0 of members of bodies
 };
 
 Rates ratesOf(const ContactDemand& demand, const Particles& particles) {
-  Rates rates{demand.stiffness, demand.damping};
+  Rates rates{demand.stiffness, demand.damping, demand.atWindows, std::vector<double>(demand.stiffness.size(), 0.0)};
+  rates.atWindows.resize(rates.stiff.size(), 0.0);
   const std::size_t n = rates.stiff.size();
   const auto bodyOf = [&](std::size_t i) { return i < demand.body.size() ? demand.body[i] : -1; };
   std::vector<std::array<double, 2>> ofBody;
@@ -56,6 +110,8 @@ Rates ratesOf(const ContactDemand& demand, const Particles& particles) {
     const double inverse = (body < 0 ? 1.0 : demand.lever[i]) / (particles.weightOf(i) * particles.mass[i]);
     rates.stiff[i] *= inverse;
     rates.damped[i] *= inverse;
+    rates.atWindows[i] *= inverse;
+    if (body < 0) rates.inverse[i] = inverse;
     if (body < 0) continue;
     const auto b = static_cast<std::size_t>(body);
     if (b >= ofBody.size()) ofBody.resize(b + 1, {0.0, 0.0});
@@ -70,25 +126,96 @@ Rates ratesOf(const ContactDemand& demand, const Particles& particles) {
   return rates;
 }
 
+std::span<const ContactDemand::Share> sharesIn(const ContactDemand& demand, const ContactDemand::Range& range) {
+  return std::span(demand.shares).subspan(range.first, range.end - range.first);
+}
+
+/// What all links ask of each mass, over it.
+std::vector<ContactDemand::Mass> massesUnder(const ContactDemand& demand) {
+  std::vector<ContactDemand::Mass> masses = demand.masses;
+  const auto ask = [&](const ContactDemand::Range& range, double stiffness, double damping) {
+    for (const auto& [mass, share] : sharesIn(demand, range)) {
+      masses[static_cast<std::size_t>(mass)].stiffness += stiffness * share;
+      masses[static_cast<std::size_t>(mass)].damping += damping * share;
+    }
+  };
+  for (const ContactDemand::Link& link : demand.links) {
+    ask(link.shifted, link.shifting, link.shiftingDamping);
+    ask(link.turned, link.turning, link.turningDamping);
+  }
+  for (const ContactDemand::Mass& point : masses) ask(point.carriedBy, point.stiffness, point.damping);
+  for (ContactDemand::Mass& mass : masses) mass.stiffness *= mass.inverse, mass.damping *= mass.inverse;
+  for (ContactDemand::Mass& point : masses)
+    for (const auto& [mass, share] : sharesIn(demand, point.carriedBy)) {
+      point.stiffness += share * masses[static_cast<std::size_t>(mass)].stiffness;
+      point.damping += share * masses[static_cast<std::size_t>(mass)].damping;
+    }
+  return masses;
+}
+
+class LinkReader {
+public:
+  LinkReader(const ContactDemand& demand, const Particles& particles)
+      : demand_(demand),
+        ofParticles_(ratesOf(demand, particles)),
+        masses_(massesUnder(demand)),
+        directions_(demand, particles) {}
+
+  detail::LinkRates operator()(std::size_t number) const {
+    const ContactDemand::Link& link = demand_.links[number];
+    detail::LinkRates rates;
+    for (const int k : {link.particle, link.partner}) {
+      if (k < 0) continue;
+      const auto i = static_cast<std::size_t>(k);
+      const Directions::Slopes spared = directions_.spared(number, i);
+      rates.stiff += ofParticles_.stiff[i] - ofParticles_.inverse[i] * spared[0];
+      rates.damped += ofParticles_.damped[i] - ofParticles_.inverse[i] * spared[1];
+      rates.windowStiff += ofParticles_.atWindows[i];
+    }
+    if (link.side < 0) return rates;
+    const auto [shift, turn] = std::pair{meets(link.shifted), meets(link.turned)};
+    const double stiff = std::max(shift[0], turn[0]), damped = std::max(shift[1], turn[1]);
+    const ContactDemand::Side& side = demand_.sides[static_cast<std::size_t>(link.side)];
+    (side.inWindows ? rates.windowStiff : rates.stiff) += stiff;
+    (side.inWindows ? rates.windowDamped : rates.damped) += damped;
+    rates.windowStiff += side.ownRate;
+    return rates;
+  }
+
+private:
+  std::array<double, 2> meets(const ContactDemand::Range& range) const {
+    std::array<double, 2> sum{};
+    for (const auto& [mass, share] : sharesIn(demand_, range)) {
+      sum[0] += share * masses_[static_cast<std::size_t>(mass)].stiffness;
+      sum[1] += share * masses_[static_cast<std::size_t>(mass)].damping;
+    }
+    return sum;
+  }
+
+  const ContactDemand& demand_;
+  Rates ofParticles_;
+  std::vector<ContactDemand::Mass> masses_;
+  Directions directions_;
+};
+
 }  // namespace
 
 ContactStep criticalStep(const ContactDemand& demand, const Particles& particles) {
   ContactStep step;
   step.twoBody = demand.twoBody;
-  const Rates rates = ratesOf(demand, particles);
-  for (const ContactDemand::Link& link : demand.links) {
-    double a = link.wallStiff, b = link.wallDamped;
-    for (const int k : {link.particle, link.partner}) {
-      if (k < 0) continue;
-      a += rates.stiff[static_cast<std::size_t>(k)];
-      b += rates.damped[static_cast<std::size_t>(k)];
-    }
-    const double dt = detail::verletLimit(a, b);
+  const LinkReader ratesOf(demand, particles);
+  for (std::size_t number = 0; number < demand.links.size(); ++number) {
+    const ContactDemand::Link& link = demand.links[number];
+    const detail::LinkRates rates = ratesOf(number);
+    const double dt = detail::windowLimit(rates, demand.window);
     if (dt < step.dt) {
       step.dt = dt;
       step.particle = link.particle;
       step.partner = link.partner;
       step.owner = link.owner;
+      const double own = link.side < 0 ? 0.0 : demand.sides[static_cast<std::size_t>(link.side)].ownRate;
+      const double K = demand.window;
+      step.byOwnForces = K * K * (2.0 * own - rates.windowStiff) > rates.stiff;
       step.surface = link.surface < 0 ? "" : demand.surfaces[static_cast<std::size_t>(link.surface)];
     }
   }
@@ -120,7 +247,7 @@ MassScaling scaleMasses(Particles& particles, const ContactDemand& demand, doubl
   // A contact of two has dt² K/m + 2 dt C/m ≤ 4 in sum, so half of that each; against walls alone all of it.
   std::vector<double> allowed(demand.stiffness.size(), 4.0);
   for (const ContactDemand::Link& link : demand.links) {
-    if (link.partner < 0 && !(link.wallStiff > 0.0)) continue;
+    if (link.partner < 0 && link.side < 0) continue;
     allowed[static_cast<std::size_t>(link.particle)] = 2.0;
     if (link.partner >= 0) allowed[static_cast<std::size_t>(link.partner)] = 2.0;
   }

@@ -139,8 +139,10 @@ void welcome(Model& m) {
 void prepare(Model& m, double dt) {
   const bool changed = !hasForces(m);
   if (!changed && dt == m.checkedStep) return;
+  const bool anew = dt != m.checkedStep || m.laws != m.forcesOfLaws;
   if (changed) findForces(m);
-  if (m.refusesUnstableSteps) requireStableStep(m, dt);
+  if (anew) m.passed.reset();
+  if (m.refusesUnstableSteps) anew ? requireStableStep(m, dt) : lookAtLimit(m);
   m.checkedStep = dt;
 }
 
@@ -223,6 +225,7 @@ void advance(Model& m, double dt) {
   move(m, dt);
   renew(m);
   addForces(m);
+  if (m.refusesUnstableSteps && looksAtLimit(m.steps)) lookAtLimit(m);
 }
 
 void run(Model& m, double dt, std::int64_t n) {

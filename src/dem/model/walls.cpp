@@ -92,9 +92,9 @@ void PrimitiveWallTerm::close(Model&, double dt) { kickWall(wall, 0.5 * dt); }
 
 void PrimitiveWallTerm::addDemand(const Model& m, ContactDemand& demand) const {
   if (!m.laws || wall.contacts.size() == 0) return;
-  const DemandBefore before = demandBefore(demand);
+  const std::size_t first = demand.links.size();
   m.laws->addDemand(demand, m.particles, wall);
-  if (wall.servo) addServoDemand(demand, *wall.servo, before);
+  if (wall.servo) demand.standOn(first, &*wall.servo, 1.0 / wall.servo->mass);
 }
 
 namespace {
@@ -201,9 +201,9 @@ void MeshWallTerm::close(Model& m, double dt) {
 
 void MeshWallTerm::addDemand(const Model& m, ContactDemand& demand) const {
   if (!m.laws || mesh.contacts.size() == 0 || carried(mesh)) return;
-  const DemandBefore before = demandBefore(demand);
+  const std::size_t first = demand.links.size();
   m.laws->addDemand(demand, m.particles, mesh.wall, mesh.contacts);
-  if (const auto* servo = std::get_if<WallServo>(&mesh.motion)) addServoDemand(demand, *servo, before);
+  if (const auto* servo = std::get_if<WallServo>(&mesh.motion)) demand.standOn(first, servo, 1.0 / servo->mass);
 }
 
 void MeshWallTerm::addEnergies(const Model&, Energies& e) const {

@@ -1,11 +1,9 @@
 #include "dovetail/dem/walls/wall_servo.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/dem/model/contact_step.hpp"
 
 namespace dovetail::dem {
 
@@ -35,19 +33,6 @@ void kickServo(WallServo& servo, double dt) {
 Vec3 driftServo(WallServo& servo, double dt) {
   servo.travel += dt * servo.speed;
   return dt * servo.speed * servo.direction;
-}
-
-DemandBefore demandBefore(const ContactDemand& demand) {
-  return {demand.links.size(), std::accumulate(demand.stiffness.begin(), demand.stiffness.end(), 0.0),
-          std::accumulate(demand.damping.begin(), demand.damping.end(), 0.0)};
-}
-
-void addServoDemand(ContactDemand& demand, const WallServo& servo, const DemandBefore& before) {
-  const DemandBefore now = demandBefore(demand);
-  for (std::size_t k = before.links; k < demand.links.size(); ++k) {
-    demand.links[k].wallStiff = (now.stiffness - before.stiffness) / servo.mass;
-    demand.links[k].wallDamped = (now.damping - before.damping) / servo.mass;
-  }
 }
 
 }  // namespace dovetail::dem

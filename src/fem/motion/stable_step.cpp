@@ -9,6 +9,7 @@
 #include "dovetail/fem/model/model_mass.hpp"
 #include "dovetail/fem/motion/largest_eigenvalue.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/fem/terms/contact_plane.hpp"
 
 namespace dovetail::fem {
 
@@ -41,6 +42,60 @@ double assembledStableStep(Model& model, double accuracy) {
                                            accuracy));
 }
 
+namespace {
+
+/// k/m of a node, 1/s², by what terms do that are no elements.
+struct Pull {
+  double rate = 0.0;
+  int node = -1;
+  std::string term;
+};
+
+/// Row sums of a term's tangent, N/m per node.
+std::vector<double> stiffnessOf(Term& term, const Model& model) {
+  std::vector<double> k(model.nodes.X.size(), 0.0);
+  if (const auto* const plane = dynamic_cast<const ContactPlane*>(&term)) {
+    plane->addStiffness(k);
+    return k;
+  }
+  if (!term.hasEnergy()) return k;
+  MatrixPattern pattern(model.nodes.X.size());
+  term.addPattern(pattern);
+  BlockMatrix K(std::move(pattern));
+  term.addTangent(model.nodes, {model.t, 0.0}, K);
+  for (std::size_t n = 0; n < k.size(); ++n)
+    for (std::size_t c = 0; c < 3; ++c) {
+      double sum = 0.0;
+      for (int place = K.offsets()[n]; place < K.offsets()[n + 1]; ++place)
+        for (std::size_t d = 0; d < 3; ++d)
+          sum += std::abs(K.values()[9 * static_cast<std::size_t>(place) + 3 * c + d]);
+      k[n] = std::max(k[n], sum);
+    }
+  return k;
+}
+
+Pull strongestPull(const Model& model) {
+  Pull most;
+  for (const auto& term : model.terms) {
+    if (dynamic_cast<const Solid*>(term.get()) != nullptr) continue;
+    const std::vector<double> k = stiffnessOf(*term, model);
+    Pull own;
+    for (std::size_t n = 0; n < k.size(); ++n)
+      if (model.nodes.fixed[n] != allComponents && k[n] > own.rate * model.nodes.mass[n])
+        own = {k[n] / model.nodes.mass[n], static_cast<int>(n), term->name()};
+    own.rate += most.rate;
+    most = own.node < 0 ? most : own;
+  }
+  return most;
+}
+
+}  // namespace
+
+std::string ModelStableStep::owner(const std::string& of) const {
+  return node < 0 ? "element " + std::to_string(element) + " of \"" + of + "\""
+                  : "node " + std::to_string(node) + " of \"" + of + "\", at which \"" + solid + "\" pulls,";
+}
+
 ModelStableStep stableStep(Model& model) {
   ModelStableStep limit{0.0, -1, {}};
   for (const auto& term : model.terms)
@@ -50,6 +105,11 @@ ModelStableStep stableStep(Model& model) {
     }
   if (limit.element < 0)
     throw InputError("the model has no solid", "stableStep", "add one with makeSolid, or ask assembledStableStep");
+  const Pull pull = strongestPull(model);
+  if (pull.node < 0) return limit;
+  const double elements = 4.0 / (limit.dt * limit.dt);
+  if (pull.rate > elements) limit.node = pull.node, limit.solid = pull.term;
+  limit.dt = 2.0 / std::sqrt(elements + pull.rate);
   return limit;
 }
 

@@ -22,9 +22,7 @@ bool hasSolid(const Model& model) {
                              [](const auto& term) { return dynamic_cast<const Solid*>(term.get()) != nullptr; });
 }
 
-std::string setter(const ModelStableStep& stable) {
-  return "element " + std::to_string(stable.element) + " of \"" + stable.solid + "\"";
-}
+std::string setter(const ModelStableStep& stable) { return stable.owner(stable.solid); }
 
 void requireOptions(const ExplicitOptions& options) {
   if (!(options.safety >= 0.0 && options.safety <= 1.0))

@@ -175,6 +175,16 @@ public:
     return report;
   }
 
+  void addStiffness(std::span<double> k) const override {
+    const double penalty = law_.friction > 0.0 ? std::max(law_.penalty, law_.tangentialPenalty) : law_.penalty;
+    for (const Spot& spot : spots_) {
+      double sum = 0.0;
+      for (std::size_t b = 0; b < spot.nodes; ++b) sum += std::abs(spot.N[b]);
+      for (std::size_t a = 0; a < spot.nodes; ++a)
+        k[static_cast<std::size_t>(spot.node[a])] += penalty * spot.area * std::abs(spot.N[a]) * sum;
+    }
+  }
+
 private:
   Vec3 origin(double t) const { return plane_.motion ? plane_.point + plane_.motion(t) : plane_.point; }
   std::span<const int> corners(std::size_t q) const { return {spots_[q].node.data(), spots_[q].nodes}; }

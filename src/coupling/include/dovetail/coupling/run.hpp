@@ -128,8 +128,10 @@ public:
   /// is the state at the first start.
   const EnergyLedger& ledger();
   Totals totals() const;
-  /// Of steps with the contacts, elements and connectors as they are now. Forces of solids and of connectors act on the
-  /// same nodes: their ω² add up.
+  /// Of steps with the contacts, elements and connectors as they are now, and with the first contacts of particles that
+  /// touch nobody yet (dem::impactLimit). All connectors of a solid and its own forces share the same nodes; in windows
+  /// of K steps see dem::criticalStep. A run under way looks at its state now and then and tells in grains.passed when
+  /// that has passed the limit.
   StepLimit criticalStep();
 
   /// The state between windows. A run that is set up alike and started goes on from it with the same digits.

@@ -8,6 +8,7 @@
 #include "dovetail/core/impulses.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/coupling/nodal_load.hpp"
+#include "dovetail/dem/model/contact_step.hpp"
 #include "dovetail/fem/model/model.hpp"
 #include "dovetail/fem/model/model_mass.hpp"
 
@@ -37,6 +38,13 @@ struct SolidSide {
   /// v += M⁻¹ impulse (kg m/s) of the free components, between the kicks of a step; books what supports take of it.
   /// @return M⁻¹ impulse, m/s
   std::vector<Vec3> kick(std::span<const Vec3> impulse);
+
+  /// Of the nodes, 1/kg, 0 where they are held; as light as consistent masses make them under forces on all of them,
+  /// or on one place.
+  enum class Forces { any, atOnePlace };
+  std::vector<double> inverseMasses(Forces forces = Forces::any) const;
+  /// Its number among the sides of a demand, whose masses are the nodes: all connectors of a solid ask the same masses.
+  int addTo(dem::ContactDemand& demand) const;
 
   fem::Nodes& nodes() { return model->nodes; }
   const fem::Nodes& nodes() const { return model->nodes; }

@@ -105,14 +105,11 @@ public:
   void check(const dem::Particles& particles) const;
   /// Particles get new numbers, < 0: gone; what their contacts remember follows. @return as dem::renumber, J
   double renumber(std::span<const int> newNumber);
-  /// Adds what the contacts of the last exchange ask of the step, the surface giving way with its nodes: node i shares
-  /// its mass among all contacts by what they ask of it, k |S_i|, so that one alone has
-  ///   ω² = K/m + Σ_i |S_i| Q_i / m_i,   Q_i = Σ_contacts k |S_i|,
-  /// safe for any number of particles on a face (see ContactStep), while nothing else pulls at the nodes. Couples count
-  /// as contacts of their own: k = k_r/R², S_i = R × the rate at which i turns the facet.
-  /// @param inverseMass  per node, 1/kg; 0 for a held node
+  /// Adds what the contacts of the last exchange ask of the step and of the nodes: k |S_i| of node i (see ContactStep).
+  /// Couples count as contacts of their own: k = k_r/R², S_i = R × the rate at which i turns the facet.
+  /// @param side  of the demand, whose masses are the nodes
   void addDemand(dem::ContactDemand& demand, const dem::Particles& particles, const dem::ContactLaws& laws,
-                 std::span<const double> inverseMass) const;
+                 int side) const;
   /// The largest Σ_i S_i²/m_i of any point of the surface, 1/kg (an upper bound on a smooth one): a single particle on
   /// it has ω² = k (1/m + that).
   double largestMobility(std::span<const double> inverseMass) const;

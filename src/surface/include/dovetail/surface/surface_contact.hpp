@@ -44,6 +44,7 @@ public:
   double renumber(std::span<const int> newNumber, const dem::Particles& before) override;
   void addForces(dem::Model& m, const dem::Step& step) override;
   void addDemand(const dem::Model& m, dem::ContactDemand& demand) const override;
+  void addPartners(const dem::Model& m, std::vector<dem::ImpactPartner>& partners) const override;
   void addContacts(const dem::Model& m, dem::ContactSample& sample) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "dovetail/dem/bodies/bodies.hpp"
-#include "dovetail/dem/model/critical_step.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 #include "dovetail/dem/particles/particles.hpp"
 
@@ -88,12 +87,6 @@ void requireShorter(const Particles& particles, const Clumps& clumps, const geom
 /// Factor 0 (PairList::factors) on the pairs within one body, so that members that overlap make no force and store no
 /// energy. Again for every new list; any number of times.
 void muteMemberPairs(const Clumps& clumps, PairList& list);
-
-/// As criticalStep of single particles (critical_step.hpp), for the member that is easiest to move: a force n at a
-/// member with the arm r moves it as if it had the mass 1/(1/m + (r × n)·I⁻¹(r × n)), here for the worst n.
-/// @throws InputError as criticalStep of single particles
-CriticalStep criticalStep(const Bodies& bodies, const Clumps& clumps, const LinearSpringDashpot& normal,
-                          Partners partners, int contacts = 1);
 
 /// Says of all members that they share their body's mass and inertia, so that criticalStep(demand, particles) sees what
 /// all contacts of a body ask of it together. A force at the distance r from the centre of mass meets the effective

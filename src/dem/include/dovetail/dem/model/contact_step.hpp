@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,28 +21,62 @@ class ContactLaws;
 /// What acts between a particle and its partner, and may set the step.
 enum class StepOwner : std::uint8_t { contact, bond };
 
-/// What contacts and bonds ask of each particle. Pairs, walls, bonds and clumps add to it (addDemand), in any order;
-/// then criticalStep reads it.
+/// What contacts and bonds ask of each particle, and of what they stand on beside particles. Pairs, walls, bonds,
+/// clumps and connectors add to it (addDemand), in any order; then criticalStep reads it.
 struct ContactDemand {
+  /// How fast a mass goes with a contact: by so much of its own shift.
+  struct Share {
+    int mass;
+    double share;
+  };
+  struct Range {
+    std::size_t first = 0, end = 0;  ///< in `shares`
+  };
   struct Link {
-    int particle, partner;  ///< partner −1: a wall
+    int particle, partner;  ///< partner −1: none, see `side`
     StepOwner owner;
-    double stiffness = 0.0;                    ///< along its normal, N/m
-    double wallStiff = 0.0, wallDamped = 0.0;  ///< of a wall that gives way: over its mass, 1/s² and 1/s
-    /// Of a wall's contact: what the wall itself feels of it by being shifted, and by being turned with the particle's
-    /// radius as lever, N/m and N s/m.
+    double stiffness = 0.0;  ///< along its normal, N/m
+    /// What the other side feels of it by being shifted, and by being turned with the particle's radius as lever, N/m
+    /// and N s/m.
     double shifting = 0.0, shiftingDamping = 0.0, turning = 0.0, turningDamping = 0.0;
     int contact = -1;  ///< with a triangulated wall: its number among WallContacts
     int surface = -1;  ///< number among `surfaces`, for messages
+    int side = -1;     ///< number among `sides`: what it stands on; −1: nothing that gives way
+    Range shifted{}, turned{};
+  };
+  /// Masses that move together in time: the nodes of a solid, a servo wall, a body. All connectors of one solid add to
+  /// the same masses.
+  struct Side {
+    const void* of;
+    std::size_t first, end;  ///< of `masses`
+    bool inWindows = false;  ///< kicked in every step, but moved once a window (implicit solids)
+    double ownRate = 0.0;    ///< ω² of forces of its own, which act at the ends of windows, 1/s²
+  };
+  struct Mass {
+    double inverse = 0.0;                   ///< 1/kg; 0: held, or carried by others
+    Range carriedBy{};                      ///< by these at these rates
+    double stiffness = 0.0, damping = 0.0;  ///< what is asked of it, then over the mass
   };
   std::vector<double> stiffness;                             ///< N/m, per particle: sum over its contacts and bonds
   std::vector<double> damping;                               ///< N s/m, the same of the dashpots
+  std::vector<double> atWindows;                             ///< N/m, of forces at the ends of windows only; or empty
   std::vector<Link> links;                                   ///< contacts and bonds
   std::vector<std::string> surfaces;                         ///< names of what links without a partner are with
   double twoBody = std::numeric_limits<double>::infinity();  ///< see ContactStep
 
   std::vector<int> body;      ///< per particle: the body it is a member of, −1 = none; empty: there are no clumps
   std::vector<double> lever;  ///< per particle: a member's mass over the effective mass that its contacts meet, ≥ 1
+
+  int window = 1;  ///< K: steps per window
+  std::vector<Side> sides;
+  std::vector<Mass> masses;
+  std::vector<Share> shares;
+
+  /// Number of the side of `of`; made with so many masses if it is not there yet.
+  int sideOf(const void* of, std::span<const double> inverseMass);
+  /// Links from number `first` on stand on one mass of a side of its own, 1/kg.
+  void standOn(std::size_t first, const void* of, double inverseMass);
+  Range add(std::span<const Share> some);
 };
 
 /// A step and who sets it.
@@ -50,6 +85,7 @@ struct ContactStep {
   int particle = -1, partner = -1;                      ///< between which it is set; partner −1: a wall
   StepOwner owner = StepOwner::contact;                 ///< what sets it
   std::string surface;                                  ///< what a partner −1 is called; empty: a wall
+  bool byOwnForces = false;                             ///< most of it is asked by its side's own forces
   /// s; the exact limit 2/ω (√(1 + ζ²) − ζ) of the fastest contact if it were alone and acted along its normal only.
   /// For information: with several contacts per particle it is not safe.
   double twoBody = std::numeric_limits<double>::infinity();
@@ -59,6 +95,13 @@ namespace detail {
 
 /// Largest dt with a dt² + 2 b dt ≤ 4; a in 1/s², b in 1/s.
 inline double verletLimit(double a, double b) { return 4.0 / (b + std::sqrt(b * b + 4.0 * a)); }
+
+/// What acts in every step, and what acts or moves once a window: ω², 1/s², and 2ζω, 1/s.
+struct LinkRates {
+  double stiff = 0.0, damped = 0.0, windowStiff = 0.0, windowDamped = 0.0;
+};
+/// Largest stable dt of windows of K steps.
+double windowLimit(const LinkRates& rates, int K);
 
 /// The law of a pair of materials.
 /// @throws InputError if the table has no such pair
@@ -139,9 +182,17 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
 /// A safe step: every particle shares its mass (and inertia) among its contacts and bonds by what they ask for, so that
 /// one (i, j) alone has ω² = K_i/m_i + K_j/m_j and 2ζω = C_i/m_i + C_j/m_j, K and C being the sums of stiffness and
 /// damping over the contacts of a particle; the whole is no faster than its fastest part. Exact for one contact along
-/// its normal. Dashpots act on the velocity of the half step, as in kick · drift · forces · kick. A contact's stiffness
-/// is the larger of its normal one and, where particles spin, 7/2 of the tangential one with the rolling one over 2/5
-/// R². Members of a clump share their body's mass and inertia. Take 0.2 of it or less for accuracy.
+/// its normal. Masses that contacts stand on share likewise. Dashpots act on the velocity of the half step, as in kick
+/// · drift · forces · kick. A contact's stiffness is the larger of its normal one and, where particles spin, 7/2 of the
+/// tangential one with the rolling one over 2/5 R². Members of a clump share their body's mass and inertia. Take 0.2 of
+/// it or less for accuracy.
+///
+/// In windows of K steps, with a the rate of what acts and moves in every step and g that of what acts, or moves, once
+/// a window (own forces of explicit solids; nodes of implicit ones), K φ < π and
+///   (K dt)² g / 4 ≤ (1 − dt² a / 4) K tan(φ/2) / tan(K φ/2),   sin(φ/2) = dt √a / 2,
+/// the first resonance of impulses with what moves in between (Biesiadecki & Skeel, J. Comput. Phys. 109, 1993, for
+/// exact motion in between); with K = 1 a and g add up. No implicit scheme lifts it: what a connector does to standing
+/// nodes is a kick.
 ContactStep criticalStep(const ContactDemand& demand, const Particles& particles);
 
 /// For messages: "the bond of particle 3 with particle 4", particles by their ids.

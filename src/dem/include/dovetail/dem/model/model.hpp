@@ -42,6 +42,13 @@ enum class Rotation {
   off         ///< particles only slide
 };
 
+/// A look at a run under way that found its step beyond the limit.
+struct PassedLimit {
+  double dt, limit;   ///< s
+  std::string owner;  ///< who sets the limit
+  double time;        ///< s, when it was found
+};
+
 /// Particles, and what acts on them. All parts but particles and laws may be left empty.
 struct Model {
   Particles particles;
@@ -54,8 +61,10 @@ struct Model {
   Booking booking = Booking::on;
   /// Particles are sorted at every so many renewals of the list, 0 = never; Particles::id names them.
   int sortEvery = 16;
-  bool refusesUnstableSteps = true;  ///< a step beyond criticalStep is refused, see there
-  Profile* profile = nullptr;        ///< where the stages' times go, if wanted
+  /// A first step, or another than before, is refused beyond criticalStep and impactLimit; then the run looks at its
+  /// state now and then, and tells once (`passed`) when that has passed the limit.
+  bool refusesUnstableSteps = true;
+  Profile* profile = nullptr;  ///< where the stages' times go, if wanted
 
   // What follows is the run's to keep.
   double time = 0.0;  ///< s
@@ -76,6 +85,7 @@ struct Model {
   double timeBase = 0.0;                            ///< s: time = timeBase + (steps − stepsBase) dt
   std::int64_t stepsBase = 0;
   double checkedStep = 0.0;             ///< s: the dt that has been compared with the critical step
+  std::optional<PassedLimit> passed;    ///< the first look that found the step beyond the limit; in no checkpoint
   std::int64_t renewals = 0;            ///< how often the grid was asked for pairs
   std::vector<std::int64_t> newcomers;  ///< ids of those who entered in the step under way
   bool newcomersTouch = false;          ///< somebody, perhaps, whose contacts bring energy then
@@ -114,11 +124,18 @@ void run(Model& m, double dt, std::int64_t n);
 ///   values that are not finite, laws that are missing or do not know a material, walls and terms that are not valid
 void check(const Model& m);
 
+/// What pairs and terms ask of the step as they are now. @param leastOverlap see criticalStep
+ContactDemand demandOf(const Model& m, double leastOverlap = 0.0);
 /// The largest stable step with contacts, bonds and bodies as they are now, and who sets it (see ContactDemand). A
 /// scene that is yet to collide has none: take `leastOverlap` then, the overlap to be expected, m.
 ContactStep criticalStep(const Model& m, double leastOverlap = 0.0);
-/// @throws InputError naming who sets the limit if dt is beyond it
+/// @throws InputError naming who sets the limit if dt is beyond it, or beyond that of the impacts to come
 void requireStableStep(const Model& m, double dt, double leastOverlap = 0.0);
+/// Whether a run looks at the limit after this step: at three of the first and then at each 2048th, as a look costs about
+/// as much as a step.
+bool looksAtLimit(std::int64_t step);
+/// Sets m.passed if the step is beyond criticalStep. `advance` does so where looksAtLimit.
+void lookAtLimit(Model& m);
 
 /// Energies now, J; contact energies and losses need booking. Gravity counts from the origin.
 /// @throws InputError between advance and close, when velocities lag behind positions

@@ -20,6 +20,7 @@ struct Particles;
 struct ContactDemand;
 struct ContactSample;
 struct Energies;
+struct ImpactPartner;
 struct Surroundings;
 
 /// The step under way.
@@ -86,6 +87,8 @@ public:
   virtual void close(Model&, double /*dt*/) {}
 
   virtual void addDemand(const Model&, ContactDemand&) const {}
+  /// What particles may come to hit (see impactLimit).
+  virtual void addPartners(const Model&, std::vector<ImpactPartner>&) const {}
   /// Adds what it stores and is not in model.work, J; takes out what sums over particles count wrongly.
   virtual void addEnergies(const Model&, Energies&) const {}
   virtual void addMomenta(const Model&, Momenta&) const {}

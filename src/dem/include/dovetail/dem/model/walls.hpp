@@ -27,6 +27,7 @@ public:
   void addForces(Model& m, const Step& step) override;
   void close(Model& m, double dt) override;
   void addDemand(const Model& m, ContactDemand& demand) const override;
+  void addPartners(const Model& m, std::vector<ImpactPartner>& partners) const override;
   void addEnergies(const Model& m, Energies& e) const override;
   void addOutside(const Model& m, Momenta& force, Momenta& impulse) const override;
   void addContacts(const Model& m, ContactSample& sample) const override;
@@ -51,6 +52,7 @@ public:
   void addForces(Model& m, const Step& step) override;
   void close(Model& m, double dt) override;
   void addDemand(const Model& m, ContactDemand& demand) const override;
+  void addPartners(const Model& m, std::vector<ImpactPartner>& partners) const override;
   void addEnergies(const Model& m, Energies& e) const override;
   void addOutside(const Model& m, Momenta& force, Momenta& impulse) const override;
   void addContacts(const Model& m, ContactSample& sample) const override;

@@ -7,15 +7,13 @@
 
 namespace dovetail::dem {
 
-struct ContactDemand;
-
 /// A wall of some mass that is free along one direction only, where a load pushes it against its contacts. At rest
 /// their force balances the load. It is a body with one degree of freedom: particles + contacts + kineticEnergy + lost
 /// − work is constant, as far as the particles' own dashpots and sliders lose nothing.
 struct WallServo {
   Vec3 direction{0, 0, 1};  ///< unit, in space
   double load = 0.0;        ///< N, on the wall along direction; may be changed between steps
-  double mass = 0.0;        ///< kg, > 0: larger = slower and smoother, smaller = a shorter step (addServoDemand)
+  double mass = 0.0;        ///< kg, > 0: larger = slower and smoother, smaller = a shorter step
   double damping = 0.0;  ///< N s/m, ≥ 0, against its speed; 2 √(mass × stiffness of what it presses) is critical
 
   double speed = 0.0;    ///< m/s, along direction
@@ -36,14 +34,5 @@ WallServo makeServo(const Vec3& direction, double load, double mass, double damp
 void kickServo(WallServo& servo, double dt);
 /// travel += speed dt. Returns the displacement, m.
 Vec3 driftServo(WallServo& servo, double dt);
-
-/// What the step depends on before a wall adds its contacts (addDemand), for addServoDemand afterwards.
-struct DemandBefore {
-  std::size_t links;
-  double stiffness, damping;  ///< sums over the particles
-};
-DemandBefore demandBefore(const ContactDemand& demand);
-/// The wall gives way: its contacts, added to the demand since `before`, share its mass.
-void addServoDemand(ContactDemand& demand, const WallServo& servo, const DemandBefore& before);
 
 }  // namespace dovetail::dem

@@ -46,8 +46,9 @@ std::ostream& operator<<(std::ostream& out, const DynamicsReport& report);
 
 struct ExplicitOptions {
   double massShare = 0.0;  ///< of the consistent mass (ModelMass); 0 is the usual choice
-  /// Refuse steps above the bound of the stiffest element, stableStep(model). (Springs and contact are not in it, nor
-  /// is stiffening under load; masses between lumped and consistent count with the least they can be, bricks' 1/27.)
+  /// Refuse steps above the bound of the stiffest element, stableStep(model). (Springs and contact planes are in it;
+  /// stiffening under load is not. Masses between lumped and consistent count with the least they can be, bricks'
+  /// 1/27.)
   bool checkStep = true;
   int energyEvery = 1;  ///< steps between samples of stored energy; 0 = no ledger
   /// Steps between looks for inverted elements; run() looks once more at its end, and NaN is looked for in every step.

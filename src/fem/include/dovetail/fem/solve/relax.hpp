@@ -14,7 +14,7 @@ struct RelaxOptions {
   double smallestStep = 1e-6;       ///< s; below it the run stops
   int maxAugmentations = 30;        ///< per step, for contact by augmented Lagrangian
   /// Of the motion to rest with the nodes' masses, s; 0 = nine tenths of stableStep(model), which asks the laws for
-  /// tangents of single elements. Springs and contact that are stiffer than the elements need a smaller one.
+  /// tangents of single elements, springs and contact planes.
   double iterationStep = 0.0;
 };
 

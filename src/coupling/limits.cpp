@@ -1,0 +1,123 @@
+// The limit of the step: what all connectors, contacts and solids of a run ask together.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dovetail/dem/model/impact.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "run_impl.hpp"
+
+namespace dovetail::coupling {
+
+namespace {
+
+/// The largest vᵀ M_lumped v / vᵀ M v: how much lighter nodes are than their lumped masses. By the power method, which
+/// tends to it from below; a tenth is added.
+double lightness(const SolidSide& side) {
+  if (!side.mass || side.mass->isDiagonal()) return 1.0;
+  const std::vector<double>& lumped = side.nodes().mass;
+  std::vector<Vec3> x(lumped.size());
+  double angle = 0.0;
+  for (Vec3& entry : x) entry = {std::cos(angle += 2.4), std::cos(1.3 * angle), std::cos(1.7 * angle)};
+  double ratio = 1.0;
+  for (int iteration = 0; iteration < 40; ++iteration) {
+    double size = 0.0, grown = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) size += lumped[i] * squaredNorm(x[i]);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= lumped[i] / std::sqrt(size);
+    side.mass->solve(x);
+    for (std::size_t i = 0; i < x.size(); ++i) grown += lumped[i] * squaredNorm(x[i]);
+    ratio = std::sqrt(grown);
+  }
+  return 1.1 * std::max(ratio, 1.0);
+}
+
+/// The same for a force on the lightest node alone.
+double lightnessAlone(const SolidSide& side) {
+  if (!side.mass || side.mass->isDiagonal()) return 1.0;
+  const fem::Nodes& nodes = side.nodes();
+  std::size_t lightest = nodes.mass.size();
+  for (std::size_t i = 0; i < nodes.mass.size(); ++i)
+    if (nodes.fixed[i] == 0 && (lightest == nodes.mass.size() || nodes.mass[i] < nodes.mass[lightest])) lightest = i;
+  if (lightest == nodes.mass.size()) return lightness(side);
+  std::vector<Vec3> x(nodes.mass.size());
+  x[lightest] = {nodes.mass[lightest], nodes.mass[lightest], nodes.mass[lightest]};
+  side.mass->solve(x);
+  return std::max({1.0, x[lightest].x, x[lightest].y, x[lightest].z});
+}
+
+bool hasElements(const fem::Model& model) {
+  return std::ranges::any_of(model.terms,
+                             [](const auto& term) { return dynamic_cast<const fem::Solid*>(term.get()) != nullptr; });
+}
+
+}  // namespace
+
+std::vector<double> SolidSide::inverseMasses(Forces forces) const {
+  const double factor = forces == Forces::any ? lightness(*this) : lightnessAlone(*this);
+  std::vector<double> inverse(nodes().mass.size(), 0.0);
+  for (std::size_t i = 0; i < inverse.size(); ++i)
+    if (nodes().fixed[i] != fem::allComponents) inverse[i] = factor / nodes().mass[i];
+  return inverse;
+}
+
+int SolidSide::addTo(dem::ContactDemand& demand) const {
+  const auto known = std::ranges::find(demand.sides, static_cast<const void*>(model), &dem::ContactDemand::Side::of);
+  if (known != demand.sides.end()) return static_cast<int>(known - demand.sides.begin());
+  const int side = demand.sideOf(model, inverseMasses());
+  demand.sides[static_cast<std::size_t>(side)].inWindows = stepping == Stepping::implicitSteps;
+  return side;
+}
+
+StepLimit CoupledRun::criticalStep() {
+  impl_->requireStarted("criticalStep");
+  return impl_->criticalStep();
+}
+
+/// Nodes share their mass among all that pulls at them: contacts of every connector, and the solid's own forces.
+StepLimit CoupledRun::Impl::limitNow(dem::ContactDemand& demand, bool looksAtElements) {
+  StepLimit limit{std::numeric_limits<double>::infinity(), "nobody"};
+  demand.window = K();
+  elements.resize(solids.size());
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    const SolidSide& side = solids[s]->side;
+    if (side.stepping == Stepping::implicitSteps || !hasElements(*side.model)) continue;
+    if (looksAtElements || elements[s].dt == 0.0) {
+      elements[s] = fem::stableStep(*side.model);
+      elements[s].dt /= std::sqrt(lightness(side));
+    }
+    if (elements[s].dt / K() < limit.dt) limit = {elements[s].dt / K(), elements[s].owner(side.name)};
+    for (dem::ContactDemand::Side& asked : demand.sides)
+      if (asked.of == side.model) asked.ownRate = rateOf(asked.of);
+  }
+  const dem::ContactStep contacts = dem::criticalStep(demand, grains.particles);
+  if (contacts.dt < limit.dt) {
+    limit.dt = contacts.dt;
+    if (!contacts.byOwnForces) limit.owner = dem::ownerOf(contacts, grains.particles);
+  }
+  return limit;
+}
+
+/// ω² of a solid's own forces, 1/s²; 0 if it is stepped implicitly.
+double CoupledRun::Impl::rateOf(const void* model) const {
+  for (std::size_t s = 0; s < solids.size() && s < elements.size(); ++s)
+    if (solids[s]->side.model == model && elements[s].dt > 0.0) return 4.0 / (elements[s].dt * elements[s].dt);
+  return 0.0;
+}
+
+StepLimit CoupledRun::Impl::criticalStep() {
+  dem::ContactDemand demand = dem::demandOf(grains);
+  StepLimit limit = limitNow(demand, true);
+  const dem::ImpactLimit impact =
+      dem::impactLimit(grains, demand, {.window = K(), .ownRate = [this](const void* model) { return rateOf(model); }});
+  return impact.dt < limit.dt ? StepLimit{impact.dt, impact.owner} : limit;
+}
+
+void CoupledRun::Impl::lookAtLimit() {
+  const std::int64_t number = grains.steps / K();
+  if (!grains.refusesUnstableSteps || grains.passed || !dem::looksAtLimit(number)) return;
+  dem::ContactDemand demand = dem::demandOf(grains);
+  const StepLimit limit = limitNow(demand, number % (16 * 2048) == 0);
+  if (dt > limit.dt) grains.passed = {dt, limit.dt, limit.owner, grains.time};
+}
+
+}  // namespace dovetail::coupling

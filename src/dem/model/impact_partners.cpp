@@ -1,0 +1,53 @@
+// What walls are to those who may hit them.
+#include <algorithm>
+#include <cmath>
+
+#include "dovetail/dem/model/impact.hpp"
+#include "dovetail/dem/model/walls.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+constexpr double lever = 3.0;  // of impacts off the centre of a body
+
+}  // namespace
+
+/// As low as it is below the particles.
+void PrimitiveWallTerm::addPartners(const Model& m, std::vector<ImpactPartner>& partners) const {
+  const Vec3 round{wall.radius, wall.radius, wall.radius};
+  geometry::Box box{wall.point - round, wall.point + round};
+  if (wall.shape == PrimitiveWall::Shape::plane && m.particles.size() > 0) {
+    const Vec3& x = m.particles.x.front();
+    box.lower = box.upper = x - dot(x - wall.point, wall.axis) * wall.axis;
+  }
+  partners.push_back(
+      {.name = "a wall",
+       .material = wall.material,
+       .inverseMass = wall.servo ? 1.0 / wall.servo->mass : 0.0,
+       .speed = norm(wall.velocity) + norm(wall.surfaceVelocity) + norm(wall.angularVelocity) * wall.radius,
+       .box = box,
+       .of = &wall});
+}
+
+void MeshWallTerm::addPartners(const Model&, std::vector<ImpactPartner>& partners) const {
+  geometry::Box box{mesh.wall.x.front(), mesh.wall.x.front()};
+  double speed = 0.0;
+  for (std::size_t v = 0; v < mesh.wall.x.size(); ++v) {
+    speed = std::max(speed, norm(mesh.wall.v[v]));
+    for (int c = 0; c < 3; ++c) {
+      box.lower[c] = std::min(box.lower[c], mesh.wall.x[v][c]);
+      box.upper[c] = std::max(box.upper[c], mesh.wall.x[v][c]);
+    }
+  }
+  const auto* servo = std::get_if<WallServo>(&mesh.motion);
+  const double yields = servo ? 1.0 / servo->mass : std::isfinite(mesh.wall.mass) ? lever / mesh.wall.mass : 0.0;
+  partners.push_back({.name = "a mesh wall",
+                      .material = mesh.wall.material,
+                      .inverseMass = yields,
+                      .speed = speed,
+                      .box = box,
+                      .of = &mesh});
+}
+
+}  // namespace dovetail::dem
