@@ -61,7 +61,8 @@ struct Settled {
 /// At rest, with the limit there.
 Settled settled(const Top& top) {
   const auto run = fourGrains(top);
-  run->start(1e-5, {.stepsPerWindow = 1});
+  run->start(1e-5);
+  run->start(0.5 * run->criticalStep().dt);
   EXPECT_TRUE(settle(*run, {.kinetic = 1e-12}).atRest);
   run->start(1e-5, {.stepsPerWindow = top.K});
   return {run->criticalStep().dt, run->save()};
@@ -75,7 +76,7 @@ double unrest(const Top& top, const Settled& from, double share, std::int64_t wi
   run->grains.refusesUnstableSteps = share < 1.0;
   run->start(share * from.limit, {.stepsPerWindow = top.K});
   try {
-    settle(*run, {.kinetic = 1e-12, .windows = 2000});
+    settle(*run, {.kinetic = 1e-12, .windows = 500});
     run->advance(windows);
   } catch (const NumericalError&) {
     return 1e30;
@@ -87,8 +88,8 @@ class Limits : public testing::TestWithParam<Top> {};
 
 TEST_P(Limits, HoldAndAreNotFarFromWhereMotionGrows) {
   const Settled start = settled(GetParam());
-  EXPECT_LT(unrest(GetParam(), start, 0.95, 3000), 1e-8);
-  EXPECT_GT(unrest(GetParam(), start, 1.0 / 0.7, 3000), 1e-3);
+  EXPECT_LT(unrest(GetParam(), start, 0.95, 500), 1e-8);
+  EXPECT_GT(unrest(GetParam(), start, 1.0 / 0.7, 500), 1e-3);
   const auto run = fourGrains(GetParam());
   run->start(1e-5, {.stepsPerWindow = GetParam().K});
   run->load(start.state);
@@ -106,8 +107,13 @@ INSTANTIATE_TEST_SUITE_P(Windows, Limits,
 TEST(Limits, AreTheSameForAnyNumberOfCouplingsOnOneTop) {
   for (const Stepping stepping : {Stepping::explicitSteps, Stepping::implicitSteps})
     for (const int K : {1, 4, 16}) {
-      const double whole = settled({1, K, stepping}).limit;
-      for (const int couplings : {2, 4}) EXPECT_NEAR(settled({couplings, K, stepping}).limit, whole, 1e-6 * whole) << K;
+      const auto limitOf = [&](int couplings) {
+        const auto run = fourGrains({couplings, K, stepping});
+        run->start(1e-6, {.stepsPerWindow = K});
+        return run->criticalStep().dt;
+      };
+      const double whole = limitOf(1);
+      for (const int couplings : {2, 4}) EXPECT_NEAR(limitOf(couplings), whole, 1e-9 * whole) << K;
     }
 }
 
@@ -129,13 +135,15 @@ TEST(Limits, CountWhatIsYetToHitASolid) {
 }
 
 TEST(Limits, AreLookedAtWhileARunGoesOn) {
+  const Settled rest = settled({});
   for (const double share : {0.95, 1.05}) {
     const auto run = fourGrains({});
-    run->start(1e-6);
+    run->start(1e-5);
+    run->load(rest.state);
     run->grains.refusesUnstableSteps = false;
-    run->start(share * run->criticalStep().dt);
+    run->start(share * rest.limit);
     run->grains.refusesUnstableSteps = true;
-    run->advance(40);
+    run->advance(2048);
     EXPECT_EQ(run->grains.passed.has_value(), share > 1.0);
   }
 }
