@@ -174,12 +174,13 @@ void SurfaceContact::addDemand(const dem::Model& m, dem::ContactDemand& demand) 
 }
 
 void SurfaceContact::addPartners(const dem::Model&, std::vector<dem::ImpactPartner>& partners) const {
-  geometry::Box box{coupling_.wall().x.front(), coupling_.wall().x.front()};
-  for (const Vec3& x : coupling_.wall().x)
+  const fem::Nodes& nodes = side().nodes();
+  geometry::Box box{nodes.X.front(), nodes.X.front()};
+  for (const Vec3& X : nodes.X)
     for (int c = 0; c < 3; ++c)
-      box.lower[c] = std::min(box.lower[c], x[c]), box.upper[c] = std::max(box.upper[c], x[c]);
+      box.lower[c] = std::min(box.lower[c], X[c]), box.upper[c] = std::max(box.upper[c], X[c]);
   double speed = 0.0;
-  for (const Vec3& v : side().nodes().v) speed = std::max(speed, norm(v));
+  for (const Vec3& v : nodes.v) speed = std::max(speed, norm(v));
   partners.push_back(
       {.name = '"' + name_ + '"',
        .laws = laws_.get(),
