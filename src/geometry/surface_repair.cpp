@@ -101,7 +101,7 @@ void dropFacets(TriangleMesh& mesh, SurfaceRepair& report) {
   mesh.facets.resize(count);
 }
 
-void orientFacets(TriangleMesh& mesh, SurfaceRepair& report) {
+void orientFacets(TriangleMesh& mesh, SurfaceRepair& report, ClosedPatches whole) {
   const Patches patches = findPatches(mesh.facets);
   std::vector<std::vector<int>> closed;
   std::vector<char> turn(mesh.facets.size(), 0);
@@ -124,9 +124,13 @@ void orientFacets(TriangleMesh& mesh, SurfaceRepair& report) {
     }
   };
   turnAll();
-  for (const int p : wrongSideOut(mesh.x, facets, closed))
-    for (const int f : closed[at(p)]) turn[at(f)] = !turn[at(f)];
-  turnAll();
+  if (whole == ClosedPatches::turn) {
+    for (const int p : wrongSideOut(mesh.x, facets, closed)) {
+      ++report.turnedPatches;
+      for (const int f : closed[at(p)]) turn[at(f)] = !turn[at(f)];
+    }
+    turnAll();
+  }
   report.turnedFacets = static_cast<int>(std::count(turn.begin(), turn.end(), 1));
   mesh.facets = std::move(facets);
 }
@@ -154,11 +158,11 @@ int weldVertices(TriangleMesh& mesh, double tolerance) {
   return static_cast<int>(before - mesh.x.size());
 }
 
-SurfaceRepair repairSurface(TriangleMesh& mesh, double tolerance) {
+SurfaceRepair repairSurface(TriangleMesh& mesh, double tolerance, ClosedPatches closed) {
   SurfaceRepair report;
   report.weldedVertices = weldVertices(mesh, tolerance);
   dropFacets(mesh, report);
-  orientFacets(mesh, report);
+  orientFacets(mesh, report, closed);
   std::vector<char> used(mesh.x.size(), 0);
   for (const Facet& f : mesh.facets)
     for (const int v : f) used[at(v)] = 1;

@@ -94,7 +94,7 @@ Vec3 centroidOf(const geometry::TriangleMesh& mesh) {
 
 void add(const Target& to, const SurfaceFile& from) {
   geometry::TriangleMesh mesh = readTriangles(from.file);
-  geometry::repairSurface(mesh);
+  geometry::repairSurface(mesh, 0.0, from.closed ? geometry::ClosedPatches::keep : geometry::ClosedPatches::turn);
   for (Vec3& x : mesh.x) x = from.scale * x + from.shift;
   const Vec3 about = from.point.value_or(centroidOf(mesh));
   dem::MeshWall made;

@@ -152,6 +152,10 @@ void lookAtWalls(const Built& built, Lines& lines) {
     if (wall.oneSided && !defects.closedAndOriented())
       lines.push_back(name + " is told to be closed and is not (" + geometry::describe(defects) +
                       "): mend it, or write \"closed\": false.");
+    if (wall.oneSided && defects.closedAndOriented() && geometry::signedVolume(wall.x, wall.facets) < 0.0)
+      lines.push_back(name +
+                      " is closed with its normals inwards: it holds grains in, like a drum, and pulls in those that "
+                      "touch it from outside. If grains are outside, turn the facets in its file.");
     if (!wall.oneSided && defects.closedAndOriented())
       lines.push_back(name +
                       " is closed, but counts as a sheet that pushes to both sides: write \"closed\": true if "

@@ -216,10 +216,22 @@ TEST(SurfaceRepair, ASoupOfTrianglesBecomesTheCubeAgain) {
   EXPECT_FALSE(repairSurface(mesh, 1e-6).changedAnything());
 }
 
+TEST(SurfaceRepair, ClosedPatchesMayKeepTheirSense) {
+  TriangleMesh mesh = cube();
+  for (Facet& f : mesh.facets) std::swap(f[1], f[2]);
+  std::swap(mesh.facets[3][1], mesh.facets[3][2]);  // one against all others
+  const SurfaceRepair report = repairSurface(mesh, 0.0, ClosedPatches::keep);
+  EXPECT_EQ(report.turnedFacets, 1);
+  EXPECT_EQ(report.turnedPatches, 0);
+  EXPECT_NEAR(signedVolume(mesh.x, mesh.facets), -1.0, 1e-15);
+}
+
 TEST(SurfaceRepair, CavitiesTurnInwardsAndOpenSheetsKeepTheirMajority) {
   TriangleMesh mesh = cube();
   append(mesh, cube(0.5, {0.25, 0.25, 0.25}));
-  EXPECT_EQ(repairSurface(mesh).turnedFacets, 12);
+  const SurfaceRepair report = repairSurface(mesh);
+  EXPECT_EQ(report.turnedFacets, 12);
+  EXPECT_EQ(report.turnedPatches, 1);
   EXPECT_TRUE(check(mesh).none());
   EXPECT_NEAR(signedVolume(mesh.x, mesh.facets), 0.875, 1e-15);
   mesh.x = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}};

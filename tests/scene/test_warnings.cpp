@@ -85,6 +85,9 @@ TEST(SceneWarnings, WallsThatAreOpenClosedOrCutThemselves) {
   };
   expectParts(wall("closed.stl", ""), {"Mesh wall 0 is closed, but counts as a sheet"});
   EXPECT_EQ(wall("closed.stl", R"(, "closed": true)"), "");
+  mesh_io::writeStl(folder / "cavity.stl", x,
+                    std::vector<geometry::Facet>{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}});
+  expectParts(wall("cavity.stl", R"(, "closed": true)"), {"Mesh wall 0 is closed with its normals inwards"});
   expectParts(wall("crossing.stl", ""), {"cuts itself at 1 pairs of facets, the first 0 and 1"});
 }
 

@@ -22,12 +22,16 @@ struct TriangleMesh {
 /// @throws InputError if the tolerance is not finite and ≥ 0, a vertex is not finite, or a facet names a missing vertex
 int weldVertices(TriangleMesh& mesh, double tolerance);
 
+/// Of closed patches that enclose a negative volume where it ought to be positive.
+enum class ClosedPatches { turn, keep };
+
 /// What repairSurface did.
 struct SurfaceRepair {
   int weldedVertices = 0;
   int degenerateFacets = 0;     ///< dropped: a vertex twice, or no area to round-off
   int duplicateFacets = 0;      ///< dropped: the same three vertices as an earlier facet, whatever their order
   int turnedFacets = 0;         ///< their sense was turned
+  int turnedPatches = 0;        ///< closed patches turned as a whole, as their normals pointed inwards
   int unusedVertices = 0;       ///< dropped
   int unorientablePatches = 0;  ///< patches in which no choice of senses agrees (Möbius strips); left as they were
   bool changedAnything() const {
@@ -41,7 +45,8 @@ struct SurfaceRepair {
 /// vertices last. Holes are not filled and intersections not cut: check again afterwards with checkSurface.
 /// @param tolerance for the welding, m
 /// @throws InputError as weldVertices
-SurfaceRepair repairSurface(TriangleMesh& mesh, double tolerance = 0.0);
+/// @param closed  whether closed patches are turned at all
+SurfaceRepair repairSurface(TriangleMesh& mesh, double tolerance = 0.0, ClosedPatches closed = ClosedPatches::turn);
 
 /// ⅙ Σ a·(b × c) over the facets, m³: the volume enclosed by a closed surface whose normals point outwards, negative
 /// where they point inwards; of no meaning for open ones.
