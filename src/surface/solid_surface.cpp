@@ -37,19 +37,17 @@ std::pair<std::size_t, std::size_t> rowsOf(const std::vector<int>& particle, int
           static_cast<std::size_t>(range.end() - particle.begin())};
 }
 
-/// Row `from` of one list to the place of its particle in another, as of facet `facet` there.
-void moveSpring(dem::WallSprings& a, std::size_t from, dem::WallSprings& b, int facet) {
+/// Row `from` of one list to the place of its particle in another.
+void moveSpring(dem::WallSprings& a, std::size_t from, dem::WallSprings& b) {
   const std::size_t numbers = a.memory.size() / a.particle.size();
   const auto row = static_cast<std::ptrdiff_t>(from),
              place = static_cast<std::ptrdiff_t>(rowsOf(b.particle, a.particle[from]).second),
              n = static_cast<std::ptrdiff_t>(numbers);
   b.particle.insert(b.particle.begin() + place, a.particle[from]);
-  b.facet.insert(b.facet.begin() + place, facet);
   b.normal.insert(b.normal.begin() + place, a.normal[from]);
   b.share.insert(b.share.begin() + place, a.share[from]);
   b.memory.insert(b.memory.begin() + n * place, a.memory.begin() + n * row, a.memory.begin() + n * (row + 1));
   a.particle.erase(a.particle.begin() + row);
-  a.facet.erase(a.facet.begin() + row);
   a.normal.erase(a.normal.begin() + row);
   a.share.erase(a.share.begin() + row);
   a.memory.erase(a.memory.begin() + n * row, a.memory.begin() + n * (row + 1));
@@ -139,8 +137,7 @@ void SolidSurface::handOver(std::span<const SurfacePart> parts, std::size_t begi
         }
     }
     if (best == parts.size()) continue;
-    moveSpring(parts[best].coupling->contacts_.springs, row, parts[to].coupling->contacts_.springs,
-               all.facet[c] - first_[to]);
+    moveSpring(parts[best].coupling->contacts_.springs, row, parts[to].coupling->contacts_.springs);
     ++wants[best];
     --wants[to];
   }

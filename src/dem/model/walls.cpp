@@ -1,6 +1,7 @@
 #include "dovetail/dem/model/walls.hpp"
 
 #include <algorithm>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "dovetail/dem/setup/insertion.hpp"
 #include "dovetail/dem/walls/wall_archive.hpp"
 #include "dovetail/dem/walls/wall_checks.hpp"
+#include "dovetail/dem/walls/wall_seams.hpp"
 #include "events.hpp"
 
 namespace dovetail::dem {
@@ -182,10 +184,38 @@ double MeshWallTerm::renumber(std::span<const int> newNumber, const Particles&) 
   return gone;
 }
 
+namespace {
+
+/// Walls of one material that meet act as one.
+void joinMeshes(const Particles& particles, std::span<MeshWallTerm* const> walls) {
+  std::set<int> materials;
+  for (const MeshWallTerm* term : walls) materials.insert(term->mesh.wall.material);
+  for (const int material : materials) {
+    std::vector<WallAtSeam> alike;
+    for (MeshWallTerm* term : walls)
+      if (MeshWall& mesh = term->mesh; mesh.wall.material == material && mesh.rule == EdgeRule::projected)
+        alike.push_back({&mesh.wall, &mesh.candidates, &mesh.contacts});
+    if (alike.size() > 1) joinAtSeams(particles, alike);
+  }
+}
+
+}  // namespace
+
+void MeshWallTerm::findAll(Model& m, const Step& step) {
+  const auto walls = m.terms.all<MeshWallTerm>();
+  for (MeshWallTerm* term : walls) {
+    MeshWall& one = term->mesh;
+    if (step.timeless && carried(one)) moveWall(one, m.time, 0.0, &bodiesOf(m));
+    one.candidates.reach = m.pairs.reach();
+    findContacts(m.particles, one, movesOf(m, step), m.pairs.periodicity());
+    term->found_ = true;
+  }
+  if (walls.size() > 1) joinMeshes(m.particles, walls);
+}
+
 void MeshWallTerm::addForces(Model& m, const Step& step) {
-  if (step.timeless && carried(mesh)) moveWall(mesh, m.time, 0.0, &bodiesOf(m));
-  mesh.candidates.reach = m.pairs.reach();
-  findContacts(m.particles, mesh, movesOf(m, step), m.pairs.periodicity());
+  if (!found_) findAll(m, step);
+  found_ = false;
   const ContactWork work = m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
   stored = work.storedEnergy();
   m.work += work;

@@ -20,6 +20,9 @@ struct FacetView {
   double sunk = 0.0;  // > 0: how far, m, the point lies inside a one-sided wall behind this edge or vertex (unseen)
 
   bool face() const { return feature == geometry::Feature::face; }
+  /// Of a one-sided wall from its back.
+  bool behind() const { return distance < 0.0 || sunk > 0.0; }
+  double farness() const { return sunk > 0.0 ? sunk : std::abs(distance); }
 };
 
 /// The vertices of a facet seen from an origin near by: differences keep their digits far from the global origin.

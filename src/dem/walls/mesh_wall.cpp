@@ -73,6 +73,14 @@ void requireShortStep(const Particles& particles, const MeshWall& mesh, double s
                            "particle " + std::to_string(i), "take a smaller time step, or a slower wall");
 }
 
+/// Forces to zero where the last contacts were: no others were set.
+void clearReactions(MeshWall& mesh) {
+  if (mesh.candidates.builds == 0) return clearForces(mesh.wall);
+  for (const int facet : mesh.contacts.facet)
+    for (const int vertex : mesh.wall.facets[static_cast<std::size_t>(facet)])
+      mesh.wall.f[static_cast<std::size_t>(vertex)] = {};
+}
+
 }  // namespace
 
 void prescribe(MeshWall& mesh, PrescribedMotion motion, const Vec3& reference) {
@@ -97,7 +105,8 @@ void moveWall(MeshWall& mesh, double time, double dt, const Bodies* bodies) {
   if (auto* servo = std::get_if<WallServo>(&mesh.motion)) driftServo(*servo, dt);
   mesh.belt = mesh.surfaceVelocity;
   if (std::holds_alternative<AtRest>(mesh.motion)) {
-    std::fill(mesh.wall.v.begin(), mesh.wall.v.end(), mesh.belt);
+    if (!mesh.wall.v.empty() && !(mesh.wall.v.front() == mesh.belt && mesh.wall.v.back() == mesh.belt))
+      std::fill(mesh.wall.v.begin(), mesh.wall.v.end(), mesh.belt);
     return;
   }
   const Place place = placeOf(mesh, time, bodies);
@@ -111,6 +120,7 @@ void moveWall(MeshWall& mesh, double time, double dt, const Bodies* bodies) {
 
 void findContacts(const Particles& particles, MeshWall& mesh, const Moves& moves,
                   const geometry::Periodicity& periodicity) {
+  clearReactions(mesh);
   const bool rigid = !std::holds_alternative<MovedByOthers>(mesh.motion);
   if (rigid != mesh.wall.rigid) mesh.candidates.builds = 0;
   mesh.wall.rigid = rigid;
@@ -119,7 +129,6 @@ void findContacts(const Particles& particles, MeshWall& mesh, const Moves& moves
   requireShortStep(particles, mesh, all.wall, periodicity);
   updateWallCandidates(particles, mesh.wall, mesh.candidates, all, periodicity);
   findWallContacts(particles, mesh.wall, mesh.candidates, mesh.rule, mesh.contacts);
-  clearForces(mesh.wall);
 }
 
 void gatherForces(MeshWall& mesh, Bodies* bodies) {
@@ -133,6 +142,7 @@ void gatherForces(MeshWall& mesh, Bodies* bodies) {
 double drivingPower(const MeshWall& mesh) {
   if (std::holds_alternative<WallOnBody>(mesh.motion) || std::holds_alternative<WallServo>(mesh.motion))
     return -dot(totalForce(mesh.wall), mesh.belt);
+  if (std::holds_alternative<AtRest>(mesh.motion) && mesh.belt == Vec3{}) return 0.0;
   return -forcePower(mesh.wall);
 }
 

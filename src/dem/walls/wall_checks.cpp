@@ -135,7 +135,7 @@ void requireWhole(const WallContacts& c) {
       .each(c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyShare, c.force)
       .eachOrNone(c.couple, c.energy, c.sideEnergy, c.image);
   const WallSprings& s = c.springs;
-  Lists(s.particle.size()).each(s.facet, s.normal, s.share).several(s.memory);
+  Lists(s.particle.size()).each(s.normal, s.share).several(s.memory);
 }
 
 void requireRows(const PrimitiveContacts& contacts, const WallRows& rows) {
@@ -144,7 +144,6 @@ void requireRows(const PrimitiveContacts& contacts, const WallRows& rows) {
 
 void requireRows(const WallContacts& contacts, const WallRows& rows, bool current) {
   requireBelow(contacts.springs.particle, rows.particles, "particle");
-  requireBelow(contacts.springs.facet, rows.facets, "facet");
   requireBelow(contacts.facet, rows.facets, "facet");
   if (current) requireBelow(contacts.particle, rows.particles, "particle");
 }

@@ -76,7 +76,6 @@ double renumber(WallContacts& contacts, std::span<const int> newNumber) {
   std::sort(kept.begin(), kept.end());
   for (const auto& [i, c] : kept) {
     springs.particle.push_back(i);
-    springs.facet.push_back(old.facet[c]);
     springs.normal.push_back(old.normal[c]);
     springs.share.push_back(old.share[c]);
     for (std::size_t m = 0; m < components; ++m) springs.memory.push_back(old.memory[c * components + m]);

@@ -13,50 +13,26 @@ namespace dovetail::dem::detail {
 
 namespace {
 
-bool touch(const TriangulatedWall& wall, int a, int b) {
-  const auto corner = [&](int vertex) {
-    return wall.corner.empty() ? vertex : wall.corner[static_cast<std::size_t>(vertex)];
-  };
-  for (const int mine : wall.facets[static_cast<std::size_t>(a)])
-    for (const int other : wall.facets[static_cast<std::size_t>(b)])
-      if (corner(mine) == corner(other)) return true;
-  return false;
-}
-
-/// The free old spring for which `fits` and whose normal is nearest; none nearer than `cosine`: end.
-template <class Fits>
-std::size_t nearestSpring(const WallContacts& contacts, std::size_t c, std::size_t begin, std::size_t end,
-                          double cosine, const Fits& fits) {
+/// The free old spring at the same place of the particle, told by the normal: begin to end are the particle's. Facets
+/// do not matter, as surfaces go on over seams without common vertices.
+std::size_t bestMatch(const WallContacts& contacts, std::size_t c, std::size_t begin, std::size_t end) {
   const WallSprings& old = contacts.springs;
+  double cosine = samePlace;
   std::size_t best = end;
   for (std::size_t o = begin; o < end; ++o) {
-    if (old.successor[o] >= 0 || !fits(o)) continue;
     const double here = dot(contacts.normal[c], old.normal[o]);
-    if (here > cosine) {
-      cosine = here;
-      best = o;
-    }
+    if (old.successor[o] >= 0 || !(here > cosine)) continue;
+    cosine = here;
+    best = o;
   }
   return best;
-}
-
-/// On this facet or one that shares a vertex with it; or, where a wall goes on beyond a period without sharing any, one
-/// that pushes nearly the same way.
-std::size_t bestMatch(const WallContacts& contacts, const TriangulatedWall& wall, std::size_t c, std::size_t begin,
-                      std::size_t end) {
-  const std::size_t best = nearestSpring(contacts, c, begin, end, -2.0, [&](std::size_t o) {
-    return touch(wall, contacts.facet[c], contacts.springs.facet[o]);
-  });
-  if (best < end || contacts.image.empty()) return best;
-  return nearestSpring(contacts, c, begin, end, 0.9, [](std::size_t) { return true; });
 }
 
 }  // namespace
 
 void requireStep(double dt) { requirePositive(dt, "time step of a law that remembers"); }
 
-EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, const TriangulatedWall& wall,
-                           int memory) {
+EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, int memory) {
   WallSprings& springs = contacts.springs;
   const auto components = static_cast<std::size_t>(memory);
   startAnewIfOfAnother(memory, springs.particle.size(), springs.memory);
@@ -71,7 +47,7 @@ EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, c
       while (begin < old.size() && old[begin] < contacts.particle[c]) ++begin;
       std::size_t end = begin;
       while (end < old.size() && old[end] == contacts.particle[c]) ++end;
-      const std::size_t match = bestMatch(contacts, wall, c, begin, end);
+      const std::size_t match = bestMatch(contacts, c, begin, end);
       if (match == end) continue;
       for (std::size_t m = 0; m < components; ++m)
         springs.next[c * components + m] = springs.memory[match * components + m];
@@ -90,7 +66,6 @@ EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, c
 void keepSprings(WallContacts& contacts) {
   WallSprings& springs = contacts.springs;
   springs.particle = contacts.particle;
-  springs.facet = contacts.facet;
   springs.normal = contacts.normal;
   springs.share = contacts.engagement;
   springs.memory.swap(springs.next);

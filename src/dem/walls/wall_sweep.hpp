@@ -74,6 +74,18 @@ inline void addContact(WallContacts& contacts, const Encounter& e, std::size_t k
 void appendBeyondTouch(const Encounter& e, const TriangulatedWall& wall, double reach, double alike, std::size_t first,
                        WallContacts& contacts);
 
+/// One contact as another list has it.
+inline void appendContact(WallContacts& contacts, const WallContacts& from, std::size_t c) {
+  contacts.particle.push_back(from.particle[c]);
+  contacts.facet.push_back(from.facet[c]);
+  contacts.weight.push_back(from.weight[c]);
+  contacts.normal.push_back(from.normal[c]);
+  contacts.overlap.push_back(from.overlap[c]);
+  contacts.engagement.push_back(from.engagement[c]);
+  contacts.energyShare.push_back(from.energyShare[c]);
+  if (!from.image.empty()) contacts.image.push_back(from.image[c]);
+}
+
 inline void appendContacts(WallContacts& contacts, const WallContacts& more) {
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(contacts.particle, more.particle);

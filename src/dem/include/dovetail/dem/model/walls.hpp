@@ -58,6 +58,10 @@ public:
   void addContacts(const Model& m, ContactSample& sample) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
+
+private:
+  static void findAll(Model& m, const Step& step);
+  bool found_ = false;  // contacts as they are now: the first of the model's mesh walls finds those of all
 };
 
 /// The wall as it stands in the model from now on.

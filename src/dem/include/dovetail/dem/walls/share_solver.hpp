@@ -40,11 +40,12 @@ struct Share {
 /// 27, 1983): the most violated constraint comes in, those whose λ would turn negative go out.
 class ShareSolver {
 public:
+  static constexpr std::size_t capacity = 12;  ///< of those that carry something
+
   /// @param tolerance violations up to it (m) count as none
   void solve(std::span<Share> shares, double tolerance);
 
 private:
-  static constexpr std::size_t capacity = 12;
   using Row = std::array<double, capacity>;
 
   int mostViolated(double tolerance) const;

@@ -23,8 +23,7 @@ struct TriangulatedWall {
   /// false: a sheet that pushes to the side on which the centre lies.
   bool oneSided = false;
   /// A closed skin whose patches have vertices of their own along their borders: by vertex, the same number for those
-  /// that are one corner of the skin. What contacts remember goes across such borders, and they are no rims. Empty:
-  /// every vertex is a corner of its own.
+  /// that are one corner of the skin: such borders are no rims. Empty: every vertex is a corner of its own.
   std::vector<int> corner;
   int material = 0;  ///< row of a LawTable
   /// kg, of the body that carries it (moveWall sets it): enters the effective mass that dashpots are made for.

@@ -12,11 +12,12 @@ inline WallShare shareOf(const WallContacts& contacts, std::size_t c) {
 
 namespace detail {
 
-/// Fills contacts.springs.next with the memories carried over from the last step: from the same facet or one that
-/// shares a vertex, the nearest normal first. Returns those of contacts that have ended, and of contacts that act with
+/// Cosine between two normals from which on they mean one place of a particle.
+inline constexpr double samePlace = 0.9;
+/// Fills contacts.springs.next with the memories carried over from the last step, from the nearest normal at the same
+/// place. Returns those of contacts that have ended, and of contacts that act with
 /// another share now what they have less of it.
-EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, const TriangulatedWall& wall,
-                           int memory);
+EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, int memory);
 /// Remembers the contacts and what they remember for the next step.
 void keepSprings(WallContacts& contacts);
 
@@ -40,7 +41,7 @@ ContactWork collide(Particles& particles, const TriangulatedWall& wall, WallCont
   ContactWork work;
   if constexpr (Law::memory > 0) {
     requireStep(dt);
-    const EndedMemories ended = carrySprings(particles, contacts, wall, Law::memory);
+    const EndedMemories ended = carrySprings(particles, contacts, Law::memory);
     if (booking == Booking::on) work += bookEnded<Law>(ended, laws, wall.material, dt);
   } else {
     contacts.springs = {};  // of a law that was there before

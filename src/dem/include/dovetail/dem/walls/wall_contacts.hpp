@@ -25,7 +25,7 @@ enum class EdgeRule {
 
 /// What the contacts of the last step remember. Empty unless the law remembers something.
 struct WallSprings {
-  std::vector<int> particle, facet;
+  std::vector<int> particle;
   std::vector<Vec3> normal;
   std::vector<double> memory;  ///< of the law, contact by contact; a tangential spring takes three, its stretch, m
   std::vector<double> share;   ///< engagement
@@ -93,14 +93,19 @@ void findWallContacts(const Particles& particles, const TriangulatedWall& wall, 
                       EdgeRule rule, WallContacts& contacts);
 
 /// EdgeRule::projected. Each particle has the potential
-///   V = k max_{λ ≥ 0} Σ λᵢ δᵢ − ½ Σ λᵢ λⱼ s(nᵢ·nⱼ),   δᵢ = R − nᵢ·(x − cᵢ),
-/// where nᵢ, cᵢ are normal and foot of facet i seen from yᵢ = x + Σ s′(nᵢ·nⱼ) λⱼ nⱼ. With s(g) = g this is the dual of
-/// V = ½k min |y − x|² under |y − facet i| ≥ R, and yᵢ = y. Facets that face each other (g ≤ 0) are uncoupled, s = 0:
-/// their forces add, where the projection would diverge; s joins the two with a continuous slope over 0 < g < 0.2, that
-/// is in valleys of 90° to 101.5°. Contact i carries λᵢ at cᵢ: by the envelope theorem k λᵢ nᵢ = −∂V/∂x and
-/// −k λᵢ weight nᵢ = −∂V/∂(vertex), so force, moment and energy balance.
-/// Where several minima compete V may jump: not on ground as rough as 0.2 R up to overlaps of 0.4 R, but from 0.15 R on
-/// among spikes, and from 0.025 R on between two separate edges that are seen under a right angle.
+///   V = k min_n max_{λ ≥ 0} Σ λᵢ δᵢ − ½ Σ λᵢ λⱼ s(nᵢ·nⱼ),   δᵢ = R − nᵢ·(x − cᵢ),
+/// where nᵢ, cᵢ are normal and foot of a face, edge or vertex seen from yᵢ = x + Σ s′(nᵢ·nⱼ) λⱼ nⱼ. With s(g) = g this
+/// is the dual of V = ½k min |y − x|² under |y − facet i| ≥ R, and yᵢ = y. Facets that face each other (g ≤ 0) are
+/// uncoupled, s = 0: their forces add, where the projection would diverge; s joins the two with a continuous slope over
+/// 0 < g < 0.2, that is in valleys of 90° to 101.5°. Contact i carries λᵢ at cᵢ: by the envelope theorem
+/// k λᵢ nᵢ = −∂V/∂x and −k λᵢ weight nᵢ = −∂V/∂(vertex), so force, moment and energy balance.
+/// Feet are those of the surface: one on an edge or vertex counts only where no facet that hangs together with it, over
+/// gaps up to 0.002 R, is nearer to yᵢ. So the cut into triangles does not show.
+/// One-sided walls: a centre outside, told by the nearest feature, never counts faces that show it their backs; one
+/// inside leaves through the face that asks for the least V, down to one radius.
+/// From each start the minimum is a local one, of two where a facet has two places to be seen from. V may jump where
+/// several compete: among spikes and at rims of plates thinner than the overlap, from 0.3 R on; none was met at 4 800
+/// random places up to 0.5 R.
 /// V = Σ ½k λ²/engagement (LinearSpringDashpot::Prepared::energy).
 void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                          WallContacts& contacts);

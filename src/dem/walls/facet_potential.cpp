@@ -1,0 +1,250 @@
+#include "facet_potential.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace dovetail::dem {
+
+namespace {
+
+constexpr double tolerance = 1e-13;     // of the radius
+constexpr double touching = 1e-12;      // of the radius: less is left of a facet that is cleared
+constexpr double seam = 2e-3;           // of the radius: facets with gaps up to it hang together
+constexpr int largestIterations = 200;  // contraction is about overlap/radius per iteration
+constexpr int largestRounds = 12;
+constexpr int looks = 30;
+constexpr double leastDamping = 1e-3;
+constexpr double roundOff = 1e-15;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Faces before edges before vertices.
+int rank(geometry::Feature feature) {
+  return feature == geometry::Feature::face ? 0 : geometry::isEdge(feature) ? 1 : 2;
+}
+
+}  // namespace
+
+/// A facet from its place. Where its foot is not the nearest of the surface around, the facet that has it is looked at
+/// instead: edges and vertices within a face, or at the bottom of a valley, hold nobody off.
+void FacetPotential::see(ActiveFacet& facet) const {
+  if (facet.plane) return;
+  const auto look = [&](const MetFacet& at, FacetView& view) {
+    viewFacet(facet.position, at.corners(), radius_, FacetView::unseen, false, view);
+  };
+  look(facet, facet.view);
+  for (bool slides = true; slides && !facet.view.face();) {
+    slides = false;
+    const double near = facet.view.distance + norm(facet.position) + 1e-6 * radius_;
+    for (const MetFacet& other : near_) {
+      if (other.view.farness() > near) continue;
+      FacetView view;
+      look(other, view);
+      const double nearer = facet.view.distance - view.distance, same = 1e-13 * radius_;
+      if (other.is(facet) || !(nearer > same || (nearer >= -same && rank(view.feature) < rank(facet.view.feature))))
+        continue;
+      const FacetCorners t = other.corners();
+      const Vec3 gap = geometry::closestPointOnTriangle(facet.view.foot, t.a, t.b, t.c).point - facet.view.foot;
+      if (squaredNorm(gap) > seam * seam * radius_ * radius_) continue;
+      static_cast<MetFacet&>(facet) = {other.met, other.entry, view};
+      slides = true;
+    }
+  }
+}
+
+/// The overlaps δᵢ = R − nᵢ·(x − cᵢ) as they are seen now, and who carries what.
+void FacetPotential::share() {
+  ActiveSet& set = scratch_.set;
+  set.shares.assign(set.facets.size(), Share{});
+  for (std::size_t i = 0; i < set.facets.size(); ++i) {
+    const FacetView& view = set.facets[i].view;
+    set.shares[i].normal = view.normal;
+    set.shares[i].overlap = radius_ + dot(view.normal, view.foot);
+  }
+  scratch_.solver.solve(set.shares, tolerance * radius_);
+  set.energy = 0.0;
+  for (const Share& s : set.shares) set.energy += 0.5 * s.carried * s.overlap;
+}
+
+/// Σ s′(n·nⱼ) λⱼ nⱼ: from where a facet is seen along n.
+Vec3 FacetPotential::pushed(const Vec3& normal) const {
+  Vec3 position;
+  for (const Share& s : scratch_.set.shares)
+    if (s.carried > 0.0) position += couplingSlope(dot(normal, s.normal)) * s.carried * s.normal;
+  return position;
+}
+
+/// Overlap with a facet along a normal, less what the shares spare it, m. @param support largest n·vertex
+double FacetPotential::remaining(const Vec3& normal, double support) const {
+  double depth = radius_ + support;
+  for (const Share& s : scratch_.set.shares)
+    if (s.carried > 0.0) depth -= coupling(dot(normal, s.normal)) * s.carried;
+  return depth;
+}
+
+/// Every facet is seen from its yᵢ: steps that would raise the energy are cut, but where a foot slides to the next
+/// facet.
+void FacetPotential::converge() {
+  ActiveSet &set = scratch_.set, &kept = scratch_.kept;
+  double damping = 1.0, last = infinite, lastOff = infinite;
+  for (int i = 0; i < largestIterations; ++i) {
+    if (set.energy > last && damping > leastDamping) {
+      damping *= 0.5;
+      set = kept;
+    } else {
+      kept = set;
+      last = set.energy + 1e-14 * radius_ * std::sqrt(set.energy);
+    }
+    const double off = stepOn(damping);
+    if (off <= tolerance * radius_) return;
+    // Where round-off hides what a step does to the energy.
+    if (off > lastOff && off < 1e-4 * radius_) damping = std::max(0.5 * damping, leastDamping);
+    lastOff = off;
+    for (ActiveFacet& facet : set.facets) {
+      const MetFacet before = facet;
+      see(facet);
+      if (!facet.is(before)) {
+        damping = 1.0;
+        last = infinite;
+      }
+    }
+    share();
+  }
+}
+
+/// Moves the places from which facets are seen towards the yᵢ; returns how far they are off where a facet is active, m.
+double FacetPotential::stepOn(double damping) {
+  ActiveSet& set = scratch_.set;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < set.facets.size(); ++k) {
+    if (set.facets[k].plane) continue;
+    const Vec3 step = pushed(set.shares[k].normal) - set.facets[k].position;
+    if (set.shares[k].carried > 0.0) largest = std::max(largest, norm(step));
+    set.facets[k].position += damping * step;
+  }
+  return largest;
+}
+
+/// Facets that carry nothing.
+void FacetPotential::dropIdle() {
+  ActiveSet& set = scratch_.set;
+  for (std::size_t i = set.facets.size(); i-- > 0;) {
+    if (set.shares[i].carried > 0.0) continue;
+    set.facets.erase(set.facets.begin() + static_cast<std::ptrdiff_t>(i));
+    set.shares.erase(set.shares.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+/// From a place on, where a facet is seen and what is left of it there. False if nothing is.
+bool FacetPotential::follow(const MetFacet& facet, const Vec3& position, Remainder& found) const {
+  ActiveFacet seen{facet, position};
+  double damping = 1.0;
+  bool itself = true;
+  found.depth = infinite;
+  for (int i = 0; i < looks && damping > leastDamping; ++i) {
+    see(seen);
+    if (!sunkIn_ && dot(seen.view.normal, seen.view.foot) > 0.0) return true;  // from the far side
+    const double depth = remaining(seen.view.normal, dot(seen.view.normal, seen.view.foot));
+    itself = itself && seen.is(facet);
+    if (itself && depth <= touching * radius_) return false;
+    if (depth > found.depth + roundOff * radius_)
+      damping *= 0.5;
+    else
+      found = {depth, seen};
+    const Vec3 step = pushed(found.facet.view.normal) - found.facet.position;
+    if (norm(step) <= 1e-9 * radius_) break;
+    seen = found.facet;
+    seen.position += damping * step;
+  }
+  if (found.depth <= touching * radius_) found.depth = infinite;
+  return true;
+}
+
+/// @param other where there are two, take the one that does not leave least. False if nothing is left along some
+bool FacetPotential::leastRemainder(const MetFacet& facet, bool other, Remainder& least) {
+  Remainder fromCentre{infinite, {}}, fromBeyond{infinite, {}};
+  const auto anythingLeft = [&](const FacetView& seen) {
+    return remaining(seen.normal, dot(seen.normal, seen.foot)) > touching * radius_;
+  };
+  Vec3 beyond;
+  for (const Share& s : scratch_.set.shares) beyond += s.carried * s.normal;
+  FacetView seen;
+  viewFacet(beyond, facet.corners(), radius_, FacetView::unseen, sunkIn_ && facet.met->wall->oneSided, seen);
+  if (sunkIn_ && (seen.distance == FacetView::unseen || seen.distance < 0.0)) return false;
+  if (!anythingLeft(seen) && (sunkIn_ || !anythingLeft(facet.view))) return false;
+  if (!sunkIn_ && !follow(facet, {}, fromCentre)) return false;
+  if (!follow(facet, beyond, fromBeyond)) return false;
+  const bool second = fromBeyond.depth < fromCentre.depth;
+  const bool two = fromCentre.depth < infinite && fromBeyond.depth < infinite &&
+                   dot(fromCentre.facet.view.normal, fromBeyond.facet.view.normal) < 1.0 - 1e-6;
+  ambiguous_ = ambiguous_ || two;
+  least = second != (two && other) ? fromBeyond : fromCentre;
+  return least.depth < infinite;
+}
+
+/// The facet of which most is left. False if none is.
+bool FacetPotential::takeIn(bool other) {
+  ActiveSet& set = scratch_.set;
+  Remainder most, found;
+  const auto among = [](const auto& list, const MetFacet& facet) {
+    return std::any_of(list.begin(), list.end(), [&](const MetFacet& f) { return f.is(facet); });
+  };
+  for (const MetFacet& facet : near_) {
+    if (!sunkIn_ && !(facet.view.distance < radius_)) break;
+    if (among(set.facets, facet) || among(scratch_.refused, facet)) continue;
+    if (leastRemainder(facet, other, found) && found.depth > most.depth) most = found;
+  }
+  if (!(most.depth > 0.0)) return false;
+  set.facets.push_back(most.facet);
+  share();
+  if (!(set.shares.back().carried > 0.0)) scratch_.refused.push_back(most.facet);
+  return true;
+}
+
+/// False if it came to no end.
+bool FacetPotential::descend(const ActiveFacet& first, bool other) {
+  scratch_.set.facets.assign(1, first);
+  scratch_.refused.clear();
+  share();
+  for (int round = 0; round < largestRounds; ++round) {
+    if (!takeIn(other)) return true;
+    converge();
+    dropIdle();
+  }
+  return false;
+}
+
+void FacetPotential::lower(const ActiveFacet& first, double atLeast) {
+  for (const bool other : {false, true}) {
+    ambiguous_ = false;
+    descend(first, other);
+    const double energy = scratch_.set.energy;
+    if (energy >= atLeast && (scratch_.best.facets.empty() || energy < scratch_.best.energy))
+      std::swap(scratch_.set, scratch_.best);
+    if (!ambiguous_) return;
+  }
+}
+
+/// Facets that are coupled answer with one overlap s, s² = Σ λδ: forces F(s) λ/s are the gradient of E(s), whatever the
+/// law. Those that are not answer each with its own, between the two s changes smoothly.
+void FacetPotential::append() const {
+  const std::vector<Share>& shares = scratch_.best.shares;
+  const std::vector<ActiveFacet>& facets = scratch_.best.facets;
+  std::array<std::size_t, ShareSolver::capacity> order{};
+  const auto end = order.begin() + static_cast<std::ptrdiff_t>(shares.size());
+  std::iota(order.begin(), end, std::size_t{0});
+  std::sort(order.begin(), end, [&](std::size_t a, std::size_t b) { return facets[a].entry < facets[b].entry; });
+  for (auto i = order.begin(); i != end; ++i) {
+    const Share& share = shares[*i];
+    double squared = 0.0;
+    for (const Share& other : shares)
+      squared += (&other == &share ? 1.0 : together(dot(share.normal, other.normal))) * other.carried *
+                 std::max(other.overlap, other.carried);
+    const ActiveFacet& facet = facets[*i];
+    facet.met->add(facet.entry, facet.view, share.carried, share.carried / std::sqrt(squared),
+                   share.carried * std::max(share.overlap, share.carried) / squared);
+  }
+}
+
+}  // namespace dovetail::dem

@@ -1,0 +1,119 @@
+#include "dovetail/dem/walls/wall_seams.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include "dovetail/dem/walls/share_solver.hpp"
+#include "dovetail/dem/walls/wall_collide.hpp"
+#include "met_facets.hpp"
+
+namespace dovetail::dem {
+
+namespace {
+
+/// Those that have contacts with more than one wall, ascending.
+std::vector<int> touchSeveral(std::span<const WallAtSeam> walls) {
+  std::vector<int> touching, several;
+  for (const WallAtSeam& w : walls)
+    std::unique_copy(w.contacts->particle.begin(), w.contacts->particle.end(), std::back_inserter(touching));
+  std::sort(touching.begin(), touching.end());
+  for (std::size_t k = 1; k < touching.size(); ++k)
+    if (touching[k] == touching[k - 1] && (several.empty() || several.back() != touching[k]))
+      several.push_back(touching[k]);
+  return several;
+}
+
+/// Contacts of one particle with all walls together, each wall's into its own list.
+void meetTogether(const Particles& particles, std::span<const WallAtSeam> walls, int particle,
+                  std::vector<WallContacts>& fresh) {
+  std::vector<Encounter> encounters;
+  std::vector<std::size_t> number, first;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const std::vector<int>& listed = walls[w].candidates->particle;
+    const auto at = std::lower_bound(listed.begin(), listed.end(), particle);
+    if (at == listed.end() || *at != particle) continue;
+    encounters.push_back(
+        encounter(particles, *walls[w].candidates, walls[w].clearances, static_cast<std::size_t>(at - listed.begin())));
+    number.push_back(w);
+    first.push_back(fresh[w].size());
+  }
+  std::vector<MetWall> met;
+  for (std::size_t k = 0; k < encounters.size(); ++k)
+    met.push_back({encounters[k], walls[number[k]].wall, &fresh[number[k]]});
+  projectParticle(met);
+  for (std::size_t k = 0; k < met.size(); ++k)
+    if (const double reach = walls[number[k]].candidates->reach; reach > 0.0)
+      appendBeyondTouch(encounters[k], *met[k].wall, reach, couplingBlend, first[k], fresh[number[k]]);
+}
+
+/// Puts in what has been found for these particles, in place of what was there.
+void replace(WallContacts& contacts, std::span<const int> particles, const WallContacts& fresh) {
+  WallContacts joined;
+  std::size_t next = 0;
+  const auto takeUpTo = [&](int particle) {
+    for (; next < fresh.size() && fresh.particle[next] < particle; ++next) appendContact(joined, fresh, next);
+  };
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    takeUpTo(contacts.particle[c]);
+    if (!std::binary_search(particles.begin(), particles.end(), contacts.particle[c]))
+      appendContact(joined, contacts, c);
+  }
+  takeUpTo(std::numeric_limits<int>::max());
+  clear(contacts);
+  appendContacts(contacts, joined);
+  contacts.force.assign(contacts.size(), Vec3{});
+}
+
+/// Whether one of the particle's rows in a list sorted by particle is at the place that a normal tells.
+bool has(const std::vector<int>& particle, const std::vector<Vec3>& normal, int i, const Vec3& n) {
+  const auto [begin, end] = std::equal_range(particle.begin(), particle.end(), i);
+  for (auto at = begin; at != end; ++at)
+    if (dot(normal[static_cast<std::size_t>(at - particle.begin())], n) > detail::samePlace) return true;
+  return false;
+}
+
+void moveSpring(WallSprings& from, std::size_t row, WallSprings& to) {
+  const std::size_t components = from.memory.size() / from.particle.size();
+  const auto at = std::upper_bound(to.particle.begin(), to.particle.end(), from.particle[row]) - to.particle.begin();
+  const auto pass = [&](auto& source, auto& target, std::size_t width) {
+    const auto begin = source.begin() + static_cast<std::ptrdiff_t>(row * width),
+               end = begin + static_cast<std::ptrdiff_t>(width);
+    target.insert(target.begin() + at * static_cast<std::ptrdiff_t>(width), begin, end);
+    source.erase(begin, end);
+  };
+  pass(from.memory, to.memory, components);
+  pass(from.normal, to.normal, 1);
+  pass(from.share, to.share, 1);
+  pass(from.particle, to.particle, 1);
+}
+
+/// What contacts of `from` remember that go on as contacts of `to`.
+void handOver(WallContacts& from, WallContacts& to) {
+  WallSprings& old = from.springs;
+  for (std::size_t o = old.particle.size(); o-- > 0;) {
+    const int i = old.particle[o];
+    const Vec3 n = old.normal[o];
+    if (has(from.particle, from.normal, i, n) || !has(to.particle, to.normal, i, n) ||
+        has(to.springs.particle, to.springs.normal, i, n))
+      continue;
+    if (old.memory.size() * to.springs.particle.size() != to.springs.memory.size() * old.particle.size()) return;
+    moveSpring(old, o, to.springs);
+  }
+}
+
+}  // namespace
+
+void joinAtSeams(const Particles& particles, std::span<const WallAtSeam> walls) {
+  if (const std::vector<int> several = touchSeveral(walls); !several.empty()) {
+    std::vector<WallContacts> fresh(walls.size());
+    for (const int particle : several) meetTogether(particles, walls, particle, fresh);
+    for (std::size_t w = 0; w < walls.size(); ++w) replace(*walls[w].contacts, several, fresh[w]);
+  }
+  for (const WallAtSeam& from : walls)
+    for (const WallAtSeam& to : walls)
+      if (from.contacts != to.contacts) handOver(*from.contacts, *to.contacts);
+}
+
+}  // namespace dovetail::dem
