@@ -125,7 +125,7 @@ void lookForDeepGrains(const dem::Model& m, DeepGrains& found) {
   for (const auto& term : m.terms) term->addContacts(m, walls);
   for (std::size_t c = 0; c < walls.size(); ++c) {
     const double radius = p.radius[static_cast<std::size_t>(walls.first[c])];
-    const double overlap = 1.0 - norm(walls.from[c] - walls.to[c]) / radius;
+    const double overlap = 1.0 - dot(walls.normal[c], walls.from[c] - walls.to[c]) / radius;
     if (overlap > deep) note(found, m, walls.first[c], overlap);
   }
 }

@@ -148,7 +148,7 @@ void Coupling::requireNoneThrough(const dem::Particles& particles, std::span<con
   sunk_.clear();
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const int i = contacts_.particle[c];
-    if (contacts_.overlap[c] > particles.radius[static_cast<std::size_t>(i)] && !isTied(i) &&
+    if (contacts_.overlap[c] > contacts_.engagement[c] * particles.radius[static_cast<std::size_t>(i)] && !isTied(i) &&
         (sunk_.empty() || sunk_.back() != i))
       sunk_.push_back(i);
   }

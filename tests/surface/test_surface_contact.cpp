@@ -325,7 +325,7 @@ TEST(SurfaceContact, DamagedStatesNeverCrash) {
       try {
         ByteReader reader(bytes);
         other.load(reader);
-        other.check(particles, 1);
+        other.check(particles);
         respond(other, particles, rest, rest, *laws);
       } catch (const Error&) {
         ++refused;
