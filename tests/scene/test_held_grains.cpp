@@ -114,7 +114,7 @@ TEST(SceneInsertions, TellHowManyNewcomersFoundNoRoom) {
   const io::test::ScratchFolder folder;
   const Scene file = sceneFromText("{" + law + R"("insertions": [{"region": [[0, 0, 0], [0.02, 0.02, 0.02]],
       "radius": {"smallest": 0.002, "largest": 0.002}, "density": 1000, "number_per_second": 20000}],
-      "steps": {"dt": 1e-4}, "stages": [{"do": "run", "time": 0.02}], "output": {"series": 0.01}})",
+      "steps": {"dt": 5e-5}, "stages": [{"do": "run", "time": 0.02}], "output": {"series": 0.01}})",
                                    "s.json", "/");
   std::ostringstream log;
   run(file, {.folder = folder / "out", .progress = false}, log);

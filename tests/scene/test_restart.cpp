@@ -141,7 +141,7 @@ std::string rubbing(const std::string& particles, double time) {
 
 TEST(GrainsOfAState, GoOnInAnotherScene) {
   const ScratchFolder scenes, first, whole, second;
-  const std::string layer = R"({"from": "lattice", "lattice": "simple-cubic", "radius": 0.05, "distance": 0.0999,
+  const std::string layer = R"({"from": "lattice", "lattice": "simple-cubic", "radius": 0.05005, "distance": 0.1,
     "density": 2500, "box": [[0, 0, )";
   const std::string layers = layer + R"(0], [0.4, 0.4, 0.2]], "velocity": [0.1, 0, 0]}, )" + layer +
                              R"(0.2], [0.4, 0.4, 0.4]], "velocity": [-0.1, 0, 0]})";

@@ -106,7 +106,9 @@ void takeIn(Model& m, bool first) {
   for (BodyTerm* term : m.terms.all<BodyTerm>()) term->takeIn(m, first);
   if (first || m.knownIds == m.particles.nextId) return;
   for (std::size_t i = 0; i < m.particles.size(); ++i)
-    if (m.particles.id[i] >= m.knownIds && !m.particles.isMember(i)) m.booked.entered += bookParticle(m, i, m.entered);
+    if (m.particles.id[i] >= m.knownIds && !m.particles.isMember(i) &&
+        !std::ranges::binary_search(m.newcomers, m.particles.id[i]))  // admitParticles has booked them
+      m.booked.entered += bookParticle(m, i, m.entered);
 }
 
 /// J that contacts of some particles store.
