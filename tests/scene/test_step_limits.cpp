@@ -1,13 +1,17 @@
-// What scenes say of their step: impacts to come, dashpots, soft springs.
+// What scenes say of their step: impacts to come, states that pass the limit, dashpots, soft springs.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <sstream>
 
+#include "../io/scratch_folder.hpp"
+#include "dovetail/scene/execute.hpp"
 #include "scene_parts.hpp"
 
 namespace dovetail::scene::test {
 namespace {
+
+using io::test::ScratchFolder;
 
 const double mass = 1000.0 * 4.0 / 3.0 * M_PI * 1e-6;  // kg, of a grain of 1 cm
 
@@ -44,6 +48,25 @@ TEST(SceneSteps, BeyondTheImpactsToComeAreRefusedWhateverIsWritten) {
   }
 }
 
+/// A light grain between a plane and a heavy one has two contacts, each impact one.
+TEST(SceneSteps, ThatTheStateHasPassedIsToldOnceWhateverIsWritten) {
+  const double dt = 1.003 * 2.0 * std::sqrt(mass / 2e4);
+  const std::string given = R"("gravity": [0, 0, -9.81], "walls": [{"shape": "plane", "point": [0, 0, 0],
+      "normal": [0, 0, 1]}], "stages": [{"do": )";
+  for (const std::string& stage :
+       {std::string(R"("settle", "windows": 40}])"), R"("run", "time": )" + number(40.0 * dt) + "}]",
+        R"("run", "time": )" + number(40.0 * dt) + R"(}], "output": {"series": )" + number(dt) + "}"}) {
+    const ScratchFolder folder;
+    std::ostringstream log;
+    const std::string spheres = at(0, 0, 0.010001) + R"(, {"at": [0, 0, 0.120002], "radius": 0.1})";
+    ASSERT_TRUE(run(grains(spheres, number(dt), given + stage), {.folder = folder.path(), .progress = false}, log));
+    const std::string text = log.str(), told = "WARNING: at t";
+    const std::size_t first = text.find(told);
+    ASSERT_NE(first, std::string::npos) << text;
+    EXPECT_EQ(text.substr(0, text.find("stage 1:")).rfind(told), first) << text;
+  }
+}
+
 TEST(SceneSteps, AutomaticOnesKnowDashpotsAcrossContacts) {
   const std::string above = at(0, 0, 0.02, 1.0) + "," + at(0, 0.05, 0.02, 0.5);
   const std::string walls = R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}], )";
@@ -56,6 +79,20 @@ TEST(SceneSteps, AutomaticOnesKnowDashpotsAcrossContacts) {
                                   R"("restitution": 0.3, "friction": 1, "tangential_damping_ratio": 20)"));
   EXPECT_LE(stepWith(20), 0.2 * touching.run->criticalStep().dt * (1.0 + 1e-6));
   EXPECT_LT(stepWith(20), 0.2 * stepWith(0));
+}
+
+TEST(SceneSteps, AutomaticOnesKeepLowRestitutions) {
+  for (const double e : {0.1, 0.3})
+    for (const bool wall : {true, false}) {
+      const std::string walls = R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}], )";
+      const std::string law = R"("restitution": )" + number(e);
+      const std::string stage = R"("stages": [{"do": "run", "time": 0.02}])";
+      Built built = started(wall ? grains(at(0, 0, 0.0101, 0, 0, -0.1), "\"auto\"", walls + stage, law)
+                                 : grains(at(0, 0, 0.0201, 0, 0, -0.1) + "," + at(0, 0, 0), "\"auto\"", stage, law));
+      built.run->advance(static_cast<std::int64_t>(0.05 / built.run->dt()));
+      const auto& v = built.run->grains.particles.v;
+      EXPECT_NEAR((v[0].z - (wall ? 0.0 : v[1].z)) / 0.1, e, 0.035) << e << wall;
+    }
 }
 
 TEST(SceneSteps, SpringsTooSoftForSpeedsOrWeightsAreToldAtCheck) {
@@ -72,6 +109,21 @@ TEST(SceneSteps, SpringsTooSoftForSpeedsOrWeightsAreToldAtCheck) {
   for (int k = 1; k < 6; ++k) column += "," + at(0, 0, 0.01 + 0.02 * k);
   EXPECT_EQ(said(column, R"("gravity": [0, 0, -9.81], )").find("too soft"), std::string::npos);
   EXPECT_NE(said(column, R"("gravity": [0, 0, -9810], )").find("too soft for the weight"), std::string::npos);
+}
+
+TEST(SceneSteps, GrainsDeepInContactsAreCountedAndNamed) {
+  const auto told = [&](double speed) {
+    const ScratchFolder folder;
+    std::ostringstream log;
+    const std::string walls = R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}], )";
+    const std::string stage = R"("stages": [{"do": "run", "time": 0.003}])";
+    const Scene scene = grains(at(0.1, 0, 0.05) + "," + at(0, 0, 0.0101, 0, 0, -speed), "1e-5", walls + stage);
+    EXPECT_TRUE(run(scene, {.folder = folder.path(), .progress = false}, log));
+    return log.str();
+  };
+  EXPECT_EQ(told(5.0).find("deeper than half a radius"), std::string::npos);  // 0.32 radii
+  EXPECT_NE(told(10.0).find("1 grain was seen in contacts deeper than half a radius"), std::string::npos);
+  EXPECT_NE(told(10.0).find("(grain 1 at"), std::string::npos);
 }
 
 }  // namespace
