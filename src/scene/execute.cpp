@@ -29,6 +29,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t lookEvery = 20;  // windows between two looks at signals
+constexpr std::int64_t deepEvery = 5 * lookEvery;  // at contacts: a look costs as much as half a step
 
 std::string textOf(const Remark& remark) { return {remark.text.begin(), remark.text.end()}; }
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -222,7 +223,7 @@ private:
     progress_.rows = series_->rows();
   }
   void warn() {
-    lookForDeepGrains(built_.run->grains, progress_.deep);
+    if (progress_.window % deepEvery == 0) lookForDeepGrains(built_.run->grains, progress_.deep);
     if (progress_.toldOfStep) return;
     const coupling::CoupledRun& run = *built_.run;
     if (const auto& passed = run.grains.passed) return tellOfStep(passed->time, passed->limit, passed->owner);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/dem/walls/wall_seams.hpp"
 
 namespace dovetail::surface {
 
@@ -35,22 +36,6 @@ std::pair<std::size_t, std::size_t> rowsOf(const std::vector<int>& particle, int
   const auto range = std::ranges::equal_range(particle, i);
   return {static_cast<std::size_t>(range.begin() - particle.begin()),
           static_cast<std::size_t>(range.end() - particle.begin())};
-}
-
-/// Row `from` of one list to the place of its particle in another.
-void moveSpring(dem::WallSprings& a, std::size_t from, dem::WallSprings& b) {
-  const std::size_t numbers = a.memory.size() / a.particle.size();
-  const auto row = static_cast<std::ptrdiff_t>(from),
-             place = static_cast<std::ptrdiff_t>(rowsOf(b.particle, a.particle[from]).second),
-             n = static_cast<std::ptrdiff_t>(numbers);
-  b.particle.insert(b.particle.begin() + place, a.particle[from]);
-  b.normal.insert(b.normal.begin() + place, a.normal[from]);
-  b.share.insert(b.share.begin() + place, a.share[from]);
-  b.memory.insert(b.memory.begin() + n * place, a.memory.begin() + n * row, a.memory.begin() + n * (row + 1));
-  a.particle.erase(a.particle.begin() + row);
-  a.normal.erase(a.normal.begin() + row);
-  a.share.erase(a.share.begin() + row);
-  a.memory.erase(a.memory.begin() + n * row, a.memory.begin() + n * (row + 1));
 }
 
 }  // namespace
@@ -137,7 +122,7 @@ void SolidSurface::handOver(std::span<const SurfacePart> parts, std::size_t begi
         }
     }
     if (best == parts.size()) continue;
-    moveSpring(parts[best].coupling->contacts_.springs, row, parts[to].coupling->contacts_.springs);
+    dem::detail::moveSpring(parts[best].coupling->contacts_.springs, row, parts[to].coupling->contacts_.springs);
     ++wants[best];
     --wants[to];
   }

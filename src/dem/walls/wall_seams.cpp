@@ -11,6 +11,25 @@
 
 namespace dovetail::dem {
 
+namespace detail {
+
+void moveSpring(WallSprings& from, std::size_t row, WallSprings& to) {
+  const std::size_t components = from.memory.size() / from.particle.size();
+  const auto at = std::upper_bound(to.particle.begin(), to.particle.end(), from.particle[row]) - to.particle.begin();
+  const auto pass = [&](auto& source, auto& target, std::size_t width) {
+    const auto begin = source.begin() + static_cast<std::ptrdiff_t>(row * width),
+               end = begin + static_cast<std::ptrdiff_t>(width);
+    target.insert(target.begin() + at * static_cast<std::ptrdiff_t>(width), begin, end);
+    source.erase(begin, end);
+  };
+  pass(from.memory, to.memory, components);
+  pass(from.normal, to.normal, 1);
+  pass(from.share, to.share, 1);
+  pass(from.particle, to.particle, 1);
+}
+
+}  // namespace detail
+
 namespace {
 
 /// Those that have contacts with more than one wall, ascending.
@@ -74,21 +93,6 @@ bool has(const std::vector<int>& particle, const std::vector<Vec3>& normal, int 
   return false;
 }
 
-void moveSpring(WallSprings& from, std::size_t row, WallSprings& to) {
-  const std::size_t components = from.memory.size() / from.particle.size();
-  const auto at = std::upper_bound(to.particle.begin(), to.particle.end(), from.particle[row]) - to.particle.begin();
-  const auto pass = [&](auto& source, auto& target, std::size_t width) {
-    const auto begin = source.begin() + static_cast<std::ptrdiff_t>(row * width),
-               end = begin + static_cast<std::ptrdiff_t>(width);
-    target.insert(target.begin() + at * static_cast<std::ptrdiff_t>(width), begin, end);
-    source.erase(begin, end);
-  };
-  pass(from.memory, to.memory, components);
-  pass(from.normal, to.normal, 1);
-  pass(from.share, to.share, 1);
-  pass(from.particle, to.particle, 1);
-}
-
 /// What contacts of `from` remember that go on as contacts of `to`.
 void handOver(WallContacts& from, WallContacts& to) {
   WallSprings& old = from.springs;
@@ -99,7 +103,7 @@ void handOver(WallContacts& from, WallContacts& to) {
         has(to.springs.particle, to.springs.normal, i, n))
       continue;
     if (old.memory.size() * to.springs.particle.size() != to.springs.memory.size() * old.particle.size()) return;
-    moveSpring(old, o, to.springs);
+    detail::moveSpring(old, o, to.springs);
   }
 }
 

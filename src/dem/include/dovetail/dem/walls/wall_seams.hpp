@@ -1,6 +1,7 @@
 // Several walls that meet act as one surface.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "dovetail/dem/walls/wall_clearances.hpp"
@@ -20,5 +21,10 @@ struct WallAtSeam {
 /// from one wall to the next, what it remembers goes with it. The same for any number of threads.
 /// @param walls of one material, whose contacts are those of findWallContacts now, and have not been answered
 void joinAtSeams(const Particles& particles, std::span<const WallAtSeam> walls);
+
+namespace detail {
+/// A row of what contacts remember goes to another wall, behind those of the same particle there.
+void moveSpring(WallSprings& from, std::size_t row, WallSprings& to);
+}  // namespace detail
 
 }  // namespace dovetail::dem
