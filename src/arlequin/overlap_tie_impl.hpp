@@ -158,7 +158,8 @@ class ContactsOf {
 public:
   /// @param isMoved  one per particle   @param solid  whose surface does not meet them
   ContactsOf(const dem::Model& m, std::span<const char> isMoved, const fem::Model* solid);
-  /// J that they store with the shares that they have now. @param m  left as it is, with the same pairs and terms
+  /// J that they store with the shares that they have now, with what springs that slide or end are yet to lose in this
+  /// step. @param m  left as it is, with the same pairs and terms
   double energy(const dem::Model& m) const;
 
 private:

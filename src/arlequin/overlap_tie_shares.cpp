@@ -46,13 +46,17 @@ ContactsOf::ContactsOf(const dem::Model& m, std::span<const char> isMoved, const
 
 double ContactsOf::energy(const dem::Model& m) const {
   constexpr double noTime = 1e-100;  // s: memories stay
+  // Springs that friction no longer holds are cut in the step to come, which books what they lose.
+  const auto held = [](const dem::ContactWork& work) {
+    return work.storedEnergy() + noTime * (work.lostPower() - work.dissipatedPower);
+  };
   double sum = 0.0;
   if (!pairs_.empty()) {
     const int memory = static_cast<int>(m.pairs.memory().size() / m.pairs.size());
     dem::detail::PairsApart one(1);
     for (const std::size_t p : pairs_) {
       one.take(m.particles, m.pairs, p, memory);
-      sum += m.laws->pairs(one.particles, one.list, noTime, dem::Booking::on).storedEnergy();
+      sum += held(m.laws->pairs(one.particles, one.list, noTime, dem::Booking::on));
     }
   }
   if (terms_.empty()) return sum;
@@ -63,7 +67,7 @@ double ContactsOf::energy(const dem::Model& m) const {
   copy.step = {.time = m.time, .dt = noTime, .moved = std::numeric_limits<double>::infinity(), .timeless = true};
   for (const dem::Term* term : terms_) copy.terms.add(term->clone());
   for (const auto& term : copy.terms) term->addForces(copy, copy.step);
-  return sum + copy.work.storedEnergy();
+  return sum + held(copy.work);
 }
 
 /// Mass that a share gains or loses comes and goes with the solid's velocity; the rest of its momentum is the nodes'.

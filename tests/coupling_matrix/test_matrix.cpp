@@ -37,11 +37,12 @@ TEST_P(Matrix, TheBooksCloseAndDigitsStay) {
 /// windows of several steps ties are made where solid and particles are at the same instant.
 TEST(MatrixLong, TheBooksCloseWhereTiesAreMadeAnew) {
   for (const Windows windows : {Windows::explicit1, Windows::implicit1, Windows::implicit4})
-    for (const Joint joint : {Joint::penalty, Joint::multipliers}) {
-      const Case c{Element::hex8, SolidLaw::stVenantKirchhoff, joint, ContactKind::hertzMindlin, windows};
-      const Figures figures = measure(c, 640);
-      EXPECT_EQ(shortfall(c, figures), "") << nameOf(c);
-    }
+    for (const Joint joint : {Joint::penalty, Joint::multipliers})
+      for (const ContactKind contact : {ContactKind::frictional, ContactKind::hertzMindlin, ContactKind::rolling}) {
+        const Case c{Element::hex8, SolidLaw::stVenantKirchhoff, joint, contact, windows};
+        const Figures figures = measure(c, 640);
+        EXPECT_EQ(shortfall(c, figures), "") << nameOf(c);
+      }
 }
 
 /// Soil that is pulled up again flows at its apex, where it has no stiffness, in some points of an element.
