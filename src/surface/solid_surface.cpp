@@ -33,9 +33,8 @@ bool sameAnswer(const SurfacePart& a, const SurfacePart& b) {
 }
 
 std::pair<std::size_t, std::size_t> rowsOf(const std::vector<int>& particle, int i) {
-  const auto range = std::ranges::equal_range(particle, i);
-  return {static_cast<std::size_t>(range.begin() - particle.begin()),
-          static_cast<std::size_t>(range.end() - particle.begin())};
+  const auto [begin, end] = std::equal_range(particle.begin(), particle.end(), i);
+  return {static_cast<std::size_t>(begin - particle.begin()), static_cast<std::size_t>(end - particle.begin())};
 }
 
 }  // namespace

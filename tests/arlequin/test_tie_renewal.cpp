@@ -321,7 +321,6 @@ TEST(Numbers, SortingInsertingAndRemovingAreFollowed) {
   run.start();
   const double mass = run.mass();
   const Vec3 momentum = run.momentum();
-  double added = 0.0;
   for (int s = 0; s < 3000; ++s) {
     run.step(2e-4);
     if (s == 1000) {
@@ -331,7 +330,6 @@ TEST(Numbers, SortingInsertingAndRemovingAreFollowed) {
     if (s == 1500) {
       const Vec3 x{0.05, -0.5, 0.0};
       dem::addParticle(run.grains.particles, x, {0.0, 0.5, 0.0}, 0.05, dem::Mass{1.0});
-      added += 1.0;
       run.start();
     }
     for (std::size_t k = 0; k < run.tie->overlap().size(); ++k) {
