@@ -208,14 +208,12 @@ void MeshWallTerm::findAll(Model& m, const Step& step) {
     if (step.timeless && carried(one)) moveWall(one, m.time, 0.0, &bodiesOf(m));
     one.candidates.reach = m.pairs.reach();
     findContacts(m.particles, one, movesOf(m, step), m.pairs.periodicity());
-    term->found_ = true;
   }
   if (walls.size() > 1) joinMeshes(m.particles, walls);
 }
 
 void MeshWallTerm::addForces(Model& m, const Step& step) {
-  if (!found_) findAll(m, step);
-  found_ = false;
+  if (m.terms.all<MeshWallTerm>().front() == this) findAll(m, step);
   const ContactWork work = m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
   stored = work.storedEnergy();
   m.work += work;

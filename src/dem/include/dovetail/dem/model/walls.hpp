@@ -60,8 +60,7 @@ public:
   void load(ByteReader& reader) override;
 
 private:
-  static void findAll(Model& m, const Step& step);
-  bool found_ = false;  // contacts as they are now: the first of the model's mesh walls finds those of all
+  static void findAll(Model& m, const Step& step);  // by the first of the model's mesh walls
 };
 
 /// The wall as it stands in the model from now on.
