@@ -66,7 +66,7 @@ double ContactsOf::energy(const dem::Model& m) const {
   copy.pairs.setPeriodicity(m.pairs.periodicity());
   copy.step = {.time = m.time, .dt = noTime, .moved = std::numeric_limits<double>::infinity(), .timeless = true};
   for (const dem::Term* term : terms_) copy.terms.add(term->clone());
-  for (const auto& term : copy.terms) term->addForces(copy, copy.step);
+  dem::addForcesOfTerms(copy);
   return sum + held(copy.work);
 }
 

@@ -1,6 +1,7 @@
 // What a coupling asks of the surface that it is on: facets of a skin, or smooth patches.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -8,7 +9,7 @@
 
 #include "dovetail/core/archive.hpp"
 #include "dovetail/dem/laws/contact_laws.hpp"
-#include "dovetail/dem/walls/wall_contacts.hpp"
+#include "dovetail/dem/walls/wall_seams.hpp"
 #include "dovetail/surface/skin.hpp"
 #include "dovetail/surface/smooth_surface.hpp"
 
@@ -39,6 +40,10 @@ public:
                       const geometry::Periodicity& periodicity) = 0;
   /// @param travelled  bound on how far any particle and any point together have come since the search, m
   virtual void findContacts(const dem::Particles& particles, double travelled, dem::WallContacts& contacts) = 0;
+
+  /// Where contacts, which were found last, may go on as those of other walls with this answer.
+  virtual void addSeam(dem::WallContacts&, const dem::WallAnswer&, std::span<const std::uint8_t> /*absent*/,
+                       std::vector<dem::WallAtSeam>&) const {}
 
   /// The wall that contacts are with: their facets, with positions and velocities there.
   virtual const dem::TriangulatedWall& wall() const = 0;

@@ -107,8 +107,9 @@ Coupling::OwnCarrier& Coupling::OwnCarrier::operator=(OwnCarrier other) noexcept
 dem::ContactWork Coupling::exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
                                     const dem::ContactLaws& laws, double dt, const ExchangeOptions& options) {
   find(particles, u, v, laws.reach(), options);
+  weigh(particles, options);
   const dem::ContactWork work = answer(particles, u, laws, dt, options);
-  if (!options.share.empty()) shares_.book(contacts_.particle, contacts_.energy);
+  bookShares(options);
   return work;
 }
 
@@ -119,7 +120,11 @@ void Coupling::find(const dem::Particles& particles, std::span<const Vec3> u, st
   placeSurface(u, v);
   carrier_->findContacts(particles, travelled_, contacts_);
   if (carrier_->wall().oneSided) requireNoneThrough(particles, options.tied);
-  if (!options.share.empty()) weigh(particles, options);
+}
+
+void Coupling::addSeam(const dem::WallAnswer& answer, const ExchangeOptions& options,
+                       std::vector<dem::WallAtSeam>& seams) {
+  carrier_->addSeam(contacts_, answer, options.tied, seams);
 }
 
 dem::ContactWork Coupling::answer(dem::Particles& particles, std::span<const Vec3> u, const dem::ContactLaws& laws,
@@ -167,6 +172,7 @@ double Coupling::shareAt(std::size_t contact, std::span<const double> share) con
 
 /// Contacts get the share of the solid; those of tied particles go.
 void Coupling::weigh(const dem::Particles& particles, const ExchangeOptions& options) {
+  if (options.share.empty()) return;
   dem::WallContacts& all = contacts_;
   shares_.begin();
   std::size_t kept = 0;
@@ -187,6 +193,10 @@ void Coupling::weigh(const dem::Particles& particles, const ExchangeOptions& opt
     ++kept;
   }
   dem::resize(all, kept);
+}
+
+void Coupling::bookShares(const ExchangeOptions& options) {
+  if (!options.share.empty()) shares_.book(contacts_.particle, contacts_.energy);
 }
 
 double Coupling::nodeWorkSinceLast(std::span<const Vec3> u) const {

@@ -56,6 +56,12 @@ public:
     dem::findWallContacts(particles, skin_.wall, candidates_, clearances_, rule_, contacts);
   }
 
+  void addSeam(dem::WallContacts& contacts, const dem::WallAnswer& answer, std::span<const std::uint8_t> absent,
+               std::vector<dem::WallAtSeam>& seams) const override {
+    if (rule_ == dem::EdgeRule::projected)
+      seams.push_back({&skin_.wall, &candidates_, &contacts, answer, &clearances_, absent});
+  }
+
   const dem::TriangulatedWall& wall() const override { return skin_.wall; }
   const dem::TriangulatedWall& outline() override { return skin_.wall; }
   void addReaction(const dem::WallContacts& contacts, coupling::NodalLoad& onPoints) const override {

@@ -139,25 +139,63 @@ double SurfaceContact::renumber(std::span<const int> newNumber, const dem::Parti
   return coupling_.renumber(newNumber);
 }
 
-void SurfaceContact::addForces(dem::Model& m, const dem::Step& step) {
-  if (company_.terms != &m.terms || company_.revision != m.terms.revision()) join(m);
-  if (company_.parts.empty()) return;
-  ExchangeOptions options{m.booking, dem::movesOf(m, step), m.pairs.periodicity(), company_.share, {}};
-  if (!company_.overlaps.empty()) {
-    tied_.assign(m.particles.size(), 0);
-    for (const coupling::Connector* overlap : company_.overlaps) overlap->markTied(tied_);
-    options.tied = tied_;
-  }
-  const fem::Nodes& nodes = side().nodes();
+ExchangeOptions SurfaceContact::exchangeOptions(const dem::Model& m, const dem::Step& step) const {
+  return {m.booking, dem::movesOf(m, step), m.pairs.periodicity(), company_.share, tied_};
+}
+
+/// Errors of contacts say with whom, and when.
+template <class Call>
+void SurfaceContact::naming(const dem::Step& step, Call&& call) const {
   try {
-    if (surface_)
-      m.work += surface_->exchange(surfaceParts(), m.particles, nodes.u, nodes.v, step.dt, options);
-    else
-      m.work += coupling_.exchange(m.particles, nodes.u, nodes.v, *laws_, step.dt, options);
+    call();
   } catch (const NumericalError& error) {
     throw NumericalError(error.what(),
                          name_ + ", t = " + formatNumber(step.time) + " s, step " + std::to_string(step.number), "");
   }
+}
+
+void SurfaceContact::findFacetContacts(dem::Model& m, const dem::Step& step, std::vector<dem::WallAtSeam>& seams) {
+  if (company_.terms != &m.terms || company_.revision != m.terms.revision()) join(m);
+  if (company_.parts.empty()) return;
+  tied_.assign(company_.overlaps.empty() ? 0 : m.particles.size(), 0);
+  for (const coupling::Connector* overlap : company_.overlaps) overlap->markTied(tied_);
+  const fem::Nodes& nodes = side().nodes();
+  const ExchangeOptions options = exchangeOptions(m, step);
+  naming(step, [&] {
+    if (surface_) {
+      surface_->find(surfaceParts(), m.particles, nodes.u, nodes.v, options);
+      surface_->addSeam(surfaceParts(), options, seams);
+    } else {
+      coupling_.find(m.particles, nodes.u, nodes.v, laws_->reach(), options);
+      coupling_.addSeam(answered(), options, seams);
+    }
+  });
+}
+
+void SurfaceContact::takeFacetContacts(dem::Model& m, const dem::Step& step,
+                                       std::vector<dem::AnsweredContacts>& walls) {
+  if (company_.parts.empty()) return;
+  const fem::Nodes& nodes = side().nodes();
+  const ExchangeOptions options = exchangeOptions(m, step);
+  if (surface_)
+    surface_->handOut(surfaceParts(), m.particles, nodes.u, nodes.v, options);
+  else
+    coupling_.weigh(m.particles, options);
+  for (SurfaceContact* part : company_.parts) part->coupling_.addAnswered(part->answered(), walls);
+}
+
+void SurfaceContact::addForces(dem::Model& m, const dem::Step& step) {
+  if (company_.parts.empty()) return;
+  const fem::Nodes& nodes = side().nodes();
+  const ExchangeOptions options = exchangeOptions(m, step);
+  naming(step, [&] {
+    if (surface_) {
+      m.work += surface_->answer(surfaceParts(), m.particles, nodes.u, step.dt, options);
+    } else {
+      m.work += coupling_.answer(m.particles, nodes.u, *laws_, step.dt, options);
+      coupling_.bookShares(options);
+    }
+  });
   for (const SurfaceContact* part : company_.parts) {
     const coupling::NodalLoad& load = part->coupling_.load();
     for (int node : load.touched) part->side().load.add(node, load.force[static_cast<std::size_t>(node)]);

@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Windows, OverlapAndSurface,
                                          Case{"implicit1", Stepping::implicitSteps, 1},
                                          Case{"implicit4", Stepping::implicitSteps, 4},
                                          Case{"implicit16", Stepping::implicitSteps, 16}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 /// One that was there when the tie was made is tied, with its share; one that comes later meets the skin first.
 TEST(OverlapAndSurface, ABallAtTheSideIsPushedOnce) {

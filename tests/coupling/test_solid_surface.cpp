@@ -81,7 +81,7 @@ std::vector<Vec3> forcesAt(const std::vector<std::vector<fem::Face>>& parts) {
   auto run = brickRun(parts, elastic());
   SolidSide& side = run->solid(0);
   for (std::size_t i = 0; i < side.nodes().u.size(); ++i)
-    side.nodes().u[i] = 0.003 * Vec3{std::sin(3.0 * i), std::cos(2.0 * i), std::sin(5.0 * i)};
+    side.nodes().u[i] = 0.003 * Vec3{std::sin(3.0 * double(i)), std::cos(2.0 * double(i)), std::sin(5.0 * double(i))};
   dem::addParticle(run->grains.particles, places()[0], {}, 0.025, dem::Mass{1.0});
   run->grains.refusesUnstableSteps = false;
   run->start(1e-6);
@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(Windows, SurfaceInParts,
                                          Case{"implicit1", Stepping::implicitSteps, 1},
                                          Case{"implicit4", Stepping::implicitSteps, 4},
                                          Case{"implicit16", Stepping::implicitSteps, 16}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 TEST(SolidSurface, HasALawForEachPart) {
   const fem::SolidMesh mesh = brick();

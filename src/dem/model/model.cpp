@@ -9,6 +9,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/model/loads.hpp"
+#include "dovetail/dem/walls/wall_seams.hpp"
 #include "events.hpp"
 
 namespace dovetail::dem {
@@ -21,6 +22,11 @@ void timed(const Model& m, const char* stage, Work&& work) {
   if (!m.profile) return work();
   const Profile::Stage timer(*m.profile, stage);
   work();
+}
+template <class Work>
+void timed(const Model& m, const Term& term, Work&& work) {
+  if (!m.profile) return work();
+  timed(m, term.name().c_str(), work);
 }
 
 bool prescribed(const Model& m) {
@@ -172,17 +178,32 @@ void renew(Model& m) {
   });
 }
 
+namespace {
+/// Of all terms. Those that meet at seams act as one.
+void findFacetContacts(Model& m) {
+  std::vector<WallAtSeam> seams;
+  for (const auto& term : m.terms) timed(m, *term, [&] { term->findFacetContacts(m, m.step, seams); });
+  joinAtSeams(m.particles, seams);
+  std::vector<AnsweredContacts> walls;
+  for (const auto& term : m.terms) timed(m, *term, [&] { term->takeFacetContacts(m, m.step, walls); });
+  passMemories(walls);
+}
+}  // namespace
+
+void addForcesOfTerms(Model& m) {
+  bool found = false;
+  for (const auto& term : m.terms) {
+    if (!found && term->order() != Term::Order::partners) findFacetContacts(m), found = true;
+    timed(m, *term, [&] { term->addForces(m, m.step); });
+  }
+}
+
 void addForces(Model& m) {
   const double dt = m.step.dt;
   m.work = {};
   m.rate = {};
   if (m.laws) timed(m, "pairs", [&] { m.work += m.laws->pairs(m.particles, m.pairs, dt, m.booking); });
-  for (const auto& term : m.terms) {
-    if (!m.profile)
-      term->addForces(m, m.step);
-    else
-      timed(m, term->name().c_str(), [&] { term->addForces(m, m.step); });
-  }
+  addForcesOfTerms(m);
   for (const auto& term : m.terms) term->book(m, m.step);
   welcome(m);
   m.rate.lost.dissipatedPower += m.work.dissipatedPower;

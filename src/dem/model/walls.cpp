@@ -1,7 +1,6 @@
 #include "dovetail/dem/model/walls.hpp"
 
 #include <algorithm>
-#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -184,36 +183,19 @@ double MeshWallTerm::renumber(std::span<const int> newNumber, const Particles&) 
   return gone;
 }
 
-namespace {
-
-/// Walls of one material that meet act as one.
-void joinMeshes(const Particles& particles, std::span<MeshWallTerm* const> walls) {
-  std::set<int> materials;
-  for (const MeshWallTerm* term : walls) materials.insert(term->mesh.wall.material);
-  for (const int material : materials) {
-    std::vector<WallAtSeam> alike;
-    for (MeshWallTerm* term : walls)
-      if (MeshWall& mesh = term->mesh; mesh.wall.material == material && mesh.rule == EdgeRule::projected)
-        alike.push_back({&mesh.wall, &mesh.candidates, &mesh.contacts});
-    if (alike.size() > 1) joinAtSeams(particles, alike);
-  }
+void MeshWallTerm::findFacetContacts(Model& m, const Step& step, std::vector<WallAtSeam>& seams) {
+  if (step.timeless && carried(mesh)) moveWall(mesh, m.time, 0.0, &bodiesOf(m));
+  mesh.candidates.reach = m.pairs.reach();
+  findContacts(m.particles, mesh, movesOf(m, step), m.pairs.periodicity());
+  if (mesh.rule == EdgeRule::projected)
+    seams.push_back({&mesh.wall, &mesh.candidates, &mesh.contacts, {m.laws.get(), mesh.wall.material}});
 }
 
-}  // namespace
-
-void MeshWallTerm::findAll(Model& m, const Step& step) {
-  const auto walls = m.terms.all<MeshWallTerm>();
-  for (MeshWallTerm* term : walls) {
-    MeshWall& one = term->mesh;
-    if (step.timeless && carried(one)) moveWall(one, m.time, 0.0, &bodiesOf(m));
-    one.candidates.reach = m.pairs.reach();
-    findContacts(m.particles, one, movesOf(m, step), m.pairs.periodicity());
-  }
-  if (walls.size() > 1) joinMeshes(m.particles, walls);
+void MeshWallTerm::takeFacetContacts(Model& m, const Step&, std::vector<AnsweredContacts>& walls) {
+  walls.push_back({&mesh.contacts, {m.laws.get(), mesh.wall.material}});
 }
 
 void MeshWallTerm::addForces(Model& m, const Step& step) {
-  if (m.terms.all<MeshWallTerm>().front() == this) findAll(m, step);
   const ContactWork work = m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
   stored = work.storedEnergy();
   m.work += work;

@@ -11,8 +11,9 @@
 
 namespace dovetail::dem {
 
-namespace detail {
+namespace {
 
+/// A row of what contacts remember goes to another wall, behind those of the same particle there.
 void moveSpring(WallSprings& from, std::size_t row, WallSprings& to) {
   const std::size_t components = from.memory.size() / from.particle.size();
   const auto at = std::upper_bound(to.particle.begin(), to.particle.end(), from.particle[row]) - to.particle.begin();
@@ -28,20 +29,32 @@ void moveSpring(WallSprings& from, std::size_t row, WallSprings& to) {
   pass(from.particle, to.particle, 1);
 }
 
-}  // namespace detail
-
-namespace {
+bool isAbsent(const WallAtSeam& wall, int particle) {
+  return !wall.absent.empty() && wall.absent[static_cast<std::size_t>(particle)] != 0;
+}
 
 /// Those that have contacts with more than one wall, ascending.
 std::vector<int> touchSeveral(std::span<const WallAtSeam> walls) {
-  std::vector<int> touching, several;
-  for (const WallAtSeam& w : walls)
-    std::unique_copy(w.contacts->particle.begin(), w.contacts->particle.end(), std::back_inserter(touching));
-  std::sort(touching.begin(), touching.end());
-  for (std::size_t k = 1; k < touching.size(); ++k)
-    if (touching[k] == touching[k - 1] && (several.empty() || several.back() != touching[k]))
-      several.push_back(touching[k]);
+  std::vector<int> touching, own, several, all;
+  for (const WallAtSeam& w : walls) {
+    own.clear();
+    for (const int i : w.contacts->particle)
+      if ((own.empty() || own.back() != i) && !isAbsent(w, i)) own.push_back(i);
+    std::set_intersection(touching.begin(), touching.end(), own.begin(), own.end(), std::back_inserter(several));
+    all.clear();
+    std::set_union(touching.begin(), touching.end(), own.begin(), own.end(), std::back_inserter(all));
+    touching.swap(all);
+  }
+  std::sort(several.begin(), several.end());
+  several.erase(std::unique(several.begin(), several.end()), several.end());
   return several;
+}
+
+void keepContacts(const WallContacts& contacts, int particle, WallContacts& kept) {
+  const auto at = std::lower_bound(contacts.particle.begin(), contacts.particle.end(), particle);
+  for (auto c = static_cast<std::size_t>(at - contacts.particle.begin());
+       c < contacts.size() && contacts.particle[c] == particle; ++c)
+    appendContact(kept, contacts, c);
 }
 
 /// Contacts of one particle with all walls together, each wall's into its own list.
@@ -50,6 +63,10 @@ void meetTogether(const Particles& particles, std::span<const WallAtSeam> walls,
   std::vector<Encounter> encounters;
   std::vector<std::size_t> number, first;
   for (std::size_t w = 0; w < walls.size(); ++w) {
+    if (isAbsent(walls[w], particle)) {
+      keepContacts(*walls[w].contacts, particle, fresh[w]);
+      continue;
+    }
     const std::vector<int>& listed = walls[w].candidates->particle;
     const auto at = std::lower_bound(listed.begin(), listed.end(), particle);
     if (at == listed.end() || *at != particle) continue;
@@ -93,31 +110,56 @@ bool has(const std::vector<int>& particle, const std::vector<Vec3>& normal, int 
   return false;
 }
 
-/// What contacts of `from` remember that go on as contacts of `to`.
-void handOver(WallContacts& from, WallContacts& to) {
+/// What contacts of `from` remember of a particle that go on as contacts of `to`.
+void handOver(WallContacts& from, WallContacts& to, int i) {
   WallSprings& old = from.springs;
-  for (std::size_t o = old.particle.size(); o-- > 0;) {
-    const int i = old.particle[o];
+  if (old.memory.size() * to.springs.particle.size() != to.springs.memory.size() * old.particle.size()) return;
+  const auto [begin, end] = std::equal_range(old.particle.begin(), old.particle.end(), i);
+  const auto first = static_cast<std::size_t>(begin - old.particle.begin());
+  for (auto o = static_cast<std::size_t>(end - old.particle.begin()); o-- > first;) {
     const Vec3 n = old.normal[o];
-    if (has(from.particle, from.normal, i, n) || !has(to.particle, to.normal, i, n) ||
-        has(to.springs.particle, to.springs.normal, i, n))
-      continue;
-    if (old.memory.size() * to.springs.particle.size() != to.springs.memory.size() * old.particle.size()) return;
-    detail::moveSpring(old, o, to.springs);
+    if (!has(from.particle, from.normal, i, n) && has(to.particle, to.normal, i, n) &&
+        !has(to.springs.particle, to.springs.normal, i, n))
+      moveSpring(old, o, to.springs);
   }
+}
+
+void handOver(const AnsweredContacts& from, const AnsweredContacts& to) {
+  std::vector<int> both;
+  const std::vector<int>&remembered = from.contacts->springs.particle, &touching = to.contacts->particle;
+  std::set_intersection(remembered.begin(), remembered.end(), touching.begin(), touching.end(),
+                        std::back_inserter(both));
+  if (both.empty() || !sameAnswer(from.answer, to.answer)) return;
+  both.erase(std::unique(both.begin(), both.end()), both.end());
+  for (const int i : both) handOver(*from.contacts, *to.contacts, i);
+}
+
+void joinAlike(const Particles& particles, std::span<const WallAtSeam> walls) {
+  const std::vector<int> several = touchSeveral(walls);
+  if (several.empty()) return;
+  std::vector<WallContacts> fresh(walls.size());
+  for (const int particle : several) meetTogether(particles, walls, particle, fresh);
+  for (std::size_t w = 0; w < walls.size(); ++w) replace(*walls[w].contacts, several, fresh[w]);
 }
 
 }  // namespace
 
 void joinAtSeams(const Particles& particles, std::span<const WallAtSeam> walls) {
-  if (const std::vector<int> several = touchSeveral(walls); !several.empty()) {
-    std::vector<WallContacts> fresh(walls.size());
-    for (const int particle : several) meetTogether(particles, walls, particle, fresh);
-    for (std::size_t w = 0; w < walls.size(); ++w) replace(*walls[w].contacts, several, fresh[w]);
+  if (walls.size() < 2) return;
+  std::vector<WallAtSeam> rest(walls.begin(), walls.end());
+  while (rest.size() > 1) {
+    const WallAnswer first = rest.front().answer;
+    const auto alike = std::stable_partition(rest.begin(), rest.end(),
+                                             [&](const WallAtSeam& w) { return !sameAnswer(w.answer, first); });
+    joinAlike(particles, {alike, rest.end()});
+    rest.erase(alike, rest.end());
   }
-  for (const WallAtSeam& from : walls)
-    for (const WallAtSeam& to : walls)
-      if (from.contacts != to.contacts) handOver(*from.contacts, *to.contacts);
+}
+
+void passMemories(std::span<const AnsweredContacts> walls) {
+  for (const AnsweredContacts& from : walls)
+    for (const AnsweredContacts& to : walls)
+      if (from.contacts != to.contacts) handOver(from, to);
 }
 
 }  // namespace dovetail::dem

@@ -11,7 +11,7 @@
 #include "dovetail/coupling/nodal_load.hpp"
 #include "dovetail/dem/laws/contact_laws.hpp"
 #include "dovetail/dem/particles/particles.hpp"
-#include "dovetail/dem/walls/wall_contacts.hpp"
+#include "dovetail/dem/walls/wall_seams.hpp"
 #include "dovetail/surface/share_book.hpp"
 #include "dovetail/surface/skin.hpp"
 #include "dovetail/surface/smooth_surface.hpp"
@@ -75,11 +75,18 @@ public:
   dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
                             const dem::ContactLaws& laws, double dt, const ExchangeOptions& options = {});
 
-  /// Its two halves: contacts, and what they do. Between them a surface of several parts hands each its contacts.
+  /// One by one: contacts, the solid's share in them, what they do, and what changes of shares made. In between
+  /// contacts are joined with those of other walls, and a surface of several parts hands each its own.
   void find(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v, double reach,
             const ExchangeOptions& options);
+  void addSeam(const dem::WallAnswer& answer, const ExchangeOptions& options, std::vector<dem::WallAtSeam>& seams);
+  void weigh(const dem::Particles& particles, const ExchangeOptions& options);
+  void addAnswered(const dem::WallAnswer& answer, std::vector<dem::AnsweredContacts>& walls) {
+    walls.push_back({&contacts_, answer});
+  }
   dem::ContactWork answer(dem::Particles& particles, std::span<const Vec3> u, const dem::ContactLaws& laws, double dt,
                           const ExchangeOptions& options);
+  void bookShares(const ExchangeOptions& options);
 
   /// Contact forces on the nodes of the last exchange, N.
   const coupling::NodalLoad& load() const { return load_; }
@@ -143,7 +150,6 @@ private:
   void take(const Coupling& whole, int first, double reach, std::span<const Vec3> u, std::span<const Vec3> v);
   void placeSurface(std::span<const Vec3> u, std::span<const Vec3> v);
   double shareAt(std::size_t contact, std::span<const double> share) const;
-  void weigh(const dem::Particles& particles, const ExchangeOptions& options);
   void requireNoneThrough(const dem::Particles& particles, std::span<const std::uint8_t> tied);
   double workSinceLast() const;
   double nodeWorkSinceLast(std::span<const Vec3> u) const;

@@ -13,19 +13,27 @@ namespace dovetail::surface {
 struct SurfacePart {
   Coupling* coupling;
   const dem::ContactLaws* laws;
+
+  dem::WallAnswer answer() const { return {laws, coupling->wall().material}; }
 };
 
 /// Finds the contacts with all parts at once, so that one place pushes once, also where parts meet in a plane or along
-/// an edge; each part then answers those on its facets. What a contact remembers goes with it into a part with the same
-/// law.
+/// an edge; each part then answers those on its facets.
 class SolidSurface {
 public:
   /// @throws InputError if parts have a face in common, or combine contacts by different rules
   explicit SolidSurface(std::span<const SurfacePart> parts);
 
-  /// As Coupling::exchange, for all parts, which are those it was made of or copies of them. Each has then its load().
-  dem::ContactWork exchange(std::span<const SurfacePart> parts, dem::Particles& particles, std::span<const Vec3> u,
-                            std::span<const Vec3> v, double dt, const ExchangeOptions& options);
+  /// As Coupling's, for all parts, which are those it was made of or copies of them. Each has then its load().
+  void find(std::span<const SurfacePart> parts, const dem::Particles& particles, std::span<const Vec3> u,
+            std::span<const Vec3> v, const ExchangeOptions& options);
+  /// Nothing if parts answer differently: what meets one of them at a seam meets the others too.
+  void addSeam(std::span<const SurfacePart> parts, const ExchangeOptions& options, std::vector<dem::WallAtSeam>& seams);
+  /// Weighs the contacts, and hands each part its own.
+  void handOut(std::span<const SurfacePart> parts, const dem::Particles& particles, std::span<const Vec3> u,
+               std::span<const Vec3> v, const ExchangeOptions& options);
+  dem::ContactWork answer(std::span<const SurfacePart> parts, dem::Particles& particles, std::span<const Vec3> u,
+                          double dt, const ExchangeOptions& options);
   double renumber(std::span<const int> newNumber) { return whole_.renumber(newNumber); }
   double madeByShares() const { return whole_.madeByShares(); }
   const Coupling& whole() const { return whole_; }
@@ -34,14 +42,11 @@ public:
   void load(ByteReader& reader) { whole_.load(reader); }
 
 private:
-  int partOf(int facet) const;
-  void handOver(std::span<const SurfacePart> parts);
-  void handOver(std::span<const SurfacePart> parts, std::size_t begin, std::size_t end);
   void gatherEnergies(std::span<const SurfacePart> parts);
 
   Coupling whole_;
-  std::vector<int> first_;  // facet of each part, and their number
-  std::vector<int> alike_;  // per part: the first with the same law
+  std::vector<int> first_;  // facet of each part
+  bool alike_ = true;       // whether all parts answer in the same way
 };
 
 }  // namespace dovetail::surface

@@ -42,6 +42,8 @@ public:
   void check(const dem::Model& m) const override;
   void surround(dem::Surroundings& around) override;
   double renumber(std::span<const int> newNumber, const dem::Particles& before) override;
+  void findFacetContacts(dem::Model& m, const dem::Step& step, std::vector<dem::WallAtSeam>& seams) override;
+  void takeFacetContacts(dem::Model& m, const dem::Step& step, std::vector<dem::AnsweredContacts>& walls) override;
   void addForces(dem::Model& m, const dem::Step& step) override;
   void addDemand(const dem::Model& m, dem::ContactDemand& demand) const override;
   void addPartners(const dem::Model& m, std::vector<dem::ImpactPartner>& partners) const override;
@@ -69,6 +71,10 @@ private:
   void rejoin(std::vector<std::int64_t> ids);
   void requireJoinable(std::span<const SurfaceContact* const> parts) const;
   std::vector<SurfacePart> surfaceParts() const;
+  dem::WallAnswer answered() const { return {laws_.get(), coupling_.wall().material}; }
+  ExchangeOptions exchangeOptions(const dem::Model& m, const dem::Step& step) const;
+  template <class Call>
+  void naming(const dem::Step& step, Call&& call) const;
 
   Coupling coupling_;
   std::shared_ptr<const dem::ContactLaws> laws_;

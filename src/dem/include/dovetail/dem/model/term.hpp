@@ -22,6 +22,8 @@ struct ContactSample;
 struct Energies;
 struct ImpactPartner;
 struct Surroundings;
+struct WallAtSeam;
+struct AnsweredContacts;
 
 /// The step under way.
 struct Step {
@@ -75,6 +77,11 @@ public:
   /// Particles get new numbers, < 0: gone. `before` still has all of them in their old order.
   /// @return J that the term's contacts with those gone had stored
   virtual double renumber(std::span<const int> /*newNumber*/, const Particles& /*before*/) { return 0.0; }
+  /// Finds contacts with facets, before any term behind the partners adds forces, and appends those that are one surface
+  /// with others where they meet (joinAtSeams).
+  virtual void findFacetContacts(Model&, const Step&, std::vector<WallAtSeam>&) {}
+  /// They have been joined: appends what of them is answered (passMemories).
+  virtual void takeFacetContacts(Model&, const Step&, std::vector<AnsweredContacts>&) {}
   /// Adds to particles.f (and torque), and to model.work what it stores and loses.
   virtual void addForces(Model&, const Step&) {}
   /// All forces are known: adds to model.rate the power of those that give or take energy (against the mean of the

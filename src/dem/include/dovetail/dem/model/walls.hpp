@@ -49,6 +49,8 @@ public:
   double move(Model& m, const Step& step) override;
   void surround(Surroundings& around) override;
   double renumber(std::span<const int> newNumber, const Particles& before) override;
+  void findFacetContacts(Model& m, const Step& step, std::vector<WallAtSeam>& seams) override;
+  void takeFacetContacts(Model& m, const Step& step, std::vector<AnsweredContacts>& walls) override;
   void addForces(Model& m, const Step& step) override;
   void close(Model& m, double dt) override;
   void addDemand(const Model& m, ContactDemand& demand) const override;
@@ -58,9 +60,6 @@ public:
   void addContacts(const Model& m, ContactSample& sample) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
-
-private:
-  static void findAll(Model& m, const Step& step);  // by the first of the model's mesh walls
 };
 
 /// The wall as it stands in the model from now on.
