@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/dem/model/contact_step.hpp"
 #include "overlap_locator.hpp"
 #include "pair_shares.hpp"
 #include "tie_parts.hpp"
@@ -100,6 +101,9 @@ struct OverlapTie::Impl : TieState {
   std::vector<Vec3> motionUnder(std::span<const Vec3> forces) const;
 
   double springOf(const dem::Model& m, std::size_t k) const;
+  /// Levels what springs of members ask of the step, as far as the tie lets it.
+  void level(const dem::Model& m, const dem::ContactDemand& demand,
+             const std::vector<dem::ContactDemand::Range>& nodesOf, std::vector<double>& springs) const;
   /// Solid's field of the nodes at a member.
   Vec3 atMember(std::size_t k, std::span<const Vec3> field) const;
   /// Displacement of a member from its material point, images left out.

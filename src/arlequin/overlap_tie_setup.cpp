@@ -1,4 +1,4 @@
-// How an overlap tie is made, and what it asks of the step.
+// How an overlap tie is made.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -159,51 +159,6 @@ std::vector<int> particlesBeyond(const dem::Model& grains, const fem::SolidMesh&
     if (locator.find(grains.particles.x[i], grains.particles.radius[i]).weight < leastShare * (1.0 - 1e-6))
       beyond.push_back(static_cast<int>(i));
   return beyond;
-}
-
-/// Jensen: with weights that sum to one, Σ_i p V_i |g_i|² ≤ Σ_k p Ω_k |x_k − Φ_k u|² (the metric penalty is a
-/// projection of the latter), so that every particle is held by a spring p Ω of its own to its place in the solid.
-/// Multipliers ask for nothing, but make elements and contacts pull at the same masses.
-void OverlapTie::addDemand(const dem::Model& m, dem::ContactDemand& demand) const {
-  const Impl& s = *impl_;
-  const CouplingOptions& o = s.setting.options;
-  demand.stiffness.resize(m.particles.size(), 0.0);
-  demand.damping.resize(m.particles.size(), 0.0);
-  const bool inWindows = s.actsInWindows() && o.constraint == ConstraintKind::dashpot;
-  if (inWindows) demand.atWindows.resize(m.particles.size(), 0.0);
-  const int side = this->side().addTo(demand);
-  const auto firstNode = static_cast<int>(demand.sides[static_cast<std::size_t>(side)].first);
-  std::vector<dem::ContactDemand::Share> shares;
-  for (std::size_t k = 0; k < s.overlap.size(); ++k) {
-    const auto i = static_cast<std::size_t>(s.overlap.particle[k]);
-    const double spring = s.springOf(m, k);
-    (inWindows ? demand.atWindows : demand.stiffness)[i] += spring;
-    demand.damping[i] += o.absorberRate * (1.0 - s.overlap.weight[k]) * m.particles.weightOf(i) * m.particles.mass[i];
-    shares.clear();
-    if (s.overlap.place[k].element >= 0) {
-      const Cell cell = cellOf(s.setting.mesh, s.overlap.place[k].element);
-      for (std::size_t a = 0; a < cell.node.size(); ++a)
-        shares.push_back({firstNode + cell.node[a], std::abs(s.overlap.place[k].shape[a])});
-    }
-    demand.links.push_back({.particle = s.overlap.particle[k],
-                            .partner = -1,
-                            .owner = dem::StepOwner::contact,
-                            .stiffness = spring,
-                            .shifting = spring,
-                            .surface = static_cast<int>(demand.surfaces.size()),
-                            .side = side,
-                            .shifted = demand.add(shares)});
-  }
-  demand.surfaces.push_back(name());
-}
-
-/// p Ω of a member, N/m; of dashpots what asks for the same step: ε dt² < 2 where a spring has p dt² < 4.
-double OverlapTie::Impl::springOf(const dem::Model& m, std::size_t k) const {
-  const int element = overlap.place[k].element;
-  if (element < 0 || setting.options.constraint == ConstraintKind::multiplier) return 0.0;
-  return (setting.options.constraint == ConstraintKind::dashpot ? 2.0 : 1.0) *
-         setting.penalty[static_cast<std::size_t>(element)] *
-         m.particles.mass[static_cast<std::size_t>(overlap.particle[k])] / setting.bulkDensity;
 }
 
 }  // namespace dovetail::arlequin

@@ -95,12 +95,14 @@ namespace {
 
 /// What is asked over the mass that answers, per particle: 1/s² and 1/s.
 struct Rates {
-  std::vector<double> stiff, damped, atWindows;
+  std::vector<double> stiff, tied, damped, atWindows;
   std::vector<double> inverse;  // 1/kg, 0 of members of bodies
 };
 
 Rates ratesOf(const ContactDemand& demand, const Particles& particles) {
-  Rates rates{demand.stiffness, demand.damping, demand.atWindows, std::vector<double>(demand.stiffness.size(), 0.0)};
+  Rates rates{demand.stiffness, demand.byTies, demand.damping, demand.atWindows,
+              std::vector<double>(demand.stiffness.size(), 0.0)};
+  rates.tied.resize(rates.stiff.size(), 0.0);
   rates.atWindows.resize(rates.stiff.size(), 0.0);
   const std::size_t n = rates.stiff.size();
   const auto bodyOf = [&](std::size_t i) { return i < demand.body.size() ? demand.body[i] : -1; };
@@ -109,6 +111,7 @@ Rates ratesOf(const ContactDemand& demand, const Particles& particles) {
     const int body = bodyOf(i);
     const double inverse = (body < 0 ? 1.0 : demand.lever[i]) / (particles.weightOf(i) * particles.mass[i]);
     rates.stiff[i] *= inverse;
+    rates.tied[i] *= inverse;
     rates.damped[i] *= inverse;
     rates.atWindows[i] *= inverse;
     if (body < 0) rates.inverse[i] = inverse;
@@ -130,8 +133,8 @@ std::span<const ContactDemand::Share> sharesIn(const ContactDemand& demand, cons
   return std::span(demand.shares).subspan(range.first, range.end - range.first);
 }
 
-/// What all links ask of each mass, over it.
-std::vector<ContactDemand::Mass> massesUnder(const ContactDemand& demand) {
+/// What all ties, or all other links, ask of each mass, over it.
+std::vector<ContactDemand::Mass> massesUnder(const ContactDemand& demand, bool ties) {
   std::vector<ContactDemand::Mass> masses = demand.masses;
   const auto ask = [&](const ContactDemand::Range& range, double stiffness, double damping) {
     for (const auto& [mass, share] : sharesIn(demand, range)) {
@@ -140,6 +143,7 @@ std::vector<ContactDemand::Mass> massesUnder(const ContactDemand& demand) {
     }
   };
   for (const ContactDemand::Link& link : demand.links) {
+    if ((link.owner == StepOwner::tie) != ties) continue;
     ask(link.shifted, link.shifting, link.shiftingDamping);
     ask(link.turned, link.turning, link.turningDamping);
   }
@@ -158,21 +162,36 @@ public:
   LinkReader(const ContactDemand& demand, const Particles& particles)
       : demand_(demand),
         ofParticles_(ratesOf(demand, particles)),
-        masses_(massesUnder(demand)),
+        masses_(massesUnder(demand, false)),
+        tiedMasses_(massesUnder(demand, true)),
         directions_(demand, particles) {}
 
-  detail::LinkRates operator()(std::size_t number) const {
+  /// @param lead  how much more of the masses links get in common with ties
+  detail::LinkRates operator()(std::size_t number, double lead) const {
     const ContactDemand::Link& link = demand_.links[number];
+    const bool ties = link.owner == StepOwner::tie;
+    const double ofTies = ties ? 1.0 : 1.0 / lead, ofOthers = ties ? lead : 1.0;
     detail::LinkRates rates;
     for (const int k : {link.particle, link.partner}) {
       if (k < 0) continue;
       const auto i = static_cast<std::size_t>(k);
       const Directions::Slopes spared = directions_.spared(number, i);
-      rates.stiff += ofParticles_.stiff[i] - ofParticles_.inverse[i] * spared[0];
-      rates.damped += ofParticles_.damped[i] - ofParticles_.inverse[i] * spared[1];
-      rates.windowStiff += ofParticles_.atWindows[i];
+      rates.stiff += ofOthers * (ofParticles_.stiff[i] - ofParticles_.tied[i] - ofParticles_.inverse[i] * spared[0]) +
+                     ofTies * ofParticles_.tied[i];
+      rates.damped += ofOthers * (ofParticles_.damped[i] - ofParticles_.inverse[i] * spared[1]);
+      rates.windowStiff += ofTies * ofParticles_.atWindows[i];
     }
     if (link.side < 0) return rates;
+    const auto meets = [&](const ContactDemand::Range& range) {
+      std::array<double, 2> sum{};
+      for (const auto& [mass, share] : sharesIn(demand_, range)) {
+        const ContactDemand::Mass &others = masses_[static_cast<std::size_t>(mass)],
+                                  &tied = tiedMasses_[static_cast<std::size_t>(mass)];
+        sum[0] += share * (ofOthers * others.stiffness + ofTies * tied.stiffness);
+        sum[1] += share * (ofOthers * others.damping + ofTies * tied.damping);
+      }
+      return sum;
+    };
     const auto [shift, turn] = std::pair{meets(link.shifted), meets(link.turned)};
     const double stiff = std::max(shift[0], turn[0]), damped = std::max(shift[1], turn[1]);
     const ContactDemand::Side& side = demand_.sides[static_cast<std::size_t>(link.side)];
@@ -183,30 +202,17 @@ public:
   }
 
 private:
-  std::array<double, 2> meets(const ContactDemand::Range& range) const {
-    std::array<double, 2> sum{};
-    for (const auto& [mass, share] : sharesIn(demand_, range)) {
-      sum[0] += share * masses_[static_cast<std::size_t>(mass)].stiffness;
-      sum[1] += share * masses_[static_cast<std::size_t>(mass)].damping;
-    }
-    return sum;
-  }
-
   const ContactDemand& demand_;
   Rates ofParticles_;
-  std::vector<ContactDemand::Mass> masses_;
+  std::vector<ContactDemand::Mass> masses_, tiedMasses_;
   Directions directions_;
 };
 
-}  // namespace
-
-ContactStep criticalStep(const ContactDemand& demand, const Particles& particles) {
+ContactStep stepWith(const ContactDemand& demand, const LinkReader& ratesOf, double lead) {
   ContactStep step;
-  step.twoBody = demand.twoBody;
-  const LinkReader ratesOf(demand, particles);
   for (std::size_t number = 0; number < demand.links.size(); ++number) {
     const ContactDemand::Link& link = demand.links[number];
-    const detail::LinkRates rates = ratesOf(number);
+    const detail::LinkRates rates = ratesOf(number, lead);
     const double dt = detail::windowLimit(rates, demand.window);
     if (dt < step.dt) {
       step.dt = dt;
@@ -219,6 +225,19 @@ ContactStep criticalStep(const ContactDemand& demand, const Particles& particles
       step.surface = link.surface < 0 ? "" : demand.surfaces[static_cast<std::size_t>(link.surface)];
     }
   }
+  return step;
+}
+
+}  // namespace
+
+ContactStep criticalStep(const ContactDemand& demand, const Particles& particles) {
+  const LinkReader ratesOf(demand, particles);
+  ContactStep step = stepWith(demand, ratesOf, 1.0);
+  // Any shares are safe. In proportion to what is asked, a weak contact of two members meets the stiff ties of both.
+  if (!demand.byTies.empty() || !demand.atWindows.empty())
+    for (const double lead : {1.25, 1.5, 2.0})
+      if (ContactStep other = stepWith(demand, ratesOf, lead); other.dt > step.dt) step = std::move(other);
+  step.twoBody = demand.twoBody;
   return step;
 }
 
@@ -235,8 +254,10 @@ std::string ownerOf(const ContactStep& step, const Particles& particles) {
     return "particle " + std::to_string(k < particles.id.size() ? particles.id[k] : std::int64_t{i});
   };
   if (step.particle < 0) return "nothing";
-  return std::string(step.owner == StepOwner::bond ? "the bond" : "the contact") + " of " + name(step.particle) +
-         " with " +
+  return std::string(step.owner == StepOwner::bond  ? "the bond"
+                     : step.owner == StepOwner::tie ? "the tie"
+                                                    : "the contact") +
+         " of " + name(step.particle) + " with " +
          (step.partner >= 0      ? name(step.partner)
           : step.surface.empty() ? "a wall"
                                  : "\"" + step.surface + "\"");

@@ -19,7 +19,7 @@ namespace dovetail::dem {
 class ContactLaws;
 
 /// What acts between a particle and its partner, and may set the step.
-enum class StepOwner : std::uint8_t { contact, bond };
+enum class StepOwner : std::uint8_t { contact, bond, tie };
 
 /// What contacts and bonds ask of each particle, and of what they stand on beside particles. Pairs, walls, bonds,
 /// clumps and connectors add to it (addDemand), in any order; then criticalStep reads it.
@@ -59,6 +59,7 @@ struct ContactDemand {
   };
   std::vector<double> stiffness;                             ///< N/m, per particle: sum over its contacts and bonds
   std::vector<double> damping;                               ///< N s/m, the same of the dashpots
+  std::vector<double> byTies;                                ///< N/m, what of it ties to solids ask; or empty
   std::vector<double> atWindows;                             ///< N/m, of forces at the ends of windows only; or empty
   std::vector<Link> links;                                   ///< contacts and bonds
   std::vector<std::string> surfaces;                         ///< names of what links without a partner are with
