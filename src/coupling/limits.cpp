@@ -114,7 +114,7 @@ StepLimit CoupledRun::Impl::criticalStep() {
 
 void CoupledRun::Impl::lookAtLimit() {
   const std::int64_t number = grains.steps / K();
-  if (!grains.refusesUnstableSteps || grains.passed || !dem::looksAtLimit(number)) return;
+  if (!grains.refusesUnstableSteps || grains.passed) return;
   dem::ContactDemand demand = dem::demandOf(grains);
   const StepLimit limit = limitNow(demand, number % (16 * 2048) == 0);
   if (dt > limit.dt) grains.passed = {dt, limit.dt, limit.owner, grains.time};

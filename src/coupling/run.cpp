@@ -103,8 +103,14 @@ void CoupledRun::advance(std::int64_t windows, bool withEnergies) {
   impl_->requireStarted("advance");
   if (windows < 0) throw InputError("windows is " + std::to_string(windows), "advance", "give 0 or more");
   for (std::int64_t w = 0; w < windows; ++w) {
-    impl_->window(withEnergies && w + 1 == windows);
-    impl_->lookAtLimit();
+    try {
+      impl_->window(withEnergies && w + 1 == windows);
+    } catch (const NumericalError& error) {
+      impl_->lookAtLimit();
+      dem::tellOfLimit(grains, error);
+      throw;
+    }
+    if (dem::looksAtLimit(grains.steps / impl_->K())) impl_->lookAtLimit();
   }
   dem::close(grains);
 }

@@ -123,6 +123,25 @@ TEST(RunsThatLook, TellOnceThatTheStateHasPassedTheLimit) {
   EXPECT_EQ(m.passed->time, time);
 }
 
+/// Long before the first look, as it breaks down at once.
+TEST(RunsThatLook, TellThatTheStepWasTooLongWhereTheyBreakDown) {
+  Model m;
+  m.laws = makeContactLaws(ElasticLaw{{k}});
+  for (const double x : {0.0, 0.9999, 1.9998, 2.9997})
+    addParticle(m.particles, {2.0 * radius * x, 0, 0}, {}, radius, Mass{mass});
+  addWall(m, makePlane({-radius, 0, 0}, {1, 0, 0}));
+  const double limit = std::min(impactLimit(m, demandOf(m)).dt, criticalStep(m).dt);
+  m.refusesUnstableSteps = false;
+  run(m, 4.0 * limit, 1);
+  m.refusesUnstableSteps = true;
+  try {
+    run(m, 4.0 * limit, 30);
+    FAIL() << "it went on";
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("is beyond the stable"), std::string::npos) << error.what();
+  }
+}
+
 TEST(RunsThatLook, GoOnWhenTermsAreAdded) {
   Model m = sixOnOne();
   const double dt = 0.95 * impactLimit(m, demandOf(m)).dt;

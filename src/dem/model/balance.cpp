@@ -82,6 +82,14 @@ void lookAtLimit(Model& m) {
   if (m.step.dt > limit.dt) m.passed = {m.step.dt, limit.dt, ownerOf(limit, m.particles), m.time};
 }
 
+void tellOfLimit(const Model& m, const NumericalError& error) {
+  if (!m.passed) return;
+  const auto& [dt, limit, owner, time] = *m.passed;
+  throw NumericalError(std::string(error.what()) + "; its step, " + formatNumber(dt) + " s, is beyond the stable " +
+                           formatNumber(limit) + " s that " + owner + " sets, seen at t = " + formatNumber(time) + " s",
+                       "", "");
+}
+
 Energies energies(const Model& m) {
   requireClosed(m, "energies");
   if (!hasForces(m) && m.particles.size() > 0) {  // nobody has asked for forces yet

@@ -245,9 +245,15 @@ void close(Model& m) {
 }
 
 void advance(Model& m, double dt) {
-  move(m, dt);
-  renew(m);
-  addForces(m);
+  try {
+    move(m, dt);
+    renew(m);
+    addForces(m);
+  } catch (const NumericalError& error) {
+    if (m.refusesUnstableSteps) lookAtLimit(m);
+    tellOfLimit(m, error);
+    throw;
+  }
   if (m.refusesUnstableSteps && looksAtLimit(m.steps)) lookAtLimit(m);
 }
 

@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/profile.hpp"
 #include "dovetail/dem/laws/contact_laws.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
@@ -136,7 +137,9 @@ void requireStableStep(const Model& m, double dt, double leastOverlap = 0.0);
 /// Whether a run looks at the limit after this step: at three of the first and then at each 2048th, as a look costs about
 /// as much as a step.
 bool looksAtLimit(std::int64_t step);
-/// Sets m.passed if the step is beyond criticalStep. `advance` does so where looksAtLimit.
+/// After a run broke down: the same error with the limit that its step is beyond, if it is (m.passed); else returns.
+void tellOfLimit(const Model& m, const NumericalError& error);
+/// Sets m.passed if the step is beyond criticalStep. `advance` does so where looksAtLimit, and where it breaks down.
 void lookAtLimit(Model& m);
 
 /// Energies now, J; contact energies and losses need booking. Gravity counts from the origin.
