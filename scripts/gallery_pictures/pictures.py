@@ -53,6 +53,8 @@ PICTURES = (
             contents="walls", frame=0.75, cut=("y", 0.0, 0.0), wall_top=0.13, direction=(0.2, -1.0, 0.25), animated=True),
     Picture("drum", "A thin layer flows down the slope, several times as fast as the wall; under it is a core that hardly moves.",
             direction=(0.15, -1.0, 0.1), zoom=0.93),
+    Picture("chute", "The held layer at the bottom is at rest; speed grows with height, most of all near the base.",
+            direction=(0.35, -1.0, 0.25)),
     Picture("column", "The toe runs away and a wedge at the wall stays at rest.",
             frame=0.55, direction=(0.25, -1.0, 0.35)),
     Picture("bonded-beam", "The bonds in the middle have failed in tension; both halves swing.",
