@@ -5,6 +5,7 @@
 
 #include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/arlequin/weights.hpp"
+#include "dovetail/core/error.hpp"
 #include "full_scene.hpp"
 
 namespace dovetail::coupling {
@@ -90,13 +91,71 @@ TEST_P(OverlapAndSurface, TiedGrainsDoNotMeetTheSkin) {
   EXPECT_NEAR(both.run->ledger().residual(), alone.run->ledger().residual(), 1e-7);
 }
 
+/// Weight pulls at the bar, which is held at both ends, and so are two balls that press on its side, above grains that
+/// are tied and beyond them.
+Bar pressed(const Case& windows, bool wholeSkin) {
+  Bar bar = makeBar(windows.stepping, true);
+  fem::fix(bar.side->nodes(), bar.mesh.nodeSets.at("z-"), fem::componentZ);
+  if (wholeSkin)
+    coupleSkin(bar);
+  else
+    for (const char* side : {"x+", "z+"})
+      bar.run->grains.terms.add(surface::SurfaceContact(
+          *bar.side, surface::Coupling(surface::makeSkin(bar.mesh.X, bar.mesh.faceSets.at(side))), laws(false), side));
+  constexpr double radius = 0.125, overlap = 5e-5;
+  std::vector<std::int64_t> held;
+  for (const std::int64_t id : bar.run->grains.particles.id)
+    if (bar.run->grains.particles.x[static_cast<std::size_t>(id)].y < 0.5) held.push_back(id);
+  for (const double y : {1.25, 2.75}) {
+    held.push_back(bar.run->grains.particles.nextId);
+    dem::addParticle(bar.run->grains.particles, {0.0, y, 0.5 + radius - overlap}, {}, radius, dem::Mass{15.0});
+  }
+  const auto still = [](double) { return Vec3{}; };
+  bar.run->grains.terms.add(dem::DriveTerm(held, still, still));
+  bar.run->grains.gravity = {0.0, 1.0, 0.0};
+  return bar;
+}
+
+class SettledOverlapAndSurface : public testing::TestWithParam<std::tuple<Case, bool>> {};
+
+TEST_P(SettledOverlapAndSurface, StaysAndKeepsItsBooksNearTheLimit) {
+  const auto& [windows, wholeSkin] = GetParam();
+  const Bar bar = pressed(windows, wholeSkin);
+  CoupledRun& run = *bar.run;
+  run.start(1e-7);
+  run.start(0.5 * run.criticalStep().dt);
+  ASSERT_TRUE(settle(run, {.kinetic = 1e-11}).atRest);
+  const RunOptions options{.stepsPerWindow = windows.K};
+  run.start(1e-7, options);
+  const double limit = run.criticalStep().dt;
+  EXPECT_THROW(run.start(1.05 * limit, options), InputError);
+  run.start(0.95 * limit, options);
+  const auto elastic = [&] { return run.ledger().joules("particles: contacts") + run.ledger().joules("bar: elastic"); };
+  const double residual = run.ledger().residual();
+  run.advance(std::lround(0.3 / run.window()));
+  EXPECT_FALSE(run.grains.passed);
+  // Own forces that act once in several steps keep the bar swinging by the fourth power of the step.
+  const double share = windows.stepping == Stepping::explicitSteps && windows.K > 1 ? 1e-4 : 1e-8;
+  EXPECT_LT(run.kineticEnergy(), share * elastic());
+  EXPECT_LT(std::abs(run.ledger().residual() - residual), share * elastic());
+  std::size_t pressed = 0;
+  for (const auto* contact : run.grains.terms.all<surface::SurfaceContact>())
+    pressed += contact->coupling().load().touched.size();
+  EXPECT_EQ(pressed, 4U);
+}
+
+constexpr Case explicit1{"explicit1", Stepping::explicitSteps, 1}, explicit4{"explicit4", Stepping::explicitSteps, 4},
+    implicit1{"implicit1", Stepping::implicitSteps, 1}, implicit4{"implicit4", Stepping::implicitSteps, 4},
+    implicit16{"implicit16", Stepping::implicitSteps, 16};
 INSTANTIATE_TEST_SUITE_P(Windows, OverlapAndSurface,
-                         testing::Values(Case{"explicit1", Stepping::explicitSteps, 1},
-                                         Case{"explicit4", Stepping::explicitSteps, 4},
-                                         Case{"implicit1", Stepping::implicitSteps, 1},
-                                         Case{"implicit4", Stepping::implicitSteps, 4},
-                                         Case{"implicit16", Stepping::implicitSteps, 16}),
-                         [](const auto& one) { return std::string(one.param.name); });
+                         testing::Values(explicit1, explicit4, implicit1, implicit4, implicit16),
+                         [](const auto& c) { return std::string(c.param.name); });
+INSTANTIATE_TEST_SUITE_P(Windows, SettledOverlapAndSurface,
+                         testing::Combine(testing::Values(explicit1, explicit4, implicit1, implicit4, implicit16),
+                                          testing::Bool()),
+                         [](const auto& c) {
+                           return std::string(std::get<0>(c.param).name) + (std::get<1>(c.param) ? "skin" : "sides");
+                         });
 
 /// One that was there when the tie was made is tied, with its share; one that comes later meets the skin first.
 TEST(OverlapAndSurface, ABallAtTheSideIsPushedOnce) {
