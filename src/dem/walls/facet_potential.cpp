@@ -9,12 +9,16 @@ namespace dovetail::dem {
 
 namespace {
 
-constexpr double tolerance = 1e-13;     // of the radius
-constexpr double touching = 1e-12;      // of the radius: less is left of a facet that is cleared
-constexpr double seam = 2e-3;           // of the radius: facets with gaps up to it hang together
-constexpr int largestIterations = 200;  // contraction is about overlap/radius per iteration
+constexpr double tolerance = 1e-13;      // of the radius
+constexpr double touching = 1e-12;       // of the radius: less is left of a facet that is cleared
+constexpr double seam = 2e-3;            // of the radius: facets with gaps up to it hang together
+constexpr int largestIterations = 2000;  // contraction is about overlap/radius per iteration
+constexpr int largestStalls = 20;
 constexpr int largestRounds = 12;
 constexpr int looks = 30;
+// Where feet slide to and fro, two facets hold the particle off: after so many, none slides to one of the set, then
+// none.
+constexpr int freeSlides = 6, largestSlides = 20;
 constexpr double leastDamping = 1e-3;
 constexpr double roundOff = 1e-15;
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -26,15 +30,21 @@ int rank(geometry::Feature feature) {
 
 }  // namespace
 
+/// Whether a facet is one of the set.
+bool FacetPotential::holds(const MetFacet& facet) const {
+  const auto& set = scratch_.set.facets;
+  return std::any_of(set.begin(), set.end(), [&](const MetFacet& f) { return f.is(facet); });
+}
+
 /// A facet from its place. Where its foot is not the nearest of the surface around, the facet that has it is looked at
 /// instead: edges and vertices within a face, or at the bottom of a valley, hold nobody off.
-void FacetPotential::see(ActiveFacet& facet) const {
+void FacetPotential::see(ActiveFacet& facet, Slide slide) const {
   if (facet.plane) return;
   const auto look = [&](const MetFacet& at, FacetView& view) {
     viewFacet(facet.position, at.corners(), radius_, FacetView::unseen, false, view);
   };
   look(facet, facet.view);
-  for (bool slides = true; slides && !facet.view.face();) {
+  for (bool slides = slide != Slide::no; slides && !facet.view.face();) {
     slides = false;
     const double near = facet.view.distance + norm(facet.position) + 1e-6 * radius_;
     for (const MetFacet& other : near_) {
@@ -47,6 +57,7 @@ void FacetPotential::see(ActiveFacet& facet) const {
       const FacetCorners t = other.corners();
       const Vec3 gap = geometry::closestPointOnTriangle(facet.view.foot, t.a, t.b, t.c).point - facet.view.foot;
       if (squaredNorm(gap) > seam * seam * radius_ * radius_) continue;
+      if (slide == Slide::offSet && holds(other)) return;
       static_cast<MetFacet&>(facet) = {other.met, other.entry, view};
       slides = true;
     }
@@ -84,10 +95,11 @@ double FacetPotential::remaining(const Vec3& normal, double support) const {
 }
 
 /// Every facet is seen from its yᵢ: steps that would raise the energy are cut, but where a foot slides to the next
-/// facet.
-void FacetPotential::converge() {
+/// facet. False if it came to no end.
+bool FacetPotential::converge() {
   ActiveSet &set = scratch_.set, &kept = scratch_.kept;
   double damping = 1.0, last = infinite, lastOff = infinite;
+  int slides = 0, stalls = 0;
   for (int i = 0; i < largestIterations; ++i) {
     if (set.energy > last && damping > leastDamping) {
       damping *= 0.5;
@@ -97,20 +109,24 @@ void FacetPotential::converge() {
       last = set.energy + 1e-14 * radius_ * std::sqrt(set.energy);
     }
     const double off = stepOn(damping);
-    if (off <= tolerance * radius_) return;
+    if (off <= tolerance * radius_) return true;
+    stalls = damping <= leastDamping ? stalls + 1 : 0;
+    if (stalls > largestStalls) return false;
     // Where round-off hides what a step does to the energy.
     if (off > lastOff && off < 1e-4 * radius_) damping = std::max(0.5 * damping, leastDamping);
     lastOff = off;
     for (ActiveFacet& facet : set.facets) {
       const MetFacet before = facet;
-      see(facet);
+      see(facet, slides < freeSlides ? Slide::yes : slides < largestSlides ? Slide::offSet : Slide::no);
       if (!facet.is(before)) {
+        ++slides;
         damping = 1.0;
         last = infinite;
       }
     }
     share();
   }
+  return false;
 }
 
 /// Moves the places from which facets are seen towards the yᵢ; returns how far they are off where a facet is active, m.
@@ -161,8 +177,18 @@ bool FacetPotential::follow(const MetFacet& facet, const Vec3& position, Remaind
   return true;
 }
 
+/// Whether nothing is left along the normal of one of those that carry.
+bool FacetPotential::clearedAlongShares(const MetFacet& facet) const {
+  const FacetCorners t = facet.corners();
+  return std::any_of(scratch_.set.shares.begin(), scratch_.set.shares.end(), [&](const Share& s) {
+    const double support = std::max({dot(s.normal, t.a), dot(s.normal, t.b), dot(s.normal, t.c)});
+    return s.carried > 0.0 && remaining(s.normal, support) <= touching * radius_;
+  });
+}
+
 /// @param other where there are two, take the one that does not leave least. False if nothing is left along some
 bool FacetPotential::leastRemainder(const MetFacet& facet, bool other, Remainder& least) {
+  if (clearedAlongShares(facet)) return false;
   Remainder fromCentre{infinite, {}}, fromBeyond{infinite, {}};
   const auto anythingLeft = [&](const FacetView& seen) {
     return remaining(seen.normal, dot(seen.normal, seen.foot)) > touching * radius_;
@@ -202,26 +228,32 @@ bool FacetPotential::takeIn(bool other) {
   return true;
 }
 
-/// False if it came to no end.
-bool FacetPotential::descend(const ActiveFacet& first, bool other) {
-  scratch_.set.facets.assign(1, first);
+/// All that holds the particle off together with a first facet, unless that is no lower than the best.
+void FacetPotential::descend(const ActiveFacet& first, bool other) {
+  ActiveSet &set = scratch_.set, &best = scratch_.best;
+  set.facets.assign(1, first);
+  set.complete = false;
   scratch_.refused.clear();
   share();
+  bool converged = true;
   for (int round = 0; round < largestRounds; ++round) {
-    if (!takeIn(other)) return true;
-    converge();
+    if (!takeIn(other)) {
+      set.complete = converged;
+      return;
+    }
+    converged = converge();
+    if (best.complete && set.energy >= best.energy) return;
     dropIdle();
   }
-  return false;
 }
 
 void FacetPotential::lower(const ActiveFacet& first, double atLeast) {
+  ActiveSet &set = scratch_.set, &best = scratch_.best;
   for (const bool other : {false, true}) {
     ambiguous_ = false;
     descend(first, other);
-    const double energy = scratch_.set.energy;
-    if (energy >= atLeast && (scratch_.best.facets.empty() || energy < scratch_.best.energy))
-      std::swap(scratch_.set, scratch_.best);
+    const bool better = set.complete == best.complete ? set.energy < best.energy : set.complete;
+    if (set.energy >= atLeast && (best.facets.empty() || better)) std::swap(set, best);
     if (!ambiguous_) return;
   }
 }

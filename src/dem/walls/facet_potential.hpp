@@ -20,6 +20,7 @@ struct ActiveSet {
   std::vector<ActiveFacet> facets;
   std::vector<Share> shares;  // of each
   double energy = 0.0;        // V/k, m²
+  bool complete = false;      // a minimum, and nobody else is met there
 };
 
 /// One particle among the facets that it touches.
@@ -35,7 +36,10 @@ public:
   /// @param near    all facets around, seen from the centre; those that touch first
   /// @param sunkIn  the centre lies inside a one-sided wall: facets are seen from where it comes out
   FacetPotential(double radius, std::span<const MetFacet> near, bool sunkIn, Scratch& scratch)
-      : radius_(radius), near_(near), sunkIn_(sunkIn), scratch_(scratch) {}
+      : radius_(radius), near_(near), sunkIn_(sunkIn), scratch_(scratch) {
+    scratch_.best.facets.clear();
+    scratch_.best.complete = false;
+  }
 
   /// Looks for the minimum from one facet on; scratch.best is the lower of what it was and what is found.
   /// @param atLeast m²: what is below leads nowhere
@@ -50,15 +54,19 @@ private:
     ActiveFacet facet;
   };
 
-  bool descend(const ActiveFacet& first, bool other);
-  void see(ActiveFacet& facet) const;
+  void descend(const ActiveFacet& first, bool other);
+  enum class Slide { yes, offSet, no };  // to facets with nearer feet; but for those of the set; not at all
+
+  bool holds(const MetFacet& facet) const;
+  void see(ActiveFacet& facet, Slide slide = Slide::yes) const;
   void share();
-  void converge();
+  bool converge();
   double stepOn(double damping);
   void dropIdle();
   double remaining(const Vec3& normal, double support) const;
   Vec3 pushed(const Vec3& normal) const;
   bool follow(const MetFacet& facet, const Vec3& position, Remainder& found) const;
+  bool clearedAlongShares(const MetFacet& facet) const;
   bool leastRemainder(const MetFacet& facet, bool other, Remainder& least);
   bool takeIn(bool other);
 

@@ -33,7 +33,6 @@ public:
     const MetFacet first = nearest();
     const auto near = scratch_.near.all();
     std::stable_partition(near.begin(), near.end(), [&](const MetFacet& f) { return f.view.distance < radius_; });
-    scratch_.potential.best.facets.clear();
     FacetPotential potential(radius_, near, false, scratch_.potential);
     potential.lower({first, (radius_ - first.view.distance) * first.view.normal});
     potential.append();
@@ -99,7 +98,6 @@ private:
     for (const MetWall& met : walls_) collectBothSides(met);
     std::sort(scratch_.exits.begin(), scratch_.exits.end(),
               [](const MetFacet& a, const MetFacet& b) { return a.view.farness() < b.view.farness(); });
-    scratch_.potential.best.facets.clear();
     FacetPotential potential(radius_, scratch_.near.all(), true, scratch_.potential);
     for (const MetFacet& exit : scratch_.exits) {
       const double way = radius_ + exit.view.farness(), least = 0.5 * way * way;

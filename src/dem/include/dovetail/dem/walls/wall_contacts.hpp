@@ -103,9 +103,10 @@ void findWallContacts(const Particles& particles, const TriangulatedWall& wall, 
 /// gaps up to 0.002 R, is nearer to yᵢ. So the cut into triangles does not show.
 /// One-sided walls: a centre outside, told by the nearest feature, never counts faces that show it their backs; one
 /// inside leaves through the face that asks for the least V, down to one radius.
-/// From each start the minimum is a local one, of two where a facet has two places to be seen from. V may jump where
-/// several compete: among spikes and at rims of plates thinner than the overlap, from 0.3 R on; none was met at 4 800
-/// random places up to 0.5 R.
+/// A facet is clear if one of the active normals clears it, whoever holds it. The minimum is a local one, of two where a
+/// facet has two places to be seen from, and where more than three normals are partly coupled the shares may have two
+/// maxima. So V may jump among spikes and folds: at 8 of 200 000 random places with overlaps up to 0.5 R it did by more
+/// than 1e-10 k R², at most by 2 %; never around plates, thinner than the overlap or not.
 /// V = Σ ½k λ²/engagement (LinearSpringDashpot::Prepared::energy).
 void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                          WallContacts& contacts);
