@@ -125,6 +125,35 @@ TEST(Program, AProfileTellsOfGrainsAndSolids) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
 }
 
+/// A clump falls into the empty half of an overlap, and a grain comes through the side of the soil where grains have no
+/// share.
+TEST(Program, TellsOfGrainsThatNobodyHolds) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "pit.json") << R"({"gravity": [0, 0, -9.81], "contact": {"law": "linear", "stiffness": 1e4},
+    "particles": [{"from": "lattice", "lattice": "simple-cubic", "box": [[0, 0, 0], [0.2, 0.4, 0.3]], "radius": 0.025,
+                   "distance": 0.05, "density": 2000},
+                  {"from": "list", "density": 2000,
+                   "spheres": [{"at": [0.43, 0.2, -0.1], "radius": 0.02, "velocity": [-2, 0, 0]}]}],
+    "clumps": [{"density": 2000, "at": [0.3, 0.2, 0.33], "velocity": [0, 0, -2],
+                "spheres": [{"at": [-0.01, 0, 0], "radius": 0.02}, {"at": [0.01, 0, 0], "radius": 0.02}]}],
+    "solids": [{"name": "soil", "mesh": "box", "cells": [4, 4, 6], "box": [[0, 0, -0.3], [0.4, 0.4, 0.3]],
+      "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.2, "density": 1100},
+      "supports": [{"on": "z-"}]}],
+    "couplings": [{"type": "overlap", "solid": "soil", "axis": "z", "solid_border": 0.3, "particle_border": 0}],
+    "steps": {"dt": 5e-5}, "stages": [{"do": "run", "time": 0.04}], "output": {"series": "10 ms"}})";
+  for (const bool before : {true, false}) {
+    const std::string out = (folder / (before ? "before" : "out")).string();
+    const Outcome outcome = runProgram({"run", (folder / "pit.json").string(), "--out", out, "--set",
+                                        before ? "stages=[{\"do\": \"run\", \"time\": 0.005}]" : "steps.dt=5e-5"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const std::string told = "3 grains came into \"soil\" where its overlap does not hold them";
+    for (const std::string& text : {outcome.out, readText(std::filesystem::path(out) / "summary.txt")})
+      EXPECT_EQ(text.find("WARNING: " + told) == std::string::npos, before) << text;
+    EXPECT_EQ(readText(std::filesystem::path(out) / "summary.json").find("3 grains came into") == std::string::npos,
+              before);
+  }
+}
+
 TEST(Program, ComparesRunsAndWritesFields) {
   const ScratchFolder folder;
   for (const char* const name : {"a", "b", "c"})

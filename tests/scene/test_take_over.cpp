@@ -52,5 +52,21 @@ TEST(SceneTakeOver, TheOverlapGoesDownWithTheSoil) {
   EXPECT_NEAR(lowest, -0.003, 1e-9);
 }
 
+/// A load that grows acts in the initial state with its value at that time.
+TEST(SceneTakeOver, LoadsAreThoseOfTheStatesTime) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP();
+  const auto sunkUnder = [](const std::string& pressure) {
+    std::string text = column(R"(, "take_over": true)", 2e5);
+    const std::string at = R"("supports": [)";
+    text.insert(text.find(at),
+                R"("loads": [{"type": "traction", "on": "z+", "traction": [0, 0, ")" + pressure + R"("]}], )");
+    return highestDisplacement(build(sceneFromText(text, "s.json", "/")));
+  };
+  const double still = sunkUnder("0"), half = sunkUnder("-500");
+  EXPECT_GT(half, 1.1 * still);
+  EXPECT_NEAR(sunkUnder("t < 0.1 ? -1000*t/0.1 : -1000"), still, 1e-9 * still);
+  EXPECT_NEAR(sunkUnder("t < 0.05 ? -1000*(t + 0.05)/0.1 : -1000"), half, 1e-9 * half);
+}
+
 }  // namespace
 }  // namespace dovetail::scene::test
