@@ -89,14 +89,10 @@ Overlap locateOverlap(const dem::Particles& particles, const fem::SolidMesh& mes
     const bool hosted = found[i].place.element >= 0;
     if (!hosted && contains(box, particles.x[i])) overlap.stray.push_back(static_cast<int>(i));
     if (!hosted && (reach == 0.0 || !contains(reached, particles.x[i]))) continue;
-    overlap.particle.push_back(static_cast<int>(i));
-    overlap.x.push_back(found[i].x);
-    overlap.weight.push_back(found[i].weight);
-    if (hosted && overlap.weight.back() > 0.0) overlap.elements.push_back(found[i].place.element);
-    overlap.place.push_back(std::move(found[i].place));
+    if (hosted && found[i].weight > 0.0) overlap.elements.push_back(found[i].place.element);
+    addMember(overlap, static_cast<int>(i), std::move(found[i].place), found[i].x, found[i].weight);
   }
-  std::sort(overlap.elements.begin(), overlap.elements.end());
-  overlap.elements.erase(std::unique(overlap.elements.begin(), overlap.elements.end()), overlap.elements.end());
+  sortUnique(overlap.elements);
   requireOverlap(overlap, mesh);
   return overlap;
 }

@@ -1,8 +1,10 @@
 // Where in the mesh of an overlap a particle is, and what share of it counts there.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/fem/mesh/cell_locator.hpp"
@@ -15,6 +17,25 @@ struct FoundParticle {
   Vec3 x;                ///< m, the image that was found
   double weight = 1.0;
 };
+
+inline void addMember(Overlap& overlap, int particle, fem::CellPlace place, const Vec3& x, double weight) {
+  overlap.particle.push_back(particle);
+  overlap.place.push_back(std::move(place));
+  overlap.x.push_back(x);
+  overlap.weight.push_back(weight);
+}
+
+inline void sortUnique(std::vector<int>& numbers) {
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// Elements that hold members, of any share.
+inline void findElements(Overlap& overlap) {
+  for (const fem::CellPlace& place : overlap.place)
+    if (place.element >= 0) overlap.elements.push_back(place.element);
+  sortUnique(overlap.elements);
+}
 
 class OverlapLocator {
 public:

@@ -13,8 +13,7 @@ constexpr std::size_t grain = 256;
 
 }  // namespace
 
-Vec3 OverlapTie::Impl::atMember(std::size_t k, std::span<const Vec3> field) const {
-  const fem::CellPlace& place = overlap.place[k];
+Vec3 OverlapTie::Impl::atPlace(const fem::CellPlace& place, std::span<const Vec3> field) const {
   Vec3 sum;
   if (place.element < 0) return sum;
   const Cell cell = cellOf(setting.mesh, place.element);

@@ -60,10 +60,7 @@ struct Renewal {
     next.nodalWeight = nodalWeight;
   }
   void tie(int particle, const FoundParticle& found, const Vec3& material) {
-    next.particle.push_back(particle);
-    next.place.push_back(found.place);
-    next.x.push_back(material);
-    next.weight.push_back(found.weight);
+    addMember(next, particle, found.place, material, found.weight);
   }
 };
 
@@ -104,8 +101,9 @@ struct OverlapTie::Impl : TieState {
   /// Levels what springs of members ask of the step, as far as the tie lets it.
   void level(const dem::Model& m, const dem::ContactDemand& demand,
              const std::vector<dem::ContactDemand::Range>& nodesOf, std::vector<double>& springs) const;
-  /// Solid's field of the nodes at a member.
-  Vec3 atMember(std::size_t k, std::span<const Vec3> field) const;
+  /// Solid's field of the nodes at a place, and at a member.
+  Vec3 atPlace(const fem::CellPlace& place, std::span<const Vec3> field) const;
+  Vec3 atMember(std::size_t k, std::span<const Vec3> field) const { return atPlace(overlap.place[k], field); }
   /// Displacement of a member from its material point, images left out.
   Vec3 displacement(const dem::Model& m, std::size_t k) const;
   std::vector<Vec3> displacements(const dem::Model& m) const;

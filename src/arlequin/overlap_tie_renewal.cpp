@@ -47,11 +47,6 @@ double largestSpeed(std::size_t n, const Vec3& frame, Velocity&& velocity) {
   }));
 }
 
-void sortUnique(std::vector<int>& numbers) {
-  std::ranges::sort(numbers);
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
 }  // namespace
 
 /// Bounds on how far particles have moved relative to the solid since ties and neighbours were looked at.
@@ -130,9 +125,7 @@ Renewal OverlapTie::Impl::lookAgain(const dem::Model& m, const OverlapLocator& l
     change(renewal, near[k], 1.0, arrived[k], arrived[k].place);
     ++events.admitted;
   }
-  for (const fem::CellPlace& place : renewal.next.place)
-    if (place.element >= 0) renewal.next.elements.push_back(place.element);
-  sortUnique(renewal.next.elements);
+  findElements(renewal.next);
   return renewal;
 }
 
@@ -230,13 +223,9 @@ double OverlapTie::renumber(std::span<const int> newNumber, const dem::Particles
   for (std::size_t k = 0; k < s.overlap.size(); ++k) {
     const int number = newNumber[static_cast<std::size_t>(s.overlap.particle[k])];
     if (number < 0) continue;
-    rest.particle.push_back(number);
-    rest.place.push_back(std::move(s.overlap.place[k]));
-    rest.x.push_back(s.overlap.x[k]);
-    rest.weight.push_back(s.overlap.weight[k]);
-    if (rest.place.back().element >= 0) rest.elements.push_back(rest.place.back().element);
+    addMember(rest, number, std::move(s.overlap.place[k]), s.overlap.x[k], s.overlap.weight[k]);
   }
-  sortUnique(rest.elements);
+  findElements(rest);
   if (rest.size() != s.overlap.size()) s.stale = s.refit = true;
   s.overlap = std::move(rest);
   if (s.parts.absorber) s.parts.absorber->renumber(s.overlap.particle);

@@ -54,10 +54,7 @@ void leaveOthers(Overlap& overlap, const dem::Particles& particles) {
   own.particle.clear(), own.place.clear(), own.x.clear(), own.weight.clear();
   for (std::size_t k = 0; k < overlap.size(); ++k) {
     if (particles.weightOf(static_cast<std::size_t>(overlap.particle[k])) != 1.0) continue;
-    own.particle.push_back(overlap.particle[k]);
-    own.place.push_back(overlap.place[k]);
-    own.x.push_back(overlap.x[k]);
-    own.weight.push_back(overlap.weight[k]);
+    addMember(own, overlap.particle[k], overlap.place[k], overlap.x[k], overlap.weight[k]);
   }
   overlap = std::move(own);
 }

@@ -78,9 +78,7 @@ void OverlapTie::Impl::handOver(dem::Model& m, const Renewal::Change& change, st
   if (mass == 0.0) return;
   const fem::CellPlace& place = change.place;
   const Cell cell = cellOf(setting.mesh, place.element);
-  Vec3 u;
-  for (std::size_t a = 0; a < cell.node.size(); ++a)
-    u += place.shape[a] * nodes().v[static_cast<std::size_t>(cell.node[a])];
+  const Vec3 u = atPlace(place, nodes().v);
   Vec3 angular = cross(m.particles.x[i], mass * m.particles.v[i]);
   if (m.particles.rotates())
     angular += (share * dem::momentOfInertia(m.particles, static_cast<int>(i))) * m.particles.omega[i];

@@ -24,6 +24,19 @@ OverlapState OverlapTie::state() const {
   return state;
 }
 
+namespace {
+
+void exchangeState(auto& archive, auto& s, auto& element, auto& xi) {
+  archive(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
+          s.now, s.increment, s.lambda, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power, s.memberTravel,
+          s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
+  archive(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies, s.windowIncrement,
+          s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers, s.events.firstStranger,
+          s.events.strangerAt);
+}
+
+}  // namespace
+
 void OverlapTie::save(ByteWriter& writer) const {
   const Impl& s = *impl_;
   std::vector<int> element;
@@ -32,24 +45,14 @@ void OverlapTie::save(ByteWriter& writer) const {
     element.push_back(place.element);
     xi.push_back(place.xi);
   }
-  writer(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
-         s.now, s.increment, s.lambda, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power, s.memberTravel,
-         s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
-  writer(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies, s.windowIncrement,
-         s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers, s.events.firstStranger,
-         s.events.strangerAt);
+  exchangeState(writer, s, element, xi);
 }
 
 void OverlapTie::load(ByteReader& reader) {
   Impl& s = *impl_;
   std::vector<int> element;
   std::vector<Vec3> xi;
-  reader(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
-         s.now, s.increment, s.lambda, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power, s.memberTravel,
-         s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
-  reader(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies, s.windowIncrement,
-         s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers, s.events.firstStranger,
-         s.events.strangerAt);
+  exchangeState(reader, s, element, xi);
   const std::size_t members = s.overlap.particle.size();
   for (const std::size_t count : {element.size(), xi.size(), s.overlap.x.size(), s.overlap.weight.size()})
     if (count != members)
