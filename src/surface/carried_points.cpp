@@ -37,22 +37,22 @@ namespace {
 
 }  // namespace
 
-void placePoints(const cg::Projection& carrier, std::span<const Vec3> X, PatchTurns& turns, std::span<const Vec3> u,
+void placePoints(const cg::Projection& carrier, std::span<const Vec3> X, PatchOffsets& offsets, std::span<const Vec3> u,
                  std::span<const Vec3> v, std::span<const int> points, std::span<Vec3> x, std::span<Vec3> velocity) {
-  if (!turns.empty()) placeFrames(turns, u, v, points);
+  if (!offsets.empty()) placeFrames(offsets, u, v, points);
   parallelFor(points.size(), 256, [&](std::size_t begin, std::size_t end) {
     withVectors([&] {
       for (const int point : points.subspan(begin, end - begin)) {
         const auto p = static_cast<std::size_t>(point);
         x[p] = X[p];
         placePoint(carrier, u, v, point, x[p], velocity[p]);
-        if (!turns.empty()) turns.carry(p, x[p], velocity[p]);
+        if (!offsets.empty()) offsets.carry(p, x[p], velocity[p]);
       }
     });
   });
 }
 
-void addLoadOfPoints(const cg::Projection& carrier, const PatchTurns& turns, const coupling::NodalLoad& onPoints,
+void addLoadOfPoints(const cg::Projection& carrier, const PatchOffsets& offsets, const coupling::NodalLoad& onPoints,
                      coupling::NodalLoad& load) {
   for (const int point : onPoints.touched)
     if (bears(onPoints, point))
@@ -62,17 +62,17 @@ void addLoadOfPoints(const cg::Projection& carrier, const PatchTurns& turns, con
       if (bears(onPoints, point))
         addLoadOfPoint(carrier, point, onPoints.force[static_cast<std::size_t>(point)], load.force);
   });
-  addTurningLoad(turns, onPoints, load);
+  addOffsetLoad(offsets, onPoints, load);
 }
 
-double carrierGain(const cg::Projection& carrier, const PatchTurns& turns) {
+double carrierGain(const cg::Projection& carrier, const PatchOffsets& offsets) {
   double gain = 0.0;
   for (int row = 0; row < carrier.rows(); ++row) {
     double sum = 0.0;
     for (double weight : carrier.rowWeights(row)) sum += std::abs(weight);
     gain = std::max(gain, sum);
   }
-  return gain + turningGain(turns);
+  return gain + offsetGain(offsets);
 }
 
 }  // namespace dovetail::surface

@@ -22,7 +22,7 @@ public:
   virtual std::unique_ptr<Carrier> clone() const = 0;
 
   virtual const cg::Projection& map() const = 0;     ///< points × nodes
-  virtual const PatchTurns& turns() const = 0;       ///< of the points
+  virtual const PatchOffsets& offsets() const = 0;   ///< of the points
   virtual std::span<const Vec3> points() const = 0;  ///< where they are, m
   /// Null if it is the other one.
   virtual const Skin* skin() const { return nullptr; }

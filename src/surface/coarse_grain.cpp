@@ -62,9 +62,9 @@ std::vector<PatchFrame> makeFrames(const Skin& skin, std::span<const int> patchO
 }
 
 /// On slender patches restores the rows' first moments lengthwise, by a factor that does not change across.
-void straighten(Skin& skin, std::span<const Vec3> nodeX, const PatchTurns& turns) {
+void straighten(Skin& skin, std::span<const Vec3> nodeX, const PatchOffsets& offsets) {
   for (int v = 0; v < static_cast<int>(skin.X.size()); ++v) {
-    const PatchFrame& frame = turns.frames[turns.patch[v]];
+    const PatchFrame& frame = offsets.frames[offsets.patch[v]];
     if (!frame.slender) continue;
     const auto node = skin.carrier.rowColumns(v);
     double* const weight = skin.carrier.weight.data() + skin.carrier.offsets[v];
@@ -81,18 +81,18 @@ void straighten(Skin& skin, std::span<const Vec3> nodeX, const PatchTurns& turns
 void keepPlaces(Skin& skin, double width) {
   constexpr double roundOff = 1e-8;  // of the width
   const std::vector<Vec3> nodeX = nodePositions(skin);
-  PatchTurns turns{{}, patchOfVertex(skin), {}};
-  turns.frames = makeFrames(skin, turns.patch);
-  straighten(skin, nodeX, turns);
+  PatchOffsets offsets{{}, patchOfVertex(skin), {}};
+  offsets.frames = makeFrames(skin, offsets.patch);
+  straighten(skin, nodeX, offsets);
   bool needed = false;
   for (int v = 0; v < static_cast<int>(skin.X.size()); ++v) {
     Vec3 offset;
     for (std::size_t k = 0; k < skin.carrier.rowColumns(v).size(); ++k)
       offset += skin.carrier.rowWeights(v)[k] * (skin.X[v] - nodeX[skin.carrier.rowColumns(v)[k]]);
     needed = needed || norm(offset) > roundOff * width;
-    turns.offset.push_back(turns.frames[turns.patch[v]].scaled(offset));
+    offsets.offset.push_back(offsets.frames[offsets.patch[v]].scaled(offset));
   }
-  skin.turns = needed ? std::move(turns) : PatchTurns{};
+  skin.offsets = needed ? std::move(offsets) : PatchOffsets{};
 }
 
 cg::Projection kernelMap(const Skin& skin, const cg::SurfaceKernel& kernel) {
@@ -118,7 +118,7 @@ void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel) {
   cg::requireValid(kernel.kernel, true);
   if (kernel.kernel.width == 0.0) {
     skin.carrier = skin.localMap;
-    skin.turns = {};
+    skin.offsets = {};
     return;
   }
   splitAtSharpEdges(skin);

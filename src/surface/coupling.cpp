@@ -79,7 +79,7 @@ Coupling::Coupling(Skin skin, const CouplingOptions& options)
       onPoints_(carrier_->points().size()),
       load_(static_cast<std::size_t>(carrier_->map().columns)),
       surfaceNodes_(sortedUnique(carrier_->map().column)),
-      gain_(carrierGain(carrier_->map(), carrier_->turns())) {}
+      gain_(carrierGain(carrier_->map(), carrier_->offsets())) {}
 
 Coupling::Coupling(SmoothSurface surface, const CouplingOptions& options)
     : carrier_(makeCarrier(std::move(surface))),
@@ -87,7 +87,7 @@ Coupling::Coupling(SmoothSurface surface, const CouplingOptions& options)
       onPoints_(carrier_->points().size()),
       load_(static_cast<std::size_t>(carrier_->map().columns)),
       surfaceNodes_(sortedUnique(carrier_->map().column)),
-      gain_(carrierGain(carrier_->map(), carrier_->turns())) {}
+      gain_(carrierGain(carrier_->map(), carrier_->offsets())) {}
 
 Coupling::~Coupling() = default;
 Coupling::Coupling(Coupling&&) noexcept = default;
@@ -182,14 +182,10 @@ void Coupling::weigh(const dem::Particles& particles, const ExchangeOptions& opt
     const double share = !tied ? shareAt(c, options.share) : shares_.acted(all.particle[c]) ? ShareBook::faded : 0.0;
     shares_.add(all.particle[c], particles.weightOf(i), std::abs(all.overlap[c]), share);
     if (!(share > 0.0)) continue;
-    all.particle[kept] = all.particle[c];
-    all.facet[kept] = all.facet[c];
-    all.weight[kept] = all.weight[c];
-    all.normal[kept] = all.normal[c];
-    all.overlap[kept] = share * all.overlap[c];
-    all.engagement[kept] = share * all.engagement[c];
-    all.energyShare[kept] = share * all.energyShare[c];
-    if (!all.image.empty()) all.image[kept] = all.image[c];
+    dem::forArrays(all, all, [&](auto& to, const auto& from) {
+      if (!from.empty()) to[kept] = from[c];
+    });
+    for (std::vector<double>* const part : {&all.overlap, &all.engagement, &all.energyShare}) (*part)[kept] *= share;
     ++kept;
   }
   dem::resize(all, kept);
@@ -263,7 +259,7 @@ void Coupling::transfer() {
     previous_.assign(carrier_->points().begin(), carrier_->points().end());
   }
   load_.clear();
-  if (!spread_) return addLoadOfPoints(carrier_->map(), carrier_->turns(), onPoints_, load_);
+  if (!spread_) return addLoadOfPoints(carrier_->map(), carrier_->offsets(), onPoints_, load_);
   for (std::size_t c = 0; c < contacts_.size(); ++c)
     spread_->add(skin(), contacts_.facet[c], contacts_.weight[c], contacts_.force[c], load_);
 }
@@ -278,7 +274,7 @@ double Coupling::workSinceLast() const {
 void Coupling::requireFits(std::span<const Vec3> X) const {
   const std::vector<Vec3>& points = carrier_->skin() ? carrier_->skin()->X : carrier_->smooth()->X;
   const cg::Projection& map = carrier_->skin() ? carrier_->skin()->localMap : carrier_->map();
-  const bool keepsPlaces = carrier_->skin() || carrier_->turns().empty();
+  const bool keepsPlaces = carrier_->skin() || carrier_->offsets().empty();
   double size = 0.0, worst = 0.0;
   for (std::size_t p = 0; p < points.size() && keepsPlaces; ++p) {
     Vec3 off = points[p];
@@ -341,14 +337,8 @@ void Coupling::take(const Coupling& whole, int first, double reach, std::span<co
   contacts_.period = all.period;
   for (std::size_t c = 0; c < all.size(); ++c) {
     if (all.facet[c] < first || all.facet[c] >= end || !(all.overlap[c] > -reach)) continue;
-    contacts_.particle.push_back(all.particle[c]);
-    contacts_.facet.push_back(all.facet[c] - first);
-    contacts_.weight.push_back(all.weight[c]);
-    contacts_.normal.push_back(all.normal[c]);
-    contacts_.overlap.push_back(all.overlap[c]);
-    contacts_.engagement.push_back(all.engagement[c]);
-    contacts_.energyShare.push_back(all.energyShare[c]);
-    if (!all.image.empty()) contacts_.image.push_back(all.image[c]);
+    dem::appendContact(contacts_, all, c);
+    contacts_.facet.back() -= first;
   }
   contacts_.force.assign(contacts_.size(), Vec3{});
   revision_ = whole.revision_;

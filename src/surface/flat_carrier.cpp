@@ -32,7 +32,7 @@ public:
 
   std::unique_ptr<Carrier> clone() const override { return std::make_unique<FlatCarrier>(*this); }
   const cg::Projection& map() const override { return skin_.carrier; }
-  const PatchTurns& turns() const override { return skin_.turns; }
+  const PatchOffsets& offsets() const override { return skin_.offsets; }
   std::span<const Vec3> points() const override { return skin_.wall.x; }
   const Skin* skin() const override { return &skin_; }
   void check(const dem::ContactLaws&, const geometry::Periodicity&) const override {}

@@ -39,7 +39,7 @@ public:
   explicit Joiner(std::span<const Skin* const> skins) : skins_(skins) {
     whole_.localMap.columns = whole_.carrier.columns = skins[0]->localMap.columns;
     whole_.localMap.offsets = whole_.carrier.offsets = {0};
-    turns_ = std::ranges::any_of(skins, [](const Skin* skin) { return !skin->turns.empty(); });
+    hasOffsets_ = std::ranges::any_of(skins, [](const Skin* skin) { return !skin->offsets.empty(); });
   }
 
   Skin join() {
@@ -76,27 +76,27 @@ private:
       patches_ = std::max(patches_, patches + patch + 1);
     }
     for (const int face : skin.facetFace) whole_.facetFace.push_back(faces + face);
-    whole_.turns.frames.insert(whole_.turns.frames.end(), skin.turns.frames.begin(), skin.turns.frames.end());
+    whole_.offsets.frames.insert(whole_.offsets.frames.end(), skin.offsets.frames.begin(), skin.offsets.frames.end());
   }
 
   /// Those that the same nodes carry are the same, whoever has them; those of kernels of their own are not.
   int numberOf(const Skin& skin, int vertex) {
     const auto v = static_cast<std::size_t>(vertex);
     const Row local = rowOf(skin.localMap, vertex);
-    const Vec3 offset = skin.turns.empty() ? Vec3{} : skin.turns.offset[v];
+    const Vec3 offset = skin.offsets.empty() ? Vec3{} : skin.offsets.offset[v];
     const auto next = static_cast<int>(whole_.X.size());
     const int corner = corners_.try_emplace(local, static_cast<int>(corners_.size())).first->second;
     const auto [place, isNew] = vertices_.try_emplace({local, rowOf(skin.carrier, vertex)}, next);
-    if (!isNew && (!turns_ || whole_.turns.offset[static_cast<std::size_t>(place->second)] == offset))
+    if (!isNew && (!hasOffsets_ || whole_.offsets.offset[static_cast<std::size_t>(place->second)] == offset))
       return place->second;
     whole_.X.push_back(skin.X[v]);
     whole_.wall.corner.push_back(corner);
     append(whole_.localMap, skin.localMap, vertex);
     append(whole_.carrier, skin.carrier, vertex);
-    if (turns_) {
-      const auto frames = static_cast<int>(whole_.turns.frames.size());
-      whole_.turns.offset.push_back(offset);
-      whole_.turns.patch.push_back(skin.turns.empty() ? 0 : frames + skin.turns.patch[v]);
+    if (hasOffsets_) {
+      const auto frames = static_cast<int>(whole_.offsets.frames.size());
+      whole_.offsets.offset.push_back(offset);
+      whole_.offsets.patch.push_back(skin.offsets.empty() ? 0 : frames + skin.offsets.patch[v]);
     }
     return next;
   }
@@ -125,7 +125,7 @@ private:
   std::map<Row, int> corners_;
   std::map<std::pair<Row, Row>, int> vertices_;
   std::map<std::vector<int>, int> owner_;
-  bool turns_ = false;
+  bool hasOffsets_ = false;
   int patches_ = 0;
 };
 

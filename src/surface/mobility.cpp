@@ -25,13 +25,13 @@ double rowMobility(const cg::Projection& carrier, int row, std::span<const doubl
   return sum;
 }
 
-/// √Σ (turnRate)²/m of each patch, 1/(m √kg).
-std::vector<double> rootTurnMobility(const PatchTurns& turns, std::span<const double> inverseMass) {
+/// √Σ (armLength)²/m of each patch, 1/(m √kg).
+std::vector<double> rootArmMobility(const PatchOffsets& offsets, std::span<const double> inverseMass) {
   std::vector<double> roots;
-  for (const PatchFrame& frame : turns.frames) {
+  for (const PatchFrame& frame : offsets.frames) {
     double sum = 0.0;
     for (std::size_t k = 0; k < frame.node.size(); ++k)
-      sum += turnRate(frame, k) * turnRate(frame, k) * inverseMass[frame.node[k]];
+      sum += armLength(frame, k) * armLength(frame, k) * inverseMass[frame.node[k]];
     roots.push_back(std::sqrt(sum));
   }
   return roots;
@@ -47,11 +47,11 @@ public:
         demand_(demand),
         firstNode_(static_cast<int>(demand.sides[static_cast<std::size_t>(side)].first)),
         firstPatch_(static_cast<int>(demand.masses.size())) {
-    if (carrier.turns().empty()) return;
-    for (const PatchFrame& frame : carrier.turns().frames) {
+    if (carrier.offsets().empty()) return;
+    for (const PatchFrame& frame : carrier.offsets().frames) {
       shares_.clear();
       for (std::size_t k = 0; k < frame.node.size(); ++k)
-        shares_.push_back({firstNode_ + frame.node[k], turnRate(frame, k)});
+        shares_.push_back({firstNode_ + frame.node[k], armLength(frame, k)});
       demand.masses.push_back({.carriedBy = demand.add(shares_)});
     }
   }
@@ -63,9 +63,9 @@ public:
       const auto node = carrier_.map().rowColumns(point);
       for (std::size_t k = 0; k < node.size(); ++k)
         add(firstNode_ + node[k], weight * std::abs(carrier_.map().rowWeights(point)[k]));
-      if (carrier_.turns().empty()) continue;
+      if (carrier_.offsets().empty()) continue;
       const auto p = static_cast<std::size_t>(point);
-      add(firstPatch_ + carrier_.turns().patch[p], weight * norm(carrier_.turns().offset[p]));
+      add(firstPatch_ + carrier_.offsets().patch[p], weight * norm(carrier_.offsets().offset[p]));
     }
     return demand_.add(shares_);
   }
@@ -105,19 +105,20 @@ void Coupling::addDemand(dem::ContactDemand& demand, const dem::Particles& parti
 }
 
 double Coupling::largestMobility(std::span<const double> inverseMass) const {
-  const PatchTurns& turns = carrier_->turns();
-  const std::vector<double> turning = rootTurnMobility(turns, inverseMass);
-  const auto ofTurns = [&](std::size_t point) {
-    return turns.empty() ? 0.0 : norm(turns.offset[point]) * turning[static_cast<std::size_t>(turns.patch[point])];
+  const PatchOffsets& offsets = carrier_->offsets();
+  const std::vector<double> turning = rootArmMobility(offsets, inverseMass);
+  const auto ofOffsets = [&](std::size_t point) {
+    return offsets.empty() ? 0.0
+                           : norm(offsets.offset[point]) * turning[static_cast<std::size_t>(offsets.patch[point])];
   };
   double largest = 0.0;
   if (carrier_->smooth()) {
-    for (std::size_t c = 0; c < turns.offset.size(); ++c) largest = std::max(largest, ofTurns(c));
+    for (std::size_t c = 0; c < offsets.offset.size(); ++c) largest = std::max(largest, ofOffsets(c));
     return squared(std::sqrt(surface::largestMobility(*carrier_->smooth(), inverseMass)) + largest);
   }
   for (int row = 0; row < carrier_->map().rows(); ++row)
     largest = std::max(largest, squared(std::sqrt(rowMobility(carrier_->map(), row, inverseMass)) +
-                                        ofTurns(static_cast<std::size_t>(row))));
+                                        ofOffsets(static_cast<std::size_t>(row))));
   return largest;
 }
 

@@ -197,9 +197,9 @@ void splitAtSharpEdges(Skin& skin) {
   skin.X = std::move(X);
   skin.localMap = selectRows(skin.localMap, origin);
   skin.carrier = selectRows(skin.carrier, origin);
-  if (!skin.turns.empty()) {
-    skin.turns.offset = selected(skin.turns.offset, origin);
-    skin.turns.patch = selected(skin.turns.patch, origin);
+  if (!skin.offsets.empty()) {
+    skin.offsets.offset = selected(skin.offsets.offset, origin);
+    skin.offsets.patch = selected(skin.offsets.patch, origin);
   }
   resetWall(skin);
 }
@@ -223,9 +223,9 @@ Skin partOf(const Skin& skin, std::size_t first, std::size_t end) {
   part.wall.corner = skin.wall.corner.empty() ? std::vector<int>{} : selected(skin.wall.corner, vertices.origin);
   part.localMap = selectRows(skin.localMap, vertices.origin);
   part.carrier = selectRows(skin.carrier, vertices.origin);
-  if (!skin.turns.empty())
-    part.turns = {selected(skin.turns.offset, vertices.origin), selected(skin.turns.patch, vertices.origin),
-                  skin.turns.frames};
+  if (!skin.offsets.empty())
+    part.offsets = {selected(skin.offsets.offset, vertices.origin), selected(skin.offsets.patch, vertices.origin),
+                    skin.offsets.frames};
   resetWall(part);
   part.wall.material = skin.wall.material;
   return part;
@@ -246,7 +246,7 @@ bool hasKernel(const Skin& skin) {
 }
 
 void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> vertices) {
-  placePoints(skin.carrier, skin.X, skin.turns, u, v, vertices, skin.wall.x, skin.wall.v);
+  placePoints(skin.carrier, skin.X, skin.offsets, u, v, vertices, skin.wall.x, skin.wall.v);
 }
 
 void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v) { place(skin, u, v, numbers(skin.X.size())); }

@@ -40,7 +40,7 @@ public:
 
   std::unique_ptr<Carrier> clone() const override { return std::make_unique<SmoothCarrier>(*this); }
   const cg::Projection& map() const override { return surface_.carrier; }
-  const PatchTurns& turns() const override { return surface_.turns; }
+  const PatchOffsets& offsets() const override { return surface_.offsets; }
   std::span<const Vec3> points() const override { return surface_.x; }
   const SmoothSurface* smooth() const override { return &surface_; }
 

@@ -161,7 +161,7 @@ SmoothSurface makeSmoothSurface(const Skin& whole) {
     Vec3 X, offset;
     for (const auto& [vertex, weight] : row) {
       X += weight * skin.X[vertex];
-      if (!skin.turns.empty()) offset += weight * skin.turns.offset[vertex];
+      if (!skin.offsets.empty()) offset += weight * skin.offsets.offset[vertex];
       for (int k = skin.carrier.offsets[vertex]; k < skin.carrier.offsets[vertex + 1]; ++k)
         nodes[skin.carrier.column[k]] += weight * skin.carrier.weight[k];
     }
@@ -171,11 +171,11 @@ SmoothSurface makeSmoothSurface(const Skin& whole) {
     }
     surface.carrier.offsets.push_back(static_cast<int>(surface.carrier.column.size()));
     surface.X.push_back(X);
-    if (skin.turns.empty()) continue;
-    surface.turns.offset.push_back(offset);
-    surface.turns.patch.push_back(skin.turns.patch[row.begin()->first]);
+    if (skin.offsets.empty()) continue;
+    surface.offsets.offset.push_back(offset);
+    surface.offsets.patch.push_back(skin.offsets.patch[row.begin()->first]);
   }
-  surface.turns.frames = skin.turns.frames;
+  surface.offsets.frames = skin.offsets.frames;
   surface.oneSided = skin.wall.oneSided;
   surface.material = skin.wall.material;
   surface.x = surface.X;
@@ -184,7 +184,7 @@ SmoothSurface makeSmoothSurface(const Skin& whole) {
 }
 
 void place(SmoothSurface& surface, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> controls) {
-  placePoints(surface.carrier, surface.X, surface.turns, u, v, controls, surface.x, surface.v);
+  placePoints(surface.carrier, surface.X, surface.offsets, u, v, controls, surface.x, surface.v);
 }
 
 }  // namespace dovetail::surface

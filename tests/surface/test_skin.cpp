@@ -139,7 +139,7 @@ TEST(Skin, PlacesVerticesByTheCarrier) {
     EXPECT_EQ(skin.wall.x[vertex], all.wall.x[vertex]);
     EXPECT_EQ(skin.wall.v[vertex], all.wall.v[vertex]);
     Vec3 x = skin.X[vertex], speed;
-    skin.turns.carry(static_cast<std::size_t>(vertex), x, speed);
+    skin.offsets.carry(static_cast<std::size_t>(vertex), x, speed);
     for (std::size_t k = 0; k < skin.carrier.rowColumns(vertex).size(); ++k) {
       x += skin.carrier.rowWeights(vertex)[k] * u[skin.carrier.rowColumns(vertex)[k]];
       speed += skin.carrier.rowWeights(vertex)[k] * v[skin.carrier.rowColumns(vertex)[k]];
@@ -162,7 +162,7 @@ TEST(Skin, CarrierGainBoundsTheMotionOfVertices) {
     largest = std::max(largest, sum);
   }
   EXPECT_GT(largest, 1.1);
-  EXPECT_NEAR(carrierGain(linear.carrier, linear.turns), largest, 1e-14);
+  EXPECT_NEAR(carrierGain(linear.carrier, linear.offsets), largest, 1e-14);
 }
 
 /// Nodes that move by less than one move no vertex by more than the gain.
@@ -171,7 +171,7 @@ TEST(Skin, CarrierGainBoundsWhatTurnsOfPatchesAdd) {
   Random random(11);
   for (const Variant& variant : flatVariants()) {
     Skin skin = carriedSkin(mesh, variant);
-    const double gain = carrierGain(skin.carrier, skin.turns);
+    const double gain = carrierGain(skin.carrier, skin.offsets);
     const std::vector<Vec3> rest(mesh.X.size());
     for (int trial = 0; trial < 20; ++trial) {
       const Vec3 spin = random.vector(1.0);

@@ -11,14 +11,7 @@ namespace dovetail::dem {
 void clear(WallContacts& contacts) { resize(contacts, 0); }
 
 void resize(WallContacts& contacts, std::size_t count) {
-  contacts.particle.resize(count);
-  contacts.facet.resize(count);
-  contacts.weight.resize(count);
-  contacts.normal.resize(count);
-  contacts.overlap.resize(count);
-  contacts.engagement.resize(count);
-  contacts.energyShare.resize(count);
-  if (!contacts.image.empty()) contacts.image.resize(count);
+  forArrays(contacts, contacts, [count](auto& own, const auto&) { own.resize(std::min(count, own.size())); });
   contacts.force.resize(count);
 }
 

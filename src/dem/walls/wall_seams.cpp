@@ -97,8 +97,7 @@ void replace(WallContacts& contacts, std::span<const int> particles, const WallC
       appendContact(joined, contacts, c);
   }
   takeUpTo(std::numeric_limits<int>::max());
-  clear(contacts);
-  appendContacts(contacts, joined);
+  forArrays(contacts, joined, [](auto& to, const auto& from) { to.assign(from.begin(), from.end()); });
   contacts.force.assign(contacts.size(), Vec3{});
 }
 

@@ -74,30 +74,6 @@ inline void addContact(WallContacts& contacts, const Encounter& e, std::size_t k
 void appendBeyondTouch(const Encounter& e, const TriangulatedWall& wall, double reach, double alike, std::size_t first,
                        WallContacts& contacts);
 
-/// One contact as another list has it.
-inline void appendContact(WallContacts& contacts, const WallContacts& from, std::size_t c) {
-  contacts.particle.push_back(from.particle[c]);
-  contacts.facet.push_back(from.facet[c]);
-  contacts.weight.push_back(from.weight[c]);
-  contacts.normal.push_back(from.normal[c]);
-  contacts.overlap.push_back(from.overlap[c]);
-  contacts.engagement.push_back(from.engagement[c]);
-  contacts.energyShare.push_back(from.energyShare[c]);
-  if (!from.image.empty()) contacts.image.push_back(from.image[c]);
-}
-
-inline void appendContacts(WallContacts& contacts, const WallContacts& more) {
-  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  append(contacts.particle, more.particle);
-  append(contacts.facet, more.facet);
-  append(contacts.weight, more.weight);
-  append(contacts.normal, more.normal);
-  append(contacts.overlap, more.overlap);
-  append(contacts.engagement, more.engagement);
-  append(contacts.energyShare, more.energyShare);
-  append(contacts.image, more.image);
-}
-
 /// @param clearances  null if nobody has watched
 void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                          const WallClearances* clearances, WallContacts& contacts);
@@ -120,7 +96,8 @@ void sweepParticles(const Particles& particles, const WallCandidates& candidates
   } else {
     std::vector<WallContacts> parts((listed + grain - 1) / grain);
     parallelFor(listed, grain, [&](std::size_t begin, std::size_t end) { visit(begin, end, parts[begin / grain]); });
-    for (const WallContacts& part : parts) appendContacts(contacts, part);
+    for (const WallContacts& part : parts)
+      forArrays(contacts, part, [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); });
   }
   contacts.force.assign(contacts.size(), Vec3{});
 }

@@ -11,7 +11,7 @@
 #include "dovetail/dem/walls/wall.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/geometry/hierarchical_grid.hpp"
-#include "dovetail/surface/patch_turns.hpp"
+#include "dovetail/surface/patch_offsets.hpp"
 
 namespace dovetail::surface {
 
@@ -26,12 +26,12 @@ enum class QuadSplit { two, four };
 /// The triangulated boundary of a mesh and the linear map that ties it to the mesh nodes.
 ///
 /// Every vertex v moves as x_v = X_v + Σ_i S_vi u_i, where the rows of S (`carrier`) sum to one; where a kernel does
-/// not reproduce positions, what it is off by goes with the patch (PatchTurns). The transpose carries vertex forces to
-/// nodes: f_i = Σ_v S_vi f_v. Because one map serves both ways, the pair is adjoint: the power that the particles spend
-/// on the skin is the power the nodes receive, for any kernel width, and moments balance at any turn.
-/// The skin of a closed face set is a closed wall, pushes outwards only, and stays one: where kernels of two smooth
-/// patches meet at a sharp edge, each patch has its own vertices there (splitAtSharpEdges), because each has its own
-/// weights, and wall.corner says which of them are one corner.
+/// not reproduce positions, what it is off by goes with the patch (PatchOffsets). The transpose carries vertex forces
+/// to nodes: f_i = Σ_v S_vi f_v. Because one map serves both ways, the pair is adjoint: the power that the particles
+/// spend on the skin is the power the nodes receive, for any kernel width, and moments balance at any turn. The skin of
+/// a closed face set is a closed wall, pushes outwards only, and stays one: where kernels of two smooth patches meet at
+/// a sharp edge, each patch has its own vertices there (splitAtSharpEdges), because each has its own weights, and
+/// wall.corner says which of them are one corner.
 struct Skin {
   dem::TriangulatedWall wall;     ///< present positions, m, and velocities, m/s; facets counter-clockwise from outside
   std::vector<Vec3> X;            ///< reference position per vertex, m
@@ -40,7 +40,7 @@ struct Skin {
   std::vector<int> facetFace;     ///< face from which a facet was cut
   cg::Projection localMap;        ///< vertices × nodes: interpolation on the face
   cg::Projection carrier;         ///< vertices × nodes: the map in use (localMap unless coarse-grained)
-  PatchTurns turns;               ///< of the vertices; empty where the carrier reproduces positions
+  PatchOffsets offsets;           ///< of the vertices; empty where the carrier reproduces positions
 };
 
 /// Cuts boundary faces of a mesh, of any shape, into triangles. Rows of `localMap` are the shape functions of the face
@@ -94,6 +94,6 @@ void place(Skin& skin, std::span<const Vec3> u, std::span<const Vec3> v);
 
 /// Largest row sum of |S|, and what offsets that go with patches add: no carried point moves faster than this times the
 /// fastest node.
-double carrierGain(const cg::Projection& carrier, const PatchTurns& turns);
+double carrierGain(const cg::Projection& carrier, const PatchOffsets& offsets);
 
 }  // namespace dovetail::surface

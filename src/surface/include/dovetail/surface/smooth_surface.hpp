@@ -23,7 +23,7 @@ struct SmoothSurface {
   std::vector<std::array<int, 16>> control;  ///< per face: control point (i, j) at index i + 4 j, i and j = −1 … 2
   std::vector<std::array<int, 4>> across;    ///< per face and edge: the face across it in the same patch, or −1
   cg::Projection carrier;                    ///< control points × nodes
-  PatchTurns turns;                          ///< of the control points, as those of a skin
+  PatchOffsets offsets;                      ///< of the control points, as those of a skin
   std::vector<Vec3> X, x, v;                 ///< control points: reference and present position, m; velocity, m/s
   bool oneSided = false;                     ///< as dem::TriangulatedWall::oneSided
   int material = 0;                          ///< row of a LawTable

@@ -63,6 +63,26 @@ void clear(WallContacts& contacts);
 /// The first so many of those that have just been found.
 void resize(WallContacts& contacts, std::size_t count);
 
+/// Calls (array, other's array) for all arrays that a search has filled.
+template <class Call>
+void forArrays(WallContacts& contacts, const WallContacts& other, Call&& call) {
+  call(contacts.particle, other.particle);
+  call(contacts.facet, other.facet);
+  call(contacts.weight, other.weight);
+  call(contacts.normal, other.normal);
+  call(contacts.overlap, other.overlap);
+  call(contacts.engagement, other.engagement);
+  call(contacts.energyShare, other.energyShare);
+  call(contacts.image, other.image);
+}
+
+/// One contact as another list has it.
+inline void appendContact(WallContacts& contacts, const WallContacts& from, std::size_t c) {
+  forArrays(contacts, from, [c](auto& to, const auto& of) {
+    if (!of.empty()) to.push_back(of[c]);
+  });
+}
+
 /// Contact point on the wall, m.
 inline Vec3 contactPoint(const WallContacts& contacts, const TriangulatedWall& wall, std::size_t c) {
   const auto& vertex = wall.facets[static_cast<std::size_t>(contacts.facet[c])];

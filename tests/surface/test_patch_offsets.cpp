@@ -24,9 +24,9 @@ std::vector<Vec3> turned(const fem::SolidMesh& mesh, std::span<const Vec3> u, co
   return all;
 }
 
-class PatchTurnsOf : public ::testing::TestWithParam<Variant> {};
+class PatchOffsetsOf : public ::testing::TestWithParam<Variant> {};
 
-TEST_P(PatchTurnsOf, ATurnedBodyHasTheTurnedSkin) {
+TEST_P(PatchOffsetsOf, ATurnedBodyHasTheTurnedSkin) {
   for (const fem::SolidMesh& mesh : {unitBlock(), bar()}) {
     Random random(3);
     const std::vector<Vec3> u = random.field(mesh.X.size(), 0.1), rest(u.size());
@@ -53,7 +53,7 @@ TEST_P(PatchTurnsOf, ATurnedBodyHasTheTurnedSkin) {
   }
 }
 
-TEST_P(PatchTurnsOf, VelocitiesAreTheDerivativeAndLoadsItsTranspose) {
+TEST_P(PatchOffsetsOf, VelocitiesAreTheDerivativeAndLoadsItsTranspose) {
   const fem::SolidMesh mesh = bar();
   Random random(4);
   const std::vector<Vec3> u = turned(mesh, random.field(mesh.X.size(), 0.1), skew, {}),
@@ -79,7 +79,7 @@ TEST_P(PatchTurnsOf, VelocitiesAreTheDerivativeAndLoadsItsTranspose) {
     moment += cross(skin.wall.x[p], onPoints.force[p]);
     size += norm(onPoints.force[p]) * norm(skin.wall.x[p]);
   }
-  addLoadOfPoints(skin.carrier, skin.turns, onPoints, load);
+  addLoadOfPoints(skin.carrier, skin.offsets, onPoints, load);
   for (std::size_t i = 0; i < mesh.X.size(); ++i) {
     atNodes += dot(load.force[i], v[i]);
     force -= load.force[i];
@@ -90,14 +90,14 @@ TEST_P(PatchTurnsOf, VelocitiesAreTheDerivativeAndLoadsItsTranspose) {
   EXPECT_LT(norm(moment), 1e-11 * size);
 }
 
-INSTANTIATE_TEST_SUITE_P(Variants, PatchTurnsOf, ::testing::ValuesIn(flatVariants()), VariantName{});
+INSTANTIATE_TEST_SUITE_P(Variants, PatchOffsetsOf, ::testing::ValuesIn(flatVariants()), VariantName{});
 
 /// Along a bar the kernel keeps places by itself, and an even load still arrives evenly across.
 TEST(SlenderPatches, KeepPlacesLengthwiseAndEvenLoadsEvenAcross) {
   const fem::SolidMesh mesh = bar();
   for (double width : {1.5, 4.0, 12.0}) {
     const Skin skin = carriedSkin(mesh, {"", width, cg::KernelShape::lucy, cg::KernelCorrection::symmetric});
-    ASSERT_FALSE(skin.turns.empty());
+    ASSERT_FALSE(skin.offsets.empty());
     double lengthwise = 0.0, across = 0.0;
     coupling::NodalLoad even(skin.X.size()), load(mesh.X.size());
     for (std::size_t t = 0; t < skin.wall.facets.size(); ++t) {
@@ -106,13 +106,13 @@ TEST(SlenderPatches, KeepPlacesLengthwiseAndEvenLoadsEvenAcross) {
       if (!(area.z > 1e-9)) continue;  // the top
       for (int v : {a, b, c}) {
         even.add(v, {0, 0, -area.z / 6.0});
-        lengthwise = std::max(lengthwise, std::abs(skin.turns.offset[v].x));
-        across = std::max(across, std::abs(skin.turns.offset[v].y));
+        lengthwise = std::max(lengthwise, std::abs(skin.offsets.offset[v].x));
+        across = std::max(across, std::abs(skin.offsets.offset[v].y));
       }
     }
     EXPECT_LT(lengthwise, 1e-12) << width;
     EXPECT_GT(across, 0.1) << width;
-    addLoadOfPoints(skin.carrier, skin.turns, even, load);
+    addLoadOfPoints(skin.carrier, skin.offsets, even, load);
     for (std::size_t i = 0; i < mesh.X.size(); ++i)
       if (mesh.X[i].z == 0.0 && mesh.X[i].y == 1.0) {
         double row = 0.0, edges = 0.0;
@@ -130,7 +130,7 @@ double volumeIn(const Skin& skin) {
   return volume;
 }
 
-TEST(PatchTurns, ACubeUnderAHomogeneousGradientHasItsSkinThere) {
+TEST(PatchOffsets, ACubeUnderAHomogeneousGradientHasItsSkinThere) {
   const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {6, 6, 6}, {0, 0, 0}, {1, 1, 1});
   const std::array<std::array<Vec3, 3>, 4> gradients{
       {{Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 0.9}},
@@ -143,7 +143,7 @@ TEST(PatchTurns, ACubeUnderAHomogeneousGradientHasItsSkinThere) {
     kernel.correction = correction;
     Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
     coarseGrain(skin, kernel);
-    ASSERT_FALSE(skin.turns.empty());
+    ASSERT_FALSE(skin.offsets.empty());
     for (const auto& F : gradients) {
       const auto moved = [&](const Vec3& X) { return X.x * F[0] + X.y * F[1] + X.z * F[2]; };
       std::vector<Vec3> u;
@@ -158,7 +158,7 @@ TEST(PatchTurns, ACubeUnderAHomogeneousGradientHasItsSkinThere) {
 }
 
 /// Where a patch is not flat, but nearly so, nodes move its vertices by no more. Heights below 1e-7 of it are nothing.
-TEST(PatchTurns, ADomeOfAnyHeightFollowsAHomogeneousGradient) {
+TEST(PatchOffsets, ADomeOfAnyHeightFollowsAHomogeneousGradient) {
   for (const double height : {1e-1, 1e-4, 1e-7, 1e-10, 0.0}) {
     fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {6, 6, 1}, {-1, -1, -1}, {1, 1, 0});
     for (Vec3& X : mesh.X)

@@ -38,7 +38,7 @@ struct PatchFrame {
 /// which is the linear correction, with loads that arrive unevenly across a narrow face. With F of the patch an even
 /// load stays even. Where a slender patch bends, F of the whole is not that of its parts: there coarseGrain has the
 /// kernel keep places lengthwise by itself, and offsets across are left.
-struct PatchTurns {
+struct PatchOffsets {
   std::vector<Vec3> offset;        ///< M^(−½) d per carried point; empty if all are zero
   std::vector<int> patch;          ///< per carried point
   std::vector<PatchFrame> frames;  ///< per patch
@@ -57,14 +57,14 @@ struct PatchTurns {
 PatchFrame makeFrame(std::vector<int> node, std::span<const double> area, std::span<const Vec3> X);
 
 /// Places the patches of these points.
-void placeFrames(PatchTurns& turns, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> points);
+void placeFrames(PatchOffsets& offsets, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> points);
 
 /// Adds to `load` what forces on carried points, N, exert beyond Sᵀ f.
-void addTurningLoad(const PatchTurns& turns, const coupling::NodalLoad& onPoints, coupling::NodalLoad& load);
+void addOffsetLoad(const PatchOffsets& offsets, const coupling::NodalLoad& onPoints, coupling::NodalLoad& load);
 
 /// How far the patch's node k moves a point whose offset is as large as the patch, over how far it moves itself.
-double turnRate(const PatchFrame& frame, std::size_t k);
+double armLength(const PatchFrame& frame, std::size_t k);
 /// Bound on how far (F − 1) d of any point moves over the largest displacement of its patch's nodes.
-double turningGain(const PatchTurns& turns);
+double offsetGain(const PatchOffsets& offsets);
 
 }  // namespace dovetail::surface

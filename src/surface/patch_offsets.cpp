@@ -1,4 +1,4 @@
-#include "dovetail/surface/patch_turns.hpp"
+#include "dovetail/surface/patch_offsets.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -82,43 +82,43 @@ PatchFrame makeFrame(std::vector<int> node, std::span<const double> area, std::s
   return frame;
 }
 
-void placeFrames(PatchTurns& turns, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> points) {
-  for (PatchFrame& frame : turns.frames) frame.placed = false;
+void placeFrames(PatchOffsets& offsets, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const int> points) {
+  for (PatchFrame& frame : offsets.frames) frame.placed = false;
   for (int point : points) {
-    PatchFrame& frame = turns.frames[at(turns.patch[at(point)])];
+    PatchFrame& frame = offsets.frames[at(offsets.patch[at(point)])];
     if (frame.placed) continue;
     withVectors([&] { sumGradients(frame, u, v); });
     frame.placed = true;
   }
 }
 
-void addTurningLoad(const PatchTurns& turns, const coupling::NodalLoad& onPoints, coupling::NodalLoad& load) {
-  if (turns.empty()) return;
-  std::vector<Columns> moment(turns.frames.size());
+void addOffsetLoad(const PatchOffsets& offsets, const coupling::NodalLoad& onPoints, coupling::NodalLoad& load) {
+  if (offsets.empty()) return;
+  std::vector<Columns> moment(offsets.frames.size());
   for (int point : onPoints.touched) {
     if (!bears(onPoints, point)) continue;
     const std::size_t p = at(point);
-    for (int c = 0; c < 3; ++c) moment[at(turns.patch[p])][at(c)] += turns.offset[p][c] * onPoints.force[p];
+    for (int c = 0; c < 3; ++c) moment[at(offsets.patch[p])][at(c)] += offsets.offset[p][c] * onPoints.force[p];
   }
   for (std::size_t patch = 0; patch < moment.size(); ++patch) {
     if (moment[patch] == Columns{}) continue;
-    for (const int node : turns.frames[patch].node) load.touch(node);
-    withVectors([&] { addOnArms(turns.frames[patch], moment[patch], load.force); });
+    for (const int node : offsets.frames[patch].node) load.touch(node);
+    withVectors([&] { addOnArms(offsets.frames[patch], moment[patch], load.force); });
   }
 }
 
-double turnRate(const PatchFrame& frame, std::size_t k) { return norm(frame.arm[k]); }
+double armLength(const PatchFrame& frame, std::size_t k) { return norm(frame.arm[k]); }
 
-double turningGain(const PatchTurns& turns) {
+double offsetGain(const PatchOffsets& offsets) {
   std::vector<double> ofPatch;
-  for (const PatchFrame& frame : turns.frames) {
+  for (const PatchFrame& frame : offsets.frames) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < frame.node.size(); ++k) sum += turnRate(frame, k);
+    for (std::size_t k = 0; k < frame.node.size(); ++k) sum += armLength(frame, k);
     ofPatch.push_back(sum);
   }
   double gain = 0.0;
-  for (std::size_t point = 0; point < turns.offset.size(); ++point)
-    gain = std::max(gain, norm(turns.offset[point]) * ofPatch[at(turns.patch[point])]);
+  for (std::size_t point = 0; point < offsets.offset.size(); ++point)
+    gain = std::max(gain, norm(offsets.offset[point]) * ofPatch[at(offsets.patch[point])]);
   return gain;
 }
 
