@@ -50,9 +50,9 @@ struct PrimitiveSearch {
   Vec3 lastPoint, lastAxis;  ///< of the wall when contacts were last found
 };
 
-/// A plane, or the inside or outside of an infinite cylinder or a sphere. It moves as a rigid body. It has no border: at
-/// a corner it pushes beside the other wall, as it should, but no mesh wall goes on where it ends. One that lies in it
-/// pushes as well: where a plane is to have a patch of its own, make the plane a mesh wall too.
+/// A plane, or the inside or outside of an infinite cylinder or a sphere. It moves as a rigid body. It has no border:
+/// at a corner it pushes beside the other wall, as it should, but no mesh wall goes on where it ends. One that lies in
+/// it pushes as well: where a plane is to have a patch of its own, make the plane a mesh wall too.
 struct PrimitiveWall {
   enum class Shape { plane, cylinder, sphere };
   Shape shape = Shape::plane;

@@ -32,7 +32,7 @@ struct WallCandidates {
   std::vector<char> flat;
   mutable std::vector<int> lastFacet;  ///< the same length: which of its facets the contact was on, to look there first
 
-  double margin = 0.0;      ///< the skin in use, m
+  double margin = 0.0;  ///< the skin in use, m
   double reachAtBuild = 0.0;
   std::int64_t builds = 0;  ///< how often the lists were made
   // What they were made from.
