@@ -2,37 +2,14 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
-#include <numeric>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/io/plain_text.hpp"
 
 namespace dovetail::solid_io {
 
 namespace {
 constexpr const char* saveAgain = "save the mesh in Gmsh as version 4.1 or 2.2";
-
-/// Splits a set of several shapes, under its name and theirs.
-void addSetsByShape(fem::SolidMesh& mesh, const std::string& name, const std::vector<int>& elements) {
-  std::map<std::string, std::vector<int>> parts;
-  int first = 0;
-  for (const fem::CellGroup& group : mesh.groups) {
-    const int last = first + static_cast<int>(group.size());
-    for (const int e : elements)
-      if (first <= e && e < last) parts[(name.empty() ? "" : name + " ") + fem::name(group.shape)].push_back(e);
-    first = last;
-  }
-  if (parts.size() > 1) mesh.elementSets.merge(parts);
-}
-
-void addSetsByShape(fem::SolidMesh& mesh) {
-  if (mesh.groups.size() < 2) return;
-  std::vector<int> all(mesh.elementCount());
-  std::iota(all.begin(), all.end(), 0);
-  const auto given = mesh.elementSets;
-  addSetsByShape(mesh, "", all);
-  for (const auto& [name, elements] : given) addSetsByShape(mesh, name, elements);
-}
 }  // namespace
 
 SolidFile GmshReader::read() {
@@ -50,9 +27,7 @@ SolidFile GmshReader::read() {
   if (!seen_.contains("Elements"))
     throw InputError("there is no section $Elements", source_.name(), "give a complete MSH file");
   nameEntities();
-  SolidFile file = builder_.finish(true);
-  addSetsByShape(file.mesh);
-  return file;
+  return builder_.finish();
 }
 
 void GmshReader::readSection(const std::string& section) {
@@ -147,8 +122,10 @@ void GmshReader::addElement(const GmshType& type, Label label, std::span<const L
 
 void GmshReader::addToSet(const GmshType& type, Label label, std::span<const Label> nodes, std::size_t place,
                           const std::string& set) {
-  if (type.dimension >= 1) return builder_.addElementToSet(set, label, place);
-  for (const Label node : nodes) builder_.addNodeToSet(set, node, place);
+  constexpr std::array<const char*, 4> kinds = {"points", "curves", "surfaces", "volumes"};
+  const SetKey key{set, 3 - type.dimension, kinds[static_cast<std::size_t>(type.dimension)]};
+  if (type.dimension >= 1) return builder_.addElementToSet(key, label, place);
+  for (const Label node : nodes) builder_.addNodeToSet(key, node, place);
 }
 
 void GmshReader::nameEntities() {
@@ -160,6 +137,12 @@ void GmshReader::nameEntities() {
 }
 
 SolidFile gmshFromText(std::string_view bytes, const std::string& name) {
+  std::string lines;
+  if (bytes.find('\n') == std::string_view::npos) {
+    lines = bytes;
+    io::endLinesWithLf(lines);
+    bytes = lines;
+  }
   Source source(bytes, name);
   return GmshReader(source).read();
 }

@@ -20,6 +20,8 @@ std::vector<std::string_view> split(std::string_view line) {
   return parts;
 }
 
+constexpr std::string_view meshCards[] = {"node", "element", "nset", "elset", "surface", "part", "instance", "include"};
+
 std::string withoutBlanks(std::string_view text) {
   std::string result(text);
   std::erase_if(result, [](char c) { return c == ' ' || c == '\t'; });
@@ -49,9 +51,18 @@ bool InpCards::next() {
   return true;
 }
 
+void InpCards::requireCard() {
+  std::string_view line;
+  if (peek(line) && line.front() != '*')
+    source_.refuseAt(peekPlace_, "there is " + shown(line) + " before the first card",
+                     "begin with a card such as *node");
+}
+
 void InpCards::readCardLine(std::string_view line) {
   std::vector<std::string_view> parts = split(line.substr(1));
   keyword_ = lower(withoutBlanks(parts[0]));
+  if (keyword_.empty()) refuse("a card has no keyword", "write *node, *element …, or ** before a comment");
+  requireComma(parts[0]);
   // A comma at the end carries the card on to the next line.
   for (std::string_view more; parts.size() > 1 && parts.back().empty() && peek(more) && more.front() != '*';) {
     hasPeeked_ = false;
@@ -63,15 +74,56 @@ void InpCards::readCardLine(std::string_view line) {
     if (parts[k].empty()) continue;
     const std::size_t equal = parts[k].find('=');
     std::string_view value = equal == std::string_view::npos ? "" : trimmed(parts[k].substr(equal + 1));
-    if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
-    parameters_.emplace_back(lower(withoutBlanks(parts[k].substr(0, equal))), std::string(value));
+    const bool quoted = value.size() >= 2 && value.front() == '"' && value.back() == '"';
+    if (quoted) value = value.substr(1, value.size() - 2);
+    parameters_.push_back({lower(withoutBlanks(parts[k].substr(0, equal))), std::string(value), quoted});
   }
+}
+
+/// "*NSET NSET=top" is no card *NSETNSET=top to pass over.
+void InpCards::requireComma(std::string_view card) const {
+  const std::size_t blank = trimmed(card).find_first_of(" \t");
+  const std::string first = lower(trimmed(card).substr(0, blank));
+  const bool ours = std::find(std::begin(meshCards), std::end(meshCards), first) != std::end(meshCards);
+  if (ours && blank != std::string_view::npos && card.find('=') != std::string_view::npos)
+    refuse("there is no comma behind *" + first, "write *" + first + ", …");
+}
+
+void InpCards::requireKnown(const std::vector<Parameter>& known) const {
+  std::string names;
+  for (const Parameter& one : known) names += (names.empty() ? "" : ", ") + std::string(one.name);
+  for (const Given& given : parameters_) {
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const Parameter& one) { return one.name == given.name; });
+    if (found == known.end())
+      refuse("*" + keyword_ + " has the parameter " + shown(given.name), "use " + (names.empty() ? "none" : names));
+    if (parameter(given.name) != &given.value)
+      refuse("*" + keyword_ + " has the parameter " + given.name + " twice", "give it once");
+    if (found->kind == Parameter::flag && !given.value.empty())
+      refuse("the parameter " + given.name + " has the value " + shown(given.value), "write it without one");
+    requireWhole(given.name, given.value, given.quoted);
+  }
+}
+
+/// A forgotten comma or quote makes the next parameter a part of the value.
+void InpCards::requireWhole(const std::string& name, const std::string& value, bool quoted) const {
+  if (quoted) return;
+  const std::size_t blank = value.find_last_of(" \t");
+  const std::string last = blank == std::string::npos ? "" : lower(value.substr(blank + 1));
+  if (value.find_first_of("=\"") != std::string::npos || last == "generate" || last == "internal" || last == "unsorted")
+    refuse("the parameter " + name + " has the value " + shown(value),
+           "put commas between parameters, and quotes on both sides of a name");
+}
+
+void InpCards::requireNoData() {
+  if (std::vector<std::string_view> fields; data(fields))
+    refuseData("*" + keyword_ + " has a line of data", "leave it out, or begin a card with *");
 }
 
 const std::string* InpCards::parameter(const std::string& name) const {
   const auto found =
-      std::find_if(parameters_.begin(), parameters_.end(), [&](const auto& entry) { return entry.first == name; });
-  return found == parameters_.end() ? nullptr : &found->second;
+      std::find_if(parameters_.begin(), parameters_.end(), [&](const Given& given) { return given.name == name; });
+  return found == parameters_.end() ? nullptr : &found->value;
 }
 
 const std::string& InpCards::required(const std::string& name) const {

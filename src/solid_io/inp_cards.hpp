@@ -3,17 +3,24 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "source.hpp"
 
 namespace dovetail::solid_io {
 
+/// A parameter that a card may have.
+struct Parameter {
+  std::string_view name;
+  enum { value, flag } kind = value;
+};
+
 class InpCards {
 public:
   explicit InpCards(Source& source) : source_(source) {}
 
+  /// @throws InputError if the file begins with something else
+  void requireCard();
   /// Goes to the next card; false at the end of the file.
   bool next();
   /// The keyword in lower case, without blanks: "node".
@@ -25,6 +32,14 @@ public:
   /// @throws InputError if it is not given or empty
   const std::string& required(const std::string& name) const;
 
+  /// @throws InputError for a parameter of this card that is not one of these, is given twice, or runs into the next
+  /// one
+  void requireKnown(const std::vector<Parameter>& known) const;
+  /// @throws InputError if the card has data lines
+  void requireNoData();
+  /// Where the data lines of this card begin.
+  std::size_t end() const { return hasPeeked_ ? peekPlace_ : source_.offset(); }
+
   /// The fields of the next data line of this card; false at its end.
   bool data(std::vector<std::string_view>& fields);
   std::size_t dataPlace() const { return dataPlace_; }
@@ -35,10 +50,16 @@ private:
   /// The next line that is no comment and not empty; false at the end.
   bool peek(std::string_view& line);
   void readCardLine(std::string_view line);
+  void requireComma(std::string_view card) const;
+  void requireWhole(const std::string& name, const std::string& value, bool quoted) const;
 
   Source& source_;
   std::string keyword_;
-  std::vector<std::pair<std::string, std::string>> parameters_;
+  struct Given {
+    std::string name, value;
+    bool quoted;
+  };
+  std::vector<Given> parameters_;
   std::size_t place_ = 0, dataPlace_ = 0, peekPlace_ = 0;
   std::string_view peeked_;
   bool hasPeeked_ = false;

@@ -12,19 +12,6 @@
 
 namespace dovetail::solid_io {
 
-namespace {
-
-std::string counted(std::size_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-void sortUnique(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
-}  // namespace
-
 void MeshBuilder::addNode(Label label, const Vec3& X, std::size_t place) {
   if (!nodes_.emplace(label, X_.size()).second)
     source_.refuseAt(place, "node " + std::to_string(label) + " occurs twice", "give each node a number of its own");
@@ -50,10 +37,10 @@ void MeshBuilder::addLine(Label label, std::span<const Label> nodes, std::size_t
 }
 
 void MeshBuilder::nameNodesOfLines() {
-  for (const auto& [name, references] : elementSets_)
+  for (const auto& [set, references] : elementSets_)
     for (const Reference& reference : references)
       if (const auto line = lines_.find(reference.label); line != lines_.end())
-        for (const Label node : line->second.nodes) addNodeToSet(name, node, reference.place);
+        for (const Label node : line->second.nodes) addNodeToSet(set, node, reference.place);
 }
 
 void MeshBuilder::addCell(Label label, fem::CellShape shape, std::span<const Label> nodes, std::size_t place) {
@@ -70,14 +57,14 @@ void MeshBuilder::addFace(Label label, const SurfaceKind& kind, std::span<const 
   face_.push_back({label, kind, {nodes.begin(), nodes.end()}, place, mustFit});
 }
 
-void MeshBuilder::addNodeToSet(const std::string& name, Label node, std::size_t place) {
-  nodeSets_[name].push_back({node, 0, place});
+void MeshBuilder::addNodeToSet(const SetKey& set, Label node, std::size_t place) {
+  nodeSets_[set].push_back({node, 0, place});
 }
-void MeshBuilder::addElementToSet(const std::string& name, Label element, std::size_t place) {
-  elementSets_[name].push_back({element, 0, place});
+void MeshBuilder::addElementToSet(const SetKey& set, Label element, std::size_t place) {
+  elementSets_[set].push_back({element, 0, place});
 }
-void MeshBuilder::addSideToSet(const std::string& name, Label element, int side, std::size_t place) {
-  sideSets_[name].push_back({element, side, place});
+void MeshBuilder::addSideToSet(const SetKey& set, Label element, int side, std::size_t place) {
+  sideSets_[set].push_back({element, side, place});
 }
 
 fem::CellShape MeshBuilder::shapeOf(Label label, std::size_t place) const {
@@ -85,6 +72,16 @@ fem::CellShape MeshBuilder::shapeOf(Label label, std::size_t place) const {
   if (found == cells_.end())
     source_.refuseAt(place, "there is no volume element " + std::to_string(label), "name one that the file defines");
   return cell_[found->second].shape;
+}
+
+std::vector<Label> MeshBuilder::nodesOf(Label element) const {
+  if (const auto line = lines_.find(element); line != lines_.end()) return line->second.nodes;
+  if (const auto face = faces_.find(element); face != faces_.end()) return face_[face->second].nodes;
+  const auto found = cells_.find(element);
+  if (found == cells_.end()) return {};
+  const Cell& cell = cell_[found->second];
+  const auto begin = cellNode_.begin() + static_cast<std::ptrdiff_t>(cell.firstNode);
+  return {begin, begin + fem::nodesOf(cell.shape)};
 }
 
 int MeshBuilder::nodeIndex(Label label, std::size_t place) const {
@@ -164,83 +161,6 @@ void MeshBuilder::fillGroups(SolidFile& file) {
     }
 }
 
-void MeshBuilder::fillNodeSets(SolidFile& file) {
-  for (const auto& [name, references] : nodeSets_) {
-    std::vector<int> numbers;
-    for (const Reference& reference : references) {
-      const int number = newNumber_[static_cast<std::size_t>(nodeIndex(reference.label, reference.place))];
-      if (number >= 0) numbers.push_back(number);
-    }
-    sortUnique(numbers);
-    if (numbers.empty())
-      note("The node set \"" + name + "\" is left out: no volume element uses its nodes.");
-    else
-      file.mesh.nodeSets[name] = numbers;
-  }
-}
-
-void MeshBuilder::fillElementSets(SolidFile& file) {
-  for (const auto& [name, references] : elementSets_) {
-    std::vector<int> numbers;
-    for (const Reference& reference : references) {
-      if (const auto cell = cells_.find(reference.label); cell != cells_.end())
-        numbers.push_back(cell_[cell->second].number);
-      else if (!hasElement(reference.label))
-        source_.refuseAt(reference.place, "element " + std::to_string(reference.label) + " does not exist",
-                         "name elements that the file defines");
-    }
-    sortUnique(numbers);
-    if (!numbers.empty()) file.mesh.elementSets[name] = numbers;
-  }
-}
-
-bool MeshBuilder::placeFace(const FaceFinder& finder, const SurfaceElement& element, fem::Face& face) const {
-  std::vector<int> corners;
-  for (const Label label : std::span(element.nodes).first(static_cast<std::size_t>(element.kind.corners)))
-    corners.push_back(newNumber_[static_cast<std::size_t>(nodeIndex(label, element.place))]);
-  const bool all = std::find(corners.begin(), corners.end(), -1) == corners.end();
-  const Side side = all ? finder.find(corners) : Side{-1, -1};
-  if (side.element < 0 && element.mustFit)
-    source_.refuseAt(element.place,
-                     plane_ ? "line " + std::to_string(element.label) + " is no side of an element"
-                            : "surface element " + std::to_string(element.label) + " is no face of a volume element",
-                     plane_ ? "mesh the surface beside it, or take it out of its set"
-                            : "mesh the volume behind it, or take it out of its set");
-  if (side.element >= 0) face = finder.face(side);
-  return side.element >= 0;
-}
-
-void MeshBuilder::fillFaceSets(SolidFile& file, bool alwaysNodes) {
-  if (face_.empty() && sideSets_.empty()) return;
-  const FaceFinder finder(file.mesh);
-  std::vector<fem::Face> placed(face_.size());
-  std::vector<char> fits(face_.size());
-  for (std::size_t f = 0; f < face_.size(); ++f) fits[f] = placeFace(finder, face_[f], placed[f]);
-  std::map<std::string, std::vector<fem::Face>>& sets = file.mesh.faceSets;
-  for (const auto& [name, references] : elementSets_)
-    for (const Reference& reference : references)
-      if (const auto face = faces_.find(reference.label); face != faces_.end() && fits[face->second])
-        sets[name].push_back(placed[face->second]);
-  for (const auto& [name, references] : sideSets_)
-    for (const Reference& reference : references) {
-      shapeOf(reference.label, reference.place);
-      sets[name].push_back(finder.face({cell_[cells_.at(reference.label)].number, reference.side}));
-    }
-  for (const auto& [name, faces] : sets) {
-    if (!alwaysNodes && file.mesh.nodeSets.contains(name)) continue;
-    std::vector<int>& nodes = file.mesh.nodeSets[name];
-    for (const fem::Face& face : faces)
-      nodes.insert(nodes.end(), face.node.begin(), face.node.begin() + fem::nodesOf(face.shape));
-    sortUnique(nodes);
-  }
-  const auto loose = static_cast<std::size_t>(std::count(fits.begin(), fits.end(), 0));
-  if (loose > 0)
-    note((plane_ ? counted(loose, "line that is no side of an element was", "lines that are no sides of elements were")
-                 : counted(loose, "surface element that is no face of a volume element was",
-                           "surface elements that are no faces of volume elements were")) +
-         " passed over.");
-}
-
 void MeshBuilder::requireSound(const SolidFile& file) const {
   const fem::MeshQuality quality = fem::measureQuality(file.mesh);
   std::vector<std::size_t> bad;
@@ -258,7 +178,7 @@ void MeshBuilder::requireSound(const SolidFile& file) const {
                    "mend the mesh where it was made; if all are named, their nodes run the wrong way round");
 }
 
-SolidFile MeshBuilder::finish(bool alwaysNodesOfFaces) {
+SolidFile MeshBuilder::finish() {
   SolidFile file;
   takePlaneCells();
   if (cell_.empty())
@@ -273,9 +193,10 @@ SolidFile MeshBuilder::finish(bool alwaysNodesOfFaces) {
                      source_.name(), "give volumes, or turn the mesh into the plane");
   dropDuplicates();
   fillGroups(file);
-  fillNodeSets(file);
+  std::map<SetKey, std::vector<int>> nodes = nodesNamed();
   fillElementSets(file);
-  fillFaceSets(file, alwaysNodesOfFaces);
+  fillFaceSets(file, nodes);
+  settle(nodes, "node", file.mesh.nodeSets);
   requireSound(file);
   file.notes = notes_;
   return file;

@@ -16,6 +16,11 @@ namespace dovetail::solid_io {
 
 using Label = std::int64_t;
 
+/// "1 node lies", "2 nodes lie".
+inline std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
 /// What a surface element is where there are volumes, a face by its corners, and where there are none: a cell of plane
 /// strain, or something that we do not take.
 struct SurfaceKind {
@@ -25,6 +30,15 @@ struct SurfaceKind {
 };
 /// By the number of nodes, 3, 4, 6, 8 or 9.
 SurfaceKind surfaceOf(int nodes);
+
+/// A set as the file has it. Sets of one name that come from different things of the file (cards, dimensions, arrays)
+/// are never merged: that of the lowest rank keeps the name.
+struct SetKey {
+  std::string name;
+  int rank = 0;
+  std::string origin;  ///< of what, for the name of the others: "top (curves)"
+  auto operator<=>(const SetKey&) const = default;
+};
 
 /// `place` is always an offset in the source, for errors that only show at the end.
 class MeshBuilder {
@@ -48,11 +62,11 @@ public:
   };
   void addLine(Label label, std::span<const Label> nodes, std::size_t place, LineUse use = LineUse::names);
 
-  void addNodeToSet(const std::string& name, Label node, std::size_t place);
+  void addNodeToSet(const SetKey& set, Label node, std::size_t place);
   /// Cells go to element sets, faces to face sets, nodes of other elements to node sets.
-  void addElementToSet(const std::string& name, Label element, std::size_t place);
+  void addElementToSet(const SetKey& set, Label element, std::size_t place);
   /// Face `side` of fem::localFacesOf.
-  void addSideToSet(const std::string& name, Label element, int side, std::size_t place);
+  void addSideToSet(const SetKey& set, Label element, int side, std::size_t place);
   void note(const std::string& sentence) { notes_.push_back(sentence); }
 
   std::size_t nodeCount() const { return X_.size(); }
@@ -64,11 +78,14 @@ public:
   /// If there are no volume elements, surface elements become cells of plane strain and lines their faces.
   /// @return whether the mesh is one of plane strain
   bool takePlaneCells();
+  /// Nodes of a cell, surface element or line; empty for other numbers.
+  std::vector<Label> nodesOf(Label element) const;
+  bool hasNode(Label label) const { return nodes_.contains(label); }
   /// Shape of a cell; refuses other numbers.
   fem::CellShape shapeOf(Label label, std::size_t place) const;
 
-  /// Nodes of faces join node sets: always, or only where there is no node set of that name.
-  SolidFile finish(bool alwaysNodesOfFaces);
+  /// Faces and lines give node sets too. Meshes and element sets of several shapes get a set for each shape.
+  SolidFile finish();
 
 private:
   struct Cell {
@@ -94,7 +111,7 @@ private:
     int side;
     std::size_t place;
   };
-  using References = std::map<std::string, std::vector<Reference>>;
+  using References = std::map<SetKey, std::vector<Reference>>;
 
   int nodeIndex(Label label, std::size_t place) const;
   void requireNew(Label label, std::size_t place) const;
@@ -103,10 +120,14 @@ private:
   void numberNodes(SolidFile& file);
   void dropDuplicates();
   void fillGroups(SolidFile& file);
-  void fillNodeSets(SolidFile& file);
+  std::map<SetKey, std::vector<int>> nodesNamed();
   void fillElementSets(SolidFile& file);
-  void fillFaceSets(SolidFile& file, bool alwaysNodes);
-  bool placeFace(const class FaceFinder& finder, const SurfaceElement& element, fem::Face& face) const;
+  /// @param nodes  takes the nodes of face sets
+  void fillFaceSets(SolidFile& file, std::map<SetKey, std::vector<int>>& nodes);
+  std::vector<fem::Face> placedFaces(const class FaceFinder& finder, std::vector<char>& fits);
+  template <class Members>
+  void settle(const std::map<SetKey, Members>& named, const std::string& kind, std::map<std::string, Members>& sets);
+  bool placeFace(const FaceFinder& finder, const SurfaceElement& element, fem::Face& face) const;
   void requireSound(const SolidFile& file) const;
 
   const Source& source_;

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
+#include "dovetail/io/plain_text.hpp"
 #include "source.hpp"
 
 namespace dovetail::solid_io {
@@ -19,9 +20,12 @@ namespace {
 
 SolidFile readSolid(const std::filesystem::path& path) {
   const std::string ending = lower(path.extension().string());
-  if (ending == ".msh") return readGmsh(path);
-  if (ending == ".inp") return readAbaqus(path);
-  refuseEnding(path);
+  if (ending != ".msh" && ending != ".inp") refuseEnding(path);
+  const std::string bytes = readWhole(path);
+  // Decks are written under the ending .msh too: what the file begins with says what it is.
+  const std::string_view start = trimmed(io::withoutByteOrderMark(bytes, path.string()).substr(0, 4096));
+  const bool abaqus = start.starts_with('*') || (ending == ".inp" && !start.starts_with('$'));
+  return abaqus ? abaqusFromText(bytes, path.string()) : gmshFromText(bytes, path.string());
 }
 
 void writeSolid(const fem::SolidMesh& mesh, const std::filesystem::path& path) {

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/io/plain_text.hpp"
 
 namespace dovetail::solid_io {
 
@@ -56,6 +57,10 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
   while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
   return text;
+}
+
+Source::Source(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {
+  at_ = last_ = bytes.size() - io::withoutByteOrderMark(bytes, name_).size();
 }
 
 std::string_view Source::line() {
@@ -144,12 +149,18 @@ double Source::parseReal(std::string_view word) const {
   return value;
 }
 
-void Source::refuseAt(std::size_t offset, const std::string& problem, const std::string& remedy) const {
+std::size_t Source::lineAt(std::size_t offset) const {
   const std::string_view before = bytes_.substr(0, std::min(offset, bytes_.size()));
-  const std::string place = binary || placesInBytes
-                                ? "byte " + std::to_string(offset)
-                                : "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n'));
-  throw InputError(problem, name_ + ", " + place, remedy);
+  return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+}
+
+void Source::refuseAt(std::size_t offset, const std::string& problem, const std::string& remedy) const {
+  if (binary || placesInBytes) throw InputError(problem, name_ + ", byte " + std::to_string(offset), remedy);
+  Piece piece{0, name_, 1};
+  for (const Piece& one : pieces_)
+    if (one.begin <= offset) piece = one;
+  const std::size_t line = piece.line + lineAt(offset) - lineAt(piece.begin);
+  throw InputError(problem, piece.file + ", line " + std::to_string(line), remedy);
 }
 
 }  // namespace dovetail::solid_io

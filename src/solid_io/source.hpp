@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dovetail::solid_io {
 
@@ -20,7 +21,17 @@ std::string_view trimmed(std::string_view text);
 /// A file's bytes, and a place in them. Numbers are words between blanks, or bytes where `binary` is set.
 class Source {
 public:
-  Source(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
+  /// @throws InputError for a text in UTF-16
+  Source(std::string_view bytes, std::string name);
+
+  /// From `begin` on lines are those of another file.
+  struct Piece {
+    std::size_t begin;
+    std::string file;
+    std::size_t line;  ///< of its first, from 1
+  };
+  /// In the order of `begin`.
+  void setPieces(std::vector<Piece> pieces) { pieces_ = std::move(pieces); }
 
   bool binary = false;
   bool placesInBytes = false;  ///< errors name bytes, not lines
@@ -51,6 +62,7 @@ public:
     refuseAt(last_, problem, remedy);
   }
   [[noreturn]] void refuseAt(std::size_t offset, const std::string& problem, const std::string& remedy) const;
+  std::size_t lineAt(std::size_t offset) const;
   const std::string& name() const { return name_; }
 
 private:
@@ -59,6 +71,7 @@ private:
   std::string_view bytes_;
   std::string name_;
   std::size_t at_ = 0, last_ = 0;
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace dovetail::solid_io

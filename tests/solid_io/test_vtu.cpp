@@ -63,6 +63,34 @@ TEST_F(Vtu, WholeNumbersAndSurfaceCellsAreSets) {
   EXPECT_EQ(file.mesh.elementSets.size() + file.mesh.faceSets.size(), 2u);
 }
 
+/// Flags named "a 3", values 3 and 8 of "a", and flags "a" of points and of a surface cell.
+TEST_F(Vtu, ArraysThatGiveSetsOfOneNameStayApart) {
+  std::string text = asciiTet("0 1 2 3 0 1 2", "4 7", "10 5",
+                              "<DataArray type=\"Int32\" Name=\"a\" format=\"ascii\">8 3</DataArray>"
+                              "<DataArray type=\"UInt8\" Name=\"a 8\" format=\"ascii\">0 1</DataArray>"
+                              "<DataArray type=\"UInt8\" Name=\"b\" format=\"ascii\">0 1</DataArray>");
+  text.insert(text.find("<CellData>"),
+              "<PointData><DataArray type=\"UInt8\" Name=\"b\" format=\"ascii\">0 0 0 1 0</DataArray></PointData>");
+  const SolidFile file = readVtu(write(text));
+  EXPECT_EQ(fem::elementSet(file.mesh, "a 8"), std::vector<int>{0});
+  EXPECT_EQ(fem::faceSet(file.mesh, "a 3").size(), 1u);
+  EXPECT_EQ(fem::faceSet(file.mesh, "a 8").size(), 1u);
+  EXPECT_EQ(fem::nodeSet(file.mesh, "b"), std::vector<int>{3});
+  EXPECT_EQ(fem::nodeSet(file.mesh, "b (cells)"), (std::vector<int>{0, 1, 2}));
+}
+
+TEST_F(Vtu, MeshesOfSeveralShapesHaveASetOfEach) {
+  fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+  mesh.X.insert(mesh.X.end(), {{3, 0, 0}, {4, 0, 0}, {3, 1, 0}, {3, 0, 1}});
+  mesh.groups.push_back({fem::CellShape::tet4, {8, 9, 10, 11}});
+  mesh.elementSets["both"] = {0, 1};
+  writeVtu(folder_ / "mixed.vtu", mesh);
+  const SolidFile file = readVtu(folder_ / "mixed.vtu");
+  EXPECT_EQ(fem::elementSet(file.mesh, "hex8"), std::vector<int>{0});
+  EXPECT_EQ(fem::elementSet(file.mesh, "tet4"), std::vector<int>{1});
+  EXPECT_EQ(fem::elementSet(file.mesh, "both tet4"), std::vector<int>{1});
+}
+
 TEST_F(Vtu, WithoutVolumesQuadrilateralsAreElementsAndLinesTheirFaces) {
   const auto path = write(asciiTet("0 1 3 2 3 1", "4 6", "9 3",
                                    "<DataArray type=\"Int32\" Name=\"part\" format=\"ascii\">3 8</DataArray>"));

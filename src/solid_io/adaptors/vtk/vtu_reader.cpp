@@ -70,7 +70,7 @@ std::vector<std::vector<Label>> cellNodes(vtkUnstructuredGrid* grid, const std::
   return result;
 }
 
-/// Calls add(set, item) for what the whole-number arrays say; notes those that are passed over.
+/// Calls add(set, which array, item) for what the whole-number arrays say; notes those that are passed over.
 template <class Add>
 void readSets(vtkFieldData* data, MeshBuilder& builder, Add&& add) {
   constexpr std::size_t most = 100;
@@ -94,8 +94,8 @@ void readSets(vtkFieldData* data, MeshBuilder& builder, Add&& add) {
     const bool flags = !values.empty() && *values.begin() >= 0.0 && *values.rbegin() <= 1.0;
     for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
       const double value = array->GetComponent(i, 0);
-      if (!flags) add(name + " " + std::to_string(static_cast<std::int64_t>(value)), i);
-      if (flags && value > 0.0) add(name, i);
+      if (!flags) add(name + " " + std::to_string(static_cast<std::int64_t>(value)), " of " + name, i);
+      if (flags && value > 0.0) add(name, "", i);
     }
   }
 }
@@ -130,11 +130,13 @@ SolidFile readVtu(const std::filesystem::path& path) {
                 "give " + std::to_string(type.nodes) + " for its type");
     addCell(builder, type, cell, nodes[c]);
   }
-  readSets(grid->GetPointData(), builder,
-           [&](const std::string& set, vtkIdType i) { builder.addNodeToSet(set, i, 0); });
-  readSets(grid->GetCellData(), builder,
-           [&](const std::string& set, vtkIdType i) { builder.addElementToSet(set, i, 0); });
-  return builder.finish(true);
+  readSets(grid->GetPointData(), builder, [&](const std::string& set, const std::string& array, vtkIdType i) {
+    builder.addNodeToSet({set, 0, "points" + array}, i, 0);
+  });
+  readSets(grid->GetCellData(), builder, [&](const std::string& set, const std::string& array, vtkIdType i) {
+    builder.addElementToSet({set, 1, "cells" + array}, i, 0);
+  });
+  return builder.finish();
 }
 
 }  // namespace dovetail::solid_io

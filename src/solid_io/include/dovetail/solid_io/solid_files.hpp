@@ -7,6 +7,10 @@
 // +z; its lines are names for faces then. Other surface elements are refused there. Nodes that no cell uses are
 // dropped, from the sets too. Elements with the nodes of an earlier one are dropped, and their sets go to the earlier
 // one. Nodes at equal positions stay apart (fem::joinMeshes welds). What was dropped or passed over stands in `notes`.
+// Sets of one name that come from different things of a file are never merged: one keeps the name, the others, if they
+// hold something else, are called by what they are of, "top (curves)", and a note says so. Of meshes and element sets
+// of several shapes each shape has a set of its own too, "tet4" or "steel tet4", for fem::makeSolid. Byte-order marks
+// of UTF-8 are passed over, texts in UTF-16 refused.
 //
 // Every reader throws InputError, naming the file and the line (or byte, in binary parts), for files that cannot be
 // read, break off, or hold other element types, numbers that occur twice, nodes or elements that do not exist, faces
@@ -35,25 +39,31 @@ struct SolidFile {
 /// Gmsh MSH 4.1 or 2.2, ASCII or binary of this machine's byte order. Physical groups become sets under their name, or
 /// their number where they have none: volumes an element set, surfaces a face set and a node set, curves and points a
 /// node set; in plane strain surfaces an element set, curves a face set and a node set. Files without any physical
-/// group give sets "volume 1", "surface 3", "curve 2", "point 5" of the model's entities instead. Of meshes and element
-/// sets of several shapes each shape has a set of its own too, "tet4" or "steel tet4", for fem::makeSolid. Faces are
-/// turned outwards; one between two volumes belongs to that whose outward side is the surface element's own.
-/// Partitioned meshes are refused.
+/// group give sets "volume 1", "surface 3", "curve 2", "point 5" of the model's entities instead. Of groups of one name
+/// the one of the highest dimension keeps the name. Faces are turned outwards; one between two volumes belongs to that
+/// whose outward side is the surface element's own. Partitioned meshes are refused.
 SolidFile readGmsh(const std::filesystem::path& path);
 SolidFile gmshFromText(std::string_view bytes, const std::string& name);
 
 /// Abaqus INP: *NODE, *ELEMENT of types C3D8, C3D20, C3D27, C3D4, C3D10 with any suffix of R, I, H, M, S, which is
 /// noted and passed over (fem::Formulation chooses the integration), or of CPE4 and CPE8 with the same suffixes, and
 /// shells, membranes, surface and plane elements of three to nine nodes as faces, trusses and beams as names for nodes,
-/// *NSET and *ELSET (GENERATE, names of other sets), *SURFACE of faces (sets or elements with S1 … S6) or nodes. One
-/// *PART with one *INSTANCE that is not moved is read as if it were flat. Cards of materials, steps and so on are
-/// passed over, cards that make or move nodes and elements elsewhere (*INCLUDE, *NGEN, *ELGEN, *SYSTEM …) are refused.
-/// Names are compared without regard to case, outside quotes, and kept as first written. A surface gives a node set
-/// too, unless there is one of that name.
+/// *NSET and *ELSET (GENERATE, names of other sets), *NSET with ELSET, *SURFACE of faces (sets or elements with S1 …
+/// S6) or nodes. Files of *INCLUDE, and of INPUT on *NODE and *ELEMENT, are read too, by names relative to the folder
+/// of the deck, or else of the file that names them. One *PART with one *INSTANCE that is not moved may be there. The
+/// part and the assembly (all that stands outside of the part) have numbers and names of their own: cards of the
+/// assembly name what is the part's by INSTANCE, or as Part-1-1.4 and Part-1-1.Set-1. Where both have a set or surface
+/// of one name, that name is the assembly's in the mesh, and the part's is called by its instance, "Part-1-1.Set-1". Of
+/// a node set, a surface and an element set with one name the first named here keeps the name among the node sets; a
+/// surface comes before an element set among the face sets. Names are compared without regard to case, outside quotes,
+/// and kept as first written. A surface gives a node set too. Cards of materials, steps, constraints and so on are
+/// passed over, with a note; cards that make or move nodes and elements elsewhere (*NGEN, *ELGEN, *SYSTEM …), unknown
+/// parameters on the cards named here, and words that are nearly one of these cards are refused.
+/// @param name  of the deck, for errors and for the folder of what it includes
 SolidFile readAbaqus(const std::filesystem::path& path);
 SolidFile abaqusFromText(std::string_view bytes, const std::string& name);
 
-/// By the ending of the name, in whatever case: .msh or .inp.
+/// .msh or .inp, in whatever case; which of the two it is its content says.
 /// @throws InputError also on another ending
 SolidFile readSolid(const std::filesystem::path& path);
 
