@@ -76,6 +76,13 @@ public:
     solid_->sample();
   }
 
+  std::vector<Vec3> forces() const override {
+    std::vector<Vec3> force = model_->nodes.f;
+    if (!side.own.empty()) return force;
+    for (const int node : side.load.touched)
+      force[static_cast<std::size_t>(node)] += side.load.force[static_cast<std::size_t>(node)];
+    return force;
+  }
   double kineticEnergy() const override { return solid_->motion.kineticEnergy(); }
 
   void sample(EnergyLedger& ledger) override {

@@ -62,6 +62,14 @@ public:
     kick(load, 0.5 * window());
   }
 
+  std::vector<Vec3> forces() const override {
+    std::vector<Vec3> force(model_->nodes.X.size());
+    for (const auto& term : model_->terms) term->addForces(model_->nodes, {.t = model_->t, .mass = side.mass}, force);
+    for (const NodalLoad* const load : {&side.load, &windowLoad})
+      for (const int node : load->touched)
+        force[static_cast<std::size_t>(node)] += load->force[static_cast<std::size_t>(node)];
+    return force;
+  }
   double kineticEnergy() const override { return solid_->kineticEnergy(); }
   void sample(EnergyLedger& ledger) override { copyChannels(solid_->ledger(), kineticEnergy(), ledger); }
 

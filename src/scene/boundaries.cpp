@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "dovetail/fem/mesh/mesh_places.hpp"
-#include "dovetail/fem/model/ties.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "parts.hpp"
+#include "supports.hpp"
 #include "time_functions.hpp"
 
 namespace dovetail::scene {
@@ -56,27 +56,6 @@ void add(fem::SolidMesh& mesh, const NamedSet& set) {
     mesh.faceSets[set.name] = fem::facesWhere(mesh, place);
 }
 
-unsigned componentsOf(const Support& support) {
-  return (support.x ? unsigned{fem::componentX} : 0U) | (support.y ? unsigned{fem::componentY} : 0U) |
-         (support.z ? unsigned{fem::componentZ} : 0U);
-}
-
-void add(fem::Model& model, const fem::SolidMesh& mesh, const Support& support, const Scene& scene) {
-  const unsigned components = componentsOf(support);
-  const std::vector<int>& set = fem::nodeSet(mesh, support.on);
-  if (support.displacement || !isConstant(support.velocity)) {
-    const std::array<Travel, 3> path = travels(support.velocity, support.displacement, scene);
-    for (int c = 0; c < 3; ++c)
-      if (components >> c & 1U) model.constraints.prescribe(set, c, path[static_cast<std::size_t>(c)].displacement);
-    return;
-  }
-  const Vec3 velocity = constantOf(support.velocity);
-  fem::fix(model.nodes, set, components);
-  for (const int node : set)
-    for (int c = 0; c < 3; ++c)
-      if (components >> c & 1U) model.nodes.v[static_cast<std::size_t>(node)][c] = velocity[c];
-}
-
 /// A number, which lets the load store energy, or a function.
 fem::Amplitude amplitudeOf(const TimeValue& value, const Scene& scene) {
   if (isConstant(value)) return value.number;
@@ -121,19 +100,17 @@ void addSets(fem::SolidMesh& mesh, const Solid& solid) {
   for (const NamedSet& set : solid.sets) atPlace(set.where, [&] { add(mesh, set); });
 }
 
-void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene) {
-  for (const Support& one : solid.supports) atPlace(one.where, [&] { add(model, mesh, one, scene); });
+void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene,
+                   std::vector<std::string>& notes) {
+  Holders holders(model, mesh, solid, scene);
+  for (const Support& one : solid.supports) atPlace(one.where, [&] { holders.hold(one); });
+  for (const MeshTie& tie : solid.ties) atPlace(tie.where, [&] { holders.carry(tie); });
+  notes.insert(notes.end(), holders.jumps().begin(), holders.jumps().end());
   for (std::size_t k = 0; k < solid.loads.size(); ++k)
     atPlace(solid.loads[k].where, [&] {
       const Load& load = solid.loads[k];
       const Loaded to{model, mesh, fem::faceSet(mesh, load.on), "load " + std::to_string(k) + " on " + load.on, scene};
       std::visit([&](const auto& kind) { add(to, kind); }, load.kind);
-    });
-  for (const MeshTie& tie : solid.ties)
-    atPlace(tie.where, [&] {
-      const auto made =
-          fem::tieInterface(mesh, fem::nodeSet(mesh, tie.nodes), fem::faceSet(mesh, tie.faces), tie.tolerance);
-      model.constraints.ties.insert(model.constraints.ties.end(), made.begin(), made.end());
     });
 }
 

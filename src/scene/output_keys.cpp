@@ -22,7 +22,8 @@ void describe(Fields& f, DriveProbe& v) {
 }
 void describe(Fields& f, SupportProbe& v) {
   solid(f, v.solid);
-  f.text({"on", "name of a node set of the mesh that is held or moved"}, v.on, true);
+  f.text({"on", "node set that supports hold or move: the sum of their forces; of one that only ties carry, theirs"},
+         v.on, true);
 }
 void describe(Fields& f, RegionProbe& v) { f.box({"box", "two corners"}, v.box); }
 void describe(Fields& f, Probe& v) {

@@ -75,7 +75,8 @@ void setContactMaterial(dem::Particles& particles, std::size_t first, int row);
 fem::SolidMesh meshOf(const TetrahedraMesh& from);
 
 /// Puts supports, loads and ties on a solid.
-void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene);
+void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene,
+                   std::vector<std::string>& notes);
 /// Adds the sets of the scene to those of the mesh. @throws InputError for names that are there, and empty sets
 void addSets(fem::SolidMesh& mesh, const Solid& solid);
 

@@ -21,31 +21,19 @@ std::size_t nearestTo(const Vec3& at, const std::vector<Vec3>& places) {
   return static_cast<std::size_t>(std::min_element(places.begin(), places.end(), nearer) - places.begin());
 }
 
-/// Forces on all nodes but those of supports, N. Implicit solids keep none; elsewhere Nodes::f holds the connectors'
-/// load where that acts at the same instants.
-std::vector<Vec3> forcesOn(const coupling::SolidSide& side) {
-  const fem::Model& model = *side.model;
-  std::vector<Vec3> force = model.nodes.f;
-  if (side.stepping == coupling::Stepping::implicitSteps) {
-    force.assign(model.nodes.X.size(), {});
-    for (const auto& term : model.terms) term->addForces(model.nodes, {.t = model.t, .mass = side.mass}, force);
-  }
-  if (side.own.empty())
-    for (const int node : side.load.touched)
-      force[static_cast<std::size_t>(node)] += side.load.force[static_cast<std::size_t>(node)];
-  return force;
-}
-
-/// Of the supports on some nodes, N.
-Vec3 reactionOn(const coupling::SolidSide& side, const std::vector<int>& set) {
-  const std::vector<Vec3> force = forcesOn(side);
-  Vec3 sum;
-  for (const int node : set) {
-    const auto n = static_cast<std::size_t>(node);
-    for (int c = 0; c < 3; ++c)
-      if (side.nodes().fixed[n] >> c & 1U) sum[c] -= force[n][c];
-  }
-  return sum;
+/// Who acts on some nodes: supports, or where there are none, ties.
+struct HeldBy {
+  bool supports = false, ties = false;
+};
+HeldBy holdersOf(const coupling::SolidSide& side, const std::vector<int>& set) {
+  HeldBy found;
+  for (const int node : set)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const fem::Role role = side.mass->dofs().role(3 * static_cast<std::size_t>(node) + c);
+      found.ties = found.ties || role == fem::Role::tied;
+      found.supports = found.supports || (role != fem::Role::tied && role != fem::Role::free);
+    }
+  return found;
 }
 
 Vec3 forceOn(const dem::Model& grains, const WallParts& parts) {
@@ -134,13 +122,17 @@ template <>
 Probes::Values Probes::find(const Built& built, const std::string& name, const SupportProbe& kind) {
   const std::size_t solid = solidNamed(kind.solid, *built.run);
   const std::vector<int>& set = fem::nodeSet(built.meshes[solid], kind.on);
-  const fem::Nodes& nodes = built.run->solid(solid).nodes();
-  if (std::none_of(set.begin(), set.end(), [&](int n) { return nodes.fixed[static_cast<std::size_t>(n)] != 0; }))
-    throw InputError("nothing holds the nodes \"" + kind.on + "\" of \"" + kind.solid + "\"", "",
+  const HeldBy by = holdersOf(built.run->solid(solid), set);
+  if (!by.supports && !by.ties)
+    throw InputError("nothing holds, moves or carries the nodes \"" + kind.on + "\" of \"" + kind.solid + "\"", "",
                      "give the solid a support there, or leave the probe out");
   nameVector(name + "_", "N");
-  return [solid, set](const Built& now, std::vector<double>& row) {
-    append(row, reactionOn(std::as_const(*now.run).solid(solid), set));
+  return [solid, set, supports = by.supports, known = reactions_](const Built& now, std::vector<double>& row) {
+    if (!known->contains(solid)) known->emplace(solid, now.run->reactions(solid));
+    const coupling::Reactions& all = known->at(solid);
+    Vec3 sum;
+    for (const int node : set) sum += (supports ? all.supports : all.ties)[static_cast<std::size_t>(node)];
+    append(row, sum);
   };
 }
 
@@ -162,6 +154,7 @@ Probes::Probes(const Built& built, const std::vector<Probe>& probes) {
 }
 
 void Probes::add(const Built& built, std::vector<double>& row) const {
+  reactions_->clear();
   for (const Values& values : values_) values(built, row);
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,9 @@ private:
 
   std::vector<std::string> names_;
   std::vector<Values> values_;
+  /// Of solids that are asked for, now.
+  std::shared_ptr<std::map<std::size_t, coupling::Reactions>> reactions_ =
+      std::make_shared<std::map<std::size_t, coupling::Reactions>>();
 };
 
 }  // namespace dovetail::scene

@@ -69,7 +69,7 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   addElements(*model, mesh, solid, overlap);
   if (solid.gravity && norm(scene.gravity) > 0.0) model->add(fem::gravity(scene.gravity));
   for (Vec3& v : model->nodes.v) v = solid.velocity;
-  addBoundaries(*model, mesh, solid, scene);
+  addBoundaries(*model, mesh, solid, scene, built.notes);
   built.run->addSolid(std::move(model), {.name = solid.name,
                                          .stepping = solid.implicitSteps ? coupling::Stepping::implicitSteps
                                                                          : coupling::Stepping::explicitSteps,

@@ -13,14 +13,6 @@ namespace dovetail::scene {
 
 namespace {
 
-/// Of all stages that run for a time, s.
-double durationOf(const Scene& scene) {
-  double time = 0.0;
-  for (const Stage& stage : scene.stages)
-    if (const auto* const plan = std::get_if<RunFor>(&stage.kind)) time += plan->time;
-  return time > 0.0 ? time : 1.0;
-}
-
 /// Many nodes ask for the same few times.
 class Remembered {
 public:
@@ -66,6 +58,13 @@ private:
 };
 
 }  // namespace
+
+double durationOf(const Scene& scene) {
+  double time = 0.0;
+  for (const Stage& stage : scene.stages)
+    if (const auto* const plan = std::get_if<RunFor>(&stage.kind)) time += plan->time;
+  return time > 0.0 ? time : 1.0;
+}
 
 bool isConstant(const TimeValue& value) { return value.expression.empty(); }
 bool isConstant(const TimeVector& value) {

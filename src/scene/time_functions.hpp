@@ -11,6 +11,8 @@ using TimeFunction = std::function<double(double)>;
 
 /// The value at time t ≥ 0, s. Copies may not be evaluated by several threads at once.
 TimeFunction functionOf(const TimeValue& value, const Scene& scene);
+/// Of all stages that run for a time, s; 1 if there is none.
+double durationOf(const Scene& scene);
 bool isConstant(const TimeValue& value);
 bool isConstant(const TimeVector& value);
 /// The numbers of a constant one.

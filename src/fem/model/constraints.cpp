@@ -52,33 +52,33 @@ std::size_t DofMap::dofOf(int node, int component) const {
   return 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(component);
 }
 
-void DofMap::claim(std::vector<State>& states, const Nodes& nodes, int node, int component, State state) const {
+void DofMap::claim(const Nodes& nodes, int node, int component, Role role) {
   constexpr std::array what = {"free", "fixed", "held", "prescribed", "tied"};
-  State& present = states[dofOf(node, component)];
+  Role& present = roles_[dofOf(node, component)];
   const auto n = static_cast<std::size_t>(node);
-  const bool rests = present == State::held ||
-                     (present == State::fixed && nodes.u[n][component] == 0.0 && nodes.v[n][component] == 0.0);
-  if (present != State::free && !(rests && state == State::held))
+  const bool rests =
+      present == Role::held || (present == Role::fixed && nodes.u[n][component] == 0.0 && nodes.v[n][component] == 0.0);
+  if (present != Role::free && !(rests && role == Role::held))
     throw InputError(label(node, component) + " is constrained twice: " + what[static_cast<std::size_t>(present)] +
-                         " and " + what[static_cast<std::size_t>(state)],
+                         " and " + what[static_cast<std::size_t>(role)],
                      "constraints", "take one of the two away");
-  present = state;
+  present = role;
 }
 
 /// Keeps the free masters in the ties and puts the others aside.
-void DofMap::sortMasters(const std::vector<State>& states) {
+void DofMap::sortMasters() {
   for (std::size_t i = 0; i < ties_.size(); ++i) {
     std::vector<Tie::Master> freeOnes;
     for (const Tie::Master& master : ties_[i].masters) {
-      const State state = states[dofOf(master.node, master.component)];
-      if (state == State::tied)
+      const Role role = roles_[dofOf(master.node, master.component)];
+      if (role == Role::tied)
         throw InputError(label(master.node, master.component) + " is tied and a master of " +
                              label(ties_[i].node, ties_[i].component),
                          "constraints", "tie both to the same masters");
       if (!std::isfinite(master.factor))
         throw InputError("a factor of the tie is not finite", label(ties_[i].node, ties_[i].component),
                          "give a number");
-      if (state == State::free)
+      if (role == Role::free)
         freeOnes.push_back(master);
       else
         restingMasters_.push_back({i, master});
@@ -88,22 +88,38 @@ void DofMap::sortMasters(const std::vector<State>& states) {
 }
 
 DofMap::DofMap(const Constraints& constraints, const Nodes& nodes)
-    : nodes_(nodes.u.size()), prescribed_(constraints.prescribed), ties_(constraints.ties) {
-  std::vector<State> states(3 * nodes_, State::free);
-  for (std::size_t dof = 0; dof < states.size(); ++dof)
-    if (nodes.fixed[dof / 3] >> dof % 3 & 1) states[dof] = State::fixed;
+    : nodes_(nodes.u.size()),
+      roles_(3 * nodes_, Role::free),
+      prescribed_(constraints.prescribed),
+      ties_(constraints.ties) {
+  for (std::size_t dof = 0; dof < roles_.size(); ++dof)
+    if (nodes.fixed[dof / 3] >> dof % 3 & 1) roles_[dof] = Role::fixed;
   for (const Constraints::Prescribed& p : prescribed_)
-    claim(states, nodes, p.node, p.component, p.displacement ? State::prescribed : State::held);
-  for (const Tie& tie : ties_) claim(states, nodes, tie.node, tie.component, State::tied);
-  sortMasters(states);
-  freeRow_.assign(states.size(), -1);
-  for (std::size_t dof = 0; dof < states.size(); ++dof)
-    if (states[dof] == State::free) {
+    claim(nodes, p.node, p.component, p.displacement ? Role::prescribed : Role::held);
+  for (const Tie& tie : ties_) claim(nodes, tie.node, tie.component, Role::tied);
+  sortMasters();
+  freeRow_.assign(roles_.size(), -1);
+  for (std::size_t dof = 0; dof < roles_.size(); ++dof)
+    if (roles_[dof] == Role::free) {
       freeRow_[dof] = static_cast<int>(freeDofs_.size());
       freeDofs_.push_back(static_cast<int>(dof));
     } else if (const int node = static_cast<int>(dof / 3); boundNodes_.empty() || boundNodes_.back() != node) {
       boundNodes_.push_back(node);
     }
+}
+
+std::vector<Vec3> DofMap::splitReactions(std::span<Vec3> r) const {
+  std::vector<Vec3> ties(r.size());
+  for (const Tie& tie : ties_)
+    ties[static_cast<std::size_t>(tie.node)][tie.component] = r[static_cast<std::size_t>(tie.node)][tie.component];
+  for (const auto& [tie, master] : restingMasters_) {
+    const Tie& from = ties_[tie];
+    r[static_cast<std::size_t>(master.node)][master.component] +=
+        master.factor * ties[static_cast<std::size_t>(from.node)][from.component];
+  }
+  for (std::size_t dof = 0; dof < roles_.size(); ++dof)
+    if (roles_[dof] == Role::free || roles_[dof] == Role::tied) r[dof / 3][static_cast<int>(dof % 3)] = 0.0;
+  return ties;
 }
 
 bool DofMap::hasMotion() const {

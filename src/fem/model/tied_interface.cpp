@@ -117,10 +117,14 @@ std::vector<Tie> tieInterface(const SolidMesh& mesh, std::span<const int> slaves
   std::vector<Tie> ties;
   for (const int slave : slaves) {
     const std::string label = "node " + std::to_string(slave);
+    const auto where = [&] {
+      const Vec3& X = mesh.X[static_cast<std::size_t>(slave)];
+      return label + " at (" + formatNumber(X.x) + ", " + formatNumber(X.y) + ", " + formatNumber(X.z) + ") m";
+    };
     if (slave < 0 || static_cast<std::size_t>(slave) >= mesh.X.size())
       throw InputError(label + " does not exist", "tieInterface", "use nodes of the mesh");
     if (isMaster[static_cast<std::size_t>(slave)])
-      throw InputError(label + " belongs to a master face", "tieInterface", "leave it out of the slaves");
+      throw InputError(where() + " belongs to a master face", "tieInterface", "leave it out of the slaves");
     Projected best{INFINITY, {}};
     const Face* nearest = nullptr;
     for (const int i : search.at(mesh.X[static_cast<std::size_t>(slave)])) {
@@ -129,7 +133,7 @@ std::vector<Tie> tieInterface(const SolidMesh& mesh, std::span<const int> slaves
       if (found.distance < best.distance) best = found, nearest = &face;
     }
     if (!(best.distance <= tolerance))
-      throw InputError(label + " lies farther than " + formatNumber(tolerance) + " m from the master faces",
+      throw InputError(where() + " lies farther than " + formatNumber(tolerance) + " m from the master faces",
                        "tieInterface", "leave it out, or give a larger tolerance");
     for (int c = 0; c < dimensionOf(mesh); ++c) {
       Tie tie{slave, c, {}, 0.0, {}};

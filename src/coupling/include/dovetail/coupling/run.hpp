@@ -80,6 +80,12 @@ struct Totals {
 /// A table: who gave what, and what is left over.
 std::ostream& operator<<(std::ostream& out, const Totals& totals);
 
+/// What holds, moves and carries the nodes of a solid does to them, N per node.
+struct Reactions {
+  std::vector<Vec3> supports;  ///< at components that are fixed, held or prescribed; with what their ties pass on
+  std::vector<Vec3> ties;      ///< at components that are tied
+};
+
 /// Windows are symmetric in time and symplectic unless a solid dissipates or lags, so the error of the energy is of
 /// second order in the step and does not drift.
 class CoupledRun {
@@ -128,6 +134,9 @@ public:
   /// is the state at the first start.
   const EnergyLedger& ledger();
   Totals totals() const;
+  /// Of solid k at the end of the last window: M a − f, with the accelerations a that the forces f and the motion of
+  /// supports (second differences over a window) make. Sums of `supports` and of all loads are the rate of the momentum.
+  Reactions reactions(std::size_t k) const;
   /// Of steps with the contacts, elements and connectors as they are now, and with the first contacts of particles that
   /// touch nobody yet (dem::impactLimit). All connectors of a solid and its own forces share the same nodes; in windows
   /// of K steps see dem::criticalStep. A run under way looks at its state now and then and tells in grains.passed when

@@ -42,6 +42,10 @@ struct Constraints {
   bool empty() const { return prescribed.empty() && ties.empty(); }
 };
 
+/// What moves a component: the balance of forces; its velocity in Nodes::v (fixed); a support that rests or follows a
+/// function of time; the masters of its tie.
+enum class Role : std::uint8_t { free, fixed, held, prescribed, tied };
+
 /// Constraints of a model, sorted out: u = T q + g(t) with q the free components. Velocities and virtual displacements
 /// follow T; forces go back by Tᵀ, so constraints that rest do no work.
 class DofMap {
@@ -58,6 +62,8 @@ public:
   bool hasMotion() const;
   /// Entry of q that is component dof % 3 of node dof / 3, −1 if it is not free.
   std::span<const int> freeRow() const { return freeRow_; }
+  /// Of component dof % 3 of node dof / 3.
+  Role role(std::size_t dof) const { return roles_[dof]; }
   /// Nodes with a component that is not free, ascending.
   std::span<const int> boundNodes() const { return boundNodes_; }
   /// Its inverse.
@@ -76,20 +82,25 @@ public:
   void applyVelocity(double t, double dt, std::span<Vec3> v) const;
   /// Sets the same components of an acceleration, m/s²; motions by the second central difference over dt > 0.
   void applyAcceleration(double t, double dt, std::span<Vec3> a) const;
+  /// Forces of supports and of ties from those of all constraints together, r = M a − f: a tie passes what it does to
+  /// its node on to its masters, and where these are held or moved, their supports bear it.
+  /// @param r  N; becomes the forces of supports, 0 at components without
+  /// @return forces of ties on the nodes that they carry, N
+  std::vector<Vec3> splitReactions(std::span<Vec3> r) const;
 
 private:
-  enum class State : std::uint8_t { free, fixed, held, prescribed, tied };
   struct RestingMaster {
     std::size_t tie;
     Tie::Master master;
   };
   std::size_t dofOf(int node, int component) const;
-  void claim(std::vector<State>& states, const Nodes& nodes, int node, int component, State state) const;
-  void sortMasters(const std::vector<State>& states);
+  void claim(const Nodes& nodes, int node, int component, Role role);
+  void sortMasters();
   template <class Motion>
   void setConstrained(std::span<Vec3> field, bool withOffsets, const Motion& motion) const;
 
   std::size_t nodes_;
+  std::vector<Role> roles_;
   std::vector<int> freeRow_, freeDofs_, boundNodes_;
   std::vector<Constraints::Prescribed> prescribed_;
   std::vector<Tie> ties_;

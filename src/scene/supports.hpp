@@ -1,0 +1,55 @@
+// Who holds, moves and carries which component of the nodes of a solid.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dovetail/fem/model/model.hpp"
+#include "time_functions.hpp"
+
+namespace dovetail::scene {
+
+/// Puts supports and ties on a model, one after the other, supports first. What is held or moved twice to the same
+/// place is so once; a tie leaves alone what its masters' supports and a support of its node do anyway.
+class Holders {
+public:
+  Holders(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene);
+
+  /// @throws InputError naming the node and both, if another support moves it otherwise
+  void hold(const Support& support);
+  /// @throws InputError naming the node, if a support or another tie asks otherwise
+  void carry(const MeshTie& tie);
+  /// What is moved away from where it lies at t = 0 at once: sentences with what to write instead.
+  const std::vector<std::string>& jumps() const { return jumps_; }
+
+private:
+  struct Motion {
+    std::string name;       ///< of the support
+    bool steady = false;    ///< with `velocity`, from where it lies
+    double velocity = 0.0;  ///< m/s
+    TimeFunction displacement{};
+    std::string text{};
+  };
+  static constexpr int nobody = -1;
+
+  Motion motionOf(const Support& support, int component, const Travel& travel) const;
+  void claim(const std::vector<int>& set, int component, Motion motion);
+  void lookForJump(const Motion& motion, int component);
+  bool areSame(int first, int second);
+  bool masterGoesAlong(const fem::Tie& tie, int motion);
+  std::string placeOf(int node, int component) const;
+
+  fem::Model& model_;
+  const fem::SolidMesh& mesh_;
+  const Solid& solid_;
+  const Scene& scene_;
+  std::vector<Motion> motions_;
+  std::vector<int> heldBy_;  ///< number of the motion, by 3 node + component
+  std::vector<const MeshTie*> carriedBy_, masterOf_;
+  std::map<std::pair<int, int>, bool> same_;
+  std::vector<std::string> jumps_;
+};
+
+}  // namespace dovetail::scene
