@@ -29,12 +29,20 @@ const std::map<std::string, std::string>& starters() {
 struct Options {
   std::string file, out, kind;
   std::vector<std::string> settings;
-  bool profile = false, markdown = false;
+  bool profile = false, markdown = false, replace = false;
   std::optional<double> maxWallSeconds;
 };
 
 void limitTime(const Options& options) {
   if (options.maxWallSeconds) io::interruptAfter(*options.maxWallSeconds);
+}
+
+void requireNoRun(const std::filesystem::path& folder) {
+  for (const auto& [file, remedy] : {std::pair{"summary.json", "give --replace to put this one in its place"},
+                                     std::pair{"checkpoint.state", "resume it, or give --replace"}})
+    if (io::isOurs(folder / file))
+      throw InputError("there is a run in this folder, with " + std::string(file), folder.string(),
+                       std::string(remedy) + ", or another folder by --out");
 }
 
 bool runScene(const Options& options) {
@@ -45,6 +53,7 @@ bool runScene(const Options& options) {
   if (std::error_code error; std::filesystem::equivalent(options.file, folder / "scene.json", error))
     throw InputError("the run would put the scene in full in place of this file", options.file,
                      "give another folder by --out, or resume the run of this folder");
+  if (!options.replace) requireNoRun(folder);
   return scene::run(scene, {.folder = folder, .profile = options.profile}, std::cout);
 }
 bool checkScene(const Options& options) {
@@ -97,6 +106,7 @@ std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
   CLI::App* const run = add("run", "runs a scene", runScene);
   takesScene(run);
   run->add_option("--out", options.out, "folder for all files; <scene>-out if not given");
+  run->add_flag("--replace", options.replace, "puts this run in place of an earlier one in the folder");
   steps(run);
   takesScene(add("check", "builds a scene, and tells sizes, limits of the step, memory and time", checkScene));
   CLI::App* const resume = add("resume", "goes on from the last checkpoint of a run", resumeRun);

@@ -65,7 +65,7 @@ double numberIn(const Json& row, const char* key) {
 }
 
 Json readJson(const fs::path& path) {
-  std::ifstream file(path);
+  std::ifstream file = openFile(path);
   return Json::parse(file);
 }
 

@@ -106,7 +106,9 @@ void requireColumn(const scene::Scene& scene, const std::string& name) {
 report::Json runCase(const scene::Scene& scene, const fs::path& folder, const Settings& settings) {
   setThreads(std::max(1, detail::processors() / settings.workers));
   const auto begun = std::chrono::steady_clock::now();
-  std::ofstream log(folder / "log.txt");
+  const fs::path logFile = folder / "log.txt";
+  io::writeFileAtomically(logFile, io::provenanceLines(io::provenance(), "# "));
+  std::ofstream log(logFile, std::ios::app);
   const bool finished = scene::run(scene, {.folder = folder, .progress = false}, log);
   report::Json figures{{"finished", finished}, {"failure", finished ? "" : "it was interrupted"}};
   figures["wall_seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
@@ -196,7 +198,7 @@ bool studyScene(int argc, char** argv) {
   if (settings.energy) std::ranges::copy(energyStudyFiles(), std::back_inserter(files));
   io::prepareOutputFolder(study.folder, files);
   for (std::size_t k = 0; k < study.cases.size(); ++k)
-    io::prepareOutputFolder(study.folder / report::format("%03zu", k + 1));
+    io::prepareInnerFolder(study.folder / report::format("%03zu", k + 1), {"log.txt"});
   if (!report::runStudy(study, std::cout, std::cerr)) return false;
   if (settings.energy) writeEnergyStudy(study.folder);
   std::cout << "tables and figure in " << study.folder.string() << '\n';

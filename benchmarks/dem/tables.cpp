@@ -40,9 +40,8 @@ void writeSummary(const Settings& s, const std::vector<Figures>& rows, double tr
 
 void writeSummary(const Settings& s, const report::Json& content) {
   if (s.summary.empty()) return;
-  report::Json json{{"study", s.study}};
+  report::Json json{{"provenance", report::objectOf(io::provenance())}, {"study", s.study}};
   json.update(content);
-  json["provenance"] = report::objectOf(io::provenance());
   io::writeFileAtomically(s.summary, json.dump(2) + "\n");
 }
 

@@ -24,7 +24,7 @@ double numberIn(const Json& value) {
 std::map<std::string, Outcome> readEvaluations(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / evaluationFileName;
   std::map<std::string, Outcome> known;
-  std::ifstream stream(file);
+  std::ifstream stream = openFile(file);
   if (!stream) return known;
   try {
     const Json json = Json::parse(stream);

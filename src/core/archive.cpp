@@ -70,7 +70,7 @@ void writeChecked(const std::filesystem::path& path, const std::string& kind, co
 }
 
 std::vector<char> readChecked(const std::filesystem::path& path, const std::string& kind) {
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in = openFile(path, std::ios::binary);
   if (!in) throw InputError("the file cannot be read", path.string(), "give the path of a checkpoint");
   Header header, wanted;
   in.read(reinterpret_cast<char*>(&header), sizeof header);

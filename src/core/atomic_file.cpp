@@ -100,6 +100,16 @@ bool isEmptyOfDeadProgram(const fs::directory_entry& entry, pid_t writer) {
 
 }  // namespace
 
+std::ifstream openFile(const fs::path& path, std::ios::openmode mode) {
+  std::error_code error;
+  std::ifstream file;
+  if (fs::is_regular_file(path, error))
+    file.open(path, mode | std::ios::in);
+  else
+    file.setstate(std::ios::failbit);
+  return file;
+}
+
 std::string headOf(const fs::path& path, std::size_t size) {
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(path, error))) return {};
@@ -129,6 +139,10 @@ void requireWritable(const fs::path& folder) {
 
 void replaceFile(const fs::path& path, std::initializer_list<std::string_view> pieces, IsOurs isOurs,
                  Survives survives) {
+  std::error_code unknown;
+  if (const fs::file_status status = fs::symlink_status(path, unknown);
+      fs::exists(status) && !fs::is_regular_file(status))
+    throw InputError("what is there is no regular file", path.string(), "give another name");
   fs::path temporary;
   const Descriptor file(openTemporary(path, temporary));
   ::flock(file.number, LOCK_EX | LOCK_NB);  // until it is renamed: see removeLeftovers

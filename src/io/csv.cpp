@@ -64,8 +64,8 @@ double parseNumber(const std::string& field, const std::string& where) {
 }  // namespace
 
 TimeSeries readCsv(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path))
+  std::ifstream file = openFile(path);
+  if (!file)
     throw InputError("a table cannot be read", path.string(), "give a CSV file that exists");
   std::vector<TimeSeries> series;  // none until the line of names has been read
   std::vector<double> row;

@@ -4,8 +4,10 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <cctype>
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <string_view>
 
 #include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
@@ -21,16 +23,59 @@ namespace fs = std::filesystem;
                    "give a folder that you may write in, for instance ./out");
 }
 
-}  // namespace
+/// What a file of ours begins with, up to the number of the version: one kind of file, one beginning.
+constexpr std::array<std::string_view, 12> beginnings{
+    "# version: dovetail ",                                        // tables, texts
+    "// version: dovetail ",                                       // scenes in full
+    "<?xml version=\"1.0\"?>\n<!-- dovetail ",                     // series of frames
+    "<!-- dovetail ",                                              // frames, figures, Markdown
+    "<!doctype html>\n<!-- dovetail ",                             // pages
+    "binary STL, dovetail ",                                       //
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\ndovetail ",  //
+    "** dovetail ",                                                // meshes for Abaqus
+    "DOVETAILdovetail ",                                           // states
+    "# dovetail ",                                                 // packings
+    "spheres, written by dovetail ",                               // packings for LAMMPS
+    "\x89HDF\r\n\x1a\n",                                           // see isHdf5OfOurs
+};
+constexpr std::string_view hdf5 = beginnings.back();
+/// What JSON of ours begins with, white space left out.
+constexpr std::array<std::string_view, 2> jsonBeginnings{"{\"provenance\":{\"version\":\"dovetail",
+                                                         "{\"version\":\"dovetail"};
 
-bool isOurs(const fs::path& path) {
-  const std::string head = headOf(path, 64 * 1024), mark = "dovetail ";
-  for (std::size_t at = head.find(mark); at != std::string::npos; at = head.find(mark, at + 1)) {
-    const std::size_t next = at + mark.size();
-    if (next < head.size() && std::isdigit(static_cast<unsigned char>(head[next]))) return true;
-  }
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+bool beginsWith(std::string_view head, std::string_view beginning) {
+  return head.starts_with(beginning) && head.size() > beginning.size() && isDigit(head[beginning.size()]);
+}
+
+/// An attribute of the provenance, somewhere behind the header.
+bool isHdf5OfOurs(std::string_view head) {
+  constexpr std::string_view mark = "dovetail ";
+  for (std::size_t at = head.find(mark); at != std::string::npos; at = head.find(mark, at + 1))
+    if (at + mark.size() < head.size() && isDigit(head[at + mark.size()])) return true;
   return false;
 }
+
+/// The kind of file of ours that begins so; null: none.
+const std::string_view* kindOf(std::string_view head) {
+  for (const std::string_view& beginning : beginnings)
+    if (beginning == hdf5 ? head.starts_with(hdf5) && isHdf5OfOurs(head) : beginsWith(head, beginning))
+      return &beginning;
+  if (!head.starts_with('{')) return nullptr;
+  std::string dense;
+  for (std::size_t k = 0; k < head.size() && dense.size() < 64; ++k)
+    if (std::string_view(" \n").find(head[k]) == std::string_view::npos) dense += head[k];
+  for (const std::string_view& beginning : jsonBeginnings)
+    if (beginsWith(dense, beginning)) return &beginning;
+  return nullptr;
+}
+
+constexpr std::size_t headSize = 64 * 1024;
+
+}  // namespace
+
+bool isOurs(const fs::path& path) { return kindOf(headOf(path, headSize)) != nullptr; }
 
 void requireFreeOrOurs(const fs::path& path) { dovetail::requireFreeOrOurs(path, isOurs); }
 
@@ -42,6 +87,10 @@ void removeOurs(const fs::path& path) {
 }
 
 void writeFileAtomically(const fs::path& path, const std::string& text, Survives survives) {
+  const std::string_view *const kind = kindOf(std::string_view(text).substr(0, headSize)), *const before = kindOf(
+                                                                                               headOf(path, headSize));
+  if (before && before != kind)
+    throw InputError("a file of another kind is there already", path.string(), "give another name");
   replaceFile(path, {text}, isOurs, survives);
 }
 
@@ -60,6 +109,29 @@ fs::path prepareOutputFolder(const fs::path& folder, const std::vector<std::stri
     if (fs::is_directory(entry.symlink_status(ignored))) removeLeftovers(entry.path(), isOurs);
   for (const std::string& name : fileNames) requireFreeOrOurs(folder / name);
   return folder;
+}
+
+fs::path prepareInnerFolder(const fs::path& folder, const std::vector<std::string>& fileNames) {
+  std::error_code error;
+  if (fs::is_symlink(fs::symlink_status(folder, error)))
+    throw InputError("a link is where a folder of the run is to be", folder.string(),
+                     "move it, or give another folder");
+  return prepareOutputFolder(folder, fileNames);
+}
+
+void removeFrames(const fs::path& folder, const std::string& name) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return;
+  std::vector<fs::path> frames;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string file = entry.path().stem().string(), ending = entry.path().extension().string();
+    const bool isNumbered =
+        file.starts_with(name + "_") && file.size() > name.size() + 1 &&
+        std::all_of(file.begin() + static_cast<std::ptrdiff_t>(name.size()) + 1, file.end(), isDigit);
+    if (isNumbered && (ending == ".vtu" || ending == ".vtp") && isOurs(entry.path())) frames.push_back(entry.path());
+  }
+  for (const fs::path& frame : frames) removeOurs(frame);
+  fs::remove(folder, error);  // which leaves folders that are not empty
 }
 
 FolderOnTrial::FolderOnTrial(const fs::path& folder) {

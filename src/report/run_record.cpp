@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/report/table.hpp"
@@ -15,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string contentOf(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream = openFile(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
   if (!stream) throw InputError("the file cannot be read", file.string(), "look at its permissions");

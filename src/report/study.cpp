@@ -199,7 +199,7 @@ private:
     const auto file = [&](const char* ending) { return study_.folder / (study_.name + ending); };
     const io::KeyValues provenance = io::provenance();
     io::writeFileAtomically(file(".csv"), csvOf(rows, provenance));
-    Json json{{"study", study_.name}, {"provenance", objectOf(provenance)}};  // early: it marks the file as ours
+    Json json{{"provenance", objectOf(provenance)}, {"study", study_.name}};  // first: it marks the file as ours
     json.update(study_.about);
     json["runs"] = rows;
     io::writeFileAtomically(file(".json"), json.dump(2) + "\n");

@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::int64_t lookEvery = 20;  // windows between two looks at signals
+constexpr std::int64_t lookEvery = 20;             // windows between two looks at signals
 constexpr std::int64_t deepEvery = 5 * lookEvery;  // at contacts: a look costs as much as half a step
 
 std::string textOf(const Remark& remark) { return {remark.text.begin(), remark.text.end()}; }
@@ -106,14 +106,17 @@ private:
     for (const char* const old : {"checkpoint.state", "checkpoint.previous.state", "summary.txt", "summary.json",
                                   "times.csv", "series.csv", "series.h5", "fields.vti", "report.html", "report.md"})
       if (io::isOurs(file(old))) io::removeOurs(file(old));
-    std::vector<fs::path> frames;
+    std::vector<fs::path> listed;
     for (const auto& entry : fs::directory_iterator(settings_.folder)) {
       const fs::path& path = entry.path();
       const bool figure = path.extension() == ".svg" && path.filename().string().starts_with("report_");
       if ((figure || path.extension() == ".pvd" || path.extension() == ".vtkhdf") && io::isOurs(path))
-        frames.push_back(path);
+        listed.push_back(path);
     }
-    for (const fs::path& old : frames) io::removeOurs(old);
+    for (const fs::path& old : listed) {
+      io::removeOurs(old);
+      if (old.extension() == ".pvd") io::removeFrames(settings_.folder / old.stem(), old.stem().string());
+    }
   }
   static const char* nameOf(const Stage& stage) {
     return std::holds_alternative<Settle>(stage.kind) ? "settle" : "run";

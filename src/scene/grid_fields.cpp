@@ -88,6 +88,9 @@ std::string textOf(double time, const cg::Grid& grid, const cg::Fields& fields, 
 }  // namespace
 
 void writeGridFields(const std::filesystem::path& folder, const GridSettings& settings, std::ostream& log) {
+  if (settings.file.extension() != ".vti")
+    throw InputError("fields on a grid are a VTI file", settings.file.string(), "give a name that ends in .vti");
+  io::requireFreeOrOurs(settings.file);
   const Scene scene = readRun(folder);
   const std::string hash = hashOf(sceneText(scene));
   Built built = build(scene);

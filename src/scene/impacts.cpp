@@ -133,9 +133,9 @@ void lookForDeepGrains(const dem::Model& m, DeepGrains& found) {
 std::string lineOf(const DeepGrains& found) {
   if (found.ids.empty()) return "";
   return (found.ids.size() == 1 ? "1 grain was" : std::to_string(found.ids.size()) + " grains were") +
-         " seen in contacts deeper than half a radius, the deepest " +
-         rounded(found.overlap) + " radii (grain " + std::to_string(found.worst) +
-         " at t = " + formatNumber(found.time) + " s): take a stiffer law, or smaller speeds";
+         " seen in contacts deeper than half a radius, the deepest " + rounded(found.overlap) + " radii (grain " +
+         std::to_string(found.worst) + " at t = " + formatNumber(found.time) +
+         " s): take a stiffer law, or smaller speeds";
 }
 
 void lookAtSoftness(const Built& built, const Scene& scene, Lines& lines) {

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
 
 namespace dovetail::scene {
@@ -71,6 +72,10 @@ private:
       for (const fs::path& one : chain_) names += one.string() + " -> ";
       refuse(item, "a scene includes itself: " + names + same.string(), "leave one of them out");
     }
+    constexpr std::size_t deepest = 64;
+    if (chain_.size() > deepest)
+      refuse(item, "scenes are included more than " + std::to_string(deepest) + " deep",
+             "include fewer in one another");
     if (!seen_.insert(same).second) return objectWithout();
     Node scene = parseJson(textOfScene(file, placeName(name_, item.place) + ", include"), file.string());
     if (scene.kind != Node::Kind::object)
@@ -96,9 +101,8 @@ private:
 }  // namespace
 
 std::string textOfScene(const fs::path& file, const std::string& where) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code error;
-  if (!stream || !fs::is_regular_file(file, error))
+  std::ifstream stream = openFile(file, std::ios::binary);
+  if (!stream)
     throw InputError("the scene cannot be read" + (file.string() == where ? "" : ": " + file.string()), where,
                      "give the name of a JSON file that you may read");
   std::ostringstream text;

@@ -128,8 +128,11 @@ void describe(Fields& f, SurfaceFile& v) {
   f.file({"file", "triangles: STL, OBJ, PLY, or VTP where the build has VTK"}, v.file);
   f.number({"scale", "metres per unit of the file"}, v.scale, positive(unit::none));
   f.vector({"shift", "after scaling"}, v.shift, unit::length);
-  f.flag({"closed", "a closed skin that pushes along its normals only: a body, or with normals inwards a cavity that holds grains "
-          "in; otherwise a sheet that pushes to both sides"}, v.closed);
+  f.flag(
+      {"closed",
+       "a closed skin that pushes along its normals only: a body, or with normals inwards a cavity that holds grains "
+       "in; otherwise a sheet that pushes to both sides"},
+      v.closed);
   f.vector({"point", "that it turns about; the centroid of the surface if not given"}, v.point, unit::length);
 }
 void describe(Fields& f, Turn& v) {

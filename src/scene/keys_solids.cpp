@@ -130,9 +130,11 @@ void describe(Fields& f, Solid& v) {
 void describe(Fields& f, SurfaceContact& v) {
   static constexpr const char* kernels[] = {"none", "advised"};
   f.text({"on", "face set: of the mesh, or one of the sets of the solid"}, v.on, false);
-  f.numberOrWord({"kernel", "width over which contacts are spread on the surface; none: single nodes, which give way the more the finer "
-                  "the mesh"}, v.kernel, positive(unit::length),
-                 kernels);
+  f.numberOrWord(
+      {"kernel",
+       "width over which contacts are spread on the surface; none: single nodes, which give way the more the finer "
+       "the mesh"},
+      v.kernel, positive(unit::length), kernels);
   f.object({"contact", "law of these contacts; that of the grains if not given"}, v.contact);
   contactMaterial(f, v.contactMaterial);
 }

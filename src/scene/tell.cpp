@@ -27,7 +27,7 @@ void tellScene(const fs::path& file, std::ostream& out) {
 }
 
 void tellCsv(const fs::path& file, std::ostream& out) {
-  std::ifstream stream(file);
+  std::ifstream stream = openFile(file);
   for (std::string line; std::getline(stream, line) && line.starts_with('#');) out << line.substr(1) << '\n';
   tellTable(io::readCsv(file), out);
 }
@@ -45,7 +45,7 @@ void tellHdf5(const fs::path& file, std::ostream& out) {
 
 /// Of files of ours that are told as they are.
 void tellText(const fs::path& file, std::ostream& out) {
-  std::ifstream stream(file);
+  std::ifstream stream = openFile(file);
   out << stream.rdbuf();
 }
 

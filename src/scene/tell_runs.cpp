@@ -3,6 +3,7 @@
 #include <iterator>
 #include <ostream>
 
+#include "dovetail/core/atomic_file.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
 #include "json_tree.hpp"
 #include "parts.hpp"
@@ -41,7 +42,7 @@ void tellBox(const std::vector<Vec3>& places, std::ostream& out) {
 
 bool tellSummary(const fs::path& file, std::ostream& out) {
   if (file.filename() != "summary.json") return false;
-  std::ifstream stream(file);
+  std::ifstream stream = openFile(file);
   const Node root = parseJson({std::istreambuf_iterator<char>(stream), {}}, file.string());
   if (root.kind != Node::Kind::object || !root.find("provenance") || !root.find("times")) return false;
   out << "summary" << (root.find("title") ? ": " + root.find("title")->text : "") << '\n';

@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
@@ -16,7 +17,7 @@ using test::readText;
 using test::ScratchFolder;
 using test::writeText;
 
-std::string marked(const std::string& text) { return provenanceLines(withMark({})) + text; }
+std::string marked(const std::string& text) { return provenanceLines(withMark({}), "# ") + text; }
 
 /// One line that ends with a remedy after the place.
 void expectOneClearLine(const std::string& message, const std::string& place) {
@@ -173,7 +174,17 @@ TEST(OwnFiles, AreKnownByTheirMark) {
     return isOurs(scratch / "file");
   };
   EXPECT_TRUE(check(marked("")));
-  EXPECT_TRUE(check("dovetail joints, dovetail 2"));
+  for (const char* const ours :
+       {"// version: dovetail 0.1.0\n{}", "<!-- dovetail 0.1.0 -->\n<svg>",
+        "<?xml version=\"1.0\"?>\n<!-- dovetail 1 -->", "{\n  \"provenance\": {\n    \"version\": \"dovetail 0.1.0\",",
+        "{\n \"version\": \"dovetail 0.1.0\",", "binary STL, dovetail 0.1.0", "** dovetail 0.1.0\n*NODE"})
+    EXPECT_TRUE(check(ours)) << ours;
+  for (const char* const others :
+       {"dovetail joints, dovetail 2", "my notes on dovetail 0.1.0\n", "# run with dovetail 0.1.0\nt,x\n",
+        "\n# version: dovetail 0.1.0\n", "// dovetail 0.1.0\n{\"title\": \"mine\"}",
+        "{\"title\": \"x\", \"provenance\": {\"version\": \"dovetail 0.1.0\"}}", "{\"note\": \"dovetail 0.1.0\"}",
+        "# version: dovetail x", "<!-- dovetail -->", "mine {\"version\": \"dovetail 0.1.0\"}"})
+    EXPECT_FALSE(check(others)) << others;
   EXPECT_FALSE(check("dovetail joints"));
   EXPECT_FALSE(check("dovetail "));
   EXPECT_FALSE(check(""));
@@ -206,6 +217,28 @@ TEST(WriteFile, NeverOverwritesOthersAndLosesNoResult) {
   content.erase("file");
   EXPECT_EQ(readText(scratch / *content.begin()), marked("result"));
   EXPECT_NE(message.find(*content.begin()), std::string::npos) << message;
+}
+
+TEST(WriteFile, DoesNotReplaceAFileOfAnotherKind) {
+  const ScratchFolder scratch;
+  writeText(scratch / "series.csv", marked("t\n"));
+  EXPECT_THROW(writeFileAtomically(scratch / "series.csv", "<!-- dovetail 0.1.0 -->\n<VTKFile>"), InputError);
+  EXPECT_EQ(readText(scratch / "series.csv"), marked("t\n"));
+  EXPECT_EQ(scratch.content(), std::set<std::string>{"series.csv"});
+}
+
+TEST(WriteFile, LeavesNothingBesideADevice) {
+  const ScratchFolder scratch;
+  ASSERT_EQ(::mkfifo((scratch / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(writeFileAtomically(scratch / "pipe", marked("t\n")), InputError);
+  EXPECT_EQ(scratch.content(), std::set<std::string>{"pipe"});
+}
+
+TEST(OutputFolder, FoldersOfARunAreNoLinks) {
+  const ScratchFolder scratch, elsewhere;
+  fs::create_directory_symlink(elsewhere.path(), scratch / "grains");
+  EXPECT_THROW(prepareInnerFolder(scratch / "grains"), InputError);
+  EXPECT_TRUE(elsewhere.content().empty());
 }
 
 TEST(WriteFile, DoesNotReplaceThroughALink) {

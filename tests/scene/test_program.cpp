@@ -1,10 +1,14 @@
 // The program dovetail as its users call it.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "../cantilever/program.hpp"
 #include "surfaces.hpp"
+
+using Words = std::vector<std::string>;
 
 namespace dovetail::scene {
 namespace {
@@ -100,9 +104,12 @@ TEST(Program, StarterScenesAreWrittenOnceAndChecked) {
 /// What a run writes depends on its own scene alone, whatever an earlier one has left.
 TEST(Program, NothingOfAnEarlierRunStandsBesideANewOne) {
   const ScratchFolder folder;
+  const auto words = [&](const std::string& output) {
+    return Words{"run",   starter("plate"),   "--out",    folder.path().string(), "--set", "time=1e-4",
+                 "--set", "output=" + output, "--replace"};
+  };
   const auto run = [&](const std::string& output) {
-    const Outcome outcome = runProgram(
-        {"run", starter("plate"), "--out", folder.path().string(), "--set", "time=1e-4", "--set", "output=" + output});
+    const Outcome outcome = runProgram(words(output));
     EXPECT_EQ(outcome.code, 0) << outcome.err;
   };
   run(std::string(R"({"series": 1e-5, "checkpoints": 5e-5)") + (WITH_HDF5 ? R"(, "hdf5": true)" : "") +
@@ -112,6 +119,46 @@ TEST(Program, NothingOfAnEarlierRunStandsBesideANewOne) {
   run("{}");
   for (const char* const old : {"series.csv", "series.h5", "contacts.pvd", "grains.pvd", "checkpoint.state"})
     EXPECT_FALSE(std::filesystem::exists(folder / old)) << old;
+  if (!WITH_FRAMES) return;
+  const auto frames = [&] {
+    const std::filesystem::directory_iterator entries(folder / "grains");
+    return std::distance(begin(entries), end(entries));
+  };
+  run(R"({"frames": 1e-5})");
+  const auto first = frames();
+  io::test::writeText(folder / "grains/notes.vtu", "mine");
+  run(R"({"frames": 5e-5})");
+  EXPECT_LT(frames(), first);
+  const std::string list = readText(folder / "grains.pvd");
+  int listed = 0;
+  for (std::size_t at = list.find("DataSet"); at != std::string::npos; at = list.find("DataSet", at + 1)) ++listed;
+  EXPECT_EQ(frames(), listed + 1) << "those of the run, and somebody else's file";
+  run("{}");
+  EXPECT_EQ(frames(), 1);
+}
+
+TEST(Program, ReplacesARunOnlyWhenTold) {
+  const ScratchFolder folder;
+  Words words{"run", starter("plate"), "--out", folder.path().string(), "--set", "time=1e-4", "--set", "output={}"};
+  ASSERT_EQ(runProgram(words).code, 0);
+  const std::string before = readText(folder / "summary.txt");
+  expectRefused(runProgram(words), "--replace");
+  EXPECT_EQ(readText(folder / "summary.txt"), before);
+  words.emplace_back("--replace");
+  EXPECT_EQ(runProgram(words).code, 0);
+}
+
+TEST(Program, RefusesPipesAndEndlessIncludes) {
+  const ScratchFolder folder;
+  const std::string pipe = (folder / "pipe.json").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  expectRefused(runProgram({"check", pipe}), "cannot be read");
+  io::test::writeText(folder / "scene.json", R"({"include": ["pipe.json"]})");
+  expectRefused(runProgram({"check", (folder / "scene.json").string()}), "cannot be read");
+  for (int k = 0; k < 3000; ++k)
+    io::test::writeText(folder / (std::to_string(k) + ".json"),
+                        R"({"include": [")" + std::to_string(k + 1) + R"(.json"]})");
+  expectRefused(runProgram({"check", (folder / "0.json").string()}), "deep");
 }
 
 TEST(Program, AProfileTellsOfGrainsAndSolids) {

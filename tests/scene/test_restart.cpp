@@ -102,7 +102,7 @@ TEST(Restart, RunsWhoseTimeIsUpGoOn) {
 TEST(Restart, AFolderServesAgainAndPartsOfStatesGo) {
   const ScratchFolder folder;
   const std::vector<std::string> run{
-      "run",   std::string(SCENES) + "/plate.json", "--out", folder.path().string(), "--set", "time=1e-4",
+      "run",   std::string(SCENES) + "/plate.json", "--out", folder.path().string(), "--replace", "--set", "time=1e-4",
       "--set", "output={\"checkpoints\": 5e-5}"};
   ASSERT_EQ(runProgram(run).code, 0);
   std::filesystem::copy_file(folder / "checkpoint.state", folder / "checkpoint.state.part-1-2");

@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 
+#include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
 
 namespace dovetail::io {
@@ -103,7 +104,7 @@ inline void requireNumbers(std::string_view type, std::string_view content, cons
 
 /// Looks at the counts of all tags and at the numbers of all arrays in ASCII.
 inline void requireReadable(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = openFile(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const std::string_view text = std::string_view(bytes).substr(0, bytes.find("<AppendedData"));
   for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at + 1)) {

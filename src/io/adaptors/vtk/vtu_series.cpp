@@ -88,7 +88,7 @@ VtuSeries::VtuSeries(const std::filesystem::path& folder, std::string name, KeyV
     : folder_(folder), name_(std::move(name)), provenance_(withMark(std::move(provenance))), file_(file) {
   requirePlainName(name_, "VTU series");
   prepareOutputFolder(folder_, {name_ + ".pvd"});
-  prepareOutputFolder(folder_ / name_);
+  prepareInnerFolder(folder_ / name_);
   const std::string ending = framePath(0).extension().string();
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / name_)) {
     const std::string found = entry.path().filename().string();
@@ -140,6 +140,10 @@ void VtuSeries::requireLater(double time) const {
 }
 
 void VtuSeries::commit(double time, const std::string& vtu) {
+  if (times_.empty()) {
+    removeFrames(folder_ / name_, name_);
+    prepareInnerFolder(folder_ / name_);
+  }
   writeFileAtomically(framePath(frames()), vtu, Survives::kills);
   std::string text = "<?xml version=\"1.0\"?>\n<!-- dovetail " + buildInfo().version +
                      " -->\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";

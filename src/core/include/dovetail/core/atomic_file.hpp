@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -10,6 +11,10 @@ namespace dovetail {
 
 /// Whether something at a path was written by a program of ours, which may then replace or remove it.
 using IsOurs = bool (*)(const std::filesystem::path& path);
+
+/// A regular file, opened to be read; a stream that has failed for anything else, whose opening or reading may never
+/// end (pipes, devices) or makes no sense (folders).
+std::ifstream openFile(const std::filesystem::path& path, std::ios::openmode mode = std::ios::in);
 
 /// The first `size` bytes of a regular file, fewer if it is shorter; empty for anything else. Links are not followed.
 std::string headOf(const std::filesystem::path& path, std::size_t size);
