@@ -24,7 +24,7 @@ int corner(const TextScanner& text, std::string_view word, std::size_t vertices)
 
 /// OBJ files have no end mark: one that was cut off within a line must not be taken with half a number.
 void requireLastLineWhole(std::string_view bytes, const std::filesystem::path& path) {
-  if (bytes.back() == '\n') return;
+  if (bytes.empty() || bytes.back() == '\n') return;
   const std::string_view last = bytes.substr(bytes.rfind('\n') + 1);  // all, if there is one line
   if (last.find_first_not_of(" \t\r") == std::string_view::npos || last.front() == '#') return;
   refuse(path, "line " + std::to_string(1 + std::count(bytes.begin(), bytes.end(), '\n')),
@@ -48,7 +48,7 @@ void readFace(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners) 
 }  // namespace
 
 TriangleMesh readObj(const std::filesystem::path& path) {
-  const std::string bytes = readWhole(path);
+  const std::string bytes = plainText(readWhole(path), path);
   requireLastLineWhole(bytes, path);
   TextScanner text(bytes, path);
   TriangleMesh mesh;

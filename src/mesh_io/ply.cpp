@@ -193,7 +193,8 @@ void readItem(Numbers& numbers, const Element& element, int vertices, TriangleMe
 }  // namespace
 
 TriangleMesh readPly(const std::filesystem::path& path) {
-  const std::string bytes = readWhole(path);
+  std::string bytes = readWhole(path);
+  if (bytes.starts_with("\xEF\xBB\xBF") || bytes.find("format ascii") < 200) bytes = plainText(std::move(bytes), path);
   TextScanner text(bytes, path);
   const Header header = readHeader(text);
   const Element *vertex = find(header, "vertex"), *face = find(header, "face");

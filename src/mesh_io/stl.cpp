@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -70,20 +71,56 @@ void readFacet(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners)
   expect(text, "endfacet");
 }
 
+/// Passes over a name, which ends with the line, or where facets follow on it.
+void skipName(TextScanner& text) {
+  for (TextScanner ahead = text;; text = ahead) {
+    const std::string word = lower(ahead.wordOnLine());
+    if (word.empty()) return;
+    const std::string rest = lower(ahead.restOfLine());
+    if (word == "facet" && lower(TextScanner(ahead).wordOnLine()) == "normal") return;
+    if (word == "solid" && rest.find("facet") != std::string::npos) return;
+    if (word == "endsolid") return;
+  }
+}
+
+/// Passes over lines before the first solid that say that they are comments.
+void skipComments(TextScanner& text) {
+  for (TextScanner ahead = text;; text = ahead) {
+    const std::string_view word = ahead.word();
+    const bool comment = !word.empty() && (word.front() == '#' || word.front() == ';' || word.starts_with("//"));
+    if (!comment || !ahead.nextLine()) return;
+  }
+}
+
 TriangleMesh readAscii(std::string_view bytes, const std::filesystem::path& path) {
   TextScanner text(bytes, path);
   TriangleMesh mesh;
   std::vector<int> corners;
+  skipComments(text);
   for (std::string word = lower(text.word()); !word.empty(); word = lower(text.word())) {
     if (word != "solid")
-      text.refuse("there is " + shown(word) + " where 'solid' should be", "give a complete STL file");
-    text.nextLine();  // the rest of the line is a name
+      text.refuse(mesh.x.empty()
+                      ? "the file is neither a text that starts with 'solid' nor a binary STL: there is " + shown(word)
+                      : "there is " + shown(word) + " where 'solid' should be",
+                  "give a complete STL file");
+    skipName(text);
     for (word = lower(text.word()); word == "facet"; word = lower(text.word())) readFacet(text, mesh, corners);
     if (word != "endsolid")
       text.refuse("there is " + shown(word) + " where 'facet' or 'endsolid' should be", "give a complete STL file");
-    text.nextLine();
+    skipName(text);
   }
   return mesh;
+}
+
+/// Whether what the file begins with could be read by people, or has the words of a solid at least.
+bool isText(std::string_view bytes) {
+  const std::string start = lower(bytes.substr(0, 1024));
+  const std::size_t first = start.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && first == start.find("solid") && start.find("facet") != std::string::npos)
+    return true;
+  return std::none_of(bytes.begin(),
+                      bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 512)),
+                      [](char c) { return (c >= 0 && c < ' ' && (c < '\t' || c > '\r')) || c == '\x7F'; });
 }
 
 std::uint32_t floatBits(double value, const std::string& where) {
@@ -101,9 +138,8 @@ TriangleMesh readStl(const std::filesystem::path& path, double tolerance) {
   TriangleMesh mesh;
   if (announced == bytes.size()) {
     mesh = readBinary(bytes, path);
-  } else if (const std::string start = lower(bytes.substr(0, 256));
-             start.find_first_not_of(" \t\r\n") == start.find("solid") && start.find("solid") != std::string::npos) {
-    mesh = readAscii(bytes, path);
+  } else if (const std::string text = plainText(bytes, path); isText(text)) {
+    mesh = readAscii(text, path);
   } else {
     refuse(path, "byte " + std::to_string(std::min(bytes.size(), headerBytes - 4)),
            announced == 0

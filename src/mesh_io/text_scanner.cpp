@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/io/plain_text.hpp"
 
 namespace dovetail::mesh_io {
 
@@ -16,7 +17,7 @@ bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' ||
 
 template <class Value>
 bool parse(std::string_view word, Value& value) {
-  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
   const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
   return result.ec == std::errc{} && result.ptr == word.data() + word.size();
 }
@@ -36,6 +37,13 @@ std::string readWhole(const std::filesystem::path& path) {
     throw InputError("reading a surface broke off", path.string(), "check the disk");
   if (text.empty()) throw InputError("the file is empty", path.string(), "give a file with a surface");
   return text;
+}
+
+std::string plainText(std::string bytes, const std::filesystem::path& path) {
+  if (const std::size_t mark = bytes.size() - io::withoutByteOrderMark(bytes, path.string()).size(); mark > 0)
+    bytes.erase(0, mark);
+  io::endLinesWithLf(bytes);
+  return bytes;
 }
 
 void refuse(const std::filesystem::path& path, const std::string& place, const std::string& problem,
@@ -96,7 +104,7 @@ int TextScanner::integer(std::string_view word) const {
 }
 
 void TextScanner::refuse(const std::string& problem, const std::string& remedy) const {
-  mesh_io::refuse(path_, "line " + std::to_string(line_), problem, remedy);
+  mesh_io::refuse(*path_, "line " + std::to_string(line_), problem, remedy);
 }
 
 std::string shown(std::string_view word) {

@@ -16,6 +16,10 @@ namespace dovetail::mesh_io {
 /// @throws InputError if it is no file, cannot be read, or is empty
 std::string readWhole(const std::filesystem::path& path);
 
+/// A text without a byte-order mark, its lines ending with LF.
+/// @throws InputError for a text in UTF-16
+std::string plainText(std::string bytes, const std::filesystem::path& path);
+
 /// @throws InputError
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& place, const std::string& problem,
                          const std::string& remedy);
@@ -32,7 +36,7 @@ void addFan(const std::vector<int>& corners, geometry::TriangleMesh& mesh);
 class TextScanner {
 public:
   TextScanner(std::string_view text, const std::filesystem::path& path, std::size_t line = 1)
-      : text_(text), path_(path), line_(line) {}
+      : text_(text), path_(&path), line_(line) {}
 
   /// The next word of this line; empty at its end.
   std::string_view wordOnLine();
@@ -42,6 +46,8 @@ public:
   bool nextLine();
   bool atEnd() const { return at_ >= text_.size(); }
   std::size_t offset() const { return at_; }
+  /// What follows on this line.
+  std::string_view restOfLine() const { return text_.substr(at_, text_.find('\n', at_) - at_); }
 
   /// @throws InputError unless the word is a number with a finite value (a leading + is taken)
   double number(std::string_view word) const;
@@ -51,7 +57,7 @@ public:
 
 private:
   std::string_view text_;
-  const std::filesystem::path& path_;
+  const std::filesystem::path* path_;
   std::size_t at_ = 0, line_;
 };
 

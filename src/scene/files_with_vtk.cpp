@@ -1,4 +1,7 @@
 // Surfaces and meshes from files, those of VTK too.
+#include <algorithm>
+#include <cctype>
+
 #include "dovetail/io_vtk/spheres.hpp"
 #include "dovetail/mesh_io/surface_files.hpp"
 #include "dovetail/mesh_io_vtk/vtp.hpp"
@@ -8,11 +11,22 @@
 
 namespace dovetail::scene {
 
-geometry::TriangleMesh readTriangles(const std::string& file) {
-  return file.ends_with(".vtp") ? mesh_io::readVtp(file) : mesh_io::readSurface(file);
+namespace {
+
+bool endsWith(const std::string& file, const std::string& ending) {
+  std::string lower = file;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return lower.ends_with(ending);
 }
-fem::SolidMesh readMesh(const std::string& file) {
-  return file.ends_with(".vtu") ? solid_io::readVtu(file).mesh : solid_io::readSolid(file).mesh;
+
+}  // namespace
+
+geometry::TriangleMesh readTriangles(const std::string& file) {
+  return endsWith(file, ".vtp") ? mesh_io::readVtp(file) : mesh_io::readSurface(file);
+}
+MeshOfFile readMesh(const std::string& file) {
+  solid_io::SolidFile read = endsWith(file, ".vtu") ? solid_io::readVtu(file) : solid_io::readSolid(file);
+  return {std::move(read.mesh), std::move(read.notes)};
 }
 std::vector<MovingSphere> readSpheres(const std::string& file) {
   const io::SphereTable table = io::readSpheres(file);

@@ -6,7 +6,10 @@
 namespace dovetail::scene {
 
 geometry::TriangleMesh readTriangles(const std::string& file) { return mesh_io::readSurface(file); }
-fem::SolidMesh readMesh(const std::string& file) { return solid_io::readSolid(file).mesh; }
+MeshOfFile readMesh(const std::string& file) {
+  solid_io::SolidFile read = solid_io::readSolid(file);
+  return {std::move(read.mesh), std::move(read.notes)};
+}
 std::vector<MovingSphere> readSpheres(const std::string& file) {
   throw InputError("this build reads no files of VTK", file, "give a CSV file, or build with VTK");
 }

@@ -7,6 +7,7 @@
 
 #include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/io/plain_text.hpp"
 
 namespace dovetail::scene {
 
@@ -107,7 +108,7 @@ std::string textOfScene(const fs::path& file, const std::string& where) {
                      "give the name of a JSON file that you may read");
   std::ostringstream text;
   text << stream.rdbuf();
-  return text.str();
+  return std::string(io::withoutByteOrderMark(text.view(), file.string()));
 }
 
 Node withIncludes(Node scene, const std::string& name, const fs::path& folder) {

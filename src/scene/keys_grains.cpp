@@ -79,7 +79,7 @@ void describe(Fields& f, SphereList& v) {
   density(f, v.density);
 }
 void describe(Fields& f, SphereFile& v) {
-  f.file({"file", "CSV with columns x_m, y_m, z_m, radius_m and, if there, vx_m_per_s, vy_m_per_s, vz_m_per_s"},
+  f.file({"file", "CSV with columns x_m, y_m, z_m, radius_m and, all or none, vx_m_per_s, vy_m_per_s, vz_m_per_s"},
          v.file);
   density(f, v.density);
 }

@@ -1,6 +1,7 @@
 // Spheres of a scene.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "checkpoints.hpp"
@@ -9,6 +10,7 @@
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/dem/setup/packing.hpp"
 #include "dovetail/io/time_series.hpp"
+#include "nearest.hpp"
 #include "parts.hpp"
 
 namespace dovetail::scene {
@@ -76,7 +78,11 @@ void add(const Target& to, const SphereList& list) {
                      dem::Density{list.density});
 }
 
-void add(const Target& to, const SphereFrame& from) { add(to, SphereList{{from.density}, readSpheres(from.file)}); }
+void add(const Target& to, const SphereFrame& from) {
+  const std::vector<MovingSphere> spheres = readSpheres(from.file);
+  if (spheres.empty()) throw InputError("the frame has no grains", from.file, "give one with grains, or leave it out");
+  add(to, SphereList{{from.density}, spheres});
+}
 
 void add(const Target& to, const GrainsOfState& from) {
   if (to.grains.particles.size() > 0)
@@ -88,8 +94,38 @@ void add(const Target& to, const GrainsOfState& from) {
                      formatNumber(checkpoint.time) + " s.");
 }
 
+/// Columns that nobody knows, or that want others, are refused: what they say would be lost.
+void requireColumns(const io::TimeSeries& table, const std::string& file) {
+  static const std::vector<std::string> needed = {"x_m", "y_m", "z_m", "radius_m"},
+                                        velocity = {"vx_m_per_s", "vy_m_per_s", "vz_m_per_s"};
+  const std::vector<std::string>& names = table.names();
+  const auto has = [&](const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  std::vector<std::string> known = needed;
+  known.insert(known.end(), velocity.begin(), velocity.end());
+  std::vector<std::string> missing;
+  std::copy_if(known.begin(), known.end(), std::back_inserter(missing), [&](const auto& name) { return !has(name); });
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      const std::string near = nearest(name, missing);
+      throw InputError("the table has a column \"" + name + "\", which is not known here", file,
+                       near.empty()
+                           ? "leave it out; spheres have x_m, y_m, z_m, radius_m and, all or none, vx_m_per_s, "
+                             "vy_m_per_s, vz_m_per_s, and a density and material from the scene"
+                           : "write \"" + near + "\" (values in its unit)");
+    }
+  for (const std::string& name : needed)
+    if (!has(name)) throw InputError("the table has no column \"" + name + "\"", file, "add it");
+  const auto given = std::find_if(velocity.begin(), velocity.end(), has);
+  const auto absent = std::find_if_not(velocity.begin(), velocity.end(), has);
+  if (given != velocity.end() && absent != velocity.end())
+    throw InputError("the table has a column \"" + *given + "\", but no \"" + *absent + "\"", file,
+                     "give all three velocities, 0 where there is none");
+  if (table.rows() == 0) throw InputError("the table has no rows", file, "give one a sphere, or leave the table out");
+}
+
 void add(const Target& to, const SphereFile& from) {
   const io::TimeSeries table = io::readCsv(from.file);
+  requireColumns(table, from.file);
   const auto x = table.column("x_m"), y = table.column("y_m"), z = table.column("z_m"), r = table.column("radius_m");
   std::array<std::span<const double>, 3> v;
   const std::vector<std::string>& names = table.names();

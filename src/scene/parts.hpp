@@ -84,9 +84,14 @@ std::shared_ptr<const fem::PointMaterial> makeMaterial(const SolidMaterial& mate
 /// w of the grains per node of the mesh. @throws InputError for borders between which no node lies
 std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh& mesh);
 
+struct MeshOfFile {
+  fem::SolidMesh mesh;
+  std::vector<std::string> notes;  ///< of what its reader dropped or passed over
+};
+
 // Files of kinds that depend on the build.
 geometry::TriangleMesh readTriangles(const std::string& file);
-fem::SolidMesh readMesh(const std::string& file);
+MeshOfFile readMesh(const std::string& file);
 std::vector<MovingSphere> readSpheres(const std::string& file);
 
 }  // namespace dovetail::scene

@@ -1,5 +1,6 @@
 // Solids of a scene.
 #include <algorithm>
+#include <filesystem>
 
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/fem/elements/solid.hpp"
@@ -18,11 +19,32 @@ fem::SolidMesh meshOf(const BoxMesh& box) {
                                   [&](fem::CellShape one) { return box.shape == fem::name(one); });
   return fem::boxOf(*shape, box.cells, box.box.lower, box.box.upper);
 }
-fem::SolidMesh meshOf(const MeshFile& from) {
-  fem::SolidMesh mesh = readMesh(from.file);
+fem::SolidMesh meshOf(const MeshFile& from, std::vector<std::string>& notes) {
+  auto [mesh, told] = readMesh(from.file);
+  const std::string name = std::filesystem::path(from.file).filename().string();
+  for (const std::string& note : told) notes.push_back(name + ": " + note);
   for (Vec3& X : mesh.X) X = from.scale * X;
   if (!mesh.faceSets.contains("skin")) mesh.faceSets["skin"] = fem::boundaryFaces(mesh);
   return mesh;
+}
+
+/// Of the source of a solid.
+fem::SolidMesh meshOf(const Solid& solid, std::vector<std::string>& notes) {
+  if (const auto* const file = std::get_if<MeshFile>(&solid.mesh)) return meshOf(*file, notes);
+  if (const auto* const box = std::get_if<BoxMesh>(&solid.mesh)) return meshOf(*box);
+  return meshOf(std::get<TetrahedraMesh>(solid.mesh));
+}
+
+/// A set with the elements of this shape, which may have another name if the file uses that.
+std::string setOfShape(fem::SolidMesh& mesh, fem::CellShape shape) {
+  std::vector<int> elements;
+  int next = 0;
+  for (const fem::CellGroup& group : mesh.groups)
+    for (std::size_t e = 0; e < group.size(); ++e, ++next)
+      if (group.shape == shape) elements.push_back(next);
+  std::string name = fem::name(shape);
+  while (mesh.elementSets.try_emplace(name, elements).first->second != elements) name += " elements";
+  return name;
 }
 
 fem::Formulation formulationOf(const std::string& word) {
@@ -44,11 +66,11 @@ const Overlap* overlapWith(const Solid& solid, const Scene& scene) {
   return found;
 }
 
-void addElements(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap) {
+void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap) {
   fem::SolidOptions options{.formulation = formulationOf(solid.formulation), .name = "elements"};
   if (overlap) options.share = arlequin::solidWeights(overlapWeights(*overlap, mesh));
   for (const fem::CellGroup& group : mesh.groups) {
-    if (mesh.groups.size() > 1) options.elementSet = options.name = fem::name(group.shape);
+    if (mesh.groups.size() > 1) options.elementSet = options.name = setOfShape(mesh, group.shape);
     model.add(fem::makeSolid(mesh, makeMaterial(solid.material), options));
   }
 }
@@ -62,9 +84,9 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
                                        [&](const Coupling& coupling) { return coupling.solid == solid.name; });
   if (!meetsGrains) built.notes.push_back("Solid \"" + solid.name + "\" has no coupling: grains pass through it.");
   const Overlap* const overlap = overlapWith(solid, scene);
-  built.meshes.push_back(std::visit([](const auto& source) { return meshOf(source); }, solid.mesh));
+  built.meshes.push_back(meshOf(solid, built.notes));
   addSets(built.meshes.back(), solid);
-  const fem::SolidMesh& mesh = built.meshes.back();
+  fem::SolidMesh& mesh = built.meshes.back();
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   addElements(*model, mesh, solid, overlap);
   if (solid.gravity && norm(scene.gravity) > 0.0) model->add(fem::gravity(scene.gravity));

@@ -95,10 +95,12 @@ std::string writeSummary(const std::filesystem::path& folder, const io::KeyValue
                          Built& built, const RunNotes& notes, const io::TimeSeries* table) {
   coupling::CoupledRun& run = *built.run;
   std::ostringstream text;
-  if (!scene.title.empty()) text << scene.title << '\n';
   for (const std::string& line : notes.lines) text << line << '\n';
   coupling::report(run, text);
-  io::writeFileAtomically(folder / "summary.txt", io::provenanceLines(provenance, "# ") + text.str());
+  const std::string title = scene.title.empty() ? "" : scene.title + '\n';
+  std::string told;  // the log has these from the start
+  for (const std::string& note : built.notes) told += "NOTE: " + note + '\n';
+  io::writeFileAtomically(folder / "summary.txt", io::provenanceLines(provenance, "# ") + title + told + text.str());
   Json json;
   for (const auto& [key, value] : provenance) json["provenance"][key] = value;
   json["title"] = scene.title;
@@ -115,7 +117,7 @@ std::string writeSummary(const std::filesystem::path& folder, const io::KeyValue
   json["warnings"] = notes.warnings;
   json["scene"] = Json::parse(sceneText(scene));
   io::writeFileAtomically(folder / "summary.json", json.dump(2) + "\n");
-  return text.str();
+  return title + text.str();
 }
 
 }  // namespace dovetail::scene

@@ -67,13 +67,16 @@ bool tellShape(const fs::path& file, std::ostream& out) {
     return true;
   }
   if (ending != ".msh" && ending != ".inp") return false;
-  const fem::SolidMesh mesh = readMesh(file.string());
+  const auto [mesh, notes] = readMesh(file.string());
   out << "mesh of " << mesh.X.size() << " nodes\n";
   for (const fem::CellGroup& group : mesh.groups)
     out << "  " << group.size() << " elements " << fem::name(group.shape) << '\n';
+  for (const auto& [name, elements] : mesh.elementSets)
+    out << "  element set \"" << name << "\": " << elements.size() << '\n';
   for (const auto& [name, nodes] : mesh.nodeSets) out << "  node set \"" << name << "\": " << nodes.size() << '\n';
   for (const auto& [name, faces] : mesh.faceSets) out << "  face set \"" << name << "\": " << faces.size() << '\n';
   tellBox(mesh.X, out);
+  for (const std::string& note : notes) out << note << '\n';
   return true;
 }
 

@@ -87,7 +87,7 @@ bool takeFactor(std::string_view& text, bool divides, Quantity& quantity) {
 std::optional<Quantity> quantityOf(const std::string& whole) {
   std::string_view text(whole);
   skipBlanks(text);
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   Quantity quantity{0.0, {}};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), quantity.value);
   if (error != std::errc{} || !std::isfinite(quantity.value)) return {};

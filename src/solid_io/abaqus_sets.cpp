@@ -138,8 +138,8 @@ std::string AbaqusReader::nameOf(const SetName& key, const std::string& name, co
                                  const std::string& what) {
   if (key.first == Space::model || !others.contains({Space::model, key.second})) return name;
   const std::string own = (instance_.empty() ? part_ : instance_) + "." + name;
-  builder_.note("There is a " + what + " \"" + name +
-                "\" of the assembly, which has that name, and one of the part, \"" + own + "\".");
+  builder_.note("The assembly and the part have a" + what + " \"" + name +
+                "\" each: the name is the assembly's, the part's is \"" + own + "\".");
   return own;
 }
 
@@ -161,12 +161,12 @@ void AbaqusReader::giveSets() {
   for (auto& [key, set] : nodeSets_) {
     addNodesOfElements(set);
     noteEmpty(set, "node set");
-    const SetKey given{nameOf(key, set.name, nodeSets_, "node set"), 0, "nodes"};
+    const SetKey given{nameOf(key, set.name, nodeSets_, " node set"), 0, "nodes"};
     for (const Member& member : set.members) builder_.addNodeToSet(given, labelOf(nodeAliases_, member), set.place);
   }
   for (const auto& [key, set] : elementSets_) {
     noteEmpty(set, "element set");
-    const SetKey given{nameOf(key, set.name, elementSets_, "element set"), 2, "elements"};
+    const SetKey given{nameOf(key, set.name, elementSets_, "n element set"), 2, "elements"};
     for (const Member& member : set.members)
       builder_.addElementToSet(given, labelOf(elementAliases_, member), set.place);
   }
@@ -215,7 +215,7 @@ std::vector<Label> AbaqusReader::labelsOf(const LabelSets& sets, const std::map<
 
 void AbaqusReader::readSurfaces() {
   std::map<SetName, SetKey> keys;
-  for (const auto& [key, name] : surfaces_) keys[key] = {nameOf(key, name, surfaces_, "surface"), 1, "surface"};
+  for (const auto& [key, name] : surfaces_) keys[key] = {nameOf(key, name, surfaces_, " surface"), 1, "surface"};
   for (const SurfaceLine& line : surfaceLines_) readSurface(line, keys.at(line.surface));
 }
 

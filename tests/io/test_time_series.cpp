@@ -167,6 +167,42 @@ TEST(Csv, NamesTheLineThatCannotBeRead) {
   EXPECT_THROW(readCsv(scratch.path()), InputError);
 }
 
+TEST(Csv, NamesTheLineOfNamesThatCannotBe) {
+  const ScratchFolder scratch;
+  const auto path = scratch / "table.csv";
+  const std::pair<std::string, std::string> bad[] = {{"# c\na,a\n", "'a' occurs twice"},
+                                                     {"\na,b c\n", "'b c' cannot be used"},
+                                                     {"\na,\n", "the name ''"},
+                                                     {"\na;b\n1;2\n", "not separated by commas"},
+                                                     {"\na\tb\n1\t2\n", "not separated by commas"},
+                                                     {"\n1,2\n", "begins with numbers"},
+                                                     {"# three names\n1,2\n", "begins with numbers"},
+                                                     {"a\n+-1\n", "'+-1' is not a number"}};
+  for (const auto& [content, wanted] : bad) {
+    writeText(path, content);
+    const std::string message = messageOf<InputError>([&] { readCsv(path); });
+    EXPECT_NE(message.find(wanted), std::string::npos) << message;
+    EXPECT_NE(message.find(path.string() + ", line 2"), std::string::npos) << message;
+  }
+  writeText(path, std::string("\xFF\xFEx\0", 4));
+  EXPECT_NE(messageOf<InputError>([&] { readCsv(path); }).find("UTF-16"), std::string::npos);
+}
+
+TEST(Csv, ReadsMarksAndNamesOfOtherPrograms) {
+  const ScratchFolder scratch;
+  for (const char* content :
+       {"\xEF\xBB\xBF"
+        "a,b\n+1.0e-01,2\n",
+        "# a,b\n1e-1,+2\n", "# by numpy\n# a, b\n0.1,2\n", "a,b\r0.1,2\r", "\xEF\xBB\xBF# a,b\r\n0.1,2\r\n"}) {
+    writeText(scratch / "table.csv", content);
+    const TimeSeries table = readCsv(scratch / "table.csv");
+    EXPECT_EQ(table.names(), (std::vector<std::string>{"a", "b"})) << content;
+    ASSERT_EQ(table.rows(), 1u) << content;
+    EXPECT_EQ(table.column("a")[0], 0.1) << content;
+    EXPECT_EQ(table.column("b")[0], 2.0) << content;
+  }
+}
+
 TEST(Csv, ReadsLinesOfOtherSystems) {
   const ScratchFolder scratch;
   writeText(scratch / "series.csv", "a,b\r\n\r\n1,2\r\n3,4");

@@ -81,7 +81,13 @@ TEST(BrokenFiles, TheErrorSaysWhatIsWrongAndWhere) {
   };
   std::string stl = goodFiles(folder)["binary.stl"];
   expectSays("a.stl", stl + "x", ", byte 80", "12 facets need 684");
-  expectSays("a.stl", "short", "", "neither");
+  expectSays("a.stl", "short", ", line 1",
+             "neither a text that starts with 'solid' nor a binary STL: there is 'short'");
+  expectSays("a.stl", "# made by\n" + asciiStl(cube()).substr(1), ", line 2", "neither");
+  expectSays("a.stl", "# nothing but this\n", "", "neither");
+  expectSays("a.stl", std::string("\xFF\xFEs\0o\0", 6), "", "UTF-16");
+  expectSays("a.obj", std::string("\xFF\xFEv\0", 4), "", "UTF-16");
+  expectSays("a.obj", "v 0 0 0\nv +-1 0 0\nv 0 1 0\nf 1 2 3\n", ", line 2", "'+-1' is not a number");
   std::string infinite = stl;
   infinite.replace(84 + 50 + 12 + 2, 2, "\x80\x7f");
   expectSays("a.stl", infinite, ", facet 1 at byte 146", "NaN or infinite");

@@ -1,6 +1,8 @@
 // STL, OBJ and PLY: what is written is read back, and every format gives the same cube.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cube_files.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/geometry/surface_checks.hpp"
@@ -86,6 +88,38 @@ TEST(SurfaceFiles, AsciiStlKeepsDoublesAndTakesSeveralSolidsAndPolygons) {
       "SOLID\nFACET NORMAL nan nan nan OUTER LOOP\nVERTEX 0 0 0 VERTEX 1 0 0\nVERTEX 1 1 0\nVERTEX 0 1 0\nENDLOOP\n"
       "ENDFACET\nENDSOLID quad");
   EXPECT_EQ(readStl(folder / "quad.stl").facets, (std::vector<Facet>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+std::string withCarriageReturns(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  return text;
+}
+
+TEST(SurfaceFiles, MarksLineEndsAndCommentsOfOthersAreTaken) {
+  const ScratchFolder folder;
+  const std::string stl = asciiStl(cube()), mark = "\xEF\xBB\xBF";
+  std::string line = stl;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  const std::pair<std::string, std::string> files[] = {{"mark.stl", mark + stl},
+                                                       {"comments.stl", "# solid by someone\n\n// of today\n" + stl},
+                                                       {"both.stl", mark + "; by someone\r\n" + stl},
+                                                       {"cr.stl", withCarriageReturns(stl)},
+                                                       {"line.stl", line},
+                                                       {"mark.obj", mark + cubeObj()},
+                                                       {"cr.obj", withCarriageReturns(cubeObj())},
+                                                       {"mark.ply", mark + asciiPly()},
+                                                       {"cr.ply", withCarriageReturns(asciiPly())}};
+  for (const auto& [name, content] : files) {
+    SCOPED_TRACE(name);
+    writeText(folder / name, content);
+    expectCube(readSurface(folder / name));
+  }
+  writeText(folder / "two.stl", line + " " + line);
+  EXPECT_EQ(readStl(folder / "two.stl").facets.size(), 24u);
+  writeText(folder / "name.stl", "solid facet\n" + stl.substr(stl.find('\n') + 1));
+  expectCube(readStl(folder / "name.stl"));
+  writeText(folder / "empty.stl", "solid a endsolid a\n" + stl);
+  expectCube(readStl(folder / "empty.stl"));
 }
 
 TEST(SurfaceFiles, WeldingJoinsVerticesWithinTheToleranceOnly) {

@@ -4,6 +4,12 @@
 
 namespace dovetail::scene {
 
+TEST(Units, APlusSignIsTakenOnce) {
+  ASSERT_TRUE(quantityOf("+1.0e-01 m"));
+  EXPECT_EQ(quantityOf("+1.0e-01 m")->value, 0.1);
+  EXPECT_FALSE(quantityOf("+-1 m"));
+}
+
 TEST(Units, QuantitiesAreInSi) {
   const auto expect = [](const char* text, double value, Dimension dimension) {
     const auto found = quantityOf(text);

@@ -20,8 +20,8 @@ TEST(NameSpaces, SetsOfTheAssemblyComeBeforeThoseOfThePart) {
   EXPECT_EQ(fem::faceSet(mesh, "Surf-1").size(), 1u);
   EXPECT_EQ(fem::nodeSet(mesh, "Part-1-1.Surf-1"), range(0, 3));
   EXPECT_EQ(fem::faceSet(mesh, "Part-1-1.Surf-1").size(), 1u);
-  EXPECT_NE(notesOf(file).find("There is a node set \"Set-1\" of the assembly, which has that name, and one of the "
-                               "part, \"Part-1-1.Set-1\"."),
+  EXPECT_NE(notesOf(file).find("The assembly and the part have a node set \"Set-1\" each: the name is the assembly's, "
+                               "the part's is \"Part-1-1.Set-1\"."),
             std::string::npos)
       << notesOf(file);
 }

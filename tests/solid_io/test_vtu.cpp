@@ -79,6 +79,15 @@ TEST_F(Vtu, ArraysThatGiveSetsOfOneNameStayApart) {
   EXPECT_EQ(fem::nodeSet(file.mesh, "b (cells)"), (std::vector<int>{0, 1, 2}));
 }
 
+TEST_F(Vtu, NumbersMayHaveAPlusSign) {
+  std::string text = asciiTet("0 1 2 3 0 1 2", "4 7", "10 5");
+  text.replace(text.find("0 0 0 1 0 0 0 1"), 15, "0 0 0 +1.0e+00 0 0 0 1");
+  EXPECT_EQ(readVtu(write(text)).mesh.X[1], (Vec3{1.0, 0.0, 0.0}));
+  text.replace(text.find("+1.0"), 2, "+-1");
+  EXPECT_THROW(readVtu(write(text)), InputError);
+  EXPECT_EQ(readVtu(write("\xEF\xBB\xBF" + asciiTet("0 1 2 3 0 1 2", "4 7", "10 5"))).mesh.X.size(), 4u);
+}
+
 TEST_F(Vtu, MeshesOfSeveralShapesHaveASetOfEach) {
   fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
   mesh.X.insert(mesh.X.end(), {{3, 0, 0}, {4, 0, 0}, {3, 1, 0}, {3, 0, 1}});

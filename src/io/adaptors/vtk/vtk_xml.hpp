@@ -40,6 +40,7 @@ inline std::string_view attribute(std::string_view tag, std::string_view name, s
 
 template <class Number>
 bool isWholly(std::string_view word, Number& value) {
+  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc{} && end == word.data() + word.size();
 }
@@ -113,7 +114,8 @@ inline void requireReadable(const std::filesystem::path& path) {
     const std::string_view tag = text.substr(at, end - at);
     requirePlausibleCounts(tag, bytes.size(), path);
     if (tag.starts_with("<VTKFile")) requireKnownRoot(tag, path);
-    if (tag.starts_with("<Array") && attribute(tag, "type", "") != "String") requireKnownType(attribute(tag, "type", ""), path);
+    if (tag.starts_with("<Array") && attribute(tag, "type", "") != "String")
+      requireKnownType(attribute(tag, "type", ""), path);
     if (tag.starts_with("<DataArray")) requireKnownType(attribute(tag, "type", ""), path);
     const bool ascii = tag.starts_with("<DataArray") && attribute(tag, "format", "ascii") == "ascii";
     if (!ascii || tag.ends_with('/')) continue;
