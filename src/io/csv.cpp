@@ -70,7 +70,7 @@ double parseNumber(const std::string& field, const std::string& where) {
 }
 
 TimeSeries tableOf(const std::vector<std::string>& names, const std::string& where) {
-  if (names.size() == 1 && names[0].find_first_of(";\t") != std::string::npos)
+  if (names.size() == 1 && names[0].find_first_of("; \t") != std::string::npos)
     throw InputError("the names of columns are not separated by commas", where,
                      "write a,b,… and numbers with decimal points");
   try {

@@ -71,15 +71,40 @@ void readFacet(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners)
   expect(text, "endfacet");
 }
 
-/// Passes over a name, which ends with the line, or where facets follow on it.
+/// Whether "facet normal" and three numbers come next on this line.
+bool facetFollows(TextScanner text) {
+  if (lower(text.wordOnLine()) != "facet" || lower(text.wordOnLine()) != "normal") return false;
+  for (int k = 0; k < 3; ++k)
+    if (!isNumber(text.wordOnLine())) return false;
+  return true;
+}
+
+/// Whether a solid with a facet begins further on in this line, behind the word "solid".
+bool solidFollows(TextScanner text) {
+  for (; !facetFollows(text);)
+    if (text.wordOnLine().empty()) return false;
+  return true;
+}
+
+/// Passes over the name of a solid, which ends with the line, or where a facet or the end of the solid follows on it.
 void skipName(TextScanner& text) {
+  TextScanner next = text;
+  const std::string below = next.nextLine() ? lower(next.word()) : "";
+  const bool goesOnBelow = below == "facet" || below == "endsolid";
+  for (TextScanner ahead = text; !facetFollows(text); text = ahead) {
+    const std::string word = lower(ahead.wordOnLine());
+    if (word.empty() || (word == "endsolid" && !goesOnBelow)) return;
+  }
+}
+
+/// The same behind "endsolid", where the next solid may follow on the line.
+void skipNameOfEnd(TextScanner& text) {
   for (TextScanner ahead = text;; text = ahead) {
     const std::string word = lower(ahead.wordOnLine());
-    if (word.empty()) return;
-    const std::string rest = lower(ahead.restOfLine());
-    if (word == "facet" && lower(TextScanner(ahead).wordOnLine()) == "normal") return;
-    if (word == "solid" && rest.find("facet") != std::string::npos) return;
-    if (word == "endsolid") return;
+    if (word == "solid" && solidFollows(ahead)) return;
+    if (word != "solid" && !word.empty()) continue;
+    text.nextLine();  // no solid follows on this line
+    return;
   }
 }
 
@@ -107,7 +132,7 @@ TriangleMesh readAscii(std::string_view bytes, const std::filesystem::path& path
     for (word = lower(text.word()); word == "facet"; word = lower(text.word())) readFacet(text, mesh, corners);
     if (word != "endsolid")
       text.refuse("there is " + shown(word) + " where 'facet' or 'endsolid' should be", "give a complete STL file");
-    skipName(text);
+    skipNameOfEnd(text);
   }
   return mesh;
 }

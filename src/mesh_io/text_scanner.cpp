@@ -107,6 +107,11 @@ void TextScanner::refuse(const std::string& problem, const std::string& remedy) 
   mesh_io::refuse(*path_, "line " + std::to_string(line_), problem, remedy);
 }
 
+bool isNumber(std::string_view word) {
+  double value = 0.0;
+  return parse(word, value);
+}
+
 std::string shown(std::string_view word) {
   if (word.empty()) return "nothing";
   std::string text = "'";

@@ -61,6 +61,8 @@ private:
   std::size_t at_ = 0, line_;
 };
 
+/// Whether a word is a number, NaN and infinity included.
+bool isNumber(std::string_view word);
 /// A word for an error message: short, and printable.
 std::string shown(std::string_view word);
 /// Lower case, ASCII only.

@@ -175,6 +175,7 @@ TEST(Csv, NamesTheLineOfNamesThatCannotBe) {
                                                      {"\na,\n", "the name ''"},
                                                      {"\na;b\n1;2\n", "not separated by commas"},
                                                      {"\na\tb\n1\t2\n", "not separated by commas"},
+                                                     {"\n0.1 0.2\n", "not separated by commas"},
                                                      {"\n1,2\n", "begins with numbers"},
                                                      {"# three names\n1,2\n", "begins with numbers"},
                                                      {"a\n+-1\n", "'+-1' is not a number"}};

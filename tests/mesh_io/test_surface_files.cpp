@@ -118,6 +118,10 @@ TEST(SurfaceFiles, MarksLineEndsAndCommentsOfOthersAreTaken) {
   EXPECT_EQ(readStl(folder / "two.stl").facets.size(), 24u);
   writeText(folder / "name.stl", "solid facet\n" + stl.substr(stl.find('\n') + 1));
   expectCube(readStl(folder / "name.stl"));
+  const std::string body = stl.substr(stl.find('\n') + 1);
+  writeText(folder / "words.stl", "solid with facet normal in its endsolid name facet normal\n" +
+                                      body.substr(0, body.rfind("endsolid")) + "endsolid a solid facet normal name\n");
+  expectCube(readStl(folder / "words.stl"));
   writeText(folder / "empty.stl", "solid a endsolid a\n" + stl);
   expectCube(readStl(folder / "empty.stl"));
 }
