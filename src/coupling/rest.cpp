@@ -17,6 +17,11 @@ double CoupledRun::kineticEnergy() const {
   return sum;
 }
 
+void CoupledRun::damp(bool on) {
+  impl_->requireStarted("damp");
+  for (const auto& solid : impl_->solids) solid->damp(on);
+}
+
 void CoupledRun::stop() {
   dem::close(grains);
   impl_->broughtToRest += kineticEnergy();
@@ -43,22 +48,29 @@ static double elasticEnergy(CoupledRun& run) {
   return sum;
 }
 
+/// 0 where nothing moves, with elastic energy or without; 1 where there is none to compare with.
+static double overElastic(double kinetic, CoupledRun& run) {
+  if (kinetic == 0.0) return 0.0;
+  const double elastic = elasticEnergy(run);
+  return elastic > 0.0 ? kinetic / elastic : 1.0;
+}
+
 bool settleOn(CoupledRun& run, const RestOptions& options, RestProgress& progress, std::int64_t windows) {
   requirePositive(options.kinetic, "kinetic energy at rest");
   if (options.windows < 1)
     throw InputError("windows is " + std::to_string(options.windows), "RestOptions", "give 1 or more");
   RestReport& report = progress.report;
   if (report.windows == 0) run.stop();
+  run.damp(true);
   const std::int64_t end = std::min(options.windows, report.windows + windows);
   for (; report.windows < end && progress.quiet < 2; ++report.windows) {
     run.advance();
     const double kinetic = run.kineticEnergy();
-    if (kinetic >= progress.before) {
+    if (kinetic >= progress.before && kinetic > 0.0) {
       progress.before = kinetic;
       continue;
     }
-    const double elastic = elasticEnergy(run);
-    report.kinetic = elastic > 0.0 ? progress.before / elastic : 1.0;
+    report.kinetic = overElastic(progress.before, run);
     progress.quiet = report.kinetic <= options.kinetic ? progress.quiet + 1 : 0;
     ++report.stops;
     run.stop();
@@ -66,8 +78,8 @@ bool settleOn(CoupledRun& run, const RestOptions& options, RestProgress& progres
   }
   report.atRest = progress.quiet == 2;
   const bool givenUp = !report.atRest && report.windows >= options.windows;
-  if (const double elastic = givenUp ? elasticEnergy(run) : 0.0; elastic > 0.0)
-    report.kinetic = std::max(report.kinetic, progress.before / elastic);
+  if (givenUp) report.kinetic = std::max(report.kinetic, overElastic(progress.before, run));
+  if (report.atRest || givenUp) run.damp(false);
   return report.atRest || givenUp;
 }
 

@@ -52,6 +52,8 @@ public:
   /// A step of K dt under `load`, all else standing.
   virtual void stepUnder(const NodalLoad& load) = 0;
 
+  /// Whether what rings at periods of few steps is to die out; settle() asks for it.
+  virtual void damp(bool) {}
   /// On every node at the end of a window, N: the solid's own, those of connectors, and what constraints answer.
   virtual std::vector<Vec3> forces() const = 0;
   virtual double kineticEnergy() const = 0;

@@ -269,10 +269,11 @@ private:
       notes.lines.push_back((one.warns ? "WARNING: " : "") + textOf(one));
       if (one.warns) notes.warnings.push_back(textOf(one));
     }
-    for (const std::string& text : strangersIn(built_)) {
-      notes.lines.push_back("WARNING: " + text);
-      notes.warnings.push_back(text);
-    }
+    for (const Lines& lines : {strangersIn(built_), hourglassIn(built_)})
+      for (const std::string& text : lines) {
+        notes.lines.push_back("WARNING: " + text);
+        notes.warnings.push_back(text);
+      }
     for (std::size_t k = 0; k < scene_.stages.size(); ++k) {
       notes.stages.push_back({k + 1, nameOf(scene_.stages[k]), rounded(seconds_[k])});
       notes.lines.push_back(lineOf(k));

@@ -115,7 +115,8 @@ void describe(Fields& f, Solid& v) {
   f.flag({"gravity", "whether gravity acts on it"}, v.gravity);
   f.choice({"stepping", "how it is stepped in time"}, v.implicitSteps, steppings);
   f.number({"mass_share",
-            "of the consistent mass, the rest being lumped; (1 - (d/h)^2)/2 lets waves go as in a lattice of "
+            "of the consistent mass, the rest being lumped; 1 with implicit steps, else 0, if not given; (1 - "
+            "(d/h)^2)/2 lets waves go as in a lattice of "
             "grains of diameter d in elements of edge h"},
            v.massShare, between(0.0, 1.0));
   velocity(f, v.velocity, "of all its nodes at the start");

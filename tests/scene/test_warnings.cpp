@@ -85,8 +85,7 @@ TEST(SceneWarnings, WallsThatAreOpenClosedOrCutThemselves) {
   };
   expectParts(wall("closed.stl", ""), {"Mesh wall 0 is closed, but counts as a sheet"});
   EXPECT_EQ(wall("closed.stl", R"(, "closed": true)"), "");
-  mesh_io::writeStl(folder / "cavity.stl", x,
-                    std::vector<geometry::Facet>{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}});
+  mesh_io::writeStl(folder / "cavity.stl", x, std::vector<geometry::Facet>{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}});
   expectParts(wall("cavity.stl", R"(, "closed": true)"), {"Mesh wall 0 is closed with its normals inwards"});
   expectParts(wall("crossing.stl", ""), {"cuts itself at 1 pairs of facets, the first 0 and 1"});
 }
@@ -98,8 +97,8 @@ TEST(SceneWarnings, SettlingWhileWallsMove) {
                                         motion + R"(}], "steps": {"dt": 1e-4}, "stages": [{"do": "settle"}]})",
                                     "s.json", "/"));
   };
-  for (const char* const motion : {R"("velocity": [0, 0, "t"])", R"("displacement": [0, 0, "t"])",
-                                   R"("turn": {"axis": [0, 0, 1], "angle": "t"})"})
+  for (const char* const motion :
+       {R"("velocity": [0, 0, "t"])", R"("displacement": [0, 0, "t"])", R"("turn": {"axis": [0, 0, 1], "angle": "t"})"})
     expectParts(of(motion), {"settles while walls"});
   EXPECT_EQ(of(R"("displacement": [0, 0, 0.1])"), "");
 }
@@ -127,6 +126,46 @@ TEST(SceneWarnings, OverlapsWhoseModelsDoNotGoTogether) {
   expectParts(overlapWarnings(borders, 10.0 * modulus, bulk, "[1, 1, 10]"), {"10 times that of the grains"});
   expectParts(overlapWarnings(R"("solid_border": 1, "particle_border": 1.25)", modulus, bulk, "[1, 1, 20]"),
               {"0.25 m thick, with elements of 0.1 m and grains of 0.1 m"});
+}
+
+std::string bodyOf(const std::string& keys, const std::string& supports = R"("supports": [{"on": "x-"}])") {
+  return R"("solids": [{"name": "b", "mesh": "box", "gravity": false,
+      "material": {"law": "St-Venant-Kirchhoff", "youngs_modulus": 1e6, "poisson_ratio": 0, "density": 1000},)" +
+         keys + "," + supports + "}],";
+}
+
+TEST(SceneWarnings, ThinPartsOfElementsThatBendWrongly) {
+  const std::string beam = R"("box": [[0, 0, 0], [10, 1, 1]], )";
+  expectParts(warningsOf(bodyOf(beam + R"("cells": [20, 1, 1], "formulation": "reduced")")),
+              {"\"b\" has 1 layer of hex8 (\"reduced\")", "1 m thick", "many times too softly", "\"enhanced\""});
+  expectParts(warningsOf(bodyOf(beam + R"("cells": [20, 2, 2], "formulation": "reduced")")),
+              {"2 layers", "about 1.33 times too softly", "4 layers or more"});
+  expectParts(warningsOf(bodyOf(beam + R"("cells": [20, 1, 1], "formulation": "mean-dilatation")")),
+              {"1 layer", "about 1.42 times too softly"});
+  expectParts(warningsOf(bodyOf(beam + R"("cells": [5, 2, 2])")), {"2 m long", "about 3 times too stiffly"});
+  expectParts(warningsOf(bodyOf(beam + R"("cell": "tet4", "cells": [10, 1, 1])")),
+              {"tet4", "about 4.1 times too stiffly", "tet10"});
+  expectParts(warningsOf(bodyOf(R"("box": [[0, 0, 0], [3, 3, 0.1]], "cells": [10, 10, 1])")),
+              {"0.1 m thick", "too stiffly"});
+  for (const char* const right :
+       {R"("cells": [20, 4, 4], "formulation": "reduced")", R"("cells": [20, 1, 1], "formulation": "enhanced")",
+        R"("cells": [20, 1, 1], "formulation": "assumed-stress")", R"("cells": [40, 2, 2])",
+        R"("cell": "hex20", "cells": [5, 1, 1])", R"("cell": "tet10", "cells": [10, 1, 1])",
+        R"("cell": "hex27", "cells": [5, 1, 1])"})
+    EXPECT_EQ(warningsOf(bodyOf(beam + right)), "") << right;
+}
+
+TEST(SceneWarnings, ThickBodiesAndHeldLayersHaveNone) {
+  for (const char* const cell : {R"("formulation": "reduced")", R"("formulation": "mean-dilatation")",
+                                 R"("formulation": "standard")", R"("cell": "tet4")"}) {
+    const std::string elements = std::string(cell) + ", ";
+    EXPECT_EQ(warningsOf(bodyOf(elements + R"("cells": [1, 1, 1], "box": [[0, 0, 0], [1, 1, 1]])")), "") << cell;
+    EXPECT_EQ(warningsOf(bodyOf(elements + R"("cells": [1, 1, 4], "box": [[0, 0, 0], [1, 1, 4]])")), "") << cell;
+    EXPECT_EQ(warningsOf(bodyOf(elements + R"("cells": [3, 3, 1], "box": [[0, 0, 0], [1, 1, 0.4]])")), "") << cell;
+    const std::string pad = R"("cells": [10, 10, 1], "box": [[0, 0, 0], [10, 10, 1]])";
+    EXPECT_EQ(warningsOf(bodyOf(elements + pad, R"("supports": [{"on": "z-"}])")), "") << cell;
+    EXPECT_NE(warningsOf(bodyOf(elements + pad)), "") << cell;
+  }
 }
 
 }  // namespace

@@ -1,20 +1,43 @@
 #include "dovetail/fem/motion/energy_book.hpp"
 
+#include <algorithm>
+
 #include "dovetail/core/error.hpp"
+#include "dovetail/fem/elements/solid.hpp"
 #include "run_state.hpp"
 
 namespace dovetail::fem {
 
+namespace {
+
+Solid* withHourglass(Term& term) {
+  auto* const elements = dynamic_cast<Solid*>(&term);
+  const bool has = elements && elements->formulation() == Formulation::reduced && elements->shape() == CellShape::hex8;
+  return has ? elements : nullptr;
+}
+
+}  // namespace
+
 EnergyBook::EnergyBook(const Model& model) : kinetic_(ledger_.addStored("kinetic")) {
-  for (const auto& term : model.terms)
-    if (term->hasEnergy()) stored_.push_back(ledger_.addStored(term->name()));
+  for (std::size_t k = 0; k < model.terms.size(); ++k) {
+    Term& term = *model.terms[k];
+    if (!term.hasEnergy()) continue;
+    const EnergyLedger::Id own = ledger_.addStored(term.name());
+    stored_.push_back({k, own, withHourglass(term) ? ledger_.addStored("hourglass of " + term.name()) : own});
+  }
 }
 
 void EnergyBook::sample(const Model& model, std::span<const double> energies, double kinetic) {
   ledger_.set(kinetic_, kinetic);
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < model.terms.size(); ++k)
-    if (model.terms[k]->hasEnergy()) ledger_.set(stored_[next++], energies[k]);
+  for (const Stored& one : stored_) {
+    double own = energies[one.term];
+    if (one.hourglass != one.channel) {
+      const double hourglass = withHourglass(*model.terms[one.term])->hourglassEnergy(model.nodes);
+      ledger_.set(one.hourglass, hourglass);
+      own -= hourglass;
+    }
+    ledger_.set(one.channel, own);
+  }
 }
 
 void EnergyBook::spend(const std::string& channel, double joules) {
@@ -56,7 +79,8 @@ EnergyLedger::Kind readKind(ByteReader& archive) {
 /// Builds the ledger anew: first with the values at the opening, then with the present ones.
 EnergyBook EnergyBook::read(ByteReader& archive) const {
   const std::int64_t count = detail::readCount(archive, "number of channels");
-  const auto storedChannels = static_cast<std::int64_t>(1 + stored_.size());
+  const auto storedChannels = static_cast<std::int64_t>(std::ranges::count_if(
+      ledger_.channels(), [](const auto& one) { return one.kind == EnergyLedger::Kind::stored; }));
   EnergyBook book = *this;
   book.ledger_ = {};
   book.booked_.clear();

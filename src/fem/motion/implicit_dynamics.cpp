@@ -75,7 +75,7 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
     mass.multiply(change, rate);
     const std::vector<Vec3> force = solver.meanForce(), follows = following(motion), freeRinging = following(ringing);
     double support = 0.0, lost = 0.0;
-    giveImpulses(h, rate, force, ringing);
+    giveImpulses(h, rate, ringing);
     for (std::size_t k = 0; k < n; ++k) {
       const Vec3 reaction = rate[k] - force[k];
       // Prescribed velocities are not quite the mean of the motion: their kinetic energy comes from the support.
@@ -90,14 +90,15 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
   }
   /// Impulses over the step of length h that has just converged.
   /// @param rate  M (v₁ − v₀)/h, N @param ringing  mean velocity times h less the motion, m
-  void giveImpulses(double h, std::span<const Vec3> rate, std::span<const Vec3> force, std::span<const Vec3> ringing) {
+  void giveImpulses(double h, std::span<const Vec3> rate, std::span<const Vec3> ringing) {
+    const std::vector<Vec3> force = solver.givenForce();
     Nodes mean;
     mean.X = model.nodes.X;
     for (std::size_t k = 0; k < rate.size(); ++k)
       mean.u.push_back(0.5 * (solver.startDisplacement()[k] + model.nodes.u[k]));
     for (std::size_t k = 0; k < model.terms.size(); ++k)
       if (!detail::isElements(*model.terms[k]))
-        impulses.give(model.terms[k]->name(), h * momentaOf(mean, solver.meanLoad(k)));
+        impulses.give(model.terms[k]->name(), h * momentaOf(mean, solver.givenLoad(k)));
     // Ties pull at their masters; through a mass that is not lumped, prescribed motion pulls at its neighbours.
     const bool everyRow = dofs.hasTies() || (dofs.hasMotion() && !mass.isDiagonal());
     Momenta supports;
@@ -154,6 +155,15 @@ void ImplicitIntegrator::step() {
 void ImplicitIntegrator::run(std::int64_t steps) {
   for (std::int64_t k = 0; k < steps; ++k) step();
   impl_->model.nodes.f = impl_->solver.forces();
+}
+void ImplicitIntegrator::use(const Scheme& scheme) {
+  const auto ofNewmark = [](const Scheme& one) { return !one.conserving && one.alphaM == 0.0 && one.alphaF == 0.0; };
+  if (!ofNewmark(scheme) || !ofNewmark(impl_->options.scheme))
+    throw InputError(impl_->options.scheme.name + " cannot become " + scheme.name, "ImplicitIntegrator::use",
+                     "let both be Newmark's");
+  if (scheme.beta == impl_->options.scheme.beta && scheme.gamma == impl_->options.scheme.gamma) return;
+  impl_->options.scheme = scheme;
+  impl_->solver.use(scheme);
 }
 const ModelMass& ImplicitIntegrator::mass() const { return impl_->mass; }
 const ImpulseBook& ImplicitIntegrator::impulses() const { return impl_->impulses; }

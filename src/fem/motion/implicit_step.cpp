@@ -238,11 +238,12 @@ double ImplicitStep::loadWork(std::size_t term, const std::vector<Vec3>& motion)
   return conserving() ? end : 0.5 * (end + innerProduct(start_.loads[term], motion));
 }
 
-std::vector<Vec3> ImplicitStep::meanLoad(std::size_t term) const {
-  std::vector<Vec3> mean = end_.loads[term];
+std::vector<Vec3> ImplicitStep::weighted(std::vector<Vec3> end, const std::vector<Vec3>& start) const {
+  const Scheme& s = options_.scheme;
+  const double gamma = s.alphaF == 0.0 && s.alphaM == 0.0 ? s.gamma : 0.5;
   if (!conserving())
-    for (std::size_t n = 0; n < mean.size(); ++n) mean[n] = 0.5 * (mean[n] + start_.loads[term][n]);
-  return mean;
+    for (std::size_t n = 0; n < end.size(); ++n) end[n] = gamma * end[n] + (1.0 - gamma) * start[n];
+  return end;
 }
 
 void ImplicitStep::accept() {

@@ -29,13 +29,20 @@ public:
   /// Makes the end the start of the next step. Call after booking.
   void accept();
   void dropFactors() { solver_.drop(); }
+  void use(const Scheme& scheme) {
+    options_.scheme = scheme;
+    solver_.drop();
+  }
 
   // Of the accepted step, for the ledger:
   const std::vector<Vec3>& startDisplacement() const { return u0_; }
   const std::vector<Vec3>& startVelocity() const { return v0_; }
-  /// Mean total force of the step (conserving: the force of the step), and of a term that is kept apart, by its number.
+  /// Mean total force of the step (conserving: the force of the step).
   std::vector<Vec3> meanForce() const;
-  std::vector<Vec3> meanLoad(std::size_t term) const;
+  /// What gave the step its momentum, in total and by a term that is kept apart: with the weights 1 − γ and γ of both
+  /// ends by which Newmark's velocities change; means for schemes of two instants.
+  std::vector<Vec3> givenForce() const { return weighted(end_.total, start_.total); }
+  std::vector<Vec3> givenLoad(std::size_t term) const { return weighted(end_.loads[term], start_.loads[term]); }
   double loadWork(std::size_t term, const std::vector<Vec3>& motion) const;
   const LinearSolver& solver() const { return solver_; }
   /// Names of the terms with an energy that a conserving step does not keep.
@@ -56,6 +63,7 @@ private:
   bool conserving() const { return options_.scheme.conserving; }
   Instant atEnd() const { return {model_.t + h_, h_, &mass_, !conserving()}; }
   Instant inMiddle() const { return {model_.t + 0.5 * h_, 0.5 * h_, &mass_}; }
+  std::vector<Vec3> weighted(std::vector<Vec3> end, const std::vector<Vec3>& start) const;
   void addStartRates(double h);
   void setBase();
   void makeGuess(Guess guess);

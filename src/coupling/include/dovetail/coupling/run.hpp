@@ -122,6 +122,9 @@ public:
 
   /// All velocities to zero, between windows; what that takes is booked as "brought to rest".
   void stop();
+  /// Implicit solids lose from the next window on what rings at periods of few windows, or no more; settle() asks for
+  /// it while it goes on. In the books as the dissipation of the scheme.
+  void damp(bool on);
   /// Of particles, bodies and solids, J.
   double kineticEnergy() const;
 
@@ -135,7 +138,8 @@ public:
   const EnergyLedger& ledger();
   Totals totals() const;
   /// Of solid k at the end of the last window: M a − f, with the accelerations a that the forces f and the motion of
-  /// supports (second differences over a window) make. Sums of `supports` and of all loads are the rate of the momentum.
+  /// supports (second differences over a window) make. Sums of `supports` and of all loads are the rate of the
+  /// momentum.
   Reactions reactions(std::size_t k) const;
   /// Of steps with the contacts, elements and connectors as they are now, and with the first contacts of particles that
   /// touch nobody yet (dem::impactLimit). All connectors of a solid and its own forces share the same nodes; in windows
@@ -161,7 +165,8 @@ private:
 void report(CoupledRun& run, std::ostream& out);
 
 struct RestOptions {
-  /// At rest when no swing has had a kinetic energy above this share of the elastic energy, twice in a row.
+  /// At rest when no swing has had a kinetic energy above this share of the elastic energy, twice in a row; where
+  /// nothing moves at all, whatever there is of energies.
   double kinetic = 1e-8;
   std::int64_t windows = 200000;  ///< given up after so many
 };

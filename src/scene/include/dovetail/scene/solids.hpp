@@ -97,8 +97,8 @@ struct Solid {
   std::string formulation = "standard";
   bool gravity = true;
   bool implicitSteps = false;
-  double massShare = 0.0;  ///< of the consistent mass
-  Vec3 velocity;           ///< of all nodes at the start, m/s
+  std::optional<double> massShare;  ///< of the consistent mass; not given: 1 for implicit steps, else 0
+  Vec3 velocity;                    ///< of all nodes at the start, m/s
   std::vector<NamedSet> sets;
   std::vector<Support> supports;
   std::vector<Load> loads;
@@ -107,7 +107,7 @@ struct Solid {
 };
 
 struct SurfaceContact {
-  std::string on = "skin";           ///< face set
+  std::string on = "skin";              ///< face set
   NumberOrWord kernel{0.0, "advised"};  ///< width, m, or "none" or "advised"
   std::optional<ContactLaw> contact;
   std::string contactMaterial;

@@ -161,6 +161,8 @@ public:
   void run(std::int64_t steps);
   const EnergyLedger& ledger() const;
   DynamicsReport report() const;
+  /// Takes another scheme of Newmark's from the next step on. @throws InputError if either is of another family
+  void use(const Scheme& scheme);
   const ModelMass& mass() const;
   double kineticEnergy() const;
   /// What supports and the terms but the elements have given, if there is a ledger: the means of both ends of a step

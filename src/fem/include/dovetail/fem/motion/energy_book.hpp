@@ -10,7 +10,8 @@
 
 namespace dovetail::fem {
 
-/// A stored channel for kinetic energy and for each term with energy; booked channels appear with their first joule.
+/// A stored channel for kinetic energy and for each term with energy, and for what elements with hourglass stiffness
+/// store in that, which is not in theirs; booked channels appear with their first joule.
 class EnergyBook {
 public:
   explicit EnergyBook(const Model& model);
@@ -31,7 +32,11 @@ public:
 private:
   EnergyLedger ledger_;
   EnergyLedger::Id kinetic_;
-  std::vector<EnergyLedger::Id> stored_;  // per term with energy
+  struct Stored {
+    std::size_t term;
+    EnergyLedger::Id channel, hourglass;  // one and the same without hourglass stiffness
+  };
+  std::vector<Stored> stored_;  // of terms with energy
   std::map<std::string, EnergyLedger::Id> booked_;
 };
 

@@ -1,0 +1,119 @@
+// Elements that bend too softly or too stiffly in thin parts of solids.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
+#include "dovetail/fem/mesh/mesh_thickness.hpp"
+#include "warnings.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+constexpr double slender = 5.0;     // length over thickness of what bends
+constexpr double tolerated = 0.15;  // of the stiffness in bending
+
+/// Whether anything but the elements keeps a face from moving along a direction, as in layers between plates.
+bool isHeld(const coupling::SolidSide& side, const fem::Face& face, const Vec3& along) {
+  const fem::DofMap& dofs = side.mass->dofs();
+  for (int k = 0; k < fem::cornersOf(face.shape); ++k)
+    for (int c = 0; c < 3; ++c) {
+      const auto node = static_cast<std::size_t>(face.node[static_cast<std::size_t>(k)]);
+      if (std::abs(along[c]) > 0.5 && dofs.role(3 * node + static_cast<std::size_t>(c)) == fem::Role::free)
+        return false;
+    }
+  return true;
+}
+
+/// Stiffness in bending over the right one. A brick's mean strain has 1 − 1/n² of it, the strain that is linear in it
+/// the rest; with that goes a shear strain that no beam has, as large as the brick is long, and a volume strain. What
+/// tetrahedra and mean dilatation make of that is fitted to beams of 1 to 4 layers and bricks of aspect ½ to 2 (within
+/// a tenth).
+double stiffnessOf(fem::CellShape shape, const std::string& formulation, const fem::MeshThickness& place, double nu) {
+  const double n = std::max(1.0, place.layers), rest = 1.0 / (n * n);
+  const double ratio = place.elementLength / place.thickness, squared = ratio * ratio;
+  const double shear = 0.5 * (1.0 - nu) * squared;
+  const double volume = 0.5 * ((1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)) - 1.0);
+  if (shape == fem::CellShape::tet4) return 1.0 + (1.65 + 2.5 * nu) * rest + (1.45 - 1.1 * nu) * squared;
+  if (shape != fem::CellShape::hex8) return 1.0;
+  if (formulation == "standard") return 1.0 + shear + volume * rest;
+  if (formulation == "mean-dilatation") return 1.0 - (0.42 + 0.35 * nu) * rest + shear;
+  return formulation == "reduced" ? 1.0 - rest : 1.0;
+}
+
+double poissonOf(const SolidMaterial& material) {
+  return std::visit(
+      [](const auto& law) {
+        if constexpr (requires { law.poissonRatio; }) return law.poissonRatio;
+        return 0.0;
+      },
+      material.law);
+}
+
+std::string layersText(double layers) {
+  const double n = std::max(1.0, std::round(layers));
+  return n == 1.0 ? "1 layer" : formatNumber(n) + " layers";
+}
+
+std::string sentence(const std::string& name, const Solid& solid, const fem::MeshThickness& place, double stiffness) {
+  const bool tets = place.shape == fem::CellShape::tet4, soft = stiffness < 1.0;
+  std::string text = name + " has " + layersText(place.layers) + " of " +
+                     (tets ? std::string("tet4") : "hex8 (\"" + solid.formulation + "\")") + ", " +
+                     rounded(place.elementLength) + " m long, across parts " + rounded(place.thickness) +
+                     " m thick and " + rounded(place.length) + " m long, which bend ";
+  if (stiffness < 0.1)
+    text += "many times too softly";
+  else
+    text += "about " + rounded(soft ? 1.0 / stiffness : stiffness) + " times too " + (soft ? "softly" : "stiffly");
+  if (tets) return text + ": take tet10, or bricks with \"formulation\": \"enhanced\".";
+  return text + ": write \"formulation\": \"enhanced\"" +
+         (soft ? ", or take 4 layers or more." : ", take hex20, or elements no longer than half the thickness.");
+}
+
+}  // namespace
+
+void lookAtThickness(const Built& built, const Solid& solid, std::size_t number, Lines& lines) {
+  const coupling::SolidSide& side = built.run->solid(number);
+  double all = 0.0, bad = 0.0;
+  std::vector<std::pair<double, fem::MeshThickness>> found;
+  for (const fem::MeshThickness& place : fem::measureThickness(built.meshes[number])) {
+    all += place.area;
+    if (place.length < slender * place.thickness || isHeld(side, place.face, place.normal) ||
+        isHeld(side, place.opposite, place.normal))
+      continue;
+    const double stiffness = stiffnessOf(place.shape, solid.formulation, place, poissonOf(solid.material));
+    if (stiffness > 1.0 - tolerated && stiffness < 1.0 + tolerated) continue;
+    bad += place.area;
+    found.emplace_back(stiffness, place);
+  }
+  constexpr double share = 0.1;  // of the boundary: fillets and feet of ribs are not what bends
+  if (found.empty() || bad < share * all) return;
+  std::ranges::sort(found, {}, [](const auto& one) { return one.second.thickness; });
+  const auto& [stiffness, place] = found[found.size() / 2];
+  lines.push_back(sentence(quoted(solid.name), solid, place, stiffness));
+}
+
+Lines hourglassIn(const Built& built) {
+  constexpr double share = 0.1;
+  Lines lines;
+  for (std::size_t s = 0; s < built.run->solids(); ++s) {
+    const coupling::SolidSide& side = built.run->solid(s);
+    double hourglass = 0.0, all = 0.0;
+    for (const auto& term : side.model->terms)
+      if (auto* const elements = dynamic_cast<fem::Solid*>(term.get())) {
+        hourglass += elements->hourglassEnergy(side.nodes());
+        all += elements->energy(side.nodes(), {.t = side.model->t});
+      }
+    if (hourglass > share * all && all > 0.0)
+      lines.push_back("of the elastic energy of " + quoted(side.name) + " " +
+                      formatNumber(std::round(100.0 * hourglass / all)) +
+                      " % is in the hourglass stiffness of its elements, which is not the material's: take more layers "
+                      "of elements where it bends, or \"formulation\": \"enhanced\"");
+  }
+  return lines;
+}
+
+}  // namespace dovetail::scene
