@@ -29,9 +29,7 @@ const Words refused = {"ngen",
                        "import",
                        "submodel",
                        "elementdelete",
-                       "flexiblebody",
                        "symmetricmodelgeneration",
-                       "substructuregenerate",
                        "parameter"};
 /// Cards that hold or couple nodes.
 const Words constraining = {"boundary",
@@ -69,7 +67,8 @@ bool isNearly(const std::string& word, const std::string& known) {
 }  // namespace
 
 SolidFile AbaqusReader::read() {
-  cards_.requireCard();
+  if (const std::string text = cards_.textBeforeCards(); !text.empty())
+    builder_.note("The text before the first card was passed over: " + text + ".");
   while (cards_.next()) readCard(cards_.keyword());
   giveSets();
   const bool plane = builder_.takePlaneCells();
@@ -124,6 +123,7 @@ void AbaqusReader::readOther(const std::string& keyword) {
     cards_.refuse("*" + keyword + " is not known here", "write nodes, elements and sets out in this file");
   for (const std::string& known : taken)
     if (isNearly(keyword, known)) cards_.refuse("there is no card *" + keyword, "write *" + known);
+  if (keyword.empty()) return cards_.requireNoData();
   if (keyword == "solidsection") readSection();
   if (keyword == "heading" || keyword == "preprint") return;
   (constraining.contains(keyword) ? constraints_ : passedOver_).insert(keyword);

@@ -40,10 +40,12 @@ void AbaqusReader::readSet(LabelSets& sets, const std::string& parameter) {
                                   {"generate", Parameter::flag},
                                   {"internal", Parameter::flag},
                                   {"unsorted", Parameter::flag},
-                                  {"instance"}};
+                                  {"instance"},
+                                  {"frequency"}};
   const bool ofNodes = parameter == "nset";
   if (ofNodes) known.push_back({"elset"});
   cards_.requireKnown(known);
+  if (cards_.has("frequency")) ignored_.insert("frequency of *" + parameter);
   if (cards_.has("unsorted")) ignored_.insert("UNSORTED (sets are sorted)");
   LabelSet& set = setOf(sets, cards_.required(parameter));
   const Space in = spaceOfCard();

@@ -28,6 +28,13 @@ std::string withoutBlanks(std::string_view text) {
   return result;
 }
 
+/// A comma at the end carries a card on to the next line; many programs write one before data, too.
+bool continuesCard(std::string_view line) {
+  if (line.front() == '*') return false;
+  const std::string first = lower(split(line)[0]);
+  return first.find('=') != std::string::npos || first == "generate" || first == "internal" || first == "unsorted";
+}
+
 }  // namespace
 
 bool InpCards::peek(std::string_view& line) {
@@ -51,20 +58,26 @@ bool InpCards::next() {
   return true;
 }
 
-void InpCards::requireCard() {
-  std::string_view line;
-  if (peek(line) && line.front() != '*')
-    source_.refuseAt(peekPlace_, "there is " + shown(line) + " before the first card",
-                     "begin with a card such as *node");
+std::string InpCards::textBeforeCards() {
+  std::string first;
+  for (std::string_view line; peek(line) && line.front() != '*'; hasPeeked_ = false) {
+    const std::string word = lower(line.substr(0, line.find_first_of(", \t")));
+    const bool ofUs = std::find(std::begin(meshCards), std::end(meshCards), word) != std::end(meshCards);
+    const std::size_t star = line.find_first_of('*');
+    const bool card = star != std::string_view::npos && star + 1 < line.size() && line[star + 1] != '*';
+    if (ofUs || card || line.find(',') != std::string_view::npos)
+      source_.refuseAt(peekPlace_, "there is " + shown(line) + " before the first card",
+                       "begin with a card such as *node");
+    if (first.empty()) first = shown(line);
+  }
+  return first;
 }
 
 void InpCards::readCardLine(std::string_view line) {
   std::vector<std::string_view> parts = split(line.substr(1));
   keyword_ = lower(withoutBlanks(parts[0]));
-  if (keyword_.empty()) refuse("a card has no keyword", "write *node, *element …, or ** before a comment");
   requireComma(parts[0]);
-  // A comma at the end carries the card on to the next line.
-  for (std::string_view more; parts.size() > 1 && parts.back().empty() && peek(more) && more.front() != '*';) {
+  for (std::string_view more; parts.size() > 1 && parts.back().empty() && peek(more) && continuesCard(more);) {
     hasPeeked_ = false;
     parts.pop_back();
     const auto further = split(more);

@@ -19,8 +19,9 @@ class InpCards {
 public:
   explicit InpCards(Source& source) : source_(source) {}
 
-  /// @throws InputError if the file begins with something else
-  void requireCard();
+  /// What the file begins with before its first card, shown; empty if there is nothing.
+  /// @throws InputError for what could be a card or its data
+  std::string textBeforeCards();
   /// Goes to the next card; false at the end of the file.
   bool next();
   /// The keyword in lower case, without blanks: "node".

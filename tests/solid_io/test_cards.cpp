@@ -33,7 +33,8 @@ TEST(Cards, UnknownAndMalformedOnesAreRefusedWithTheirLine) {
       {"*NSETS, NSET=a\n1, 4\n", "there is no card *nsets [deck.inp, line 17]: write *nset"},
       {"*ELMENT, TYPE=C3D8\n", "write *element"},
       {"*NDOE\n20, 0, 0, 0\n", "write *node"},
-      {"*\n", "a card has no keyword"},
+      {"*\n1, 4\n", "* has a line of data [deck.inp, line 18]"},
+      {"*NSET, NSET=a,\nGENRATE\n1, 4\n", "no set 'GENRATE' yet [deck.inp, line 18]"},
       {"*ELEMENT, TYPE=C3D8\n3, 1,2,,4,5,6,7,8\n", "nothing between two commas [deck.inp, line 18]"},
       {"*PART, NAME=p\n", "nodes stand before the *part"},
       {"*END PART\n1, 2\n", "*endpart has a line of data [deck.inp, line 18]"},
@@ -41,10 +42,12 @@ TEST(Cards, UnknownAndMalformedOnesAreRefusedWithTheirLine) {
       {"*PARAMETER\nh = 2\n", "*parameter is not known"}};
   for (const auto& [cards, wanted] : bad)
     EXPECT_NE(refusal(cards).find(wanted), std::string::npos) << wanted << " not in: " << refusal(cards);
-  EXPECT_NE(messageOf([] {
-              abaqusFromText("NODE\n" + columnMesh, "deck.inp");
-            }).find("there is 'NODE' before the first card [deck.inp, line 1]"),
-            std::string::npos);
+  for (const std::string line : {"NODE", "NODE, NSET=a", "1, 0., 0., 0.", ">*NODE"})
+    EXPECT_NE(messageOf([&] {
+                abaqusFromText("\n" + line + "\n" + columnMesh, "deck.inp");
+              }).find("there is '" + line + "' before the first card [deck.inp, line 2]"),
+              std::string::npos)
+        << line;
 }
 
 TEST(Cards, HarmlessParametersArePassedOverWithAWord) {
@@ -56,6 +59,19 @@ TEST(Cards, HarmlessParametersArePassedOverWithAWord) {
   EXPECT_NE(notesOf(file).find("passed over: UNSORTED (sets are sorted), regiontype of *surface, trim of *surface."),
             std::string::npos)
       << notesOf(file);
+}
+
+TEST(Cards, HabitsOfManyDecksAreRead) {
+  const SolidFile file = abaqusFromText(">**\n" + columnMesh +
+                                            "*\n*NSET, NSET=a,\n 1, 2\n*NSET, NSET=b,\nGENERATE,\n3, 5\n*NSET, "
+                                            "NSET=c, FREQUENCY=9\n6\n*NSET, NSET=d,\na, b\n",
+                                        "deck.inp");
+  EXPECT_EQ(fem::nodeSet(file.mesh, "a"), range(0, 1));
+  EXPECT_EQ(fem::nodeSet(file.mesh, "b"), range(2, 4));
+  EXPECT_EQ(fem::nodeSet(file.mesh, "c"), range(5, 5));
+  EXPECT_EQ(fem::nodeSet(file.mesh, "d"), range(0, 4));
+  EXPECT_NE(notesOf(file).find("text before the first card was passed over: '>**'."), std::string::npos);
+  EXPECT_NE(notesOf(file).find("frequency of *nset"), std::string::npos);
 }
 
 TEST(Cards, WhatIsNoPartOfTheSolidIsTold) {
