@@ -133,8 +133,10 @@ void add(const Target& to, const SphereFile& from) {
     v = {table.column("vx_m_per_s"), table.column("vy_m_per_s"), table.column("vz_m_per_s")};
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const Vec3 own = v[0].empty() ? Vec3{} : Vec3{v[0][i], v[1][i], v[2][i]};
-    dem::addParticle(to.grains.particles, {x[i], y[i], z[i]}, to.group.velocity + own, r[i],
-                     dem::Density{from.density});
+    atPlace(from.file + ", row " + std::to_string(i + 1), [&] {
+      dem::addParticle(to.grains.particles, {x[i], y[i], z[i]}, to.group.velocity + own, r[i],
+                       dem::Density{from.density});
+    });
   }
 }
 

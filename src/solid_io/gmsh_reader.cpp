@@ -85,9 +85,12 @@ void GmshReader::readPhysicalNames() {
   }
 }
 
-std::string GmshReader::nameOf(int dimension, std::int64_t group) const {
+SetKey GmshReader::keyOf(int dimension, std::int64_t group) const {
+  constexpr std::array<const char*, 4> kinds = {"points", "curves", "surfaces", "volumes"};
+  const std::string kind = kinds[static_cast<std::size_t>(dimension)];
   const auto found = names_.find({dimension, group});
-  return found == names_.end() ? std::to_string(group) : found->second;
+  if (found == names_.end()) return {std::to_string(group), 3 - dimension, kind + " without a name"};
+  return {found->second, 3 - dimension, kind};
 }
 
 const GmshType& GmshReader::requireType(std::int64_t code) {
@@ -116,14 +119,12 @@ void GmshReader::addElement(const GmshType& type, Label label, std::span<const L
       source_.refuseAt(place, "the physical group is " + std::to_string(group),
                        "give numbers that have a positive one");
   for (const std::int64_t group : physical)
-    if (group != 0) addToSet(type, label, nodes, place, nameOf(type.dimension, group < 0 ? -group : group));
+    if (group != 0) addToSet(type, label, nodes, place, keyOf(type.dimension, group < 0 ? -group : group));
   if (!anyGroup_) unnamed_.push_back({&type, label, {nodes.begin(), nodes.end()}, place, entity});
 }
 
 void GmshReader::addToSet(const GmshType& type, Label label, std::span<const Label> nodes, std::size_t place,
-                          const std::string& set) {
-  constexpr std::array<const char*, 4> kinds = {"points", "curves", "surfaces", "volumes"};
-  const SetKey key{set, 3 - type.dimension, kinds[static_cast<std::size_t>(type.dimension)]};
+                          const SetKey& key) {
   if (type.dimension >= 1) return builder_.addElementToSet(key, label, place);
   for (const Label node : nodes) builder_.addNodeToSet(key, node, place);
 }
@@ -131,9 +132,11 @@ void GmshReader::addToSet(const GmshType& type, Label label, std::span<const Lab
 void GmshReader::nameEntities() {
   constexpr std::array<const char*, 4> kinds = {"point ", "curve ", "surface ", "volume "};
   if (anyGroup_) return;
-  for (const Unnamed& element : unnamed_)
+  for (const Unnamed& element : unnamed_) {
+    const std::string kind = kinds[static_cast<std::size_t>(element.type->dimension)];
     addToSet(*element.type, element.label, element.nodes, element.place,
-             kinds[static_cast<std::size_t>(element.type->dimension)] + std::to_string(element.entity));
+             {kind + std::to_string(element.entity), 3 - element.type->dimension, kind});
+  }
 }
 
 SolidFile gmshFromText(std::string_view bytes, const std::string& name) {

@@ -32,12 +32,11 @@ private:
   void readElementBlock2(std::int64_t code, std::size_t count, std::size_t tags);
   void addElement(const GmshType& type, Label label, std::span<const Label> nodes, std::size_t place,
                   std::span<const std::int64_t> physical, std::int64_t entity);
-  void addToSet(const GmshType& type, Label label, std::span<const Label> nodes, std::size_t place,
-                const std::string& set);
+  void addToSet(const GmshType& type, Label label, std::span<const Label> nodes, std::size_t place, const SetKey& key);
   /// Elements with the sets that their entities stand for, once all groups are known.
   void nameEntities();
   const GmshType& requireType(std::int64_t code);
-  std::string nameOf(int dimension, std::int64_t group) const;
+  SetKey keyOf(int dimension, std::int64_t group) const;
 
   struct Unnamed {
     const GmshType* type;

@@ -147,6 +147,16 @@ TEST(NameSpaces, GroupsOfGmshWithOneNameInSeveralDimensionsStayApart) {
   EXPECT_NE(notesOf(file).find("that of the curves is \"fixed (curves)\""), std::string::npos) << notesOf(file);
 }
 
+TEST(NameSpaces, AGroupWithoutANameIsNotTheOneThatIsCalledByItsNumber) {
+  std::string text = gmshCube();
+  text.replace(text.find("2 3 \"fixed\""), 11, "2 3 \"5\"");
+  text.replace(text.find("$Elements\n4\n"), 12, "$Elements\n5\n5 3 2 5 2 5 6 7 8\n");
+  const SolidFile file = gmshFromText(text, "cube.msh");
+  EXPECT_EQ(fem::nodeSet(file.mesh, "5"), range(0, 3));
+  EXPECT_EQ(fem::nodeSet(file.mesh, "5 (surfaces without a name)"), range(4, 7));
+  EXPECT_EQ(fem::faceSet(file.mesh, "5").size(), 1u);
+}
+
 TEST(NameSpaces, ASetOfTheFileWithTheNameOfAShapeIsKept) {
   const SolidFile file = abaqusFromText(
       columnMesh +
