@@ -54,7 +54,7 @@ void AbaqusReader::readSet(LabelSets& sets, const std::string& parameter) {
     if (elements == nullptr)
       cards_.refuse("there is no element set " + shown(cards_.required("elset")) + " yet", "define it further up");
     for (const auto& [key, one] : elementSets_)
-      if (&one == elements) set.elementSets.push_back(key);
+      if (&one == elements) append(set.elementSets, {key});
     return cards_.requireNoData();
   }
   const bool generate = cards_.has("generate");

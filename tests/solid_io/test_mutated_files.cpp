@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "mesh_files.hpp"
+#include "abaqus_deck.hpp"
 
 namespace dovetail::solid_io {
 namespace {
@@ -85,6 +85,9 @@ TEST(MutatedFiles, AbaqusIsReadOrRefused) {
     texts.push_back(box.str() +
                     "*NSET, NSET=a, GENERATE\n1, 9, 2\n*NSET, NSET=b\na, 3, a\n*SURFACE, TYPE=NODE, NAME=c\nb,\n");
   }
+  texts.push_back(deckOf("*Nset, nset=Set-1, generate\n12, 1, -2\n*Elset, elset=Set-1\n1,\n",
+                         "*Node\n1, 0.5, 0.5, 3.\n*Nset, nset=Set-1, instance=Part-1-1\n1, 2\n*Nset, nset=n, "
+                         "elset=Part-1-1.Set-1\n*Nset, nset=m\nPart-1-1.4, n\n*Surface, name=s\nPart-1-1.1, S3\n"));
   fuzz([](std::string_view text) { return abaqusFromText(text, "test.inp"); }, texts, 1500);
 }
 
