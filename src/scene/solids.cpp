@@ -120,7 +120,8 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
       {.name = solid.name,
        .stepping = solid.implicitSteps ? coupling::Stepping::implicitSteps : coupling::Stepping::explicitSteps,
        .massShare = share});
-  if (share < 1.0 && solid.gravity && norm(scene.gravity) > 0.0 && weighUnevenly(side.nodes()))
+  const bool rests = meetsGrains || !solid.supports.empty();  // what flies falls alike with lumped masses
+  if (rests && share < 1.0 && solid.gravity && norm(scene.gravity) > 0.0 && weighUnevenly(side.nodes()))
     built.notes.push_back(unevenWeight(solid, mesh));
 }
 

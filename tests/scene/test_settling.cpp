@@ -55,6 +55,10 @@ TEST(SceneSettling, LumpedMassesThatWeighOtherwiseAreTold) {
     for (const char* const right : {R"(, "stepping": "implicit")", R"(, "mass_share": 1)", R"(, "gravity": false)"})
       EXPECT_EQ(notesOf(cell, right).find(told), std::string::npos) << cell << right;
     EXPECT_EQ(notesOf(cell, "", "0").find(told), std::string::npos);
+    const Built flies = build(settling("-9.81", R"("cell": ")" + std::string(cell) + R"(", "cells": [1, 1, 1],
+        "box": [[0, 0, 0], [1, 1, 1]])",
+                                       "1e-4"));
+    for (const std::string& note : flies.notes) EXPECT_EQ(note.find(told), std::string::npos) << cell;
   }
   for (const char* const cell : {"hex8", "hex27", "tet4"})
     EXPECT_EQ(notesOf(cell, "").find(told), std::string::npos) << cell;
