@@ -19,7 +19,13 @@ double CoupledRun::kineticEnergy() const {
 
 void CoupledRun::damp(bool on) {
   impl_->requireStarted("damp");
-  for (const auto& solid : impl_->solids) solid->damp(on);
+  const auto constrained = [&](const SolidSide& side) {
+    return std::ranges::any_of(grains.terms.all<Connector>(), [&](const auto* connector) {
+      return connector->constrains() && &connector->side() == &side;
+    });
+  };
+  // Constraints answer the average acceleration: other schemes keep them in motion.
+  for (const auto& solid : impl_->solids) solid->damp(on && !constrained(solid->side));
 }
 
 void CoupledRun::stop() {
