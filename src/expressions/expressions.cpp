@@ -59,13 +59,20 @@ public:
   }
 
 private:
-  std::string quoted() const { return "\"" + text_ + "\""; }
+  static std::string shortened(const std::string& text, bool atEnd) {
+    constexpr std::size_t most = 60;
+    if (text.size() <= most) return text;
+    return atEnd ? text.substr(0, most) + "…" : "…" + text.substr(text.size() - most);
+  }
+  std::string quoted() const { return "\"" + shortened(text_, true) + "\""; }
   [[noreturn]] void refuse(const mu::Parser::exception_type& error) const {
     const auto place = static_cast<std::size_t>(error.GetPos());
     const std::size_t cut = place < text_.size() ? place : text_.size();
-    throw InputError("the expression cannot be read: " + error.GetMsg(),
-                     "\"" + text_.substr(0, cut) + " >>> " + text_.substr(cut) + "\"",
-                     "correct it at the arrows, character " + std::to_string(cut + 1));
+    const std::string& message = error.GetMsg();
+    throw InputError(
+        "the expression cannot be read" + (message.size() > 200 ? "" : ": " + message),
+        "\"" + shortened(text_.substr(0, cut), false) + " >>> " + shortened(text_.substr(cut), true) + "\"",
+        "correct it at the arrows, character " + std::to_string(cut + 1));
   }
 
   std::string text_;

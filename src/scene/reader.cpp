@@ -228,9 +228,14 @@ private:
     if (!fits)
       throw InputError("\"" + member.key + "\" cannot name a parameter", placeOf(member.place),
                        "use letters, digits and '_', with a letter first, less than 100 in all");
-    if (member.key == "t")
-      throw InputError("\"t\" cannot name a parameter", placeOf(member.place),
-                       "take another name: t is the time in expressions");
+    static const std::set<std::string> taken = {"t",    "pi",   "sin",  "cos",   "tan",   "asin",  "acos", "atan",
+                                                "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "log2", "log10",
+                                                "log",  "ln",   "exp",  "sqrt",  "sign",  "rint",  "abs",  "min",
+                                                "max",  "sum",  "avg",  "atan2", "fmod"};
+    if (taken.contains(member.key))
+      throw InputError("\"" + member.key + "\" cannot name a parameter", placeOf(member.place),
+                       "take another name: expressions have " +
+                           std::string(member.key == "t" ? "the time" : "a function or constant") + " of this one");
   }
   const std::filesystem::path folderOf(const Node& node) const {
     return node.place.file ? node.place.file->parent_path() : document_.folder;

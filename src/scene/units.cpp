@@ -1,6 +1,7 @@
 #include "dovetail/scene/units.hpp"
 
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -34,8 +35,8 @@ constexpr std::array units = {Unit{"m", 1.0, unit::length, true},
                               Unit{"deg", std::numbers::pi / 180.0, unit::angle, false},
                               Unit{"rpm", std::numbers::pi / 30.0, unit::spin, false},
                               Unit{"%", 0.01, unit::none, false}};
-constexpr std::array<std::pair<std::string_view, double>, 7> prefixes = {
-    {{"n", 1e-9}, {"u", 1e-6}, {"µ", 1e-6}, {"m", 1e-3}, {"c", 1e-2}, {"k", 1e3}, {"M", 1e6}}};
+constexpr std::array<std::pair<std::string_view, double>, 8> prefixes = {
+    {{"n", 1e-9}, {"u", 1e-6}, {"µ", 1e-6}, {"μ", 1e-6}, {"m", 1e-3}, {"c", 1e-2}, {"k", 1e3}, {"M", 1e6}}};
 constexpr std::pair<std::string_view, double> giga{"G", 1e9};
 
 std::optional<std::pair<double, Dimension>> unitNamed(std::string_view name) {
@@ -104,6 +105,38 @@ std::optional<Quantity> quantityOf(const std::string& whole) {
     if (!takeFactor(text, divides, quantity)) return {};
   }
   return quantity;
+}
+
+std::vector<std::string> likelyQuantities(const std::string& whole) {
+  std::string_view text(whole);
+  skipBlanks(text);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{}) return {};
+  const auto length = static_cast<std::size_t>(end - text.data());
+  std::string_view word = text.substr(length);
+  skipBlanks(word);
+  const auto lower = [](std::string_view from) {
+    std::string to(from);
+    for (char& c : to) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return to;
+  };
+  const std::string wanted = lower(word);
+  std::vector<std::string> likely;
+  const auto look = [&](const std::string& unit) {
+    if (lower(unit) == wanted) likely.push_back(std::string(text.substr(0, length)) + " " + unit);
+  };
+  for (const Unit& u : units) {
+    look(std::string(u.name));
+    if (!u.takesPrefix) continue;
+    for (const auto& [prefix, factor] : prefixes) look(std::string(prefix) + std::string(u.name));
+    look(std::string(giga.first) + std::string(u.name));
+  }
+  for (const auto& [other, unit] :
+       {std::pair{"sec", "s"}, std::pair{"second", "s"}, std::pair{"seconds", "s"}, std::pair{"meter", "m"},
+        std::pair{"metre", "m"}, std::pair{"degrees", "deg"}, std::pair{"°", "deg"}, std::pair{"percent", "%"}})
+    if (word == other) look(unit), likely.push_back(std::string(text.substr(0, length)) + " " + unit);
+  return likely;
 }
 
 std::string siName(const Dimension& d) {

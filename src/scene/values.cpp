@@ -83,6 +83,18 @@ std::string Values::wordOf(const Node& node, Key key, Words words) const {
   refuse(node, named(key) + " is " + nameOf(node), adviceFor(node.kind == Node::Kind::text ? node.text : "", names));
 }
 
+/// What may be wrong with a text that is no number, before what may be written instead.
+std::string Values::guessAt(const std::string& text) const {
+  std::string guess;
+  for (const std::string& quantity : likelyQuantities(text))
+    guess += (guess.empty() ? "write \"" : " or \"") + quantity + "\"";
+  if (!guess.empty()) return guess + " if that is meant; ";
+  for (const std::string& word : wordsIn(text))
+    if (document_.names.contains(word) && !document_.parameters.contains(word))
+      return "put the parameter \"" + word + "\" above, as expressions know those above them alone; ";
+  return {};
+}
+
 Values::AnyNumber Values::anyNumberOf(const Node& node, Key key, const std::string& otherwise) const {
   if (node.kind == Node::Kind::number) return {node.number, {}};
   const std::string remedy = "write a number, one with a unit (\"5 mm\"), or an expression of parameters" +
@@ -98,7 +110,7 @@ Values::AnyNumber Values::anyNumberOf(const Node& node, Key key, const std::stri
     refuse(
         node,
         named(key) + " is " + nameOf(node) + ", which is no number with a unit, and as an expression: " + error.what(),
-        remedy);
+        guessAt(node.text) + remedy);
   }
 }
 
@@ -137,7 +149,8 @@ TimeValue Values::timeValueOf(const Node& node, Key key, const Limits& limits) {
     refuse(
         node,
         named(key) + " is " + nameOf(node) + ", which is no number with a unit, and as an expression: " + error.what(),
-        "write a number, one with a unit (\"5 mm\"), or an expression of parameters and the time t");
+        guessAt(node.text) +
+            "write a number, one with a unit (\"5 mm\"), or an expression of parameters and the time t");
   }
   document_.functionsOfTime += node.text + " ";
   return {0.0, node.text};

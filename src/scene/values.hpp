@@ -43,6 +43,7 @@ protected:
     std::optional<Dimension> dimension;
   };
   /// @param otherwise  what may be written in place of a number
+  std::string guessAt(const std::string& text) const;
   AnyNumber anyNumberOf(const Node& node, Key key, const std::string& otherwise = "") const;
   double numberOf(const Node& node, Key key, const Limits& limits, const std::string& otherwise = "") const;
   double wholeOf(const Node& node, Key key, double least, double most) const;

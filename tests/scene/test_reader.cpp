@@ -80,6 +80,26 @@ TEST(SceneReader, ParametersServeEveryNumberAndCanBeSet) {
 }
 
 /// "2*h" is twice the parameter where there is one, "2 h" is two hours everywhere.
+TEST(SceneReader, RefusalsOfNumbersGuessWhatWasMeant) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP();
+  const auto withLet = [](const std::string& let) {
+    return test::replaced(test::smallScene, "\"gravity\"", "\"let\": {" + let + "},\n  \"gravity\"");
+  };
+  const std::string unit = test::refusal(withLet(R"("E": "2 Mpa")"));
+  EXPECT_NE(unit.find("\"2 MPa\""), std::string::npos) << unit;
+  const std::string below = test::refusal(withLet(R"("b": "2*a", "a": 1)"));
+  EXPECT_NE(below.find("put the parameter \"a\" above"), std::string::npos) << below;
+  const std::string constant = test::refusal(withLet(R"("pi": 3)"));
+  EXPECT_NE(constant.find("\"pi\""), std::string::npos) << constant;
+  EXPECT_NE(constant.find("another name"), std::string::npos) << constant;
+  const std::string sum(100000, '+');
+  for (const std::string& text : {"1" + sum, "1*" + std::string(100000, 'q'), "(" + sum + ")"}) {
+    const std::string message = test::refusal(withLet("\"a\": \"" + text + "\""));
+    EXPECT_FALSE(message.empty());
+    EXPECT_LT(message.size(), 2000u);
+  }
+}
+
 TEST(SceneReader, ParametersMayBeNamedLikeUnits) {
   if (!WITH_EXPRESSIONS) GTEST_SKIP() << "products are expressions";
   const auto time = [](const std::string& let, const std::string& value) {

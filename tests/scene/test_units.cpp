@@ -40,6 +40,23 @@ TEST(Units, OtherTextIsNoQuantity) {
     EXPECT_FALSE(quantityOf(text)) << text;
 }
 
+TEST(Units, BothSignsForMicroAreRead) {
+  for (const char* const text : {"3 us", "3 \u00b5s", "3 \u03bcs"}) {
+    const auto found = quantityOf(text);
+    ASSERT_TRUE(found) << text;
+    EXPECT_NEAR(found->value, 3e-6, 1e-20) << text;
+  }
+}
+
+TEST(Units, UnknownUnitsHaveLikelyOnes) {
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(likelyQuantities("2 Mpa"), (Texts{"2 mPa", "2 MPa"}));
+  EXPECT_EQ(likelyQuantities("5 Mm"), (Texts{"5 mm", "5 Mm"}));
+  EXPECT_EQ(likelyQuantities("1 sec"), Texts{"1 s"});
+  EXPECT_EQ(likelyQuantities("1e3 KG"), Texts{"1e3 kg"});
+  for (const char* const text : {"2 parsec", "Mpa", "", "2*a"}) EXPECT_TRUE(likelyQuantities(text).empty()) << text;
+}
+
 TEST(Units, NamesReadBack) {
   for (const Dimension& d :
        {unit::length, unit::time, unit::velocity, unit::acceleration, unit::density, unit::stiffness, unit::pressure,

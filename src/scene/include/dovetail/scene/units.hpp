@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace dovetail::scene {
 
@@ -30,5 +31,8 @@ struct Quantity {
 /// "5 mm", "2e6 Pa", "9.81 m/s2", "30 deg", "7": a number and a product of units, each with an exponent, such behind a
 /// "/" in the denominator. Empty if the text does not begin with a number, or goes on with what is no unit.
 std::optional<Quantity> quantityOf(const std::string& text);
+
+/// What a number with an unknown unit may have been meant to be: "2 Mpa" gives "2 MPa" and "2 mPa".
+std::vector<std::string> likelyQuantities(const std::string& text);
 
 }  // namespace dovetail::scene
