@@ -63,7 +63,10 @@ void shrink(geometry::TriangleMesh& mesh) {
   for (Vec3& x : mesh.x) x += 1e-6 * (middle - x);
 }
 
+bool isPlane(const fem::SolidMesh& mesh) { return fem::dimensionOf(mesh) == 2; }
+
 void lookForGrainsWithin(const Built& built, std::size_t solid, Lines& lines) {
+  if (isPlane(built.meshes[solid])) return;
   const coupling::SolidSide& side = built.run->solid(solid);
   const geometry::TriangleMesh skin = skinOf(built.meshes[solid], side.nodes());
   Vec3 lower = skin.x.front(), upper = lower;
@@ -84,29 +87,26 @@ void lookForGrainsWithin(const Built& built, std::size_t solid, Lines& lines) {
                     " at the start: move them out, or give the two an overlap.");
 }
 
-std::string nameOfBody(const Scene& scene, std::size_t body, const std::vector<std::size_t>& walls) {
-  return body < scene.solids.size() ? quoted(scene.solids[body].name)
-                                    : "wall " + std::to_string(walls[body - scene.solids.size()]);
-}
-
 /// Solids see grains only: neither each other nor walls.
 void lookForBodiesWithin(const Built& built, const Scene& scene, Lines& lines) {
   std::vector<geometry::TriangleMesh> bodies;
+  std::vector<std::string> names;
   for (std::size_t s = 0; s < built.meshes.size(); ++s) {
+    if (isPlane(built.meshes[s])) continue;
+    names.push_back(quoted(scene.solids[s].name));
     bodies.push_back(skinOf(built.meshes[s], built.run->solid(s).nodes()));
     shrink(bodies.back());
   }
-  std::vector<std::size_t> walls;
+  const std::size_t solids = bodies.size();
   const auto meshes = std::as_const(built.run->grains).terms.all<dem::MeshWallTerm>();
   for (std::size_t w = 0; w < built.walls.size(); ++w)
     for (std::size_t m = built.walls[w].firstMesh; m < built.walls[w].endMesh; ++m) {
       bodies.push_back({meshes[m]->mesh.wall.x, meshes[m]->mesh.wall.facets});
-      walls.push_back(w);
+      names.push_back("wall " + std::to_string(w));
     }
   for (const auto& [i, j] : overlapping(bodies))
-    if (static_cast<std::size_t>(i) < scene.solids.size())
-      lines.push_back(nameOfBody(scene, static_cast<std::size_t>(i), walls) + " and " +
-                      nameOfBody(scene, static_cast<std::size_t>(j), walls) +
+    if (static_cast<std::size_t>(i) < solids)
+      lines.push_back(names[static_cast<std::size_t>(i)] + " and " + names[static_cast<std::size_t>(j)] +
                       " overlap at the start, and nothing keeps them apart: move one of them.");
 }
 

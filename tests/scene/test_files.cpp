@@ -64,6 +64,17 @@ TEST(SceneFiles, NotesOfGmshFilesAreToldToo) {
   EXPECT_EQ(built.notes.back().find("box.msh: 1 element with the nodes of an earlier one"), 0U) << built.notes.back();
 }
 
+TEST(SceneFiles, PlaneMeshesAreCheckedAsTheyRun) {
+  const ScratchFolder folder;
+  writeText(folder / "plate.msh",
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n6 2 1 0\n"
+            "$EndNodes\n$Elements\n2\n1 3 2 1 1 1 2 3 4\n2 3 2 1 1 2 5 6 3\n$EndElements\n");
+  const Scene scene = sceneFromText(sceneWith("plate.msh"), "s.json", folder.path());
+  std::ostringstream checked, log;
+  EXPECT_NO_THROW(check(scene, checked));
+  EXPECT_TRUE(run(scene, {.folder = folder / "out", .progress = false}, log));
+}
+
 /// A set of the file has the name of a shape, and holds one of its two bricks.
 TEST(SceneFiles, MixedMeshesOfAnyFormatAreWhole) {
   const ScratchFolder folder;
