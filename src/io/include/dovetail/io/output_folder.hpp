@@ -1,10 +1,11 @@
 // Files of a run: checked before the run, replaced as a whole, and never at the cost of anybody else's files.
 //
 // The rule. A file is ours if it is a regular file that begins with the mark "dovetail <version>" as one of our writers
-// puts it: behind the sign of a comment, or as the first entry of a JSON object. (HDF5 has it in an attribute.) Our name
-// elsewhere in a file makes it nobody's. A file of ours with the same name and of the same kind, from an earlier run, is
-// replaced in one rename when the new one is complete. Everything else in a folder is left as it is: no function here
-// deletes or overwrites a file without the mark, and none follows a symbolic link to replace what it points to.
+// puts it: behind the sign of a comment, or as the first entry of a JSON object. (HDF5 has it in an attribute.) Our
+// name elsewhere in a file makes it nobody's. A file of ours with the same name and of the same kind, from an earlier
+// run, is replaced in one rename when the new one is complete. Everything else in a folder is left as it is: no
+// function here deletes or overwrites a file without the mark, and none follows a symbolic link to replace what it
+// points to.
 //
 // A program that is killed while it writes leaves a file "<name>.part-<process>-<number>"; the next run that prepares
 // the folder removes it.
@@ -26,18 +27,19 @@ namespace dovetail::io {
 std::filesystem::path prepareOutputFolder(const std::filesystem::path& folder,
                                           const std::vector<std::string>& fileNames = {});
 
-/// The same for a folder of a run's own in its folder. @throws InputError also if it is a symbolic link, which could lead
-/// out of it
+/// The same for a folder of a run's own in its folder. @throws InputError also if it is a symbolic link, which could
+/// lead out of it
 std::filesystem::path prepareInnerFolder(const std::filesystem::path& folder,
                                          const std::vector<std::string>& fileNames = {});
 
-/// Removes frames of ours, "<name>_<number>.vtu" or ".vtp", of an earlier run from a folder, and the folder if nothing is
-/// left in it.
+/// Removes frames of ours, "<name>_<number>.vtu" or ".vtp", of an earlier run from a folder, and the folder if nothing
+/// is left in it.
 void removeFrames(const std::filesystem::path& folder, const std::string& name);
 
-/// Writes `text` under a temporary name beside `path` and renames it; see Survives for files that come often. The text should carry the mark (see above), or
-/// a later run will not replace it.
-/// @throws InputError if nothing can be written there, if a file of ours of another kind is there, or if `path` is taken
+/// Writes `text` under a temporary name beside `path` and renames it; see Survives for files that come often. The text
+/// should carry the mark (see above), or a later run will not replace it.
+/// @throws InputError if nothing can be written there, if a file of ours of another kind is there, or if `path` is
+/// taken
 ///         by something that is not ours: the text then stays under its temporary name, which the error gives
 /// @throws Error if writing breaks off (disk full); what was there is intact
 void writeFileAtomically(const std::filesystem::path& path, const std::string& text,

@@ -134,8 +134,8 @@ ContactDemand demandOf(const Model& m, double leastOverlap = 0.0);
 ContactStep criticalStep(const Model& m, double leastOverlap = 0.0);
 /// @throws InputError naming who sets the limit if dt is beyond it, or beyond that of the impacts to come
 void requireStableStep(const Model& m, double dt, double leastOverlap = 0.0);
-/// Whether a run looks at the limit after this step: at three of the first and then at each 2048th, as a look costs about
-/// as much as a step.
+/// Whether a run looks at the limit after this step: at three of the first and then at each 2048th, as a look costs
+/// about as much as a step.
 bool looksAtLimit(std::int64_t step);
 /// After a run broke down: the same error with the limit that its step is beyond, if it is (m.passed); else returns.
 void tellOfLimit(const Model& m, const NumericalError& error);

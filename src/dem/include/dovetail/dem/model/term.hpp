@@ -77,8 +77,8 @@ public:
   /// Particles get new numbers, < 0: gone. `before` still has all of them in their old order.
   /// @return J that the term's contacts with those gone had stored
   virtual double renumber(std::span<const int> /*newNumber*/, const Particles& /*before*/) { return 0.0; }
-  /// Finds contacts with facets, before any term behind the partners adds forces, and appends those that are one surface
-  /// with others where they meet (joinAtSeams).
+  /// Finds contacts with facets, before any term behind the partners adds forces, and appends those that are one
+  /// surface with others where they meet (joinAtSeams).
   virtual void findFacetContacts(Model&, const Step&, std::vector<WallAtSeam>&) {}
   /// They have been joined: appends what of them is answered (passMemories).
   virtual void takeFacetContacts(Model&, const Step&, std::vector<AnsweredContacts>&) {}
