@@ -135,7 +135,7 @@ std::vector<std::string> likelyQuantities(const std::string& whole) {
   for (const auto& [other, unit] :
        {std::pair{"sec", "s"}, std::pair{"second", "s"}, std::pair{"seconds", "s"}, std::pair{"meter", "m"},
         std::pair{"metre", "m"}, std::pair{"degrees", "deg"}, std::pair{"°", "deg"}, std::pair{"percent", "%"}})
-    if (word == other) look(unit), likely.push_back(std::string(text.substr(0, length)) + " " + unit);
+    if (word == other) likely.push_back(std::string(text.substr(0, length)) + " " + unit);
   return likely;
 }
 

@@ -107,7 +107,7 @@ void move(Model& m, double dt);
 void renew(Model& m);
 /// Gravity, pairs, terms; books what they lost.
 void addForces(Model& m);
-/// What terms add, and the contacts that they find together (Term::findContacts). Books nothing.
+/// What terms add, and the contacts that they find together (Term::findFacetContacts). Books nothing.
 void addForcesOfTerms(Model& m);
 /// Forces of the state as it is: no time passes. For those who have moved something between steps: nothing is booked
 /// but what springs lose whose contacts end by that, or slide. Where particles, terms or laws have been added, taken
