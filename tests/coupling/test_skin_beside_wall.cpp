@@ -1,6 +1,7 @@
 // The surface of a solid that goes on as a mesh wall.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numeric>
 #include <random>
 
@@ -105,6 +106,77 @@ TEST(SkinBesideWall, BallsRollOverTheSeamAsOverAPlane) {
     }
     EXPECT_NEAR(run->ledger().residual(), plane->ledger().residual(), 1e-10);
   }
+}
+
+/// The seam, and the balls on it, go over a periodic side; the solid ends there with its periods.
+TEST(SkinBesideWall, GoesOnOverPeriodicSides) {
+  const auto moved = [](CoupledRun& run) {
+    run.grains.pairs.setPeriodicity({{{-1, 0, -1}, {2, 0.6, 1}}, {false, true, false}});
+    dem::Particles& p = run.grains.particles;
+    for (int k = 0; k < 4; ++k)
+      dem::addParticle(p, {k % 2 == 0 ? 0.57 : 0.63, 0.12 * k + 0.13, 0.0248}, {k % 2 == 0 ? 0.8 : -0.8, 4.0, -0.02},
+                       0.025, dem::Density{2000.0});
+    run.grains.gravity = {0.0, 0.0, -9.81};
+    dem::switchOnRotation(p);
+    run.start(dt);
+    run.advance(1200);
+  };
+  auto plane = std::make_unique<CoupledRun>();
+  plane->grains.laws = frictionalLaws();
+  plane->grains.sortEvery = 0;
+  dem::addWall(plane->grains, dem::makePlane({}, {0, 0, 1}));
+  moved(*plane);
+  auto run = groundOf({.wall = false}, frictionalLaws());
+  dem::addWall(run->grains, dem::MeshWall{}).wall =
+      dem::makeWall({{0.6, 0, 0}, {1.2, 0, 0}, {1.2, 0.6, 0}, {0.6, 0.6, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  moved(*run);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_LT(norm(run->grains.particles.v[i] - plane->grains.particles.v[i]), 1e-9) << i;
+    EXPECT_LT(norm(run->grains.particles.omega[i] - plane->grains.particles.omega[i]), 1e-7) << i;
+  }
+}
+
+/// A wall does not share a place with a surface that a particle does not meet, as it is tied to the solid.
+TEST(SkinBesideWall, PushesInFullWhereTheOtherIsAbsent) {
+  dem::Particles particles;
+  dem::addParticle(particles, {0.0, 0.5, 0.0098}, {}, 0.01, dem::Mass{1.0});
+  std::array<dem::MeshWall, 2> halves;
+  for (std::size_t h = 0; h < 2; ++h) {
+    const double from = h == 0 ? -1.0 : 0.0;
+    halves[h].wall =
+        dem::makeWall({{from, 0, 0}, {from + 1, 0, 0}, {from + 1, 1, 0}, {from, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+    dem::findContacts(particles, halves[h], {});
+  }
+  const auto joined = [&](std::uint8_t absent) {
+    std::array<dem::WallContacts, 2> contacts{halves[0].contacts, halves[1].contacts};
+    const std::vector<std::uint8_t> away{absent};
+    const std::vector<dem::WallAtSeam> walls{{&halves[0].wall, &halves[0].candidates, &contacts[0], {}},
+                                             {&halves[1].wall, &halves[1].candidates, &contacts[1], {}, nullptr, away}};
+    dem::joinAtSeams(particles, walls);
+    std::array<double, 2> engaged{};
+    for (std::size_t h = 0; h < 2; ++h)
+      for (const double part : contacts[h].engagement) engaged[h] += part;
+    return engaged;
+  };
+  const auto both = joined(0), alone = joined(1);
+  EXPECT_NEAR(both[0] + both[1], 1.0, 1e-12);
+  EXPECT_NEAR(alone[0], 1.0, 1e-12);
+  EXPECT_NEAR(alone[1], 1.0, 1e-12) << "which whoever ties it takes away";
+}
+
+TEST(SkinBesideWall, HasTheSameDigitsForAnyNumberOfThreads) {
+  std::vector<std::vector<char>> states;
+  for (const int threads : {1, 2, 3}) {
+    setThreads(threads);
+    auto run = groundOf({.parts = 2, .held = false}, frictionalLaws());
+    addRollers(*run);
+    run->start(dt);
+    run->advance(400);
+    states.push_back(run->save());
+  }
+  setThreads(1);
+  EXPECT_EQ(states[0], states[1]);
+  EXPECT_EQ(states[0], states[2]);
 }
 
 class SkinBesideWallInWindows : public testing::TestWithParam<Case> {};
