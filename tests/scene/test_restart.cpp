@@ -66,6 +66,42 @@ const Case pouring{pile, "series.csv", "\n0.13"};
 TEST(Restart, AfterAnInterruptionAllBytesAreTheSame) { expectSameAfter(pouring, SIGINT, 130); }
 TEST(Restart, AfterAKillAllBytesAreTheSame) { expectSameAfter(pouring, SIGKILL, -1); }
 
+/// A bar that is pulled and pushed until it yields; factors of its implicit steps serve many of them.
+Words yieldingBar(const ScratchFolder& folder, const std::string& every) {
+  io::test::writeText(folder / "bar.json", R"json({"solids": [{"name": "bar", "mesh": "box", "cells": [1, 1, 3],
+    "box": [[0, 0, 0], [0.05, 0.05, 0.1]], "formulation": "enhanced", "stepping": "implicit",
+    "material": {"law": "J2", "youngs_modulus": 2e11, "poisson_ratio": 0.3, "density": 7800, "yield_stress": 2.5e8,
+                 "hardening": 1e9},
+    "supports": [{"on": "z-"}, {"on": "z+", "displacement": [0, 0, "2e-3*sin(20*t)"]}],
+    "loads": [{"on": "x+", "type": "pressure", "pressure": "1e6*sin(70*t)"}]}],
+    "steps": {"dt": 2e-4}, "stages": [{"do": "run", "time": 0.1}]})json");
+  return {"run",   (folder / "bar.json").string(),
+          "--out", (folder / "out").string(),
+          "--set", "output={\"series\": 2e-3, \"checkpoints\": " + every + "}"};
+}
+std::string rowsOf(const ScratchFolder& folder) {
+  const std::string text = io::test::readText(folder / "out" / "series.csv");
+  return text.substr(text.find("\ntime_s"));
+}
+
+TEST(Restart, PlannedCheckpointsChangeNothing) {
+  const ScratchFolder seldom, often;
+  ASSERT_EQ(runProgram(yieldingBar(seldom, "1")).code, 0);
+  ASSERT_EQ(runProgram(yieldingBar(often, "7e-3")).code, 0);
+  EXPECT_EQ(rowsOf(often), rowsOf(seldom));
+}
+
+TEST(Restart, UnplannedCheckpointsChangeNothing) {
+  const ScratchFolder whole, broken;
+  ASSERT_EQ(runProgram(yieldingBar(whole, "1")).code, 0);
+  Running running(yieldingBar(broken, "1"));
+  ASSERT_TRUE(running.awaits(broken / "out" / "series.csv", "\n0.02"));
+  running.signal(SIGTERM);
+  ASSERT_EQ(running.outcome().code, 143);
+  ASSERT_EQ(runProgram({"resume", (broken / "out").string()}).code, 0);
+  EXPECT_EQ(rowsOf(broken), rowsOf(whole));
+}
+
 /// Ended while all is brought to rest, by a checkpoint's first bytes.
 const Case settling{[](const ScratchFolder& folder) {
                       return words(

@@ -205,8 +205,7 @@ DynamicsReport ImplicitIntegrator::report() const {
   return report;
 }
 
-void ImplicitIntegrator::save(ByteWriter& archive) {
-  impl_->solver.dropFactors();
+void ImplicitIntegrator::save(ByteWriter& archive) const {
   detail::writeModel(archive, impl_->kind(), impl_->model);
   impl_->book.save(archive);
   impl_->impulses.save(archive);
@@ -223,7 +222,7 @@ void ImplicitIntegrator::load(ByteReader& archive) {
   const std::int64_t cuts = detail::readCount(archive, "number of cuts");
   const std::int64_t iterations = detail::readCount(archive, "number of iterations");
   const double largestResidual = detail::readNumber(archive, "largest residual");
-  detail::StepStart start = detail::readStart(archive, impl_->model);
+  detail::ImplicitStep::State next = impl_->solver.read(archive);
   detail::requireEnd(archive, "ImplicitIntegrator");
   detail::adopt(std::move(state), impl_->model);
   impl_->book = std::move(book);
@@ -232,7 +231,7 @@ void ImplicitIntegrator::load(ByteReader& archive) {
   impl_->cuts = cuts;
   impl_->iterations = iterations;
   impl_->largestResidual = largestResidual;
-  impl_->solver.restart(std::move(start));
+  impl_->solver.restart(std::move(next));
 }
 
 }  // namespace dovetail::fem

@@ -246,6 +246,29 @@ std::vector<Vec3> ImplicitStep::weighted(std::vector<Vec3> end, const std::vecto
   return end;
 }
 
+void ImplicitStep::save(ByteWriter& archive) const {
+  writeStart(archive, {a0_, start_.total, start_.loads});
+  archive(factoredStep_, resolution_);
+  solver_.save(archive);
+}
+
+ImplicitStep::State ImplicitStep::read(ByteReader& archive) const {
+  StepStart start = readStart(archive, model_);
+  const double factoredStep = readNumber(archive, "step of the factors");
+  ForceResolution resolution;
+  archive(resolution);
+  return {std::move(start), factoredStep, resolution, solver_.read(archive, matrix_)};
+}
+
+void ImplicitStep::restart(State state) {
+  a0_ = std::move(state.start.a);
+  start_.total = std::move(state.start.f);
+  start_.loads = std::move(state.start.loads);
+  factoredStep_ = state.factoredStep;
+  resolution_ = state.resolution;
+  solver_.adopt(std::move(state.factored));
+}
+
 void ImplicitStep::accept() {
   if (conserving()) return;
   a0_.swap(a1_);

@@ -28,7 +28,6 @@ public:
   NewtonResult attempt(double h, Guess guess);
   /// Makes the end the start of the next step. Call after booking.
   void accept();
-  void dropFactors() { solver_.drop(); }
   void use(const Scheme& scheme) {
     options_.scheme = scheme;
     solver_.drop();
@@ -50,14 +49,18 @@ public:
   /// At the end of the last accepted step (conserving: of that step).
   const std::vector<Vec3>& forces() const { return conserving() ? end_.total : start_.total; }
 
-  void save(ByteWriter& archive) const { writeStart(archive, {a0_, start_.total, start_.loads}); }
-  /// Goes on from what was saved, with new factors.
-  void restart(StepStart start) {
-    a0_ = std::move(start.a);
-    start_.total = std::move(start.f);
-    start_.loads = std::move(start.loads);
-    dropFactors();
-  }
+  /// What the next step begins with. Factors serve many steps: they are those of the matrix that goes along, or else
+  /// what follows would have other digits.
+  struct State {
+    StepStart start;
+    double factoredStep = 0.0;
+    ForceResolution resolution;
+    LinearSolver::Factored factored;
+  };
+  void save(ByteWriter& archive) const;
+  /// @throws InputError as readStart and LinearSolver::read
+  State read(ByteReader& archive) const;
+  void restart(State state);
 
 private:
   bool conserving() const { return options_.scheme.conserving; }

@@ -117,6 +117,39 @@ void LinearSolver::solve(std::span<const double> r, std::span<double> x) {
   }
 }
 
+void LinearSolver::save(ByteWriter& archive) const {
+  const Impl& m = *impl_;
+  archive(static_cast<int>(m.kind), m.wasIndefinite);
+  if (m.kind != Kind::none) m.reduced.save(archive);
+}
+
+LinearSolver::Factored LinearSolver::read(ByteReader& archive, const BlockMatrix& K) const {
+  Factored state{0, false, ReducedMatrix(impl_->reduced.dofs())};
+  archive(state.kind, state.wasIndefinite);
+  if (state.kind < 0 || state.kind > static_cast<int>(Kind::gradients))
+    throw InputError("a kind of factors has the number " + std::to_string(state.kind), "LinearSolver",
+                     "load it into the run that saved it");
+  if (state.kind != static_cast<int>(Kind::none)) state.matrix.load(archive, K);
+  return state;
+}
+
+void LinearSolver::adopt(Factored state) {
+  Impl& m = *impl_;
+  m.kind = Kind::none;
+  m.wasIndefinite = state.wasIndefinite;
+  if (state.kind == static_cast<int>(Kind::none)) return;
+  m.reduced = std::move(state.matrix);
+  const SparseMatrix& A = m.reduced.matrix();
+  if (A.size == 0)
+    m.kind = Kind::cholesky;
+  else if (state.kind == static_cast<int>(Kind::lu))
+    m.factorLu(A, m.reduced.symmetric());
+  else if (state.kind == static_cast<int>(Kind::gradients))
+    m.factorGradients(A);
+  else if (m.cholesky.factor(A))
+    m.kind = Kind::cholesky;
+}
+
 bool LinearSolver::factored() const { return impl_->kind != Kind::none; }
 void LinearSolver::drop() { impl_->kind = Kind::none; }
 int LinearSolver::negativePivots() const { return impl_->negative; }

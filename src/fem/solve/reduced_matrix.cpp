@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -113,6 +114,17 @@ const SparseMatrix& ReducedMatrix::update(const BlockMatrix& K, bool symmetric) 
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
   for (std::size_t k = 0; k < source_.size(); ++k) matrix_.value[target_[k]] += factor_[k] * values[source_[k]];
   return matrix_;
+}
+
+void ReducedMatrix::load(ByteReader& archive, const BlockMatrix& K) {
+  bool symmetric = true;
+  std::vector<double> values;
+  archive(symmetric, values);
+  analyse(K, symmetric);
+  if (values.size() != matrix_.value.size() || !std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))
+    throw InputError("the matrix of the state is of another solid, or not finite", "ReducedMatrix",
+                     "load it into the run that saved it");
+  matrix_.value = std::move(values);
 }
 
 }  // namespace dovetail::fem

@@ -172,8 +172,8 @@ public:
   Vec3 momentum() const;
   Vec3 angularMomentum() const;
 
-  /// Drops the factors too, so that this run and one that goes on from the state have the same digits.
-  void save(ByteWriter& archive);
+  /// With the matrix of the factors in use: a run that goes on from the state has the same digits.
+  void save(ByteWriter& archive) const;
   /// @throws InputError if the state is that of another kind of run or model, is damaged, not finite, or not all of the
   /// archive; model and integrator are then as they were
   void load(ByteReader& archive);

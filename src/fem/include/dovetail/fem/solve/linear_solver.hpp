@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/core/archive.hpp"
 #include "dovetail/fem/model/constraints.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
 #include "dovetail/fem/solve/sparse.hpp"
@@ -27,6 +28,31 @@ struct LinearOptions {
   int maxIterations = 5000;         ///< of conjugate gradients
 };
 
+/// TᵀKT for the free components: the lower triangle by columns if symmetric, else all of it.
+class ReducedMatrix {
+public:
+  explicit ReducedMatrix(const DofMap& dofs) : dofs_(&dofs) {}
+  /// Entries are added in a fixed order.
+  const SparseMatrix& update(const BlockMatrix& K, bool symmetric);
+  const SparseMatrix& matrix() const { return matrix_; }
+  const DofMap& dofs() const { return *dofs_; }
+  bool symmetric() const { return symmetric_; }
+  void save(ByteWriter& archive) const { archive(symmetric_, matrix_.value); }
+  /// What save() wrote. @throws InputError if it is not for the pattern of K, or not finite
+  void load(ByteReader& archive, const BlockMatrix& K);
+
+private:
+  void analyse(const BlockMatrix& K, bool symmetric);
+  void unite();
+  const DofMap* dofs_;
+  SparseMatrix matrix_;
+  std::size_t patternId_ = 0;
+  bool symmetric_ = true;
+  std::vector<std::uint32_t> source_;  // entries of K in the order of the entries of matrix_
+  std::vector<std::uint32_t> target_;  // where they go, and
+  std::vector<double> factor_;         // times what; both empty if each goes to the entry of its own number
+};
+
 /// Keeps the pattern, the symbolic analysis and the factors over calls. Results do not depend on the number of threads.
 class LinearSolver {
 public:
@@ -45,6 +71,19 @@ public:
 
   bool factored() const;
   void drop();
+
+  /// What the factors are made of: made anew from it they have the same digits.
+  struct Factored {
+    int kind = 0;  ///< 0: none
+    bool wasIndefinite = false;
+    ReducedMatrix matrix;
+  };
+  void save(ByteWriter& archive) const;
+  /// What save() wrote, for matrices of the pattern of K; all is left alone.
+  /// @throws InputError if it is of another pattern, or damaged
+  Factored read(ByteReader& archive, const BlockMatrix& K) const;
+  /// @throws FactorMemoryError
+  void adopt(Factored state);
   /// Negative pivots of the last factorisation: 0 for a stable equilibrium, −1 if not known (not symmetric, iteration).
   int negativePivots() const;
   /// Largest entry on the diagonal, N/m.
@@ -57,26 +96,6 @@ public:
 private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
-};
-
-/// TᵀKT for the free components: the lower triangle by columns if symmetric, else all of it.
-class ReducedMatrix {
-public:
-  explicit ReducedMatrix(const DofMap& dofs) : dofs_(&dofs) {}
-  /// Entries are added in a fixed order.
-  const SparseMatrix& update(const BlockMatrix& K, bool symmetric);
-  const SparseMatrix& matrix() const { return matrix_; }
-
-private:
-  void analyse(const BlockMatrix& K, bool symmetric);
-  void unite();
-  const DofMap* dofs_;
-  SparseMatrix matrix_;
-  std::size_t patternId_ = 0;
-  bool symmetric_ = true;
-  std::vector<std::uint32_t> source_;  // entries of K in the order of the entries of matrix_
-  std::vector<std::uint32_t> target_;  // where they go, and
-  std::vector<double> factor_;         // times what; both empty if each goes to the entry of its own number
 };
 
 }  // namespace dovetail::fem
