@@ -12,6 +12,7 @@
 #include "dovetail/io/provenance.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
+#include "dovetail/scene/units.hpp"
 #include "program/run.hpp"
 #include "verbs.hpp"
 
@@ -31,6 +32,8 @@ struct Options {
   std::vector<std::string> settings;
   bool profile = false, markdown = false, replace = false;
   std::optional<double> maxWallSeconds;
+  std::string until;
+  std::optional<int> threads;
 };
 
 void limitTime(const Options& options) {
@@ -60,9 +63,21 @@ bool checkScene(const Options& options) {
   scene::check(scene::readScene(options.file, options.settings), std::cout);
   return true;
 }
+std::optional<double> untilOf(const Options& options) {
+  if (options.until.empty()) return std::nullopt;
+  const auto time = scene::quantityOf(options.until);
+  if (!time || (time->dimension != scene::unit::time && time->dimension != scene::unit::none) || !(time->value > 0.0))
+    throw InputError("'" + options.until + "' is no time", "--until",
+                     "give seconds, or a time with its unit, such as '2 s'");
+  return time->value;
+}
 bool resumeRun(const Options& options) {
   limitTime(options);
-  return scene::resume({.folder = options.file, .profile = options.profile}, std::cout);
+  if (options.threads && *options.threads < 1)
+    throw InputError("the number of threads is " + std::to_string(*options.threads), "--threads", "give 1 or more");
+  return scene::resume(
+      {.folder = options.file, .profile = options.profile, .until = untilOf(options), .threads = options.threads},
+      std::cout);
 }
 bool tellFile(const Options& options) {
   scene::tell(options.file, std::cout);
@@ -111,6 +126,9 @@ std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
   takesScene(add("check", "builds a scene, and tells sizes, limits of the step, memory and time", checkScene));
   CLI::App* const resume = add("resume", "goes on from the last checkpoint of a run", resumeRun);
   resume->add_option("FOLDER", options.file, "that the run wrote into")->required();
+  resume->add_option("--until", options.until,
+                     "time since the start at which the last stage is to end, of a run that is done too");
+  resume->add_option("--threads", options.threads, "in place of the scene's; the digits are the same for any number");
   steps(resume);
   add("info", "tells what a file or folder holds", tellFile)->add_option("FILE", options.file)->required();
   add("schema", "prints the JSON Schema of scenes", writeSchema)

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ostream>
 
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
 #include "dovetail/io/time_series.hpp"
+#include "dovetail/scene/read.hpp"
 
 namespace dovetail::scene {
 
@@ -27,14 +30,6 @@ void archiveProgress(Archive& archive, P& p) {
 
 }  // namespace
 
-fs::path lastCheckpoint(const fs::path& folder) {
-  std::error_code error;
-  for (const fs::path& file : {lastState(folder), stateBefore(folder)})
-    if (fs::exists(file, error)) return file;
-  throw InputError("there is no checkpoint", folder.string(),
-                   "give the folder of a run with output.checkpoints, or one that a signal has ended");
-}
-
 Checkpoint loadCheckpoint(const fs::path& file) {
   ByteReader archive(readChecked(file, checkpointKind));
   Checkpoint checkpoint;
@@ -46,10 +41,35 @@ Checkpoint loadCheckpoint(const fs::path& file) {
   return checkpoint;
 }
 
-void writeCheckpoint(const fs::path& folder, const std::string& hash, const Progress& progress,
+Checkpoint lastCheckpoint(const fs::path& folder, std::ostream& log, Damaged damaged) {
+  const fs::path last = lastState(folder), before = stateBefore(folder);
+  std::error_code error;
+  if (!fs::exists(last, error) && !fs::exists(before, error))
+    throw InputError("there is no checkpoint", folder.string(),
+                     "give the folder of a run with output.checkpoints, or one that a signal has ended");
+  if (!fs::exists(last, error)) return loadCheckpoint(before);
+  try {
+    return loadCheckpoint(last);
+  } catch (const InputError& damage) {
+    if (!fs::exists(before, error)) throw;
+    Checkpoint checkpoint = [&] {
+      try {
+        return loadCheckpoint(before);
+      } catch (const InputError&) {
+        throw damage;
+      }
+    }();
+    log << "WARNING: " << damage.what() << "\nThe state before is taken in its place: " << before.filename().string()
+        << ", t = " << formatNumber(checkpoint.time) << " s" << std::endl;
+    if (damaged == Damaged::isSetAside) fs::rename(last, folder / "checkpoint.damaged.state", error);
+    return checkpoint;
+  }
+}
+
+void writeCheckpoint(const fs::path& folder, const std::string& identity, const Progress& progress,
                      coupling::CoupledRun& run) {
   ByteWriter archive;
-  archive(std::vector<char>(hash.begin(), hash.end()), run.time());
+  archive(std::vector<char>(identity.begin(), identity.end()), run.time());
   archiveProgress(archive, progress);
   archive(run.save());
   std::error_code none;
@@ -57,13 +77,19 @@ void writeCheckpoint(const fs::path& folder, const std::string& hash, const Prog
   writeChecked(lastState(folder), checkpointKind, archive.bytes());
 }
 
-Progress readCheckpoint(const fs::path& folder, const std::string& hash, coupling::CoupledRun& run) {
-  const fs::path file = lastCheckpoint(folder);
-  const Checkpoint checkpoint = loadCheckpoint(file);
-  if (checkpoint.scene != hash)
-    throw InputError("the checkpoint is of another scene", file.string(), "put its scene.json back, or begin anew");
+void adopt(const Checkpoint& checkpoint, const std::string& identity, coupling::CoupledRun& run) {
+  if (checkpoint.scene != identity)
+    throw InputError("the checkpoint is of another scene", "checkpoint.state",
+                     "put its scene.json back, or begin anew");
   run.load(checkpoint.state);
-  return checkpoint.progress;
+}
+
+std::string identityOf(const Scene& scene) {
+  Scene same = scene;
+  same.steps.threads = 0;
+  if (!same.stages.empty())
+    if (auto* const last = std::get_if<RunFor>(&same.stages.back().kind)) last->time = 0.0;
+  return hashOf(sceneText(same));
 }
 
 void writeTimes(const fs::path& folder, const io::KeyValues& provenance, const std::vector<double>& seconds) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "dovetail/scene/files.hpp"
+#include "dovetail/scene/scene.hpp"
 #include "impacts.hpp"
 
 namespace dovetail::scene {
@@ -42,23 +44,30 @@ inline constexpr const char* checkpointKind = "dovetail 5 scene";
 
 /// A state as it lies in a file.
 struct Checkpoint {
-  std::string scene;  ///< hash of the scene in full
+  std::string scene;  ///< its identity
   double time = 0.0;  ///< s
   Progress progress;
   std::vector<char> state;  ///< of the run
 };
 
-/// The last state in a folder, or the one before if a program was killed between the two.
-/// @throws InputError if there is none
-std::filesystem::path lastCheckpoint(const std::filesystem::path& folder);
 /// @throws InputError if the file is none, or damaged
 Checkpoint loadCheckpoint(const std::filesystem::path& file);
 
+/// What becomes of a damaged state: it is checkpoint.damaged.state then, and no longer in the way of new ones.
+enum class Damaged { isLeft, isSetAside };
+/// The last state in a folder that is whole: the one before if the last is damaged, which is told, or was never put in
+/// its place.
+/// @throws InputError if there is none
+Checkpoint lastCheckpoint(const std::filesystem::path& folder, std::ostream& log, Damaged damaged);
+
 /// Keeps the last checkpoint, and the one before.
-void writeCheckpoint(const std::filesystem::path& folder, const std::string& hash, const Progress& progress,
+void writeCheckpoint(const std::filesystem::path& folder, const std::string& identity, const Progress& progress,
                      coupling::CoupledRun& run);
-/// @return where the run stood. @throws InputError if there is none, or it is of another scene or damaged
-Progress readCheckpoint(const std::filesystem::path& folder, const std::string& hash, coupling::CoupledRun& run);
+/// Puts the state in force. @param identity  of the scene. @throws InputError if the state is of another scene
+void adopt(const Checkpoint& checkpoint, const std::string& identity, coupling::CoupledRun& run);
+
+/// Hash of all of a scene that its states depend on: neither the number of threads nor the time of its last stage.
+std::string identityOf(const Scene& scene);
 
 /// Seconds of wall-clock time that each stage has taken in all programs that worked on it, beside the state: it has the
 /// same bytes on every machine, times.csv has not.

@@ -16,7 +16,9 @@
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/scene/read.hpp"
 #include "frames.hpp"
+#include "lengthening.hpp"
 #include "plan.hpp"
+#include "run_files.hpp"
 #include "series.hpp"
 #include "summary.hpp"
 #include "warnings.hpp"
@@ -34,46 +36,33 @@ constexpr std::int64_t deepEvery = 5 * lookEvery;  // at contacts: a look costs 
 std::string textOf(const Remark& remark) { return {remark.text.begin(), remark.text.end()}; }
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::vector<std::string> fileNames(const Scene& scene) {
-  std::vector<std::string> names{"scene.json",   "series.csv",       "summary.txt",
-                                 "summary.json", "checkpoint.state", "checkpoint.previous.state",
-                                 "times.csv"};
-  if (scene.output.hdf5) names.push_back("series.h5");
-  return names;
-}
-
 /// A run under way with its files.
 class Execution {
 public:
-  Execution(const Scene& scene, const RunSettings& settings, std::ostream& log, bool goesOn)
-      : scene_(scene),
+  Execution(Scene scene, const RunSettings& settings, std::ostream& log, bool goesOn)
+      : scene_(std::move(scene)),
         settings_(settings),
         log_(log),
-        text_(sceneText(scene)),
-        hash_(hashOf(text_)),
-        provenance_(io::provenance({{"scene", hash_}})),
+        identity_(identityOf(scene_)),
         trial_(settings.folder),
-        lock_(io::prepareOutputFolder(settings.folder, fileNames(scene))),
-        built_(build(scene)) {
+        lock_(io::prepareOutputFolder(settings.folder, fileNames(scene_, goesOn))),
+        built_(build(scene_)),
+        provenance_(io::provenance({{"scene", identity_}})) {
     built_.run->profile = Profile(settings.profile);
     built_.run->grains.profile = settings.profile ? &built_.run->profile : nullptr;
-    start(built_, scene);
-    plan_ = planOf(built_, scene);
+    start(built_, scene_);
+    plan_ = planOf(built_, scene_);
     if (plan_.series > 0)
-      series_ = std::make_unique<Series>(built_, scene.output.probes,
-                                         SeriesFiles{settings.folder, provenance_, scene.output.hdf5, plan_.series});
-    if (goesOn) {
-      progress_ = readCheckpoint(settings.folder, hash_, *built_.run);
-      if (series_) series_->takeUp(progress_.rows);
-      seconds_ = readTimes(settings.folder, scene.stages.size());
-    }
+      series_ = std::make_unique<Series>(built_, scene_.output.probes,
+                                         SeriesFiles{settings.folder, provenance_, scene_.output.hdf5, plan_.series});
+    if (goesOn) takeState();
     if (plan_.frames > 0)
-      frames_ = std::make_unique<Frames>(built_, scene, settings.folder, provenance_, progress_.frames);
+      frames_ = std::make_unique<Frames>(built_, scene_, settings.folder, provenance_, progress_.frames);
     for (const std::string& note : built_.notes) log_ << note << '\n';
     if (goesOn) return;
     trial_.keep();
-    removeEarlierRun();
-    io::writeFileAtomically(file("scene.json"), io::provenanceLines(provenance_, "// ") + text_);
+    removeEarlierRun(settings_.folder);
+    writeScene();
     sample(0);
     frame(0);
   }
@@ -83,6 +72,9 @@ public:
     for (; progress_.stage < scene_.stages.size(); ++progress_.stage, progress_.window = 0) {
       const auto* const settle = std::get_if<Settle>(&scene_.stages[progress_.stage].kind);
       if (!(settle ? comeToRest(*settle) : runFor(plan_.stages[progress_.stage]))) return stop();
+      // Before what only an end has: longer runs go on from here.
+      if (progress_.stage + 1 == scene_.stages.size() && plan_.checkpoints > 0) checkpoint();
+      settle ? endRest() : endRun();
       countTime();
       log_ << lineOf(progress_.stage) << std::endl;
     }
@@ -91,7 +83,6 @@ public:
       if (built_.run->dt() > limit.dt) tellOfStep(built_.run->time(), limit.dt, limit.owner);
     }
     if (const std::string line = scene::lineOf(std::exchange(progress_.deep, {})); !line.empty()) remark(line, true);
-    if (plan_.checkpoints > 0) checkpoint();
     close();
     countRoom();
     summarise();
@@ -101,23 +92,6 @@ public:
 private:
   fs::path file(const char* name) const { return settings_.folder / name; }
   static double rounded(double seconds) { return std::round(1e3 * seconds) / 1e3; }
-  /// Files that this run may not write, or only at its end.
-  void removeEarlierRun() const {
-    for (const char* const old : {"checkpoint.state", "checkpoint.previous.state", "summary.txt", "summary.json",
-                                  "times.csv", "series.csv", "series.h5", "fields.vti", "report.html", "report.md"})
-      if (io::isOurs(file(old))) io::removeOurs(file(old));
-    std::vector<fs::path> listed;
-    for (const auto& entry : fs::directory_iterator(settings_.folder)) {
-      const fs::path& path = entry.path();
-      const bool figure = path.extension() == ".svg" && path.filename().string().starts_with("report_");
-      if ((figure || path.extension() == ".pvd" || path.extension() == ".vtkhdf") && io::isOurs(path))
-        listed.push_back(path);
-    }
-    for (const fs::path& old : listed) {
-      io::removeOurs(old);
-      if (old.extension() == ".pvd") io::removeFrames(settings_.folder / old.stem(), old.stem().string());
-    }
-  }
   static const char* nameOf(const Stage& stage) {
     return std::holds_alternative<Settle>(stage.kind) ? "settle" : "run";
   }
@@ -167,6 +141,10 @@ private:
       if (due(plan_.checkpoints)) checkpoint();
       if (io::interruption() != 0) return false;
     }
+    return true;
+  }
+  void endRest() {
+    coupling::RestProgress& rest = progress_.rest;
     const std::string line = std::string(rest.report.atRest ? "at rest" : "NOT at rest") + " after " +
                              std::to_string(rest.report.windows) + " windows, kinetic over elastic energy " +
                              formatNumber(rest.report.kinetic) +
@@ -175,7 +153,10 @@ private:
     rest = {};
     sample(0);
     frame(0);
-    return true;
+  }
+  void endRun() {
+    if (!due(plan_.series)) sample(0);
+    if (!due(plan_.frames)) frame(0);
   }
 
   bool runFor(std::int64_t windows) {
@@ -196,8 +177,8 @@ private:
         log_ << "t = " << run.time() << " s, " << 100 * next / windows << " %, " << std::llround(rate) << " windows/s, "
              << formatDuration(static_cast<double>(windows - next) / rate) << " to go" << std::endl;
       lookForRoom();
-      sample(next == windows ? 0 : plan_.series);
-      frame(next == windows ? 0 : plan_.frames);
+      sample(plan_.series);
+      frame(plan_.frames);
       if (due(plan_.checkpoints) && next < windows) checkpoint();
       if (io::interruption() != 0) return false;
     }
@@ -246,13 +227,30 @@ private:
   }
   /// Writes what does not grow with the run.
   void close() {
-    if (series_) series_->close(text_);
+    if (series_) series_->close(sceneText(scene_));
     if (scene_.output.hdf5) writeSolidsHdf5(settings_.folder, built_, scene_, provenance_);
   }
   void checkpoint() {
     countTime();
     writeTimes(settings_.folder, provenance_, seconds_);
-    writeCheckpoint(settings_.folder, hash_, progress_, *built_.run);
+    writeCheckpoint(settings_.folder, identity_, progress_, *built_.run);
+  }
+  void writeScene() const {
+    io::writeFileAtomically(file("scene.json"), io::provenanceLines(provenance_, "// ") + sceneText(scene_));
+  }
+
+  void takeState() {
+    const Checkpoint last = lastCheckpoint(settings_.folder, log_, Damaged::isSetAside);
+    adopt(last, identity_, *built_.run);
+    progress_ = last.progress;
+    seconds_ = readTimes(settings_.folder, scene_.stages.size());
+    if (settings_.until) {
+      lengthen(scene_, plan_, progress_, *built_.run, *settings_.until);
+      plan_ = planOf(built_, scene_);
+      removeEnd(settings_.folder);
+      writeScene();
+    }
+    if (series_) series_->takeUp(progress_.rows);
   }
 
   bool stop() {
@@ -282,14 +280,14 @@ private:
          << "files in " << settings_.folder.string() << std::endl;
   }
 
-  const Scene& scene_;
+  Scene scene_;
   const RunSettings& settings_;
   std::ostream& log_;
-  std::string text_, hash_;
-  io::KeyValues provenance_;
+  std::string identity_;
   io::FolderOnTrial trial_;
   io::FolderLock lock_;
   Built built_;
+  io::KeyValues provenance_;
   Plan plan_;
   std::unique_ptr<Series> series_;
   std::unique_ptr<Frames> frames_;
@@ -314,8 +312,9 @@ Scene readRun(const fs::path& folder) {
 }
 
 bool resume(const RunSettings& settings, std::ostream& log) {
-  const Scene scene = readRun(settings.folder);
-  return Execution(scene, settings, log, true).finish();
+  Scene scene = readRun(settings.folder);
+  if (settings.threads) scene.steps.threads = *settings.threads;
+  return Execution(std::move(scene), settings, log, true).finish();
 }
 
 }  // namespace dovetail::scene

@@ -92,10 +92,10 @@ void writeGridFields(const std::filesystem::path& folder, const GridSettings& se
     throw InputError("fields on a grid are a VTI file", settings.file.string(), "give a name that ends in .vti");
   io::requireFreeOrOurs(settings.file);
   const Scene scene = readRun(folder);
-  const std::string hash = hashOf(sceneText(scene));
+  const std::string identity = identityOf(scene);
   Built built = build(scene);
   start(built, scene);
-  readCheckpoint(folder, hash, *built.run);
+  adopt(lastCheckpoint(folder, log, Damaged::isLeft), identity, *built.run);
   dem::Model& grains = built.run->grains;
   if (grains.particles.size() == 0) throw InputError("there are no grains", folder.string(), "give a run with some");
   dem::findForces(grains);  // of bonds, which states do not hold
@@ -110,7 +110,7 @@ void writeGridFields(const std::filesystem::path& folder, const GridSettings& se
   const cg::Grid grid = gridOver(settings.box.value_or(around), spacing);
   const cg::Fields fields = cg::sample({settings.shape, 3, width}, cg::gridPoints(grid), cg::viewOf(now));
   const io::KeyValues provenance =
-      io::provenance({{"scene", hash},
+      io::provenance({{"scene", identity},
                       {"kernel", settings.shape == cg::KernelShape::lucy ? "lucy" : "gauss"},
                       {"width", formatNumber(width) + " m"}});
   io::writeFileAtomically(settings.file, textOf(now.time, grid, fields, provenance));

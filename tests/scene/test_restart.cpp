@@ -163,7 +163,8 @@ TEST(Restart, StatesOfOtherScenesAndDamagedOnesAreRefused) {
   const std::string state = io::test::readText(folder / "checkpoint.state");
   std::ofstream(folder / "scene.json") << scene.replace(scene.find("1000.0"), 6, "1001.0");
   EXPECT_NE(refusal().find("another scene"), std::string::npos);
-  std::ofstream(folder / "checkpoint.state") << state.substr(0, state.size() / 2);
+  for (const char* const name : {"checkpoint.state", "checkpoint.previous.state"})
+    std::ofstream(folder / name) << state.substr(0, state.size() / 2);
   EXPECT_NE(refusal().find("checkpoint.state"), std::string::npos);
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct RunSettings {
   std::filesystem::path folder;  ///< for all that is written
   bool progress = true;          ///< shown on a terminal; elsewhere a line per tenth of a stage
   bool profile = false;          ///< time per part of a step in the summary
+  // Of resume():
+  std::optional<double> until = {};  ///< s since the start: the new end of the last stage
+  std::optional<int> threads = {};   ///< in place of the scene's
 };
 
 /// Runs all stages and writes into the folder: scene.json (the scene in full), series.csv and, if wanted, series.h5,
@@ -28,8 +32,11 @@ bool run(const Scene& scene, const RunSettings& settings, std::ostream& log);
 /// The scene of a run. @throws InputError if this is no folder of one
 Scene readRun(const std::filesystem::path& folder);
 
-/// Goes on from the last checkpoint in the folder to the same files with the same digits as without the break.
-/// @throws InputError also if there is no run, no checkpoint, or one of another scene
+/// Goes on from the last checkpoint in the folder that is whole, to the same files with the same digits as without the
+/// break, for any number of threads. With `until`, and a run that is done if it has checkpoints, to the files of a run
+/// whose last stage had that end from the start; scene.json has it from then on.
+/// @throws InputError also if there is no run, no checkpoint, or one of another scene; if the state is behind `until`,
+/// or the end of the last stage is not known: it brings to rest, or one before it still has to
 bool resume(const RunSettings& settings, std::ostream& log);
 
 /// Builds and starts the scene, and tells its sizes, all limits of the step, and what steps, memory and time a run

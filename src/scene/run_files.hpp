@@ -1,0 +1,19 @@
+// Files of a run in its folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dovetail/scene/scene.hpp"
+
+namespace dovetail::scene {
+
+/// What a run will write, frames apart. @param goesOn  states are there already, whole or damaged
+std::vector<std::string> fileNames(const Scene& scene, bool goesOn);
+/// Files that a new run may not write, or only at its end, with all frames.
+void removeEarlierRun(const std::filesystem::path& folder);
+/// What is said of a run that is done.
+void removeEnd(const std::filesystem::path& folder);
+
+}  // namespace dovetail::scene

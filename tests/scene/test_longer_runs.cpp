@@ -1,0 +1,143 @@
+// Runs that go on from what is whole, to another end, on other numbers of threads.
+#include <gtest/gtest.h>
+
+#include "../cantilever/program.hpp"
+
+namespace dovetail::scene {
+namespace {
+
+using cantilever::test::everyByte;
+using cantilever::test::Running;
+using cantilever::test::runProgram;
+using io::test::ScratchFolder;
+
+using Words = std::vector<std::string>;
+
+/// Grains are poured onto a plate of rubber with implicit steps, whatever the build writes.
+Words poured(const ScratchFolder& folder, const std::string& time, const Words& more = {}) {
+  std::string output = "output={\"series\": 2e-3, \"checkpoints\": 0.01";
+  if (WITH_FRAMES) output += ", \"frames\": 0.01, \"contents\": [\"grains\", \"contacts\", \"solids\"]";
+  if (WITH_HDF5) output += ", \"hdf5\": true";
+  Words words{"run",   std::string(SCENES) + "/tray.json",
+              "--out", folder.path().string(),
+              "--set", "time=" + time,
+              "--set", "solids.0.stepping=implicit",
+              "--set", "solids.0.cells=[6, 4, 1]",
+              "--set", output + "}",
+              "--set", "steps.per_window=4"};
+  for (const std::string& one : more) words.insert(words.end(), {"--set", one});
+  return words;
+}
+
+/// All but what tells times, or of the way.
+std::map<std::string, std::string> digits(const ScratchFolder& folder) {
+  auto bytes = everyByte(folder);
+  for (const char* const name :
+       {"summary.txt", "summary.json", "times.csv", "checkpoint.previous.state", "checkpoint.damaged.state"})
+    bytes.erase(name);
+  return bytes;
+}
+
+void expectSame(const ScratchFolder& folder, const ScratchFolder& expected, const Words& but = {}) {
+  auto found = digits(folder), right = digits(expected);
+  for (const std::string& name : but) found.erase(name), right.erase(name);
+  EXPECT_EQ(found.size(), right.size());
+  for (const auto& [name, bytes] : right) EXPECT_TRUE(found.contains(name) && found.at(name) == bytes) << name;
+}
+
+cantilever::test::Outcome resumed(const ScratchFolder& folder, const Words& options = {}) {
+  Words words{"resume", folder.path().string()};
+  words.insert(words.end(), options.begin(), options.end());
+  return runProgram(words);
+}
+
+/// Its end lies between two rows, two frames and two looks.
+TEST(LongerRuns, HaveTheBytesOfThoseThatWereLongFromTheStart) {
+  const ScratchFolder whole, done, broken;
+  ASSERT_EQ(runProgram(poured(whole, "0.0806")).code, 0);
+  ASSERT_EQ(runProgram(poured(done, "0.0409")).code, 0);
+  EXPECT_EQ(resumed(done, {"--until", "80.6 ms"}).code, 0);
+  expectSame(done, whole);
+
+  auto limited = poured(broken, "0.0409");
+  limited.insert(limited.end(), {"--max-wall-seconds", "1e-3"});
+  ASSERT_EQ(runProgram(limited).code, 142);
+  ASSERT_EQ(resumed(broken, {"--until", "0.0806", "--max-wall-seconds", "1e-3"}).code, 142);
+  EXPECT_EQ(resumed(broken).code, 0) << "the new end is that of the scene from now on";
+  expectSame(broken, whole);
+}
+
+TEST(LongerRuns, BeginAfterWhatBroughtToRest) {
+  const auto stages = [](const std::string& time) {
+    return Words{"stages=[{\"do\": \"settle\", \"windows\": 60}, {\"do\": \"run\", \"time\": " + time + "}]"};
+  };
+  const ScratchFolder whole, done;
+  ASSERT_EQ(runProgram(poured(whole, "1", stages("0.03"))).code, 0);
+  const std::string rows = io::test::readText(whole / "series.csv");
+  const std::size_t last = rows.rfind('\n', rows.size() - 2) + 1;
+  ASSERT_EQ(runProgram(poured(done, "1", stages("0.011"))).code, 0);
+  EXPECT_EQ(resumed(done, {"--until", rows.substr(last, rows.find(',', last) - last)}).code, 0);
+  expectSame(done, whole, {"scene.json", "series.h5"});  // whose times are not rounded to windows
+}
+
+TEST(LongerRuns, AreRefusedWhereNoEndCanBe) {
+  const auto refusal = [](const ScratchFolder& folder, const std::string& until) {
+    const auto outcome = resumed(folder, {"--until", until});
+    EXPECT_EQ(outcome.code, 2) << until;
+    return outcome.err;
+  };
+  const ScratchFolder done, settles, waits;
+  ASSERT_EQ(runProgram(poured(done, "0.02")).code, 0);
+  const auto before = everyByte(done);
+  EXPECT_NE(refusal(done, "0.01").find("give a later time"), std::string::npos);
+  for (const char* const odd : {"soon", "-1", "0", "3 m", "nan", "inf"})
+    EXPECT_NE(refusal(done, odd).find("--until"), std::string::npos) << odd;
+  EXPECT_TRUE(everyByte(done) == before);
+  ASSERT_EQ(runProgram(poured(settles, "1", {"stages=[{\"do\": \"settle\", \"windows\": 40}]"})).code, 0);
+  EXPECT_NE(refusal(settles, "1").find("brings to rest"), std::string::npos);
+  auto limited =
+      poured(waits, "1", {"stages=[{\"do\": \"settle\", \"windows\": 900}, {\"do\": \"run\", \"time\": 0.01}]"});
+  limited.insert(limited.end(), {"--max-wall-seconds", "1e-3"});
+  ASSERT_EQ(runProgram(limited).code, 142);
+  EXPECT_NE(refusal(waits, "1").find("stage 1 has not come to rest"), std::string::npos);
+}
+
+TEST(DamagedStates, AreSetAsideForTheOneBefore) {
+  const ScratchFolder whole;
+  ASSERT_EQ(runProgram(poured(whole, "0.08")).code, 0);
+  for (const std::string damage : {"short", "", "last letter"}) {
+    const ScratchFolder broken;
+    Running running(poured(broken, "0.08"));
+    ASSERT_TRUE(running.awaits(broken / "checkpoint.previous.state", "dovetail"));
+    running.signal(SIGTERM);
+    ASSERT_EQ(running.outcome().code, 143);
+    std::string state = io::test::readText(broken / "checkpoint.state");
+    state.back() = static_cast<char>(state.back() ^ 1);
+    io::test::writeText(broken / "checkpoint.state", damage == "last letter" ? state : damage);
+    const auto outcome = resumed(broken);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("checkpoint.previous.state, t = "), std::string::npos) << outcome.out;
+    EXPECT_TRUE(std::filesystem::exists(broken / "checkpoint.damaged.state"));
+    expectSame(broken, whole);
+  }
+}
+
+TEST(Threads, AreNoPartOfARun) {
+  const ScratchFolder whole, broken;
+  const auto rows = [](const ScratchFolder& folder) {
+    const std::string text = io::test::readText(folder / "series.csv");
+    return text.substr(text.find("\ntime_s"));
+  };
+  ASSERT_EQ(runProgram(poured(whole, "0.04", {"steps.threads=2"})).code, 0);
+  auto limited = poured(broken, "0.04", {"steps.threads=2"});
+  limited.insert(limited.end(), {"--max-wall-seconds", "1e-3"});
+  ASSERT_EQ(runProgram(limited).code, 142);
+  EXPECT_EQ(resumed(broken, {"--threads", "0"}).code, 2);
+  EXPECT_EQ(resumed(broken, {"--threads", "1"}).code, 0);
+  EXPECT_NE(io::test::readText(broken / "series.csv").find("# threads: 1\n"), std::string::npos);
+  EXPECT_EQ(rows(broken), rows(whole));
+  EXPECT_TRUE(everyByte(broken).at("checkpoint.state") == everyByte(whole).at("checkpoint.state"));
+}
+
+}  // namespace
+}  // namespace dovetail::scene
