@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
 
 #include "dovetail/dem/model/loads.hpp"
 #include "nearest.hpp"
 #include "parts.hpp"
 #include "time_functions.hpp"
+#include "warnings.hpp"
 
 namespace dovetail::scene {
 
@@ -77,10 +79,27 @@ void requireAlike(const std::vector<BondGroup>& all) {
       throw InputError("\"contacts\" is not that of the other bonds", group.where, "give all bonds the same");
 }
 
+/// Both items would claim the same grains.
+void requireOnce(const Scene& scene) {
+  std::set<std::set<std::string>> bonded;
+  for (const BondGroup& one : scene.bonds)
+    if (!bonded.insert({one.group, one.with.empty() ? one.group : one.with}).second)
+      throw InputError("the grains of " + quoted(one.group) +
+                           (one.with.empty() || one.with == one.group ? "" : " and " + quoted(one.with)) +
+                           " are bonded by another item of \"bonds\" already",
+                       one.where, "leave one of the two out");
+  std::set<std::string> driven;
+  for (const Drive& one : scene.drives)
+    if (!driven.insert(one.group).second)
+      throw InputError("the grains of " + quoted(one.group) + " are driven by another item of \"drives\" already",
+                       one.where, "leave one of the two out, or put both motions into one");
+}
+
 }  // namespace
 
 void addBondsAndDrives(dem::Model& grains, const Scene& scene, const Groups& groups, std::vector<std::string>& notes) {
   requireAlike(scene.bonds);
+  requireOnce(scene);
   if (!scene.bonds.empty()) {
     dem::switchOnRotation(grains.particles);
     dem::bonds(grains);

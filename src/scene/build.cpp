@@ -128,6 +128,7 @@ Built build(const Scene& scene) {
   addClumpsAndStreams(grains, scene);
   addSolids(built, scene);
   addCouplings(built, scene);
+  requireTogether(built, scene);
   return built;
 }
 

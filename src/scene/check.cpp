@@ -6,6 +6,7 @@
 #include "dovetail/core/memory.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/scene/execute.hpp"
+#include "output_cost.hpp"
 #include "plan.hpp"
 #include "series.hpp"
 
@@ -59,6 +60,7 @@ void tellCost(Built& built, const Scene& scene, const Plan& plan, std::ostream& 
   if (atMost > 0)
     log << "stages settle in at most " << atMost << " windows, " << formatDuration(each * static_cast<double>(atMost))
         << '\n';
+  tellOutput(built, scene, plan, log);
   log << "memory " << mebibytes(residentMemory()) << " MiB";
   if (const double left = availableMemory(); std::isfinite(left)) log << ", " << mebibytes(left) << " MiB are free";
   log << '\n';

@@ -60,6 +60,7 @@ public:
       frames_ = std::make_unique<Frames>(built_, scene_, settings.folder, provenance_, progress_.frames);
     for (const std::string& note : built_.notes) log_ << note << '\n';
     if (goesOn) return;
+    for (const std::string& warning : warnings(built_, scene_)) remark(warning, true);
     trial_.keep();
     removeEarlierRun(settings_.folder);
     writeScene();

@@ -20,6 +20,7 @@ void describe(Fields& f, Periodic& v) {
 }
 void describe(Fields& f, Domain& v) {
   static constexpr const char* policies[] = {"refuse", "remove"};
+  f.where(v.where);
   f.box({"box", "where centres of grains may be"}, v.box);
   f.choice({"escape", "who leaves it ends the run, or leaves the scene"}, v.removes, policies);
 }

@@ -65,6 +65,9 @@ void addWalls(Built& built, const Scene& scene);
 void addClumpsAndStreams(dem::Model& grains, const Scene& scene);
 void addSolids(Built& built, const Scene& scene);
 void addCouplings(Built& built, const Scene& scene);
+/// @throws InputError telling the worst grain, if there are grains on the wrong side of a wall or outside of the domain;
+/// where the domain removes those there is a note
+void requireTogether(Built& built, const Scene& scene);
 /// Number of a solid. @throws InputError with the nearest name there is
 std::size_t solidNamed(const std::string& name, const coupling::CoupledRun& run);
 

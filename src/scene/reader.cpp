@@ -109,7 +109,10 @@ public:
     const Node* node = take(key, true);
     if (!node) return;
     const std::filesystem::path path = folderOf(*node) / textOf(*node, key);
-    if (std::error_code error; !std::filesystem::is_regular_file(path, error))
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+      refuse(*node, path.string() + " is a folder", "give the name of a file in it");
+    if (!std::filesystem::is_regular_file(path, error))
       refuse(*node, "there is no file " + path.string(), "correct the name, which is relative to the scene's folder");
     value = std::filesystem::absolute(path).lexically_normal().string();
   }

@@ -7,20 +7,17 @@
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/sample.hpp"
-#include "dovetail/dem/model/walls.hpp"
 #include "dovetail/fem/mesh/mesh_quality.hpp"
-#include "dovetail/geometry/surface_checks.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
 #include "dovetail/surface/skin.hpp"
 #include "impacts.hpp"
-#include "overlap_audit.hpp"
+#include "output_cost.hpp"
+#include "plausible.hpp"
 #include "time_functions.hpp"
 
 namespace dovetail::scene {
 
 namespace {
-
-std::string percent(double share) { return formatNumber(std::round(1e3 * share) / 10.0) + " %"; }
 
 // ---- contacts and bodies at the start
 
@@ -46,68 +43,6 @@ void lookAtContacts(const Built& built, Lines& lines) {
                   nameOf(contacts.first[worst]) +
                   (contacts.second[worst] < 0 ? " with a wall" : " with particle " + nameOf(contacts.second[worst])) +
                   "): move them apart, or take a stiffer law.");
-}
-
-/// The skin of a solid as it lies now.
-geometry::TriangleMesh skinOf(const fem::SolidMesh& mesh, const fem::Nodes& nodes) {
-  std::vector<Vec3> x = nodes.X;
-  for (std::size_t n = 0; n < x.size(); ++n) x[n] += nodes.u[n];
-  const surface::Skin skin = surface::makeSkin(x, fem::boundaryFaces(mesh));
-  return {skin.wall.x, skin.wall.facets};
-}
-
-/// Bodies that touch do not overlap.
-void shrink(geometry::TriangleMesh& mesh) {
-  Vec3 middle;
-  for (const Vec3& x : mesh.x) middle += 1.0 / static_cast<double>(mesh.x.size()) * x;
-  for (Vec3& x : mesh.x) x += 1e-6 * (middle - x);
-}
-
-bool isPlane(const fem::SolidMesh& mesh) { return fem::dimensionOf(mesh) == 2; }
-
-void lookForGrainsWithin(const Built& built, std::size_t solid, Lines& lines) {
-  if (isPlane(built.meshes[solid])) return;
-  const coupling::SolidSide& side = built.run->solid(solid);
-  const geometry::TriangleMesh skin = skinOf(built.meshes[solid], side.nodes());
-  Vec3 lower = skin.x.front(), upper = lower;
-  for (const Vec3& x : skin.x)
-    for (int k = 0; k < 3; ++k) lower[k] = std::min(lower[k], x[k]), upper[k] = std::max(upper[k], x[k]);
-  const dem::Particles& p = built.run->grains.particles;
-  std::vector<std::size_t> near;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    bool in = true;
-    for (int k = 0; k < 3; ++k) in = in && p.x[i][k] > lower[k] && p.x[i][k] < upper[k];
-    if (in) near.push_back(i);
-  }
-  if (static_cast<double>(near.size()) * static_cast<double>(skin.facets.size()) > 3e8) return;  // half a minute
-  const auto within = [&](std::size_t i) { return geometry::windingNumber(skin.x, skin.facets, p.x[i]) > 0.5; };
-  const auto count = std::count_if(near.begin(), near.end(), within);
-  if (count > 0)
-    lines.push_back(std::to_string(count) + " grains have their centres in " + quoted(side.name) +
-                    " at the start: move them out, or give the two an overlap.");
-}
-
-/// Solids see grains only: neither each other nor walls.
-void lookForBodiesWithin(const Built& built, const Scene& scene, Lines& lines) {
-  std::vector<geometry::TriangleMesh> bodies;
-  std::vector<std::string> names;
-  for (std::size_t s = 0; s < built.meshes.size(); ++s) {
-    if (isPlane(built.meshes[s])) continue;
-    names.push_back(quoted(scene.solids[s].name));
-    bodies.push_back(skinOf(built.meshes[s], built.run->solid(s).nodes()));
-    shrink(bodies.back());
-  }
-  const std::size_t solids = bodies.size();
-  const auto meshes = std::as_const(built.run->grains).terms.all<dem::MeshWallTerm>();
-  for (std::size_t w = 0; w < built.walls.size(); ++w)
-    for (std::size_t m = built.walls[w].firstMesh; m < built.walls[w].endMesh; ++m) {
-      bodies.push_back({meshes[m]->mesh.wall.x, meshes[m]->mesh.wall.facets});
-      names.push_back("wall " + std::to_string(w));
-    }
-  for (const auto& [i, j] : overlapping(bodies))
-    if (static_cast<std::size_t>(i) < solids)
-      lines.push_back(names[static_cast<std::size_t>(i)] + " and " + names[static_cast<std::size_t>(j)] +
-                      " overlap at the start, and nothing keeps them apart: move one of them.");
 }
 
 // ---- surfaces and meshes
@@ -141,30 +76,6 @@ void lookAtMesh(const fem::SolidMesh& mesh, const Solid& solid, Lines& lines) {
                     " pieces that share no faces: join their nodes, or give it ties.");
   if (!topology.mismatchedFaces.empty() || !topology.crowdedFaces.empty() || !topology.duplicates.empty())
     lines.push_back("Neighbours in " + name + " do not fit each other: mesh anew, without elements twice.");
-}
-
-void lookAtWalls(const Built& built, Lines& lines) {
-  const auto walls = std::as_const(built.run->grains).terms.all<dem::MeshWallTerm>();
-  for (std::size_t k = 0; k < walls.size(); ++k) {
-    const dem::TriangulatedWall& wall = walls[k]->mesh.wall;
-    const geometry::SurfaceDefects defects = geometry::checkSurface(wall.x, wall.facets);
-    const std::string name = "Mesh wall " + std::to_string(k);
-    if (wall.oneSided && !defects.closedAndOriented())
-      lines.push_back(name + " is told to be closed and is not (" + geometry::describe(defects) +
-                      "): mend it, or write \"closed\": false.");
-    if (wall.oneSided && defects.closedAndOriented() && geometry::signedVolume(wall.x, wall.facets) < 0.0)
-      lines.push_back(name +
-                      " is closed with its normals inwards: it holds grains in, like a drum, and pulls in those that "
-                      "touch it from outside. If grains are outside, turn the facets in its file.");
-    if (!wall.oneSided && defects.closedAndOriented())
-      lines.push_back(name +
-                      " is closed, but counts as a sheet that pushes to both sides: write \"closed\": true if "
-                      "grains are only outside.");
-    if (!defects.selfIntersection.empty())
-      lines.push_back(name + " cuts itself at " + std::to_string(defects.selfIntersection.size()) +
-                      " pairs of facets, the first " + std::to_string(defects.selfIntersection.front()[0]) + " and " +
-                      std::to_string(defects.selfIntersection.front()[1]) + ": mend it.");
-  }
 }
 
 // ---- names
@@ -217,6 +128,10 @@ void lookAtStages(const Scene& scene, Lines& lines) {
   bool any = std::any_of(scene.walls.begin(), scene.walls.end(), moves) ||
              std::any_of(scene.drives.begin(), scene.drives.end(), moves);
   for (const Solid& solid : scene.solids) any = any || std::any_of(solid.supports.begin(), solid.supports.end(), moves);
+  if (!scene.insertions.empty())
+    lines.push_back(
+        "A stage settles while grains enter, and may never come to rest: run for a time in its place, and settle in "
+        "another scene that begins with its state.");
   if (any)
     lines.push_back(
         "A stage settles while walls, drives or supports move, and may never come to rest: run for a time in "
@@ -225,8 +140,16 @@ void lookAtStages(const Scene& scene, Lines& lines) {
 
 }  // namespace
 
+std::string percent(double share) { return formatNumber(std::round(1e3 * share) / 10.0) + " %"; }
+
 std::vector<std::string> warnings(const Built& built, const Scene& scene) {
   Lines lines;
+  lookAtNumbers(scene, lines);
+  lookAtRelations(built, scene, lines);
+  lookForContradictions(built, scene, lines);
+  lookAtCompany(built, scene, lines);
+  lookForFalling(built, scene, lines);
+  lookAtOutput(built, scene, lines);
   lookAtContacts(built, lines);
   lookAtSoftness(built, scene, lines);
   lookAtWalls(built, lines);
@@ -252,7 +175,7 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene) {
   lookForBodiesWithin(built, scene, lines);
   lookAtNames(scene, lines);
   lookAtStages(scene, lines);
-  return lines;
+  return onePerKind(lines);
 }
 
 }  // namespace dovetail::scene

@@ -2,31 +2,10 @@
 #include "../io/scratch_folder.hpp"
 #include "dovetail/fem/mesh/mesh_shapes.hpp"
 #include "dovetail/mesh_io/surface_files.hpp"
-#include "refusal.hpp"
-#include "scene_parts.hpp"
+#include "warning_parts.hpp"
 
 namespace dovetail::scene::test {
 namespace {
-
-/// All warnings about a scene, one behind the other.
-std::string warningsOf(const Scene& scene) {
-  const Built built = started(scene);
-  std::string all;
-  for (const std::string& one : warnings(built, scene)) all += one + "\n";
-  return all;
-}
-std::string warningsOf(const std::string& middle, const std::filesystem::path& folder = "/") {
-  return warningsOf(sceneOf(middle, folder));
-}
-
-const std::string block =
-    R"("solids": [{"name": "b", "mesh": "box", "cells": [2, 2, 2], "box": [[0, 0, 0], [1, 1, 1]],
-      "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000}, "supports": [{"on": "z-"}])";
-const std::string onBlock = R"(}], "couplings": [{"type": "surface", "solid": "b", "kernel": "advised"}],)";
-
-std::string spheres(const std::string& places) {
-  return R"("particles": [{"from": "list", "density": 2500, "spheres": [)" + places + "]}],";
-}
 
 TEST(SceneWarnings, StarterScenesHaveNone) {
   if (!WITH_EXPRESSIONS) GTEST_SKIP();
@@ -83,10 +62,10 @@ TEST(SceneWarnings, WallsThatAreOpenClosedOrCutThemselves) {
   const auto wall = [&](const std::string& file, const std::string& more) {
     return warningsOf(R"("walls": [{"shape": "mesh", "file": ")" + file + "\"" + more + "}],", folder.path());
   };
-  expectParts(wall("closed.stl", ""), {"Mesh wall 0 is closed, but counts as a sheet"});
+  expectParts(wall("closed.stl", ""), {"walls.0 is closed, but counts as a sheet"});
   EXPECT_EQ(wall("closed.stl", R"(, "closed": true)"), "");
   mesh_io::writeStl(folder / "cavity.stl", x, std::vector<geometry::Facet>{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}});
-  expectParts(wall("cavity.stl", R"(, "closed": true)"), {"Mesh wall 0 is closed with its normals inwards"});
+  expectParts(wall("cavity.stl", R"(, "closed": true)"), {"walls.0 is closed with its normals inwards"});
   expectParts(wall("crossing.stl", ""), {"cuts itself at 1 pairs of facets, the first 0 and 1"});
 }
 

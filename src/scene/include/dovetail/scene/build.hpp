@@ -37,7 +37,7 @@ using VolumeMesher =
 void useVolumeMesher(VolumeMesher mesher);
 
 /// Makes all parts; no step is made, and the run has not been started.
-/// @throws InputError with the place in the scene file of the part that cannot be
+/// @throws InputError with the place in the scene file of the part that cannot be, or not where it lies
 Built build(const Scene& scene);
 
 /// A limit of the time step and who sets it.
@@ -53,9 +53,10 @@ struct Limit {
 /// @throws InputError as CoupledRun::start, or if nothing in the scene tells a step
 void start(Built& built, const Scene& scene);
 
-/// What is likely not meant, one sentence each, with what to write instead: deep overlaps at the start, grains in solids,
-/// densities and moduli that do not go together in an overlap, overlaps and kernels of odd widths, meshes and walls with
-/// faults, names that nobody uses. Of a started run.
+/// What is likely not meant, a sentence for each kind of fault, with what to write instead: numbers far from what is
+/// usual, deep overlaps at the start, grains in solids, parts that are far from each other or there twice, densities and
+/// moduli that do not go together in an overlap, overlaps and kernels of odd widths, meshes and walls with faults, names
+/// that nobody uses. Of a started run. @throws InputError as for outputs that cannot be written
 std::vector<std::string> warnings(const Built& built, const Scene& scene);
 
 /// All limits there are, of the started run as it is now.

@@ -39,8 +39,8 @@ Scene readRun(const std::filesystem::path& folder);
 /// or the end of the last stage is not known: it brings to rest, or one before it still has to
 bool resume(const RunSettings& settings, std::ostream& log);
 
-/// Builds and starts the scene, and tells its sizes, all limits of the step, and what steps, memory and time a run
-/// takes, from windows that are stepped for up to a second.
+/// Builds and starts the scene, and tells its sizes, all limits of the step, and what steps, memory, time and room on
+/// disk a run takes, from windows that are stepped for up to a second.
 /// @throws InputError as build and start; NumericalError if the first steps break down
 void check(const Scene& scene, std::ostream& log);
 

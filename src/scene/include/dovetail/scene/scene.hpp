@@ -14,6 +14,7 @@ struct Periodic {
 struct Domain {
   geometry::Box box = requiredBox;  ///< m
   bool removes = false;             ///< who leaves it leaves the scene; otherwise it ends the run
+  std::string where;
 };
 
 struct Settle {

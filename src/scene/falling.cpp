@@ -1,0 +1,92 @@
+// Grains that nothing keeps from falling.
+#include <cmath>
+
+#include "dovetail/dem/model/loads.hpp"
+#include "dovetail/dem/model/walls.hpp"
+#include "extent.hpp"
+#include "warnings.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+/// Whether walls stop all that fall: planes below, and hulls around.
+bool stopAll(const dem::Model& grains, const Vec3& down) {
+  constexpr double slope = 1e-9;
+  using Shape = dem::PrimitiveWall::Shape;
+  for (const auto* term : std::as_const(grains).terms.all<dem::PrimitiveWallTerm>()) {
+    const dem::PrimitiveWall& wall = term->wall;
+    const double along = dot(wall.axis, down);
+    if (wall.shape == Shape::plane ? along < -slope : wall.shape == Shape::sphere || std::abs(along) < 1.0 - slope)
+      return true;
+  }
+  return false;
+}
+
+/// Shadows that parts cast against the fall, in axes whose last one points down.
+class Shadows {
+public:
+  explicit Shadows(const Vec3& down) : down_(down), first_(anyNormalTo(down)), second_(cross(down, first_)) {}
+  void add(const std::vector<Vec3>& places) {
+    Extent one;
+    for (const Vec3& x : places) one.add(turned(x));
+    if (!one.isEmpty()) shadows_.push_back(one);
+  }
+  bool isEmpty() const { return shadows_.empty(); }
+  /// Whether a sphere is above one of them, or beside it.
+  bool holds(const Vec3& x, double radius) const {
+    const Vec3 at = turned(x);
+    for (const Extent& one : shadows_)
+      if (at.x > one.lower.x - radius && at.x < one.upper.x + radius && at.y > one.lower.y - radius &&
+          at.y < one.upper.y + radius && at.z < one.upper.z + radius)
+        return true;
+    return false;
+  }
+
+private:
+  static Vec3 anyNormalTo(const Vec3& direction) {
+    const Vec3 other = std::abs(direction.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    return normalized(cross(direction, other));
+  }
+  Vec3 turned(const Vec3& x) const { return {dot(x, first_), dot(x, second_), dot(x, down_)}; }
+  Vec3 down_, first_, second_;
+  std::vector<Extent> shadows_;
+};
+
+Shadows shadowsIn(const Built& built, const Scene& scene, const Vec3& down) {
+  const dem::Model& grains = built.run->grains;
+  Shadows shadows(down);
+  for (const auto* term : std::as_const(grains).terms.all<dem::MeshWallTerm>()) shadows.add(term->mesh.wall.x);
+  for (std::size_t s = 0; s < scene.solids.size(); ++s)
+    if (std::ranges::any_of(scene.couplings, [&](const Coupling& one) { return one.solid == scene.solids[s].name; }))
+      shadows.add(built.meshes[s].X);
+  for (const auto* drive : std::as_const(grains).terms.all<dem::DriveTerm>())
+    for (const std::int64_t id : drive->ids())
+      if (const int i = dem::find(grains.particles, id); i >= 0)
+        shadows.add({grains.particles.x[static_cast<std::size_t>(i)]});
+  return shadows;
+}
+
+}  // namespace
+
+void lookForFalling(const Built& built, const Scene& scene, Lines& lines) {
+  const auto settles = [](const Stage& stage) { return std::holds_alternative<Settle>(stage.kind); };
+  const double g = norm(scene.gravity);
+  const dem::Model& grains = built.run->grains;
+  const dem::Particles& p = grains.particles;
+  if (g == 0.0 || std::ranges::none_of(scene.stages, settles) || (scene.domain && scene.domain->removes)) return;
+  const Vec3 down = 1.0 / g * scene.gravity;
+  if (stopAll(grains, down)) return;
+  const Shadows shadows = shadowsIn(built, scene, down);
+  const bool holdTogether = !scene.bonds.empty() || (grains.laws && std::isinf(grains.laws->reach()));
+  if (!shadows.isEmpty() && (holdTogether || scene.periodic)) return;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) count += shadows.holds(p.x[i], p.radius[i]) ? 0 : 1;
+  if (count > 0)
+    lines.push_back(
+        std::to_string(count) + " of " + std::to_string(p.size()) +
+        " grains have nothing below them, fall for ever, and a stage that settles never ends: give the scene "
+        "a wall or a solid below, or run for a time.");
+}
+
+}  // namespace dovetail::scene

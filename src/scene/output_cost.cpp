@@ -1,0 +1,131 @@
+#include "output_cost.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <ostream>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/model/loads.hpp"
+#include "dovetail/dem/model/sample.hpp"
+#include "dovetail/dem/model/walls.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+/// Of all stages that run for a time, s.
+double timeOf(const Scene& scene) {
+  double time = 0.0;
+  for (const Stage& stage : scene.stages)
+    if (const auto* const run = std::get_if<RunFor>(&stage.kind)) time += run->time;
+  return time;
+}
+
+double expectedOf(const Insertion& one, double time) {
+  const auto [least, most] = one.radius;
+  const double meanCube = 0.25 * (least + most) * (least * least + most * most);
+  const double mass = one.density * 4.0 / 3.0 * std::numbers::pi * meanCube;
+  return time * one.numberPerSecond.value_or(one.massPerSecond.value_or(0.0) / mass);
+}
+
+/// @param every  windows between two; 0: none
+std::int64_t timesWritten(const Plan& plan, const Scene& scene, std::int64_t every) {
+  if (every == 0) return 0;
+  std::int64_t count = 1;
+  for (std::size_t k = 0; k < plan.stages.size(); ++k)
+    count += std::holds_alternative<Settle>(scene.stages[k].kind) ? 1 : (plan.stages[k] + every - 1) / every;
+  return count;
+}
+
+// ---- bytes of a frame: numbers of eight, as they lie in files of VTK
+
+constexpr double number = 8.0, vector = 3.0 * number, cell = 2.0 * number + 1.0, line = 2.0 * vector + 3.0 * number;
+
+double bytesOfGrains(const dem::Model& grains, double count, const std::vector<std::string>& contents) {
+  const auto has = [&](const char* word) { return std::ranges::find(contents, word) != contents.end(); };
+  double each = 0.0;
+  if (has("grains")) each += 2.0 * vector + 2.0 * number + cell;
+  for (const auto& [word, bytes] : {std::pair{"spin", vector}, {"forces", vector}, {"weights", number}})
+    if (has(word)) each += bytes;
+  double bytes = each * count;
+  constexpr double touching = 2.0;  // contacts a grain of a bed
+  const double force = vector + 4.0 * number;
+  if (has("contacts"))
+    bytes += (line + force) * std::max(static_cast<double>(dem::sampleContacts(grains).size()), touching * count);
+  if (has("bonds"))
+    for (const auto* const term : grains.terms.all<dem::BondTerm>())
+      bytes += (line + force + number) * static_cast<double>(term->bonds.size());
+  if (has("walls"))
+    for (const auto* const term : grains.terms.all<dem::MeshWallTerm>()) {
+      const dem::TriangulatedWall& wall = term->mesh.wall;
+      bytes += vector * static_cast<double>(wall.x.size()) +
+               (2.0 * vector + 2.0 * number) * static_cast<double>(wall.facets.size());
+    }
+  return bytes;
+}
+
+double bytesOfSolids(const Built& built, const std::vector<std::string>& contents) {
+  const auto has = [&](const char* word) { return std::ranges::find(contents, word) != contents.end(); };
+  if (!has("solids")) return 0.0;
+  // Packed by zlib, which makes little of shapes that repeat and values that are smooth.
+  constexpr double packed = 0.75;
+  const double values = (has("stress") ? 11.0 * number : 0.0) + (has("history") ? 2.0 * number : 0.0);
+  double bytes = 0.0;
+  for (const fem::SolidMesh& mesh : built.meshes)
+    bytes += packed *
+             (2.0 * vector * static_cast<double>(mesh.X.size()) + values * static_cast<double>(mesh.elementCount()));
+  return bytes;
+}
+
+struct Frames {
+  std::int64_t count = 0;
+  double bytesEach = 0.0;
+  double bytes() const { return static_cast<double>(count) * bytesEach; }
+};
+
+Frames framesOf(const Built& built, const Scene& scene, const Plan& plan) {
+  const dem::Model& grains = built.run->grains;
+  auto count = static_cast<double>(grains.particles.size());
+  for (const Insertion& one : scene.insertions) count += 0.5 * expectedOf(one, timeOf(scene));
+  constexpr double head = 2000.0;
+  return {timesWritten(plan, scene, plan.frames),
+          head + bytesOfGrains(grains, count, scene.output.contents) + bytesOfSolids(built, scene.output.contents)};
+}
+
+std::string room(double bytes) {
+  if (bytes < 1e6) return rounded(bytes / 1e3) + " kB";
+  return bytes < 1e9 ? rounded(bytes / 1e6) + " MB" : rounded(bytes / 1e9) + " GB";
+}
+
+}  // namespace
+
+void tellOutput(const Built& built, const Scene& scene, const Plan& plan, std::ostream& log) {
+  for (std::size_t k = 0; k < scene.insertions.size(); ++k)
+    log << "insertions." << k << ": about " << rounded(expectedOf(scene.insertions[k], timeOf(scene)))
+        << " grains enter in " << timeOf(scene) << " s, where there is room\n";
+  if (plan.series > 0) log << "series: " << timesWritten(plan, scene, plan.series) << " rows\n";
+  if (plan.frames == 0) return;
+  const Frames frames = framesOf(built, scene, plan);
+  log << "frames: " << frames.count << " of about " << room(frames.bytesEach) << ", " << room(frames.bytes())
+      << " on disk\n";
+}
+
+void lookAtOutput(const Built& built, const Scene& scene, Lines& lines) {
+  constexpr std::int64_t many = 10000;
+  const Plan plan = planOf(built, scene);
+  const Frames frames = framesOf(built, scene, plan);
+  if (frames.count > many)
+    lines.push_back("output.frames asks for " + std::to_string(frames.count) + " frames" +
+                    (plan.frames == 1 ? ", one at every window of steps" : "") + ", " + room(frames.bytes()) +
+                    " on disk: take a larger interval, such as " + rounded(timeOf(scene) / 200.0) + " s.");
+  std::error_code error;
+  const auto free = std::filesystem::space(std::filesystem::current_path(error), error);
+  if (!error && frames.bytes() > static_cast<double>(free.available))
+    lines.push_back("The frames take about " + room(frames.bytes()) + ", and " +
+                    room(static_cast<double>(free.available)) +
+                    " are free on the disk of this folder: take a larger output.frames, or leave some of the contents "
+                    "out.");
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,95 @@
+#include "reach.hpp"
+
+#include <cmath>
+
+#include "dovetail/dem/model/walls.hpp"
+#include "extent.hpp"
+#include "time_functions.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+/// Farthest way of a path while the scene runs, m.
+template <class Moved>
+double wayOf(const Moved& moved, const Scene& scene) {
+  constexpr int samples = 50;
+  const auto path = pathOf(moved.velocity, moved.displacement, scene).displacement;
+  double farthest = 0.0;
+  for (int k = 0; k <= samples; ++k) farthest = std::max(farthest, norm(path(durationOf(scene) * k / samples)));
+  return farthest;
+}
+template <class Moved>
+double farthestOf(const std::vector<Moved>& all, const Scene& scene) {
+  double farthest = 0.0;
+  for (const Moved& one : all) farthest = std::max(farthest, wayOf(one, scene));
+  return farthest;
+}
+
+/// Grains go far along those.
+bool slides(const dem::Model& grains, const Vec3& gravity) {
+  constexpr double slope = 1e-3;
+  const double g = norm(gravity);
+  for (const auto* term : std::as_const(grains).terms.all<dem::PrimitiveWallTerm>()) {
+    const double down = g > 0.0 ? std::abs(dot(term->wall.axis, gravity)) / g : 1.0;
+    const bool steep =
+        term->wall.shape == dem::PrimitiveWall::Shape::plane ? down > slope && down < 1.0 - slope : down < 1.0 - slope;
+    if (steep || !std::isfinite(g)) return true;
+  }
+  return false;
+}
+
+/// Where grains are and enter, and where they fall from there.
+std::vector<Extent> sourcesOf(const Built& built, const Scene& scene) {
+  std::vector<Extent> all(1);
+  all[0].add(built.run->grains.particles.x);
+  for (const Insertion& one : scene.insertions) {
+    all.emplace_back();
+    all.back().add(one.region.lower);
+    all.back().add(one.region.upper);
+  }
+  std::erase_if(all, [](const Extent& one) { return one.isEmpty(); });
+  return all;
+}
+
+double speedOf(const Built& built, const Scene& scene, std::size_t solid) {
+  double fastest = 0.0;
+  for (const Vec3& v : built.run->grains.particles.v) fastest = std::max(fastest, norm(v));
+  for (const Insertion& one : scene.insertions) fastest = std::max(fastest, norm(one.velocity));
+  return fastest + norm(scene.solids[solid].velocity);
+}
+
+double sizeOfWalls(const Built& built, const std::vector<Extent>& sources) {
+  Extent all;
+  for (const Extent& one : sources) all.add(one.lower), all.add(one.upper);
+  for (const auto* term : std::as_const(built.run->grains).terms.all<dem::MeshWallTerm>()) all.add(term->mesh.wall.x);
+  return all.size();
+}
+
+void fall(Extent& source, const Scene& scene) {
+  for (int k = 0; k < 3; ++k) {
+    const bool repeats = scene.periodic && scene.periodic->axes[static_cast<std::size_t>(k)];
+    if (scene.gravity[k] < 0.0 || repeats) source.lower[k] = -Extent::nowhere;
+    if (scene.gravity[k] > 0.0 || repeats) source.upper[k] = Extent::nowhere;
+  }
+}
+
+}  // namespace
+
+bool isOutOfReach(const Built& built, const Scene& scene, std::size_t solid) {
+  std::vector<Extent> sources = sourcesOf(built, scene);
+  if (sources.empty() || slides(built.run->grains, scene.gravity)) return false;
+  Extent body;
+  body.add(built.meshes[solid].X);
+  const double spread = body.size() + sizeOfWalls(built, sources) + speedOf(built, scene, solid) * durationOf(scene) +
+                        farthestOf(scene.walls, scene) + farthestOf(scene.drives, scene) +
+                        farthestOf(scene.solids[solid].supports, scene);
+  for (Extent& source : sources) {
+    source.widen(spread);
+    fall(source, scene);
+    if (meet({source.lower, source.upper}, {body.lower, body.upper})) return false;
+  }
+  return true;
+}
+
+}  // namespace dovetail::scene

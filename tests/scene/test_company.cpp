@@ -1,0 +1,144 @@
+// Parts of scenes that are looked at together.
+#include "../io/scratch_folder.hpp"
+#include "dovetail/mesh_io/surface_files.hpp"
+#include "warning_parts.hpp"
+
+namespace dovetail::scene::test {
+namespace {
+
+const std::string grain = spheres(R"({"at": [0.1, 0.1, 0.1], "radius": 0.02})");
+const std::string two = R"("particles": [{"from": "list", "name": "g", "density": 2500, "spheres": [
+    {"at": [0, 0, 0.02], "radius": 0.02}, {"at": [0.04, 0, 0.02], "radius": 0.02}]}],)";
+
+TEST(SceneTogether, GrainsOnTheWrongSideOfWallsAreRefused) {
+  const auto of = [](const std::string& wall) { return refusalOfRun(grain + R"("walls": [)" + wall + "],"); };
+  expectParts(
+      of(R"({"shape": "plane", "point": [0, 0, 0.5], "normal": [0, 0, 1]})"),
+      {"1 grain lies behind the plane", "by 0.4 m (particle 0 at (0.1, 0.1, 0.1) m)", "walls.0", "turn the normal"});
+  expectParts(of(R"({"shape": "box", "box": [[1, 1, 1], [2, 2, 2]]})"), {"outside of the box", "make the box larger"});
+  expectParts(of(R"({"shape": "cylinder", "point": [1, 0, 0], "axis": [0, 0, 1], "radius": 0.2})"),
+              {"outside of the cylinder", "\"inside\""});
+  expectParts(of(R"({"shape": "sphere", "centre": [0.1, 0.1, 0.2], "radius": 0.3, "inside": false})"),
+              {"within the sphere"});
+  expectParts(of(R"({"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1], "displacement": [0, 0, 0.2]})"),
+              {"begins displaced by (0, 0, 0.2) m", "let it begin at 0"});
+  EXPECT_EQ(of(R"({"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]})"), "");
+}
+
+TEST(SceneTogether, HeldGrainsMayLieInWalls) {
+  EXPECT_EQ(refusalOfRun(replaced(two, "0, 0, 0.02", "0, 0, -0.01") + ground + R"("drives": [{"group": "g"}],)"), "");
+}
+
+TEST(SceneTogether, GrainsOutsideOfTheDomain) {
+  const auto of = [](const std::string& more) {
+    return grain + R"("domain": {"box": [[0, 0, 0], [0.05, 1, 1]])" + more + "},";
+  };
+  expectParts(refusalOfRun(of("")),
+              {"1 grain lies outside of the domain", "by 0.05 m", "domain]", "domain.box larger"});
+  const Built built = build(sceneOf(of(R"(, "escape": "remove")")));
+  ASSERT_EQ(built.notes.size(), 1U);
+  expectParts(built.notes[0], {"1 grain lies outside of the domain", "leave at once"});
+}
+
+TEST(SceneTogether, GrainsAreBondedAndDrivenOnce) {
+  const std::string bond = R"("youngs_modulus": 1e7, "poisson_ratio": 0.2, "gap": 1e-3)";
+  for (const char* const with : {"", R"("with": "g", )"})
+    expectParts(
+        refusalOfRun(two + R"("bonds": [{"group": "g", )" + bond + R"(}, {"group": "g", )" + with + bond + "}],"),
+        {"the grains of \"g\" are bonded by another item", "bonds.1"});
+  expectParts(refusalOfRun(two + R"("drives": [{"group": "g"}, {"group": "g", "velocity": [0, 0, 1]}],)"),
+              {"the grains of \"g\" are driven by another item", "drives.1"});
+}
+
+TEST(SceneCompany, WhatIsThereTwiceOrCancels) {
+  const std::string plane = R"({"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]})";
+  expectParts(warningsOf(grain + R"("walls": [)" + plane + "," + plane + "],"), {"walls.0 and walls.1 say the same"});
+  const auto loaded = [](const std::string& loads) {
+    return warningsOf(block + R"(, "loads": [)" + loads + "]" + onBlock);
+  };
+  const auto pressure = [](const std::string& on, const std::string& value) {
+    return R"({"type": "pressure", "on": ")" + on + R"(", "pressure": )" + value + "}";
+  };
+  expectParts(loaded(pressure("z+", "10") + "," + pressure("z+", "-10")), {"loads.0 and solids.0.loads.1", "cancel"});
+  expectParts(loaded(pressure("z-", "10")), {"solids.0.loads.0 acts on \"z-\", all of whose nodes are held"});
+  EXPECT_EQ(loaded(pressure("z+", "10") + "," + pressure("x+", "-10")), "");
+}
+
+TEST(SceneCompany, ProbesFarFromWhatTheyFollow) {
+  const auto of = [](const std::string& probe) {
+    return warningsOf(grain + block + onBlock + R"("output": {"series": 1e-4, "probes": [{"name": "p", )" + probe +
+                      "}]},");
+  };
+  expectParts(of(R"("of": "node", "solid": "b", "at": [101, 1, 1])"),
+              {"The probe \"p\" follows the nearest node, which is 100 m from its place, at (1, 1, 1) m"});
+  expectParts(of(R"("of": "grain", "at": [0.1, 0.1, 9])"), {"nearest grain, which is 8.9 m"});
+}
+
+TEST(SceneCompany, InsertionsWhereNobodyCanEnter) {
+  const auto of = [](const std::string& region, const std::string& more = "") {
+    return warningsOf(R"("insertions": [{"density": 2500, "radius": {"smallest": 0.01, "largest": 0.01},
+        "number_per_second": 10, "region": )" +
+                      region + "}]," + ground + more);
+  };
+  expectParts(of("[[0, 0, -2], [1, 1, -1]]"),
+              {"The region of insertions.0 lies behind walls or outside of the domain"});
+  expectParts(of("[[0, 0, -2], [1, 1, 1]]"), {"lies for 66.7 % behind walls"});
+  expectParts(of("[[0, 0, 1], [1, 1, 2]]", R"("domain": {"box": [[5, 5, 0], [6, 6, 9]]},)"), {"outside of the domain"});
+  expectParts(of("[[0, 0, 5], [1, 1, 6]]", grain + R"("outlets": [{"region": [[0, 0, 0], [1, 1, 1]]}],)"),
+              {"1 grains lie in the region of outlets.0"});
+  expectParts(of("[[0, 0, 1], [1, 1, 2]]", R"("outlets": [{"region": [[0, 0, 0], [1, 1, 1.5]]}],)"),
+              {"reaches into that of outlets.0"});
+  EXPECT_EQ(of("[[0, 0, 0], [1, 1, 1]]"), "");
+}
+
+TEST(SceneCompany, SolidsThatNoGrainsComeTo) {
+  const auto of = [](const std::string& places, const std::string& more = "") {
+    return warningsOf(block + onBlock + spheres(places) + more);
+  };
+  expectParts(of(R"({"at": [50, 0.5, 2], "radius": 0.1})"), {"No grains are near \"b\"", "does nothing"});
+  expectParts(of(R"({"at": [0.5, 0.5, 90], "radius": 0.1})"), {"No grains are near \"b\""});
+  EXPECT_EQ(of(R"({"at": [0.5, 0.5, 90], "radius": 0.1})", R"("gravity": [0, 0, -10],)").find("No grains"),
+            std::string::npos);
+  EXPECT_EQ(of(R"({"at": [50, 0.5, 2], "radius": 0.1, "velocity": [-60000, 0, 0]})").find("No grains"),
+            std::string::npos);
+}
+
+TEST(SceneCompany, GrainsThatFallForEver) {
+  const auto of = [](const std::string& parts, const std::string& stage = "settle") {
+    return warningsOf(sceneFromText(
+        "{" + law + parts + R"("gravity": [0, 0, -10], "steps": {"dt": 1e-5}, "stages": [{"do": ")" + stage + R"("}]})",
+        "s.json", SCENES));
+  };
+  expectParts(of(two), {"2 of 2 grains have nothing below them"});
+  EXPECT_EQ(of(two + ground), "The group of particles \"g\" is used by nobody.\n");
+  const std::string tray = R"("solids": [{"name": "b", "mesh": "box", "cells": [1, 1, 1],
+      "box": [[-0.1, -0.1, -1], [0.01, 0.1, 0]], "supports": [{"on": "z-"}], "material": {"law": "neo-Hookean",
+      "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000}}], "couplings": [{"type": "surface", "solid": "b"}],)";
+  expectParts(of(two + tray), {"1 of 2 grains have nothing below them"});
+}
+
+TEST(SceneCompany, PathsThatDoNotBeginAtZero) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP();
+  expectParts(warningsOf(grain + R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1],
+      "displacement": [0, 0, "0.01 + t"]
+}],)"),
+              {"walls.0 begins (0, 0, 0.01) m away from where it is described"});
+  expectParts(warningsOf(two + R"("drives": [{"group": "g", "displacement": [0, 0, "0.01 + t"]}],)"),
+              {"The grains of drives.0 lie (0, 0, 0.01) m from their path"});
+}
+
+TEST(SceneCompany, SurfacesOfAnotherUnit) {
+  const io::test::ScratchFolder folder;
+  const std::vector<Vec3> x{{-100, -100, 0}, {100, -100, 0}, {0, 100, 0}};
+  mesh_io::writeStl(folder / "plate.stl", x, std::vector<geometry::Facet>{{0, 1, 2}});
+  const auto of = [&](const std::string& scale) {
+    return warningsOf(grain + R"("walls": [{"shape": "mesh", "file": "plate.stl", "scale": )" + scale + "}],",
+                      folder.path());
+  };
+  expectParts(of("1"), {"The surface of walls.0 is 283 m large, and all grains together 0.04 m", "\"scale\": 0.001"});
+  expectParts(of("1e-6"), {"The surface of walls.0 is 0.000283 m large, and the smallest grain 0.04 m"});
+  EXPECT_EQ(of("0.001"), "");
+}
+
+}  // namespace
+}  // namespace dovetail::scene::test

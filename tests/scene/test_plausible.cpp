@@ -1,0 +1,100 @@
+// Numbers that are likely not meant, and what check tells of outputs.
+#include <filesystem>
+#include <sstream>
+
+#include "../io/scratch_folder.hpp"
+#include "dovetail/scene/execute.hpp"
+#include "warning_parts.hpp"
+
+namespace dovetail::scene::test {
+namespace {
+
+/// Warnings of a bed of two grains with a part in another one's place.
+std::string bedWith(const std::string& part, const std::string& in) {
+  const std::string text = R"("gravity": [0, 0, -9.81],
+    "contact": {"law": "linear", "stiffness": 1e5, "restitution": 0.8, "friction": 0.3},
+    "particles": [{"from": "list", "density": 2500, "velocity": [0, 0, 0], "spheres": [
+      {"at": [0, 0, 0.02], "radius": 0.01}, {"at": [0.03, 0, 0.02], "radius": 0.01}]}],)" +
+                           ground + R"("steps": {"dt": "auto"}, "stages": [{"do": "run", "time": 1e-3}])";
+  return warningsOf(sceneFromText("{" + replaced(text, part, in) + "}", "s.json", "/"));
+}
+
+TEST(ScenePlausible, NumbersOfAnotherUnitAreToldWithIt) {
+  EXPECT_EQ(bedWith("2500", "2500"), "");
+  expectParts(bedWith("2500", "2.5"), {"particles.0.density is 2.5 kg/m3", "write \"2.5 g/cm3\" if that is meant"});
+  expectParts(bedWith("\"friction\": 0.3", "\"friction\": 30"),
+              {"contact.friction is 30,", "write 0.577 if an angle of 30 deg is meant"});
+  const std::string hertz = R"("law": "Hertz", "poisson_ratio": 0.3, "youngs_modulus": )";
+  expectParts(bedWith(R"("law": "linear", "stiffness": 1e5)", hertz + "\"2 mPa\""),
+              {"contact.youngs_modulus is 0.002 Pa", "write \"2 MPa\" if that is meant"});
+  expectParts(bedWith(R"("law": "linear", "stiffness": 1e5)", hertz + "70"), {"write \"70 GPa\" if that is meant"});
+  expectParts(bedWith("1e5", "1e-6"), {"contact.stiffness is 1e-06 N/m", "look at its unit", "In the first step"});
+  expectParts(bedWith("-9.81]", "-981000]"), {"gravity is -981000 m/s2", "write \"-981000 mm/s2\""});
+  expectParts(bedWith(R"("velocity": [0, 0, 0])", R"("velocity": [0, 0, -20000])"), {"write \"-20000 mm/s\""});
+}
+
+TEST(ScenePlausible, OneFaultOfManyItemsIsToldOnce) {
+  const auto one = [](const std::string& density, const std::string& x) {
+    return R"({"from": "list", "density": )" + density + R"(, "spheres": [{"at": [)" + x +
+           R"(, 0, 0], "radius": 0.01}]})";
+  };
+  const std::string found =
+      warningsOf(R"("particles": [)" + one("2.5", "0") + "," + one("2.7", "1") + "," + one("2.9", "2") + "],");
+  expectParts(found, {"particles.0.density", "The same goes for 2 more."});
+  EXPECT_EQ(found.find("particles.1.density"), std::string::npos);
+}
+
+TEST(ScenePlausible, SoundThatNoMaterialHas) {
+  expectParts(warningsOf(replaced(block, "1e6", "500") + onBlock), {"Waves in \"b\" go at 0.707 m/s"});
+  EXPECT_EQ(warningsOf(replaced(block, "1e6", "5000") + onBlock), "");
+}
+
+TEST(ScenePlausible, ElementsThatLock) {
+  const auto of = [](const std::string& poisson, const std::string& formulation, const std::string& cell) {
+    return warningsOf(replaced(replaced(block, "0.3", poisson), R"("cells")",
+                               R"("formulation": ")" + formulation + R"(", "cell": ")" + cell + R"(", "cells")") +
+                      onBlock);
+  };
+  EXPECT_EQ(of("0.45", "standard", "hex8"), "");
+  expectParts(of("0.49999", "standard", "hex8"),
+              {"\"b\" hardly changes its volume (poisson_ratio 0.49999)", "write \"formulation\": \"enhanced\""});
+  expectParts(of("0.499", "standard", "tet4"), {"tet4 take for being rigid", "take tet10"});
+  EXPECT_EQ(of("0.499", "enhanced", "hex8"), "");
+}
+
+TEST(ScenePlausible, FramesAreCountedAndTooManyAreTold) {
+  const auto of = [](const std::string& interval) {
+    return sceneOf(spheres(R"({"at": [0, 0, 0], "radius": 0.1})") + R"("output": {"frames": )" + interval + "},");
+  };
+  const auto checked = [&](const std::string& interval) {
+    std::ostringstream log;
+    check(of(interval), log);
+    return log.str();
+  };
+  if (!WITH_FRAMES) GTEST_SKIP();
+  expectParts(checked("1e-4"), {"frames: 11 of about 2.", "kB on disk"});
+  EXPECT_EQ(checked("1e-4").find("WARNING"), std::string::npos);
+  Scene every = of("1e-9");
+  std::get<RunFor>(every.stages[0].kind).time = 1.0;
+  expectParts(warningsOf(every), {"asks for 100001 frames, one at every window of steps", "such as 0.005 s"});
+}
+
+TEST(ScenePlausible, RoomOfFramesIsThatOfTheirFiles) {
+  if (!WITH_FRAMES) GTEST_SKIP();
+  const io::test::ScratchFolder folder;
+  const Scene scene = sceneOf(
+      R"("particles": [{"from": "lattice", "lattice": "simple-cubic", "radius": 0.05, "distance": 0.0999, "density": 2500,
+      "box": [[0, 0, 0], [1, 1, 1]]}], "output": {"frames": 1, "contents": ["grains", "spin", "forces", "contacts"]},)");
+  std::ostringstream log, ran;
+  check(scene, log);
+  run(scene, {.folder = folder.path() / "out", .progress = false}, ran);
+  double bytes = 0.0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path() / "out"))
+    if (entry.path().string().find("_000001.v") != std::string::npos) bytes += static_cast<double>(entry.file_size());
+  const std::string text = log.str();
+  const double told = 1e3 * std::stod(text.substr(text.find(" of about ") + 10));
+  EXPECT_NEAR(told / bytes, 1.0, 0.1) << text;
+}
+
+}  // namespace
+}  // namespace dovetail::scene::test
