@@ -79,8 +79,8 @@ HierarchicalGrid::HierarchicalGrid(const Periodicity& periodicity) : periodicity
   for (int k = 0; k < 3; ++k)
     if (periodicity.axes[static_cast<std::size_t>(k)] &&
         !(periodicity.length(k) > 0.0 && std::isfinite(periodicity.length(k))))
-      throw InputError("a periodic axis has length " + formatNumber(periodicity.length(k)), "axis " + std::to_string(k),
-                       "give a finite upper bound above the lower one");
+      throw InputError("a periodic axis has length " + formatNumber(periodicity.length(k)),
+                       std::string("axis ") + "xyz"[k], "give a finite upper bound above the lower one");
 }
 
 HierarchicalGrid::Sizes HierarchicalGrid::checkSpheres(std::span<const Vec3> x, std::span<const double> radius,
@@ -105,7 +105,7 @@ HierarchicalGrid::Sizes HierarchicalGrid::checkSpheres(std::span<const Vec3> x, 
       throw InputError("the periodic length " + formatNumber(periodicity_.length(k)) +
                            " is below twice the largest diameter (skin included) of " +
                            formatNumber(2.0 * largest + skin),
-                       "axis " + std::to_string(k), "take a longer box, smaller particles or a thinner skin");
+                       std::string("axis ") + "xyz"[k], "take a longer box, smaller particles or a thinner skin");
   return {smallest, largest};
 }
 

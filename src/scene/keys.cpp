@@ -15,6 +15,7 @@ void Fields::axes(Key key, std::array<bool, 3>& value, bool needed) {
 // ---- space
 
 void describe(Fields& f, Periodic& v) {
+  f.where(v.where);
   f.box({"box", "its edges are the periods"}, v.box);
   f.axes({"axes", "along which space repeats"}, v.axes, true);
 }

@@ -61,6 +61,8 @@ using Groups = std::map<std::string, std::vector<std::int64_t>>;
 
 Groups addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes);
 void addBondsAndDrives(dem::Model& grains, const Scene& scene, const Groups& groups, std::vector<std::string>& notes);
+/// Of the grains there are and those that enter, m.
+double largestRadius(const Scene& scene, const dem::Particles& particles);
 void addWalls(Built& built, const Scene& scene);
 void addClumpsAndStreams(dem::Model& grains, const Scene& scene);
 void addSolids(Built& built, const Scene& scene);

@@ -137,7 +137,8 @@ private:
   void look(Key key, const Vec3& value, const Dimension& dimension) {
     const double most = std::max({value.x, value.y, value.z}), least = std::min({value.x, value.y, value.z});
     const double along = std::abs(least) > most ? least : most;
-    look(key, norm(value) > std::abs(along) ? norm(value) : along, dimension);
+    const double size = std::hypot(value.x, value.y, value.z);
+    look(key, size > std::abs(along) ? size : along, dimension);
   }
   void look(Key key, double value, const Dimension& dimension) {
     if (value == 0.0) return;

@@ -46,6 +46,7 @@ void place(dem::PrimitiveWall& wall, const dem::RigidMotion& now, const Vec3& ax
 
 void add(const Target& to, dem::PrimitiveWall made) {
   made.material = contactRow(to.scene, to.wall.contactMaterial);
+  dem::requireRepeats(made, to.run.grains.pairs.periodicity(), largestRadius(to.scene, to.run.grains.particles));
   if (to.isSteady()) {
     made.velocity = constantOf(to.wall.velocity);
     made.angularVelocity = to.wall.angularVelocity;

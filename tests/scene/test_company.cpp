@@ -140,5 +140,43 @@ TEST(SceneCompany, SurfacesOfAnotherUnit) {
   EXPECT_EQ(of("0.001"), "");
 }
 
+TEST(SceneMessages, WallsThatDoNotRepeatAreNamed) {
+  const auto of = [](const std::string& length, const std::string& wall) {
+    return refusalOfRun(grain + R"("periodic": {"box": [[0, 0, 0], [)" + length +
+                        R"(, 1, 1]], "axes": ["x"]}, "walls": [)" + wall + "],");
+  };
+  expectParts(of("1", R"({"shape": "plane", "point": [0, 0, 0], "normal": [1, 0, 0]})"),
+              {"its normal is not square to the period along x", "walls.0]"});
+  expectParts(of("1", R"({"shape": "cylinder", "point": [0, 0, 0], "axis": [1, 1, 0], "radius": 2})"),
+              {"its axis is oblique to the period along x", "walls.0]"});
+  expectParts(of("0.07", ""),
+              {"the period along x is 0.07 m, below twice the largest diameter", "periodic]", "0.08 m"});
+}
+
+TEST(SceneMessages, HaveWordsOfScenes) {
+  const auto of = [](const std::string& keys) {
+    return refusalOfRun(replaced(block, R"("cells")", keys + R"(, "cells")") + onBlock);
+  };
+  for (const std::string& message :
+       {of(R"("cell": "tet4", "formulation": "enhanced")"), of(R"("cell": "tet4", "formulation": "mean-dilatation")"),
+        of(R"("formulation": "assumed-stress")"), of(R"("ties": [{"nodes": "x+", "faces": "z-", "tolerance": 1e-9}])"),
+        of(R"("sets": [{"name": "s", "place": "sphere", "centre": [9, 9, 9], "radius": 1}])")}) {
+    expectParts(message, {"solids.0"});
+    for (const char* const word : {"::", "makeSolid", "tieInterface", "nodesWhere"})
+      EXPECT_EQ(message.find(word), std::string::npos) << message;
+  }
+  expectParts(refusalOfRun(R"("particles": [{"from": "lattice", "box": [[0, 0, 0], [1e-3, 1, 1]], "radius": 0.1,
+      "density": 1}],)"),
+              {"along axis x"});
+}
+
+TEST(SceneMessages, FoldersAreNoFiles) {
+  const auto of = [](const std::string& middle) { return refusal("{" + law + middle + end + "}"); };
+  for (const char* const from : {"csv", "vtk"})
+    expectParts(of(R"("particles": [{"from": ")" + std::string(from) + R"(", "file": ".", "density": 1}],)"),
+                {" is a folder", "particles.0", "give the name of a file in it"});
+  expectParts(of(R"("walls": [{"shape": "mesh", "file": "."}],)"), {" is a folder", "walls.0"});
+}
+
 }  // namespace
 }  // namespace dovetail::scene::test

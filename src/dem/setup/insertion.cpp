@@ -113,7 +113,7 @@ void checkRegion(const InsertionSettings& s) {
     const double length = s.region.upper[k] - s.region.lower[k];
     if (!(std::isfinite(s.region.lower[k]) && std::isfinite(length) && length >= 2.0 * radius))
       throw InputError("a " + std::string(s.shapes.empty() ? "sphere" : "clump") + " of diameter " +
-                           formatNumber(2.0 * radius) + " m does not fit along axis " + std::to_string(k),
+                           formatNumber(2.0 * radius) + " m does not fit along axis " + "xyz"[k],
                        "region of insertion", "make the region larger, or what enters smaller");
   }
 }

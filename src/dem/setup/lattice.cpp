@@ -56,7 +56,7 @@ Packing latticeBlock(Lattice lattice, const std::array<int, 3>& cells, double ra
   for (int k = 0; k < 3; ++k) {
     const int count = cells[static_cast<std::size_t>(k)];
     if (count < 1)
-      throw InputError("a block has " + std::to_string(count) + " cells along axis " + std::to_string(k), "lattice",
+      throw InputError("a block has " + std::to_string(count) + " cells along axis " + "xyz"[k], "lattice",
                        "give 1 or more");
     packing.space.box.upper[k] = count * cell.edge[k] * distance;
   }
@@ -70,7 +70,7 @@ namespace {
 /// Cells along an axis of a box in which spheres lie between walls; `room` is that of their centres, m.
 double cellsBetweenWalls(double room, double edge, double slack, int axis) {
   if (!(std::isfinite(room) && room >= -slack))
-    throw InputError("no sphere fits between the walls along axis " + std::to_string(axis), "lattice",
+    throw InputError(std::string("no sphere fits between the walls along axis ") + "xyz"[axis], "lattice",
                      "give a finite box of at least one diameter");
   return std::floor(room / edge + 1e-9) + 1.0;
 }

@@ -53,7 +53,7 @@ std::vector<int> particlesIn(const Particles& particles, const OutletTerm::Regio
 void requireValid(const geometry::Box& box) {
   for (int k = 0; k < 3; ++k)
     if (!(box.lower[k] <= box.upper[k]))
-      throw InputError("the lower corner lies above the upper one along axis " + std::to_string(k), "outlet",
+      throw InputError(std::string("the lower corner lies above the upper one along axis ") + "xyz"[k], "outlet",
                        "give a box with lower ≤ upper");
 }
 void requireValid(const HalfSpace& space) {

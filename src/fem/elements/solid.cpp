@@ -16,7 +16,7 @@ std::vector<int> chosenElements(const SolidMesh& mesh, const std::string& set) {
   if (!set.empty()) {
     const std::vector<int>& chosen = elementSet(mesh, set);
     if (chosen.empty())
-      throw InputError("the element set \"" + set + "\" is empty", "makeSolid", "name a set with elements");
+      throw InputError("the element set \"" + set + "\" is empty", "elements", "name a set with elements");
     return chosen;
   }
   std::vector<int> all(mesh.elementCount());
@@ -38,10 +38,10 @@ void requireShare(std::span<const double> share, std::size_t nodes) {
   if (share.empty()) return;
   if (share.size() != nodes)
     throw InputError("there are " + std::to_string(share.size()) + " shares for " + std::to_string(nodes) + " nodes",
-                     "makeSolid", "give one per node, or none");
+                     "elements", "give one per node, or none");
   for (std::size_t n = 0; n < nodes; ++n)
     if (!(share[n] >= 0.0 && share[n] <= 1.0))
-      throw InputError("the share of node " + std::to_string(n) + " is " + formatNumber(share[n]), "makeSolid",
+      throw InputError("the share of node " + std::to_string(n) + " is " + formatNumber(share[n]), "elements",
                        "give numbers from 0 to 1");
 }
 
@@ -61,7 +61,7 @@ detail::SolidCells cellsOf(const SolidMesh& mesh, const std::string& set, std::s
       if (!cells.number.empty() && cells.shape != group.shape)
         throw InputError(
             std::string("the elements are of several shapes, ") + name(cells.shape) + " and " + name(group.shape),
-            "makeSolid", "make one solid per shape, each from an element set");
+            "elements", "make one solid of each shape");
       cells.shape = group.shape;
       cells.nodes = static_cast<std::size_t>(nodesOf(group.shape));
       const auto start = group.node.begin() + static_cast<std::ptrdiff_t>(cells.nodes) * (chosen[next] - first);
@@ -74,7 +74,7 @@ detail::SolidCells cellsOf(const SolidMesh& mesh, const std::string& set, std::s
     first = last;
   }
   if (cells.number.empty())
-    throw InputError("every element has the share 0", "makeSolid", "leave the solid out, or give some nodes a share");
+    throw InputError("every element has the share 0", "elements", "leave the solid out, or give some nodes a share");
   fillBatches(node, cells);
   return cells;
 }
@@ -97,7 +97,7 @@ std::shared_ptr<Solid> makeSolidOf(const SolidMesh& mesh, std::unique_ptr<detail
     throw InputError(std::string("the formulation \"") + name(options.formulation) + "\" is for hex8" +
                          (options.formulation == Formulation::reduced ? " and quad8" : "") + ", not for " +
                          name(cells.shape),
-                     "makeSolid", "use Formulation::standard, or a mesh of hex8");
+                     "elements", "take the standard formulation, or a mesh of hex8");
   switch (options.formulation) {
     case Formulation::meanDilatation:
       return detail::makeMeanDilatationSolid(std::move(cells), std::move(points), options);
@@ -131,7 +131,7 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<PointFie
   if (!asksOnce(options.formulation))
     throw InputError(std::string("the formulation \"") + name(options.formulation) +
                          "\" asks points again and again, or for a law of its own, not a field",
-                     "makeSolid", "use Formulation::standard, meanDilatation or reduced");
+                     "elements", "take the formulation standard, mean dilatation or reduced");
   return makeSolidOf(mesh, detail::pointsOf(std::move(field)), options);
 }
 

@@ -39,8 +39,8 @@ std::shared_ptr<Solid> makeAssumedStressSolid(SolidCells cells, std::unique_ptr<
                                               const SolidOptions& options) {
   const auto law = points->law()->brickLaw();
   if (!law || !std::holds_alternative<StVenantKirchhoff>(*law))
-    throw InputError("assumed stress is for St Venant-Kirchhoff, not for " + points->law()->name(), "makeSolid",
-                     "use Formulation::enhanced, which takes any material");
+    throw InputError("assumed stress is for St Venant-Kirchhoff, not for " + points->law()->name(), "elements",
+                     "take the enhanced formulation, which is for any material");
   return std::make_shared<AssumedStressSolid>(std::move(cells), std::move(points), options, *law);
 }
 

@@ -266,7 +266,7 @@ std::shared_ptr<Solid> makeMeanDilatationSolid(SolidCells cells, std::unique_ptr
       break;
   }
   throw InputError(std::string("mean dilatation is for bricks and plane cells, not for ") + name(cells.shape),
-                   "makeSolid", "use Formulation::standard, or a mesh of bricks");
+                   "elements", "take the standard formulation, or a mesh of bricks");
 }
 
 }  // namespace dovetail::fem::detail

@@ -88,12 +88,12 @@ std::vector<double> readNumbers(ByteReader& archive, std::size_t count, const st
 }
 
 std::unique_ptr<SolidPoints> pointsOf(std::shared_ptr<const PointMaterial> law) {
-  if (law == nullptr) throw InputError("there is no material", "makeSolid", "give one, for instance neoHookean()");
+  if (law == nullptr) throw InputError("there is no material", "elements", "give one, for instance neoHookean()");
   return std::make_unique<LawPoints>(std::move(law));
 }
 
 std::unique_ptr<SolidPoints> pointsOf(std::shared_ptr<PointField> field) {
-  if (field == nullptr) throw InputError("there is no field of points", "makeSolid", "give one from pointField()");
+  if (field == nullptr) throw InputError("there is no field of points", "elements", "give one from pointField()");
   return std::make_unique<FieldPoints>(std::move(field));
 }
 

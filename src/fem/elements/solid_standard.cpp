@@ -157,7 +157,7 @@ std::shared_ptr<Solid> makeStandardSolid(SolidCells cells, std::unique_ptr<Solid
         return std::make_shared<StandardSolid<8, 4>>(std::move(cells), std::move(points), options);
       return std::make_shared<StandardSolid<8, 9>>(std::move(cells), std::move(points), options);
   }
-  throw InputError("the shape of the elements is not known", "makeSolid", "use one of CellShape");
+  throw InputError("the shape of the elements is not known", "elements", "use one of CellShape");
 }
 
 }  // namespace dovetail::fem::detail

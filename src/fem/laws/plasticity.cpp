@@ -100,15 +100,15 @@ YieldCurve cohesionOf(const DruckerPrager& law) {
 
 ConeConstants coneConstants(const DruckerPrager& law) {
   const double cohesion = cohesionOf(law).stress(0.0);
-  requireNonNegative(law.dilatancyAngle, "dilatancyAngle");
-  const double phi = requireNonNegative(law.frictionAngle, "frictionAngle");
+  requireNonNegative(law.dilatancyAngle, "dilatancy angle");
+  const double phi = requireNonNegative(law.frictionAngle, "friction angle");
   if (!(phi < 1.57))
-    throw InputError("frictionAngle is " + formatNumber(phi), "DruckerPrager", "give radians below 1.57");
+    throw InputError("the friction angle is " + formatNumber(phi), "Drucker-Prager", "give radians below 1.57");
   if (law.dilatancyAngle > phi)
-    throw InputError("dilatancyAngle exceeds frictionAngle", "DruckerPrager",
+    throw InputError("the dilatancy angle exceeds the friction angle", "Drucker-Prager",
                      "give a smaller one: flow would create energy");
   if (!(cohesion > 0.0 || phi > 0.0))
-    throw InputError("cohesion and frictionAngle are zero", "DruckerPrager", "give one of them");
+    throw InputError("cohesion and friction angle are zero", "Drucker-Prager", "give one of them");
   const auto slope = [&](double angle) {
     if (law.match == ConeMatch::planeStrain)
       return 3.0 * std::tan(angle) / std::sqrt(9.0 + 12.0 * std::tan(angle) * std::tan(angle));

@@ -27,7 +27,7 @@ std::vector<int> nodesWhere(const SolidMesh& mesh, const Place& place) {
   std::vector<int> found;
   for (std::size_t n = 0; n < mesh.X.size(); ++n)
     if (place(mesh.X[n])) found.push_back(static_cast<int>(n));
-  requireSome(found.empty(), "nodes", "nodesWhere");
+  requireSome(found.empty(), "nodes", "node set");
   return found;
 }
 
@@ -36,7 +36,7 @@ std::vector<Face> facesWhere(const SolidMesh& mesh, const Place& place) {
   std::erase_if(faces, [&](const Face& face) {
     return !std::ranges::all_of(nodesOf(face), [&](int n) { return place(mesh.X[static_cast<std::size_t>(n)]); });
   });
-  requireSome(faces.empty(), "faces", "facesWhere");
+  requireSome(faces.empty(), "faces", "face set");
   return faces;
 }
 

@@ -103,9 +103,10 @@ void addFaces(SolidMesh& mesh, std::span<const std::array<bool, 6>> sidesOfNode)
 
 void requireBox(CellShape shape, const Place& cells, const Vec3& lower, const Vec3& upper) {
   if (dimensionOf(shape) == 2 && cells[2] != 1)
-    throw InputError("there are " + std::to_string(cells[2]) + " layers of " + name(shape), "boxOf, axis z", "give 1");
+    throw InputError("there are " + std::to_string(cells[2]) + " layers of " + name(shape), "box of elements, axis z",
+                     "give 1");
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string where = std::string("boxOf, axis ") + "xyz"[axis];
+    const std::string where = std::string("box of elements, axis ") + "xyz"[axis];
     if (cells[static_cast<std::size_t>(axis)] < 1)
       throw InputError("there are no elements along it", where, "give 1 or more");
     if (!isFinite(lower) || !isFinite(upper) || !(upper[axis] > lower[axis]))

@@ -108,8 +108,8 @@ Projected project(const SolidMesh& mesh, const Face& face, const Vec3& x) {
 std::vector<Tie> tieInterface(const SolidMesh& mesh, std::span<const int> slaves, std::span<const Face> masters,
                               double tolerance) {
   requirePositive(tolerance, "tolerance of tied interfaces");
-  requireFaces(masters, mesh, "tieInterface");
-  requireFinite(mesh.X, "node", "position", "tieInterface");
+  requireFaces(masters, mesh, "tie");
+  requireFinite(mesh.X, "node", "position", "tie");
   std::vector<char> isMaster(mesh.X.size(), 0);
   for (const Face& face : masters)
     for (const int n : nodesOf(face)) isMaster[static_cast<std::size_t>(n)] = 1;
@@ -122,9 +122,9 @@ std::vector<Tie> tieInterface(const SolidMesh& mesh, std::span<const int> slaves
       return label + " at (" + formatNumber(X.x) + ", " + formatNumber(X.y) + ", " + formatNumber(X.z) + ") m";
     };
     if (slave < 0 || static_cast<std::size_t>(slave) >= mesh.X.size())
-      throw InputError(label + " does not exist", "tieInterface", "use nodes of the mesh");
+      throw InputError(label + " does not exist", "tie", "use nodes of the mesh");
     if (isMaster[static_cast<std::size_t>(slave)])
-      throw InputError(where() + " belongs to a master face", "tieInterface", "leave it out of the slaves");
+      throw InputError(where() + " belongs to a master face", "tie", "leave it out of the slaves");
     Projected best{INFINITY, {}};
     const Face* nearest = nullptr;
     for (const int i : search.at(mesh.X[static_cast<std::size_t>(slave)])) {
@@ -133,8 +133,8 @@ std::vector<Tie> tieInterface(const SolidMesh& mesh, std::span<const int> slaves
       if (found.distance < best.distance) best = found, nearest = &face;
     }
     if (!(best.distance <= tolerance))
-      throw InputError(where() + " lies farther than " + formatNumber(tolerance) + " m from the master faces",
-                       "tieInterface", "leave it out, or give a larger tolerance");
+      throw InputError(where() + " lies farther than " + formatNumber(tolerance) + " m from the master faces", "tie",
+                       "leave it out, or give a larger tolerance");
     for (int c = 0; c < dimensionOf(mesh); ++c) {
       Tie tie{slave, c, {}, 0.0, {}};
       for (std::size_t a = 0; a < nodesOf(*nearest).size(); ++a)

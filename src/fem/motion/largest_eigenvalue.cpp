@@ -28,7 +28,7 @@ private:
     const std::span<double> result(y, pair_.size);
     f({x, pair_.size}, result);
     if (!std::ranges::all_of(result, [](double value) { return std::isfinite(value); }))
-      throw NumericalError("stiffness or mass are not finite", "largestEigenvalue",
+      throw NumericalError("stiffness or mass are not finite", "largest frequency of a solid",
                            "check the masses, and that no element is inverted");
   }
   const StiffnessAndMass& pair_;
@@ -65,7 +65,7 @@ double largestEigenvalue(const StiffnessAndMass& pair, double accuracy) {
   solver.init(start.data());
   solver.compute(Spectra::SortRule::LargestAlge, mostRestarts, accuracy);
   if (solver.info() != Spectra::CompInfo::Successful)
-    throw NumericalError("the Lanczos iteration did not settle", "largestEigenvalue", "ask for less accuracy");
+    throw NumericalError("the Lanczos iteration did not settle", "largest frequency of a solid", "ask for less accuracy");
   return solver.eigenvalues()[0] * (1.0 + accuracy);
 }
 

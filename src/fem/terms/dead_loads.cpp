@@ -92,23 +92,23 @@ private:
 }  // namespace
 
 std::shared_ptr<Term> deadPressure(const SolidMesh& mesh, std::span<const Face> faces, Amplitude p, std::string name) {
-  requireFaces(faces, mesh, "deadPressure");
+  requireFaces(faces, mesh, "pressure");
   const auto forces = nodalForces(mesh, faces, [](const Vec3& area) { return -area; });
   return std::make_shared<DeadLoad>(forces, std::move(p), std::move(name));
 }
 
 std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> faces, Vec3 traction, Amplitude scale,
                                    std::string name) {
-  requireFaces(faces, mesh, "deadTraction");
-  if (!isFinite(traction)) throw InputError("the traction is not finite", "deadTraction", "give numbers");
+  requireFaces(faces, mesh, "traction");
+  if (!isFinite(traction)) throw InputError("the traction is not finite", "traction", "give numbers");
   const auto forces = nodalForces(mesh, faces, [&](const Vec3& area) { return norm(area) * traction; });
   return std::make_shared<DeadLoad>(forces, std::move(scale), std::move(name));
 }
 
 std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> faces,
                                    std::function<Vec3(const Vec3&, double)> traction, std::string name) {
-  requireFaces(faces, mesh, "deadTraction");
-  if (!traction) throw InputError("there is no function", "deadTraction", "give one, or a vector");
+  requireFaces(faces, mesh, "traction");
+  if (!traction) throw InputError("there is no function", "traction", "give one, or a vector");
   return std::make_shared<TractionField>(mesh, faces, std::move(traction), std::move(name));
 }
 

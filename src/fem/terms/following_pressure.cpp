@@ -102,7 +102,7 @@ private:
 
 std::shared_ptr<Term> followingPressure(const SolidMesh& mesh, std::span<const Face> faces, Amplitude p,
                                         std::span<const int> clamped, std::string name) {
-  requireFaces(faces, mesh, "followingPressure");
+  requireFaces(faces, mesh, "pressure");
   const std::vector<int> rim = rimNodes(faces);
   const bool potential = std::includes(clamped.begin(), clamped.end(), rim.begin(), rim.end());
   return std::make_shared<FollowingPressure>(faces, mesh.thickness, std::move(p), potential, std::move(name));

@@ -86,7 +86,7 @@ void requireOptions(const TetrahedraOptions& options) {
   requireNonNegative(options.surfaceDistance, "distance from the surface");
   const auto require = [](double value, double least, double most, const char* what) {
     if (!(value >= least && value <= most))
-      throw InputError(std::string("the ") + what + " is " + formatNumber(value), "tetrahedraInside",
+      throw InputError(std::string("the ") + what + " is " + formatNumber(value), "tetrahedra",
                        "give " + formatNumber(least) + " to " + formatNumber(most));
   };
   require(options.sharpAngle, 0.0, std::numbers::pi, "sharp angle");
@@ -102,17 +102,17 @@ SolidMesh tetrahedraInside(const geometry::TriangleMesh& surface, const Tetrahed
   const bool bounds = defects.closedAndOriented() && defects.selfIntersection.empty() && defects.insideOut.empty() &&
                       defects.repeatedVertex.empty() && defects.zeroArea.empty() && defects.duplicate.empty();
   if (surface.facets.empty() || !bounds)
-    throw InputError("the surface does not bound a volume (" + geometry::describe(defects) + ")", "tetrahedraInside",
+    throw InputError("the surface does not bound a volume (" + geometry::describe(defects) + ")", "tetrahedra",
                      "weld, repair and orient it (geometry::repairSurface)");
   SolidMesh mesh;
   try {
     mesh = fill(surface, options);
   } catch (const std::exception& failure) {
-    throw NumericalError(std::string("CGAL could not mesh the surface (") + failure.what() + ")", "tetrahedraInside",
+    throw NumericalError(std::string("CGAL could not mesh the surface (") + failure.what() + ")", "tetrahedra",
                          "check the surface, or give another size");
   }
   if (mesh.elementCount() == 0)
-    throw NumericalError("CGAL made no tetrahedra", "tetrahedraInside", "give a smaller size");
+    throw NumericalError("CGAL made no tetrahedra", "tetrahedra", "give a smaller size");
   addSkin(mesh);
   validate(mesh);
   return mesh;

@@ -9,6 +9,7 @@ namespace dovetail::scene {
 struct Periodic {
   geometry::Box box = requiredBox;  ///< m
   std::array<bool, 3> axes{};
+  std::string where;
 };
 /// Where grains may be.
 struct Domain {
