@@ -50,6 +50,11 @@ constexpr std::array ranges = {
     Plausible{"clumps", "radius", 1e-8, 2.0, grainLengths},
     Plausible{"", "smallest", 1e-8, 2.0, grainLengths},
     Plausible{"", "largest", 1e-8, 2.0, grainLengths},
+    Plausible{"", "at", 1e-15, 1e5, {"mm"}},
+    Plausible{"", "point", 1e-15, 1e5, {"mm"}},
+    Plausible{"", "centre", 1e-15, 1e5, {"mm"}},
+    Plausible{"", "box", 1e-15, 1e5, {"mm"}},
+    Plausible{"", "region", 1e-15, 1e5, {"mm"}},
     Plausible{"", "radius_ratio", 1e-3, 10.0},
     Plausible{"", "scale", 1e-9, 1e3},
     Plausible{"", "damping_time", 1e-12, 10.0, {"ms", "us"}},
@@ -95,7 +100,10 @@ public:
   void vector(Key key, std::optional<Vec3>& value, const Dimension& dimension) override {
     if (value) look(key, *value, dimension);
   }
-  void box(Key, geometry::Box&) override {}
+  void box(Key key, geometry::Box& value) override {
+    look(key, value.lower, unit::length);
+    look(key, value.upper, unit::length);
+  }
   void function(Key key, TimeValue& value, const Limits& limits) override {
     if (value.expression.empty()) look(key, value.number, limits.dimension);
   }

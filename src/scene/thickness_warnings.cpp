@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/fem/mesh/mesh_thickness.hpp"
+#include "time_functions.hpp"
 #include "warnings.hpp"
 
 namespace dovetail::scene {
@@ -16,16 +18,65 @@ namespace {
 constexpr double slender = 5.0;     // length over thickness of what bends
 constexpr double tolerated = 0.15;  // of the stiffness in bending
 
-/// Whether anything but the elements keeps a face from moving along a direction, as in layers between plates.
-bool isHeld(const coupling::SolidSide& side, const fem::Face& face, const Vec3& along) {
+/// Whether anything but the elements keeps a face from moving along a direction, as in layers between plates, or bends
+/// it, as a body that it is tied to.
+bool isHeld(const coupling::SolidSide& side, const std::set<std::size_t>& masters, const fem::Face& face,
+            const Vec3& along) {
   const fem::DofMap& dofs = side.mass->dofs();
   for (int k = 0; k < fem::cornersOf(face.shape); ++k)
     for (int c = 0; c < 3; ++c) {
       const auto node = static_cast<std::size_t>(face.node[static_cast<std::size_t>(k)]);
-      if (std::abs(along[c]) > 0.5 && dofs.role(3 * node + static_cast<std::size_t>(c)) == fem::Role::free)
-        return false;
+      const std::size_t dof = 3 * node + static_cast<std::size_t>(c);
+      if (std::abs(along[c]) > 0.5 && dofs.role(dof) == fem::Role::free && !masters.contains(dof)) return false;
     }
   return true;
+}
+
+/// Components of nodes that other parts of the mesh are tied to, as 3 node + component.
+std::set<std::size_t> mastersOf(const coupling::SolidSide& side) {
+  std::set<std::size_t> masters;
+  for (const fem::Tie& tie : side.model->constraints.ties)
+    for (const fem::Tie::Master& master : tie.masters)
+      masters.insert(3 * static_cast<std::size_t>(master.node) + static_cast<std::size_t>(master.component));
+  return masters;
+}
+
+// ---- what bends
+
+constexpr double square = 1e-3;
+
+bool isAcross(const Vec3& direction, const Vec3& normal) {
+  return std::abs(dot(direction, normal)) > square * norm(direction);
+}
+bool isAcross(const TimeVector& motion, const Vec3& normal) {
+  for (std::size_t c = 0; c < 3; ++c)
+    if ((motion[c].number != 0.0 || !isConstant(motion[c])) && std::abs(normal[static_cast<int>(c)]) > square)
+      return true;
+  return false;
+}
+bool isAcross(const Load& load, const fem::SolidMesh& mesh, const Vec3& normal) {
+  const auto* const traction = std::get_if<TractionLoad>(&load.kind);
+  return (traction && isAcross(traction->traction, normal)) ||
+         std::ranges::any_of(fem::faceSet(mesh, load.on), [&](const fem::Face& face) {
+           const auto at = [&](std::size_t k) { return mesh.X[static_cast<std::size_t>(face.node[k])]; };
+           return isAcross(cross(at(1) - at(0), at(2) - at(0)), normal);
+         });
+}
+
+/// Whether it can be told that a part is stretched in its plane alone: something loads the solid, and nothing does so
+/// along the normal of the part, or on its broad sides.
+bool isOnlyStretched(const Scene& scene, const Solid& solid, const fem::SolidMesh& mesh, const Vec3& normal) {
+  const auto couples = [&](const Coupling& one) { return one.solid == solid.name; };
+  const auto moves = [](const Support& one) {
+    return one.displacement || !isConstant(one.velocity) || norm(constantOf(one.velocity)) > 0.0;
+  };
+  if (solid.loads.empty() && std::ranges::none_of(solid.supports, moves)) return false;
+  if (std::ranges::any_of(scene.couplings, couples) || isAcross(solid.velocity, normal)) return false;
+  if (solid.gravity && isAcross(scene.gravity, normal)) return false;
+  return std::ranges::none_of(solid.loads, [&](const Load& one) { return isAcross(one, mesh, normal); }) &&
+         std::ranges::none_of(solid.supports, [&](const Support& one) {
+           return isAcross(one.displacement.value_or(one.velocity), normal);
+         });
 }
 
 /// Stiffness in bending over the right one. A brick's mean strain has 1 − 1/n² of it, the strain that is linear in it
@@ -75,14 +126,17 @@ std::string sentence(const std::string& name, const Solid& solid, const fem::Mes
 
 }  // namespace
 
-void lookAtThickness(const Built& built, const Solid& solid, std::size_t number, Lines& lines) {
+void lookAtThickness(const Built& built, const Scene& scene, std::size_t number, Lines& lines) {
+  const Solid& solid = scene.solids[number];
+  const fem::SolidMesh& mesh = built.meshes[number];
   const coupling::SolidSide& side = built.run->solid(number);
+  const std::set<std::size_t> masters = mastersOf(side);
   double all = 0.0, bad = 0.0;
   std::vector<std::pair<double, fem::MeshThickness>> found;
-  for (const fem::MeshThickness& place : fem::measureThickness(built.meshes[number])) {
+  for (const fem::MeshThickness& place : fem::measureThickness(mesh)) {
     all += place.area;
-    if (place.length < slender * place.thickness || isHeld(side, place.face, place.normal) ||
-        isHeld(side, place.opposite, place.normal))
+    if (place.length < slender * place.thickness || isHeld(side, masters, place.face, place.normal) ||
+        isHeld(side, masters, place.opposite, place.normal) || isOnlyStretched(scene, solid, mesh, place.normal))
       continue;
     const double stiffness = stiffnessOf(place.shape, solid.formulation, place, poissonOf(solid.material));
     if (stiffness > 1.0 - tolerated && stiffness < 1.0 + tolerated) continue;

@@ -156,7 +156,7 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene) {
   for (std::size_t s = 0; s < scene.solids.size(); ++s) {
     const Solid& solid = scene.solids[s];
     lookAtMesh(built.meshes[s], solid, lines);
-    lookAtThickness(built, solid, s, lines);
+    lookAtThickness(built, scene, s, lines);
     lookAtSets(scene, solid, lines);
     bool overlaps = false;
     for (const Coupling& coupling : scene.couplings) {

@@ -22,7 +22,7 @@ Lines onePerKind(const Lines& lines);
 /// Widths, densities and moduli of the overlap with a solid, by its number.
 void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, const Overlap& overlap, Lines& lines);
 /// Layers across thin parts of a solid, by its number, that bend otherwise than the material does.
-void lookAtThickness(const Built& built, const Solid& solid, std::size_t number, Lines& lines);
+void lookAtThickness(const Built& built, const Scene& scene, std::size_t number, Lines& lines);
 /// Moduli, densities, sizes and steps that do not go with each other.
 void lookAtRelations(const Built& built, const Scene& scene, Lines& lines);
 /// Probes, insertions, solids, walls and paths that are not where the others are.

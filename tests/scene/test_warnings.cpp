@@ -2,6 +2,7 @@
 #include "../io/scratch_folder.hpp"
 #include "dovetail/fem/mesh/mesh_shapes.hpp"
 #include "dovetail/mesh_io/surface_files.hpp"
+#include "dovetail/solid_io/solid_files.hpp"
 #include "warning_parts.hpp"
 
 namespace dovetail::scene::test {
@@ -145,6 +146,45 @@ TEST(SceneWarnings, ThickBodiesAndHeldLayersHaveNone) {
     EXPECT_EQ(warningsOf(bodyOf(elements + pad, R"("supports": [{"on": "z-"}])")), "") << cell;
     EXPECT_NE(warningsOf(bodyOf(elements + pad)), "") << cell;
   }
+}
+
+TEST(SceneWarnings, PartsThatAreOnlyStretchedHaveNone) {
+  const auto bar = [](const std::string& loads, const std::string& supports = "") {
+    return warningsOf(bodyOf(
+        R"("formulation": "reduced", "cells": [20, 1, 1], "box": [[0, 0, 0], [10, 1, 1]], "loads": [)" + loads + "]",
+        R"("supports": [{"on": "x-"})" + supports + "]"));
+  };
+  EXPECT_EQ(bar(R"({"type": "traction", "on": "x+", "traction": [1, 0, 0]})"), "");
+  EXPECT_EQ(bar(R"({"type": "pressure", "on": "x+", "pressure": -1})"), "");
+  EXPECT_EQ(bar("", R"(, {"on": "x+", "velocity": [1, 0, 0]})"), "");
+  for (const char* const load : {R"({"type": "traction", "on": "x+", "traction": [1, 0, 1]})",
+                                 R"({"type": "pressure", "on": "z+", "pressure": 1})",
+                                 R"({"type": "traction", "on": "z+", "traction": [1, 0, 0]})"})
+    expectParts(bar(load), {"which bend"});
+  expectParts(bar("", R"(, {"on": "x+", "velocity": [0, 0, 1]})"), {"which bend"});
+}
+
+/// A plate of one layer below a block whose nodes are tied to it.
+TEST(SceneWarnings, LayersThatAreTiedToThickBodiesHaveNone) {
+  const io::test::ScratchFolder folder;
+  fem::SolidMesh both = fem::boxOf(fem::CellShape::hex8, {10, 10, 1}, {0, 0, 0}, {10, 10, 0.5});
+  const fem::SolidMesh block = fem::boxOf(fem::CellShape::hex8, {13, 13, 8}, {0, 0, 0.5}, {10, 10, 8});
+  const int offset = static_cast<int>(both.X.size());
+  std::vector<int> foot = block.nodeSets.at("z-");
+  for (int& n : foot) n += offset;
+  both.X.insert(both.X.end(), block.X.begin(), block.X.end());
+  for (const int n : block.groups[0].node) both.groups[0].node.push_back(n + offset);
+  both.nodeSets = {{"foot", foot}, {"side", both.nodeSets.at("x-")}};
+  both.faceSets = {{"top", both.faceSets.at("z+")}};
+  solid_io::writeSolid(both, folder / "two.inp");
+  const auto of = [&](const std::string& ties) {
+    return warningsOf(R"("solids": [{"name": "b", "mesh": "file", "file": "two.inp", "supports": [{"on": "side"}],
+      "material": {"law": "St-Venant-Kirchhoff", "youngs_modulus": 1e6, "poisson_ratio": 0, "density": 1000}, "ties": [)" +
+                          ties + "]}],",
+                      folder.path());
+  };
+  expectParts(of(""), {"0.5 m thick", "which bend"});
+  EXPECT_EQ(of(R"({"nodes": "foot", "faces": "top", "tolerance": 1e-6})"), "");
 }
 
 }  // namespace
