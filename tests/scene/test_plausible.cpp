@@ -1,5 +1,6 @@
 // Numbers that are likely not meant, and what check tells of outputs.
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "../io/scratch_folder.hpp"
@@ -94,6 +95,16 @@ TEST(ScenePlausible, RoomOfFramesIsThatOfTheirFiles) {
   const std::string text = log.str();
   const double told = 1e3 * std::stod(text.substr(text.find(" of about ") + 10));
   EXPECT_NEAR(told / bytes, 1.0, 0.1) << text;
+}
+
+TEST(ScenePlausible, RunsTellItInTheirSummary) {
+  const io::test::ScratchFolder folder;
+  std::ostringstream log;
+  run(sceneOf(replaced(spheres(R"({"at": [0, 0, 0], "radius": 0.1})"), "2500", "2.5")),
+      {.folder = folder.path() / "out", .progress = false}, log);
+  std::ostringstream summary;
+  summary << std::ifstream(folder.path() / "out" / "summary.txt").rdbuf();
+  for (const std::string& text : {log.str(), summary.str()}) expectParts(text, {"WARNING: particles.0.density is 2.5"});
 }
 
 }  // namespace

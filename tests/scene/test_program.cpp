@@ -87,6 +87,13 @@ TEST(Program, RefusesInOneLine) {
   expectRefused(runProgram({"run", starter("plate"), "--set", "couplings.0.solid=pate", "--out", out}),
                 "write \"plate\"");
   expectRefused(runProgram({"run", starter("plate"), "--set", "couplings.0.on=top", "--out", out}), "couplings.0");
+  for (const char* const verb : {"check", "run"}) {
+    expectRefused(runProgram({verb, starter("plate"), "--set",
+                              R"(walls=[{"shape": "plane", "point": [0, 0, 9], "normal": [0, 0, 1]}])"}),
+                  "behind the plane");
+    expectRefused(runProgram({verb, starter("plate"), "--set", R"(domain={"box": [[0, 0, 0], [1, 1, 1e-3]]})"}),
+                  "outside of the domain");
+  }
   expectRefused(runProgram({"resume", folder.path().string()}), "no folder of a run");
   expectRefused(runProgram({"info", (folder / "none").string()}), "no such file");
   expectRefused(runProgram({"new", "plait"}), "plait");
