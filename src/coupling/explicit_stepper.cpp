@@ -91,13 +91,13 @@ public:
   }
 
   void save(ByteWriter& archive) override {
-    archive(loads.given, loads.turnedOver, loads.turnedOverAngular, added_);
     solid_->save(archive, "coupled explicit");
+    archive(loads.given, loads.turnedOver, loads.turnedOverAngular, added_);
   }
   std::shared_ptr<SavedSolid> read(ByteReader& archive) const override {
     auto state = std::make_shared<Saved>();
-    archive(state->loads.given, state->loads.turnedOver, state->loads.turnedOverAngular, state->added);
     state->state = solid_->read(archive, "coupled explicit");
+    archive(state->loads.given, state->loads.turnedOver, state->loads.turnedOverAngular, state->added);
     return state;
   }
   void adopt(SavedSolid& state) override {

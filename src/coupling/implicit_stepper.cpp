@@ -84,12 +84,12 @@ public:
   void save(ByteWriter& archive) override {
     ByteWriter own;
     solid_->save(own);
-    archive(loads.given, loads.turnedOver, loads.turnedOverAngular, byOwnForces_, own.bytes());
+    archive(own.bytes(), loads.given, loads.turnedOver, loads.turnedOverAngular, byOwnForces_);
   }
   std::shared_ptr<SavedSolid> read(ByteReader& archive) const override {
     auto state = std::make_shared<Saved>();
-    archive(state->loads.given, state->loads.turnedOver, state->loads.turnedOverAngular, state->byOwnForces,
-            state->bytes);
+    archive(state->bytes, state->loads.given, state->loads.turnedOver, state->loads.turnedOverAngular,
+            state->byOwnForces);
     return state;
   }
   void adopt(SavedSolid& state) override {

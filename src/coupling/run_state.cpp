@@ -56,8 +56,8 @@ void requireSame(bool same, const char* what) {
 struct CoupledRun::Impl::State {
   Head head;
   struct Solid {
-    std::shared_ptr<SavedSolid> own;
-    double bookedBefore;
+    std::shared_ptr<SavedSolid> own = {};
+    double bookedBefore = 0.0;
     NodalLoad load, window, before;
     std::vector<Vec3> seen;
     double supportWork = 0.0;
@@ -74,21 +74,51 @@ std::vector<char> particlesOf(const std::vector<char>& state) {
   return head.particles;
 }
 
+namespace {
+
+/// A solid's bytes begin with its motion; those of implicit steps are within others.
+fem::SavedMotion motionIn(std::vector<char> own, bool implicit) {
+  ByteReader archive(std::move(own));
+  if (!implicit) return fem::readMotion(archive);
+  std::vector<char> inner;
+  archive(inner);
+  ByteReader within(std::move(inner));
+  return fem::readMotion(within);
+}
+
+}  // namespace
+
+std::vector<SolidOfState> solidsOf(const std::vector<char>& state) {
+  ByteReader archive(state);
+  Head head;
+  archiveHead(archive, head);
+  std::vector<SolidOfState> solids;
+  for (std::uint64_t s = 0; s < head.solids; ++s) {
+    std::vector<char> name, own, rest;
+    bool implicit = false;
+    archive(name, implicit, own, rest);
+    solids.push_back({{name.begin(), name.end()}, motionIn(std::move(own), implicit)});
+  }
+  return solids;
+}
+
 std::vector<char> CoupledRun::Impl::save() {
   ByteWriter archive;
   Head head{dt,        options.stepsPerWindow, static_cast<int>(options.lag), solids.size(), windowForce,
             madeByLag, broughtToRest,          dem::saveState(grains)};
   archiveHead(archive, head);
   for (std::size_t s = 0; s < solids.size(); ++s) {
-    ByteWriter own;
+    const SolidSide& side = solids[s]->side;
+    ByteWriter own, rest;
     solids[s]->save(own);
-    archive(own.bytes(), solids[s]->bookedBefore);
-    saveLoad(archive, solids[s]->side.load);
-    saveLoad(archive, solids[s]->windowLoad);
-    saveLoad(archive, loadBefore.empty() ? NodalLoad() : loadBefore[s]);
-    archive(lagSeen.empty() ? std::vector<Vec3>() : lagSeen[s]);
-    archive(solids[s]->side.supportWork);
-    solids[s]->side.outside.save(archive);
+    rest(solids[s]->bookedBefore);
+    saveLoad(rest, side.load);
+    saveLoad(rest, solids[s]->windowLoad);
+    saveLoad(rest, loadBefore.empty() ? NodalLoad() : loadBefore[s]);
+    rest(lagSeen.empty() ? std::vector<Vec3>() : lagSeen[s], side.supportWork);
+    side.outside.save(rest);
+    archive(std::vector<char>(side.name.begin(), side.name.end()), side.stepping == Stepping::implicitSteps,
+            own.bytes(), rest.bytes());
   }
   outside.save(archive);
   return archive.bytes();
@@ -104,25 +134,25 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
       "steps or options");
   requireSame(head.solids == solids.size(), "solids");
   for (const auto& solid : solids) {
-    std::vector<char> own;
-    double bookedBefore = 0.0;
-    archive(own, bookedBefore);
-    ByteReader reader(own);
-    const std::size_t nodes = solid->side.nodes().X.size();
-    state.solids.push_back({solid->read(reader),
-                            bookedBefore,
-                            readLoad(archive, nodes),
-                            readLoad(archive, nodes),
-                            NodalLoad(),
-                            {},
-                            0.0,
-                            {}});
-    requireSame(reader.atEnd(), "solids");
-    state.solids.back().before = readLoad(archive, nodes);
-    archive(state.solids.back().seen);
-    archive(state.solids.back().supportWork);
-    state.solids.back().outside.load(archive);
-    requireSame(options.lag == Lag::none || state.solids.back().seen.size() == nodes, "solids");
+    const SolidSide& side = solid->side;
+    std::vector<char> name, own, rest;
+    bool implicit = false;
+    archive(name, implicit, own, rest);
+    requireSame(
+        std::string(name.begin(), name.end()) == side.name && implicit == (side.stepping == Stepping::implicitSteps),
+        "solids");
+    const std::size_t nodes = side.nodes().X.size();
+    ByteReader reader(std::move(own)), others(std::move(rest));
+    State::Solid& saved = state.solids.emplace_back();
+    saved.own = solid->read(reader);
+    others(saved.bookedBefore);
+    saved.load = readLoad(others, nodes);
+    saved.window = readLoad(others, nodes);
+    saved.before = readLoad(others, nodes);
+    others(saved.seen, saved.supportWork);
+    saved.outside.load(others);
+    requireSame(reader.atEnd() && others.atEnd(), "solids");
+    requireSame(options.lag == Lag::none || saved.seen.size() == nodes, "solids");
   }
   state.outside.load(archive);
   requireSame(archive.atEnd(), "data");

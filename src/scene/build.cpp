@@ -7,6 +7,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
+#include "from_state.hpp"
 #include "impacts.hpp"
 #include "parts.hpp"
 #include "time_functions.hpp"
@@ -129,6 +130,7 @@ Built build(const Scene& scene) {
   addSolids(built, scene);
   addCouplings(built, scene);
   requireTogether(built, scene);
+  takeContacts(built, scene);
   return built;
 }
 

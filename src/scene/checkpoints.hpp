@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -40,12 +41,13 @@ struct Progress {
 };
 
 /// What states of scenes are; with the mark of our files (output_folder.hpp).
-inline constexpr const char* checkpointKind = "dovetail 5 scene";
+inline constexpr const char* checkpointKind = "dovetail 6 scene";
 
 /// A state as it lies in a file.
 struct Checkpoint {
-  std::string scene;  ///< its identity
-  double time = 0.0;  ///< s
+  std::string scene;                  ///< its identity
+  std::vector<std::uint64_t> meshes;  ///< fingerprints, by solid
+  double time = 0.0;                  ///< s
   Progress progress;
   std::vector<char> state;  ///< of the run
 };
@@ -66,8 +68,11 @@ void writeCheckpoint(const std::filesystem::path& folder, const std::string& ide
 /// Puts the state in force. @param identity  of the scene. @throws InputError if the state is of another scene
 void adopt(const Checkpoint& checkpoint, const std::string& identity, coupling::CoupledRun& run);
 
-/// Hash of all of a scene that its states depend on: neither the number of threads nor the time of its last stage.
+/// All of a scene that its states depend on, as a scene in full: without the number of threads, and with 1 s for its
+/// last stage if that runs for a time.
 std::string identityOf(const Scene& scene);
+/// Of the places of nodes.
+std::uint64_t fingerprintOf(std::span<const Vec3> places);
 
 /// Seconds of wall-clock time that each stage has taken in all programs that worked on it, beside the state: it has the
 /// same bytes on every machine, times.csv has not.

@@ -47,7 +47,7 @@ public:
         trial_(settings.folder),
         lock_(io::prepareOutputFolder(settings.folder, fileNames(scene_, goesOn))),
         built_(build(scene_)),
-        provenance_(io::provenance({{"scene", identity_}})) {
+        provenance_(io::provenance({{"scene", hashOf(identity_)}})) {
     built_.run->profile = Profile(settings.profile);
     built_.run->grains.profile = settings.profile ? &built_.run->profile : nullptr;
     start(built_, scene_);

@@ -53,6 +53,7 @@ void describe(Fields& f, PressureLoad& v);
 void describe(Fields& f, TractionLoad& v);
 void describe(Fields& f, Load& v);
 void describe(Fields& f, MeshTie& v);
+void describe(Fields& f, StateOfSolid& v);
 void describe(Fields& f, Solid& v);
 void describe(Fields& f, SurfaceContact& v);
 void describe(Fields& f, Overlap& v);

@@ -110,7 +110,7 @@ void writeGridFields(const std::filesystem::path& folder, const GridSettings& se
   const cg::Grid grid = gridOver(settings.box.value_or(around), spacing);
   const cg::Fields fields = cg::sample({settings.shape, 3, width}, cg::gridPoints(grid), cg::viewOf(now));
   const io::KeyValues provenance =
-      io::provenance({{"scene", identity},
+      io::provenance({{"scene", hashOf(identity)},
                       {"kernel", settings.shape == cg::KernelShape::lucy ? "lucy" : "gauss"},
                       {"width", formatNumber(width) + " m"}});
   io::writeFileAtomically(settings.file, textOf(now.time, grid, fields, provenance));

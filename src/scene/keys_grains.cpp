@@ -91,7 +91,9 @@ void describe(Fields& f, SphereFrame& v) {
 void describe(Fields& f, GrainsOfState& v) {
   f.file({"file",
           "checkpoint of another run with the same contact laws: all its grains with their masses, spins and "
-          "contacts' springs, so that what was at rest stays so; clumps and bonds do not come along"},
+          "contacts' springs, those with the same walls too, and with solids whose state is of the same file, so that "
+          "what "
+          "was at rest stays so; clumps and bonds do not come along"},
          v.file);
 }
 void describe(Fields& f, Particles& v) {

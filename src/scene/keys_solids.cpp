@@ -99,6 +99,13 @@ void describe(Fields& f, MeshTie& v) {
   f.text({"faces", "face set"}, v.faces, true);
   f.number({"tolerance", "largest distance of a node from the faces"}, v.tolerance, positive(unit::length));
 }
+void describe(Fields& f, StateOfSolid& v) {
+  f.file({"file",
+          "checkpoint that has a solid of this name, with the same mesh, material and formulation: displacements, "
+          "velocities "
+          "and plastic flow are those of its nodes and elements; displacements of supports count from there"},
+         v.file);
+}
 void describe(Fields& f, Solid& v) {
   static constexpr const char* meshes[] = {"box", "file", "tetrahedra"};
   static constexpr const char* formulations[] = {"standard", "mean-dilatation", "enhanced", "assumed-stress",
@@ -119,7 +126,8 @@ void describe(Fields& f, Solid& v) {
             "(d/h)^2)/2 lets waves go as in a lattice of "
             "grains of diameter d in elements of edge h"},
            v.massShare, between(0.0, 1.0));
-  velocity(f, v.velocity, "of all its nodes at the start");
+  f.object({"state", "of another run that it begins with"}, v.state);
+  velocity(f, v.velocity, "of all its nodes at the start, beside that of the state");
   f.list({"sets", "nodes and faces by their place"}, v.sets);
   f.list({"supports", "nodes that are held or moved"}, v.supports);
   f.list({"loads", "on faces"}, v.loads);

@@ -7,6 +7,7 @@
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/io/names.hpp"
+#include "from_state.hpp"
 #include "nearest.hpp"
 #include "parts.hpp"
 
@@ -112,7 +113,10 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   addElements(*model, mesh, solid, overlap);
   if (solid.gravity && norm(scene.gravity) > 0.0) model->add(fem::gravity(scene.gravity));
-  for (Vec3& v : model->nodes.v) v = solid.velocity;
+  if (solid.state)
+    takeSolid(*model, solid, built.notes);
+  else
+    for (Vec3& v : model->nodes.v) v = solid.velocity;
   addBoundaries(*model, mesh, solid, scene, built.notes);
   const double share = solid.massShare.value_or(solid.implicitSteps ? 1.0 : 0.0);
   const coupling::SolidSide& side = built.run->addSolid(

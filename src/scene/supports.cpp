@@ -104,9 +104,20 @@ void Holders::claim(const std::vector<int>& set, int component, Motion motion) {
   }
   if (fresh.empty()) return;
   const Motion& own = motions_.back();
-  if (!own.steady) return model_.constraints.prescribe(fresh, component, own.displacement);
+  if (!own.steady) return prescribe(fresh, component, own.displacement);
   fem::fix(model_.nodes, fresh, 1U << component);
   for (const int node : fresh) model_.nodes.v[static_cast<std::size_t>(node)][component] = own.velocity;
+}
+
+/// From where the nodes are: those of a state need not be where they are described.
+void Holders::prescribe(const std::vector<int>& nodes, int component, const TimeFunction& displacement) {
+  std::map<double, std::vector<int>> byStart;
+  for (const int node : nodes) byStart[model_.nodes.u[static_cast<std::size_t>(node)][component]].push_back(node);
+  for (const auto& [start, those] : byStart)
+    if (start == 0.0)
+      model_.constraints.prescribe(those, component, displacement);
+    else
+      model_.constraints.prescribe(those, component, [=](double t) { return start + displacement(t); });
 }
 
 void Holders::hold(const Support& support) {

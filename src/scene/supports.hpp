@@ -36,6 +36,7 @@ private:
 
   Motion motionOf(const Support& support, int component, const Travel& travel) const;
   void claim(const std::vector<int>& set, int component, Motion motion);
+  void prescribe(const std::vector<int>& nodes, int component, const TimeFunction& displacement);
   void lookForJump(const Motion& motion, int component);
   bool areSame(int first, int second);
   bool masterGoesAlong(const fem::Tie& tie, int motion);

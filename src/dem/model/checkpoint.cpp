@@ -104,15 +104,10 @@ void saveTerms(ByteWriter& writer, const Model& m) {
   }
 }
 
-struct SavedTerm {
-  std::string name, code;
-  std::vector<char> bytes;
-};
-
-std::vector<SavedTerm> readTerms(ByteReader& reader) {
+std::vector<TermOfState> readTerms(ByteReader& reader) {
   std::uint64_t count = 0;
   reader(count);
-  std::vector<SavedTerm> terms;
+  std::vector<TermOfState> terms;
   for (std::uint64_t k = 0; k < count; ++k) {
     std::vector<char> name, code, bytes;
     reader(name, code, bytes);
@@ -122,9 +117,9 @@ std::vector<SavedTerm> readTerms(ByteReader& reader) {
 }
 
 /// Terms that no code stands behind, empty.
-Terms makeTerms(const std::vector<SavedTerm>& saved, const std::string& path) {
+Terms makeTerms(const std::vector<TermOfState>& saved, const std::string& path) {
   Terms terms;
-  for (const SavedTerm& s : saved) {
+  for (const TermOfState& s : saved) {
     auto term = s.code.empty() ? emptyTerm(s.name) : nullptr;
     if (!term)
       refuse("'" + s.name + "' needs what no file can hold: " + s.code, path,
@@ -134,10 +129,10 @@ Terms makeTerms(const std::vector<SavedTerm>& saved, const std::string& path) {
   return terms;
 }
 
-void requireSameTerms(const std::vector<SavedTerm>& saved, const Terms& here, const std::string& path) {
+void requireSameTerms(const std::vector<TermOfState>& saved, const Terms& here, const std::string& path) {
   constexpr const char* remedy = "set the model up as it was when the checkpoint was written";
   auto term = here.begin();
-  for (const SavedTerm& s : saved) {
+  for (const TermOfState& s : saved) {
     if (term == here.end()) refuse("the model lacks '" + s.name + "' of the checkpoint", path, remedy);
     if ((*term)->name() != s.name)
       refuse("the checkpoint has '" + s.name + "' where the model has '" + (*term)->name() + "'", path, remedy);
@@ -150,9 +145,9 @@ void requireSameTerms(const std::vector<SavedTerm>& saved, const Terms& here, co
   if (term != here.end()) refuse("the model has '" + (*term)->name() + "', the checkpoint has not", path, remedy);
 }
 
-void loadTerms(const std::vector<SavedTerm>& saved, const Terms& terms, const std::string& path) {
+void loadTerms(const std::vector<TermOfState>& saved, const Terms& terms, const std::string& path) {
   auto term = terms.begin();
-  for (const SavedTerm& s : saved) {
+  for (const TermOfState& s : saved) {
     ByteReader reader(s.bytes);
     (*term++)->load(reader);
     if (!reader.atEnd())
@@ -183,13 +178,13 @@ void requireNumbers(const Particles& particles) {
 }
 
 /// All of a state but its terms, into `restored`, a copy of the model that it is for. Returns the terms.
-std::vector<SavedTerm> readModel(const std::vector<char>& bytes, const std::string& path, Model& restored) {
+std::vector<TermOfState> readModel(const std::vector<char>& bytes, const std::string& path, Model& restored) {
   ByteReader reader(bytes);
   requireSameLaws(reader, restored, path);
   archiveScene(reader, restored);
   requireNumbers(restored.particles);
   loadDomain(reader, restored);
-  std::vector<SavedTerm> terms = readTerms(reader);
+  std::vector<TermOfState> terms = readTerms(reader);
   if (!reader.atEnd()) refuse("there is more in the file than a model", path, "give a checkpoint of this version");
   return terms;
 }
@@ -216,7 +211,7 @@ void readCheckpoint(const std::filesystem::path& path, Model& m) {
 void loadGrains(const std::vector<char>& bytes, const std::string& path, Model& m) {
   if (m.particles.size() > 0) refuse("the model holds particles already", path, "load into an empty one");
   Model saved = m;
-  for (const SavedTerm& term : readModel(bytes, path, saved))
+  for (const TermOfState& term : readModel(bytes, path, saved))
     if (term.name == "bodies" || term.name == "bonds")
       refuse("the state has " + term.name + ", which grains alone do not bring along", path,
              "take the state of a run without them");
@@ -228,9 +223,16 @@ void loadGrains(const std::vector<char>& bytes, const std::string& path, Model& 
   m.pairs = std::move(saved.pairs);
 }
 
+PartsOfState partsOf(const std::vector<char>& bytes, const std::string& path, const Model& m) {
+  Model saved;
+  saved.laws = m.laws;
+  std::vector<TermOfState> terms = readModel(bytes, path, saved);
+  return {std::move(saved.particles.id), std::move(terms)};
+}
+
 void loadState(const std::vector<char>& bytes, const std::string& path, Model& m) {
   Model restored = m;
-  const std::vector<SavedTerm> saved = readModel(bytes, path, restored);
+  const std::vector<TermOfState> saved = readModel(bytes, path, restored);
   const bool anew = m.terms.empty();
   if (anew)
     restored.terms = makeTerms(saved, path);

@@ -22,6 +22,7 @@
 #include "dovetail/coupling/connector.hpp"
 #include "dovetail/coupling/solid_side.hpp"
 #include "dovetail/dem/model/model.hpp"
+#include "dovetail/fem/model/checkpoint.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 
 namespace dovetail::coupling {
@@ -181,6 +182,13 @@ struct RestReport {
 /// The bytes of the particles' model (dem::saveState) within those of CoupledRun::save.
 /// @throws InputError if they are cut off
 std::vector<char> particlesOf(const std::vector<char>& state);
+
+struct SolidOfState {
+  std::string name;
+  fem::SavedMotion motion;
+};
+/// The solids within them, in their order. @throws InputError if they are cut off, or not finite
+std::vector<SolidOfState> solidsOf(const std::vector<char>& state);
 
 /// Steps a started run until it is at rest under the loads that it has: whenever the kinetic energy has passed a peak
 /// everything is stopped (kinetic damping: Cundall 1976). Contacts remember as in any other step, so friction holds

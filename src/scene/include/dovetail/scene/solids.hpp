@@ -90,6 +90,10 @@ struct NamedSet {
   std::variant<PlaceAtSide, PlaceInBox, PlaceOnPlane, PlaceInSphere> place;
   std::string where;
 };
+/// Displacements, velocities and plastic flow of the solid of that name in another run's checkpoint.
+struct StateOfSolid {
+  std::string file;
+};
 struct Solid {
   std::string name;
   std::variant<BoxMesh, MeshFile, TetrahedraMesh> mesh;
@@ -97,8 +101,9 @@ struct Solid {
   std::string formulation = "standard";
   bool gravity = true;
   bool implicitSteps = false;
-  std::optional<double> massShare;  ///< of the consistent mass; not given: 1 for implicit steps, else 0
-  Vec3 velocity;                    ///< of all nodes at the start, m/s
+  std::optional<double> massShare;    ///< of the consistent mass; not given: 1 for implicit steps, else 0
+  std::optional<StateOfSolid> state;  ///< that it begins with; not given: at rest as it is described
+  Vec3 velocity;                      ///< of all nodes at the start, m/s, beside that of the state
   std::vector<NamedSet> sets;
   std::vector<Support> supports;
   std::vector<Load> loads;

@@ -22,6 +22,22 @@ void loadState(const std::vector<char>& bytes, const std::string& where, Model& 
 ///   an overlap weighs them; the model is then as it was
 void loadGrains(const std::vector<char>& bytes, const std::string& where, Model& m);
 
+/// What a term remembers, in a state.
+struct TermOfState {
+  std::string name, code;
+  std::vector<char> bytes;
+};
+struct PartsOfState {
+  std::vector<std::int64_t> ids;  ///< of the particles
+  std::vector<TermOfState> terms;
+};
+/// Of such bytes, in their order. @param m  a model with the laws of the state
+PartsOfState partsOf(const std::vector<char>& bytes, const std::string& where, const Model& m);
+/// Lets walls go on with the contacts, and the springs in them, of those walls of a state that had their shape and
+/// place. The model's particles begin with those of the state, by their ids.
+/// @return number of walls of which the state has none
+int takeWallContacts(Model& m, const std::vector<TermOfState>& terms);
+
 /// @throws InputError if the file cannot be written; what was there before is then still there
 void writeCheckpoint(const std::filesystem::path& path, const Model& m);
 
