@@ -2,9 +2,22 @@
 
 #include <algorithm>
 
+#include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
 
 namespace dovetail::io {
+
+std::string readWhole(const std::filesystem::path& path, const std::string& what) {
+  std::ifstream file = openFile(path, std::ios::binary);
+  if (!file) throw InputError(what + " cannot be read", path.string(), "give a file that exists and may be read");
+  file.seekg(0, std::ios::end);
+  std::string text(static_cast<std::size_t>(std::max<std::streamoff>(file.tellg(), 0)), '\0');
+  file.seekg(0);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (static_cast<std::size_t>(file.gcount()) != text.size())
+    throw InputError("reading " + what + " broke off", path.string(), "check the disk");
+  return text;
+}
 
 std::string_view withoutByteOrderMark(std::string_view text, const std::string& where) {
   using namespace std::string_view_literals;
@@ -14,8 +27,27 @@ std::string_view withoutByteOrderMark(std::string_view text, const std::string& 
   return text;
 }
 
+std::string_view withoutEndMark(std::string_view text) {
+  const std::size_t last = text.find_last_not_of(" \t\r\n\x1A");
+  return text.substr(0, text.find('\x1A', last == std::string_view::npos ? 0 : last));
+}
+
 void endLinesWithLf(std::string& text) {
   if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
+}
+
+std::string shown(std::string_view word) {
+  if (word.empty()) return "nothing";
+  std::string text = "'";
+  for (const char c : word.substr(0, 24)) text += c >= ' ' && c <= '~' ? c : '?';
+  return text + (word.size() > 24 ? "…'" : "'");
+}
+
+std::string lower(std::string_view word) {
+  std::string text(word);
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
 }
 
 }  // namespace dovetail::io

@@ -1,13 +1,11 @@
 #include "text_scanner.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/io/plain_text.hpp"
+#include "dovetail/core/farthest.hpp"
 
 namespace dovetail::mesh_io {
 
@@ -25,23 +23,15 @@ bool parse(std::string_view word, Value& value) {
 }  // namespace
 
 std::string readWhole(const std::filesystem::path& path) {
-  std::error_code error;
-  std::ifstream file;
-  if (std::filesystem::is_regular_file(path, error)) file.open(path, std::ios::binary | std::ios::ate);
-  if (!file.is_open())
-    throw InputError("a surface cannot be read", path.string(), "give a file that exists and may be read");
-  std::string text(static_cast<std::size_t>(file.tellg()), '\0');
-  file.seekg(0);
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (static_cast<std::size_t>(file.gcount()) != text.size())
-    throw InputError("reading a surface broke off", path.string(), "check the disk");
-  if (text.empty()) throw InputError("the file is empty", path.string(), "give a file with a surface");
-  return text;
+  std::string bytes = io::readWhole(path, "a surface");
+  if (bytes.empty()) throw InputError("the file is empty", path.string(), "give a file with a surface");
+  return bytes;
 }
 
 std::string plainText(std::string bytes, const std::filesystem::path& path) {
   if (const std::size_t mark = bytes.size() - io::withoutByteOrderMark(bytes, path.string()).size(); mark > 0)
     bytes.erase(0, mark);
+  bytes.resize(io::withoutEndMark(bytes).size());
   io::endLinesWithLf(bytes);
   return bytes;
 }
@@ -55,9 +45,8 @@ void requireFacets(const geometry::TriangleMesh& mesh, const std::filesystem::pa
   if (mesh.facets.empty()) refuse(path, "", "the file holds no facets", "give a file with a surface of triangles");
   if (mesh.x.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     refuse(path, "", "the file holds too many vertices", "cut the surface into several files");
-  constexpr double farthest = 1e15;  // m
   for (std::size_t v = 0; v < mesh.x.size(); ++v)
-    if (!(std::max({std::abs(mesh.x[v].x), std::abs(mesh.x[v].y), std::abs(mesh.x[v].z)}) <= farthest))
+    if (isTooFar(mesh.x[v]))
       refuse(path, "vertex " + std::to_string(v), "it lies farther than 1e15 m from the origin",
              "give coordinates in metres");
 }
@@ -110,20 +99,6 @@ void TextScanner::refuse(const std::string& problem, const std::string& remedy) 
 bool isNumber(std::string_view word) {
   double value = 0.0;
   return parse(word, value);
-}
-
-std::string shown(std::string_view word) {
-  if (word.empty()) return "nothing";
-  std::string text = "'";
-  for (const char c : word.substr(0, 24)) text += c >= ' ' && c <= '~' ? c : '?';
-  return text + (word.size() > 24 ? "…'" : "'");
-}
-
-std::string lower(std::string_view word) {
-  std::string text(word);
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
 }
 
 }  // namespace dovetail::mesh_io

@@ -10,13 +10,14 @@
 
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
+#include "dovetail/io/plain_text.hpp"
 
 namespace dovetail::mesh_io {
 
 /// @throws InputError if it is no file, cannot be read, or is empty
 std::string readWhole(const std::filesystem::path& path);
 
-/// A text without a byte-order mark, its lines ending with LF.
+/// A text without a byte-order mark and an end mark, its lines ending with LF.
 /// @throws InputError for a text in UTF-16
 std::string plainText(std::string bytes, const std::filesystem::path& path);
 
@@ -61,11 +62,10 @@ private:
   std::size_t at_ = 0, line_;
 };
 
+using io::lower;
+using io::shown;
+
 /// Whether a word is a number, NaN and infinity included.
 bool isNumber(std::string_view word);
-/// A word for an error message: short, and printable.
-std::string shown(std::string_view word);
-/// Lower case, ASCII only.
-std::string lower(std::string_view word);
 
 }  // namespace dovetail::mesh_io

@@ -9,7 +9,7 @@
 #include "dovetail/dem/model/checkpoint.hpp"
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/dem/setup/packing.hpp"
-#include "dovetail/io/time_series.hpp"
+#include "dovetail/io/csv_table.hpp"
 #include "nearest.hpp"
 #include "parts.hpp"
 
@@ -124,7 +124,8 @@ void requireColumns(const io::TimeSeries& table, const std::string& file) {
 }
 
 void add(const Target& to, const SphereFile& from) {
-  const io::TimeSeries table = io::readCsv(from.file);
+  const io::CsvTable read = io::readCsvTable(from.file);
+  const io::TimeSeries& table = read.series;
   requireColumns(table, from.file);
   const auto x = table.column("x_m"), y = table.column("y_m"), z = table.column("z_m"), r = table.column("radius_m");
   std::array<std::span<const double>, 3> v;
@@ -133,7 +134,7 @@ void add(const Target& to, const SphereFile& from) {
     v = {table.column("vx_m_per_s"), table.column("vy_m_per_s"), table.column("vz_m_per_s")};
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const Vec3 own = v[0].empty() ? Vec3{} : Vec3{v[0][i], v[1][i], v[2][i]};
-    atPlace(from.file + ", row " + std::to_string(i + 1), [&] {
+    atPlace(from.file + ", line " + std::to_string(read.line[i]), [&] {
       dem::addParticle(to.grains.particles, {x[i], y[i], z[i]}, to.group.velocity + own, r[i],
                        dem::Density{from.density});
     });

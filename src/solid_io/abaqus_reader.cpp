@@ -147,7 +147,7 @@ void AbaqusReader::readNodes() {
       X[static_cast<int>(i) - 1] = fields[i].empty() ? 0.0 : source_.parseReal(fields[i]);
     const Label label = source_.parseInteger(fields[0]);
     builder_.addNode(newLabel(nodeAliases_, label, "node", cards_.dataPlace()), X, cards_.dataPlace());
-    if (set != nullptr) set->members.push_back({label, space()});
+    if (set != nullptr) set->members.push_back({label, space(), cards_.dataPlace()});
   }
 }
 
@@ -178,7 +178,7 @@ void AbaqusReader::readElements() {
     if (numbers.size() > wanted) refuseCount(place, numbers.size() - 1);
     if (numbers.size() < wanted) continue;
     addElement(name, *type, numbers, place);
-    if (set != nullptr) set->members.push_back({numbers[0], space()});
+    if (set != nullptr) set->members.push_back({numbers[0], space(), place});
     numbers.clear();
   }
   if (!numbers.empty()) refuseCount(place, numbers.size() - 1);
@@ -192,7 +192,7 @@ void AbaqusReader::addElement(const std::string& name, const AbaqusType& type, s
   std::vector<Label> nodes;
   for (int k = 0; k < type.nodes; ++k) {
     const int at = type.dimension == 3 ? abaqusPlace(type.shape, k) : k;
-    nodes.push_back(labelOf(nodeAliases_, {numbers[static_cast<std::size_t>(at) + 1], space()}));
+    nodes.push_back(labelOf(nodeAliases_, {numbers[static_cast<std::size_t>(at) + 1], space(), place}));
   }
   if (type.dimension == 1) {
     ++lines_[name];
@@ -213,7 +213,7 @@ SolidFile abaqusFromText(std::string_view bytes, const std::string& name) {
 }
 
 SolidFile readAbaqus(const std::filesystem::path& path) {
-  const std::string bytes = readWhole(path);
+  const std::string bytes = io::readWhole(path, "a mesh");
   return abaqusFromText(bytes, path.string());
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "abaqus_types.hpp"
@@ -16,10 +17,13 @@ namespace dovetail::solid_io {
 /// of it: the assembly, or a file without parts.
 enum class Space { model, part };
 
+/// Members are the same wherever the file names them.
 struct Member {
   Label label;
   Space space;
-  auto operator<=>(const Member&) const = default;
+  std::size_t place;
+  auto operator<=>(const Member& other) const { return std::tie(label, space) <=> std::tie(other.label, other.space); }
+  bool operator==(const Member& other) const { return label == other.label && space == other.space; }
 };
 
 /// first, first + step, … up to last, as GENERATE has it.
@@ -37,7 +41,6 @@ using SetName = std::pair<Space, std::string>;
 /// has been read: until then a line of a file could stand for any number of labels.
 struct LabelSet {
   std::string name;
-  std::size_t place;
   std::vector<Member> members;
   std::vector<LabelRange> ranges;
   std::vector<SetName> elementSets;  ///< whose nodes are in this one

@@ -10,7 +10,7 @@ namespace {
 
 template <class Item>
 void sortUnique(std::vector<Item>& items) {
-  std::sort(items.begin(), items.end());
+  std::stable_sort(items.begin(), items.end());
   items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
@@ -32,7 +32,7 @@ std::string unquoted(std::string_view field) {
 }
 
 LabelSet& AbaqusReader::setOf(LabelSets& sets, const std::string& name) {
-  return sets.try_emplace({space(), lower(name)}, LabelSet{name, cards_.place(), {}, {}, {}}).first->second;
+  return sets.try_emplace({space(), lower(name)}, LabelSet{name, {}, {}, {}}).first->second;
 }
 
 void AbaqusReader::readSet(LabelSets& sets, const std::string& parameter) {
@@ -73,7 +73,7 @@ void AbaqusReader::readMember(const LabelSets& sets, LabelSet& set, std::string 
     return addOther(set, *other);
   if (takeInstance(field)) space = Space::part;
   if (!isNumber(field)) cards_.refuseData("there is no set " + shown(field) + " yet", "define it further up");
-  set.members.push_back({source_.parseInteger(field), space});
+  set.members.push_back({source_.parseInteger(field), space, cards_.dataPlace()});
 }
 
 void AbaqusReader::addRange(LabelSet& set, const std::vector<std::string_view>& given, Space space) {
@@ -127,7 +127,7 @@ void AbaqusReader::countOut(LabelSets& sets, std::size_t existing, const std::st
                              std::to_string(existing),
                          "name " + what + " that the file defines");
       for (std::size_t k = 0; k < count; ++k)
-        set.members.push_back({range.first + static_cast<Label>(k) * range.step, range.space});
+        set.members.push_back({range.first + static_cast<Label>(k) * range.step, range.space, range.place});
       if (set.members.size() > 4 * existing) sortUnique(set.members);
     }
     set.ranges.clear();
@@ -148,8 +148,8 @@ std::string AbaqusReader::nameOf(const SetName& key, const std::string& name, co
 void AbaqusReader::addNodesOfElements(LabelSet& set) {
   for (const SetName& key : set.elementSets)
     for (const Member& element : elementSets_.at(key).members) {
-      const Label label = labelOf(elementAliases_, element);
-      for (const Label node : builder_.nodesOf(label)) set.members.push_back({node, Space::part});
+      const auto [nodes, place] = builder_.nodesOf(labelOf(elementAliases_, element));
+      for (const Label node : nodes) set.members.push_back({node, Space::part, place});
     }
   if (!set.elementSets.empty()) sortUnique(set.members);
 }
@@ -164,13 +164,13 @@ void AbaqusReader::giveSets() {
     addNodesOfElements(set);
     noteEmpty(set, "node set");
     const SetKey given{nameOf(key, set.name, nodeSets_, " node set"), 0, "nodes"};
-    for (const Member& member : set.members) builder_.addNodeToSet(given, labelOf(nodeAliases_, member), set.place);
+    for (const Member& member : set.members) builder_.addNodeToSet(given, labelOf(nodeAliases_, member), member.place);
   }
   for (const auto& [key, set] : elementSets_) {
     noteEmpty(set, "element set");
     const SetKey given{nameOf(key, set.name, elementSets_, "n element set"), 2, "elements"};
     for (const Member& member : set.members)
-      builder_.addElementToSet(given, labelOf(elementAliases_, member), set.place);
+      builder_.addElementToSet(given, labelOf(elementAliases_, member), member.place);
   }
 }
 
@@ -212,7 +212,7 @@ std::vector<Label> AbaqusReader::labelsOf(const LabelSets& sets, const std::map<
   if (takeInstance(item)) in = Space::part;
   if (!isNumber(item))
     source_.refuseAt(line.place, "there is no set " + shown(line.item), "name a set or an element of this file");
-  return {labelOf(aliases, {source_.parseInteger(item), in})};
+  return {labelOf(aliases, {source_.parseInteger(item), in, line.place})};
 }
 
 void AbaqusReader::readSurfaces() {

@@ -1,8 +1,5 @@
 #include "gmsh_reader.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/plain_text.hpp"
 
@@ -26,7 +23,7 @@ SolidFile GmshReader::read() {
   }
   if (!seen_.contains("Elements"))
     throw InputError("there is no section $Elements", source_.name(), "give a complete MSH file");
-  nameEntities();
+  giveElements();
   return builder_.finish();
 }
 
@@ -42,10 +39,7 @@ void GmshReader::readSection(const std::string& section) {
   source_.binary = binary_;
   if (section == "Entities") version4_ ? readEntities4() : source_.skipBehindLine("$EndEntities");
   if (section == "Nodes") version4_ ? readNodes4() : readNodes2();
-  if (section == "Elements") {
-    if (!seen_.contains("Nodes")) source_.refuse("$Elements come before $Nodes", "give the nodes first");
-    version4_ ? readElements4() : readElements2();
-  }
+  if (section == "Elements") version4_ ? readElements4() : readElements2();
   source_.binary = false;
   if (section == "Entities" && !version4_) return;
   const std::string_view end = source_.word();
@@ -66,7 +60,8 @@ void GmshReader::readFormat() {
   source_.endLine();
   binary_ = mode == 1;
   if (!binary_) return;
-  source_.binary = source_.placesInBytes = true;
+  source_.binary = true;
+  source_.places = Source::Places::bytes;
   if (source_.integer(4) != 1) source_.refuse("the byte order is not this machine's", "save the mesh as ASCII");
   source_.binary = false;
 }
@@ -85,58 +80,12 @@ void GmshReader::readPhysicalNames() {
   }
 }
 
-SetKey GmshReader::keyOf(int dimension, std::int64_t group) const {
-  constexpr std::array<const char*, 4> kinds = {"points", "curves", "surfaces", "volumes"};
-  const std::string kind = kinds[static_cast<std::size_t>(dimension)];
-  const auto found = names_.find({dimension, group});
-  if (found == names_.end()) return {std::to_string(group), 3 - dimension, kind + " without a name"};
-  return {found->second, 3 - dimension, kind};
-}
-
 const GmshType& GmshReader::requireType(std::int64_t code) {
   const GmshType* type = gmshType(code);
   if (type == nullptr)
     source_.refuse("elements of " + gmshTypeName(code) + " are not known here",
                    "mesh with hexahedra, tetrahedra or, in a plane, quadrilaterals of first or second order");
   return *type;
-}
-
-void GmshReader::addElement(const GmshType& type, Label label, std::span<const Label> nodes, std::size_t place,
-                            std::span<const std::int64_t> physical, std::int64_t entity) {
-  const bool grouped = std::any_of(physical.begin(), physical.end(), [](std::int64_t g) { return g != 0; });
-  if (type.dimension == 3) {
-    std::array<Label, 27> ours{};
-    const auto order = gmshOrder(type.shape);
-    for (std::size_t k = 0; k < order.size(); ++k) ours[k] = nodes[static_cast<std::size_t>(order[k])];
-    builder_.addCell(label, type.shape, std::span(ours).first(order.size()), place);
-  }
-  if (type.dimension == 2) builder_.addFace(label, surfaceOf(type.nodes), nodes, place, grouped);
-  if (type.dimension == 1)
-    builder_.addLine(label, nodes, place, grouped ? MeshBuilder::LineUse::mustFit : MeshBuilder::LineUse::line);
-  anyGroup_ = anyGroup_ || grouped;
-  for (const std::int64_t group : physical)
-    if (group == std::numeric_limits<std::int64_t>::min())
-      source_.refuseAt(place, "the physical group is " + std::to_string(group),
-                       "give numbers that have a positive one");
-  for (const std::int64_t group : physical)
-    if (group != 0) addToSet(type, label, nodes, place, keyOf(type.dimension, group < 0 ? -group : group));
-  if (!anyGroup_) unnamed_.push_back({&type, label, {nodes.begin(), nodes.end()}, place, entity});
-}
-
-void GmshReader::addToSet(const GmshType& type, Label label, std::span<const Label> nodes, std::size_t place,
-                          const SetKey& key) {
-  if (type.dimension >= 1) return builder_.addElementToSet(key, label, place);
-  for (const Label node : nodes) builder_.addNodeToSet(key, node, place);
-}
-
-void GmshReader::nameEntities() {
-  constexpr std::array<const char*, 4> kinds = {"point ", "curve ", "surface ", "volume "};
-  if (anyGroup_) return;
-  for (const Unnamed& element : unnamed_) {
-    const std::string kind = kinds[static_cast<std::size_t>(element.type->dimension)];
-    addToSet(*element.type, element.label, element.nodes, element.place,
-             {kind + std::to_string(element.entity), 3 - element.type->dimension, kind});
-  }
 }
 
 SolidFile gmshFromText(std::string_view bytes, const std::string& name) {
@@ -151,7 +100,7 @@ SolidFile gmshFromText(std::string_view bytes, const std::string& name) {
 }
 
 SolidFile readGmsh(const std::filesystem::path& path) {
-  const std::string bytes = readWhole(path);
+  const std::string bytes = io::readWhole(path, "a mesh");
   return gmshFromText(bytes, path.string());
 }
 

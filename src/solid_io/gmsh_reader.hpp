@@ -30,28 +30,34 @@ private:
   void readNodes2();
   void readElements2();
   void readElementBlock2(std::int64_t code, std::size_t count, std::size_t tags);
-  void addElement(const GmshType& type, Label label, std::span<const Label> nodes, std::size_t place,
-                  std::span<const std::int64_t> physical, std::int64_t entity);
-  void addToSet(const GmshType& type, Label label, std::span<const Label> nodes, std::size_t place, const SetKey& key);
-  /// Elements with the sets that their entities stand for, once all groups are known.
-  void nameEntities();
   const GmshType& requireType(std::int64_t code);
-  SetKey keyOf(int dimension, std::int64_t group) const;
 
-  struct Unnamed {
+  struct Element {
     const GmshType* type;
     Label label;
-    std::vector<Label> nodes;
-    std::size_t place;
-    std::int64_t entity;
+    std::size_t firstNode, place;
+    std::int64_t group, entity;  ///< group: of version 2, 0 if there is none
   };
+  /// Reads its nodes.
+  void readElement(const GmshType& type, Label label, std::size_t place, std::int64_t group, std::int64_t entity);
+  std::span<const Label> nodesOf(const Element& element) const;
+
+  /// What elements are and what they belong to, once all sections are read: they may stand in any order.
+  void giveElements();
+  std::vector<std::int64_t> groupsOf(const Element& element) const;
+  void giveElement(const Element& element, bool grouped);
+  void addToSet(const Element& element, const SetKey& set);
+  SetKey keyOf(const Group& group) const;
+  static SetKey keyOfEntity(const Element& element);
+  void noteSharedNames(const std::set<Group>& used);
 
   Source& source_;
   MeshBuilder builder_;
-  bool version4_ = false, binary_ = false, anyGroup_ = false;
+  bool version4_ = false, binary_ = false;
   std::map<Group, std::string> names_;
   std::map<Group, std::vector<std::int64_t>> groupsOfEntity_;
-  std::vector<Unnamed> unnamed_;
+  std::vector<Element> elements_;
+  std::vector<Label> elementNodes_;
   std::set<std::string> seen_;
 };
 

@@ -63,15 +63,10 @@ void GmshReader::readElements4() {
       source_.refuse("elements of an entity of dimension " + std::to_string(dimension) + " have dimension " +
                          std::to_string(type.dimension),
                      "give a complete file");
-    const auto groups = groupsOfEntity_.find({type.dimension, entity});
     const std::size_t count = source_.count(8, 4);
-    std::vector<Label> nodes(static_cast<std::size_t>(type.nodes));
     for (std::size_t k = 0; k < count; ++k) {
       const Label label = source_.integer(8);
-      const std::size_t place = source_.offset();
-      for (Label& node : nodes) node = source_.integer(8);
-      addElement(type, label, nodes, place,
-                 groups == groupsOfEntity_.end() ? std::span<const std::int64_t>() : groups->second, entity);
+      readElement(type, label, source_.offset(), 0, entity);
     }
   }
 }
@@ -118,13 +113,19 @@ void GmshReader::readElementBlock2(std::int64_t code, std::size_t count, std::si
       tags = source_.count(4, 2);
     }
     const GmshType& type = requireType(code);
-    std::vector<std::int64_t> tag;
-    for (std::size_t t = 0; t < tags; ++t) tag.push_back(source_.integer(4));
-    std::vector<Label> nodes(static_cast<std::size_t>(type.nodes));
-    for (Label& node : nodes) node = source_.integer(4);
-    addElement(type, label, nodes, place, std::span(tag).first(std::min<std::size_t>(1, tag.size())),
-               tag.size() > 1 ? tag[1] : 0);
+    std::array<std::int64_t, 2> groupAndEntity{};
+    for (std::size_t t = 0; t < tags; ++t) {
+      const std::int64_t tag = source_.integer(4);
+      if (t < 2) groupAndEntity[t] = tag;
+    }
+    readElement(type, label, place, groupAndEntity[0], groupAndEntity[1]);
   }
+}
+
+void GmshReader::readElement(const GmshType& type, Label label, std::size_t place, std::int64_t group,
+                             std::int64_t entity) {
+  elements_.push_back({&type, label, elementNodes_.size(), place, group, entity});
+  for (int k = 0; k < type.nodes; ++k) elementNodes_.push_back(source_.integer(version4_ ? 8 : 4));
 }
 
 }  // namespace dovetail::solid_io

@@ -18,6 +18,7 @@ public:
   explicit Includer(const std::string& deck) : folder_(fs::path(deck).parent_path()) {}
 
   void add(std::string_view bytes, const std::string& name) {
+    bytes = io::withoutEndMark(bytes);
     std::string lines;
     if (bytes.find('\n') == std::string_view::npos) {
       lines = bytes;
@@ -77,7 +78,7 @@ private:
       cards.refuse(file.string() + " includes itself", "leave the card out");
     if (chain_.size() > deepest) cards.refuse("files are included more than 16 deep", "write them into fewer files");
     if (++files_ > mostFiles) cards.refuse("more than 1000 files are included", "write them into fewer files");
-    const std::string bytes = readWhole(file);
+    const std::string bytes = io::readWhole(file, "a mesh");
     if (result.text.size() + bytes.size() > mostBytes)
       cards.refuse("the included files have more than 4 GiB", "include each of them once");
     add(bytes, file.string());

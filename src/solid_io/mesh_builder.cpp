@@ -1,11 +1,11 @@
 #include "mesh_builder.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/farthest.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/fem/mesh/mesh_quality.hpp"
 #include "face_finder.hpp"
@@ -17,8 +17,7 @@ void MeshBuilder::addNode(Label label, const Vec3& X, std::size_t place) {
     source_.refuseAt(place, "node " + std::to_string(label) + " occurs twice", "give each node a number of its own");
   if (X_.size() >= static_cast<std::size_t>(std::numeric_limits<int>::max()))
     source_.refuseAt(place, "the file holds too many nodes", "cut the mesh into several files");
-  constexpr double farthest = 1e15;  // m
-  if (!(std::max({std::abs(X.x), std::abs(X.y), std::abs(X.z)}) <= farthest))
+  if (isTooFar(X))
     source_.refuseAt(place, "node " + std::to_string(label) + " lies farther than 1e15 m from the origin",
                      "give coordinates in metres");
   X_.push_back(X);
@@ -58,9 +57,13 @@ void MeshBuilder::addFace(Label label, const SurfaceKind& kind, std::span<const 
 }
 
 void MeshBuilder::addNodeToSet(const SetKey& set, Label node, std::size_t place) {
+  nodeIndex(node, place);
   nodeSets_[set].push_back({node, 0, place});
 }
 void MeshBuilder::addElementToSet(const SetKey& set, Label element, std::size_t place) {
+  if (!hasElement(element))
+    source_.refuseAt(place, "element " + std::to_string(element) + " does not exist",
+                     "name elements that the file defines");
   elementSets_[set].push_back({element, 0, place});
 }
 void MeshBuilder::addSideToSet(const SetKey& set, Label element, int side, std::size_t place) {
@@ -74,14 +77,15 @@ fem::CellShape MeshBuilder::shapeOf(Label label, std::size_t place) const {
   return cell_[found->second].shape;
 }
 
-std::vector<Label> MeshBuilder::nodesOf(Label element) const {
-  if (const auto line = lines_.find(element); line != lines_.end()) return line->second.nodes;
-  if (const auto face = faces_.find(element); face != faces_.end()) return face_[face->second].nodes;
+MeshBuilder::ElementNodes MeshBuilder::nodesOf(Label element) const {
+  if (const auto line = lines_.find(element); line != lines_.end()) return {line->second.nodes, line->second.place};
+  if (const auto face = faces_.find(element); face != faces_.end())
+    return {face_[face->second].nodes, face_[face->second].place};
   const auto found = cells_.find(element);
   if (found == cells_.end()) return {};
   const Cell& cell = cell_[found->second];
   const auto begin = cellNode_.begin() + static_cast<std::ptrdiff_t>(cell.firstNode);
-  return {begin, begin + fem::nodesOf(cell.shape)};
+  return {{begin, begin + fem::nodesOf(cell.shape)}, cell.place};
 }
 
 int MeshBuilder::nodeIndex(Label label, std::size_t place) const {
@@ -167,14 +171,13 @@ void MeshBuilder::requireSound(const SolidFile& file) const {
   for (std::size_t e = 0; e < quality.element.size(); ++e)
     if (!(quality.element[e].scaledJacobian > 0.0)) bad.push_back(e);
   if (bad.empty()) return fem::validate(file.mesh);
-  std::string numbers;
+  std::string named = bad.size() == 1 ? "element" : "elements";
   for (std::size_t k = 0; k < std::min<std::size_t>(10, bad.size()); ++k)
-    numbers += (k == 0 ? "" : ", ") + std::to_string(file.elementNumber[bad[k]]);
-  if (bad.size() > 10) numbers += " and " + std::to_string(bad.size() - 10) + " more";
+    named += (k == 0 ? " " : ", ") + std::to_string(file.elementNumber[bad[k]]);
+  if (bad.size() > 10) named += " and " + std::to_string(bad.size() - 10) + " more";
   const auto first = std::find_if(cell_.begin(), cell_.end(),
                                   [&](const Cell& cell) { return cell.number == static_cast<int>(bad[0]); });
-  source_.refuseAt(first->place,
-                   counted(bad.size(), "element is", "elements are") + " flat, inside out or too distorted: " + numbers,
+  source_.refuseAt(first->place, "flat, inside out or too distorted: " + named,
                    "mend the mesh where it was made; if all are named, their nodes run the wrong way round");
 }
 

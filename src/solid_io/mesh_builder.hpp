@@ -62,6 +62,7 @@ public:
   };
   void addLine(Label label, std::span<const Label> nodes, std::size_t place, LineUse use = LineUse::names);
 
+  /// Nodes and elements of sets must be there already.
   void addNodeToSet(const SetKey& set, Label node, std::size_t place);
   /// Cells go to element sets, faces to face sets, nodes of other elements to node sets.
   void addElementToSet(const SetKey& set, Label element, std::size_t place);
@@ -78,8 +79,12 @@ public:
   /// If there are no volume elements, surface elements become cells of plane strain and lines their faces.
   /// @return whether the mesh is one of plane strain
   bool takePlaneCells();
-  /// Nodes of a cell, surface element or line; empty for other numbers.
-  std::vector<Label> nodesOf(Label element) const;
+  struct ElementNodes {
+    std::vector<Label> nodes;
+    std::size_t place;
+  };
+  /// Of a cell, surface element or line; no nodes for other numbers.
+  ElementNodes nodesOf(Label element) const;
   bool hasNode(Label label) const { return nodes_.contains(label); }
   /// Shape of a cell; refuses other numbers.
   fem::CellShape shapeOf(Label label, std::size_t place) const;

@@ -55,13 +55,9 @@ void MeshBuilder::fillElementSets(SolidFile& file) {
   std::map<SetKey, std::vector<int>> named;
   for (const auto& [set, references] : elementSets_) {
     std::vector<int> numbers;
-    for (const Reference& reference : references) {
+    for (const Reference& reference : references)
       if (const auto cell = cells_.find(reference.label); cell != cells_.end())
         numbers.push_back(cell_[cell->second].number);
-      else if (!hasElement(reference.label))
-        source_.refuseAt(reference.place, "element " + std::to_string(reference.label) + " does not exist",
-                         "name elements that the file defines");
-    }
     sortUnique(numbers);
     if (!numbers.empty()) named[set] = numbers;
   }

@@ -21,7 +21,7 @@ namespace {
 SolidFile readSolid(const std::filesystem::path& path) {
   const std::string ending = lower(path.extension().string());
   if (ending != ".msh" && ending != ".inp") refuseEnding(path);
-  const std::string bytes = readWhole(path);
+  const std::string bytes = io::readWhole(path, "a mesh");
   // Decks are written under the ending .msh too: what the file begins with says what it is.
   const std::string_view start = trimmed(io::withoutByteOrderMark(bytes, path.string()).substr(0, 4096));
   const bool abaqus = start.starts_with('*') || (ending == ".inp" && !start.starts_with('$'));

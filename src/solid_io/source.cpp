@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/plain_text.hpp"
@@ -25,34 +24,6 @@ bool parse(std::string_view word, Value& value) {
 
 }  // namespace
 
-std::string readWhole(const std::filesystem::path& path) {
-  std::error_code error;
-  std::ifstream file;
-  if (std::filesystem::is_regular_file(path, error)) file.open(path, std::ios::binary | std::ios::ate);
-  if (!file.is_open())
-    throw InputError("a mesh cannot be read", path.string(), "give a file that exists and may be read");
-  std::string text(static_cast<std::size_t>(file.tellg()), '\0');
-  file.seekg(0);
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (static_cast<std::size_t>(file.gcount()) != text.size())
-    throw InputError("reading a mesh broke off", path.string(), "check the disk");
-  return text;
-}
-
-std::string shown(std::string_view word) {
-  if (word.empty()) return "nothing";
-  std::string text = "'";
-  for (const char c : word.substr(0, 24)) text += c >= ' ' && c <= '~' ? c : '?';
-  return text + (word.size() > 24 ? "…'" : "'");
-}
-
-std::string lower(std::string_view word) {
-  std::string text(word);
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
   while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
@@ -61,6 +32,7 @@ std::string_view trimmed(std::string_view text) {
 
 Source::Source(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {
   at_ = last_ = bytes.size() - io::withoutByteOrderMark(bytes, name_).size();
+  bytes_ = io::withoutEndMark(bytes);
 }
 
 std::string_view Source::line() {
@@ -155,7 +127,8 @@ std::size_t Source::lineAt(std::size_t offset) const {
 }
 
 void Source::refuseAt(std::size_t offset, const std::string& problem, const std::string& remedy) const {
-  if (binary || placesInBytes) throw InputError(problem, name_ + ", byte " + std::to_string(offset), remedy);
+  if (places == Places::none) throw InputError(problem, name_, remedy);
+  if (binary || places == Places::bytes) throw InputError(problem, name_ + ", byte " + std::to_string(offset), remedy);
   Piece piece{0, name_, 1};
   for (const Piece& one : pieces_)
     if (one.begin <= offset) piece = one;

@@ -2,20 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "dovetail/io/plain_text.hpp"
+
 namespace dovetail::solid_io {
 
-/// @throws InputError if it is no file, cannot be read, or is empty
-std::string readWhole(const std::filesystem::path& path);
-
-/// A word for an error message: short, and printable.
-std::string shown(std::string_view word);
-/// Lower case, ASCII only.
-std::string lower(std::string_view word);
+using io::lower;
+using io::shown;
 std::string_view trimmed(std::string_view text);
 
 /// A file's bytes, and a place in them. Numbers are words between blanks, or bytes where `binary` is set.
@@ -34,7 +30,8 @@ public:
   void setPieces(std::vector<Piece> pieces) { pieces_ = std::move(pieces); }
 
   bool binary = false;
-  bool placesInBytes = false;  ///< errors name bytes, not lines
+  enum class Places { lines, bytes, none };
+  Places places = Places::lines;  ///< what errors name
 
   std::size_t offset() const { return at_; }
   std::size_t remaining() const { return bytes_.size() - at_; }

@@ -38,6 +38,8 @@ TEST(Particles, BadValuesAreRefusedWithParticleAndField) {
     return complaint([&] { addParticle(particles, x, v, radius, Mass{mass}); });
   };
   EXPECT_NE(added({nan, 0, 0}, {}, 1, 1).find("particle 1, position"), std::string::npos);
+  EXPECT_NE(added({0, -2e15, 0}, {}, 1, 1).find("farther than 1e15 m from the origin [particle 1, position]"),
+            std::string::npos);
   EXPECT_NE(added({}, {0, inf, 0}, 1, 1).find("particle 1, velocity"), std::string::npos);
   EXPECT_NE(added({}, {}, 0, 1).find("particle 1, radius"), std::string::npos);
   EXPECT_NE(added({}, {}, 1, -1).find("particle 1, mass"), std::string::npos);

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/io/csv_table.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/time_series.hpp"
 #include "scratch_folder.hpp"
@@ -172,7 +173,11 @@ TEST(Csv, NamesTheLineOfNamesThatCannotBe) {
   const auto path = scratch / "table.csv";
   const std::pair<std::string, std::string> bad[] = {{"# c\na,a\n", "'a' occurs twice"},
                                                      {"\na,b c\n", "'b c' cannot be used"},
-                                                     {"\na,\n", "the name ''"},
+                                                     {"\na,\n", "a name is empty"},
+                                                     {"\na,x [mm]\n", "the name 'x [mm]' cannot be used"},
+                                                     {"\na,x [mm]\n", "write x_mm"},
+                                                     {"\na,v (m/s^2)\n", "write v_m_per_s2"},
+                                                     {"a\n\x1B[31m7\n", "'?[31m7' is not a number"},
                                                      {"\na;b\n1;2\n", "not separated by commas"},
                                                      {"\na\tb\n1\t2\n", "not separated by commas"},
                                                      {"\n0.1 0.2\n", "not separated by commas"},
@@ -185,16 +190,19 @@ TEST(Csv, NamesTheLineOfNamesThatCannotBe) {
     EXPECT_NE(message.find(wanted), std::string::npos) << message;
     EXPECT_NE(message.find(path.string() + ", line 2"), std::string::npos) << message;
   }
+  writeText(path, std::string("a\n7\0\n", 5));
+  const std::string message = messageOf<InputError>([&] { readCsv(path); });
+  EXPECT_NE(message.find("bytes that are zero [" + path.string() + ", line 2]: "), std::string::npos) << message;
   writeText(path, std::string("\xFF\xFEx\0", 4));
   EXPECT_NE(messageOf<InputError>([&] { readCsv(path); }).find("UTF-16"), std::string::npos);
 }
 
 TEST(Csv, ReadsMarksAndNamesOfOtherPrograms) {
   const ScratchFolder scratch;
-  for (const char* content :
-       {"\xEF\xBB\xBF"
-        "a,b\n+1.0e-01,2\n",
-        "# a,b\n1e-1,+2\n", "# by numpy\n# a, b\n0.1,2\n", "a,b\r0.1,2\r", "\xEF\xBB\xBF# a,b\r\n0.1,2\r\n"}) {
+  for (const char* content : {"\xEF\xBB\xBF"
+                              "a,b\n+1.0e-01,2\n",
+                              "# a,b\n1e-1,+2\n", "# by numpy\n# a, b\n0.1,2\n", "a,b\r0.1,2\r",
+                              "\xEF\xBB\xBF# a,b\r\n0.1,2\r\n", "a,b\r\n0.1,2\r\n\x1A"}) {
     writeText(scratch / "table.csv", content);
     const TimeSeries table = readCsv(scratch / "table.csv");
     EXPECT_EQ(table.names(), (std::vector<std::string>{"a", "b"})) << content;
@@ -202,6 +210,14 @@ TEST(Csv, ReadsMarksAndNamesOfOtherPrograms) {
     EXPECT_EQ(table.column("a")[0], 0.1) << content;
     EXPECT_EQ(table.column("b")[0], 2.0) << content;
   }
+}
+
+TEST(Csv, TellsTheLinesOfItsRows) {
+  const ScratchFolder scratch;
+  writeText(scratch / "table.csv", "# a comment\n\na\n1\n# another\n\n2\r\n3");
+  const CsvTable table = readCsvTable(scratch / "table.csv");
+  EXPECT_EQ(table.line, (std::vector<std::size_t>{4, 7, 8}));
+  EXPECT_EQ(table.series.rows(), 3u);
 }
 
 TEST(Csv, ReadsLinesOfOtherSystems) {

@@ -157,5 +157,13 @@ TEST(SurfaceFiles, TheWriterRefusesWhatTheFormatCannotHold) {
   EXPECT_EQ(readText(folder / "a.stl"), "somebody else's");
 }
 
+TEST(SurfaceFiles, ACtrlZAtTheEndIsTheEnd) {
+  const ScratchFolder folder;
+  for (const auto& [name, text] : {std::pair{"a.stl", asciiStl(cube())}, {"a.obj", cubeObj()}, {"a.ply", asciiPly()}}) {
+    writeText(folder / name, text + "\x1A");
+    expectCube(readSurface(folder / name));
+  }
+}
+
 }  // namespace
 }  // namespace dovetail::mesh_io

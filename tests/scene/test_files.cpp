@@ -119,9 +119,11 @@ TEST(SceneFiles, TablesOfGrainsKeepNothingToThemselves) {
       {"x_mm,y_m,z_m,radius_m" + row, "write \"x_m\""},
       {"x_m,y_m,z_m,radius_m,radius_m" + row + ",1", "occurs twice"},
       {row.substr(1), "begins with numbers"},
-      {"x_m,y_m,z_m,radius_m" + row + "\n0.1,inf,0.3,0.01", "grains.csv, row 2"},
-      {"x_m,y_m,z_m,radius_m\n0.1,0.2,0.3,-0.01", "grains.csv, row 1"},
-      {"x_m,y_m,z_m,radius_m,vx_m_per_s,vy_m_per_s,vz_m_per_s" + row + ",0,nan,0", "grains.csv, row 1"}};
+      {"x_m,y_m,z_m,radius_m" + row + "\n0.1,inf,0.3,0.01", "grains.csv, line 3"},
+      {"x_m,y_m,z_m,radius_m\n# small\n\n0.1,0.2,0.3,-0.01", "grains.csv, line 4"},
+      {"x_m,y_m,z_m,radius_m\n1e200,0.2,0.3,0.01", "farther than 1e15 m"},
+      {"x [m],y_m,z_m,radius_m" + row, "write x_m"},
+      {"x_m,y_m,z_m,radius_m,vx_m_per_s,vy_m_per_s,vz_m_per_s" + row + ",0,nan,0", "grains.csv, line 2"}};
   for (const auto& [table, wanted] : bad) {
     const std::string message = refusalOfTable(table + "\n");
     EXPECT_NE(message.find(wanted), std::string::npos) << wanted << " not in: " << message;

@@ -156,16 +156,23 @@ TEST(Abaqus, BrokenFilesAreRefusedWithTheirLine) {
       {good + "*ELEMENT, TYPE=C3D4\n8, 1,2,3\n", "has 3 nodes"},
       {good + "*ELEMENT, TYPE=C3D4\n8, 1,2,3,11,12\n", "has 5 nodes"},
       {good + "*ELEMENT, TYPE=C3D4\n8, 1,2,3,77\n", "node 77 does not exist [test.inp, line 24]"},
-      {good + "*ELEMENT, TYPE=C3D4\n8, 1,3,2,11\n", "inside out or too distorted: 8"},
+      {good + "*ELEMENT, TYPE=C3D4\n8, 1,3,2,11\n", "inside out or too distorted: element 8 [test.inp, line 24]"},
       {good + "*ELEMENT, TYPE=S3, ELSET=a\n8, 1,2,11\n", "surface element 8 is no face"},
       {good + "*NSET\n1\n", "no parameter nset"},
       {good + "*NSET, NSET=a\nnothing\n", "there is no set 'nothing' yet"},
-      {good + "*NSET, NSET=a\n77\n", "node 77 does not exist"},
+      {good + "*NSET, NSET=a\n1, 2\n77\n", "node 77 does not exist [test.inp, line 25]"},
       {good + "*NSET, NSET=a, GENERATE\n4, 1\n", "makes no sense"},
       {good + "*NSET, NSET=a, GENERATE\n1, 4, 0\n", "makes no sense"},
       {good + "*NSET, NSET=a, GENERATE\n1\n", "GENERATE has 1"},
       {good + "*NSET, NSET=a, GENERATE\n1, 2000000000, 1\n", "GENERATE names 2000000000 nodes"},
-      {good + "*ELSET, ELSET=a\n77\n", "element 77 does not exist"},
+      {good + "*NSET, NSET=a\n1\n*NSET, NSET=a\n2\n77\n", "node 77 does not exist [test.inp, line 27]"},
+      {good + "*NSET, NSET=a, GENERATE\n1, 4\n14, 15\n", "node 15 does not exist [test.inp, line 25]"},
+      {good + "*NSET, NSET=a\n77\n*NSET, NSET=b\n1\na\n", "node 77 does not exist [test.inp, line 24]"},
+      {good + "*NSET, NSET=a\n77\n*SURFACE, NAME=A, TYPE=NODE\na\n", "node 77 does not exist [test.inp, line 24]"},
+      {good + "*ELSET, ELSET=a\n\n7\n77\n", "element 77 does not exist [test.inp, line 26]"},
+      {good + "*ELSET, ELSET=a\n77\n*SURFACE, NAME=A\na, S1\n", "element 77 does not exist [test.inp, line 24]"},
+      {good + "*ELEMENT, TYPE=T3D2, ELSET=a\n8, 1, 77\n*NSET, NSET=b, ELSET=a\n",
+       "node 77 does not exist [test.inp, line 24]"},
       {good + "*SURFACE, NAME=a\n7\n", "the face of a surface is nothing"},
       {good + "*SURFACE, NAME=a\n7, SPOS\n", "'spos'"},
       {good + "*SURFACE, NAME=a\n77, S1\n", "no volume element 77"},
@@ -192,7 +199,14 @@ TEST(Abaqus, UpToTenBadElementsAreNamed) {
   std::string flat = text.str();
   for (std::size_t at = 0; (at = flat.find(", 1\n", at)) != std::string::npos;) flat.replace(at, 4, ", 0\n");
   const std::string message = refusal(flat);
-  EXPECT_NE(message.find("1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more"), std::string::npos) << message;
+  EXPECT_NE(message.find("elements 1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more"), std::string::npos) << message;
+}
+
+TEST(Abaqus, ACtrlZAtTheEndIsTheEnd) {
+  const std::string good = nodes + elements + "*NSET, NSET=a\n1, 2\n";
+  for (const char* end : {"\x1A", "\r\n\x1A", "\x1A\x1A\n"})
+    EXPECT_EQ(fem::nodeSet(abaqusFromText(good + end, "test.inp").mesh, "a").size(), 2u);
+  EXPECT_NE(refusal(good + "\x1A\n3\n").find("there is no set '?' yet [test.inp, line 25]"), std::string::npos);
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ TEST(Gmsh, BrokenFilesAreRefusedWithTheirLine) {
       {replaced(text, "3 11 2", "3 6 2"), "a prism"},
       {replaced(text, "3 11 2", "3 93 2"), "type 93"},
       {replaced(text, "1 3 5 10 15 20", "1 3 5 10 15 21"), "node 21 does not exist"},
-      {replaced(text, "1 3 5 10 15 20", "1 3 5 15 10 20"), "inside out or too distorted: 3"},
+      {replaced(text, "1 3 5 10 15 20", "1 3 5 15 10 20"), "inside out or too distorted: element 3 [test.msh, line"},
       {replaced(text, "1 3 5 10 15 20", "1 3 5 10 15 15"), "names node 15 twice"},
       {replaced(text, "7 2 5 10 15", "7 2 5 10 25"), "surface element 2 is no face"},
       {replaced(text, "\"body\"", "body"), "quotes"},
@@ -131,6 +131,41 @@ TEST(Gmsh, BinaryFilesNameTheByte) {
   std::swap(swapped[one], swapped[one + 3]);
   EXPECT_NE(refusal(swapped).find("byte order"), std::string::npos);
   EXPECT_NE(refusal(text.substr(0, text.size() - 60)).find("byte "), std::string::npos);
+}
+
+/// A file with a section moved behind all others.
+std::string movedToEnd(std::string text, const std::string& section) {
+  const std::string end = "$End" + section + "\n";
+  const std::size_t from = text.find("$" + section), to = text.find(end) + end.size();
+  const std::string moved = text.substr(from, to - from);
+  return text.erase(from, to - from) + moved;
+}
+
+TEST(Gmsh, SectionsMayStandInAnyOrder) {
+  for (const bool version4 : {false, true})
+    for (const bool binary : {false, true})
+      for (const char* const section : {"PhysicalNames", "Entities", "Nodes"}) {
+        if (!version4 && section == std::string("Entities")) continue;
+        const SolidFile file = gmshFromText(movedToEnd(gmshTet(version4, binary), section), "test.msh");
+        EXPECT_EQ(fem::elementSet(file.mesh, "body"), std::vector<int>{0}) << section;
+        EXPECT_EQ(fem::nodeSet(file.mesh, "the tip"), std::vector<int>{3}) << section;
+        EXPECT_EQ(fem::faceSet(file.mesh, "7").size(), 1u) << section;
+        EXPECT_EQ(file.mesh.elementSets.size() + file.mesh.faceSets.size(), 2u) << section;
+      }
+}
+
+TEST(Gmsh, GroupsOfOneDimensionAndNameAreOneSetAndSayIt) {
+  const std::string text = replaced(gmshTet(false, false), "2\n3 1 \"body\"", "3\n3 1 \"body\"\n3 2 \"body\"");
+  EXPECT_TRUE(gmshFromText(text, "test.msh").notes.empty());  // nothing is in the other
+  const SolidFile file = gmshFromText(
+      replaced(text, "$Elements\n3\n", "$Elements\n4\n4 11 2 2 3 5 10 15 20 25 30 35 40 45 50\n"), "test.msh");
+  EXPECT_EQ(fem::elementSet(file.mesh, "body"), std::vector<int>{0});
+  ASSERT_EQ(file.notes.size(), 2u);  // and of the element that is there twice
+  EXPECT_EQ(file.notes[0], "The groups 1, 2 of volumes have one name, \"body\", and are one set.");
+}
+
+TEST(Gmsh, ACtrlZAtTheEndIsTheEnd) {
+  EXPECT_EQ(gmshFromText(gmshTet(false, false) + "\x1A", "test.msh").mesh.X.size(), 10u);
 }
 
 }  // namespace

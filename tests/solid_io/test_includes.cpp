@@ -58,7 +58,7 @@ TEST_F(Includes, TheFolderOfTheDeckComesFirst) {
 TEST_F(Includes, ErrorsNameTheFileAndItsLine) {
   writeText(folder_ / "sets.inp", "** sets\n*Nset, nset=a\n99\n");
   const std::string deck = columnMesh + "*include, input=sets.inp\n";
-  EXPECT_NE(refusal(deck).find("node 99 does not exist [" + (folder_ / "sets.inp").string() + ", line 2]"),
+  EXPECT_NE(refusal(deck).find("node 99 does not exist [" + (folder_ / "sets.inp").string() + ", line 3]"),
             std::string::npos)
       << refusal(deck);
   writeText(folder_ / "sets.inp", "*Nset, nset=a\n9\n");

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -122,7 +124,7 @@ TEST_F(Vtu, BadFilesAreRefused) {
       {asciiTet("0 1 2 3 0 1 2", "4 7", "10 13"), "type 13"},
       {asciiTet("0 1 2 9 0 1 2", "4 7", "10 5"), "point that does not exist"},
       {asciiTet("0 1 2 3 0 1 2", "3 7", "10 5"), "cell 0"},
-      {asciiTet("0 2 1 3 0 1 2", "4 7", "10 5"), "inside out or too distorted: 0"},
+      {asciiTet("0 2 1 3 0 1 2", "4 7", "10 5"), "inside out or too distorted: element 0 ["},
       {asciiTet("0 1 2 3 0 1 2", "4 7", "10 5",
                 "<DataArray type=\"Int32\" Name=\"part\" format=\"ascii\">1e30 8</DataArray>"),
        "1e30 is no Int32"},
@@ -174,10 +176,129 @@ TEST_F(Vtu, FieldsThatDoNotFitAreRefused) {
   const std::vector<double> values(mesh.X.size());
   EXPECT_THROW(vtuText(mesh, {.perCell = {{"a", values}}}), InputError);
   EXPECT_THROW(vtuText(mesh, {.perPoint = {{"a", values}, {"a", values}}}), InputError);
-  EXPECT_THROW(vtuText(mesh, {.perPoint = {{"x-", values}}}), InputError);
   EXPECT_THROW(vtuText(mesh, {.perPoint = {{"", values}}}), InputError);
   const std::vector<Vec3> few(3);
   EXPECT_THROW(vtuText(mesh, {.displacement = few}), InputError);
+}
+
+const std::string tetAndFace = asciiTet("0 1 2 3 0 1 2", "4 7", "10 5");
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// The second of two tetrahedra is a copy, refined, hidden, or on the border, which is no reason to leave it out.
+TEST_F(Vtu, CopiedAndHiddenCellsAreLeftOutAndNoted) {
+  for (const auto& [flag, stays] : {std::pair{"1", false}, {"8", false}, {"32", false}, {"16", true}, {"0", true}}) {
+    const std::string arrays =
+        "<DataArray type=\"Int32\" Name=\"part\" format=\"ascii\">3 4</DataArray>"
+        "<DataArray type=\"UInt8\" Name=\"vtkGhostType\" format=\"ascii\">0 " +
+        std::string(flag) + "</DataArray>";
+    const SolidFile file = readVtu(write(asciiTet("0 1 2 3 1 2 3 4", "4 8", "10 10", arrays)));
+    EXPECT_EQ(file.mesh.elementCount(), stays ? 2u : 1u) << flag;
+    EXPECT_EQ(file.mesh.elementSets.contains("part 4"), stays) << flag;
+    EXPECT_EQ(file.mesh.X.size(), stays ? 5u : 4u) << flag;
+    ASSERT_EQ(file.notes.empty(), stays) << flag;
+    if (stays) continue;
+    EXPECT_NE(file.notes[0].find("1 cell that vtkGhostType calls a copy"), std::string::npos);
+  }
+  const SolidFile file = readVtu(write(with(tetAndFace, "<CellData>",
+                                            "<PointData><DataArray type=\"UInt8\" Name=\"vtkGhostType\" "
+                                            "format=\"ascii\">0 2 0 0 0</DataArray></PointData><CellData>")));
+  EXPECT_NE(file.notes.at(0).find("1 point that vtkGhostType calls hidden"), std::string::npos);
+}
+
+TEST_F(Vtu, ArraysThatLookLikeSetsAndGiveNoneAreNoted) {
+  const std::string arrays =
+      "<DataArray type=\"Float64\" Name=\"flags\" format=\"ascii\">0 1</DataArray>"
+      "<DataArray type=\"Float64\" Name=\"heat\" format=\"ascii\">0.5 1</DataArray>"
+      "<DataArray type=\"Float64\" Name=\"none\" format=\"ascii\">0 0</DataArray>"
+      "<DataArray type=\"Int32\" Name=\"pair\" NumberOfComponents=\"2\" format=\"ascii\">0 1 1 1</DataArray>"
+      "<DataArray type=\"Int64\" Name=\"vtkOriginalCellIds\" format=\"ascii\">7 8</DataArray>";
+  const SolidFile file = readVtu(write(asciiTet("0 1 2 3 0 1 2", "4 7", "10 5", arrays)));
+  EXPECT_TRUE(file.mesh.elementSets.empty());
+  ASSERT_EQ(file.notes.size(), 4u);
+  EXPECT_NE(file.notes[0].find("\"flags\" holds whole numbers as real ones"), std::string::npos) << file.notes[0];
+  EXPECT_NE(file.notes[1].find("\"pair\" has 2 components"), std::string::npos) << file.notes[1];
+  EXPECT_NE(file.notes[2].find("\"vtkOriginalCellIds\" is VTK's own"), std::string::npos) << file.notes[2];
+}
+
+TEST_F(Vtu, ArraysMayNotHoldMoreThanTheirPieceSays) {
+  const auto refusal = [&](const std::string& text) {
+    const auto path = write(text);
+    return messageOf([&] { readVtu(path); });
+  };
+  EXPECT_EQ(refusal(tetAndFace), "");
+  EXPECT_NE(
+      refusal(with(tetAndFace, "7 7 7", "7 7 7 8")).find("\"Points\" holds 16 numbers, of which its piece has 15"),
+      std::string::npos);
+  EXPECT_NE(refusal(with(tetAndFace, "NumberOfCells=\"2\"", "NumberOfCells=\"1\"")).find("\"offsets\" holds 2 numbers"),
+            std::string::npos);
+  const std::string part = "<DataArray type=\"Int32\" Name=\"part\" format=\"ascii\">3 4 5</DataArray>";
+  EXPECT_NE(refusal(asciiTet("0 1 2 3 0 1 2", "4 7", "10 5", part)).find("\"part\" holds 3 numbers"),
+            std::string::npos);
+}
+
+/// Raw and compressed, behind the tags.
+TEST_F(Vtu, BinaryArraysMayNotHoldMoreThanTheirPieceSays) {
+  const std::string text = vtuText(testMesh(fem::CellShape::hex8));
+  ASSERT_EQ(messageOf([&] { readVtu(write(text)); }), "");
+  const auto path = write(with(text, "NumberOfCells=\"6\"", "NumberOfCells=\"5\""));
+  const std::string message = messageOf([&] { readVtu(path); });
+  EXPECT_NE(message.find("holds 6 numbers, of which its piece has 5"), std::string::npos) << message;
+}
+
+TEST_F(Vtu, QuotesOfBothKindsAndBlanksAroundEqualSignsAreRead) {
+  std::string text = tetAndFace;
+  std::replace(text.begin(), text.end(), '"', '\'');
+  EXPECT_EQ(readVtu(write(text)).mesh.X.size(), 4u);
+  EXPECT_EQ(readVtu(write(with(text, "version='0.1'", "version = \"0.1\""))).mesh.X.size(), 4u);
+  EXPECT_EQ(readVtu(write(with(text, "<Points>", "<!-- <DataArray type='x> '> --><Points>"))).mesh.X.size(), 4u);
+}
+
+std::string toBase64(const std::string& bytes) {
+  const std::string signs = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  unsigned bits = 0, held = 0;
+  for (const char c : bytes) {
+    bits = bits << 8 | static_cast<unsigned char>(c);
+    for (held += 8; held >= 6; held -= 6) text += signs[bits >> (held - 6) & 63u];
+  }
+  if (held > 0) text += signs[bits << (6 - held) & 63u];
+  return text.append((4 - text.size() % 4) % 4, '=');
+}
+
+/// In Base64, with the information that VTK keeps of such an array and cannot read.
+TEST_F(Vtu, PointsThatAreNotFiniteAreNamed) {
+  std::string bytes(4 + 15 * 8, '\0');
+  const double points[15] = {0, 0, 0, 1, 0, 0, 0, HUGE_VAL, 0, 0, 0, 1, 7, 7, 7};
+  bytes[0] = 120;
+  std::memcpy(bytes.data() + 4, points, sizeof(points));
+  std::string text = with(tetAndFace, "format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 1 7 7 7",
+                          "format=\"binary\">" + toBase64(bytes) +
+                              "<InformationKey name=\"L2_NORM_RANGE\" location=\"vtkDataArray\" length=\"2\"><Value "
+                              "index=\"0\">0</Value><Value index=\"1\">inf</Value></InformationKey>");
+  const auto path = write(text);
+  const std::string message = messageOf([&] { readVtu(path); });
+  EXPECT_NE(message.find("a coordinate is NaN or infinite [" + path.string() + ", point 2]"), std::string::npos)
+      << message;
+}
+
+TEST_F(Vtu, ErrorsOfElementsNameNoLine) {
+  const auto path = write(asciiTet("0 2 1 3 0 1 2", "4 7", "10 5"));
+  EXPECT_NE(messageOf([&] { readVtu(path); }).find("element 0 [" + path.string() + "]: "), std::string::npos);
+}
+
+TEST_F(Vtu, ASetWithTheNameOfAFieldHasAnother) {
+  const fem::SolidMesh mesh = testMesh(fem::CellShape::hex8);
+  const std::vector<double> values(mesh.X.size(), 0.5);
+  const auto path = folder_ / "set.vtu";
+  writeVtu(path, mesh, {.perPoint = {{"x-", values}}});
+  const SolidFile back = readVtu(path);
+  EXPECT_EQ(fem::nodeSet(back.mesh, "x- (set)"), fem::nodeSet(mesh, "x-"));
+  EXPECT_FALSE(back.mesh.nodeSets.contains("x-"));
 }
 
 }  // namespace

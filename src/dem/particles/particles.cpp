@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/farthest.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/raw_vector.hpp"
@@ -73,6 +74,8 @@ void checkLength(std::size_t length, std::size_t wanted, const char* field) {
 int addParticle(Particles& particles, const Vec3& x, const Vec3& v, double radius, Mass mass) {
   const std::size_t i = particles.size();
   checkVector(x, i, "position");
+  if (isTooFar(x))
+    throw InputError("it lies farther than 1e15 m from the origin", place(i, "position"), "give coordinates in metres");
   checkVector(v, i, "velocity");
   checkPositive(radius, i, "radius");
   checkPositive(mass.value, i, "mass");

@@ -9,11 +9,11 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 
 #include "../../../io/adaptors/vtk/vtk_xml.hpp"
+#include "dovetail/core/farthest.hpp"
 
 namespace dovetail::mesh_io {
 
@@ -65,14 +65,11 @@ geometry::TriangleMesh readVtp(const std::filesystem::path& path) {
   const vtkIdType points = data->GetNumberOfPoints();
   if (points > std::numeric_limits<int>::max())
     refuseVtk(path, "", "the file holds too many vertices", "cut the surface into several files");
-  constexpr double farthest = 1e15;  // m
   for (vtkIdType i = 0; i < points; ++i) {
     double p[3];
     data->GetPoint(i, p);
     mesh.x.push_back({p[0], p[1], p[2]});
-    if (!isFinite(mesh.x.back()))
-      refuseVtk(path, place("point", i), "a coordinate is NaN or infinite", "give finite numbers");
-    if (std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) > farthest)
+    if (isTooFar({p[0], p[1], p[2]}))
       refuseVtk(path, place("point", i), "it lies farther than 1e15 m from the origin", "give coordinates in metres");
   }
   requireOffsets(data->GetPolys(), "polygon", path);

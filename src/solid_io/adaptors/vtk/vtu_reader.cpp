@@ -1,19 +1,12 @@
 #include <vtkCellArray.h>
-#include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-
 #include "../../../io/adaptors/vtk/vtk_xml.hpp"
 #include "dovetail/solid_io_vtk/solid_vtu.hpp"
-#include "mesh_builder.hpp"
+#include "vtu_sets.hpp"
 
 namespace dovetail::solid_io {
 
@@ -70,36 +63,6 @@ std::vector<std::vector<Label>> cellNodes(vtkUnstructuredGrid* grid, const std::
   return result;
 }
 
-/// Calls add(set, which array, item) for what the whole-number arrays say; notes those that are passed over.
-template <class Add>
-void readSets(vtkFieldData* data, MeshBuilder& builder, Add&& add) {
-  constexpr std::size_t most = 100;
-  for (int a = 0; a < data->GetNumberOfArrays(); ++a) {
-    vtkDataArray* const array = vtkDataArray::SafeDownCast(data->GetAbstractArray(a));
-    if (array == nullptr || array->GetName() == nullptr || array->GetNumberOfComponents() != 1) continue;
-    if (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE) continue;
-    const std::string name = array->GetName();
-    if (name.empty() || name.rfind("vtk", 0) == 0) continue;
-    std::set<double> values;
-    for (vtkIdType i = 0; i < array->GetNumberOfTuples() && values.size() <= most; ++i)
-      values.insert(array->GetComponent(i, 0));
-    if (values.size() > most) {
-      builder.note("The array \"" + name + "\" holds more than 100 different numbers and was passed over.");
-      continue;
-    }
-    if (!values.empty() && std::max(-*values.begin(), *values.rbegin()) >= 0x1p63) {
-      builder.note("The array \"" + name + "\" holds numbers beyond 2^63 and was passed over.");
-      continue;
-    }
-    const bool flags = !values.empty() && *values.begin() >= 0.0 && *values.rbegin() <= 1.0;
-    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
-      const double value = array->GetComponent(i, 0);
-      if (!flags) add(name + " " + std::to_string(static_cast<std::int64_t>(value)), " of " + name, i);
-      if (flags && value > 0.0) add(name, "", i);
-    }
-  }
-}
-
 void addCell(MeshBuilder& builder, const VtkType& type, Label label, std::span<const Label> nodes) {
   if (type.dimension == 3) builder.addCell(label, type.shape, nodes, 0);
   if (type.dimension == 2) builder.addFace(label, surfaceOf(type.nodes), nodes, 0, false);
@@ -111,18 +74,18 @@ void addCell(MeshBuilder& builder, const VtkType& type, Label label, std::span<c
 
 SolidFile readVtu(const std::filesystem::path& path) {
   const auto grid = io::readVtkXml<vtkXMLUnstructuredGridReader>(path, "VTU", "UnstructuredGrid");
-  const Source source("", path.string());
+  Source source("", path.string());
+  source.places = Source::Places::none;
   MeshBuilder builder(source);
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) {
     double p[3];
     grid->GetPoint(i, p);
-    const Vec3 X{p[0], p[1], p[2]};
-    if (!isFinite(X))
-      refuseVtk(path, "point " + std::to_string(i), "a coordinate is NaN or infinite", "give finite numbers");
-    builder.addNode(i, X, 0);
+    builder.addNode(i, {p[0], p[1], p[2]}, 0);
   }
   const auto nodes = cellNodes(grid, path);
+  const std::vector<char> leftOut = ghostCells(grid, builder);
   for (std::size_t c = 0; c < nodes.size(); ++c) {
+    if (leftOut[c]) continue;
     const auto cell = static_cast<vtkIdType>(c);
     const VtkType& type = requireType(grid->GetCellType(cell), cell, path);
     if (nodes[c].size() != static_cast<std::size_t>(type.nodes))
@@ -130,12 +93,7 @@ SolidFile readVtu(const std::filesystem::path& path) {
                 "give " + std::to_string(type.nodes) + " for its type");
     addCell(builder, type, cell, nodes[c]);
   }
-  readSets(grid->GetPointData(), builder, [&](const std::string& set, const std::string& array, vtkIdType i) {
-    builder.addNodeToSet({set, 0, "points" + array}, i, 0);
-  });
-  readSets(grid->GetCellData(), builder, [&](const std::string& set, const std::string& array, vtkIdType i) {
-    builder.addElementToSet({set, 1, "cells" + array}, i, 0);
-  });
+  readVtuSets(grid, leftOut, builder);
   return builder.finish();
 }
 

@@ -57,7 +57,8 @@ public:
     prepare(array, field.name, field.components);
     std::copy(field.values.begin(), field.values.end(), array->GetPointer(0));
   }
-  void addSet(const std::string& name, const std::vector<int>& members) {
+  void addSet(std::string name, const std::vector<int>& members) {
+    while (seen_.contains(name)) name += " (set)";
     vtkNew<vtkSignedCharArray> array;
     prepare(array, name, 1);
     array->Fill(0.0);

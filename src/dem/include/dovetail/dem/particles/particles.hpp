@@ -72,7 +72,7 @@ struct Mass {
 };
 
 /// Appends a particle at rest from forces; it spins (from rest) if the others do. Returns its number.
-/// @throws InputError naming the particle and the field if x or v is not finite, or radius or mass not finite and > 0
+/// @throws InputError naming particle and field if x (1e15 m at most) or v is not finite, or radius or mass not > 0
 int addParticle(Particles& particles, const Vec3& x, const Vec3& v, double radius, Mass mass);
 int addParticle(Particles& particles, const Vec3& x, const Vec3& v, double radius, Density density);
 
