@@ -5,8 +5,6 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/geometry/triangle.hpp"
-#include "dovetail/io/output_folder.hpp"
-#include "dovetail/io/provenance.hpp"
 #include "dovetail/mesh_io/surface_files.hpp"
 #include "little_endian.hpp"
 #include "text_scanner.hpp"
@@ -22,8 +20,19 @@ std::uint64_t announcedBytes(std::string_view bytes) {
   return bytes.size() < headerBytes ? 0 : headerBytes + facetBytes * littleEndian(bytes, 80, 4);
 }
 
-TriangleMesh readBinary(std::string_view bytes, const std::filesystem::path& path) {
+Vec3 vectorAt(std::string_view bytes, std::size_t at) {
+  return {floatAt(bytes, at), floatAt(bytes, at + 4), floatAt(bytes, at + 8)};
+}
+
+/// A surface and the normals that its file has beside the order of the vertices.
+struct WithNormals {
   TriangleMesh mesh;
+  std::vector<Vec3> normal;  ///< per facet, of any length
+};
+
+WithNormals readBinary(std::string_view bytes, const std::filesystem::path& path) {
+  WithNormals read;
+  TriangleMesh& mesh = read.mesh;
   const std::size_t facets = (bytes.size() - headerBytes) / facetBytes;
   if (facets > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 3)
     refuse(path, "byte 80", "the file holds too many facets", "cut the surface into several files");
@@ -32,15 +41,16 @@ TriangleMesh readBinary(std::string_view bytes, const std::filesystem::path& pat
     const int first = static_cast<int>(mesh.x.size());
     for (std::size_t v = 0; v < 3; ++v) {
       const std::size_t at = headerBytes + facetBytes * f + 12 * (v + 1);
-      const Vec3 x{floatAt(bytes, at), floatAt(bytes, at + 4), floatAt(bytes, at + 8)};
+      const Vec3 x = vectorAt(bytes, at);
       if (!isFinite(x))
         refuse(path, "facet " + std::to_string(f) + " at byte " + std::to_string(at), "a coordinate is NaN or infinite",
                "give finite numbers");
       mesh.x.push_back(x);
     }
     mesh.facets.push_back({first, first + 1, first + 2});
+    read.normal.push_back(vectorAt(bytes, headerBytes + facetBytes * f));
   }
-  return mesh;
+  return read;
 }
 
 void expect(TextScanner& text, const char* wanted) {
@@ -51,9 +61,11 @@ void expect(TextScanner& text, const char* wanted) {
 }
 
 /// From after the word "facet" to "endfacet".
-void readFacet(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners) {
+void readFacet(TextScanner& text, WithNormals& read, std::vector<int>& corners) {
+  TriangleMesh& mesh = read.mesh;
   expect(text, "normal");
-  for (int k = 0; k < 3; ++k) text.word();
+  Vec3 normal;
+  for (int k = 0; k < 3; ++k) normal[k] = numberIn(text.word()).value_or(0.0);
   expect(text, "outer");
   expect(text, "loop");
   corners.clear();
@@ -68,6 +80,7 @@ void readFacet(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners)
     text.refuse("there is " + shown(word) + " where 'vertex' or 'endloop' should be", "give a complete STL file");
   if (corners.size() < 3) text.refuse("a facet has " + std::to_string(corners.size()) + " vertices", "give 3 or more");
   addFan(corners, mesh);
+  read.normal.resize(mesh.facets.size(), normal);
   expect(text, "endfacet");
 }
 
@@ -75,7 +88,7 @@ void readFacet(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners)
 bool facetFollows(TextScanner text) {
   if (lower(text.wordOnLine()) != "facet" || lower(text.wordOnLine()) != "normal") return false;
   for (int k = 0; k < 3; ++k)
-    if (!isNumber(text.wordOnLine())) return false;
+    if (!numberIn(text.wordOnLine())) return false;
   return true;
 }
 
@@ -117,24 +130,40 @@ void skipComments(TextScanner& text) {
   }
 }
 
-TriangleMesh readAscii(std::string_view bytes, const std::filesystem::path& path) {
+WithNormals readAscii(std::string_view bytes, const std::filesystem::path& path) {
   TextScanner text(bytes, path);
-  TriangleMesh mesh;
+  WithNormals read;
   std::vector<int> corners;
   skipComments(text);
   for (std::string word = lower(text.word()); !word.empty(); word = lower(text.word())) {
     if (word != "solid")
-      text.refuse(mesh.x.empty()
+      text.refuse(read.mesh.x.empty()
                       ? "the file is neither a text that starts with 'solid' nor a binary STL: there is " + shown(word)
                       : "there is " + shown(word) + " where 'solid' should be",
                   "give a complete STL file");
     skipName(text);
-    for (word = lower(text.word()); word == "facet"; word = lower(text.word())) readFacet(text, mesh, corners);
+    for (word = lower(text.word()); word == "facet"; word = lower(text.word())) readFacet(text, read, corners);
     if (word != "endsolid")
       text.refuse("there is " + shown(word) + " where 'facet' or 'endsolid' should be", "give a complete STL file");
     skipNameOfEnd(text);
   }
-  return mesh;
+  return read;
+}
+
+/// Whether a normal points out of the other side of its facet: normals of needles are rounded.
+bool isOpposite(const WithNormals& read, std::size_t f) {
+  const auto at = [&](std::size_t k) { return read.mesh.x[static_cast<std::size_t>(read.mesh.facets[f][k])]; };
+  const Vec3 ofOrder = geometry::triangleNormal(at(0), at(1), at(2));
+  return dot(ofOrder, read.normal[f]) < -0.5 * norm(read.normal[f]);
+}
+
+void noteOppositeNormals(const WithNormals& read, std::vector<std::string>& notes) {
+  std::size_t opposite = 0;
+  for (std::size_t f = 0; f < read.mesh.facets.size(); ++f) opposite += isOpposite(read, f);
+  if (opposite == 0) return;
+  notes.push_back("Normals of the file were passed over: " + std::to_string(opposite) + " of its " +
+                  std::to_string(read.mesh.facets.size()) +
+                  " facets have one that points against the order of their vertices, which counts.");
 }
 
 /// Whether what the file begins with could be read by people, or has the words of a solid at least.
@@ -148,23 +177,17 @@ bool isText(std::string_view bytes) {
                       [](char c) { return (c >= 0 && c < ' ' && (c < '\t' || c > '\r')) || c == '\x7F'; });
 }
 
-std::uint32_t floatBits(double value, const std::string& where) {
-  if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
-    throw InputError("a coordinate is " + formatNumber(value), where, "give numbers that 32-bit numbers can hold");
-  return std::bit_cast<std::uint32_t>(static_cast<float>(value));
-}
-
 }  // namespace
 
-TriangleMesh readStl(const std::filesystem::path& path, double tolerance) {
+TriangleMesh readStl(const std::filesystem::path& path, double tolerance, std::vector<std::string>* notes) {
   requireNonNegative(tolerance, "tolerance of the welding");
   const std::string bytes = readWhole(path);
   const std::uint64_t announced = announcedBytes(bytes);
-  TriangleMesh mesh;
+  WithNormals read;
   if (announced == bytes.size()) {
-    mesh = readBinary(bytes, path);
+    read = readBinary(bytes, path);
   } else if (const std::string text = plainText(bytes, path); isText(text)) {
-    mesh = readAscii(text, path);
+    read = readAscii(text, path);
   } else {
     refuse(path, "byte " + std::to_string(std::min(bytes.size(), headerBytes - 4)),
            announced == 0
@@ -173,31 +196,10 @@ TriangleMesh readStl(const std::filesystem::path& path, double tolerance) {
                      std::to_string(littleEndian(bytes, 80, 4)) + " facets need " + std::to_string(announced),
            "give a complete STL file");
   }
-  requireFacets(mesh, path);
-  geometry::weldVertices(mesh, tolerance);
-  return mesh;
-}
-
-void writeStl(const std::filesystem::path& path, std::span<const Vec3> x, std::span<const geometry::Facet> facets) {
-  geometry::makeTopology(facets, static_cast<int>(x.size()));
-  if (facets.empty() || facets.size() > std::numeric_limits<std::uint32_t>::max())
-    throw InputError("a surface has " + std::to_string(facets.size()) + " facets", path.string(),
-                     "give at least one and at most 4294967295");
-  std::string bytes = "binary STL, " + io::withMark({})[0].second;
-  bytes.resize(80, ' ');
-  appendLittleEndian(bytes, facets.size(), 4);
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    const std::string where = "vertex of facet " + std::to_string(f);
-    std::array<Vec3, 3> corner;
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = x[static_cast<std::size_t>(facets[f][k])];
-    std::array<std::uint32_t, 9> number{};
-    for (std::size_t k = 0; k < 9; ++k) number[k] = floatBits(corner[k / 3][static_cast<int>(k % 3)], where);
-    const Vec3 normal = geometry::triangleNormal(corner[0], corner[1], corner[2]);
-    for (int k = 0; k < 3; ++k) appendLittleEndian(bytes, floatBits(isFinite(normal) ? normal[k] : 0.0, where), 4);
-    for (const std::uint32_t n : number) appendLittleEndian(bytes, n, 4);
-    appendLittleEndian(bytes, 0, 2);
-  }
-  io::writeFileAtomically(path, bytes);
+  requireFacets(read.mesh, path);
+  if (notes != nullptr) noteOppositeNormals(read, *notes);
+  geometry::weldVertices(read.mesh, tolerance);
+  return std::move(read.mesh);
 }
 
 }  // namespace dovetail::mesh_io

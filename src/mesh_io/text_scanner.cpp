@@ -96,9 +96,9 @@ void TextScanner::refuse(const std::string& problem, const std::string& remedy) 
   mesh_io::refuse(*path_, "line " + std::to_string(line_), problem, remedy);
 }
 
-bool isNumber(std::string_view word) {
+std::optional<double> numberIn(std::string_view word) {
   double value = 0.0;
-  return parse(word, value);
+  return parse(word, value) ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace dovetail::mesh_io

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,7 +66,7 @@ private:
 using io::lower;
 using io::shown;
 
-/// Whether a word is a number, NaN and infinity included.
-bool isNumber(std::string_view word);
+/// The value of a word, NaN and infinity included; none if it is no number.
+std::optional<double> numberIn(std::string_view word);
 
 }  // namespace dovetail::mesh_io

@@ -7,6 +7,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
+#include "frame_fields.hpp"
 #include "from_state.hpp"
 #include "impacts.hpp"
 #include "parts.hpp"
@@ -147,6 +148,7 @@ void start(Built& built, const Scene& scene) {
       throw InputError("nothing in the scene tells a step", "", "give steps.dt a number, such as \"1e-4 s\"");
     built.run->start(automaticStep(built, scene, smallest), options);
   });
+  for (const std::string& note : notesOnSetNames(built, scene)) built.notes.push_back(note);
 }
 
 std::vector<Limit> limits(Built& built, const Scene& scene) {

@@ -21,8 +21,10 @@ bool endsWith(const std::string& file, const std::string& ending) {
 
 }  // namespace
 
-geometry::TriangleMesh readTriangles(const std::string& file) {
-  return endsWith(file, ".vtp") ? mesh_io::readVtp(file) : mesh_io::readSurface(file);
+SurfaceOfFile readTriangles(const std::string& file) {
+  SurfaceOfFile read;
+  read.mesh = endsWith(file, ".vtp") ? mesh_io::readVtp(file) : mesh_io::readSurface(file, &read.notes);
+  return read;
 }
 MeshOfFile readMesh(const std::string& file) {
   solid_io::SolidFile read = endsWith(file, ".vtu") ? solid_io::readVtu(file) : solid_io::readSolid(file);

@@ -5,7 +5,11 @@
 
 namespace dovetail::scene {
 
-geometry::TriangleMesh readTriangles(const std::string& file) { return mesh_io::readSurface(file); }
+SurfaceOfFile readTriangles(const std::string& file) {
+  SurfaceOfFile read;
+  read.mesh = mesh_io::readSurface(file, &read.notes);
+  return read;
+}
 MeshOfFile readMesh(const std::string& file) {
   solid_io::SolidFile read = solid_io::readSolid(file);
   return {std::move(read.mesh), std::move(read.notes)};

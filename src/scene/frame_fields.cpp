@@ -142,6 +142,21 @@ std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements
   return fields;
 }
 
+std::vector<std::string> notesOnSetNames(const Built& built, const Scene& scene) {
+  const std::vector<std::string>& contents = scene.output.contents;
+  std::vector<std::string> notes;
+  if (!scene.output.frames || std::find(contents.begin(), contents.end(), "solids") == contents.end()) return notes;
+  for (std::size_t s = 0; s < built.meshes.size(); ++s) {
+    const fem::SolidMesh& mesh = built.meshes[s];
+    const coupling::SolidSide& side = built.run->solid(s);
+    for (const MeshField& field : solidFields(*side.model, mesh.elementCount(), scene.solids[s].material, contents))
+      if (field.perCell ? mesh.elementSets.contains(field.name) : mesh.nodeSets.contains(field.name))
+        notes.push_back("In frames of \"" + side.name + "\" the " + (field.perCell ? "element" : "node") + " set \"" +
+                        field.name + "\" is \"" + field.name + " (set)\", since a field has its name.");
+  }
+  return notes;
+}
+
 ForceLines contactLines(const dem::Model& grains) {
   const dem::ContactSample sample = dem::sampleContacts(grains);
   const std::vector<std::int64_t>& id = grains.particles.id;

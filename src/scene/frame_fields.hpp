@@ -8,7 +8,7 @@
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/dem/walls/mesh_wall.hpp"
 #include "dovetail/fem/model/model.hpp"
-#include "dovetail/scene/scene.hpp"
+#include "dovetail/scene/build.hpp"
 
 namespace dovetail::scene {
 
@@ -40,6 +40,9 @@ std::vector<double> shareOf(const fem::Model& model);
 /// weights.
 std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const SolidMaterial& material,
                                    const std::vector<std::string>& contents);
+
+/// Of a started run whose frames show solids: what says that a set has another name in them, as a field has its own.
+std::vector<std::string> notesOnSetNames(const Built& built, const Scene& scene);
 
 /// Contacts or bonds, as lines from the centre of the first grain to that of the second, or to the contact point on a
 /// wall.

@@ -15,9 +15,6 @@
 namespace dovetail::fem {
 class PointMaterial;
 }
-namespace dovetail::geometry {
-struct TriangleMesh;
-}
 
 namespace dovetail::scene {
 
@@ -67,8 +64,8 @@ void addWalls(Built& built, const Scene& scene);
 void addClumpsAndStreams(dem::Model& grains, const Scene& scene);
 void addSolids(Built& built, const Scene& scene);
 void addCouplings(Built& built, const Scene& scene);
-/// @throws InputError telling the worst grain, if there are grains on the wrong side of a wall or outside of the domain;
-/// where the domain removes those there is a note
+/// @throws InputError telling the worst grain, if there are grains on the wrong side of a wall or outside of the
+/// domain; where the domain removes those there is a note
 void requireTogether(Built& built, const Scene& scene);
 /// Number of a solid. @throws InputError with the nearest name there is
 std::size_t solidNamed(const std::string& name, const coupling::CoupledRun& run);
@@ -77,7 +74,7 @@ std::size_t solidNamed(const std::string& name, const coupling::CoupledRun& run)
 void setContactMaterial(dem::Particles& particles, std::size_t first, int row);
 
 /// @throws InputError if no VolumeMesher is there, or the surface cannot be filled
-fem::SolidMesh meshOf(const TetrahedraMesh& from);
+fem::SolidMesh meshOf(const TetrahedraMesh& from, std::vector<std::string>& notes);
 
 /// Puts supports, loads and ties on a solid.
 void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene,
@@ -94,8 +91,16 @@ struct MeshOfFile {
   std::vector<std::string> notes;  ///< of what its reader dropped or passed over
 };
 
+struct SurfaceOfFile {
+  geometry::TriangleMesh mesh;
+  std::vector<std::string> notes;  ///< of what its reader passed over
+};
+/// The surface of a file, repaired; notes tell of what was dropped or turned.
+geometry::TriangleMesh repairedSurface(const std::string& file, geometry::ClosedPatches closed,
+                                       std::vector<std::string>& notes);
+
 // Files of kinds that depend on the build.
-geometry::TriangleMesh readTriangles(const std::string& file);
+SurfaceOfFile readTriangles(const std::string& file);
 MeshOfFile readMesh(const std::string& file);
 std::vector<MovingSphere> readSpheres(const std::string& file);
 

@@ -34,7 +34,7 @@ fem::SolidMesh meshOf(const MeshFile& from, std::vector<std::string>& notes) {
 fem::SolidMesh meshOf(const Solid& solid, std::vector<std::string>& notes) {
   if (const auto* const file = std::get_if<MeshFile>(&solid.mesh)) return meshOf(*file, notes);
   if (const auto* const box = std::get_if<BoxMesh>(&solid.mesh)) return meshOf(*box);
-  return meshOf(std::get<TetrahedraMesh>(solid.mesh));
+  return meshOf(std::get<TetrahedraMesh>(solid.mesh), notes);
 }
 
 /// A set with the elements of this shape, which may have another name if the file uses that.

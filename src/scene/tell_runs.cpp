@@ -61,9 +61,10 @@ bool tellSummary(const fs::path& file, std::ostream& out) {
 bool tellShape(const fs::path& file, std::ostream& out) {
   const std::string ending = file.extension().string();
   if (ending == ".stl" || ending == ".obj" || ending == ".ply") {
-    const geometry::TriangleMesh mesh = readTriangles(file.string());
+    const auto [mesh, notes] = readTriangles(file.string());
     out << "surface of " << mesh.x.size() << " vertices and " << mesh.facets.size() << " facets\n";
     tellBox(mesh.x, out);
+    for (const std::string& note : notes) out << note << '\n';
     return true;
   }
   if (ending != ".msh" && ending != ".inp") return false;

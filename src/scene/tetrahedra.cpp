@@ -33,13 +33,12 @@ void requireBearableIn(const geometry::TriangleMesh& surface, double size) {
 
 void useVolumeMesher(VolumeMesher mesher) { mesherInUse() = std::move(mesher); }
 
-fem::SolidMesh meshOf(const TetrahedraMesh& from) {
+fem::SolidMesh meshOf(const TetrahedraMesh& from, std::vector<std::string>& notes) {
   if (!mesherInUse())
     throw InputError("this program cannot fill surfaces with tetrahedra", from.file,
                      "configure it with -D DOVETAIL_PROGRAM_CGAL=ON (CGAL is under the GPL), or mesh the solid with "
                      "Gmsh and write \"mesh\": \"file\"");
-  geometry::TriangleMesh surface = readTriangles(from.file);
-  geometry::repairSurface(surface);
+  geometry::TriangleMesh surface = repairedSurface(from.file, geometry::ClosedPatches::turn, notes);
   for (Vec3& x : surface.x) x = from.scale * x;
   requireClosed(surface, from.file);
   requireBearableIn(surface, from.size);

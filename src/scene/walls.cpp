@@ -16,6 +16,7 @@ struct Target {
   coupling::CoupledRun& run;
   const Wall& wall;
   const Scene& scene;
+  std::vector<std::string>& notes;
   bool isSteady() const { return !wall.displacement && !wall.turn && isConstant(wall.velocity); }
 };
 
@@ -94,8 +95,8 @@ Vec3 centroidOf(const geometry::TriangleMesh& mesh) {
 }
 
 void add(const Target& to, const SurfaceFile& from) {
-  geometry::TriangleMesh mesh = readTriangles(from.file);
-  geometry::repairSurface(mesh, 0.0, from.closed ? geometry::ClosedPatches::keep : geometry::ClosedPatches::turn);
+  const auto patches = from.closed ? geometry::ClosedPatches::keep : geometry::ClosedPatches::turn;
+  geometry::TriangleMesh mesh = repairedSurface(from.file, patches, to.notes);
   for (Vec3& x : mesh.x) x = from.scale * x + from.shift;
   const Vec3 about = from.point.value_or(centroidOf(mesh));
   dem::MeshWall made;
@@ -121,7 +122,7 @@ void addWalls(Built& built, const Scene& scene) {
   for (const Wall& wall : scene.walls)
     atPlace(wall.where, [&] {
       WallParts parts{.firstPrimitive = primitives(), .firstMesh = meshes()};
-      std::visit([&](const auto& shape) { add({*built.run, wall, scene}, shape); }, wall.shape);
+      std::visit([&](const auto& shape) { add({*built.run, wall, scene, built.notes}, shape); }, wall.shape);
       parts.endPrimitive = primitives();
       parts.endMesh = meshes();
       built.walls.push_back(parts);

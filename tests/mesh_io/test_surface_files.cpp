@@ -165,5 +165,21 @@ TEST(SurfaceFiles, ACtrlZAtTheEndIsTheEnd) {
   }
 }
 
+TEST(SurfaceFiles, NormalsAgainstTheOrderOfTheVerticesAreNoted) {
+  const ScratchFolder folder;
+  const TriangleMesh wanted = cube();
+  writeStl(folder / "a.stl", wanted.x, wanted.facets);
+  std::vector<std::string> notes;
+  readSurface(folder / "a.stl", &notes);
+  EXPECT_TRUE(notes.empty());
+  std::string bytes = readText(folder / "a.stl");
+  for (const std::size_t facet : {2u, 5u})
+    for (std::size_t k = 0; k < 3; ++k) bytes[84 + 50 * facet + 4 * k + 3] ^= '\x80';  // the signs
+  writeText(folder / "b.stl", bytes);
+  expectCube(readSurface(folder / "b.stl", &notes));
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("2 of its 12 facets"), std::string::npos) << notes[0];
+}
+
 }  // namespace
 }  // namespace dovetail::mesh_io

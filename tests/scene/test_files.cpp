@@ -1,6 +1,7 @@
 // What scenes take from meshes and tables in files, and what they tell of them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <sstream>
 
@@ -161,6 +162,47 @@ TEST(SceneFiles, TheAssemblysSetIsTheOneThatASceneNames) {
   };
   EXPECT_EQ(held("Set-1"), 2);
   EXPECT_EQ(held("P-1.Set-1"), 8);
+}
+
+/// A wall of a file that is read with these notes.
+std::vector<std::string> notesOfWall(const std::string& stl, bool closed) {
+  const ScratchFolder folder;
+  writeText(folder / "wall.stl", stl);
+  const std::string scene = R"({"contact": {"law": "linear", "stiffness": 1e4}, "walls": [{"shape": "mesh",
+    "file": "wall.stl", "closed": )" +
+                            std::string(closed ? "true" : "false") +
+                            R"(}], "steps": {"dt": 1e-5}, "stages": [{"do": "run", "time": 1e-4}]})";
+  return build(sceneFromText(scene, "s.json", folder.path())).notes;
+}
+
+std::string facetOf(const std::string& normal, const std::array<const char*, 3>& corners) {
+  std::string text = "facet normal " + normal + " outer loop\n";
+  for (const char* corner : corners) text += std::string("vertex ") + corner + "\n";
+  return text + "endloop endfacet\n";
+}
+
+TEST(SceneFiles, WhatIsDroppedOrTurnedOfAWallIsNoted) {
+  const std::array<const char*, 4> corners = {"0 0 0", "1 0 0", "0 1 0", "0 0 1"};
+  const auto at = [&](std::size_t a, std::size_t b, std::size_t c, const std::string& normal = "0 0 0") {
+    return facetOf(normal, {corners[a], corners[b], corners[c]});
+  };
+  const auto solid = [](const std::string& facets) { return "solid a\n" + facets + "endsolid a\n"; };
+  const std::string rest = at(0, 1, 3) + at(1, 2, 3) + at(2, 0, 3);
+  using Notes = std::vector<std::string>;
+  EXPECT_EQ(notesOfWall(solid(at(0, 2, 1, "0 0 -1") + rest), true), Notes());
+  EXPECT_EQ(notesOfWall(solid(at(0, 2, 1) + rest + at(1, 2, 0)), true),
+            (Notes{"wall.stl: 1 facet that is there twice was dropped."}));
+  EXPECT_EQ(notesOfWall(solid(at(0, 2, 1) + rest + at(1, 1, 0)), true),
+            (Notes{"wall.stl: 1 facet without area was dropped."}));
+  EXPECT_EQ(notesOfWall(solid(at(0, 1, 2) + rest), true),
+            (Notes{"wall.stl: 1 facet was turned: neighbours have to agree."}));
+  const std::string inside = at(0, 1, 2) + at(0, 3, 1) + at(1, 3, 2) + at(2, 3, 0);
+  EXPECT_EQ(notesOfWall(solid(inside), true), Notes());
+  EXPECT_EQ(notesOfWall(solid(inside), false),
+            (Notes{"wall.stl: 4 facets were turned: neighbours have to agree, and closed parts to point outwards."}));
+  EXPECT_EQ(notesOfWall(solid(at(0, 2, 1, "0 0 7") + rest), true),
+            (Notes{"wall.stl: Normals of the file were passed over: 1 of its 4 facets have one that points against the "
+                   "order of their vertices, which counts."}));
 }
 
 }  // namespace

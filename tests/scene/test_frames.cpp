@@ -86,6 +86,23 @@ TEST(Frames, HoldWhatIsAskedFor) {
   for (const Difference& one : found.differences) EXPECT_EQ(one.largest, 0.0) << one.what;
 }
 
+TEST(Frames, SetsWithTheNamesOfFieldsHaveOthersWhichCheckSays) {
+  const ScratchFolder folder;
+  Scene with = scene(R"(, "contents": ["solids"])");
+  with.solids[1].sets.push_back({.name = "velocity", .place = PlaceAtSide{"z-"}, .where = ""});
+  std::ostringstream checked, log;
+  check(with, checked);
+  ASSERT_TRUE(run(with, {.folder = folder / "out", .progress = false}, log));
+  const std::string note = R"-(In frames of "plate" the node set "velocity" is "velocity (set)")-";
+  EXPECT_NE(checked.str().find(note), std::string::npos) << checked.str();
+  EXPECT_NE(log.str().find(note), std::string::npos) << log.str();
+  const io::FrameContent frame = io::readFrame(folder / "out/solid_plate/solid_plate_000000.vtu");
+  ASSERT_NE(frame.find("velocity", false), nullptr);
+  ASSERT_NE(frame.find("velocity (set)", false), nullptr);
+  EXPECT_EQ(frame.find("velocity", false)->components, 3);
+  EXPECT_EQ(frame.find("velocity (set)", false)->components, 1);
+}
+
 TEST(Frames, WordsThatWouldDoNothingAreRefused) {
   const ScratchFolder folder;
   std::ostringstream log;

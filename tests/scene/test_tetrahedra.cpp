@@ -35,6 +35,21 @@ TEST(SceneTetrahedra, ProgramsWithoutAMesherSayWhatToDo) {
               {"cannot fill surfaces", "b.stl", "DOVETAIL_PROGRAM_CGAL", "Gmsh", "solids.0"});
 }
 
+TEST(SceneTetrahedra, WhatIsDroppedOrTurnedOfTheSurfaceIsNoted) {
+  const ScratchFolder folder;
+  geometry::TriangleMesh surface = surfaceOf(block(fem::CellShape::hex8));
+  std::swap(surface.facets[0][0], surface.facets[0][1]);
+  surface.facets.push_back(surface.facets[3]);
+  mesh_io::writeStl(folder / "b.stl", surface.x, surface.facets);
+  const InUse mesher([](const geometry::TriangleMesh&, double, double) { return block(fem::CellShape::tet4); });
+  const Built built = build(sceneOf(solidInside("b.stl", "0.1"), folder.path()));
+  const auto has = [&](const std::string& note) {
+    return std::find(built.notes.begin(), built.notes.end(), note) != built.notes.end();
+  };
+  EXPECT_TRUE(has("b.stl: 1 facet that is there twice was dropped."));
+  EXPECT_TRUE(has("b.stl: 1 facet was turned: neighbours have to agree, and closed parts to point outwards."));
+}
+
 TEST(SceneTetrahedra, TheMesherGetsTheSurfaceWeldedAndInMetres) {
   const ScratchFolder folder;
   writeBlock(folder / "b.stl", 1000.0);

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "dovetail/geometry/triangle_mesh.hpp"
 
@@ -20,11 +21,13 @@ namespace dovetail::mesh_io {
 using geometry::TriangleMesh;
 
 /// STL, binary (32-bit, little-endian) or ASCII, told apart by the length. Every facet of an STL file has vertices of
-/// its own; they are welded (geometry::weldVertices). Normals in the file are ignored: the order of the vertices
-/// counts.
+/// its own; they are welded (geometry::weldVertices). The order of the vertices counts: normals in the file that point
+/// to the other side are only noted.
 /// @param tolerance of the welding, in the file's unit; 0 joins equal coordinates only, which suffices for files
 ///   whose writer rounded every vertex the same way everywhere
-TriangleMesh readStl(const std::filesystem::path& path, double tolerance = 0.0);
+/// @param notes  takes sentences on what of the file was passed over, if not null
+TriangleMesh readStl(const std::filesystem::path& path, double tolerance = 0.0,
+                     std::vector<std::string>* notes = nullptr);
 
 /// OBJ: lines v and f, with the index forms i, i/t, i//n, i/t/n and negative (relative) ones. Textures, normals, names,
 /// groups and materials are passed over, free-form curves and surfaces refused.
@@ -35,8 +38,9 @@ TriangleMesh readObj(const std::filesystem::path& path);
 TriangleMesh readPly(const std::filesystem::path& path);
 
 /// By the ending of the name, in whatever case: .stl (tolerance 0), .obj or .ply.
+/// @param notes  as of readStl
 /// @throws InputError also on another ending
-TriangleMesh readSurface(const std::filesystem::path& path);
+TriangleMesh readSurface(const std::filesystem::path& path, std::vector<std::string>* notes = nullptr);
 
 /// Binary STL: coordinates as 32-bit numbers, unit normals (zero where there is no area). Written whole or not at all;
 /// an earlier file of ours is replaced, other files are not (io/output_folder.hpp).

@@ -1,0 +1,38 @@
+// Surfaces of files, made fit for walls and meshers.
+#include <filesystem>
+
+#include "dovetail/geometry/triangle_mesh.hpp"
+#include "parts.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+std::vector<std::string> notesOn(const geometry::SurfaceRepair& repair, geometry::ClosedPatches closed) {
+  std::vector<std::string> notes;
+  const auto note = [&](int count, const std::string& one, const std::string& many) {
+    if (count > 0) notes.push_back(std::to_string(count) + " " + (count == 1 ? one : many));
+  };
+  const std::string why = closed == geometry::ClosedPatches::turn
+                              ? " turned: neighbours have to agree, and closed parts to point outwards."
+                              : " turned: neighbours have to agree.";
+  note(repair.degenerateFacets, "facet without area was dropped.", "facets without area were dropped.");
+  note(repair.duplicateFacets, "facet that is there twice was dropped.", "facets that are there twice were dropped.");
+  note(repair.turnedFacets, "facet was" + why, "facets were" + why);
+  note(repair.unusedVertices, "vertex that no facet names was dropped.", "vertices that no facet names were dropped.");
+  return notes;
+}
+
+}  // namespace
+
+geometry::TriangleMesh repairedSurface(const std::string& file, geometry::ClosedPatches closed,
+                                       std::vector<std::string>& notes) {
+  SurfaceOfFile read = readTriangles(file);
+  const geometry::SurfaceRepair repair = geometry::repairSurface(read.mesh, 0.0, closed);
+  const std::string name = std::filesystem::path(file).filename().string();
+  for (const std::vector<std::string>& told : {read.notes, notesOn(repair, closed)})
+    for (const std::string& note : told) notes.push_back(name + ": " + note);
+  return std::move(read.mesh);
+}
+
+}  // namespace dovetail::scene
