@@ -62,6 +62,8 @@ public:
     kick(load, 0.5 * window());
   }
 
+  fem::LinearForecast forecast() override { return solid_->forecast(); }
+
   /// Newmark's average acceleration lets modes far above the step ring for ever, hardly moving at the ends of steps: no
   /// stop takes anything from them. With γ = 3/2, β = 1 they are gone after two steps.
   void damp(bool on) override {

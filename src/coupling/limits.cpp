@@ -73,6 +73,11 @@ StepLimit CoupledRun::criticalStep() {
   return impl_->criticalStep();
 }
 
+fem::LinearForecast CoupledRun::forecast(std::size_t k) {
+  impl_->requireStarted("forecast");
+  return impl_->solids.at(k)->forecast();
+}
+
 /// Nodes share their mass among all that pulls at them: contacts of every connector, and the solid's own forces.
 StepLimit CoupledRun::Impl::limitNow(dem::ContactDemand& demand, bool looksAtElements) {
   StepLimit limit{std::numeric_limits<double>::infinity(), "nobody"};

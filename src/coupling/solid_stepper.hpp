@@ -52,6 +52,9 @@ public:
   /// A step of K dt under `load`, all else standing.
   virtual void stepUnder(const NodalLoad& load) = 0;
 
+  /// What the linear systems of its steps are going to take; nothing if there are none.
+  virtual fem::LinearForecast forecast() { return {}; }
+
   /// Whether what rings at periods of few steps is to die out; settle() asks for it.
   virtual void damp(bool) {}
   /// On every node at the end of a window, N: the solid's own, those of connectors, and what constraints answer.

@@ -115,7 +115,8 @@ void requireStandstill(const Scene& scene) {
 Built build(const Scene& scene) {
   requireStandstill(scene);
   if (scene.steps.threads > 0) setThreads(scene.steps.threads);
-  Built built{std::make_unique<coupling::CoupledRun>(), {}, {}, {}};
+  Built built;
+  built.run = std::make_unique<coupling::CoupledRun>();
   dem::Model& grains = built.run->grains;
   setLaws(grains, scene);
   grains.gravity = scene.gravity;
@@ -135,6 +136,18 @@ Built build(const Scene& scene) {
   return built;
 }
 
+/// How the linear systems of the solids are going to be solved.
+void foreseeSolvers(Built& built) {
+  for (std::size_t s = 0; s < built.run->solids(); ++s) {
+    const fem::LinearForecast& forecast = built.forecasts.emplace_back(built.run->forecast(s));
+    if (forecast.method != fem::LinearMethod::conjugateGradients) continue;
+    const auto gibibytes = [](double bytes) { return formatNumber(std::round(10.0 * bytes / 1073741824.0) / 10.0); };
+    built.notes.push_back(
+        "Solid \"" + built.run->solid(s).name + "\" is solved by conjugate gradients" +
+        (forecast.factors > 0.0 ? ": its factors would take " + gibibytes(forecast.factors) + " GiB." : "."));
+  }
+}
+
 void start(Built& built, const Scene& scene) {
   const coupling::RunOptions options{.stepsPerWindow = scene.steps.stepsPerWindow};
   atPlace(scene.steps.where, [&] {
@@ -149,6 +162,7 @@ void start(Built& built, const Scene& scene) {
     built.run->start(automaticStep(built, scene, smallest), options);
   });
   for (const std::string& note : notesOnSetNames(built, scene)) built.notes.push_back(note);
+  foreseeSolvers(built);
 }
 
 std::vector<Limit> limits(Built& built, const Scene& scene) {

@@ -14,6 +14,8 @@ namespace dovetail::scene {
 
 namespace {
 
+constexpr double longestMeasured = 0.5;  // s of a window, by the size of its linear systems
+
 void tellParts(Built& built, const Scene& scene, std::ostream& log) {
   const coupling::CoupledRun& run = *built.run;
   for (const std::string& note : built.notes) log << note << '\n';
@@ -28,13 +30,27 @@ void tellParts(Built& built, const Scene& scene, std::ostream& log) {
       log << "  at most " << limit.dt << " s: " << limit.owner << (run.dt() > limit.dt ? "  EXCEEDED" : "") << '\n';
 }
 
-/// Seconds that a window takes, from ten at least, for up to a second.
+double solverMemory(const Built& built) {
+  double bytes = 0.0;
+  for (const fem::LinearForecast& forecast : built.forecasts) bytes += forecast.bytes;
+  return bytes;
+}
+
+/// Of a window: one factorisation of every solid, or a hundred iterations, at rates of one core. s
+double solverTime(const Built& built) {
+  double seconds = 0.0;
+  for (const fem::LinearForecast& forecast : built.forecasts)
+    seconds += forecast.operations / (forecast.method == fem::LinearMethod::direct ? 1e10 : 1e9);
+  return seconds;
+}
+
+/// Seconds that a window takes: of ten if these take no longer than three seconds, of more for up to a second.
 double secondsPerWindow(coupling::CoupledRun& run) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begun = Clock::now();
   double seconds = 0.0;
   int windows = 0;
-  while (windows < 10 || (seconds < 1.0 && windows < 1000)) {
+  while (windows == 0 || (windows < 10 && seconds < 3.0) || (seconds < 1.0 && windows < 1000)) {
     run.advance();
     ++windows;
     seconds = std::chrono::duration<double>(Clock::now() - begun).count();
@@ -42,9 +58,7 @@ double secondsPerWindow(coupling::CoupledRun& run) {
   return seconds / windows;
 }
 
-double mebibytes(double bytes) { return std::round(bytes / 1048576.0); }
-
-void tellCost(Built& built, const Scene& scene, const Plan& plan, std::ostream& log) {
+void tellTime(Built& built, const Scene& scene, const Plan& plan, std::ostream& log) {
   std::int64_t wanted = 0, atMost = 0;
   double time = 0.0;
   for (std::size_t k = 0; k < plan.stages.size(); ++k)
@@ -54,15 +68,24 @@ void tellCost(Built& built, const Scene& scene, const Plan& plan, std::ostream& 
     } else {
       atMost += plan.stages[k];
     }
-  const double each = secondsPerWindow(*built.run);
+  const double foreseen = solverTime(built);
+  const bool isMeasured = foreseen < longestMeasured;
+  const double each = isMeasured ? secondsPerWindow(*built.run) : foreseen;
   log << "stages run for " << time << " s: " << wanted << " windows of " << scene.steps.stepsPerWindow << " steps, "
-      << formatDuration(each * static_cast<double>(wanted)) << " at " << 1e3 * each << " ms each as it is now\n";
+      << formatDuration(each * static_cast<double>(wanted)) << " at " << 1e3 * each << " ms each "
+      << (isMeasured ? "as it is now" : "or more, by the size of the linear systems") << '\n';
   if (atMost > 0)
     log << "stages settle in at most " << atMost << " windows, " << formatDuration(each * static_cast<double>(atMost))
         << '\n';
-  tellOutput(built, scene, plan, log);
-  log << "memory " << mebibytes(residentMemory()) << " MiB";
-  if (const double left = availableMemory(); std::isfinite(left)) log << ", " << mebibytes(left) << " MiB are free";
+}
+
+double mebibytes(double bytes) { return std::round(bytes / 1048576.0); }
+
+void tellMemory(const Built& built, std::ostream& log) {
+  const double solvers = solverMemory(built), now = residentMemory();
+  log << "memory " << mebibytes(now + solvers) << " MiB";
+  if (solvers > 0.1 * now) log << ", " << mebibytes(solvers) << " MiB of them for linear systems";
+  if (const double left = availableMemory(); std::isfinite(left)) log << "; " << mebibytes(left) << " MiB are free";
   log << '\n';
 }
 
@@ -80,7 +103,9 @@ void check(const Scene& scene, std::ostream& log) {
   const Plan plan = planOf(built, scene);
   if (plan.series > 0) const Series columns(built, scene.output.probes, {});
   tellParts(built, scene, log);
-  tellCost(built, scene, plan, log);
+  tellTime(built, scene, plan, log);
+  tellOutput(built, scene, plan, log);
+  tellMemory(built, log);
 }
 
 }  // namespace dovetail::scene

@@ -111,6 +111,7 @@ void describe(Fields& f, Solid& v) {
   static constexpr const char* formulations[] = {"standard", "mean-dilatation", "enhanced", "assumed-stress",
                                                  "reduced"};
   static constexpr const char* steppings[] = {"explicit", "implicit"};
+  static constexpr const char* solvers[] = {"auto", "direct", "conjugate-gradients"};
   f.where(v.where);
   f.text({"name", "for couplings, reports and files: letters, digits, '_', '-' and '.', with a letter first"}, v.name,
          true);
@@ -121,6 +122,10 @@ void describe(Fields& f, Solid& v) {
   f.word({"formulation", "of the elements"}, v.formulation, formulations);
   f.flag({"gravity", "whether gravity acts on it"}, v.gravity);
   f.choice({"stepping", "how it is stepped in time"}, v.implicitSteps, steppings);
+  f.choice({"linear_solver",
+            "of implicit steps; auto: direct as long as the factors take no more than 2 GiB, else conjugate gradients, "
+            "which take a fraction of the memory"},
+           v.linearSolver, solvers);
   f.number({"mass_share",
             "of the consistent mass, the rest being lumped; 1 with implicit steps, else 0, if not given; (1 - "
             "(d/h)^2)/2 lets waves go as in a lattice of "

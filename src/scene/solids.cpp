@@ -118,12 +118,15 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   else
     for (Vec3& v : model->nodes.v) v = solid.velocity;
   addBoundaries(*model, mesh, solid, scene, built.notes);
+  if (solid.linearSolver != 0 && !solid.implicitSteps)
+    throw InputError("explicit steps solve no linear systems", "linear_solver",
+                     "leave it out, or give \"stepping\": \"implicit\"");
   const double share = solid.massShare.value_or(solid.implicitSteps ? 1.0 : 0.0);
-  const coupling::SolidSide& side = built.run->addSolid(
-      std::move(model),
-      {.name = solid.name,
-       .stepping = solid.implicitSteps ? coupling::Stepping::implicitSteps : coupling::Stepping::explicitSteps,
-       .massShare = share});
+  coupling::SolidOptions options{.name = solid.name};
+  options.implicitOptions.linear.method = static_cast<fem::LinearMethod>(solid.linearSolver);
+  options.stepping = solid.implicitSteps ? coupling::Stepping::implicitSteps : coupling::Stepping::explicitSteps;
+  options.massShare = share;
+  const coupling::SolidSide& side = built.run->addSolid(std::move(model), options);
   const bool rests = meetsGrains || !solid.supports.empty();  // what flies falls alike with lumped masses
   if (rests && share < 1.0 && solid.gravity && norm(scene.gravity) > 0.0 && weighUnevenly(side.nodes()))
     built.notes.push_back(unevenWeight(solid, mesh));

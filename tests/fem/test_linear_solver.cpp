@@ -140,5 +140,32 @@ TEST(LinearSolver, DigitsDoNotDependOnEarlierMatricesOfThePattern) {
   }
 }
 
+TEST(LinearSolver, IteratesWhereFactorsWouldBeLargerThanAllowed) {
+  Model model = tiedModel(true);
+  const DofMap dofs(model.constraints, model.nodes);
+  const BlockMatrix K = shifted(model, 1e6);
+  std::vector<double> r(dofs.size()), directly(dofs.size()), x(dofs.size());
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] = std::sin(1.0 + 3.0 * static_cast<double>(i));
+  LinearSolver direct(dofs);
+  const LinearForecast factors = direct.forecast(K, true);
+  ASSERT_TRUE(direct.factor(K, true));
+  direct.solve(r, directly);
+  EXPECT_EQ(direct.method(), SparseCholesky::name());
+  EXPECT_EQ(factors.method, LinearMethod::direct);
+  EXPECT_EQ(factors.bytes, factors.factors);
+  for (const double share : {0.99, 1.0}) {
+    LinearSolver solver(dofs, {.largestFactors = share * factors.bytes, .relativeTolerance = 1e-13});
+    const LinearForecast forecast = solver.forecast(K, true);
+    ASSERT_TRUE(solver.factor(K, true));
+    EXPECT_EQ(solver.iterates(), share < 1.0);
+    EXPECT_EQ(forecast.method, share < 1.0 ? LinearMethod::conjugateGradients : LinearMethod::direct);
+    EXPECT_EQ(forecast.factors, factors.bytes);
+    EXPECT_EQ(solver.method(), share < 1.0 ? "conjugate gradients" : SparseCholesky::name());
+    solver.solve(r, x);
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], directly[i], 1e-11 * std::abs(directly[0]));
+  }
+  EXPECT_EQ(direct.forecast(K, false).method, LinearMethod::direct);  // whatever the size
+}
+
 }  // namespace
 }  // namespace dovetail::fem

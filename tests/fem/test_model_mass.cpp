@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/motion/support_kick.hpp"
 #include "dovetail/fem/model/model_mass.hpp"
+#include "dovetail/fem/motion/support_kick.hpp"
 #include "solid_helpers.hpp"
 
 namespace dovetail::fem {
@@ -77,6 +77,22 @@ TEST(ModelMass, SolvesWhatItMultiplies) {
 }
 
 /// The same beside prescribed accelerations, which come out as they went in.
+TEST(ModelMass, IterationsFindWhatFactorsFind) {
+  for (const Support support : allSupports) {
+    const Model model = modelOf(support);
+    const DofMap dofs(model.constraints, model.nodes);
+    const ModelMass direct(model, dofs, 1.0), iterative(model, dofs, 1.0, {.method = LinearMethod::conjugateGradients});
+    std::vector<Vec3> f(model.nodes.X.size());
+    setRandom(f, 100.0, 7);
+    std::vector<Vec3> a = f, b = f;
+    direct.solve(a);
+    iterative.solve(b);
+    double largest = 0.0;
+    for (const Vec3& value : a) largest = std::max(largest, norm(value));
+    for (std::size_t n = 0; n < a.size(); ++n) EXPECT_LT(norm(a[n] - b[n]), 1e-12 * largest);
+  }
+}
+
 TEST(ModelMass, AcceleratesBesidePrescribedMotion) {
   for (const Support support : {Support::held, Support::perComponent, Support::tied})
     for (const double share : shares) {

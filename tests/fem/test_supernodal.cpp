@@ -94,6 +94,27 @@ TEST(SparseCholesky, LargeIndefiniteMatricesAreReported) {
   EXPECT_TRUE(cholesky.factor(lattice.A));
 }
 
+/// Of a full matrix everything is known.
+TEST(SparseCholesky, TellsWhatFactorsTakeBeforeTheyAreMade) {
+  for (const int n : {60, 240}) {
+    SparseMatrix A;
+    A.size = n;
+    for (int c = 0; c < n; ++c) {
+      for (int r = c; r < n; ++r) {
+        A.row.push_back(r);
+        A.value.push_back(r == c ? 2.0 * n : 1.0);
+      }
+      A.offsets.push_back(static_cast<int>(A.row.size()));
+    }
+    SparseCholesky cholesky;
+    const FactorCost cost = cholesky.analyse(A);
+    const double size = n, entries = 0.5 * size * (size + 1.0);
+    EXPECT_NEAR(cost.operations, size * size * size / 3.0, 0.1 * size * size * size);
+    EXPECT_GE(cost.bytes, 8.0 * entries);
+    EXPECT_LE(cost.bytes, 16.0 * size * size + 32.0 * entries);
+  }
+}
+
 /// Entries of the factor, those of A among them, by the row structures of columns.
 std::size_t entriesOfFactor(const SparseMatrix& A, std::span<const int> order) {
   const std::size_t size = order.size();

@@ -124,5 +124,46 @@ TEST(SceneState, NumbersOutOfRangeAreRefused) {
   EXPECT_EQ(goOn(), later);
 }
 
+/// A cube of which a face is held, under gravity.
+std::string heavyCube(int cells, const std::string& keys) {
+  const std::string n = std::to_string(cells);
+  return R"({"gravity": [0, 0, -9.81], "steps": {"dt": 0.01}, "solids": [{"name": "cube", "mesh": "box", "cells": [)" +
+         n + ", " + n + ", " + n + R"(], "box": [[0, 0, 0], [1, 1, 1]],
+    "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000},
+    "supports": [{"on": "z-"}], )" +
+         keys + R"(}], "stages": [{"do": "run", "time": 0.05}]})";
+}
+
+TEST(SceneLinearSolvers, IterationsDoWhatFactorsDo) {
+  const auto tip = [](const std::string& solver) {
+    Built built = started(
+        sceneFromText(heavyCube(4, R"("stepping": "implicit", "linear_solver": ")" + solver + "\""), "s.json", SCENES));
+    EXPECT_EQ(built.forecasts.at(0).method,
+              solver == "conjugate-gradients" ? fem::LinearMethod::conjugateGradients : fem::LinearMethod::direct);
+    built.run->advance(5);
+    return built.run->solid(0).nodes().u.back();
+  };
+  const Vec3 direct = tip("direct");
+  EXPECT_LT(direct.z, -1e-4);
+  EXPECT_EQ(direct, tip("auto"));
+  EXPECT_LT(norm(direct - tip("conjugate-gradients")), 1e-8 * norm(direct));
+}
+
+TEST(SceneLinearSolvers, AreToldAndRefusedWhereNothingIsSolved) {
+  const auto told = [](const std::string& keys) {
+    return textOfCheck(sceneFromText(heavyCube(3, keys), "s.json", SCENES));
+  };
+  const std::string text = told(R"("stepping": "implicit", "linear_solver": "conjugate-gradients")");
+  EXPECT_NE(text.find("Solid \"cube\" is solved by conjugate gradients."), std::string::npos) << text;
+  EXPECT_EQ(told(R"("stepping": "implicit")").find("gradients"), std::string::npos);
+  try {
+    told(R"("linear_solver": "direct", "stepping": "explicit")");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("explicit steps solve no linear systems"), std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace dovetail::scene::test

@@ -1,6 +1,5 @@
 #include "dovetail/fem/model/model_mass.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 
 #include "dovetail/core/error.hpp"
@@ -23,81 +22,60 @@ double matchedShare(double spacing, double elementSize) {
   return 0.5 * (1.0 - ratio * ratio);
 }
 
-/// LDLᵀ of the free nodes of one component, one right-hand side of three numbers per node. Unit lower triangle by
-/// columns, in the order of elimination.
+/// Of the free nodes of some components, which are the same for each of these.
 struct ModelMass::Factor {
-  std::vector<int> order;         // place → node
-  std::vector<int> offsets, row;  // strictly lower, by columns
-  std::vector<double> lower, inverseDiagonal;
-  std::vector<Vec3> work;
+  std::vector<int> components, free;  // the latter in the order of the unknowns
+  DefiniteSolver solver;
+  std::vector<double> work;
 
-  Factor(const ModelMass& mass, int component) {
-    const std::size_t n = mass.mass_.size();
-    std::vector<int> place(n, -1), free;
-    for (std::size_t i = 0; i < n; ++i)
-      if (mass.isFree(i, component)) {
-        place[i] = static_cast<int>(free.size());
-        free.push_back(static_cast<int>(i));
-      }
+  Factor(const ModelMass& mass, int component) : components{component}, solver(mass.linear_) {
     const NodeMatrix& M = mass.matrix_;
-    std::vector<Eigen::Triplet<double>> entries;
-    for (const int i : free)
-      for (int k = M.offsets()[i]; k < M.offsets()[i + 1]; ++k)
-        if (place[M.columns()[k]] >= 0 && M.values()[k] != 0.0)
-          entries.emplace_back(place[i], place[M.columns()[k]], M.values()[k]);
-    const auto size = static_cast<Eigen::Index>(free.size());
-    Eigen::SparseMatrix<double> matrix(size, size);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(matrix);
-    if (size > 0 && (ldlt.info() != Eigen::Success || !(ldlt.vectorD().minCoeff() > 0.0)))
+    std::vector<int> place(M.nodes(), -1);
+    for (std::size_t n = 0; n < place.size(); ++n)
+      if (mass.isFree(n, component)) {
+        place[n] = static_cast<int>(free.size());
+        free.push_back(static_cast<int>(n));
+      }
+    SparseMatrix lower;
+    lower.size = static_cast<int>(free.size());
+    for (const int n : free) {
+      for (int k = M.offsets()[n]; k < M.offsets()[n + 1]; ++k)
+        if (M.columns()[k] >= n && place[M.columns()[k]] >= 0) {
+          lower.row.push_back(place[M.columns()[k]]);
+          lower.value.push_back(M.values()[k]);
+        }
+      lower.offsets.push_back(static_cast<int>(lower.row.size()));
+    }
+    if (!free.empty() && !solver.factor(lower))
       throw NumericalError("the mass matrix is not positive definite", "ModelMass",
                            "take a smaller share of the consistent mass, or shares of the solid above zero");
-    take(ldlt, free);
   }
 
-  void take(const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>& ldlt, const std::vector<int>& free) {
-    order.resize(free.size());
-    work.resize(free.size());
-    offsets.push_back(0);
+  void solve(std::span<Vec3> f) {
     if (free.empty()) return;
-    const auto& position = ldlt.permutationP().indices();
-    for (std::size_t i = 0; i < free.size(); ++i)
-      order[static_cast<std::size_t>(position[static_cast<Eigen::Index>(i)])] = free[i];
-    const Eigen::SparseMatrix<double> L = ldlt.matrixL();
-    const Eigen::VectorXd D = ldlt.vectorD();
-    for (Eigen::Index column = 0; column < L.outerSize(); ++column) {
-      for (Eigen::SparseMatrix<double>::InnerIterator it(L, column); it; ++it)
-        if (it.row() > column && it.value() != 0.0) {
-          row.push_back(static_cast<int>(it.row()));
-          lower.push_back(it.value());
-        }
-      offsets.push_back(static_cast<int>(row.size()));
-      inverseDiagonal.push_back(1.0 / D[column]);
-    }
+    work.resize(components.size() * free.size());
+    eachEntry(f, [](double& own, double outer) { own = outer; });
+    solver.solve(work, static_cast<int>(components.size()));
+    eachEntry(f, [](double own, double& outer) { outer = own; });
   }
-
-  /// work ← M⁻¹ f, in the order of elimination.
-  void solve(std::span<const Vec3> f) {
-    const std::size_t n = order.size();
-    for (std::size_t i = 0; i < n; ++i) work[i] = f[static_cast<std::size_t>(order[i])];
-    for (std::size_t j = 0; j < n; ++j) {
-      const Vec3 value = work[j];
-      for (int k = offsets[j]; k < offsets[j + 1]; ++k) work[static_cast<std::size_t>(row[k])] -= lower[k] * value;
-      work[j] = inverseDiagonal[j] * value;
-    }
-    for (std::size_t j = n; j-- > 0;) {
-      Vec3 value = work[j];
-      for (int k = offsets[j]; k < offsets[j + 1]; ++k) value -= lower[k] * work[static_cast<std::size_t>(row[k])];
-      work[j] = value;
-    }
+  template <class Visit>
+  void eachEntry(std::span<Vec3> f, const Visit& visit) {
+    for (std::size_t k = 0; k < components.size(); ++k)
+      for (std::size_t n = 0; n < free.size(); ++n)
+        visit(work[k * free.size() + n], f[static_cast<std::size_t>(free[n])][components[k]]);
   }
 };
 
 ModelMass::~ModelMass() = default;
 ModelMass::ModelMass(ModelMass&&) noexcept = default;
 
-ModelMass::ModelMass(const Model& model, const DofMap& dofs, double share)
-    : dofs_(&dofs), share_(share), mass_(model.nodes.mass), reduced_(dofs.hasTies() ? dofs.size() : 0) {
+ModelMass::ModelMass(const Model& model, const DofMap& dofs, double share, const LinearOptions& linear)
+    : dofs_(&dofs),
+      linear_(linear),
+      share_(share),
+      mass_(model.nodes.mass),
+      reduced_(dofs.hasTies() ? dofs.size() : 0) {
+  linear_.relativeTolerance = 1e-14;
   if (!(share >= 0.0 && share <= 1.0))
     throw InputError("the share is " + formatNumber(share), "ModelMass", "give 0 (lumped) to 1 (consistent)");
   for (std::size_t n = 0; n < mass_.size(); ++n)
@@ -156,10 +134,12 @@ void ModelMass::factorOnce() const {
     return true;
   };
   for (int c = 0; c < 3; ++c) {
-    int first = 0;
-    while (first < c && !sameFree(first, c)) ++first;
-    factorOf_[static_cast<std::size_t>(c)] = first < c ? factorOf_[static_cast<std::size_t>(first)] : factors_.size();
-    if (first == c) factors_.emplace_back(*this, c);
+    const auto same =
+        std::ranges::find_if(factors_, [&](const Factor& one) { return sameFree(one.components.front(), c); });
+    if (same != factors_.end())
+      same->components.push_back(c);
+    else
+      factors_.emplace_back(*this, c);
   }
 }
 
@@ -167,7 +147,7 @@ void ModelMass::solveTied(std::span<Vec3> f) const {
   if (!tiedSolver_) {
     tied_ = share_ > 0.0 ? BlockMatrix(matrix_) : BlockMatrix(MatrixPattern(mass_.size()));
     addTo(tied_, 1.0);
-    tiedSolver_ = std::make_unique<LinearSolver>(*dofs_);
+    tiedSolver_ = std::make_unique<LinearSolver>(*dofs_, linear_);
     if (!tiedSolver_->factor(tied_, true))
       throw NumericalError("the mass matrix is singular", "ModelMass", "check the masses of all nodes");
   }
@@ -186,23 +166,11 @@ void ModelMass::solve(std::span<Vec3> f) const {
     });
     return;
   }
-  const std::span<const int> row = dofs_->freeRow();
   factorOnce();
   for (Factor& factor : factors_) factor.solve(f);
-  if (dofs_->size() < 3 * f.size())
-    for (std::size_t n = 0; n < f.size(); ++n)
-      for (int c = 0; c < 3; ++c)
-        if (row[3 * n + static_cast<std::size_t>(c)] < 0) f[n][c] = 0.0;
-  if (factors_.size() == 1) {
-    const Factor& factor = factors_.front();
-    for (std::size_t i = 0; i < factor.order.size(); ++i) f[static_cast<std::size_t>(factor.order[i])] = factor.work[i];
-    return;
-  }
-  for (int c = 0; c < 3; ++c) {
-    const Factor& factor = factors_[factorOf_[static_cast<std::size_t>(c)]];
-    for (std::size_t i = 0; i < factor.order.size(); ++i)
-      f[static_cast<std::size_t>(factor.order[i])][c] = factor.work[i][c];
-  }
+  for (std::size_t n = 0; n < f.size(); ++n)
+    for (int c = 0; c < 3; ++c)
+      if (!isFree(n, c)) f[n][c] = 0.0;
 }
 
 void ModelMass::accelerate(std::span<const Vec3> f, std::span<Vec3> a) const {

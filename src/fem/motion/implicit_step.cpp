@@ -153,7 +153,7 @@ double ImplicitStep::balance() {
 }
 
 /// The matrix of the step. Conserving forces have tangents that are not symmetric by as much as elements turn in the
-/// step: only if `exact` are they taken so.
+/// step: only if `exact` are they taken so, and by direct methods.
 bool ImplicitStep::factor(bool exact) {
   const Scheme& s = options_.scheme;
   const double h = h_;
@@ -175,11 +175,16 @@ bool ImplicitStep::factor(bool exact) {
     }
   }
   const Profile::Stage stage(profile_, "factorisation");
-  bool symmetric = std::ranges::all_of(model_.terms, [](const auto& term) { return term->isSymmetric(); });
-  if (conserving() && symmetric && !exact) matrix_.symmetrise();
-  if (conserving() && exact) symmetric = false;
+  bool symmetric = isSymmetric();
+  const bool keep = exact && !solver_.iterates();
+  if (conserving() && symmetric && !keep) matrix_.symmetrise();
+  if (conserving() && keep) symmetric = false;
   factoredStep_ = h;
   return solver_.factor(matrix_, symmetric);
+}
+
+bool ImplicitStep::isSymmetric() const {
+  return std::ranges::all_of(model_.terms, [](const auto& term) { return term->isSymmetric(); });
 }
 
 void ImplicitStep::addMeanTangents() {

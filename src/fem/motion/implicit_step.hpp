@@ -28,6 +28,8 @@ public:
   NewtonResult attempt(double h, Guess guess);
   /// Makes the end the start of the next step. Call after booking.
   void accept();
+  /// What the linear systems of the steps are going to take.
+  LinearForecast forecast() { return solver_.forecast(matrix_, isSymmetric()); }
   void use(const Scheme& scheme) {
     options_.scheme = scheme;
     solver_.drop();
@@ -75,6 +77,7 @@ private:
   void findConservingForces();
   double balance();
   void addMeanTangents();
+  bool isSymmetric() const;
 
   double evaluate() override;
   double tolerance() const override { return tolerance_; }

@@ -169,7 +169,7 @@ void validate(const ArcLengthOptions& options, const Model& model) {
     throw InputError(
         "there is no component " + std::to_string(options.component) + " of node " + std::to_string(options.node),
         "ArcLengthOptions", "give a node of the model and 0, 1 or 2");
-  if (options.newton.linear.method != LinearMethod::direct)
+  if (options.newton.linear.method == LinearMethod::conjugateGradients)
     throw InputError("conjugate gradients cannot pass limit points", "ArcLengthOptions", "use LinearMethod::direct");
 }
 
@@ -233,7 +233,9 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
   validate(options, model);
   detail::requireLater(tEnd, model, "followPath");
   const auto start = std::chrono::steady_clock::now();
-  Equilibrium equilibrium(model, options.newton);
+  NewtonOptions newton = options.newton;
+  newton.linear.method = LinearMethod::direct;  // iterations tell no negative pivots
+  Equilibrium equilibrium(model, newton);
   if (options.dissipation > 0.0 && equilibrium.dofs().hasMotion())
     throw InputError("dissipation is that of loads alone, but there is prescribed motion", "ArcLengthOptions",
                      "set dissipation to 0, or load the body by forces");

@@ -2,11 +2,7 @@
 #include <cholmod.h>
 
 #include <algorithm>
-#include <memory>
-#include <new>
-#include <numeric>
 #include <type_traits>
-#include <utility>
 
 #include "dovetail/core/parallel.hpp"
 #include "suitesparse.hpp"
@@ -27,28 +23,6 @@ std::span<const std::int64_t> integers(const void* first, std::size_t count) {
 detail::SupernodalPattern patternOf(const cholmod_factor& L) {
   return {integers(L.super, L.nsuper + 1), integers(L.pi, L.nsuper + 1), integers(L.px, L.nsuper + 1),
           integers(L.s, L.ssize)};
-}
-
-/// @param order  that of elimination
-detail::PermutedColumns permuted(const SparseMatrix& A, std::span<const std::int64_t> order) {
-  std::vector<int> place(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) place[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
-  const auto eachEntry = [&](const auto& visit) {
-    for (int c = 0; c < A.size; ++c)
-      for (int k = A.offsets[c]; k < A.offsets[c + 1]; ++k) visit(k, std::minmax(place[c], place[A.row[k]]));
-  };
-  detail::PermutedColumns columns{std::vector<std::int64_t>(order.size() + 1, 0), {}, {}};
-  eachEntry([&](int, const std::pair<int, int>& at) { ++columns.offsets[at.first + 1]; });
-  std::partial_sum(columns.offsets.begin(), columns.offsets.end(), columns.offsets.begin());
-  columns.row.resize(A.value.size());
-  columns.value.resize(A.value.size());
-  std::vector<std::int64_t> next = columns.offsets;
-  eachEntry([&](int k, const std::pair<int, int>& at) {
-    const std::int64_t to = next[at.first]++;
-    columns.row[to] = at.second;
-    columns.value[to] = A.value[k];
-  });
-  return columns;
 }
 
 /// CHOLMOD takes pointers to mutable data but only reads the matrix.
@@ -83,9 +57,8 @@ struct SparseCholesky::Impl {
   cholmod_dense *solution = nullptr, *work = nullptr, *more = nullptr;
   detail::LongPattern pattern;          // of the analysis
   std::vector<SuiteSparse_long> order;  // that was asked for
-  detail::SupernodalPlan plan;          // where the factor is by supernodes, whose values are not CHOLMOD's then
+  detail::SupernodalPlan plan;          // where the factor is by supernodes
   detail::SupernodalSolver solver;
-  std::unique_ptr<double[]> values;
   std::vector<double> inOrder;
 
   Impl() {
@@ -104,9 +77,7 @@ struct SparseCholesky::Impl {
   Impl& operator=(const Impl&) = delete;
 
   void analyse(const SparseMatrix& A, std::span<const int> asked);
-  /// CHOLMOD's own factorisation and solves run on one thread; with few right-hand sides its solves take half as long
-  /// again there.
-  bool factorSupernodes(const SparseMatrix& A);
+  /// CHOLMOD's own solves run on one thread; with few right-hand sides they take half as long again there.
   void solveBySupernodes(std::span<double> b, int columns);
 };
 
@@ -124,30 +95,31 @@ void SparseCholesky::Impl::analyse(const SparseMatrix& A, std::span<const int> a
   cholmod_sparse matrix = view(A, pattern);
   factor = cholmod_l_analyze_p(&matrix, order.empty() ? nullptr : order.data(), nullptr, 0, &common);
   judge(common.status, A);
-  values.reset();
   if (!factor->is_super) return;
   const detail::SupernodalPattern L = patternOf(*factor);
   plan = detail::planOf(L);
   solver.prepare(L, plan);
 }
 
-bool SparseCholesky::Impl::factorSupernodes(const SparseMatrix& A) try {
-  if (!values) values = std::make_unique_for_overwrite<double[]>(factor->xsize);
-  return detail::factorise(patternOf(*factor), plan, permuted(A, integers(factor->Perm, factor->n)), values.get());
-} catch (const std::bad_alloc&) {
-  detail::throwOutOfMemory(package, A);
+FactorCost SparseCholesky::analyse(const SparseMatrix& A, std::span<const int> order) {
+  Impl& m = *impl_;
+  if (!m.factor || !m.pattern.isOf(A) || !std::ranges::equal(m.order, order)) m.analyse(A, order);
+  // Numbers and rows of the factor, the largest block of a supernode, and the matrix in another order, twice.
+  const cholmod_factor& L = *m.factor;
+  const auto copies = static_cast<double>(2 * sizeof(double) * 2 * A.row.size());
+  const double numbers = L.is_super ? static_cast<double>(L.xsize + L.maxcsize) : 2.0 * m.common.lnz;
+  return {8.0 * numbers + copies, m.common.fl};
 }
 
 bool SparseCholesky::factor(const SparseMatrix& A, std::span<const int> order) {
   const detail::OneBlasThread guard;
+  analyse(A, order);
   Impl& m = *impl_;
-  if (!m.factor || !m.pattern.isOf(A) || !std::ranges::equal(m.order, order)) m.analyse(A, order);
-  if (m.factor->is_super) return m.factorSupernodes(A);
   cholmod_sparse matrix = view(A, m.pattern);
   cholmod_l_factorize(&matrix, m.factor, &m.common);
   if (!judge(m.common.status, A)) return false;
   // A simplicial LDLᵀ goes through negative pivots without a complaint; LLᵀ would stop.
-  if (m.factor->is_ll) return true;
+  if (m.factor->is_super || m.factor->is_ll) return true;
   const auto* start = static_cast<const SuiteSparse_long*>(m.factor->p);
   const auto* value = static_cast<const double*>(m.factor->x);
   for (std::size_t j = 0; j < m.factor->n; ++j)
@@ -166,7 +138,7 @@ void SparseCholesky::Impl::solveBySupernodes(std::span<double> b, int columns) {
     });
   };
   eachRow([](double& own, double outer) { own = outer; });
-  solver.solve(patternOf(*factor), plan, values.get(), inOrder, columns);
+  solver.solve(patternOf(*factor), plan, static_cast<const double*>(factor->x), inOrder, columns);
   eachRow([](double own, double& outer) { outer = own; });
 }
 

@@ -6,8 +6,29 @@
 
 namespace dovetail::fem {
 
+namespace {
+
+/// Tells the entries of the factor before it is made.
+struct Ldlt : Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> {
+  FactorCost cost() const {
+    FactorCost cost;
+    for (Eigen::Index column = 0; column < m_nonZerosPerCol.size(); ++column) {
+      const double below = m_nonZerosPerCol[column];
+      cost.bytes += (sizeof(double) + sizeof(int)) * below;
+      cost.operations += below * (below + 3.0);
+    }
+    return cost;
+  }
+};
+
+Eigen::Map<const Eigen::SparseMatrix<double>> view(const SparseMatrix& A) {
+  return {A.size, A.size, static_cast<int>(A.row.size()), A.offsets.data(), A.row.data(), A.value.data()};
+}
+
+}  // namespace
+
 struct SparseCholesky::Impl {
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver;
+  Ldlt solver;
   std::vector<int> offsets, row;  // pattern of the analysis
 };
 
@@ -16,15 +37,20 @@ SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-bool SparseCholesky::factor(const SparseMatrix& A, std::span<const int>) {
-  const Eigen::Map<const Eigen::SparseMatrix<double>> matrix(A.size, A.size, static_cast<int>(A.value.size()),
-                                                             A.offsets.data(), A.row.data(), A.value.data());
+FactorCost SparseCholesky::analyse(const SparseMatrix& A, std::span<const int>) {
   if (impl_->offsets != A.offsets || impl_->row != A.row) {
-    impl_->solver.analyzePattern(matrix);
+    impl_->solver.analyzePattern(view(A));
     impl_->offsets = A.offsets;
     impl_->row = A.row;
   }
-  impl_->solver.factorize(matrix);
+  FactorCost cost = impl_->solver.cost();
+  cost.bytes += static_cast<double>((sizeof(double) + sizeof(int)) * A.row.size());
+  return cost;
+}
+
+bool SparseCholesky::factor(const SparseMatrix& A, std::span<const int> order) {
+  analyse(A, order);
+  impl_->solver.factorize(view(A));
   return impl_->solver.info() == Eigen::Success && (impl_->solver.vectorD().array() > 0.0).all();
 }
 

@@ -1,38 +1,22 @@
 #include "dovetail/fem/solve/linear_solver.hpp"
 
-#include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <cmath>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/core/finite.hpp"
 
 namespace dovetail::fem {
 
 namespace {
 
-using EigenSparse = Eigen::SparseMatrix<double>;
-using Gradients = Eigen::ConjugateGradient<EigenSparse, Eigen::Lower, Eigen::IncompleteCholesky<double, Eigen::Lower>>;
-
-Eigen::Map<const EigenSparse> view(const SparseMatrix& A) {
-  return {A.size, A.size, static_cast<Eigen::Index>(A.value.size()), A.offsets.data(), A.row.data(), A.value.data()};
-}
-
-Eigen::Map<const Eigen::VectorXd> view(std::span<const double> x) {
-  return {x.data(), static_cast<Eigen::Index>(x.size())};
-}
-
-enum class Kind { none, cholesky, lu, gradients };
+enum class Kind { none, definite, lu };
 
 }  // namespace
 
 struct LinearSolver::Impl {
-  LinearOptions options;
   ReducedMatrix reduced;
-  SparseCholesky cholesky;
+  DefiniteSolver definite;
   SparseLu lu;
-  std::unique_ptr<Gradients> gradients;
-  EigenSparse matrix;  // of conjugate gradients, which keep a reference to it
   Kind kind = Kind::none;
   bool wasIndefinite = false;
   int negative = -1;
@@ -42,12 +26,12 @@ struct LinearSolver::Impl {
   /// A matrix that follows an indefinite one is taken for indefinite too: a failed Cholesky factorisation may cost as
   /// much as one that succeeds.
   bool factorSymmetric(const SparseMatrix& A) {
-    if (!wasIndefinite && cholesky.factor(A)) {
-      kind = Kind::cholesky;
-      negative = 0;
+    if (!wasIndefinite && definite.factor(A)) {
+      kind = Kind::definite;
+      negative = definite.iterates() ? -1 : 0;
       return true;
     }
-    if (!factorLu(A, true)) return false;
+    if (definite.iterates() || !factorLu(A, true)) return false;
     wasIndefinite = negative != 0;
     return true;
   }
@@ -57,27 +41,19 @@ struct LinearSolver::Impl {
     negative = lu.negativePivots();
     return true;
   }
-  bool factorGradients(const SparseMatrix& A) {
-    matrix = view(A);
-    if (!gradients) gradients = std::make_unique<Gradients>();
-    gradients->setTolerance(options.relativeTolerance);
-    gradients->setMaxIterations(options.maxIterations);
-    gradients->compute(matrix);
-    if (gradients->info() != Eigen::Success) return false;
-    kind = Kind::gradients;
-    negative = -1;
-    return true;
-  }
 };
 
 LinearSolver::LinearSolver(const DofMap& dofs, const LinearOptions& options)
-    : impl_(std::make_unique<Impl>(Impl{options, ReducedMatrix(dofs), {}, {}, {}, {}})) {
-  requirePositive(options.relativeTolerance, "relativeTolerance");
-  if (options.maxIterations < 1)
-    throw InputError("no iterations are allowed", "LinearOptions", "give maxIterations of 1 or more");
-}
+    : impl_(std::make_unique<Impl>(Impl{ReducedMatrix(dofs), DefiniteSolver(options), {}})) {}
 LinearSolver::~LinearSolver() = default;
 LinearSolver::LinearSolver(LinearSolver&&) noexcept = default;
+
+LinearForecast LinearSolver::forecast(const BlockMatrix& K, bool symmetric) {
+  const LinearForecast forecast = impl_->definite.analyse(impl_->reduced.update(K, true));
+  if (symmetric) return forecast;
+  // L and U, and fronts that pivoting may widen.
+  return {LinearMethod::direct, 3.0 * forecast.bytes, 2.0 * forecast.operations, forecast.factors};
+}
 
 bool LinearSolver::factor(const BlockMatrix& K, bool symmetric) {
   Impl& m = *impl_;
@@ -90,31 +66,17 @@ bool LinearSolver::factor(const BlockMatrix& K, bool symmetric) {
       if (A.row[static_cast<std::size_t>(k)] == static_cast<int>(column))
         m.largestDiagonal = std::max(m.largestDiagonal, std::abs(A.value[static_cast<std::size_t>(k)]));
   if (!std::all_of(A.value.begin(), A.value.end(), [](double v) { return std::isfinite(v); })) return false;
-  if (A.size == 0) return m.kind = Kind::cholesky, true;
-  if (!symmetric) return m.factorLu(A, false);
-  if (m.options.method == LinearMethod::conjugateGradients) return m.factorGradients(A);
-  return m.factorSymmetric(A);
+  if (A.size == 0) return m.kind = Kind::definite, true;
+  return symmetric ? m.factorSymmetric(A) : m.factorLu(A, false);
 }
 
 void LinearSolver::solve(std::span<const double> r, std::span<double> x) {
   Impl& m = *impl_;
   ++m.solves;
   if (r.empty()) return;
-  switch (m.kind) {
-    case Kind::cholesky:
-    case Kind::lu:
-      if (x.data() != r.data()) std::copy(r.begin(), r.end(), x.begin());
-      m.kind == Kind::lu ? m.lu.solve(x) : m.cholesky.solve(x);
-      return;
-    case Kind::gradients:
-      Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())) = m.gradients->solve(view(r)).eval();
-      if (m.gradients->info() == Eigen::Success) return;
-      throw NumericalError("conjugate gradients stop after " + std::to_string(m.gradients->iterations()) +
-                               " iterations at a relative residual of " + formatNumber(m.gradients->error()),
-                           "LinearSolver", "use LinearMethod::direct, or a larger maxIterations");
-    default:
-      throw InputError("there is no factorisation", "LinearSolver::solve", "call factor() first");
-  }
+  if (m.kind == Kind::none) throw InputError("there is no factorisation", "LinearSolver::solve", "call factor() first");
+  if (x.data() != r.data()) std::copy(r.begin(), r.end(), x.begin());
+  m.kind == Kind::lu ? m.lu.solve(x) : m.definite.solve(x);
 }
 
 void LinearSolver::save(ByteWriter& archive) const {
@@ -126,7 +88,7 @@ void LinearSolver::save(ByteWriter& archive) const {
 LinearSolver::Factored LinearSolver::read(ByteReader& archive, const BlockMatrix& K) const {
   Factored state{0, false, ReducedMatrix(impl_->reduced.dofs())};
   archive(state.kind, state.wasIndefinite);
-  if (state.kind < 0 || state.kind > static_cast<int>(Kind::gradients))
+  if (state.kind < 0 || state.kind > static_cast<int>(Kind::lu))
     throw InputError("a kind of factors has the number " + std::to_string(state.kind), "LinearSolver",
                      "load it into the run that saved it");
   if (state.kind != static_cast<int>(Kind::none)) state.matrix.load(archive, K);
@@ -141,32 +103,24 @@ void LinearSolver::adopt(Factored state) {
   m.reduced = std::move(state.matrix);
   const SparseMatrix& A = m.reduced.matrix();
   if (A.size == 0)
-    m.kind = Kind::cholesky;
+    m.kind = Kind::definite;
   else if (state.kind == static_cast<int>(Kind::lu))
     m.factorLu(A, m.reduced.symmetric());
-  else if (state.kind == static_cast<int>(Kind::gradients))
-    m.factorGradients(A);
-  else if (m.cholesky.factor(A))
-    m.kind = Kind::cholesky;
+  else if (m.definite.factor(A))
+    m.kind = Kind::definite;
 }
 
 bool LinearSolver::factored() const { return impl_->kind != Kind::none; }
+bool LinearSolver::iterates() const { return impl_->definite.iterates(); }
 void LinearSolver::drop() { impl_->kind = Kind::none; }
 int LinearSolver::negativePivots() const { return impl_->negative; }
 double LinearSolver::largestDiagonal() const { return impl_->largestDiagonal; }
 std::int64_t LinearSolver::factorisations() const { return impl_->factorisations; }
 std::int64_t LinearSolver::solves() const { return impl_->solves; }
 std::string LinearSolver::method() const {
-  switch (impl_->kind) {
-    case Kind::cholesky:
-      return SparseCholesky::name();
-    case Kind::lu:
-      return SparseLu::name();
-    case Kind::gradients:
-      return "conjugate gradients";
-    default:
-      return "none";
-  }
+  if (impl_->kind == Kind::lu) return SparseLu::name();
+  if (impl_->kind == Kind::none) return "none";
+  return impl_->definite.iterates() ? "conjugate gradients" : SparseCholesky::name();
 }
 
 }  // namespace dovetail::fem

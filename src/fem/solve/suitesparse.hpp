@@ -57,12 +57,12 @@ struct LongPattern {
 [[noreturn]] inline void throwOutOfMemory(const char* package, const SparseMatrix& A) {
   throw FactorMemoryError(std::string(package) + " finds no memory for its factors",
                           std::to_string(A.size) + " unknowns, " + std::to_string(A.value.size()) + " entries",
-                          "take a coarser mesh, a machine with more memory, or LinearMethod::conjugateGradients");
+                          "take a coarser mesh, a machine with more memory, or conjugate gradients");
 }
 [[noreturn]] inline void throwTooLarge(const char* package, const SparseMatrix& A) {
   throw FactorMemoryError(std::string(package) + " cannot number the entries of its factors",
                           std::to_string(A.size) + " unknowns, " + std::to_string(A.value.size()) + " entries",
-                          "take a coarser mesh, or LinearMethod::conjugateGradients");
+                          "take a coarser mesh, or conjugate gradients");
 }
 [[noreturn]] inline void throwRefused(const char* package, int status) {
   throw NumericalError(std::string(package) + " refuses the matrix with status " + std::to_string(status),

@@ -38,10 +38,9 @@ struct SupernodalPlan {
     std::size_t begin, end;  ///< supernodes; the last one is its root
     double work;             ///< entries of L
   };
-  std::vector<Subtree> subtrees;                   ///< the most work first
-  std::vector<std::size_t> above;                  ///< supernodes of no subtree, ascending
-  std::vector<std::size_t> parent;                 ///< of each supernode; their number for roots
-  std::vector<std::vector<std::size_t>> children;  ///< ascending
+  std::vector<Subtree> subtrees;    ///< the most work first
+  std::vector<std::size_t> above;   ///< supernodes of no subtree, ascending
+  std::vector<std::size_t> parent;  ///< of each supernode; their number for roots
 };
 SupernodalPlan planOf(const SupernodalPattern& pattern);
 
@@ -62,17 +61,5 @@ private:
   std::vector<int> place_;  // of every entry of L.row that lies beyond its subtree, among the subtree's rows outside
   std::vector<double> outside_;
 };
-
-/// Columns of a symmetric matrix in the order of elimination.
-struct PermutedColumns {
-  std::vector<std::int64_t> offsets;
-  std::vector<int> row;  ///< at or below the diagonal
-  std::vector<double> value;
-};
-
-/// values ← L with L Lᵀ = A, front by front (Duff and Reid, ACM Trans. Math. Softw. 9, 1983).
-/// @param values  room for those of L
-/// @return false if A is not positive definite
-bool factorise(const SupernodalPattern& L, const SupernodalPlan& plan, const PermutedColumns& A, double* values);
 
 }  // namespace dovetail::fem::detail

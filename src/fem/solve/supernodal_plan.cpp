@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "supernodal.hpp"
 
@@ -26,14 +27,13 @@ SupernodalPlan planOf(const SupernodalPattern& L) {
   const std::size_t count = L.supernodes();
   SupernodalPlan plan;
   plan.parent = parentsOf(L);
-  plan.children.resize(count);
   std::vector<double> work(count + 1, 0.0);  // of the subtree; the last one: of all
   std::vector<std::size_t> first(count);     // supernode of the subtree
+  std::iota(first.begin(), first.end(), std::size_t{0});
   for (std::size_t s = 0; s < count; ++s) {
-    first[s] = plan.children[s].empty() ? s : first[plan.children[s].front()];
     work[s] += static_cast<double>(L.rows(s).size() * L.columns(s));
     work[plan.parent[s]] += work[s];
-    if (plan.parent[s] < count) plan.children[plan.parent[s]].push_back(s);
+    if (plan.parent[s] < count) first[plan.parent[s]] = std::min(first[plan.parent[s]], first[s]);
   }
   const double most = std::max(leastWork, work[count] / subtreesWanted);
   work[count] = std::numeric_limits<double>::infinity();

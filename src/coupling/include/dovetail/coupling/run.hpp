@@ -142,6 +142,8 @@ public:
   /// supports (second differences over a window) make. Sums of `supports` and of all loads are the rate of the
   /// momentum.
   Reactions reactions(std::size_t k) const;
+  /// What the linear systems of solid k are going to take; nothing for explicit steps.
+  fem::LinearForecast forecast(std::size_t k);
   /// Of steps with the contacts, elements and connectors as they are now, and with the first contacts of particles that
   /// touch nobody yet (dem::impactLimit). All connectors of a solid and its own forces share the same nodes; in windows
   /// of K steps see dem::criticalStep. A run under way looks at its state now and then and tells in grains.passed when

@@ -21,9 +21,10 @@ struct WallParts {
 /// A run, and what is known of it beside.
 struct Built {
   std::unique_ptr<coupling::CoupledRun> run;
-  std::vector<fem::SolidMesh> meshes;  ///< of the solids, in their order
-  std::vector<WallParts> walls;        ///< of the scene's walls, in their order
-  std::vector<std::string> notes;      ///< of what was done that the file does not say, one sentence each
+  std::vector<fem::SolidMesh> meshes;          ///< of the solids, in their order
+  std::vector<WallParts> walls;                ///< of the scene's walls, in their order
+  std::vector<fem::LinearForecast> forecasts;  ///< of the solids of a started run
+  std::vector<std::string> notes;              ///< of what was done that the file does not say, one sentence each
 };
 
 /// Fills a closed, welded and oriented surface with elements; sets: "skin".
@@ -31,8 +32,8 @@ struct Built {
 using VolumeMesher =
     std::function<fem::SolidMesh(const geometry::TriangleMesh& surface, double size, double surfaceDistance)>;
 
-/// What makes solids with "mesh": "tetrahedra" from now on, in the whole program; without one, scenes that have them are
-/// refused. This component links none, since CGAL's is under the GPL: programs that are content with that give
+/// What makes solids with "mesh": "tetrahedra" from now on, in the whole program; without one, scenes that have them
+/// are refused. This component links none, since CGAL's is under the GPL: programs that are content with that give
 /// fem::tetrahedraInside (component fem_cgal). Not to be called while scenes are built.
 void useVolumeMesher(VolumeMesher mesher);
 
@@ -48,8 +49,8 @@ struct Limit {
 
 /// Starts the run with the scene's step. "auto": the share `safety` of the smallest of the critical step at the start,
 /// that of each explicit solid, and the exact one of two of the smallest grains of the scene, pressed together by a
-/// twentieth of their radius; and no more than a fifth of the last, which gives an impact eight steps, unless springs are
-/// bonded. A note tells where that is less.
+/// twentieth of their radius; and no more than a fifth of the last, which gives an impact eight steps, unless springs
+/// are bonded. A note tells where that is less.
 /// @throws InputError as CoupledRun::start, or if nothing in the scene tells a step
 void start(Built& built, const Scene& scene);
 

@@ -19,15 +19,16 @@ namespace dovetail::fem {
 double matchedShare(double spacing, double elementSize);
 
 /// M = share · consistent + (1 − share) · lumped, one number per pair of nodes, and its inverse for the free
-/// components, (TᵀMT)⁻¹: a division for lumped masses that no tie couples, else factors, one per distinct set of held
-/// nodes, that are made on first use. A share between dissipates nothing and sets the dispersion (matchedShare).
+/// components, (TᵀMT)⁻¹: a division for lumped masses that no tie couples, else a solver per distinct set of held nodes
+/// that is made on first use. A share between dissipates nothing and sets the dispersion (matchedShare).
 ///
 /// The inverse uses work space of its own: one object serves one thread at a time.
 class ModelMass {
 public:
   /// @param dofs  must live as long as this
+  /// @param linear  how M is solved for where that is no division; conjugate gradients to 1e-14
   /// @throws InputError for a share outside 0 … 1 or a node without mass (call addMass first)
-  ModelMass(const Model& model, const DofMap& dofs, double share);
+  ModelMass(const Model& model, const DofMap& dofs, double share, const LinearOptions& linear = {});
   ~ModelMass();
   ModelMass(ModelMass&&) noexcept;
 
@@ -59,12 +60,12 @@ private:
   }
 
   const DofMap* dofs_;
+  LinearOptions linear_;
   double share_;
   std::vector<double> mass_;     // lumped, kg per node
   std::vector<double> inverse_;  // empty unless M⁻¹ is a division
   NodeMatrix matrix_;            // share · consistent + (1 − share) · lumped; empty if lumped
   mutable std::vector<Factor> factors_;
-  mutable std::array<std::size_t, 3> factorOf_{};
   mutable BlockMatrix tied_;  // with ties
   mutable std::unique_ptr<LinearSolver> tiedSolver_;
   mutable std::vector<double> reduced_;

@@ -161,6 +161,8 @@ public:
   void run(std::int64_t steps);
   const EnergyLedger& ledger() const;
   DynamicsReport report() const;
+  /// What the linear systems of the steps are going to take, before the first of them.
+  LinearForecast forecast();
   /// Takes another scheme of Newmark's from the next step on. @throws InputError if either is of another family
   void use(const Scheme& scheme);
   const ModelMass& mass() const;

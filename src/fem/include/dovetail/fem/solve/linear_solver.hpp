@@ -10,23 +10,10 @@
 #include "dovetail/core/archive.hpp"
 #include "dovetail/fem/model/constraints.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/fem/solve/definite_solver.hpp"
 #include "dovetail/fem/solve/sparse.hpp"
 
 namespace dovetail::fem {
-
-enum class LinearMethod {
-  /// Cholesky (CHOLMOD if it was built in); LU (UMFPACK) if the matrix is indefinite or not symmetric.
-  direct,
-  /// Conjugate gradients preconditioned by an incomplete Cholesky factorisation: memory grows with the mesh and not
-  /// faster. For symmetric positive definite matrices only.
-  conjugateGradients
-};
-
-struct LinearOptions {
-  LinearMethod method = LinearMethod::direct;
-  double relativeTolerance = 1e-8;  ///< of conjugate gradients, on the residual
-  int maxIterations = 5000;         ///< of conjugate gradients
-};
 
 /// TᵀKT for the free components: the lower triangle by columns if symmetric, else all of it.
 class ReducedMatrix {
@@ -61,6 +48,8 @@ public:
   ~LinearSolver();
   LinearSolver(LinearSolver&&) noexcept;
 
+  /// What factor() and solve() are going to take; of the values nothing is read.
+  LinearForecast forecast(const BlockMatrix& K, bool symmetric);
   /// Reduces K to the free components and factorises it.
   /// @return false if it is singular (then solve() must not be called)
   /// @throws FactorMemoryError
@@ -70,6 +59,8 @@ public:
   void solve(std::span<const double> r, std::span<double> x);
 
   bool factored() const;
+  /// Whether symmetric matrices are solved by iteration.
+  bool iterates() const;
   void drop();
 
   /// What the factors are made of: made anew from it they have the same digits.

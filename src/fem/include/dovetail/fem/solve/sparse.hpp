@@ -27,6 +27,12 @@ std::vector<double> multiply(const SparseMatrix& A, std::span<const double> x);
 /// The same for a symmetric matrix of which A is the lower triangle.
 std::vector<double> multiplySymmetric(const SparseMatrix& A, std::span<const double> x);
 
+/// What a factorisation is going to take, by the pattern of the matrix alone.
+struct FactorCost {
+  double bytes = 0.0;       ///< at the most at once, beside the matrix itself
+  double operations = 0.0;  ///< additions and multiplications
+};
+
 /// Owns the factorisation of a symmetric positive definite matrix (CHOLMOD if it was built in, else Eigen's LDLᵀ).
 /// Results do not depend on the number of threads: the BLAS is held to one while it works.
 class SparseCholesky {
@@ -36,8 +42,11 @@ public:
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-  /// Reads the lower triangle only; the symbolic analysis is reused while the pattern and the order stay.
+  /// The symbolic analysis, which is reused while the pattern and the order stay.
+  /// @param A  the lower triangle; of the values nothing is read
   /// @param order  in which CHOLMOD eliminates the unknowns; empty: in one of its own
+  FactorCost analyse(const SparseMatrix& A, std::span<const int> order = {});
+  /// Reads the lower triangle only.
   /// @return false if the matrix is not positive definite (then solve() must not be called)
   /// @throws FactorMemoryError
   bool factor(const SparseMatrix& A, std::span<const int> order = {});
