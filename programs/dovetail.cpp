@@ -40,23 +40,12 @@ void limitTime(const Options& options) {
   if (options.maxWallSeconds) io::interruptAfter(*options.maxWallSeconds);
 }
 
-void requireNoRun(const std::filesystem::path& folder) {
-  for (const auto& [file, remedy] : {std::pair{"summary.json", "give --replace to put this one in its place"},
-                                     std::pair{"checkpoint.state", "resume it, or give --replace"}})
-    if (io::isOurs(folder / file))
-      throw InputError("there is a run in this folder, with " + std::string(file), folder.string(),
-                       std::string(remedy) + ", or another folder by --out");
-}
-
 bool runScene(const Options& options) {
   limitTime(options);
   const scene::Scene scene = scene::readScene(options.file, options.settings);
   const std::filesystem::path folder =
       options.out.empty() ? std::filesystem::path(options.file).stem().string() + "-out" : options.out;
-  if (std::error_code error; std::filesystem::equivalent(options.file, folder / "scene.json", error))
-    throw InputError("the run would put the scene in full in place of this file", options.file,
-                     "give another folder by --out, or resume the run of this folder");
-  if (!options.replace) requireNoRun(folder);
+  if (!options.replace) io::requireNoRun(folder);
   return scene::run(scene, {.folder = folder, .profile = options.profile}, std::cout);
 }
 bool checkScene(const Options& options) {

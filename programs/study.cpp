@@ -29,7 +29,7 @@ struct Settings {
   std::vector<std::string> over, set;
   std::optional<double> exact;
   int workers = threads();
-  bool energy = false;
+  bool energy = false, replace = false;
 };
 
 /// A key and the values that it is given.
@@ -190,15 +190,17 @@ bool studyScene(int argc, char** argv) {
   options.flag("--energy", settings.energy,
                "writes energy.html and .csv too: residual of the energy, its order in the step, growth and channels");
   options.integer("--workers N", settings.workers, 1, 1024, "processes at once; default: one for each processor");
+  options.flag("--replace", settings.replace, "puts this study in place of an earlier one in the folder");
   options.text("--out DIR", settings.out, "folder; <scene>-study if not given");
   if (!options.parse(argc, argv)) return true;
   report::Study study = planOf(settings);
   study.about["settings"] = report::objectOf(options.described());
   std::vector<std::string> files = report::filesOf(study);
   if (settings.energy) std::ranges::copy(energyStudyFiles(), std::back_inserter(files));
+  const auto folderOf = [&](std::size_t k) { return study.folder / report::format("%03zu", k + 1); };
+  for (std::size_t k = 0; !settings.replace && k < study.cases.size(); ++k) io::requireNoRun(folderOf(k));
   io::prepareOutputFolder(study.folder, files);
-  for (std::size_t k = 0; k < study.cases.size(); ++k)
-    io::prepareInnerFolder(study.folder / report::format("%03zu", k + 1), {"log.txt"});
+  for (std::size_t k = 0; k < study.cases.size(); ++k) io::prepareInnerFolder(folderOf(k), {"log.txt"});
   if (!report::runStudy(study, std::cout, std::cerr)) return false;
   if (settings.energy) writeEnergyStudy(study.folder);
   std::cout << "tables and figure in " << study.folder.string() << '\n';

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cctype>
 #include <cerrno>
@@ -91,8 +92,14 @@ std::optional<pid_t> writerOf(const std::string& name) {
   return static_cast<pid_t>(std::stol(std::string(numbers.substr(0, dash))));
 }
 
-/// A program that is killed between making a file and filling it leaves one without a mark, but also without content.
+/// A program that is killed between making a file and filling it leaves one without a mark, but also without content;
+/// its name is one that we give.
 bool isEmptyOfDeadProgram(const fs::directory_entry& entry, pid_t writer) {
+  constexpr std::array endings{".json", ".csv", ".txt", ".state", ".h5",  ".vtkhdf", ".vtu",
+                               ".vtp",  ".pvd", ".vti", ".html",  ".svg", ".md"};
+  const std::string name = entry.path().filename().string();
+  const std::string ending = fs::path(name.substr(0, name.rfind(".part-"))).extension().string();
+  if (std::find(endings.begin(), endings.end(), ending) == endings.end()) return false;
   std::error_code error;
   return fs::is_regular_file(entry.symlink_status(error)) && entry.file_size(error) == 0 && !error &&
          ::kill(writer, 0) != 0 && errno == ESRCH;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 
 #include "dovetail/core/atomic_file.hpp"
@@ -49,11 +51,21 @@ bool beginsWith(std::string_view head, std::string_view beginning) {
   return head.starts_with(beginning) && head.size() > beginning.size() && isDigit(head[beginning.size()]);
 }
 
-/// An attribute of the provenance, somewhere behind the header.
+/// The first attribute that our writers put there: the first text in the heap of texts, behind two headers.
 bool isHdf5OfOurs(std::string_view head) {
-  constexpr std::string_view mark = "dovetail ";
-  for (std::size_t at = head.find(mark); at != std::string::npos; at = head.find(mark, at + 1))
-    if (at + mark.size() < head.size() && isDigit(head[at + mark.size()])) return true;
+  constexpr std::size_t headers = 32;
+  const std::size_t heap = head.find("GCOL");
+  return heap != std::string::npos && heap + headers < head.size() &&
+         beginsWith(head.substr(heap + headers), "dovetail ");
+}
+
+/// @param dense  JSON without white space
+bool isJsonOfOurs(std::string_view dense) {
+  for (const std::string_view& beginning : jsonBeginnings)
+    if (beginsWith(dense, beginning)) {
+      const std::string_view rest = dense.substr(beginning.size());
+      return rest.substr(std::min(rest.find('"'), rest.size())).starts_with("\",\"commit\":");
+    }
   return false;
 }
 
@@ -64,11 +76,9 @@ const std::string_view* kindOf(std::string_view head) {
       return &beginning;
   if (!head.starts_with('{')) return nullptr;
   std::string dense;
-  for (std::size_t k = 0; k < head.size() && dense.size() < 64; ++k)
+  for (std::size_t k = 0; k < head.size() && dense.size() < 128; ++k)
     if (std::string_view(" \n").find(head[k]) == std::string_view::npos) dense += head[k];
-  for (const std::string_view& beginning : jsonBeginnings)
-    if (beginsWith(dense, beginning)) return &beginning;
-  return nullptr;
+  return isJsonOfOurs(dense) ? &jsonBeginnings[dense[2] == 'v'] : nullptr;
 }
 
 constexpr std::size_t headSize = 64 * 1024;
@@ -106,7 +116,8 @@ fs::path prepareOutputFolder(const fs::path& folder, const std::vector<std::stri
   requireWritable(folder);
   removeLeftovers(folder, isOurs);
   for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (fs::is_directory(entry.symlink_status(ignored))) removeLeftovers(entry.path(), isOurs);
+    if (fs::is_directory(entry.symlink_status(ignored)) && isOurs(entry.path().string() + ".pvd"))
+      removeLeftovers(entry.path(), isOurs);
   for (const std::string& name : fileNames) requireFreeOrOurs(folder / name);
   return folder;
 }
@@ -134,6 +145,40 @@ void removeFrames(const fs::path& folder, const std::string& name) {
   fs::remove(folder, error);  // which leaves folders that are not empty
 }
 
+void removeReport(const fs::path& folder) {
+  const fs::path text = folder / "report.md";
+  if (isOurs(text)) {
+    std::ifstream stream(text);
+    const std::string links{std::istreambuf_iterator<char>(stream), {}};
+    std::vector<fs::path> figures;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      const bool isFigure = name.starts_with("report_") && name.ends_with(".svg");
+      if (isFigure && links.find("(" + name + ")") != std::string::npos && isOurs(entry.path()))
+        figures.push_back(entry.path());
+    }
+    for (const fs::path& figure : figures) removeOurs(figure);
+  }
+  for (const fs::path& page : {text, folder / "report.html"})
+    if (isOurs(page)) removeOurs(page);
+}
+
+void requireNoRun(const fs::path& folder) {
+  const auto refuseRun = [&](const fs::path& file, const char* remedy) {
+    throw InputError("there is a run in this folder, with " + file.filename().string(), folder.string(),
+                     std::string(remedy) + ", or another folder by --out");
+  };
+  if (!isOurs(folder / "summary.json") && isOurs(folder / "checkpoint.state"))
+    refuseRun("checkpoint.state", "resume it, or give --replace");
+  for (const char* const name : {"summary.json", "series.csv", "series.h5", "scene.json", "report.md", "report.html"})
+    if (isOurs(folder / name)) refuseRun(name, "give --replace to put this one in its place");
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (const std::string ending = entry.path().extension().string();
+        (ending == ".pvd" || ending == ".vtkhdf") && isOurs(entry.path()))
+      refuseRun(entry.path(), "give --replace to put this one in its place");
+}
+
 FolderOnTrial::FolderOnTrial(const fs::path& folder) {
   std::error_code error;
   fs::path inner = fs::absolute(folder, error).lexically_normal();
@@ -143,6 +188,7 @@ FolderOnTrial::FolderOnTrial(const fs::path& folder) {
 }
 
 FolderOnTrial::~FolderOnTrial() {
+  if (!held_) return;
   std::error_code error;
   for (const fs::path& folder : missing_) fs::remove(folder, error);  // which leaves folders that are not empty
 }

@@ -209,18 +209,14 @@ Page pageOf(const RunRecord& record) {
 std::filesystem::path writeRunReport(const std::filesystem::path& folder) {
   const Page page = pageOf(readRunFolder(folder));
   const std::string mark = "dovetail " + io::buildInfo().version;
-  io::requireFreeOrOurs(folder / "report.md");
-  std::vector<std::filesystem::path> earlier;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".svg" && entry.path().filename().string().starts_with("report_") &&
-        io::isOurs(entry.path()))
-      earlier.push_back(entry.path());
-  for (const auto& path : earlier) io::removeOurs(path);
+  const auto figureFile = [&](const Figure& figure) { return folder / ("report_" + figure.name + ".svg"); };
+  for (const char* const name : {"report.md", "report.html"}) io::requireFreeOrOurs(folder / name);
+  for (const Figure* const figure : figuresOf(page)) io::requireFreeOrOurs(figureFile(*figure));
+  io::removeReport(folder);
   io::writeFileAtomically(folder / "report.html", htmlOf(page, mark));
   io::writeFileAtomically(folder / "report.md", "<!-- " + mark + " -->\n\n" + markdownOf(page, "report_"));
   for (const Figure* const figure : figuresOf(page))
-    io::writeFileAtomically(folder / ("report_" + figure->name + ".svg"),
-                            "<!-- " + mark + " -->\n" + svgFileOf(*figure));
+    io::writeFileAtomically(figureFile(*figure), "<!-- " + mark + " -->\n" + svgFileOf(*figure));
   return folder / "report.html";
 }
 

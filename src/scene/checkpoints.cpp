@@ -8,6 +8,7 @@
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/time_series.hpp"
 #include "dovetail/scene/read.hpp"
 
@@ -75,8 +76,9 @@ void writeCheckpoint(const fs::path& folder, const std::string& identity, const 
   archive(std::vector<char>(identity.begin(), identity.end()), meshes, run.time());
   archiveProgress(archive, progress);
   archive(run.save());
-  std::error_code none;
-  fs::rename(lastState(folder), stateBefore(folder), none);  // the first one has none before it
+  std::error_code none;  // the first one has none before it
+  const bool isFree = !fs::exists(fs::symlink_status(stateBefore(folder), none)) || io::isOurs(stateBefore(folder));
+  if (isFree && io::isOurs(lastState(folder))) fs::rename(lastState(folder), stateBefore(folder), none);
   writeChecked(lastState(folder), checkpointKind, archive.bytes());
 }
 

@@ -45,11 +45,12 @@ public:
         log_(log),
         identity_(identityOf(scene_)),
         trial_(settings.folder),
-        lock_(io::prepareOutputFolder(settings.folder, fileNames(scene_, goesOn))),
+        lock_(io::prepareOutputFolder(settings.folder, fileNames(scene_, goesOn)), trial_),
         built_(build(scene_)),
         provenance_(io::provenance({{"scene", hashOf(identity_)}})) {
     built_.run->profile = Profile(settings.profile);
     built_.run->grains.profile = settings.profile ? &built_.run->profile : nullptr;
+    if (!goesOn) requireInputsElsewhere(scene_.files, settings.folder);
     start(built_, scene_);
     plan_ = planOf(built_, scene_);
     if (plan_.series > 0)

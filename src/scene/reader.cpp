@@ -115,6 +115,7 @@ public:
     if (!std::filesystem::is_regular_file(path, error))
       refuse(*node, "there is no file " + path.string(), "correct the name, which is relative to the scene's folder");
     value = std::filesystem::absolute(path).lexically_normal().string();
+    document_.files.insert(value);
   }
   void word(Key key, std::string& value, Words words) override {
     if (const Node* node = take(key, false)) value = wordOf(*node, key, words);
@@ -257,8 +258,8 @@ void keepUsed(Parameters& parameters, const std::string& expressions) {
 
 }  // namespace
 
-std::string readFields(const FileText& file, const std::vector<std::string>& settings,
-                       const std::function<void(Fields&)>& describeFile) {
+ReadFields readFields(const FileText& file, const std::vector<std::string>& settings,
+                      const std::function<void(Fields&)>& describeFile) {
   Node root = parseJson(file.text, file.name);
   const auto includes = [](const std::string& setting) {
     return setting.starts_with("include=") || setting.starts_with("include.");
@@ -269,23 +270,28 @@ std::string readFields(const FileText& file, const std::vector<std::string>& set
   for (const std::string& setting : settings)
     if (!includes(setting)) applySetting(root, setting);
   Document document{file.name, file.folder};
+  document.files.insert(file.name);
+  forEachPlace(root, [&](const Place& place) {
+    if (place.file) document.files.insert(place.file->string());
+  });
   for (const bool keysOnly : {true, false}) {
     document.keysOnly = keysOnly;
     Reader reader(document, root, "");
     describeFile(reader);
     reader.finish();
   }
-  return document.functionsOfTime;
+  return {document.functionsOfTime, {document.files.begin(), document.files.end()}};
 }
 
 Scene sceneFromText(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                     const std::vector<std::string>& settings) {
   Scene scene;
-  const std::string functions = readFields({text, name, folder}, settings, [&](Fields& fields) {
+  const ReadFields read = readFields({text, name, folder}, settings, [&](Fields& fields) {
     scene = Scene{};
     describe(fields, scene);
   });
-  keepUsed(scene.parameters, functions);
+  keepUsed(scene.parameters, read.functionsOfTime);
+  scene.files = read.files;
   return scene;
 }
 

@@ -1,5 +1,6 @@
 #include "run_files.hpp"
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
 
 namespace dovetail::scene {
@@ -13,6 +14,12 @@ void removeIfOurs(const fs::path& folder, const std::vector<const char*>& names)
     if (io::isOurs(folder / name)) io::removeOurs(folder / name);
 }
 
+/// Whether frames of a run may have this name.
+bool isNameOfFrames(const std::string& name) {
+  return name == "grains" || name == "contacts" || name == "bonds" || name.starts_with("solid_") ||
+         (name.starts_with("wall_") && name.find_first_not_of("0123456789", 5) == std::string::npos);
+}
+
 }  // namespace
 
 std::vector<std::string> fileNames(const Scene& scene, bool goesOn) {
@@ -23,7 +30,8 @@ std::vector<std::string> fileNames(const Scene& scene, bool goesOn) {
 }
 
 void removeEnd(const fs::path& folder) {
-  removeIfOurs(folder, {"summary.txt", "summary.json", "series.h5", "fields.vti", "report.html", "report.md"});
+  removeIfOurs(folder, {"summary.txt", "summary.json", "series.h5", "fields.vti"});
+  io::removeReport(folder);
 }
 
 void removeEarlierRun(const fs::path& folder) {
@@ -31,15 +39,24 @@ void removeEarlierRun(const fs::path& folder) {
   removeIfOurs(
       folder, {"checkpoint.state", "checkpoint.previous.state", "checkpoint.damaged.state", "times.csv", "series.csv"});
   std::vector<fs::path> listed;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const fs::path& path = entry.path();
-    const bool figure = path.extension() == ".svg" && path.filename().string().starts_with("report_");
-    if ((figure || path.extension() == ".pvd" || path.extension() == ".vtkhdf") && io::isOurs(path))
-      listed.push_back(path);
-  }
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const fs::path& path = entry.path(); path.extension() == ".pvd" || path.extension() == ".vtkhdf")
+      if (isNameOfFrames(path.stem().string()) && io::isOurs(path)) listed.push_back(path);
   for (const fs::path& old : listed) {
     io::removeOurs(old);
     if (old.extension() == ".pvd") io::removeFrames(folder / old.stem(), old.stem().string());
+  }
+}
+
+void requireInputsElsewhere(const std::vector<std::string>& files, const fs::path& folder) {
+  std::error_code error;
+  for (const std::string& file : files) {
+    const fs::path within = fs::path(file).parent_path();
+    const bool isWithin =
+        fs::equivalent(within.empty() ? "." : within, folder, error) || fs::equivalent(within / "..", folder, error);
+    if (isWithin && io::isOurs(file))
+      throw InputError("the run would put its own in place of this file, which the scene reads", file,
+                       "give another folder by --out, or copy the file to another one");
   }
 }
 

@@ -16,4 +16,8 @@ void removeEarlierRun(const std::filesystem::path& folder);
 /// What is said of a run that is done.
 void removeEnd(const std::filesystem::path& folder);
 
+/// A run puts its own files in place of earlier ones, but not of those that its scene reads.
+/// @throws InputError if one of `files` is Dovetail's and in the folder, or in a folder within
+void requireInputsElsewhere(const std::vector<std::string>& files, const std::filesystem::path& folder);
+
 }  // namespace dovetail::scene

@@ -19,6 +19,7 @@ struct Document {
   std::set<std::string> names{};  ///< of all parameters
   Parameters parameters{};        ///< those that have a value so far
   std::string functionsOfTime{};  ///< all expressions of t, one after the other
+  std::set<std::string> files{};  ///< that are named, absolute
   bool keysOnly = false;          ///< values are not looked at: keys are checked before any value
 };
 

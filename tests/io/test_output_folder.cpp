@@ -37,7 +37,7 @@ TEST(OutputFolder, OnTrialGoesUnlessItIsKeptOrUsed) {
   const auto tryOut = [&](const fs::path& folder, auto&& use) {
     FolderOnTrial trial(folder);
     prepareOutputFolder(folder);
-    const FolderLock lock(folder);
+    const FolderLock lock(folder, trial);
     use(trial);
   };
   fs::create_directory(scratch / "mine");
@@ -47,6 +47,11 @@ TEST(OutputFolder, OnTrialGoesUnlessItIsKeptOrUsed) {
   tryOut(scratch / "kept", [](FolderOnTrial& trial) { trial.keep(); });
   tryOut(scratch / "used/in", [&](FolderOnTrial&) { writeText(scratch / "used/log", "mine"); });
   EXPECT_EQ(scratch.content(), (std::set<std::string>{"mine", "kept", "used", "used/log"}));
+  {  // of two that begin at once, the one that does not hold the folder
+    const FolderOnTrial other(scratch / "shared");
+    prepareOutputFolder(scratch / "shared");
+  }
+  EXPECT_TRUE(scratch.content().contains("shared"));
 }
 
 TEST(OutputFolder, KeepsWhatIsThere) {
@@ -117,7 +122,12 @@ TEST(OutputFolder, LosesWhatKilledRunsLeftAndNothingElse) {
 TEST(OutputFolder, LosesPartsInItsFoldersAndEmptyOnesOfDeadPrograms) {
   const ScratchFolder scratch, elsewhere;
   const std::string alive = "series.csv.part-" + std::to_string(::getpid()) + "-7", dead = "frame.vtu.part-999999998-7";
+  const std::string film = "film.part-999999998-7";
+  writeText(scratch / film, "");
+  fs::create_directory(scratch / "mine");
+  writeText(scratch / "mine" / dead, "");
   for (const char* const folder : {"grains", "solid"}) {
+    writeText(scratch / (std::string(folder) + ".pvd"), "<?xml version=\"1.0\"?>\n<!-- dovetail 1 -->");
     fs::create_directory(scratch / folder);
     writeText(scratch.path() / folder / "frame.vtu.part-12-3", marked("half a fra"));
     for (const std::string& name : {alive, dead}) writeText(scratch.path() / folder / name, "");
@@ -131,6 +141,8 @@ TEST(OutputFolder, LosesPartsInItsFoldersAndEmptyOnesOfDeadPrograms) {
     EXPECT_TRUE(fs::exists(scratch.path() / folder / alive)) << "its program may be about to write it";
   }
   EXPECT_TRUE(fs::exists(elsewhere / "a.part-1-2"));
+  EXPECT_TRUE(fs::exists(scratch / film)) << "no name of ours";
+  EXPECT_TRUE(fs::exists(scratch / "mine" / dead)) << "no folder of frames";
 }
 
 TEST(OutputFolder, KeepsAFileThatAnotherProgramIsWriting) {
@@ -174,16 +186,18 @@ TEST(OwnFiles, AreKnownByTheirMark) {
     return isOurs(scratch / "file");
   };
   EXPECT_TRUE(check(marked("")));
-  for (const char* const ours :
-       {"// version: dovetail 0.1.0\n{}", "<!-- dovetail 0.1.0 -->\n<svg>",
-        "<?xml version=\"1.0\"?>\n<!-- dovetail 1 -->", "{\n  \"provenance\": {\n    \"version\": \"dovetail 0.1.0\",",
-        "{\n \"version\": \"dovetail 0.1.0\",", "binary STL, dovetail 0.1.0", "** dovetail 0.1.0\n*NODE"})
+  for (const char* const ours : {"// version: dovetail 0.1.0\n{}", "<!-- dovetail 0.1.0 -->\n<svg>",
+                                 "<?xml version=\"1.0\"?>\n<!-- dovetail 1 -->",
+                                 "{\n  \"provenance\": {\n    \"version\": \"dovetail 0.1.0\",\n    \"commit\": \"1a\"",
+                                 "{\n \"version\": \"dovetail 0.1.0\",\n \"commit\": \"1a\"",
+                                 "binary STL, dovetail 0.1.0", "** dovetail 0.1.0\n*NODE"})
     EXPECT_TRUE(check(ours)) << ours;
   for (const char* const others :
        {"dovetail joints, dovetail 2", "my notes on dovetail 0.1.0\n", "# run with dovetail 0.1.0\nt,x\n",
         "\n# version: dovetail 0.1.0\n", "// dovetail 0.1.0\n{\"title\": \"mine\"}",
         "{\"title\": \"x\", \"provenance\": {\"version\": \"dovetail 0.1.0\"}}", "{\"note\": \"dovetail 0.1.0\"}",
-        "# version: dovetail x", "<!-- dovetail -->", "mine {\"version\": \"dovetail 0.1.0\"}"})
+        "# version: dovetail x", "<!-- dovetail -->", "mine {\"version\": \"dovetail 0.1.0\"}",
+        "{\"version\": \"dovetail 0.1.0\", \"mine\": 1}", "\x89HDF\r\n\x1a\n cites dovetail 0.1.0"})
     EXPECT_FALSE(check(others)) << others;
   EXPECT_FALSE(check("dovetail joints"));
   EXPECT_FALSE(check("dovetail "));

@@ -47,6 +47,18 @@ TEST(StudyVerb, AValueThatCannotBeIsARowThatSaysWhy) {
   EXPECT_FALSE(std::filesystem::exists(bounce.out + "2"));
 }
 
+TEST(StudyVerb, ReplacesRunsOnlyWhenTold) {
+  const Bounce bounce;
+  std::vector<std::string> words{"study", bounce.file, "--over", "share=0.1,0.2", "--out", bounce.out};
+  ASSERT_EQ(runProgram(words).code, 0);
+  std::filesystem::remove(bounce.folder / "out/study.json");
+  const Outcome again = runProgram(words);
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.err.find("--replace"), std::string::npos) << again.err;
+  words.emplace_back("--replace");
+  EXPECT_EQ(runProgram(words).code, 0);
+}
+
 TEST(StudyVerb, RunsEveryCombinationAndMarksTheFront) {
   const Bounce bounce;
   const Outcome outcome = runProgram({"study", bounce.file, "--over", "share=0.05,0.1,0.2", "--set", "speed=2",

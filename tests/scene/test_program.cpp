@@ -155,6 +155,45 @@ TEST(Program, ReplacesARunOnlyWhenTold) {
   EXPECT_EQ(runProgram(words).code, 0);
 }
 
+/// Finished or not, and whatever it has left.
+TEST(Program, AsksBeforeItReplacesPartsOfARun) {
+  const ScratchFolder folder;
+  const std::string marked = "# version: dovetail 0.1.0\nt_s\n0\n";
+  const Words words{"run", starter("plate"), "--out", folder.path().string(), "--set", "time=1e-4"};
+  io::test::writeText(folder / "series.csv", marked);
+  expectRefused(runProgram(words), "series.csv");
+  EXPECT_EQ(readText(folder / "series.csv"), marked);
+}
+
+TEST(Program, RunsKeepWhatTheyRead) {
+  const ScratchFolder folder;
+  const Words first{"run", starter("plate"), "--out", (folder / "out").string(), "--set", "time=1e-4"};
+  ASSERT_EQ(runProgram(first).code, 0);
+  io::test::writeText(folder / "more.json", R"({"include": ["out/scene.json"], "title": "again"})");
+  const std::string before = readText(folder / "out/scene.json");
+  for (const char* const file : {"more.json", "out/scene.json"})
+    expectRefused(runProgram({"run", (folder / file).string(), "--out", (folder / "out").string(), "--replace"}),
+                  "in place of this file");
+  EXPECT_EQ(readText(folder / "out/scene.json"), before);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/summary.json"));
+  EXPECT_EQ(runProgram({"run", (folder / "more.json").string(), "--out", (folder / "other").string()}).code, 0);
+}
+
+/// Copies and edits of files of ours that have names of their own.
+TEST(Program, ReplacesFilesUnderItsOwnNamesAlone) {
+  if (!WITH_FRAMES) GTEST_SKIP() << "there are no frames";
+  const ScratchFolder folder;
+  const Words words{"run",      starter("plate"), "--out", folder.path().string(),
+                    "--set",    "time=1e-4",      "--set", R"(output={"frames": 1e-4})",
+                    "--replace"};
+  ASSERT_EQ(runProgram(words).code, 0);
+  std::filesystem::copy_file(folder / "grains.pvd", folder / "chosen.pvd");
+  io::test::writeText(folder / "report_mine.svg", "<!-- dovetail 0.1.0 -->\n<svg>");
+  ASSERT_EQ(runProgram(words).code, 0);
+  for (const char* const mine : {"chosen.pvd", "report_mine.svg"})
+    EXPECT_TRUE(std::filesystem::exists(folder / mine)) << mine;
+}
+
 TEST(Program, RefusesPipesAndEndlessIncludes) {
   const ScratchFolder folder;
   const std::string pipe = (folder / "pipe.json").string();
@@ -258,7 +297,7 @@ TEST(Program, ScenesStayThatLieWhereARunWrites) {
   const std::string file = (folder / "scene.json").string();
   ASSERT_EQ(runProgram({"new", "plate", file}).code, 0);
   const std::string text = readText(file);
-  expectRefused(runProgram({"run", file, "--out", folder.path().string()}), "in place of this file");
+  expectRefused(runProgram({"run", file, "--out", folder.path().string()}), "scene.json");
   EXPECT_EQ(readText(file), text);
 }
 

@@ -55,8 +55,14 @@ void requireFreeOrOurs(const std::filesystem::path& path);
 /// @throws InputError if something that is not ours is at `path`; Error if it cannot be removed
 void removeOurs(const std::filesystem::path& path);
 
+/// Removes the pages of a report of ours, and of figures those that it names.
+void removeReport(const std::filesystem::path& folder);
+
+/// @throws InputError if there are files of an earlier run of ours in a folder, finished or not
+void requireNoRun(const std::filesystem::path& folder);
+
 /// Takes back a folder that prepareOutputFolder has made, with those above it that it made, as far as they are empty,
-/// unless it is told to keep them: for runs that may be refused before they write.
+/// once a lock holds it and unless it is told to keep them: for runs that may be refused before they write.
 class FolderOnTrial {
 public:
   /// Before the folder is made.
@@ -64,10 +70,12 @@ public:
   ~FolderOnTrial();
   FolderOnTrial(const FolderOnTrial&) = delete;
   FolderOnTrial& operator=(const FolderOnTrial&) = delete;
-  void keep() { missing_.clear(); }
+  void keep() { held_ = false; }
 
 private:
+  friend class FolderLock;
   std::vector<std::filesystem::path> missing_;  ///< the innermost first
+  bool held_ = false;                           ///< by a lock: no other run that has made it at the same time uses it
 };
 
 /// Holds a folder for one run while it lives; the system lets go of it when the process ends, however it ends. Where
@@ -76,6 +84,7 @@ class FolderLock {
 public:
   /// @throws InputError if another run holds the folder
   explicit FolderLock(const std::filesystem::path& folder);
+  FolderLock(const std::filesystem::path& folder, FolderOnTrial& trial) : FolderLock(folder) { trial.held_ = true; }
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

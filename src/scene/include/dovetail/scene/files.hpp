@@ -17,11 +17,15 @@ struct FileText {
 /// @throws InputError if it cannot be read
 FileText textOfFile(const std::filesystem::path& file);
 
+struct ReadFields {
+  std::string functionsOfTime;     ///< all expressions of the time
+  std::vector<std::string> files;  ///< that were read or are going to be: the file, those it includes and names
+};
 /// Calls describeFile twice: for the keys, when values stay as they are, then for the values; each time on a structure
-/// of its own. Returns all expressions of the time.
+/// of its own.
 /// @throws InputError as readScene
-std::string readFields(const FileText& file, const std::vector<std::string>& settings,
-                       const std::function<void(Fields&)>& describeFile);
+ReadFields readFields(const FileText& file, const std::vector<std::string>& settings,
+                      const std::function<void(Fields&)>& describeFile);
 
 /// All keys with their values, in SI units.
 std::string textOf(const std::function<void(Fields&)>& describeFile);

@@ -94,6 +94,7 @@ struct Scene {
   Steps steps;
   std::vector<Stage> stages;
   Output output;
+  std::vector<std::string> files;  ///< that it was read from, and that it names
 };
 
 }  // namespace dovetail::scene
