@@ -93,7 +93,8 @@ TEST(SceneCheck, TellsBodiesThatLieInEachOther) {
   for (const double x : {0.2, 0.3}) EXPECT_EQ(of(x).find("overlap at the start"), std::string::npos) << x;
   const std::string wall =
       R"("walls": [{"shape": "mesh", "file": "bucket.stl", "scale": 0.001, "shift": [0, 0, -0.05]}],)";
-  expectParts(textOfCheck(whole(wall + R"("solids": [)" + block(-0.1, "one") + "],")), {R"("one" and walls.0 overlap)"});
+  expectParts(textOfCheck(whole(wall + R"("solids": [)" + block(-0.1, "one") + "],")),
+              {R"("one" and walls.0 overlap)"});
 }
 
 /// Numbers within a state are looked at before they are used: the bytes of a checkpoint may be whole and still not fit.
