@@ -93,6 +93,9 @@ public:
     if (const auto at = why.find("column "); at != std::string::npos)
       if (const auto colon = why.find(": ", at); colon != std::string::npos) why = why.substr(colon + 2);
     std::replace(why.begin(), why.end(), '\n', ' ');
+    constexpr const char* lastRead = "last read: '";
+    if (const auto at = why.find(lastRead); at != std::string::npos && why.size() > at + 60)
+      why = why.substr(0, at) + lastRead + "…" + why.substr(why.size() - 40);
     const Place place = placeAt(starts_, position == 0 ? 0 : position - 1);
     throw InputError("this is no JSON: " + why, placeName(name_, place), "correct it there or just before");
   }

@@ -101,7 +101,7 @@ struct Solid {
   std::string formulation = "standard";
   bool gravity = true;
   bool implicitSteps = false;
-  int linearSolver = 0;             ///< fem::LinearMethod, of implicit steps
+  int linearSolver = 0;               ///< fem::LinearMethod, of implicit steps
   std::optional<double> massShare;    ///< of the consistent mass; not given: 1 for implicit steps, else 0
   std::optional<StateOfSolid> state;  ///< that it begins with; not given: at rest as it is described
   Vec3 velocity;                      ///< of all nodes at the start, m/s, beside that of the state
