@@ -98,6 +98,60 @@ std::string room(double bytes) {
   return bytes < 1e9 ? rounded(bytes / 1e6) + " MB" : rounded(bytes / 1e9) + " GB";
 }
 
+// ---- outputs that say nothing
+
+void lookAtIntervals(const Scene& scene, double window, Lines& lines) {
+  struct Asked {
+    const char *key, *what;
+    const std::optional<double>& interval;
+  };
+  const Output& out = scene.output;
+  const double time = timeOf(scene);
+  if (!(window < time)) return;
+  for (const Asked& one : {Asked{"series", "row", out.series}, Asked{"frames", "frame", out.frames},
+                           Asked{"checkpoints", "checkpoint", out.checkpoints}})
+    if (one.interval && *one.interval < 0.9 * window)
+      lines.push_back("output." + std::string(one.key) + " asks for a " + one.what + " every " +
+                      rounded(*one.interval) + " s, more often than there are steps (" + rounded(window) +
+                      " s), and gets one for each: take a larger interval, such as " +
+                      rounded(std::max(time / 200.0, window)) + " s.");
+}
+
+void lookAtContents(const Built& built, const Scene& scene, Lines& lines) {
+  const Output& out = scene.output;
+  if (out.contents == Output{}.contents) return;
+  if (!out.frames)
+    return lines.push_back(
+        "output.contents is given and output.frames is not, so that nothing of it is written: give output.frames an "
+        "interval, or leave contents out.");
+  if (out.contents.empty())
+    lines.push_back(
+        "output.contents is empty, so that frames hold nothing: name parts, such as \"grains\", or leave "
+        "contents or frames out.");
+  struct Part {
+    const char *word, *missing;
+    bool isThere;
+  };
+  const dem::Model& grains = built.run->grains;
+  const bool anyGrains = grains.particles.size() > 0 || !scene.insertions.empty();
+  for (const Part& part :
+       {Part{"grains", "grains", anyGrains}, Part{"contacts", "grains", anyGrains},
+        Part{"bonds", "bonds", !scene.bonds.empty()}, Part{"solids", "solids", !built.meshes.empty()},
+        Part{"walls", "wall that is a mesh", !grains.terms.all<dem::MeshWallTerm>().empty()}})
+    if (!part.isThere && std::ranges::find(out.contents, part.word) != out.contents.end())
+      lines.push_back("output.contents has " + quoted(part.word) + ", and the scene has no " + part.missing +
+                      ": leave it out.");
+}
+
+void lookAtRates(const Scene& scene, Lines& lines) {
+  const double time = timeOf(scene);
+  for (std::size_t k = 0; k < scene.insertions.size() && time > 0.0; ++k)
+    if (const double count = expectedOf(scene.insertions[k], time); count < 1.0)
+      lines.push_back("insertions." + std::to_string(k) + " lets " + rounded(count) + " grains enter in " +
+                      rounded(time) + " s, so that hardly any comes: let it bring more than " + rounded(1.0 / time) +
+                      " per second, or run for longer.");
+}
+
 }  // namespace
 
 void tellOutput(const Built& built, const Scene& scene, const Plan& plan, std::ostream& log) {
@@ -119,6 +173,10 @@ void lookAtOutput(const Built& built, const Scene& scene, Lines& lines) {
     lines.push_back("output.frames asks for " + std::to_string(frames.count) + " frames" +
                     (plan.frames == 1 ? ", one at every window of steps" : "") + ", " + room(frames.bytes()) +
                     " on disk: take a larger interval, such as " + rounded(timeOf(scene) / 200.0) + " s.");
+  else
+    lookAtIntervals(scene, built.run->window(), lines);
+  lookAtContents(built, scene, lines);
+  lookAtRates(scene, lines);
   std::error_code error;
   const auto free = std::filesystem::space(std::filesystem::current_path(error), error);
   if (!error && frames.bytes() > static_cast<double>(free.available))

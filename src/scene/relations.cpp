@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dovetail/core/finite.hpp"
+#include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "extent.hpp"
 #include "warnings.hpp"
@@ -46,7 +47,107 @@ void lookAtLocking(const Built& built, const Solid& solid, std::size_t number, L
   }
 }
 
+// ---- strength
+
+void lookAtStrength(const std::string& key, const Solid& solid, Lines& lines) {
+  const auto tell = [&](const char* name, double strength, double modulus) {
+    if (strength > modulus)
+      lines.push_back(key + "." + name + " is " + rounded(strength) + " Pa, above youngs_modulus, " + rounded(modulus) +
+                      " Pa, so that " + quoted(solid.name) +
+                      " never yields: look at the units of both, or take an elastic law.");
+  };
+  if (const auto* const law = std::get_if<J2Plastic>(&solid.material.law))
+    tell("yield_stress", law->yieldStress, law->youngsModulus);
+  if (const auto* const law = std::get_if<DruckerPrager>(&solid.material.law))
+    tell("cohesion", law->cohesion, law->youngsModulus);
+}
+
+// ---- springs of grains
+
+/// A grain of radius r and Young's modulus E has springs of about E r.
+void lookAtSpring(const std::string& key, const ContactLaw& law, double radius, Lines& lines) {
+  constexpr double hardest = 1e13, stone = 5e10;  // ten times diamond; Pa
+  const auto* const linear = std::get_if<LinearContact>(&law.normal);
+  if (linear && linear->stiffness > hardest * radius)
+    lines.push_back(key + ".stiffness is " + rounded(linear->stiffness) + " N/m, which makes grains of " +
+                    rounded(radius) + " m radius as hard as a material of " + rounded(linear->stiffness / radius) +
+                    " Pa (diamond: 1e+12), and steps short: write " + rounded(stone * radius) +
+                    " N/m, as of stone, or less.");
+}
+
+void lookAtSprings(const Scene& scene, const dem::Particles& p, Lines& lines) {
+  double smallest = Extent::nowhere;
+  for (const double radius : p.radius) smallest = std::min(smallest, radius);
+  for (const Insertion& one : scene.insertions) smallest = std::min(smallest, one.radius.smallest);
+  if (scene.contact) lookAtSpring("contact", *scene.contact, smallest, lines);
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k)
+    lookAtSpring("contacts." + std::to_string(k), scene.contacts[k].law, smallest, lines);
+}
+
+/// Of the slowest of the bonds with that damping, s.
+double criticalDamping(const dem::Model& grains, double dampingTime) {
+  double longest = 0.0;
+  for (const auto* const term : grains.terms.all<dem::BondTerm>())
+    for (const dem::Bond& bond : term->bonds.bonds) {
+      const double a = grains.particles.mass[static_cast<std::size_t>(bond.i)],
+                   b = grains.particles.mass[static_cast<std::size_t>(bond.j)];
+      if (bond.dampingTime == dampingTime) longest = std::max(longest, 2.0 * std::sqrt(a * b / (a + b) / bond.normal));
+    }
+  return longest;
+}
+
+void lookAtBonds(const Built& built, const Scene& scene, Lines& lines) {
+  constexpr double far = 100.0;
+  for (std::size_t k = 0; k < scene.bonds.size(); ++k) {
+    const double time = scene.bonds[k].dampingTime, critical = criticalDamping(built.run->grains, time);
+    if (time > far * critical && critical > 0.0)
+      lines.push_back("bonds." + std::to_string(k) + ".damping_time is " + rounded(time) + " s, " +
+                      rounded(time / critical) + " times what lets bonds creep back without swinging: write " +
+                      rounded(0.05 * critical) + " s to damp them by 5 %, or look at its unit (\"us\").");
+  }
+}
+
 // ---- sizes
+
+/// The smallest and the largest sphere of a scene, with their keys.
+class Radii {
+public:
+  void add(const std::string& key, double radius) {
+    if (radius < least_) least_ = radius, leastKey_ = key;
+    if (radius > most_) most_ = radius, mostKey_ = key;
+  }
+  void add(const std::string& key, const SizeRange& range) {
+    add(key + ".radius.smallest", range.smallest);
+    add(key + ".radius.largest", range.largest);
+  }
+  void add(const std::string& key, const Particles& one) {
+    if (const auto* const lattice = std::get_if<Lattice>(&one.from)) add(key + ".radius", lattice->radius);
+    if (const auto* const packing = std::get_if<RandomPacking>(&one.from)) add(key, packing->radius);
+    if (const auto* const list = std::get_if<SphereList>(&one.from))
+      for (std::size_t k = 0; k < list->spheres.size(); ++k)
+        add(key + ".spheres." + std::to_string(k) + ".radius", list->spheres[k].radius);
+  }
+  void tell(Lines& lines) const {
+    constexpr double far = 1000.0;
+    if (most_ > far * least_)
+      lines.push_back(leastKey_ + " is " + rounded(least_) + " m and " + mostKey_ + " " + rounded(most_) +
+                      " m: the small grains set the step and the large ones how far is looked for pairs. Look at their "
+                      "units, or leave the smallest grains out.");
+  }
+
+private:
+  double least_ = Extent::nowhere, most_ = 0.0;
+  std::string leastKey_, mostKey_;
+};
+
+void lookAtRadii(const Scene& scene, Lines& lines) {
+  Radii radii;
+  for (std::size_t k = 0; k < scene.particles.size(); ++k)
+    radii.add("particles." + std::to_string(k), scene.particles[k]);
+  for (std::size_t k = 0; k < scene.insertions.size(); ++k)
+    radii.add("insertions." + std::to_string(k), scene.insertions[k].radius);
+  radii.tell(lines);
+}
 
 void lookAtSize(const std::string& whose, const std::vector<Vec3>& x, const dem::Particles& p, Lines& lines) {
   constexpr double often = 300.0, machine = 20.0;  // m
@@ -95,8 +196,12 @@ void lookAtRelations(const Built& built, const Scene& scene, Lines& lines) {
     const SolidMaterial& material = scene.solids[s].material;
     const double modulus = std::visit([](const auto& law) { return law.youngsModulus; }, material.law);
     lookAtWaves(quoted(scene.solids[s].name), modulus, material.density, lines);
+    lookAtStrength("solids." + std::to_string(s) + ".material", scene.solids[s], lines);
     lookAtLocking(built, scene.solids[s], s, lines);
   }
+  lookAtSprings(scene, built.run->grains.particles, lines);
+  lookAtBonds(built, scene, lines);
+  lookAtRadii(scene, lines);
   lookAtSizes(built, scene, lines);
   lookAtStep(built, scene, lines);
 }

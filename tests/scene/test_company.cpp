@@ -77,7 +77,7 @@ TEST(SceneCompany, ProbesFarFromWhatTheyFollow) {
 TEST(SceneCompany, InsertionsWhereNobodyCanEnter) {
   const auto of = [](const std::string& region, const std::string& more = "") {
     return warningsOf(R"("insertions": [{"density": 2500, "radius": {"smallest": 0.01, "largest": 0.01},
-        "number_per_second": 10, "region": )" +
+        "number_per_second": 10000, "region": )" +
                       region + "}]," + ground + more);
   };
   expectParts(of("[[0, 0, -2], [1, 1, -1]]"),

@@ -20,6 +20,12 @@ std::string bedWith(const std::string& part, const std::string& in) {
   return warningsOf(sceneFromText("{" + replaced(text, part, in) + "}", "s.json", "/"));
 }
 
+/// With the step that the scene's parts ask for.
+std::string warningsAtAnyStep(const std::string& middle) {
+  return warningsOf(sceneFromText(
+      "{" + law + middle + R"("steps": {"dt": "auto"}, "stages": [{"do": "run", "time": 1e-6}]})", "s.json", "/"));
+}
+
 TEST(ScenePlausible, NumbersOfAnotherUnitAreToldWithIt) {
   EXPECT_EQ(bedWith("2500", "2500"), "");
   expectParts(bedWith("2500", "2.5"), {"particles.0.density is 2.5 kg/m3", "write \"2.5 g/cm3\" if that is meant"});
@@ -32,6 +38,53 @@ TEST(ScenePlausible, NumbersOfAnotherUnitAreToldWithIt) {
   expectParts(bedWith("1e5", "1e-6"), {"contact.stiffness is 1e-06 N/m", "look at its unit", "In the first step"});
   expectParts(bedWith("-9.81]", "-981000]"), {"gravity is -981000 m/s2", "write \"-981000 mm/s2\""});
   expectParts(bedWith(R"("velocity": [0, 0, 0])", R"("velocity": [0, 0, -20000])"), {"write \"-20000 mm/s\""});
+}
+
+TEST(ScenePlausible, ValuesJustOutsideOfWhatIsUsual) {
+  expectParts(bedWith("2500", "7.85"), {"particles.0.density is 7.85 kg/m3", "write \"7.85 g/cm3\""});
+  EXPECT_EQ(bedWith("2500", "30"), "");
+  expectParts(bedWith("-9.81]", "-9810]"), {"gravity is -9810 m/s2", "write \"-9810 mm/s2\""});
+  EXPECT_EQ(
+      warningsOf(R"("particles": [{"from": "list", "density": 2000, "spheres": [{"at": [0, 0, 0], "radius": 100}]}],)"),
+      "");
+}
+
+TEST(ScenePlausible, SpringsHarderThanDiamond) {
+  expectParts(bedWith("1e5", "1e13"),
+              {"contact.stiffness is 1e+13 N/m, which makes grains of 0.01 m radius as hard as a "
+               "material of 1e+15 Pa",
+               "write 5e+08 N/m"});
+  EXPECT_EQ(bedWith("1e5", "1e10"), "");
+}
+
+TEST(ScenePlausible, GrainsOfVeryDifferentSizes) {
+  const auto of = [](const std::string& radius) {
+    return warningsAtAnyStep(
+        spheres(R"({"at": [0, 0, 0], "radius": 0.01}, {"at": [1, 0, 0], "radius": )" + radius + "}"));
+  };
+  expectParts(of("9e-6"), {"particles.0.spheres.1.radius is 9e-06 m and particles.0.spheres.0.radius 0.01 m"});
+  EXPECT_EQ(of("1.1e-5"), "");
+}
+
+TEST(ScenePlausible, BondsThatBreakAtOnceOrOnlyCreep) {
+  const auto of = [](const std::string& keys) {
+    return warningsAtAnyStep(R"("particles": [{"from": "list", "name": "g", "density": 2500, "spheres": [
+        {"at": [0, 0, 0], "radius": 0.01}, {"at": [0.02, 0, 0], "radius": 0.01}]}],
+        "bonds": [{"group": "g", "gap": 1e-4, "youngs_modulus": 1e8, "poisson_ratio": 0.2, )" +
+                             keys + "}],");
+  };
+  EXPECT_EQ(of(R"("tensile_strength": 5e5, "damping_time": 2e-6)"), "");
+  expectParts(of(R"("tensile_strength": 0.5)"), {"bonds.0.tensile_strength is 0.5 Pa", "write \"0.5 MPa\""});
+  expectParts(of(R"("damping_time": 2)"), {"bonds.0.damping_time is 2 s", "to damp them by 5 %"});
+}
+
+TEST(ScenePlausible, StrengthAboveTheModulus) {
+  const auto of = [](const std::string& stress) {
+    return warningsOf(replaced(block, R"("neo-Hookean")", R"("J2", "yield_stress": )" + stress) + onBlock);
+  };
+  expectParts(of("1e7"),
+              {"solids.0.material.yield_stress is 1e+07 Pa, above youngs_modulus, 1e+06 Pa", "\"b\" never yields"});
+  EXPECT_EQ(of("1e4"), "");
 }
 
 TEST(ScenePlausible, OneFaultOfManyItemsIsToldOnce) {
@@ -78,6 +131,34 @@ TEST(ScenePlausible, FramesAreCountedAndTooManyAreTold) {
   Scene every = of("1e-9");
   std::get<RunFor>(every.stages[0].kind).time = 1.0;
   expectParts(warningsOf(every), {"asks for 100001 frames, one at every window of steps", "such as 0.005 s"});
+}
+
+TEST(ScenePlausible, OutputsThatWriteNothingOrTooOften) {
+  const auto of = [](const std::string& output) {
+    return warningsOf(spheres(R"({"at": [0, 0, 0], "radius": 0.1})") + R"("output": {)" + output + "},");
+  };
+  if (!WITH_FRAMES) GTEST_SKIP();
+  expectParts(of(R"("series": 1e-9, "frames": 1e-4)"),
+              {"output.series asks for a row every 1e-09 s, more often than there are steps (1e-05 s)"});
+  expectParts(of(R"("frames": 1e-9)"), {"output.frames asks for a frame every 1e-09 s", "such as 1e-05 s"});
+  EXPECT_EQ(of(R"("series": 1e-5)"), "");
+  expectParts(of(R"("contents": ["grains", "contacts"])"), {"output.contents is given and output.frames is not"});
+  expectParts(of(R"("frames": 1e-4, "contents": [])"), {"output.contents is empty, so that frames hold nothing"});
+  expectParts(of(R"("frames": 1e-4, "contents": ["grains", "walls"])"),
+              {"output.contents has \"walls\", and the scene has no wall that is a mesh"});
+  expectParts(of(R"("frames": 1e-4, "contents": ["grains", "bonds"])"), {"the scene has no bonds"});
+  expectParts(of(R"("frames": 1e-4, "contents": ["grains", "solids"])"), {"the scene has no solids"});
+  EXPECT_EQ(of(R"("frames": 1e-4)"), "");
+}
+
+TEST(ScenePlausible, InsertionsThatBringNobody) {
+  const auto of = [](const std::string& rate) {
+    return warningsOf(R"("insertions": [{"density": 2500, "radius": {"smallest": 0.01, "largest": 0.01},
+        "region": [[0, 0, 0], [1, 1, 1]], "number_per_second": )" +
+                      rate + "}],");
+  };
+  expectParts(of("10"), {"insertions.0 lets 0.01 grains enter in 0.001 s", "1000 per second"});
+  EXPECT_EQ(of("1001"), "");
 }
 
 TEST(ScenePlausible, RoomOfFramesIsThatOfTheirFiles) {
