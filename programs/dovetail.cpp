@@ -49,6 +49,7 @@ bool runScene(const Options& options) {
   return scene::run(scene, {.folder = folder, .profile = options.profile}, std::cout);
 }
 bool checkScene(const Options& options) {
+  io::endAtSignals();
   scene::check(scene::readScene(options.file, options.settings), std::cout);
   return true;
 }

@@ -54,7 +54,8 @@ struct TriangleRule {
   }
 };
 
-/// Cuts a facet in four until its pieces are small against the width, and sums the rule over those inside the support.
+/// Cuts a facet in two until its pieces are not slender, and these in four until they are small against the width, and
+/// sums the rule over those inside the support.
 class FacetIntegrator {
 public:
   explicit FacetIntegrator(const Kernel& kernel) : shape_(kernel.shape), width_(kernel.width) {}
@@ -62,23 +63,14 @@ public:
   /// @param corner  the facet's corners relative to the centre of the kernel, m
   FacetIntegral integrate(const std::array<Vec3, 3>& corner) {
     integral_ = {};
-    const Vec3 edge1 = corner[1] - corner[0], edge2 = corner[2] - corner[0];
-    const double longest =
-        std::sqrt(std::fmax(squaredNorm(edge1 - edge2), std::fmax(squaredNorm(edge1), squaredNorm(edge2))));
-    const double area = 0.5 * norm(cross(edge1, edge2));
-    if (!(area > 0.0)) return integral_;
-    int levels = 0;
-    for (double size = longest; size > pieceSize * width_; size *= 0.5) ++levels;
-    const Vec3 centroid = (1.0 / 3.0) * (corner[0] + corner[1] + corner[2]);
-    const double radius =
-        std::sqrt(std::fmax(squaredNorm(corner[0] - centroid),
-                            std::fmax(squaredNorm(corner[1] - centroid), squaredNorm(corner[2] - centroid))));
-    refine({corner[0], 0.0, 0.0}, {corner[1], 1.0, 0.0}, {corner[2], 0.0, 1.0}, {area, radius, levels});
+    const double area = 0.5 * norm(cross(corner[1] - corner[0], corner[2] - corner[0]));
+    if (area > 0.0) halve({corner[0], 0.0, 0.0}, {corner[1], 1.0, 0.0}, {corner[2], 0.0, 1.0}, area);
     return integral_;
   }
 
 private:
   static constexpr double pieceSize = 0.125;  ///< largest piece over the width
+  static constexpr double slender = 8.0;      ///< longest edge over the height on it
 
   struct Corner {
     Vec3 d;
@@ -92,6 +84,26 @@ private:
     double area, radius;  ///< radius of the ball around its centroid that holds it, m
     int levels;           ///< cuts still to come
   };
+
+  void halve(const Corner& a, const Corner& b, const Corner& c, double area) {
+    const double ab = squaredNorm(b.d - a.d), bc = squaredNorm(c.d - b.d), ca = squaredNorm(a.d - c.d);
+    const double longest = std::sqrt(std::fmax(ab, std::fmax(bc, ca)));
+    const Vec3 centroid = (1.0 / 3.0) * (a.d + b.d + c.d);
+    const double radius = std::sqrt(
+        std::fmax(squaredNorm(a.d - centroid), std::fmax(squaredNorm(b.d - centroid), squaredNorm(c.d - centroid))));
+    if (longest <= pieceSize * width_ || longest * longest <= slender * 2.0 * area) {
+      int levels = 0;
+      for (double size = longest; size > pieceSize * width_; size *= 0.5) ++levels;
+      return refine(a, b, c, {area, radius, levels});
+    }
+    const double reach = width_ + radius;
+    if (squaredNorm(centroid) > reach * reach) return;
+    if (bc > ab && bc >= ca) return halve(b, c, a, area);
+    if (ca > ab) return halve(c, a, b, area);
+    const Corner m = middle(a, b);
+    halve(a, m, c, 0.5 * area);
+    halve(m, b, c, 0.5 * area);
+  }
 
   void refine(const Corner& a, const Corner& b, const Corner& c, const Piece& piece) {
     const Vec3 centroid = (1.0 / 3.0) * (a.d + b.d + c.d);

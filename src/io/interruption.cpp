@@ -55,6 +55,16 @@ void interruptAfter(double seconds) {
   setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
+void endAtSignals() {
+  for (const Signal& signal : heeded) {
+    struct sigaction now {};
+    sigaction(signal.number, nullptr, &now);
+    if (now.sa_handler != note) continue;
+    now.sa_handler = SIG_DFL;
+    sigaction(signal.number, &now, nullptr);
+  }
+}
+
 std::string nameOfInterruption() {
   for (const Signal& signal : heeded)
     if (signal.number == interruption()) return signal.told;

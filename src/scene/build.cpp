@@ -136,6 +136,8 @@ Built build(const Scene& scene) {
   return built;
 }
 
+namespace {
+
 /// How the linear systems of the solids are going to be solved.
 void foreseeSolvers(Built& built) {
   for (std::size_t s = 0; s < built.run->solids(); ++s) {
@@ -148,6 +150,12 @@ void foreseeSolvers(Built& built) {
   }
 }
 
+bool nothingIsThere(const Built& built, const Scene& scene) {
+  return built.run->grains.particles.size() == 0 && built.run->solids() == 0 && scene.insertions.empty();
+}
+
+}  // namespace
+
 void start(Built& built, const Scene& scene) {
   const coupling::RunOptions options{.stepsPerWindow = scene.steps.stepsPerWindow};
   atPlace(scene.steps.where, [&] {
@@ -158,7 +166,9 @@ void start(Built& built, const Scene& scene) {
     double smallest = built.run->limitAtStart(options).dt;
     for (const Limit& limit : limitsOfParts(built, scene)) smallest = std::min(smallest, limit.dt);
     if (!std::isfinite(smallest))
-      throw InputError("nothing in the scene tells a step", "", "give steps.dt a number, such as \"1e-4 s\"");
+      throw InputError(nothingIsThere(built, scene) ? "the scene has neither grains nor solids, or none in its domain"
+                                                    : "nothing in the scene tells a step",
+                       "", "give steps.dt a number, such as \"1e-4 s\"");
     built.run->start(automaticStep(built, scene, smallest), options);
   });
   for (const std::string& note : notesOnSetNames(built, scene)) built.notes.push_back(note);

@@ -103,6 +103,9 @@ private:
 
 std::string textOfScene(const fs::path& file, const std::string& where) {
   std::ifstream stream = openFile(file, std::ios::binary);
+  if (std::error_code error; fs::is_directory(file, error))
+    throw InputError("there is a folder in place of the scene" + (file.string() == where ? "" : ": " + file.string()),
+                     where, "give the name of a JSON file in it");
   if (!stream)
     throw InputError("the scene cannot be read" + (file.string() == where ? "" : ": " + file.string()), where,
                      "give the name of a JSON file that you may read");

@@ -112,6 +112,8 @@ public:
     std::error_code error;
     if (std::filesystem::is_directory(path, error))
       refuse(*node, path.string() + " is a folder", "give the name of a file in it");
+    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+      refuse(*node, path.string() + " is a pipe or a device", "give the name of a file");
     if (!std::filesystem::is_regular_file(path, error))
       refuse(*node, "there is no file " + path.string(), "correct the name, which is relative to the scene's folder");
     value = std::filesystem::absolute(path).lexically_normal().string();

@@ -32,6 +32,8 @@ geometry::TriangleMesh repairedSurface(const std::string& file, geometry::Closed
   const std::string name = std::filesystem::path(file).filename().string();
   for (const std::vector<std::string>& told : {read.notes, notesOn(repair, closed)})
     for (const std::string& note : told) notes.push_back(name + ": " + note);
+  if (read.mesh.facets.empty())
+    throw InputError("no facet of " + name + " has an area", "", "give a file with a surface");
   return std::move(read.mesh);
 }
 

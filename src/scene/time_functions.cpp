@@ -74,7 +74,13 @@ Vec3 constantOf(const TimeVector& value) { return {value[0].number, value[1].num
 
 TimeFunction functionOf(const TimeValue& value, const Scene& scene) {
   if (isConstant(value)) return [number = value.number](double) { return number; };
-  return remembered(functionOf(value.expression, scene.parameters));
+  TimeFunction function = remembered(functionOf(value.expression, scene.parameters));
+  try {
+    function(0.0);
+  } catch (const NumericalError& error) {  // where all runs begin
+    throw InputError(error.what(), "", "");
+  }
+  return function;
 }
 
 Travel travelOf(const TimeValue& displacement, const Scene& scene) {

@@ -170,12 +170,38 @@ TEST(SceneMessages, HaveWordsOfScenes) {
               {"along axis x"});
 }
 
+TEST(SceneMessages, TellTheCauseAndNotWhatItLeadsTo) {
+  const auto of = [](const std::string& parts) {
+    try {
+      started(sceneFromText("{" + law + parts + R"("stages": [{"do": "run", "time": 1}]})", "s.json", SCENES));
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  expectParts(of(""), {"the scene has neither grains nor solids"});
+  expectParts(of(replaced(grain, "0.1, 0.1, 0.1", "9, 9, 9") +
+                 R"("domain": {"box": [[0, 0, 0], [1, 1, 1]], "escape": "remove"},)"),
+              {"or none in its domain"});
+  const std::string block =
+      R"("solids": [{"name": "b", "mesh": "box", "cells": [2, 2, 2], "box": [[0, 0, 0], [1, 1, 1]],
+      "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000},
+      "sets": [{"name": "mid", "place": "plane", "point": [0, 0, 0.5], "normal": [0, 0, 1]}],
+      "loads": [{"on": "mid", "type": "pressure", "pressure": 1}]}],)";
+  expectParts(of(block), {"this set has nodes", "mid"});
+  if (!WITH_EXPRESSIONS) return;
+  expectParts(of(R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1],
+      "displacement": [0, 0, "0*sin(t)/t"]}],)"),
+              {"the expression gives", "walls.0"});
+}
+
 TEST(SceneMessages, FoldersAreNoFiles) {
   const auto of = [](const std::string& middle) { return refusal("{" + law + middle + end + "}"); };
   for (const char* const from : {"csv", "vtk"})
     expectParts(of(R"("particles": [{"from": ")" + std::string(from) + R"(", "file": ".", "density": 1}],)"),
                 {" is a folder", "particles.0", "give the name of a file in it"});
   expectParts(of(R"("walls": [{"shape": "mesh", "file": "."}],)"), {" is a folder", "walls.0"});
+  expectParts(of(R"("include": ["."],)"), {"there is a folder in place of the scene", "include"});
 }
 
 }  // namespace

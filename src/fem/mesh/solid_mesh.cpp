@@ -34,6 +34,9 @@ const std::vector<int>& nodeSet(const SolidMesh& mesh, const std::string& wanted
   return findSet(mesh.nodeSets, wanted, "node");
 }
 const std::vector<Face>& faceSet(const SolidMesh& mesh, const std::string& wanted) {
+  if (mesh.nodeSets.contains(wanted) && !mesh.faceSets.contains(wanted))
+    throw InputError("this set has nodes, but no face of the boundary has all of its nodes in it", "\"" + wanted + "\"",
+                     "take a set on the boundary that is as large as a face");
   return findSet(mesh.faceSets, wanted, "face");
 }
 const std::vector<int>& elementSet(const SolidMesh& mesh, const std::string& wanted) {

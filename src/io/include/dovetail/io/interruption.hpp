@@ -7,9 +7,9 @@
 
 namespace dovetail::io {
 
-/// While it lives, the first SIGINT, SIGTERM, SIGHUP or SIGALRM does not end the program but is noted for interruption(); a
-/// second one of the same kind ends it as ever. Signals that are ignored (nohup) stay so. One at a time, on the main thread; it forgets
-/// what was noted when it is made.
+/// While it lives, the first SIGINT, SIGTERM, SIGHUP or SIGALRM does not end the program but is noted for
+/// interruption(); a second one of the same kind ends it as ever. Signals that are ignored (nohup) stay so. One at a
+/// time, on the main thread; it forgets what was noted when it is made.
 class InterruptionGuard {
 public:
   InterruptionGuard();
@@ -31,6 +31,9 @@ int interruption();
 /// @param seconds  from 1e-6 to 1e8
 /// @throws InputError for others
 void interruptAfter(double seconds);
+
+/// From here on signals end the program as ever, guard or not: for work that loses nothing by it and does not ask.
+void endAtSignals();
 
 /// "interrupted by SIGTERM"; "its time was up" for SIGALRM
 std::string nameOfInterruption();
