@@ -1,5 +1,6 @@
 // Bodies that lie in each other, and walls with faults.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "dovetail/dem/model/walls.hpp"
@@ -74,6 +75,27 @@ void lookForGrainsWithin(const Built& built, std::size_t solid, Lines& lines) {
   const coupling::SolidSide& side = built.run->solid(solid);
   lookForGrainsWithin(built.run->grains.particles, skinOf(built.meshes[solid], side.nodes()), quoted(side.name),
                       ", or give the two an overlap", lines);
+}
+
+void lookForStreamsWithin(const Built& built, const Scene& scene, std::size_t solid, Lines& lines) {
+  constexpr int each = 5;
+  if (isPlane(built.meshes[solid])) return;
+  const coupling::SolidSide& side = built.run->solid(solid);
+  const geometry::TriangleMesh skin = skinOf(built.meshes[solid], side.nodes());
+  for (std::size_t k = 0; k < scene.insertions.size(); ++k) {
+    const geometry::Box& region = scene.insertions[k].region;
+    int within = 0;
+    for (int n = 0; n < each * each * each; ++n) {
+      const std::array<int, 3> cell{n % each, n / each % each, n / (each * each)};
+      Vec3 x;
+      for (int c = 0; c < 3; ++c)
+        x[c] = region.lower[c] + (cell[static_cast<std::size_t>(c)] + 0.5) / each * (region.upper[c] - region.lower[c]);
+      within += geometry::windingNumber(skin.x, skin.facets, x) > 0.5 ? 1 : 0;
+    }
+    if (const double share = within / static_cast<double>(each * each * each); share > 0.25)
+      lines.push_back("The region of insertions." + std::to_string(k) + " lies for " + percent(share) + " in " +
+                      quoted(side.name) + ": move it out.");
+  }
 }
 
 /// Solids see grains only: neither each other nor walls.

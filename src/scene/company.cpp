@@ -107,7 +107,11 @@ void lookAtStreams(const Built& built, const Scene& scene, Lines& lines) {
 // ---- solids
 
 void lookAtCouplings(const Built& built, const Scene& scene, Lines& lines) {
+  const bool anyGrains = built.run->grains.particles.size() > 0 || !scene.insertions.empty();
   for (const Coupling& coupling : scene.couplings) {
+    if (!anyGrains)
+      lines.push_back("The scene has no grains, so that the coupling of " + quoted(coupling.solid) +
+                      " does nothing: give it particles or insertions, or leave the coupling out.");
     if (!std::holds_alternative<SurfaceContact>(coupling.kind)) continue;
     for (std::size_t s = 0; s < scene.solids.size(); ++s)
       if (scene.solids[s].name == coupling.solid && isOutOfReach(built, scene, s))

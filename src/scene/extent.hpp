@@ -32,6 +32,20 @@ inline bool meet(const geometry::Box& a, const geometry::Box& b) {
     if (a.lower[k] > b.upper[k] || b.lower[k] > a.upper[k]) return false;
   return true;
 }
+/// Whether a box that moves meets another one within a time, s.
+inline bool comesTo(const Extent& moving, const Vec3& velocity, const Extent& other, double time) {
+  double begin = 0.0, end = time;
+  for (int k = 0; k < 3; ++k) {
+    const double before = other.lower[k] - moving.upper[k], behind = other.upper[k] - moving.lower[k];
+    if (velocity[k] == 0.0) {
+      if (before > 0.0 || behind < 0.0) return false;
+      continue;
+    }
+    const double one = before / velocity[k], two = behind / velocity[k];
+    begin = std::max(begin, std::min(one, two)), end = std::min(end, std::max(one, two));
+  }
+  return begin <= end;
+}
 inline bool holds(const geometry::Box& box, const Vec3& x) { return meet(box, {x, x}); }
 
 }  // namespace dovetail::scene

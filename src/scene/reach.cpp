@@ -74,9 +74,28 @@ void fall(Extent& source, const Scene& scene) {
   }
 }
 
+/// Whether all that moves does so steadily, and the grains never come to the solid.
+bool passesBy(const Built& built, const Scene& scene, std::size_t solid) {
+  const Solid& own = scene.solids[solid];
+  const dem::Particles& p = built.run->grains.particles;
+  if (norm(scene.gravity) > 0.0 || scene.periodic || !scene.walls.empty() || !scene.drives.empty() ||
+      !scene.insertions.empty() || scene.solids.size() > 1 || own.state || !own.loads.empty() ||
+      farthestOf(own.supports, scene) > 0.0 || p.size() == 0)
+    return false;
+  Extent grains, body;
+  for (const Vec3& v : p.v)
+    if (norm(v - p.v[0]) > 1e-9 * norm(p.v[0])) return false;
+  grains.add(p.x);
+  grains.widen(*std::ranges::max_element(p.radius));
+  body.add(built.meshes[solid].X);
+  const Vec3 velocity = p.v[0] - own.velocity;
+  return norm(velocity) > 0.0 && !comesTo(grains, velocity, body, durationOf(scene));
+}
+
 }  // namespace
 
 bool isOutOfReach(const Built& built, const Scene& scene, std::size_t solid) {
+  if (passesBy(built, scene, solid)) return true;
   std::vector<Extent> sources = sourcesOf(built, scene);
   if (sources.empty() || slides(built.run->grains, scene.gravity)) return false;
   Extent body;

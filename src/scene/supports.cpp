@@ -124,6 +124,9 @@ void Holders::hold(const Support& support) {
   const std::vector<int>& set = fem::nodeSet(mesh_, support.on);
   const std::array<Travel, 3> path = travels(support.velocity, support.displacement, scene_);
   const std::array<bool, 3> held{support.x, support.y, support.z};
+  if (std::ranges::count(held, true) == 0)
+    throw InputError("components is empty, and the support on " + quoted(support.on) + " holds nothing", "",
+                     "name components, such as [\"x\"], or leave the key out to hold all");
   for (int c = 0; c < 3; ++c) {
     const auto axis = static_cast<std::size_t>(c);
     if (!held[axis]) continue;

@@ -58,6 +58,10 @@ void lookAtSurfaceContact(const Built& built, const Scene& scene, std::size_t so
   if (contact.kernel.word.empty() && contact.kernel.number > 4.0 * advised)
     lines.push_back("The kernel on " + name + " is " + rounded(contact.kernel.number / advised) +
                     " times as wide as advised for the body: take about " + rounded(advised) + " m.");
+  if (contact.kernel.word.empty() && contact.kernel.number < 0.01 * advised)
+    lines.push_back("The kernel on " + name + " is " + rounded(contact.kernel.number) +
+                    " m wide, far below an element, and spreads no force: take about " + rounded(advised) +
+                    " m, or \"none\".");
 }
 
 void lookAtMesh(const fem::SolidMesh& mesh, const Solid& solid, Lines& lines) {
@@ -148,6 +152,7 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene) {
   lookAtRelations(built, scene, lines);
   lookForContradictions(built, scene, lines);
   lookAtCompany(built, scene, lines);
+  lookForIdleParts(built, scene, lines);
   lookForFalling(built, scene, lines);
   lookAtOutput(built, scene, lines);
   lookAtContacts(built, lines);
@@ -168,7 +173,7 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene) {
       else
         lookAtSurfaceContact(built, scene, s, std::get<SurfaceContact>(coupling.kind), lines);
     }
-    if (!overlaps) lookForGrainsWithin(built, s, lines);
+    if (!overlaps) lookForGrainsWithin(built, s, lines), lookForStreamsWithin(built, scene, s, lines);
     if (solid.supports.empty() && solid.gravity && norm(scene.gravity) > 0.0)
       lines.push_back(quoted(solid.name) + " has no supports and falls: hold some of its nodes, or leave gravity out.");
   }

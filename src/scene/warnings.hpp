@@ -29,10 +29,14 @@ void lookAtRelations(const Built& built, const Scene& scene, Lines& lines);
 void lookAtCompany(const Built& built, const Scene& scene, Lines& lines);
 /// Items of a list that say the same, and loads, supports, drives and overlaps that undo each other.
 void lookForContradictions(const Built& built, const Scene& scene, Lines& lines);
+/// Walls, couplings and bonds that do nothing of use, and places against periods, other solids or themselves.
+void lookForIdleParts(const Built& built, const Scene& scene, Lines& lines);
 /// Grains that nothing keeps from falling while a stage settles.
 void lookForFalling(const Built& built, const Scene& scene, Lines& lines);
 /// Grains in a solid that no overlap lets be there.
 void lookForGrainsWithin(const Built& built, std::size_t solid, Lines& lines);
+/// Insertions whose region lies in a solid.
+void lookForStreamsWithin(const Built& built, const Scene& scene, std::size_t solid, Lines& lines);
 /// Solids that lie in each other or in walls.
 void lookForBodiesWithin(const Built& built, const Scene& scene, Lines& lines);
 /// Surfaces of walls that are open, closed or cut themselves against what is written.

@@ -80,7 +80,7 @@ TEST(ScenePlausible, BondsThatBreakAtOnceOrOnlyCreep) {
 
 TEST(ScenePlausible, StrengthAboveTheModulus) {
   const auto of = [](const std::string& stress) {
-    return warningsOf(replaced(block, R"("neo-Hookean")", R"("J2", "yield_stress": )" + stress) + onBlock);
+    return warningsOf(replaced(block, R"("neo-Hookean")", R"("J2", "yield_stress": )" + stress) + onBlock + onTop);
   };
   expectParts(of("1e7"),
               {"solids.0.material.yield_stress is 1e+07 Pa, above youngs_modulus, 1e+06 Pa", "\"b\" never yields"});
@@ -99,15 +99,15 @@ TEST(ScenePlausible, OneFaultOfManyItemsIsToldOnce) {
 }
 
 TEST(ScenePlausible, SoundThatNoMaterialHas) {
-  expectParts(warningsOf(replaced(block, "1e6", "500") + onBlock), {"Waves in \"b\" go at 0.707 m/s"});
-  EXPECT_EQ(warningsOf(replaced(block, "1e6", "5000") + onBlock), "");
+  expectParts(warningsOf(replaced(block, "1e6", "500") + onBlock + onTop), {"Waves in \"b\" go at 0.707 m/s"});
+  EXPECT_EQ(warningsOf(replaced(block, "1e6", "5000") + onBlock + onTop), "");
 }
 
 TEST(ScenePlausible, ElementsThatLock) {
   const auto of = [](const std::string& poisson, const std::string& formulation, const std::string& cell) {
     return warningsOf(replaced(replaced(block, "0.3", poisson), R"("cells")",
                                R"("formulation": ")" + formulation + R"(", "cell": ")" + cell + R"(", "cells")") +
-                      onBlock);
+                      onBlock + onTop);
   };
   EXPECT_EQ(of("0.45", "standard", "hex8"), "");
   expectParts(of("0.49999", "standard", "hex8"),

@@ -44,7 +44,7 @@ TEST(SceneWarnings, HertzOnSingleNodesAndSolidsThatFall) {
   const auto of = [&](const std::string& kernel, const std::string& supports) {
     return warningsOf(sceneFromText("{" + hertz + R"("gravity": [0, 0, -1],)" +
                                         replaced(block, R"("supports": [{"on": "z-"}])", supports) +
-                                        replaced(onBlock, "\"advised\"", kernel) + end + "}",
+                                        replaced(onBlock, "\"advised\"", kernel) + onTop + end + "}",
                                     "s.json", "/"));
   };
   expectParts(of("\"none\"", R"("supports": [])"),

@@ -25,6 +25,8 @@ inline const std::string onBlock = R"(}], "couplings": [{"type": "surface", "sol
 inline std::string spheres(const std::string& places) {
   return R"("particles": [{"from": "list", "density": 2500, "spheres": [)" + places + "]}],";
 }
+/// A grain that touches the block.
+inline const std::string onTop = spheres(R"({"at": [0.5, 0.5, 1.1], "radius": 0.1})");
 inline const std::string ground = R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],)";
 
 }  // namespace dovetail::scene::test
