@@ -35,14 +35,17 @@ void lookAtWaves(const std::string& whose, double modulus, double density, Lines
 void lookAtLocking(const Built& built, const Solid& solid, std::size_t number, Lines& lines) {
   constexpr double incompressible = 0.48;
   const double nu = std::visit([](const auto& law) { return poissonOf(law); }, solid.material.law);
-  if (nu < incompressible) return;
+  const bool flows = std::holds_alternative<J2Plastic>(solid.material.law);
+  if (nu < incompressible && !flows) return;
+  const std::string why =
+      flows ? " flows at constant volume (J2)" : " hardly changes its volume (poisson_ratio " + formatNumber(nu) + ")";
   for (const fem::CellGroup& group : built.meshes[number].groups) {
     const bool bricks = group.shape == fem::CellShape::hex8, tets = group.shape == fem::CellShape::tet4;
     if (!tets && !(bricks && solid.formulation == "standard")) continue;
-    lines.push_back(quoted(solid.name) + " hardly changes its volume (poisson_ratio " + formatNumber(nu) + "), which " +
-                    (tets ? "tet4" : "hex8 (\"standard\")") + " take for being rigid: " +
+    lines.push_back(quoted(solid.name) + why + ", which " + (tets ? "tet4" : "hex8 (\"standard\")") +
+                    " take for being rigid: " +
                     (tets ? "take tet10" : "write \"formulation\": \"enhanced\" or \"mean-dilatation\"") +
-                    ", or a poisson_ratio of 0.45.");
+                    (flows ? "." : ", or a poisson_ratio of 0.45."));
     return;
   }
 }

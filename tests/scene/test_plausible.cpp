@@ -80,7 +80,8 @@ TEST(ScenePlausible, BondsThatBreakAtOnceOrOnlyCreep) {
 
 TEST(ScenePlausible, StrengthAboveTheModulus) {
   const auto of = [](const std::string& stress) {
-    return warningsOf(replaced(block, R"("neo-Hookean")", R"("J2", "yield_stress": )" + stress) + onBlock + onTop);
+    return warningsOf(replaced(block, R"("neo-Hookean")", R"("J2", "yield_stress": )" + stress) +
+                      R"(, "formulation": "enhanced")" + onBlock + onTop);
   };
   expectParts(of("1e7"),
               {"solids.0.material.yield_stress is 1e+07 Pa, above youngs_modulus, 1e+06 Pa", "\"b\" never yields"});
@@ -104,8 +105,9 @@ TEST(ScenePlausible, SoundThatNoMaterialHas) {
 }
 
 TEST(ScenePlausible, ElementsThatLock) {
-  const auto of = [](const std::string& poisson, const std::string& formulation, const std::string& cell) {
-    return warningsOf(replaced(replaced(block, "0.3", poisson), R"("cells")",
+  const auto of = [](const std::string& poisson, const std::string& formulation, const std::string& cell,
+                     const std::string& material = "neo-Hookean") {
+    return warningsOf(replaced(replaced(replaced(block, "0.3", poisson), "neo-Hookean", material), R"("cells")",
                                R"("formulation": ")" + formulation + R"(", "cell": ")" + cell + R"(", "cells")") +
                       onBlock + onTop);
   };
@@ -114,6 +116,9 @@ TEST(ScenePlausible, ElementsThatLock) {
               {"\"b\" hardly changes its volume (poisson_ratio 0.49999)", "write \"formulation\": \"enhanced\""});
   expectParts(of("0.499", "standard", "tet4"), {"tet4 take for being rigid", "take tet10"});
   EXPECT_EQ(of("0.499", "enhanced", "hex8"), "");
+  expectParts(of(R"(0.3, "yield_stress": 1e3)", "standard", "hex8", "J2"),
+              {"\"b\" flows at constant volume (J2), which hex8"});
+  EXPECT_EQ(of(R"(0.3, "yield_stress": 1e3)", "enhanced", "hex8", "J2"), "");
 }
 
 TEST(ScenePlausible, FramesAreCountedAndTooManyAreTold) {
