@@ -117,7 +117,7 @@ void Holders::prescribe(const std::vector<int>& nodes, int component, const Time
     if (start == 0.0)
       model_.constraints.prescribe(those, component, displacement);
     else
-      model_.constraints.prescribe(those, component, [=](double t) { return start + displacement(t); });
+      model_.constraints.prescribe(those, component, [=, start = start](double t) { return start + displacement(t); });
 }
 
 void Holders::hold(const Support& support) {
