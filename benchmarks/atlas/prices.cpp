@@ -62,10 +62,9 @@ void addParts(const Json& content, report::Section& section) {
     links.rows.push_back({part, format("%.1f", 1e-6 * numberOf(row, "bytes")), std::to_string(row["libraries"].size()),
                           pairOf("%.0f", 1e3, row, "start_scene_s", "start_program_s"),
                           pairOf("%.0f", 1.0, row, "bytes_each_scene", "bytes_each_program")});
-    steps.rows.push_back(
-        {part, format("%.0f", numberOf(row, "grains")), format("%.0f", numberOf(row, "elements")),
-         pairOf("%.3g", 1.0, row, "cost_scene", "cost_program"),
-         format("%+.1f", 100.0 * numberOf(row, "cost_share"))});
+    steps.rows.push_back({part, format("%.0f", numberOf(row, "grains")), format("%.0f", numberOf(row, "elements")),
+                          pairOf("%.3g", 1.0, row, "cost_scene", "cost_program"),
+                          format("%+.1f", 100.0 * numberOf(row, "cost_share"))});
     profiles.rows.push_back({part, profileOf(row["profile"])});
   }
   section.blocks.push_back(report::Paragraph{format(

@@ -130,7 +130,8 @@ dem::Model columnPressedWithFriction(const ColumnSize& size, double pressure) {
                          "column of grains", "take another seed");
   const double way = shaken * size.height;
   for (int k = 0; k < shakes; ++k)
-    for (const Vec3& motion : {Vec3{0, 0, way}, {0, 0, -2.0 * way}, {0, 0, way}, {way, 0, 0}, {-2.0 * way, 0, 0}, {way, 0, 0}})
+    for (const Vec3& motion :
+         {Vec3{0, 0, way}, {0, 0, -2.0 * way}, {0, 0, way}, {way, 0, 0}, {-2.0 * way, 0, 0}, {way, 0, 0}})
       moveLid(m, motion);
   return m;
 }

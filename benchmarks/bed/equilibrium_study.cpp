@@ -61,7 +61,8 @@ void runEquilibriumStudy(const EquilibriumStudy& study) {
   const dem::Model packing = fallenColumn(settings.size);
   const Corrected corrected = runCorrected(packing, settings);
   std::string text = "## Column under gravity\n\n" + correctedText(corrected, settings.steps) + stressTable(corrected);
-  text += "\nThe solid grows with the overlap, which begins at the packing's floor:\n" + peakTable(packing, study.quick, true);
+  text += "\nThe solid grows with the overlap, which begins at the packing's floor:\n" +
+          peakTable(packing, study.quick, true);
   text += "\nThe overlap grows downwards in the same solid:\n" + peakTable(packing, study.quick, false);
   std::cout << text;
   std::ofstream(study.folder / "equilibrium.md") << text;

@@ -85,7 +85,8 @@ Json runPacking(const WaveStudy& study, int number) {
   const auto begin = std::chrono::steady_clock::now();
   const double height = 1.04 * settingsOf(study, kinds[0]).depth();
   const ColumnSize size{.width = study.width, .height = height, .seed = static_cast<std::uint64_t>(number)};
-  const dem::Model packing = (study.friction ? columnPressedWithFriction : pressedColumn)(size, WaveSettings{}.pressure);
+  const dem::Model packing =
+      (study.friction ? columnPressedWithFriction : pressedColumn)(size, WaveSettings{}.pressure);
   const Moduli moduli = probe(packing);
   Json figures{{"particles", packing.particles.size()},
                {"pressure_Pa", moduli.pressure},

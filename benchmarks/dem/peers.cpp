@@ -1,9 +1,9 @@
 // The scenes that are compared with other programs, one by one.
 #include <ostream>
 
-#include "dovetail/report/text.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/report/text.hpp"
 #include "scenes.hpp"
 #include "studies.hpp"
 #include "tables.hpp"

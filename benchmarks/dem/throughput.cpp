@@ -4,10 +4,10 @@
 #include <ostream>
 
 #include "common/outputs.hpp"
-#include "dovetail/report/text.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/io/output_folder.hpp"
+#include "dovetail/report/text.hpp"
 #include "measure.hpp"
 #include "scenes.hpp"
 #include "studies.hpp"

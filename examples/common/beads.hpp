@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <numbers>
 
+#include "dovetail/dem/laws/rolling.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/setup/packing.hpp"
-#include "dovetail/dem/laws/rolling.hpp"
 
 namespace dovetail::example {
 

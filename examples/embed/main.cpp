@@ -1,5 +1,5 @@
-// A net of masses and springs, with a solver of its own, is hit by four particles of Dovetail. Nothing holds the net, so
-// the momentum and the energy of both together must stay as they are.
+// A net of masses and springs, with a solver of its own, is hit by four particles of Dovetail. Nothing holds the net,
+// so the momentum and the energy of both together must stay as they are.
 #include <array>
 #include <iostream>
 #include <vector>
@@ -41,8 +41,12 @@ struct Net {
     }
     return energy;
   }
-  void kick(double dt) { for (std::size_t k = 0; k < v.size(); ++k) v[k] += dt / nodeMass * f[k]; }
-  void drift(double dt) { for (std::size_t k = 0; k < u.size(); ++k) u[k] += dt * v[k]; }
+  void kick(double dt) {
+    for (std::size_t k = 0; k < v.size(); ++k) v[k] += dt / nodeMass * f[k];
+  }
+  void drift(double dt) {
+    for (std::size_t k = 0; k < u.size(); ++k) u[k] += dt * v[k];
+  }
 };
 
 int main() {

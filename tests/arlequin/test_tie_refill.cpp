@@ -161,8 +161,8 @@ TEST(TakeOver, SetsMassesAndRefusesWhatIsTied) {
   EXPECT_THROW(takeOver(bed.run.grains, bed.mesh, *bed.run.solid(0).model, bed.weight), InputError);
 }
 
-// A heavy grain that reaches just into the soil: with its weight the surface sinks and leaves it outside, without it the
-// surface rises to it again.
+// A heavy grain that reaches just into the soil: with its weight the surface sinks and leaves it outside, without it
+// the surface rises to it again.
 TEST(TakeOver, SettlesThoughAGrainAtTheEdgeComesAndGoes) {
   const Vec3 gravity{0.0, 0.0, -9.81};
   Bed without;

@@ -23,11 +23,17 @@ Model chain(bool held, bool rods) {
   model.particles.v[5] = {0.3, 0.5, -0.4};
   model.particles.omega[2] = {3, -2, 5};
   if (held)
-    model.terms.add(DriveTerm({0}, [](double t) { return Vec3{0, 0, 0.02 * std::sin(30.0 * t)}; },
-                              [](double t) { return Vec3{0, 0, 0.6 * std::cos(30.0 * t)}; }));
+    model.terms.add(DriveTerm(
+        {0},
+        [](double t) {
+          return Vec3{0, 0, 0.02 * std::sin(30.0 * t)};
+        },
+        [](double t) {
+          return Vec3{0, 0, 0.6 * std::cos(30.0 * t)};
+        }));
   if (rods) {
-    const ClumpShape rod = makeClumpShape(std::vector<Vec3>{{0, 0, 0}, {0.1, 0, 0}}, std::vector<double>{0.05, 0.05},
-                                          Density{1000.0});
+    const ClumpShape rod =
+        makeClumpShape(std::vector<Vec3>{{0, 0, 0}, {0.1, 0, 0}}, std::vector<double>{0.05, 0.05}, Density{1000.0});
     addClump(model, rod, {0.71, 0.02, 0}, {}, {}, {0, 4, 1});
     addBond(bonds(model), model.particles, {}, 5, 6, material);
   }

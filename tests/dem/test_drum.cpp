@@ -37,13 +37,9 @@ double residual(const RollingLaw& law, double share) {
   return std::abs(e.balance() - start) / e.lost.lostPower();
 }
 
-TEST(Drum, WithRollingResistanceKeepsItsLedger) {
-  EXPECT_LE(residual(rollingLaw(0.0), 0.2), 5e-4);
-}
+TEST(Drum, WithRollingResistanceKeepsItsLedger) { EXPECT_LE(residual(rollingLaw(0.0), 0.2), 5e-4); }
 
-TEST(Drum, WithDashpotsBesideSlidersKeepsItToo) {
-  EXPECT_LE(residual(rollingLaw(0.3), 0.2), 1e-3);
-}
+TEST(Drum, WithDashpotsBesideSlidersKeepsItToo) { EXPECT_LE(residual(rollingLaw(0.3), 0.2), 1e-3); }
 
 }  // namespace
 }  // namespace dovetail::dem

@@ -33,7 +33,8 @@ template <class Spoil>
 std::string said(Spoil&& spoil, bool driven = false) {
   Model model = row();
   if (driven)
-    model.terms.add(DriveTerm({2}, [](double) { return Vec3{}; }, [](double) { return Vec3{}; }));
+    model.terms.add(DriveTerm(
+        {2}, [](double) { return Vec3{}; }, [](double) { return Vec3{}; }));
   advance(model, 1e-4);
   spoil(model);
   try {

@@ -169,7 +169,8 @@ TEST_F(SceneMotion, WhatCannotBeIsRefused) {
   expectParts(refusalOfRun(plane + R"("turn": {"axis": [0, 0, 0], "angle": "t"}}],)"), {"no length", "walls.0"});
   expectParts(refusalOfRun(plane + R"("velocity": [0, 0, "5 mm"]}],)"), {"in m", "write one in m/s"});
   expectParts(refusalOfRun(R"("let": {"t": 1},)"), {"\"t\" cannot name a parameter"});
-  expectParts(refusalOfRun("\"let\": {\"" + std::string(100, 'a') + "\": 1},"), {"cannot name a parameter", "less than 100"});
+  expectParts(refusalOfRun("\"let\": {\"" + std::string(100, 'a') + "\": 1},"),
+              {"cannot name a parameter", "less than 100"});
   Built built = started(sceneOf(plane + R"("velocity": [0, 0, "1/(5e-4 - t) > 0 ? 1 : sqrt(0 - t)*1"]}],)"));
   EXPECT_THROW(built.run->advance(100), NumericalError);
 }

@@ -181,13 +181,13 @@ TEST(SceneParts, CoarseStepsNameTheMaterialsThatMeet) {
     return std::string(R"({"between": ")") + a + R"(", "and": ")" + b + R"(", "law": "linear", "stiffness": )" +
            stiffness + R"(, "restitution": 0.8})";
   };
-  const Built coarse = started(sceneFromText(
-      R"({"contacts": [)" + law("rock", "rock", "1e4") + "," + law("rock", "steel", "4e4") + R"(],
+  const Built coarse =
+      started(sceneFromText(R"({"contacts": [)" + law("rock", "rock", "1e4") + "," + law("rock", "steel", "4e4") + R"(],
       "particles": [{"from": "list", "density": 1000, "contact_material": "rock", "spheres": [
         {"at": [0, 0, 0], "radius": 0.1}]}],
       "walls": [{"shape": "plane", "point": [0, 0, -0.1], "normal": [0, 0, 1], "contact_material": "steel"}],
       "steps": {"dt": "auto", "safety": 1}, "stages": [{"do": "run", "time": 0.1}]})",
-      "s.json", "/"));
+                            "s.json", "/"));
   ASSERT_EQ(coarse.notes.size(), 1U);
   expectParts(coarse.notes[0], {R"(("rock" on "steel") takes eight steps)"});
 }

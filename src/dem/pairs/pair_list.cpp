@@ -5,8 +5,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "renewal.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
+#include "renewal.hpp"
 
 namespace dovetail::dem {
 

@@ -111,8 +111,7 @@ SolidMesh tetrahedraInside(const geometry::TriangleMesh& surface, const Tetrahed
     throw NumericalError(std::string("CGAL could not mesh the surface (") + failure.what() + ")", "tetrahedra",
                          "check the surface, or give another size");
   }
-  if (mesh.elementCount() == 0)
-    throw NumericalError("CGAL made no tetrahedra", "tetrahedra", "give a smaller size");
+  if (mesh.elementCount() == 0) throw NumericalError("CGAL made no tetrahedra", "tetrahedra", "give a smaller size");
   addSkin(mesh);
   validate(mesh);
   return mesh;

@@ -110,8 +110,8 @@ private:
   std::size_t next_ = 0;
 };
 
-/// Writes bytes behind a header with their kind, length and checksum, by replaceFile (atomic_file.hpp): whatever happens,
-/// the old file or the new one is there, and it replaces nothing but files of its own.
+/// Writes bytes behind a header with their kind, length and checksum, by replaceFile (atomic_file.hpp): whatever
+/// happens, the old file or the new one is there, and it replaces nothing but files of its own.
 /// @param kind up to 16 characters, told apart when read
 /// @throws InputError if the file cannot be written there; Error if writing breaks off (disk full)
 void writeChecked(const std::filesystem::path& path, const std::string& kind, const std::vector<char>& bytes);

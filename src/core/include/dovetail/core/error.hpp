@@ -13,8 +13,7 @@ public:
       : std::runtime_error(compose(problem, where, remedy)) {}
 
 private:
-  static std::string compose(const std::string& problem, const std::string& where,
-                             const std::string& remedy) {
+  static std::string compose(const std::string& problem, const std::string& where, const std::string& remedy) {
     std::string line = problem;
     if (!where.empty()) line += " [" + where + "]";
     if (!remedy.empty()) line += ": " + remedy;

@@ -14,7 +14,8 @@ namespace dovetail {
 /// A *stored* channel holds a state function (kinetic, elastic, contact, gravity); its present value is `set`.
 /// A *booked* channel accumulates energy that has left the stored channels for good (dashpots, friction, coupling
 /// work): `add` a positive amount when stored energy was spent, a negative one when energy came in (external work).
-/// After `open()`, residual() = stored now + booked now − (stored + booked at opening): zero if nothing vanished silently.
+/// After `open()`, residual() = stored now + booked now − (stored + booked at opening): zero if nothing vanished
+/// silently.
 class EnergyLedger {
 public:
   enum class Kind { stored, booked };
