@@ -1,4 +1,4 @@
-# Shared by scripts/demo and scripts/test: packages, configuration, build. Source it; it does nothing by itself.
+# Shared by the shell scripts here: packages, configuration, build. Source it; it does nothing by itself.
 # shellcheck shell=bash disable=SC2034
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
