@@ -34,9 +34,11 @@ foreach(module ${modules})
                                 "set(_dovetail_${module}_packages ${packages})\n")
 
   get_target_property(folder dovetail_${module} SOURCE_DIR)
-  install(DIRECTORY "${folder}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
-  install(TARGETS dovetail_${module} EXPORT dovetail-${module})
-  install(EXPORT dovetail-${module} NAMESPACE dovetail:: DESTINATION "${package_folder}")
+  install(DIRECTORY "${folder}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development
+          FILES_MATCHING PATTERN "*.hpp")
+  install(TARGETS dovetail_${module} EXPORT dovetail-${module}
+          ARCHIVE COMPONENT development LIBRARY COMPONENT runtime NAMELINK_COMPONENT development)
+  install(EXPORT dovetail-${module} NAMESPACE dovetail:: DESTINATION "${package_folder}" COMPONENT development)
 endforeach()
 list(REMOVE_DUPLICATES all_packages)
 foreach(package ${all_packages})
@@ -51,13 +53,13 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/dovetailConfig.cmake.in
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/dovetailConfig.cmake" "${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/FindSuiteSparse.cmake" "${CMAKE_CURRENT_LIST_DIR}/FindFcl.cmake"
-        DESTINATION "${package_folder}")
+        DESTINATION "${package_folder}" COMPONENT development)
 
 # The documents lie as in the source tree, so that their links hold.
-foreach(file README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff LICENSE)
-  install(FILES "${PROJECT_SOURCE_DIR}/${file}" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+foreach(file README.md CONTRIBUTING.md RELEASING.md CHANGELOG.md CITATION.cff LICENSE)
+  install(FILES "${PROJECT_SOURCE_DIR}/${file}" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
 endforeach()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" "${PROJECT_SOURCE_DIR}/examples" "${PROJECT_SOURCE_DIR}/scenes"
-        DESTINATION "${CMAKE_INSTALL_DOCDIR}" PATTERN Doxyfile.in EXCLUDE)
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/benchmarks" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+        DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime PATTERN Doxyfile.in EXCLUDE)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/benchmarks" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json")

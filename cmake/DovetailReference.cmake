@@ -14,7 +14,7 @@ file(GLOB_RECURSE readmes "${PROJECT_SOURCE_DIR}/benchmarks/*.md" "${PROJECT_SOU
      "${PROJECT_SOURCE_DIR}/scenes/*.md")
 file(GLOB documents "${PROJECT_SOURCE_DIR}/docs/*.md")
 set(inputs "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CONTRIBUTING.md"
-    "${PROJECT_SOURCE_DIR}/CHANGELOG.md" ${documents} ${readmes})
+    "${PROJECT_SOURCE_DIR}/RELEASING.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" ${documents} ${readmes})
 list(JOIN header_folders "\" \"" REFERENCE_HEADERS)
 list(JOIN inputs "\" \"" REFERENCE_INPUT)
 set(REFERENCE_HEADERS "\"${REFERENCE_HEADERS}\"")

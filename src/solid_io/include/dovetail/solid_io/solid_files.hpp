@@ -59,8 +59,8 @@ SolidFile gmshFromText(std::string_view bytes, const std::string& name);
 /// and kept as first written. A surface gives a node set too. Cards of materials, steps, constraints and so on are
 /// passed over, with a note; cards that make or move nodes and elements elsewhere (*NGEN, *ELGEN, *SYSTEM …), unknown
 /// parameters on the cards named here, and words that are nearly one of these cards are refused.
-/// @param name  of the deck, for errors and for the folder of what it includes
 SolidFile readAbaqus(const std::filesystem::path& path);
+/// @param name  of the deck, for errors and for the folder of what it includes
 SolidFile abaqusFromText(std::string_view bytes, const std::string& name);
 
 /// .msh or .inp, in whatever case; which of the two it is its content says.
