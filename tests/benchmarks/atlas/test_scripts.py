@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-scripts = Path(__file__).resolve().parents[2] / "scripts"
+scripts = Path(__file__).resolve().parents[3] / "scripts"
 
 
 def loaded(name):

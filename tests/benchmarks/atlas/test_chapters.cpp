@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "../io/scratch_folder.hpp"
+#include "../../io/scratch_folder.hpp"
 #include "dovetail/core/error.hpp"
 #include "results.hpp"
 
