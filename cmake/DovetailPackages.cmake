@@ -1,5 +1,8 @@
-# Debian packages by `cpack -G DEB`: `dovetail` with the program, its libraries if they are shared, scenes and documents,
-# and `libdovetail-dev` with headers, libraries and the files for find_package. scripts/package makes both.
+# Debian packages by `cpack -G DEB`: `dovetail` with the program, scenes and documents, `libdovetail-dev` with headers,
+# static libraries and the files for find_package. scripts/package makes both. A build with shared libraries makes none.
+if(BUILD_SHARED_LIBS)
+  return()
+endif()
 set(CPACK_PACKAGE_VENDOR "Dovetail authors")
 set(CPACK_PACKAGE_CONTACT "Dovetail authors <maintainers@dovetail.invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
@@ -17,7 +20,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME dovetail)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS libopenblas0-serial)  # several times as fast as libblas3, with the same digits every time
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS libopenblas0-serial)  # the BLAS that the tests run with
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "The program dovetail runs scenes of particles (discrete element method)
 and solids (finite elements at finite strain), joined at surfaces or in
 overlaps. Scenes to start from and the documents come with it.")
@@ -40,10 +43,6 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4)")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "g++, cmake, ${wanted}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS dovetail)
-if(BUILD_SHARED_LIBS)
-  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", dovetail (= ${PROJECT_VERSION}-1)")
-  set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, libraries and the files by which find_package(dovetail) finds
 them. Recommended packages are needed by single components alone.")
 
