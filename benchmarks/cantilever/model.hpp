@@ -1,32 +1,28 @@
-// Builds the cantilever and its particles from the settings.
+// The scene of a cantilever run, its time step, and the beam that it is compared with.
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string>
 
-#include "dovetail/coupling/run.hpp"
+#include "dovetail/scene/build.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 #include "reference/beam_case.hpp"
 #include "settings.hpp"
 
 namespace dovetail::cantilever {
 
-/// Elements along x, y, z after refinement.
-std::array<int, 3> elementCounts(const Settings& settings);
-
-/// The run, and the two of its parts that are looked at.
-struct Scene {
-  std::unique_ptr<coupling::CoupledRun> run;
+/// scenes/cantilever.json as the settings change it, built, and the two of its parts that are looked at.
+struct Model {
+  scene::Scene scene;
+  scene::Built built;
   coupling::SolidSide* beam = nullptr;
-  surface::SurfaceContact* contact = nullptr;
-};
+  const surface::SurfaceContact* contact = nullptr;
 
+  coupling::CoupledRun& run() const { return *built.run; }
+};
 /// The beam at rest with the particles at their static overlap. Axes: x across, y from the clamp, z up, z = 0 on the
 /// beam's axis.
 /// @throws InputError for impossible settings
-Scene makeScene(const Settings& settings, const fem::SolidMesh& mesh);
-fem::SolidMesh makeMesh(const Settings& settings);
+Model makeModel(const Settings& settings);
 
 /// The largest stable step and who sets it.
 struct StepLimit {
@@ -34,17 +30,14 @@ struct StepLimit {
   std::string setter;
 };
 
-/// The largest Σ_i S_i²/m_i of any point of the skin, 1/kg (an upper bound on the smooth surface).
-double largestMobility(const Scene& scene);
-
-/// Bounds for the chosen integrators: contacts 2/ω_c with ω_c² = k (1/m_p + mobility); explicit solid 2/ω_e of its
-/// worst element, divided by K; both act together if K = 1: ω² = ω_c² + ω_e².
-StepLimit criticalStep(const Settings& settings, fem::Model& beam, double mobility);
+/// Wherever on the skin the particles will be. Bounds for the chosen integrators: contacts 2/ω_c with
+/// ω_c² = k (1/m_p + Σ_i S_i²/m_i) at the lightest point; explicit solid 2/ω_e of its worst element, divided by K; both
+/// act together if K = 1: ω² = ω_c² + ω_e².
+StepLimit criticalStep(const Settings& settings, const Model& model);
 
 /// The DEM step asked for. @throws InputError if it exceeds the critical one
 double chooseStep(const Settings& settings, const StepLimit& limit);
 
-inline constexpr double longestRun = 100.0;  ///< s, where nobody leaves
 /// @throws InputError if steps of dt would take days to the end of the run
 void requireFeasible(const Settings& settings, double dt);
 

@@ -29,7 +29,7 @@ std::vector<ReferenceCurve> readReferenceCurves(const std::string& folder) {
 
 CurveFigures figuresOf(const ReferenceCurve& curve) {
   const Case beam;
-  const double force = 2.0 * particleMass(beam) * beam.gravity;
+  const double force = 2.0 * particleMass() * beam.gravity;
   const double bending = beam.youngsModulus * std::pow(beam.side, 4) / 12.0;
   CurveFigures figures{};
   const double z0 = curve.z1.front();

@@ -45,7 +45,7 @@ double joulesOf(const EnergyLedger& ledger, const std::string& beginning) {
 
 benchmark::Lines linesOf(const RunResult& result) {
   const RunFigures& f = result.figures;
-  const auto counts = elementCounts(result.settings);
+  const auto counts = result.settings.elements();
   benchmark::Lines lines{
       {"", format("%d x %d x %d ", counts[0], counts[1], counts[2]) + result.settings.element, "beam"},
       {"left", f.left},
@@ -65,7 +65,7 @@ benchmark::Lines linesOf(const RunResult& result) {
        {"moment_residual_relative", f.momentResidual, "moment residual", "%.3e of the contact force x 12 m"},
        {"made_by_coupling_J", -joulesOf(result.ledger, "coupling")},
        {"dashpots_J", joulesOf(result.ledger, "dashpots")}});
-  add(benchmark::timeLines(f, contactTime(Case{}), f.criticalDt));
+  add(benchmark::timeLines(f, contactTime(), f.criticalDt));
   add({{"dt_critical_s", f.criticalDt, "critical step", "%.4e s"},
        {"dt_critical_set_by", f.criticalSetter, "set by"},
        {"", publishedSecondsPerStep, "a step of the authors' code", "about %.0f us", 1e6}});
@@ -74,7 +74,7 @@ benchmark::Lines linesOf(const RunResult& result) {
 
 void printReport(std::ostream& out, const RunResult& result) {
   Settings asItComes;
-  asItComes.dtCapped = true;
+  asItComes.dtCapped = true;  // as nothing was asked for
   benchmark::printReport(out, "Two particles slide over an elastic cantilever", describe(result.settings),
                          describe(asItComes), linesOf(result), result.figures, result);
 }

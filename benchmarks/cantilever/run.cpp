@@ -8,10 +8,10 @@
 
 #include "dovetail/core/clock.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/io/interruption.hpp"
+#include "dovetail/scene/read.hpp"
 #include "model.hpp"
 
 namespace dovetail::cantilever {
@@ -33,13 +33,13 @@ std::int64_t every(double interval, double window) {
 /// Runs one model and gathers its figures.
 class Runner {
 public:
-  explicit Runner(const Settings& settings) : mesh_(makeMesh(settings)), scene_(makeScene(settings, mesh_)) {
+  explicit Runner(const Settings& settings) : model_(makeModel(settings)) {
     result_.settings = settings;
-    scene_.run->profile = Profile(settings.profile);
-    if (settings.profile) grains().profile = &scene_.run->profile;
+    run_.profile = Profile(settings.profile);
+    if (settings.profile) grains().profile = &run_.profile;
     prepareStep();
     prepareBooks();
-    tipNode_ = mesh_.nodeSets.at("y+").back();
+    tipNode_ = mesh().nodeSets.at("y+").back();
   }
 
   RunResult run(const Observer& observer) {
@@ -52,20 +52,25 @@ public:
 private:
   RunFigures& figures() { return result_.figures; }
   const Settings& settings() const { return result_.settings; }
-  const fem::Nodes& nodes() const { return scene_.beam->nodes(); }
-  dem::Model& grains() const { return scene_.run->grains; }
+  const fem::SolidMesh& mesh() const { return model_.built.meshes.front(); }
+  const fem::Nodes& nodes() const { return model_.beam->nodes(); }
+  dem::Model& grains() const { return run_.grains; }
 
   void prepareStep() {
-    const StepLimit limit = criticalStep(settings(), *scene_.beam->model, largestMobility(scene_));
+    const StepLimit limit = criticalStep(settings(), model_);
     figures().criticalDt = limit.dt;
     figures().criticalSetter = limit.setter;
     clock_.dt = figures().dt = chooseStep(settings(), limit);
     requireFeasible(settings(), clock_.dt);
+    scene::Scene& scene = model_.scene;
+    scene.steps.dt = {clock_.dt, ""};
+    scene.output.frames = settings().outputInterval;
+    result_.scene = scene::sceneText(scene);
     clock_.substepsPerWindow = settings().femEvery;
   }
 
   void setLedger() {
-    ofRun_ = &scene_.run->ledger();
+    ofRun_ = &run_.ledger();
     books_.setLedger();
   }
 
@@ -77,14 +82,14 @@ private:
     gravity_ = books_.stored("gravity, particles", [of, this] { return of("particles: gravity") - gravityAtStart_; });
     const auto kineticBeam = books_.stored("kinetic, beam", [of] { return of("beam: kinetic"); });
     // A law without a potential stores the work done against it.
-    const auto beam = books_.stored("elastic, beam", [of] { return of("beam: beam") + of("beam: work of beam"); });
+    const auto beam =
+        books_.stored("elastic, beam", [of] { return of("beam: elements") + of("beam: work of elements"); });
     // Explicit solid, stepped every K > 1 DEM steps: the impulses store energy that is booked.
-    if (clock_.substepsPerWindow > 1 && settings().fem == FemStepper::explicitDifferences &&
-        settings().lag == Lag::none)
+    if (clock_.substepsPerWindow > 1 && !settings().implicit() && settings().lag == "none")
       books_.booked("time splitting", [of] { return of("beam: time splitting"); });
     const auto dashpots = books_.booked("dashpots", [of] { return of("particles: dashpots"); });
     const auto coupling = books_.booked("coupling (minus what it made)", [of] {
-      return of("contacts on the beam: lost") + of("loads one step old (minus what they made)");
+      return of("grains on beam (skin): lost") + of("loads one step old (minus what they made)");
     });
 
     books_.column("time_s", [this] { return clock_.time(); });
@@ -113,8 +118,9 @@ private:
 
   /// Returns whether it went to the end; if it was interrupted, `failure` says so.
   bool loop() {
-    scene_.run->start(clock_.dt, {.stepsPerWindow = settings().femEvery, .lag = settings().lag});
-    gravityAtStart_ = scene_.run->ledger().joules("particles: gravity");
+    run_.start(clock_.dt,
+               {.stepsPerWindow = settings().femEvery, .lag = static_cast<coupling::Lag>(model_.scene.steps.lag)});
+    gravityAtStart_ = run_.ledger().joules("particles: gravity");
     setLedger();
     result_.ledger.open();
     sampleTrajectory();
@@ -139,7 +145,7 @@ private:
       sampleEnergy();
       if (sample % trajectoryEvery == 0) sampleTrajectory();
       if (sample % seriesEvery == 0 || stops) {
-        scene_.beam->model->terms.front()->requireValid(nodes(), moment(clock_.time(), clock_.step),
+        model_.beam->model->terms.front()->requireValid(nodes(), moment(clock_.time(), clock_.step),
                                                         fem::Scrutiny::inversion);
         books_.addRow();
         const double y = grains().particles.x[0].y / Case{}.length;
@@ -165,10 +171,10 @@ private:
 
   void advance(bool withEnergy) {
     const double yBefore = grains().particles.x[0].y;
-    scene_.run->advance(1, withEnergy);
+    run_.advance(1, withEnergy);
     clock_.advanceWindow();
     if (figures().left) return;
-    if (!scene_.contact->coupling().inContact()) stepsWithoutContact_ += clock_.substepsPerWindow;
+    if (!model_.contact->coupling().inContact()) stepsWithoutContact_ += clock_.substepsPerWindow;
     stepsOnBeam_ += clock_.substepsPerWindow;
     const double y = grains().particles.x[0].y, length = Case{}.length;
     if (y <= length) return;
@@ -203,7 +209,7 @@ private:
       about += cross(grains().particles.x[i], contact);
       size += norm(contact);
     }
-    const coupling::NodalLoad& load = scene_.beam->load;
+    const coupling::NodalLoad& load = model_.beam->load;
     for (int node : load.touched) {
       force += load.force[node];
       about += cross(nodes().X[node] + nodes().u[node], load.force[node]);
@@ -220,15 +226,15 @@ private:
   void observe() {
     if (!observer_) return;
     const auto begin = std::chrono::steady_clock::now();
-    auto& beam = dynamic_cast<fem::Solid&>(*scene_.beam->model->terms.front());
+    auto& beam = dynamic_cast<fem::Solid&>(*model_.beam->model->terms.front());
     const auto energies = beam.elementEnergies(nodes(), {clock_.time(), 0.0});
     observer_({clock_.time(),
-               &mesh_,
+               &mesh(),
                &nodes(),
                grains().particles,
                result_.series,
                nullptr,
-               {{"contact_load_N", scene_.beam->load.force}},
+               {{"contact_load_N", model_.beam->load.force}},
                {},
                {{"strain_energy_J", energies}},
                {}});
@@ -236,7 +242,7 @@ private:
   }
 
   void close() {
-    result_.profile = scene_.run->profile;
+    result_.profile = run_.profile;
     RunFigures& f = figures();
     const EnergyLedger& ledger = result_.ledger;
     f.steps = clock_.step;
@@ -252,8 +258,8 @@ private:
     f.lockingFactor = lockingFactor(settings());
   }
 
-  const fem::SolidMesh mesh_;
-  Scene scene_;
+  Model model_;
+  coupling::CoupledRun& run_ = model_.run();
   Observer observer_;
   RunResult result_;
   Clock clock_;
@@ -268,8 +274,6 @@ private:
 }  // namespace
 
 benchmark::PreparedRun<RunResult> prepareRun(const Settings& settings) {
-  validate(settings);
-  setThreads(settings.threads);
   return [runner = std::make_shared<Runner>(settings)](const Observer& observer) { return runner->run(observer); };
 }
 

@@ -6,7 +6,6 @@
 
 #include "common/outputs.hpp"
 #include "common/report.hpp"
-#include "common/study.hpp"
 #include "reference/error_norms.hpp"
 #include "reference_curves.hpp"
 #include "settings.hpp"
@@ -17,7 +16,7 @@ using benchmark::Frame, benchmark::Observer;
 
 /// The authors' code needs about 26 ms per step of this case (DEM and implicit FEM), about 4 h for its run of 549 869
 /// steps to 50 s; measured with their public code on one core.
-inline constexpr double publishedSecondsPerStep = 0.026, publishedDtFactor = 0.02;
+inline constexpr double publishedSecondsPerStep = 0.026;
 
 struct RunFigures : benchmark::RunFigures {
   bool left = false;  ///< particle 1 has passed the free end
@@ -71,8 +70,5 @@ benchmark::Lines linesOf(const RunResult& result);
 void printReport(std::ostream& out, const RunResult& result);
 /// The run beside the authors' deposited curves.
 void printComparison(std::ostream& out, const RunResult& result, const std::vector<ReferenceCurve>& curves);
-
-/// The studies that settings can name, whose variations start from theirs.
-benchmark::CaseStudy<Settings> studyOf(const Settings& settings);
 
 }  // namespace dovetail::cantilever

@@ -101,13 +101,13 @@ Json figuresAsJson(const Lines& lines) {
 }
 
 void writeSummary(const std::string& file, const Lines& lines, const RunData& data, const io::KeyValues& settings,
-                  const io::KeyValues& caseData) {
+                  const std::string& scene) {
   Json json{{"provenance", report::objectOf(io::provenance())}};
   json.update(figuresAsJson(lines));
   json["ledger"] = report::ledgerAsJson(data.ledger);
   if (!data.profile.rows().empty()) json["profile"] = report::profileAsJson(data.profile);
   json["settings"] = report::objectOf(settings);
-  json["case"] = report::objectOf(caseData);
+  json["scene"] = Json::parse(scene);
   io::writeFileAtomically(file, json.dump(2) + "\n");
 }
 

@@ -39,6 +39,7 @@ struct RunFigures {
 
 /// What stands in every report.
 struct RunData {
+  std::string scene;  ///< that was run, in full, as JSON
   EnergyLedger ledger;
   Profile profile;
   io::TimeSeries series{{"time_s"}};
@@ -105,11 +106,8 @@ void printReport(std::ostream& out, const std::string& title, const io::KeyValue
 /// The lines by key.
 report::Json figuresAsJson(const Lines& lines);
 /// @throws InputError as io::writeFileAtomically
+/// @param scene  in full, as JSON text
 void writeSummary(const std::string& file, const Lines& lines, const RunData& data, const io::KeyValues& settings,
-                  const io::KeyValues& caseData);
-template <class Settings>
-void writeSummary(const Settings& settings, const Lines& lines, const RunData& data) {
-  writeSummary(settings.summary, lines, data, describe(settings), describeCase(typename Settings::Fixed{}));
-}
+                  const std::string& scene);
 
 }  // namespace dovetail::benchmark

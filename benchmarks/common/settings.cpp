@@ -4,7 +4,7 @@
 
 namespace dovetail::benchmark {
 
-program::Option& addTimeOptions(program::Options& o, RunSettings& s, const RunWords& words) {
+void addTimeOptions(program::Options& o, RunSettings& s, const RunWords& words) {
   program::Option& factor =
       o.number("--dt-factor F", s.dtFactor, program::positive("a positive share of the contact time, or --dt auto"),
                "time step over the contact time" + words.dtDefault);
@@ -18,12 +18,15 @@ program::Option& addTimeOptions(program::Options& o, RunSettings& s, const RunWo
           s.dtAuto = true;
         },
         {});
+  o.number("--dt-share S", s.shareOfCritical, program::positive("a positive share of the critical step"), "none",
+           "time step over the critical step")
+      .key = "";
+  o.flag("--insist", s.beyondCritical, "takes a step above the critical one, too").key = "";
   o.integer("--fem-every K", s.femEvery, 1, 1000, "DEM steps per FEM step");
   o.number("--until T", s.until, program::positive("a positive time in seconds, up to 1e6", 1e6), words.endDefault,
            "end, s; default: " + words.endDefault)
       .in("s");
   o.integer("--threads N", s.threads, 1, 1024, "results do not depend on it");
-  return factor;
 }
 
 void addOutputOptions(program::Options& o, RunSettings& s, const RunWords& words) {
@@ -41,16 +44,16 @@ void addOutputOptions(program::Options& o, RunSettings& s, const RunWords& words
   o.flag("--quiet", s.quiet, "print nothing but errors");
 }
 
-void checkRun(const RunSettings& s) {
-  if (s.study.empty()) return;
-  if (!s.summary.empty())
+void checkRun(const program::Options& o, RunSettings& s) {
+  s.written = o.written();
+  o.refuseBoth("--dt", "--dt-factor");
+  o.refuseBoth("--dt", "--dt-share");
+  o.refuseBoth("--dt-factor", "--dt-share");
+  if (!s.study.empty() && !s.summary.empty())
     throw InputError("a study writes its own summary", "--summary", "take --out DIR, which gets <study>.json");
-  if (!s.reference.empty())
+  if (!s.study.empty() && !s.reference.empty())
     throw InputError("a study is not compared with the published curves", "--reference",
                      "leave out --study or --reference");
-}
-
-void refuseIdleRunOptions(const program::Options& o, const RunSettings& s) {
   if (!s.study.empty())
     o.refuseIdle("--output-interval --profile", "with --study, which writes no pictures", "leave it out");
   if (s.study.empty()) o.refuseIdle("--workers --only", "without --study", "leave it out");
@@ -58,6 +61,12 @@ void refuseIdleRunOptions(const program::Options& o, const RunSettings& s) {
   if (s.quiet) o.refuseIdle("--reference", "with --quiet", "leave out one of them");
   if (s.quiet && s.summary.empty())
     o.refuseIdle("--profile", "with --quiet and no summary", "add --summary FILE, or leave out one of them");
+}
+
+std::vector<std::string> changesOf(const report::Json& entries) {
+  std::vector<std::string> changes;
+  for (const auto& [key, value] : entries.items()) changes.push_back(key + "=" + value.dump());
+  return changes;
 }
 
 void require(bool good, const std::string& option, const std::string& value, const std::string& remedy) {

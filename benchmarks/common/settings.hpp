@@ -1,11 +1,12 @@
 // What every benchmark run can be told.
 #pragma once
 
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "dovetail/report/table.hpp"
 #include "program/options.hpp"
 
 namespace dovetail::benchmark {
@@ -13,8 +14,8 @@ namespace dovetail::benchmark {
 struct RunSettings {
   double dtFactor = 0.0;                  ///< of the contact time
   bool dtAuto = false;                    ///< a fixed share of the critical step
-  std::optional<double> shareOfCritical;  ///< dt over the critical step, wins over dtFactor (studies)
-  bool beyondCritical = false;            ///< do not refuse a step above the critical one (studies)
+  std::optional<double> shareOfCritical;  ///< dt over the critical step, wins over dtFactor
+  bool beyondCritical = false;            ///< do not refuse a step above the critical one
   int femEvery = 1;                       ///< particle steps per step of the solid
   std::optional<double> until;            ///< s; each case has an end of its own
   double stiffnessRatio = 1.0;
@@ -25,6 +26,7 @@ struct RunSettings {
   double outputInterval = 0.0;  ///< s between pictures in --out
   int workers = 0;              ///< processes of a study; 0: one run after the other in this one
   bool profile = false, quiet = false;
+  io::KeyValues written;  ///< options of the command line with their values; "true": a flag
 };
 
 /// Words in which the cases differ.
@@ -33,21 +35,14 @@ struct RunWords {
 };
 
 /// Adds --dt-factor … --threads, then the group of outputs and studies.
-/// @return the row of --dt-factor
-program::Option& addTimeOptions(program::Options& options, RunSettings& settings, const RunWords& words);
+void addTimeOptions(program::Options& options, RunSettings& settings, const RunWords& words);
 void addOutputOptions(program::Options& options, RunSettings& settings, const RunWords& words);
 
-/// @throws InputError for what no run can use together
-void checkRun(const RunSettings& settings);
-void refuseIdleRunOptions(const program::Options& options, const RunSettings& settings);
+/// Notes what was written. @throws InputError for options that exclude one another or would do nothing
+void checkRun(const program::Options& options, RunSettings& settings);
 
-/// Entries of io::provenance with what the options say and what none of them changes.
-template <class Settings>
-io::KeyValues provenanceOf(const Settings& settings) {
-  auto entries = describe(settings);
-  for (auto& entry : describeCase(typename Settings::Fixed{})) entries.push_back(std::move(entry));
-  return io::provenance(entries);
-}
+/// "key=value" of each entry, with all digits: changes of a scene.
+std::vector<std::string> changesOf(const report::Json& entries);
 
 /// @throws InputError for an impossible value of the option
 void require(bool good, const std::string& option, const std::string& value, const std::string& remedy);

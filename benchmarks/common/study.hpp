@@ -1,60 +1,29 @@
-// Studies of the benchmarks.
+// Studies of the published cases: runs that a file plans by options.
 #pragma once
 
-#include <algorithm>
-#include <iostream>
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "common/outputs.hpp"
-#include "common/report.hpp"
+#include "common/settings.hpp"
 #include "dovetail/report/study.hpp"
 
 namespace dovetail::benchmark {
 
-/// Labels and settings, in their order.
-template <class Settings>
-using Plan = std::vector<std::pair<std::string, Settings>>;
-
-/// A study of a case: the name of its program, fronts, and what is shown; its plans by name.
-template <class Settings>
-struct CaseStudy : report::Study {
-  std::map<std::string, Plan<Settings> (*)(const Settings&)> plans;
+/// A run of a study as words of the command line.
+struct PlannedRun {
+  std::string label;
+  std::vector<std::string> words;
 };
 
-/// The runs of the plan that `only` asks for. @throws InputError if there are none
-template <class Settings>
-Plan<Settings> chosen(const Plan<Settings>& plan, const std::string& only) {
-  const bool isLabel = std::ranges::any_of(plan, [&](const auto& one) { return one.first == only; });
-  Plan<Settings> runs;
-  for (const auto& one : plan)
-    if (isLabel ? one.first == only : one.first.find(only) != std::string::npos) runs.push_back(one);
-  if (runs.empty())
-    throw InputError("no run of the study is called so: " + only, "--only",
-                     "take a label as the study prints it, such as '" + plan.front().first + "'");
-  return runs;
-}
+/// The runs of a study that `asked` names, and of those the ones that it asks for by --only.
+///
+/// A file of studies has, by name: "error" figures of the fronts with their "marks"; "shown" figures; "about";
+/// "defaults" options that give way to those written; and "runs", a list of products of axes. An axis has points by
+/// name, each with the options that it sets; null takes one away. Points of the last axis follow one another.
+/// @param file  JSON text @throws InputError if no run is called as --only says
+std::vector<PlannedRun> plannedRuns(const std::string& file, const RunSettings& asked);
 
-/// Runs the study that the settings name as report::runStudy; the case's functions are found by its settings.
-template <class Settings>
-bool runPlan(CaseStudy<Settings> study, const Settings& asked) {
-  study.name = asked.study;
-  study.folder = asked.out.empty() ? "." : asked.out;
-  study.workers = asked.workers;
-  study.quiet = asked.quiet;
-  for (const auto& [label, planned] : chosen(study.plans.at(asked.study)(asked), asked.only)) {
-    Settings settings = planned;
-    settings.quiet = true;
-    settings.study = settings.out = settings.only = "";
-    study.cases.push_back({label, describe(settings), [settings] {
-                             auto result = run(settings);
-                             compare(result);
-                             return figuresAsJson(linesOf(result));
-                           }});
-  }
-  return underName("--out", [&] { return report::runStudy(study, std::cout, std::cerr); });
-}
+/// All but the cases. @param program  whose study it is
+report::Study studyFrom(const std::string& file, const std::string& program, const RunSettings& asked);
 
 }  // namespace dovetail::benchmark

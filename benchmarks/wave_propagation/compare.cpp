@@ -59,11 +59,13 @@ const RunResult& keptRun(const Settings& alone) {
 }
 
 /// Mean velocity of each layer, m/s; that of the wall's layer mirrored, so that the bar's end has none.
-std::vector<Vec3> layerMeans(const Settings& s, const dem::Particles& particles) {
+std::vector<Vec3> layerMeans(const Settings& s, const RunResult& alone) {
+  const dem::Particles& particles = alone.particles;
   const auto perLayer = static_cast<std::size_t>(particlesPerLayer(s));
   std::vector<Vec3> mean(particles.size() / perLayer);
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    mean[i / perLayer] += (1.0 / static_cast<double>(perLayer)) * particles.v[i];
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    mean[k / perLayer] +=
+        (1.0 / static_cast<double>(perLayer)) * particles.v[static_cast<std::size_t>(alone.byPlace[k])];
   mean.back() = -mean[mean.size() - 2];
   return mean;
 }
@@ -95,40 +97,49 @@ private:
 
 void compareSolid(RunResult& result, const RunResult& alone) {
   const Settings& s = result.settings;
-  const std::vector<Vec3> means = layerMeans(s, alone.particles);
+  const std::vector<Vec3> means = layerMeans(s, alone);
   const CubicSpline layer(means);  // layer l lies at (l + ½) d
   double error = 0.0, size = 0.0;
   for (std::size_t n = 0; n < result.nodePosition.size(); ++n) {
     if (result.nodePosition[n].y <= s.demLength + 1e-9) continue;
-    const Vec3 reference = layer(result.nodePosition[n].y / particleDiameter(s) - 0.5);
+    const Vec3 reference = layer(result.nodePosition[n].y / s.diameter() - 0.5);
     error += squaredNorm(result.nodeVelocity[n] - reference);
     size += squaredNorm(reference);
   }
   for (std::size_t l = 0; l + 1 < means.size(); ++l)  // without the wall's
     result.velocityProfile->append(
-        {result.figures.endTime, 2.0, (static_cast<double>(l) + 0.5) * particleDiameter(s), means[l].y, 1.0});
+        {result.figures.endTime, 2.0, (static_cast<double>(l) + 0.5) * s.diameter(), means[l].y, 1.0});
   result.figures.waveformErrorFem = std::sqrt(error / size);
+}
+
+/// Of each particle in Bar::byPlace.
+std::vector<std::size_t> placesOf(const RunResult& result) {
+  std::vector<std::size_t> place(result.byPlace.size());
+  for (std::size_t k = 0; k < place.size(); ++k) place[static_cast<std::size_t>(result.byPlace[k])] = k;
+  return place;
 }
 
 /// Particles outside of the mesh, which carry everything alone.
 void compareParticles(RunResult& result, const RunResult& alone) {
   const Settings& s = result.settings;
   const auto count = static_cast<std::size_t>(particlesPerLayer(s) * layers(s, s.demLength - s.overlap));
-  const double m = particleMass(s), k = Case{}.youngsModulus * particleDiameter(s);
+  const auto there = [&](std::size_t place) { return static_cast<std::size_t>(alone.byPlace[place]); };
+  const std::vector<std::size_t> place = placesOf(result);
   double difference = 0.0, size = 0.0, energy = 0.0;
-  for (std::size_t i = 0; i < alone.particles.size(); ++i) size += squaredNorm(alone.particles.v[i]);
-  for (std::size_t i = 0; i < count; ++i) difference += squaredNorm(result.particles.v[i] - alone.particles.v[i]);
-  energy = 0.5 * m * difference;
+  for (const Vec3& v : alone.particles.v) size += squaredNorm(v);
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (place[i] < count) difference += squaredNorm(result.particles.v[i] - alone.particles.v[there(place[i])]);
+  energy = 0.5 * particleMass(s) * difference;
   for (const auto& pair : result.pairs.pairs()) {
     const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
-    if (i >= count || j >= count) continue;
-    double here = dem::pairContact(result.particles, i, j).overlap,
-           there = dem::pairContact(alone.particles, i, j).overlap;
-    if (!s.tension) {
-      here = std::max(here, 0.0);
-      there = std::max(there, 0.0);
+    if (place[i] >= count || place[j] >= count) continue;
+    double ours = dem::pairContact(result.particles, i, j).overlap,
+           theirs = dem::pairContact(alone.particles, there(place[i]), there(place[j])).overlap;
+    if (!s.tensile()) {
+      ours = std::max(ours, 0.0);
+      theirs = std::max(theirs, 0.0);
     }
-    energy += 0.5 * k * (here - there) * (here - there);
+    energy += 0.5 * s.contactStiffness() * (ours - theirs) * (ours - theirs);
   }
   result.figures.waveformErrorDem = std::sqrt(difference / size);
   result.figures.reflectedShare = energy / result.figures.energyInput;
@@ -136,7 +147,7 @@ void compareParticles(RunResult& result, const RunResult& alone) {
 
 }  // namespace
 
-void addLayers(io::TimeSeries& table, const Settings& s, const Frame& frame) {
+void addLayers(io::TimeSeries& table, const Settings& s, const std::vector<int>& byPlace, const Frame& frame) {
   std::map<long, LayerSum> nodes;  // by half element sizes, so that rounding cannot split a layer
   for (std::size_t n = 0; frame.nodes && n < frame.nodes->X.size(); ++n) {
     const double y = frame.nodes->X[n].y;
@@ -148,8 +159,10 @@ void addLayers(io::TimeSeries& table, const Settings& s, const Frame& frame) {
   const std::size_t count = p.size() / perLayer - (s.fullDem ? 1 : 0);  // without the wall
   for (std::size_t l = 0; l < count; ++l) {
     LayerSum layer;
-    for (std::size_t i = l * perLayer; i < (l + 1) * perLayer; ++i)
-      layer.add((static_cast<double>(l) + 0.5) * particleDiameter(s), p.v[i].y, p.weightOf(i));
+    for (std::size_t k = l * perLayer; k < (l + 1) * perLayer; ++k) {
+      const auto i = static_cast<std::size_t>(byPlace[k]);
+      layer.add((static_cast<double>(l) + 0.5) * s.diameter(), p.v[i].y, p.weightOf(i));
+    }
     layer.append(table, frame.time, 1);
   }
 }

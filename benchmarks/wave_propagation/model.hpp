@@ -1,54 +1,42 @@
-// Builds the bar from the settings: particles and solid with an overlap, or particles alone.
+// The bar as a scene: particles and solid with an overlap, or particles alone; and its time step.
 //
 // y runs along the bar from the end that is struck. Particles fill 0 ≤ y ≤ dem length, the solid goes on from
-// dem length − overlap. Particles are numbered layer by layer along y.
+// dem length − overlap.
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <vector>
 
 #include "dovetail/arlequin/critical_step.hpp"
 #include "dovetail/arlequin/overlap_tie.hpp"
-#include "dovetail/coupling/run.hpp"
+#include "dovetail/scene/build.hpp"
 #include "settings.hpp"
 
 namespace dovetail::wave {
 
-/// Length of the whole bar, m.
-double barLength(const Settings& settings);
 /// Particles in a layer, and layers of a bar of that length.
 int particlesPerLayer(const Settings& settings);
 int layers(const Settings& settings, double length);
 
-/// The run, and the two of its parts that are looked at; null for particles alone.
+/// scenes/wave.json as the settings change it, built, and the parts of it that are looked at.
 struct Bar {
-  std::unique_ptr<coupling::CoupledRun> run;
-  fem::SolidMesh mesh;
-  coupling::SolidSide* solid = nullptr;
-  arlequin::OverlapTie* tie = nullptr;
+  scene::Scene scene;
+  scene::Built built;
+  coupling::SolidSide* solid = nullptr;  ///< null for particles alone
+  arlequin::OverlapTie* tie = nullptr;   ///< the same
+  std::vector<int> byPlace;              ///< particles layer by layer along y, in each layer by z, then x
+
+  coupling::CoupledRun& run() const { return *built.run; }
 };
-
-/// Particles and solid coupled in the overlap.
-/// @throws InputError for impossible settings
-Bar makeCoupledBar(const Settings& settings);
-/// Particles over the whole length and one layer more, which is the wall at the end: held, it fixes the bar's last
-/// point.
-Bar makeParticleBar(const Settings& settings);
-
-/// Of the bar as it is, its pairs listed. @throws NumericalError as arlequin::criticalStep
-arlequin::CriticalStep criticalStep(const Settings& settings, const Bar& bar);
-
-/// What the constraint gets: as asked for, the published ε of the dashpot, or automatic, Pa/m².
-double penaltyOf(const Settings& settings);
-/// Either bar, with that penalty. With a solid that is stepped every K-th time the automatic penalty is softened as far
-/// as its oscillations ask for it: impulses every K dt must not meet them in resonance (K dt < π/ω), and nodes that
-/// move every K dt only must not overshoot (implicit: K dt < 2/ω).
+/// With a solid that is stepped every K-th time the automatic penalty is softened as far as its oscillations ask for
+/// it: impulses every K dt must not meet them in resonance (K dt < π/ω), and nodes that move every K dt only must not
+/// overshoot (implicit: K dt < 2/ω). Particles alone end in a layer more, which is the wall.
 /// @param penalty  what is used on return
 /// @throws InputError for impossible settings
 Bar makeBar(const Settings& settings, double& penalty);
 
-/// The step that the settings ask for, s: before it is made to divide the end time.
-double requestedStep(const Settings& settings, double critical);
+/// Of the bar as it is. @throws NumericalError as arlequin::criticalStep
+arlequin::CriticalStep criticalStep(const Settings& settings, const Bar& bar);
 
 struct StepPlan {
   double dt;             ///< s

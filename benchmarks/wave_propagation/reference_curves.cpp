@@ -64,7 +64,7 @@ double dissipatedShare(const std::vector<EnergySample>& energy, int particlesPer
 }
 
 bool fits(const ReferenceCurve& curve, const Settings& s) {
-  if (curve.particlesPerEdge != s.particlesPerEdge || s.signal != Signal::impulse) return false;
+  if (curve.particlesPerEdge != s.particlesPerEdge || !s.impulse()) return false;
   return curve.cgWidth ? !s.fullDem && *curve.cgWidth == s.cgWidth : s.fullDem;
 }
 

@@ -19,7 +19,7 @@ std::string criticalSetter(const arlequin::CriticalStep& c) {
 }
 
 std::string signalText(const Settings& s) {
-  if (s.signal == Signal::impulse)
+  if (s.impulse())
     return format("impulse of %g m/s on the first layer", s.amplitude * Case{}.velocity * s.particlesPerEdge);
   return format("raised cosine, %d of %.4g elements (omega = %.4g rad/ms), up to %g m/s", s.cycles, s.pulseElements,
                 1e-3 * angularFrequency(s), 2.0 * s.amplitude * Case{}.cosineVelocity);
@@ -73,7 +73,7 @@ Lines balanceLines(const Settings& s, const RunFigures& f) {
 
 /// The authors' figure for the run's n and width, if it is one of theirs.
 Json publishedShare(const Settings& s) {
-  if (s.scheme != Scheme::paper || s.signal != Signal::impulse) return nullptr;
+  if (s.scheme != "paper" || !s.impulse()) return nullptr;
   for (const PublishedRun& run : publishedRuns)
     if (run.particlesPerEdge == s.particlesPerEdge && run.cgWidth == s.cgWidth) return run.dissipatedShare;
   return nullptr;

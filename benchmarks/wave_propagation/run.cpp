@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "dovetail/core/finite.hpp"
-#include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/io/interruption.hpp"
+#include "dovetail/scene/read.hpp"
 
 namespace dovetail::wave {
 
@@ -24,8 +24,9 @@ class Runner {
 public:
   explicit Runner(const Settings& settings) : penalty_(penaltyOf(settings)), bar_(makeBar(settings, penalty_)) {
     result_.settings = settings;
-    bar_.run->profile = Profile(settings.profile);
-    if (settings.profile) grains().profile = &bar_.run->profile;
+    result_.byPlace = bar_.byPlace;
+    run_.profile = Profile(settings.profile);
+    if (settings.profile) grains().profile = &run_.profile;
     prepareStep();
     prepareBooks();
     countParts();
@@ -41,7 +42,7 @@ public:
 private:
   RunFigures& figures() { return result_.figures; }
   const Settings& settings() const { return result_.settings; }
-  dem::Model& grains() { return bar_.run->grains; }
+  dem::Model& grains() { return run_.grains; }
   const dem::Particles& particles() { return grains().particles; }
 
   void prepareStep() {
@@ -51,10 +52,14 @@ private:
     K_ = plan.stepsPerWindow;
     windows_ = plan.windows;
     figures().dt = dt_ = plan.dt;
+    scene::Scene& scene = bar_.scene;
+    scene.steps.dt = {dt_, ""};
+    scene.output.frames = s.outputInterval;
+    result_.scene = scene::sceneText(scene);
   }
 
   void setLedger() {
-    ofRun_ = &bar_.run->ledger();
+    ofRun_ = &run_.ledger();
     books_.setLedger();
   }
 
@@ -65,13 +70,12 @@ private:
     const auto contacts = books_.stored("elastic, contacts", of("particles: contacts"));
     std::optional<EnergyLedger::Id> kineticSolid, elasticSolid;
     if (bar_.solid) {
-      kineticSolid = books_.stored("kinetic, solid", of("solid: kinetic"));
-      elasticSolid = books_.stored("elastic, solid", of("solid: elastic"));
+      kineticSolid = books_.stored("kinetic, solid", of("bar: kinetic"));
+      elasticSolid = books_.stored("elastic, solid", of("bar: elements"));
       stored_ = books_.stored("stored in the coupling", [this] { return bar_.tie->stored(); });
       books_.booked("lost in the coupling", [this] { return bar_.tie->lost() - bar_.tie->absorbed(); });
     }
-    if (bar_.solid && K_ > 1 && settings().fem == FemStepper::explicitDifferences)
-      books_.stored("time splitting", of("solid: time splitting"));
+    if (bar_.solid && K_ > 1 && !settings().implicit()) books_.stored("time splitting", of("bar: time splitting"));
     if (settings().absorber > 0.0 && bar_.solid) books_.booked("absorber", [this] { return absorbed(); });
     if (!grains().terms.all<dem::DriveTerm>().empty())
       books_.booked("drive (minus its work)", [this] { return -externalWork(); });
@@ -102,7 +106,7 @@ private:
       mass -= particlesPerLayer(settings()) * particleMass(settings());
     }
     if (bar_.solid) {
-      f.elements = bar_.mesh.elementCount();
+      f.elements = bar_.built.meshes.front().elementCount();
       f.overlapParticles = bar_.tie->overlap().size();
       for (const double m : bar_.solid->nodes().mass) mass += m;
       f.penalty = penalty_;
@@ -136,14 +140,14 @@ private:
     Vec3 momentum, given;
   };
   Balance balance() {
-    Balance sum{dem::momentum(particles()), -bar_.run->totals().ontoSolids};
+    Balance sum{dem::momentum(particles()), -run_.totals().ontoSolids};
     for (const auto* drive : grains().terms.all<dem::DriveTerm>()) sum.given += drive->supportImpulse;
     return sum;
   }
 
   /// Returns whether it went to the end; if it was interrupted, `failure` says so.
   bool loop() {
-    bar_.run->start(dt_, {.stepsPerWindow = K_});
+    run_.start(dt_, {.stepsPerWindow = K_});
     if (bar_.tie) figures().coupledNodes = bar_.tie->operators().rows();
     setLedger();
     result_.ledger.open();
@@ -157,7 +161,7 @@ private:
     observe();
     for (std::int64_t w = 1, samples = 0; w <= windows_; ++w) {
       const bool ends = w == windows_ || io::interruption() != 0, now = w % sampleEvery == 0 || ends;
-      bar_.run->advance(1, now);
+      run_.advance(1, now);
       if (!now) continue;
       sample();
       if (++samples % frameEvery == 0 || ends) observe();
@@ -181,7 +185,7 @@ private:
     if (grains().time >= driveTime(settings()) * (1.0 - 1e-12) && figures().energyInput == 0.0)
       figures().energyInput = booked;
     const Balance now = balance();
-    largestMomentum_ = std::max(largestMomentum_, norm(bar_.run->totals().momentum));
+    largestMomentum_ = std::max(largestMomentum_, norm(run_.totals().momentum));
     largestMomentumGap_ =
         std::max(largestMomentumGap_, norm(now.momentum - start_.momentum - (now.given - start_.given)));
     if (bar_.tie) sampleGap();
@@ -219,11 +223,11 @@ private:
                 {},
                 {{"particles_share", share}}};
     if (bar_.solid) {
-      frame.mesh = &bar_.mesh;
+      frame.mesh = &bar_.built.meshes.front();
       frame.nodes = &bar_.solid->nodes();
       frame.nodeScalars = {{"particles_share", bar_.tie->overlap().nodalWeight}};
     }
-    addLayers(*result_.velocityProfile, settings(), frame);
+    addLayers(*result_.velocityProfile, settings(), bar_.byPlace, frame);
     observer_(frame);
     figures().wallSeconds -= benchmark::secondsSince(begin);
   }
@@ -231,7 +235,7 @@ private:
   std::int64_t steps() { return std::llround(grains().time / dt_); }
 
   void close() {
-    result_.profile = bar_.run->profile;
+    result_.profile = run_.profile;
     RunFigures& f = figures();
     const EnergyLedger& ledger = result_.ledger;
     f.steps = steps();
@@ -248,9 +252,8 @@ private:
     f.largestExcess = largestStored_ / mostInput_;
     f.stable = f.finished && f.largestExcess <= stableFactor;
     f.overlapMismatch = speedSquared_ > 0.0 ? std::sqrt(mismatchSquared_ / speedSquared_) : 0.0;
-    f.paperDissipatedShare = settings().signal == Signal::impulse
-                                 ? dissipatedShare(result_.energy, settings().particlesPerEdge)
-                                 : std::numeric_limits<double>::quiet_NaN();
+    f.paperDissipatedShare = settings().impulse() ? dissipatedShare(result_.energy, settings().particlesPerEdge)
+                                                  : std::numeric_limits<double>::quiet_NaN();
     result_.pairs = std::move(grains().pairs);
     result_.particles = std::move(particles());
     if (!bar_.solid) return;
@@ -260,6 +263,7 @@ private:
 
   double penalty_;
   Bar bar_;
+  coupling::CoupledRun& run_ = bar_.run();
   Observer observer_;
   RunResult result_;
   benchmark::Recorder books_{result_};
@@ -276,8 +280,6 @@ private:
 }  // namespace
 
 benchmark::PreparedRun<RunResult> prepareRun(const Settings& settings) {
-  validate(settings);
-  setThreads(settings.threads);
   return [runner = std::make_shared<Runner>(settings)](const Observer& observer) { return runner->run(observer); };
 }
 

@@ -7,7 +7,6 @@
 
 #include "common/outputs.hpp"
 #include "common/report.hpp"
-#include "common/study.hpp"
 #include "model.hpp"
 #include "settings.hpp"
 
@@ -47,6 +46,7 @@ struct RunResult : benchmark::RunData {
   std::vector<EnergySample> energy;
   dem::Particles particles;  ///< at the end
   dem::PairList pairs;
+  std::vector<int> byPlace;                      ///< see Bar
   std::vector<Vec3> nodePosition, nodeVelocity;  ///< at the end; empty without a solid
 };
 
@@ -61,7 +61,8 @@ RunResult run(const Settings& settings, const Observer& observer = {});
 void compare(RunResult& result);
 
 /// Adds the layers of a frame to a velocity profile: nodes, then particles, each by rising y.
-void addLayers(io::TimeSeries& table, const Settings& settings, const Frame& frame);
+/// @param byPlace  see Bar
+void addLayers(io::TimeSeries& table, const Settings& settings, const std::vector<int>& byPlace, const Frame& frame);
 
 /// Energy at time t, linear between samples, J; NaN outside.
 double energyAt(const std::vector<EnergySample>& energy, double t);
@@ -75,8 +76,5 @@ benchmark::Lines linesOf(const RunResult& result);
 /// What was computed, its errors against particles alone, its balances, its time, dt against the critical step and who
 /// sets it.
 void printReport(std::ostream& out, const RunResult& result);
-
-/// The studies that settings can name, whose variations start from theirs.
-benchmark::CaseStudy<Settings> studyOf(const Settings& settings);
 
 }  // namespace dovetail::wave

@@ -10,64 +10,25 @@
 namespace dovetail::wave {
 
 namespace {
-constexpr double pi = std::numbers::pi;
-constexpr double clearance = 0.8;  // m, of the pulse's tail past the overlap
-}  // namespace
 
-double particleDiameter(const Settings& s) { return Case{}.elementSize / s.particlesPerEdge; }
-double particleMass(const Settings& s) { return Case{}.particleDensity * pi / 6.0 * std::pow(particleDiameter(s), 3); }
-double bulkDensity() { return Case{}.particleDensity * pi / 6.0; }
-double waveSpeed() { return std::sqrt(Case{}.youngsModulus / bulkDensity()); }
-double contactTime(const Settings& s) {
-  return pi * std::sqrt(0.5 * particleMass(s) / (Case{}.youngsModulus * particleDiameter(s)));
-}
-double pulseLength(const Settings& s) { return s.pulseElements * Case{}.elementSize; }
-double angularFrequency(const Settings& s) { return 2.0 * pi * waveSpeed() / pulseLength(s); }
-double driveTime(const Settings& s) {
-  return s.signal == Signal::cosine ? 2.0 * pi * s.cycles / angularFrequency(s) : 0.0;
-}
-
-double measuringTime(const Settings& s) {
-  const double travel = (s.demLength + clearance) / waveSpeed();
-  return s.signal == Signal::cosine ? driveTime(s) + travel : 2.0 * travel;
-}
-
-double endTime(const Settings& s) {
-  if (s.until) return *s.until;
-  return s.scheme == Scheme::paper ? 0.1 : measuringTime(s);
-}
-
-int solidElements(const Settings& s) {
-  const double h = Case{}.elementSize;
-  double length = s.femLength;
-  if (s.lengthen && s.scheme != Scheme::paper)
-    length = std::max(length, waveSpeed() * endTime(s) - (s.demLength - s.overlap) + 2.0 * h);
-  return static_cast<int>(std::ceil(length / h - 1e-9));
-}
-
-double publishedPenalty(int particlesPerEdge) { return 1e10 * particlesPerEdge * particlesPerEdge; }
-
-void applyScheme(Settings& s, Scheme scheme) {
-  const bool paper = scheme == Scheme::paper;
-  s.scheme = scheme;
-  s.constraint = paper ? Constraint::dashpot : Constraint::penalty;
-  s.gap = paper ? Gap::nodal : Gap::atParticles;
+/// conservative: penalty on the accumulated gap at the particles, explicit, matched mass, bonded contacts. paper:
+/// dashpot on the nodal gap, weights 0.1 … 0.9, staggered, implicit, contacts without tension.
+void applyScheme(Settings& s) {
+  const bool paper = s.scheme == "paper";
+  s.constraint = paper ? "dashpot" : "penalty";
+  s.gap = paper ? "nodal" : "at-grains";
   s.weightFloor = paper ? 0.1 : 1e-3;
-  s.weightProfile = WeightProfile::halfCosine;
-  s.tension = !paper;
-  s.mass = paper ? Mass::consistent : Mass::matched;
-  s.fem = paper ? FemStepper::newmark : FemStepper::explicitDifferences;
-  s.dashpotMatrix = DashpotMatrix::lumped;
-  s.rows = paper ? Rows::perElement : Rows::perNode;
-  s.normaliseKernels = !paper;
-  s.kernelReach = paper ? KernelReach::outside : KernelReach::overlap;
-  s.material = paper ? Material::kirchhoff : Material::springs;
-  s.staggered = paper;
+  s.tension = paper ? "off" : "on";
+  s.mass = paper ? "consistent" : "matched";
+  s.fem = paper ? "newmark" : "explicit";
+  s.rows = paper ? "per-element" : "per-node";
+  s.normalised = paper ? "off" : "on";
+  s.kernelReach = paper ? "outside" : "overlap";
+  s.material = paper ? "kirchhoff" : "springs";
+  s.order = paper ? "staggered" : "symmetric";
   s.dtFactor = paper ? 0.01 : 0.02;
-  s.signal = paper ? Signal::impulse : Signal::cosine;
+  s.signal = paper ? "impulse" : "cosine";
 }
-
-namespace {
 
 const benchmark::RunWords words{"0.5", "", "until the pulse has left the overlap", "wave_*P_c*dX.csv",
                                 "widths|pareto|stability|constraints"};
@@ -89,30 +50,29 @@ void addBarOptions(Options& o, Settings& s) {
 
 void addSchemeOptions(Options& o, Settings& s) {
   o.group("Parts of the scheme");
-  o.choice("--scheme", s.scheme, "conservative|paper",
-           "all parts at once, signal and dt factor included; what is given wins");
-  o.choice("--constraint", s.constraint, "penalty|multiplier|dashpot", "what holds the two models together");
-  o.choice("--gap", s.gap, "at-grains|nodal", "where the two fields are compared");
-  o.choice("--weight-profile", s.weightProfile, "half-cosine|linear|smooth",
-           "share of the particles across the overlap");
+  o.word("--scheme", s.scheme, "conservative|paper",
+         "all parts at once, signal and dt factor included; what is given wins");
+  o.word("--constraint", s.constraint, "penalty|multiplier|dashpot", "what holds the two models together");
+  o.word("--gap", s.gap, "at-grains|nodal", "where the two fields are compared");
+  o.word("--weight-profile", s.weightProfile, "half-cosine|linear|smooth", "share of the particles across the overlap");
   o.number("--weight-floor W", s.weightFloor, {0.0, 0.5, true, false, "a number from 0 to below 0.5"},
            "least share of either model in the overlap");
-  o.choice("--tension", s.tension, "off|on", "contacts that also pull");
-  o.choice("--material", s.material, "springs|kirchhoff",
-           "of the solid: the lattice's continuum, or St Venant-Kirchhoff");
-  o.choice("--mass", s.mass, "lumped|consistent|matched", "of the solid; matched: with the dispersion of the lattice");
-  o.choice("--fem", s.fem, "explicit|newmark", "time integration of the solid");
-  o.choice("--dashpot-matrix", s.dashpotMatrix, "lumped|consistent",
-           "of the dashpot: row sums, or the products of the shape functions");
-  o.choice("--rows", s.rows, "per-node|per-element", "of the projection");
-  o.choice("--kernel-normalisation", s.normaliseKernels, "off|on", "of kernels cut at a border");
-  o.choice("--kernel-reach", s.kernelReach, "overlap|outside", "kernels within the overlap, or also from outside");
-  o.choice("--order", s.staggered, "symmetric|staggered", "coupling forces of the same instant, or of the last step");
+  o.word("--tension", s.tension, "off|on", "contacts that also pull");
+  o.word("--material", s.material, "springs|kirchhoff",
+         "of the solid: the lattice's continuum, or St Venant-Kirchhoff");
+  o.word("--mass", s.mass, "lumped|consistent|matched", "of the solid; matched: with the dispersion of the lattice");
+  o.word("--fem", s.fem, "explicit|newmark", "time integration of the solid");
+  o.word("--dashpot-matrix", s.dashpotMatrix, "lumped|consistent",
+         "of the dashpot: row sums, or the products of the shape functions");
+  o.word("--rows", s.rows, "per-node|per-element", "of the projection");
+  o.word("--kernel-normalisation", s.normalised, "off|on", "of kernels cut at a border");
+  o.word("--kernel-reach", s.kernelReach, "overlap|outside", "kernels within the overlap, or also from outside");
+  o.word("--order", s.order, "symmetric|staggered", "coupling forces of the same instant, or of the last step");
   o.group("Kernel, penalty, absorber");
   o.number("--cg-width X", s.cgWidth, notNegative("0 (local) or a positive number of element sizes, up to 100", 100.0),
            "kernel width c in element sizes, 0 = local")
       .in("elements");
-  o.choice("--kernel", s.kernel, "lucy|gauss", "kernel shape");
+  o.word("--kernel", s.kernel, "lucy|gauss", "kernel shape");
   o.number("--penalty P", s.penalty, notNegative("a positive number in Pa/m2, or leave it out (automatic)"),
            "Pa/m2; default: from E and the element size (dashpot: as published)")
       .in("Pa_m2")
@@ -123,7 +83,7 @@ void addSchemeOptions(Options& o, Settings& s) {
 
 void addSignalOptions(Options& o, Settings& s) {
   o.group("Signal");
-  o.choice("--signal", s.signal, "impulse|cosine", "velocity of the first layer at t = 0, or raised cosine");
+  o.word("--signal", s.signal, "impulse|cosine", "velocity of the first layer at t = 0, or raised cosine");
   o.number("--pulse-elements L", s.pulseElements, positive("a positive number of elements, up to 1000", 1000.0),
            "length of a cycle in elements");
   o.add("--omega W", "the same as angular frequency, rad/ms",
@@ -132,7 +92,7 @@ void addSignalOptions(Options& o, Settings& s) {
           Options one("", "");
           one.number("--omega", perMillisecond, positive("a positive angular frequency in rad/ms"), "").read(text);
           one.check();
-          s.pulseElements = 2.0 * pi * waveSpeed() / (1e3 * perMillisecond * Case{}.elementSize);
+          s.pulseElements = 2.0 * std::numbers::pi * waveSpeed() / (1e3 * perMillisecond * Case{}.elementSize);
         },
         {});
   o.integer("--cycles M", s.cycles, 1, 100, "of the raised cosine");
@@ -148,6 +108,7 @@ Options optionsOf(Settings& s) {
   addSignalOptions(o, s);
   o.group("Time");
   benchmark::addTimeOptions(o, s, words);
+  o.flag("--until-past", s.untilPast, "ends when the pulse has left the overlap, whatever the scheme").key = "";
   benchmark::addOutputOptions(o, s, words);
   o.flag("--no-comparison", s.compare, "no run of particles alone to compare with", false);
   return o;
@@ -155,7 +116,6 @@ Options optionsOf(Settings& s) {
 
 /// Of studies, whose runs differ in what these options say, only what no run could use is refused.
 void refuseIdleOptions(const Options& o, const Settings& s) {
-  benchmark::refuseIdleRunOptions(o, s);
   if (s.fullDem)
     o.refuseIdle(
         "--stiffness-ratio --density-ratio --constraint --gap --weight-profile --weight-floor --material "
@@ -163,11 +123,10 @@ void refuseIdleOptions(const Options& o, const Settings& s) {
         "--kernel --penalty --absorber --fem-every --no-comparison",
         "with --full-dem, which has no solid", "leave out one of them");
   if (!s.study.empty()) return;
-  if (s.signal == Signal::impulse)
+  if (s.impulse())
     o.refuseIdle("--pulse-elements --omega --cycles", "for the impulse", "add --signal cosine, or leave it out");
-  if (s.constraint == Constraint::multiplier)
-    o.refuseIdle("--penalty", "with --constraint multiplier", "leave out one of them");
-  if (s.constraint != Constraint::dashpot)
+  if (s.constraint == "multiplier") o.refuseIdle("--penalty", "with --constraint multiplier", "leave out one of them");
+  if (s.constraint != "dashpot")
     o.refuseIdle("--dashpot-matrix", "without a dashpot", "add --constraint dashpot, or leave it out");
   if (s.cgWidth == 0.0)
     o.refuseIdle("--kernel --kernel-normalisation --kernel-reach", "without a kernel",
@@ -201,15 +160,16 @@ void checkSize(const Settings& s) {
 }
 
 void checkCombinations(const Settings& s) {
-  if (s.staggered && (s.fem != FemStepper::newmark || s.constraint != Constraint::dashpot))
+  const bool staggered = s.order == "staggered";
+  if (staggered && (!s.implicit() || s.constraint != "dashpot"))
     throw InputError("staggered steps are made for the dashpot and an implicit solid", "--order staggered",
                      "add --constraint dashpot --fem newmark, or take --order symmetric");
-  if (s.kernelReach == KernelReach::outside && s.gap == Gap::atParticles)
+  if (s.kernelReach == "outside" && s.gap == "at-grains")
     throw InputError("particles outside of the mesh have no solid to be compared with", "--kernel-reach outside",
                      "take --gap nodal, or --kernel-reach overlap");
-  if (s.staggered && s.femEvery != 1)
+  if (staggered && s.femEvery != 1)
     throw InputError("staggered steps take the solid along at every step", "--fem-every", "take 1");
-  if (s.absorber > 0.0 && (s.fem == FemStepper::newmark))
+  if (s.absorber > 0.0 && s.implicit())
     throw InputError("the absorber acts at every step of the particles", "--absorber", "take --fem explicit");
 }
 
@@ -217,37 +177,20 @@ void checkCombinations(const Settings& s) {
 
 bool parseOptions(int argc, char** argv, Settings& s) {
   Options o = optionsOf(s);
-  if (!o.parse(argc, argv, [&s] { applyScheme(s, s.scheme); })) return false;
-  o.refuseBoth("--dt", "--dt-factor");
+  if (!o.parse(argc, argv, [&s] { applyScheme(s); })) return false;
   o.refuseBoth("--omega", "--pulse-elements");
-  validate(s);
-  refuseIdleOptions(o, s);
-  return true;
-}
-
-void validate(const Settings& settings) {
-  Settings s = settings;
-  optionsOf(s).check();
-  benchmark::checkRun(s);
+  benchmark::checkRun(o, s);
   checkLengths(s);
   checkSize(s);
   checkCombinations(s);
+  refuseIdleOptions(o, s);
+  return true;
 }
 
 io::KeyValues describe(const Settings& settings) {
   Settings s = settings;
   s.until = endTime(s);
   return optionsOf(s).described();
-}
-
-io::KeyValues describeCase(const Case& bar) {
-  return {{"side_m", formatNumber(bar.side)},
-          {"element_size_m", formatNumber(bar.elementSize)},
-          {"youngs_modulus_Pa", formatNumber(bar.youngsModulus)},
-          {"poisson_ratio", formatNumber(bar.poissonRatio)},
-          {"particle_density_kg_per_m3", formatNumber(bar.particleDensity)},
-          {"impulse_velocity_m_per_s", formatNumber(bar.velocity)},
-          {"cosine_velocity_m_per_s", formatNumber(bar.cosineVelocity)}};
 }
 
 }  // namespace dovetail::wave

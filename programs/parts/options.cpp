@@ -180,7 +180,13 @@ const Option& Options::find(const std::string& name) const {
 }
 
 bool Options::given(const std::string& name) const { return !find(name).written.empty(); }
-void Options::set(const std::string& name, const std::string& value) { find(name).read(value); }
+
+io::KeyValues Options::written() const {
+  io::KeyValues all;
+  for (const Option& option : all_)
+    for (const std::string& value : option.written) all.emplace_back(option.name, option.flag ? "true" : value);
+  return all;
+}
 
 io::KeyValues Options::described() const {
   io::KeyValues rows;

@@ -157,7 +157,8 @@ bool nothingIsThere(const Built& built, const Scene& scene) {
 }  // namespace
 
 void start(Built& built, const Scene& scene) {
-  const coupling::RunOptions options{.stepsPerWindow = scene.steps.stepsPerWindow};
+  const coupling::RunOptions options{.stepsPerWindow = scene.steps.stepsPerWindow,
+                                     .lag = static_cast<coupling::Lag>(scene.steps.lag)};
   atPlace(scene.steps.where, [&] {
     if (scene.steps.dt.word.empty()) {
       built.run->start(scene.steps.dt.number, options);

@@ -29,6 +29,14 @@ void requireApart(const fem::SolidMesh& mesh, const std::string& set, const std:
                        "give every face one coupling, by sets of the solid for example");
 }
 
+cg::SurfaceKernel kernelOf(const SurfaceKernel& kernel, const fem::SolidMesh& mesh) {
+  cg::SurfaceKernel found = kernel.width.word == "advised" ? surface::advisedKernel(mesh) : cg::SurfaceKernel{};
+  if (kernel.width.word.empty()) found.kernel.width = kernel.width.number;
+  found.kernel.shape = static_cast<cg::KernelShape>(kernel.shape);
+  found.correction = static_cast<cg::KernelCorrection>(kernel.correction);
+  return found;
+}
+
 /// The faces of all couplings of a solid with the same kernel, carried together, and those of one of them.
 surface::Skin skinOf(Built& built, const fem::SolidMesh& mesh, const Coupling& coupling, const SurfaceContact& contact,
                      const Scene& scene) {
@@ -45,23 +53,52 @@ surface::Skin skinOf(Built& built, const fem::SolidMesh& mesh, const Coupling& c
   }
   surface::Skin skin = surface::makeSkin(mesh.X, faces);
   const bool alone = first == 0 && end == faces.size();
-  if (contact.kernel.word == "advised" && surface::meetsPeriod(skin, built.run->grains.pairs.periodicity()))
+  if (contact.spread) return alone ? skin : surface::partOf(skin, first, end);
+  if (contact.kernel.width.word == "advised" && surface::meetsPeriod(skin, built.run->grains.pairs.periodicity()))
     built.notes.push_back("Contacts on \"" + coupling.solid + "\" (" + contact.on +
                           ") have no kernel, as it goes on beyond a side of the periodic space.");
-  else if (contact.kernel.word == "advised")
-    surface::coarseGrain(skin, surface::advisedKernel(mesh));
-  else if (contact.kernel.word.empty())
-    surface::coarseGrain(skin, {{.width = contact.kernel.number}, cg::KernelCorrection::symmetric});
+  else if (contact.kernel.width.word != "none")
+    surface::coarseGrain(skin, kernelOf(contact.kernel, mesh));
+  else if (contact.smooth)
+    surface::splitAtSharpEdges(skin);
   return alone ? skin : surface::partOf(skin, first, end);
+}
+
+/// @throws InputError for parts of the coupling that exclude each other
+void requireConsistent(const SurfaceContact& contact) {
+  if (contact.spread && contact.smooth)
+    throw InputError("a smooth surface carries its loads by its own weights", "",
+                     "take \"transfer\": \"adjoint\" or \"surface\": \"flat\"");
+  if (contact.smooth && contact.edges != 0)
+    throw InputError("a smooth surface has no edges of facets", "",
+                     "take \"edges\": \"projected\" or \"surface\": \"flat\"");
+  if (contact.spread && contact.kernel.correction != 0)
+    throw InputError("corrections of kernels are made for the adjoint transfer", "",
+                     "take \"kernel_correction\": \"none\" or \"transfer\": \"adjoint\"");
+  if (contact.contact && !contact.contactMaterial.empty())
+    throw InputError("these contacts have a law and a material", "", "leave contact or contact_material out");
+}
+
+/// What is not adjoint, or one step old, makes or takes energy, which is booked.
+bool isUnbalanced(const SurfaceContact& contact, const Scene& scene) { return contact.spread || scene.steps.lag != 0; }
+
+surface::Coupling couplingOn(surface::Skin skin, const SurfaceContact& contact, const fem::SolidMesh& mesh) {
+  if (contact.smooth) return surface::Coupling(surface::makeSmoothSurface(skin));
+  surface::Coupling coupling(std::move(skin), {.edges = static_cast<dem::EdgeRule>(contact.edges)});
+  if (contact.spread)
+    coupling.spreadLoad(
+        surface::SpreadLoad(kernelOf(contact.kernel, mesh), mesh.X, coupling.skin(), fem::faceSet(mesh, contact.on)));
+  return coupling;
 }
 
 void add(Built& built, std::size_t solid, const Coupling& coupling, const SurfaceContact& contact, const Scene& scene) {
   dem::Model& grains = built.run->grains;
-  if (contact.contact && !contact.contactMaterial.empty())
-    throw InputError("these contacts have a law and a material", "", "leave contact or contact_material out");
+  requireConsistent(contact);
   surface::Skin skin = skinOf(built, built.meshes[solid], coupling, contact, scene);
   skin.wall.material = contactRow(scene, contact.contactMaterial);
-  grains.terms.add(surface::SurfaceContact(built.run->solid(solid), surface::Coupling(std::move(skin)),
+  surface::Coupling exchange = couplingOn(std::move(skin), contact, built.meshes[solid]);
+  exchange.bookWallWork(isUnbalanced(contact, scene));
+  grains.terms.add(surface::SurfaceContact(built.run->solid(solid), std::move(exchange),
                                            contact.contact ? makeLaws(*contact.contact) : grains.laws,
                                            "grains on " + coupling.solid + " (" + contact.on + ")"));
 }
@@ -94,18 +131,52 @@ void takeOver(Built& built, const fem::SolidMesh& mesh, coupling::SolidSide& sid
                              : ""));
 }
 
-void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overlap, const Scene&) {
+arlequin::CouplingOptions optionsOf(const Overlap& overlap) {
+  return {.form = static_cast<arlequin::GapForm>(overlap.gap),
+          .projection = {.width = overlap.kernel,
+                         .kernel = static_cast<cg::KernelShape>(overlap.kernelShape),
+                         .normaliseKernels = overlap.normalised,
+                         .perElement = overlap.perElement,
+                         .reachOut = overlap.reachOut,
+                         .kernelCells = overlap.perElement ? 1 : 0},
+          .constraint = static_cast<arlequin::ConstraintKind>(overlap.constraint),
+          .penalty = overlap.penalty.number,
+          .consistentDashpot = overlap.consistentDashpot,
+          .dashpotLags = overlap.staggered,
+          .absorberRate = overlap.absorber,
+          .leastShare = std::max(overlap.floor, 1e-12)};
+}
+
+/// @throws InputError for parts of the overlap that exclude each other
+void requireConsistent(const Overlap& overlap, const coupling::SolidSide& side, const Scene& scene) {
+  const auto kind = static_cast<arlequin::ConstraintKind>(overlap.constraint);
+  const bool damps = kind == arlequin::ConstraintKind::dashpot;
+  const bool implicit = side.stepping == coupling::Stepping::implicitSteps;
+  const auto require = [](bool good, const char* what, const char* remedy) {
+    if (!good) throw InputError(what, "", remedy);
+  };
+  require(!damps || overlap.penalty.word.empty(), "a dashpot has no automatic penalty", "give penalty a number");
+  require(damps || !overlap.staggered, "the order \"staggered\" is that of a dashpot",
+          "take \"constraint\": \"dashpot\" or leave order out");
+  require(implicit || !overlap.staggered, "the order \"staggered\" wants an implicit solid",
+          "give the solid \"stepping\": \"implicit\" or leave order out");
+  require(!overlap.staggered || scene.steps.stepsPerWindow == 1,
+          "the order \"staggered\" takes the solid along in every step", "take \"per_window\": 1 or leave order out");
+  require(!overlap.reachOut || overlap.gap != 0, "kernels that reach outside want a gap at nodes",
+          "take \"gap\": \"nodal\" or leave kernel_reach out");
+  require(!implicit || overlap.absorber == 0.0, "the absorber works with explicit solids only",
+          "give the solid \"stepping\": \"explicit\" or leave absorber out");
+}
+
+void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overlap, const Scene& scene) {
   dem::Model& grains = built.run->grains;
   const fem::SolidMesh& mesh = built.meshes[solid];
   coupling::SolidSide& side = built.run->solid(solid);
+  requireConsistent(overlap, side, scene);
+  const arlequin::CouplingOptions options = optionsOf(overlap);
   const std::vector<double> weight = overlapWeights(overlap, mesh);
-  if (overlap.takeOver) takeOver(built, mesh, side, weight, overlap.floor);
-  leaveOut(built, mesh, side, weight, overlap.floor);  // after that: the border moves with the mesh
-  arlequin::CouplingOptions options;
-  options.projection.width = overlap.kernel;
-  options.penalty = overlap.penalty.number;
-  options.leastShare = overlap.floor;
-  if (overlap.multipliers) options.constraint = arlequin::ConstraintKind::multiplier;
+  if (overlap.takeOver) takeOver(built, mesh, side, weight, options.leastShare);
+  leaveOut(built, mesh, side, weight, options.leastShare);  // after that: the border moves with the mesh
   grains.terms.add(arlequin::makeOverlapTie(grains, mesh, weight, side, options));
 }
 

@@ -42,6 +42,7 @@ void describe(Fields& f, NeoHookean& v);
 void describe(Fields& f, J2Plastic& v);
 void describe(Fields& f, DruckerPrager& v);
 void describe(Fields& f, AxialSprings& v);
+void describe(Fields& f, DeformedMetric& v);
 void describe(Fields& f, SolidMaterial& v);
 void describe(Fields& f, PlaceInBox& v);
 void describe(Fields& f, PlaceOnPlane& v);

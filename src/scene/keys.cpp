@@ -40,11 +40,17 @@ void describe(Fields& f, Stage& v) {
 }
 void describe(Fields& f, Steps& v) {
   static constexpr const char* automatic[] = {"auto"};
+  static constexpr const char* lags[] = {"none", "load", "load-and-skin"};
   f.where(v.where);
   f.numberOrWord({"dt", "time step of the grains"}, v.dt, positive(unit::time), automatic);
   f.number({"safety", "share of the critical step that \"auto\" takes; impacts take eight steps, or more"}, v.safety,
            between(0.0, 1.0, true));
   f.integer({"per_window", "K: steps of the grains per step of the solids"}, v.stepsPerWindow, 1, 100000);
+  f.choice(
+      {"lag",
+       "of what solids feel: none; or, to compare with staggered schemes of the literature, loads one step old, or "
+       "loads and surfaces. A lag makes energy; what it makes is in the books"},
+      v.lag, lags);
   f.integer({"threads", "0: one per processor; results are the same for any number"}, v.threads, 0, 1024);
 }
 void describe(Fields& f, Scene& v) {

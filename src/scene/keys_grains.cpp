@@ -18,6 +18,8 @@ void describe(Fields& f, LinearContact& v) {
            v.tangentialStiffness, positive(unit::stiffness));
   f.flag({"bonded", "grains that touch at the start hold together as the springs of a lattice, and no others meet"},
          v.bonded);
+  f.flag({"tension", "whether the dashpot may pull while the overlap closes; the restitution is the same either way"},
+         v.tension);
 }
 void describe(Fields& f, HertzContact& v) {
   young(f, v.youngsModulus);

@@ -47,9 +47,17 @@ void describe(Fields& f, DruckerPrager& v) {
   f.number({"dilatancy_angle", "not above the friction angle"}, v.dilatancyAngle, {unit::angle, 0.0, 1.5});
 }
 void describe(Fields& f, AxialSprings& v) { young(f, v.youngsModulus); }
+void describe(Fields& f, DeformedMetric& v) {
+  young(f, v.youngsModulus);
+  poisson(f, v.poissonRatio);
+}
 void describe(Fields& f, SolidMaterial& v) {
-  static constexpr const char* laws[] = {"St-Venant-Kirchhoff", "neo-Hookean", "J2", "Drucker-Prager", "axial-springs"};
-  f.oneOf({"law", "elastic; with plastic flow: J2 and Drucker-Prager; axial-springs: as a cubic lattice of grains"},
+  static constexpr const char* laws[] = {"St-Venant-Kirchhoff", "neo-Hookean",   "J2",
+                                         "Drucker-Prager",      "axial-springs", "deformed-metric"};
+  f.oneOf({"law",
+           "elastic; with plastic flow: J2 and Drucker-Prager; axial-springs: as a cubic lattice of grains; "
+           "deformed-metric: Hooke's law by the metric of the deformed body, without a potential (Cheng et al. 2023, "
+           "Eq. 34)"},
           v.law, laws);
   density(f, v.density);
 }
@@ -141,20 +149,45 @@ void describe(Fields& f, Solid& v) {
 
 // ---- couplings
 
+constexpr const char* kernelShapes[] = {"lucy", "gauss"};
+
 void describe(Fields& f, SurfaceContact& v) {
   static constexpr const char* kernels[] = {"none", "advised"};
+  static constexpr const char* corrections[] = {"none", "linear", "symmetric"};
+  static constexpr const char* transfers[] = {"adjoint", "spread"};
+  static constexpr const char* surfaces[] = {"flat", "smooth"};
+  static constexpr const char* rules[] = {"projected", "deepest"};
   f.text({"on", "face set: of the mesh, or one of the sets of the solid"}, v.on, false);
   f.numberOrWord(
       {"kernel",
        "width over which contacts are spread on the surface; none: single nodes, which give way the more the finer "
        "the mesh"},
-      v.kernel, positive(unit::length), kernels);
+      v.kernel.width, positive(unit::length), kernels);
+  f.choice({"kernel_shape", "of the kernel"}, v.kernel.shape, kernelShapes);
+  f.choice({"kernel_correction",
+            "at sides: linear keeps first moments, symmetric keeps even loads even; none with the transfer spread"},
+           v.kernel.correction, corrections);
+  f.choice({"transfer",
+            "adjoint: gap and load by the same weights, which makes no energy; spread: the gap is that of single "
+            "facets, and the load alone is spread (Cheng et al. 2023, Eqs. 14 and 15)"},
+           v.spread, transfers);
+  f.choice({"surface", "facets, or patches of B-splines through them, without edges; of faces of four nodes"}, v.smooth,
+           surfaces);
+  f.choice({"edges",
+            "where a grain touches several facets: projected clear of all, as a potential asks; or the deepest contact "
+            "alone, or the mean of all faces (code of Cheng et al. 2023)"},
+           v.edges, rules);
   f.object({"contact", "law of these contacts; that of the grains if not given"}, v.contact);
   contactMaterial(f, v.contactMaterial);
 }
 void describe(Fields& f, Overlap& v) {
   static constexpr const char* profiles[] = {"half-cosine", "linear", "smooth"};
-  static constexpr const char* constraints[] = {"penalty", "multiplier"};
+  static constexpr const char* constraints[] = {"penalty", "multiplier", "dashpot"};
+  static constexpr const char* matrices[] = {"lumped", "consistent"};
+  static constexpr const char* orders[] = {"symmetric", "staggered"};
+  static constexpr const char* gaps[] = {"at-grains", "nodal"};
+  static constexpr const char* rows[] = {"per-node", "per-element"};
+  static constexpr const char* reaches[] = {"overlap", "outside"};
   static constexpr const char* automatic[] = {"auto"};
   f.choice({"axis", "along which one model hands over to the other"}, v.axis, axisNames);
   f.number({"solid_border", "coordinate at which the solid ends, within the grains"}, v.solidBorder, any(unit::length));
@@ -162,10 +195,25 @@ void describe(Fields& f, Overlap& v) {
            any(unit::length));
   f.choice({"profile", "of the weights between the borders"}, v.profile, profiles);
   f.number({"floor", "least share of either model at the borders; the more, the larger the steps of the grains there"},
-           v.floor, between(0.0, 0.5, true, true));
-  f.choice({"constraint", "what holds the two together"}, v.multipliers, constraints);
-  f.numberOrWord({"penalty", "stiffness per volume"}, v.penalty, positive(unit::penalty), automatic);
+           v.floor, between(0.0, 0.5, false, true));
+  f.choice({"constraint", "what holds the two together; dashpot: a penalty on the gap's increment of a step"},
+           v.constraint, constraints);
+  f.numberOrWord({"penalty", "stiffness per volume; of a dashpot, to be given, that of its increments"}, v.penalty,
+                 positive(unit::penalty), automatic);
+  f.choice({"dashpot_matrix", "of a dashpot: row sums, or products of shape functions"}, v.consistentDashpot, matrices);
+  f.choice({"order", "of a dashpot on an implicit solid: forces of the same window, or of the one before"}, v.staggered,
+           orders);
+  f.choice(
+      {"gap", "where the two fields are compared: at the grains, which makes no gap of linear fields, or at nodes"},
+      v.gap, gaps);
+  f.choice({"rows", "of the gap: one per node, or one per element and corner"}, v.perElement, rows);
   f.number({"kernel", "width over which gaps are averaged; 0: none"}, v.kernel, notNegative(unit::length));
+  f.choice({"kernel_shape", "of the kernel"}, v.kernelShape, kernelShapes);
+  f.flag({"kernel_normalised", "whether kernels cut at a border are normalised"}, v.normalised);
+  f.choice({"kernel_reach", "kernels within the overlap, or also from outside; the latter with the gap at nodes"},
+           v.reachOut, reaches);
+  f.number({"absorber", "rate at which motions of grains that the mesh cannot carry are damped; 0: none"}, v.absorber,
+           notNegative(unit::rate));
   f.flag({"take_over",
           "whether the solid begins deformed until it carries its loads and the grains, which should be at rest"},
          v.takeOver);

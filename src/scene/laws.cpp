@@ -79,11 +79,13 @@ std::shared_ptr<const dem::ContactLaws> withParts(const Table& table, const Part
 
 auto partsOf(const LinearContact& linear, const Entry& entry) {
   const ContactLaw& law = *entry.law;
-  return std::pair{
-      dem::LinearSpringDashpot{.stiffness = linear.stiffness, .restitution = law.restitution, .bonded = linear.bonded},
-      dem::TangentialSpring{.stiffness = linear.tangentialStiffness.value_or(2.0 / 7.0 * linear.stiffness),
-                            .friction = law.friction,
-                            .dampingRatio = law.tangentialDampingRatio}};
+  return std::pair{dem::LinearSpringDashpot{.stiffness = linear.stiffness,
+                                            .restitution = law.restitution,
+                                            .tension = linear.tension,
+                                            .bonded = linear.bonded},
+                   dem::TangentialSpring{.stiffness = linear.tangentialStiffness.value_or(2.0 / 7.0 * linear.stiffness),
+                                         .friction = law.friction,
+                                         .dampingRatio = law.tangentialDampingRatio}};
 }
 dem::Material materialOf(const HertzContact& hertz) { return {hertz.youngsModulus, hertz.poissonRatio, 0.0}; }
 auto partsOf(const HertzContact& hertz, const Entry& entry) {

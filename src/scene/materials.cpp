@@ -24,6 +24,9 @@ auto make(const DruckerPrager& law, double density) {
 auto make(const AxialSprings& law, double density) {
   return fem::pointMaterial(fem::AxialSprings{law.youngsModulus, density});
 }
+auto make(const DeformedMetric& law, double density) {
+  return fem::pointMaterial(fem::DeformedMetricHooke{law.youngsModulus, law.poissonRatio, density});
+}
 
 }  // namespace
 

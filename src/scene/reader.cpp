@@ -1,6 +1,8 @@
 // From JSON to the structures of a scene, strictly.
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/scene/files.hpp"
@@ -287,14 +289,12 @@ ReadFields readFields(const FileText& file, const std::vector<std::string>& sett
 
 Scene sceneFromText(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                     const std::vector<std::string>& settings) {
-  Scene scene;
-  const ReadFields read = readFields({text, name, folder}, settings, [&](Fields& fields) {
-    scene = Scene{};
-    describe(fields, scene);
-  });
-  keepUsed(scene.parameters, read.functionsOfTime);
-  scene.files = read.files;
-  return scene;
+  std::optional<Scene> scene;
+  const ReadFields read =
+      readFields({text, name, folder}, settings, [&](Fields& fields) { describe(fields, scene.emplace()); });
+  keepUsed(scene->parameters, read.functionsOfTime);
+  scene->files = read.files;
+  return std::move(*scene);
 }
 
 FileText textOfFile(const std::filesystem::path& file) {

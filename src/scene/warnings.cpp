@@ -52,14 +52,15 @@ void lookAtSurfaceContact(const Built& built, const Scene& scene, std::size_t so
   const std::optional<ContactLaw>& law = contact.contact ? contact.contact : scene.contact;
   const double advised = surface::advisedKernel(built.meshes[solid]).kernel.width;
   const std::string name = quoted(scene.solids[solid].name);
-  if (law && std::holds_alternative<HertzContact>(law->normal) && contact.kernel.word == "none")
+  if (law && std::holds_alternative<HertzContact>(law->normal) && contact.kernel.width.word == "none")
     lines.push_back("Hertz's law counts the compliance near a contact, and single nodes of " + name +
                     " give way once more: write \"kernel\": \"advised\" (" + rounded(advised) + " m).");
-  if (contact.kernel.word.empty() && contact.kernel.number > 4.0 * advised)
-    lines.push_back("The kernel on " + name + " is " + rounded(contact.kernel.number / advised) +
+  const NumberOrWord& width = contact.kernel.width;
+  if (width.word.empty() && width.number > 4.0 * advised)
+    lines.push_back("The kernel on " + name + " is " + rounded(width.number / advised) +
                     " times as wide as advised for the body: take about " + rounded(advised) + " m.");
-  if (contact.kernel.word.empty() && contact.kernel.number < 0.01 * advised)
-    lines.push_back("The kernel on " + name + " is " + rounded(contact.kernel.number) +
+  if (width.word.empty() && width.number < 0.01 * advised)
+    lines.push_back("The kernel on " + name + " is " + rounded(width.number) +
                     " m wide, far below an element, and spreads no force: take about " + rounded(advised) +
                     " m, or \"none\".");
 }

@@ -76,6 +76,7 @@ private:
   pid_t child_ = 0;
 };
 
+/// Runs it to its end. @param options  words of its command line
 inline Outcome runProgram(const std::vector<std::string>& options) { return Running(options).outcome(); }
 
 /// Every file below the folder with its bytes, and every folder.

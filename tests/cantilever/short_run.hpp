@@ -2,17 +2,23 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "dovetail/core/error.hpp"
+#include "common/case_program.hpp"
 #include "run.hpp"
 
 namespace dovetail::cantilever::test {
 
-inline Settings shortSettings(double until) {
-  Settings settings;
-  settings.until = until;
-  settings.quiet = true;
-  return settings;
+using Words = std::vector<std::string>;
+
+inline Settings settingsOf(Words words) {
+  words.push_back("--quiet");
+  return benchmark::settingsOf<Settings>("cantilever", words);
+}
+/// @param until  s @param words  options and their values
+inline RunResult runUntil(double until, Words words = {}) {
+  words.insert(words.end(), {"--until", std::to_string(until)});
+  return run(settingsOf(words));
 }
 
 /// Joules at the end in the channels whose names start so.
@@ -23,10 +29,10 @@ inline double joulesOf(const RunResult& result, const std::string& beginning) {
   return sum;
 }
 
-/// What run() refuses the settings with; empty if it takes them.
-inline std::string refusal(const Settings& settings) {
+/// What a run of 0.01 s is refused with; empty if it is taken.
+inline std::string refusal(const Words& words) {
   try {
-    run(settings);
+    runUntil(0.01, words);
   } catch (const InputError& error) {
     return error.what();
   }

@@ -1,35 +1,16 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <map>
 
-#include "program.hpp"
+#include "refusals.hpp"
 
 namespace dovetail::cantilever {
 namespace {
 
-using io::test::readText;
 using io::test::ScratchFolder;
 using io::test::writeText;
 using test::everyByte;
-using test::Outcome;
-using test::runProgram;
-
-using Words = std::vector<std::string>;
-
-/// The program refuses the words in one line that has the parts: the option, and what to write instead.
-void expectRefused(const Words& words, const Words& parts) {
-  std::string line;
-  for (const std::string& word : words) line += " '" + word + "'";
-  SCOPED_TRACE("cantilever" + line);
-  const Outcome outcome = runProgram(words);
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  EXPECT_TRUE(outcome.err.starts_with("cantilever: ") && outcome.err.ends_with("\n")) << outcome.err;
-  for (const std::string& part : parts)
-    EXPECT_NE(outcome.err.find(part), std::string::npos) << '"' << part << "\" is not in: " << outcome.err;
-}
+using test::expectChoice;
+using test::expectRefused;
+using test::Words;
 
 TEST(BadInput, NumbersOutsideTheirRange) {
   const std::string width = "--cg-width";
@@ -54,6 +35,9 @@ TEST(BadInput, TimeSteps) {
   expectRefused({"--dt-factor", "5"}, {"--dt-factor", "element", "give at most", "--dt auto"});
   expectRefused({"--dt-factor", "0.05", "--dt", "auto"}, {"--dt-factor", "--dt"});
   expectRefused({"--dt", "0.001"}, {"--dt", "auto"});
+  expectRefused({"--dt-share", "1.1"}, {"above the critical step", "give at most"});
+  expectRefused({"--dt-share", "0.5", "--dt-factor", "0.05"}, {"--dt-factor", "--dt-share"});
+  expectRefused({"--dt-factor", "5", "--fem", "newmark"}, {"contact of a particle with the skin", "give at most"});
   expectRefused({"--fem-every", "500"}, {"stepped every 500", "give at most"});
 }
 
@@ -97,12 +81,7 @@ TEST(BadInput, WordsThatAreNoChoice) {
       {"--mass", {"lumped", "consistent"}},
       {"--study", {"widths", "pareto", "stability", "ablation"}},
   };
-  for (const auto& [option, names] : choices) {
-    Words parts = names;
-    parts.push_back(option);
-    expectRefused({option, names.front() + "x"}, parts);
-    expectRefused({option, "0"}, parts);  // not the number behind a name either
-  }
+  for (const auto& [option, names] : choices) expectChoice(option, names);
 }
 
 TEST(BadInput, WordsThatAreNoOption) {

@@ -15,43 +15,21 @@ using test::everyByte;
 using test::Outcome;
 using test::runProgram;
 
+const char* const everyOption =
+    "--scheme --cg-width --kernel --kernel-correction --surface --element --mesh --refine "
+    "--dt-factor --dt --dt-share --insist --fem --fem-every --until --stiffness-ratio --threads "
+    "--out --output-interval --summary --study --reference --profile --workers --quiet --help "
+    "--lag --transfer --edges --metric --mass --restitution ";
+
 TEST(Program, HelpListsEveryOption) {
   for (const char* word : {"--help", "-h"}) {
     const Outcome outcome = runProgram({word});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "");
-    for (const char* option : {"--scheme",
-                               "--cg-width",
-                               "--kernel",
-                               "--kernel-correction",
-                               "--surface",
-                               "--element",
-                               "--mesh",
-                               "--refine",
-                               "--dt-factor",
-                               "--dt",
-                               "--fem",
-                               "--fem-every",
-                               "--until",
-                               "--stiffness-ratio",
-                               "--threads",
-                               "--out",
-                               "--output-interval",
-                               "--summary",
-                               "--study",
-                               "--reference",
-                               "--profile",
-                               "--workers",
-                               "--quiet",
-                               "--help",
-                               "--lag",
-                               "--transfer",
-                               "--edges",
-                               "--metric",
-                               "--mass",
-                               "--restitution"}) {
-      const bool listed = outcome.out.find(std::string(" ") + option + " ") != std::string::npos ||
-                          outcome.out.find(std::string(",") + option + " ") != std::string::npos;
+    std::istringstream options(everyOption);
+    for (std::string option; options >> option;) {
+      const bool listed = outcome.out.find(" " + option + " ") != std::string::npos ||
+                          outcome.out.find("," + option + " ") != std::string::npos;
       EXPECT_TRUE(listed) << option << " in\n" << outcome.out;
     }
   }

@@ -55,8 +55,6 @@ TEST(Options, AreReadAndToldByOneTable) {
   EXPECT_TRUE(s.quiet);
   EXPECT_EQ(tableOf(s).described(),
             (io::KeyValues{{"width_m", "1.5"}, {"count", "2"}, {"shape", "square"}, {"until_s", "end"}}));
-  tableOf(s).set("until", "3");
-  EXPECT_EQ(s.until, 3.0);
 }
 
 TEST(Options, WhatIsWrittenWinsOverWhatIsSetBetween) {

@@ -66,6 +66,17 @@ const Case pouring{pile, "series.csv", "\n0.13"};
 TEST(Restart, AfterAnInterruptionAllBytesAreTheSame) { expectSameAfter(pouring, SIGINT, 130); }
 TEST(Restart, AfterAKillAllBytesAreTheSame) { expectSameAfter(pouring, SIGKILL, -1); }
 
+/// The published scheme: loads one step old, spread on an implicit solid by the rule of the deepest contact.
+Words published(const ScratchFolder& folder) {
+  return words(folder, "cantilever.json",
+               {"time=0.25", "steps.lag=load", "couplings.0.transfer=spread", "couplings.0.kernel=0.4",
+                "couplings.0.kernel_correction=none", "couplings.0.edges=deepest", "contact.restitution=0.99",
+                "solids.0.material.law=deformed-metric", "solids.0.stepping=implicit"},
+               "0.02");
+}
+const Case staggered{published, "series.csv", "\n0.1"};
+TEST(Restart, APublishedSchemeGoesOnToTheSameBytes) { expectSameAfter(staggered, SIGKILL, -1); }
+
 /// A bar that is pulled and pushed until it yields; factors of its implicit steps serve many of them.
 Words yieldingBar(const ScratchFolder& folder, const std::string& every) {
   io::test::writeText(folder / "bar.json", R"json({"solids": [{"name": "bar", "mesh": "box", "cells": [1, 1, 3],

@@ -2,23 +2,29 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "dovetail/core/error.hpp"
+#include "common/case_program.hpp"
 #include "run.hpp"
 
 namespace dovetail::wave::test {
 
+using Words = std::vector<std::string>;
+
+inline Settings settingsOf(Words words) {
+  words.push_back("--quiet");
+  return benchmark::settingsOf<Settings>("wave_propagation", words);
+}
+
 /// 4 m of particles, 1.6 m of overlap, a pulse of six elements.
-inline Settings shortBar() {
-  Settings settings;
-  settings.demLength = 4.0;
-  settings.overlap = 1.6;
-  settings.femLength = 4.0;
+inline Settings shortBar(Words more = {}) {
+  more.insert(more.end(), {"--dem-length", "4", "--overlap", "1.6", "--fem-length", "4"});
+  Settings settings = settingsOf(more);
   settings.pulseElements = 6.0;
-  settings.dtFactor = 0.01;
-  settings.quiet = true;
+  if (!settings.shareOfCritical) settings.dtFactor = 0.01;
   return settings;
 }
+inline RunFigures figuresOf(const Words& more) { return run(shortBar(more)).figures; }
 
 inline RunResult runAndCompare(const Settings& settings) {
   RunResult result = run(settings);
@@ -26,10 +32,10 @@ inline RunResult runAndCompare(const Settings& settings) {
   return result;
 }
 
-/// What run() refuses the settings with; empty if it takes them.
-inline std::string refusal(const Settings& settings) {
+/// What run() refuses the words with; empty if it takes them.
+inline std::string refusal(const Words& more) {
   try {
-    run(settings);
+    figuresOf(more);
   } catch (const InputError& error) {
     return error.what();
   }

@@ -1,35 +1,15 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
+// What is refused before a run; places of files: see the cantilever, whose code they share.
 #include <map>
 
-#include "../cantilever/program.hpp"
+#include "../cantilever/refusals.hpp"
 
 namespace dovetail::wave {
 namespace {
 
-using cantilever::test::everyByte;
-using cantilever::test::Outcome;
-using cantilever::test::runProgram;
-using io::test::readText;
+using cantilever::test::expectChoice;
+using cantilever::test::expectRefused;
+using cantilever::test::Words;
 using io::test::ScratchFolder;
-using io::test::writeText;
-
-using Words = std::vector<std::string>;
-
-/// The program refuses the words in one line that has the parts: the option, and what to write instead.
-void expectRefused(const Words& words, const Words& parts) {
-  std::string line;
-  for (const std::string& word : words) line += " '" + word + "'";
-  SCOPED_TRACE("wave_propagation" + line);
-  const Outcome outcome = runProgram(words);
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  EXPECT_TRUE(outcome.err.starts_with("wave_propagation: ") && outcome.err.ends_with("\n")) << outcome.err;
-  for (const std::string& part : parts)
-    EXPECT_NE(outcome.err.find(part), std::string::npos) << '"' << part << "\" is not in: " << outcome.err;
-}
 
 TEST(BadInput, NumbersOutsideTheirRange) {
   const std::map<std::string, Words> values{{"--particles-per-edge", {"0", "9", "-1"}},
@@ -68,14 +48,6 @@ TEST(BadInput, BarsTooLarge) {
   expectRefused({"--dem-length", "4000", "--particles-per-edge", "8"}, {"are too many", "the lengths"});
 }
 
-TEST(BadInput, ARefusedRunLeavesNoFolder) {
-  const ScratchFolder folder;
-  const std::string out = (folder / "new").string();
-  expectRefused({"--dt-factor", "5", "--out", out, "--summary", out + "/summary.json"}, {"--dt-factor"});
-  expectRefused({"--penalty", "1e13", "--out", out}, {"above the critical one"});
-  EXPECT_TRUE(everyByte(folder).empty());
-}
-
 TEST(BadInput, WordsThatAreNoChoice) {
   const std::map<std::string, Words> choices{{"--scheme", {"conservative", "paper"}},
                                              {"--constraint", {"penalty", "multiplier", "dashpot"}},
@@ -93,12 +65,7 @@ TEST(BadInput, WordsThatAreNoChoice) {
                                              {"--kernel", {"lucy", "gauss"}},
                                              {"--signal", {"impulse", "cosine"}},
                                              {"--study", {"widths", "pareto", "stability", "constraints"}}};
-  for (const auto& [option, names] : choices) {
-    Words parts = names;
-    parts.push_back(option);
-    expectRefused({option, names.front() + "x"}, parts);
-    expectRefused({option, "0"}, parts);  // not the number behind a name either
-  }
+  for (const auto& [option, names] : choices) expectChoice(option, names);
 }
 
 TEST(BadInput, WordsThatAreNoOptionAndEmptyValues) {
@@ -139,40 +106,9 @@ TEST(BadInput, OptionsThatWouldDoNothing) {
   expectRefused({"--quiet", "--profile"}, {"--profile", "--summary FILE"});
 }
 
-TEST(BadInput, PlacesThatCannotBeWritten) {
+TEST(BadInput, ReferencesThatAreNotThere) {
   const ScratchFolder folder;
-  writeText(folder / "file", "mine");
-  const std::string file = (folder / "file").string();
-  const auto before = everyByte(folder);
-  expectRefused({"--out", file}, {"--out", file, "give a folder"});
-  expectRefused({"--out", file + "/below"}, {"--out", file, "give a folder"});
-  expectRefused({"--study", "widths", "--out", file}, {"--out", file, "give a folder"});
-  expectRefused({"--summary", "/proc/x"}, {"--summary", "/proc", "give a folder"});
-  expectRefused({"--summary", file + "/x.json"}, {"--summary", file, "give a folder"});
-  expectRefused({"--summary", (folder / "typo/x.json").string()}, {"--summary", "typo", "make it"});
-  expectRefused({"--summary", folder.path().string()}, {"--summary", folder.path().string()});
-  for (const char* name : {"series.csv", "profile.csv", "solid.pvd"})
-    expectRefused({"--out", folder.path().string(), "--summary", (folder / name).string()},
-                  {"--summary", name, "another name"});
   expectRefused({"--reference", folder.path().string()}, {"--reference", "wave_*P_c*dX.csv", "name the folder"});
-  EXPECT_EQ(everyByte(folder), before);
-}
-
-TEST(BadInput, WhatOthersWroteIsNotOverwritten) {
-  Words names{"series.csv", "profile.csv", "summary.json"};
-  if (TEST_WITH_HDF5) names.push_back("series.h5");
-  if (TEST_WITH_VTK) names.insert(names.end(), {"solid.pvd", "particles.pvd", "solid", "particles"});
-  for (const std::string& name : names) {
-    const ScratchFolder folder;
-    writeText(folder / name, "somebody else's");
-    const std::string out = folder.path().string();
-    expectRefused({"--out", out, "--summary", (folder / "summary.json").string()},
-                  {name, name == "summary.json" ? "--summary" : "--out"});
-    const auto after = everyByte(folder);
-    for (const auto& [file, bytes] : after)  // folders may have been made, files not
-      EXPECT_TRUE(file == name ? bytes == "somebody else's" : std::filesystem::is_directory(folder / file)) << file;
-    EXPECT_TRUE(after.contains(name));
-  }
 }
 
 }  // namespace

@@ -7,18 +7,14 @@
 namespace dovetail::wave {
 namespace {
 
-using test::refusal;
-using test::runAndCompare;
+using test::figuresOf;
 using test::shortBar;
 
 TEST(Conservation, PenaltyAndMultipliersLoseNothingForAnyWidth) {
-  for (const Constraint constraint : {Constraint::penalty, Constraint::multiplier})
-    for (const double width : {0.0, 1.5}) {
-      SCOPED_TRACE("constraint " + std::to_string(static_cast<int>(constraint)) + ", width " + std::to_string(width));
-      Settings settings = shortBar();
-      settings.constraint = constraint;
-      settings.cgWidth = width;
-      const RunFigures f = runAndCompare(settings).figures;
+  for (const char* constraint : {"penalty", "multiplier"})
+    for (const char* width : {"0", "1.5"}) {
+      SCOPED_TRACE(std::string(constraint) + ", width " + width);
+      const RunFigures f = test::runAndCompare(shortBar({"--constraint", constraint, "--cg-width", width})).figures;
       EXPECT_TRUE(f.stable);
       EXPECT_LT(std::abs(f.lostShare), 5e-5);
       EXPECT_LT(f.ledgerResidual, 5e-5);
@@ -32,18 +28,14 @@ TEST(Conservation, PenaltyAndMultipliersLoseNothingForAnyWidth) {
 }
 
 TEST(Conservation, TheResidualFallsWithTheSquareOfTheStep) {
-  Settings settings = shortBar();
-  settings.constraint = Constraint::multiplier;
+  Settings settings = shortBar({"--constraint", "multiplier"});
   const double coarse = run(settings).figures.ledgerResidual;
   settings.dtFactor *= 0.5;
   EXPECT_NEAR(coarse / run(settings).figures.ledgerResidual, 4.0, 0.4);
 }
 
 TEST(Conservation, WhatADashpotLosesIsBooked) {
-  Settings settings = shortBar();
-  settings.constraint = Constraint::dashpot;
-  settings.weightFloor = 0.1;
-  const RunFigures f = run(settings).figures;
+  const RunFigures f = figuresOf({"--constraint", "dashpot", "--weight-floor", "0.1"});
   EXPECT_LT(f.couplingWorkShare, -0.01);
   EXPECT_NEAR(f.lostShare, -f.couplingWorkShare, 1e-4);
   EXPECT_LT(f.ledgerResidual, 1e-4);
@@ -51,12 +43,9 @@ TEST(Conservation, WhatADashpotLosesIsBooked) {
 }
 
 TEST(Conservation, WhatTheAbsorberTakesIsBookedApart) {
-  Settings settings = shortBar();
-  settings.particlesPerEdge = 2;
-  settings.signal = Signal::impulse;  // with waves that the mesh cannot carry
-  const RunFigures without = run(settings).figures;
-  settings.absorber = 1.0;
-  const RunFigures with = run(settings).figures;
+  // An impulse has waves that the mesh cannot carry.
+  const RunFigures without = figuresOf({"--particles-per-edge", "2", "--signal", "impulse"}),
+                   with = figuresOf({"--particles-per-edge", "2", "--signal", "impulse", "--absorber", "1"});
   EXPECT_EQ(without.absorbedShare, 0.0);
   EXPECT_GT(with.absorbedShare, 0.01);
   EXPECT_LT(with.absorbedShare, 1.0);
@@ -65,17 +54,12 @@ TEST(Conservation, WhatTheAbsorberTakesIsBookedApart) {
 }
 
 TEST(Conservation, TheEnergyOfAWeakPulseGrowsWithTheSquareOfItsAmplitude) {
-  Settings settings = shortBar();
-  settings.amplitude = 0.01;
-  const double one = run(settings).figures.energyInput;
-  settings.amplitude = 0.02;
-  EXPECT_NEAR(run(settings).figures.energyInput / one, 4.0, 1e-3);
+  const double one = figuresOf({"--amplitude", "0.01"}).energyInput;
+  EXPECT_NEAR(figuresOf({"--amplitude", "0.02"}).energyInput / one, 4.0, 1e-3);
 }
 
 TEST(Conservation, ParticlesAloneHaveNoSolidAndKeepTheirEnergy) {
-  Settings settings = shortBar();
-  settings.fullDem = true;
-  const RunResult result = run(settings);
+  const RunResult result = run(shortBar({"--full-dem"}));
   EXPECT_EQ(result.figures.elements, 0u);
   EXPECT_TRUE(result.nodePosition.empty());
   EXPECT_TRUE(std::isinf(result.figures.critical.solid));
@@ -83,11 +67,7 @@ TEST(Conservation, ParticlesAloneHaveNoSolidAndKeepTheirEnergy) {
 }
 
 TEST(Conservation, ThreadsDoNotChangeTheLastBit) {
-  Settings settings = shortBar();
-  settings.cgWidth = 1.0;
-  const RunResult one = run(settings);
-  settings.threads = 2;
-  const RunResult two = run(settings);
+  const RunResult one = run(shortBar({"--cg-width", "1"})), two = run(shortBar({"--cg-width", "1", "--threads", "2"}));
   EXPECT_EQ(one.figures.energyFinal, two.figures.energyFinal);
   ASSERT_EQ(one.nodeVelocity.size(), two.nodeVelocity.size());
   for (std::size_t n = 0; n < one.nodeVelocity.size(); ++n)
@@ -95,12 +75,9 @@ TEST(Conservation, ThreadsDoNotChangeTheLastBit) {
 }
 
 TEST(Conservation, AStepAboveTheCriticalOneIsRefusedAndWouldBreakDown) {
-  Settings settings = shortBar();
-  settings.shareOfCritical = 1.05;
-  EXPECT_NE(refusal(settings).find("--dt auto"), std::string::npos) << refusal(settings);
-  settings.shareOfCritical = 2.0;
-  settings.beyondCritical = true;
-  const RunFigures f = run(settings).figures;
+  const std::string message = test::refusal({"--dt-share", "1.05"});
+  EXPECT_NE(message.find("--dt auto"), std::string::npos) << message;
+  const RunFigures f = figuresOf({"--dt-share", "2", "--insist"});
   EXPECT_FALSE(f.finished);
   EXPECT_FALSE(f.stable);
   EXPECT_NE(f.failure.find("t = "), std::string::npos) << f.failure;

@@ -37,7 +37,7 @@ const char* everyOption =
     "--full-dem --stiffness-ratio --density-ratio --dt-factor --dt "
     "--fem --fem-every --until --threads --out "
     "--output-interval --no-comparison --summary --study --reference "
-    "--profile --quiet --workers ";
+    "--profile --quiet --workers --dt-share --insist --until-past ";
 
 TEST(Program, HelpListsEveryOption) {
   for (const char* word : {"--help", "-h"}) {
@@ -191,25 +191,14 @@ TEST(Program, AnInterruptedRunWritesWhatItHas) {
   EXPECT_EQ(std::filesystem::exists(out / "series.h5"), TEST_WITH_HDF5 == 1);
 }
 
-TEST(Program, FilesSayWhatTheCaseIsMadeOf) {
+TEST(Program, TheSummaryHasTheSceneThatRan) {
   const ScratchFolder folder;
-  const std::filesystem::path out = folder / "out", summary = folder / "summary.json";
-  ASSERT_EQ(
-      runShort({"--until", "0.002", "--no-comparison", "--quiet", "--out", out.string(), "--summary", summary.string()})
-          .code,
-      0);
-  EXPECT_NE(readText(out / "series.csv").find("# setting.youngs_modulus_Pa: 1e+08\n"), std::string::npos);
-  EXPECT_EQ(parsed(summary).at("case").at("particle_density_kg_per_m3"), "2500");
-}
-
-TEST(Program, AStudyReplacesItsOwnFilesHoweverLong) {
-  const ScratchFolder folder;
-  for (int i = 0; i < 2; ++i) {
-    const Outcome outcome =
-        runShort({"--study", "constraints", "--until", "0.0005", "--quiet", "--out", folder.path().string()});
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-  }
-  EXPECT_GT(std::filesystem::file_size(folder / "constraints.json"), 64u * 1024u);
+  const std::filesystem::path summary = folder / "summary.json";
+  ASSERT_EQ(runShort({"--until", "0.002", "--no-comparison", "--quiet", "--summary", summary.string()}).code, 0);
+  const auto scene = parsed(summary).at("scene");
+  EXPECT_EQ(scene.at("particles").at(0).at("density"), 2500);
+  EXPECT_EQ(scene.at("couplings").at(0).at("particle_border"), 4);
+  EXPECT_EQ(scene.at("stages").at(0).at("time"), 0.002);
 }
 
 TEST(Program, StudiesWriteOneRowPerRun) {

@@ -41,7 +41,7 @@ TEST(ReferenceCurves, FitRunsOfTheSameParticlesWidthAndSignal) {
   curve.particlesPerEdge = 4;
   curve.cgWidth = 2.5;
   Settings settings;
-  applyScheme(settings, Scheme::paper);
+  settings.signal = "impulse";
   settings.particlesPerEdge = 4;
   EXPECT_FALSE(fits(curve, settings));
   settings.cgWidth = 2.5;
@@ -50,7 +50,7 @@ TEST(ReferenceCurves, FitRunsOfTheSameParticlesWidthAndSignal) {
   EXPECT_FALSE(fits(curve, settings));
   curve.cgWidth.reset();
   EXPECT_TRUE(fits(curve, settings));
-  settings.signal = Signal::cosine;
+  settings.signal = "cosine";
   EXPECT_FALSE(fits(curve, settings));
 }
 

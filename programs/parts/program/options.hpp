@@ -85,8 +85,8 @@ public:
   void check() const;
   bool given(const std::string& name) const;
 
-  /// Sets one option as if it were written on the command line: "cg-width" or "--cg-width". @throws InputError
-  void set(const std::string& name, const std::string& value);
+  /// What was written on the command line: names and values, "true" for flags.
+  io::KeyValues written() const;
   /// Keys and values for files, in the order of the table.
   io::KeyValues described() const;
 

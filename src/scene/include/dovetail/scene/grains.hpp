@@ -14,6 +14,7 @@ struct LinearContact {
   std::optional<double> tangentialStiffness;  ///< N/m; not given: 2/7 of the normal one
   /// Grains that touch at the start, or nearly so, hold together; no others ever meet.
   bool bonded = false;
+  bool tension = false;  ///< of the dashpot, see dem::LinearSpringDashpot
 };
 struct HertzContact {
   double youngsModulus = required;  ///< Pa

@@ -33,6 +33,7 @@ struct Steps {
   NumberOrWord dt{0.0, "auto"};  ///< s
   double safety = 0.2;           ///< share of the critical step, with "auto": see start
   int stepsPerWindow = 1;
+  int lag = 0;      ///< coupling::Lag
   int threads = 0;  ///< 0: all processors
   std::string where;
 };

@@ -38,8 +38,12 @@ struct DruckerPrager {
 struct AxialSprings {
   double youngsModulus = required;
 };
+/// Hooke's law in the metric of the deformed body, see fem::DeformedMetricHooke.
+struct DeformedMetric {
+  double youngsModulus = required, poissonRatio = required;
+};
 struct SolidMaterial {
-  std::variant<StVenantKirchhoff, NeoHookean, J2Plastic, DruckerPrager, AxialSprings> law;
+  std::variant<StVenantKirchhoff, NeoHookean, J2Plastic, DruckerPrager, AxialSprings, DeformedMetric> law;
   double density = required;  ///< kg/m³
 };
 struct Support {
@@ -112,23 +116,39 @@ struct Solid {
   std::string where;
 };
 
+/// Weights by which contacts are spread on a surface.
+struct SurfaceKernel {
+  NumberOrWord width{0.0, "advised"};  ///< m, or "none" or "advised"
+  int shape = 0;                       ///< cg::KernelShape
+  int correction = 2;                  ///< cg::KernelCorrection
+  friend bool operator==(const SurfaceKernel&, const SurfaceKernel&) = default;
+};
 struct SurfaceContact {
-  std::string on = "skin";              ///< face set
-  NumberOrWord kernel{0.0, "advised"};  ///< width, m, or "none" or "advised"
+  std::string on = "skin";  ///< face set
+  SurfaceKernel kernel;
+  bool spread = false;  ///< surface::SpreadLoad in place of the adjoint transfer
+  bool smooth = false;  ///< surface::SmoothSurface in place of facets
+  int edges = 0;        ///< dem::EdgeRule
   std::optional<ContactLaw> contact;
   std::string contactMaterial;
 };
 /// A solid and grains that share the layer between two planes across an axis.
 struct Overlap {
   int axis = 2;
-  double solidBorder = required;      ///< m: where the solid ends, within the grains
-  double particleBorder = required;   ///< m: where the grains end, within the solid
-  int profile = 0;                    ///< arlequin::WeightProfile
-  double floor = 1e-3;                ///< arlequin::WeightOptions::floor
-  bool multipliers = false;           ///< in place of a penalty
-  NumberOrWord penalty{0.0, "auto"};  ///< Pa/m²
-  double kernel = 0.0;                ///< width, m
-  bool takeOver = false;              ///< the solid begins in equilibrium (arlequin::takeOver)
+  double solidBorder = required;                      ///< m: where the solid ends, within the grains
+  double particleBorder = required;                   ///< m: where the grains end, within the solid
+  int profile = 0;                                    ///< arlequin::WeightProfile
+  double floor = 1e-3;                                ///< arlequin::WeightOptions::floor
+  int constraint = 0;                                 ///< arlequin::ConstraintKind
+  NumberOrWord penalty{0.0, "auto"};                  ///< Pa/m²
+  bool consistentDashpot = false, staggered = false;  ///< arlequin::CouplingOptions::dashpotLags
+  int gap = 0;                                        ///< arlequin::GapForm
+  bool perElement = false;                            ///< rows of the gap
+  double kernel = 0.0;                                ///< width, m
+  int kernelShape = 0;                                ///< cg::KernelShape
+  bool normalised = true, reachOut = false;           ///< arlequin::ProjectionOptions
+  double absorber = 0.0;                              ///< 1/s
+  bool takeOver = false;                              ///< the solid begins in equilibrium (arlequin::takeOver)
 };
 struct Coupling {
   std::string solid;
