@@ -166,8 +166,11 @@ void start(Built& built, const Scene& scene) {
     }
     double smallest = built.run->limitAtStart(options).dt;
     for (const Limit& limit : limitsOfParts(built, scene)) smallest = std::min(smallest, limit.dt);
+    if (!std::isfinite(smallest) && scene.domain && nothingIsThere(built, scene))
+      throw InputError("all grains lie outside of the domain and leave at once", scene.domain->where,
+                       "make domain.box larger, or move the grains into it");
     if (!std::isfinite(smallest))
-      throw InputError(nothingIsThere(built, scene) ? "the scene has neither grains nor solids, or none in its domain"
+      throw InputError(nothingIsThere(built, scene) ? "the scene has neither grains nor solids"
                                                     : "nothing in the scene tells a step",
                        "", "give steps.dt a number, such as \"1e-4 s\"");
     built.run->start(automaticStep(built, scene, smallest), options);

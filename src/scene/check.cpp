@@ -16,10 +16,21 @@ namespace {
 
 constexpr double longestMeasured = 0.5;  // s of a window, by the size of its linear systems
 
+/// What else is wrong with a scene that cannot start, as far as that can be told.
+void tellWarnings(const Built& built, const Scene& scene, std::ostream& log) {
+  for (const std::string& note : built.notes) log << note << '\n';
+  Lines lines;
+  try {
+    lines = warnings(built, scene);
+  } catch (const std::exception&) {
+    // Some of them ask for a run that has started.
+  }
+  for (const std::string& warning : lines) log << "WARNING: " << warning << '\n';
+}
+
 void tellParts(Built& built, const Scene& scene, std::ostream& log) {
   const coupling::CoupledRun& run = *built.run;
-  for (const std::string& note : built.notes) log << note << '\n';
-  for (const std::string& warning : warnings(built, scene)) log << "WARNING: " << warning << '\n';
+  tellWarnings(built, scene, log);
   log << run.grains.particles.size() << " particles, contacts: " << run.grains.laws->name() << '\n';
   for (std::size_t s = 0; s < run.solids(); ++s)
     log << "solid \"" << run.solid(s).name << "\": " << built.meshes[s].X.size() << " nodes, "
@@ -74,6 +85,10 @@ void tellTime(Built& built, const Scene& scene, const Plan& plan, std::ostream& 
   log << "stages run for " << time << " s: " << wanted << " windows of " << scene.steps.stepsPerWindow << " steps, "
       << formatDuration(each * static_cast<double>(wanted)) << " at " << 1e3 * each << " ms each "
       << (isMeasured ? "as it is now" : "or more, by the size of the linear systems") << '\n';
+  constexpr double month = 30.0 * 86400.0;
+  if (each * static_cast<double>(wanted) > month)
+    log << "WARNING: The stages take more than a month: take a shorter time, look at its unit, or take larger grains "
+           "and elements, or softer ones.\n";
   if (atMost > 0)
     log << "stages settle in at most " << atMost << " windows, " << formatDuration(each * static_cast<double>(atMost))
         << '\n';
@@ -99,8 +114,14 @@ std::vector<std::string> seriesColumns(const Scene& scene) {
 
 void check(const Scene& scene, std::ostream& log) {
   Built built = build(scene);
-  start(built, scene);
-  const Plan plan = planOf(built, scene);
+  Plan plan;
+  try {
+    start(built, scene);
+    plan = planOf(built, scene);
+  } catch (const std::exception&) {
+    tellWarnings(built, scene, log);
+    throw;
+  }
   if (plan.series > 0) const Series columns(built, scene.output.probes, {});
   tellParts(built, scene, log);
   tellTime(built, scene, plan, log);

@@ -63,12 +63,11 @@ void lookAtProbes(const Built& built, const Scene& scene, Lines& lines) {
 
 // ---- insertions, outlets, domain
 
-/// Of places for the centres of the smallest spheres, those before all walls and in the domain.
-double shareWithin(const dem::Model& grains, const Insertion& insertion) {
+/// Of places for the centres of spheres of radius r within a box, those before all walls and in the domain.
+double shareWithin(const dem::Model& grains, const geometry::Box& box, double r) {
   constexpr int each = 9;
   const std::size_t walls = std::as_const(grains).terms.all<dem::PrimitiveWallTerm>().size();
-  const double r = insertion.radius.smallest;
-  const Vec3 lower = insertion.region.lower + Vec3{r, r, r}, edges = insertion.region.upper - Vec3{r, r, r} - lower;
+  const Vec3 lower = box.lower + Vec3{r, r, r}, edges = box.upper - Vec3{r, r, r} - lower;
   int within = 0;
   for (int k = 0; k < each * each * each; ++k) {
     const auto along = [&](int axis, int n) { return lower[axis] + std::max(0.0, edges[axis]) * n / (each - 1); };
@@ -83,9 +82,30 @@ double shareWithin(const dem::Model& grains, const Insertion& insertion) {
   return static_cast<double>(within) / (each * each * each);
 }
 
+bool anyMoves(const std::vector<Wall>& walls) {
+  return std::ranges::any_of(walls, [](const Wall& one) {
+    return one.turn || !isConstant(one.displacement.value_or(one.velocity)) || norm(constantOf(one.velocity)) > 0.0;
+  });
+}
+
+/// Where grains are to come to be counted or taken.
+void lookAtRegion(const Built& built, const Scene& scene, const std::string& whose, const geometry::Box& region,
+                  Lines& lines) {
+  const std::string begin = "The region of " + whose;
+  if (built.run->grains.particles.size() == 0 && scene.insertions.empty())
+    lines.push_back(begin + " stays empty, as the scene has no grains: give it some, or leave the region out.");
+  else if (isBeyondReach(built, scene, region))
+    lines.push_back(begin + " is far from all grains, which never come there: move it, or look at its unit.");
+  else if (!anyMoves(scene.walls) && shareWithin(built.run->grains, region, 0.0) == 0.0)
+    lines.push_back(begin +
+                    " lies behind walls or outside of the domain, where nobody comes: move it inside, or leave "
+                    "a side of the walls open.");
+}
+
 void lookAtStreams(const Built& built, const Scene& scene, Lines& lines) {
   for (std::size_t k = 0; k < scene.insertions.size(); ++k) {
-    const double within = shareWithin(built.run->grains, scene.insertions[k]);
+    const double within =
+        shareWithin(built.run->grains, scene.insertions[k].region, scene.insertions[k].radius.smallest);
     const std::string name = "The region of " + item("insertions", k);
     if (within < 0.5)
       lines.push_back(name + (within == 0.0 ? " lies" : " lies for " + percent(1.0 - within)) +
@@ -95,6 +115,11 @@ void lookAtStreams(const Built& built, const Scene& scene, Lines& lines) {
         lines.push_back(name + " reaches into that of " + item("outlets", o) +
                         ", where newcomers leave at once: move them apart.");
   }
+  for (std::size_t o = 0; o < scene.outlets.size(); ++o)
+    lookAtRegion(built, scene, item("outlets", o), scene.outlets[o].region, lines);
+  for (const Probe& probe : scene.output.probes)
+    if (const auto* const region = std::get_if<RegionProbe>(&probe.of))
+      lookAtRegion(built, scene, "the probe " + quoted(probe.name), region->box, lines);
   const std::vector<Vec3>& x = built.run->grains.particles.x;
   for (std::size_t o = 0; o < scene.outlets.size(); ++o) {
     const auto count = std::ranges::count_if(x, [&](const Vec3& at) { return holds(scene.outlets[o].region, at); });

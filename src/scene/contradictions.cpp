@@ -8,6 +8,7 @@
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/scene/files.hpp"
 #include "keys.hpp"
+#include "time_functions.hpp"
 #include "warnings.hpp"
 
 namespace dovetail::scene {
@@ -23,7 +24,21 @@ void lookAtItems(const std::string& list, const std::vector<Item>& items, Lines&
     const auto [first, isNew] = known.emplace(text, k);
     if (!isNew)
       lines.push_back(list + "." + std::to_string(first->second) + " and " + list + "." + std::to_string(k) +
-                      " say the same, and both count: leave one of them out.");
+                      " say the same" + (list.ends_with("supports") ? "" : ", and both count") +
+                      ": leave one of them out.");
+  }
+}
+
+void lookAtSupports(const std::string& of, const std::vector<Support>& supports, Lines& lines) {
+  for (std::size_t k = 0; k < supports.size(); ++k) {
+    const Support& one = supports[k];
+    const std::array held{one.x, one.y, one.z};
+    const TimeVector& path = one.displacement ? *one.displacement : one.velocity;
+    for (std::size_t c = 0; c < 3; ++c)
+      if (!held[c] && !(isConstant(path[c]) && path[c].number == 0.0))
+        lines.push_back(of + "." + std::to_string(k) + " moves along " + "xyz"[c] +
+                        ", which it does not hold, so that nothing comes of it: write \"" + "xyz"[c] +
+                        "\": true, or leave that part of its motion out.");
   }
 }
 
@@ -42,6 +57,7 @@ void lookAtLoads(const std::string& of, const std::vector<Load>& loads, Lines& l
 
 /// What supports hold feels no load.
 void lookAtHeldFaces(const Built& built, const Scene& scene, std::size_t s, const std::string& of, Lines& lines) {
+  if (!built.run->solid(s).mass) return;  // the run has not started
   const fem::DofMap& dofs = built.run->solid(s).mass->dofs();
   const auto isHeld = [&](int node) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -88,6 +104,8 @@ void lookForContradictions(const Built& built, const Scene& scene, Lines& lines)
   for (std::size_t s = 0; s < scene.solids.size(); ++s) {
     const std::string of = "solids." + std::to_string(s);
     lookAtItems(of + ".loads", scene.solids[s].loads, lines);
+    lookAtItems(of + ".supports", scene.solids[s].supports, lines);
+    lookAtSupports(of + ".supports", scene.solids[s].supports, lines);
     lookAtLoads(of + ".loads", scene.solids[s].loads, lines);
     lookAtHeldFaces(built, scene, s, of + ".loads", lines);
   }

@@ -34,16 +34,25 @@ public:
   }
   bool isEmpty() const { return shadows_.empty(); }
   /// Whether a sphere is above one of them, or beside it.
-  bool holds(const Vec3& x, double radius) const {
-    const Vec3 at = turned(x);
-    for (const Extent& one : shadows_)
-      if (at.x > one.lower.x - radius && at.x < one.upper.x + radius && at.y > one.lower.y - radius &&
-          at.y < one.upper.y + radius && at.z < one.upper.z + radius)
-        return true;
-    return false;
+  bool holds(const Vec3& x, double radius) const { return holds(turned(x), radius, radius); }
+  /// The same of a box, as if it were as wide as it is long.
+  bool holds(const geometry::Box& box, double radius) const {
+    Extent region;
+    for (int corner = 0; corner < 8; ++corner)
+      region.add(turned({corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
+                         corner & 4 ? box.upper.z : box.lower.z}));
+    const Vec3 middle = 0.5 * (region.lower + region.upper);
+    return holds({middle.x, middle.y, region.lower.z}, radius + 0.5 * region.size(), radius);
   }
 
 private:
+  bool holds(const Vec3& at, double radius, double below) const {
+    for (const Extent& one : shadows_)
+      if (at.x > one.lower.x - radius && at.x < one.upper.x + radius && at.y > one.lower.y - radius &&
+          at.y < one.upper.y + radius && at.z < one.upper.z + below)
+        return true;
+    return false;
+  }
   static Vec3 anyNormalTo(const Vec3& direction) {
     const Vec3 other = std::abs(direction.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     return normalized(cross(direction, other));
@@ -67,6 +76,26 @@ Shadows shadowsIn(const Built& built, const Scene& scene, const Vec3& down) {
   return shadows;
 }
 
+/// The open side of a box that gravity pulls to, as " (walls.0 is open at z+)".
+std::string openSide(const Scene& scene, const Vec3& down) {
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    if (const auto* const box = std::get_if<BoxWalls>(&scene.walls[w].shape))
+      for (const std::string& side : box->open)
+        if ((side[1] == '+' ? 1.0 : -1.0) * down[side[0] - 'x'] > 0.5)
+          return " (walls." + std::to_string(w) + " is open at " + side + ")";
+  return "";
+}
+
+/// Walls or solids are there, and gravity pulls away from them.
+void lookForEscapes(const Scene& scene, const Vec3& down, Lines& lines) {
+  if (scene.periodic || (scene.walls.empty() && scene.couplings.empty()) || !scene.outlets.empty() ||
+      !scene.drives.empty())
+    return;
+  lines.push_back("Gravity pulls all grains away from the walls and solids, and nothing stops them" +
+                  openSide(scene, down) +
+                  ": turn gravity round, close the side, or give the scene a floor, an outlet or a domain.");
+}
+
 }  // namespace
 
 void lookForFalling(const Built& built, const Scene& scene, Lines& lines) {
@@ -74,7 +103,7 @@ void lookForFalling(const Built& built, const Scene& scene, Lines& lines) {
   const double g = norm(scene.gravity);
   const dem::Model& grains = built.run->grains;
   const dem::Particles& p = grains.particles;
-  if (g == 0.0 || std::ranges::none_of(scene.stages, settles) || (scene.domain && scene.domain->removes)) return;
+  if (g == 0.0 || (scene.domain && scene.domain->removes)) return;
   const Vec3 down = 1.0 / g * scene.gravity;
   if (stopAll(grains, down)) return;
   const Shadows shadows = shadowsIn(built, scene, down);
@@ -82,11 +111,16 @@ void lookForFalling(const Built& built, const Scene& scene, Lines& lines) {
   if (!shadows.isEmpty() && (holdTogether || scene.periodic)) return;
   std::size_t count = 0;
   for (std::size_t i = 0; i < p.size(); ++i) count += shadows.holds(p.x[i], p.radius[i]) ? 0 : 1;
-  if (count > 0)
+  const bool entering = std::ranges::any_of(
+      scene.insertions, [&](const Insertion& one) { return shadows.holds(one.region, one.radius.largest); });
+  if (entering || (count == 0 && scene.insertions.empty())) return;
+  if (count > 0 && std::ranges::any_of(scene.stages, settles))
     lines.push_back(
         std::to_string(count) + " of " + std::to_string(p.size()) +
         " grains have nothing below them, fall for ever, and a stage that settles never ends: give the scene "
         "a wall or a solid below, or run for a time.");
+  else if (count == p.size())
+    lookForEscapes(scene, down, lines);
 }
 
 }  // namespace dovetail::scene

@@ -49,6 +49,26 @@ void lookAtIdleWalls(const Built& built, const Scene& scene, Lines& lines) {
   }
 }
 
+/// Faster than machines move what is not thrown. A jump, such as a lid's that opens, is one piece of the path alone.
+template <class Moved>
+void lookAtSpeeds(const std::string& list, const std::vector<Moved>& all, double fast, const Scene& scene,
+                  Lines& lines) {
+  constexpr int samples = 50;
+  const double piece = durationOf(scene) / samples;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto place = pathOf(all[k].velocity, all[k].displacement, scene).displacement;
+    double fastest = 0.0, before = 0.0;
+    for (int n = 0; n < samples; ++n) {
+      const double speed = norm(place((n + 1) * piece) - place(n * piece)) / piece;
+      fastest = std::max(fastest, std::min(before, speed));
+      before = speed;
+    }
+    if (fastest > fast)
+      lines.push_back(list + "." + std::to_string(k) + " moves at up to " + rounded(fastest) + " m/s: write \"" +
+                      rounded(fastest) + " mm/s\" if that is meant, or move it more slowly.");
+  }
+}
+
 // ---- couplings
 
 bool isBefore(const Extent& grains, const geometry::Facet& facet, const std::vector<Vec3>& x) {
@@ -57,6 +77,20 @@ bool isBefore(const Extent& grains, const geometry::Facet& facet, const std::vec
   Vec3 farthest;  // corner of the grains along the normal
   for (int k = 0; k < 3; ++k) farthest[k] = normal[k] > 0.0 ? grains.upper[k] : grains.lower[k];
   return dot(normal, farthest - corner(0)) > 0.0;
+}
+
+bool moves(const Solid& solid) {
+  const auto moved = [](const Support& one) { return !isConstant(one.displacement.value_or(one.velocity)); };
+  return norm(solid.velocity) > 0.0 || solid.state || std::ranges::any_of(solid.supports, moved);
+}
+
+/// Grains within a body are told elsewhere.
+bool within(const Extent& grains, const std::vector<Vec3>& x) {
+  Extent body;
+  body.add(x);
+  for (int k = 0; k < 3; ++k)
+    if (grains.lower[k] < body.lower[k] || grains.upper[k] > body.upper[k]) return false;
+  return true;
 }
 
 void lookAtFaces(const Built& built, const Scene& scene, Lines& lines) {
@@ -70,6 +104,7 @@ void lookAtFaces(const Built& built, const Scene& scene, Lines& lines) {
     for (std::size_t s = 0; contact && s < scene.solids.size(); ++s) {
       if (scene.solids[s].name != coupling.solid || fem::dimensionOf(built.meshes[s]) == 2) continue;
       const fem::SolidMesh& mesh = built.meshes[s];
+      if (moves(scene.solids[s]) || within(grains, mesh.X)) continue;
       const surface::Skin skin = surface::makeSkin(mesh.X, fem::faceSet(mesh, contact->on));
       const auto isMet = [&](const geometry::Facet& facet) { return isBefore(grains, facet, skin.wall.x); };
       if (std::ranges::none_of(skin.wall.facets, isMet))
@@ -122,10 +157,31 @@ void lookAtWidths(const std::string& whose, const std::vector<Vec3>& x, const Pe
   }
 }
 
-void lookAtPull(const Scene& scene, Lines& lines) {
-  if (!scene.walls.empty() || !scene.drives.empty() || !scene.couplings.empty() || !scene.outlets.empty()) return;
+/// Whether a wall may push along an axis.
+bool pushesAlong(const dem::PrimitiveWall& wall, int axis) {
+  constexpr double slope = 1e-9;
+  using Shape = dem::PrimitiveWall::Shape;
+  const double along = std::abs(wall.axis[axis]);
+  return wall.shape == Shape::plane ? along > slope : wall.shape == Shape::sphere || along < 1.0 - slope;
+}
+/// Whether weight presses on a wall, which rubs then.
+bool isPressed(const dem::PrimitiveWall& wall, const Vec3& gravity) {
+  using Shape = dem::PrimitiveWall::Shape;
+  if (wall.shape == Shape::plane) return dot(wall.axis, gravity) < 0.0;
+  return wall.shape == Shape::sphere || norm(cross(wall.axis, gravity)) > 0.0;
+}
+bool anyHolds(const dem::Model& grains, const Vec3& gravity, int axis) {
+  const auto walls = grains.terms.all<dem::PrimitiveWallTerm>();
+  return !grains.terms.all<dem::MeshWallTerm>().empty() || std::ranges::any_of(walls, [&](const auto* term) {
+    return pushesAlong(term->wall, axis) || isPressed(term->wall, gravity);
+  });
+}
+
+void lookAtPull(const dem::Model& grains, const Scene& scene, Lines& lines) {
+  if (!scene.drives.empty() || !scene.couplings.empty() || !scene.outlets.empty()) return;
   for (int k = 0; k < 3; ++k)
-    if (scene.periodic->axes[static_cast<std::size_t>(k)] && scene.gravity[k] != 0.0)
+    if (scene.periodic->axes[static_cast<std::size_t>(k)] && scene.gravity[k] != 0.0 &&
+        !anyHolds(grains, scene.gravity, k))
       lines.push_back("Gravity pulls along " + std::string(1, "xyz"[k]) +
                       ", where space repeats, and no wall, solid or drive holds the grains, which go faster for ever: "
                       "give the scene something that holds them, or leave that part of gravity out.");
@@ -146,7 +202,7 @@ void lookAtPeriods(const Built& built, const Scene& scene, Lines& lines) {
   for (std::size_t w = 0; w < built.walls.size(); ++w)
     for (std::size_t m = built.walls[w].firstMesh; m < built.walls[w].endMesh; ++m)
       lookAtWidths("The surface of " + item("walls", w), meshes[m]->mesh.wall.x, space, lines);
-  lookAtPull(scene, lines);
+  lookAtPull(std::as_const(built.run->grains), scene, lines);
 }
 
 // ---- bonds and solids
@@ -176,15 +232,56 @@ void lookAtMeetings(const Built& built, const Scene& scene, Lines& lines) {
     }
 }
 
+/// The first wall of planes, cylinders and spheres that a body comes through; -1: none.
+int wallThrough(const Built& built, const std::vector<Vec3>& body, const Vec3& way) {
+  for (std::size_t k = 0; k < built.walls.size(); ++k)
+    for (std::size_t w = built.walls[k].firstPrimitive; w < built.walls[k].endPrimitive; ++w) {
+      const dem::PrimitiveWall& wall = dem::primitiveWall(std::as_const(built.run->grains), w);
+      const auto before = [&](const Vec3& at) { return dem::distanceTo(wall, at).distance >= 0.0; };
+      if (std::ranges::all_of(body, before) &&
+          std::ranges::any_of(body, [&](const Vec3& at) { return !before(at + way); }))
+        return static_cast<int>(k);
+    }
+  return -1;
+}
+
+/// What goes through walls, which touch grains only.
+void lookAtFloors(const Built& built, const Scene& scene, Lines& lines) {
+  const double time = durationOf(scene);
+  for (std::size_t s = 0; s < scene.solids.size(); ++s) {
+    const Solid& solid = scene.solids[s];
+    if (!solid.supports.empty() || solid.state) continue;
+    const Vec3 way = time * solid.velocity + (solid.gravity ? 0.5 * time * time : 0.0) * scene.gravity;
+    if (const int wall = wallThrough(built, built.meshes[s].X, way); wall >= 0)
+      lines.push_back(quoted(solid.name) + " moves into " + item("walls", static_cast<std::size_t>(wall)) +
+                      ", and goes through: walls touch grains only. Hold it by supports, or make it of bonded grains.");
+  }
+  const auto meshes = std::as_const(built.run->grains).terms.all<dem::MeshWallTerm>();
+  for (std::size_t w = 0; w < built.walls.size(); ++w) {
+    const Vec3 way = pathOf(scene.walls[w].velocity, scene.walls[w].displacement, scene).displacement(time);
+    if (norm(way) == 0.0 || scene.walls[w].turn) continue;
+    for (std::size_t m = built.walls[w].firstMesh; m < built.walls[w].endMesh; ++m)
+      if (const int wall = wallThrough(built, meshes[m]->mesh.wall.x, way); wall >= 0)
+        lines.push_back(item("walls", w) + " moves into " + item("walls", static_cast<std::size_t>(wall)) +
+                        ", and what lies between them is crushed: let it stop before.");
+  }
+}
+
 }  // namespace
 
 void lookForIdleParts(const Built& built, const Scene& scene, Lines& lines) {
   lookAtIdleWalls(built, scene, lines);
+  constexpr double machine = 30.0, lid = 90.0;  // lids are thrown open; m/s
+  lookAtSpeeds("walls", scene.walls, lid, scene, lines);
+  lookAtSpeeds("drives", scene.drives, machine, scene, lines);
+  for (std::size_t s = 0; s < scene.solids.size(); ++s)
+    lookAtSpeeds(item("solids", s) + ".supports", scene.solids[s].supports, machine, scene, lines);
   lookAtFaces(built, scene, lines);
   lookAtClumps(scene, lines);
   if (scene.periodic) lookAtPeriods(built, scene, lines);
   lookAtGaps(built, scene, lines);
   lookAtMeetings(built, scene, lines);
+  lookAtFloors(built, scene, lines);
 }
 
 }  // namespace dovetail::scene

@@ -56,7 +56,9 @@ void describe(Fields& f, Steps& v) {
 void describe(Fields& f, Scene& v) {
   f.text({"title", "one line about the scene"}, v.title, false);
   f.includes({"include", "scenes that this one goes on from: its own values win, lists of objects grow"});
-  f.parameters({"let", "parameters of expressions: a number with or without a unit, or an expression of those above"},
+  f.parameters({"let",
+                "parameters of expressions: a number with or without a unit, or an expression of those above; names "
+                "are of less than 100 letters, digits and '_', with a letter first"},
                v.parameters);
   f.vector({"gravity", "acceleration"}, v.gravity, unit::acceleration);
   f.object({"contact", "law of contacts between grains, with walls and with solids"}, v.contact);

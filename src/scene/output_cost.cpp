@@ -134,13 +134,33 @@ void lookAtContents(const Built& built, const Scene& scene, Lines& lines) {
   };
   const dem::Model& grains = built.run->grains;
   const bool anyGrains = grains.particles.size() > 0 || !scene.insertions.empty();
+  const auto isOverlap = [](const Coupling& one) { return std::holds_alternative<Overlap>(one.kind); };
+  const auto flows = [](const Solid& one) {
+    return std::holds_alternative<J2Plastic>(one.material.law) ||
+           std::holds_alternative<DruckerPrager>(one.material.law);
+  };
   for (const Part& part :
-       {Part{"grains", "grains", anyGrains}, Part{"contacts", "grains", anyGrains},
+       {Part{"weights", "overlap", std::ranges::any_of(scene.couplings, isOverlap)},
+        Part{"history", "solid that yields", std::ranges::any_of(scene.solids, flows)},
+        Part{"grains", "grains", anyGrains}, Part{"contacts", "grains", anyGrains},
         Part{"bonds", "bonds", !scene.bonds.empty()}, Part{"solids", "solids", !built.meshes.empty()},
         Part{"walls", "wall that is a mesh", !grains.terms.all<dem::MeshWallTerm>().empty()}})
     if (!part.isThere && std::ranges::find(out.contents, part.word) != out.contents.end())
       lines.push_back("output.contents has " + quoted(part.word) + ", and the scene has no " + part.missing +
                       ": leave it out.");
+}
+
+void lookAtTimes(const Scene& scene, double window, Lines& lines) {
+  constexpr std::int64_t few = 10;
+  for (std::size_t k = 0; k < scene.stages.size(); ++k) {
+    const std::string of = "stages." + std::to_string(k);
+    if (const auto* const run = std::get_if<RunFor>(&scene.stages[k].kind); run && run->time < 0.5 * window)
+      lines.push_back(of + ".time is " + rounded(run->time) + " s, and a step " + rounded(window) +
+                      " s: it runs for one; give it a longer time, or look at its unit.");
+    if (const auto* const settle = std::get_if<Settle>(&scene.stages[k].kind); settle && settle->windows < few)
+      lines.push_back(of + ".windows is " + std::to_string(settle->windows) +
+                      ", and nothing comes to rest in so few steps: take some ten thousand.");
+  }
 }
 
 void lookAtRates(const Scene& scene, Lines& lines) {
@@ -176,6 +196,7 @@ void lookAtOutput(const Built& built, const Scene& scene, Lines& lines) {
   else
     lookAtIntervals(scene, built.run->window(), lines);
   lookAtContents(built, scene, lines);
+  lookAtTimes(scene, built.run->window(), lines);
   lookAtRates(scene, lines);
   std::error_code error;
   const auto free = std::filesystem::space(std::filesystem::current_path(error), error);

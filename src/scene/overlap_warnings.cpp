@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/mesh/mesh_quality.hpp"
@@ -82,12 +83,50 @@ std::string rounded(double value) {
   return formatNumber(value == 0.0 ? 0.0 : std::round(value * scale) / scale);
 }
 
+namespace {
+
+void lookAtBorder(const fem::SolidMesh& mesh, const Overlap& overlap, const std::string& name, Lines& lines) {
+  const auto along = [&](const Vec3& X) { return X[overlap.axis]; };
+  const auto [first, last] = std::ranges::minmax(mesh.X, {}, along);
+  const double lower = first[overlap.axis], upper = last[overlap.axis], margin = 0.1 * (upper - lower);
+  if (overlap.solidBorder < lower - margin || overlap.solidBorder > upper + margin)
+    lines.push_back("solid_border of " + name + " is " + rounded(overlap.solidBorder) +
+                    " m, and the solid reaches from " + rounded(lower) + " to " + rounded(upper) + " m along " +
+                    "xyz"[overlap.axis] + ": give the place where the solid ends within the grains.");
+}
+
+/// The solid ends at its border.
+void lookBeyondBorder(const fem::SolidMesh& mesh, const Overlap& overlap, const std::string& name, Lines& lines) {
+  const double side = overlap.solidBorder > overlap.particleBorder ? 1.0 : -1.0;
+  const double margin = 0.5 * std::abs(overlap.solidBorder - overlap.particleBorder);
+  const auto count = std::ranges::count_if(
+      mesh.X, [&](const Vec3& X) { return side * (X[overlap.axis] - overlap.solidBorder) > margin; });
+  if (count > 0)
+    lines.push_back(std::to_string(count) + " nodes lie beyond solid_border of " + name + " along " +
+                    "xyz"[overlap.axis] +
+                    ", where the solid has no weight: swap the two borders, or look at the axis.");
+}
+
+void lookAtPenalty(const Overlap& overlap, const Solid& solid, double elementSize, const std::string& name,
+                   Lines& lines) {
+  const double modulus = std::visit([](const auto& law) { return law.youngsModulus; }, solid.material.law);
+  const double advised = arlequin::automaticPenalty(modulus, elementSize);
+  if (overlap.penalty.word.empty() && overlap.penalty.number < 1e-4 * advised)
+    lines.push_back("The penalty of " + name + " is " + rounded(overlap.penalty.number) +
+                    " Pa/m2, too soft to hold grains and solid together: write \"auto\", or about " + rounded(advised) +
+                    " Pa/m2.");
+}
+
+}  // namespace
+
 void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, const Overlap& overlap, Lines& lines) {
   const auto ties = std::as_const(built.run->grains).terms.all<arlequin::OverlapTie>();
   const auto found =
       std::find_if(ties.begin(), ties.end(), [&](const auto* tie) { return &tie->side() == &built.run->solid(solid); });
   if (found == ties.end()) return;
   const Solid& file = scene.solids[solid];
+  lookAtBorder(built.meshes[solid], overlap, "the overlap with " + quoted(file.name), lines);
+  lookBeyondBorder(built.meshes[solid], overlap, "the overlap with " + quoted(file.name), lines);
   const Shared shared = sharedPart(built, **found, built.meshes[solid], overlap);
   const std::string name = "the overlap with " + quoted(file.name);
   if (shared.grains == 0 || shared.elements == 0) {
@@ -100,6 +139,7 @@ void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, co
     lines.push_back(name + " is " + rounded(thickness) + " m thick, with elements of " + rounded(shared.elementSize) +
                     " m and grains of " + rounded(shared.diameter) +
                     " m: give it two elements and three grains at least.");
+  if (!overlap.multipliers) lookAtPenalty(overlap, file, shared.elementSize, name, lines);
   if (overlap.kernel > thickness)
     lines.push_back("The kernel of " + name + " is wider than it is thick: take one below " + rounded(thickness) +
                     " m.");

@@ -69,6 +69,10 @@ void add(const Target& to, const RandomPacking& packing) {
   to.notes.push_back("Random packing of " + std::to_string(spheres.centre.size()) + " spheres: solid fraction " +
                      formatNumber(report.solidFraction) + ", largest overlap " + formatNumber(report.largestOverlap) +
                      " radii.");
+  if (report.solidFraction < 0.8 * packing.solidFraction)
+    to.notes.push_back("WARNING: The box of the packing holds spheres for a solid fraction of " +
+                       formatNumber(report.solidFraction) + ", not of " + formatNumber(packing.solidFraction) +
+                       ": give it smaller grains, or a larger box.");
   dem::addPacking(to.grains.particles, spheres, {packing.density}, to.group.velocity);
 }
 

@@ -16,7 +16,7 @@ std::int64_t windowsIn(double seconds, double window, const std::string& where) 
   const double count = seconds / window;
   if (!(count < 1e15))
     throw InputError(formatNumber(seconds) + " s are more than 1e15 windows of " + formatNumber(window) + " s", where,
-                     "take a shorter time or a larger step");
+                     "take a shorter time or a larger step, or look at the units of radii and meshes, which set it");
   return std::max<std::int64_t>(1, std::llround(count));
 }
 

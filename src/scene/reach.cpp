@@ -52,15 +52,19 @@ std::vector<Extent> sourcesOf(const Built& built, const Scene& scene) {
   return all;
 }
 
-double speedOf(const Built& built, const Scene& scene, std::size_t solid) {
+/// Of all that moves by itself.
+double speedOf(const Built& built, const Scene& scene) {
   double fastest = 0.0;
   for (const Vec3& v : built.run->grains.particles.v) fastest = std::max(fastest, norm(v));
   for (const Insertion& one : scene.insertions) fastest = std::max(fastest, norm(one.velocity));
-  return fastest + norm(scene.solids[solid].velocity);
+  for (const Solid& one : scene.solids) fastest = std::max(fastest, norm(one.velocity));
+  return fastest;
 }
 
-double sizeOfWalls(const Built& built, const std::vector<Extent>& sources) {
+double sizeOfWalls(const Built& built, const Scene& scene, const std::vector<Extent>& sources) {
   Extent all;
+  for (const Wall& wall : scene.walls)
+    if (const auto* const box = std::get_if<BoxWalls>(&wall.shape)) all.add(box->box.lower), all.add(box->box.upper);
   for (const Extent& one : sources) all.add(one.lower), all.add(one.upper);
   for (const auto* term : std::as_const(built.run->grains).terms.all<dem::MeshWallTerm>()) all.add(term->mesh.wall.x);
   return all.size();
@@ -94,13 +98,26 @@ bool passesBy(const Built& built, const Scene& scene, std::size_t solid) {
 
 }  // namespace
 
+bool isBeyondReach(const Built& built, const Scene& scene, const geometry::Box& box) {
+  std::vector<Extent> sources = sourcesOf(built, scene);
+  if (sources.empty() || slides(built.run->grains, scene.gravity)) return false;
+  const double spread = sizeOfWalls(built, scene, sources) + speedOf(built, scene) * durationOf(scene) +
+                        farthestOf(scene.walls, scene) + farthestOf(scene.drives, scene);
+  for (Extent& source : sources) {
+    source.widen(spread);
+    fall(source, scene);
+    if (meet({source.lower, source.upper}, box)) return false;
+  }
+  return true;
+}
+
 bool isOutOfReach(const Built& built, const Scene& scene, std::size_t solid) {
   if (passesBy(built, scene, solid)) return true;
   std::vector<Extent> sources = sourcesOf(built, scene);
   if (sources.empty() || slides(built.run->grains, scene.gravity)) return false;
   Extent body;
   body.add(built.meshes[solid].X);
-  const double spread = body.size() + sizeOfWalls(built, sources) + speedOf(built, scene, solid) * durationOf(scene) +
+  const double spread = body.size() + sizeOfWalls(built, scene, sources) + speedOf(built, scene) * durationOf(scene) +
                         farthestOf(scene.walls, scene) + farthestOf(scene.drives, scene) +
                         farthestOf(scene.solids[solid].supports, scene);
   for (Extent& source : sources) {

@@ -254,6 +254,24 @@ private:
   std::vector<std::string> known_, missing_;
 };
 
+void addWords(const Node& node, std::set<std::string>& words) {
+  if (node.kind == Node::Kind::text) words.merge(wordsIn(node.text));
+  for (const Node& item : node.items) addWords(item, words);
+  for (const Node::Member& member : node.members) addWords(member.value.front(), words);
+}
+
+/// Included files may be collections, of which a scene uses some.
+std::vector<std::string> unusedIn(const Node& root) {
+  const Node* let = root.find("let");
+  std::set<std::string> words;
+  addWords(root, words);
+  std::vector<std::string> unused;
+  if (let)
+    for (const Node::Member& member : let->members)
+      if (!member.place.file && !words.contains(member.key)) unused.push_back(member.key);
+  return unused;
+}
+
 /// Leaves parameters out that no function of time names.
 void keepUsed(Parameters& parameters, const std::string& expressions) {
   const std::set<std::string> words = wordsIn(expressions);
@@ -284,7 +302,7 @@ ReadFields readFields(const FileText& file, const std::vector<std::string>& sett
     describeFile(reader);
     reader.finish();
   }
-  return {document.functionsOfTime, {document.files.begin(), document.files.end()}};
+  return {document.functionsOfTime, {document.files.begin(), document.files.end()}, unusedIn(root)};
 }
 
 Scene sceneFromText(const std::string& text, const std::string& name, const std::filesystem::path& folder,
@@ -294,6 +312,7 @@ Scene sceneFromText(const std::string& text, const std::string& name, const std:
       readFields({text, name, folder}, settings, [&](Fields& fields) { describe(fields, scene.emplace()); });
   keepUsed(scene->parameters, read.functionsOfTime);
   scene->files = read.files;
+  scene->unusedParameters = read.unused;
   return std::move(*scene);
 }
 

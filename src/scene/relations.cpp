@@ -5,7 +5,9 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
+#include "dovetail/fem/mesh/mesh_quality.hpp"
 #include "extent.hpp"
+#include "time_functions.hpp"
 #include "warnings.hpp"
 
 namespace dovetail::scene {
@@ -21,7 +23,8 @@ double poissonOf(const Law& law) {
 }
 
 void lookAtWaves(const std::string& whose, double modulus, double density, Lines& lines) {
-  constexpr double slowest = 1.0, fastest = 2e4;  // soft gels, diamond; m/s
+  constexpr double fastest = 2e4, rock = 2500.0;        // diamond, m/s; kg/m3
+  const double slowest = density > rock ? 100.0 : 1.0;  // gels and foams are light
   const double speed = std::sqrt(modulus / density);
   if (speed >= slowest && speed <= fastest) return;
   lines.push_back("Waves in " + whose + " go at " + rounded(speed) +
@@ -57,12 +60,39 @@ void lookAtStrength(const std::string& key, const Solid& solid, Lines& lines) {
     if (strength > modulus)
       lines.push_back(key + "." + name + " is " + rounded(strength) + " Pa, above youngs_modulus, " + rounded(modulus) +
                       " Pa, so that " + quoted(solid.name) +
-                      " never yields: look at the units of both, or take an elastic law.");
+                      " hardly yields: look at the units of both, or take an elastic law.");
   };
   if (const auto* const law = std::get_if<J2Plastic>(&solid.material.law))
-    tell("yield_stress", law->yieldStress, law->youngsModulus);
+    tell("yield_stress", law->yieldStress, law->youngsModulus), tell("hardening", law->hardening, law->youngsModulus);
   if (const auto* const law = std::get_if<DruckerPrager>(&solid.material.law))
     tell("cohesion", law->cohesion, law->youngsModulus);
+}
+
+/// What no solid of that modulus withstands.
+void lookAtPressures(const std::string& of, const Solid& solid, double modulus, const Scene& scene, Lines& lines) {
+  const auto most = [&](const TimeValue& pressure) {
+    constexpr int samples = 20;
+    const TimeFunction at = functionOf(pressure, scene);
+    double found = 0.0;
+    for (int n = 0; n <= samples; ++n) found = std::max(found, std::abs(at(durationOf(scene) * n / samples)));
+    return found;
+  };
+  for (std::size_t k = 0; k < solid.loads.size(); ++k)
+    if (const auto* const load = std::get_if<PressureLoad>(&solid.loads[k].kind);
+        load && most(load->pressure) > modulus)
+      lines.push_back(of + ".loads." + std::to_string(k) + ".pressure comes to " + rounded(most(load->pressure)) +
+                      " Pa, above youngs_modulus of " + quoted(solid.name) + ", " + rounded(modulus) +
+                      " Pa: look at the units of both.");
+}
+
+void lookAtAspects(const std::string& of, const Solid& solid, const fem::SolidMesh& mesh, Lines& lines) {
+  constexpr double slender = 60.0;
+  const std::vector<fem::ElementQuality> all = fem::measureQuality(mesh, 0).element;
+  const auto worst = std::ranges::max_element(all, {}, &fem::ElementQuality::aspect);
+  if (worst != all.end() && worst->aspect > slender)
+    lines.push_back("Element " + std::to_string(worst - all.begin()) + " of " + quoted(solid.name) + " is " +
+                    rounded(worst->aspect) + " times as long as it is high: look at the order and units of " + of +
+                    "'s box and cells, or mesh it with more elements lengthwise.");
 }
 
 // ---- springs of grains
@@ -143,6 +173,19 @@ private:
   std::string leastKey_, mostKey_;
 };
 
+/// A box that holds one grain of its lattice has another unit than the distance.
+void lookAtLattices(const Scene& scene, Lines& lines) {
+  for (std::size_t k = 0; k < scene.particles.size(); ++k)
+    if (const auto* const lattice = std::get_if<Lattice>(&scene.particles[k].from)) {
+      const Vec3 edges = lattice->box.upper - lattice->box.lower;
+      const double longest = std::max({edges.x, edges.y, edges.z});
+      const double distance = lattice->distance.value_or(2.0 * lattice->radius);
+      if (distance > longest)
+        lines.push_back("particles." + std::to_string(k) + " is one grain: its distance, " + rounded(distance) +
+                        " m, is longer than its box, " + rounded(longest) + " m. Look at their units, or give a list.");
+    }
+}
+
 void lookAtRadii(const Scene& scene, Lines& lines) {
   Radii radii;
   for (std::size_t k = 0; k < scene.particles.size(); ++k)
@@ -174,8 +217,20 @@ void lookAtSizes(const Built& built, const Scene& scene, Lines& lines) {
   for (std::size_t w = 0; w < built.walls.size(); ++w)
     for (std::size_t m = built.walls[w].firstMesh; m < built.walls[w].endMesh; ++m)
       lookAtSize("The surface of walls." + std::to_string(w), meshes[m]->mesh.wall.x, p, lines);
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    if (const auto* const box = std::get_if<BoxWalls>(&scene.walls[w].shape))
+      lookAtSize("The box of walls." + std::to_string(w), {box->box.lower, box->box.upper}, p, lines);
   for (std::size_t s = 0; s < scene.solids.size(); ++s)
     lookAtSize("The solid " + quoted(scene.solids[s].name), built.meshes[s].X, p, lines);
+}
+
+/// Standard gravity in other units; no centrifuge takes just that.
+void lookAtGravity(const Vec3& gravity, Lines& lines) {
+  const double g = norm(gravity);
+  for (const auto& [number, unit] : {std::pair{981.0, "cm/s2"}, {9810.0, "mm/s2"}, {32.2, "ft/s2"}})
+    if (std::abs(g / number - 1.0) < 2e-3)
+      lines.push_back("gravity is " + rounded(g) + " m/s2, the number of the standard one in " + unit +
+                      ": write 9.81 if that is meant.");
 }
 
 // ---- steps
@@ -199,12 +254,17 @@ void lookAtRelations(const Built& built, const Scene& scene, Lines& lines) {
     const SolidMaterial& material = scene.solids[s].material;
     const double modulus = std::visit([](const auto& law) { return law.youngsModulus; }, material.law);
     lookAtWaves(quoted(scene.solids[s].name), modulus, material.density, lines);
-    lookAtStrength("solids." + std::to_string(s) + ".material", scene.solids[s], lines);
+    const std::string of = "solids." + std::to_string(s);
+    lookAtStrength(of + ".material", scene.solids[s], lines);
+    lookAtPressures(of, scene.solids[s], modulus, scene, lines);
+    lookAtAspects(of, scene.solids[s], built.meshes[s], lines);
     lookAtLocking(built, scene.solids[s], s, lines);
   }
+  lookAtGravity(scene.gravity, lines);
   lookAtSprings(scene, built.run->grains.particles, lines);
   lookAtBonds(built, scene, lines);
   lookAtRadii(scene, lines);
+  lookAtLattices(scene, lines);
   lookAtSizes(built, scene, lines);
   lookAtStep(built, scene, lines);
 }

@@ -98,6 +98,10 @@ std::string unevenWeight(const Solid& solid, const fem::SolidMesh& mesh) {
          (solid.implicitSteps ? "." : ", or \"stepping\": \"implicit\".");
 }
 
+bool hasGrains(const Scene& scene) {
+  return !scene.particles.empty() || !scene.clumps.empty() || !scene.insertions.empty();
+}
+
 void add(Built& built, const Solid& solid, const Scene& scene) {
   io::requirePlainName(solid.name, "name");
   if (solid.name.size() > 100)
@@ -105,7 +109,9 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
                      "use 100 letters at most");
   const bool meetsGrains = std::any_of(scene.couplings.begin(), scene.couplings.end(),
                                        [&](const Coupling& coupling) { return coupling.solid == solid.name; });
-  if (!meetsGrains) built.notes.push_back("Solid \"" + solid.name + "\" has no coupling: grains pass through it.");
+  if (!meetsGrains && hasGrains(scene))
+    built.notes.push_back("WARNING: \"" + solid.name +
+                          "\" has no coupling, so that grains pass through it: give it one, or leave it out.");
   const Overlap* const overlap = overlapWith(solid, scene);
   built.meshes.push_back(meshOf(solid, built.notes));
   addSets(built.meshes.back(), solid);

@@ -25,6 +25,11 @@ void lookAtContacts(const Built& built, Lines& lines) {
   constexpr double deep = 0.05;
   const dem::Particles& p = built.run->grains.particles;
   const dem::ContactSample contacts = dem::sampleContacts(built.run->grains);
+  const dem::Model& grains = built.run->grains;
+  if (grains.laws && std::isinf(grains.laws->reach()) && p.size() > 1 && 2 * contacts.size() < p.size())
+    lines.push_back("Only " + std::to_string(contacts.size()) + " pairs of " + std::to_string(p.size()) +
+                    " grains touch at the start and hold together (\"bonded\"), and the others never meet: give them "
+                    "a lattice, or leave \"bonded\" out.");
   std::size_t count = 0, worst = 0;
   double most = deep;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -37,6 +42,10 @@ void lookAtContacts(const Built& built, Lines& lines) {
     if (overlap > most) most = overlap, worst = c;
   }
   if (count == 0) return;
+  if (most > 1.0 && contacts.second[worst] >= 0 && norm(contacts.from[worst] - contacts.to[worst]) == 0.0)
+    lines.push_back("Particles " + std::to_string(p.id[static_cast<std::size_t>(contacts.first[worst])]) + " and " +
+                    std::to_string(p.id[static_cast<std::size_t>(contacts.second[worst])]) +
+                    " lie at one place, and others may as well: leave one of each two out, or move it.");
   const auto nameOf = [&](int i) { return std::to_string(p.id[static_cast<std::size_t>(i)]); };
   lines.push_back(std::to_string(count) + " contacts are deeper than " + percent(deep) +
                   " of a radius at the start, the deepest " + percent(most) + " (particle " +
@@ -105,6 +114,9 @@ void lookAtNames(const Scene& scene, Lines& lines) {
     if (const auto* const contact = std::get_if<SurfaceContact>(&one.kind))
       usedMaterials.insert(contact->contactMaterial);
   lookForUnused(materials, usedMaterials, "The contact material", lines);
+  for (const std::string& name : scene.unusedParameters)
+    lines.push_back("The parameter " + quoted(name) +
+                    " is used by nobody: leave it out, or name it where it is meant.");
 }
 
 void lookAtSets(const Scene& scene, const Solid& solid, Lines& lines) {
@@ -117,6 +129,58 @@ void lookAtSets(const Scene& scene, const Solid& solid, Lines& lines) {
     if (const auto* const contact = std::get_if<SurfaceContact>(&one.kind); contact && one.solid == solid.name)
       used.insert(contact->on);
   lookForUnused(sets, used, "Of " + quoted(solid.name) + " the set", lines);
+}
+
+/// Whether no node of the solid is held along an axis.
+bool isFreeAlong(const fem::DofMap& dofs, std::size_t nodes, std::size_t axis) {
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (const fem::Role role = dofs.role(3 * n + axis); role != fem::Role::free && role != fem::Role::tied)
+      return false;
+  return true;
+}
+
+/// Loads at the end of the run: pulses on free bodies are waves.
+Vec3 netLoad(const Built& built, const Scene& scene, std::size_t number) {
+  if (scene.solids[number].loads.empty()) return {};
+  const coupling::SolidSide& side = built.run->solid(number);
+  std::vector<Vec3> forces(side.nodes().X.size());
+  for (const auto& term : side.model->terms) term->addForces(side.nodes(), {durationOf(scene), 0.0, side.mass}, forces);
+  Vec3 net;
+  double all = 0.0;
+  for (const Vec3& f : forces) net += f, all += norm(f);  // what elements add is in balance
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(net[k]) < 1e-6 * all) net[k] = 0.0;
+  return net;
+}
+
+/// What pulls at a solid where no supports hold it.
+void lookForFreeSolids(const Built& built, const Scene& scene, std::size_t number, Lines& lines) {
+  const Solid& solid = scene.solids[number];
+  bool touches = false;
+  for (const Coupling& one : scene.couplings) {
+    if (one.solid != solid.name) continue;
+    if (std::holds_alternative<Overlap>(one.kind)) return;
+    touches = true;
+  }
+  const double g = norm(scene.gravity);
+  if (solid.supports.empty() && g > 0.0 && solid.gravity)
+    return lines.push_back(quoted(solid.name) +
+                           " has no supports and falls: hold some of its nodes, or leave gravity out.");
+  if (solid.supports.empty() && g > 0.0 && touches && norm(solid.velocity) == 0.0)
+    return lines.push_back(quoted(solid.name) +
+                           " has no supports and no gravity, so that grains that lie on it push it away: hold some of "
+                           "its nodes.");
+  if (!built.run->solid(number).mass) return;  // the run has not started
+  const Vec3 pull = netLoad(built, scene, number);
+  const std::size_t nodes = built.meshes[number].X.size();
+  for (int k = 0; k < 3; ++k) {
+    const bool falls = solid.gravity && scene.gravity[k] != 0.0;
+    if ((falls || pull[k] != 0.0) && fem::dimensionOf(built.meshes[number]) == 3 &&
+        isFreeAlong(built.run->solid(number).mass->dofs(), nodes, static_cast<std::size_t>(k)))
+      lines.push_back("Nothing holds " + quoted(solid.name) + " along " + "xyz"[k] + ", where " +
+                      (falls ? "gravity pulls" : "its loads come to " + rounded(pull[k]) + " N at the end") +
+                      ", so that it flies off: hold that component of some of its nodes, or let loads balance or end.");
+  }
 }
 
 /// What moves has no rest; steady velocities are refused.
@@ -155,9 +219,10 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene) {
   lookAtCompany(built, scene, lines);
   lookForIdleParts(built, scene, lines);
   lookForFalling(built, scene, lines);
-  lookAtOutput(built, scene, lines);
+  const bool started = built.run->dt() > 0.0;
+  if (started) lookAtOutput(built, scene, lines);
   lookAtContacts(built, lines);
-  lookAtSoftness(built, scene, lines);
+  if (started) lookAtSoftness(built, scene, lines);
   lookAtWalls(built, lines);
   for (std::size_t s = 0; s < scene.solids.size(); ++s) {
     const Solid& solid = scene.solids[s];
@@ -174,9 +239,9 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene) {
       else
         lookAtSurfaceContact(built, scene, s, std::get<SurfaceContact>(coupling.kind), lines);
     }
-    if (!overlaps) lookForGrainsWithin(built, s, lines), lookForStreamsWithin(built, scene, s, lines);
-    if (solid.supports.empty() && solid.gravity && norm(scene.gravity) > 0.0)
-      lines.push_back(quoted(solid.name) + " has no supports and falls: hold some of its nodes, or leave gravity out.");
+    if (!overlaps) lookForGrainsWithin(built, s, lines);
+    lookForStreamsWithin(built, scene, s, lines);
+    lookForFreeSolids(built, scene, s, lines);
   }
   lookForBodiesWithin(built, scene, lines);
   lookAtNames(scene, lines);

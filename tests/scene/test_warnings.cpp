@@ -1,7 +1,10 @@
 // What `check` warns of.
+#include <sstream>
+
 #include "../io/scratch_folder.hpp"
 #include "dovetail/fem/mesh/mesh_shapes.hpp"
 #include "dovetail/mesh_io/surface_files.hpp"
+#include "dovetail/scene/execute.hpp"
 #include "dovetail/solid_io/solid_files.hpp"
 #include "warning_parts.hpp"
 
@@ -185,6 +188,132 @@ TEST(SceneWarnings, LayersThatAreTiedToThickBodiesHaveNone) {
   };
   expectParts(of(""), {"0.5 m thick", "which bend"});
   EXPECT_EQ(of(R"({"nodes": "foot", "faces": "top", "tolerance": 1e-6})"), "");
+}
+
+TEST(SceneWarnings, ParametersThatNobodyNames) {
+  expectParts(warningsOf(R"("let": {"width": 0.01, "depth": 2}, "gravity": [0, 0, "-width"],)" + ground + onTop),
+              {"The parameter \"depth\" is used by nobody"});
+  EXPECT_EQ(warningsOf(R"("let": {"width": 0.01, "depth": "2*width"}, "gravity": [0, 0, "-depth"],)" + ground + onTop),
+            "");
+}
+
+TEST(SceneWarnings, BodiesThatNothingHolds) {
+  const auto of = [](const std::string& supports, const std::string& more) {
+    return warningsOf(replaced(block, R"("supports": [{"on": "z-"}])", R"("supports": [)" + supports + "]") + more +
+                      "}],");
+  };
+  const auto loads = [&](const std::string& all) { return of("", R"(, "loads": [)" + all + "]"); };
+  const std::string right = R"({"on": "x+", "type": "pressure", "pressure": 1000})";
+  const std::string left = R"({"on": "x-", "type": "pressure", "pressure": 1000})";
+  expectParts(loads(right), {"Nothing holds \"b\" along x", "-1000 N", "flies off"});
+  EXPECT_EQ(loads(right + "," + left), "");
+  if (WITH_EXPRESSIONS) EXPECT_EQ(loads(replaced(right, "1000", "\"1000*(t < 1e-4)\"")), "");
+  const std::string sides = R"({"on": "x-", "components": ["x"]}, {"on": "y-", "components": ["y"]})";
+  const auto pulled = [&](const std::string& supports) {
+    return warningsOf(R"("gravity": [0, 0, -9.81],)" +
+                      replaced(block, R"("supports": [{"on": "z-"}])", R"("supports": [)" + supports + "]") + "}],");
+  };
+  expectParts(pulled(sides), {"Nothing holds \"b\" along z, where gravity pulls"});
+  EXPECT_EQ(pulled(sides + R"(, {"on": "z-", "components": ["z"]})"), "");
+}
+
+TEST(SceneWarnings, GravityThatPullsAwayFromAll) {
+  const auto of = [](const std::string& gravity, const std::string& more) {
+    return warningsOf(spheres(R"({"at": [0.5, 0.5, 0.5], "radius": 0.1})") + R"("gravity": [0, 0, )" + gravity +
+                      R"(], "walls": [{"shape": "box", "box": [[0, 0, 0], [1, 1, 1]], "open": ["z+"]}],)" + more);
+  };
+  expectParts(of("0.97", ""), {"pulls all grains away", "(walls.0 is open at z+)", "turn gravity round"});
+  EXPECT_EQ(of("0.97", R"("domain": {"box": [[-1, -1, -1], [2, 2, 9]], "escape": "remove"},)"), "");
+  EXPECT_EQ(of("-0.02", ""), "");
+  expectParts(of("-981", ""), {"gravity is 981 m/s2", "cm/s2"});
+}
+
+TEST(SceneWarnings, RegionsWhereNobodyComes) {
+  const std::string box = spheres(R"({"at": [0.5, 0.5, 0.5], "radius": 0.1})") +
+                          R"("gravity": [0, 0, -0.02], "walls": [{"shape": "box", "box": [[0, 0, 0], [1, 1, 1]]}],)";
+  const auto outlet = [&](const std::string& region) {
+    return warningsOf(box + R"("outlets": [{"region": )" + region + "}],");
+  };
+  expectParts(outlet("[[0, 0, -2], [1, 1, -1]]"), {"The region of outlets.0 lies behind walls"});
+  expectParts(outlet("[[0, 0, 50], [1, 1, 60]]"), {"The region of outlets.0 is far from all grains"});
+  EXPECT_EQ(outlet("[[0, 0, 0], [0.2, 0.2, 0.2]]"), "");
+  expectParts(warningsOf(box + R"("output": {"series": 1e-4, "probes": [{"name": "p", "of": "region",
+                "box": [[300, 300, 0], [400, 400, 100]]}]},)"),
+              {"The region of the probe \"p\" is far"});
+}
+
+TEST(SceneWarnings, SupportsThatSayNothing) {
+  const auto of = [](const std::string& support) {
+    return warningsOf(replaced(block, R"({"on": "z-"})", R"({"on": "z-"},)" + support) + "}],");
+  };
+  expectParts(of(R"({"on": "z+", "components": ["x"], "velocity": [0, 0, 1]})"),
+              {"solids.0.supports.1 moves along z, which it does not hold"});
+  expectParts(of(R"({"on": "z-"})"), {"say the same: leave one of them out"});
+  expectParts(of(R"({"on": "z+", "velocity": [0, 0, 50]})"), {"solids.0.supports.1 moves at up to 50 m/s", "mm/s"});
+  EXPECT_EQ(of(R"({"on": "z+", "components": ["z"], "velocity": [0, 0, 1]})"), "");
+}
+
+TEST(SceneWarnings, SizesAndPressuresAgainstTheMaterial) {
+  const auto of = [](const std::string& from, const std::string& to) {
+    return warningsOf(replaced(block, from, to) + "}],");
+  };
+  expectParts(of("[1, 1, 1]]", "[1, 1, 0.001]]"), {"Element 0 of \"b\" is 1000 times as long as it is high"});
+  expectParts(of(R"("supports")", R"("loads": [{"on": "x+", "type": "pressure", "pressure": 2e6}], "supports")"),
+              {"solids.0.loads.0.pressure comes to 2e+06 Pa, above youngs_modulus"});
+  expectParts(of(R"("supports")", R"("loads": [{"on": "x+", "type": "pressure", "pressure": "2 mPa"}], "supports")"),
+              {"solids.0.loads.0.pressure is 0.002 Pa", "0.002 MPa"});
+  expectParts(of(R"("neo-Hookean")", R"("J2", "yield_stress": 1e3, "hardening": 2e7)"),
+              {"hardening is 2e+07 Pa, above youngs_modulus"});
+}
+
+TEST(SceneWarnings, SolidsThatGoThroughFloors) {
+  const auto of = [](const std::string& velocity) {
+    return warningsOf(R"("walls": [{"shape": "plane", "point": [0, 0, -0.001], "normal": [0, 0, 1]}],)" +
+                      replaced(block, R"("supports": [{"on": "z-"}])", R"("velocity": [0, 0, )" + velocity + "]") +
+                      "}],");
+  };
+  expectParts(of("-2"), {"\"b\" moves into walls.0, and goes through"});
+  EXPECT_EQ(of("2"), "");
+}
+
+TEST(SceneWarnings, LidsThatJumpAreNotFast) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP();
+  const auto of = [](const std::string& z) {
+    return warningsOf(
+        R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1], "displacement": [0, 0, )" + z +
+        "]}]," + spheres(R"({"at": [0, 0, 2], "radius": 0.1})"));
+  };
+  expectParts(of("\"-100*t\""), {"walls.0 moves at up to 100 m/s"});
+  EXPECT_EQ(of("\"t < 5e-4 ? 0 : -1\""), "");
+}
+
+TEST(SceneWarnings, GrainsAtOnePlaceAndBoxesOfOneGrain) {
+  expectParts(warningsOf(spheres(R"({"at": [0, 0, 0], "radius": 0.1}, {"at": [0, 0, 0], "radius": 0.1})")),
+              {"Particles 0 and 1 lie at one place"});
+  expectParts(warningsOf(R"("particles": [{"from": "lattice", "box": [[0, 0, 0], [1, 1, 1]], "radius": 0.1,
+                            "distance": 2.2, "density": 2500}],)"),
+              {"particles.0 is one grain", "2.2 m"});
+}
+
+TEST(SceneWarnings, StagesThatAreTooShort) {
+  const auto of = [](const std::string& stage) {
+    const Scene scene =
+        sceneFromText("{" + law + onTop + R"("steps": {"dt": 1e-5}, "stages": [)" + stage + "]}", "s.json", "/");
+    return warningsOf(scene);
+  };
+  expectParts(of(R"({"do": "run", "time": 1e-6})"), {"stages.0.time is 1e-06 s, and a step"});
+  expectParts(of(R"({"do": "settle", "windows": 1})"), {"stages.0.windows is 1"});
+  EXPECT_EQ(of(R"({"do": "run", "time": 1e-3})"), "");
+}
+
+/// What hinders the start is seldom all that is wrong.
+TEST(SceneWarnings, AreToldBesideARefusal) {
+  const Scene scene = sceneOf(replaced(block, "[1, 1, 1]]", "[1, 1, 0.001]]") + "}],");
+  Scene hurried = scene;
+  hurried.steps.dt.number = 1.0;
+  std::ostringstream log;
+  EXPECT_THROW(check(hurried, log), InputError);
+  expectParts(log.str(), {"WARNING: Element 0 of \"b\" is 1000 times"});
 }
 
 }  // namespace

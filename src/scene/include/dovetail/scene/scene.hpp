@@ -96,6 +96,7 @@ struct Scene {
   std::vector<Stage> stages;
   Output output;
   std::vector<std::string> files;  ///< that it was read from, and that it names
+  std::vector<std::string> unusedParameters;
 };
 
 }  // namespace dovetail::scene
