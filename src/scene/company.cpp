@@ -63,11 +63,12 @@ void lookAtProbes(const Built& built, const Scene& scene, Lines& lines) {
 
 // ---- insertions, outlets, domain
 
-/// Of places for the centres of spheres of radius r within a box, those before all walls and in the domain.
-double shareWithin(const dem::Model& grains, const geometry::Box& box, double r) {
+/// Of places for the centres of the smallest spheres, those before all walls and in the domain.
+double shareWithin(const dem::Model& grains, const Insertion& insertion) {
   constexpr int each = 9;
   const std::size_t walls = std::as_const(grains).terms.all<dem::PrimitiveWallTerm>().size();
-  const Vec3 lower = box.lower + Vec3{r, r, r}, edges = box.upper - Vec3{r, r, r} - lower;
+  const double r = insertion.radius.smallest;
+  const Vec3 lower = insertion.region.lower + Vec3{r, r, r}, edges = insertion.region.upper - Vec3{r, r, r} - lower;
   int within = 0;
   for (int k = 0; k < each * each * each; ++k) {
     const auto along = [&](int axis, int n) { return lower[axis] + std::max(0.0, edges[axis]) * n / (each - 1); };
@@ -80,6 +81,22 @@ double shareWithin(const dem::Model& grains, const geometry::Box& box, double r)
     within += isIn ? 1 : 0;
   }
   return static_cast<double>(within) / (each * each * each);
+}
+
+/// Whether all of a box lies behind one plane.
+bool isBehindWall(const dem::Model& grains, const geometry::Box& box) {
+  const std::size_t walls = std::as_const(grains).terms.all<dem::PrimitiveWallTerm>().size();
+  for (std::size_t w = 0; w < walls; ++w) {
+    const dem::PrimitiveWall& wall = dem::primitiveWall(grains, w);
+    bool behind = wall.shape == dem::PrimitiveWall::Shape::plane;
+    for (int corner = 0; behind && corner < 8; ++corner) {
+      const Vec3 x{corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
+                   corner & 4 ? box.upper.z : box.lower.z};
+      behind = dem::distanceTo(wall, x).distance <= 0.0;
+    }
+    if (behind) return true;
+  }
+  return false;
 }
 
 bool anyMoves(const std::vector<Wall>& walls) {
@@ -96,16 +113,13 @@ void lookAtRegion(const Built& built, const Scene& scene, const std::string& who
     lines.push_back(begin + " stays empty, as the scene has no grains: give it some, or leave the region out.");
   else if (isBeyondReach(built, scene, region))
     lines.push_back(begin + " is far from all grains, which never come there: move it, or look at its unit.");
-  else if (!anyMoves(scene.walls) && shareWithin(built.run->grains, region, 0.0) == 0.0)
-    lines.push_back(begin +
-                    " lies behind walls or outside of the domain, where nobody comes: move it inside, or leave "
-                    "a side of the walls open.");
+  else if (!anyMoves(scene.walls) && isBehindWall(built.run->grains, region))
+    lines.push_back(begin + " lies behind a wall, where nobody comes: move it inside, or leave a side of walls open.");
 }
 
 void lookAtStreams(const Built& built, const Scene& scene, Lines& lines) {
   for (std::size_t k = 0; k < scene.insertions.size(); ++k) {
-    const double within =
-        shareWithin(built.run->grains, scene.insertions[k].region, scene.insertions[k].radius.smallest);
+    const double within = shareWithin(built.run->grains, scene.insertions[k]);
     const std::string name = "The region of " + item("insertions", k);
     if (within < 0.5)
       lines.push_back(name + (within == 0.0 ? " lies" : " lies for " + percent(1.0 - within)) +

@@ -224,10 +224,10 @@ void lookAtSizes(const Built& built, const Scene& scene, Lines& lines) {
     lookAtSize("The solid " + quoted(scene.solids[s].name), built.meshes[s].X, p, lines);
 }
 
-/// Standard gravity in other units; no centrifuge takes just that.
+/// Standard gravity in other units. (981 m/s2 is that of a centrifuge at 100 g.)
 void lookAtGravity(const Vec3& gravity, Lines& lines) {
   const double g = norm(gravity);
-  for (const auto& [number, unit] : {std::pair{981.0, "cm/s2"}, {9810.0, "mm/s2"}, {32.2, "ft/s2"}})
+  for (const auto& [number, unit] : {std::pair{9810.0, "mm/s2"}, {32.2, "ft/s2"}})
     if (std::abs(g / number - 1.0) < 2e-3)
       lines.push_back("gravity is " + rounded(g) + " m/s2, the number of the standard one in " + unit +
                       ": write 9.81 if that is meant.");

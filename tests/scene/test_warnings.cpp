@@ -225,7 +225,7 @@ TEST(SceneWarnings, GravityThatPullsAwayFromAll) {
   expectParts(of("0.97", ""), {"pulls all grains away", "(walls.0 is open at z+)", "turn gravity round"});
   EXPECT_EQ(of("0.97", R"("domain": {"box": [[-1, -1, -1], [2, 2, 9]], "escape": "remove"},)"), "");
   EXPECT_EQ(of("-0.02", ""), "");
-  expectParts(of("-981", ""), {"gravity is 981 m/s2", "cm/s2"});
+  expectParts(of("-9810", ""), {"gravity is 9810 m/s2", "mm/s2"});
 }
 
 TEST(SceneWarnings, RegionsWhereNobodyComes) {
@@ -234,7 +234,7 @@ TEST(SceneWarnings, RegionsWhereNobodyComes) {
   const auto outlet = [&](const std::string& region) {
     return warningsOf(box + R"("outlets": [{"region": )" + region + "}],");
   };
-  expectParts(outlet("[[0, 0, -2], [1, 1, -1]]"), {"The region of outlets.0 lies behind walls"});
+  expectParts(outlet("[[0, 0, -2], [1, 1, -1]]"), {"The region of outlets.0 lies behind a wall"});
   expectParts(outlet("[[0, 0, 50], [1, 1, 60]]"), {"The region of outlets.0 is far from all grains"});
   EXPECT_EQ(outlet("[[0, 0, 0], [0.2, 0.2, 0.2]]"), "");
   expectParts(warningsOf(box + R"("output": {"series": 1e-4, "probes": [{"name": "p", "of": "region",
