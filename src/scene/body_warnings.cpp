@@ -42,8 +42,9 @@ void lookForGrainsWithin(const dem::Particles& p, const geometry::TriangleMesh& 
   const auto within = [&](std::size_t i) { return geometry::windingNumber(skin.x, skin.facets, p.x[i]) > 0.5; };
   const auto count = std::count_if(near.begin(), near.end(), within);
   if (count > 0)
-    lines.push_back(std::to_string(count) + " grains have their centres in " + whose + " at the start: move them out" +
-                    remedy + ".");
+    lines.push_back(std::to_string(count) +
+                    (count == 1 ? " grain has its centre in " : " grains have their centres in ") + whose +
+                    " at the start: move them out" + remedy + ".");
 }
 
 void lookAtWall(const std::string& name, const dem::TriangulatedWall& wall, const dem::Particles& p, Lines& lines) {

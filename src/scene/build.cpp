@@ -157,6 +157,7 @@ bool nothingIsThere(const Built& built, const Scene& scene) {
 }  // namespace
 
 void start(Built& built, const Scene& scene) {
+  bool allLeave = false;
   const coupling::RunOptions options{.stepsPerWindow = scene.steps.stepsPerWindow,
                                      .lag = static_cast<coupling::Lag>(scene.steps.lag)};
   atPlace(scene.steps.where, [&] {
@@ -166,15 +167,17 @@ void start(Built& built, const Scene& scene) {
     }
     double smallest = built.run->limitAtStart(options).dt;
     for (const Limit& limit : limitsOfParts(built, scene)) smallest = std::min(smallest, limit.dt);
-    if (!std::isfinite(smallest) && scene.domain && nothingIsThere(built, scene))
-      throw InputError("all grains lie outside of the domain and leave at once", scene.domain->where,
-                       "make domain.box larger, or move the grains into it");
+    allLeave = scene.domain && nothingIsThere(built, scene);
+    if (allLeave) return;
     if (!std::isfinite(smallest))
       throw InputError(nothingIsThere(built, scene) ? "the scene has neither grains nor solids"
                                                     : "nothing in the scene tells a step",
                        "", "give steps.dt a number, such as \"1e-4 s\"");
     built.run->start(automaticStep(built, scene, smallest), options);
   });
+  if (allLeave)
+    throw InputError("all grains lie outside of the domain and leave at once", scene.domain->where,
+                     "make domain.box larger, or move the grains into it");
   for (const std::string& note : notesOnSetNames(built, scene)) built.notes.push_back(note);
   foreseeSolvers(built);
 }

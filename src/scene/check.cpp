@@ -16,21 +16,21 @@ namespace {
 
 constexpr double longestMeasured = 0.5;  // s of a window, by the size of its linear systems
 
-/// What else is wrong with a scene that cannot start, as far as that can be told.
-void tellWarnings(const Built& built, const Scene& scene, std::ostream& log) {
+/// Of a scene that cannot start, as far as they can be told.
+void tellWarnings(const Built& built, const Scene& scene, bool starts, std::ostream& log) {
   for (const std::string& note : built.notes) log << note << '\n';
   Lines lines;
   try {
-    lines = warnings(built, scene);
+    lines = warnings(built, scene, starts);
   } catch (const std::exception&) {
-    // Some of them ask for a run that has started.
+    if (starts) throw;
   }
   for (const std::string& warning : lines) log << "WARNING: " << warning << '\n';
 }
 
 void tellParts(Built& built, const Scene& scene, std::ostream& log) {
   const coupling::CoupledRun& run = *built.run;
-  tellWarnings(built, scene, log);
+  tellWarnings(built, scene, true, log);
   log << run.grains.particles.size() << " particles, contacts: " << run.grains.laws->name() << '\n';
   for (std::size_t s = 0; s < run.solids(); ++s)
     log << "solid \"" << run.solid(s).name << "\": " << built.meshes[s].X.size() << " nodes, "
@@ -119,7 +119,7 @@ void check(const Scene& scene, std::ostream& log) {
     start(built, scene);
     plan = planOf(built, scene);
   } catch (const std::exception&) {
-    tellWarnings(built, scene, log);
+    tellWarnings(built, scene, false, log);
     throw;
   }
   if (plan.series > 0) const Series columns(built, scene.output.probes, {});

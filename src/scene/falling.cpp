@@ -88,6 +88,10 @@ std::string openSide(const Scene& scene, const Vec3& down) {
 
 /// Walls or solids are there, and gravity pulls away from them.
 void lookForEscapes(const Scene& scene, const Vec3& down, Lines& lines) {
+  const auto isMet = [&](const Solid& solid) {
+    return std::ranges::any_of(scene.couplings, [&](const Coupling& one) { return one.solid == solid.name; });
+  };
+  if (!std::ranges::all_of(scene.solids, isMet)) return;  // told of already
   if (scene.periodic || (scene.walls.empty() && scene.couplings.empty()) || !scene.outlets.empty() ||
       !scene.drives.empty())
     return;

@@ -12,6 +12,7 @@
 #include "dovetail/io/csv_table.hpp"
 #include "nearest.hpp"
 #include "parts.hpp"
+#include "warnings.hpp"
 
 namespace dovetail::scene {
 
@@ -71,7 +72,7 @@ void add(const Target& to, const RandomPacking& packing) {
                      " radii.");
   if (report.solidFraction < 0.8 * packing.solidFraction)
     to.notes.push_back("WARNING: The box of the packing holds spheres for a solid fraction of " +
-                       formatNumber(report.solidFraction) + ", not of " + formatNumber(packing.solidFraction) +
+                       rounded(report.solidFraction) + ", not of " + formatNumber(packing.solidFraction) +
                        ": give it smaller grains, or a larger box.");
   dem::addPacking(to.grains.particles, spheres, {packing.density}, to.group.velocity);
 }

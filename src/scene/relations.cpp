@@ -195,7 +195,8 @@ void lookAtRadii(const Scene& scene, Lines& lines) {
   radii.tell(lines);
 }
 
-void lookAtSize(const std::string& whose, const std::vector<Vec3>& x, const dem::Particles& p, Lines& lines) {
+void lookAtSize(const std::string& whose, const std::vector<Vec3>& x, const dem::Particles& p,
+                const std::string& remedy, Lines& lines) {
   constexpr double often = 300.0, machine = 20.0;  // m
   if (p.size() == 0 || x.empty()) return;
   Extent body, grains;
@@ -205,7 +206,7 @@ void lookAtSize(const std::string& whose, const std::vector<Vec3>& x, const dem:
   const double all = grains.size() + diameter, size = body.size();
   if (size > machine && size > often * all)
     lines.push_back(whose + " is " + rounded(size) + " m large, and all grains together " + rounded(all) +
-                    " m: write \"scale\": 0.001 if its file is in millimetres, or \"100 mm\" for lengths.");
+                    " m: " + remedy + ".");
   if (size < diameter)
     lines.push_back(whose + " is " + rounded(size) + " m large, and the smallest grain " + rounded(diameter) +
                     " m: look at \"scale\", which is in metres per unit of a file.");
@@ -213,24 +214,17 @@ void lookAtSize(const std::string& whose, const std::vector<Vec3>& x, const dem:
 
 void lookAtSizes(const Built& built, const Scene& scene, Lines& lines) {
   const dem::Particles& p = built.run->grains.particles;
+  const std::string file = "write \"scale\": 0.001 if its file is in millimetres, or \"100 mm\" for lengths";
   const auto meshes = std::as_const(built.run->grains).terms.all<dem::MeshWallTerm>();
   for (std::size_t w = 0; w < built.walls.size(); ++w)
     for (std::size_t m = built.walls[w].firstMesh; m < built.walls[w].endMesh; ++m)
-      lookAtSize("The surface of walls." + std::to_string(w), meshes[m]->mesh.wall.x, p, lines);
+      lookAtSize("The surface of walls." + std::to_string(w), meshes[m]->mesh.wall.x, p, file, lines);
   for (std::size_t w = 0; w < scene.walls.size(); ++w)
     if (const auto* const box = std::get_if<BoxWalls>(&scene.walls[w].shape))
-      lookAtSize("The box of walls." + std::to_string(w), {box->box.lower, box->box.upper}, p, lines);
+      lookAtSize("The box of walls." + std::to_string(w), {box->box.lower, box->box.upper}, p,
+                 "write \"100 mm\" for lengths in millimetres", lines);
   for (std::size_t s = 0; s < scene.solids.size(); ++s)
-    lookAtSize("The solid " + quoted(scene.solids[s].name), built.meshes[s].X, p, lines);
-}
-
-/// Standard gravity in other units. (981 m/s2 is that of a centrifuge at 100 g.)
-void lookAtGravity(const Vec3& gravity, Lines& lines) {
-  const double g = norm(gravity);
-  for (const auto& [number, unit] : {std::pair{9810.0, "mm/s2"}, {32.2, "ft/s2"}})
-    if (std::abs(g / number - 1.0) < 2e-3)
-      lines.push_back("gravity is " + rounded(g) + " m/s2, the number of the standard one in " + unit +
-                      ": write 9.81 if that is meant.");
+    lookAtSize("The solid " + quoted(scene.solids[s].name), built.meshes[s].X, p, file, lines);
 }
 
 // ---- steps
@@ -260,7 +254,6 @@ void lookAtRelations(const Built& built, const Scene& scene, Lines& lines) {
     lookAtAspects(of, scene.solids[s], built.meshes[s], lines);
     lookAtLocking(built, scene.solids[s], s, lines);
   }
-  lookAtGravity(scene.gravity, lines);
   lookAtSprings(scene, built.run->grains.particles, lines);
   lookAtBonds(built, scene, lines);
   lookAtRadii(scene, lines);

@@ -47,11 +47,11 @@ void lookAtContacts(const Built& built, Lines& lines) {
                     std::to_string(p.id[static_cast<std::size_t>(contacts.second[worst])]) +
                     " lie at one place, and others may as well: leave one of each two out, or move it.");
   const auto nameOf = [&](int i) { return std::to_string(p.id[static_cast<std::size_t>(i)]); };
-  lines.push_back(std::to_string(count) + " contacts are deeper than " + percent(deep) +
-                  " of a radius at the start, the deepest " + percent(most) + " (particle " +
+  lines.push_back(std::to_string(count) + (count == 1 ? " contact is" : " contacts are") + " deeper than " +
+                  percent(deep) + " of a radius at the start, the deepest " + percent(most) + " (particle " +
                   nameOf(contacts.first[worst]) +
                   (contacts.second[worst] < 0 ? " with a wall" : " with particle " + nameOf(contacts.second[worst])) +
-                  "): move them apart, or take a stiffer law.");
+                  "): move them apart" + (most < 1.0 ? ", or take a stiffer law." : "."));
 }
 
 // ---- surfaces and meshes
@@ -211,7 +211,7 @@ void lookAtStages(const Scene& scene, Lines& lines) {
 
 std::string percent(double share) { return formatNumber(std::round(1e3 * share) / 10.0) + " %"; }
 
-std::vector<std::string> warnings(const Built& built, const Scene& scene) {
+std::vector<std::string> warnings(const Built& built, const Scene& scene, bool starts) {
   Lines lines;
   lookAtNumbers(scene, lines);
   lookAtRelations(built, scene, lines);
@@ -219,10 +219,9 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene) {
   lookAtCompany(built, scene, lines);
   lookForIdleParts(built, scene, lines);
   lookForFalling(built, scene, lines);
-  const bool started = built.run->dt() > 0.0;
-  if (started) lookAtOutput(built, scene, lines);
+  if (starts) lookAtOutput(built, scene, lines);
   lookAtContacts(built, lines);
-  if (started) lookAtSoftness(built, scene, lines);
+  if (starts) lookAtSoftness(built, scene, lines);
   lookAtWalls(built, lines);
   for (std::size_t s = 0; s < scene.solids.size(); ++s) {
     const Solid& solid = scene.solids[s];

@@ -20,12 +20,12 @@ TEST(SceneWarnings, StarterScenesHaveNone) {
 TEST(SceneWarnings, DeepContactsAndGrainsInSolids) {
   expectParts(warningsOf(spheres(R"({"at": [0, 0, 0], "radius": 0.1}, {"at": [0.18, 0, 0], "radius": 0.1},
                                     {"at": [5, 0, 0], "radius": 0.1}, {"at": [5.199, 0, 0], "radius": 0.1})")),
-              {"1 contacts are deeper than 5 % of a radius", "20 % (particle 0 with particle 1)"});
+              {"1 contact is deeper than 5 % of a radius", "20 % (particle 0 with particle 1)"});
   const std::string floor = R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],)";
   expectParts(warningsOf(floor + spheres(R"({"at": [0, 0, 0.08], "radius": 0.1})")), {"20 % (particle 0 with a wall)"});
   EXPECT_EQ(warningsOf(floor + spheres(R"({"at": [0, 0, 0.099], "radius": 0.1})")), "");
   expectParts(warningsOf(block + onBlock + spheres(R"({"at": [0.5, 0.5, 0.5], "radius": 0.01})")),
-              {"1 grains have their centres in \"b\""});
+              {"1 grain has its centre in \"b\""});
   EXPECT_EQ(warningsOf(block + onBlock + spheres(R"({"at": [0.5, 0.5, 1.02], "radius": 0.01})")), "");
 }
 
@@ -225,7 +225,6 @@ TEST(SceneWarnings, GravityThatPullsAwayFromAll) {
   expectParts(of("0.97", ""), {"pulls all grains away", "(walls.0 is open at z+)", "turn gravity round"});
   EXPECT_EQ(of("0.97", R"("domain": {"box": [[-1, -1, -1], [2, 2, 9]], "escape": "remove"},)"), "");
   EXPECT_EQ(of("-0.02", ""), "");
-  expectParts(of("-9810", ""), {"gravity is 9810 m/s2", "mm/s2"});
 }
 
 TEST(SceneWarnings, RegionsWhereNobodyComes) {

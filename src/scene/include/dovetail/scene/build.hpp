@@ -57,8 +57,9 @@ void start(Built& built, const Scene& scene);
 /// What is likely not meant, a sentence for each kind of fault, with what to write instead: numbers far from what is
 /// usual, deep overlaps at the start, grains in solids, parts that are far from each other or there twice, densities
 /// and moduli that do not go together in an overlap, overlaps and kernels of odd widths, meshes and walls with faults,
-/// names that nobody uses. Of a started run. @throws InputError as for outputs that cannot be written
-std::vector<std::string> warnings(const Built& built, const Scene& scene);
+/// names that nobody uses. @param starts  whether the run has started: others have no outputs and no impacts
+/// @throws InputError as for outputs that cannot be written
+std::vector<std::string> warnings(const Built& built, const Scene& scene, bool starts = true);
 
 /// All limits there are, of the started run as it is now.
 std::vector<Limit> limits(Built& built, const Scene& scene);
