@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "dovetail/arlequin/constraint.hpp"
+#include "dovetail/arlequin/coupling_options.hpp"
 #include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/mesh/mesh_quality.hpp"
@@ -139,7 +140,8 @@ void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, co
     lines.push_back(name + " is " + rounded(thickness) + " m thick, with elements of " + rounded(shared.elementSize) +
                     " m and grains of " + rounded(shared.diameter) +
                     " m: give it two elements and three grains at least.");
-  if (!overlap.multipliers) lookAtPenalty(overlap, file, shared.elementSize, name, lines);
+  if (overlap.constraint == static_cast<int>(arlequin::ConstraintKind::penalty))
+    lookAtPenalty(overlap, file, shared.elementSize, name, lines);
   if (overlap.kernel > thickness)
     lines.push_back("The kernel of " + name + " is wider than it is thick: take one below " + rounded(thickness) +
                     " m.");
