@@ -11,8 +11,10 @@
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "dovetail/scene/execute.hpp"
+#include "dovetail/scene/files.hpp"
 #include "dovetail/scene/read.hpp"
 #include "dovetail/scene/units.hpp"
+#include "dovetail/scene/upgrade.hpp"
 #include "program/run.hpp"
 #include "verbs.hpp"
 
@@ -77,6 +79,16 @@ bool writeSchema(const Options& options) {
   std::cout << (options.markdown ? scene::referenceText() : scene::schemaText());
   return true;
 }
+bool upgradeScene(const Options& options) {
+  const scene::FileText file = scene::textOfFile(options.file);
+  const scene::Upgrade upgrade = scene::upgraded(file.text, file.name);
+  for (const std::string& change : upgrade.changes) std::cout << change << '\n';
+  if (upgrade.changes.empty())
+    std::cout << "nothing to change\n";
+  else
+    io::writeFileAtomically(options.file, upgrade.text);
+  return true;
+}
 bool writeStarter(const Options& options) {
   const std::string text = "// dovetail " + io::buildInfo().version + "\n" + starters().at(options.kind);
   if (options.file.empty())
@@ -121,6 +133,9 @@ std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
   resume->add_option("--threads", options.threads, "in place of the scene's; the digits are the same for any number");
   steps(resume);
   add("info", "tells what a file or folder holds", tellFile)->add_option("FILE", options.file)->required();
+  add("upgrade", "gives keys and words of a scene file the names that they have now", upgradeScene)
+      ->add_option("SCENE", options.file, "scene file (JSON), which is changed in place")
+      ->required();
   add("schema", "prints the JSON Schema of scenes", writeSchema)
       ->add_flag("--markdown", options.markdown, "a reference of all keys instead");
   verbs.push_back(program::addCompare(app));

@@ -119,12 +119,12 @@ std::vector<Placed> listOf(const Result& study) {
 /// Of what changed hands in a run of a scene, what may be left over for the energy to have stayed: in an impact a
 /// twentieth of the energy is a fortieth of the speed of rebound, which is about how well a coefficient of restitution
 /// is known.
-constexpr double bearableShare = 0.05;
+constexpr double memoryShare = 0.05;
 
 /// Scenes run with every combination of two values.
 Map::Outcome outcomeOfScene(const Json& row, double share) {
   const Map::Outcome outcome = outcomeOf(row);
-  return outcome == Map::Outcome::survived && !(share < bearableShare) ? Map::Outcome::failed : outcome;
+  return outcome == Map::Outcome::survived && !(share < memoryShare) ? Map::Outcome::failed : outcome;
 }
 
 std::string sceneCommand(const Result& study, const std::string& label) {
@@ -195,7 +195,7 @@ public:
         "automatic "
         "steps, which give an impact eight steps at least.",
         rows_.size(), count(Map::Outcome::survived), count(Map::Outcome::refused), count(Map::Outcome::failed),
-        100.0 * bearableShare)});
+        100.0 * memoryShare)});
     for (const Map& map : maps_) section.blocks.push_back(map);
     chapter.sections.push_back(std::move(section));
     return chapter;

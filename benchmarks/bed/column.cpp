@@ -164,7 +164,7 @@ std::unique_ptr<JoinedColumn> joinSolid(const dem::Model& packing, std::size_t f
   grains = packing;
   dem::removeWall(grains, dem::primitiveWall(grains, floor));
   column->mesh = fem::boxOf(
-      fem::CellShape::hex8,
+      fem::ElementShape::hex8,
       {place.across, place.across, static_cast<int>(std::lround((place.top - place.bottom) / place.element))},
       {0, 0, place.bottom}, {place.width, place.width, place.top});
   const fem::SolidMesh& mesh = column->mesh;

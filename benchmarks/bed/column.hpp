@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/dem/model/model.hpp"
@@ -77,7 +77,7 @@ struct JoinOptions {
 struct JoinedColumn {
   coupling::CoupledRun run;
   fem::SolidMesh mesh;
-  arlequin::OverlapTie* tie = nullptr;
+  arlequin::ArlequinCoupling* tie = nullptr;
   int rounds = 0;  ///< of arlequin::takeOver
 };
 

@@ -33,13 +33,13 @@ Corrected runCorrected(const dem::Model& packing, const EquilibriumSettings& s) 
   const auto column = joinSolid(packing, 0, place, elasticOf(packing, s), {});
   coupling::CoupledRun& run = column->run;
   startWith(run, s.share);
-  const coupling::RestReport rest = coupling::settle(run, {.kinetic = s.rest, .windows = 40000});
+  const coupling::RestReport rest = coupling::relax(run, {.kinetic = s.rest, .macroSteps = 40000});
   Corrected result;
   result.atRest = rest.atRest;
   result.rounds = column->rounds;
-  result.windows = rest.windows;
+  result.macroSteps = rest.macroSteps;
   const double stored = elastic(run);
-  result.broughtToRest = run.ledger().joules("brought to rest") / stored;
+  result.broughtToRest = run.ledger().joules("kinetic damping") / stored;
   result.layers = layersOf(*column, place);
   const double residual = run.ledger().residual();
   const std::vector<Vec3> x = run.grains.particles.x;

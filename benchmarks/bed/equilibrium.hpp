@@ -18,12 +18,12 @@ struct EquilibriumSettings {
   std::int64_t steps = 100000;             ///< afterwards
 };
 
-/// The column with its correction: arlequin::takeOver, and coupling::settle, whose loss has the channel "brought to
+/// The column with its correction: arlequin::takeOver, and coupling::relax, whose loss has the channel "brought to
 /// rest".
 struct Corrected {
   bool atRest = false;
   int rounds = 0;                           ///< of takeOver
-  std::int64_t windows = 0;                 ///< of settle
+  std::int64_t macroSteps = 0;              ///< of settle
   double broughtToRest = 0.0;               ///< over the elastic energy
   double kinetic = 0.0;                     ///< largest over the elastic energy, in the steps afterwards
   double moved = 0.0;                       ///< by any grain in these steps, in diameters

@@ -28,9 +28,9 @@ std::string stressTable(const Corrected& c) {
 
 std::string correctedText(const Corrected& c, std::int64_t steps) {
   return format(
-             "Correction: takeOver in %d rounds, settle in %lld windows (%s), brought to rest %.2e of the elastic "
+             "Correction: takeOver in %d rounds, settle in %lld macro steps (%s), brought to rest %.2e of the elastic "
              "energy.\n",
-             c.rounds, static_cast<long long>(c.windows), c.atRest ? "at rest" : "not at rest", c.broughtToRest) +
+             c.rounds, static_cast<long long>(c.macroSteps), c.atRest ? "at rest" : "not at rest", c.broughtToRest) +
          format(
              "In %lld steps afterwards: kinetic over elastic energy at most %.2e, grains moved %.2e diameters at most, "
              "stress of a layer changed by %.2e at most, residual of the ledger %.2e of the elastic energy.\n\n",

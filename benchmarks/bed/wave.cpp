@@ -166,7 +166,7 @@ WaveRun send(coupling::CoupledRun& run, const JoinedColumn* column, const SolidP
 }
 
 void rest(coupling::CoupledRun& run, double kinetic) {
-  const coupling::RestReport report = coupling::settle(run, {.kinetic = kinetic, .windows = 60000});
+  const coupling::RestReport report = coupling::relax(run, {.kinetic = kinetic, .macroSteps = 60000});
   if (!report.atRest)
     throw NumericalError(
         "the column does not come to rest: kinetic energy is " + std::to_string(report.kinetic) + " of the elastic one",

@@ -25,9 +25,9 @@ constexpr std::int64_t stepsPerSample = 4;   // at least: a sample costs about h
 constexpr double trajectoryInterval = 5e-3;  // s
 constexpr double seriesInterval = 2e-2;      // s
 
-/// Steps that pass between two things that happen every `interval`, in windows of `window` seconds.
-std::int64_t every(double interval, double window) {
-  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(std::min(interval / window, 1e18))));
+/// Steps that pass between two things that happen every `interval`, in macro steps of `macro step` seconds.
+std::int64_t every(double interval, double macroStep) {
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(std::min(interval / macroStep, 1e18))));
 }
 
 /// Runs one model and gathers its figures.
@@ -66,7 +66,7 @@ private:
     scene.steps.dt = {clock_.dt, ""};
     scene.output.frames = settings().outputInterval;
     result_.scene = scene::sceneText(scene);
-    clock_.substepsPerWindow = settings().femEvery;
+    clock_.substepsPerMacroStep = settings().femEvery;
   }
 
   void setLedger() {
@@ -85,11 +85,11 @@ private:
     const auto beam =
         books_.stored("elastic, beam", [of] { return of("beam: elements") + of("beam: work of elements"); });
     // Explicit solid, stepped every K > 1 DEM steps: the impulses store energy that is booked.
-    if (clock_.substepsPerWindow > 1 && !settings().implicit() && settings().lag == "none")
+    if (clock_.substepsPerMacroStep > 1 && !settings().implicit() && settings().lag == "none")
       books_.booked("time splitting", [of] { return of("beam: time splitting"); });
     const auto dashpots = books_.booked("dashpots", [of] { return of("particles: dashpots"); });
     const auto coupling = books_.booked("coupling (minus what it made)", [of] {
-      return of("grains on beam (skin): lost") + of("loads one step old (minus what they made)");
+      return of("grains on beam (skin): lost") + of("staggering error (minus what it made)");
     });
 
     books_.column("time_s", [this] { return clock_.time(); });
@@ -119,7 +119,7 @@ private:
   /// Returns whether it went to the end; if it was interrupted, `failure` says so.
   bool loop() {
     run_.start(clock_.dt,
-               {.stepsPerWindow = settings().femEvery, .lag = static_cast<coupling::Lag>(model_.scene.steps.lag)});
+               {.stepsPerMacroStep = settings().femEvery, .lag = static_cast<coupling::Lag>(model_.scene.steps.lag)});
     gravityAtStart_ = run_.ledger().joules("particles: gravity");
     setLedger();
     result_.ledger.open();
@@ -172,10 +172,10 @@ private:
   void advance(bool withEnergy) {
     const double yBefore = grains().particles.x[0].y;
     run_.advance(1, withEnergy);
-    clock_.advanceWindow();
+    clock_.advanceMacroStep();
     if (figures().left) return;
-    if (!model_.contact->coupling().inContact()) stepsWithoutContact_ += clock_.substepsPerWindow;
-    stepsOnBeam_ += clock_.substepsPerWindow;
+    if (!model_.contact->coupling().inContact()) stepsWithoutContact_ += clock_.substepsPerMacroStep;
+    stepsOnBeam_ += clock_.substepsPerMacroStep;
     const double y = grains().particles.x[0].y, length = Case{}.length;
     if (y <= length) return;
     figures().left = true;

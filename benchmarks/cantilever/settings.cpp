@@ -149,7 +149,7 @@ std::vector<std::string> changesOfScene(const Settings& s) {
        {solid + "formulation", s.element == "hybrid8" ? "assumed-stress" : "standard"},
        {solid + "material.law", s.metric == "deformed" ? "deformed-metric" : "St-Venant-Kirchhoff"},
        {solid + "stepping", s.implicit() ? "implicit" : "explicit"},
-       {solid + "mass_share", s.mass == "consistent" ? 1 : 0},
+       {solid + "consistent_mass", s.mass == "consistent" ? 1 : 0},
        {coupling + "kernel", s.cgWidth == 0.0 ? report::Json("none") : report::Json(s.cgWidth * beam.particleDiameter)},
        {coupling + "kernel_shape", s.kernel},
        {coupling + "kernel_correction", s.correction},
@@ -158,7 +158,7 @@ std::vector<std::string> changesOfScene(const Settings& s) {
        {coupling + "edges", s.edges == "paper" ? "deepest" : "projected"},
        {"stages.0.time", s.until.value_or(longestRun)},
        {"steps.lag", s.lag},
-       {"steps.per_window", s.femEvery},
+       {"steps.per_macro_step", s.femEvery},
        {"steps.threads", s.threads}});
 }
 

@@ -28,12 +28,12 @@ std::vector<Pair> pairsOf(const Case& c) {
 
 std::array<int, factors> levelsOf(const Case& c) {
   return {static_cast<int>(c.element), static_cast<int>(c.law), static_cast<int>(c.joint), static_cast<int>(c.contact),
-          static_cast<int>(c.windows)};
+          static_cast<int>(c.macroSteps)};
 }
 
 Case caseOf(const std::array<int, factors>& level) {
   return {static_cast<Element>(level[0]), static_cast<SolidLaw>(level[1]), static_cast<Joint>(level[2]),
-          static_cast<ContactKind>(level[3]), static_cast<Windows>(level[4])};
+          static_cast<ContactKind>(level[3]), static_cast<MacroSteps>(level[4])};
 }
 
 std::string levelName(std::size_t factor, int level) { return names[factor][static_cast<std::size_t>(level)]; }

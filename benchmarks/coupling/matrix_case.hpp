@@ -1,4 +1,4 @@
-// The combinations of elements, materials, couplings, contact laws and windows that a coupled run may be made of.
+// The combinations of elements, materials, couplings, contact laws and macro steps that a coupled run may be made of.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ enum class Element { hex8, enhanced, hex20, tet4, tet10 };
 enum class SolidLaw { stVenantKirchhoff, neoHookean, j2, druckerPrager };
 enum class Joint { surface, penalty, multipliers };
 enum class ContactKind { frictional, hertzMindlin, rolling };
-enum class Windows { explicit1, explicit4, implicit1, implicit4 };
+enum class MacroSteps { explicit1, explicit4, implicit1, implicit4 };
 
 /// One level of each factor.
 struct Case {
@@ -19,15 +19,18 @@ struct Case {
   SolidLaw law = SolidLaw::stVenantKirchhoff;
   Joint joint = Joint::surface;
   ContactKind contact = ContactKind::frictional;
-  Windows windows = Windows::explicit1;
+  MacroSteps macroSteps = MacroSteps::explicit1;
 
-  bool isImplicit() const { return windows == Windows::implicit1 || windows == Windows::implicit4; }
-  int stepsPerWindow() const { return windows == Windows::explicit4 || windows == Windows::implicit4 ? 4 : 1; }
+  bool isImplicit() const { return macroSteps == MacroSteps::implicit1 || macroSteps == MacroSteps::implicit4; }
+  int stepsPerMacroStep() const {
+    return macroSteps == MacroSteps::explicit4 || macroSteps == MacroSteps::implicit4 ? 4 : 1;
+  }
 };
 
 inline constexpr std::size_t factors = 5;
 inline constexpr std::array<int, factors> levels{5, 4, 3, 3, 4};
-inline constexpr std::array<const char*, factors> factorNames{"element", "material", "joint", "contact law", "windows"};
+inline constexpr std::array<const char*, factors> factorNames{"element", "material", "joint", "contact law",
+                                                              "macro steps"};
 
 /// Numbers of the levels, in the order of the factors, and back.
 std::array<int, factors> levelsOf(const Case& c);

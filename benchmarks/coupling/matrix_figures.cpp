@@ -30,8 +30,8 @@ std::unique_ptr<coupling::CoupledRun> started(const Case& c, double share) {
 }
 
 /// The same time for every share.
-int windowsOf(const Case& c, double share, int steps) {
-  return static_cast<int>(std::lround(steps * shares[1] / share / c.stepsPerWindow()));
+int macroStepsOf(const Case& c, double share, int steps) {
+  return static_cast<int>(std::lround(steps * shares[1] / share / c.stepsPerMacroStep()));
 }
 
 void measureShare(const Case& c, std::size_t k, int steps, Figures& figures) {
@@ -39,7 +39,7 @@ void measureShare(const Case& c, std::size_t k, int steps, Figures& figures) {
   std::vector<double> residuals;
   double turned = 0.0;
   for (int sample = 0; sample < samples; ++sample) {
-    run->advance(windowsOf(c, shares[k], steps) / samples);
+    run->advance(macroStepsOf(c, shares[k], steps) / samples);
     const EnergyLedger& ledger = run->ledger();
     residuals.push_back(std::abs(ledger.residual()));
     turned = std::max(turned, turnedOver(ledger));
@@ -56,11 +56,11 @@ void measureShare(const Case& c, std::size_t k, int steps, Figures& figures) {
   figures.friction = run->ledger().joules("particles: friction") / turned;
 }
 
-std::vector<char> stateAfter(const Case& c, int windows, int threads) {
+std::vector<char> stateAfter(const Case& c, int macroSteps, int threads) {
   const int before = dovetail::threads();
   setThreads(threads);
   const auto run = started(c, shares[1]);
-  run->advance(windows);
+  run->advance(macroSteps);
   setThreads(before);
   return run->save();
 }
@@ -77,7 +77,7 @@ double Figures::angularOrder() const { return orderOf(angular); }
 namespace {
 void measureAll(const Case& c, int steps, Figures& figures) {
   for (std::size_t k = 0; k < shares.size(); ++k) measureShare(c, k, steps, figures);
-  const int half = windowsOf(c, shares[1], steps) / 2;
+  const int half = macroStepsOf(c, shares[1], steps) / 2;
   const std::vector<char> one = stateAfter(c, half, 1);
   figures.threads = one == stateAfter(c, half, 2);
   const auto first = started(c, shares[1]), second = started(c, shares[1]);
@@ -89,7 +89,7 @@ void measureAll(const Case& c, int steps, Figures& figures) {
 }  // namespace
 
 Figures measure(const Case& c, int steps) {
-  // Whole windows of four steps between looks, at the coarsest share too.
+  // Whole macro steps of four steps between looks, at the coarsest share too.
   const int unit = samples * 4 * static_cast<int>(std::lround(shares[0] / shares[1]));
   if (steps < unit || steps % unit != 0)
     throw InputError("the number of steps is " + std::to_string(steps), "measure",

@@ -4,7 +4,7 @@
 #include <random>
 #include <utility>
 
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/dem/laws/hertz_mindlin.hpp"
 #include "dovetail/dem/laws/rolling.hpp"
@@ -25,16 +25,16 @@ constexpr double width = 0.3;                                     // of solid an
 constexpr double cell = 0.2, overlapDepth = 0.4;                  // of the column, m
 constexpr Vec3 gravity{0.0, 0.0, -9.81};
 
-fem::CellShape shapeOf(Element element) {
+fem::ElementShape shapeOf(Element element) {
   switch (element) {
     case Element::hex20:
-      return fem::CellShape::hex20;
+      return fem::ElementShape::hex20;
     case Element::tet4:
-      return fem::CellShape::tet4;
+      return fem::ElementShape::tet4;
     case Element::tet10:
-      return fem::CellShape::tet10;
+      return fem::ElementShape::tet10;
     default:
-      return fem::CellShape::hex8;
+      return fem::ElementShape::hex8;
   }
 }
 
@@ -173,7 +173,7 @@ std::unique_ptr<coupling::CoupledRun> makeScene(const Case& c, const Placement& 
 }
 
 void startAt(coupling::CoupledRun& run, const Case& c, double share) {
-  const coupling::RunOptions options{.stepsPerWindow = c.stepsPerWindow()};
+  const coupling::RunOptions options{.stepsPerMacroStep = c.stepsPerMacroStep()};
   const bool refuses = std::exchange(run.grains.refusesUnstableSteps, false);
   run.start(1e-9, options);
   const double limit = run.criticalStep().dt;

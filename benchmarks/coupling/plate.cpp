@@ -44,7 +44,7 @@ void addBed(dem::Particles& particles, int layers, Vec3 size) {
 
 std::unique_ptr<coupling::CoupledRun> makeScene(int layers) {
   const Vec3 size{0.5, 0.4, 0.01};
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {50, 40, 1}, {0, 0, -size.z}, {size.x, size.y, 0});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {50, 40, 1}, {0, 0, -size.z}, {size.x, size.y, 0});
   auto plate = std::make_unique<fem::Model>(fem::makeModel(mesh));
   plate->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(fem::StVenantKirchhoff{1e8, 0.3, 2500.0}))));
   for (const char* side : {"x-", "x+", "y-", "y+"}) fem::fix(plate->nodes, mesh.nodeSets.at(side));

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -75,7 +75,7 @@ double resident() {
 
 struct Scene {
   coupling::CoupledRun run;
-  arlequin::OverlapTie* tie = nullptr;
+  arlequin::ArlequinCoupling* tie = nullptr;
   std::size_t elements = 0;
 };
 
@@ -97,7 +97,7 @@ std::unique_ptr<Scene> makeScene(int across, const Way& way) {
   grains.refusesUnstableSteps = false;
 
   const double top = overlapLayers * edge, width = across * edge;
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {across, across, solidLayers},
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {across, across, solidLayers},
                                          {0.0, 0.0, top - solidLayers * edge}, {width, width, top});
   std::vector<double> s;
   for (const Vec3& X : mesh.X)

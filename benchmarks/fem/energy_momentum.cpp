@@ -22,7 +22,7 @@ using namespace dovetail;
 using namespace dovetail::fem;
 
 /// 0.3 × 0.1 × 0.1 m, E = 2.5 MPa, ν = 0.25, 1000 kg/m³.
-SolidMesh bar() { return boxOf(CellShape::hex8, {3, 1, 1}, {}, {0.3, 0.1, 0.1}); }
+SolidMesh bar() { return boxOf(ElementShape::hex8, {3, 1, 1}, {}, {0.3, 0.1, 0.1}); }
 
 Model makeBar() {
   const SolidMesh mesh = bar();

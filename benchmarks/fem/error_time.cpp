@@ -19,7 +19,7 @@
 namespace {
 
 using namespace dovetail;
-using fem::CellShape;
+using fem::ElementShape;
 using fem::Formulation;
 using verification::ElementKind;
 
@@ -70,7 +70,7 @@ double tubePressure(const ElementKind& kind, int refinement) {
 }
 
 std::vector<Case> cases(bool quick) {
-  const ElementKind best{CellShape::hex27, Formulation::meanDilatation};
+  const ElementKind best{ElementShape::hex27, Formulation::meanDilatation};
   const double membrane = verification::cooksMembrane(best, quick ? 8 : 32, 0.4999).tip;
   return {{"bending",
            verification::elastica(2.0).w,

@@ -53,7 +53,7 @@ private:
 struct Beam {
   double length, height, young, nu;
   std::array<int, 3> cells;  // along the axis x, the height y, the width z
-  CellShape shape;
+  ElementShape shape;
   Formulation formulation;
   double load;  // at the tip, N
 };
@@ -90,7 +90,7 @@ BeamResult bend(const Beam& b) {
   return {-sum.x / static_cast<double>(end.size()), sum.y / static_cast<double>(end.size()), report};
 }
 
-std::string elementName(CellShape shape, Formulation formulation) {
+std::string elementName(ElementShape shape, Formulation formulation) {
   return formulation == Formulation::standard ? name(shape) : std::string(name(shape)) + " " + name(formulation);
 }
 
@@ -110,9 +110,9 @@ void smallDeflection(Table& table, const char* scene, Beam b, double tolerance) 
 }
 
 void slenderness(Table& table) {
-  for (const auto& [shape, formulation, cells] : {std::tuple(CellShape::hex8, Formulation::enhanced, 100),
-                                                  std::tuple(CellShape::hex27, Formulation::standard, 50),
-                                                  std::tuple(CellShape::hex20, Formulation::standard, 50)}) {
+  for (const auto& [shape, formulation, cells] : {std::tuple(ElementShape::hex8, Formulation::enhanced, 100),
+                                                  std::tuple(ElementShape::hex27, Formulation::standard, 50),
+                                                  std::tuple(ElementShape::hex20, Formulation::standard, 50)}) {
     smallDeflection(table, "slenderness 1000, small load",
                     {1.0, 1e-3, 1e9, 0.0, {cells, 2, 2}, shape, formulation, 0.0}, 0.01);
     const Stopwatch watch;  // dead tip load P L²/(E I) = 1: w/L 0.30172, u/L 0.05643
@@ -129,15 +129,15 @@ void slenderness(Table& table) {
 
 void aspectRatio(Table& table) {
   for (const auto& [shape, formulation] :
-       {std::pair(CellShape::hex8, Formulation::enhanced), std::pair(CellShape::hex27, Formulation::standard)})
+       {std::pair(ElementShape::hex8, Formulation::enhanced), std::pair(ElementShape::hex27, Formulation::standard)})
     smallDeflection(table, "aspect ratio 100", {8.0, 0.04, 1e9, 0.3, {4, 2, 2}, shape, formulation, 0.0}, 0.03);
 }
 
 void incompressible(Table& table) {
   for (const double nu : {0.499, 0.4999, 0.49999})
-    for (const auto& [shape, formulation, height] : {std::tuple(CellShape::hex8, Formulation::enhanced, 4),
-                                                     std::tuple(CellShape::hex8, Formulation::meanDilatation, 8),
-                                                     std::tuple(CellShape::hex27, Formulation::standard, 2)})
+    for (const auto& [shape, formulation, height] : {std::tuple(ElementShape::hex8, Formulation::enhanced, 4),
+                                                     std::tuple(ElementShape::hex8, Formulation::meanDilatation, 8),
+                                                     std::tuple(ElementShape::hex27, Formulation::standard, 2)})
       smallDeflection(table, text("Poisson's ratio %.5f, bending", nu).c_str(),
                       {10.0, 1.0, 1e6, nu, {8 * height, height, height}, shape, formulation, 0.0}, 0.03);
 }
@@ -145,8 +145,8 @@ void incompressible(Table& table) {
 /// Two bars end to end, one 1e6 times stiffer: the soft one takes all of the stretch.
 void modulusRatio(Table& table) {
   for (const auto& [shape, formulation] :
-       {std::pair(CellShape::hex8, Formulation::standard), std::pair(CellShape::hex8, Formulation::enhanced),
-        std::pair(CellShape::tet10, Formulation::standard)}) {
+       {std::pair(ElementShape::hex8, Formulation::standard), std::pair(ElementShape::hex8, Formulation::enhanced),
+        std::pair(ElementShape::tet10, Formulation::standard)}) {
     const Stopwatch watch;
     SolidMesh mesh = boxOf(shape, {8, 2, 2}, {}, {2.0, 0.5, 0.5});
     std::vector<int>&soft = mesh.elementSets["soft"], &stiff = mesh.elementSets["stiff"];
@@ -187,9 +187,9 @@ void modulusRatio(Table& table) {
 /// A confined block pressed to a twentieth of its volume.
 void crush(Table& table) {
   for (const auto& [shape, formulation] :
-       {std::pair(CellShape::hex8, Formulation::standard), std::pair(CellShape::hex8, Formulation::enhanced),
-        std::pair(CellShape::hex8, Formulation::meanDilatation), std::pair(CellShape::hex8, Formulation::reduced),
-        std::pair(CellShape::tet10, Formulation::standard)}) {
+       {std::pair(ElementShape::hex8, Formulation::standard), std::pair(ElementShape::hex8, Formulation::enhanced),
+        std::pair(ElementShape::hex8, Formulation::meanDilatation), std::pair(ElementShape::hex8, Formulation::reduced),
+        std::pair(ElementShape::tet10, Formulation::standard)}) {
     const Stopwatch watch;
     const SolidMesh mesh = boxOf(shape, {2, 2, 2}, {}, {1.0, 1.0, 1.0});
     Model model = makeModel(mesh);
@@ -214,7 +214,7 @@ void crush(Table& table) {
 /// A bar of StVenantKirchhoff pressed past λ = 1/√3, where its force falls.
 void limitPoint(Table& table) {
   const Stopwatch watch;
-  const SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 2}, {}, {1.0, 1.0, 2.0});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {1, 1, 2}, {}, {1.0, 1.0, 2.0});
   Model model = makeModel(mesh);
   model.add(makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.0, 1000.0}))));
   for (const int axis : {0, 1, 2})
@@ -262,7 +262,7 @@ double vibrate(Model& model, Solid& solid, double dt, int steps, double& largest
 /// The integrator refuses a step above the bound of the elements, and says which one sets it.
 void refusedStep(Table& table) {
   const Stopwatch watch;
-  const SolidMesh mesh = boxOf(CellShape::hex8, {2, 2, 6}, {}, {0.2, 0.2, 0.6});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {2, 2, 6}, {}, {0.2, 0.2, 0.6});
   Model model = makeModel(mesh);
   model.add(makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e7, 0.3, 1000.0}))));
   addMass(model);
@@ -281,7 +281,7 @@ void refusedStep(Table& table) {
 void explicitLimit(Table& table, int longRun) {
   for (const auto& [share, steps] : {std::pair(0.99, 20000), std::pair(1.01, 20000), std::pair(0.5, longRun)}) {
     const Stopwatch watch;
-    const SolidMesh mesh = boxOf(CellShape::hex8, {2, 2, 6}, {}, {0.2, 0.2, 0.6});
+    const SolidMesh mesh = boxOf(ElementShape::hex8, {2, 2, 6}, {}, {0.2, 0.2, 0.6});
     Model model = makeModel(mesh);
     Solid& solid = model.add(makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e7, 0.3, 1000.0}))));
     addMass(model);
@@ -305,8 +305,8 @@ void explicitLimit(Table& table, int longRun) {
 /// The same block near the origin and a million sizes away from it.
 void farAway(Table& table) {
   for (const auto& [shape, formulation] :
-       {std::pair(CellShape::hex8, Formulation::standard), std::pair(CellShape::hex8, Formulation::enhanced),
-        std::pair(CellShape::tet10, Formulation::standard)}) {
+       {std::pair(ElementShape::hex8, Formulation::standard), std::pair(ElementShape::hex8, Formulation::enhanced),
+        std::pair(ElementShape::tet10, Formulation::standard)}) {
     const Stopwatch watch;
     double deflection[2];
     for (const bool far : {false, true}) {
@@ -333,7 +333,7 @@ void farAway(Table& table) {
 void crushedInFlight(Table& table) {
   for (const double safety : {0.0, 0.8}) {
     const Stopwatch watch;
-    const SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 16}, {}, {0.1, 0.1, 1.0});
+    const SolidMesh mesh = boxOf(ElementShape::hex8, {1, 1, 16}, {}, {0.1, 0.1, 1.0});
     Model model = makeModel(mesh);
     model.add(makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.0, 1000.0))));
     addMass(model);
@@ -361,7 +361,7 @@ void crushedInFlight(Table& table) {
 /// Soil whose cohesion falls to a hundredth of its first value, sheared far: it flows, and never gives energy back.
 void softened(Table& table) {
   const Stopwatch watch;
-  const SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
   Model model = makeModel(mesh);
   DruckerPrager soil{50e6, 0.25, 2000.0, 0.0, 0.5, 0.1, ConeMatch::compression, saturatingYield(1e6, 0.0, 1e4, 30.0)};
   model.add(makeSolid(mesh, pointMaterial(soil), {.formulation = Formulation::meanDilatation}));
@@ -397,7 +397,7 @@ void failingPoint(Table& table) {
     void load(ByteReader&) override {}
   };
   const Stopwatch watch;
-  const SolidMesh mesh = boxOf(CellShape::hex8, {2, 2, 4}, {}, {0.5, 0.5, 1.0});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {2, 2, 4}, {}, {0.5, 0.5, 1.0});
   Model model = makeModel(mesh);
   model.add(makeSolid(
       mesh, pointField({.name = "cells", .density = 1000.0, .isSymmetric = true}, [](const PointPlace& place) {

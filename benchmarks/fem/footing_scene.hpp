@@ -14,7 +14,7 @@ namespace dovetail::fem {
 struct Footing {
   static constexpr double halfWidth = 0.5, side = 5.0, cohesion = 1.0, young = 1e6;  // m, Pa
   double friction = 20.0, dilatancy = 20.0;                                          // degrees
-  CellShape shape = CellShape::hex20;
+  ElementShape shape = ElementShape::hex20;
   Formulation formulation = Formulation::standard;
   int under = 3, beside = 7, deep = 7;  ///< cells below the footing, beside it, and downwards; one across
   double settlement = 2e-4;             ///< m

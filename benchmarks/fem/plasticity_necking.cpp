@@ -16,10 +16,10 @@ void strips() {
               NeckingStrip::considereForce() / 1e6);
   std::printf("%-22s %8s %12s %14s %11s %8s\n", "element", "cells", "greatest, MN", "width at 5 mm", "iterations",
               "time, s");
-  for (const auto& [shape, formulation] : {std::pair{CellShape::quad4, Formulation::meanDilatation},
-                                           {CellShape::quad8, Formulation::reduced},
-                                           {CellShape::quad8, Formulation::meanDilatation},
-                                           {CellShape::hex8, Formulation::meanDilatation}})
+  for (const auto& [shape, formulation] : {std::pair{ElementShape::quad4, Formulation::meanDilatation},
+                                           {ElementShape::quad8, Formulation::reduced},
+                                           {ElementShape::quad8, Formulation::meanDilatation},
+                                           {ElementShape::hex8, Formulation::meanDilatation}})
     for (const int refinement : {1, 2, 4}) {
       const NeckingStrip strip{shape, formulation, 4 * refinement, 10 * refinement};
       const StripResult result = stretch(strip);

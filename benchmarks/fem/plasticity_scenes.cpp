@@ -49,9 +49,9 @@ SolidMesh quarterBar(const NeckingBar& bar) {
   const Vec3 lower, upper = {1.0, 1.0, 1.0};
   const std::array<int, 3> inside = {bar.across, bar.across, bar.along}, outside = {bar.around, bar.across, bar.along};
   const std::array<SolidMesh, 3> parts = {
-      mappedBox(CellShape::hex8, inside, lower, upper, [&](const Vec3& X) { return placed(core(X.x, X.y), X.z); }),
-      mappedBox(CellShape::hex8, outside, lower, upper, [&](const Vec3& X) { return placed(rim(X.x, X.y), X.z); }),
-      mappedBox(CellShape::hex8, {bar.across, bar.around, bar.along}, lower, upper, [&](const Vec3& X) {
+      mappedBox(ElementShape::hex8, inside, lower, upper, [&](const Vec3& X) { return placed(core(X.x, X.y), X.z); }),
+      mappedBox(ElementShape::hex8, outside, lower, upper, [&](const Vec3& X) { return placed(rim(X.x, X.y), X.z); }),
+      mappedBox(ElementShape::hex8, {bar.across, bar.around, bar.along}, lower, upper, [&](const Vec3& X) {
         const Vec3 mirrored = rim(X.y, X.x);
         return Vec3{mirrored.y, mirrored.x, X.z};
       })};

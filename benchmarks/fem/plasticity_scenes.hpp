@@ -14,7 +14,7 @@ namespace dovetail::fem {
 /// strain that the geometry does not change. Bore 1 m, outer radius 2 m.
 struct Tube {
   static constexpr double inner = 1.0, outer = 2.0, young = 1e12, yieldStress = 1e8;
-  CellShape shape = CellShape::hex8;
+  ElementShape shape = ElementShape::hex8;
   Formulation formulation = Formulation::meanDilatation;
   double poissonRatio = 0.3;
   int radial = 10, around = 6;  ///< cells; one in z
@@ -68,7 +68,7 @@ NeckingResult stretch(const NeckingBar& bar);
 /// middle section in y = 0.
 struct NeckingStrip {
   static constexpr double halfWidth = NeckingBar::radius, halfLength = NeckingBar::halfLength;  // m
-  CellShape shape = CellShape::quad4;
+  ElementShape shape = ElementShape::quad4;
   Formulation formulation = Formulation::meanDilatation;
   int across = 4, along = 10;    ///< cells of the quarter
   double elongation = 5e-3;      ///< of the half length, m

@@ -11,13 +11,13 @@ int main(int argc, char** argv) try {
   std::printf("%-8s %-16s %6s %8s %10s %8s %11s %9s\n", "cells", "formulation", "nu", "mesh", "p/sigma_y", "error",
               "iterations", "time, s");
   for (const double nu : {0.3, 0.49})
-    for (const auto& [shape, formulation] : {std::pair{CellShape::hex8, Formulation::meanDilatation},
-                                             {CellShape::hex8, Formulation::enhanced},
-                                             {CellShape::hex8, Formulation::standard},
-                                             {CellShape::hex20, Formulation::standard},
-                                             {CellShape::quad4, Formulation::meanDilatation},
-                                             {CellShape::quad8, Formulation::standard},
-                                             {CellShape::quad8, Formulation::reduced}})
+    for (const auto& [shape, formulation] : {std::pair{ElementShape::hex8, Formulation::meanDilatation},
+                                             {ElementShape::hex8, Formulation::enhanced},
+                                             {ElementShape::hex8, Formulation::standard},
+                                             {ElementShape::hex20, Formulation::standard},
+                                             {ElementShape::quad4, Formulation::meanDilatation},
+                                             {ElementShape::quad8, Formulation::standard},
+                                             {ElementShape::quad8, Formulation::reduced}})
       for (const int refinement : {1, 2, 4}) {
         const Tube tube{shape, formulation, nu, 5 * refinement, 3 * refinement};
         try {

@@ -44,7 +44,7 @@ double median(int samples, const std::function<void()>& call) {
 }
 
 struct Kind {
-  CellShape shape;
+  ElementShape shape;
   Formulation formulation;
   std::array<int, 3> cells;
 };
@@ -95,21 +95,21 @@ ElementTimes timeSolid(Solid& solid, const SolidMesh& mesh, int threadCount) {
 }
 
 void timeElements(int threadCount) {
-  const std::vector<Kind> kinds = {{CellShape::hex8, Formulation::standard, {10, 10, 150}},
-                                   {CellShape::hex8, Formulation::assumedStress, {10, 10, 150}},
-                                   {CellShape::hex8, Formulation::enhanced, {10, 10, 150}},
-                                   {CellShape::hex8, Formulation::meanDilatation, {10, 10, 150}},
-                                   {CellShape::hex8, Formulation::reduced, {10, 10, 150}},
-                                   {CellShape::hex20, Formulation::standard, {5, 5, 75}},
-                                   {CellShape::hex27, Formulation::standard, {5, 5, 75}},
-                                   {CellShape::tet4, Formulation::standard, {10, 10, 50}},
-                                   {CellShape::tet10, Formulation::standard, {5, 5, 40}}};
+  const std::vector<Kind> kinds = {{ElementShape::hex8, Formulation::standard, {10, 10, 150}},
+                                   {ElementShape::hex8, Formulation::assumedStress, {10, 10, 150}},
+                                   {ElementShape::hex8, Formulation::enhanced, {10, 10, 150}},
+                                   {ElementShape::hex8, Formulation::meanDilatation, {10, 10, 150}},
+                                   {ElementShape::hex8, Formulation::reduced, {10, 10, 150}},
+                                   {ElementShape::hex20, Formulation::standard, {5, 5, 75}},
+                                   {ElementShape::hex27, Formulation::standard, {5, 5, 75}},
+                                   {ElementShape::tet4, Formulation::standard, {10, 10, 50}},
+                                   {ElementShape::tet10, Formulation::standard, {5, 5, 40}}};
   std::printf("%-6s %-16s %-22s %8s | forces, ns: 1 thread, %d, ratio | tangent, ns: 1 thread, %d, ratio | bytes\n",
               "shape", "formulation", "law", "elements", threadCount, threadCount);
   for (const Kind& kind : kinds)
     for (const auto& [onHex8Only, law] : timedLaws()) {
       if (kind.formulation == Formulation::assumedStress && !law->brickLaw()) continue;
-      if (onHex8Only && kind.shape != CellShape::hex8) continue;
+      if (onHex8Only && kind.shape != ElementShape::hex8) continue;
       const SolidMesh mesh = boxOf(kind.shape, kind.cells, {}, {1.0, 1.0, 15.0});
       const auto solid = makeSolid(mesh, law, {.formulation = kind.formulation});
       const auto& [forces, tangent] = timeSolid(*solid, mesh, threadCount);
@@ -123,7 +123,7 @@ void timeElements(int threadCount) {
 /// Implicit steps of a cantilever under a sudden force at its tip: E 1 MPa, ν 0.3, ρ 1000 kg/m³, width 1 m.
 void timeBeam(std::array<int, 3> cells, Formulation formulation, double tolerance, int steps) {
   const double length = static_cast<double>(cells[2]) / cells[0], dt = 1e-2;
-  const SolidMesh mesh = boxOf(CellShape::hex8, cells, {}, {1.0, 1.0, length});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, cells, {}, {1.0, 1.0, length});
   Model model = makeModel(mesh);
   model.add(
       makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0})), {.formulation = formulation}));
@@ -163,7 +163,7 @@ void timeBeams() {
 /// platens, in one step.
 void timeCube(int n) {
   const auto start = std::chrono::steady_clock::now();
-  const SolidMesh mesh = boxOf(CellShape::hex8, {n, n, n}, {}, {1.0, 1.0, 1.0});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {n, n, n}, {}, {1.0, 1.0, 1.0});
   Model model = makeModel(mesh);
   Solid& solid = model.add(makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0}))));
   model.constraints.hold(nodeSet(mesh, "z-"));
@@ -194,7 +194,7 @@ void countBytes() {
   std::printf("%-10s %-16s | bytes: forces, 1 thread, 2 threads, after a tangent\n", "bricks", "formulation");
   for (const bool distorted : {false, true})
     for (const Formulation formulation : {Formulation::standard, Formulation::assumedStress}) {
-      SolidMesh mesh = boxOf(CellShape::hex8, {20, 20, 40}, {}, {1.0, 1.0, 2.0});
+      SolidMesh mesh = boxOf(ElementShape::hex8, {20, 20, 40}, {}, {1.0, 1.0, 2.0});
       if (distorted)
         for (Vec3& X : mesh.X) X.x += 0.01 * std::sin(9.0 * X.y + 5.0 * X.z);
       Model model = makeModel(mesh);
@@ -219,7 +219,7 @@ void countBytes() {
 /// Explicit steps of an elastic beam: the verbs alone, a model of nothing but the solid, and what each part costs that
 /// is present but idle.
 void timeLeavingOut() {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {10, 10, 150}, {}, {1.0, 1.0, 15.0});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {10, 10, 150}, {}, {1.0, 1.0, 15.0});
   const StVenantKirchhoff law{1e6, 0.3, 1000.0};
   const double dt = 1e-4;
   constexpr int steps = 40, samples = 15;
@@ -286,7 +286,7 @@ void timeSolvers() {
   std::printf("%-10s %9s | direct: set-up, s  solution, s | conjugate gradients: set-up, s  solution, s\n", "cube",
               "unknowns");
   for (const int n : {8, 16, 24, 32}) {
-    const SolidMesh mesh = boxOf(CellShape::hex8, {n, n, n}, {}, {1.0, 1.0, 1.0});
+    const SolidMesh mesh = boxOf(ElementShape::hex8, {n, n, n}, {}, {1.0, 1.0, 1.0});
     Model model = makeModel(mesh);
     Solid& solid = model.add(makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.3, 1000.0))));
     model.constraints.hold(nodeSet(mesh, "z-"));

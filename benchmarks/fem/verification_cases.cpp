@@ -11,7 +11,7 @@ namespace dovetail::verification {
 
 namespace {
 
-using fem::CellShape;
+using fem::ElementShape;
 using fem::Formulation;
 
 constexpr double shearModulusOfMembrane = 422.5e3;
@@ -67,30 +67,31 @@ void addPressures(Membrane& result, const fem::Solid::Sample& sample, std::size_
 }  // namespace
 
 std::string ElementKind::label() const {
-  return std::string(name(shape)) +
-         (shape == CellShape::hex8 || formulation != Formulation::standard ? std::string(" ") + name(formulation) : "");
+  return std::string(name(shape)) + (shape == ElementShape::hex8 || formulation != Formulation::standard
+                                         ? std::string(" ") + name(formulation)
+                                         : "");
 }
 
 const std::vector<ElementKind>& allKinds() {
-  static const std::vector<ElementKind> kinds = {{CellShape::hex8, Formulation::standard},
-                                                 {CellShape::hex8, Formulation::meanDilatation},
-                                                 {CellShape::hex8, Formulation::enhanced},
-                                                 {CellShape::hex8, Formulation::reduced},
-                                                 {CellShape::hex20},
-                                                 {CellShape::hex27},
-                                                 {CellShape::hex20, Formulation::meanDilatation},
-                                                 {CellShape::hex27, Formulation::meanDilatation},
-                                                 {CellShape::tet4},
-                                                 {CellShape::tet10}};
+  static const std::vector<ElementKind> kinds = {{ElementShape::hex8, Formulation::standard},
+                                                 {ElementShape::hex8, Formulation::meanDilatation},
+                                                 {ElementShape::hex8, Formulation::enhanced},
+                                                 {ElementShape::hex8, Formulation::reduced},
+                                                 {ElementShape::hex20},
+                                                 {ElementShape::hex27},
+                                                 {ElementShape::hex20, Formulation::meanDilatation},
+                                                 {ElementShape::hex27, Formulation::meanDilatation},
+                                                 {ElementShape::tet4},
+                                                 {ElementShape::tet10}};
   return kinds;
 }
 
 const std::vector<ElementKind>& planeKinds() {
-  static const std::vector<ElementKind> kinds = {{CellShape::quad4},
-                                                 {CellShape::quad4, Formulation::meanDilatation},
-                                                 {CellShape::quad8},
-                                                 {CellShape::quad8, Formulation::reduced},
-                                                 {CellShape::quad8, Formulation::meanDilatation}};
+  static const std::vector<ElementKind> kinds = {{ElementShape::quad4},
+                                                 {ElementShape::quad4, Formulation::meanDilatation},
+                                                 {ElementShape::quad8},
+                                                 {ElementShape::quad8, Formulation::reduced},
+                                                 {ElementShape::quad8, Formulation::meanDilatation}};
   return kinds;
 }
 

@@ -11,7 +11,7 @@
 namespace dovetail::verification {
 
 struct ElementKind {
-  fem::CellShape shape;
+  fem::ElementShape shape;
   fem::Formulation formulation = fem::Formulation::standard;
   std::string label() const;
 };

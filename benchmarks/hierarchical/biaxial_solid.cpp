@@ -84,7 +84,7 @@ Course pressTogether(const BiaxialSettings& settings, const std::vector<rve::Cel
                      double strain) {
   constexpr double between = 5e-4;
   const double height = settings.size.y, start = 0.005 / rate;  // s, in which the plate comes to its speed
-  BiaxialSolid body(settings, hierarchical::cellField(bank, hierarchical::MovingCells{}),
+  BiaxialSolid body(settings, hierarchical::cellField(bank, hierarchical::DynamicCells{}),
                     [=](double t) { return height * rate * (t < start ? 0.5 * t * t / start : t - 0.5 * start); });
   body.model.add(fem::massDamping(damping));
   fem::addMass(body.model);

@@ -19,7 +19,7 @@ rve::Cell sand(std::uint64_t seed);
 
 struct BiaxialSettings {
   std::array<int, 2> elements{1, 1};
-  fem::CellShape shape = fem::CellShape::quad4;
+  fem::ElementShape shape = fem::ElementShape::quad4;
   fem::Formulation formulation = fem::Formulation::standard;
   Vec3 size{1.0, 2.0, 1.0};  ///< width, height, thickness, m
   double pressure = 1e5;     ///< of the sides, Pa, follows them

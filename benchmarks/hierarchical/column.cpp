@@ -86,10 +86,10 @@ FigureRows column(bool quick) {
   const Moduli moduli = probed(cell);
   for (const int elements : {10, 20, 40}) {
     if (quick && elements == 40) continue;
-    const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {elements, 1, 1}, {}, {length, width, width});
+    const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {elements, 1, 1}, {}, {length, width, width});
     const auto cells = [&](double strainPerStep) {
       return fem::makeSolid(mesh,
-                            hierarchical::cellField({cell}, hierarchical::MovingCells{.strainPerStep = strainPerStep}),
+                            hierarchical::cellField({cell}, hierarchical::DynamicCells{.strainPerStep = strainPerStep}),
                             {.formulation = fem::Formulation::reduced, .name = "cells"});
     };
     const auto elastic = fem::makeSolid(mesh, fem::pointMaterial(elasticOf(moduli, density)),

@@ -19,7 +19,7 @@ namespace dovetail::benchmark {
 namespace {
 
 using hierarchical::Operator;
-using hierarchical::RestingCells;
+using hierarchical::QuasiStaticCells;
 
 constexpr double strainOfStep = 1e-3;
 
@@ -34,7 +34,7 @@ fem::StaticOptions options(double reuse, int mixing) {
 }
 
 /// −P₂₂ of the cell alone at F₂₂ = 1 − strain under the side pressure, Pa: Newton's method for F₁₁.
-double axialAlone(rve::Cell& cell, double strain, const RestingCells& settings) {
+double axialAlone(rve::Cell& cell, double strain, const QuasiStaticCells& settings) {
   constexpr double pressure = 1e5;
   Eigen::Matrix3d F = cell.state.F;
   F(1, 1) = 1.0 - strain;
@@ -42,7 +42,7 @@ double axialAlone(rve::Cell& cell, double strain, const RestingCells& settings) 
   rve::save(cell, committed);
   for (int iteration = 0; iteration < 30; ++iteration) {
     rve::restore(cell, committed);
-    hierarchical::settle(cell, F, settings);
+    hierarchical::relax(cell, F, settings);
     const Eigen::Matrix3d P = rve::nominalStress(cell);
     const double excess = P(0, 0) + pressure * F(1, 1);
     if (std::abs(excess) < 1e-5 * pressure) return -P(1, 1);
@@ -52,7 +52,7 @@ double axialAlone(rve::Cell& cell, double strain, const RestingCells& settings) 
 }
 
 FigureRow oneElementAgainstTheCell() {
-  const RestingCells settings;
+  const QuasiStaticCells settings;
   rve::Cell cell = sand(1);
   BiaxialSolid body({.straight = true}, hierarchical::cellField({cell}, settings), sinks);
   fem::StaticOptions fine = options(0.0, 0);
@@ -78,10 +78,10 @@ void addPrices(FigureRows& rows) {
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F(1, 1) -= strainOfStep;
   const auto answer = [&](double first) {
-    const RestingCells settings{.path = {.rest = {.unbalanced = first}}, .unbalanced = 1e-6};
+    const QuasiStaticCells settings{.path = {.rest = {.unbalanced = first}}, .unbalanced = 1e-6};
     return secondsOf(5, [&] {
       rve::restore(cell, start.state);
-      hierarchical::settle(cell, F, settings);
+      hierarchical::relax(cell, F, settings);
     });
   };
   const auto add = [&](const std::string& what, double seconds) {
@@ -110,8 +110,8 @@ struct Size {
 /// Iterations of a step, mean.
 double study(const Way& way, const std::vector<rve::Cell>& bank, const Size& size, FigureRows& rows) {
   BiaxialSolid body(
-      {.elements = size.elements, .shape = fem::CellShape::quad8, .formulation = fem::Formulation::reduced},
-      hierarchical::cellField(bank, RestingCells{.tangent = way.tangent}), sinks);
+      {.elements = size.elements, .shape = fem::ElementShape::quad8, .formulation = fem::Formulation::reduced},
+      hierarchical::cellField(bank, QuasiStaticCells{.tangent = way.tangent}), sinks);
   int most = 0;
   const auto look = [&](const fem::Model&, const fem::StaticStep& step) {
     most = std::max(most, step.iterations);
@@ -135,8 +135,8 @@ double study(const Way& way, const std::vector<rve::Cell>& bank, const Size& siz
 /// does with the lowest for both.
 void addRelaxation(const std::vector<rve::Cell>& bank, FigureRows& rows) {
   const auto evaluations = [&](bool moves) {
-    BiaxialSolid body({.elements = {1, 2}, .shape = fem::CellShape::quad8, .formulation = fem::Formulation::reduced},
-                      hierarchical::cellField(bank, RestingCells{}), sinks);
+    BiaxialSolid body({.elements = {1, 2}, .shape = fem::ElementShape::quad8, .formulation = fem::Formulation::reduced},
+                      hierarchical::cellField(bank, QuasiStaticCells{}), sinks);
     fem::addMass(body.model);
     fem::StaticOptions way = options(0.0, 0);
     if (moves) {

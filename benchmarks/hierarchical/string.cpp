@@ -68,9 +68,9 @@ Record chain(double period) {
 
 Record solid(int elements, double period) {
   const double length = discs * spacing, height = 5 * spacing;
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::quad4, {elements, 1, 1}, {}, {length, height, thickness});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::quad4, {elements, 1, 1}, {}, {length, height, thickness});
   fem::Model model = fem::makeModel(mesh);
-  model.add(fem::makeSolid(mesh, hierarchical::cellField({rowOfDiscs()}, hierarchical::MovingCells{})));
+  model.add(fem::makeSolid(mesh, hierarchical::cellField({rowOfDiscs()}, hierarchical::DynamicCells{})));
   fem::addMass(model);
   model.constraints.hold(fem::nodeSet(mesh, "x-"), fem::componentX);
   model.constraints.hold(fem::nodeSet(mesh, "y-"), fem::componentY);

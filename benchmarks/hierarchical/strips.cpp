@@ -116,10 +116,10 @@ Record allDiscs(const Strip& strip, const rve::Cell& cell) {
 
 Record solidOfCells(const Strip& strip, const rve::Cell& cell, int elements) {
   const double length = strip.tiles * cell.state.lattice.period[0].x, height = cell.state.lattice.period[1].y;
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::quad4, {elements, 1, 1}, {}, {length, height, thickness});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::quad4, {elements, 1, 1}, {}, {length, height, thickness});
   fem::Model model = fem::makeModel(mesh);
   model.add(fem::makeSolid(
-      mesh, hierarchical::cellField({cell}, hierarchical::MovingCells{.strainPerStep = 1e-4, .damping = 0.0})));
+      mesh, hierarchical::cellField({cell}, hierarchical::DynamicCells{.strainPerStep = 1e-4, .damping = 0.0})));
   fem::addMass(model);
   model.constraints.hold(fem::nodeSet(mesh, "x-"), fem::componentX);
   const std::vector<int>&bottom = fem::nodeSet(mesh, "y-"), &top = fem::nodeSet(mesh, "y+");

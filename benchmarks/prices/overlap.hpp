@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "couplings.hpp"
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/weights.hpp"
 
 namespace dovetail::prices {

@@ -18,7 +18,7 @@ inline constexpr int layers = 5;               // below z = 0
 /// @param above  layers above z = 0
 inline fem::SolidMesh blockMesh(const Size& size, int above) {
   const double width = widthOf(size);
-  return fem::boxOf(fem::CellShape::hex8, {size.edge / 2, size.edge / 2, layers + above}, {0, 0, -layers * brick},
+  return fem::boxOf(fem::ElementShape::hex8, {size.edge / 2, size.edge / 2, layers + above}, {0, 0, -layers * brick},
                     {width, width, above * brick});
 }
 /// @param share  of the elements, that is theirs where grains lie over them
@@ -34,7 +34,7 @@ inline std::unique_ptr<fem::Model> makeBlock(const fem::SolidMesh& mesh, std::ve
 /// On top of the grains, sinking.
 inline fem::SolidMesh plateMesh(const Size& size) {
   const double width = widthOf(size), top = 2.0 * radius * size.edge;
-  return fem::boxOf(fem::CellShape::hex8, {size.edge / 4, size.edge / 4, 1}, {0.25 * width, 0.25 * width, top},
+  return fem::boxOf(fem::ElementShape::hex8, {size.edge / 4, size.edge / 4, 1}, {0.25 * width, 0.25 * width, top},
                     {0.75 * width, 0.75 * width, top + brick});
 }
 inline std::unique_ptr<fem::Model> makePlate(const fem::SolidMesh& mesh) {

@@ -108,7 +108,7 @@ Json solidOf(const Settings& s) {
           {"box", boxOf(start, start + along * h)},
           {"material", materialOf(s)},
           {"stepping", s.implicit() ? "implicit" : "explicit"},
-          {"mass_share", massShare(s)},
+          {"consistent_mass", massShare(s)},
           {"supports", Json::array({Json::object({{"on", "y+"}})})}};
 }
 
@@ -143,7 +143,7 @@ std::vector<std::string> changesOfScene(const Settings& s, double penalty) {
              {"contact.stiffness", s.contactStiffness()},
              {"contact.bonded", s.tensile()},
              {"stages.0.time", endTime(s)},
-             {"steps.per_window", s.fullDem ? 1 : s.femEvery},
+             {"steps.per_macro_step", s.fullDem ? 1 : s.femEvery},
              {"steps.threads", s.threads},
              {"solids", Json::array()},
              {"couplings", Json::array()}};

@@ -61,7 +61,7 @@ Bar barOf(const Settings& s, double penalty) {
     return bar;
   }
   bar.solid = &bar.run().solid(0);
-  bar.tie = grains.terms.all<arlequin::OverlapTie>().front();
+  bar.tie = grains.terms.all<arlequin::ArlequinCoupling>().front();
   return bar;
 }
 
@@ -121,10 +121,10 @@ StepPlan planSteps(const Settings& s, const arlequin::CriticalStep& critical) {
     throw InputError("the run would take " + formatNumber(end / dt) + " steps", "--until and --dt-factor",
                      "give a shorter time or a longer step");
   StepPlan plan;
-  plan.stepsPerWindow = s.fullDem ? 1 : s.femEvery;
-  plan.windows =
-      std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(end / (plan.stepsPerWindow * dt) - 1e-9)));
-  plan.dt = end / static_cast<double>(plan.windows * plan.stepsPerWindow);
+  plan.stepsPerMacroStep = s.fullDem ? 1 : s.femEvery;
+  plan.macroSteps =
+      std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(end / (plan.stepsPerMacroStep * dt) - 1e-9)));
+  plan.dt = end / static_cast<double>(plan.macroSteps * plan.stepsPerMacroStep);
   return plan;
 }
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/critical_step.hpp"
-#include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/scene/build.hpp"
 #include "settings.hpp"
 
@@ -22,9 +22,9 @@ int layers(const Settings& settings, double length);
 struct Bar {
   scene::Scene scene;
   scene::Built built;
-  coupling::SolidSide* solid = nullptr;  ///< null for particles alone
-  arlequin::OverlapTie* tie = nullptr;   ///< the same
-  std::vector<int> byPlace;              ///< particles layer by layer along y, in each layer by z, then x
+  coupling::SolidSide* solid = nullptr;       ///< null for particles alone
+  arlequin::ArlequinCoupling* tie = nullptr;  ///< the same
+  std::vector<int> byPlace;                   ///< particles layer by layer along y, in each layer by z, then x
 
   coupling::CoupledRun& run() const { return *built.run; }
 };
@@ -39,11 +39,12 @@ Bar makeBar(const Settings& settings, double& penalty);
 arlequin::CriticalStep criticalStep(const Settings& settings, const Bar& bar);
 
 struct StepPlan {
-  double dt;             ///< s
-  int stepsPerWindow;    ///< particle steps per step of the solid
-  std::int64_t windows;  ///< whole windows that end at the end time
+  double dt;                ///< s
+  int stepsPerMacroStep;    ///< particle steps per step of the solid
+  std::int64_t macroSteps;  ///< whole macro steps that end at the end time
 };
-/// @throws InputError for a step above the critical one (implicit solid: above that of the contacts, or a window above
+/// @throws InputError for a step above the critical one (implicit solid: above that of the contacts, or a macro step
+/// above
 ///         that of a coupling with stiffness) unless the settings insist on it, and for endless runs
 StepPlan planSteps(const Settings& settings, const arlequin::CriticalStep& critical);
 

@@ -49,8 +49,8 @@ private:
     const Settings& s = settings();
     figures().critical = criticalStep(s, bar_);
     const StepPlan plan = planSteps(s, figures().critical);
-    K_ = plan.stepsPerWindow;
-    windows_ = plan.windows;
+    K_ = plan.stepsPerMacroStep;
+    macroSteps_ = plan.macroSteps;
     figures().dt = dt_ = plan.dt;
     scene::Scene& scene = bar_.scene;
     scene.steps.dt = {dt_, ""};
@@ -147,26 +147,26 @@ private:
 
   /// Returns whether it went to the end; if it was interrupted, `failure` says so.
   bool loop() {
-    run_.start(dt_, {.stepsPerWindow = K_});
+    run_.start(dt_, {.stepsPerMacroStep = K_});
     if (bar_.tie) figures().coupledNodes = bar_.tie->operators().rows();
     setLedger();
     result_.ledger.open();
     start_ = balance();
-    const std::int64_t sampleEvery = std::clamp<std::int64_t>(windows_ / 2000, 8 / std::min(8, K_), 1000);
+    const std::int64_t sampleEvery = std::clamp<std::int64_t>(macroSteps_ / 2000, 8 / std::min(8, K_), 1000);
     const double end = endTime(settings());
     const std::int64_t frameEvery = std::max<std::int64_t>(
         1, std::llround(settings().outputInterval / (K_ * dt_ * static_cast<double>(sampleEvery))));
     Progress progress(settings().fullDem ? "particles alone" : "wave", 1.0, !settings().quiet);
     sample();
     observe();
-    for (std::int64_t w = 1, samples = 0; w <= windows_; ++w) {
-      const bool ends = w == windows_ || io::interruption() != 0, now = w % sampleEvery == 0 || ends;
+    for (std::int64_t w = 1, samples = 0; w <= macroSteps_; ++w) {
+      const bool ends = w == macroSteps_ || io::interruption() != 0, now = w % sampleEvery == 0 || ends;
       run_.advance(1, now);
       if (!now) continue;
       sample();
       if (++samples % frameEvery == 0 || ends) observe();
       progress.update(grains().time / end, "t = " + formatNumber(std::round(1e5 * grains().time) / 1e5) + " s");
-      if (ends && w < windows_) {
+      if (ends && w < macroSteps_) {
         figures().failure = benchmark::interrupted(grains().time, steps());
         return false;
       }
@@ -196,7 +196,7 @@ private:
   }
 
   void sampleGap() {
-    const arlequin::OverlapTie& tie = *bar_.tie;
+    const arlequin::ArlequinCoupling& tie = *bar_.tie;
     std::vector<Vec3> rate(tie.operators().rows());
     arlequin::gapOf(tie.operators(), tie.overlap(), particles().v, bar_.solid->nodes().v, rate);
     double mismatch = 0.0, speed = 0.0;
@@ -270,7 +270,7 @@ private:
   const EnergyLedger* ofRun_ = nullptr;
   std::optional<EnergyLedger::Id> stored_;  // of the coupling
   int K_ = 1;
-  std::int64_t windows_ = 0;
+  std::int64_t macroSteps_ = 0;
   double dt_ = 0.0;
   Balance start_;
   double largestMomentum_ = 0.0, largestMomentumGap_ = 0.0, largestStored_ = 0.0, mostInput_ = 0.0;

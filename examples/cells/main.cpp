@@ -18,7 +18,7 @@ rve::Cell sand(std::uint64_t seed) {
 }
 
 int main() {
-  const hierarchical::RestingCells manner{.unbalanced = 1e-6};
+  const hierarchical::QuasiStaticCells manner{.unbalanced = 1e-6};
   std::vector<rve::Cell> cells;
   for (std::uint64_t seed = 1; seed <= bars; ++seed) cells.push_back(sand(seed));
   Eigen::VectorXd u = Eigen::VectorXd::Zero(bars + 1), P(bars), stiffness(bars);
@@ -32,7 +32,7 @@ int main() {
         rve::Cell& cell = moved[static_cast<std::size_t>(e)];
         Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
         F(1, 1) += (u[e + 1] - u[e]) / length;
-        hierarchical::settle(cell, F, manner);
+        hierarchical::relax(cell, F, manner);
         P[e] = rve::nominalStress(cell)(1, 1);             // Pa, on a column of 1 m²
         stiffness[e] = rve::network(cell)(4, 4) / length;  // ∂P₂₂/∂F₂₂ in row and column 3·1 + 1
       }

@@ -5,7 +5,7 @@
 
 #include "common/options.hpp"
 #include "common/report.hpp"
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
@@ -55,7 +55,7 @@ void addGrains(dem::Model& grains) {
 
 /// Soil below the grains, w = 1 at its upper border and 0 at the lower border of the grains.
 void addSoil(coupling::CoupledRun& run) {
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {6, 6, 8}, {0, 0, -depth}, {width, width, overlap});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {6, 6, 8}, {0, 0, -depth}, {width, width, overlap});
   std::vector<double> place;
   for (const Vec3& X : mesh.X)
     place.push_back(X.z < -1e-9 ? arlequin::beyondOverlap : std::clamp(1.0 - X.z / overlap, 0.0, 1.0));
@@ -76,7 +76,7 @@ void addSoil(coupling::CoupledRun& run) {
 
 void addPlate(coupling::CoupledRun& run) {
   const fem::SolidMesh mesh =
-      fem::boxOf(fem::CellShape::tet10, {4, 4, 1}, {0.06, 0.06, top + gap}, {0.18, 0.18, top + gap + 0.02});
+      fem::boxOf(fem::ElementShape::tet10, {4, 4, 1}, {0.06, 0.06, top + gap}, {0.18, 0.18, top + gap + 0.02});
   auto plate = std::make_unique<fem::Model>(fem::makeModel(mesh));
   plate->add(fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(1e7, 0.3, 1200.0)), {.name = "tetrahedra"}));
   fem::fix(plate->nodes, mesh.nodeSets.at("z+"));
@@ -115,10 +115,10 @@ void write(const std::filesystem::path& folder, const coupling::CoupledRun& run,
 
 bool run(const example::Options& options) {
   const auto first = makeScene(), second = makeScene();
-  const int half = options.quick ? 10 : 200, windows = 40;
+  const int half = options.quick ? 10 : 200, macroSteps = 40;
   const auto goOn = [&](coupling::CoupledRun& run, io::TimeSeries& series) {
     for (int k = 0; k < half; ++k) {
-      run.advance(windows);
+      run.advance(macroSteps);
       series.append({run.time(), speed * run.time() - gap, loadOnPlate(run)});
     }
   };

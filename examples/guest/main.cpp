@@ -5,8 +5,8 @@
 #include <iostream>
 #include <vector>
 
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/constraint.hpp"
-#include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/dem/laws/laws.hpp"
@@ -20,8 +20,8 @@ constexpr int across = 2, along = 20, overlapping = 6;         // cells
 /// Our own solver. Its cells tell Dovetail where its nodes are; their springs and masses, of which it keeps the share
 /// 1 − w, are its own affair.
 struct Net {
-  fem::SolidMesh mesh =
-      fem::boxOf(fem::CellShape::hex8, {across, across, along}, {0, 0, 0}, {across * edge, across* edge, along* edge});
+  fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {across, across, along}, {0, 0, 0},
+                                   {across * edge, across* edge, along* edge});
   std::vector<double> w;                   // the particles' share at the nodes
   fem::Model host = fem::makeModel(mesh);  // keeps u, v, f and masses
   fem::Nodes& nodes = host.nodes;

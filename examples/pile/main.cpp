@@ -18,7 +18,7 @@ using namespace dovetail;
 constexpr double width = 0.4, depth = 0.1, radius = 0.02, density = 2500.0;  // m, m, m, kg/m³
 
 std::unique_ptr<coupling::CoupledRun> makeScene() {
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {10, 10, 2}, {0, 0, -depth}, {width, width, 0});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {10, 10, 2}, {0, 0, -depth}, {width, width, 0});
   auto clay = std::make_unique<fem::Model>(fem::makeModel(mesh));
   const fem::J2Plasticity law{2e6, 0.4, 1800.0, fem::linearYield(4e3, 2e4)};
   // Plastic flow keeps the volume: plain bricks would lock.
@@ -57,7 +57,7 @@ std::unique_ptr<coupling::CoupledRun> makeScene() {
 bool run(const example::Options& options) {
   const auto first = makeScene(), second = makeScene();
   const std::int64_t half = options.quick ? 1000 : 4000;
-  for (auto* scene : {first.get(), second.get()}) scene->start(1e-4, {.stepsPerWindow = 2});
+  for (auto* scene : {first.get(), second.get()}) scene->start(1e-4, {.stepsPerMacroStep = 2});
   first->advance(half);
   second->load(first->save());
   for (auto* scene : {first.get(), second.get()}) scene->advance(half);

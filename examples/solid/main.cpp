@@ -30,7 +30,7 @@ struct Bar {
 
 /// The bar a hair above the wall z = 0, flying down.
 Bar makeBar(std::array<int, 3> cells) {
-  Bar bar{roundBar(CellShape::hex8, cells, radius, length), {}, nullptr, nullptr};
+  Bar bar{roundBar(ElementShape::hex8, cells, radius, length), {}, nullptr, nullptr};
   bar.model = makeModel(bar.mesh);
   // Plastic flow keeps the volume: plain bricks would lock.
   bar.solid = makeSolid(bar.mesh, pointMaterial(copper()), {.formulation = Formulation::meanDilatation, .name = "bar"});

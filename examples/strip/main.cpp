@@ -44,7 +44,7 @@ bool bend(const example::Options& options) {
   // 1. A mesh. (readSolid of dovetail::solid_io takes one from Gmsh or Abaqus.)
   // An odd number of cells along: half the length is the middle of one, where its stresses are best.
   const std::array<int, 3> cells = options.quick ? std::array{41, 2, 2} : std::array{61, 3, 4};
-  const SolidMesh mesh = boxOf(CellShape::hex8, cells, {0, 0, 0}, {length, width, height});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, cells, {0, 0, 0}, {length, width, height});
   Model model = makeModel(mesh);
 
   // 2. What acts: elements of a material, their weight, a load at the end; both grow over one unit of time. Bricks that

@@ -12,8 +12,10 @@ namespace dovetail::arlequin {
 
 namespace {
 
-bool isTetrahedron(fem::CellShape shape) { return shape == fem::CellShape::tet4 || shape == fem::CellShape::tet10; }
-bool isCurved(fem::CellShape shape) { return shape != fem::CellShape::hex8 && shape != fem::CellShape::tet4; }
+bool isTetrahedron(fem::ElementShape shape) {
+  return shape == fem::ElementShape::tet4 || shape == fem::ElementShape::tet10;
+}
+bool isCurved(fem::ElementShape shape) { return shape != fem::ElementShape::hex8 && shape != fem::ElementShape::tet4; }
 
 struct ParentPoint {
   Vec3 xi;
@@ -71,7 +73,7 @@ void addTetrahedron(const Corners& c, int depth, std::vector<ParentPoint>& point
   }
 }
 
-std::vector<ParentPoint> parentPoints(fem::CellShape shape, int parts) {
+std::vector<ParentPoint> parentPoints(fem::ElementShape shape, int parts) {
   if (!isTetrahedron(shape)) return brickPoints(parts, isCurved(shape));
   std::vector<ParentPoint> points;
   int depth = isCurved(shape) ? 1 : 0;
@@ -81,7 +83,7 @@ std::vector<ParentPoint> parentPoints(fem::CellShape shape, int parts) {
 }
 
 /// A row of shape functions written into an array.
-void hatsAt(fem::CellShape shape, const Vec3& xi, std::span<double> hat) {
+void hatsAt(fem::ElementShape shape, const Vec3& xi, std::span<double> hat) {
   const std::vector<double> row = cornerHats(shape, xi);
   std::copy(row.begin(), row.end(), hat.begin());
 }
@@ -92,7 +94,7 @@ std::span<const int> Cell::corner() const { return node.first(static_cast<std::s
 
 Cell cellOf(const fem::SolidMesh& mesh, int element) {
   auto first = static_cast<std::size_t>(element);
-  for (const fem::CellGroup& group : mesh.groups) {
+  for (const fem::ElementGroup& group : mesh.groups) {
     const auto nodes = static_cast<std::size_t>(fem::nodesOf(group.shape));
     if (first < group.size()) return {group.shape, std::span(group.node).subspan(first * nodes, nodes)};
     first -= group.size();
@@ -101,17 +103,17 @@ Cell cellOf(const fem::SolidMesh& mesh, int element) {
 }
 
 void requireSpatialCells(const fem::SolidMesh& mesh) {
-  for (const fem::CellGroup& group : mesh.groups)
+  for (const fem::ElementGroup& group : mesh.groups)
     if (fem::dimensionOf(group.shape) == 2)
       throw InputError(std::string("the mesh has ") + fem::name(group.shape) + " cells of plane strain", "overlap",
                        "give bricks or tetrahedra: particles are spheres");
 }
 
-std::vector<double> cornerHats(fem::CellShape shape, const Vec3& xi) {
+std::vector<double> cornerHats(fem::ElementShape shape, const Vec3& xi) {
   constexpr double roundOff = 1e-9;
   const Vec3 within = fem::nearestInParent(shape, xi);
   const Vec3 place = norm(within - xi) > roundOff ? within : xi;
-  return fem::shapeRow(isTetrahedron(shape) ? fem::CellShape::tet4 : fem::CellShape::hex8, place);
+  return fem::shapeRow(isTetrahedron(shape) ? fem::ElementShape::tet4 : fem::ElementShape::hex8, place);
 }
 
 std::vector<CellPoint> cellPoints(const fem::SolidMesh& mesh, std::span<const Vec3> position, int element, int parts) {

@@ -26,7 +26,7 @@ struct Scene {
   dem::Model& grains;
   fem::Model* solid;
   const fem::ModelMass* mass;
-  OverlapTie* tie;
+  ArlequinCoupling* tie;
 };
 
 class Operator {
@@ -135,7 +135,7 @@ double limitOf(const Scene& scene, Parts parts) {
 
 }  // namespace
 
-CriticalStep criticalStep(dem::Model& grains, coupling::SolidSide* side, double massShare, OverlapTie* tie) {
+CriticalStep criticalStep(dem::Model& grains, coupling::SolidSide* side, double massShare, ArlequinCoupling* tie) {
   constexpr double none = std::numeric_limits<double>::infinity();
   CriticalStep limit{none, none, none};
   std::optional<fem::Motion> motion;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 
@@ -56,7 +56,7 @@ std::vector<Vec3> loadOf(const dem::Model& grains, const fem::SolidMesh& mesh, f
   options.penalty = anyPenalty;
   options.leastShare = leastShare;
   auto made = makeOverlapTie(weighed, mesh, {nodalWeight.begin(), nodalWeight.end()}, side, options);
-  const OverlapTie& tie = *made;
+  const ArlequinCoupling& tie = *made;
   weighed.terms.add(std::unique_ptr<dem::Term>(std::move(made)));
   dem::findForces(weighed);
   std::vector<Vec3> load(solid.nodes.X.size());
@@ -158,7 +158,7 @@ int takeOver(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& s
   if (options.rounds < 1)
     throw InputError("rounds is " + std::to_string(options.rounds), "TakeOverOptions", "give 1 or more");
   for (const auto& term : grains.terms)
-    if (const auto* tie = dynamic_cast<const OverlapTie*>(term.get()); tie && tie->side().model == &solid)
+    if (const auto* tie = dynamic_cast<const ArlequinCoupling*>(term.get()); tie && tie->side().model == &solid)
       throw InputError("the particles are tied to this solid already", "initial stress",
                        "take over first and make the tie after that");
   if (std::ranges::all_of(solid.nodes.mass, [](double mass) { return mass == 0.0; })) fem::addMass(solid);

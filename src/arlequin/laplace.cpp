@@ -18,7 +18,7 @@ namespace {
 Eigen::MatrixXd laplacian(const fem::SolidMesh& mesh, const Cell& cell) {
   const std::span<const int> node = cell.corner();
   const bool brick = node.size() == 8;
-  const fem::CellShape shape = brick ? fem::CellShape::hex8 : fem::CellShape::tet4;
+  const fem::ElementShape shape = brick ? fem::ElementShape::hex8 : fem::ElementShape::tet4;
   const double gauss = 1.0 / std::sqrt(3.0), weight = brick ? 1.0 : 1.0 / 6.0;
   const auto count = static_cast<Eigen::Index>(node.size());
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(count, count);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "dovetail/arlequin/overlap.hpp"
-#include "dovetail/fem/mesh/cell_locator.hpp"
+#include "dovetail/fem/mesh/element_locator.hpp"
 #include "dovetail/geometry/hierarchical_grid.hpp"
 
 namespace dovetail::arlequin {
@@ -55,7 +55,7 @@ private:
   const fem::SolidMesh& mesh_;
   std::span<const double> weight_;
   geometry::Periodicity space_;
-  fem::CellLocator cells_;
+  fem::ElementLocator cells_;
 };
 
 }  // namespace dovetail::arlequin

@@ -32,7 +32,7 @@ Vec3 weightGradient(const fem::SolidMesh& mesh, const Overlap& overlap, std::siz
     for (std::size_t j = 0; j < 3; ++j)
       J[j] += gradient[a][static_cast<int>(j)] * position[static_cast<std::size_t>(cell.node[a])];
   const std::span<const int> corner = cell.corner();
-  const fem::CellShape first = corner.size() == 8 ? fem::CellShape::hex8 : fem::CellShape::tet4;
+  const fem::ElementShape first = corner.size() == 8 ? fem::ElementShape::hex8 : fem::ElementShape::tet4;
   fem::shapeFunctions(first, xi, std::span(value).first(corner.size()), std::span(gradient).first(corner.size()));
   Vec3 byParent;
   for (std::size_t a = 0; a < corner.size(); ++a)

@@ -1,4 +1,4 @@
-// Explicit solids: kick · drift · kick, own forces at the ends of windows.
+// Explicit solids: kick · drift · kick, own forces at the ends of macro steps.
 #include <optional>
 
 #include "dovetail/core/finite.hpp"
@@ -18,7 +18,7 @@ public:
     dt_ = dt;
     K_ = K;
     if (solid_) carryOver(solid_->book.ledger());
-    solid_.emplace(*model_, options_.massShare, window());
+    solid_.emplace(*model_, options_.massShare, macroStep());
     side.mass = &solid_->motion.mass();
     solid_->sample();
     showOwn();
@@ -26,7 +26,7 @@ public:
 
   void begin(bool sampled) override {
     if (K_ > 1 && sampled) uBefore_ = model_->nodes.u, forceBefore_ = ownForce();
-    halfKick(model_->t + 0.5 * window());
+    halfKick(model_->t + 0.5 * macroStep());
   }
 
   void kickByLoad() override {
@@ -34,7 +34,7 @@ public:
     push();
   }
 
-  /// Prescribed paths leave the mean velocity of their window at its inner steps: supports carry the nodes there.
+  /// Prescribed paths leave the mean velocity of their macro step at its inner steps: supports carry the nodes there.
   void drift() override {
     if (K_ == 1 || !solid_->supportsMove()) return solid_->motion.drift(dt_);
     const Momenta before = fem::momentaOf(model_->nodes, *side.mass);
@@ -48,31 +48,31 @@ public:
   void findForces(bool sampled) override {
     sampled_ = sampled;
     added_ = {};
-    solid_->evaluate(window(), sampled);
+    solid_->evaluate(macroStep(), sampled);
     showOwn();
   }
 
   /// Without sub-steps the load kicks together with the own forces.
   void takeLoad() override { addToOwn(side.load); }
-  void takeWindowLoad(const NodalLoad& load) override {
-    windowLoad = load;
+  void takeMacroLoad(const NodalLoad& load) override {
+    macroLoad = load;
     addToOwn(load);
   }
 
   void end() override {
     halfKick(model_->t);
-    solid_->accept(window(), true);
+    solid_->accept(macroStep(), true);
     if (sampled_) solid_->sample();
   }
 
   void stepUnder(const NodalLoad& load) override {
-    halfKick(model_->t + 0.5 * window());
-    kickTouched(load, 0.5 * window());
-    solid_->motion.drift(window());
+    halfKick(model_->t + 0.5 * macroStep());
+    kickTouched(load, 0.5 * macroStep());
+    solid_->motion.drift(macroStep());
     findForces(true);
     halfKick(model_->t);
-    kickTouched(load, 0.5 * window());
-    solid_->accept(window(), true);
+    kickTouched(load, 0.5 * macroStep());
+    solid_->accept(macroStep(), true);
     solid_->sample();
   }
 
@@ -117,7 +117,7 @@ private:
     std::shared_ptr<fem::BookedMotion::State> state;
   };
 
-  double window() const { return K_ * dt_; }
+  double macroStep() const { return K_ * dt_; }
   void showOwn() { side.own = K_ == 1 ? std::span<const Vec3>(model_->nodes.f) : std::span<const Vec3>(); }
 
   void addToOwn(const NodalLoad& load) {
@@ -129,8 +129,8 @@ private:
   }
 
   void halfKick(double time) {
-    loads.give(0.5 * window() * added_);
-    if (!solid_->halfKick(window(), time, true))
+    loads.give(0.5 * macroStep() * added_);
+    if (!solid_->halfKick(macroStep(), time, true))
       requireFinite(model_->nodes.v, "node", "velocity", side.name + ", t = " + formatNumber(model_->t) + " s");
   }
 
@@ -145,18 +145,18 @@ private:
   /// Without what constraints answer to them.
   std::vector<Vec3> ownForce() const {
     std::vector<Vec3> force = model_->nodes.f;
-    for (const int node : windowLoad.touched)
-      force[static_cast<std::size_t>(node)] -= windowLoad.force[static_cast<std::size_t>(node)];
+    for (const int node : macroLoad.touched)
+      force[static_cast<std::size_t>(node)] -= macroLoad.force[static_cast<std::size_t>(node)];
     return force;
   }
 
-  /// What impulses of windows of length h store, J: with V the energy of the solid's own forces, g and g_f the
+  /// What impulses of macro steps of length h store, J: with V the energy of the solid's own forces, g and g_f the
   /// gradients of V and of what acts at every step, the scheme conserves to leading order, beside the energy itself, h²
   /// [v·V''v/12 − g·M⁻¹g_f/12 − g·M⁻¹g/24] (Baker–Campbell–Hausdorff series of half kick · fast steps · half kick), a
-  /// state function; M⁻¹g as far as constraints let it. V''v by the difference of the forces over the window.
+  /// state function; M⁻¹g as far as constraints let it. V''v by the difference of the forces over the macro step.
   double splitting() const {
     const fem::Nodes& nodes = model_->nodes;
-    const double h = window();
+    const double h = macroStep();
     const std::vector<Vec3> force = ownForce();
     std::vector<Vec3> slow = nodes.f, fast = side.load.force;
     side.mass->solve(slow);

@@ -1,4 +1,4 @@
-// Implicit solids: connectors kick the standing nodes, then these move by a whole window.
+// Implicit solids: connectors kick the standing nodes, then these move by a whole macro step.
 #include <optional>
 #include <utility>
 
@@ -18,7 +18,7 @@ public:
     fem::ImplicitOptions options = options_.implicitOptions;
     options.massShare = options_.massShare;
     if (solid_) carryOver(solid_->ledger());
-    solid_.emplace(*model_, window(), options);
+    solid_.emplace(*model_, macroStep(), options);
     side.mass = &solid_->mass();
     side.own = {};
     byOwnForces_.clear();
@@ -27,7 +27,7 @@ public:
   void begin(bool) override {
     steps_ = 0;
     jumped_ = false;
-    kick(windowLoad, 0.5 * window());
+    kick(macroLoad, 0.5 * macroStep());
   }
   void kickByLoad() override { kick(side.load, 0.5 * dt_); }
   void drift() override {}
@@ -37,8 +37,9 @@ public:
     for (std::size_t n = 0; n < byOwnForces_.size(); ++n) byOwnForces_[n] = model_->nodes.v[n] - byOwnForces_[n];
     jumped_ = true;
   }
-  /// Own forces act within the jump, connectors throughout the window: velocities go up and down by as much as either
-  /// does in a window, which is much where nodes are light. Connectors see them as if own forces acted throughout too.
+  /// Own forces act within the jump, connectors throughout the macro step: velocities go up and down by as much as
+  /// either does in a macro step, which is much where nodes are light. Connectors see them as if own forces acted
+  /// throughout too.
   void showVelocities(bool timeless) override {
     if (!timeless) ++steps_;
     if (byOwnForces_.empty()) return;
@@ -53,13 +54,13 @@ public:
   }
   void findForces(bool) override {}
   void takeLoad() override {}
-  void takeWindowLoad(const NodalLoad& load) override { windowLoad = load; }
-  void end() override { kick(windowLoad, 0.5 * window()); }
+  void takeMacroLoad(const NodalLoad& load) override { macroLoad = load; }
+  void end() override { kick(macroLoad, 0.5 * macroStep()); }
 
   void stepUnder(const NodalLoad& load) override {
-    kick(load, 0.5 * window());
+    kick(load, 0.5 * macroStep());
     solid_->step();
-    kick(load, 0.5 * window());
+    kick(load, 0.5 * macroStep());
   }
 
   fem::LinearForecast forecast() override { return solid_->forecast(); }
@@ -75,7 +76,7 @@ public:
   std::vector<Vec3> forces() const override {
     std::vector<Vec3> force(model_->nodes.X.size());
     for (const auto& term : model_->terms) term->addForces(model_->nodes, {.t = model_->t, .mass = side.mass}, force);
-    for (const NodalLoad* const load : {&side.load, &windowLoad})
+    for (const NodalLoad* const load : {&side.load, &macroLoad})
       for (const int node : load->touched)
         force[static_cast<std::size_t>(node)] += load->force[static_cast<std::size_t>(node)];
     return force;
@@ -112,7 +113,7 @@ private:
     std::vector<char> bytes;
   };
 
-  double window() const { return K_ * dt_; }
+  double macroStep() const { return K_ * dt_; }
 
   void kick(const NodalLoad& load, double dt) {
     if (load.touched.empty()) return;
@@ -124,8 +125,8 @@ private:
   }
 
   std::optional<fem::ImplicitIntegrator> solid_;
-  int steps_ = 0;                  // of the particles in this window so far
-  bool jumped_ = false;            // in this window
+  int steps_ = 0;                  // of the particles in this macro step so far
+  bool jumped_ = false;            // in this macro step
   std::vector<Vec3> byOwnForces_;  // change of velocity in the last jump, m/s
   std::vector<Vec3> hidden_;       // velocities while others are shown, m/s
 };

@@ -64,7 +64,7 @@ int SolidSide::addTo(dem::ContactDemand& demand) const {
   const auto known = std::ranges::find(demand.sides, static_cast<const void*>(model), &dem::ContactDemand::Side::of);
   if (known != demand.sides.end()) return static_cast<int>(known - demand.sides.begin());
   const int side = demand.sideOf(model, inverseMasses());
-  demand.sides[static_cast<std::size_t>(side)].inWindows = stepping == Stepping::implicitSteps;
+  demand.sides[static_cast<std::size_t>(side)].inMacroSteps = stepping == Stepping::implicitSteps;
   return side;
 }
 
@@ -81,7 +81,7 @@ fem::LinearForecast CoupledRun::forecast(std::size_t k) {
 /// Nodes share their mass among all that pulls at them: contacts of every connector, and the solid's own forces.
 StepLimit CoupledRun::Impl::limitNow(dem::ContactDemand& demand, bool looksAtElements) {
   StepLimit limit{std::numeric_limits<double>::infinity(), "nobody"};
-  demand.window = K();
+  demand.macroStep = K();
   elements.resize(solids.size());
   for (std::size_t s = 0; s < solids.size(); ++s) {
     const SolidSide& side = solids[s]->side;
@@ -112,8 +112,8 @@ double CoupledRun::Impl::rateOf(const void* model) const {
 StepLimit CoupledRun::Impl::criticalStep() {
   dem::ContactDemand demand = dem::demandOf(grains);
   StepLimit limit = limitNow(demand, true);
-  const dem::ImpactLimit impact =
-      dem::impactLimit(grains, demand, {.window = K(), .ownRate = [this](const void* model) { return rateOf(model); }});
+  const dem::ImpactLimit impact = dem::impactLimit(
+      grains, demand, {.macroStep = K(), .ownRate = [this](const void* model) { return rateOf(model); }});
   return impact.dt < limit.dt ? StepLimit{impact.dt, impact.owner} : limit;
 }
 

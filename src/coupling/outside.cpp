@@ -51,7 +51,7 @@ void Outside::evaluated(const dem::Model& m, const dem::Step& step, const Moment
   put_ = 0;
   put(gravity, dem::weight(m));
   takeCounted(m, true);
-  if (onSolids != Momenta{}) put("loads one step old", -1.0 * onSolids);
+  if (onSolids != Momenta{}) put("staggering error", -1.0 * onSolids);
   forces_.resize(put_);
   if (step.timeless) return;
   giveHalf(step.dt);

@@ -9,7 +9,7 @@ Reactions CoupledRun::reactions(std::size_t k) const {
   const fem::ModelMass& mass = *solid.side.mass;
   const std::vector<Vec3> force = solid.forces();
   std::vector<Vec3> acceleration(force.size()), reaction(force.size());
-  mass.dofs().applyAcceleration(solid.side.model->t, window(), acceleration);
+  mass.dofs().applyAcceleration(solid.side.model->t, macroStep(), acceleration);
   mass.accelerate(force, acceleration);
   mass.multiply(acceleration, reaction);
   for (std::size_t n = 0; n < force.size(); ++n) reaction[n] -= force[n];

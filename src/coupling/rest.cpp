@@ -37,7 +37,7 @@ void CoupledRun::stop() {
   impl_->broughtToRest -= kineticEnergy();
   impl_->tellVelocities();
   const Totals after = impl_->sums();
-  impl_->outside.given.give("brought to rest",
+  impl_->outside.given.give("kinetic damping",
                             {after.momentum - before.momentum, after.angularMomentum - before.angularMomentum});
 }
 
@@ -61,15 +61,15 @@ static double overElastic(double kinetic, CoupledRun& run) {
   return elastic > 0.0 ? kinetic / elastic : 1.0;
 }
 
-bool settleOn(CoupledRun& run, const RestOptions& options, RestProgress& progress, std::int64_t windows) {
+bool relaxOn(CoupledRun& run, const RestOptions& options, RestProgress& progress, std::int64_t macroSteps) {
   requirePositive(options.kinetic, "kinetic energy at rest");
-  if (options.windows < 1)
-    throw InputError("windows is " + std::to_string(options.windows), "RestOptions", "give 1 or more");
+  if (options.macroSteps < 1)
+    throw InputError("macro steps is " + std::to_string(options.macroSteps), "RestOptions", "give 1 or more");
   RestReport& report = progress.report;
-  if (report.windows == 0) run.stop();
+  if (report.macroSteps == 0) run.stop();
   run.damp(true);
-  const std::int64_t end = std::min(options.windows, report.windows + windows);
-  for (; report.windows < end && progress.quiet < 2; ++report.windows) {
+  const std::int64_t end = std::min(options.macroSteps, report.macroSteps + macroSteps);
+  for (; report.macroSteps < end && progress.quiet < 2; ++report.macroSteps) {
     run.advance();
     const double kinetic = run.kineticEnergy();
     if (kinetic >= progress.before && kinetic > 0.0) {
@@ -83,15 +83,15 @@ bool settleOn(CoupledRun& run, const RestOptions& options, RestProgress& progres
     progress.before = 0.0;
   }
   report.atRest = progress.quiet == 2;
-  const bool givenUp = !report.atRest && report.windows >= options.windows;
+  const bool givenUp = !report.atRest && report.macroSteps >= options.macroSteps;
   if (givenUp) report.kinetic = std::max(report.kinetic, overElastic(progress.before, run));
   if (report.atRest || givenUp) run.damp(false);
   return report.atRest || givenUp;
 }
 
-RestReport settle(CoupledRun& run, const RestOptions& options) {
+RestReport relax(CoupledRun& run, const RestOptions& options) {
   RestProgress progress;
-  settleOn(run, options, progress, options.windows);
+  relaxOn(run, options, progress, options.macroSteps);
   return progress.report;
 }
 

@@ -12,8 +12,9 @@ namespace {
 
 void requireOptions(const RunOptions& options, double dt) {
   requirePositive(dt, "time step");
-  if (options.stepsPerWindow < 1)
-    throw InputError("stepsPerWindow is " + std::to_string(options.stepsPerWindow), "RunOptions", "give 1 or more");
+  if (options.stepsPerMacroStep < 1)
+    throw InputError("stepsPerMacroStep is " + std::to_string(options.stepsPerMacroStep), "RunOptions",
+                     "give 1 or more");
 }
 
 /// Names go into the ledger.
@@ -44,7 +45,7 @@ std::size_t CoupledRun::solids() const { return impl_->solids.size(); }
 SolidSide& CoupledRun::solid(std::size_t k) { return impl_->solids.at(k)->side; }
 const SolidSide& CoupledRun::solid(std::size_t k) const { return impl_->solids.at(k)->side; }
 double CoupledRun::dt() const { return impl_->dt; }
-double CoupledRun::window() const { return impl_->window(); }
+double CoupledRun::macroStep() const { return impl_->macroStep(); }
 
 void CoupledRun::Impl::findForces(double step, const RunOptions& with) {
   joinParticles();
@@ -84,12 +85,12 @@ void CoupledRun::start(double dt, const RunOptions& options) {
           "dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) + " s that " + limit.owner +
               " sets",
           "time step",
-          "take a fifth of the limit or less; if a solid sets it, fewer steps per window or an implicit solid");
+          "take a fifth of the limit or less; if a solid sets it, fewer steps per macro step or an implicit solid");
     }
   }
   grains.passed.reset();
   grains.checkedStep = dt;
-  run.constrainWindow();
+  run.constrainMacroStep();
   run.rememberLoads();
   run.sampled = false;
   if (run.started) return;
@@ -99,12 +100,12 @@ void CoupledRun::start(double dt, const RunOptions& options) {
   run.open();
 }
 
-void CoupledRun::advance(std::int64_t windows, bool withEnergies) {
+void CoupledRun::advance(std::int64_t macroSteps, bool withEnergies) {
   impl_->requireStarted("advance");
-  if (windows < 0) throw InputError("windows is " + std::to_string(windows), "advance", "give 0 or more");
-  for (std::int64_t w = 0; w < windows; ++w) {
+  if (macroSteps < 0) throw InputError("macro steps is " + std::to_string(macroSteps), "advance", "give 0 or more");
+  for (std::int64_t w = 0; w < macroSteps; ++w) {
     try {
-      impl_->window(withEnergies && w + 1 == windows);
+      impl_->macroStep(withEnergies && w + 1 == macroSteps);
     } catch (const NumericalError& error) {
       impl_->lookAtLimit();
       dem::tellOfLimit(grains, error);
@@ -143,11 +144,11 @@ bool CoupledRun::Impl::anyImplicit() const {
   return std::ranges::any_of(solids, [](const auto& s) { return s->side.stepping == Stepping::implicitSteps; });
 }
 
-void CoupledRun::Impl::window(bool wantsEnergies) {
-  if (options.lag != Lag::none) return lagWindow();
+void CoupledRun::Impl::macroStep(bool wantsEnergies) {
+  if (options.lag != Lag::none) return lagMacroStep();
   const bool jumpsBetween = K() % 2 == 0 && anyImplicit();
   sampled = wantsEnergies;
-  if (!windowForce.empty()) kickByWindowForce();
+  if (!macroForce.empty()) kickByMacroForce();
   for (int k = 0; k < K(); ++k) {
     const bool last = k + 1 == K();
     if (jumpsBetween && k == K() / 2) jumpBetweenSteps();
@@ -168,12 +169,12 @@ void CoupledRun::Impl::window(bool wantsEnergies) {
     const Profile::Stage stage(profile, "solids kick and drift");
     for (const auto& solid : solids) solid->kickByLoad();
   }
-  constrainWindow();
+  constrainMacroStep();
   for (const auto& solid : solids) solid->end();
-  if (!windowForce.empty()) kickByWindowForce();
+  if (!macroForce.empty()) kickByMacroForce();
 }
 
-/// Pairs, walls, connectors, and the solids' own forces with the last step of a window.
+/// Pairs, walls, connectors, and the solids' own forces with the last step of a macro step.
 void CoupledRun::Impl::stepParticles(bool last) {
   for (const auto& solid : solids)
     solid->side.isInStep = last || solid->side.stepping == Stepping::explicitSteps || options.lag != Lag::none;
@@ -183,56 +184,56 @@ void CoupledRun::Impl::stepParticles(bool last) {
   ownForcesDue = false;
 }
 
-/// Even windows: the solid moves while no time passes for the particles.
+/// Even macro steps: the solid moves while no time passes for the particles.
 void CoupledRun::Impl::jumpBetweenSteps() {
   dem::close(grains);
   for (const auto& solid : solids) solid->jump();
   dem::findForces(grains);
 }
 
-/// The forces with which constraints answer what acts at the ends of windows only.
-void CoupledRun::Impl::constrainWindow() {
-  windowForce.clear();
+/// The forces with which constraints answer what acts at the ends of macro steps only.
+void CoupledRun::Impl::constrainMacroStep() {
+  macroForce.clear();
   if (K() == 1 && !anyImplicit()) {
-    for (const auto& solid : solids) solid->windowLoad.clear();
+    for (const auto& solid : solids) solid->macroLoad.clear();
     return;
   }
   for (const auto& solid : solids) {
     SolidSide& side = solid->side;
     NodalLoad load(side.nodes().X.size());
-    bool any = !solid->windowLoad.touched.empty();
+    bool any = !solid->macroLoad.touched.empty();
     for (const auto& term : grains.terms) {
       const auto* const connector = dynamic_cast<const Connector*>(term.get());
       if (!connector || !connector->constrains() || &connector->side() != &side) continue;
-      if (windowForce.empty()) {
+      if (macroForce.empty()) {
         dem::close(grains);
-        windowForce.assign(grains.particles.size(), {});
+        macroForce.assign(grains.particles.size(), {});
       }
       const bool implicit = side.stepping == Stepping::implicitSteps;
-      connector->constrainWindow(grains, implicit ? std::span<const Vec3>() : side.nodes().f, 0.5 * window(),
-                                 windowForce, load);
+      connector->constrainMacroStep(grains, implicit ? std::span<const Vec3>() : side.nodes().f, 0.5 * macroStep(),
+                                    macroForce, load);
       any = true;
     }
-    if (any) solid->takeWindowLoad(load);
+    if (any) solid->takeMacroLoad(load);
   }
 }
 
-/// The second of the kicks about the end of a window meets other velocities than the first has left.
+/// The second of the kicks about the end of a macro step meets other velocities than the first has left.
 void CoupledRun::Impl::tellVelocities() {
   for (const auto* connector : grains.terms.all<Connector>()) {
     SolidSide& side = connector->side();
     if (!connector->constrains() || side.stepping != Stepping::implicitSteps) continue;
     std::vector<Vec3> same(grains.particles.size());
     NodalLoad load(side.nodes().X.size());
-    connector->constrainWindow(grains, {}, 0.5 * window(), same, load);
+    connector->constrainMacroStep(grains, {}, 0.5 * macroStep(), same, load);
   }
 }
 
-void CoupledRun::Impl::kickByWindowForce() {
+void CoupledRun::Impl::kickByMacroForce() {
   dem::Particles& p = grains.particles;
   dem::close(grains);
-  for (std::size_t i = 0; i < windowForce.size() && i < p.size(); ++i)
-    p.v[i] += (0.5 * window() / (p.weightOf(i) * p.mass[i])) * windowForce[i];
+  for (std::size_t i = 0; i < macroForce.size() && i < p.size(); ++i)
+    p.v[i] += (0.5 * macroStep() / (p.weightOf(i) * p.mass[i])) * macroForce[i];
 }
 
 void CoupledRun::Impl::rememberLoads() {
@@ -268,17 +269,17 @@ double workOf(const NodalLoad& load, std::span<const Vec3> to, std::span<const V
 
 }  // namespace
 
-/// The staggered window (Cheng et al. 2023, Fig. 8): the solids step under a load one step old, then the particles make
-/// K steps on solids that move from their old to their new place, or stay at the old one.
-void CoupledRun::Impl::lagWindow() {
+/// The staggered macro step (Cheng et al. 2023, Fig. 8): the solids step under a load one step old, then the particles
+/// make K steps on solids that move from their old to their new place, or stay at the old one.
+void CoupledRun::Impl::lagMacroStep() {
   for (std::size_t s = 0; s < solids.size(); ++s) {
     SolidStepper& solid = *solids[s];
     lagFrom[s] = solid.side.nodes().u;
     const NodalLoad load = meanOf(loadBefore[s], solid.side.load);
     loadBefore[s] = solid.side.load;
-    outside.given.give("loads one step old", 0.5 * window() * totalOf(load, solid.side.nodes()));
+    outside.given.give("staggering error", 0.5 * macroStep() * totalOf(load, solid.side.nodes()));
     solid.stepUnder(load);
-    outside.given.give("loads one step old", 0.5 * window() * totalOf(load, solid.side.nodes()));
+    outside.given.give("staggering error", 0.5 * macroStep() * totalOf(load, solid.side.nodes()));
     lagTo[s] = solid.side.nodes().u;
     madeByLag += workOf(load, lagTo[s], lagFrom[s]);
   }

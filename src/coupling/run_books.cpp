@@ -26,7 +26,7 @@ void setParticles(const dem::Model& grains, EnergyLedger& ledger) {
   setChannel(ledger, "particles: entered (minus)", booked, -e.entered);
   setChannel(ledger, "particles: work of walls and drives (minus)", booked, -e.walls);
   setChannel(ledger, "particles: work of external forces (minus)", booked, -e.external);
-  setChannel(ledger, "particles: lifted by periods (minus)", booked, -e.lifted);
+  setChannel(ledger, "particles: gravity work across periods (minus)", booked, -e.lifted);
 }
 
 bool has(const EnergyLedger& ledger, const std::string& name) {
@@ -55,8 +55,8 @@ const EnergyLedger& CoupledRun::ledger() {
   setParticles(grains, ledger);
   for (const auto& solid : impl_->solids) solid->sample(ledger);
   setConnectors(grains, ledger);
-  setChannel(ledger, "brought to rest", booked, impl_->broughtToRest);
-  setChannel(ledger, "loads one step old (minus what they made)", booked, -impl_->madeByLag);
+  setChannel(ledger, "kinetic damping", booked, impl_->broughtToRest);
+  setChannel(ledger, "staggering error (minus what it made)", booked, -impl_->madeByLag);
   ledger.close();
   return ledger;
 }
@@ -66,7 +66,7 @@ void report(CoupledRun& run, std::ostream& out) {
   for (std::size_t k = 0; k < run.solids(); ++k)
     out << ", \"" << run.solid(k).name << "\" of " << run.solid(k).nodes().X.size() << " nodes";
   const StepLimit limit = run.criticalStep();
-  out << " at " << run.time() << " s\nstep " << run.dt() << " s, " << run.window() << " s of the solids; at most "
+  out << " at " << run.time() << " s\nstep " << run.dt() << " s, " << run.macroStep() << " s of the solids; at most "
       << limit.dt << " s, set by " << limit.owner << '\n'
       << run.ledger() << run.totals() << run.profile;
 }

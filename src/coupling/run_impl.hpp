@@ -42,13 +42,13 @@ struct CoupledRun::Impl {
   Outside outside;  ///< impulses on the particles, and what there was at the first start
 
   // Of the evaluation under way.
-  bool ownForcesDue = false;  ///< the window ends with it
+  bool ownForcesDue = false;  ///< the macro step ends with it
   bool sampled = true;        ///< energies are wanted
 
   std::vector<fem::ModelStableStep> elements;  ///< as last looked at, of explicit solids; 0 s: of none
 
-  // Of constraints in windows of several steps.
-  std::vector<Vec3> windowForce;  ///< on particles, N; empty without constraints
+  // Of constraints in macro steps of several steps.
+  std::vector<Vec3> macroForce;  ///< on particles, N; empty without constraints
 
   Impl(dem::Model& g, Profile& p) : grains(g), profile(p) {}
 
@@ -60,8 +60,8 @@ struct CoupledRun::Impl {
 
   /// Whether loads kick explicit solids together with their own forces: without sub-steps and without a lag.
   bool kicksTogether() const { return K() == 1 && options.lag == Lag::none; }
-  int K() const { return options.stepsPerWindow; }
-  double window() const { return K() * dt; }
+  int K() const { return options.stepsPerMacroStep; }
+  double macroStep() const { return K() * dt; }
   /// Solids have a step: until then the particles' model steps alone.
   bool hasStep() const { return dt > 0.0; }
   bool anyImplicit() const;
@@ -80,13 +80,13 @@ struct CoupledRun::Impl {
   /// Of the particles, solids and connectors as they are, for steps that long.
   void findForces(double step, const RunOptions& with);
 
-  void window(bool wantsEnergies);
+  void macroStep(bool wantsEnergies);
   void stepParticles(bool last);
   void jumpBetweenSteps();
-  void constrainWindow();
+  void constrainMacroStep();
   void tellVelocities();
-  void kickByWindowForce();
-  void lagWindow();
+  void kickByMacroForce();
+  void lagMacroStep();
   void rememberLoads();
   Momenta lateLoads() const;
   std::vector<NodalLoad> loadBefore;  ///< per solid: of the evaluation before the last; only with a lag

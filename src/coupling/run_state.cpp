@@ -33,15 +33,15 @@ NodalLoad readLoad(ByteReader& archive, std::size_t nodes) {
 /// What a state begins with.
 struct Head {
   double dt = 0.0;
-  int stepsPerWindow = 0, lag = 0;
+  int stepsPerMacroStep = 0, lag = 0;
   std::uint64_t solids = 0;
-  std::vector<Vec3> windowForce = {};
+  std::vector<Vec3> macroForce = {};
   double madeByLag = 0.0, broughtToRest = 0.0;
   std::vector<char> particles = {};
 };
 template <class Archive>
 void archiveHead(Archive& archive, Head& head) {
-  archive(head.dt, head.stepsPerWindow, head.lag, head.solids, head.windowForce, head.madeByLag, head.broughtToRest,
+  archive(head.dt, head.stepsPerMacroStep, head.lag, head.solids, head.macroForce, head.madeByLag, head.broughtToRest,
           head.particles);
 }
 
@@ -58,7 +58,7 @@ struct CoupledRun::Impl::State {
   struct Solid {
     std::shared_ptr<SavedSolid> own = {};
     double bookedBefore = 0.0;
-    NodalLoad load, window, before;
+    NodalLoad load, macroStep, before;
     std::vector<Vec3> seen;
     double supportWork = 0.0;
     ImpulseBook outside;
@@ -104,8 +104,14 @@ std::vector<SolidOfState> solidsOf(const std::vector<char>& state) {
 
 std::vector<char> CoupledRun::Impl::save() {
   ByteWriter archive;
-  Head head{dt,        options.stepsPerWindow, static_cast<int>(options.lag), solids.size(), windowForce,
-            madeByLag, broughtToRest,          dem::saveState(grains)};
+  Head head{dt,
+            options.stepsPerMacroStep,
+            static_cast<int>(options.lag),
+            solids.size(),
+            macroForce,
+            madeByLag,
+            broughtToRest,
+            dem::saveState(grains)};
   archiveHead(archive, head);
   for (std::size_t s = 0; s < solids.size(); ++s) {
     const SolidSide& side = solids[s]->side;
@@ -113,7 +119,7 @@ std::vector<char> CoupledRun::Impl::save() {
     solids[s]->save(own);
     rest(solids[s]->bookedBefore);
     saveLoad(rest, side.load);
-    saveLoad(rest, solids[s]->windowLoad);
+    saveLoad(rest, solids[s]->macroLoad);
     saveLoad(rest, loadBefore.empty() ? NodalLoad() : loadBefore[s]);
     rest(lagSeen.empty() ? std::vector<Vec3>() : lagSeen[s], side.supportWork);
     side.outside.save(rest);
@@ -130,7 +136,7 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
   archiveHead(archive, state.head);
   const Head& head = state.head;
   requireSame(
-      head.dt == dt && head.stepsPerWindow == options.stepsPerWindow && head.lag == static_cast<int>(options.lag),
+      head.dt == dt && head.stepsPerMacroStep == options.stepsPerMacroStep && head.lag == static_cast<int>(options.lag),
       "steps or options");
   requireSame(head.solids == solids.size(), "solids");
   for (const auto& solid : solids) {
@@ -147,7 +153,7 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
     saved.own = solid->read(reader);
     others(saved.bookedBefore);
     saved.load = readLoad(others, nodes);
-    saved.window = readLoad(others, nodes);
+    saved.macroStep = readLoad(others, nodes);
     saved.before = readLoad(others, nodes);
     others(saved.seen, saved.supportWork);
     saved.outside.load(others);
@@ -181,12 +187,12 @@ void CoupledRun::Impl::adopt(State state) {
     solids[s]->side.load = std::move(state.solids[s].load);
     solids[s]->side.supportWork = state.solids[s].supportWork;
     solids[s]->side.outside = std::move(state.solids[s].outside);
-    solids[s]->windowLoad = std::move(state.solids[s].window);
+    solids[s]->macroLoad = std::move(state.solids[s].macroStep);
     if (options.lag == Lag::none) continue;
     loadBefore.push_back(std::move(state.solids[s].before));
     lagSeen.push_back(std::move(state.solids[s].seen));
   }
-  windowForce = std::move(state.head.windowForce);
+  macroForce = std::move(state.head.macroForce);
   outside = std::move(state.outside);
 }
 

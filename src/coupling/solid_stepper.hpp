@@ -15,7 +15,7 @@ struct SavedSolid {
   virtual ~SavedSolid() = default;
 };
 
-/// A solid and the verbs of its window.
+/// A solid and the verbs of its macro step.
 class SolidStepper {
 public:
   SolidStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options);
@@ -23,31 +23,33 @@ public:
 
   SolidSide side;
   double bookedBefore = 0.0;                     ///< J, before the last start
-  NodalLoad windowLoad;                          ///< N: what constraints do in both half windows around their ends
+  NodalLoad macroLoad;                           ///< N: what constraints do in both half macro steps around their ends
   ImpulseBook::Channel loads{"connectors", {}};  ///< what they have given
 
   /// Forces at the start; the books of what was before are kept as one sum. @param dt  of particles, s @param K  steps
-  /// per window
+  /// per macro step
   virtual void start(double dt, int K) = 0;
-  /// The half window's kick by its own forces, at the window's begin. @param sampled  energies will be asked for
+  /// The half macro step's kick by its own forces, at the macro step's begin. @param sampled  energies will be asked
+  /// for
   virtual void begin(bool sampled) = 0;
   /// Kick by the connectors' load for half a step, where it is no part of `begin` and `end`.
   virtual void kickByLoad() = 0;
   /// The nodes move along for one step of the particles.
   virtual void drift() = 0;
-  /// The solid's own step in the middle of a window.
+  /// The solid's own step in the middle of a macro step.
   virtual void jump() = 0;
   /// Puts the velocities that connectors are to see in the place of the nodes' own. @param timeless  the evaluation
   virtual void showVelocities(bool timeless) = 0;
   /// Puts the nodes' own back.
   virtual void hideVelocities() = 0;
-  /// Own forces at the window's end. @param sampled  energies too
+  /// Own forces at the macro step's end. @param sampled  energies too
   virtual void findForces(bool sampled) = 0;
   /// All loads of the last evaluation are known.
   virtual void takeLoad() = 0;
-  /// What constraints answer to forces that act at the ends of windows, for both half windows around this instant.
-  virtual void takeWindowLoad(const NodalLoad& load) = 0;
-  /// The half window's kick that ends it.
+  /// What constraints answer to forces that act at the ends of macro steps, for both half macro steps around this
+  /// instant.
+  virtual void takeMacroLoad(const NodalLoad& load) = 0;
+  /// The half macro step's kick that ends it.
   virtual void end() = 0;
   /// A step of K dt under `load`, all else standing.
   virtual void stepUnder(const NodalLoad& load) = 0;
@@ -55,9 +57,9 @@ public:
   /// What the linear systems of its steps are going to take; nothing if there are none.
   virtual fem::LinearForecast forecast() { return {}; }
 
-  /// Whether what rings at periods of few steps is to die out; settle() asks for it.
+  /// Whether what rings at periods of few steps is to die out; relax() asks for it.
   virtual void damp(bool) {}
-  /// On every node at the end of a window, N: the solid's own, those of connectors, and what constraints answer.
+  /// On every node at the end of a macro step, N: the solid's own, those of connectors, and what constraints answer.
   virtual std::vector<Vec3> forces() const = 0;
   virtual double kineticEnergy() const = 0;
   /// What loads of its own and supports have given.

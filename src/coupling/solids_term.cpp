@@ -32,19 +32,19 @@ void SolidsTerm::book(dem::Model& m, const dem::Step& step) {
   for (const auto& solid : run_->solids) solid->takeLoad();
 }
 
-/// What constraints do in both half windows around their ends goes with its particles.
+/// What constraints do in both half macro steps around their ends goes with its particles.
 double SolidsTerm::renumber(std::span<const int> newNumber, const dem::Particles& before) {
   if (isAwake()) run_->outside.left(run_->grains, newNumber, before);
-  if (!run_ || run_->windowForce.empty()) return 0.0;
+  if (!run_ || run_->macroForce.empty()) return 0.0;
   std::vector<Vec3> moved(newNumber.size());
   std::size_t stay = 0;
-  for (std::size_t i = 0; i < newNumber.size() && i < run_->windowForce.size(); ++i) {
+  for (std::size_t i = 0; i < newNumber.size() && i < run_->macroForce.size(); ++i) {
     if (newNumber[i] < 0) continue;
-    moved[static_cast<std::size_t>(newNumber[i])] = run_->windowForce[i];
+    moved[static_cast<std::size_t>(newNumber[i])] = run_->macroForce[i];
     ++stay;
   }
   moved.resize(stay);
-  run_->windowForce = std::move(moved);
+  run_->macroForce = std::move(moved);
   return 0.0;
 }
 

@@ -29,11 +29,11 @@ void passMatrix(Archive& archive, Matrix& matrix) {
 
 class Resting {
 public:
-  explicit Resting(const RestingCells& settings) : settings_(settings) {}
+  explicit Resting(const QuasiStaticCells& settings) : settings_(settings) {}
 
   /// A cell that is to stay where it was committed is at rest there already.
   void go(rve::Cell& cell, const Eigen::Matrix3d& F, double, bool stays) const {
-    if (!stays) settle(cell, F, settings_);
+    if (!stays) relax(cell, F, settings_);
   }
   /// @param cell  the answer  @param committed  what its path started from
   rve::Tangent tangent(const rve::Cell& cell, const rve::CellState& committed) {
@@ -71,7 +71,7 @@ public:
   }
 
 private:
-  RestingCells settings_;
+  QuasiStaticCells settings_;
   rve::FrozenMean history_;
   rve::Tangent last_ = rve::Tangent::Zero();
   bool asked_ = false;  ///< whether there is a last one
@@ -86,7 +86,7 @@ private:
 };
 
 struct Moving {
-  MovingCells settings;
+  DynamicCells settings;
 
   void go(rve::Cell& cell, const Eigen::Matrix3d& F, double dt, bool stays) const {
     if (!stays || dt > 0.0) stepTo(cell, F, settings);
@@ -189,11 +189,11 @@ std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Cell> bank, double unb
 
 }  // namespace
 
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const RestingCells& settings) {
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const QuasiStaticCells& settings) {
   return fieldOf(std::move(bank), settings.unbalanced, Resting{settings});
 }
 
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const MovingCells& settings) {
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const DynamicCells& settings) {
   return fieldOf(std::move(bank), rve::RestSettings{}.unbalanced, Moving{settings});
 }
 

@@ -13,13 +13,13 @@ namespace {
 
 constexpr const char* where = "cell of grains";
 
-void validate(const RestingCells& settings) {
+void validate(const QuasiStaticCells& settings) {
   requirePositive(settings.unbalanced, "unbalanced share of forces");
   if (settings.path.rest.steps < 1)
-    throw InputError("cells are not to come to rest", where, "give path.rest.steps, or MovingCells");
+    throw InputError("cells are not to come to rest", where, "give path.rest.steps, or DynamicCells");
 }
 
-void validate(const MovingCells& settings) {
+void validate(const DynamicCells& settings) {
   requirePositive(settings.strainPerStep, "strain of a step");
   if (!(settings.damping >= 0.0 && settings.damping < 1.0))
     throw InputError("damping is " + formatNumber(settings.damping), where, "give a share of 0 or more, below 1");
@@ -29,7 +29,7 @@ void validate(const MovingCells& settings) {
 }
 
 /// @throws NumericalError if there are more than a run could want
-int stepsFor(double strain, const MovingCells& settings) {
+int stepsFor(double strain, const DynamicCells& settings) {
   const double steps = std::max(1.0, std::ceil(strain / settings.strainPerStep));
   if (!(steps <= 1e6))
     throw NumericalError(
@@ -40,7 +40,7 @@ int stepsFor(double strain, const MovingCells& settings) {
 
 }  // namespace
 
-void settle(rve::Cell& cell, const Eigen::Matrix3d& F, const RestingCells& settings) {
+void relax(rve::Cell& cell, const Eigen::Matrix3d& F, const QuasiStaticCells& settings) {
   validate(settings);
   rve::RestReport rest = rve::followPath(cell, F, settings.path).rest;
   if (rest.atRest && rest.unbalanced > settings.unbalanced) rest = rve::polish(cell, settings.unbalanced);
@@ -57,7 +57,7 @@ void settle(rve::Cell& cell, const Eigen::Matrix3d& F, const RestingCells& setti
     throw NumericalError("no grains touch", where, "keep it under pressure: there is no cohesion");
 }
 
-void stepTo(rve::Cell& cell, const Eigen::Matrix3d& F, const MovingCells& settings) {
+void stepTo(rve::Cell& cell, const Eigen::Matrix3d& F, const DynamicCells& settings) {
   validate(settings);
   if (!F.allFinite() || !(F.determinant() > 0.0))
     throw InputError("the determinant of F is " + formatNumber(F.determinant()), where,

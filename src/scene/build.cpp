@@ -34,7 +34,7 @@ std::vector<Limit> limitsOfParts(Built& built, const Scene& scene) {
     coupling::SolidSide& side = built.run->solid(s);
     if (side.stepping == coupling::Stepping::implicitSteps) continue;
     const fem::ModelStableStep stable = fem::stableStep(*side.model);
-    found.push_back({stable.owner(side.name), stable.dt / scene.steps.stepsPerWindow});
+    found.push_back({stable.owner(side.name), stable.dt / scene.steps.stepsPerMacroStep});
   }
   const Impact impact = briefestImpact(scene, built.run->grains.particles);
   found.push_back({"an impact of the smallest grains" + impact.materials, impact.limit});
@@ -92,13 +92,13 @@ bool goesOn(const TimeVector& velocity, const Vec3& angularVelocity = {}) {
   return norm(constantOf(velocity)) > 0.0 || norm(angularVelocity) > 0.0;
 }
 
-/// What has a steady velocity goes on while a stage settles, or is stopped with all else.
+/// What has a steady velocity goes on while a stage relaxes, or is stopped with all else.
 void requireStandstill(const Scene& scene) {
-  const auto settles = [](const Stage& stage) { return std::holds_alternative<Settle>(stage.kind); };
-  if (std::none_of(scene.stages.begin(), scene.stages.end(), settles)) return;
+  const auto relaxes = [](const Stage& stage) { return std::holds_alternative<Relax>(stage.kind); };
+  if (std::none_of(scene.stages.begin(), scene.stages.end(), relaxes)) return;
   const auto refuse = [](const std::string& what, const std::string& where) {
-    throw InputError("a stage settles, but " + what + " has a steady velocity", where,
-                     "run for a time in place of settling, or let it begin later by a displacement such as "
+    throw InputError("a stage relaxes, but " + what + " has a steady velocity", where,
+                     "run for a time in place of relaxing, or let it begin later by a displacement such as "
                      "\"0.1*max(0, t - 1)\"");
   };
   for (const Wall& wall : scene.walls)
@@ -158,7 +158,7 @@ bool nothingIsThere(const Built& built, const Scene& scene) {
 
 void start(Built& built, const Scene& scene) {
   bool allLeave = false;
-  const coupling::RunOptions options{.stepsPerWindow = scene.steps.stepsPerWindow,
+  const coupling::RunOptions options{.stepsPerMacroStep = scene.steps.stepsPerMacroStep,
                                      .lag = static_cast<coupling::Lag>(scene.steps.lag)};
   atPlace(scene.steps.where, [&] {
     if (scene.steps.dt.word.empty()) {

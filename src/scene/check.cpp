@@ -14,7 +14,7 @@ namespace dovetail::scene {
 
 namespace {
 
-constexpr double longestMeasured = 0.5;  // s of a window, by the size of its linear systems
+constexpr double longestMeasured = 0.5;  // s of a macro step, by the size of its linear systems
 
 /// Of a scene that cannot start, as far as they can be told.
 void tellWarnings(const Built& built, const Scene& scene, bool starts, std::ostream& log) {
@@ -47,7 +47,7 @@ double solverMemory(const Built& built) {
   return bytes;
 }
 
-/// Of a window: one factorisation of every solid, or a hundred iterations, at rates of one core. s
+/// Of a macro step: one factorisation of every solid, or a hundred iterations, at rates of one core. s
 double solverTime(const Built& built) {
   double seconds = 0.0;
   for (const fem::LinearForecast& forecast : built.forecasts)
@@ -55,18 +55,18 @@ double solverTime(const Built& built) {
   return seconds;
 }
 
-/// Seconds that a window takes: of ten if these take no longer than three seconds, of more for up to a second.
-double secondsPerWindow(coupling::CoupledRun& run) {
+/// Seconds that a macro step takes: of ten if these take no longer than three seconds, of more for up to a second.
+double secondsPerMacroStep(coupling::CoupledRun& run) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begun = Clock::now();
   double seconds = 0.0;
-  int windows = 0;
-  while (windows == 0 || (windows < 10 && seconds < 3.0) || (seconds < 1.0 && windows < 1000)) {
+  int macroSteps = 0;
+  while (macroSteps == 0 || (macroSteps < 10 && seconds < 3.0) || (seconds < 1.0 && macroSteps < 1000)) {
     run.advance();
-    ++windows;
+    ++macroSteps;
     seconds = std::chrono::duration<double>(Clock::now() - begun).count();
   }
-  return seconds / windows;
+  return seconds / macroSteps;
 }
 
 void tellTime(Built& built, const Scene& scene, const Plan& plan, std::ostream& log) {
@@ -81,17 +81,17 @@ void tellTime(Built& built, const Scene& scene, const Plan& plan, std::ostream& 
     }
   const double foreseen = solverTime(built);
   const bool isMeasured = foreseen < longestMeasured;
-  const double each = isMeasured ? secondsPerWindow(*built.run) : foreseen;
-  log << "stages run for " << time << " s: " << wanted << " windows of " << scene.steps.stepsPerWindow << " steps, "
-      << formatDuration(each * static_cast<double>(wanted)) << " at " << 1e3 * each << " ms each "
+  const double each = isMeasured ? secondsPerMacroStep(*built.run) : foreseen;
+  log << "stages run for " << time << " s: " << wanted << " macro steps of " << scene.steps.stepsPerMacroStep
+      << " steps, " << formatDuration(each * static_cast<double>(wanted)) << " at " << 1e3 * each << " ms each "
       << (isMeasured ? "as it is now" : "or more, by the size of the linear systems") << '\n';
   constexpr double month = 30.0 * 86400.0;
   if (each * static_cast<double>(wanted) > month)
     log << "WARNING: The stages take more than a month: take a shorter time, look at its unit, or take larger grains "
            "and elements, or softer ones.\n";
   if (atMost > 0)
-    log << "stages settle in at most " << atMost << " windows, " << formatDuration(each * static_cast<double>(atMost))
-        << '\n';
+    log << "stages relax in at most " << atMost << " macro steps, "
+        << formatDuration(each * static_cast<double>(atMost)) << '\n';
 }
 
 double mebibytes(double bytes) { return std::round(bytes / 1048576.0); }

@@ -31,7 +31,7 @@ void archiveFields(Archive& archive, R& remark) requires std::is_same_v<std::rem
 /// Where a run stands in its stages, and what it has written.
 struct Progress {
   std::uint64_t stage = 0;
-  std::int64_t window = 0;      ///< in this stage
+  std::int64_t macroStep = 0;   ///< in this stage
   std::uint64_t rows = 0;       ///< of the series
   std::vector<double> frames;   ///< their times, s
   coupling::RestProgress rest;  ///< of a stage that brings to rest

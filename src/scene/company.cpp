@@ -24,7 +24,7 @@ std::size_t nearestOf(const std::vector<Vec3>& places, const Vec3& at) {
 /// Longest way from a node to another one of its elements, m.
 double spacingAt(const fem::SolidMesh& mesh, std::size_t node) {
   double longest = 0.0;
-  for (const fem::CellGroup& group : mesh.groups) {
+  for (const fem::ElementGroup& group : mesh.groups) {
     const auto corners = static_cast<std::size_t>(fem::nodesOf(group.shape));
     for (std::size_t e = 0; e < group.size(); ++e) {
       const std::span<const int> own(group.node.data() + corners * e, corners);

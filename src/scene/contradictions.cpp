@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/scene/files.hpp"
 #include "keys.hpp"
@@ -80,7 +80,7 @@ void lookAtHeldFaces(const Built& built, const Scene& scene, std::size_t s, cons
 /// Their overlap moves them as well.
 void lookAtDrivenInOverlaps(const Built& built, Lines& lines) {
   const dem::Model& grains = built.run->grains;
-  for (const auto* tie : std::as_const(grains).terms.all<arlequin::OverlapTie>()) {
+  for (const auto* tie : std::as_const(grains).terms.all<arlequin::ArlequinCoupling>()) {
     const auto held = tie->overlap().particle;
     const std::set<int> within(held.begin(), held.end());
     const auto drives = std::as_const(grains).terms.all<dem::DriveTerm>();

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <set>
 
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/handed_load.hpp"
-#include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
@@ -160,8 +160,9 @@ void requireConsistent(const Overlap& overlap, const coupling::SolidSide& side, 
           "take \"constraint\": \"dashpot\" or leave order out");
   require(implicit || !overlap.staggered, "the order \"staggered\" wants an implicit solid",
           "give the solid \"stepping\": \"implicit\" or leave order out");
-  require(!overlap.staggered || scene.steps.stepsPerWindow == 1,
-          "the order \"staggered\" takes the solid along in every step", "take \"per_window\": 1 or leave order out");
+  require(!overlap.staggered || scene.steps.stepsPerMacroStep == 1,
+          "the order \"staggered\" takes the solid along in every step",
+          "take \"per_macro_step\": 1 or leave order out");
   require(!overlap.reachOut || overlap.gap != 0, "kernels that reach outside want a gap at nodes",
           "take \"gap\": \"nodal\" or leave kernel_reach out");
   require(!implicit || overlap.absorber == 0.0, "the absorber works with explicit solids only",

@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::int64_t lookEvery = 20;             // windows between two looks at signals
+constexpr std::int64_t lookEvery = 20;             // macro steps between two looks at signals
 constexpr std::int64_t deepEvery = 5 * lookEvery;  // at contacts: a look costs as much as half a step
 
 std::string textOf(const Remark& remark) { return {remark.text.begin(), remark.text.end()}; }
@@ -71,12 +71,12 @@ public:
 
   bool finish() {
     counted_ = Clock::now();
-    for (; progress_.stage < scene_.stages.size(); ++progress_.stage, progress_.window = 0) {
-      const auto* const settle = std::get_if<Settle>(&scene_.stages[progress_.stage].kind);
-      if (!(settle ? comeToRest(*settle) : runFor(plan_.stages[progress_.stage]))) return stop();
+    for (; progress_.stage < scene_.stages.size(); ++progress_.stage, progress_.macroStep = 0) {
+      const auto* const relax = std::get_if<Relax>(&scene_.stages[progress_.stage].kind);
+      if (!(relax ? comeToRest(*relax) : runFor(plan_.stages[progress_.stage]))) return stop();
       // Before what only an end has: longer runs go on from here.
       if (progress_.stage + 1 == scene_.stages.size() && plan_.checkpoints > 0) checkpoint();
-      settle ? endRest() : endRun();
+      relax ? endRest() : endRun();
       countTime();
       log_ << lineOf(progress_.stage) << std::endl;
     }
@@ -94,9 +94,7 @@ public:
 private:
   fs::path file(const char* name) const { return settings_.folder / name; }
   static double rounded(double seconds) { return std::round(1e3 * seconds) / 1e3; }
-  static const char* nameOf(const Stage& stage) {
-    return std::holds_alternative<Settle>(stage.kind) ? "settle" : "run";
-  }
+  static const char* nameOf(const Stage& stage) { return std::holds_alternative<Relax>(stage.kind) ? "relax" : "run"; }
   std::string lineOf(std::size_t stage) const {
     return "stage " + std::to_string(stage + 1) + ": " + formatNumber(rounded(seconds_[stage])) + " s";
   }
@@ -130,13 +128,13 @@ private:
                true);
   }
 
-  bool comeToRest(const Settle& settle) {
+  bool comeToRest(const Relax& relax) {
     coupling::RestProgress& rest = progress_.rest;
-    const coupling::RestOptions options{.kinetic = settle.kinetic, .windows = settle.windows};
+    const coupling::RestOptions options{.kinetic = relax.kinetic, .macroSteps = relax.macroSteps};
     for (bool ended = false; !ended;) {
-      const std::int64_t next = nextLook(progress_.window, settle.windows);
-      ended = coupling::settleOn(*built_.run, options, rest, next - progress_.window);
-      progress_.window = rest.report.windows;
+      const std::int64_t next = nextLook(progress_.macroStep, relax.macroSteps);
+      ended = coupling::relaxOn(*built_.run, options, rest, next - progress_.macroStep);
+      progress_.macroStep = rest.report.macroSteps;
       lookForRoom();
       warn();
       if (ended) break;
@@ -148,9 +146,9 @@ private:
   void endRest() {
     coupling::RestProgress& rest = progress_.rest;
     const std::string line = std::string(rest.report.atRest ? "at rest" : "NOT at rest") + " after " +
-                             std::to_string(rest.report.windows) + " windows, kinetic over elastic energy " +
+                             std::to_string(rest.report.macroSteps) + " macro steps, kinetic over elastic energy " +
                              formatNumber(rest.report.kinetic) +
-                             (rest.report.atRest ? "" : ": give it more windows, or run for a time instead");
+                             (rest.report.atRest ? "" : ": give it more macro steps, or run for a time instead");
     remark(line, !rest.report.atRest);
     rest = {};
     sample(0);
@@ -161,27 +159,28 @@ private:
     if (!due(plan_.frames)) frame(0);
   }
 
-  bool runFor(std::int64_t windows) {
+  bool runFor(std::int64_t macroSteps) {
     coupling::CoupledRun& run = *built_.run;
-    dovetail::Progress shown("stage " + std::to_string(progress_.stage + 1), static_cast<double>(windows),
+    dovetail::Progress shown("stage " + std::to_string(progress_.stage + 1), static_cast<double>(macroSteps),
                              settings_.progress);
     const Clock::time_point begun = Clock::now();
-    const std::int64_t first = progress_.window;
-    while (progress_.window < windows) {
-      const std::int64_t before = progress_.window, next = nextLook(before, windows);
-      run.advance(next - before, next == windows || isLookedInto(next));
-      progress_.window = next;
+    const std::int64_t first = progress_.macroStep;
+    while (progress_.macroStep < macroSteps) {
+      const std::int64_t before = progress_.macroStep, next = nextLook(before, macroSteps);
+      run.advance(next - before, next == macroSteps || isLookedInto(next));
+      progress_.macroStep = next;
       warn();
       const double rate = static_cast<double>(next - first) / since(begun);
       shown.update(static_cast<double>(next),
-                   "t = " + formatNumber(run.time()) + " s  " + std::to_string(std::llround(rate)) + " windows/s");
-      if (!shown.shown() && 10 * next / windows > 10 * before / windows && next < windows)
-        log_ << "t = " << run.time() << " s, " << 100 * next / windows << " %, " << std::llround(rate) << " windows/s, "
-             << formatDuration(static_cast<double>(windows - next) / rate) << " to go" << std::endl;
+                   "t = " + formatNumber(run.time()) + " s  " + std::to_string(std::llround(rate)) + " macro steps/s");
+      if (!shown.shown() && 10 * next / macroSteps > 10 * before / macroSteps && next < macroSteps)
+        log_ << "t = " << run.time() << " s, " << 100 * next / macroSteps << " %, " << std::llround(rate)
+             << " macro steps/s, " << formatDuration(static_cast<double>(macroSteps - next) / rate) << " to go"
+             << std::endl;
       lookForRoom();
       sample(plan_.series);
       frame(plan_.frames);
-      if (due(plan_.checkpoints) && next < windows) checkpoint();
+      if (due(plan_.checkpoints) && next < macroSteps) checkpoint();
       if (io::interruption() != 0) return false;
     }
     return true;
@@ -195,13 +194,13 @@ private:
     return next;
   }
   /// Looks at signals alone ask nobody for energies.
-  bool isLookedInto(std::int64_t window) const {
+  bool isLookedInto(std::int64_t macroStep) const {
     return std::ranges::any_of(std::array{plan_.series, plan_.frames, plan_.checkpoints},
-                               [&](std::int64_t every) { return every > 0 && window % every == 0; });
+                               [&](std::int64_t every) { return every > 0 && macroStep % every == 0; });
   }
-  bool due(std::int64_t every) const { return every > 0 && progress_.window % every == 0; }
+  bool due(std::int64_t every) const { return every > 0 && progress_.macroStep % every == 0; }
 
-  /// @param every  windows; 0: now
+  /// @param every  macro steps; 0: now
   void sample(std::int64_t every) {
     if (!series_ || (every > 0 && !due(every))) return;
     series_->add(built_);
@@ -209,7 +208,7 @@ private:
     progress_.rows = series_->rows();
   }
   void warn() {
-    if (progress_.window % deepEvery == 0) lookForDeepGrains(built_.run->grains, progress_.deep);
+    if (progress_.macroStep % deepEvery == 0) lookForDeepGrains(built_.run->grains, progress_.deep);
     if (progress_.toldOfStep) return;
     const coupling::CoupledRun& run = *built_.run;
     if (const auto& passed = run.grains.passed) return tellOfStep(passed->time, passed->limit, passed->owner);

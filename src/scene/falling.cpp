@@ -103,7 +103,7 @@ void lookForEscapes(const Scene& scene, const Vec3& down, Lines& lines) {
 }  // namespace
 
 void lookForFalling(const Built& built, const Scene& scene, Lines& lines) {
-  const auto settles = [](const Stage& stage) { return std::holds_alternative<Settle>(stage.kind); };
+  const auto relaxes = [](const Stage& stage) { return std::holds_alternative<Relax>(stage.kind); };
   const double g = norm(scene.gravity);
   const dem::Model& grains = built.run->grains;
   const dem::Particles& p = grains.particles;
@@ -118,10 +118,10 @@ void lookForFalling(const Built& built, const Scene& scene, Lines& lines) {
   const bool entering = std::ranges::any_of(
       scene.insertions, [&](const Insertion& one) { return shadows.holds(one.region, one.radius.largest); });
   if (entering || (count == 0 && scene.insertions.empty())) return;
-  if (count > 0 && std::ranges::any_of(scene.stages, settles))
+  if (count > 0 && std::ranges::any_of(scene.stages, relaxes))
     lines.push_back(
         std::to_string(count) + " of " + std::to_string(p.size()) +
-        " grains have nothing below them, fall for ever, and a stage that settles never ends: give the scene "
+        " grains have nothing below them, fall for ever, and a stage that relaxes never ends: give the scene "
         "a wall or a solid below, or run for a time.");
   else if (count == p.size())
     lookForEscapes(scene, down, lines);

@@ -61,7 +61,7 @@ void describe(Fields& f, Overlap& v);
 void describe(Fields& f, Coupling& v);
 void describe(Fields& f, Periodic& v);
 void describe(Fields& f, Domain& v);
-void describe(Fields& f, Settle& v);
+void describe(Fields& f, Relax& v);
 void describe(Fields& f, RunFor& v);
 void describe(Fields& f, Stage& v);
 void describe(Fields& f, Steps& v);

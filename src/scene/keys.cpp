@@ -28,13 +28,13 @@ void describe(Fields& f, Domain& v) {
 
 // ---- the run
 
-void describe(Fields& f, Settle& v) {
+void describe(Fields& f, Relax& v) {
   f.number({"kinetic", "kinetic over elastic energy below which all is at rest"}, v.kinetic, between(0.0, 1.0, true));
-  f.integer({"windows", "windows of steps after which it is given up"}, v.windows, 1, many);
+  f.integer({"macro_steps", "macro steps after which it is given up"}, v.macroSteps, 1, many);
 }
 void describe(Fields& f, RunFor& v) { f.number({"time", "that is simulated"}, v.time, positive(unit::time)); }
 void describe(Fields& f, Stage& v) {
-  static constexpr const char* kinds[] = {"settle", "run"};
+  static constexpr const char* kinds[] = {"relax", "run"};
   f.where(v.where);
   f.oneOf({"do", "bring all to rest by kinetic damping, or run for a time"}, v.kind, kinds);
 }
@@ -45,7 +45,7 @@ void describe(Fields& f, Steps& v) {
   f.numberOrWord({"dt", "time step of the grains"}, v.dt, positive(unit::time), automatic);
   f.number({"safety", "share of the critical step that \"auto\" takes; impacts take eight steps, or more"}, v.safety,
            between(0.0, 1.0, true));
-  f.integer({"per_window", "K: steps of the grains per step of the solids"}, v.stepsPerWindow, 1, 100000);
+  f.integer({"per_macro_step", "K: steps of the grains per step of the solids"}, v.stepsPerMacroStep, 1, 100000);
   f.choice(
       {"lag",
        "of what solids feel: none; or, to compare with staggered schemes of the literature, loads one step old, or "

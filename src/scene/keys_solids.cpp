@@ -134,7 +134,7 @@ void describe(Fields& f, Solid& v) {
             "of implicit steps; auto: direct as long as the factors take no more than 2 GiB, else conjugate gradients, "
             "which take a fraction of the memory"},
            v.linearSolver, solvers);
-  f.number({"mass_share",
+  f.number({"consistent_mass",
             "of the consistent mass, the rest being lumped; 1 with implicit steps, else 0, if not given; (1 - "
             "(d/h)^2)/2 lets waves go as in a lattice of "
             "grains of diameter d in elements of edge h"},
@@ -201,8 +201,8 @@ void describe(Fields& f, Overlap& v) {
   f.numberOrWord({"penalty", "stiffness per volume; of a dashpot, to be given, that of its increments"}, v.penalty,
                  positive(unit::penalty), automatic);
   f.choice({"dashpot_matrix", "of a dashpot: row sums, or products of shape functions"}, v.consistentDashpot, matrices);
-  f.choice({"order", "of a dashpot on an implicit solid: forces of the same window, or of the one before"}, v.staggered,
-           orders);
+  f.choice({"order", "of a dashpot on an implicit solid: forces of the same macro step, or of the one before"},
+           v.staggered, orders);
   f.choice(
       {"gap", "where the two fields are compared: at the grains, which makes no gap of linear fields, or at nodes"},
       v.gap, gaps);

@@ -15,15 +15,15 @@ constexpr const char* where = "--until";
 /// When the last stage began or will begin, s.
 double startOfLast(const Scene& scene, const Plan& plan, const Progress& progress, const coupling::CoupledRun& run) {
   const std::size_t last = scene.stages.size() - 1;
-  std::int64_t windows = -progress.window;
+  std::int64_t macroSteps = -progress.macroStep;
   for (std::size_t k = progress.stage; k < last; ++k) {
-    if (std::holds_alternative<Settle>(scene.stages[k].kind))
+    if (std::holds_alternative<Relax>(scene.stages[k].kind))
       throw InputError(
           "stage " + std::to_string(k + 1) + " has not come to rest yet, and nobody knows how long it will take", where,
           "resume the run without it until stage " + std::to_string(k + 2) + " has begun");
-    windows += plan.stages[k];
+    macroSteps += plan.stages[k];
   }
-  return run.time() + static_cast<double>(windows) * run.window();
+  return run.time() + static_cast<double>(macroSteps) * run.macroStep();
 }
 
 /// Without what is left over of sums of steps.
@@ -41,7 +41,7 @@ void lengthen(Scene& scene, const Plan& plan, const Progress& progress, const co
     throw InputError("the last stage brings to rest, and has no time", where,
                      "go on in a scene of its own whose grains and solids are those of this run's checkpoint");
   const double time = until - startOfLast(scene, plan, progress, run);
-  if (!(until >= run.time() - 0.5 * run.window() && time > 0.5 * run.window()))
+  if (!(until >= run.time() - 0.5 * run.macroStep() && time > 0.5 * run.macroStep()))
     throw InputError(
         formatNumber(until) + " s is not behind the state to go on from, of t = " + formatNumber(run.time()) + " s",
         where, "give a later time");

@@ -29,12 +29,12 @@ double expectedOf(const Insertion& one, double time) {
   return time * one.numberPerSecond.value_or(one.massPerSecond.value_or(0.0) / mass);
 }
 
-/// @param every  windows between two; 0: none
+/// @param every  macro steps between two; 0: none
 std::int64_t timesWritten(const Plan& plan, const Scene& scene, std::int64_t every) {
   if (every == 0) return 0;
   std::int64_t count = 1;
   for (std::size_t k = 0; k < plan.stages.size(); ++k)
-    count += std::holds_alternative<Settle>(scene.stages[k].kind) ? 1 : (plan.stages[k] + every - 1) / every;
+    count += std::holds_alternative<Relax>(scene.stages[k].kind) ? 1 : (plan.stages[k] + every - 1) / every;
   return count;
 }
 
@@ -100,21 +100,21 @@ std::string room(double bytes) {
 
 // ---- outputs that say nothing
 
-void lookAtIntervals(const Scene& scene, double window, Lines& lines) {
+void lookAtIntervals(const Scene& scene, double macroStep, Lines& lines) {
   struct Asked {
     const char *key, *what;
     const std::optional<double>& interval;
   };
   const Output& out = scene.output;
   const double time = timeOf(scene);
-  if (!(window < time)) return;
+  if (!(macroStep < time)) return;
   for (const Asked& one : {Asked{"series", "row", out.series}, Asked{"frames", "frame", out.frames},
                            Asked{"checkpoints", "checkpoint", out.checkpoints}})
-    if (one.interval && *one.interval < 0.9 * window)
+    if (one.interval && *one.interval < 0.9 * macroStep)
       lines.push_back("output." + std::string(one.key) + " asks for a " + one.what + " every " +
-                      rounded(*one.interval) + " s, more often than there are steps (" + rounded(window) +
+                      rounded(*one.interval) + " s, more often than there are steps (" + rounded(macroStep) +
                       " s), and gets one for each: take a larger interval, such as " +
-                      rounded(std::max(time / 200.0, window)) + " s.");
+                      rounded(std::max(time / 200.0, macroStep)) + " s.");
 }
 
 void lookAtContents(const Built& built, const Scene& scene, Lines& lines) {
@@ -150,15 +150,15 @@ void lookAtContents(const Built& built, const Scene& scene, Lines& lines) {
                       ": leave it out.");
 }
 
-void lookAtTimes(const Scene& scene, double window, Lines& lines) {
+void lookAtTimes(const Scene& scene, double macroStep, Lines& lines) {
   constexpr std::int64_t few = 10;
   for (std::size_t k = 0; k < scene.stages.size(); ++k) {
     const std::string of = "stages." + std::to_string(k);
-    if (const auto* const run = std::get_if<RunFor>(&scene.stages[k].kind); run && run->time < 0.5 * window)
-      lines.push_back(of + ".time is " + rounded(run->time) + " s, and a step " + rounded(window) +
+    if (const auto* const run = std::get_if<RunFor>(&scene.stages[k].kind); run && run->time < 0.5 * macroStep)
+      lines.push_back(of + ".time is " + rounded(run->time) + " s, and a step " + rounded(macroStep) +
                       " s: it runs for one; give it a longer time, or look at its unit.");
-    if (const auto* const settle = std::get_if<Settle>(&scene.stages[k].kind); settle && settle->windows < few)
-      lines.push_back(of + ".windows is " + std::to_string(settle->windows) +
+    if (const auto* const relax = std::get_if<Relax>(&scene.stages[k].kind); relax && relax->macroSteps < few)
+      lines.push_back(of + ".macro_steps is " + std::to_string(relax->macroSteps) +
                       ", and nothing comes to rest in so few steps: take some ten thousand.");
   }
 }
@@ -191,12 +191,12 @@ void lookAtOutput(const Built& built, const Scene& scene, Lines& lines) {
   const Frames frames = framesOf(built, scene, plan);
   if (frames.count > many)
     lines.push_back("output.frames asks for " + std::to_string(frames.count) + " frames" +
-                    (plan.frames == 1 ? ", one at every window of steps" : "") + ", " + room(frames.bytes()) +
+                    (plan.frames == 1 ? ", one at every macro step" : "") + ", " + room(frames.bytes()) +
                     " on disk: take a larger interval, such as " + rounded(timeOf(scene) / 200.0) + " s.");
   else
-    lookAtIntervals(scene, built.run->window(), lines);
+    lookAtIntervals(scene, built.run->macroStep(), lines);
   lookAtContents(built, scene, lines);
-  lookAtTimes(scene, built.run->window(), lines);
+  lookAtTimes(scene, built.run->macroStep(), lines);
   lookAtRates(scene, lines);
   std::error_code error;
   const auto free = std::filesystem::space(std::filesystem::current_path(error), error);

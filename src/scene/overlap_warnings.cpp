@@ -4,9 +4,9 @@
 #include <limits>
 #include <numbers>
 
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/arlequin/coupling_options.hpp"
-#include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/mesh/mesh_quality.hpp"
 #include "warnings.hpp"
@@ -41,7 +41,7 @@ void addElements(Shared& shared, const fem::SolidMesh& mesh, int axis, double lo
   const fem::MeshQuality quality = fem::measureQuality(mesh, 0);
   const double margin = 1e-6 * (upper - lower);
   std::size_t number = 0;
-  for (const fem::CellGroup& group : mesh.groups) {
+  for (const fem::ElementGroup& group : mesh.groups) {
     const auto corners = static_cast<std::size_t>(fem::nodesOf(group.shape));
     for (std::size_t e = 0; e < group.size(); ++e, ++number) {
       double least = std::numeric_limits<double>::infinity(), most = -least;
@@ -58,7 +58,7 @@ void addElements(Shared& shared, const fem::SolidMesh& mesh, int axis, double lo
   shared.elementSize /= static_cast<double>(std::max<std::size_t>(1, shared.elements));
 }
 
-Shared sharedPart(const Built& built, const arlequin::OverlapTie& tie, const fem::SolidMesh& mesh,
+Shared sharedPart(const Built& built, const arlequin::ArlequinCoupling& tie, const fem::SolidMesh& mesh,
                   const Overlap& overlap) {
   const auto [lower, upper] = std::minmax(overlap.solidBorder, overlap.particleBorder);
   Shared shared;
@@ -121,7 +121,7 @@ void lookAtPenalty(const Overlap& overlap, const Solid& solid, double elementSiz
 }  // namespace
 
 void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, const Overlap& overlap, Lines& lines) {
-  const auto ties = std::as_const(built.run->grains).terms.all<arlequin::OverlapTie>();
+  const auto ties = std::as_const(built.run->grains).terms.all<arlequin::ArlequinCoupling>();
   const auto found =
       std::find_if(ties.begin(), ties.end(), [&](const auto* tie) { return &tie->side() == &built.run->solid(solid); });
   if (found == ties.end()) return;
@@ -164,7 +164,7 @@ void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, co
 
 Lines strangersIn(const Built& built) {
   Lines lines;
-  for (const auto* tie : std::as_const(built.run->grains).terms.all<arlequin::OverlapTie>()) {
+  for (const auto* tie : std::as_const(built.run->grains).terms.all<arlequin::ArlequinCoupling>()) {
     const arlequin::OverlapState state = tie->state();
     if (state.strangers == 0) continue;
     const Vec3& x = state.strangerAt;

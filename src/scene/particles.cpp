@@ -37,14 +37,14 @@ geometry::Periodicity spaceOf(const geometry::Box& box, const Scene& scene) {
 }
 
 /// @param length  edge of the cube of which each holds one sphere
-void requireBearableIn(const geometry::Box& box, double length) {
+void requireMemoryIn(const geometry::Box& box, double length) {
   const Vec3 edges = box.upper - box.lower;
-  requireBearable(edges.x / length * (edges.y / length) * (edges.z / length), "spheres", BytesPer::grain,
-                  "take larger ones, or a smaller box");
+  requireMemory(edges.x / length * (edges.y / length) * (edges.z / length), "spheres", BytesPer::grain,
+                "take larger ones, or a smaller box");
 }
 
 void add(const Target& to, const Lattice& lattice) {
-  requireBearableIn(lattice.box, lattice.distance.value_or(2.0 * lattice.radius));
+  requireMemoryIn(lattice.box, lattice.distance.value_or(2.0 * lattice.radius));
   const auto kind = static_cast<dem::Lattice>(lattice.kind);
   dem::addPacking(
       to.grains.particles,
@@ -56,7 +56,7 @@ void add(const Target& to, const Lattice& lattice) {
 void add(const Target& to, const RandomPacking& packing) {
   const auto [least, most] = packing.radius;  // equally frequent between these
   const double meanCube = 0.25 * (least + most) * (least * least + most * most);
-  requireBearableIn(packing.box, std::cbrt(4.0 / 3.0 * std::numbers::pi * meanCube / packing.solidFraction));
+  requireMemoryIn(packing.box, std::cbrt(4.0 / 3.0 * std::numbers::pi * meanCube / packing.solidFraction));
   dem::PackingReport report;
   const dem::Packing spheres = dem::growPacking(dem::UniformSizes{packing.radius.smallest, packing.radius.largest},
                                                 spaceOf(packing.box, to.scene),

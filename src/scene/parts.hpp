@@ -34,7 +34,7 @@ struct BytesPer {
 };
 /// Before memory is taken. @throws InputError if so many spheres or cells cannot be meant, or do not fit the memory
 /// that is free
-void requireBearable(double count, const std::string& what, double bytesEach, const std::string& remedy);
+void requireMemory(double count, const std::string& what, double bytesEach, const std::string& remedy);
 
 std::shared_ptr<const dem::ContactLaws> makeLaws(const ContactLaw& law);
 /// Of all pairs of contact materials. @throws InputError telling the place of the law at fault

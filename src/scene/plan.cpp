@@ -12,10 +12,11 @@ namespace dovetail::scene {
 
 namespace {
 
-std::int64_t windowsIn(double seconds, double window, const std::string& where) {
-  const double count = seconds / window;
+std::int64_t macroStepsIn(double seconds, double macroStep, const std::string& where) {
+  const double count = seconds / macroStep;
   if (!(count < 1e15))
-    throw InputError(formatNumber(seconds) + " s are more than 1e15 windows of " + formatNumber(window) + " s", where,
+    throw InputError(formatNumber(seconds) + " s are more than 1e15 macro steps of " + formatNumber(macroStep) + " s",
+                     where,
                      "take a shorter time or a larger step, or look at the units of radii and meshes, which set it");
   return std::max<std::int64_t>(1, std::llround(count));
 }
@@ -34,14 +35,14 @@ void requireOutputs(const Output& output) {
 Plan planOf(const Built& built, const Scene& scene) {
   requireOutputs(scene.output);
   Plan plan;
-  const double window = built.run->window();
+  const double macroStep = built.run->macroStep();
   for (const Stage& stage : scene.stages)
-    if (const auto* const settle = std::get_if<Settle>(&stage.kind))
-      plan.stages.push_back(settle->windows);
+    if (const auto* const relax = std::get_if<Relax>(&stage.kind))
+      plan.stages.push_back(relax->macroSteps);
     else
-      plan.stages.push_back(windowsIn(std::get<RunFor>(stage.kind).time, window, stage.where));
+      plan.stages.push_back(macroStepsIn(std::get<RunFor>(stage.kind).time, macroStep, stage.where));
   const auto interval = [&](const std::optional<double>& seconds) {
-    return seconds ? windowsIn(*seconds, window, scene.output.where) : 0;
+    return seconds ? macroStepsIn(*seconds, macroStep, scene.output.where) : 0;
   };
   plan.series = interval(scene.output.series);
   plan.frames = interval(scene.output.frames);

@@ -1,4 +1,4 @@
-// Stages and outputs of a scene in windows of its steps.
+// Stages and outputs of a scene in macro steps of its steps.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 namespace dovetail::scene {
 
 struct Plan {
-  std::vector<std::int64_t> stages;                      ///< windows; of stages that settle, at most
-  std::int64_t series = 0, frames = 0, checkpoints = 0;  ///< windows between two; 0: none
+  std::vector<std::int64_t> stages;                      ///< macro steps; of stages that relax, at most
+  std::int64_t series = 0, frames = 0, checkpoints = 0;  ///< macro steps between two; 0: none
 };
 
-/// Of a started run. @throws InputError for times of more than 1e15 windows, and for outputs that would do nothing or
-/// that this build does not write
+/// Of a started run. @throws InputError for times of more than 1e15 macro steps, and for outputs that would do nothing
+/// or that this build does not write
 Plan planOf(const Built& built, const Scene& scene);
 
 }  // namespace dovetail::scene

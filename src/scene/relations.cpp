@@ -42,8 +42,8 @@ void lookAtLocking(const Built& built, const Solid& solid, std::size_t number, L
   if (nu < incompressible && !flows) return;
   const std::string why =
       flows ? " flows at constant volume (J2)" : " hardly changes its volume (poisson_ratio " + formatNumber(nu) + ")";
-  for (const fem::CellGroup& group : built.meshes[number].groups) {
-    const bool bricks = group.shape == fem::CellShape::hex8, tets = group.shape == fem::CellShape::tet4;
+  for (const fem::ElementGroup& group : built.meshes[number].groups) {
+    const bool bricks = group.shape == fem::ElementShape::hex8, tets = group.shape == fem::ElementShape::tet4;
     if (!tets && !(bricks && solid.formulation == "standard")) continue;
     lines.push_back(quoted(solid.name) + why + ", which " + (tets ? "tet4" : "hex8 (\"standard\")") +
                     " take for being rigid: " +

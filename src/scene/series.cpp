@@ -52,7 +52,7 @@ std::vector<std::string> channelsOf(coupling::CoupledRun& run) {
   if (!run.grains.terms.all<dem::BondTerm>().empty()) add("particles: fracture");
   for (std::size_t s = 0; s < run.solids(); ++s)
     for (const char* const later : {": supports", ": dissipated by elements"}) add(run.solid(s).name + later);
-  add("brought to rest");
+  add("kinetic damping");
   return names;
 }
 
@@ -107,7 +107,7 @@ void Series::takeUp(std::uint64_t rows) {
 }
 
 bool Series::looksAtLimit() const {
-  constexpr std::int64_t rarely = 2000;  // windows
+  constexpr std::int64_t rarely = 2000;  // macro steps
   return table_.rows() % static_cast<std::uint64_t>(std::max<std::int64_t>(1, rarely / files_.every)) == 0;
 }
 

@@ -26,10 +26,10 @@ struct SeriesFiles {
   std::filesystem::path folder;
   io::KeyValues provenance;
   bool hdf5 = false;
-  std::int64_t every = 1;  ///< windows between two rows
+  std::int64_t every = 1;  ///< macro steps between two rows
 };
 
-/// The limit of the step takes the eigenvalues of all elements: rows closer than 2000 windows repeat the last one
+/// The limit of the step takes the eigenvalues of all elements: rows closer than 2000 macro steps repeat the last one
 /// found. Columns are those of the run at its start, of what grains may book later, and of probes.
 class Series {
 public:

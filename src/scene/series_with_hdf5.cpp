@@ -26,7 +26,7 @@ void writeSolidsHdf5(const std::filesystem::path& folder, const Built& built, co
     const std::vector<MeshField> values =
         solidFields(*side.model, mesh.elementCount(), scene.solids[s].material, contents);
     io::HdfGrid grid{.points = mesh.X, .connectivity = {}, .offsets = {0}, .types = {}, .fields = {}};
-    for (const fem::CellGroup& group : mesh.groups) {
+    for (const fem::ElementGroup& group : mesh.groups) {
       grid.connectivity.insert(grid.connectivity.end(), group.node.begin(), group.node.end());
       for (std::size_t e = 0; e < group.size(); ++e) {
         grid.offsets.push_back(grid.offsets.back() + fem::nodesOf(group.shape));

@@ -16,9 +16,9 @@ namespace dovetail::scene {
 namespace {
 
 fem::SolidMesh meshOf(const BoxMesh& box) {
-  requireBearable(1.0 * box.cells[0] * box.cells[1] * box.cells[2], "cells", BytesPer::cell, "take fewer");
+  requireMemory(1.0 * box.cells[0] * box.cells[1] * box.cells[2], "cells", BytesPer::cell, "take fewer");
   const auto shape = std::find_if(fem::allCellShapes.begin(), fem::allCellShapes.end(),
-                                  [&](fem::CellShape one) { return box.shape == fem::name(one); });
+                                  [&](fem::ElementShape one) { return box.shape == fem::name(one); });
   return fem::boxOf(*shape, box.cells, box.box.lower, box.box.upper);
 }
 fem::SolidMesh meshOf(const MeshFile& from, std::vector<std::string>& notes) {
@@ -38,10 +38,10 @@ fem::SolidMesh meshOf(const Solid& solid, std::vector<std::string>& notes) {
 }
 
 /// A set with the elements of this shape, which may have another name if the file uses that.
-std::string setOfShape(fem::SolidMesh& mesh, fem::CellShape shape) {
+std::string setOfShape(fem::SolidMesh& mesh, fem::ElementShape shape) {
   std::vector<int> elements;
   int next = 0;
-  for (const fem::CellGroup& group : mesh.groups)
+  for (const fem::ElementGroup& group : mesh.groups)
     for (std::size_t e = 0; e < group.size(); ++e, ++next)
       if (group.shape == shape) elements.push_back(next);
   std::string name = fem::name(shape);
@@ -71,7 +71,7 @@ const Overlap* overlapWith(const Solid& solid, const Scene& scene) {
 void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap) {
   fem::SolidOptions options{.formulation = formulationOf(solid.formulation), .name = "elements"};
   if (overlap) options.share = arlequin::solidWeights(overlapWeights(*overlap, mesh));
-  for (const fem::CellGroup& group : mesh.groups) {
+  for (const fem::ElementGroup& group : mesh.groups) {
     if (mesh.groups.size() > 1) options.elementSet = options.name = setOfShape(mesh, group.shape);
     model.add(fem::makeSolid(mesh, makeMaterial(solid.material), options));
   }
@@ -90,11 +90,11 @@ bool weighUnevenly(const fem::Nodes& nodes) {
 /// Lumped masses of these shapes cannot both fall alike and weigh as the elements do.
 std::string unevenWeight(const Solid& solid, const fem::SolidMesh& mesh) {
   std::string shapes;
-  for (const fem::CellGroup& group : mesh.groups)
+  for (const fem::ElementGroup& group : mesh.groups)
     shapes += (shapes.empty() ? std::string() : ", ") + fem::name(group.shape);
   return "WARNING: \"" + solid.name + "\" (" + shapes +
          ") has lumped masses, on which gravity acts: where it is held it deforms otherwise than under its weight, by "
-         "tens of per cent if the mesh is coarse. Write \"mass_share\": 1" +
+         "tens of per cent if the mesh is coarse. Write \"consistent_mass\": 1" +
          (solid.implicitSteps ? "." : ", or \"stepping\": \"implicit\".");
 }
 

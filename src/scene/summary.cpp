@@ -30,7 +30,7 @@ Json solidsOf(const Built& built) {
 
 Json stepOf(coupling::CoupledRun& run) {
   const coupling::StepLimit limit = run.criticalStep();
-  return {{"dt_s", run.dt()}, {"window_s", run.window()}, {"limit_s", limit.dt}, {"limited_by", limit.owner}};
+  return {{"dt_s", run.dt()}, {"window_s", run.macroStep()}, {"limit_s", limit.dt}, {"limited_by", limit.owner}};
 }
 
 Json insertionsListed(const Built& built) {

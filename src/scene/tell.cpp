@@ -53,7 +53,7 @@ void tellState(const fs::path& file, std::ostream& out) {
   const Checkpoint checkpoint = loadCheckpoint(file);
   const Progress& progress = checkpoint.progress;
   out << "checkpoint of the scene " << hashOf(checkpoint.scene) << " at t = " << checkpoint.time << " s: stage "
-      << progress.stage + 1 << ", window " << progress.window << ", " << progress.rows << " rows and "
+      << progress.stage + 1 << ", macro step " << progress.macroStep << ", " << progress.rows << " rows and "
       << progress.frames.size() << " frames written, " << checkpoint.state.size() << " bytes\n";
 }
 

@@ -70,7 +70,7 @@ bool tellShape(const fs::path& file, std::ostream& out) {
   if (ending != ".msh" && ending != ".inp") return false;
   const auto [mesh, notes] = readMesh(file.string());
   out << "mesh of " << mesh.X.size() << " nodes\n";
-  for (const fem::CellGroup& group : mesh.groups)
+  for (const fem::ElementGroup& group : mesh.groups)
     out << "  " << group.size() << " elements " << fem::name(group.shape) << '\n';
   for (const auto& [name, elements] : mesh.elementSets)
     out << "  element set \"" << name << "\": " << elements.size() << '\n';

@@ -24,9 +24,9 @@ void requireClosed(const geometry::TriangleMesh& surface, const std::string& fil
 }
 
 /// A regular tetrahedron in a sphere of radius R has the volume 8/(9 √3) R³; no other one there is larger.
-void requireBearableIn(const geometry::TriangleMesh& surface, double size) {
-  requireBearable(geometry::signedVolume(surface.x, surface.facets) / (0.5132 * size * size * size), "tetrahedra",
-                  BytesPer::cell, "take a larger size");
+void requireMemoryIn(const geometry::TriangleMesh& surface, double size) {
+  requireMemory(geometry::signedVolume(surface.x, surface.facets) / (0.5132 * size * size * size), "tetrahedra",
+                BytesPer::cell, "take a larger size");
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ fem::SolidMesh meshOf(const TetrahedraMesh& from, std::vector<std::string>& note
   geometry::TriangleMesh surface = repairedSurface(from.file, geometry::ClosedPatches::turn, notes);
   for (Vec3& x : surface.x) x = from.scale * x;
   requireClosed(surface, from.file);
-  requireBearableIn(surface, from.size);
+  requireMemoryIn(surface, from.size);
   try {
     return mesherInUse()(surface, from.size, from.surfaceDistance.value_or(from.size / 20.0));
   } catch (const NumericalError& error) {

@@ -83,13 +83,14 @@ bool isOnlyStretched(const Scene& scene, const Solid& solid, const fem::SolidMes
 /// the rest; with that goes a shear strain that no beam has, as large as the brick is long, and a volume strain. What
 /// tetrahedra and mean dilatation make of that is fitted to beams of 1 to 4 layers and bricks of aspect ½ to 2 (within
 /// a tenth).
-double stiffnessOf(fem::CellShape shape, const std::string& formulation, const fem::MeshThickness& place, double nu) {
+double stiffnessOf(fem::ElementShape shape, const std::string& formulation, const fem::MeshThickness& place,
+                   double nu) {
   const double n = std::max(1.0, place.layers), rest = 1.0 / (n * n);
   const double ratio = place.elementLength / place.thickness, squared = ratio * ratio;
   const double shear = 0.5 * (1.0 - nu) * squared;
   const double volume = 0.5 * ((1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)) - 1.0);
-  if (shape == fem::CellShape::tet4) return 1.0 + (1.65 + 2.5 * nu) * rest + (1.45 - 1.1 * nu) * squared;
-  if (shape != fem::CellShape::hex8) return 1.0;
+  if (shape == fem::ElementShape::tet4) return 1.0 + (1.65 + 2.5 * nu) * rest + (1.45 - 1.1 * nu) * squared;
+  if (shape != fem::ElementShape::hex8) return 1.0;
   if (formulation == "standard") return 1.0 + shear + volume * rest;
   if (formulation == "mean-dilatation") return 1.0 - (0.42 + 0.35 * nu) * rest + shear;
   return formulation == "reduced" ? 1.0 - rest : 1.0;
@@ -110,7 +111,7 @@ std::string layersText(double layers) {
 }
 
 std::string sentence(const std::string& name, const Solid& solid, const fem::MeshThickness& place, double stiffness) {
-  const bool tets = place.shape == fem::CellShape::tet4, soft = stiffness < 1.0;
+  const bool tets = place.shape == fem::ElementShape::tet4, soft = stiffness < 1.0;
   std::string text = name + " has " + layersText(place.layers) + " of " +
                      (tets ? std::string("tet4") : "hex8 (\"" + solid.formulation + "\")") + ", " +
                      rounded(place.elementLength) + " m long, across parts " + rounded(place.thickness) +

@@ -185,8 +185,8 @@ void lookForFreeSolids(const Built& built, const Scene& scene, std::size_t numbe
 
 /// What moves has no rest; steady velocities are refused.
 void lookAtStages(const Scene& scene, Lines& lines) {
-  const auto settles = [](const Stage& stage) { return std::holds_alternative<Settle>(stage.kind); };
-  if (std::none_of(scene.stages.begin(), scene.stages.end(), settles)) return;
+  const auto relaxes = [](const Stage& stage) { return std::holds_alternative<Relax>(stage.kind); };
+  if (std::none_of(scene.stages.begin(), scene.stages.end(), relaxes)) return;
   const auto moves = [](const auto& one) {
     if constexpr (requires { one.turn; })
       if (one.turn && !isConstant(one.turn->angle)) return true;
@@ -199,11 +199,11 @@ void lookAtStages(const Scene& scene, Lines& lines) {
   for (const Solid& solid : scene.solids) any = any || std::any_of(solid.supports.begin(), solid.supports.end(), moves);
   if (!scene.insertions.empty())
     lines.push_back(
-        "A stage settles while grains enter, and may never come to rest: run for a time in its place, and settle in "
+        "A stage relaxes while grains enter, and may never come to rest: run for a time in its place, and relax in "
         "another scene that begins with its state.");
   if (any)
     lines.push_back(
-        "A stage settles while walls, drives or supports move, and may never come to rest: run for a time in "
+        "A stage relaxes while walls, drives or supports move, and may never come to rest: run for a time in "
         "its place, or let them start later in a run.");
 }
 

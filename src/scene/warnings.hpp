@@ -31,7 +31,7 @@ void lookAtCompany(const Built& built, const Scene& scene, Lines& lines);
 void lookForContradictions(const Built& built, const Scene& scene, Lines& lines);
 /// Walls, couplings and bonds that do nothing of use, and places against periods, other solids or themselves.
 void lookForIdleParts(const Built& built, const Scene& scene, Lines& lines);
-/// Grains that nothing keeps from falling while a stage settles.
+/// Grains that nothing keeps from falling while a stage relaxes.
 void lookForFalling(const Built& built, const Scene& scene, Lines& lines);
 /// Grains in a solid that no overlap lets be there.
 void lookForGrainsWithin(const Built& built, std::size_t solid, Lines& lines);

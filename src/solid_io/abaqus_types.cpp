@@ -9,7 +9,7 @@ namespace dovetail::solid_io {
 
 namespace {
 
-using fem::CellShape;
+using fem::ElementShape;
 constexpr std::array<const char*, 7> names = {"C3D8", "C3D20", "C3D27", "C3D4", "C3D10", "CPE4", "CPE8"};
 // S1 … S6 are z−, z+, y−, x+, y+, x−; the faces of tetrahedra have our order.
 constexpr std::array<int, 6> brickSides = {4, 5, 2, 1, 3, 0};
@@ -33,7 +33,7 @@ std::optional<AbaqusType> volumeType(const std::string& type) {
   const std::string base = type.substr(0, end), suffix = end == std::string::npos ? "" : type.substr(end);
   if (suffix.find_first_not_of("RIHMS") != std::string::npos) return {};
   for (std::size_t s = 0; s < names.size(); ++s) {
-    const auto shape = static_cast<CellShape>(s);
+    const auto shape = static_cast<ElementShape>(s);
     if (base == names[s]) return AbaqusType{3, shape, fem::nodesOf(shape), {}};
   }
   return {};
@@ -60,16 +60,16 @@ std::optional<AbaqusType> abaqusType(const std::string& type) {
   return {};
 }
 
-const char* abaqusName(CellShape shape) { return names[static_cast<std::size_t>(shape)]; }
+const char* abaqusName(ElementShape shape) { return names[static_cast<std::size_t>(shape)]; }
 
-int abaqusPlace(CellShape shape, int k) {
-  if (shape != CellShape::hex27 || k < 20) return k;
+int abaqusPlace(ElementShape shape, int k) {
+  if (shape != ElementShape::hex27 || k < 20) return k;
   if (k == 26) return 20;
   const auto face = std::find(brickSides.begin(), brickSides.end(), k - 20) - brickSides.begin();
   return 21 + static_cast<int>(face);
 }
 
-int sideOfFace(CellShape shape, int face) {
+int sideOfFace(ElementShape shape, int face) {
   const bool plane = fem::dimensionOf(shape) == 2;
   const int count = fem::cornersOf(shape) == 8 ? 6 : 4;
   if (face < 1 || face > count) return -1;

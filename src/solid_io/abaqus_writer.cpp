@@ -38,7 +38,7 @@ void writeNumbers(std::ostream& out, std::span<const int> numbers, std::size_t p
 
 void writeElements(const fem::SolidMesh& mesh, std::ostream& out) {
   int number = 0;
-  for (const fem::CellGroup& group : mesh.groups) {
+  for (const fem::ElementGroup& group : mesh.groups) {
     const auto n = static_cast<std::size_t>(fem::nodesOf(group.shape));
     out << "*ELEMENT, TYPE=" << abaqusName(group.shape) << '\n';
     for (std::size_t e = 0; e < group.size(); ++e) {
@@ -51,9 +51,9 @@ void writeElements(const fem::SolidMesh& mesh, std::ostream& out) {
   }
 }
 
-fem::CellShape shapeOf(const fem::SolidMesh& mesh, int element) {
+fem::ElementShape shapeOf(const fem::SolidMesh& mesh, int element) {
   auto e = static_cast<std::size_t>(element);
-  for (const fem::CellGroup& group : mesh.groups) {
+  for (const fem::ElementGroup& group : mesh.groups) {
     if (e < group.size()) return group.shape;
     e -= group.size();
   }
@@ -66,7 +66,7 @@ void writeSurfaces(const fem::SolidMesh& mesh, std::ostream& out) {
     out << "*SURFACE, NAME=" << written(name) << ", TYPE=ELEMENT\n";
     for (const fem::Face& face : faces) {
       const Side side = requireSide(finder, face, name);
-      const fem::CellShape shape = shapeOf(mesh, side.element);
+      const fem::ElementShape shape = shapeOf(mesh, side.element);
       int number = 1;
       while (sideOfFace(shape, number) != side.side) ++number;
       out << side.element + 1 << ", S" << number << '\n';

@@ -29,7 +29,7 @@ bool sameSense(std::span<const int> a, std::span<const int> b) {
 
 FaceFinder::FaceFinder(const fem::SolidMesh& mesh) : mesh_(mesh) {
   int number = 0;
-  for (const fem::CellGroup& group : mesh.groups)
+  for (const fem::ElementGroup& group : mesh.groups)
     for (std::size_t e = 0; e < group.size(); ++e, ++number)
       for (std::size_t side = 0; side < fem::localFacesOf(group.shape).size(); ++side) {
         const fem::Face face = fem::faceOf(group, e, side);
@@ -54,7 +54,7 @@ Side FaceFinder::find(std::span<const int> corners) const {
 
 fem::Face FaceFinder::face(const Side& side) const {
   auto e = static_cast<std::size_t>(side.element);
-  for (const fem::CellGroup& group : mesh_.groups) {
+  for (const fem::ElementGroup& group : mesh_.groups) {
     if (e < group.size()) return fem::faceOf(group, e, static_cast<std::size_t>(side.side));
     e -= group.size();
   }

@@ -6,21 +6,21 @@ namespace dovetail::solid_io {
 
 namespace {
 
-using fem::CellShape;
-constexpr auto none = CellShape::hex8;
+using fem::ElementShape;
+constexpr auto none = ElementShape::hex8;
 constexpr std::array<GmshType, 13> types = {{{1, 2, 1, none},
                                              {2, 3, 2, none},
                                              {3, 4, 2, none},
-                                             {4, 4, 3, CellShape::tet4},
-                                             {5, 8, 3, CellShape::hex8},
+                                             {4, 4, 3, ElementShape::tet4},
+                                             {5, 8, 3, ElementShape::hex8},
                                              {8, 3, 1, none},
                                              {9, 6, 2, none},
                                              {10, 9, 2, none},
-                                             {11, 10, 3, CellShape::tet10},
-                                             {12, 27, 3, CellShape::hex27},
+                                             {11, 10, 3, ElementShape::tet10},
+                                             {12, 27, 3, ElementShape::hex27},
                                              {15, 1, 0, none},
                                              {16, 8, 2, none},
-                                             {17, 20, 3, CellShape::hex20}}};
+                                             {17, 20, 3, ElementShape::hex20}}};
 // Gmsh counts edges by their lower corner, faces of the brick z−, y−, x−, x+, y+, z+.
 // Those of quadrilaterals are in our order, as the first eight nodes of bricks.
 constexpr std::array<int, 27> brickOrder = {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
@@ -42,7 +42,7 @@ std::string gmshTypeName(std::int64_t code) {
   return number;
 }
 
-int gmshCode(fem::CellShape shape) {
+int gmshCode(fem::ElementShape shape) {
   constexpr std::array<int, 7> codes = {5, 17, 12, 4, 11, 3, 16};
   return codes[static_cast<std::size_t>(shape)];
 }
@@ -52,10 +52,10 @@ int gmshCode(fem::FaceShape shape) {
   return codes[static_cast<std::size_t>(shape)];
 }
 
-std::span<const int> gmshOrder(fem::CellShape shape) {
+std::span<const int> gmshOrder(fem::ElementShape shape) {
   const auto count = static_cast<std::size_t>(fem::nodesOf(shape));
-  return shape == CellShape::tet4 || shape == CellShape::tet10 ? std::span<const int>(tetOrder).first(count)
-                                                               : std::span<const int>(brickOrder).first(count);
+  return shape == ElementShape::tet4 || shape == ElementShape::tet10 ? std::span<const int>(tetOrder).first(count)
+                                                                     : std::span<const int>(brickOrder).first(count);
 }
 
 }  // namespace dovetail::solid_io

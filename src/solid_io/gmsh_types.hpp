@@ -12,16 +12,16 @@ namespace dovetail::solid_io {
 
 struct GmshType {
   int code, nodes, dimension;
-  fem::CellShape shape;  ///< of volume elements
+  fem::ElementShape shape;  ///< of volume elements
 };
 
 /// Null for types that we do not take.
 const GmshType* gmshType(std::int64_t code);
 /// "prism of 6 nodes" and so on, for types that we do not take.
 std::string gmshTypeName(std::int64_t code);
-int gmshCode(fem::CellShape shape);
+int gmshCode(fem::ElementShape shape);
 int gmshCode(fem::FaceShape shape);
 /// Entry k: the place in a Gmsh element of our node k.
-std::span<const int> gmshOrder(fem::CellShape shape);
+std::span<const int> gmshOrder(fem::ElementShape shape);
 
 }  // namespace dovetail::solid_io

@@ -39,7 +39,7 @@ std::vector<Record> recordsOf(const fem::SolidMesh& mesh) {
     for (const int e : elements) groupsOf[static_cast<std::size_t>(e)].push_back(group);
   }
   std::size_t number = 0;
-  for (const fem::CellGroup& cells : mesh.groups)
+  for (const fem::ElementGroup& cells : mesh.groups)
     for (std::size_t e = 0; e < cells.size(); ++e, ++number) {
       const auto order = gmshOrder(cells.shape);
       Record record{gmshCode(cells.shape), 0, std::vector<int>(order.size())};

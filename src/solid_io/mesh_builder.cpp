@@ -42,7 +42,7 @@ void MeshBuilder::nameNodesOfLines() {
         for (const Label node : line->second.nodes) addNodeToSet(set, node, reference.place);
 }
 
-void MeshBuilder::addCell(Label label, fem::CellShape shape, std::span<const Label> nodes, std::size_t place) {
+void MeshBuilder::addCell(Label label, fem::ElementShape shape, std::span<const Label> nodes, std::size_t place) {
   requireNew(label, place);
   cells_.emplace(label, cell_.size());
   cell_.push_back({label, shape, cellNode_.size(), place});
@@ -70,7 +70,7 @@ void MeshBuilder::addSideToSet(const SetKey& set, Label element, int side, std::
   sideSets_[set].push_back({element, side, place});
 }
 
-fem::CellShape MeshBuilder::shapeOf(Label label, std::size_t place) const {
+fem::ElementShape MeshBuilder::shapeOf(Label label, std::size_t place) const {
   const auto found = cells_.find(label);
   if (found == cells_.end())
     source_.refuseAt(place, "there is no volume element " + std::to_string(label), "name one that the file defines");
@@ -152,9 +152,9 @@ void MeshBuilder::dropDuplicates() {
 void MeshBuilder::fillGroups(SolidFile& file) {
   for (const Cell& cell : cell_)
     if (std::none_of(file.mesh.groups.begin(), file.mesh.groups.end(),
-                     [&](const fem::CellGroup& group) { return group.shape == cell.shape; }))
+                     [&](const fem::ElementGroup& group) { return group.shape == cell.shape; }))
       file.mesh.groups.push_back({cell.shape, {}});
-  for (fem::CellGroup& group : file.mesh.groups)
+  for (fem::ElementGroup& group : file.mesh.groups)
     for (Cell& cell : cell_) {
       if (cell.shape != group.shape) continue;
       cell.number = static_cast<int>(file.elementNumber.size());

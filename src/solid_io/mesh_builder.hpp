@@ -25,7 +25,7 @@ inline std::string counted(std::size_t count, const std::string& one, const std:
 /// strain, or something that we do not take.
 struct SurfaceKind {
   int corners;
-  std::optional<fem::CellShape> plane;
+  std::optional<fem::ElementShape> plane;
   const char* otherwise;  ///< "a triangle", where it is no cell
 };
 /// By the number of nodes, 3, 4, 6, 8 or 9.
@@ -48,7 +48,7 @@ public:
   /// @param X  m; beyond ±1e15 it is refused
   void addNode(Label label, const Vec3& X, std::size_t place);
   /// @param nodes  in our order
-  void addCell(Label label, fem::CellShape shape, std::span<const Label> nodes, std::size_t place);
+  void addCell(Label label, fem::ElementShape shape, std::span<const Label> nodes, std::size_t place);
   /// A surface element, its nodes in our order. If `mustFit`, it has to be a face of a volume element where there are
   /// some.
   void addFace(Label label, const SurfaceKind& kind, std::span<const Label> nodes, std::size_t place,
@@ -87,7 +87,7 @@ public:
   ElementNodes nodesOf(Label element) const;
   bool hasNode(Label label) const { return nodes_.contains(label); }
   /// Shape of a cell; refuses other numbers.
-  fem::CellShape shapeOf(Label label, std::size_t place) const;
+  fem::ElementShape shapeOf(Label label, std::size_t place) const;
 
   /// Faces and lines give node sets too. Meshes and element sets of several shapes get a set for each shape.
   SolidFile finish();
@@ -95,7 +95,7 @@ public:
 private:
   struct Cell {
     Label label;
-    fem::CellShape shape;
+    fem::ElementShape shape;
     std::size_t firstNode, place;
     int number = -1;
   };

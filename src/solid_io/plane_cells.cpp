@@ -8,7 +8,7 @@ namespace dovetail::solid_io {
 SurfaceKind surfaceOf(int nodes) {
   if (nodes == 3 || nodes == 6) return {3, {}, "a triangle"};
   if (nodes == 9) return {4, {}, "a quadrilateral of nine nodes"};
-  return {4, nodes == 4 ? fem::CellShape::quad4 : fem::CellShape::quad8, ""};
+  return {4, nodes == 4 ? fem::ElementShape::quad4 : fem::ElementShape::quad8, ""};
 }
 
 bool MeshBuilder::takePlaneCells() {

@@ -11,7 +11,7 @@ namespace {
 void addSetsByShape(fem::SolidMesh& mesh, const std::string& name, const std::vector<int>& elements) {
   std::map<std::string, std::vector<int>> parts;
   int first = 0;
-  for (const fem::CellGroup& group : mesh.groups) {
+  for (const fem::ElementGroup& group : mesh.groups) {
     const int last = first + static_cast<int>(group.size());
     for (const int e : elements)
       if (first <= e && e < last) parts[(name.empty() ? "" : name + " ") + fem::name(group.shape)].push_back(e);

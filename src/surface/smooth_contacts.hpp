@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "dovetail/dem/walls/share_solver.hpp"
+#include "dovetail/dem/walls/edge_contact_solver.hpp"
 #include "dovetail/surface/smooth_surface.hpp"
 
 namespace dovetail::surface {
@@ -32,7 +32,7 @@ struct PatchHit {
 struct SmoothScratch {
   std::vector<PatchHit> hits;
   std::vector<dem::Share> shares;
-  dem::ShareSolver solver;
+  dem::EdgeContactSolver solver;
 };
 
 /// Appends the contacts of a particle with the faces near it. Patches that it touches at once share its overlap in the

@@ -227,7 +227,7 @@ void SurfaceContact::addPartners(const dem::Model&, std::vector<dem::ImpactPartn
        .speed = speed,
        .box = box,
        .of = side().model,
-       .inWindows = side().stepping == coupling::Stepping::implicitSteps});
+       .inMacroSteps = side().stepping == coupling::Stepping::implicitSteps});
 }
 
 void SurfaceContact::addContacts(const dem::Model& m, dem::ContactSample& sample) const {

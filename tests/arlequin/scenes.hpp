@@ -50,7 +50,7 @@ inline double particleEnd(const SceneOptions& o) { return o.particleElements * e
 
 inline fem::SolidMesh barMesh(const SceneOptions& o) {
   const double half = 0.5 * o.across * edge;
-  return fem::boxOf(fem::CellShape::hex8, {o.across, o.solidElements, o.across}, {-half, solidStart(o), -half},
+  return fem::boxOf(fem::ElementShape::hex8, {o.across, o.solidElements, o.across}, {-half, solidStart(o), -half},
                     {half, solidStart(o) + o.solidElements * edge, half});
 }
 
@@ -88,7 +88,7 @@ inline Still locate(fem::SolidMesh mesh, dem::Particles particles, std::vector<d
 
 /// 4 × 4 × 2 bricks without those of one quadrant; particles reach in from the two legs' inner half.
 inline Still makeL(int n) {
-  fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0.0, 0.0, 0.0}, {4 * edge, 4 * edge, 2 * edge});
+  fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {4, 4, 2}, {0.0, 0.0, 0.0}, {4 * edge, 4 * edge, 2 * edge});
   std::vector<int> kept;
   for (int e = 0; e < static_cast<int>(mesh.elementCount()); ++e) {
     const std::span<const int> node = cellOf(mesh, e).node;
@@ -106,7 +106,7 @@ inline Still makeL(int n) {
 inline Still makeCrooked(unsigned seed) {
   std::mt19937 random(seed);
   const fem::SolidMesh box =
-      fem::boxOf(fem::CellShape::hex8, {3, 3, 3}, {0.0, 0.0, 0.0}, {3 * edge, 3 * edge, 3 * edge});
+      fem::boxOf(fem::ElementShape::hex8, {3, 3, 3}, {0.0, 0.0, 0.0}, {3 * edge, 3 * edge, 3 * edge});
   fem::SolidMesh mesh = box;
   std::vector<bool> outer(mesh.X.size(), false);
   for (const int n : fem::nodeSet(box, "skin")) outer[static_cast<std::size_t>(n)] = true;

@@ -9,11 +9,11 @@ namespace {
 
 using namespace test;
 
-constexpr std::array shapes = {fem::CellShape::hex8, fem::CellShape::hex20, fem::CellShape::hex27, fem::CellShape::tet4,
-                               fem::CellShape::tet10};
+constexpr std::array shapes = {fem::ElementShape::hex8, fem::ElementShape::hex20, fem::ElementShape::hex27,
+                               fem::ElementShape::tet4, fem::ElementShape::tet10};
 
 TEST(Cells, PointsIntegrateVolumesHatsAndTheirProducts) {
-  for (const fem::CellShape shape : shapes)
+  for (const fem::ElementShape shape : shapes)
     for (const int parts : {1, 2, 3}) {
       fem::SolidMesh mesh = fem::boxOf(shape, {2, 1, 1}, {}, {1.0, 0.6, 0.4});
       for (Vec3& X : mesh.X) X = {X.x + 0.3 * X.y, X.y - 0.2 * X.z, X.z + 0.1 * X.x};
@@ -38,19 +38,19 @@ TEST(Cells, PointsIntegrateVolumesHatsAndTheirProducts) {
 }
 
 TEST(Cells, SizesAreThoseOfTheCubeAndOfTheRegularTetrahedron) {
-  const fem::SolidMesh cubes = fem::boxOf(fem::CellShape::hex20, {2, 2, 2}, {}, {1, 1, 1});
+  const fem::SolidMesh cubes = fem::boxOf(fem::ElementShape::hex20, {2, 2, 2}, {}, {1, 1, 1});
   EXPECT_NEAR(elementSize(cubes, 5), 0.5, 1e-14);
-  fem::SolidMesh tet = fem::boxOf(fem::CellShape::tet4, {1, 1, 1}, {}, {1, 1, 1});
+  fem::SolidMesh tet = fem::boxOf(fem::ElementShape::tet4, {1, 1, 1}, {}, {1, 1, 1});
   EXPECT_NEAR(cellVolume(tet, 0), 1.0 / 6.0, 1e-15);
   EXPECT_NEAR(elementSize(tet, 0), std::cbrt(std::sqrt(2.0)), 1e-14);
 }
 
 TEST(Cells, HatsGoOnBeyondTheCellAsTheyAreAtItsBorder) {
-  for (const fem::CellShape shape : shapes) {
+  for (const fem::ElementShape shape : shapes) {
     const std::span<const Vec3> nodes = fem::parentNodes(shape);
     Vec3 centre;
     const std::size_t corners = fem::shapeRow(shape, nodes[0]).size() > 8 ? 8 : nodes.size();
-    const std::size_t count = shape == fem::CellShape::tet4 || shape == fem::CellShape::tet10 ? 4 : corners;
+    const std::size_t count = shape == fem::ElementShape::tet4 || shape == fem::ElementShape::tet10 ? 4 : corners;
     for (std::size_t a = 0; a < count; ++a) centre += (1.0 / static_cast<double>(count)) * nodes[a];
     for (std::size_t a = 0; a < count; ++a) {
       const std::vector<double> at = cornerHats(shape, nodes[a]);
@@ -67,7 +67,7 @@ TEST(Cells, HatsGoOnBeyondTheCellAsTheyAreAtItsBorder) {
 }
 
 TEST(Cells, MidNodesAreLevelledSoThatSharesGoByTheHats) {
-  for (const fem::CellShape shape : {fem::CellShape::hex20, fem::CellShape::hex27, fem::CellShape::tet10}) {
+  for (const fem::ElementShape shape : {fem::ElementShape::hex20, fem::ElementShape::hex27, fem::ElementShape::tet10}) {
     const fem::SolidMesh mesh = fem::boxOf(shape, {2, 2, 2}, {}, {1, 1, 1});
     std::mt19937 random(2);
     std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -88,7 +88,7 @@ TEST(Cells, MidNodesAreLevelledSoThatSharesGoByTheHats) {
 
 TEST(Cells, LinearFieldsMakeNoGapInAnyShapeAndForcesBalance) {
   std::mt19937 random(4);
-  for (const fem::CellShape shape : shapes)
+  for (const fem::ElementShape shape : shapes)
     for (const double width : {0.0, 0.4}) {
       fem::SolidMesh mesh = fem::boxOf(shape, {3, 3, 3}, {}, {1.5, 1.5, 1.5});
       std::vector<double> weight;
@@ -120,13 +120,13 @@ TEST(Cells, LinearFieldsMakeNoGapInAnyShapeAndForcesBalance) {
 }
 
 TEST(Cells, SlicesOfPlaneStrainAreRefused) {
-  const fem::SolidMesh plane = fem::boxOf(fem::CellShape::quad4, {2, 2, 1}, {}, {1, 1, 0.1});
+  const fem::SolidMesh plane = fem::boxOf(fem::ElementShape::quad4, {2, 2, 1}, {}, {1, 1, 0.1});
   const dem::Particles particles = lattice({0, 0, 0}, {1, 1, 0.5}, 1);
   EXPECT_THROW(locateOverlap(particles, plane, nodesAt(plane.X), std::vector<double>(plane.X.size(), 0.5)), InputError);
 }
 
 TEST(Cells, LaplaceOnTetrahedraOfSecondOrderIsTheStraightLine) {
-  for (const fem::CellShape shape : shapes) {
+  for (const fem::ElementShape shape : shapes) {
     const fem::SolidMesh mesh = fem::boxOf(shape, {2, 4, 2}, {}, {1, 2, 1});
     std::vector<int> all(mesh.elementCount());
     for (std::size_t e = 0; e < all.size(); ++e) all[e] = static_cast<int>(e);

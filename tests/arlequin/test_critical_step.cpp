@@ -50,7 +50,7 @@ TEST(CriticalStep, TheDashpotsLimitWithUniformSharesIsTwo) {
     run.grains.laws = dem::makeContactLaws(law);
     run.grains.sortEvery = 0;
     run.grains.pairs.setSkin(0.0);
-    const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {edge, 4 * edge, edge});
+    const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {1, 4, 1}, {0, 0, 0}, {edge, 4 * edge, edge});
     const std::vector<double> weight(mesh.X.size(), 0.5);
     run.take(fem::makeModel(mesh));
     const fem::StVenantKirchhoff soft{1e-9, 0.0, bulk};

@@ -10,7 +10,7 @@ using namespace test;
 
 /// A lattice of particles off the faces of the elements, and bricks of 0.5 m.
 Overlap overlapAt(const Vec3& origin) {
-  const fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {2, 6, 2}, {}, {1, 3, 1});
+  const fem::SolidMesh box = fem::boxOf(fem::ElementShape::hex8, {2, 6, 2}, {}, {1, 3, 1});
   fem::SolidMesh mesh = box;
   std::mt19937 random(3);
   for (Vec3& X : mesh.X) X += origin + randomVector(random, 0.05);
@@ -66,7 +66,7 @@ TEST(Overlap, NamesParticlesInItsBoxThatNoElementHolds) {
 }
 
 TEST(Overlap, WithoutParticlesElementsOrWidthItIsRefused) {
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {0.5, 2, 0.5});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {1, 4, 1}, {0, 0, 0}, {0.5, 2, 0.5});
   const fem::Nodes nodes = nodesAt(mesh.X);
   const std::vector<double> some(mesh.X.size(), 0.5), none(mesh.X.size(), 0.0), few(3, 0.5);
   const dem::Particles far = lattice({10, 10, 10}, {11, 11, 11}, 1), near = lattice({0, 0, 0}, {0.5, 1, 0.5}, 1);

@@ -61,7 +61,7 @@ TEST(Packing, RandomPlacesOfTheSameDensityAreCoupledWithoutLoss) {
     SceneOptions o;
     o.coupling.constraint = kind;
     std::mt19937 random(17);
-    TieRun run = tieBar(o, fem::CellShape::hex8, coupling::Stepping::explicitSteps,
+    TieRun run = tieBar(o, fem::ElementShape::hex8, coupling::Stepping::explicitSteps,
                         [&](Vec3& x) { x += randomVector(random, 0.001); });  // no particle is located anew
     run.start(5e-5);
     const double before = run.energy();

@@ -1,8 +1,8 @@
 // A random packing with friction under gravity, periodic sideways, whose lower part is handed over to a solid.
 #include <gtest/gtest.h>
 
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/handed_load.hpp"
-#include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
@@ -38,7 +38,7 @@ std::unique_ptr<coupling::CoupledRun> makePacking() {
   grains.sortEvery = 0;
   dem::addWall(grains, dem::makePlane({0, 0, 0}, {0, 0, 1}));
   run->start(1e-4);
-  EXPECT_TRUE(coupling::settle(*run, {.kinetic = 1e-10}).atRest);
+  EXPECT_TRUE(coupling::relax(*run, {.kinetic = 1e-10}).atRest);
   return run;
 }
 
@@ -60,7 +60,7 @@ struct Scene {
   coupling::CoupledRun run;
   fem::SolidMesh mesh;
   std::vector<double> weight;
-  OverlapTie* tie = nullptr;
+  ArlequinCoupling* tie = nullptr;
 };
 
 /// The packing without its floor, on a solid that carries what is handed over.
@@ -74,7 +74,7 @@ std::unique_ptr<Scene> handOver(const dem::Model& packing, ConstraintKind kind) 
   grains.sortEvery = 0;
   const double density = bulkDensity(grains.particles, 0.1, layers * size);
   scene->mesh =
-      fem::boxOf(fem::CellShape::hex8, {2, 2, layers + below}, {0, 0, -below * size}, {side, side, layers * size});
+      fem::boxOf(fem::ElementShape::hex8, {2, 2, layers + below}, {0, 0, -below * size}, {side, side, layers * size});
   std::vector<double> s;
   for (const Vec3& X : scene->mesh.X)
     s.push_back(X.z < -1e-9 ? beyondOverlap : std::clamp(1.0 - X.z / (layers * size), 0.0, 1.0));
@@ -153,7 +153,7 @@ TEST_P(HandedOver, APackingStaysAtRestAndItsWeightGoesThrough) {
     EXPECT_NEAR(load.carried / load.above, 1.0, 1e-3) << "the solid has taken over, layer " << layer;
   }
   // Elements balance the particles' loads together; one by one they find their balance by themselves.
-  EXPECT_TRUE(coupling::settle(scene->run, {.kinetic = 1e-7}).atRest);
+  EXPECT_TRUE(coupling::relax(scene->run, {.kinetic = 1e-7}).atRest);
   scene->run.advance(500);
   const EnergyLedger& ledger = scene->run.ledger();
   const double elastic = ledger.joules("particles: contacts") + ledger.joules("solid: elastic");

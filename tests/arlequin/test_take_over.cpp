@@ -59,7 +59,7 @@ struct Soil {
   fem::Model model;
 
   Soil(int layers, double young)
-      : mesh(fem::boxOf(fem::CellShape::hex8, {2, 2, layers + 2}, {0, 0, -2 * side / layers}, {side, side, side})) {
+      : mesh(fem::boxOf(fem::ElementShape::hex8, {2, 2, layers + 2}, {0, 0, -2 * side / layers}, {side, side, side})) {
     std::vector<double> place;
     for (const Vec3& X : mesh.X) place.push_back(X.z < -1e-9 ? beyondOverlap : std::clamp(1.0 - X.z / side, 0.0, 1.0));
     weight = nodalWeights(place, {.floor = 0.02});

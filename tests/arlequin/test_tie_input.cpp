@@ -74,7 +74,7 @@ TEST(TieDemand, OneParticleAloneInItsElementDoesNotShortenTheStep) {
     dem::ElasticLaw law;
     law.normal.stiffness = 1e-3 * modulus;
     run.grains.laws = dem::makeContactLaws(law);
-    const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
+    const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
     const std::vector<double> weight = barWeights(mesh, o);
     run.take(fem::makeModel(mesh));
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
@@ -143,7 +143,7 @@ TEST(TieStart, VelocitiesAreMadeToComplyWithMultipliersAndTheLossIsBooked) {
 /// Two materials and graded elements: each row has the penalty of what is about it.
 TEST(TiePenalty, GoesByTheElement) {
   const fem::SolidMesh mesh = [] {
-    fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
+    fem::SolidMesh box = fem::boxOf(fem::ElementShape::hex8, {1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
     std::vector<int> low, high;
     for (int e = 0; e < 6; ++e) (e < 2 ? low : high).push_back(e);
     box.elementSets = {{"low", low}, {"high", high}};

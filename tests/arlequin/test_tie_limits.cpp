@@ -1,4 +1,4 @@
-// The limit of the step with an overlap: explicit and implicit solids, windows, and contacts on the same nodes.
+// The limit of the step with an overlap: explicit and implicit solids, macro steps, and contacts on the same nodes.
 #include <gtest/gtest.h>
 
 #include "../dense_algebra.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-struct Windows {
+struct MacroSteps {
   coupling::Stepping stepping;
   int K;
   ConstraintKind constraint = ConstraintKind::penalty;
@@ -20,20 +20,20 @@ struct Windows {
   bool resonates() const { return stepping == coupling::Stepping::explicitSteps && K > 1; }
 };
 
-TieRun thinBar(const Windows& windows) {
+TieRun thinBar(const MacroSteps& macroSteps) {
   SceneOptions o;
   o.across = 1;
-  o.coupling.constraint = windows.constraint;
-  TieRun run = tieBar(o, fem::CellShape::hex8, windows.stepping);
-  run.K = windows.K;
+  o.coupling.constraint = macroSteps.constraint;
+  TieRun run = tieBar(o, fem::ElementShape::hex8, macroSteps.stepping);
+  run.K = macroSteps.K;
   return run;
 }
 
-class TieLimits : public testing::TestWithParam<Windows> {};
+class TieLimits : public testing::TestWithParam<MacroSteps> {};
 
-/// Energy of small noise after some windows over that at the start.
-double growth(const Windows& windows, double share) {
-  TieRun run = thinBar(windows);
+/// Energy of small noise after some macro steps over that at the start.
+double growth(const MacroSteps& macroSteps, double share) {
+  TieRun run = thinBar(macroSteps);
   std::mt19937 random(2);
   for (Vec3& v : run.grains.particles.v) v = randomVector(random, 1e-4);
   run.start(1e-7);
@@ -62,13 +62,13 @@ struct Settled {
 };
 void load(TieRun& run) { run.grains.gravity = {0.3, -1.0, 0.1}; }
 
-Settled settled(const Windows& windows) {
-  TieRun run = thinBar({windows.stepping, 1, windows.constraint});
+Settled settled(const MacroSteps& macroSteps) {
+  TieRun run = thinBar({macroSteps.stepping, 1, macroSteps.constraint});
   load(run);
   run.start(1e-7);
   run.start(0.5 * run.run->criticalStep().dt);
-  EXPECT_TRUE(settle(*run.run, {.kinetic = 1e-12}).atRest);
-  run.K = windows.K;
+  EXPECT_TRUE(relax(*run.run, {.kinetic = 1e-12}).atRest);
+  run.K = macroSteps.K;
   run.start(1e-7);
   return {run.run->save(), run.run->criticalStep().dt};
 }
@@ -82,22 +82,23 @@ TEST_P(TieLimits, KeepAtRestWhoIsAndRefuseLongerSteps) {
   run.grains.refusesUnstableSteps = true;
   EXPECT_THROW(run.start(1.05 * rest.limit), InputError);
   run.start(0.95 * rest.limit);
-  EXPECT_TRUE(settle(*run.run, {.kinetic = 1e-12}).atRest);  // where impulses of windows meet the bar
-  constexpr double time = 0.5;                               // s
-  run.run->advance(std::lround(time / run.run->window()));
+  EXPECT_TRUE(relax(*run.run, {.kinetic = 1e-12}).atRest);  // where impulses of macro steps meet the bar
+  constexpr double time = 0.5;                              // s
+  run.run->advance(std::lround(time / run.run->macroStep()));
   EXPECT_FALSE(run.grains.passed);
   const auto& ledger = run.run->ledger();
   EXPECT_LT(run.run->kineticEnergy(), 1e-8 * (ledger.joules("particles: contacts") + ledger.joules("solid: elastic")));
 }
 
 constexpr auto explicitly = coupling::Stepping::explicitSteps, implicitly = coupling::Stepping::implicitSteps;
-INSTANTIATE_TEST_SUITE_P(Windows, TieLimits,
-                         testing::Values(Windows{explicitly, 1}, Windows{explicitly, 4}, Windows{implicitly, 1},
-                                         Windows{implicitly, 4}, Windows{implicitly, 16},
-                                         Windows{explicitly, 1, ConstraintKind::multiplier},
-                                         Windows{explicitly, 4, ConstraintKind::multiplier},
-                                         Windows{implicitly, 1, ConstraintKind::multiplier},
-                                         Windows{implicitly, 4, ConstraintKind::multiplier}),
+INSTANTIATE_TEST_SUITE_P(MacroSteps, TieLimits,
+                         testing::Values(MacroSteps{explicitly, 1}, MacroSteps{explicitly, 4},
+                                         MacroSteps{implicitly, 1}, MacroSteps{implicitly, 4},
+                                         MacroSteps{implicitly, 16},
+                                         MacroSteps{explicitly, 1, ConstraintKind::multiplier},
+                                         MacroSteps{explicitly, 4, ConstraintKind::multiplier},
+                                         MacroSteps{implicitly, 1, ConstraintKind::multiplier},
+                                         MacroSteps{implicitly, 4, ConstraintKind::multiplier}),
                          [](const auto& c) {
                            return std::string(c.param.constraint == ConstraintKind::penalty ? "" : "multipliers") +
                                   (c.param.stepping == explicitly ? "explicit" : "implicit") +

@@ -75,7 +75,7 @@ struct Pit {
   fem::SolidMesh mesh;
   std::vector<double> weight;
   coupling::SolidSide* side = nullptr;
-  OverlapTie* tie = nullptr;
+  ArlequinCoupling* tie = nullptr;
 
   explicit Pit(const Vec3& gravity, int layers) {
     constexpr double radius = 0.025, width = 0.3, top = 0.4;
@@ -97,7 +97,7 @@ struct Pit {
                                         {Vec3{width, width, 0}, Vec3{-1, 0, 0}},
                                         {Vec3{width, width, 0}, Vec3{0, -1, 0}}})
       dem::addWall(g, dem::makePlane(place, normal));
-    mesh = fem::boxOf(fem::CellShape::hex8, {3, 3, 7}, {0, 0, -0.3}, {width, width, top});
+    mesh = fem::boxOf(fem::ElementShape::hex8, {3, 3, 7}, {0, 0, -0.3}, {width, width, top});
     std::vector<double> place;
     for (const Vec3& X : mesh.X) place.push_back(X.z < -1e-9 ? beyondOverlap : std::clamp(1.0 - X.z / top, 0.0, 1.0));
     weight = nodalWeights(place, {});
@@ -112,7 +112,7 @@ struct Pit {
 };
 
 /// Σ of the forces on particles that all move by 1 m relative to the solid, N/m.
-double stiffnessOf(const OverlapTie& tie, const dem::Model& grains, std::size_t nodes) {
+double stiffnessOf(const ArlequinCoupling& tie, const dem::Model& grains, std::size_t nodes) {
   std::vector<Vec3> moved(grains.particles.size(), Vec3{0, 0, 1}), still(nodes), f(moved.size()), onNodes(nodes);
   tie.addStiffness(grains, moved, still, f, onNodes);
   double sum = 0.0;
@@ -132,7 +132,7 @@ TEST(TieMembers, PouredGrainsAtRestAreTiedAsOnesThatWereThere) {
   pit.run.advance(3000);
   EXPECT_GT(pit.tie->state().admitted, 30);
   dem::Model copy = g;
-  for (auto* tie : copy.terms.all<OverlapTie>()) copy.terms.remove(*tie);
+  for (auto* tie : copy.terms.all<ArlequinCoupling>()) copy.terms.remove(*tie);
   copy.particles.weight.clear();
   dem::removeParticles(copy, particlesBeyond(copy, pit.mesh, pit.side->nodes(), pit.weight));
   coupling::SolidSide other;
@@ -174,7 +174,7 @@ TEST(TieMembers, PairsBetweenTwoTiesHaveTheMeanShare) {
   dem::ElasticLaw law;
   law.normal.stiffness = modulus * 0.25;
   run.grains.laws = dem::makeContactLaws(law);
-  std::vector<OverlapTie*> ties;
+  std::vector<ArlequinCoupling*> ties;
   SceneOptions o;
   o.across = 1;
   for (const double shift : {0.0, 0.5}) {

@@ -7,8 +7,8 @@
 #include <memory>
 #include <numeric>
 
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/handed_load.hpp"
-#include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/coupling/run.hpp"
@@ -28,7 +28,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Grains above z = 0, soil from −depth to top.
 struct Bed {
   coupling::CoupledRun run;
-  fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {3, 3, 6}, {0, 0, -depth}, {width, width, top});
+  fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {3, 3, 6}, {0, 0, -depth}, {width, width, top});
   std::vector<double> weight;
   std::unique_ptr<fem::Model> soil;
   CouplingOptions options;
@@ -47,7 +47,7 @@ struct Bed {
     soil->add(fem::gravity({0.0, 0.0, -9.81}));
     for (const char* side : {"x-", "x+", "y-", "y+", "z-"}) fem::fix(soil->nodes, mesh.nodeSets.at(side));
   }
-  OverlapTie& tie() {
+  ArlequinCoupling& tie() {
     coupling::SolidSide& side = run.addSolid(std::move(soil), {.name = "soil"});
     return run.grains.terms.add(makeOverlapTie(run.grains, mesh, weight, side, options));
   }
@@ -74,7 +74,7 @@ double residualOfRefill(double dt) {
     bed.run.advance(static_cast<std::int64_t>(std::lround(3e-4 / dt)));
     largest = std::max(largest, std::abs(bed.run.ledger().residual()));
   }
-  EXPECT_EQ(bed.run.grains.terms.all<OverlapTie>()[0]->state().admitted, 3);
+  EXPECT_EQ(bed.run.grains.terms.all<ArlequinCoupling>()[0]->state().admitted, 3);
   EXPECT_LT(std::abs(bed.run.totals().massResidual), 1e-12);
   return largest / brought;
 }
@@ -102,7 +102,7 @@ TEST(Refill, RainIntoAnEmptyOverlapMakesNoEnergy) {
   dem::removeParticles(bed.run.grains, all);
   bed.run.advance(17500);
   const EnergyLedger& ledger = bed.run.ledger();
-  EXPECT_GT(bed.run.grains.terms.all<OverlapTie>()[0]->state().admitted, 5);
+  EXPECT_GT(bed.run.grains.terms.all<ArlequinCoupling>()[0]->state().admitted, 5);
   EXPECT_LT(std::abs(ledger.residual()), -1e-3 * ledger.joules("particles: entered (minus)"));
 }
 
@@ -114,7 +114,7 @@ TEST(Refill, AnEmptiedOverlapRunsOn) {
   std::iota(all.begin(), all.end(), 0);
   dem::removeParticles(bed.run.grains, all);
   bed.run.advance(50);
-  EXPECT_EQ(bed.run.grains.terms.all<OverlapTie>()[0]->state().members, 0u);
+  EXPECT_EQ(bed.run.grains.terms.all<ArlequinCoupling>()[0]->state().members, 0u);
   EXPECT_LT(std::abs(bed.run.totals().massResidual), 1e-12);
 }
 
@@ -136,7 +136,7 @@ TEST(TieRefusals, AMeshThatIsNotTheSolids) {
   for (Vec3& X : moved.mesh.X) X.x += 1e-3;
   EXPECT_THROW(moved.tie(), InputError);
   Bed finer;
-  finer.mesh = fem::boxOf(fem::CellShape::hex8, {3, 3, 7}, {0, 0, -depth}, {width, width, top});
+  finer.mesh = fem::boxOf(fem::ElementShape::hex8, {3, 3, 7}, {0, 0, -depth}, {width, width, top});
   EXPECT_THROW(finer.tie(), InputError);
 }
 

@@ -23,7 +23,7 @@ TieRun loose(ConstraintKind kind, double penalty, bool hold = true, double width
   dem::ElasticLaw law;
   law.normal.stiffness = modulus * 0.25;
   run.grains.laws = dem::makeContactLaws(law);
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {1, 6, 1}, {-0.25, 0.5, -0.25}, {0.25, 3.5, 0.25});
   const std::vector<double> weight = barWeights(mesh, o);
   run.take(fem::makeModel(mesh));
   if (hold) fem::fix(run.solid->nodes, fem::nodeSet(mesh, "y+"));
@@ -166,7 +166,7 @@ TEST(Turn, TheKeptGapTurnsWithTheSolidAndMakesNoMoment) {
 /// λ before and after the tie lets particles in and locates them anew, at one state.
 class Look final : public dem::Term {
 public:
-  Look(OverlapTie* tie, std::vector<Vec3>* lambda, std::vector<int>* node, Order order)
+  Look(ArlequinCoupling* tie, std::vector<Vec3>* lambda, std::vector<int>* node, Order order)
       : tie_(tie), lambda_(lambda), node_(node), order_(order) {}
   std::string name() const override { return "look"; }
   std::unique_ptr<dem::Term> clone() const override { return std::make_unique<Look>(*this); }
@@ -182,7 +182,7 @@ public:
   }
 
 private:
-  OverlapTie* tie_;
+  ArlequinCoupling* tie_;
   std::vector<Vec3>* lambda_;
   std::vector<int>* node_;
   Order order_;
@@ -250,7 +250,7 @@ TieRun shaken(ConstraintKind kind, coupling::Stepping stepping, int K, bool bond
   SceneOptions o;
   o.across = 1;
   o.coupling.constraint = kind;
-  TieRun run = tieBar(o, fem::CellShape::hex8, stepping);
+  TieRun run = tieBar(o, fem::ElementShape::hex8, stepping);
   dem::ElasticLaw law;
   law.normal = {.stiffness = modulus * edge / o.particlesPerEdge, .bonded = bonded};
   run.grains.laws = dem::makeContactLaws(law);

@@ -1,4 +1,4 @@
-// Overlap ties in windows of every kind.
+// Overlap ties in macro steps of every kind.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ TieRun started(const Case& c, double dt, bool hold = true, double width = 0.0) {
   o.coupling.projection.width = width;
   if (c.kind == ConstraintKind::penalty) o.coupling.penalty = 2.0 * modulus / (edge * edge);
   if (c.kind == ConstraintKind::dashpot) o.coupling.penalty = 1e7;
-  TieRun run = tieBar(o, fem::CellShape::hex8, c.stepping);
+  TieRun run = tieBar(o, fem::ElementShape::hex8, c.stepping);
   excite(run.grains.particles);
   run.K = c.K;
   run.start(dt);
@@ -50,9 +50,9 @@ class TieRuns : public testing::TestWithParam<Case> {};
 /// Largest residual while the pulse goes through the overlap, over the energy at the start.
 double residualOf(TieRun run) {
   const double first = run.run->ledger().storedAtOpening();
-  const auto windows = static_cast<std::int64_t>(std::llround(0.06 / run.run->window()));
+  const auto macroSteps = static_cast<std::int64_t>(std::llround(0.06 / run.run->macroStep()));
   double largest = 0.0;
-  for (std::int64_t w = 0; w < windows; ++w) {
+  for (std::int64_t w = 0; w < macroSteps; ++w) {
     run.run->advance();
     largest = std::max(largest, std::abs(run.run->ledger().residual()));
   }
@@ -132,7 +132,7 @@ TEST_P(TieRuns, ThreadsChangeNoDigit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Windows, TieRuns,
+    MacroSteps, TieRuns,
     testing::Values(Case{"penaltyExplicit1", ConstraintKind::penalty, Stepping::explicitSteps, 1},
                     Case{"penaltyExplicit4", ConstraintKind::penalty, Stepping::explicitSteps, 4},
                     Case{"penaltyImplicit1", ConstraintKind::penalty, Stepping::implicitSteps, 1},
@@ -205,7 +205,7 @@ TEST(TieRunsMore, TheAbsorberTakesFluctuationsAndKeepsMomentum) {
   EXPECT_NEAR(with.energy(), first, 2.0 * residualOf(tied(0.0)) * first + 1e-4 * first);
 }
 
-/// What lags acts over the window after the one in which it grew; nothing else may lag.
+/// What lags acts over the macro step after the one in which it grew; nothing else may lag.
 TEST(TieRunsMore, OnlyDashpotsOnImplicitSolidsLag) {
   const auto tied = [](ConstraintKind kind, Stepping stepping, bool lags) {
     SceneOptions o;
@@ -213,7 +213,7 @@ TEST(TieRunsMore, OnlyDashpotsOnImplicitSolidsLag) {
     o.coupling.constraint = kind;
     o.coupling.penalty = 1e7;
     o.coupling.dashpotLags = lags;
-    return tieBar(o, fem::CellShape::hex8, stepping);
+    return tieBar(o, fem::ElementShape::hex8, stepping);
   };
   EXPECT_THROW(tied(ConstraintKind::dashpot, Stepping::explicitSteps, true), InputError);
   EXPECT_THROW(tied(ConstraintKind::penalty, Stepping::implicitSteps, true), InputError);
@@ -241,14 +241,14 @@ TEST(TieRunsMore, ATieThatIsTakenOutLeavesNothingBehind) {
         o.across = 1;
         o.holdEnd = false;
         o.coupling.constraint = ConstraintKind::multiplier;
-        TieRun run = tieBar(o, fem::CellShape::hex8, stepping);
+        TieRun run = tieBar(o, fem::ElementShape::hex8, stepping);
         run.grains.gravity = {0.0, -9.81, 0.0};
         run.K = K;
         run.start(2e-4);
         run.run->advance(100 / K);
         run.grains.terms.remove(*run.tie);
         if (startsAnew) run.start(2e-4);
-        run.run->advance();  // kicked once more by what acted at the end of the window before
+        run.run->advance();  // kicked once more by what acted at the end of the macro step before
         const auto momentum = [&] {
           Vec3 sum;
           for (std::size_t n = 0; n < run.solid->nodes.v.size(); ++n)
@@ -271,7 +271,7 @@ TEST(TieRunsMore, TheAbsorberIsBlindToAVelocityOfAll) {
     dem::ElasticLaw law;
     law.normal.stiffness = 1e5;
     run.grains.laws = dem::makeContactLaws(law);
-    const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 6, 1}, {-half, 0.0, -half}, {half, 3.0, half});
+    const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {1, 6, 1}, {-half, 0.0, -half}, {half, 3.0, half});
     std::vector<double> place;
     for (const Vec3& X : mesh.X) place.push_back(X.y > 2.5 + 1e-9 ? beyondOverlap : X.y / 2.5);
     const std::vector<double> weight = nodalWeights(place, {});
@@ -289,7 +289,7 @@ TEST(TieRunsMore, TheAbsorberIsBlindToAVelocityOfAll) {
   }
 }
 
-/// How far λ changes from one window to the next, over its size: the largest of 20.
+/// How far λ changes from one macro step to the next, over its size: the largest of 20.
 double changeOfLambda(TieRun& run) {
   double largest = 0.0, size = 0.0;
   for (int w = 0; w < 20; ++w) {
@@ -303,14 +303,14 @@ double changeOfLambda(TieRun& run) {
   return largest / size;
 }
 
-/// A bar that hangs from its held end: from the first window on, at rest, and when started with another step. Between
-/// the ends of windows of several steps its particles fall and are kicked back, which dashpots see.
+/// A bar that hangs from its held end: from the first macro step on, at rest, and when started with another step.
+/// Between the ends of macro steps of several steps its particles fall and are kicked back, which dashpots see.
 TEST(TieRunsMore, MultipliersOnImplicitSolidsStandStillAtRestAndNothingIsLost) {
   for (const int K : {1, 4}) {
     SceneOptions o;
     o.across = 1;
     o.coupling.constraint = ConstraintKind::multiplier;
-    TieRun run = tieBar(o, fem::CellShape::hex8, Stepping::implicitSteps);
+    TieRun run = tieBar(o, fem::ElementShape::hex8, Stepping::implicitSteps);
     dem::ElasticLaw law;
     law.normal = {.stiffness = modulus * edge / o.particlesPerEdge, .restitution = 0.5, .bonded = true};
     run.grains.laws = dem::makeContactLaws(law);
@@ -318,7 +318,7 @@ TEST(TieRunsMore, MultipliersOnImplicitSolidsStandStillAtRestAndNothingIsLost) {
     run.K = K;
     run.start(4e-4 / K);
     EXPECT_LT(changeOfLambda(run), 0.05);  // it begins to swing
-    EXPECT_TRUE(settle(*run.run, {.kinetic = K == 1 ? 1e-16 : 1e-9, .windows = 2000}).atRest);
+    EXPECT_TRUE(relax(*run.run, {.kinetic = K == 1 ? 1e-16 : 1e-9, .macroSteps = 2000}).atRest);
     EXPECT_LT(std::abs(run.run->ledger().residual()), 1e-5 * run.energy());
     double booked = run.run->ledger().booked();
     EXPECT_LT(changeOfLambda(run), K == 1 ? 1e-7 : 1e-4);

@@ -42,7 +42,7 @@ TEST(Weights, BadFloorsAndPlacesAreRefused) {
 
 /// Places of a bar between y = 0 and 3 by both ways.
 TEST(Weights, OnABarDistanceAndLaplaceAgreeWithTheStraightLine) {
-  const fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {2, 6, 2}, {0, 0, 0}, {1, 3, 1});
+  const fem::SolidMesh box = fem::boxOf(fem::ElementShape::hex8, {2, 6, 2}, {0, 0, 0}, {1, 3, 1});
   const fem::SolidMesh& mesh = box;
   const auto solid = triangles(box.X, fem::faceSet(box, "y-")), particles = triangles(box.X, fem::faceSet(box, "y+"));
   const std::vector<double> byDistance = distanceCoordinate(mesh.X, solid, particles);
@@ -56,7 +56,7 @@ TEST(Weights, OnABarDistanceAndLaplaceAgreeWithTheStraightLine) {
 }
 
 TEST(Weights, LaplaceOnPartOfAMeshMarksTheRestAsBeyond) {
-  const fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {1, 4, 1}, {0, 0, 0}, {1, 4, 1});
+  const fem::SolidMesh box = fem::boxOf(fem::ElementShape::hex8, {1, 4, 1}, {0, 0, 0}, {1, 4, 1});
   const fem::SolidMesh& mesh = box;
   std::vector<int> middle;
   for (std::size_t n = 0; n < mesh.X.size(); ++n)
@@ -67,7 +67,7 @@ TEST(Weights, LaplaceOnPartOfAMeshMarksTheRestAsBeyond) {
 }
 
 TEST(Weights, BordersThatAreMissingOrMeetAreRefused) {
-  const fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
+  const fem::SolidMesh box = fem::boxOf(fem::ElementShape::hex8, {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
   const fem::SolidMesh& mesh = box;
   const auto face = triangles(box.X, fem::faceSet(box, "y-")), side = triangles(box.X, fem::faceSet(box, "x-"));
   EXPECT_THROW(distanceCoordinate(mesh.X, face, {}), InputError);

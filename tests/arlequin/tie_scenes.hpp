@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/constraint.hpp"
-#include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
@@ -21,7 +21,7 @@ struct TieRun {
   dem::Model& grains = run->grains;
   fem::Model* solid = nullptr;
   coupling::SolidSide* side = nullptr;
-  OverlapTie* tie = nullptr;
+  ArlequinCoupling* tie = nullptr;
   coupling::SolidOptions options{.name = "solid"};
   int K = 1;
 
@@ -35,8 +35,8 @@ struct TieRun {
     tie = &grains.terms.add(makeOverlapTie(grains, mesh, weight, *side, coupling));
   }
 
-  void start(double dt = 1e-4) { run->start(dt, {.stepsPerWindow = K}); }
-  /// A window.
+  void start(double dt = 1e-4) { run->start(dt, {.stepsPerMacroStep = K}); }
+  /// A macro step.
   void step(double dt) {
     if (dt != run->dt()) start(dt);
     run->advance();
@@ -55,7 +55,7 @@ private:
 };
 
 /// A bar in cells of any shape. @param place  changes the places of the particles, whose contacts are the lattice's
-inline TieRun tieBar(const SceneOptions& o, fem::CellShape shape = fem::CellShape::hex8,
+inline TieRun tieBar(const SceneOptions& o, fem::ElementShape shape = fem::ElementShape::hex8,
                      coupling::Stepping stepping = coupling::Stepping::explicitSteps,
                      const std::function<void(Vec3&)>& place = {}) {
   const double half = 0.5 * o.across * edge, d = edge / o.particlesPerEdge;

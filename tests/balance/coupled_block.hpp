@@ -35,7 +35,7 @@ struct BlockSetup {
 
 /// 0.3 × 0.3 × 0.2 m, top at z = 0; the limit of its mesh is 2.3 ms, a contact lasts about 20 ms.
 inline fem::SolidMesh blockMesh(std::array<int, 3> cells = {3, 3, 2}) {
-  return fem::boxOf(fem::CellShape::hex8, cells, {0, 0, -0.2}, {0.3, 0.3, 0});
+  return fem::boxOf(fem::ElementShape::hex8, cells, {0, 0, -0.2}, {0.3, 0.3, 0});
 }
 
 inline dem::Particles droppedParticles() {
@@ -90,18 +90,18 @@ struct Result {
   double residualApart = 0.0;                                   ///< J, the worst while nobody touches the block
   double dissipated = 0.0, made = 0.0;                          ///< J
   double largestStrainEnergy = 0.0;                             ///< J
-  int withoutContact = 0, windows = 0;
+  int withoutContact = 0, macroSteps = 0;
 };
 
-/// Windows of h = K dt for `time`, looked at one by one.
+/// Macro steps of h = K dt for `time`, looked at one by one.
 inline Result runFor(const BlockSetup& setup, double time, double h, int K, Lag lag = Lag::none) {
   const auto run = makeRun(setup);
-  run->start(h / K, {.stepsPerWindow = K, .lag = lag});
+  run->start(h / K, {.stepsPerMacroStep = K, .lag = lag});
   const auto energy = [&] { return run->ledger().stored() - run->ledger().joules("block: time splitting"); };
   Result result;
   result.initial = energy();
-  result.windows = static_cast<int>(std::lround(time / h));
-  for (int w = 0; w < result.windows; ++w) {
+  result.macroSteps = static_cast<int>(std::lround(time / h));
+  for (int w = 0; w < result.macroSteps; ++w) {
     run->advance();
     result.worstDrift = std::max(result.worstDrift, std::abs(energy() - result.initial));
     result.largestStrainEnergy = std::max(result.largestStrainEnergy, run->ledger().joules("block: elements"));
@@ -112,7 +112,7 @@ inline Result runFor(const BlockSetup& setup, double time, double h, int K, Lag 
   const EnergyLedger& ledger = run->ledger();
   result.worstResidual = ledger.largestResidual();
   result.dissipated = ledger.joules("particles: dashpots");
-  result.made = -ledger.joules("contacts: lost") - ledger.joules("loads one step old (minus what they made)");
+  result.made = -ledger.joules("contacts: lost") - ledger.joules("staggering error (minus what it made)");
   return result;
 }
 

@@ -28,7 +28,7 @@ std::vector<char> stateAfter(Kind kind, int threadCount) {
   if (kind == Kind::coarse) setup.width = 0.1;
   setup.smooth = kind == Kind::smooth;
   const auto run = makeRun(setup, blockMesh({6, 6, 4}), manyParticles());
-  run->start(dt, {.stepsPerWindow = kind == Kind::implicitSolid ? 2 : 1});
+  run->start(dt, {.stepsPerMacroStep = kind == Kind::implicitSolid ? 2 : 1});
   run->advance(15);
   EXPECT_GT(norm(run->solid(0).nodes().u.end()[-25]), 1e-6) << "the particles have pressed the block";
   setThreads(1);

@@ -7,15 +7,16 @@ namespace dovetail::surface {
 namespace {
 
 constexpr double duration = 0.1;
-constexpr std::array<double, 5> windowSizes{1.6e-3, 8e-4, 4e-4, 2e-4, 1e-4};  // s
-constexpr double energyThereIs = 0.6386;                                      // J
+constexpr std::array<double, 5> macroSizes{1.6e-3, 8e-4, 4e-4, 2e-4, 1e-4};  // s
+constexpr double energyThereIs = 0.6386;                                     // J
 
-/// Mean slope of log(error) over log(window): errors of single runs scatter with the instants at which contacts begin.
+/// Mean slope of log(error) over log(macro step): errors of single runs scatter with the instants at which contacts
+/// begin.
 template <class Error>
 double fittedOrder(Error&& error) {
   double meanX = 0.0, meanY = 0.0, xx = 0.0, xy = 0.0;
   std::vector<std::array<double, 2>> points;
-  for (double h : windowSizes) points.push_back({std::log(h), std::log(error(h))});
+  for (double h : macroSizes) points.push_back({std::log(h), std::log(error(h))});
   for (const auto& [x, y] : points) {
     meanX += x / static_cast<double>(points.size());
     meanY += y / static_cast<double>(points.size());
@@ -62,8 +63,8 @@ TEST(EnergyConsistentMass, ErrorIsSecondOrder) {
 TEST(EnergyScene, HasBouncesAndASolidThatTakesPart) {
   const Result result = runFor({}, duration, 2e-4, 1);
   EXPECT_NEAR(result.initial, energyThereIs, 1e-3);
-  EXPECT_GT(result.withoutContact, result.windows / 10);
-  EXPECT_LT(result.withoutContact, result.windows / 2);
+  EXPECT_GT(result.withoutContact, result.macroSteps / 10);
+  EXPECT_LT(result.withoutContact, result.macroSteps / 2);
   EXPECT_GT(result.largestStrainEnergy, 0.05 * result.initial);
 }
 
@@ -97,7 +98,7 @@ TEST(EnergyLost, WithoutDashpotsNothingIsBooked) {
   EXPECT_LT(std::abs(result.made), 1e-13 * result.initial);
 }
 
-/// What is booked as time splitting explains what the energy of windows of many steps lacks.
+/// What is booked as time splitting explains what the energy of macro steps of many steps lacks.
 TEST(EnergyExplicitSplitting, IsTheLeadingTermOfWhatTheWindowStores) {
   const Result result = runFor({}, 0.096, 8e-4, 32);
   EXPECT_LT(result.worstResidual, 0.1 * result.worstDrift)

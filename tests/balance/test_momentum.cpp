@@ -7,7 +7,7 @@ namespace dovetail::surface {
 namespace {
 
 constexpr double dt = 4e-4;
-constexpr int windows = 250;
+constexpr int macroSteps = 250;
 
 double particleMass(const dem::Particles& particles) {
   double sum = 0.0;
@@ -22,11 +22,11 @@ struct Departure {
 
 Departure departure(const BlockSetup& setup, int K) {
   const auto run = makeRun(setup);
-  run->start(dt, {.stepsPerWindow = K});
+  run->start(dt, {.stepsPerMacroStep = K});
   const coupling::Totals before = run->totals();
   const double mass = particleMass(run->grains.particles), size = 0.3 * mass;
   Departure worst;
-  for (int w = 1; w <= windows; ++w) {
+  for (int w = 1; w <= macroSteps; ++w) {
     run->advance();
     const coupling::Totals now = run->totals();
     const Vec3 gained = mass * run->time() * run->grains.gravity;
@@ -70,7 +70,7 @@ TEST(Momentum, OfAHeldBlockGrowsByWeightAndSupports) {
   const Vec3 before = run->totals().momentum, weight = mass * run->grains.gravity;
   Vec3 impulse;
   double supports = 0.0, worst = 0.0;
-  for (int w = 0; w < windows; ++w) {
+  for (int w = 0; w < macroSteps; ++w) {
     for (int end = 0; end < 2; ++end) {
       const Vec3 kept = onHeldNodes(run->solid(0).nodes());
       impulse += 0.5 * dt * (weight - kept);

@@ -40,8 +40,8 @@ TEST(Finite, NumbersPrintShortAndExact) {
 }
 
 TEST(Clock, TimeIsStepsTimesDt) {
-  Clock clock{.dt = 0.1, .substepsPerWindow = 3};
-  for (int i = 0; i < 10; ++i) clock.advanceWindow();
+  Clock clock{.dt = 0.1, .substepsPerMacroStep = 3};
+  for (int i = 0; i < 10; ++i) clock.advanceMacroStep();
   EXPECT_EQ(clock.time(), 30 * 0.1);
   EXPECT_DOUBLE_EQ(clock.coarseStep(), 0.3);
 }

@@ -26,7 +26,7 @@ inline std::shared_ptr<const dem::ContactLaws> frictionalLaws() {
   return dem::makeContactLaws(law);
 }
 
-inline fem::SolidMesh tetBlock() { return fem::boxOf(fem::CellShape::tet4, {3, 3, 1}, {0, 0, -0.2}, {0.6, 0.6, 0}); }
+inline fem::SolidMesh tetBlock() { return fem::boxOf(fem::ElementShape::tet4, {3, 3, 1}, {0, 0, -0.2}, {0.6, 0.6, 0}); }
 
 inline surface::Skin topOf(const fem::SolidMesh& mesh) { return surface::makeSkin(mesh.X, mesh.faceSets.at("skin")); }
 
@@ -86,7 +86,7 @@ struct Case {
 };
 inline void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-inline const auto windowCases =
+inline const auto macroCases =
     testing::Values(Case{"explicit1", Stepping::explicitSteps, 1}, Case{"explicit4", Stepping::explicitSteps, 4},
                     Case{"implicit1", Stepping::implicitSteps, 1}, Case{"implicit4", Stepping::implicitSteps, 4});
 

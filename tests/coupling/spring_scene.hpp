@@ -82,7 +82,7 @@ inline std::unique_ptr<fem::Model> block(const fem::SolidMesh& mesh, bool held) 
 
 /// Four particles above a block of bricks, on springs to its top corners, in motion.
 inline std::unique_ptr<CoupledRun> springRun(const SpringSetup& setup) {
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {2, 2, 2}, {0, 0, -0.2}, {0.2, 0.2, 0});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {2, 2, 2}, {0, 0, -0.2}, {0.2, 0.2, 0});
   auto run = std::make_unique<CoupledRun>();
   dem::ElasticLaw law;
   law.normal.stiffness = 1e4;

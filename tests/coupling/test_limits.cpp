@@ -1,4 +1,4 @@
-// The limit of the step: all connectors of a solid ask the same nodes, in steps and in windows.
+// The limit of the step: all connectors of a solid ask the same nodes, in steps and in macro steps.
 #include <gtest/gtest.h>
 
 #include "dovetail/core/error.hpp"
@@ -27,7 +27,7 @@ std::unique_ptr<CoupledRun> fourGrains(const Top& top) {
   run->grains.laws = dem::makeContactLaws(law);
   run->grains.pairs.setSkin(0.002);
   run->grains.gravity = {0, 0, -9.81};
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0.2, 0.2, -0.2}, {0.6, 0.6, 0});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {4, 4, 2}, {0.2, 0.2, -0.2}, {0.6, 0.6, 0});
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(1e6, 0.3, 1000.0))));
   fem::addMass(*model);
@@ -63,21 +63,21 @@ Settled settled(const Top& top) {
   const auto run = fourGrains(top);
   run->start(1e-5);
   run->start(0.5 * run->criticalStep().dt);
-  EXPECT_TRUE(settle(*run, {.kinetic = 1e-12}).atRest);
-  run->start(1e-5, {.stepsPerWindow = top.K});
+  EXPECT_TRUE(relax(*run, {.kinetic = 1e-12}).atRest);
+  run->start(1e-5, {.stepsPerMacroStep = top.K});
   return {run->criticalStep().dt, run->save()};
 }
 
 /// Kinetic over elastic energy of a state that has come to rest at this step, after more of its steps.
-double unrest(const Top& top, const Settled& from, double share, std::int64_t windows) {
+double unrest(const Top& top, const Settled& from, double share, std::int64_t macroSteps) {
   const auto run = fourGrains(top);
-  run->start(1e-5, {.stepsPerWindow = top.K});
+  run->start(1e-5, {.stepsPerMacroStep = top.K});
   run->load(from.state);
   run->grains.refusesUnstableSteps = share < 1.0;
-  run->start(share * from.limit, {.stepsPerWindow = top.K});
+  run->start(share * from.limit, {.stepsPerMacroStep = top.K});
   try {
-    settle(*run, {.kinetic = 1e-12, .windows = 500});
-    run->advance(windows);
+    relax(*run, {.kinetic = 1e-12, .macroSteps = 500});
+    run->advance(macroSteps);
   } catch (const NumericalError&) {
     return 1e30;
   }
@@ -91,11 +91,11 @@ TEST_P(Limits, HoldAndAreNotFarFromWhereMotionGrows) {
   EXPECT_LT(unrest(GetParam(), start, 0.95, 500), 1e-8);
   EXPECT_GT(unrest(GetParam(), start, 1.0 / 0.7, 500), 1e-3);
   const auto run = fourGrains(GetParam());
-  run->start(1e-5, {.stepsPerWindow = GetParam().K});
+  run->start(1e-5, {.stepsPerMacroStep = GetParam().K});
   run->load(start.state);
-  EXPECT_THROW(run->start(1.05 * start.limit, {.stepsPerWindow = GetParam().K}), InputError);
+  EXPECT_THROW(run->start(1.05 * start.limit, {.stepsPerMacroStep = GetParam().K}), InputError);
 }
-INSTANTIATE_TEST_SUITE_P(Windows, Limits,
+INSTANTIATE_TEST_SUITE_P(MacroSteps, Limits,
                          testing::Values(Top{1, 1, Stepping::explicitSteps}, Top{4, 1, Stepping::explicitSteps},
                                          Top{2, 4, Stepping::explicitSteps}, Top{1, 1, Stepping::implicitSteps},
                                          Top{2, 4, Stepping::implicitSteps}, Top{4, 16, Stepping::implicitSteps}),
@@ -109,7 +109,7 @@ TEST(Limits, AreTheSameForAnyNumberOfCouplingsOnOneTop) {
     for (const int K : {1, 4, 16}) {
       const auto limitOf = [&](int couplings) {
         const auto run = fourGrains({couplings, K, stepping});
-        run->start(1e-6, {.stepsPerWindow = K});
+        run->start(1e-6, {.stepsPerMacroStep = K});
         return run->criticalStep().dt;
       };
       const double whole = limitOf(1);
@@ -124,13 +124,13 @@ TEST(Limits, CountWhatIsYetToHitASolid) {
       const Top top{1, K, stepping};
       const auto touching = fourGrains(top), above = fourGrains(top);
       for (Vec3& x : above->grains.particles.x) x.z += 0.1;
-      touching->start(1e-6, {.stepsPerWindow = K});
-      above->start(1e-6, {.stepsPerWindow = K});
+      touching->start(1e-6, {.stepsPerMacroStep = K});
+      above->start(1e-6, {.stepsPerMacroStep = K});
       const StepLimit limit = above->criticalStep();
       EXPECT_NE(limit.owner.find("an impact of particle"), std::string::npos) << limit.owner;
       // One at the lightest place of the surface, a corner, and four about the node in the middle of the top.
       EXPECT_NEAR(limit.dt / touching->criticalStep().dt, 0.85, 0.02);
-      EXPECT_THROW(above->start(1.01 * limit.dt, {.stepsPerWindow = K}), InputError);
+      EXPECT_THROW(above->start(1.01 * limit.dt, {.stepsPerMacroStep = K}), InputError);
     }
 }
 
@@ -152,7 +152,7 @@ TEST(Limits, AreLookedAtWhileARunGoesOn) {
 TEST(Limits, CountSpringsAndPlanesOnSolids) {
   const auto limitWith = [](double springs, double penalty) {
     CoupledRun run;
-    const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {2, 2, 2}, {0, 0, 0}, {0.2, 0.2, 0.2});
+    const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {2, 2, 2}, {0, 0, 0}, {0.2, 0.2, 0.2});
     auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
     model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(1e6, 0.3, 1000.0))));
     if (springs > 0.0) model->add(fem::groundSprings(mesh.nodeSets.at("z-"), {0, 0, springs}));

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/error.hpp"
 #include "full_scene.hpp"
@@ -16,7 +16,7 @@ struct Bar {
   std::unique_ptr<CoupledRun> run = std::make_unique<CoupledRun>();
   fem::SolidMesh mesh;
   SolidSide* side = nullptr;
-  arlequin::OverlapTie* tie = nullptr;
+  arlequin::ArlequinCoupling* tie = nullptr;
 };
 
 constexpr double stiffness = 2.5e5;
@@ -42,7 +42,7 @@ Bar makeBar(Stepping stepping, bool bonded, double shift = 0.0) {
   grains.sortEvery = 0;
   dem::findPairs(grains.particles, grains.pairs);
   for (Vec3& x : grains.particles.x) x.x += shift;
-  bar.mesh = fem::boxOf(fem::CellShape::hex8, {2, 6, 2}, {-0.5, 0.5, -0.5}, {0.5, 3.5, 0.5});
+  bar.mesh = fem::boxOf(fem::ElementShape::hex8, {2, 6, 2}, {-0.5, 0.5, -0.5}, {0.5, 3.5, 0.5});
   std::vector<double> place;
   for (const Vec3& X : bar.mesh.X)
     place.push_back(X.y > 2.5 + 1e-9 ? arlequin::beyondOverlap : std::clamp(0.5 * (X.y - 0.5), 0.0, 1.0));
@@ -76,7 +76,7 @@ TEST_P(OverlapAndSurface, TiedGrainsDoNotMeetTheSkin) {
   coupleSkin(both);
   for (Bar* bar : {&alone, &both}) {
     bar->run->grains.particles.v[3] = {0.01, 0.0, 0.02};
-    bar->run->start(5e-5, {.stepsPerWindow = GetParam().K});
+    bar->run->start(5e-5, {.stepsPerMacroStep = GetParam().K});
   }
   EXPECT_EQ(dem::energies(both.run->grains).contacts, dem::energies(alone.run->grains).contacts);
   alone.run->advance(400 / GetParam().K);
@@ -93,8 +93,8 @@ TEST_P(OverlapAndSurface, TiedGrainsDoNotMeetTheSkin) {
 
 /// Weight pulls at the bar, which is held at both ends, and so are two balls that press on its side, above grains that
 /// are tied and beyond them.
-Bar pressed(const Case& windows, bool wholeSkin) {
-  Bar bar = makeBar(windows.stepping, true);
+Bar pressed(const Case& macroSteps, bool wholeSkin) {
+  Bar bar = makeBar(macroSteps.stepping, true);
   fem::fix(bar.side->nodes(), bar.mesh.nodeSets.at("z-"), fem::componentZ);
   if (wholeSkin)
     coupleSkin(bar);
@@ -119,23 +119,23 @@ Bar pressed(const Case& windows, bool wholeSkin) {
 class SettledOverlapAndSurface : public testing::TestWithParam<std::tuple<Case, bool>> {};
 
 TEST_P(SettledOverlapAndSurface, StaysAndKeepsItsBooksNearTheLimit) {
-  const auto& [windows, wholeSkin] = GetParam();
-  const Bar bar = pressed(windows, wholeSkin);
+  const auto& [macroSteps, wholeSkin] = GetParam();
+  const Bar bar = pressed(macroSteps, wholeSkin);
   CoupledRun& run = *bar.run;
   run.start(1e-7);
   run.start(0.5 * run.criticalStep().dt);
-  ASSERT_TRUE(settle(run, {.kinetic = 1e-11}).atRest);
-  const RunOptions options{.stepsPerWindow = windows.K};
+  ASSERT_TRUE(relax(run, {.kinetic = 1e-11}).atRest);
+  const RunOptions options{.stepsPerMacroStep = macroSteps.K};
   run.start(1e-7, options);
   const double limit = run.criticalStep().dt;
   EXPECT_THROW(run.start(1.05 * limit, options), InputError);
   run.start(0.95 * limit, options);
   const auto elastic = [&] { return run.ledger().joules("particles: contacts") + run.ledger().joules("bar: elastic"); };
   const double residual = run.ledger().residual();
-  run.advance(std::lround(0.3 / run.window()));
+  run.advance(std::lround(0.3 / run.macroStep()));
   EXPECT_FALSE(run.grains.passed);
   // Own forces that act once in several steps keep the bar swinging by the fourth power of the step.
-  const double share = windows.stepping == Stepping::explicitSteps && windows.K > 1 ? 1e-4 : 1e-8;
+  const double share = macroSteps.stepping == Stepping::explicitSteps && macroSteps.K > 1 ? 1e-4 : 1e-8;
   EXPECT_LT(run.kineticEnergy(), share * elastic());
   EXPECT_LT(std::abs(run.ledger().residual() - residual), share * elastic());
   std::size_t pressed = 0;
@@ -147,10 +147,10 @@ TEST_P(SettledOverlapAndSurface, StaysAndKeepsItsBooksNearTheLimit) {
 constexpr Case explicit1{"explicit1", Stepping::explicitSteps, 1}, explicit4{"explicit4", Stepping::explicitSteps, 4},
     implicit1{"implicit1", Stepping::implicitSteps, 1}, implicit4{"implicit4", Stepping::implicitSteps, 4},
     implicit16{"implicit16", Stepping::implicitSteps, 16};
-INSTANTIATE_TEST_SUITE_P(Windows, OverlapAndSurface,
+INSTANTIATE_TEST_SUITE_P(MacroSteps, OverlapAndSurface,
                          testing::Values(explicit1, explicit4, implicit1, implicit4, implicit16),
                          [](const auto& c) { return std::string(c.param.name); });
-INSTANTIATE_TEST_SUITE_P(Windows, SettledOverlapAndSurface,
+INSTANTIATE_TEST_SUITE_P(MacroSteps, SettledOverlapAndSurface,
                          testing::Combine(testing::Values(explicit1, explicit4, implicit1, implicit4, implicit16),
                                           testing::Bool()),
                          [](const auto& c) {

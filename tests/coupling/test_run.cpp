@@ -23,7 +23,7 @@ class Runs : public testing::TestWithParam<Case> {
 protected:
   static std::unique_ptr<CoupledRun> started(const Case& c, double dt, bool held = false) {
     auto run = springRun({c.stepping, c.massShare, held});
-    run->start(dt, {.stepsPerWindow = c.K});
+    run->start(dt, {.stepsPerMacroStep = c.K});
     return run;
   }
 };
@@ -31,9 +31,9 @@ protected:
 /// Largest residual over 0.06 s of motion, over the energy at the start.
 double residualOf(CoupledRun& run) {
   const double start = run.ledger().stored();
-  const auto windows = static_cast<std::int64_t>(std::llround(0.06 / run.window()));
+  const auto macroSteps = static_cast<std::int64_t>(std::llround(0.06 / run.macroStep()));
   double largest = 0.0;
-  for (std::int64_t w = 0; w < windows; ++w) {
+  for (std::int64_t w = 0; w < macroSteps; ++w) {
     run.advance();
     largest = std::max(largest, std::abs(run.ledger().residual()));
   }
@@ -87,7 +87,7 @@ TEST_P(Runs, ThreadsChangeNoDigit) {
   EXPECT_EQ(states[0], states[2]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Windows, Runs,
+INSTANTIATE_TEST_SUITE_P(MacroSteps, Runs,
                          testing::Values(Case{"explicit1", Stepping::explicitSteps, 0.0, 1},
                                          Case{"explicit1consistent", Stepping::explicitSteps, 1.0, 1},
                                          Case{"explicit4", Stepping::explicitSteps, 0.0, 4},
@@ -115,7 +115,7 @@ TEST(CoupledRuns, WhatALagMakesIsBooked) {
     const auto run = springRun({.stepping = Stepping::implicitSteps});
     run->start(2e-4, {.lag = lag});
     run->advance(500);
-    const double made = -run->ledger().joules("loads one step old (minus what they made)");
+    const double made = -run->ledger().joules("staggering error (minus what it made)");
     EXPECT_GT(std::abs(made), 1e-2 * run->ledger().storedAtOpening());
     EXPECT_LT(std::abs(run->ledger().residual()), 1e-3 * std::abs(made)) << made;
   }
@@ -129,7 +129,7 @@ TEST(CoupledRuns, SaysWhatIsMissing) {
   EXPECT_THROW(run.totals(), InputError);
   EXPECT_THROW(run.criticalStep(), InputError);
   EXPECT_THROW(run.start(0.0), InputError);
-  EXPECT_THROW(run.start(1e-3, {.stepsPerWindow = 0}), InputError);
+  EXPECT_THROW(run.start(1e-3, {.stepsPerMacroStep = 0}), InputError);
   EXPECT_THROW(run.addSolid(nullptr), InputError);
   EXPECT_THROW(run.addSolid(std::make_unique<fem::Model>(), {.name = ""}), InputError);
   run.start(1e-3);

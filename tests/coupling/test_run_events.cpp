@@ -36,18 +36,18 @@ TEST(RunEvents, SettlesAndBooksWhatThatTook) {
     const auto run = springRun({.stepping = stepping, .held = true});
     run->grains.gravity = {0.0, 0.0, -9.81};
     run->start(2e-4);
-    const RestReport report = settle(*run);
+    const RestReport report = relax(*run);
     EXPECT_TRUE(report.atRest) << report.kinetic;
     const dem::Particles& p = run->grains.particles;
     for (std::size_t i = 0; i < p.size(); ++i) EXPECT_LT(norm(p.f[i]), 2e-3 * 9.81 * p.mass[i]);
-    const double booked = run->ledger().joules("brought to rest");
+    const double booked = run->ledger().joules("kinetic damping");
     EXPECT_GT(booked, 0.0);
     EXPECT_LT(std::abs(run->ledger().residual()), 1e-2 * booked);
   }
   const auto run = springRun({});
   run->start(1e-4);
-  EXPECT_THROW(settle(*run, {.kinetic = 0.0}), InputError);
-  EXPECT_FALSE(settle(*run, {.windows = 1}).atRest);
+  EXPECT_THROW(relax(*run, {.kinetic = 0.0}), InputError);
+  EXPECT_FALSE(relax(*run, {.macroSteps = 1}).atRest);
 }
 
 /// Relaxation, steps and removals of walls, with and without a solid in the run: the books begin at the first start.
@@ -82,13 +82,13 @@ TEST(RunEvents, SettlesInPartsAsInOne) {
   };
   const auto whole = made(), parts = made();
   const RestOptions options{.kinetic = 1e-6};
-  const RestReport report = settle(*whole, options);
+  const RestReport report = relax(*whole, options);
   ASSERT_TRUE(report.atRest);
   RestProgress progress;
   int calls = 1;
-  for (; !settleOn(*parts, options, progress, 7); ++calls) parts->load(parts->save());
-  EXPECT_EQ(calls, (report.windows + 6) / 7);
-  EXPECT_EQ(progress.report.windows, report.windows);
+  for (; !relaxOn(*parts, options, progress, 7); ++calls) parts->load(parts->save());
+  EXPECT_EQ(calls, (report.macroSteps + 6) / 7);
+  EXPECT_EQ(progress.report.macroSteps, report.macroSteps);
   EXPECT_EQ(progress.report.stops, report.stops);
   EXPECT_EQ(progress.report.kinetic, report.kinetic);
   EXPECT_EQ(parts->grains.particles.x, whole->grains.particles.x);
@@ -112,7 +112,7 @@ TEST(RunEvents, ConnectorsSeeImplicitSolidsRestWhereTheyRest) {
   run->grains.gravity = {0.0, 0.0, -9.81};
   run->grains.terms.add(Watch(run->solid(0)));
   run->start(1e-3);
-  EXPECT_TRUE(settle(*run, {.kinetic = 1e-18}).atRest);
+  EXPECT_TRUE(relax(*run, {.kinetic = 1e-18}).atRest);
   // Between own forces, which act at once, and what connectors do all the time, nodes rush by this speed.
   const fem::Nodes& nodes = run->solid(0).nodes();
   double rush = 0.0;
@@ -120,7 +120,7 @@ TEST(RunEvents, ConnectorsSeeImplicitSolidsRestWhereTheyRest) {
     rush = std::max(rush, run->dt() * norm(run->solid(0).load.force[n]) / nodes.mass[n]);
   EXPECT_GT(rush, 1e-2);
   for (const int K : {1, 2, 3, 4, 7}) {
-    run->start(1e-3 / K, {.stepsPerWindow = K});
+    run->start(1e-3 / K, {.stepsPerMacroStep = K});
     run->advance(2);
     Watch& watch = *run->grains.terms.all<Watch>().front();
     watch.fastest = 0.0;
@@ -129,15 +129,15 @@ TEST(RunEvents, ConnectorsSeeImplicitSolidsRestWhereTheyRest) {
   }
 }
 
-/// Pulls at one particle in both half windows around their ends.
+/// Pulls at one particle in both half macro steps around their ends.
 class Pull final : public Connector {
 public:
   Pull(SolidSide& side, std::int64_t id, const Vec3& force) : Connector(side), id_(id), force_(force) {}
   std::string name() const override { return "pull"; }
   std::unique_ptr<dem::Term> clone() const override { return std::make_unique<Pull>(*this); }
   Order order() const override { return Order::constraints; }
-  void constrainWindow(const dem::Model& m, std::span<const Vec3>, double, std::span<Vec3> onParticles,
-                       NodalLoad& load) const override {
+  void constrainMacroStep(const dem::Model& m, std::span<const Vec3>, double, std::span<Vec3> onParticles,
+                          NodalLoad& load) const override {
     onParticles[static_cast<std::size_t>(dem::find(m.particles, id_))] += force_;
     load.add(0, -force_);
   }
@@ -153,11 +153,11 @@ TEST(RunEvents, WhatConstraintsDoToWindowsGoesWithItsParticle) {
   dem::ElasticLaw law;
   law.normal.stiffness = 1e4;
   run.grains.laws = dem::makeContactLaws(law);
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 1, 1}, {}, {0.2, 0.2, 0.2});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {1, 1, 1}, {}, {0.2, 0.2, 0.2});
   SolidSide& side = run.addSolid(block(mesh, false));
   const Vec3 force{3.0, 0.0, 0.0};
   run.grains.terms.add(Pull(side, 2, force));
-  run.start(1e-4, {.stepsPerWindow = 2});
+  run.start(1e-4, {.stepsPerMacroStep = 2});
   run.advance(5);
   dem::removeParticles(run.grains, std::vector<int>{0});
   dem::addParticle(run.grains.particles, {0.0, 0.5, 1.0}, {}, 0.03, dem::Mass{0.5});

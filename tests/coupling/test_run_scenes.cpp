@@ -16,11 +16,11 @@ class Scenes : public testing::TestWithParam<Case> {
 protected:
   static std::unique_ptr<CoupledRun> started(double step = dt) {
     auto run = fullRun({.name = "block", .stepping = GetParam().stepping});
-    run->start(step, {.stepsPerWindow = GetParam().K});
+    run->start(step, {.stepsPerMacroStep = GetParam().K});
     return run;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Windows, Scenes, windowCases, [](const auto& c) { return c.param.name; });
+INSTANTIATE_TEST_SUITE_P(MacroSteps, Scenes, macroCases, [](const auto& c) { return c.param.name; });
 
 /// Energy that has been lost or stored since, which a residual is small against.
 double turnedOver(CoupledRun& run) {
@@ -55,7 +55,7 @@ TEST_P(Scenes, AStateOfAnotherSceneIsRefusedAndNothingChanges) {
   const auto run = started();
   const auto other = emptyRun();
   addBlock(*other, {.name = "block", .stepping = GetParam().stepping});
-  other->start(dt, {.stepsPerWindow = GetParam().K});
+  other->start(dt, {.stepsPerMacroStep = GetParam().K});
   run->advance(10);
   const std::vector<char> before = run->save();
   std::vector<char> cut = before;
@@ -99,7 +99,7 @@ TEST_P(Scenes, StepsAndWindowsChangeInFlight) {
   const auto run = started();
   run->advance(1000 / GetParam().K);
   const double before = run->ledger().residual();
-  run->start(0.5 * dt, {.stepsPerWindow = GetParam().K == 1 ? 3 : 1});
+  run->start(0.5 * dt, {.stepsPerMacroStep = GetParam().K == 1 ? 3 : 1});
   EXPECT_NEAR(run->ledger().residual(), before, 2e-3 * turnedOver(*run));
   run->advance(1000 / GetParam().K);
   EXPECT_LT(std::abs(run->ledger().residual()), 1e-2 * turnedOver(*run)) << run->ledger();
@@ -156,7 +156,7 @@ TEST(Scene, NewcomersKeepClearOfSolids) {
   for (const bool smooth : {false, true}) {
     const auto run = std::make_unique<CoupledRun>();
     run->grains.laws = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 2e4}});
-    const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {3, 3, 1}, {0, 0, -0.2}, {0.6, 0.6, 0});
+    const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {3, 3, 1}, {0, 0, -0.2}, {0.6, 0.6, 0});
     SolidSide& side = run->addSolid(block(mesh, false), {.name = "block"});
     const auto faces = mesh.faceSets.at("skin");
     const surface::Skin skin = surface::makeSkin(mesh.X, faces);
@@ -213,7 +213,7 @@ TEST(Scene, MayHaveSeveralSolids) {
   const auto run = std::make_unique<CoupledRun>();
   run->grains.laws = frictionalLaws();
   addBlock(*run);
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex20, {2, 2, 1}, {0, 0, 0.06}, {0.6, 0.6, 0.16});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex20, {2, 2, 1}, {0, 0, 0.06}, {0.6, 0.6, 0.16});
   SolidSide& lid = run->addSolid(block(mesh, false), {.name = "lid", .stepping = Stepping::implicitSteps});
   run->grains.terms.add(surface::SurfaceContact(lid, surface::Coupling(topOf(mesh)), frictionalLaws(), "contacts"));
   for (Vec3& v : lid.nodes().v) v = {0.1, 0.0, -0.3};

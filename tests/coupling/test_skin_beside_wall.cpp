@@ -16,10 +16,10 @@ struct Ground {
   double gap = 0.0;     ///< m, between brick and wall; < 0: a lap
   bool held = true;     ///< all nodes of the brick, else its bottom
   bool wall = true;
-  Case windows{"", Stepping::explicitSteps, 1};
+  Case macroSteps{"", Stepping::explicitSteps, 1};
 };
 
-fem::SolidMesh brick() { return fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0, 0, -0.2}, {0.6, 0.6, 0}); }
+fem::SolidMesh brick() { return fem::boxOf(fem::ElementShape::hex8, {4, 4, 2}, {0, 0, -0.2}, {0.6, 0.6, 0}); }
 
 /// A brick with its top at z = 0 up to x = 0.6, from where a wall goes on to x = 1.2.
 std::unique_ptr<CoupledRun> groundOf(const Ground& ground, std::shared_ptr<const dem::ContactLaws> laws) {
@@ -32,7 +32,7 @@ std::unique_ptr<CoupledRun> groundOf(const Ground& ground, std::shared_ptr<const
   std::vector<int> all(mesh.X.size());
   std::iota(all.begin(), all.end(), 0);
   if (ground.held) fem::fix(model->nodes, all);
-  SolidSide& side = run->addSolid(std::move(model), {.name = "brick", .stepping = ground.windows.stepping});
+  SolidSide& side = run->addSolid(std::move(model), {.name = "brick", .stepping = ground.macroSteps.stepping});
   std::vector<std::vector<fem::Face>> parts(static_cast<std::size_t>(ground.parts));
   for (const fem::Face& face : mesh.faceSets.at("z+"))
     parts[ground.parts == 1 || mesh.X[static_cast<std::size_t>(face.node[0])].y < 0.29 ? 0 : 1].push_back(face);
@@ -181,10 +181,10 @@ TEST(SkinBesideWall, HasTheSameDigitsForAnyNumberOfThreads) {
 
 class SkinBesideWallInWindows : public testing::TestWithParam<Case> {};
 
-std::unique_ptr<CoupledRun> softRun(const Case& windows, int refined) {
-  auto run = groundOf({.parts = 2, .held = false, .windows = windows}, frictionalLaws());
+std::unique_ptr<CoupledRun> softRun(const Case& macroSteps, int refined) {
+  auto run = groundOf({.parts = 2, .held = false, .macroSteps = macroSteps}, frictionalLaws());
   addRollers(*run);
-  run->start(dt / refined, {.stepsPerWindow = windows.K});
+  run->start(dt / refined, {.stepsPerMacroStep = macroSteps.K});
   return run;
 }
 
@@ -213,7 +213,7 @@ TEST_P(SkinBesideWallInWindows, GoesOnBitForBit) {
   EXPECT_EQ(whole->save(), rest->save());
 }
 
-INSTANTIATE_TEST_SUITE_P(Windows, SkinBesideWallInWindows, windowCases,
+INSTANTIATE_TEST_SUITE_P(MacroSteps, SkinBesideWallInWindows, macroCases,
                          [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace

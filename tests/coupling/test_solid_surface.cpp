@@ -8,7 +8,7 @@
 namespace dovetail::coupling {
 namespace {
 
-fem::SolidMesh brick() { return fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0, 0, -0.2}, {0.6, 0.6, 0}); }
+fem::SolidMesh brick() { return fem::boxOf(fem::ElementShape::hex8, {4, 4, 2}, {0, 0, -0.2}, {0.6, 0.6, 0}); }
 
 /// Faces of the top in so many parts, and those of the sides x = 0.6 and y = 0 behind them, if wanted.
 std::vector<std::vector<fem::Face>> partsOf(const fem::SolidMesh& mesh, int count, bool sides) {
@@ -141,7 +141,7 @@ std::unique_ptr<CoupledRun> slidingRun(const std::vector<std::vector<fem::Face>>
     dem::addParticle(p, {0.59, 0.11 + 0.1 * k, 0.0249}, {0.3, 0.0, -0.1}, 0.025, dem::Density{2000.0});
   run->grains.gravity = {0.0, 0.0, -9.81};
   dem::switchOnRotation(p);
-  run->start(dt, {.stepsPerWindow = c.K});
+  run->start(dt, {.stepsPerMacroStep = c.K});
   return run;
 }
 
@@ -170,7 +170,7 @@ TEST_P(SurfaceInParts, GoesOnBitForBit) {
   EXPECT_EQ(whole->save(), rest->save());
 }
 
-INSTANTIATE_TEST_SUITE_P(Windows, SurfaceInParts,
+INSTANTIATE_TEST_SUITE_P(MacroSteps, SurfaceInParts,
                          testing::Values(Case{"explicit1", Stepping::explicitSteps, 1},
                                          Case{"explicit4", Stepping::explicitSteps, 4},
                                          Case{"implicit1", Stepping::implicitSteps, 1},

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "dovetail/core/quaternion.hpp"
-#include "dovetail/dem/walls/share_solver.hpp"
+#include "dovetail/dem/walls/edge_contact_solver.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {
@@ -45,7 +45,7 @@ TEST(WallTroughs, TheCutIntoTrianglesDoesNotShow) {
     const auto wall = trough(angle, 6, 3, {}, trial % 3 == 0, random);
     const double d1 = random(0.0, 0.2) * radius, d2 = random(0.0, 0.2) * radius;
     std::vector<Share> planes{{{0, 1, 0}, d1}, {{std::sin(angle), -std::cos(angle), 0}, d2}};
-    ShareSolver().solve(planes, 1e-15);
+    EdgeContactSolver().solve(planes, 1e-15);
     const Vec3 expected = planes[0].carried * planes[0].normal + planes[1].carried * planes[1].normal;
     const double height = radius - d1, out = (radius - d2 + std::cos(angle) * height) / std::sin(angle);
     const Response response = respond(wall, {out, height, random(4.0, 8.0)}, radius, 1.0);

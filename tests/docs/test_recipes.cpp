@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/handed_load.hpp"
-#include "dovetail/arlequin/overlap_tie.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/cg/fields.hpp"
 #include "dovetail/coupling/run.hpp"
@@ -39,7 +39,9 @@ void fillPit(dem::Model& grains) {
   dem::addWall(grains, dem::makePlane({}, {0.0, 0.0, 1.0}));
 }
 
-fem::SolidMesh soilMesh() { return fem::boxOf(fem::CellShape::hex8, {3, 3, 6}, {0, 0, -depth}, {width, width, top}); }
+fem::SolidMesh soilMesh() {
+  return fem::boxOf(fem::ElementShape::hex8, {3, 3, 6}, {0, 0, -depth}, {width, width, top});
+}
 
 std::unique_ptr<fem::Model> soilOf(const fem::SolidMesh& mesh) {
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
@@ -76,7 +78,7 @@ TEST(Recipes, Overlap) {
   auto model = soilOf(mesh);
   const auto law = fem::pointMaterial(fem::neoHookean(5e6, 0.25, 1450.0));
 #include "coupling/overlap.inc"
-  EXPECT_GT(run.grains.terms.all<arlequin::OverlapTie>()[0]->state().members, 50U);
+  EXPECT_GT(run.grains.terms.all<arlequin::ArlequinCoupling>()[0]->state().members, 50U);
 }
 
 TEST(Recipes, EquilibriumAtTheStart) {
@@ -139,7 +141,7 @@ namespace fibres {
 }
 
 TEST(Recipes, FibresPullBack) {
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
   fem::Model model = fem::makeModel(mesh);
   model.add(fem::makeSolid(mesh, fibres::material));
   for (std::size_t n = 0; n < mesh.X.size(); ++n) model.nodes.u[n].x = 0.1 * mesh.X[n].x;

@@ -39,7 +39,9 @@ inline Model oscillator() {
 }
 
 /// A block of neo-Hookean bricks, E about 2.6 MPa, 1000 kg/m³.
-inline SolidMesh smallMesh(CellShape shape = CellShape::hex8) { return boxOf(shape, {3, 1, 1}, {}, {0.3, 0.1, 0.1}); }
+inline SolidMesh smallMesh(ElementShape shape = ElementShape::hex8) {
+  return boxOf(shape, {3, 1, 1}, {}, {0.3, 0.1, 0.1});
+}
 inline Model smallBody(const SolidMesh& mesh, Formulation formulation = Formulation::standard) {
   Model model = makeModel(mesh);
   model.add(makeSolid(mesh, std::make_shared<PlainNeoHookean>(1e6, 1e6), {.formulation = formulation}));

@@ -17,7 +17,7 @@ inline Vec3 randomVec3(std::mt19937& random, double amplitude) {
 
 /// A box of 0.9 × 1.1 × 0.7 m of hex8; if `distorted`, every node is moved by up to 15 % of the element size.
 inline SolidMesh testMesh(std::array<int, 3> counts, bool distorted, unsigned seed = 1) {
-  SolidMesh mesh = boxOf(CellShape::hex8, counts, {0.1, -0.2, 0.3}, {1.0, 0.9, 1.0});
+  SolidMesh mesh = boxOf(ElementShape::hex8, counts, {0.1, -0.2, 0.3}, {1.0, 0.9, 1.0});
   std::mt19937 random(seed);
   if (distorted)
     for (Vec3& X : mesh.X) {
@@ -50,13 +50,13 @@ inline void setRandomDisplacement(Nodes& nodes, double amplitude, unsigned seed)
 }
 
 /// Cells of a box: one layer if they are plane.
-inline std::array<int, 3> layered(CellShape shape, std::array<int, 3> cells) {
+inline std::array<int, 3> layered(ElementShape shape, std::array<int, 3> cells) {
   if (dimensionOf(shape) == 2) cells[2] = 1;
   return cells;
 }
 
 /// A gradient that does not move plane cells out of their plane.
-inline Eigen::Matrix3d inPlane(CellShape shape, Eigen::Matrix3d F) {
+inline Eigen::Matrix3d inPlane(ElementShape shape, Eigen::Matrix3d F) {
   if (dimensionOf(shape) == 3) return F;
   F.row(2) = Eigen::RowVector3d(0, 0, 1);
   F.col(2) = Eigen::Vector3d(0, 0, 1);

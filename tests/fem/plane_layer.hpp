@@ -9,13 +9,13 @@
 
 namespace dovetail::fem {
 
-inline constexpr SolidKind kindsOfBricks[] = {{CellShape::quad4, Formulation::standard},
-                                              {CellShape::quad4, Formulation::meanDilatation},
-                                              {CellShape::quad8, Formulation::standard},
-                                              {CellShape::quad8, Formulation::meanDilatation}};
+inline constexpr SolidKind kindsOfBricks[] = {{ElementShape::quad4, Formulation::standard},
+                                              {ElementShape::quad4, Formulation::meanDilatation},
+                                              {ElementShape::quad8, Formulation::standard},
+                                              {ElementShape::quad8, Formulation::meanDilatation}};
 inline constexpr double depth = 0.4;
 
-inline SolidMesh bentBox(CellShape shape) {
+inline SolidMesh bentBox(ElementShape shape) {
   return mappedBox(shape, {4, 2, 1}, {0.0, 0.0, 0.2}, {1.0, 0.4, 0.2 + depth}, [](const Vec3& X) {
     return Vec3{X.x + 0.1 * std::sin(2.0 * X.y), X.y + 0.1 * X.x * X.x, X.z};
   });
@@ -25,7 +25,7 @@ struct Body {
   SolidMesh mesh;
   Model model;
   std::shared_ptr<Solid> solid;
-  Body(CellShape shape, Formulation formulation, const std::shared_ptr<const PointMaterial>& material)
+  Body(ElementShape shape, Formulation formulation, const std::shared_ptr<const PointMaterial>& material)
       : mesh(bentBox(shape)), model(makeModel(mesh)), solid(makeSolid(mesh, material, {.formulation = formulation})) {
     model.add(solid);
     addMass(model);
@@ -39,7 +39,8 @@ struct Pair {
 
   Pair(const SolidKind& kind, const std::shared_ptr<const PointMaterial>& material)
       : plane(kind.shape, kind.formulation, material),
-        bricks(kind.shape == CellShape::quad4 ? CellShape::hex8 : CellShape::hex20, kind.formulation, material) {
+        bricks(kind.shape == ElementShape::quad4 ? ElementShape::hex8 : ElementShape::hex20, kind.formulation,
+               material) {
     std::vector<int> all(bricks.mesh.X.size());
     std::iota(all.begin(), all.end(), 0);
     fix(bricks.model.nodes, all, componentZ);

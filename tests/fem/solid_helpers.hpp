@@ -44,21 +44,21 @@ private:
 };
 
 struct SolidKind {
-  CellShape shape;
+  ElementShape shape;
   Formulation formulation;
   std::string label() const { return std::string(name(shape)) + " " + name(formulation); }
 };
 
 inline const std::vector<SolidKind>& allSolidKinds() {
   static const std::vector<SolidKind> kinds = {
-      {CellShape::hex8, Formulation::standard},        {CellShape::hex8, Formulation::meanDilatation},
-      {CellShape::hex8, Formulation::enhanced},        {CellShape::hex8, Formulation::reduced},
-      {CellShape::hex20, Formulation::standard},       {CellShape::hex27, Formulation::standard},
-      {CellShape::tet4, Formulation::standard},        {CellShape::tet10, Formulation::standard},
-      {CellShape::hex20, Formulation::meanDilatation}, {CellShape::hex27, Formulation::meanDilatation},
-      {CellShape::quad4, Formulation::standard},       {CellShape::quad4, Formulation::meanDilatation},
-      {CellShape::quad8, Formulation::standard},       {CellShape::quad8, Formulation::meanDilatation},
-      {CellShape::quad8, Formulation::reduced}};
+      {ElementShape::hex8, Formulation::standard},        {ElementShape::hex8, Formulation::meanDilatation},
+      {ElementShape::hex8, Formulation::enhanced},        {ElementShape::hex8, Formulation::reduced},
+      {ElementShape::hex20, Formulation::standard},       {ElementShape::hex27, Formulation::standard},
+      {ElementShape::tet4, Formulation::standard},        {ElementShape::tet10, Formulation::standard},
+      {ElementShape::hex20, Formulation::meanDilatation}, {ElementShape::hex27, Formulation::meanDilatation},
+      {ElementShape::quad4, Formulation::standard},       {ElementShape::quad4, Formulation::meanDilatation},
+      {ElementShape::quad8, Formulation::standard},       {ElementShape::quad8, Formulation::meanDilatation},
+      {ElementShape::quad8, Formulation::reduced}};
   return kinds;
 }
 /// Those of three dimensions.
@@ -70,7 +70,7 @@ inline std::vector<SolidKind> spatialSolidKinds() {
 
 /// A box of 2 × 1 × 2 bricks (or their tetrahedra, or one layer of plane cells) around (0.5, 0.1, 0.6), nodes moved a
 /// little if distorted.
-inline SolidMesh testSolidMesh(CellShape shape, bool distorted, unsigned seed = 1) {
+inline SolidMesh testSolidMesh(ElementShape shape, bool distorted, unsigned seed = 1) {
   SolidMesh mesh = boxOf(shape, layered(shape, {2, 1, 2}), {0.1, -0.2, 0.3}, {1.0, 0.4, 1.0});
   if (!distorted) return mesh;
   // One smooth map of all nodes keeps second-order cells valid.

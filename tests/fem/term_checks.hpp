@@ -9,8 +9,8 @@
 
 namespace dovetail::fem {
 
-inline constexpr std::array spatialCellShapes = {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet4,
-                                                 CellShape::tet10};
+inline constexpr std::array spatialCellShapes = {ElementShape::hex8, ElementShape::hex20, ElementShape::hex27,
+                                                 ElementShape::tet4, ElementShape::tet10};
 
 inline std::vector<Vec3> forcesOf(Term& term, const Nodes& nodes, const Instant& now) {
   std::vector<Vec3> f(nodes.u.size());

@@ -23,7 +23,7 @@ void clamp(const SolidMesh& mesh, Nodes& nodes) {
 
 /// Mean tip deflection of the 2 × 30 × 2 beam over Timoshenko's.
 double deflectionRatio(Formulation formulation, double nu) {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {2, 30, 2}, {-0.4, 0.0, -0.4}, {0.4, length, 0.4});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {2, 30, 2}, {-0.4, 0.0, -0.4}, {0.4, length, 0.4});
   SolidScene beam = sceneOf(mesh, formulation, StVenantKirchhoff{young, nu, 1309.0});
   clamp(mesh, beam.model.nodes);
   const double area = depth * depth, inertia = area * area / 12.0;

@@ -10,12 +10,12 @@ namespace {
 
 constexpr Vec3 g{1.0, -2.0, -9.81};
 /// In the plane of plane cells.
-Vec3 weightOf(CellShape shape) { return dimensionOf(shape) == 2 ? Vec3{1.0, -9.81, 0.0} : g; }
+Vec3 weightOf(ElementShape shape) { return dimensionOf(shape) == 2 ? Vec3{1.0, -9.81, 0.0} : g; }
 constexpr double stepLength = 0.02 * crossing;
 constexpr int steps = 10;
 
 /// One brick, or its tetrahedra.
-SolidMesh oneCell(CellShape shape) { return boxOf(shape, {1, 1, 1}, {}, {0.1, 0.1, 0.1}); }
+SolidMesh oneCell(ElementShape shape) { return boxOf(shape, {1, 1, 1}, {}, {0.1, 0.1, 0.1}); }
 
 /// Runs a model from rest or at v0 with every integrator and share of the consistent mass, and calls check(model, what,
 /// ledger residual).
@@ -41,7 +41,7 @@ void withEveryIntegrator(Make&& make, Check&& check) {
 }
 
 TEST(BodyForces, FreeBodiesOfEveryShapeFallWithoutStress) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const Vec3 pull = weightOf(shape);
     withEveryIntegrator(
         [&] {
@@ -66,7 +66,7 @@ TEST(BodyForces, FreeBodiesOfEveryShapeFallWithoutStress) {
 
 TEST(BodyForces, MassDampingSlowsEveryNodeAlike) {
   const double alpha = 50.0;
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const Vec3 pull = weightOf(shape);
     withEveryIntegrator(
         [&] {
@@ -86,7 +86,7 @@ TEST(BodyForces, MassDampingSlowsEveryNodeAlike) {
 }
 
 TEST(BodyForces, MassDampingIsTheMassMatrixTimesItsRate) {
-  Model model = smallBody(smallMesh(CellShape::hex20));
+  Model model = smallBody(smallMesh(ElementShape::hex20));
   setRandom(model.nodes.v, 1.0, 3);
   const DofMap dofs(model.constraints, model.nodes);
   const ModelMass mass(model, dofs, 0.4);
@@ -106,7 +106,7 @@ TEST(BodyForces, MassDampingIsTheMassMatrixTimesItsRate) {
 }
 
 /// Mean of the tips under weights up and down: the strains' second order drops out.
-double hangingTip(CellShape shape, double weightless) {
+double hangingTip(ElementShape shape, double weightless) {
   const SolidMesh mesh = oneCell(shape);
   double tip = 0.0;
   for (const double sign : {1.0, -1.0}) {
@@ -125,7 +125,7 @@ double hangingTip(CellShape shape, double weightless) {
 
 TEST(BodyForces, ColumnsOfOneCellHangToTheExactTip) {
   const double weight = 1.0, exact = -1000.0 * weight * 0.1 * 0.1 / (2.0 * 1e6);  // −ρ g h² / 2E at a strain of 1e-4
-  for (const CellShape shape : {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet10})
+  for (const ElementShape shape : {ElementShape::hex8, ElementShape::hex20, ElementShape::hex27, ElementShape::tet10})
     EXPECT_NEAR(hangingTip(shape, weight), exact, 1e-6 * std::abs(exact)) << name(shape);
 }
 

@@ -27,7 +27,7 @@ TEST(BrickSolid, HandWrittenAndGeneralKernelsAgree) {
   for (const Material& law :
        {kirchhoff, Material(DeformedMetricHooke{3e6, 0.3, 1000.0}), Material(AxialSprings{3e6, 1000.0})})
     for (const bool weighted : {false, true}) {
-      const SolidMesh mesh = testSolidMesh(CellShape::hex8, true);
+      const SolidMesh mesh = testSolidMesh(ElementShape::hex8, true);
       std::vector<double> share;
       for (const Vec3& X : mesh.X) share.push_back(weighted ? 0.1 + 0.6 * X.x : 1.0);
       const SolidScene fast = sceneOf(mesh, pointMaterial(law), {.share = share}),
@@ -45,7 +45,7 @@ TEST(BrickSolid, HandWrittenAndGeneralKernelsAgree) {
 
 /// Conserving forces of laws with kernels do the work of the energy that the kernels report.
 TEST(BrickSolid, ConservingForcesDoTheWorkOfTheEnergyOfTheKernels) {
-  SolidScene scene = sceneOf(testSolidMesh(CellShape::hex8, true), Formulation::standard, kirchhoff);
+  SolidScene scene = sceneOf(testSolidMesh(ElementShape::hex8, true), Formulation::standard, kirchhoff);
   Nodes& nodes = scene.model.nodes;
   setRandom(nodes.u, 0.03, 3);
   const std::vector<Vec3> start = nodes.u;

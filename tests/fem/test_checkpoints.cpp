@@ -15,7 +15,7 @@ using Bytes = std::vector<char>;
 
 /// A brick with everything that remembers: plastic strain, enhanced modes, friction; and loads with and without energy.
 Model rememberingBrick(bool loaded = true) {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 1}, {}, {0.1, 0.1, 0.1});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {1, 1, 1}, {}, {0.1, 0.1, 0.1});
   Model model = makeModel(mesh);
   const J2Plasticity metal{1e7, 0.3, 1000.0, linearYield(2e4, 1e5)};
   model.add(makeSolid(mesh, pointMaterial(metal), {.formulation = Formulation::enhanced}));

@@ -28,7 +28,7 @@ struct Drift {
   double energy, momentum, angularMomentum;  // relative
 };
 
-Drift driftOf(CellShape shape, double dt, double tolerance, int steps,
+Drift driftOf(ElementShape shape, double dt, double tolerance, int steps,
               Formulation formulation = Formulation::standard) {
   const SolidMesh mesh = smallMesh(shape);
   Model model = spinningBar(mesh, formulation);
@@ -44,8 +44,9 @@ TEST(EnergyMomentum, DriftsAreBoundedByStepsTimesToleranceAndFallWithIt) {
   for (const double multiple : {10.0, 100.0}) {
     const double dt = multiple * crossing;
     const int steps = 1000;
-    const Drift loose = driftOf(CellShape::hex8, dt, 1e-5, steps), tight = driftOf(CellShape::hex8, dt, 1e-7, steps),
-                round = driftOf(CellShape::hex8, dt, 1e-12, steps);
+    const Drift loose = driftOf(ElementShape::hex8, dt, 1e-5, steps),
+                tight = driftOf(ElementShape::hex8, dt, 1e-7, steps),
+                round = driftOf(ElementShape::hex8, dt, 1e-12, steps);
     for (const auto part : {&Drift::energy, &Drift::momentum, &Drift::angularMomentum}) {
       EXPECT_LT(loose.*part, steps * 1e-5) << multiple;
       EXPECT_LT(tight.*part, std::max(0.1 * loose.*part, 1e-11)) << multiple;
@@ -55,7 +56,7 @@ TEST(EnergyMomentum, DriftsAreBoundedByStepsTimesToleranceAndFallWithIt) {
 }
 
 TEST(EnergyMomentum, HoldsForOtherShapes) {
-  for (const CellShape shape : {CellShape::hex20, CellShape::tet4, CellShape::tet10}) {
+  for (const ElementShape shape : {ElementShape::hex20, ElementShape::tet4, ElementShape::tet10}) {
     const Drift drift = driftOf(shape, 10.0 * crossing, 1e-12, 100);
     EXPECT_LT(drift.energy, 1e-10) << name(shape);
     EXPECT_LT(drift.momentum, 1e-10) << name(shape);
@@ -64,10 +65,10 @@ TEST(EnergyMomentum, HoldsForOtherShapes) {
 }
 
 TEST(EnergyMomentum, HoldsForOtherFormulations) {
-  for (const auto& [shape, formulation, multiple] : {std::tuple(CellShape::hex8, Formulation::enhanced, 10.0),
-                                                     {CellShape::hex8, Formulation::meanDilatation, 10.0},
-                                                     {CellShape::hex8, Formulation::reduced, 3.0},
-                                                     {CellShape::hex20, Formulation::meanDilatation, 10.0}}) {
+  for (const auto& [shape, formulation, multiple] : {std::tuple(ElementShape::hex8, Formulation::enhanced, 10.0),
+                                                     {ElementShape::hex8, Formulation::meanDilatation, 10.0},
+                                                     {ElementShape::hex8, Formulation::reduced, 3.0},
+                                                     {ElementShape::hex20, Formulation::meanDilatation, 10.0}}) {
     const Drift drift = driftOf(shape, multiple * crossing, 1e-10, 100, formulation);
     EXPECT_LT(drift.energy, 1e-9) << name(shape) << " " << name(formulation);
     EXPECT_LT(drift.momentum, 1e-9) << name(shape) << " " << name(formulation);
@@ -91,7 +92,7 @@ TEST(EnergyMomentum, NewmarkDoesNotConserveTheEnergyOfLargeSteps) {
   Model model = spinningBar(mesh);
   ImplicitIntegrator integrator(model, 2.0 * crossing, {.scheme = newmark(), .relativeTolerance = 1e-12});
   integrator.run(200);
-  const double conserving = driftOf(CellShape::hex8, 2.0 * crossing, 1e-12, 200).energy;
+  const double conserving = driftOf(ElementShape::hex8, 2.0 * crossing, 1e-12, 200).energy;
   EXPECT_GT(integrator.ledger().largestDrift() / integrator.ledger().storedAtOpening(), 1e3 * conserving);
 }
 
@@ -108,8 +109,8 @@ TEST(ExplicitSteps, KeepBothMomentaAndNearlyTheEnergy) {
 
 /// Two bars, the finer one tied to the end of the coarser.
 Model tiedBars() {
-  SolidMesh mesh = boxOf(CellShape::hex8, {2, 1, 1}, {}, {0.2, 0.1, 0.1});
-  const SolidMesh fine = boxOf(CellShape::hex8, {4, 2, 2}, {0.2, 0, 0}, {0.4, 0.1, 0.1});
+  SolidMesh mesh = boxOf(ElementShape::hex8, {2, 1, 1}, {}, {0.2, 0.1, 0.1});
+  const SolidMesh fine = boxOf(ElementShape::hex8, {4, 2, 2}, {0.2, 0, 0}, {0.4, 0.1, 0.1});
   const int shift = static_cast<int>(mesh.X.size());
   mesh.X.insert(mesh.X.end(), fine.X.begin(), fine.X.end());
   for (const int n : fine.groups[0].node) mesh.groups[0].node.push_back(n + shift);
@@ -226,7 +227,7 @@ TEST(Checkpoints, RunsGoOnBitwise) {
 }
 
 TEST(Checkpoints, OfOtherModelsAreRefused) {
-  const SolidMesh mesh = smallMesh(), other = smallMesh(CellShape::hex20);
+  const SolidMesh mesh = smallMesh(), other = smallMesh(ElementShape::hex20);
   Model model = smallBody(mesh), bigger = smallBody(other), loaded = smallBody(mesh);
   loaded.add(gravity(Vec3{0, 0, -1.0}));
   ImplicitIntegrator one(model, 1e-3), two(bigger, 1e-3), three(loaded, 1e-3);
@@ -238,7 +239,7 @@ TEST(Checkpoints, OfOtherModelsAreRefused) {
 }
 
 TEST(Threads, DoNotChangeADigit) {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {16, 12, 12}, {}, {0.27, 0.2, 0.2});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {16, 12, 12}, {}, {0.27, 0.2, 0.2});
   const int before = threads();
   std::vector<std::vector<Vec3>> ends;
   for (const int count : {1, 3}) {

@@ -7,7 +7,7 @@
 namespace dovetail::fem {
 namespace {
 
-Nodes nodesAtRest() { return makeModel(boxOf(CellShape::hex8, {2, 1, 1}, {}, {2.0, 1.0, 1.0})).nodes; }
+Nodes nodesAtRest() { return makeModel(boxOf(ElementShape::hex8, {2, 1, 1}, {}, {2.0, 1.0, 1.0})).nodes; }
 
 std::string messageOf(const Constraints& constraints, const Nodes& nodes) {
   try {

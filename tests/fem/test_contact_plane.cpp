@@ -16,7 +16,7 @@ namespace {
 
 constexpr Instant now{0.7, 0.1};
 
-SolidMesh box(CellShape shape = CellShape::hex8) { return boxOf(shape, {3, 2, 2}, {0, 0, 0}, {1.0, 0.8, 0.6}); }
+SolidMesh box(ElementShape shape = ElementShape::hex8) { return boxOf(shape, {3, 2, 2}, {0, 0, 0}, {1.0, 0.8, 0.6}); }
 
 /// A tilted plane that cuts about half of the points off.
 Plane tilted() { return {{0.5, 0.4, 0.0}, {0.05, -0.03, 2.0}, {}}; }
@@ -36,7 +36,7 @@ Model randomState(const SolidMesh& mesh, unsigned seed) {
 }
 
 TEST(ContactPlane, UniformPenetrationGivesTheForcesOfAUniformPressure) {
-  for (const CellShape shape : spatialCellShapes) {
+  for (const ElementShape shape : spatialCellShapes) {
     const SolidMesh mesh = box(shape);
     Model model = makeModel(mesh);
     const auto faces = faceSet(mesh, "z-");
@@ -55,7 +55,7 @@ TEST(ContactPlane, UniformPenetrationGivesTheForcesOfAUniformPressure) {
 }
 
 TEST(ContactPlane, ForceIsTheGradientOfTheEnergyAndHasItsTangent) {
-  for (const CellShape shape : spatialCellShapes) {
+  for (const ElementShape shape : spatialCellShapes) {
     const SolidMesh mesh = box(shape);
     Model model = randomState(mesh, 3);
     const auto contact = makeContactPlane(mesh, faceSet(mesh, "z-"), tilted(), options());
@@ -69,7 +69,7 @@ TEST(ContactPlane, ForceIsTheGradientOfTheEnergyAndHasItsTangent) {
 }
 
 TEST(ContactPlane, FrictionHasItsTangentWhereItSticksAndWhereItSlips) {
-  const SolidMesh mesh = box(CellShape::hex20);
+  const SolidMesh mesh = box(ElementShape::hex20);
   for (const double friction : {0.05, 0.4, 100.0}) {
     Model model = randomState(mesh, 5);
     const auto contact = makeContactPlane(mesh, faceSet(mesh, "z-"), tilted(), options(friction));
@@ -164,7 +164,7 @@ TEST(ContactPlane, PressingIsWorkAndNotDissipation) {
 }
 
 TEST(ContactPlane, TheProposedPenaltyGivesWayByATenthOfALayer) {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {2, 2, 4}, {}, {0.1, 0.1, 0.2});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {2, 2, 4}, {}, {0.1, 0.1, 0.2});
   const auto material = pointMaterial(StVenantKirchhoff{1e6, 0.0, 1e3});
   const auto faces = faceSet(mesh, "z-");
   Model model = makeModel(mesh);

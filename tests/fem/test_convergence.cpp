@@ -58,7 +58,7 @@ Vec3 bodyForce(const PointMaterial& material, const Vec3& X, int dimension) {
 /// Calls visit(nodes, ψ, X, dV) at the points of the mass rule of every element.
 template <class Visit>
 void integrate(const SolidMesh& mesh, Visit&& visit) {
-  for (const CellGroup& group : mesh.groups) {
+  for (const ElementGroup& group : mesh.groups) {
     const detail::CellRule& rule = detail::massRule(group.shape);
     const auto n = static_cast<std::size_t>(rule.nodes);
     for (std::size_t e = 0; e < group.size(); ++e)
@@ -125,7 +125,8 @@ double displacementError(const SolidKind& kind, int cells) {
 /// Order p + 1 of the displacements for elements of order p at finite strain.
 TEST(Convergence, DisplacementsHaveTheOrderOfTheirElements) {
   for (const SolidKind& kind : allSolidKinds()) {
-    const bool second = nodesOf(kind.shape) > 8 || kind.shape == CellShape::quad8, plane = dimensionOf(kind.shape) == 2;
+    const bool second = nodesOf(kind.shape) > 8 || kind.shape == ElementShape::quad8,
+               plane = dimensionOf(kind.shape) == 2;
     const int coarse = plane ? 8 : second ? 3 : 4, fine = plane ? 16 : second ? 5 : 8;
     const double order = std::log(displacementError(kind, coarse) / displacementError(kind, fine)) /
                          std::log(static_cast<double>(fine) / coarse);

@@ -32,7 +32,7 @@ struct Brick {
   }
 };
 Brick brick(const MaterialPointer& material) {
-  const SolidMesh mesh = testSolidMesh(CellShape::hex8, true);
+  const SolidMesh mesh = testSolidMesh(ElementShape::hex8, true);
   Brick b{makeModel(mesh), makeSolid(mesh, material, {.formulation = Formulation::enhanced})};
   b.model.add(b.solid);
   return b;

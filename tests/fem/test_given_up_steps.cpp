@@ -34,7 +34,7 @@ private:
 };
 
 struct Pulled {
-  SolidMesh mesh = boxOf(CellShape::hex8, {2, 2, 40}, {}, {0.1, 0.1, 2.0});
+  SolidMesh mesh = boxOf(ElementShape::hex8, {2, 2, 40}, {}, {0.1, 0.1, 2.0});
   Model model = makeModel(mesh);
 
   explicit Pulled(Fault fault) {

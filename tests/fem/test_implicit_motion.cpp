@@ -24,7 +24,7 @@ struct Beam {
 /// A cantilever of 1 × 1 × 5 m along z.
 Beam makeBeam(Formulation formulation = Formulation::standard,
               const Material& law = StVenantKirchhoff{1.0e6, 0.3, 1000.0}) {
-  Beam beam{boxOf(CellShape::hex8, {1, 1, 5}, {}, {1.0, 1.0, 5.0}), {}, {}};
+  Beam beam{boxOf(ElementShape::hex8, {1, 1, 5}, {}, {1.0, 1.0, 5.0}), {}, {}};
   SolidScene scene = sceneOf(beam.mesh, formulation, law);
   beam.model = std::move(scene.model);
   beam.solid = scene.solid;

@@ -10,7 +10,7 @@ namespace {
 
 /// A box whose nodes at z = 0 are held, with ties among the others.
 Model tiedModel(bool ties) {
-  Model model = solidScene({CellShape::hex8, Formulation::standard}, true).model;
+  Model model = solidScene({ElementShape::hex8, Formulation::standard}, true).model;
   std::vector<int> bottom;
   for (std::size_t n = 0; n < 6; ++n) bottom.push_back(static_cast<int>(n));
   model.constraints.hold(bottom);

@@ -11,7 +11,7 @@ namespace {
 constexpr Vec3 lower{0.1, -0.2, 0.3}, upper{1.0, 0.9, 1.0};
 constexpr Instant now{0.7, 0.1};
 
-SolidMesh box(CellShape shape) { return boxOf(shape, layered(shape, {2, 3, 2}), lower, upper); }
+SolidMesh box(ElementShape shape) { return boxOf(shape, layered(shape, {2, 3, 2}), lower, upper); }
 
 Model randomState(const SolidMesh& mesh, unsigned seed, double amplitude = 0.1) {
   Model model = makeModel(mesh);
@@ -22,7 +22,7 @@ Model randomState(const SolidMesh& mesh, unsigned seed, double amplitude = 0.1) 
 }
 
 TEST(Loads, GravityIsTheWeightAndHasAPotential) {
-  Model model = randomState(box(CellShape::hex8), 3);
+  Model model = randomState(box(ElementShape::hex8), 3);
   const Vec3 g{1.0, -2.0, -9.81};
   Term& term = model.add(gravity(g));
   double mass = 0.0;
@@ -36,7 +36,7 @@ TEST(Loads, GravityIsTheWeightAndHasAPotential) {
 }
 
 TEST(Loads, PressureOnTheWholeSkinHasNoResultant) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = box(shape);
     Model model = randomState(mesh, 5, 0.05);
     const auto pressure = followingPressure(mesh, faceSet(mesh, "skin"), 2e3);
@@ -53,7 +53,7 @@ TEST(Loads, PressureOnTheWholeSkinHasNoResultant) {
 
 TEST(Loads, PressureOnOneSideIsPressureTimesArea) {
   const double area = 0.9 * 1.1;
-  for (const CellShape shape : spatialCellShapes) {
+  for (const ElementShape shape : spatialCellShapes) {
     const SolidMesh mesh = box(shape);
     Model model = makeModel(mesh);
     const auto faces = faceSet(mesh, "z+");
@@ -71,7 +71,7 @@ TEST(Loads, PressureOnOneSideIsPressureTimesArea) {
 }
 
 TEST(Loads, TractionsFollowTheirFieldInPlaceAndTime) {
-  for (const CellShape shape : spatialCellShapes) {
+  for (const ElementShape shape : spatialCellShapes) {
     const SolidMesh mesh = box(shape);
     Model model = randomState(mesh, 7);
     const auto load = deadTraction(mesh, faceSet(mesh, "x+"), [](const Vec3& X, double t) {
@@ -84,7 +84,7 @@ TEST(Loads, TractionsFollowTheirFieldInPlaceAndTime) {
 }
 
 TEST(Loads, FollowingPressureHasItsExactTangentForEveryShapeOfFace) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = box(shape);
     Model model = randomState(mesh, 9);
     const auto pressure = followingPressure(mesh, faceSet(mesh, "y-"), [](double t) { return 10.0 * t; });
@@ -95,7 +95,7 @@ TEST(Loads, FollowingPressureHasItsExactTangentForEveryShapeOfFace) {
 }
 
 TEST(Loads, PressureOnAClosedSkinIsTheGradientOfPressureTimesVolume) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = box(shape);
     Model model = makeModel(mesh);
     const auto pressure = followingPressure(mesh, faceSet(mesh, "skin"), 10.0);
@@ -108,7 +108,7 @@ TEST(Loads, PressureOnAClosedSkinIsTheGradientOfPressureTimesVolume) {
 }
 
 TEST(Loads, PressureWithAClampedRimHasAPotentialAndASymmetricTangent) {
-  const SolidMesh mesh = box(CellShape::hex8);
+  const SolidMesh mesh = box(ElementShape::hex8);
   std::vector<int> rim;
   for (const int n : nodeSet(mesh, "z+"))
     for (const char* side : {"x-", "x+", "y-", "y+"})
@@ -136,7 +136,7 @@ TEST(Loads, PressureWithAClampedRimHasAPotentialAndASymmetricTangent) {
 }
 
 TEST(Loads, WorkOfPressureIsPressureTimesTheChangeOfVolume) {
-  const SolidMesh mesh = box(CellShape::hex20);
+  const SolidMesh mesh = box(ElementShape::hex20);
   Model model = makeModel(mesh);
   const auto pressure = followingPressure(mesh, faceSet(mesh, "skin"), 10.0);
   setAffine(model.nodes, Eigen::Matrix3d{{1.2, 0.1, 0.0}, {-0.3, 0.9, 0.2}, {0.1, 0.0, 1.1}}, {1.0, 2.0, 3.0});
@@ -145,7 +145,7 @@ TEST(Loads, WorkOfPressureIsPressureTimesTheChangeOfVolume) {
 }
 
 TEST(Loads, ConstantLoadsStoreEnergyAndVaryingOnesDoNot) {
-  const SolidMesh mesh = box(CellShape::hex8);
+  const SolidMesh mesh = box(ElementShape::hex8);
   Model model = randomState(mesh, 15);
   for (const auto& load :
        {nodalForce(nodeSet(mesh, "x+"), {1, 2, 3}), deadPressure(mesh, faceSet(mesh, "x+"), 4.0),
@@ -160,7 +160,7 @@ TEST(Loads, ConstantLoadsStoreEnergyAndVaryingOnesDoNot) {
 }
 
 TEST(Loads, ConservingForcesDoTheWorkThatIsStored) {
-  const SolidMesh mesh = box(CellShape::hex8);
+  const SolidMesh mesh = box(ElementShape::hex8);
   Model model = randomState(mesh, 17);
   std::vector<Vec3> u0(model.nodes.u.size());
   setRandom(u0, 0.2, 19);
@@ -177,7 +177,7 @@ TEST(Loads, ConservingForcesDoTheWorkThatIsStored) {
 }
 
 TEST(Loads, DampingOpposesTheVelocity) {
-  const SolidMesh mesh = box(CellShape::hex8);
+  const SolidMesh mesh = box(ElementShape::hex8);
   Model model = randomState(mesh, 21);
   const DofMap dofs(model.constraints, model.nodes);
   const ModelMass mass(model, dofs, 0.0);
@@ -190,7 +190,7 @@ TEST(Loads, DampingOpposesTheVelocity) {
 }
 
 TEST(Loads, NodesThatTheModelDoesNotHaveAreRefusedAtTheFirstUse) {
-  const SolidMesh mesh = box(CellShape::hex8);
+  const SolidMesh mesh = box(ElementShape::hex8);
   Model model = randomState(mesh, 25);
   const DofMap dofs(model.constraints, model.nodes);
   const ModelMass mass(model, dofs, 0.0);
@@ -219,7 +219,7 @@ TEST(Loads, NodesThatTheModelDoesNotHaveAreRefusedAtTheFirstUse) {
 }
 
 TEST(Loads, BadInputIsRefused) {
-  const SolidMesh mesh = box(CellShape::hex8);
+  const SolidMesh mesh = box(ElementShape::hex8);
   EXPECT_THROW(deadPressure(mesh, {}, 1.0), InputError);
   Face face = faceSet(mesh, "x+")[0];
   face.node[2] = 1000;

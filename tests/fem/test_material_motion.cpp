@@ -19,7 +19,7 @@ namespace {
 /// One brick that is set swinging along x.
 struct Oscillator {
   static constexpr double young = 1e6, density = 1000.0, side = 0.1, start = 1e-5;  // m/s
-  SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 1}, {}, {side, side, side});
+  SolidMesh mesh = boxOf(ElementShape::hex8, {1, 1, 1}, {}, {side, side, side});
   Model model = makeModel(mesh);
   std::shared_ptr<Solid> solid;
   /// Half of the lumped mass swings on the stiffness E A/L.
@@ -87,7 +87,7 @@ double residualOf(const Named& law, Formulation formulation, int steps) {
   const bool isSoil = law.material->name() == "Drucker-Prager";
   const double side = 0.1, modulus = isSoil ? fem::soil(0.0, 0.0).youngsModulus : young;
   const double crossing = side / std::sqrt(modulus / law.material->density()), speed = 0.05 * side / crossing;
-  const SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 1}, {}, {side, side, side});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {1, 1, 1}, {}, {side, side, side});
   Model model = makeModel(mesh);
   model.add(makeSolid(mesh, law.material, {.formulation = formulation}));
   addMass(model);
@@ -114,7 +114,7 @@ TEST(PlasticSolid, BooksOfAStepBalanceToSecondOrder) {
 TEST(PlasticSolid, AnImpactTurnsItsEnergyIntoPlasticWork) {
   // A copper rod meets a rigid wall at 227 m/s.
   const double length = 32.4e-3, radius = 3.2e-3, speed = 227.0, dt = 2.5e-8;
-  const SolidMesh mesh = roundBar(CellShape::hex8, {2, 1, 10}, radius, length);
+  const SolidMesh mesh = roundBar(ElementShape::hex8, {2, 1, 10}, radius, length);
   Model model = makeModel(mesh);
   const J2Plasticity copper{117e9, 0.35, 8930.0, linearYield(0.4e9, 0.1e9)};
   const std::shared_ptr<Solid> rod =

@@ -14,7 +14,7 @@ namespace {
 SolidMesh oneTet(const std::array<Vec3, 4>& corners) {
   SolidMesh mesh;
   mesh.X.assign(corners.begin(), corners.end());
-  mesh.groups.push_back({CellShape::tet4, {0, 1, 2, 3}});
+  mesh.groups.push_back({ElementShape::tet4, {0, 1, 2, 3}});
   return mesh;
 }
 
@@ -29,8 +29,8 @@ std::string messageOf(Call&& call) {
 }
 
 TEST(MeshQuality, CubesAndRegularTetrahedraAreOne) {
-  for (const CellShape shape :
-       {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::quad4, CellShape::quad8}) {
+  for (const ElementShape shape :
+       {ElementShape::hex8, ElementShape::hex20, ElementShape::hex27, ElementShape::quad4, ElementShape::quad8}) {
     const MeshQuality quality = measureQuality(boxOf(shape, {2, 1, 1}, {}, {2.0, 1.0, 1.0}));
     for (const ElementQuality& e : quality.element) {
       EXPECT_NEAR(e.scaledJacobian, 1.0, 1e-14);
@@ -45,13 +45,13 @@ TEST(MeshQuality, CubesAndRegularTetrahedraAreOne) {
 }
 
 TEST(MeshQuality, ShearedStretchedAndInvertedElementsAreMeasured) {
-  const auto sheared = mappedBox(CellShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 4.0}, [](const Vec3& X) {
+  const auto sheared = mappedBox(ElementShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 4.0}, [](const Vec3& X) {
     return Vec3{X.x + X.y, X.y, X.z};
   });
   const ElementQuality e = measureQuality(sheared).element[0];
   EXPECT_NEAR(e.scaledJacobian, std::sqrt(0.5), 1e-14);  // sin 45°
   EXPECT_NEAR(e.aspect, 4.0, 1e-14);
-  SolidMesh inverted = boxOf(CellShape::tet10, {2, 1, 1}, {}, {2.0, 1.0, 1.0});
+  SolidMesh inverted = boxOf(ElementShape::tet10, {2, 1, 1}, {}, {2.0, 1.0, 1.0});
   std::swap(inverted.groups[0].node[70], inverted.groups[0].node[72]);
   const MeshQuality quality = measureQuality(inverted, 3);
   ASSERT_EQ(quality.worst.size(), 3u);
@@ -64,7 +64,7 @@ TEST(MeshQuality, ShearedStretchedAndInvertedElementsAreMeasured) {
 }
 
 TEST(MeshQuality, VolumesAreThoseInsideTheSkin) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const bool plane = dimensionOf(shape) == 2;
     SolidMesh mesh = boxOf(shape, {2, 2, plane ? 1 : 2}, {}, {1.0, 1.0, 0.6});
     for (Vec3& X : mesh.X)
@@ -84,7 +84,7 @@ TEST(MeshQuality, VolumesAreThoseInsideTheSkin) {
 }
 
 TEST(MeshTopology, PiecesAreCountedAndNamed) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh parts[] = {boxOf(shape, {2, 1, 1}, {}, {2.0, 1.0, 1.0}),
                                boxOf(shape, {1, 1, 1}, {2.0, 1.0, 0.0}, {3.0, 2.0, 1.0})};
     EXPECT_NO_THROW(requireConnected(parts[0]));
@@ -100,7 +100,7 @@ TEST(MeshTopology, PiecesAreCountedAndNamed) {
 }
 
 TEST(MeshTopology, DuplicatesCrowdedFacesAndUnusedNodesAreFound) {
-  const SolidMesh mesh = boxOf(CellShape::tet10, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+  const SolidMesh mesh = boxOf(ElementShape::tet10, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
   EXPECT_NO_THROW(requireConforming(mesh));
   SolidMesh doubled = mesh;
   for (std::size_t a = 0; a < 10; ++a) doubled.groups[0].node.push_back(doubled.groups[0].node[20 + a]);
@@ -115,11 +115,11 @@ TEST(MeshTopology, DuplicatesCrowdedFacesAndUnusedNodesAreFound) {
 }
 
 TEST(MeshTopology, NeighboursOfOtherOrderAreFound) {
-  SolidMesh mesh = boxOf(CellShape::hex20, {2, 1, 1}, {}, {2.0, 1.0, 1.0});
-  CellGroup& second = mesh.groups[0];
+  SolidMesh mesh = boxOf(ElementShape::hex20, {2, 1, 1}, {}, {2.0, 1.0, 1.0});
+  ElementGroup& second = mesh.groups[0];
   std::vector<int> corners(second.node.begin() + 20, second.node.begin() + 28);
   second.node.resize(20);
-  mesh.groups.push_back({CellShape::hex8, corners});
+  mesh.groups.push_back({ElementShape::hex8, corners});
   EXPECT_EQ(analyseTopology(mesh).mismatchedFaces.size(), 1u);
   EXPECT_NE(messageOf([&] { requireConforming(mesh); }).find("other mid nodes"), std::string::npos);
 }

@@ -11,14 +11,15 @@
 namespace dovetail::fem {
 namespace {
 
-const CellShape bricks[] = {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::quad4, CellShape::quad8};
-bool isTet(CellShape shape) { return shape == CellShape::tet4 || shape == CellShape::tet10; }
+const ElementShape bricks[] = {ElementShape::hex8, ElementShape::hex20, ElementShape::hex27, ElementShape::quad4,
+                               ElementShape::quad8};
+bool isTet(ElementShape shape) { return shape == ElementShape::tet4 || shape == ElementShape::tet10; }
 /// One layer if the cells are plane.
-std::array<int, 3> layered(CellShape shape, std::array<int, 3> cells) {
+std::array<int, 3> layered(ElementShape shape, std::array<int, 3> cells) {
   if (dimensionOf(shape) == 2) cells[2] = 1;
   return cells;
 }
-bool isSecondOrder(CellShape shape) { return nodesOf(shape) > cornersOf(shape); }
+bool isSecondOrder(ElementShape shape) { return nodesOf(shape) > cornersOf(shape); }
 
 double volumeOf(const SolidMesh& mesh) { return measureQuality(mesh).shapes.at(0).volume; }
 
@@ -34,7 +35,7 @@ void expectSound(const SolidMesh& mesh, const std::string& what) {
 
 TEST(MeshShapes, CylinderSectorsApproachTheirVolume) {
   const double exact = 0.5 * (4.0 - 1.0) * std::numbers::pi / 2.0 * 0.5;
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh coarse = cylinderSector(shape, {2, 4, 1}, 1.0, 2.0, std::numbers::pi / 2.0, 0.5);
     const SolidMesh fine = cylinderSector(shape, layered(shape, {4, 8, 2}), 1.0, 2.0, std::numbers::pi / 2.0, 0.5);
     expectSound(coarse, name(shape));
@@ -48,7 +49,7 @@ TEST(MeshShapes, CylinderSectorsApproachTheirVolume) {
 }
 
 TEST(MeshShapes, FullRingsClose) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh ring = cylinderSector(shape, layered(shape, {1, 6, 2}), 1.0, 1.5, 2.0 * std::numbers::pi, 1.0);
     expectSound(ring, name(shape));
     EXPECT_FALSE(ring.faceSets.contains("start"));
@@ -58,13 +59,13 @@ TEST(MeshShapes, FullRingsClose) {
     if (!plane) faces += faceSet(ring, "z-").size() + faceSet(ring, "z+").size();
     EXPECT_EQ(faces, faceSet(ring, "skin").size());
   }
-  EXPECT_THROW(cylinderSector(CellShape::hex8, {1, 2, 1}, 1.0, 2.0, 2.0 * std::numbers::pi, 1.0), InputError);
-  EXPECT_THROW(cylinderSector(CellShape::hex8, {1, 2, 1}, 2.0, 1.0, 1.0, 1.0), InputError);
-  EXPECT_THROW(cylinderSector(CellShape::hex8, {1, 2, 1}, 1.0, 2.0, 7.0, 1.0), InputError);
+  EXPECT_THROW(cylinderSector(ElementShape::hex8, {1, 2, 1}, 1.0, 2.0, 2.0 * std::numbers::pi, 1.0), InputError);
+  EXPECT_THROW(cylinderSector(ElementShape::hex8, {1, 2, 1}, 2.0, 1.0, 1.0, 1.0), InputError);
+  EXPECT_THROW(cylinderSector(ElementShape::hex8, {1, 2, 1}, 1.0, 2.0, 7.0, 1.0), InputError);
 }
 
 TEST(MeshShapes, RoundBarsAreRoundAndOfGoodShape) {
-  for (const CellShape shape : bricks) {
+  for (const ElementShape shape : bricks) {
     const unsigned layers = dimensionOf(shape) == 2 ? 1u : 3u;
     const SolidMesh coarse = roundBar(shape, layered(shape, {4, 2, 3}), 0.5, 2.0),
                     fine = roundBar(shape, layered(shape, {8, 4, 3}), 0.5, 2.0);
@@ -76,12 +77,12 @@ TEST(MeshShapes, RoundBarsAreRoundAndOfGoodShape) {
     EXPECT_EQ(faceSet(coarse, "side").size(), 16u * layers);
     EXPECT_GT(measureQuality(fine).shapes[0].worstJacobian, 0.6);
   }
-  EXPECT_THROW(roundBar(CellShape::tet4, {2, 1, 1}, 1.0, 1.0), InputError);
-  EXPECT_THROW(roundBar(CellShape::hex8, {0, 1, 1}, 1.0, 1.0), InputError);
+  EXPECT_THROW(roundBar(ElementShape::tet4, {2, 1, 1}, 1.0, 1.0), InputError);
+  EXPECT_THROW(roundBar(ElementShape::hex8, {0, 1, 1}, 1.0, 1.0), InputError);
 }
 
 TEST(MeshShapes, CooksMembraneHasItsCorners) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = cookMembrane(shape, {4, 3});
     expectSound(mesh, name(shape));
     EXPECT_NEAR(volumeOf(mesh), 0.5 * (0.044 + 0.016) * 0.048 * 0.001, 1e-18);
@@ -95,7 +96,7 @@ TEST(MeshShapes, CooksMembraneHasItsCorners) {
 }
 
 TEST(MeshShapes, TheRootOfTheBeamIsAnArc) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = arcClampedBeam(shape, {8, 2, 1});
     expectSound(mesh, name(shape));
     for (const int n : nodeSet(mesh, "clamped")) {
@@ -116,13 +117,13 @@ TEST(MeshShapes, TheRootOfTheBeamIsAnArc) {
     else
       EXPECT_NEAR(volumeOf(mesh) / ((area + chords) * 0.01), 1.0, 1e-12) << name(shape);
   }
-  EXPECT_FALSE(arcClampedBeam(CellShape::hex8, {4, 1, 1}).nodeSets.contains("tip"));
-  EXPECT_THROW(arcClampedBeam(CellShape::hex8, {4, 1, 1}, {.end = 0.24}), InputError);
-  EXPECT_THROW(arcClampedBeam(CellShape::hex8, {4, 1, 1}, {.radius = 0.009}), InputError);
+  EXPECT_FALSE(arcClampedBeam(ElementShape::hex8, {4, 1, 1}).nodeSets.contains("tip"));
+  EXPECT_THROW(arcClampedBeam(ElementShape::hex8, {4, 1, 1}, {.end = 0.24}), InputError);
+  EXPECT_THROW(arcClampedBeam(ElementShape::hex8, {4, 1, 1}, {.radius = 0.009}), InputError);
 }
 
 TEST(MeshShapes, MapsThatTurnElementsInsideOutAreRefused) {
-  EXPECT_THROW(mappedBox(CellShape::hex8, {2, 1, 1}, {}, {1.0, 1.0, 1.0},
+  EXPECT_THROW(mappedBox(ElementShape::hex8, {2, 1, 1}, {}, {1.0, 1.0, 1.0},
                          [](const Vec3& X) {
                            return Vec3{-X.x, X.y, X.z};
                          }),
@@ -130,7 +131,7 @@ TEST(MeshShapes, MapsThatTurnElementsInsideOutAreRefused) {
 }
 
 TEST(MeshShapes, JoinedPartsShareNodesAndKeepTheirSets) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     SolidMesh parts[] = {boxOf(shape, {2, 2, 1}, {}, {2.0, 1.0, 1.0}),
                          boxOf(shape, {1, 2, 1}, {2.0, 0.0, 0.0}, {3.0, 1.0, 1.0})};
     parts[1].elementSets["second"] = {0, 1};
@@ -142,11 +143,11 @@ TEST(MeshShapes, JoinedPartsShareNodesAndKeepTheirSets) {
     EXPECT_EQ(elementSet(joined, "second")[0], static_cast<int>(parts[0].elementCount()));
     EXPECT_EQ(faceSet(joined, "x+").size(), faceSet(whole, "x+").size());
   }
-  const SolidMesh box[] = {boxOf(CellShape::hex8, {2, 1, 1}, {}, {1.0, 1.0, 1.0})};
+  const SolidMesh box[] = {boxOf(ElementShape::hex8, {2, 1, 1}, {}, {1.0, 1.0, 1.0})};
   EXPECT_THROW(joinMeshes(box, 0.6), InputError);
   EXPECT_THROW(joinMeshes(box, 0.0), InputError);
-  const SolidMesh planes[] = {boxOf(CellShape::quad4, {1, 1, 1}, {}, {1.0, 1.0, 1.0}),
-                              boxOf(CellShape::quad4, {1, 1, 1}, {1.0, 0.0, 0.0}, {2.0, 1.0, 2.0})};
+  const SolidMesh planes[] = {boxOf(ElementShape::quad4, {1, 1, 1}, {}, {1.0, 1.0, 1.0}),
+                              boxOf(ElementShape::quad4, {1, 1, 1}, {1.0, 0.0, 0.0}, {2.0, 1.0, 2.0})};
   EXPECT_THROW(joinMeshes(planes, 1e-6), InputError);
 }
 
@@ -162,15 +163,15 @@ std::vector<std::array<double, 3>> places(const SolidMesh& mesh, const std::vect
 }
 
 TEST(MeshShapes, BoxesOfSecondOrderAreThoseMadeAsSuch) {
-  const std::pair<CellShape, CellShape> pairs[] = {{CellShape::hex8, CellShape::hex20},
-                                                   {CellShape::hex8, CellShape::hex27},
-                                                   {CellShape::tet4, CellShape::tet10},
-                                                   {CellShape::quad4, CellShape::quad8}};
+  const std::pair<ElementShape, ElementShape> pairs[] = {{ElementShape::hex8, ElementShape::hex20},
+                                                         {ElementShape::hex8, ElementShape::hex27},
+                                                         {ElementShape::tet4, ElementShape::tet10},
+                                                         {ElementShape::quad4, ElementShape::quad8}};
   for (const auto& [first, second] : pairs) {
     const SolidMesh from = boxOf(first, layered(first, {2, 1, 3}), {}, {2.0, 1.0, 3.0}),
                     to = boxOf(second, layered(second, {2, 1, 3}), {}, {2.0, 1.0, 3.0});
     EXPECT_EQ(secondOrder(from).thickness, to.thickness);
-    const SolidMesh raised = secondOrder(from, second == CellShape::hex27);
+    const SolidMesh raised = secondOrder(from, second == ElementShape::hex27);
     expectSound(raised, name(second));
     ASSERT_EQ(raised.groups[0].shape, second);
     ASSERT_EQ(raised.X.size(), to.X.size());

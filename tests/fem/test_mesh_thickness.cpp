@@ -11,7 +11,7 @@ namespace dovetail::fem {
 namespace {
 
 TEST(MeshThickness, CountsTheLayersOfPlates) {
-  for (const CellShape shape : {CellShape::hex8, CellShape::hex20, CellShape::tet4, CellShape::tet10})
+  for (const ElementShape shape : {ElementShape::hex8, ElementShape::hex20, ElementShape::tet4, ElementShape::tet10})
     for (const int layers : {1, 2, 5}) {
       const SolidMesh mesh = boxOf(shape, {8, 6, layers}, {3, 0, -2}, {7, 3, -1.8});
       std::size_t across = 0;
@@ -29,7 +29,7 @@ TEST(MeshThickness, CountsTheLayersOfPlates) {
 }
 
 TEST(MeshThickness, GoesAlongWithTurns) {
-  SolidMesh mesh = boxOf(CellShape::hex8, {20, 1, 2}, {0, 0, 0}, {10, 1, 1});
+  SolidMesh mesh = boxOf(ElementShape::hex8, {20, 1, 2}, {0, 0, 0}, {10, 1, 1});
   const double c = std::cos(0.7), s = std::sin(0.7);
   for (Vec3& X : mesh.X) X = {c * X.x - s * X.z, X.y, s * X.x + c * X.z};
   const Vec3 up{-s, 0, c};
@@ -42,13 +42,13 @@ TEST(MeshThickness, GoesAlongWithTurns) {
 }
 
 TEST(MeshThickness, HasNoneInWedges) {
-  SolidMesh wedge = boxOf(CellShape::hex8, {4, 4, 1}, {0, 0, 0}, {1, 1, 1});
+  SolidMesh wedge = boxOf(ElementShape::hex8, {4, 4, 1}, {0, 0, 0}, {1, 1, 1});
   for (Vec3& X : wedge.X) X.z *= 0.1 + 0.9 * X.x;
   for (const MeshThickness& place : measureThickness(wedge)) EXPECT_LT(std::abs(place.normal.z), 0.9);
 }
 
 TEST(MeshThickness, OfCubesIsTheirEdge) {
-  const SolidMesh cube = boxOf(CellShape::tet4, {3, 3, 3}, {0, 0, 0}, {1, 1, 1});
+  const SolidMesh cube = boxOf(ElementShape::tet4, {3, 3, 3}, {0, 0, 0}, {1, 1, 1});
   const auto places = measureThickness(cube, 20);
   EXPECT_GE(places.size(), 15U);
   EXPECT_LE(places.size(), 30U);

@@ -32,7 +32,7 @@ private:
 SolidMesh fourPoints() {
   SolidMesh mesh;
   mesh.X = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  mesh.groups.push_back({CellShape::tet4, {0, 1, 2, 3}});
+  mesh.groups.push_back({ElementShape::tet4, {0, 1, 2, 3}});
   return mesh;
 }
 

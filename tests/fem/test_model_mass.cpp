@@ -180,7 +180,7 @@ TEST(ModelMass, ConsistentMassesAreExactForLinearVelocities) {
 
 /// Explicit integrators take the step of lumped masses times √(1 − 26/27 share).
 TEST(ModelMass, ConsistentMassesAreAtLeastATwentySeventhOfLumpedOnes) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = boxOf(shape, {1, 1, 1}, {}, {1.0, 0.7, 0.5});
     const auto solid = makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.3, 2.0)));
     std::vector<double> lumped(mesh.X.size());
@@ -199,7 +199,7 @@ TEST(ModelMass, ConsistentMassesAreAtLeastATwentySeventhOfLumpedOnes) {
 double phaseRatio(double share, int perWave) {
   const double h = 0.1;
   SolidScene bar =
-      sceneOf(boxOf(CellShape::hex8, {1, perWave, 1}, {}, {h, perWave * h, h}), Formulation::standard, material);
+      sceneOf(boxOf(ElementShape::hex8, {1, perWave, 1}, {}, {h, perWave * h, h}), Formulation::standard, material);
   Nodes& nodes = bar.model.nodes;
   addMass(bar.model);
   const DofMap dofs(bar.model.constraints, nodes);

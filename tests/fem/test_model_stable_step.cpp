@@ -66,7 +66,7 @@ TEST(ModelStableStep, IsExactForOneElement) {
 }
 
 TEST(ModelStableStep, IsElementSizeOverWaveSpeedForCubesWithoutPoissonEffect) {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {2, 30, 2}, {-0.4, 0.0, -0.4}, {0.4, 12.0, 0.4});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {2, 30, 2}, {-0.4, 0.0, -0.4}, {0.4, 12.0, 0.4});
   Model model = sceneOf(mesh, Formulation::standard, StVenantKirchhoff{1.0e8, 0.0, 1309.0}).model;
   addMass(model);
   const double expected = 0.4 / std::sqrt(1.0e8 / 1309.0);
@@ -113,7 +113,7 @@ TEST(ModelStableStep, IsWhereExplicitStepsLoseTheirStability) {
 }
 
 TEST(ModelStableStep, NamesTheSmallestElement) {
-  SolidMesh mesh = boxOf(CellShape::hex8, {4, 1, 1}, {}, {4.0, 1.0, 1.0});
+  SolidMesh mesh = boxOf(ElementShape::hex8, {4, 1, 1}, {}, {4.0, 1.0, 1.0});
   for (Vec3& X : mesh.X)
     if (X.x > 1.5 && X.x < 2.5) X.x = 2.7;
   for (const auto& material : {pointMaterial(neoHookean(1e6, 0.3, 1000.0)), pointMaterial(Material(law))}) {
@@ -135,7 +135,7 @@ TEST(ModelStableStep, MissingMassIsRefused) {
 }
 
 TEST(ModelStableStep, TiesCountWithTheirWholeMassMatrix) {
-  SolidScene scene = solidScene({CellShape::hex8, Formulation::standard}, true);
+  SolidScene scene = solidScene({ElementShape::hex8, Formulation::standard}, true);
   Model& model = scene.model;
   addMass(model);
   for (int c = 0; c < 3; ++c) {

@@ -9,7 +9,7 @@ namespace dovetail::fem {
 namespace {
 
 Nodes someNodes() {
-  Nodes nodes = makeModel(boxOf(CellShape::hex8, {2, 1, 1}, {}, {2.0, 1.0, 1.0})).nodes;
+  Nodes nodes = makeModel(boxOf(ElementShape::hex8, {2, 1, 1}, {}, {2.0, 1.0, 1.0})).nodes;
   for (std::size_t n = 0; n < nodes.mass.size(); ++n) nodes.mass[n] = 1.0 + static_cast<double>(n);
   setRandom(nodes.v, 1.0, 3);
   setRandom(nodes.u, 1.0, 4);

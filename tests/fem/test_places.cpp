@@ -10,7 +10,7 @@ namespace dovetail::fem {
 namespace {
 
 TEST(Places, BoxesAndConditionsFindTheSetsOfABox) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = boxOf(shape, layered(shape, {3, 2, 2}), {}, {1.0, 0.8, 0.6});
     const Place end = inBox({1, 0, 0}, {1, 0.8, 0.6}, 1e-9);
     EXPECT_EQ(nodesWhere(mesh, end), nodeSet(mesh, "x+")) << name(shape);
@@ -23,7 +23,7 @@ TEST(Places, BoxesAndConditionsFindTheSetsOfABox) {
 }
 
 TEST(Places, WhereNothingIsAreRefused) {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 1}, {}, {1, 1, 1});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {1, 1, 1}, {}, {1, 1, 1});
   EXPECT_THROW(nodesWhere(mesh, inBox({2, 2, 2}, {3, 3, 3})), InputError);
   EXPECT_THROW(facesWhere(mesh, inBox({0.2, 0, 0}, {0.8, 1, 1})), InputError);
 }
@@ -58,12 +58,12 @@ TEST(MaterialPoint, HasTheDisplacementAndStressOfAUniformDeformation) {
 
 /// Trilinear in bricks of eight points and more, bilinear in plane cells, linear in tet10.
 TEST(MaterialPoint, FollowsStressesThatVaryInTheElement) {
-  for (const CellShape shape :
-       {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet10, CellShape::quad4, CellShape::quad8}) {
+  for (const ElementShape shape : {ElementShape::hex8, ElementShape::hex20, ElementShape::hex27, ElementShape::tet10,
+                                   ElementShape::quad4, ElementShape::quad8}) {
     const SolidMesh mesh = testSolidMesh(shape, false);
     SolidScene scene = solidScene({shape, Formulation::standard}, false);
     Solid::Sample sample = scene.solid->sample(scene.model.nodes, {});
-    const double product = shape == CellShape::tet10 ? 0.0 : 6.0;
+    const double product = shape == ElementShape::tet10 ? 0.0 : 6.0;
     const bool plane = dimensionOf(shape) == 2;
     const auto stress = [&](const Vec3& X) {
       return 3.0 + 2.0 * X.x - 5.0 * X.y + 4.0 * X.z + product * X.x * (plane ? X.y : X.z);
@@ -77,13 +77,13 @@ TEST(MaterialPoint, FollowsStressesThatVaryInTheElement) {
 }
 
 TEST(MaterialPoint, CornersAreFoundAndPlacesOutsideRefused) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = testSolidMesh(shape, true);
     for (std::size_t n = 0; n < mesh.X.size(); ++n)
       EXPECT_LT(norm(MaterialPoint(mesh, mesh.X[n]).valueOf(mesh.X) - mesh.X[n]), 1e-12) << name(shape) << n;
     EXPECT_THROW(MaterialPoint(mesh, {3.0, 0.1, 0.6}), InputError) << name(shape);
   }
-  const SolidMesh mesh = boxOf(CellShape::hex8, {2, 1, 1}, {}, {1, 1, 1});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {2, 1, 1}, {}, {1, 1, 1});
   EXPECT_THROW(MaterialPoint(mesh, {0.5, 0.5, 0.5}).stress({}), InputError);
 }
 

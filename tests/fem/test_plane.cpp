@@ -63,7 +63,7 @@ TEST(PlaneStrain, ExplicitMotionIsThatOfALayerOfBricks) {
     pair.both([&](Body& body) {
       load(body, 1e6);
       const double share =
-          body.solid->shape() == CellShape::quad4 || body.solid->shape() == CellShape::hex8 ? 0.0 : 1.0;
+          body.solid->shape() == ElementShape::quad4 || body.solid->shape() == ElementShape::hex8 ? 0.0 : 1.0;
       ExplicitIntegrator integrator(body.model, 1e-4, {.massShare = share});
       integrator.run(150);
       EXPECT_LT(std::abs(integrator.ledger().residual()), 0.01 * storedEnergy(body.model, {}));
@@ -141,7 +141,7 @@ TEST(PlaneStrain, RunsAreContinuedFromCheckpointsToTheLastBit) {
 }
 
 TEST(PlaneStrain, TheStableStepOfOneElementIsItsOwn) {
-  for (const CellShape shape : {CellShape::quad4, CellShape::quad8}) {
+  for (const ElementShape shape : {ElementShape::quad4, ElementShape::quad8}) {
     const SolidMesh mesh = boxOf(shape, {1, 1, 1}, {}, {0.3, 0.2, depth});
     SolidScene scene = sceneOf(mesh, rubber);
     addMass(scene.model);
@@ -150,7 +150,7 @@ TEST(PlaneStrain, TheStableStepOfOneElementIsItsOwn) {
 }
 
 TEST(PlaneStrain, MeanDilatationDoesNotLock) {
-  const auto tip = [](CellShape shape, Formulation formulation) {
+  const auto tip = [](ElementShape shape, Formulation formulation) {
     const SolidMesh mesh = cookMembrane(shape, {4, 4});
     Model model = makeModel(mesh);
     model.add(makeSolid(mesh, pointMaterial(NeoHookean{800e6, 0.16e6, 1000.0}), {.formulation = formulation}));
@@ -159,10 +159,10 @@ TEST(PlaneStrain, MeanDilatationDoesNotLock) {
     solveStatics(model, 1.0);
     return model.nodes.u[static_cast<std::size_t>(nodeSet(mesh, "tip")[0])].y;
   };
-  const double fine = tip(CellShape::quad8, Formulation::meanDilatation);
-  EXPECT_GT(tip(CellShape::quad4, Formulation::meanDilatation), 0.8 * fine);
-  EXPECT_LT(tip(CellShape::quad4, Formulation::standard), 0.5 * fine);
-  EXPECT_NEAR(tip(CellShape::quad8, Formulation::reduced), fine, 0.1 * fine);
+  const double fine = tip(ElementShape::quad8, Formulation::meanDilatation);
+  EXPECT_GT(tip(ElementShape::quad4, Formulation::meanDilatation), 0.8 * fine);
+  EXPECT_LT(tip(ElementShape::quad4, Formulation::standard), 0.5 * fine);
+  EXPECT_NEAR(tip(ElementShape::quad8, Formulation::reduced), fine, 0.1 * fine);
 }
 
 std::string messageOf(const std::function<void()>& call) {
@@ -175,19 +175,19 @@ std::string messageOf(const std::function<void()>& call) {
 }
 
 TEST(PlaneStrain, WhatItDoesNotHaveIsRefusedByName) {
-  const SolidMesh plane = bentBox(CellShape::quad4), bricks = bentBox(CellShape::hex8);
-  const auto refusal = [&](CellShape shape, Formulation formulation) {
+  const SolidMesh plane = bentBox(ElementShape::quad4), bricks = bentBox(ElementShape::hex8);
+  const auto refusal = [&](ElementShape shape, Formulation formulation) {
     return messageOf([&] {
       makeSolid(bentBox(shape), pointMaterial(StVenantKirchhoff{1e6, 0.3, 1.0}), {.formulation = formulation});
     });
   };
-  EXPECT_NE(refusal(CellShape::quad4, Formulation::enhanced).find("\"enhanced\" is for hex8, not for quad4"),
+  EXPECT_NE(refusal(ElementShape::quad4, Formulation::enhanced).find("\"enhanced\" is for hex8, not for quad4"),
             std::string::npos);
-  EXPECT_NE(refusal(CellShape::quad8, Formulation::assumedStress).find("not for quad8"), std::string::npos);
-  EXPECT_NE(refusal(CellShape::quad4, Formulation::reduced).find("\"reduced\" is for hex8 and quad8, not for quad4"),
+  EXPECT_NE(refusal(ElementShape::quad8, Formulation::assumedStress).find("not for quad8"), std::string::npos);
+  EXPECT_NE(refusal(ElementShape::quad4, Formulation::reduced).find("\"reduced\" is for hex8 and quad8, not for quad4"),
             std::string::npos);
   EXPECT_NE(messageOf([&] { deadPressure(bricks, faceSet(plane, "x+"), 1.0); }).find("line2"), std::string::npos);
-  EXPECT_NE(messageOf([&] { followingPressure(plane, faceSet(bentBox(CellShape::hex8), "x-"), 1.0); }).size(), 0u);
+  EXPECT_NE(messageOf([&] { followingPressure(plane, faceSet(bentBox(ElementShape::hex8), "x-"), 1.0); }).size(), 0u);
   Model model = makeModel(plane);
   model.constraints.prescribe(std::array{2}, 2, [](double t) { return t; });
   EXPECT_NE(messageOf([&] { DofMap(model.constraints, model.nodes); }).find("component z of node 2"),

@@ -41,7 +41,7 @@ TEST(PlaneStrain, ContactIsThatOfALayerOfBricks) {
 }
 
 TEST(PlaneStrain, ContactHasItsEnergyAndTangent) {
-  for (const CellShape shape : {CellShape::quad4, CellShape::quad8}) {
+  for (const ElementShape shape : {ElementShape::quad4, ElementShape::quad8}) {
     const SolidMesh mesh = bentBox(shape);
     Model model = makeModel(mesh);
     setRandomDisplacement(model.nodes, 0.03, 3);
@@ -54,7 +54,7 @@ TEST(PlaneStrain, ContactHasItsEnergyAndTangent) {
 }
 
 TEST(PlaneStrain, LoadsOnLinesAreThoseOnFacesOfTheLayer) {
-  for (const CellShape shape : {CellShape::quad4, CellShape::quad8}) {
+  for (const ElementShape shape : {ElementShape::quad4, ElementShape::quad8}) {
     Pair pair({shape, Formulation::standard}, rubber);
     pair.displace(0.03, 9);
     const auto expectSame = [&](auto&& make) {
@@ -74,13 +74,13 @@ TEST(PlaneStrain, LoadsOnLinesAreThoseOnFacesOfTheLayer) {
 }
 
 TEST(PlaneStrain, PressureOnARingIsTheGradientOfPressureTimesItsVolume) {
-  for (const CellShape shape : {CellShape::quad4, CellShape::quad8}) {
+  for (const ElementShape shape : {ElementShape::quad4, ElementShape::quad8}) {
     const SolidMesh ring = cylinderSector(shape, {2, 16, 1}, 1.0, 1.5, 2.0 * std::numbers::pi, depth);
     Model model = makeModel(ring);
     const auto inside = followingPressure(ring, faceSet(ring, "inner"), 7.0);
     ASSERT_TRUE(inside->hasEnergy());
     const double hole = -integrateFaces(ring, faceSet(ring, "inner")).volume;
-    EXPECT_NEAR(hole, std::numbers::pi * depth, shape == CellShape::quad4 ? 0.04 : 1e-4);
+    EXPECT_NEAR(hole, std::numbers::pi * depth, shape == ElementShape::quad4 ? 0.04 : 1e-4);
     EXPECT_NEAR(inside->energy(model.nodes, {}), -7.0 * hole, 1e-13);
     setRandomDisplacement(model.nodes, 0.02, 3);
     const auto [force, moment] = resultant(model.nodes, forcesOf(*inside, model.nodes));
@@ -95,7 +95,7 @@ TEST(PlaneStrain, PressureOnARingIsTheGradientOfPressureTimesItsVolume) {
 }
 
 TEST(PlaneStrain, ALineOfFacesHasItsEndsAsRim) {
-  const SolidMesh mesh = bentBox(CellShape::quad8);
+  const SolidMesh mesh = bentBox(ElementShape::quad8);
   std::vector<int> ends;
   for (const int n : nodeSet(mesh, "y+"))
     for (const char* side : {"x-", "x+"})
@@ -107,7 +107,7 @@ TEST(PlaneStrain, ALineOfFacesHasItsEndsAsRim) {
 }
 
 TEST(PlaneStrain, TiesOfLinesPassLinearDisplacements) {
-  for (const CellShape shape : {CellShape::quad4, CellShape::quad8}) {
+  for (const ElementShape shape : {ElementShape::quad4, ElementShape::quad8}) {
     const SolidMesh parts[] = {boxOf(shape, {2, 2, 1}, {}, {1, 1, 1}),
                                boxOf(shape, {2, 3, 1}, {1.5, 0, 0}, {2.5, 1, 1})};
     SolidMesh mesh = joinMeshes(parts, 1e-9);
@@ -132,7 +132,7 @@ TEST(PlaneStrain, TiesOfLinesPassLinearDisplacements) {
 }
 
 TEST(PlaneStrain, PeriodicCellsHaveTheMacroscopicGradient) {
-  const SolidMesh mesh = boxOf(CellShape::quad8, {2, 2, 1}, {0.1, 0.2, 0.3}, {1.0, 1.2, 1.0});
+  const SolidMesh mesh = boxOf(ElementShape::quad8, {2, 2, 1}, {0.1, 0.2, 0.3}, {1.0, 1.2, 1.0});
   SolidScene scene = sceneOf(mesh, rubber);
   const std::array<double, 9> F = {1.1, 0.05, 0, 0.03, 0.92, 0, 0, 0, 1};
   const PeriodicTies cell = periodicTies(mesh, [&](double t) {

@@ -12,9 +12,9 @@ TEST(PlasticTube, CarriesHillsLimitPressure) {
   for (const Tube& tube :
        {Tube{}, Tube{.formulation = Formulation::meanDilatation, .poissonRatio = 0.49},
         Tube{.formulation = Formulation::enhanced, .radial = 12, .around = 8},
-        Tube{.shape = CellShape::hex20, .formulation = Formulation::standard, .radial = 5, .around = 3},
-        Tube{.shape = CellShape::quad4},
-        Tube{.shape = CellShape::quad8, .formulation = Formulation::reduced, .radial = 5, .around = 3}}) {
+        Tube{.shape = ElementShape::hex20, .formulation = Formulation::standard, .radial = 5, .around = 3},
+        Tube{.shape = ElementShape::quad4},
+        Tube{.shape = ElementShape::quad8, .formulation = Formulation::reduced, .radial = 5, .around = 3}}) {
     const TubeResult result = pressurise(tube);
     EXPECT_NEAR(result.pressure.back() / Tube::limitPressure(), 1.0, 0.01) << name(tube.formulation);
     for (std::size_t k = 1; k < result.pressure.size(); ++k)
@@ -55,7 +55,7 @@ TEST(NeckingBar, CarriesConsideresForceAndThenNecks) {
 
 TEST(NeckingStrip, CarriesConsideresForceAndThenNecks) {
   for (const auto& [shape, formulation] :
-       {std::pair{CellShape::quad4, Formulation::meanDilatation}, {CellShape::quad8, Formulation::reduced}}) {
+       {std::pair{ElementShape::quad4, Formulation::meanDilatation}, {ElementShape::quad8, Formulation::reduced}}) {
     const StripResult result = stretch(NeckingStrip{.shape = shape, .formulation = formulation});
     double greatest = 0.0;
     for (const StripStep& step : result.steps) greatest = std::max(greatest, step.force);

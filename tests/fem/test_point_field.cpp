@@ -157,7 +157,7 @@ struct Pulled {
       : field(std::make_shared<Watched>(std::move(inner))), scene(make(field, speed)) {}
 
   static SolidScene make(const std::shared_ptr<Watched>& field, double speed) {
-    const SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 2}, {}, {0.1, 0.1, 0.2});
+    const SolidMesh mesh = boxOf(ElementShape::hex8, {1, 1, 2}, {}, {0.1, 0.1, 0.2});
     SolidScene scene = sceneOfField(mesh, field, Formulation::standard);
     addMass(scene.model);
     scene.model.constraints.hold(nodeSet(mesh, "z-"));
@@ -275,7 +275,7 @@ TEST(PointField, StatesOfAnySizeGoThroughCheckpoints) {
 }
 
 TEST(PointField, StatesOfOtherPointsAreRefusedAndChangeNothing) {
-  const SolidMesh small = boxOf(CellShape::tet4, {1, 1, 1}, {}, {1, 1, 1});
+  const SolidMesh small = boxOf(ElementShape::tet4, {1, 1, 1}, {}, {1, 1, 1});
   for (const auto& make :
        {std::function(growingField), std::function([] { return pointField(pointMaterial(metal)); })}) {
     SolidScene a = sceneOfField(small, make(), Formulation::standard);
@@ -318,7 +318,7 @@ private:
 };
 
 TEST(PointField, CostlyPointsComeFirstAndResultsGoToTheirPlace) {
-  const SolidMesh mesh = boxOf(CellShape::tet4, {2, 2, 2}, {}, {1, 1, 1});
+  const SolidMesh mesh = boxOf(ElementShape::tet4, {2, 2, 2}, {}, {1, 1, 1});
   const auto forces = [&](int threadCount, Order& order) {
     return onThreads(threadCount, [&] {
       const auto field = pointField({.name = "slow", .density = 1000.0},
@@ -346,7 +346,7 @@ TEST(PointField, WhatPointsThrowIsTheReason) {
       throw InputError("no grains are left", "cell", "fill it");
     }
   };
-  SolidScene scene = sceneOfField(boxOf(CellShape::hex8, {1, 1, 2}, {}, {1, 1, 1}),
+  SolidScene scene = sceneOfField(boxOf(ElementShape::hex8, {1, 1, 2}, {}, {1, 1, 1}),
                                   pointField({.name = "empty", .density = 1.0},
                                              [](const PointPlace& place) -> std::unique_ptr<FieldPoint> {
                                                if (place.element == 0) return std::make_unique<Growing>(place);
@@ -363,7 +363,7 @@ TEST(PointField, WhatPointsThrowIsTheReason) {
 }
 
 TEST(PointField, WrongRequestsAreRefused) {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 1}, {}, {1, 1, 1});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {1, 1, 1}, {}, {1, 1, 1});
   for (const Formulation formulation : {Formulation::enhanced, Formulation::assumedStress})
     EXPECT_THROW(makeSolid(mesh, growingField(), {.formulation = formulation}), InputError);
   EXPECT_THROW(makeSolid(mesh, std::shared_ptr<PointField>{}), InputError);

@@ -10,7 +10,7 @@ namespace {
 
 /// A cantilever under a force that bends it by about its own length over five.
 struct Cantilever {
-  SolidMesh mesh = boxOf(CellShape::hex8, {1, 2, 10}, {}, {0.1, 0.1, 0.5});
+  SolidMesh mesh = boxOf(ElementShape::hex8, {1, 2, 10}, {}, {0.1, 0.1, 0.5});
   Model model = makeModel(mesh);
   int tip = nodeSet(mesh, "z+")[0];
 
@@ -53,7 +53,7 @@ TEST(Relax, PrescribedMotionAndTiesAreKept) {
     const int a = nodeSet(mesh, "z+")[0], b = nodeSet(mesh, "z+")[1];
     model.constraints.ties.push_back({a, 0, {{b, 0, 1.0}}, 0.0, {}});
   };
-  const SolidMesh mesh = boxOf(CellShape::tet10, {1, 1, 2}, {}, {0.1, 0.1, 0.2});
+  const SolidMesh mesh = boxOf(ElementShape::tet10, {1, 1, 2}, {}, {0.1, 0.1, 0.2});
   Model newton = smallBody(mesh), swung = smallBody(mesh);
   shear(newton, mesh);
   shear(swung, mesh);

@@ -13,14 +13,14 @@ constexpr std::array allFaces = {FaceShape::quad4, FaceShape::quad8, FaceShape::
 struct Functions {
   std::vector<double> value;
   std::vector<Vec3> gradient;
-  Functions(CellShape shape, const Vec3& xi)
+  Functions(ElementShape shape, const Vec3& xi)
       : value(static_cast<std::size_t>(nodesOf(shape))), gradient(static_cast<std::size_t>(nodesOf(shape))) {
     shapeFunctions(shape, xi, value, gradient);
   }
 };
 
 TEST(Shapes, AreOneAtTheirOwnNodeAndZeroAtTheOthers) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const auto nodes = parentNodes(shape);
     for (std::size_t b = 0; b < nodes.size(); ++b) {
       const Functions at(shape, nodes[b]);
@@ -31,7 +31,7 @@ TEST(Shapes, AreOneAtTheirOwnNodeAndZeroAtTheOthers) {
 
 TEST(Shapes, SumToOneAndTheirGradientsAreTheirDerivatives) {
   std::mt19937 random(3);
-  for (const CellShape shape : allCellShapes)
+  for (const ElementShape shape : allCellShapes)
     for (int trial = 0; trial < 5; ++trial) {
       const Vec3 xi = randomVec3(random, 0.9);
       const Functions here(shape, xi);
@@ -51,7 +51,7 @@ TEST(Shapes, SumToOneAndTheirGradientsAreTheirDerivatives) {
 TEST(Shapes, OfBricksAreThereOnTheirOwnToo) {
   std::mt19937 random(4);
   const Vec3 xi = randomVec3(random, 0.9);
-  const Functions at(CellShape::hex8, xi);
+  const Functions at(ElementShape::hex8, xi);
   for (std::size_t a = 0; a < 8; ++a) {
     EXPECT_NEAR(shapeValues(xi)[a], at.value[a], 1e-15);
     EXPECT_LT(norm(parentGradients(xi)[a] - at.gradient[a]), 1e-15);
@@ -59,7 +59,7 @@ TEST(Shapes, OfBricksAreThereOnTheirOwnToo) {
 }
 
 /// ∫ ξ^i η^j ζ^k over the parent cell, of plane cells at ζ = 0.
-double monomial(CellShape shape, int i, int j, int k) {
+double monomial(ElementShape shape, int i, int j, int k) {
   const auto factorial = [](int n) { return std::tgamma(n + 1.0); };
   if (isTet(shape)) return factorial(i) * factorial(j) * factorial(k) / factorial(i + j + k + 3);
   double product = 1.0;
@@ -68,7 +68,7 @@ double monomial(CellShape shape, int i, int j, int k) {
   return k % 2 ? 0.0 : product * 2.0 / (k + 1);
 }
 
-void expectExact(const CellRule& rule, CellShape shape, int degree) {
+void expectExact(const CellRule& rule, ElementShape shape, int degree) {
   for (int i = 0; i <= degree; ++i)
     for (int j = 0; i + j <= degree; ++j)
       for (int k = 0; i + j + k <= degree; ++k) {
@@ -81,22 +81,22 @@ void expectExact(const CellRule& rule, CellShape shape, int degree) {
 }
 
 TEST(Quadrature, IsExactToItsDegree) {
-  const auto expectForces = [](CellShape shape, int degree) { expectExact(forceRule(shape), shape, degree); };
-  expectForces(CellShape::hex8, 3);
-  expectForces(CellShape::hex20, 5);
-  expectForces(CellShape::tet4, 1);
-  expectForces(CellShape::tet10, 2);
-  expectForces(CellShape::quad4, 3);
-  expectForces(CellShape::quad8, 5);
-  expectExact(reducedRule(CellShape::quad8), CellShape::quad8, 3);
-  for (const CellShape shape : allCellShapes) {
+  const auto expectForces = [](ElementShape shape, int degree) { expectExact(forceRule(shape), shape, degree); };
+  expectForces(ElementShape::hex8, 3);
+  expectForces(ElementShape::hex20, 5);
+  expectForces(ElementShape::tet4, 1);
+  expectForces(ElementShape::tet10, 2);
+  expectForces(ElementShape::quad4, 3);
+  expectForces(ElementShape::quad8, 5);
+  expectExact(reducedRule(ElementShape::quad8), ElementShape::quad8, 3);
+  for (const ElementShape shape : allCellShapes) {
     expectExact(massRule(shape), shape, isTet(shape) ? 4 : 5);
     expectExact(centreRule(shape), shape, 1);
   }
 }
 
 TEST(FaceShapes, AgreeWithTheCellOnItsFaces) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const CellFaces& faces = facesOf(shape);
     const auto nodes = parentNodes(shape);
     const auto n = static_cast<std::size_t>(nodesOf(faces.shape));
@@ -129,7 +129,7 @@ TEST(FaceQuadrature, IsExactToDegreeTwo) {
         for (std::size_t q = 0; q < rule.point.size(); ++q)
           sum += rule.weight[q] * std::pow(rule.point[q][0], i) * std::pow(rule.point[q][1], j);
         const double exact = triangle ? std::tgamma(i + 1.0) * std::tgamma(j + 1.0) / std::tgamma(i + j + 3.0)
-                                      : monomial(CellShape::quad4, i, j, 0);
+                                      : monomial(ElementShape::quad4, i, j, 0);
         EXPECT_NEAR(sum, exact, 1e-14);
       }
   }

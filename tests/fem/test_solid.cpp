@@ -128,9 +128,9 @@ TEST(Solid, PatchTestAtSmallAndFiniteStrain) {
 
 /// Moves inner corners at random and puts all other nodes where straight edges and flat faces want them.
 void moveInnerCorners(SolidMesh& mesh, const std::vector<bool>& outside) {
-  const CellShape shape = mesh.groups[0].shape;
+  const ElementShape shape = mesh.groups[0].shape;
   const bool tet = detail::isTet(shape), plane = dimensionOf(shape) == 2;
-  const CellShape linear = plane ? CellShape::quad4 : tet ? CellShape::tet4 : CellShape::hex8;
+  const ElementShape linear = plane ? ElementShape::quad4 : tet ? ElementShape::tet4 : ElementShape::hex8;
   const auto n = static_cast<std::size_t>(nodesOf(shape)), corners = static_cast<std::size_t>(nodesOf(linear));
   std::mt19937 random(2);
   std::vector<bool> done(mesh.X.size(), false);
@@ -248,10 +248,10 @@ TEST(Solid, DigitsDoNotDependOnTheNumberOfThreads) {
     SCOPED_TRACE(kind.label());
     // Just enough cells that the loops are cut into chunks.
     std::array counts{12, 12, 6};
-    if (kind.shape == CellShape::hex8) counts = {13, 13, 13};
-    if (kind.shape == CellShape::tet10) counts = {7, 7, 6};
-    if (kind.shape == CellShape::quad4) counts = {66, 66, 1};
-    if (kind.shape == CellShape::quad8) counts = {47, 47, 1};
+    if (kind.shape == ElementShape::hex8) counts = {13, 13, 13};
+    if (kind.shape == ElementShape::tet10) counts = {7, 7, 6};
+    if (kind.shape == ElementShape::quad4) counts = {66, 66, 1};
+    if (kind.shape == ElementShape::quad8) counts = {47, 47, 1};
     const SolidMesh mesh = boxOf(kind.shape, counts, {}, {1.0, 1.0, 2.0});
     const auto compute = [&](int count) {
       setThreads(count);
@@ -290,7 +290,7 @@ TEST(Solid, MassesSumToThatOfTheBody) {
 }
 
 TEST(Solid, AnElasticSolidStoresNoHistoryAndInvertedElementsAreNamed) {
-  SolidScene scene = solidScene({CellShape::hex8, Formulation::standard}, false);
+  SolidScene scene = solidScene({ElementShape::hex8, Formulation::standard}, false);
   EXPECT_EQ(scene.solid->material()->historySize(), 0u);
   scene.solid->requireValid(scene.model.nodes, "t = 0 s", Scrutiny::all);
   Nodes& nodes = scene.model.nodes;
@@ -329,11 +329,11 @@ TEST(Solid, MemoryIsWhatIsTakenFromTheHeap) {
 
 TEST(Solid, WrongRequestsAreRefused) {
   const auto material = std::make_shared<PlainNeoHookean>(2e6, 1e6);
-  const SolidMesh tets = boxOf(CellShape::tet4, {1, 1, 1}, {}, {1, 1, 1});
+  const SolidMesh tets = boxOf(ElementShape::tet4, {1, 1, 1}, {}, {1, 1, 1});
   EXPECT_THROW(makeSolid(tets, material, {.formulation = Formulation::enhanced}), InputError);
   EXPECT_THROW(makeSolid(tets, material, {.elementSet = "nothing"}), InputError);
   EXPECT_THROW(makeSolid(tets, std::shared_ptr<const PointMaterial>{}), InputError);
-  SolidScene scene = solidScene({CellShape::hex8, Formulation::standard}, false);
+  SolidScene scene = solidScene({ElementShape::hex8, Formulation::standard}, false);
   Model other = makeModel(tets);
   EXPECT_THROW(forcesOf(*scene.solid, other.nodes), InputError);
 }

@@ -14,8 +14,8 @@ namespace {
 constexpr Vec3 lower{0.1, -0.2, 0.3}, upper{1.0, 0.9, 1.0};
 constexpr double boxVolume = 0.9 * 1.1 * 0.7;
 
-bool isTet(CellShape shape) { return shape == CellShape::tet4 || shape == CellShape::tet10; }
-SolidMesh testBox(CellShape shape) { return boxOf(shape, {2, 3, 1}, lower, upper); }
+bool isTet(ElementShape shape) { return shape == ElementShape::tet4 || shape == ElementShape::tet10; }
+SolidMesh testBox(ElementShape shape) { return boxOf(shape, {2, 3, 1}, lower, upper); }
 
 /// A smooth map with curved faces.
 void bend(SolidMesh& mesh) {
@@ -36,11 +36,11 @@ std::string messageOf(const SolidMesh& mesh) {
 }
 
 TEST(SolidMesh, BoxesHaveTheNodesAndElementsOfTheirShape) {
-  const std::map<CellShape, std::size_t> nodes = {{CellShape::hex8, 24},         {CellShape::hex20, 24 + 16 + 18 + 12},
-                                                  {CellShape::hex27, 5 * 7 * 3}, {CellShape::tet4, 24},
-                                                  {CellShape::tet10, 5 * 7 * 3}, {CellShape::quad4, 12},
-                                                  {CellShape::quad8, 12 + 8 + 9}};
-  for (const CellShape shape : allCellShapes) {
+  const std::map<ElementShape, std::size_t> nodes = {
+      {ElementShape::hex8, 24},         {ElementShape::hex20, 24 + 16 + 18 + 12}, {ElementShape::hex27, 5 * 7 * 3},
+      {ElementShape::tet4, 24},         {ElementShape::tet10, 5 * 7 * 3},         {ElementShape::quad4, 12},
+      {ElementShape::quad8, 12 + 8 + 9}};
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = testBox(shape);
     EXPECT_EQ(mesh.X.size(), nodes.at(shape)) << name(shape);
     EXPECT_EQ(mesh.elementCount(), isTet(shape) ? 36u : 6u) << name(shape);
@@ -54,10 +54,10 @@ TEST(SolidMesh, BoxesHaveTheNodesAndElementsOfTheirShape) {
 }
 
 TEST(SolidMesh, MidNodesLieBetweenTheirCorners) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     if (nodesOf(shape) == cornersOf(shape)) continue;
     const SolidMesh mesh = testBox(shape);
-    const CellGroup& group = mesh.groups[0];
+    const ElementGroup& group = mesh.groups[0];
     for (std::size_t e = 0; e < group.size(); ++e) {
       const auto X = [&](std::size_t a) {
         return mesh.X[static_cast<std::size_t>(group.node[e * static_cast<std::size_t>(nodesOf(shape)) + a])];
@@ -78,7 +78,7 @@ TEST(SolidMesh, MidNodesLieBetweenTheirCorners) {
 }
 
 TEST(SolidMesh, FacesPointOutwardAndCloseTheBody) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = testBox(shape);
     const std::vector<Face> boundary = boundaryFaces(mesh);
     const bool plane = dimensionOf(shape) == 2;
@@ -98,11 +98,11 @@ TEST(SolidMesh, FacesPointOutwardAndCloseTheBody) {
 }
 
 TEST(SolidMesh, EveryFaceOfEveryElementPointsOutOfIt) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     SolidMesh mesh = testBox(shape);
     bend(mesh);
     ASSERT_EQ(messageOf(mesh), "") << name(shape);
-    const CellGroup& group = mesh.groups[0];
+    const ElementGroup& group = mesh.groups[0];
     double sum = 0.0;
     for (std::size_t e = 0; e < group.size(); ++e) {
       std::vector<Face> faces;
@@ -124,7 +124,7 @@ TEST(SolidMesh, EveryFaceOfEveryElementPointsOutOfIt) {
 }
 
 TEST(SolidMesh, NodeSetsAreTheNodesOfTheirSides) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const int dimension = dimensionOf(shape);
     const SolidMesh mesh = boxOf(shape, {2, 3, dimension == 2 ? 1 : 4}, lower, upper);
     std::set<int> all;
@@ -140,11 +140,11 @@ TEST(SolidMesh, NodeSetsAreTheNodesOfTheirSides) {
     }
     EXPECT_EQ(nodeSet(mesh, "skin"), std::vector<int>(all.begin(), all.end())) << name(shape);
   }
-  EXPECT_EQ(nodeSet(boxOf(CellShape::hex8, {2, 3, 4}, lower, upper), "skin").size(), 60u - 1u * 2u * 3u);
+  EXPECT_EQ(nodeSet(boxOf(ElementShape::hex8, {2, 3, 4}, lower, upper), "skin").size(), 60u - 1u * 2u * 3u);
 }
 
 TEST(SolidMesh, UnknownSetsListTheKnownOnes) {
-  SolidMesh mesh = testBox(CellShape::tet4);
+  SolidMesh mesh = testBox(ElementShape::tet4);
   mesh.elementSets["matrix"] = {0, 1};
   EXPECT_EQ(elementSet(mesh, "matrix").size(), 2u);
   for (const auto& ask : std::vector<std::function<void()>>{
@@ -160,16 +160,16 @@ TEST(SolidMesh, UnknownSetsListTheKnownOnes) {
 }
 
 TEST(SolidMesh, BadBoxesAreRefused) {
-  EXPECT_THROW(boxOf(CellShape::tet10, {0, 1, 1}, {}, {1.0, 1.0, 1.0}), InputError);
-  EXPECT_THROW(boxOf(CellShape::quad4, {1, 1, 2}, {}, {1.0, 1.0, 1.0}), InputError);
-  EXPECT_THROW(boxOf(CellShape::quad4, {1, 1, 1}, {}, {1.0, 1.0, 0.0}), InputError);
-  EXPECT_THROW(boxOf(CellShape::hex8, {1, 1, 1}, {}, {1.0, 0.0, 1.0}), InputError);
-  EXPECT_THROW(boxOf(CellShape::hex27, {1, 1, 1}, {}, {1.0, std::numeric_limits<double>::quiet_NaN(), 1.0}),
+  EXPECT_THROW(boxOf(ElementShape::tet10, {0, 1, 1}, {}, {1.0, 1.0, 1.0}), InputError);
+  EXPECT_THROW(boxOf(ElementShape::quad4, {1, 1, 2}, {}, {1.0, 1.0, 1.0}), InputError);
+  EXPECT_THROW(boxOf(ElementShape::quad4, {1, 1, 1}, {}, {1.0, 1.0, 0.0}), InputError);
+  EXPECT_THROW(boxOf(ElementShape::hex8, {1, 1, 1}, {}, {1.0, 0.0, 1.0}), InputError);
+  EXPECT_THROW(boxOf(ElementShape::hex27, {1, 1, 1}, {}, {1.0, std::numeric_limits<double>::quiet_NaN(), 1.0}),
                InputError);
 }
 
 TEST(SolidMesh, BadElementsAreRefusedByNumber) {
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = testBox(shape);
     const auto n = static_cast<std::size_t>(nodesOf(shape));
     SolidMesh inverted = mesh;
@@ -199,9 +199,10 @@ TEST(SolidMesh, BadElementsAreRefusedByNumber) {
 }
 
 TEST(SolidMesh, MidNodesOutOfPlaceAreFound) {
-  for (const CellShape shape : {CellShape::hex20, CellShape::hex27, CellShape::tet10, CellShape::quad8}) {
+  for (const ElementShape shape :
+       {ElementShape::hex20, ElementShape::hex27, ElementShape::tet10, ElementShape::quad8}) {
     SolidMesh mesh = boxOf(shape, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
-    const CellGroup& group = mesh.groups[0];
+    const ElementGroup& group = mesh.groups[0];
     const int mid = group.node[static_cast<std::size_t>(cornersOf(shape))], end = group.node[1];
     mesh.X[static_cast<std::size_t>(mid)] += 0.3 * (mesh.X[static_cast<std::size_t>(end)] - mesh.X[0]);
     EXPECT_NE(messageOf(mesh).find("element"), std::string::npos) << name(shape);
@@ -209,7 +210,7 @@ TEST(SolidMesh, MidNodesOutOfPlaceAreFound) {
 }
 
 TEST(SolidMesh, BadSetsAreRefusedByName) {
-  SolidMesh mesh = testBox(CellShape::hex20);
+  SolidMesh mesh = testBox(ElementShape::hex20);
   mesh.nodeSets["mine"] = {-1};
   EXPECT_NE(messageOf(mesh).find("\"mine\""), std::string::npos);
   mesh.nodeSets["mine"] = {4, 3};
@@ -227,7 +228,7 @@ TEST(SolidMesh, BadSetsAreRefusedByName) {
 }
 
 TEST(SolidMesh, PlaneStrainLiesInOnePlaneWithAThicknessAndAlone) {
-  const SolidMesh plane = testBox(CellShape::quad8);
+  const SolidMesh plane = testBox(ElementShape::quad8);
   EXPECT_EQ(plane.thickness, upper.z - lower.z);
   for (const Vec3& X : plane.X) EXPECT_EQ(X.z, lower.z);
   SolidMesh crooked = plane;
@@ -239,11 +240,11 @@ TEST(SolidMesh, PlaneStrainLiesInOnePlaneWithAThicknessAndAlone) {
     thin.thickness = thickness;
     EXPECT_NE(messageOf(thin).find("thickness"), std::string::npos);
   }
-  SolidMesh thick = testBox(CellShape::hex8);
+  SolidMesh thick = testBox(ElementShape::hex8);
   thick.thickness = 2.0;
   EXPECT_NE(messageOf(thick).find("three dimensions"), std::string::npos) << messageOf(thick);
-  SolidMesh mixed = testBox(CellShape::hex8);
-  mixed.groups.push_back({CellShape::quad4, {0, 1, 4, 3}});
+  SolidMesh mixed = testBox(ElementShape::hex8);
+  mixed.groups.push_back({ElementShape::quad4, {0, 1, 4, 3}});
   EXPECT_NE(messageOf(mixed).find("hex8 and quad4"), std::string::npos) << messageOf(mixed);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 /// A block with plastic strain, enhanced modes and friction, pressed on a plane and dragged along it.
 Model pressedBlock() {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {2, 1, 2}, {}, {0.2, 0.1, 0.1});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {2, 1, 2}, {}, {0.2, 0.1, 0.1});
   Model model = makeModel(mesh);
   model.add(makeSolid(mesh, pointMaterial(J2Plasticity{1e7, 0.3, 1000.0, linearYield(2e4, 1e5)}),
                       {.formulation = Formulation::enhanced}));

@@ -71,7 +71,7 @@ TEST(Statics, StretchToTwiceTheLengthByPrescribedMotionIsUniform) {
 /// Older enhanced bricks lose their stability here, in hourglass modes, at a stretch of about 0.6 (Wriggers & Reese
 /// 1996).
 TEST(Statics, EnhancedBricksStayStableAndEvenInCompression) {
-  Bar b = bar({CellShape::hex8, Formulation::enhanced}, {4, 4, 1}, {1.0, 1.0, 0.25}, 2e6, 1e6);
+  Bar b = bar({ElementShape::hex8, Formulation::enhanced}, {4, 4, 1}, {1.0, 1.0, 0.25}, 2e6, 1e6);
   std::vector<int> all(b.mesh.X.size());
   for (std::size_t n = 0; n < all.size(); ++n) all[n] = static_cast<int>(n);
   b.model.constraints.hold(all, componentZ);
@@ -93,7 +93,7 @@ TEST(Statics, EnhancedBricksStayStableAndEvenInCompression) {
 
 TEST(Statics, TheBooksCloseToSecondOrderInTheStep) {
   const auto residual = [](double step) {
-    Bar b = bar({CellShape::hex8, Formulation::standard}, {2, 2, 2}, {1.0, 1.0, 1.0}, 2e6, 1e6);
+    Bar b = bar({ElementShape::hex8, Formulation::standard}, {2, 2, 2}, {1.0, 1.0, 1.0}, 2e6, 1e6);
     b.model.constraints.hold(nodesAt(b.mesh, 2, 0.0));
     b.model.constraints.prescribe(nodesAt(b.mesh, 2, 1.0), 2, [](double t) { return 0.3 * t; });
     b.model.constraints.prescribe(nodesAt(b.mesh, 2, 1.0), 0, [](double t) { return 0.2 * t * t; });
@@ -106,7 +106,7 @@ TEST(Statics, TheBooksCloseToSecondOrderInTheStep) {
 TEST(Statics, BendingToALargeAngleGivesTheSameWithEverySolverAndNumberOfThreads) {
   const auto tip = [](const NewtonOptions& newton, int threadCount) {
     setThreads(threadCount);
-    Bar b = bar({CellShape::hex8, Formulation::enhanced}, {1, 2, 16}, {0.1, 0.1, 2.0}, 0.0, 0.5e9);
+    Bar b = bar({ElementShape::hex8, Formulation::enhanced}, {1, 2, 16}, {0.1, 0.1, 2.0}, 0.0, 0.5e9);
     b.model.constraints.hold(nodesAt(b.mesh, 2, 0.0));
     const std::vector<int> end = nodesAt(b.mesh, 2, 2.0);
     b.model.add(std::make_shared<NodalForce>(end, Vec3{0.0, 2500.0 / static_cast<double>(end.size()), 0.0}));
@@ -125,7 +125,7 @@ TEST(Statics, BendingToALargeAngleGivesTheSameWithEverySolverAndNumberOfThreads)
 
 /// A shallow arch (clamped) with a force on its crown that grows with t.
 struct Arch {
-  SolidMesh mesh = boxOf(CellShape::hex8, {24, 1, 1}, {0.0, 0.0, 0.0}, {2.0, 0.02, 0.1});
+  SolidMesh mesh = boxOf(ElementShape::hex8, {24, 1, 1}, {0.0, 0.0, 0.0}, {2.0, 0.02, 0.1});
   Model model;
   int crown = -1;
 
@@ -193,7 +193,7 @@ TEST(ArcLength, OneDisplacementLeadsThroughTheSameSnap) {
 
 TEST(ArcLength, EndsAtTheTimeAskedForWhetherLoadsGoOnOrNot) {
   const auto pull = [](bool path, const TimeFunction& scale, StaticReport& report) {
-    Bar b = bar({CellShape::hex8, Formulation::standard}, {1, 1, 4}, {1.0, 1.0, 4.0}, 2e6, 1e6);
+    Bar b = bar({ElementShape::hex8, Formulation::standard}, {1, 1, 4}, {1.0, 1.0, 4.0}, 2e6, 1e6);
     b.model.constraints.hold(nodesAt(b.mesh, 2, 0.0));
     b.model.add(nodalForce(nodesAt(b.mesh, 2, 4.0), {1e2, 0.0, 2e5}, scale));
     report = path ? followPath(b.model, 1.0, {.firstStep = 0.1}) : solveStatics(b.model, 1.0);
@@ -210,7 +210,7 @@ TEST(ArcLength, EndsAtTheTimeAskedForWhetherLoadsGoOnOrNot) {
 }
 
 TEST(ArcLength, MultipliersOfContactSettleInEveryStep) {
-  Bar b = bar({CellShape::hex8, Formulation::standard}, {2, 2, 2}, {1.0, 1.0, 1.0}, 2e6, 1e6);
+  Bar b = bar({ElementShape::hex8, Formulation::standard}, {2, 2, 2}, {1.0, 1.0, 1.0}, 2e6, 1e6);
   b.model.constraints.hold(nodesAt(b.mesh, 2, 1.0), 3u);
   ContactOptions options;
   options.penalty = 2e7;
@@ -232,7 +232,7 @@ TEST(ArcLength, MultipliersOfContactSettleInEveryStep) {
 
 TEST(Statics, MixingConvergesFasterToTheSameWithTheSameFactors) {
   const auto shear = [](int mixing) {
-    Bar b = bar({CellShape::hex8, Formulation::standard}, {2, 2, 2}, {1.0, 1.0, 1.0}, 2e6, 1e6);
+    Bar b = bar({ElementShape::hex8, Formulation::standard}, {2, 2, 2}, {1.0, 1.0, 1.0}, 2e6, 1e6);
     b.model.constraints.hold(nodesAt(b.mesh, 2, 0.0));
     b.model.constraints.prescribe(nodesAt(b.mesh, 2, 1.0), 2, [](double t) { return 0.2 * t; });
     b.model.constraints.prescribe(nodesAt(b.mesh, 2, 1.0), 0, [](double t) { return 0.1 * t; });
@@ -250,13 +250,13 @@ TEST(Statics, MixingConvergesFasterToTheSameWithTheSameFactors) {
   EXPECT_LT(4 * mixed, 3 * plain);
   EXPECT_LT(largestDifference(u, w), 1e-7);
   EXPECT_GT(largestDifference(u, std::vector<Vec3>(u.size())), 0.05);
-  Bar b = bar({CellShape::hex8, Formulation::standard}, {1, 1, 1}, {1, 1, 1}, 1e6, 1e6);
+  Bar b = bar({ElementShape::hex8, Formulation::standard}, {1, 1, 1}, {1, 1, 1}, 1e6, 1e6);
   EXPECT_THROW(solveStatics(b.model, 1.0, {.newton = {.mixing = 5}}), InputError);
   EXPECT_THROW(solveStatics(b.model, 1.0, {.newton = {.reuseContraction = 0.5, .mixing = -1}}), InputError);
 }
 
 TEST(Statics, AFailureLeavesTheLastEquilibriumAndSaysWhy) {
-  Bar b = bar({CellShape::hex8, Formulation::standard}, {1, 1, 1}, {1.0, 1.0, 1.0}, 2e6, 1e6);
+  Bar b = bar({ElementShape::hex8, Formulation::standard}, {1, 1, 1}, {1.0, 1.0, 1.0}, 2e6, 1e6);
   b.model.constraints.hold(nodesAt(b.mesh, 2, 0.0));
   b.model.constraints.prescribe(nodesAt(b.mesh, 2, 1.0), 2, [](double t) { return -1.2 * t; });  // through itself
   try {
@@ -276,7 +276,7 @@ TEST(Statics, AFailureLeavesTheLastEquilibriumAndSaysWhy) {
 TEST(Statics, CreepTakesItsTime) {
   constexpr double young = 1e6, time = 2.0, stress = 1.0;
   const auto error = [&](double step) {
-    SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+    SolidMesh mesh = boxOf(ElementShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
     Model model = makeModel(mesh);
     model.add(makeSolid(mesh, pointMaterial(kelvinVoigt(pointMaterial(Hencky{young, 0.0, 1000.0}), time, young, 0.0))));
     for (int c = 0; c < 3; ++c) model.constraints.hold(nodesAt(mesh, c, 0.0), 1u << c);

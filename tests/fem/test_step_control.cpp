@@ -13,7 +13,7 @@ namespace {
 
 constexpr double side = 0.1, crush = 0.8, duration = 0.2;  // m, of the height, s
 
-SolidMesh cube(CellShape shape = CellShape::hex8) { return boxOf(shape, {2, 2, 2}, {}, {side, side, side}); }
+SolidMesh cube(ElementShape shape = ElementShape::hex8) { return boxOf(shape, {2, 2, 2}, {}, {side, side, side}); }
 
 /// A neo-Hookean cube, pressed to a fifth of its height and let go again; it may slide on its plates.
 Model pressed(const SolidMesh& mesh) {
@@ -84,7 +84,7 @@ TEST(StepControl, StepsStayBelowTheBound) {
 }
 
 TEST(StepControl, IsOfSecondOrder) {
-  const SolidMesh mesh = cube(CellShape::tet4);
+  const SolidMesh mesh = cube(ElementShape::tet4);
   const auto endOf = [&](double safety) {
     Model model = pressed(mesh);
     ExplicitIntegrator integrator(model, 1.0, {.energyEvery = 0, .safety = safety});
@@ -158,7 +158,7 @@ TEST(StepControl, StatesGoOnBitwise) {
 }
 
 TEST(StepControl, DoesNotDependOnThreads) {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {12, 12, 12}, {}, {side, side, side});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {12, 12, 12}, {}, {side, side, side});
   const auto endOf = [&](int threads) {
     return onThreads(threads, [&] {
       Model model = pressed(mesh);

@@ -36,7 +36,7 @@ private:
 TEST(TermCalls, AnExplicitStepAsksEveryPointOnce) {
   for (const Formulation formulation : {Formulation::standard, Formulation::meanDilatation, Formulation::reduced})
     for (const int energyEvery : {1, 2, 0}) {
-      const SolidMesh mesh = boxOf(CellShape::hex8, {4, 2, 1}, {}, {0.4, 0.2, 0.1});
+      const SolidMesh mesh = boxOf(ElementShape::hex8, {4, 2, 1}, {}, {0.4, 0.2, 0.1});
       const auto material = std::make_shared<const CountingMaterial>();
       Model model = sceneOf(mesh, material, {.formulation = formulation}).model;
       model.add(gravity(Vec3{0, 0, -9.81}));
@@ -67,7 +67,7 @@ TEST(TermCalls, ForcesAndEnergyTogetherAreThoseAlone) {
   };
   std::vector<SolidScene> scenes;
   for (const SolidKind& kind : allSolidKinds()) scenes.push_back(solidScene(kind, true));
-  const SolidMesh mesh = testSolidMesh(CellShape::hex8, true);
+  const SolidMesh mesh = testSolidMesh(ElementShape::hex8, true);
   for (const Formulation formulation : brickFormulations)
     scenes.push_back(sceneOf(mesh, formulation, StVenantKirchhoff{1e6, 0.3, 1000.0}));
   scenes.push_back(sceneOf(mesh, pointMaterial(J2Plasticity{1e6, 0.3, 1000.0, linearYield(1e4)})));
@@ -102,7 +102,7 @@ public:
 };
 
 TEST(TermCalls, WhatAMaterialThrowsComesOut) {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {16, 16, 16}, {}, {16.0, 16.0, 16.0});
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {16, 16, 16}, {}, {16.0, 16.0, 16.0});
   SolidScene scene = sceneOf(mesh, std::make_shared<const Tearing>());
   Nodes& nodes = scene.model.nodes;
   BlockMatrix K = zeroTangent(scene.model);

@@ -48,7 +48,7 @@ double solveDense(Model& model, const DofMap& map, double t, int iterations) {
 }
 
 TEST(PeriodicTies, AUniformCellHasUniformStress) {
-  for (const CellShape shape : {CellShape::hex8, CellShape::hex20, CellShape::tet4}) {
+  for (const ElementShape shape : {ElementShape::hex8, ElementShape::hex20, ElementShape::tet4}) {
     const SolidMesh mesh = boxOf(shape, {2, 2, 1}, {0.1, 0.2, 0.3}, {1.0, 1.2, 1.0});
     Model model = makeModel(mesh);
     Solid& solid = model.add(makeSolid(mesh, std::make_shared<PlainNeoHookean>(2e6, 1e6)));
@@ -75,7 +75,7 @@ TEST(PeriodicTies, AUniformCellHasUniformStress) {
 }
 
 TEST(PeriodicTies, MeansOfAMixedCellAreTheMacroscopicOnes) {
-  SolidMesh mesh = boxOf(CellShape::hex8, {3, 3, 3}, {}, {1.0, 1.0, 1.0});
+  SolidMesh mesh = boxOf(ElementShape::hex8, {3, 3, 3}, {}, {1.0, 1.0, 1.0});
   Model model = makeModel(mesh);
   mesh.elementSets["core"] = {13};
   std::vector<int> others;
@@ -127,7 +127,7 @@ TEST(PeriodicTies, MeansOfAMixedCellAreTheMacroscopicOnes) {
 
 TEST(PeriodicTies, FacesThatDoNotMatchAreRefused) {
   const auto unit = [](double) { return rowMajor(Eigen::Matrix3d::Identity()); };
-  SolidMesh mesh = boxOf(CellShape::hex8, {2, 2, 2}, {}, {1.0, 1.0, 1.0});
+  SolidMesh mesh = boxOf(ElementShape::hex8, {2, 2, 2}, {}, {1.0, 1.0, 1.0});
   const int node = nodeSet(mesh, "x+")[4];
   mesh.X[static_cast<std::size_t>(node)].y += 1e-3;
   try {
@@ -144,7 +144,7 @@ TEST(PeriodicTies, FacesThatDoNotMatchAreRefused) {
 TEST(PeriodicTies, CellsOfAnySizeAreTied) {
   const auto unit = [](double) { return rowMajor(Eigen::Matrix3d::Identity()); };
   for (const double size : {1e-9, 1e-6, 1.0, 1e3}) {
-    SolidMesh mesh = boxOf(CellShape::hex8, {3, 2, 2}, {}, {size, size, size});
+    SolidMesh mesh = boxOf(ElementShape::hex8, {3, 2, 2}, {}, {size, size, size});
     std::mt19937 random(3);
     for (Vec3& X : mesh.X) X += randomVec3(random, 1e-8 * size);  // as a file of eight digits leaves them
     const PeriodicTies cell = periodicTies(mesh, unit);
@@ -160,14 +160,14 @@ struct Stack {
   std::vector<Face> masters;
 };
 
-Stack stackOf(CellShape below, int cellsBelow, CellShape above, int cellsAbove) {
+Stack stackOf(ElementShape below, int cellsBelow, ElementShape above, int cellsAbove) {
   Stack stack;
   stack.mesh = boxOf(below, {cellsBelow, cellsBelow, 2}, {0, 0, 0}, {1.0, 1.0, 0.5});
   stack.masters = faceSet(stack.mesh, "z+");
   const SolidMesh upper = boxOf(above, {cellsAbove, cellsAbove, 2}, {0, 0, 0.5}, {1.0, 1.0, 1.0});
   const int shift = static_cast<int>(stack.mesh.X.size());
   stack.mesh.X.insert(stack.mesh.X.end(), upper.X.begin(), upper.X.end());
-  for (CellGroup group : upper.groups) {
+  for (ElementGroup group : upper.groups) {
     for (int& n : group.node) n += shift;
     stack.mesh.groups.push_back(std::move(group));
   }
@@ -211,15 +211,15 @@ double patchResidual(const Stack& stack, int cellsBelow) {
 }
 
 TEST(TiedInterface, APatchIsInEquilibriumIfTheSlavesDivideTheMasters) {
-  EXPECT_LT(patchResidual(stackOf(CellShape::hex8, 2, CellShape::hex8, 4), 2), 1e-12);
-  EXPECT_LT(patchResidual(stackOf(CellShape::hex8, 3, CellShape::hex8, 3), 3), 1e-12);
-  EXPECT_LT(patchResidual(stackOf(CellShape::tet4, 2, CellShape::tet4, 4), 2), 1e-12);
-  EXPECT_LT(patchResidual(stackOf(CellShape::hex27, 1, CellShape::hex27, 3), 1), 1e-12);
+  EXPECT_LT(patchResidual(stackOf(ElementShape::hex8, 2, ElementShape::hex8, 4), 2), 1e-12);
+  EXPECT_LT(patchResidual(stackOf(ElementShape::hex8, 3, ElementShape::hex8, 3), 3), 1e-12);
+  EXPECT_LT(patchResidual(stackOf(ElementShape::tet4, 2, ElementShape::tet4, 4), 2), 1e-12);
+  EXPECT_LT(patchResidual(stackOf(ElementShape::hex27, 1, ElementShape::hex27, 3), 1), 1e-12);
 }
 
 TEST(TiedInterface, APatchIsNearlyInEquilibriumOtherwise) {
-  const double coarse = patchResidual(stackOf(CellShape::hex8, 2, CellShape::hex8, 3), 2),
-               fine = patchResidual(stackOf(CellShape::hex8, 2, CellShape::hex8, 7), 2);
+  const double coarse = patchResidual(stackOf(ElementShape::hex8, 2, ElementShape::hex8, 3), 2),
+               fine = patchResidual(stackOf(ElementShape::hex8, 2, ElementShape::hex8, 7), 2);
   RecordProperty("coarse", std::to_string(coarse));
   RecordProperty("fine", std::to_string(fine));
   EXPECT_GT(coarse, 1e-6);
@@ -228,7 +228,7 @@ TEST(TiedInterface, APatchIsNearlyInEquilibriumOtherwise) {
 }
 
 TEST(TiedInterface, ForceAndMomentArriveAtTheMasters) {
-  const Stack stack = stackOf(CellShape::hex8, 2, CellShape::tet10, 3);
+  const Stack stack = stackOf(ElementShape::hex8, 2, ElementShape::tet10, 3);
   for (const Tie& tie : tieInterface(stack.mesh, stack.slaves, stack.masters, 1e-9)) {
     double sum = 0.0;
     Vec3 place;
@@ -242,7 +242,7 @@ TEST(TiedInterface, ForceAndMomentArriveAtTheMasters) {
 }
 
 TEST(TiedInterface, SlavesOffTheFacesAreRefusedByNumber) {
-  Stack stack = stackOf(CellShape::hex8, 2, CellShape::hex8, 3);
+  Stack stack = stackOf(ElementShape::hex8, 2, ElementShape::hex8, 3);
   stack.mesh.X[static_cast<std::size_t>(stack.slaves[5])].z += 1e-3;
   try {
     tieInterface(stack.mesh, stack.slaves, stack.masters, 1e-4);
@@ -269,8 +269,8 @@ double tieTo(const SolidMesh& mesh, int slave, const Face& face, std::vector<Tie
 
 TEST(TiedInterface, TheNearestOfManyFacesIsFound) {
   std::mt19937 random(6);
-  for (const CellShape shape :
-       {CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet4, CellShape::tet10}) {
+  for (const ElementShape shape :
+       {ElementShape::hex8, ElementShape::hex20, ElementShape::hex27, ElementShape::tet4, ElementShape::tet10}) {
     SolidMesh mesh = boxOf(shape, {5, 4, 1}, {}, {5, 4, 1});
     for (Vec3& X : mesh.X) X += Vec3{0, 0, 0.2 * std::sin(1.3 * X.x + X.y)} + randomVec3(random, 0.03);
     const std::vector<Face> masters = faceSet(mesh, "z+");

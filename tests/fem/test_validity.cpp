@@ -26,7 +26,7 @@ std::vector<SolidScene> hexScenes(const SolidMesh& mesh) {
   std::vector<SolidScene> scenes;
   for (const Formulation formulation : brickFormulations) scenes.push_back(sceneOf(mesh, formulation, kirchhoff));
   for (const SolidKind& kind : allSolidKinds())
-    if (kind.shape == CellShape::hex8)
+    if (kind.shape == ElementShape::hex8)
       scenes.push_back(sceneOf(mesh, std::make_shared<PlainNeoHookean>(1e6, 1e6), {.formulation = kind.formulation}));
   return scenes;
 }

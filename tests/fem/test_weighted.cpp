@@ -32,8 +32,8 @@ template <class Check>
 void forEachKind(Check&& check) {
   std::vector<WeightedKind> kinds;
   for (const SolidKind& kind : allSolidKinds()) kinds.push_back({kind, pointMaterial(Material(law))});
-  kinds.push_back({{CellShape::hex8, Formulation::assumedStress}, pointMaterial(Material(law))});
-  kinds.push_back({{CellShape::hex8, Formulation::standard}, std::make_shared<PlainNeoHookean>(1e6, 1e6, 1200.0)});
+  kinds.push_back({{ElementShape::hex8, Formulation::assumedStress}, pointMaterial(Material(law))});
+  kinds.push_back({{ElementShape::hex8, Formulation::standard}, std::make_shared<PlainNeoHookean>(1e6, 1e6, 1200.0)});
   for (const WeightedKind& kind : kinds) {
     SCOPED_TRACE(kind.kind.label() + ", " + kind.material->name());
     check(kind);
@@ -73,8 +73,8 @@ TEST(Weighted, MassesAreIntegralsOfTheWeightedDensity) {
     std::vector<double> lumped(mesh.X.size());
     part.solid->addMass(lumped);
     EXPECT_NEAR(std::accumulate(lumped.begin(), lumped.end(), 0.0), expected.sum(), 1e-12 * expected.sum());
-    const CellShape shape = kind.kind.shape;
-    const bool scaled = shape == CellShape::hex20 || shape == CellShape::tet10 || shape == CellShape::quad8;
+    const ElementShape shape = kind.kind.shape;
+    const bool scaled = shape == ElementShape::hex20 || shape == ElementShape::tet10 || shape == ElementShape::quad8;
     for (std::size_t n = 0; n < lumped.size(); ++n) {
       EXPECT_GT(lumped[n], 0.0);
       if (!scaled) {
@@ -181,7 +181,7 @@ TEST(Weighted, ElementsOfShareZeroAreLeftOut) {
     const SolidScene part = kind.scene(mesh, share);
     std::vector<int> upper;
     for (std::size_t e = 0; e < mesh.elementCount(); ++e) {
-      const CellGroup& group = mesh.groups[0];
+      const ElementGroup& group = mesh.groups[0];
       const auto n = static_cast<std::size_t>(nodesOf(group.shape));
       double sum = 0.0;
       for (std::size_t a = 0; a < n; ++a) sum += share[static_cast<std::size_t>(group.node[n * e + a])];

@@ -49,7 +49,7 @@ constexpr const char* smallScene = R"({
   ],
   "couplings": [{"type": "surface", "solid": "floor", "on": "z+"},
                 {"type": "overlap", "solid": "lid", "axis": "z", "solid_border": 0.22, "particle_border": 0.28}],
-  "steps": {"dt": 2e-5, "per_window": 2},
+  "steps": {"dt": 2e-5, "per_macro_step": 2},
   "stages": [{"do": "run", "time": 0.1}]
 })";
 

@@ -36,7 +36,7 @@ struct Biaxial {
   std::shared_ptr<fem::Solid> solid;
 
   Biaxial(std::array<int, 2> elements, std::shared_ptr<fem::PointField> field,
-          fem::CellShape shape = fem::CellShape::quad4, double rate = 2e-4,
+          fem::ElementShape shape = fem::ElementShape::quad4, double rate = 2e-4,
           fem::Formulation formulation = fem::Formulation::standard)
       : mesh(fem::boxOf(shape, {elements[0], elements[1], 1}, {}, {0.1, 0.2, 0.1})),
         model(fem::makeModel(mesh)),

@@ -19,14 +19,14 @@ rve::Cell stickingCell() {
 }
 
 TEST(CellField, AnswersAreThoseOfTheCell) {
-  const RestingCells settings;
+  const QuasiStaticCells settings;
   Asked asked(cellField(oneCell(), settings));
   rve::Cell cell = threeCells()[0];
   for (const Eigen::Matrix3d& F : {plane(0.9995, 0, 0, 1.0002), plane(0.999, 4e-4, 0, 1.001)}) {
     const double stored = rve::storedEnergy(cell), work = cell.state.book.work;
     const Eigen::Matrix3d P = asked(F);
     asked.field().commit();
-    settle(cell, F, settings);
+    relax(cell, F, settings);
     EXPECT_EQ(P, rve::nominalStress(cell));
     EXPECT_LE(rve::balance(cell).unbalanced, settings.unbalanced);
     EXPECT_EQ(asked.energy[0], rve::storedEnergy(cell) / cell.volume);
@@ -38,7 +38,7 @@ TEST(CellField, AnswersAreThoseOfTheCell) {
 
 TEST(CellField, TangentIsTheDerivativeOfTheAnswer) {
   const rve::Cell cell = stickingCell();
-  Asked asked(cellField({cell}, RestingCells{.unbalanced = 1e-10}));
+  Asked asked(cellField({cell}, QuasiStaticCells{.unbalanced = 1e-10}));
   const Eigen::Matrix3d F = plane(1.0005, 4e-4, -3e-4, 0.999);
   asked(F);
   asked.field().commit();
@@ -138,7 +138,7 @@ TEST(CellField, WhatACellCannotAnswerIsSaid) {
   Eigen::Matrix3d outward = plane(1, 0, 0, 1);
   outward(2, 2) = 1.001;
   expectReason(asked, outward, "meanDilatation");
-  Asked hurried(cellField(oneCell(), RestingCells{.path = {.rest = {.steps = 1}}}));
+  Asked hurried(cellField(oneCell(), QuasiStaticCells{.path = {.rest = {.steps = 1}}}));
   expectReason(hurried, plane(0.99, 0, 0, 1.0), "out of balance");
   EXPECT_NO_THROW(asked(plane(0.999, 0, 0, 1.0)));
   EXPECT_EQ(asked.reason[0], "");
@@ -152,7 +152,7 @@ TEST(CellField, WrongBanksAndSettingsAreRefused) {
   rve::setSprings(other, springs);
   EXPECT_THROW(cellField({threeCells()[0], other}), InputError);
   rve::Cell deformed = threeCells()[0];
-  settle(deformed, plane(0.999, 0, 0, 1.0), {});
+  relax(deformed, plane(0.999, 0, 0, 1.0), {});
   EXPECT_THROW(cellField({deformed}), InputError);
   rve::Cell pushed = threeCells()[0];
   rve::displace(pushed, rve::scaled(pushed.state.force, 1e-9), rve::scaled(pushed.state.torque, 0.0));
@@ -160,12 +160,12 @@ TEST(CellField, WrongBanksAndSettingsAreRefused) {
   EXPECT_THROW(cellField({pushed}), InputError);
   EXPECT_THROW(cellField({rve::randomCell({.count = 40}, rve::ordinarySprings())}), InputError);
   for (const double unbalanced : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(cellField(oneCell(), RestingCells{.unbalanced = unbalanced}), InputError);
-  EXPECT_THROW(cellField(oneCell(), RestingCells{.path = {.inertialNumber = 0.1}}), InputError);
-  EXPECT_THROW(cellField(oneCell(), RestingCells{.path = {.rest = {.steps = 0}}}), InputError);
-  EXPECT_THROW(cellField(oneCell(), MovingCells{.strainPerStep = 0.0}), InputError);
-  EXPECT_THROW(cellField(oneCell(), MovingCells{.damping = 1.0}), InputError);
-  EXPECT_THROW(cellField(oneCell(), MovingCells{.stepShare = 1.0}), InputError);
+    EXPECT_THROW(cellField(oneCell(), QuasiStaticCells{.unbalanced = unbalanced}), InputError);
+  EXPECT_THROW(cellField(oneCell(), QuasiStaticCells{.path = {.inertialNumber = 0.1}}), InputError);
+  EXPECT_THROW(cellField(oneCell(), QuasiStaticCells{.path = {.rest = {.steps = 0}}}), InputError);
+  EXPECT_THROW(cellField(oneCell(), DynamicCells{.strainPerStep = 0.0}), InputError);
+  EXPECT_THROW(cellField(oneCell(), DynamicCells{.damping = 1.0}), InputError);
+  EXPECT_THROW(cellField(oneCell(), DynamicCells{.stepShare = 1.0}), InputError);
 }
 
 TEST(CellField, SmallCellsAreMarked) {

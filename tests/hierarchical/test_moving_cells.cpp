@@ -9,8 +9,8 @@ namespace {
 
 using rve::plane;
 
-TEST(MovingCells, StepsOfGrainsStrainThemNoMoreThanAsked) {
-  const MovingCells settings{.strainPerStep = 1e-5, .damping = 0.2};
+TEST(DynamicCells, StepsOfGrainsStrainThemNoMoreThanAsked) {
+  const DynamicCells settings{.strainPerStep = 1e-5, .damping = 0.2};
   rve::Cell whole = threeCells()[0], parts = whole;
   const Eigen::Matrix3d F = plane(1.0, 0.0, 0.0, 1.0 - 9.5e-5);
   stepTo(whole, F, settings);
@@ -25,14 +25,14 @@ TEST(MovingCells, StepsOfGrainsStrainThemNoMoreThanAsked) {
 /// The biaxial body, sheared at a speed that the waves in it pass many times.
 struct Moving : Biaxial {
   explicit Moving(std::vector<rve::Cell> bank = threeCells(), double rate = 0.05)
-      : Biaxial({1, 2}, cellField(std::move(bank), MovingCells{}), fem::CellShape::quad4, rate) {
+      : Biaxial({1, 2}, cellField(std::move(bank), DynamicCells{}), fem::ElementShape::quad4, rate) {
     fem::addMass(model);
   }
 };
 
 constexpr double dt = 2e-5;
 
-TEST(MovingCells, PointsOfARunAreStandAloneCellsToTheLastBit) {
+TEST(DynamicCells, PointsOfARunAreStandAloneCellsToTheLastBit) {
   Moving body;
   fem::ExplicitIntegrator run(body.model, dt);
   std::vector<rve::Cell> cells;
@@ -46,7 +46,7 @@ TEST(MovingCells, PointsOfARunAreStandAloneCellsToTheLastBit) {
   for (std::size_t p = 0; p < cells.size(); ++p) EXPECT_EQ(matrixAt(sample.P, p), rve::nominalStress(cells[p]));
 }
 
-TEST(MovingCells, RunsGoOnFromBytesOnAnyNumberOfThreads) {
+TEST(DynamicCells, RunsGoOnFromBytesOnAnyNumberOfThreads) {
   Moving whole, first, second;
   fem::ExplicitIntegrator all(whole.model, dt), before(first.model, dt), after(second.model, dt);
   all.run(60);
@@ -63,7 +63,7 @@ TEST(MovingCells, RunsGoOnFromBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(whole.model.nodes.v, second.model.nodes.v);
 }
 
-TEST(MovingCells, EnergyIsBalancedAcrossTheScales) {
+TEST(DynamicCells, EnergyIsBalancedAcrossTheScales) {
   Moving body;
   fem::ExplicitIntegrator run(body.model, dt);
   run.run(500);
@@ -72,18 +72,18 @@ TEST(MovingCells, EnergyIsBalancedAcrossTheScales) {
   EXPECT_LT(ledger.largestResidual(), 1e-3 * std::abs(ledger.joules("supports")));
 }
 
-TEST(MovingCells, SlowRunsAreNearRest) {
+TEST(DynamicCells, SlowRunsAreNearRest) {
   Moving moving(oneCell(), 0.01);
   fem::ExplicitIntegrator run(moving.model, dt);
   run.runUntil(0.02);
-  Biaxial resting({1, 2}, cellField(oneCell()), fem::CellShape::quad4, 0.01);
+  Biaxial resting({1, 2}, cellField(oneCell()), fem::ElementShape::quad4, 0.01);
   fem::solveStatics(resting.model, 0.02, roughly(1e-5, 0.01));
   const Eigen::Matrix3d P = matrixAt(moving.sample().P, 0), Q = matrixAt(resting.sample().P, 0);
   EXPECT_LT(Q(1, 1), -1.2e5);
   EXPECT_NEAR(P(1, 1), Q(1, 1), 0.1 * std::abs(Q(1, 1) + 1e5));
 }
 
-TEST(MovingCells, StepsOutOfReachAreRefused) {
+TEST(DynamicCells, StepsOutOfReachAreRefused) {
   rve::Cell cell = threeCells()[0];
   EXPECT_THROW(stepTo(cell, plane(-1.0, 0, 0, 1.0), {}), InputError);
   Eigen::Matrix3d outward = plane(1, 0, 0, 1);
@@ -91,14 +91,14 @@ TEST(MovingCells, StepsOutOfReachAreRefused) {
   EXPECT_THROW(stepTo(cell, outward, {}), InputError);
 }
 
-TEST(MovingCells, StepsWithoutEndAndBadSettingsAreRefused) {
+TEST(DynamicCells, StepsWithoutEndAndBadSettingsAreRefused) {
   rve::Cell cell = threeCells()[0];
   const Eigen::Matrix3d F = rve::plane(1.0, 0.0, 0.0, 0.999);
   EXPECT_THROW(stepTo(cell, F, {.strainPerStep = 1e-13}), NumericalError);
   EXPECT_THROW(stepTo(cell, rve::plane(1e6, 0.0, 0.0, 1.0), {}), NumericalError);
   EXPECT_THROW(stepTo(cell, F, {.strainPerStep = -1.0}), InputError);
   EXPECT_THROW(stepTo(cell, F, {.damping = 1.0}), InputError);
-  EXPECT_THROW(settle(cell, F, {.unbalanced = 0.0}), InputError);
+  EXPECT_THROW(relax(cell, F, {.unbalanced = 0.0}), InputError);
   EXPECT_EQ(cell.state.F, Eigen::Matrix3d::Identity());
 }
 

@@ -7,11 +7,11 @@
 namespace dovetail::hierarchical {
 namespace {
 
-using fem::CellShape;
+using fem::ElementShape;
 
 TEST(StaticsOfCells, PointsOfAnElementAreStandAloneCellsToTheLastBit) {
-  for (const CellShape shape : {CellShape::quad4, CellShape::quad8}) {
-    const auto formulation = shape == CellShape::quad8 ? fem::Formulation::reduced : fem::Formulation::standard;
+  for (const ElementShape shape : {ElementShape::quad4, ElementShape::quad8}) {
+    const auto formulation = shape == ElementShape::quad8 ? fem::Formulation::reduced : fem::Formulation::standard;
     Biaxial body({1, 1}, cellField(oneCell()), shape, 2e-4, formulation);
     std::vector<fem::Solid::Sample> samples;
     fem::solveStatics(body.model, 1.0, roughly(), [&](const fem::Model&, const fem::StaticStep&) {
@@ -48,11 +48,11 @@ TEST(StaticsOfCells, ThreadsDoNotChangeADigit) {
 }
 
 TEST(StaticsOfCells, APatchOfEqualCellsIsHomogeneous) {
-  for (const CellShape shape : {CellShape::quad4, CellShape::quad8}) {
+  for (const ElementShape shape : {ElementShape::quad4, ElementShape::quad8}) {
     fem::SolidMesh mesh = fem::boxOf(shape, {2, 2, 1}, {}, {0.2, 0.2, 0.1});
     for (Vec3& X : mesh.X) X += Vec3{0.1 * X.y * (0.2 - X.y), 0.4 * X.x * (0.2 - X.x) * (0.3 + X.y), 0.0};
     fem::Model model = fem::makeModel(mesh);
-    const auto solid = fem::makeSolid(mesh, cellField(oneCell(), RestingCells{.unbalanced = 1e-9}));
+    const auto solid = fem::makeSolid(mesh, cellField(oneCell(), QuasiStaticCells{.unbalanced = 1e-9}));
     model.add(solid);
     const Eigen::Matrix3d H = rve::plane(1.0004, 2e-4, -1e-4, 0.9993) - Eigen::Matrix3d::Identity();
     const auto affine = [&](int node, int component) {
@@ -84,7 +84,7 @@ TEST(StaticsOfCells, APatchOfEqualCellsIsHomogeneous) {
 
 TEST(StaticsOfCells, EnergyIsBalancedAcrossTheScales) {
   const auto residual = [](double step, double inertialNumber) {
-    Biaxial body({1, 1}, cellField(oneCell(), RestingCells{.path = {.inertialNumber = inertialNumber}}));
+    Biaxial body({1, 1}, cellField(oneCell(), QuasiStaticCells{.path = {.inertialNumber = inertialNumber}}));
     const fem::StaticReport report = fem::solveStatics(body.model, 1.0, roughly(1e-6, step));
     EXPECT_GT(report.dissipated, 0.0);
     return std::abs(report.energyResidual()) / (std::abs(report.supportWork) + std::abs(report.loadWork));
@@ -98,7 +98,7 @@ TEST(StaticsOfCells, EnergyIsBalancedAcrossTheScales) {
 
 TEST(StaticsOfCells, ArcLengthGoesToTheSameEquilibrium) {
   const auto pressed = [](bool byArcs) {
-    const fem::SolidMesh mesh = fem::boxOf(CellShape::quad4, {1, 1, 1}, {}, {0.1, 0.2, 0.1});
+    const fem::SolidMesh mesh = fem::boxOf(ElementShape::quad4, {1, 1, 1}, {}, {0.1, 0.2, 0.1});
     fem::Model model = fem::makeModel(mesh);
     const auto solid = fem::makeSolid(mesh, cellField(oneCell()));
     model.add(solid);
@@ -133,7 +133,7 @@ TEST(StaticsOfCells, RunsGoOnFromBytesWithTheSameDigits) {
 }
 
 TEST(StaticsOfCells, TheNetworkConvergesFasterThanUniformStrainToTheSame) {
-  const auto run = [](const RestingCells& settings, double reuse) {
+  const auto run = [](const QuasiStaticCells& settings, double reuse) {
     Biaxial body({1, 2}, cellField(threeCells(), settings));
     fem::StaticOptions options = roughly(1e-5);
     options.newton.reuseContraction = reuse;
@@ -154,7 +154,7 @@ TEST(StaticsOfCells, TheNetworkConvergesFasterThanUniformStrainToTheSame) {
 
 TEST(StaticsOfCells, EveryOperatorLeadsToTheSame) {
   const auto run = [](Operator tangent) {
-    Biaxial body({1, 1}, cellField(threeCells(), RestingCells{.tangent = tangent}));
+    Biaxial body({1, 1}, cellField(threeCells(), QuasiStaticCells{.tangent = tangent}));
     const fem::StaticReport report = fem::solveStatics(body.model, 1.0, roughly(1e-5));
     EXPECT_EQ(report.cuts, 0);
     return std::pair(report.iterations, body.sample().P);
@@ -170,7 +170,7 @@ TEST(StaticsOfCells, EveryOperatorLeadsToTheSame) {
 }
 
 TEST(StaticsOfCells, FrozenMeansFreezeWherePointsSoftenAndGoToBytes) {
-  const auto field = [] { return cellField(oneCell(), RestingCells{.tangent = Operator::frozenMean}); };
+  const auto field = [] { return cellField(oneCell(), QuasiStaticCells{.tangent = Operator::frozenMean}); };
   Asked cell(field());
   const auto at = [](int step) { return rve::plane(1.0 + 3e-3 * step, 0.0, 0.0, 1.0 - 3e-3 * step); };
   rve::FrozenMean expected;
@@ -195,7 +195,7 @@ TEST(StaticsOfCells, FrozenMeansFreezeWherePointsSoftenAndGoToBytes) {
 TEST(StaticsOfCells, WhatStagnatesIsNeverAccepted) {
   // Cells that are hardly at rest cannot be balanced to this.
   Biaxial body({1, 1},
-               cellField(threeCells(), RestingCells{.path = {.rest = {.unbalanced = 1e-2}}, .unbalanced = 1e-2}));
+               cellField(threeCells(), QuasiStaticCells{.path = {.rest = {.unbalanced = 1e-2}}, .unbalanced = 1e-2}));
   fem::StaticOptions options = roughly(1e-12);
   options.newton.maxIterations = 6;
   options.smallestStep = 0.1;
@@ -213,7 +213,7 @@ TEST(StaticsOfCells, WhatStagnatesIsNeverAccepted) {
 }
 
 std::pair<std::unique_ptr<Biaxial>, fem::StaticOptions> pastThePeak(int motionIterations) {
-  auto body = std::make_unique<Biaxial>(std::array{1, 1}, cellField(oneCell()), CellShape::quad4, 2e-4);
+  auto body = std::make_unique<Biaxial>(std::array{1, 1}, cellField(oneCell()), ElementShape::quad4, 2e-4);
   fem::addMass(body->model);
   fem::StaticOptions options = roughly(1e-4, 1.0);
   options.newton.maxIterations = 6;
@@ -253,7 +253,7 @@ TEST(StaticsOfCells, MotionsThatDoNotEndLeaveTheLastEquilibrium) {
 }
 
 TEST(StaticsOfCells, APointWithoutAnAnswerIsNamed) {
-  Biaxial body({1, 2}, cellField(oneCell()), CellShape::quad4, 0.04);
+  Biaxial body({1, 2}, cellField(oneCell()), ElementShape::quad4, 0.04);
   fem::StaticOptions options = roughly(1e-5, 1.0);
   options.smallestStep = 0.5;
   try {
@@ -268,9 +268,9 @@ TEST(StaticsOfCells, APointWithoutAnAnswerIsNamed) {
 }
 
 TEST(StaticsOfCells, FormulationsThatAskOtherwiseAreRefused) {
-  const fem::SolidMesh bricks = fem::boxOf(CellShape::hex8, {1, 1, 1}, {}, {1, 1, 1});
+  const fem::SolidMesh bricks = fem::boxOf(ElementShape::hex8, {1, 1, 1}, {}, {1, 1, 1});
   EXPECT_THROW(fem::makeSolid(bricks, cellField(oneCell()), {.formulation = fem::Formulation::enhanced}), InputError);
-  Biaxial body({1, 1}, cellField(oneCell()), CellShape::quad4, 2e-4, fem::Formulation::meanDilatation);
+  Biaxial body({1, 1}, cellField(oneCell()), ElementShape::quad4, 2e-4, fem::Formulation::meanDilatation);
   fem::setRandomDisplacement(body.model.nodes, 1e-5, 1);
   try {
     fem::evaluateForces(body.model, {});

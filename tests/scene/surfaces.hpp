@@ -12,7 +12,7 @@ namespace dovetail::scene::test {
 
 inline constexpr double blockVolume = 0.4 * 0.2 * 0.1;  // m³
 
-inline fem::SolidMesh block(fem::CellShape shape, double perMetre = 1.0) {
+inline fem::SolidMesh block(fem::ElementShape shape, double perMetre = 1.0) {
   return fem::boxOf(shape, {1, 1, 1}, {}, perMetre * Vec3{0.4, 0.2, 0.1});
 }
 /// The boundary of bricks, two triangles per side.
@@ -25,7 +25,7 @@ inline geometry::TriangleMesh surfaceOf(const fem::SolidMesh& bricks) {
   return surface;
 }
 inline void writeBlock(const std::filesystem::path& file, double perMetre = 1.0) {
-  const geometry::TriangleMesh surface = surfaceOf(block(fem::CellShape::hex8, perMetre));
+  const geometry::TriangleMesh surface = surfaceOf(block(fem::ElementShape::hex8, perMetre));
   mesh_io::writeStl(file, surface.x, surface.facets);
 }
 

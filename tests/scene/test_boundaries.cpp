@@ -57,8 +57,8 @@ TEST(SceneSets, EmptyAndDoubleOnesAreRefused) {
 
 TEST(SceneSets, TiesPassUniformStrain) {
   const io::test::ScratchFolder folder;
-  fem::SolidMesh left = fem::boxOf(fem::CellShape::hex8, {2, 2, 2}, {0, 0, 0}, {1, 1, 1});
-  fem::SolidMesh right = fem::boxOf(fem::CellShape::hex8, {2, 4, 4}, {1, 0, 0}, {2, 1, 1});
+  fem::SolidMesh left = fem::boxOf(fem::ElementShape::hex8, {2, 2, 2}, {0, 0, 0}, {1, 1, 1});
+  fem::SolidMesh right = fem::boxOf(fem::ElementShape::hex8, {2, 4, 4}, {1, 0, 0}, {2, 1, 1});
   const int offset = static_cast<int>(left.X.size());
   left.X.insert(left.X.end(), right.X.begin(), right.X.end());
   for (int& n : right.groups[0].node) n += offset;

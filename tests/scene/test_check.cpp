@@ -14,7 +14,7 @@ namespace {
 
 const std::string grain =
     R"("particles": [{"from": "list", "density": 2500, "spheres": [{"at": [0.1, 0.1, 0.1], "radius": 0.02}]}],)";
-const std::string runs = R"({"do": "run", "time": 1e-3})", settles = R"({"do": "settle", "windows": 3})";
+const std::string runs = R"({"do": "run", "time": 1e-3})", relaxes = R"({"do": "relax", "macro_steps": 3})";
 
 /// A block of 0.2 m × 0.2 m × 0.1 m below z = 0, from x on.
 std::string block(double x, const std::string& name = "b", const std::string& motion = "") {
@@ -61,10 +61,10 @@ TEST(SceneStart, SteadyMotionIsRefusedWhereAStageSettles) {
   const auto support = [](const std::string& motion) { return R"("solids": [)" + block(0.0, "b", motion) + "],"; };
   for (const std::string& parts : {wall(R"(, "velocity": [0, 0, 0.1])"), wall(R"(, "angular_velocity": [0, 0, 1])"),
                                    support(R"(, "velocity": [0, 0, 0.1])")}) {
-    expectParts(refusalOfCheck(parts, runs + "," + settles), {"has a steady velocity", "s.json:", "run for a time"});
+    expectParts(refusalOfCheck(parts, runs + "," + relaxes), {"has a steady velocity", "s.json:", "run for a time"});
     EXPECT_EQ(refusalOfCheck(parts), "");
   }
-  EXPECT_EQ(refusalOfCheck(wall(""), settles), "");
+  EXPECT_EQ(refusalOfCheck(wall(""), relaxes), "");
 }
 
 /// What a run would refuse after its start.
@@ -75,13 +75,13 @@ TEST(SceneCheck, RefusesWhatARunRefuses) {
   expectParts(refusalOfCheck(output(R"("probes": [{"name": "p", "of": "grain", "at": [0, 0, 0]}])")), {"no series"});
   if (WITH_FRAMES)
     expectParts(refusalOfCheck(output(R"("frames": 1e-4, "contents": ["grains", "stress"])")), {"no \"solids\""});
-  expectParts(refusalOfCheck(R"("steps": {"dt": 1e-30},)"), {"more than 1e15 windows", "stages.0"});
+  expectParts(refusalOfCheck(R"("steps": {"dt": 1e-30},)"), {"more than 1e15 macro steps", "stages.0"});
   expectParts(refusalOfCheck(R"("solids": [)" + block(0.0, std::string(200, 'x')) + "],"), {"too long"});
 }
 
 TEST(SceneCheck, CountsWindowsOfAllStages) {
-  const std::string text = textOfCheck(whole(R"("steps": {"dt": 1e-5},)", runs + "," + settles + "," + runs));
-  expectParts(text, {": 200 windows of 1 steps", "at most 3 windows"});
+  const std::string text = textOfCheck(whole(R"("steps": {"dt": 1e-5},)", runs + "," + relaxes + "," + runs));
+  expectParts(text, {": 200 macro steps of 1 steps", "at most 3 macro steps"});
 }
 
 TEST(SceneCheck, TellsBodiesThatLieInEachOther) {

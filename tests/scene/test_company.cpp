@@ -105,7 +105,7 @@ TEST(SceneCompany, SolidsThatNoGrainsComeTo) {
 }
 
 TEST(SceneCompany, GrainsThatFallForEver) {
-  const auto of = [](const std::string& parts, const std::string& stage = "settle") {
+  const auto of = [](const std::string& parts, const std::string& stage = "relax") {
     return warningsOf(sceneFromText(
         "{" + law + parts + R"("gravity": [0, 0, -10], "steps": {"dt": 1e-5}, "stages": [{"do": ")" + stage + R"("}]})",
         "s.json", SCENES));

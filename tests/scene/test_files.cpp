@@ -56,7 +56,7 @@ TEST(SceneFiles, NotesOfMeshReadersReachCheckRunAndSummary) {
 TEST(SceneFiles, NotesOfGmshFilesAreToldToo) {
   const ScratchFolder folder;
   std::ostringstream mesh;
-  fem::SolidMesh box = fem::boxOf(fem::CellShape::hex8, {1, 1, 1}, {}, {1, 1, 1});
+  fem::SolidMesh box = fem::boxOf(fem::ElementShape::hex8, {1, 1, 1}, {}, {1, 1, 1});
   box.elementSets = {{"a", {0}}, {"b", {0}}};  // written twice
   solid_io::writeGmsh(box, mesh);
   writeText(folder / "box.msh", mesh.str());

@@ -16,7 +16,7 @@ struct Parts {
               material = R"({"law": "J2", "youngs_modulus": 1e6, "poisson_ratio": 0.4, "density": 1100,
       "yield_stress": 300, "hardening": 1e5})",
               stepping = "explicit", formulation = "enhanced", cells = "[4, 4, 1]", corner = "[0, 0, -0.02]",
-              state = {}, name = "plate", lift = "0*t", wall = "[0, 0, 0]", friction = "0.4", perWindow = "1",
+              state = {}, name = "plate", lift = "0*t", wall = "[0, 0, 0]", friction = "0.4", perMacroStep = "1",
               time = "0.01";
 };
 
@@ -29,7 +29,7 @@ std::string textOf(const Parts& p) {
          p.formulation + R"(", "stepping": ")" + p.stepping + R"(", )" + p.state +
          R"("supports": [{"on": "x+", "displacement": [0, 0, ")" + p.lift +
          R"("]}, {"on": "x-"}]}], "couplings": [{"type": "surface", "solid": ")" + p.name +
-         R"(", "on": "z+", "kernel": "none"}], "steps": {"dt": 2e-5, "per_window": )" + p.perWindow +
+         R"(", "on": "z+", "kernel": "none"}], "steps": {"dt": 2e-5, "per_macro_step": )" + p.perMacroStep +
          R"(}, "stages": [{"do": "run", "time": )" + p.time +
          R"(}], "output": {"series": 1e-3, "checkpoints": 1, "probes": [{"name": "side", "of": "wall", "wall": 0},
          {"name": "held", "of": "node", "solid": ")" +
@@ -84,7 +84,7 @@ TEST_F(StatesOfOthers, GoOnWithExplicitSteps) { expectTheWhole({}, 1e-8); }
 TEST_F(StatesOfOthers, GoOnWithImplicitSteps) {
   Parts parts;
   parts.stepping = "implicit";
-  parts.perWindow = "2";
+  parts.perMacroStep = "2";
   expectTheWhole(parts, 1e-3);  // iterations end elsewhere within their tolerance
 }
 

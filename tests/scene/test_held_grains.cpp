@@ -43,10 +43,10 @@ TEST(SceneDrives, GiveTheSpinThatIsAskedFor) {
   Built built = started(sceneOf(held + R"("drives": [{"group": "g", "spin": [0, 0, 7]}],)"));
   built.run->advance(10);
   EXPECT_EQ(built.run->grains.particles.omega[0], (Vec3{0, 0, 7}));
-  const Scene settles = sceneFromText("{" + law + held + R"("drives": [{"group": "g", "spin": [0, 0, 7]}],
-      "stages": [{"do": "settle"}]})",
+  const Scene relaxes = sceneFromText("{" + law + held + R"("drives": [{"group": "g", "spin": [0, 0, 7]}],
+      "stages": [{"do": "relax"}]})",
                                       "s.json", "/");
-  EXPECT_THROW(build(settles), InputError);
+  EXPECT_THROW(build(relaxes), InputError);
 }
 
 /// A strip in the plane y = 0 whose left half is cut into many triangles.

@@ -24,7 +24,7 @@ Words poured(const ScratchFolder& folder, const std::string& time, const Words& 
               "--set", "solids.0.stepping=implicit",
               "--set", "solids.0.cells=[6, 4, 1]",
               "--set", output + "}",
-              "--set", "steps.per_window=4"};
+              "--set", "steps.per_macro_step=4"};
   for (const std::string& one : more) words.insert(words.end(), {"--set", one});
   return words;
 }
@@ -69,7 +69,7 @@ TEST(LongerRuns, HaveTheBytesOfThoseThatWereLongFromTheStart) {
 
 TEST(LongerRuns, BeginAfterWhatBroughtToRest) {
   const auto stages = [](const std::string& time) {
-    return Words{"stages=[{\"do\": \"settle\", \"windows\": 60}, {\"do\": \"run\", \"time\": " + time + "}]"};
+    return Words{"stages=[{\"do\": \"relax\", \"macro_steps\": 60}, {\"do\": \"run\", \"time\": " + time + "}]"};
   };
   const ScratchFolder whole, done;
   ASSERT_EQ(runProgram(poured(whole, "1", stages("0.03"))).code, 0);
@@ -77,7 +77,7 @@ TEST(LongerRuns, BeginAfterWhatBroughtToRest) {
   const std::size_t last = rows.rfind('\n', rows.size() - 2) + 1;
   ASSERT_EQ(runProgram(poured(done, "1", stages("0.011"))).code, 0);
   EXPECT_EQ(resumed(done, {"--until", rows.substr(last, rows.find(',', last) - last)}).code, 0);
-  expectSame(done, whole, {"scene.json", "series.h5"});  // whose times are not rounded to windows
+  expectSame(done, whole, {"scene.json", "series.h5"});  // whose times are not rounded to macro steps
 }
 
 TEST(LongerRuns, AreRefusedWhereNoEndCanBe) {
@@ -86,17 +86,17 @@ TEST(LongerRuns, AreRefusedWhereNoEndCanBe) {
     EXPECT_EQ(outcome.code, 2) << until;
     return outcome.err;
   };
-  const ScratchFolder done, settles, waits;
+  const ScratchFolder done, relaxes, waits;
   ASSERT_EQ(runProgram(poured(done, "0.02")).code, 0);
   const auto before = everyByte(done);
   EXPECT_NE(refusal(done, "0.01").find("give a later time"), std::string::npos);
   for (const char* const odd : {"soon", "-1", "0", "3 m", "nan", "inf"})
     EXPECT_NE(refusal(done, odd).find("--until"), std::string::npos) << odd;
   EXPECT_TRUE(everyByte(done) == before);
-  ASSERT_EQ(runProgram(poured(settles, "1", {"stages=[{\"do\": \"settle\", \"windows\": 40}]"})).code, 0);
-  EXPECT_NE(refusal(settles, "1").find("brings to rest"), std::string::npos);
+  ASSERT_EQ(runProgram(poured(relaxes, "1", {"stages=[{\"do\": \"relax\", \"macro_steps\": 40}]"})).code, 0);
+  EXPECT_NE(refusal(relaxes, "1").find("brings to rest"), std::string::npos);
   auto limited =
-      poured(waits, "1", {"stages=[{\"do\": \"settle\", \"windows\": 900}, {\"do\": \"run\", \"time\": 0.01}]"});
+      poured(waits, "1", {"stages=[{\"do\": \"relax\", \"macro_steps\": 900}, {\"do\": \"run\", \"time\": 0.01}]"});
   limited.insert(limited.end(), {"--max-wall-seconds", "1e-3"});
   ASSERT_EQ(runProgram(limited).code, 142);
   EXPECT_NE(refusal(waits, "1").find("stage 1 has not come to rest"), std::string::npos);

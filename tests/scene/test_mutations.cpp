@@ -89,7 +89,7 @@ TEST_F(Mutations, NumbersOutOfRangeAreRefused) {
                                      {"/steps/dt", Json(-1)},
                                      {"/steps/dt", Json("1/0")},
                                      {"/steps/dt", Json("0/0")},
-                                     {"/steps/per_window", Json(0)},
+                                     {"/steps/per_macro_step", Json(0)},
                                      {"/steps/threads", Json(-1)},
                                      {"/stages/0/time", Json(0)},
                                      {"/output/series", Json("1 mm")},

@@ -100,7 +100,7 @@ TEST(SceneParts, WallsOfAllShapesMove) {
 
 TEST(SceneParts, SolidsFromFilesHaveTheirSets) {
   const ScratchFolder folder;
-  solid_io::writeSolid(fem::boxOf(fem::CellShape::tet4, {2, 2, 2}, {0, 0, 0}, {1000, 100, 100}), folder / "b.inp");
+  solid_io::writeSolid(fem::boxOf(fem::ElementShape::tet4, {2, 2, 2}, {0, 0, 0}, {1000, 100, 100}), folder / "b.inp");
   const Built built = build(sceneOf(R"("solids": [{"name": "b", "mesh": "file", "file": "b.inp", "scale": 1e-3,
       "material": {"law": "J2", "youngs_modulus": "1 GPa", "poisson_ratio": 0.3, "density": 1000, "yield_stress": "1 MPa"},
       "velocity": [1, 2, 3], "supports": [{"on": "x-", "components": ["x", "z"], "velocity": [4, 5, 6]}]}],)",

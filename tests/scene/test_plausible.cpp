@@ -135,7 +135,7 @@ TEST(ScenePlausible, FramesAreCountedAndTooManyAreTold) {
   EXPECT_EQ(checked("1e-4").find("WARNING"), std::string::npos);
   Scene every = of("1e-9");
   std::get<RunFor>(every.stages[0].kind).time = 1.0;
-  expectParts(warningsOf(every), {"asks for 100001 frames, one at every window of steps", "such as 0.005 s"});
+  expectParts(warningsOf(every), {"asks for 100001 frames, one at every macro step", "such as 0.005 s"});
 }
 
 TEST(ScenePlausible, OutputsThatWriteNothingOrTooOften) {

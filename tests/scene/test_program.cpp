@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(All, Starters,
 TEST(Program, ChecksWithoutAFile) {
   const Outcome outcome = runProgram({"check", starter("plate")});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* part : {"44 particles", "solid \"plate\": 315 nodes", "at most", "windows", "MiB"})
+  for (const char* part : {"44 particles", "solid \"plate\": 315 nodes", "at most", "macro steps", "MiB"})
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
 }
 

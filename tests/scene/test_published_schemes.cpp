@@ -1,5 +1,5 @@
 // Keys for schemes of the literature.
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 #include "scene_parts.hpp"
 
@@ -54,7 +54,7 @@ TEST(PublishedSchemes, ALagIsBooked) {
   scene.steps.lag = 1;
   Built built = started(scene);
   built.run->advance(20);
-  EXPECT_NE(built.run->ledger().joules("loads one step old (minus what they made)"), 0.0);
+  EXPECT_NE(built.run->ledger().joules("staggering error (minus what it made)"), 0.0);
 }
 
 TEST(PublishedSchemes, SurfacePartsThatExcludeEachOtherAreRefused) {
@@ -78,7 +78,7 @@ std::string soil(const std::string& solid, const std::string& overlap) {
 TEST(PublishedSchemes, OverlapsTakeGapRowsAndDashpot) {
   const auto rowsWith = [](const std::string& overlap) {
     const Built built = started(sceneOf(soil(R"(, "stepping": "implicit")", overlap)));
-    return std::as_const(built.run->grains).terms.all<arlequin::OverlapTie>().front()->operators().rows();
+    return std::as_const(built.run->grains).terms.all<arlequin::ArlequinCoupling>().front()->operators().rows();
   };
   const std::size_t perNode = rowsWith(R"(, "floor": 0.1)");
   const std::size_t perElement = rowsWith(R"(, "floor": 0.1, "constraint": "dashpot", "penalty": 1e6, "gap": "nodal",

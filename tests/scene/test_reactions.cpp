@@ -11,8 +11,8 @@ namespace {
 
 /// Two bricks, the finer on the x side of the coarser; sets: "start", "end", "coarse" and "fine" where they meet.
 void writeTwo(const std::filesystem::path& file) {
-  fem::SolidMesh both = fem::boxOf(fem::CellShape::hex8, {2, 2, 2}, {0, 0, 0}, {1, 1, 1});
-  fem::SolidMesh right = fem::boxOf(fem::CellShape::hex8, {2, 4, 4}, {1, 0, 0}, {2, 1, 1});
+  fem::SolidMesh both = fem::boxOf(fem::ElementShape::hex8, {2, 2, 2}, {0, 0, 0}, {1, 1, 1});
+  fem::SolidMesh right = fem::boxOf(fem::ElementShape::hex8, {2, 4, 4}, {1, 0, 0}, {2, 1, 1});
   const int offset = static_cast<int>(both.X.size());
   const auto shifted = [&](std::vector<int> set) {
     for (int& n : set) n += offset;
@@ -82,16 +82,16 @@ TEST_P(Reactions, BalanceLoadsAndInertia) {
   for (int k = 0; k < 20; ++k) {
     const Vec3 force = forceNow(), momentum = built.run->totals().momentum;
     built.run->advance();
-    const Vec3 meant = 0.5 * built.run->window() * (force + forceNow());
-    EXPECT_LT(norm(built.run->totals().momentum - momentum - meant), 1e-9 * built.run->window() * norm(loads)) << k;
+    const Vec3 meant = 0.5 * built.run->macroStep() * (force + forceNow());
+    EXPECT_LT(norm(built.run->totals().momentum - momentum - meant), 1e-9 * built.run->macroStep() * norm(loads)) << k;
   }
 }
 INSTANTIATE_TEST_SUITE_P(All, Reactions,
                          testing::Combine(testing::ValuesIn(ways),
                                           testing::Values(R"("stepping": "explicit",)",
-                                                          R"("stepping": "explicit", "mass_share": 0.7,)",
-                                                          R"("stepping": "implicit", "mass_share": 0,)",
-                                                          R"("stepping": "implicit", "mass_share": 1,)"),
+                                                          R"("stepping": "explicit", "consistent_mass": 0.7,)",
+                                                          R"("stepping": "implicit", "consistent_mass": 0,)",
+                                                          R"("stepping": "implicit", "consistent_mass": 1,)"),
                                           testing::Bool()),
                          [](const auto& one) {
                            std::string stepping = std::get<1>(one.param);
@@ -121,7 +121,7 @@ TEST(ReactionProbes, OfTwoEndsThatAreHeldApartAreThoseOfTheStretch) {
                                            {"name": "head", "of": "support", "solid": "b", "on": "z+"}]}})",
           "s.json", "/");
       Built built = started(scene);
-      coupling::settle(*built.run, {.kinetic = 1e-20, .windows = 20000});
+      coupling::relax(*built.run, {.kinetic = 1e-20, .macroSteps = 20000});
       const double force = 1e6 * 1.01 * 0.5 * (1.01 * 1.01 - 1.0);
       EXPECT_NEAR(forceAt(built, scene, 5), force, 1e-6 * force) << stepping << head;
       EXPECT_NEAR(forceAt(built, scene, 2), -force, 1e-6 * force) << stepping << head;
@@ -141,7 +141,7 @@ TEST(ReactionProbes, OfNodesThatTiesCarryAreTheForcesOfTies) {
                                          {"name": "coarse", "of": "support", "solid": "b", "on": "coarse"}]}})",
                                     "s.json", folder.path());
   Built built = started(scene);
-  coupling::settle(*built.run, {.kinetic = 1e-20, .windows = 20000});
+  coupling::relax(*built.run, {.kinetic = 1e-20, .macroSteps = 20000});
   EXPECT_NEAR(forceAt(built, scene, 0), -1000.0, 1e-4);
   EXPECT_NEAR(forceAt(built, scene, 3), -1000.0, 1e-4);
 }

@@ -114,16 +114,16 @@ TEST(Restart, UnplannedCheckpointsChangeNothing) {
 }
 
 /// Ended while all is brought to rest, by a checkpoint's first bytes.
-const Case settling{[](const ScratchFolder& folder) {
+const Case relaxing{[](const ScratchFolder& folder) {
                       return words(
                           folder, "pile.json",
-                          {"stages=[{\"do\": \"run\", \"time\": 0.02}, {\"do\": \"settle\", \"kinetic\": 1e-12, "
-                           "\"windows\": 1000}, {\"do\": \"run\", \"time\": 4e-3}]"},
+                          {"stages=[{\"do\": \"run\", \"time\": 0.02}, {\"do\": \"relax\", \"kinetic\": 1e-12, "
+                           "\"macro_steps\": 1000}, {\"do\": \"run\", \"time\": 4e-3}]"},
                           "0.02");
                     },
                     "checkpoint.previous.state", "dovetail"};
-TEST(Restart, AnInterruptedRestGoesOn) { expectSameAfter(settling, SIGTERM, 143); }
-TEST(Restart, AKilledRestGoesOn) { expectSameAfter(settling, SIGKILL, -1); }
+TEST(Restart, AnInterruptedRestGoesOn) { expectSameAfter(relaxing, SIGTERM, 143); }
+TEST(Restart, AKilledRestGoesOn) { expectSameAfter(relaxing, SIGKILL, -1); }
 
 /// Parts of a time that is up at once are as long as a look takes; the last one has time enough.
 TEST(Restart, RunsWhoseTimeIsUpGoOn) {

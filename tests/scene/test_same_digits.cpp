@@ -1,7 +1,7 @@
 // A scene is the program that its author would have written.
 #include <gtest/gtest.h>
 
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/setup/packing.hpp"
@@ -38,7 +38,7 @@ const char* const text = R"({
 })";
 
 void addSoil(coupling::CoupledRun& run) {
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {3, 3, 4}, {0, 0, -0.06}, {0.12, 0.12, 0.06});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {3, 3, 4}, {0, 0, -0.06}, {0.12, 0.12, 0.06});
   std::vector<double> place;
   for (const Vec3& X : mesh.X)
     place.push_back(X.z < -1e-9 ? arlequin::beyondOverlap : std::clamp(1.0 - X.z / 0.06, 0.0, 1.0));
@@ -54,7 +54,7 @@ void addSoil(coupling::CoupledRun& run) {
 }
 
 void addPlate(coupling::CoupledRun& run) {
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::tet10, {2, 2, 1}, {0.02, 0.02, 0.101}, {0.1, 0.1, 0.12});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::tet10, {2, 2, 1}, {0.02, 0.02, 0.101}, {0.1, 0.1, 0.12});
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::StVenantKirchhoff{1e7, 0.3, 1200.0})));
   fem::fix(model->nodes, mesh.nodeSets.at("z+"));

@@ -42,7 +42,7 @@ TEST(SceneSteps, BeyondTheImpactsToComeAreRefusedWhateverIsWritten) {
   const double limit = 2.0 * std::sqrt(0.5 * mass / 1e4);
   const std::string two = at(0, 0, 0, 0.1) + "," + at(0.05, 0, 0);
   for (const std::string& stages :
-       {shortRun, shortRun + R"(, "output": {"series": 1e-4})", std::string(R"("stages": [{"do": "settle"}])")}) {
+       {shortRun, shortRun + R"(, "output": {"series": 1e-4})", std::string(R"("stages": [{"do": "relax"}])")}) {
     EXPECT_THROW(started(grains(two, number(1.01 * limit), stages)), InputError) << stages;
     EXPECT_NO_THROW(started(grains(two, number(0.99 * limit), stages))) << stages;
   }
@@ -54,7 +54,7 @@ TEST(SceneSteps, ThatTheStateHasPassedIsToldOnceWhateverIsWritten) {
   const std::string given = R"("gravity": [0, 0, -9.81], "walls": [{"shape": "plane", "point": [0, 0, 0],
       "normal": [0, 0, 1]}], "stages": [{"do": )";
   for (const std::string& stage :
-       {std::string(R"("settle", "windows": 40}])"), R"("run", "time": )" + number(40.0 * dt) + "}]",
+       {std::string(R"("relax", "macro_steps": 40}])"), R"("run", "time": )" + number(40.0 * dt) + "}]",
         R"("run", "time": )" + number(40.0 * dt) + R"(}], "output": {"series": )" + number(dt) + "}"}) {
     const ScratchFolder folder;
     std::ostringstream log;

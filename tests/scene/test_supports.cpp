@@ -65,8 +65,8 @@ TEST(SceneSupports, PathsThatDoNotBeginWhereTheNodesLieAreTold) {
 /// Two bricks that meet at x = 1, 2 × 2 faces on 3 × 3.
 std::string refusalOfTied(const std::string& keys) {
   const io::test::ScratchFolder folder;
-  fem::SolidMesh both = fem::boxOf(fem::CellShape::hex8, {1, 2, 2}, {0, 0, 0}, {1, 1, 1});
-  const fem::SolidMesh right = fem::boxOf(fem::CellShape::hex8, {1, 3, 3}, {1, 0, 0}, {2, 1, 1});
+  fem::SolidMesh both = fem::boxOf(fem::ElementShape::hex8, {1, 2, 2}, {0, 0, 0}, {1, 1, 1});
+  const fem::SolidMesh right = fem::boxOf(fem::ElementShape::hex8, {1, 3, 3}, {1, 0, 0}, {2, 1, 1});
   const int offset = static_cast<int>(both.X.size());
   std::vector<int> fine = right.nodeSets.at("x-");
   for (int& n : fine) n += offset;

@@ -37,11 +37,11 @@ TEST(SceneTetrahedra, ProgramsWithoutAMesherSayWhatToDo) {
 
 TEST(SceneTetrahedra, WhatIsDroppedOrTurnedOfTheSurfaceIsNoted) {
   const ScratchFolder folder;
-  geometry::TriangleMesh surface = surfaceOf(block(fem::CellShape::hex8));
+  geometry::TriangleMesh surface = surfaceOf(block(fem::ElementShape::hex8));
   std::swap(surface.facets[0][0], surface.facets[0][1]);
   surface.facets.push_back(surface.facets[3]);
   mesh_io::writeStl(folder / "b.stl", surface.x, surface.facets);
-  const InUse mesher([](const geometry::TriangleMesh&, double, double) { return block(fem::CellShape::tet4); });
+  const InUse mesher([](const geometry::TriangleMesh&, double, double) { return block(fem::ElementShape::tet4); });
   const Built built = build(sceneOf(solidInside("b.stl", "0.1"), folder.path()));
   const auto has = [&](const std::string& note) {
     return std::find(built.notes.begin(), built.notes.end(), note) != built.notes.end();
@@ -58,13 +58,13 @@ TEST(SceneTetrahedra, TheMesherGetsTheSurfaceWeldedAndInMetres) {
   const InUse mesher([&](const geometry::TriangleMesh& surface, double wanted, double off) {
     size = wanted, distance = off, vertices = surface.x.size();
     volume = geometry::signedVolume(surface.x, surface.facets);
-    return block(fem::CellShape::tet4);
+    return block(fem::ElementShape::tet4);
   });
   const auto inside = [&](const std::string& more) {
     return build(sceneOf(solidInside("b.stl", "\"50 mm\", \"scale\": 1e-3" + more), folder.path()));
   };
   const Built built = inside("");
-  EXPECT_EQ(built.run->solid(0).nodes().X.size(), block(fem::CellShape::tet4).X.size());
+  EXPECT_EQ(built.run->solid(0).nodes().X.size(), block(fem::ElementShape::tet4).X.size());
   EXPECT_EQ(vertices, 8U);
   EXPECT_NEAR(volume, blockVolume, 1e-9);
   EXPECT_EQ(size, 0.05);
@@ -81,7 +81,7 @@ TEST(SceneTetrahedra, SurfacesThatCannotBeFilledAreRefused) {
   writeBlock(folder / "b.stl");
   expectParts(refusalOf(solidInside("b.stl", "0.1"), folder.path()), {"nothing came out", "b.stl", "solids.0"});
   expectParts(refusalOf(solidInside("b.stl", "1e-6"), folder.path()), {"more than 1e8 tetrahedra", "larger size"});
-  geometry::TriangleMesh open = surfaceOf(block(fem::CellShape::hex8));
+  geometry::TriangleMesh open = surfaceOf(block(fem::ElementShape::hex8));
   open.facets.pop_back();
   mesh_io::writeStl(folder / "open.stl", open.x, open.facets);
   const std::string message = refusalOf(solidInside("open.stl", "0.1"), folder.path());

@@ -77,12 +77,12 @@ TEST(SceneWarnings, SettlingWhileWallsMove) {
   if (!WITH_EXPRESSIONS) GTEST_SKIP() << "steady motion is refused";
   const auto of = [](const std::string& motion) {
     return warningsOf(sceneFromText(R"({"walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1], )" +
-                                        motion + R"(}], "steps": {"dt": 1e-4}, "stages": [{"do": "settle"}]})",
+                                        motion + R"(}], "steps": {"dt": 1e-4}, "stages": [{"do": "relax"}]})",
                                     "s.json", "/"));
   };
   for (const char* const motion :
        {R"("velocity": [0, 0, "t"])", R"("displacement": [0, 0, "t"])", R"("turn": {"axis": [0, 0, 1], "angle": "t"})"})
-    expectParts(of(motion), {"settles while walls"});
+    expectParts(of(motion), {"relaxes while walls"});
   EXPECT_EQ(of(R"("displacement": [0, 0, 0.1])"), "");
 }
 
@@ -170,8 +170,8 @@ TEST(SceneWarnings, PartsThatAreOnlyStretchedHaveNone) {
 /// A plate of one layer below a block whose nodes are tied to it.
 TEST(SceneWarnings, LayersThatAreTiedToThickBodiesHaveNone) {
   const io::test::ScratchFolder folder;
-  fem::SolidMesh both = fem::boxOf(fem::CellShape::hex8, {10, 10, 1}, {0, 0, 0}, {10, 10, 0.5});
-  const fem::SolidMesh block = fem::boxOf(fem::CellShape::hex8, {13, 13, 8}, {0, 0, 0.5}, {10, 10, 8});
+  fem::SolidMesh both = fem::boxOf(fem::ElementShape::hex8, {10, 10, 1}, {0, 0, 0}, {10, 10, 0.5});
+  const fem::SolidMesh block = fem::boxOf(fem::ElementShape::hex8, {13, 13, 8}, {0, 0, 0.5}, {10, 10, 8});
   const int offset = static_cast<int>(both.X.size());
   std::vector<int> foot = block.nodeSets.at("z-");
   for (int& n : foot) n += offset;
@@ -301,7 +301,7 @@ TEST(SceneWarnings, StagesThatAreTooShort) {
     return warningsOf(scene);
   };
   expectParts(of(R"({"do": "run", "time": 1e-6})"), {"stages.0.time is 1e-06 s, and a step"});
-  expectParts(of(R"({"do": "settle", "windows": 1})"), {"stages.0.windows is 1"});
+  expectParts(of(R"({"do": "relax", "macro_steps": 1})"), {"stages.0.macro_steps is 1"});
   EXPECT_EQ(of(R"({"do": "run", "time": 1e-3})"), "");
 }
 

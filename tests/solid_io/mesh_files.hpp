@@ -14,7 +14,7 @@
 namespace dovetail::solid_io {
 
 /// A box with curved faces, node, face and element sets; coordinates with all their digits.
-inline fem::SolidMesh testMesh(fem::CellShape shape) {
+inline fem::SolidMesh testMesh(fem::ElementShape shape) {
   fem::SolidMesh mesh = fem::boxOf(shape, {2, 3, 1}, {0.1, -0.2, 0.3}, {1.0, 0.9, 1.0});
   if (fem::dimensionOf(shape) == 2) {
     mesh.thickness = 1.0;  // files do not say it

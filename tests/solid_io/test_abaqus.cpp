@@ -52,13 +52,13 @@ TEST(Abaqus, EveryFaceHasItsName) {
   const std::vector<std::vector<int>> brick = {{1, 2, 3, 4}, {5, 8, 7, 6}, {1, 5, 6, 2},
                                                {2, 6, 7, 3}, {3, 7, 8, 4}, {4, 8, 5, 1}};
   const std::vector<std::vector<int>> tet = {{1, 2, 3}, {1, 4, 2}, {2, 4, 3}, {3, 4, 1}};
-  for (const fem::CellShape shape : {fem::CellShape::hex8, fem::CellShape::tet4}) {
+  for (const fem::ElementShape shape : {fem::ElementShape::hex8, fem::ElementShape::tet4}) {
     fem::SolidMesh one;
-    const bool isBrick = shape == fem::CellShape::hex8;
+    const bool isBrick = shape == fem::ElementShape::hex8;
     one.X = isBrick ? fem::boxOf(shape, {1, 1, 1}, {}, {1, 1, 1}).X
                     : std::vector<Vec3>{{}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     one.groups = isBrick ? fem::boxOf(shape, {1, 1, 1}, {}, {1, 1, 1}).groups
-                         : std::vector<fem::CellGroup>{{shape, {0, 1, 2, 3}}};
+                         : std::vector<fem::ElementGroup>{{shape, {0, 1, 2, 3}}};
     std::ostringstream text;
     writeAbaqus(one, text);
     const auto& faces = isBrick ? brick : tet;
@@ -95,7 +95,7 @@ TEST(Abaqus, PlaneStrainIsReadWhereThereAreNoVolumes) {
                      "test.inp");
   const fem::SolidMesh& mesh = file.mesh;
   ASSERT_EQ(mesh.groups.size(), 1u);
-  EXPECT_EQ(mesh.groups[0].shape, fem::CellShape::quad4);
+  EXPECT_EQ(mesh.groups[0].shape, fem::ElementShape::quad4);
   EXPECT_EQ(fem::elementSet(mesh, "left"), std::vector<int>{0});
   EXPECT_EQ(fem::nodeSet(mesh, "foot"), (std::vector<int>{0, 1, 4}));
   EXPECT_EQ(fem::faceSet(mesh, "right").at(0).node, (std::array<int, 9>{4, 5, -1, -1, -1, -1, -1, -1, -1}));
@@ -194,7 +194,7 @@ TEST(Abaqus, ManyRangesOfManyLabelsTakeNoMemory) {
 
 TEST(Abaqus, UpToTenBadElementsAreNamed) {
   std::ostringstream text;
-  fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {12, 1, 1}, {}, {12, 1, 1});
+  fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {12, 1, 1}, {}, {12, 1, 1});
   writeAbaqus(mesh, text);
   std::string flat = text.str();
   for (std::size_t at = 0; (at = flat.find(", 1\n", at)) != std::string::npos;) flat.replace(at, 4, ", 0\n");

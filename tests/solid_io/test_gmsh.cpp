@@ -73,7 +73,7 @@ TEST(Gmsh, WithoutVolumesSurfacesAreElementsAndCurvesTheirFaces) {
       "$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 2 1 0\n5 1 1 0\n6 0 1 0\n$EndNodes\n";
   const auto with = [&](const std::string& elements) { return head + "$Elements\n" + elements + "$EndElements\n"; };
   const SolidFile file = gmshFromText(with("3\n1 1 2 1 7 4 3\n2 3 2 2 8 1 2 5 6\n3 3 2 2 8 2 3 4 5\n"), "test.msh");
-  EXPECT_EQ(file.mesh.groups.at(0).shape, fem::CellShape::quad4);
+  EXPECT_EQ(file.mesh.groups.at(0).shape, fem::ElementShape::quad4);
   EXPECT_EQ(fem::elementSet(file.mesh, "body"), (std::vector<int>{0, 1}));
   EXPECT_EQ(fem::nodeSet(file.mesh, "end"), (std::vector<int>{2, 3}));
   // Turned outwards, whatever the line in the file.

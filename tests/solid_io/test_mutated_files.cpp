@@ -72,14 +72,14 @@ TEST(MutatedFiles, GmshIsReadOrRefused) {
   for (const bool version4 : {false, true})
     for (const bool binary : {false, true}) texts.push_back(gmshTet(version4, binary));
   std::ostringstream box;
-  writeGmsh(testMesh(fem::CellShape::hex8), box);
+  writeGmsh(testMesh(fem::ElementShape::hex8), box);
   texts.push_back(box.str());
   fuzz([](std::string_view text) { return gmshFromText(text, "test.msh"); }, texts, 1500);
 }
 
 TEST(MutatedFiles, AbaqusIsReadOrRefused) {
   std::vector<std::string> texts;
-  for (const fem::CellShape shape : {fem::CellShape::hex8, fem::CellShape::tet10}) {
+  for (const fem::ElementShape shape : {fem::ElementShape::hex8, fem::ElementShape::tet10}) {
     std::ostringstream box;
     writeAbaqus(testMesh(shape), box);
     texts.push_back(box.str() +

@@ -24,7 +24,7 @@ void expectSame(const fem::SolidMesh& a, const fem::SolidMesh& b, const std::str
 }
 
 TEST(SolidFiles, MeshesOfAllShapesGoToGmshAndBack) {
-  for (const fem::CellShape shape : fem::allCellShapes) {
+  for (const fem::ElementShape shape : fem::allCellShapes) {
     const fem::SolidMesh mesh = testMesh(shape);
     std::ostringstream text;
     writeGmsh(mesh, text);
@@ -40,7 +40,7 @@ TEST(SolidFiles, MeshesOfAllShapesGoToGmshAndBack) {
 }
 
 TEST(SolidFiles, MeshesOfAllShapesGoToAbaqusAndBack) {
-  for (const fem::CellShape shape : fem::allCellShapes) {
+  for (const fem::ElementShape shape : fem::allCellShapes) {
     const fem::SolidMesh mesh = testMesh(shape);
     std::ostringstream text;
     writeAbaqus(mesh, text);
@@ -51,8 +51,8 @@ TEST(SolidFiles, MeshesOfAllShapesGoToAbaqusAndBack) {
 }
 
 TEST(SolidFiles, MixedMeshesGoThereAndBack) {
-  fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex20, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
-  const fem::SolidMesh tets = fem::boxOf(fem::CellShape::tet10, {1, 1, 1}, {2.0, 0.0, 0.0}, {3.0, 1.0, 1.0});
+  fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex20, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+  const fem::SolidMesh tets = fem::boxOf(fem::ElementShape::tet10, {1, 1, 1}, {2.0, 0.0, 0.0}, {3.0, 1.0, 1.0});
   const int first = static_cast<int>(mesh.X.size());
   mesh.X.insert(mesh.X.end(), tets.X.begin(), tets.X.end());
   mesh.groups.push_back(tets.groups[0]);
@@ -80,7 +80,7 @@ TEST(SolidFiles, FilesAreToldApartByTheirEnding) {
   const io::test::ScratchFolder scratch;
   const auto folder = scratch / "dovetail_solid_files";
   std::filesystem::create_directories(folder);
-  const fem::SolidMesh mesh = testMesh(fem::CellShape::tet10);
+  const fem::SolidMesh mesh = testMesh(fem::ElementShape::tet10);
   for (const char* name : {"a.msh", "a.inp"}) {
     writeSolid(mesh, folder / name);
     writeSolid(mesh, folder / name);  // our own files are replaced
@@ -93,15 +93,15 @@ TEST(SolidFiles, FilesAreToldApartByTheirEnding) {
 
 TEST(SolidFiles, WhatCannotBeWrittenIsRefused) {
   std::ostringstream out;
-  fem::SolidMesh quote = testMesh(fem::CellShape::hex8);
+  fem::SolidMesh quote = testMesh(fem::ElementShape::hex8);
   quote.nodeSets["a\"b"] = {0};
   EXPECT_THROW(writeGmsh(quote, out), InputError);
   EXPECT_THROW(writeAbaqus(quote, out), InputError);
-  fem::SolidMesh cases = testMesh(fem::CellShape::hex8);
+  fem::SolidMesh cases = testMesh(fem::ElementShape::hex8);
   cases.nodeSets["top"] = cases.nodeSets["Top"] = {0};
   EXPECT_NO_THROW(writeGmsh(cases, out));
   EXPECT_NE(messageOf([&] { writeAbaqus(cases, out); }).find("case"), std::string::npos);
-  fem::SolidMesh strange = testMesh(fem::CellShape::hex8);
+  fem::SolidMesh strange = testMesh(fem::ElementShape::hex8);
   strange.faceSets["strange"] = {{fem::FaceShape::quad4, {0, 1, 2, 3, -1, -1, -1, -1, -1}}};
   EXPECT_NE(messageOf([&] { writeGmsh(strange, out); }).find("\"strange\""), std::string::npos);
   EXPECT_NE(messageOf([&] { writeAbaqus(strange, out); }).find("\"strange\""), std::string::npos);

@@ -36,7 +36,7 @@ std::string asciiTet(const std::string& connectivity, const std::string& offsets
 }
 
 TEST_F(Vtu, SolidsOfAllShapesGoThereAndBack) {
-  for (const fem::CellShape shape : fem::allCellShapes) {
+  for (const fem::ElementShape shape : fem::allCellShapes) {
     const fem::SolidMesh mesh = testMesh(shape);
     const std::vector<Vec3> u(mesh.X.size(), Vec3{1.0, 2.0, 3.0});
     const std::vector<double> stress(9 * mesh.elementCount(), 5.0), heat(mesh.X.size(), 1.0);
@@ -91,9 +91,9 @@ TEST_F(Vtu, NumbersMayHaveAPlusSign) {
 }
 
 TEST_F(Vtu, MeshesOfSeveralShapesHaveASetOfEach) {
-  fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+  fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
   mesh.X.insert(mesh.X.end(), {{3, 0, 0}, {4, 0, 0}, {3, 1, 0}, {3, 0, 1}});
-  mesh.groups.push_back({fem::CellShape::tet4, {8, 9, 10, 11}});
+  mesh.groups.push_back({fem::ElementShape::tet4, {8, 9, 10, 11}});
   mesh.elementSets["both"] = {0, 1};
   writeVtu(folder_ / "mixed.vtu", mesh);
   const SolidFile file = readVtu(folder_ / "mixed.vtu");
@@ -112,7 +112,7 @@ TEST_F(Vtu, WithoutVolumesQuadrilateralsAreElementsAndLinesTheirFaces) {
       asciiTet("0 1 3 2 3 1", "4 6", "9 3", "<DataArray type=\"Int32\" Name=\"part\" format=\"ascii\">3 8</DataArray>");
   text.replace(text.find("0 0 1 7 7 7"), 11, "1 1 0 7 7 7");
   const SolidFile file = readVtu(write(text));
-  EXPECT_EQ(file.mesh.groups.at(0).shape, fem::CellShape::quad4);
+  EXPECT_EQ(file.mesh.groups.at(0).shape, fem::ElementShape::quad4);
   EXPECT_EQ(fem::elementSet(file.mesh, "part 3"), std::vector<int>{0});
   EXPECT_EQ(fem::faceSet(file.mesh, "part 8").at(0).shape, fem::FaceShape::line2);
   EXPECT_EQ(fem::nodeSet(file.mesh, "part 8"), (std::vector<int>{1, 3}));
@@ -141,7 +141,7 @@ TEST_F(Vtu, BadFilesAreRefused) {
 }
 
 TEST_F(Vtu, TruncatedFilesAreRefused) {
-  const std::string text = vtuText(testMesh(fem::CellShape::tet10));
+  const std::string text = vtuText(testMesh(fem::ElementShape::tet10));
   for (std::size_t end = 0; end + 20 < text.size(); end += 1 + text.size() / 60) {
     const auto path = write(text.substr(0, end));
     EXPECT_THROW(readVtu(path), InputError) << end;
@@ -153,7 +153,7 @@ TEST_F(Vtu, DamagedBlocksAreRefused) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the allocators of sanitizers end the program where VTK's reader gets std::bad_alloc";
 #endif
-  const std::string good = vtuText(testMesh(fem::CellShape::hex8));
+  const std::string good = vtuText(testMesh(fem::ElementShape::hex8));
   const std::size_t from = good.find('_', good.find("<AppendedData")), to = good.find("</AppendedData");
   std::mt19937 random(1);
   for (int round = 0; round < 100; ++round) {
@@ -172,7 +172,7 @@ TEST_F(Vtu, DamagedBlocksAreRefused) {
 }
 
 TEST_F(Vtu, FieldsThatDoNotFitAreRefused) {
-  const fem::SolidMesh mesh = testMesh(fem::CellShape::hex8);
+  const fem::SolidMesh mesh = testMesh(fem::ElementShape::hex8);
   const std::vector<double> values(mesh.X.size());
   EXPECT_THROW(vtuText(mesh, {.perCell = {{"a", values}}}), InputError);
   EXPECT_THROW(vtuText(mesh, {.perPoint = {{"a", values}, {"a", values}}}), InputError);
@@ -243,7 +243,7 @@ TEST_F(Vtu, ArraysMayNotHoldMoreThanTheirPieceSays) {
 
 /// Raw and compressed, behind the tags.
 TEST_F(Vtu, BinaryArraysMayNotHoldMoreThanTheirPieceSays) {
-  const std::string text = vtuText(testMesh(fem::CellShape::hex8));
+  const std::string text = vtuText(testMesh(fem::ElementShape::hex8));
   ASSERT_EQ(messageOf([&] { readVtu(write(text)); }), "");
   const auto path = write(with(text, "NumberOfCells=\"6\"", "NumberOfCells=\"5\""));
   const std::string message = messageOf([&] { readVtu(path); });
@@ -292,7 +292,7 @@ TEST_F(Vtu, ErrorsOfElementsNameNoLine) {
 }
 
 TEST_F(Vtu, ASetWithTheNameOfAFieldHasAnother) {
-  const fem::SolidMesh mesh = testMesh(fem::CellShape::hex8);
+  const fem::SolidMesh mesh = testMesh(fem::ElementShape::hex8);
   const std::vector<double> values(mesh.X.size(), 0.5);
   const auto path = folder_ / "set.vtu";
   writeVtu(path, mesh, {.perPoint = {{"x-", values}}});

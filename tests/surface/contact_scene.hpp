@@ -27,7 +27,7 @@ inline std::shared_ptr<const dem::ContactLaws> rollingLaws(double restitution = 
 }
 
 /// A free block 0.6 × 0.6 × 0.2 m, top at z = 0.
-inline fem::SolidMesh softBlock(fem::CellShape shape, std::array<int, 3> cells = {3, 3, 1}) {
+inline fem::SolidMesh softBlock(fem::ElementShape shape, std::array<int, 3> cells = {3, 3, 1}) {
   return fem::boxOf(shape, cells, {0, 0, -0.2}, {0.6, 0.6, 0});
 }
 

@@ -32,7 +32,7 @@ private:
 inline fem::Face quad(int a, int b, int c, int d) { return {fem::FaceShape::quad4, {a, b, c, d, -1, -1, -1, -1, -1}}; }
 
 /// A block of 4 × 4 × 2 unit bricks whose top is z = 0.
-inline fem::SolidMesh unitBlock() { return fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0, 0, -2}, {4, 4, 0}); }
+inline fem::SolidMesh unitBlock() { return fem::boxOf(fem::ElementShape::hex8, {4, 4, 2}, {0, 0, -2}, {4, 4, 0}); }
 
 /// How a skin is carried.
 struct Variant {

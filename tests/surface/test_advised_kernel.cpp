@@ -19,7 +19,7 @@ constexpr double modulus = 70e9, poisson = 0.3, density = 2700.0;  // Pa, kg/m³
 constexpr double height = 0.01, length = 0.1, radius = 0.01;       // m
 
 fem::SolidMesh barMesh(int overHeight) {
-  return fem::boxOf(fem::CellShape::hex8, {10 * overHeight / 2, overHeight, overHeight},
+  return fem::boxOf(fem::ElementShape::hex8, {10 * overHeight / 2, overHeight, overHeight},
                     {-0.5 * length, -0.5 * height, -height}, {0.5 * length, 0.5 * height, 0});
 }
 
@@ -56,7 +56,7 @@ double peakForce(int overHeight, bool withKernel) {
 
 TEST(AdvisedKernel, IsAsWideAsTheBodyIsThick) {
   const auto widthOf = [](Vec3 size) {
-    return advisedKernel(fem::boxOf(fem::CellShape::hex8, {3, 2, 2}, {5, 5, 5}, Vec3{5, 5, 5} + size)).kernel.width;
+    return advisedKernel(fem::boxOf(fem::ElementShape::hex8, {3, 2, 2}, {5, 5, 5}, Vec3{5, 5, 5} + size)).kernel.width;
   };
   EXPECT_NEAR(widthOf({1, 1, 1}), 1.0 / 3.0, 1e-12);
   EXPECT_NEAR(widthOf({1000, 1, 1}), 0.5, 1e-3);

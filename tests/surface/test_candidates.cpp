@@ -12,7 +12,7 @@ namespace {
 constexpr double radius = 0.3;
 constexpr int steps = 1500;
 
-fem::SolidMesh strip() { return fem::boxOf(fem::CellShape::hex8, {40, 2, 1}, {0, 0, -1}, {40, 2, 0}); }
+fem::SolidMesh strip() { return fem::boxOf(fem::ElementShape::hex8, {40, 2, 1}, {0, 0, -1}, {40, 2, 0}); }
 
 double height(double X, double t) { return 0.3 * std::sin(1.2 * X + 12.0 * t); }
 

@@ -14,7 +14,7 @@ const Quaternion half = fromRotationVector(std::numbers::pi / std::sqrt(3.0) * V
 const Quaternion skew = fromRotationVector({0.3, -1.1, 2.0});
 
 /// 8 × 2 × 1, whose long faces are slender.
-fem::SolidMesh bar() { return fem::boxOf(fem::CellShape::hex8, {8, 2, 1}, {0, 0, -1}, {8, 2, 0}); }
+fem::SolidMesh bar() { return fem::boxOf(fem::ElementShape::hex8, {8, 2, 1}, {0, 0, -1}, {8, 2, 0}); }
 
 /// u of the nodes when the deformed body is turned and moved.
 std::vector<Vec3> turned(const fem::SolidMesh& mesh, std::span<const Vec3> u, const Quaternion& turn,
@@ -131,7 +131,7 @@ double volumeIn(const Skin& skin) {
 }
 
 TEST(PatchOffsets, ACubeUnderAHomogeneousGradientHasItsSkinThere) {
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {6, 6, 6}, {0, 0, 0}, {1, 1, 1});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {6, 6, 6}, {0, 0, 0}, {1, 1, 1});
   const std::array<std::array<Vec3, 3>, 4> gradients{
       {{Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 0.9}},
        {Vec3{1, 0, 0}, {0.2, 1, 0}, {0, 0, 1}},
@@ -160,7 +160,7 @@ TEST(PatchOffsets, ACubeUnderAHomogeneousGradientHasItsSkinThere) {
 /// Where a patch is not flat, but nearly so, nodes move its vertices by no more. Heights below 1e-7 of it are nothing.
 TEST(PatchOffsets, ADomeOfAnyHeightFollowsAHomogeneousGradient) {
   for (const double height : {1e-1, 1e-4, 1e-7, 1e-10, 0.0}) {
-    fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {6, 6, 1}, {-1, -1, -1}, {1, 1, 0});
+    fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {6, 6, 1}, {-1, -1, -1}, {1, 1, 0});
     for (Vec3& X : mesh.X)
       if (X.z == 0.0) X.z = height * (1.0 - X.x * X.x) * (1.0 - X.y * X.y);
     Skin skin = makeSkin(mesh.X, mesh.faceSets.at("z+"));

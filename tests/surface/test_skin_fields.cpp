@@ -10,7 +10,7 @@ namespace dovetail::surface {
 namespace {
 
 TEST(SkinFields, BalanceWithTheContactsOfTheSkinAndTractionsCarryThem) {
-  const fem::SolidMesh mesh = softBlock(fem::CellShape::hex8);
+  const fem::SolidMesh mesh = softBlock(fem::ElementShape::hex8);
   for (const Variant& variant : {Variant{"local"}, Variant{"lucy", 0.2}}) {
     ContactScene scene(mesh, slantingGrains(40, 3), rollingLaws(), variant);
     scene.start(1e-4);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double radius = 0.35;
 
-fem::SolidMesh crookedBlock(fem::CellShape shape, unsigned seed) {
+fem::SolidMesh crookedBlock(fem::ElementShape shape, unsigned seed) {
   fem::SolidMesh mesh = fem::boxOf(shape, {4, 4, 2}, {0, 0, -2}, {4, 4, 0});
   Random random(seed);
   for (Vec3& X : mesh.X) X += random.vector(0.02);
@@ -27,7 +27,7 @@ dem::Particles scattered(Random& random) {
   return particles;
 }
 
-class FrictionOn : public ::testing::TestWithParam<fem::CellShape> {};
+class FrictionOn : public ::testing::TestWithParam<fem::ElementShape> {};
 struct ShapeName {
   template <class Info>
   std::string operator()(const Info& info) const {
@@ -35,8 +35,8 @@ struct ShapeName {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Shapes, FrictionOn,
-                         ::testing::Values(fem::CellShape::hex8, fem::CellShape::hex20, fem::CellShape::tet4,
-                                           fem::CellShape::tet10),
+                         ::testing::Values(fem::ElementShape::hex8, fem::ElementShape::hex20, fem::ElementShape::tet4,
+                                           fem::ElementShape::tet10),
                          ShapeName{});
 
 /// Forces and couples on grains and nodes: their sum, their moment, and their power, which is that of the contacts.
@@ -86,7 +86,7 @@ TEST_P(FrictionOn, ForcesMomentsAndPowersBalance) {
 
 /// A grain that turns with the solid under it meets neither friction nor resistance to rolling and twisting.
 TEST(SkinFriction, AGrainThatTurnsWithTheSolidIsNotBraked) {
-  const fem::SolidMesh mesh = fem::boxOf(fem::CellShape::hex8, {4, 4, 2}, {0, 0, -2}, {4, 4, 0});
+  const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {4, 4, 2}, {0, 0, -2}, {4, 4, 0});
   for (const Variant& variant : {Variant{"local"}, Variant{"lucy", 1.3}}) {
     Coupling seam(carriedSkin(mesh, variant));
     const Vec3 spin{0.4, -0.3, 2.0}, start{1.7, 2.2, radius - 0.02};

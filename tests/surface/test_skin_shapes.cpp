@@ -9,9 +9,9 @@
 namespace dovetail::surface {
 namespace {
 
-using fem::CellShape;
+using fem::ElementShape;
 
-class SkinOf : public ::testing::TestWithParam<CellShape> {};
+class SkinOf : public ::testing::TestWithParam<ElementShape> {};
 struct ShapeName {
   template <class Info>
   std::string operator()(const Info& info) const {
@@ -19,14 +19,14 @@ struct ShapeName {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Shapes, SkinOf,
-                         ::testing::Values(CellShape::hex8, CellShape::hex20, CellShape::hex27, CellShape::tet4,
-                                           CellShape::tet10),
+                         ::testing::Values(ElementShape::hex8, ElementShape::hex20, ElementShape::hex27,
+                                           ElementShape::tet4, ElementShape::tet10),
                          ShapeName{});
 
-fem::SolidMesh block(CellShape shape) { return fem::boxOf(shape, {4, 4, 2}, {0, 0, -2}, {4, 4, 0}); }
+fem::SolidMesh block(ElementShape shape) { return fem::boxOf(shape, {4, 4, 2}, {0, 0, -2}, {4, 4, 0}); }
 
 /// All nodes moved at random, so that faces are curved.
-fem::SolidMesh crooked(CellShape shape, double amplitude, unsigned seed) {
+fem::SolidMesh crooked(ElementShape shape, double amplitude, unsigned seed) {
   fem::SolidMesh mesh = block(shape);
   Random random(seed);
   for (Vec3& X : mesh.X) X += random.vector(amplitude);
@@ -62,7 +62,7 @@ TEST_P(SkinOf, ABoxIsClosed) {
   }
   EXPECT_NEAR(area, 64.0, 1e-12);
   const std::size_t quads = 64;
-  const std::size_t perSquare = GetParam() == CellShape::tet4 ? 2 : GetParam() == CellShape::hex8 ? 4 : 8;
+  const std::size_t perSquare = GetParam() == ElementShape::tet4 ? 2 : GetParam() == ElementShape::hex8 ? 4 : 8;
   EXPECT_EQ(skin.wall.facets.size(), quads * perSquare);
   EXPECT_EQ(skin.faces.size(), mesh.faceSets.at("skin").size());
 }
@@ -116,7 +116,7 @@ TEST_P(SkinOf, SharpEdgesSplitTheBoxIntoSixPatches) {
   const std::size_t before = skin.X.size();
   splitAtSharpEdges(skin);
   EXPECT_EQ(*std::max_element(skin.patchOfFacet.begin(), skin.patchOfFacet.end()), 5);
-  const bool second = GetParam() != CellShape::hex8 && GetParam() != CellShape::tet4;
+  const bool second = GetParam() != ElementShape::hex8 && GetParam() != ElementShape::tet4;
   // each vertex of an edge is doubled, of a corner trebled
   const std::size_t onEdges = second ? 8 * 7 + 4 * 3 : 8 * 3 + 4 * 1;
   EXPECT_EQ(skin.X.size(), before + onEdges + 2 * 8);
@@ -155,7 +155,7 @@ struct Answer {
 /// A particle of radius 0.35 pressed into the top of the skin.
 class Press {
 public:
-  Press(CellShape shape, unsigned seed)
+  Press(ElementShape shape, unsigned seed)
       : mesh(crooked(shape, 0.04, seed)), seam_(makeSkin(mesh.X, mesh.faceSets.at("skin"))) {
     Random random(seed + 100);
     u = random.field(mesh.X.size(), 0.03);
@@ -226,7 +226,7 @@ TEST_P(SkinOf, ContactConserves) {
 }
 
 TEST(SkinShapes, OnlyFacesOfFourNodesHaveASmoothSurfaceOrSpreadLoads) {
-  for (const CellShape shape : {CellShape::hex20, CellShape::hex27, CellShape::tet4, CellShape::tet10}) {
+  for (const ElementShape shape : {ElementShape::hex20, ElementShape::hex27, ElementShape::tet4, ElementShape::tet10}) {
     const fem::SolidMesh mesh = block(shape);
     const std::vector<fem::Face>& faces = mesh.faceSets.at("skin");
     const Skin skin = makeSkin(mesh.X, faces);
@@ -247,7 +247,7 @@ TEST(SkinShapes, OnlyFacesOfFourNodesHaveASmoothSurfaceOrSpreadLoads) {
 }
 
 TEST(SkinShapes, LinesOfPlaneMeshesAreRefused) {
-  for (const CellShape shape : {CellShape::quad4, CellShape::quad8}) {
+  for (const ElementShape shape : {ElementShape::quad4, ElementShape::quad8}) {
     const fem::SolidMesh mesh = fem::boxOf(shape, {2, 2, 1}, {0, 0, 0}, {1, 1, 1});
     const std::vector<fem::Face>& faces = mesh.faceSets.at("skin");
     try {
@@ -262,7 +262,7 @@ TEST(SkinShapes, LinesOfPlaneMeshesAreRefused) {
 }
 
 TEST(SkinShapes, BadFacesAreNamed) {
-  const fem::SolidMesh mesh = block(CellShape::tet10);
+  const fem::SolidMesh mesh = block(ElementShape::tet10);
   std::vector<fem::Face> faces = mesh.faceSets.at("skin");
   faces[3].node[4] = faces[3].node[0];
   EXPECT_THROW(makeSkin(mesh.X, faces), InputError);

@@ -9,9 +9,9 @@
 namespace dovetail::surface {
 namespace {
 
-using fem::CellShape;
+using fem::ElementShape;
 
-class RunOn : public ::testing::TestWithParam<CellShape> {};
+class RunOn : public ::testing::TestWithParam<ElementShape> {};
 struct ShapeName {
   template <class Info>
   std::string operator()(const Info& info) const {
@@ -19,7 +19,8 @@ struct ShapeName {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Shapes, RunOn,
-                         ::testing::Values(CellShape::hex8, CellShape::hex20, CellShape::tet4, CellShape::tet10),
+                         ::testing::Values(ElementShape::hex8, ElementShape::hex20, ElementShape::tet4,
+                                           ElementShape::tet10),
                          ShapeName{});
 
 struct Departure {
@@ -52,7 +53,7 @@ TEST_P(RunOn, MomentaAndBooksClose) {
   const fem::SolidMesh mesh = softBlock(GetParam());
   for (const Variant& variant : {Variant{"local"}, Variant{"lucy", 0.2},
                                  Variant{"linear", 0.2, cg::KernelShape::lucy, cg::KernelCorrection::linear}}) {
-    if (variant.width > 0.0 && GetParam() == CellShape::hex20) continue;
+    if (variant.width > 0.0 && GetParam() == ElementShape::hex20) continue;
     const Departure worst = runFor(0.06, 1e-4, mesh, rollingLaws(), variant);
     EXPECT_LT(worst.momentum, 1e-12) << variant.name;
     EXPECT_LT(worst.angular, 1e-12) << variant.name;
@@ -63,7 +64,7 @@ TEST_P(RunOn, MomentaAndBooksClose) {
 
 /// A dashpot takes the mean of the velocities before and after the kick, of grain and skin.
 TEST(SurfaceContact, DashpotsAreBookedAtSecondOrder) {
-  const fem::SolidMesh mesh = softBlock(CellShape::tet4);
+  const fem::SolidMesh mesh = softBlock(ElementShape::tet4);
   const auto laws = dem::makeContactLaws(dem::ElasticLaw{{2e4, 0.5}});
   const auto error = [&](double dt) {
     ContactScene scene(mesh, slantingGrains(9, 5), laws);
@@ -87,7 +88,7 @@ struct End {
 /// @param order  of the grains at the start @param leaver  an id that is taken out half-way, −1: nobody
 /// @param sortEvery  renewals
 End runInOrder(std::span<const int> order, int sortEvery, std::int64_t leaver, bool newcomer) {
-  const fem::SolidMesh mesh = softBlock(CellShape::hex8);
+  const fem::SolidMesh mesh = softBlock(ElementShape::hex8);
   const dem::Particles all = slantingGrains(20, 7);
   dem::Particles particles;
   for (int k : order) dem::addParticle(particles, all.x[k], all.v[k], all.radius[k], dem::Mass{all.mass[k]});
@@ -159,7 +160,7 @@ void copyState(ContactScene& from, ContactScene& to) {
 }
 
 TEST(SurfaceContact, GoesOnBitForBitFromWhatItSaved) {
-  const fem::SolidMesh mesh = softBlock(CellShape::hex8);
+  const fem::SolidMesh mesh = softBlock(ElementShape::hex8);
   for (const Variant& variant :
        {Variant{"local"}, Variant{"lucy", 0.2},
         Variant{"smooth", 0.2, cg::KernelShape::lucy, cg::KernelCorrection::symmetric, true}}) {
@@ -184,7 +185,7 @@ TEST(SurfaceContact, GoesOnBitForBitFromWhatItSaved) {
 
 TEST(SurfaceContact, IsTheSameForAnyNumberOfThreads) {
   detail::pretendProcessors(3);
-  const fem::SolidMesh mesh = softBlock(CellShape::tet10, {4, 4, 2});
+  const fem::SolidMesh mesh = softBlock(ElementShape::tet10, {4, 4, 2});
   std::vector<Vec3> states[2];
   for (int k = 0; k < 2; ++k) {
     setThreads(k == 0 ? 1 : 3);
@@ -241,7 +242,7 @@ double stiffestMode(ContactScene& scene) {
 
 /// Many grains on one face, heavy against its nodes: each meets nodes that the others push at, too.
 TEST(SurfaceContact, TheCriticalStepIsSafeForAnyNumberOfGrainsOnAFace) {
-  for (const CellShape shape : {CellShape::hex8, CellShape::tet4, CellShape::hex20})
+  for (const ElementShape shape : {ElementShape::hex8, ElementShape::tet4, ElementShape::hex20})
     for (const int count : {-16, 1, 4, 16}) {  // < 0: with consistent masses
       dem::Particles particles;
       for (int k = 0; k < std::abs(count); ++k)
@@ -260,7 +261,7 @@ TEST(SurfaceContact, TheCriticalStepIsSafeForAnyNumberOfGrainsOnAFace) {
 
 TEST(SurfaceContact, FrictionAndSpinAskForSmallerSteps) {
   const auto limit = [&](std::shared_ptr<const dem::ContactLaws> laws) {
-    ContactScene scene(softBlock(CellShape::hex8), slantingGrains(9, 5), std::move(laws));
+    ContactScene scene(softBlock(ElementShape::hex8), slantingGrains(9, 5), std::move(laws));
     scene.start(1e-5);
     while (!scene.contact->coupling().inContact()) scene.step(1e-5);
     return dem::criticalStep(scene.grains).dt;
@@ -269,7 +270,7 @@ TEST(SurfaceContact, FrictionAndSpinAskForSmallerSteps) {
 }
 
 TEST(SurfaceContact, OfACopyMeetsTheSolidAndLoadsNobody) {
-  const fem::SolidMesh mesh = softBlock(CellShape::hex8);
+  const fem::SolidMesh mesh = softBlock(ElementShape::hex8);
   ContactScene scene(mesh, slantingGrains(3, 5), rollingLaws());
   scene.grains.particles.x[0].z -= 0.01;
   dem::findForces(scene.grains);
@@ -282,7 +283,7 @@ TEST(SurfaceContact, OfACopyMeetsTheSolidAndLoadsNobody) {
 }
 
 TEST(SurfaceContact, NamesTheSurfaceThatSetsTheStep) {
-  const fem::SolidMesh mesh = softBlock(CellShape::hex8);
+  const fem::SolidMesh mesh = softBlock(ElementShape::hex8);
   dem::Particles one;
   dem::addParticle(one, {0.3, 0.3, 0.029}, {}, 0.03, dem::Mass{1.0});
   ContactScene scene(mesh, one, rollingLaws());
@@ -292,7 +293,7 @@ TEST(SurfaceContact, NamesTheSurfaceThatSetsTheStep) {
 }
 
 TEST(SurfaceContact, RefusesWhatItCannotDo) {
-  const fem::SolidMesh mesh = softBlock(CellShape::hex8), other = softBlock(CellShape::hex8, {2, 2, 1});
+  const fem::SolidMesh mesh = softBlock(ElementShape::hex8), other = softBlock(ElementShape::hex8, {2, 2, 1});
   ContactScene scene(mesh, slantingGrains(3, 5), rollingLaws());
   const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
   EXPECT_THROW(SurfaceContact(scene.side, Coupling(makeSkin(other.X, other.faceSets.at("skin"))), rollingLaws()),
@@ -308,7 +309,7 @@ TEST(SurfaceContact, RefusesWhatItCannotDo) {
 
 /// Bytes of a state may be whole and not fit: they are refused, or the contacts are found anew.
 TEST(SurfaceContact, DamagedStatesNeverCrash) {
-  const fem::SolidMesh mesh = softBlock(fem::CellShape::hex8);
+  const fem::SolidMesh mesh = softBlock(fem::ElementShape::hex8);
   const std::vector<Vec3> rest(mesh.X.size());
   dem::Particles particles = slantingGrains(12, 3);
   for (Vec3& x : particles.x) x.z -= 0.004;

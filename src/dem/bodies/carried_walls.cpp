@@ -6,7 +6,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/walls.hpp"
-#include "turnability.hpp"
+#include "rotational_mobility.hpp"
 
 namespace dovetail::dem {
 
@@ -27,7 +27,7 @@ void forEachCarried(Model& m, Visit&& visit) {
 /// squared radius of the particle.
 double yielding(const Bodies& bodies, std::size_t b, const Particles& particles, int particle, const Vec3& arm) {
   const Vec3& inertia = bodies.inertia[b];
-  const double translation = 1.0 / bodies.mass[b] + turnability(rotateBack(bodies.orientation[b], arm), inertia);
+  const double translation = 1.0 / bodies.mass[b] + rotationalMobility(rotateBack(bodies.orientation[b], arm), inertia);
   if (!particles.rotates()) return translation;
   const double radius = particles.radius[at(particle)];
   return translation + radius * radius / (2.5 * std::min({inertia.x, inertia.y, inertia.z}));

@@ -11,7 +11,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
-#include "turnability.hpp"
+#include "rotational_mobility.hpp"
 
 namespace dovetail::dem {
 
@@ -21,7 +21,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-double turnability(const Vec3& r, const Vec3& inertia) {
+double rotationalMobility(const Vec3& r, const Vec3& inertia) {
   Eigen::Matrix3d arm;
   arm << 0.0, -r.z, r.y, r.z, 0.0, -r.x, -r.y, r.x, 0.0;
   const Eigen::Vector3d inverse(1.0 / inertia.x, 1.0 / inertia.y, 1.0 / inertia.z);
@@ -205,7 +205,7 @@ void addDemand(ContactDemand& demand, const Particles& particles, const Bodies& 
     const std::size_t b = at(clumps.body[m]), i = at(clumps.particle[m]);
     const double mass = bodies.mass[b], radius = particles.radius[i];
     const double least = std::min({bodies.inertia[b].x, bodies.inertia[b].y, bodies.inertia[b].z});
-    const double central = turnability(clumps.offset[m], bodies.inertia[b]);
+    const double central = rotationalMobility(clumps.offset[m], bodies.inertia[b]);
     const double arm = std::sqrt(central) + radius / std::sqrt(least);  // a bound on the root of λ on the surface
     // Where particles spin, the demand holds 7/2 of a tangential stiffness and the rolling one over 2/5 R².
     const double side = std::max((1.0 / mass + arm * arm) / 3.5, radius * radius / (2.5 * least));

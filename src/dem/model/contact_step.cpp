@@ -44,18 +44,18 @@ void addContact(ContactDemand& demand, const Particles& particles, int particle,
                                                         scale * slopes.normal.damping / effectiveMass));
 }
 
-double windowLimit(const LinkRates& r, int K) {
-  if (K == 1 || (r.windowStiff == 0.0 && r.windowDamped == 0.0))
-    return verletLimit(r.stiff + r.windowStiff, r.damped + r.windowDamped);
+double macroLimit(const LinkRates& r, int K) {
+  if (K == 1 || (r.macroStiff == 0.0 && r.macroDamped == 0.0))
+    return verletLimit(r.stiff + r.macroStiff, r.damped + r.macroDamped);
   const auto bears = [&](double dt) {
-    const double window = K * dt, sine = 0.5 * dt * std::sqrt(r.stiff);
+    const double macroStep = K * dt, sine = 0.5 * dt * std::sqrt(r.stiff);
     const double half = sine < 1.0 ? std::asin(sine) : std::numbers::pi;  // φ/2
     if (!(K * half < 0.5 * std::numbers::pi)) return false;
     const double left = 1.0 - sine * sine - 0.5 * dt * r.damped;
     const double share = half > 0.0 ? K * std::tan(half) / std::tan(K * half) : 1.0;
-    return window * (window * r.windowStiff + 2.0 * r.windowDamped) <= 4.0 * left * share;
+    return macroStep * (macroStep * r.macroStiff + 2.0 * r.macroDamped) <= 4.0 * left * share;
   };
-  double least = 0.0, most = verletLimit(r.windowStiff, r.windowDamped) / K;
+  double least = 0.0, most = verletLimit(r.macroStiff, r.macroDamped) / K;
   most = std::min(most, verletLimit(r.stiff, r.damped));
   for (int halving = 0; halving < 48; ++halving) {
     const double middle = 0.5 * (least + most);
@@ -95,15 +95,15 @@ namespace {
 
 /// What is asked over the mass that answers, per particle: 1/s² and 1/s.
 struct Rates {
-  std::vector<double> stiff, tied, damped, atWindows;
+  std::vector<double> stiff, tied, damped, atMacroSteps;
   std::vector<double> inverse;  // 1/kg, 0 of members of bodies
 };
 
 Rates ratesOf(const ContactDemand& demand, const Particles& particles) {
-  Rates rates{demand.stiffness, demand.byTies, demand.damping, demand.atWindows,
+  Rates rates{demand.stiffness, demand.byTies, demand.damping, demand.atMacroSteps,
               std::vector<double>(demand.stiffness.size(), 0.0)};
   rates.tied.resize(rates.stiff.size(), 0.0);
-  rates.atWindows.resize(rates.stiff.size(), 0.0);
+  rates.atMacroSteps.resize(rates.stiff.size(), 0.0);
   const std::size_t n = rates.stiff.size();
   const auto bodyOf = [&](std::size_t i) { return i < demand.body.size() ? demand.body[i] : -1; };
   std::vector<std::array<double, 2>> ofBody;
@@ -113,7 +113,7 @@ Rates ratesOf(const ContactDemand& demand, const Particles& particles) {
     rates.stiff[i] *= inverse;
     rates.tied[i] *= inverse;
     rates.damped[i] *= inverse;
-    rates.atWindows[i] *= inverse;
+    rates.atMacroSteps[i] *= inverse;
     if (body < 0) rates.inverse[i] = inverse;
     if (body < 0) continue;
     const auto b = static_cast<std::size_t>(body);
@@ -179,7 +179,7 @@ public:
       rates.stiff += ofOthers * (ofParticles_.stiff[i] - ofParticles_.tied[i] - ofParticles_.inverse[i] * spared[0]) +
                      ofTies * ofParticles_.tied[i];
       rates.damped += ofOthers * (ofParticles_.damped[i] - ofParticles_.inverse[i] * spared[1]);
-      rates.windowStiff += ofTies * ofParticles_.atWindows[i];
+      rates.macroStiff += ofTies * ofParticles_.atMacroSteps[i];
     }
     if (link.side < 0) return rates;
     const auto meets = [&](const ContactDemand::Range& range) {
@@ -195,9 +195,9 @@ public:
     const auto [shift, turn] = std::pair{meets(link.shifted), meets(link.turned)};
     const double stiff = std::max(shift[0], turn[0]), damped = std::max(shift[1], turn[1]);
     const ContactDemand::Side& side = demand_.sides[static_cast<std::size_t>(link.side)];
-    (side.inWindows ? rates.windowStiff : rates.stiff) += stiff;
-    (side.inWindows ? rates.windowDamped : rates.damped) += damped;
-    rates.windowStiff += side.ownRate;
+    (side.inMacroSteps ? rates.macroStiff : rates.stiff) += stiff;
+    (side.inMacroSteps ? rates.macroDamped : rates.damped) += damped;
+    rates.macroStiff += side.ownRate;
     return rates;
   }
 
@@ -213,15 +213,15 @@ ContactStep stepWith(const ContactDemand& demand, const LinkReader& ratesOf, dou
   for (std::size_t number = 0; number < demand.links.size(); ++number) {
     const ContactDemand::Link& link = demand.links[number];
     const detail::LinkRates rates = ratesOf(number, lead);
-    const double dt = detail::windowLimit(rates, demand.window);
+    const double dt = detail::macroLimit(rates, demand.macroStep);
     if (dt < step.dt) {
       step.dt = dt;
       step.particle = link.particle;
       step.partner = link.partner;
       step.owner = link.owner;
       const double own = link.side < 0 ? 0.0 : demand.sides[static_cast<std::size_t>(link.side)].ownRate;
-      const double K = demand.window;
-      step.byOwnForces = K * K * (2.0 * own - rates.windowStiff) > rates.stiff;
+      const double K = demand.macroStep;
+      step.byOwnForces = K * K * (2.0 * own - rates.macroStiff) > rates.stiff;
       step.surface = link.surface < 0 ? "" : demand.surfaces[static_cast<std::size_t>(link.surface)];
     }
   }
@@ -234,7 +234,7 @@ ContactStep criticalStep(const ContactDemand& demand, const Particles& particles
   const LinkReader ratesOf(demand, particles);
   ContactStep step = stepWith(demand, ratesOf, 1.0);
   // Any shares are safe. In proportion to what is asked, a weak contact of two members meets the stiff ties of both.
-  if (!demand.byTies.empty() || !demand.atWindows.empty())
+  if (!demand.byTies.empty() || !demand.atMacroSteps.empty())
     for (const double lead : {1.25, 1.5, 2.0})
       if (ContactStep other = stepWith(demand, ratesOf, lead); other.dt > step.dt) step = std::move(other);
   step.twoBody = demand.twoBody;

@@ -234,11 +234,11 @@ void meetPartner(const Model& m, const Crowd& crowd, const ImpactPartner& partne
     const double depth = meeting.depth(speed, meeting.effectiveMass());
     ContactDemand demand = meeting.demandAt(depth);
     if (partner.inverseMass > 0.0 && !demand.links.empty()) {
-      demand.window = settings.window;
+      demand.macroStep = settings.macroStep;
       demand.links.front().shifting = demand.stiffness.front();
       demand.links.front().shiftingDamping = demand.damping.front();
       demand.standOn(0, partner.of, partner.inverseMass);
-      demand.sides.front().inWindows = partner.inWindows;
+      demand.sides.front().inMacroSteps = partner.inMacroSteps;
       if (settings.ownRate) demand.sides.front().ownRate = settings.ownRate(partner.of);
     }
     note(limit, meeting.limitOf(demand), depth / hitter.radius,

@@ -263,7 +263,7 @@ void FacetPotential::lower(const ActiveFacet& first, double atLeast) {
 void FacetPotential::append() const {
   const std::vector<Share>& shares = scratch_.best.shares;
   const std::vector<ActiveFacet>& facets = scratch_.best.facets;
-  std::array<std::size_t, ShareSolver::capacity> order{};
+  std::array<std::size_t, EdgeContactSolver::capacity> order{};
   const auto end = order.begin() + static_cast<std::ptrdiff_t>(shares.size());
   std::iota(order.begin(), end, std::size_t{0});
   std::sort(order.begin(), end, [&](std::size_t a, std::size_t b) { return facets[a].entry < facets[b].entry; });

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "dovetail/dem/walls/share_solver.hpp"
+#include "dovetail/dem/walls/edge_contact_solver.hpp"
 #include "met_facets.hpp"
 
 namespace dovetail::dem {
@@ -30,7 +30,7 @@ public:
   struct Scratch {
     ActiveSet set, kept, best;
     std::vector<MetFacet> refused;
-    ShareSolver solver;
+    EdgeContactSolver solver;
   };
 
   /// @param near    all facets around, seen from the centre; those that touch first

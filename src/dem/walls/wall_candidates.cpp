@@ -7,7 +7,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/geometry/triangle.hpp"
-#include "wall_sieve.hpp"
+#include "wall_broad_phase.hpp"
 
 namespace dovetail::dem {
 

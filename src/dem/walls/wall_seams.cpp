@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "dovetail/dem/walls/share_solver.hpp"
+#include "dovetail/dem/walls/edge_contact_solver.hpp"
 #include "dovetail/dem/walls/wall_collide.hpp"
 #include "met_facets.hpp"
 

@@ -13,17 +13,17 @@ namespace dovetail::fem {
 
 namespace {
 
-bool isBrick(CellShape shape) { return !detail::isTet(shape); }
+bool isBrick(ElementShape shape) { return !detail::isTet(shape); }
 
 /// Parent coordinates of a point that lies in the element.
-Vec3 parentPlace(CellShape shape, std::span<const Vec3> nodes, const Vec3& X, int element) {
+Vec3 parentPlace(ElementShape shape, std::span<const Vec3> nodes, const Vec3& X, int element) {
   const detail::ParentGuess guess = detail::guessParent(shape, nodes, X);
   if (guess.verdict == detail::Verdict::inside) return guess.xi;
   return detail::searchParent(shape, nodes, X, "element " + std::to_string(element)).value_or(guess.xi);
 }
 
 /// 1, ξ, η, ζ and, for bricks, their products; 1 alone where there are too few points for them.
-std::vector<double> basisAt(CellShape shape, const Vec3& xi, std::size_t points) {
+std::vector<double> basisAt(ElementShape shape, const Vec3& xi, std::size_t points) {
   if (dimensionOf(shape) == 2 && points >= 4) return {1.0, xi.x, xi.y, xi.x * xi.y};
   if (dimensionOf(shape) == 3 && isBrick(shape) && points >= 8)
     return {1.0, xi.x, xi.y, xi.z, xi.x * xi.y, xi.y * xi.z, xi.z * xi.x, xi.x * xi.y * xi.z};
@@ -39,9 +39,9 @@ Eigen::Matrix3d cauchy(const double* F, const double* P) {
 
 }  // namespace
 
-MaterialPoint::MaterialPoint(const SolidMesh& mesh, const Vec3& X) : MaterialPoint(mesh, CellLocator(mesh), X) {}
+MaterialPoint::MaterialPoint(const SolidMesh& mesh, const Vec3& X) : MaterialPoint(mesh, ElementLocator(mesh), X) {}
 
-MaterialPoint::MaterialPoint(const SolidMesh& mesh, const CellLocator& locator, const Vec3& X) {
+MaterialPoint::MaterialPoint(const SolidMesh& mesh, const ElementLocator& locator, const Vec3& X) {
   std::optional<CellPlace> place = locator.find(X);
   if (!place)
     throw InputError(
@@ -51,7 +51,7 @@ MaterialPoint::MaterialPoint(const SolidMesh& mesh, const CellLocator& locator, 
   xi_ = place->xi;
   N_ = std::move(place->shape);
   auto e = static_cast<std::size_t>(element_);
-  const auto group = std::ranges::find_if(mesh.groups, [&](const CellGroup& g) {
+  const auto group = std::ranges::find_if(mesh.groups, [&](const ElementGroup& g) {
     if (e < g.size()) return true;
     e -= g.size();
     return false;

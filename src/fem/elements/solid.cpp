@@ -55,7 +55,7 @@ detail::SolidCells cellsOf(const SolidMesh& mesh, const std::string& set, std::s
   const std::vector<int> chosen = chosenElements(mesh, set);
   std::size_t next = 0;
   int first = 0;
-  for (const CellGroup& group : mesh.groups) {
+  for (const ElementGroup& group : mesh.groups) {
     const int last = first + static_cast<int>(group.size());
     for (; next < chosen.size() && chosen[next] < last; ++next) {
       if (!cells.number.empty() && cells.shape != group.shape)
@@ -92,8 +92,8 @@ std::shared_ptr<Solid> makeSolidOf(const SolidMesh& mesh, std::unique_ptr<detail
   detail::SolidCells cells = cellsOf(mesh, options.elementSet, options.share);
   const bool anyShape =
       options.formulation == Formulation::standard || options.formulation == Formulation::meanDilatation;
-  const bool reducedPlane = options.formulation == Formulation::reduced && cells.shape == CellShape::quad8;
-  if (!anyShape && !reducedPlane && cells.shape != CellShape::hex8)
+  const bool reducedPlane = options.formulation == Formulation::reduced && cells.shape == ElementShape::quad8;
+  if (!anyShape && !reducedPlane && cells.shape != ElementShape::hex8)
     throw InputError(std::string("the formulation \"") + name(options.formulation) + "\" is for hex8" +
                          (options.formulation == Formulation::reduced ? " and quad8" : "") + ", not for " +
                          name(cells.shape),

@@ -22,7 +22,7 @@ SolidBase::SolidBase(SolidCells cells, std::unique_ptr<SolidPoints> points, cons
     : cells_(std::move(cells)),
       points_(std::move(points)),
       options_(options),
-      rule_(cells_.shape == CellShape::quad8 && options.formulation == Formulation::reduced
+      rule_(cells_.shape == ElementShape::quad8 && options.formulation == Formulation::reduced
                 ? &reducedRule(cells_.shape)
                 : &forceRule(cells_.shape)) {
   options_.share.clear();  // the cells have it

@@ -74,7 +74,7 @@ public:
   const PointMaterial* material() const override { return points_->law(); }
   double density() const override { return points_->density(); }
   StableStep stableStep(const Nodes& nodes) override;
-  CellShape shape() const override { return cells_.shape; }
+  ElementShape shape() const override { return cells_.shape; }
   Formulation formulation() const override { return options_.formulation; }
   int number(std::size_t e) const override { return cells_.number[e]; }
   Sample sample(const Nodes& nodes, const Instant& now) override;

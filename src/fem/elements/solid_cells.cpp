@@ -67,7 +67,7 @@ std::vector<PointGeometry> geometryAt(const SolidCells& cells, const CellRule& r
 std::vector<double> consistentMass(const SolidCells& cells, std::size_t element, double density) {
   const std::size_t n = cells.nodes;
   std::vector<double> mass(n * n, 0.0);
-  if (cells.shape == CellShape::hex8) {
+  if (cells.shape == ElementShape::hex8) {
     const std::array<int, 8> nodes = brickNodes(cells, element);
     const std::array<double, 64> products = shapeProducts(cornersOf(nodes, cells.X), cornerValues(nodes, cells.share));
     for (std::size_t k = 0; k < 64; ++k) mass[k] = density * products[k];
@@ -83,7 +83,7 @@ std::vector<double> consistentMass(const SolidCells& cells, std::size_t element,
 std::vector<double> rowSumsOfMass(const SolidCells& cells, std::size_t element, double density) {
   const std::size_t n = cells.nodes;
   std::vector<double> sums(n, 0.0);
-  if (cells.shape == CellShape::hex8) {
+  if (cells.shape == ElementShape::hex8) {
     const std::array<int, 8> nodes = brickNodes(cells, element);
     const std::array<double, 8> volumes = nodalVolumes(cornersOf(nodes, cells.X), cornerValues(nodes, cells.share));
     for (std::size_t a = 0; a < n; ++a) sums[a] = density * volumes[a];
@@ -96,7 +96,7 @@ std::vector<double> rowSumsOfMass(const SolidCells& cells, std::size_t element, 
 }
 
 std::vector<double> lumpedMass(const SolidCells& cells, std::size_t element, double density) {
-  if (cells.shape != CellShape::hex20 && cells.shape != CellShape::tet10 && cells.shape != CellShape::quad8)
+  if (cells.shape != ElementShape::hex20 && cells.shape != ElementShape::tet10 && cells.shape != ElementShape::quad8)
     return rowSumsOfMass(cells, element, density);
   std::vector<double> diagonal(cells.nodes, 0.0);
   double volume = 0.0, sum = 0.0;

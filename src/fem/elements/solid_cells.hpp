@@ -14,7 +14,7 @@ namespace dovetail::fem::detail {
 /// The elements of one shape that a solid consists of. A batch that is not full repeats its last element with zero
 /// weight.
 struct SolidCells {
-  CellShape shape;
+  ElementShape shape;
   std::size_t nodes;                                           ///< per element
   double thickness;                                            ///< of plane cells, m
   std::vector<int> number;                                     ///< in the mesh, per element

@@ -41,7 +41,7 @@ public:
       : SolidBase(std::move(cells), std::move(points), options),
         confined_(points_->moduliAtRest().confined),
         resolution_(16.0 * std::numeric_limits<double>::epsilon() * confined_) {
-    const std::vector<PointGeometry> centre = geometryAt(cells_, centreRule(CellShape::hex8));
+    const std::vector<PointGeometry> centre = geometryAt(cells_, centreRule(ElementShape::hex8));
     enhanced_.resize(cells_.batches());
     for (std::size_t b = 0; b < cells_.batches(); ++b) setGeometry(b, centre[b]);
     committed_.resize(cells_.batches());
@@ -105,7 +105,7 @@ private:
     }
     setMean(b, g);
     for (std::size_t a = 0; a < N; ++a) {
-      const Vec3& parent = centreRule(CellShape::hex8).gradient[a];
+      const Vec3& parent = centreRule(ElementShape::hex8).gradient[a];
       for (std::size_t J = 0; J < 3; ++J)
         g.gradient[3 * a + J] = parent.x * g.map0[J] + parent.y * g.map0[3 + J] + parent.z * g.map0[6 + J];
     }

@@ -252,15 +252,15 @@ private:
 std::shared_ptr<Solid> makeMeanDilatationSolid(SolidCells cells, std::unique_ptr<SolidPoints> points,
                                                const SolidOptions& options) {
   switch (cells.shape) {
-    case CellShape::hex8:
+    case ElementShape::hex8:
       return std::make_shared<MeanDilatationSolid<8, 8, 1>>(std::move(cells), std::move(points), options);
-    case CellShape::hex20:
+    case ElementShape::hex20:
       return std::make_shared<MeanDilatationSolid<20, 27, 4>>(std::move(cells), std::move(points), options);
-    case CellShape::hex27:
+    case ElementShape::hex27:
       return std::make_shared<MeanDilatationSolid<27, 27, 4>>(std::move(cells), std::move(points), options);
-    case CellShape::quad4:
+    case ElementShape::quad4:
       return std::make_shared<MeanDilatationSolid<4, 4, 1>>(std::move(cells), std::move(points), options);
-    case CellShape::quad8:
+    case ElementShape::quad8:
       return std::make_shared<MeanDilatationSolid<8, 9, 3>>(std::move(cells), std::move(points), options);
     default:
       break;

@@ -26,7 +26,7 @@ public:
   ReducedSolid(SolidCells cells, std::unique_ptr<SolidPoints> points, const SolidOptions& options)
       : SolidBase(std::move(cells), std::move(points), options) {
     setGeometry();
-    rule_ = &centreRule(CellShape::hex8);
+    rule_ = &centreRule(ElementShape::hex8);
     std::vector<PointGeometry> centre(cells_.batches());
     for (std::size_t b = 0; b < cells_.batches(); ++b) centre[b].weight = reduced_[b].volume;
     geometry_ = std::move(centre);

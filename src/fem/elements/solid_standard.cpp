@@ -140,24 +140,24 @@ private:
 std::shared_ptr<Solid> makeStandardSolid(SolidCells cells, std::unique_ptr<SolidPoints> points,
                                          const SolidOptions& options) {
   switch (cells.shape) {
-    case CellShape::hex8:
+    case ElementShape::hex8:
       return std::make_shared<StandardSolid<8, 8>>(std::move(cells), std::move(points), options);
-    case CellShape::hex20:
+    case ElementShape::hex20:
       return std::make_shared<StandardSolid<20, 27>>(std::move(cells), std::move(points), options);
-    case CellShape::hex27:
+    case ElementShape::hex27:
       return std::make_shared<StandardSolid<27, 27>>(std::move(cells), std::move(points), options);
-    case CellShape::tet4:
+    case ElementShape::tet4:
       return std::make_shared<StandardSolid<4, 1>>(std::move(cells), std::move(points), options);
-    case CellShape::tet10:
+    case ElementShape::tet10:
       return std::make_shared<StandardSolid<10, 4>>(std::move(cells), std::move(points), options);
-    case CellShape::quad4:
+    case ElementShape::quad4:
       return std::make_shared<StandardSolid<4, 4>>(std::move(cells), std::move(points), options);
-    case CellShape::quad8:
+    case ElementShape::quad8:
       if (options.formulation == Formulation::reduced)
         return std::make_shared<StandardSolid<8, 4>>(std::move(cells), std::move(points), options);
       return std::make_shared<StandardSolid<8, 9>>(std::move(cells), std::move(points), options);
   }
-  throw InputError("the shape of the elements is not known", "elements", "use one of CellShape");
+  throw InputError("the shape of the elements is not known", "elements", "use one of ElementShape");
 }
 
 }  // namespace dovetail::fem::detail

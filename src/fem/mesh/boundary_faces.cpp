@@ -26,7 +26,7 @@ std::array<int, 4> keyOf(const Face& face) {
 std::vector<Face> boundaryFaces(const SolidMesh& mesh) {
   std::vector<Face> faces;
   std::vector<Side> sides;
-  for (const CellGroup& group : mesh.groups)
+  for (const ElementGroup& group : mesh.groups)
     for (std::size_t e = 0; e < group.size(); ++e)
       for (std::size_t side = 0; side < localFacesOf(group.shape).size(); ++side) {
         faces.push_back(faceOf(group, e, side));

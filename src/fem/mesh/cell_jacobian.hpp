@@ -16,7 +16,7 @@ using Jacobian = std::array<Vec3, 3>;
 inline double determinant(const Jacobian& J) { return dot(J[0], cross(J[1], J[2])); }
 
 /// ∂X/∂ζ of plane cells, which others have from their nodes: the thickness along z.
-inline Vec3 depthOf(CellShape shape, double thickness) {
+inline Vec3 depthOf(ElementShape shape, double thickness) {
   return dimensionOf(shape) == 2 ? Vec3{0.0, 0.0, thickness} : Vec3{};
 }
 
@@ -32,7 +32,7 @@ inline Jacobian jacobianAt(std::span<const Vec3> X, std::span<const int> nodes, 
 }
 
 /// Gradients of the shape functions at the shape's own nodes, [nodes b + a].
-const std::vector<Vec3>& nodalGradients(CellShape shape);
+const std::vector<Vec3>& nodalGradients(ElementShape shape);
 
 /// "element 3", or "elements 3, 7, 9" with at most ten of them and how many there are.
 std::string listed(const char* item, std::span<const int> numbers);

@@ -15,7 +15,7 @@ constexpr std::array<std::array<int, 2>, 12> brickEdges = {
 constexpr std::array<std::array<int, 2>, 6> tetEdges = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 constexpr std::array<std::array<int, 2>, 4> quadEdges = {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
 
-std::vector<Face> makeFaces(CellShape shape) {
+std::vector<Face> makeFaces(ElementShape shape) {
   const detail::CellFaces& faces = detail::facesOf(shape);
   std::vector<Face> result;
   for (const auto& nodes : faces.node) result.push_back({faces.shape, nodes});
@@ -24,24 +24,24 @@ std::vector<Face> makeFaces(CellShape shape) {
 
 }  // namespace
 
-int cornersOf(CellShape shape) { return dimensionOf(shape) == 2 || detail::isTet(shape) ? 4 : 8; }
+int cornersOf(ElementShape shape) { return dimensionOf(shape) == 2 || detail::isTet(shape) ? 4 : 8; }
 int cornersOf(FaceShape shape) {
   if (dimensionOf(shape) == 2) return 2;
   return shape == FaceShape::tri3 || shape == FaceShape::tri6 ? 3 : 4;
 }
 
-std::span<const std::array<int, 2>> edgesOf(CellShape shape) {
+std::span<const std::array<int, 2>> edgesOf(ElementShape shape) {
   if (dimensionOf(shape) == 2) return quadEdges;
   if (detail::isTet(shape)) return tetEdges;
   return brickEdges;
 }
 
-std::span<const Face> localFacesOf(CellShape shape) {
+std::span<const Face> localFacesOf(ElementShape shape) {
   static const auto faces = detail::perShape(makeFaces);
   return faces[static_cast<std::size_t>(shape)];
 }
 
-Face faceOf(const CellGroup& group, std::size_t element, std::size_t side) {
+Face faceOf(const ElementGroup& group, std::size_t element, std::size_t side) {
   Face face = localFacesOf(group.shape)[side];
   const std::size_t first = element * static_cast<std::size_t>(nodesOf(group.shape));
   for (int& node : face.node)

@@ -14,7 +14,7 @@ constexpr std::array<std::array<int, 4>, 6> brickFaces = {
     {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};
 constexpr std::array<std::array<int, 3>, 4> tetFaces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
 
-int midEdge(CellShape shape, int a, int b) {
+int midEdge(ElementShape shape, int a, int b) {
   const auto edges = edgesOf(shape);
   for (std::size_t e = 0; e < edges.size(); ++e)
     if ((edges[e][0] == a && edges[e][1] == b) || (edges[e][0] == b && edges[e][1] == a))
@@ -23,8 +23,8 @@ int midEdge(CellShape shape, int a, int b) {
 }
 
 /// x−, x+, y−, y+, in the sense of the corners.
-CellFaces makeLines(CellShape shape) {
-  const bool second = shape == CellShape::quad8;
+CellFaces makeLines(ElementShape shape) {
+  const bool second = shape == ElementShape::quad8;
   CellFaces faces{second ? FaceShape::line3 : FaceShape::line2, {}};
   for (const int edge : {3, 1, 0, 2}) {
     std::array<int, 9> node;
@@ -37,14 +37,14 @@ CellFaces makeLines(CellShape shape) {
   return faces;
 }
 
-CellFaces makeFaces(CellShape shape) {
+CellFaces makeFaces(ElementShape shape) {
   if (dimensionOf(shape) == 2) return makeLines(shape);
-  const bool tet = isTet(shape), second = shape != CellShape::hex8 && shape != CellShape::tet4;
+  const bool tet = isTet(shape), second = shape != ElementShape::hex8 && shape != ElementShape::tet4;
   CellFaces faces{};
   faces.shape = tet ? (second ? FaceShape::tri6 : FaceShape::tri3)
-                    : (shape == CellShape::hex27 ? FaceShape::quad9
-                       : second                  ? FaceShape::quad8
-                                                 : FaceShape::quad4);
+                    : (shape == ElementShape::hex27 ? FaceShape::quad9
+                       : second                     ? FaceShape::quad8
+                                                    : FaceShape::quad4);
   const std::size_t corners = tet ? 3 : 4, count = tet ? 4 : 6;
   for (std::size_t f = 0; f < count; ++f) {
     std::array<int, 9> node;
@@ -54,7 +54,7 @@ CellFaces makeFaces(CellShape shape) {
       const int from = node[a], to = node[(a + 1) % corners];
       node[corners + a] = midEdge(shape, from, to);
     }
-    if (shape == CellShape::hex27) node[8] = 20 + static_cast<int>(f);
+    if (shape == ElementShape::hex27) node[8] = 20 + static_cast<int>(f);
     faces.node.push_back(node);
   }
   return faces;
@@ -156,7 +156,7 @@ FaceRule makeFaceRule(FaceShape shape) {
 
 }  // namespace
 
-const CellFaces& facesOf(CellShape shape) {
+const CellFaces& facesOf(ElementShape shape) {
   static const auto faces = perShape(makeFaces);
   return faces[static_cast<std::size_t>(shape)];
 }

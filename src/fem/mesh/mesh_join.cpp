@@ -44,7 +44,7 @@ void requireDistinct(std::vector<int> nodes, std::size_t part, std::size_t eleme
 }
 
 void addGroups(SolidMesh& mesh, const SolidMesh& part, std::size_t partNumber, std::span<const int> number) {
-  for (const CellGroup& group : part.groups) {
+  for (const ElementGroup& group : part.groups) {
     if (mesh.groups.empty() || mesh.groups.back().shape != group.shape) mesh.groups.push_back({group.shape, {}});
     const auto n = static_cast<std::size_t>(nodesOf(group.shape));
     for (std::size_t e = 0; e < group.size(); ++e) {

@@ -13,10 +13,10 @@ namespace {
 /// Sorted corners of an edge (two), a face (four) or a brick (eight): what a new node lies in the middle of.
 using Corners = std::vector<int>;
 
-CellShape raised(CellShape shape, bool fullBricks) {
-  if (shape == CellShape::tet4) return CellShape::tet10;
-  if (shape == CellShape::quad4) return CellShape::quad8;
-  if (shape == CellShape::hex8) return fullBricks ? CellShape::hex27 : CellShape::hex20;
+ElementShape raised(ElementShape shape, bool fullBricks) {
+  if (shape == ElementShape::tet4) return ElementShape::tet10;
+  if (shape == ElementShape::quad4) return ElementShape::quad8;
+  if (shape == ElementShape::hex8) return fullBricks ? ElementShape::hex27 : ElementShape::hex20;
   throw InputError(std::string("the mesh has ") + name(shape) + " elements already", "secondOrder",
                    "give hex8, tet4 or quad4 elements");
 }
@@ -45,8 +45,8 @@ private:
 
 Corners cornersOfFace(const Face& face) { return {face.node.begin(), face.node.begin() + cornersOf(face.shape)}; }
 
-CellGroup raise(const CellGroup& group, bool fullBricks, MidNodes& mid) {
-  CellGroup result{raised(group.shape, fullBricks), {}};
+ElementGroup raise(const ElementGroup& group, bool fullBricks, MidNodes& mid) {
+  ElementGroup result{raised(group.shape, fullBricks), {}};
   const auto n = static_cast<std::size_t>(nodesOf(group.shape));
   for (std::size_t e = 0; e < group.size(); ++e) {
     const Corners nodes(group.node.begin() + static_cast<std::ptrdiff_t>(n * e),
@@ -54,7 +54,7 @@ CellGroup raise(const CellGroup& group, bool fullBricks, MidNodes& mid) {
     result.node.insert(result.node.end(), nodes.begin(), nodes.end());
     for (const auto& [a, b] : edgesOf(group.shape))
       result.node.push_back(mid.between({nodes[static_cast<std::size_t>(a)], nodes[static_cast<std::size_t>(b)]}));
-    if (result.shape != CellShape::hex27) continue;
+    if (result.shape != ElementShape::hex27) continue;
     for (std::size_t side = 0; side < 6; ++side)
       result.node.push_back(mid.between(cornersOfFace(faceOf(group, e, side))));
     result.node.push_back(mid.between(nodes));
@@ -100,7 +100,7 @@ SolidMesh secondOrder(const SolidMesh& mesh, bool fullBricks) {
   validate(mesh);
   SolidMesh result{mesh.X, {}, mesh.nodeSets, {}, mesh.elementSets, mesh.thickness};
   MidNodes mid(result);
-  for (const CellGroup& group : mesh.groups) result.groups.push_back(raise(group, fullBricks, mid));
+  for (const ElementGroup& group : mesh.groups) result.groups.push_back(raise(group, fullBricks, mid));
   for (const auto& [name, faces] : mesh.faceSets)
     for (const Face& face : faces) result.faceSets[name].push_back(raise(face, fullBricks, mid));
   const SkinParts skin(mesh);

@@ -17,7 +17,7 @@ namespace {
 
 double product(const Vec3& a, const Vec3& b, const Vec3& c) { return norm(a) * norm(b) * norm(c); }
 
-double scaledDeterminant(CellShape shape, const detail::Jacobian& J) {
+double scaledDeterminant(ElementShape shape, const detail::Jacobian& J) {
   const auto& [a, b, c] = J;
   const bool brick = !detail::isTet(shape);
   const double lengths =
@@ -29,7 +29,7 @@ double scaledDeterminant(CellShape shape, const detail::Jacobian& J) {
 }
 
 struct Element {
-  CellShape shape;
+  ElementShape shape;
   std::span<const int> nodes;
   std::span<const Vec3> X;
   Vec3 depth;
@@ -90,7 +90,7 @@ void add(ShapeQuality& all, const ElementQuality& one) {
 MeshQuality measureQuality(const SolidMesh& mesh, std::size_t worst) {
   MeshQuality quality;
   std::array<ShapeQuality, allCellShapes.size()> shapes{};
-  for (const CellGroup& group : mesh.groups) {
+  for (const ElementGroup& group : mesh.groups) {
     const auto n = static_cast<std::size_t>(nodesOf(group.shape));
     ShapeQuality& all = shapes[static_cast<std::size_t>(group.shape)];
     all.shape = group.shape;

@@ -69,7 +69,7 @@ Vec3 blockMap(double half, double radius, int turn, double s, double t) {
 
 }  // namespace
 
-SolidMesh mappedBox(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 upper,
+SolidMesh mappedBox(ElementShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 upper,
                     const std::function<Vec3(const Vec3&)>& map) {
   SolidMesh mesh = boxOf(shape, cells, lower, upper);
   for (Vec3& X : mesh.X) X = map(X);
@@ -77,7 +77,7 @@ SolidMesh mappedBox(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 
   return mesh;
 }
 
-SolidMesh cylinderSector(CellShape shape, std::array<int, 3> cells, double innerRadius, double outerRadius,
+SolidMesh cylinderSector(ElementShape shape, std::array<int, 3> cells, double innerRadius, double outerRadius,
                          double angle, double length) {
   requirePositive(innerRadius, "inner radius");
   requirePositive(length, "length");
@@ -101,10 +101,10 @@ SolidMesh cylinderSector(CellShape shape, std::array<int, 3> cells, double inner
   return ring;
 }
 
-SolidMesh roundBar(CellShape shape, std::array<int, 3> cells, double radius, double length) {
+SolidMesh roundBar(ElementShape shape, std::array<int, 3> cells, double radius, double length) {
   requirePositive(radius, "radius");
   requirePositive(length, "length");
-  if (shape == CellShape::tet4 || shape == CellShape::tet10)
+  if (shape == ElementShape::tet4 || shape == ElementShape::tet10)
     throw InputError(std::string("an O-grid of ") + name(shape) + " elements does not fit together", "roundBar",
                      "take bricks, or mesh the surface with tetrahedra");
   const double half = 0.5 * radius / std::numbers::sqrt2 * 1.1;
@@ -125,7 +125,7 @@ SolidMesh roundBar(CellShape shape, std::array<int, 3> cells, double radius, dou
   return mesh;
 }
 
-SolidMesh cookMembrane(CellShape shape, std::array<int, 2> cells, double thickness) {
+SolidMesh cookMembrane(ElementShape shape, std::array<int, 2> cells, double thickness) {
   requirePositive(thickness, "thickness");
   constexpr double width = 0.048, root = 0.044, rise = 0.044, end = 0.016;
   SolidMesh mesh = mappedBox(shape, {cells[0], cells[1], 1}, {}, {1.0, 1.0, thickness}, [&](const Vec3& p) {
@@ -136,7 +136,7 @@ SolidMesh cookMembrane(CellShape shape, std::array<int, 2> cells, double thickne
   return mesh;
 }
 
-SolidMesh arcClampedBeam(CellShape shape, std::array<int, 3> cells, const ArcBeam& beam) {
+SolidMesh arcClampedBeam(ElementShape shape, std::array<int, 3> cells, const ArcBeam& beam) {
   requirePositive(beam.height, "height of the beam");
   requirePositive(beam.thickness, "thickness of the beam");
   if (!(beam.radius > 0.5 * beam.height) || !std::isfinite(beam.radius))

@@ -46,7 +46,7 @@ public:
 
   using Side = std::pair<std::size_t, std::size_t>;  // element, local face
   const std::vector<Side>& boundary() const { return boundary_; }
-  CellShape shapeOf(std::size_t number) const { return mesh_.groups[place_[number].first].shape; }
+  ElementShape shapeOf(std::size_t number) const { return mesh_.groups[place_[number].first].shape; }
   Face faceAt(std::size_t number, std::size_t side) const {
     return faceOf(mesh_.groups[place_[number].first], place_[number].second, side);
   }
@@ -100,7 +100,7 @@ public:
 private:
   std::size_t sidesOf(std::size_t number) const { return localFacesOf(shapeOf(number)).size(); }
   double extentOf(std::size_t number, const Vec3& along) const {
-    const CellGroup& group = mesh_.groups[place_[number].first];
+    const ElementGroup& group = mesh_.groups[place_[number].first];
     const std::size_t first = place_[number].second * static_cast<std::size_t>(nodesOf(group.shape));
     double least = INFINITY, most = -INFINITY;
     for (std::size_t k = 0; k < static_cast<std::size_t>(cornersOf(group.shape)); ++k) {

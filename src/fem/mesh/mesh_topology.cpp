@@ -20,7 +20,7 @@ struct Side {
 std::vector<Side> sortedSides(const SolidMesh& mesh) {
   std::vector<Side> sides;
   int number = 0;
-  for (const CellGroup& group : mesh.groups)
+  for (const ElementGroup& group : mesh.groups)
     for (std::size_t e = 0; e < group.size(); ++e, ++number)
       for (std::size_t k = 0; k < localFacesOf(group.shape).size(); ++k) {
         Side& side = sides.emplace_back(Side{{}, number, faceOf(group, e, k)});
@@ -56,7 +56,7 @@ private:
 std::vector<std::pair<int, int>> duplicateElements(const SolidMesh& mesh) {
   std::vector<std::pair<std::vector<int>, int>> elements;
   int number = 0;
-  for (const CellGroup& group : mesh.groups) {
+  for (const ElementGroup& group : mesh.groups) {
     const auto n = static_cast<std::ptrdiff_t>(nodesOf(group.shape));
     for (std::size_t e = 0; e < group.size(); ++e, ++number) {
       const auto begin = group.node.begin() + static_cast<std::ptrdiff_t>(e) * n;
@@ -111,7 +111,7 @@ MeshTopology analyseTopology(const SolidMesh& mesh) {
   }
   topology.duplicates = duplicateElements(mesh);
   std::vector<char> used(mesh.X.size(), 0);
-  for (const CellGroup& group : mesh.groups)
+  for (const ElementGroup& group : mesh.groups)
     for (const int node : group.node) used[static_cast<std::size_t>(node)] = 1;
   for (std::size_t n = 0; n < used.size(); ++n)
     if (!used[n]) topology.unusedNodes.push_back(static_cast<int>(n));

@@ -44,7 +44,7 @@ struct Part {
 /// A cell with its first node as the origin, so that round-off is that of its size, not of its place.
 class LocalCell {
 public:
-  LocalCell(CellShape shape, std::span<const Vec3> nodes, const Vec3& point)
+  LocalCell(ElementShape shape, std::span<const Vec3> nodes, const Vec3& point)
       : shape_(shape),
         count_(nodes.size()),
         simplex_(isTet(shape)),
@@ -158,7 +158,7 @@ private:
     return J;
   }
 
-  CellShape shape_;
+  ElementShape shape_;
   std::size_t count_;
   bool simplex_, plane_;
   Vec3 point_;
@@ -173,7 +173,7 @@ std::string text(const Vec3& x) { return formatNumber(x.x) + ", " + formatNumber
 
 }  // namespace
 
-geometry::Box boxOf(CellShape shape, std::span<const Vec3> nodes) {
+geometry::Box boxOf(ElementShape shape, std::span<const Vec3> nodes) {
   geometry::Box box{nodes[0], nodes[0]};
   for (const Vec3& x : nodes) include(box, x);
   const auto corners = static_cast<std::size_t>(cornersOf(shape));
@@ -193,12 +193,12 @@ geometry::Box boxOf(CellShape shape, std::span<const Vec3> nodes) {
   return box;
 }
 
-ParentGuess guessParent(CellShape shape, std::span<const Vec3> nodes, const Vec3& point) {
+ParentGuess guessParent(ElementShape shape, std::span<const Vec3> nodes, const Vec3& point) {
   LocalCell cell(shape, nodes, point);
   return cell.solve(cell.centre());
 }
 
-std::optional<Vec3> searchParent(CellShape shape, std::span<const Vec3> nodes, const Vec3& point,
+std::optional<Vec3> searchParent(ElementShape shape, std::span<const Vec3> nodes, const Vec3& point,
                                  const std::string& name) {
   LocalCell cell(shape, nodes, point);
   std::vector<Part> parts{cell.whole()};

@@ -40,7 +40,7 @@ std::vector<Vec3> brickNodes(int count) {
   std::vector<Vec3> nodes = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                              {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   if (count >= 20)
-    for (const auto& [a, b] : edgesOf(CellShape::hex20))
+    for (const auto& [a, b] : edgesOf(ElementShape::hex20))
       nodes.push_back(0.5 * (nodes[static_cast<std::size_t>(a)] + nodes[static_cast<std::size_t>(b)]));
   if (count == 27)
     for (const Vec3& X : {Vec3{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {0, 0, 0}})
@@ -51,7 +51,7 @@ std::vector<Vec3> brickNodes(int count) {
 std::vector<Vec3> tetNodes(int count) {
   std::vector<Vec3> nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   if (count == 10)
-    for (const auto& [a, b] : edgesOf(CellShape::tet10))
+    for (const auto& [a, b] : edgesOf(ElementShape::tet10))
       nodes.push_back(0.5 * (nodes[static_cast<std::size_t>(a)] + nodes[static_cast<std::size_t>(b)]));
   return nodes;
 }
@@ -90,7 +90,7 @@ void tetFunctions(bool second, const Vec3& xi, std::span<double> value, std::spa
     gradient[a] = second ? (4.0 * l[a] - 1.0) * dl[a] : dl[a];
   }
   if (!second) return;
-  const auto edges = edgesOf(CellShape::tet10);
+  const auto edges = edgesOf(ElementShape::tet10);
   for (std::size_t e = 0; e < 6; ++e) {
     const auto a = static_cast<std::size_t>(edges[e][0]), b = static_cast<std::size_t>(edges[e][1]);
     value[4 + e] = 4.0 * l[a] * l[b];
@@ -108,10 +108,10 @@ std::vector<Vec3> planeNodes(int count) {
   return nodes;
 }
 
-void planeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient) {
+void planeFunctions(ElementShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient) {
   const auto n = static_cast<std::size_t>(nodesOf(shape));
   std::array<double, 8> byXi{}, byEta{};
-  faceFunctions(shape == CellShape::quad4 ? FaceShape::quad4 : FaceShape::quad8, xi.x, xi.y, value.first(n), byXi,
+  faceFunctions(shape == ElementShape::quad4 ? FaceShape::quad4 : FaceShape::quad8, xi.x, xi.y, value.first(n), byXi,
                 byEta);
   for (std::size_t a = 0; a < n; ++a) gradient[a] = {byXi[a], byEta[a], 0.0};
 }
@@ -160,7 +160,7 @@ void fineTetPoints(CellRule& rule) {
   addTetOrbit6(0.045503704125649649492, 0.042546020777081466438 / 6.0, rule);
 }
 
-CellRule withFunctions(CellShape shape, CellRule rule) {
+CellRule withFunctions(ElementShape shape, CellRule rule) {
   rule.nodes = nodesOf(shape);
   rule.points = static_cast<int>(rule.point.size());
   const auto n = static_cast<std::size_t>(rule.nodes);
@@ -172,22 +172,22 @@ CellRule withFunctions(CellShape shape, CellRule rule) {
   return rule;
 }
 
-CellRule makeForceRule(CellShape shape) {
+CellRule makeForceRule(ElementShape shape) {
   CellRule rule{};
   if (dimensionOf(shape) == 2)
-    shape == CellShape::quad4 ? planePoints(gauss2, rule) : planePoints(gauss3, rule);
-  else if (shape == CellShape::hex8)
+    shape == ElementShape::quad4 ? planePoints(gauss2, rule) : planePoints(gauss3, rule);
+  else if (shape == ElementShape::hex8)
     brickPoints(gauss2, rule);
   else if (!isTet(shape))
     brickPoints(gauss3, rule);
-  else if (shape == CellShape::tet4)
+  else if (shape == ElementShape::tet4)
     rule.point = {{0.25, 0.25, 0.25}}, rule.weight = {1.0 / 6.0};
   else
     addTetOrbit4(0.25 + 0.75 / std::sqrt(5.0), 1.0 / 24.0, rule);
   return withFunctions(shape, std::move(rule));
 }
 
-CellRule makeMassRule(CellShape shape) {
+CellRule makeMassRule(ElementShape shape) {
   CellRule rule{};
   if (dimensionOf(shape) == 2)
     planePoints(gauss3, rule);
@@ -198,13 +198,13 @@ CellRule makeMassRule(CellShape shape) {
   return withFunctions(shape, std::move(rule));
 }
 
-CellRule makeReducedRule(CellShape shape) {
+CellRule makeReducedRule(ElementShape shape) {
   CellRule rule{};
   planePoints(gauss2, rule);
   return withFunctions(shape, std::move(rule));
 }
 
-CellRule makeCentreRule(CellShape shape) {
+CellRule makeCentreRule(ElementShape shape) {
   CellRule rule{};
   rule.point = {isTet(shape) ? Vec3{0.25, 0.25, 0.25} : Vec3{}};
   rule.weight = {isTet(shape) ? 1.0 / 6.0 : dimensionOf(shape) == 2 ? 4.0 : 8.0};
@@ -213,35 +213,35 @@ CellRule makeCentreRule(CellShape shape) {
 
 }  // namespace
 
-const CellRule& forceRule(CellShape shape) {
+const CellRule& forceRule(ElementShape shape) {
   static const auto rules = perShape(makeForceRule);
   return rules[static_cast<std::size_t>(shape)];
 }
-const CellRule& massRule(CellShape shape) {
+const CellRule& massRule(ElementShape shape) {
   static const auto rules = perShape(makeMassRule);
   return rules[static_cast<std::size_t>(shape)];
 }
-const CellRule& reducedRule(CellShape shape) {
-  static const std::array rules = {makeReducedRule(CellShape::quad4), makeReducedRule(CellShape::quad8)};
-  return rules[shape == CellShape::quad8];
+const CellRule& reducedRule(ElementShape shape) {
+  static const std::array rules = {makeReducedRule(ElementShape::quad4), makeReducedRule(ElementShape::quad8)};
+  return rules[shape == ElementShape::quad8];
 }
-const CellRule& centreRule(CellShape shape) {
+const CellRule& centreRule(ElementShape shape) {
   static const auto rules = perShape(makeCentreRule);
   return rules[static_cast<std::size_t>(shape)];
 }
 }  // namespace detail
 
-std::span<const Vec3> parentNodes(CellShape shape) {
-  static const auto nodes = detail::perShape([](CellShape s) {
+std::span<const Vec3> parentNodes(ElementShape shape) {
+  static const auto nodes = detail::perShape([](ElementShape s) {
     if (dimensionOf(s) == 2) return detail::planeNodes(nodesOf(s));
     return detail::isTet(s) ? detail::tetNodes(nodesOf(s)) : detail::brickNodes(nodesOf(s));
   });
   return nodes[static_cast<std::size_t>(shape)];
 }
 
-void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient) {
-  if (detail::isTet(shape)) return detail::tetFunctions(shape == CellShape::tet10, xi, value, gradient);
-  if (shape == CellShape::hex8) {
+void shapeFunctions(ElementShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient) {
+  if (detail::isTet(shape)) return detail::tetFunctions(shape == ElementShape::tet10, xi, value, gradient);
+  if (shape == ElementShape::hex8) {
     std::ranges::copy(shapeValues(xi), value.begin());
     std::ranges::copy(parentGradients(xi), gradient.begin());
     return;
@@ -249,20 +249,20 @@ void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, st
   if (dimensionOf(shape) == 2) return detail::planeFunctions(shape, xi, value, gradient);
   const std::span<const Vec3> nodes = parentNodes(shape);
   for (std::size_t a = 0; a < nodes.size(); ++a)
-    if (shape == CellShape::hex20)
+    if (shape == ElementShape::hex20)
       detail::serendipity(nodes[a], xi, value[a], gradient[a]);
     else
-      detail::tensorProduct(nodes[a], xi, shape == CellShape::hex27, value[a], gradient[a]);
+      detail::tensorProduct(nodes[a], xi, shape == ElementShape::hex27, value[a], gradient[a]);
 }
 
-Vec3 nearestInParent(CellShape shape, const Vec3& xi) {
+Vec3 nearestInParent(ElementShape shape, const Vec3& xi) {
   if (!detail::isTet(shape))
     return {std::clamp(xi.x, -1.0, 1.0), std::clamp(xi.y, -1.0, 1.0), std::clamp(xi.z, -1.0, 1.0)};
   const Vec3 within{std::max(xi.x, 0.0), std::max(xi.y, 0.0), std::max(xi.z, 0.0)};
   return (1.0 / std::max(1.0, within.x + within.y + within.z)) * within;
 }
 
-std::vector<double> shapeRow(CellShape shape, const Vec3& xi) {
+std::vector<double> shapeRow(ElementShape shape, const Vec3& xi) {
   std::vector<double> row(static_cast<std::size_t>(nodesOf(shape)));
   std::array<Vec3, detail::maxCellNodes> gradient;
   shapeFunctions(shape, xi, row, std::span(gradient).first(row.size()));

@@ -10,9 +10,9 @@
 
 namespace dovetail::fem::detail {
 
-constexpr bool isTet(CellShape shape) { return shape == CellShape::tet4 || shape == CellShape::tet10; }
+constexpr bool isTet(ElementShape shape) { return shape == ElementShape::tet4 || shape == ElementShape::tet10; }
 
-/// make(shape) for all shapes, in the order of CellShape.
+/// make(shape) for all shapes, in the order of ElementShape.
 template <class Make>
 auto perShape(Make make) {
   return std::apply([&](auto... shape) { return std::array{make(shape)...}; }, allCellShapes);
@@ -31,20 +31,20 @@ struct CellRule {
   std::vector<Vec3> gradient;  ///< [nodes q + a]
 };
 /// For forces: hex8 2×2×2, hex20 and hex27 3×3×3, tet4 1, tet10 4, quad4 2×2, quad8 3×3 points.
-const CellRule& forceRule(CellShape shape);
+const CellRule& forceRule(ElementShape shape);
 /// Exact for products of two shape functions on affine cells.
-const CellRule& massRule(CellShape shape);
+const CellRule& massRule(ElementShape shape);
 /// For forces of quad8 with reduced integration: 2×2 points.
-const CellRule& reducedRule(CellShape shape);
+const CellRule& reducedRule(ElementShape shape);
 /// One point, at the centre.
-const CellRule& centreRule(CellShape shape);
+const CellRule& centreRule(ElementShape shape);
 
 /// The faces of a cell: local numbers of their nodes, counter-clockwise seen from outside.
 struct CellFaces {
   FaceShape shape;
   std::vector<std::array<int, 9>> node;  ///< −1 beyond nodesOf(shape)
 };
-const CellFaces& facesOf(CellShape shape);
+const CellFaces& facesOf(ElementShape shape);
 
 /// ψ_a(ξ, η) and its derivatives by ξ and η: quadrilaterals fill [−1, 1]², triangles ξ, η ≥ 0 with ξ + η ≤ 1, lines
 /// [−1, 1] for every η.

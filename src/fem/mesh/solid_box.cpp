@@ -21,19 +21,19 @@ constexpr std::array<std::array<int, 4>, 6> kuhnTets = {
     {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}}};
 
 /// The elements of one cell as places on its lattice.
-std::vector<std::vector<Place>> cellPattern(CellShape shape) {
+std::vector<std::vector<Place>> cellPattern(ElementShape shape) {
   if (dimensionOf(shape) == 2) {
     std::vector<Place> places(brickPlaces.begin(), brickPlaces.begin() + 4);
-    if (shape == CellShape::quad8) places.insert(places.end(), brickPlaces.begin() + 8, brickPlaces.begin() + 12);
+    if (shape == ElementShape::quad8) places.insert(places.end(), brickPlaces.begin() + 8, brickPlaces.begin() + 12);
     return {places};
   }
-  if (shape != CellShape::tet4 && shape != CellShape::tet10)
+  if (shape != ElementShape::tet4 && shape != ElementShape::tet10)
     return {std::vector<Place>(brickPlaces.begin(), brickPlaces.begin() + nodesOf(shape))};
   std::vector<std::vector<Place>> pattern;
   for (const auto& tet : kuhnTets) {
     std::vector<Place> places;
     for (const int corner : tet) places.push_back(brickPlaces[static_cast<std::size_t>(corner)]);
-    if (shape == CellShape::tet10)
+    if (shape == ElementShape::tet10)
       for (const auto& [a, b] : edgesOf(shape)) {
         const Place p = places[static_cast<std::size_t>(a)], q = places[static_cast<std::size_t>(b)];
         places.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
@@ -101,7 +101,7 @@ void addFaces(SolidMesh& mesh, std::span<const std::array<bool, 6>> sidesOfNode)
   }
 }
 
-void requireBox(CellShape shape, const Place& cells, const Vec3& lower, const Vec3& upper) {
+void requireBox(ElementShape shape, const Place& cells, const Vec3& lower, const Vec3& upper) {
   if (dimensionOf(shape) == 2 && cells[2] != 1)
     throw InputError("there are " + std::to_string(cells[2]) + " layers of " + name(shape), "box of elements, axis z",
                      "give 1");
@@ -116,7 +116,7 @@ void requireBox(CellShape shape, const Place& cells, const Vec3& lower, const Ve
 
 }  // namespace
 
-SolidMesh boxOf(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 upper) {
+SolidMesh boxOf(ElementShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 upper) {
   requireBox(shape, cells, lower, upper);
   const auto pattern = cellPattern(shape);
   Lattice lattice(cells);
@@ -139,7 +139,7 @@ SolidMesh boxOf(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 uppe
     if (std::find(on.begin(), on.end(), true) != on.end()) mesh.nodeSets["skin"].push_back(node);
   });
   if (dimensionOf(shape) == 2) mesh.thickness = upper.z - lower.z;
-  CellGroup& group = mesh.groups.emplace_back(CellGroup{shape, {}});
+  ElementGroup& group = mesh.groups.emplace_back(ElementGroup{shape, {}});
   forEachCell(cells, [&](const Place& cell) {
     for (const auto& element : pattern)
       for (const Place& place : element) group.node.push_back(lattice.node(sum(cell, place)));

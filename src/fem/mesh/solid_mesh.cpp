@@ -17,14 +17,14 @@ const auto& findSet(const auto& sets, const std::string& wanted, const char* kin
 
 }  // namespace
 
-const char* name(CellShape shape) {
+const char* name(ElementShape shape) {
   constexpr std::array<const char*, 7> names = {"hex8", "hex20", "hex27", "tet4", "tet10", "quad4", "quad8"};
   return names[static_cast<std::size_t>(shape)];
 }
 
 std::size_t SolidMesh::elementCount() const {
   std::size_t count = 0;
-  for (const CellGroup& group : groups) count += group.size();
+  for (const ElementGroup& group : groups) count += group.size();
   return count;
 }
 

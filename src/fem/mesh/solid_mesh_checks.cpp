@@ -12,11 +12,11 @@ namespace dovetail::fem {
 
 namespace detail {
 
-const std::vector<Vec3>& nodalGradients(CellShape shape) {
+const std::vector<Vec3>& nodalGradients(ElementShape shape) {
   static const auto all = [] {
     std::array<std::vector<Vec3>, allCellShapes.size()> gradients;
     for (std::size_t s = 0; s < gradients.size(); ++s) {
-      const auto each = static_cast<CellShape>(s);
+      const auto each = static_cast<ElementShape>(s);
       const auto n = static_cast<std::size_t>(nodesOf(each));
       gradients[s].resize(n * n);
       std::vector<double> value(n);
@@ -42,7 +42,7 @@ std::string listed(const char* item, std::span<const int> numbers) {
 namespace {
 
 /// Least det ∂X/∂ξ at the nodes and quadrature points.
-double leastDeterminant(CellShape shape, std::span<const int> nodes, const SolidMesh& mesh) {
+double leastDeterminant(ElementShape shape, std::span<const int> nodes, const SolidMesh& mesh) {
   const Vec3 depth = detail::depthOf(shape, mesh.thickness);
   const std::size_t n = nodes.size();
   double least = std::numeric_limits<double>::infinity();
@@ -100,7 +100,7 @@ void requireSets(const SolidMesh& mesh) {
 
 void requireOneDimension(const SolidMesh& mesh) {
   const int dimension = dimensionOf(mesh);
-  for (const CellGroup& group : mesh.groups)
+  for (const ElementGroup& group : mesh.groups)
     if (dimensionOf(group.shape) != dimension)
       throw InputError(std::string("the mesh has ") + name(mesh.groups[0].shape) + " and " + name(group.shape) +
                            " elements, of plane strain and of three dimensions",
@@ -128,7 +128,7 @@ void validate(const SolidMesh& mesh) {
   std::size_t number = 0;
   std::vector<int> bad;
   double worst = std::numeric_limits<double>::infinity();
-  for (const CellGroup& group : mesh.groups) {
+  for (const ElementGroup& group : mesh.groups) {
     const auto perElement = static_cast<std::size_t>(nodesOf(group.shape));
     if (group.node.size() % perElement != 0)
       throw InputError(std::to_string(group.node.size()) + " node numbers are no whole number of elements",

@@ -12,7 +12,8 @@ namespace {
 
 Solid* withHourglass(Term& term) {
   auto* const elements = dynamic_cast<Solid*>(&term);
-  const bool has = elements && elements->formulation() == Formulation::reduced && elements->shape() == CellShape::hex8;
+  const bool has =
+      elements && elements->formulation() == Formulation::reduced && elements->shape() == ElementShape::hex8;
   return has ? elements : nullptr;
 }
 

@@ -43,23 +43,23 @@ double largestDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 
 class Frames : public testing::TestWithParam<std::tuple<Joint, Frame>> {
 protected:
-  static Case scene(Windows windows) {
-    return {Element::hex8, SolidLaw::neoHookean, std::get<0>(GetParam()), ContactKind::frictional, windows};
+  static Case scene(MacroSteps macroSteps) {
+    return {Element::hex8, SolidLaw::neoHookean, std::get<0>(GetParam()), ContactKind::frictional, macroSteps};
   }
   static const Frame& frame() { return std::get<1>(GetParam()); }
-  static std::vector<Vec3> after(const Case& c, const Placement& at, int windows) {
+  static std::vector<Vec3> after(const Case& c, const Placement& at, int macroSteps) {
     const auto run = makeScene(c, at);
     startAt(*run, c, 0.05);
-    run->advance(windows);
+    run->advance(macroSteps);
     return places(*run, at);
   }
   /// Under weight, at full rest: with rolling resistance, without which spheres roll on for ever.
   static std::vector<Vec3> resting(Joint joint, const Placement& at) {
     const auto run =
-        makeScene({Element::hex8, SolidLaw::neoHookean, joint, ContactKind::rolling, Windows::explicit1}, at);
+        makeScene({Element::hex8, SolidLaw::neoHookean, joint, ContactKind::rolling, MacroSteps::explicit1}, at);
     std::ranges::fill(run->grains.particles.v, Vec3{});
     startAt(*run, {.joint = joint}, 0.6);
-    const coupling::RestReport rest = settle(*run, {.kinetic = 1e-18, .windows = 8000});
+    const coupling::RestReport rest = relax(*run, {.kinetic = 1e-18, .macroSteps = 8000});
     EXPECT_TRUE(rest.atRest) << rest.kinetic;
     return places(*run, at);
   }
@@ -67,8 +67,8 @@ protected:
 
 /// Before contacts begin or end, to round-off.
 TEST_P(Frames, ShortRunsAreTheSame) {
-  for (const Windows windows : {Windows::explicit1, Windows::implicit1}) {
-    const Case c = scene(windows);
+  for (const MacroSteps macroSteps : {MacroSteps::explicit1, MacroSteps::implicit1}) {
+    const Case c = scene(macroSteps);
     EXPECT_LE(largestDifference(after(c, {}, 40), after(c, frame().at, 40)), frame().tolerance * element) << nameOf(c);
   }
 }

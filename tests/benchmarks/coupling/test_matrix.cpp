@@ -1,4 +1,4 @@
-// Coupled scenes of elements, materials, couplings, contact laws and windows that hold every pair of these.
+// Coupled scenes of elements, materials, couplings, contact laws and macro steps that hold every pair of these.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -34,12 +34,12 @@ TEST_P(Matrix, TheBooksCloseAndDigitsStay) {
 }
 
 /// Runs in which particles are located anew: shares of contacts at walls change with those of the particles, and in
-/// windows of several steps ties are made where solid and particles are at the same instant.
+/// macro steps of several steps ties are made where solid and particles are at the same instant.
 TEST(MatrixLong, TheBooksCloseWhereTiesAreMadeAnew) {
-  for (const Windows windows : {Windows::explicit1, Windows::implicit1, Windows::implicit4})
+  for (const MacroSteps macroSteps : {MacroSteps::explicit1, MacroSteps::implicit1, MacroSteps::implicit4})
     for (const Joint joint : {Joint::penalty, Joint::multipliers})
       for (const ContactKind contact : {ContactKind::frictional, ContactKind::hertzMindlin, ContactKind::rolling}) {
-        const Case c{Element::hex8, SolidLaw::stVenantKirchhoff, joint, contact, windows};
+        const Case c{Element::hex8, SolidLaw::stVenantKirchhoff, joint, contact, macroSteps};
         const Figures figures = measure(c, 640);
         EXPECT_EQ(shortfall(c, figures), "") << nameOf(c);
       }
@@ -47,7 +47,7 @@ TEST(MatrixLong, TheBooksCloseWhereTiesAreMadeAnew) {
 
 /// Soil that is pulled up again flows at its apex, where it has no stiffness, in some points of an element.
 TEST(MatrixLong, EnhancedBricksOfSoilFindTheirModesUnderGrains) {
-  const Case c{Element::enhanced, SolidLaw::druckerPrager, Joint::surface, ContactKind::rolling, Windows::explicit1};
+  const Case c{Element::enhanced, SolidLaw::druckerPrager, Joint::surface, ContactKind::rolling, MacroSteps::explicit1};
   EXPECT_EQ(shortfall(c, measure(c, 400)), "");
 }
 

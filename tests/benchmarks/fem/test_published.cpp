@@ -5,12 +5,12 @@
 namespace dovetail::verification {
 namespace {
 
-using fem::CellShape;
+using fem::ElementShape;
 using fem::Formulation;
 
-const ElementKind enhanced{CellShape::hex8, Formulation::enhanced};
-const ElementKind meanDilatation{CellShape::hex8, Formulation::meanDilatation};
-const ElementKind hex20{CellShape::hex20}, hex27{CellShape::hex27}, tet10{CellShape::tet10};
+const ElementKind enhanced{ElementShape::hex8, Formulation::enhanced};
+const ElementKind meanDilatation{ElementShape::hex8, Formulation::meanDilatation};
+const ElementKind hex20{ElementShape::hex20}, hex27{ElementShape::hex27}, tet10{ElementShape::tet10};
 
 void expectWithin(double value, double reference, double share, const std::string& what) {
   EXPECT_NEAR(value / reference, 1.0, share) << what;
@@ -51,7 +51,7 @@ TEST(Published, CooksMembraneGivesThePublishedTables) {
   const std::pair<int, std::array<double, 2>> table[] = {
       {1, {5.15, 12.19}}, {2, {8.72, 13.83}}, {4, {12.02, 14.22}}, {8, {13.61, 14.30}}};
   for (const auto& [perEdge, tips] : table) {
-    EXPECT_NEAR(1e3 * cooksMembrane({CellShape::hex8}, perEdge, 0.3, Sides::free).tip, tips[0], 0.005) << perEdge;
+    EXPECT_NEAR(1e3 * cooksMembrane({ElementShape::hex8}, perEdge, 0.3, Sides::free).tip, tips[0], 0.005) << perEdge;
     EXPECT_NEAR(1e3 * cooksMembrane(hex27, perEdge, 0.3, Sides::free).tip, tips[1], 0.005) << perEdge;
   }
   for (const ElementKind& kind : {enhanced, meanDilatation, hex20})
@@ -71,10 +71,10 @@ TEST(Published, CooksMembraneInPlaneStrainConverges) {
 /// ν = 0.4999. The tip converges to 11.48 mm: that of hex27 with mean dilatation and 16 cells per edge.
 TEST(Published, CooksMembraneNearlyIncompressibleNeitherLocksNorAlternates) {
   constexpr double converged = 11.4818e-3;
-  const Membrane best = cooksMembrane({CellShape::hex27, Formulation::meanDilatation}, 8, 0.4999);
+  const Membrane best = cooksMembrane({ElementShape::hex27, Formulation::meanDilatation}, 8, 0.4999);
   expectWithin(best.tip, converged, 2e-3, "hex27 mean dilatation");
   EXPECT_LT(pressureSteps(best, 12e-3).checkerboard, 0.05);
-  const Membrane hex20Means = cooksMembrane({CellShape::hex20, Formulation::meanDilatation}, 16, 0.4999);
+  const Membrane hex20Means = cooksMembrane({ElementShape::hex20, Formulation::meanDilatation}, 16, 0.4999);
   expectWithin(hex20Means.tip, converged, 1e-2, "hex20 mean dilatation");
   EXPECT_LT(pressureSteps(hex20Means, 12e-3).checkerboard, 0.05);
   expectWithin(cooksMembrane(meanDilatation, 16, 0.4999).tip, converged, 2e-2, "hex8 mean dilatation");

@@ -15,7 +15,7 @@ using geometry::TriangleMesh;
 /// The unit cube, each side cut into two facets.
 TriangleMesh cube() {
   TriangleMesh mesh;
-  const SolidMesh box = boxOf(CellShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
+  const SolidMesh box = boxOf(ElementShape::hex8, {1, 1, 1}, {}, {1.0, 1.0, 1.0});
   mesh.x = box.X;
   for (const Face& f : boundaryFaces(box)) {
     mesh.facets.push_back({f.node[0], f.node[1], f.node[2]});

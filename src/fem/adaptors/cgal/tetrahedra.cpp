@@ -43,7 +43,7 @@ Polyhedron makePolyhedron(const geometry::TriangleMesh& surface) {
 
 SolidMesh toMesh(const Complex& complex) {
   SolidMesh mesh;
-  CellGroup& group = mesh.groups.emplace_back(CellGroup{CellShape::tet4, {}});
+  ElementGroup& group = mesh.groups.emplace_back(ElementGroup{ElementShape::tet4, {}});
   std::map<Triangulation::Vertex_handle, int> number;
   for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell)
     for (int k = 0; k < 4; ++k) {

@@ -14,14 +14,14 @@ namespace {
 
 struct VtkType {
   int code, nodes, dimension;
-  fem::CellShape shape;
+  fem::ElementShape shape;
 };
-constexpr auto none = fem::CellShape::hex8;
-constexpr std::array<VtkType, 13> types = {{{VTK_HEXAHEDRON, 8, 3, fem::CellShape::hex8},
-                                            {VTK_QUADRATIC_HEXAHEDRON, 20, 3, fem::CellShape::hex20},
-                                            {VTK_TRIQUADRATIC_HEXAHEDRON, 27, 3, fem::CellShape::hex27},
-                                            {VTK_TETRA, 4, 3, fem::CellShape::tet4},
-                                            {VTK_QUADRATIC_TETRA, 10, 3, fem::CellShape::tet10},
+constexpr auto none = fem::ElementShape::hex8;
+constexpr std::array<VtkType, 13> types = {{{VTK_HEXAHEDRON, 8, 3, fem::ElementShape::hex8},
+                                            {VTK_QUADRATIC_HEXAHEDRON, 20, 3, fem::ElementShape::hex20},
+                                            {VTK_TRIQUADRATIC_HEXAHEDRON, 27, 3, fem::ElementShape::hex27},
+                                            {VTK_TETRA, 4, 3, fem::ElementShape::tet4},
+                                            {VTK_QUADRATIC_TETRA, 10, 3, fem::ElementShape::tet10},
                                             {VTK_TRIANGLE, 3, 2, none},
                                             {VTK_QUADRATIC_TRIANGLE, 6, 2, none},
                                             {VTK_QUAD, 4, 2, none},

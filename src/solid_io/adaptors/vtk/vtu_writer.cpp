@@ -29,7 +29,7 @@ void setCells(vtkUnstructuredGrid* grid, const fem::SolidMesh& mesh) {
   vtkNew<vtkIdTypeArray> offsets, connectivity;
   vtkNew<vtkUnsignedCharArray> types;
   offsets->InsertNextValue(0);
-  for (const fem::CellGroup& group : mesh.groups) {
+  for (const fem::ElementGroup& group : mesh.groups) {
     for (const int node : group.node) connectivity->InsertNextValue(node);
     for (std::size_t e = 0; e < group.size(); ++e) {
       offsets->InsertNextValue(offsets->GetValue(offsets->GetNumberOfValues() - 1) + fem::nodesOf(group.shape));

@@ -11,7 +11,7 @@
 namespace dovetail::arlequin {
 
 struct Cell {
-  fem::CellShape shape;
+  fem::ElementShape shape;
   std::span<const int> node;            ///< all its nodes
   std::span<const int> corner() const;  ///< the first of them
 };
@@ -25,7 +25,7 @@ void requireSpatialCells(const fem::SolidMesh& mesh);
 /// ψ of the corners alone, as of the cell of first order with the same corners: not negative anywhere, whatever the
 /// order of the cell; their sum is one. Beyond the cell they go on as they are at its border.
 /// @param xi  parent coordinates
-std::vector<double> cornerHats(fem::CellShape shape, const Vec3& xi);
+std::vector<double> cornerHats(fem::ElementShape shape, const Vec3& xi);
 
 /// A point of a quadrature: hats of the corners, place and weight (m³).
 struct CellPoint {

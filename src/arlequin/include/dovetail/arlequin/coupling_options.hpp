@@ -17,8 +17,8 @@ struct CouplingOptions {
   ConstraintKind constraint = ConstraintKind::penalty;
   double penalty = 0.0;            ///< p, or ε of the dashpot, Pa/m²; 0 = automaticPenalty (dashpot: none)
   bool consistentDashpot = false;  ///< ∫ψ_iψ_j instead of its row sums
-  /// The forces of a window's increment act over the whole of the next one, as the authors of the dashpot step (Cheng
-  /// et al. 2023); implicit solids only. Where two windows meet, the halves of both make their mean.
+  /// The forces of a macro step's increment act over the whole of the next one, as the authors of the dashpot step
+  /// (Cheng et al. 2023); implicit solids only. Where two macro steps meet, the halves of both make their mean.
   bool dashpotLags = false;
   double absorberRate = 0.0;  ///< 1/s; 0 = no absorber
   /// Particles with a smaller share have passed the border of the particles within the solid: they leave the scene. The

@@ -1,7 +1,7 @@
 // The largest stable step of particles and a solid that share an overlap, and who sets it.
 #pragma once
 
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 
 namespace dovetail::arlequin {
 
@@ -18,6 +18,6 @@ struct CriticalStep {
 /// @param side       of the one solid; null: particles alone   @param massShare  of its consistent mass
 /// @param tie        null: none
 /// @throws NumericalError if the iteration meets a number that is not finite
-CriticalStep criticalStep(dem::Model& grains, coupling::SolidSide* side, double massShare, OverlapTie* tie);
+CriticalStep criticalStep(dem::Model& grains, coupling::SolidSide* side, double massShare, ArlequinCoupling* tie);
 
 }  // namespace dovetail::arlequin

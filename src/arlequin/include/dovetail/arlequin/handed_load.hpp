@@ -33,7 +33,7 @@ struct TakeOverOptions {
 /// Initial stress: deforms the solid until it is in equilibrium under its own terms and what the particles hand over
 /// where its mesh then is: the overlap moves with the mesh, so give all particles, and take those beyond the border
 /// (particlesBeyond) out afterwards, before you tie. They are tied where they are, without a gap, and what a tie of
-/// elements cannot balance particle by particle is left to coupling::settle. A particle that has left the overlap in
+/// elements cannot balance particle by particle is left to coupling::relax. A particle that has left the overlap in
 /// one round, or is elsewhere in periodic space, hands nothing over from then on. Loads and prescribed motions are
 /// those of the solid's time, in which nothing creeps; velocities stay; masses are set if they are not (fem::addMass).
 /// @param change  if given: what is left between the load that the solid carries and that which it is handed where it

@@ -9,7 +9,7 @@
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 #include "dovetail/dem/particles/particles.hpp"
-#include "dovetail/fem/mesh/cell_locator.hpp"
+#include "dovetail/fem/mesh/element_locator.hpp"
 #include "dovetail/fem/model/nodes.hpp"
 
 namespace dovetail::arlequin {

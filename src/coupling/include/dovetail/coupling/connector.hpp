@@ -32,13 +32,12 @@ public:
 
   /// Whether it answers other forces: then it has the order `constraints`.
   bool constrains() const { return order() == Order::constraints; }
-  /// Of constraints, in windows of several steps: the force, constant in both half windows around the present instant,
-  /// that answers forces which act there only: adds to `onParticles` and `load`, N.
-  /// `ownForce` is that of the solid, N; empty if the solid is stepped implicitly, and velocities are to be made to
-  /// comply.
-  /// `half` is half a window, s.
-  virtual void constrainWindow(const dem::Model&, std::span<const Vec3> /*ownForce*/, double /*half*/,
-                               std::span<Vec3> /*onParticles*/, NodalLoad& /*load*/) const {}
+  /// Of constraints, in macro steps of several steps: the force, constant in both half macro steps around the present
+  /// instant, that answers forces which act there only: adds to `onParticles` and `load`, N. `ownForce` is that of the
+  /// solid, N; empty if the solid is stepped implicitly, and velocities are to be made to comply. `half` is half a
+  /// macro step, s.
+  virtual void constrainMacroStep(const dem::Model&, std::span<const Vec3> /*ownForce*/, double /*half*/,
+                                  std::span<Vec3> /*onParticles*/, NodalLoad& /*load*/) const {}
 
   /// Of those that share a volume with their solid: 1 − w of the solid per node, and marks of the particles that are
   /// tied to it (not 0): its surface acts with that share, and does not meet these. Nothing of others.

@@ -8,13 +8,13 @@ namespace dovetail::coupling {
 /// How far it has come; with the run's own state all that there is to go on from.
 struct RestProgress {
   RestReport report;
-  double before = 0.0;     ///< J, kinetic energy at the window before
+  double before = 0.0;     ///< J, kinetic energy at the macro step before
   std::int32_t quiet = 0;  ///< swings in a row that were at rest
 };
 
-/// Goes on with settle(run, options) by up to so many windows: any number of parts is the same as one.
+/// Goes on with relax(run, options) by up to so many macro steps: any number of parts is the same as one.
 /// @return whether it has ended, at rest or given up (report.atRest)
-/// @throws as settle
-bool settleOn(CoupledRun& run, const RestOptions& options, RestProgress& progress, std::int64_t windows);
+/// @throws as relax
+bool relaxOn(CoupledRun& run, const RestOptions& options, RestProgress& progress, std::int64_t macroSteps);
 
 }  // namespace dovetail::coupling

@@ -45,11 +45,11 @@ enum class Lag {
 
 struct RunOptions {
   /// K: particle steps per step of the solids. Explicit: impulse multiple time stepping (Tuckerman, Berne & Martyna,
-  /// J. Chem. Phys. 97, 1992), the solids' own forces kick the nodes at the ends of windows of K dt, connectors at
+  /// J. Chem. Phys. 97, 1992), the solids' own forces kick the nodes at the ends of macro steps of K dt, connectors at
   /// every step; K dt below the solids' limit and away from half the period of what connectors do. Implicit: ⌊K/2⌋
   /// steps on the standing solid · the solid moves by K dt · ⌊K/2⌋ steps; for odd K it moves inside the step in the
   /// middle.
-  int stepsPerWindow = 1;
+  int stepsPerMacroStep = 1;
   Lag lag = Lag::none;
 };
 
@@ -87,7 +87,7 @@ struct Reactions {
   std::vector<Vec3> ties;      ///< at components that are tied
 };
 
-/// Windows are symmetric in time and symplectic unless a solid dissipates or lags, so the error of the energy is of
+/// Macro steps are symmetric in time and symplectic unless a solid dissipates or lags, so the error of the energy is of
 /// second order in the step and does not drift.
 class CoupledRun {
 public:
@@ -116,41 +116,42 @@ public:
   /// The limit of the step at the start, for whoever chooses the step by it: finds forces and opens no books.
   /// @throws InputError as start, but for the step, and if the run has started
   StepLimit limitAtStart(const RunOptions& options = {});
-  /// Windows of K steps. The last one's end is an instant at which positions and velocities agree.
+  /// Macro steps of K steps. The last one's end is an instant at which positions and velocities agree.
   /// @param withEnergies  false: there will be no ledger() at the end, which saves its energies
-  /// @throws InputError if windows is negative; NumericalError naming the particle, node or element that breaks down
-  void advance(std::int64_t windows = 1, bool withEnergies = true);
+  /// @throws InputError if macro steps is negative; NumericalError naming the particle, node or element that breaks
+  /// down
+  void advance(std::int64_t macroSteps = 1, bool withEnergies = true);
 
-  /// All velocities to zero, between windows; what that takes is booked as "brought to rest".
+  /// All velocities to zero, between macro steps; what that takes is booked as "kinetic damping".
   void stop();
-  /// Implicit solids lose from the next window on what rings at periods of few windows, or no more; settle() asks for
-  /// it while it goes on. In the books as the dissipation of the scheme.
+  /// Implicit solids lose from the next macro step on what rings at periods of few macro steps, or no more; relax()
+  /// asks for it while it goes on. In the books as the dissipation of the scheme.
   void damp(bool on);
   /// Of particles, bodies and solids, J.
   double kineticEnergy() const;
 
   double time() const { return grains.time; }
   double dt() const;
-  double window() const;  ///< K dt, s
+  double macroStep() const;  ///< K dt, s
 
   // What follows needs forces: InputError before start().
   /// Sets all channels to the present state, and its extremes. Particles, solids and connectors by name; the baseline
   /// is the state at the first start.
   const EnergyLedger& ledger();
   Totals totals() const;
-  /// Of solid k at the end of the last window: M a − f, with the accelerations a that the forces f and the motion of
-  /// supports (second differences over a window) make. Sums of `supports` and of all loads are the rate of the
+  /// Of solid k at the end of the last macro step: M a − f, with the accelerations a that the forces f and the motion
+  /// of supports (second differences over a macro step) make. Sums of `supports` and of all loads are the rate of the
   /// momentum.
   Reactions reactions(std::size_t k) const;
   /// What the linear systems of solid k are going to take; nothing for explicit steps.
   fem::LinearForecast forecast(std::size_t k);
   /// Of steps with the contacts, elements and connectors as they are now, and with the first contacts of particles that
-  /// touch nobody yet (dem::impactLimit). All connectors of a solid and its own forces share the same nodes; in windows
-  /// of K steps see dem::criticalStep. A run under way looks at its state now and then and tells in grains.passed when
-  /// that has passed the limit.
+  /// touch nobody yet (dem::impactLimit). All connectors of a solid and its own forces share the same nodes; in macro
+  /// steps of K steps see dem::criticalStep. A run under way looks at its state now and then and tells in grains.passed
+  /// when that has passed the limit.
   StepLimit criticalStep();
 
-  /// The state between windows. A run that is set up alike and started goes on from it with the same digits.
+  /// The state between macro steps. A run that is set up alike and started goes on from it with the same digits.
   std::vector<char> save();
   /// @throws InputError if the state is of another scene or damaged; the run is then as it was
   void load(const std::vector<char>& state);
@@ -171,13 +172,13 @@ struct RestOptions {
   /// At rest when no swing has had a kinetic energy above this share of the elastic energy, twice in a row; where
   /// nothing moves at all, whatever there is of energies.
   double kinetic = 1e-8;
-  std::int64_t windows = 200000;  ///< given up after so many
+  std::int64_t macroSteps = 200000;  ///< given up after so many
 };
 
 struct RestReport {
   bool atRest = false;
-  double kinetic = 0.0;      ///< the largest of the last swing, or since, over the elastic energy
-  std::int64_t windows = 0;  ///< taken
+  double kinetic = 0.0;         ///< the largest of the last swing, or since, over the elastic energy
+  std::int64_t macroSteps = 0;  ///< taken
   std::int64_t stops = 0;
 };
 
@@ -194,10 +195,10 @@ std::vector<SolidOfState> solidsOf(const std::vector<char>& state);
 
 /// Steps a started run until it is at rest under the loads that it has: whenever the kinetic energy has passed a peak
 /// everything is stopped (kinetic damping: Cundall 1976). Contacts remember as in any other step, so friction holds
-/// what it can. Time goes on by the windows taken, and loads that are functions of it with it. Windows count, not the
-/// accuracy on the way: a step of half the limit rests in a third of the windows that a fifth takes. Spheres without
-/// rolling resistance may roll on for ever.
+/// what it can. Time goes on by the macro steps taken, and loads that are functions of it with it. Macro steps count,
+/// not the accuracy on the way: a step of half the limit rests in a third of the macro steps that a fifth takes.
+/// Spheres without rolling resistance may roll on for ever.
 /// @throws InputError for options out of range; NumericalError as advance
-RestReport settle(CoupledRun& run, const RestOptions& options = {});
+RestReport relax(CoupledRun& run, const RestOptions& options = {});
 
 }  // namespace dovetail::coupling

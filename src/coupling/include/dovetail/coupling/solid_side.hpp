@@ -19,8 +19,8 @@ enum class Stepping {
   implicitSteps   ///< nodes stand still while particles make K steps, but for one jump in their middle
 };
 
-/// Positions and velocities of the nodes belong to the same instant as those of the particles, but within windows of
-/// solids that are stepped implicitly: there nodes are behind or ahead by up to half a window.
+/// Positions and velocities of the nodes belong to the same instant as those of the particles, but within macro steps
+/// of solids that are stepped implicitly: there nodes are behind or ahead by up to half a macro step.
 struct SolidSide {
   std::string name;
   fem::Model* model = nullptr;
@@ -29,7 +29,7 @@ struct SolidSide {
   bool isInStep = true;  ///< nodes and particles are at the same instant; what is located, is located then
   NodalLoad load;        ///< N, of all connectors in the evaluation under way: they add to it
   /// Forces of the solid's own terms in this evaluation, N, one per node; empty where they act at other instants only
-  /// (windows of several steps, implicit solids). For constraints, which answer the sum of all forces.
+  /// (macro steps of several steps, implicit solids). For constraints, which answer the sum of all forces.
   std::span<const Vec3> own;
 
   double supportWork = 0.0;  ///< J, by supports that move, in kicks by connectors

@@ -24,7 +24,7 @@ enum class Operator {
 
 /// Statics: every answer is a path from the committed cell to F, then rest: by FIRE to path.rest.unbalanced, from there
 /// to `unbalanced`, if that is less, by Newton's method.
-struct RestingCells {
+struct QuasiStaticCells {
   rve::PathSettings path{.rest = {.unbalanced = 1e-6}};
   double unbalanced = 1e-6;  ///< at rest when Balance::unbalanced is no more than this, > 0
   Operator tangent = Operator::network;
@@ -32,7 +32,7 @@ struct RestingCells {
 
 /// Explicit dynamics: cells are stepped along and never wait for rest. Their clock is their own: of a contact law
 /// without rates, only how far they are from rest depends on it.
-struct MovingCells {
+struct DynamicCells {
   double strainPerStep = 3e-5;  ///< at most, of a step of the grains; > 0
   double damping = 0.1;         ///< as in rve::step, in [0, 1)
   double stepShare = 0.8;       ///< of the cell's critical step, in (0, 1)
@@ -44,20 +44,20 @@ struct MovingCells {
 /// The tangent is not symmetric. A point that has no answer says why: the step is cut.
 /// @param bank  cells of the same shape and springs, at rest and under pressure at F = 1
 /// @throws InputError for no cells, one that is not of that kind, or a setting that is not valid
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const RestingCells& settings = {});
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const QuasiStaticCells& settings = {});
 
 /// The same for explicit dynamics. The tangent, from which stable steps follow, is uniformStrain: an upper bound.
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const MovingCells& settings);
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const DynamicCells& settings);
 
 /// From the present deformation to F and to rest there, as points do in statics.
 /// @throws InputError as rve::followPath, or if a setting is not valid; NumericalError if the cell does not come to
 /// rest, or no grains touch there
-void settle(rve::Cell& cell, const Eigen::Matrix3d& F, const RestingCells& settings);
+void relax(rve::Cell& cell, const Eigen::Matrix3d& F, const QuasiStaticCells& settings);
 
 /// From the present deformation to F, in as many steps as strainPerStep asks for, at least one.
 /// @throws InputError for F with det F ≤ 0 or, for discs, out of the plane, or if a setting is not valid;
 ///   NumericalError as rve::step, or if a million steps are not enough
-void stepTo(rve::Cell& cell, const Eigen::Matrix3d& F, const MovingCells& settings);
+void stepTo(rve::Cell& cell, const Eigen::Matrix3d& F, const DynamicCells& settings);
 
 /// Why a cell is too small to stand for its material, empty if it is not: fewer than 100 grains, or thinner than 6 mean
 /// diameters. Names of fields of such cells say so.

@@ -23,7 +23,7 @@ struct RunSettings {
 /// Runs all stages and writes into the folder: scene.json (the scene in full), series.csv and, if wanted, series.h5,
 /// summary.txt and summary.json, frames (docs/outputs.md) and checkpoint.state, the one before as
 /// checkpoint.previous.state. Every file names the build and the scene's hash. A run that is asked to end by a signal
-/// (io/interruption.hpp) ends within 20 windows with a checkpoint.
+/// (io/interruption.hpp) ends within 20 macro steps with a checkpoint.
 /// @param log  for the summary and progress
 /// @return whether all was done; false: a signal asked to end
 /// @throws InputError before any step; NumericalError if the run breaks down: what was written stays
@@ -40,7 +40,7 @@ Scene readRun(const std::filesystem::path& folder);
 bool resume(const RunSettings& settings, std::ostream& log);
 
 /// Builds and starts the scene, and tells its sizes, all limits of the step, and what steps, memory, time and room on
-/// disk a run takes, from windows that are stepped for up to a second.
+/// disk a run takes, from macro steps that are stepped for up to a second.
 /// @throws InputError as build and start; NumericalError if the first steps break down
 void check(const Scene& scene, std::ostream& log);
 

@@ -18,21 +18,21 @@ struct Domain {
   std::string where;
 };
 
-struct Settle {
+struct Relax {
   double kinetic = 1e-8;
-  std::int64_t windows = 200000;
+  std::int64_t macroSteps = 200000;
 };
 struct RunFor {
   double time = required;  ///< s
 };
 struct Stage {
-  std::variant<Settle, RunFor> kind;
+  std::variant<Relax, RunFor> kind;
   std::string where;
 };
 struct Steps {
   NumberOrWord dt{0.0, "auto"};  ///< s
   double safety = 0.2;           ///< share of the critical step, with "auto": see start
-  int stepsPerWindow = 1;
+  int stepsPerMacroStep = 1;
   int lag = 0;      ///< coupling::Lag
   int threads = 0;  ///< 0: all processors
   std::string where;

@@ -1,8 +1,8 @@
 // Meshes of solids from files and into files: Gmsh MSH and Abaqus INP (which CalculiX reads).
 //
 // Rules of all readers. Coordinates are taken as they are; what they mean in metres is the caller's business. Nodes are
-// put into the order of fem::CellShape. Volume elements make the mesh; surface elements are taken as names for faces of
-// volume elements, lines and points as names for nodes. Of a file without volume elements the quadrilaterals of four
+// put into the order of fem::ElementShape. Volume elements make the mesh; surface elements are taken as names for faces
+// of volume elements, lines and points as names for nodes. Of a file without volume elements the quadrilaterals of four
 // and eight nodes make a mesh of plane strain, 1 m thick, if they lie in a plane z = const, counter-clockwise seen from
 // +z; its lines are names for faces then. Other surface elements are refused there. Nodes that no cell uses are
 // dropped, from the sets too. Elements with the nodes of an earlier one are dropped, and their sets go to the earlier

@@ -48,27 +48,27 @@ struct ContactDemand {
   /// the same masses.
   struct Side {
     const void* of;
-    std::size_t first, end;  ///< of `masses`
-    bool inWindows = false;  ///< kicked in every step, but moved once a window (implicit solids)
-    double ownRate = 0.0;    ///< ω² of forces of its own, which act at the ends of windows, 1/s²
+    std::size_t first, end;     ///< of `masses`
+    bool inMacroSteps = false;  ///< kicked in every step, but moved once a macro step (implicit solids)
+    double ownRate = 0.0;       ///< ω² of forces of its own, which act at the ends of macro steps, 1/s²
   };
   struct Mass {
     double inverse = 0.0;                   ///< 1/kg; 0: held, or carried by others
     Range carriedBy{};                      ///< by these at these rates
     double stiffness = 0.0, damping = 0.0;  ///< what is asked of it, then over the mass
   };
-  std::vector<double> stiffness;                             ///< N/m, per particle: sum over its contacts and bonds
-  std::vector<double> damping;                               ///< N s/m, the same of the dashpots
-  std::vector<double> byTies;                                ///< N/m, what of it ties to solids ask; or empty
-  std::vector<double> atWindows;                             ///< N/m, of forces at the ends of windows only; or empty
-  std::vector<Link> links;                                   ///< contacts and bonds
-  std::vector<std::string> surfaces;                         ///< names of what links without a partner are with
+  std::vector<double> stiffness;      ///< N/m, per particle: sum over its contacts and bonds
+  std::vector<double> damping;        ///< N s/m, the same of the dashpots
+  std::vector<double> byTies;         ///< N/m, what of it ties to solids ask; or empty
+  std::vector<double> atMacroSteps;   ///< N/m, of forces at the ends of macro steps only; or empty
+  std::vector<Link> links;            ///< contacts and bonds
+  std::vector<std::string> surfaces;  ///< names of what links without a partner are with
   double twoBody = std::numeric_limits<double>::infinity();  ///< see ContactStep
 
   std::vector<int> body;      ///< per particle: the body it is a member of, −1 = none; empty: there are no clumps
   std::vector<double> lever;  ///< per particle: a member's mass over the effective mass that its contacts meet, ≥ 1
 
-  int window = 1;  ///< K: steps per window
+  int macroStep = 1;  ///< K: steps per macro step
   std::vector<Side> sides;
   std::vector<Mass> masses;
   std::vector<Share> shares;
@@ -97,12 +97,12 @@ namespace detail {
 /// Largest dt with a dt² + 2 b dt ≤ 4; a in 1/s², b in 1/s.
 inline double verletLimit(double a, double b) { return 4.0 / (b + std::sqrt(b * b + 4.0 * a)); }
 
-/// What acts in every step, and what acts or moves once a window: ω², 1/s², and 2ζω, 1/s.
+/// What acts in every step, and what acts or moves once a macro step: ω², 1/s², and 2ζω, 1/s.
 struct LinkRates {
-  double stiff = 0.0, damped = 0.0, windowStiff = 0.0, windowDamped = 0.0;
+  double stiff = 0.0, damped = 0.0, macroStiff = 0.0, macroDamped = 0.0;
 };
-/// Largest stable dt of windows of K steps.
-double windowLimit(const LinkRates& rates, int K);
+/// Largest stable dt of macro steps of K steps.
+double macroLimit(const LinkRates& rates, int K);
 
 /// The law of a pair of materials.
 /// @throws InputError if the table has no such pair
@@ -188,8 +188,8 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
 /// tangential one with the rolling one over 2/5 R². Members of a clump share their body's mass and inertia. Take 0.2 of
 /// it or less for accuracy.
 ///
-/// In windows of K steps, with a the rate of what acts and moves in every step and g that of what acts, or moves, once
-/// a window (own forces of explicit solids; nodes of implicit ones), K φ < π and
+/// In macro steps of K steps, with a the rate of what acts and moves in every step and g that of what acts, or moves,
+/// once a macro step (own forces of explicit solids; nodes of implicit ones), K φ < π and
 ///   (K dt)² g / 4 ≤ (1 − dt² a / 4) K tan(φ/2) / tan(K φ/2),   sin(φ/2) = dt √a / 2,
 /// the first resonance of impulses with what moves in between (Biesiadecki & Skeel, J. Comput. Phys. 109, 1993, for
 /// exact motion in between); with K = 1 a and g add up. No implicit scheme lifts it: what a connector does to standing

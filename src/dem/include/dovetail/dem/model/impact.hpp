@@ -19,7 +19,7 @@ struct ImpactPartner {
   double speed = 0.0;                 ///< largest, m/s
   geometry::Box box{};                ///< where it is, m: as much as it takes to tell how far particles may fall
   const void* of = nullptr;           ///< as ContactDemand::Side
-  bool inWindows = false;
+  bool inMacroSteps = false;
 };
 
 /// The impact that asks for the shortest step, and the one that goes deepest.
@@ -31,7 +31,7 @@ struct ImpactLimit {
 };
 
 struct ImpactSettings {
-  int window = 1;                                ///< K
+  int macroStep = 1;                             ///< K
   std::function<double(const void*)> ownRate{};  ///< ContactDemand::Side::ownRate of a partner; empty: 0
 };
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dovetail/fem/elements/solid.hpp"
-#include "dovetail/fem/mesh/cell_locator.hpp"
+#include "dovetail/fem/mesh/element_locator.hpp"
 
 namespace dovetail::fem {
 
@@ -17,7 +17,7 @@ public:
   /// @throws InputError if no element is there
   MaterialPoint(const SolidMesh& mesh, const Vec3& X);
   /// The same for many points. @param locator  of the mesh in its reference configuration
-  MaterialPoint(const SolidMesh& mesh, const CellLocator& locator, const Vec3& X);
+  MaterialPoint(const SolidMesh& mesh, const ElementLocator& locator, const Vec3& X);
 
   /// Number in the mesh of the element that holds it; of several, the first.
   int element() const { return element_; }
@@ -31,7 +31,7 @@ public:
 
 private:
   int element_ = -1;
-  CellShape shape_{};
+  ElementShape shape_{};
   Vec3 xi_;  // in the parent cell
   std::vector<int> node_;
   std::vector<Vec3> X_;  // of the nodes, m

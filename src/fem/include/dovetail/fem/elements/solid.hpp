@@ -69,7 +69,7 @@ public:
   virtual std::vector<double> elementEnergies(const Nodes& nodes, const Instant& now) = 0;
   /// Weight of the integrals per node of the mesh; empty = 1.
   virtual std::span<const double> share() const = 0;
-  virtual CellShape shape() const = 0;
+  virtual ElementShape shape() const = 0;
   virtual Formulation formulation() const = 0;
   /// Number in the mesh of element e.
   virtual int number(std::size_t e) const = 0;

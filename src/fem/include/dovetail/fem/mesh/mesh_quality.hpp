@@ -23,7 +23,7 @@ struct ElementQuality {
 
 /// Elements of one shape together.
 struct ShapeQuality {
-  CellShape shape{};
+  ElementShape shape{};
   std::size_t elements = 0;
   double volume = 0.0;  ///< m³
   double worstJacobian = 0.0, meanJacobian = 0.0;

@@ -15,7 +15,7 @@ namespace dovetail::fem {
 
 /// boxOf with every node moved to map(X); the thickness of plane cells stays.
 /// @throws InputError as boxOf and, if the map turns an element inside out or flattens it, as validate
-SolidMesh mappedBox(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 upper,
+SolidMesh mappedBox(ElementShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 upper,
                     const std::function<Vec3(const Vec3&)>& map);
 
 /// One mesh of several: nodes within `tolerance` of each other become one (the first of them keeps its place), sets of
@@ -36,20 +36,20 @@ SolidMesh secondOrder(const SolidMesh& mesh, bool fullBricks = false);
 /// Sets: "inner", "outer", "start" (θ = 0) and "end" (not for a full ring), "z-", "z+", "skin".
 /// @param cells  along r, θ and z; the full ring takes 3 or more along θ
 /// @throws InputError unless 0 < inner < outer radius, 0 < angle ≤ 2π and length > 0
-SolidMesh cylinderSector(CellShape shape, std::array<int, 3> cells, double innerRadius, double outerRadius,
+SolidMesh cylinderSector(ElementShape shape, std::array<int, 3> cells, double innerRadius, double outerRadius,
                          double angle, double length);
 
 /// A round bar along z from z = 0, by a core of n × n cells and four blocks of n × m cells around it (O-grid).
 /// Sets: "side", "z-", "z+", "skin".
 /// @param cells  n, m and the number along z
 /// @throws InputError for tetrahedra (their diagonals do not meet between the blocks), counts < 1, sizes ≤ 0
-SolidMesh roundBar(CellShape shape, std::array<int, 3> cells, double radius, double length);
+SolidMesh roundBar(ElementShape shape, std::array<int, 3> cells, double radius, double length);
 
 /// Cook's membrane (Cook 1974), m: corners (0, 0), (0.048, 0.044), (0.048, 0.060), (0, 0.044), of one layer of cells
 /// in z. Sets: "clamped" (x = 0), "loaded" (x = 0.048), "y-", "y+", "z-", "z+", "skin"; node set "tip": the upper
 /// corner of the loaded edge, in all layers of nodes.
 /// @param cells  along x and y
-SolidMesh cookMembrane(CellShape shape, std::array<int, 2> cells, double thickness = 0.001);
+SolidMesh cookMembrane(ElementShape shape, std::array<int, 2> cells, double thickness = 0.001);
 
 /// A beam whose root is the arc of a cylinder (Turek & Hron 2006): the bar of the benchmark by default. Sets:
 /// "clamped" (the arc), "x+", "y-", "y+", "z-", "z+", "skin"; node set "tip": the middle of the free end, all layers
@@ -67,6 +67,6 @@ struct ArcBeam {
 };
 /// @param cells  along the beam, across it, and along z
 /// @throws InputError if the beam is not thinner than the cylinder or ends inside it, or a grading is out of range
-SolidMesh arcClampedBeam(CellShape shape, std::array<int, 3> cells, const ArcBeam& beam = {});
+SolidMesh arcClampedBeam(ElementShape shape, std::array<int, 3> cells, const ArcBeam& beam = {});
 
 }  // namespace dovetail::fem

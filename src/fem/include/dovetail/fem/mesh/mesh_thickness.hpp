@@ -11,7 +11,7 @@ namespace dovetail::fem {
 
 /// Across a mesh from a face of its boundary to the one that lies opposite.
 struct MeshThickness {
-  CellShape shape{};           ///< of the element at the face
+  ElementShape shape{};        ///< of the element at the face
   Vec3 X, normal;              ///< where the line begins, m, and its direction, inwards
   Face face, opposite;         ///< of the boundary, at both ends
   double area = 0.0;           ///< of the face, m²

@@ -12,13 +12,13 @@ namespace dovetail::fem {
 
 /// Parent coordinates of the nodes: bricks fill [−1, 1]³, tetrahedra ξ, η, ζ ≥ 0 with ξ + η + ζ ≤ 1, plane cells
 /// [−1, 1]² at ζ = 0; nothing of theirs depends on ζ.
-std::span<const Vec3> parentNodes(CellShape shape);
+std::span<const Vec3> parentNodes(ElementShape shape);
 /// A place in the parent cell near ξ, which continues without a jump what is known there: ξ itself within.
-Vec3 nearestInParent(CellShape shape, const Vec3& xi);
+Vec3 nearestInParent(ElementShape shape, const Vec3& xi);
 /// ψ_a(ξ), whose sum is one, and ∂ψ_a/∂ξ_j, nodesOf(shape) entries each.
-void shapeFunctions(CellShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient);
+void shapeFunctions(ElementShape shape, const Vec3& xi, std::span<double> value, std::span<Vec3> gradient);
 /// ψ_a(ξ) alone.
-std::vector<double> shapeRow(CellShape shape, const Vec3& xi);
+std::vector<double> shapeRow(ElementShape shape, const Vec3& xi);
 /// The same of a face: quadrilaterals fill [−1, 1]², triangles ξ, η ≥ 0 with ξ + η ≤ 1.
 std::vector<double> shapeRow(FaceShape shape, double xi, double eta);
 

@@ -18,14 +18,15 @@ namespace dovetail::fem {
 /// tet10 edges: 01 12 20 03 13 23.
 /// quad4 and quad8 are cells of plane strain in a plane z = const, corners counter-clockwise seen from +z, edges
 /// 01 12 23 30.
-enum class CellShape : std::uint8_t { hex8, hex20, hex27, tet4, tet10, quad4, quad8 };
-inline constexpr std::array allCellShapes = {CellShape::hex8,  CellShape::hex20, CellShape::hex27, CellShape::tet4,
-                                             CellShape::tet10, CellShape::quad4, CellShape::quad8};
+enum class ElementShape : std::uint8_t { hex8, hex20, hex27, tet4, tet10, quad4, quad8 };
+inline constexpr std::array allCellShapes = {ElementShape::hex8, ElementShape::hex20, ElementShape::hex27,
+                                             ElementShape::tet4, ElementShape::tet10, ElementShape::quad4,
+                                             ElementShape::quad8};
 /// Faces of them, counter-clockwise seen from outside: corners, mid-edge nodes 01 12 …, centre. Those of plane cells
 /// are lines, ends first, that run around the cell counter-clockwise seen from +z: tangent × e_z points outwards.
 enum class FaceShape : std::uint8_t { quad4, quad8, quad9, tri3, tri6, line2, line3 };
 
-constexpr int nodesOf(CellShape shape) {
+constexpr int nodesOf(ElementShape shape) {
   constexpr std::array<int, 7> counts = {8, 20, 27, 4, 10, 4, 8};
   return counts[static_cast<std::size_t>(shape)];
 }
@@ -34,11 +35,13 @@ constexpr int nodesOf(FaceShape shape) {
   return counts[static_cast<std::size_t>(shape)];
 }
 /// 3, or 2 for plane strain.
-constexpr int dimensionOf(CellShape shape) { return shape == CellShape::quad4 || shape == CellShape::quad8 ? 2 : 3; }
+constexpr int dimensionOf(ElementShape shape) {
+  return shape == ElementShape::quad4 || shape == ElementShape::quad8 ? 2 : 3;
+}
 /// Of the cells that have such faces.
 constexpr int dimensionOf(FaceShape shape) { return shape == FaceShape::line2 || shape == FaceShape::line3 ? 2 : 3; }
 /// "hex8" and so on.
-const char* name(CellShape shape);
+const char* name(ElementShape shape);
 
 /// One face of a boundary; entries of `node` beyond nodesOf(shape) are −1.
 struct Face {
@@ -47,8 +50,8 @@ struct Face {
 };
 
 /// Elements of one shape.
-struct CellGroup {
-  CellShape shape;
+struct ElementGroup {
+  ElementShape shape;
   std::vector<int> node;  ///< nodesOf(shape) numbers per element
   std::size_t size() const { return node.size() / static_cast<std::size_t>(nodesOf(shape)); }
 };
@@ -57,7 +60,7 @@ struct CellGroup {
 /// every node has the same z, and makeModel holds that component.
 struct SolidMesh {
   std::vector<Vec3> X;  ///< reference positions of the nodes, m
-  std::vector<CellGroup> groups;
+  std::vector<ElementGroup> groups;
   std::map<std::string, std::vector<int>> nodeSets;  ///< ascending node numbers
   std::map<std::string, std::vector<Face>> faceSets;
   std::map<std::string, std::vector<int>> elementSets;  ///< ascending element numbers
@@ -74,7 +77,7 @@ int dimensionOf(const SolidMesh& mesh);
 /// lie at the lower z, with the height of the box as thickness, and have no sets "z-" and "z+".
 /// @param cells  along x, y and z; plane cells take 1 along z
 /// @throws InputError for a count < 1, more than one layer of plane cells, or a box without volume
-SolidMesh boxOf(CellShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 upper);
+SolidMesh boxOf(ElementShape shape, std::array<int, 3> cells, Vec3 lower, Vec3 upper);
 
 /// Faces of all elements that belong to one element only.
 std::vector<Face> boundaryFaces(const SolidMesh& mesh);

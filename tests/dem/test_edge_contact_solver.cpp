@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "dovetail/dem/walls/share_solver.hpp"
+#include "dovetail/dem/walls/edge_contact_solver.hpp"
 #include "wall_scenes.hpp"
 
 namespace dovetail::dem {
@@ -20,7 +20,7 @@ double optimalityError(const std::vector<Share>& shares) {
   return worst;
 }
 
-TEST(ShareSolver, SatisfiesTheOptimalityConditions) {
+TEST(EdgeContactSolver, SatisfiesTheOptimalityConditions) {
   Random random(1);
   for (int trial = 0; trial < 3000; ++trial) {
     std::vector<Share> shares(static_cast<std::size_t>(1 + trial % 9));
@@ -30,31 +30,31 @@ TEST(ShareSolver, SatisfiesTheOptimalityConditions) {
       s.overlap = random(-0.2, 1.0);
     }
     if (shares.size() > 2) shares[1] = shares[0];  // the same edge seen by two facets
-    ShareSolver().solve(shares, 1e-13);
+    EdgeContactSolver().solve(shares, 1e-13);
     ASSERT_LE(optimalityError(shares), 1e-9) << "trial " << trial;
   }
 }
 
-TEST(ShareSolver, TwoWallsInClosedForm) {
+TEST(EdgeContactSolver, TwoWallsInClosedForm) {
   std::vector<Share> shares(2);
   for (const double g : {0.3, 0.6, 0.9}) {
     shares[0] = {{1, 0, 0}, 1.0, 0.0};
     shares[1] = {{g, std::sqrt(1 - g * g), 0}, 0.95, 0.0};
-    ShareSolver().solve(shares, 1e-13);
+    EdgeContactSolver().solve(shares, 1e-13);
     EXPECT_NEAR(shares[0].carried, (1.0 - 0.95 * g) / (1 - g * g), 1e-12);
     EXPECT_NEAR(shares[1].carried, (0.95 - g) / (1 - g * g), 1e-12);
   }
 }
 
-TEST(ShareSolver, NearlyParallelWallsStayBounded) {
+TEST(EdgeContactSolver, NearlyParallelWallsStayBounded) {
   for (const double angle : {1e-3, 1e-5, 1e-7, 1e-9, 0.0}) {
     std::vector<Share> shares{{{0, 0, 1}, 1.0, 0.0}, {{std::sin(angle), 0, std::cos(angle)}, 1.0, 0.0}};
-    ShareSolver().solve(shares, 1e-13);
+    EdgeContactSolver().solve(shares, 1e-13);
     EXPECT_NEAR(shares[0].carried + shares[1].carried, 1.0, 1e-6);
   }
 }
 
-TEST(ShareSolver, TheCouplingHasAContinuousSlope) {
+TEST(EdgeContactSolver, TheCouplingHasAContinuousSlope) {
   for (double g = -0.3; g < 0.5; g += 0.0103) {
     const double h = 1e-6;
     EXPECT_NEAR((coupling(g + h) - coupling(g - h)) / (2 * h), couplingSlope(g), 1e-4);

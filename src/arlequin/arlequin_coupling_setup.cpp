@@ -3,13 +3,13 @@
 #include <cmath>
 #include <string>
 
+#include "arlequin_coupling_impl.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "overlap_locator.hpp"
-#include "overlap_tie_impl.hpp"
 
 namespace dovetail::arlequin {
 
@@ -100,9 +100,9 @@ void requireMembers(const Overlap& overlap, const dem::Model& m, double leastSha
 
 }  // namespace
 
-std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
-                                           std::vector<double> nodalWeight, coupling::SolidSide& side,
-                                           const CouplingOptions& options) {
+std::unique_ptr<ArlequinCoupling> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
+                                                 std::vector<double> nodalWeight, coupling::SolidSide& side,
+                                                 const CouplingOptions& options) {
   requireNonNegative(options.penalty, "penalty");
   requireNonNegative(options.absorberRate, "absorber");
   requirePositive(options.leastShare, "least share");
@@ -116,8 +116,8 @@ std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidM
     throw InputError("kernelCells is " + std::to_string(options.projection.kernelCells), "ProjectionOptions",
                      "give 0 (as many as they need) or more");
   requireOwnMesh(mesh, side.nodes(), side.name);
-  std::unique_ptr<OverlapTie> tie(new OverlapTie(side));
-  OverlapTie::Impl& s = *tie->impl_;
+  std::unique_ptr<ArlequinCoupling> tie(new ArlequinCoupling(side));
+  ArlequinCoupling::Impl& s = *tie->impl_;
   const double reach = options.projection.reachOut ? options.projection.width : 0.0;
   s.overlap = locateOverlap(grains.particles, mesh, side.nodes(), nodalWeight, reach, grains.pairs.periodicity());
   requireWidth(s.overlap, mesh);

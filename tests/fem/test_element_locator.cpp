@@ -4,8 +4,8 @@
 #include <map>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/mesh/cell_locator.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
+#include "dovetail/fem/mesh/element_locator.hpp"
 #include "dovetail/fem/mesh/mesh_quality.hpp"
 #include "dovetail/fem/mesh/shape.hpp"
 #include "solid_helpers.hpp"
@@ -22,7 +22,7 @@ constexpr std::array<Motion, 5> motions = {{{0, false}, {0, true}, {1e3, false},
 
 /// Twisted and waved, so that second-order cells are curved; corners and other nodes also moved at random. Plane cells
 /// stay in their plane.
-SolidMesh crooked(CellShape shape, const Motion& motion, unsigned seed) {
+SolidMesh crooked(ElementShape shape, const Motion& motion, unsigned seed) {
   const bool plane = dimensionOf(shape) == 2;
   SolidMesh mesh = boxOf(shape, layered(shape, {3, 3, 3}), {}, {3, 3, 3});
   std::mt19937 random(seed);
@@ -53,7 +53,7 @@ Vec3 at(const SolidMesh& mesh, std::span<const int> nodes, std::span<const doubl
   return x;
 }
 
-Vec3 randomParent(CellShape shape, std::mt19937& random) {
+Vec3 randomParent(ElementShape shape, std::mt19937& random) {
   std::uniform_real_distribution<double> d(0.0, 1.0);
   Vec3 xi;
   if (parentNodes(shape)[0].x < 0.0) {
@@ -69,17 +69,17 @@ Vec3 randomParent(CellShape shape, std::mt19937& random) {
 /// Distance that counts as none: round-off of the coordinates.
 double roundOff(const Motion& motion) { return 1e-14 * (30.0 + motion.offset); }
 
-TEST(CellLocator, EveryInteriorPointHasOneOwner) {
-  for (const CellShape shape : allCellShapes)
+TEST(ElementLocator, EveryInteriorPointHasOneOwner) {
+  for (const ElementShape shape : allCellShapes)
     for (const Motion& motion : motions)
       for (unsigned seed = 1; seed <= 2; ++seed) {
         const SolidMesh mesh = crooked(shape, motion, seed);
         ASSERT_NO_THROW(validate(mesh)) << name(shape);
-        const CellLocator locator(mesh);
-        std::vector<CellLocator> alone;
+        const ElementLocator locator(mesh);
+        std::vector<ElementLocator> alone;
         for (int e = 0; e < static_cast<int>(mesh.elementCount()); ++e) {
           const std::span<const int> nodes = nodesOfElement(mesh, e);
-          alone.emplace_back(std::vector<CellGroup>{{shape, {nodes.begin(), nodes.end()}}}, mesh.X);
+          alone.emplace_back(std::vector<ElementGroup>{{shape, {nodes.begin(), nodes.end()}}}, mesh.X);
         }
         std::mt19937 random(seed + 10);
         for (int trial = 0; trial < 300; ++trial) {
@@ -95,7 +95,7 @@ TEST(CellLocator, EveryInteriorPointHasOneOwner) {
           EXPECT_NEAR(sum, 1.0, 1e-14);
           EXPECT_LT(norm(at(mesh, nodesOfElement(mesh, e), place->shape) - x), roundOff(motion));
           int owners = 0;
-          for (const CellLocator& one : alone) owners += one.find(x).has_value();
+          for (const ElementLocator& one : alone) owners += one.find(x).has_value();
           EXPECT_EQ(owners, 1);
         }
       }
@@ -119,11 +119,11 @@ FacePoint onFace(const SolidMesh& mesh, const Face& face, std::mt19937& random) 
   return {place(xi, eta), normalized(cross(a, b))};
 }
 
-TEST(CellLocator, APointOnAFaceBelongsToTheElementOfLowestNumber) {
-  for (const CellShape shape : allCellShapes)
+TEST(ElementLocator, APointOnAFaceBelongsToTheElementOfLowestNumber) {
+  for (const ElementShape shape : allCellShapes)
     for (const Motion& motion : motions) {
       const SolidMesh mesh = crooked(shape, motion, 3);
-      const CellLocator locator(mesh);
+      const ElementLocator locator(mesh);
       std::map<std::vector<int>, int> owner;
       std::mt19937 random(4);
       for (std::size_t e = 0; e < mesh.elementCount(); ++e)
@@ -139,11 +139,11 @@ TEST(CellLocator, APointOnAFaceBelongsToTheElementOfLowestNumber) {
     }
 }
 
-TEST(CellLocator, PointsOutsideAreOutside) {
-  for (const CellShape shape : allCellShapes)
+TEST(ElementLocator, PointsOutsideAreOutside) {
+  for (const ElementShape shape : allCellShapes)
     for (const Motion& motion : motions) {
       const SolidMesh mesh = crooked(shape, motion, 5);
-      const CellLocator locator(mesh);
+      const ElementLocator locator(mesh);
       const double distance = 1e-7 * (1.0 + 0.1 * motion.offset);
       std::mt19937 random(6);
       for (const Face& face : boundaryFaces(mesh)) {
@@ -159,7 +159,7 @@ TEST(CellLocator, PointsOutsideAreOutside) {
 }
 
 double jacobian(const SolidMesh& mesh, const Vec3& xi) {
-  const CellShape shape = mesh.groups[0].shape;
+  const ElementShape shape = mesh.groups[0].shape;
   std::vector<double> value(mesh.X.size());
   std::vector<Vec3> gradient(mesh.X.size());
   shapeFunctions(shape, xi, value, gradient);
@@ -170,7 +170,7 @@ double jacobian(const SolidMesh& mesh, const Vec3& xi) {
 }
 
 /// One brick with its nodes moved at random, and no fold that 9³ points show.
-SolidMesh wildBrick(CellShape shape, double amplitude, std::mt19937& random) {
+SolidMesh wildBrick(ElementShape shape, double amplitude, std::mt19937& random) {
   SolidMesh mesh;
   std::vector<int> all(static_cast<std::size_t>(nodesOf(shape)));
   std::iota(all.begin(), all.end(), 0);
@@ -187,17 +187,17 @@ SolidMesh wildBrick(CellShape shape, double amplitude, std::mt19937& random) {
 }
 
 /// Newton's method alone loses some of these points or finds them elsewhere.
-TEST(CellLocator, FindsPointsOfElementsThatAreHardToInvert) {
+TEST(ElementLocator, FindsPointsOfElementsThatAreHardToInvert) {
   struct Case {
-    CellShape shape;
+    ElementShape shape;
     double amplitude;
   };
   std::mt19937 random(7);
   for (const auto& [shape, amplitude] :
-       {Case{CellShape::hex8, 1.1}, Case{CellShape::hex20, 0.35}, Case{CellShape::hex27, 0.25}})
+       {Case{ElementShape::hex8, 1.1}, Case{ElementShape::hex20, 0.35}, Case{ElementShape::hex27, 0.25}})
     for (int cell = 0; cell < 100; ++cell) {
       const SolidMesh mesh = wildBrick(shape, amplitude, random);
-      const CellLocator locator(mesh);
+      const ElementLocator locator(mesh);
       for (int trial = 0; trial < 100; ++trial) {
         const Vec3 x = at(mesh, mesh.groups[0].node, shapeRow(shape, randomParent(shape, random)));
         const auto place = locator.find(x);
@@ -207,39 +207,39 @@ TEST(CellLocator, FindsPointsOfElementsThatAreHardToInvert) {
     }
 }
 
-TEST(CellLocator, FindsPointsOfSlenderElements) {
-  const SolidMesh mesh = boxOf(CellShape::hex8, {40, 2, 1}, {1e3, 0, 0}, {1e3 + 4e-4, 2, 30});
-  const CellLocator locator(mesh);
+TEST(ElementLocator, FindsPointsOfSlenderElements) {
+  const SolidMesh mesh = boxOf(ElementShape::hex8, {40, 2, 1}, {1e3, 0, 0}, {1e3 + 4e-4, 2, 30});
+  const ElementLocator locator(mesh);
   std::mt19937 random(8);
   for (int trial = 0; trial < 400; ++trial) {
     const int e = trial % 80;
-    const Vec3 x = at(mesh, nodesOfElement(mesh, e), shapeRow(CellShape::hex8, randomVec3(random, 0.99)));
+    const Vec3 x = at(mesh, nodesOfElement(mesh, e), shapeRow(ElementShape::hex8, randomVec3(random, 0.99)));
     const auto place = locator.find(x);
     ASSERT_TRUE(place);
     EXPECT_EQ(place->element, e);
   }
 }
 
-TEST(CellLocator, NumbersElementsThroughAllGroups) {
-  SolidMesh mesh = boxOf(CellShape::hex8, {2, 1, 1}, {}, {2, 1, 1});
-  const SolidMesh tets = boxOf(CellShape::tet4, {1, 1, 1}, {5, 0, 0}, {6, 1, 1});
+TEST(ElementLocator, NumbersElementsThroughAllGroups) {
+  SolidMesh mesh = boxOf(ElementShape::hex8, {2, 1, 1}, {}, {2, 1, 1});
+  const SolidMesh tets = boxOf(ElementShape::tet4, {1, 1, 1}, {5, 0, 0}, {6, 1, 1});
   const int shift = static_cast<int>(mesh.X.size());
   mesh.X.insert(mesh.X.end(), tets.X.begin(), tets.X.end());
   mesh.groups.push_back(tets.groups[0]);
   for (int& node : mesh.groups[1].node) node += shift;
-  const CellLocator locator(mesh);
+  const ElementLocator locator(mesh);
   EXPECT_EQ(locator.find({1.5, 0.5, 0.5})->element, 1);
   const auto place = locator.find({5.9, 0.2, 0.3});
   EXPECT_EQ(place->shape.size(), 4u);
-  EXPECT_EQ(place->element, 2 + CellLocator(tets).find({5.9, 0.2, 0.3})->element);
+  EXPECT_EQ(place->element, 2 + ElementLocator(tets).find({5.9, 0.2, 0.3})->element);
 }
 
-TEST(CellLocator, FlatElementsAreNamed) {
-  SolidMesh mesh = boxOf(CellShape::hex8, {2, 1, 1}, {}, {2, 1, 1});
+TEST(ElementLocator, FlatElementsAreNamed) {
+  SolidMesh mesh = boxOf(ElementShape::hex8, {2, 1, 1}, {}, {2, 1, 1});
   for (Vec3& X : mesh.X)
     if (X.x > 0.5) X.z = 0.5;  // element 1 has no height
   try {
-    CellLocator(mesh).find({1.5, 0.4, 0.5});
+    ElementLocator(mesh).find({1.5, 0.4, 0.5});
     FAIL();
   } catch (const NumericalError& error) {
     EXPECT_NE(std::string(error.what()).find("element 1"), std::string::npos) << error.what();
@@ -247,20 +247,20 @@ TEST(CellLocator, FlatElementsAreNamed) {
   }
 }
 
-TEST(CellLocator, WhatCannotBeSearchedIsRefused) {
-  SolidMesh mesh = boxOf(CellShape::hex8, {1, 1, 1}, {}, {1, 1, 1});
-  EXPECT_THROW(CellLocator({}, mesh.X), InputError);
-  EXPECT_THROW(CellLocator(mesh.groups, std::span(mesh.X).first(4)), InputError);
-  EXPECT_THROW(CellLocator(mesh).find({NAN, 0, 0}), InputError);
+TEST(ElementLocator, WhatCannotBeSearchedIsRefused) {
+  SolidMesh mesh = boxOf(ElementShape::hex8, {1, 1, 1}, {}, {1, 1, 1});
+  EXPECT_THROW(ElementLocator({}, mesh.X), InputError);
+  EXPECT_THROW(ElementLocator(mesh.groups, std::span(mesh.X).first(4)), InputError);
+  EXPECT_THROW(ElementLocator(mesh).find({NAN, 0, 0}), InputError);
   mesh.X[3].y = NAN;
-  EXPECT_THROW(CellLocator{mesh}, NumericalError);
+  EXPECT_THROW(ElementLocator{mesh}, NumericalError);
   for (Vec3& X : mesh.X) X = {1, 2, 3};
-  EXPECT_THROW(CellLocator{mesh}, InputError);
+  EXPECT_THROW(ElementLocator{mesh}, InputError);
 }
 
 TEST(ShapeRows, OfFacesAreThoseOfTheCellsThere) {
   std::mt19937 random(9);
-  for (const CellShape shape : allCellShapes) {
+  for (const ElementShape shape : allCellShapes) {
     const SolidMesh mesh = crooked(shape, {0, true}, 9);
     for (std::size_t side = 0; side < localFacesOf(shape).size(); ++side) {
       const Face& local = localFacesOf(shape)[side];
@@ -283,10 +283,10 @@ TEST(ShapeRows, OfFacesAreThoseOfTheCellsThere) {
   }
 }
 
-TEST(CellLocator, PointsNearTheMeshHaveTheirPlaceInTheNearestElementAndNoneFartherThanTheReach) {
-  for (const CellShape shape : {CellShape::hex8, CellShape::tet4, CellShape::hex20, CellShape::tet10}) {
+TEST(ElementLocator, PointsNearTheMeshHaveTheirPlaceInTheNearestElementAndNoneFartherThanTheReach) {
+  for (const ElementShape shape : {ElementShape::hex8, ElementShape::tet4, ElementShape::hex20, ElementShape::tet10}) {
     const SolidMesh mesh = boxOf(shape, {3, 2, 2}, {}, {3, 2, 2});
-    const CellLocator locator(mesh);
+    const ElementLocator locator(mesh);
     std::mt19937 random(5);
     for (int k = 0; k < 400; ++k) {
       const Vec3 x = Vec3{1.5, 1.0, 1.0} + 2.0 * randomVec3(random, 1.0);
@@ -305,7 +305,7 @@ TEST(CellLocator, PointsNearTheMeshHaveTheirPlaceInTheNearestElementAndNoneFarth
       double least = 1.0;  // the foot lies in that element
       const auto nodes = nodesOfElement(mesh, near->element);
       if (const auto there = locator.find(foot + 1e-9 * (Vec3{1.5, 1.0, 1.0} - foot)))
-        least = shape == CellShape::hex8 && norm(off) > 0.0 ? (there->element == near->element ? 0.0 : 1.0) : 0.0;
+        least = shape == ElementShape::hex8 && norm(off) > 0.0 ? (there->element == near->element ? 0.0 : 1.0) : 0.0;
       EXPECT_EQ(least, 0.0) << nodes.size();
     }
     EXPECT_FALSE(locator.findNear({-0.1, 1, 1}, 0.0));

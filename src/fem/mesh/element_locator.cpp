@@ -1,4 +1,4 @@
-#include "dovetail/fem/mesh/cell_locator.hpp"
+#include "dovetail/fem/mesh/element_locator.hpp"
 
 #include <algorithm>
 #include <array>
@@ -34,9 +34,9 @@ geometry::Box withRoundOff(const geometry::Box& box) {
                             64.0 * std::numeric_limits<double>::epsilon() * size + 1e-9 * norm(box.upper - box.lower));
 }
 
-void requireNodes(std::span<const CellGroup> groups, std::size_t count) {
+void requireNodes(std::span<const ElementGroup> groups, std::size_t count) {
   int first = 0;
-  for (const CellGroup& group : groups) {
+  for (const ElementGroup& group : groups) {
     const auto bad =
         std::ranges::find_if(group.node, [&](int n) { return n < 0 || static_cast<std::size_t>(n) >= count; });
     if (bad != group.node.end())
@@ -48,7 +48,7 @@ void requireNodes(std::span<const CellGroup> groups, std::size_t count) {
 }
 
 /// From a point outside to the faces between the corners of a cell, m.
-double distanceTo(CellShape shape, std::span<const Vec3> nodes, const Vec3& x) {
+double distanceTo(ElementShape shape, std::span<const Vec3> nodes, const Vec3& x) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Face& face : localFacesOf(shape)) {
     const auto corner = [&](std::size_t k) { return nodes[static_cast<std::size_t>(face.node[k])]; };
@@ -78,15 +78,15 @@ private:
 
 }  // namespace
 
-CellLocator::CellLocator(const SolidMesh& mesh) : CellLocator(mesh.groups, mesh.X) {}
+ElementLocator::ElementLocator(const SolidMesh& mesh) : ElementLocator(mesh.groups, mesh.X) {}
 
-CellLocator::CellLocator(std::span<const CellGroup> groups, std::span<const Vec3> position)
+ElementLocator::ElementLocator(std::span<const ElementGroup> groups, std::span<const Vec3> position)
     : groups_(groups.begin(), groups.end()), position_(position.begin(), position.end()) {
   requireNodes(groups, position.size());
   requireFinite(position, "node", "position", "search for elements");
   int count = 0;
-  for (const CellGroup& group : groups) end_.push_back(count += static_cast<int>(group.size()));
-  if (count == 0) throw InputError("there are no elements", "CellLocator", "give the elements of the solid's mesh");
+  for (const ElementGroup& group : groups) end_.push_back(count += static_cast<int>(group.size()));
+  if (count == 0) throw InputError("there are no elements", "ElementLocator", "give the elements of the solid's mesh");
   plane_ = dimensionOf(cell(0).shape) == 2;
   std::vector<Vec3> centre;
   std::vector<double> radius;
@@ -101,23 +101,23 @@ CellLocator::CellLocator(std::span<const CellGroup> groups, std::span<const Vec3
   grid_.build(centre, radius);
 }
 
-CellLocator::Cell CellLocator::cell(int element) const {
+ElementLocator::Cell ElementLocator::cell(int element) const {
   const auto k = static_cast<std::size_t>(std::ranges::upper_bound(end_, element) - end_.begin());
   const auto first = static_cast<std::size_t>(element - (k == 0 ? 0 : end_[k - 1]));
   const auto count = static_cast<std::size_t>(nodesOf(groups_[k].shape));
   return {groups_[k].shape, std::span(groups_[k].node).subspan(first * count, count)};
 }
 
-CellPlace CellLocator::placeAt(int element, const Vec3& xi) const {
+CellPlace ElementLocator::placeAt(int element, const Vec3& xi) const {
   return {element, xi, shapeRow(cell(element).shape, xi)};
 }
 
-Vec3 CellLocator::inPlane(const Vec3& point) const {
-  if (!isFinite(point)) throw InputError("the point is not finite", "CellLocator", "give a position");
+Vec3 ElementLocator::inPlane(const Vec3& point) const {
+  if (!isFinite(point)) throw InputError("the point is not finite", "ElementLocator", "give a position");
   return plane_ ? Vec3{point.x, point.y, position_[static_cast<std::size_t>(cell(0).node[0])].z} : point;
 }
 
-std::optional<CellPlace> CellLocator::find(const Vec3& point) const {
+std::optional<CellPlace> ElementLocator::find(const Vec3& point) const {
   const Vec3 x = inPlane(point);
   std::vector<int> beyond;  // elements that Newton's method left
   for (const int e : grid_.query({x, x})) {
@@ -135,7 +135,7 @@ std::optional<CellPlace> CellLocator::find(const Vec3& point) const {
   return std::nullopt;
 }
 
-std::optional<CellPlace> CellLocator::findNear(const Vec3& point, double reach) const {
+std::optional<CellPlace> ElementLocator::findNear(const Vec3& point, double reach) const {
   if (auto place = find(point); place || !(reach > 0.0)) return place;
   const Vec3 x = inPlane(point);
   double nearest = reach;

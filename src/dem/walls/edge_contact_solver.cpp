@@ -1,4 +1,4 @@
-#include "dovetail/dem/walls/share_solver.hpp"
+#include "dovetail/dem/walls/edge_contact_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double dependent = 1e-14;  // squared sine below which a normal counts as a combination of the active ones
 }  // namespace
 
-double ShareSolver::violation(std::size_t i) const {
+double EdgeContactSolver::violation(std::size_t i) const {
   double w = shares_[i].overlap - shares_[i].carried;
   for (std::size_t k = 0; k < count_; ++k) {
     const std::size_t j = active_[k];
@@ -20,7 +20,7 @@ double ShareSolver::violation(std::size_t i) const {
   return w;
 }
 
-int ShareSolver::mostViolated(double tolerance) const {
+int EdgeContactSolver::mostViolated(double tolerance) const {
   int worst = -1;
   for (std::size_t i = 0; i < shares_.size(); ++i) {
     if (shares_[i].carried > 0.0 || !(shares_[i].overlap > tolerance)) continue;
@@ -34,7 +34,7 @@ int ShareSolver::mostViolated(double tolerance) const {
   return worst;
 }
 
-void ShareSolver::factor() {
+void EdgeContactSolver::factor() {
   for (std::size_t i = 0; i < count_; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       const Share &a = shares_[active_[i]], &b = shares_[active_[j]];
@@ -44,7 +44,7 @@ void ShareSolver::factor() {
     }
 }
 
-void ShareSolver::solveActive(Row& x) const {
+void EdgeContactSolver::solveActive(Row& x) const {
   for (std::size_t i = 0; i < count_; ++i) {
     for (std::size_t k = 0; k < i; ++k) x[i] -= lower_[i][k] * x[k];
     x[i] /= lower_[i][i];
@@ -55,13 +55,13 @@ void ShareSolver::solveActive(Row& x) const {
   }
 }
 
-void ShareSolver::drop(std::size_t place) {
+void EdgeContactSolver::drop(std::size_t place) {
   shares_[active_[place]].carried = 0.0;
   std::copy(active_.begin() + place + 1, active_.begin() + count_, active_.begin() + place);
   --count_;
 }
 
-bool ShareSolver::bringIn(std::size_t entering) {
+bool EdgeContactSolver::bringIn(std::size_t entering) {
   if (count_ == capacity) return false;
   Share& in = shares_[entering];
   while (true) {
@@ -94,7 +94,7 @@ bool ShareSolver::bringIn(std::size_t entering) {
   return true;
 }
 
-void ShareSolver::solve(std::span<Share> shares, double tolerance) {
+void EdgeContactSolver::solve(std::span<Share> shares, double tolerance) {
   shares_ = shares;
   count_ = refusedCount_ = 0;
   for (Share& share : shares) share.carried = 0.0;

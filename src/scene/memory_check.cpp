@@ -7,7 +7,7 @@
 
 namespace dovetail::scene {
 
-void requireBearable(double count, const std::string& what, double bytesEach, const std::string& remedy) {
+void requireMemory(double count, const std::string& what, double bytesEach, const std::string& remedy) {
   if (!(count <= 1e8)) throw InputError("more than 1e8 " + what, "", remedy);
   const double needed = count * bytesEach, free = availableMemory();
   if (needed <= free) return;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "overlap_tie_impl.hpp"
+#include "arlequin_coupling_impl.hpp"
 
 namespace dovetail::arlequin {
 
@@ -34,9 +34,9 @@ std::vector<double> ratesUnder(const Demand& demand, const std::vector<Demand::R
 /// Rows κ_i |Σ_k Π_ik r_k|² are no stiffer than springs Σ_i κ_i Π_ik Y_i/y_k of the members, for any y > 0, with Y = Π
 /// y (Cauchy and Schwarz): y = 1 are springs p Ω. Light members get larger y, by turns, as long as the fastest gets
 /// slower.
-void OverlapTie::Impl::level(const dem::Model& m, const dem::ContactDemand& demand,
-                             const std::vector<dem::ContactDemand::Range>& nodesOf,
-                             std::vector<double>& springs) const {
+void ArlequinCoupling::Impl::level(const dem::Model& m, const dem::ContactDemand& demand,
+                                   const std::vector<dem::ContactDemand::Range>& nodesOf,
+                                   std::vector<double>& springs) const {
   constexpr int turns = 12;
   const std::size_t size = springs.size();
   std::vector<double> inverseMass(size), y(size, 1.0), levelled(size), rows(parts.gap.rows());
@@ -65,12 +65,12 @@ void OverlapTie::Impl::level(const dem::Model& m, const dem::ContactDemand& dema
 /// Jensen: with weights that sum to one, Σ_i p V_i |g_i|² ≤ Σ_k p Ω_k |x_k − Φ_k u|² (the metric penalty is a
 /// projection of the latter), so that every particle is held by a spring p Ω of its own to its place in the solid.
 /// Multipliers ask for nothing, but make elements and contacts pull at the same masses.
-void OverlapTie::addDemand(const dem::Model& m, dem::ContactDemand& demand) const {
+void ArlequinCoupling::addDemand(const dem::Model& m, dem::ContactDemand& demand) const {
   const Impl& s = *impl_;
   const CouplingOptions& o = s.setting.options;
   for (auto* sums : {&demand.stiffness, &demand.damping, &demand.byTies}) sums->resize(m.particles.size(), 0.0);
-  const bool inWindows = s.actsInWindows() && o.constraint == ConstraintKind::dashpot;
-  if (inWindows) demand.atWindows.resize(m.particles.size(), 0.0);
+  const bool inMacroSteps = s.actsInMacroSteps() && o.constraint == ConstraintKind::dashpot;
+  if (inMacroSteps) demand.atMacroSteps.resize(m.particles.size(), 0.0);
   const int side = this->side().addTo(demand);
   const auto firstNode = static_cast<int>(demand.sides[static_cast<std::size_t>(side)].first);
   std::vector<double> springs(s.overlap.size());
@@ -91,8 +91,8 @@ void OverlapTie::addDemand(const dem::Model& m, dem::ContactDemand& demand) cons
     s.level(m, demand, nodesOf, springs);
   for (std::size_t k = 0; k < springs.size(); ++k) {
     const auto i = static_cast<std::size_t>(s.overlap.particle[k]);
-    (inWindows ? demand.atWindows : demand.stiffness)[i] += springs[k];
-    if (!inWindows) demand.byTies[i] += springs[k];
+    (inMacroSteps ? demand.atMacroSteps : demand.stiffness)[i] += springs[k];
+    if (!inMacroSteps) demand.byTies[i] += springs[k];
     demand.damping[i] += o.absorberRate * (1.0 - s.overlap.weight[k]) * m.particles.weightOf(i) * m.particles.mass[i];
     demand.links.push_back({.particle = s.overlap.particle[k],
                             .partner = -1,
@@ -107,7 +107,7 @@ void OverlapTie::addDemand(const dem::Model& m, dem::ContactDemand& demand) cons
 }
 
 /// p Ω of a member, N/m; of dashpots what asks for the same step: ε dt² < 2 where a spring has p dt² < 4.
-double OverlapTie::Impl::springOf(const dem::Model& m, std::size_t k) const {
+double ArlequinCoupling::Impl::springOf(const dem::Model& m, std::size_t k) const {
   const int element = overlap.place[k].element;
   if (element < 0 || setting.options.constraint == ConstraintKind::multiplier) return 0.0;
   return (setting.options.constraint == ConstraintKind::dashpot ? 2.0 : 1.0) *

@@ -3,9 +3,9 @@
 #include <limits>
 #include <utility>
 
+#include "arlequin_coupling_impl.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
-#include "overlap_tie_impl.hpp"
 
 namespace dovetail::arlequin {
 
@@ -35,7 +35,7 @@ ContactsOf::ContactsOf(const dem::Model& m, std::span<const char> isMoved, const
   for (const auto& term : m.terms)
     if (const auto* const connector = dynamic_cast<const coupling::Connector*>(term.get())) {
       // Overlaps are large, and are not asked; the solid's own surface meets no members.
-      if (connector->side().model == solid || dynamic_cast<const OverlapTie*>(connector)) continue;
+      if (connector->side().model == solid || dynamic_cast<const ArlequinCoupling*>(connector)) continue;
       surfaces.push_back(connector);
       meetsSolids = meetsSolids || touches(*connector);
     } else if (dynamic_cast<const dem::BondTerm*>(term.get()) || touches(*term)) {
@@ -72,7 +72,7 @@ double ContactsOf::energy(const dem::Model& m) const {
 
 /// Mass that a share gains or loses comes and goes with the solid's velocity; the rest of its momentum is the nodes'.
 /// Its spin goes too, and the moment of that momentum about where the nodes take it.
-void OverlapTie::Impl::handOver(dem::Model& m, const Renewal::Change& change, std::vector<Vec3>& impulse) {
+void ArlequinCoupling::Impl::handOver(dem::Model& m, const Renewal::Change& change, std::vector<Vec3>& impulse) {
   const auto i = static_cast<std::size_t>(change.particle);
   const double share = change.before - change.after, mass = share * m.particles.mass[i];
   if (mass == 0.0) return;
@@ -100,7 +100,7 @@ void OverlapTie::Impl::handOver(dem::Model& m, const Renewal::Change& change, st
   m.particles.weight[i] = change.after;
 }
 
-void OverlapTie::Impl::kickNodes(std::span<const Vec3> impulse) {
+void ArlequinCoupling::Impl::kickNodes(std::span<const Vec3> impulse) {
   if (loadsNobody) return;
   const std::vector<Vec3> change = side.kick(impulse);
   for (std::size_t n = 0; n < change.size(); ++n) lost -= dot(impulse[n], nodes().v[n] - 0.5 * change[n]);
@@ -108,28 +108,28 @@ void OverlapTie::Impl::kickNodes(std::span<const Vec3> impulse) {
 
 /// Whatever the ties are now, λ is what it was: those who come in are tied where they are, without a gap of their own,
 /// and make that of their rows shorter as they make these stiffer.
-void OverlapTie::Impl::keepForces(const dem::Model& m) {
+void ArlequinCoupling::Impl::keepForces(const dem::Model& m) {
   now = gapUnder(lambda);
   keepGap(m);
 }
 
 /// Whatever the ties are now, the gap of the rows is what it was: those who are gone take their part of λ along.
-void OverlapTie::Impl::keepGap(const dem::Model& m) {
+void ArlequinCoupling::Impl::keepGap(const dem::Model& m) {
   const std::vector<Vec3> fresh = freshGap(m);
   for (std::size_t r = 0; r < fresh.size(); ++r) kept[r] = now[r] - fresh[r];
 }
 
 /// Where all particles have been located anew, none has moved from its material point: there is no gap, whose part from
 /// old ties would not turn with the solid. Increments go on from what they were.
-void OverlapTie::Impl::startGapAnew(const dem::Model& m) {
+void ArlequinCoupling::Impl::startGapAnew(const dem::Model& m) {
   const std::vector<Vec3> before = std::exchange(now, freshGap(m));
   for (std::size_t r = 0; r < now.size(); ++r) {
     kept[r] = {};
-    atWindow[r] += now[r] - before[r];
+    atMacroStep[r] += now[r] - before[r];
   }
 }
 
-void OverlapTie::Impl::weighPairs(dem::Model& m, std::span<const char> isMoved) {
+void ArlequinCoupling::Impl::weighPairs(dem::Model& m, std::span<const char> isMoved) {
   shares.forget(isMoved);
   const std::span<double> factors = m.pairs.writeFactors();
   for (std::size_t p = 0; p < m.pairs.size(); ++p) {

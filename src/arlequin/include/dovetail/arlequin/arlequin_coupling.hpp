@@ -29,7 +29,7 @@ struct OverlapState {
 
 /// Ties particles to the solid where both are: the gap g = Π(x − Φ x_FE) is held by a penalty, multipliers or a dashpot
 /// (CouplingOptions). On implicit solids a penalty acts at every step of the particles, multipliers and dashpots at the
-/// ends of windows. Particles::weight holds the particles' share w, pairs the share at their contact.
+/// ends of macro steps. Particles::weight holds the particles' share w, pairs the share at their contact.
 ///
 /// A particle is tied to the material point of the solid that it was located at. If it moves relative to that by more
 /// than a tenth of its radius, it is located anew: λ stays, and what was its part of the gap is kept in the rows, where
@@ -39,15 +39,15 @@ struct OverlapState {
 /// momentum relative to the solid goes to the nodes by Φᵀ. Particles that come near the mesh from outside get their
 /// share when they are found there, and hold on at once, without a gap of their own; those whose share falls below
 /// CouplingOptions::leastShare leave the scene. Rows per element are not followed: their particles stay as located.
-class OverlapTie final : public coupling::Connector {
+class ArlequinCoupling final : public coupling::Connector {
 public:
-  OverlapTie(const OverlapTie& other);
-  OverlapTie(OverlapTie&&) noexcept;
-  ~OverlapTie() override;
+  ArlequinCoupling(const ArlequinCoupling& other);
+  ArlequinCoupling(ArlequinCoupling&&) noexcept;
+  ~ArlequinCoupling() override;
 
   std::string name() const override { return "overlap"; }
   std::string code() const override { return "a mesh and a solid"; }
-  std::unique_ptr<dem::Term> clone() const override { return std::make_unique<OverlapTie>(*this); }
+  std::unique_ptr<dem::Term> clone() const override { return std::make_unique<ArlequinCoupling>(*this); }
   Order order() const override;
   void check(const dem::Model& m) const override;
   double move(dem::Model& m, const dem::Step& step) override;
@@ -61,8 +61,8 @@ public:
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
 
-  void constrainWindow(const dem::Model& m, std::span<const Vec3> ownForce, double half, std::span<Vec3> onParticles,
-                       coupling::NodalLoad& load) const override;
+  void constrainMacroStep(const dem::Model& m, std::span<const Vec3> ownForce, double half, std::span<Vec3> onParticles,
+                          coupling::NodalLoad& load) const override;
   std::vector<double> solidShare() const override;
   void markTied(std::span<std::uint8_t> tied) const override;
   double stored() const override;
@@ -80,10 +80,10 @@ public:
   OverlapState state() const;
 
 private:
-  friend std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
-                                                    std::vector<double> nodalWeight, coupling::SolidSide& side,
-                                                    const CouplingOptions& options);
-  explicit OverlapTie(coupling::SolidSide& side);
+  friend std::unique_ptr<ArlequinCoupling> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
+                                                          std::vector<double> nodalWeight, coupling::SolidSide& side,
+                                                          const CouplingOptions& options);
+  explicit ArlequinCoupling(coupling::SolidSide& side);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
@@ -97,9 +97,9 @@ private:
 ///   are not levelled, a particle with less than leastShare (beyond the border of the particles), members of clumps,
 ///   kernels in periodic space, particles that all belong to another overlap, an automatic penalty where a field of
 ///   points tells no modulus, kernels wider than 2.5 elements with more than 4000 rows
-std::unique_ptr<OverlapTie> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
-                                           std::vector<double> nodalWeight, coupling::SolidSide& side,
-                                           const CouplingOptions& options = {});
+std::unique_ptr<ArlequinCoupling> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
+                                                 std::vector<double> nodalWeight, coupling::SolidSide& side,
+                                                 const CouplingOptions& options = {});
 
 /// Numbers of the particles within the mesh whose share is below leastShare: take them out before making a tie.
 std::vector<int> particlesBeyond(const dem::Model& grains, const fem::SolidMesh& mesh, const fem::Nodes& nodes,

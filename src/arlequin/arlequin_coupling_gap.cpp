@@ -1,9 +1,9 @@
 // The gap of an overlap tie: what of it is of the present ties, what is kept, what slips.
 #include <algorithm>
 
+#include "arlequin_coupling_impl.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "kept_gap.hpp"
-#include "overlap_tie_impl.hpp"
 
 namespace dovetail::arlequin {
 
@@ -13,7 +13,7 @@ constexpr std::size_t grain = 256;
 
 }  // namespace
 
-Vec3 OverlapTie::Impl::atPlace(const fem::CellPlace& place, std::span<const Vec3> field) const {
+Vec3 ArlequinCoupling::Impl::atPlace(const fem::CellPlace& place, std::span<const Vec3> field) const {
   Vec3 sum;
   if (place.element < 0) return sum;
   const Cell cell = cellOf(setting.mesh, place.element);
@@ -22,7 +22,7 @@ Vec3 OverlapTie::Impl::atPlace(const fem::CellPlace& place, std::span<const Vec3
   return sum;
 }
 
-Vec3 OverlapTie::Impl::displacement(const dem::Model& m, std::size_t k) const {
+Vec3 ArlequinCoupling::Impl::displacement(const dem::Model& m, std::size_t k) const {
   const Vec3 moved = m.particles.x[static_cast<std::size_t>(overlap.particle[k])] - overlap.x[k];
   const geometry::Periodicity& space = m.pairs.periodicity();
   if (!space.any()) return moved;
@@ -30,7 +30,7 @@ Vec3 OverlapTie::Impl::displacement(const dem::Model& m, std::size_t k) const {
   return carried + space.minimumImage(moved - carried);
 }
 
-std::vector<Vec3> OverlapTie::Impl::displacements(const dem::Model& m) const {
+std::vector<Vec3> ArlequinCoupling::Impl::displacements(const dem::Model& m) const {
   std::vector<Vec3> q(overlap.size());
   parallelFor(q.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) q[k] = displacement(m, k);
@@ -38,14 +38,14 @@ std::vector<Vec3> OverlapTie::Impl::displacements(const dem::Model& m) const {
   return q;
 }
 
-std::vector<Vec3> OverlapTie::Impl::freshGap(const dem::Model& m) const {
+std::vector<Vec3> ArlequinCoupling::Impl::freshGap(const dem::Model& m) const {
   std::vector<Vec3> gap(parts.gap.rows());
   gapOfMembers(parts.gap, displacements(m), nodes().u, gap);
   return gap;
 }
 
 /// The kept part turns with the nodes of its row.
-void OverlapTie::Impl::turnKept() {
+void ArlequinCoupling::Impl::turnKept() {
   const std::vector<Vec3>& u = nodes().u;
   if (turnsGap() && nodesBefore.size() == u.size() &&
       std::ranges::any_of(kept, [](const Vec3& g) { return squaredNorm(g) > 0.0; })) {
@@ -63,7 +63,7 @@ void OverlapTie::Impl::turnKept() {
   nodesBefore = u;
 }
 
-void OverlapTie::Impl::updateGap(const dem::Model& m, bool timeless) {
+void ArlequinCoupling::Impl::updateGap(const dem::Model& m, bool timeless) {
   turnKept();
   std::vector<Vec3> next = freshGap(m);
   parallelFor(next.size(), 4 * grain, [&](std::size_t begin, std::size_t end) {
@@ -75,7 +75,7 @@ void OverlapTie::Impl::updateGap(const dem::Model& m, bool timeless) {
   now = std::move(next);
 }
 
-std::vector<Vec3> OverlapTie::Impl::motionUnder(std::span<const Vec3> forces) const {
+std::vector<Vec3> ArlequinCoupling::Impl::motionUnder(std::span<const Vec3> forces) const {
   std::vector<Vec3> moved(overlap.size());
   parallelFor(moved.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
@@ -84,7 +84,7 @@ std::vector<Vec3> OverlapTie::Impl::motionUnder(std::span<const Vec3> forces) co
   return moved;
 }
 
-std::vector<Vec3> OverlapTie::Impl::gapUnder(std::span<const Vec3> forces) const {
+std::vector<Vec3> ArlequinCoupling::Impl::gapUnder(std::span<const Vec3> forces) const {
   std::vector<Vec3> gap(forces.size());
   if (hasWideRows()) {
     cg::apply(parts.gap.particles, motionUnder(forces), gap);
@@ -97,7 +97,7 @@ std::vector<Vec3> OverlapTie::Impl::gapUnder(std::span<const Vec3> forces) const
 }
 
 /// No member is held farther than its slip length from where the solid is.
-void OverlapTie::Impl::slipMembers(const dem::Model& m) {
+void ArlequinCoupling::Impl::slipMembers(const dem::Model& m) {
   if (!hasWideRows() || !isFollowed()) return;
   std::vector<Vec3> moved = motionUnder(lambda);
   bool slips = false;
@@ -115,7 +115,7 @@ void OverlapTie::Impl::slipMembers(const dem::Model& m) {
 }
 
 /// What is beyond the slip length goes out of the kept part.
-void OverlapTie::Impl::slip() {
+void ArlequinCoupling::Impl::slip() {
   if (!turnsGap() || hasWideRows() || !isFollowed()) return;
   for (std::size_t r = 0; r < now.size(); ++r)
     if (const double length = norm(now[r]), longest = parts.slipLength[r]; length > longest) {

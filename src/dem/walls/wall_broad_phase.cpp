@@ -1,4 +1,4 @@
-#include "wall_sieve.hpp"
+#include "wall_broad_phase.hpp"
 
 #include <algorithm>
 #include <cmath>

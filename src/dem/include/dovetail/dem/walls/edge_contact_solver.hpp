@@ -38,7 +38,7 @@ struct Share {
 
 /// Solves max_{λ ≥ 0} Σ λᵢ δᵢ − ½ Σ λᵢ λⱼ s(nᵢ·nⱼ) with the dual active-set method of Goldfarb & Idnani (Math. Prog.
 /// 27, 1983): the most violated constraint comes in, those whose λ would turn negative go out.
-class ShareSolver {
+class EdgeContactSolver {
 public:
   static constexpr std::size_t capacity = 12;  ///< of those that carry something
 

@@ -1,14 +1,14 @@
 // Forces of an overlap tie.
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 
 #include <algorithm>
 #include <string>
 
+#include "arlequin_coupling_impl.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "kept_gap.hpp"
-#include "overlap_tie_impl.hpp"
 
 namespace dovetail::arlequin {
 
@@ -18,7 +18,7 @@ constexpr std::size_t grain = 256;
 
 }  // namespace
 
-void OverlapTie::Impl::number(const dem::Particles& particles) {
+void ArlequinCoupling::Impl::number(const dem::Particles& particles) {
   memberOf.assign(particles.size(), -1);
   for (std::size_t k = 0; k < overlap.size(); ++k)
     memberOf[static_cast<std::size_t>(overlap.particle[k])] = static_cast<int>(k);
@@ -26,7 +26,7 @@ void OverlapTie::Impl::number(const dem::Particles& particles) {
 }
 
 /// Values of the rows at some nodes, for the rows that there are now: 0 where there was none.
-std::vector<Vec3> OverlapTie::Impl::inRows(std::span<const Vec3> values, std::span<const int> nodes) const {
+std::vector<Vec3> ArlequinCoupling::Impl::inRows(std::span<const Vec3> values, std::span<const int> nodes) const {
   std::vector<int> rowOf(setting.mesh.X.size(), -1);
   for (std::size_t r = 0; r < nodes.size(); ++r) rowOf[static_cast<std::size_t>(nodes[r])] = static_cast<int>(r);
   std::vector<Vec3> moved(parts.gap.rows());
@@ -37,7 +37,7 @@ std::vector<Vec3> OverlapTie::Impl::inRows(std::span<const Vec3> values, std::sp
 }
 
 /// Rows that were there keep their gap and their λ; others start without.
-void OverlapTie::Impl::ready(const dem::Model& m) {
+void ArlequinCoupling::Impl::ready(const dem::Model& m) {
   if (known != m.particles.revision || memberOf.size() != m.particles.size()) number(m.particles);
   if (stale || (needsMass() && massOf != side.mass)) {
     TieParts next = makeParts(setting, overlap, m);
@@ -46,7 +46,7 @@ void OverlapTie::Impl::ready(const dem::Model& m) {
     stale = false;
     massOf = side.mass;
     if (rowNode != parts.gap.node) {
-      for (auto* values : {&kept, &now, &increment, &windowIncrement, &atWindow, &lambda})
+      for (auto* values : {&kept, &now, &increment, &macroIncrement, &atMacroStep, &lambda})
         *values = isFollowed() ? inRows(*values, rowNode) : std::vector<Vec3>(parts.gap.rows());
       rowNode = parts.gap.node;
     }
@@ -62,15 +62,15 @@ void OverlapTie::Impl::ready(const dem::Model& m) {
   lost -= storedNow;
 }
 
-double OverlapTie::Impl::storedWith(std::span<const Vec3> forces) const {
+double ArlequinCoupling::Impl::storedWith(std::span<const Vec3> forces) const {
   return parts.constraint->stores() ? 0.5 * sumOfProducts(now, forces) : 0.0;
 }
 
 /// Brings the gap up to the step under way before ties change: λ of the step before does its half of the work.
-void OverlapTie::Impl::advance(const dem::Model& m) {
+void ArlequinCoupling::Impl::advance(const dem::Model& m) {
   const bool stood = side.stepping == coupling::Stepping::implicitSteps && nodesBefore == nodes().u;
   updateGap(m, false);
-  if (actsInWindows()) return;
+  if (actsInMacroSteps()) return;
   lost += 0.5 * sumOfProducts(lambda, increment) + storedNow;
   if (!parts.constraint->needsRates()) parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
   storedNow = storedWith(lambda);
@@ -85,7 +85,7 @@ void OverlapTie::Impl::advance(const dem::Model& m) {
 
 /// The impulses of multipliers that bring the rate of the gap to `goal`, m/s, at the start and where ties have been
 /// made anew.
-void OverlapTie::Impl::comply(dem::Model& m, std::span<const Vec3> goal) {
+void ArlequinCoupling::Impl::comply(dem::Model& m, std::span<const Vec3> goal) {
   std::vector<Vec3> rate(parts.gap.rows()), excess(rate.size()), none(rate.size()), impulses(rate.size());
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
   for (std::size_t r = 0; r < rate.size(); ++r) excess[r] = rate[r] - goal[r];
@@ -103,7 +103,7 @@ void OverlapTie::Impl::comply(dem::Model& m, std::span<const Vec3> goal) {
   complies = true;
 }
 
-std::vector<Vec3> OverlapTie::Impl::accelerationUnder(const dem::Model& m, std::vector<Vec3> onNodes) const {
+std::vector<Vec3> ArlequinCoupling::Impl::accelerationUnder(const dem::Model& m, std::vector<Vec3> onNodes) const {
   const std::vector<double> mass = yieldingMasses(m);
   std::vector<Vec3> ofMembers(overlap.size()), acceleration(parts.gap.rows());
   parallelFor(ofMembers.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -117,7 +117,7 @@ std::vector<Vec3> OverlapTie::Impl::accelerationUnder(const dem::Model& m, std::
   return acceleration;
 }
 
-void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
+void ArlequinCoupling::Impl::evaluate(dem::Model& m, const dem::Step& step) {
   std::vector<Vec3> velocity, acceleration;
   double dt = step.dt;
   if (parts.constraint->needsRates()) {
@@ -136,7 +136,7 @@ void OverlapTie::Impl::evaluate(dem::Model& m, const dem::Step& step) {
   slipMembers(m);
 }
 
-void OverlapTie::Impl::loadNodes(std::span<const Vec3> forces, coupling::NodalLoad& load) const {
+void ArlequinCoupling::Impl::loadNodes(std::span<const Vec3> forces, coupling::NodalLoad& load) const {
   const std::vector<int>& node = parts.gap.coupledNode;
   std::vector<Vec3> onNodes(node.size());
   parallelFor(node.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -146,10 +146,10 @@ void OverlapTie::Impl::loadNodes(std::span<const Vec3> forces, coupling::NodalLo
   for (std::size_t n = 0; n < node.size(); ++n) load.add(node[n], onNodes[n]);
 }
 
-void OverlapTie::Impl::apply(dem::Model& m, const dem::Step& step) {
+void ArlequinCoupling::Impl::apply(dem::Model& m, const dem::Step& step) {
   if (parts.absorber) parts.absorber->apply(m.particles.v, m.particles.f);
   if (!complies && step.timeless && parts.constraint->needsRates()) comply(m, std::vector<Vec3>(parts.gap.rows()));
-  if (actsInWindows()) return;
+  if (actsInMacroSteps()) return;
   evaluate(m, step);
   pullParticles(parts.gap, overlap, lambda, m.particles.f);
   loadNodes(lambda, side.load);
@@ -162,18 +162,18 @@ void OverlapTie::Impl::apply(dem::Model& m, const dem::Step& step) {
   }
 }
 
-OverlapTie::OverlapTie(coupling::SolidSide& side) : Connector(side), impl_(std::make_unique<Impl>(side)) {}
-OverlapTie::OverlapTie(const OverlapTie& other)
+ArlequinCoupling::ArlequinCoupling(coupling::SolidSide& side) : Connector(side), impl_(std::make_unique<Impl>(side)) {}
+ArlequinCoupling::ArlequinCoupling(const ArlequinCoupling& other)
     : Connector(other), impl_(std::make_unique<Impl>(*other.impl_, this->side())) {}
-OverlapTie::OverlapTie(OverlapTie&&) noexcept = default;
-OverlapTie::~OverlapTie() = default;
+ArlequinCoupling::ArlequinCoupling(ArlequinCoupling&&) noexcept = default;
+ArlequinCoupling::~ArlequinCoupling() = default;
 
-dem::Term::Order OverlapTie::order() const {
-  const bool answers = impl_->setting.options.constraint == ConstraintKind::multiplier || impl_->actsInWindows();
+dem::Term::Order ArlequinCoupling::order() const {
+  const bool answers = impl_->setting.options.constraint == ConstraintKind::multiplier || impl_->actsInMacroSteps();
   return answers ? Order::constraints : Order::forces;
 }
 
-void OverlapTie::check(const dem::Model& m) const {
+void ArlequinCoupling::check(const dem::Model& m) const {
   for (const int number : impl_->near)
     if (number < 0 || static_cast<std::size_t>(number) >= m.particles.size())
       throw InputError("there is no particle " + std::to_string(number), "near the overlap",
@@ -193,7 +193,7 @@ void OverlapTie::check(const dem::Model& m) const {
   }
 }
 
-void OverlapTie::addForces(dem::Model& m, const dem::Step& step) {
+void ArlequinCoupling::addForces(dem::Model& m, const dem::Step& step) {
   Impl& s = *impl_;
   s.ready(m);
   const bool halfIsBooked = s.advanced;
@@ -202,13 +202,13 @@ void OverlapTie::addForces(dem::Model& m, const dem::Step& step) {
   const double before = s.storedNow, halfBefore = halfIsBooked ? 0.0 : 0.5 * sumOfProducts(s.lambda, s.increment);
   s.apply(m, step);
   s.storedNow = s.storedWith(s.lambda);
-  if (step.timeless || s.actsInWindows()) return;
+  if (step.timeless || s.actsInMacroSteps()) return;
   s.advanced = false;
   s.lost += halfBefore + 0.5 * sumOfProducts(s.lambda, s.increment) - (s.storedNow - before);
 }
 
 /// The absorber takes what its force does to the particles over the whole kick.
-void OverlapTie::book(dem::Model& m, const dem::Step& step) {
+void ArlequinCoupling::book(dem::Model& m, const dem::Step& step) {
   Impl& s = *impl_;
   s.power = 0.0;
   if (s.parts.absorber)
@@ -221,13 +221,13 @@ void OverlapTie::book(dem::Model& m, const dem::Step& step) {
   if (!step.timeless) s.absorbed += 0.5 * step.dt * s.power;
 }
 
-double OverlapTie::move(dem::Model&, const dem::Step& step) {
+double ArlequinCoupling::move(dem::Model&, const dem::Step& step) {
   impl_->absorbed += 0.5 * step.dt * impl_->power;
   return 0.0;
 }
 
-void OverlapTie::addStiffness(const dem::Model& m, std::span<const Vec3> particles, std::span<const Vec3> nodes,
-                              std::span<Vec3> onParticles, std::span<Vec3> onNodes) const {
+void ArlequinCoupling::addStiffness(const dem::Model& m, std::span<const Vec3> particles, std::span<const Vec3> nodes,
+                                    std::span<Vec3> onParticles, std::span<Vec3> onNodes) const {
   Impl& s = *impl_;
   if (s.setting.options.constraint != ConstraintKind::penalty) return;
   s.ready(m);
@@ -239,17 +239,17 @@ void OverlapTie::addStiffness(const dem::Model& m, std::span<const Vec3> particl
   pullNodes(s.parts.gap, lambda, onNodes);
 }
 
-std::vector<double> OverlapTie::solidShare() const { return solidWeights(impl_->overlap.nodalWeight); }
-void OverlapTie::markTied(std::span<std::uint8_t> tied) const {
+std::vector<double> ArlequinCoupling::solidShare() const { return solidWeights(impl_->overlap.nodalWeight); }
+void ArlequinCoupling::markTied(std::span<std::uint8_t> tied) const {
   for (std::size_t k = 0; k < impl_->overlap.size(); ++k)
     if (impl_->overlap.place[k].element >= 0) tied[static_cast<std::size_t>(impl_->overlap.particle[k])] = 1;
 }
-double OverlapTie::stored() const { return impl_->storedNow; }
-double OverlapTie::lost() const { return impl_->lost + impl_->absorbed; }
-double OverlapTie::absorbed() const { return impl_->absorbed; }
-const Overlap& OverlapTie::overlap() const { return impl_->overlap; }
-const GapOperator& OverlapTie::operators() const { return impl_->parts.gap; }
-std::span<const Vec3> OverlapTie::gap() const { return impl_->now; }
-std::span<const Vec3> OverlapTie::lambda() const { return impl_->lambda; }
+double ArlequinCoupling::stored() const { return impl_->storedNow; }
+double ArlequinCoupling::lost() const { return impl_->lost + impl_->absorbed; }
+double ArlequinCoupling::absorbed() const { return impl_->absorbed; }
+const Overlap& ArlequinCoupling::overlap() const { return impl_->overlap; }
+const GapOperator& ArlequinCoupling::operators() const { return impl_->parts.gap; }
+std::span<const Vec3> ArlequinCoupling::gap() const { return impl_->now; }
+std::span<const Vec3> ArlequinCoupling::lambda() const { return impl_->lambda; }
 
 }  // namespace dovetail::arlequin

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <string>
 
+#include "arlequin_coupling_impl.hpp"
 #include "dovetail/fem/mesh/shape.hpp"
-#include "overlap_tie_impl.hpp"
 
 namespace dovetail::arlequin {
 
-OverlapState OverlapTie::state() const {
+OverlapState ArlequinCoupling::state() const {
   OverlapState state = impl_->events;
   const Overlap& overlap = impl_->overlap;
   state.members = overlap.size();
@@ -30,14 +30,14 @@ void exchangeState(auto& archive, auto& s, auto& element, auto& xi) {
   archive(s.overlap.particle, element, xi, s.overlap.x, s.overlap.weight, s.overlap.elements, s.shares.pairs, s.kept,
           s.now, s.increment, s.lambda, s.rowNode, s.nodesBefore, s.storedNow, s.lost, s.power, s.memberTravel,
           s.farTravel, s.near, s.setting.bulkDensity, s.meanRadius, s.largestRadius);
-  archive(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies, s.windowIncrement,
-          s.atWindow, s.windowTime, s.openingWork, s.absorbed, s.refit, s.strangers, s.events.firstStranger,
+  archive(s.known, s.knownIds, s.events.relocations, s.events.admitted, s.events.removed, s.complies, s.macroIncrement,
+          s.atMacroStep, s.macroTime, s.openingWork, s.absorbed, s.refit, s.strangers, s.events.firstStranger,
           s.events.strangerAt);
 }
 
 }  // namespace
 
-void OverlapTie::save(ByteWriter& writer) const {
+void ArlequinCoupling::save(ByteWriter& writer) const {
   const Impl& s = *impl_;
   std::vector<int> element;
   std::vector<Vec3> xi;
@@ -48,7 +48,7 @@ void OverlapTie::save(ByteWriter& writer) const {
   exchangeState(writer, s, element, xi);
 }
 
-void OverlapTie::load(ByteReader& reader) {
+void ArlequinCoupling::load(ByteReader& reader) {
   Impl& s = *impl_;
   std::vector<int> element;
   std::vector<Vec3> xi;

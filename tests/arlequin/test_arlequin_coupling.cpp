@@ -46,9 +46,9 @@ Residuals residuals(TieRun run, double dt, double time) {
   return worst;
 }
 
-TEST(OverlapTie, KeepsMomentumAndItsBooksInCellsOfAnyShape) {
-  for (const fem::CellShape shape : {fem::CellShape::hex8, fem::CellShape::hex20, fem::CellShape::hex27,
-                                     fem::CellShape::tet4, fem::CellShape::tet10})
+TEST(ArlequinCoupling, KeepsMomentumAndItsBooksInCellsOfAnyShape) {
+  for (const fem::ElementShape shape : {fem::ElementShape::hex8, fem::ElementShape::hex20, fem::ElementShape::hex27,
+                                        fem::ElementShape::tet4, fem::ElementShape::tet10})
     for (const ConstraintKind kind : kinds) {
       SceneOptions o = sceneOf(kind);
       o.massShare = 0.0;
@@ -67,9 +67,9 @@ TEST(OverlapTie, KeepsMomentumAndItsBooksInCellsOfAnyShape) {
 }
 
 /// Random motion of both sides: forces against the gradient of the stored energy.
-TEST(OverlapTie, ForcesAreMinusTheGradientOfTheStoredEnergy) {
+TEST(ArlequinCoupling, ForcesAreMinusTheGradientOfTheStoredEnergy) {
   for (const double width : {0.0, 0.9}) {
-    TieRun run = tieBar(sceneOf(ConstraintKind::penalty, width), fem::CellShape::hex8);
+    TieRun run = tieBar(sceneOf(ConstraintKind::penalty, width), fem::ElementShape::hex8);
     run.start();
     std::mt19937 random(3);
     for (Vec3& x : run.grains.particles.x) x += randomVector(random, 1e-3);
@@ -106,7 +106,7 @@ TEST(OverlapTie, ForcesAreMinusTheGradientOfTheStoredEnergy) {
   }
 }
 
-TEST(OverlapTie, GivesTheSameBitsForAnyNumberOfThreads) {
+TEST(ArlequinCoupling, GivesTheSameBitsForAnyNumberOfThreads) {
   for (const ConstraintKind kind : kinds) {
     SceneOptions o = sceneOf(kind);
     o.coupling.absorberRate = 50.0;

@@ -12,20 +12,20 @@ std::string solidOf(const std::string& keys) {
       "material": {"law": "St-Venant-Kirchhoff", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000},)" +
          keys + "}],";
 }
-Scene settling(const std::string& gravity, const std::string& keys, const std::string& dt) {
+Scene relaxing(const std::string& gravity, const std::string& keys, const std::string& dt) {
   return sceneFromText(R"({"gravity": [0, 0, )" + gravity + "], " + solidOf(keys) + R"("steps": {"dt": )" + dt +
-                           R"(}, "stages": [{"do": "settle"}]})",
+                           R"(}, "stages": [{"do": "relax"}]})",
                        "s.json", "/");
 }
 
 TEST(SceneSettling, ColumnsOfSecondOrderSagUnderTheirWeight) {
   for (const char* const cells : {R"("cell": "tet10", "cells": [2, 2, 6])", R"("cell": "hex20", "cells": [1, 1, 3])"}) {
-    Built built = started(settling("-9.81",
+    Built built = started(relaxing("-9.81",
                                    std::string(cells) +
                                        R"(, "box": [[0, 0, 0], [0.5, 0.5, 2]], "stepping": "implicit",
                                           "supports": [{"on": "z-"}])",
                                    "0.02"));
-    ASSERT_TRUE(coupling::settle(*built.run, {.kinetic = 1e-12, .windows = 500}).atRest) << cells;
+    ASSERT_TRUE(coupling::relax(*built.run, {.kinetic = 1e-12, .macroSteps = 500}).atRest) << cells;
     double sum = 0.0;
     const std::vector<int>& top = built.meshes[0].nodeSets.at("z+");
     for (const int n : top) {
@@ -40,7 +40,7 @@ TEST(SceneSettling, ColumnsOfSecondOrderSagUnderTheirWeight) {
 TEST(SceneSettling, LumpedMassesThatWeighOtherwiseAreTold) {
   const auto notesOf = [](const std::string& cell, const std::string& keys, const std::string& gravity = "-9.81") {
     std::string all;
-    const Built built = build(settling(gravity,
+    const Built built = build(relaxing(gravity,
                                        R"("cell": ")" + cell + R"(", "cells": [1, 1, 1],
         "box": [[0, 0, 0], [1, 1, 1]], "supports": [{"on": "z-"}])" +
                                            keys,
@@ -50,12 +50,14 @@ TEST(SceneSettling, LumpedMassesThatWeighOtherwiseAreTold) {
   };
   const std::string told = "has lumped masses";
   for (const char* const cell : {"tet10", "hex20"}) {
-    expectParts(notesOf(cell, ""), {"WARNING", "\"b\"", cell, told.c_str(), "\"mass_share\": 1", "\"implicit\""});
-    expectParts(notesOf(cell, R"(, "stepping": "implicit", "mass_share": 0)"), {told.c_str(), "\"mass_share\": 1"});
-    for (const char* const right : {R"(, "stepping": "implicit")", R"(, "mass_share": 1)", R"(, "gravity": false)"})
+    expectParts(notesOf(cell, ""), {"WARNING", "\"b\"", cell, told.c_str(), "\"consistent_mass\": 1", "\"implicit\""});
+    expectParts(notesOf(cell, R"(, "stepping": "implicit", "consistent_mass": 0)"),
+                {told.c_str(), "\"consistent_mass\": 1"});
+    for (const char* const right :
+         {R"(, "stepping": "implicit")", R"(, "consistent_mass": 1)", R"(, "gravity": false)"})
       EXPECT_EQ(notesOf(cell, right).find(told), std::string::npos) << cell << right;
     EXPECT_EQ(notesOf(cell, "", "0").find(told), std::string::npos);
-    const Built flies = build(settling("-9.81", R"("cell": ")" + std::string(cell) + R"(", "cells": [1, 1, 1],
+    const Built flies = build(relaxing("-9.81", R"("cell": ")" + std::string(cell) + R"(", "cells": [1, 1, 1],
         "box": [[0, 0, 0], [1, 1, 1]])",
                                        "1e-4"));
     for (const std::string& note : flies.notes) EXPECT_EQ(note.find(told), std::string::npos) << cell;
@@ -71,28 +73,28 @@ TEST(SceneSettling, WhatNothingLoadsIsAtRest) {
           R"("cell": "hex8", "formulation": "reduced")", R"("cell": "hex8", "formulation": "mean-dilatation")",
           R"("cell": "hex8", "formulation": "assumed-stress")", R"("cell": "tet10")", R"("cell": "hex20")"})
       for (const char* const supports : {R"(, "supports": [{"on": "z-"}])", ""}) {
-        Built built = started(settling("0",
+        Built built = started(relaxing("0",
                                        std::string(elements) + R"(, "cells": [2, 1, 3], "stepping": ")" + stepping +
                                            R"(", "box": [[7.1, 0.3, 1e3], [7.8, 0.6, 1001.3]])" + supports,
                                        "1e-3"));
-        const coupling::RestReport report = coupling::settle(*built.run, {.windows = 100});
+        const coupling::RestReport report = coupling::relax(*built.run, {.macroSteps = 100});
         EXPECT_TRUE(report.atRest) << stepping << elements << supports;
         EXPECT_EQ(report.kinetic, 0.0) << stepping << elements << supports;
       }
 }
 
 TEST(SceneSettling, WhatFallsFreelyIsNotAtRest) {
-  Built built = started(settling("-9.81", R"("cells": [1, 1, 1], "box": [[0, 0, 0], [1, 1, 1]])", "1e-3"));
-  EXPECT_FALSE(coupling::settle(*built.run, {.windows = 50}).atRest);
+  Built built = started(relaxing("-9.81", R"("cells": [1, 1, 1], "box": [[0, 0, 0], [1, 1, 1]])", "1e-3"));
+  EXPECT_FALSE(coupling::relax(*built.run, {.macroSteps = 50}).atRest);
 }
 
 class ImplicitStack : public testing::TestWithParam<const char*> {};
 
 TEST_P(ImplicitStack, ComesToRestWhateverTheStep) {
-  Built built = started(settling("0", R"("cells": [2, 2, 4], "box": [[0, 0, 0], [1, 1, 2]], "stepping": "implicit",
+  Built built = started(relaxing("0", R"("cells": [2, 2, 4], "box": [[0, 0, 0], [1, 1, 2]], "stepping": "implicit",
       "supports": [{"on": "z-"}], "loads": [{"type": "traction", "on": "z+", "traction": [300, 0, -1000]}])",
                                  GetParam()));
-  ASSERT_TRUE(coupling::settle(*built.run, {.kinetic = 1e-12, .windows = 20000}).atRest);
+  ASSERT_TRUE(coupling::relax(*built.run, {.kinetic = 1e-12, .macroSteps = 20000}).atRest);
   const Vec3 held = [&] {
     Vec3 sum;
     for (const Vec3& one : built.run->reactions(0).supports) sum += one;
@@ -107,10 +109,10 @@ TEST_P(ImplicitStack, ComesToRestWhateverTheStep) {
 INSTANTIATE_TEST_SUITE_P(Steps, ImplicitStack, testing::Values("1e-3", "0.02", "0.5"));
 
 TEST(SceneSettling, ARunAfterItLosesNothing) {
-  Built built = started(settling("-9.81", R"("cells": [1, 1, 4], "box": [[0, 0, 0], [0.5, 0.5, 2]],
+  Built built = started(relaxing("-9.81", R"("cells": [1, 1, 4], "box": [[0, 0, 0], [0.5, 0.5, 2]],
       "stepping": "implicit", "supports": [{"on": "z-"}])",
                                  "0.02"));
-  coupling::settle(*built.run, {.kinetic = 1e-6, .windows = 500});
+  coupling::relax(*built.run, {.kinetic = 1e-6, .macroSteps = 500});
   const double lost = built.run->ledger().joules("b: dissipation of the scheme");
   EXPECT_GT(lost, 0.0);
   built.run->advance(50);
@@ -121,13 +123,13 @@ TEST(SceneSettling, WhatHourglassStiffnessStoresHasAChannelAndIsTold) {
   for (const char* const stepping : {"explicit", "implicit"})
     for (const int layers : {1, 6}) {
       const std::string n = std::to_string(layers);
-      Built built = started(settling("0",
+      Built built = started(relaxing("0",
                                      R"("cells": [12, 1, )" + n + R"(], "box": [[0, 0, 0], [6, 1, 1]],
         "formulation": "reduced", "stepping": ")" +
                                          stepping + R"(", "supports": [{"on": "x-"}],
         "loads": [{"type": "traction", "on": "x+", "traction": [0, 0, -10]}])",
                                      "2e-3"));
-      coupling::settle(*built.run, {.kinetic = 1e-6, .windows = 5000});
+      coupling::relax(*built.run, {.kinetic = 1e-6, .macroSteps = 5000});
       const EnergyLedger& ledger = built.run->ledger();
       const double hourglass = ledger.joules("b: hourglass of elements"), own = ledger.joules("b: elements");
       const Lines told = hourglassIn(built);

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "dovetail/arlequin/overlap_tie.hpp"
+#include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
 #include "overlap_locator.hpp"
 #include "pair_shares.hpp"
@@ -21,15 +21,15 @@ struct TieState {
   PairShares shares;
   bool refit = false;  // somebody has taken members out: rows keep their gap all the same
 
-  std::vector<Vec3> kept;             // per row: part of the gap that is not of the present ties, m
-  std::vector<Vec3> now, increment;   // the gap, and of the last step, m
-  std::vector<Vec3> atWindow;         // the gap at the last end of a window, m, of ties that act there
-  std::vector<Vec3> windowIncrement;  // of the window that ended there, m
-  std::optional<double> windowTime;   // of that end, s
-  double openingWork = 0.0;           // that the first half window's kick from there on takes, J
-  std::vector<Vec3> lambda;           // N
-  std::vector<int> rowNode;           // to which the arrays above belong
-  std::vector<Vec3> nodesBefore;      // u at the last evaluation, m
+  std::vector<Vec3> kept;            // per row: part of the gap that is not of the present ties, m
+  std::vector<Vec3> now, increment;  // the gap, and of the last step, m
+  std::vector<Vec3> atMacroStep;     // the gap at the last end of a macro step, m, of ties that act there
+  std::vector<Vec3> macroIncrement;  // of the macro step that ended there, m
+  std::optional<double> macroTime;   // of that end, s
+  double openingWork = 0.0;          // that the first half macro step's kick from there on takes, J
+  std::vector<Vec3> lambda;          // N
+  std::vector<int> rowNode;          // to which the arrays above belong
+  std::vector<Vec3> nodesBefore;     // u at the last evaluation, m
 
   bool advanced = false;  // the gap has been brought up to this step, and half of its work is booked
 
@@ -64,7 +64,7 @@ struct Renewal {
   }
 };
 
-struct OverlapTie::Impl : TieState {
+struct ArlequinCoupling::Impl : TieState {
   coupling::SolidSide& side;
   bool loadsNobody = false;  // it belongs to a copy of the particles' model
   TieParts parts;
@@ -80,8 +80,8 @@ struct OverlapTie::Impl : TieState {
   bool turnsGap() const {
     return setting.options.constraint == ConstraintKind::penalty && setting.options.form == GapForm::atParticles;
   }
-  /// On implicit solids multipliers and dashpots act at the ends of windows, whose increments and rates they see.
-  bool actsInWindows() const {
+  /// On implicit solids multipliers and dashpots act at the ends of macro steps, whose increments and rates they see.
+  bool actsInMacroSteps() const {
     return setting.options.constraint != ConstraintKind::penalty && side.stepping == coupling::Stepping::implicitSteps;
   }
   bool needsMass() const { return setting.options.constraint == ConstraintKind::multiplier; }
@@ -128,8 +128,8 @@ struct OverlapTie::Impl : TieState {
   /// Of the gap, m/s², under the forces of the particles and those on the nodes, N.
   std::vector<Vec3> accelerationUnder(const dem::Model& m, std::vector<Vec3> onNodes) const;
   void answerForces(const dem::Model& m);
-  void answerWindow(const GapRates& rates, bool ends);
-  void evaluateWindow(const dem::Model& m, double half);
+  void answerMacroStep(const GapRates& rates, bool ends);
+  void evaluateMacroStep(const dem::Model& m, double half);
   std::vector<Vec3> answered(const dem::Model& m, std::span<const Vec3> impulses) const;
 
   void watch(dem::Model& m, const dem::Step& step);

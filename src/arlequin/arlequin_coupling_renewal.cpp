@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "arlequin_coupling_impl.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
-#include "overlap_tie_impl.hpp"
 
 namespace dovetail::arlequin {
 
@@ -50,7 +50,7 @@ double largestSpeed(std::size_t n, const Vec3& frame, Velocity&& velocity) {
 }  // namespace
 
 /// Bounds on how far particles have moved relative to the solid since ties and neighbours were looked at.
-void OverlapTie::Impl::watch(dem::Model& m, const dem::Step& step) {
+void ArlequinCoupling::Impl::watch(dem::Model& m, const dem::Step& step) {
   const std::vector<Vec3>& v = nodes().v;
   const auto ofRow = [&](std::size_t r) { return v[static_cast<std::size_t>(rowNode[r])]; };
   Vec3 frame;
@@ -66,7 +66,7 @@ void OverlapTie::Impl::watch(dem::Model& m, const dem::Step& step) {
     throw NumericalError("velocities are not finite", "overlap with \"" + side.name + "\"", "take a smaller step");
 }
 
-void OverlapTie::Impl::findNear(const dem::Model& m) {
+void ArlequinCoupling::Impl::findNear(const dem::Model& m) {
   near.clear();
   const geometry::Box box = geometry::expanded(boxOf(setting, positions(), true), (shellRadii + 1.0) * largestRadius);
   for (std::size_t i = 0; i < m.particles.size(); ++i)
@@ -77,7 +77,7 @@ void OverlapTie::Impl::findNear(const dem::Model& m) {
   knownIds = m.particles.nextId;
 }
 
-void OverlapTie::Impl::findStrangers(const dem::Model& m, const OverlapLocator& locator) {
+void ArlequinCoupling::Impl::findStrangers(const dem::Model& m, const OverlapLocator& locator) {
   const geometry::Box box = boxOf(setting, positions(), false);
   const double least = setting.options.leastShare * (1.0 - 1e-6);
   for (std::size_t i = 0; i < m.particles.size(); ++i) {
@@ -93,7 +93,7 @@ void OverlapTie::Impl::findStrangers(const dem::Model& m, const OverlapLocator& 
 }
 
 /// Where members that have moved and those near are now.
-Renewal OverlapTie::Impl::lookAgain(const dem::Model& m, const OverlapLocator& locator) {
+Renewal ArlequinCoupling::Impl::lookAgain(const dem::Model& m, const OverlapLocator& locator) {
   const auto findAgain = [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     return locator.find(m.particles.x[at], m.particles.radius[at]);
@@ -129,13 +129,13 @@ Renewal OverlapTie::Impl::lookAgain(const dem::Model& m, const OverlapLocator& l
   return renewal;
 }
 
-bool OverlapTie::Impl::isBeyond(const FoundParticle& found) const {
+bool ArlequinCoupling::Impl::isBeyond(const FoundParticle& found) const {
   return found.place.element >= 0 && found.weight < setting.options.leastShare * (1.0 - 1e-6);
 }
 
 /// @param last  where it was, whose nodes share the momentum if it is nowhere now
-void OverlapTie::Impl::change(Renewal& renewal, int particle, double before, const FoundParticle& found,
-                              const fem::CellPlace& last) const {
+void ArlequinCoupling::Impl::change(Renewal& renewal, int particle, double before, const FoundParticle& found,
+                                    const fem::CellPlace& last) const {
   renewal.isMoved[static_cast<std::size_t>(particle)] = 1;
   if (isBeyond(found)) return renewal.beyond.push_back(particle);
   const bool isTied = found.place.element >= 0;
@@ -148,7 +148,7 @@ void OverlapTie::Impl::change(Renewal& renewal, int particle, double before, con
   renewal.tie(particle, found, material);
 }
 
-void OverlapTie::Impl::relocate(dem::Model& m) {
+void ArlequinCoupling::Impl::relocate(dem::Model& m) {
   const std::vector<Vec3> x = positions();
   const OverlapLocator locator(setting.mesh, x, setting.nodalWeight, m.pairs.periodicity());
   Renewal renewal = lookAgain(m, locator);
@@ -169,11 +169,11 @@ void OverlapTie::Impl::relocate(dem::Model& m) {
 }
 
 /// Shares change hands, and the rows are made of the new members.
-void OverlapTie::Impl::tieAnew(dem::Model& m, Renewal& renewal) {
-  // In windows the rate between the kicks about their ends is half of what other forces do: new ties keep it.
+void ArlequinCoupling::Impl::tieAnew(dem::Model& m, Renewal& renewal) {
+  // In macro steps the rate between the kicks about their ends is half of what other forces do: new ties keep it.
   const std::vector<int> nodesOfRows = rowNode;
   std::vector<Vec3> rate(rowNode.size()), impulse(nodes().v.size());
-  if (actsInWindows()) gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
+  if (actsInMacroSteps()) gapOf(parts.gap, overlap, m.particles.v, nodes().v, rate);
   overlap = std::move(renewal.next);
   number(m.particles);
   if (m.particles.weight.empty()) m.particles.weight.assign(m.particles.size(), 1.0);
@@ -185,12 +185,12 @@ void OverlapTie::Impl::tieAnew(dem::Model& m, Renewal& renewal) {
   if (setting.options.constraint == ConstraintKind::multiplier) comply(m, inRows(rate, nodesOfRows));
   gapOf(parts.gap, overlap, m.particles.v, nodes().v, increment);  // of the step, as the new ties see it
   for (Vec3& change : increment) change *= m.step.dt;
-  if (!parts.constraint->needsRates() && !actsInWindows())
+  if (!parts.constraint->needsRates() && !actsInMacroSteps())
     parts.constraint->evaluate({now, increment, {}, {}, 1.0}, lambda);
   storedNow = storedWith(lambda);
 }
 
-void OverlapTie::exchange(dem::Model& m, const dem::Step& step) {
+void ArlequinCoupling::exchange(dem::Model& m, const dem::Step& step) {
   Impl& s = *impl_;
   if (!s.isFollowed()) return;
   s.ready(m);
@@ -209,13 +209,13 @@ void OverlapTie::exchange(dem::Model& m, const dem::Step& step) {
   s.relocate(m);
 }
 
-void OverlapTie::renewed(dem::Model& m) {
+void ArlequinCoupling::renewed(dem::Model& m) {
   Impl& s = *impl_;
   if (s.known != m.particles.revision) s.number(m.particles);
   s.shares.update(m.particles, m.pairs, s.setting.mesh, s.overlap, s.positions(), s.memberOf);
 }
 
-double OverlapTie::renumber(std::span<const int> newNumber, const dem::Particles&) {
+double ArlequinCoupling::renumber(std::span<const int> newNumber, const dem::Particles&) {
   Impl& s = *impl_;
   s.shares.renumber(newNumber);
   Overlap rest;

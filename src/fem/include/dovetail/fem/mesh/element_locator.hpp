@@ -21,14 +21,14 @@ struct CellPlace {
 /// Elements of any shape in some configuration, sorted for look-up. A point on a face that several elements share
 /// belongs to the one with the lowest number: every point has one owner. What counts as on a face is round-off of the
 /// coordinates (64 ε of their size), so that no point is lost far from the origin.
-class CellLocator {
+class ElementLocator {
 public:
   /// In the reference configuration. @throws InputError as below
-  explicit CellLocator(const SolidMesh& mesh);
+  explicit ElementLocator(const SolidMesh& mesh);
   /// @param position  of the nodes, m: reference, or X + u
   /// @throws InputError without elements, for a node number out of range, or for an element without extent;
   ///         NumericalError naming a node whose position is not finite
-  CellLocator(std::span<const CellGroup> groups, std::span<const Vec3> position);
+  ElementLocator(std::span<const ElementGroup> groups, std::span<const Vec3> position);
 
   /// Nothing if the point is outside. Plane elements are asked for x and y alone. Any number of threads may ask.
   /// @throws NumericalError naming element and point if the element is so flat or folded that it cannot be told;
@@ -42,14 +42,14 @@ public:
 
 private:
   struct Cell {
-    CellShape shape;
+    ElementShape shape;
     std::span<const int> node;
   };
   Cell cell(int element) const;
   Vec3 inPlane(const Vec3& point) const;
   CellPlace placeAt(int element, const Vec3& xi) const;
 
-  std::vector<CellGroup> groups_;
+  std::vector<ElementGroup> groups_;
   std::vector<int> end_;  // of each group: the number behind its last element
   std::vector<Vec3> position_;
   std::vector<geometry::Box> box_;  // per element

@@ -6,6 +6,6 @@
 namespace dovetail::dem {
 
 /// Largest (r × n)·I⁻¹(r × n) over unit vectors n, 1/kg. @param r, inertia in the principal frame, m, kg m²
-double turnability(const Vec3& r, const Vec3& inertia);
+double rotationalMobility(const Vec3& r, const Vec3& inertia);
 
 }  // namespace dovetail::dem

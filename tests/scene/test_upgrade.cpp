@@ -1,0 +1,59 @@
+// Scenes with names of earlier versions.
+#include "../../src/scene/renamed.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/scene/upgrade.hpp"
+#include "refusal.hpp"
+#include "scene_parts.hpp"
+
+namespace dovetail::scene::test {
+namespace {
+
+const std::string old = R"({
+  // a comment with "windows" in it
+  "title": "windows",
+  "contact": {"law": "linear", "stiffness": 1e4},
+  "particles": [{"from": "list", "density": 2500, "spheres": [{"at": [0, 0, 0], "radius": 0.1}]}],
+  "steps": {"dt": 1e-5, "per_window": 2},
+  "stages": [{"do": "settle", "windows": 30}, {"do": "run", "time": 1e-3}]
+})";
+
+TEST(SceneUpgrade, GivesNamesOfTodayAndLeavesAllElse) {
+  const Upgrade upgrade = upgraded(old, "s.json");
+  ASSERT_EQ(upgrade.changes.size(), 3U);
+  EXPECT_EQ(upgrade.changes[0], "s.json:6:25: \"per_window\" is \"per_macro_step\"");
+  std::string wanted = replaced(old, "\"per_window\"", "\"per_macro_step\"");
+  wanted = replaced(wanted, R"("do": "settle", "windows")", R"("do": "relax", "macro_steps")");
+  EXPECT_EQ(upgrade.text, wanted);
+  EXPECT_TRUE(upgraded(wanted, "s.json").changes.empty());
+  const Scene scene = sceneFromText(upgrade.text, "s.json", "/");
+  EXPECT_EQ(scene.steps.stepsPerMacroStep, 2);
+  EXPECT_EQ(std::get<Relax>(scene.stages[0].kind).macroSteps, 30);
+}
+
+TEST(SceneUpgrade, OldNamesAreRefusedWithTheirNewOnes) {
+  const auto refusal = [](const std::string& text) {
+    try {
+      sceneFromText(text, "s.json", "/");
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  expectParts(refusal(old), {"\"per_window\"", "write \"per_macro_step\", its name since version", "upgrade FILE"});
+  expectParts(refusal(replaced(old, "per_window", "per_macro_step")), {"\"settle\"", "write \"relax\""});
+}
+
+/// Every row of the table of keys and words changes some scene.
+TEST(SceneUpgrade, KnowsEveryRow) {
+  for (const Renamed& one : renamed) {
+    if (one.kind == Renamed::Kind::column) continue;
+    const std::string holder(one.within.substr(0, one.within.find('.')));
+    const bool isWord = one.kind == Renamed::Kind::word;
+    const std::string key = isWord ? std::string(one.within.substr(holder.size() + 1)) : std::string(one.was);
+    const std::string text = "{\"" + holder + "\": {\"" + key + "\": \"" + std::string(one.was) + "\"}}";
+    EXPECT_EQ(upgraded(text, "s.json").changes.size(), 1U) << text;
+  }
+}
+
+}  // namespace
+}  // namespace dovetail::scene::test
