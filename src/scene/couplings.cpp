@@ -73,14 +73,28 @@ void requireConsistent(const SurfaceContact& contact) {
     throw InputError("a smooth surface has no edges of facets", "",
                      "take \"edges\": \"projected\" or \"surface\": \"flat\"");
   if (contact.spread && contact.kernel.correction != 0)
-    throw InputError("corrections of kernels are made for the adjoint transfer", "",
-                     "take \"kernel_correction\": \"none\" or \"transfer\": \"adjoint\"");
+    throw InputError("a spread load has no correction of its kernel, and \"symmetric\" is the default", "",
+                     "write \"kernel_correction\": \"none\" beside \"transfer\": \"spread\"");
   if (contact.contact && !contact.contactMaterial.empty())
     throw InputError("these contacts have a law and a material", "", "leave contact or contact_material out");
 }
 
-/// What is not adjoint, or one step old, makes or takes energy, which is booked.
-bool isUnbalanced(const SurfaceContact& contact, const Scene& scene) { return contact.spread || scene.steps.lag != 0; }
+/// The kernel of a spread load ends where its set does.
+void requireAlone(const Built& built, const fem::SolidMesh& mesh, const Coupling& coupling,
+                  const SurfaceContact& contact, const Scene& scene) {
+  if (!contact.spread) return;
+  const auto onSurface = std::ranges::count_if(scene.couplings, [&](const Coupling& one) {
+    return one.solid == coupling.solid && std::holds_alternative<SurfaceContact>(one.kind);
+  });
+  if (onSurface > 1)
+    throw InputError("a spread load does not reach into the faces of another coupling of \"" + coupling.solid + "\"",
+                     "", "name one set for both, or take \"transfer\": \"adjoint\"");
+  const surface::Skin skin = surface::makeSkin(mesh.X, fem::faceSet(mesh, contact.on));
+  if (contact.kernel.width.word != "none" && surface::meetsPeriod(skin, built.run->grains.pairs.periodicity()))
+    throw InputError(
+        "the kernel of a spread load ends at a side of the periodic space, beyond which the surface goes on", "",
+        "write \"kernel\": \"none\"");
+}
 
 surface::Coupling couplingOn(surface::Skin skin, const SurfaceContact& contact, const fem::SolidMesh& mesh) {
   if (contact.smooth) return surface::Coupling(surface::makeSmoothSurface(skin));
@@ -94,10 +108,11 @@ surface::Coupling couplingOn(surface::Skin skin, const SurfaceContact& contact, 
 void add(Built& built, std::size_t solid, const Coupling& coupling, const SurfaceContact& contact, const Scene& scene) {
   dem::Model& grains = built.run->grains;
   requireConsistent(contact);
+  requireAlone(built, built.meshes[solid], coupling, contact, scene);
   surface::Skin skin = skinOf(built, built.meshes[solid], coupling, contact, scene);
   skin.wall.material = contactRow(scene, contact.contactMaterial);
   surface::Coupling exchange = couplingOn(std::move(skin), contact, built.meshes[solid]);
-  exchange.bookWallWork(isUnbalanced(contact, scene));
+  exchange.bookWallWork(contact.spread);
   grains.terms.add(surface::SurfaceContact(built.run->solid(solid), std::move(exchange),
                                            contact.contact ? makeLaws(*contact.contact) : grains.laws,
                                            "grains on " + coupling.solid + " (" + contact.on + ")"));
@@ -155,6 +170,9 @@ void requireConsistent(const Overlap& overlap, const coupling::SolidSide& side, 
   const auto require = [](bool good, const char* what, const char* remedy) {
     if (!good) throw InputError(what, "", remedy);
   };
+  require(scene.steps.lag == 0, "loads that lag are those of surfaces", "leave steps.lag or the overlap out");
+  require(!overlap.reachOut || overlap.absorber == 0.0, "the absorber works where particles are in elements",
+          "leave kernel_reach or absorber out");
   require(!damps || overlap.penalty.word.empty(), "a dashpot has no automatic penalty", "give penalty a number");
   require(damps || !overlap.staggered, "the order \"staggered\" is that of a dashpot",
           "take \"constraint\": \"dashpot\" or leave order out");

@@ -1,6 +1,7 @@
 // Parts of a scene that do nothing, and places that do not go with periods, other parts or themselves.
 #include <cmath>
 
+#include "dovetail/arlequin/coupling_options.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/surface/skin.hpp"
@@ -114,6 +115,33 @@ void lookAtFaces(const Built& built, const Scene& scene, Lines& lines) {
                         " lets touch them: name the faces that they come to, or \"skin\" for all.");
     }
   }
+}
+
+void tellIdle(bool idle, const std::string& key, const char* why, Lines& lines) {
+  if (idle) lines.push_back(key + " does nothing, as " + why + ": leave it out.");
+}
+
+/// Keys that another one makes idle.
+void lookAtOptions(const Scene& scene, Lines& lines) {
+  for (std::size_t k = 0; k < scene.couplings.size(); ++k) {
+    const std::string of = item("couplings", k) + ".";
+    if (const auto* const overlap = std::get_if<Overlap>(&scene.couplings[k].kind)) {
+      const auto kind = static_cast<arlequin::ConstraintKind>(overlap->constraint);
+      const Overlap usual;
+      tellIdle(overlap->consistentDashpot && kind != arlequin::ConstraintKind::dashpot, of + "dashpot_matrix",
+               "there is no dashpot", lines);
+      tellIdle(overlap->penalty.word.empty() && kind == arlequin::ConstraintKind::multiplier, of + "penalty",
+               "multipliers hold the gap", lines);
+      const bool shaped = overlap->kernelShape != usual.kernelShape || overlap->normalised != usual.normalised;
+      tellIdle(overlap->kernel == 0.0 && shaped, of + "kernel_shape or kernel_normalised", "there is no kernel", lines);
+    } else if (const auto& contact = std::get<SurfaceContact>(scene.couplings[k].kind);
+               contact.kernel.width.word == "none") {
+      const SurfaceKernel usual;
+      tellIdle(contact.kernel.shape != usual.shape, of + "kernel_shape", "there is no kernel", lines);
+      tellIdle(contact.spread, of + "transfer", "there is no kernel that spreads a load", lines);
+    }
+  }
+  tellIdle(scene.steps.lag != 0 && scene.couplings.empty(), "steps.lag", "no solid has a coupling", lines);
 }
 
 // ---- clumps
@@ -278,6 +306,7 @@ void lookForIdleParts(const Built& built, const Scene& scene, Lines& lines) {
   for (std::size_t s = 0; s < scene.solids.size(); ++s)
     lookAtSpeeds(item("solids", s) + ".supports", scene.solids[s].supports, machine, scene, lines);
   lookAtFaces(built, scene, lines);
+  lookAtOptions(scene, lines);
   lookAtClumps(scene, lines);
   if (scene.periodic) lookAtPeriods(built, scene, lines);
   lookAtGaps(built, scene, lines);

@@ -175,7 +175,7 @@ void describe(Fields& f, SurfaceContact& v) {
            surfaces);
   f.choice({"edges",
             "where a grain touches several facets: projected clear of all, as a potential asks; or the deepest contact "
-            "alone, or the mean of all faces (code of Cheng et al. 2023)"},
+            "alone, the mean of all where all are faces (code of Cheng et al. 2023)"},
            v.edges, rules);
   f.object({"contact", "law of these contacts; that of the grains if not given"}, v.contact);
   contactMaterial(f, v.contactMaterial);

@@ -1,7 +1,7 @@
 // Keys for schemes of the literature.
 #include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/surface/surface_contact.hpp"
-#include "scene_parts.hpp"
+#include "warning_parts.hpp"
 
 namespace dovetail::scene::test {
 namespace {
@@ -63,7 +63,17 @@ TEST(PublishedSchemes, SurfacePartsThatExcludeEachOtherAreRefused) {
   expectParts(refusalOfRun(plate("", R"(, "edges": "deepest", "surface": "smooth")")),
               {"couplings.0", "no edges", "\"edges\": \"projected\""});
   expectParts(refusalOfRun(plate("", R"(, "transfer": "spread")")),
-              {"couplings.0", "adjoint", "\"kernel_correction\": \"none\""});
+              {"couplings.0", "\"symmetric\" is the default", "\"kernel_correction\": \"none\""});
+}
+
+/// Their kernels end where their own faces do.
+TEST(PublishedSchemes, SpreadLoadsWantASetOfTheirOwn) {
+  const std::string spread = R"(, "transfer": "spread", "kernel": 0.4, "kernel_correction": "none", "on": "z+")";
+  const std::string two = R"(}, {"type": "surface", "solid": "plate", "on": "x+", "kernel": "none")";
+  EXPECT_EQ(refusalOfRun(plate("", spread)), "");
+  expectParts(refusalOfRun(plate("", spread + two)), {"couplings.0", "faces of another coupling", "name one set"});
+  expectParts(refusalOfRun(plate("", spread) + R"("periodic": {"box": [[0, 0, 0], [1, 1, 1]], "axes": ["x"]},)"),
+              {"couplings.0", "a side of the periodic space", "\"kernel\": \"none\""});
 }
 
 std::string soil(const std::string& solid, const std::string& overlap) {
@@ -95,6 +105,20 @@ TEST(PublishedSchemes, OverlapPartsThatExcludeEachOtherAreRefused) {
   expectParts(refusal("", R"(, "kernel_reach": "outside")"), {"couplings.0", "\"gap\": \"nodal\""});
   expectParts(refusal(R"(, "stepping": "implicit")", R"(, "absorber": 10)"),
               {"couplings.0", "\"stepping\": \"explicit\""});
+  expectParts(refusal("", R"(, "gap": "nodal", "kernel_reach": "outside", "kernel": 0.3, "absorber": 10)"),
+              {"couplings.0", "leave kernel_reach or absorber out"});
+  Scene lags = sceneOf(soil("", ""));
+  lags.steps.lag = 1;
+  EXPECT_THROW(build(lags), InputError);
+}
+
+TEST(PublishedSchemes, KeysThatAnotherOneMakesIdleAreTold) {
+  expectParts(warningsOf(soil("", R"(, "dashpot_matrix": "consistent")")), {"couplings.0.dashpot_matrix does nothing"});
+  expectParts(warningsOf(soil("", R"(, "constraint": "multiplier", "penalty": 1e6)")),
+              {"couplings.0.penalty does nothing"});
+  expectParts(warningsOf(soil("", R"(, "kernel_normalised": false)")), {"there is no kernel"});
+  expectParts(warningsOf(plate("", R"(, "kernel": "none", "kernel_shape": "gauss")")),
+              {"couplings.0.kernel_shape does nothing"});
 }
 
 }  // namespace
