@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/interruption.hpp"
 #include "dovetail/io/output_folder.hpp"
@@ -86,7 +87,9 @@ bool upgradeScene(const Options& options) {
   if (upgrade.changes.empty())
     std::cout << "nothing to change\n";
   else
-    io::writeFileAtomically(options.file, upgrade.text);
+    replaceFile(options.file, {upgrade.text}, [](const std::filesystem::path& path) {
+      return std::filesystem::is_regular_file(std::filesystem::symlink_status(path));
+    });
   return true;
 }
 bool writeStarter(const Options& options) {

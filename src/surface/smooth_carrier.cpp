@@ -46,7 +46,8 @@ public:
 
   void check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity) const override {
     const auto refuse = [](const std::string& what) {
-      throw InputError(what, "smooth surface", "take the skin itself: facets know no such limits");
+      throw InputError(what, "smooth surface",
+                       "take the facets themselves (\"surface\": \"flat\"), which know no such limits");
     };
     if (laws.memory() > 0) refuse("\"" + laws.name() + "\" remembers what no patch carries");
     if (laws.reach() > 0.0) refuse("\"" + laws.name() + "\" acts beyond touch");

@@ -21,7 +21,7 @@ CouplingOptions optionsOf(std::span<const SurfacePart> parts) {
     const CouplingOptions& own = part.coupling->options();
     if (own.edges != all.edges)
       throw InputError("two couplings on one solid combine contacts by different rules", "surface of a solid",
-                       "give all the same CouplingOptions::edges");
+                       "give all the same rule for edges (\"edges\")");
     if (own.margin > 0.0 && (all.margin == 0.0 || own.margin < all.margin)) all.margin = own.margin;
   }
   return all;

@@ -56,7 +56,7 @@ void SurfaceContact::check(const dem::Model& m) const {
   for (const auto* other : m.terms.all<SurfaceContact>())
     if (other != this && other->side().model == side().model && other->coupling_.meets(coupling_))
       throw InputError("its smooth surface meets that of \"" + other->name_ + "\" on the same solid", name_,
-                       "take skins for both, which know each other");
+                       "take facets for both (\"surface\": \"flat\"), or one set of faces");
 }
 
 /// Of the solid's surface, those that are facets; or this one alone, if it is not.
@@ -74,7 +74,7 @@ void SurfaceContact::requireJoinable(std::span<const SurfaceContact* const> part
     skins.push_back(&part->coupling_.skin());
     if (part->coupling_.options().edges != coupling_.options().edges)
       throw InputError("its contacts are combined by another rule than those of \"" + part->name_ + "\" on this solid",
-                       name_, "give both the same CouplingOptions::edges");
+                       name_, "give both the same rule for edges (\"edges\")");
   }
   try {
     joined(skins);

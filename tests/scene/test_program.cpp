@@ -301,5 +301,18 @@ TEST(Program, ScenesStayThatLieWhereARunWrites) {
   EXPECT_EQ(readText(file), text);
 }
 
+TEST(Program, UpgradesScenesInPlace) {
+  const ScratchFolder folder;
+  const std::string old = R"({"steps": {"per_window": 2}} // mine)";
+  std::ofstream(folder / "s.json") << old;
+  const Outcome outcome = runProgram({"upgrade", (folder / "s.json").string()});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("per_macro_step"), std::string::npos) << outcome.out;
+  EXPECT_EQ(readText(folder / "s.json"), R"({"steps": {"per_macro_step": 2}} // mine)");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  EXPECT_EQ(runProgram({"upgrade", (folder / "s.json").string()}).out, "nothing to change\n");
+  expectRefused(runProgram({"upgrade", (folder / "none.json").string()}), "none.json");
+}
+
 }  // namespace
 }  // namespace dovetail::scene
