@@ -170,13 +170,13 @@ void lookForFreeSolids(const Built& built, const Scene& scene, std::size_t numbe
     return lines.push_back(quoted(solid.name) +
                            " has no supports and no gravity, so that grains that lie on it push it away: hold some of "
                            "its nodes.");
-  if (!built.run->solid(number).mass) return;  // the run has not started
-  const Vec3 pull = netLoad(built, scene, number);
+  if (!built.run->solid(number).mass || fem::dimensionOf(built.meshes[number]) == 2) return;  // not started, or a plane
   const std::size_t nodes = built.meshes[number].X.size();
   for (int k = 0; k < 3; ++k) {
+    if (!isFreeAlong(built.run->solid(number).mass->dofs(), nodes, static_cast<std::size_t>(k))) continue;
     const bool falls = solid.gravity && scene.gravity[k] != 0.0;
-    if ((falls || pull[k] != 0.0) && fem::dimensionOf(built.meshes[number]) == 3 &&
-        isFreeAlong(built.run->solid(number).mass->dofs(), nodes, static_cast<std::size_t>(k)))
+    const Vec3 pull = netLoad(built, scene, number);
+    if (falls || pull[k] != 0.0)
       lines.push_back("Nothing holds " + quoted(solid.name) + " along " + "xyz"[k] + ", where " +
                       (falls ? "gravity pulls" : "its loads come to " + rounded(pull[k]) + " N at the end") +
                       ", so that it flies off: hold that component of some of its nodes, or let loads balance or end.");
