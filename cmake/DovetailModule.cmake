@@ -10,7 +10,8 @@ function(dovetail_add_module name)
   add_library(dovetail::${name} ALIAS ${target})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
@@ -34,6 +35,7 @@ function(dovetail_add_test name)
     target_link_libraries(test_${name} PRIVATE dovetail::${dependency})
   endforeach()
   target_link_libraries(test_${name} PRIVATE GTest::gtest_main)
+  target_include_directories(test_${name} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
   dovetail_set_test_options(test_${name})
   if(TEST_EIGEN)
     dovetail_reuse_headers(test_${name} dovetail_eigen_test_headers)

@@ -72,7 +72,7 @@ bool resumeRun(const Options& options) {
       {.folder = options.file, .profile = options.profile, .until = untilOf(options), .threads = options.threads},
       std::cout);
 }
-bool tellFile(const Options& options) {
+bool inspectFile(const Options& options) {
   scene::tell(options.file, std::cout);
   return true;
 }
@@ -135,7 +135,7 @@ std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
                      "time since the start at which the last stage is to end, of a run that is done too");
   resume->add_option("--threads", options.threads, "in place of the scene's; the digits are the same for any number");
   steps(resume);
-  add("info", "tells what a file or folder holds", tellFile)->add_option("FILE", options.file)->required();
+  add("info", "tells what a file or folder holds", inspectFile)->add_option("FILE", options.file)->required();
   add("upgrade", "gives keys and words of a scene file the names that they have now", upgradeScene)
       ->add_option("SCENE", options.file, "scene file (JSON), which is changed in place")
       ->required();

@@ -109,7 +109,7 @@ void findOrders(std::vector<Run>& runs) {
     const Run* const other = coarser(runs, run);
     if (!other) continue;
     const double ratio =
-        numberIn(other->figures, "largest_residual_share") / numberIn(run.figures, "largest_residual_share");
+        numberIn(other->figures, "largest_residual_fraction") / numberIn(run.figures, "largest_residual_fraction");
     run.order = std::log(ratio) / std::log(other->dt / run.dt);
   }
 }
@@ -127,7 +127,7 @@ report::Table tableOf(const std::vector<Run>& runs) {
     const double time = run.series.column("time_s").back();
     table.rows.push_back(
         {run.label, text(run.dt), text(std::round(time / run.dt), "%.0f"),
-         text(numberIn(run.figures, "largest_residual_J")), text(numberIn(run.figures, "largest_residual_share")),
+         text(numberIn(run.figures, "largest_residual_J")), text(numberIn(run.figures, "largest_residual_fraction")),
          run.order ? text(*run.order, "%.2f") : "", text(numberIn(run.figures, "residual_growth"), "%.2f"),
          text(numberIn(run.figures, "wall_seconds"))});
   }
@@ -138,7 +138,7 @@ report::Figure againstStep(const std::vector<Run>& runs) {
   report::Curve curve{"runs", {}, {}, false, true};
   for (const Run& run : runs) {
     curve.x.push_back(run.dt);
-    curve.y.push_back(numberIn(run.figures, "largest_residual_share"));
+    curve.y.push_back(numberIn(run.figures, "largest_residual_fraction"));
   }
   return {"energy_step", "Residual against step", {"step (s)", true}, {"over what changed hands", true}, {curve}, {}};
 }
@@ -188,7 +188,7 @@ Json energyFigures(const io::TimeSeries& series) {
   const double residual = largestMagnitude(series.column("residual_J")), changed = changedHands(series);
   return {{"largest_residual_J", residual},
           {"changed_hands_J", changed},
-          {"largest_residual_share", report::numberOrNull(changed > 0.0 ? residual / changed : std::nan(""))},
+          {"largest_residual_fraction", report::numberOrNull(changed > 0.0 ? residual / changed : std::nan(""))},
           {"residual_growth", report::numberOrNull(growthOf(series.column("residual_J")))}};
 }
 
@@ -202,7 +202,8 @@ void writeEnergyStudy(const fs::path& folder) {
       "Energy",
       {{"Runs",
         {report::Paragraph{
-             "Residual: what nobody accounts for, the largest of the run. Order: of the residual's share, beside the "
+             "Residual: what nobody accounts for, the largest of the run. Order: of the residual over what changed, "
+             "beside the "
              "run with "
              "the next larger step that differs in nothing else. Growth: exponent of the largest residual over time: 0 "
              "bounded, 0.5 a random walk, 1 a drift."},
@@ -213,7 +214,7 @@ void writeEnergyStudy(const fs::path& folder) {
   for (const Run& run : runs) {
     Json row{{"label", run.label}, {"dt_s", run.dt}, {"order", run.order ? Json(*run.order) : Json(nullptr)}};
     for (const char* key :
-         {"largest_residual_J", "changed_hands_J", "largest_residual_share", "residual_growth", "wall_seconds"})
+         {"largest_residual_J", "changed_hands_J", "largest_residual_fraction", "residual_growth", "wall_seconds"})
       row[key] = run.figures.contains(key) ? run.figures[key] : Json(nullptr);
     row["settings"] = report::objectOf(run.settings);
     rows.push_back(std::move(row));

@@ -9,7 +9,7 @@
 namespace dovetail::program {
 
 /// Of a run's series: "largest_residual_J"; "changed_hands_J", the most that channels have given and taken since the
-/// start, half of the sum of the magnitudes of all changes; "largest_residual_share", their ratio; and
+/// start, half of the sum of the magnitudes of all changes; "largest_residual_fraction", their ratio; and
 /// "residual_growth", the exponent p of a largest residual that grows with time to the power p, from its values after
 /// half of the time and at the end: 0 bounded, ½ a random walk, 1 a drift. @param series  with a column residual_J
 report::Json energyFigures(const io::TimeSeries& series);

@@ -11,7 +11,7 @@ namespace dovetail::program {
 namespace {
 struct Options {
   std::string run, file;
-  scene::GridSettings settings;
+  scene::GridOptions settings;
   std::vector<double> box;
 };
 }  // namespace
@@ -35,7 +35,7 @@ Verb addFields(CLI::App& app) {
                    "x y z of the lower and of the upper corner, m; around all grains if not given")
       ->expected(6);
   return {verb, [options] {
-            scene::GridSettings settings = options->settings;
+            scene::GridOptions settings = options->settings;
             const std::vector<double>& b = options->box;
             if (!b.empty()) settings.box = geometry::Box{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
             settings.file = options->file.empty() ? std::filesystem::path(options->run) / "fields.vti"

@@ -118,8 +118,8 @@ void addWave(const std::vector<Result>& results, Chapter& chapter) {
                           "wave past the overlap beside particles alone, and energy lost."},
         figureOf("wave_form", "Off particles alone", "run time (s)", "waveform error",
                  pointsOf(*study, "waveform_error_fem", byConstraint), {}, chapter),
-        figureOf("wave_energy", "Energy lost", "run time (s)", "share of the input",
-                 pointsOf(*study, "energy_lost_share", byConstraint), {}, chapter),
+        figureOf("wave_energy", "Energy lost", "run time (s)", "fraction of the input",
+                 pointsOf(*study, "energy_lost_fraction", byConstraint), {}, chapter),
         publishedWave()}});
 }
 

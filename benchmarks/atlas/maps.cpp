@@ -119,12 +119,12 @@ std::vector<Placed> listOf(const Result& study) {
 /// Of what changed hands in a run of a scene, what may be left over for the energy to have stayed: in an impact a
 /// twentieth of the energy is a fortieth of the speed of rebound, which is about how well a coefficient of restitution
 /// is known.
-constexpr double memoryShare = 0.05;
+constexpr double memoryFraction = 0.05;
 
 /// Scenes run with every combination of two values.
-Map::Outcome outcomeOfScene(const Json& row, double share) {
+Map::Outcome outcomeOfScene(const Json& row, double fraction) {
   const Map::Outcome outcome = outcomeOf(row);
-  return outcome == Map::Outcome::survived && !(share < memoryShare) ? Map::Outcome::failed : outcome;
+  return outcome == Map::Outcome::survived && !(fraction < memoryFraction) ? Map::Outcome::failed : outcome;
 }
 
 std::string sceneCommand(const Result& study, const std::string& label) {
@@ -141,7 +141,7 @@ std::string sceneCommand(const Result& study, const std::string& label) {
 
 /// "size ratio" of a scene's parameter size_ratio
 std::string axisName(std::string parameter) {
-  if (parameter == "safety") return "share of the critical step (safety)";
+  if (parameter == "safety") return "fraction of the critical step (safety)";
   std::replace(parameter.begin(), parameter.end(), '_', ' ');
   return parameter;
 }
@@ -155,12 +155,12 @@ std::vector<Placed> cellsOfScenes(const Result& study, std::string& x, std::stri
     const std::string rowName = at.value();
     ++at;
     x = axisName(at.key());
-    const double share = numberOf(row, "largest_residual_share");
+    const double fraction = numberOf(row, "largest_residual_fraction");
     placed.push_back(
         {rowName,
          at.value(),
-         {outcomeOfScene(row, share), std::isfinite(share) ? format("%.0e", share) : "",
-          detailOf(row, std::isfinite(share) ? format("energy left over %.3e of what changed hands", share) : "",
+         {outcomeOfScene(row, fraction), std::isfinite(fraction) ? format("%.0e", fraction) : "",
+          detailOf(row, std::isfinite(fraction) ? format("energy left over %.3e of what changed hands", fraction) : "",
                    sceneCommand(study, wordOf(row, "label")))}});
   }
   return placed;
@@ -195,7 +195,7 @@ public:
         "automatic "
         "steps, which give an impact eight steps at least.",
         rows_.size(), count(Map::Outcome::survived), count(Map::Outcome::refused), count(Map::Outcome::failed),
-        100.0 * memoryShare)});
+        100.0 * memoryFraction)});
     for (const Map& map : maps_) section.blocks.push_back(map);
     chapter.sections.push_back(std::move(section));
     return chapter;

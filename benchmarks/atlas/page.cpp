@@ -34,11 +34,11 @@ report::Section studiesOf(const std::vector<Result>& results, const io::KeyValue
 void write(const fs::path& folder) {
   const std::vector<Result> results = readResults(folder);
   const io::KeyValues provenance = io::provenance({{"program", "atlas"}});
-  const Chapter fronts = frontsOf(results), maps = mapsOf(results), prices = pricesOf(results);
+  const Chapter fronts = frontsOf(results), maps = mapsOf(results), overhead = overheadOf(results);
   report::Page page{"Atlas of error, time and stability", {}};
   report::Json json{{"provenance", report::objectOf(provenance)}};
   for (const auto& [name, chapter] :
-       {std::pair{"fronts", &fronts}, std::pair{"map", &maps}, std::pair{"prices", &prices}}) {
+       {std::pair{"fronts", &fronts}, std::pair{"map", &maps}, std::pair{"overhead", &overhead}}) {
     page.sections.insert(page.sections.end(), chapter->sections.begin(), chapter->sections.end());
     json[name] = chapter->rows;
     io::writeFileAtomically(folder / (std::string("atlas_") + name + ".csv"), report::csvOf(chapter->rows, provenance));

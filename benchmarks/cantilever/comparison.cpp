@@ -19,7 +19,7 @@ const DynamicReference& dynamicReference(const Settings& settings, double bendin
   for (const auto& entry : kept)
     if (entry->stiffness == beam.contactStiffness && entry->factor == bendingFactor) return entry->reference;
   kept.push_back(std::make_unique<Entry>(
-      Entry{beam.contactStiffness, bendingFactor, simulateMovingMassBeam(beam, ModalSettings{})}));
+      Entry{beam.contactStiffness, bendingFactor, simulateMovingMassBeam(beam, ModalOptions{})}));
   return kept.back()->reference;
 }
 

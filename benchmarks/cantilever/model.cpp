@@ -49,7 +49,8 @@ StepLimit criticalStep(const Settings& settings, const Model& model) {
 double chooseStep(const Settings& settings, const StepLimit& limit) {
   if (settings.dtAuto) return 0.9 * limit.dt;
   if (settings.dtCapped) return std::min(settings.dtFactor * contactTime(), limit.dt / 3.0);
-  const double dt = settings.shareOfCritical ? *settings.shareOfCritical * limit.dt : settings.dtFactor * contactTime();
+  const double dt =
+      settings.fractionOfCritical ? *settings.fractionOfCritical * limit.dt : settings.dtFactor * contactTime();
   if (dt > limit.dt && !settings.beyondCritical)
     throw InputError(
         "the time step " + formatNumber(dt) + " s is above the critical step " + formatNumber(limit.dt) +

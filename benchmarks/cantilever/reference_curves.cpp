@@ -38,8 +38,8 @@ CurveFigures figuresOf(const ReferenceCurve& curve) {
   figures.leaveTime = curve.t.back();
   for (; rows < curve.t.size(); ++rows) {
     if (rows > 0 && curve.y1[rows] > beam.length) {
-      const double share = (beam.length - curve.y1[rows - 1]) / (curve.y1[rows] - curve.y1[rows - 1]);
-      figures.leaveTime = curve.t[rows - 1] + share * (curve.t[rows] - curve.t[rows - 1]);
+      const double fraction = (beam.length - curve.y1[rows - 1]) / (curve.y1[rows] - curve.y1[rows - 1]);
+      figures.leaveTime = curve.t[rows - 1] + fraction * (curve.t[rows] - curve.t[rows - 1]);
       break;
     }
     const auto error = [&](double offset) {
@@ -58,7 +58,7 @@ CurveFigures figuresOf(const ReferenceCurve& curve) {
   const auto count = static_cast<double>(std::max<std::size_t>(rows, 1));
   figures.errorTrueArm = sumTrue / count;
   figures.errorAuthorsArm = sumAuthors / count;
-  figures.noContactShare = static_cast<double>(without) / count;
+  figures.noContactFraction = static_cast<double>(without) / count;
   figures.finalEnergy = curve.energy.back();
   return figures;
 }

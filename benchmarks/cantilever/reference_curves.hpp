@@ -25,8 +25,8 @@ struct CurveFigures {
   double largestEnergy;  ///< J, until then
   double finalEnergy;    ///< J, last row
   double errorTrueArm;   ///< m, time mean of √Σ(Δx² + Δz²) against static Euler–Bernoulli, arm from the clamp
-  double errorAuthorsArm;  ///< m, the same with the arm from the start point, y − 0.2 m
-  double noContactShare;   ///< share of rows until then without elastic energy in the contacts
+  double errorAuthorsArm;    ///< m, the same with the arm from the start point, y − 0.2 m
+  double noContactFraction;  ///< fraction of rows until then without elastic energy in the contacts
 };
 CurveFigures figuresOf(const ReferenceCurve& curve);
 

@@ -51,7 +51,7 @@ benchmark::Lines linesOf(const RunResult& result) {
       {"left", f.left},
       {"leave_time_s", f.left ? Json(f.leaveTime) : Json(nullptr), "particle 1 leaves at", "%.4f s"},
       {"lateral_drift_m", f.lateralDrift, "lateral drift", "%.3g m"},
-      {"no_contact_share", f.noContactShare, "without contact", "%.3g %% of the time", 100.0}};
+      {"no_contact_fraction", f.noContactFraction, "without contact", "%.3g %% of the time", 100.0}};
   const auto add = [&](const benchmark::Lines& more) { lines.insert(lines.end(), more.begin(), more.end()); };
   add(errorLines(f));
   add({{"", nullptr, "Energy, until leaving"},
@@ -84,17 +84,17 @@ void printComparison(std::ostream& out, const RunResult& result, const std::vect
   out << "Beside the authors' deposited curves (until leaving)\n"
       << "  run               leaves (s)  largest E (J)  error, true arm (mm)  authors' arm (mm)  no contact\n";
   const auto row = [&](const std::string& name, double leave, double energy, double error, double authors,
-                       double share) {
+                       double fraction) {
     out << format("  %-16s %11.3f %14.4f %21.3f %18.3f %9.1f %%\n", name.c_str(), leave, energy, 1e3 * error,
-                  1e3 * authors, 100.0 * share);
+                  1e3 * authors, 100.0 * fraction);
   };
   for (const ReferenceCurve& curve : curves) {
     const CurveFigures c = figuresOf(curve);
     row("authors, " + formatNumber(curve.cgWidth) + " d", c.leaveTime, c.largestEnergy, c.errorTrueArm,
-        c.errorAuthorsArm, c.noContactShare);
+        c.errorAuthorsArm, c.noContactFraction);
   }
   row("this run, " + formatNumber(result.settings.cgWidth) + " d", f.leaveTime, f.energyMax, f.errorStatic,
-      f.errorStaticAuthors, f.noContactShare);
+      f.errorStaticAuthors, f.noContactFraction);
 }
 
 }  // namespace dovetail::cantilever

@@ -71,49 +71,50 @@ private:
 
   void setLedger() {
     ofRun_ = &run_.ledger();
-    books_.setLedger();
+    recorder_.setLedger();
   }
 
   /// The channels of the run under the names of the case; gravity counts from the particles' height at the start.
   void prepareBooks() {
     const auto of = [this](const char* channel) { return ofRun_->joules(channel); };
-    const auto kinetic = books_.stored("kinetic, particles", [of] { return of("particles: kinetic"); });
-    const auto contacts = books_.stored("elastic, contacts", [of] { return of("particles: contacts"); });
-    gravity_ = books_.stored("gravity, particles", [of, this] { return of("particles: gravity") - gravityAtStart_; });
-    const auto kineticBeam = books_.stored("kinetic, beam", [of] { return of("beam: kinetic"); });
+    const auto kinetic = recorder_.stored("kinetic, particles", [of] { return of("particles: kinetic"); });
+    const auto contacts = recorder_.stored("elastic, contacts", [of] { return of("particles: contacts"); });
+    gravity_ =
+        recorder_.stored("gravity, particles", [of, this] { return of("particles: gravity") - gravityAtStart_; });
+    const auto kineticBeam = recorder_.stored("kinetic, beam", [of] { return of("beam: kinetic"); });
     // A law without a potential stores the work done against it.
     const auto beam =
-        books_.stored("elastic, beam", [of] { return of("beam: elements") + of("beam: work of elements"); });
+        recorder_.stored("elastic, beam", [of] { return of("beam: elements") + of("beam: work of elements"); });
     // Explicit solid, stepped every K > 1 DEM steps: the impulses store energy that is booked.
     if (clock_.substepsPerMacroStep > 1 && !settings().implicit() && settings().lag == "none")
-      books_.booked("time splitting", [of] { return of("beam: time splitting"); });
-    const auto dashpots = books_.booked("dashpots", [of] { return of("particles: dashpots"); });
-    const auto coupling = books_.booked("coupling (minus what it made)", [of] {
+      recorder_.booked("time splitting", [of] { return of("beam: time splitting"); });
+    const auto dashpots = recorder_.booked("dashpots", [of] { return of("particles: dashpots"); });
+    const auto coupling = recorder_.booked("coupling (minus what it made)", [of] {
       return of("grains on beam (skin): lost") + of("staggering error (minus what it made)");
     });
 
-    books_.column("time_s", [this] { return clock_.time(); });
+    recorder_.column("time_s", [this] { return clock_.time(); });
     for (const std::size_t i : {0, 1}) {
-      books_.columns("", std::to_string(i + 1) + "_m", [this, i] { return grains().particles.x[i]; });
-      books_.columns("v", std::to_string(i + 1) + "_m_per_s", [this, i] { return grains().particles.v[i]; });
+      recorder_.columns("", std::to_string(i + 1) + "_m", [this, i] { return grains().particles.x[i]; });
+      recorder_.columns("v", std::to_string(i + 1) + "_m_per_s", [this, i] { return grains().particles.v[i]; });
     }
     const auto sum = [](const std::vector<double>& masses) {
       return std::accumulate(masses.begin(), masses.end(), 0.0);
     };
-    books_.column("mass_particles_kg", [this, sum] { return sum(grains().particles.mass); });
-    books_.column("mass_beam_kg", [this, sum] { return sum(nodes().mass); });
-    books_.columns("momentum_particles_", "_Ns", [this] { return dem::momentum(grains().particles); });
-    books_.columns("momentum_beam_", "_Ns", [this] { return fem::momentum(nodes()); });
-    books_.column("kinetic_particles_J", kinetic);
-    books_.column("elastic_contacts_J", contacts);
-    books_.column("gravity_particles_J", gravity_);
-    books_.column("kinetic_beam_J", kineticBeam);
-    books_.column("elastic_beam_J", beam);
-    books_.column("energy_total_J", [this] { return result_.ledger.stored(); });
-    books_.column("dashpots_J", dashpots);
-    books_.column("made_by_coupling_J", [this, coupling] { return -result_.ledger.channels()[coupling].joules; });
-    books_.column("ledger_residual_J", [this] { return result_.ledger.residual(); });
-    books_.columns("tip_d", "_m", [this] { return nodes().u[static_cast<std::size_t>(tipNode_)]; });
+    recorder_.column("mass_particles_kg", [this, sum] { return sum(grains().particles.mass); });
+    recorder_.column("mass_beam_kg", [this, sum] { return sum(nodes().mass); });
+    recorder_.columns("momentum_particles_", "_Ns", [this] { return dem::momentum(grains().particles); });
+    recorder_.columns("momentum_beam_", "_Ns", [this] { return fem::momentum(nodes()); });
+    recorder_.column("kinetic_particles_J", kinetic);
+    recorder_.column("elastic_contacts_J", contacts);
+    recorder_.column("gravity_particles_J", gravity_);
+    recorder_.column("kinetic_beam_J", kineticBeam);
+    recorder_.column("elastic_beam_J", beam);
+    recorder_.column("energy_total_J", [this] { return result_.ledger.stored(); });
+    recorder_.column("dashpots_J", dashpots);
+    recorder_.column("made_by_coupling_J", [this, coupling] { return -result_.ledger.channels()[coupling].joules; });
+    recorder_.column("ledger_residual_J", [this] { return result_.ledger.residual(); });
+    recorder_.columns("tip_d", "_m", [this] { return nodes().u[static_cast<std::size_t>(tipNode_)]; });
   }
 
   /// Returns whether it went to the end; if it was interrupted, `failure` says so.
@@ -124,7 +125,7 @@ private:
     setLedger();
     result_.ledger.open();
     sampleTrajectory();
-    books_.addRow();
+    recorder_.addRow();
     observe();
 
     const double end = settings().until.value_or(longestRun);
@@ -147,7 +148,7 @@ private:
       if (sample % seriesEvery == 0 || stops) {
         model_.beam->model->terms.front()->requireValid(nodes(), moment(clock_.time(), clock_.step),
                                                         fem::Scrutiny::inversion);
-        books_.addRow();
+        recorder_.addRow();
         const double y = grains().particles.x[0].y / Case{}.length;
         progress.update(settings().until ? clock_.time() / end : 1.0 - std::sqrt(std::max(0.0, 1.0 - y)),
                         "t = " + formatNumber(std::round(100.0 * clock_.time()) / 100.0) + " s");
@@ -252,7 +253,7 @@ private:
     f.energyMax = ledger.storedMax();
     f.energyDrift = ledger.largestDrift() / f.energyInitial;
     f.ledgerResidual = ledger.largestResidual() / f.energyInitial;
-    f.noContactShare =
+    f.noContactFraction =
         stepsOnBeam_ > 0 ? static_cast<double>(stepsWithoutContact_) / static_cast<double>(stepsOnBeam_) : 0.0;
     f.stable = f.finished && f.largestExcess <= 1.5;
     f.lockingFactor = lockingFactor(settings());
@@ -263,7 +264,7 @@ private:
   Observer observer_;
   RunResult result_;
   Clock clock_;
-  benchmark::Recorder books_{result_};
+  benchmark::Recorder recorder_{result_};
   const EnergyLedger* ofRun_ = nullptr;
   EnergyLedger::Id gravity_ = 0;
   double gravityAtStart_ = 0.0;

@@ -29,7 +29,7 @@ struct RunFigures : benchmark::RunFigures {
   double lateralDrift = 0.0;                                     ///< m
   double momentResidual = 0.0;  ///< |moments of particle and nodal loads together| / (Σ|f| × beam length)
   double forceResidual = 0.0;   ///< |particle and nodal loads together| / Σ|f|
-  double noContactShare = 0.0;
+  double noContactFraction = 0.0;
 
   double errorStatic = 0.0, errorStaticAuthors = 0.0;  ///< m, true arm and the authors' arm
   double errorStaticVertical = 0.0;                    ///< m, true arm, Δz alone: what lateral drift does not touch

@@ -91,7 +91,7 @@ void settleParts(const program::Options& o, Settings& s) {
   if (!o.given("--kernel-correction") && spread) s.correction = "none";
   if (!o.given("--surface") && (spread || s.edges == "paper")) s.surface = "flat";
   if (!o.given("--mass") && !(s.lag != "none" && s.implicit())) s.mass = "lumped";
-  s.dtCapped = !o.given("--dt-factor") && !s.dtAuto && !s.shareOfCritical && s.femEvery == 1;
+  s.dtCapped = !o.given("--dt-factor") && !s.dtAuto && !s.fractionOfCritical && s.femEvery == 1;
 }
 
 void checkMesh(const Settings& s) {

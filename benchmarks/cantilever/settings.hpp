@@ -25,7 +25,7 @@ double contactTime();
 double particleMass();
 
 /// Words are those of the options.
-struct Settings : benchmark::RunSettings {
+struct Settings : benchmark::RunOptions {
   Settings() { dtFactor = 0.05, outputInterval = 0.25; }
 
   std::string scheme = "conservative";

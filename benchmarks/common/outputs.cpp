@@ -25,7 +25,7 @@ void prepareSummary(const fs::path& summary) {
             [&] { return io::prepareOutputFolder(folder.empty() ? "." : folder, {summary.filename().string()}); });
 }
 
-Outputs::Outputs(const RunSettings& settings, const std::string& solid, bool withProfile, io::KeyValues provenance)
+Outputs::Outputs(const RunOptions& settings, const std::string& solid, bool withProfile, io::KeyValues provenance)
     : folder_(settings.out),
       provenance_(std::move(provenance)),
       series_(folder_ / "series.csv", provenance_),

@@ -75,7 +75,7 @@ class Outputs {
 public:
   /// Makes the folder, holds it for this run and checks the names. @param withProfile  whether frames have one
   /// @throws InputError naming the option, with what to write instead
-  Outputs(const RunSettings& settings, const std::string& solid, bool withProfile, io::KeyValues provenance);
+  Outputs(const RunOptions& settings, const std::string& solid, bool withProfile, io::KeyValues provenance);
   /// What a run is to call with its frames; empty without --out.
   Observer observer();
   void finish(const RunData& result);

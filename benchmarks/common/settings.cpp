@@ -4,13 +4,13 @@
 
 namespace dovetail::benchmark {
 
-void addTimeOptions(program::Options& o, RunSettings& s, const RunWords& words) {
+void addTimeOptions(program::Options& o, RunOptions& s, const RunWords& words) {
   program::Option& factor =
-      o.number("--dt-factor F", s.dtFactor, program::positive("a positive share of the contact time, or --dt auto"),
+      o.number("--dt-factor F", s.dtFactor, program::positive("a positive fraction of the contact time, or --dt auto"),
                "time step over the contact time" + words.dtDefault);
-  factor.tellAs([&s] {
+  factor.reportAs([&s] {
     if (s.dtAuto) return std::string("auto");
-    return s.shareOfCritical ? formatNumber(*s.shareOfCritical) + " of critical" : formatNumber(s.dtFactor);
+    return s.fractionOfCritical ? formatNumber(*s.fractionOfCritical) + " of critical" : formatNumber(s.dtFactor);
   });
   o.add("--dt auto", words.automaticStep + " of the critical step",
         [&s](const std::string& text) {
@@ -18,8 +18,8 @@ void addTimeOptions(program::Options& o, RunSettings& s, const RunWords& words) 
           s.dtAuto = true;
         },
         {});
-  o.number("--dt-share S", s.shareOfCritical, program::positive("a positive share of the critical step"), "none",
-           "time step over the critical step")
+  o.number("--dt-fraction S", s.fractionOfCritical, program::positive("a positive fraction of the critical step"),
+           "none", "time step over the critical step")
       .key = "";
   o.flag("--insist", s.beyondCritical, "takes a step above the critical one, too").key = "";
   o.integer("--fem-every K", s.femEvery, 1, 1000, "DEM steps per FEM step");
@@ -29,7 +29,7 @@ void addTimeOptions(program::Options& o, RunSettings& s, const RunWords& words) 
   o.integer("--threads N", s.threads, 1, 1024, "results do not depend on it");
 }
 
-void addOutputOptions(program::Options& o, RunSettings& s, const RunWords& words) {
+void addOutputOptions(program::Options& o, RunOptions& s, const RunWords& words) {
   o.group("Output, studies", false);
   o.text("--out DIR", s.out, "folder for VTU, PVD, CSV and HDF5 files");
   o.number("--output-interval T", s.outputInterval, program::positive("a positive time in seconds"),
@@ -44,11 +44,11 @@ void addOutputOptions(program::Options& o, RunSettings& s, const RunWords& words
   o.flag("--quiet", s.quiet, "print nothing but errors");
 }
 
-void checkRun(const program::Options& o, RunSettings& s) {
+void checkRun(const program::Options& o, RunOptions& s) {
   s.written = o.written();
   o.refuseBoth("--dt", "--dt-factor");
-  o.refuseBoth("--dt", "--dt-share");
-  o.refuseBoth("--dt-factor", "--dt-share");
+  o.refuseBoth("--dt", "--dt-fraction");
+  o.refuseBoth("--dt-factor", "--dt-fraction");
   if (!s.study.empty() && !s.summary.empty())
     throw InputError("a study writes its own summary", "--summary", "take --out DIR, which gets <study>.json");
   if (!s.study.empty() && !s.reference.empty())

@@ -11,13 +11,13 @@
 
 namespace dovetail::benchmark {
 
-struct RunSettings {
-  double dtFactor = 0.0;                  ///< of the contact time
-  bool dtAuto = false;                    ///< a fixed share of the critical step
-  std::optional<double> shareOfCritical;  ///< dt over the critical step, wins over dtFactor
-  bool beyondCritical = false;            ///< do not refuse a step above the critical one
-  int femEvery = 1;                       ///< particle steps per step of the solid
-  std::optional<double> until;            ///< s; each case has an end of its own
+struct RunOptions {
+  double dtFactor = 0.0;                     ///< of the contact time
+  bool dtAuto = false;                       ///< a fixed fraction of the critical step
+  std::optional<double> fractionOfCritical;  ///< dt over the critical step, wins over dtFactor
+  bool beyondCritical = false;               ///< do not refuse a step above the critical one
+  int femEvery = 1;                          ///< particle steps per step of the solid
+  std::optional<double> until;               ///< s; each case has an end of its own
   double stiffnessRatio = 1.0;
   int threads = 1;
 
@@ -35,11 +35,11 @@ struct RunWords {
 };
 
 /// Adds --dt-factor … --threads, then the group of outputs and studies.
-void addTimeOptions(program::Options& options, RunSettings& settings, const RunWords& words);
-void addOutputOptions(program::Options& options, RunSettings& settings, const RunWords& words);
+void addTimeOptions(program::Options& options, RunOptions& settings, const RunWords& words);
+void addOutputOptions(program::Options& options, RunOptions& settings, const RunWords& words);
 
 /// Notes what was written. @throws InputError for options that exclude one another or would do nothing
-void checkRun(const program::Options& options, RunSettings& settings);
+void checkRun(const program::Options& options, RunOptions& settings);
 
 /// "key=value" of each entry, with all digits: changes of a scene.
 std::vector<std::string> changesOf(const report::Json& entries);

@@ -45,7 +45,7 @@ void addProduct(const Json& axes, std::size_t axis, const std::string& label, co
 
 }  // namespace
 
-std::vector<PlannedRun> plannedRuns(const std::string& file, const RunSettings& asked) {
+std::vector<PlannedRun> plannedRuns(const std::string& file, const RunOptions& asked) {
   const Json study = Json::parse(file).at(asked.study);
   Words words;
   words.set(study.value("defaults", Json::object()));
@@ -63,7 +63,7 @@ std::vector<PlannedRun> plannedRuns(const std::string& file, const RunSettings& 
   return runs;
 }
 
-report::Study studyFrom(const std::string& file, const std::string& program, const RunSettings& asked) {
+report::Study studyFrom(const std::string& file, const std::string& program, const RunOptions& asked) {
   const Json json = Json::parse(file);
   report::Study study;
   study.program = program;

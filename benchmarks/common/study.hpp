@@ -21,9 +21,9 @@ struct PlannedRun {
 /// "defaults" options that give way to those written; and "runs", a list of products of axes. An axis has points by
 /// name, each with the options that it sets; null takes one away. Points of the last axis follow one another.
 /// @param file  JSON text @throws InputError if no run is called as --only says
-std::vector<PlannedRun> plannedRuns(const std::string& file, const RunSettings& asked);
+std::vector<PlannedRun> plannedRuns(const std::string& file, const RunOptions& asked);
 
 /// All but the cases. @param program  whose study it is
-report::Study studyFrom(const std::string& file, const std::string& program, const RunSettings& asked);
+report::Study studyFrom(const std::string& file, const std::string& program, const RunOptions& asked);
 
 }  // namespace dovetail::benchmark

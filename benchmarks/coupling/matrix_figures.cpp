@@ -23,23 +23,23 @@ double turnedOver(const EnergyLedger& ledger) {
   return sum;
 }
 
-std::unique_ptr<coupling::CoupledRun> started(const Case& c, double share) {
+std::unique_ptr<coupling::CoupledRun> started(const Case& c, double fraction) {
   auto run = makeScene(c);
-  startAt(*run, c, share);
+  startAt(*run, c, fraction);
   return run;
 }
 
-/// The same time for every share.
-int macroStepsOf(const Case& c, double share, int steps) {
-  return static_cast<int>(std::lround(steps * shares[1] / share / c.stepsPerMacroStep()));
+/// The same time for every fraction.
+int macroStepsOf(const Case& c, double fraction, int steps) {
+  return static_cast<int>(std::lround(steps * fractions[1] / fraction / c.stepsPerMacroStep()));
 }
 
-void measureShare(const Case& c, std::size_t k, int steps, Figures& figures) {
-  const auto run = started(c, shares[k]);
+void measureFraction(const Case& c, std::size_t k, int steps, Figures& figures) {
+  const auto run = started(c, fractions[k]);
   std::vector<double> residuals;
   double turned = 0.0;
   for (int sample = 0; sample < samples; ++sample) {
-    run->advance(macroStepsOf(c, shares[k], steps) / samples);
+    run->advance(macroStepsOf(c, fractions[k], steps) / samples);
     const EnergyLedger& ledger = run->ledger();
     residuals.push_back(std::abs(ledger.residual()));
     turned = std::max(turned, turnedOver(ledger));
@@ -59,14 +59,14 @@ void measureShare(const Case& c, std::size_t k, int steps, Figures& figures) {
 std::vector<char> stateAfter(const Case& c, int macroSteps, int threads) {
   const int before = dovetail::threads();
   setThreads(threads);
-  const auto run = started(c, shares[1]);
+  const auto run = started(c, fractions[1]);
   run->advance(macroSteps);
   setThreads(before);
   return run->save();
 }
 
 double orderOf(const std::array<double, 3>& errors) {
-  return std::log(errors.front() / errors.back()) / std::log(shares.front() / shares.back());
+  return std::log(errors.front() / errors.back()) / std::log(fractions.front() / fractions.back());
 }
 
 }  // namespace
@@ -76,11 +76,11 @@ double Figures::angularOrder() const { return orderOf(angular); }
 
 namespace {
 void measureAll(const Case& c, int steps, Figures& figures) {
-  for (std::size_t k = 0; k < shares.size(); ++k) measureShare(c, k, steps, figures);
-  const int half = macroStepsOf(c, shares[1], steps) / 2;
+  for (std::size_t k = 0; k < fractions.size(); ++k) measureFraction(c, k, steps, figures);
+  const int half = macroStepsOf(c, fractions[1], steps) / 2;
   const std::vector<char> one = stateAfter(c, half, 1);
   figures.threads = one == stateAfter(c, half, 2);
-  const auto first = started(c, shares[1]), second = started(c, shares[1]);
+  const auto first = started(c, fractions[1]), second = started(c, fractions[1]);
   first->advance(half);
   second->load(first->save());
   for (const auto& run : {first.get(), second.get()}) run->advance(half / 2);
@@ -89,8 +89,8 @@ void measureAll(const Case& c, int steps, Figures& figures) {
 }  // namespace
 
 Figures measure(const Case& c, int steps) {
-  // Whole macro steps of four steps between looks, at the coarsest share too.
-  const int unit = samples * 4 * static_cast<int>(std::lround(shares[0] / shares[1]));
+  // Whole macro steps of four steps between looks, at the coarsest fraction too.
+  const int unit = samples * 4 * static_cast<int>(std::lround(fractions[0] / fractions[1]));
   if (steps < unit || steps % unit != 0)
     throw InputError("the number of steps is " + std::to_string(steps), "measure",
                      "give a multiple of " + std::to_string(unit));

@@ -109,13 +109,13 @@ fem::SolidMesh meshOf(Element element, std::array<int, 3> cells, Vec3 lower, Vec
   return mesh;
 }
 
-/// @param share  of the solid per node; empty: 1
-std::unique_ptr<fem::Model> solidOf(const Case& c, const fem::SolidMesh& mesh, std::vector<double> share,
+/// @param fraction  of the solid per node; empty: 1
+std::unique_ptr<fem::Model> solidOf(const Case& c, const fem::SolidMesh& mesh, std::vector<double> fraction,
                                     const Placement& at) {
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   const auto formulation = c.element == Element::enhanced ? fem::Formulation::enhanced : fem::Formulation::standard;
   model->add(fem::makeSolid(mesh, materialOf(c.law, at.length),
-                            {.formulation = formulation, .name = "elements", .share = std::move(share)}));
+                            {.formulation = formulation, .name = "elements", .fraction = std::move(fraction)}));
   model->add(fem::gravity(at.direction(gravity)));
   fem::fix(model->nodes, mesh.nodeSets.at("z-"));
   for (std::size_t n = 0; at.byDisplacement && n < mesh.X.size(); ++n)
@@ -134,11 +134,11 @@ void makeSurface(coupling::CoupledRun& run, const Case& c, const Placement& at) 
   addGrains(run.grains, {4, 4, 2}, d, -0.002, 2500.0, at);
   const fem::SolidMesh mesh = meshOf(c.element, {2, 2, 1}, {0, 0, -0.15}, {width, width, 0}, at);
   coupling::SolidSide& side = run.addSolid(solidOf(c, mesh, {}, at), optionsOf(c));
-  surface::Coupling skin(surface::makeSkin(mesh.X, mesh.faceSets.at("z+")));
+  surface::SurfaceCoupler skin(surface::makeSkin(mesh.X, mesh.faceSets.at("z+")));
   run.grains.terms.add(surface::SurfaceContact(side, std::move(skin), run.grains.laws, "surface contacts"));
 }
 
-/// Particles' share of a node, from the mesh's end within them (z = 0) to their own end.
+/// Particles' fraction of a node, from the mesh's end within them (z = 0) to their own end.
 std::vector<double> weightsOf(const fem::SolidMesh& mesh, const fem::SolidMesh& described) {
   std::vector<double> s;
   for (const Vec3& X : described.X) {
@@ -172,13 +172,13 @@ std::unique_ptr<coupling::CoupledRun> makeScene(const Case& c, const Placement& 
   return run;
 }
 
-void startAt(coupling::CoupledRun& run, const Case& c, double share) {
+void startAt(coupling::CoupledRun& run, const Case& c, double fraction) {
   const coupling::RunOptions options{.stepsPerMacroStep = c.stepsPerMacroStep()};
   const bool refuses = std::exchange(run.grains.refusesUnstableSteps, false);
   run.start(1e-9, options);
   const double limit = run.criticalStep().dt;
   run.grains.refusesUnstableSteps = refuses;
-  run.start(share * limit, options);
+  run.start(fraction * limit, options);
 }
 
 }  // namespace dovetail::coupling_matrix

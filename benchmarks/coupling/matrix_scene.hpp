@@ -28,6 +28,6 @@ struct Placement {
 std::unique_ptr<coupling::CoupledRun> makeScene(const Case& c, const Placement& placement = {});
 
 /// K, and 'share' of the critical step of the scene at its start, s; the run is then started.
-void startAt(coupling::CoupledRun& run, const Case& c, double share);
+void startAt(coupling::CoupledRun& run, const Case& c, double fraction);
 
 }  // namespace dovetail::coupling_matrix

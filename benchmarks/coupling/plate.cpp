@@ -58,8 +58,9 @@ std::unique_ptr<coupling::CoupledRun> makeScene(int layers) {
   addBed(run->grains.particles, layers, size);
   run->grains.pairs.setSkin(0.05 * run->grains.particles.radius[0]);
   coupling::SolidSide& side = run->addSolid(std::move(plate), {.name = "plate"});
-  run->grains.terms.add(surface::SurfaceContact(
-      side, surface::Coupling(surface::makeSkin(mesh.X, mesh.faceSets.at("z+"))), run->grains.laws, "plate contacts"));
+  run->grains.terms.add(
+      surface::SurfaceContact(side, surface::SurfaceCoupler(surface::makeSkin(mesh.X, mesh.faceSets.at("z+"))),
+                              run->grains.laws, "plate contacts"));
   return run;
 }
 

@@ -1,7 +1,9 @@
-// Overlaps from 1e4 grains and elements to 1e5: memory, time per step and of its tie, price of a renewal, exponents.
+// Overlaps from 1e4 grains and elements to 1e5: memory, time per step and of its tie, price of a list update,
+// exponents.
 //
 //     coupling_size [cells across …] [part of a coupling's name]     by default 17 30 54, and all of them
-//     coupling_size flow [part of a coupling's name]                 what renewals take of a run in which a bed slides
+//     coupling_size flow [part of a coupling's name]                 what list updates take of a run in which a bed
+//     slides
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -53,7 +55,7 @@ struct Measured {
   double setUp = 0.0;                // s, of the tie
   double step = 0.0, stepTwo = 0.0;  // s, by one thread and by two
   double tie = 0.0, tieTwo = 0.0;    // s of it
-  double all = 0.0, few = 0.0;       // s of a renewal: all members move, one in a hundred does
+  double all = 0.0, few = 0.0;       // s of a list update: all members move, one in a hundred does
 };
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -105,7 +107,7 @@ std::unique_ptr<Scene> makeScene(int across, const Way& way) {
   const std::vector<double> weight = arlequin::nodalWeights(s, {});
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(fem::StVenantKirchhoff{modulus, 0.0, density})),
-                            {.share = arlequin::solidWeights(weight)}));
+                            {.fraction = arlequin::solidWeights(weight)}));
   fem::fix(model->nodes, fem::nodeSet(mesh, "z-"));
   scene->elements = mesh.elementCount();
   coupling::SolidSide& side = scene->run.addSolid(std::move(model));
@@ -145,7 +147,7 @@ void timeSteps(Scene& scene, double& step, double& tie) {
 }
 
 /// Seconds that a step takes longer when every `every`-th grain has slid through the solid; the least of a few.
-double timeRenewal(Scene& scene, double step, std::size_t every) {
+double timeUpdate(Scene& scene, double step, std::size_t every) {
   dem::Particles& p = scene.run.grains.particles;
   const std::vector<Vec3> v = p.v;
   double least = 1e30;
@@ -157,7 +159,7 @@ double timeRenewal(Scene& scene, double step, std::size_t every) {
     scene.run.advance(1, false);
     least = std::min(least, now() - begin);
     p.v = v;
-    if (scene.tie->state().relocations == before) throw NumericalError("nothing was located anew", "renewal", "");
+    if (scene.tie->state().relocations == before) throw NumericalError("nothing was located anew", "list update", "");
   }
   return least - step;
 }
@@ -179,27 +181,27 @@ Measured measure(int across, const Way& way) {
   timeSteps(*scene, m.step, m.tie);
   setThreads(2);
   timeSteps(*scene, m.stepTwo, m.tieTwo);
-  m.few = timeRenewal(*scene, m.stepTwo, 100);
-  m.all = timeRenewal(*scene, m.stepTwo, 1);
+  m.few = timeUpdate(*scene, m.stepTwo, 100);
+  m.all = timeUpdate(*scene, m.stepTwo, 1);
   m.memory = resident() - before;
   return m;
 }
 
 struct Flow {
-  double between = 0.0;  // steps from one renewal to the next
-  double price = 0.0;    // of a renewal, in other steps
-  double share = 0.0;    // of the run's time that renewals take
+  double between = 0.0;   // steps from one list update to the next
+  double price = 0.0;     // of a list update, in other steps
+  double fraction = 0.0;  // of the run's time that list updates take
 };
 
 /// A bed that is pushed down through the overlap with a hundredth of the wave speed, past a solid that is held where it
-/// is: over two periods from renewal to renewal, by two threads.
+/// is: over two periods from list update to list update, by two threads.
 Flow measureFlow(Scene& scene, double dt) {
   coupling::CoupledRun& run = scene.run;
   run.start(dt);
   const Vec3 velocity{0.0, 0.0, -0.01 * std::sqrt(modulus / density)};
   double plain = 0.0, all = 0.0;
-  int steps = 0, renewals = 0;
-  for (bool counts = false; renewals < 2;) {
+  int steps = 0, listUpdates = 0;
+  for (bool counts = false; listUpdates < 2;) {
     std::ranges::fill(run.grains.particles.v, velocity);
     std::ranges::fill(run.solid(0).nodes().v, Vec3{});
     std::ranges::fill(run.solid(0).nodes().u, Vec3{});
@@ -207,19 +209,19 @@ Flow measureFlow(Scene& scene, double dt) {
     const double begin = now();
     run.advance(1, false);
     const double took = now() - begin;
-    const bool renews = scene.tie->state().relocations > before;
+    const bool updates = scene.tie->state().relocations > before;
     if (counts) {
       all += took;
       ++steps;
-      if (renews)
-        ++renewals;
+      if (updates)
+        ++listUpdates;
       else
         plain += took;
     }
-    counts = counts || renews;
+    counts = counts || updates;
   }
-  const double one = plain / (steps - renewals), ofRenewals = all - steps * one;
-  return {static_cast<double>(steps) / renewals, ofRenewals / one / renewals, ofRenewals / all};
+  const double one = plain / (steps - listUpdates), ofUpdates = all - steps * one;
+  return {static_cast<double>(steps) / listUpdates, ofUpdates / one / listUpdates, ofUpdates / all};
 }
 
 void printFlows(const std::string& only) {
@@ -237,7 +239,7 @@ void printFlows(const std::string& only) {
     const double dt = 0.2 * scene->run.criticalStep().dt;
     const Flow flow = measureFlow(*scene, dt);
     std::printf("%-22s %8.4f %14.0f %15.1f %10.1f\n", way.name, dt / crossing, flow.between, flow.price,
-                100.0 * flow.share);
+                100.0 * flow.fraction);
     std::fflush(stdout);
   }
 }
@@ -264,7 +266,7 @@ int main(int argc, char** argv) try {
       only = argv[k];
   if (flows) return printFlows(only), 0;
   if (sizes.empty()) sizes = {17, 30, 54};
-  std::printf("Threads: 2 unless told. Renewals in steps by two threads.\n");
+  std::printf("Threads: 2 unless told. List updates in steps by two threads.\n");
   std::printf("%-22s %4s %7s %7s %6s %7s %8s %9s %9s %6s %9s %6s %8s %8s\n", "coupling", "wide", "grains", "bricks",
               "rows", "MB", "start s", "1: step", "1: tie", "gain", "2: step", "gain", "few", "all");
   for (const Way& way : ways) {

@@ -18,15 +18,15 @@ Json entryOf(const Row& row) {
   Json entry;
   for (std::size_t k = 0; k < factors; ++k) entry[factorNames[k]] = levelName(k, levelsOf(row.c)[k]);
   entry["dt_s"] = f.dt;
-  for (std::size_t k = 0; k < shares.size(); ++k)
-    entry[format("energy_at_%g", shares[k])] = report::numberOrNull(f.energy[k]);
+  for (std::size_t k = 0; k < fractions.size(); ++k)
+    entry[format("energy_at_%g", fractions[k])] = report::numberOrNull(f.energy[k]);
   entry["largest_energy"] = f.largestEnergy;
   entry["energy_order"] = report::numberOrNull(f.energyOrder());
   entry["momentum"] = f.momentum;
-  for (std::size_t k = 0; k < shares.size(); ++k)
-    entry[format("angular_at_%g", shares[k])] = report::numberOrNull(f.angular[k]);
+  for (std::size_t k = 0; k < fractions.size(); ++k)
+    entry[format("angular_at_%g", fractions[k])] = report::numberOrNull(f.angular[k]);
   entry["mass"] = f.mass;
-  entry["friction_share"] = f.friction;
+  entry["friction_fraction"] = f.friction;
   entry["same_for_threads"] = f.threads;
   entry["same_after_restart"] = f.restart;
   entry["seconds"] = f.seconds;

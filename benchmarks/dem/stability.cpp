@@ -46,12 +46,12 @@ struct Case {
 };
 
 /// Head-on impact of 1 kg at 1 m/s on a partner at rest; returns the drift.
-double impact(double massRatio, double sizeRatio, double stiffness, double stepShare) {
+double impact(double massRatio, double sizeRatio, double stiffness, double stepFraction) {
   auto model = sceneOf(dem::ElasticLaw{{stiffness}}, 1e-3);
   addParticle(model.particles, {0, 0, 0}, {1, 0, 0}, 0.5, Mass{1.0});
   addParticle(model.particles, {0.5 + 0.5 * sizeRatio + 1e-6, 0, 0}, {}, 0.5 * sizeRatio, Mass{massRatio});
-  const double reduced = massRatio / (1.0 + massRatio), dt = stepShare * 2.0 * std::sqrt(reduced / stiffness);
-  return drift(model, dt, static_cast<int>(10.0 / stepShare), 0.5);
+  const double reduced = massRatio / (1.0 + massRatio), dt = stepFraction * 2.0 * std::sqrt(reduced / stiffness);
+  return drift(model, dt, static_cast<int>(10.0 / stepFraction), 0.5);
 }
 
 /// A chain of three: a soft contact beside one a million times stiffer.
@@ -70,11 +70,11 @@ double stiffNeighbours() {
   return drift(model, dt, 20000, 0.005);
 }
 
-double deepOverlap(double share) {
+double deepOverlap(double fraction) {
   auto model = sceneOf(dem::ElasticLaw{{1e3}});
   addParticle(model.particles, {0, 0, 0}, {}, 0.5, Mass{1.0});
-  addParticle(model.particles, {1.0 - share, 0, 0}, {}, 0.5, Mass{1.0});
-  return drift(model, 1e-3, 5000, 0.5e3 * share * share);
+  addParticle(model.particles, {1.0 - fraction, 0, 0}, {}, 0.5, Mass{1.0});
+  return drift(model, 1e-3, 5000, 0.5e3 * fraction * fraction);
 }
 
 double inside() {
@@ -84,8 +84,8 @@ double inside() {
   return drift(model, 1e-3, 5000, 0.5e3 * 4.5 * 4.5);
 }
 
-/// A bonded pair swings; growth of its amplitude over 20 000 steps.
-double swing(double stepShare) {
+/// A bonded pair oscillations; growth of its amplitude over 20 000 steps.
+double swing(double stepFraction) {
   dem::ElasticLaw law{{1e4}};
   law.normal.bonded = true;
   auto model = sceneOf(law);
@@ -93,8 +93,8 @@ double swing(double stepShare) {
   addParticle(model.particles, {1, 0, 0}, {-1e-3, 0, 0}, 0.5, Mass{1.0});
   model.pairs.setSkin(0.1);
   findPairs(model.particles, model.pairs);
-  const double dt = stepShare * criticalStep(model, 1e-9).dt;
-  if (stepShare > 1.0) requireStableStep(model, dt, 1e-9);
+  const double dt = stepFraction * criticalStep(model, 1e-9).dt;
+  if (stepFraction > 1.0) requireStableStep(model, dt, 1e-9);
   double largest = 0.0;
   for (int s = 0; s < 20000; ++s) {
     advance(model, dt);

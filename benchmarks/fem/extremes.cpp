@@ -94,7 +94,7 @@ std::string elementName(ElementShape shape, Formulation formulation) {
   return formulation == Formulation::standard ? name(shape) : std::string(name(shape)) + " " + name(formulation);
 }
 
-/// Small deflection against P L³/(3 E I) with the share of shear, P L/(⅚ G A).
+/// Small deflection against P L³/(3 E I) with the fraction of shear, P L/(⅚ G A).
 void smallDeflection(Table& table, const char* scene, Beam b, double tolerance) {
   const Stopwatch watch;
   const double section = b.height * b.height, inertia = section * section / 12.0;
@@ -279,7 +279,7 @@ void refusedStep(Table& table) {
 }
 
 void explicitLimit(Table& table, int longRun) {
-  for (const auto& [share, steps] : {std::pair(0.99, 20000), std::pair(1.01, 20000), std::pair(0.5, longRun)}) {
+  for (const auto& [fraction, steps] : {std::pair(0.99, 20000), std::pair(1.01, 20000), std::pair(0.5, longRun)}) {
     const Stopwatch watch;
     const SolidMesh mesh = boxOf(ElementShape::hex8, {2, 2, 6}, {}, {0.2, 0.2, 0.6});
     Model model = makeModel(mesh);
@@ -290,11 +290,11 @@ void explicitLimit(Table& table, int longRun) {
       model.nodes.v[n] = 1e-3 * Vec3{std::sin(9.0 * model.nodes.X[n].z), std::cos(7.0 * model.nodes.X[n].z),
                                      std::sin(11.0 * model.nodes.X[n].x)};
     double largest = 0.0;
-    vibrate(model, solid, share * limit, steps, largest);
-    const bool good = share < 0.98 ? largest < 0.02 : (share < 1.0 ? largest < 30.0 : largest > 1e6);
-    table.row(share > 1.0   ? "1.01 of the limit, unchecked"
-              : share > 0.9 ? "0.99 of the limit, unchecked"
-                            : "long run at half the limit",
+    vibrate(model, solid, fraction * limit, steps, largest);
+    const bool good = fraction < 0.98 ? largest < 0.02 : (fraction < 1.0 ? largest < 30.0 : largest > 1e6);
+    table.row(fraction > 1.0   ? "1.01 of the limit, unchecked"
+              : fraction > 0.9 ? "0.99 of the limit, unchecked"
+                               : "long run at half the limit",
               "hex8",
               text("limit %.4e s (bound by elements %.4e s), %d steps, largest change of energy %.2e of it", limit,
                    bound, steps, largest),

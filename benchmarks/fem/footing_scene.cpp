@@ -24,8 +24,8 @@ std::vector<double> graded(int cells, double length, double growth) {
 /// Straight between corners, so that nodes amid edges stay there.
 double between(const std::vector<double>& corner, double index) {
   const auto cell = std::min(static_cast<std::size_t>(index), corner.size() - 2);
-  const double share = index - static_cast<double>(cell);
-  return (1.0 - share) * corner[cell] + share * corner[cell + 1];
+  const double fraction = index - static_cast<double>(cell);
+  return (1.0 - fraction) * corner[cell] + fraction * corner[cell + 1];
 }
 
 /// x from the symmetry plane, y upwards to the surface at 0.

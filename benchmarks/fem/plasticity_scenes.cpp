@@ -27,9 +27,9 @@ void widenBore(const SolidMesh& mesh, Model& model) {
   for (const int n : nodeSet(mesh, "inner")) {
     const Vec3& X = mesh.X[static_cast<std::size_t>(n)];
     for (int c = 0; c < 2; ++c) {
-      const double share = X[c] / Tube::inner;
-      if (std::abs(share) > closeness)
-        model.constraints.prescribe(std::array{n}, c, [share](double t) { return share * t; });
+      const double fraction = X[c] / Tube::inner;
+      if (std::abs(fraction) > closeness)
+        model.constraints.prescribe(std::array{n}, c, [fraction](double t) { return fraction * t; });
     }
   }
 }
@@ -90,8 +90,8 @@ public:
   NeckingStep look(Model& model) const {
     const auto place = [&](std::size_t k) {
       const auto n = static_cast<std::size_t>(profile_[k]);
-      const double share = NeckingBar::radius * (1.0 - NeckingBar::thinning) / at(profile_[0]).x;
-      return Vec3{share * (mesh_.X[n].x + model.nodes.u[n].x), 0.0, mesh_.X[n].z + model.nodes.u[n].z};
+      const double fraction = NeckingBar::radius * (1.0 - NeckingBar::thinning) / at(profile_[0]).x;
+      return Vec3{fraction * (mesh_.X[n].x + model.nodes.u[n].x), 0.0, mesh_.X[n].z + model.nodes.u[n].z};
     };
     evaluateForces(model, {model.t, 0.0});
     NeckingStep step{model.t, 0.0, place(0).x, 0.0, 0.0, 0.0};

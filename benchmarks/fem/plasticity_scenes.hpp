@@ -60,7 +60,7 @@ struct NeckingResult {
   std::int64_t iterations;
   int cuts;
   double seconds;
-  double energyResidual;  ///< share of the work
+  double energyResidual;  ///< fraction of the work
 };
 NeckingResult stretch(const NeckingBar& bar);
 

@@ -20,14 +20,14 @@ constexpr double rate = 1.0;                                                    
 
 /// 228 discs, largest radius 1.5 times the least, under the pressure; made with as much friction as gives the solid
 /// fraction that is printed, 0.846, within 0.01.
-rve::Cell packing(std::uint64_t seed, bool turns) {
+rve::Rve packing(std::uint64_t seed, bool turns) {
   rve::Springs springs{.stiffness = stiffness, .tangential = 0.2, .friction = 0.4};
-  rve::Cell cell = rve::randomCell({.count = 228,
-                                    .sizes = dem::UniformSizes{0.3e-3, 0.45e-3},
-                                    .thickness = thickness,
-                                    .density = 2000.0,
-                                    .seed = seed},
-                                   springs);
+  rve::Rve cell = rve::randomCell({.count = 228,
+                                   .sizes = dem::UniformSizes{0.3e-3, 0.45e-3},
+                                   .thickness = thickness,
+                                   .density = 2000.0,
+                                   .seed = seed},
+                                  springs);
   rve::compress(cell, {.pressure = {pressure, pressure, 0.0}, .friction = 0.1, .rest = {.unbalanced = 1e-6}});
   rve::setSprings(cell, springs);
   if (!turns)
@@ -36,11 +36,11 @@ rve::Cell packing(std::uint64_t seed, bool turns) {
 }
 
 /// Stress ratio of nx × ny copies of a cell that repeat, every grain followed, by strains of 0.05 %.
-std::vector<double> allGrains(const rve::Cell& cell, int nx, int ny, double strain) {
+std::vector<double> allGrains(const rve::Rve& cell, int nx, int ny, double strain) {
   geometry::Lattice lattice = cell.state.lattice;
   lattice.period[0] = nx * lattice.period[0];
   lattice.period[1] = ny * lattice.period[1];
-  rve::Cell all = rve::makeCell(tiles(cell, nx, ny), lattice, cell.springs);
+  rve::Rve all = rve::makeRve(tiles(cell, nx, ny), lattice, cell.springs);
   // Copies would stay copies but for this, which moves grains by a hundredth of their overlaps.
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> speed(-0.01, 0.01);

@@ -12,14 +12,14 @@
 
 namespace dovetail::benchmark {
 
-rve::Cell sand(std::uint64_t seed) {
-  rve::Cell cell =
+rve::Rve sand(std::uint64_t seed) {
+  rve::Rve cell =
       rve::randomCell({.count = 400, .seed = seed}, {.modulus = 6e8, .tangential = 0.8, .friction = std::tan(0.5)});
   rve::compress(cell, {.pressure = {1e5, 1e5, 0.0}, .friction = 0.0, .rest = {.unbalanced = 1e-6}});
   return cell;
 }
 
-BiaxialSolid::BiaxialSolid(const BiaxialSettings& s, std::shared_ptr<fem::PointField> field,
+BiaxialSolid::BiaxialSolid(const BiaxialOptions& s, std::shared_ptr<fem::PointField> field,
                            const fem::TimeFunction& sinks)
     : mesh(fem::boxOf(s.shape, {s.elements[0], s.elements[1], 1}, {}, s.size)),
       model(fem::makeModel(mesh)),
@@ -80,11 +80,11 @@ double workDone(const EnergyLedger& ledger) {
 
 }  // namespace
 
-Course pressTogether(const BiaxialSettings& settings, const std::vector<rve::Cell>& bank, double rate, double damping,
+Course pressTogether(const BiaxialOptions& settings, const std::vector<rve::Rve>& samples, double rate, double damping,
                      double strain) {
   constexpr double between = 5e-4;
   const double height = settings.size.y, start = 0.005 / rate;  // s, in which the plate comes to its speed
-  BiaxialSolid body(settings, hierarchical::cellField(bank, hierarchical::DynamicCells{}),
+  BiaxialSolid body(settings, hierarchical::cellField(samples, hierarchical::DynamicCells{}),
                     [=](double t) { return height * rate * (t < start ? 0.5 * t * t / start : t - 0.5 * start); });
   body.model.add(fem::massDamping(damping));
   fem::addMass(body.model);

@@ -15,9 +15,9 @@ namespace dovetail::benchmark {
 
 /// 400 discs with what Liang & Zhao 2019 are taken to have (r = 3–7 mm, E = 600 MPa, k_t/k_n = 0.8, φ = 0.5 rad), made
 /// without friction, at rest to 1e-6 under 100 kPa all round.
-rve::Cell sand(std::uint64_t seed);
+rve::Rve sand(std::uint64_t seed);
 
-struct BiaxialSettings {
+struct BiaxialOptions {
   std::array<int, 2> elements{1, 1};
   fem::ElementShape shape = fem::ElementShape::quad4;
   fem::Formulation formulation = fem::Formulation::standard;
@@ -36,7 +36,7 @@ struct BiaxialSolid {
   Vec3 size;
 
   /// @param sinks  way of the upper plate downwards, m, of time
-  BiaxialSolid(const BiaxialSettings& settings, std::shared_ptr<fem::PointField> field, const fem::TimeFunction& sinks);
+  BiaxialSolid(const BiaxialOptions& settings, std::shared_ptr<fem::PointField> field, const fem::TimeFunction& sinks);
 
   /// Mean of −P₂₂ over the points, Pa.
   double axial();
@@ -46,10 +46,10 @@ struct BiaxialSolid {
 
 /// A look at a solid that is pressed together.
 struct Look {
-  double strain = 0.0;        ///< mean, since the start
-  double plate = 0.0;         ///< plateStress(), mean since the look before, Pa
-  double stressRatio = 0.0;   ///< (σ₂₂ − σ₁₁)/(σ₂₂ + σ₁₁) of the means over the points
-  double kineticShare = 0.0;  ///< kinetic energy of the solid over the work done on it
+  double strain = 0.0;           ///< mean, since the start
+  double plate = 0.0;            ///< plateStress(), mean since the look before, Pa
+  double stressRatio = 0.0;      ///< (σ₂₂ − σ₁₁)/(σ₂₂ + σ₁₁) of the means over the points
+  double kineticFraction = 0.0;  ///< kinetic energy of the solid over the work done on it
 };
 
 /// Course of an explicit run.
@@ -65,7 +65,7 @@ struct Course {
 
 /// Presses a solid of moving cells together by explicit dynamics to a mean strain, at `rate` a second after a start
 /// that takes 0.25 % of strain; nodes are damped by `damping`, 1/s (massDamping).
-Course pressTogether(const BiaxialSettings& settings, const std::vector<rve::Cell>& bank, double rate, double damping,
+Course pressTogether(const BiaxialOptions& settings, const std::vector<rve::Rve>& samples, double rate, double damping,
                      double strain);
 
 /// Seconds of the processor, of all threads.

@@ -81,7 +81,7 @@ fem::NeoHookean elasticOf(const Moduli& m, double density) {
 
 FigureRows column(bool quick) {
   FigureRows rows;
-  const rve::Cell cell = elasticSpheres(quick ? 500 : 1000, 1);
+  const rve::Rve cell = elasticSpheres(quick ? 500 : 1000, 1);
   const double density = cell.density * rve::solidFraction(cell);
   const Moduli moduli = probed(cell);
   for (const int elements : {10, 20, 40}) {
@@ -104,7 +104,7 @@ FigureRows column(bool quick) {
     rows.push_back({"a thousandth of the amplitude: arrival over that in an elastic column" + name,
                     gentle.arrival / beside.arrival, 0.0, 1.0, 0.03});
     if (elements > 10) continue;
-    rows.push_back({"share of the work that is lost, ten cycles", printed.lost, 0.0, std::nan("")});
+    rows.push_back({"fraction of the work that is lost, ten cycles", printed.lost, 0.0, std::nan("")});
     rows.push_back({"residual of the ledger over work", printed.residual, 0.0, std::nan("")});
   }
   return rows;

@@ -3,20 +3,20 @@
 
 #include <cstdint>
 
-#include "dovetail/rve/cell.hpp"
+#include "dovetail/rve/rve.hpp"
 
 namespace dovetail::benchmark {
 
 /// Table I of Liu, Sun, Yuan & Fish 2015. Density, distribution of sizes and the friction of the preparation are not
 /// printed: 1650 kg/m³ over the solid fraction, even numbers of all diameters, and no friction, which gives the
 /// contacts.
-rve::Cell elasticSpheres(int count, std::uint64_t seed);
+rve::Rve elasticSpheres(int count, std::uint64_t seed);
 
 struct Moduli {
   double bulk = 0.0, shear = 0.0;  // Pa
 };
 
 /// Differences of relaxed states under a small strain either way, during which nothing slips.
-Moduli probed(rve::Cell cell);
+Moduli probed(rve::Rve cell);
 
 }  // namespace dovetail::benchmark

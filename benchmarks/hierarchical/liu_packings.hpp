@@ -12,7 +12,7 @@
 namespace dovetail::benchmark {
 
 /// All round, without friction; what the cell is then is its new F = 1.
-inline void strainTo(rve::Cell& cell, double solidFraction) {
+inline void strainTo(rve::Rve& cell, double solidFraction) {
   const rve::Springs springs = cell.springs;
   rve::Springs smooth = springs;
   smooth.friction = 0.0;
@@ -24,7 +24,7 @@ inline void strainTo(rve::Cell& cell, double solidFraction) {
   rve::setSprings(cell, springs);
 }
 
-struct PackingSettings {
+struct PackingOptions {
   int count;           ///< grains before the border is copied
   double least, most;  ///< radii, m
   double density;      ///< kg/m³, discs 1 m thick
@@ -34,14 +34,14 @@ struct PackingSettings {
 
 /// Pressed to 1e-4 k_n without friction, then strained to a solid fraction, if one is given, and relaxed; the next seed
 /// is taken where no frame can be cut.
-inline rve::Cell densePacking(const PackingSettings& s, std::uint64_t seed) {
+inline rve::Rve densePacking(const PackingOptions& s, std::uint64_t seed) {
   for (const std::uint64_t last = seed + 1000;; ++seed) {
-    rve::Cell cell = rve::randomCell({.count = s.count,
-                                      .sizes = dem::UniformSizes{s.least, s.most},
-                                      .thickness = 1.0,
-                                      .density = s.density,
-                                      .seed = seed},
-                                     s.springs);
+    rve::Rve cell = rve::randomCell({.count = s.count,
+                                     .sizes = dem::UniformSizes{s.least, s.most},
+                                     .thickness = 1.0,
+                                     .density = s.density,
+                                     .seed = seed},
+                                    s.springs);
     const double pressure = 1e-4 * s.springs.stiffness;
     try {
       rve::compress(cell, {.pressure = {pressure, pressure, pressure}, .friction = 0.0, .tolerance = 1e-2});
@@ -55,7 +55,7 @@ inline rve::Cell densePacking(const PackingSettings& s, std::uint64_t seed) {
 }
 
 /// Cauchy stress of a framed cell, Pa.
-inline Eigen::Matrix3d cauchyOf(const rve::Cell& cell) {
+inline Eigen::Matrix3d cauchyOf(const rve::Rve& cell) {
   const Eigen::Matrix3d& F = cell.state.F;
   return rve::stressOfReactions(cell) * F.transpose() / F.determinant();
 }

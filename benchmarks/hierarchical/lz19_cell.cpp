@@ -18,7 +18,7 @@ struct Curve {
 };
 
 Curve compressed(std::uint64_t seed) {
-  rve::Cell cell = sand(seed);
+  rve::Rve cell = sand(seed);
   Curve curve{.voidRatio = 1.0 / rve::solidFraction(cell) - 1.0};
   const double rate = inertialNumber * std::sqrt(pressure / cell.density) / rve::meanDiameter(cell);
   double strain = 0.0, smooth = pressure;

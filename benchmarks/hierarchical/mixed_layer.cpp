@@ -24,7 +24,7 @@ struct Curve {
 };
 
 /// A step of simple shear by dγ at the pressure that is wanted.
-void go(rve::Cell& cell, double dt, double dGamma, double most, double wanted) {
+void go(rve::Rve& cell, double dt, double dGamma, double most, double wanted) {
   Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
   G(0, 1) += dGamma;
   G(1, 1) += givingWay(cell, 1, wanted, most);
@@ -36,7 +36,7 @@ struct Window {
   double ratio = 0.0, normal = 0.0;
 };
 
-std::vector<Window> windows(rve::Cell& cell, double rate) {
+std::vector<Window> windows(rve::Rve& cell, double rate) {
   constexpr double width = 0.005;
   std::vector<Window> all;
   double gamma = 0.0;
@@ -56,7 +56,7 @@ std::vector<Window> windows(rve::Cell& cell, double rate) {
   return all;
 }
 
-Curve sheared(rve::Cell cell) {
+Curve sheared(rve::Rve cell) {
   Curve curve;
   curve.bonds = rve::balance(cell).bonds;
   const double rate = inertialNumber * std::sqrt(pressure / cell.density) / rve::meanDiameter(cell);
@@ -85,7 +85,7 @@ rve::BondLaw bonds(double factor) {
           .bendingStrength = factor * 0.2};
 }
 
-Curve shearedWithBonds(rve::Cell cell, double factor) {
+Curve shearedWithBonds(rve::Rve cell, double factor) {
   rve::bond(cell, bonds(factor));
   return sheared(std::move(cell));
 }
@@ -98,7 +98,7 @@ FigureRows mixedLayer(bool quick) {
   const rve::Springs springs{.stiffness = stiffness, .tangential = 0.4, .friction = 0.6};
   std::vector<Curve> plain(quick ? 2 : 5), bonded(plain.size()), strong(plain.size());
   parallelTasks(plain.size(), [&](std::size_t k) {
-    const rve::Cell cell = rve::framed(densePacking({400, 0.8e-3, 1.2e-3, 1e4, springs}, 1 + 1000 * k), layer);
+    const rve::Rve cell = rve::framed(densePacking({400, 0.8e-3, 1.2e-3, 1e4, springs}, 1 + 1000 * k), layer);
     plain[k] = sheared(cell);
     bonded[k] = shearedWithBonds(cell, 1.0);
     strong[k] = shearedWithBonds(cell, 10.0);

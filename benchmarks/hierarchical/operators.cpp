@@ -34,7 +34,7 @@ fem::StaticOptions options(double reuse, int mixing) {
 }
 
 /// −P₂₂ of the cell alone at F₂₂ = 1 − strain under the side pressure, Pa: Newton's method for F₁₁.
-double axialAlone(rve::Cell& cell, double strain, const QuasiStaticCells& settings) {
+double axialAlone(rve::Rve& cell, double strain, const QuasiStaticCells& settings) {
   constexpr double pressure = 1e5;
   Eigen::Matrix3d F = cell.state.F;
   F(1, 1) = 1.0 - strain;
@@ -46,14 +46,14 @@ double axialAlone(rve::Cell& cell, double strain, const QuasiStaticCells& settin
     const Eigen::Matrix3d P = rve::nominalStress(cell);
     const double excess = P(0, 0) + pressure * F(1, 1);
     if (std::abs(excess) < 1e-5 * pressure) return -P(1, 1);
-    F(0, 0) -= excess / rve::network(cell)(0, 0);
+    F(0, 0) -= excess / rve::elasticTangent(cell)(0, 0);
   }
   return std::nan("");
 }
 
 FigureRow oneElementAgainstTheCell() {
   const QuasiStaticCells settings;
-  rve::Cell cell = sand(1);
+  rve::Rve cell = sand(1);
   BiaxialSolid body({.straight = true}, hierarchical::cellField({cell}, settings), sinks);
   fem::StaticOptions fine = options(0.0, 0);
   fine.newton.relativeTolerance = 1e-6;
@@ -73,8 +73,8 @@ double secondsOf(int times, const std::function<void()>& act) {
 
 /// What an answer is made of: the state taken back, the path with its rest, the operators.
 void addPrices(FigureRows& rows) {
-  const rve::Cell start = sand(1);
-  rve::Cell cell = start;
+  const rve::Rve start = sand(1);
+  rve::Rve cell = start;
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F(1, 1) -= strainOfStep;
   const auto answer = [&](double first) {
@@ -90,8 +90,8 @@ void addPrices(FigureRows& rows) {
   add("answer to 0.1 % of strain, rest by FIRE", answer(1e-6));
   add("the same, rest ended by Newton's method", answer(1e-4));
   add("state taken back", secondsOf(200, [&] { rve::restore(cell, start.state); }));
-  add("network of a cell", secondsOf(5, [&] { rve::network(cell); }));
-  add("uniformStrain of a cell", secondsOf(5, [&] { rve::uniformStrain(cell); }));
+  add("elastic tangent of a cell", secondsOf(5, [&] { rve::elasticTangent(cell); }));
+  add("voigtTangent of a cell", secondsOf(5, [&] { rve::voigtTangent(cell); }));
 }
 
 struct Way {
@@ -108,10 +108,10 @@ struct Size {
 };
 
 /// Iterations of a step, mean.
-double study(const Way& way, const std::vector<rve::Cell>& bank, const Size& size, FigureRows& rows) {
+double study(const Way& way, const std::vector<rve::Rve>& samples, const Size& size, FigureRows& rows) {
   BiaxialSolid body(
       {.elements = size.elements, .shape = fem::ElementShape::quad8, .formulation = fem::Formulation::reduced},
-      hierarchical::cellField(bank, QuasiStaticCells{.tangent = way.tangent}), sinks);
+      hierarchical::cellField(samples, QuasiStaticCells{.tangent = way.tangent}), sinks);
   int most = 0;
   const auto look = [&](const fem::Model&, const fem::StaticStep& step) {
     most = std::max(most, step.iterations);
@@ -133,10 +133,10 @@ double study(const Way& way, const std::vector<rve::Cell>& bank, const Size& siz
 
 /// Nodes that move to rest, damped by their lowest frequency and stepped by their highest one, as Liu 2018, sec. 3.2.4,
 /// does with the lowest for both.
-void addRelaxation(const std::vector<rve::Cell>& bank, FigureRows& rows) {
+void addRelaxation(const std::vector<rve::Rve>& samples, FigureRows& rows) {
   const auto evaluations = [&](bool moves) {
     BiaxialSolid body({.elements = {1, 2}, .shape = fem::ElementShape::quad8, .formulation = fem::Formulation::reduced},
-                      hierarchical::cellField(bank, QuasiStaticCells{}), sinks);
+                      hierarchical::cellField(samples, QuasiStaticCells{}), sinks);
     fem::addMass(body.model);
     fem::StaticOptions way = options(0.0, 0);
     if (moves) {
@@ -159,20 +159,20 @@ FigureRows operators(bool quick) {
   FigureRows rows;
   addPrices(rows);
   rows.push_back(oneElementAgainstTheCell());
-  std::vector<rve::Cell> bank;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) bank.push_back(sand(seed));
-  addRelaxation(bank, rows);
+  std::vector<rve::Rve> samples;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) samples.push_back(sand(seed));
+  addRelaxation(samples, rows);
   const Size size = quick ? Size{{4, 8}, 4} : Size{{8, 16}, 10};
-  const auto iterations = [&](const Way& way) { return study(way, bank, size, rows); };
-  const double network = iterations({"network", Operator::network, 0.0});
-  iterations({"network, frozen", Operator::network, 0.5});
-  iterations({"network, frozen and mixed", Operator::network, 0.5, 5});
-  iterations({"slidingNetwork", Operator::slidingNetwork, 0.0});
-  const double uniform = iterations({"uniformStrain", Operator::uniformStrain, 0.0});
-  const double frozen = iterations({"uniformStrain, frozen", Operator::uniformStrain, 0.9});
-  const double mixed = iterations({"uniformStrain, frozen and mixed", Operator::uniformStrain, 0.9, 5});
-  iterations({"pathProbe", Operator::pathProbe, 0.0, 0, 5});
-  rows.push_back({"iterations, uniformStrain over network", uniform / network, 0.0, 2.0, 0.6, "1.4 or more is wanted"});
+  const auto iterations = [&](const Way& way) { return study(way, samples, size, rows); };
+  const double elastic = iterations({"elastic tangent", Operator::elasticTangent, 0.0});
+  iterations({"elastic tangent, frozen", Operator::elasticTangent, 0.5});
+  iterations({"elastic tangent, frozen and mixed", Operator::elasticTangent, 0.5, 5});
+  iterations({"frictionalTangent", Operator::frictionalTangent, 0.0});
+  const double uniform = iterations({"voigtTangent", Operator::voigtTangent, 0.0});
+  const double frozen = iterations({"voigtTangent, frozen", Operator::voigtTangent, 0.9});
+  const double mixed = iterations({"voigtTangent, frozen and mixed", Operator::voigtTangent, 0.9, 5});
+  iterations({"numericalTangent", Operator::numericalTangent, 0.0, 0, 5});
+  rows.push_back({"iterations, Voigt over elastic tangent", uniform / elastic, 0.0, 2.0, 0.6, "1.4 or more is wanted"});
   rows.push_back({"iterations saved by mixing, %", 100.0 * (1.0 - mixed / frozen), 0.0, std::nan(""), 0.0});
   return rows;
 }

@@ -23,7 +23,7 @@ struct Shearing {
   double corrections = 0.0;  ///< of the frame
 };
 
-const rve::RestSettings rest{.unbalanced = 1e-3, .steps = 20000};
+const rve::RestOptions rest{.unbalanced = 1e-3, .steps = 20000};
 
 Eigen::Matrix3d sheared(int k) {
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
@@ -33,7 +33,7 @@ Eigen::Matrix3d sheared(int k) {
 
 /// Moves grains that are one by what pushes them together: a correction of Liu 2018, eqs 2.33 and 2.34, with the
 /// reactions' sign mended. @return largest sum of forces over the mean contact force
-double correct(rve::Cell& cell, double share) {
+double correct(rve::Rve& cell, double fraction) {
   const rve::CellState& s = cell.state;
   rve::Components w = s.v, theta = s.spin;
   for (rve::Components* field : {&w, &theta})
@@ -52,23 +52,23 @@ double correct(rve::Cell& cell, double share) {
     worst = std::max({worst, std::hypot(sum[0], sum[1]) / meanForce, std::abs(sum[2]) / (radius * meanForce)});
     for (const int q : group) {
       const auto g = static_cast<std::size_t>(cell.frame.grain[static_cast<std::size_t>(q)]);
-      for (std::size_t k = 0; k < 2; ++k) w[k][g] = share * sum[k] / stiffness;
-      theta[2][g] = share * sum[2] / (stiffness * radius * radius);
+      for (std::size_t k = 0; k < 2; ++k) w[k][g] = fraction * sum[k] / stiffness;
+      theta[2][g] = fraction * sum[2] / (stiffness * radius * radius);
     }
   }
   rve::displace(cell, w, theta);
   return worst;
 }
 
-Shearing byServo(const rve::Cell& packing, double share) {
-  rve::Cell cell = rve::framed(packing, rve::everywhere(rve::Condition::displacement));
+Shearing byServo(const rve::Rve& packing, double fraction) {
+  rve::Rve cell = rve::framed(packing, rve::everywhere(rve::Condition::displacement));
   Shearing course;
   for (int k = 1; k <= increments; ++k) {
     const rve::PathReport path = rve::followPath(cell, sheared(k), {.rest = rest});
     course.steps += static_cast<double>(path.steps + path.rest.steps);
     double worst = 1.0;
     for (int n = 0; n < mostCorrections && worst > tolerance; ++n) {
-      worst = correct(cell, share);
+      worst = correct(cell, fraction);
       course.steps += static_cast<double>(rve::relax(cell, rest).steps);
       course.corrections += 1.0 / increments;
     }
@@ -78,8 +78,8 @@ Shearing byServo(const rve::Cell& packing, double share) {
   return course;
 }
 
-Shearing byMultipliers(const rve::Cell& packing) {
-  rve::Cell cell = rve::framed(packing, rve::everywhere(rve::Condition::periodic));
+Shearing byMultipliers(const rve::Rve& packing) {
+  rve::Rve cell = rve::framed(packing, rve::everywhere(rve::Condition::periodic));
   Shearing course;
   for (int k = 1; k <= increments; ++k) {
     const rve::PathReport path = rve::followPath(cell, sheared(k), {.rest = rest});
@@ -96,7 +96,7 @@ FigureRows servoFrame(bool quick) {
   std::vector<double> off(packings), steps(packings), corrections(packings), residual(packings), printed(packings);
   parallelTasks(packings, [&](std::size_t k) {
     const rve::Springs springs{.stiffness = stiffness, .tangential = 0.2, .friction = 0.4};
-    const rve::Cell packing = densePacking({200, 0.67e-3, 1.34e-3, 2e3, springs, 0.846}, 1 + 1000 * k);
+    const rve::Rve packing = densePacking({200, 0.67e-3, 1.34e-3, 2e3, springs, 0.846}, 1 + 1000 * k);
     const Shearing multipliers = byMultipliers(packing), servo = byServo(packing, gain);
     off[k] = 100.0 * std::abs(servo.stress / multipliers.stress - 1.0);
     steps[k] = servo.steps / multipliers.steps;

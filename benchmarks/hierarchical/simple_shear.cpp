@@ -23,8 +23,8 @@ struct Answer {
   double discs = 0.0, solid = 0.0;  ///< number with the border, and solid fraction
 };
 
-void shear(const rve::Cell& packing, std::size_t condition, Answer& answer) {
-  rve::Cell cell = rve::framed(packing, rve::everywhere(conditions[condition].second));
+void shear(const rve::Rve& packing, std::size_t condition, Answer& answer) {
+  rve::Rve cell = rve::framed(packing, rve::everywhere(conditions[condition].second));
   answer.discs = static_cast<double>(cell.size());
   double squares = 0.0;
   for (int k = 1; k <= steps; ++k) {
@@ -48,7 +48,7 @@ std::vector<Answer> sheared(int count, std::size_t packings) {
   std::vector<Answer> answers(packings);
   parallelTasks(packings, [&](std::size_t k) {
     const rve::Springs springs{.stiffness = stiffness, .tangential = 0.2, .friction = 0.4};
-    const rve::Cell packing =
+    const rve::Rve packing =
         densePacking({count, 0.67e-3, 1.34e-3, 2e3, springs, printedFraction(count)}, 1 + 1000 * k);
     answers[k].solid = rve::solidFraction(packing);
     for (std::size_t c = 0; c < 3; ++c) shear(packing, c, answers[k]);

@@ -29,7 +29,7 @@ Moduli isotropicPart(const rve::Tangent& A) {
 }
 
 /// Shear modulus from rest to a shear strain, grains slipping as they do, Pa.
-double secantShear(rve::Cell cell, double gamma) {
+double secantShear(rve::Rve cell, double gamma) {
   const double before = rve::stress(cell).cauchy(0, 1);
   constexpr int parts = 10;
   for (int k = 1; k <= parts; ++k) {
@@ -43,27 +43,27 @@ double secantShear(rve::Cell cell, double gamma) {
 
 }  // namespace
 
-rve::Cell elasticSpheres(int count, std::uint64_t seed) {
-  rve::Cell cell = rve::randomCell({.shape = rve::Shape::sphere,
-                                    .count = count,
-                                    .sizes = dem::UniformSizes{0.215e-3, 0.59e-3},
-                                    .solidFraction = 0.6,
-                                    .density = 2492.0,
-                                    .seed = seed},
-                                   rve::hertzMindlin(29e9, 0.15, 0.5));
+rve::Rve elasticSpheres(int count, std::uint64_t seed) {
+  rve::Rve cell = rve::randomCell({.shape = rve::Shape::sphere,
+                                   .count = count,
+                                   .sizes = dem::UniformSizes{0.215e-3, 0.59e-3},
+                                   .solidFraction = 0.6,
+                                   .density = 2492.0,
+                                   .seed = seed},
+                                  rve::hertzMindlin(29e9, 0.15, 0.5));
   rve::compress(cell, {.pressure = {pressure, pressure, pressure}, .friction = 0.0, .rest = {.unbalanced = 1e-4}});
   return cell;
 }
 
-Moduli probed(rve::Cell cell) {
+Moduli probed(rve::Rve cell) {
   rve::Springs sticking = cell.springs;
   sticking.friction = std::numeric_limits<double>::infinity();
   rve::setSprings(cell, sticking);
   constexpr double strain = 5e-6;
-  const rve::RestSettings rest{.unbalanced = 1e-5};
+  const rve::RestOptions rest{.unbalanced = 1e-5};
   rve::relax(cell, rest);
   const auto stressAt = [&](const Eigen::Matrix3d& E) -> Eigen::Matrix3d {
-    rve::Cell strained = cell;
+    rve::Rve strained = cell;
     rve::deform(strained, Eigen::Matrix3d::Identity() + strain * E);
     rve::relax(strained, rest);
     return rve::stress(strained).cauchy;
@@ -88,10 +88,10 @@ Moduli probed(rve::Cell cell) {
 FigureRows spheres(bool quick) {
   std::vector<double> porosity, contacts, bulk, shear, young, poisson, secant, bulkBound, shearBound;
   for (std::uint64_t seed = 1; seed <= (quick ? 1u : 3u); ++seed) {
-    const rve::Cell cell = elasticSpheres(quick ? 1000 : 4096, seed);
+    const rve::Rve cell = elasticSpheres(quick ? 1000 : 4096, seed);
     porosity.push_back(1.0 - rve::solidFraction(cell));
     contacts.push_back(rve::balance(cell).coordination);
-    const Moduli m = probed(cell), bound = isotropicPart(rve::uniformStrain(cell));
+    const Moduli m = probed(cell), bound = isotropicPart(rve::voigtTangent(cell));
     bulk.push_back(1e-6 * m.bulk);
     shear.push_back(1e-6 * m.shear);
     young.push_back(9e-6 * m.bulk * m.shear / (3.0 * m.bulk + m.shear));

@@ -26,15 +26,15 @@ double driven(double t, double period) {
 }
 
 /// Five discs in a row that repeats, each pressed into the next by 6 % of the spacing.
-rve::Cell rowOfDiscs() {
+rve::Rve rowOfDiscs() {
   rve::Grains grains;
   for (int i = 0; i < 5; ++i) grains.centre.push_back({spacing * (i + 0.5), 0.0, 0.0});
   const double radius = 0.53 * spacing;
   grains.radius.assign(grains.centre.size(), radius);
   grains.density = mass / (std::numbers::pi * radius * radius * thickness);
-  return rve::makeCell(grains,
-                       {{Vec3{5 * spacing, 0, 0}, Vec3{0, 5 * spacing, 0}, Vec3{0, 0, thickness}}, {true, true, false}},
-                       {.stiffness = stiffness, .tangential = 0.0, .friction = 0.0});
+  return rve::makeRve(grains,
+                      {{Vec3{5 * spacing, 0, 0}, Vec3{0, 5 * spacing, 0}, Vec3{0, 0, thickness}}, {true, true, false}},
+                      {.stiffness = stiffness, .tangential = 0.0, .friction = 0.0});
 }
 
 /// Displacements at two probes at the ends of all steps, m.

@@ -35,7 +35,7 @@ struct Strip {
 rve::BondLaw bonds() { return {.normal = stiffness, .shear = 0.4 * stiffness}; }
 
 /// 16 columns of 14 equal discs, which touch all round, and overlap by as much as the pressure asks for.
-rve::Cell regularTile(double pressure) {
+rve::Rve regularTile(double pressure) {
   constexpr int columns = 16, rows = 14;
   constexpr double radius = 1.1e-3;
   // A triangular lattice of overlaps δ presses with √3 k_n δ/d over the thickness.
@@ -45,26 +45,26 @@ rve::Cell regularTile(double pressure) {
   for (int i = 0; i < columns; ++i)
     for (int j = 0; j < rows; ++j) grains.centre.push_back({across * i, pitch * (j + 0.5 * (i % 2)), 0.0});
   grains.radius.assign(grains.centre.size(), radius);
-  return rve::makeCell(
+  return rve::makeRve(
       grains, {{Vec3{across * columns, 0, 0}, Vec3{0, pitch * rows, 0}, Vec3{0, 0, thickness}}, {true, true, false}},
       {.stiffness = stiffness, .tangential = 0.0, .friction = 0.0});
 }
 
 /// Discs of the sizes that fill 0.85 of 30 mm × 30 mm, made without friction; without bonds they only press.
-rve::Cell randomTile(double pressure, std::uint64_t seed) {
-  rve::Cell cell = rve::randomCell({.count = 228,
-                                    .sizes = dem::UniformSizes{0.82e-3, 1.23e-3},
-                                    .thickness = thickness,
-                                    .density = 2000.0,
-                                    .seed = seed},
-                                   {.stiffness = stiffness, .tangential = 0.0, .friction = 0.0});
+rve::Rve randomTile(double pressure, std::uint64_t seed) {
+  rve::Rve cell = rve::randomCell({.count = 228,
+                                   .sizes = dem::UniformSizes{0.82e-3, 1.23e-3},
+                                   .thickness = thickness,
+                                   .density = 2000.0,
+                                   .seed = seed},
+                                  {.stiffness = stiffness, .tangential = 0.0, .friction = 0.0});
   rve::compress(cell, {.pressure = {pressure, pressure, 0.0}, .friction = 0.0, .rest = {.unbalanced = 1e-5}});
   return cell;
 }
 
-rve::Cell tile(const Strip& strip, std::uint64_t seed) {
+rve::Rve tile(const Strip& strip, std::uint64_t seed) {
   const double pressure = 0.01 * strip.pressure * stiffness / thickness;
-  rve::Cell cell = strip.regular ? regularTile(pressure) : randomTile(pressure, seed);
+  rve::Rve cell = strip.regular ? regularTile(pressure) : randomTile(pressure, seed);
   if (strip.bonded) rve::bond(cell, bonds());
   return cell;
 }
@@ -79,10 +79,10 @@ struct Record {
 };
 
 /// Tiles side by side that repeat upwards, with a rigid one at either end and a gap between these.
-rve::Cell sideBySide(const rve::Cell& cell, int tilesInAll, bool bonded) {
+rve::Rve sideBySide(const rve::Rve& cell, int tilesInAll, bool bonded) {
   geometry::Lattice lattice = cell.state.lattice;
   lattice.period[0] = (tilesInAll + 0.2) * lattice.period[0];
-  rve::Cell strip = rve::makeCell(tiles(cell, tilesInAll, 1), lattice, cell.springs);
+  rve::Rve strip = rve::makeRve(tiles(cell, tilesInAll, 1), lattice, cell.springs);
   if (bonded) rve::bond(strip, bonds());
   constexpr double rigid = 1e30;
   for (std::size_t i = 0; i < cell.size(); ++i)
@@ -90,8 +90,8 @@ rve::Cell sideBySide(const rve::Cell& cell, int tilesInAll, bool bonded) {
   return strip;
 }
 
-Record allDiscs(const Strip& strip, const rve::Cell& cell) {
-  rve::Cell discs = sideBySide(cell, strip.tiles + 2, strip.bonded);
+Record allDiscs(const Strip& strip, const rve::Rve& cell) {
+  rve::Rve discs = sideBySide(cell, strip.tiles + 2, strip.bonded);
   const double length = cell.state.lattice.period[0].x, load = length * (strip.tiles + 1);
   const std::vector<double> X = discs.state.x[0];
   const std::size_t first = discs.size() - cell.size();
@@ -114,7 +114,7 @@ Record allDiscs(const Strip& strip, const rve::Cell& cell) {
   return record;
 }
 
-Record solidOfCells(const Strip& strip, const rve::Cell& cell, int elements) {
+Record solidOfCells(const Strip& strip, const rve::Rve& cell, int elements) {
   const double length = strip.tiles * cell.state.lattice.period[0].x, height = cell.state.lattice.period[1].y;
   const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::quad4, {elements, 1, 1}, {}, {length, height, thickness});
   fem::Model model = fem::makeModel(mesh);
@@ -163,7 +163,7 @@ FigureRows rowsOf(const std::string& name, const Strip& strip, const std::vector
   std::vector<std::vector<double>> misfits(meshes.size(), std::vector<double>(packings));
   std::vector<double> late(packings), scatter(packings);
   parallelTasks(packings, [&](std::size_t s) {
-    const rve::Cell cell = tile(strip, s + 1);
+    const rve::Rve cell = tile(strip, s + 1);
     discs[s] = allDiscs(strip, cell);
     for (std::size_t m = 0; m < meshes.size(); ++m) {
       const Record solid = solidOfCells(strip, cell, meshes[m]);

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "dovetail/rve/cell.hpp"
+#include "dovetail/rve/rve.hpp"
 
 namespace dovetail::benchmark {
 
 /// The grains of nx × ny copies of a disc cell with upright periods, column by column. Springs are not among them.
-inline rve::Grains tiles(const rve::Cell& cell, int nx, int ny) {
+inline rve::Grains tiles(const rve::Rve& cell, int nx, int ny) {
   const double width = cell.state.lattice.period[0].x, height = cell.state.lattice.period[1].y;
   const auto inTile = [](double x, double period) { return x - std::floor(x / period) * period; };
   rve::Grains grains{.density = cell.density};

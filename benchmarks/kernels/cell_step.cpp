@@ -15,7 +15,7 @@ namespace {
 
 /// Seconds a step of a path at I ≈ 1e-3 takes, of all cells in turn: of each the best of some bursts, as others use the
 /// machine.
-double stepTime(std::vector<rve::Cell>& cells, int bursts, int steps) {
+double stepTime(std::vector<rve::Rve>& cells, int bursts, int steps) {
   Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
   G(0, 0) += 1e-6;
   G(1, 1) -= 1e-6;
@@ -30,8 +30,8 @@ double stepTime(std::vector<rve::Cell>& cells, int bursts, int steps) {
   return std::accumulate(best.begin(), best.end(), 0.0) / static_cast<double>(cells.size());
 }
 
-void report(const char* name, const rve::Cell& cell, int copies) {
-  std::vector<rve::Cell> alone{cell}, many(static_cast<std::size_t>(copies), cell);
+void report(const char* name, const rve::Rve& cell, int copies) {
+  std::vector<rve::Rve> alone{cell}, many(static_cast<std::size_t>(copies), cell);
   const double grains = static_cast<double>(cell.size());
   const double one = stepTime(alone, 200, 20) / grains, all = stepTime(many, 5, 10) / grains;
   std::printf("%-28s %6zu grains, %5d contacts, %6zu listed: %5.1f ns a grain and step alone, %5.1f in %d cells\n",
@@ -41,10 +41,10 @@ void report(const char* name, const rve::Cell& cell, int copies) {
 }  // namespace
 
 int main() {
-  rve::Cell discs = rve::randomCell({.count = 400}, {.modulus = 6e8, .tangential = 0.8, .friction = 0.5463});
+  rve::Rve discs = rve::randomCell({.count = 400}, {.modulus = 6e8, .tangential = 0.8, .friction = 0.5463});
   rve::compress(discs, {.friction = 0.3});
   report("discs with friction", discs, 512);
-  rve::Cell spheres = rve::randomCell(
+  rve::Rve spheres = rve::randomCell(
       {.shape = rve::Shape::sphere, .count = 1000, .sizes = dem::UniformSizes{4e-3, 6e-3}, .solidFraction = 0.5},
       {.modulus = 6e8, .tangential = 0.8, .friction = 0.5});
   rve::compress(spheres, {.pressure = {1e6, 1e6, 1e6}, .friction = 0.3});

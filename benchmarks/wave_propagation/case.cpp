@@ -45,8 +45,8 @@ int solidElements(const Settings& s) {
 
 double barLength(const Settings& s) { return s.demLength - s.overlap + solidElements(s) * Case{}.elementSize; }
 
-double massShare(const Settings& s) {
-  if (s.mass == "matched") return fem::matchedShare(s.diameter(), Case{}.elementSize);
+double massFraction(const Settings& s) {
+  if (s.mass == "matched") return fem::matchedFraction(s.diameter(), Case{}.elementSize);
   return s.mass == "consistent" ? 1.0 : 0.0;
 }
 
@@ -108,7 +108,7 @@ Json solidOf(const Settings& s) {
           {"box", boxOf(start, start + along * h)},
           {"material", materialOf(s)},
           {"stepping", s.implicit() ? "implicit" : "explicit"},
-          {"consistent_mass", massShare(s)},
+          {"consistent_mass", massFraction(s)},
           {"supports", Json::array({Json::object({{"on", "y+"}})})}};
 }
 

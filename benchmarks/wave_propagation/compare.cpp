@@ -13,17 +13,17 @@ namespace {
 
 /// Mean of a layer of particles or nodes.
 struct LayerSum {
-  double y = 0.0, velocity = 0.0, share = 0.0;
+  double y = 0.0, velocity = 0.0, fraction = 0.0;
   int count = 0;
 
   void add(double place, double speed, double weight) {
     y += place;
     velocity += speed;
-    share += weight;
+    fraction += weight;
     ++count;
   }
   void append(io::TimeSeries& table, double time, int model) const {
-    table.append({time, static_cast<double>(model), y / count, velocity / count, share / count});
+    table.append({time, static_cast<double>(model), y / count, velocity / count, fraction / count});
   }
 };
 
@@ -142,7 +142,7 @@ void compareParticles(RunResult& result, const RunResult& alone) {
     energy += 0.5 * s.contactStiffness() * (ours - theirs) * (ours - theirs);
   }
   result.figures.waveformErrorDem = std::sqrt(difference / size);
-  result.figures.reflectedShare = energy / result.figures.energyInput;
+  result.figures.reflectedFraction = energy / result.figures.energyInput;
 }
 
 }  // namespace

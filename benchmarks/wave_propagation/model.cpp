@@ -67,13 +67,13 @@ Bar barOf(const Settings& s, double penalty) {
 
 double requestedStep(const Settings& s, double critical) {
   if (s.dtAuto) return 0.5 * critical;
-  return s.shareOfCritical ? *s.shareOfCritical * critical : s.dtFactor * contactTime(s);
+  return s.fractionOfCritical ? *s.fractionOfCritical * critical : s.dtFactor * contactTime(s);
 }
 
 }  // namespace
 
 arlequin::CriticalStep criticalStep(const Settings& s, const Bar& bar) {
-  return arlequin::criticalStep(bar.run().grains, bar.solid, massShare(s), bar.tie);
+  return arlequin::criticalStep(bar.run().grains, bar.solid, massFraction(s), bar.tie);
 }
 
 Bar makeBar(const Settings& s, double& penalty) {

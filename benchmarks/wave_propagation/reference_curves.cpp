@@ -58,7 +58,7 @@ double energyAt(const std::vector<EnergySample>& energy, double t) {
   return a.joules + (b.joules - a.joules) * (t - a.t) / (b.t - a.t);
 }
 
-double dissipatedShare(const std::vector<EnergySample>& energy, int particlesPerEdge) {
+double dissipatedFraction(const std::vector<EnergySample>& energy, int particlesPerEdge) {
   const bool one = particlesPerEdge == 1;
   return 1.0 - energyAt(energy, one ? 60.8e-3 : 81.7e-3) / energyAt(energy, one ? 19.3e-3 : 19.9e-3);
 }

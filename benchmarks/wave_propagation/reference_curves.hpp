@@ -28,12 +28,12 @@ bool fits(const ReferenceCurve& curve, const Settings& settings);
 /// Largest |E − E_theirs| over the rows of the curve within the run's time, over E_theirs at the start.
 double largestDifference(const ReferenceCurve& curve, const std::vector<EnergySample>& energy);
 
-/// Share of the energy that is gone once the impulse has passed the overlap (see dissipatedShare), from the output that
-/// the authors deposited with Cheng, Thornton, Luding, Hazel and Weinhart, CMAME 403 (2023) 115651.
+/// Fraction of the energy that is gone once the impulse has passed the overlap (see dissipatedFraction), from the
+/// output that the authors deposited with Cheng, Thornton, Luding, Hazel and Weinhart, CMAME 403 (2023) 115651.
 struct PublishedRun {
   int particlesPerEdge;
   double cgWidth;  ///< element sizes
-  double dissipatedShare;
+  double dissipatedFraction;
 };
 inline constexpr std::array<PublishedRun, 12> publishedRuns{{{1, 0.0, 0.332},
                                                              {1, 0.5, 0.332},

@@ -47,7 +47,7 @@ Lines comparisonLines(const RunFigures& f) {
            "%.3e of the wave there"},
           {"waveform_error_dem", compared(f.waveformErrorDem), "waveform error, particles before it",
            "%.3e of the whole wave"},
-          {"reflected_energy_share", compared(f.reflectedShare), "reflected energy", "%.3e of the input"},
+          {"reflected_energy_fraction", compared(f.reflectedFraction), "reflected energy", "%.3e of the input"},
           {"speed_ratio_to_full_dem", compared(f.speedRatio), "run time over that of particles alone", "%.3g"}};
 }
 
@@ -57,11 +57,11 @@ Lines balanceLines(const Settings& s, const RunFigures& f) {
       {"", nullptr, "Energy"},
       {"energy_input_J", f.energyInput, "put in", "%.6g J"},
       {"energy_final_J", f.energyFinal, "left at the end", "%.6g J"},
-      {"energy_lost_share", f.lostShare, "lost, not absorbed on purpose", "%.3e of the input"},
-      {"coupling_work_share", f.couplingWorkShare, coupled ? "lost (-) or made (+) by the coupling" : ""},
-      {"energy_absorbed_share", f.absorbedShare, s.absorber > 0.0 ? "absorbed" : ""},
-      {"paper_dissipated_share", report::numberOrNull(f.paperDissipatedShare), "dissipated as the authors count it",
-       "%.4f"},
+      {"energy_lost_fraction", f.lostFraction, "lost, not absorbed on purpose", "%.3e of the input"},
+      {"coupling_work_fraction", f.couplingWorkFraction, coupled ? "lost (-) or made (+) by the coupling" : ""},
+      {"energy_absorbed_fraction", f.absorbedFraction, s.absorber > 0.0 ? "absorbed" : ""},
+      {"paper_dissipated_fraction", report::numberOrNull(f.paperDissipatedFraction),
+       "dissipated as the authors count it", "%.4f"},
       {"ledger_residual_relative", f.ledgerResidual, "ledger residual, largest", "%.3e, every booked channel counted"},
       {"", nullptr, "Balance"},
       {"momentum_residual_relative", f.momentumResidual, "momentum residual", "%.3e of the largest momentum"},
@@ -72,10 +72,10 @@ Lines balanceLines(const Settings& s, const RunFigures& f) {
 }
 
 /// The authors' figure for the run's n and width, if it is one of theirs.
-Json publishedShare(const Settings& s) {
+Json publishedFraction(const Settings& s) {
   if (s.scheme != "paper" || !s.impulse()) return nullptr;
   for (const PublishedRun& run : publishedRuns)
-    if (run.particlesPerEdge == s.particlesPerEdge && run.cgWidth == s.cgWidth) return run.dissipatedShare;
+    if (run.particlesPerEdge == s.particlesPerEdge && run.cgWidth == s.cgWidth) return run.dissipatedFraction;
   return nullptr;
 }
 
@@ -95,7 +95,7 @@ Lines linesOf(const RunResult& result) {
                              Line{"", report::numberOrNull(c.solid), "  of the solid", "%.4e s"},
                              Line{"", c.together, "  of both, with the coupling", "%.4e s"},
                              Line{"critical_step_s", steps}, Line{"critical_step_set_by", criticalSetter(c), "set by"},
-                             Line{"published_dissipated_share", publishedShare(result.settings)}});
+                             Line{"published_dissipated_fraction", publishedFraction(result.settings)}});
   return lines;
 }
 
@@ -108,19 +108,19 @@ void printComparison(std::ostream& out, const RunResult& result, const std::vect
   const auto name = [](int n, const std::optional<double>& width) {
     return format("n = %d, %s", n, width ? ("c = " + formatNumber(*width)).c_str() : "particles alone");
   };
-  const auto row = [&](const std::string& who, double share, double difference) {
-    out << format("  %-34s %19.4f", who.c_str(), std::abs(share) < 5e-5 ? 0.0 : share);
+  const auto row = [&](const std::string& who, double fraction, double difference) {
+    out << format("  %-34s %19.4f", who.c_str(), std::abs(fraction) < 5e-5 ? 0.0 : fraction);
     out << (std::isfinite(difference) ? format(" %24.3e\n", difference) : std::string("\n"));
   };
   out << "Beside the authors' deposited curves (impulse)\n"
-      << "  run                                 share dissipated  largest |E - E_ours| / E_0\n";
+      << "  run                                 fraction dissipated  largest |E - E_ours| / E_0\n";
   for (const ReferenceCurve& curve : curves)
     row("authors, " + name(curve.particlesPerEdge, curve.cgWidth),
-        dissipatedShare(curve.energy, curve.particlesPerEdge),
+        dissipatedFraction(curve.energy, curve.particlesPerEdge),
         fits(curve, result.settings) ? largestDifference(curve, result.energy) : std::nan(""));
   const Settings& s = result.settings;
   row("this run, " + name(s.particlesPerEdge, s.fullDem ? std::nullopt : std::optional<double>(s.cgWidth)),
-      result.figures.paperDissipatedShare, std::nan(""));
+      result.figures.paperDissipatedFraction, std::nan(""));
 }
 
 }  // namespace dovetail::wave

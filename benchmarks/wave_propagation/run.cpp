@@ -60,41 +60,41 @@ private:
 
   void setLedger() {
     ofRun_ = &run_.ledger();
-    books_.setLedger();
+    recorder_.setLedger();
   }
 
   /// The channels of the run under the names of the case.
   void prepareBooks() {
     const auto of = [this](const char* channel) { return [this, channel] { return ofRun_->joules(channel); }; };
-    const auto kinetic = books_.stored("kinetic, particles", of("particles: kinetic"));
-    const auto contacts = books_.stored("elastic, contacts", of("particles: contacts"));
+    const auto kinetic = recorder_.stored("kinetic, particles", of("particles: kinetic"));
+    const auto contacts = recorder_.stored("elastic, contacts", of("particles: contacts"));
     std::optional<EnergyLedger::Id> kineticSolid, elasticSolid;
     if (bar_.solid) {
-      kineticSolid = books_.stored("kinetic, solid", of("bar: kinetic"));
-      elasticSolid = books_.stored("elastic, solid", of("bar: elements"));
-      stored_ = books_.stored("stored in the coupling", [this] { return bar_.tie->stored(); });
-      books_.booked("lost in the coupling", [this] { return bar_.tie->lost() - bar_.tie->absorbed(); });
+      kineticSolid = recorder_.stored("kinetic, solid", of("bar: kinetic"));
+      elasticSolid = recorder_.stored("elastic, solid", of("bar: elements"));
+      stored_ = recorder_.stored("stored in the coupling", [this] { return bar_.tie->stored(); });
+      recorder_.booked("lost in the coupling", [this] { return bar_.tie->lost() - bar_.tie->absorbed(); });
     }
-    if (bar_.solid && K_ > 1 && !settings().implicit()) books_.stored("time splitting", of("bar: time splitting"));
-    if (settings().absorber > 0.0 && bar_.solid) books_.booked("absorber", [this] { return absorbed(); });
+    if (bar_.solid && K_ > 1 && !settings().implicit()) recorder_.stored("time splitting", of("bar: time splitting"));
+    if (settings().absorber > 0.0 && bar_.solid) recorder_.booked("absorber", [this] { return absorbed(); });
     if (!grains().terms.all<dem::DriveTerm>().empty())
-      books_.booked("drive (minus its work)", [this] { return -externalWork(); });
+      recorder_.booked("drive (minus its work)", [this] { return -externalWork(); });
 
-    books_.column("time_s", [this] { return grains().time; });
-    books_.column("mass_particles_kg", [this] { return massOfParticles(); });
-    books_.column("mass_solid_kg", [this] { return massOfSolid(); });
-    books_.column("momentum_particles_y_Ns", [this] { return dem::momentum(particles()).y; });
-    books_.column("momentum_solid_y_Ns", [this] { return bar_.solid ? fem::momentum(bar_.solid->nodes()).y : 0.0; });
-    books_.column("kinetic_particles_J", kinetic);
-    books_.column("elastic_contacts_J", contacts);
-    books_.column("kinetic_solid_J", kineticSolid);
-    books_.column("elastic_solid_J", elasticSolid);
-    books_.column("stored_coupling_J", stored_);
-    books_.column("energy_total_J", [this] { return result_.ledger.stored(); });
-    books_.column("coupling_work_J", [this] { return couplingWork(); });
-    books_.column("absorbed_J", [this] { return absorbed(); });
-    books_.column("external_work_J", [this] { return externalWork(); });
-    books_.column("ledger_residual_J", [this] { return result_.ledger.residual(); });
+    recorder_.column("time_s", [this] { return grains().time; });
+    recorder_.column("mass_particles_kg", [this] { return massOfParticles(); });
+    recorder_.column("mass_solid_kg", [this] { return massOfSolid(); });
+    recorder_.column("momentum_particles_y_Ns", [this] { return dem::momentum(particles()).y; });
+    recorder_.column("momentum_solid_y_Ns", [this] { return bar_.solid ? fem::momentum(bar_.solid->nodes()).y : 0.0; });
+    recorder_.column("kinetic_particles_J", kinetic);
+    recorder_.column("elastic_contacts_J", contacts);
+    recorder_.column("kinetic_solid_J", kineticSolid);
+    recorder_.column("elastic_solid_J", elasticSolid);
+    recorder_.column("stored_coupling_J", stored_);
+    recorder_.column("energy_total_J", [this] { return result_.ledger.stored(); });
+    recorder_.column("coupling_work_J", [this] { return couplingWork(); });
+    recorder_.column("absorbed_J", [this] { return absorbed(); });
+    recorder_.column("external_work_J", [this] { return externalWork(); });
+    recorder_.column("ledger_residual_J", [this] { return result_.ledger.residual(); });
   }
 
   void countParts() {
@@ -192,7 +192,7 @@ private:
     double stored = result_.ledger.stored();
     if (stored_) stored -= result_.ledger.channels()[*stored_].joules;
     result_.energy.push_back({grains().time, stored});
-    books_.addRow();
+    recorder_.addRow();
   }
 
   void sampleGap() {
@@ -210,8 +210,8 @@ private:
   void observe() {
     if (!observer_) return;
     const auto begin = std::chrono::steady_clock::now();
-    std::vector<double> share;
-    for (std::size_t i = 0; i < particles().size(); ++i) share.push_back(particles().weightOf(i));
+    std::vector<double> fraction;
+    for (std::size_t i = 0; i < particles().size(); ++i) fraction.push_back(particles().weightOf(i));
     Frame frame{grains().time,
                 nullptr,
                 nullptr,
@@ -221,11 +221,11 @@ private:
                 {},
                 {},
                 {},
-                {{"particles_share", share}}};
+                {{"particles_fraction", fraction}}};
     if (bar_.solid) {
       frame.mesh = &bar_.built.meshes.front();
       frame.nodes = &bar_.solid->nodes();
-      frame.nodeScalars = {{"particles_share", bar_.tie->overlap().nodalWeight}};
+      frame.nodeScalars = {{"particles_fraction", bar_.tie->overlap().nodalWeight}};
     }
     addLayers(*result_.velocityProfile, settings(), bar_.byPlace, frame);
     observer_(frame);
@@ -243,17 +243,17 @@ private:
     if (f.energyInput == 0.0) f.energyInput = mostInput_;
     const double input = f.energyInput;
     f.energyFinal = ledger.stored();
-    f.absorbedShare = absorbed() / input;
-    f.lostShare = (externalWork() + ledger.storedAtOpening() - f.energyFinal - absorbed()) / input;
+    f.absorbedFraction = absorbed() / input;
+    f.lostFraction = (externalWork() + ledger.storedAtOpening() - f.energyFinal - absorbed()) / input;
     const double storedInCoupling = stored_ ? ledger.channels()[*stored_].joules : 0.0;
-    f.couplingWorkShare = (couplingWork() + storedInCoupling) / input;
+    f.couplingWorkFraction = (couplingWork() + storedInCoupling) / input;
     f.ledgerResidual = ledger.largestResidual() / input;
     f.momentumResidual = largestMomentum_ > 0.0 ? largestMomentumGap_ / largestMomentum_ : 0.0;
     f.largestExcess = largestStored_ / mostInput_;
     f.stable = f.finished && f.largestExcess <= stableFactor;
     f.overlapMismatch = speedSquared_ > 0.0 ? std::sqrt(mismatchSquared_ / speedSquared_) : 0.0;
-    f.paperDissipatedShare = settings().impulse() ? dissipatedShare(result_.energy, settings().particlesPerEdge)
-                                                  : std::numeric_limits<double>::quiet_NaN();
+    f.paperDissipatedFraction = settings().impulse() ? dissipatedFraction(result_.energy, settings().particlesPerEdge)
+                                                     : std::numeric_limits<double>::quiet_NaN();
     result_.pairs = std::move(grains().pairs);
     result_.particles = std::move(particles());
     if (!bar_.solid) return;
@@ -266,7 +266,7 @@ private:
   coupling::CoupledRun& run_ = bar_.run();
   Observer observer_;
   RunResult result_;
-  benchmark::Recorder books_{result_};
+  benchmark::Recorder recorder_{result_};
   const EnergyLedger* ofRun_ = nullptr;
   std::optional<EnergyLedger::Id> stored_;  // of the coupling
   int K_ = 1;

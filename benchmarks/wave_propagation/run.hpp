@@ -20,13 +20,13 @@ struct RunFigures : benchmark::RunFigures {
   double penalty = 0.0;  ///< in use, Pa/m²
 
   double energyInput = 0.0, energyFinal = 0.0;  ///< J; final without booked channels
-  double lostShare = 0.0, absorbedShare = 0.0, couplingWorkShare = 0.0;
+  double lostFraction = 0.0, absorbedFraction = 0.0, couplingWorkFraction = 0.0;
   double ledgerResidual = 0.0, momentumResidual = 0.0, massResidual = 0.0;
   double overlapMismatch = 0.0, gapMax = 0.0;
-  double paperDissipatedShare = 0.0;
+  double paperDissipatedFraction = 0.0;
 
   bool compared = false;  ///< with a run of particles alone
-  double waveformErrorFem = 0.0, waveformErrorDem = 0.0, reflectedShare = 0.0, speedRatio = 0.0;
+  double waveformErrorFem = 0.0, waveformErrorDem = 0.0, reflectedFraction = 0.0, speedRatio = 0.0;
 };
 
 /// Energy without booked channels, at the samples.
@@ -35,11 +35,11 @@ struct EnergySample {
 };
 
 /// Of the velocity profile, "model": 0 nodes of the solid, 1 particles, 2 particles alone over the whole bar, at the
-/// end, once compared; "particles_share": the weight w there, 0 … 1.
+/// end, once compared; "particles_fraction": the weight w there, 0 … 1.
 struct RunResult : benchmark::RunData {
   RunResult() {
     velocityProfile.emplace(
-        std::vector<std::string>{"time_s", "model", "y_m", "velocity_y_m_per_s", "particles_share"});
+        std::vector<std::string>{"time_s", "model", "y_m", "velocity_y_m_per_s", "particles_fraction"});
   }
   Settings settings;
   RunFigures figures;
@@ -67,9 +67,9 @@ void addLayers(io::TimeSeries& table, const Settings& settings, const std::vecto
 /// Energy at time t, linear between samples, J; NaN outside.
 double energyAt(const std::vector<EnergySample>& energy, double t);
 
-/// Share of the energy that is lost while the impulse passes the overlap, as the authors count it: from 19.3 to 60.8 ms
-/// for one particle per element, from 19.9 to 81.7 ms else. NaN if the samples do not cover that time.
-double dissipatedShare(const std::vector<EnergySample>& energy, int particlesPerEdge);
+/// Fraction of the energy that is lost while the impulse passes the overlap, as the authors count it: from 19.3 to 60.8
+/// ms for one particle per element, from 19.9 to 81.7 ms else. NaN if the samples do not cover that time.
+double dissipatedFraction(const std::vector<EnergySample>& energy, int particlesPerEdge);
 
 /// All figures, as reports and summaries have them.
 benchmark::Lines linesOf(const RunResult& result);

@@ -42,7 +42,7 @@ void addBarOptions(Options& o, Settings& s) {
   o.number("--overlap L", s.overlap, length, "of particles and solid, m; at least 0.8").in("m");
   o.number("--fem-length L", s.femLength, length, "of the solid, m; made longer if the pulse would reach its end")
       .in("m")
-      .tellAs([&s] { return formatNumber(solidElements(s) * Case{}.elementSize); });
+      .reportAs([&s] { return formatNumber(solidElements(s) * Case{}.elementSize); });
   o.number("--stiffness-ratio R", s.stiffnessRatio, positive(), "E of the solid over that of the particles");
   o.number("--density-ratio R", s.densityRatio, positive(), "density of the solid over that of the particles");
   o.flag("--full-dem", s.fullDem, "particles alone over the whole length");
@@ -54,9 +54,10 @@ void addSchemeOptions(Options& o, Settings& s) {
          "all parts at once, signal and dt factor included; what is given wins");
   o.word("--constraint", s.constraint, "penalty|multiplier|dashpot", "what holds the two models together");
   o.word("--gap", s.gap, "at-grains|nodal", "where the two fields are compared");
-  o.word("--weight-profile", s.weightProfile, "half-cosine|linear|smooth", "share of the particles across the overlap");
+  o.word("--weight-profile", s.weightProfile, "half-cosine|linear|smooth",
+         "fraction of the particles across the overlap");
   o.number("--weight-floor W", s.weightFloor, {0.0, 0.5, true, false, "a number from 0 to below 0.5"},
-           "least share of either model in the overlap");
+           "least fraction of either model in the overlap");
   o.word("--tension", s.tension, "off|on", "contacts that also pull");
   o.word("--material", s.material, "springs|kirchhoff",
          "of the solid: the lattice's continuum, or St Venant-Kirchhoff");
@@ -76,7 +77,7 @@ void addSchemeOptions(Options& o, Settings& s) {
   o.number("--penalty P", s.penalty, notNegative("a positive number in Pa/m2, or leave it out (automatic)"),
            "Pa/m2; default: from E and the element size (dashpot: as published)")
       .in("Pa_m2")
-      .tellAs([&s] { return s.penalty == 0.0 ? "auto" : formatNumber(s.penalty); });
+      .reportAs([&s] { return s.penalty == 0.0 ? "auto" : formatNumber(s.penalty); });
   o.number("--absorber A", s.absorber, notNegative("0 (none) or a positive rate, about 1"),
            "damps what the mesh cannot carry, wave speed / element size; 0 = none");
 }

@@ -18,7 +18,7 @@ struct Case {
 };
 
 /// Words are those of the options.
-struct Settings : benchmark::RunSettings {
+struct Settings : benchmark::RunOptions {
   Settings() { dtFactor = 0.02, outputInterval = 2e-3; }
 
   std::string scheme = "conservative";
@@ -60,7 +60,7 @@ double driveTime(const Settings& settings);         ///< of the raised cosine, s
 double endTime(const Settings& settings);           ///< s: --until, or what the comparison needs
 int solidElements(const Settings& settings);        ///< along the bar, lengthened as needed
 double barLength(const Settings& settings);         ///< of the whole bar, m
-double massShare(const Settings& settings);         ///< of the consistent mass of the solid
+double massFraction(const Settings& settings);      ///< of the consistent mass of the solid
 /// What the constraint gets: as asked for, the published ε of the dashpot (Table 6), or automatic, Pa/m².
 double penaltyOf(const Settings& settings);
 

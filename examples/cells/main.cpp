@@ -11,15 +11,15 @@ using namespace dovetail;
 constexpr int bars = 4, steps = 5;
 constexpr double length = 0.25, shortening = 2e-4;  // m, of a bar, and of the column in a step
 
-rve::Cell sand(std::uint64_t seed) {
-  rve::Cell cell = rve::randomCell({.count = 150, .seed = seed}, {.modulus = 6e8, .tangential = 0.8, .friction = 0.5});
+rve::Rve sand(std::uint64_t seed) {
+  rve::Rve cell = rve::randomCell({.count = 150, .seed = seed}, {.modulus = 6e8, .tangential = 0.8, .friction = 0.5});
   rve::compress(cell, {.pressure = {1e5, 1e5, 0.0}, .friction = 0.2, .rest = {.unbalanced = 1e-6}});
   return cell;
 }
 
 int main() {
   const hierarchical::QuasiStaticCells manner{.unbalanced = 1e-6};
-  std::vector<rve::Cell> cells;
+  std::vector<rve::Rve> cells;
   for (std::uint64_t seed = 1; seed <= bars; ++seed) cells.push_back(sand(seed));
   Eigen::VectorXd u = Eigen::VectorXd::Zero(bars + 1), P(bars), stiffness(bars);
   for (int step = 1; step <= steps; ++step) {
@@ -27,14 +27,14 @@ int main() {
     int iterations = 0;
     for (;; ++iterations) {
       if (iterations == 20) return 1;
-      std::vector<rve::Cell> moved = cells;  // every iteration starts from the last equilibrium
+      std::vector<rve::Rve> moved = cells;  // every iteration starts from the last equilibrium
       for (int e = 0; e < bars; ++e) {
-        rve::Cell& cell = moved[static_cast<std::size_t>(e)];
+        rve::Rve& cell = moved[static_cast<std::size_t>(e)];
         Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
         F(1, 1) += (u[e + 1] - u[e]) / length;
         hierarchical::relax(cell, F, manner);
-        P[e] = rve::nominalStress(cell)(1, 1);             // Pa, on a column of 1 m²
-        stiffness[e] = rve::network(cell)(4, 4) / length;  // ∂P₂₂/∂F₂₂ in row and column 3·1 + 1
+        P[e] = rve::nominalStress(cell)(1, 1);                    // Pa, on a column of 1 m²
+        stiffness[e] = rve::elasticTangent(cell)(4, 4) / length;  // ∂P₂₂/∂F₂₂ in row and column 3·1 + 1
       }
       const Eigen::VectorXd force = P.tail(bars - 1) - P.head(bars - 1);  // on the nodes between the bars
       if (force.norm() <= 1e-5 * P.norm()) {

@@ -88,14 +88,14 @@ Collapse collapse(Scene& column, Progress& progress, double& done) {
   const double start = column.time, height = heightOf(column.particles);
   result.aspect = height / r;
   const double duration = 4.5 * std::sqrt(r / beads.gravity) + 2.0 * std::sqrt(2.0 * height / beads.gravity);
-  const double before = done, share = static_cast<double>(column.particles.size()) * duration / tau / 50.0;
+  const double before = done, fraction = static_cast<double>(column.particles.size()) * duration / tau / 50.0;
   runAndWatch(column, dt, duration, 50, [&](const Scene& now) {
     result.time.push_back(now.time - start);
     result.radius.push_back(deposit(now.particles));
     result.energy.push_back(dem::kineticEnergy(now.particles));
-    progress.update(done += share);
+    progress.update(done += fraction);
   });
-  done = before + 50.0 * share;
+  done = before + 50.0 * fraction;
   result.runout = result.radius.back() / r - 1.0;
   result.height = heightAtAxis(column.particles) / r;
   result.kinetic = result.energy.back() / column.booked.lost.lostPower();

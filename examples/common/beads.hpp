@@ -40,7 +40,7 @@ using RollingLaw = dem::ContactLaw<dem::LinearSpringDashpot, dem::TangentialSpri
 
 /// A box of beads at random places, loose enough to be made in a moment, dense enough to settle soon.
 inline dem::Packing looseBeads(const Beads& beads, const geometry::Periodicity& space, std::uint64_t seed) {
-  dem::GrowthSettings growth;
+  dem::GrowthOptions growth;
   growth.solidFraction = 0.5;
   growth.overlap = 1e-2;
   growth.seed = seed;

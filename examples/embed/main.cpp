@@ -7,7 +7,7 @@
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/dem/laws/contact_laws.hpp"
 #include "dovetail/dem/particles/particles.hpp"
-#include "dovetail/surface/coupling.hpp"
+#include "dovetail/surface/surface_coupler.hpp"
 
 using dovetail::Vec3;
 namespace dem = dovetail::dem;
@@ -56,7 +56,7 @@ int main() {
     dem::addParticle(particles, {0.3 + 0.4 * (k % 2), 0.33 + 0.38 * (k / 2), 0.1}, {0.1, 0.0, -1.0 - 0.2 * k},
                      0.05 + 0.01 * k, dem::Density{150.0});
   const auto laws = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 2000.0}});
-  surface::Coupling seam(surface::makeSkin(net.X, net.faces));  // the net's nodes and openings become a skin
+  surface::SurfaceCoupler seam(surface::makeSkin(net.X, net.faces));  // the net's nodes and openings become a skin
 
   dovetail::EnergyLedger ledger;
   const auto kinetic = ledger.addStored("kinetic"), strain = ledger.addStored("springs of the net"),

@@ -62,7 +62,7 @@ void addSoil(coupling::CoupledRun& run) {
   const std::vector<double> weight = arlequin::nodalWeights(place, {});
   auto soil = std::make_unique<fem::Model>(fem::makeModel(mesh));
   soil->add(fem::makeSolid(mesh, pointMaterial(fem::DruckerPrager{2e6, 0.25, solidFraction * density, 500.0, 0.5, 0.1}),
-                           {.name = "bricks", .share = arlequin::solidWeights(weight)}));
+                           {.name = "bricks", .fraction = arlequin::solidWeights(weight)}));
   soil->add(fem::gravity(run.grains.gravity));
   for (const auto& [side, components] : {std::pair{"x-", fem::componentX},
                                          {"x+", fem::componentX},
@@ -82,9 +82,9 @@ void addPlate(coupling::CoupledRun& run) {
   fem::fix(plate->nodes, mesh.nodeSets.at("z+"));
   for (Vec3& v : plate->nodes.v) v = {0.0, 0.0, -speed};
   coupling::SolidSide& side = run.addSolid(std::move(plate), {.name = "plate"});
-  run.grains.terms.add(surface::SurfaceContact(side,
-                                               surface::Coupling(surface::makeSkin(mesh.X, mesh.faceSets.at("skin"))),
-                                               run.grains.laws, "grains on the plate"));
+  run.grains.terms.add(
+      surface::SurfaceContact(side, surface::SurfaceCoupler(surface::makeSkin(mesh.X, mesh.faceSets.at("skin"))),
+                              run.grains.laws, "grains on the plate"));
 }
 
 std::unique_ptr<coupling::CoupledRun> makeScene() {

@@ -17,12 +17,12 @@ using namespace dovetail;
 constexpr double modulus = 1e8, density = 1500.0, edge = 0.1;  // Pa, kg/m³, m: of the net's cells
 constexpr int across = 2, along = 20, overlapping = 6;         // cells
 
-/// Our own solver. Its cells tell Dovetail where its nodes are; their springs and masses, of which it keeps the share
-/// 1 − w, are its own affair.
+/// Our own solver. Its cells tell Dovetail where its nodes are; their springs and masses, of which it keeps the
+/// fraction 1 − w, are its own affair.
 struct Net {
   fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {across, across, along}, {0, 0, 0},
                                    {across * edge, across* edge, along* edge});
-  std::vector<double> w;                   // the particles' share at the nodes
+  std::vector<double> w;                   // the particles' fraction at the nodes
   fem::Model host = fem::makeModel(mesh);  // keeps u, v, f and masses
   fem::Nodes& nodes = host.nodes;
   struct Spring {
@@ -91,7 +91,7 @@ bool handOver(arlequin::ConstraintKind constraint, const char* name) {
   side.load = coupling::NodalLoad(net.nodes.u.size());
   auto& tie = grains.terms.add(arlequin::makeOverlapTie(
       grains, net.mesh, net.w, side,
-      {.constraint = constraint, .penalty = arlequin::automaticPenalty(modulus, edge), .leastShare = 1e-3}));
+      {.constraint = constraint, .penalty = arlequin::automaticPenalty(modulus, edge), .leastWeight = 1e-3}));
 
   EnergyLedger ledger;
   const auto ofGrains = ledger.addStored("particles"), ofNet = ledger.addStored("net"),
@@ -124,7 +124,7 @@ bool handOver(arlequin::ConstraintKind constraint, const char* name) {
     dem::move(grains, dt);
     kick(0.5 * dt);
     fem::drift(net.nodes, dt);
-    dem::renew(grains);
+    dem::updateNeighbourList(grains);
     findForces();
     dem::addForces(grains);
     dem::close(grains);

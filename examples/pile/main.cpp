@@ -49,7 +49,8 @@ std::unique_ptr<coupling::CoupledRun> makeScene() {
   dem::addClump(grains, dem::makeClumpShape(ends, radii, {density}), {0.5 * width, 0.5 * width, 0.1});
 
   coupling::SolidSide& floor = run->addSolid(std::move(clay), {.name = "clay"});
-  grains.terms.add(surface::SurfaceContact(floor, surface::Coupling(surface::makeSkin(mesh.X, mesh.faceSets.at("z+"))),
+  grains.terms.add(surface::SurfaceContact(floor,
+                                           surface::SurfaceCoupler(surface::makeSkin(mesh.X, mesh.faceSets.at("z+"))),
                                            grains.laws, "grains on the clay"));
   return run;
 }

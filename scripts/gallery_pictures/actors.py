@@ -22,7 +22,7 @@ GREY = ((0.93, 0.93, 0.93), (0.20, 0.20, 0.22))
 FIELDS = {
     "speed": ("speed, m/s", COLD, 1.0),
     "weight": ("weight of the grains", COLD, 1.0),
-    "share": ("share of the solid", WARM, 1.0),
+    "solid_weight": ("weight of the solid", WARM, 1.0),
     "von_mises": ("von Mises stress, kPa", WARM, 1e-3),
     "plastic_strain": ("plastic strain", WARM, 1.0),
     "displacement": ("displacement, mm", WARM, 1e3),

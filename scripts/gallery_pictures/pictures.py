@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 class Picture:
     scene: str
     look: str  # what to look at, Markdown
-    frame: float = 1.0  # which of the frames, as a share of the run
+    frame: float = 1.0  # which of the frames, as a fraction of the run
     settings: tuple = ()  # --set of the run
     contents: str = ""  # of the frames, where the scene's own are not what is drawn
     direction: tuple = (0.4, -1.0, 0.45)  # from the scene to the camera
@@ -41,8 +41,8 @@ PICTURES = (
             direction=(0.45, -1.0, 0.55)),
     Picture("pile", "Clay that has yielded keeps the dents of the first impacts.",
             contents="solids,stress,history", solids={"clay": "plastic_strain"}, direction=(0.5, -1.0, 0.7)),
-    Picture("footing", "Cut open: through the overlap the weight of the grains falls from 1 to 0, and the share of the soil rises as much.",
-            contents="solids,stress,weights", grains="weight", solids={"soil": "share", "plate": "von_mises"},
+    Picture("footing", "Cut open: through the overlap the weight of the grains falls from 1 to 0, and the fraction of the soil rises as much.",
+            contents="solids,stress,weights", grains="weight", solids={"soil": "solid_weight", "plate": "von_mises"},
             cut=("y", 0.105, 0.12), direction=(0.35, -1.0, 0.3), zoom=1.1),
     Picture("footing", "The force of the plate goes down in chains of contacts, and on into the soil as stress.",
             contents="contacts,solids,stress", grain_opacity=0.12, lines="contacts", line_radius=(0.0002, 0.004),

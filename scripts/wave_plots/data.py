@@ -42,9 +42,9 @@ class Run:
         return numpy.unique(self.profile["time_s"])
 
     def layers(self, time, model):
-        """(y, velocity, share of the particles) of one model at one time, by rising y."""
+        """(y, velocity, fraction of the particles) of one model at one time, by rising y."""
         rows = (self.profile["time_s"] == time) & (self.profile["model"] == model)
-        return tuple(self.profile[name][rows] for name in ("y_m", "velocity_y_m_per_s", "particles_share"))
+        return tuple(self.profile[name][rows] for name in ("y_m", "velocity_y_m_per_s", "particles_fraction"))
 
     @property
     def overlap(self):

@@ -24,7 +24,7 @@ def draw_widths(source, path):
     study = Study(source)
     figure, panels = plt.subplots(1, 3, figsize=(10.5, 3.9))
     width, paper = study["cg_width_elements"], study.where("scheme", "paper")
-    for axes, column, title in zip(panels, ("waveform_error_fem", "energy_lost_share"),
+    for axes, column, title in zip(panels, ("waveform_error_fem", "energy_lost_fraction"),
                                    ("waveform error in the solid", "|energy lost| / input")):
         for name in ("penalty", "multiplier"):
             rows = study.where("constraint", name) & ~paper & study.finished
@@ -36,10 +36,10 @@ def draw_widths(source, path):
                   label="paper, as rebuilt here (impulse)")
         axes.set(yscale="log", title=title, xlabel="kernel width c / element")
     rows = paper & study.finished
-    panels[2].plot(width[rows], study["paper_dissipated_share"][rows], color=VERMILLION, marker="s")
-    panels[2].plot(width[rows], study["published_dissipated_share"][rows], color=BLACK, marker="x", linestyle="none",
+    panels[2].plot(width[rows], study["paper_dissipated_fraction"][rows], color=VERMILLION, marker="s")
+    panels[2].plot(width[rows], study["published_dissipated_fraction"][rows], color=BLACK, marker="x", linestyle="none",
                    markersize=8, label="authors' output")
-    panels[2].set(title="share dissipated (impulse)", xlabel="kernel width c / element", ylim=(0, 0.7))
+    panels[2].set(title="fraction dissipated (impulse)", xlabel="kernel width c / element", ylim=(0, 0.7))
     handles, labels = panels[0].get_legend_handles_labels()
     more = panels[2].get_legend_handles_labels()
     _legend_below(figure, handles + more[0], labels + more[1], 4)
@@ -49,8 +49,8 @@ def draw_widths(source, path):
 def draw_constraints(source, path):
     study = Study(source)
     figure, panels = plt.subplots(2, 2, figsize=(10, 7.2), sharex=True)
-    columns = (("waveform_error_fem", "waveform error in the solid"), ("energy_lost_share", "|energy lost| / input"),
-               ("reflected_energy_share", "reflected energy / input"), ("wall_seconds", "run time (s)"))
+    columns = (("waveform_error_fem", "waveform error in the solid"), ("energy_lost_fraction", "|energy lost| / input"),
+               ("reflected_energy_fraction", "reflected energy / input"), ("wall_seconds", "run time (s)"))
     forms = {"at-grains": ("gap at the particles", "-", True), "nodal": ("nodal gap", ":", False)}
     for axes, (column, title) in zip(panels.flat, columns):
         values = numpy.abs(study[column])
@@ -85,7 +85,7 @@ def draw_pareto(source, path):
     figure, panels = plt.subplots(1, 2, figsize=(10, 4.9))
     seconds, wide, paper = study["wall_seconds"], study["cg_width_elements"] > 0, study.where("scheme", "paper")
     columns = (("waveform_error_fem", "on_waveform_front", "waveform error in the solid"),
-               ("energy_lost_share", "on_energy_front", "|energy lost| / input"))
+               ("energy_lost_fraction", "on_energy_front", "|energy lost| / input"))
     for axes, (column, front, title) in zip(panels, columns):
         values = numpy.abs(study[column])
         kinds = [(study.where("constraint", name) & ~paper & (wide == with_kernel), colour,
@@ -114,7 +114,7 @@ TOP, FLOOR = 1e1, 1e-10
 def _draw_group(axes, study, head, word, automatic):
     """Rows "<head>, <word> <x> …" with their outcomes; the automatic step is drawn hollow."""
     start = f"{head}, {word} "
-    x, lost = [], numpy.abs(study["energy_lost_share"])
+    x, lost = [], numpy.abs(study["energy_lost_fraction"])
     for label in study.label:
         mine = label.startswith(start) and (label.endswith("dt auto") == automatic)
         x.append(float(label[len(start):].split()[0].rstrip(",")) if mine else numpy.nan)

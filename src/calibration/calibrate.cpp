@@ -172,7 +172,7 @@ void addOutcomes(Calibrating& work, const Calibration& file, CalibrationResult& 
 
 }  // namespace
 
-CalibrationResult calibrate(const Calibration& file, const CalibrationSettings& settings, std::ostream& log) {
+CalibrationResult calibrate(const Calibration& file, const CalibrationOptions& settings, std::ostream& log) {
   const auto begun = std::chrono::steady_clock::now();
   Laboratory laboratory(settings.folder);
   Calibrating work(file, laboratory, log);

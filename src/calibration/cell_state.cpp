@@ -53,10 +53,10 @@ void requireCell(const dem::Model& m) {
 }
 
 /// Pressure at rest, Pa; far from the one wanted, rest is not waited for.
-double pressureAtRest(dem::Model& m, const CompressionSettings& settings) {
+double pressureAtRest(dem::Model& m, const CompressionOptions& settings) {
   struct Stage {
     double within;  // relative distance from the pressure wanted
-    dem::RelaxationSettings rest;
+    dem::RelaxationOptions rest;
   };
   const Stage stages[] = {{1e300, {.unbalanced = 1e-2, .steps = 1500}},
                           {0.5, {.unbalanced = 1e-3, .steps = 10000}},
@@ -72,7 +72,7 @@ double pressureAtRest(dem::Model& m, const CompressionSettings& settings) {
 
 }  // namespace
 
-double compressCell(dem::Model& m, const CompressionSettings& settings) {
+double compressRve(dem::Model& m, const CompressionOptions& settings) {
   requireCell(m);
   requirePositive(settings.pressure, "pressure");
   requirePositive(settings.tolerance, "tolerance of the pressure");

@@ -123,8 +123,8 @@ double Outcome::value(const std::string& quantity, const std::optional<double>& 
                      "take \"at\" from " + formatNumber(x.front()) + " to " + formatNumber(x.back()));
   if (x.size() == 1) return y.back();
   const auto above = static_cast<std::size_t>(std::upper_bound(x.begin() + 1, x.end() - 1, *at) - x.begin());
-  const double share = (*at - x[above - 1]) / (x[above] - x[above - 1]);
-  return y[above - 1] + share * (y[above] - y[above - 1]);
+  const double fraction = (*at - x[above - 1]) / (x[above] - x[above - 1]);
+  return y[above - 1] + fraction * (y[above] - y[above - 1]);
 }
 
 TriaxialCurve triaxialOf(const Outcome& outcome) {
@@ -171,7 +171,7 @@ const dem::Model& Laboratory::prepared(const scene::Scene& scene, const Preparat
   cell.particles = std::move(built.run->grains.particles);
   cell.pairs = std::move(built.run->grains.pairs);
   cell.laws = built.run->grains.laws;
-  compressCell(cell, {.pressure = preparation.pressure});
+  compressRve(cell, {.pressure = preparation.pressure});
   if (cells_.size() == kept) cells_.erase(cells_.begin());
   return cells_.emplace_back(name, std::move(cell)).second;
 }

@@ -127,7 +127,7 @@ void addCovariance(ceres::Problem& problem, const double* u, std::span<const Fit
   }
 }
 
-ceres::Solver::Options optionsOf(const FitSettings& settings) {
+ceres::Solver::Options optionsOf(const FitOptions& settings) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = settings.iterations;
@@ -152,7 +152,7 @@ struct QuietLog {
 }  // namespace
 
 FitResult fit(std::span<const FitParameter> parameters, int residuals, const Residuals& evaluate,
-              const FitSettings& settings) {
+              const FitOptions& settings) {
   check(parameters, residuals);
   const std::size_t n = parameters.size();
   std::vector<double> u;

@@ -14,7 +14,7 @@ namespace dovetail::calibration {
 namespace {
 
 /// Pressures at rest after a strain along one axis, Pa.
-Vec3 probed(dem::Model cell, int axis, double strain, const ModuliSettings& settings) {
+Vec3 probed(dem::Model cell, int axis, double strain, const ModuliOptions& settings) {
   Vec3 strains{};
   strains[axis] = std::expm1(strain);
   dem::strainCell(cell, strains);
@@ -52,7 +52,7 @@ void requireModuli(const Moduli& m) {
 
 }  // namespace
 
-Moduli smallStrainModuli(const dem::Model& start, const ModuliSettings& settings) {
+Moduli smallStrainModuli(const dem::Model& start, const ModuliOptions& settings) {
   requirePositive(settings.strain, "strain of the probes");
   dem::Model cell = start;
   dem::findForces(cell);

@@ -19,7 +19,7 @@ using Line = std::map<double, double>;
 
 class Search {
 public:
-  Search(std::span<const FitParameter> parameters, const Measure& measure, const SearchSettings& settings)
+  Search(std::span<const FitParameter> parameters, const Measure& measure, const SearchOptions& settings)
       : parameters_(parameters), measure_(measure), settings_(settings) {
     for (const FitParameter& p : parameters) found_.value.push_back(p.start);
   }
@@ -83,15 +83,14 @@ private:
 
   std::span<const FitParameter> parameters_;
   const Measure& measure_;
-  const SearchSettings& settings_;
+  const SearchOptions& settings_;
   Optimum found_;
   std::optional<double> best_;
 };
 
 }  // namespace
 
-Optimum searchOptimum(std::span<const FitParameter> parameters, const Measure& measure,
-                      const SearchSettings& settings) {
+Optimum searchOptimum(std::span<const FitParameter> parameters, const Measure& measure, const SearchOptions& settings) {
   if (settings.samples < 3)
     throw InputError(std::to_string(settings.samples) + " samples", "search", "give 3 at least");
   if (parameters.empty()) throw InputError("there are no parameters", "search", "give one at least");

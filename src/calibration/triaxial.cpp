@@ -16,7 +16,7 @@ double TriaxialCurve::mobilisedAngle(std::size_t k) const {
 
 namespace {
 
-void check(const TriaxialSettings& s) {
+void check(const TriaxialOptions& s) {
   if (!(s.strain > 0.0 && s.strain <= 1.0))
     throw InputError("the strain is " + formatNumber(s.strain), "triaxial compression",
                      "give one above 0, of at most 1");
@@ -29,7 +29,7 @@ void check(const TriaxialSettings& s) {
 /// A cell on its way, and the strains across that keep the pressure there.
 class Shearing {
 public:
-  Shearing(dem::Model& cell, const TriaxialSettings& settings)
+  Shearing(dem::Model& cell, const TriaxialOptions& settings)
       : cell_(cell), settings_(settings), wanted_(meanOf(cellPressures(cell))), volumeAtStart_(cellVolume(cell)) {
     requirePositive(wanted_, "pressure of the cell");
     look();
@@ -82,7 +82,7 @@ private:
   }
 
   dem::Model& cell_;
-  const TriaxialSettings& settings_;
+  const TriaxialOptions& settings_;
   double wanted_, volumeAtStart_, strain_ = 0.0, stiffness_ = 0.0;
   double ratio_[2] = {0.25, 0.25};
   Vec3 now_;
@@ -90,7 +90,7 @@ private:
 
 }  // namespace
 
-TriaxialCurve triaxialCompression(dem::Model cell, const TriaxialSettings& settings) {
+TriaxialCurve triaxialCompression(dem::Model cell, const TriaxialOptions& settings) {
   check(settings);
   dem::findForces(cell);
   Shearing shearing(cell, settings);
@@ -105,8 +105,8 @@ double atStrain(const TriaxialCurve& curve, std::span<const double> values, doub
         curve.strain.empty() ? "the curve is empty" : "take one from 0 to " + formatNumber(curve.strain.back()));
   const auto above = std::upper_bound(curve.strain.begin() + 1, curve.strain.end() - 1, strain);
   const auto k = static_cast<std::size_t>(above - curve.strain.begin());
-  const double share = (strain - curve.strain[k - 1]) / (curve.strain[k] - curve.strain[k - 1]);
-  return values[k - 1] + share * (values[k] - values[k - 1]);
+  const double fraction = (strain - curve.strain[k - 1]) / (curve.strain[k] - curve.strain[k - 1]);
+  return values[k - 1] + fraction * (values[k] - values[k - 1]);
 }
 
 Strength strengthOf(const TriaxialCurve& curve) {

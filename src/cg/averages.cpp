@@ -36,8 +36,8 @@ bool inside(const Vec3& x, const AverageBox& box) {
   return true;
 }
 
-/// Share of a segment that lies in the box.
-double shareInside(const Vec3& from, const Vec3& to, const AverageBox& box) {
+/// Fraction of a segment that lies in the box.
+double fractionInside(const Vec3& from, const Vec3& to, const AverageBox& box) {
   double begin = 0.0, end = 1.0;
   for (int k = 0; k < 3; ++k) {
     const double d = to[k] - from[k];
@@ -158,7 +158,7 @@ AverageStress loveWeberStress(const BranchView& branches, const ParticleView& pa
   requireMatching(branches, particles);
   AverageStress stress;
   for (std::size_t c = 0; c < branches.from.size(); ++c)
-    stress.contact -= shareInside(branches.from[c], branches.to[c], box) * eigen(branches.force[c]) *
+    stress.contact -= fractionInside(branches.from[c], branches.to[c], box) * eigen(branches.force[c]) *
                       eigen(branches.from[c] - branches.to[c]).transpose();
   stress.contact /= box.volume();
   stress.kinetic = -kineticSum(particles, [&](std::size_t i) { return inside(particles.x[i], box); }) / box.volume();

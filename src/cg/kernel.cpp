@@ -16,22 +16,22 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double sigma = 1.0 / 3.0;  ///< of the Gaussian, over its width (Eq. 9)
 
-/// ∫ exp(−q²/(2σ²)) over the unit ball, as a share of the whole space.
-std::array<double, 3> gaussShares() {
+/// ∫ exp(−q²/(2σ²)) over the unit ball, as a fraction of the whole space.
+std::array<double, 3> gaussFractions() {
   const double line = std::erf(3.0 / std::numbers::sqrt2);
   return {line, -std::expm1(-4.5), line - 3.0 * std::sqrt(2.0 / pi) * std::exp(-4.5)};
 }
 
-const std::array<double, 3>& gaussShareTable() {
-  static const std::array<double, 3> shares = gaussShares();
-  return shares;
+const std::array<double, 3>& gaussFractionsTable() {
+  static const std::array<double, 3> fractions = gaussFractions();
+  return fractions;
 }
 
 const std::array<double, 3>& gaussPeakTable() {
   static const std::array<double, 3> peaks = [] {
     std::array<double, 3> result{};
     for (int d = 1; d <= 3; ++d)
-      result[d - 1] = 1.0 / (std::pow(2.0 * pi * sigma * sigma, 0.5 * d) * gaussShareTable()[d - 1]);
+      result[d - 1] = 1.0 / (std::pow(2.0 * pi * sigma * sigma, 0.5 * d) * gaussFractionsTable()[d - 1]);
     return result;
   }();
   return peaks;
@@ -65,7 +65,7 @@ double peakNumber(KernelShape shape, int dimension) {
 
 double gaussTailMass(int dimension) {
   requireDimension(dimension);
-  return 1.0 - gaussShareTable()[dimension - 1];
+  return 1.0 - gaussFractionsTable()[dimension - 1];
 }
 
 void requireValid(const Kernel& kernel, bool allowZeroWidth) {

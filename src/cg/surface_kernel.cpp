@@ -49,11 +49,11 @@ void localRow(const Projection& localMap, const Facet& vertex, const std::array<
       const auto at =
           std::lower_bound(column.begin() + static_cast<std::ptrdiff_t>(begin), column.end(), localMap.column[m]);
       const auto place = weight.begin() + (at - column.begin());
-      const double share = barycentric[k] * localMap.weight[m];
+      const double fraction = barycentric[k] * localMap.weight[m];
       if (at != column.end() && *at == localMap.column[m]) {
-        *place += share;
+        *place += fraction;
       } else {
-        weight.insert(place, share);
+        weight.insert(place, fraction);
         column.insert(at, localMap.column[m]);
       }
     }

@@ -16,7 +16,7 @@ namespace dovetail::cg {
 
 using Facet = std::array<int, 3>;
 
-/// Supports below this share of the facet collapse onto the centre: there, positions differ by round-off only.
+/// Supports below this fraction of the facet collapse onto the centre: there, positions differ by round-off only.
 inline constexpr double collapsedSupport = 1e-12;
 
 /// What a kernel lives on.

@@ -23,7 +23,7 @@ std::ostream& operator<<(std::ostream& out, const Profile& profile) {
   const auto flags = out.flags();
   const auto precision = out.precision(4);
   out << "  " << std::left << std::setw(28) << "stage" << std::right << std::setw(12) << "seconds" << std::setw(10)
-      << "share" << std::setw(14) << "us per call" << '\n';
+      << "fraction" << std::setw(14) << "us per call" << '\n';
   for (const auto& row : profile.rows())
     out << "  " << std::left << std::setw(28) << row.name << std::right << std::setw(12) << row.seconds << std::setw(8)
         << std::setprecision(3) << 100.0 * row.seconds / total << " %" << std::setw(14) << std::setprecision(4)

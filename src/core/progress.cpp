@@ -33,10 +33,10 @@ void Progress::update(double done, const std::string& note) {
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
-  const double share = total_ > 0.0 ? std::clamp(done / total_, 0.0, 1.0) : 0.0;
+  const double fraction = total_ > 0.0 ? std::clamp(done / total_, 0.0, 1.0) : 0.0;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const std::string eta = share > 0.0 ? formatDuration(elapsed * (1.0 - share) / share) : "?";
-  std::fprintf(stderr, "\r\033[K%s  %3.0f %%  ETA %s  %s", label_.c_str(), 100.0 * share, eta.c_str(), note.c_str());
+  const std::string eta = fraction > 0.0 ? formatDuration(elapsed * (1.0 - fraction) / fraction) : "?";
+  std::fprintf(stderr, "\r\033[K%s  %3.0f %%  ETA %s  %s", label_.c_str(), 100.0 * fraction, eta.c_str(), note.c_str());
   std::fflush(stderr);
 }
 

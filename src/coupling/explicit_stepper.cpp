@@ -18,7 +18,7 @@ public:
     dt_ = dt;
     K_ = K;
     if (solid_) carryOver(solid_->book.ledger());
-    solid_.emplace(*model_, options_.massShare, macroStep());
+    solid_.emplace(*model_, options_.massFraction, macroStep());
     side.mass = &solid_->motion.mass();
     solid_->sample();
     showOwn();

@@ -16,7 +16,7 @@ public:
     dt_ = dt;
     K_ = K;
     fem::ImplicitOptions options = options_.implicitOptions;
-    options.massShare = options_.massShare;
+    options.massFraction = options_.massFraction;
     if (solid_) carryOver(solid_->ledger());
     solid_.emplace(*model_, macroStep(), options);
     side.mass = &solid_->mass();
@@ -44,10 +44,10 @@ public:
     if (!timeless) ++steps_;
     if (byOwnForces_.empty()) return;
     // Between steps particles have the velocities of the instant, within steps those of half a step before.
-    const double share = (timeless ? steps_ : steps_ - 0.5) / K_ - (jumped_ ? 1.0 : 0.0);
+    const double fraction = (timeless ? steps_ : steps_ - 0.5) / K_ - (jumped_ ? 1.0 : 0.0);
     std::vector<Vec3>& v = model_->nodes.v;
     hidden_ = v;
-    for (std::size_t n = 0; n < v.size(); ++n) v[n] += share * byOwnForces_[n];
+    for (std::size_t n = 0; n < v.size(); ++n) v[n] += fraction * byOwnForces_[n];
   }
   void hideVelocities() override {
     if (!hidden_.empty()) model_->nodes.v = std::exchange(hidden_, {});

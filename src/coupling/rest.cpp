@@ -35,7 +35,7 @@ void CoupledRun::stop() {
   dem::stop(grains);
   for (const auto& solid : impl_->solids) std::ranges::fill(solid->side.nodes().v, Vec3{});
   impl_->broughtToRest -= kineticEnergy();
-  impl_->tellVelocities();
+  impl_->reportVelocities();
   const Totals after = impl_->sums();
   impl_->outside.given.give("kinetic damping",
                             {after.momentum - before.momentum, after.angularMomentum - before.angularMomentum});

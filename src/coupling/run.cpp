@@ -108,7 +108,7 @@ void CoupledRun::advance(std::int64_t macroSteps, bool withEnergies) {
       impl_->macroStep(withEnergies && w + 1 == macroSteps);
     } catch (const NumericalError& error) {
       impl_->lookAtLimit();
-      dem::tellOfLimit(grains, error);
+      dem::reportOfLimit(grains, error);
       throw;
     }
     if (dem::looksAtLimit(grains.steps / impl_->K())) impl_->lookAtLimit();
@@ -178,7 +178,7 @@ void CoupledRun::Impl::macroStep(bool wantsEnergies) {
 void CoupledRun::Impl::stepParticles(bool last) {
   for (const auto& solid : solids)
     solid->side.isInStep = last || solid->side.stepping == Stepping::explicitSteps || options.lag != Lag::none;
-  dem::renew(grains);
+  dem::updateNeighbourList(grains);
   ownForcesDue = last;
   dem::addForces(grains);
   ownForcesDue = false;
@@ -219,7 +219,7 @@ void CoupledRun::Impl::constrainMacroStep() {
 }
 
 /// The second of the kicks about the end of a macro step meets other velocities than the first has left.
-void CoupledRun::Impl::tellVelocities() {
+void CoupledRun::Impl::reportVelocities() {
   for (const auto* connector : grains.terms.all<Connector>()) {
     SolidSide& side = connector->side();
     if (!connector->constrains() || side.stepping != Stepping::implicitSteps) continue;
@@ -285,11 +285,11 @@ void CoupledRun::Impl::lagMacroStep() {
   }
   for (int k = 0; k < K(); ++k) {
     dem::move(grains, dt);
-    const double share = options.lag == Lag::loadAndSkin ? 0.0 : static_cast<double>(k + 1) / K();
+    const double fraction = options.lag == Lag::loadAndSkin ? 0.0 : static_cast<double>(k + 1) / K();
     for (std::size_t s = 0; s < solids.size(); ++s) {
       SolidSide& side = solids[s]->side;
       for (std::size_t n = 0; n < side.nodes().u.size(); ++n)
-        side.nodes().u[n] = lagFrom[s][n] + share * (lagTo[s][n] - lagFrom[s][n]);
+        side.nodes().u[n] = lagFrom[s][n] + fraction * (lagTo[s][n] - lagFrom[s][n]);
       madeByLag -= 0.5 * workOf(side.load, side.nodes().u, lagSeen[s]);
     }
     stepParticles(false);

@@ -84,7 +84,7 @@ struct CoupledRun::Impl {
   void stepParticles(bool last);
   void jumpBetweenSteps();
   void constrainMacroStep();
-  void tellVelocities();
+  void reportVelocities();
   void kickByMacroForce();
   void lagMacroStep();
   void rememberLoads();

@@ -98,10 +98,10 @@ std::ostream& operator<<(std::ostream& out, const Totals& totals) {
   for (const ImpulseBook::Channel& channel : totals.given.channels())
     line(out, "given by " + channel.name, channel.given);
   line(out, "residual", totals.residual);
-  const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
-  return out << "  residual over all impulses " << share(norm(totals.residual.linear), totals.turnedOver)
-             << ", over their moments " << share(norm(totals.residual.angular), totals.turnedOverAngular) << "; mass "
-             << totals.mass << " kg, residual " << totals.massResidual << " kg\n";
+  const auto fraction = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
+  return out << "  residual over all impulses " << fraction(norm(totals.residual.linear), totals.turnedOver)
+             << ", over their moments " << fraction(norm(totals.residual.angular), totals.turnedOverAngular)
+             << "; mass " << totals.mass << " kg, residual " << totals.massResidual << " kg\n";
 }
 
 }  // namespace dovetail::coupling

@@ -8,7 +8,7 @@
 
 namespace dovetail::geometry::detail {
 
-/// Lookups reach further by this share of a cell, so that round-off in a cell index cannot hide a neighbour.
+/// Lookups reach further by this fraction of a cell, so that round-off in a cell index cannot hide a neighbour.
 inline constexpr double reachMargin = 1e-9;
 
 /// Cells along one axis of a level.

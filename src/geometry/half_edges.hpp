@@ -35,7 +35,7 @@ inline void checkVertices(std::span<const Vec3> x) {
       throw InputError("not a finite vector", "vertex " + std::to_string(i), "give three finite numbers");
 }
 
-/// Height over the longest edge, as a share of that edge; 0 for a point.
+/// Height over the longest edge, as a fraction of that edge; 0 for a point.
 inline double relativeHeight(std::span<const Vec3> x, const Facet& f) {
   const Vec3 &a = x[at(f[0])], &b = x[at(f[1])], &c = x[at(f[2])];
   const double longest2 = longestEdgeSquared(a, b, c);

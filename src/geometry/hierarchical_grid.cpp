@@ -16,8 +16,8 @@ namespace dovetail::geometry {
 
 namespace {
 
-/// Cells are larger than the largest reach by this share, so that spheres in reach of each other lie in the same or in
-/// adjacent cells in spite of round-off (at most 3.5e-10 of a cell with 2^20 cells along an axis).
+/// Cells are larger than the largest reach by this fraction, so that spheres in reach of each other lie in the same or
+/// in adjacent cells in spite of round-off (at most 3.5e-10 of a cell with 2^20 cells along an axis).
 constexpr double cellMargin = 1e-8;
 /// Longer axes keep 2^20 cells about the mean position; what lies beyond is held by the outermost cells.
 constexpr int largestCount = 1 << 20;

@@ -42,9 +42,9 @@ IntegerMatrix reduce(Lattice& lattice) {
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = 0; b < 3; ++b) {
         if (a == b || !lattice.axes[a] || !lattice.axes[b]) continue;
-        const double share = dot(lattice.period[a], lattice.period[b]) / squaredNorm(lattice.period[a]);
-        if (!(std::abs(share) > 0.5 + slack)) continue;
-        const int k = static_cast<int>(std::lround(share));
+        const double fraction = dot(lattice.period[a], lattice.period[b]) / squaredNorm(lattice.period[a]);
+        if (!(std::abs(fraction) > 0.5 + slack)) continue;
+        const int k = static_cast<int>(std::lround(fraction));
         lattice.period[b] -= double(k) * lattice.period[a];
         for (std::size_t column = 0; column < 3; ++column) map[a][column] += k * map[b][column];
         shorter = true;

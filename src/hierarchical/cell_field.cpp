@@ -4,11 +4,11 @@
 #include <array>
 #include <utility>
 
-#include "bank.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/rve/cell_archive.hpp"
 #include "dovetail/rve/operators.hpp"
+#include "dovetail/rve/rve_archive.hpp"
+#include "samples.hpp"
 
 namespace dovetail::hierarchical {
 
@@ -32,37 +32,37 @@ public:
   explicit Resting(const QuasiStaticCells& settings) : settings_(settings) {}
 
   /// A cell that is to stay where it was committed is at rest there already.
-  void go(rve::Cell& cell, const Eigen::Matrix3d& F, double, bool stays) const {
+  void go(rve::Rve& cell, const Eigen::Matrix3d& F, double, bool stays) const {
     if (!stays) relax(cell, F, settings_);
   }
   /// @param cell  the answer  @param committed  what its path started from
-  rve::Tangent tangent(const rve::Cell& cell, const rve::CellState& committed) {
+  rve::Tangent tangent(const rve::Rve& cell, const rve::CellState& committed) {
     switch (settings_.tangent) {
-      case Operator::network:
-        return rve::network(cell);
-      case Operator::slidingNetwork:
-        return rve::slidingNetwork(cell);
-      case Operator::uniformStrain:
-        return rve::uniformStrain(cell);
+      case Operator::elasticTangent:
+        return rve::elasticTangent(cell);
+      case Operator::frictionalTangent:
+        return rve::frictionalTangent(cell);
+      case Operator::voigtTangent:
+        return rve::voigtTangent(cell);
       case Operator::elasticProbe:
         return rve::elasticProbe(cell);
-      case Operator::pathProbe:
-        return pathProbe(cell, committed);
-      case Operator::frozenMean:
+      case Operator::numericalTangent:
+        return numericalTangent(cell, committed);
+      case Operator::averagedTangent:
         break;
     }
     if (history_.frozen) return history_.mean;
-    last_ = pathProbe(cell, committed);
+    last_ = numericalTangent(cell, committed);
     asked_ = true;
     return last_;
   }
-  void commit(const rve::Cell& cell) {
-    if (settings_.tangent == Operator::frozenMean && asked_)
+  void commit(const rve::Rve& cell) {
+    if (settings_.tangent == Operator::averagedTangent && asked_)
       history_.next(cell.state.F, rve::nominalStress(cell), [this] { return last_; });
   }
   template <class Archive>
   void pass(Archive& archive) {
-    if (settings_.tangent != Operator::frozenMean) return;
+    if (settings_.tangent != Operator::averagedTangent) return;
     passMatrix(archive, history_.F);
     passMatrix(archive, history_.P);
     passMatrix(archive, history_.mean);
@@ -72,33 +72,33 @@ public:
 
 private:
   QuasiStaticCells settings_;
-  rve::FrozenMean history_;
+  rve::AveragedTangent history_;
   rve::Tangent last_ = rve::Tangent::Zero();
   bool asked_ = false;  ///< whether there is a last one
 
-  rve::Tangent pathProbe(const rve::Cell& cell, const rve::CellState& committed) const {
-    rve::Cell start = cell;
+  rve::Tangent numericalTangent(const rve::Rve& cell, const rve::CellState& committed) const {
+    rve::Rve start = cell;
     start.state = committed;
-    rve::PathSettings path = settings_.path;
+    rve::PathOptions path = settings_.path;
     path.rest.unbalanced = settings_.unbalanced;
-    return rve::pathProbe(start, cell.state.F, {.path = path});
+    return rve::numericalTangent(start, cell.state.F, {.path = path});
   }
 };
 
 struct Moving {
   DynamicCells settings;
 
-  void go(rve::Cell& cell, const Eigen::Matrix3d& F, double dt, bool stays) const {
+  void go(rve::Rve& cell, const Eigen::Matrix3d& F, double dt, bool stays) const {
     if (!stays || dt > 0.0) stepTo(cell, F, settings);
   }
-  rve::Tangent tangent(const rve::Cell& cell, const rve::CellState&) const { return rve::uniformStrain(cell); }
-  void commit(const rve::Cell&) {}
+  rve::Tangent tangent(const rve::Rve& cell, const rve::CellState&) const { return rve::voigtTangent(cell); }
+  void commit(const rve::Rve&) {}
   template <class Archive>
   void pass(Archive&) {}
 };
 
 /// Discs have no answer out of their plane, which F̄ of a mean dilatation leaves.
-void requirePlane(const rve::Cell& cell, const Eigen::Matrix3d& F) {
+void requirePlane(const rve::Rve& cell, const Eigen::Matrix3d& F) {
   if (cell.shape == rve::Shape::sphere) return;
   if (F.col(2) == Eigen::Vector3d::UnitZ() && F.row(2) == Eigen::RowVector3d::Unit(2)) return;
   throw InputError("F33 is " + formatNumber(F(2, 2)) + ", discs are asked out of their plane", "cell of grains",
@@ -109,7 +109,7 @@ void requirePlane(const rve::Cell& cell, const Eigen::Matrix3d& F) {
 template <class Manner>
 class CellPoint final : public fem::FieldPoint {
 public:
-  CellPoint(const rve::Cell& cell, Manner manner) : cell_(cell), committed_(cell.state), manner_(manner) {}
+  CellPoint(const rve::Rve& cell, Manner manner) : cell_(cell), committed_(cell.state), manner_(manner) {}
 
   void evaluate(std::span<const double, 9> F, double dt, bool moved, fem::PointAnswer answer) override {
     const Eigen::Matrix3d wanted = Eigen::Map<const RowMajor>(F.data());
@@ -161,13 +161,13 @@ public:
 private:
   void tell(fem::PointAnswer& answer) const {
     Eigen::Map<RowMajor>(answer.P.data()) = rve::nominalStress(cell_);
-    const rve::EnergyBook &now = cell_.state.book, &before = committed_.book;
+    const rve::EnergyBook &now = cell_.state.ledger, &before = committed_.ledger;
     answer.energy = (rve::storedEnergy(cell_) + rve::kineticEnergy(cell_)) / cell_.volume;
     answer.dissipated =
         (now.friction - before.friction + now.damping - before.damping + now.bonds - before.bonds) / cell_.volume;
   }
 
-  rve::Cell cell_;
+  rve::Rve cell_;
   rve::CellState committed_;
   Manner manner_;
   Eigen::Matrix3d F_, committedF_ = Eigen::Matrix3d::Identity();
@@ -176,25 +176,25 @@ private:
 };
 
 template <class Manner>
-std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Cell> bank, double unbalanced, Manner manner) {
-  validateBank(bank, unbalanced);
-  rve::Cell tried = bank.front();
+std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Rve> samples, double unbalanced, Manner manner) {
+  validateSamples(samples, unbalanced);
+  rve::Rve tried = samples.front();
   manner.go(tried, tried.state.F, 1.0, false);  // says what is wrong with the settings
-  const fem::FieldTraits traits{.name = nameOf(bank), .density = meanDensity(bank)};
-  return fem::pointField(traits, [bank = std::move(bank), manner](const fem::PointPlace& place) {
-    const auto number = static_cast<std::size_t>(place.element + place.point) % bank.size();
-    return std::make_unique<CellPoint<Manner>>(bank[number], manner);
+  const fem::FieldTraits traits{.name = nameOf(samples), .density = meanDensity(samples)};
+  return fem::pointField(traits, [samples = std::move(samples), manner](const fem::PointPlace& place) {
+    const auto number = static_cast<std::size_t>(place.element + place.point) % samples.size();
+    return std::make_unique<CellPoint<Manner>>(samples[number], manner);
   });
 }
 
 }  // namespace
 
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const QuasiStaticCells& settings) {
-  return fieldOf(std::move(bank), settings.unbalanced, Resting{settings});
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const QuasiStaticCells& settings) {
+  return fieldOf(std::move(samples), settings.unbalanced, Resting{settings});
 }
 
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const DynamicCells& settings) {
-  return fieldOf(std::move(bank), rve::RestSettings{}.unbalanced, Moving{settings});
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const DynamicCells& settings) {
+  return fieldOf(std::move(samples), rve::RestOptions{}.unbalanced, Moving{settings});
 }
 
 }  // namespace dovetail::hierarchical

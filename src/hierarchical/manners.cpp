@@ -14,7 +14,7 @@ namespace {
 constexpr const char* where = "cell of grains";
 
 void validate(const QuasiStaticCells& settings) {
-  requirePositive(settings.unbalanced, "unbalanced share of forces");
+  requirePositive(settings.unbalanced, "unbalanced fraction of forces");
   if (settings.path.rest.steps < 1)
     throw InputError("cells are not to come to rest", where, "give path.rest.steps, or DynamicCells");
 }
@@ -22,9 +22,9 @@ void validate(const QuasiStaticCells& settings) {
 void validate(const DynamicCells& settings) {
   requirePositive(settings.strainPerStep, "strain of a step");
   if (!(settings.damping >= 0.0 && settings.damping < 1.0))
-    throw InputError("damping is " + formatNumber(settings.damping), where, "give a share of 0 or more, below 1");
-  if (!(settings.stepShare > 0.0 && settings.stepShare < 1.0))
-    throw InputError("the share of the critical step is " + formatNumber(settings.stepShare), where,
+    throw InputError("damping is " + formatNumber(settings.damping), where, "give a fraction of 0 or more, below 1");
+  if (!(settings.stepFraction > 0.0 && settings.stepFraction < 1.0))
+    throw InputError("the fraction of the critical step is " + formatNumber(settings.stepFraction), where,
                      "give one above 0 and below 1");
 }
 
@@ -40,12 +40,12 @@ int stepsFor(double strain, const DynamicCells& settings) {
 
 }  // namespace
 
-void relax(rve::Cell& cell, const Eigen::Matrix3d& F, const QuasiStaticCells& settings) {
+void relax(rve::Rve& cell, const Eigen::Matrix3d& F, const QuasiStaticCells& settings) {
   validate(settings);
   rve::RestReport rest = rve::followPath(cell, F, settings.path).rest;
   if (rest.atRest && rest.unbalanced > settings.unbalanced) rest = rve::polish(cell, settings.unbalanced);
   if (!rest.atRest) {  // contacts began or ended to touch or slip, or the first rest was not enough
-    rve::RestSettings further = settings.path.rest;
+    rve::RestOptions further = settings.path.rest;
     further.unbalanced = settings.unbalanced;
     rest = rve::relax(cell, further);
   }
@@ -57,7 +57,7 @@ void relax(rve::Cell& cell, const Eigen::Matrix3d& F, const QuasiStaticCells& se
     throw NumericalError("no grains touch", where, "keep it under pressure: there is no cohesion");
 }
 
-void stepTo(rve::Cell& cell, const Eigen::Matrix3d& F, const DynamicCells& settings) {
+void stepTo(rve::Rve& cell, const Eigen::Matrix3d& F, const DynamicCells& settings) {
   validate(settings);
   if (!F.allFinite() || !(F.determinant() > 0.0))
     throw InputError("the determinant of F is " + formatNumber(F.determinant()), where,
@@ -67,7 +67,7 @@ void stepTo(rve::Cell& cell, const Eigen::Matrix3d& F, const DynamicCells& setti
   const int steps = stepsFor(0.5 * (G + G.transpose()).norm(), settings);
   for (int k = 1; k <= steps; ++k) {
     const Eigen::Matrix3d next = k == steps ? F : Eigen::Matrix3d(start + way * (double(k) / steps));
-    rve::step(cell, settings.stepShare * cell.state.criticalStep, rve::relativeDeformation(cell, next),
+    rve::step(cell, settings.stepFraction * cell.state.criticalStep, rve::relativeDeformation(cell, next),
               settings.damping);
   }
 }

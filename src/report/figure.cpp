@@ -53,11 +53,11 @@ void addDecades(Scale& scale) {
     scale.ticks.push_back({static_cast<double>(decade), powerOfTen(decade)});
 }
 
-/// @param share  of the axis that may stay empty at either end
-void addRoundTicks(Scale& scale, double share) {
+/// @param fraction  of the axis that may stay empty at either end
+void addRoundTicks(Scale& scale, double fraction) {
   const std::vector<double> ticks = roundTicks(scale.low, scale.high, 6);
   // To the next tick on either side, but not where that leaves much room empty.
-  const double step = ticks[1] - ticks[0], spare = share * (scale.high - scale.low);
+  const double step = ticks[1] - ticks[0], spare = fraction * (scale.high - scale.low);
   std::vector<double> all = ticks;
   if (const double below = ticks.front() - step; scale.low < ticks.front() && scale.low - below <= spare)
     all.insert(all.begin(), below);
@@ -79,7 +79,7 @@ void addRoundTicks(Scale& scale, double share) {
   }
 }
 
-Scale scaleOf(const Axis& axis, const std::vector<Curve>& curves, std::vector<double> Curve::*values, double share) {
+Scale scaleOf(const Axis& axis, const std::vector<Curve>& curves, std::vector<double> Curve::*values, double fraction) {
   Scale scale{std::numeric_limits<double>::infinity(),
               -std::numeric_limits<double>::infinity(),
               axis.logarithmic,
@@ -99,7 +99,7 @@ Scale scaleOf(const Axis& axis, const std::vector<Curve>& curves, std::vector<do
     scale.low -= pad;
     scale.high += pad;
   }
-  axis.logarithmic ? addDecades(scale) : addRoundTicks(scale, share);
+  axis.logarithmic ? addDecades(scale) : addRoundTicks(scale, fraction);
   return scale;
 }
 
@@ -230,9 +230,9 @@ std::string barsOf(const Figure& figure, double& height) {
   for (const auto& [name, value] : figure.bars) {
     svg += textAt(10.0, height + 13.0, "start", name);
     svg += textAt(width - right, height + 13.0, "end", format("%.3g ", value) + figure.y.label);
-    const double share = longest > 0.0 && value > 0.0 ? value / longest : 0.0;
+    const double fraction = longest > 0.0 && value > 0.0 ? value / longest : 0.0;
     svg += format("<rect class=\"mc0\" x=\"10\" y=\"%.1f\" width=\"%.1f\" height=\"8\"/>\n", height + 18.0,
-                  share * (width - right - 10.0));
+                  fraction * (width - right - 10.0));
     height += 34.0;
   }
   return svg;

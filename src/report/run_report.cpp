@@ -136,7 +136,7 @@ std::vector<Block> timePerStage(const RunRecord& record) {
   if (record.stages.empty()) return {};
   double all = 0.0;
   for (const auto& stage : record.stages) all += stage.seconds;
-  Table table{{"part of a step", "seconds", "share", "µs per call"}, {}};
+  Table table{{"part of a step", "seconds", "fraction", "µs per call"}, {}};
   for (const auto& stage : record.stages)
     table.rows.push_back(
         {stage.name, format("%.4g", stage.seconds), format("%.1f %%", all > 0.0 ? 100.0 * stage.seconds / all : 0.0),

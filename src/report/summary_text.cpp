@@ -42,11 +42,11 @@ bool takeChannel(std::string line, RunRecord& record) {
 
 /// "name  0.085  99.1 %  1.7": seconds, share, µs per call
 bool takeStage(std::string line, RunRecord& record) {
-  double microseconds = 0.0, share = 0.0;
+  double microseconds = 0.0, fraction = 0.0;
   Profile::Row row;
   if (!takeNumber(line, microseconds)) return false;
   if (line.ends_with("%")) line.pop_back();
-  if (!takeNumber(line, share) || !takeNumber(line, row.seconds)) return false;
+  if (!takeNumber(line, fraction) || !takeNumber(line, row.seconds)) return false;
   row.name = line;
   row.calls = microseconds > 0.0 ? static_cast<std::int64_t>(1e6 * row.seconds / microseconds + 0.5) : 0;
   record.stages.push_back(row);

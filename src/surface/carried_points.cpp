@@ -14,11 +14,11 @@ namespace {
 [[gnu::always_inline]] inline void placePoint(const cg::Projection& carrier, std::span<const Vec3> u,
                                               std::span<const Vec3> v, int point, Vec3& x, Vec3& velocity) {
   const auto node = carrier.rowColumns(point);
-  const auto share = carrier.rowWeights(point);
+  const auto fraction = carrier.rowWeights(point);
   Packed moved{}, speed{};
   for (std::size_t n = 0; n < node.size(); ++n) {
-    moved += share[n] * packed(u[static_cast<std::size_t>(node[n])]);
-    speed += share[n] * packed(v[static_cast<std::size_t>(node[n])]);
+    moved += fraction[n] * packed(u[static_cast<std::size_t>(node[n])]);
+    speed += fraction[n] * packed(v[static_cast<std::size_t>(node[n])]);
   }
   x += unpacked(moved);
   velocity = unpacked(speed);
@@ -27,11 +27,11 @@ namespace {
 [[gnu::always_inline]] inline void addLoadOfPoint(const cg::Projection& carrier, int point, const Vec3& force,
                                                   std::span<Vec3> onNodes) {
   const auto node = carrier.rowColumns(point);
-  const auto share = carrier.rowWeights(point);
+  const auto fraction = carrier.rowWeights(point);
   const Packed f = packed(force);
   for (std::size_t k = 0; k < node.size(); ++k) {
     Vec3& sum = onNodes[static_cast<std::size_t>(node[k])];
-    sum = unpacked(packed(sum) + share[k] * f);
+    sum = unpacked(packed(sum) + fraction[k] * f);
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include "carrier.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
-#include "dovetail/surface/coupling.hpp"
+#include "dovetail/surface/surface_coupler.hpp"
 
 namespace dovetail::surface {
 
@@ -49,16 +49,16 @@ public:
         firstPatch_(static_cast<int>(demand.masses.size())) {
     if (carrier.offsets().empty()) return;
     for (const PatchFrame& frame : carrier.offsets().frames) {
-      shares_.clear();
+      fractions_.clear();
       for (std::size_t k = 0; k < frame.node.size(); ++k)
-        shares_.push_back({firstNode_ + frame.node[k], armLength(frame, k)});
-      demand.masses.push_back({.carriedBy = demand.add(shares_)});
+        fractions_.push_back({firstNode_ + frame.node[k], armLength(frame, k)});
+      demand.masses.push_back({.carriedBy = demand.add(fractions_)});
     }
   }
 
   /// @param points  of the carrier, and how fast they go along
   dem::ContactDemand::Range follow(std::span<const std::pair<int, double>> points) {
-    shares_.clear();
+    fractions_.clear();
     for (const auto& [point, weight] : points) {
       const auto node = carrier_.map().rowColumns(point);
       for (std::size_t k = 0; k < node.size(); ++k)
@@ -67,24 +67,24 @@ public:
       const auto p = static_cast<std::size_t>(point);
       add(firstPatch_ + carrier_.offsets().patch[p], weight * norm(carrier_.offsets().offset[p]));
     }
-    return demand_.add(shares_);
+    return demand_.add(fractions_);
   }
 
 private:
-  void add(int mass, double share) {
-    if (share > 0.0) shares_.push_back({mass, share});
+  void add(int mass, double fraction) {
+    if (fraction > 0.0) fractions_.push_back({mass, fraction});
   }
 
   const Carrier& carrier_;
   dem::ContactDemand& demand_;
   int firstNode_, firstPatch_;
-  std::vector<dem::ContactDemand::Share> shares_;
+  std::vector<dem::ContactDemand::Fraction> fractions_;
 };
 
 }  // namespace
 
-void Coupling::addDemand(dem::ContactDemand& demand, const dem::Particles& particles, const dem::ContactLaws& laws,
-                         int side) const {
+void SurfaceCoupler::addDemand(dem::ContactDemand& demand, const dem::Particles& particles,
+                               const dem::ContactLaws& laws, int side) const {
   const std::size_t first = demand.links.size();
   laws.addDemand(demand, particles, carrier_->wall(), contacts_);
   CarriedMasses masses(*carrier_, demand, side);
@@ -104,7 +104,7 @@ void Coupling::addDemand(dem::ContactDemand& demand, const dem::Particles& parti
   }
 }
 
-double Coupling::largestMobility(std::span<const double> inverseMass) const {
+double SurfaceCoupler::largestMobility(std::span<const double> inverseMass) const {
   const PatchOffsets& offsets = carrier_->offsets();
   const std::vector<double> turning = rootArmMobility(offsets, inverseMass);
   const auto ofOffsets = [&](std::size_t point) {
@@ -130,12 +130,12 @@ double largestMobility(const SmoothSurface& surface, std::span<const double> inv
     for (const auto& along : bezier)
       for (const auto& across : bezier) {
         for (std::size_t k = 0; k < 16; ++k) {
-          const double share = along[k % 4] * across[k / 4];
-          if (share == 0.0) continue;
+          const double fraction = along[k % 4] * across[k / 4];
+          if (fraction == 0.0) continue;
           for (std::size_t i = 0; i < surface.carrier.rowColumns(control[k]).size(); ++i) {
             const int node = surface.carrier.rowColumns(control[k])[i];
             touched.push_back(node);
-            weight[node] += share * surface.carrier.rowWeights(control[k])[i];
+            weight[node] += fraction * surface.carrier.rowWeights(control[k])[i];
           }
         }
         double mobility = 0.0;

@@ -205,7 +205,7 @@ private:
     contacts.normal.push_back(contact.normal);
     contacts.overlap.push_back(contact.overlap);
     contacts.engagement.push_back(contact.engagement);
-    contacts.energyShare.push_back(contact.energyShare);
+    contacts.energyFraction.push_back(contact.energyFraction);
     Vec3 velocity;
     for (std::size_t k = 0; k < 16; ++k) velocity += contact.weight[k] * surface_.v[surface_.control[contact.face][k]];
     wall_.x.push_back(contact.foot);

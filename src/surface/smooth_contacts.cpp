@@ -42,12 +42,12 @@ public:
   void appendTo(std::vector<SmoothContact>& contacts) {
     findHits(radius_);
     if (s_.hits.empty()) return;
-    s_.shares.assign(1, {s_.hits[0].normal, s_.hits[0].overlap, s_.hits[0].overlap});
+    s_.fractions.assign(1, {s_.hits[0].normal, s_.hits[0].overlap, s_.hits[0].overlap});
     if (s_.hits.size() > 1) {
       findHits(radius_ + s_.hits[0].overlap);
       shareOverlap();
     }
-    appendShares(contacts);
+    appendFractions(contacts);
   }
 
 private:
@@ -97,12 +97,12 @@ private:
     double largest = 0.0;
     for (std::size_t i = 0; i < s_.hits.size(); ++i) {
       PatchHit& hit = s_.hits[i];
-      hit.share = s_.shares[i].carried;
+      hit.fraction = s_.fractions[i].carried;
       Vec3 position;
-      for (const dem::Share& other : s_.shares)
+      for (const dem::Fraction& other : s_.fractions)
         if (other.carried > 0.0)
-          position += dem::couplingSlope(dot(s_.shares[i].normal, other.normal)) * other.carried * other.normal;
-      if (hit.share > 0.0) largest = std::max(largest, squaredNorm(position - hit.position));
+          position += dem::couplingSlope(dot(s_.fractions[i].normal, other.normal)) * other.carried * other.normal;
+      if (hit.fraction > 0.0) largest = std::max(largest, squaredNorm(position - hit.position));
       hit.position = position;
     }
     return std::sqrt(largest);
@@ -114,12 +114,12 @@ private:
     for (PatchHit& hit : s_.hits) hit.position = dot(hit.normal, step) >= 0.0 ? step : Vec3{};
     double change = 0.0;
     for (int iteration = 0; iteration < largestIterations; ++iteration) {
-      s_.shares.clear();
+      s_.fractions.clear();
       for (PatchHit& hit : s_.hits) {
         lookFrom(hit);
-        s_.shares.push_back({hit.normal, hit.overlap, 0.0});
+        s_.fractions.push_back({hit.normal, hit.overlap, 0.0});
       }
-      s_.solver.solve(s_.shares, tolerance * radius_);
+      s_.solver.solve(s_.fractions, tolerance * radius_);
       change = moveHits();
       if (change <= tolerance * radius_) return;
     }
@@ -129,19 +129,19 @@ private:
   }
 
   /// As dem::projectWallContacts: those that are coupled answer with one overlap.
-  void appendShares(std::vector<SmoothContact>& contacts) const {
-    for (std::size_t i = 0; i < s_.shares.size(); ++i) {
-      const dem::Share& share = s_.shares[i];
-      if (!(share.carried > 0.0)) continue;
+  void appendFractions(std::vector<SmoothContact>& contacts) const {
+    for (std::size_t i = 0; i < s_.fractions.size(); ++i) {
+      const dem::Fraction& fraction = s_.fractions[i];
+      if (!(fraction.carried > 0.0)) continue;
       double squared = 0.0;
-      for (const dem::Share& other : s_.shares)
+      for (const dem::Fraction& other : s_.fractions)
         if (other.carried > 0.0)
-          squared += (&other == &share ? 1.0 : dem::together(dot(share.normal, other.normal))) * other.carried *
+          squared += (&other == &fraction ? 1.0 : dem::together(dot(fraction.normal, other.normal))) * other.carried *
                      std::max(other.overlap, other.carried);
       const double common = std::sqrt(squared);
-      contacts.push_back({particle_, s_.hits[i].face, s_.hits[i].at.weight, share.normal, s_.hits[i].at.point,
-                          share.carried, share.carried / common,
-                          share.carried * std::max(share.overlap, share.carried) / squared});
+      contacts.push_back({particle_, s_.hits[i].face, s_.hits[i].at.weight, fraction.normal, s_.hits[i].at.point,
+                          fraction.carried, fraction.carried / common,
+                          fraction.carried * std::max(fraction.overlap, fraction.carried) / squared});
     }
   }
 

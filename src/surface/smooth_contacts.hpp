@@ -10,12 +10,12 @@
 
 namespace dovetail::surface {
 
-/// Overlap, engagement and energyShare as in dem::WallContacts.
+/// Overlap, engagement and energyFraction as in dem::WallContacts.
 struct SmoothContact {
   int particle, face;
   std::array<double, 16> weight;
   Vec3 normal, foot;
-  double overlap, engagement, energyShare;
+  double overlap, engagement, energyFraction;
 };
 
 /// A patch in reach of a particle.
@@ -23,15 +23,15 @@ struct PatchHit {
   int face;
   PatchPoint at;
   Vec3 normal;
-  double overlap;  // m; < 0 where the patch is farther than the radius
-  double share;    // m
-  Vec3 position;   // y − x, the place from which the patch is seen
+  double overlap;   // m; < 0 where the patch is farther than the radius
+  double fraction;  // m
+  Vec3 position;    // y − x, the place from which the patch is seen
 };
 
 /// Memory that is kept between particles and steps.
 struct SmoothScratch {
   std::vector<PatchHit> hits;
-  std::vector<dem::Share> shares;
+  std::vector<dem::Fraction> fractions;
   dem::EdgeContactSolver solver;
 };
 

@@ -60,7 +60,7 @@ dem::ContactWork SolidSurface::answer(std::span<const SurfacePart> parts, dem::P
                                       std::span<const Vec3> u, double dt, const ExchangeOptions& options) {
   dem::ContactWork work;
   for (const SurfacePart& part : parts) work += part.coupling->answer(particles, u, *part.laws, dt, options);
-  if (!options.share.empty()) gatherEnergies(parts);
+  if (!options.fraction.empty()) gatherEnergies(parts);
   return work;
 }
 
@@ -76,7 +76,7 @@ void SolidSurface::gatherEnergies(std::span<const SurfacePart> parts) {
     particle.push_back(i);
     energy.push_back(joules);
   }
-  whole_.shares_.book(particle, energy);
+  whole_.fractions_.book(particle, energy);
 }
 
 }  // namespace dovetail::surface

@@ -25,7 +25,7 @@ std::int64_t newId() {
 
 }  // namespace
 
-SurfaceContact::SurfaceContact(coupling::SolidSide& side, Coupling coupling,
+SurfaceContact::SurfaceContact(coupling::SolidSide& side, SurfaceCoupler coupling,
                                std::shared_ptr<const dem::ContactLaws> laws, std::string name)
     : Connector(side), coupling_(std::move(coupling)), laws_(std::move(laws)), name_(std::move(name)), id_(newId()) {
   if (!laws_) throw InputError("there are no contact laws", name_, "give makeContactLaws(law)");
@@ -97,11 +97,12 @@ void SurfaceContact::join(dem::Model& m) {
     }
   for (const auto* one : m.terms.all<Connector>()) {
     if (one->side().model != side().model) continue;
-    const std::vector<double> share = one->solidShare();
-    if (share.empty()) continue;
+    const std::vector<double> fraction = one->solidWeight();
+    if (fraction.empty()) continue;
     company_.overlaps.push_back(one);
-    if (company_.share.empty()) company_.share.assign(share.size(), 1.0);
-    for (std::size_t i = 0; i < share.size(); ++i) company_.share[i] = std::min(company_.share[i], share[i]);
+    if (company_.fraction.empty()) company_.fraction.assign(fraction.size(), 1.0);
+    for (std::size_t i = 0; i < fraction.size(); ++i)
+      company_.fraction[i] = std::min(company_.fraction[i], fraction[i]);
   }
   rejoin(parts.size() > 1 ? std::move(ids) : std::vector<std::int64_t>{});
   if (surface_ && !state_.empty()) {
@@ -113,7 +114,7 @@ void SurfaceContact::join(dem::Model& m) {
 /// The surface of the parts with these numbers; what was booked on that of others stays.
 void SurfaceContact::rejoin(std::vector<std::int64_t> ids) {
   if (ids == surfaceOf_) return;
-  if (surface_) booked_ += surface_->madeByShares();
+  if (surface_) booked_ += surface_->madeByWeights();
   surface_.reset();
   if (!ids.empty()) surface_.emplace(surfaceParts());
   surfaceOf_ = std::move(ids);
@@ -126,7 +127,8 @@ std::vector<SurfacePart> SurfaceContact::surfaceParts() const {
 }
 
 double SurfaceContact::lost() const {
-  return -coupling_.madeByTransfer() - coupling_.madeByShares() - booked_ - (surface_ ? surface_->madeByShares() : 0.0);
+  return -coupling_.madeByTransfer() - coupling_.madeByWeights() - booked_ -
+         (surface_ ? surface_->madeByWeights() : 0.0);
 }
 
 void SurfaceContact::surround(dem::Surroundings& around) {
@@ -140,7 +142,7 @@ double SurfaceContact::renumber(std::span<const int> newNumber, const dem::Parti
 }
 
 ExchangeOptions SurfaceContact::exchangeOptions(const dem::Model& m, const dem::Step& step) const {
-  return {m.booking, dem::movesOf(m, step), m.pairs.periodicity(), company_.share, tied_};
+  return {m.booking, dem::movesOf(m, step), m.pairs.periodicity(), company_.fraction, tied_};
 }
 
 /// Errors of contacts say with whom, and when.
@@ -193,7 +195,7 @@ void SurfaceContact::addForces(dem::Model& m, const dem::Step& step) {
       m.work += surface_->answer(surfaceParts(), m.particles, nodes.u, step.dt, options);
     } else {
       m.work += coupling_.answer(m.particles, nodes.u, *laws_, step.dt, options);
-      coupling_.bookShares(options);
+      coupling_.bookWeights(options);
     }
   });
   for (const SurfaceContact* part : company_.parts) {

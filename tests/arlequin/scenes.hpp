@@ -40,7 +40,7 @@ struct SceneOptions {
   int particleElements = 5, overlapElements = 4, solidElements = 6;  // along y
   WeightOptions weights{WeightProfile::halfCosine, 1e-3};
   CouplingOptions coupling;
-  double massShare = 0.0;  // of the consistent mass
+  double massFraction = 0.0;  // of the consistent mass
   bool holdEnd = true;
 };
 

@@ -21,7 +21,7 @@ SceneOptions sceneOf(ConstraintKind kind, double width = 0.0) {
   o.coupling.constraint = kind;
   o.coupling.projection.width = width;
   if (kind == ConstraintKind::dashpot) o.coupling.penalty = 2e8;
-  o.massShare = 0.375;
+  o.massFraction = 0.375;
   return o;
 }
 
@@ -51,9 +51,9 @@ TEST(ArlequinCoupling, KeepsMomentumAndItsBooksInCellsOfAnyShape) {
                                         fem::ElementShape::tet4, fem::ElementShape::tet10})
     for (const ConstraintKind kind : kinds) {
       SceneOptions o = sceneOf(kind);
-      o.massShare = 0.0;
+      o.massFraction = 0.0;
       o.weights.floor = 0.02;
-      o.coupling.leastShare = 0.02;
+      o.coupling.leastWeight = 0.02;
       if (kind == ConstraintKind::dashpot) o.coupling.penalty = 5e6;
       o.across = 1;
       const double dt = 1e-4;

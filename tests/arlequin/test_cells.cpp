@@ -23,17 +23,17 @@ TEST(Cells, PointsIntegrateVolumesHatsAndTheirProducts) {
         const Cell cell = cellOf(mesh, e);
         for (const CellPoint& point : cellPoints(mesh, mesh.X, e, parts)) {
           sum += point.weight;
-          for (const double a : point.hat)
-            for (const double b : point.hat) products += point.weight * a * b;
+          for (const double a : point.vertexShape)
+            for (const double b : point.vertexShape) products += point.weight * a * b;
           Vec3 x;
           for (std::size_t a = 0; a < cell.corner().size(); ++a)
-            x += point.hat[a] * mesh.X[static_cast<std::size_t>(cell.corner()[a])];
+            x += point.vertexShape[a] * mesh.X[static_cast<std::size_t>(cell.corner()[a])];
           linear = std::max(linear, norm(x - point.x));
         }
       }
       EXPECT_NEAR(sum, volume, 1e-13);
       EXPECT_NEAR(products, volume, 1e-13);
-      EXPECT_LT(linear, 1e-14) << "straight cells: hats of the corners carry the place";
+      EXPECT_LT(linear, 1e-14) << "straight cells: vertex shape functions of the corners carry the place";
     }
 }
 
@@ -53,13 +53,13 @@ TEST(Cells, HatsGoOnBeyondTheCellAsTheyAreAtItsBorder) {
     const std::size_t count = shape == fem::ElementShape::tet4 || shape == fem::ElementShape::tet10 ? 4 : corners;
     for (std::size_t a = 0; a < count; ++a) centre += (1.0 / static_cast<double>(count)) * nodes[a];
     for (std::size_t a = 0; a < count; ++a) {
-      const std::vector<double> at = cornerHats(shape, nodes[a]);
-      const std::vector<double> beyond = cornerHats(shape, nodes[a] + 0.3 * (nodes[a] - centre));
+      const std::vector<double> at = vertexShapes(shape, nodes[a]);
+      const std::vector<double> beyond = vertexShapes(shape, nodes[a] + 0.3 * (nodes[a] - centre));
       EXPECT_NEAR(at[a], 1.0, 1e-14);
       double sum = 0.0;
-      for (const double hat : beyond) {
-        EXPECT_GE(hat, 0.0);
-        sum += hat;
+      for (const double vertexShape : beyond) {
+        EXPECT_GE(vertexShape, 0.0);
+        sum += vertexShape;
       }
       EXPECT_NEAR(sum, 1.0, 1e-14);
     }
@@ -70,12 +70,12 @@ TEST(Cells, MidNodesAreLevelledSoThatSharesGoByTheHats) {
   for (const fem::ElementShape shape : {fem::ElementShape::hex20, fem::ElementShape::hex27, fem::ElementShape::tet10}) {
     const fem::SolidMesh mesh = fem::boxOf(shape, {2, 2, 2}, {}, {1, 1, 1});
     std::mt19937 random(2);
-    std::uniform_real_distribution<double> share(0.0, 1.0);
+    std::uniform_real_distribution<double> weight(0.0, 1.0);
     std::vector<double> weight;
-    for (std::size_t n = 0; n < mesh.X.size(); ++n) weight.push_back(share(random));
+    for (std::size_t n = 0; n < mesh.X.size(); ++n) weight.push_back(weight(random));
     levelMidNodes(mesh, weight);
     for (int k = 0; k < 50; ++k) {
-      const Vec3 xi{0.3 * share(random), 0.3 * share(random), 0.3 * share(random)};
+      const Vec3 xi{0.3 * weight(random), 0.3 * weight(random), 0.3 * weight(random)};
       const int e = k % static_cast<int>(mesh.elementCount());
       const std::vector<double> row = fem::shapeRow(shape, xi);
       double full = 0.0;

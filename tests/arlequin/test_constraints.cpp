@@ -16,12 +16,12 @@ struct Setting {
   double width;
 };
 
-Bar barWith(ConstraintKind kind, double width, double massShare = 0.0) {
+Bar barWith(ConstraintKind kind, double width, double massFraction = 0.0) {
   SceneOptions o;
   o.coupling.constraint = kind;
   o.coupling.projection.width = width;
   o.coupling.penalty = kind == ConstraintKind::dashpot ? 1e8 : 0.0;
-  o.massShare = massShare;
+  o.massFraction = massFraction;
   return makeBar(o);
 }
 
@@ -63,9 +63,9 @@ TEST(Constraint, ThePenaltyIsTheGradientOfItsEnergy) {
 }
 
 TEST(Constraint, MultipliersTakeTheGapsAccelerationAway) {
-  for (const double share : {0.0, 0.4})
+  for (const double weight : {0.0, 0.4})
     for (const double width : {0.0, 0.9}) {
-      Bar model = barWith(ConstraintKind::multiplier, width, share);
+      Bar model = barWith(ConstraintKind::multiplier, width, weight);
       Bar& c = model;
       const fem::ModelMass& solid = model.mass();
       std::mt19937 random(8);
@@ -90,7 +90,7 @@ TEST(Constraint, MultipliersTakeTheGapsAccelerationAway) {
         left = std::max(left, norm(after[r]));
         size = std::max(size, norm(before[r]));
       }
-      EXPECT_LT(left, 1e-6 * size) << "width " << width << ", share " << share;
+      EXPECT_LT(left, 1e-6 * size) << "width " << width << ", share " << weight;
     }
 }
 
@@ -143,9 +143,9 @@ std::vector<Vec3> randomRates(const Bar& c, unsigned seed) {
 }
 
 TEST(Constraint, SparseMultipliersAreTheDenseOnes) {
-  for (const double share : {0.0, 0.4})
+  for (const double weight : {0.0, 0.4})
     for (const double width : {0.0, 0.9}) {
-      const Bar c = barWith(ConstraintKind::multiplier, width, share);
+      const Bar c = barWith(ConstraintKind::multiplier, width, weight);
       const std::vector<Vec3> rates = randomRates(c, 12), none(c.rows());
       std::vector<Vec3> lambda(c.rows()), dense(c.rows());
       c.constraint->evaluate({none, none, none, rates, 1.0}, lambda);
@@ -168,7 +168,7 @@ TEST(Constraint, SparseMultipliersAreTheDenseOnes) {
       }
       const std::vector<Vec3> forces = onParticles(c, dense);
       EXPECT_LT(largest(difference(onParticles(c, lambda), forces)), 1e-10 * largest(forces))
-          << "width " << width << ", share " << share;
+          << "width " << width << ", share " << weight;
     }
 }
 

@@ -11,14 +11,14 @@ namespace {
 
 using namespace test;
 
-/// Energy after many steps at a share of the critical step, over that at the start.
-double growth(double share) {
+/// Energy after many steps at a weight of the critical step, over that at the start.
+double growth(double weight) {
   SceneOptions o;
-  o.massShare = 0.375;
+  o.massFraction = 0.375;
   TieRun run = tieBar(o);
   std::mt19937 random(1);
   for (Vec3& v : run.grains.particles.v) v = randomVector(random, 1e-4);
-  run.start(share * criticalStep(run.grains, run.side, o.massShare, run.tie).together);
+  run.start(weight * criticalStep(run.grains, run.side, o.massFraction, run.tie).together);
   const double before = run.run->ledger().stored();
   try {
     for (int s = 0; s < 30; ++s) {
@@ -54,7 +54,7 @@ TEST(CriticalStep, TheDashpotsLimitWithUniformSharesIsTwo) {
     const std::vector<double> weight(mesh.X.size(), 0.5);
     run.take(fem::makeModel(mesh));
     const fem::StVenantKirchhoff soft{1e-9, 0.0, bulk};
-    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(soft)), {.share = solidWeights(weight)}));
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(soft)), {.weight = solidWeights(weight)}));
     const double dt = 1e-3;
     CouplingOptions coupling;
     coupling.constraint = ConstraintKind::dashpot;

@@ -12,13 +12,13 @@ using namespace test;
 
 /// (1 − w) σ at the centre of an element of a one-element-wide bar along y, Pa.
 double stressOfElement(const fem::SolidMesh& mesh, const fem::Model& solid, std::size_t element) {
-  double strain = 0.0, share = 0.0;
+  double strain = 0.0, weight = 0.0;
   for (std::size_t a = 0; a < 8; ++a) {
     const auto n = static_cast<std::size_t>(cellOf(mesh, static_cast<int>(element)).node[a]);
     strain += (a == 2 || a == 3 || a == 6 || a == 7 ? 0.25 : -0.25) * solid.nodes.u[n].y / edge;
-    share += 0.125 * dynamic_cast<const fem::Solid&>(*solid.terms.front()).share()[n];
+    weight += 0.125 * dynamic_cast<const fem::Solid&>(*solid.terms.front()).weight()[n];
   }
-  return share * modulus * (strain + 1.5 * strain * strain);
+  return weight * modulus * (strain + 1.5 * strain * strain);
 }
 
 TEST(Gravity, StressIsContinuousAcrossTheOverlapOfAColumn) {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/arlequin/arlequin_coupling.hpp"
-#include "dovetail/arlequin/handed_load.hpp"
+#include "dovetail/arlequin/initial_equilibrium.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
@@ -85,10 +85,10 @@ std::unique_ptr<Scene> handOver(const dem::Model& packing, ConstraintKind kind) 
   for (fem::Tie& tie : fem::periodicTies(scene->mesh, still, {true, true, false}).ties)
     if (solid->nodes.fixed[static_cast<std::size_t>(tie.node)] == 0) solid->constraints.ties.push_back(std::move(tie));
   solid->add(fem::makeSolid(scene->mesh, fem::pointMaterial(fem::Material(fem::StVenantKirchhoff{2e6, 0.2, density})),
-                            {.share = solidWeights(scene->weight)}));
+                            {.weight = solidWeights(scene->weight)}));
   solid->add(fem::gravity({0, 0, -fall}));
   fem::addMass(*solid);
-  EXPECT_LT(takeOver(grains, scene->mesh, *solid, scene->weight), 10);
+  EXPECT_LT(initialEquilibrium(grains, scene->mesh, *solid, scene->weight), 10);
   coupling::SolidSide& partner = scene->run.addSolid(std::move(solid));
   CouplingOptions options;
   options.constraint = kind;
@@ -103,7 +103,7 @@ std::unique_ptr<Scene> handOver(const dem::Model& packing, ConstraintKind kind) 
 /// Through a layer of elements, by both models together, N.
 struct Load {
   double carried;       ///< mean vertical force
-  double above;         ///< weight of what the hat that rises from 0 to 1 over the layer holds
+  double above;         ///< weight of what the vertex shape function that rises from 0 to 1 over the layer holds
   double lower, upper;  ///< ends of the layer, m
 };
 Load loadThrough(const Scene& scene, int layer) {
@@ -111,9 +111,9 @@ Load loadThrough(const Scene& scene, int layer) {
   const coupling::SolidSide& solid = scene.run.solid(0);
   const dem::Particles& p = scene.run.grains.particles;
   const Overlap& overlap = scene.tie->overlap();
-  const auto hat = [&](double z) { return std::clamp((z - lower) / size, 0.0, 1.0); };
+  const auto vertexShape = [&](double z) { return std::clamp((z - lower) / size, 0.0, 1.0); };
   std::vector<double> atNode, atParticle(p.size(), 1.0);
-  for (const Vec3& X : scene.mesh.X) atNode.push_back(hat(X.z));
+  for (const Vec3& X : scene.mesh.X) atNode.push_back(vertexShape(X.z));
   for (std::size_t k = 0; k < overlap.size(); ++k) {
     const Cell cell = cellOf(scene.mesh, overlap.place[k].element);
     double& value = atParticle[static_cast<std::size_t>(overlap.particle[k])] = 0.0;

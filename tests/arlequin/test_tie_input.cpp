@@ -14,20 +14,20 @@ using namespace test;
 
 TEST(TieDemand, IsOnTheSafeSideOfTheExactStepAndNotFarFromIt) {
   for (const double width : {0.0, 0.9})
-    for (const double share : {0.0, 0.375})
+    for (const double weight : {0.0, 0.375})
       for (const double floor : {1e-3, 0.05}) {
         SceneOptions o;
         o.coupling.projection.width = width;
-        o.massShare = share;
+        o.massFraction = weight;
         o.weights.floor = floor;
-        o.coupling.leastShare = floor;
+        o.coupling.leastWeight = floor;
         TieRun run = tieBar(o);
         run.start();
-        const double exact = criticalStep(run.grains, run.side, share, run.tie).together;
+        const double exact = criticalStep(run.grains, run.side, weight, run.tie).together;
         const double safe = run.run->criticalStep().dt;
-        EXPECT_LT(safe, exact) << width << ' ' << share << ' ' << floor;
-        RecordProperty("share_of_exact", std::to_string(safe / exact));
-        EXPECT_GT(safe, (share == 0.0 ? 0.4 : 0.1) * exact) << width << ' ' << share << ' ' << floor;
+        EXPECT_LT(safe, exact) << width << ' ' << weight << ' ' << floor;
+        RecordProperty("fraction_of_exact", std::to_string(safe / exact));
+        EXPECT_GT(safe, (weight == 0.0 ? 0.4 : 0.1) * exact) << width << ' ' << weight << ' ' << floor;
       }
 }
 
@@ -78,7 +78,7 @@ TEST(TieDemand, OneParticleAloneInItsElementDoesNotShortenTheStep) {
     const std::vector<double> weight = barWeights(mesh, o);
     run.take(fem::makeModel(mesh));
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.share = solidWeights(weight)}));
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
     run.couple(mesh, weight, {});
     run.start();
     double stiffest = 0.0;  // N/m over kg, by a probe of the forces
@@ -126,7 +126,8 @@ TEST(TieStart, VelocitiesAreMadeToComplyWithMultipliersAndTheLossIsBooked) {
   std::mt19937 random(4);
   for (Vec3& v : run.grains.particles.v) v = randomVector(random, 0.1);
   for (Vec3& v : run.solid->nodes.v) v = randomVector(random, 0.1);
-  const double before = dem::kineticEnergy(run.grains.particles) + fem::Motion(*run.solid, o.massShare).kineticEnergy();
+  const double before =
+      dem::kineticEnergy(run.grains.particles) + fem::Motion(*run.solid, o.massFraction).kineticEnergy();
   const Vec3 momentum = dem::momentum(run.grains.particles) + fem::momentum(run.solid->nodes);
   run.start();
   const double after = dem::kineticEnergy(run.grains.particles) + run.solidKinetic();
@@ -159,7 +160,7 @@ TEST(TiePenalty, GoesByTheElement) {
     run.take(fem::makeModel(mesh));
     for (const auto& [set, young] : {std::pair("low", lower), std::pair("high", upper)})
       run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(fem::StVenantKirchhoff{young, 0.0, bulk})),
-                                    {.elementSet = set, .name = set, .share = solidWeights(weight)}));
+                                    {.elementSet = set, .name = set, .weight = solidWeights(weight)}));
     run.couple(mesh, weight, {});
     run.start();
     for (Vec3& x : run.grains.particles.x) x.y += 1e-6;
@@ -193,7 +194,7 @@ TEST(TiePeriodic, SidesMakeNoDifference) {
     const std::vector<double> weight = barWeights(mesh, o);
     run.take(fem::makeModel(mesh));
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.share = solidWeights(weight)}));
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
     run.couple(mesh, weight, {});
     run.start();
     std::vector<double> sorted(run.grains.particles.weight),
@@ -220,15 +221,15 @@ TEST(TieInput, WhatCannotBeIsRefused) {
     run.grains.particles = lattice({-0.25, 0, -0.25}, {0.25, 2.5, 0.25}, 2);
     run.grains.laws = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 1.0}});
     run.take(fem::makeModel(mesh));
-    std::vector<double> share = solidWeights(weight);
-    change(run, share);
+    std::vector<double> weight = solidWeights(weight);
+    change(run, weight);
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.share = share}));
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = weight}));
     run.couple(mesh, weight, coupling);
     dem::check(run.grains);
   };
   EXPECT_NO_THROW(attempt([](TieRun&, auto&) {}));
-  EXPECT_THROW(attempt([](TieRun&, auto& share) { share[5] += 0.01; }), InputError) << "shares do not add up";
+  EXPECT_THROW(attempt([](TieRun&, auto& weight) { weight[5] += 0.01; }), InputError) << "shares do not add up";
   EXPECT_THROW(attempt([](TieRun& run, auto&) {
                  dem::addParticle(run.grains.particles, {0.0, 2.9, 0.0}, {}, 0.1, dem::Mass{1.0});
                }),
@@ -295,14 +296,14 @@ TEST(TieWalls, PushLightParticlesAsTheirShareAsks) {
   }
 }
 
-TEST(TieFactors, MutesStayMutedAndSharesAreKeptThroughRenewals) {
+TEST(TieFactors, MutesStayMutedAndSharesAreKeptThroughUpdates) {
   SceneOptions o;
   o.across = 1;
   TieRun run = tieBar(o);
   run.start();
   const std::vector<double> before(run.grains.pairs.factors().begin(), run.grains.pairs.factors().end());
   run.grains.pairs.writeFactors()[7] = 0.0;
-  run.tie->renewed(run.grains);
+  run.tie->neighbourListUpdated(run.grains);
   EXPECT_EQ(run.grains.pairs.factors()[7], 0.0);
   for (std::size_t k = 0; k < before.size(); ++k) {
     EXPECT_EQ(run.grains.pairs.factors()[k], k == 7 ? 0.0 : before[k]);

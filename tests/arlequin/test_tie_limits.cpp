@@ -32,12 +32,12 @@ TieRun thinBar(const MacroSteps& macroSteps) {
 class TieLimits : public testing::TestWithParam<MacroSteps> {};
 
 /// Energy of small noise after some macro steps over that at the start.
-double growth(const MacroSteps& macroSteps, double share) {
+double growth(const MacroSteps& macroSteps, double weight) {
   TieRun run = thinBar(macroSteps);
   std::mt19937 random(2);
   for (Vec3& v : run.grains.particles.v) v = randomVector(random, 1e-4);
   run.start(1e-7);
-  run.start(share * run.run->criticalStep().dt);
+  run.start(weight * run.run->criticalStep().dt);
   const double first = run.run->ledger().stored();
   try {
     run.run->advance(3000);
@@ -49,10 +49,10 @@ double growth(const MacroSteps& macroSteps, double share) {
 
 TEST_P(TieLimits, HoldAndAreNotFarFromWhereMotionGrows) {
   EXPECT_LT(growth(GetParam(), 0.95), 3.0);
-  double share = 1.0 / 0.7;
+  double weight = 1.0 / 0.7;
   if (GetParam().resonates())
-    for (share = 1.3; share > 1.26 && !(growth(GetParam(), share) > 1e3);) share -= 0.0025;
-  EXPECT_GT(growth(GetParam(), share), 1e3);
+    for (weight = 1.3; weight > 1.26 && !(growth(GetParam(), weight) > 1e3);) weight -= 0.0025;
+  EXPECT_GT(growth(GetParam(), weight), 1e3);
 }
 
 /// Under gravity along the bar.
@@ -148,9 +148,9 @@ TEST(TieDemand, SharesTheNodesWithContactsOnThem) {
     TieRun run = thinBar({explicitly, 1});
     dem::addParticle(run.grains.particles, {0.5 * edge + 0.0999, place, 0.0}, {}, 0.1, dem::Mass{1e4});
     const fem::SolidMesh mesh = barMesh(o);
-    run.grains.terms.add(surface::SurfaceContact(*run.side,
-                                                 surface::Coupling(surface::makeSkin(mesh.X, mesh.faceSets.at("x+"))),
-                                                 dem::makeContactLaws(dem::ElasticLaw{{stiffness}})));
+    run.grains.terms.add(
+        surface::SurfaceContact(*run.side, surface::SurfaceCoupler(surface::makeSkin(mesh.X, mesh.faceSets.at("x+"))),
+                                dem::makeContactLaws(dem::ElasticLaw{{stiffness}})));
     run.start(1e-9);
     return std::array{run.run->criticalStep().dt, exactLimit(run)};
   };

@@ -39,7 +39,7 @@ double heldForce(double dust) {
   run.take(fem::makeModel(mesh));
   fem::fix(run.solid->nodes, fem::nodeSet(mesh, "y+"));
   const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-  run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.share = solidWeights(weight)}));
+  run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
   run.solid->add(fem::massDamping(40.0));
   run.couple(mesh, weight, {});
   const std::vector<std::int64_t> pulled(run.grains.particles.id.begin(), run.grains.particles.id.begin() + 4);
@@ -103,7 +103,7 @@ struct Pit {
     weight = nodalWeights(place, {});
     auto soil = std::make_unique<fem::Model>(fem::makeModel(mesh));
     soil->add(
-        fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(2e6, 0.2, 1100.0)), {.share = solidWeights(weight)}));
+        fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(2e6, 0.2, 1100.0)), {.weight = solidWeights(weight)}));
     for (const char* set : {"x-", "x+", "y-", "y+", "z-"}) fem::fix(soil->nodes, mesh.nodeSets.at(set));
     side = &run.addSolid(std::move(soil), {.name = "soil"});
     tie = &g.terms.add(makeOverlapTie(g, mesh, weight, *side));
@@ -165,7 +165,7 @@ TEST(TieMembers, WhoIsNobodysWithinTheSolidIsCountedAndNamed) {
   EXPECT_EQ(pit.tie->state().strangers, 3);  // both spheres of the clump
 }
 
-/// Two halves of one lattice, each tied to a solid of its own: pairs across have one share, whoever is asked last.
+/// Two halves of one lattice, each tied to a solid of its own: pairs across have one weight, whoever is asked last.
 TEST(TieMembers, PairsBetweenTwoTiesHaveTheMeanShare) {
   TieRun run;
   const double half = 0.25;
@@ -188,7 +188,7 @@ TEST(TieMembers, PairsBetweenTwoTiesHaveTheMeanShare) {
     weight = nodalWeights(weight, {});
     auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-    model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.share = solidWeights(weight)}));
+    model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
     coupling::SolidSide& side = run.run->addSolid(std::move(model), {.name = shift > 0.0 ? "right" : "left"});
     ties.push_back(&run.grains.terms.add(makeOverlapTie(run.grains, mesh, weight, side)));
   }
@@ -201,7 +201,7 @@ TEST(TieMembers, PairsBetweenTwoTiesHaveTheMeanShare) {
   }
   std::size_t across = 0;
   for (const std::size_t last : {0, 1}) {
-    ties[last]->renewed(run.grains);
+    ties[last]->neighbourListUpdated(run.grains);
     for (std::size_t p = 0; p < run.grains.pairs.size(); ++p) {
       const auto i = static_cast<std::size_t>(run.grains.pairs.pairs()[p][0]);
       const auto j = static_cast<std::size_t>(run.grains.pairs.pairs()[p][1]);

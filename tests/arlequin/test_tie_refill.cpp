@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "dovetail/arlequin/arlequin_coupling.hpp"
-#include "dovetail/arlequin/handed_load.hpp"
+#include "dovetail/arlequin/initial_equilibrium.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/coupling/run.hpp"
@@ -43,7 +43,7 @@ struct Bed {
     weight = nodalWeights(place, {});
     soil = std::make_unique<fem::Model>(fem::makeModel(mesh));
     soil->add(
-        fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(5e6, 0.25, 1450.0)), {.share = solidWeights(weight)}));
+        fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(5e6, 0.25, 1450.0)), {.weight = solidWeights(weight)}));
     soil->add(fem::gravity({0.0, 0.0, -9.81}));
     for (const char* side : {"x-", "x+", "y-", "y+", "z-"}) fem::fix(soil->nodes, mesh.nodeSets.at(side));
   }
@@ -152,22 +152,22 @@ TEST(TieRefusals, ParticlesThatAllBelongToAnotherOverlap) {
   EXPECT_THROW(makeOverlapTie(bed.run.grains, bed.mesh, bed.weight, bed.run.solid(0), {}), InputError);
 }
 
-TEST(TakeOver, SetsMassesAndRefusesWhatIsTied) {
+TEST(InitialEquilibrium, SetsMassesAndRefusesWhatIsTied) {
   Bed bed;
-  EXPECT_THROW(takeOver(bed.run.grains, bed.mesh, *bed.soil, bed.weight, {.rounds = 0}), InputError);
-  takeOver(bed.run.grains, bed.mesh, *bed.soil, bed.weight);
+  EXPECT_THROW(initialEquilibrium(bed.run.grains, bed.mesh, *bed.soil, bed.weight, {.rounds = 0}), InputError);
+  initialEquilibrium(bed.run.grains, bed.mesh, *bed.soil, bed.weight);
   EXPECT_GT(std::ranges::min(bed.soil->nodes.mass), 0.0);
   bed.tie();
-  EXPECT_THROW(takeOver(bed.run.grains, bed.mesh, *bed.run.solid(0).model, bed.weight), InputError);
+  EXPECT_THROW(initialEquilibrium(bed.run.grains, bed.mesh, *bed.run.solid(0).model, bed.weight), InputError);
 }
 
 // A heavy grain that reaches just into the soil: with its weight the surface sinks and leaves it outside, without it
 // the surface rises to it again.
-TEST(TakeOver, SettlesThoughAGrainAtTheEdgeComesAndGoes) {
+TEST(InitialEquilibrium, SettlesThoughAGrainAtTheEdgeComesAndGoes) {
   const Vec3 gravity{0.0, 0.0, -9.81};
   Bed without;
   without.run.grains.gravity = gravity;
-  takeOver(without.run.grains, without.mesh, *without.soil, without.weight);
+  initialEquilibrium(without.run.grains, without.mesh, *without.soil, without.weight);
   const fem::Nodes& nodes = without.soil->nodes;
   const Vec3 place{size, size, top};
   const auto corner = std::ranges::find_if(nodes.X, [&](const Vec3& X) { return norm(X - place) < 1e-9; });
@@ -177,7 +177,7 @@ TEST(TakeOver, SettlesThoughAGrainAtTheEdgeComesAndGoes) {
   Bed bed;
   bed.run.grains.gravity = gravity;
   dem::addParticle(bed.run.grains.particles, surface + Vec3{0.0, 0.0, radius - 1e-7}, {}, radius, dem::Density{1e5});
-  const int rounds = takeOver(bed.run.grains, bed.mesh, *bed.soil, bed.weight);
+  const int rounds = initialEquilibrium(bed.run.grains, bed.mesh, *bed.soil, bed.weight);
   EXPECT_LT(rounds, 10);
   const double moved = bed.soil->nodes.u[static_cast<std::size_t>(corner - nodes.X.begin())].z - (surface - place).z;
   EXPECT_NEAR(moved, 0.0, 1e-8);  // nobody hands the grain's weight over

@@ -33,7 +33,7 @@ TieRun started(const Case& c, double dt, bool hold = true, double width = 0.0) {
   SceneOptions o;
   o.across = 1;
   o.holdEnd = hold;
-  o.massShare = 0.375;
+  o.massFraction = 0.375;
   o.coupling.constraint = c.kind;
   o.coupling.projection.width = width;
   if (c.kind == ConstraintKind::penalty) o.coupling.penalty = 2.0 * modulus / (edge * edge);
@@ -277,7 +277,7 @@ TEST(TieRunsMore, TheAbsorberIsBlindToAVelocityOfAll) {
     const std::vector<double> weight = nodalWeights(place, {});
     run.take(fem::makeModel(mesh));
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.share = solidWeights(weight)}));
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
     const Vec3 velocity{1.0, 2.0, 3.0};
     run.solid->nodes.v.assign(mesh.X.size(), velocity);
     run.grains.particles.v.assign(run.grains.particles.size(), velocity);
@@ -317,7 +317,7 @@ TEST(TieRunsMore, MultipliersOnImplicitSolidsStandStillAtRestAndNothingIsLost) {
     run.grains.gravity = {0.0, -1.0, 0.0};
     run.K = K;
     run.start(4e-4 / K);
-    EXPECT_LT(changeOfLambda(run), 0.05);  // it begins to swing
+    EXPECT_LT(changeOfLambda(run), 0.05);  // it begins to oscillation
     EXPECT_TRUE(relax(*run.run, {.kinetic = K == 1 ? 1e-16 : 1e-9, .macroSteps = 2000}).atRest);
     EXPECT_LT(std::abs(run.run->ledger().residual()), 1e-5 * run.energy());
     double booked = run.run->ledger().booked();

@@ -77,11 +77,11 @@ inline TieRun tieBar(const SceneOptions& o, fem::ElementShape shape = fem::Eleme
   run.take(fem::makeModel(mesh));
   if (o.holdEnd) fem::fix(run.solid->nodes, fem::nodeSet(mesh, "y+"));
   const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-  run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.share = solidWeights(weight)}));
+  run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
   run.options.stepping = stepping;
-  run.options.massShare = o.massShare;
+  run.options.massFraction = o.massFraction;
   CouplingOptions coupling = o.coupling;
-  coupling.leastShare = std::clamp(o.weights.floor, 1e-9, coupling.leastShare);
+  coupling.leastWeight = std::clamp(o.weights.floor, 1e-9, coupling.leastWeight);
   run.couple(mesh, weight, coupling);
   return run;
 }
@@ -105,11 +105,11 @@ struct Bar {
 
 inline Bar makeBar(const SceneOptions& o) {
   Bar bar{tieBar(o), barMesh(o), {}, {}, nullptr, {}, {}, nullptr};
-  bar.run.tie->renewed(bar.run.grains);
+  bar.run.tie->neighbourListUpdated(bar.run.grains);
   bar.particles = bar.run.grains.particles;
   bar.fullMass = bar.particles.mass;
   for (std::size_t i = 0; i < bar.fullMass.size(); ++i) bar.particles.mass[i] *= bar.particles.weightOf(i);
-  bar.motion = std::make_unique<fem::Motion>(*bar.run.solid, o.massShare);
+  bar.motion = std::make_unique<fem::Motion>(*bar.run.solid, o.massFraction);
   bar.overlap = bar.run.tie->overlap();
   bar.gap = makeGapOperator(bar.overlap, bar.mesh, bar.fullMass, o.coupling.form, o.coupling.projection);
   const double p = o.coupling.penalty > 0.0 ? o.coupling.penalty : automaticPenalty(modulus, edge);

@@ -22,7 +22,7 @@ using coupling::Stepping;
 
 struct BlockSetup {
   Stepping stepping = Stepping::explicitSteps;
-  double massShare = 0.0;
+  double massFraction = 0.0;
   bool held = true;            ///< at the bottom
   double youngsModulus = 1e6;  ///< Pa
   double restitution = 1.0;
@@ -74,7 +74,7 @@ inline std::unique_ptr<CoupledRun> makeRun(const BlockSetup& setup, const fem::S
   run->grains.gravity = setup.gravity;
   run->grains.pairs.setSkin(0.02);
   coupling::SolidSide& side = run->addSolid(
-      makeBlock(setup, mesh), {.name = "block", .stepping = setup.stepping, .massShare = setup.massShare});
+      makeBlock(setup, mesh), {.name = "block", .stepping = setup.stepping, .massFraction = setup.massFraction});
   run->grains.terms.add(SurfaceContact(side, makeSeam(setup, mesh), laws, "contacts"));
   return run;
 }

@@ -57,7 +57,8 @@ INSTANTIATE_TEST_SUITE_P(K, EnergyImplicit, ::testing::Values(1, 2, 3, 4));
 
 /// Contacts kick the nodes through the whole mass matrix; with lumped masses in its place energy would be made.
 TEST(EnergyConsistentMass, ErrorIsSecondOrder) {
-  for (const double share : {0.5, 1.0}) expectSecondOrder({.stepping = Stepping::implicitSteps, .massShare = share}, 1);
+  for (const double fraction : {0.5, 1.0})
+    expectSecondOrder({.stepping = Stepping::implicitSteps, .massFraction = fraction}, 1);
 }
 
 TEST(EnergyScene, HasBouncesAndASolidThatTakesPart) {
@@ -77,7 +78,8 @@ TEST(EnergyScene, StaysBoundedOverManyBounces) {
 }
 
 /// What a dashpot takes in a kick is booked in equal parts with the velocities before and after, as the evaluations at
-/// its ends see them: while a contact lasts the books are half a step behind. Between evaluations implicit solids jump.
+/// its ends see them: while a contact lasts the ledger are half a step behind. Between evaluations implicit solids
+/// jump.
 TEST(EnergyLost, DashpotsCloseTheLedger) {
   for (const int K : {1, 3})
     for (const Stepping stepping : {Stepping::explicitSteps, Stepping::implicitSteps}) {

@@ -28,7 +28,7 @@ protected:
   }
 };
 
-/// The lag makes energy to first order in the step, the books close to second.
+/// The lag makes energy to first order in the step, the ledger close to second.
 TEST_P(Staggered, TheLedgerClosesWithWhatTheLagMade) {
   const Result coarse = run(4e-4), fine = run(5e-5);
   EXPECT_GT(std::abs(fine.made), 5e-4 * fine.initial);
@@ -53,7 +53,7 @@ TEST(StaggeredOnASoftBlock, CreatesEnergy) {
   EXPECT_LT(runFor(setup, duration, 1e-4, 1).worstDrift, 0.02 * fine.made);
 }
 
-/// The spread load makes or takes energy whatever the step; the books close to second order.
+/// The spread load makes or takes energy whatever the step; the ledger close to second order.
 TEST(Spread, TheLedgerClosesWithWhatTheTransferMade) {
   for (const int K : {1, 4})
     for (const Stepping stepping : {Stepping::explicitSteps, Stepping::implicitSteps}) {
@@ -66,7 +66,7 @@ TEST(Spread, TheLedgerClosesWithWhatTheTransferMade) {
     }
 }
 
-/// An adjoint pair makes nothing, and the books say so to round-off.
+/// An adjoint pair makes nothing, and the ledger say so to round-off.
 TEST(AdjointPair, MakesNothing) {
   for (const int K : {1, 4})
     for (const double width : {0.0, 0.15}) {

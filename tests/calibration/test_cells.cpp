@@ -114,7 +114,7 @@ TEST(Cell, StressIsThatOfTheContacts) {
 TEST(Cell, ComesToThePressureAndKeepsItWhileSheared) {
   dem::Model m = cellOf(randomPacking(0.045), 0.5);
   const double pressure = 2e4;
-  const double bulk = compressCell(m, {.pressure = pressure});
+  const double bulk = compressRve(m, {.pressure = pressure});
   EXPECT_NEAR(meanOf(cellPressures(m)), pressure, 1e-3 * pressure);
   EXPECT_LT(dem::restOf(m).unbalanced, 1e-5);
   EXPECT_GT(bulk, 10.0 * pressure);
@@ -162,9 +162,9 @@ TEST(Cell, RefusesWhatIsNoCell) {
   EXPECT_THROW(dem::strainCell(m, {-1.0, 0.0, 0.0}), InputError);
   EXPECT_THROW(dem::strainCell(m, {std::nan(""), 0.0, 0.0}), InputError);
   m.gravity = {0.0, 0.0, -9.81};
-  EXPECT_THROW(compressCell(m, {.pressure = 1e3}), InputError);
+  EXPECT_THROW(compressRve(m, {.pressure = 1e3}), InputError);
   m.gravity = {};
-  EXPECT_THROW(compressCell(m, {.pressure = -1.0}), InputError);
+  EXPECT_THROW(compressRve(m, {.pressure = -1.0}), InputError);
   geometry::Periodicity open = m.pairs.periodicity();
   open.axes[2] = false;
   m.pairs.setPeriodicity(open);

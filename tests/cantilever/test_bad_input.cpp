@@ -35,8 +35,8 @@ TEST(BadInput, TimeSteps) {
   expectRefused({"--dt-factor", "5"}, {"--dt-factor", "element", "give at most", "--dt auto"});
   expectRefused({"--dt-factor", "0.05", "--dt", "auto"}, {"--dt-factor", "--dt"});
   expectRefused({"--dt", "0.001"}, {"--dt", "auto"});
-  expectRefused({"--dt-share", "1.1"}, {"above the critical step", "give at most"});
-  expectRefused({"--dt-share", "0.5", "--dt-factor", "0.05"}, {"--dt-factor", "--dt-share"});
+  expectRefused({"--dt-fraction", "1.1"}, {"above the critical step", "give at most"});
+  expectRefused({"--dt-fraction", "0.5", "--dt-factor", "0.05"}, {"--dt-factor", "--dt-fraction"});
   expectRefused({"--dt-factor", "5", "--fem", "newmark"}, {"contact of a particle with the skin", "give at most"});
   expectRefused({"--fem-every", "500"}, {"stepped every 500", "give at most"});
 }

@@ -28,7 +28,7 @@ TEST(Conservation, TheOneToOneCouplingOfBothElementsKeepsEnergyAndBalance) {
     expectBalanced(f, 1e-4);
     EXPECT_FALSE(f.left);
     EXPECT_LE(f.lateralDrift, 1e-9);
-    EXPECT_EQ(f.noContactShare, 0.0);
+    EXPECT_EQ(f.noContactFraction, 0.0);
     EXPECT_NEAR(f.energyInitial, 0.8716, 1e-4);  // 2 m (v²/2 + g overlap/2)
     EXPECT_NEAR(f.endTime, 1.0, f.dt);
     EXPECT_EQ(f.steps, std::llround(f.endTime / f.dt));
@@ -45,7 +45,7 @@ TEST(Conservation, EveryWidthAndKernelKeepsEnergyAndForce) {
       // The dents of the two loads turn the surface a little below each, in mirrored ways.
       EXPECT_LE(result.figures.lateralDrift, 1e-5);
       for (const PairSample& sample : result.samples) ASSERT_NEAR(sample.x[0].x, -sample.x[1].x, 1e-13) << sample.time;
-      EXPECT_EQ(result.figures.noContactShare, 0.0);
+      EXPECT_EQ(result.figures.noContactFraction, 0.0);
     }
 }
 
@@ -68,7 +68,7 @@ TEST(Conservation, TheSmoothSurfaceKeepsEnergyAndForce) {
     SCOPED_TRACE(width);
     const RunFigures f = runUntil(1.0, {"--surface", "smooth", "--cg-width", width}).figures;
     expectBalanced(f, 1e-3);
-    EXPECT_EQ(f.noContactShare, 0.0);
+    EXPECT_EQ(f.noContactFraction, 0.0);
   }
 }
 

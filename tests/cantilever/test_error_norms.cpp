@@ -10,7 +10,7 @@ namespace dovetail::cantilever {
 namespace {
 
 // Particles at constant speed on the static curve, moved off it by dx outwards and dz upwards.
-std::vector<PairSample> shiftedSamples(const BeamCase& beam, const StaticSettings& settings, double dx, double dz) {
+std::vector<PairSample> shiftedSamples(const BeamCase& beam, const StaticOptions& settings, double dx, double dz) {
   std::vector<PairSample> samples;
   for (int i = 0; i <= 700; ++i) {
     const double time = 0.05 * i, y = 0.2 + 0.34 * time, z = staticHeight(beam, y, settings) + dz;
@@ -48,7 +48,7 @@ TEST(StaticReference, IsTheTextbookDeflection) {
 
 TEST(ErrorNorms, AConstantShiftIsFoundExactly) {
   const BeamCase beam;
-  for (const StaticSettings& settings : {StaticSettings{}, StaticSettings{.armOrigin = 0.2, .shear = true}}) {
+  for (const StaticOptions& settings : {StaticOptions{}, StaticOptions{.armOrigin = 0.2, .shear = true}}) {
     const PairError error = errorFromStatic(shiftedSamples(beam, settings, 3e-3, 4e-3), beam, settings);
     EXPECT_NEAR(error.mean, std::sqrt(2.0) * 5e-3, 1e-14);
     EXPECT_NEAR(error.largest, std::sqrt(2.0) * 5e-3, 1e-14);

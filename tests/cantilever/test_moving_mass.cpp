@@ -9,14 +9,14 @@
 namespace dovetail::cantilever {
 namespace {
 
-ModalSettings withModes(int modes) {
-  ModalSettings settings;
+ModalOptions withModes(int modes) {
+  ModalOptions settings;
   settings.modes = modes;
   return settings;
 }
 
-ModalSettings bernoulli() {
-  ModalSettings settings = withModes(24);
+ModalOptions bernoulli() {
+  ModalOptions settings = withModes(24);
   settings.theory.shear = settings.theory.rotaryInertia = settings.surfaceOffset = settings.largeRotations = false;
   return settings;
 }
@@ -25,11 +25,11 @@ TEST(MovingMass, StartsWithTheEnergyOfThePublishedCase) {
   const DynamicReference reference = simulateMovingMassBeam(BeamCase{}, withModes(8));
   EXPECT_NEAR(reference.startEnergy, 0.8716, 1e-4);
   EXPECT_DOUBLE_EQ(reference.z.front(), 0.5 - 83.7758040957278 * 9.81 / 2e7);
-  EXPECT_EQ(reference.separatedShare, 0.0);
+  EXPECT_EQ(reference.separatedFraction, 0.0);
 }
 
 TEST(MovingMass, EnergyDriftIsSmallAndOfSecondOrder) {
-  ModalSettings settings = withModes(16);
+  ModalOptions settings = withModes(16);
   double drift[3];
   for (int i = 0; i < 3; ++i) {
     settings.dt = 4e-4 / std::pow(2.0, i);
@@ -58,7 +58,7 @@ TEST(MovingMass, ConvergesWithTheNumberOfModes) {
 
 TEST(MovingMass, TheDefaultModesAreWithinFifteenMillisecondsOfTheLimit) {
   const BeamCase beam;
-  ModalSettings many = withModes(80);
+  ModalOptions many = withModes(80);
   many.theory.basis = 100;
   const DynamicReference limit = simulateMovingMassBeam(beam, many), usual = simulateMovingMassBeam(beam, {});
   EXPECT_NEAR(usual.leaveTime, limit.leaveTime, 0.015);
@@ -75,7 +75,7 @@ TEST(MovingMass, BernoulliBeamLeavesWhenAnIndependentModelDoes) {
 
 TEST(MovingMass, EveryEffectHasItsSign) {
   const BeamCase beam;
-  ModalSettings settings = bernoulli();
+  ModalOptions settings = bernoulli();
   settings.modes = 12;
   const double plain = simulateMovingMassBeam(beam, settings).leaveTime;
   settings.theory.shear = settings.theory.rotaryInertia = true;
@@ -92,7 +92,7 @@ TEST(MovingMass, ARigidBeamIsCrossedAtConstantSpeed) {
   BeamCase beam;
   beam.youngsModulus = 1e15;
   beam.startVelocity = 3.0;
-  ModalSettings settings = withModes(1);
+  ModalOptions settings = withModes(1);
   settings.dt = 2e-5;
   settings.theory.rotaryInertia = settings.theory.shear = false;
   const DynamicReference reference = simulateMovingMassBeam(beam, settings);
@@ -101,7 +101,7 @@ TEST(MovingMass, ARigidBeamIsCrossedAtConstantSpeed) {
 }
 
 TEST(MovingMass, TheSampleIntervalDoesNotChangeTheInterpolatedPath) {
-  ModalSettings settings = withModes(12);
+  ModalOptions settings = withModes(12);
   settings.sampleInterval = 1e-4;
   const DynamicReference dense = simulateMovingMassBeam(BeamCase{}, settings);
   settings.sampleInterval = 2e-3;
@@ -115,7 +115,7 @@ TEST(MovingMass, TheSampleIntervalDoesNotChangeTheInterpolatedPath) {
 }
 
 TEST(MovingMass, ImpossibleSettingsAreRefused) {
-  ModalSettings settings;
+  ModalOptions settings;
   settings.dt = 0.01;  // unstable for the highest mode
   EXPECT_THROW(simulateMovingMassBeam(BeamCase{}, settings), InputError);
   settings = {};

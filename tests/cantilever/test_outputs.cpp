@@ -17,7 +17,7 @@ using test::runProgram;
 
 const char* const everyOption =
     "--scheme --cg-width --kernel --kernel-correction --surface --element --mesh --refine "
-    "--dt-factor --dt --dt-share --insist --fem --fem-every --until --stiffness-ratio --threads "
+    "--dt-factor --dt --dt-fraction --insist --fem --fem-every --until --stiffness-ratio --threads "
     "--out --output-interval --summary --study --reference --profile --workers --quiet --help "
     "--lag --transfer --edges --metric --mass --restitution ";
 
@@ -39,7 +39,7 @@ void expectSummary(const std::filesystem::path& file) {
   const auto json = nlohmann::json::parse(readText(file));
   for (const char* key : {"steps", "wall_seconds", "seconds_per_step", "energy_initial_J", "energy_min_J",
                           "energy_max_J", "energy_drift_relative", "ledger_residual_relative", "lateral_drift_m",
-                          "moment_residual_relative", "time_mean_error_m", "no_contact_share"}) {
+                          "moment_residual_relative", "time_mean_error_m", "no_contact_fraction"}) {
     ASSERT_TRUE(json.contains(key)) << key;
     EXPECT_TRUE(json[key].is_number()) << key << ": " << json[key];
   }

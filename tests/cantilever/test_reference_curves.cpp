@@ -56,7 +56,7 @@ TEST(ReferenceCurves, FiguresEndWhenParticleOneLeaves) {
   EXPECT_NEAR(f.leaveTime, 15.0, 1e-12);  // y = 10 m at 10 s, 14 m at 20 s
   EXPECT_EQ(f.largestEnergy, 0.9);
   EXPECT_EQ(f.finalEnergy, 5.0);
-  EXPECT_EQ(f.noContactShare, 0.5);
+  EXPECT_EQ(f.noContactFraction, 0.5);
   const double sag = 2.0 * particleMass() * 9.81 / (3.0 * 1e8 * std::pow(0.8, 4) / 12.0);  // per arm³
   const double start = std::sqrt(2.0) * sag * 0.008, later = std::sqrt(2.0) * std::abs(sag * 1000.0 - 0.1);
   EXPECT_NEAR(f.errorTrueArm, 0.5 * (start + later), 1e-12);

@@ -77,7 +77,7 @@ TEST(CriticalStep, JustBelowItEveryVariantIsStable) {
                                {"--fem", "newmark"}}) {
     SCOPED_TRACE(variant.empty() ? "" : variant.back());
     Words words = variant;
-    words.insert(words.end(), {"--dt-share", "0.99"});
+    words.insert(words.end(), {"--dt-fraction", "0.99"});
     const RunFigures f = runUntil(0.5, words).figures;
     EXPECT_TRUE(f.stable) << f.failure << ", energy over available " << f.largestExcess;
     EXPECT_DOUBLE_EQ(f.dt, 0.99 * f.criticalDt);
@@ -86,7 +86,7 @@ TEST(CriticalStep, JustBelowItEveryVariantIsStable) {
 
 TEST(CriticalStep, TwiceTheLimitBreaksDownAtOnceAndSaysWhereAndWhen) {
   for (const char* element : {"hex8", "hybrid8"}) {
-    RunResult result = runUntil(10.0, {"--dt-share", "2", "--insist", "--element", element});
+    RunResult result = runUntil(10.0, {"--dt-fraction", "2", "--insist", "--element", element});
     const RunFigures& f = result.figures;
     EXPECT_FALSE(f.finished || f.stable);
     const bool names =

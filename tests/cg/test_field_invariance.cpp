@@ -100,8 +100,8 @@ TEST(Fields, PartsOfAParticleAddUpToIt) {
 }
 
 TEST(TimeMean, IsTheFieldOfAllFramesAtOnce) {
-  // Fields are sums over particles, so the mean over frames is one scene with all their particles, each with the share
-  // of its frame's time in its mass.
+  // Fields are sums over particles, so the mean over frames is one scene with all their particles, each with the
+  // fraction of its frame's time in its mass.
   RandomState random(10);
   const Kernel kernel{KernelShape::lucy, 3, 0.2};  // some points are empty in some frames
   const auto points = random.vectors(60, -0.7, 0.7);
@@ -111,8 +111,8 @@ TEST(TimeMean, IsTheFieldOfAllFramesAtOnce) {
   for (const double time : duration) {
     const Cloud frame = randomContacts(random, 30);
     addFrame(mean, sample(kernel, points, frame.snapshot()), time);
-    const auto append = [&](auto& to, const auto& values, double share) {
-      for (const auto& value : values) to.push_back(share * value);
+    const auto append = [&](auto& to, const auto& values, double fraction) {
+      for (const auto& value : values) to.push_back(fraction * value);
     };
     append(all.x, frame.x, 1), append(all.v, frame.v, 1), append(all.mass, frame.mass, time);
     append(all.volume, frame.volume, time), append(all.from, frame.from, 1), append(all.to, frame.to, 1);

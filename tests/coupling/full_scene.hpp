@@ -33,7 +33,8 @@ inline surface::Skin topOf(const fem::SolidMesh& mesh) { return surface::makeSki
 inline SolidSide& addBlock(CoupledRun& run, const SolidOptions& options = {.name = "block"}) {
   const fem::SolidMesh mesh = tetBlock();
   SolidSide& side = run.addSolid(block(mesh, true), options);
-  run.grains.terms.add(surface::SurfaceContact(side, surface::Coupling(topOf(mesh)), frictionalLaws(), "contacts"));
+  run.grains.terms.add(
+      surface::SurfaceContact(side, surface::SurfaceCoupler(topOf(mesh)), frictionalLaws(), "contacts"));
   return side;
 }
 

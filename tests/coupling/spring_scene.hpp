@@ -46,7 +46,7 @@ public:
       const int i = dem::find(m.particles, spring.id);
       demand.stiffness[static_cast<std::size_t>(i)] += stiffness_;
       const auto node = static_cast<int>(demand.sides[static_cast<std::size_t>(side)].first) + spring.node;
-      const dem::ContactDemand::Share whole{node, 1.0};
+      const dem::ContactDemand::Fraction whole{node, 1.0};
       demand.links.push_back({.particle = i,
                               .partner = -1,
                               .owner = dem::StepOwner::contact,
@@ -67,7 +67,7 @@ private:
 
 struct SpringSetup {
   Stepping stepping = Stepping::explicitSteps;
-  double massShare = 0.0;
+  double massFraction = 0.0;
   bool held = false;
   double stiffness = 2e4;  ///< N/m
 };
@@ -98,7 +98,7 @@ inline std::unique_ptr<CoupledRun> springRun(const SpringSetup& setup) {
     springs.push_back({static_cast<std::int64_t>(springs.size()), top[corner]});
   }
   SolidSide& side = run->addSolid(block(mesh, setup.held),
-                                  {.name = "block", .stepping = setup.stepping, .massShare = setup.massShare});
+                                  {.name = "block", .stepping = setup.stepping, .massFraction = setup.massFraction});
   run->grains.terms.add(Springs(side, setup.stiffness, springs));
   return run;
 }

@@ -42,7 +42,7 @@ std::unique_ptr<CoupledRun> fourGrains(const Top& top) {
   }
   for (const auto& faces : part)
     run->grains.terms.add(surface::SurfaceContact(
-        side, surface::Coupling(surface::makeSkin(mesh.X, faces, surface::QuadSplit::two)), run->grains.laws));
+        side, surface::SurfaceCoupler(surface::makeSkin(mesh.X, faces, surface::QuadSplit::two)), run->grains.laws));
   for (const int a : {-1, 1})
     for (const int b : {-1, 1})
       dem::addParticle(run->grains.particles, {0.4 + 0.0125 * a, 0.4 + 0.0125 * b, 0.012 - 1e-5}, {}, 0.012,
@@ -69,12 +69,12 @@ Settled settled(const Top& top) {
 }
 
 /// Kinetic over elastic energy of a state that has come to rest at this step, after more of its steps.
-double unrest(const Top& top, const Settled& from, double share, std::int64_t macroSteps) {
+double unrest(const Top& top, const Settled& from, double fraction, std::int64_t macroSteps) {
   const auto run = fourGrains(top);
   run->start(1e-5, {.stepsPerMacroStep = top.K});
   run->load(from.state);
-  run->grains.refusesUnstableSteps = share < 1.0;
-  run->start(share * from.limit, {.stepsPerMacroStep = top.K});
+  run->grains.refusesUnstableSteps = fraction < 1.0;
+  run->start(fraction * from.limit, {.stepsPerMacroStep = top.K});
   try {
     relax(*run, {.kinetic = 1e-12, .macroSteps = 500});
     run->advance(macroSteps);
@@ -136,15 +136,15 @@ TEST(Limits, CountWhatIsYetToHitASolid) {
 
 TEST(Limits, AreLookedAtWhileARunGoesOn) {
   const Settled rest = settled({});
-  for (const double share : {0.95, 1.05}) {
+  for (const double fraction : {0.95, 1.05}) {
     const auto run = fourGrains({});
     run->start(1e-5);
     run->load(rest.state);
     run->grains.refusesUnstableSteps = false;
-    run->start(share * rest.limit);
+    run->start(fraction * rest.limit);
     run->grains.refusesUnstableSteps = true;
     run->advance(2048);
-    EXPECT_EQ(run->grains.passed.has_value(), share > 1.0);
+    EXPECT_EQ(run->grains.passed.has_value(), fraction > 1.0);
   }
 }
 

@@ -81,7 +81,7 @@ TEST(EnergyMomentumWindows, KeepAngularMomentumToTheTolerance) {
 /// Everything that acts on a solid but its elements: supports that move, held through the list of constraints, a mass
 /// that is not lumped, loads with and without an energy.
 TEST_P(Books, CloseWithMovingSupportsAndLoads) {
-  for (const double massShare : {0.0, 0.5}) {
+  for (const double massFraction : {0.0, 0.5}) {
     const auto run = emptyRun();
     const fem::SolidMesh mesh = tetBlock();
     auto model = block(mesh, false);
@@ -92,9 +92,10 @@ TEST_P(Books, CloseWithMovingSupportsAndLoads) {
     const std::vector<int>& bottom = mesh.nodeSets.at("z-");
     model->constraints.prescribe(bottom, 0, fem::TimeFunction([](double t) { return 0.01 * std::sin(20.0 * t); }));
     model->constraints.hold(bottom, fem::componentY | fem::componentZ);
-    SolidSide& side =
-        run->addSolid(std::move(model), {.name = "block", .stepping = GetParam().stepping, .massShare = massShare});
-    run->grains.terms.add(surface::SurfaceContact(side, surface::Coupling(topOf(mesh)), frictionalLaws(), "contacts"));
+    SolidSide& side = run->addSolid(std::move(model),
+                                    {.name = "block", .stepping = GetParam().stepping, .massFraction = massFraction});
+    run->grains.terms.add(
+        surface::SurfaceContact(side, surface::SurfaceCoupler(topOf(mesh)), frictionalLaws(), "contacts"));
     addLayer(*run, 20);
     run->start(dt, {.stepsPerMacroStep = GetParam().K});
     run->advance(800 / GetParam().K);

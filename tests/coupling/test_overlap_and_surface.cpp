@@ -50,7 +50,7 @@ Bar makeBar(Stepping stepping, bool bonded, double shift = 0.0) {
   auto model = std::make_unique<fem::Model>(fem::makeModel(bar.mesh));
   fem::fix(model->nodes, fem::nodeSet(bar.mesh, "y+"));
   model->add(fem::makeSolid(bar.mesh, fem::pointMaterial(fem::Material(fem::StVenantKirchhoff{1e6, 0.0, 1000.0})),
-                            {.share = arlequin::solidWeights(weight)}));
+                            {.weight = arlequin::solidWeights(weight)}));
   bar.side = &bar.run->addSolid(std::move(model), {.name = "bar", .stepping = stepping});
   bar.tie = &grains.terms.add(arlequin::makeOverlapTie(grains, bar.mesh, weight, *bar.side));
   return bar;
@@ -65,7 +65,7 @@ void coupleSkin(Bar& bar) {
     for (const fem::Face& face : bar.mesh.faceSets.at(end)) ends.push_back(face);
   for (const auto& faces : {sides, ends})
     bar.run->grains.terms.add(surface::SurfaceContact(
-        *bar.side, surface::Coupling(surface::makeSkin(bar.mesh.X, faces)), laws(false), "skin"));
+        *bar.side, surface::SurfaceCoupler(surface::makeSkin(bar.mesh.X, faces)), laws(false), "skin"));
 }
 
 class OverlapAndSurface : public testing::TestWithParam<Case> {};
@@ -101,7 +101,8 @@ Bar pressed(const Case& macroSteps, bool wholeSkin) {
   else
     for (const char* side : {"x+", "z+"})
       bar.run->grains.terms.add(surface::SurfaceContact(
-          *bar.side, surface::Coupling(surface::makeSkin(bar.mesh.X, bar.mesh.faceSets.at(side))), laws(false), side));
+          *bar.side, surface::SurfaceCoupler(surface::makeSkin(bar.mesh.X, bar.mesh.faceSets.at(side))), laws(false),
+          side));
   constexpr double radius = 0.125, overlap = 5e-5;
   std::vector<std::int64_t> held;
   for (const std::int64_t id : bar.run->grains.particles.id)
@@ -134,10 +135,10 @@ TEST_P(SettledOverlapAndSurface, StaysAndKeepsItsBooksNearTheLimit) {
   const double residual = run.ledger().residual();
   run.advance(std::lround(0.3 / run.macroStep()));
   EXPECT_FALSE(run.grains.passed);
-  // Own forces that act once in several steps keep the bar swinging by the fourth power of the step.
-  const double share = macroSteps.stepping == Stepping::explicitSteps && macroSteps.K > 1 ? 1e-4 : 1e-8;
-  EXPECT_LT(run.kineticEnergy(), share * elastic());
-  EXPECT_LT(std::abs(run.ledger().residual() - residual), share * elastic());
+  // Own forces that act once in several steps keep the bar oscillating by the fourth power of the step.
+  const double weight = macroSteps.stepping == Stepping::explicitSteps && macroSteps.K > 1 ? 1e-4 : 1e-8;
+  EXPECT_LT(run.kineticEnergy(), weight * elastic());
+  EXPECT_LT(std::abs(run.ledger().residual() - residual), weight * elastic());
   std::size_t pressed = 0;
   for (const auto* contact : run.grains.terms.all<surface::SurfaceContact>())
     pressed += contact->coupling().load().touched.size();
@@ -157,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(MacroSteps, SettledOverlapAndSurface,
                            return std::string(std::get<0>(c.param).name) + (std::get<1>(c.param) ? "skin" : "sides");
                          });
 
-/// One that was there when the tie was made is tied, with its share; one that comes later meets the skin first.
+/// One that was there when the tie was made is tied, with its weight; one that comes later meets the skin first.
 TEST(OverlapAndSurface, ABallAtTheSideIsPushedOnce) {
   for (const double y : {0.875, 1.375, 1.875, 2.125}) {
     Bar bar = makeBar(Stepping::explicitSteps, false);

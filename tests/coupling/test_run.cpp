@@ -14,7 +14,7 @@ namespace {
 struct Case {
   const char* name;
   Stepping stepping;
-  double massShare;
+  double massFraction;
   int K;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -22,7 +22,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 class Runs : public testing::TestWithParam<Case> {
 protected:
   static std::unique_ptr<CoupledRun> started(const Case& c, double dt, bool held = false) {
-    auto run = springRun({c.stepping, c.massShare, held});
+    auto run = springRun({c.stepping, c.massFraction, held});
     run->start(dt, {.stepsPerMacroStep = c.K});
     return run;
   }

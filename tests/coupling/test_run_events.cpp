@@ -50,7 +50,7 @@ TEST(RunEvents, SettlesAndBooksWhatThatTook) {
   EXPECT_FALSE(relax(*run, {.macroSteps = 1}).atRest);
 }
 
-/// Relaxation, steps and removals of walls, with and without a solid in the run: the books begin at the first start.
+/// Relaxation, steps and removals of walls, with and without a solid in the run: the ledger begin at the first start.
 TEST(RunEvents, GrainsMayComeToRestAloneBeforeTheRunStarts) {
   for (const bool withSolid : {false, true}) {
     const auto run = withSolid ? springRun({.held = true}) : std::make_unique<CoupledRun>();

@@ -94,7 +94,7 @@ TEST_P(Scenes, ABrokenRunGoesOnFromItsLastState) {
   }
 }
 
-/// Half of the step from here on: losses so far stay in the books.
+/// Half of the step from here on: losses so far stay in the ledger.
 TEST_P(Scenes, StepsAndWindowsChangeInFlight) {
   const auto run = started();
   run->advance(1000 / GetParam().K);
@@ -161,8 +161,8 @@ TEST(Scene, NewcomersKeepClearOfSolids) {
     const auto faces = mesh.faceSets.at("skin");
     const surface::Skin skin = surface::makeSkin(mesh.X, faces);
     run->grains.terms.add(surface::SurfaceContact(
-        side, smooth ? surface::Coupling(surface::makeSmoothSurface(skin)) : surface::Coupling(skin), run->grains.laws,
-        "contacts"));
+        side, smooth ? surface::SurfaceCoupler(surface::makeSmoothSurface(skin)) : surface::SurfaceCoupler(skin),
+        run->grains.laws, "contacts"));
     dem::InsertionTerm& insertion = dem::addInsertion(run->grains, {.region = {{0.1, 0.1, -0.3}, {0.5, 0.5, 0.1}},
                                                                     .sizes = dem::UniformSizes{0.01, 0.02},
                                                                     .density = {2000.0},
@@ -204,7 +204,8 @@ TEST(Scene, RefusesWhatWouldBeMixedUp) {
   SolidSide& theirs = addBlock(*other);
   EXPECT_THROW(addBlock(*run), InputError) << "two solids of one name";
   EXPECT_THROW(run->addSolid(block(tetBlock(), true), {.name = "particles"}), InputError);
-  run->grains.terms.add(surface::SurfaceContact(theirs, surface::Coupling(topOf(tetBlock())), frictionalLaws(), "far"));
+  run->grains.terms.add(
+      surface::SurfaceContact(theirs, surface::SurfaceCoupler(topOf(tetBlock())), frictionalLaws(), "far"));
   EXPECT_THROW(run->start(dt), InputError) << "a solid of another run";
 }
 
@@ -215,7 +216,8 @@ TEST(Scene, MayHaveSeveralSolids) {
   addBlock(*run);
   const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex20, {2, 2, 1}, {0, 0, 0.06}, {0.6, 0.6, 0.16});
   SolidSide& lid = run->addSolid(block(mesh, false), {.name = "lid", .stepping = Stepping::implicitSteps});
-  run->grains.terms.add(surface::SurfaceContact(lid, surface::Coupling(topOf(mesh)), frictionalLaws(), "contacts"));
+  run->grains.terms.add(
+      surface::SurfaceContact(lid, surface::SurfaceCoupler(topOf(mesh)), frictionalLaws(), "contacts"));
   for (Vec3& v : lid.nodes().v) v = {0.1, 0.0, -0.3};
   addLayer(*run, 12);
   run->start(0.5 * dt);

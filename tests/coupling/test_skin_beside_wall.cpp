@@ -39,7 +39,7 @@ std::unique_ptr<CoupledRun> groundOf(const Ground& ground, std::shared_ptr<const
   for (const auto& faces : parts) {
     surface::Skin skin = surface::makeSkin(mesh.X, faces);
     surface::coarseGrain(skin, {{.width = ground.kernel}, cg::KernelCorrection::symmetric});
-    run->grains.terms.add(surface::SurfaceContact(side, surface::Coupling(std::move(skin)), laws));
+    run->grains.terms.add(surface::SurfaceContact(side, surface::SurfaceCoupler(std::move(skin)), laws));
   }
   const double x = 0.6 + ground.gap;
   if (ground.wall)

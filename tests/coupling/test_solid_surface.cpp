@@ -40,8 +40,8 @@ std::vector<surface::SurfaceContact*> couple(CoupledRun& run, SolidSide& side, c
   for (const auto& faces : parts) {
     surface::Skin skin = surface::makeSkin(mesh.X, faces);
     surface::coarseGrain(skin, {{.width = width}, cg::KernelCorrection::symmetric});
-    contacts.push_back(&run.grains.terms.add(surface::SurfaceContact(side, surface::Coupling(std::move(skin)), laws,
-                                                                     "part " + std::to_string(contacts.size()))));
+    contacts.push_back(&run.grains.terms.add(surface::SurfaceContact(side, surface::SurfaceCoupler(std::move(skin)),
+                                                                     laws, "part " + std::to_string(contacts.size()))));
   }
   return contacts;
 }
@@ -223,7 +223,8 @@ TEST(SolidSurface, OfOneKernelInPartsMovesAsOneCouplingDoes) {
     for (const auto& faces : parts) {
       const std::size_t end = first + faces.size();
       run->grains.terms.add(surface::SurfaceContact(
-          side, surface::Coupling(parts.size() == 1 ? whole : surface::partOf(whole, first, end)), frictionalLaws()));
+          side, surface::SurfaceCoupler(parts.size() == 1 ? whole : surface::partOf(whole, first, end)),
+          frictionalLaws()));
       first = end;
     }
     for (int k = 0; k < 10; ++k)
@@ -253,7 +254,8 @@ TEST(SolidSurface, RefusesASmoothSurfaceBesideAnother) {
   const fem::SolidMesh mesh = brick();
   auto run = brickRun({mesh.faceSets.at("x+")}, elastic());
   run->grains.terms.add(surface::SurfaceContact(
-      run->solid(0), surface::Coupling(surface::makeSmoothSurface(surface::makeSkin(mesh.X, mesh.faceSets.at("z+")))),
+      run->solid(0),
+      surface::SurfaceCoupler(surface::makeSmoothSurface(surface::makeSkin(mesh.X, mesh.faceSets.at("z+")))),
       elastic()));
   dem::addParticle(run->grains.particles, {0.3, 0.3, 0.1}, {}, 0.025, dem::Mass{1.0});
   EXPECT_THROW(run->start(1e-5), InputError);
@@ -265,9 +267,9 @@ TEST(SolidSurface, RefusesASkinThatIsNotItsSolids) {
   for (Vec3& X : other.X) X.x += 0.1;
   CoupledRun run;
   SolidSide& side = run.addSolid(block(mesh, true));
-  EXPECT_THROW(
-      surface::SurfaceContact(side, surface::Coupling(surface::makeSkin(other.X, other.faceSets.at("z+"))), elastic()),
-      InputError);
+  EXPECT_THROW(surface::SurfaceContact(
+                   side, surface::SurfaceCoupler(surface::makeSkin(other.X, other.faceSets.at("z+"))), elastic()),
+               InputError);
 }
 
 /// Below a face a closed skin reaches one radius far: who gets deeper does not vanish.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "dovetail/arlequin/arlequin_coupling.hpp"
-#include "dovetail/arlequin/handed_load.hpp"
+#include "dovetail/arlequin/initial_equilibrium.hpp"
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/cg/fields.hpp"
 #include "dovetail/coupling/run.hpp"
@@ -90,7 +90,7 @@ TEST(Recipes, EquilibriumAtTheStart) {
   for (const Vec3& X : mesh.X) place.push_back(X.z < -1e-9 ? arlequin::beyondOverlap : 1.0 - X.z / top);
   const std::vector<double> weight = arlequin::nodalWeights(place, {});
   model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(5e6, 0.25, 1450.0)),
-                            {.share = arlequin::solidWeights(weight)}));
+                            {.fraction = arlequin::solidWeights(weight)}));
 #include "coupling/equilibrium.inc"
   EXPECT_TRUE(rest.atRest) << rest.kinetic;
   EXPECT_EQ(&side, &run.solid(0));

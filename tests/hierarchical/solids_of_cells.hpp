@@ -22,12 +22,12 @@ inline Eigen::Matrix3d matrixAt(const std::vector<double>& values, std::size_t p
 }
 
 /// Three cells of 60 discs at rest under 100 kPa.
-inline const std::vector<rve::Cell>& threeCells() {
-  static const std::vector<rve::Cell> cells{rve::pressedDiscs(60, 1), rve::pressedDiscs(60, 2),
-                                            rve::pressedDiscs(60, 3)};
+inline const std::vector<rve::Rve>& threeCells() {
+  static const std::vector<rve::Rve> cells{rve::pressedDiscs(60, 1), rve::pressedDiscs(60, 2),
+                                           rve::pressedDiscs(60, 3)};
   return cells;
 }
-inline std::vector<rve::Cell> oneCell() { return {threeCells()[0]}; }
+inline std::vector<rve::Rve> oneCell() { return {threeCells()[0]}; }
 
 /// 0.1 m × 0.2 m, pressed together along y at `rate` m/s under a side pressure of 100 kPa that follows.
 struct Biaxial {

@@ -10,8 +10,8 @@ namespace {
 using rve::plane;
 
 /// One cell whose contacts never slip, so that its answer has a derivative.
-rve::Cell stickingCell() {
-  rve::Cell cell = threeCells()[1];
+rve::Rve stickingCell() {
+  rve::Rve cell = threeCells()[1];
   rve::Springs sticking = cell.springs;
   sticking.friction = std::numeric_limits<double>::infinity();
   rve::setSprings(cell, sticking);
@@ -21,23 +21,23 @@ rve::Cell stickingCell() {
 TEST(CellField, AnswersAreThoseOfTheCell) {
   const QuasiStaticCells settings;
   Asked asked(cellField(oneCell(), settings));
-  rve::Cell cell = threeCells()[0];
+  rve::Rve cell = threeCells()[0];
   for (const Eigen::Matrix3d& F : {plane(0.9995, 0, 0, 1.0002), plane(0.999, 4e-4, 0, 1.001)}) {
-    const double stored = rve::storedEnergy(cell), work = cell.state.book.work;
+    const double stored = rve::storedEnergy(cell), work = cell.state.ledger.work;
     const Eigen::Matrix3d P = asked(F);
     asked.field().commit();
     relax(cell, F, settings);
     EXPECT_EQ(P, rve::nominalStress(cell));
     EXPECT_LE(rve::balance(cell).unbalanced, settings.unbalanced);
     EXPECT_EQ(asked.energy[0], rve::storedEnergy(cell) / cell.volume);
-    const double gone = (cell.state.book.work - work - (rve::storedEnergy(cell) - stored)) / cell.volume;
-    EXPECT_NEAR(asked.dissipated[0], gone, 0.01 * (std::abs(cell.state.book.work - work) / cell.volume));
+    const double gone = (cell.state.ledger.work - work - (rve::storedEnergy(cell) - stored)) / cell.volume;
+    EXPECT_NEAR(asked.dissipated[0], gone, 0.01 * (std::abs(cell.state.ledger.work - work) / cell.volume));
     EXPECT_GT(asked.dissipated[0], 0.0);
   }
 }
 
 TEST(CellField, TangentIsTheDerivativeOfTheAnswer) {
-  const rve::Cell cell = stickingCell();
+  const rve::Rve cell = stickingCell();
   Asked asked(cellField({cell}, QuasiStaticCells{.unbalanced = 1e-10}));
   const Eigen::Matrix3d F = plane(1.0005, 4e-4, -3e-4, 0.999);
   asked(F);
@@ -146,15 +146,15 @@ TEST(CellField, WhatACellCannotAnswerIsSaid) {
 
 TEST(CellField, WrongBanksAndSettingsAreRefused) {
   EXPECT_THROW(cellField({}), InputError);
-  rve::Cell other = threeCells()[1];
+  rve::Rve other = threeCells()[1];
   rve::Springs springs = other.springs;
   springs.modulus *= 2.0;
   rve::setSprings(other, springs);
   EXPECT_THROW(cellField({threeCells()[0], other}), InputError);
-  rve::Cell deformed = threeCells()[0];
+  rve::Rve deformed = threeCells()[0];
   relax(deformed, plane(0.999, 0, 0, 1.0), {});
   EXPECT_THROW(cellField({deformed}), InputError);
-  rve::Cell pushed = threeCells()[0];
+  rve::Rve pushed = threeCells()[0];
   rve::displace(pushed, rve::scaled(pushed.state.force, 1e-9), rve::scaled(pushed.state.torque, 0.0));
   pushed.state.v[0][0] = 1e-3;
   EXPECT_THROW(cellField({pushed}), InputError);
@@ -165,12 +165,12 @@ TEST(CellField, WrongBanksAndSettingsAreRefused) {
   EXPECT_THROW(cellField(oneCell(), QuasiStaticCells{.path = {.rest = {.steps = 0}}}), InputError);
   EXPECT_THROW(cellField(oneCell(), DynamicCells{.strainPerStep = 0.0}), InputError);
   EXPECT_THROW(cellField(oneCell(), DynamicCells{.damping = 1.0}), InputError);
-  EXPECT_THROW(cellField(oneCell(), DynamicCells{.stepShare = 1.0}), InputError);
+  EXPECT_THROW(cellField(oneCell(), DynamicCells{.stepFraction = 1.0}), InputError);
 }
 
 TEST(CellField, SmallCellsAreMarked) {
   EXPECT_NE(cellField(oneCell())->name().find("fewer than 100 grains"), std::string::npos);
-  const rve::Cell cell = rve::pressedDiscs(120);
+  const rve::Rve cell = rve::pressedDiscs(120);
   EXPECT_EQ(whySmall(cell), "");
   EXPECT_EQ(cellField({cell})->name(), "cells of 120 discs");
 }

@@ -11,7 +11,7 @@ using rve::plane;
 
 TEST(DynamicCells, StepsOfGrainsStrainThemNoMoreThanAsked) {
   const DynamicCells settings{.strainPerStep = 1e-5, .damping = 0.2};
-  rve::Cell whole = threeCells()[0], parts = whole;
+  rve::Rve whole = threeCells()[0], parts = whole;
   const Eigen::Matrix3d F = plane(1.0, 0.0, 0.0, 1.0 - 9.5e-5);
   stepTo(whole, F, settings);
   for (int k = 1; k <= 10; ++k) {
@@ -24,8 +24,8 @@ TEST(DynamicCells, StepsOfGrainsStrainThemNoMoreThanAsked) {
 
 /// The biaxial body, sheared at a speed that the waves in it pass many times.
 struct Moving : Biaxial {
-  explicit Moving(std::vector<rve::Cell> bank = threeCells(), double rate = 0.05)
-      : Biaxial({1, 2}, cellField(std::move(bank), DynamicCells{}), fem::ElementShape::quad4, rate) {
+  explicit Moving(std::vector<rve::Rve> samples = threeCells(), double rate = 0.05)
+      : Biaxial({1, 2}, cellField(std::move(samples), DynamicCells{}), fem::ElementShape::quad4, rate) {
     fem::addMass(model);
   }
 };
@@ -35,7 +35,7 @@ constexpr double dt = 2e-5;
 TEST(DynamicCells, PointsOfARunAreStandAloneCellsToTheLastBit) {
   Moving body;
   fem::ExplicitIntegrator run(body.model, dt);
-  std::vector<rve::Cell> cells;
+  std::vector<rve::Rve> cells;
   for (int p = 0; p < 8; ++p) cells.push_back(threeCells()[static_cast<std::size_t>(p / 4 + p % 4) % 3]);
   for (int k = 0; k < 50; ++k) {
     run.step();
@@ -84,7 +84,7 @@ TEST(DynamicCells, SlowRunsAreNearRest) {
 }
 
 TEST(DynamicCells, StepsOutOfReachAreRefused) {
-  rve::Cell cell = threeCells()[0];
+  rve::Rve cell = threeCells()[0];
   EXPECT_THROW(stepTo(cell, plane(-1.0, 0, 0, 1.0), {}), InputError);
   Eigen::Matrix3d outward = plane(1, 0, 0, 1);
   outward(2, 2) = 1.001;
@@ -92,7 +92,7 @@ TEST(DynamicCells, StepsOutOfReachAreRefused) {
 }
 
 TEST(DynamicCells, StepsWithoutEndAndBadSettingsAreRefused) {
-  rve::Cell cell = threeCells()[0];
+  rve::Rve cell = threeCells()[0];
   const Eigen::Matrix3d F = rve::plane(1.0, 0.0, 0.0, 0.999);
   EXPECT_THROW(stepTo(cell, F, {.strainPerStep = 1e-13}), NumericalError);
   EXPECT_THROW(stepTo(cell, rve::plane(1e6, 0.0, 0.0, 1.0), {}), NumericalError);

@@ -21,7 +21,7 @@ TEST(StaticsOfCells, PointsOfAnElementAreStandAloneCellsToTheLastBit) {
     ASSERT_GE(samples.size(), 2u);
     double side = 0.0, height = 0.0;
     for (std::size_t p = 0; p < 4; ++p) {
-      rve::Cell cell = threeCells()[0];
+      rve::Rve cell = threeCells()[0];
       for (const fem::Solid::Sample& sample : samples) {
         rve::followPath(cell, matrixAt(sample.F, p), {.rest = {.unbalanced = 1e-6}});
         EXPECT_EQ(matrixAt(sample.P, p), rve::nominalStress(cell));
@@ -142,7 +142,7 @@ TEST(StaticsOfCells, TheNetworkConvergesFasterThanUniformStrainToTheSame) {
     return std::tuple(report.iterations, report.factorisations, body.sample().P);
   };
   const auto [few, renewed, P] = run({}, 0.0);
-  const auto [more, renewedToo, Q] = run({.tangent = Operator::uniformStrain}, 0.0);
+  const auto [more, renewedToo, Q] = run({.tangent = Operator::voigtTangent}, 0.0);
   const auto [some, frozen, R] = run({}, 0.5);
   EXPECT_GT(more, few);
   EXPECT_LT(frozen, renewed);
@@ -159,21 +159,21 @@ TEST(StaticsOfCells, EveryOperatorLeadsToTheSame) {
     EXPECT_EQ(report.cuts, 0);
     return std::pair(report.iterations, body.sample().P);
   };
-  const auto [iterations, P] = run(Operator::network);
+  const auto [iterations, P] = run(Operator::elasticTangent);
   for (const Operator other :
-       {Operator::slidingNetwork, Operator::elasticProbe, Operator::pathProbe, Operator::frozenMean}) {
+       {Operator::frictionalTangent, Operator::elasticProbe, Operator::numericalTangent, Operator::averagedTangent}) {
     const auto [count, Q] = run(other);
     for (std::size_t p = 0; p < 4; ++p)
       EXPECT_LT((matrixAt(Q, p) - matrixAt(P, p)).norm(), 1e-3 * matrixAt(P, p).norm());
-    EXPECT_LE(count, other == Operator::slidingNetwork ? 2 * iterations : iterations);
+    EXPECT_LE(count, other == Operator::frictionalTangent ? 2 * iterations : iterations);
   }
 }
 
 TEST(StaticsOfCells, FrozenMeansFreezeWherePointsSoftenAndGoToBytes) {
-  const auto field = [] { return cellField(oneCell(), QuasiStaticCells{.tangent = Operator::frozenMean}); };
+  const auto field = [] { return cellField(oneCell(), QuasiStaticCells{.tangent = Operator::averagedTangent}); };
   Asked cell(field());
   const auto at = [](int step) { return rve::plane(1.0 + 3e-3 * step, 0.0, 0.0, 1.0 - 3e-3 * step); };
-  rve::FrozenMean expected;
+  rve::AveragedTangent expected;
   int steps = 0;
   while (!expected.frozen && ++steps < 40) {
     const rve::Tangent tangent = cell.tangentAt(at(steps));

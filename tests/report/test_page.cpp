@@ -27,7 +27,7 @@ step 8.1429e-07 s, 8.1429e-07 s of the solids; at most 4.06467e-06 s, set by ele
 momentum (kg m/s) and angular momentum about the origin (kg m^2/s)
   now                                 1.6796e-04  2.3863e-04  2.4066e-02 -2.7360e-05 -3.9850e-03  3.8971e-05
   residual over all impulses 3.21553e-15, over their moments 2.83337e-14; mass 0.109489 kg, residual 1e-17 kg
-  stage                            seconds     share   us per call
+  stage                            seconds     fraction   us per call
   solids kick and drift              0.085    99.1 %           1.7
 )";
 

@@ -100,13 +100,13 @@ TEST(StudyVerb, TellsTheOrderAndTheGrowthOfTheEnergy) {
     const double kinetic = run["particles_kinetic_J"].get<double>();
     EXPECT_GT(kinetic, 5e-4);
     EXPECT_NEAR(run["changed_hands_J"].get<double>(), kinetic, 0.01 * kinetic);
-    EXPECT_NEAR(run["largest_residual_share"].get<double>(),
+    EXPECT_NEAR(run["largest_residual_fraction"].get<double>(),
                 run["largest_residual_J"].get<double>() / run["changed_hands_J"].get<double>(), 1e-15);
   }
   const std::string csv = readText(bounce.folder / "out/energy.csv"),
                     html = readText(bounce.folder / "out/energy.html");
   const double ratio =
-      runs[0]["largest_residual_share"].get<double>() / runs[1]["largest_residual_share"].get<double>();
+      runs[0]["largest_residual_fraction"].get<double>() / runs[1]["largest_residual_fraction"].get<double>();
   EXPECT_NEAR(std::log2(ratio), 2.0, 0.3);  // of the second order, told in the table
   EXPECT_NE(html.find("Residual against step"), std::string::npos);
   EXPECT_NE(html.find("particles_kinetic_J"), std::string::npos);

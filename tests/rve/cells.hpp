@@ -5,43 +5,43 @@
 #include <random>
 #include <vector>
 
-#include "dovetail/rve/cell.hpp"
 #include "dovetail/rve/equilibrium.hpp"
 #include "dovetail/rve/packing.hpp"
+#include "dovetail/rve/rve.hpp"
 
 namespace dovetail::rve {
 
 inline Springs ordinarySprings() { return {.modulus = 6e8, .tangential = 0.8, .friction = 0.5}; }
 
 /// Random discs at rest under 100 kPa, prepared without friction: dense, no tangential spring stretched.
-inline Cell pressedDiscs(int count, std::uint64_t seed = 1) {
-  Cell cell = randomCell({.count = count, .seed = seed}, ordinarySprings());
+inline Rve pressedDiscs(int count, std::uint64_t seed = 1) {
+  Rve cell = randomCell({.count = count, .seed = seed}, ordinarySprings());
   compress(cell, {.pressure = {1e5, 1e5, 1e5}, .friction = 0.0, .rest = {.unbalanced = 1e-6}});
   polish(cell);
   return cell;
 }
 
-inline Cell pressedSpheres(int count, std::uint64_t seed = 1) {
-  Cell cell = randomCell({.shape = Shape::sphere,
-                          .count = count,
-                          .sizes = dem::UniformSizes{4e-3, 6e-3},
-                          .solidFraction = 0.55,
-                          .seed = seed},
-                         ordinarySprings());
+inline Rve pressedSpheres(int count, std::uint64_t seed = 1) {
+  Rve cell = randomCell({.shape = Shape::sphere,
+                         .count = count,
+                         .sizes = dem::UniformSizes{4e-3, 6e-3},
+                         .solidFraction = 0.55,
+                         .seed = seed},
+                        ordinarySprings());
   compress(cell, {.pressure = {1e6, 1e6, 1e6}, .friction = 0.0, .rest = {.unbalanced = 1e-6}});
   polish(cell);
   return cell;
 }
 
 /// n × n discs of radius 1.02 mm, 2 mm apart, k_n = 1e4 N/m, 1 m thick (Liu 2018, Table 2.4).
-inline Cell squareArray(int n, double radius = 1.02e-3) {
+inline Rve squareArray(int n, double radius = 1.02e-3) {
   Grains grains;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) grains.centre.push_back({2e-3 * i, 2e-3 * j, 0.0});
   grains.radius.assign(grains.centre.size(), radius);
   const double side = 2e-3 * n;
-  return makeCell(grains, {{Vec3{side, 0, 0}, Vec3{0, side, 0}, Vec3{0, 0, 1}}, {true, true, false}},
-                  {.stiffness = 1e4, .tangential = 0.2, .friction = 0.4});
+  return makeRve(grains, {{Vec3{side, 0, 0}, Vec3{0, side, 0}, Vec3{0, 0, 1}}, {true, true, false}},
+                 {.stiffness = 1e4, .tangential = 0.2, .friction = 0.4});
 }
 
 inline Components randomMotion(const Components& like, double size, std::mt19937& random) {

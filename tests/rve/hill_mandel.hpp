@@ -5,15 +5,15 @@
 #include <cmath>
 #include <random>
 
-#include "../../src/rve/bonded.hpp"
-#include "../../src/rve/projection.hpp"
-#include "../../src/rve/touching.hpp"
+#include "../../src/rve/contacts/bonded.hpp"
+#include "../../src/rve/contacts/touching.hpp"
+#include "../../src/rve/motion/projection.hpp"
 #include "cells.hpp"
 
 namespace dovetail::rve {
 
 /// V P̄ : δF against the virtual work of all contacts, for a random δF and any fluctuation that the conditions leave.
-inline double hillMandelError(const Cell& cell, std::mt19937& random) {
+inline double hillMandelError(const Rve& cell, std::mt19937& random) {
   Components w = randomMotion(cell.state.v, 1e-2 * meanDiameter(cell), random);
   Components theta = randomMotion(cell.state.spin, 1e-2, random);
   project(cell, w, theta);
@@ -35,8 +35,8 @@ inline double hillMandelError(const Cell& cell, std::mt19937& random) {
   });
   forEachBond(cell, [&](const BondTouch& bond) {
     const double armI = bond.armI(cell), thetaI = theta[2][bond.i] + spin, thetaJ = theta[2][bond.j] + spin;
-    work += dot(bond.forceOnI(), moved(bond.j) - moved(bond.i)) - armI * bond.hold * thetaI -
-            (bond.distance - armI) * bond.hold * thetaJ + bond.moment * (thetaI - thetaJ);
+    work += dot(bond.forceOnI(), moved(bond.j) - moved(bond.i)) - armI * bond.tangentialForce * thetaI -
+            (bond.distance - armI) * bond.tangentialForce * thetaJ + bond.moment * (thetaI - thetaJ);
   });
   const double given = cell.volume * stressOfReactions(cell).topLeftCorner<2, 2>().cwiseProduct(dF).sum();
   return std::abs(given - work) / std::abs(given);

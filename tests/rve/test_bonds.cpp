@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/rve/cell_archive.hpp"
 #include "dovetail/rve/operators.hpp"
+#include "dovetail/rve/rve_archive.hpp"
 #include "hill_mandel.hpp"
 #include "ledger.hpp"
 
@@ -22,23 +22,23 @@ BondLaw law(double times) {
           .bendingStrength = 0.3 * times};
 }
 
-Cell bonded(int count, double times) {
-  Cell cell = pressedDiscs(count);
+Rve bonded(int count, double times) {
+  Rve cell = pressedDiscs(count);
   bond(cell, law(times));
   return cell;
 }
 
 /// Two discs that touch, far from all images, bonded.
-Cell pair(const BondLaw& bonds) {
+Rve pair(const BondLaw& bonds) {
   const Grains grains{.centre = {{0.1, 0.1, 0.0}, {0.1199, 0.1, 0.0}}, .radius = {0.01, 0.01}};
-  Cell cell = makeCell(grains, {{Vec3{0.3, 0, 0}, Vec3{0, 0.3, 0}, Vec3{0, 0, 0.1}}, {true, true, false}},
-                       {.stiffness = 1e6, .tangential = 0.5, .friction = 0.4});
+  Rve cell = makeRve(grains, {{Vec3{0.3, 0, 0}, Vec3{0, 0.3, 0}, Vec3{0, 0, 0.1}}, {true, true, false}},
+                     {.stiffness = 1e6, .tangential = 0.5, .friction = 0.4});
   bond(cell, bonds);
   return cell;
 }
 
 TEST(Bonds, CarryWhatTheirContactsCarried) {
-  Cell cell = pressedDiscs(80);
+  Rve cell = pressedDiscs(80);
   followPath(cell, plane(1.001, 0.002, 0.0, 0.998), {.rest = {.unbalanced = 1e-6}});
   const Eigen::Matrix3d before = stress(cell).cauchy;
   const int contacts = balance(cell).contacts;
@@ -47,12 +47,12 @@ TEST(Bonds, CarryWhatTheirContactsCarried) {
   EXPECT_LT((stress(cell).cauchy - before).norm(), 1e-12 * before.norm());
   EXPECT_EQ(balance(cell).bonds, contacts);
   EXPECT_EQ(balance(cell).contacts, contacts);
-  EXPECT_NEAR(cell.state.book.bonds, stored - storedEnergy(cell), 1e-12 * stored);
+  EXPECT_NEAR(cell.state.ledger.bonds, stored - storedEnergy(cell), 1e-12 * stored);
 }
 
 TEST(Bonds, OfTwoDiscsPullSlideAndBendAsTheirLawSays) {
   const BondLaw bonds{.normal = 2e6, .shear = 5e5, .bending = 30.0};
-  Cell cell = pair(bonds);
+  Rve cell = pair(bonds);
   const double pressed = cell.state.force[0][1];
   EXPECT_NEAR(pressed, 1e6 * 1e-4, 1e-6);
   const double e = 1e-6, turn = 1e-5;
@@ -61,59 +61,59 @@ TEST(Bonds, OfTwoDiscsPullSlideAndBendAsTheirLawSays) {
   w[1][1] = e;
   theta[2][0] = turn;
   displace(cell, w, theta);
-  const double distance = 0.0199 + 2e-4, tilt = e / distance, press = pressed - 2e6 * 2e-4;
-  const double hold = 5e5 * (e - tilt * 2e-4 - 0.5 * distance * turn);
-  EXPECT_NEAR(cell.state.force[0][1], press, 1e-4);
-  EXPECT_NEAR(cell.state.force[1][1], tilt * press - hold, 1e-4 * hold);
-  EXPECT_NEAR(cell.state.torque[2][1], 0.5 * distance * hold + 30.0 * turn, 1e-6 * hold);
+  const double distance = 0.0199 + 2e-4, tilt = e / distance, normalForce = pressed - 2e6 * 2e-4;
+  const double tangentialForce = 5e5 * (e - tilt * 2e-4 - 0.5 * distance * turn);
+  EXPECT_NEAR(cell.state.force[0][1], normalForce, 1e-4);
+  EXPECT_NEAR(cell.state.force[1][1], tilt * normalForce - tangentialForce, 1e-4 * tangentialForce);
+  EXPECT_NEAR(cell.state.torque[2][1], 0.5 * distance * tangentialForce + 30.0 * turn, 1e-6 * tangentialForce);
 }
 
 TEST(Bonds, BreakWhereTheirLawSays) {
   const BondLaw bonds{.normal = 1e6, .shear = 5e5, .bending = 30.0, .tensileStrength = 50.0, .shearStrength = 20.0};
-  for (const double share : {0.99, 1.01}) {
-    Cell cell = pair(bonds);
+  for (const double fraction : {0.99, 1.01}) {
+    Rve cell = pair(bonds);
     Components w = cell.state.v;
-    w[0][1] = 1e-4 + 0.5 * share * 50.0 / 1e6;
-    w[1][1] = 0.5 * share * 20.0 / 5e5;
+    w[0][1] = 1e-4 + 0.5 * fraction * 50.0 / 1e6;
+    w[1][1] = 0.5 * fraction * 20.0 / 5e5;
     displace(cell, w, cell.state.spin);
-    EXPECT_EQ(balance(cell).bonds, share < 1.0 ? 1 : 0);
+    EXPECT_EQ(balance(cell).bonds, fraction < 1.0 ? 1 : 0);
     const double stored = 0.5 * 25.0 * 25.0 / 1e6 + 0.5 * 10.0 * 10.0 / 5e5;
-    EXPECT_NEAR(cell.state.book.bonds, share < 1.0 ? 0.0 : stored, 0.05 * stored);
-    EXPECT_EQ(cell.state.force[0][1] == 0.0, share > 1.0);
+    EXPECT_NEAR(cell.state.ledger.bonds, fraction < 1.0 ? 0.0 : stored, 0.05 * stored);
+    EXPECT_EQ(cell.state.force[0][1] == 0.0, fraction > 1.0);
   }
 }
 
-TEST(Bonds, NetworkIsTheProbeWithBonds) {
-  Cell cell = bonded(80, 1e6);
+TEST(Bonds, ElasticTangentIsTheProbeWithBonds) {
+  Rve cell = bonded(80, 1e6);
   followPath(cell, plane(1.001, 0.002, 0.0, 0.999), {.rest = {.unbalanced = 1e-7}});
-  const Tangent A = network(cell), probe = elasticProbe(cell);
+  const Tangent A = elasticTangent(cell), probe = elasticProbe(cell);
   EXPECT_LT((A - probe).norm(), 1e-4 * A.norm());
   cell = bonded(80, 1.0);
   followPath(cell, plane(1.003, 0.004, 0.0, 0.994), {.rest = {.unbalanced = 1e-7}});
   const Balance found = balance(cell);
   ASSERT_GT(found.bonds, 0);
   ASSERT_LT(found.bonds, found.contacts);
-  const Tangent B = network(cell), broken = elasticProbe(cell);
+  const Tangent B = elasticTangent(cell), broken = elasticProbe(cell);
   EXPECT_LT((B - broken).norm(), 1e-4 * B.norm());
 }
 
 TEST(Bonds, TheLedgerClosesWhileBondsBreak) {
-  Cell cell = bonded(100, 1.0);
-  cell.state.book = {};
+  Rve cell = bonded(100, 1.0);
+  cell.state.ledger = {};
   const double before = storedEnergy(cell);
   const int bonds = balance(cell).bonds;
   for (int k = 1; k <= 4; ++k)
-    followPath(cell, plane(1.0 + 0.005 * k, 0, 0, 1.0 - 0.007 * k), {.stepShare = 0.3, .rest = {.steps = 0}});
+    followPath(cell, plane(1.0 + 0.005 * k, 0, 0, 1.0 - 0.007 * k), {.stepFraction = 0.3, .rest = {.steps = 0}});
   EXPECT_LT(balance(cell).bonds, bonds);
-  EXPECT_GT(cell.state.book.bonds, 1e-2 * cell.state.book.work);
+  EXPECT_GT(cell.state.ledger.bonds, 1e-2 * cell.state.ledger.work);
   EXPECT_LT(std::abs(ledgerResidual(cell, before)), 1e-3);
 }
 
 TEST(Bonds, HillAndMandelsConditionHoldsWithBonds) {
   std::mt19937 random(4);
-  const Cell start = pressedDiscs(100);
+  const Rve start = pressedDiscs(100);
   for (const Conditions& conditions : kindsOfFrames()) {
-    Cell cell = framed(start, conditions);
+    Rve cell = framed(start, conditions);
     bond(cell, law(4.0));
     const int bonds = balance(cell).bonds;
     for (int k = 1; k <= 3; ++k)
@@ -126,7 +126,7 @@ TEST(Bonds, HillAndMandelsConditionHoldsWithBonds) {
   }
 }
 
-std::vector<char> bytesOf(const Cell& cell) {
+std::vector<char> bytesOf(const Rve& cell) {
   ByteWriter archive;
   writeState(cell, cell.state, archive);
   return archive.bytes();
@@ -134,13 +134,13 @@ std::vector<char> bytesOf(const Cell& cell) {
 
 TEST(Bonds, GoOnFromAFileWithTheSameDigits) {
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "bonded.cells";
-  Cell cell = bonded(80, 1.0);
+  Rve cell = bonded(80, 1.0);
   followPath(cell, plane(1.003, 0.004, 0.0, 0.994));
-  writeBank(path, std::span(&cell, 1));
-  Cell read = readBank(path).front();
+  writeSamples(path, std::span(&cell, 1));
+  Rve read = readSamples(path).front();
   CellState kept;
   save(cell, kept);
-  const auto goOn = [](Cell& c) {
+  const auto goOn = [](Rve& c) {
     followPath(c, plane(1.006, 0.008, 0.0, 0.988));
     return bytesOf(c);
   };
@@ -153,9 +153,9 @@ TEST(Bonds, GoOnFromAFileWithTheSameDigits) {
 }
 
 TEST(Bonds, WhatCannotBeBondedIsRefused) {
-  Cell spheres = pressedSpheres(48);
+  Rve spheres = pressedSpheres(48);
   EXPECT_THROW(bond(spheres, law(1.0)), InputError);
-  Cell cell = pressedDiscs(60);
+  Rve cell = pressedDiscs(60);
   EXPECT_THROW(bond(cell, {}), InputError);
   EXPECT_THROW(bond(cell, {.normal = 1.0, .shear = -1.0}), InputError);
   EXPECT_THROW(bond(cell, {.normal = 1.0, .tensileStrength = 0.0}), InputError);
@@ -165,7 +165,7 @@ TEST(Bonds, WhatCannotBeBondedIsRefused) {
 }
 
 TEST(Bonds, StretchAsFarAsTheyHold) {
-  Cell cell = pair({.normal = 1e6});
+  Rve cell = pair({.normal = 1e6});
   const double pressed = cell.state.force[0][1];
   for (int k = 0; k < 40; ++k) deform(cell, plane(1.01, 0, 0, 0.99));
   EXPECT_NEAR(cell.state.force[0][1], pressed - 1e6 * 0.0199 * (std::pow(1.01, 40) - 1.0), 1e-6);

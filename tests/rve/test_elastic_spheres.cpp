@@ -4,12 +4,12 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "../../src/rve/touching.hpp"
+#include "../../src/rve/contacts/touching.hpp"
 #include "cells.hpp"
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/rve/cell_archive.hpp"
 #include "dovetail/rve/operators.hpp"
+#include "dovetail/rve/rve_archive.hpp"
 #include "ledger.hpp"
 
 namespace dovetail::rve {
@@ -17,8 +17,8 @@ namespace {
 
 const Springs elastic = hertzMindlin(29e7, 0.15, 0.5);
 
-Cell pressedElasticSpheres() {
-  Cell cell = randomCell(
+Rve pressedElasticSpheres() {
+  Rve cell = randomCell(
       {.shape = Shape::sphere, .count = 48, .sizes = dem::UniformSizes{4e-3, 6e-3}, .solidFraction = 0.55}, elastic);
   compress(cell, {.pressure = {4e5, 4e5, 4e5}, .friction = 0.0, .rest = {.unbalanced = 1e-6}});
   polish(cell);
@@ -37,11 +37,11 @@ TEST(ElasticSpheres, SimpleCubicLatticeHasItsPressureAndModuli) {
   Grains grains{.shape = Shape::sphere};
   for (int k = 0; k < 27; ++k) grains.centre.push_back({double(k % 3), double(k / 3 % 3), double(k / 9)});
   grains.radius.assign(27, radius);
-  const Cell cell = makeCell(grains, {{Vec3{3, 0, 0}, Vec3{0, 3, 0}, Vec3{0, 0, 3}}}, elastic);
+  const Rve cell = makeRve(grains, {{Vec3{3, 0, 0}, Vec3{0, 3, 0}, Vec3{0, 0, 3}}}, elastic);
   const double slope = 2.0 * modulus * std::sqrt(0.5 * radius * overlap);
   EXPECT_NEAR(stress(cell).pressure, 2.0 / 3.0 * slope * overlap, 1e-6 * slope * overlap);
   const double ratio = 2.0 * 0.85 / 1.85;
-  for (const Tangent& A : {network(cell), uniformStrain(cell)}) {
+  for (const Tangent& A : {elasticTangent(cell), voigtTangent(cell)}) {
     EXPECT_NEAR(A(0, 0), slope, 1e-6 * slope);
     EXPECT_NEAR(A(0, 4), 0.0, 1e-6 * slope);
     EXPECT_NEAR(A(1, 1) + A(1, 3), ratio * slope, 1e-6 * slope);
@@ -50,7 +50,7 @@ TEST(ElasticSpheres, SimpleCubicLatticeHasItsPressureAndModuli) {
 
 TEST(ElasticSpheres, ForcesAreSlopesOfEnergyStoredAndLost) {
   std::mt19937 random(7);
-  Cell cell = pressedElasticSpheres();
+  Rve cell = pressedElasticSpheres();
   Springs sticking = elastic;
   sticking.friction = std::numeric_limits<double>::infinity();
   setSprings(cell, sticking);
@@ -59,12 +59,12 @@ TEST(ElasticSpheres, ForcesAreSlopesOfEnergyStoredAndLost) {
   const Components w = randomMotion(cell.state.v, 1e-9, random), theta = randomMotion(cell.state.spin, 1e-7, random);
   const double slope = -scalarProduct(cell.state.force, w) - scalarProduct(cell.state.torque, theta);
   const auto lostOn = [&](double way) {
-    Cell moved = cell;
+    Rve moved = cell;
     displace(moved, scaled(w, way), scaled(theta, way));
-    return moved.state.book.friction - cell.state.book.friction;
+    return moved.state.ledger.friction - cell.state.ledger.friction;
   };
   const auto takenOn = [&](double way) {
-    Cell moved = cell;
+    Rve moved = cell;
     displace(moved, scaled(w, way), scaled(theta, way));
     return storedEnergy(moved) + lostOn(way);
   };
@@ -80,10 +80,10 @@ TEST(ElasticSpheres, TheLedgerOfAPathClosesAsStepsShrink) {
 
 TEST(ElasticSpheres, HillAndMandelsConditionHoldsInSlidingStates) {
   std::mt19937 random(4);
-  Cell cell = pressedElasticSpheres();
+  Rve cell = pressedElasticSpheres();
   for (int k = 1; k <= 4; ++k) followPath(cell, sheared(0.02 * k), {.rest = {.unbalanced = 1e-4}});
   ASSERT_TRUE(relax(cell, {.unbalanced = 1e-9, .steps = 40000}).atRest);
-  EXPECT_GT(cell.state.book.friction, 0.05 * cell.state.book.work);
+  EXPECT_GT(cell.state.ledger.friction, 0.05 * cell.state.ledger.work);
   const Components w = randomMotion(cell.state.v, 1e-2 * meanDiameter(cell), random),
                    theta = randomMotion(cell.state.spin, 1e-2, random);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -103,27 +103,27 @@ TEST(ElasticSpheres, HillAndMandelsConditionHoldsInSlidingStates) {
   EXPECT_NEAR(work, given, 1e-6 * std::abs(given));
 }
 
-TEST(ElasticSpheres, NetworkIsTheProbeWhereNoTangentialSpringIsStretched) {
-  const Cell cell = pressedElasticSpheres();
-  const Tangent A = network(cell), probe = elasticProbe(cell);
+TEST(ElasticSpheres, ElasticTangentIsTheProbeWhereNoTangentialSpringIsStretched) {
+  const Rve cell = pressedElasticSpheres();
+  const Tangent A = elasticTangent(cell), probe = elasticProbe(cell);
   EXPECT_LT((A - probe).norm(), 1e-4 * A.norm());
-  EXPECT_GT(uniformStrain(cell)(0, 0), A(0, 0));
+  EXPECT_GT(voigtTangent(cell)(0, 0), A(0, 0));
 }
 
 TEST(ElasticSpheres, ArchivesHoldTheLaw) {
-  Cell cell = pressedElasticSpheres();
+  Rve cell = pressedElasticSpheres();
   followPath(cell, sheared(0.003), {.rest = {.steps = 0}});
   ByteWriter archive;
   writeState(cell, cell.state, archive);
-  Cell again = cell;
+  Rve again = cell;
   ByteReader bytes(archive.bytes());
   restore(again, readState(cell, bytes));
-  for (Cell* each : {&cell, &again})
+  for (Rve* each : {&cell, &again})
     for (int k = 0; k < 20; ++k) step(*each, 0.5 * each->state.criticalStep, sheared(1e-6));
   EXPECT_EQ(again.state.x, cell.state.x);
   EXPECT_EQ(again.state.contacts.tangent, cell.state.contacts.tangent);
-  EXPECT_EQ(again.state.book.friction, cell.state.book.friction);
-  Cell softer = cell;
+  EXPECT_EQ(again.state.ledger.friction, cell.state.ledger.friction);
+  Rve softer = cell;
   softer.springs.hertz *= 0.5;
   ByteReader same(archive.bytes());
   EXPECT_THROW(readState(softer, same), InputError);
@@ -135,7 +135,7 @@ TEST(ElasticSpheres, WhatIsNoLawIsRefused) {
   EXPECT_THROW(hertzMindlin(29e9, -1.0, 0.5), InputError);
   Springs both = elastic;
   both.modulus = 6e8;
-  Cell spheres = pressedSpheres(48), discs = pressedDiscs(40);
+  Rve spheres = pressedSpheres(48), discs = pressedDiscs(40);
   EXPECT_THROW(setSprings(spheres, both), InputError);
   EXPECT_THROW(setSprings(discs, elastic), InputError);
 }

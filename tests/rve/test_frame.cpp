@@ -14,7 +14,7 @@ namespace {
 
 TEST(Frame, AreasCloseAndMeasureTheVolume) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const Cell cell = framed(pressedDiscs(100, seed), everywhere(Condition::periodic));
+    const Rve cell = framed(pressedDiscs(100, seed), everywhere(Condition::periodic));
     const Frame& frame = cell.frame;
     Vec3 sum;
     Eigen::Matrix2d volumes = Eigen::Matrix2d::Zero();
@@ -35,7 +35,7 @@ TEST(Frame, ArraysHaveTheirStressAtFullAndHalfWeight) {
   const double full[] = {0.0250, 0.0222, 0.0214};
   int k = 0;
   for (const int n : {5, 10, 15}) {
-    Cell cell = framed(squareArray(n - 1), everywhere(Condition::displacement));
+    Rve cell = framed(squareArray(n - 1), everywhere(Condition::displacement));
     ASSERT_EQ(cell.size(), static_cast<std::size_t>(n * n));
     EXPECT_NEAR(-stressOfReactions(cell)(0, 0) / 1e4, 0.02, 1e-12);
     cell.state.contacts.stiffness.assign(cell.state.contacts.size(), 1e4);
@@ -45,16 +45,16 @@ TEST(Frame, ArraysHaveTheirStressAtFullAndHalfWeight) {
 }
 
 TEST(Frame, PeriodicFramesAnswerAsCellsThatRepeat) {
-  Cell wrapped = pressedDiscs(100);
+  Rve wrapped = pressedDiscs(100);
   // What slips depends on the last digits.
   Springs sticking = wrapped.springs;
   sticking.friction = std::numeric_limits<double>::infinity();
   setSprings(wrapped, sticking);
-  Cell cut = framed(wrapped, everywhere(Condition::periodic));
+  Rve cut = framed(wrapped, everywhere(Condition::periodic));
   EXPECT_LT((nominalStress(cut) - nominalStress(wrapped)).norm(), 1e-12 * nominalStress(wrapped).norm());
   for (int k = 1; k <= 3; ++k) {
     const Eigen::Matrix3d F = plane(1.0 + 2e-4 * k, 3e-4 * k, 0.0, 1.0 - 4e-4 * k);
-    for (Cell* cell : {&wrapped, &cut}) {
+    for (Rve* cell : {&wrapped, &cut}) {
       deform(*cell, relativeDeformation(*cell, F));
       const RestReport rest = polish(*cell, 1e-11, 30);
       ASSERT_TRUE(rest.atRest) << rest.unbalanced;
@@ -66,20 +66,20 @@ TEST(Frame, PeriodicFramesAnswerAsCellsThatRepeat) {
 
 TEST(Frame, HillAndMandelsConditionHoldsInEverySpaceInSlidingStates) {
   std::mt19937 random(4);
-  const Cell start = pressedDiscs(100);
+  const Rve start = pressedDiscs(100);
   for (const Conditions& conditions : kindsOfFrames()) {
-    Cell cell = framed(start, conditions);
+    Rve cell = framed(start, conditions);
     // A little compression, so that no space lets the grains fall apart.
     for (int k = 1; k <= 5; ++k) followPath(cell, plane(1, 0.02 * k, 0, 1 - 0.002 * k), {.rest = {.unbalanced = 1e-4}});
     const RestReport rest = relax(cell, {.unbalanced = 1e-8, .steps = 40000});
     EXPECT_TRUE(rest.atRest) << rest.unbalanced;
-    EXPECT_GT(cell.state.book.friction, 0.1 * cell.state.book.work);
+    EXPECT_GT(cell.state.ledger.friction, 0.1 * cell.state.ledger.work);
     for (int k = 0; k < 3; ++k) EXPECT_LT(hillMandelError(cell, random), 1e-6);
   }
 }
 
 TEST(Frame, TheLedgerOfAPathClosesInEverySpaceAsStepsShrink) {
-  const Cell start = pressedDiscs(100);
+  const Rve start = pressedDiscs(100);
   for (const Conditions& conditions : kindsOfFrames())
     expectLedgerClosesAsStepsShrink(framed(start, conditions), 3,
                                     [](int k) { return plane(1, 0.005 * k, 0, 1 - 0.002 * k); });
@@ -89,7 +89,7 @@ TEST(Frame, TheLedgerOfAPathClosesInEverySpaceAsStepsShrink) {
 double meanShearStress(Condition condition) {
   double sum = 0.0;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-    Cell cell = framed(pressedDiscs(100, seed), everywhere(condition));
+    Rve cell = framed(pressedDiscs(100, seed), everywhere(condition));
     double most = 0.0;
     for (int k = 1; k <= 4; ++k) {
       followPath(cell, plane(1, 0.0025 * k, 0, 1 - 0.001 * k), {.rest = {.unbalanced = 1e-3}});
@@ -108,7 +108,7 @@ TEST(Frame, MeansOfPathsAreStifferTheLessTheyLeaveFree) {
 }
 
 TEST(Frame, ConditionsHoldOnTheWay) {
-  Cell cell = framed(pressedDiscs(100), everywhere(Condition::traction));
+  Rve cell = framed(pressedDiscs(100), everywhere(Condition::traction));
   followPath(cell, plane(1, 0.01, 0, 1), {.rest = {.unbalanced = 1e-9}});
   const Eigen::Matrix2d F = cell.state.F.topLeftCorner<2, 2>();
   Eigen::Matrix2d mean = Eigen::Matrix2d::Zero();
@@ -132,11 +132,11 @@ TEST(Frame, ConditionsHoldOnTheWay) {
 
 TEST(Frame, WhatCannotBeFramedIsRefused) {
   EXPECT_THROW(framed(pressedSpheres(48), everywhere(Condition::periodic)), InputError);
-  const Cell cell = squareArray(4);
-  const Cell cut = framed(cell, everywhere(Condition::periodic));
+  const Rve cell = squareArray(4);
+  const Rve cut = framed(cell, everywhere(Condition::periodic));
   EXPECT_THROW(framed(cut, everywhere(Condition::periodic)), InputError);
   EXPECT_THROW(framed(cell, {.bottom = Condition::displacement}), InputError);
-  Cell pressed = cut;
+  Rve pressed = cut;
   EXPECT_THROW(compress(pressed, {}), InputError);
 }
 

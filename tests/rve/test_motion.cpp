@@ -11,11 +11,11 @@ namespace dovetail::rve {
 namespace {
 
 TEST(Motion, ATurnInManyStepsTurnsTheStress) {
-  Cell start = pressedDiscs(60);
+  Rve start = pressedDiscs(60);
   followPath(start, plane(1.005, 0.004, 0.0, 0.99));
   const Eigen::Matrix3d R = turned(0.6), expected = R * stress(start).cauchy * R.transpose();
   const auto errorOf = [&](int steps) {
-    Cell cell = start;
+    Rve cell = start;
     for (int k = 0; k < steps; ++k) deform(cell, turned(0.6 / steps));
     return (stress(cell).cauchy - expected).norm() / expected.norm();
   };
@@ -25,7 +25,7 @@ TEST(Motion, ATurnInManyStepsTurnsTheStress) {
 }
 
 TEST(Motion, SpheresTurnWithTheirCellAsStepsShrink) {
-  Cell start = pressedSpheres(48);
+  Rve start = pressedSpheres(48);
   Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
   shear(0, 1) = 0.01;
   shear(2, 2) = 0.99;
@@ -39,7 +39,7 @@ TEST(Motion, SpheresTurnWithTheirCellAsStepsShrink) {
   };
   const Eigen::Matrix3d expected = turnedBy(0.5) * stress(start).cauchy * turnedBy(0.5).transpose();
   const auto errorOf = [&](int steps) {
-    Cell cell = start;
+    Rve cell = start;
     for (int k = 0; k < steps; ++k) deform(cell, turnedBy(0.5 / steps));
     return (stress(cell).cauchy - expected).norm() / expected.norm();
   };
@@ -54,7 +54,7 @@ TEST(Motion, TheLedgerOfAPathClosesAsStepsShrink) {
 }
 
 TEST(Motion, AClosedLoopWithoutSlippingReturnsItsWork) {
-  Cell cell = pressedDiscs(60);
+  Rve cell = pressedDiscs(60);
   Springs smooth = cell.springs;
   smooth.friction = 0.0;
   setSprings(cell, smooth);
@@ -69,14 +69,14 @@ TEST(Motion, AClosedLoopWithoutSlippingReturnsItsWork) {
 }
 
 TEST(Motion, APathInPartsConverges) {
-  const Cell start = pressedDiscs(100);
+  const Rve start = pressedDiscs(100);
   const auto stressAfter = [&](int parts) {
-    Cell cell = start;
+    Rve cell = start;
     for (int k = 1; k <= parts; ++k) {
       deform(cell, relativeDeformation(cell, plane(1 + 0.002 * k / parts, 0, 0, 1 - 0.004 * k / parts)));
       EXPECT_TRUE(relax(cell, {.unbalanced = 1e-5}).atRest);
     }
-    EXPECT_GT(cell.state.book.friction, 1e-3 * cell.state.book.work);
+    EXPECT_GT(cell.state.ledger.friction, 1e-3 * cell.state.ledger.work);
     return stress(cell).cauchy;
   };
   const Eigen::Matrix3d fine = stressAfter(1000);
@@ -88,7 +88,7 @@ TEST(Motion, APathInPartsConverges) {
 
 TEST(Motion, ReductionOfTheLatticeOnTheWayIsNotFelt) {
   // A shear of more than one, in which a reduced lattice and its images change several times.
-  Cell cell = squareArray(6, 1.001e-3);
+  Rve cell = squareArray(6, 1.001e-3);
   Springs smooth = cell.springs;
   smooth.friction = 0.0;
   setSprings(cell, smooth);
@@ -101,19 +101,19 @@ TEST(Motion, ReductionOfTheLatticeOnTheWayIsNotFelt) {
 }
 
 TEST(Motion, PathsTellHowFastTheyWereAndEndWhereTheyShall) {
-  Cell cell = pressedDiscs(60);
+  Rve cell = pressedDiscs(60);
   const Eigen::Matrix3d F = plane(1.002, 0.003, -0.001, 0.996);
   const PathReport report = followPath(cell, F, {.inertialNumber = 1e-3, .rest = {.unbalanced = 1e-6}});
   EXPECT_LT((cell.state.F - F).norm(), 1e-14);
   EXPECT_TRUE(report.rest.atRest);
-  EXPECT_LT(report.kineticShare, 1e-2);
+  EXPECT_LT(report.kineticFraction, 1e-2);
   EXPECT_GT(report.steps, 10);
   EXPECT_EQ(kineticEnergy(cell), 0.0);
   EXPECT_LT(stress(cell).asymmetry, 1e-5);
 }
 
 TEST(Motion, StepsAboveTheCriticalOneAreRefused) {
-  Cell cell = pressedDiscs(40);
+  Rve cell = pressedDiscs(40);
   const CellState before = cell.state;
   for (const double dt : {1.01 * before.criticalStep, 0.0, -1e-9, std::nan("")})
     EXPECT_THROW(step(cell, dt), InputError);
@@ -122,14 +122,14 @@ TEST(Motion, StepsAboveTheCriticalOneAreRefused) {
 }
 
 TEST(Motion, PathsThatCannotBeGoneAreRefused) {
-  Cell cell = pressedDiscs(40);
+  Rve cell = pressedDiscs(40);
   EXPECT_THROW(followPath(cell, plane(1.06, 0, 0, 1)), InputError);
   EXPECT_THROW(followPath(cell, plane(1, 0, 0, -1)), InputError);
   EXPECT_THROW(followPath(cell, 1.01 * Eigen::Matrix3d::Identity()), InputError);
   EXPECT_THROW(followPath(cell, plane(1.01, 0, 0, 1), {.inertialNumber = 0.1}), InputError);
   EXPECT_THROW(followPath(cell, plane(1.01, 0, 0, 1), {.damping = 1.0}), InputError);
   EXPECT_THROW(relax(cell, {.unbalanced = 0.0}), InputError);
-  EXPECT_THROW(relax(cell, {.stepShare = 1.5}), InputError);
+  EXPECT_THROW(relax(cell, {.stepFraction = 1.5}), InputError);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "../../src/rve/network.hpp"
+#include "../../src/rve/tangent/network.hpp"
 #include "cells.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/rve/operators.hpp"
@@ -23,10 +23,10 @@ TEST(Operators, TriangularLatticeHasItsModuli) {
     for (int i = 0; i < 6; ++i) grains.centre.push_back({i + 0.5 * (j % 2), 0.5 * std::sqrt(3.0) * j, 0.0});
   grains.radius.assign(36, radius);
   const double t = 0.3;
-  const Cell cell =
-      makeCell(grains, {{Vec3{6, 0, 0}, Vec3{0, 3.0 * std::sqrt(3.0), 0}, Vec3{0, 0, t}}, {true, true, false}}, even);
+  const Rve cell =
+      makeRve(grains, {{Vec3{6, 0, 0}, Vec3{0, 3.0 * std::sqrt(3.0), 0}, Vec3{0, 0, t}}, {true, true, false}}, even);
   EXPECT_EQ(balance(cell).coordination, 6.0);
-  for (const Tangent& A : {network(cell), uniformStrain(cell)}) {
+  for (const Tangent& A : {elasticTangent(cell), voigtTangent(cell)}) {
     const double unit = 2.0 / (std::sqrt(3.0) * t) * kn;
     EXPECT_NEAR(component(A, 0, 0, 0, 0), unit * (9.0 / 8.0 + 3.0 / 8.0 * ratio), 1e-7 * unit);
     EXPECT_NEAR(component(A, 1, 1, 1, 1), unit * (9.0 / 8.0 + 3.0 / 8.0 * ratio), 1e-7 * unit);
@@ -41,8 +41,8 @@ TEST(Operators, SquareLatticeHasItsModuli) {
   Grains grains;
   for (int k = 0; k < 25; ++k) grains.centre.push_back({double(k % 5), double(k / 5), 0.0});
   grains.radius.assign(25, radius);
-  const Cell cell = makeCell(grains, {{Vec3{5, 0, 0}, Vec3{0, 5, 0}, Vec3{0, 0, 1}}, {true, true, false}}, even);
-  const Tangent A = network(cell);
+  const Rve cell = makeRve(grains, {{Vec3{5, 0, 0}, Vec3{0, 5, 0}, Vec3{0, 0, 1}}, {true, true, false}}, even);
+  const Tangent A = elasticTangent(cell);
   EXPECT_NEAR(component(A, 0, 0, 0, 0), kn, 1e-7 * kn);
   EXPECT_NEAR(component(A, 0, 0, 1, 1), 0.0, 1e-7 * kn);
   EXPECT_NEAR(component(A, 0, 1, 0, 1) + component(A, 0, 1, 1, 0), ratio * kn, 1e-7 * kn);
@@ -52,8 +52,8 @@ TEST(Operators, SimpleCubicLatticeHasItsModuli) {
   Grains grains{.shape = Shape::sphere};
   for (int k = 0; k < 27; ++k) grains.centre.push_back({double(k % 3), double(k / 3 % 3), double(k / 9)});
   grains.radius.assign(27, radius);
-  const Cell cell = makeCell(grains, {{Vec3{3, 0, 0}, Vec3{0, 3, 0}, Vec3{0, 0, 3}}}, even);
-  for (const Tangent& A : {network(cell), uniformStrain(cell)})
+  const Rve cell = makeRve(grains, {{Vec3{3, 0, 0}, Vec3{0, 3, 0}, Vec3{0, 0, 3}}}, even);
+  for (const Tangent& A : {elasticTangent(cell), voigtTangent(cell)})
     for (int k = 0; k < 3; ++k) {
       const int l = (k + 1) % 3;
       EXPECT_NEAR(component(A, k, k, k, k), kn, 1e-7 * kn);
@@ -62,35 +62,35 @@ TEST(Operators, SimpleCubicLatticeHasItsModuli) {
     }
 }
 
-void expectNetworkIsProbe(const Cell& cell) {
-  const Tangent A = network(cell), probe = elasticProbe(cell);
+void expectElasticTangentIsProbe(const Rve& cell) {
+  const Tangent A = elasticTangent(cell), probe = elasticProbe(cell);
   EXPECT_LT((A - probe).norm(), 1e-4 * A.norm());
 }
 
-TEST(Operators, NetworkIsTheProbeOfPressedDiscs) { expectNetworkIsProbe(pressedDiscs(80)); }
-TEST(Operators, NetworkIsTheProbeOfPressedSpheres) { expectNetworkIsProbe(pressedSpheres(48)); }
-TEST(Operators, NetworkIsTheProbeOfShearedDiscs) {
-  Cell cell = pressedDiscs(80);
+TEST(Operators, ElasticTangentIsTheProbeOfPressedDiscs) { expectElasticTangentIsProbe(pressedDiscs(80)); }
+TEST(Operators, ElasticTangentIsTheProbeOfPressedSpheres) { expectElasticTangentIsProbe(pressedSpheres(48)); }
+TEST(Operators, ElasticTangentIsTheProbeOfShearedDiscs) {
+  Rve cell = pressedDiscs(80);
   followPath(cell, plane(1.003, 0.004, 0.0, 0.994), {.rest = {.unbalanced = 1e-7}});
-  ASSERT_GT(cell.state.book.friction, 0.0);
-  expectNetworkIsProbe(cell);
+  ASSERT_GT(cell.state.ledger.friction, 0.0);
+  expectElasticTangentIsProbe(cell);
 }
-TEST(Operators, NetworkIsTheProbeOfShearedSpheres) {
-  Cell cell = pressedSpheres(48);
+TEST(Operators, ElasticTangentIsTheProbeOfShearedSpheres) {
+  Rve cell = pressedSpheres(48);
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F(0, 1) = 2e-3;
   F(2, 2) = 0.999;
   followPath(cell, F, {.rest = {.unbalanced = 1e-7}});
-  expectNetworkIsProbe(cell);
+  expectElasticTangentIsProbe(cell);
 }
-TEST(Operators, NetworkIsTheProbeOfRollingDiscs) {
-  Cell cell = pressedDiscs(80);
+TEST(Operators, ElasticTangentIsTheProbeOfRollingDiscs) {
+  Rve cell = pressedDiscs(80);
   Springs rolling = cell.springs;
   rolling.rolling = 0.5;
   rolling.rollingLimit = 1e6;
   setSprings(cell, rolling);
   followPath(cell, plane(1.001, 0.001, 0.0, 0.998), {.rest = {.unbalanced = 1e-7}});
-  expectNetworkIsProbe(cell);
+  expectElasticTangentIsProbe(cell);
 }
 
 Eigen::MatrixXd inPlaneSymmetric(const Tangent& A) {
@@ -106,8 +106,8 @@ double leastEigenvalue(const Eigen::MatrixXd& m) {
 }
 
 TEST(Operators, UniformStrainIsStifferInEveryStretch) {
-  const Cell cell = pressedDiscs(100);
-  const Tangent bound = uniformStrain(cell), A = network(cell);
+  const Rve cell = pressedDiscs(100);
+  const Tangent bound = voigtTangent(cell), A = elasticTangent(cell);
   // Symmetric strains: what contacts carry makes a turn cost something.
   Eigen::MatrixXd stretches(4, 3);
   stretches << 1, 0, 0, 0, 0, 0.5, 0, 0, 0.5, 0, 1, 0;
@@ -119,9 +119,9 @@ TEST(Operators, UniformStrainIsStifferInEveryStretch) {
 
 TEST(Operators, ConditionsAreStifferTheLessTheyLeaveFree) {
   // Springs alone: what a contact carries lets a frame grain with no other contact fall aside where it is free to.
-  const Cell cell = pressedDiscs(120);
+  const Rve cell = pressedDiscs(120);
   const auto operatorUnder = [&](Condition condition) {
-    const Cell cut = framed(cell, everywhere(condition));
+    const Rve cut = framed(cell, everywhere(condition));
     const Eigen::MatrixXd A = Network(cut, {.prestress = false}).relaxedStressByStrain();
     return Eigen::MatrixXd(0.5 * (A + A.transpose()));
   };
@@ -134,14 +134,14 @@ TEST(Operators, ConditionsAreStifferTheLessTheyLeaveFree) {
 }
 
 TEST(Operators, PeriodicFramesHaveTheOperatorOfCellsThatRepeat) {
-  const Cell cell = pressedDiscs(120);
-  const Tangent A = network(cell);
-  EXPECT_LT((network(framed(cell, everywhere(Condition::periodic))) - A).norm(), 1e-8 * A.norm());
+  const Rve cell = pressedDiscs(120);
+  const Tangent A = elasticTangent(cell);
+  EXPECT_LT((elasticTangent(framed(cell, everywhere(Condition::periodic))) - A).norm(), 1e-8 * A.norm());
 }
 
 /// Sheared until some contacts slip.
-Cell slidingDiscs() {
-  Cell cell = pressedDiscs(100);
+Rve slidingDiscs() {
+  Rve cell = pressedDiscs(100);
   Springs slippery = cell.springs;
   slippery.friction = 0.2;
   setSprings(cell, slippery);
@@ -150,13 +150,13 @@ Cell slidingDiscs() {
 }
 
 TEST(Operators, SlidingSoftens) {
-  const Cell cell = slidingDiscs();
+  const Rve cell = slidingDiscs();
   ASSERT_GT(balance(cell).sliding, 0);
-  EXPECT_LT(component(slidingNetwork(cell), 1, 1, 1, 1), component(network(cell), 1, 1, 1, 1));
+  EXPECT_LT(component(frictionalTangent(cell), 1, 1, 1, 1), component(elasticTangent(cell), 1, 1, 1, 1));
 }
 
 /// Forces and moments of all contacts against their linearisation, of those that slip on and those that do not.
-void expectContactsAreLinear(Cell cell, int& slipping) {
+void expectContactsAreLinear(Rve cell, int& slipping) {
   std::mt19937 random(8);
   Springs slippery = cell.springs;
   slippery.friction = 0.05;
@@ -166,12 +166,12 @@ void expectContactsAreLinear(Cell cell, int& slipping) {
   displace(cell, w, theta);
   const double h = 1e-6;
   const Components more = scaled(w, h), turn = scaled(theta, h);
-  Cell after = cell;
+  Rve after = cell;
   displace(after, more, turn);
   ASSERT_EQ(after.state.contacts.other, cell.state.contacts.other);
   std::vector<Touch> then(cell.state.contacts.size());
   forEachTouch(after, [&](const Touch& touch) { then[touch.contact] = touch; });
-  const auto slips = [](const Cell& c, const Touch& t) {
+  const auto slips = [](const Rve& c, const Touch& t) {
     return norm(t.stretch) >= (1.0 - 1e-9) * slipLimit(c.springs, t);
   };
   const auto at = [](const Components& field, std::size_t i, int k) {
@@ -190,7 +190,7 @@ void expectContactsAreLinear(Cell cell, int& slipping) {
     }
     const Eigen::Matrix<double, 9, 1> predicted = linearised(cell, touch, {.slips = true}) * q;
     const Vec3 change = contactForce(after, end) - contactForce(cell, touch);
-    const auto couple = [&](const Cell& c, const Touch& t) {
+    const auto couple = [&](const Rve& c, const Touch& t) {
       return 0.5 * (t.distance + c.radius[t.i] - c.radius[t.j]) * cross(t.normal, contactForce(c, t));
     };
     const Vec3 turned = couple(after, end) - couple(cell, touch);
@@ -203,7 +203,7 @@ void expectContactsAreLinear(Cell cell, int& slipping) {
 }
 
 TEST(Operators, ContactsAreLinearisedSlippingOrNot) {
-  for (const Cell& cell : {pressedDiscs(60), pressedSpheres(48)}) {
+  for (const Rve& cell : {pressedDiscs(60), pressedSpheres(48)}) {
     int slipping = 0;
     expectContactsAreLinear(cell, slipping);
     EXPECT_GT(slipping, 10);
@@ -211,16 +211,17 @@ TEST(Operators, ContactsAreLinearisedSlippingOrNot) {
 }
 
 TEST(Operators, ThePathProbeIsTheNetworkWhereNothingSlips) {
-  Cell cell = pressedDiscs(60);
+  Rve cell = pressedDiscs(60);
   Springs smooth = cell.springs;
   smooth.friction = 0.0;
   setSprings(cell, smooth);
   const Eigen::Matrix3d F = plane(1.0, 1e-5, 0.0, 0.9999);
-  Cell after = cell;
+  Rve after = cell;
   followPath(after, F, {.rest = {.unbalanced = 1e-7}});
-  const Tangent A = network(after);
+  const Tangent A = elasticTangent(after);
   const auto errorOf = [&](double strain) {
-    return (pathProbe(cell, F, {.strain = strain, .path = {.rest = {.unbalanced = 1e-7}}}) - A).norm() / A.norm();
+    return (numericalTangent(cell, F, {.strain = strain, .path = {.rest = {.unbalanced = 1e-7}}}) - A).norm() /
+           A.norm();
   };
   const double fine = errorOf(1e-6);
   EXPECT_LT(fine, 1e-3);
@@ -228,18 +229,20 @@ TEST(Operators, ThePathProbeIsTheNetworkWhereNothingSlips) {
 }
 
 TEST(Operators, ThePathProbeSlips) {
-  const Cell cell = slidingDiscs();
+  const Rve cell = slidingDiscs();
   const Eigen::Matrix3d F = plane(1.0045, 0.0, 0.0, 0.991);
-  Cell after = cell;
+  Rve after = cell;
   followPath(after, F, {.rest = {.unbalanced = 1e-6}});
-  ASSERT_GT(after.state.book.friction, cell.state.book.friction);
+  ASSERT_GT(after.state.ledger.friction, cell.state.ledger.friction);
   // Less shortening: the path ends earlier, on the same branch; the network of what sticks is stiffer.
-  EXPECT_LT(component(pathProbe(cell, F, {.strain = 1e-4}), 1, 1, 1, 1), component(network(after), 1, 1, 1, 1));
-  EXPECT_GT((pathProbe(cell, F, {.strain = 1e-4}) - network(after)).norm(), 0.02 * network(after).norm());
+  EXPECT_LT(component(numericalTangent(cell, F, {.strain = 1e-4}), 1, 1, 1, 1),
+            component(elasticTangent(after), 1, 1, 1, 1));
+  EXPECT_GT((numericalTangent(cell, F, {.strain = 1e-4}) - elasticTangent(after)).norm(),
+            0.02 * elasticTangent(after).norm());
 }
 
 TEST(Operators, TheFrozenMeanFreezesAtTheFirstSofteningStep) {
-  FrozenMean operators;
+  AveragedTangent operators;
   int probes = 0;
   const auto probe = [&] {
     ++probes;
@@ -260,11 +263,12 @@ TEST(Operators, TheFrozenMeanFreezesAtTheFirstSofteningStep) {
 }
 
 TEST(Operators, BadProbesAreRefused) {
-  const Cell cell = squareArray(4);
+  const Rve cell = squareArray(4);
   EXPECT_THROW(elasticProbe(cell, {.strain = 0.0}), InputError);
   EXPECT_THROW(elasticProbe(cell, {.unbalanced = -1.0}), InputError);
-  EXPECT_THROW(pathProbe(cell, cell.state.F, {.strain = 0.0}), InputError);
-  EXPECT_THROW(pathProbe(cell, cell.state.F, {.path = {.rest = {.unbalanced = 1e-14, .steps = 20}}}), NumericalError);
+  EXPECT_THROW(numericalTangent(cell, cell.state.F, {.strain = 0.0}), InputError);
+  EXPECT_THROW(numericalTangent(cell, cell.state.F, {.path = {.rest = {.unbalanced = 1e-14, .steps = 20}}}),
+               NumericalError);
 }
 
 }  // namespace

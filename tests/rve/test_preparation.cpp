@@ -9,7 +9,7 @@ namespace dovetail::rve {
 namespace {
 
 TEST(Preparation, CellsPressAsWantedAndRest) {
-  Cell cell = randomCell({.count = 150, .seed = 3}, ordinarySprings());
+  Rve cell = randomCell({.count = 150, .seed = 3}, ordinarySprings());
   compress(cell, {.pressure = {1e5, 1.3e5, 0}, .friction = 0.2});
   const Eigen::Matrix3d now = stress(cell).cauchy;
   EXPECT_NEAR(-now(0, 0), 1e5, 1e2);
@@ -21,7 +21,7 @@ TEST(Preparation, CellsPressAsWantedAndRest) {
 
 TEST(Preparation, LessFrictionMakesDenserCells) {
   const auto solidAt = [](double friction) {
-    Cell cell = randomCell({.count = 200}, ordinarySprings());
+    Rve cell = randomCell({.count = 200}, ordinarySprings());
     compress(cell, {.friction = friction});
     return solidFraction(cell);
   };
@@ -29,7 +29,7 @@ TEST(Preparation, LessFrictionMakesDenserCells) {
 }
 
 TEST(Preparation, SpheresArePreparedAlike) {
-  const Cell cell = pressedSpheres(64);
+  const Rve cell = pressedSpheres(64);
   EXPECT_NEAR(stress(cell).pressure, 1e6, 1e3);
   EXPECT_GT(solidFraction(cell), 0.6);
   EXPECT_GT(balance(cell).coordination, 5.0);
@@ -37,10 +37,10 @@ TEST(Preparation, SpheresArePreparedAlike) {
 
 TEST(Preparation, FabricIsThatOfArraysAndTurnsWithTheCell) {
   EXPECT_LT((fabric(squareArray(6)) - Eigen::Vector3d(0.5, 0.5, 0.0).asDiagonal().toDenseMatrix()).norm(), 1e-14);
-  const Cell start = pressedDiscs(80);
+  const Rve start = pressedDiscs(80);
   const Eigen::Matrix3d before = fabric(start), R = turned(0.4);
   EXPECT_NEAR(before.trace(), 1.0, 1e-14);
-  Cell cell = start;
+  Rve cell = start;
   deform(cell, R);
   EXPECT_LT((fabric(cell) - R * before * R.transpose()).norm(), 1e-12);
   // Shortened along y: more contacts lie that way.
@@ -55,7 +55,7 @@ TEST(Preparation, SameSeedSameCell) {
 }
 
 TEST(Preparation, BadSettingsAreRefused) {
-  Cell cell = squareArray(4);
+  Rve cell = squareArray(4);
   EXPECT_THROW(compress(cell, {.pressure = {-1e5, 1e5, 1e5}}), InputError);
   EXPECT_THROW(compress(cell, {.tolerance = 0.0}), InputError);
   EXPECT_THROW(compress(cell, {.friction = -0.1}), InputError);

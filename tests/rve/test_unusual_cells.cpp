@@ -7,8 +7,8 @@
 
 #include "cells.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/rve/cell_archive.hpp"
 #include "dovetail/rve/operators.hpp"
+#include "dovetail/rve/rve_archive.hpp"
 
 namespace dovetail::rve {
 namespace {
@@ -16,18 +16,18 @@ namespace {
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
 /// Discs whose tangential springs are stretched.
-Cell shearedDiscs() {
-  Cell cell = pressedDiscs(60);
+Rve shearedDiscs() {
+  Rve cell = pressedDiscs(60);
   followPath(cell, plane(1.001, 0.0, 0.0, 0.997));
   return cell;
 }
 
-double unaccounted(const Cell& cell) {
-  const EnergyBook& book = cell.state.book;
-  return book.work - book.friction - book.damping - book.bonds - storedEnergy(cell);
+double unaccounted(const Rve& cell) {
+  const EnergyBook& ledger = cell.state.ledger;
+  return ledger.work - ledger.friction - ledger.damping - ledger.bonds - storedEnergy(cell);
 }
 
-double stretched(const Cell& cell) {
+double stretched(const Rve& cell) {
   double sum = 0.0;
   for (const std::vector<double>& component : cell.state.contacts.stretch)
     for (const double u : component) sum += u * u;
@@ -35,16 +35,16 @@ double stretched(const Cell& cell) {
 }
 
 TEST(UnusualCells, SpringsWithoutFrictionHoldNothingAndBookIt) {
-  Cell cell = shearedDiscs();
+  Rve cell = shearedDiscs();
   const Springs own = cell.springs;
   Springs smooth = own;
   smooth.friction = 0.0;
-  const double stored = storedEnergy(cell), lost = cell.state.book.friction, before = unaccounted(cell);
+  const double stored = storedEnergy(cell), lost = cell.state.ledger.friction, before = unaccounted(cell);
   ASSERT_GT(stretched(cell), 0.0);
   setSprings(cell, smooth);
   EXPECT_EQ(stretched(cell), 0.0);
-  EXPECT_NEAR(cell.state.book.friction - lost, stored - storedEnergy(cell), 1e-12 * stored);
-  EXPECT_GT(cell.state.book.friction, lost);
+  EXPECT_NEAR(cell.state.ledger.friction - lost, stored - storedEnergy(cell), 1e-12 * stored);
+  EXPECT_GT(cell.state.ledger.friction, lost);
   const double smoothly = storedEnergy(cell);
   setSprings(cell, own);
   EXPECT_EQ(storedEnergy(cell), smoothly);
@@ -52,7 +52,7 @@ TEST(UnusualCells, SpringsWithoutFrictionHoldNothingAndBookIt) {
 }
 
 TEST(UnusualCells, StifferSpringsAreInTheBook) {
-  Cell cell = shearedDiscs();
+  Rve cell = shearedDiscs();
   const double before = unaccounted(cell), stored = storedEnergy(cell);
   Springs stiffer = cell.springs;
   stiffer.modulus *= 2.0;
@@ -62,25 +62,25 @@ TEST(UnusualCells, StifferSpringsAreInTheBook) {
 }
 
 TEST(UnusualCells, StretchesStayWhenSpheresBecomeElastic) {
-  Cell cell = pressedSpheres(48);
+  Rve cell = pressedSpheres(48);
   Springs springs = cell.springs;
   springs.friction = std::numeric_limits<double>::infinity();
   setSprings(cell, springs);
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F(0, 1) = 1e-3;
   followPath(cell, F);
-  const double before = stretched(cell), book = unaccounted(cell), stored = storedEnergy(cell);
+  const double before = stretched(cell), ledger = unaccounted(cell), stored = storedEnergy(cell);
   ASSERT_GT(before, 0.0);
   for (const double G : {3e9, 6e9}) {
     setSprings(cell, hertzMindlin(G, 0.2, springs.friction));
     EXPECT_NEAR(stretched(cell), before, 1e-12 * before);
-    EXPECT_NEAR(unaccounted(cell), book, 1e-10 * (stored + storedEnergy(cell)));
+    EXPECT_NEAR(unaccounted(cell), ledger, 1e-10 * (stored + storedEnergy(cell)));
   }
 }
 
 TEST(UnusualCells, CompressionEndsAtRestWhateverTheFrictionWas) {
   for (const double friction : {0.0, 1.0}) {
-    Cell cell = shearedDiscs();
+    Rve cell = shearedDiscs();
     compress(cell, {.pressure = {1e5, 1e5, 0.0}, .friction = friction, .rest = {.unbalanced = 1e-5}});
     EXPECT_LE(balance(cell).unbalanced, 1e-5);
     for (int k = 0; k < 2; ++k) EXPECT_NEAR(-stress(cell).cauchy(k, k), 1e5, 1e2);
@@ -89,22 +89,22 @@ TEST(UnusualCells, CompressionEndsAtRestWhateverTheFrictionWas) {
 
 TEST(UnusualCells, TractionOnAFlatSide) {
   const Condition D = Condition::displacement, T = Condition::traction;
-  Cell cell = framed(squareArray(5), {.bottom = D, .right = D, .top = T, .left = D});
+  Rve cell = framed(squareArray(5), {.bottom = D, .right = D, .top = T, .left = D});
   const PathReport path = followPath(cell, plane(1.0, 1e-4, 0.0, 0.9995), {.rest = {.unbalanced = 1e-8}});
   EXPECT_TRUE(path.rest.atRest);
   EXPECT_TRUE(stressOfReactions(cell).allFinite());
   polish(cell);
-  const Tangent A = network(cell), probe = elasticProbe(cell);
+  const Tangent A = elasticTangent(cell), probe = elasticProbe(cell);
   EXPECT_LT((A - probe).norm(), 1e-4 * A.norm());
 }
 
 TEST(UnusualCells, CopiesOfAFrameFillNothing) {
-  const Cell cell = pressedDiscs(60);
+  const Rve cell = pressedDiscs(60);
   EXPECT_NEAR(solidFraction(framed(cell, everywhere(Condition::periodic))), solidFraction(cell), 1e-12);
 }
 
 TEST(UnusualCells, StatesOfOtherSpringsAreRefused) {
-  Cell cell = pressedDiscs(60);
+  Rve cell = pressedDiscs(60);
   CellState kept;
   save(cell, kept);
   Springs rolling = cell.springs;
@@ -118,14 +118,14 @@ TEST(UnusualCells, StatesOfOtherSpringsAreRefused) {
 }
 
 TEST(UnusualCells, StatesFromBeforeCompressionOrOfOtherBondsAreRefused) {
-  Cell cell = pressedDiscs(60);
+  Rve cell = pressedDiscs(60);
   CellState kept;
   save(cell, kept);
-  Cell denser = cell;
+  Rve denser = cell;
   compress(denser, {.pressure = {5e5, 5e5, 0.0}});
   EXPECT_THROW(restore(denser, kept), InputError);
   EXPECT_THROW(restore(cell, pressedDiscs(60, 2).state), InputError);
-  Cell bonded = cell, other = cell;
+  Rve bonded = cell, other = cell;
   bond(bonded, {.normal = 1e8, .shear = 1e8});
   bond(other, {.normal = 1e9, .shear = 1e8});
   EXPECT_THROW(restore(cell, bonded.state), InputError);
@@ -136,17 +136,17 @@ TEST(UnusualCells, StatesFromBeforeCompressionOrOfOtherBondsAreRefused) {
 
 TEST(UnusualCells, BondsThatBreakAsTheyAreMadeAreInTheBook) {
   for (const double strength : {1.0, 5.0, 1e9}) {
-    Cell cell = shearedDiscs();
-    const double before = unaccounted(cell), stored = storedEnergy(cell), work = cell.state.book.work;
+    Rve cell = shearedDiscs();
+    const double before = unaccounted(cell), stored = storedEnergy(cell), work = cell.state.ledger.work;
     bond(cell, {.normal = 6e8, .shear = 3e8, .tensileStrength = 1e9, .shearStrength = strength});
     EXPECT_NEAR(unaccounted(cell), before, 1e-12 * stored);
-    EXPECT_NEAR(cell.state.book.work, work, 1e-12 * stored);
+    EXPECT_NEAR(cell.state.ledger.work, work, 1e-12 * stored);
     EXPECT_EQ(balance(cell).bonds < balance(cell).contacts, strength < 1e9);
   }
 }
 
 TEST(UnusualCells, WhatIsNotFiniteIsRefused) {
-  Cell cell = pressedDiscs(60);
+  Rve cell = pressedDiscs(60);
   const CellState before = cell.state;
   EXPECT_THROW(step(cell, 0.5 * cell.state.criticalStep, plane(1, 0, 0, 1), notANumber), InputError);
   EXPECT_THROW(step(cell, 0.5 * cell.state.criticalStep, plane(1, 0, 0, 1), -5.0), InputError);
@@ -169,7 +169,7 @@ TEST(UnusualCells, GrainsAtOnePlaceAreNamed) {
   const Grains grains{.centre = {{1e-3, 0, 0}, {4e-3, 0, 0}, {4e-3, 0, 0}}, .radius = {1e-3, 1e-3, 1e-3}};
   const geometry::Lattice lattice{{Vec3{8e-3, 0, 0}, Vec3{0, 8e-3, 0}, Vec3{0, 0, 1}}, {true, true, false}};
   try {
-    makeCell(grains, lattice, ordinarySprings());
+    makeRve(grains, lattice, ordinarySprings());
     ADD_FAILURE();
   } catch (const NumericalError& error) {
     EXPECT_NE(std::string(error.what()).find("grain 1"), std::string::npos) << error.what();
@@ -177,7 +177,7 @@ TEST(UnusualCells, GrainsAtOnePlaceAreNamed) {
 }
 
 TEST(UnusualCells, HalfATurnIsNoStep) {
-  Cell cell = pressedDiscs(60);
+  Rve cell = pressedDiscs(60);
   EXPECT_THROW(deform(cell, plane(-1.0, 0.0, 0.0, -1.0)), NumericalError);
 }
 
@@ -185,23 +185,23 @@ TEST(UnusualCells, BanksHoldWhatCellsWere) {
   // Faces have come closer since the last list was made.
   const double side = 1.01 * 4.4e-3;
   const Grains grains{.centre = {{0, 0, 0}, {1.95e-3, 0, 0}}, .radius = {1e-3, 1e-3}};
-  Cell cell =
-      makeCell(grains, {{Vec3{side, 0, 0}, Vec3{0, side, 0}, Vec3{0, 0, 1}}, {true, true, false}}, ordinarySprings());
+  Rve cell =
+      makeRve(grains, {{Vec3{side, 0, 0}, Vec3{0, side, 0}, Vec3{0, 0, 1}}, {true, true, false}}, ordinarySprings());
   for (int k = 0; k < 15; ++k) deform(cell, plane(1.0, 0.01, 0.0, 1.0));
-  const auto path = std::filesystem::path(testing::TempDir()) / "sheared_cell.bank";
-  writeBank(path, std::vector<Cell>{cell});
-  const std::vector<Cell> read = readBank(path);
+  const auto path = std::filesystem::path(testing::TempDir()) / "sheared_cell.samples";
+  writeSamples(path, std::vector<Rve>{cell});
+  const std::vector<Rve> read = readSamples(path);
   EXPECT_EQ(read.at(0).state.x, cell.state.x);
   EXPECT_EQ(read[0].state.lattice, cell.state.lattice);
 }
 
 TEST(UnusualCells, LatticesNeedNotBeReduced) {
-  const Cell cell = pressedDiscs(60);
+  const Rve cell = pressedDiscs(60);
   Grains grains{.radius = cell.radius};
   for (std::size_t i = 0; i < cell.size(); ++i) grains.centre.push_back({cell.state.x[0][i], cell.state.x[1][i], 0.0});
   geometry::Lattice sheared = cell.state.lattice;
   sheared.period[1] += 7.0 * sheared.period[0];
-  const Cell same = makeCell(grains, sheared, cell.springs);
+  const Rve same = makeRve(grains, sheared, cell.springs);
   EXPECT_EQ(balance(same).contacts, balance(cell).contacts);
   EXPECT_NEAR(stress(same).pressure, stress(cell).pressure, 1e-6 * stress(cell).pressure);
 }

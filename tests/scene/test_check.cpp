@@ -42,7 +42,7 @@ std::string refusalOfCheck(const std::string& parts, const std::string& stages =
   }
 }
 
-/// Looking for the step leaves nothing in the books.
+/// Looking for the step leaves nothing in the ledger.
 TEST(SceneStart, AutomaticStepsBookAllImpulses) {
   if (!WITH_EXPRESSIONS) GTEST_SKIP() << "the support follows an expression";
   Built built =

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "../../src/scene/frame_fields.hpp"
+#include "../../src/scene/run/frame_fields.hpp"
 #include "../io/scratch_folder.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/loads.hpp"

@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "../../src/scene/frame_fields.hpp"
+#include "../../src/scene/run/frame_fields.hpp"
 #include "../io/scratch_folder.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/io_vtk/frame_reader.hpp"
@@ -73,8 +73,8 @@ TEST(Frames, HoldWhatIsAskedFor) {
   EXPECT_EQ(arraysIn(all / "out/grains.pvd"), (Names{"id", "radius", "velocity", "force", "spin", "weight"}));
   EXPECT_EQ(arraysIn(all / "out/contacts.pvd"),
             (Names{"first", "second", "force", "normal_force", "tangential_force"}));
-  EXPECT_EQ(arraysIn(all / "out/solid_soil.pvd"), (Names{"displacement", "velocity", "share", "stress", "von_mises",
-                                                         "pressure", "plastic_strain", "plastic_volume"}));
+  EXPECT_EQ(arraysIn(all / "out/solid_soil.pvd"), (Names{"displacement", "velocity", "solid_weight", "stress",
+                                                         "von_mises", "pressure", "plastic_strain", "plastic_volume"}));
   EXPECT_EQ(arraysIn(all / "out/solid_plate.pvd"),
             (Names{"displacement", "velocity", "stress", "von_mises", "pressure"}));
   for (const char* const none : {"bonds.pvd", "wall_0.pvd"})
@@ -118,12 +118,12 @@ TEST(Frames, WeightsOfBothSidesAddUpToOne) {
   runIn(folder, R"(, "contents": ["grains", "solids", "weights"])");
   const io::FrameContent grains = io::readFrame(folder / "out/grains/grains_000000.vtu");
   const io::FrameContent soil = io::readFrame(folder / "out/solid_soil/solid_soil_000000.vtu");
-  const io::FrameArray& share = *soil.find("share", false);
+  const io::FrameArray& fraction = *soil.find("solid_weight", false);
   const io::FrameArray& weight = *grains.find("weight", false);
   // The weight is linear within a layer of elements: between those of the layers' borders.
   const auto solidShareAt = [&](double z) {
     for (std::size_t n = 0; n < soil.position.size(); ++n)
-      if (std::abs(soil.position[n].z - z) < 1e-12) return share.values[n];
+      if (std::abs(soil.position[n].z - z) < 1e-12) return fraction.values[n];
     throw std::runtime_error("no such node");
   };
   int within = 0;

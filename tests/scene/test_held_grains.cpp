@@ -5,7 +5,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "../../src/scene/probes.hpp"
+#include "../../src/scene/run/probes.hpp"
 #include "../io/scratch_folder.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"

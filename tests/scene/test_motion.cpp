@@ -65,7 +65,7 @@ TEST_F(SceneMotion, MeshWallsFollowTheirPaths) {
   expectPlace();
 }
 
-/// What the books miss of grains in a box that is shaken, J; and the work of its walls.
+/// What the ledger miss of grains in a box that is shaken, J; and the work of its walls.
 std::array<double, 2> missedBy(double dt) {
   Scene scene = sceneFromText(R"({"contact": {"law": "linear", "stiffness": 1e4},
       "particles": [{"from": "lattice", "lattice": "simple-cubic", "box": [[0, 0, 0], [0.2, 0.1, 0.1]], "radius": 0.02,

@@ -192,7 +192,7 @@ TEST(SceneParts, CoarseStepsNameTheMaterialsThatMeet) {
   expectParts(coarse.notes[0], {R"(("rock" on "steel") takes eight steps)"});
 }
 
-/// However large a share of the limit is asked for.
+/// However large a fraction of the limit is asked for.
 TEST(SceneParts, AutomaticStepsKeepTheEnergyOfImpacts) {
   const ScratchFolder folder;
   std::ostringstream log;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "../../src/scene/probes.hpp"
+#include "../../src/scene/run/probes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "scene_parts.hpp"

@@ -15,7 +15,7 @@ std::string plate(const std::string& solid, const std::string& coupling) {
          solid + R"(}], "couplings": [{"type": "surface", "solid": "plate")" + coupling + "}],";
 }
 
-const surface::Coupling& couplingOf(const Built& built) {
+const surface::SurfaceCoupler& couplingOf(const Built& built) {
   return std::as_const(built.run->grains).terms.all<surface::SurfaceContact>().front()->coupling();
 }
 
@@ -24,7 +24,7 @@ TEST(PublishedSchemes, SurfaceCouplingsTakeTransferEdgesAndSurface) {
       started(sceneOf(plate("", R"(, "kernel": 0.4, "kernel_shape": "gauss", "kernel_correction": "none",
                            "transfer": "spread", "edges": "deepest")")));
   spread.run->advance(5);
-  const surface::Coupling& spreads = couplingOf(spread);
+  const surface::SurfaceCoupler& spreads = couplingOf(spread);
   EXPECT_EQ(spreads.options().edges, dem::EdgeRule::paper);
   EXPECT_FALSE(surface::hasKernel(spreads.skin()));  // the gap is local
   EXPECT_GT(spreads.load().touched.size(), 4u);      // the load is not

@@ -1,5 +1,5 @@
 // Reactions of supports and ties balance loads and inertia, however components are held, moved or carried.
-#include "../../src/scene/probes.hpp"
+#include "../../src/scene/run/probes.hpp"
 #include "../io/scratch_folder.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/fem/mesh/mesh_shapes.hpp"

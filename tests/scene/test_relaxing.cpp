@@ -1,5 +1,5 @@
 // Solids that are brought to rest with what a scene does not say: their weight, their steps, their elements.
-#include "../../src/scene/warnings.hpp"
+#include "../../src/scene/warnings/warnings.hpp"
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "scene_parts.hpp"

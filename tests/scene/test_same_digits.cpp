@@ -45,7 +45,7 @@ void addSoil(coupling::CoupledRun& run) {
   const std::vector<double> weight = arlequin::nodalWeights(place, {});
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(2e6, 0.25, 1250.0)),
-                            {.share = arlequin::solidWeights(weight)}));
+                            {.fraction = arlequin::solidWeights(weight)}));
   model->add(fem::gravity({0, 0, -9.81}));
   fem::fix(model->nodes, mesh.nodeSets.at("z-"));
   fem::fix(model->nodes, mesh.nodeSets.at("x-"), fem::componentX);
@@ -62,7 +62,7 @@ void addPlate(coupling::CoupledRun& run) {
   coupling::SolidSide& side = run.addSolid(std::move(model), {.name = "plate"});
   surface::Skin skin = surface::makeSkin(mesh.X, mesh.faceSets.at("skin"));
   surface::coarseGrain(skin, {{.width = 0.02}, cg::KernelCorrection::symmetric});
-  run.grains.terms.add(surface::SurfaceContact(side, surface::Coupling(std::move(skin)), run.grains.laws));
+  run.grains.terms.add(surface::SurfaceContact(side, surface::SurfaceCoupler(std::move(skin)), run.grains.laws));
 }
 
 TEST(SceneDigits, ASceneHasThoseOfTheProgram) {

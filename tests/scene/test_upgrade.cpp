@@ -1,5 +1,5 @@
 // Scenes with names of earlier versions.
-#include "../../src/scene/renamed.hpp"
+#include "../../src/scene/keys/renamed.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/scene/upgrade.hpp"
 #include "refusal.hpp"

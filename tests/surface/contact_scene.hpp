@@ -74,7 +74,7 @@ public:
     kick(0.5 * dt);
     dem::move(grains, dt);
     motion->drift(dt);
-    dem::renew(grains);
+    dem::updateNeighbourList(grains);
     side.load.clear();
     dem::addForces(grains);
     strainEnergy = motion->forces(dt, true);

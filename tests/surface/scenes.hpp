@@ -10,7 +10,7 @@
 #include "dovetail/core/quaternion.hpp"
 #include "dovetail/dem/laws/laws.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
-#include "dovetail/surface/coupling.hpp"
+#include "dovetail/surface/surface_coupler.hpp"
 
 namespace dovetail::surface {
 
@@ -92,13 +92,14 @@ struct Response {
 };
 
 /// On the skin that a variant says, or on the smooth surface of it.
-inline Coupling makeSeam(const fem::SolidMesh& mesh, const Variant& variant, const CouplingOptions& options = {}) {
+inline SurfaceCoupler makeSeam(const fem::SolidMesh& mesh, const Variant& variant,
+                               const CouplingOptions& options = {}) {
   const Skin skin = carriedSkin(mesh, variant);
-  return variant.smooth ? Coupling(makeSmoothSurface(skin), options) : Coupling(skin, options);
+  return variant.smooth ? SurfaceCoupler(makeSmoothSurface(skin), options) : SurfaceCoupler(skin, options);
 }
 
-inline Response respond(Coupling& seam, dem::Particles particles, std::span<const Vec3> u, std::span<const Vec3> v,
-                        const dem::ContactLaws& laws) {
+inline Response respond(SurfaceCoupler& seam, dem::Particles particles, std::span<const Vec3> u,
+                        std::span<const Vec3> v, const dem::ContactLaws& laws) {
   dem::clearForces(particles);
   Response response;
   response.energy = seam.exchange(particles, u, v, laws, 1e-3).storedEnergy();
@@ -113,7 +114,7 @@ inline std::shared_ptr<const dem::ContactLaws> elasticLaws(double stiffness, dou
 }
 
 /// Moves particle 0 from `above` along `direction` until it touches, and `overlap` further.
-inline void pushDown(Coupling& seam, dem::Particles& particles, std::span<const Vec3> u, const Vec3& above,
+inline void pushDown(SurfaceCoupler& seam, dem::Particles& particles, std::span<const Vec3> u, const Vec3& above,
                      const Vec3& direction, double overlap) {
   const auto laws = elasticLaws(1.0);
   const std::vector<Vec3> rest(u.size());

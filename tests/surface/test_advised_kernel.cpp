@@ -41,7 +41,7 @@ double peakForce(int overHeight, bool withKernel) {
   dem::addParticle(run.grains.particles, {0, 0, radius}, {0, 0, -0.5}, radius, dem::Density{7800.0});
   const double dt = 0.8 * fem::stableStep(*bar).dt;
   coupling::SolidSide& side = run.addSolid(std::move(bar), {.name = "bar"});
-  run.grains.terms.add(SurfaceContact(side, Coupling(skin), run.grains.laws, "impact"));
+  run.grains.terms.add(SurfaceContact(side, SurfaceCoupler(skin), run.grains.laws, "impact"));
   run.grains.refusesUnstableSteps = false;  // the contact adds little to the elements
   run.start(dt);
   double largest = 0.0;

@@ -45,7 +45,7 @@ struct Trace {
   }
 };
 
-void record(Coupling& seam, double t, const fem::SolidMesh& mesh, Trace& trace) {
+void record(SurfaceCoupler& seam, double t, const fem::SolidMesh& mesh, Trace& trace) {
   dem::Particles particles = travellers(t);
   const auto u = wave(mesh, t);
   seam.exchange(particles, u, std::vector<Vec3>(u.size()), *elasticLaws(1e4), 1e-3);
@@ -58,7 +58,7 @@ void record(Coupling& seam, double t, const fem::SolidMesh& mesh, Trace& trace) 
 
 Trace run(const Variant& variant, double margin) {
   const fem::SolidMesh mesh = strip();
-  Coupling seam(carriedSkin(mesh, variant), {dem::EdgeRule::projected, margin});
+  SurfaceCoupler seam(carriedSkin(mesh, variant), {dem::EdgeRule::projected, margin});
   Trace trace;
   for (int step = 0; step < steps; ++step) record(seam, 1e-3 * step, mesh, trace);
   trace.builds = seam.candidateBuilds();
@@ -83,7 +83,7 @@ TEST(Candidates, OnTheSmoothSurfaceUpToItsTolerance) {
   const fem::SolidMesh mesh = strip();
   Trace traces[2];
   for (int k = 0; k < 2; ++k) {
-    Coupling seam(makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("skin"))), {.margin = k == 0 ? 1e-9 : 0.0});
+    SurfaceCoupler seam(makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("skin"))), {.margin = k == 0 ? 1e-9 : 0.0});
     for (int step = 0; step < steps; ++step) record(seam, 1e-3 * step, mesh, traces[k]);
   }
   EXPECT_EQ(traces[0].contacts, traces[1].contacts);
@@ -95,7 +95,7 @@ TEST(Candidates, OnTheSmoothSurfaceUpToItsTolerance) {
 
 TEST(Candidates, AreMadeAnewForMoreParticles) {
   const fem::SolidMesh mesh = strip();
-  Coupling seam(carriedSkin(mesh, {"local"}));
+  SurfaceCoupler seam(carriedSkin(mesh, {"local"}));
   const std::vector<Vec3> rest(mesh.X.size());
   dem::Particles particles;
   seam.exchange(particles, rest, rest, *elasticLaws(1e4), 1e-3);
@@ -105,7 +105,7 @@ TEST(Candidates, AreMadeAnewForMoreParticles) {
   EXPECT_TRUE(seam.inContact());
 }
 
-std::string failure(Coupling seam, const dem::Particles& good, const dem::Particles& bad, std::span<const Vec3> u,
+std::string failure(SurfaceCoupler seam, const dem::Particles& good, const dem::Particles& bad, std::span<const Vec3> u,
                     std::span<const Vec3> badU) {
   dem::Particles particles = good;
   seam.exchange(particles, u, u, *elasticLaws(1e4), 1e-3);
@@ -129,19 +129,19 @@ TEST(Candidates, ANaNIsCaughtAtOnceWithItsNumber) {
   badU[node].z = std::nan("");
   const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
   const std::string nodeName = "node " + std::to_string(node);
-  EXPECT_NE(failure(Coupling(skin), good, bad, u, u).find("particle 3"), std::string::npos);
-  EXPECT_NE(failure(Coupling(skin), good, good, u, badU).find(nodeName), std::string::npos);
+  EXPECT_NE(failure(SurfaceCoupler(skin), good, bad, u, u).find("particle 3"), std::string::npos);
+  EXPECT_NE(failure(SurfaceCoupler(skin), good, good, u, badU).find(nodeName), std::string::npos);
   const SmoothSurface smooth = makeSmoothSurface(skin);
-  EXPECT_NE(failure(Coupling(smooth), good, bad, u, u).find("particle 3"), std::string::npos);
-  EXPECT_NE(failure(Coupling(smooth), good, good, u, badU).find(nodeName), std::string::npos);
+  EXPECT_NE(failure(SurfaceCoupler(smooth), good, bad, u, u).find("particle 3"), std::string::npos);
+  EXPECT_NE(failure(SurfaceCoupler(smooth), good, good, u, badU).find(nodeName), std::string::npos);
 }
 
 TEST(Candidates, RefuseABadMargin) {
   const fem::SolidMesh mesh = strip();
   const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
-  EXPECT_THROW(Coupling(skin, {dem::EdgeRule::projected, -1.0}), InputError);
-  EXPECT_THROW(Coupling(skin, {dem::EdgeRule::projected, std::nan("")}), InputError);
-  EXPECT_THROW(Coupling(makeSmoothSurface(skin), {.margin = -1.0}), InputError);
+  EXPECT_THROW(SurfaceCoupler(skin, {dem::EdgeRule::projected, -1.0}), InputError);
+  EXPECT_THROW(SurfaceCoupler(skin, {dem::EdgeRule::projected, std::nan("")}), InputError);
+  EXPECT_THROW(SurfaceCoupler(makeSmoothSurface(skin), {.margin = -1.0}), InputError);
 }
 
 }  // namespace

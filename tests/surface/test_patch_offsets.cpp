@@ -175,7 +175,7 @@ TEST(PatchOffsets, ADomeOfAnyHeightFollowsAHomogeneousGradient) {
     }
     EXPECT_LT(worst, height > 1e-6 ? 1e-12 : 1e-8) << height;
     std::vector<double> inverseMass(mesh.X.size(), 1.0);
-    EXPECT_LT(Coupling(skin).largestMobility(inverseMass), 2.0) << height;
+    EXPECT_LT(SurfaceCoupler(skin).largestMobility(inverseMass), 2.0) << height;
   }
 }
 
@@ -184,7 +184,7 @@ TEST(SplitSkins, StayClosed) {
   const fem::SolidMesh mesh = unitBlock();
   const std::vector<Vec3> rest(mesh.X.size());
   for (const Variant& variant : allVariants()) {
-    Coupling seam = makeSeam(mesh, variant);
+    SurfaceCoupler seam = makeSeam(mesh, variant);
     dem::Particles particles;
     dem::addParticle(particles, {1.6, 2.3, -0.02}, {}, 0.3, dem::Mass{1.0});
     const Response response = respond(seam, particles, rest, rest, *elasticLaws(1e4));

@@ -95,7 +95,7 @@ struct Coverage {
   double worst = 0.0, worstOfSeveral = 0.0;
 };
 
-double energyAt(Coupling& seam, const dem::Particles& particles, std::span<const Vec3> u, const Vec3& dx,
+double energyAt(SurfaceCoupler& seam, const dem::Particles& particles, std::span<const Vec3> u, const Vec3& dx,
                 std::span<const Vec3> du, double h) {
   dem::Particles moved = particles;
   moved.x[0] += h * dx;
@@ -105,8 +105,8 @@ double energyAt(Coupling& seam, const dem::Particles& particles, std::span<const
 }
 
 /// Largest |dV/ds + F·s| over directions s of particle, nodes and both, relative to the force and |s|.
-double gradientError(Coupling& seam, const dem::Particles& particles, std::span<const Vec3> u, const Response& response,
-                     Random& random) {
+double gradientError(SurfaceCoupler& seam, const dem::Particles& particles, std::span<const Vec3> u,
+                     const Response& response, Random& random) {
   const double size = norm(response.onParticles[0]);
   double worst = 0.0;
   for (int k = 0; k < 3; ++k) {
@@ -123,7 +123,7 @@ double gradientError(Coupling& seam, const dem::Particles& particles, std::span<
 }
 
 Coverage survey(const fem::SolidMesh& mesh, const Variant& variant, const Draw& draw, int states, unsigned seed) {
-  Coupling seam = makeSeam(mesh, variant);
+  SurfaceCoupler seam = makeSeam(mesh, variant);
   Random random(seed);
   Coverage coverage;
   dem::Particles particles;

@@ -16,7 +16,7 @@ TEST(SkinFields, BalanceWithTheContactsOfTheSkinAndTractionsCarryThem) {
     scene.start(1e-4);
     for (int step = 0; step < 150; ++step) scene.step(1e-4);
     dem::findForces(scene.grains);
-    const Coupling& coupling = scene.contact->coupling();
+    const SurfaceCoupler& coupling = scene.contact->coupling();
     dem::Snapshot now = dem::takeSnapshot(scene.grains);
     ASSERT_GT(now.wallPoint.size(), 5u) << variant.name;
     for (std::size_t i = 0; i < now.x.size(); ++i) now.v[i] = scene.grains.particles.f[i] / now.mass[i];

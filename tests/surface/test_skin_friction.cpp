@@ -45,7 +45,7 @@ TEST_P(FrictionOn, ForcesMomentsAndPowersBalance) {
     Random random(seed);
     const fem::SolidMesh mesh = crookedBlock(GetParam(), seed);
     const Variant variant = seed % 2 == 0 ? Variant{"local"} : Variant{"lucy", 1.3};
-    Coupling seam(carriedSkin(mesh, variant));
+    SurfaceCoupler seam(carriedSkin(mesh, variant));
     dem::Particles particles = scattered(random);
     std::vector<Vec3> u = random.field(mesh.X.size(), 0.02), v = random.field(mesh.X.size(), 1.0);
     const auto laws = rollingLaws(0.8);
@@ -88,7 +88,7 @@ TEST_P(FrictionOn, ForcesMomentsAndPowersBalance) {
 TEST(SkinFriction, AGrainThatTurnsWithTheSolidIsNotBraked) {
   const fem::SolidMesh mesh = fem::boxOf(fem::ElementShape::hex8, {4, 4, 2}, {0, 0, -2}, {4, 4, 0});
   for (const Variant& variant : {Variant{"local"}, Variant{"lucy", 1.3}}) {
-    Coupling seam(carriedSkin(mesh, variant));
+    SurfaceCoupler seam(carriedSkin(mesh, variant));
     const Vec3 spin{0.4, -0.3, 2.0}, start{1.7, 2.2, radius - 0.02};
     const double dt = 1e-3;
     const auto laws = rollingLaws(0.8);
@@ -130,7 +130,7 @@ TEST(SkinFriction, GoesAcrossSplitEdges) {
   splitAtSharpEdges(split);
   ASSERT_GT(split.X.size(), whole.X.size());
   const auto stored = [&](const Skin& skin) {
-    Coupling seam(skin);
+    SurfaceCoupler seam(skin);
     const std::vector<Vec3> rest(X.size());
     const auto laws = rollingLaws(1.0, 10.0);
     std::vector<double> energy;

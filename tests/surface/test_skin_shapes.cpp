@@ -169,14 +169,14 @@ public:
     const double energy = seam_.exchange(moved, displacement, v, *laws, 1e-3).storedEnergy();
     return {energy, moved.f[0], seam_.load().force};
   }
-  const Coupling& seam() const { return seam_; }
+  const SurfaceCoupler& seam() const { return seam_; }
 
   fem::SolidMesh mesh;
   std::vector<Vec3> u, v;
   dem::Particles particles;
 
 private:
-  Coupling seam_;
+  SurfaceCoupler seam_;
 };
 
 /// Forces of one potential, in balance with their moments, whose power on the skin is that on the nodes.

@@ -232,7 +232,7 @@ TEST(SmoothSurface, PatchesEndAtSharpEdgesSplitOrNot) {
   EXPECT_EQ(rims, 2 * 16 + 4 * 12);
 }
 
-Vec3 forceAt(Coupling& seam, const Vec3& x, std::size_t nodes) {
+Vec3 forceAt(SurfaceCoupler& seam, const Vec3& x, std::size_t nodes) {
   dem::Particles particles;
   dem::addParticle(particles, x, {}, 0.35, dem::Mass{1.0});
   const std::vector<Vec3> rest(nodes);
@@ -242,7 +242,7 @@ Vec3 forceAt(Coupling& seam, const Vec3& x, std::size_t nodes) {
 
 TEST(SmoothSurface, CoplanarFacesActAsOnePlane) {
   const fem::SolidMesh mesh = unitBlock();
-  Coupling seam(makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("skin"))));
+  SurfaceCoupler seam(makeSmoothSurface(makeSkin(mesh.X, mesh.faceSets.at("skin"))));
   Random random(5);
   for (int i = 0; i < 200; ++i) {
     const double overlap = 0.35 * std::pow(10.0, random(-4.0, -0.5));

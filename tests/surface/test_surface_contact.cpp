@@ -86,7 +86,7 @@ struct End {
 };
 
 /// @param order  of the grains at the start @param leaver  an id that is taken out half-way, −1: nobody
-/// @param sortEvery  renewals
+/// @param sortEvery  list updates
 End runInOrder(std::span<const int> order, int sortEvery, std::int64_t leaver, bool newcomer) {
   const fem::SolidMesh mesh = softBlock(ElementShape::hex8);
   const dem::Particles all = slantingGrains(20, 7);
@@ -99,7 +99,7 @@ End runInOrder(std::span<const int> order, int sortEvery, std::int64_t leaver, b
   }
   ContactScene scene(mesh, std::move(particles), rollingLaws());
   scene.grains.sortEvery = sortEvery;
-  scene.grains.pairs.setSkin(0.002);  // renewed often
+  scene.grains.pairs.setSkin(0.002);  // updated often
   scene.start(1e-4);
   for (int step = 0; step < 300; ++step) {
     if (step == 60 && leaver >= 0)
@@ -206,7 +206,7 @@ double stiffestMode(ContactScene& scene) {
   const fem::Nodes& nodes = scene.solid.nodes;
   const std::size_t n = scene.grains.particles.size();
   std::vector<Vec3> grain = random.field(n, 1.0), node = random.field(nodes.X.size(), 1.0);
-  Coupling seam(scene.contact->coupling().skin());
+  SurfaceCoupler seam(scene.contact->coupling().skin());
   const std::vector<Vec3> rest(nodes.X.size());
   const auto answer = [&](double h) {
     dem::Particles moved = scene.grains.particles;
@@ -296,14 +296,14 @@ TEST(SurfaceContact, RefusesWhatItCannotDo) {
   const fem::SolidMesh mesh = softBlock(ElementShape::hex8), other = softBlock(ElementShape::hex8, {2, 2, 1});
   ContactScene scene(mesh, slantingGrains(3, 5), rollingLaws());
   const Skin skin = makeSkin(mesh.X, mesh.faceSets.at("skin"));
-  EXPECT_THROW(SurfaceContact(scene.side, Coupling(makeSkin(other.X, other.faceSets.at("skin"))), rollingLaws()),
+  EXPECT_THROW(SurfaceContact(scene.side, SurfaceCoupler(makeSkin(other.X, other.faceSets.at("skin"))), rollingLaws()),
                InputError);
-  EXPECT_THROW(SurfaceContact(scene.side, Coupling(skin), nullptr), InputError);
-  EXPECT_THROW(SurfaceContact(scene.side, Coupling(makeSmoothSurface(skin)), rollingLaws()), InputError);
+  EXPECT_THROW(SurfaceContact(scene.side, SurfaceCoupler(skin), nullptr), InputError);
+  EXPECT_THROW(SurfaceContact(scene.side, SurfaceCoupler(makeSmoothSurface(skin)), rollingLaws()), InputError);
   dem::Model still;
   still.laws = elasticLaws(1e4);
   dem::addParticle(still.particles, {0.3, 0.3, 0.1}, {}, 0.03, dem::Mass{1.0});
-  still.terms.add(SurfaceContact(scene.side, Coupling(skin), rollingLaws(), "contacts"));
+  still.terms.add(SurfaceContact(scene.side, SurfaceCoupler(skin), rollingLaws(), "contacts"));
   EXPECT_THROW(dem::findForces(still), InputError) << "particles do not spin";
 }
 
@@ -315,14 +315,14 @@ TEST(SurfaceContact, DamagedStatesNeverCrash) {
   for (Vec3& x : particles.x) x.z -= 0.004;
   const auto laws = elasticLaws(1e4);
   for (const bool smooth : {false, true}) {
-    Coupling good = makeSeam(mesh, {.name = "", .smooth = smooth});
+    SurfaceCoupler good = makeSeam(mesh, {.name = "", .smooth = smooth});
     respond(good, particles, rest, rest, *laws);
     ASSERT_GT(good.contacts().size(), 5U);
     ByteWriter writer;
     good.save(writer);
     std::size_t refused = 0;
     const auto load = [&](const std::vector<char>& bytes) {
-      Coupling other = good;
+      SurfaceCoupler other = good;
       try {
         ByteReader reader(bytes);
         other.load(reader);

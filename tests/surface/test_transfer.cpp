@@ -66,7 +66,7 @@ struct ContactPower {
   double atContacts = 0.0, atVertices = 0.0;
 };
 
-ContactPower powerOf(const Coupling& seam) {
+ContactPower powerOf(const SurfaceCoupler& seam) {
   ContactPower power;
   dem::TriangulatedWall wall = seam.wall();
   wall.f.assign(wall.x.size(), Vec3{});
@@ -80,7 +80,7 @@ ContactPower powerOf(const Coupling& seam) {
 TEST_P(Transfer, PowerIsTheSameAtContactsVerticesAndNodes) {
   for (unsigned seed : {1u, 2u, 3u}) {
     Scene scene(seed);
-    Coupling seam = makeSeam(scene.mesh, GetParam());
+    SurfaceCoupler seam = makeSeam(scene.mesh, GetParam());
     const Response response = respond(seam, scene.particles, scene.u, scene.v, *damped);
     ASSERT_GE(response.contacts, 12);
     const double atNodes = power(response.onNodes, scene.v);
@@ -96,7 +96,7 @@ TEST_P(Transfer, PowerIsTheSameAtContactsVerticesAndNodes) {
 TEST_P(Transfer, ForcesBalance) {
   for (unsigned seed : {4u, 5u}) {
     Scene scene(seed);
-    Coupling seam = makeSeam(scene.mesh, GetParam());
+    SurfaceCoupler seam = makeSeam(scene.mesh, GetParam());
     const Response response = respond(seam, scene.particles, scene.u, scene.v, *damped);
     const Balance balance = balanceOf(scene, response.onParticles, response.onNodes);
     EXPECT_LE(norm(balance.force), 1e-13 * balance.size);
@@ -107,7 +107,7 @@ TEST_P(Transfer, ForcesBalance) {
 TEST_P(Transfer, MomentsBalanceAtAnyTurn) {
   for (unsigned seed : {6u, 7u, 8u}) {
     Scene scene(seed);
-    Coupling seam = makeSeam(scene.mesh, GetParam());
+    SurfaceCoupler seam = makeSeam(scene.mesh, GetParam());
     const Quaternion turn = fromRotationVector(seed == 6u ? Vec3{} : scene.random.vector(2.0));
     const Vec3 shift = scene.random.vector(3.0);
     for (std::size_t i = 0; i < scene.u.size(); ++i)
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Variants, Transfer, ::testing::ValuesIn(allVariants()),
 
 Response spread(Scene& scene, const cg::SurfaceKernel& kernel) {
   const auto faces = scene.mesh.faceSets.at("skin");
-  Coupling seam(makeSkin(scene.mesh.X, faces));
+  SurfaceCoupler seam(makeSkin(scene.mesh.X, faces));
   seam.spreadLoad(SpreadLoad(kernel, scene.mesh.X, seam.skin(), faces));
   dem::Particles particles = scene.particles;
   seam.exchange(particles, scene.u, scene.v, *elastic, 1e-3);
@@ -144,7 +144,7 @@ TEST(SpreadTransfer, ForcesBalanceForEveryWidth) {
 
 TEST(SpreadTransfer, WidthZeroIsThePointTransfer) {
   Scene scene(9);
-  Coupling local = makeSeam(scene.mesh, {"local"});
+  SurfaceCoupler local = makeSeam(scene.mesh, {"local"});
   const Response point = respond(local, scene.particles, scene.u, scene.v, *elastic);
   const Response zero = spread(scene, {{cg::KernelShape::lucy, 2, 0.0}, {}});
   const Response wide = spread(scene, {{cg::KernelShape::lucy, 2, 1.3}, {}});
@@ -162,7 +162,7 @@ TEST(SpreadTransfer, WidthZeroIsThePointTransfer) {
 TEST(SpreadTransfer, CreatesPower) {
   Scene scene(10);
   const auto faces = scene.mesh.faceSets.at("skin");
-  Coupling seam(makeSkin(scene.mesh.X, faces));
+  SurfaceCoupler seam(makeSkin(scene.mesh.X, faces));
   seam.spreadLoad(SpreadLoad({{cg::KernelShape::lucy, 2, 1.3}, {}}, scene.mesh.X, seam.skin(), faces));
   seam.exchange(scene.particles, scene.u, scene.v, *elastic, 1e-3);
   const double atNodes = power(seam.load().force, scene.v), atContacts = powerOf(seam).atContacts;

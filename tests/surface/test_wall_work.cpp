@@ -1,4 +1,4 @@
-// What Coupling::wallWork books.
+// What SurfaceCoupler::wallWork books.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -35,7 +35,7 @@ struct Books {
 };
 
 /// Trapezoidal work of the contact on the particle and of the load on the nodes, with `steps` exchanges.
-Books book(Coupling seam, int steps, double startX = 1.4) {
+Books book(SurfaceCoupler seam, int steps, double startX = 1.4) {
   Motion motion;
   motion.startX = startX;
   seam.bookWallWork(true);
@@ -81,8 +81,8 @@ void expectSecondOrder(Make&& make, double startX = 1.4) {
   EXPECT_LT(order, 2.2);
 }
 
-Coupling flatSeam(const Variant& variant, double margin = 0.0) {
-  return Coupling(carriedSkin(unitBlock(), variant), {dem::EdgeRule::projected, margin});
+SurfaceCoupler flatSeam(const Variant& variant, double margin = 0.0) {
+  return SurfaceCoupler(carriedSkin(unitBlock(), variant), {dem::EdgeRule::projected, margin});
 }
 
 TEST(WallWork, ClosesTheEnergyOfThePrescribedMotion) {
@@ -91,14 +91,14 @@ TEST(WallWork, ClosesTheEnergyOfThePrescribedMotion) {
 
 TEST(WallWork, ClosesItOnTheSmoothSurface) {
   for (const Variant& variant : flatVariants())
-    expectSecondOrder([&] { return Coupling(makeSmoothSurface(carriedSkin(unitBlock(), variant))); }, 1.65);
+    expectSecondOrder([&] { return SurfaceCoupler(makeSmoothSurface(carriedSkin(unitBlock(), variant))); }, 1.65);
 }
 
 TEST(WallWork, ClosesItForTheSpreadLoadWhoseNodesGetOtherWork) {
   const fem::SolidMesh mesh = unitBlock();
   const auto faces = mesh.faceSets.at("skin");
   const auto spreadSeam = [&] {
-    Coupling seam(makeSkin(mesh.X, faces));
+    SurfaceCoupler seam(makeSkin(mesh.X, faces));
     seam.spreadLoad(SpreadLoad({{cg::KernelShape::lucy, 2, 1.3}, {}}, mesh.X, seam.skin(), faces));
     return seam;
   };
@@ -124,7 +124,7 @@ TEST(WallWork, DoesNotDependOnTheMargin) {
 
 TEST(WallWork, StandsStillWhenSwitchedOff) {
   const Motion motion;
-  Coupling seam = flatSeam({"local"});
+  SurfaceCoupler seam = flatSeam({"local"});
   dem::Particles particles;
   dem::addParticle(particles, motion.x(0), {}, radius, dem::Mass{1.0});
   for (double t : {0.0, 0.5, 1.0}) {

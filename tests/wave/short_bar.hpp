@@ -21,7 +21,7 @@ inline Settings shortBar(Words more = {}) {
   more.insert(more.end(), {"--dem-length", "4", "--overlap", "1.6", "--fem-length", "4"});
   Settings settings = settingsOf(more);
   settings.pulseElements = 6.0;
-  if (!settings.shareOfCritical) settings.dtFactor = 0.01;
+  if (!settings.fractionOfCritical) settings.dtFactor = 0.01;
   return settings;
 }
 inline RunFigures figuresOf(const Words& more) { return run(shortBar(more)).figures; }

@@ -16,14 +16,14 @@ TEST(Conservation, PenaltyAndMultipliersLoseNothingForAnyWidth) {
       SCOPED_TRACE(std::string(constraint) + ", width " + width);
       const RunFigures f = test::runAndCompare(shortBar({"--constraint", constraint, "--cg-width", width})).figures;
       EXPECT_TRUE(f.stable);
-      EXPECT_LT(std::abs(f.lostShare), 5e-5);
+      EXPECT_LT(std::abs(f.lostFraction), 5e-5);
       EXPECT_LT(f.ledgerResidual, 5e-5);
-      EXPECT_LT(std::abs(f.couplingWorkShare), 1e-12);
+      EXPECT_LT(std::abs(f.couplingWorkFraction), 1e-12);
       EXPECT_LT(f.momentumResidual, 1e-12);
       EXPECT_LT(f.massResidual, 1e-4);
       EXPECT_TRUE(f.compared);
       EXPECT_LT(f.waveformErrorFem, 0.03);
-      EXPECT_LT(f.reflectedShare, 1e-4);
+      EXPECT_LT(f.reflectedFraction, 1e-4);
     }
 }
 
@@ -36,8 +36,8 @@ TEST(Conservation, TheResidualFallsWithTheSquareOfTheStep) {
 
 TEST(Conservation, WhatADashpotLosesIsBooked) {
   const RunFigures f = figuresOf({"--constraint", "dashpot", "--weight-floor", "0.1"});
-  EXPECT_LT(f.couplingWorkShare, -0.01);
-  EXPECT_NEAR(f.lostShare, -f.couplingWorkShare, 1e-4);
+  EXPECT_LT(f.couplingWorkFraction, -0.01);
+  EXPECT_NEAR(f.lostFraction, -f.couplingWorkFraction, 1e-4);
   EXPECT_LT(f.ledgerResidual, 1e-4);
   EXPECT_LT(f.momentumResidual, 1e-12);
 }
@@ -46,10 +46,10 @@ TEST(Conservation, WhatTheAbsorberTakesIsBookedApart) {
   // An impulse has waves that the mesh cannot carry.
   const RunFigures without = figuresOf({"--particles-per-edge", "2", "--signal", "impulse"}),
                    with = figuresOf({"--particles-per-edge", "2", "--signal", "impulse", "--absorber", "1"});
-  EXPECT_EQ(without.absorbedShare, 0.0);
-  EXPECT_GT(with.absorbedShare, 0.01);
-  EXPECT_LT(with.absorbedShare, 1.0);
-  EXPECT_LT(std::abs(with.lostShare), 2e-3);
+  EXPECT_EQ(without.absorbedFraction, 0.0);
+  EXPECT_GT(with.absorbedFraction, 0.01);
+  EXPECT_LT(with.absorbedFraction, 1.0);
+  EXPECT_LT(std::abs(with.lostFraction), 2e-3);
   EXPECT_LT(with.momentumResidual, 1e-12);
 }
 
@@ -63,7 +63,7 @@ TEST(Conservation, ParticlesAloneHaveNoSolidAndKeepTheirEnergy) {
   EXPECT_EQ(result.figures.elements, 0u);
   EXPECT_TRUE(result.nodePosition.empty());
   EXPECT_TRUE(std::isinf(result.figures.critical.solid));
-  EXPECT_LT(std::abs(result.figures.lostShare), 5e-5);
+  EXPECT_LT(std::abs(result.figures.lostFraction), 5e-5);
 }
 
 TEST(Conservation, ThreadsDoNotChangeTheLastBit) {
@@ -75,9 +75,9 @@ TEST(Conservation, ThreadsDoNotChangeTheLastBit) {
 }
 
 TEST(Conservation, AStepAboveTheCriticalOneIsRefusedAndWouldBreakDown) {
-  const std::string message = test::refusal({"--dt-share", "1.05"});
+  const std::string message = test::refusal({"--dt-fraction", "1.05"});
   EXPECT_NE(message.find("--dt auto"), std::string::npos) << message;
-  const RunFigures f = figuresOf({"--dt-share", "2", "--insist"});
+  const RunFigures f = figuresOf({"--dt-fraction", "2", "--insist"});
   EXPECT_FALSE(f.finished);
   EXPECT_FALSE(f.stable);
   EXPECT_NE(f.failure.find("t = "), std::string::npos) << f.failure;

@@ -37,7 +37,7 @@ const char* everyOption =
     "--full-dem --stiffness-ratio --density-ratio --dt-factor --dt "
     "--fem --fem-every --until --threads --out "
     "--output-interval --no-comparison --summary --study --reference "
-    "--profile --quiet --workers --dt-share --insist --until-past ";
+    "--profile --quiet --workers --dt-fraction --insist --until-past ";
 
 TEST(Program, HelpListsEveryOption) {
   for (const char* word : {"--help", "-h"}) {
@@ -53,13 +53,13 @@ TEST(Program, HelpListsEveryOption) {
 void expectSummary(const nlohmann::json& json) {
   for (const char* key :
        {"steps", "wall_seconds", "seconds_per_step", "particles", "energy_input_J", "energy_final_J",
-        "energy_lost_share", "energy_absorbed_share", "coupling_work_share", "ledger_residual_relative",
+        "energy_lost_fraction", "energy_absorbed_fraction", "coupling_work_fraction", "ledger_residual_relative",
         "momentum_residual_relative", "mass_residual_relative", "waveform_error_fem", "waveform_error_dem",
-        "reflected_energy_share", "speed_ratio_to_full_dem", "overlap_mismatch", "gap_max_m"}) {
+        "reflected_energy_fraction", "speed_ratio_to_full_dem", "overlap_mismatch", "gap_max_m"}) {
     ASSERT_TRUE(json.contains(key)) << key;
     EXPECT_TRUE(json[key].is_number()) << key << ": " << json[key];
   }
-  EXPECT_TRUE(json.at("paper_dissipated_share").is_null());  // not an impulse
+  EXPECT_TRUE(json.at("paper_dissipated_fraction").is_null());  // not an impulse
   for (const char* part : {"particles", "solid", "together"})
     EXPECT_GT(json.at("critical_step_s").at(part).get<double>(), 0.0) << part;
   EXPECT_EQ(json.at("critical_step_set_by"), "the coupling");
@@ -99,7 +99,8 @@ TEST(Program, AShortRunWritesItsFilesQuietlyAndAgainIntoTheSameFolder) {
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(outcome.err, "");
     expectTable(readText(folder / "deep/out/series.csv"), "time_s,mass_particles_kg,", 20);
-    expectTable(readText(folder / "deep/out/profile.csv"), "time_s,model,y_m,velocity_y_m_per_s,particles_share", 60);
+    expectTable(readText(folder / "deep/out/profile.csv"), "time_s,model,y_m,velocity_y_m_per_s,particles_fraction",
+                60);
     expectSummary(parsed(summary));
     EXPECT_EQ(std::filesystem::exists(out + "/series.h5"), TEST_WITH_HDF5 == 1);
     for (const std::string name : {"solid", "particles"}) {
@@ -124,7 +125,7 @@ TEST(Program, WhatWasNotComparedIsNull) {
     EXPECT_EQ(outcome.out.find("Beside particles alone"), std::string::npos);
     const auto json = parsed(summary);
     for (const char* key :
-         {"waveform_error_fem", "waveform_error_dem", "reflected_energy_share", "speed_ratio_to_full_dem"})
+         {"waveform_error_fem", "waveform_error_dem", "reflected_energy_fraction", "speed_ratio_to_full_dem"})
       EXPECT_TRUE(json.at(key).is_null()) << key;
   }
 }

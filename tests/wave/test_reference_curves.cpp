@@ -63,9 +63,9 @@ TEST(ReferenceCurves, DifferencesAreTakenWhereBothHaveSamples) {
 
 TEST(ReferenceCurves, TheDissipatedShareIsThatBetweenTheAuthorsTimes) {
   const std::vector<EnergySample> falling{{0.0, 2.0}, {0.0193, 2.0}, {0.0199, 1.9}, {0.0608, 1.5}, {0.0817, 1.0}};
-  EXPECT_NEAR(dissipatedShare(falling, 1), 0.25, 1e-12);
-  EXPECT_NEAR(dissipatedShare(falling, 4), 1.0 - 1.0 / 1.9, 1e-12);
-  EXPECT_TRUE(std::isnan(dissipatedShare({{0.0, 1.0}, {0.05, 1.0}}, 1)));
+  EXPECT_NEAR(dissipatedFraction(falling, 1), 0.25, 1e-12);
+  EXPECT_NEAR(dissipatedFraction(falling, 4), 1.0 - 1.0 / 1.9, 1e-12);
+  EXPECT_TRUE(std::isnan(dissipatedFraction({{0.0, 1.0}, {0.05, 1.0}}, 1)));
 }
 
 TEST(ReferenceCurves, ABadFolderNamesTheOption) {

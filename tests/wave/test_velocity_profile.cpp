@@ -42,9 +42,9 @@ TEST(VelocityProfile, HasEveryLayerOfEveryModel) {
 TEST(VelocityProfile, CarriesTheMomentumOfTheParticles) {
   const Settings settings = test::shortBar();
   const ProfileRun profile = runWithProfile(settings);
-  const auto v = profile.table.column("velocity_y_m_per_s"), share = profile.table.column("particles_share");
+  const auto v = profile.table.column("velocity_y_m_per_s"), fraction = profile.table.column("particles_fraction");
   const double layerMass = particlesPerLayer(settings) * particleMass(settings);
-  const double sum = sumAtEnd(profile.table, 1.0, [&](std::size_t row) { return layerMass * share[row] * v[row]; });
+  const double sum = sumAtEnd(profile.table, 1.0, [&](std::size_t row) { return layerMass * fraction[row] * v[row]; });
   const double momentum = profile.result.series.column("momentum_particles_y_Ns").back();
   EXPECT_NEAR(sum, momentum, 1e-12 * std::abs(momentum));
 }
@@ -52,14 +52,14 @@ TEST(VelocityProfile, CarriesTheMomentumOfTheParticles) {
 TEST(VelocityProfile, SharesOfParticlesFallFromOneToZeroAcrossTheOverlap) {
   const Settings settings = test::shortBar();
   const io::TimeSeries table = runWithProfile(settings).table;
-  const auto y = table.column("y_m"), share = table.column("particles_share"), kind = table.column("model");
+  const auto y = table.column("y_m"), fraction = table.column("particles_fraction"), kind = table.column("model");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (kind[row] == 2.0) continue;
     const double least = y[row] < 2.4 - 1e-9 ? 1.0 : 0.0, most = y[row] > 4.0 + 1e-9 ? 0.0 : 1.0;
-    EXPECT_GE(share[row], least) << y[row];
-    EXPECT_LE(share[row], most) << y[row];
+    EXPECT_GE(fraction[row], least) << y[row];
+    EXPECT_LE(fraction[row], most) << y[row];
     const bool middle = std::abs(y[row] - 3.2) < 1e-9;
-    EXPECT_NEAR(share[row], 0.5, middle ? 1e-12 : 0.5);
+    EXPECT_NEAR(fraction[row], 0.5, middle ? 1e-12 : 0.5);
   }
 }
 

@@ -46,7 +46,7 @@ PairError integrateError(std::span<const PairSample> samples, const BeamCase& be
 
 }  // namespace
 
-PairError errorFromStatic(std::span<const PairSample> samples, const BeamCase& beam, const StaticSettings& settings) {
+PairError errorFromStatic(std::span<const PairSample> samples, const BeamCase& beam, const StaticOptions& settings) {
   const std::size_t count = samplesOnBeam(samples, beam, HUGE_VAL);
   return integrateError(samples.first(count), beam, [&](double, double y) { return staticHeight(beam, y, settings); });
 }

@@ -28,7 +28,7 @@ struct PairError {
 
 /// Δz at the particle's own y from the static formula.
 PairError errorFromStatic(std::span<const PairSample> samples, const BeamCase& beam,
-                          const StaticSettings& settings = {});
+                          const StaticOptions& settings = {});
 /// Δz at the same time from the dynamic reference; ends when the reference's particles leave, if that is earlier.
 PairError errorFromDynamicAtTime(std::span<const PairSample> samples, const BeamCase& beam,
                                  const DynamicReference& reference);

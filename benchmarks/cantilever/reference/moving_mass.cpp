@@ -49,7 +49,7 @@ void record(double time, const MovingMassState& state, DynamicReference& referen
   reference.vz.push_back(state.v[1]);
 }
 
-void validate(const ModalSettings& settings, const BeamModes& modes) {
+void validate(const ModalOptions& settings, const BeamModes& modes) {
   requirePositive(settings.dt, "dt");
   requirePositive(settings.sampleInterval, "sampleInterval");
   requirePositive(settings.maxTime, "maxTime");
@@ -70,7 +70,7 @@ MovingMassState startState(const BeamCase& beam, int modes) {
   return state;
 }
 
-void integrate(const MovingMassModel& model, const BeamCase& beam, const ModalSettings& settings,
+void integrate(const MovingMassModel& model, const BeamCase& beam, const ModalOptions& settings,
                BeamSurfaceContact& contact, MovingMassState& state, DynamicReference& reference) {
   const double dt = settings.dt;
   const auto stride = static_cast<long>(std::ceil(settings.sampleInterval / dt * (1.0 - 1e-12)));
@@ -94,12 +94,12 @@ void integrate(const MovingMassModel& model, const BeamCase& beam, const ModalSe
   }
   reference.startEnergy = startEnergy;
   reference.energyDriftRelative = drifted / startEnergy;
-  reference.separatedShare = static_cast<double>(separated) / static_cast<double>(step);
+  reference.separatedFraction = static_cast<double>(separated) / static_cast<double>(step);
 }
 
 }  // namespace
 
-DynamicReference simulateMovingMassBeam(const BeamCase& beam, const ModalSettings& settings) {
+DynamicReference simulateMovingMassBeam(const BeamCase& beam, const ModalOptions& settings) {
   const BeamModes modes = computeModes(makeSection(beam), beam.length, settings.theory, settings.modes);
   validate(settings, modes);
   if (!(beam.startY >= 0.0 && beam.startY < beam.length))

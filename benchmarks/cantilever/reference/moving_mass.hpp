@@ -7,7 +7,7 @@
 
 namespace dovetail::cantilever {
 
-struct ModalSettings {
+struct ModalOptions {
   BeamTheory theory;             ///< supports must be clampedFree
   int modes = 24;                ///< kept; 24 leave within 15 ms of where very many do
   bool surfaceOffset = true;     ///< the top surface turns with the section; off: it only follows the axis
@@ -28,7 +28,7 @@ struct DynamicReference {
   double leaveTime = 0.0;                  ///< when y = length, s
   double startEnergy = 0.0;                ///< kinetic + contact, heights counted from the start, J
   double energyDriftRelative = 0.0;        ///< max |E(t) − E(0)| / E(0) over all steps
-  double separatedShare = 0.0;             ///< share of the steps without contact
+  double separatedFraction = 0.0;          ///< fraction of the steps without contact
 
   /// By cubic Hermite interpolation. @throws InputError outside time.front() … time.back()
   BeamPosition at(double t) const;
@@ -43,6 +43,6 @@ struct DynamicReference {
 /// overlap. Left out: the beam's axial inertia and stretch, and the local dent of the surface under a particle.
 /// @throws InputError for impossible settings (a dt that is unstable for the highest mode among them); NumericalError
 /// if the particles have not left by maxTime, or the closest point of the surface is lost
-DynamicReference simulateMovingMassBeam(const BeamCase& beam, const ModalSettings& settings);
+DynamicReference simulateMovingMassBeam(const BeamCase& beam, const ModalOptions& settings);
 
 }  // namespace dovetail::cantilever

@@ -9,7 +9,7 @@ double staticDeflection(const Section& section, double force, double arm, bool s
   return force * (a * a * a / (3.0 * section.bending) + (shear ? a / section.shear : 0.0));
 }
 
-double staticHeight(const BeamCase& beam, double y, const StaticSettings& settings) {
+double staticHeight(const BeamCase& beam, double y, const StaticOptions& settings) {
   return startHeight(beam) -
          staticDeflection(makeSection(beam), totalWeight(beam), y - settings.armOrigin, settings.shear);
 }

@@ -5,7 +5,7 @@
 
 namespace dovetail::cantilever {
 
-struct StaticSettings {
+struct StaticOptions {
   double armOrigin = 0.0;  ///< the arm is a = y − armOrigin, m: 0 is the true arm, 0.2 (the start) the authors'
   bool shear = false;      ///< add Timoshenko's F a / (κGA)
 };
@@ -15,6 +15,6 @@ struct StaticSettings {
 double staticDeflection(const Section& section, double force, double arm, bool shear = false);
 
 /// Height z of the particles' centres when they rest at y: start height minus the sag under their joint weight, m.
-double staticHeight(const BeamCase& beam, double y, const StaticSettings& settings = {});
+double staticHeight(const BeamCase& beam, double y, const StaticOptions& settings = {});
 
 }  // namespace dovetail::cantilever

@@ -38,7 +38,7 @@ struct Option {
   Option& in(const std::string& unit) { return key += "_" + unit, *this; }
   Option& require() { return needed = true, *this; }
   /// The value in files, where it is not what was written.
-  Option& tellAs(std::function<std::string()> newText) { return text = std::move(newText), *this; }
+  Option& reportAs(std::function<std::string()> newText) { return text = std::move(newText), *this; }
 };
 
 /// Names "--word LETTER" are options, "WORD" alone is an argument by its place; rows without a name are told in

@@ -64,7 +64,7 @@ double BodyTerm::move(Model& m, const Step& step) {
   return moved;
 }
 
-void BodyTerm::renewed(Model& m) {
+void BodyTerm::neighbourListUpdated(Model& m) {
   const std::vector<Vec3> before = bodies.x;
   m.booked.lifted -= dot(m.gravity, wrapPositions(bodies, m.pairs.periodicity()));
   shiftCarriedWalls(m, bodies, before);

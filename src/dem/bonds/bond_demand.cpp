@@ -16,14 +16,14 @@ void addDemand(ContactDemand& demand, const Particles& particles, const Bonds& b
   demand.damping.resize(particles.size(), 0.0);
   for (const Bond& bond : bonds.bonds) {
     demand.links.push_back({bond.i, bond.j, StepOwner::bond});
-    const double share = 0.5 * (particles.weightOf(static_cast<std::size_t>(bond.i)) +
-                                particles.weightOf(static_cast<std::size_t>(bond.j)));
+    const double fraction = 0.5 * (particles.weightOf(static_cast<std::size_t>(bond.i)) +
+                                   particles.weightOf(static_cast<std::size_t>(bond.j)));
     const double sliding = 0.25 * bond.shear * bond.length * bond.length;
     for (const int k : {bond.i, bond.j}) {
       const auto i = static_cast<std::size_t>(k);
       const double perInertia = particles.mass[i] / momentOfInertia(particles, k);
-      const double asked = share * std::max({bond.normal, perInertia * bond.twisting,
-                                             bond.shear + perInertia * (sliding + bond.bending)});
+      const double asked = fraction * std::max({bond.normal, perInertia * bond.twisting,
+                                                bond.shear + perInertia * (sliding + bond.bending)});
       demand.stiffness[i] += asked;
       demand.damping[i] += bond.dampingTime * asked;
     }

@@ -85,16 +85,16 @@ double addDamping(const Bond& bond, const Line& line, const Vec3& velocity, cons
 }
 
 /// What of a bond is modelled here: the mean of the weights of its particles.
-double shareOf(const Particles& particles, const Bond& bond) {
+double fractionOf(const Particles& particles, const Bond& bond) {
   if (particles.weight.empty()) return 1.0;
   return 0.5 *
          (particles.weight[static_cast<std::size_t>(bond.i)] + particles.weight[static_cast<std::size_t>(bond.j)]);
 }
 
-void weigh(Bonds::Forces& f, double share) {
-  f.force *= share;
-  f.torqueI *= share;
-  f.torqueJ *= share;
+void weigh(Bonds::Forces& f, double fraction) {
+  f.force *= fraction;
+  f.torqueI *= fraction;
+  f.torqueJ *= fraction;
 }
 
 /// What a chunk of bonds stores and loses, and how many of it break.
@@ -122,9 +122,9 @@ Answer answerBond(const Particles& particles, Bonds& bonds, const geometry::Peri
   Bonds::Forces& f = bonds.forces[b];
   f = elasticForces(bond, line, energy);
   bonds.utilised[b] = utilisation(bond, line, f);
-  const double share = shareOf(particles, bond);
-  energy *= share;
-  weigh(f, share);
+  const double fraction = fractionOf(particles, bond);
+  energy *= fraction;
+  weigh(f, fraction);
   if (dt > 0.0 && bonds.utilised[b] > 1.0) {
     answer.work.fracturePower = energy / dt;
     answer.powerOfBroken =
@@ -137,8 +137,8 @@ Answer answerBond(const Particles& particles, Bonds& bonds, const geometry::Peri
   if (bond.dampingTime > 0.0) {
     Bonds::Forces damping;
     answer.work.dissipatedPower =
-        share * addDamping(bond, line, particles.v[j] - particles.v[i], omegaI, omegaJ, damping);
-    weigh(damping, share);
+        fraction * addDamping(bond, line, particles.v[j] - particles.v[i], omegaI, omegaJ, damping);
+    weigh(damping, fraction);
     f.force += damping.force;
     f.torqueI += damping.torqueI;
     f.torqueJ += damping.torqueJ;
@@ -159,7 +159,7 @@ double dashpotPower(const Particles& particles, const Bonds& bonds, const geomet
       Bonds::Forces f;
       addDamping(bond, lineOf(particles, bond, space), particles.v[j] - particles.v[i], particles.omega[i],
                  particles.omega[j], f);
-      weigh(f, shareOf(particles, bond));
+      weigh(f, fractionOf(particles, bond));
       power -= dot(f.force, v[j] - v[i]) + dot(f.torqueI, omega[i]) + dot(f.torqueJ, omega[j]);
     }
     return power;

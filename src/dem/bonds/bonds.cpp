@@ -38,7 +38,7 @@ void validate(const BondMaterial& material) {
   requirePositiveOrInfinite(material.tensileStrength, "tensile strength of bonds");
   requirePositiveOrInfinite(material.shearStrength, "shear strength of bonds");
   if (!(material.momentContribution >= 0.0 && material.momentContribution <= 1.0))
-    throw InputError("the share of the moments is " + formatNumber(material.momentContribution),
+    throw InputError("the fraction of the moments is " + formatNumber(material.momentContribution),
                      "moment contribution of bonds", "give a number from 0 to 1");
   requireNonNegative(material.dampingTime, "damping time of bonds");
 }

@@ -82,7 +82,7 @@ void lookAtLimit(Model& m) {
   if (m.step.dt > limit.dt) m.passed = {m.step.dt, limit.dt, ownerOf(limit, m.particles), m.time};
 }
 
-void tellOfLimit(const Model& m, const NumericalError& error) {
+void reportOfLimit(const Model& m, const NumericalError& error) {
   if (!m.passed) return;
   const auto& [dt, limit, owner, time] = *m.passed;
   throw NumericalError(std::string(error.what()) + "; its step, " + formatNumber(dt) + " s, is beyond the stable " +

@@ -59,7 +59,7 @@ void archiveScene(Archive& archive, M& m) {
   archive(m.gravity, m.rotation, m.booking, m.sortEvery, m.refusesUnstableSteps);
   std::int64_t forcesOf = hasForces(m) || m.forcesOf == Model::never ? m.forcesOf : Model::outdated;
   archive(m.time, m.steps, m.open, m.step, m.work, m.booked, m.rate, m.entered, m.left, forcesOf, m.knownIds,
-          m.smallestRadius, m.timeBase, m.stepsBase, m.checkedStep, m.renewals);
+          m.smallestRadius, m.timeBase, m.stepsBase, m.checkedStep, m.listUpdates);
   if constexpr (Archive::reads) {
     m.forcesOf = forcesOf;
     requireKnown(m.rotation, Rotation::off, "the rotation of grains");

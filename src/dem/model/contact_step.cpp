@@ -52,8 +52,8 @@ double macroLimit(const LinkRates& r, int K) {
     const double half = sine < 1.0 ? std::asin(sine) : std::numbers::pi;  // φ/2
     if (!(K * half < 0.5 * std::numbers::pi)) return false;
     const double left = 1.0 - sine * sine - 0.5 * dt * r.damped;
-    const double share = half > 0.0 ? K * std::tan(half) / std::tan(K * half) : 1.0;
-    return macroStep * (macroStep * r.macroStiff + 2.0 * r.macroDamped) <= 4.0 * left * share;
+    const double fraction = half > 0.0 ? K * std::tan(half) / std::tan(K * half) : 1.0;
+    return macroStep * (macroStep * r.macroStiff + 2.0 * r.macroDamped) <= 4.0 * left * fraction;
   };
   double least = 0.0, most = verletLimit(r.macroStiff, r.macroDamped) / K;
   most = std::min(most, verletLimit(r.stiff, r.damped));
@@ -78,17 +78,17 @@ void ContactDemand::standOn(std::size_t first, const void* of, double inverseMas
   const int side = sideOf(of, {&inverseMass, 1});
   const std::size_t mass = sides[static_cast<std::size_t>(side)].first;
   masses[mass].inverse = std::max(masses[mass].inverse, inverseMass);
-  const Share whole{static_cast<int>(mass), 1.0};
+  const Fraction whole{static_cast<int>(mass), 1.0};
   for (std::size_t k = first; k < links.size(); ++k) {
     links[k].side = side;
     links[k].shifted = add({&whole, 1});
   }
 }
 
-ContactDemand::Range ContactDemand::add(std::span<const Share> some) {
-  const std::size_t first = shares.size();
-  shares.insert(shares.end(), some.begin(), some.end());
-  return {first, shares.size()};
+ContactDemand::Range ContactDemand::add(std::span<const Fraction> some) {
+  const std::size_t first = fractions.size();
+  fractions.insert(fractions.end(), some.begin(), some.end());
+  return {first, fractions.size()};
 }
 
 namespace {
@@ -129,17 +129,17 @@ Rates ratesOf(const ContactDemand& demand, const Particles& particles) {
   return rates;
 }
 
-std::span<const ContactDemand::Share> sharesIn(const ContactDemand& demand, const ContactDemand::Range& range) {
-  return std::span(demand.shares).subspan(range.first, range.end - range.first);
+std::span<const ContactDemand::Fraction> fractionsIn(const ContactDemand& demand, const ContactDemand::Range& range) {
+  return std::span(demand.fractions).subspan(range.first, range.end - range.first);
 }
 
 /// What all ties, or all other links, ask of each mass, over it.
 std::vector<ContactDemand::Mass> massesUnder(const ContactDemand& demand, bool ties) {
   std::vector<ContactDemand::Mass> masses = demand.masses;
   const auto ask = [&](const ContactDemand::Range& range, double stiffness, double damping) {
-    for (const auto& [mass, share] : sharesIn(demand, range)) {
-      masses[static_cast<std::size_t>(mass)].stiffness += stiffness * share;
-      masses[static_cast<std::size_t>(mass)].damping += damping * share;
+    for (const auto& [mass, fraction] : fractionsIn(demand, range)) {
+      masses[static_cast<std::size_t>(mass)].stiffness += stiffness * fraction;
+      masses[static_cast<std::size_t>(mass)].damping += damping * fraction;
     }
   };
   for (const ContactDemand::Link& link : demand.links) {
@@ -150,9 +150,9 @@ std::vector<ContactDemand::Mass> massesUnder(const ContactDemand& demand, bool t
   for (const ContactDemand::Mass& point : masses) ask(point.carriedBy, point.stiffness, point.damping);
   for (ContactDemand::Mass& mass : masses) mass.stiffness *= mass.inverse, mass.damping *= mass.inverse;
   for (ContactDemand::Mass& point : masses)
-    for (const auto& [mass, share] : sharesIn(demand, point.carriedBy)) {
-      point.stiffness += share * masses[static_cast<std::size_t>(mass)].stiffness;
-      point.damping += share * masses[static_cast<std::size_t>(mass)].damping;
+    for (const auto& [mass, fraction] : fractionsIn(demand, point.carriedBy)) {
+      point.stiffness += fraction * masses[static_cast<std::size_t>(mass)].stiffness;
+      point.damping += fraction * masses[static_cast<std::size_t>(mass)].damping;
     }
   return masses;
 }
@@ -184,11 +184,11 @@ public:
     if (link.side < 0) return rates;
     const auto meets = [&](const ContactDemand::Range& range) {
       std::array<double, 2> sum{};
-      for (const auto& [mass, share] : sharesIn(demand_, range)) {
+      for (const auto& [mass, fraction] : fractionsIn(demand_, range)) {
         const ContactDemand::Mass &others = masses_[static_cast<std::size_t>(mass)],
                                   &tied = tiedMasses_[static_cast<std::size_t>(mass)];
-        sum[0] += share * (ofOthers * others.stiffness + ofTies * tied.stiffness);
-        sum[1] += share * (ofOthers * others.damping + ofTies * tied.damping);
+        sum[0] += fraction * (ofOthers * others.stiffness + ofTies * tied.stiffness);
+        sum[1] += fraction * (ofOthers * others.damping + ofTies * tied.damping);
       }
       return sum;
     };
@@ -233,7 +233,7 @@ ContactStep stepWith(const ContactDemand& demand, const LinkReader& ratesOf, dou
 ContactStep criticalStep(const ContactDemand& demand, const Particles& particles) {
   const LinkReader ratesOf(demand, particles);
   ContactStep step = stepWith(demand, ratesOf, 1.0);
-  // Any shares are safe. In proportion to what is asked, a weak contact of two members meets the stiff ties of both.
+  // Any fractions are safe. In proportion to what is asked, a weak contact of two members meets the stiff ties of both.
   if (!demand.byTies.empty() || !demand.atMacroSteps.empty())
     for (const double lead : {1.25, 1.5, 2.0})
       if (ContactStep other = stepWith(demand, ratesOf, lead); other.dt > step.dt) step = std::move(other);

@@ -118,7 +118,7 @@ bool hasForces(const Model& m) {
 
 void setFactors(Model& m) {
   weighPairs(m);
-  for (const auto& term : m.terms) term->renewed(m);
+  for (const auto& term : m.terms) term->neighbourListUpdated(m);
 }
 
 std::string when(const Model& m) { return "t = " + formatNumber(m.time) + " s, step " + std::to_string(m.steps); }
@@ -178,7 +178,7 @@ double gravityOf(const Particles& p, std::size_t i, const Vec3& gravity) {
 
 double reachOfPairs(const Model& m) { return m.laws && !keepsPairs(m) ? m.laws->reach() : 0.0; }
 
-void renewPairs(Model& m) {
+void updatePairs(Model& m) {
   m.pairs.setReach(reachOfPairs(m));
   const std::int64_t builds = m.pairs.builds(), revision = m.pairs.revision();
   if (keepsPairs(m) && builds > 0)
@@ -187,7 +187,7 @@ void renewPairs(Model& m) {
     updateAndBookWraps(m);
   if (m.pairs.builds() != builds) {
     letEscape(m);
-    if (m.sortEvery > 0 && m.renewals++ % m.sortEvery == 0) sort(m);
+    if (m.sortEvery > 0 && m.listUpdates++ % m.sortEvery == 0) sort(m);
   }
   if (m.pairs.revision() != revision) setFactors(m);
 }

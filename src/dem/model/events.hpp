@@ -1,4 +1,4 @@
-// What happens between moves and forces: the list of pairs is renewed, particles escape, are sorted, come and go.
+// What happens between moves and forces: the list of pairs is updated, particles escape, are sorted, come and go.
 #pragma once
 
 #include <string>
@@ -27,8 +27,8 @@ void requireShortMoves(const Particles& particles, double dt, const std::string&
 
 /// How far beyond touch pairs are to be listed, m; 0 for lists that are kept.
 double reachOfPairs(const Model& m);
-/// Renews the list of pairs where moves ask for it; then looks for who has escaped, and sorts now and then.
-void renewPairs(Model& m);
+/// Updates the neighbour list where moves ask for it; then looks for who has escaped, and sorts now and then.
+void updatePairs(Model& m);
 /// Means of velocities and spins before and after the kick that the forces of the step under way make, to second order
 /// of those whose path is given: with these the forces do their work in it. After all forces are known.
 struct MeanMotion {

@@ -85,7 +85,7 @@ struct Crowd {
   }
 };
 
-void addNewcomers(const InsertionSettings& s, Crowd& crowd) {
+void addNewcomers(const InsertionOptions& s, Crowd& crowd) {
   constexpr double lever = 3.0;  // of members at the ends of clumps
   crowd.add(s.region, s.velocity, true);
   const auto offerTwo = [&](double inverse, double radius) {
@@ -219,7 +219,7 @@ void meetEachOther(const Model& m, const Crowd& crowd, ImpactLimit& limit) {
     }
 }
 
-void meetPartner(const Model& m, const Crowd& crowd, const ImpactPartner& partner, const ImpactSettings& settings,
+void meetPartner(const Model& m, const Crowd& crowd, const ImpactPartner& partner, const ImpactOptions& settings,
                  ImpactLimit& limit) {
   constexpr double flat = 1e6;  // radii
   const ContactLaws& laws = partner.laws ? *partner.laws : *m.laws;
@@ -248,7 +248,7 @@ void meetPartner(const Model& m, const Crowd& crowd, const ImpactPartner& partne
 
 }  // namespace
 
-ImpactLimit impactLimit(const Model& m, const ContactDemand& demand, const ImpactSettings& settings) {
+ImpactLimit impactLimit(const Model& m, const ContactDemand& demand, const ImpactOptions& settings) {
   ImpactLimit limit;
   if (!m.laws) return limit;
   const Crowd crowd = crowdOf(m, demand);

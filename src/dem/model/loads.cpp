@@ -22,7 +22,7 @@ void BondTerm::check(const Model& m) const {
   if (bonds.size() > 0) dem::check(bonds, m.particles);
 }
 
-void BondTerm::renewed(Model& m) {
+void BondTerm::neighbourListUpdated(Model& m) {
   if (mutesContacts) muteBonded(bonds, m.pairs);
 }
 
@@ -68,7 +68,7 @@ void BondTerm::wake(Model& m, const Step& step) {
   }
   if (places.empty()) return;
   std::sort(places.begin(), places.end());
-  for (const auto& term : m.terms) term->renewed(m);  // whoever else mutes them
+  for (const auto& term : m.terms) term->neighbourListUpdated(m);  // whoever else mutes them
   PairList awake = selectPairs(m.particles, list, places);
   const double before = powerOn(m.particles, awake);
   ContactWork work = m.laws->pairs(m.particles, awake, step.dt, m.booking);

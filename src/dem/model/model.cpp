@@ -170,11 +170,11 @@ void move(Model& m, double dt) {
   if (!(m.step.moved <= m.smallestRadius)) requireShortMoves(m.particles, dt, when(m));
 }
 
-void renew(Model& m) {
+void updateNeighbourList(Model& m) {
   timed(m, "find pairs", [&] {
     for (std::size_t k = 0; k < m.terms.size(); ++k)
       m.terms.begin()[static_cast<std::ptrdiff_t>(k)]->exchange(m, m.step);
-    renewPairs(m);
+    updatePairs(m);
   });
 }
 
@@ -224,9 +224,9 @@ void findForces(Model& m) {
   m.step.dt = noTime;
   m.step.timeless = true;
   m.step.moved = std::numeric_limits<double>::infinity();
-  renewPairs(m);
+  updatePairs(m);
   if (otherTerms)
-    for (const auto& term : m.terms) term->renewed(m);
+    for (const auto& term : m.terms) term->neighbourListUpdated(m);
   const double before = m.work.storedEnergy() + m.booked.lost.lostPower();
   if (first) m.pairs.takeEnded();  // those of pairs taken from a state are in no book
   startForces(m.particles, m.gravity);
@@ -247,11 +247,11 @@ void close(Model& m) {
 void advance(Model& m, double dt) {
   try {
     move(m, dt);
-    renew(m);
+    updateNeighbourList(m);
     addForces(m);
   } catch (const NumericalError& error) {
     if (m.refusesUnstableSteps) lookAtLimit(m);
-    tellOfLimit(m, error);
+    reportOfLimit(m, error);
     throw;
   }
   if (m.refusesUnstableSteps && looksAtLimit(m.steps)) lookAtLimit(m);

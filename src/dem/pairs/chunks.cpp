@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "dovetail/core/distribute.hpp"
-#include "renewal.hpp"
+#include "list_update.hpp"
 
 namespace dovetail::dem::detail {
 

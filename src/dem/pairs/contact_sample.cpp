@@ -71,7 +71,7 @@ void PairsApart::take(const Particles& all, const PairList& from, std::size_t fi
   copy(particles.v, all.v);
   copy(particles.radius, all.radius);
   copy(particles.mass, all.mass);
-  copy(particles.weight, all.weight);  // dashpots are made for the share of the mass
+  copy(particles.weight, all.weight);  // dashpots are made for the fraction of the mass
   copy(particles.omega, all.omega);
   copy(particles.material, all.material);
   particles.torque.assign(particles.omega.size(), {});

@@ -4,7 +4,7 @@
 #include "../particles/sort_particles.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "renewal.hpp"
+#include "list_update.hpp"
 
 namespace dovetail::dem {
 

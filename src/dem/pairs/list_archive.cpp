@@ -6,7 +6,7 @@
 
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/error.hpp"
-#include "renewal.hpp"
+#include "list_update.hpp"
 
 // Members of structures that have gaps.
 namespace dovetail::geometry {

@@ -7,7 +7,7 @@
 #include "dovetail/core/distribute.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
-#include "renewal.hpp"
+#include "list_update.hpp"
 
 namespace dovetail::dem {
 

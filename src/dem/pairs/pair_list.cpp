@@ -6,7 +6,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
-#include "renewal.hpp"
+#include "list_update.hpp"
 
 namespace dovetail::dem {
 

@@ -6,7 +6,7 @@
 
 #include "dovetail/core/large_pages.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "renewal.hpp"
+#include "list_update.hpp"
 
 namespace dovetail::dem::detail {
 
@@ -96,7 +96,7 @@ void findImages(const Particles& particles, const PairParts& list, std::size_t c
 /// Fills the chunks of a list that has room for its pairs, and gives them what the old pairs had.
 /// @param fill fill(chunk, images) writes the chunk's pairs and lists those that meet across a period
 template <class Fill>
-void renewChunks(const Particles& particles, const Pairs& old, PairParts& list, Fill&& fill) {
+void updateChunks(const Particles& particles, const Pairs& old, PairParts& list, Fill&& fill) {
   const std::size_t chunks = list.chunks.count(), n = list.size();
   const Belongings from(list, old.size());
   list.memory.resize(from.components * n);
@@ -118,7 +118,7 @@ void takeAll(const Particles& particles, Pairs&& pairs, PairParts& list) {
   list.pairs.swap(pairs);
   list.chunks.size = chunkSize(particles.size());
   findRanges(particles.size(), list.pairs, list.chunks.begin);
-  renewChunks(particles, pairs, list, [&](std::size_t c, auto& images) { findImages(particles, list, c, images); });
+  updateChunks(particles, pairs, list, [&](std::size_t c, auto& images) { findImages(particles, list, c, images); });
 }
 
 /// A thin inner skin lists few pairs that do not touch, but lasts shortly. With n prunings in the life of L steps that
@@ -147,8 +147,8 @@ void prunePairs(const Particles& particles, PairParts& list) {
   list.chunks.size = chunkSize(particles.size());
   list.chunks.begin.swap(marked.begin);
   const Pairs old = std::exchange(list.pairs, Pairs(list.chunks.begin.back()));
-  renewChunks(particles, old, list,
-              [&](std::size_t c, auto& images) { fillChunk(particles, marked, c, list, images); });
+  updateChunks(particles, old, list,
+               [&](std::size_t c, auto& images) { fillChunk(particles, marked, c, list, images); });
 }
 
 /// Arrays that each step goes through.

@@ -32,7 +32,7 @@ void checkPositive(double value, std::size_t particle, const char* field) {
 void checkWeight(double value, std::size_t particle) {
   if (!(value > 0.0 && value <= 1.0))
     throw InputError("the value is " + formatNumber(value), place(particle, "weight"),
-                     "give the share of the particle that is modelled, above 0 and at most 1");
+                     "give the fraction of the particle that is modelled, above 0 and at most 1");
 }
 
 /// Numbers of the particles by ascending id.

@@ -40,7 +40,7 @@ double reachOf(const ClumpShape& shape) {
 }
 
 Newcomer nextOf(const Insertion& insertion) {
-  const InsertionSettings& s = insertion.settings;
+  const InsertionOptions& s = insertion.settings;
   if (!s.shapes.empty()) {
     const ClumpShape& shape = s.shapes[static_cast<std::size_t>(insertion.nextShape)];
     return {shape.offset, shape.radius, shape.properties.mass};
@@ -60,8 +60,8 @@ void drawNext(Insertion& insertion) {
 /// Every turn as likely as any other (Shoemake, Graphics Gems III, 1992).
 Quaternion drawTurn(RandomStream& random) {
   constexpr double circle = 2.0 * std::numbers::pi;
-  const double share = random.uniform(), a = circle * random.uniform(), b = circle * random.uniform();
-  const double s = std::sqrt(1.0 - share), c = std::sqrt(share);
+  const double fraction = random.uniform(), a = circle * random.uniform(), b = circle * random.uniform();
+  const double s = std::sqrt(1.0 - fraction), c = std::sqrt(fraction);
   return {c * std::cos(b), s * std::sin(a), s * std::cos(a), c * std::sin(b)};
 }
 
@@ -86,7 +86,7 @@ Vec3 drawPlace(Insertion& insertion, const Newcomer& newcomer, const geometry::P
   return insertion.random.point(lower, upper);
 }
 
-void checkSettings(const InsertionSettings& s) {
+void checkSettings(const InsertionOptions& s) {
   if (s.shapes.empty()) {
     validate(s.sizes);
     requirePositive(s.density.value, "density of inserted particles");
@@ -106,7 +106,7 @@ void checkSettings(const InsertionSettings& s) {
   if (s.tries < 1) throw InputError("there are " + std::to_string(s.tries) + " tries", "insertion", "give 1 or more");
 }
 
-void checkRegion(const InsertionSettings& s) {
+void checkRegion(const InsertionOptions& s) {
   double radius = s.shapes.empty() ? largestRadius(s.sizes) : 0.0;
   for (const ClumpShape& shape : s.shapes) radius = std::max(radius, reachOf(shape));
   for (int k = 0; k < 3; ++k) {
@@ -121,7 +121,7 @@ void checkRegion(const InsertionSettings& s) {
 /// Appends the newcomer at x; bodies are given for clumps.
 void append(const Insertion& insertion, const Newcomer& newcomer, const Vec3& x, const Quaternion& turn,
             Particles& particles, Bodies* bodies, Clumps* clumps) {
-  const InsertionSettings& s = insertion.settings;
+  const InsertionOptions& s = insertion.settings;
   const std::size_t first = particles.size();
   if (s.shapes.empty()) {
     addParticle(particles, x, s.velocity, newcomer.radius[0], s.density);
@@ -157,7 +157,7 @@ bool tryInsert(Insertion& insertion, Particles& particles, Bodies* bodies, Clump
 
 int insert(Insertion& insertion, Particles& particles, Bodies* bodies, Clumps* clumps, const Surroundings& surroundings,
            double dt) {
-  const InsertionSettings& s = insertion.settings;
+  const InsertionOptions& s = insertion.settings;
   requireNonNegative(dt, "step of an insertion");
   const bool byMass = s.massPerSecond > 0.0;
   insertion.due += dt * (byMass ? s.massPerSecond : s.numberPerSecond);
@@ -192,7 +192,7 @@ int insert(Insertion& insertion, Particles& particles, Bodies* bodies, Clumps* c
 
 }  // namespace
 
-Insertion makeInsertion(const InsertionSettings& settings) {
+Insertion makeInsertion(const InsertionOptions& settings) {
   checkSettings(settings);
   checkRegion(settings);
   Insertion insertion{settings, RandomStream(settings.seed)};

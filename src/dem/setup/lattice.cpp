@@ -11,7 +11,7 @@ namespace dovetail::dem {
 
 namespace {
 
-/// Edges of a right-angled cell and the centres in it, as shares of the edges, for a nearest distance of one.
+/// Edges of a right-angled cell and the centres in it, as fractions of the edges, for a nearest distance of one.
 struct Cell {
   Vec3 edge;
   std::vector<Vec3> place;

@@ -64,7 +64,7 @@ void wrap(Packing& packing) {
         x[k] -= packing.space.length(k) * std::floor((x[k] - packing.space.box.lower[k]) / packing.space.length(k));
 }
 
-void check(const GrowthSettings& settings) {
+void check(const GrowthOptions& settings) {
   if (!(settings.solidFraction > 0.0 && settings.solidFraction < 0.74))
     throw InputError("the solid fraction is " + formatNumber(settings.solidFraction), "packing",
                      "give one above 0 and below 0.74");
@@ -73,8 +73,8 @@ void check(const GrowthSettings& settings) {
 }
 
 /// Grows the radii towards those wanted; a state that balances with overlaps left is jammed, and growth goes on from
-/// the last good state by a smaller bit. Returns the share of the radii reached.
-double grow(Packing& packing, const std::vector<double>& wanted, const GrowthSettings& settings,
+/// the last good state by a smaller bit. Returns the fraction of the radii reached.
+double grow(Packing& packing, const std::vector<double>& wanted, const GrowthOptions& settings,
             std::int64_t& iterations) {
   constexpr std::int64_t patience = 4000;
   const auto setScale = [&](double scale) {
@@ -120,7 +120,7 @@ int addPacking(Particles& particles, const Packing& packing, Density density, co
   return first;
 }
 
-Packing growPacking(const Sizes& sizes, const geometry::Periodicity& space, const GrowthSettings& settings,
+Packing growPacking(const Sizes& sizes, const geometry::Periodicity& space, const GrowthOptions& settings,
                     PackingReport& report) {
   validate(sizes);
   checkSpace(space);
@@ -139,7 +139,7 @@ Packing growPacking(const Sizes& sizes, const geometry::Periodicity& space, cons
   return packing;
 }
 
-PackingReport compressToPressure(Packing& packing, const CompressionSettings& settings) {
+PackingReport compressToPressure(Packing& packing, const CompressionOptions& settings) {
   checkSpace(packing.space);
   requirePositive(settings.stiffness, "stiffness of the contacts");
   requirePositive(settings.pressure, "pressure");

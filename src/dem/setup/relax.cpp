@@ -94,11 +94,11 @@ FireSums fireSums(const Model& m) {
   return sums;
 }
 
-void check(const Model& m, const RelaxationSettings& s) {
+void check(const Model& m, const RelaxationOptions& s) {
   constexpr const char* beltRemedy = "set its surface velocity to zero until then";
   requirePositive(s.unbalanced, "unbalanced force at rest");
-  if (!(s.stepShare > 0.0 && s.stepShare < 1.0))
-    throw InputError("the share of the critical step is " + formatNumber(s.stepShare), "relaxation",
+  if (!(s.stepFraction > 0.0 && s.stepFraction < 1.0))
+    throw InputError("the fraction of the critical step is " + formatNumber(s.stepFraction), "relaxation",
                      "give a number between 0 and 1");
   if (s.lookEvery < 1 || s.steps < 0)
     throw InputError("a number of steps is not valid", "relaxation", "give lookEvery ≥ 1 and steps ≥ 0");
@@ -122,10 +122,10 @@ void check(const Model& m, const RelaxationSettings& s) {
 }
 
 /// So long that a particle crosses a tenth of its radius, where nobody touches anybody yet.
-double longestStep(const Model& m, double share) {
+double longestStep(const Model& m, double fraction) {
   const double mean = m.particles.size() == 0 ? 1.0 : 1e-3 * m.particles.radius[0];
   const double dt = criticalStep(m, mean).dt;
-  return share * (std::isfinite(dt) ? dt : 1.0);
+  return fraction * (std::isfinite(dt) ? dt : 1.0);
 }
 
 }  // namespace
@@ -232,11 +232,11 @@ struct RelaxingModel {
 };
 }  // namespace
 
-RelaxationReport relax(Model& m, const RelaxationSettings& settings) {
+RelaxationReport relax(Model& m, const RelaxationOptions& settings) {
   check(m, settings);
   findForces(m);
   const RelaxingModel relaxing(m);
-  Fire fire(longestStep(m, settings.stepShare));
+  Fire fire(longestStep(m, settings.stepFraction));
   RelaxationReport report;
   for (std::int64_t step = 0;; ++step) {
     if (step % settings.lookEvery == 0 || step == settings.steps) {
@@ -244,7 +244,7 @@ RelaxationReport relax(Model& m, const RelaxationSettings& settings) {
       report.steps = step;
       report.atRest = report.unbalanced <= settings.unbalanced;
       if (report.atRest || step == settings.steps || (settings.enough && settings.enough(m))) break;
-      fire.setLongest(longestStep(m, settings.stepShare));
+      fire.setLongest(longestStep(m, settings.stepFraction));
     }
     const double before = kineticEnergy(m);
     const FireMix mix = fire.next(fireSums(m));

@@ -39,16 +39,18 @@ void check(const LogNormalSizes& s) {
 void check(const GradingCurve& s) {
   const std::size_t n = s.diameter.size();
   if (n < 2 || s.passing.size() != n)
-    throw InputError("there are " + std::to_string(n) + " sieves and " + std::to_string(s.passing.size()) + " shares",
-                     "grading curve", "give two or more sieves with one share each");
+    throw InputError(
+        "there are " + std::to_string(n) + " sieves and " + std::to_string(s.passing.size()) + " fractions",
+        "grading curve", "give two or more sieves with one fraction each");
   for (std::size_t k = 0; k < n; ++k) {
     requirePositive(s.diameter[k], "sieve " + std::to_string(k));
     if (k > 0 && !(s.diameter[k] > s.diameter[k - 1] && s.passing[k] >= s.passing[k - 1]))
       throw InputError("sieve " + std::to_string(k) + " is out of order", "grading curve", "sort the sieves by size");
   }
   if (!(s.passing.front() == 0.0 && s.passing.back() == 1.0))
-    throw InputError("the shares run from " + formatNumber(s.passing.front()) + " to " + formatNumber(s.passing.back()),
-                     "grading curve", "let them run from 0 to 1");
+    throw InputError(
+        "the fractions run from " + formatNumber(s.passing.front()) + " to " + formatNumber(s.passing.back()),
+        "grading curve", "let them run from 0 to 1");
 }
 
 template <class Value>

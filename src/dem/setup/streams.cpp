@@ -65,7 +65,7 @@ void requireValid(const HalfSpace& space) {
 
 void InsertionTerm::check(const Model& m) const {
   requireLaws(m);
-  const InsertionSettings& s = insertion.settings;
+  const InsertionOptions& s = insertion.settings;
   const int shapes = static_cast<int>(s.shapes.size());
   for (const ClumpShape& shape : s.shapes) requireShorter(shape, m.pairs.periodicity(), "clumps of an insertion");
   if (insertion.nextShape < 0 || insertion.nextShape >= std::max(1, shapes))
@@ -175,7 +175,7 @@ void OutletTerm::load(ByteReader& reader) {
   near_ = {};
 }
 
-InsertionTerm& addInsertion(Model& m, const InsertionSettings& settings) {
+InsertionTerm& addInsertion(Model& m, const InsertionOptions& settings) {
   if (!settings.shapes.empty()) bodies(m);  // which the insertion would make in the midst of a step
   return m.terms.add(InsertionTerm(settings));
 }

@@ -65,31 +65,31 @@ void FacetPotential::see(ActiveFacet& facet, Slide slide) const {
 }
 
 /// The overlaps δᵢ = R − nᵢ·(x − cᵢ) as they are seen now, and who carries what.
-void FacetPotential::share() {
+void FacetPotential::fraction() {
   ActiveSet& set = scratch_.set;
-  set.shares.assign(set.facets.size(), Share{});
+  set.fractions.assign(set.facets.size(), Fraction{});
   for (std::size_t i = 0; i < set.facets.size(); ++i) {
     const FacetView& view = set.facets[i].view;
-    set.shares[i].normal = view.normal;
-    set.shares[i].overlap = radius_ + dot(view.normal, view.foot);
+    set.fractions[i].normal = view.normal;
+    set.fractions[i].overlap = radius_ + dot(view.normal, view.foot);
   }
-  scratch_.solver.solve(set.shares, tolerance * radius_);
+  scratch_.solver.solve(set.fractions, tolerance * radius_);
   set.energy = 0.0;
-  for (const Share& s : set.shares) set.energy += 0.5 * s.carried * s.overlap;
+  for (const Fraction& s : set.fractions) set.energy += 0.5 * s.carried * s.overlap;
 }
 
 /// Σ s′(n·nⱼ) λⱼ nⱼ: from where a facet is seen along n.
 Vec3 FacetPotential::pushed(const Vec3& normal) const {
   Vec3 position;
-  for (const Share& s : scratch_.set.shares)
+  for (const Fraction& s : scratch_.set.fractions)
     if (s.carried > 0.0) position += couplingSlope(dot(normal, s.normal)) * s.carried * s.normal;
   return position;
 }
 
-/// Overlap with a facet along a normal, less what the shares spare it, m. @param support largest n·vertex
+/// Overlap with a facet along a normal, less what the fractions spare it, m. @param support largest n·vertex
 double FacetPotential::remaining(const Vec3& normal, double support) const {
   double depth = radius_ + support;
-  for (const Share& s : scratch_.set.shares)
+  for (const Fraction& s : scratch_.set.fractions)
     if (s.carried > 0.0) depth -= coupling(dot(normal, s.normal)) * s.carried;
   return depth;
 }
@@ -124,7 +124,7 @@ bool FacetPotential::converge() {
         last = infinite;
       }
     }
-    share();
+    fraction();
   }
   return false;
 }
@@ -135,8 +135,8 @@ double FacetPotential::stepOn(double damping) {
   double largest = 0.0;
   for (std::size_t k = 0; k < set.facets.size(); ++k) {
     if (set.facets[k].plane) continue;
-    const Vec3 step = pushed(set.shares[k].normal) - set.facets[k].position;
-    if (set.shares[k].carried > 0.0) largest = std::max(largest, norm(step));
+    const Vec3 step = pushed(set.fractions[k].normal) - set.facets[k].position;
+    if (set.fractions[k].carried > 0.0) largest = std::max(largest, norm(step));
     set.facets[k].position += damping * step;
   }
   return largest;
@@ -146,9 +146,9 @@ double FacetPotential::stepOn(double damping) {
 void FacetPotential::dropIdle() {
   ActiveSet& set = scratch_.set;
   for (std::size_t i = set.facets.size(); i-- > 0;) {
-    if (set.shares[i].carried > 0.0) continue;
+    if (set.fractions[i].carried > 0.0) continue;
     set.facets.erase(set.facets.begin() + static_cast<std::ptrdiff_t>(i));
-    set.shares.erase(set.shares.begin() + static_cast<std::ptrdiff_t>(i));
+    set.fractions.erase(set.fractions.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
 
@@ -178,9 +178,9 @@ bool FacetPotential::follow(const MetFacet& facet, const Vec3& position, Remaind
 }
 
 /// Whether nothing is left along the normal of one of those that carry.
-bool FacetPotential::clearedAlongShares(const MetFacet& facet) const {
+bool FacetPotential::clearedAlongFractions(const MetFacet& facet) const {
   const FacetCorners t = facet.corners();
-  return std::any_of(scratch_.set.shares.begin(), scratch_.set.shares.end(), [&](const Share& s) {
+  return std::any_of(scratch_.set.fractions.begin(), scratch_.set.fractions.end(), [&](const Fraction& s) {
     const double support = std::max({dot(s.normal, t.a), dot(s.normal, t.b), dot(s.normal, t.c)});
     return s.carried > 0.0 && remaining(s.normal, support) <= touching * radius_;
   });
@@ -188,13 +188,13 @@ bool FacetPotential::clearedAlongShares(const MetFacet& facet) const {
 
 /// @param other where there are two, take the one that does not leave least. False if nothing is left along some
 bool FacetPotential::leastRemainder(const MetFacet& facet, bool other, Remainder& least) {
-  if (clearedAlongShares(facet)) return false;
+  if (clearedAlongFractions(facet)) return false;
   Remainder fromCentre{infinite, {}}, fromBeyond{infinite, {}};
   const auto anythingLeft = [&](const FacetView& seen) {
     return remaining(seen.normal, dot(seen.normal, seen.foot)) > touching * radius_;
   };
   Vec3 beyond;
-  for (const Share& s : scratch_.set.shares) beyond += s.carried * s.normal;
+  for (const Fraction& s : scratch_.set.fractions) beyond += s.carried * s.normal;
   FacetView seen;
   viewFacet(beyond, facet.corners(), radius_, FacetView::unseen, sunkIn_ && facet.met->wall->oneSided, seen);
   if (sunkIn_ && (seen.distance == FacetView::unseen || seen.distance < 0.0)) return false;
@@ -223,8 +223,8 @@ bool FacetPotential::takeIn(bool other) {
   }
   if (!(most.depth > 0.0)) return false;
   set.facets.push_back(most.facet);
-  share();
-  if (!(set.shares.back().carried > 0.0)) scratch_.refused.push_back(most.facet);
+  fraction();
+  if (!(set.fractions.back().carried > 0.0)) scratch_.refused.push_back(most.facet);
   return true;
 }
 
@@ -234,7 +234,7 @@ void FacetPotential::descend(const ActiveFacet& first, bool other) {
   set.facets.assign(1, first);
   set.complete = false;
   scratch_.refused.clear();
-  share();
+  fraction();
   bool converged = true;
   for (int round = 0; round < largestRounds; ++round) {
     if (!takeIn(other)) {
@@ -261,21 +261,21 @@ void FacetPotential::lower(const ActiveFacet& first, double atLeast) {
 /// Facets that are coupled answer with one overlap s, s² = Σ λδ: forces F(s) λ/s are the gradient of E(s), whatever the
 /// law. Those that are not answer each with its own, between the two s changes smoothly.
 void FacetPotential::append() const {
-  const std::vector<Share>& shares = scratch_.best.shares;
+  const std::vector<Fraction>& fractions = scratch_.best.fractions;
   const std::vector<ActiveFacet>& facets = scratch_.best.facets;
   std::array<std::size_t, EdgeContactSolver::capacity> order{};
-  const auto end = order.begin() + static_cast<std::ptrdiff_t>(shares.size());
+  const auto end = order.begin() + static_cast<std::ptrdiff_t>(fractions.size());
   std::iota(order.begin(), end, std::size_t{0});
   std::sort(order.begin(), end, [&](std::size_t a, std::size_t b) { return facets[a].entry < facets[b].entry; });
   for (auto i = order.begin(); i != end; ++i) {
-    const Share& share = shares[*i];
+    const Fraction& fraction = fractions[*i];
     double squared = 0.0;
-    for (const Share& other : shares)
-      squared += (&other == &share ? 1.0 : together(dot(share.normal, other.normal))) * other.carried *
+    for (const Fraction& other : fractions)
+      squared += (&other == &fraction ? 1.0 : together(dot(fraction.normal, other.normal))) * other.carried *
                  std::max(other.overlap, other.carried);
     const ActiveFacet& facet = facets[*i];
-    facet.met->add(facet.entry, facet.view, share.carried, share.carried / std::sqrt(squared),
-                   share.carried * std::max(share.overlap, share.carried) / squared);
+    facet.met->add(facet.entry, facet.view, fraction.carried, fraction.carried / std::sqrt(squared),
+                   fraction.carried * std::max(fraction.overlap, fraction.carried) / squared);
   }
 }
 

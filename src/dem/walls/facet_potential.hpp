@@ -18,9 +18,9 @@ struct ActiveFacet : MetFacet {
 /// Those that hold it off together.
 struct ActiveSet {
   std::vector<ActiveFacet> facets;
-  std::vector<Share> shares;  // of each
-  double energy = 0.0;        // V/k, m²
-  bool complete = false;      // a minimum, and nobody else is met there
+  std::vector<Fraction> fractions;  // of each
+  double energy = 0.0;              // V/k, m²
+  bool complete = false;            // a minimum, and nobody else is met there
 };
 
 /// One particle among the facets that it touches.
@@ -48,7 +48,7 @@ public:
   void append() const;
 
 private:
-  /// What is left of the overlap with a facet under the shares of others, along the normal that leaves least.
+  /// What is left of the overlap with a facet under the fractions of others, along the normal that leaves least.
   struct Remainder {
     double depth = 0.0;  // m
     ActiveFacet facet;
@@ -59,14 +59,14 @@ private:
 
   bool holds(const MetFacet& facet) const;
   void see(ActiveFacet& facet, Slide slide = Slide::yes) const;
-  void share();
+  void fraction();
   bool converge();
   double stepOn(double damping);
   void dropIdle();
   double remaining(const Vec3& normal, double support) const;
   Vec3 pushed(const Vec3& normal) const;
   bool follow(const MetFacet& facet, const Vec3& position, Remainder& found) const;
-  bool clearedAlongShares(const MetFacet& facet) const;
+  bool clearedAlongFractions(const MetFacet& facet) const;
   bool leastRemainder(const MetFacet& facet, bool other, Remainder& least);
   bool takeIn(bool other);
 

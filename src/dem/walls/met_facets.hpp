@@ -16,8 +16,8 @@ struct MetWall {
   WallContacts* contacts;  // where the particle's contacts with it go
 
   FacetCorners corners(std::size_t entry) const { return {*wall, encounter.facet[entry], encounter.seenFrom(entry)}; }
-  void add(std::size_t entry, const FacetView& view, double overlap, double engagement, double energyShare) const {
-    addContact(*contacts, encounter, entry, view.weight, view.normal, overlap, engagement, energyShare);
+  void add(std::size_t entry, const FacetView& view, double overlap, double engagement, double energyFraction) const {
+    addContact(*contacts, encounter, entry, view.weight, view.normal, overlap, engagement, energyFraction);
   }
 };
 

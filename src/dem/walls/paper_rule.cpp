@@ -37,8 +37,8 @@ void paperContacts(const Encounter& e, const TriangulatedWall& wall, std::vector
   for (std::size_t i = 0; i < touches.size(); ++i) {
     if (!kept(i)) continue;
     const FacetView& seen = touches[i].view;
-    const double overlap = e.radius - seen.distance, share = overlap / sum;
-    addContact(contacts, e, touches[i].entry, seen.weight, seen.normal, share * overlap, share, share);
+    const double overlap = e.radius - seen.distance, fraction = overlap / sum;
+    addContact(contacts, e, touches[i].entry, seen.weight, seen.normal, fraction * overlap, fraction, fraction);
   }
 }
 

@@ -171,7 +171,7 @@ EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contact
   for (const EndedMemories& part : parts) {
     ended.memory.insert(ended.memory.end(), part.memory.begin(), part.memory.end());
     ended.material.insert(ended.material.end(), part.material.begin(), part.material.end());
-    ended.share.insert(ended.share.end(), part.share.begin(), part.share.end());
+    ended.fraction.insert(ended.fraction.end(), part.fraction.begin(), part.fraction.end());
   }
   return ended;
 }

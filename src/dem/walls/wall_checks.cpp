@@ -132,10 +132,10 @@ void requireWhole(const PrimitiveContacts& c) {
 
 void requireWhole(const WallContacts& c) {
   Lists(c.particle.size())
-      .each(c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyShare, c.force)
+      .each(c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyFraction, c.force)
       .eachOrNone(c.couple, c.energy, c.sideEnergy, c.image);
   const WallSprings& s = c.springs;
-  Lists(s.particle.size()).each(s.normal, s.share).several(s.memory);
+  Lists(s.particle.size()).each(s.normal, s.fraction).several(s.memory);
 }
 
 void requireRows(const PrimitiveContacts& contacts, const WallRows& rows) {

@@ -47,13 +47,13 @@ void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>&
 }
 
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
-              std::size_t contact, std::size_t components, double share) {
+              std::size_t contact, std::size_t components, double fraction) {
   if (components == 0) return;
   const auto i = static_cast<std::size_t>(particle);
   ended.material.push_back(i < particles.material.size() ? particles.material[i] : std::uint8_t{0});
   const auto first = memory.begin() + static_cast<std::ptrdiff_t>(contact * components);
   ended.memory.insert(ended.memory.end(), first, first + static_cast<std::ptrdiff_t>(components));
-  ended.share.push_back(share * particles.weightOf(i));
+  ended.fraction.push_back(fraction * particles.weightOf(i));
 }
 
 }  // namespace detail
@@ -70,7 +70,7 @@ double renumber(WallContacts& contacts, std::span<const int> newNumber) {
   for (const auto& [i, c] : kept) {
     springs.particle.push_back(i);
     springs.normal.push_back(old.normal[c]);
-    springs.share.push_back(old.share[c]);
+    springs.fraction.push_back(old.fraction[c]);
     for (std::size_t m = 0; m < components; ++m) springs.memory.push_back(old.memory[c * components + m]);
   }
   return detail::energyOfLeavers(contacts, newNumber);

@@ -25,7 +25,7 @@ void moveSpring(WallSprings& from, std::size_t row, WallSprings& to) {
   };
   pass(from.memory, to.memory, components);
   pass(from.normal, to.normal, 1);
-  pass(from.share, to.share, 1);
+  pass(from.fraction, to.fraction, 1);
   pass(from.particle, to.particle, 1);
 }
 

@@ -57,7 +57,7 @@ EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, i
   EndedMemories ended;
   for (std::size_t o = 0; o < springs.particle.size(); ++o) {
     const int c = springs.successor[o];
-    const double lost = springs.share[o] - (c < 0 ? 0.0 : contacts.engagement[static_cast<std::size_t>(c)]);
+    const double lost = springs.fraction[o] - (c < 0 ? 0.0 : contacts.engagement[static_cast<std::size_t>(c)]);
     if (c < 0 || lost != 0.0) addEnded(ended, particles, springs.particle[o], springs.memory, o, components, lost);
   }
   return ended;
@@ -67,7 +67,7 @@ void keepSprings(WallContacts& contacts) {
   WallSprings& springs = contacts.springs;
   springs.particle = contacts.particle;
   springs.normal = contacts.normal;
-  springs.share = contacts.engagement;
+  springs.fraction = contacts.engagement;
   springs.memory.swap(springs.next);
 }
 

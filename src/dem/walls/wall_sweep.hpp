@@ -53,14 +53,14 @@ inline Encounter encounter(const Particles& particles, const WallCandidates& can
 }
 
 inline void addContact(WallContacts& contacts, const Encounter& e, std::size_t k, const std::array<double, 3>& weight,
-                       const Vec3& normal, double overlap, double engagement, double energyShare) {
+                       const Vec3& normal, double overlap, double engagement, double energyFraction) {
   contacts.particle.push_back(e.particle);
   contacts.facet.push_back(e.facet[k]);
   contacts.weight.push_back(weight);
   contacts.normal.push_back(normal);
   contacts.overlap.push_back(overlap);
   contacts.engagement.push_back(engagement);
-  contacts.energyShare.push_back(energyShare);
+  contacts.energyFraction.push_back(energyFraction);
   if (!e.image.empty())
     contacts.image.push_back(
         {e.image[k][0] - e.wrapped[0], e.image[k][1] - e.wrapped[1], e.image[k][2] - e.wrapped[2]});

@@ -67,15 +67,15 @@ struct DruckerPragerFlow {
   bool isCoaxial() const { return true; }
   /// What the yield function falls by per multiplier of flow: by the elastic stress, by dc/da, and by both.
   double elasticGain() const { return elasticity.mu + elasticity.kappa * cone.friction * cone.dilatancy; }
-  double hardeningShare() const { return cone.cohesive / std::numbers::sqrt3; }
-  double resistance(double a) const { return elasticGain() + hardeningShare() * cohesion.slope(a); }
+  double hardeningFraction() const { return cone.cohesive / std::numbers::sqrt3; }
+  double resistance(double a) const { return elasticGain() + hardeningFraction() * cohesion.slope(a); }
   FlowAnswer advance(const TrialStrain& trial, std::span<const double> history, std::span<double> newHistory,
                      SixBySix* stiffness) const;
 
 private:
   /// The multiplier of flow that brings the trial stress to the cone.
   double multiplier(double excess, double accumulated) const;
-  /// ∂stress/∂strain on the cone: shear stress along `direction`, of which the return left the share `left`.
+  /// ∂stress/∂strain on the cone: shear stress along `direction`, of which the return left the fraction `left`.
   SixBySix coneStiffness(const Six& direction, double left, double gain) const;
   /// The same at the apex, which moves with the cohesion.
   SixBySix apexStiffness(const Six& direction, double accumulated) const;

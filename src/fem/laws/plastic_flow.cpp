@@ -7,9 +7,9 @@ namespace dovetail::fem::detail {
 namespace {
 
 const double rootThreeHalves = std::sqrt(1.5);
-/// Distance from the yield surface, inside it, up to which the stiffness is that of flow: a share of the yield stress,
-/// and what round-off of F does. A point that has just flowed lies there by chance on either side; the first guess of
-/// the next step needs the stiffness of going on.
+/// Distance from the yield surface, inside it, up to which the stiffness is that of flow: a fraction of the yield
+/// stress, and what round-off of F does. A point that has just flowed lies there by chance on either side; the first
+/// guess of the next step needs the stiffness of going on.
 double nearSurface(const HenckyElasticity& elasticity, double yieldStress) {
   return 1e-9 * yieldStress + 1e-14 * (elasticity.kappa + elasticity.mu);
 }
@@ -106,7 +106,7 @@ public:
     const Six sideways = plus(back_, -dot(back_, direction), direction);
     const Six normal =
         plus(times(2.0 * mu * (turn - rootThreeHalves * gain), direction), -turn * across * gain, sideways);
-    addDyad(D, normal, direction);
+    addOuterProduct(D, normal, direction);
     return D;
   }
 
@@ -208,10 +208,10 @@ SixBySix DruckerPragerFlow::coneStiffness(const Six& direction, double left, dou
   constexpr double root2 = std::numbers::sqrt2;
   const Six unit = {1, 1, 1, 0, 0, 0};
   SixBySix D = isotropicStiffness(kappa, 2.0 * mu * left);
-  // ∂γ/∂ε, and T changes by −(√2 μ N + κ η̄ 1) ∂γ and by what keeps N's share of the shear
+  // ∂γ/∂ε, and T changes by −(√2 μ N + κ η̄ 1) ∂γ and by what keeps N's fraction of the shear
   const Six byStrain = times(gain, plus(times(root2 * mu, direction), kappa * cone.friction, unit));
-  addDyad(D, times(-1.0, plus(times(root2 * mu, direction), kappa * cone.dilatancy, unit)), byStrain);
-  addDyad(D, times(2.0 * mu * (1.0 - left), direction), direction);
+  addOuterProduct(D, times(-1.0, plus(times(root2 * mu, direction), kappa * cone.dilatancy, unit)), byStrain);
+  addOuterProduct(D, times(2.0 * mu * (1.0 - left), direction), direction);
   return D;
 }
 
@@ -219,7 +219,7 @@ SixBySix DruckerPragerFlow::apexStiffness(const Six& direction, double accumulat
   SixBySix D{};
   if (!hardens) return D;
   const double gain = cone.cohesive / cone.friction * cohesion.slope(accumulated) / rootThreeHalves;
-  addDyad(D, {gain, gain, gain, 0.0, 0.0, 0.0}, direction);
+  addOuterProduct(D, {gain, gain, gain, 0.0, 0.0, 0.0}, direction);
   return D;
 }
 

@@ -143,7 +143,7 @@ std::shared_ptr<const PointMaterial> pointMaterial(const DruckerPrager& law) {
                                        static_cast<bool>(law.cohesionCurve.slope)};
   if (!(flow.resistance(0.0) > 0.0))
     throw InputError("the cohesion falls faster than the elastic moduli allow", "DruckerPrager",
-                     "keep its slope above " + formatNumber(-flow.elasticGain() / flow.hardeningShare()));
+                     "keep its slope above " + formatNumber(-flow.elasticGain() / flow.hardeningFraction()));
   return detail::plasticMaterial(law.density, flow);
 }
 

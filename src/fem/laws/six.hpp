@@ -78,7 +78,7 @@ SixBySixOf<T> isotropicStiffness(double bulk, double shear) {
   return D;
 }
 /// D += a ⊗ b.
-inline void addDyad(SixBySix& D, const Six& a, const Six& b) {
+inline void addOuterProduct(SixBySix& D, const Six& a, const Six& b) {
   for (std::size_t i = 0; i < 6; ++i)
     for (std::size_t j = 0; j < 6; ++j) D[6 * i + j] += a[i] * b[j];
 }

@@ -47,8 +47,8 @@ void addLine(SolidMesh& mesh, const std::string& name, const std::string& side, 
 /// which elements of second order do not hold quadratic fields.
 template <class Map>
 double cellwise(Map&& map, double s, int n) {
-  const double cell = std::min(std::floor(s * n + 1e-9), n - 1.0), share = s * n - cell;
-  return (1.0 - share) * map(cell / n) + share * map((cell + 1.0) / n);
+  const double cell = std::min(std::floor(s * n + 1e-9), n - 1.0), fraction = s * n - cell;
+  return (1.0 - fraction) * map(cell / n) + fraction * map((cell + 1.0) / n);
 }
 
 /// The core of the O-grid under (x, y) in (−1, 1)²: a square whose sides bulge towards the circle, which keeps the

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "../motion/force_sum.hpp"
-#include "../motion/run_state.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "motion/force_sum.hpp"
+#include "motion/run_state.hpp"
 
 namespace dovetail::fem {
 

@@ -12,12 +12,12 @@ namespace {
 constexpr std::size_t nodeGrain = 4096;
 }
 
-double matchedShare(double spacing, double elementSize) {
+double matchedFraction(double spacing, double elementSize) {
   requirePositive(elementSize, "element size");
   if (!(spacing >= 0.0 && spacing <= elementSize))
     throw InputError("the spacing " + formatNumber(spacing) + " m is not within 0 and the element size " +
                          formatNumber(elementSize) + " m",
-                     "matchedShare", "take particles that are no larger than an element");
+                     "matchedFraction", "take particles that are no larger than an element");
   const double ratio = spacing / elementSize;
   return 0.5 * (1.0 - ratio * ratio);
 }
@@ -48,7 +48,7 @@ struct ModelMass::Factor {
     }
     if (!free.empty() && !solver.factor(lower))
       throw NumericalError("the mass matrix is not positive definite", "ModelMass",
-                           "take a smaller share of the consistent mass, or shares of the solid above zero");
+                           "take a smaller fraction of the consistent mass, or fractions of the solid above zero");
   }
 
   void solve(std::span<Vec3> f) {
@@ -69,43 +69,43 @@ struct ModelMass::Factor {
 ModelMass::~ModelMass() = default;
 ModelMass::ModelMass(ModelMass&&) noexcept = default;
 
-ModelMass::ModelMass(const Model& model, const DofMap& dofs, double share, const LinearOptions& linear)
+ModelMass::ModelMass(const Model& model, const DofMap& dofs, double fraction, const LinearOptions& linear)
     : dofs_(&dofs),
       linear_(linear),
-      share_(share),
+      fraction_(fraction),
       mass_(model.nodes.mass),
       reduced_(dofs.hasTies() ? dofs.size() : 0) {
   linear_.relativeTolerance = 1e-14;
-  if (!(share >= 0.0 && share <= 1.0))
-    throw InputError("the share is " + formatNumber(share), "ModelMass", "give 0 (lumped) to 1 (consistent)");
+  if (!(fraction >= 0.0 && fraction <= 1.0))
+    throw InputError("the fraction is " + formatNumber(fraction), "ModelMass", "give 0 (lumped) to 1 (consistent)");
   for (std::size_t n = 0; n < mass_.size(); ++n)
     if (!(mass_[n] > 0.0) && model.nodes.fixed[n] != allComponents)
       throw InputError("it has no mass", "node " + std::to_string(n), "call addMass(model), or fix all its components");
   if (isDiagonal())
     for (std::size_t k = 0; k < 3 * mass_.size(); ++k)
       inverse_.push_back(dofs.freeRow()[k] >= 0 ? 1.0 / mass_[k / 3] : 0.0);
-  if (share == 0.0) return;
+  if (fraction == 0.0) return;
   matrix_ = NodeMatrix(patternOf(model));
   for (const auto& term : model.terms) term->addConsistentMass(matrix_);
-  for (double& value : matrix_.values()) value *= share;
+  for (double& value : matrix_.values()) value *= fraction;
   for (std::size_t n = 0; n < mass_.size(); ++n)
-    matrix_.values()[matrix_.place(static_cast<int>(n), static_cast<int>(n))] += (1.0 - share) * mass_[n];
+    matrix_.values()[matrix_.place(static_cast<int>(n), static_cast<int>(n))] += (1.0 - fraction) * mass_[n];
 }
 
 void ModelMass::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
-  if (share_ > 0.0) return matrix_.multiply(x, y);
+  if (fraction_ > 0.0) return matrix_.multiply(x, y);
   parallelFor(x.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) y[n] = mass_[n] * x[n];
   });
 }
 
 double ModelMass::kineticEnergy(std::span<const Vec3> v) const {
-  std::vector<Vec3> p(share_ > 0.0 ? v.size() : 0);
-  if (share_ > 0.0) multiply(v, p);
+  std::vector<Vec3> p(fraction_ > 0.0 ? v.size() : 0);
+  if (fraction_ > 0.0) multiply(v, p);
   return parallelSum(v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
     std::array<double, 4> sum{};  // side by side, so that no sum waits for the one before
     for (std::size_t n = begin; n < end; ++n)
-      sum[n % 4] += share_ > 0.0 ? 0.5 * dot(v[n], p[n]) : 0.5 * mass_[n] * squaredNorm(v[n]);
+      sum[n % 4] += fraction_ > 0.0 ? 0.5 * dot(v[n], p[n]) : 0.5 * mass_[n] * squaredNorm(v[n]);
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
   });
 }
@@ -114,7 +114,7 @@ void ModelMass::addTo(BlockMatrix& S, double factor) const {
   const auto add = [&](std::size_t place, double mass) {
     for (std::size_t c = 0; c < 3; ++c) S.values()[9 * place + 4 * c] += factor * mass;
   };
-  if (share_ == 0.0) {
+  if (fraction_ == 0.0) {
     for (std::size_t n = 0; n < mass_.size(); ++n) add(S.place(static_cast<int>(n), static_cast<int>(n)), mass_[n]);
     return;
   }
@@ -145,7 +145,7 @@ void ModelMass::factorOnce() const {
 
 void ModelMass::solveTied(std::span<Vec3> f) const {
   if (!tiedSolver_) {
-    tied_ = share_ > 0.0 ? BlockMatrix(matrix_) : BlockMatrix(MatrixPattern(mass_.size()));
+    tied_ = fraction_ > 0.0 ? BlockMatrix(matrix_) : BlockMatrix(MatrixPattern(mass_.size()));
     addTo(tied_, 1.0);
     tiedSolver_ = std::make_unique<LinearSolver>(*dofs_, linear_);
     if (!tiedSolver_->factor(tied_, true))
@@ -159,7 +159,7 @@ void ModelMass::solveTied(std::span<Vec3> f) const {
 
 void ModelMass::solve(std::span<Vec3> f) const {
   if (dofs_->hasTies()) return solveTied(f);
-  if (share_ == 0.0) {
+  if (fraction_ == 0.0) {
     parallelFor(f.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n)
         f[n] = {inverse_[3 * n] * f[n].x, inverse_[3 * n + 1] * f[n].y, inverse_[3 * n + 2] * f[n].z};

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../mesh/faces.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/model/ties.hpp"
 #include "dovetail/geometry/hierarchical_grid.hpp"
+#include "mesh/faces.hpp"
 
 namespace dovetail::fem {
 

@@ -51,8 +51,8 @@ TimeFunction table(std::vector<std::pair<double, double>> entries) {
     if (after == entries.begin()) return after->second;
     const auto before = after - 1;
     if (after == entries.end()) return before->second;
-    const double share = (t - before->first) / (after->first - before->first);
-    return before->second + share * (after->second - before->second);
+    const double fraction = (t - before->first) / (after->first - before->first);
+    return before->second + fraction * (after->second - before->second);
   };
 }
 

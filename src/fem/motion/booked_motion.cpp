@@ -20,8 +20,8 @@ bool anySupportMoves(const Model& model, const DofMap& dofs) {
 
 }  // namespace
 
-BookedMotion::BookedMotion(Model& model, double massShare, double h)
-    : motion(model, massShare),
+BookedMotion::BookedMotion(Model& model, double massFraction, double h)
+    : motion(model, massFraction),
       book(model),
       guessesVelocity_(std::ranges::any_of(model.terms, [](const auto& term) { return term->usesVelocity(); })),
       moving_(anySupportMoves(model, motion.dofs())),

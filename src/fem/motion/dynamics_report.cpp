@@ -11,9 +11,9 @@ std::ostream& operator<<(std::ostream& out, const DynamicsReport& report) {
     out << "  " << std::left << std::setw(24) << what << value << '\n';
   };
   row("scheme", report.scheme);
-  row("mass", report.massShare == 0.0   ? "lumped"
-              : report.massShare == 1.0 ? "consistent"
-                                        : "consistent by " + formatNumber(report.massShare));
+  row("mass", report.massFraction == 0.0   ? "lumped"
+              : report.massFraction == 1.0 ? "consistent"
+                                           : "consistent by " + formatNumber(report.massFraction));
   row("time reached", formatNumber(report.t) + " s");
   row("step", formatNumber(report.dt) + " s");
   if (report.stepRange.shortest > 0.0) {

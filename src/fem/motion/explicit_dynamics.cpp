@@ -20,7 +20,7 @@ struct ExplicitIntegrator::Impl {
   Profile profile{true};
 
   Impl(Model& m, double step, const ExplicitOptions& o)
-      : model(m), options(o), control(m, step, o), dt(control.dt()), solid(m, o.massShare, dt) {
+      : model(m), options(o), control(m, step, o), dt(control.dt()), solid(m, o.massFraction, dt) {
     if (!samples()) return;
     solid.sample();
     solid.book.open();
@@ -101,7 +101,7 @@ DynamicsReport ExplicitIntegrator::report() const {
   DynamicsReport report;
   report.scheme = "central differences";
   report.solver = "none";
-  report.massShare = impl_->options.massShare;
+  report.massFraction = impl_->options.massFraction;
   report.t = impl_->model.t;
   report.dt = impl_->dt;
   report.stepRange = impl_->control.range();

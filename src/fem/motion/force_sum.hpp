@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "../solve/newton_tools.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/model/model.hpp"
+#include "solve/newton_tools.hpp"
 
 namespace dovetail::fem::detail {
 

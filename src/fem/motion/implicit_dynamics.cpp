@@ -192,7 +192,7 @@ DynamicsReport ImplicitIntegrator::report() const {
   DynamicsReport report;
   report.scheme = impl_->options.scheme.name;
   report.solver = impl_->solver.solver().method();
-  report.massShare = impl_->options.massShare;
+  report.massFraction = impl_->options.massFraction;
   report.t = impl_->model.t;
   report.dt = impl_->dt;
   report.steps = impl_->steps;

@@ -19,7 +19,7 @@ ImplicitMotion::Impl::Impl(Model& m, const ImplicitOptions& o)
     : model(m),
       options(checked(o)),
       dofs(m.constraints, m.nodes),
-      mass(m, dofs, o.massShare, o.linear),
+      mass(m, dofs, o.massFraction, o.linear),
       solver(m, dofs, mass, o, profile) {}
 
 void ImplicitMotion::Impl::begin(double dt) {

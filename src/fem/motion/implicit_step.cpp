@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "../solve/newton_tools.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "solve/newton_tools.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -56,10 +56,10 @@ void ImplicitStep::begin(double h) {
 /// makes to their forces. (Their past says how they moved before whatever started this run, if it says anything.)
 void ImplicitStep::addStartRates(double h) {
   if (std::ranges::none_of(model_.terms, [](const auto& term) { return term->feelsRates(); })) return;
-  constexpr double share = 1e-3;  // of the step
-  const Instant now{model_.t, share * h, &mass_};
+  constexpr double fraction = 1e-3;  // of the step
+  const Instant now{model_.t, fraction * h, &mass_};
   Nodes moved = model_.nodes;
-  for (std::size_t n = 0; n < moved.u.size(); ++n) moved.u[n] += share * h * moved.v[n];
+  for (std::size_t n = 0; n < moved.u.size(); ++n) moved.u[n] += fraction * h * moved.v[n];
   std::vector<Vec3> with(moved.u.size()), without(moved.u.size());
   for (const auto& term : model_.terms)
     if (term->feelsRates()) {
@@ -135,12 +135,12 @@ std::vector<std::string> ImplicitStep::termsAtMeanState() const {
 /// Fills residual_ and sets the tolerance; returns the norm.
 double ImplicitStep::balance() {
   const Profile::Stage stage(profile_, "balance");
-  const double share = conserving() ? 1.0 : 1.0 - options_.scheme.alphaF;
+  const double fraction = conserving() ? 1.0 : 1.0 - options_.scheme.alphaF;
   std::vector<Vec3>& push = inertia_;
   mass_.multiply(inertia_, work_);
   const double inertiaNorm = normOf(work_);
   for (std::size_t n = 0; n < push.size(); ++n) {
-    push[n] = share * end_.total[n] - work_[n];
+    push[n] = fraction * end_.total[n] - work_[n];
     if (!conserving()) push[n] += options_.scheme.alphaF * start_.total[n];
   }
   dofs_.reduce(push, residual_);
@@ -206,9 +206,9 @@ bool ImplicitStep::direct() {
   return true;
 }
 
-void ImplicitStep::moveTo(double share) {
+void ImplicitStep::moveTo(double fraction) {
   part_ = increment_;
-  for (double& value : part_) value *= share;
+  for (double& value : part_) value *= fraction;
   correction_ = startCorrection_;
   dofs_.addIncrement(part_, correction_);
 }

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "../solve/newton.hpp"
 #include "dovetail/fem/model/model_mass.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "force_sum.hpp"
 #include "run_state.hpp"
+#include "solve/newton.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -85,7 +85,7 @@ private:
   bool factor(bool exact) override;
   bool direct() override;
   double slope() const override { return innerProduct(residual_, increment_); }
-  void moveTo(double share) override;
+  void moveTo(double fraction) override;
 
   Model& model_;
   const DofMap& dofs_;

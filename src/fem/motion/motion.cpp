@@ -50,10 +50,10 @@ struct Motion::Impl {
   detail::ForceSum sum;
   std::vector<Vec3> acceleration;  // where masses are not lumped
 
-  Impl(Model& m, double share) : model(&m), dofs(m.constraints, m.nodes), mass(m, dofs, share), sum(m) {}
+  Impl(Model& m, double fraction) : model(&m), dofs(m.constraints, m.nodes), mass(m, dofs, fraction), sum(m) {}
 };
 
-Motion::Motion(Model& model, double massShare) : impl_(std::make_unique<Impl>(model, massShare)) {}
+Motion::Motion(Model& model, double massFraction) : impl_(std::make_unique<Impl>(model, massFraction)) {}
 Motion::~Motion() = default;
 Motion::Motion(Motion&&) noexcept = default;
 

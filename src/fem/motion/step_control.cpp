@@ -15,7 +15,7 @@ namespace {
 constexpr double wantedChange = 0.02;  // of the bound from look to look
 
 /// Lumped mass over the least that the blended one can be.
-double leastMass(double share) { return 1.0 - 26.0 / 27.0 * share; }
+double leastMass(double fraction) { return 1.0 - 26.0 / 27.0 * fraction; }
 
 bool hasSolid(const Model& model) {
   return std::ranges::any_of(model.terms,
@@ -27,7 +27,7 @@ std::string setter(const ModelStableStep& stable) { return stable.owner(stable.s
 void requireOptions(const ExplicitOptions& options) {
   if (!(options.safety >= 0.0 && options.safety <= 1.0))
     throw InputError("safety is " + formatNumber(options.safety), "ExplicitOptions",
-                     "give a share of the stable step, 0 to 1");
+                     "give a fraction of the stable step, 0 to 1");
   if (options.safety > 0.0 && options.measureEvery < 1)
     throw InputError("measureEvery is " + std::to_string(options.measureEvery), "ExplicitOptions", "give 1 or more");
   requireNonNegative(options.shortest, "shortest");
@@ -51,7 +51,7 @@ StepControl::StepControl(Model& model, double dt, const ExplicitOptions& options
 
 ModelStableStep StepControl::look(Model& model) {
   const ModelStableStep stable = stableStep(model);
-  critical_ = stable.dt * std::sqrt(leastMass(options_.massShare));
+  critical_ = stable.dt * std::sqrt(leastMass(options_.massFraction));
   return stable;
 }
 

@@ -10,8 +10,8 @@
 
 namespace dovetail::fem::detail {
 
-/// Sets the length of explicit steps: always the same, or a share of the bound of the stiffest element, which is looked
-/// at more often the faster it changes.
+/// Sets the length of explicit steps: always the same, or a fraction of the bound of the stiffest element, which is
+/// looked at more often the faster it changes.
 class StepControl {
 public:
   /// @param dt  the longest step, s

@@ -66,8 +66,8 @@ public:
   double t() const { return t_; }
   /// Puts the model on the way at time t by interpolation.
   void cutAt(double t) {
-    const double share = (t - model_.t) / (t_ - model_.t);
-    for (Vec3& value : moved_) value *= share;
+    const double fraction = (t - model_.t) / (t_ - model_.t);
+    for (Vec3& value : moved_) value *= fraction;
     t_ = t;
     place();
   }
@@ -81,9 +81,9 @@ public:
   bool factor(bool) override { return findRate(t_); }
   bool direct() override;
   double slope() const override { return 0.0; }
-  void moveTo(double share) override {
-    for (std::size_t n = 0; n < moved_.size(); ++n) moved_[n] = movedBefore_[n] + share * increment_[n];
-    t_ = tBefore_ + share * timeIncrement_;
+  void moveTo(double fraction) override {
+    for (std::size_t n = 0; n < moved_.size(); ++n) moved_[n] = movedBefore_[n] + fraction * increment_[n];
+    t_ = tBefore_ + fraction * timeIncrement_;
   }
 
 private:
@@ -163,7 +163,7 @@ void validate(const ArcLengthOptions& options, const Model& model) {
   detail::validate(options.newton);
   requirePositive(options.firstStep, "firstStep");
   requireNonNegative(options.largestStep, "largestStep");
-  requirePositive(options.smallestShare, "smallestShare");
+  requirePositive(options.smallestFraction, "smallestFraction");
   requireNonNegative(options.dissipation, "dissipation");
   if (options.node >= static_cast<int>(model.nodes.u.size()) || options.component < 0 || options.component > 2)
     throw InputError(
@@ -264,7 +264,7 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
     if (!result.failure.empty()) {
       length *= 0.4;
       ++report.cuts;
-      if (length < options.smallestShare * std::abs(firstLength) || !path.findRate(model.t)) {
+      if (length < options.smallestFraction * std::abs(firstLength) || !path.findRate(model.t)) {
         model.nodes.f = f0;
         throw NumericalError(result.failure, "followPath, t = " + formatNumber(model.t) + " s",
                              "give smaller steps or a finer mesh");

@@ -108,8 +108,8 @@ bool Equilibrium::direct() {
   return true;
 }
 
-void Equilibrium::moveTo(double share) {
-  for (std::size_t i = 0; i < part_.size(); ++i) part_[i] = share * increment_[i];
+void Equilibrium::moveTo(double fraction) {
+  for (std::size_t i = 0; i < part_.size(); ++i) part_[i] = fraction * increment_[i];
   if (mixing_) mixing_->moved(part_);
   model().nodes.u = start_;
   dofs().addIncrement(part_, model().nodes.u);

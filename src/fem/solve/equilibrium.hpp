@@ -69,7 +69,7 @@ public:
   bool factor(bool exact = true) override;
   bool direct() override;
   double slope() const override { return innerProduct(residual(), increment_); }
-  void moveTo(double share) override;
+  void moveTo(double fraction) override;
 
   /// Moves prescribed components to the time aimed at and the free ones with them, by the tangent of the old state.
   /// @return false if that is singular

@@ -12,24 +12,24 @@ namespace dovetail::fem::detail {
 
 namespace {
 
-/// Where the slope vanishes by the secant, kept between a tenth and eight tenths of the share tried; a quarter if there
-/// is no slope.
-double shorterShare(double share, double slopeAtStart, double slope) {
-  if (!std::isfinite(slope) || slope == slopeAtStart) return 0.25 * share;
-  return std::clamp(-slopeAtStart * share / (slope - slopeAtStart), 0.1 * share, 0.8 * share);
+/// Where the slope vanishes by the secant, kept between a tenth and eight tenths of the fraction tried; a quarter if
+/// there is no slope.
+double shorterShare(double fraction, double slopeAtStart, double slope) {
+  if (!std::isfinite(slope) || slope == slopeAtStart) return 0.25 * fraction;
+  return std::clamp(-slopeAtStart * fraction / (slope - slopeAtStart), 0.1 * fraction, 0.8 * fraction);
 }
 
-/// Finds a share of the increment with a slope well below that at the start. The state is at the full increment with
-/// the norm given. @return the norm at the share found
+/// Finds a fraction of the increment with a slope well below that at the start. The state is at the full increment with
+/// the norm given. @return the norm at the fraction found
 double search(NewtonProblem& problem, double norm, double slopeAtStart) {
-  double share = 1.0;
+  double fraction = 1.0;
   for (int trial = 0; trial < 8; ++trial) {
     const double slope = problem.slope();
     if (std::isfinite(norm) && (std::abs(slope) <= 0.8 * std::abs(slopeAtStart) || norm <= problem.tolerance()))
       return norm;
     if (std::isfinite(norm) && slope * slopeAtStart > 0.0) return norm;  // still downhill: a full step is as good
-    share = shorterShare(share, slopeAtStart, slope);
-    problem.moveTo(share);
+    fraction = shorterShare(fraction, slopeAtStart, slope);
+    problem.moveTo(fraction);
     norm = problem.evaluate();
   }
   return norm;

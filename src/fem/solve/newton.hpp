@@ -29,8 +29,8 @@ public:
   virtual bool direct() = 0;
   /// residual · increment at the present state.
   virtual double slope() const = 0;
-  /// To the share of the increment, from the state that direct() met.
-  virtual void moveTo(double share) = 0;
+  /// To the fraction of the increment, from the state that direct() met.
+  virtual void moveTo(double fraction) = 0;
 };
 
 /// When an increment is shortened. Where the matrix is not the derivative of the residual, or that is not a gradient,
@@ -40,7 +40,7 @@ enum class LineSearch { never, afterBreakdown, always };
 struct NewtonPolicy {
   int maxIterations;
   LineSearch lineSearch = LineSearch::always;
-  /// Factors are kept for so many iterations, while each shrinks the residual below this share.
+  /// Factors are kept for so many iterations, while each shrinks the residual below this fraction.
   int keepIterations = 0;
   double keepContraction = 0.0;
 };

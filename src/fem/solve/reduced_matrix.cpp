@@ -11,33 +11,33 @@ namespace dovetail::fem {
 namespace {
 
 /// u_dof = Σ factor q_row.
-struct Share {
+struct Fraction {
   int row;
   double factor;
 };
 
-std::vector<std::vector<Share>> sharesOf(const DofMap& dofs) {
-  std::vector<std::vector<Share>> shares(dofs.freeRow().size());
-  for (std::size_t dof = 0; dof < shares.size(); ++dof)
-    if (dofs.freeRow()[dof] >= 0) shares[dof] = {{dofs.freeRow()[dof], 1.0}};
+std::vector<std::vector<Fraction>> fractionsOf(const DofMap& dofs) {
+  std::vector<std::vector<Fraction>> fractions(dofs.freeRow().size());
+  for (std::size_t dof = 0; dof < fractions.size(); ++dof)
+    if (dofs.freeRow()[dof] >= 0) fractions[dof] = {{dofs.freeRow()[dof], 1.0}};
   for (const Tie& tie : dofs.ties())
     for (const Tie::Master& master : tie.masters)
-      shares[static_cast<std::size_t>(3 * tie.node + tie.component)].push_back(
+      fractions[static_cast<std::size_t>(3 * tie.node + tie.component)].push_back(
           {dofs.freeRow()[static_cast<std::size_t>(3 * master.node + master.component)], master.factor});
-  return shares;
+  return fractions;
 }
 
 /// Calls act(row, column, source, factor) for every contribution to TᵀKT; without ties rows ascend within each column.
 template <class Act>
-void visitContributions(const BlockMatrix& K, const std::vector<std::vector<Share>>& shares, bool symmetric,
+void visitContributions(const BlockMatrix& K, const std::vector<std::vector<Fraction>>& fractions, bool symmetric,
                         const Act& act) {
   for (std::size_t n = 0; n < K.nodes(); ++n)
     for (std::size_t c = 0; c < 3; ++c)
-      for (const Share& row : shares[3 * n + c])
+      for (const Fraction& row : fractions[3 * n + c])
         for (int k = K.offsets()[n]; k < K.offsets()[n + 1]; ++k)
           for (std::size_t d = 0; d < 3; ++d) {
             const auto other = 3 * static_cast<std::size_t>(K.columns()[static_cast<std::size_t>(k)]) + d;
-            for (const Share& column : shares[other])
+            for (const Fraction& column : fractions[other])
               if (!symmetric || row.row >= column.row)
                 act(row.row, static_cast<std::size_t>(column.row),
                     static_cast<std::uint32_t>(9 * static_cast<std::size_t>(k) + 3 * c + d),
@@ -56,9 +56,10 @@ struct Entry {
 void ReducedMatrix::analyse(const BlockMatrix& K, bool symmetric) {
   patternId_ = K.patternId();
   symmetric_ = symmetric;
-  const std::vector<std::vector<Share>> shares = sharesOf(*dofs_);
+  const std::vector<std::vector<Fraction>> fractions = fractionsOf(*dofs_);
   std::vector<std::size_t> next(dofs_->size() + 1, 0);
-  visitContributions(K, shares, symmetric, [&](int, std::size_t column, std::uint32_t, double) { ++next[column + 1]; });
+  visitContributions(K, fractions, symmetric,
+                     [&](int, std::size_t column, std::uint32_t, double) { ++next[column + 1]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
   if (next.back() > std::numeric_limits<int>::max())
     throw NumericalError("the matrix has " + std::to_string(next.back()) + " entries", "ReducedMatrix",
@@ -70,7 +71,7 @@ void ReducedMatrix::analyse(const BlockMatrix& K, bool symmetric) {
   source_.resize(next.back());
   target_.clear();
   factor_.assign(dofs_->hasTies() ? next.back() : 0, 0.0);
-  visitContributions(K, shares, symmetric, [&](int row, std::size_t column, std::uint32_t source, double factor) {
+  visitContributions(K, fractions, symmetric, [&](int row, std::size_t column, std::uint32_t source, double factor) {
     const std::size_t place = next[column]++;
     matrix_.row[place] = row;
     source_[place] = source;

@@ -2,7 +2,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "swing.hpp"
+#include "dynamic_relaxation.hpp"
 
 namespace dovetail::fem {
 
@@ -37,7 +37,7 @@ StaticReport relax(Model& model, double tEnd, const RelaxOptions& options, const
   detail::validate(steps);
   detail::requireLater(tEnd, model, "relax");
   Relaxation relaxation(model, options);
-  detail::Swing swing(relaxation, options.iterationStep);
+  detail::DynamicRelaxation swing(relaxation, options.iterationStep);
   const auto attempt = [&](const Instant& now) {
     bool comesOn = true;
     return detail::attemptStep(model, now, options.maxAugmentations, [&] {

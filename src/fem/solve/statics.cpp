@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "dovetail/core/error.hpp"
+#include "dynamic_relaxation.hpp"
 #include "equilibrium.hpp"
-#include "swing.hpp"
 
 namespace dovetail::fem {
 
@@ -25,7 +25,7 @@ StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& option
       return detail::newton(equilibrium, detail::policyOf(options.newton));
     });
   };
-  std::optional<detail::Swing> swing;
+  std::optional<detail::DynamicRelaxation> swing;
   if (options.motionIterations > 0) {
     swing.emplace(equilibrium, 0.0);
     ways.motion = [&](const Instant& now, StaticReport& report) {

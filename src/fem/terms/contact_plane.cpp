@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "../mesh/faces.hpp"
 #include "contact_point.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/laws/material_probe.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
+#include "mesh/faces.hpp"
 
 namespace dovetail::fem {
 
@@ -101,7 +101,7 @@ public:
   void addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now, BlockMatrix& K) override {
     visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
       const double slope = law_.meanPressureSlope(startOf(q, nodes, u0, now), d, lambda_[q]);
-      if (slope != 0.0) addBlocks(q, scaledDyad(slope, law_.normal, law_.normal), K);
+      if (slope != 0.0) addBlocks(q, scaledOuterProduct(slope, law_.normal, law_.normal), K);
     });
   }
 

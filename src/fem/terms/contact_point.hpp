@@ -23,7 +23,7 @@ struct ContactAnswer {
 };
 
 /// factor · a ⊗ b, row-major.
-inline std::array<double, 9> scaledDyad(double factor, const Vec3& a, const Vec3& b) {
+inline std::array<double, 9> scaledOuterProduct(double factor, const Vec3& a, const Vec3& b) {
   std::array<double, 9> block{};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) block[static_cast<std::size_t>(3 * i + j)] = factor * a[i] * b[j];
@@ -49,7 +49,7 @@ struct ContactPointLaw {
 
   /// −∂traction/∂d; for a point under pressure.
   std::array<double, 9> tangent(const ContactAnswer& answer) const {
-    std::array<double, 9> K = scaledDyad(penalty, normal, normal);
+    std::array<double, 9> K = scaledOuterProduct(penalty, normal, normal);
     if (friction == 0.0) return K;
     const double length = norm(answer.trial), limit = friction * answer.pressure;
     const bool slips = tangentialPenalty * length > limit;

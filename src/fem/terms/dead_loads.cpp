@@ -2,9 +2,9 @@
 #include <cmath>
 #include <map>
 
-#include "../mesh/faces.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/fem/terms/loads.hpp"
+#include "mesh/faces.hpp"
 
 namespace dovetail::fem {
 
@@ -67,7 +67,7 @@ public:
       const std::span<const int> corners = nodesOf(face);
       points_.push_back({interpolate(point.N, corners, mesh.X), {}});
       for (std::size_t a = 0; a < corners.size(); ++a)
-        points_.back().shares.emplace_back(corners[a], point.N[a] * norm(area));
+        points_.back().fractions.emplace_back(corners[a], point.N[a] * norm(area));
     });
   }
   std::string name() const override { return name_; }
@@ -75,14 +75,14 @@ public:
   void addForces(const Nodes&, const Instant& now, std::span<Vec3> f) override {
     for (const Point& point : points_) {
       const Vec3 traction = traction_(point.X, now.t);
-      for (const auto& [n, area] : point.shares) f[static_cast<std::size_t>(n)] += area * traction;
+      for (const auto& [n, area] : point.fractions) f[static_cast<std::size_t>(n)] += area * traction;
     }
   }
 
 private:
   struct Point {
     Vec3 X;
-    std::vector<std::pair<int, double>> shares;  // node, N dA in m²
+    std::vector<std::pair<int, double>> fractions;  // node, N dA in m²
   };
   std::vector<Point> points_;
   std::function<Vec3(const Vec3&, double)> traction_;

@@ -1,10 +1,10 @@
 // Pressure on deformed faces (Schweizerhof & Ramm 1984).
 #include <algorithm>
 
-#include "../mesh/faces.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/fem/solve/block_matrix.hpp"
 #include "dovetail/fem/terms/loads.hpp"
+#include "mesh/faces.hpp"
 
 namespace dovetail::fem {
 

@@ -44,17 +44,17 @@ private:
 class BodyMass {
 public:
   BodyMass(const Nodes& nodes, const Instant& now, const std::string& name)
-      : mass_(nodes.mass), body_(nodes.bodyMass), share_(now.mass != nullptr ? now.mass->share() : 1.0) {
+      : mass_(nodes.mass), body_(nodes.bodyMass), fraction_(now.mass != nullptr ? now.mass->fraction() : 1.0) {
     if (std::ranges::none_of(mass_, [](double mass) { return mass > 0.0; }))
       throw InputError("no node has a mass", name, "call addMass(model) before the first step");
   }
   double operator[](std::size_t n) const {
-    return body_.empty() ? mass_[n] : mass_[n] + share_ * (body_[n] - mass_[n]);
+    return body_.empty() ? mass_[n] : mass_[n] + fraction_ * (body_[n] - mass_[n]);
   }
 
 private:
   std::span<const double> mass_, body_;
-  double share_;
+  double fraction_;
 };
 
 void addDiagonal(BlockMatrix& matrix, int node, const Vec3& values) {
@@ -166,8 +166,8 @@ protected:
       f[n] -= {factor_.x * field[n].x, factor_.y * field[n].y, factor_.z * field[n].z};
     }
   }
-  void addTo(BlockMatrix& matrix, double share = 1.0) const {
-    for (const int node : nodes_.of(matrix.nodes(), name())) addDiagonal(matrix, node, share * factor_);
+  void addTo(BlockMatrix& matrix, double fraction = 1.0) const {
+    for (const int node : nodes_.of(matrix.nodes(), name())) addDiagonal(matrix, node, fraction * factor_);
   }
   double halfSquares(std::span<const Vec3> field) const {
     double sum = 0.0;

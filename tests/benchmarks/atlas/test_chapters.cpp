@@ -18,8 +18,8 @@ Result resultOf(const std::string& id, const std::string& command, const char* c
 
 TEST(Fronts, HoldWhatNoOtherRunBeats) {
   const Result study = resultOf("wave-pareto", "wave --study pareto --only 'n = 1' --out there", R"({"runs": [
-    {"label": "n = 1, penalty", "outcome": "finished", "wall_seconds": 1, "waveform_error_fem": 0.1, "energy_lost_share": -1e-5},
-    {"label": "n = 1, multiplier", "outcome": "finished", "wall_seconds": 2, "waveform_error_fem": 0.2, "energy_lost_share": 1e-6},
+    {"label": "n = 1, penalty", "outcome": "finished", "wall_seconds": 1, "waveform_error_fem": 0.1, "energy_lost_fraction": -1e-5},
+    {"label": "n = 1, multiplier", "outcome": "finished", "wall_seconds": 2, "waveform_error_fem": 0.2, "energy_lost_fraction": 1e-6},
     {"label": "n = 1, paper", "outcome": "broke down", "wall_seconds": 0.1, "waveform_error_fem": 0.001}]})");
   const Chapter chapter = frontsOf({study});
   ASSERT_EQ(chapter.rows.size(), 4u);  // two figures of the two that finished
@@ -52,9 +52,9 @@ TEST(Maps, TellSurvivedRefusedAndFailedWithTheCommandThatRepeatsThem) {
 TEST(Maps, OfScenesAskForTheEnergy) {
   const Result study =
       resultOf("map: Grains", "dovetail study a.json --over m=1,2 --over k=3,4 --out there", R"({"runs": [
-    {"label": "m=1, k=3", "outcome": "finished", "message": "", "largest_residual_share": 1e-4, "settings": {"m": "1", "k": "3"}},
-    {"label": "m=1, k=4", "outcome": "finished", "message": "", "largest_residual_share": 0.12, "settings": {"m": "1", "k": "4"}},
-    {"label": "m=2, k=3", "outcome": "finished", "message": "", "largest_residual_share": null, "settings": {"m": "2", "k": "3"}}]})");
+    {"label": "m=1, k=3", "outcome": "finished", "message": "", "largest_residual_fraction": 1e-4, "settings": {"m": "1", "k": "3"}},
+    {"label": "m=1, k=4", "outcome": "finished", "message": "", "largest_residual_fraction": 0.12, "settings": {"m": "1", "k": "4"}},
+    {"label": "m=2, k=3", "outcome": "finished", "message": "", "largest_residual_fraction": null, "settings": {"m": "2", "k": "3"}}]})");
   const Chapter chapter = mapsOf({study});
   ASSERT_EQ(chapter.rows.size(), 3u);
   EXPECT_EQ(chapter.rows[0]["outcome"], "survived");
@@ -65,15 +65,15 @@ TEST(Maps, OfScenesAskForTheEnergy) {
 }
 
 TEST(Prices, AreTablesAndRowsOfNumbers) {
-  const Result study = resultOf("prices", "scripts/prices", R"({"unit": "s",
+  const Result study = resultOf("overhead", "scripts/overhead", R"({"unit": "s",
     "by_hand": {"grains": 27000, "hand_ns": 23, "ns": 24, "ratio": 1.04, "ratio_lower_quartile": 1.03, "ratio_upper_quartile": 1.06},
-    "features": [{"feature": "nothing", "used": false, "ns": 24, "cost_share": 0.001},
-                 {"feature": "friction", "used": true, "ns": 60, "cost_share": 1.5, "bytes_per_grain": 137}],
+    "features": [{"feature": "nothing", "used": false, "ns": 24, "cost_fraction": 0.001},
+                 {"feature": "friction", "used": true, "ns": 60, "cost_fraction": 1.5, "bytes_per_grain": 137}],
     "parts": [{"part": "grains only", "grains": 8000, "elements": 0, "bytes": 1500000, "libraries": ["libA", "libB"],
                "start_scene_s": 0.02, "start_program_s": 0.01, "bytes_each_scene": 580, "bytes_each_program": 570, "steps": 100,
-               "cost_scene": 1.01, "cost_program": 1.0, "cost_share": 0.011, "profile": [{"part": "pairs", "share": 0.8}, {"part": "move", "share": 0.2}]}],
+               "cost_scene": 1.01, "cost_program": 1.0, "cost_fraction": 0.011, "profile": [{"part": "pairs", "fraction": 0.8}, {"part": "move", "fraction": 0.2}]}],
     "dovetail": {"bytes": 9000000, "libraries": ["libA"]}})");
-  const Chapter chapter = pricesOf({study});
+  const Chapter chapter = overheadOf({study});
   ASSERT_EQ(chapter.rows.size(), 5u);
   EXPECT_EQ(chapter.rows[3]["libraries"], 2);
   EXPECT_EQ(chapter.rows[3]["profile"], "pairs 80, move 20");

@@ -1,4 +1,4 @@
-"""The parts of scripts/atlas and scripts/prices that need no program that was built."""
+"""The parts of scripts/atlas and scripts/overhead that need no program that was built."""
 import importlib.machinery
 import importlib.util
 import json
@@ -18,7 +18,7 @@ def loaded(name):
     return module
 
 
-atlas, prices = loaded("atlas"), loaded("prices")
+atlas, overhead = loaded("atlas"), loaded("overhead")
 
 
 class Prices(unittest.TestCase):
@@ -30,22 +30,22 @@ class Prices(unittest.TestCase):
 \tlibc.so.6 => /lib/libc.so.6 (0x00007f)
 \t/lib64/ld-linux-x86-64.so.2 (0x00007f)
 """
-        self.assertEqual(prices.libraries(listed), ["libblas", "libumfpack"])
+        self.assertEqual(overhead.libraries(listed), ["libblas", "libumfpack"])
 
     def test_profile_tells_shares_the_largest_first(self):
         summary = {"times": {"parts": [{"part": "move", "seconds": 1.0}, {"part": "pairs", "seconds": 3.0},
                                        {"part": "solids", "seconds": 0.001}]}}
-        self.assertEqual(prices.profile_of(summary), [{"part": "pairs", "share": 3.0 / 4.001}, {"part": "move", "share": 1.0 / 4.001}])
+        self.assertEqual(overhead.profile_of(summary), [{"part": "pairs", "fraction": 3.0 / 4.001}, {"part": "move", "fraction": 1.0 / 4.001}])
 
     def test_tables_are_of_one_width(self):
-        lines = prices.table(["a", "b"], [["1", "2"], ["3", "4"]]).splitlines()
+        lines = overhead.table(["a", "b"], [["1", "2"], ["3", "4"]]).splitlines()
         self.assertEqual(lines, ["| a | b |", "| --- | --- |", "| 1 | 2 |", "| 3 | 4 |"])
 
     def test_scene_and_program_that_end_differently_are_told(self):
         def ended(scene, program):
             return {"parts": [{"part": "grains only", "kinetic_scene_J": scene, "kinetic_program_J": program}]}
-        self.assertEqual(prices.disagreements(ended(1.0, 1.0 + 1e-12)), [])
-        self.assertIn("grains only", prices.disagreements(ended(1.0, 1.0 + 1e-8))[0])
+        self.assertEqual(overhead.disagreements(ended(1.0, 1.0 + 1e-12)), [])
+        self.assertIn("grains only", overhead.disagreements(ended(1.0, 1.0 + 1e-8))[0])
 
 
 class Atlas(unittest.TestCase):

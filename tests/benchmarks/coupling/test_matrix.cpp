@@ -33,7 +33,7 @@ TEST_P(Matrix, TheBooksCloseAndDigitsStay) {
   EXPECT_EQ(shortfall(GetParam(), figures), "");
 }
 
-/// Runs in which particles are located anew: shares of contacts at walls change with those of the particles, and in
+/// Runs in which particles are located anew: fractions of contacts at walls change with those of the particles, and in
 /// macro steps of several steps ties are made where solid and particles are at the same instant.
 TEST(MatrixLong, TheBooksCloseWhereTiesAreMadeAnew) {
   for (const MacroSteps macroSteps : {MacroSteps::explicit1, MacroSteps::implicit1, MacroSteps::implicit4})

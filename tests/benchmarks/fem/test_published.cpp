@@ -12,8 +12,8 @@ const ElementKind enhanced{ElementShape::hex8, Formulation::enhanced};
 const ElementKind meanDilatation{ElementShape::hex8, Formulation::meanDilatation};
 const ElementKind hex20{ElementShape::hex20}, hex27{ElementShape::hex27}, tet10{ElementShape::tet10};
 
-void expectWithin(double value, double reference, double share, const std::string& what) {
-  EXPECT_NEAR(value / reference, 1.0, share) << what;
+void expectWithin(double value, double reference, double fraction, const std::string& what) {
+  EXPECT_NEAR(value / reference, 1.0, fraction) << what;
 }
 
 TEST(Published, TheElasticaHasItsTabulatedTip) {

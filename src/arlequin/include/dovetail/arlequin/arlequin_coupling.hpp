@@ -21,7 +21,7 @@ struct OverlapState {
   std::int64_t admitted = 0;     ///< particles that came in
   std::int64_t removed = 0;      ///< particles that passed the border of the particles and left the scene
   /// Particles seen within the solid so far that nobody holds, as they are members of clumps, or came in where the
-  /// particles' share is nothing, from a side or by hand. They go through with all of their weight.
+  /// particles' weight is nothing, from a side or by hand. They go through with all of their weight.
   std::int64_t strangers = 0;
   std::int64_t firstStranger = -1;  ///< its id
   Vec3 strangerAt;                  ///< where that was first seen, m
@@ -29,7 +29,7 @@ struct OverlapState {
 
 /// Ties particles to the solid where both are: the gap g = Π(x − Φ x_FE) is held by a penalty, multipliers or a dashpot
 /// (CouplingOptions). On implicit solids a penalty acts at every step of the particles, multipliers and dashpots at the
-/// ends of macro steps. Particles::weight holds the particles' share w, pairs the share at their contact.
+/// ends of macro steps. Particles::weight holds the particles' weight w, pairs the weight at their contact.
 ///
 /// A particle is tied to the material point of the solid that it was located at. If it moves relative to that by more
 /// than a tenth of its radius, it is located anew: λ stays, and what was its part of the gap is kept in the rows, where
@@ -37,8 +37,8 @@ struct OverlapState {
 /// the penalty stored in the excess is lost. Specks that are lost among much larger particles are not held. A share
 /// that changes takes mass with it, at the solid's velocity, that is booked as left or entered (dem::Model); the
 /// momentum relative to the solid goes to the nodes by Φᵀ. Particles that come near the mesh from outside get their
-/// share when they are found there, and hold on at once, without a gap of their own; those whose share falls below
-/// CouplingOptions::leastShare leave the scene. Rows per element are not followed: their particles stay as located.
+/// share when they are found there, and hold on at once, without a gap of their own; those whose weight falls below
+/// CouplingOptions::leastWeight leave the scene. Rows per element are not followed: their particles stay as located.
 class ArlequinCoupling final : public coupling::Connector {
 public:
   ArlequinCoupling(const ArlequinCoupling& other);
@@ -52,7 +52,7 @@ public:
   void check(const dem::Model& m) const override;
   double move(dem::Model& m, const dem::Step& step) override;
   void exchange(dem::Model& m, const dem::Step& step) override;
-  void renewed(dem::Model& m) override;
+  void neighbourListUpdated(dem::Model& m) override;
   double renumber(std::span<const int> newNumber, const dem::Particles& before) override;
   void addForces(dem::Model& m, const dem::Step& step) override;
   void book(dem::Model& m, const dem::Step& step) override;
@@ -63,7 +63,7 @@ public:
 
   void constrainMacroStep(const dem::Model& m, std::span<const Vec3> ownForce, double half, std::span<Vec3> onParticles,
                           coupling::NodalLoad& load) const override;
-  std::vector<double> solidShare() const override;
+  std::vector<double> solidWeight() const override;
   void markTied(std::span<std::uint8_t> tied) const override;
   double stored() const override;
   double lost() const override;
@@ -89,20 +89,21 @@ private:
 };
 
 /// Locates the overlap, sets Particles::weight, and makes the tie; the caller adds it to the run (or to grains.terms).
-/// Particles of the model that are already weighed by another overlap keep their share and are not tied.
-/// @param nodalWeight  w per node of the mesh; the elements of the solid must have the share 1 − w
+/// Particles of the model that are already weighed by another overlap keep their weight and are not tied.
+/// @param nodalWeight  w per node of the mesh; the elements of the solid must have the weight 1 − w
 /// @param side         its mass may be set later
-/// @throws InputError as locateOverlap and requireWidth do; for a mesh that is not the solid's, a share of the solid
+/// @throws InputError as locateOverlap and requireWidth do; for a mesh that is not the solid's, a weight of the solid
 /// that is not 1 − w, mid nodes that
-///   are not levelled, a particle with less than leastShare (beyond the border of the particles), members of clumps,
+///   are not levelled, a particle with less than leastWeight (beyond the border of the particles), members of clumps,
 ///   kernels in periodic space, particles that all belong to another overlap, an automatic penalty where a field of
 ///   points tells no modulus, kernels wider than 2.5 elements with more than 4000 rows
 std::unique_ptr<ArlequinCoupling> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
                                                  std::vector<double> nodalWeight, coupling::SolidSide& side,
                                                  const CouplingOptions& options = {});
 
-/// Numbers of the particles within the mesh whose share is below leastShare: take them out before making a tie.
+/// Numbers of the particles within the mesh whose weight is below leastWeight: take them out before making a tie.
 std::vector<int> particlesBeyond(const dem::Model& grains, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
-                                 std::span<const double> nodalWeight, double leastShare = CouplingOptions{}.leastShare);
+                                 std::span<const double> nodalWeight,
+                                 double leastWeight = CouplingOptions{}.leastWeight);
 
 }  // namespace dovetail::arlequin

@@ -1,4 +1,5 @@
-// The cells of a solid's mesh as an overlap sees them: their corners, the hats on these, and points to integrate with.
+// The cells of a solid's mesh as an overlap sees them: their corners, the vertex shape functions on these, and points
+// to integrate with.
 #pragma once
 
 #include <array>
@@ -25,11 +26,11 @@ void requireSpatialCells(const fem::SolidMesh& mesh);
 /// ψ of the corners alone, as of the cell of first order with the same corners: not negative anywhere, whatever the
 /// order of the cell; their sum is one. Beyond the cell they go on as they are at its border.
 /// @param xi  parent coordinates
-std::vector<double> cornerHats(fem::ElementShape shape, const Vec3& xi);
+std::vector<double> vertexShapes(fem::ElementShape shape, const Vec3& xi);
 
-/// A point of a quadrature: hats of the corners, place and weight (m³).
+/// A point of a quadrature: vertex shape functions of the corners, place and weight (m³).
 struct CellPoint {
-  std::array<double, 8> hat;
+  std::array<double, 8> vertexShape;
   Vec3 x;
   double weight;
 };

@@ -36,8 +36,8 @@ public:
   virtual void applyStiffness(std::span<const Vec3>, std::span<Vec3>) const {}
 };
 
-/// λ_i = p V_i g_i on the accumulated gap: stores ½ Σ p V_i |g_i|², loses nothing. With shares w and 1 − w of density ρ
-/// and no other stiffness it is stable for p dt²/(ρ w (1 − w)) < 4.
+/// λ_i = p V_i g_i on the accumulated gap: stores ½ Σ p V_i |g_i|², loses nothing. With weights w and 1 − w of density
+/// ρ and no other stiffness it is stable for p dt²/(ρ w (1 − w)) < 4.
 /// @param stiffness  p V_i per row, N/m
 /// @throws InputError unless all are finite and > 0
 std::unique_ptr<Constraint> makePenalty(std::vector<double> stiffness);
@@ -51,7 +51,7 @@ std::unique_ptr<Constraint> makePenalty(std::vector<double> stiffness);
 std::unique_ptr<Constraint> makeMetricPenalty(const GapOperator& gap, std::span<const double> volume, double penalty);
 
 /// λ_i = ε V_i Δg_i on the increments of one step, or ε Σ_j ∫ψ_iψ_j Δg_j (`consistent`) (Cheng et al. 2023, Eqs.
-/// 29–32). It acts as a dashpot of ε dt V: halving dt halves it, and it loses what it damps. Stable, with shares w and
+/// 29–32). It acts as a dashpot of ε dt V: halving dt halves it, and it loses what it damps. Stable, with weights w and
 /// 1 − w of density ρ and no stiffness, for ε dt²/(ρ w (1 − w)) < 2.
 /// @param penalty  ε, Pa/m²
 /// @throws InputError unless ε is finite and > 0

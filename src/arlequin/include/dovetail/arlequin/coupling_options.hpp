@@ -21,9 +21,9 @@ struct CouplingOptions {
   /// (Cheng et al. 2023); implicit solids only. Where two macro steps meet, the halves of both make their mean.
   bool dashpotLags = false;
   double absorberRate = 0.0;  ///< 1/s; 0 = no absorber
-  /// Particles with a smaller share have passed the border of the particles within the solid: they leave the scene. The
-  /// floor of the weights, or less.
-  double leastShare = 1e-3;
+  /// Particles with a smaller weight have passed the border of the particles within the solid: they leave the scene.
+  /// The floor of the weights, or less.
+  double leastWeight = 1e-3;
 };
 
 }  // namespace dovetail::arlequin

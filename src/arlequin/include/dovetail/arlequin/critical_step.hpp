@@ -15,9 +15,9 @@ struct CriticalStep {
 /// From the largest eigenvalue of M⁻¹K of the state as it is now (Lanczos; the bound on its error is added, so the step
 /// errs on the small side): sharper than CoupledRun::criticalStep and much dearer. Multipliers only lower ω; dashpots
 /// and the absorber have limits of their own (see makeDashpot and Absorber). Pairs must be listed.
-/// @param side       of the one solid; null: particles alone   @param massShare  of its consistent mass
+/// @param side       of the one solid; null: particles alone   @param massFraction  of its consistent mass
 /// @param tie        null: none
 /// @throws NumericalError if the iteration meets a number that is not finite
-CriticalStep criticalStep(dem::Model& grains, coupling::SolidSide* side, double massShare, ArlequinCoupling* tie);
+CriticalStep criticalStep(dem::Model& grains, coupling::SolidSide* side, double massFraction, ArlequinCoupling* tie);
 
 }  // namespace dovetail::arlequin

@@ -40,11 +40,12 @@ struct ProjectionOptions {
 /// the nodes along by Bᵀλ: the adjoint, so that the power lost by one side is gained by the other, up to what the gap
 /// does.
 struct GapOperator {
-  std::vector<int> node;       ///< coarse node of each row; ascending unless the rows are per element
-  std::vector<Vec3> X;         ///< of these nodes, m
-  std::vector<double> volume;  ///< ∫ψ_i dV over the overlap's elements, m³; ψ: the hats of the corners, throughout
-  cg::Projection particles;    ///< Π; columns are the rows of Overlap
-  cg::Projection nodes;        ///< B = ΠΦ, or the identity on the rows' nodes; columns are nodes
+  std::vector<int> node;  ///< coarse node of each row; ascending unless the rows are per element
+  std::vector<Vec3> X;    ///< of these nodes, m
+  std::vector<double>
+      volume;  ///< ∫ψ_i dV over the overlap's elements, m³; ψ: the vertex shape functions of the corners, throughout
+  cg::Projection particles;       ///< Π; columns are the rows of Overlap
+  cg::Projection nodes;           ///< B = ΠΦ, or the identity on the rows' nodes; columns are nodes
   cg::Projection particlesBack;   ///< Πᵀ, by particles
   cg::Projection nodesBack;       ///< Bᵀ, by coupled nodes
   std::vector<int> coupledNode;   ///< nodes that B touches, ascending: the rows of nodesBack

@@ -1,4 +1,4 @@
-// The overlap: which particles lie in which element, and what share of everything they carry.
+// The overlap: which particles lie in which element, and what weight of everything they carry.
 #pragma once
 
 #include <span>
@@ -33,7 +33,7 @@ struct Overlap {
   std::size_t size() const { return particle.size(); }
 };
 
-/// w at a place of the mesh, by the hats of the corners. @param nodalWeight  w per node
+/// w at a place of the mesh, by the vertex shape functions of the corners. @param nodalWeight  w per node
 double weightAt(const fem::SolidMesh& mesh, const fem::CellPlace& place, std::span<const double> nodalWeight);
 
 /// Finds the particles that lie within the mesh as it is now (X + u), or outside and nearer to it than their radius.
@@ -49,7 +49,7 @@ Overlap locateOverlap(const dem::Particles& particles, const fem::SolidMesh& mes
 ///         largest to smallest
 void requireWidth(const Overlap& overlap, const fem::SolidMesh& mesh);
 
-/// 1 − w per node, for fem::SolidOptions::share.
+/// 1 − w per node, for fem::SolidOptions::fraction.
 std::vector<double> solidWeights(std::span<const double> nodalWeight);
 
 /// Φ: velocities of the nodes → of the solid at the centres of the overlap's particles. Rows sum to one.

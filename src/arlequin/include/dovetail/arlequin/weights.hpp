@@ -1,6 +1,6 @@
-// Weights of the Arlequin framework: which share of mass and energy each model carries in the overlap.
+// Weights of the Arlequin framework: which weight of mass and energy each model carries in the overlap.
 //
-// The particles' share w is held at the nodes of the solid's mesh and interpolated, so it moves with the mesh; the
+// The particles' weight w is held at the nodes of the solid's mesh and interpolated, so it moves with the mesh; the
 // solid carries 1 − w (partition of unity). w = 1 at the mesh's border inside the particles (s = 0), w = 0 at the
 // particles' border inside the solid (s = 1).
 #pragma once
@@ -41,7 +41,7 @@ inline constexpr double beyondOverlap = 2.0;
 std::vector<double> nodalWeights(std::span<const double> s, const WeightOptions& options);
 
 /// Gives mid-edge, mid-face and centre nodes of second-order cells the mean of the corners about them, so that the
-/// shares of both models add up to one everywhere: w goes by the hats of the corners.
+/// weights of both models add up to one everywhere: w goes by the vertex shape functions of the corners.
 void levelMidNodes(const fem::SolidMesh& mesh, std::span<double> weight);
 
 using Triangle = std::array<Vec3, 3>;  ///< m

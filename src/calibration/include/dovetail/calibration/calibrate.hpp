@@ -44,7 +44,7 @@ struct CalibrationResult {
   std::string whyStopped;
 };
 
-struct CalibrationSettings {
+struct CalibrationOptions {
   std::filesystem::path folder;  ///< evaluations.json, calibration.json, calibration.txt
   int rehearsals = 0;            ///< > 0: draws of a rehearsal, in place of the fit
   std::uint64_t seed = 1;
@@ -55,7 +55,7 @@ struct CalibrationSettings {
 /// the parameters' starts are the truth: targets are made from them with normal noise of the targets' deviations, and
 /// each fit begins at random in the middle half of the bounds.
 /// @throws InputError as readCalibration and Laboratory; NumericalError if experiments without parameters break down
-CalibrationResult calibrate(const Calibration& file, const CalibrationSettings& settings, std::ostream& log);
+CalibrationResult calibrate(const Calibration& file, const CalibrationOptions& settings, std::ostream& log);
 
 /// Estimates, uncertainties, residuals, quality of the fit, correlation, flatness, evaluations and time, in words.
 std::string reportOf(const Calibration& file, const CalibrationResult& result);

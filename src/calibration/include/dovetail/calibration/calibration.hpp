@@ -83,7 +83,7 @@ struct Calibration {
   std::vector<Target> targets;
   std::optional<Search> search;
   int evaluations = 500;    ///< of the simulator, at most
-  double tolerance = 1e-3;  ///< see FitSettings
+  double tolerance = 1e-3;  ///< see FitOptions
 };
 
 void describe(scene::Fields& f, Setting& v);

@@ -23,21 +23,21 @@ double cellDensity(const dem::Model& m);
 /// Volume of the grains over that of the cell; overlaps count twice.
 double cellSolidFraction(const dem::Model& m);
 
-struct CompressionSettings {
+struct CompressionOptions {
   double pressure = 0.0;       ///< wanted, Pa
   double tolerance = 1e-3;     ///< of the pressure, relative
-  double unbalanced = 1e-5;    ///< see dem::RelaxationSettings
+  double unbalanced = 1e-5;    ///< see dem::RelaxationOptions
   std::int64_t strains = 400;  ///< given up after so many
 };
 /// Strains a cell isotropically until it rests at the pressure wanted under its own contact law, friction included.
 /// Returns the bulk modulus on the way there, Pa, the secant of the last two states.
 /// @throws InputError if the model is no cell (dem::strainCell) or has gravity, or a setting is not finite and > 0;
 ///   NumericalError if the pressure is not reached
-double compressCell(dem::Model& m, const CompressionSettings& settings);
+double compressRve(dem::Model& m, const CompressionOptions& settings);
 
-struct ModuliSettings {
+struct ModuliOptions {
   double strain = 1e-5;      ///< of the probes, to both sides
-  double unbalanced = 1e-8;  ///< at rest; see dem::RelaxationSettings
+  double unbalanced = 1e-8;  ///< at rest; see dem::RelaxationOptions
   std::int64_t steps = 200000;
 };
 /// Elastic moduli of a cell about the state that it is in, small strains to both sides. Only strains along the axes are
@@ -57,9 +57,9 @@ struct Moduli {
   double pWaveSpeed = 0.0, sWaveSpeed = 0.0;  ///< m/s, √((K + 4/3 G)/ρ), √(G/ρ)
 };
 /// @throws InputError as strainCell; NumericalError if a probe does not come to rest
-Moduli smallStrainModuli(const dem::Model& cell, const ModuliSettings& settings = {});
+Moduli smallStrainModuli(const dem::Model& cell, const ModuliOptions& settings = {});
 
-struct TriaxialSettings {
+struct TriaxialOptions {
   double strain = 0.05;  ///< along z at the end, logarithmic
   int increments = 100;
   double tolerance = 5e-3;     ///< of the pressures across, relative
@@ -81,7 +81,7 @@ struct TriaxialCurve {
   double mobilisedAngle(std::size_t k) const;
 };
 /// @throws InputError as strainCell, or for settings out of range; NumericalError if the pressures across are lost
-TriaxialCurve triaxialCompression(dem::Model cell, const TriaxialSettings& settings = {});
+TriaxialCurve triaxialCompression(dem::Model cell, const TriaxialOptions& settings = {});
 
 /// Value of a curve at a strain, linear between increments. @throws InputError if the curve does not go so far
 double atStrain(const TriaxialCurve& curve, std::span<const double> values, double strain);

@@ -19,7 +19,7 @@ struct FitParameter {
 /// What it throws ends the fit and comes out of it.
 using Residuals = std::function<bool(std::span<const double> parameters, std::span<double> residuals)>;
 
-struct FitSettings {
+struct FitOptions {
   double tolerance = 1e-3;  ///< ends when the parameters, over most − least, or χ² change by less, relatively
   int iterations = 50;
   std::function<bool()> stop{};  ///< asked between evaluations: whether to end here
@@ -49,6 +49,6 @@ struct FitResult {
 /// @throws InputError for parameters without a range, or fewer residuals than parameters; NumericalError if the model
 ///   cannot be evaluated at the start
 FitResult fit(std::span<const FitParameter> parameters, int residuals, const Residuals& evaluate,
-              const FitSettings& settings = {});
+              const FitOptions& settings = {});
 
 }  // namespace dovetail::calibration

@@ -14,7 +14,7 @@ namespace dovetail::calibration {
 /// ≥ 0; none where the model could not be evaluated.
 using Measure = std::function<std::optional<double>(std::span<const double> parameters)>;
 
-struct SearchSettings {
+struct SearchOptions {
   int samples = 9;      ///< along each parameter, from least to most
   int refinements = 2;  ///< times that the neighbours of the best sample become the bounds of as many samples
   std::function<bool()> stop{};
@@ -32,6 +32,6 @@ struct Optimum {
 /// no derivative is taken, so a measure may have steps (lengths count in whole elements).
 /// @throws InputError for parameters without a range or samples < 3; NumericalError if no sample could be evaluated
 Optimum searchOptimum(std::span<const FitParameter> parameters, const Measure& measure,
-                      const SearchSettings& settings = {});
+                      const SearchOptions& settings = {});
 
 }  // namespace dovetail::calibration

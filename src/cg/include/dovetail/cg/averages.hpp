@@ -21,7 +21,7 @@ struct AverageBox {
 /// @throws InputError unless lower < upper, all is finite, and the radius is > 0
 double sphereInBox(const Vec3& centre, double radius, const AverageBox& box);
 
-/// Share of the box that spheres fill; overlaps count twice. Porosity is 1 minus this.
+/// Fraction of the box that spheres fill; overlaps count twice. Porosity is 1 minus this.
 /// @throws InputError as sphereInBox, or if the spans do not match
 double solidFraction(std::span<const Vec3> x, std::span<const double> radius, const AverageBox& box);
 
@@ -65,8 +65,8 @@ struct AverageStress {
 /// @throws InputError if the volume is not finite and > 0, or spans do not match
 AverageStress loveWeberStress(const BranchView& branches, const ParticleView& particles, double volume);
 
-/// The same for a box within the specimen: each branch counts with the share of its length that lies in the box, each
-/// particle if its centre does. This is the exact average over the box of the stress of straight branches
+/// The same for a box within the specimen: each branch counts with the fraction of its length that lies in the box,
+/// each particle if its centre does. This is the exact average over the box of the stress of straight branches
 /// (Fields::contactStress in the limit of no width), and boxes side by side add up to the whole.
 /// @throws InputError as above, or unless lower < upper
 AverageStress loveWeberStress(const BranchView& branches, const ParticleView& particles, const AverageBox& box);

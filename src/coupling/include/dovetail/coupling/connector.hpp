@@ -14,7 +14,7 @@
 namespace dovetail::coupling {
 
 /// A term of the particles' model that also acts on the nodes of a solid: what it does to one side it does to the
-/// other, transposed. It is asked and told like any other term (dem::Term: check, renewed, renumber, leaving,
+/// other, transposed. It is asked and told like any other term (dem::Term: check, updated, renumber, leaving,
 /// addDemand, save, load …). In addForces it adds to particles.f, and to side().load the reaction; the nodes have then
 /// moved already. Constraints, which answer all other forces, have the order dem::Term::Order::constraints.
 ///
@@ -40,8 +40,8 @@ public:
                                   std::span<Vec3> /*onParticles*/, NodalLoad& /*load*/) const {}
 
   /// Of those that share a volume with their solid: 1 − w of the solid per node, and marks of the particles that are
-  /// tied to it (not 0): its surface acts with that share, and does not meet these. Nothing of others.
-  virtual std::vector<double> solidShare() const { return {}; }
+  /// tied to it (not 0): its surface acts with that fraction, and does not meet these. Nothing of others.
+  virtual std::vector<double> solidWeight() const { return {}; }
   virtual void markTied(std::span<std::uint8_t> /*tied*/) const {}
 
   /// What it stores now and is in no book of the particles' model, J.

@@ -9,7 +9,7 @@ namespace dovetail::coupling {
 struct RestProgress {
   RestReport report;
   double before = 0.0;     ///< J, kinetic energy at the macro step before
-  std::int32_t quiet = 0;  ///< swings in a row that were at rest
+  std::int32_t quiet = 0;  ///< oscillations in a row that were at rest
 };
 
 /// Goes on with relax(run, options) by up to so many macro steps: any number of parts is the same as one.

@@ -30,8 +30,8 @@ namespace dovetail::coupling {
 struct SolidOptions {
   std::string name = "solid";  ///< in ledgers, errors and profiles
   Stepping stepping = Stepping::explicitSteps;
-  double massShare = 0.0;  ///< of the consistent mass; 0 lumped
-  /// Of implicit steps; its massShare is the one above.
+  double massFraction = 0.0;  ///< of the consistent mass; 0 lumped
+  /// Of implicit steps; its massFraction is the one above.
   fem::ImplicitOptions implicitOptions{.scheme = fem::newmark(), .relativeTolerance = 1e-10};
 };
 
@@ -107,7 +107,7 @@ public:
   const SolidSide& solid(std::size_t k) const;
 
   /// Forces at the start. Once before the first step, and again to change the step or the options, or after `grains`
-  /// has been put in another's place; the books go on.
+  /// has been put in another's place; the ledger go on.
   /// @param dt  of the particles, s
   /// @throws InputError as dem::check does, for a step beyond criticalStep (unless grains.refusesUnstableSteps is
   ///         false; the run then goes on as before), options out of range, or a connector whose solid is not in this
@@ -125,7 +125,7 @@ public:
   /// All velocities to zero, between macro steps; what that takes is booked as "kinetic damping".
   void stop();
   /// Implicit solids lose from the next macro step on what rings at periods of few macro steps, or no more; relax()
-  /// asks for it while it goes on. In the books as the dissipation of the scheme.
+  /// asks for it while it goes on. In the ledger as the dissipation of the scheme.
   void damp(bool on);
   /// Of particles, bodies and solids, J.
   double kineticEnergy() const;
@@ -169,15 +169,15 @@ private:
 void report(CoupledRun& run, std::ostream& out);
 
 struct RestOptions {
-  /// At rest when no swing has had a kinetic energy above this share of the elastic energy, twice in a row; where
-  /// nothing moves at all, whatever there is of energies.
+  /// At rest when no oscillation has had a kinetic energy above this fraction of the elastic energy, twice in a row;
+  /// where nothing moves at all, whatever there is of energies.
   double kinetic = 1e-8;
   std::int64_t macroSteps = 200000;  ///< given up after so many
 };
 
 struct RestReport {
   bool atRest = false;
-  double kinetic = 0.0;         ///< the largest of the last swing, or since, over the elastic energy
+  double kinetic = 0.0;         ///< the largest of the last oscillation, or since, over the elastic energy
   std::int64_t macroSteps = 0;  ///< taken
   std::int64_t stops = 0;
 };

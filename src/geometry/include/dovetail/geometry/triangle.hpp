@@ -22,7 +22,7 @@ struct ClosestPoint {
   Feature feature;
 };
 
-/// A triangle whose height is below this share of its longest edge is treated as its three edges: there the edges
+/// A triangle whose height is below this fraction of its longest edge is treated as its three edges: there the edges
 /// and the face give the same point to 1e-8 of the longest edge, while the face's weights would drown in round-off.
 inline constexpr double flatTriangleHeight = 1e-8;
 

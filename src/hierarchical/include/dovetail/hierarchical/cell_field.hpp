@@ -7,27 +7,27 @@
 #include <vector>
 
 #include "dovetail/fem/laws/point_field.hpp"
-#include "dovetail/rve/cell.hpp"
 #include "dovetail/rve/equilibrium.hpp"
+#include "dovetail/rve/rve.hpp"
 
 namespace dovetail::hierarchical {
 
 /// ∂P/∂F that cells hand to Newton's method (rve/operators.hpp).
 enum class Operator {
-  network,         ///< converges fast while little slips; a factorisation of each cell, about an answer's price
-  slidingNetwork,  ///< the same where loading goes on as before
-  uniformStrain,   ///< stiffer, without solving: more iterations, each cheaper
-  elasticProbe,    ///< a check of `network`, many times its price
-  pathProbe,       ///< of the answers themselves: five more paths of discs, ten of spheres
-  frozenMean       ///< pathProbe until the point softens, then the mean of those that it had at accepted steps
+  elasticTangent,     ///< converges fast while little slips; a factorisation of each cell, about an answer's price
+  frictionalTangent,  ///< the same where loading goes on as before
+  voigtTangent,       ///< stiffer, without solving: more iterations, each cheaper
+  elasticProbe,       ///< a check of `elasticTangent`, many times its price
+  numericalTangent,   ///< of the answers themselves: five more paths of discs, ten of spheres
+  averagedTangent  ///< numericalTangent until the point softens, then the mean of those that it had at accepted steps
 };
 
 /// Statics: every answer is a path from the committed cell to F, then rest: by FIRE to path.rest.unbalanced, from there
 /// to `unbalanced`, if that is less, by Newton's method.
 struct QuasiStaticCells {
-  rve::PathSettings path{.rest = {.unbalanced = 1e-6}};
+  rve::PathOptions path{.rest = {.unbalanced = 1e-6}};
   double unbalanced = 1e-6;  ///< at rest when Balance::unbalanced is no more than this, > 0
-  Operator tangent = Operator::network;
+  Operator tangent = Operator::elasticTangent;
 };
 
 /// Explicit dynamics: cells are stepped along and never wait for rest. Their clock is their own: of a contact law
@@ -35,32 +35,32 @@ struct QuasiStaticCells {
 struct DynamicCells {
   double strainPerStep = 3e-5;  ///< at most, of a step of the grains; > 0
   double damping = 0.1;         ///< as in rve::step, in [0, 1)
-  double stepShare = 0.8;       ///< of the cell's critical step, in (0, 1)
+  double stepFraction = 0.8;    ///< of the cell's critical step, in (0, 1)
 };
 
 /// Points of a solid that own a cell each. Disc cells answer for F in the plane (plane strain: quad4, quad8), sphere
 /// cells for any F. Point q of element e begins as cell (e + q) modulo their number. The density is the mean of the
 /// cells'. Each point is one task, longest first and serial inside: digits do not depend on the number of threads.
 /// The tangent is not symmetric. A point that has no answer says why: the step is cut.
-/// @param bank  cells of the same shape and springs, at rest and under pressure at F = 1
+/// @param samples  cells of the same shape and springs, at rest and under pressure at F = 1
 /// @throws InputError for no cells, one that is not of that kind, or a setting that is not valid
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const QuasiStaticCells& settings = {});
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const QuasiStaticCells& settings = {});
 
-/// The same for explicit dynamics. The tangent, from which stable steps follow, is uniformStrain: an upper bound.
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Cell> bank, const DynamicCells& settings);
+/// The same for explicit dynamics. The tangent, from which stable steps follow, is voigtTangent: an upper bound.
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const DynamicCells& settings);
 
 /// From the present deformation to F and to rest there, as points do in statics.
 /// @throws InputError as rve::followPath, or if a setting is not valid; NumericalError if the cell does not come to
 /// rest, or no grains touch there
-void relax(rve::Cell& cell, const Eigen::Matrix3d& F, const QuasiStaticCells& settings);
+void relax(rve::Rve& cell, const Eigen::Matrix3d& F, const QuasiStaticCells& settings);
 
 /// From the present deformation to F, in as many steps as strainPerStep asks for, at least one.
 /// @throws InputError for F with det F ≤ 0 or, for discs, out of the plane, or if a setting is not valid;
 ///   NumericalError as rve::step, or if a million steps are not enough
-void stepTo(rve::Cell& cell, const Eigen::Matrix3d& F, const DynamicCells& settings);
+void stepTo(rve::Rve& cell, const Eigen::Matrix3d& F, const DynamicCells& settings);
 
 /// Why a cell is too small to stand for its material, empty if it is not: fewer than 100 grains, or thinner than 6 mean
 /// diameters. Names of fields of such cells say so.
-std::string whySmall(const rve::Cell& cell);
+std::string whySmall(const rve::Rve& cell);
 
 }  // namespace dovetail::hierarchical

@@ -5,7 +5,7 @@
 
 namespace dovetail::rve {
 
-struct Cell;
+struct Rve;
 
 /// A bond presses and pulls with k_n, resists sliding with k_s and turning with k_θ, and breaks for good when
 /// f_n/f_n^u + |f_s|/f_s^u + |m|/m^u reaches 1, f_n > 0 tension, so that pressure delays it (Liu, thesis TU Eindhoven
@@ -23,15 +23,15 @@ struct BondLaw {
 
 /// Of a contact that is bonded.
 struct Bond {
-  double length = 0.0;   ///< of the branch where the bond neither presses nor pulls, m; 0: not bonded
-  double share = 0.0;    ///< that lies here, in a framed cell; multiplies stiffnesses and strengths
-  double stretch = 0.0;  ///< of the shear spring, along e_z × n, m
-  double turn = 0.0;     ///< of i less that of j, rad
+  double length = 0.0;    ///< of the branch where the bond neither presses nor pulls, m; 0: not bonded
+  double fraction = 0.0;  ///< that lies here, in a framed cell; multiplies stiffnesses and strengths
+  double stretch = 0.0;   ///< of the shear spring, along e_z × n, m
+  double turn = 0.0;      ///< of i less that of j, rad
 };
 
 /// Bonds all contacts that touch now; each bond carries what its contact carried. What that changes of the stored
 /// energy is booked (EnergyBook::bonds).
 /// @throws InputError for spheres, cells that are bonded already, or a law that is not valid
-void bond(Cell& cell, const BondLaw& law);
+void bond(Rve& cell, const BondLaw& law);
 
 }  // namespace dovetail::rve

@@ -3,14 +3,14 @@
 
 #include <cstdint>
 
-#include "dovetail/rve/cell.hpp"
+#include "dovetail/rve/rve.hpp"
 
 namespace dovetail::rve {
 
-struct RestSettings {
+struct RestOptions {
   double unbalanced = 1e-4;     ///< at rest when Balance::unbalanced is no more than this, > 0
   std::int64_t steps = 100000;  ///< given up after so many
-  double stepShare = 0.8;       ///< of the critical step, in (0, 1)
+  double stepFraction = 0.8;    ///< of the critical step, in (0, 1)
 };
 
 struct RestReport {
@@ -22,39 +22,39 @@ struct RestReport {
 /// Relaxes the grains under constant F by FIRE (dem::Fire); contacts slip and remember as in any step. What that takes
 /// is booked as damping; afterwards velocities are zero.
 /// @throws InputError if a setting is not valid; NumericalError as step
-RestReport relax(Cell& cell, const RestSettings& settings = {});
+RestReport relax(Rve& cell, const RestOptions& settings = {});
 
 /// Newton's method on the network of contacts (operators.hpp), from a relaxed state; the cell is left as it was at the
 /// best of the iterations. Converges in a few as long as no contact begins or ends to touch or slip.
-RestReport polish(Cell& cell, double unbalanced = 1e-10, int iterations = 10);
+RestReport polish(Rve& cell, double unbalanced = 1e-10, int iterations = 10);
 
-struct PathSettings {
+struct PathOptions {
   /// I of the path, in (0, 1e-2]: its duration is γ d / (I √(p/ρ)), with γ the difference of the principal strains (or
   /// the largest of them, if that is more), d the mean diameter and p the pressure at the start, at least 1e-6 of mean
   /// k_n/d (spheres) or k_n over thickness (discs) (Desrues et al. 2019, eqs 3, 16–18).
   double inertialNumber = 1e-3;
   double damping = 0.7;  ///< as in step, in [0, 1)
-  double stepShare = 0.8;
-  RestSettings rest = {};  ///< at the end; rest.steps = 0: the cell is left in motion
+  double stepFraction = 0.8;
+  RestOptions rest = {};  ///< at the end; rest.steps = 0: the cell is left in motion
 };
 
 struct PathReport {
-  std::int64_t steps = 0;     ///< of the path
-  double kineticShare = 0.0;  ///< kinetic energy over the work of the boundary, at the end of the path
+  std::int64_t steps = 0;        ///< of the path
+  double kineticFraction = 0.0;  ///< kinetic energy over the work of the boundary, at the end of the path
   RestReport rest;
 };
 
 /// Goes from the present deformation to F in proportion to time, then relaxes.
 /// @throws InputError if F is more than 5 % of strain away, does not fit discs, det F ≤ 0, or a setting is not valid
-PathReport followPath(Cell& cell, const Eigen::Matrix3d& F, const PathSettings& settings = {});
+PathReport followPath(Rve& cell, const Eigen::Matrix3d& F, const PathOptions& settings = {});
 
-struct CompressionSettings {
+struct CompressionOptions {
   Vec3 pressure{1e5, 1e5, 1e5};  ///< wanted along x, y, z, > 0, Pa; discs: the third does not count
   double friction = 0.5;         ///< of the contacts meanwhile
   double tolerance = 1e-3;       ///< of the pressures, relative
   double inertialNumber = 1e-2;  ///< of the fastest strain rate
   double damping = 0.7;
-  RestSettings rest = {};
+  RestOptions rest = {};
   std::int64_t steps = 1000000;  ///< given up after so many
 };
 
@@ -63,6 +63,6 @@ struct CompressionSettings {
 /// with it. F = 1 and volume are those of the new state, and the book begins anew.
 /// @throws InputError if a setting is not valid or the cell is framed; NumericalError if it gives up, or as
 /// step; the cell is then where it got to, with the friction of the preparation
-void compress(Cell& cell, const CompressionSettings& settings);
+void compress(Rve& cell, const CompressionOptions& settings);
 
 }  // namespace dovetail::rve

@@ -10,7 +10,7 @@
 
 namespace dovetail::rve {
 
-struct Cell;
+struct Rve;
 
 /// Spaces of fluctuations w along a frame, x = F X + w, each within the next: none; the same on opposite sides; none on
 /// the mean, Σ w_q ⊗ A_q = 0. Turns of frame grains: none, the same, free. Reactions are the multipliers: any; opposite
@@ -44,16 +44,16 @@ struct Frame {
 
 /// A disc cell that repeats, cut open: grains that lie on the border are copied to the opposite side (thrice for the
 /// one at the corner) and are its frame; the corner is the largest grain for which the frame is a simple polygon. A
-/// contact that lies here in several places has its share of the stiffness in each, so that V P̄ is that of the cell
+/// contact that lies here in several places has its fraction of the stiffness in each, so that V P̄ is that of the cell
 /// that repeats. Springs keep their stretch, the state is the new F = 1, fluctuations stop.
 /// @throws InputError for spheres, framed cells, `periodic` on one of two opposite sides alone, or if no corner will do
-Cell framed(const Cell& cell, const Conditions& conditions);
+Rve framed(const Rve& cell, const Conditions& conditions);
 
 /// Reactions on the frame grains, N: the multipliers of the conditions, −f at rest.
-std::vector<Vec3> reactions(const Cell& cell);
+std::vector<Vec3> reactions(const Rve& cell);
 
 /// P̄ = (1/V) Σ a_q ⊗ X_q, Pa, of a framed cell (Liu 2018, eq. 2.23), with P̄ Fᵀ made symmetric: the skew part is what
 /// the couples do that hold the turns of the frame's grains.
-Eigen::Matrix3d stressOfReactions(const Cell& cell);
+Eigen::Matrix3d stressOfReactions(const Rve& cell);
 
 }  // namespace dovetail::rve

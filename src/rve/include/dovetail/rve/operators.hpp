@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "dovetail/rve/cell.hpp"
 #include "dovetail/rve/equilibrium.hpp"
+#include "dovetail/rve/rve.hpp"
 
 namespace dovetail::rve {
 
@@ -16,16 +16,16 @@ using Tangent = Eigen::Matrix<double, 9, 9>;
 /// (K_LL − K_Lw K_ww⁻¹ K_wL)/V, with the forces that contacts carry, grains' turns and the conditions of the frame.
 /// Analytic twin of elasticProbe (PSTLO of Desrues et al. 2019).
 /// @throws NumericalError if the matrix of the network is singular
-Tangent network(const Cell& cell);
+Tangent elasticTangent(const Rve& cell);
 
 /// The same with springs that slip where they are at the limit of friction.
-Tangent slidingNetwork(const Cell& cell);
+Tangent frictionalTangent(const Rve& cell);
 
 /// All grains move, and turn, with F, nothing slips, and what contacts carry is left out: Kruyt's bound, above the
-/// network's (UKO; Desrues et al. 2019, eq. 33, with the spin of F for the grains').
-Tangent uniformStrain(const Cell& cell);
+/// elasticTangent's (UKO; Desrues et al. 2019, eq. 33, with the spin of F for the grains').
+Tangent voigtTangent(const Rve& cell);
 
-struct ProbeSettings {
+struct ProbeOptions {
   double strain = 1e-7;       ///< either way, > 0
   double unbalanced = 1e-10;  ///< of the probes, as Balance::unbalanced, > 0
 };
@@ -33,22 +33,22 @@ struct ProbeSettings {
 /// Central differences of P from states relaxed after small deformations of each component, during which nothing slips
 /// (DEMQO; Desrues et al. 2019, eq. 32). The cell stays as it is.
 /// @throws InputError if a setting is not > 0; NumericalError if a probe does not come to rest
-Tangent elasticProbe(const Cell& cell, const ProbeSettings& settings = {});
+Tangent elasticProbe(const Rve& cell, const ProbeOptions& settings = {});
 
-struct PathProbeSettings {
+struct NumericalTangentOptions {
   double strain = 1e-5;  ///< > 0
-  PathSettings path{.rest = {.unbalanced = 1e-6}};
+  PathOptions path{.rest = {.unbalanced = 1e-6}};
 };
 
 /// Differences of the answers themselves: P of the paths from the committed cell to F and to F with each component a
 /// little larger, contacts slipping as they do (CTO; Desrues et al. 2019, eq. 31). One path for each component and one
 /// more. The cell stays as it is.
 /// @throws InputError as followPath, or if the strain is not > 0; NumericalError if a path does not end at rest
-Tangent pathProbe(const Cell& committed, const Eigen::Matrix3d& F, const PathProbeSettings& settings = {});
+Tangent numericalTangent(const Rve& committed, const Eigen::Matrix3d& F, const NumericalTangentOptions& settings = {});
 
 /// Operators of a cell as long as it hardens, and from its first softening step on, for good, the mean of those so far
-/// (AEO; Desrues et al. 2019, sec. 2.5, with pathProbe). A step ΔF, ΔP softens if ΔP : ΔF ≤ 0 (Hill).
-struct FrozenMean {
+/// (AEO; Desrues et al. 2019, sec. 2.5, with numericalTangent). A step ΔF, ΔP softens if ΔP : ΔF ≤ 0 (Hill).
+struct AveragedTangent {
   Eigen::Matrix3d F = Eigen::Matrix3d::Zero();  ///< committed last while the cell hardened
   Eigen::Matrix3d P = Eigen::Matrix3d::Zero();  ///< there, Pa
   Tangent mean = Tangent::Zero();

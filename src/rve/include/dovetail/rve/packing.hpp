@@ -4,11 +4,11 @@
 #include <cstdint>
 
 #include "dovetail/dem/setup/sizes.hpp"
-#include "dovetail/rve/cell.hpp"
+#include "dovetail/rve/rve.hpp"
 
 namespace dovetail::rve {
 
-struct CloudSettings {
+struct CloudOptions {
   Shape shape = Shape::disc;
   int count = 400;  ///< grains
   dem::Sizes sizes = dem::UniformSizes{3e-3, 7e-3};
@@ -20,7 +20,7 @@ struct CloudSettings {
 
 /// Grains at random places in a square (discs) or cube that repeats, relaxed until what overlaps no longer pushes, or
 /// as far as that goes; numbered along the box, so that neighbours have near numbers. What `compress` starts from.
-/// @throws InputError if a setting is not valid, or as makeCell
-Cell randomCell(const CloudSettings& settings, const Springs& springs);
+/// @throws InputError if a setting is not valid, or as makeRve
+Rve randomCell(const CloudOptions& settings, const Springs& springs);
 
 }  // namespace dovetail::rve

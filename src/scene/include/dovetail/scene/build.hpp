@@ -47,10 +47,10 @@ struct Limit {
   double dt;  ///< s, of the grains; infinite where nothing sets it
 };
 
-/// Starts the run with the scene's step. "auto": the share `safety` of the smallest of the critical step at the start,
-/// that of each explicit solid, and the exact one of two of the smallest grains of the scene, pressed together by a
-/// twentieth of their radius; and no more than a fifth of the last, which gives an impact eight steps, unless springs
-/// are bonded. A note tells where that is less.
+/// Starts the run with the scene's step. "auto": the fraction `safety` of the smallest of the critical step at the
+/// start, that of each explicit solid, and the exact one of two of the smallest grains of the scene, pressed together
+/// by a twentieth of their radius; and no more than a fifth of the last, which gives an impact eight steps, unless
+/// springs are bonded. A note tells where that is less.
 /// @throws InputError as CoupledRun::start, or if nothing in the scene tells a step
 void start(Built& built, const Scene& scene);
 

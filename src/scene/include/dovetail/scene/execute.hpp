@@ -11,7 +11,7 @@
 
 namespace dovetail::scene {
 
-struct RunSettings {
+struct RunOptions {
   std::filesystem::path folder;  ///< for all that is written
   bool progress = true;          ///< shown on a terminal; elsewhere a line per tenth of a stage
   bool profile = false;          ///< time per part of a step in the summary
@@ -27,7 +27,7 @@ struct RunSettings {
 /// @param log  for the summary and progress
 /// @return whether all was done; false: a signal asked to end
 /// @throws InputError before any step; NumericalError if the run breaks down: what was written stays
-bool run(const Scene& scene, const RunSettings& settings, std::ostream& log);
+bool run(const Scene& scene, const RunOptions& settings, std::ostream& log);
 
 /// The scene of a run. @throws InputError if this is no folder of one
 Scene readRun(const std::filesystem::path& folder);
@@ -37,7 +37,7 @@ Scene readRun(const std::filesystem::path& folder);
 /// whose last stage had that end from the start; scene.json has it from then on.
 /// @throws InputError also if there is no run, no checkpoint, or one of another scene; if the state is behind `until`,
 /// or the end of the last stage is not known: it brings to rest, or one before it still has to
-bool resume(const RunSettings& settings, std::ostream& log);
+bool resume(const RunOptions& settings, std::ostream& log);
 
 /// Builds and starts the scene, and tells its sizes, all limits of the step, and what steps, memory, time and room on
 /// disk a run takes, from macro steps that are stepped for up to a second.

@@ -11,7 +11,7 @@
 
 namespace dovetail::scene {
 
-struct GridSettings {
+struct GridOptions {
   cg::KernelShape shape = cg::KernelShape::lucy;
   std::optional<double> width{};       ///< of the kernel, m; not given: 1.5 mean diameters
   bool advisesWidth = false;           ///< the width is that for which the fields depend on it the least, and told
@@ -25,6 +25,6 @@ struct GridSettings {
 /// contact_stress and kinetic_stress, pressure (Pa), temperature (m²/s²), wall_force (N/m³).
 /// @throws InputError if there is no run, no checkpoint or no grain, for more than 1e7 points, in builds without VTK,
 ///   and as cg::sample
-void writeGridFields(const std::filesystem::path& folder, const GridSettings& settings, std::ostream& log);
+void writeGridFields(const std::filesystem::path& folder, const GridOptions& settings, std::ostream& log);
 
 }  // namespace dovetail::scene

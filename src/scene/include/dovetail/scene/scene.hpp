@@ -31,7 +31,7 @@ struct Stage {
 };
 struct Steps {
   NumberOrWord dt{0.0, "auto"};  ///< s
-  double safety = 0.2;           ///< share of the critical step, with "auto": see start
+  double safety = 0.2;           ///< fraction of the critical step, with "auto": see start
   int stepsPerMacroStep = 1;
   int lag = 0;      ///< coupling::Lag
   int threads = 0;  ///< 0: all processors

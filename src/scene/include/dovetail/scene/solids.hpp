@@ -105,10 +105,10 @@ struct Solid {
   std::string formulation = "standard";
   bool gravity = true;
   bool implicitSteps = false;
-  int linearSolver = 0;               ///< fem::LinearMethod, of implicit steps
-  std::optional<double> massShare;    ///< of the consistent mass; not given: 1 for implicit steps, else 0
-  std::optional<StateOfSolid> state;  ///< that it begins with; not given: at rest as it is described
-  Vec3 velocity;                      ///< of all nodes at the start, m/s, beside that of the state
+  int linearSolver = 0;                ///< fem::LinearMethod, of implicit steps
+  std::optional<double> massFraction;  ///< of the consistent mass; not given: 1 for implicit steps, else 0
+  std::optional<StateOfSolid> state;   ///< that it begins with; not given: at rest as it is described
+  Vec3 velocity;                       ///< of all nodes at the start, m/s, beside that of the state
   std::vector<NamedSet> sets;
   std::vector<Support> supports;
   std::vector<Load> loads;
@@ -148,7 +148,7 @@ struct Overlap {
   int kernelShape = 0;                                ///< cg::KernelShape
   bool normalised = true, reachOut = false;           ///< arlequin::ProjectionOptions
   double absorber = 0.0;                              ///< 1/s
-  bool takeOver = false;                              ///< the solid begins in equilibrium (arlequin::takeOver)
+  bool initialEquilibrium = false;  ///< the solid begins in equilibrium (arlequin::initialEquilibrium)
 };
 struct Coupling {
   std::string solid;

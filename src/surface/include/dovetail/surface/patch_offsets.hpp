@@ -12,7 +12,7 @@
 namespace dovetail::surface {
 
 /// The mean gradient F of one patch: that for which Σ a_i |x_i − x̄ − F (X_i − X̄)|² is least, a_i being the nodes'
-/// shares of the patch's area. Across a patch that is flat it is not defined, and not needed.
+/// fractions of the patch's area. Across a patch that is flat it is not defined, and not needed.
 struct PatchFrame {
   std::vector<int> node;
   std::vector<Vec3> arm;      ///< a M^(−½) D, D = X − Σ a X, M = Σ a D Dᵀ; sums to zero
@@ -53,7 +53,7 @@ struct PatchOffsets {
   }
 };
 
-/// A frame of nodes at X (m) with shares of an area > 0, in any unit.
+/// A frame of nodes at X (m) with fractions of an area > 0, in any unit.
 PatchFrame makeFrame(std::vector<int> node, std::span<const double> area, std::span<const Vec3> X);
 
 /// Places the patches of these points.

@@ -70,7 +70,7 @@ Skin joined(std::span<const Skin* const> skins);
 /// map and splits nothing. Rows sum to one; with linear correction Σ_i S_vi X_i = X_v as well, so that no offset need
 /// go with the patch, and with the symmetric one even tractions stay even (cg/symmetric_kernel.hpp). On patches that
 /// are more than twice as long as wide, rows without linear correction get the factor 1 + β_v (s_i − s̄_v) of the
-/// lengthwise coordinate s that restores their first moment along it; their shares across stay what they were.
+/// lengthwise coordinate s that restores their first moment along it; their fractions across stay what they were.
 /// @throws InputError for a width that is negative or not finite, before the skin is changed
 void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel);
 

@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "dovetail/surface/coupling.hpp"
+#include "dovetail/surface/surface_coupler.hpp"
 
 namespace dovetail::surface {
 
 /// Faces with a law, a material and a kernel of their own.
 struct SurfacePart {
-  Coupling* coupling;
+  SurfaceCoupler* coupling;
   const dem::ContactLaws* laws;
 
   dem::WallAnswer answer() const { return {laws, coupling->wall().material}; }
@@ -24,7 +24,7 @@ public:
   /// @throws InputError if parts have a face in common, or combine contacts by different rules
   explicit SolidSurface(std::span<const SurfacePart> parts);
 
-  /// As Coupling's, for all parts, which are those it was made of or copies of them. Each has then its load().
+  /// As SurfaceCoupler's, for all parts, which are those it was made of or copies of them. Each has then its load().
   void find(std::span<const SurfacePart> parts, const dem::Particles& particles, std::span<const Vec3> u,
             std::span<const Vec3> v, const ExchangeOptions& options);
   /// Nothing if parts answer differently: what meets one of them at a seam meets the others too.
@@ -35,8 +35,8 @@ public:
   dem::ContactWork answer(std::span<const SurfacePart> parts, dem::Particles& particles, std::span<const Vec3> u,
                           double dt, const ExchangeOptions& options);
   double renumber(std::span<const int> newNumber) { return whole_.renumber(newNumber); }
-  double madeByShares() const { return whole_.madeByShares(); }
-  const Coupling& whole() const { return whole_; }
+  double madeByWeights() const { return whole_.madeByWeights(); }
+  const SurfaceCoupler& whole() const { return whole_; }
 
   void save(ByteWriter& writer) const { whole_.save(writer); }
   void load(ByteReader& reader) { whole_.load(reader); }
@@ -44,7 +44,7 @@ public:
 private:
   void gatherEnergies(std::span<const SurfacePart> parts);
 
-  Coupling whole_;
+  SurfaceCoupler whole_;
   std::vector<int> first_;  // facet of each part
   bool alike_ = true;       // whether all parts answer in the same way
 };

@@ -8,18 +8,18 @@
 #include <vector>
 
 #include "dovetail/coupling/connector.hpp"
-#include "dovetail/surface/coupling.hpp"
 #include "dovetail/surface/solid_surface.hpp"
+#include "dovetail/surface/surface_coupler.hpp"
 
 namespace dovetail::surface {
 
-/// What a Coupling does, done between the particles of a model and the nodes of a solid. What contacts store and lose
-/// is in the books of the particles' model (dem::Model::work), as with walls. Dashpots are booked with both the
+/// What a SurfaceCoupler does, done between the particles of a model and the nodes of a solid. What contacts store and
+/// lose is in the ledger of the particles' model (dem::Model::work), as with walls. Dashpots are booked with both the
 /// velocity before and the one after the kick, of particle and surface, as the laws do for all contacts.
 ///
 /// A solid has one surface: those on one solid are parts of it, each with its faces, law, material and kernel. The
 /// first of them in the model finds the contacts of all, one per place also where parts meet, and owns what belongs to
-/// none of them. In an overlap of the same solid contacts act with the solid's share, and tied particles do not meet
+/// none of them. In an overlap of the same solid contacts act with the solid's weight, and tied particles do not meet
 /// the surface. A smooth surface is no part, and meets no other.
 class SurfaceContact final : public coupling::Connector {
 public:
@@ -28,16 +28,16 @@ public:
   /// @param name      in ledgers, errors and profiles
   /// @throws InputError if the surface is not where the nodes of the solid have it, there are no laws, or these cannot
   ///         be had on it
-  SurfaceContact(coupling::SolidSide& side, Coupling coupling, std::shared_ptr<const dem::ContactLaws> laws,
+  SurfaceContact(coupling::SolidSide& side, SurfaceCoupler coupling, std::shared_ptr<const dem::ContactLaws> laws,
                  std::string name = "surface contacts");
 
-  const Coupling& coupling() const { return coupling_; }
+  const SurfaceCoupler& coupling() const { return coupling_; }
   const dem::ContactLaws& laws() const { return *laws_; }
 
   std::string name() const override { return name_; }
   std::unique_ptr<dem::Term> clone() const override { return std::make_unique<SurfaceContact>(*this); }
-  /// What a transfer that is not adjoint has taken, if its work is booked (Coupling::bookWallWork), and changes of the
-  /// solid's share.
+  /// What a transfer that is not adjoint has taken, if its work is booked (SurfaceCoupler::bookWallWork), and changes
+  /// of the solid's weight.
   double lost() const override;
   void check(const dem::Model& m) const override;
   void surround(dem::Surroundings& around) override;
@@ -63,7 +63,7 @@ private:
     std::int64_t revision = 0;
     std::vector<SurfaceContact*> parts;  ///< all of them if this is the first, else none
     std::vector<const coupling::Connector*> overlaps;
-    std::vector<double> share;  ///< 1 − w per node; empty without overlaps
+    std::vector<double> fraction;  ///< 1 − w per node; empty without overlaps
   };
 
   std::vector<const SurfaceContact*> partsIn(const dem::Model& m) const;
@@ -76,14 +76,14 @@ private:
   template <class Call>
   void naming(const dem::Step& step, Call&& call) const;
 
-  Coupling coupling_;
+  SurfaceCoupler coupling_;
   std::shared_ptr<const dem::ContactLaws> laws_;
   std::string name_;
   std::int64_t id_;  // of it and its copies
   Company company_;
   std::optional<SolidSurface> surface_;  // of several parts
   std::vector<std::int64_t> surfaceOf_;  // their numbers
-  double booked_ = 0.0;                  // J, made by shares on surfaces of other parts
+  double booked_ = 0.0;                  // J, made by fractions on surfaces of other parts
   std::vector<char> state_;              // of a surface that is yet to be made
   std::vector<std::uint8_t> tied_;
 };

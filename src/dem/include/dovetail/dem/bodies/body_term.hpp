@@ -21,7 +21,7 @@ public:
   Order order() const override { return Order::bodies; }
   void check(const Model& m) const override;
   double move(Model& m, const Step& step) override;
-  void renewed(Model& m) override;
+  void neighbourListUpdated(Model& m) override;
   void leaving(Model& m, std::vector<char>& leaves) override;
   double renumber(std::span<const int> newNumber, const Particles& before) override;
   void addForces(Model& m, const Step& step) override;

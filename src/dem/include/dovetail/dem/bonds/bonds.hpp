@@ -24,7 +24,7 @@ struct BondMaterial {
   double shearCorrection = 0.9;     ///< κ of Timoshenko's beam; 0 = Euler–Bernoulli, stiff in shear
   double tensileStrength = 0.0;     ///< Pa; may be infinite
   double shearStrength = 0.0;       ///< Pa; may be infinite
-  double momentContribution = 1.0;  ///< β in 0 … 1, share of the moments in the stresses
+  double momentContribution = 1.0;  ///< β in 0 … 1, fraction of the moments in the stresses
   double dampingTime = 0.0;         ///< τ ≥ 0, s: every stiffness has a dashpot τ times as large
 };
 

@@ -22,14 +22,14 @@ struct Contact {
 };
 
 struct NormalResponse {
-  double force = 0.0;         ///< N along the normal on the particle; > 0 pushes apart
-  double stiffness = 0.0;     ///< N/m, slope of the elastic force, > 0; other parts scale with it
-  double damping = 0.0;       ///< N s/m, of the dashpot; other parts scale with it
-  double energy = 0.0;        ///< J that can be had back
-  double dampingShare = 1.0;  ///< of a dashpot's power now that belongs to this step, see bookedDashpot
-  double dashpotPower = 0.0;  ///< W, average of this step
-  double dashpotAfter = 0.0;  ///< W, what still belongs to the dashpot in the step after the last touch
-  double plasticPower = 0.0;  ///< W, average of this step
+  double force = 0.0;            ///< N along the normal on the particle; > 0 pushes apart
+  double stiffness = 0.0;        ///< N/m, slope of the elastic force, > 0; other parts scale with it
+  double damping = 0.0;          ///< N s/m, of the dashpot; other parts scale with it
+  double energy = 0.0;           ///< J that can be had back
+  double dampingFraction = 1.0;  ///< of a dashpot's power now that belongs to this step, see bookedDashpot
+  double dashpotPower = 0.0;     ///< W, average of this step
+  double dashpotAfter = 0.0;     ///< W, what still belongs to the dashpot in the step after the last touch
+  double plasticPower = 0.0;     ///< W, average of this step
 };
 
 struct AdhesionResponse {

@@ -40,9 +40,9 @@ struct ContactBlock {
   Rows3 separation;                  ///< x_particle − x_partner, m
   alignas(64) Row radiusI, radiusJ;  ///< m
   // Given: walls
-  Rows3 normal;                 ///< unit, from the wall to the particle
-  alignas(64) Row overlap;      ///< m
-  alignas(64) Row energyShare;  ///< factor on what normal springs store and plastic flow takes
+  Rows3 normal;                    ///< unit, from the wall to the particle
+  alignas(64) Row overlap;         ///< m
+  alignas(64) Row energyFraction;  ///< factor on what normal springs store and plastic flow takes
   // Given: both
   Rows3 velocity;                   ///< v_particle − v_partner, m/s: of the centres (pairs), at the contact (walls)
   Rows3 spinSum, spinDifference;    ///< ω_particle ± ω_partner, rad/s
@@ -215,7 +215,7 @@ void answerAll(ContactBlock& block, std::size_t n, const Prepared* laws, double 
     }
     storeMemory(held.data(), l, memory, touches, components);
     if constexpr (options.booked)
-      storeWork(block, l, response.work, ended, touches, scale, options.wall ? block.energyShare[l] : scale);
+      storeWork(block, l, response.work, ended, touches, scale, options.wall ? block.energyFraction[l] : scale);
   }
 }
 

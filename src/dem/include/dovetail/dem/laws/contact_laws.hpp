@@ -37,7 +37,7 @@ public:
   virtual ContactWork wall(Particles& particles, PrimitiveWall& wall, double dt, Booking booking) const = 0;
   /// The same for the contacts that findWallContacts has found; sets their forces and couples, the reaction on the wall
   /// being up to addWallForces. The wall counts as flat: the effective radius is the particle's, and the effective mass
-  /// too unless the wall has one (TriangulatedWall::mass). Where facets share a contact, each answers with its share
+  /// too unless the wall has one (TriangulatedWall::mass). Where facets share a contact, each answers with its fraction
   /// (engagement) of what the law says to the overlap of particle and facet alone.
   ///
   /// Wall velocities enter with the weights that carry the force, so power balances: Σ force·(v_particle − v_wall)

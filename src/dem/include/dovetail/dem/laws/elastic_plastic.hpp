@@ -53,7 +53,7 @@ struct ElasticPlastic {
               .stiffness = stiffness,
               .damping = damping,
               .energy = 0.5 * elastic * elastic / stiffness,
-              .dampingShare = touched ? 1.0 : 0.75,
+              .dampingFraction = touched ? 1.0 : 0.75,
               .dashpotPower = booked.power,
               .dashpotAfter = booked.after,
               .plasticPower = 0.5 * (change > 0.0 ? yield * change : -yieldCohesion * change) * contact.inverseDt};

@@ -43,7 +43,7 @@ struct HertzDashpot {
               .stiffness = stiffness,
               .damping = damping,
               .energy = 0.4 * elastic * contact.overlap,
-              .dampingShare = 0.75 + 0.25 * ratio,
+              .dampingFraction = 0.75 + 0.25 * ratio,
               .dashpotPower = booked.power,
               .dashpotAfter = booked.after};
     }
@@ -92,7 +92,7 @@ struct MindlinSpring {
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
       const Slider<dashpot> now =
           slideGrowing<dashpot>(Vec3{held[0], held[1], held[2]}, contact.slip, stiffnessRatio * normal.stiffness,
-                                dampingRatio * normal.damping, normal.dampingShare, limit, contact, held);
+                                dampingRatio * normal.damping, normal.dampingFraction, limit, contact, held);
       return {.force = -now.force, .energy = now.energy, .slipPower = now.lostPower};
     }
     Slope slope(const Contact&, const NormalResponse& normal) const {

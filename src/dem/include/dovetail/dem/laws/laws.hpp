@@ -73,7 +73,7 @@ struct LinearSpringDashpot {
 
     /// @param overlap    λ ≥ 0, m, the part of the overlap that the contact carries
     /// @param separating n·(v_particle − v_other), m/s, > 0 while the overlap closes
-    /// @param engagement share in which the dashpot acts
+    /// @param engagement fraction in which the dashpot acts
     /// @return force along n on the particle, N
     double force(double overlap, double separating, double engagement, double rootMass) const {
       const double f = stiffness * overlap - dampingPerRootMass * rootMass * engagement * separating;
@@ -97,7 +97,7 @@ struct LinearSpringDashpot {
               .stiffness = stiffness,
               .damping = damping,
               .energy = 0.5 * elastic * contact.overlap,
-              .dampingShare = touched ? 1.0 : 0.75,
+              .dampingFraction = touched ? 1.0 : 0.75,
               .dashpotPower = booked.power,
               .dashpotAfter = booked.after};
     }
@@ -151,7 +151,7 @@ struct Slider {
   /// @param forceBefore of the spring, in the last step; sliding is booked with the mean of both, as the work is done
   /// @param rate        relative velocity
   [[gnu::always_inline]] Slider(const Vec3& kept, const Vec3& forceBefore, const Vec3& rate, double stiffness,
-                                double damping, double dampingShare, double limit, const Contact& contact) {
+                                double damping, double dampingFraction, double limit, const Contact& contact) {
     const Vec3 stretched = kept + contact.dt * rate;
     const double size = stiffness * norm(stretched);
     const bool slides = size > limit;
@@ -165,7 +165,7 @@ struct Slider {
       const double whole = norm(both);
       const bool cut = damping > 0.0 ? whole > limit : false;
       force = (cut ? limit / (cut ? whole : 1.0) : 1.0) * both;
-      lostPower += (cut ? 0.5 + 0.5 * dampingShare : dampingShare) * dot(force - spring, rate);
+      lostPower += (cut ? 0.5 + 0.5 * dampingFraction : dampingFraction) * dot(force - spring, rate);
     }
   }
 };
@@ -177,12 +177,12 @@ struct Slider {
 /// @param held takes the new stretch; its fourth number is the stiffness, of the last step and then of this one
 template <bool dashpot = true>
 [[gnu::always_inline]] inline Slider<dashpot> slideGrowing(const Vec3& old, const Vec3& rate, double stiffness,
-                                                           double damping, double dampingShare, double limit,
+                                                           double damping, double dampingFraction, double limit,
                                                            const Contact& contact, double* held) {
   const double before = held[3];
   const bool grows = stiffness > before;
   const Vec3 kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old, forceBefore = before * old;
-  Slider<dashpot> now(kept, forceBefore, rate, stiffness, damping, dampingShare, limit, contact);
+  Slider<dashpot> now(kept, forceBefore, rate, stiffness, damping, dampingFraction, limit, contact);
   held[0] = now.stretch.x;
   held[1] = now.stretch.y;
   held[2] = now.stretch.z;
@@ -212,7 +212,7 @@ struct TangentialSpring {
       const Vec3 old{held[0], held[1], held[2]};
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
       const Slider<dashpot> now(old, stiffness * old, contact.slip, stiffness, dampingRatio * normal.damping,
-                                normal.dampingShare, limit, contact);
+                                normal.dampingFraction, limit, contact);
       held[0] = now.stretch.x;
       held[1] = now.stretch.y;
       held[2] = now.stretch.z;

@@ -26,7 +26,7 @@ struct RollingResistance {
       const Vec3 rate = contact.spin - dot(contact.spin, contact.normal) * contact.normal;
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
       const Slider<> slider = slideGrowing(Vec3{held[0], held[1], held[2]}, rate, now.stiffness, now.damping,
-                                           normal.dampingShare, limit, contact, held);
+                                           normal.dampingFraction, limit, contact, held);
       return {-slider.force, slider.energy, slider.lostPower};
     }
     Slope slope(const Contact& contact, const NormalResponse& normal) const {
@@ -59,7 +59,7 @@ struct TwistingResistance {
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
       double spring[4] = {held[0], 0.0, 0.0, held[1]};
       const Slider<> slider = slideGrowing({held[0], 0.0, 0.0}, {dot(contact.spin, contact.normal), 0.0, 0.0},
-                                           now.stiffness, now.damping, normal.dampingShare, limit, contact, spring);
+                                           now.stiffness, now.damping, normal.dampingFraction, limit, contact, spring);
       held[0] = spring[0];
       held[1] = spring[3];
       return {-slider.force.x * contact.normal, slider.energy, slider.lostPower};

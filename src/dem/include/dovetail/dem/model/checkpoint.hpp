@@ -10,7 +10,7 @@
 namespace dovetail::dem {
 
 /// The whole state as bytes: particles, periodicity, pairs with their memories, the laws' parts and parameters, every
-/// term, the books. What is code is there by name only: a law of the caller's own, the function behind a moving wall,
+/// term, the ledger. What is code is there by name only: a law of the caller's own, the function behind a moving wall,
 /// an external force, a drive.
 std::vector<char> saveState(const Model& m);
 /// Reads such bytes into a model, see readCheckpoint. @param where  they come from, for errors

@@ -25,12 +25,12 @@ enum class StepOwner : std::uint8_t { contact, bond, tie };
 /// clumps and connectors add to it (addDemand), in any order; then criticalStep reads it.
 struct ContactDemand {
   /// How fast a mass goes with a contact: by so much of its own shift.
-  struct Share {
+  struct Fraction {
     int mass;
-    double share;
+    double fraction;
   };
   struct Range {
-    std::size_t first = 0, end = 0;  ///< in `shares`
+    std::size_t first = 0, end = 0;  ///< in `fractions`
   };
   struct Link {
     int particle, partner;  ///< partner −1: none, see `side`
@@ -71,13 +71,13 @@ struct ContactDemand {
   int macroStep = 1;  ///< K: steps per macro step
   std::vector<Side> sides;
   std::vector<Mass> masses;
-  std::vector<Share> shares;
+  std::vector<Fraction> fractions;
 
   /// Number of the side of `of`; made with so many masses if it is not there yet.
   int sideOf(const void* of, std::span<const double> inverseMass);
   /// Links from number `first` on stand on one mass of a side of its own, 1/kg.
   void standOn(std::size_t first, const void* of, double inverseMass);
-  Range add(std::span<const Share> some);
+  Range add(std::span<const Fraction> some);
 };
 
 /// A step and who sets it.
@@ -162,7 +162,7 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
     const int material = particles.material.empty() ? 0 : int{particles.material[i]};
     const auto& law = lawOf(laws, material, wallMaterial);
     Contact contact;
-    contact.overlap = shareOf(contacts, c).overlap;
+    contact.overlap = fractionOf(contacts, c).overlap;
     if (!(contact.overlap > 0.0)) continue;
     const double mass = particles.mass[i];
     contact.effectiveMass = std::isfinite(wallMass) ? mass * wallMass / (mass + wallMass) : mass;

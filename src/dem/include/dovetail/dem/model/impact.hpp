@@ -30,7 +30,7 @@ struct ImpactLimit {
   std::string deepest;                                  ///< its owner
 };
 
-struct ImpactSettings {
+struct ImpactOptions {
   int macroStep = 1;                             ///< K
   std::function<double(const void*)> ownRate{};  ///< ContactDemand::Side::ownRate of a partner; empty: 0
 };
@@ -40,6 +40,6 @@ struct ImpactSettings {
 /// relative speed there is and what gravity adds on the way down. The stiffness is that at the depth at which the
 /// springs have taken up the energy; dashpots, tangential ones too, count with it. Bonded springs have no impacts.
 /// @param demand  demandOf(m)
-ImpactLimit impactLimit(const Model& m, const ContactDemand& demand, const ImpactSettings& settings = {});
+ImpactLimit impactLimit(const Model& m, const ContactDemand& demand, const ImpactOptions& settings = {});
 
 }  // namespace dovetail::dem

@@ -19,7 +19,7 @@ public:
   std::string name() const override { return "bonds"; }
   std::unique_ptr<Term> clone() const override { return std::make_unique<BondTerm>(*this); }
   void check(const Model& m) const override;
-  void renewed(Model& m) override;
+  void neighbourListUpdated(Model& m) override;
   double renumber(std::span<const int> newNumber, const Particles& before) override;
   void addForces(Model& m, const Step& step) override;
   void book(Model& m, const Step& step) override;

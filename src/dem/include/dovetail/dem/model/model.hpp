@@ -60,7 +60,7 @@ struct Model {
   std::optional<Domain> domain;
   Rotation rotation = Rotation::automatic;
   Booking booking = Booking::on;
-  /// Particles are sorted at every so many renewals of the list, 0 = never; Particles::id names them.
+  /// Particles are sorted at every so many list updates of the list, 0 = never; Particles::id names them.
   int sortEvery = 16;
   /// A first step, or another than before, is refused beyond criticalStep and impactLimit; then the run looks at its
   /// state now and then, and tells once (`passed`) when that has passed the limit.
@@ -87,7 +87,7 @@ struct Model {
   std::int64_t stepsBase = 0;
   double checkedStep = 0.0;             ///< s: the dt that has been compared with the critical step
   std::optional<PassedLimit> passed;    ///< the first look that found the step beyond the limit; in no checkpoint
-  std::int64_t renewals = 0;            ///< how often the grid was asked for pairs
+  std::int64_t listUpdates = 0;         ///< how often the grid was asked for pairs
   std::vector<std::int64_t> newcomers;  ///< ids of those who entered in the step under way
   bool newcomersTouch = false;          ///< somebody, perhaps, whose contacts bring energy then
 };
@@ -102,9 +102,9 @@ struct Model {
 ///   particle that is not finite or moved farther than its own radius in this step (it could pass through walls and
 ///   others unseen)
 void move(Model& m, double dt);
-/// Particles enter and leave, the list of pairs is renewed where moves ask for it, particles are sorted now and then.
+/// Particles enter and leave, the list of pairs is updated where moves ask for it, particles are sorted now and then.
 /// @throws NumericalError naming a particle that has escaped from the domain
-void renew(Model& m);
+void updateNeighbourList(Model& m);
 /// Gravity, pairs, terms; books what they lost.
 void addForces(Model& m);
 /// What terms add, and the contacts that they find together (Term::findFacetContacts). Books nothing.
@@ -117,8 +117,8 @@ void findForces(Model& m);
 /// to make.
 void close(Model& m);
 
-/// One step of velocity Verlet: move · renew · addForces. Its `close` is left to the next move, which makes both half
-/// kicks in one sweep, or to the caller.
+/// One step of velocity Verlet: move · updateNeighbourList · addForces. Its `close` is left to the next move, which
+/// makes both half kicks in one sweep, or to the caller.
 void advance(Model& m, double dt);
 /// advance n times, then close.
 void run(Model& m, double dt, std::int64_t n);
@@ -138,7 +138,7 @@ void requireStableStep(const Model& m, double dt, double leastOverlap = 0.0);
 /// about as much as a step.
 bool looksAtLimit(std::int64_t step);
 /// After a run broke down: the same error with the limit that its step is beyond, if it is (m.passed); else returns.
-void tellOfLimit(const Model& m, const NumericalError& error);
+void reportOfLimit(const Model& m, const NumericalError& error);
 /// Sets m.passed if the step is beyond criticalStep. `advance` does so where looksAtLimit, and where it breaks down.
 void lookAtLimit(Model& m);
 

@@ -15,9 +15,9 @@ namespace dovetail::dem {
 struct Snapshot {
   double time = 0.0;                 ///< s
   std::vector<Vec3> x, v;            ///< free particles by number, then bodies of clumps, m, m/s
-  std::vector<double> mass, volume;  ///< kg and m³ of the share that is modelled here (Particles::weight)
+  std::vector<double> mass, volume;  ///< kg and m³ of the fraction that is modelled here (Particles::weight)
   std::vector<Vec3> from, to;        ///< contacts and bonds, see ContactSample, m
-  std::vector<Vec3> force;           ///< on the first, N; forces too carry their share
+  std::vector<Vec3> force;           ///< on the first, N; forces too carry their fraction
   std::vector<Vec3> wallPoint;       ///< of those of these contacts that are with walls, m
   std::vector<Vec3> wallForce;       ///< of the walls on the particles, N
   geometry::Periodicity space;

@@ -69,7 +69,7 @@ public:
   /// Lets particles in and takes them out (insertParticles, removeParticles of the model).
   virtual void exchange(Model&, const Step&) {}
   /// The list of pairs is new: sets factors of pairs (PairList) that it wants muted or weighed.
-  virtual void renewed(Model&) {}
+  virtual void neighbourListUpdated(Model&) {}
   /// Particles are about to leave, one entry per particle, 0 = stays. Sets others who go along, and those whose mass
   /// and energy it counts itself to `booked`.
   virtual void leaving(Model&, std::vector<char>& /*leaves*/) {}

@@ -53,7 +53,7 @@ struct EndedPairs {
 namespace detail {
 
 /// What users set: see PairList.
-struct PairSettings {
+struct PairOptions {
   std::optional<double> skin;
   double reach = 0.0;
   geometry::Periodicity periodicity;
@@ -94,7 +94,7 @@ struct PairBelongings {
 };
 
 /// The whole, for the functions that make lists and go through them.
-struct PairParts : PairSettings, PairSearch, ListedPairs, PairBelongings {};
+struct PairParts : PairOptions, PairSearch, ListedPairs, PairBelongings {};
 
 /// Vector to be added to x_i − x_j, m.
 inline Vec3 shiftOf(const geometry::Periodicity& periodicity, const PairImage& image) {

@@ -82,7 +82,7 @@ public:
 
   // ---- what stays with a pair while it is listed
 
-  /// Per pair: factor on its force and energies, such as the particles' share of an overlap, 0 = muted; empty = 1. A
+  /// Per pair: factor on its force and energies, such as the particles' fraction of an overlap, 0 = muted; empty = 1. A
   /// newcomer has 1 until somebody sets it, which is due when `revision` has changed.
   const RawVector<double>& factors() const { return parts_.factors; }
   double factor(std::size_t pair) const { return parts_.factors.empty() ? 1.0 : parts_.factors[pair]; }

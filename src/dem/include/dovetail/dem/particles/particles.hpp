@@ -26,8 +26,8 @@ struct Particles {
   std::vector<Vec3> torque;    ///< torques about the centre, N m; as long as omega
 
   std::vector<std::uint8_t> material;  ///< row of a LawTable; empty = all are of material 0
-  /// Share of a particle that is modelled here, in (0, 1], the rest being another model's; empty = 1. Inertia, weight
-  /// and energies count it; mass and radius are those of the whole particle.
+  /// Fraction of a particle that is modelled here, in (0, 1], the rest being another model's; empty = 1. Inertia,
+  /// weight and energies count it; mass and radius are those of the whole particle.
   std::vector<double> weight;
   std::vector<Owner> owner;      ///< empty = nobody
   std::vector<std::int64_t> id;  ///< names that stay when particles are sorted or removed; no id is given twice

@@ -25,7 +25,7 @@ struct Surroundings {
 };
 
 /// What enters, where and how fast: one of the two rates is > 0, or leavers are replaced.
-struct InsertionSettings {
+struct InsertionOptions {
   geometry::Box region;  ///< m; whole spheres lie in it, but along a periodic axis that it spans all places are free
   Sizes sizes;           ///< of spheres
   Density density{0.0};
@@ -44,7 +44,7 @@ struct InsertionSettings {
 
 /// An insertion under way: what it was asked for, and what has come of it.
 struct Insertion {
-  InsertionSettings settings;
+  InsertionOptions settings;
   RandomStream random;
   double nextRadius = 0.0;    ///< m, of the next sphere
   int nextShape = 0;          ///< of the next clump
@@ -60,7 +60,7 @@ struct Insertion {
 /// exactly
 ///   one of rates and replacement is given, tries < 1, or the region does not hold the largest sphere or the widest
 ///   clump
-Insertion makeInsertion(const InsertionSettings& settings);
+Insertion makeInsertion(const InsertionOptions& settings);
 
 /// Lets in what is due after another dt seconds, at places drawn at random in the region where it touches nobody, no
 /// image of anybody, and no wall. Appended particles leave the others' numbers as they are. Returns how many entered.

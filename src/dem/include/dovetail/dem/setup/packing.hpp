@@ -55,7 +55,7 @@ struct PackingReport {
   std::int64_t iterations = 0;  ///< steps of the relaxation
 };
 
-struct GrowthSettings {
+struct GrowthOptions {
   double solidFraction = 0.55;       ///< of the box, in (0, 0.74)
   double overlap = 1e-3;             ///< largest one that is left, over the smaller radius
   std::uint64_t seed = 1;            ///< same seed, same packing
@@ -69,10 +69,10 @@ struct GrowthSettings {
 /// @throws InputError if the sizes or the space are not valid, the solid fraction is not in (0, 0.74), the overlap not
 /// in
 ///   (0, 0.1], the box holds fewer than one sphere, or a sphere is wider than the box
-Packing growPacking(const Sizes& sizes, const geometry::Periodicity& space, const GrowthSettings& settings,
+Packing growPacking(const Sizes& sizes, const geometry::Periodicity& space, const GrowthOptions& settings,
                     PackingReport& report);
 
-struct CompressionSettings {
+struct CompressionOptions {
   double stiffness = 1e5;   ///< of every contact, N/m
   double pressure = 1e3;    ///< wanted, Pa: a third of the trace of the stress, compression > 0
   double tolerance = 1e-3;  ///< of the pressure, relative
@@ -84,6 +84,6 @@ struct CompressionSettings {
 /// jamming, where the pressure is below about 1e-4 stiffness/diameter, spheres come to rest slowly: see
 /// PackingReport::unbalanced. Gives up where a periodic box would become narrower than two diameters.
 /// @throws InputError if a setting or the packing is not valid
-PackingReport compressToPressure(Packing& packing, const CompressionSettings& settings);
+PackingReport compressToPressure(Packing& packing, const CompressionOptions& settings);
 
 }  // namespace dovetail::dem

@@ -8,10 +8,10 @@
 
 namespace dovetail::dem {
 
-struct RelaxationSettings {
+struct RelaxationOptions {
   double unbalanced = 1e-4;     ///< at rest when RelaxationReport::unbalanced is no more than this
   std::int64_t steps = 200000;  ///< given up after so many
-  double stepShare = 0.6;       ///< of the critical step, which is looked up anew now and then; in (0, 1)
+  double stepFraction = 0.6;    ///< of the critical step, which is looked up anew now and then; in (0, 1)
   std::int64_t lookEvery = 20;  ///< steps between two looks at the contacts
   std::function<bool(const Model&)> enough{};  ///< asked at every look: whether to stop here, at rest or not
 };
@@ -35,7 +35,7 @@ struct RelaxationReport {
 /// particles are held where they are, and go on along their path afterwards.
 /// @throws InputError if a setting is not valid, or walls, their surfaces or driven particles move; NumericalError as
 ///   advance
-RelaxationReport relax(Model& m, const RelaxationSettings& settings = {});
+RelaxationReport relax(Model& m, const RelaxationOptions& settings = {});
 
 /// ½ Σ m v² + ½ Σ ω·L of particles, bodies and walls with a servo, J.
 double kineticEnergy(const Model& m);

@@ -20,8 +20,8 @@ struct NormalSizes {
 struct LogNormalSizes {
   double median, logDeviation, smallest, largest;
 };
-/// A sieve curve: share of the mass that passes a sieve, over the sieve's opening (the particle's diameter, m), from 0
-/// to 1, both ascending; between two sieves the passing mass is linear in the logarithm of the diameter.
+/// A sieve curve: fraction of the mass that passes a sieve, over the sieve's opening (the particle's diameter, m), from
+/// 0 to 1, both ascending; between two sieves the passing mass is linear in the logarithm of the diameter.
 struct GradingCurve {
   std::vector<double> diameter, passing;
 };

@@ -13,7 +13,7 @@ namespace dovetail::dem {
 class InsertionTerm final : public Term {
 public:
   /// @throws InputError as makeInsertion
-  explicit InsertionTerm(const InsertionSettings& settings) : insertion(makeInsertion(settings)) {}
+  explicit InsertionTerm(const InsertionOptions& settings) : insertion(makeInsertion(settings)) {}
   Insertion insertion;
 
   std::string name() const override { return "insertion"; }
@@ -64,7 +64,7 @@ private:
 
 /// Starts an insertion; it and outlets act in the order in which they were added.
 /// @throws InputError as makeInsertion
-InsertionTerm& addInsertion(Model& m, const InsertionSettings& settings);
+InsertionTerm& addInsertion(Model& m, const InsertionOptions& settings);
 OutletTerm& addOutlet(Model& m, const OutletTerm::Region& region);
 
 }  // namespace dovetail::dem

@@ -30,7 +30,7 @@ inline double together(double g) {
 }
 
 /// One facet's linearised constraint and what it carries.
-struct Share {
+struct Fraction {
   Vec3 normal;
   double overlap = 0.0;  // δ, m
   double carried = 0.0;  // λ, m
@@ -43,7 +43,7 @@ public:
   static constexpr std::size_t capacity = 12;  ///< of those that carry something
 
   /// @param tolerance violations up to it (m) count as none
-  void solve(std::span<Share> shares, double tolerance);
+  void solve(std::span<Fraction> fractions, double tolerance);
 
 private:
   using Row = std::array<double, capacity>;
@@ -55,7 +55,7 @@ private:
   void solveActive(Row& x) const;
   void drop(std::size_t place);
 
-  std::span<Share> shares_;
+  std::span<Fraction> fractions_;
   std::array<std::size_t, capacity> active_{};
   std::array<Row, capacity> lower_{};  // Cholesky factor of the active couplings
   std::size_t count_ = 0;

@@ -10,7 +10,7 @@ namespace dovetail::dem {
 struct EndedMemories {
   std::vector<double> memory;
   std::vector<std::uint8_t> material;
-  std::vector<double> share;  ///< of what they stand for: of the particle, times that of the contact with its facet
+  std::vector<double> fraction;  ///< of what they stand for: of the particle, times that of the contact with its facet
 };
 
 }  // namespace dovetail::dem

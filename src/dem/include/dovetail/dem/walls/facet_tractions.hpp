@@ -7,7 +7,8 @@
 
 namespace dovetail::dem {
 
-/// Impulses that facets have received, to be averaged over time. A facet's share of a contact is the contact's force.
+/// Impulses that facets have received, to be averaged over time. A facet's fraction of a contact is the contact's
+/// force.
 struct FacetTractions {
   std::vector<Vec3> impulse;  ///< N s, per facet
   double time = 0.0;          ///< s, over which they were gathered

@@ -126,7 +126,9 @@ void requireRepeats(const PrimitiveWall& wall, const geometry::Periodicity& peri
 /// springs of leavers' contacts stored, J, for the caller to book.
 double renumber(PrimitiveWall& wall, std::span<const int> newNumber);
 
-inline WallShare shareOf(const PrimitiveContacts& contacts, std::size_t c) { return {contacts.overlap[c], 1.0, 1.0}; }
+inline WallFraction fractionOf(const PrimitiveContacts& contacts, std::size_t c) {
+  return {contacts.overlap[c], 1.0, 1.0};
+}
 
 namespace detail {
 /// Memories from the last step to this one; returns those whose contact has ended.

@@ -29,9 +29,9 @@ void archiveCandidates(Archive& archive, Candidates& c) {
 template <class Archive, class Contacts>
 void archiveContacts(Archive& archive, Contacts& c) {
   auto& s = c.springs;
-  archive(s.particle, s.normal, s.memory, s.share);
-  archive(c.particle, c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyShare, c.force, c.couple, c.energy,
-          c.sideEnergy, c.image, c.period);
+  archive(s.particle, s.normal, s.memory, s.fraction);
+  archive(c.particle, c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyFraction, c.force, c.couple,
+          c.energy, c.sideEnergy, c.image, c.period);
 }
 
 template <class Archive, class Mesh>

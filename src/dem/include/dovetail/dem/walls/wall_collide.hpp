@@ -6,8 +6,8 @@
 
 namespace dovetail::dem {
 
-inline WallShare shareOf(const WallContacts& contacts, std::size_t c) {
-  return {contacts.overlap[c] / contacts.engagement[c], contacts.engagement[c], contacts.energyShare[c]};
+inline WallFraction fractionOf(const WallContacts& contacts, std::size_t c) {
+  return {contacts.overlap[c] / contacts.engagement[c], contacts.engagement[c], contacts.energyFraction[c]};
 }
 
 namespace detail {
@@ -16,7 +16,7 @@ namespace detail {
 inline constexpr double samePlace = 0.9;
 /// Fills contacts.springs.next with the memories carried over from the last step, from the nearest normal at the same
 /// place. Returns those of contacts that have ended, and of contacts that act with
-/// another share now what they have less of it.
+/// another fraction now what they have less of it.
 EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, int memory);
 /// Remembers the contacts and what they remember for the next step.
 void keepSprings(WallContacts& contacts);

@@ -27,8 +27,8 @@ enum class EdgeRule {
 struct WallSprings {
   std::vector<int> particle;
   std::vector<Vec3> normal;
-  std::vector<double> memory;  ///< of the law, contact by contact; a tangential spring takes three, its stretch, m
-  std::vector<double> share;   ///< engagement
+  std::vector<double> memory;    ///< of the law, contact by contact; a tangential spring takes three, its stretch, m
+  std::vector<double> fraction;  ///< engagement
 
   std::vector<double> next;    // those of this step, while they are being worked out
   std::vector<int> successor;  // of each of the last step in this one, −1: it has ended
@@ -37,17 +37,18 @@ struct WallSprings {
 /// Contacts of one wall, by particle, then facet. Arrays keep their memory between steps.
 struct WallContacts {
   std::vector<int> particle, facet;
-  std::vector<std::array<double, 3>> weight;  ///< share of the facet's vertices in the contact point; sums to 1
+  std::vector<std::array<double, 3>> weight;  ///< fraction of the facet's vertices in the contact point; sums to 1
   std::vector<Vec3> normal;                   ///< unit, from the wall to the particle
   /// λ, the part of the overlap that this contact carries, m, > 0; where the law reaches farther than touch also the
   /// whole gap, < 0, down to −reach.
   std::vector<double> overlap;
-  std::vector<double> engagement;  ///< share of what the law says to overlap/engagement: force, couple and their losses
-  std::vector<double> energyShare;  ///< share of what it stores at that overlap
-  std::vector<Vec3> force;          ///< on the particle, N; set by ContactLaws::wall
-  std::vector<Vec3> couple;         ///< on the particle beyond arm × force, N m; if the law exerts torques
-  std::vector<double> energy;       ///< of the normal springs, J; if booked
-  std::vector<double> sideEnergy;   ///< of those that the law remembers
+  std::vector<double>
+      engagement;  ///< fraction of what the law says to overlap/engagement: force, couple and their losses
+  std::vector<double> energyFraction;  ///< fraction of what it stores at that overlap
+  std::vector<Vec3> force;             ///< on the particle, N; set by ContactLaws::wall
+  std::vector<Vec3> couple;            ///< on the particle beyond arm × force, N m; if the law exerts torques
+  std::vector<double> energy;          ///< of the normal springs, J; if booked
+  std::vector<double> sideEnergy;      ///< of those that the law remembers
   /// Only where space repeats: which image of the particle touches; and the periods, m.
   std::vector<Image> image;
   Vec3 period;
@@ -72,7 +73,7 @@ void forArrays(WallContacts& contacts, const WallContacts& other, Call&& call) {
   call(contacts.normal, other.normal);
   call(contacts.overlap, other.overlap);
   call(contacts.engagement, other.engagement);
-  call(contacts.energyShare, other.energyShare);
+  call(contacts.energyFraction, other.energyFraction);
   call(contacts.image, other.image);
 }
 
@@ -124,16 +125,15 @@ void findWallContacts(const Particles& particles, const TriangulatedWall& wall, 
 /// One-sided walls: a centre outside, told by the nearest feature, never counts faces that show it their backs; one
 /// inside leaves through the face that asks for the least V, down to one radius.
 /// A facet is clear if one of the active normals clears it, whoever holds it. The minimum is a local one, of two where
-/// a facet has two places to be seen from, and where more than three normals are partly coupled the shares may have two
-/// maxima. So V may jump among spikes and folds: at 8 of 200 000 random places with overlaps up to 0.5 R it jumped by
-/// more than 4e-10 k R² (at most 1.5 % of V), or the force was off by more than 1e-6; never around plates, thinner than
-/// the overlap or not.
-/// V = Σ ½k λ²/engagement (LinearSpringDashpot::Prepared::energy).
+/// a facet has two places to be seen from, and where more than three normals are partly coupled the fractions may have
+/// two maxima. So V may jump among spikes and folds: at 8 of 200 000 random places with overlaps up to 0.5 R it jumped
+/// by more than 4e-10 k R² (at most 1.5 % of V), or the force was off by more than 1e-6; never around plates, thinner
+/// than the overlap or not. V = Σ ½k λ²/engagement (LinearSpringDashpot::Prepared::energy).
 void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                          WallContacts& contacts);
 
 /// EdgeRule::paper: one contact per facet at its closest point; the one with the largest overlap is kept, and if it
-/// lies inside a face, then all others that do so too; what remains is weighted by its share of the sum of overlaps.
+/// lies inside a face, then all others that do so too; what remains is weighted by its fraction of the sum of overlaps.
 /// There is no angle test. (Text and Algorithm 1 of the paper contradict each other here; this is what its authors'
 /// code does, but for the order of facets, which decides nothing here.) The force is no gradient: energy is not
 /// conserved at edges.
@@ -159,10 +159,10 @@ double energyOfLeavers(Contacts& contacts, std::span<const int> newNumber) {
 /// Contacts that remember another number of values, as those of a law that was there before, start anew.
 /// @param memory numbers per contact
 void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered);
-/// Remembers what a contact remembers that has ended. @param share  of the contact, or
+/// Remembers what a contact remembers that has ended. @param fraction  of the contact, or
 /// what it has less of it now
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
-              std::size_t contact, std::size_t components, double share);
+              std::size_t contact, std::size_t components, double fraction);
 }  // namespace detail
 
 /// The reaction on the wall, N: f[vertex] −= weight × force for all contacts, and couples as forces on the vertices of

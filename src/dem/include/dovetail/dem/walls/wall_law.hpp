@@ -15,7 +15,7 @@
 namespace dovetail::dem {
 
 /// What one of several contacts of a particle with a wall has of them all.
-struct WallShare {
+struct WallFraction {
   double overlap;  ///< what the law sees, m
   double force;    ///< factor on forces, couples and what they lose
   double energy;   ///< factor on what normal springs store and plastic flow takes
@@ -45,10 +45,10 @@ ContactWork bookEnded(const EndedMemories& ended, const PreparedLaws<Law>& laws,
   for (std::size_t k = 0; k < ended.material.size(); ++k) {
     const ContactWork one = laws.at(several ? ended.material[k] : 0, several ? wallMaterial : 0)
                                 .ended(ended.memory.data() + k * numbers, 1.0 / dt);
-    work.frictionPower += ended.share[k] * one.frictionPower;
-    work.rollingPower += ended.share[k] * one.rollingPower;
-    work.plasticPower += ended.share[k] * one.plasticPower;
-    work.fracturePower += ended.share[k] * one.fracturePower;
+    work.frictionPower += ended.fraction[k] * one.frictionPower;
+    work.rollingPower += ended.fraction[k] * one.rollingPower;
+    work.plasticPower += ended.fraction[k] * one.plasticPower;
+    work.fracturePower += ended.fraction[k] * one.fracturePower;
   }
   return work;
 }
@@ -71,12 +71,12 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
   for (std::size_t l = 0; l < n; ++l) {
     const std::size_t c = first + l;
     const auto i = static_cast<std::size_t>(contacts.particle[c]);
-    const WallShare share = shareOf(contacts, c);
+    const WallFraction fraction = fractionOf(contacts, c);
     block.normal.set(l, contacts.normal[c]);
     block.velocity.set(l, motion.velocity(c));
-    block.overlap[l] = share.overlap;
-    block.scale[l] = particles.weightOf(i) * share.force;
-    block.energyShare[l] = particles.weightOf(i) * share.energy;
+    block.overlap[l] = fraction.overlap;
+    block.scale[l] = particles.weightOf(i) * fraction.force;
+    block.energyFraction[l] = particles.weightOf(i) * fraction.energy;
     block.effectiveRadius[l] = particles.radius[i];
     block.rootMass[l] = std::sqrt(massAgainst(wall.mass, particles.mass[i]));
     block.kind[l] = laws.materials > 1 ? materialOf(particles, i) * laws.materials + wall.material : 0;
@@ -90,7 +90,7 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
 }
 
 /// Sets contacts.force (and couple, if the law has torques) and advances the memories.
-/// @param contacts  arrays particle, normal, force, couple, energy; shareOf(contacts, c)
+/// @param contacts  arrays particle, normal, force, couple, energy; fractionOf(contacts, c)
 /// @param memory    Law::memory numbers per contact
 /// @param booking   off: returns nothing but zeros
 /// @param motion    velocity(c): of the particle relative to the wall at contact c, m/s; spin(c): of the wall there

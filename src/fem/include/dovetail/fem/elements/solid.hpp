@@ -44,10 +44,10 @@ struct SolidOptions {
   Formulation formulation = Formulation::standard;
   std::string elementSet{};  ///< empty = all elements of the mesh
   std::string name = "elastic";
-  double hourglassShare = 0.05;  ///< of the shear stiffness, for `reduced` hex8
+  double hourglassFraction = 0.05;  ///< of the shear stiffness, for `reduced` hex8
   /// Per node of the mesh, 0 … 1, interpolated to the points of every integral (energy, force, mass, tangent): the
-  /// share of the solid where it overlaps something else. Empty = 1. Elements whose nodes all have 0 are left out.
-  std::vector<double> share{};
+  /// fraction of the solid where it overlaps something else. Empty = 1. Elements whose nodes all have 0 are left out.
+  std::vector<double> fraction{};
 };
 
 /// Elements of a mesh with one material or one field of points.
@@ -68,7 +68,7 @@ public:
   /// Stored energy of each element, J.
   virtual std::vector<double> elementEnergies(const Nodes& nodes, const Instant& now) = 0;
   /// Weight of the integrals per node of the mesh; empty = 1.
-  virtual std::span<const double> share() const = 0;
+  virtual std::span<const double> fraction() const = 0;
   virtual ElementShape shape() const = 0;
   virtual Formulation formulation() const = 0;
   /// Number in the mesh of element e.
@@ -87,7 +87,7 @@ public:
 };
 
 /// @throws InputError for an invalid mesh, a set that does not exist or is empty, a formulation that a shape does not
-/// have, shares that are not one per node or not within 0 … 1, or 0 throughout
+/// have, fractions that are not one per node or not within 0 … 1, or 0 throughout
 std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const PointMaterial> material,
                                  const SolidOptions& options = {});
 

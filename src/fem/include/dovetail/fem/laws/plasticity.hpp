@@ -38,9 +38,9 @@ YieldCurve linearYield(double initial, double linear = 0.0);
 YieldCurve tabulatedYield(const std::vector<std::pair<double, double>>& points);
 
 /// Von Mises: √(3/2) |dev T − X| ≤ σ_y(a). The back stress is X = ⅔ C α; the back strain α follows plastic flow,
-/// α̇ = D_p − (3γ/2C) X ȧ (Prager for γ = 0, Armstrong & Frederick 1966 otherwise; X then saturates at √(3/2)|X| = C/γ).
-/// Stored: elastic, ∫(σ_y − σ_y(0)) da and ⅓ C α:α; dissipated: σ_y(0) Δa and (3γ/2C)|X|² Δa. The tangent is symmetric
-/// for γ = 0.
+/// α̇ = D_p − (3γ/2C) X ȧ (Prager for γ = 0, Armstrong & Frederick 1966 otherwise; X then saturates at √(3/2)|X| =
+/// C/γ). Stored: elastic, ∫(σ_y − σ_y(0)) da and ⅓ C α:α; dissipated: σ_y(0) Δa and (3γ/2C)|X|² Δa. The tangent is
+/// symmetric for γ = 0.
 struct J2Plasticity {
   double youngsModulus;  ///< Pa
   double poissonRatio;   ///< −1 < ν < 0.5

@@ -20,7 +20,7 @@ struct PointPlace {
   int element;    ///< number in the mesh
   int point;      ///< within the element, in the order of its quadrature
   Vec3 X;         ///< m
-  double volume;  ///< that it stands for, the share of the solid included, m³
+  double volume;  ///< that it stands for, the fraction of the solid included, m³
 };
 
 /// What is asked of all points at once, in the order in which they were opened. Tensors are row-major.

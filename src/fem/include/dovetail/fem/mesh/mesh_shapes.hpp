@@ -62,7 +62,7 @@ struct ArcBeam {
   double thickness = 0.01;        ///< along z, m
   /// ≥ 1: cells grow geometrically along the beam, by this factor from the root to the end.
   double grading = 1.0;
-  /// 0 to 0.9: share of cosine spacing across, which makes cells smaller at the upper and lower side.
+  /// 0 to 0.9: fraction of cosine spacing across, which makes cells smaller at the upper and lower side.
   double sideGrading = 0.0;
 };
 /// @param cells  along the beam, across it, and along z

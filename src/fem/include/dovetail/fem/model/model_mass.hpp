@@ -16,26 +16,26 @@ namespace dovetail::fem {
 /// the wave number: chain ω² ≈ c²k²(1 − k²d²/12), bricks with M = β consistent + (1 − β) lumped
 /// ω² ≈ c²k²(1 − (1 − 2β)k²h²/12), hence β = (1 − (d/h)²)/2.
 /// @throws InputError unless 0 ≤ d ≤ h and h > 0
-double matchedShare(double spacing, double elementSize);
+double matchedFraction(double spacing, double elementSize);
 
 /// M = share · consistent + (1 − share) · lumped, one number per pair of nodes, and its inverse for the free
 /// components, (TᵀMT)⁻¹: a division for lumped masses that no tie couples, else a solver per distinct set of held nodes
-/// that is made on first use. A share between dissipates nothing and sets the dispersion (matchedShare).
+/// that is made on first use. A share between dissipates nothing and sets the dispersion (matchedFraction).
 ///
 /// The inverse uses work space of its own: one object serves one thread at a time.
 class ModelMass {
 public:
   /// @param dofs  must live as long as this
   /// @param linear  how M is solved for where that is no division; conjugate gradients to 1e-14
-  /// @throws InputError for a share outside 0 … 1 or a node without mass (call addMass first)
-  ModelMass(const Model& model, const DofMap& dofs, double share, const LinearOptions& linear = {});
+  /// @throws InputError for a fraction outside 0 … 1 or a node without mass (call addMass first)
+  ModelMass(const Model& model, const DofMap& dofs, double fraction, const LinearOptions& linear = {});
   ~ModelMass();
   ModelMass(ModelMass&&) noexcept;
 
-  double share() const { return share_; }
+  double fraction() const { return fraction_; }
   const DofMap& dofs() const { return *dofs_; }
   /// Whether M⁻¹ is a division.
-  bool isDiagonal() const { return share_ == 0.0 && !dofs_->hasTies(); }
+  bool isDiagonal() const { return fraction_ == 0.0 && !dofs_->hasTies(); }
   /// M⁻¹ where it is a division, 1/kg: three per node, 0 at components that are not free.
   std::span<const double> inverse() const { return inverse_; }
   /// y = M x.
@@ -61,7 +61,7 @@ private:
 
   const DofMap* dofs_;
   LinearOptions linear_;
-  double share_;
+  double fraction_;
   std::vector<double> mass_;     // lumped, kg per node
   std::vector<double> inverse_;  // empty unless M⁻¹ is a division
   NodeMatrix matrix_;            // share · consistent + (1 − share) · lumped; empty if lumped

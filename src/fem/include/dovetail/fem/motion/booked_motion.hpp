@@ -21,7 +21,7 @@ public:
   /// Puts prescribed and tied components in their place and finds the forces at the start.
   /// @param h  s, of the steps to come
   /// @throws InputError as Motion
-  BookedMotion(Model& model, double massShare, double h);
+  BookedMotion(Model& model, double massFraction, double h);
 
   /// nodes.f = forces at the present state; whoever couples may add to them before the next kick. Forces that depend on
   /// the velocity see the one that the last forces would lead to.

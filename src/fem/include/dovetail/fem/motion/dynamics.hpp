@@ -27,7 +27,7 @@ struct StepRange {
 /// What a run did, for people and programs. Energies are in the ledger.
 struct DynamicsReport {
   std::string scheme, solver;
-  double massShare = 0.0;     ///< 0 lumped, 1 consistent
+  double massFraction = 0.0;  ///< 0 lumped, 1 consistent
   double t = 0.0;             ///< s, reached
   double dt = 0.0;            ///< s, asked for; of steps that follow the solid the present one
   StepRange stepRange;        ///< of steps that follow the solid
@@ -45,7 +45,7 @@ struct DynamicsReport {
 std::ostream& operator<<(std::ostream& out, const DynamicsReport& report);
 
 struct ExplicitOptions {
-  double massShare = 0.0;  ///< of the consistent mass (ModelMass); 0 is the usual choice
+  double massFraction = 0.0;  ///< of the consistent mass (ModelMass); 0 is the usual choice
   /// Refuse steps above the bound of the stiffest element, stableStep(model). (Springs and contact planes are in it;
   /// stiffening under load is not. Masses between lumped and consistent count with the least they can be, bricks'
   /// 1/27.)
@@ -54,15 +54,15 @@ struct ExplicitOptions {
   /// Steps between looks for inverted elements; run() looks once more at its end, and NaN is looked for in every step.
   /// 0 = never
   int checkEvery = 100;
-  /// Above 0 the step follows the solid: it is this share of the bound above as elements are deformed then, and dt at
-  /// the most. Velocity Verlet with ½(dt_old + dt_new) in the kick between two lengths: second order as before, but
+  /// Above 0 the step follows the solid: it is this fraction of the bound above as elements are deformed then, and dt
+  /// at the most. Velocity Verlet with ½(dt_old + dt_new) in the kick between two lengths: second order as before, but
   /// energy is no longer kept for ever. 0 = dt throughout.
   double safety = 0.0;
   /// Most steps from one look at the bound to the next; as many fewer as it takes for the bound to change by 2 % in
   /// between. A look costs as much as 70 to 400 steps of elastic elements. Impact after free flight crushes elements
   /// within the time they take to pass their length: looks must come sooner.
   int measureEvery = 20;
-  double shortest = 1e-3;  ///< share of the first step below which one that follows gives up
+  double shortest = 1e-3;  ///< fraction of the first step below which one that follows gives up
 };
 
 /// Central differences as kick–drift–kick, second order. Forces that depend on the velocity see v + dt a of the last
@@ -127,7 +127,7 @@ Scheme energyMomentum();
 
 struct ImplicitOptions {
   Scheme scheme = generalisedAlpha(0.8);
-  double massShare = 1.0;            ///< of the consistent mass
+  double massFraction = 1.0;         ///< of the consistent mass
   double relativeTolerance = 1e-9;   ///< of the largest norm of a term's forces and of inertia
   double absoluteTolerance = 0.0;    ///< added to it, N (the resolution of the forces always is)
   int maxIterations = 25;            ///< per step

@@ -26,7 +26,7 @@ public:
   const EnergyLedger& ledger() const { return ledger_; }
 
   void save(ByteWriter& archive) const;
-  /// What save() wrote, for the same terms. @throws InputError if they are others, or if the books are damaged
+  /// What save() wrote, for the same terms. @throws InputError if they are others, or if the ledger are damaged
   EnergyBook read(ByteReader& archive) const;
 
 private:

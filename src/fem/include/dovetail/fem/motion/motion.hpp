@@ -19,9 +19,9 @@ namespace dovetail::fem {
 /// model's; here are caches only. Terms and constraints are read when it is made.
 class Motion {
 public:
-  /// @param massShare  of the consistent mass
-  /// @throws InputError for a node without mass, a share outside 0 … 1 or constraints at odds
-  explicit Motion(Model& model, double massShare = 0.0);
+  /// @param massFraction  of the consistent mass
+  /// @throws InputError for a node without mass, a fraction outside 0 … 1 or constraints at odds
+  explicit Motion(Model& model, double massFraction = 0.0);
   ~Motion();
   Motion(Motion&&) noexcept;
 

@@ -18,11 +18,11 @@ struct RelaxOptions {
   double iterationStep = 0.0;
 };
 
-/// Takes the model from model.t to tEnd through equilibria like solveStatics, without any matrix: the nodes swing to
-/// rest in a motion of their own with the lumped masses in nodes.mass, damped critically for the frequency
-/// ω² = uᵀΔf/uᵀMu that the displacement u since the last equilibrium and the force Δf that it cost show (Underwood
-/// 1983; Oakley & Knight 1995). Prescribed motion and loads come on over the first iterations of a step. The terms see
-/// model time, not that of the motion.
+/// Takes the model from model.t to tEnd through equilibria like solveStatics, without any matrix: the nodes oscillation
+/// to rest in a motion of their own with the lumped masses in nodes.mass, damped critically for the frequency ω² =
+/// uᵀΔf/uᵀMu that the displacement u since the last equilibrium and the force Δf that it cost show (Underwood 1983;
+/// Oakley & Knight 1995). Prescribed motion and loads come on over the first iterations of a step. The terms see model
+/// time, not that of the motion.
 /// @return iterations are evaluations of the forces
 /// @throws as solveStatics; InputError for nodes without mass
 StaticReport relax(Model& model, double tEnd, const RelaxOptions& options = {}, const StaticObserver& observer = {});

@@ -19,7 +19,7 @@ struct NewtonOptions {
   double absoluteTolerance = 0.0;  ///< added to it, N
   int maxIterations = 25;          ///< per step
   bool lineSearch = true;
-  /// Keeps the factors while each iteration shrinks the force out of balance below this share (modified Newton);
+  /// Keeps the factors while each iteration shrinks the force out of balance below this fraction (modified Newton);
   /// 0 factorises in every iteration.
   double reuseContraction = 0.0;
   /// While factors are kept: of how many earlier increments with the same factors each new one is bettered, by the
@@ -86,9 +86,9 @@ StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& option
 
 struct ArcLengthOptions {
   NewtonOptions newton{};
-  double firstStep = 0.1;       ///< s of model time, for the first step only
-  double largestStep = 0.0;     ///< of the arc or the displacement, m; 0 = eight times that of the first step
-  double smallestShare = 1e-4;  ///< of the first arc; below it the run stops
+  double firstStep = 0.1;          ///< s of model time, for the first step only
+  double largestStep = 0.0;        ///< of the arc or the displacement, m; 0 = eight times that of the first step
+  double smallestFraction = 1e-4;  ///< of the first arc; below it the run stops
   int iterationTarget = 5;
   int maxSteps = 200;
   int maxAugmentations = 30;  ///< per step, for contact by augmented Lagrangian

@@ -91,7 +91,7 @@ std::string vtiText(double time, const GridFrame& frame, const KeyValues& proven
 enum class FrameFile { vtu, vtp };
 
 /// Writes `<folder>/<name>/<name>_000000.vtu` (or .vtp), …, and `<folder>/<name>.pvd`, which lists the frames written
-/// so far and is renewed after each of them, so that a run that breaks off leaves a series that opens. Frames survive
+/// so far and is updated after each of them, so that a run that breaks off leaves a series that opens. Frames survive
 /// kills, not power cuts (core/atomic_file.hpp). Appended raw binary, doubles; particles are not compressed, which
 /// would take longer than the rest; field data "TimeValue" (s) and "provenance" (strings "key: value"). Files of an
 /// earlier run are replaced one by one as the frames of the same number come; later ones stay, unlisted.

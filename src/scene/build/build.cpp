@@ -1,0 +1,192 @@
+#include "dovetail/scene/build.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/motion/stable_step.hpp"
+#include "from_state.hpp"
+#include "parts.hpp"
+#include "run/frame_fields.hpp"
+#include "time_functions.hpp"
+#include "warnings/impacts.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+void setLaws(dem::Model& grains, const Scene& scene) {
+  if (scene.contact || !scene.contacts.empty()) {
+    grains.laws = makeLaws(scene);
+    return;
+  }
+  if (!scene.particles.empty() || !scene.clumps.empty() || !scene.insertions.empty())
+    throw InputError("grains have no contact law", scene.steps.where, "give the scene a key \"contact\"");
+  grains.laws = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 1.0}});  // of a scene without grains
+}
+
+/// Those that do not depend on how things lie now.
+std::vector<Limit> limitsOfParts(Built& built, const Scene& scene) {
+  std::vector<Limit> found;
+  for (std::size_t s = 0; s < built.run->solids(); ++s) {
+    coupling::SolidSide& side = built.run->solid(s);
+    if (side.stepping == coupling::Stepping::implicitSteps) continue;
+    const fem::ModelStableStep stable = fem::stableStep(*side.model);
+    found.push_back({stable.owner(side.name), stable.dt / scene.steps.stepsPerMacroStep});
+  }
+  const Impact impact = briefestImpact(scene, built.run->grains.particles);
+  found.push_back({"an impact of the smallest grains" + impact.materials, impact.limit});
+  return found;
+}
+
+/// Stability asks for no more than two steps in an impact, which then knows nothing of its energy. A fifth of its limit
+/// gives it eight, and the ledger are right to a twentieth of what changes hands. Bonded springs last: infinite.
+Impact resolvedImpact(const Built& built, const Scene& scene) {
+  constexpr double shareOfImpact = 0.2;
+  const dem::Model& grains = built.run->grains;
+  if (std::isinf(grains.laws->reach())) return {};
+  Impact impact = briefestImpact(scene, grains.particles);
+  impact.limit *= shareOfImpact;
+  return impact;
+}
+
+/// Dashpots see the velocity of half a step ago, which counts where restitution is low.
+double stepForRebound(Built& built, const Scene& scene, double longest) {
+  const Rebound coarse = worstRebound(built, scene, longest);
+  double dt = longest;
+  while (worstRebound(built, scene, dt).error() > reboundTolerance && dt > 0.05 * longest) dt *= 0.8;
+  built.notes.push_back("The step is " + formatNumber(dt) + " s, so that impacts rebound by their restitution " +
+                        formatNumber(coarse.right) + " to " + formatNumber(reboundTolerance) + "; with " +
+                        formatNumber(longest) + " s it may be " + rounded(coarse.found) + ".");
+  return dt;
+}
+
+double automaticStep(Built& built, const Scene& scene, double limit) {
+  const auto [resolved, materials] = resolvedImpact(built, scene);
+  const double fraction = scene.steps.safety * limit;
+  if (const double dt = std::min(fraction, resolved); worstRebound(built, scene, dt).error() > reboundTolerance)
+    return stepForRebound(built, scene, dt);
+  if (fraction <= resolved) return fraction;
+  built.notes.push_back("The step is " + formatNumber(resolved) + " s, so that an impact of the smallest grains" +
+                        materials + " takes eight steps; the fraction " + formatNumber(scene.steps.safety) +
+                        " of the limit is " + formatNumber(fraction) +
+                        " s. Give steps.dt a number if no grains meet in impacts.");
+  return resolved;
+}
+
+void noteCoarseStep(Built& built, const Scene& scene, double dt) {
+  if (const Rebound rebound = worstRebound(built, scene, dt); rebound.error() > reboundTolerance)
+    built.notes.push_back("At this step impacts of the smallest grains may rebound with " + rounded(rebound.found) +
+                          " where their restitution is " + formatNumber(rebound.right) + ": take a smaller steps.dt.");
+  const auto [resolved, materials] = resolvedImpact(built, scene);
+  if (dt <= resolved) return;
+  built.notes.push_back("The step, " + formatNumber(dt) + " s, gives an impact of the smallest grains" + materials +
+                        " " + formatNumber(std::floor(80.0 * resolved / dt) / 10.0) +
+                        " steps, too few to keep its energy; eight ask for " + formatNumber(resolved) +
+                        " s. It will do where no grains meet in impacts.");
+}
+
+bool goesOn(const TimeVector& velocity, const Vec3& angularVelocity = {}) {
+  return norm(constantOf(velocity)) > 0.0 || norm(angularVelocity) > 0.0;
+}
+
+/// What has a steady velocity goes on while a stage relaxes, or is stopped with all else.
+void requireStandstill(const Scene& scene) {
+  const auto relaxes = [](const Stage& stage) { return std::holds_alternative<Relax>(stage.kind); };
+  if (std::none_of(scene.stages.begin(), scene.stages.end(), relaxes)) return;
+  const auto refuse = [](const std::string& what, const std::string& where) {
+    throw InputError("a stage relaxes, but " + what + " has a steady velocity", where,
+                     "run for a time in place of relaxing, or let it begin later by a displacement such as "
+                     "\"0.1*max(0, t - 1)\"");
+  };
+  for (const Wall& wall : scene.walls)
+    if (goesOn(wall.velocity, wall.angularVelocity)) refuse("a wall", wall.where);
+  for (const Drive& drive : scene.drives)
+    if (goesOn(drive.velocity, constantOf(drive.spin))) refuse("a drive", drive.where);
+  for (const Solid& solid : scene.solids)
+    for (const Support& support : solid.supports)
+      if (goesOn(support.velocity)) refuse("a support", support.where);
+}
+
+}  // namespace
+
+Built build(const Scene& scene) {
+  requireStandstill(scene);
+  if (scene.steps.threads > 0) setThreads(scene.steps.threads);
+  Built built;
+  built.run = std::make_unique<coupling::CoupledRun>();
+  dem::Model& grains = built.run->grains;
+  setLaws(grains, scene);
+  grains.gravity = scene.gravity;
+  if (scene.periodic) grains.pairs.setPeriodicity({scene.periodic->box, scene.periodic->axes});
+  if (scene.domain)
+    grains.domain =
+        dem::Domain{scene.domain->box, scene.domain->removes ? dem::EscapePolicy::remove : dem::EscapePolicy::refuse};
+  const Groups groups = addParticles(grains, scene, built.notes);
+  if (std::isinf(grains.laws->reach())) dem::findPairs(grains.particles, grains.pairs);  // those that hold together
+  addBondsAndDrives(grains, scene, groups, built.notes);
+  addWalls(built, scene);
+  addClumpsAndStreams(grains, scene);
+  addSolids(built, scene);
+  addCouplings(built, scene);
+  requireTogether(built, scene);
+  takeContacts(built, scene);
+  return built;
+}
+
+namespace {
+
+/// How the linear systems of the solids are going to be solved.
+void foreseeSolvers(Built& built) {
+  for (std::size_t s = 0; s < built.run->solids(); ++s) {
+    const fem::LinearForecast& forecast = built.forecasts.emplace_back(built.run->forecast(s));
+    if (forecast.method != fem::LinearMethod::conjugateGradients) continue;
+    const auto gibibytes = [](double bytes) { return formatNumber(std::round(10.0 * bytes / 1073741824.0) / 10.0); };
+    built.notes.push_back(
+        "Solid \"" + built.run->solid(s).name + "\" is solved by conjugate gradients" +
+        (forecast.factors > 0.0 ? ": its factors would take " + gibibytes(forecast.factors) + " GiB." : "."));
+  }
+}
+
+bool nothingIsThere(const Built& built, const Scene& scene) {
+  return built.run->grains.particles.size() == 0 && built.run->solids() == 0 && scene.insertions.empty();
+}
+
+}  // namespace
+
+void start(Built& built, const Scene& scene) {
+  bool allLeave = false;
+  const coupling::RunOptions options{.stepsPerMacroStep = scene.steps.stepsPerMacroStep,
+                                     .lag = static_cast<coupling::Lag>(scene.steps.lag)};
+  atPlace(scene.steps.where, [&] {
+    if (scene.steps.dt.word.empty()) {
+      built.run->start(scene.steps.dt.number, options);
+      return noteCoarseStep(built, scene, scene.steps.dt.number);
+    }
+    double smallest = built.run->limitAtStart(options).dt;
+    for (const Limit& limit : limitsOfParts(built, scene)) smallest = std::min(smallest, limit.dt);
+    allLeave = scene.domain && nothingIsThere(built, scene);
+    if (allLeave) return;
+    if (!std::isfinite(smallest))
+      throw InputError(nothingIsThere(built, scene) ? "the scene has neither grains nor solids"
+                                                    : "nothing in the scene tells a step",
+                       "", "give steps.dt a number, such as \"1e-4 s\"");
+    built.run->start(automaticStep(built, scene, smallest), options);
+  });
+  if (allLeave)
+    throw InputError("all grains lie outside of the domain and leave at once", scene.domain->where,
+                     "make domain.box larger, or move the grains into it");
+  for (const std::string& note : notesOnSetNames(built, scene)) built.notes.push_back(note);
+  foreseeSolvers(built);
+}
+
+std::vector<Limit> limits(Built& built, const Scene& scene) {
+  std::vector<Limit> found = limitsOfParts(built, scene);
+  const coupling::StepLimit now = built.run->criticalStep();
+  found.push_back({"the whole as it is now (" + now.owner + ")", now.dt});
+  return found;
+}
+
+}  // namespace dovetail::scene

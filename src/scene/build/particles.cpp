@@ -1,0 +1,174 @@
+// Spheres of a scene.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/model/checkpoint.hpp"
+#include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/setup/packing.hpp"
+#include "dovetail/io/csv_table.hpp"
+#include "keys/nearest.hpp"
+#include "parts.hpp"
+#include "run/checkpoints.hpp"
+#include "warnings/warnings.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+struct Target {
+  dem::Model& grains;
+  const Particles& group;
+  const Scene& scene;
+  std::vector<std::string>& notes;
+};
+
+geometry::Periodicity spaceOf(const geometry::Box& box, const Scene& scene) {
+  geometry::Periodicity space{box, {}};
+  if (!scene.periodic) return space;
+  for (int k = 0; k < 3; ++k) {
+    const auto a = static_cast<std::size_t>(k);
+    const geometry::Box& all = scene.periodic->box;
+    space.axes[a] = scene.periodic->axes[a] && box.lower[k] == all.lower[k] && box.upper[k] == all.upper[k];
+  }
+  return space;
+}
+
+/// @param length  edge of the cube of which each holds one sphere
+void requireMemoryIn(const geometry::Box& box, double length) {
+  const Vec3 edges = box.upper - box.lower;
+  requireMemory(edges.x / length * (edges.y / length) * (edges.z / length), "spheres", BytesPer::grain,
+                "take larger ones, or a smaller box");
+}
+
+void add(const Target& to, const Lattice& lattice) {
+  requireMemoryIn(lattice.box, lattice.distance.value_or(2.0 * lattice.radius));
+  const auto kind = static_cast<dem::Lattice>(lattice.kind);
+  dem::addPacking(
+      to.grains.particles,
+      dem::fillWithLattice(kind, lattice.box, lattice.radius, lattice.distance.value_or(2.0 * lattice.radius),
+                           spaceOf(lattice.box, to.scene).axes),
+      {lattice.density}, to.group.velocity);
+}
+
+void add(const Target& to, const RandomPacking& packing) {
+  const auto [least, most] = packing.radius;  // equally frequent between these
+  const double meanCube = 0.25 * (least + most) * (least * least + most * most);
+  requireMemoryIn(packing.box, std::cbrt(4.0 / 3.0 * std::numbers::pi * meanCube / packing.solidFraction));
+  dem::PackingReport report;
+  const dem::Packing spheres = dem::growPacking(dem::UniformSizes{packing.radius.smallest, packing.radius.largest},
+                                                spaceOf(packing.box, to.scene),
+                                                {.solidFraction = packing.solidFraction,
+                                                 .overlap = packing.overlap,
+                                                 .seed = static_cast<std::uint64_t>(packing.seed)},
+                                                report);
+  if (!report.reached)
+    throw InputError("the packing jams at the solid fraction " + formatNumber(report.solidFraction), "",
+                     "ask for a solid_fraction below that");
+  to.notes.push_back("Random packing of " + std::to_string(spheres.centre.size()) + " spheres: solid fraction " +
+                     formatNumber(report.solidFraction) + ", largest overlap " + formatNumber(report.largestOverlap) +
+                     " radii.");
+  if (report.solidFraction < 0.8 * packing.solidFraction)
+    to.notes.push_back("WARNING: The box of the packing holds spheres for a solid fraction of " +
+                       rounded(report.solidFraction) + ", not of " + formatNumber(packing.solidFraction) +
+                       ": give it smaller grains, or a larger box.");
+  dem::addPacking(to.grains.particles, spheres, {packing.density}, to.group.velocity);
+}
+
+void add(const Target& to, const SphereList& list) {
+  for (const MovingSphere& sphere : list.spheres)
+    dem::addParticle(to.grains.particles, sphere.at, to.group.velocity + sphere.velocity, sphere.radius,
+                     dem::Density{list.density});
+}
+
+void add(const Target& to, const SphereFrame& from) {
+  const std::vector<MovingSphere> spheres = readSpheres(from.file);
+  if (spheres.empty()) throw InputError("the frame has no grains", from.file, "give one with grains, or leave it out");
+  add(to, SphereList{{from.density}, spheres});
+}
+
+void add(const Target& to, const GrainsOfState& from) {
+  if (to.grains.particles.size() > 0)
+    throw InputError("grains of a state stand behind others", "", "put them first in \"particles\"");
+  const Checkpoint checkpoint = loadCheckpoint(from.file);
+  dem::loadGrains(coupling::particlesOf(checkpoint.state), from.file, to.grains);
+  for (Vec3& v : to.grains.particles.v) v += to.group.velocity;
+  to.notes.push_back(std::to_string(to.grains.particles.size()) + " grains are those of a run at " +
+                     formatNumber(checkpoint.time) + " s.");
+}
+
+/// Columns that nobody knows, or that want others, are refused: what they say would be lost.
+void requireColumns(const io::TimeSeries& table, const std::string& file) {
+  static const std::vector<std::string> needed = {"x_m", "y_m", "z_m", "radius_m"},
+                                        velocity = {"vx_m_per_s", "vy_m_per_s", "vz_m_per_s"};
+  const std::vector<std::string>& names = table.names();
+  const auto has = [&](const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  std::vector<std::string> known = needed;
+  known.insert(known.end(), velocity.begin(), velocity.end());
+  std::vector<std::string> missing;
+  std::copy_if(known.begin(), known.end(), std::back_inserter(missing), [&](const auto& name) { return !has(name); });
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      const std::string near = nearest(name, missing);
+      throw InputError("the table has a column \"" + name + "\", which is not known here", file,
+                       near.empty()
+                           ? "leave it out; spheres have x_m, y_m, z_m, radius_m and, all or none, vx_m_per_s, "
+                             "vy_m_per_s, vz_m_per_s, and a density and material from the scene"
+                           : "write \"" + near + "\" (values in its unit)");
+    }
+  for (const std::string& name : needed)
+    if (!has(name)) throw InputError("the table has no column \"" + name + "\"", file, "add it");
+  const auto given = std::find_if(velocity.begin(), velocity.end(), has);
+  const auto absent = std::find_if_not(velocity.begin(), velocity.end(), has);
+  if (given != velocity.end() && absent != velocity.end())
+    throw InputError("the table has a column \"" + *given + "\", but no \"" + *absent + "\"", file,
+                     "give all three velocities, 0 where there is none");
+  if (table.rows() == 0) throw InputError("the table has no rows", file, "give one a sphere, or leave the table out");
+}
+
+void add(const Target& to, const SphereFile& from) {
+  const io::CsvTable read = io::readCsvTable(from.file);
+  const io::TimeSeries& table = read.series;
+  requireColumns(table, from.file);
+  const auto x = table.column("x_m"), y = table.column("y_m"), z = table.column("z_m"), r = table.column("radius_m");
+  std::array<std::span<const double>, 3> v;
+  const std::vector<std::string>& names = table.names();
+  if (std::find(names.begin(), names.end(), "vx_m_per_s") != names.end())
+    v = {table.column("vx_m_per_s"), table.column("vy_m_per_s"), table.column("vz_m_per_s")};
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const Vec3 own = v[0].empty() ? Vec3{} : Vec3{v[0][i], v[1][i], v[2][i]};
+    atPlace(from.file + ", line " + std::to_string(read.line[i]), [&] {
+      dem::addParticle(to.grains.particles, {x[i], y[i], z[i]}, to.group.velocity + own, r[i],
+                       dem::Density{from.density});
+    });
+  }
+}
+
+}  // namespace
+
+void setContactMaterial(dem::Particles& particles, std::size_t first, int row) {
+  if (row == 0) return;
+  particles.material.resize(particles.size(), 0);
+  std::fill(particles.material.begin() + static_cast<std::ptrdiff_t>(first), particles.material.end(),
+            static_cast<std::uint8_t>(row));
+}
+
+Groups addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes) {
+  Groups groups;
+  for (const Particles& group : scene.particles)
+    atPlace(group.where, [&] {
+      const std::size_t first = grains.particles.size();
+      std::visit([&](const auto& source) { add({grains, group, scene, notes}, source); }, group.from);
+      setContactMaterial(grains.particles, first, contactRow(scene, group.contactMaterial));
+      if (group.name.empty()) return;
+      const auto& ids = grains.particles.id;
+      const bool isNew =
+          groups.try_emplace(group.name, ids.begin() + static_cast<std::ptrdiff_t>(first), ids.end()).second;
+      if (!isNew) throw InputError("there are two groups \"" + group.name + "\"", "", "give one another name");
+    });
+  return groups;
+}
+
+}  // namespace dovetail::scene

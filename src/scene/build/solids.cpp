@@ -1,0 +1,158 @@
+// Solids of a scene.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "dovetail/arlequin/overlap.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/terms/loads.hpp"
+#include "dovetail/io/names.hpp"
+#include "from_state.hpp"
+#include "keys/nearest.hpp"
+#include "parts.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+fem::SolidMesh meshOf(const BoxMesh& box) {
+  requireMemory(1.0 * box.cells[0] * box.cells[1] * box.cells[2], "cells", BytesPer::cell, "take fewer");
+  const auto shape = std::find_if(fem::allCellShapes.begin(), fem::allCellShapes.end(),
+                                  [&](fem::ElementShape one) { return box.shape == fem::name(one); });
+  return fem::boxOf(*shape, box.cells, box.box.lower, box.box.upper);
+}
+fem::SolidMesh meshOf(const MeshFile& from, std::vector<std::string>& notes) {
+  auto [mesh, told] = readMesh(from.file);
+  const std::string name = std::filesystem::path(from.file).filename().string();
+  for (const std::string& note : told) notes.push_back(name + ": " + note);
+  for (Vec3& X : mesh.X) X = from.scale * X;
+  if (!mesh.faceSets.contains("skin")) mesh.faceSets["skin"] = fem::boundaryFaces(mesh);
+  return mesh;
+}
+
+/// Of the source of a solid.
+fem::SolidMesh meshOf(const Solid& solid, std::vector<std::string>& notes) {
+  if (const auto* const file = std::get_if<MeshFile>(&solid.mesh)) return meshOf(*file, notes);
+  if (const auto* const box = std::get_if<BoxMesh>(&solid.mesh)) return meshOf(*box);
+  return meshOf(std::get<TetrahedraMesh>(solid.mesh), notes);
+}
+
+/// A set with the elements of this shape, which may have another name if the file uses that.
+std::string setOfShape(fem::SolidMesh& mesh, fem::ElementShape shape) {
+  std::vector<int> elements;
+  int next = 0;
+  for (const fem::ElementGroup& group : mesh.groups)
+    for (std::size_t e = 0; e < group.size(); ++e, ++next)
+      if (group.shape == shape) elements.push_back(next);
+  std::string name = fem::name(shape);
+  while (mesh.elementSets.try_emplace(name, elements).first->second != elements) name += " elements";
+  return name;
+}
+
+fem::Formulation formulationOf(const std::string& word) {
+  if (word == "mean-dilatation") return fem::Formulation::meanDilatation;
+  if (word == "enhanced") return fem::Formulation::enhanced;
+  if (word == "assumed-stress") return fem::Formulation::assumedStress;
+  return word == "reduced" ? fem::Formulation::reduced : fem::Formulation::standard;
+}
+
+const Overlap* overlapWith(const Solid& solid, const Scene& scene) {
+  const Overlap* found = nullptr;
+  for (const Coupling& coupling : scene.couplings) {
+    const auto* const overlap = std::get_if<Overlap>(&coupling.kind);
+    if (!overlap || coupling.solid != solid.name) continue;
+    if (found)
+      throw InputError("\"" + solid.name + "\" has two overlaps", coupling.where, "give every solid one at most");
+    found = overlap;
+  }
+  return found;
+}
+
+void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap) {
+  fem::SolidOptions options{.formulation = formulationOf(solid.formulation), .name = "elements"};
+  if (overlap) options.fraction = arlequin::solidWeights(overlapWeights(*overlap, mesh));
+  for (const fem::ElementGroup& group : mesh.groups) {
+    if (mesh.groups.size() > 1) options.elementSet = options.name = setOfShape(mesh, group.shape);
+    model.add(fem::makeSolid(mesh, makeMaterial(solid.material), options));
+  }
+}
+
+/// Whether the weights of the elements rest on nodes otherwise than lumped masses do.
+bool weighUnevenly(const fem::Nodes& nodes) {
+  double all = 0.0, apart = 0.0;
+  for (std::size_t n = 0; n < nodes.bodyMass.size(); ++n) {
+    all += nodes.mass[n];
+    apart += std::abs(nodes.bodyMass[n] - nodes.mass[n]);
+  }
+  return apart > 1e-2 * all;
+}
+
+/// Lumped masses of these shapes cannot both fall alike and weigh as the elements do.
+std::string unevenWeight(const Solid& solid, const fem::SolidMesh& mesh) {
+  std::string shapes;
+  for (const fem::ElementGroup& group : mesh.groups)
+    shapes += (shapes.empty() ? std::string() : ", ") + fem::name(group.shape);
+  return "WARNING: \"" + solid.name + "\" (" + shapes +
+         ") has lumped masses, on which gravity acts: where it is held it deforms otherwise than under its weight, by "
+         "tens of per cent if the mesh is coarse. Write \"consistent_mass\": 1" +
+         (solid.implicitSteps ? "." : ", or \"stepping\": \"implicit\".");
+}
+
+bool hasGrains(const Scene& scene) {
+  return !scene.particles.empty() || !scene.clumps.empty() || !scene.insertions.empty();
+}
+
+void add(Built& built, const Solid& solid, const Scene& scene) {
+  io::requirePlainName(solid.name, "name");
+  if (solid.name.size() > 100)
+    throw InputError("the name '" + solid.name.substr(0, 20) + "…' is too long for files", "name",
+                     "use 100 letters at most");
+  const bool meetsGrains = std::any_of(scene.couplings.begin(), scene.couplings.end(),
+                                       [&](const Coupling& coupling) { return coupling.solid == solid.name; });
+  if (!meetsGrains && hasGrains(scene))
+    built.notes.push_back("WARNING: \"" + solid.name +
+                          "\" has no coupling, so that grains pass through it: give it one, or leave it out.");
+  const Overlap* const overlap = overlapWith(solid, scene);
+  built.meshes.push_back(meshOf(solid, built.notes));
+  addSets(built.meshes.back(), solid);
+  fem::SolidMesh& mesh = built.meshes.back();
+  auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
+  addElements(*model, mesh, solid, overlap);
+  if (solid.gravity && norm(scene.gravity) > 0.0) model->add(fem::gravity(scene.gravity));
+  if (solid.state)
+    takeSolid(*model, solid, built.notes);
+  else
+    for (Vec3& v : model->nodes.v) v = solid.velocity;
+  addBoundaries(*model, mesh, solid, scene, built.notes);
+  if (solid.linearSolver != 0 && !solid.implicitSteps)
+    throw InputError("explicit steps solve no linear systems", "linear_solver",
+                     "leave it out, or give \"stepping\": \"implicit\"");
+  const double fraction = solid.massFraction.value_or(solid.implicitSteps ? 1.0 : 0.0);
+  coupling::SolidOptions options{.name = solid.name};
+  options.implicitOptions.linear.method = static_cast<fem::LinearMethod>(solid.linearSolver);
+  options.stepping = solid.implicitSteps ? coupling::Stepping::implicitSteps : coupling::Stepping::explicitSteps;
+  options.massFraction = fraction;
+  const coupling::SolidSide& side = built.run->addSolid(std::move(model), options);
+  const bool rests = meetsGrains || !solid.supports.empty();  // what flies falls alike with lumped masses
+  if (rests && fraction < 1.0 && solid.gravity && norm(scene.gravity) > 0.0 && weighUnevenly(side.nodes()))
+    built.notes.push_back(unevenWeight(solid, mesh));
+}
+
+}  // namespace
+
+std::size_t solidNamed(const std::string& name, const coupling::CoupledRun& run) {
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < run.solids(); ++s) names.push_back(run.solid(s).name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw InputError("there is no solid \"" + name + "\"", "",
+                     names.empty() ? "add it to solids" : adviceFor(name, names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+void addSolids(Built& built, const Scene& scene) {
+  built.meshes.reserve(scene.solids.size());
+  for (const Solid& solid : scene.solids) atPlace(solid.where, [&] { add(built, solid, scene); });
+}
+
+}  // namespace dovetail::scene

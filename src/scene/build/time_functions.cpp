@@ -1,0 +1,121 @@
+#include "time_functions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "dovetail/core/error.hpp"
+#include "read/parameters.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+/// Many nodes ask for the same few times.
+class Remembered {
+public:
+  explicit Remembered(TimeFunction function) : function_(std::move(function)) {}
+  double operator()(double t) {
+    for (const auto& [time, value] : last_)
+      if (time == t) return value;
+    std::pair<double, double>& oldest = last_[next_ = (next_ + 1) % last_.size()];
+    oldest = {t, function_(t)};
+    return oldest.second;
+  }
+
+private:
+  TimeFunction function_;
+  std::array<std::pair<double, double>, 4> last_{{{NAN, 0.0}, {NAN, 0.0}, {NAN, 0.0}, {NAN, 0.0}}};
+  std::size_t next_ = 0;
+};
+TimeFunction remembered(TimeFunction function) {
+  return [all = std::make_shared<Remembered>(std::move(function))](double t) { return (*all)(t); };
+}
+
+/// ∫ v dt from 0 on.
+class Integral {
+public:
+  Integral(TimeFunction velocity, double piece) : velocity_(std::move(velocity)), piece_(piece) {}
+  double operator()(double t) {
+    const auto whole = static_cast<std::size_t>(std::max(0.0, std::floor(t / piece_)));
+    while (sums_.size() <= whole) {
+      const double from = static_cast<double>(sums_.size() - 1) * piece_;
+      sums_.push_back(sums_.back() + over(from, from + piece_));
+    }
+    return sums_[whole] + over(static_cast<double>(whole) * piece_, t);
+  }
+
+private:
+  double over(double from, double to) const {
+    const double half = 0.5 * (to - from), middle = 0.5 * (from + to), out = std::sqrt(0.6) * half;
+    return half / 9.0 * (5.0 * velocity_(middle - out) + 8.0 * velocity_(middle) + 5.0 * velocity_(middle + out));
+  }
+  TimeFunction velocity_;
+  double piece_;
+  std::vector<double> sums_{0.0};
+};
+
+}  // namespace
+
+double durationOf(const Scene& scene) {
+  double time = 0.0;
+  for (const Stage& stage : scene.stages)
+    if (const auto* const plan = std::get_if<RunFor>(&stage.kind)) time += plan->time;
+  return time > 0.0 ? time : 1.0;
+}
+
+bool isConstant(const TimeValue& value) { return value.expression.empty(); }
+bool isConstant(const TimeVector& value) {
+  return std::all_of(value.begin(), value.end(), [](const TimeValue& one) { return isConstant(one); });
+}
+Vec3 constantOf(const TimeVector& value) { return {value[0].number, value[1].number, value[2].number}; }
+
+TimeFunction functionOf(const TimeValue& value, const Scene& scene) {
+  if (isConstant(value)) return [number = value.number](double) { return number; };
+  TimeFunction function = remembered(functionOf(value.expression, scene.parameters));
+  try {
+    function(0.0);
+  } catch (const NumericalError& error) {  // where all runs begin
+    throw InputError(error.what(), "", "");
+  }
+  return function;
+}
+
+Travel travelOf(const TimeValue& displacement, const Scene& scene) {
+  if (isConstant(displacement)) return {functionOf(displacement, scene), [](double) { return 0.0; }};
+  const double step = 1e-6 * durationOf(scene);
+  const auto path = [f = functionOf(displacement, scene)](double t) { return t < 0.0 ? 2.0 * f(0.0) - f(-t) : f(t); };
+  return {path, [path, step](double t) { return (path(t + step) - path(t - step)) / (2.0 * step); }};
+}
+
+Travel travelAt(const TimeValue& velocity, const Scene& scene) {
+  if (isConstant(velocity))
+    return {[v = velocity.number](double t) { return v * t; }, [v = velocity.number](double) { return v; }};
+  const auto speed = [f = functionOf(velocity, scene)](double t) { return f(std::max(0.0, t)); };
+  const auto integral = std::make_shared<Integral>(speed, 1e-5 * durationOf(scene));
+  return {remembered([integral](double t) { return (*integral)(t); }), speed};
+}
+
+std::array<Travel, 3> travels(const TimeVector& velocity, const std::optional<TimeVector>& displacement,
+                              const Scene& scene) {
+  const bool moves = !isConstant(velocity) || norm(constantOf(velocity)) > 0.0;
+  if (displacement && moves) throw InputError("there is a velocity and a displacement", "", "leave one of them out");
+  std::array<Travel, 3> all;
+  for (std::size_t c = 0; c < 3; ++c)
+    all[c] = displacement ? travelOf((*displacement)[c], scene) : travelAt(velocity[c], scene);
+  return all;
+}
+
+Path pathOf(const TimeVector& velocity, const std::optional<TimeVector>& displacement, const Scene& scene) {
+  const std::array<Travel, 3> all = travels(velocity, displacement, scene);
+  return {[all](double t) {
+            return Vec3{all[0].displacement(t), all[1].displacement(t), all[2].displacement(t)};
+          },
+          [all](double t) {
+            return Vec3{all[0].velocity(t), all[1].velocity(t), all[2].velocity(t)};
+          }};
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,208 @@
+// Keys of grains and of what acts on them.
+#include "keys.hpp"
+
+namespace dovetail::scene {
+
+// ---- contacts
+
+void describe(Fields& f, Rolling& v) {
+  f.number({"friction", "largest couple over effective radius times normal force"}, v.friction,
+           notNegative(unit::none));
+  f.number({"stiffness_ratio", "angular stiffness over normal stiffness times effective radius squared"},
+           v.stiffnessRatio, positive(unit::none));
+  f.number({"damping_ratio", "the same of the dashpots"}, v.dampingRatio, notNegative(unit::none));
+}
+void describe(Fields& f, LinearContact& v) {
+  f.number({"stiffness", "of the normal spring"}, v.stiffness, positive(unit::stiffness));
+  f.number({"tangential_stiffness", "of the tangential spring; 2/7 of the normal one if not given"},
+           v.tangentialStiffness, positive(unit::stiffness));
+  f.flag({"bonded", "grains that touch at the start hold together as the springs of a lattice, and no others meet"},
+         v.bonded);
+  f.flag({"tension", "whether the dashpot may pull while the overlap closes; the restitution is the same either way"},
+         v.tension);
+}
+void describe(Fields& f, HertzContact& v) {
+  young(f, v.youngsModulus);
+  poisson(f, v.poissonRatio);
+}
+void describe(Fields& f, ContactLaw& v) {
+  static constexpr const char* laws[] = {"linear", "Hertz"};
+  f.where(v.where);
+  f.oneOf({"law", "normal force: a linear spring, or Hertz's with Mindlin's tangential stiffness"}, v.normal, laws);
+  f.number({"restitution", "speed after over speed before a normal impact"}, v.restitution, between(0.0, 1.0, true));
+  f.number({"friction", "Coulomb's coefficient"}, v.friction, notNegative(unit::none));
+  f.number({"tangential_damping_ratio", "tangential dashpot over the normal one"}, v.tangentialDampingRatio,
+           notNegative(unit::none));
+  f.object({"rolling", "resistance to rolling"}, v.rolling);
+  f.object({"twisting", "resistance to twisting"}, v.twisting);
+}
+void describe(Fields& f, PairLaw& v) {
+  f.text({"between", "one contact material; a name that grains, walls and surfaces of solids then may have"}, v.first,
+         true);
+  f.text({"and", "the other one, or the same"}, v.second, true);
+  describe(f, v.law);
+  f.object({"second", "of the second material, with Hertz's law; as the first if not given"}, v.ofSecond);
+}
+
+// ---- grains
+
+void describe(Fields& f, SizeRange& v) {
+  f.number({"smallest", "radius"}, v.smallest, positive(unit::length));
+  f.number({"largest", "radius; sizes between are equally likely"}, v.largest, positive(unit::length));
+}
+void describe(Fields& f, Lattice& v) {
+  static constexpr const char* kinds[] = {"simple-cubic", "body-centred", "face-centred", "hexagonal"};
+  f.choice({"lattice", "its kind"}, v.kind, kinds);
+  f.box({"box", "that whole spheres fill from the lower corner; along periodic axes that it spans the lattice repeats"},
+        v.box);
+  f.number({"radius", "of all spheres"}, v.radius, positive(unit::length));
+  f.number({"distance", "of nearest centres; twice the radius if not given"}, v.distance, positive(unit::length));
+  density(f, v.density);
+}
+void describe(Fields& f, RandomPacking& v) {
+  f.box({"box", "that is filled; along periodic axes that it spans the packing repeats"}, v.box);
+  f.object({"radius", "range of sizes"}, v.radius);
+  f.number({"solid_fraction", "volume of the spheres over that of the box"}, v.solidFraction,
+           between(0.0, 0.74, true, true));
+  f.number({"overlap", "largest one that is left, over the smaller radius"}, v.overlap, between(0.0, 0.1, true));
+  f.integer({"seed", "the same seed gives the same packing"}, v.seed, 0, anySeed);
+  density(f, v.density);
+}
+void describe(Fields& f, Sphere& v) {
+  f.vector({"at", "centre"}, v.at, unit::length);
+  f.number({"radius", "of the sphere"}, v.radius, positive(unit::length));
+}
+void describe(Fields& f, MovingSphere& v) {
+  describe(f, static_cast<Sphere&>(v));
+  velocity(f, v.velocity, "at the start");
+}
+void describe(Fields& f, SphereList& v) {
+  f.list({"spheres", "one by one"}, v.spheres, true);
+  density(f, v.density);
+}
+void describe(Fields& f, SphereFile& v) {
+  f.file({"file", "CSV with columns x_m, y_m, z_m, radius_m and, all or none, vx_m_per_s, vy_m_per_s, vz_m_per_s"},
+         v.file);
+  density(f, v.density);
+}
+void describe(Fields& f, SphereFrame& v) {
+  f.file({"file", "VTP or VTU with point arrays radius and, if there, velocity, such as a frame of another run"},
+         v.file);
+  density(f, v.density);
+}
+void describe(Fields& f, GrainsOfState& v) {
+  f.file({"file",
+          "checkpoint of another run with the same contact laws: all its grains with their masses, spins and "
+          "contacts' springs, those with the same walls too, and with solids whose state is of the same file, so that "
+          "what "
+          "was at rest stays so; clumps and bonds do not come along"},
+         v.file);
+}
+void describe(Fields& f, Particles& v) {
+  static constexpr const char* sources[] = {"lattice", "packing", "list", "csv", "vtk", "state"};
+  f.where(v.where);
+  f.oneOf({"from", "where the spheres come from"}, v.from, sources);
+  f.text({"name", "of the group, for bonds and drives"}, v.name, false);
+  contactMaterial(f, v.contactMaterial);
+  velocity(f, v.velocity, "of all at the start");
+}
+
+// ---- walls
+
+void describe(Fields& f, Plane& v) {
+  f.vector({"point", "on the plane"}, v.point, unit::length);
+  f.vector({"normal", "towards the grains, of any length"}, v.normal, unit::none);
+}
+void describe(Fields& f, BoxWalls& v) {
+  f.box({"box", "grains are inside"}, v.box);
+  f.wordList({"open", "sides without a wall"}, v.open, sides, false);
+}
+void describe(Fields& f, Cylinder& v) {
+  f.vector({"point", "on the axis"}, v.point, unit::length);
+  f.vector({"axis", "direction, of any length"}, v.axis, unit::none);
+  f.number({"radius", "of the cylinder, which has no ends"}, v.radius, positive(unit::length));
+  f.flag({"inside", "whether grains are inside"}, v.inside);
+}
+void describe(Fields& f, SphereWall& v) {
+  f.vector({"centre", "of the sphere"}, v.centre, unit::length);
+  f.number({"radius", "of the sphere"}, v.radius, positive(unit::length));
+  f.flag({"inside", "whether grains are inside"}, v.inside);
+}
+void describe(Fields& f, SurfaceFile& v) {
+  f.file({"file", "triangles: STL, OBJ, PLY, or VTP where the build has VTK"}, v.file);
+  f.number({"scale", "metres per unit of the file"}, v.scale, positive(unit::none));
+  f.vector({"shift", "after scaling"}, v.shift, unit::length);
+  f.flag(
+      {"closed",
+       "a closed skin that pushes along its normals only: a body, or with normals inwards a cavity that holds grains "
+       "in; otherwise a sheet that pushes to both sides"},
+      v.closed);
+  f.vector({"point", "that it turns about; the centroid of the surface if not given"}, v.point, unit::length);
+}
+void describe(Fields& f, Turn& v) {
+  f.vector({"axis", "of any length"}, v.axis, unit::none);
+  f.function({"angle", "may be an expression of the time t; counter-clockwise seen from the tip of the axis"}, v.angle,
+             any(unit::angle));
+}
+void describe(Fields& f, Wall& v) {
+  static constexpr const char* shapes[] = {"plane", "box", "cylinder", "sphere", "mesh"};
+  f.where(v.where);
+  f.oneOf({"shape", "of the wall"}, v.shape, shapes);
+  contactMaterial(f, v.contactMaterial);
+  path(f, v.velocity, v.displacement);
+  f.vector({"angular_velocity", "steady, about its own direction through the point or centre"}, v.angularVelocity,
+           unit::spin);
+  f.object({"turn", "about the same, in place of an angular velocity"}, v.turn);
+}
+
+// ---- clumps, insertions, outlets
+
+void describe(Fields& f, Clump& v) {
+  f.where(v.where);
+  f.list({"spheres", "that make the clump, in a frame of its own"}, v.spheres, true);
+  contactMaterial(f, v.contactMaterial);
+  density(f, v.density);
+  f.vector({"at", "centre of mass"}, v.at, unit::length);
+  velocity(f, v.velocity, "at the start");
+  f.vector({"spin", "at the start"}, v.spin, unit::spin);
+}
+void describe(Fields& f, Insertion& v) {
+  f.where(v.where);
+  f.box({"region", "in which whole spheres appear where they touch nobody"}, v.region);
+  f.object({"radius", "range of sizes"}, v.radius);
+  contactMaterial(f, v.contactMaterial);
+  density(f, v.density);
+  velocity(f, v.velocity, "of newcomers");
+  f.number({"number_per_second", "rate; this or mass_per_second"}, v.numberPerSecond, positive(unit::rate));
+  f.number({"mass_per_second", "rate; this or number_per_second"}, v.massPerSecond, positive(unit::massRate));
+  f.integer({"seed", "the same seed gives the same newcomers"}, v.seed, 0, anySeed);
+}
+void describe(Fields& f, Outlet& v) {
+  f.where(v.where);
+  f.box({"region", "whose grains leave the scene"}, v.region);
+}
+
+// ---- bonds, drives
+
+void describe(Fields& f, BondGroup& v) {
+  f.where(v.where);
+  f.text({"group", "of particles, by its name"}, v.group, true);
+  f.text({"with", "the other group; not given: bonds within the group"}, v.with, false);
+  f.number({"gap", "largest distance of surfaces that are bonded, at the start"}, v.gap, notNegative(unit::length));
+  young(f, v.youngsModulus);
+  poisson(f, v.poissonRatio);
+  f.number({"radius_ratio", "radius of the bond over that of the smaller grain"}, v.radiusRatio, positive(unit::none));
+  f.number({"tensile_strength", "it breaks beyond; never if not given"}, v.tensileStrength, positive(unit::pressure));
+  f.number({"shear_strength", "it breaks beyond; never if not given"}, v.shearStrength, positive(unit::pressure));
+  f.number({"moment_contribution", "fraction of the moments in the stresses"}, v.momentContribution, between(0.0, 1.0));
+  f.number({"damping_time", "dashpot over spring"}, v.dampingTime, notNegative(unit::time));
+  f.flag({"contacts", "whether bonded grains touch as well"}, v.contacts);
+}
+void describe(Fields& f, Drive& v) {
+  f.where(v.where);
+  f.text({"group", "of particles, by its name"}, v.group, true);
+  path(f, v.velocity, v.displacement);
+  f.functions({"spin", "that they keep if grains spin: may be expressions of the time t"}, v.spin, unit::spin);
+}
+
+}  // namespace dovetail::scene

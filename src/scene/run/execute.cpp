@@ -1,0 +1,321 @@
+#include "dovetail/scene/execute.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <ostream>
+#include <utility>
+
+#include "checkpoints.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/core/progress.hpp"
+#include "dovetail/io/interruption.hpp"
+#include "dovetail/io/output_folder.hpp"
+#include "dovetail/scene/read.hpp"
+#include "frames.hpp"
+#include "lengthening.hpp"
+#include "plan.hpp"
+#include "run_files.hpp"
+#include "series.hpp"
+#include "summary.hpp"
+#include "warnings/warnings.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t lookEvery = 20;             // macro steps between two looks at signals
+constexpr std::int64_t deepEvery = 5 * lookEvery;  // at contacts: a look costs as much as half a step
+
+std::string textOf(const Remark& remark) { return {remark.text.begin(), remark.text.end()}; }
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// A run under way with its files.
+class Execution {
+public:
+  Execution(Scene scene, const RunOptions& settings, std::ostream& log, bool goesOn)
+      : scene_(std::move(scene)),
+        settings_(settings),
+        log_(log),
+        identity_(identityOf(scene_)),
+        trial_(settings.folder),
+        lock_(io::prepareOutputFolder(settings.folder, fileNames(scene_, goesOn)), trial_),
+        built_(build(scene_)),
+        provenance_(io::provenance({{"scene", hashOf(identity_)}})) {
+    built_.run->profile = Profile(settings.profile);
+    built_.run->grains.profile = settings.profile ? &built_.run->profile : nullptr;
+    if (!goesOn) requireInputsElsewhere(scene_.files, settings.folder);
+    start(built_, scene_);
+    plan_ = planOf(built_, scene_);
+    if (plan_.series > 0)
+      series_ = std::make_unique<Series>(built_, scene_.output.probes,
+                                         SeriesFiles{settings.folder, provenance_, scene_.output.hdf5, plan_.series});
+    if (goesOn) takeState();
+    if (plan_.frames > 0)
+      frames_ = std::make_unique<Frames>(built_, scene_, settings.folder, provenance_, progress_.frames);
+    for (const std::string& note : built_.notes) log_ << note << '\n';
+    if (goesOn) return;
+    for (const std::string& warning : warnings(built_, scene_)) remark(warning, true);
+    trial_.keep();
+    removeEarlierRun(settings_.folder);
+    writeScene();
+    sample(0);
+    frame(0);
+  }
+
+  bool finish() {
+    counted_ = Clock::now();
+    for (; progress_.stage < scene_.stages.size(); ++progress_.stage, progress_.macroStep = 0) {
+      const auto* const relax = std::get_if<Relax>(&scene_.stages[progress_.stage].kind);
+      if (!(relax ? comeToRest(*relax) : runFor(plan_.stages[progress_.stage]))) return stop();
+      // Before what only an end has: longer runs go on from here.
+      if (progress_.stage + 1 == scene_.stages.size() && plan_.checkpoints > 0) checkpoint();
+      relax ? endRest() : endRun();
+      countTime();
+      log_ << lineOf(progress_.stage) << std::endl;
+    }
+    if (!progress_.toldOfStep) {
+      const coupling::StepLimit limit = built_.run->criticalStep();
+      if (built_.run->dt() > limit.dt) reportOfStep(built_.run->time(), limit.dt, limit.owner);
+    }
+    if (const std::string line = scene::lineOf(std::exchange(progress_.deep, {})); !line.empty()) remark(line, true);
+    close();
+    countRoom();
+    summarise();
+    return true;
+  }
+
+private:
+  fs::path file(const char* name) const { return settings_.folder / name; }
+  static double rounded(double seconds) { return std::round(1e3 * seconds) / 1e3; }
+  static const char* nameOf(const Stage& stage) { return std::holds_alternative<Relax>(stage.kind) ? "relax" : "run"; }
+  std::string lineOf(std::size_t stage) const {
+    return "stage " + std::to_string(stage + 1) + ": " + formatNumber(rounded(seconds_[stage])) + " s";
+  }
+  void countTime() {
+    if (progress_.stage < seconds_.size()) seconds_[progress_.stage] += since(counted_);
+    counted_ = Clock::now();
+  }
+  void remark(const std::string& line, bool warns) {
+    progress_.remarks.push_back({{line.begin(), line.end()}, warns});
+    log_ << (warns ? "WARNING: " : "") << line << std::endl;
+  }
+
+  /// Newcomers that find no room are dropped: told as soon as it is seen, and counted at the end.
+  void lookForRoom() {
+    const std::vector<const dem::Insertion*> all = insertionsOf(built_);
+    for (std::size_t k = 0; !toldOfRoom_ && k < all.size(); ++k) {
+      if (all[k]->refused == 0) continue;
+      toldOfRoom_ = true;
+      log_ << "WARNING: t = " << built_.run->time() << " s, insertion " << k << ": " << all[k]->refused << " of "
+           << all[k]->refused + all[k]->inserted << " newcomers have found no room" << std::endl;
+    }
+  }
+  void countRoom() {
+    const std::vector<const dem::Insertion*> all = insertionsOf(built_);
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (all[k]->refused > 0)
+        remark("insertion " + std::to_string(k) + ": " + std::to_string(all[k]->refused) + " of " +
+                   std::to_string(all[k]->refused + all[k]->inserted) +
+                   " newcomers found no room and were dropped: make its region larger or its rate lower, or let them "
+                   "come in faster",
+               true);
+  }
+
+  bool comeToRest(const Relax& relax) {
+    coupling::RestProgress& rest = progress_.rest;
+    const coupling::RestOptions options{.kinetic = relax.kinetic, .macroSteps = relax.macroSteps};
+    for (bool ended = false; !ended;) {
+      const std::int64_t next = nextLook(progress_.macroStep, relax.macroSteps);
+      ended = coupling::relaxOn(*built_.run, options, rest, next - progress_.macroStep);
+      progress_.macroStep = rest.report.macroSteps;
+      lookForRoom();
+      warn();
+      if (ended) break;
+      if (due(plan_.checkpoints)) checkpoint();
+      if (io::interruption() != 0) return false;
+    }
+    return true;
+  }
+  void endRest() {
+    coupling::RestProgress& rest = progress_.rest;
+    const std::string line = std::string(rest.report.atRest ? "at rest" : "NOT at rest") + " after " +
+                             std::to_string(rest.report.macroSteps) + " macro steps, kinetic over elastic energy " +
+                             formatNumber(rest.report.kinetic) +
+                             (rest.report.atRest ? "" : ": give it more macro steps, or run for a time instead");
+    remark(line, !rest.report.atRest);
+    rest = {};
+    sample(0);
+    frame(0);
+  }
+  void endRun() {
+    if (!due(plan_.series)) sample(0);
+    if (!due(plan_.frames)) frame(0);
+  }
+
+  bool runFor(std::int64_t macroSteps) {
+    coupling::CoupledRun& run = *built_.run;
+    dovetail::Progress shown("stage " + std::to_string(progress_.stage + 1), static_cast<double>(macroSteps),
+                             settings_.progress);
+    const Clock::time_point begun = Clock::now();
+    const std::int64_t first = progress_.macroStep;
+    while (progress_.macroStep < macroSteps) {
+      const std::int64_t before = progress_.macroStep, next = nextLook(before, macroSteps);
+      run.advance(next - before, next == macroSteps || isLookedInto(next));
+      progress_.macroStep = next;
+      warn();
+      const double rate = static_cast<double>(next - first) / since(begun);
+      shown.update(static_cast<double>(next),
+                   "t = " + formatNumber(run.time()) + " s  " + std::to_string(std::llround(rate)) + " macro steps/s");
+      if (!shown.shown() && 10 * next / macroSteps > 10 * before / macroSteps && next < macroSteps)
+        log_ << "t = " << run.time() << " s, " << 100 * next / macroSteps << " %, " << std::llround(rate)
+             << " macro steps/s, " << formatDuration(static_cast<double>(macroSteps - next) / rate) << " to go"
+             << std::endl;
+      lookForRoom();
+      sample(plan_.series);
+      frame(plan_.frames);
+      if (due(plan_.checkpoints) && next < macroSteps) checkpoint();
+      if (io::interruption() != 0) return false;
+    }
+    return true;
+  }
+
+  /// Where the run is looked at next: the same places whenever a run is broken off.
+  std::int64_t nextLook(std::int64_t now, std::int64_t end) const {
+    std::int64_t next = std::min(end, (now / lookEvery + 1) * lookEvery);
+    for (const std::int64_t every : {plan_.series, plan_.frames, plan_.checkpoints})
+      if (every > 0) next = std::min(next, (now / every + 1) * every);
+    return next;
+  }
+  /// Looks at signals alone ask nobody for energies.
+  bool isLookedInto(std::int64_t macroStep) const {
+    return std::ranges::any_of(std::array{plan_.series, plan_.frames, plan_.checkpoints},
+                               [&](std::int64_t every) { return every > 0 && macroStep % every == 0; });
+  }
+  bool due(std::int64_t every) const { return every > 0 && progress_.macroStep % every == 0; }
+
+  /// @param every  macro steps; 0: now
+  void sample(std::int64_t every) {
+    if (!series_ || (every > 0 && !due(every))) return;
+    series_->add(built_);
+    warn();
+    progress_.rows = series_->rows();
+  }
+  void warn() {
+    if (progress_.macroStep % deepEvery == 0) lookForDeepGrains(built_.run->grains, progress_.deep);
+    if (progress_.toldOfStep) return;
+    const coupling::CoupledRun& run = *built_.run;
+    if (const auto& passed = run.grains.passed) return reportOfStep(passed->time, passed->limit, passed->owner);
+    if (series_ && series_->limit() && run.dt() > series_->limit()->dt)
+      reportOfStep(run.time(), series_->limit()->dt, series_->limit()->owner);
+  }
+  void reportOfStep(double time, double limit, const std::string& owner) {
+    progress_.toldOfStep = true;
+    remark("at t = " + formatNumber(time) + " s the step is beyond " + formatNumber(limit) + " s, which " + owner +
+               " sets: take a smaller steps.dt",
+           true);
+  }
+  void frame(std::int64_t every) {
+    if (!frames_ || (every > 0 && !due(every))) return;
+    frames_->add(built_);
+    progress_.frames = frames_->times();
+  }
+  /// Writes what does not grow with the run.
+  void close() {
+    if (series_) series_->close(sceneText(scene_));
+    if (scene_.output.hdf5) writeSolidsHdf5(settings_.folder, built_, scene_, provenance_);
+  }
+  void checkpoint() {
+    countTime();
+    writeTimes(settings_.folder, provenance_, seconds_);
+    writeCheckpoint(settings_.folder, identity_, progress_, *built_.run);
+  }
+  void writeScene() const {
+    io::writeFileAtomically(file("scene.json"), io::provenanceLines(provenance_, "// ") + sceneText(scene_));
+  }
+
+  void takeState() {
+    const Checkpoint last = lastCheckpoint(settings_.folder, log_, Damaged::isSetAside);
+    adopt(last, identity_, *built_.run);
+    progress_ = last.progress;
+    seconds_ = readTimes(settings_.folder, scene_.stages.size());
+    if (settings_.until) {
+      lengthen(scene_, plan_, progress_, *built_.run, *settings_.until);
+      plan_ = planOf(built_, scene_);
+      removeEnd(settings_.folder);
+      writeScene();
+    }
+    if (series_) series_->takeUp(progress_.rows);
+  }
+
+  bool stop() {
+    checkpoint();
+    close();
+    log_ << io::nameOfInterruption() << " at t = " << built_.run->time() << " s; go on with: dovetail resume "
+         << settings_.folder.string() << std::endl;
+    return false;
+  }
+
+  void summarise() {
+    RunNotes notes;
+    for (const Remark& one : progress_.remarks) {
+      notes.lines.push_back((one.warns ? "WARNING: " : "") + textOf(one));
+      if (one.warns) notes.warnings.push_back(textOf(one));
+    }
+    for (const Lines& lines : {strangersIn(built_), hourglassIn(built_)})
+      for (const std::string& text : lines) {
+        notes.lines.push_back("WARNING: " + text);
+        notes.warnings.push_back(text);
+      }
+    for (std::size_t k = 0; k < scene_.stages.size(); ++k) {
+      notes.stages.push_back({k + 1, nameOf(scene_.stages[k]), rounded(seconds_[k])});
+      notes.lines.push_back(lineOf(k));
+    }
+    log_ << writeSummary(settings_.folder, provenance_, scene_, built_, notes, series_ ? &series_->table() : nullptr)
+         << "files in " << settings_.folder.string() << std::endl;
+  }
+
+  Scene scene_;
+  const RunOptions& settings_;
+  std::ostream& log_;
+  std::string identity_;
+  io::FolderOnTrial trial_;
+  io::FolderLock lock_;
+  Built built_;
+  io::KeyValues provenance_;
+  Plan plan_;
+  std::unique_ptr<Series> series_;
+  std::unique_ptr<Frames> frames_;
+  Progress progress_;
+  std::vector<double> seconds_ = std::vector<double>(scene_.stages.size(), 0.0);  ///< of each stage, in all programs
+  Clock::time_point counted_;                                                     ///< until then
+  bool toldOfRoom_ = false;
+};
+
+}  // namespace
+
+bool run(const Scene& scene, const RunOptions& settings, std::ostream& log) {
+  return Execution(scene, settings, log, false).finish();
+}
+
+Scene readRun(const fs::path& folder) {
+  const fs::path file = folder / "scene.json";
+  std::error_code error;
+  if (!fs::is_regular_file(file, error))
+    throw InputError("this is no folder of a run", folder.string(), "give the one that the run wrote into");
+  return readScene(file);
+}
+
+bool resume(const RunOptions& settings, std::ostream& log) {
+  Scene scene = readRun(settings.folder);
+  if (settings.threads) scene.steps.threads = *settings.threads;
+  return Execution(std::move(scene), settings, log, true).finish();
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,161 @@
+#include "probes.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "build/parts.hpp"
+#include "dovetail/dem/model/loads.hpp"
+#include "dovetail/dem/model/walls.hpp"
+#include "dovetail/io/names.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+void append(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), {v.x, v.y, v.z}); }
+
+/// Number of the place that is nearest. @param places  at least one
+std::size_t nearestTo(const Vec3& at, const std::vector<Vec3>& places) {
+  const auto nearer = [&](const Vec3& a, const Vec3& b) { return squaredNorm(a - at) < squaredNorm(b - at); };
+  return static_cast<std::size_t>(std::min_element(places.begin(), places.end(), nearer) - places.begin());
+}
+
+/// Who acts on some nodes: supports, or where there are none, ties.
+struct HeldBy {
+  bool supports = false, ties = false;
+};
+HeldBy holdersOf(const coupling::SolidSide& side, const std::vector<int>& set) {
+  HeldBy found;
+  for (const int node : set)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const fem::Role role = side.mass->dofs().role(3 * static_cast<std::size_t>(node) + c);
+      found.ties = found.ties || role == fem::Role::tied;
+      found.supports = found.supports || (role != fem::Role::tied && role != fem::Role::free);
+    }
+  return found;
+}
+
+Vec3 forceOn(const dem::Model& grains, const WallParts& parts) {
+  Vec3 force;
+  for (std::size_t i = parts.firstPrimitive; i < parts.endPrimitive; ++i) force += dem::primitiveWall(grains, i).force;
+  for (std::size_t i = parts.firstMesh; i < parts.endMesh; ++i) force += dem::totalForce(dem::meshWall(grains, i).wall);
+  return force;
+}
+
+void appendRegion(const dem::Particles& particles, const geometry::Box& box, std::vector<double>& row) {
+  double count = 0.0, mass = 0.0;
+  Vec3 momentum;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Vec3& x = particles.x[i];
+    bool inside = true;
+    for (int c = 0; c < 3; ++c) inside = inside && x[c] >= box.lower[c] && x[c] <= box.upper[c];
+    if (!inside) continue;
+    const double m = particles.mass[i] * particles.weightOf(i);
+    count += 1.0;
+    mass += m;
+    momentum += m * particles.v[i];
+  }
+  row.push_back(count);
+  append(row, mass > 0.0 ? 1.0 / mass * momentum : Vec3{});
+}
+
+}  // namespace
+
+void Probes::nameVector(const std::string& name, const std::string& unit) {
+  for (const char* const axis : {"x", "y", "z"}) names_.push_back(name + axis + "_" + unit);
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const std::string& name, const GrainProbe& kind) {
+  const dem::Particles& particles = built.run->grains.particles;
+  if (particles.size() == 0) throw InputError("there are no grains at the start", "", "leave the probe out");
+  const std::int64_t id = particles.id[nearestTo(kind.at, particles.x)];
+  nameVector(name + "_", "m");
+  nameVector(name + "_v", "m_per_s");
+  return [id](const Built& now, std::vector<double>& row) {
+    const dem::Particles& all = now.run->grains.particles;
+    const int number = dem::find(all, id);
+    constexpr double gone = std::numeric_limits<double>::quiet_NaN();
+    if (number < 0) return void(row.insert(row.end(), 6, gone));
+    append(row, all.x[static_cast<std::size_t>(number)]);
+    append(row, all.v[static_cast<std::size_t>(number)]);
+  };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const std::string& name, const NodeProbe& kind) {
+  const std::size_t solid = solidNamed(kind.solid, *built.run);
+  const std::size_t node = nearestTo(kind.at, built.run->solid(solid).nodes().X);
+  nameVector(name + "_u", "m");
+  return [solid, node](const Built& now, std::vector<double>& row) {
+    append(row, std::as_const(*now.run).solid(solid).nodes().u[node]);
+  };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const std::string& name, const WallProbe& kind) {
+  const auto item = static_cast<std::size_t>(kind.wall);
+  if (item >= built.walls.size())
+    throw InputError("there is no wall " + std::to_string(kind.wall), "",
+                     "the scene has " + std::to_string(built.walls.size()) + ", counted from 0");
+  nameVector(name + "_", "N");
+  return [item](const Built& now, std::vector<double>& row) { append(row, forceOn(now.run->grains, now.walls[item])); };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const std::string& name, const DriveProbe& kind) {
+  const auto item = static_cast<std::size_t>(kind.drive);
+  if (const auto there = std::as_const(built.run->grains).terms.all<dem::DriveTerm>().size(); item >= there)
+    throw InputError("there is no drive " + std::to_string(kind.drive), "",
+                     "the scene has " + std::to_string(there) + ", counted from 0");
+  nameVector(name + "_", "N");
+  nameVector(name + "_m", "Nm");
+  return [item](const Built& now, std::vector<double>& row) {
+    const Momenta& support = std::as_const(now.run->grains).terms.all<dem::DriveTerm>()[item]->support;
+    append(row, support.linear);
+    append(row, support.angular);
+  };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const std::string& name, const SupportProbe& kind) {
+  const std::size_t solid = solidNamed(kind.solid, *built.run);
+  const std::vector<int>& set = fem::nodeSet(built.meshes[solid], kind.on);
+  const HeldBy by = holdersOf(built.run->solid(solid), set);
+  if (!by.supports && !by.ties)
+    throw InputError("nothing holds, moves or carries the nodes \"" + kind.on + "\" of \"" + kind.solid + "\"", "",
+                     "give the solid a support there, or leave the probe out");
+  nameVector(name + "_", "N");
+  return [solid, set, supports = by.supports, known = reactions_](const Built& now, std::vector<double>& row) {
+    if (!known->contains(solid)) known->emplace(solid, now.run->reactions(solid));
+    const coupling::Reactions& all = known->at(solid);
+    Vec3 sum;
+    for (const int node : set) sum += (supports ? all.supports : all.ties)[static_cast<std::size_t>(node)];
+    append(row, sum);
+  };
+}
+
+template <>
+Probes::Values Probes::find(const Built&, const std::string& name, const RegionProbe& kind) {
+  names_.push_back(name + "_particles");
+  nameVector(name + "_v", "m_per_s");
+  return [box = kind.box](const Built& now, std::vector<double>& row) {
+    appendRegion(now.run->grains.particles, box, row);
+  };
+}
+
+Probes::Probes(const Built& built, const std::vector<Probe>& probes) {
+  for (const Probe& probe : probes)
+    atPlace(probe.where, [&] {
+      io::requirePlainName(probe.name, "name");
+      std::visit([&](const auto& kind) { values_.push_back(find(built, probe.name, kind)); }, probe.of);
+    });
+}
+
+void Probes::add(const Built& built, std::vector<double>& row) const {
+  reactions_->clear();
+  for (const Values& values : values_) values(built, row);
+}
+
+}  // namespace dovetail::scene
