@@ -6,8 +6,9 @@ from runs import command
 
 HEAD = """# Gallery
 
-Every picture is a frame of a [scene](../scenes/README.md), drawn by `scripts/gallery`, which makes this page. Numbers to expect are told
-beside the scenes. The commands write frames that ParaView opens: see the [tutorial](tutorial.md#look-at-it).
+Every picture is a frame of a [scene](../scenes/README.md), drawn by `scripts/gallery`, which writes
+this page. Expected numbers are given with the scenes. The commands write frames for ParaView: see
+the [tutorial](tutorial.md#look-at-it).
 """
 
 
