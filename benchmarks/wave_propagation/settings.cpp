@@ -67,7 +67,8 @@ void addSchemeOptions(Options& o, Settings& s) {
          "of the dashpot: row sums, or the products of the shape functions");
   o.word("--rows", s.rows, "per-node|per-element", "of the projection");
   o.word("--kernel-normalisation", s.normalised, "off|on", "of kernels cut at a border");
-  o.word("--kernel-reach", s.kernelReach, "overlap|outside", "kernels within the overlap, or also from outside");
+  o.word("--kernel-reach", s.kernelReach, "overlap|outside",
+         "kernels over grains of the overlap, or also over those outside");
   o.word("--order", s.order, "symmetric|staggered", "coupling forces of the same instant, or of the last step");
   o.group("Kernel, penalty, absorber");
   o.number("--cg-width X", s.cgWidth, notNegative("0 (local) or a positive number of element sizes, up to 100", 100.0),

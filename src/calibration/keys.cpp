@@ -17,9 +17,9 @@ namespace unit = scene::unit;
 
 namespace {
 void preparation(Fields& f, Preparation& v) {
-  f.number({"pressure", "at which the cell rests before it is probed"}, v.pressure, scene::positive(unit::pressure));
+  f.number({"pressure", "of the cell at rest, before the experiment"}, v.pressure, scene::positive(unit::pressure));
   f.number({"preparation_friction",
-            "of the grains until the pressure is there, the lower the denser; their own if not given"},
+            "of the grains until the pressure is reached, the lower the denser; their own if not given"},
            v.friction, scene::notNegative(unit::none));
 }
 }  // namespace
@@ -49,10 +49,10 @@ void describe(Fields& f, Experiment& v) {
 void describe(Fields& f, Parameter& v) {
   f.where(v.where);
   f.text({"key", "of the scenes: a parameter of \"let\", or a path such as contact.friction"}, v.key, true);
-  f.quantity({"start", "where the fit begins"}, v.start);
+  f.quantity({"start", "initial value of the fit"}, v.start);
   f.quantity({"least", "lower bound"}, v.least);
   f.quantity({"most", "upper bound"}, v.most);
-  f.number({"step", "of differences, over most - least: above the noise of the simulation"}, v.step,
+  f.number({"step", "of finite differences, over most - least; take it above the noise of the simulation"}, v.step,
            scene::between(0.0, 0.25, true));
 }
 void describe(Fields& f, Target& v) {
@@ -60,21 +60,21 @@ void describe(Fields& f, Target& v) {
   f.text({"of", "an experiment, by its name"}, v.of, true);
   f.text({"quantity", "of the experiment"}, v.quantity, true);
   f.number({"at", "strain or time (s) on a curve; its end if not given"}, v.at, scene::notNegative(unit::none));
-  f.quantity({"value", "what it should be"}, v.value);
+  f.quantity({"value", "measured or wanted value"}, v.value);
   f.quantity({"uncertainty", "standard deviation; 1 % of the value if not given"}, v.uncertainty);
 }
 void describe(Fields& f, Search& v) {
   f.integer({"samples", "along each parameter from least to most"}, v.samples, 3, 1000);
-  f.integer({"refinements", "times that the best sample is enclosed more closely"}, v.refinements, 0, 20);
+  f.integer({"refinements", "number of times that the samples are refined about the best one"}, v.refinements, 0, 20);
 }
 void describe(Fields& f, Calibration& v) {
   f.includes({"include", "other files, whose keys come first"});
   f.text({"title", "for reports"}, v.title, false);
   f.parameters({"let", "parameters of expressions in this file"}, v.let);
   f.list({"experiments", "what is simulated"}, v.experiments, true);
-  f.list({"parameters", "of the scenes, that are sought; none: experiments are only done"}, v.parameters);
-  f.list({"targets", "what experiments should give"}, v.targets);
-  f.object({"search", "samples the measure of all targets in place of fitting, and tells how flat its optimum is"},
+  f.list({"parameters", "of the scenes, to be fitted; none: experiments are only run"}, v.parameters);
+  f.list({"targets", "values that experiments should give"}, v.targets);
+  f.object({"search", "samples the measure of all targets in place of fitting, and reports how flat its optimum is"},
            v.search);
   f.integer({"evaluations", "of the simulator at most; those in the cache are free"}, v.evaluations, 1, 1000000);
   f.number({"tolerance", "a fit ends when parameters, over most - least, or the sum of squares change by less"},

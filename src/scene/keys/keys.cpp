@@ -16,67 +16,67 @@ void Fields::axes(Key key, std::array<bool, 3>& value, bool needed) {
 
 void describe(Fields& f, Periodic& v) {
   f.where(v.where);
-  f.box({"box", "its edges are the periods"}, v.box);
-  f.axes({"axes", "along which space repeats"}, v.axes, true);
+  f.box({"box", "its edge lengths are the periods"}, v.box);
+  f.axes({"axes", "that are periodic"}, v.axes, true);
 }
 void describe(Fields& f, Domain& v) {
   static constexpr const char* policies[] = {"refuse", "remove"};
   f.where(v.where);
-  f.box({"box", "where centres of grains may be"}, v.box);
-  f.choice({"escape", "who leaves it ends the run, or leaves the scene"}, v.removes, policies);
+  f.box({"box", "that centres of grains may not leave"}, v.box);
+  f.choice({"escape", "a grain that leaves the box ends the run, or is removed"}, v.removes, policies);
 }
 
 // ---- the run
 
 void describe(Fields& f, Relax& v) {
-  f.number({"kinetic", "kinetic over elastic energy below which all is at rest"}, v.kinetic, between(0.0, 1.0, true));
-  f.integer({"macro_steps", "macro steps after which it is given up"}, v.macroSteps, 1, many);
+  f.number({"kinetic", "ratio of kinetic to elastic energy below which the system is at rest"}, v.kinetic,
+           between(0.0, 1.0, true));
+  f.integer({"macro_steps", "largest number of macro steps"}, v.macroSteps, 1, many);
 }
-void describe(Fields& f, RunFor& v) { f.number({"time", "that is simulated"}, v.time, positive(unit::time)); }
+void describe(Fields& f, RunFor& v) { f.number({"time", "simulated time"}, v.time, positive(unit::time)); }
 void describe(Fields& f, Stage& v) {
   static constexpr const char* kinds[] = {"relax", "run"};
   f.where(v.where);
-  f.oneOf({"do", "bring all to rest by kinetic damping, or run for a time"}, v.kind, kinds);
+  f.oneOf({"do", "bring the system to rest by kinetic damping, or run for a time"}, v.kind, kinds);
 }
 void describe(Fields& f, Steps& v) {
   static constexpr const char* automatic[] = {"auto"};
   static constexpr const char* lags[] = {"none", "load", "load-and-skin"};
   f.where(v.where);
   f.numberOrWord({"dt", "time step of the grains"}, v.dt, positive(unit::time), automatic);
-  f.number({"safety", "fraction of the critical step that \"auto\" takes; impacts take eight steps, or more"}, v.safety,
+  f.number({"safety", "of \"auto\": fraction of the critical step; an impact takes at least eight steps"}, v.safety,
            between(0.0, 1.0, true));
   f.integer({"per_macro_step", "K: steps of the grains per step of the solids"}, v.stepsPerMacroStep, 1, 100000);
-  f.choice(
-      {"lag",
-       "of what solids feel: none; or, to compare with staggered schemes of the literature, loads one step old, or "
-       "loads and surfaces. A lag makes energy; what it makes is in the ledger"},
-      v.lag, lags);
+  f.choice({"lag",
+            "of the coupling to solids: none; or, to compare with staggered schemes, loads of the last step, or loads "
+            "and surface of the last step. The ledger has the staggering error"},
+           v.lag, lags);
   f.integer({"threads", "0: one per processor; results are the same for any number"}, v.threads, 0, 1024);
 }
 void describe(Fields& f, Scene& v) {
   f.text({"title", "one line about the scene"}, v.title, false);
-  f.includes({"include", "scenes that this one goes on from: its own values win, lists of objects grow"});
+  f.includes({"include", "scenes that this one extends: its own values take precedence, lists of objects are joined"});
   f.parameters({"let",
                 "parameters of expressions: a number with or without a unit, or an expression of those above; names "
-                "are of less than 100 letters, digits and '_', with a letter first"},
+                "have fewer than 100 letters, digits and '_', with a letter first"},
                v.parameters);
   f.vector({"gravity", "acceleration"}, v.gravity, unit::acceleration);
   f.object({"contact", "law of contacts between grains, with walls and with solids"}, v.contact);
-  f.list({"contacts", "laws between contact materials; contact is that of all other pairs"}, v.contacts);
-  f.object({"periodic", "space that repeats"}, v.periodic);
-  f.object({"domain", "where grains may be"}, v.domain);
+  f.list({"contacts", "laws of pairs of contact materials; all other pairs have the law of \"contact\""}, v.contacts);
+  f.object({"periodic", "periodic space"}, v.periodic);
+  f.object({"domain", "region that grains may not leave"}, v.domain);
   f.list({"particles", "groups of spheres"}, v.particles);
   f.list({"walls", "rigid walls"}, v.walls);
   f.list({"clumps", "rigid bodies of spheres"}, v.clumps);
-  f.list({"insertions", "grains that enter"}, v.insertions);
-  f.list({"outlets", "regions in which grains leave"}, v.outlets);
-  f.list({"bonds", "elastic beams between grains, which break"}, v.bonds);
-  f.list({"drives", "grains that follow a path"}, v.drives);
+  f.list({"insertions", "regions in which grains are inserted"}, v.insertions);
+  f.list({"outlets", "regions in which grains are removed"}, v.outlets);
+  f.list({"bonds", "elastic beams between grains, which can break"}, v.bonds);
+  f.list({"drives", "groups of grains with a prescribed motion"}, v.drives);
   f.list({"solids", "bodies of finite elements"}, v.solids);
   f.list({"couplings", "between grains and solids"}, v.couplings);
   f.object({"steps", "time steps"}, v.steps);
-  f.list({"stages", "what is done, in this order"}, v.stages, true);
-  f.object({"output", "what is written"}, v.output);
+  f.list({"stages", "stages of the run, in this order"}, v.stages, true);
+  f.object({"output", "files that are written"}, v.output);
 }
 
 }  // namespace dovetail::scene

@@ -20,7 +20,7 @@ inline void density(Fields& f, double& value) {
 }
 inline void velocity(Fields& f, Vec3& value, const char* help) { f.vector({"velocity", help}, value, unit::velocity); }
 inline void contactMaterial(Fields& f, std::string& value) {
-  f.text({"contact_material", "for the laws in contacts; not given: the law in contact"}, value, false);
+  f.text({"contact_material", "used by \"contacts\"; if not given, the law of \"contact\" holds"}, value, false);
 }
 /// A steady or changing velocity, or a displacement in its place.
 inline void path(Fields& f, TimeVector& velocity, std::optional<TimeVector>& displacement) {

@@ -6,19 +6,19 @@ namespace dovetail::scene {
 // ---- contacts
 
 void describe(Fields& f, Rolling& v) {
-  f.number({"friction", "largest couple over effective radius times normal force"}, v.friction,
+  f.number({"friction", "coefficient: largest moment over (effective radius × normal force)"}, v.friction,
            notNegative(unit::none));
-  f.number({"stiffness_ratio", "angular stiffness over normal stiffness times effective radius squared"},
-           v.stiffnessRatio, positive(unit::none));
-  f.number({"damping_ratio", "the same of the dashpots"}, v.dampingRatio, notNegative(unit::none));
+  f.number({"stiffness_ratio", "angular stiffness over (normal stiffness × effective radius²)"}, v.stiffnessRatio,
+           positive(unit::none));
+  f.number({"damping_ratio", "the same ratio of the damping coefficients"}, v.dampingRatio, notNegative(unit::none));
 }
 void describe(Fields& f, LinearContact& v) {
   f.number({"stiffness", "of the normal spring"}, v.stiffness, positive(unit::stiffness));
   f.number({"tangential_stiffness", "of the tangential spring; 2/7 of the normal one if not given"},
            v.tangentialStiffness, positive(unit::stiffness));
-  f.flag({"bonded", "grains that touch at the start hold together as the springs of a lattice, and no others meet"},
-         v.bonded);
-  f.flag({"tension", "whether the dashpot may pull while the overlap closes; the restitution is the same either way"},
+  f.flag({"bonded", "contacts at the start are bonded springs, as in a lattice; no other contacts form"}, v.bonded);
+  f.flag({"tension",
+          "whether the normal force may be tensile while grains separate; the restitution is the same either way"},
          v.tension);
 }
 void describe(Fields& f, HertzContact& v) {
@@ -29,42 +29,43 @@ void describe(Fields& f, ContactLaw& v) {
   static constexpr const char* laws[] = {"linear", "Hertz"};
   f.where(v.where);
   f.oneOf({"law", "normal force: a linear spring, or Hertz's with Mindlin's tangential stiffness"}, v.normal, laws);
-  f.number({"restitution", "speed after over speed before a normal impact"}, v.restitution, between(0.0, 1.0, true));
+  f.number({"restitution", "speed after a normal impact over speed before"}, v.restitution, between(0.0, 1.0, true));
   f.number({"friction", "Coulomb's coefficient"}, v.friction, notNegative(unit::none));
-  f.number({"tangential_damping_ratio", "tangential dashpot over the normal one"}, v.tangentialDampingRatio,
+  f.number({"tangential_damping_ratio", "tangential over normal damping coefficient"}, v.tangentialDampingRatio,
            notNegative(unit::none));
   f.object({"rolling", "resistance to rolling"}, v.rolling);
   f.object({"twisting", "resistance to twisting"}, v.twisting);
 }
 void describe(Fields& f, PairLaw& v) {
-  f.text({"between", "one contact material; a name that grains, walls and surfaces of solids then may have"}, v.first,
-         true);
-  f.text({"and", "the other one, or the same"}, v.second, true);
+  f.text(
+      {"between", "first contact material: a name, for \"contact_material\" of grains, walls and surfaces of solids"},
+      v.first, true);
+  f.text({"and", "second contact material, which may be the first"}, v.second, true);
   describe(f, v.law);
-  f.object({"second", "of the second material, with Hertz's law; as the first if not given"}, v.ofSecond);
+  f.object({"second", "elastic constants of the second material (Hertz); those of the first if not given"}, v.ofSecond);
 }
 
 // ---- grains
 
 void describe(Fields& f, SizeRange& v) {
   f.number({"smallest", "radius"}, v.smallest, positive(unit::length));
-  f.number({"largest", "radius; sizes between are equally likely"}, v.largest, positive(unit::length));
+  f.number({"largest", "radius; radii are distributed uniformly between the two"}, v.largest, positive(unit::length));
 }
 void describe(Fields& f, Lattice& v) {
   static constexpr const char* kinds[] = {"simple-cubic", "body-centred", "face-centred", "hexagonal"};
-  f.choice({"lattice", "its kind"}, v.kind, kinds);
-  f.box({"box", "that whole spheres fill from the lower corner; along periodic axes that it spans the lattice repeats"},
+  f.choice({"lattice", "type of the lattice"}, v.kind, kinds);
+  f.box({"box", "filled with whole spheres from the lower corner; where it spans a period, the lattice is periodic"},
         v.box);
   f.number({"radius", "of all spheres"}, v.radius, positive(unit::length));
-  f.number({"distance", "of nearest centres; twice the radius if not given"}, v.distance, positive(unit::length));
+  f.number({"distance", "between nearest centres; twice the radius if not given"}, v.distance, positive(unit::length));
   density(f, v.density);
 }
 void describe(Fields& f, RandomPacking& v) {
-  f.box({"box", "that is filled; along periodic axes that it spans the packing repeats"}, v.box);
-  f.object({"radius", "range of sizes"}, v.radius);
+  f.box({"box", "that is filled; where it spans a period, the packing is periodic"}, v.box);
+  f.object({"radius", "range of radii"}, v.radius);
   f.number({"solid_fraction", "volume of the spheres over that of the box"}, v.solidFraction,
            between(0.0, 0.74, true, true));
-  f.number({"overlap", "largest one that is left, over the smaller radius"}, v.overlap, between(0.0, 0.1, true));
+  f.number({"overlap", "largest overlap in the packing, over the smaller radius"}, v.overlap, between(0.0, 0.1, true));
   f.integer({"seed", "the same seed gives the same packing"}, v.seed, 0, anySeed);
   density(f, v.density);
 }
@@ -77,7 +78,7 @@ void describe(Fields& f, MovingSphere& v) {
   velocity(f, v.velocity, "at the start");
 }
 void describe(Fields& f, SphereList& v) {
-  f.list({"spheres", "one by one"}, v.spheres, true);
+  f.list({"spheres", "centre and radius of each"}, v.spheres, true);
   density(f, v.density);
 }
 void describe(Fields& f, SphereFile& v) {
@@ -92,10 +93,9 @@ void describe(Fields& f, SphereFrame& v) {
 }
 void describe(Fields& f, GrainsOfState& v) {
   f.file({"file",
-          "checkpoint of another run with the same contact laws: all its grains with their masses, spins and "
-          "contacts' springs, those with the same walls too, and with solids whose state is of the same file, so that "
-          "what "
-          "was at rest stays so; clumps and bonds do not come along"},
+          "checkpoint of another run with the same contact laws: its grains with masses, spins and contact springs, "
+          "also those to the same walls and to solids with a state of the same file, so that a system at rest stays at "
+          "rest; clumps and bonds are not read"},
          v.file);
 }
 void describe(Fields& f, Particles& v) {
@@ -104,7 +104,7 @@ void describe(Fields& f, Particles& v) {
   f.oneOf({"from", "where the spheres come from"}, v.from, sources);
   f.text({"name", "of the group, for bonds and drives"}, v.name, false);
   contactMaterial(f, v.contactMaterial);
-  velocity(f, v.velocity, "of all at the start");
+  velocity(f, v.velocity, "of all grains at the start");
 }
 
 // ---- walls
@@ -114,13 +114,13 @@ void describe(Fields& f, Plane& v) {
   f.vector({"normal", "towards the grains, of any length"}, v.normal, unit::none);
 }
 void describe(Fields& f, BoxWalls& v) {
-  f.box({"box", "grains are inside"}, v.box);
+  f.box({"box", "with the grains inside"}, v.box);
   f.wordList({"open", "sides without a wall"}, v.open, sides, false);
 }
 void describe(Fields& f, Cylinder& v) {
   f.vector({"point", "on the axis"}, v.point, unit::length);
   f.vector({"axis", "direction, of any length"}, v.axis, unit::none);
-  f.number({"radius", "of the cylinder, which has no ends"}, v.radius, positive(unit::length));
+  f.number({"radius", "of the cylinder, which is infinitely long"}, v.radius, positive(unit::length));
   f.flag({"inside", "whether grains are inside"}, v.inside);
 }
 void describe(Fields& f, SphereWall& v) {
@@ -132,12 +132,11 @@ void describe(Fields& f, SurfaceFile& v) {
   f.file({"file", "triangles: STL, OBJ, PLY, or VTP where the build has VTK"}, v.file);
   f.number({"scale", "metres per unit of the file"}, v.scale, positive(unit::none));
   f.vector({"shift", "after scaling"}, v.shift, unit::length);
-  f.flag(
-      {"closed",
-       "a closed skin that pushes along its normals only: a body, or with normals inwards a cavity that holds grains "
-       "in; otherwise a sheet that pushes to both sides"},
-      v.closed);
-  f.vector({"point", "that it turns about; the centroid of the surface if not given"}, v.point, unit::length);
+  f.flag({"closed",
+          "closed surface with contact on the side of its normals only: a body, or with normals inwards a cavity "
+          "around the grains; otherwise a sheet with contact on both sides"},
+         v.closed);
+  f.vector({"point", "centre of rotation; the centroid of the surface if not given"}, v.point, unit::length);
 }
 void describe(Fields& f, Turn& v) {
   f.vector({"axis", "of any length"}, v.axis, unit::none);
@@ -150,16 +149,15 @@ void describe(Fields& f, Wall& v) {
   f.oneOf({"shape", "of the wall"}, v.shape, shapes);
   contactMaterial(f, v.contactMaterial);
   path(f, v.velocity, v.displacement);
-  f.vector({"angular_velocity", "steady, about its own direction through the point or centre"}, v.angularVelocity,
-           unit::spin);
-  f.object({"turn", "about the same, in place of an angular velocity"}, v.turn);
+  f.vector({"angular_velocity", "constant, about an axis through the point or centre"}, v.angularVelocity, unit::spin);
+  f.object({"turn", "rotation about the same point, in place of an angular velocity"}, v.turn);
 }
 
 // ---- clumps, insertions, outlets
 
 void describe(Fields& f, Clump& v) {
   f.where(v.where);
-  f.list({"spheres", "that make the clump, in a frame of its own"}, v.spheres, true);
+  f.list({"spheres", "of the clump, in its own coordinates"}, v.spheres, true);
   contactMaterial(f, v.contactMaterial);
   density(f, v.density);
   f.vector({"at", "centre of mass"}, v.at, unit::length);
@@ -168,18 +166,18 @@ void describe(Fields& f, Clump& v) {
 }
 void describe(Fields& f, Insertion& v) {
   f.where(v.where);
-  f.box({"region", "in which whole spheres appear where they touch nobody"}, v.region);
-  f.object({"radius", "range of sizes"}, v.radius);
+  f.box({"region", "in which whole spheres are inserted where they touch nothing"}, v.region);
+  f.object({"radius", "range of radii"}, v.radius);
   contactMaterial(f, v.contactMaterial);
   density(f, v.density);
-  velocity(f, v.velocity, "of newcomers");
+  velocity(f, v.velocity, "of inserted grains");
   f.number({"number_per_second", "rate; this or mass_per_second"}, v.numberPerSecond, positive(unit::rate));
   f.number({"mass_per_second", "rate; this or number_per_second"}, v.massPerSecond, positive(unit::massRate));
-  f.integer({"seed", "the same seed gives the same newcomers"}, v.seed, 0, anySeed);
+  f.integer({"seed", "the same seed gives the same grains"}, v.seed, 0, anySeed);
 }
 void describe(Fields& f, Outlet& v) {
   f.where(v.where);
-  f.box({"region", "whose grains leave the scene"}, v.region);
+  f.box({"region", "in which grains are removed"}, v.region);
 }
 
 // ---- bonds, drives
@@ -188,21 +186,24 @@ void describe(Fields& f, BondGroup& v) {
   f.where(v.where);
   f.text({"group", "of particles, by its name"}, v.group, true);
   f.text({"with", "the other group; not given: bonds within the group"}, v.with, false);
-  f.number({"gap", "largest distance of surfaces that are bonded, at the start"}, v.gap, notNegative(unit::length));
+  f.number({"gap", "largest distance between surfaces of bonded grains, at the start"}, v.gap,
+           notNegative(unit::length));
   young(f, v.youngsModulus);
   poisson(f, v.poissonRatio);
   f.number({"radius_ratio", "radius of the bond over that of the smaller grain"}, v.radiusRatio, positive(unit::none));
   f.number({"tensile_strength", "it breaks beyond; never if not given"}, v.tensileStrength, positive(unit::pressure));
   f.number({"shear_strength", "it breaks beyond; never if not given"}, v.shearStrength, positive(unit::pressure));
-  f.number({"moment_contribution", "fraction of the moments in the stresses"}, v.momentContribution, between(0.0, 1.0));
-  f.number({"damping_time", "dashpot over spring"}, v.dampingTime, notNegative(unit::time));
-  f.flag({"contacts", "whether bonded grains touch as well"}, v.contacts);
+  f.number({"moment_contribution", "fraction of the bond's moments that counts in its stresses"}, v.momentContribution,
+           between(0.0, 1.0));
+  f.number({"damping_time", "damping coefficient over stiffness"}, v.dampingTime, notNegative(unit::time));
+  f.flag({"contacts", "whether bonded grains have contact forces as well"}, v.contacts);
 }
 void describe(Fields& f, Drive& v) {
   f.where(v.where);
   f.text({"group", "of particles, by its name"}, v.group, true);
   path(f, v.velocity, v.displacement);
-  f.functions({"spin", "that they keep if grains spin: may be expressions of the time t"}, v.spin, unit::spin);
+  f.functions({"spin", "prescribed angular velocity, if grains spin: may be expressions of the time t"}, v.spin,
+              unit::spin);
 }
 
 }  // namespace dovetail::scene

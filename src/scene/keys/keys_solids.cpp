@@ -9,7 +9,7 @@ void describe(Fields& f, BoxMesh& v) {
   static constexpr const char* shapes[] = {"hex8", "hex20", "hex27", "tet4", "tet10"};
   f.word({"cell", "shape of the cells; tetrahedra: six per brick"}, v.shape, shapes);
   f.cells({"cells", "numbers of bricks along x, y and z"}, v.cells);
-  f.box({"box", "with the sets x-, x+, y-, y+, z-, z+ and skin"}, v.box);
+  f.box({"box", "extent; the mesh has the sets x-, x+, y-, y+, z-, z+ and skin"}, v.box);
 }
 void describe(Fields& f, MeshFile& v) {
   f.file({"file", "Gmsh .msh, Abaqus .inp, or .vtu where the build has VTK, with its sets"}, v.file);
@@ -19,7 +19,7 @@ void describe(Fields& f, TetrahedraMesh& v) {
   f.file({"file", "closed surface: STL, OBJ, PLY, or VTP where the build has VTK; the set skin is its boundary"},
          v.file);
   f.number({"scale", "metres per unit of the file"}, v.scale, positive(unit::none));
-  f.number({"size", "largest radius of the spheres around tetrahedra, and largest edge along sharp edges"}, v.size,
+  f.number({"size", "largest circumradius of the tetrahedra, and largest edge along sharp edges"}, v.size,
            positive(unit::length));
   f.number(
       {"surface_distance", "largest distance of the boundary from the surface; a twentieth of the size if not given"},
@@ -36,8 +36,8 @@ void describe(Fields& f, NeoHookean& v) {
 void describe(Fields& f, J2Plastic& v) {
   young(f, v.youngsModulus);
   poisson(f, v.poissonRatio);
-  f.number({"yield_stress", "at first"}, v.yieldStress, positive(unit::pressure));
-  f.number({"hardening", "yield stress gained per plastic strain"}, v.hardening, notNegative(unit::pressure));
+  f.number({"yield_stress", "initial value"}, v.yieldStress, positive(unit::pressure));
+  f.number({"hardening", "increase of the yield stress per plastic strain"}, v.hardening, notNegative(unit::pressure));
 }
 void describe(Fields& f, DruckerPrager& v) {
   young(f, v.youngsModulus);
@@ -55,13 +55,13 @@ void describe(Fields& f, SolidMaterial& v) {
   static constexpr const char* laws[] = {"St-Venant-Kirchhoff", "neo-Hookean",   "J2",
                                          "Drucker-Prager",      "axial-springs", "deformed-metric"};
   f.oneOf({"law",
-           "elastic; with plastic flow: J2 and Drucker-Prager; axial-springs: as a cubic lattice of grains; "
+           "elastic, but J2 and Drucker-Prager elastic-plastic; axial-springs: as a cubic lattice of grains; "
            "deformed-metric: Hooke's law by the metric of the deformed body, without a potential (Cheng et al. 2023, "
            "Eq. 34)"},
           v.law, laws);
   density(f, v.density);
 }
-void describe(Fields& f, PlaceInBox& v) { f.box({"box", "with its boundary"}, v.box); }
+void describe(Fields& f, PlaceInBox& v) { f.box({"box", "including its boundary"}, v.box); }
 void describe(Fields& f, PlaceOnPlane& v) {
   f.vector({"point", "on the plane"}, v.point, unit::length);
   f.vector({"normal", "of any length"}, v.normal, unit::none);
@@ -77,7 +77,7 @@ void describe(Fields& f, NamedSet& v) {
   static constexpr const char* places[] = {"side", "box", "plane", "sphere"};
   f.where(v.where);
   f.text({"name", "for supports, loads, ties and couplings"}, v.name, true);
-  f.oneOf({"place", "of its nodes, and of faces of the boundary all of whose nodes lie there"}, v.place, places);
+  f.oneOf({"place", "of its nodes; it has the boundary faces all of whose nodes are in it"}, v.place, places);
 }
 void describe(Fields& f, Support& v) {
   f.where(v.where);
@@ -89,29 +89,28 @@ void describe(Fields& f, Support& v) {
 }
 void describe(Fields& f, PressureLoad& v) {
   f.function({"pressure", "on the faces; may be an expression of the time t"}, v.pressure, any(unit::pressure));
-  f.flag({"follows", "whether it goes with the faces as they turn and stretch"}, v.follows);
+  f.flag({"follows", "whether it acts on the deformed faces (follower load)"}, v.follows);
 }
 void describe(Fields& f, TractionLoad& v) {
-  f.functions({"traction", "force per area of the faces at the start; may be expressions of the time t"}, v.traction,
+  f.functions({"traction", "force per undeformed area of the faces; may be expressions of the time t"}, v.traction,
               unit::pressure);
 }
 void describe(Fields& f, Load& v) {
   static constexpr const char* kinds[] = {"pressure", "traction"};
   f.where(v.where);
   f.text({"on", "face set: of the mesh, or one of the sets of the solid"}, v.on, true);
-  f.oneOf({"type", "normal to the faces, or in a direction of its own"}, v.kind, kinds);
+  f.oneOf({"type", "normal to the faces, or in a given direction"}, v.kind, kinds);
 }
 void describe(Fields& f, MeshTie& v) {
   f.where(v.where);
-  f.text({"nodes", "node set that goes with the faces: that of the finer mesh"}, v.nodes, true);
+  f.text({"nodes", "node set that is tied to the faces: that of the finer mesh"}, v.nodes, true);
   f.text({"faces", "face set"}, v.faces, true);
   f.number({"tolerance", "largest distance of a node from the faces"}, v.tolerance, positive(unit::length));
 }
 void describe(Fields& f, StateOfSolid& v) {
   f.file({"file",
-          "checkpoint that has a solid of this name, with the same mesh, material and formulation: displacements, "
-          "velocities "
-          "and plastic flow are those of its nodes and elements; displacements of supports count from there"},
+          "checkpoint with a solid of this name and the same mesh, material and formulation: initial displacements, "
+          "velocities and plastic strains; displacements of supports count from there"},
          v.file);
 }
 void describe(Fields& f, Solid& v) {
@@ -129,18 +128,17 @@ void describe(Fields& f, Solid& v) {
   f.object({"material", "of the solid"}, v.material);
   f.word({"formulation", "of the elements"}, v.formulation, formulations);
   f.flag({"gravity", "whether gravity acts on it"}, v.gravity);
-  f.choice({"stepping", "how it is stepped in time"}, v.implicitSteps, steppings);
+  f.choice({"stepping", "time integration"}, v.implicitSteps, steppings);
   f.choice({"linear_solver",
             "of implicit steps; auto: direct as long as the factors take no more than 2 GiB, else conjugate gradients, "
             "which take a fraction of the memory"},
            v.linearSolver, solvers);
   f.number({"consistent_mass",
-            "of the consistent mass, the rest being lumped; 1 with implicit steps, else 0, if not given; (1 - "
-            "(d/h)^2)/2 lets waves go as in a lattice of "
-            "grains of diameter d in elements of edge h"},
+            "fraction of the consistent mass, the rest is lumped; if not given, 1 with implicit steps, else 0; (1 - "
+            "(d/h)^2)/2 gives elements of edge h the wave dispersion of a lattice of grains of diameter d"},
            v.massFraction, between(0.0, 1.0));
-  f.object({"state", "of another run that it begins with"}, v.state);
-  velocity(f, v.velocity, "of all its nodes at the start, beside that of the state");
+  f.object({"state", "initial state, of another run"}, v.state);
+  velocity(f, v.velocity, "of all its nodes at the start, added to that of the state");
   f.list({"sets", "nodes and faces by their place"}, v.sets);
   f.list({"supports", "nodes that are held or moved"}, v.supports);
   f.list({"loads", "on faces"}, v.loads);
@@ -158,24 +156,24 @@ void describe(Fields& f, SurfaceContact& v) {
   static constexpr const char* surfaces[] = {"flat", "smooth"};
   static constexpr const char* rules[] = {"projected", "deepest"};
   f.text({"on", "face set: of the mesh, or one of the sets of the solid"}, v.on, false);
-  f.numberOrWord(
-      {"kernel",
-       "width over which contacts are spread on the surface; none: single nodes, which give way the more the finer "
-       "the mesh"},
-      v.kernel.width, positive(unit::length), kernels);
+  f.numberOrWord({"kernel",
+                  "width over which contact forces are spread on the surface; none: forces on the nodes of single "
+                  "facets, whose compliance grows with refinement"},
+                 v.kernel.width, positive(unit::length), kernels);
   f.choice({"kernel_shape", "of the kernel"}, v.kernel.shape, kernelShapes);
   f.choice({"kernel_correction",
-            "at sides: linear keeps first moments, symmetric keeps even loads even; none with the transfer spread"},
+            "at edges of the surface: linear keeps first moments, symmetric keeps uniform loads uniform; must be none "
+            "with the transfer spread"},
            v.kernel.correction, corrections);
   f.choice({"transfer",
-            "adjoint: gap and load by the same weights, which makes no energy; spread: the gap is that of single "
-            "facets, and the load alone is spread (Cheng et al. 2023, Eqs. 14 and 15)"},
+            "adjoint: the same weights for gap and load, which conserves energy; spread: the gap of single facets, and "
+            "only the load is spread (Cheng et al. 2023, Eqs. 14 and 15)"},
            v.spread, transfers);
-  f.choice({"surface", "facets, or patches of B-splines through them, without edges; of faces of four nodes"}, v.smooth,
-           surfaces);
+  f.choice({"surface", "flat facets, or B-spline patches through them without edges; smooth needs faces of four nodes"},
+           v.smooth, surfaces);
   f.choice({"edges",
-            "where a grain touches several facets: projected clear of all, as a potential asks; or the deepest contact "
-            "alone, the mean of all where all are faces (code of Cheng et al. 2023)"},
+            "where a grain touches several facets: one contact, projected clear of all, which has a potential; or the "
+            "deepest contact, the mean of all where all are faces (code of Cheng et al. 2023)"},
            v.edges, rules);
   f.object({"contact", "law of these contacts; that of the grains if not given"}, v.contact);
   contactMaterial(f, v.contactMaterial);
@@ -189,34 +187,35 @@ void describe(Fields& f, Overlap& v) {
   static constexpr const char* rows[] = {"per-node", "per-element"};
   static constexpr const char* reaches[] = {"overlap", "outside"};
   static constexpr const char* automatic[] = {"auto"};
-  f.choice({"axis", "along which one model hands over to the other"}, v.axis, axisNames);
+  f.choice({"axis", "along which the weights change from one model to the other"}, v.axis, axisNames);
   f.number({"solid_border", "coordinate at which the solid ends, within the grains"}, v.solidBorder, any(unit::length));
   f.number({"particle_border", "coordinate at which the grains end, within the solid"}, v.particleBorder,
            any(unit::length));
   f.choice({"profile", "of the weights between the borders"}, v.profile, profiles);
   f.number(
-      {"floor", "least fraction of either model at the borders; the more, the larger the steps of the grains there"},
+      {"floor", "least weight of either model at the borders; a larger one allows larger steps of the grains there"},
       v.floor, between(0.0, 0.5, false, true));
-  f.choice({"constraint", "what holds the two together; dashpot: a penalty on the gap's increment of a step"},
-           v.constraint, constraints);
-  f.numberOrWord({"penalty", "stiffness per volume; of a dashpot, to be given, that of its increments"}, v.penalty,
-                 positive(unit::penalty), automatic);
+  f.choice({"constraint", "how the gap is held; dashpot: a penalty on its increment per step"}, v.constraint,
+           constraints);
+  f.numberOrWord(
+      {"penalty", "stiffness per volume; must be given for a dashpot, which applies it to increments of the gap"},
+      v.penalty, positive(unit::penalty), automatic);
   f.choice({"dashpot_matrix", "of a dashpot: row sums, or products of shape functions"}, v.consistentDashpot, matrices);
   f.choice({"order", "of a dashpot on an implicit solid: forces of the same macro step, or of the one before"},
            v.staggered, orders);
-  f.choice(
-      {"gap", "where the two fields are compared: at the grains, which makes no gap of linear fields, or at nodes"},
-      v.gap, gaps);
+  f.choice({"gap", "where the two fields are compared: at the grains, where linear fields have no gap, or at nodes"},
+           v.gap, gaps);
   f.choice({"rows", "of the gap: one per node, or one per element and corner"}, v.perElement, rows);
   f.number({"kernel", "width over which gaps are averaged; 0: none"}, v.kernel, notNegative(unit::length));
   f.choice({"kernel_shape", "of the kernel"}, v.kernelShape, kernelShapes);
   f.flag({"kernel_normalised", "whether kernels cut at a border are normalised"}, v.normalised);
-  f.choice({"kernel_reach", "kernels within the overlap, or also from outside; the latter with the gap at nodes"},
+  f.choice({"kernel_reach",
+            "kernels over grains of the overlap, or also over those outside; the latter needs the gap at nodes"},
            v.reachOut, reaches);
-  f.number({"absorber", "rate at which motions of grains that the mesh cannot carry are damped; 0: none"}, v.absorber,
+  f.number({"absorber", "damping rate of grain motions that the mesh cannot represent; 0: none"}, v.absorber,
            notNegative(unit::rate));
   f.flag({"initial_equilibrium",
-          "whether the solid begins deformed until it carries its loads and the grains, which should be at rest"},
+          "whether the solid starts deformed, in equilibrium with its loads and the grains, which should be at rest"},
          v.initialEquilibrium);
 }
 void describe(Fields& f, Coupling& v) {

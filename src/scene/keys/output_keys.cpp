@@ -8,11 +8,11 @@ void solid(Fields& f, std::string& value) { f.text({"solid", "name of the solid"
 }  // namespace
 
 void describe(Fields& f, GrainProbe& v) {
-  f.vector({"at", "place; the grain is the one that is nearest to it at the start"}, v.at, unit::length);
+  f.vector({"at", "position; the probe follows the grain nearest to it at the start"}, v.at, unit::length);
 }
 void describe(Fields& f, NodeProbe& v) {
   solid(f, v.solid);
-  f.vector({"at", "place; the node is the one that is nearest to it at the start"}, v.at, unit::length);
+  f.vector({"at", "position; the probe follows the node nearest to it at the start"}, v.at, unit::length);
 }
 void describe(Fields& f, WallProbe& v) {
   f.integer({"wall", "which item of \"walls\", counted from 0"}, v.wall, 0, 1000000);
@@ -22,8 +22,7 @@ void describe(Fields& f, DriveProbe& v) {
 }
 void describe(Fields& f, SupportProbe& v) {
   solid(f, v.solid);
-  f.text({"on", "node set that supports hold or move: the sum of their forces; of one that only ties carry, theirs"},
-         v.on, true);
+  f.text({"on", "node set with supports, whose forces are summed; if it has ties only, theirs"}, v.on, true);
 }
 void describe(Fields& f, RegionProbe& v) { f.box({"box", "two corners"}, v.box); }
 void describe(Fields& f, Probe& v) {
@@ -45,7 +44,7 @@ void describe(Fields& f, Output& v) {
   f.flag({"hdf5", "whether the series is written as series.h5 too, and solids at the end as .vtkhdf"}, v.hdf5);
   f.number({"frames", "interval of frames for ParaView"}, v.frames, positive(unit::time));
   f.wordList({"contents", "of the frames"}, v.contents, contents, false);
-  f.number({"checkpoints", "interval of states to go on from"}, v.checkpoints, positive(unit::time));
+  f.number({"checkpoints", "interval of checkpoints"}, v.checkpoints, positive(unit::time));
 }
 
 }  // namespace dovetail::scene
