@@ -35,7 +35,7 @@ TEST(ScenePlausible, NumbersOfAnotherUnitAreToldWithIt) {
   expectParts(bedWith(R"("law": "linear", "stiffness": 1e5)", hertz + "\"2 mPa\""),
               {"contact.youngs_modulus is 0.002 Pa", "write \"2 MPa\" if that is meant"});
   expectParts(bedWith(R"("law": "linear", "stiffness": 1e5)", hertz + "70"), {"write \"70 GPa\" if that is meant"});
-  expectParts(bedWith("1e5", "1e-6"), {"contact.stiffness is 1e-06 N/m", "look at its unit", "In the first step"});
+  expectParts(bedWith("1e5", "1e-6"), {"contact.stiffness is 1e-06 N/m", "check its unit", "In the first step"});
   expectParts(bedWith("-9.81]", "-981000]"), {"gravity is -981000 m/s2", "write \"-981000 mm/s2\""});
   expectParts(bedWith(R"("velocity": [0, 0, 0])", R"("velocity": [0, 0, -20000])"), {"write \"-20000 mm/s\""});
 }
@@ -51,7 +51,7 @@ TEST(ScenePlausible, ValuesJustOutsideOfWhatIsUsual) {
 
 TEST(ScenePlausible, SpringsHarderThanDiamond) {
   expectParts(bedWith("1e5", "1e13"),
-              {"contact.stiffness is 1e+13 N/m, which makes grains of 0.01 m radius as hard as a "
+              {"contact.stiffness is 1e+13 N/m, which makes grains of 0.01 m radius as stiff as a "
                "material of 1e+15 Pa",
                "write 5e+08 N/m"});
   EXPECT_EQ(bedWith("1e5", "1e10"), "");
@@ -75,7 +75,7 @@ TEST(ScenePlausible, BondsThatBreakAtOnceOrOnlyCreep) {
   };
   EXPECT_EQ(of(R"("tensile_strength": 5e5, "damping_time": 2e-6)"), "");
   expectParts(of(R"("tensile_strength": 0.5)"), {"bonds.0.tensile_strength is 0.5 Pa", "write \"0.5 MPa\""});
-  expectParts(of(R"("damping_time": 2)"), {"bonds.0.damping_time is 2 s", "to damp them by 5 %"});
+  expectParts(of(R"("damping_time": 2)"), {"bonds.0.damping_time is 2 s", "for a damping ratio of 5 %"});
 }
 
 TEST(ScenePlausible, StrengthAboveTheModulus) {
@@ -95,12 +95,12 @@ TEST(ScenePlausible, OneFaultOfManyItemsIsToldOnce) {
   };
   const std::string found =
       warningsOf(R"("particles": [)" + one("2.5", "0") + "," + one("2.7", "1") + "," + one("2.9", "2") + "],");
-  expectParts(found, {"particles.0.density", "The same goes for 2 more."});
+  expectParts(found, {"particles.0.density", "The same holds for 2 more."});
   EXPECT_EQ(found.find("particles.1.density"), std::string::npos);
 }
 
 TEST(ScenePlausible, SoundThatNoMaterialHas) {
-  expectParts(warningsOf(replaced(block, "1e6", "500") + onBlock + onTop), {"Waves in \"b\" go at 0.707 m/s"});
+  expectParts(warningsOf(replaced(block, "1e6", "500") + onBlock + onTop), {"Waves in \"b\" travel at 0.707 m/s"});
   EXPECT_EQ(warningsOf(replaced(block, "1e6", "5000") + onBlock + onTop), "");
 }
 
@@ -114,7 +114,7 @@ TEST(ScenePlausible, ElementsThatLock) {
   EXPECT_EQ(of("0.45", "standard", "hex8"), "");
   expectParts(of("0.49999", "standard", "hex8"),
               {"\"b\" hardly changes its volume (poisson_ratio 0.49999)", "write \"formulation\": \"enhanced\""});
-  expectParts(of("0.499", "standard", "tet4"), {"tet4 take for being rigid", "take tet10"});
+  expectParts(of("0.499", "standard", "tet4"), {"tet4 elements lock", "take tet10"});
   EXPECT_EQ(of("0.499", "enhanced", "hex8"), "");
   expectParts(of(R"(0.3, "yield_stress": 1e3)", "standard", "hex8", "J2"),
               {"\"b\" flows at constant volume (J2), which hex8"});

@@ -239,10 +239,10 @@ TEST(Program, TellsOfGrainsThatNobodyHolds) {
     const Outcome outcome = runProgram({"run", (folder / "pit.json").string(), "--out", out, "--set",
                                         before ? "stages=[{\"do\": \"run\", \"time\": 0.005}]" : "steps.dt=5e-5"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    const std::string told = "3 grains came into \"soil\" where its overlap does not hold them";
+    const std::string told = "3 grains entered \"soil\" where its overlap does not constrain them";
     for (const std::string& text : {outcome.out, readText(std::filesystem::path(out) / "summary.txt")})
       EXPECT_EQ(text.find("WARNING: " + told) == std::string::npos, before) << text;
-    EXPECT_EQ(readText(std::filesystem::path(out) / "summary.json").find("3 grains came into") == std::string::npos,
+    EXPECT_EQ(readText(std::filesystem::path(out) / "summary.json").find("3 grains entered") == std::string::npos,
               before);
   }
 }

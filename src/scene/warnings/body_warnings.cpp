@@ -52,20 +52,20 @@ void lookAtWall(const std::string& name, const dem::TriangulatedWall& wall, cons
   const bool isBody = wall.oneSided && defects.closedAndOriented();
   const bool isCavity = isBody && geometry::signedVolume(wall.x, wall.facets) < 0.0;
   if (wall.oneSided && !defects.closedAndOriented())
-    lines.push_back(name + " is told to be closed and is not (" + geometry::describe(defects) +
-                    "): mend it, or write \"closed\": false.");
+    lines.push_back(name + " has \"closed\": true and is not closed (" + geometry::describe(defects) +
+                    "): repair it, or write \"closed\": false.");
   if (isCavity)
     lines.push_back(name +
-                    " is closed with its normals inwards: it holds grains in, like a drum, and pulls in those that "
-                    "touch it from outside. If grains are outside, turn the facets in its file.");
+                    " is closed with its normals inwards: contact is on its inside, as in a drum, and grains that "
+                    "touch it from outside are pulled in. If grains are outside, reverse the facets in its file.");
   if (!wall.oneSided && defects.closedAndOriented())
     lines.push_back(name +
-                    " is closed, but counts as a sheet that pushes to both sides: write \"closed\": true if "
+                    " is closed, but is treated as a sheet with contact on both sides: write \"closed\": true if "
                     "grains are only outside.");
   if (!defects.selfIntersection.empty())
-    lines.push_back(name + " cuts itself at " + std::to_string(defects.selfIntersection.size()) +
+    lines.push_back(name + " intersects itself at " + std::to_string(defects.selfIntersection.size()) +
                     " pairs of facets, the first " + std::to_string(defects.selfIntersection.front()[0]) + " and " +
-                    std::to_string(defects.selfIntersection.front()[1]) + ": mend it.");
+                    std::to_string(defects.selfIntersection.front()[1]) + ": repair it.");
   if (isBody && !isCavity) lookForGrainsWithin(p, {wall.x, wall.facets}, name, "", lines);
 }
 
@@ -94,7 +94,7 @@ void lookForStreamsWithin(const Built& built, const Scene& scene, std::size_t so
       within += geometry::windingNumber(skin.x, skin.facets, x) > 0.5 ? 1 : 0;
     }
     if (const double fraction = within / static_cast<double>(each * each * each); fraction > 0.25)
-      lines.push_back("The region of insertions." + std::to_string(k) + " lies for " + percent(fraction) + " in " +
+      lines.push_back(percent(fraction) + " of the region of insertions." + std::to_string(k) + " lies in " +
                       quoted(side.name) + ": move it out.");
   }
 }
@@ -119,7 +119,7 @@ void lookForBodiesWithin(const Built& built, const Scene& scene, Lines& lines) {
   for (const auto& [i, j] : overlapping(bodies))
     if (static_cast<std::size_t>(i) < solids)
       lines.push_back(names[static_cast<std::size_t>(i)] + " and " + names[static_cast<std::size_t>(j)] +
-                      " overlap at the start, and nothing keeps them apart: move one of them.");
+                      " overlap at the start, and solids have contact with grains only: move one of them.");
 }
 
 void lookAtWalls(const Built& built, Lines& lines) {

@@ -110,11 +110,12 @@ void lookAtRegion(const Built& built, const Scene& scene, const std::string& who
                   Lines& lines) {
   const std::string begin = "The region of " + whose;
   if (built.run->grains.particles.size() == 0 && scene.insertions.empty())
-    lines.push_back(begin + " stays empty, as the scene has no grains: give it some, or leave the region out.");
+    lines.push_back(begin + " stays empty, as the scene has no grains: add grains, or leave the region out.");
   else if (isBeyondReach(built, scene, region))
-    lines.push_back(begin + " is far from all grains, which never come there: move it, or look at its unit.");
+    lines.push_back(begin + " is out of reach of all grains: move it, or check its unit.");
   else if (!anyMoves(scene.walls) && isBehindWall(built.run->grains, region))
-    lines.push_back(begin + " lies behind a wall, where nobody comes: move it inside, or leave a side of walls open.");
+    lines.push_back(begin +
+                    " lies behind a wall, out of reach of grains: move it inside, or leave a side of walls open.");
 }
 
 void lookAtStreams(const Built& built, const Scene& scene, Lines& lines) {
@@ -122,12 +123,12 @@ void lookAtStreams(const Built& built, const Scene& scene, Lines& lines) {
     const double within = fractionWithin(built.run->grains, scene.insertions[k]);
     const std::string name = "The region of " + item("insertions", k);
     if (within < 0.5)
-      lines.push_back(name + (within == 0.0 ? " lies" : " lies for " + percent(1.0 - within)) +
-                      " behind walls or outside of the domain, where nobody can enter: move it inside.");
+      lines.push_back(name + (within == 0.0 ? " is" : " is " + percent(1.0 - within)) +
+                      " behind walls or outside of the domain, where no grains can be inserted: move it inside.");
     for (std::size_t o = 0; o < scene.outlets.size(); ++o)
       if (meet(scene.insertions[k].region, scene.outlets[o].region))
-        lines.push_back(name + " reaches into that of " + item("outlets", o) +
-                        ", where newcomers leave at once: move them apart.");
+        lines.push_back(name + " overlaps that of " + item("outlets", o) +
+                        ", where inserted grains are removed at once: move them apart.");
   }
   for (std::size_t o = 0; o < scene.outlets.size(); ++o)
     lookAtRegion(built, scene, item("outlets", o), scene.outlets[o].region, lines);
@@ -139,7 +140,7 @@ void lookAtStreams(const Built& built, const Scene& scene, Lines& lines) {
     const auto count = std::ranges::count_if(x, [&](const Vec3& at) { return holds(scene.outlets[o].region, at); });
     if (count > 0)
       lines.push_back(std::to_string(count) + " grains lie in the region of " + item("outlets", o) +
-                      " at the start and leave at once: leave them out, or move the region.");
+                      " at the start and are removed at once: leave them out, or move the region.");
   }
 }
 
@@ -154,9 +155,9 @@ void lookAtCouplings(const Built& built, const Scene& scene, Lines& lines) {
     if (!std::holds_alternative<SurfaceContact>(coupling.kind)) continue;
     for (std::size_t s = 0; s < scene.solids.size(); ++s)
       if (scene.solids[s].name == coupling.solid && isOutOfReach(built, scene, s))
-        lines.push_back("No grains are near " + quoted(coupling.solid) +
-                        ", nor come there, so that its surface coupling does nothing: move one of them, or leave the "
-                        "coupling out.");
+        lines.push_back(
+            "No grains can reach " + quoted(coupling.solid) +
+            ", so that its surface coupling does nothing: move the grains or the solid, or leave the coupling out.");
   }
 }
 
@@ -164,20 +165,21 @@ void lookAtCouplings(const Built& built, const Scene& scene, Lines& lines) {
 
 void lookAtPaths(const Scene& scene, Lines& lines) {
   const auto jumpOf = [&](const auto& one) { return pathOf(one.velocity, one.displacement, scene).displacement(0.0); };
-  const std::string begins = ", as its displacement is not 0 at t = 0: let it begin at 0, such as \"0.1*min(t, 1)\"";
+  const std::string begins = ", as its displacement is not 0 at t = 0: let it start at 0, such as \"0.1*min(t, 1)\"";
   for (std::size_t w = 0; w < scene.walls.size(); ++w) {
     const Wall& wall = scene.walls[w];
     if (const Vec3 jump = jumpOf(wall); norm(jump) > 0.0 && !isConstant(*wall.displacement))
-      lines.push_back(item("walls", w) + " begins " + placeText(jump) + " away from where it is described" + begins +
-                      ", or describe it there.");
+      lines.push_back(item("walls", w) + " starts displaced by " + placeText(jump) + begins +
+                      ", or give the wall its displaced position.");
     if (wall.turn && functionOf(wall.turn->angle, scene)(0.0) != 0.0)
-      lines.push_back(item("walls", w) + " begins turned from how it is described" +
-                      ", as the angle of its turn is not 0 at t = 0: let it begin at 0, or describe it so.");
+      lines.push_back(item("walls", w) +
+                      " starts turned, as the angle of its turn is not 0 at t = 0: let it start at 0, or give the wall "
+                      "its turned position.");
   }
   for (std::size_t d = 0; d < scene.drives.size(); ++d)
     if (const Vec3 jump = jumpOf(scene.drives[d]); norm(jump) > 0.0)
       lines.push_back("The grains of " + item("drives", d) + " lie " + placeText(jump) + " from their path" + begins +
-                      "; they go along it from where they lie.");
+                      "; they move along it from their own positions.");
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ void lookAtItems(const std::string& list, const std::vector<Item>& items, Lines&
     const auto [first, isNew] = known.emplace(text, k);
     if (!isNew)
       lines.push_back(list + "." + std::to_string(first->second) + " and " + list + "." + std::to_string(k) +
-                      " say the same" + (list.ends_with("supports") ? "" : ", and both count") +
+                      " are identical" + (list.ends_with("supports") ? "" : ", and both act") +
                       ": leave one of them out.");
   }
 }
@@ -37,8 +37,8 @@ void lookAtSupports(const std::string& of, const std::vector<Support>& supports,
     for (std::size_t c = 0; c < 3; ++c)
       if (!held[c] && !(isConstant(path[c]) && path[c].number == 0.0))
         lines.push_back(of + "." + std::to_string(k) + " moves along " + "xyz"[c] +
-                        ", which it does not hold, so that nothing comes of it: write \"" + "xyz"[c] +
-                        "\": true, or leave that part of its motion out.");
+                        ", which is not among its components, so that this has no effect: add \"" + "xyz"[c] +
+                        "\" to \"components\", or leave that part of its motion out.");
   }
 }
 
@@ -71,9 +71,8 @@ void lookAtHeldFaces(const Built& built, const Scene& scene, std::size_t s, cons
     if (std::ranges::all_of(fem::faceSet(built.meshes[s], set), [&](const fem::Face& face) {
           return std::all_of(face.node.begin(), face.node.begin() + fem::nodesOf(face.shape), isHeld);
         }))
-      lines.push_back(
-          of + "." + std::to_string(k) + " acts on " + quoted(set) +
-          ", all of whose nodes are held, and does nothing but press on the supports: give it a free face.");
+      lines.push_back(of + "." + std::to_string(k) + " acts on " + quoted(set) +
+                      ", all of whose nodes are held, and loads the supports only: give it a free face.");
   }
 }
 
@@ -89,7 +88,8 @@ void lookAtDrivenInOverlaps(const Built& built, Lines& lines) {
           drives[d]->ids(), [&](std::int64_t id) { return within.contains(dem::find(grains.particles, id)); });
       if (count > 0)
         lines.push_back(std::to_string(count) + " grains of drives." + std::to_string(d) + " lie in the overlap with " +
-                        scene::quoted(tie->side().name) + ", which moves them as well: leave them out of the group.");
+                        scene::quoted(tie->side().name) +
+                        ", which constrains them as well: leave them out of the group.");
     }
   }
 }

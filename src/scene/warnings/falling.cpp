@@ -97,7 +97,7 @@ void lookForEscapes(const Scene& scene, const Vec3& down, Lines& lines) {
     return;
   lines.push_back("Gravity pulls all grains away from the walls and solids, and nothing stops them" +
                   openSide(scene, down) +
-                  ": turn gravity round, close the side, or give the scene a floor, an outlet or a domain.");
+                  ": reverse gravity, close the side, or give the scene a floor, an outlet or a domain.");
 }
 
 }  // namespace
@@ -119,10 +119,9 @@ void lookForFalling(const Built& built, const Scene& scene, Lines& lines) {
       scene.insertions, [&](const Insertion& one) { return shadows.holds(one.region, one.radius.largest); });
   if (entering || (count == 0 && scene.insertions.empty())) return;
   if (count > 0 && std::ranges::any_of(scene.stages, relaxes))
-    lines.push_back(
-        std::to_string(count) + " of " + std::to_string(p.size()) +
-        " grains have nothing below them, fall for ever, and a stage that relaxes never ends: give the scene "
-        "a wall or a solid below, or run for a time.");
+    lines.push_back(std::to_string(count) + " of " + std::to_string(p.size()) +
+                    " grains have nothing below them and fall without end, so that a stage that relaxes cannot reach "
+                    "rest: add a wall or a solid below, or run for a time.");
   else if (count == p.size())
     lookForEscapes(scene, down, lines);
 }

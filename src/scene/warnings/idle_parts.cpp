@@ -35,9 +35,8 @@ void lookAtTurn(const Built& built, const Scene& scene, std::size_t w, Lines& li
   for (int k = 0; k <= samples; ++k)
     fastest = std::max(fastest, std::abs(travel.velocity(durationOf(scene) * k / samples)));
   if (const double rim = fastest * radiusOf(built, scene, w); rim > fast)
-    lines.push_back(item("walls", w) + ".turn goes at up to " + rounded(fastest) + " rad/s, and the rim at " +
-                    rounded(rim) + " m/s: write \"(" + angle.expression +
-                    ")*pi/180\" if degrees are meant, or turn more slowly.");
+    lines.push_back(item("walls", w) + ".turn reaches " + rounded(fastest) + " rad/s, with the rim at " + rounded(rim) +
+                    " m/s: write \"(" + angle.expression + ")*pi/180\" if degrees are meant, or turn more slowly.");
 }
 
 void lookAtIdleWalls(const Built& built, const Scene& scene, Lines& lines) {
@@ -112,7 +111,7 @@ void lookAtFaces(const Built& built, const Scene& scene, Lines& lines) {
       if (std::ranges::none_of(skin.wall.facets, isMet))
         lines.push_back("All grains are behind the faces " + quoted(contact->on) + " of " + quoted(coupling.solid) +
                         ", which " + item("couplings", k) +
-                        " lets touch them: name the faces that they come to, or \"skin\" for all.");
+                        " acts on: name the faces on the side of the grains, or \"skin\" for all.");
     }
   }
 }
@@ -170,7 +169,7 @@ void lookAtClumps(const Scene& scene, Lines& lines) {
       for (std::size_t i = 0; i < j; ++i)
         if (norm(spheres[i].at - spheres[j].at) == 0.0 && spheres[i].radius == spheres[j].radius)
           lines.push_back(of + std::to_string(i) + " and " + of + std::to_string(j) +
-                          " are the same sphere, which pushes twice: leave one of them out.");
+                          " are the same sphere, whose contacts count twice: leave one of them out.");
   }
 }
 
@@ -182,8 +181,9 @@ void lookAtWidths(const std::string& whose, const std::vector<Vec3>& x, const Pe
   for (int k = 0; k < 3; ++k) {
     const double width = body.upper[k] - body.lower[k], period = space.box.upper[k] - space.box.lower[k];
     if (space.axes[static_cast<std::size_t>(k)] && width > (1.0 + 1e-6) * period)
-      lines.push_back(whose + " is " + rounded(width) + " m wide along " + "xyz"[k] + ", where space repeats after " +
-                      rounded(period) + " m, and lies over its own images: make it narrower, or the period longer.");
+      lines.push_back(whose + " is " + rounded(width) + " m wide along " + "xyz"[k] + ", where the period is " +
+                      rounded(period) +
+                      " m, and overlaps its periodic images: make it narrower, or the period longer.");
   }
 }
 
@@ -212,9 +212,9 @@ void lookAtPull(const dem::Model& grains, const Scene& scene, Lines& lines) {
   for (int k = 0; k < 3; ++k)
     if (scene.periodic->axes[static_cast<std::size_t>(k)] && scene.gravity[k] != 0.0 &&
         !anyHolds(grains, scene.gravity, k))
-      lines.push_back("Gravity pulls along " + std::string(1, "xyz"[k]) +
-                      ", where space repeats, and no wall, solid or drive holds the grains, which go faster for ever: "
-                      "give the scene something that holds them, or leave that part of gravity out.");
+      lines.push_back("Gravity acts along " + std::string(1, "xyz"[k]) +
+                      ", which is periodic, and no wall, solid or drive holds the grains, so that they accelerate "
+                      "without end: add something that holds them, or leave that component of gravity out.");
 }
 
 void lookAtPeriods(const Built& built, const Scene& scene, Lines& lines) {
@@ -223,9 +223,8 @@ void lookAtPeriods(const Built& built, const Scene& scene, Lines& lines) {
     if (const geometry::Box& box = scene.domain->box;
         space.axes[static_cast<std::size_t>(k)] &&
         (box.lower[k] > space.box.lower[k] || box.upper[k] < space.box.upper[k]))
-      lines.push_back("domain.box ends within the period along " + std::string(1, "xyz"[k]) +
-                      ", where space repeats and nobody leaves, and does not count there: make it as wide as the "
-                      "period.");
+      lines.push_back("domain.box does not span the period along " + std::string(1, "xyz"[k]) +
+                      ", where no grain can leave, so that it has no effect there: make it span the period.");
   for (std::size_t s = 0; s < scene.solids.size(); ++s)
     lookAtWidths("The solid " + quoted(scene.solids[s].name), built.meshes[s].X, space, lines);
   const auto meshes = std::as_const(built.run->grains).terms.all<dem::MeshWallTerm>();
@@ -243,7 +242,7 @@ void lookAtGaps(const Built& built, const Scene& scene, Lines& lines) {
   for (std::size_t k = 0; k < scene.bonds.size(); ++k)
     if (scene.bonds[k].gap > 2.0 * largest)
       lines.push_back(item("bonds", k) + ".gap is " + rounded(scene.bonds[k].gap) +
-                      " m, wider than a grain, so that bonds reach through others: write about " +
+                      " m, larger than a grain, so that bonds pass through other grains: write about " +
                       rounded(0.1 * largest) + " m to bond neighbours.");
 }
 
@@ -257,8 +256,8 @@ void lookAtMeetings(const Built& built, const Scene& scene, Lines& lines) {
       if (comesTo(bodies[j], {}, bodies[i], 0.0) || !comesTo(bodies[j], velocity, bodies[i], durationOf(scene)))
         continue;
       lines.push_back(quoted(scene.solids[i].name) + " and " + quoted(scene.solids[j].name) +
-                      " move into each other, and go through: solids touch grains only. Change their velocities, or "
-                      "make one of them of bonded grains.");
+                      " move into each other and will overlap: solids have contact with grains only. Change their "
+                      "velocities, or make one of them of bonded grains.");
     }
 }
 
@@ -284,7 +283,8 @@ void lookAtFloors(const Built& built, const Scene& scene, Lines& lines) {
     const Vec3 way = time * solid.velocity + (solid.gravity ? 0.5 * time * time : 0.0) * scene.gravity;
     if (const int wall = wallThrough(built, built.meshes[s].X, way); wall >= 0)
       lines.push_back(quoted(solid.name) + " moves into " + item("walls", static_cast<std::size_t>(wall)) +
-                      ", and goes through: walls touch grains only. Hold it by supports, or make it of bonded grains.");
+                      " and will pass through it: walls have contact with grains only. Hold it by supports, or make it "
+                      "of bonded grains.");
   }
   const auto meshes = std::as_const(built.run->grains).terms.all<dem::MeshWallTerm>();
   for (std::size_t w = 0; w < built.walls.size(); ++w) {
@@ -293,7 +293,7 @@ void lookAtFloors(const Built& built, const Scene& scene, Lines& lines) {
     for (std::size_t m = built.walls[w].firstMesh; m < built.walls[w].endMesh; ++m)
       if (const int wall = wallThrough(built, meshes[m]->mesh.wall.x, way); wall >= 0)
         lines.push_back(item("walls", w) + " moves into " + item("walls", static_cast<std::size_t>(wall)) +
-                        ", and what lies between them is crushed: let it stop before.");
+                        ", and crushes what lies between them: let it stop before.");
   }
 }
 

@@ -145,8 +145,9 @@ void lookAtSoftness(const Built& built, const Scene& scene, Lines& lines) {
   if (!grains.laws || std::isinf(grains.laws->reach()) || (!scene.contact && scene.contacts.empty())) return;
   const dem::ImpactLimit impact = dem::impactLimit(grains, dem::demandOf(grains));
   if (impact.overlap > deep)
-    lines.push_back("The springs are too soft for the speeds: " + impact.deepest + " goes " + inRadii(impact.overlap) +
-                    " deep, and grains may pass through each other and through walls: take a law that is stiffer by " +
+    lines.push_back("The springs are too soft for the speeds: " + impact.deepest + " overlaps by " +
+                    inRadii(impact.overlap) +
+                    ", and grains may pass through each other and through walls: take a law that is stiffer by " +
                     rounded(std::pow(impact.overlap / 0.05, 2.0)) + " times, or smaller speeds.");
   for (const auto& [row, one] : smallestIn(scene, grains.particles)) {
     const double spring = softestSpring(scene, row, one.radius);

@@ -34,7 +34,7 @@ Lines onePerKind(const Lines& lines) {
     ++count[found->second];
   }
   for (std::size_t k = 0; k < first.size(); ++k)
-    if (count[k] > 1) first[k] += " The same goes for " + std::to_string(count[k] - 1) + " more.";
+    if (count[k] > 1) first[k] += " The same holds for " + std::to_string(count[k] - 1) + " more.";
   return first;
 }
 

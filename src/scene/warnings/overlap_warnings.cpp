@@ -93,7 +93,7 @@ void lookAtBorder(const fem::SolidMesh& mesh, const Overlap& overlap, const std:
   if (overlap.solidBorder < lower - margin || overlap.solidBorder > upper + margin)
     lines.push_back("solid_border of " + name + " is " + rounded(overlap.solidBorder) +
                     " m, and the solid reaches from " + rounded(lower) + " to " + rounded(upper) + " m along " +
-                    "xyz"[overlap.axis] + ": give the place where the solid ends within the grains.");
+                    "xyz"[overlap.axis] + ": give the coordinate at which the solid ends within the grains.");
 }
 
 /// The solid ends at its border.
@@ -104,8 +104,7 @@ void lookBeyondBorder(const fem::SolidMesh& mesh, const Overlap& overlap, const 
       mesh.X, [&](const Vec3& X) { return side * (X[overlap.axis] - overlap.solidBorder) > margin; });
   if (count > 0)
     lines.push_back(std::to_string(count) + " nodes lie beyond solid_border of " + name + " along " +
-                    "xyz"[overlap.axis] +
-                    ", where the solid has no weight: swap the two borders, or look at the axis.");
+                    "xyz"[overlap.axis] + ", where the solid has no weight: swap the two borders, or check the axis.");
 }
 
 void lookAtPenalty(const Overlap& overlap, const Solid& solid, double elementSize, const std::string& name,
@@ -114,8 +113,7 @@ void lookAtPenalty(const Overlap& overlap, const Solid& solid, double elementSiz
   const double advised = arlequin::automaticPenalty(modulus, elementSize);
   if (overlap.penalty.word.empty() && overlap.penalty.number < 1e-4 * advised)
     lines.push_back("The penalty of " + name + " is " + rounded(overlap.penalty.number) +
-                    " Pa/m2, too soft to hold grains and solid together: write \"auto\", or about " + rounded(advised) +
-                    " Pa/m2.");
+                    " Pa/m2, too low to hold the gap: write \"auto\", or about " + rounded(advised) + " Pa/m2.");
 }
 
 }  // namespace
@@ -132,19 +130,19 @@ void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, co
   const std::string name = "the overlap with " + quoted(file.name);
   if (shared.grains == 0 || shared.elements == 0) {
     lines.push_back("Between the borders of " + name +
-                    " there is no whole element, or no grain: put them where both are.");
+                    " there is no whole element, or no grain: move them to where there are both.");
     return;
   }
   const double thickness = std::abs(overlap.solidBorder - overlap.particleBorder);
   if (thickness < 1.99 * shared.elementSize || thickness < 2.9 * shared.diameter)
     lines.push_back(name + " is " + rounded(thickness) + " m thick, with elements of " + rounded(shared.elementSize) +
                     " m and grains of " + rounded(shared.diameter) +
-                    " m: give it two elements and three grains at least.");
+                    " m: make it at least two elements and three grains thick.");
   if (overlap.constraint == static_cast<int>(arlequin::ConstraintKind::penalty))
     lookAtPenalty(overlap, file, shared.elementSize, name, lines);
   if (overlap.kernel > thickness)
-    lines.push_back("The kernel of " + name + " is wider than it is thick: take one below " + rounded(thickness) +
-                    " m.");
+    lines.push_back("The kernel of " + name + " is wider than the overlap is thick: take a width below " +
+                    rounded(thickness) + " m.");
   if (const std::size_t voids = (*found)->state().voids; voids > 0)
     lines.push_back(std::to_string(voids) + " elements within " + name +
                     " hold no grain: take larger elements, or smaller grains.");
@@ -169,8 +167,8 @@ Lines strangersIn(const Built& built) {
     if (state.strangers == 0) continue;
     const Vec3& x = state.strangerAt;
     lines.push_back(
-        std::to_string(state.strangers) + " grains came into " + scene::quoted(tie->side().name) +
-        " where its overlap does not hold them, as clumps or beyond the border of the particles; the first is " +
+        std::to_string(state.strangers) + " grains entered " + scene::quoted(tie->side().name) +
+        " where its overlap does not constrain them, as clumps or beyond the border of the particles; the first is " +
         std::to_string(state.firstStranger) + ", seen at (" + rounded(x.x) + ", " + rounded(x.y) + ", " + rounded(x.z) +
         ") m: give the sides of the solid a surface coupling, and fill the overlap.");
   }

@@ -81,7 +81,7 @@ std::string remedyFor(const Plausible& range, double value) {
     if (!unit.empty() && quantity && isIn(range, std::abs(quantity->value)))
       return "write \"" + inUnit(value, unit) + "\" if that is meant";
   }
-  return "look at its unit";
+  return "check its unit";
 }
 
 /// Goes through all numbers that have a value; zeros switch things off.

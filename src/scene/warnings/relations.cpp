@@ -27,8 +27,8 @@ void lookAtWaves(const std::string& whose, double modulus, double density, Lines
   const double slowest = density > rock ? 100.0 : 1.0;  // gels and foams are light
   const double speed = std::sqrt(modulus / density);
   if (speed >= slowest && speed <= fastest) return;
-  lines.push_back("Waves in " + whose + " go at " + rounded(speed) +
-                  " m/s, and in materials at 10 to 10000 m/s: look at " +
+  lines.push_back("Waves in " + whose + " travel at " + rounded(speed) +
+                  " m/s, and in materials at 10 to 10000 m/s: check "
                   "the units of youngs_modulus (\"2 GPa\") and density (\"2.5 g/cm3\").");
 }
 
@@ -45,10 +45,10 @@ void lookAtLocking(const Built& built, const Solid& solid, std::size_t number, L
   for (const fem::ElementGroup& group : built.meshes[number].groups) {
     const bool bricks = group.shape == fem::ElementShape::hex8, tets = group.shape == fem::ElementShape::tet4;
     if (!tets && !(bricks && solid.formulation == "standard")) continue;
-    lines.push_back(quoted(solid.name) + why + ", which " + (tets ? "tet4" : "hex8 (\"standard\")") +
-                    " take for being rigid: " +
-                    (tets ? "take tet10" : "write \"formulation\": \"enhanced\" or \"mean-dilatation\"") +
-                    (flows ? "." : ", or a poisson_ratio of 0.45."));
+    lines.push_back(
+        quoted(solid.name) + why + ", for which " + (tets ? "tet4" : "hex8 (\"standard\")") +
+        " elements lock: " + (tets ? "take tet10" : "write \"formulation\": \"enhanced\" or \"mean-dilatation\"") +
+        (flows ? "." : ", or a poisson_ratio of 0.45."));
     return;
   }
 }
@@ -60,7 +60,7 @@ void lookAtStrength(const std::string& key, const Solid& solid, Lines& lines) {
     if (strength > modulus)
       lines.push_back(key + "." + name + " is " + rounded(strength) + " Pa, above youngs_modulus, " + rounded(modulus) +
                       " Pa, so that " + quoted(solid.name) +
-                      " hardly yields: look at the units of both, or take an elastic law.");
+                      " hardly yields: check the units of both, or take an elastic law.");
   };
   if (const auto* const law = std::get_if<J2Plastic>(&solid.material.law))
     tell("yield_stress", law->yieldStress, law->youngsModulus), tell("hardening", law->hardening, law->youngsModulus);
@@ -80,9 +80,9 @@ void lookAtPressures(const std::string& of, const Solid& solid, double modulus, 
   for (std::size_t k = 0; k < solid.loads.size(); ++k)
     if (const auto* const load = std::get_if<PressureLoad>(&solid.loads[k].kind);
         load && most(load->pressure) > modulus)
-      lines.push_back(of + ".loads." + std::to_string(k) + ".pressure comes to " + rounded(most(load->pressure)) +
+      lines.push_back(of + ".loads." + std::to_string(k) + ".pressure reaches " + rounded(most(load->pressure)) +
                       " Pa, above youngs_modulus of " + quoted(solid.name) + ", " + rounded(modulus) +
-                      " Pa: look at the units of both.");
+                      " Pa: check the units of both.");
 }
 
 void lookAtAspects(const std::string& of, const Solid& solid, const fem::SolidMesh& mesh, Lines& lines) {
@@ -91,7 +91,7 @@ void lookAtAspects(const std::string& of, const Solid& solid, const fem::SolidMe
   const auto worst = std::ranges::max_element(all, {}, &fem::ElementQuality::aspect);
   if (worst != all.end() && worst->aspect > slender)
     lines.push_back("Element " + std::to_string(worst - all.begin()) + " of " + quoted(solid.name) + " is " +
-                    rounded(worst->aspect) + " times as long as it is high: look at the order and units of " + of +
+                    rounded(worst->aspect) + " times as long as it is high: check the order and units of " + of +
                     "'s box and cells, or mesh it with more elements lengthwise.");
 }
 
@@ -103,8 +103,8 @@ void lookAtSpring(const std::string& key, const ContactLaw& law, double radius, 
   const auto* const linear = std::get_if<LinearContact>(&law.normal);
   if (linear && linear->stiffness > hardest * radius)
     lines.push_back(key + ".stiffness is " + rounded(linear->stiffness) + " N/m, which makes grains of " +
-                    rounded(radius) + " m radius as hard as a material of " + rounded(linear->stiffness / radius) +
-                    " Pa (diamond: 1e+12), and steps short: write " + rounded(stone * radius) +
+                    rounded(radius) + " m radius as stiff as a material of " + rounded(linear->stiffness / radius) +
+                    " Pa (diamond: 1e+12) and the step short: write " + rounded(stone * radius) +
                     " N/m, as of stone, or less.");
 }
 
@@ -135,8 +135,8 @@ void lookAtBonds(const Built& built, const Scene& scene, Lines& lines) {
     const double time = scene.bonds[k].dampingTime, critical = criticalDamping(built.run->grains, time);
     if (time > far * critical && critical > 0.0)
       lines.push_back("bonds." + std::to_string(k) + ".damping_time is " + rounded(time) + " s, " +
-                      rounded(time / critical) + " times what lets bonds creep back without oscillating: write " +
-                      rounded(0.05 * critical) + " s to damp them by 5 %, or look at its unit (\"us\").");
+                      rounded(time / critical) + " times critical damping: write " + rounded(0.05 * critical) +
+                      " s for a damping ratio of 5 %, or check its unit (\"us\").");
   }
 }
 
@@ -164,8 +164,8 @@ public:
     constexpr double far = 1000.0;
     if (most_ > far * least_)
       lines.push_back(leastKey_ + " is " + rounded(least_) + " m and " + mostKey_ + " " + rounded(most_) +
-                      " m: the small grains set the step and the large ones how far is looked for pairs. Look at their "
-                      "units, or leave the smallest grains out.");
+                      " m: the smallest grains set the time step and the largest the range of the pair search. Check "
+                      "their units, or leave the smallest grains out.");
   }
 
 private:
@@ -182,7 +182,7 @@ void lookAtLattices(const Scene& scene, Lines& lines) {
       const double distance = lattice->distance.value_or(2.0 * lattice->radius);
       if (distance > longest)
         lines.push_back("particles." + std::to_string(k) + " is one grain: its distance, " + rounded(distance) +
-                        " m, is longer than its box, " + rounded(longest) + " m. Look at their units, or give a list.");
+                        " m, is longer than its box, " + rounded(longest) + " m. Check their units, or give a list.");
     }
 }
 
@@ -205,11 +205,11 @@ void lookAtSize(const std::string& whose, const std::vector<Vec3>& x, const dem:
   const double diameter = 2.0 * *std::ranges::min_element(p.radius);
   const double all = grains.size() + diameter, size = body.size();
   if (size > machine && size > often * all)
-    lines.push_back(whose + " is " + rounded(size) + " m large, and all grains together " + rounded(all) +
+    lines.push_back(whose + " is " + rounded(size) + " m across, and all grains together " + rounded(all) +
                     " m: " + remedy + ".");
   if (size < diameter)
-    lines.push_back(whose + " is " + rounded(size) + " m large, and the smallest grain " + rounded(diameter) +
-                    " m: look at \"scale\", which is in metres per unit of a file.");
+    lines.push_back(whose + " is " + rounded(size) + " m across, and the smallest grain " + rounded(diameter) +
+                    " m: check \"scale\", which is in metres per unit of a file.");
 }
 
 void lookAtSizes(const Built& built, const Scene& scene, Lines& lines) {

@@ -54,7 +54,7 @@ void lookAtDomain(Built& built, const Scene& scene) {
   const std::string text = found.who(grains.particles) + "outside of the domain " + found.worstOf(grains.particles);
   if (grains.domain->policy != dem::EscapePolicy::remove)
     throw InputError(text, scene.domain->where, "make domain.box larger, or let \"escape\" be \"remove\"");
-  built.notes.push_back("WARNING: " + text + ", and leave at once: make domain.box larger.");
+  built.notes.push_back("WARNING: " + text + ", and are removed at once: make domain.box larger.");
 }
 
 // ---- walls
@@ -79,9 +79,10 @@ std::string sideOf(const Wall& wall, const dem::PrimitiveWall& part) {
 std::string remedyFor(const Wall& wall, const Scene& scene) {
   const Vec3 jump = pathOf(wall.velocity, wall.displacement, scene).displacement(0.0);
   if (norm(jump) > 0.0)
-    return "the wall begins displaced by " + placeText(jump) +
-           ", as its displacement is not 0 at t = 0: let it begin at 0";
-  if (std::holds_alternative<Plane>(wall.shape)) return "turn the normal to the grains, or move one of the two";
+    return "the wall starts displaced by " + placeText(jump) +
+           ", as its displacement is not 0 at t = 0: let it start at 0";
+  if (std::holds_alternative<Plane>(wall.shape))
+    return "reverse the normal, which has to point to the grains, or move one of the two";
   if (std::holds_alternative<BoxWalls>(wall.shape)) return "make the box larger, or move one of the two";
   return "change \"inside\" or the radius, or move one of the two";
 }

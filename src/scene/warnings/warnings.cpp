@@ -28,8 +28,8 @@ void lookAtContacts(const Built& built, Lines& lines) {
   const dem::Model& grains = built.run->grains;
   if (grains.laws && std::isinf(grains.laws->reach()) && p.size() > 1 && 2 * contacts.size() < p.size())
     lines.push_back("Only " + std::to_string(contacts.size()) + " pairs of " + std::to_string(p.size()) +
-                    " grains touch at the start and hold together (\"bonded\"), and the others never meet: give them "
-                    "a lattice, or leave \"bonded\" out.");
+                    " grains touch at the start and are bonded, and no other contacts form: put the grains on a "
+                    "lattice, or leave \"bonded\" out.");
   std::size_t count = 0, worst = 0;
   double most = deep;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -45,7 +45,7 @@ void lookAtContacts(const Built& built, Lines& lines) {
   if (most > 1.0 && contacts.second[worst] >= 0 && norm(contacts.from[worst] - contacts.to[worst]) == 0.0)
     lines.push_back("Particles " + std::to_string(p.id[static_cast<std::size_t>(contacts.first[worst])]) + " and " +
                     std::to_string(p.id[static_cast<std::size_t>(contacts.second[worst])]) +
-                    " lie at one place, and others may as well: leave one of each two out, or move it.");
+                    " have the same centre, and others may as well: leave one of each two out, or move it.");
   const auto nameOf = [&](int i) { return std::to_string(p.id[static_cast<std::size_t>(i)]); };
   lines.push_back(std::to_string(count) + (count == 1 ? " contact is" : " contacts are") + " deeper than " +
                   percent(deep) + " of a radius at the start, the deepest " + percent(most) + " (particle " +
@@ -62,8 +62,8 @@ void lookAtSurfaceContact(const Built& built, const Scene& scene, std::size_t so
   const double advised = surface::advisedKernel(built.meshes[solid]).kernel.width;
   const std::string name = quoted(scene.solids[solid].name);
   if (law && std::holds_alternative<HertzContact>(law->normal) && contact.kernel.width.word == "none")
-    lines.push_back("Hertz's law counts the compliance near a contact, and single nodes of " + name +
-                    " give way once more: write \"kernel\": \"advised\" (" + rounded(advised) + " m).");
+    lines.push_back("Hertz's law includes the local compliance of a contact, and forces on single nodes of " + name +
+                    " add it once more: write \"kernel\": \"advised\" (" + rounded(advised) + " m).");
   const NumberOrWord& width = contact.kernel.width;
   if (width.word.empty() && width.number > 4.0 * advised)
     lines.push_back("The kernel on " + name + " is " + rounded(width.number / advised) +
@@ -82,14 +82,14 @@ void lookAtMesh(const fem::SolidMesh& mesh, const Solid& solid, Lines& lines) {
     const double jacobian = quality.element[static_cast<std::size_t>(worst)].scaledJacobian;
     if (jacobian < 0.1)
       lines.push_back("Element " + std::to_string(worst) + " of " + name + " is nearly flat (scaled Jacobian " +
-                      rounded(jacobian) + "): mesh anew there.");
+                      rounded(jacobian) + "): refine or repair the mesh there.");
   }
   const fem::MeshTopology topology = fem::analyseTopology(mesh);
   if (topology.firstElement.size() > 1 && solid.ties.empty())
     lines.push_back(name + " is " + std::to_string(topology.firstElement.size()) +
-                    " pieces that fraction no faces: join their nodes, or give it ties.");
+                    " pieces that share no faces: join their nodes, or give it ties.");
   if (!topology.mismatchedFaces.empty() || !topology.crowdedFaces.empty() || !topology.duplicates.empty())
-    lines.push_back("Neighbours in " + name + " do not fit each other: mesh anew, without elements twice.");
+    lines.push_back("Neighbouring elements of " + name + " do not match: mesh it anew, without duplicate elements.");
 }
 
 // ---- names
@@ -97,7 +97,7 @@ void lookAtMesh(const fem::SolidMesh& mesh, const Solid& solid, Lines& lines) {
 void lookForUnused(const std::set<std::string>& names, const std::set<std::string>& used, const std::string& what,
                    Lines& lines) {
   for (const std::string& name : names)
-    if (!name.empty() && !used.contains(name)) lines.push_back(what + " " + quoted(name) + " is used by nobody.");
+    if (!name.empty() && !used.contains(name)) lines.push_back(what + " " + quoted(name) + " is not used.");
 }
 
 void lookAtNames(const Scene& scene, Lines& lines) {
@@ -115,8 +115,7 @@ void lookAtNames(const Scene& scene, Lines& lines) {
       usedMaterials.insert(contact->contactMaterial);
   lookForUnused(materials, usedMaterials, "The contact material", lines);
   for (const std::string& name : scene.unusedParameters)
-    lines.push_back("The parameter " + quoted(name) +
-                    " is used by nobody: leave it out, or name it where it is meant.");
+    lines.push_back("The parameter " + quoted(name) + " is not used: leave it out, or use it where it is meant.");
 }
 
 void lookAtSets(const Scene& scene, const Solid& solid, Lines& lines) {
@@ -178,8 +177,9 @@ void lookForFreeSolids(const Built& built, const Scene& scene, std::size_t numbe
     const Vec3 pull = netLoad(built, scene, number);
     if (falls || pull[k] != 0.0)
       lines.push_back("Nothing holds " + quoted(solid.name) + " along " + "xyz"[k] + ", where " +
-                      (falls ? "gravity pulls" : "its loads come to " + rounded(pull[k]) + " N at the end") +
-                      ", so that it flies off: hold that component of some of its nodes, or let loads balance or end.");
+                      (falls ? "gravity pulls" : "its loads add up to " + rounded(pull[k]) + " N at the end") +
+                      ", so that it accelerates without end: hold that component of some of its nodes, or let loads "
+                      "balance or end.");
   }
 }
 
@@ -199,12 +199,12 @@ void lookAtStages(const Scene& scene, Lines& lines) {
   for (const Solid& solid : scene.solids) any = any || std::any_of(solid.supports.begin(), solid.supports.end(), moves);
   if (!scene.insertions.empty())
     lines.push_back(
-        "A stage relaxes while grains enter, and may never come to rest: run for a time in its place, and relax in "
-        "another scene that begins with its state.");
+        "A stage relaxes while grains are inserted, and may never come to rest: run for a time instead, and relax in "
+        "another scene that starts from its state.");
   if (any)
     lines.push_back(
-        "A stage relaxes while walls, drives or supports move, and may never come to rest: run for a time in "
-        "its place, or let them start later in a run.");
+        "A stage relaxes while walls, drives or supports move, and may never come to rest: run for a time instead, or "
+        "let them start later in a run.");
 }
 
 }  // namespace
