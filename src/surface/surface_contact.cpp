@@ -40,7 +40,7 @@ SurfaceContact::SurfaceContact(coupling::SolidSide& side, SurfaceCoupler couplin
 void SurfaceContact::check(const dem::Model& m) const {
   coupling_.check(*laws_, m.pairs.periodicity());
   if (coupling_.onFacets() && hasKernel(coupling_.skin()) && meetsPeriod(coupling_.skin(), m.pairs.periodicity()))
-    throw InputError("its kernel ends at a side of the periodic space, beyond which its surface goes on", name_,
+    throw InputError("its surface continues across a periodic boundary, where it cannot have a kernel", name_,
                      "leave the kernel out");
   if (laws_->rotates() && !m.particles.rotates() && m.rotation == dem::Rotation::automatic && m.particles.size() > 0)
     throw InputError("its laws exert torques, but the particles do not spin", name_,

@@ -16,7 +16,7 @@ using io::test::writeText;
 const char* const summary = R"(# version: dovetail 0.1.0
 A plate
 stage 1: 10.268 s
-WARNING: at t = 1 s the step is beyond 2 s, which a contact sets: take a smaller steps.dt
+WARNING: at t = 1 s the step exceeds the limit of 2 s set by a contact: take a smaller steps.dt
 44 particles, "plate" of 315 nodes at 0.0199998 s
 step 8.1429e-07 s, 8.1429e-07 s of the solids; at most 4.06467e-06 s, set by element 121 of "plate"
   channel (J)                           at opening           now        change

@@ -51,7 +51,7 @@ TEST(SceneBonds, WhatCannotBeIsRefused) {
       {"youngs_modulus", "bonds.0"});
   expectParts(
       refusalOfRun(R"("particles": [)" + row("left", 0, 1) + R"(], "bonds": [{"group": "left", )" + material + "}],"),
-      {"no two grains", "bonds.0"});
+      {"no two unbonded grains", "bonds.0"});
   expectParts(refusalOfRun(R"("particles": [)" + row("a", 0, 1) + "," + row("a", 1, 1) + "],"),
               {"two groups \"a\"", "particles.1"});
   expectParts(refusalOfRun(particles + R"("drives": [{"group": "right"}],)"), {"\"right\"", "drives.0"});

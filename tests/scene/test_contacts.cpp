@@ -68,7 +68,7 @@ TEST(SceneContacts, NewcomersClumpsAndSurfacesHaveMaterials) {
 TEST(SceneContacts, WhatCannotBeIsRefused) {
   const std::string one = R"("particles": [)" + grain("glass", 0) + "]," + walls("steel");
   const std::string common = R"("contact": {"law": "linear", "stiffness": 1e4}, )";
-  expectParts(refusalWith(common, one), {"no law of contacts names", "\"glass\"", "particles.0"});
+  expectParts(refusalWith(common, one), {"\"contacts\" has no law for", "\"glass\"", "particles.0"});
   expectParts(refusalWith(common + R"("contacts": [)" + linear + "],", R"("particles": [)" + grain("glas", 0) + "],"),
               {"write \"glass\"", "particles.0"});
   expectParts(refusalWith(R"("contacts": [)" + linear + "," + linear + "],", one), {"twice", "contacts.1"});

@@ -113,10 +113,10 @@ TEST(SceneFiles, TablesOfGrainsKeepNothingToThemselves) {
       {"x_m,y_m,z_m" + row.substr(0, 12), "no column \"radius_m\""},
       {"x_m,y_m,z_m,radius_m,vz_m_per_s" + row + ",3", "\"vz_m_per_s\", but no \"vx_m_per_s\""},
       {"x_m,y_m,z_m,radius_m,vx_m_per_s" + row + ",3", "\"vx_m_per_s\", but no \"vy_m_per_s\""},
-      {"x_m,y_m,z_m,radius_m,vx,vy,vz" + row + ",1,2,3", "a column \"vx\", which is not known here"},
-      {"x_m,y_m,z_m,radius_m,density_kg_per_m3" + row + ",7800", "\"density_kg_per_m3\", which is not known"},
-      {"x_m,y_m,z_m,radius_m,wx_rad_per_s" + row + ",7", "\"wx_rad_per_s\", which is not known"},
-      {"x_m,y_m,z_m,radius_m,material" + row + ",1", "\"material\", which is not known here"},
+      {"x_m,y_m,z_m,radius_m,vx,vy,vz" + row + ",1,2,3", "a column \"vx\", which is unknown"},
+      {"x_m,y_m,z_m,radius_m,density_kg_per_m3" + row + ",7800", "\"density_kg_per_m3\", which is unknown"},
+      {"x_m,y_m,z_m,radius_m,wx_rad_per_s" + row + ",7", "\"wx_rad_per_s\", which is unknown"},
+      {"x_m,y_m,z_m,radius_m,material" + row + ",1", "\"material\", which is unknown"},
       {"x_mm,y_m,z_m,radius_m" + row, "write \"x_m\""},
       {"x_m,y_m,z_m,radius_m,radius_m" + row + ",1", "occurs twice"},
       {row.substr(1), "begins with numbers"},
@@ -191,15 +191,15 @@ TEST(SceneFiles, WhatIsDroppedOrTurnedOfAWallIsNoted) {
   using Notes = std::vector<std::string>;
   EXPECT_EQ(notesOfWall(solid(at(0, 2, 1, "0 0 -1") + rest), true), Notes());
   EXPECT_EQ(notesOfWall(solid(at(0, 2, 1) + rest + at(1, 2, 0)), true),
-            (Notes{"wall.stl: 1 facet that is there twice was dropped."}));
+            (Notes{"wall.stl: 1 duplicate facet was removed."}));
   EXPECT_EQ(notesOfWall(solid(at(0, 2, 1) + rest + at(1, 1, 0)), true),
-            (Notes{"wall.stl: 1 facet without area was dropped."}));
+            (Notes{"wall.stl: 1 facet without area was removed."}));
   EXPECT_EQ(notesOfWall(solid(at(0, 1, 2) + rest), true),
-            (Notes{"wall.stl: 1 facet was turned: neighbours have to agree."}));
+            (Notes{"wall.stl: 1 facet was reversed: neighbours must be oriented alike."}));
   const std::string inside = at(0, 1, 2) + at(0, 3, 1) + at(1, 3, 2) + at(2, 3, 0);
   EXPECT_EQ(notesOfWall(solid(inside), true), Notes());
   EXPECT_EQ(notesOfWall(solid(inside), false),
-            (Notes{"wall.stl: 4 facets were turned: neighbours have to agree, and closed parts to point outwards."}));
+            (Notes{"wall.stl: 4 facets were reversed: neighbours must be oriented alike, and closed parts outwards."}));
   EXPECT_EQ(notesOfWall(solid(at(0, 2, 1, "0 0 7") + rest), true),
             (Notes{"wall.stl: Normals of the file were passed over: 1 of its 4 facets have one that points against the "
                    "order of their vertices, which counts."}));

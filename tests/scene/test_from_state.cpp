@@ -54,7 +54,7 @@ protected:
     ASSERT_EQ(runs(parts, first).code, 0);
     const auto outcome = runs(after(parts), next);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(outcome.out.find("without the springs"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find("without the tangential springs"), std::string::npos) << outcome.out;
     parts.time = "0.02";
     ASSERT_EQ(runs(parts, whole).code, 0);
     const io::TimeSeries all = io::readCsv(whole / "series.csv"), rest = io::readCsv(next / "series.csv");
@@ -96,7 +96,7 @@ TEST_F(StatesOfOthers, AreRefusedByNameWhereTheyDoNotFit) {
   expectRefusal(other, "40 nodes, that of the state 50");
   other = right;
   other.corner = "[0, 0, -0.03]";
-  expectRefusal(other, "at other places");
+  expectRefusal(other, "other positions");
   other = right;
   other.material = R"({"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.4, "density": 1100})";
   expectRefusal(other, "the material of \"plate\"");
@@ -127,7 +127,7 @@ TEST_F(StatesOfOthers, TellWhatBeginsWithoutSprings) {
   const Parts right = after({});
   Parts other = right;
   other.wall = "[-0.001, 0, 0]";
-  EXPECT_NE(runs(other, next).out.find("no wall like 1 of the scene"), std::string::npos);
+  EXPECT_NE(runs(other, next).out.find("lacks 1 of the scene's walls"), std::string::npos);
   other = right;
   other.state.clear();
   EXPECT_NE(runs(other, next).out.find("Contacts of \"grains on plate (z+)\""), std::string::npos);

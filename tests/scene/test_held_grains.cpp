@@ -125,7 +125,7 @@ TEST(SceneInsertions, TellHowManyNewcomersFoundNoRoom) {
   expectParts(log.str(), {"WARNING", "insertion 0", "found no room"});
   std::ifstream summary(folder / "out" / "summary.json");
   const std::string text{std::istreambuf_iterator<char>(summary), {}};
-  expectParts(text, {"\"no_room\": ", "newcomers found no room and were dropped"});
+  expectParts(text, {"\"no_room\": ", "grains found no room and were not inserted"});
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ TEST(SceneParts, GivenStepsThatAreCoarseForImpactsAreTold) {
   };
   const Built coarse = given(4.0);
   ASSERT_EQ(coarse.notes.size(), 1U);
-  expectParts(coarse.notes[0], {"an impact of the smallest grains 4 steps", "eight ask for"});
+  expectParts(coarse.notes[0], {"an impact of the smallest grains 4 steps", "eight need"});
   EXPECT_TRUE(given(8.1).notes.empty());
 }
 

@@ -135,7 +135,7 @@ TEST(ScenePlausible, FramesAreCountedAndTooManyAreTold) {
   EXPECT_EQ(checked("1e-4").find("WARNING"), std::string::npos);
   Scene every = of("1e-9");
   std::get<RunFor>(every.stages[0].kind).time = 1.0;
-  expectParts(warningsOf(every), {"asks for 100001 frames, one at every macro step", "such as 0.005 s"});
+  expectParts(warningsOf(every), {"requests 100001 frames, one at every macro step", "such as 0.005 s"});
 }
 
 TEST(ScenePlausible, OutputsThatWriteNothingOrTooOften) {
@@ -144,8 +144,8 @@ TEST(ScenePlausible, OutputsThatWriteNothingOrTooOften) {
   };
   if (!WITH_FRAMES) GTEST_SKIP();
   expectParts(of(R"("series": 1e-9, "frames": 1e-4)"),
-              {"output.series asks for a row every 1e-09 s, more often than there are steps (1e-05 s)"});
-  expectParts(of(R"("frames": 1e-9)"), {"output.frames asks for a frame every 1e-09 s", "such as 1e-05 s"});
+              {"output.series requests a row every 1e-09 s, which is shorter than a macro step (1e-05 s)"});
+  expectParts(of(R"("frames": 1e-9)"), {"output.frames requests a frame every 1e-09 s", "such as 1e-05 s"});
   EXPECT_EQ(of(R"("series": 1e-5)"), "");
   expectParts(of(R"("contents": ["grains", "contacts"])"), {"output.contents is given and output.frames is not"});
   expectParts(of(R"("frames": 1e-4, "contents": [])"), {"output.contents is empty, so that frames hold nothing"});

@@ -173,7 +173,7 @@ TEST(Program, RunsKeepWhatTheyRead) {
   const std::string before = readText(folder / "out/scene.json");
   for (const char* const file : {"more.json", "out/scene.json"})
     expectRefused(runProgram({"run", (folder / file).string(), "--out", (folder / "out").string(), "--replace"}),
-                  "in place of this file");
+                  "overwrite this file");
   EXPECT_EQ(readText(folder / "out/scene.json"), before);
   EXPECT_TRUE(std::filesystem::exists(folder / "out/summary.json"));
   EXPECT_EQ(runProgram({"run", (folder / "more.json").string(), "--out", (folder / "other").string()}).code, 0);

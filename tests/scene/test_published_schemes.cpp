@@ -73,7 +73,7 @@ TEST(PublishedSchemes, SpreadLoadsWantASetOfTheirOwn) {
   EXPECT_EQ(refusalOfRun(plate("", spread)), "");
   expectParts(refusalOfRun(plate("", spread + two)), {"couplings.0", "faces of another coupling", "name one set"});
   expectParts(refusalOfRun(plate("", spread) + R"("periodic": {"box": [[0, 0, 0], [1, 1, 1]], "axes": ["x"]},)"),
-              {"couplings.0", "a side of the periodic space", "\"kernel\": \"none\""});
+              {"couplings.0", "a periodic boundary", "\"kernel\": \"none\""});
 }
 
 std::string soil(const std::string& solid, const std::string& overlap) {

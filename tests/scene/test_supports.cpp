@@ -99,14 +99,13 @@ TEST(SceneSupports, RollersOnPlanesThroughATieAskForTheSame) {
 
 TEST(SceneSupports, ThatContradictATieAreRefused) {
   expectParts(refusalOfTied(R"("supports": [{"on": "fine", "components": ["y"]}], "ties": [)" + tie + "]"),
-              {"component y of the node at (1, 0, 0) m is held by supports item 0 on \"fine\"", "carried by a tie",
+              {"component y of the node at (1, 0, 0) m is held by supports item 0 on \"fine\"", "tied to nodes of",
                "\"meet\"", "ties.0"});
   expectParts(refusalOfTied(R"("supports": [{"on": "fine", "components": ["y"]},
       {"on": "coarse", "components": ["y"], "velocity": [0, 1, 0]}], "ties": [)" +
                             tie + "]"),
-              {"carried by a tie", "let the support hold those nodes too"});
-  expectParts(refusalOfTied(R"("ties": [)" + tie + ", " + tie + "]"),
-              {"carried by two ties", "at (1, 0, 0) m", "ties.1"});
+              {"tied to nodes of", "let the support hold those nodes too"});
+  expectParts(refusalOfTied(R"("ties": [)" + tie + ", " + tie + "]"), {"in two ties", "at (1, 0, 0) m", "ties.1"});
 }
 
 }  // namespace

@@ -75,7 +75,8 @@ TEST(SurfacesOfScenes, HaveNoKernelThatEndsAtAPeriodicSide) {
   const Built built = started(sceneOf(blockWith(on("z+"), periodic)));
   ASSERT_FALSE(built.notes.empty());
   expectParts(built.notes.back(), {"no kernel", "periodic"});
-  expectParts(refusalOfRun(blockWith(on("z+", R"(, "kernel": 0.3)"), periodic)), {"ends at a side"});
+  expectParts(refusalOfRun(blockWith(on("z+", R"(, "kernel": 0.3)"), periodic)),
+              {"continues across a periodic boundary"});
 }
 
 }  // namespace

@@ -46,8 +46,8 @@ TEST(SceneTetrahedra, WhatIsDroppedOrTurnedOfTheSurfaceIsNoted) {
   const auto has = [&](const std::string& note) {
     return std::find(built.notes.begin(), built.notes.end(), note) != built.notes.end();
   };
-  EXPECT_TRUE(has("b.stl: 1 facet that is there twice was dropped."));
-  EXPECT_TRUE(has("b.stl: 1 facet was turned: neighbours have to agree, and closed parts to point outwards."));
+  EXPECT_TRUE(has("b.stl: 1 duplicate facet was removed."));
+  EXPECT_TRUE(has("b.stl: 1 facet was reversed: neighbours must be oriented alike, and closed parts outwards."));
 }
 
 TEST(SceneTetrahedra, TheMesherGetsTheSurfaceWeldedAndInMetres) {

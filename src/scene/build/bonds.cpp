@@ -57,7 +57,7 @@ void add(dem::Model& grains, const BondGroup& group, const Groups& groups, std::
         return (one[a] && other[b]) || (one[b] && other[a]);
       });
   if (count == 0)
-    throw InputError("no two grains without a bond are that close", "", "give a larger gap, or put them closer");
+    throw InputError("no two unbonded grains are within the gap", "", "give a larger gap, or put them closer");
   notes.push_back(std::to_string(count) + " bonds in \"" + group.group + "\"" +
                   (group.with.empty() ? "." : " with \"" + group.with + "\"."));
 }
@@ -76,7 +76,7 @@ std::function<Vec3(double)> spinOf(const Drive& drive, const Scene& scene) {
 void requireAlike(const std::vector<BondGroup>& all) {
   for (const BondGroup& group : all)
     if (group.contacts != all.front().contacts)
-      throw InputError("\"contacts\" is not that of the other bonds", group.where, "give all bonds the same");
+      throw InputError("\"contacts\" differs from that of the other bonds", group.where, "give all bonds the same");
 }
 
 /// Both items would claim the same grains.

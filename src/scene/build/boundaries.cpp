@@ -45,7 +45,7 @@ fem::Place placeOf(const PlaceAtSide& place, const geometry::Box& extent) {
 
 void add(fem::SolidMesh& mesh, const NamedSet& set) {
   if (mesh.nodeSets.contains(set.name) || mesh.faceSets.contains(set.name))
-    throw InputError("the mesh has a set \"" + set.name + "\"", "", "give this one another name");
+    throw InputError("the mesh already has a set \"" + set.name + "\"", "", "give this one another name");
   const fem::Place place = std::visit([&](const auto& kind) { return placeOf(kind, extentOf(mesh)); }, set.place);
   mesh.nodeSets[set.name] = fem::nodesWhere(mesh, place);
   const std::vector<fem::Face> boundary = fem::boundaryFaces(mesh);

@@ -57,8 +57,8 @@ double stepForRebound(Built& built, const Scene& scene, double longest) {
   const Rebound coarse = worstRebound(built, scene, longest);
   double dt = longest;
   while (worstRebound(built, scene, dt).error() > reboundTolerance && dt > 0.05 * longest) dt *= 0.8;
-  built.notes.push_back("The step is " + formatNumber(dt) + " s, so that impacts rebound by their restitution " +
-                        formatNumber(coarse.right) + " to " + formatNumber(reboundTolerance) + "; with " +
+  built.notes.push_back("The step is " + formatNumber(dt) + " s, so that impacts rebound with their restitution " +
+                        formatNumber(coarse.right) + " within " + formatNumber(reboundTolerance) + "; with " +
                         formatNumber(longest) + " s it may be " + rounded(coarse.found) + ".");
   return dt;
 }
@@ -72,7 +72,7 @@ double automaticStep(Built& built, const Scene& scene, double limit) {
   built.notes.push_back("The step is " + formatNumber(resolved) + " s, so that an impact of the smallest grains" +
                         materials + " takes eight steps; the fraction " + formatNumber(scene.steps.safety) +
                         " of the limit is " + formatNumber(fraction) +
-                        " s. Give steps.dt a number if no grains meet in impacts.");
+                        " s. Give steps.dt a number if there are no impacts.");
   return resolved;
 }
 
@@ -84,8 +84,8 @@ void noteCoarseStep(Built& built, const Scene& scene, double dt) {
   if (dt <= resolved) return;
   built.notes.push_back("The step, " + formatNumber(dt) + " s, gives an impact of the smallest grains" + materials +
                         " " + formatNumber(std::floor(80.0 * resolved / dt) / 10.0) +
-                        " steps, too few to keep its energy; eight ask for " + formatNumber(resolved) +
-                        " s. It will do where no grains meet in impacts.");
+                        " steps, too few to conserve its energy; eight need " + formatNumber(resolved) +
+                        " s. It is short enough if there are no impacts.");
 }
 
 bool goesOn(const TimeVector& velocity, const Vec3& angularVelocity = {}) {
@@ -171,12 +171,12 @@ void start(Built& built, const Scene& scene) {
     if (allLeave) return;
     if (!std::isfinite(smallest))
       throw InputError(nothingIsThere(built, scene) ? "the scene has neither grains nor solids"
-                                                    : "nothing in the scene tells a step",
+                                                    : "nothing in the scene sets a time step",
                        "", "give steps.dt a number, such as \"1e-4 s\"");
     built.run->start(automaticStep(built, scene, smallest), options);
   });
   if (allLeave)
-    throw InputError("all grains lie outside of the domain and leave at once", scene.domain->where,
+    throw InputError("all grains lie outside of the domain and are removed at once", scene.domain->where,
                      "make domain.box larger, or move the grains into it");
   for (const std::string& note : notesOnSetNames(built, scene)) built.notes.push_back(note);
   foreseeSolvers(built);

@@ -26,7 +26,7 @@ void requireApart(const fem::SolidMesh& mesh, const std::string& set, const std:
   for (const fem::Face& face : fem::faceSet(mesh, other))
     if (faces.contains(cornersOf(face)))
       throw InputError("\"" + set + "\" and \"" + other + "\", of two couplings of the solid, have faces in common", "",
-                       "give every face one coupling, by sets of the solid for example");
+                       "give every face one coupling, for example by sets of the solid");
 }
 
 cg::SurfaceKernel kernelOf(const SurfaceKernel& kernel, const fem::SolidMesh& mesh) {
@@ -56,7 +56,7 @@ surface::Skin skinOf(Built& built, const fem::SolidMesh& mesh, const Coupling& c
   if (contact.spread) return alone ? skin : surface::partOf(skin, first, end);
   if (contact.kernel.width.word == "advised" && surface::meetsPeriod(skin, built.run->grains.pairs.periodicity()))
     built.notes.push_back("Contacts on \"" + coupling.solid + "\" (" + contact.on +
-                          ") have no kernel, as it goes on beyond a side of the periodic space.");
+                          ") have no kernel, as the surface continues across a periodic boundary.");
   else if (contact.kernel.width.word != "none")
     surface::coarseGrain(skin, kernelOf(contact.kernel, mesh));
   else if (contact.smooth)
@@ -67,7 +67,7 @@ surface::Skin skinOf(Built& built, const fem::SolidMesh& mesh, const Coupling& c
 /// @throws InputError for parts of the coupling that exclude each other
 void requireConsistent(const SurfaceContact& contact) {
   if (contact.spread && contact.smooth)
-    throw InputError("a smooth surface carries its loads by its own weights", "",
+    throw InputError("a smooth surface distributes its loads by its own weights", "",
                      "take \"transfer\": \"adjoint\" or \"surface\": \"flat\"");
   if (contact.smooth && contact.edges != 0)
     throw InputError("a smooth surface has no edges of facets", "",
@@ -76,7 +76,8 @@ void requireConsistent(const SurfaceContact& contact) {
     throw InputError("a spread load has no correction of its kernel, and \"symmetric\" is the default", "",
                      "write \"kernel_correction\": \"none\" beside \"transfer\": \"spread\"");
   if (contact.contact && !contact.contactMaterial.empty())
-    throw InputError("these contacts have a law and a material", "", "leave contact or contact_material out");
+    throw InputError("these contacts have both a law and a contact material", "",
+                     "leave contact or contact_material out");
 }
 
 /// The kernel of a spread load ends where its set does.
@@ -91,9 +92,8 @@ void requireAlone(const Built& built, const fem::SolidMesh& mesh, const Coupling
                      "", "name one set for both, or take \"transfer\": \"adjoint\"");
   const surface::Skin skin = surface::makeSkin(mesh.X, fem::faceSet(mesh, contact.on));
   if (contact.kernel.width.word != "none" && surface::meetsPeriod(skin, built.run->grains.pairs.periodicity()))
-    throw InputError(
-        "the kernel of a spread load ends at a side of the periodic space, beyond which the surface goes on", "",
-        "write \"kernel\": \"none\"");
+    throw InputError("a spread load has no kernel on a surface that continues across a periodic boundary", "",
+                     "write \"kernel\": \"none\"");
 }
 
 surface::SurfaceCoupler couplingOn(surface::Skin skin, const SurfaceContact& contact, const fem::SolidMesh& mesh) {
@@ -124,8 +124,8 @@ void leaveOut(Built& built, const fem::SolidMesh& mesh, const coupling::SolidSid
   const std::vector<int> beyond = arlequin::particlesBeyond(built.run->grains, mesh, side.nodes(), weight, leastWeight);
   if (beyond.empty()) return;
   dem::removeParticles(built.run->grains, beyond);
-  built.notes.push_back(std::to_string(beyond.size()) + " grains beyond the border of the particles in \"" + side.name +
-                        "\" were left out.");
+  built.notes.push_back(std::to_string(beyond.size()) + " grains beyond the particle border in \"" + side.name +
+                        "\" were removed.");
 }
 
 /// Initial stress of a solid under its loads and those of the grains.
@@ -138,11 +138,11 @@ void initialEquilibrium(Built& built, const fem::SolidMesh& mesh, coupling::Soli
                                                   {.tolerance = tolerance, .leastWeight = leastWeight}, &change);
   double farthest = 0.0;
   for (const Vec3& u : side.nodes().u) farthest = std::max(farthest, norm(u));
-  built.notes.push_back("\"" + side.name + "\" took over its grains in " + std::to_string(rounds) +
-                        " rounds: its nodes moved by up to " + formatNumber(farthest) + " m." +
+  built.notes.push_back("\"" + side.name + "\" reached its initial equilibrium with the grains in " +
+                        std::to_string(rounds) + " rounds: its nodes moved by up to " + formatNumber(farthest) + " m." +
                         (change > tolerance
-                             ? " What is handed over jumps by " + rounded(100.0 * change) +
-                                   " % of the largest force on a node there, as grains pass the faces of elements."
+                             ? " The load of the grains changes by " + rounded(100.0 * change) +
+                                   " % of the largest nodal force between rounds, as grains cross faces of elements."
                              : ""));
 }
 
@@ -170,18 +170,18 @@ void requireConsistent(const Overlap& overlap, const coupling::SolidSide& side, 
   const auto require = [](bool good, const char* what, const char* remedy) {
     if (!good) throw InputError(what, "", remedy);
   };
-  require(scene.steps.lag == 0, "loads that lag are those of surfaces", "leave steps.lag or the overlap out");
-  require(!overlap.reachOut || overlap.absorber == 0.0, "the absorber works where particles are in elements",
+  require(scene.steps.lag == 0, "\"lag\" applies to surface couplings only", "leave steps.lag or the overlap out");
+  require(!overlap.reachOut || overlap.absorber == 0.0, "the absorber cannot be used with kernels that reach outside",
           "leave kernel_reach or absorber out");
   require(!damps || overlap.penalty.word.empty(), "a dashpot has no automatic penalty", "give penalty a number");
-  require(damps || !overlap.staggered, "the order \"staggered\" is that of a dashpot",
+  require(damps || !overlap.staggered, "the order \"staggered\" needs a dashpot",
           "take \"constraint\": \"dashpot\" or leave order out");
-  require(implicit || !overlap.staggered, "the order \"staggered\" wants an implicit solid",
+  require(implicit || !overlap.staggered, "the order \"staggered\" needs an implicit solid",
           "give the solid \"stepping\": \"implicit\" or leave order out");
   require(!overlap.staggered || scene.steps.stepsPerMacroStep == 1,
-          "the order \"staggered\" takes the solid along in every step",
+          "the order \"staggered\" needs one step of the grains per macro step",
           "take \"per_macro_step\": 1 or leave order out");
-  require(!overlap.reachOut || overlap.gap != 0, "kernels that reach outside want a gap at nodes",
+  require(!overlap.reachOut || overlap.gap != 0, "kernels that reach outside need the gap at nodes",
           "take \"gap\": \"nodal\" or leave kernel_reach out");
   require(!implicit || overlap.absorber == 0.0, "the absorber works with explicit solids only",
           "give the solid \"stepping\": \"explicit\" or leave absorber out");
@@ -203,7 +203,7 @@ void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overla
 
 std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh& mesh) {
   const double length = overlap.solidBorder - overlap.particleBorder;
-  if (length == 0.0) throw InputError("the borders of an overlap are at one place", "", "give them some distance");
+  if (length == 0.0) throw InputError("the two borders of an overlap coincide", "", "move them apart");
   std::vector<double> place;
   for (const Vec3& X : mesh.X) {
     const double fraction = (X[overlap.axis] - overlap.particleBorder) / length;

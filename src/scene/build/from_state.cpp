@@ -32,10 +32,10 @@ const Solid* solidIn(const Scene& scene, const std::string& name) {
 
 void requireSame(const Solid& there, const Solid& here, const std::string& file) {
   if (const std::string material = textOfPart(there.material); material != textOfPart(here.material))
-    throw InputError("the material of \"" + here.name + "\" is another one in the state", file,
+    throw InputError("the material of \"" + here.name + "\" differs from that of the state", file,
                      "write \"material\": " + material.substr(0, material.find_last_not_of('\n') + 1));
   if (there.formulation != here.formulation)
-    throw InputError("the elements of \"" + here.name + "\" are others in the state", file,
+    throw InputError("the elements of \"" + here.name + "\" differ from those of the state", file,
                      "write \"formulation\": \"" + there.formulation + "\"");
 }
 
@@ -47,7 +47,7 @@ void requireSameMesh(const coupling::SolidOfState& there, std::uint64_t fingerpr
                          " nodes, that of the state " + std::to_string(count),
                      file, "give the solid the mesh of the state");
   if (fingerprint != fingerprintOf(nodes.X))
-    throw InputError("the nodes of \"" + there.name + "\" are at other places in the mesh of the state", file,
+    throw InputError("the nodes of \"" + there.name + "\" have other positions in the mesh of the state", file,
                      "give the solid the mesh of the state");
 }
 
@@ -92,7 +92,7 @@ bool beginWith(const std::vector<std::int64_t>& all, const std::vector<std::int6
 }
 
 void note(Built& built, const std::string& what) {
-  built.notes.push_back(what + " begin without the springs of friction that the state may have had there.");
+  built.notes.push_back(what + " start without the tangential springs that the state may have there.");
 }
 
 }  // namespace
@@ -127,11 +127,11 @@ void takeContacts(Built& built, const Scene& scene) {
   if (!beginWith(grains.particles.id, parts.ids))
     return note(built, "Some grains of the state were left out: contacts of the others with walls and solids");
   if (const int walls = dem::takeWallContacts(grains, parts.terms); walls > 0)
-    note(built, "The state has no wall like " + std::to_string(walls) +
-                    " of the scene, at the same place: contacts with these");
+    note(built,
+         "The state lacks " + std::to_string(walls) + " of the scene's walls at the same place: contacts with these");
   const Scene there = sceneOf(checkpoint, from->file);
   for (const std::string& name : takeSurfaceContacts(built, scene, there, from->file, parts.terms))
-    note(built, "Contacts of \"" + name + "\", which is none of the state's,");
+    note(built, "Contacts of \"" + name + "\", which is not in the state,");
 }
 
 }  // namespace dovetail::scene

@@ -145,7 +145,7 @@ Meeting meetingIn(const Scene& scene) {
 
 void requireAlike(const ContactLaw& law, const ContactLaw& first) {
   if (law.normal.index() == first.normal.index()) return;
-  throw InputError("laws of one scene are all linear, or all of Hertz", law.where,
+  throw InputError("linear and Hertz laws cannot be mixed in one scene", law.where,
                    std::string("write \"law\": \"").append(first.normal.index() == 0 ? "linear\"" : "Hertz\""));
 }
 
@@ -159,9 +159,11 @@ void requireBondedAlone(const Scene& scene) {
                                [&](const PairLaw& pair) { return isBonded(pair.law); });
   if (!any) return;
   const std::string where = scene.contact ? scene.contact->where : scene.contacts.front().law.where;
-  if (!scene.contacts.empty()) throw InputError("bonded springs are those of all grains", where, "leave contacts out");
+  if (!scene.contacts.empty())
+    throw InputError("bonded springs cannot be used with \"contacts\"", where, "leave contacts out");
   if (!scene.insertions.empty())
-    throw InputError("grains that enter meet nobody where springs are bonded", where, "leave bonded or insertions out");
+    throw InputError("insertions cannot be used with bonded springs: inserted grains would have no contacts", where,
+                     "leave bonded or insertions out");
 }
 
 void put(Table& table, const PairLaw& pair, const std::vector<std::string>& rows) {
@@ -238,7 +240,7 @@ int contactRow(const Scene& scene, const std::string& name) {
   const std::vector<std::string> rows = rowsOf(scene);
   const auto found = std::find(rows.begin(), rows.end(), name);
   if (found == rows.end())
-    throw InputError("no law of contacts names the contact material \"" + name + "\"", "",
+    throw InputError("\"contacts\" has no law for the contact material \"" + name + "\"", "",
                      scene.contacts.empty() ? "add one to contacts" : adviceFor(name, {rows.begin() + 1, rows.end()}));
   return static_cast<int>(found - rows.begin());
 }

@@ -91,7 +91,7 @@ void add(const Target& to, const SphereFrame& from) {
 
 void add(const Target& to, const GrainsOfState& from) {
   if (to.grains.particles.size() > 0)
-    throw InputError("grains of a state stand behind others", "", "put them first in \"particles\"");
+    throw InputError("particles from a state must come first in the list \"particles\"", "", "put them first");
   const Checkpoint checkpoint = loadCheckpoint(from.file);
   dem::loadGrains(coupling::particlesOf(checkpoint.state), from.file, to.grains);
   for (Vec3& v : to.grains.particles.v) v += to.group.velocity;
@@ -112,7 +112,7 @@ void requireColumns(const io::TimeSeries& table, const std::string& file) {
   for (const std::string& name : names)
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       const std::string near = nearest(name, missing);
-      throw InputError("the table has a column \"" + name + "\", which is not known here", file,
+      throw InputError("the table has a column \"" + name + "\", which is unknown", file,
                        near.empty()
                            ? "leave it out; spheres have x_m, y_m, z_m, radius_m and, all or none, vx_m_per_s, "
                              "vy_m_per_s, vz_m_per_s, and a density and material from the scene"

@@ -14,12 +14,12 @@ std::vector<std::string> notesOn(const geometry::SurfaceRepair& repair, geometry
     if (count > 0) notes.push_back(std::to_string(count) + " " + (count == 1 ? one : many));
   };
   const std::string why = closed == geometry::ClosedPatches::turn
-                              ? " turned: neighbours have to agree, and closed parts to point outwards."
-                              : " turned: neighbours have to agree.";
-  note(repair.degenerateFacets, "facet without area was dropped.", "facets without area were dropped.");
-  note(repair.duplicateFacets, "facet that is there twice was dropped.", "facets that are there twice were dropped.");
+                              ? " reversed: neighbours must be oriented alike, and closed parts outwards."
+                              : " reversed: neighbours must be oriented alike.";
+  note(repair.degenerateFacets, "facet without area was removed.", "facets without area were removed.");
+  note(repair.duplicateFacets, "duplicate facet was removed.", "duplicate facets were removed.");
   note(repair.turnedFacets, "facet was" + why, "facets were" + why);
-  note(repair.unusedVertices, "vertex that no facet names was dropped.", "vertices that no facet names were dropped.");
+  note(repair.unusedVertices, "unused vertex was removed.", "unused vertices were removed.");
   return notes;
 }
 

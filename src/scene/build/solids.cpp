@@ -93,8 +93,8 @@ std::string unevenWeight(const Solid& solid, const fem::SolidMesh& mesh) {
   for (const fem::ElementGroup& group : mesh.groups)
     shapes += (shapes.empty() ? std::string() : ", ") + fem::name(group.shape);
   return "WARNING: \"" + solid.name + "\" (" + shapes +
-         ") has lumped masses, on which gravity acts: where it is held it deforms otherwise than under its weight, by "
-         "tens of per cent if the mesh is coarse. Write \"consistent_mass\": 1" +
+         ") has lumped masses: gravity deforms it wrongly near its supports, by tens of per cent if the mesh is "
+         "coarse. Write \"consistent_mass\": 1" +
          (solid.implicitSteps ? "." : ", or \"stepping\": \"implicit\".");
 }
 

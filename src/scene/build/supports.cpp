@@ -77,11 +77,11 @@ bool Holders::areSame(int first, int second) {
 void Holders::lookForJump(const Motion& motion, int component) {
   const double jump = motion.displacement(0.0);
   if (jump == 0.0) return;
-  jumps_.push_back("WARNING: Of " + quoted(solid_.name) + ", " + motion.name + " moves component " + "xyz"[component] +
-                   " by " + rounded(jump) +
-                   " m at once at t = 0, which strains the elements next to it alone: let the displacement begin at 0, "
-                   "such as \"" +
-                   rounded(jump) + "*min(t/T, 1)\" with a T of several periods of the solid, or move the mesh.");
+  jumps_.push_back(
+      "WARNING: Of " + quoted(solid_.name) + ", " + motion.name + " moves component " + "xyz"[component] + " by " +
+      rounded(jump) +
+      " m at once at t = 0, which strains only the elements next to it: let the displacement start at 0, such as \"" +
+      rounded(jump) + "*min(t/T, 1)\" with a T of several periods of the solid, or move the mesh.");
 }
 
 void Holders::claim(const std::vector<int>& set, int component, Motion motion) {
@@ -98,8 +98,8 @@ void Holders::claim(const std::vector<int>& set, int component, Motion motion) {
       throw InputError(placeOf(node, component) + " is " + own.text + " here, and " + other.text + " by " + other.name,
                        "",
                        std::string("leave \"") + "xyz"[component] +
-                           "\" out of the components of one, the nodes that both share out of one of the sets, or "
-                           "let both do the same");
+                           "\" out of the components of one, the nodes common to both out of one of the sets, or let "
+                           "both do the same");
     }
   }
   if (fresh.empty()) return;
@@ -151,14 +151,14 @@ void Holders::carry(const MeshTie& tie) {
       if (masterGoesAlong(one, by)) continue;
       const Motion& support = motions_[static_cast<std::size_t>(by)];
       throw InputError(placeOf(one.node, one.component) + " is " + support.text + " by " + support.name +
-                           ", and carried by a tie along with nodes of " + quoted(tie.faces) + " that are not",
+                           ", and tied to nodes of " + quoted(tie.faces) + " that are not",
                        "",
                        "let the support hold those nodes too, or leave the node out of " + quoted(tie.nodes) +
                            " or of the support's set");
     }
     if (carriedBy_[index])
       throw InputError(
-          placeOf(one.node, one.component) + " is carried by two ties", "",
+          placeOf(one.node, one.component) + " is in two ties", "",
           "leave the node out of one of the sets " + quoted(carriedBy_[index]->nodes) + " and " + quoted(tie.nodes));
     carriedBy_[index] = &tie;
     for (const fem::Tie::Master& master : one.masters) masterOf_[indexOf(master.node, master.component)] = &tie;
@@ -167,9 +167,9 @@ void Holders::carry(const MeshTie& tie) {
   for (std::size_t index = 0; index < carriedBy_.size(); ++index)
     if (carriedBy_[index] && masterOf_[index])
       throw InputError(
-          placeOf(static_cast<int>(index / 3), static_cast<int>(index % 3)) + " is carried by the tie of " +
-              quoted(carriedBy_[index]->nodes) + ", and carries nodes of " + quoted(masterOf_[index]->nodes) +
-              " itself",
+          placeOf(static_cast<int>(index / 3), static_cast<int>(index % 3)) + " is tied by " +
+              quoted(carriedBy_[index]->nodes) + ", and nodes of " + quoted(masterOf_[index]->nodes) +
+              " are tied to it",
           "", "let both ties have the same faces, or leave the node out of " + quoted(carriedBy_[index]->nodes));
 }
 

@@ -101,7 +101,8 @@ Travel travelAt(const TimeValue& velocity, const Scene& scene) {
 std::array<Travel, 3> travels(const TimeVector& velocity, const std::optional<TimeVector>& displacement,
                               const Scene& scene) {
   const bool moves = !isConstant(velocity) || norm(constantOf(velocity)) > 0.0;
-  if (displacement && moves) throw InputError("there is a velocity and a displacement", "", "leave one of them out");
+  if (displacement && moves)
+    throw InputError("both a velocity and a displacement are given", "", "leave one of them out");
   std::array<Travel, 3> all;
   for (std::size_t c = 0; c < 3; ++c)
     all[c] = displacement ? travelOf((*displacement)[c], scene) : travelAt(velocity[c], scene);

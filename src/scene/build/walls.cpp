@@ -24,7 +24,7 @@ struct Target {
 dem::PrescribedMotion motionOf(const Target& to, const Vec3& about) {
   const Wall& wall = to.wall;
   if (wall.turn && norm(wall.angularVelocity) > 0.0)
-    throw InputError("there is an angular velocity and a turn", "", "leave one of them out");
+    throw InputError("both an angular velocity and a turn are given", "", "leave one of them out");
   if (wall.turn && norm(wall.turn->axis) == 0.0)
     throw InputError("the axis of the turn has no length", "", "give it a direction, such as [0, 0, 1]");
   const Path path = pathOf(wall.velocity, wall.displacement, to.scene);

@@ -56,8 +56,8 @@ double advisedWidth(const cg::SnapshotView& grains, const geometry::Box& around,
   const double least = 0.75 * meanDiameter;
   const Place place = placeFor(grains.space, around, meanDiameter, settings);
   if (!(place.most >= 2.0 * least))
-    throw InputError("the grains lie in so thin a layer that widths of no more than " + formatNumber(place.most) +
-                         " m keep off its faces",
+    throw InputError("the layer of grains is too thin: only widths of up to " + formatNumber(place.most) +
+                         " m stay clear of its faces",
                      "--advise-width", "give a --box of points where fields are wanted, or the --width itself");
   const cg::WidthStudy study =
       cg::studyWidths(settings.shape, 3, spread(place.box, 1000), grains, {.least = least, .most = place.most});

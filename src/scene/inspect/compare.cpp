@@ -83,7 +83,7 @@ private:
     }
     if (equal) return;
     to_.unlike.push_back(name_ + " has rows at other times (" + std::to_string(times.size()) + " and " +
-                         std::to_string(others.size()) + "): compared by interpolation where both have some" +
+                         std::to_string(others.size()) + "): compared by interpolation over the common times" +
                          (outside > 0 ? ", which leaves out " + std::to_string(outside) + " of the first." : "."));
   }
   void compareColumn(const std::string& column) {
@@ -117,7 +117,8 @@ void compareFiles(const fs::path& a, const fs::path& b, const std::string& name,
   } else if (isFrameFile(a) && a.extension() == b.extension()) {
     compareFrames(a, b, name, to);
   } else if (a.extension() == ".state" && b.extension() == ".state") {
-    if (headOf(a, fs::file_size(a)) != headOf(b, fs::file_size(b))) to.unlike.push_back(name + " has other bytes.");
+    if (headOf(a, fs::file_size(a)) != headOf(b, fs::file_size(b)))
+      to.unlike.push_back(name + " differs in its bytes.");
   } else {
     throw InputError("files of these kinds cannot be compared", a.string() + ", " + b.string(),
                      "give two series, frames or states of one kind, or two folders of runs");
@@ -160,7 +161,8 @@ Comparison compare(const fs::path& a, const fs::path& b) {
     return comparison;
   }
   if (!fs::is_directory(a, error) || !fs::is_directory(b, error))
-    throw InputError("a file cannot be compared with a folder", a.string() + ", " + b.string(), "give two of a kind");
+    throw InputError("a file cannot be compared with a folder", a.string() + ", " + b.string(),
+                     "give two files or two folders");
   const std::set<std::string> first = namesIn(a), second = namesIn(b);
   std::set<std::string> all = first;
   all.insert(second.begin(), second.end());

@@ -89,7 +89,8 @@ std::string textOf(double time, const cg::Grid& grid, const cg::Fields& fields, 
 
 void writeGridFields(const std::filesystem::path& folder, const GridOptions& settings, std::ostream& log) {
   if (settings.file.extension() != ".vti")
-    throw InputError("fields on a grid are a VTI file", settings.file.string(), "give a name that ends in .vti");
+    throw InputError("fields on a grid are written as a VTI file", settings.file.string(),
+                     "give a name that ends in .vti");
   io::requireFreeOrOurs(settings.file);
   const Scene scene = readRun(folder);
   const std::string identity = identityOf(scene);

@@ -91,7 +91,7 @@ std::string Values::guessAt(const std::string& text) const {
   if (!guess.empty()) return guess + " if that is meant; ";
   for (const std::string& word : wordsIn(text))
     if (document_.names.contains(word) && !document_.parameters.contains(word))
-      return "put the parameter \"" + word + "\" above, as expressions know those above them alone; ";
+      return "put the parameter \"" + word + "\" above, as expressions use only parameters above them; ";
   return {};
 }
 

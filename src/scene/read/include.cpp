@@ -75,8 +75,7 @@ private:
     }
     constexpr std::size_t deepest = 64;
     if (chain_.size() > deepest)
-      refuse(item, "scenes are included more than " + std::to_string(deepest) + " deep",
-             "include fewer in one another");
+      refuse(item, "scenes are included more than " + std::to_string(deepest) + " deep", "nest fewer");
     if (!seen_.insert(same).second) return objectWithout();
     Node scene = parseJson(textOfScene(file, placeName(name_, item.place) + ", include"), file.string());
     if (scene.kind != Node::Kind::object)

@@ -48,7 +48,7 @@ Checkpoint lastCheckpoint(const fs::path& folder, std::ostream& log, Damaged dam
   std::error_code error;
   if (!fs::exists(last, error) && !fs::exists(before, error))
     throw InputError("there is no checkpoint", folder.string(),
-                     "give the folder of a run with output.checkpoints, or one that a signal has ended");
+                     "give the folder of a run with output.checkpoints, or of a run that a signal has ended");
   if (!fs::exists(last, error)) return loadCheckpoint(before);
   try {
     return loadCheckpoint(last);
@@ -61,7 +61,7 @@ Checkpoint lastCheckpoint(const fs::path& folder, std::ostream& log, Damaged dam
         throw damage;
       }
     }();
-    log << "WARNING: " << damage.what() << "\nThe state before is taken in its place: " << before.filename().string()
+    log << "WARNING: " << damage.what() << "\nThe previous state is used instead: " << before.filename().string()
         << ", t = " << formatNumber(checkpoint.time) << " s" << std::endl;
     if (damaged == Damaged::isSetAside) fs::rename(last, folder / "checkpoint.damaged.state", error);
     return checkpoint;
@@ -85,7 +85,7 @@ void writeCheckpoint(const fs::path& folder, const std::string& identity, const 
 void adopt(const Checkpoint& checkpoint, const std::string& identity, coupling::CoupledRun& run) {
   if (checkpoint.scene != identity)
     throw InputError("the checkpoint is of another scene", "checkpoint.state",
-                     "put its scene.json back, or begin anew");
+                     "restore its scene.json, or start a new run");
   run.load(checkpoint.state);
 }
 

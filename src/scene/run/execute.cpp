@@ -114,7 +114,7 @@ private:
       if (all[k]->refused == 0) continue;
       toldOfRoom_ = true;
       log_ << "WARNING: t = " << built_.run->time() << " s, insertion " << k << ": " << all[k]->refused << " of "
-           << all[k]->refused + all[k]->inserted << " newcomers have found no room" << std::endl;
+           << all[k]->refused + all[k]->inserted << " grains to insert have found no room" << std::endl;
     }
   }
   void countRoom() {
@@ -123,8 +123,8 @@ private:
       if (all[k]->refused > 0)
         remark("insertion " + std::to_string(k) + ": " + std::to_string(all[k]->refused) + " of " +
                    std::to_string(all[k]->refused + all[k]->inserted) +
-                   " newcomers found no room and were dropped: make its region larger or its rate lower, or let them "
-                   "come in faster",
+                   " grains found no room and were not inserted: make its region larger or its rate lower, or give "
+                   "them a larger velocity",
                true);
   }
 
@@ -217,8 +217,8 @@ private:
   }
   void reportOfStep(double time, double limit, const std::string& owner) {
     progress_.toldOfStep = true;
-    remark("at t = " + formatNumber(time) + " s the step is beyond " + formatNumber(limit) + " s, which " + owner +
-               " sets: take a smaller steps.dt",
+    remark("at t = " + formatNumber(time) + " s the step exceeds the limit of " + formatNumber(limit) + " s set by " +
+               owner + ": take a smaller steps.dt",
            true);
   }
   void frame(std::int64_t every) {

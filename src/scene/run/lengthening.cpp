@@ -19,7 +19,7 @@ double startOfLast(const Scene& scene, const Plan& plan, const Progress& progres
   for (std::size_t k = progress.stage; k < last; ++k) {
     if (std::holds_alternative<Relax>(scene.stages[k].kind))
       throw InputError(
-          "stage " + std::to_string(k + 1) + " has not come to rest yet, and nobody knows how long it will take", where,
+          "stage " + std::to_string(k + 1) + " has not come to rest yet, so that the time until rest is unknown", where,
           "resume the run without it until stage " + std::to_string(k + 2) + " has begun");
     macroSteps += plan.stages[k];
   }
@@ -38,13 +38,13 @@ double withoutRoundoff(double seconds) {
 void lengthen(Scene& scene, const Plan& plan, const Progress& progress, const coupling::CoupledRun& run, double until) {
   auto* const last = scene.stages.empty() ? nullptr : std::get_if<RunFor>(&scene.stages.back().kind);
   if (!last)
-    throw InputError("the last stage brings to rest, and has no time", where,
-                     "go on in a scene of its own whose grains and solids are those of this run's checkpoint");
+    throw InputError("the last stage relaxes, and has no end time", where,
+                     "continue in another scene whose grains and solids start from this run's checkpoint");
   const double time = until - startOfLast(scene, plan, progress, run);
   if (!(until >= run.time() - 0.5 * run.macroStep() && time > 0.5 * run.macroStep()))
     throw InputError(
-        formatNumber(until) + " s is not behind the state to go on from, of t = " + formatNumber(run.time()) + " s",
-        where, "give a later time");
+        formatNumber(until) + " s is not later than the checkpoint, at t = " + formatNumber(run.time()) + " s", where,
+        "give a later time");
   last->time = withoutRoundoff(time);
 }
 

@@ -111,9 +111,9 @@ void lookAtIntervals(const Scene& scene, double macroStep, Lines& lines) {
   for (const Asked& one : {Asked{"series", "row", out.series}, Asked{"frames", "frame", out.frames},
                            Asked{"checkpoints", "checkpoint", out.checkpoints}})
     if (one.interval && *one.interval < 0.9 * macroStep)
-      lines.push_back("output." + std::string(one.key) + " asks for a " + one.what + " every " +
-                      rounded(*one.interval) + " s, more often than there are steps (" + rounded(macroStep) +
-                      " s), and gets one for each: take a larger interval, such as " +
+      lines.push_back("output." + std::string(one.key) + " requests a " + one.what + " every " +
+                      rounded(*one.interval) + " s, which is shorter than a macro step (" + rounded(macroStep) +
+                      " s), and gets one per macro step: take a larger interval, such as " +
                       rounded(std::max(time / 200.0, macroStep)) + " s.");
 }
 
@@ -156,7 +156,7 @@ void lookAtTimes(const Scene& scene, double macroStep, Lines& lines) {
     const std::string of = "stages." + std::to_string(k);
     if (const auto* const run = std::get_if<RunFor>(&scene.stages[k].kind); run && run->time < 0.5 * macroStep)
       lines.push_back(of + ".time is " + rounded(run->time) + " s, and a step " + rounded(macroStep) +
-                      " s: it runs for one; give it a longer time, or look at its unit.");
+                      " s: it runs for one; give it a longer time, or check its unit.");
     if (const auto* const relax = std::get_if<Relax>(&scene.stages[k].kind); relax && relax->macroSteps < few)
       lines.push_back(of + ".macro_steps is " + std::to_string(relax->macroSteps) +
                       ", and nothing comes to rest in so few steps: take some ten thousand.");
@@ -167,8 +167,8 @@ void lookAtRates(const Scene& scene, Lines& lines) {
   const double time = timeOf(scene);
   for (std::size_t k = 0; k < scene.insertions.size() && time > 0.0; ++k)
     if (const double count = expectedOf(scene.insertions[k], time); count < 1.0)
-      lines.push_back("insertions." + std::to_string(k) + " lets " + rounded(count) + " grains enter in " +
-                      rounded(time) + " s, so that hardly any comes: let it bring more than " + rounded(1.0 / time) +
+      lines.push_back("insertions." + std::to_string(k) + " inserts only " + rounded(count) + " grains in " +
+                      rounded(time) + " s: give it a rate above " + rounded(1.0 / time) +
                       " per second, or run for longer.");
 }
 
@@ -190,7 +190,7 @@ void lookAtOutput(const Built& built, const Scene& scene, Lines& lines) {
   const Plan plan = planOf(built, scene);
   const Frames frames = framesOf(built, scene, plan);
   if (frames.count > many)
-    lines.push_back("output.frames asks for " + std::to_string(frames.count) + " frames" +
+    lines.push_back("output.frames requests " + std::to_string(frames.count) + " frames" +
                     (plan.frames == 1 ? ", one at every macro step" : "") + ", " + room(frames.bytes()) +
                     " on disk: take a larger interval, such as " + rounded(timeOf(scene) / 200.0) + " s.");
   else

@@ -17,7 +17,7 @@ std::int64_t macroStepsIn(double seconds, double macroStep, const std::string& w
   if (!(count < 1e15))
     throw InputError(formatNumber(seconds) + " s are more than 1e15 macro steps of " + formatNumber(macroStep) + " s",
                      where,
-                     "take a shorter time or a larger step, or look at the units of radii and meshes, which set it");
+                     "take a shorter time or a larger step, or check the units of radii and meshes, which set it");
   return std::max<std::int64_t>(1, std::llround(count));
 }
 

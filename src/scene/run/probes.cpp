@@ -124,7 +124,7 @@ Probes::Values Probes::find(const Built& built, const std::string& name, const S
   const std::vector<int>& set = fem::nodeSet(built.meshes[solid], kind.on);
   const HeldBy by = holdersOf(built.run->solid(solid), set);
   if (!by.supports && !by.ties)
-    throw InputError("nothing holds, moves or carries the nodes \"" + kind.on + "\" of \"" + kind.solid + "\"", "",
+    throw InputError("neither supports nor ties act on the nodes \"" + kind.on + "\" of \"" + kind.solid + "\"", "",
                      "give the solid a support there, or leave the probe out");
   nameVector(name + "_", "N");
   return [solid, set, supports = by.supports, known = reactions_](const Built& now, std::vector<double>& row) {

@@ -55,7 +55,7 @@ void requireInputsElsewhere(const std::vector<std::string>& files, const fs::pat
     const bool isWithin =
         fs::equivalent(within.empty() ? "." : within, folder, error) || fs::equivalent(within / "..", folder, error);
     if (isWithin && io::isOurs(file))
-      throw InputError("the run would put its own in place of this file, which the scene reads", file,
+      throw InputError("the run would overwrite this file, which the scene reads", file,
                        "give another folder by --out, or copy the file to another one");
   }
 }

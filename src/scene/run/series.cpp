@@ -97,7 +97,7 @@ void Series::takeUp(std::uint64_t rows) {
   if (rows == 0) return;
   const io::TimeSeries earlier = io::readCsv(path_);
   if (earlier.names() != table_.names() || earlier.rows() < rows)
-    throw InputError("the series is not that of the checkpoint", path_.string(), "put it back, or begin anew");
+    throw InputError("the series does not belong to the checkpoint", path_.string(), "restore it, or start a new run");
   std::vector<double> row(table_.names().size());
   for (std::size_t k = 0; k < rows; ++k) {
     for (std::size_t c = 0; c < row.size(); ++c) row[c] = earlier.column(c)[k];

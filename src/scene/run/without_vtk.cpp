@@ -23,7 +23,7 @@ void Frames::add(const Built&) {}
 bool isFrameFile(const std::filesystem::path& file) { return file.extension() == ".pvd"; }
 void compareFrames(const std::filesystem::path&, const std::filesystem::path&, const std::string& name,
                    Comparison& to) {
-  to.unlike.push_back(name + " was not looked at: this build is without VTK.");
+  to.unlike.push_back(name + " was not compared: this build has no VTK.");
 }
 bool inspectFrames(const std::filesystem::path&, std::ostream&) { return false; }
 
