@@ -51,7 +51,7 @@ Verb addCalibrate(CLI::App& app) {
       ->take_all();
   verb->add_option("--out", options->out, "folder for all files; <file>-calibration if not given");
   verb->add_option("--rehearse", options->rehearsals,
-                   "recovers the parameters' starts this often from targets made with them, with noise")
+                   "number of rehearsals: fits of targets that are simulated at the parameters' starts, with noise")
       ->check(CLI::Range(1, 10000));
   verb->add_option("--seed", options->seed, "of the noise")->capture_default_str();
   verb->add_flag("--schema", options->schema, "prints the JSON Schema of calibration files");

@@ -120,23 +120,24 @@ std::vector<Verb> addVerbs(CLI::App& app, Options& options) {
   };
   const auto steps = [&](CLI::App* verb) {
     verb->add_flag("--profile", options.profile, "time per part of a step in the summary");
-    verb->add_option("--max-wall-seconds", options.maxWallSeconds,
-                     "ends with a checkpoint and exit code 142 when so much time has passed, set-up included");
+    verb->add_option(
+        "--max-wall-seconds", options.maxWallSeconds,
+        "limit of wall-clock time, set-up included: then the run ends with a checkpoint and exit code 142");
   };
   CLI::App* const run = add("run", "runs a scene", runScene);
   takesScene(run);
   run->add_option("--out", options.out, "folder for all files; <scene>-out if not given");
-  run->add_flag("--replace", options.replace, "puts this run in place of an earlier one in the folder");
+  run->add_flag("--replace", options.replace, "replaces an earlier run in the folder");
   steps(run);
-  takesScene(add("check", "builds a scene, and tells sizes, limits of the step, memory and time", checkScene));
-  CLI::App* const resume = add("resume", "goes on from the last checkpoint of a run", resumeRun);
+  takesScene(add("check", "builds a scene, and prints sizes, critical steps, memory and run time", checkScene));
+  CLI::App* const resume = add("resume", "continues a run from its last checkpoint", resumeRun);
   resume->add_option("FOLDER", options.file, "that the run wrote into")->required();
   resume->add_option("--until", options.until,
-                     "time since the start at which the last stage is to end, of a run that is done too");
-  resume->add_option("--threads", options.threads, "in place of the scene's; the digits are the same for any number");
+                     "new end time of the last stage, since the start of the run; also for a finished run");
+  resume->add_option("--threads", options.threads, "in place of the scene's; results are the same for any number");
   steps(resume);
-  add("info", "tells what a file or folder holds", inspectFile)->add_option("FILE", options.file)->required();
-  add("upgrade", "gives keys and words of a scene file the names that they have now", upgradeScene)
+  add("info", "prints what a file or folder contains", inspectFile)->add_option("FILE", options.file)->required();
+  add("upgrade", "updates renamed keys and words of a scene file", upgradeScene)
       ->add_option("SCENE", options.file, "scene file (JSON), which is changed in place")
       ->required();
   add("schema", "prints the JSON Schema of scenes", writeSchema)

@@ -116,8 +116,7 @@ void findOrders(std::vector<Run>& runs) {
 
 report::Table tableOf(const std::vector<Run>& runs) {
   report::Table table{
-      {"run", "step (s)", "steps", "largest residual (J)", "over what changed hands", "order", "growth", "seconds"},
-      {}};
+      {"run", "step (s)", "steps", "largest residual (J)", "over exchanged energy", "order", "growth", "seconds"}, {}};
   const auto text = [](double value, const char* pattern = "%.3g") {
     char line[64];
     std::snprintf(line, sizeof line, pattern, value);
@@ -140,14 +139,14 @@ report::Figure againstStep(const std::vector<Run>& runs) {
     curve.x.push_back(run.dt);
     curve.y.push_back(numberIn(run.figures, "largest_residual_fraction"));
   }
-  return {"energy_step", "Residual against step", {"step (s)", true}, {"over what changed hands", true}, {curve}, {}};
+  return {"energy_step", "Residual against step", {"step (s)", true}, {"over exchanged energy", true}, {curve}, {}};
 }
 
 /// Of so many runs at most: more curves cannot be told apart.
 report::Figure againstTime(const std::vector<Run>& runs) {
   constexpr std::size_t most = 8;
   report::Figure figure{
-      "energy_time", "Residual over time", {"time (s)", false}, {"over what changed hands", true}, {}, {}};
+      "energy_time", "Residual over time", {"time (s)", false}, {"over exchanged energy", true}, {}, {}};
   for (std::size_t k = 0; k < std::min(most, runs.size()); ++k) {
     const io::TimeSeries& series = runs[k].series;
     const double scale = numberIn(runs[k].figures, "changed_hands_J");
@@ -202,11 +201,9 @@ void writeEnergyStudy(const fs::path& folder) {
       "Energy",
       {{"Runs",
         {report::Paragraph{
-             "Residual: what nobody accounts for, the largest of the run. Order: of the residual over what changed, "
-             "beside the "
-             "run with "
-             "the next larger step that differs in nothing else. Growth: exponent of the largest residual over time: 0 "
-             "bounded, 0.5 a random walk, 1 a drift."},
+             "Residual: energy that no channel accounts for, the largest of the run. Order: of the residual over "
+             "exchanged energy, against the run with the next larger step and all else equal. Growth: exponent of the "
+             "largest residual over time: 0 bounded, 0.5 a random walk, 1 a drift."},
          tableOf(runs), againstStep(runs), againstTime(runs)}},
        {"Channels", {channelTable(runs)}}}};
   const io::KeyValues provenance = io::provenance();

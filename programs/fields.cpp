@@ -28,7 +28,7 @@ Verb addFields(CLI::App& app) {
   CLI::Option* const width =
       verb->add_option("--width", options->settings.width, "of the kernel, m; 1.5 mean diameters if not given");
   verb->add_flag("--advise-width", options->settings.advisesWidth,
-                 "take the width on which density and velocity depend the least; tells how flat that optimum is")
+                 "take the width on which density and velocity depend least; prints how flat that optimum is")
       ->excludes(width);
   verb->add_option("--spacing", options->settings.spacing, "of the points, m; half the width if not given");
   verb->add_option("--box", options->box,

@@ -186,11 +186,11 @@ bool studyScene(int argc, char** argv) {
   options.text("--error COLUMN", settings.error,
                "of the series: its magnitude at the end is the error; default: the largest residual");
   options.number("--exact VALUE", settings.exact, {-1e300, 1e300, true, true, "a number"}, "none",
-                 "what the column ought to be: the error is the difference");
+                 "exact value of the column: the error is the difference from it");
   options.flag("--energy", settings.energy,
                "writes energy.html and .csv too: residual of the energy, its order in the step, growth and channels");
   options.integer("--workers N", settings.workers, 1, 1024, "processes at once; default: one for each processor");
-  options.flag("--replace", settings.replace, "puts this study in place of an earlier one in the folder");
+  options.flag("--replace", settings.replace, "replaces an earlier study in the folder");
   options.text("--out DIR", settings.out, "folder; <scene>-study if not given");
   if (!options.parse(argc, argv)) return true;
   report::Study study = planOf(settings);

@@ -21,7 +21,7 @@ TEST(SceneTogether, GrainsOnTheWrongSideOfWallsAreRefused) {
   expectParts(of(R"({"shape": "sphere", "centre": [0.1, 0.1, 0.2], "radius": 0.3, "inside": false})"),
               {"within the sphere"});
   expectParts(of(R"({"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1], "displacement": [0, 0, 0.2]})"),
-              {"begins displaced by (0, 0, 0.2) m", "let it start at 0"});
+              {"starts displaced by (0, 0, 0.2) m", "let it start at 0"});
   EXPECT_EQ(of(R"({"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]})"), "");
 }
 
@@ -219,8 +219,8 @@ TEST(SceneCompany, SurfacesOfAnotherUnit) {
     return warningsOf(grain + R"("walls": [{"shape": "mesh", "file": "plate.stl", "scale": )" + scale + "}],",
                       folder.path());
   };
-  expectParts(of("1"), {"The surface of walls.0 is 283 m large, and all grains together 0.04 m", "\"scale\": 0.001"});
-  expectParts(of("1e-6"), {"The surface of walls.0 is 0.000283 m large, and the smallest grain 0.04 m"});
+  expectParts(of("1"), {"The surface of walls.0 is 283 m across, and all grains together 0.04 m", "\"scale\": 0.001"});
+  expectParts(of("1e-6"), {"The surface of walls.0 is 0.000283 m across, and the smallest grain 0.04 m"});
   EXPECT_EQ(of("0.001"), "");
 }
 

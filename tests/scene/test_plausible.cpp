@@ -162,7 +162,7 @@ TEST(ScenePlausible, InsertionsThatBringNobody) {
         "region": [[0, 0, 0], [1, 1, 1]], "number_per_second": )" +
                       rate + "}],");
   };
-  expectParts(of("10"), {"insertions.0 lets 0.01 grains enter in 0.001 s", "1000 per second"});
+  expectParts(of("10"), {"insertions.0 inserts only 0.01 grains in 0.001 s", "1000 per second"});
   EXPECT_EQ(of("1001"), "");
 }
 
