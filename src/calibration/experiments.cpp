@@ -112,7 +112,7 @@ double Outcome::value(const std::string& quantity, const std::optional<double>& 
   if (curve == curves.end()) {
     std::string names;
     for (const auto& [name, value] : curves) names += (names.empty() ? "" : ", ") + name;
-    throw InputError(number != numbers.end() ? quantity + " is one number, and has no place \"at\" it goes by"
+    throw InputError(number != numbers.end() ? quantity + " is a single number, which has no curve for \"at\""
                                              : "the run's series has no column \"" + quantity + "\"",
                      where, number != numbers.end() ? "leave \"at\" out" : "write one of " + names);
   }

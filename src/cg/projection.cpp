@@ -31,7 +31,8 @@ void requireEntry(int row, int columns, int column, double weight) {
 void requireLengths(const Projection& map, std::size_t perRow, std::size_t perColumn, const char* where) {
   if (perRow != static_cast<std::size_t>(map.rows()) || perColumn != static_cast<std::size_t>(map.columns))
     throw InputError("a map of " + std::to_string(map.rows()) + " rows and " + std::to_string(map.columns) +
-                         " columns meets arrays of " + std::to_string(perRow) + " and " + std::to_string(perColumn),
+                         " columns does not fit arrays of " + std::to_string(perRow) + " and " +
+                         std::to_string(perColumn),
                      where, "give one value per row and one per column");
 }
 

@@ -82,8 +82,8 @@ void CoupledRun::start(double dt, const RunOptions& options) {
       if (run.started) start(lastDt, lastOptions);
       grains.refusesUnstableSteps = true;
       throw InputError(
-          "dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit.dt) + " s that " + limit.owner +
-              " sets",
+          "dt = " + formatNumber(dt) + " s exceeds the critical step of " + formatNumber(limit.dt) + " s, set by " +
+              limit.owner,
           "time step",
           "take a fifth of the limit or less; if a solid sets it, fewer steps per macro step or an implicit solid");
     }
@@ -137,7 +137,7 @@ void CoupledRun::Impl::requireSides() const {
 
 void CoupledRun::Impl::requireStarted(const char* what) const {
   if (!started) throw InputError("the run has not been started", what, "call start(dt) first");
-  if (!joined()) throw InputError("another model has taken the place of the particles", what, "call start(dt) again");
+  if (!joined()) throw InputError("the model of the particles was replaced", what, "call start(dt) again");
 }
 
 bool CoupledRun::Impl::anyImplicit() const {

@@ -21,7 +21,7 @@ NodalLoad readLoad(ByteReader& archive, std::size_t nodes) {
   archive(touched, force);
   NodalLoad load(nodes);
   if (touched.size() != force.size())
-    throw InputError("loads and nodes are not of one number", "state", "load it into the run that saved it");
+    throw InputError("loads and nodes differ in number", "state", "load it into the run that saved it");
   for (std::size_t k = 0; k < touched.size(); ++k) {
     if (touched[k] < 0 || static_cast<std::size_t>(touched[k]) >= nodes)
       throw InputError("there is no node " + std::to_string(touched[k]), "state", "load it into the run that saved it");

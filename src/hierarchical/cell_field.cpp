@@ -101,7 +101,7 @@ struct Moving {
 void requirePlane(const rve::Rve& cell, const Eigen::Matrix3d& F) {
   if (cell.shape == rve::Shape::sphere) return;
   if (F.col(2) == Eigen::Vector3d::UnitZ() && F.row(2) == Eigen::RowVector3d::Unit(2)) return;
-  throw InputError("F33 is " + formatNumber(F(2, 2)) + ", discs are asked out of their plane", "cell of grains",
+  throw InputError("F33 is " + formatNumber(F(2, 2)) + ", but discs deform in their plane only", "cell of grains",
                    "use quad4 or quad8 with Formulation::standard or reduced; meanDilatation changes F33");
 }
 
@@ -149,7 +149,7 @@ public:
     Eigen::Matrix3d F = committedF_;
     passMatrix(archive, F);
     if (!((F - state.F).norm() <= 1e-9 * state.F.norm()))
-      throw InputError("the deformation is not that of the cell", "cell of grains", "take an older file");
+      throw InputError("the deformation differs from that of the cell", "cell of grains", "take an older file");
     Manner manner = manner_;
     manner.pass(archive);
     committed_ = std::move(state);

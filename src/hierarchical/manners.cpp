@@ -16,7 +16,7 @@ constexpr const char* where = "cell of grains";
 void validate(const QuasiStaticCells& settings) {
   requirePositive(settings.unbalanced, "unbalanced fraction of forces");
   if (settings.path.rest.steps < 1)
-    throw InputError("cells are not to come to rest", where, "give path.rest.steps, or DynamicCells");
+    throw InputError("cells get no steps to come to rest", where, "give path.rest.steps, or DynamicCells");
 }
 
 void validate(const DynamicCells& settings) {
@@ -32,9 +32,9 @@ void validate(const DynamicCells& settings) {
 int stepsFor(double strain, const DynamicCells& settings) {
   const double steps = std::max(1.0, std::ceil(strain / settings.strainPerStep));
   if (!(steps <= 1e6))
-    throw NumericalError(
-        "F is a strain of " + formatNumber(strain) + " away, " + formatNumber(steps) + " steps of the grains", where,
-        "take shorter steps of the solid, or a larger strainPerStep");
+    throw NumericalError("F is a strain of " + formatNumber(strain) + " away, which takes " + formatNumber(steps) +
+                             " steps of the grains",
+                         where, "take shorter steps of the solid, or a larger strainPerStep");
   return static_cast<int>(steps);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 void validateCell(const rve::Rve& cell, const rve::Rve& first, double unbalanced, const std::string& where) {
   if (cell.shape != first.shape || !(cell.springs == first.springs))
-    throw InputError("the shape or the springs of grains are others than in the first cell", where,
+    throw InputError("the shape or the springs of grains differ from those of the first cell", where,
                      "make all cells of a field with the same springs, or give each part of the solid its own field");
   if (cell.state.F != Eigen::Matrix3d::Identity())
     throw InputError("it is deformed", where, "give cells at F = 1, as compress() leaves them");
@@ -32,7 +32,7 @@ void validateCell(const rve::Rve& cell, const rve::Rve& first, double unbalanced
 void validateSamples(const std::vector<rve::Rve>& samples, double unbalanced) {
   if (samples.empty()) throw InputError("there are no cells", "cellField", "give one, as compress() leaves it");
   for (std::size_t k = 0; k < samples.size(); ++k)
-    validateCell(samples[k], samples.front(), unbalanced, "cell " + std::to_string(k) + " of a samples");
+    validateCell(samples[k], samples.front(), unbalanced, "cell " + std::to_string(k) + " of the samples");
 }
 
 double meanDensity(const std::vector<rve::Rve>& samples) {

@@ -125,8 +125,7 @@ fs::path prepareOutputFolder(const fs::path& folder, const std::vector<std::stri
 fs::path prepareInnerFolder(const fs::path& folder, const std::vector<std::string>& fileNames) {
   std::error_code error;
   if (fs::is_symlink(fs::symlink_status(folder, error)))
-    throw InputError("a link is where a folder of the run is to be", folder.string(),
-                     "move it, or give another folder");
+    throw InputError("a link has the name of a folder of the run", folder.string(), "move it, or give another folder");
   return prepareOutputFolder(folder, fileNames);
 }
 
@@ -171,12 +170,12 @@ void requireNoRun(const fs::path& folder) {
   if (!isOurs(folder / "summary.json") && isOurs(folder / "checkpoint.state"))
     refuseRun("checkpoint.state", "resume it, or give --replace");
   for (const char* const name : {"summary.json", "series.csv", "series.h5", "scene.json", "report.md", "report.html"})
-    if (isOurs(folder / name)) refuseRun(name, "give --replace to put this one in its place");
+    if (isOurs(folder / name)) refuseRun(name, "give --replace to replace it by this one");
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (const std::string ending = entry.path().extension().string();
         (ending == ".pvd" || ending == ".vtkhdf") && isOurs(entry.path()))
-      refuseRun(entry.path(), "give --replace to put this one in its place");
+      refuseRun(entry.path(), "give --replace to replace it by this one");
 }
 
 FolderOnTrial::FolderOnTrial(const fs::path& folder) {

@@ -17,7 +17,7 @@ int corner(const TextScanner& text, std::string_view word, std::size_t vertices)
   const long index = text.integer(word.substr(0, word.find('/')));
   const long count = static_cast<long>(vertices), number = index < 0 ? count + index : index - 1;
   if (index == 0 || number < 0 || number >= count)
-    text.refuse("vertex " + std::to_string(index) + " is named after " + std::to_string(count) + " vertices",
+    text.refuse("vertex " + std::to_string(index) + " is used after only " + std::to_string(count) + " vertices",
                 "use 1 to " + std::to_string(count) + ", or -1 to -" + std::to_string(count));
   return static_cast<int>(number);
 }

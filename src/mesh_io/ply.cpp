@@ -85,7 +85,7 @@ Header readHeader(TextScanner& text) {
       Element& element = header.elements.emplace_back();
       element.name = text.wordOnLine();
       element.items = text.integer(text.wordOnLine());
-      if (element.items < 0) text.refuse("an element is there a negative number of times", "give 0 or more");
+      if (element.items < 0) text.refuse("the count of an element is negative", "give 0 or more");
     } else if (word == "property" && !header.elements.empty()) {
       header.elements.back().properties.push_back(readProperty(text));
     } else if (word != "comment" && word != "obj_info") {

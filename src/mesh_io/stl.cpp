@@ -161,7 +161,7 @@ void noteOppositeNormals(const WithNormals& read, std::vector<std::string>& note
   std::size_t opposite = 0;
   for (std::size_t f = 0; f < read.mesh.facets.size(); ++f) opposite += isOpposite(read, f);
   if (opposite == 0) return;
-  notes.push_back("Normals of the file were passed over: " + std::to_string(opposite) + " of its " +
+  notes.push_back("Normals of the file were ignored: " + std::to_string(opposite) + " of its " +
                   std::to_string(read.mesh.facets.size()) +
                   " facets have one that points against the order of their vertices, which counts.");
 }

@@ -98,7 +98,7 @@ std::vector<Block> figuresOfSeries(const io::TimeSeries& series) {
   }
   std::vector<Block> blocks;
   addFigure(blocks, series, "energies", "Energies, less those at the start", "energy (J)", energies, Zero::atTheStart);
-  addFigure(blocks, series, "residual", "What the energy balance leaves over", "energy (J)", residuals);
+  addFigure(blocks, series, "residual", "Residual of the energy balance", "energy (J)", residuals);
   addFigure(blocks, series, "momenta", "Momentum", "momentum (Ns)", momenta);
   addFigure(blocks, series, "given", "Momentum given from outside", "momentum (Ns)", given);
   addFigure(blocks, series, "forces", "Forces", "force (N)", others["N"]);
@@ -127,8 +127,8 @@ std::vector<Block> energyBalance(const RunRecord& record) {
     stored += c.joules;
     atOpening += c.joulesAtOpening;
   }
-  add("stored in all", atOpening, stored);
-  table.rows.push_back({"left over", "", "", format("%.3g", record.residual.value_or(residual))});
+  add("stored, total", atOpening, stored);
+  table.rows.push_back({"residual", "", "", format("%.3g", record.residual.value_or(residual))});
   return {std::move(table)};
 }
 
@@ -192,7 +192,7 @@ Page pageOf(const RunRecord& record) {
   page.sections.push_back({"Energy balance", energyBalance(record)});
   io::KeyValues figures = record.figures;
   page.sections.push_back({"Balances", take(figures, {"residual"})});
-  page.sections.push_back({"Errors beside references", take(figures, {"error"})});
+  page.sections.push_back({"Errors against references", take(figures, {"error"})});
   page.sections.push_back({"Time and step", take(figures, {"seconds", "step", "set by", "set_by", "dt_"})});
   page.sections.push_back({"Time per part of a step", timePerStage(record)});
   page.sections.push_back({"More figures", take(figures, {})});
@@ -202,7 +202,7 @@ Page pageOf(const RunRecord& record) {
   if (!origin.rows.empty()) texts.emplace_back(std::move(origin));
   if (!record.summary.empty()) texts.emplace_back(Listing{"Summary", record.summary});
   if (!record.scene.empty()) texts.emplace_back(Listing{"Scene with every key", record.scene});
-  page.sections.push_back({"Where it comes from", std::move(texts)});
+  page.sections.push_back({"Provenance", std::move(texts)});
   return page;
 }
 

@@ -100,7 +100,7 @@ private:
 
   void begin(std::size_t number) {
     std::FILE* const answer = std::tmpfile();
-    if (!answer) throw Error("no temporary file can be made", "", "look for room on the disk");
+    if (!answer) throw Error("no temporary file can be made", "", "check for free disk space");
     log_.flush();
     std::fflush(nullptr);
     const pid_t process = ::fork();

@@ -10,7 +10,7 @@ void AbaqusReader::enterPart() {
   if (++parts_ > 1) cards_.refuse("there is a second *part", "write one part, or a flat file (no parts, no assembly)");
   if (const std::string* name = cards_.parameter("name")) part_ = *name;
   if (builder_.nodeCount() > 0)
-    cards_.refuse("nodes stand before the *part", "write them into the part, or behind it into the assembly");
+    cards_.refuse("nodes come before the *part", "write them into the part, or after it into the assembly");
   cards_.requireNoData();
   inPart_ = true;
 }
@@ -37,7 +37,8 @@ void AbaqusReader::requireUnmoved() {
       cards_.refuseData("an instance has more than a translation and a rotation", "give x, y, z and a, b, angle");
     for (std::size_t k = from; k < fields.size(); ++k)
       if (!fields[k].empty() && source_.parseReal(fields[k]) != 0.0)
-        cards_.refuseData("the instance is moved", "write it where it belongs, without a translation or rotation");
+        cards_.refuseData("the instance is moved",
+                          "write its nodes in their final position, without a translation or rotation");
   }
 }
 

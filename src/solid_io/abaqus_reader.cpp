@@ -68,7 +68,7 @@ bool isNearly(const std::string& word, const std::string& known) {
 
 SolidFile AbaqusReader::read() {
   if (const std::string text = cards_.textBeforeCards(); !text.empty())
-    builder_.note("The text before the first card was passed over: " + text + ".");
+    builder_.note("The text before the first card was ignored: " + text + ".");
   while (cards_.next()) readCard(cards_.keyword());
   giveSets();
   const bool plane = builder_.takePlaneCells();
@@ -87,19 +87,17 @@ void AbaqusReader::noteWhatWasDropped() {
   for (const auto& [types, what] : {std::pair{&lines_, "nodes"}, std::pair{&faces_, "faces"}})
     for (const auto& [type, count] : *types)
       builder_.note(counted(count, "element", "elements") + " of type " + type + (count == 1 ? " is" : " are") +
-                    " no part of the solid: sets of theirs name " + what + ".");
+                    " no part of the solid: their sets name " + what + ".");
   if (!constraints_.empty())
-    builder_.note("Supports, constraints and contacts of the file were passed over: " + listed(constraints_, "*") +
-                  ".");
+    builder_.note("Supports, constraints and contacts of the file were ignored: " + listed(constraints_, "*") + ".");
   if (!passedOver_.empty())
-    builder_.note("Cards that say nothing about the mesh were passed over: " + listed(passedOver_, "*") + ".");
+    builder_.note("Cards that do not concern the mesh were ignored: " + listed(passedOver_, "*") + ".");
   if (!thicknesses_.empty())
-    builder_.note("The thickness of *solid section was passed over: " + listed(thicknesses_, "") + ".");
-  if (!ignored_.empty())
-    builder_.note("Parameters that say nothing here were passed over: " + listed(ignored_, "") + ".");
+    builder_.note("The thickness of *solid section was ignored: " + listed(thicknesses_, "") + ".");
+  if (!ignored_.empty()) builder_.note("Parameters without effect were ignored: " + listed(ignored_, "") + ".");
   if (!variants_.empty())
     builder_.note("Of the element types " + listed(variants_, "") +
-                  " the shape alone was read: fem::Formulation says how it is integrated.");
+                  " only the shape was read: fem::Formulation sets the integration.");
 }
 
 void AbaqusReader::readCard(const std::string& keyword) {

@@ -99,7 +99,7 @@ void InpCards::requireComma(std::string_view card) const {
   const std::string first = lower(trimmed(card).substr(0, blank));
   const bool ours = std::find(std::begin(meshCards), std::end(meshCards), first) != std::end(meshCards);
   if (ours && blank != std::string_view::npos && card.find('=') != std::string_view::npos)
-    refuse("there is no comma behind *" + first, "write *" + first + ", …");
+    refuse("there is no comma after *" + first, "write *" + first + ", …");
 }
 
 void InpCards::requireKnown(const std::vector<Parameter>& known) const {

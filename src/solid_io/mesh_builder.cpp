@@ -122,7 +122,7 @@ void MeshBuilder::numberNodes(SolidFile& file) {
     note(counted(dropped, "node that no volume element uses was", "nodes that no volume element uses were") +
          " dropped.");
   if (const std::size_t twice = file.mesh.X.size() - places.size(); twice > 0)
-    note(counted(twice, "node lies", "nodes lie") + " exactly where an earlier one does; they stay apart.");
+    note(counted(twice, "node lies", "nodes lie") + " exactly where an earlier one does; they stay separate.");
 }
 
 void MeshBuilder::dropDuplicates() {
@@ -146,7 +146,7 @@ void MeshBuilder::dropDuplicates() {
   if (dropped > 0)
     note(counted(dropped, "element with the nodes of an earlier one was",
                  "elements with the nodes of earlier ones were") +
-         " dropped; sets of theirs hold the earlier ones.");
+         " dropped; their sets have the earlier ones instead.");
 }
 
 void MeshBuilder::fillGroups(SolidFile& file) {
@@ -177,8 +177,9 @@ void MeshBuilder::requireSound(const SolidFile& file) const {
   if (bad.size() > 10) named += " and " + std::to_string(bad.size() - 10) + " more";
   const auto first = std::find_if(cell_.begin(), cell_.end(),
                                   [&](const Cell& cell) { return cell.number == static_cast<int>(bad[0]); });
-  source_.refuseAt(first->place, "flat, inside out or too distorted: " + named,
-                   "mend the mesh where it was made; if all are named, their nodes run the wrong way round");
+  source_.refuseAt(
+      first->place, "flat, inside out or too distorted: " + named,
+      "repair the mesh in the program that made it; if all are named, the order of their nodes is reversed");
 }
 
 SolidFile MeshBuilder::finish() {

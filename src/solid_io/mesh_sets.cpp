@@ -103,7 +103,7 @@ std::vector<fem::Face> MeshBuilder::placedFaces(const FaceFinder& finder, std::v
     note((plane_ ? counted(loose, "line that is no side of an element was", "lines that are no sides of elements were")
                  : counted(loose, "surface element that is no face of a volume element was",
                            "surface elements that are no faces of volume elements were")) +
-         " passed over.");
+         " ignored.");
   return placed;
 }
 

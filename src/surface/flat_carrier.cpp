@@ -51,7 +51,7 @@ public:
   }
   void findContacts(const dem::Particles& particles, double travelled, dem::WallContacts& contacts) override {
     if (!candidates_.particle.empty() && static_cast<std::size_t>(candidates_.particle.back()) >= particles.size())
-      refuse("a particle that is not there");
+      refuse("a particle that does not exist");
     clearances_.travelled = travelled;
     dem::findWallContacts(particles, skin_.wall, candidates_, clearances_, rule_, contacts);
   }
@@ -110,7 +110,8 @@ private:
     if (!ends || !ascend(c.offsets) || !ascend(c.particle)) refuse("lists that do not fit each other");
     if (clearances_.whenListed.size() != c.facet.size()) refuse("lists that do not fit each other");
     for (const int facet : c.facet)
-      if (facet < 0 || static_cast<std::size_t>(facet) >= skin_.wall.facets.size()) refuse("a facet that is not there");
+      if (facet < 0 || static_cast<std::size_t>(facet) >= skin_.wall.facets.size())
+        refuse("a facet that does not exist");
     if (skin_.wall.x.size() != skin_.wall.v.size()) refuse("lists that do not fit each other");
   }
   void activate(const std::vector<int>& facets) {

@@ -47,11 +47,11 @@ public:
   void check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity) const override {
     const auto refuse = [](const std::string& what) {
       throw InputError(what, "smooth surface",
-                       "take the facets themselves (\"surface\": \"flat\"), which know no such limits");
+                       "take the facets themselves (\"surface\": \"flat\"), which have no such limits");
     };
-    if (laws.memory() > 0) refuse("\"" + laws.name() + "\" remembers what no patch carries");
-    if (laws.reach() > 0.0) refuse("\"" + laws.name() + "\" acts beyond touch");
-    if (periodicity.any()) refuse("space repeats");
+    if (laws.memory() > 0) refuse("\"" + laws.name() + "\" has memory, which patches do not carry");
+    if (laws.reach() > 0.0) refuse("\"" + laws.name() + "\" acts at a distance");
+    if (periodicity.any()) refuse("space is periodic");
   }
 
   void placeAll(std::span<const Vec3> u, std::span<const Vec3> v) override { surface::place(surface_, u, v, all_); }
@@ -70,7 +70,7 @@ public:
 
   void findContacts(const dem::Particles& particles, double, dem::WallContacts& contacts) override {
     if (!particle_.empty() && static_cast<std::size_t>(particle_.back()) >= particles.size())
-      refuse("a particle that is not there");
+      refuse("a particle that does not exist");
     constexpr std::size_t grain = 16;
     std::vector<std::vector<SmoothContact>> parts((particle_.size() + grain - 1) / grain);
     parallelFor(particle_.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -131,10 +131,11 @@ private:
     for (const std::size_t size : {wall_.x.size(), wall_.v.size(), contactWeight_.size()})
       if (size != contactFace_.size()) refuse("lists that do not fit each other");
     if (!std::is_sorted(particle_.begin(), particle_.end()) || (!particle_.empty() && particle_.front() < 0))
-      refuse("a particle that is not there");
+      refuse("a particle that does not exist");
     for (const auto* const faces : {&face_, &contactFace_})
       for (const int face : *faces)
-        if (face < 0 || static_cast<std::size_t>(face) >= surface_.control.size()) refuse("a patch that is not there");
+        if (face < 0 || static_cast<std::size_t>(face) >= surface_.control.size())
+          refuse("a patch that does not exist");
     requireFinite(surface_.x), requireFinite(surface_.v), requireFinite(wall_.x), requireFinite(wall_.v);
     for (const auto& [a, b] : start_)
       if (!std::isfinite(a + b)) refuse("a place that is not finite");

@@ -55,7 +55,7 @@ void SurfaceContact::check(const dem::Model& m) const {
   if (coupling_.onFacets()) return;
   for (const auto* other : m.terms.all<SurfaceContact>())
     if (other != this && other->side().model == side().model && other->coupling_.meets(coupling_))
-      throw InputError("its smooth surface meets that of \"" + other->name_ + "\" on the same solid", name_,
+      throw InputError("its smooth surface touches that of \"" + other->name_ + "\" on the same solid", name_,
                        "take facets for both (\"surface\": \"flat\"), or one set of faces");
 }
 
@@ -73,7 +73,7 @@ void SurfaceContact::requireJoinable(std::span<const SurfaceContact* const> part
   for (const SurfaceContact* part : parts) {
     skins.push_back(&part->coupling_.skin());
     if (part->coupling_.options().edges != coupling_.options().edges)
-      throw InputError("its contacts are combined by another rule than those of \"" + part->name_ + "\" on this solid",
+      throw InputError("its contacts are combined by a rule other than that of \"" + part->name_ + "\" on this solid",
                        name_, "give both the same rule for edges (\"edges\")");
   }
   try {

@@ -146,7 +146,7 @@ void SurfaceCoupler::requireNoneThrough(const dem::Particles& particles, std::sp
   for (const int i : sunk_) {
     if (touches(i) || isTied(i)) continue;
     const auto at = static_cast<std::size_t>(i);
-    throw NumericalError("it has sunk deeper into a closed surface than its radius, where nothing pushes it out",
+    throw NumericalError("it has sunk deeper into a closed surface than its radius, where no contact force acts on it",
                          "particle " + std::to_string(particles.id.empty() ? i : particles.id[at]),
                          "take a smaller step, a stiffer contact or a slower start");
   }
@@ -300,7 +300,7 @@ void SurfaceCoupler::check(const dem::Particles& particles) const {
   const auto count = static_cast<int>(particles.size());
   if ((revision_ == particles.revision && !sunk_.empty() && sunk_.back() >= count) ||
       (!fractions_.now.particle.empty() && fractions_.now.particle.back() >= count))
-    throw InputError("a state has a particle that is not there", "contacts on a surface", "take an older checkpoint");
+    throw InputError("a state has a particle that does not exist", "contacts on a surface", "take an older checkpoint");
   dem::requireRows(contacts_, {particles.size(), carrier_->wall().facets.size()}, revision_ == particles.revision);
 }
 

@@ -125,7 +125,7 @@ TEST(InitialEquilibriumEnds, OrTellsHowMuchChanged) {
                        {.tolerance = 1e-12, .rounds = 2, .leastWeight = 0.02});
     ADD_FAILURE();
   } catch (const NumericalError& error) {
-    EXPECT_NE(std::string(error.what()).find("after 2 rounds the load that particles hand over still changes by"),
+    EXPECT_NE(std::string(error.what()).find("after 2 rounds the load of the particles still changes by"),
               std::string::npos)
         << error.what();
   }

@@ -95,7 +95,7 @@ TEST(BrokenFiles, TheErrorSaysWhatIsWrongAndWhere) {
   expectSays("a.stl", replaced(asciiStl(cube()), "vertex 0", "vertex 1e999"), ", line 4", "'1e999'");
   expectSays("a.stl", replaced(asciiStl(cube()), "endloop", "endlop"), ", line 7", "'endlop'");
   expectSays("a.stl", "solid nothing\nendsolid\n", "", "no facets");
-  expectSays("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 4\n", ", line 5", "vertex 4 is named after 3");
+  expectSays("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 4\n", ", line 5", "vertex 4 is used after only 3");
   expectSays("a.obj", "v 0 0 0\nf 1 1\n", ", line 2", "a face has 2 vertices");
   expectSays("a.obj", "v 0 0\nv 1 0 0\n", ", line 1", "nothing is not a number");
   expectSays("a.obj", "v 0 0 0\nv 12 0 0\nv 0 1 0\nf 1 2 3", ", line 4", "breaks off");

@@ -230,7 +230,7 @@ TEST(SceneMessages, WallsThatDoNotRepeatAreNamed) {
                         R"(, 1, 1]], "axes": ["x"]}, "walls": [)" + wall + "],");
   };
   expectParts(of("1", R"({"shape": "plane", "point": [0, 0, 0], "normal": [1, 0, 0]})"),
-              {"its normal is not square to the period along x", "walls.0]"});
+              {"its normal is not perpendicular to the period along x", "walls.0]"});
   expectParts(of("1", R"({"shape": "cylinder", "point": [0, 0, 0], "axis": [1, 1, 0], "radius": 2})"),
               {"its axis is oblique to the period along x", "walls.0]"});
   expectParts(of("0.07", ""),

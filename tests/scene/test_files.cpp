@@ -48,7 +48,7 @@ TEST(SceneFiles, NotesOfMeshReadersReachCheckRunAndSummary) {
                                   contentOf(folder / "out" / "summary.json")})
     for (const char* wanted :
          {"block.inp: 1 element of type T3D2 is no part of the solid", "block.inp: 1 element of type S4 is no part",
-          "block.inp: Supports, constraints and contacts of the file were passed over: *equation.",
+          "block.inp: Supports, constraints and contacts of the file were ignored: *equation.",
           "block.inp: 1 node that no volume element uses was dropped."})
       EXPECT_NE(told.find(wanted), std::string::npos) << wanted << " not in:\n" << told;
 }
@@ -201,7 +201,7 @@ TEST(SceneFiles, WhatIsDroppedOrTurnedOfAWallIsNoted) {
   EXPECT_EQ(notesOfWall(solid(inside), false),
             (Notes{"wall.stl: 4 facets were reversed: neighbours must be oriented alike, and closed parts outwards."}));
   EXPECT_EQ(notesOfWall(solid(at(0, 2, 1, "0 0 7") + rest), true),
-            (Notes{"wall.stl: Normals of the file were passed over: 1 of its 4 facets have one that points against the "
+            (Notes{"wall.stl: Normals of the file were ignored: 1 of its 4 facets have one that points against the "
                    "order of their vertices, which counts."}));
 }
 

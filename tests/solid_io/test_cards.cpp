@@ -1,4 +1,4 @@
-// What stands on a card and is not known, and what is passed over with a word.
+// What stands on a card and is not known, and what is ignored with a word.
 #include <gtest/gtest.h>
 
 #include "../io/scratch_folder.hpp"
@@ -18,7 +18,7 @@ TEST(Cards, UnknownAndMalformedOnesAreRefusedWithTheirLine) {
       {"*NSET, NSET=a GENERATE\n1, 4, 1\n",
        "parameter nset has the value 'a GENERATE' [deck.inp, line 17]: put commas"},
       {"*NSET, NSET=a ELSET=b\n1, 4, 1\n", "put commas"},
-      {"*NSET NSET=a\n1, 4\n", "no comma behind *nset"},
+      {"*NSET NSET=a\n1, 4\n", "no comma after *nset"},
       {"*ELSET, ELSET=\"a, GENERATE\n1, 2\n", "quotes on both sides"},
       {"*NSET, NSET=a, NSET=b\n1, 4\n", "nset twice"},
       {"*NSET, NSET=a, GENERATE=YES\n1, 4\n", "generate has the value 'YES'"},
@@ -36,7 +36,7 @@ TEST(Cards, UnknownAndMalformedOnesAreRefusedWithTheirLine) {
       {"*\n1, 4\n", "* has a line of data [deck.inp, line 18]"},
       {"*NSET, NSET=a,\nGENRATE\n1, 4\n", "no set 'GENRATE' yet [deck.inp, line 18]"},
       {"*ELEMENT, TYPE=C3D8\n3, 1,2,,4,5,6,7,8\n", "nothing between two commas [deck.inp, line 18]"},
-      {"*PART, NAME=p\n", "nodes stand before the *part"},
+      {"*PART, NAME=p\n", "nodes come before the *part"},
       {"*END PART\n1, 2\n", "*endpart has a line of data [deck.inp, line 18]"},
       {"*NSET, NSET=a, ELSET=b\n1, 2\n", "no element set 'b' yet"},
       {"*PARAMETER\nh = 2\n", "*parameter is not known"}};
@@ -56,7 +56,7 @@ TEST(Cards, HarmlessParametersArePassedOverWithAWord) {
           "*NSET, NSET=a, INTERNAL, UNSORTED\n4, 1\n*SURFACE, NAME=s, REGION TYPE=SLIDING, TRIM=YES, INTERNAL\n1, S1\n",
       "deck.inp");
   EXPECT_EQ(fem::nodeSet(file.mesh, "a"), (std::vector<int>{0, 3}));
-  EXPECT_NE(notesOf(file).find("passed over: UNSORTED (sets are sorted), regiontype of *surface, trim of *surface."),
+  EXPECT_NE(notesOf(file).find("ignored: UNSORTED (sets are sorted), regiontype of *surface, trim of *surface."),
             std::string::npos)
       << notesOf(file);
 }
@@ -70,7 +70,7 @@ TEST(Cards, HabitsOfManyDecksAreRead) {
   EXPECT_EQ(fem::nodeSet(file.mesh, "b"), range(2, 4));
   EXPECT_EQ(fem::nodeSet(file.mesh, "c"), range(5, 5));
   EXPECT_EQ(fem::nodeSet(file.mesh, "d"), range(0, 4));
-  EXPECT_NE(notesOf(file).find("text before the first card was passed over: '>**'."), std::string::npos);
+  EXPECT_NE(notesOf(file).find("text before the first card was ignored: '>**'."), std::string::npos);
   EXPECT_NE(notesOf(file).find("frequency of *nset"), std::string::npos);
 }
 
@@ -82,7 +82,7 @@ TEST(Cards, WhatIsNoPartOfTheSolidIsTold) {
                                         "deck.inp");
   const std::string notes = notesOf(file);
   for (const char* wanted : {"2 elements of type T3D2 are no part of the solid", "1 element of type S4 is no part",
-                             "constraints and contacts of the file were passed over: *equation, *tie.",
+                             "constraints and contacts of the file were ignored: *equation, *tie.",
                              "\"none\" has no members", "\"bare\" has no lines"})
     EXPECT_NE(notes.find(wanted), std::string::npos) << wanted << " not in: " << notes;
   EXPECT_EQ(notes.find("thickness"), std::string::npos) << notes;
@@ -93,7 +93,7 @@ TEST(Cards, TheThicknessOfPlaneStrainIsTold) {
       "*NODE\n1, 0, 0\n2, 2, 0\n3, 2, 1\n4, 0, 1\n*ELEMENT, TYPE=CPE4, ELSET=e\n1, 1,2,3,4\n*SOLID SECTION, ELSET=e, "
       "MATERIAL=m\n0.02,\n",
       "deck.inp");
-  EXPECT_NE(notesOf(file).find("The thickness of *solid section was passed over: 0.02."), std::string::npos)
+  EXPECT_NE(notesOf(file).find("The thickness of *solid section was ignored: 0.02."), std::string::npos)
       << notesOf(file);
 }
 

@@ -202,12 +202,12 @@ TEST_F(Vtu, CopiedAndHiddenCellsAreLeftOutAndNoted) {
     EXPECT_EQ(file.mesh.X.size(), stays ? 5u : 4u) << flag;
     ASSERT_EQ(file.notes.empty(), stays) << flag;
     if (stays) continue;
-    EXPECT_NE(file.notes[0].find("1 cell that vtkGhostType calls a copy"), std::string::npos);
+    EXPECT_NE(file.notes[0].find("1 cell that vtkGhostType marks as a copy"), std::string::npos);
   }
   const SolidFile file = readVtu(write(with(tetAndFace, "<CellData>",
                                             "<PointData><DataArray type=\"UInt8\" Name=\"vtkGhostType\" "
                                             "format=\"ascii\">0 2 0 0 0</DataArray></PointData><CellData>")));
-  EXPECT_NE(file.notes.at(0).find("1 point that vtkGhostType calls hidden"), std::string::npos);
+  EXPECT_NE(file.notes.at(0).find("1 point that vtkGhostType marks as hidden"), std::string::npos);
 }
 
 TEST_F(Vtu, ArraysThatLookLikeSetsAndGiveNoneAreNoted) {

@@ -181,14 +181,14 @@ void ArlequinCoupling::check(const dem::Model& m) const {
   for (std::size_t k = 0; k < impl_->overlap.size(); ++k) {
     const auto i = static_cast<std::size_t>(impl_->overlap.particle[k]);
     if (i >= m.particles.size())
-      throw InputError("particles have gone that the overlap was not told of", "overlap",
-                       "take particles out by removeParticles of the model, after the tie was added");
+      throw InputError("particles were removed without notice to the overlap", "overlap",
+                       "remove particles by removeParticles of the model, after the coupling was added");
     const std::string particle = "particle " + std::to_string(m.particles.id[i]);
     if (m.particles.weightOf(i) != impl_->overlap.weight[k])
-      throw InputError("the weight of " + particle + " is not its weight of the overlap", "overlap",
+      throw InputError("the weight of " + particle + " differs from its weight in the overlap", "overlap",
                        "leave Particles::weight to the overlap");
     if (m.particles.isMember(i))
-      throw InputError(particle + " of the overlap is a member of a clump, which counts as a whole", "overlap",
+      throw InputError(particle + " of the overlap is a member of a clump, which cannot be weighted", "overlap",
                        "keep clumps out of the overlap");
   }
 }

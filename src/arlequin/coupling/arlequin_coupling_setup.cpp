@@ -76,7 +76,7 @@ void requireNarrowKernels(const Overlap& overlap, const fem::SolidMesh& mesh, co
   if (rows > fewRows && options.projection.width > widest * size)
     throw InputError(std::to_string(rows) +
                          " coupled nodes are too many for kernels wider than 2.5 elements: each of " +
-                         "them meets thousands of others",
+                         "them would couple to thousands of others",
                      "overlap", "take kernels of up to " + formatNumber(2.5 * size) + " m, or a coarser mesh");
 }
 
@@ -87,7 +87,7 @@ void requireMembers(const Overlap& overlap, const dem::Model& m, double leastWei
     const auto i = static_cast<std::size_t>(overlap.particle[k]);
     if (m.particles.isMember(i))
       throw InputError("particle " + std::to_string(m.particles.id[i]) +
-                           " in the overlap is a member of a clump, which counts as a whole",
+                           " in the overlap is a member of a clump, which cannot be weighted",
                        "overlap", "keep clumps out of the overlap");
     if (overlap.weight[k] >= leastWeight * (1.0 - 1e-6)) continue;
     if (few++ == 0) first = m.particles.id[i];
@@ -95,8 +95,7 @@ void requireMembers(const Overlap& overlap, const dem::Model& m, double leastWei
   if (few > 0)
     throw InputError(std::to_string(few) + " particles have a weight below " + formatNumber(leastWeight) +
                          ", the first is " + std::to_string(first),
-                     "overlap",
-                     "take those out that particlesBeyond lists, or lower leastWeight to the weights' floor");
+                     "overlap", "remove those that particlesBeyond lists, or lower leastWeight to the weights' floor");
 }
 
 }  // namespace
@@ -108,7 +107,7 @@ std::unique_ptr<ArlequinCoupling> makeOverlapTie(dem::Model& grains, const fem::
   requireNonNegative(options.absorberRate, "absorber");
   requirePositive(options.leastWeight, "least weight");
   if (options.projection.width > 0.0 && grains.pairs.periodicity().any())
-    throw InputError("kernels do not reach across a period", "overlap", "take width 0 in periodic space");
+    throw InputError("kernels do not act across periodic boundaries", "overlap", "take width 0 in periodic space");
   if (options.dashpotLags &&
       (options.constraint != ConstraintKind::dashpot || side.stepping != coupling::Stepping::implicitSteps))
     throw InputError("only dashpots on implicit solids lag", "overlap",

@@ -154,13 +154,13 @@ private:
 
 int initialEquilibrium(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
                        std::span<const double> nodalWeight, const InitialEquilibriumOptions& options, double* change) {
-  requirePositive(options.tolerance, "tolerance of the handed load");
+  requirePositive(options.tolerance, "tolerance of the load");
   if (options.rounds < 1)
     throw InputError("rounds is " + std::to_string(options.rounds), "InitialEquilibriumOptions", "give 1 or more");
   for (const auto& term : grains.terms)
     if (const auto* tie = dynamic_cast<const ArlequinCoupling*>(term.get()); tie && tie->side().model == &solid)
-      throw InputError("the particles are tied to this solid already", "initial stress",
-                       "take over first and make the tie after that");
+      throw InputError("the particles are coupled to this solid already", "initial stress",
+                       "call initialEquilibrium first and add the coupling after that");
   if (std::ranges::all_of(solid.nodes.mass, [](double mass) { return mass == 0.0; })) fem::addMass(solid);
   Givers givers(grains.particles.size());
   const auto handed = [&] { return loadOf(grains, mesh, solid, nodalWeight, options.leastWeight, givers); };
@@ -174,12 +174,11 @@ int initialEquilibrium(const dem::Model& grains, const fem::SolidMesh& mesh, fem
     if (change) *change = left;
     if (settled) return round;
     if (round == options.rounds)
-      throw NumericalError("after " + std::to_string(round) +
-                               " rounds the load that particles hand over still changes by " + formatNumber(left) +
-                               " of the largest of a node",
+      throw NumericalError("after " + std::to_string(round) + " rounds the load of the particles still changes by " +
+                               formatNumber(left) + " of the largest nodal load",
                            "initial stress",
-                           "allow more rounds if that falls; if it grows, the solid gives way under what it takes "
-                           "over: take a stiffer one, or a thicker overlap");
+                           "allow more rounds if that falls; if it grows, the solid is too soft for the load: take a "
+                           "stiffer one, or a thicker overlap");
   }
 }
 

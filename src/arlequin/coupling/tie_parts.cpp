@@ -49,7 +49,7 @@ std::vector<double> penaltyOfElements(const fem::SolidMesh& mesh, const fem::Mod
   for (const auto& term : solid.terms)
     if (const auto* const elements = dynamic_cast<const fem::Solid*>(term.get())) {
       if (elements->material() == nullptr)
-        throw InputError("\"" + elements->name() + "\" is a field of points, which tells no modulus", "penalty",
+        throw InputError("\"" + elements->name() + "\" is a field of points, whose modulus is unknown", "penalty",
                          "give the penalty, about 20 E/h² of the element size h");
       const double young = fem::youngsModulus(*elements->material());
       for (std::size_t e = 0; e < elements->size(); ++e)

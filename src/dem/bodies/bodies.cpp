@@ -104,7 +104,7 @@ void requireFinite(const Bodies& bodies, const std::string& when) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (!std::isfinite(norm(bodies.orientation[b])))
       throw NumericalError("the orientation is not finite, " + when, "body " + std::to_string(b),
-                           "take a smaller time step, or look for what has turned it");
+                           "take a smaller time step, or check the moments on it");
 }
 
 Vec3 angularVelocity(const Bodies& bodies, int body) {

@@ -116,7 +116,7 @@ void renumber(Bodies& bodies, Clumps& clumps, std::span<const int> newNumber) {
   int next = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (gone[b] != 0 && stays[b] != 0)
-      throw InputError("some of its members are gone", "body " + std::to_string(b), "take whole clumps out");
+      throw InputError("some of its members were removed", "body " + std::to_string(b), "remove whole clumps only");
     body[b] = gone[b] != 0 ? -1 : next++;
   }
   if (at(next) < bodies.size()) renumber(bodies, body);
@@ -150,7 +150,7 @@ void check(const Particles& particles, const Bodies& bodies, const Clumps& clump
     if (std::exchange(member[at(i)], char{1}) != 0)
       throw InputError("particle " + std::to_string(i) + " is a member twice", where, "add clumps with addClump");
     if (particles.mass[at(i)] != bodies.mass[at(body)])
-      throw InputError("particle " + std::to_string(i) + " is not as heavy as its body", where,
+      throw InputError("particle " + std::to_string(i) + " has another mass than its body", where,
                        "give members the mass of the body");
     if (!isFinite(clumps.offset[m])) throw InputError("an offset is not finite", where, "give three finite numbers");
   }
@@ -168,9 +168,9 @@ void requireShorter(const ClumpShape& shape, const geometry::Periodicity& space,
       length = std::max(length, norm(shape.offset[a] - shape.offset[b]) + shape.radius[a] + shape.radius[b]);
   for (int k = 0; k < 3; ++k)
     if (space.axes[static_cast<std::size_t>(k)] && !(length < space.length(k)))
-      throw InputError("it is " + formatNumber(length) + " m long, and space repeats every " +
-                           formatNumber(space.length(k)) + " m along " + "xyz"[k],
-                       where, "take a shorter clump or a longer period: it would meet its own image");
+      throw InputError("it is " + formatNumber(length) + " m long, and the period is " + formatNumber(space.length(k)) +
+                           " m along " + "xyz"[k],
+                       where, "take a shorter clump or a longer period: it would touch its own image");
 }
 
 void requireShorter(const Particles& particles, const Clumps& clumps, const geometry::Periodicity& space) {

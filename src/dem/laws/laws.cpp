@@ -54,7 +54,7 @@ void validate(const LinearSpringDashpot& part) {
     throw InputError("the restitution is " + formatNumber(part.restitution), "restitution",
                      "give 0 < e ≤ 1; e = 0 would take infinite damping, so take a small e such as 0.01 instead");
   if (part.nominal && (part.tension || part.bonded))
-    throw InputError("a contact that may pull has its nominal restitution anyway", "nominal", "leave nominal off");
+    throw InputError("a contact with tension has its nominal restitution anyway", "nominal", "leave nominal off");
 }
 
 void validate(const TangentialSpring& part) {

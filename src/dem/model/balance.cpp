@@ -68,8 +68,8 @@ void requireStableStep(const Model& m, double dt, double leastOverlap) {
   const ImpactLimit impact = impactLimit(m, demand);
   const double limit = std::min(contacts.dt, impact.dt);
   if (dt <= limit) return;
-  throw InputError("dt = " + formatNumber(dt) + " s is beyond the stable " + formatNumber(limit) + " s that " +
-                       (impact.dt < contacts.dt ? impact.owner : ownerOf(contacts, m.particles)) + " sets",
+  throw InputError("dt = " + formatNumber(dt) + " s exceeds the critical step of " + formatNumber(limit) +
+                       " s, set by " + (impact.dt < contacts.dt ? impact.owner : ownerOf(contacts, m.particles)),
                    "time step",
                    "take a fifth of the limit or less, softer contacts, or scaleMasses for quasi-static scenes");
 }
@@ -85,8 +85,9 @@ void lookAtLimit(Model& m) {
 void reportOfLimit(const Model& m, const NumericalError& error) {
   if (!m.passed) return;
   const auto& [dt, limit, owner, time] = *m.passed;
-  throw NumericalError(std::string(error.what()) + "; its step, " + formatNumber(dt) + " s, is beyond the stable " +
-                           formatNumber(limit) + " s that " + owner + " sets, seen at t = " + formatNumber(time) + " s",
+  throw NumericalError(std::string(error.what()) + "; its step, " + formatNumber(dt) +
+                           " s, exceeds the critical step of " + formatNumber(limit) + " s, set by " + owner +
+                           ", at t = " + formatNumber(time) + " s",
                        "", "");
 }
 

@@ -48,7 +48,7 @@ template <class Enumeration>
 void requireKnown(Enumeration value, Enumeration last, const char* what) {
   const int number = static_cast<int>(value);
   if (number < 0 || number > static_cast<int>(last))
-    throw InputError(std::string(what) + " has the number " + std::to_string(number) + ", which stands for nothing",
+    throw InputError(std::string(what) + " has the number " + std::to_string(number) + ", which is unknown",
                      "checkpoint", "take an older checkpoint");
 }
 
@@ -122,7 +122,7 @@ Terms makeTerms(const std::vector<TermOfState>& saved, const std::string& path) 
   for (const TermOfState& s : saved) {
     auto term = s.code.empty() ? emptyTerm(s.name) : nullptr;
     if (!term)
-      refuse("'" + s.name + "' needs what no file can hold: " + s.code, path,
+      refuse("'" + s.name + "' needs code, which no file can hold: " + s.code, path,
              "set the model up with all its terms before reading");
     terms.add(std::move(term));
   }
@@ -185,7 +185,7 @@ std::vector<TermOfState> readModel(const std::vector<char>& bytes, const std::st
   requireNumbers(restored.particles);
   loadDomain(reader, restored);
   std::vector<TermOfState> terms = readTerms(reader);
-  if (!reader.atEnd()) refuse("there is more in the file than a model", path, "give a checkpoint of this version");
+  if (!reader.atEnd()) refuse("the file has more data than a model", path, "give a checkpoint of this version");
   return terms;
 }
 
@@ -213,12 +213,12 @@ void loadGrains(const std::vector<char>& bytes, const std::string& path, Model& 
   Model saved = m;
   for (const TermOfState& term : readModel(bytes, path, saved))
     if (term.name == "bodies" || term.name == "bonds")
-      refuse("the state has " + term.name + ", which grains alone do not bring along", path,
+      refuse("the state has " + term.name + ", which cannot be read with the grains alone", path,
              "take the state of a run without them");
   if (!saved.particles.weight.empty())
-    refuse("an overlap weighs grains of the state", path, "take the state of a run without overlaps");
+    refuse("grains of the state have weights of an overlap", path, "take the state of a run without overlaps");
   if (!(saved.pairs.periodicity() == m.pairs.periodicity()))
-    refuse("the state repeats in another way", path, "give the model the same periodic box and axes");
+    refuse("the periodic space of the state differs", path, "give the model the same periodic box and axes");
   m.particles = std::move(saved.particles);
   m.pairs = std::move(saved.pairs);
 }

@@ -153,7 +153,7 @@ void requireShortMoves(const Particles& particles, double dt, const std::string&
   requireFinite(particles, when);
   const auto i = static_cast<std::size_t>(thrown.front());
   throw NumericalError("it moved farther than its radius in one step, " + when + ", " + state(particles, i),
-                       name(particles, i), "take a smaller time step, or look for what has thrown it");
+                       name(particles, i), "take a smaller time step, or check the forces on it");
 }
 
 double bookParticle(const Model& m, std::size_t i, Exchanged& exchanged) {

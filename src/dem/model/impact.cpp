@@ -22,7 +22,7 @@ struct Hitter {
   int number = -1;                          // −1: a newcomer
 
   std::string name(const Particles& p) const {
-    return number < 0 ? "newcomers" : "particle " + std::to_string(p.id[static_cast<std::size_t>(number)]);
+    return number < 0 ? "inserted grains" : "particle " + std::to_string(p.id[static_cast<std::size_t>(number)]);
   }
 };
 /// The two of each material that are moved most easily.

@@ -171,7 +171,7 @@ void ExternalForceTerm::addForces(Model& m, const Step& step) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!isFinite(force_[i]))
         throw NumericalError("the external force '" + name_ + "' on it is not finite, " + when(m),
-                             "particle " + std::to_string(m.particles.id[i]), "look at the function behind it");
+                             "particle " + std::to_string(m.particles.id[i]), "check its function");
       m.particles.f[i] += force_[i];
     }
   });

@@ -188,14 +188,13 @@ void requireFinite(const Particles& particles, const std::string& when) {
         throw NumericalError("its " + std::string(field) + " is not finite, " + when,
                              "particle " + std::to_string(particles.id[i]), remedy);
   };
-  constexpr const char *set = "look for who has set it",
-                       *thrown = "take a smaller time step, or look for what has thrown it";
+  constexpr const char *set = "check where it is set", *thrown = "take a smaller time step, or check the forces on it";
   look(particles.mass, "mass", set);
   look(particles.radius, "radius", set);
   look(particles.weight, "weight", set);
   look(particles.x, "position", thrown);
-  look(particles.f, "force", "look at laws, walls and forces of the caller's that act on it");
-  look(particles.torque, "torque", "look at laws, walls and bonds that act on it");
+  look(particles.f, "force", "check the laws, walls and external forces that act on it");
+  look(particles.torque, "torque", "check the laws, walls and bonds that act on it");
   look(particles.omega, "angular velocity", thrown);
   look(particles.v, "velocity", thrown);
 }

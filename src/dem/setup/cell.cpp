@@ -20,12 +20,12 @@ void check(const Model& m, const Vec3& strain) {
     if (!(strain[k] > -1.0) || !std::isfinite(strain[k]))
       throw InputError("a strain is " + formatNumber(strain[k]), "periodic cell", "give a finite one above -1");
     if (strain[k] != 0.0 && !space.axes[static_cast<std::size_t>(k)])
-      throw InputError(std::string("the cell does not repeat along ") + "xyz"[k], "periodic cell",
+      throw InputError(std::string("the cell is not periodic along ") + "xyz"[k], "periodic cell",
                        "strain it along periodic axes alone");
   }
   if (m.terms.begin() != m.terms.end())
-    throw InputError("there is more than particles and contacts", "periodic cell",
-                     "leave out walls, bonds, clumps and all else that acts");
+    throw InputError("the model has more than particles and contacts", "periodic cell",
+                     "leave out walls, bonds, clumps and other terms");
   if (!m.pairs.fits(m.particles) || m.forcesOf != m.particles.revision)
     throw InputError("forces have not been found yet", "periodic cell", "call findForces or relax first");
 }

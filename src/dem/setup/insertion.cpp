@@ -114,7 +114,7 @@ void checkRegion(const InsertionOptions& s) {
     if (!(std::isfinite(s.region.lower[k]) && std::isfinite(length) && length >= 2.0 * radius))
       throw InputError("a " + std::string(s.shapes.empty() ? "sphere" : "clump") + " of diameter " +
                            formatNumber(2.0 * radius) + " m does not fit along axis " + "xyz"[k],
-                       "region of insertion", "make the region larger, or what enters smaller");
+                       "region of insertion", "make the region larger, or the inserted grains smaller");
   }
 }
 

@@ -106,15 +106,15 @@ void check(const Model& m, const RelaxationOptions& s) {
     if (const Vec3 along = term->wall.servo ? term->wall.servo->direction : Vec3{};
         term->wall.motion || norm(term->wall.angularVelocity) > 0.0 ||
         norm(term->wall.velocity - dot(term->wall.velocity, along) * along) > 0.0)
-      throw InputError("a wall moves", "relaxation", "let walls stand");
+      throw InputError("a wall moves", "relaxation", "keep walls at rest");
     else if (norm(term->wall.surfaceVelocity) > 0.0)
-      throw InputError("the surface of a wall runs as a belt", "relaxation", beltRemedy);
+      throw InputError("a wall has a surface velocity", "relaxation", beltRemedy);
   for (const MeshWallTerm* term : m.terms.all<MeshWallTerm>())
     if (std::holds_alternative<PrescribedMotion>(term->mesh.motion))
       throw InputError("a triangulated wall moves along a path", "relaxation",
-                       "let walls stand, or free (addFreeWall)");
+                       "keep walls at rest, or free (addFreeWall)");
     else if (norm(term->mesh.surfaceVelocity) > 0.0)
-      throw InputError("the surface of a triangulated wall runs as a belt", "relaxation", beltRemedy);
+      throw InputError("a triangulated wall has a surface velocity", "relaxation", beltRemedy);
   for (const DriveTerm* term : m.terms.all<DriveTerm>())
     if (const Momenta motion = term->motionAt(m.time); norm(motion.linear) + norm(motion.angular) > 0.0)
       throw InputError("a drive moves or turns its particles", "relaxation",

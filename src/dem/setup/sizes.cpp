@@ -20,7 +20,7 @@ void checkBounds(double smallest, double largest) {
 /// So that drawing again outside the bounds comes to an end.
 void checkReach(double middle, double deviation, double low, double high) {
   if (!(middle + 4.0 * deviation >= low && middle - 4.0 * deviation <= high))
-    throw InputError("next to no size falls between the bounds", "sizes", "move the mean or the bounds");
+    throw InputError("the distribution has almost no sizes between the bounds", "sizes", "move the mean or the bounds");
 }
 
 void check(const UniformSizes& s) { checkBounds(s.smallest, s.largest); }

@@ -125,7 +125,7 @@ void InsertionTerm::load(ByteReader& reader) {
 void OutletTerm::check(const Model&) const {
   std::visit([](const auto& r) { requireValid(r); }, region);
   if (every < 1)
-    throw InputError("it is looked at in every " + std::to_string(every) + " steps", "outlet", "give 1 or more");
+    throw InputError("it is checked every " + std::to_string(every) + " steps", "outlet", "give 1 or more");
 }
 
 /// Nobody has moved by more than the skin from then until the list is made anew, as half of it bounds both moves since

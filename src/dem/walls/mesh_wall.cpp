@@ -43,7 +43,7 @@ void requireAtRest(MeshWall& mesh) {
   for (std::size_t k = 0; k < std::min(most, now.size()); ++k) {
     const std::size_t vertex = mesh.lookedAt++ % now.size();
     if (!(now[vertex] == then[vertex]))
-      throw InputError("vertex " + std::to_string(vertex) + " has moved, but the wall counts as at rest",
+      throw InputError("vertex " + std::to_string(vertex) + " has moved, but the wall is defined to be at rest",
                        "triangulated wall", "set its motion, or MovedByOthers with how far they have moved it");
   }
 }
@@ -54,7 +54,7 @@ double takeStep(MeshWall& mesh) {
   if (auto* others = std::get_if<MovedByOthers>(&mesh.motion)) {
     step = std::exchange(others->travel, MovedByOthers{}.travel);
     if (!(step >= 0.0) && mesh.candidates.builds > 0)
-      throw InputError("nobody has said how far its vertices have moved", "triangulated wall moved by others",
+      throw InputError("the distance that its vertices have moved is not set", "triangulated wall moved by others",
                        "set MovedByOthers::travel at every step");
   }
   return step;

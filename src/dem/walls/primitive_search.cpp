@@ -167,12 +167,13 @@ void requireRepeats(const PrimitiveWall& wall, const geometry::Periodicity& peri
     const double slope = wall.shape == Shape::sphere ? 0.0 : std::abs(wall.axis[k]);
     if (wall.shape == Shape::plane) {
       if (slope > square)
-        throw InputError("its normal is not square to the " + along, "plane wall",
-                         "let space not repeat across a plane");
+        throw InputError("its normal is not perpendicular to the " + along, "plane wall",
+                         "a plane cannot lie across a period");
       continue;
     }
     if (slope > square && slope < 1.0 - square)
-      throw InputError("its axis is oblique to the " + along, "cylinder wall", "turn it along or square to the period");
+      throw InputError("its axis is oblique to the " + along, "cylinder wall",
+                       "turn it along or perpendicular to the period");
     const double across = 2.0 * (wall.inside ? wall.radius : wall.radius + reach);
     if (slope <= square && across > periodicity.length(k) * (1.0 + square))
       throw InputError("it does not fit into the " + along, "cylinder or sphere wall",
@@ -184,7 +185,7 @@ void requireRepeats(const PrimitiveWall& wall, const geometry::Periodicity& peri
 void findContacts(const Particles& particles, PrimitiveWall& wall, const Moves& moves,
                   const geometry::Periodicity& periodicity) {
   if (!isFinite(wall.point) || !isFinite(wall.axis))
-    throw NumericalError("its place is not finite", "primitive wall", "look at its velocity and its motion");
+    throw NumericalError("its position is not finite", "primitive wall", "check its velocity and its motion");
   PrimitiveSearch& s = wall.search;
   if (s.builds > 0) requireShortStep(particles, wall);
   s.travel.add(moves);

@@ -56,7 +56,7 @@ void validate(const MeshWall& mesh, int materials) {
   const std::string what = "a triangulated wall";
   if (wall.v.size() != wall.x.size() || wall.f.size() != wall.x.size() ||
       wall.topology.neighbours.size() != wall.facets.size())
-    throw InputError("its arrays have unlike lengths", what, "take makeWall");
+    throw InputError("its arrays differ in length", what, "take makeWall");
   makeWall(wall.x, wall.facets, wall.oneSided);
   requireCommon(mesh.candidates.skin, wall.material, materials, what);
   requireVector(mesh.surfaceVelocity, "surface velocity of " + what);

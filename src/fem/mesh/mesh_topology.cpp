@@ -122,7 +122,7 @@ void requireConnected(const SolidMesh& mesh) {
   const MeshTopology topology = analyseTopology(mesh);
   if (topology.firstElement.size() > 1)
     throw InputError(
-        "the mesh falls into " + std::to_string(topology.firstElement.size()) + " pieces that fraction no face",
+        "the mesh falls into " + std::to_string(topology.firstElement.size()) + " pieces that share no face",
         detail::listed("element", topology.firstElement),
         "join nodes that lie on each other, or give the pieces supports of their own");
 }

@@ -211,7 +211,7 @@ std::optional<Vec3> searchParent(ElementShape shape, std::span<const Vec3> nodes
     if (guess.verdict == Verdict::inside) return guess.xi;
     if (part.depth == largestDepth) continue;
     if (visited > largestParts)
-      throw NumericalError("it cannot be told whether the point " + text(point) + " m lies within", name,
+      throw NumericalError("it is undecidable whether the point " + text(point) + " m lies within", name,
                            "the element is flat or folded: take a finer mesh or a smaller step");
     for (int k = 0; k < cell.partsPerCut(); ++k)
       parts.push_back({part.lower + half * Vec3{k % 2 + 0.0, k / 2 % 2 + 0.0, k / 4 + 0.0}, half, part.depth + 1});

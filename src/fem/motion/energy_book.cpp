@@ -70,8 +70,8 @@ namespace {
 EnergyLedger::Kind readKind(ByteReader& archive) {
   const std::int64_t kind = detail::readCount(archive, "kind of a channel");
   if (kind > static_cast<std::int64_t>(EnergyLedger::Kind::booked))
-    throw InputError("the kind of a channel has the number " + std::to_string(kind) + ", which stands for nothing",
-                     "ledger", "take an older checkpoint");
+    throw InputError("the kind of a channel has the number " + std::to_string(kind) + ", which is unknown", "ledger",
+                     "take an older checkpoint");
   return static_cast<EnergyLedger::Kind>(kind);
 }
 

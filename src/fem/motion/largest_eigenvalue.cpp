@@ -65,7 +65,7 @@ double largestEigenvalue(const StiffnessAndMass& pair, double accuracy) {
   solver.init(start.data());
   solver.compute(Spectra::SortRule::LargestAlge, mostRestarts, accuracy);
   if (solver.info() != Spectra::CompInfo::Successful)
-    throw NumericalError("the Lanczos iteration did not settle", "largest frequency of a solid",
+    throw NumericalError("the Lanczos iteration did not converge", "largest frequency of a solid",
                          "ask for less accuracy");
   return solver.eigenvalues()[0] * (1.0 + accuracy);
 }

@@ -68,7 +68,7 @@ std::int64_t readCount(ByteReader& archive, const std::string& what) {
 }
 
 void requireEnd(const ByteReader& archive, const std::string& where) {
-  if (!archive.atEnd()) throw InputError("there is something behind the state", where, remedy);
+  if (!archive.atEnd()) throw InputError("the state has extra data", where, remedy);
 }
 
 void writeModel(ByteWriter& archive, const std::string& run, const Model& model) {

@@ -107,7 +107,7 @@ NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy) {
     }
     ++sinceFactor;
     before = norm;
-    if (!problem.direct()) return stop("the arc does not meet the path");
+    if (!problem.direct()) return stop("the arc does not intersect the path");
     const double slope = problem.slope();
     problem.moveTo(1.0);
     norm = problem.evaluate();

@@ -13,8 +13,7 @@ namespace {
 
 void check(const Rve& cell, const CompressionOptions& settings) {
   validate(settings.rest);
-  if (!cell.frame.empty())
-    throw InputError("the cell has a frame", "compression of a cell", "compress one that repeats");
+  if (!cell.frame.empty()) throw InputError("the cell has a frame", "compression of a cell", "give a periodic cell");
   for (int k = 0; k < cell.dimension(); ++k) requirePositive(settings.pressure[k], "pressure");
   requirePositive(settings.tolerance, "tolerance of the pressures");
   requirePositive(settings.inertialNumber, "inertial number");

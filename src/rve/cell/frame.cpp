@@ -28,8 +28,8 @@ Condition atCorner(Condition one, Condition other) {
 }
 
 void check(const Rve& cell, const Conditions& conditions) {
-  if (cell.shape != Shape::disc) throw InputError("the grains are spheres", where, "let spheres repeat");
-  if (!cell.frame.empty()) throw InputError("the cell has a frame already", where, "give a cell that repeats");
+  if (cell.shape != Shape::disc) throw InputError("the grains are spheres", where, "use a periodic cell for spheres");
+  if (!cell.frame.empty()) throw InputError("the cell has a frame already", where, "give a periodic cell");
   if (!cell.state.contacts.bond.empty())
     throw InputError("the cell is bonded", where, "cut a cell that is not, and bond it then");
   const auto differ = [](Condition a, Condition b) { return (a == Condition::periodic) != (b == Condition::periodic); };
@@ -139,7 +139,7 @@ Rve framed(const Rve& cell, const Conditions& conditions) {
     // Each contact is there, in one place or several.
     if (std::abs(balance(cut).coordination * static_cast<double>(cell.size()) - contacts) < 1e-6) return cut;
   }
-  throw InputError("no grain will do as corner of a frame", where, "take more grains");
+  throw InputError("no grain is suitable as a corner of a frame", where, "take more grains");
 }
 
 std::vector<Vec3> reactions(const Rve& cell) {

@@ -35,8 +35,8 @@ void check(const Grains& grains, const geometry::Lattice& lattice) {
   if (grains.shape == Shape::sphere) return;
   const auto& [a, b, c] = lattice.period;
   if (a.z != 0.0 || b.z != 0.0 || c.x != 0.0 || c.y != 0.0 || lattice.axes[2])
-    throw InputError("the periods do not go with a plane", where,
-                     "let the first two lie in z = 0, and the third, which does not repeat, along z");
+    throw InputError("the periods do not fit a plane", where,
+                     "let the first two lie in z = 0, and the third, which is not periodic, along z");
 }
 
 void checkShape(Shape shape, const Springs& springs) {

@@ -22,7 +22,7 @@ void requireOwn(const Rve& cell, const CellState& state) {
   // Periods and F have been deformed alike since F was 1.
   const double expected = cell.volume * state.F.determinant();
   if (!(std::abs(state.lattice.volume() - expected) <= 1e-6 * expected))
-    throw InputError("its volume does not go with its F: it is of another cell, or from before compress()", where,
+    throw InputError("its volume does not match its F: it is of another cell, or from before compress()", where,
                      "give back what this cell has saved since F was 1");
 }
 

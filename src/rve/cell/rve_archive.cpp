@@ -179,7 +179,7 @@ CellState readState(const Rve& cell, ByteReader& archive) {
   state.F = Eigen::Map<const Eigen::Matrix3d>(F.data());
   state.virial = Eigen::Map<const Eigen::Matrix3d>(virial.data());
   if (!fits(cell, state))
-    throw InputError("the state does not hold together", "cell of grains", "take an older file, this one is damaged");
+    throw InputError("the state is inconsistent", "cell of grains", "take an older file, this one is damaged");
   return state;
 }
 
@@ -187,7 +187,7 @@ void writeSamples(const std::filesystem::path& path, std::span<const Rve> cells)
   ByteWriter archive;
   for (const Rve& cell : cells) {
     if (!cell.frame.empty())
-      throw InputError("a cell has a frame", path.string(), "write the cell that repeats, and cut it after reading");
+      throw InputError("a cell has a frame", path.string(), "write the periodic cell, and cut it after reading");
     archive(madeOf(cell));
     writeState(cell, cell.state, archive);
   }

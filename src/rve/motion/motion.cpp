@@ -120,7 +120,8 @@ void move(Rve& cell, double dt, const Eigen::Matrix3d& G) {
     // Cayley's: a turn has no rate of strain.
     const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
     if (!((G + one).determinant() > 0.1))
-      throw NumericalError("a step turns the cell by nearly half a turn", "cell of grains", "turn it in smaller steps");
+      throw NumericalError("a step rotates the cell by nearly 180 degrees", "cell of grains",
+                           "rotate it in smaller steps");
     L = (2.0 / dt) * (G - one) * (G + one).inverse();
     s.ledger.work += 0.5 * dt * s.virial.cwiseProduct(0.5 * (L + L.transpose())).sum();
     for (Vec3& period : s.lattice.period) period = product(G, period);

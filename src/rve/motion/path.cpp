@@ -31,7 +31,8 @@ void check(const Rve& cell, const Eigen::Matrix3d& F, const PathOptions& setting
   const Eigen::Matrix3d G = relativeDeformation(cell, F) - Eigen::Matrix3d::Identity();
   const double strain = (0.5 * (G + G.transpose())).norm();
   if (!(strain <= 0.05))
-    throw InputError("F is a strain of " + formatNumber(strain) + " away", where, "go there in steps of at most 0.05");
+    throw InputError("F is a strain of " + formatNumber(strain) + " away", where,
+                     "approach it in steps of at most 0.05");
 }
 
 /// Pressures below which durations are no longer told by the stress.

@@ -87,17 +87,17 @@ TEST(GrainsOfAState, AreRefusedWhereTheyDoNotFit) {
   expectSaid(refusalOfGrains(rubbing(), other), "parameters of the laws");
   other = empty;
   other.pairs.setPeriodicity({{{0, 0, 0}, {0.4, 0.4, 0.5}}, {true, true, true}});
-  expectSaid(refusalOfGrains(rubbing(), other), "repeats in another way");
+  expectSaid(refusalOfGrains(rubbing(), other), "periodic space of the state differs");
   Model weighed = rubbing();
   weighed.particles.weight.assign(weighed.particles.size(), 0.5);
-  expectSaid(refusalOfGrains(weighed, empty), "an overlap weighs");
+  expectSaid(refusalOfGrains(weighed, empty), "have weights of an overlap");
   other = empty;
   other.pairs.setPeriodicity({});
   Model clumped = other;
   addClump(clumped,
            makeClumpShape(std::vector<Vec3>{{0, 0, 0}, {0.03, 0, 0}}, std::vector<double>{0.03, 0.03}, Density{1e3}),
            {});
-  expectSaid(refusalOfGrains(clumped, other), "which grains alone do not bring along");
+  expectSaid(refusalOfGrains(clumped, other), "which cannot be read with the grains alone");
 }
 
 }  // namespace

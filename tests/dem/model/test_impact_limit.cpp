@@ -57,7 +57,7 @@ TEST(ImpactLimit, CountsWallsAndNewcomersAndLeavesDrivenOnesOut) {
   addInsertion(m, settings);
   const double smallest = 2500.0 * 4.0 / 3.0 * M_PI * radius * radius * radius;
   EXPECT_NEAR(limitOf(m), 2.0 * std::sqrt(0.5 * smallest / k), 1e-9 * limitOnWall);
-  EXPECT_EQ(impactLimit(m, demandOf(m)).owner, "an impact of newcomers with newcomers");
+  EXPECT_EQ(impactLimit(m, demandOf(m)).owner, "an impact of inserted grains with inserted grains");
 }
 
 TEST(ImpactLimit, KnowsDashpotsAcrossTheContact) {
@@ -138,7 +138,7 @@ TEST(RunsThatLook, TellThatTheStepWasTooLongWhereTheyBreakDown) {
     run(m, 4.0 * limit, 30);
     FAIL() << "it went on";
   } catch (const NumericalError& error) {
-    EXPECT_NE(std::string(error.what()).find("is beyond the stable"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("exceeds the critical step"), std::string::npos) << error.what();
   }
 }
 

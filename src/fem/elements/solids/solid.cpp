@@ -133,7 +133,7 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<PointFie
                                  const SolidOptions& options) {
   if (!asksOnce(options.formulation))
     throw InputError(std::string("the formulation \"") + name(options.formulation) +
-                         "\" asks points again and again, or for a law of its own, not a field",
+                         "\" evaluates points repeatedly, or needs a law, not a field",
                      "elements", "take the formulation standard, mean dilatation or reduced");
   return makeSolidOf(mesh, detail::pointsOf(std::move(field)), options);
 }

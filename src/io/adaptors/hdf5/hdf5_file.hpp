@@ -16,7 +16,7 @@ namespace dovetail::io {
 class Handle {
 public:
   Handle(hid_t id, herr_t (*closeIt)(hid_t), const char* step) : id_(id), close_(closeIt) {
-    if (id < 0) throw Error(std::string("HDF5 failed at ") + step, "", "look for repeated names and for memory");
+    if (id < 0) throw Error(std::string("HDF5 failed at ") + step, "", "check for repeated names and free memory");
   }
   ~Handle() { close_(id_); }
   Handle(const Handle&) = delete;
@@ -30,7 +30,7 @@ private:
 };
 
 inline void require(herr_t status, const char* step) {
-  if (status < 0) throw Error(std::string("HDF5 failed at ") + step, "", "look for repeated names and for memory");
+  if (status < 0) throw Error(std::string("HDF5 failed at ") + step, "", "check for repeated names and free memory");
 }
 
 /// While it lives, HDF5 prints no error stack of its own.

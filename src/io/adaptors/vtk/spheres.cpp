@@ -44,7 +44,7 @@ SphereTable spheresIn(vtkPointSet* data, const std::filesystem::path& path) {
     if (velocity) spheres.velocity.push_back({v[0], v[1], v[2]});
     const std::string place = "point " + std::to_string(i);
     if (!isFinite(spheres.position.back()) || !isFinite(Vec3{v[0], v[1], v[2]}))
-      refuseVtk(path, place, "its place or velocity is not finite", "give numbers");
+      refuseVtk(path, place, "its position or velocity is not finite", "give numbers");
     if (!(spheres.radius.back() > 0.0 && std::isfinite(spheres.radius.back())))
       refuseVtk(path, place, "its radius is not finite and > 0", "give one in metres");
   }

@@ -97,7 +97,7 @@ VtuSeries::VtuSeries(const std::filesystem::path& folder, std::string name, KeyV
   for (std::size_t frame = 0; frame < times.size(); ++frame)
     if (!isOurs(framePath(frame)))
       throw InputError("a frame of the run that is to go on is missing", framePath(frame).string(),
-                       "put it back, or begin anew");
+                       "restore it, or start a new run");
   times_ = std::move(times);
 }
 

@@ -75,7 +75,7 @@ void readSets(vtkFieldData* data, MeshBuilder& builder, const Add& add) {
     const std::set<double> values = valuesOf(array);
     const std::string reason = reasonAgainst(array, values);
     if (!reason.empty())
-      builder.note("The array \"" + name + "\" " + reason + " and was passed over.");
+      builder.note("The array \"" + name + "\" " + reason + " and was ignored.");
     else if (!isReal(array))
       addSets(array, values, add);
   }
@@ -90,15 +90,15 @@ std::vector<char> ghostCells(vtkUnstructuredGrid* grid, MeshBuilder& builder) {
   const std::vector<int> cells = ghostFlags(grid->GetCellData()), points = ghostFlags(grid->GetPointData());
   for (std::size_t c = 0; c < cells.size(); ++c) leftOut[c] = (cells[c] & left) != 0;
   if (const auto count = static_cast<std::size_t>(std::count(leftOut.begin(), leftOut.end(), 1)); count > 0)
-    builder.note(counted(count, "cell that vtkGhostType calls a copy, refined or hidden was",
-                         "cells that vtkGhostType calls copies, refined or hidden were") +
+    builder.note(counted(count, "cell that vtkGhostType marks as a copy, refined or hidden was",
+                         "cells that vtkGhostType marks as copies, refined or hidden were") +
                  " left out.");
   const auto hidden = static_cast<std::size_t>(std::count_if(
       points.begin(), points.end(), [](int flags) { return (flags & vtkDataSetAttributes::HIDDENPOINT) != 0; }));
   if (hidden > 0)
     builder.note(
-        counted(hidden, "point that vtkGhostType calls hidden counts", "points that vtkGhostType calls hidden count") +
-        " as the others do.");
+        counted(hidden, "point that vtkGhostType marks as hidden is", "points that vtkGhostType marks as hidden are") +
+        " kept.");
   return leftOut;
 }
 
