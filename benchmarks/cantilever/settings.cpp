@@ -44,13 +44,14 @@ std::string meshText(const Settings& s) {
 void readMesh(Settings& s, const std::string& text) {
   char rest = 0;
   if (std::sscanf(text.c_str(), "%d,%d,%d%c", &s.mesh[0], &s.mesh[1], &s.mesh[2], &rest) != 3)
-    throw InputError("'" + text + "' are no three counts", "--mesh", "give three whole numbers, as in 2,30,2");
+    throw InputError("'" + text + "' is not a list of three counts", "--mesh",
+                     "give three whole numbers, as in 2,30,2");
 }
 
 void addPartOptions(program::Options& o, Settings& s) {
   o.word("--lag", s.lag, "none|load|load-and-skin", "staggered steps: the load, or load and skin, one step old");
   o.word("--transfer", s.transfer, "adjoint|spread",
-         "gap and load by the same weights, or the load alone spread over the kernel (14-15)");
+         "the same weights for gap and load, or only the load spread over the kernel (Eqs. 14-15)");
   o.word("--edges", s.edges, "projected|paper", "rule where a particle touches several facets");
   o.word("--metric", s.metric, "reference|deformed", "St Venant-Kirchhoff, or the authors' Eq. (34)");
   o.word("--fem", s.fem, "explicit|newmark", "time integration of the beam");
@@ -58,7 +59,7 @@ void addPartOptions(program::Options& o, Settings& s) {
   o.number("--restitution E", s.restitution, {0.0, 1.0, false, true, "a number above 0 and up to 1"},
            "of a particle on a rigid wall, 0 < e <= 1");
   o.word("--kernel-correction", s.correction, "none|linear|symmetric",
-         "for the adjoint transfer: linear keeps moments, symmetric keeps even loads even (default)");
+         "for the adjoint transfer: linear keeps first moments, symmetric keeps uniform loads uniform (default)");
   o.word("--surface", s.surface, "flat|smooth",
          "flat facets (default for width 0) or B-spline patches (default for a kernel)");
 }
@@ -67,7 +68,7 @@ program::Options optionsOf(Settings& s) {
   program::Options o(
       "cantilever",
       "Two particles slide over an elastic cantilever (Cheng et al., CMAME 403 (2023) 115651, sec. 6.1).");
-  o.word("--scheme", s.scheme, "conservative|paper", "all parts at once; parts given below win");
+  o.word("--scheme", s.scheme, "conservative|paper", "sets all parts; options given below take precedence");
   o.number("--cg-width X", s.cgWidth, program::notNegative("0 (local) or a positive number of particle diameters"),
            "kernel width c in particle diameters, 0 = local")
       .in("diameters");
@@ -112,13 +113,14 @@ void checkParts(const Settings& s) {
   refuseIf(s.metric == "deformed" && s.element != "hex8", "this element has no deformed metric", "--metric deformed",
            "take --element hex8, or --metric reference");
   refuseIf(s.mass == "consistent" && !(s.lag != "none" && s.implicit()),
-           "a consistent mass needs an implicit step that carries the load", "--mass consistent",
+           "a consistent mass needs implicit steps with a lagged load", "--mass consistent",
            "add --fem newmark --lag load, or take --mass lumped");
-  refuseIf(s.surface == "smooth" && s.transfer == "spread", "the smooth surface carries its loads by its own weights",
-           "--surface smooth", "take --transfer adjoint, or --surface flat");
+  refuseIf(s.surface == "smooth" && s.transfer == "spread",
+           "the smooth surface distributes its loads by its own weights", "--surface smooth",
+           "take --transfer adjoint, or --surface flat");
   refuseIf(s.surface == "smooth" && s.edges == "paper", "the smooth surface has no facet edges", "--surface smooth",
            "take --edges projected, or --surface flat");
-  refuseIf(s.transfer == "spread" && s.correction != "none", "kernel corrections are made for the adjoint transfer",
+  refuseIf(s.transfer == "spread" && s.correction != "none", "kernel corrections need the adjoint transfer",
            "--kernel-correction " + s.correction, "take --transfer adjoint, or --kernel-correction none");
 }
 

@@ -21,7 +21,7 @@ void addTimeOptions(program::Options& o, RunOptions& s, const RunWords& words) {
   o.number("--dt-fraction S", s.fractionOfCritical, program::positive("a positive fraction of the critical step"),
            "none", "time step over the critical step")
       .key = "";
-  o.flag("--insist", s.beyondCritical, "takes a step above the critical one, too").key = "";
+  o.flag("--insist", s.beyondCritical, "also allows a step above the critical one").key = "";
   o.integer("--fem-every K", s.femEvery, 1, 1000, "DEM steps per FEM step");
   o.number("--until T", s.until, program::positive("a positive time in seconds, up to 1e6", 1e6), words.endDefault,
            "end, s; default: " + words.endDefault)
@@ -36,9 +36,9 @@ void addOutputOptions(program::Options& o, RunOptions& s, const RunWords& words)
            "time between frames, s");
   o.text("--summary FILE", s.summary, "JSON file of all figures");
   o.word("--study", s.study, words.studies, "a set of runs; tables and figures go to --out");
-  o.text("--only TEXT", s.only, "of a study, the run with this label, or those whose labels hold it");
+  o.text("--only TEXT", s.only, "of a study, the run with this label, or those whose labels contain it");
   o.integer("--workers N", s.workers, 0, 1024,
-            "processes of a study; 0 (default): one run after the other, which times best");
+            "processes of a study; 0 (default): one run after the other, for reliable timings");
   o.text("--reference DIR", s.reference, "folder with the published curves (" + words.curves + ")");
   o.flag("--profile", s.profile, "time per stage");
   o.flag("--quiet", s.quiet, "print nothing but errors");

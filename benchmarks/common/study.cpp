@@ -58,7 +58,7 @@ std::vector<PlannedRun> plannedRuns(const std::string& file, const RunOptions& a
     if (isLabel ? one.label == asked.only : one.label.find(asked.only) != std::string::npos)
       runs.push_back(std::move(one));
   if (runs.empty())
-    throw InputError("no run of the study is called so: " + asked.only, "--only",
+    throw InputError("no run of the study has this label: " + asked.only, "--only",
                      "take a label as the study prints it, such as '" + all.front().label + "'");
   return runs;
 }

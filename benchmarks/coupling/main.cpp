@@ -21,9 +21,9 @@ struct Settings {
 };
 
 bool parse(int argc, char** argv, Settings& s) {
-  program::Options o("coupling", "Runs coupled scenes of every combination and looks at their books.");
-  o.flag("--pairwise", s.pairwise, "the few that hold every pair of levels, not all");
-  o.text("--only TEXT", s.only, "cases whose name holds this, such as 'tet4 StVK'");
+  program::Options o("coupling", "Runs coupled scenes of all combinations and checks their ledgers.");
+  o.flag("--pairwise", s.pairwise, "a pairwise subset of the combinations, which has every pair of levels");
+  o.text("--only TEXT", s.only, "cases whose name contains this, such as 'tet4 StVK'");
   o.integer("--steps N", s.steps, 80, 1000000, "particle steps at a fiftieth of the critical one, a multiple of 80");
   o.text("--out DIR", s.out, "folder for matrix.csv and matrix.md");
   return o.parse(argc, argv);
@@ -33,7 +33,7 @@ std::vector<Row> rowsOf(const Settings& s) {
   std::vector<Row> rows;
   for (const Case& c : s.pairwise ? pairwiseCases() : allCases())
     if (nameOf(c).find(s.only) != std::string::npos) rows.push_back({c, {}});
-  if (rows.empty()) throw InputError("--only: no case is named so: " + s.only, "", "");
+  if (rows.empty()) throw InputError("--only: no case has this in its name: " + s.only, "", "");
   return rows;
 }
 

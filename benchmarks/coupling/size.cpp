@@ -159,7 +159,8 @@ double timeUpdate(Scene& scene, double step, std::size_t every) {
     scene.run.advance(1, false);
     least = std::min(least, now() - begin);
     p.v = v;
-    if (scene.tie->state().relocations == before) throw NumericalError("nothing was located anew", "list update", "");
+    if (scene.tie->state().relocations == before)
+      throw NumericalError("no particle was located anew", "list update", "");
   }
   return least - step;
 }

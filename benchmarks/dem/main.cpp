@@ -36,14 +36,14 @@ bool parse(int argc, char** argv, Settings& s) {
          "--write");
   o.text("--write DIR", write, "write the scenes into this folder, for other programs, and stop");
   o.text("--summary FILE", summary, "write the figures as JSON");
-  o.text("--only TEXT", s.only, "stability: cases whose name holds this");
-  o.texts("--scene bed|hertz|lattice|polydisperse|drum", scenes, "peers: what to time; may be given several times");
+  o.text("--only TEXT", s.only, "stability: cases whose name contains this");
+  o.texts("--scene bed|hertz|lattice|polydisperse|drum", scenes, "peers: scenes to time; may be given several times");
   o.integer("--copies N", s.copies, 1, 1000, "peers: beds or drums side by side");
   o.integer("--steps N", s.steps, 2, 1000000, "steps per timing");
   o.integer("--warm-up N", s.warmUp, 1, 1000000, "steps before the timings");
   o.integer("--repeat N", s.repeats, 1, 1000, "timings, of which the median counts");
   o.integer("--threads N", s.threads, 1, 256, "threads");
-  o.flag("--quick", s.quick, "small scenes: to see whether all runs, not to time");
+  o.flag("--quick", s.quick, "small scenes, to test that all runs, without useful timings");
   if (!o.parse(argc, argv)) return false;
   s.bed = bed, s.write = write, s.summary = summary;
   if (!scenes.empty()) s.scenes = scenes;

@@ -74,7 +74,7 @@ Spheres readSpheres(const std::filesystem::path& path) {
     Vec3 v, omega;
     if (!(fields >> v.x >> v.y >> v.z >> omega.x >> omega.y >> omega.z) || !(fields >> std::ws).eof() || !isFinite(v) ||
         !isFinite(omega))
-      throw InputError("something other than velocity and spin stands behind the diameter",
+      throw InputError("the columns after the diameter are not velocity and spin",
                        path.string() + ", line " + std::to_string(number), "give 4 numbers or 10");
     spheres.v.push_back(v);
     spheres.omega.push_back(omega);

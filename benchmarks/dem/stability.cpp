@@ -179,7 +179,7 @@ bool studyStability(const Settings& s, std::ostream& out) {
     rows.push_back(
         {{"label", c.name}, {"figure", c.wanted}, {"value", value}, {"outcome", outcome}, {"message", message}});
   }
-  if (!any) throw InputError("no case holds '" + s.only + "' in its name", "--only", "leave it out to see all names");
+  if (!any) throw InputError("no case has '" + s.only + "' in its name", "--only", "leave it out to see all names");
   writeSummary(s, {{"runs", rows}});
   return sound;
 }

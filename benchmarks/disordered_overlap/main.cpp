@@ -28,7 +28,8 @@ bool parse(int argc, char** argv, Settings& s) {
   o.number("--strain X", s.strain, program::positive("a positive number", 1e-3), "largest of the pulse");
   o.number("--step-fraction X", s.weight, program::positive("a number up to 0.9", 0.9),
            "of the critical step, for the wave");
-  o.flag("--with-friction", s.friction, "presses the packings for the wave with friction, and shakes them down");
+  o.flag("--with-friction", s.friction,
+         "compresses the packings for the wave with friction, and compacts them by shaking");
   o.integer("--workers N", s.workers, 1, 1024, "processes, one packing each");
   o.text("--out DIR", s.out, "folder for tables");
   if (!o.parse(argc, argv)) return false;

@@ -87,7 +87,7 @@ bool parse(int argc, char** argv, Settings& s) {
       "What the barest grains cost beside a loop written by hand, and features beside them. One thread.");
   o.text("--summary FILE", s.summary, "write the figures as JSON");
   o.integer("--edge N", s.edge, 12, 200, "spheres along each edge of the cube");
-  o.integer("--turns N", s.turns, 4, 10000, "how often what is compared takes turns");
+  o.integer("--turns N", s.turns, 4, 10000, "number of alternations between the compared cases");
   return o.parse(argc, argv);
 }
 

@@ -16,7 +16,7 @@ std::vector<EnergySample> readEnergy(const std::filesystem::path& file) {
   std::vector<EnergySample> samples;
   for (std::size_t row = 0; row < columns[0].size(); ++row) {
     if (row > 0 && columns[0][row] <= columns[0][row - 1])
-      throw InputError("row " + std::to_string(row + 1) + " is no later than the one before", file.string(),
+      throw InputError("row " + std::to_string(row + 1) + " is not later than the row before", file.string(),
                        "restore the file");
     samples.push_back({columns[0][row], columns[1][row]});
   }

@@ -38,7 +38,7 @@ void addBarOptions(Options& o, Settings& s) {
   const program::Range length{0.0, 4000.0, false, true, "a multiple of the element size, 0.4 m, up to 4000 m"};
   o.group("Bar");
   o.integer("--particles-per-edge N", s.particlesPerEdge, 1, 8, "n: an element holds n^3 particles");
-  o.number("--dem-length L", s.demLength, length, "of the part with particles, m").in("m");
+  o.number("--dem-length L", s.demLength, length, "length of the part with particles, m").in("m");
   o.number("--overlap L", s.overlap, length, "of particles and solid, m; at least 0.8").in("m");
   o.number("--fem-length L", s.femLength, length, "of the solid, m; made longer if the pulse would reach its end")
       .in("m")
@@ -51,14 +51,14 @@ void addBarOptions(Options& o, Settings& s) {
 void addSchemeOptions(Options& o, Settings& s) {
   o.group("Parts of the scheme");
   o.word("--scheme", s.scheme, "conservative|paper",
-         "all parts at once, signal and dt factor included; what is given wins");
-  o.word("--constraint", s.constraint, "penalty|multiplier|dashpot", "what holds the two models together");
+         "sets all parts, signal and dt factor included; options given take precedence");
+  o.word("--constraint", s.constraint, "penalty|multiplier|dashpot", "how the gap between the two models is held");
   o.word("--gap", s.gap, "at-grains|nodal", "where the two fields are compared");
   o.word("--weight-profile", s.weightProfile, "half-cosine|linear|smooth",
-         "fraction of the particles across the overlap");
+         "weight of the particles across the overlap");
   o.number("--weight-floor W", s.weightFloor, {0.0, 0.5, true, false, "a number from 0 to below 0.5"},
-           "least fraction of either model in the overlap");
-  o.word("--tension", s.tension, "off|on", "contacts that also pull");
+           "least weight of either model in the overlap");
+  o.word("--tension", s.tension, "off|on", "contacts with tension");
   o.word("--material", s.material, "springs|kirchhoff",
          "of the solid: the lattice's continuum, or St Venant-Kirchhoff");
   o.word("--mass", s.mass, "lumped|consistent|matched", "of the solid; matched: with the dispersion of the lattice");
@@ -80,7 +80,7 @@ void addSchemeOptions(Options& o, Settings& s) {
       .in("Pa_m2")
       .reportAs([&s] { return s.penalty == 0.0 ? "auto" : formatNumber(s.penalty); });
   o.number("--absorber A", s.absorber, notNegative("0 (none) or a positive rate, about 1"),
-           "damps what the mesh cannot carry, wave speed / element size; 0 = none");
+           "damping rate of motions that the mesh cannot represent, wave speed / element size; 0 = none");
 }
 
 void addSignalOptions(Options& o, Settings& s) {
@@ -88,7 +88,7 @@ void addSignalOptions(Options& o, Settings& s) {
   o.word("--signal", s.signal, "impulse|cosine", "velocity of the first layer at t = 0, or raised cosine");
   o.number("--pulse-elements L", s.pulseElements, positive("a positive number of elements, up to 1000", 1000.0),
            "length of a cycle in elements");
-  o.add("--omega W", "the same as angular frequency, rad/ms",
+  o.add("--omega W", "the same, as an angular frequency, rad/ms",
         [&s](const std::string& text) {
           double perMillisecond = 0.0;
           Options one("", "");
@@ -99,7 +99,7 @@ void addSignalOptions(Options& o, Settings& s) {
         {});
   o.integer("--cycles M", s.cycles, 1, 100, "of the raised cosine");
   o.number("--amplitude A", s.amplitude, positive("a positive factor on the published signal, up to 100", 100.0),
-           "over the published signal");
+           "factor on the published signal");
 }
 
 Options optionsOf(Settings& s) {
@@ -110,9 +110,9 @@ Options optionsOf(Settings& s) {
   addSignalOptions(o, s);
   o.group("Time");
   benchmark::addTimeOptions(o, s, words);
-  o.flag("--until-past", s.untilPast, "ends when the pulse has left the overlap, whatever the scheme").key = "";
+  o.flag("--until-past", s.untilPast, "ends when the pulse has left the overlap, for every scheme").key = "";
   benchmark::addOutputOptions(o, s, words);
-  o.flag("--no-comparison", s.compare, "no run of particles alone to compare with", false);
+  o.flag("--no-comparison", s.compare, "skips the run of particles alone for comparison", false);
   return o;
 }
 
@@ -164,15 +164,15 @@ void checkSize(const Settings& s) {
 void checkCombinations(const Settings& s) {
   const bool staggered = s.order == "staggered";
   if (staggered && (!s.implicit() || s.constraint != "dashpot"))
-    throw InputError("staggered steps are made for the dashpot and an implicit solid", "--order staggered",
+    throw InputError("staggered steps need the dashpot and an implicit solid", "--order staggered",
                      "add --constraint dashpot --fem newmark, or take --order symmetric");
   if (s.kernelReach == "outside" && s.gap == "at-grains")
     throw InputError("particles outside of the mesh have no solid to be compared with", "--kernel-reach outside",
                      "take --gap nodal, or --kernel-reach overlap");
   if (staggered && s.femEvery != 1)
-    throw InputError("staggered steps take the solid along at every step", "--fem-every", "take 1");
+    throw InputError("staggered steps need one step of the particles per step of the solid", "--fem-every", "take 1");
   if (s.absorber > 0.0 && s.implicit())
-    throw InputError("the absorber acts at every step of the particles", "--absorber", "take --fem explicit");
+    throw InputError("the absorber needs explicit steps of the solid", "--absorber", "take --fem explicit");
 }
 
 }  // namespace
