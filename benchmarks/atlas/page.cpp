@@ -1,4 +1,4 @@
-// Writes the atlas: one page of error, stability and price from what the studies have left in a folder.
+// Writes the atlas: one page of error, stability and cost from what the studies have left in a folder.
 #include <iostream>
 
 #include "dovetail/io/output_folder.hpp"
@@ -25,7 +25,7 @@ report::Section studiesOf(const std::vector<Result>& results, const io::KeyValue
   return {
       "How it was made",
       {report::Paragraph{report::format("%zu studies in %.0f s. Commands are those of the project's root; numbers are "
-                                        "in atlas.json, atlas_fronts.csv, atlas_map.csv and atlas_prices.csv beside "
+                                        "in atlas.json, atlas_fronts.csv, atlas_map.csv and atlas_overhead.csv beside "
                                         "this page.",
                                         results.size(), seconds)},
        std::move(table), report::Listing{"Where these numbers come from", origin}}};
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
     o.text("FOLDER", folder, "in which runs.json and the results of the studies are").require();
     if (!o.parse(argc, argv)) return true;
     io::prepareOutputFolder(folder,
-                            {"atlas.html", "atlas.json", "atlas_fronts.csv", "atlas_map.csv", "atlas_prices.csv"});
+                            {"atlas.html", "atlas.json", "atlas_fronts.csv", "atlas_map.csv", "atlas_overhead.csv"});
     write(folder);
     std::cout << (fs::path(folder) / "atlas.html").string() << '\n';
     return true;

@@ -41,6 +41,6 @@ Chapter frontsOf(const std::vector<Result>& results);
 /// What became of stiff and extreme cases, with the command that repeats each.
 Chapter mapsOf(const std::vector<Result>& results);
 /// What scenes pay.
-Chapter pricesOf(const std::vector<Result>& results);
+Chapter overheadOf(const std::vector<Result>& results);
 
 }  // namespace dovetail::atlas

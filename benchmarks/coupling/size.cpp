@@ -1,4 +1,4 @@
-// Overlaps from 1e4 grains and elements to 1e5: memory, time per step and of its tie, price of a list update,
+// Overlaps from 1e4 grains and elements to 1e5: memory, time per step and of its tie, cost of a list update,
 // exponents.
 //
 //     coupling_size [cells across …] [part of a coupling's name]     by default 17 30 54, and all of them
@@ -114,7 +114,7 @@ std::unique_ptr<Scene> makeScene(int across, const Way& way) {
   arlequin::CouplingOptions options;
   options.constraint = way.kind;
   options.projection.width = way.width * edge;
-  auto tie = arlequin::makeOverlapTie(grains, mesh, weight, side, options);
+  auto tie = arlequin::makeArlequinCoupling(grains, mesh, weight, side, options);
   scene->tie = tie.get();
   grains.terms.add(std::unique_ptr<dem::Term>(std::move(tie)));
   return scene;
@@ -190,7 +190,7 @@ Measured measure(int across, const Way& way) {
 
 struct Flow {
   double between = 0.0;   // steps from one list update to the next
-  double price = 0.0;     // of a list update, in other steps
+  double cost = 0.0;     // of a list update, in other steps
   double fraction = 0.0;  // of the run's time that list updates take
 };
 
@@ -232,14 +232,14 @@ void printFlows(const std::string& only) {
       "A bed slides at 0.01 c, %d cells across, 2 threads. Steps, in element sizes over c, are a fifth of the critical "
       "one.\n",
       across);
-  std::printf("%-22s %8s %14s %15s %10s\n", "coupling", "step", "steps between", "price in steps", "share / %");
+  std::printf("%-22s %8s %14s %15s %10s\n", "coupling", "step", "steps between", "cost in steps", "share / %");
   for (const Way& way : ways) {
     if (std::string(way.name).find(only) == std::string::npos) continue;
     const auto scene = makeScene(across, way);
     scene->run.start(0.004 * crossing);
     const double dt = 0.2 * scene->run.criticalStep().dt;
     const Flow flow = measureFlow(*scene, dt);
-    std::printf("%-22s %8.4f %14.0f %15.1f %10.1f\n", way.name, dt / crossing, flow.between, flow.price,
+    std::printf("%-22s %8.4f %14.0f %15.1f %10.1f\n", way.name, dt / crossing, flow.between, flow.cost,
                 100.0 * flow.fraction);
     std::fflush(stdout);
   }

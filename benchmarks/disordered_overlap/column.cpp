@@ -84,7 +84,7 @@ std::unique_ptr<fem::Model> heldColumn(const fem::SolidMesh& mesh, const Elastic
   for (fem::Tie& tie : fem::periodicTies(mesh, still, {true, true, false}).ties)
     if (solid->nodes.fixed[static_cast<std::size_t>(tie.node)] == 0) solid->constraints.ties.push_back(std::move(tie));
   const fem::Material law = fem::StVenantKirchhoff{e.young, e.poisson, e.density};
-  solid->add(fem::makeSolid(mesh, fem::pointMaterial(law), {.weight = std::move(weight)}));
+  solid->add(fem::makeSolid(mesh, fem::pointMaterial(law), {.fraction = std::move(weight)}));
   if (norm(gravity) > 0.0) solid->add(fem::gravity(gravity));
   fem::addMass(*solid);
   return solid;
@@ -180,7 +180,7 @@ std::unique_ptr<JoinedColumn> joinSolid(const dem::Model& packing, std::size_t f
   dem::removeParticles(grains, below);
   if (options.initialEquilibrium) column->rounds = arlequin::initialEquilibrium(grains, mesh, *solid, weight);
   coupling::SolidSide& side = column->run.addSolid(std::move(solid), {.massFraction = options.massFraction});
-  auto tie = arlequin::makeOverlapTie(grains, mesh, weight, side, options.coupling);
+  auto tie = arlequin::makeArlequinCoupling(grains, mesh, weight, side, options.coupling);
   column->tie = tie.get();
   grains.terms.add(std::unique_ptr<dem::Term>(std::move(tie)));
   return column;

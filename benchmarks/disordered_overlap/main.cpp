@@ -13,7 +13,7 @@ using namespace dovetail;
 using namespace dovetail::disordered_overlap;
 
 struct Settings {
-  std::string study = "all", out = "bed-output";
+  std::string study = "all", out = "disordered-overlap-output";
   bool quick = false, friction = false;
   int packings = 10, workers = 1, steps = 100000;
   double strain = 2e-5, weight = 0.3;

@@ -72,7 +72,7 @@ double secondsOf(int times, const std::function<void()>& act) {
 }
 
 /// What an answer is made of: the state taken back, the path with its rest, the operators.
-void addPrices(FigureRows& rows) {
+void addCosts(FigureRows& rows) {
   const rve::Rve start = sand(1);
   rve::Rve cell = start;
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
@@ -157,7 +157,7 @@ void addRelaxation(const std::vector<rve::Rve>& samples, FigureRows& rows) {
 
 FigureRows operators(bool quick) {
   FigureRows rows;
-  addPrices(rows);
+  addCosts(rows);
   rows.push_back(oneElementAgainstTheCell());
   std::vector<rve::Rve> samples;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) samples.push_back(sand(seed));

@@ -83,7 +83,7 @@ Json besideBare(const Settings& s) {
 
 bool parse(int argc, char** argv, Settings& s) {
   program::Options o(
-      "prices_bare",
+      "overhead_bare",
       "What the barest grains cost beside a loop written by hand, and features beside them. One thread.");
   o.text("--summary FILE", s.summary, "write the figures as JSON");
   o.integer("--edge N", s.edge, 12, 200, "spheres along each edge of the cube");
@@ -95,7 +95,7 @@ bool parse(int argc, char** argv, Settings& s) {
 
 /// Exit code 0: done; 2: the request was refused.
 int main(int argc, char** argv) {
-  return program::runProgram("prices_bare", [&] {
+  return program::runProgram("overhead_bare", [&] {
     Settings s;
     if (!parse(argc, argv, s)) return true;
     setThreads(1);

@@ -18,7 +18,7 @@ inline void shareLayers(coupling::CoupledRun& run, const Size& size) {
     place.push_back(X.z < -1e-9 ? arlequin::beyondOverlap : std::clamp(1.0 - X.z / (shared * brick), 0.0, 1.0));
   const std::vector<double> weight = arlequin::nodalWeights(place, {});
   coupling::SolidSide& side = run.addSolid(makeBlock(mesh, arlequin::solidWeights(weight)), {.name = "block"});
-  run.grains.terms.add(arlequin::makeOverlapTie(run.grains, mesh, weight, side, {}));
+  run.grains.terms.add(arlequin::makeArlequinCoupling(run.grains, mesh, weight, side, {}));
 }
 
 }  // namespace dovetail::overhead

@@ -71,7 +71,7 @@ void addSoil(coupling::CoupledRun& run) {
                                          {"z-", fem::allComponents}})
     fem::fix(soil->nodes, mesh.nodeSets.at(side), components);
   coupling::SolidSide& side = run.addSolid(std::move(soil), {.name = "soil"});
-  run.grains.terms.add(arlequin::makeOverlapTie(run.grains, mesh, weight, side, {}));
+  run.grains.terms.add(arlequin::makeArlequinCoupling(run.grains, mesh, weight, side, {}));
 }
 
 void addPlate(coupling::CoupledRun& run) {

@@ -89,7 +89,7 @@ bool handOver(arlequin::ConstraintKind constraint, const char* name) {
   side.model = &net.host;
   side.mass = &mass;
   side.load = coupling::NodalLoad(net.nodes.u.size());
-  auto& tie = grains.terms.add(arlequin::makeOverlapTie(
+  auto& tie = grains.terms.add(arlequin::makeArlequinCoupling(
       grains, net.mesh, net.w, side,
       {.constraint = constraint, .penalty = arlequin::automaticPenalty(modulus, edge), .leastWeight = 1e-3}));
 

@@ -54,7 +54,7 @@ TEST(CriticalStep, TheDashpotsLimitWithUniformSharesIsTwo) {
     const std::vector<double> weight(mesh.X.size(), 0.5);
     run.take(fem::makeModel(mesh));
     const fem::StVenantKirchhoff soft{1e-9, 0.0, bulk};
-    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(soft)), {.weight = solidWeights(weight)}));
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(soft)), {.fraction = solidWeights(weight)}));
     const double dt = 1e-3;
     CouplingOptions coupling;
     coupling.constraint = ConstraintKind::dashpot;

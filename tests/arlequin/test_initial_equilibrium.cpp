@@ -65,7 +65,7 @@ struct Soil {
     weight = nodalWeights(place, {.floor = 0.02});
     model = fem::makeModel(mesh);
     model.add(fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(young, 0.2, 1100.0)),
-                             {.weight = solidWeights(weight)}));
+                             {.fraction = solidWeights(weight)}));
     model.add(fem::gravity({0.0, 0.0, -9.81}));
     for (const char* set : {"x-", "x+"}) fem::fix(model.nodes, mesh.nodeSets.at(set), fem::componentX);
     for (const char* set : {"y-", "y+"}) fem::fix(model.nodes, mesh.nodeSets.at(set), fem::componentY);

@@ -28,7 +28,7 @@ TieRun loose(ConstraintKind kind, double penalty, bool hold = true, double width
   run.take(fem::makeModel(mesh));
   if (hold) fem::fix(run.solid->nodes, fem::nodeSet(mesh, "y+"));
   const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-  run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
+  run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.fraction = solidWeights(weight)}));
   CouplingOptions coupling;
   coupling.constraint = kind;
   coupling.penalty = penalty;

@@ -85,14 +85,14 @@ std::unique_ptr<Scene> handOver(const dem::Model& packing, ConstraintKind kind) 
   for (fem::Tie& tie : fem::periodicTies(scene->mesh, still, {true, true, false}).ties)
     if (solid->nodes.fixed[static_cast<std::size_t>(tie.node)] == 0) solid->constraints.ties.push_back(std::move(tie));
   solid->add(fem::makeSolid(scene->mesh, fem::pointMaterial(fem::Material(fem::StVenantKirchhoff{2e6, 0.2, density})),
-                            {.weight = solidWeights(scene->weight)}));
+                            {.fraction = solidWeights(scene->weight)}));
   solid->add(fem::gravity({0, 0, -fall}));
   fem::addMass(*solid);
   EXPECT_LT(initialEquilibrium(grains, scene->mesh, *solid, scene->weight), 10);
   coupling::SolidSide& partner = scene->run.addSolid(std::move(solid));
   CouplingOptions options;
   options.constraint = kind;
-  auto tie = makeOverlapTie(grains, scene->mesh, scene->weight, partner, options);
+  auto tie = makeArlequinCoupling(grains, scene->mesh, scene->weight, partner, options);
   scene->tie = tie.get();
   grains.terms.add(std::unique_ptr<dem::Term>(std::move(tie)));
   scene->run.start(2e-5);

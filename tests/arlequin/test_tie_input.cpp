@@ -78,7 +78,7 @@ TEST(TieDemand, OneParticleAloneInItsElementDoesNotShortenTheStep) {
     const std::vector<double> weight = barWeights(mesh, o);
     run.take(fem::makeModel(mesh));
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.fraction = solidWeights(weight)}));
     run.couple(mesh, weight, {});
     run.start();
     double stiffest = 0.0;  // N/m over kg, by a probe of the forces
@@ -160,7 +160,7 @@ TEST(TiePenalty, GoesByTheElement) {
     run.take(fem::makeModel(mesh));
     for (const auto& [set, young] : {std::pair("low", lower), std::pair("high", upper)})
       run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(fem::StVenantKirchhoff{young, 0.0, bulk})),
-                                    {.elementSet = set, .name = set, .weight = solidWeights(weight)}));
+                                    {.elementSet = set, .name = set, .fraction = solidWeights(weight)}));
     run.couple(mesh, weight, {});
     run.start();
     for (Vec3& x : run.grains.particles.x) x.y += 1e-6;
@@ -194,7 +194,7 @@ TEST(TiePeriodic, SidesMakeNoDifference) {
     const std::vector<double> weight = barWeights(mesh, o);
     run.take(fem::makeModel(mesh));
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.fraction = solidWeights(weight)}));
     run.couple(mesh, weight, {});
     run.start();
     std::vector<double> sorted(run.grains.particles.weight),
@@ -224,7 +224,7 @@ TEST(TieInput, WhatCannotBeIsRefused) {
     std::vector<double> weight = solidWeights(weight);
     change(run, weight);
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = weight}));
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.fraction = weight}));
     run.couple(mesh, weight, coupling);
     dem::check(run.grains);
   };

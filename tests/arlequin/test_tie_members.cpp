@@ -39,7 +39,7 @@ double heldForce(double dust) {
   run.take(fem::makeModel(mesh));
   fem::fix(run.solid->nodes, fem::nodeSet(mesh, "y+"));
   const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-  run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
+  run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.fraction = solidWeights(weight)}));
   run.solid->add(fem::massDamping(40.0));
   run.couple(mesh, weight, {});
   const std::vector<std::int64_t> pulled(run.grains.particles.id.begin(), run.grains.particles.id.begin() + 4);
@@ -103,10 +103,10 @@ struct Pit {
     weight = nodalWeights(place, {});
     auto soil = std::make_unique<fem::Model>(fem::makeModel(mesh));
     soil->add(
-        fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(2e6, 0.2, 1100.0)), {.weight = solidWeights(weight)}));
+        fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(2e6, 0.2, 1100.0)), {.fraction = solidWeights(weight)}));
     for (const char* set : {"x-", "x+", "y-", "y+", "z-"}) fem::fix(soil->nodes, mesh.nodeSets.at(set));
     side = &run.addSolid(std::move(soil), {.name = "soil"});
-    tie = &g.terms.add(makeOverlapTie(g, mesh, weight, *side));
+    tie = &g.terms.add(makeArlequinCoupling(g, mesh, weight, *side));
     g.refusesUnstableSteps = false;
   }
 };
@@ -140,7 +140,7 @@ TEST(TieMembers, PouredGrainsAtRestAreTiedAsOnesThatWereThere) {
   other.model = pit.side->model;
   other.mass = pit.side->mass;
   other.load = coupling::NodalLoad(pit.mesh.X.size());
-  const auto fresh = makeOverlapTie(copy, pit.mesh, pit.weight, other);
+  const auto fresh = makeArlequinCoupling(copy, pit.mesh, pit.weight, other);
   const double ratio = stiffnessOf(*pit.tie, g, pit.mesh.X.size()) / stiffnessOf(*fresh, copy, pit.mesh.X.size());
   EXPECT_GT(ratio, 0.95);
   EXPECT_LT(ratio, 1.1);
@@ -188,9 +188,9 @@ TEST(TieMembers, PairsBetweenTwoTiesHaveTheMeanShare) {
     weight = nodalWeights(weight, {});
     auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-    model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
+    model->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.fraction = solidWeights(weight)}));
     coupling::SolidSide& side = run.run->addSolid(std::move(model), {.name = shift > 0.0 ? "right" : "left"});
-    ties.push_back(&run.grains.terms.add(makeOverlapTie(run.grains, mesh, weight, side)));
+    ties.push_back(&run.grains.terms.add(makeArlequinCoupling(run.grains, mesh, weight, side)));
   }
   run.grains.refusesUnstableSteps = false;
   run.run->start(1e-4);

@@ -43,13 +43,13 @@ struct Bed {
     weight = nodalWeights(place, {});
     soil = std::make_unique<fem::Model>(fem::makeModel(mesh));
     soil->add(
-        fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(5e6, 0.25, 1450.0)), {.weight = solidWeights(weight)}));
+        fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(5e6, 0.25, 1450.0)), {.fraction = solidWeights(weight)}));
     soil->add(fem::gravity({0.0, 0.0, -9.81}));
     for (const char* side : {"x-", "x+", "y-", "y+", "z-"}) fem::fix(soil->nodes, mesh.nodeSets.at(side));
   }
   ArlequinCoupling& tie() {
     coupling::SolidSide& side = run.addSolid(std::move(soil), {.name = "soil"});
-    return run.grains.terms.add(makeOverlapTie(run.grains, mesh, weight, side, options));
+    return run.grains.terms.add(makeArlequinCoupling(run.grains, mesh, weight, side, options));
   }
 };
 
@@ -149,7 +149,7 @@ TEST(TieRefusals, PartsOfKernelsBelowZero) {
 TEST(TieRefusals, ParticlesThatAllBelongToAnotherOverlap) {
   Bed bed;
   bed.tie();
-  EXPECT_THROW(makeOverlapTie(bed.run.grains, bed.mesh, bed.weight, bed.run.solid(0), {}), InputError);
+  EXPECT_THROW(makeArlequinCoupling(bed.run.grains, bed.mesh, bed.weight, bed.run.solid(0), {}), InputError);
 }
 
 TEST(InitialEquilibrium, SetsMassesAndRefusesWhatIsTied) {

@@ -277,7 +277,7 @@ TEST(TieRunsMore, TheAbsorberIsBlindToAVelocityOfAll) {
     const std::vector<double> weight = nodalWeights(place, {});
     run.take(fem::makeModel(mesh));
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.fraction = solidWeights(weight)}));
     const Vec3 velocity{1.0, 2.0, 3.0};
     run.solid->nodes.v.assign(mesh.X.size(), velocity);
     run.grains.particles.v.assign(run.grains.particles.size(), velocity);

@@ -32,7 +32,7 @@ struct TieRun {
   void couple(const fem::SolidMesh& mesh, const std::vector<double>& weight, const CouplingOptions& coupling) {
     grains.refusesUnstableSteps = false;  // the tests choose
     side = &run->addSolid(std::move(owned_), options);
-    tie = &grains.terms.add(makeOverlapTie(grains, mesh, weight, *side, coupling));
+    tie = &grains.terms.add(makeArlequinCoupling(grains, mesh, weight, *side, coupling));
   }
 
   void start(double dt = 1e-4) { run->start(dt, {.stepsPerMacroStep = K}); }
@@ -77,7 +77,7 @@ inline TieRun tieBar(const SceneOptions& o, fem::ElementShape shape = fem::Eleme
   run.take(fem::makeModel(mesh));
   if (o.holdEnd) fem::fix(run.solid->nodes, fem::nodeSet(mesh, "y+"));
   const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-  run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.weight = solidWeights(weight)}));
+  run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.fraction = solidWeights(weight)}));
   run.options.stepping = stepping;
   run.options.massFraction = o.massFraction;
   CouplingOptions coupling = o.coupling;

@@ -50,9 +50,9 @@ Bar makeBar(Stepping stepping, bool bonded, double shift = 0.0) {
   auto model = std::make_unique<fem::Model>(fem::makeModel(bar.mesh));
   fem::fix(model->nodes, fem::nodeSet(bar.mesh, "y+"));
   model->add(fem::makeSolid(bar.mesh, fem::pointMaterial(fem::Material(fem::StVenantKirchhoff{1e6, 0.0, 1000.0})),
-                            {.weight = arlequin::solidWeights(weight)}));
+                            {.fraction = arlequin::solidWeights(weight)}));
   bar.side = &bar.run->addSolid(std::move(model), {.name = "bar", .stepping = stepping});
-  bar.tie = &grains.terms.add(arlequin::makeOverlapTie(grains, bar.mesh, weight, *bar.side));
+  bar.tie = &grains.terms.add(arlequin::makeArlequinCoupling(grains, bar.mesh, weight, *bar.side));
   return bar;
 }
 

@@ -50,7 +50,7 @@ void addSoil(coupling::CoupledRun& run) {
   fem::fix(model->nodes, mesh.nodeSets.at("z-"));
   fem::fix(model->nodes, mesh.nodeSets.at("x-"), fem::componentX);
   coupling::SolidSide& side = run.addSolid(std::move(model), {.name = "soil"});
-  run.grains.terms.add(arlequin::makeOverlapTie(run.grains, mesh, weight, side, {}));
+  run.grains.terms.add(arlequin::makeArlequinCoupling(run.grains, mesh, weight, side, {}));
 }
 
 void addPlate(coupling::CoupledRun& run) {

@@ -55,5 +55,29 @@ TEST(SceneUpgrade, KnowsEveryRow) {
   }
 }
 
+TEST(SceneUpgrade, LooksAtTheVersion) {
+  const auto with = [](const std::string& version) {
+    return replaced(replaced(replaced(old, "per_window", "per_macro_step"), R"("do": "settle", "windows")",
+                             R"("do": "relax", "macro_steps")"),
+                    R"("title": "windows")", R"("title": "windows", "version": )" + version);
+  };
+  const auto refusal = [&](const std::string& version) {
+    try {
+      sceneFromText(with(version), "s.json", "/");
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  for (const char* const known : {R"("0.1")", R"("0.1.0")", R"("0.0.9")"}) EXPECT_EQ(refusal(known), "");
+  expectParts(refusal(R"("99.1")"), {"s.json:3:34", "written for Dovetail 99.1", "a later one"});
+  for (const char* const no : {R"("new")", R"("0.")", R"("-1")", R"("")", "0.1"})
+    expectParts(refusal(no), {"no version of Dovetail", "write \"0.1\""});
+  const Upgrade upgrade = upgraded(with(R"("0.0")"), "s.json");
+  ASSERT_EQ(upgrade.changes.size(), 1U);
+  EXPECT_EQ(upgrade.text, with(R"("0.1")"));
+  EXPECT_THROW(upgraded(with(R"("1.0")"), "s.json"), InputError);
+}
+
 }  // namespace
 }  // namespace dovetail::scene::test

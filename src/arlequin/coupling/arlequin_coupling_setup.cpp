@@ -100,7 +100,7 @@ void requireMembers(const Overlap& overlap, const dem::Model& m, double leastWei
 
 }  // namespace
 
-std::unique_ptr<ArlequinCoupling> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
+std::unique_ptr<ArlequinCoupling> makeArlequinCoupling(dem::Model& grains, const fem::SolidMesh& mesh,
                                                  std::vector<double> nodalWeight, coupling::SolidSide& side,
                                                  const CouplingOptions& options) {
   requireNonNegative(options.penalty, "penalty");

@@ -55,7 +55,7 @@ std::vector<Vec3> loadOf(const dem::Model& grains, const fem::SolidMesh& mesh, f
   CouplingOptions options;
   options.penalty = anyPenalty;
   options.leastWeight = leastWeight;
-  auto made = makeOverlapTie(weighed, mesh, {nodalWeight.begin(), nodalWeight.end()}, side, options);
+  auto made = makeArlequinCoupling(weighed, mesh, {nodalWeight.begin(), nodalWeight.end()}, side, options);
   const ArlequinCoupling& tie = *made;
   weighed.terms.add(std::unique_ptr<dem::Term>(std::move(made)));
   dem::findForces(weighed);

@@ -196,7 +196,7 @@ void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overla
   const std::vector<double> weight = overlapWeights(overlap, mesh);
   if (overlap.initialEquilibrium) initialEquilibrium(built, mesh, side, weight, options.leastWeight);
   leaveOut(built, mesh, side, weight, options.leastWeight);  // after that: the border moves with the mesh
-  grains.terms.add(arlequin::makeOverlapTie(grains, mesh, weight, side, options));
+  grains.terms.add(arlequin::makeArlequinCoupling(grains, mesh, weight, side, options));
 }
 
 }  // namespace

@@ -55,6 +55,8 @@ void describe(Fields& f, Steps& v) {
 }
 void describe(Fields& f, Scene& v) {
   f.text({"title", "one line about the scene"}, v.title, false);
+  f.text({"version", "version of Dovetail for which the scene was written, \"0.1\"; a later one is refused"}, v.version,
+         false);
   f.includes({"include", "scenes that this one extends: its own values take precedence, lists of objects are joined"});
   f.parameters({"let",
                 "parameters of expressions: a number with or without a unit, or an expression of those above; names "

@@ -1,7 +1,11 @@
 #include "dovetail/scene/upgrade.hpp"
 
 #include <algorithm>
+#include <charconv>
 
+#include "dovetail/core/error.hpp"
+#include "dovetail/io/provenance.hpp"
+#include "known_version.hpp"
 #include "read/json_tree.hpp"
 #include "renamed.hpp"
 
@@ -13,6 +17,26 @@ struct Edit {
   Place place;
   std::string_view was, is;
 };
+
+/// "0.1.2" as numbers; nothing if it is no version.
+std::vector<int> numbersOf(std::string_view version) {
+  std::vector<int> numbers;
+  for (const char *at = version.data(), *const end = at + version.size();; ++at) {
+    int number = 0;
+    const auto [next, error] = std::from_chars(at, end, number);
+    if (error != std::errc() || number < 0) return {};
+    numbers.push_back(number);
+    if (next == end) return numbers;
+    if (*next != '.') return {};
+    at = next;
+  }
+}
+
+/// Major and minor number of this program, "0.1".
+std::string ownVersion() {
+  const std::string& version = io::buildInfo().version;
+  return version.substr(0, version.find('.', version.find('.') + 1));
+}
 
 /// Paths of lists leave the numbers of items out.
 void collect(const Node& node, const std::string& path, std::vector<Edit>& edits) {
@@ -39,9 +63,27 @@ std::size_t offsetOf(const std::string& text, const Place& place) {
 
 }  // namespace
 
+void requireKnownVersion(const Node& root, const std::string& name) {
+  const Node* const version = root.find("version");
+  if (version == nullptr) return;
+  const std::vector<int> wanted = version->kind == Node::Kind::text ? numbersOf(version->text) : std::vector<int>{};
+  if (wanted.empty())
+    throw InputError("version is no version of Dovetail", placeName(name, version->place),
+                     "write \"" + ownVersion() + "\"");
+  if (wanted > numbersOf(io::buildInfo().version))
+    throw InputError(
+        "the scene was written for Dovetail " + version->text + ", this program is " + io::buildInfo().version,
+        placeName(name, version->place), "run it with that version or a later one");
+}
+
 Upgrade upgraded(const std::string& text, const std::string& name) {
   std::vector<Edit> edits;
-  collect(parseJson(text, name), "", edits);
+  const Node root = parseJson(text, name);
+  requireKnownVersion(root, name);
+  collect(root, "", edits);
+  const std::string own = ownVersion();
+  if (const Node* const version = root.find("version"); version != nullptr && version->text != own)
+    edits.push_back({version->place, version->text, own});
   Upgrade result{text, {}};
   std::ranges::sort(edits, [](const Edit& a, const Edit& b) {
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);

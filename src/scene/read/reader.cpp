@@ -10,6 +10,7 @@
 #include "include.hpp"
 #include "json_tree.hpp"
 #include "keys/fields.hpp"
+#include "keys/known_version.hpp"
 #include "keys/nearest.hpp"
 #include "keys/settings.hpp"
 #include "keys/values.hpp"
@@ -283,6 +284,7 @@ void keepUsed(Parameters& parameters, const std::string& expressions) {
 ReadFields readFields(const FileText& file, const std::vector<std::string>& settings,
                       const std::function<void(Fields&)>& describeFile) {
   Node root = parseJson(file.text, file.name);
+  requireKnownVersion(root, file.name);
   const auto includes = [](const std::string& setting) {
     return setting.starts_with("include=") || setting.starts_with("include.");
   };

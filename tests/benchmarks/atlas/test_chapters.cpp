@@ -64,7 +64,7 @@ TEST(Maps, OfScenesAskForTheEnergy) {
             std::string::npos);
 }
 
-TEST(Prices, AreTablesAndRowsOfNumbers) {
+TEST(Overhead, AreTablesAndRowsOfNumbers) {
   const Result study = resultOf("overhead", "scripts/overhead", R"({"unit": "s",
     "by_hand": {"grains": 27000, "hand_ns": 23, "ns": 24, "ratio": 1.04, "ratio_lower_quartile": 1.03, "ratio_upper_quartile": 1.06},
     "features": [{"feature": "nothing", "used": false, "ns": 24, "cost_fraction": 0.001},
@@ -77,7 +77,7 @@ TEST(Prices, AreTablesAndRowsOfNumbers) {
   ASSERT_EQ(chapter.rows.size(), 5u);
   EXPECT_EQ(chapter.rows[3]["libraries"], 2);
   EXPECT_EQ(chapter.rows[3]["profile"], "pairs 80, move 20");
-  const std::string page = report::markdownOf({"Prices", chapter.sections}, "");
+  const std::string page = report::markdownOf({"Overhead", chapter.sections}, "");
   for (const char* const told : {"1.040", "nothing", "friction", "+150.00", "20 / 10", "+1.1", "9.0 MB, 1 libraries"})
     EXPECT_NE(page.find(told), std::string::npos) << told << " in " << page;
 }

@@ -21,7 +21,7 @@ def loaded(name):
 atlas, overhead = loaded("atlas"), loaded("overhead")
 
 
-class Prices(unittest.TestCase):
+class Overhead(unittest.TestCase):
     def test_libraries_leave_out_those_of_the_system(self):
         listed = """\tlinux-vdso.so.1 (0x00007ffc)
 \tlibumfpack.so.5 => /lib/libumfpack.so.5 (0x00007f)

@@ -80,7 +80,7 @@ public:
   OverlapState state() const;
 
 private:
-  friend std::unique_ptr<ArlequinCoupling> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
+  friend std::unique_ptr<ArlequinCoupling> makeArlequinCoupling(dem::Model& grains, const fem::SolidMesh& mesh,
                                                           std::vector<double> nodalWeight, coupling::SolidSide& side,
                                                           const CouplingOptions& options);
   explicit ArlequinCoupling(coupling::SolidSide& side);
@@ -97,7 +97,7 @@ private:
 ///   are not levelled, a particle with less than leastWeight (beyond the border of the particles), members of clumps,
 ///   kernels in periodic space, particles that all belong to another overlap, an automatic penalty where a field of
 ///   points tells no modulus, kernels wider than 2.5 elements with more than 4000 rows
-std::unique_ptr<ArlequinCoupling> makeOverlapTie(dem::Model& grains, const fem::SolidMesh& mesh,
+std::unique_ptr<ArlequinCoupling> makeArlequinCoupling(dem::Model& grains, const fem::SolidMesh& mesh,
                                                  std::vector<double> nodalWeight, coupling::SolidSide& side,
                                                  const CouplingOptions& options = {});
 

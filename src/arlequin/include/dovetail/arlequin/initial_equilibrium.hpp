@@ -19,7 +19,7 @@ namespace dovetail::arlequin {
 /// @param grains       at rest, without the tie; those beyond the border (particlesBeyond) hand nothing over
 /// @param solid        where the mesh is now; its elements have the weight 1 − w   @param nodalWeight  w per node
 /// @param leastWeight   as CouplingOptions::leastWeight
-/// @throws InputError as makeOverlapTie
+/// @throws InputError as makeArlequinCoupling
 std::vector<Vec3> initialLoad(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
                               std::span<const double> nodalWeight, double leastWeight = CouplingOptions{}.leastWeight);
 

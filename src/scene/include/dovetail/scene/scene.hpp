@@ -76,7 +76,7 @@ struct Output {
 };
 
 struct Scene {
-  std::string title;
+  std::string title, version;
   Parameters parameters;  ///< that functions of time use
   Vec3 gravity;           ///< m/s²
   std::optional<ContactLaw> contact;
