@@ -1,4 +1,4 @@
-// What stands between the particles of a run and one of its solids.
+// Terms that couple the particles of a run to one of its solids.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,14 @@
 
 namespace dovetail::coupling {
 
-/// A term of the particles' model that also acts on the nodes of a solid: what it does to one side it does to the
-/// other, transposed. It is asked and told like any other term (dem::Term: check, updated, renumber, leaving,
-/// addDemand, save, load …). In addForces it adds to particles.f, and to side().load the reaction; the nodes have then
-/// moved already. Constraints, which answer all other forces, have the order dem::Term::Order::constraints.
+/// A term of the particles' model that also acts on the nodes of a solid. The coupling is adjoint: the operator that
+/// maps nodal motion to the interface, transposed, maps forces back. It has the calls of any other term (dem::Term:
+/// check, updated, renumber, leaving, addDemand, save, load …). addForces adds to particles.f, and the reaction to
+/// side().load; the nodes have already moved then. Constraint forces are computed last, from all others
+/// (dem::Term::Order::constraints).
 ///
-/// The connector of a copy of the particles' model meets the solid where it is and loads nobody: its side is its own.
+/// The connector of a copy of the particles' model has a side of its own: it takes the position of the solid and does
+/// not load it.
 class Connector : public dem::Term {
 public:
   explicit Connector(SolidSide& side) : side_(&side) {}
@@ -30,23 +32,23 @@ public:
 
   SolidSide& side() const { return *side_; }
 
-  /// Whether it answers other forces: then it has the order `constraints`.
+  /// Whether its forces are computed from all others: then it has the order `constraints`.
   bool constrains() const { return order() == Order::constraints; }
-  /// Of constraints, in macro steps of several steps: the force, constant in both half macro steps around the present
-  /// instant, that answers forces which act there only: adds to `onParticles` and `load`, N. `ownForce` is that of the
-  /// solid, N; empty if the solid is stepped implicitly, and velocities are to be made to comply. `half` is half a
-  /// macro step, s.
+  /// For constraints and macro steps of several steps: adds to `onParticles` and `load`, N, the force, constant in both
+  /// half macro steps around the present instant, that balances forces which act at this instant only. `ownForce` is
+  /// that of the solid, N; empty if the solid is stepped implicitly, and velocities are to be made to comply. `half` is
+  /// half a macro step, s.
   virtual void constrainMacroStep(const dem::Model&, std::span<const Vec3> /*ownForce*/, double /*half*/,
                                   std::span<Vec3> /*onParticles*/, NodalLoad& /*load*/) const {}
 
-  /// Of those that share a volume with their solid: 1 − w of the solid per node, and marks of the particles that are
-  /// tied to it (not 0): its surface acts with that fraction, and does not meet these. Nothing of others.
+  /// For volume couplings: 1 − w of the solid per node, and marks (not 0) of the particles that are tied to it.
+  /// Contacts on the surface of the solid act with this weight, and tied particles have none. Empty for others.
   virtual std::vector<double> solidWeight() const { return {}; }
   virtual void markTied(std::span<std::uint8_t> /*tied*/) const {}
 
-  /// What it stores now and is in no book of the particles' model, J.
+  /// Stored energy that the particles' model does not account for, J.
   virtual double stored() const { return 0.0; }
-  /// What it has lost so far, J; negative if it made energy. Not what the particles' model books.
+  /// Energy lost so far, J; negative if energy was created. Without what the particles' model accounts for.
   virtual double lost() const { return 0.0; }
 
 private:

@@ -9,8 +9,8 @@
 
 namespace dovetail::coupling {
 
-/// Forces on nodes, N, of which only `touched` differ from zero: clearing and kicking cost what the contacts touch and
-/// not what the mesh holds.
+/// Forces on nodes, N, of which only `touched` differ from zero: the cost of clearing and kicks grows with the nodes in
+/// contact, not with the mesh.
 struct NodalLoad {
   std::vector<Vec3> force;   ///< one per node
   std::vector<int> touched;  ///< nodes with a force, in the order of their first contact

@@ -1,4 +1,4 @@
-// One run: particles, any number of solids, and what stands between them.
+// One run: particles, any number of solids, and their couplings.
 //
 //     coupling::CoupledRun run;
 //     run.grains.laws = dem::makeContactLaws(law);
@@ -35,8 +35,8 @@ struct SolidOptions {
   fem::ImplicitOptions implicitOptions{.scheme = fem::newmark(), .relativeTolerance = 1e-10};
 };
 
-/// Instants at which forces act. All but `none` are kept to compare with the literature: a load that lags gives energy
-/// to a solid that gives way as a mass, and takes it from one that gives way as a spring.
+/// Instants at which forces act. All but `none` serve comparison with staggered schemes: a load that lags adds energy
+/// to a solid that responds by inertia, and takes it from one that responds elastically.
 enum class Lag {
   none,        ///< all forces of a kick belong to one instant
   load,        ///< the solid steps first, under the mean of the loads of the last two evaluations
@@ -46,42 +46,42 @@ enum class Lag {
 struct RunOptions {
   /// K: particle steps per step of the solids. Explicit: impulse multiple time stepping (Tuckerman, Berne & Martyna,
   /// J. Chem. Phys. 97, 1992), the solids' own forces kick the nodes at the ends of macro steps of K dt, connectors at
-  /// every step; K dt below the solids' limit and away from half the period of what connectors do. Implicit: ⌊K/2⌋
-  /// steps on the standing solid · the solid moves by K dt · ⌊K/2⌋ steps; for odd K it moves inside the step in the
-  /// middle.
+  /// every step; K dt below the solids' limit and away from half the period of what connectors do. Implicit (Strang
+  /// splitting): ⌊K/2⌋ steps with the solid held fixed, one free step K dt of the solid, ⌊K/2⌋ steps; for odd K the
+  /// solid moves within the middle step.
   int stepsPerMacroStep = 1;
   Lag lag = Lag::none;
 };
 
-/// The largest stable step of the particles, and who sets it.
+/// The largest stable step of the particles, and what sets it.
 struct StepLimit {
   double dt;  ///< s
   std::string owner;
 };
 
-/// Momentum and mass now, and since the first start who gave what.
+/// Momentum and mass now, and their sources since the first start.
 struct Totals {
   Vec3 momentum;         ///< kg m/s
   Vec3 angularMomentum;  ///< about the origin, kg m²/s
   double mass = 0.0;     ///< kg
   Vec3 ontoSolids;       ///< impulse of the connectors on the solids so far, kg m/s
 
-  /// What came from outside, by who gave it: gravity, walls and loads of the particles; supports and loads of every
-  /// solid; what entered and left.
+  /// External contributions by source: gravity, walls and loads of the particles; supports and loads of every solid;
+  /// particles that entered and left.
   ImpulseBook given;
   double massGained = 0.0;  ///< kg, by what entered and left
-  /// What there is less what there was at the first start and what was given: nothing but round-off for explicit
-  /// solids and Newmark's steps to the tolerance of their solver; the angular part of Newmark's steps falls with dt².
-  /// Where space repeats, moments across the axes that repeat are left out: those of the sides are nobody's.
+  /// Present value less that at the first start and all contributions: round-off for explicit solids and Newmark's
+  /// steps to the tolerance of their solver; the angular part of Newmark's steps falls with dt². In periodic space,
+  /// moments across periodic axes are left out: those of the sides have no source.
   Momenta residual;
   double massResidual = 0.0;  ///< kg
   /// Sums of the magnitudes of all impulses, of connectors too, to which the residual is relative; kg m/s, kg m²/s.
   double turnedOver = 0.0, turnedOverAngular = 0.0;
 };
-/// A table: who gave what, and what is left over.
+/// Table of the sources and the residual.
 std::ostream& operator<<(std::ostream& out, const Totals& totals);
 
-/// What holds, moves and carries the nodes of a solid does to them, N per node.
+/// Reactions of supports and ties on the nodes of a solid, N per node.
 struct Reactions {
   std::vector<Vec3> supports;  ///< at components that are fixed, held or prescribed; with what their ties pass on
   std::vector<Vec3> ties;      ///< at components that are tied
@@ -106,26 +106,25 @@ public:
   SolidSide& solid(std::size_t k);
   const SolidSide& solid(std::size_t k) const;
 
-  /// Forces at the start. Once before the first step, and again to change the step or the options, or after `grains`
-  /// has been put in another's place; the ledger go on.
+  /// Computes the forces at the start. Call it once before the first step, and again to change the step or the options,
+  /// or after `grains` was replaced; the ledger continues.
   /// @param dt  of the particles, s
   /// @throws InputError as dem::check does, for a step beyond criticalStep (unless grains.refusesUnstableSteps is
   ///         false; the run then goes on as before), options out of range, or a connector whose solid is not in this
   ///         run
   void start(double dt, const RunOptions& options = {});
-  /// The limit of the step at the start, for whoever chooses the step by it: finds forces and opens no books.
+  /// The critical step at the start, to choose the step by: computes forces, and opens no ledger.
   /// @throws InputError as start, but for the step, and if the run has started
   StepLimit limitAtStart(const RunOptions& options = {});
   /// Macro steps of K steps. The last one's end is an instant at which positions and velocities agree.
   /// @param withEnergies  false: there will be no ledger() at the end, which saves its energies
-  /// @throws InputError if macro steps is negative; NumericalError naming the particle, node or element that breaks
-  /// down
+  /// @throws InputError if macroSteps is negative; NumericalError naming the particle, node or element that breaks down
   void advance(std::int64_t macroSteps = 1, bool withEnergies = true);
 
-  /// All velocities to zero, between macro steps; what that takes is booked as "kinetic damping".
+  /// Sets all velocities to zero, between macro steps; the energy that this takes is booked as "kinetic damping".
   void stop();
-  /// Implicit solids lose from the next macro step on what rings at periods of few macro steps, or no more; relax()
-  /// asks for it while it goes on. In the ledger as the dissipation of the scheme.
+  /// Switches numerical damping of implicit solids on or off, from the next macro step: it damps oscillations with
+  /// periods of few macro steps; relax() uses it. In the ledger it is the dissipation of the scheme.
   void damp(bool on);
   /// Of particles, bodies and solids, J.
   double kineticEnergy() const;
@@ -143,15 +142,16 @@ public:
   /// of supports (second differences over a macro step) make. Sums of `supports` and of all loads are the rate of the
   /// momentum.
   Reactions reactions(std::size_t k) const;
-  /// What the linear systems of solid k are going to take; nothing for explicit steps.
+  /// Forecast of the cost of the linear systems of solid k; empty for explicit steps.
   fem::LinearForecast forecast(std::size_t k);
-  /// Of steps with the contacts, elements and connectors as they are now, and with the first contacts of particles that
-  /// touch nobody yet (dem::impactLimit). All connectors of a solid and its own forces share the same nodes; in macro
-  /// steps of K steps see dem::criticalStep. A run under way looks at its state now and then and tells in grains.passed
-  /// when that has passed the limit.
+  /// The critical step with the present contacts, elements and connectors, and with the first contacts of particles
+  /// that have none yet (dem::impactLimit). All connectors of a solid and its own forces share the same nodes; in macro
+  /// steps of K steps see dem::criticalStep. A run checks its state now and then, and sets grains.passed when the step
+  /// exceeds the limit.
   StepLimit criticalStep();
 
-  /// The state between macro steps. A run that is set up alike and started goes on from it with the same digits.
+  /// The state between macro steps. A run that is set up in the same way and started continues from it with the same
+  /// digits.
   std::vector<char> save();
   /// @throws InputError if the state is of another scene or damaged; the run is then as it was
   void load(const std::vector<char>& state);
@@ -164,13 +164,13 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// What a started run holds and has come to: sizes, time, its step beside the limit and who sets that, ledger, momenta,
-/// and the time per stage if Profile is on.
+/// Summary of a started run: sizes, time, step, its limit and what sets that, ledger, momenta, and the time per stage
+/// if Profile is on.
 void report(CoupledRun& run, std::ostream& out);
 
 struct RestOptions {
-  /// At rest when no oscillation has had a kinetic energy above this fraction of the elastic energy, twice in a row;
-  /// where nothing moves at all, whatever there is of energies.
+  /// At rest when the peak kinetic energy of two successive oscillations is below this fraction of the elastic energy,
+  /// or when nothing moves at all.
   double kinetic = 1e-8;
   std::int64_t macroSteps = 200000;  ///< given up after so many
 };
@@ -193,11 +193,11 @@ struct SolidOfState {
 /// The solids within them, in their order. @throws InputError if they are cut off, or not finite
 std::vector<SolidOfState> solidsOf(const std::vector<char>& state);
 
-/// Steps a started run until it is at rest under the loads that it has: whenever the kinetic energy has passed a peak
-/// everything is stopped (kinetic damping: Cundall 1976). Contacts remember as in any other step, so friction holds
-/// what it can. Time goes on by the macro steps taken, and loads that are functions of it with it. Macro steps count,
-/// not the accuracy on the way: a step of half the limit rests in a third of the macro steps that a fifth takes.
-/// Spheres without rolling resistance may roll on for ever.
+/// Relaxes a started run under its present loads by kinetic damping (Cundall 1976): all velocities are set to zero
+/// after each peak of the kinetic energy. Contact springs evolve as in any other step, so friction carries load. Time
+/// advances by the macro steps taken, also for loads that are functions of it. Accuracy on the way does not matter:
+/// with a step of half the limit, rest takes a third of the macro steps that a fifth of it needs. Spheres without
+/// rolling resistance may roll on for ever.
 /// @throws InputError for options out of range; NumericalError as advance
 RestReport relax(CoupledRun& run, const RestOptions& options = {});
 

@@ -32,15 +32,15 @@ bool run(const Scene& scene, const RunOptions& settings, std::ostream& log);
 /// The scene of a run. @throws InputError if this is no folder of one
 Scene readRun(const std::filesystem::path& folder);
 
-/// Goes on from the last checkpoint in the folder that is whole, to the same files with the same digits as without the
-/// break, for any number of threads. With `until`, and a run that is done if it has checkpoints, to the files of a run
+/// Continues from the last undamaged checkpoint in the folder: the files are the same to the last digit as without the
+/// break, for any number of threads. With `until`, also for a finished run with checkpoints, they are those of a run
 /// whose last stage had that end from the start; scene.json has it from then on.
-/// @throws InputError also if there is no run, no checkpoint, or one of another scene; if the state is behind `until`,
-/// or the end of the last stage is not known: it brings to rest, or one before it still has to
+/// @throws InputError also if there is no run, no checkpoint, or one of another scene; if the state is later than
+/// `until`, or the end of the last stage is unknown, since it or an unfinished stage before it relaxes
 bool resume(const RunOptions& settings, std::ostream& log);
 
-/// Builds and starts the scene, and tells its sizes, all limits of the step, and what steps, memory, time and room on
-/// disk a run takes, from macro steps that are stepped for up to a second.
+/// Builds and starts the scene, and prints its sizes, all limits of the step, and the steps, memory, time and disk
+/// space of a run, measured on macro steps for up to a second.
 /// @throws InputError as build and start; NumericalError if the first steps break down
 void check(const Scene& scene, std::ostream& log);
 
@@ -48,7 +48,7 @@ void check(const Scene& scene, std::ostream& log);
 /// @throws InputError as build and start
 std::vector<std::string> seriesColumns(const Scene& scene);
 
-/// What a file or folder of Dovetail's holds. @throws InputError if it is none
+/// Prints the contents of a file or folder written by Dovetail. @throws InputError if it is none
 void tell(const std::filesystem::path& file, std::ostream& out);
 
 }  // namespace dovetail::scene

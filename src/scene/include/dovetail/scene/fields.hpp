@@ -1,5 +1,5 @@
-// How the structures of a file tell their keys: each has one function describe(Fields&, Structure&), and whoever reads,
-// writes or documents files is a Fields. Scenes are such files; rooms above have files of their own.
+// Keys of the structures of a file: each structure has one function describe(Fields&, Structure&), and classes that
+// read, write or document files derive from Fields. Scenes are such files; other modules have their own.
 #pragma once
 
 #include <cmath>
@@ -59,11 +59,11 @@ public:
   virtual void wordList(Key key, std::vector<std::string>& value, Words words, bool needed) = 0;
   /// The words of those flags that are true.
   void axes(Key key, std::array<bool, 3>& value, bool needed);
-  /// Where the structure stands in its file; no key.
+  /// Position of the structure in its file; no key.
   virtual void where(std::string& value) = 0;
   /// The parameters of expressions.
   virtual void parameters(Key key, Parameters& values) = 0;
-  /// Other scenes, which have become part of this one when it is looked at (include.hpp).
+  /// Included scenes, which have been merged into this one before (include.hpp).
   virtual void includes(Key key) = 0;
 
   template <class T>
@@ -80,7 +80,7 @@ public:
     for (std::size_t k = 0; k < words.size(); ++k)
       if (text == words[k]) value = static_cast<T>(k);
   }
-  /// Which alternative a variant holds; its keys stand in the same object.
+  /// Which alternative a variant holds; its keys are in the same object.
   template <class... Kinds>
   void oneOf(Key key, std::variant<Kinds...>& value, Words names) {
     const std::size_t kind = kindOf(key, value.index(), names);
@@ -105,7 +105,7 @@ public:
 
 protected:
   virtual std::size_t kindOf(Key key, std::size_t now, Words names) = 0;
-  /// @param always  whether the structure is there whatever is written
+  /// @param always  whether the structure exists even if it is not written
   virtual void part(Key key, bool always, const std::function<void(Fields&)>& describePart) = 0;
   virtual bool optionalPart(Key key, bool there) = 0;
   virtual std::size_t sizeOf(Key key, std::size_t now, bool needed) = 0;

@@ -20,7 +20,7 @@ FileText textOfFile(const std::filesystem::path& file);
 struct ReadFields {
   std::string functionsOfTime;      ///< all expressions of the time
   std::vector<std::string> files;   ///< that were read or are going to be: the file, those it includes and names
-  std::vector<std::string> unused;  ///< parameters of the file itself that no text of it names
+  std::vector<std::string> unused;  ///< unused parameters of the file itself
 };
 /// Calls describeFile twice: for the keys, when values stay as they are, then for the values; each time on a structure
 /// of its own.

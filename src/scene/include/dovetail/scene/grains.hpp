@@ -12,7 +12,7 @@ struct Rolling {
 struct LinearContact {
   double stiffness = required;                ///< N/m
   std::optional<double> tangentialStiffness;  ///< N/m; not given: 2/7 of the normal one
-  /// Grains that touch at the start, or nearly so, hold together; no others ever meet.
+  /// Contacts at the start, or nearly so, are bonded; no others form.
   bool bonded = false;
   bool tension = false;  ///< of the dashpot, see dem::LinearSpringDashpot
 };
@@ -28,7 +28,7 @@ struct ContactLaw {
   std::string where;  ///< in the file, of all structures: for messages
 };
 
-/// The law between two contact materials, which are known by the names that laws give them.
+/// The law between two contact materials, given by their names.
 struct PairLaw {
   std::string first, second;
   ContactLaw law;
@@ -38,7 +38,7 @@ struct PairLaw {
 struct SizeRange {
   double smallest = required, largest = required;  ///< radii, m
 };
-/// What all sources say of the spheres that they make.
+/// Data of all sources of spheres.
 struct MadeOf {
   double density = required;  ///< kg/m³
 };
@@ -73,7 +73,7 @@ struct SphereFile : MadeOf {
 struct SphereFrame : MadeOf {
   std::string file;
 };
-/// The grains of another run's checkpoint, with what their contacts remember.
+/// The grains of another run's checkpoint, with the springs of their contacts.
 struct GrainsOfState {
   std::string file;
 };
@@ -81,7 +81,7 @@ struct Particles {
   std::variant<Lattice, RandomPacking, SphereList, SphereFile, SphereFrame, GrainsOfState> from;
   std::string name;             ///< of the group, for bonds and drives
   std::string contactMaterial;  ///< empty: that of the law in "contact"
-  Vec3 velocity;                ///< m/s, beside those of single spheres
+  Vec3 velocity;                ///< m/s, added to those of single spheres
   std::string where;
 };
 
@@ -107,7 +107,7 @@ struct SurfaceFile {
   double scale = 1.0;  ///< m per unit of the file
   Vec3 shift;          ///< m, after scaling
   bool closed = false;
-  std::optional<Vec3> point;  ///< that it turns about, m; not given: the centroid of the surface
+  std::optional<Vec3> point;  ///< centre of rotation, m; not given: the centroid of the surface
 };
 struct Wall {
   std::variant<Plane, BoxWalls, Cylinder, SphereWall, SurfaceFile> shape;
@@ -120,7 +120,7 @@ struct Wall {
 };
 
 struct Clump {
-  std::vector<Sphere> spheres;  ///< in a frame of its own
+  std::vector<Sphere> spheres;  ///< in the clump's own coordinates
   std::string contactMaterial;
   double density = required;  ///< kg/m³
   Vec3 at = requiredVector;   ///< of the centre of mass, m
@@ -150,10 +150,10 @@ struct BondGroup {
   double radiusRatio = 1.0;
   std::optional<double> tensileStrength, shearStrength;  ///< Pa; not given: they do not break
   double momentContribution = 1.0, dampingTime = 0.0;    ///< share; s
-  bool contacts = true;                                  ///< whether bonded grains touch as well
+  bool contacts = true;                                  ///< whether bonded grains have contact forces as well
   std::string where;
 };
-/// Grains that follow a path; if they spin, they keep the spin given.
+/// Grains with a prescribed motion; if they spin, with the given spin.
 struct Drive {
   std::string group;
   TimeVector spin;                         ///< rad/s

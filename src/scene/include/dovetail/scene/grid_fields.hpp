@@ -14,7 +14,7 @@ namespace dovetail::scene {
 struct GridOptions {
   cg::KernelShape shape = cg::KernelShape::lucy;
   std::optional<double> width{};       ///< of the kernel, m; not given: 1.5 mean diameters
-  bool advisesWidth = false;           ///< the width is that for which the fields depend on it the least, and told
+  bool advisesWidth = false;           ///< takes and prints the width on which the fields depend least
   std::optional<double> spacing{};     ///< of the points, m; not given: half the width
   std::optional<geometry::Box> box{};  ///< m; not given: around all centres
   std::filesystem::path file{};        ///< .vti

@@ -1,5 +1,5 @@
-// What a scene file says, as plain structures. All quantities are in SI units. The keys of a file, their help and their
-// limits are in keys.cpp and its kin.
+// Contents of a scene file, as plain structures. All quantities are in SI units. The keys of a file, their help and
+// their limits are in keys*.cpp.
 #pragma once
 
 #include "dovetail/scene/solids.hpp"
@@ -11,10 +11,10 @@ struct Periodic {
   std::array<bool, 3> axes{};
   std::string where;
 };
-/// Where grains may be.
+/// Region that grains may not leave.
 struct Domain {
   geometry::Box box = requiredBox;  ///< m
-  bool removes = false;             ///< who leaves it leaves the scene; otherwise it ends the run
+  bool removes = false;             ///< a grain that leaves is removed; otherwise it ends the run
   std::string where;
 };
 

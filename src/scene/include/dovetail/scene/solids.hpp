@@ -56,7 +56,7 @@ struct Support {
 /// Normal to the faces.
 struct PressureLoad {
   TimeValue pressure{required, ""};  ///< Pa, > 0 where it pushes
-  bool follows = true;               ///< the faces as they turn and stretch
+  bool follows = true;               ///< acts on the deformed faces
 };
 /// Per reference area.
 struct TractionLoad {
@@ -67,7 +67,7 @@ struct Load {
   std::variant<PressureLoad, TractionLoad> kind;
   std::string where;
 };
-/// Nodes that go with the faces next to them, where meshes do not match.
+/// Nodes tied to adjacent faces, where meshes do not match.
 struct MeshTie {
   std::string nodes, faces;     ///< sets
   double tolerance = required;  ///< m
@@ -107,8 +107,8 @@ struct Solid {
   bool implicitSteps = false;
   int linearSolver = 0;                ///< fem::LinearMethod, of implicit steps
   std::optional<double> massFraction;  ///< of the consistent mass; not given: 1 for implicit steps, else 0
-  std::optional<StateOfSolid> state;   ///< that it begins with; not given: at rest as it is described
-  Vec3 velocity;                       ///< of all nodes at the start, m/s, beside that of the state
+  std::optional<StateOfSolid> state;   ///< initial state; not given: undeformed and at rest
+  Vec3 velocity;                       ///< of all nodes at the start, m/s, added to that of the state
   std::vector<NamedSet> sets;
   std::vector<Support> supports;
   std::vector<Load> loads;

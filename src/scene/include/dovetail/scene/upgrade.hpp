@@ -10,7 +10,7 @@ struct Upgrade {
   std::string text;                  ///< the scene with today's names; all else, comments too, as it was
   std::vector<std::string> changes;  ///< "scene.json:3:14: \"per_window\" is \"per_macro_step\""
 };
-/// Gives keys and words of a scene the names that they have now. Files that it includes are not touched.
+/// Updates renamed keys and words of a scene. Files that it includes are not touched.
 /// @param name  of the file, for messages
 /// @throws InputError for what is no JSON
 Upgrade upgraded(const std::string& text, const std::string& name);

@@ -6,10 +6,10 @@
 
 namespace dovetail::surface {
 
-/// What contacts of one particle of weight w store, w W V, changes with V by the work of their forces, and with the
-/// share W by nobody's: between two evaluations by ½ w (V + V') (W' − W), which is booked here. (Changes of w are
-/// booked by whoever makes them, but for particles that are tied and leave the contact, W' = 0, with the w that they
-/// had.)
+/// The energy w W V stored by the contacts of a particle of weight w changes with V by the work of their forces. Its
+/// change with the fraction W, between two evaluations ½ w (V + V') (W' − W), is not the work of a force and is booked
+/// here. (Changes of w are booked by their cause, except for tied particles that leave the contact, W' = 0, with their
+/// former w.)
 struct ContactFractions {
   /// Particles that touch, ascending; tied ones, whose contacts do not act, have the fraction 0.
   struct Touching {
@@ -18,7 +18,7 @@ struct ContactFractions {
   };
   Touching now, before;
   double made = 0.0;  ///< J so far
-  /// Of a contact that acts no more, in the one evaluation that tells what it would store.
+  /// For a contact that no longer acts, in the one evaluation that yields the energy it would store.
   static constexpr double faded = 1e-100;
 
   /// Whether contacts of a particle did so in the evaluation before.

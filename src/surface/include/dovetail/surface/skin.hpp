@@ -44,10 +44,10 @@ struct Skin {
 };
 
 /// Cuts boundary faces of a mesh, of any shape, into triangles. Rows of `localMap` are the shape functions of the face
-/// at the vertex: of one node, or of several in the middle of faces of four and eight nodes. Curved faces are met as
-/// these triangles.
+/// at the vertex: of one node, or of several in the middle of faces of four and eight nodes. Contacts with curved faces
+/// are contacts with these triangles.
 /// @param X      reference positions of all mesh nodes, m
-/// @param faces  node numbers, counter-clockwise seen from outside; entries beyond those of the shape are not looked at
+/// @param faces  node numbers, counter-clockwise seen from outside; entries beyond those of the shape are ignored
 /// @throws InputError for no faces, a node number out of range, a face without area or with a repeated node, or a line
 ///         of a plane mesh (named), or a sharp angle outside of (0, π]
 Skin makeSkin(std::span<const Vec3> X, std::span<const fem::Face> faces, QuadSplit split = QuadSplit::four,
@@ -74,15 +74,15 @@ Skin joined(std::span<const Skin* const> skins);
 /// @throws InputError for a width that is negative or not finite, before the skin is changed
 void coarseGrain(Skin& skin, const cg::SurfaceKernel& kernel);
 
-/// The kernel for contact laws that know the compliance of a half-space (Hertz's and their like) on a body that bends.
-/// On single nodes (width 0) the mesh gives way once more under the load, the more the finer it is, and impacts on
-/// slender bodies get softer with every refinement. This kernel is as wide as twice the body's volume over its surface:
-/// the height of a plate, half the height of a square bar, a third of a cube's edge; what is left is the compliance of
-/// the section, that no half-space has, and no property of the mesh. Lucy's shape, symmetric.
+/// The kernel for contact laws that include the compliance of a half-space (such as Hertz's) on a body that bends. With
+/// forces on single nodes (width 0) the mesh adds a local compliance that grows with refinement, so impacts on slender
+/// bodies get softer with every refinement. The width is twice the body's volume over its surface: the height of a
+/// plate, half the height of a square bar, a third of a cube's edge; the remaining compliance is that of the section,
+/// which a half-space lacks, and does not depend on the mesh. Lucy's shape, symmetric.
 /// @throws InputError if the mesh has no boundary, or no volume
 cg::SurfaceKernel advisedKernel(const fem::SolidMesh& mesh);
 
-/// Whether a skin is as long as a period along its axis: it goes on beyond the side, and kernels end there.
+/// Whether a skin is as long as a period along its axis: it continues across the periodic boundary, where kernels end.
 bool meetsPeriod(const Skin& skin, const geometry::Periodicity& periodicity);
 /// Whether it has another map than the local one.
 bool hasKernel(const Skin& skin);

@@ -17,8 +17,8 @@ struct SurfacePart {
   dem::WallAnswer answer() const { return {laws, coupling->wall().material}; }
 };
 
-/// Finds the contacts with all parts at once, so that one place pushes once, also where parts meet in a plane or along
-/// an edge; each part then answers those on its facets.
+/// Finds the contacts with all parts at once, so that each place has one contact, also where parts join in a plane or
+/// along an edge; each part then computes those on its facets.
 class SolidSurface {
 public:
   /// @throws InputError if parts have a face in common, or combine contacts by different rules
@@ -29,7 +29,7 @@ public:
             std::span<const Vec3> v, const ExchangeOptions& options);
   /// Nothing if parts answer differently: what meets one of them at a seam meets the others too.
   void addSeam(std::span<const SurfacePart> parts, const ExchangeOptions& options, std::vector<dem::WallAtSeam>& seams);
-  /// Weighs the contacts, and hands each part its own.
+  /// Weights the contacts, and distributes them to the parts.
   void handOut(std::span<const SurfacePart> parts, const dem::Particles& particles, std::span<const Vec3> u,
                std::span<const Vec3> v, const ExchangeOptions& options);
   dem::ContactWork answer(std::span<const SurfacePart> parts, dem::Particles& particles, std::span<const Vec3> u,

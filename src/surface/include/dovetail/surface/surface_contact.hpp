@@ -13,21 +13,21 @@
 
 namespace dovetail::surface {
 
-/// What a SurfaceCoupler does, done between the particles of a model and the nodes of a solid. What contacts store and
-/// lose is in the ledger of the particles' model (dem::Model::work), as with walls. Dashpots are booked with both the
-/// velocity before and the one after the kick, of particle and surface, as the laws do for all contacts.
+/// A SurfaceCoupler between the particles of a model and the nodes of a solid. Energy that contacts store and lose is
+/// in the ledger of the particles' model (dem::Model::work), as with walls. Dashpots are booked with both the velocity
+/// before and the one after the kick, of particle and surface, as the laws do for all contacts.
 ///
 /// A solid has one surface: those on one solid are parts of it, each with its faces, law, material and kernel. The
-/// first of them in the model finds the contacts of all, one per place also where parts meet, and owns what belongs to
-/// none of them. In an overlap of the same solid contacts act with the solid's weight, and tied particles do not meet
-/// the surface. A smooth surface is no part, and meets no other.
+/// first of them in the model finds the contacts of all, one per place also where parts meet, and owns the data common
+/// to all. In an overlap of the same solid contacts act with the solid's weight, and tied particles have no contact
+/// with the surface. A smooth surface cannot be a part, and must not touch another.
 class SurfaceContact final : public coupling::Connector {
 public:
   /// @param coupling  on the skin, or the smooth surface, of side's mesh
   /// @param laws      between particles and surface; skin.wall.material is the surface's row in their table
   /// @param name      in ledgers, errors and profiles
-  /// @throws InputError if the surface is not where the nodes of the solid have it, there are no laws, or these cannot
-  ///         be had on it
+  /// @throws InputError if the surface is not at the nodes of the solid, there are no laws, or the surface does not
+  /// support them
   SurfaceContact(coupling::SolidSide& side, SurfaceCoupler coupling, std::shared_ptr<const dem::ContactLaws> laws,
                  std::string name = "surface contacts");
 
@@ -36,7 +36,7 @@ public:
 
   std::string name() const override { return name_; }
   std::unique_ptr<dem::Term> clone() const override { return std::make_unique<SurfaceContact>(*this); }
-  /// What a transfer that is not adjoint has taken, if its work is booked (SurfaceCoupler::bookWallWork), and changes
+  /// Energy taken by a transfer that is not adjoint, if its work is booked (SurfaceCoupler::bookWallWork), and changes
   /// of the solid's weight.
   double lost() const override;
   void check(const dem::Model& m) const override;
@@ -52,8 +52,8 @@ public:
   void load(ByteReader& reader) override;
 
 private:
-  /// Of a model's terms as they are now: who has a part of the solid's surface, and who shares its volume. A copy, or
-  /// what has been moved elsewhere, looks anew.
+  /// The terms of a model that have a part of the solid's surface or share its volume. Copies and moved objects find
+  /// them anew.
   struct Company {
     Company() = default;
     Company(const Company&) {}

@@ -28,21 +28,22 @@ struct CouplingOptions {
   double margin = 0.0;
 };
 
-/// What an exchange need not be told.
+/// Optional data of an exchange.
 struct ExchangeOptions {
   dem::Booking booking = dem::Booking::on;
   /// How far particles have moved since the last exchange; not given: they are compared with where they were.
   std::optional<dem::Moves> moves{};
   geometry::Periodicity periodicity{};
   /// Of an overlap with the same solid: the solid's fraction 1 − w per node. Contacts act with the fraction at their
-  /// point; what its changes give to what they store, or take, is booked (madeByWeights). Empty: all act in full.
+  /// point; the change of their stored energy with it is booked (madeByWeights). Empty: all act in full.
   std::span<const double> fraction{};
-  /// Particles that are tied to the solid there do not meet its surface: one entry per particle, 0 = meets it.
+  /// Marks of particles that are tied to the solid and have no contact with its surface: one entry per particle, 0 =
+  /// not tied.
   std::span<const std::uint8_t> tied{};
 };
 
-/// Couples particles to the nodes of any solid through its surface. It needs the nodes' u and v and gives nodal forces;
-/// whoever owns the solid makes its own time step.
+/// Couples particles to the nodes of any solid through its surface. It takes the nodes' u and v and returns nodal
+/// forces; the owner of the solid integrates its motion.
 ///
 /// Conservative pair (default): the contact's gap is that of the surface placed by its carrier, the load goes back by
 /// the transpose. Particles + contacts + nodes then form one Hamiltonian system: the pair creates no energy for any
@@ -54,7 +55,7 @@ public:
   /// @throws InputError if the margin is negative or not finite
   explicit SurfaceCoupler(Skin skin, const CouplingOptions& options = {});
   /// On smooth patches, see there for the potential. Patches that a particle touches at once, in the valleys of sharp
-  /// edges, share the overlap as facets do (dem::projectWallContacts). For laws that remember nothing.
+  /// edges, share the overlap as facets do (dem::projectWallContacts). For laws without memory.
   explicit SurfaceCoupler(SmoothSurface surface, const CouplingOptions& options = {});
   ~SurfaceCoupler();
   SurfaceCoupler(const SurfaceCoupler&);
@@ -69,14 +70,15 @@ public:
   /// Places the surface, finds contacts, adds their forces to the particles, and sets load() to the reaction on the
   /// nodes.
   /// @param u, v  displacement, m, and velocity, m/s, of all nodes of the solid
-  /// @param dt    DEM step, s (for laws that remember)
+  /// @param dt    DEM step, s (for laws with memory)
   /// @throws InputError as check does, or for fields that are shorter than the solid; NumericalError naming a particle
   ///         or node that is not finite, or a particle that has sunk deeper into a closed skin than its radius
   dem::ContactWork exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
                             const dem::ContactLaws& laws, double dt, const ExchangeOptions& options = {});
 
-  /// One by one: contacts, the solid's weight in them, what they do, and what changes of fractions made. In between
-  /// contacts are joined with those of other walls, and a surface of several parts hands each its own.
+  /// The parts of an exchange: contacts, the solid's weight in them, their forces, and the energy of changed fractions.
+  /// In between, contacts are joined with those of other walls, and those of a surface of several parts are distributed
+  /// to the parts.
   void find(const dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v, double reach,
             const ExchangeOptions& options);
   void addSeam(const dem::WallAnswer& answer, const ExchangeOptions& options, std::vector<dem::WallAtSeam>& seams);
@@ -106,14 +108,14 @@ public:
   /// What changes of the solid's weight (ExchangeOptions) have given to contacts so far, J.
   double madeByWeights() const { return fractions_.made; }
 
-  /// @throws InputError naming what of the laws, or of a space that repeats, cannot be had on this surface
+  /// @throws InputError naming the feature of the laws or of periodic space that this surface does not support
   void check(const dem::ContactLaws& laws, const geometry::Periodicity& periodicity = {}) const;
-  /// @throws InputError for contacts of particles that are not there, as a damaged state may have them
+  /// @throws InputError for contacts of particles that do not exist, as in a damaged state
   void check(const dem::Particles& particles) const;
-  /// Particles get new numbers, < 0: gone; what their contacts remember follows. @return as dem::renumber, J
+  /// Renumbers the particles, < 0: removed; the memory of their contacts follows. @return as dem::renumber, J
   double renumber(std::span<const int> newNumber);
-  /// Adds what the contacts of the last exchange ask of the step and of the nodes: k |S_i| of node i (see ContactStep).
-  /// Couples count as contacts of their own: k = k_r/R², S_i = R × the rate at which i turns the facet.
+  /// Adds the contacts of the last exchange to the demand on the step and the nodes: k |S_i| of node i (see
+  /// ContactStep). Moments count as contacts of their own: k = k_r/R², S_i = R × the rate at which i turns the facet.
   /// @param side  of the demand, whose masses are the nodes
   void addDemand(dem::ContactDemand& demand, const dem::Particles& particles, const dem::ContactLaws& laws,
                  int side) const;
@@ -138,7 +140,7 @@ public:
   void requireFits(std::span<const Vec3> X) const;
   std::int64_t candidateBuilds() const { return builds_; }
 
-  /// All that is needed to go on as if it had never stopped.
+  /// The state needed for an exact restart.
   void save(ByteWriter& writer) const;
   void load(ByteReader& reader);
 
