@@ -1,4 +1,4 @@
-// An absorber for what the mesh cannot carry.
+// An absorber of particle motions that the mesh cannot represent.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@
 namespace dovetail::arlequin {
 
 /// Damps the fluctuation v' = R v, R = 1 − ΦΠ, of the particles in the overlap: F = −Rᵀ D R v with D = a (1 − w) w m.
-/// It conserves momentum (R of a constant is zero) and never gives energy; what it takes is to be booked. The rate
-/// grows with 1 − w, so that it starts without a jump. Stable for a dt < 2.
+/// It conserves momentum (R of a constant is zero) and never adds energy; the energy that it takes is to be booked. The
+/// rate grows with 1 − w, so that it starts without a jump. Stable for a dt < 2.
 class Absorber {
 public:
   /// @param rate          a, 1/s   @param particleMass  weighted masses of all particles, kg

@@ -17,11 +17,11 @@ struct OverlapState {
   std::size_t members = 0;       ///< particles that are tied
   std::size_t rows = 0;          ///< of the gap operator
   std::size_t voids = 0;         ///< elements within the overlap (w > 0 at all corners) that hold no particle
-  std::int64_t relocations = 0;  ///< how often some particle was located anew
+  std::int64_t relocations = 0;  ///< number of times that a particle was located anew
   std::int64_t admitted = 0;     ///< particles that came in
   std::int64_t removed = 0;      ///< particles that passed the border of the particles and left the scene
-  /// Particles seen within the solid so far that nobody holds, as they are members of clumps, or came in where the
-  /// particles' weight is nothing, from a side or by hand. They go through with all of their weight.
+  /// Particles found within the solid so far that are not tied: members of clumps, or particles that entered where the
+  /// particles' weight is zero. They keep their full weight and pass through.
   std::int64_t strangers = 0;
   std::int64_t firstStranger = -1;  ///< its id
   Vec3 strangerAt;                  ///< where that was first seen, m
@@ -32,13 +32,13 @@ struct OverlapState {
 /// ends of macro steps. Particles::weight holds the particles' weight w, pairs the weight at their contact.
 ///
 /// A particle is tied to the material point of the solid that it was located at. If it moves relative to that by more
-/// than a tenth of its radius, it is located anew: λ stays, and what was its part of the gap is kept in the rows, where
-/// it turns with the solid; a gap longer than a tenth of the radii about a row, in the mean by mass, slips, and what
-/// the penalty stored in the excess is lost. Specks that are lost among much larger particles are not held. A share
-/// that changes takes mass with it, at the solid's velocity, that is booked as left or entered (dem::Model); the
-/// momentum relative to the solid goes to the nodes by Φᵀ. Particles that come near the mesh from outside get their
-/// share when they are found there, and hold on at once, without a gap of their own; those whose weight falls below
-/// CouplingOptions::leastWeight leave the scene. Rows per element are not followed: their particles stay as located.
+/// than a tenth of its radius, it is located anew: λ is kept, and its part of the gap is kept in the rows, where it
+/// rotates with the solid. A gap longer than a tenth of the mean radius (by mass) about a row slips, and the energy
+/// that the penalty stored in the excess is lost. Very small particles among much larger ones are not tied. A change of
+/// weight adds or removes mass at the solid's velocity, which is booked as entered or left (dem::Model); the momentum
+/// relative to the solid goes to the nodes by Φᵀ. Particles that approach the mesh from outside get their weight when
+/// they are found there, and are tied at once, without a gap of their own; those whose weight falls below
+/// CouplingOptions::leastWeight are removed. Rows per element are not updated: their particles stay as located.
 class ArlequinCoupling final : public coupling::Connector {
 public:
   ArlequinCoupling(const ArlequinCoupling& other);
@@ -56,7 +56,7 @@ public:
   double renumber(std::span<const int> newNumber, const dem::Particles& before) override;
   void addForces(dem::Model& m, const dem::Step& step) override;
   void book(dem::Model& m, const dem::Step& step) override;
-  /// A safe bound with the penalty on both sides; multipliers ask for nothing.
+  /// A safe bound with the penalty on both sides; multipliers need none.
   void addDemand(const dem::Model& m, dem::ContactDemand& demand) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
@@ -81,8 +81,9 @@ public:
 
 private:
   friend std::unique_ptr<ArlequinCoupling> makeArlequinCoupling(dem::Model& grains, const fem::SolidMesh& mesh,
-                                                          std::vector<double> nodalWeight, coupling::SolidSide& side,
-                                                          const CouplingOptions& options);
+                                                                std::vector<double> nodalWeight,
+                                                                coupling::SolidSide& side,
+                                                                const CouplingOptions& options);
   explicit ArlequinCoupling(coupling::SolidSide& side);
   struct Impl;
   std::unique_ptr<Impl> impl_;
@@ -95,13 +96,13 @@ private:
 /// @throws InputError as locateOverlap and requireWidth do; for a mesh that is not the solid's, a weight of the solid
 /// that is not 1 − w, mid nodes that
 ///   are not levelled, a particle with less than leastWeight (beyond the border of the particles), members of clumps,
-///   kernels in periodic space, particles that all belong to another overlap, an automatic penalty where a field of
-///   points tells no modulus, kernels wider than 2.5 elements with more than 4000 rows
+/// kernels in periodic space, particles that all belong to another overlap, an automatic penalty for a field of points
+/// without a known modulus, kernels wider than 2.5 elements with more than 4000 rows
 std::unique_ptr<ArlequinCoupling> makeArlequinCoupling(dem::Model& grains, const fem::SolidMesh& mesh,
-                                                 std::vector<double> nodalWeight, coupling::SolidSide& side,
-                                                 const CouplingOptions& options = {});
+                                                       std::vector<double> nodalWeight, coupling::SolidSide& side,
+                                                       const CouplingOptions& options = {});
 
-/// Numbers of the particles within the mesh whose weight is below leastWeight: take them out before making a tie.
+/// Numbers of the particles within the mesh whose weight is below leastWeight: remove them before the coupling is made.
 std::vector<int> particlesBeyond(const dem::Model& grains, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
                                  std::span<const double> nodalWeight,
                                  double leastWeight = CouplingOptions{}.leastWeight);

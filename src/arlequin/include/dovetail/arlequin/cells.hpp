@@ -20,11 +20,11 @@ struct Cell {
 /// @param element  number in the mesh
 Cell cellOf(const fem::SolidMesh& mesh, int element);
 
-/// @throws InputError for plane cells: particles are spheres, and a slice of plane strain has no place for them
+/// @throws InputError for plane cells: particles are spheres, which do not fit into a slice of plane strain
 void requireSpatialCells(const fem::SolidMesh& mesh);
 
 /// ψ of the corners alone, as of the cell of first order with the same corners: not negative anywhere, whatever the
-/// order of the cell; their sum is one. Beyond the cell they go on as they are at its border.
+/// order of the cell; their sum is one. Beyond the cell they keep their values at its border.
 /// @param xi  parent coordinates
 std::vector<double> vertexShapes(fem::ElementShape shape, const Vec3& xi);
 

@@ -15,7 +15,7 @@
 
 namespace dovetail::arlequin {
 
-/// What a constraint may look at, one entry per row of the gap operator.
+/// Input of a constraint, one entry per row of the gap operator.
 struct GapRates {
   std::span<const Vec3> gap;           ///< accumulated, m
   std::span<const Vec3> increment;     ///< of the last step, m
@@ -59,12 +59,12 @@ std::unique_ptr<Constraint> makeDashpot(const GapOperator& gap, double penalty, 
 
 /// Lagrange multipliers that keep the gap's rate at zero: λ = A⁺ (g̈ + ġ/dt) with A = Π M_DE⁻¹ Πᵀ + B M_FE⁻¹ Bᵀ.
 /// Workless. Conjugate gradients to 1e-12 of the load, led by sparse factors of A with lumped masses, made once: one or
-/// two iterations where these are the masses. λ is the better found the closer the one passed in is. Rows that depend
-/// on others do no harm, as the load has no part in what they leave out.
-/// @param particleMass  of all particles, weighted, kg; ∞ for one that does not yield
+/// two iterations where these are the masses. A closer initial λ gives a more accurate one. Linearly dependent rows do
+/// no harm, as the load has no component in their null space.
+/// @param particleMass  of all particles, weighted, kg; ∞ for one that is fixed
 /// @param solid   gives M_FE⁻¹; must live as long as the constraint
-/// @param before  multipliers that these take the place of: their analysis goes on where the pattern is the same
-/// @throws NumericalError, also in evaluate, if no factors can be found or the iteration does not settle
+/// @param before  multipliers that these replace: their analysis is reused where the pattern is the same
+/// @throws NumericalError, also in evaluate, if no factors can be found or the iteration does not converge
 std::unique_ptr<Constraint> makeMultiplier(const GapOperator& gap, const Overlap& overlap,
                                            std::span<const double> particleMass, const fem::ModelMass& solid,
                                            std::unique_ptr<Constraint> before = nullptr);

@@ -58,8 +58,8 @@ struct GapOperator {
 enum class RowVolumes { leftOut, integrated };
 
 /// Π for c = 0: Π_iα = m_α ψ_i(x_α) / Σ; for c > 0: ∫ m_α W(x − x_α) ψ_i dx / Σ over the overlap's elements (Eq. 27),
-/// by Gauss points as fine as the kernel asks for, normalised by the quadrature itself. Rows that hang on no particle,
-/// or on less than a thousandth of the mean, are left out. Φ takes the solid's field with all shape functions.
+/// by Gauss points as fine as the kernel asks for, normalised by the quadrature itself. Rows with no particle, or with
+/// less than a thousandth of the mean, are left out. Φ takes the solid's field with all shape functions.
 /// @param mass  full masses of all particles, kg
 /// @param mesh  reference configuration: volumes are counted there
 /// @param position  of the nodes when the overlap was located, for kernels, m; empty = mesh.X

@@ -1,4 +1,4 @@
-// A solid in equilibrium with a packing that it takes over.
+// Initial equilibrium of a solid with the packing in its overlap.
 #pragma once
 
 #include <span>
@@ -13,10 +13,10 @@
 
 namespace dovetail::arlequin {
 
-/// What particles at rest hand over to the solid that they are about to share an overlap with, N per node: Φᵀ of the
-/// forces that their weighed contacts, walls and weights leave out of balance, which is ∇w·σ with σ their stress. A tie
-/// exerts these forces in equilibrium.
-/// @param grains       at rest, without the tie; those beyond the border (particlesBeyond) hand nothing over
+/// Load of particles at rest on the solid with which they will share an overlap, N per node: Φᵀ of the unbalanced
+/// forces of their weighted contacts, walls and weights, which is ∇w·σ with σ their stress. The coupling exerts these
+/// forces in equilibrium.
+/// @param grains       at rest, without the coupling; those beyond the border (particlesBeyond) do not contribute
 /// @param solid        where the mesh is now; its elements have the weight 1 − w   @param nodalWeight  w per node
 /// @param leastWeight   as CouplingOptions::leastWeight
 /// @throws InputError as makeArlequinCoupling
@@ -25,22 +25,22 @@ std::vector<Vec3> initialLoad(const dem::Model& grains, const fem::SolidMesh& me
 
 struct InitialEquilibriumOptions {
   fem::StaticOptions statics{};
-  double tolerance = 1e-6;  ///< largest change of the handed load between two rounds over the largest load
+  double tolerance = 1e-6;  ///< largest change of the load between two rounds over the largest load
   int rounds = 100;
-  double leastWeight = CouplingOptions{}.leastWeight;  ///< of the tie that is to be made
+  double leastWeight = CouplingOptions{}.leastWeight;  ///< of the coupling that is to be made
 };
 
-/// Initial stress: deforms the solid until it is in equilibrium under its own terms and what the particles hand over
-/// where its mesh then is: the overlap moves with the mesh, so give all particles, and take those beyond the border
-/// (particlesBeyond) out afterwards, before you tie. They are tied where they are, without a gap, and what a tie of
-/// elements cannot balance particle by particle is left to coupling::relax. A particle that has left the overlap in
-/// one round, or is elsewhere in periodic space, hands nothing over from then on. Loads and prescribed motions are
-/// those of the solid's time, in which nothing creeps; velocities stay; masses are set if they are not (fem::addMass).
-/// @param change  if given: what is left between the load that the solid carries and that which it is handed where it
-///   then is, over the largest of a node. More than the tolerance where the weight of a contact jumps at the place
-///   where the solid comes to stand
+/// Initial stress: deforms the solid until it is in equilibrium under its own terms and the load of the particles on
+/// the deformed mesh. The overlap moves with the mesh, so give all particles, and remove those beyond the border
+/// (particlesBeyond) afterwards, before the coupling is made. They are tied at their positions, without a gap;
+/// imbalances of single particles, which the nodes cannot balance, are left to coupling::relax. A particle that has
+/// left the overlap in one round, or moved to another periodic image, no longer contributes. Loads and prescribed
+/// motions are those at the solid's time, without creep; velocities are kept; masses are set if they are not
+/// (fem::addMass).
+/// @param change  if given: the remaining difference between the load that the solid carries and the load on its final
+/// mesh, over the largest nodal load. Above the tolerance where the weight of a contact jumps at the final position
 /// @throws InputError as initialLoad, for options out of range, or for particles that are tied to this solid already;
-///   NumericalError as fem::solveStatics, and if the load still changes after the last round, telling by how much
+/// NumericalError as fem::solveStatics, and if the load still changes after the last round, with the amount
 /// @return rounds taken
 int initialEquilibrium(const dem::Model& grains, const fem::SolidMesh& mesh, fem::Model& solid,
                        std::span<const double> nodalWeight, const InitialEquilibriumOptions& options = {},

@@ -22,12 +22,12 @@ struct Overlap {
   /// shape functions.
   std::vector<fem::CellPlace> place;
   std::vector<Vec3> x;              ///< centre when it was found, m; of particles in periodic space the image there
-  std::vector<double> weight;       ///< w at the centre; beyond a face of the mesh it goes on as it is on the face
+  std::vector<double> weight;       ///< w at the centre; beyond a face of the mesh it keeps its value on the face
   std::vector<int> elements;        ///< that host a particle in the overlap proper (w > 0 somewhere), ascending
   std::vector<double> nodalWeight;  ///< w at every node of the mesh
   /// Particles, ascending, that no element holds or is near, but the box around the elements with w > 0: beyond a free
-  /// face that is not along the axes, in a notch, or where the mesh was meant to be. They count in full and are tied
-  /// to nothing.
+  /// face that is not along the axes, in a notch, or where the mesh was meant to be. They have full weight and are not
+  /// tied.
   std::vector<int> stray;
 
   std::size_t size() const { return particle.size(); }
@@ -45,8 +45,8 @@ double weightAt(const fem::SolidMesh& mesh, const fem::CellPlace& place, std::sp
 Overlap locateOverlap(const dem::Particles& particles, const fem::SolidMesh& mesh, const fem::Nodes& nodes,
                       std::span<const double> nodalWeight, double reach = 0.0, const geometry::Periodicity& space = {});
 
-/// @throws InputError unless the weights take more than one of the elements that hold particles for their way from
-///         largest to smallest
+/// @throws InputError unless the weights fall from largest to smallest over more than one of the elements with
+/// particles
 void requireWidth(const Overlap& overlap, const fem::SolidMesh& mesh);
 
 /// 1 − w per node, for fem::SolidOptions::fraction.
