@@ -9,8 +9,8 @@
 
 namespace dovetail::dem {
 
-/// Bodies and their members. Members are particles of the model to lists, laws and walls; what moves them is their
-/// body, and every sum counts a body once.
+/// Bodies and their members. Members are ordinary particles for lists, laws and walls; their body moves them, and every
+/// sum counts a body once.
 class BodyTerm final : public Term {
 public:
   Bodies bodies;
@@ -35,11 +35,10 @@ public:
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
 
-  /// For those who have appended bodies from number `first` on within a step: they are booked as entered, and their
-  /// velocities count as of this moment.
+  /// To be called when bodies from number `first` on have been appended within a step: they are booked as entered, with
+  /// their velocities at this moment.
   void admit(Model& m, int first);
-  /// Between steps: those who have come since are booked as entered, unless all are there for the first time. Members
-  /// spin as their bodies.
+  /// Between steps: bodies added since are booked as entered, unless all are new. Members spin as their bodies.
   void takeIn(Model& m, bool first);
 
 private:

@@ -9,8 +9,8 @@
 //
 // What kick and drift do to members is overwritten by placeMembers. A member's mass is that of its body, which is what
 // a dashpot in its contact should be made for; sums over the particles therefore count clumps wrongly, and are put
-// right by kineticEnergy(particles, bodies) and gatherForces' parameter for gravity. Lever arms, by which a
-// contact meets less than a body's whole mass, enter the critical step by addDemand.
+// right by kineticEnergy(particles, bodies) and gatherForces' parameter for gravity. Lever arms, by which the effective
+// mass of a contact is less than the body's mass, enter the critical step by addDemand.
 #pragma once
 
 #include <span>
@@ -70,13 +70,13 @@ void spinMembers(const Bodies& bodies, const Clumps& clumps, Particles& particle
 ///   its own weight instead, at its centre of mass
 void gatherForces(Particles& particles, const Clumps& clumps, Bodies& bodies, const Vec3& gravity = {});
 
-/// Gives clumps the new numbers of their members (< 0: gone); clumps that are gone leave with their bodies, and bodies
-/// behind them move up.
-/// @throws InputError naming the body of which some members are gone and others not; nothing is changed then
+/// Renumbers the members of clumps (< 0: removed); bodies of removed clumps are removed, and bodies behind them move
+/// up.
+/// @throws InputError naming the body of which some members are removed and others not; nothing is changed then
 void renumber(Bodies& bodies, Clumps& clumps, std::span<const int> newNumber);
 
 /// @throws InputError if arrays differ in length, bodies are not in ascending order, or naming the body whose member is
-///   no particle, a member of two bodies, or not as heavy as its body
+/// no particle, a member of two bodies, or of another mass than its body
 void check(const Particles& particles, const Bodies& bodies, const Clumps& clumps);
 
 /// Pairs of a body's own members are muted, so that it would pass through its own image.
@@ -88,12 +88,11 @@ void requireShorter(const Particles& particles, const Clumps& clumps, const geom
 /// energy. Again for every new list; any number of times.
 void muteMemberPairs(const Clumps& clumps, PairList& list);
 
-/// Says of all members that they share their body's mass and inertia, so that criticalStep(demand, particles) sees what
-/// all contacts of a body ask of it together. A force at the distance r from the centre of mass meets the effective
-/// mass
-///   1/(1/m + λ), λ the largest of (r × n)·I⁻¹(r × n) over directions n (r × n)·(r × n) at most;
-/// r ends at the member's centre for normal forces and on its surface for tangential ones. On the safe side by up to
-/// about 1.4 where the directions or places of the worst differ.
+/// Marks all members as sharing their body's mass and inertia, so that criticalStep(demand, particles) sums the demand
+/// of all contacts of a body. A force at the distance r from the centre of mass has the effective mass 1/(1/m + λ), λ
+/// the largest of (r × n)·I⁻¹(r × n) over directions n (r × n)·(r × n) at most; r ends at the member's centre for
+/// normal forces and on its surface for tangential ones. On the safe side by up to about 1.4 where the directions or
+/// places of the worst differ.
 void addDemand(ContactDemand& demand, const Particles& particles, const Bodies& bodies, const Clumps& clumps);
 
 /// ½ Σ m v² (+ ½ Σ I ω²) of the particles that are no members, J.

@@ -105,17 +105,17 @@ ContactWork exchangeBonds(Particles& particles, Bonds& bonds, const geometry::Pe
 double dashpotPower(const Particles& particles, const Bonds& bonds, const geometry::Periodicity& space,
                     std::span<const Vec3> v, std::span<const Vec3> omega);
 
-/// Gives the bonds the new numbers of their particles (see sortParticles), and sorts them by these; bonds of particles
-/// that are gone (< 0) leave. Returns what these held, J, for the caller to book.
+/// Gives the bonds the new numbers of their particles (see sortParticles), and sorts them by these; bonds of removed
+/// particles (< 0) are removed. Returns their energy, J, for the caller to book.
 /// @param newNumber one per particle with which the bonds were last used
 double renumber(Bonds& bonds, std::span<const int> newNumber);
 
 /// Sets PairList::factors to 0 for bonded pairs, so that only the bond acts between them. Again for every new list; any
 /// number of times. A pair whose bond breaks (Bonds::broken) stays muted until its factor is set again,
-/// as BondTerm does. (A law that wakes up between overlapping particles brings energy, which has to be booked.)
+/// as BondTerm does. (A contact that becomes active between overlapping particles adds energy, which has to be booked.)
 void muteBonded(const Bonds& bonds, PairList& list);
 
-/// Adds the bonds to what is asked of the particles, as if each were a contact: the largest of its axial, twisting and
+/// Adds the bonds to the demand on the particles, as if each were a contact: the largest of its axial, twisting and
 /// bending shares over mass and inertia. Exact for two equal particles; on the safe side by up to √3 where bonds go all
 /// ways.
 void addDemand(ContactDemand& demand, const Particles& particles, const Bonds& bonds);

@@ -1,4 +1,4 @@
-// A contact as the parts of a law see it, and what they answer.
+// Input and results of the parts of a contact law.
 #pragma once
 
 #include "dovetail/core/vec3.hpp"
@@ -25,7 +25,7 @@ struct NormalResponse {
   double force = 0.0;            ///< N along the normal on the particle; > 0 pushes apart
   double stiffness = 0.0;        ///< N/m, slope of the elastic force, > 0; other parts scale with it
   double damping = 0.0;          ///< N s/m, of the dashpot; other parts scale with it
-  double energy = 0.0;           ///< J that can be had back
+  double energy = 0.0;           ///< J, recoverable
   double dampingFraction = 1.0;  ///< of a dashpot's power now that belongs to this step, see bookedDashpot
   double dashpotPower = 0.0;     ///< W, average of this step
   double dashpotAfter = 0.0;     ///< W, what still belongs to the dashpot in the step after the last touch
@@ -49,7 +49,7 @@ struct RollingResponse {
   double lostPower = 0.0;  ///< W lost, average of this step
 };
 
-/// Turns a remembered tangential vector with the pair since the last step: into today's contact plane, and about the
+/// Turns a stored tangential vector with the pair since the last step: into the present contact plane, and about the
 /// normal by the mean spin of both. Its length stays (to the fourth power of the angle of one step).
 /// @param twist mean spin of both about the normal times the step, rad
 [[gnu::always_inline]] inline Vec3 carried(Vec3 remembered, const Vec3& normal, double twist) {
@@ -60,7 +60,7 @@ struct RollingResponse {
   return (1.5 - 0.5 * ratio) * remembered;  // 1/√ratio for a ratio near 1, and bounded for any
 }
 
-/// How steeply a part of a law answers now; what limits the time step (see contact_step.hpp).
+/// Present stiffness and damping of a part of a law, which limit the time step (see contact_step.hpp).
 struct Slope {
   double stiffness = 0.0;  ///< N/m (rolling: N m/rad), of the spring
   double damping = 0.0;    ///< N s/m (rolling: N m s/rad), of the dashpot
@@ -69,7 +69,7 @@ struct ContactSlopes {
   Slope normal, tangential, rolling;
 };
 
-/// What the whole law answers.
+/// Result of the whole law.
 struct ContactResponse {
   Vec3 force;   ///< N on the particle
   Vec3 couple;  ///< N m on the particle beyond arm × force

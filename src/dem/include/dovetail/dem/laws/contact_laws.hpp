@@ -1,4 +1,4 @@
-// Contact laws behind one virtual call per sweep: what a scene holds. No caller needs to know which law it is.
+// Contact laws behind one virtual call per sweep, so that callers do not depend on the law.
 #pragma once
 
 #include <memory>
@@ -27,9 +27,9 @@ public:
   virtual ~ContactLaws() = default;
 
   /// Adds the pair forces to particles.f, equal and opposite (and torques, if the law exerts them and the particles
-  /// spin). Bitwise the same for any number of threads. Call once per step if the law remembers.
+  /// spin). Bitwise the same for any number of threads. Call once per step if the law has memory.
   /// @param dt step over which memories advance, s
-  /// @throws InputError if the law remembers and dt is not finite and > 0, or naming a particle whose material has no
+  /// @throws InputError if the law has memory and dt is not finite and > 0, or naming a particle whose material has no
   ///         law
   virtual ContactWork pairs(Particles& particles, PairList& list, double dt, Booking booking) const = 0;
   /// The same for the contacts that findContacts has found; sets the wall's force and torque. Effective mass and radius
@@ -37,8 +37,8 @@ public:
   virtual ContactWork wall(Particles& particles, PrimitiveWall& wall, double dt, Booking booking) const = 0;
   /// The same for the contacts that findWallContacts has found; sets their forces and couples, the reaction on the wall
   /// being up to addWallForces. The wall counts as flat: the effective radius is the particle's, and the effective mass
-  /// too unless the wall has one (TriangulatedWall::mass). Where facets share a contact, each answers with its fraction
-  /// (engagement) of what the law says to the overlap of particle and facet alone.
+  /// too unless the wall has one (TriangulatedWall::mass). Where facets share a contact, each has its fraction
+  /// (engagement) of the law's force at the overlap of particle and facet alone.
   ///
   /// Wall velocities enter with the weights that carry the force, so power balances: Σ force·(v_particle − v_wall)
   /// = −d(elastic energy)/dt − dissipated power. The moment of elastic forces balances to round-off; that of a dashpot
@@ -46,8 +46,8 @@ public:
   virtual ContactWork wall(Particles& particles, const TriangulatedWall& wall, WallContacts& contacts, double dt,
                            Booking booking) const = 0;
 
-  /// Adds what the contacts, as they are, ask of the step (see contact_step.hpp): the stiffness and the dashpot that
-  /// the law has at their overlap. A wall does not give way.
+  /// Adds the demand of the present contacts on the step (see contact_step.hpp): the stiffness and the dashpot that the
+  /// law has at their overlap. A wall is immovable.
   /// @param leastOverlap m; if > 0, all pairs of the list count, with this overlap at least: for a scene that is yet to
   ///        collide, under laws that stiffen
   /// @throws InputError if there is no law for a pair of materials
@@ -57,21 +57,20 @@ public:
   virtual void addDemand(ContactDemand& demand, const Particles& particles, const TriangulatedWall& wall,
                          const WallContacts& contacts) const = 0;
 
-  /// Pairs with their forces as the last sweep made them: nothing is changed, and what contacts remember is taken as it
-  /// is. Pairs without a force are left out. In the order of the list, for any number of threads. For output, not for
-  /// every step.
+  /// Pairs with their forces as the last sweep made them: nothing is changed, and memories are used as they are. Pairs
+  /// without a force are left out. In the order of the list, for any number of threads. For output, not for every step.
   /// @param list that of the last sweep, with the same particles
-  /// @throws InputError if the law remembers something and the list has not been through `pairs`
+  /// @throws InputError if the law has memory and the list has not been through `pairs`
   virtual ContactSample sample(const Particles& particles, const PairList& list) const = 0;
 
-  /// What the springs of pairs hold that went with a particle, J.
+  /// Energy in springs of pairs that ended with the removal of a particle, J.
   virtual double held(const EndedPairs& pairs) const = 0;
 
-  /// Numbers that a contact remembers.
+  /// Memory of a contact, in numbers.
   virtual int memory() const = 0;
   /// Whether contacts exert torques, so that particles should spin.
   virtual bool rotates() const = 0;
-  /// How far beyond touch it acts, m: the largest of the table, ∞ if every pair of the list is bonded.
+  /// Distance beyond touch up to which it acts, m: the largest of the table, ∞ if every pair of the list is bonded.
   virtual double reach() const = 0;
   /// Rows of the table: materials 0 … materials() − 1 have laws. A single law serves all materials and reports 1.
   virtual int materials() const = 0;

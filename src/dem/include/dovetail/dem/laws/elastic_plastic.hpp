@@ -1,4 +1,4 @@
-// Grains that deform for good.
+// Contacts with plastic deformation.
 #pragma once
 
 #include "dovetail/dem/laws/laws.hpp"
@@ -11,8 +11,8 @@ namespace dovetail::dem {
 /// so that first loading runs along k₁ δ, unloading and reloading along k₂, and the pull ends on −k_c δ. Without
 /// cohesion F ≥ 0, and the dent δ₀ = (1 − k₁/k₂) δ_max stays until the contact ends.
 ///
-/// ½ F²/k₂ can be had back; what δ₀ takes, F dδ₀ ≥ 0, is booked as plastic. From k₁ and k₂ alone the restitution is
-/// √(k₁/k₂), at every speed; a dashpot of damping ratio ζ (of k₂) may calm what stays below yield.
+/// ½ F²/k₂ is recoverable; the work of δ₀, F dδ₀ ≥ 0, is booked as plastic. From k₁ and k₂ alone the restitution is
+/// √(k₁/k₂), at every speed; a dashpot of damping ratio ζ (of k₂) may damp motion below yield.
 struct ElasticPlastic {
   double loadingStiffness = 0.0;    ///< k₁, N/m
   double unloadingStiffness = 0.0;  ///< k₂ ≥ k₁, N/m

@@ -11,13 +11,13 @@ namespace dovetail::dem {
 /// size, exactly.
 ///
 /// Which restitution: separation speed / approach speed is e, with and without tension; ζ is chosen accordingly (see
-/// restitution.hpp). With `nominal` and without tension ζ is the one for which a contact that may pull has e; the
+/// restitution.hpp). With `nominal` and without tension ζ is the one for which a contact with tension has e; the
 /// rebound is then restitutionWithoutTension(e) ≥ e, as in codes that cut the force off afterwards.
 struct HertzDashpot {
   double effectiveModulus = 0.0;  ///< E*, Pa, see effectiveModulus() in materials.hpp
   double restitution = 1.0;       ///< e, in (0, 1]; 1 = no dashpot
-  bool tension = false;           ///< whether the dashpot may pull while the overlap closes
-  bool nominal = false;           ///< without tension: e is that of the contact that is not cut off
+  bool tension = false;           ///< whether the force may be tensile while particles separate
+  bool nominal = false;           ///< without tension: e is that of a contact with tension
 
   static constexpr const char* name = "Hertz";
   static constexpr int memory = 0;
@@ -72,8 +72,8 @@ struct HertzDashpot {
 /// repulsion of the normal part (Coulomb).
 ///
 /// As k_t changes, energy must not appear: see slideGrowing (Walton; Thornton, Cummins & Cleary, Powder Technol. 233,
-/// 2013, the rule for decreasing load). What the spring loses by that is booked with sliding. A dashpot adds at most
-/// what the limit leaves, so that spring and dashpot never give back more than went in.
+/// 2013, the rule for decreasing load). The spring energy that this takes is booked with sliding. A dashpot adds at
+/// most what the limit leaves, so that spring and dashpot never give back more than went in.
 struct MindlinSpring {
   static constexpr const char* name = "Mindlin";
   static constexpr int memory = 4;  // stretch, m; k_t of the last step, N/m

@@ -50,15 +50,15 @@ struct BookedDashpot {
 /// Which restitution: separation speed / approach speed is e, with and without `tension`. Without it (default) the
 /// force is cut off at zero, which ends the contact sooner, and ζ is chosen for that (see restitution.hpp). With it the
 /// contact lasts until the overlap has gone, its last part pulls, and ζ = −ln e/√(π² + ln²e). With `nominal` and
-/// without tension ζ is that of a contact that may pull, as in codes that cut the force off afterwards; the rebound is
+/// without tension ζ is that of a contact with tension, as in codes that cut the force off afterwards; the rebound is
 /// then restitutionWithoutTension(e) ≥ e.
 struct LinearSpringDashpot {
   double stiffness = 0.0;    ///< k, N/m
   double restitution = 1.0;  ///< e, in (0, 1]; 1 = no dashpot
-  bool tension = false;      ///< whether the dashpot may pull while the overlap closes
+  bool tension = false;      ///< whether the force may be tensile while particles separate
   bool bonded = false;   ///< pairs only: every pair of the list holds together, F = k δ for δ < 0 too. The list is
                          ///< then made once, with the pairs that are to be bonds, and kept
-  bool nominal = false;  ///< without tension: e is that of the contact that is not cut off
+  bool nominal = false;  ///< without tension: e is that of a contact with tension
   static constexpr const char* name = "linear spring-dashpot";
   static constexpr int memory = 0;
   static constexpr unsigned turns = 0;

@@ -1,4 +1,4 @@
-// Checkpoints of a model: a run goes on from one as if it had never stopped, to the last bit.
+// Checkpoints of a model: a run continues from one to the last bit as if it had never stopped.
 #pragma once
 
 #include <filesystem>
@@ -16,13 +16,13 @@ std::vector<char> saveState(const Model& m);
 /// Reads such bytes into a model, see readCheckpoint. @param where  they come from, for errors
 void loadState(const std::vector<char>& bytes, const std::string& where, Model& m);
 
-/// Of such bytes the grains alone, into a model without any: particles and pairs, with what these remember, but no
-/// terms and no books. What walls remember of their contacts stays behind.
+/// Reads the grains alone from such bytes, into a model without any: particles and pairs with their memory, but no
+/// terms and no ledger. The memory of wall contacts is not read.
 /// @throws InputError if the laws or the periods are not those of the state, grains are members of bodies or bonded, or
-///   an overlap weighs them; the model is then as it was
+/// have weights of an overlap; the model is then as it was
 void loadGrains(const std::vector<char>& bytes, const std::string& where, Model& m);
 
-/// What a term remembers, in a state.
+/// State of a term in a checkpoint.
 struct TermOfState {
   std::string name, code;
   std::vector<char> bytes;
@@ -33,8 +33,8 @@ struct PartsOfState {
 };
 /// Of such bytes, in their order. @param m  a model with the laws of the state
 PartsOfState partsOf(const std::vector<char>& bytes, const std::string& where, const Model& m);
-/// Lets walls go on with the contacts, and the springs in them, of those walls of a state that had their shape and
-/// place. The model's particles begin with those of the state, by their ids.
+/// Gives walls the contacts, with their springs, of walls of a state with the same shape and position. The model's
+/// particles begin with those of the state, by their ids.
 /// @return number of walls of which the state has none
 int takeWallContacts(Model& m, const std::vector<TermOfState>& terms);
 

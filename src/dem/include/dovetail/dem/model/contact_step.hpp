@@ -21,7 +21,7 @@ class ContactLaws;
 /// What acts between a particle and its partner, and may set the step.
 enum class StepOwner : std::uint8_t { contact, bond, tie };
 
-/// What contacts and bonds ask of each particle, and of what they stand on beside particles. Pairs, walls, bonds,
+/// Demand of contacts and bonds on each particle, and on other masses such as nodes of solids. Pairs, walls, bonds,
 /// clumps and connectors add to it (addDemand), in any order; then criticalStep reads it.
 struct ContactDemand {
   /// How fast a mass goes with a contact: by so much of its own shift.
@@ -41,7 +41,7 @@ struct ContactDemand {
     double shifting = 0.0, shiftingDamping = 0.0, turning = 0.0, turningDamping = 0.0;
     int contact = -1;  ///< with a triangulated wall: its number among WallContacts
     int surface = -1;  ///< number among `surfaces`, for messages
-    int side = -1;     ///< number among `sides`: what it stands on; −1: nothing that gives way
+    int side = -1;     ///< number among `sides`: the masses on its other side; −1: immovable
     Range shifted{}, turned{};
   };
   /// Masses that move together in time: the nodes of a solid, a servo wall, a body. All connectors of one solid add to
@@ -80,13 +80,13 @@ struct ContactDemand {
   Range add(std::span<const Fraction> some);
 };
 
-/// A step and who sets it.
+/// A step and what sets it.
 struct ContactStep {
   double dt = std::numeric_limits<double>::infinity();  ///< s, safe; infinite without contacts
   int particle = -1, partner = -1;                      ///< between which it is set; partner −1: a wall
   StepOwner owner = StepOwner::contact;                 ///< what sets it
   std::string surface;                                  ///< what a partner −1 is called; empty: a wall
-  bool byOwnForces = false;                             ///< most of it is asked by its side's own forces
+  bool byOwnForces = false;                             ///< set mostly by its side's own forces
   /// s; the exact limit 2/ω (√(1 + ζ²) − ζ) of the fastest contact if it were alone and acted along its normal only.
   /// For information: with several contacts per particle it is not safe.
   double twoBody = std::numeric_limits<double>::infinity();
@@ -180,20 +180,20 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
 
 }  // namespace detail
 
-/// A safe step: every particle shares its mass (and inertia) among its contacts and bonds by what they ask for, so that
-/// one (i, j) alone has ω² = K_i/m_i + K_j/m_j and 2ζω = C_i/m_i + C_j/m_j, K and C being the sums of stiffness and
-/// damping over the contacts of a particle; the whole is no faster than its fastest part. Exact for one contact along
-/// its normal. Masses that contacts stand on share likewise. Dashpots act on the velocity of the half step, as in kick
-/// · drift · forces · kick. A contact's stiffness is the larger of its normal one and, where particles spin, 7/2 of the
-/// tangential one with the rolling one over 2/5 R². Members of a clump share their body's mass and inertia. Take 0.2 of
-/// it or less for accuracy.
+/// A safe step: every particle shares its mass (and inertia) among its contacts and bonds in proportion to their
+/// demand, so that one (i, j) alone has ω² = K_i/m_i + K_j/m_j and 2ζω = C_i/m_i + C_j/m_j, K and C being the sums of
+/// stiffness and damping over the contacts of a particle; the whole is no faster than its fastest part. Exact for one
+/// contact along its normal. Masses that contacts stand on share likewise. Dashpots act on the velocity of the half
+/// step, as in kick · drift · forces · kick. A contact's stiffness is the larger of its normal one and, where particles
+/// spin, 7/2 of the tangential one with the rolling one over 2/5 R². Members of a clump share their body's mass and
+/// inertia. Take 0.2 of it or less for accuracy.
 ///
 /// In macro steps of K steps, with a the rate of what acts and moves in every step and g that of what acts, or moves,
 /// once a macro step (own forces of explicit solids; nodes of implicit ones), K φ < π and
 ///   (K dt)² g / 4 ≤ (1 − dt² a / 4) K tan(φ/2) / tan(K φ/2),   sin(φ/2) = dt √a / 2,
 /// the first resonance of impulses with what moves in between (Biesiadecki & Skeel, J. Comput. Phys. 109, 1993, for
-/// exact motion in between); with K = 1 a and g add up. No implicit scheme lifts it: what a connector does to standing
-/// nodes is a kick.
+/// exact motion in between); with K = 1 a and g add up. No implicit scheme lifts it: a connector kicks nodes that are
+/// held fixed.
 ContactStep criticalStep(const ContactDemand& demand, const Particles& particles);
 
 /// For messages: "the bond of particle 3 with particle 4", particles by their ids.
@@ -212,7 +212,7 @@ struct MassScaling {
 };
 
 /// Makes particles heavier (with their inertia), none lighter, until dt is stable with these contacts. For quasi-static
-/// scenes only: momentum, weight and every wave change with the mass, so look at the answer. Nothing in this library
+/// scenes only: momentum, weight and every wave change with the mass, so check the results. Nothing in this library
 /// scales masses unless this is called. Dashpots that depend on the mass grow with it: with damping, make the demand
 /// anew and repeat until count = 0.
 /// @param dt wanted, s

@@ -1,4 +1,4 @@
-// Where the energy of a model is, and where it went.
+// Energy of a model by channel.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Energies {
   double external = 0.0;  ///< done by external forces
   double entered = 0.0;   ///< brought in by particles, and by terms and laws that were exchanged between steps
   double left = 0.0;      ///< taken out with particles that were removed or escaped
-  double lifted = 0.0;    ///< given in gravity by moves of whole periods, which lift what falls along a periodic axis
+  double lifted = 0.0;    ///< gravity work across periodic boundaries
   double stored() const { return kinetic + gravity + contacts; }
   /// stored + lost + damping + left − what came in
   double balance() const { return stored() + lost.lostPower() + damping + left - walls - external - entered - lifted; }
@@ -25,7 +25,7 @@ struct Energies {
 
 using dovetail::Momenta;
 
-/// What has come in or gone out of the scene.
+/// Mass and momenta that have entered or left the scene.
 struct Exchanged {
   std::int64_t count = 0;
   double mass = 0.0;     ///< kg

@@ -73,9 +73,9 @@ private:
   std::vector<Vec3> force_;
 };
 
-/// Particles that follow a prescribed path and spin; those of zero displacement are held. Where particles spin, driven
-/// ones keep the spin that is prescribed, zero unless another one is given. What holds them gives impulse and work; a
-/// jump, as where a drive takes hold of what moves otherwise, does its work with the mean velocity.
+/// Particles with a prescribed path and spin; those of zero displacement are held. Where particles spin, driven ones
+/// keep the spin that is prescribed, zero unless another one is given. The drive gives impulse and work; a jump of the
+/// velocity, as at its start, does its work with the mean velocity.
 class DriveTerm final : public Term {
 public:
   using Path = std::function<Vec3(double time)>;

@@ -31,7 +31,7 @@ enum class EscapePolicy {
   remove,  ///< it leaves the scene; counted, its mass, momentum and energy booked
 };
 
-/// Where particles may be. Looked at whenever the grid is asked for pairs; along a periodic axis nobody leaves.
+/// Region that particles may not leave. Checked at every search for pairs; without effect along a periodic axis.
 struct Domain {
   geometry::Box box;  ///< m; centres beyond it have escaped
   EscapePolicy policy = EscapePolicy::refuse;
@@ -43,10 +43,10 @@ enum class Rotation {
   off         ///< particles only slide
 };
 
-/// A look at a run under way that found its step beyond the limit.
+/// A check of a run that found its step beyond the limit.
 struct PassedLimit {
   double dt, limit;   ///< s
-  std::string owner;  ///< who sets the limit
+  std::string owner;  ///< what sets the limit
   double time;        ///< s, when it was found
 };
 
@@ -60,14 +60,14 @@ struct Model {
   std::optional<Domain> domain;
   Rotation rotation = Rotation::automatic;
   Booking booking = Booking::on;
-  /// Particles are sorted at every so many list updates of the list, 0 = never; Particles::id names them.
+  /// Particles are sorted at every so many updates of the list, 0 = never; Particles::id names them.
   int sortEvery = 16;
-  /// A first step, or another than before, is refused beyond criticalStep and impactLimit; then the run looks at its
-  /// state now and then, and tells once (`passed`) when that has passed the limit.
+  /// A first step, or another than before, is refused beyond criticalStep and impactLimit; then the run checks its
+  /// state now and then, and sets `passed` once when the step is beyond the limit.
   bool refusesUnstableSteps = true;
   Profile* profile = nullptr;  ///< where the stages' times go, if wanted
 
-  // What follows is the run's to keep.
+  // The members below are maintained by the run.
   double time = 0.0;  ///< s
   std::int64_t steps = 0;
   double open = 0.0;  ///< s: after advance, velocities lag by half of this step; 0 after close
@@ -82,36 +82,36 @@ struct Model {
   std::int64_t knownIds = 0;       ///< ids of all that have been booked are below
   std::int64_t forcesOfTerms = 0;  ///< Terms::revision of the same
   std::shared_ptr<const ContactLaws> forcesOfLaws;  ///< laws of the same
-  double smallestRadius = 0.0;                      ///< m; moves beyond it are looked at one by one
+  double smallestRadius = 0.0;                      ///< m; moves beyond it are checked one by one
   double timeBase = 0.0;                            ///< s: time = timeBase + (steps − stepsBase) dt
   std::int64_t stepsBase = 0;
   double checkedStep = 0.0;             ///< s: the dt that has been compared with the critical step
   std::optional<PassedLimit> passed;    ///< the first look that found the step beyond the limit; in no checkpoint
-  std::int64_t listUpdates = 0;         ///< how often the grid was asked for pairs
-  std::vector<std::int64_t> newcomers;  ///< ids of those who entered in the step under way
-  bool newcomersTouch = false;          ///< somebody, perhaps, whose contacts bring energy then
+  std::int64_t listUpdates = 0;         ///< number of searches for pairs
+  std::vector<std::int64_t> newcomers;  ///< ids of particles that entered in the present step
+  bool newcomersTouch = false;          ///< whether contacts of some may add energy
 };
 
-/// The parts of a step, for those who do something between them:
+/// The parts of a step, to be called one by one:
 ///
 /// move: [last half kick of the step before] · half kick · drift, of particles, walls and bodies. Before the first
 /// step, and when particles or terms have been added or removed or laws exchanged since the last, it also closes the
-/// step before, checks the model, makes the pair list and finds the forces at the start. Contacts keep what they
-/// remember if the new laws remember as many numbers, and start anew otherwise.
+/// step before, checks the model, makes the pair list and finds the forces at the start. Contacts keep their memory if
+/// that of the new laws has the same size, and start anew otherwise.
 /// @throws InputError as check and requireStableStep do, or if dt is not finite and > 0; NumericalError naming a
 ///   particle that is not finite or moved farther than its own radius in this step (it could pass through walls and
 ///   others unseen)
 void move(Model& m, double dt);
-/// Particles enter and leave, the list of pairs is updated where moves ask for it, particles are sorted now and then.
+/// Particles enter and leave, the list of pairs is updated where moves require it, particles are sorted now and then.
 /// @throws NumericalError naming a particle that has escaped from the domain
 void updateNeighbourList(Model& m);
 /// Gravity, pairs, terms; books what they lost.
 void addForces(Model& m);
 /// What terms add, and the contacts that they find together (Term::findFacetContacts). Books nothing.
 void addForcesOfTerms(Model& m);
-/// Forces of the state as it is: no time passes. For those who have moved something between steps: nothing is booked
-/// but what springs lose whose contacts end by that, or slide. Where particles, terms or laws have been added, taken
-/// out or exchanged since forces were last found, what contacts store more by that is booked as entered.
+/// Forces of the present state, without a step in time. To be called when something was moved between steps: only
+/// losses of springs whose contacts end or slide by that are booked. Where particles, terms or laws were added, removed
+/// or exchanged since forces were last found, the change of the contacts' energy is booked as entered.
 void findForces(Model& m);
 /// The half kick that ends a step, so that positions and velocities belong to one time. Does nothing if there is none
 /// to make.
@@ -124,17 +124,17 @@ void advance(Model& m, double dt);
 void run(Model& m, double dt, std::int64_t n);
 
 /// @throws InputError saying what is wrong with the model, where, and what to write instead: arrays of unlike length,
-///   values that are not finite, laws that are missing or do not know a material, walls and terms that are not valid
+/// values that are not finite, laws that are missing or lack a material, walls and terms that are not valid
 void check(const Model& m);
 
-/// What pairs and terms ask of the step as they are now. @param leastOverlap see criticalStep
+/// Demand of the present pairs and terms on the step. @param leastOverlap see criticalStep
 ContactDemand demandOf(const Model& m, double leastOverlap = 0.0);
-/// The largest stable step with contacts, bonds and bodies as they are now, and who sets it (see ContactDemand). A
-/// scene that is yet to collide has none: take `leastOverlap` then, the overlap to be expected, m.
+/// The largest stable step with the present contacts, bonds and bodies, and what sets it (see ContactDemand). A scene
+/// that is yet to collide has none: take `leastOverlap` then, the overlap to be expected, m.
 ContactStep criticalStep(const Model& m, double leastOverlap = 0.0);
-/// @throws InputError naming who sets the limit if dt is beyond it, or beyond that of the impacts to come
+/// @throws InputError naming what sets the limit if dt is beyond it, or beyond that of the impacts to come
 void requireStableStep(const Model& m, double dt, double leastOverlap = 0.0);
-/// Whether a run looks at the limit after this step: at three of the first and then at each 2048th, as a look costs
+/// Whether a run checks the limit after this step: at three of the first and then at each 2048th, as a check costs
 /// about as much as a step.
 bool looksAtLimit(std::int64_t step);
 /// After a run broke down: the same error with the limit that its step is beyond, if it is (m.passed); else returns.
@@ -150,12 +150,12 @@ Momenta momenta(const Model& m);
 /// Weight of particles and bodies, N, and its moment about the origin, N m.
 Momenta weight(const Model& m);
 
-/// Takes particles out; what they carried is booked as left. Pairs, bonds and walls forget them.
+/// Removes particles; their mass, momentum and energy are booked as left. Pairs, bonds and walls drop them.
 /// @throws InputError on a number that does not exist
 void removeParticles(Model& m, std::span<const int> list);
-/// For those who have just appended particles from number `first` on within a step: what they bring is booked as
-/// entered, contacts that they have at once included, and their velocities count as of this moment. Particles that are
-/// appended between steps count as entered when forces are next found.
+/// To be called when particles from number `first` on have been appended within a step: their energy is booked as
+/// entered, that of their contacts included, with their velocities at this moment. Particles that are appended between
+/// steps count as entered when forces are next found.
 void admitParticles(Model& m, std::size_t first);
 
 }  // namespace dovetail::dem

@@ -10,8 +10,8 @@
 
 namespace dovetail::dem {
 
-/// What has mass, and what pushes. Members of clumps are there as their bodies: one entry at the centre of mass, with
-/// the sum of the members' spheres as its volume, and forces that end there. Walls have no mass, free ones neither.
+/// Masses and forces. Members of clumps are represented by their bodies: one entry at the centre of mass, with the sum
+/// of the members' spheres as its volume, and forces that end there. Walls have no mass, free ones neither.
 struct Snapshot {
   double time = 0.0;                 ///< s
   std::vector<Vec3> x, v;            ///< free particles by number, then bodies of clumps, m, m/s

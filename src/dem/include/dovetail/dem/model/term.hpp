@@ -42,16 +42,16 @@ enum class Half { first, second };
 /// per step.
 class Term {
 public:
-  /// In which order terms are asked for forces: those that bring the other side of a coupling up to date, those that
-  /// add forces, those that damp and need all others, constraints, which answer all of these, and bodies, which gather
-  /// what their members got.
+  /// Order in which terms add forces: terms that update the other side of a coupling, terms that add forces, damping,
+  /// which needs all others, constraints, which are computed last from all of these, and bodies, which gather the
+  /// forces on their members.
   enum class Order { partners, forces, damping, constraints, bodies };
 
   virtual ~Term() = default;
   /// For profiles, errors and checkpoints.
   virtual std::string name() const = 0;
   virtual std::unique_ptr<Term> clone() const = 0;
-  /// What of it no file can hold, such as "a motion"; empty if nothing. A checkpoint names it.
+  /// User code that no file can hold, such as "a motion"; empty if there is none. A checkpoint names it.
   virtual std::string code() const { return {}; }
   virtual Order order() const { return Order::forces; }
 
@@ -64,18 +64,18 @@ public:
   virtual bool prescribes() const { return false; }
   /// After half a kick: sets velocities. In the first half the particles are about to drift by step.dt.
   virtual void prescribe(Model&, const Step&, Half) {}
-  /// Adds what newcomers keep clear of; what it refers to is there until the end of the step.
+  /// Adds obstacles of inserted particles, which must exist until the end of the step.
   virtual void surround(Surroundings&) {}
-  /// Lets particles in and takes them out (insertParticles, removeParticles of the model).
+  /// Inserts and removes particles (insertParticles, removeParticles of the model).
   virtual void exchange(Model&, const Step&) {}
-  /// The list of pairs is new: sets factors of pairs (PairList) that it wants muted or weighed.
+  /// The list of pairs is new: sets factors of pairs (PairList) to mute or weight them.
   virtual void neighbourListUpdated(Model&) {}
-  /// Particles are about to leave, one entry per particle, 0 = stays. Sets others who go along, and those whose mass
-  /// and energy it counts itself to `booked`.
+  /// Particles are about to be removed, one entry per particle, 0 = stays. Marks others that are removed with them, and
+  /// sets those whose mass and energy it counts itself to `booked`.
   virtual void leaving(Model&, std::vector<char>& /*leaves*/) {}
   static constexpr char booked = 2;
-  /// Particles get new numbers, < 0: gone. `before` still has all of them in their old order.
-  /// @return J that the term's contacts with those gone had stored
+  /// Particles get new numbers, < 0: removed. `before` still has all of them in their old order.
+  /// @return J that the term's contacts with removed particles had stored
   virtual double renumber(std::span<const int> /*newNumber*/, const Particles& /*before*/) { return 0.0; }
   /// Finds contacts with facets, before any term behind the partners adds forces, and appends those that are one
   /// surface with others where they meet (joinAtSeams).
@@ -94,14 +94,14 @@ public:
   virtual void close(Model&, double /*dt*/) {}
 
   virtual void addDemand(const Model&, ContactDemand&) const {}
-  /// What particles may come to hit (see impactLimit).
+  /// Partners of particles in impacts (see impactLimit).
   virtual void addPartners(const Model&, std::vector<ImpactPartner>&) const {}
-  /// Adds what it stores and is not in model.work, J; takes out what sums over particles count wrongly.
+  /// Adds what it stores and is not in model.work, J; corrects what sums over particles count wrongly.
   virtual void addEnergies(const Model&, Energies&) const {}
   virtual void addMomenta(const Model&, Momenta&) const {}
-  /// What does not act among particles and bodies but on them from outside, with its moments about the origin.
-  /// Adds to the first what the last forces hold of it, N and N m, at the places of the last evaluation; to the second
-  /// what it has given beside forces so far, kg m/s and kg m²/s.
+  /// External forces on particles and bodies, with their moments about the origin. Adds to the first what the last
+  /// forces hold of it, N and N m, at the places of the last evaluation; to the second what it has given beside forces
+  /// so far, kg m/s and kg m²/s.
   virtual void addOutside(const Model&, Momenta& /*force*/, Momenta& /*impulse*/) const {}
   /// Appends the contacts of particles with what it stands for, as the last evaluation left them (see sampleContacts).
   virtual void addContacts(const Model&, ContactSample&) const {}

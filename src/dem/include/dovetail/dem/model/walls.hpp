@@ -10,7 +10,7 @@ namespace dovetail::dem {
 /// How far the particles of a model have moved, for lists of what is near a wall.
 Moves movesOf(const Model& m, const Step& step);
 
-/// A plane, cylinder or sphere that the particles meet.
+/// A plane, cylinder or sphere that particles can touch.
 class PrimitiveWallTerm final : public Term {
 public:
   explicit PrimitiveWallTerm(PrimitiveWall w) : wall(std::move(w)) {}
@@ -35,7 +35,7 @@ public:
   void load(ByteReader& reader) override;
 };
 
-/// A triangulated wall that the particles meet.
+/// A triangulated wall that particles can touch.
 class MeshWallTerm final : public Term {
 public:
   explicit MeshWallTerm(MeshWall m) : mesh(std::move(m)) {}
@@ -62,23 +62,23 @@ public:
   void load(ByteReader& reader) override;
 };
 
-/// The wall as it stands in the model from now on.
+/// The wall in the model.
 inline PrimitiveWall& addWall(Model& m, PrimitiveWall wall) {
   return m.terms.add(PrimitiveWallTerm(std::move(wall))).wall;
 }
 inline MeshWall& addWall(Model& m, MeshWall wall) { return m.terms.add(MeshWallTerm(std::move(wall))).mesh; }
 
-/// A solid that moves freely under gravity and what its surface meets: a wall on a body of its own (bodies(m)), with
-/// the mass properties of what it encloses or of the caller's own, described in the frame in which the wall lies now.
-/// Such walls meet particles, not one another.
+/// A rigid solid that moves freely under gravity and its contacts: a wall on a body of its own (bodies(m)), with the
+/// mass properties of what it encloses or of the caller's own, described in the frame in which the wall lies now. Such
+/// walls have contact with particles only.
 /// @param v m/s @param omega rad/s, in space
 /// @throws InputError as solidInside and addBody
 MeshWall& addFreeWall(Model& m, TriangulatedWall wall, Density density, const Vec3& v = {}, const Vec3& omega = {});
 MeshWall& addFreeWall(Model& m, TriangulatedWall wall, const MassProperties& properties, const Vec3& v = {},
                       const Vec3& omega = {});
 
-/// Takes a wall out; what its contacts had stored is booked as left. The body of a free wall stays, and meets nobody
-/// from then on. @throws InputError if it is not the model's
+/// Removes a wall; the energy of its contacts is booked as left. The body of a free wall stays, without contacts.
+/// @throws InputError if it is not the model's
 void removeWall(Model& m, const PrimitiveWall& wall);
 void removeWall(Model& m, const MeshWall& mesh);
 

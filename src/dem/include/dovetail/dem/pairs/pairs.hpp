@@ -28,11 +28,11 @@ const PairParts& partsOf(const PairList& list);
 
 /// Pairs closer than the sum of their radii + skin when the list was made, and what stays with them.
 ///
-/// Two lists stand behind each other (Páll & Hess, Comput. Phys. Commun. 184, 2013, call it pruning): `candidates` come
-/// from the grid and last while nobody has moved more than skin/2; of those, `pairs` are closer than the sum of their
-/// radii + innerSkin, and are picked anew when somebody has moved more than innerSkin/2. The inner skin adapts
-/// itself: the longer the candidates last, the thinner it is, and the fewer pairs that do not touch are listed. Lists
-/// of less than pruneFrom pairs are not pruned: innerSkin = skin.
+/// A Verlet list, `candidates`, rebuilt when a particle has moved more than skin/2, with a pruned inner list (Páll &
+/// Hess, Comput. Phys. Commun. 184, 2013): `pairs` are the candidates closer than the sum of their radii + innerSkin,
+/// pruned anew when a particle has moved more than innerSkin/2. The inner skin adapts: the longer the candidates last,
+/// the thinner it is, and the fewer pairs without contact are listed. Lists of fewer than pruneFrom pairs are not
+/// pruned: innerSkin = skin.
 class PairList {
 public:
   static constexpr double defaultSkin = 0.15;
@@ -48,8 +48,7 @@ public:
   double reach() const { return parts_.reach; }
   /// @throws InputError unless it is finite and ≥ 0
   void setReach(double reach);
-  /// Axes along which space repeats. Each search moves particles into the box, so that they leave it by no more than
-  /// the skin.
+  /// Periodic axes. Each search moves particles into the box, so that they leave it by no more than the skin.
   const geometry::Periodicity& periodicity() const { return parts_.periodicity; }
   void setPeriodicity(const geometry::Periodicity& periodicity);
 
@@ -64,14 +63,14 @@ public:
   /// Vector to be added to x_i − x_j of a pair, m; zero without periodic axes. O(log n).
   Vec3 shift(std::size_t pair) const;
   const PairChunks& chunks() const { return parts_.chunks; }
-  std::int64_t builds() const { return parts_.builds; }      ///< how often the grid was asked
+  std::int64_t builds() const { return parts_.builds; }      ///< number of searches
   std::int64_t revision() const { return parts_.revision; }  ///< how often `pairs` has changed
 
   // ---- how long they last
 
   /// Whether the list was made for the particles as they are numbered now, under the settings as they are.
   bool fits(const Particles& particles) const;
-  /// Whether the next update may ask the grid, if nobody moves farther than `step` (m) until then.
+  /// Whether the next update may search for pairs, if no particle moves farther than `step` (m) until then.
   bool maySearch(const Particles& particles, double step) const;
   std::size_t particles() const { return parts_.particles(); }   ///< for how many it was made
   const Pairs& candidates() const { return parts_.candidates; }  ///< i < j, sorted; empty unless pruned
@@ -83,7 +82,7 @@ public:
   // ---- what stays with a pair while it is listed
 
   /// Per pair: factor on its force and energies, such as the particles' fraction of an overlap, 0 = muted; empty = 1. A
-  /// newcomer has 1 until somebody sets it, which is due when `revision` has changed.
+  /// new pair has 1 until it is set, which is due when `revision` has changed.
   const RawVector<double>& factors() const { return parts_.factors; }
   double factor(std::size_t pair) const { return parts_.factors.empty() ? 1.0 : parts_.factors[pair]; }
   /// The same for writing, one for each pair.
@@ -91,27 +90,27 @@ public:
   /// All are 1 again.
   void clearFactors() { parts_.factors.clear(); }
 
-  /// What the contacts remember, by component: number c of pair p is memory()[c * size() + p]. A tangential spring
-  /// takes three numbers, its stretch, m. Empty unless the law remembers something.
+  /// Memory of the contacts, by component: number c of pair p is memory()[c * size() + p]. A tangential spring takes
+  /// three numbers, its stretch, m. Empty unless the law has memory.
   const RawVector<double>& memory() const { return parts_.memory; }
   /// The same for writing, with room for the memories of a law: all zero if they were of another size.
   /// @param numbers per pair @param turns see laws.hpp
   std::span<double> prepareMemory(int numbers, unsigned turns);
-  /// What the pairs of another list remember, into places of this one.
-  /// @throws InputError unless there are as many places as pairs, and both lists remember as much per pair
+  /// Copies the memory of the pairs of another list into places of this one.
+  /// @throws InputError unless there are as many places as pairs, and both lists have as much memory per pair
   void takeMemory(std::span<const std::size_t> places, const PairList& from);
-  /// Pairs that have left since this was last asked.
+  /// Pairs that have left the list since the last call.
   EndedPairs takeEnded();
-  /// Hands them back, for somebody else to ask.
-  /// @throws InputError if others have left meanwhile that remembered another number of values
+  /// Puts them back, for another caller.
+  /// @throws InputError if others have left meanwhile with memory of another size
   void putEnded(EndedPairs ended);
 
   std::size_t bytesHeld() const;  ///< memory taken
 
   /// For checkpoints: all but what follows from it.
   void save(ByteWriter& writer) const;
-  /// @throws InputError if what was saved is no list: pairs out of order or of nobody, images of no pair, lengths that
-  ///         do not go together
+  /// @throws InputError if what was saved is no list: pairs out of order or of no particles, images of no pair, lengths
+  /// that do not match
   void load(ByteReader& reader);
 
 private:
@@ -140,19 +139,18 @@ bool updatePairs(Particles& particles, PairList& list, double step = std::numeri
 /// and keep their memories.
 void wrapPositions(Particles& particles, const geometry::Periodicity& periodicity);
 
-/// Gives the pairs the new numbers of their particles, memories and factors included, and sorts them. Pairs of
-/// particles that go (new number < 0) leave: what they remember, and their elastic energy, is booked as lost by the
-/// next sweep of a law.
+/// Gives the pairs the new numbers of their particles, memories and factors included, and sorts them. Pairs of removed
+/// particles (new number < 0) leave: the energy of their springs is booked as lost by the next sweep of a law.
 /// @param newNumber one per particle of the list
-/// @param before    the particles as they are numbered until now, those that go included
+/// @param before    the particles as they are numbered until now, removed ones included
 void renumber(PairList& list, std::span<const int> newNumber, const Particles& before);
 
-/// For lists that stay as they are, of laws that bond them: if the list does not fit, makes anew what hangs on the
-/// particles' numbers and number, after renumber, and after particles have been added, which get no pairs. Images are
-/// the nearest ones. Should the list be updated after all, it is made anew.
+/// For fixed lists of bonded laws: if the list is out of date, after renumber or when particles were added (which get
+/// no pairs), makes the data anew that depend on the particles' numbers. Images are the nearest ones. Should the list
+/// be updated after all, it is made anew.
 void keepPairs(const Particles& particles, PairList& list);
 
-/// A list of some pairs of another one, with their factors, that remembers nothing; to be kept.
+/// A fixed list of some pairs of another one, with their factors and without memory.
 /// @param places ascending
 PairList selectPairs(const Particles& particles, const PairList& list, std::span<const std::size_t> places);
 

@@ -11,7 +11,7 @@
 
 namespace dovetail::dem {
 
-/// Who moves a particle in place of its own forces: the body of its clump, or a drive.
+/// What moves a particle in place of its own forces: the body of its clump, or a drive.
 enum class Owner : std::uint8_t { nobody, body, drive };
 
 /// Spheres. All arrays that are in use have one entry per particle. What refers to a particle by its number is out of
@@ -29,7 +29,7 @@ struct Particles {
   /// Fraction of a particle that is modelled here, in (0, 1], the rest being another model's; empty = 1. Inertia,
   /// weight and energies count it; mass and radius are those of the whole particle.
   std::vector<double> weight;
-  std::vector<Owner> owner;      ///< empty = nobody
+  std::vector<Owner> owner;      ///< empty = none
   std::vector<std::int64_t> id;  ///< names that stay when particles are sorted or removed; no id is given twice
 
   std::int64_t nextId = 0;
@@ -62,7 +62,7 @@ void forEachArray(P& p, Act&& act) {
   act(p.id);
 }
 
-/// kg/m³; a type of its own so that nobody takes a density for a mass.
+/// kg/m³; a type of its own, so that a density cannot be taken for a mass.
 struct Density {
   double value;
 };
@@ -81,7 +81,7 @@ int addParticle(Particles& particles, const Vec3& x, const Vec3& v, double radiu
 int find(const Particles& particles, std::int64_t id);
 
 /// New number of every particle when those listed go and the others close up in their order; −1 for those that go.
-/// Tell whatever refers to particles (its `renumber`), and last the particles themselves.
+/// Pass it to all that refers to particles (`renumber`), and last to the particles themselves.
 /// @param list numbers in any order; twice does not matter
 /// @throws InputError on a number that does not exist
 std::vector<int> numbersWithout(const Particles& particles, std::span<const int> list);
@@ -90,7 +90,7 @@ std::vector<int> numbersWithout(const Particles& particles, std::span<const int>
 /// @param newNumber one per particle; those ≥ 0 are 0 … n − 1, each once
 void renumber(Particles& particles, std::span<const int> newNumber);
 
-/// numbersWithout and renumber, where nobody else refers to particles or is told later. Returns the new numbers.
+/// numbersWithout and renumber, if nothing else refers to particles, or is renumbered later. Returns the new numbers.
 std::vector<int> removeParticles(Particles& particles, std::span<const int> list);
 
 void setOwner(Particles& particles, int particle, Owner owner);
@@ -119,7 +119,7 @@ void kick(Particles& particles, double dt);
 /// x += v dt. (A sphere looks the same from every side: no orientation is kept.)
 void drift(Particles& particles, double dt);
 /// kick(dt/2) and drift(dt) in one sweep. Returns the largest displacement of a particle, m; infinite if some velocity
-/// or spin is not finite: these particles keep their places and forces, for requireFinite to tell what it was.
+/// or spin is not finite: these particles keep their places and forces, for requireFinite to report them.
 double kickAndDrift(Particles& particles, double dt);
 /// kickAndDrift and startForces in one sweep: all of a step that comes before its contacts. kick(dt/2) ends the step.
 double startStep(Particles& particles, double dt, const Vec3& g);

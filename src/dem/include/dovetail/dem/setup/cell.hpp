@@ -1,4 +1,4 @@
-// A periodic cell as a specimen: strained with all that is in it.
+// Straining of a periodic cell with its contents.
 #pragma once
 
 #include "dovetail/dem/model/model.hpp"
@@ -10,7 +10,7 @@ namespace dovetail::dem {
 /// forces are those of the state before until findForces or relax is called.
 /// @param strain  ε per axis, > 0 stretches
 /// @throws InputError unless forces have been found, every axis along which it strains repeats, ε is finite and > −1,
-///   and there are but particles and contacts
+/// and the model has particles and contacts only
 void strainCell(Model& m, const Vec3& strain);
 
 }  // namespace dovetail::dem

@@ -1,5 +1,5 @@
-// FIRE (Bitzek et al., Phys. Rev. Lett. 97, 2006): velocities lean towards forces and stop wherever they point uphill;
-// steps lengthen while motion goes downhill.
+// FIRE (Bitzek et al., Phys. Rev. Lett. 97, 2006): velocities are mixed with the direction of the forces, and set to
+// zero when their power is negative; steps lengthen while it is positive.
 #pragma once
 
 #include <vector>

@@ -15,7 +15,7 @@
 
 namespace dovetail::dem {
 
-/// What newcomers keep clear of beside particles.
+/// Obstacles of inserted particles, beside other particles.
 struct Surroundings {
   geometry::Periodicity space{};                  ///< as that of the pair list
   std::vector<const PrimitiveWall*> walls{};      ///< newcomers lie on their particles' side
@@ -24,7 +24,7 @@ struct Surroundings {
   std::vector<std::function<const TriangulatedWall&()>> placed{};
 };
 
-/// What enters, where and how fast: one of the two rates is > 0, or leavers are replaced.
+/// Inserted particles, their region and rate: one of the two rates is > 0, or particles that leave are replaced.
 struct InsertionOptions {
   geometry::Box region;  ///< m; whole spheres lie in it, but along a periodic axis that it spans all places are free
   Sizes sizes;           ///< of spheres
@@ -36,20 +36,20 @@ struct InsertionOptions {
   int material = 0;              ///< row of a LawTable
   double numberPerSecond = 0.0;  ///< spheres or clumps, 1/s
   double massPerSecond = 0.0;    ///< kg/s
-  bool replacesLeavers = false;  ///< whoever leaves a model is due again, in place of a rate
-  double interval = 0.0;         ///< s; room is looked for at most so often. 0: as soon as somebody is due
+  bool replacesLeavers = false;  ///< particles that leave are inserted again, in place of a rate
+  double interval = 0.0;         ///< s, least time between searches for free places. 0: as soon as a particle is due
   int tries = 50;                ///< places tried for each newcomer before it is refused
   std::uint64_t seed = 1;
 };
 
-/// An insertion under way: what it was asked for, and what has come of it.
+/// An insertion: its settings and its state.
 struct Insertion {
   InsertionOptions settings;
   RandomStream random;
   double nextRadius = 0.0;    ///< m, of the next sphere
   int nextShape = 0;          ///< of the next clump
   double due = 0.0;           ///< newcomers, or kg, that should have entered and have not been tried yet
-  double waited = 0.0;        ///< s since room was last looked for
+  double waited = 0.0;        ///< s since the last search for free places
   std::int64_t inserted = 0;  ///< spheres or clumps
   std::int64_t refused = 0;   ///< those that found no free place; they are dropped, not tried again
   double insertedMass = 0.0;  ///< kg
@@ -62,8 +62,8 @@ struct Insertion {
 ///   clump
 Insertion makeInsertion(const InsertionOptions& settings);
 
-/// Lets in what is due after another dt seconds, at places drawn at random in the region where it touches nobody, no
-/// image of anybody, and no wall. Appended particles leave the others' numbers as they are. Returns how many entered.
+/// Inserts what is due after another dt seconds, at random places in the region where it touches no particle, no image
+/// of one, and no wall. Appended particles leave the others' numbers as they are. Returns how many entered.
 /// @throws InputError if dt is not finite and ≥ 0, spin is wanted of particles that do not spin, or clumps are due
 int insertParticles(Insertion& insertion, Particles& particles, const Surroundings& surroundings, double dt);
 /// The same with clumps, if shapes are given; else spheres.

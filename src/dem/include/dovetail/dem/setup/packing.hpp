@@ -43,7 +43,7 @@ Packing latticeBlock(Lattice lattice, const std::array<int, 3>& cells, double ra
 Packing fillWithLattice(Lattice lattice, const geometry::Box& box, double radius, double distance,
                         const std::array<bool, 3>& periodic = {});
 
-/// What came out of a random packing.
+/// Report on a random packing.
 struct PackingReport {
   bool reached = false;         ///< the solid fraction, or the pressure, that was asked for
   double solidFraction = 0.0;   ///< that is there

@@ -1,4 +1,4 @@
-// A model brought to rest.
+// Relaxation of a model.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 namespace dovetail::dem {
 
 struct RelaxationOptions {
-  double unbalanced = 1e-4;     ///< at rest when RelaxationReport::unbalanced is no more than this
-  std::int64_t steps = 200000;  ///< given up after so many
-  double stepFraction = 0.6;    ///< of the critical step, which is looked up anew now and then; in (0, 1)
-  std::int64_t lookEvery = 20;  ///< steps between two looks at the contacts
-  std::function<bool(const Model&)> enough{};  ///< asked at every look: whether to stop here, at rest or not
+  double unbalanced = 1e-4;                    ///< at rest when RelaxationReport::unbalanced is no more than this
+  std::int64_t steps = 200000;                 ///< given up after so many
+  double stepFraction = 0.6;                   ///< of the critical step, which is computed anew now and then; in (0, 1)
+  std::int64_t lookEvery = 20;                 ///< steps between two checks of the contacts
+  std::function<bool(const Model&)> enough{};  ///< called at every check: whether to stop here, at rest or not
 };
 
 struct RelaxationReport {
@@ -23,14 +23,13 @@ struct RelaxationReport {
   /// inertia. Where a servo's load is further from being carried, relative to it, that counts.
   double unbalanced = 0.0;
   std::int64_t steps = 0;     ///< taken
-  std::int64_t rattlers = 0;  ///< particles and bodies that touch nobody and feel no force
+  std::int64_t rattlers = 0;  ///< particles and bodies without contacts and forces
 };
 
-/// Steps the model until it is at rest under the forces that it has: gravity, contacts with their friction, bonds,
-/// walls as they stand. Motion is steered downhill (FIRE, Bitzek et al., Phys. Rev. Lett. 97, 2006): velocities lean
-/// towards forces and stop wherever they point uphill; what that takes is booked as damping. Contacts remember as in
-/// any other step, so friction holds what it can. Afterwards velocities are zero, and time has gone on by the steps
-/// taken.
+/// Relaxes the model under its present forces: gravity, contacts with their friction, bonds, walls at rest. By FIRE
+/// (Bitzek et al., Phys. Rev. Lett. 97, 2006): velocities are mixed with the direction of the forces, and set to zero
+/// when their power is negative; the energy that this takes is booked as damping. Contact springs evolve as in any
+/// other step, so friction carries load. Afterwards velocities are zero, and time has advanced by the steps taken.
 /// Bodies move and turn as a whole, free walls among them; walls with a servo move until they carry its load. Driven
 /// particles are held where they are, and go on along their path afterwards.
 /// @throws InputError if a setting is not valid, or walls, their surfaces or driven particles move; NumericalError as
@@ -42,8 +41,8 @@ double kineticEnergy(const Model& m);
 /// Sets the velocities and spins of all these to zero.
 void stop(Model& m);
 
-/// Mean force on a particle over the mean contact force, and who rattles, as the model lies now; forces have been asked
-/// for. Contacts with walls count. Infinite where there are forces and no contacts.
+/// Mean force on a particle over the mean contact force, and the rattlers, of the present model, whose forces must have
+/// been found. Contacts with walls count. Infinite where there are forces and no contacts.
 RelaxationReport restOf(const Model& m);
 
 }  // namespace dovetail::dem

@@ -9,7 +9,7 @@
 namespace dovetail::dem {
 
 /// An insertion into the model: clear of its particles and walls, through its periods. What came in is booked as
-/// entered (mass, momentum, kinetic and gravity energy; it touches nobody, so that contacts bring nothing).
+/// entered (mass, momentum, kinetic and gravity energy; it has no contacts, so that these add nothing).
 class InsertionTerm final : public Term {
 public:
   /// @throws InputError as makeInsertion
@@ -35,13 +35,13 @@ struct HalfSpace {
   friend constexpr bool operator==(const HalfSpace&, const HalfSpace&) = default;
 };
 
-/// Takes particles out whose centres lie in a region, clumps as soon as one member does. What they carried is booked as
-/// left: mass, momentum, kinetic and gravity energy, and what their contacts stored.
+/// Removes particles whose centres lie in a region, clumps as soon as one member does. Booked as left: mass, momentum,
+/// kinetic and gravity energy, and what their contacts stored.
 class OutletTerm final : public Term {
 public:
   using Region = std::variant<geometry::Box, HalfSpace>;
   Region region;
-  int every = 1;     ///< looked at in every so many steps
+  int every = 1;     ///< steps between two checks
   Exchanged passed;  ///< through here so far; clumps count once
 
   std::string name() const override { return "outlet"; }
@@ -52,7 +52,7 @@ public:
   void load(ByteReader& reader) override;
 
 private:
-  /// Who may come into the region before pairs are searched for again: all within the skin of the list.
+  /// Particles that may reach the region before the next search for pairs: all within the skin of the list.
   struct Near {
     std::vector<int> particles;
     std::int64_t builds = -1, revision = -1;  ///< of the pair list and of the particles

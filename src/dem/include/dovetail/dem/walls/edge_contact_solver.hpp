@@ -20,8 +20,8 @@ inline double couplingSlope(double g) {
   return g <= 0.0 ? 0.0 : g * (4.0 * couplingBlend - 3.0 * g) / (couplingBlend * couplingBlend);
 }
 
-/// Whether two contacts answer with one overlap (1) or each with its own (0); between, 0 < g < 0.1, a smooth step. For
-/// laws that are not linear: there the energy of walls at right angles is the sum of two, that of flatter valleys one.
+/// Whether two contacts have one overlap (1) or each its own (0); between, 0 < g < 0.1, a smooth step. For laws that
+/// are not linear: there the energy of walls at right angles is the sum of two, that of flatter valleys one.
 inline double together(double g) {
   constexpr double whole = 0.1;
   if (g >= whole) return 1.0;

@@ -1,4 +1,4 @@
-// What contacts with walls remembered when they ended, to be booked as lost.
+// Memory of ended contacts with walls, to be booked as lost.
 #pragma once
 
 #include <cstdint>

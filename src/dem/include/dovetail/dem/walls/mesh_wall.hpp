@@ -15,14 +15,14 @@ namespace dovetail::dem {
 
 struct AtRest {};
 
-/// Somebody else writes wall.x and wall.v, such as the owner of a solid whose skin the wall is, and says how far the
-/// vertices went, since contacts were last found.
+/// wall.x and wall.v are written from outside, such as by the owner of a solid whose skin the wall is, with the
+/// distance that vertices have moved since contacts were last found.
 struct MovedByOthers {
   /// Bound on the displacement of any vertex, m; findContacts takes it away, so that none is forgotten.
   double travel = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Who moves a wall. All but MovedByOthers keep its shape.
+/// What moves a wall. All but MovedByOthers keep its shape.
 using WallMotion = std::variant<AtRest, PrescribedMotion, WallOnBody, WallServo, MovedByOthers>;
 
 /// A triangulated wall with its contacts.
@@ -38,7 +38,7 @@ struct MeshWall {
   WallContacts contacts;
   double step = 0.0;         ///< bound on how far any vertex has moved since contacts were last found, m
   Vec3 belt;                 ///< surfaceVelocity as it is now, m/s
-  std::size_t lookedAt = 0;  ///< vertices of a wall at rest are looked at in turn
+  std::size_t lookedAt = 0;  ///< vertices of a wall at rest are checked in turn
 };
 
 /// Gives the wall a motion: `reference` is the point, in the wall as it lies now, that the motion's x is the place of,
@@ -51,18 +51,17 @@ void prescribe(MeshWall& mesh, const WallServo& servo);
 /// Half a step of the wall's servo, if it has one, with the vertex forces as they are; before moveWall, and after the
 /// forces.
 void kickWall(MeshWall& mesh, double dt);
-/// Places the wall as its motion says for the end of a step, or as its body stands; sets the vertices' velocities.
-/// After bodies have moved, and once more, with dt = 0, after velocities of bodies and servos have changed.
+/// Places the wall by its motion at the end of a step, or by its body; sets the vertices' velocities. After bodies have
+/// moved, and once more, with dt = 0, after velocities of bodies and servos have changed.
 /// @param time at the end of the step, s @param dt of the step, s
-/// @param bodies  those that WallOnBody names one of; else of no concern
+/// @param bodies  those that WallOnBody names one of; else unused
 /// @throws InputError if the wall is on a body and there is none, or a prescribed motion is empty or has no offsets
 void moveWall(MeshWall& mesh, double time, double dt, const Bodies* bodies = nullptr);
 
 /// Candidates and contacts as they are now, and vertex forces zero.
 /// @param moves  of the particles; those of the wall are known here
-/// @throws InputError if the wall was moved and nobody said so; NumericalError naming a particle that the wall has
-/// moved
-///         past by more than its radius since the last call
+/// @throws InputError if the wall was moved without notice; NumericalError naming a particle that the wall has moved
+/// past by more than its radius since the last call
 void findContacts(const Particles& particles, MeshWall& mesh, const Moves& moves,
                   const geometry::Periodicity& periodicity = {});
 

@@ -50,9 +50,9 @@ struct PrimitiveSearch {
   Vec3 lastPoint, lastAxis;  ///< of the wall when contacts were last found
 };
 
-/// A plane, or the inside or outside of an infinite cylinder or a sphere. It moves as a rigid body. It has no border:
-/// at a corner it pushes beside the other wall, as it should, but no mesh wall goes on where it ends. One that lies in
-/// it pushes as well: where a plane is to have a patch of its own, make the plane a mesh wall too.
+/// A plane, or the inside or outside of an infinite cylinder or a sphere. It moves as a rigid body. It is unbounded: at
+/// a corner it acts beside the other wall, as it should, but it cannot be joined to a mesh wall at a border. A mesh
+/// wall that lies in it acts as well: where a plane is to have a patch of its own, make the plane a mesh wall too.
 struct PrimitiveWall {
   enum class Shape { plane, cylinder, sphere };
   Shape shape = Shape::plane;
@@ -70,7 +70,7 @@ struct PrimitiveWall {
   /// too, whence the wall drifts, the velocities are those at `time`.
   std::function<void(double time, PrimitiveWall& wall)> motion;
   std::optional<WallServo> servo;  ///< what moves it along the servo's direction, where `velocity` then follows
-  /// m: particles closer than their radius + skin are looked at. Unset: 0.15 of their mean diameter; 0: all, at every
+  /// m: particles closer than their radius + skin are candidates. Unset: 0.15 of their mean diameter; 0: all, at every
   /// step.
   std::optional<double> skin;
 
@@ -103,13 +103,14 @@ inline Vec3 velocityAt(const PrimitiveWall& wall, const Vec3& x) {
 void kickWall(PrimitiveWall& wall, double dt);
 /// point += velocity dt; the axis and the surface velocity turn.
 void drift(PrimitiveWall& wall, double dt);
-/// Power that the wall puts into the particles, W, with the force and torque of the last sweep; without what its
-/// servo does, which keeps its own books.
+/// Power that the wall puts into the particles, W, with the force and torque of the last sweep; without that of its
+/// servo, which has its own account.
 double drivingPower(const PrimitiveWall& wall);
 
-/// Contacts as they are now. Particles are searched again when they and the wall may have used up the skin; where
-/// the wall is, is seen from the wall itself, so moves.wall is of no concern.
-/// @param periodicity  the particles': a wall then stands in every period, and meets the nearest image of a particle
+/// Contacts as they are now. Particles are searched again when they and the wall may have used up the skin; the motion
+/// of the wall is known from the wall itself, so moves.wall is not used.
+/// @param periodicity  the particles': a wall is then repeated in every period, and has contact with the nearest image
+/// of a particle
 /// @throws InputError if the skin is not finite and ≥ 0, or the wall does not repeat with the periods (validate);
 ///         NumericalError if the wall is not at a finite place, or has moved past a particle by more than its radius
 void findContacts(const Particles& particles, PrimitiveWall& wall, const Moves& moves,
@@ -122,8 +123,8 @@ void findContacts(const Particles& particles, PrimitiveWall& wall, const Moves& 
 ///         does not fit into a period
 void requireRepeats(const PrimitiveWall& wall, const geometry::Periodicity& periodicity, double reach);
 
-/// Gives the wall's memory the new numbers of particles (< 0: gone). Returns what the
-/// springs of leavers' contacts stored, J, for the caller to book.
+/// Gives the wall's memory the new numbers of particles (< 0: removed). Returns the energy of the springs of removed
+/// particles, J, for the caller to book.
 double renumber(PrimitiveWall& wall, std::span<const int> newNumber);
 
 inline WallFraction fractionOf(const PrimitiveContacts& contacts, std::size_t c) {

@@ -18,8 +18,8 @@ struct RigidMotion {
   Vec3 omega;       ///< rad/s, in space
 };
 
-/// A motion as a function of time, s. It answers for v and omega being the rates of x and turn: contacts take the
-/// wall's velocity from it, and the work of the wall is wrong if they disagree.
+/// A motion as a function of time, s. It must give v and omega as the rates of x and turn: contacts take the wall's
+/// velocity from it, and the work of the wall is wrong if they disagree.
 using PrescribedMotion = std::function<RigidMotion(double time)>;
 
 /// Steady velocity and steady turning about an axis through the reference point that moves along.

@@ -10,7 +10,7 @@
 
 namespace dovetail::dem {
 
-/// A triangulated surface. Whoever moves it writes x and v; contacts write f.
+/// A triangulated surface. Its motion is written to x and v, contact forces to f.
 struct TriangulatedWall {
   std::vector<Vec3> x;  ///< vertex positions, m
   std::vector<Vec3> v;  ///< vertex velocities, m/s
@@ -28,8 +28,8 @@ struct TriangulatedWall {
   int material = 0;  ///< row of a LawTable
   /// kg, of the body that carries it (moveWall sets it): enters the effective mass that dashpots are made for.
   double mass = std::numeric_limits<double>::infinity();
-  /// Whoever moves it moves it as a rigid body, or not at all: facets that lie in one plane stay so, which spares most
-  /// of the work over them.
+  /// It moves as a rigid body, or not at all: facets that lie in one plane stay so, which spares most of the work over
+  /// them.
   bool rigid = false;
 };
 

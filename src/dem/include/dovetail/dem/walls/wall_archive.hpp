@@ -1,5 +1,5 @@
-// What a checkpoint holds of walls: all that a run needs to go on as if it had never stopped. What is code or was never
-// changed by the run (motions, materials, facets) is the caller's.
+// State of walls in a checkpoint, enough for an exact restart. Code, and what a run never changes (motions, materials,
+// facets), is set up by the caller.
 #pragma once
 
 #include "dovetail/dem/walls/mesh_wall.hpp"

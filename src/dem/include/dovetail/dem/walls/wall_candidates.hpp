@@ -1,4 +1,4 @@
-// Which facets a particle may soon touch, reused while nobody has moved far.
+// Facets that particles may touch soon, reused while nothing has moved far.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 namespace dovetail::dem {
 
 /// Facets within radius + margin of each particle at the time of building. Only particles near the wall are listed, and
-/// nothing is kept of others. Where space repeats, a particle may be near a facet through an image of its own.
+/// nothing is kept of others. In periodic space a particle may be near a facet through an image of its own.
 struct WallCandidates {
   /// m; larger = fewer searches, longer lists. Unset: 0.15 of the mean diameter. 0: a search at every step.
   std::optional<double> skin;

@@ -1,4 +1,4 @@
-// What can be wrong with a wall before the first step, and whether a mesh is the one that a checkpoint knows.
+// Checks of walls before the first step, and of meshes against a checkpoint.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ void requireWhole(const WallContacts& contacts);
 struct WallRows {
   std::size_t particles, facets;
 };
-/// What contacts remember, which is told of every change in the particles' numbers.
-/// @throws InputError naming a particle or facet that is not there
+/// Memory of contacts, which follows every change in the particles' numbers.
+/// @throws InputError naming a particle or facet that does not exist
 void requireRows(const PrimitiveContacts& contacts, const WallRows& rows);
 /// @param current  whether particles have the numbers that they had when contacts were found
 void requireRows(const WallContacts& contacts, const WallRows& rows, bool current);

@@ -1,4 +1,4 @@
-// How far candidates are from touch: spares most of them a look at every step.
+// Distances of candidates from touch, so that most need no check at every step.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace dovetail::dem {
 
-/// What is known of a list of candidates by whoever watches how far particles and vertices move.
+/// Clearances of a list of candidates, and the motion of particles and vertices since.
 struct WallClearances {
   /// Entry by entry of WallCandidates::facet: distance from the facet less the radius when the list was made, m.
   std::vector<double> whenListed;

@@ -23,7 +23,7 @@ enum class EdgeRule {
   paper,
 };
 
-/// What the contacts of the last step remember. Empty unless the law remembers something.
+/// Memory of the contacts of the last step. Empty unless the law has memory.
 struct WallSprings {
   std::vector<int> particle;
   std::vector<Vec3> normal;
@@ -59,7 +59,7 @@ struct WallContacts {
   Vec3 shift(std::size_t c) const { return image.empty() ? Vec3{} : shiftOf(image[c], period); }
 };
 
-/// No contacts; what those of the last step remember stays.
+/// No contacts; the memory of those of the last step stays.
 void clear(WallContacts& contacts);
 /// The first so many of those that have just been found.
 void resize(WallContacts& contacts, std::size_t count);
@@ -122,13 +122,13 @@ void findWallContacts(const Particles& particles, const TriangulatedWall& wall, 
 /// k λᵢ nᵢ = −∂V/∂x and −k λᵢ weight nᵢ = −∂V/∂(vertex), so force, moment and energy balance.
 /// Feet are those of the surface: one on an edge or vertex counts only where no facet that hangs together with it, over
 /// gaps up to 0.002 R, is nearer to yᵢ. So the cut into triangles does not show.
-/// One-sided walls: a centre outside, told by the nearest feature, never counts faces that show it their backs; one
-/// inside leaves through the face that asks for the least V, down to one radius.
-/// A facet is clear if one of the active normals clears it, whoever holds it. The minimum is a local one, of two where
-/// a facet has two places to be seen from, and where more than three normals are partly coupled the fractions may have
-/// two maxima. So V may jump among spikes and folds: at 8 of 200 000 random places with overlaps up to 0.5 R it jumped
-/// by more than 4e-10 k R² (at most 1.5 % of V), or the force was off by more than 1e-6; never around plates, thinner
-/// than the overlap or not. V = Σ ½k λ²/engagement (LinearSpringDashpot::Prepared::energy).
+/// One-sided walls: for a centre outside, which the nearest feature decides, faces turned away do not count; one inside
+/// is pushed out through the face of the least V, down to one radius. A facet is clear if one of the active normals
+/// clears it, whichever facet that belongs to. The minimum is a local one, of two where a facet has two places to be
+/// seen from, and where more than three normals are partly coupled the fractions may have two maxima. So V may jump
+/// among spikes and folds: at 8 of 200 000 random places with overlaps up to 0.5 R it jumped by more than 4e-10 k R²
+/// (at most 1.5 % of V), or the force was off by more than 1e-6; never around plates, thinner than the overlap or not.
+/// V = Σ ½k λ²/engagement (LinearSpringDashpot::Prepared::energy).
 void projectWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                          WallContacts& contacts);
 
@@ -140,12 +140,12 @@ void projectWallContacts(const Particles& particles, const TriangulatedWall& wal
 void paperWallContacts(const Particles& particles, const TriangulatedWall& wall, const WallCandidates& candidates,
                        WallContacts& contacts);
 
-/// Gives what contacts remember the new numbers of their particles (< 0: gone). Returns what
-/// the springs of leavers' contacts stored, J, for the caller to book.
+/// Gives the memory of contacts the new numbers of their particles (< 0: removed). Returns the energy of the springs of
+/// removed particles, J, for the caller to book.
 double renumber(WallContacts& contacts, std::span<const int> newNumber);
 
 namespace detail {
-/// Energies of the contacts of those who leave; the contacts' own are cleared, as their numbers are no longer true.
+/// Energies of the contacts of removed particles; the contacts' own are cleared, as their numbers are no longer true.
 template <class Contacts>
 double energyOfLeavers(Contacts& contacts, std::span<const int> newNumber) {
   double sum = 0.0;
@@ -156,11 +156,10 @@ double energyOfLeavers(Contacts& contacts, std::span<const int> newNumber) {
   }
   return sum;
 }
-/// Contacts that remember another number of values, as those of a law that was there before, start anew.
+/// Contacts with memory of another size, as of a previous law, start anew.
 /// @param memory numbers per contact
 void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered);
-/// Remembers what a contact remembers that has ended. @param fraction  of the contact, or
-/// what it has less of it now
+/// Stores the memory of a contact that has ended. @param fraction  of the contact, or what it has less of it now
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
               std::size_t contact, std::size_t components, double fraction);
 }  // namespace detail

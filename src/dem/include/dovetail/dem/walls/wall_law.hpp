@@ -1,4 +1,4 @@
-// The law at contacts with whatever counts as flat.
+// The law at contacts with walls and facets, which count as flat.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace dovetail::dem {
 
-/// What one of several contacts of a particle with a wall has of them all.
+/// Fractions of one of several contacts of a particle with a wall.
 struct WallFraction {
   double overlap;  ///< what the law sees, m
   double force;    ///< factor on forces, couples and what they lose

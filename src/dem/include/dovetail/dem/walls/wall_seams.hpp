@@ -1,4 +1,4 @@
-// Several walls that meet act as one surface.
+// Walls that join act as one surface.
 #pragma once
 
 #include <cstdint>
@@ -30,9 +30,9 @@ struct WallAtSeam {
   std::span<const std::uint8_t> absent{};      ///< particles, not 0, that it does not push; empty: none
 };
 
-/// Particles that touch several of the walls with the same answer meet the facets of all of them as those of one wall,
-/// under EdgeRule::projected: one force per place. Each wall gets the contacts with its facets. The same for any number
-/// of threads.
+/// Particles that touch several of the walls with the same answer have contact with the facets of all of them as with
+/// those of one wall, under EdgeRule::projected: one force per place. Each wall gets the contacts with its facets. The
+/// same for any number of threads.
 /// @param walls whose contacts are those of findWallContacts now, and have not been answered
 void joinAtSeams(const Particles& particles, std::span<const WallAtSeam> walls);
 
@@ -42,7 +42,7 @@ struct AnsweredContacts {
   WallAnswer answer;
 };
 
-/// Where a contact has passed to another wall with the same answer, what it remembers goes with it.
+/// Where a contact has passed to another wall with the same answer, its memory goes with it.
 /// @param walls whose contacts have not been answered
 void passMemories(std::span<const AnsweredContacts> walls);
 

@@ -15,13 +15,13 @@ namespace dovetail::dem {
 /// How many periods along each axis a particle counts as moved.
 using Image = std::array<int, 3>;
 
-/// Bounds on how far anything has moved since a wall was last looked at, m.
+/// Bounds on how far anything has moved since the last search at a wall, m.
 struct Moves {
   static constexpr double unknown = std::numeric_limits<double>::infinity();
   double particles = unknown;  ///< any particle; unknown: the search is made anew
   double wall = unknown;       ///< any vertex of a triangulated wall; unknown: the vertices are compared
   /// The same for particles since the last build of a pair list, and the number of that build (PairList::travel and
-  /// builds): a list that has measured knows that a path to and fro led nowhere.
+  /// builds): a list that measures distances excludes motion to and fro.
   double sinceBuild = unknown;
   std::int64_t build = -1;
 };

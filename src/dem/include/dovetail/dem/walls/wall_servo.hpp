@@ -1,4 +1,4 @@
-// Walls that keep a force instead of a path: plates of a press, lids of an oedometer.
+// Walls with a prescribed force in place of a path: plates of a press, lids of an oedometer.
 #pragma once
 
 #include <cstddef>
