@@ -1,4 +1,4 @@
-// What a calibration file says, as plain structures: experiments on scenes, what they should give, and the parameters
+// Contents of a calibration file, as plain structures: experiments on scenes, what they should give, and the parameters
 // of the scenes that are sought. All quantities are in SI units. Keys, help and limits are in keys.cpp.
 #pragma once
 
@@ -24,7 +24,7 @@ inline constexpr scene::Quantity requiredQuantity{scene::required, {}};
 struct Setting {
   std::string key, value;
 };
-/// How the grains of a scene, which repeats along all axes, become the cell that is probed.
+/// How the grains of a scene, periodic along all axes, become the cell of the experiment.
 struct Preparation {
   double pressure = scene::required;  ///< Pa
   std::optional<double> friction;     ///< of the grains until the pressure is there; not given: their own

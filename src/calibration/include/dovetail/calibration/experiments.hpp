@@ -1,4 +1,4 @@
-// Experiments of a calibration, done: the simulator, with a memory of what it was asked before.
+// Experiments of a calibration: the simulator, with a store of earlier results.
 #pragma once
 
 #include <cstdint>
@@ -40,11 +40,11 @@ public:
   Laboratory(const Laboratory&) = delete;
   Laboratory& operator=(const Laboratory&) = delete;
 
-  /// @param values  of the parameters, "key=value"; the experiment's scene must know the keys
+  /// @param values  of the parameters, "key=value"; the experiment's scene must have the keys
   /// @throws InputError for scenes that cannot be read
   const Outcome& perform(const Experiment& experiment, const std::vector<std::string>& values);
 
-  std::int64_t simulated = 0, recalled = 0;  ///< experiments done, and those remembered
+  std::int64_t simulated = 0, recalled = 0;  ///< experiments run, and those recalled
   double seconds = 0.0;                      ///< that were spent on the former
 
   /// Writes what has been done since the last time. @throws InputError as io::writeFileAtomically

@@ -22,12 +22,12 @@ using Residuals = std::function<bool(std::span<const double> parameters, std::sp
 struct FitOptions {
   double tolerance = 1e-3;  ///< ends when the parameters, over most − least, or χ² change by less, relatively
   int iterations = 50;
-  std::function<bool()> stop{};  ///< asked between evaluations: whether to end here
+  std::function<bool()> stop{};  ///< called between evaluations: whether to end here
 };
 
 struct FitResult {
   std::vector<double> value;        ///< of the parameters
-  std::vector<double> uncertainty;  ///< standard; ∞ if the targets do not tell the parameters apart
+  std::vector<double> uncertainty;  ///< standard; ∞ if the targets do not determine the parameter
   /// Of estimates, −1 to 1, row by row; empty where there is no covariance.
   std::vector<std::vector<double>> correlation;
   std::vector<double> residual;  ///< at the estimate, in standard deviations

@@ -47,7 +47,7 @@ struct SnapshotView {
   ParticleView particles = {};
   BranchView branches = {};
   WallForceView walls = {};
-  /// Space that repeats: every image counts, wherever particles and points lie.
+  /// Periodic space: every image counts, wherever particles and points are.
   geometry::Periodicity space = {};
 };
 

@@ -1,4 +1,4 @@
-// Periodic images, so that fields near the border of a periodic cell see what lies across it.
+// Periodic images, so that fields near the border of a periodic cell include particles across it.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ namespace dovetail::cg {
 enum class KernelCorrection {
   none,      ///< P_i = Σ_q w_q W ψ_i / Σ_q w_q W: non-negative, conserves force
   linear,    ///< W times (1 + β·(X_q − X_c)), so that Σ P_i X_i = X_c: conserves moments too; weights change sign
-  symmetric  ///< g(x) W g(x'), so that even tractions stay even (see symmetric_kernel.hpp); for whole surfaces only
+  symmetric  ///< g(x) W g(x'): uniform tractions stay uniform (see symmetric_kernel.hpp); for whole surfaces only
 };
 
 struct SurfaceKernel {
@@ -59,8 +59,8 @@ void localRow(const Projection& localMap, const std::array<int, 3>& vertex, cons
               std::vector<int>& column, std::vector<double>& weight);
 
 /// The same rows, bit for bit, for many centres on one surface: keeps a sorted list of the facets of each patch and
-/// its scratch arrays, so that a row costs what its support holds and not what the whole surface holds.
-/// The spans and the map given must outlive it. One object per thread.
+/// its scratch arrays, so that the cost of a row grows with its support and not with the whole surface. The spans and
+/// the map given must outlive it. One object per thread.
 class SurfaceKernelRows {
 public:
   SurfaceKernelRows(const SurfaceKernel& kernel, std::span<const Vec3> vertices,

@@ -1,4 +1,4 @@
-// The paper's way to spread a load: the kernel seen only by the quadrature points that the solid has on its surface.
+// The load of Cheng et al. 2023: the kernel is evaluated only at the quadrature points on the surface of the solid.
 #pragma once
 
 #include <array>

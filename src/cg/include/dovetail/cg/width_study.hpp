@@ -1,4 +1,4 @@
-// How much density and velocity depend on the kernel's width: what chooses it.
+// Dependence of density and velocity on the kernel's width, to choose it by.
 #pragma once
 
 #include <span>
@@ -21,8 +21,8 @@ struct WidthRange {
 struct WidthStudy {
   MeasureCurve curve;           ///< over the width, m: √(density² + velocity²)
   std::vector<double> density;  ///< ‖∂ρ/∂ln w‖/‖ρ‖, ‖·‖ being the root mean square over the points
-  /// ‖∂v/∂ln w‖, of points that see particles, over the root mean square of the particles' velocities about their mean,
-  /// both weighted by mass; 0 where they all move alike.
+  /// ‖∂v/∂ln w‖, of points with particles within the kernel, over the root mean square of the particles' velocities
+  /// about their mean, both weighted by mass; 0 where they all move alike.
   std::vector<double> velocity;
 };
 

@@ -19,7 +19,7 @@ namespace detail {
 struct AxisCells;  // cells along one axis, in one part or, around a periodic border, in two
 }
 
-/// The axes along which space repeats with the period upper − lower of the box; the other axes of the box are ignored.
+/// The periodic axes, with the period upper − lower of the box; the other axes of the box are ignored.
 struct Periodicity {
   Box box;
   std::array<bool, 3> axes{false, false, false};

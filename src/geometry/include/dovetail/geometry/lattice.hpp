@@ -1,4 +1,4 @@
-// Space that repeats along period vectors, which may stand at any angle and change in time.
+// Periodic space with period vectors at any angle, which may change in time.
 #pragma once
 
 #include <array>

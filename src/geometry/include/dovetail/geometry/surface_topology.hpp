@@ -12,7 +12,7 @@ namespace dovetail::geometry {
 /// Vertex numbers, counter-clockwise seen from the side the normal points to.
 using Facet = std::array<int, 3>;
 
-/// Who touches whom. Edge k of a facet runs from its vertex k to its vertex (k + 1) mod 3.
+/// Adjacency of facets. Edge k of a facet runs from its vertex k to its vertex (k + 1) mod 3.
 struct SurfaceTopology {
   /// [facet][edge]: the facet across the edge, −1 at a boundary and where more than two facets share the edge
   std::vector<std::array<int, 3>> neighbours;

@@ -16,7 +16,7 @@ struct TriangleMesh {
 
 /// Makes one vertex of those that lie within `tolerance` of each other: in ascending order, each vertex goes to the
 /// first one kept that is not farther than `tolerance`; that one does not move. Facets keep their number, order and
-/// sense, and may name a vertex twice afterwards. Vertices that nobody names are kept.
+/// sense, and may name a vertex twice afterwards. Unused vertices are kept.
 /// @param tolerance m, ≥ 0; 0 = equal coordinates only
 /// @return how many vertices went
 /// @throws InputError if the tolerance is not finite and ≥ 0, a vertex is not finite, or a facet names a missing vertex

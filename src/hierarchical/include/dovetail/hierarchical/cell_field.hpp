@@ -12,10 +12,10 @@
 
 namespace dovetail::hierarchical {
 
-/// ∂P/∂F that cells hand to Newton's method (rve/operators.hpp).
+/// ∂P/∂F of cells for Newton's method (rve/operators.hpp).
 enum class Operator {
   elasticTangent,     ///< converges fast while little slips; a factorisation of each cell, about an answer's price
-  frictionalTangent,  ///< the same where loading goes on as before
+  frictionalTangent,  ///< the same for continued loading
   voigtTangent,       ///< stiffer, without solving: more iterations, each cheaper
   elasticProbe,       ///< a check of `elasticTangent`, many times its price
   numericalTangent,   ///< of the answers themselves: five more paths of discs, ten of spheres
@@ -54,12 +54,12 @@ std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const 
 /// rest, or no grains touch there
 void relax(rve::Rve& cell, const Eigen::Matrix3d& F, const QuasiStaticCells& settings);
 
-/// From the present deformation to F, in as many steps as strainPerStep asks for, at least one.
+/// From the present deformation to F, in as many steps as strainPerStep requires, at least one.
 /// @throws InputError for F with det F ≤ 0 or, for discs, out of the plane, or if a setting is not valid;
 ///   NumericalError as rve::step, or if a million steps are not enough
 void stepTo(rve::Rve& cell, const Eigen::Matrix3d& F, const DynamicCells& settings);
 
-/// Why a cell is too small to stand for its material, empty if it is not: fewer than 100 grains, or thinner than 6 mean
+/// Why a cell is too small to be representative, empty if it is not: fewer than 100 grains, or thinner than 6 mean
 /// diameters. Names of fields of such cells say so.
 std::string whySmall(const rve::Rve& cell);
 

@@ -23,11 +23,11 @@ private:
 
 /// The number of the signal that asks this program to end, 0 if there is none. A run that finds one finishes its step,
 /// writes everything and says so; its program then ends with the exit code 128 + number, as shells have it. Costs a
-/// load from memory, so it may be asked at every step.
+/// load from memory, so it may be called at every step.
 int interruption();
 
 /// Lets SIGALRM come after so many seconds of wall-clock time, once: within a guard, a limit to what a run may take.
-/// Takes the place of an earlier limit and of any other timer of alarm(2). A process that forks does not hand it on.
+/// Takes the place of an earlier limit and of any other timer of alarm(2). Child processes do not inherit it.
 /// @param seconds  from 1e-6 to 1e8
 /// @throws InputError for others
 void interruptAfter(double seconds);

@@ -2,10 +2,9 @@
 //
 // The rule. A file is ours if it is a regular file that begins with the mark "dovetail <version>" as one of our writers
 // puts it: behind the sign of a comment, or as the first entry of a JSON object. (HDF5 has it in an attribute.) Our
-// name elsewhere in a file makes it nobody's. A file of ours with the same name and of the same kind, from an earlier
-// run, is replaced in one rename when the new one is complete. Everything else in a folder is left as it is: no
-// function here deletes or overwrites a file without the mark, and none follows a symbolic link to replace what it
-// points to.
+// name elsewhere in a file does not count. A file of ours with the same name and of the same kind, from an earlier run,
+// is replaced in one rename when the new one is complete. Everything else in a folder is left as it is: no function
+// here deletes or overwrites a file without the mark, and none follows a symbolic link to replace what it points to.
 //
 // A program that is killed while it writes leaves a file "<name>.part-<process>-<number>"; the next run that prepares
 // the folder removes it.
@@ -51,7 +50,7 @@ bool isOurs(const std::filesystem::path& path);
 /// @throws InputError if something that is not ours is at `path`
 void requireFreeOrOurs(const std::filesystem::path& path);
 
-/// Removes a file of an earlier run of ours, so that it does not stand beside the results of a new one.
+/// Removes a file of an earlier run of ours, so that it is not left beside the results of a new one.
 /// @throws InputError if something that is not ours is at `path`; Error if it cannot be removed
 void removeOurs(const std::filesystem::path& path);
 

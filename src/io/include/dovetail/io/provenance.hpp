@@ -20,7 +20,7 @@ struct BuildInfo {
 };
 const BuildInfo& buildInfo();
 
-/// Model name of the processor this runs on; the architecture where the system does not tell.
+/// Model name of the processor this runs on; the architecture where the system does not give it.
 std::string processorName();
 
 /// Entries "version" ("dovetail 0.1.0"), "commit", "compiler", "flags", "build type", "processor", "threads" (those

@@ -62,7 +62,7 @@ private:
   std::size_t rows_ = 0;
 };
 
-/// Reads what writeCsv wrote, or any table of the same form. '#' lines are passed over; the last of them may have the
+/// Reads what writeCsv wrote, or any table of the same form. '#' lines are ignored; the last of them may have the
 /// names, if numbers follow. A byte-order mark of UTF-8 and lines that end with CR are taken.
 /// @throws InputError, naming the line, if the file cannot be read, a row has another count, or a field is no number
 TimeSeries readCsv(const std::filesystem::path& path);

@@ -25,7 +25,7 @@ using geometry::TriangleMesh;
 /// to the other side are only noted.
 /// @param tolerance of the welding, in the file's unit; 0 joins equal coordinates only, which suffices for files
 ///   whose writer rounded every vertex the same way everywhere
-/// @param notes  takes sentences on what of the file was passed over, if not null
+/// @param notes  gets sentences on ignored parts of the file, if not null
 TriangleMesh readStl(const std::filesystem::path& path, double tolerance = 0.0,
                      std::vector<std::string>* notes = nullptr);
 

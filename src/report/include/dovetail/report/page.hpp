@@ -26,7 +26,7 @@ struct Map {
   enum class Outcome { none, survived, refused, failed };
   struct Cell {
     Outcome outcome = Outcome::none;
-    std::string value;   ///< short: stands in the cell
+    std::string value;   ///< short: text of the cell
     std::string detail;  ///< opened by the cell: what happened, and the command that repeats it
   };
   std::string title, x, y;                 ///< what the columns and the rows are

@@ -1,4 +1,4 @@
-// What the folder of a run tells about it.
+// Contents of the folder of a run.
 #pragma once
 
 #include <filesystem>

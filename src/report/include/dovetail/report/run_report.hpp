@@ -9,12 +9,12 @@
 namespace dovetail::report {
 
 /// Figures of energies, residual, momenta, forces and time per stage; tables of the energy balance, of errors where the
-/// run has a reference, of residuals, times, the critical step and who sets it; warnings, provenance, the scene.
+/// run has a reference, of residuals, times, the critical step and what sets it; warnings, provenance, the scene.
 Page pageOf(const RunRecord& record);
 
 /// Writes report.html, which needs no other file, and report.md with a file report_<name>.svg per figure into the
 /// folder of the run.
-/// @return the HTML file. @throws InputError as readRunFolder, or if a name is taken by somebody else's file
+/// @return the HTML file. @throws InputError as readRunFolder, or if a name is taken by a file that is not from a run
 std::filesystem::path writeRunReport(const std::filesystem::path& folder);
 
 }  // namespace dovetail::report

@@ -20,7 +20,7 @@ struct StudyCase {
 };
 
 struct Study {
-  std::string program;  ///< stands before what is said of an interruption
+  std::string program;  ///< prefix of messages on interruptions
 
   /// Marks what no other finished run beats in both the magnitude of a figure and the run time.
   struct Front {

@@ -1,16 +1,16 @@
 // Meshes of solids from files and into files: Gmsh MSH and Abaqus INP (which CalculiX reads).
 //
-// Rules of all readers. Coordinates are taken as they are; what they mean in metres is the caller's business. Nodes are
-// put into the order of fem::ElementShape. Volume elements make the mesh; surface elements are taken as names for faces
-// of volume elements, lines and points as names for nodes. Of a file without volume elements the quadrilaterals of four
-// and eight nodes make a mesh of plane strain, 1 m thick, if they lie in a plane z = const, counter-clockwise seen from
-// +z; its lines are names for faces then. Other surface elements are refused there. Nodes that no cell uses are
-// dropped, from the sets too. Elements with the nodes of an earlier one are dropped, and their sets go to the earlier
-// one. Nodes at equal positions stay apart (fem::joinMeshes welds). What was dropped or passed over stands in `notes`.
-// Sets of one name that come from different things of a file are never merged: one keeps the name, the others, if they
-// hold something else, are called by what they are of, "top (curves)", and a note says so. Of meshes and element sets
-// of several shapes each shape has a set of its own too, "tet4" or "steel tet4", for fem::makeSolid. Byte-order marks
-// of UTF-8 are passed over, texts in UTF-16 refused.
+// Rules of all readers. Coordinates are taken as they are; the caller converts them to metres. Nodes are put into the
+// order of fem::ElementShape. Volume elements make the mesh; surface elements are taken as names for faces of volume
+// elements, lines and points as names for nodes. Of a file without volume elements the quadrilaterals of four and eight
+// nodes make a mesh of plane strain, 1 m thick, if they lie in a plane z = const, counter-clockwise seen from +z; its
+// lines are names for faces then. Other surface elements are refused there. Nodes that no cell uses are dropped, from
+// the sets too. Elements with the nodes of an earlier one are dropped, and their sets go to the earlier one. Nodes at
+// equal positions stay apart (fem::joinMeshes welds). Dropped or ignored parts are listed in `notes`. Sets of one name
+// that come from different things of a file are never merged: one keeps the name, the others, if they hold something
+// else, are called by what they are of, "top (curves)", and a note says so. Of meshes and element sets of several
+// shapes each shape has a set of its own too, "tet4" or "steel tet4", for fem::makeSolid. Byte-order marks of UTF-8 are
+// passed over, texts in UTF-16 refused.
 //
 // Every reader throws InputError, naming the file and the line (or byte, in binary parts), for files that cannot be
 // read, break off, or hold other element types, numbers that occur twice, nodes or elements that do not exist, faces

@@ -1,4 +1,4 @@
-// Frames back from their files, to compare them and to tell what they hold.
+// Reads frames from their files, to compare them and to list their contents.
 #pragma once
 
 #include <filesystem>
