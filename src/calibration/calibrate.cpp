@@ -207,7 +207,7 @@ CalibrationResult calibrate(const Calibration& file, const CalibrationOptions& s
   }
   laboratory.save();
   result.interrupted = io::interruption() != 0;
-  if (result.interrupted) result.whyStopped = io::nameOfInterruption() + ": the same command goes on from here";
+  if (result.interrupted) result.whyStopped = io::nameOfInterruption() + ": the same command continues from here";
   result.simulated = laboratory.simulated;
   result.recalled = laboratory.recalled;
   result.simulatorSeconds = laboratory.seconds;

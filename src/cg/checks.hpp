@@ -21,14 +21,14 @@ inline void requireFiniteItems(std::span<const Vec3> values, const char* item, c
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!isFinite(values[i]))
       throw InputError("the " + std::string(field) + " is not finite", item + (" " + std::to_string(i)),
-                       "remove it or mend its state");
+                       "remove it or correct its state");
 }
 
 inline void requireNotNegative(std::span<const double> values, const char* item, const char* field) {
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!(values[i] >= 0.0 && std::isfinite(values[i])))
       throw InputError("the " + std::string(field) + " is not a number of at least 0", item + (" " + std::to_string(i)),
-                       "remove it or mend its state");
+                       "remove it or correct its state");
 }
 
 }  // namespace dovetail::cg

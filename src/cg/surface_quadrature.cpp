@@ -21,7 +21,7 @@ void requireMatching(const SurfacePoints& points) {
   requireValid(points.shape);
   for (std::size_t q = 0; q < n; ++q) {
     if (!isFinite(points.X[q]))
-      throw InputError("the position is not finite", "quadrature point " + std::to_string(q), "mend the mesh");
+      throw InputError("the position is not finite", "quadrature point " + std::to_string(q), "repair the mesh");
     requirePositive(points.weight[q], "weight of quadrature point " + std::to_string(q));
   }
 }

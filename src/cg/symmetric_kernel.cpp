@@ -42,7 +42,7 @@ Vertices gatherVertices(std::span<const Vec3> X, std::span<const Facet> facets, 
   for (std::size_t v = 0; v < X.size(); ++v)
     if (!(vertices.area[v] > 0.0))
       throw InputError("the vertex has no area around it", "symmetric kernel, vertex " + std::to_string(v),
-                       "leave it out, or mend its facets");
+                       "leave it out, or repair its facets");
   return vertices;
 }
 

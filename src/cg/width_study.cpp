@@ -52,7 +52,8 @@ Change changeOf(const Fields& a, const Fields& b, double spread) {
     velocity += mean * squaredNorm(b.velocity[p] - a.velocity[p]);
   }
   if (!(density > 0.0))
-    throw InputError("no point sees a particle", "points", "lay them among the particles, or take larger widths");
+    throw InputError("no point is within reach of a particle", "points",
+                     "place them among the particles, or take larger widths");
   return {std::sqrt(change / density), spread > 0.0 && weight > 0.0 ? std::sqrt(velocity / weight) / spread : 0.0};
 }
 

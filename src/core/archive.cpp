@@ -54,7 +54,7 @@ bool ByteReader::extractTruth() {
   unsigned char byte = 0;
   extract(&byte, 1);
   if (byte > 1)
-    throw InputError("a byte that stands for yes or no is " + std::to_string(byte), "checkpoint",
+    throw InputError("a byte of a boolean is " + std::to_string(byte), "checkpoint",
                      "write it anew with this version of the program");
   return byte == 1;
 }
@@ -82,7 +82,7 @@ std::vector<char> readChecked(const std::filesystem::path& path, const std::stri
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(path, error);
   if (error || size != sizeof header + header.length)
-    throw InputError("the checkpoint is cut off or has something behind it", path.string(), "take an older one");
+    throw InputError("the checkpoint is cut off or has extra data", path.string(), "take an older one");
   std::vector<char> bytes(static_cast<std::size_t>(header.length));
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!in || checksum(bytes) != header.checksum)

@@ -132,7 +132,7 @@ void requireFreeOrOurs(const fs::path& path, IsOurs isOurs) {
   const fs::file_status status = fs::symlink_status(path, error);
   if (status.type() == fs::file_type::not_found || isOurs(path)) return;
   if (status.type() == fs::file_type::none) refuse(path, error.message());
-  throw InputError("something that is not from an earlier run is there already", path.string(),
+  throw InputError("there is a file of this name that is not from an earlier run", path.string(),
                    "move it, or give another name or folder");
 }
 
@@ -149,7 +149,7 @@ void replaceFile(const fs::path& path, std::initializer_list<std::string_view> p
   std::error_code unknown;
   if (const fs::file_status status = fs::symlink_status(path, unknown);
       fs::exists(status) && !fs::is_regular_file(status))
-    throw InputError("what is there is no regular file", path.string(), "give another name");
+    throw InputError("there is something other than a regular file of this name", path.string(), "give another name");
   fs::path temporary;
   const Descriptor file(openTemporary(path, temporary));
   ::flock(file.number, LOCK_EX | LOCK_NB);  // until it is renamed: see removeLeftovers
@@ -159,7 +159,7 @@ void replaceFile(const fs::path& path, std::initializer_list<std::string_view> p
   }
   std::error_code error;
   if (fs::symlink_status(path, error).type() != fs::file_type::not_found && !isOurs(path))
-    throw InputError("something that is not from an earlier run is there already", path.string(),
+    throw InputError("there is a file of this name that is not from an earlier run", path.string(),
                      "the new file is " + temporary.string() + "; move one of them");
   if (::rename(temporary.c_str(), path.c_str()) != 0)
     throw Error("a file cannot be renamed (" + reason(errno) + ")", path.string(),

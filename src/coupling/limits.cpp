@@ -80,7 +80,7 @@ fem::LinearForecast CoupledRun::forecast(std::size_t k) {
 
 /// Nodes share their mass among all that pulls at them: contacts of every connector, and the solid's own forces.
 StepLimit CoupledRun::Impl::limitNow(dem::ContactDemand& demand, bool looksAtElements) {
-  StepLimit limit{std::numeric_limits<double>::infinity(), "nobody"};
+  StepLimit limit{std::numeric_limits<double>::infinity(), "nothing"};
   demand.macroStep = K();
   elements.resize(solids.size());
   for (std::size_t s = 0; s < solids.size(); ++s) {

@@ -126,7 +126,7 @@ public:
   }
   void requireEnd() {
     if (binary_ ? at_ != bytes_.size() : !text_.word().empty())
-      refuse("the file goes on after its last element", "give a PLY file whose header counts all that follows");
+      refuse("the file continues after its last element", "give a PLY file whose header counts all that follows");
   }
   [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const {
     if (binary_) mesh_io::refuse(path_, "byte " + std::to_string(at_), problem, remedy);

@@ -68,7 +68,7 @@ bool ascends(const std::vector<int>& numbers) {
 }
 
 [[noreturn]] void refuseOther(const char* asked, const char* is) {
-  throw InputError(std::string("it is on ") + is, "surface coupling", std::string("ask for ") + asked);
+  throw InputError(std::string("it is on ") + is, "surface coupling", std::string("call ") + asked);
 }
 
 }  // namespace

@@ -108,8 +108,8 @@ TEST(BrokenFiles, TheErrorSaysWhatIsWrongAndWhere) {
   expectSays("a.ply", replaced(asciiPly(), "element face 6", "element face 2000000000"), "", "too short");
   expectSays("a.ply", replaced(asciiPly(), "ascii", "binary_big_endian"), ", line 2", "binary_big_endian");
   expectSays("a.ply", binaryPly() + "x", ", byte " + std::to_string(binaryPly().size()),
-             "goes on after its last element");
-  expectSays("a.ply", asciiPly() + "1 2 3\n", ", line 30", "goes on after its last element");
+             "continues after its last element");
+  expectSays("a.ply", asciiPly() + "1 2 3\n", ", line 30", "continues after its last element");
   expectSays("a.ply", "", "", "the file is empty");
   EXPECT_NE(messageOf<InputError>([&] { readStl(folder / "not_there.stl"); }).find("not_there.stl"), std::string::npos);
   EXPECT_NE(messageOf<InputError>([&] { readObj(folder.path()); }), "");

@@ -40,7 +40,7 @@ void check(const Model& m) {
       if (m.particles.material[i] >= m.laws->materials())
         throw InputError("there is no law for material " + std::to_string(m.particles.material[i]),
                          "particle " + std::to_string(m.particles.id[i]) + ", material",
-                         "make the table of laws as large as the materials ask for");
+                         "make the table of laws as large as the materials require");
   if (m.sortEvery < 0)
     throw InputError("sortEvery is " + std::to_string(m.sortEvery), "Model::sortEvery", "give 0 (never) or more");
   for (const auto& term : m.terms) term->check(m);

@@ -20,7 +20,7 @@ void requireCommon(const std::optional<double>& skin, int material, int material
   if (skin) requireNonNegative(*skin, "skin of " + what);
   if (material < 0 || material >= materials)
     throw InputError("there is no law for material " + std::to_string(material), what,
-                     "make the table as large as Particles::material and the walls' materials ask for");
+                     "make the table as large as Particles::material and the walls' materials require");
 }
 
 /// Of the surface velocity that a shape can have and stay the same.

@@ -66,7 +66,7 @@ double largestEigenvalue(const StiffnessAndMass& pair, double accuracy) {
   solver.compute(Spectra::SortRule::LargestAlge, mostRestarts, accuracy);
   if (solver.info() != Spectra::CompInfo::Successful)
     throw NumericalError("the Lanczos iteration did not converge", "largest frequency of a solid",
-                         "ask for less accuracy");
+                         "request less accuracy");
   return solver.eigenvalues()[0] * (1.0 + accuracy);
 }
 

@@ -66,7 +66,7 @@ void add(const Target& to, const RandomPacking& packing) {
                                                 report);
   if (!report.reached)
     throw InputError("the packing jams at the solid fraction " + formatNumber(report.solidFraction), "",
-                     "ask for a solid_fraction below that");
+                     "give a solid_fraction below that");
   to.notes.push_back("Random packing of " + std::to_string(spheres.centre.size()) + " spheres: solid fraction " +
                      formatNumber(report.solidFraction) + ", largest overlap " + formatNumber(report.largestOverlap) +
                      " radii.");

@@ -64,7 +64,7 @@ private:
 
   Node included(const Node& item, const fs::path& folder) {
     if (item.kind != Node::Kind::text || item.text.empty())
-      refuse(item, nameOf(item) + " where the name of a file is wanted", "write a text in quotes");
+      refuse(item, nameOf(item) + " where the name of a file is expected", "write a text in quotes");
     const fs::path file = (folder / item.text).lexically_normal();
     std::error_code error;
     const fs::path same = fs::weakly_canonical(file, error);
@@ -79,7 +79,7 @@ private:
     if (!seen_.insert(same).second) return objectWithout();
     Node scene = parseJson(textOfScene(file, placeName(name_, item.place) + ", include"), file.string());
     if (scene.kind != Node::Kind::object)
-      refuse(item, file.string() + " holds " + nameOf(scene) + " where an object is wanted", "write { … } there");
+      refuse(item, file.string() + " holds " + nameOf(scene) + " where an object is expected", "write { … } there");
     const auto own = std::make_shared<const fs::path>(file);
     forEachPlace(scene, [&](Place& place) { place.file = own; });
     chain_.push_back(same);

@@ -23,7 +23,7 @@ class Reader final : public Fields, Values {
 public:
   Reader(Document& document, const Node& node, std::string path)
       : Values(document, std::move(path)), document_(document), node_(node) {
-    if (node.kind != Node::Kind::object) refuse(node, nameOf(node) + " where an object is wanted", "write { … }");
+    if (node.kind != Node::Kind::object) refuse(node, nameOf(node) + " where an object is expected", "write { … }");
   }
 
   /// @throws InputError for keys that nobody asked for, or that were asked for and are not there

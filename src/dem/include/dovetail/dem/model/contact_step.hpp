@@ -112,7 +112,7 @@ const typename Law::Prepared& lawOf(const PreparedLaws<Law>& laws, int a, int b)
   const int larger = std::max(a, b);
   if (larger >= laws.materials)
     throw InputError("there is no law for material " + std::to_string(larger), "contact laws",
-                     "make the table as large as Particles::material and the walls' materials ask for");
+                     "make the table as large as Particles::material and the walls' materials require");
   return laws.table[static_cast<std::size_t>(a * laws.materials + b)];
 }
 
