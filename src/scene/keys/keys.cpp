@@ -17,7 +17,7 @@ void Fields::axes(Key key, std::array<bool, 3>& value, bool needed) {
 void describe(Fields& f, Periodic& v) {
   f.where(v.where);
   f.box({"box", "its edge lengths are the periods"}, v.box);
-  f.axes({"axes", "that are periodic"}, v.axes, true);
+  f.axes({"axes", "periodic axes"}, v.axes, true);
 }
 void describe(Fields& f, Domain& v) {
   static constexpr const char* policies[] = {"refuse", "remove"};
@@ -48,8 +48,8 @@ void describe(Fields& f, Steps& v) {
            between(0.0, 1.0, true));
   f.integer({"per_macro_step", "K: steps of the grains per step of the solids"}, v.stepsPerMacroStep, 1, 100000);
   f.choice({"lag",
-            "of the coupling to solids: none; or, to compare with staggered schemes, loads of the last step, or loads "
-            "and surface of the last step. The ledger has the staggering error"},
+            "of the coupling to solids: none; or, to compare with staggered schemes, loads of the previous step, or "
+            "loads and surface of the previous step. The ledger has the staggering error"},
            v.lag, lags);
   f.integer({"threads", "0: one per processor; results are the same for any number"}, v.threads, 0, 1024);
 }

@@ -191,8 +191,10 @@ void describe(Fields& f, BondGroup& v) {
   young(f, v.youngsModulus);
   poisson(f, v.poissonRatio);
   f.number({"radius_ratio", "radius of the bond over that of the smaller grain"}, v.radiusRatio, positive(unit::none));
-  f.number({"tensile_strength", "it breaks beyond; never if not given"}, v.tensileStrength, positive(unit::pressure));
-  f.number({"shear_strength", "it breaks beyond; never if not given"}, v.shearStrength, positive(unit::pressure));
+  f.number({"tensile_strength", "the bond breaks beyond it; never if not given"}, v.tensileStrength,
+           positive(unit::pressure));
+  f.number({"shear_strength", "the bond breaks beyond it; never if not given"}, v.shearStrength,
+           positive(unit::pressure));
   f.number({"moment_contribution", "fraction of the bond's moments that counts in its stresses"}, v.momentContribution,
            between(0.0, 1.0));
   f.number({"damping_time", "damping coefficient over stiffness"}, v.dampingTime, notNegative(unit::time));

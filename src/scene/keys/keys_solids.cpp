@@ -72,7 +72,7 @@ void describe(Fields& f, PlaceInSphere& v) {
   f.vector({"centre", "of the sphere"}, v.centre, unit::length);
   f.number({"radius", "of the sphere"}, v.radius, positive(unit::length));
 }
-void describe(Fields& f, PlaceAtSide& v) { f.word({"side", "where a coordinate is least or largest"}, v.side, sides); }
+void describe(Fields& f, PlaceAtSide& v) { f.word({"side", "at the least or largest coordinate"}, v.side, sides); }
 void describe(Fields& f, NamedSet& v) {
   static constexpr const char* places[] = {"side", "box", "plane", "sphere"};
   f.where(v.where);
