@@ -115,7 +115,7 @@ void addWave(const std::vector<Result>& results, Chapter& chapter) {
   chapter.sections.push_back(
       {"Error against run time: a pulse goes from particles into a solid",
        {report::Paragraph{"Volume coupling. Particles per element, kernel widths, constraints and steps; error of the "
-                          "wave past the overlap beside particles alone, and energy lost."},
+                          "wave past the overlap against particles alone, and energy lost."},
         figureOf("wave_form", "Off particles alone", "run time (s)", "waveform error",
                  pointsOf(*study, "waveform_error_fem", byConstraint), {}, chapter),
         figureOf("wave_energy", "Energy lost", "run time (s)", "fraction of the input",
@@ -164,7 +164,7 @@ void addFlagship(const std::vector<Result>& results, Chapter& chapter) {
   if (!study) return;
   report::Table table{{"quantity", "value"}, {}};
   for (const auto& [key, value] : study->content["figures"].items()) table.rows.push_back({key, report::textOf(value)});
-  chapter.sections.push_back({"A pile is pushed into a bed: both couplings beside grains alone",
+  chapter.sections.push_back({"A pile is pushed into a bed: both couplings against grains alone",
                               {report::Paragraph{study->command}, std::move(table)}});
 }
 

@@ -160,7 +160,7 @@ std::vector<Placed> cellsOfScenes(const Result& study, std::string& x, std::stri
         {rowName,
          at.value(),
          {outcomeOfScene(row, fraction), std::isfinite(fraction) ? format("%.0e", fraction) : "",
-          detailOf(row, std::isfinite(fraction) ? format("energy left over %.3e of what changed hands", fraction) : "",
+          detailOf(row, std::isfinite(fraction) ? format("residual of %.3e of the exchanged energy", fraction) : "",
                    sceneCommand(study, wordOf(row, "label")))}});
   }
   return placed;
@@ -188,14 +188,13 @@ public:
     if (maps_.empty()) return chapter;
     const auto count = [&](Map::Outcome outcome) { return counts_.contains(outcome) ? counts_.at(outcome) : 0; };
     report::Section section{"Stability", {}};
-    section.blocks.push_back(report::Paragraph{format(
-        "%zu cells: %d survived, %d refused with a reason, %d failed. Press a cell for what happened and the "
-        "command that repeats it. The number is the relative error of the energy; the scenes' runs (grains, surface "
-        "and volume coupling over two values) have survived if it is below %.0f %% of what changed hands, with "
-        "automatic "
-        "steps, which give an impact eight steps at least.",
-        rows_.size(), count(Map::Outcome::survived), count(Map::Outcome::refused), count(Map::Outcome::failed),
-        100.0 * memoryFraction)});
+    section.blocks.push_back(report::Paragraph{
+        format("%zu cells: %d survived, %d refused with a reason, %d failed. Press a cell for details and the command "
+               "that repeats it. The number is the relative error of the energy; the scenes' runs (grains, surface and "
+               "volume coupling over two values) have survived if it is below %.0f %% of the exchanged energy, with "
+               "automatic steps, which give an impact eight steps at least.",
+               rows_.size(), count(Map::Outcome::survived), count(Map::Outcome::refused), count(Map::Outcome::failed),
+               100.0 * memoryFraction)});
     for (const Map& map : maps_) section.blocks.push_back(map);
     chapter.sections.push_back(std::move(section));
     return chapter;

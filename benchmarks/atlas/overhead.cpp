@@ -17,13 +17,13 @@ std::string pairOf(const char* pattern, double factor, const Json& row, const st
 }
 
 void addHandLoop(const Json& hand, report::Section& section) {
-  section.blocks.push_back(report::Paragraph{format(
-      "The barest scene, %.0f frictionless spheres on a lattice: %.2f ns per grain step, where a loop written by hand "
-      "over the same pairs takes %.2f. Ratio, median of turns: %.3f (quartiles %.3f and %.3f); asked: at most 1.05. "
-      "Positions of both differ by %.1e m at the end.",
-      numberOf(hand, "grains"), numberOf(hand, "ns"), numberOf(hand, "hand_ns"), numberOf(hand, "ratio"),
-      numberOf(hand, "ratio_lower_quartile"), numberOf(hand, "ratio_upper_quartile"),
-      numberOf(hand, "largest_difference_m"))});
+  section.blocks.push_back(report::Paragraph{
+      format("The barest scene, %.0f frictionless spheres on a lattice: %.2f ns per grain step, where a loop written "
+             "by hand over the same pairs takes %.2f. Ratio, median of turns: %.3f (quartiles %.3f and %.3f); target: "
+             "at most 1.05. Positions of both differ by %.1e m at the end.",
+             numberOf(hand, "grains"), numberOf(hand, "ns"), numberOf(hand, "hand_ns"), numberOf(hand, "ratio"),
+             numberOf(hand, "ratio_lower_quartile"), numberOf(hand, "ratio_upper_quartile"),
+             numberOf(hand, "largest_difference_m"))});
 }
 
 void addFeatures(const Json& rows, report::Section& section) {
@@ -37,10 +37,9 @@ void addFeatures(const Json& rows, report::Section& section) {
         .rows.push_back({wordOf(row, "feature"), format("%.1f", numberOf(row, "ns")), percent(row, "cost_fraction"),
                          percent(row, "lower_quartile"), percent(row, "upper_quartile"),
                          format("%+.1f", numberOf(row, "bytes_per_grain"))});
-  section.blocks.push_back(
-      report::Paragraph{"Single features over the barest scene, turn by turn, medians and quartiles; asked of what is "
-                        "not used: at most 1 % and no byte. \"nothing\" is the same scene twice, and tells the noise "
-                        "of the machine."});
+  section.blocks.push_back(report::Paragraph{
+      "Single features over the barest scene, in alternation, medians and quartiles; target for unused features: at "
+      "most 1 % and no byte. \"nothing\" is the same scene twice, and shows the noise of the machine."});
   section.blocks.push_back(std::move(idle));
   section.blocks.push_back(std::move(used));
 }

@@ -119,7 +119,7 @@ void printEnsemble(const WaveStudy& study, const Kind& kind) {
   std::cout << format("%s: misfit of the mean of %d packings %.2f %%", kind.name, study.packings, 100.0 * joined);
   if (study.packings > 1) {
     const double halves = misfit(meanOf(all, 0, 0, 2), meanOf(all, 0, 1, 2), depth);
-    std::cout << format(", of the halves of all-grain runs %.2f %%; at most %.2f %% is asked", 100.0 * halves,
+    std::cout << format(", of the halves of all-grain runs %.2f %%; target: at most %.2f %%", 100.0 * halves,
                         std::max(5.0, 150.0 * halves));
   }
   std::cout << '\n';

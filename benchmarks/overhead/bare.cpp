@@ -82,9 +82,8 @@ Json besideBare(const Settings& s) {
 }
 
 bool parse(int argc, char** argv, Settings& s) {
-  program::Options o(
-      "overhead_bare",
-      "What the barest grains cost beside a loop written by hand, and features beside them. One thread.");
+  program::Options o("overhead_bare",
+                     "Cost of the barest grains against a loop written by hand, and of single features. One thread.");
   o.text("--summary FILE", s.summary, "write the figures as JSON");
   o.integer("--edge N", s.edge, 12, 200, "spheres along each edge of the cube");
   o.integer("--turns N", s.turns, 4, 10000, "number of alternations between the compared cases");

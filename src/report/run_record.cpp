@@ -65,7 +65,7 @@ void takeSceneSummary(const Json& json, RunRecord& record) {
   for (std::size_t k = 0; k < 3; ++k)
     addFigure(record, std::string("residual of the momentum, ") + axes[k] + " (Ns)",
               momentum.at("residual").at("linear_Ns").at(k));
-  addFigure(record, "all impulses, beside that residual (Ns)", momentum.at("turned_over_Ns"));
+  addFigure(record, "sum of all impulses (Ns)", momentum.at("turned_over_Ns"));
   addFigure(record, "residual of the mass (kg)", momentum.at("mass_residual_kg"));
   const Json& step = json.at("step");
   addFigure(record, "step (s)", step.at("dt_s"));

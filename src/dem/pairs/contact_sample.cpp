@@ -116,7 +116,7 @@ ContactSample joined(std::vector<ContactSample> parts) {
 
 void requireMemory(const PairList& list, int memory) {
   if (list.memory().size() >= static_cast<std::size_t>(memory) * list.size()) return;
-  throw InputError("the list remembers " + std::to_string(list.memory().size()) + " numbers for " +
+  throw InputError("the list has " + std::to_string(list.memory().size()) + " numbers of memory for " +
                        std::to_string(list.size()) + " pairs",
                    "sample of contacts", "call ContactLaws::pairs of the same law first");
 }

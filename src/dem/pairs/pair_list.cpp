@@ -60,8 +60,8 @@ std::span<double> PairList::prepareMemory(int numbers, unsigned turns) {
 
 void PairList::takeMemory(std::span<const std::size_t> places, const PairList& from) {
   if (places.size() != from.size() || parts_.memory.size() * from.size() != from.memory().size() * size())
-    throw InputError(std::to_string(from.memory().size()) + " numbers that " + std::to_string(from.size()) +
-                         " pairs remember do not fit into " + std::to_string(places.size()) + " places of " +
+    throw InputError(std::to_string(from.memory().size()) + " numbers of memory of " + std::to_string(from.size()) +
+                         " pairs do not fit into " + std::to_string(places.size()) + " places of " +
                          std::to_string(size()) + " pairs with " + std::to_string(parts_.memory.size()) + " numbers",
                      "memory of a pair list", "give one place per pair, and both lists to the same law first");
   const std::size_t components = size() == 0 ? 0 : parts_.memory.size() / size();
@@ -74,7 +74,7 @@ EndedPairs PairList::takeEnded() { return std::exchange(parts_.ended, {}); }
 
 void PairList::putEnded(EndedPairs ended) {
   if (ended.memory.size() * parts_.ended.pairs.size() != parts_.ended.memory.size() * ended.pairs.size())
-    throw InputError("ended pairs remember more or less than those of the list", "putEnded",
+    throw InputError("the memory of ended pairs differs in size from that of the list", "putEnded",
                      "hand back what takeEnded gave, before another law sweeps");
   detail::append({parts_.ended}, ended);
   parts_.ended = std::move(ended);

@@ -30,7 +30,7 @@ std::size_t bestMatch(const WallContacts& contacts, std::size_t c, std::size_t b
 
 }  // namespace
 
-void requireStep(double dt) { requirePositive(dt, "time step of a law that remembers"); }
+void requireStep(double dt) { requirePositive(dt, "time step of a law with memory"); }
 
 EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, int memory) {
   WallSprings& springs = contacts.springs;
