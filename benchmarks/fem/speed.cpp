@@ -20,10 +20,10 @@
 #include "dovetail/fem/laws/viscosity.hpp"
 #include "dovetail/fem/model/model.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
 #include "dovetail/fem/solve/linear_solver.hpp"
 #include "dovetail/fem/solve/statics.hpp"
 #include "dovetail/fem/terms/loads.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
 
 namespace {
 
@@ -80,9 +80,9 @@ ElementTimes timeSolid(Solid& solid, const SolidMesh& mesh, int threadCount) {
   Nodes states[2] = {model.nodes, model.nodes};
   bend(states[0], 1e-3);
   bend(states[1], 1.05e-3);
-  MatrixPattern pattern(mesh.X.size());
+  linalg::MatrixPattern pattern(mesh.X.size());
   solid.addPattern(pattern);
-  BlockMatrix K(std::move(pattern));
+  linalg::BlockMatrix K(std::move(pattern));
   ElementTimes times{};
   for (int run = 0; run < 2; ++run) {
     setThreads(run == 0 ? 1 : threadCount);
@@ -169,12 +169,12 @@ void timeCube(int n) {
   model.constraints.hold(nodeSet(mesh, "z-"));
   model.constraints.hold(nodeSet(mesh, "z+"), componentX | componentY);
   model.constraints.prescribe(nodeSet(mesh, "z+"), 2, [](double t) { return -0.1 * t; });
-  const StaticReport report =
-      solveStatics(model, 1.0,
-                   {.newton = {.relativeTolerance = 1e-6,
-                               .reuseContraction = 0.3,
-                               .linear = {.method = LinearMethod::conjugateGradients, .relativeTolerance = 1e-2}},
-                    .firstStep = 1.0});
+  const StaticReport report = solveStatics(
+      model, 1.0,
+      {.newton = {.relativeTolerance = 1e-6,
+                  .reuseContraction = 0.3,
+                  .linear = {.method = linalg::LinearMethod::conjugateGradients, .relativeTolerance = 1e-2}},
+       .firstStep = 1.0});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::vector<Vec3> f(mesh.X.size());
   solid.addForces(model.nodes, {}, f);
@@ -208,7 +208,7 @@ void countBytes() {
         bytes[count - 1] = each();
       }
       setThreads(1);
-      BlockMatrix K(zeroTangent(model));
+      linalg::BlockMatrix K(zeroTangent(model));
       solid.addTangent(model.nodes, {}, K);
       bytes[2] = each();
       std::printf("%-10s %-16s | %.0f %.0f %.0f\n", distorted ? "distorted" : "boxes", name(formulation), bytes[0],
@@ -291,18 +291,18 @@ void timeSolvers() {
     Solid& solid = model.add(makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.3, 1000.0))));
     model.constraints.hold(nodeSet(mesh, "z-"));
     const DofMap dofs(model.constraints, model.nodes);
-    MatrixPattern pattern(mesh.X.size());
+    linalg::MatrixPattern pattern(mesh.X.size());
     solid.addPattern(pattern);
-    BlockMatrix K(std::move(pattern));
+    linalg::BlockMatrix K(std::move(pattern));
     solid.addTangent(model.nodes, {}, K);
     std::vector<Vec3> load(mesh.X.size());
     for (const int node : nodeSet(mesh, "z+")) load[static_cast<std::size_t>(node)] = {1.0, 0.0, -2.0};
     std::vector<double> r(dofs.size()), x(dofs.size());
     dofs.reduce(load, r);
     double seconds[4];
-    for (const LinearMethod method : {LinearMethod::direct, LinearMethod::conjugateGradients}) {
+    for (const linalg::LinearMethod method : {linalg::LinearMethod::direct, linalg::LinearMethod::conjugateGradients}) {
       LinearSolver solver(dofs, {.method = method});
-      double* const times = seconds + (method == LinearMethod::direct ? 0 : 2);
+      double* const times = seconds + (method == linalg::LinearMethod::direct ? 0 : 2);
       const auto start = std::chrono::steady_clock::now();
       if (!solver.factor(K, true)) std::printf("the matrix is singular\n");
       const auto middle = std::chrono::steady_clock::now();
@@ -351,7 +351,7 @@ int main(int argc, char** argv) {
   if (cube > 0) timeCube(cube);
   setThreads(1);
   if (beams || all) {
-    std::printf("one thread, %s\n", SparseCholesky::name());
+    std::printf("one thread, %s\n", linalg::SparseCholesky::name());
     timeBeams();
   }
   if (memory || all) countBytes();

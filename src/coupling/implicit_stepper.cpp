@@ -63,7 +63,7 @@ public:
     kick(load, 0.5 * macroStep());
   }
 
-  fem::LinearForecast forecast() override { return solid_->forecast(); }
+  linalg::LinearForecast forecast() override { return solid_->forecast(); }
 
   /// Newmark's average acceleration lets modes far above the step ring for ever, hardly moving at the ends of steps: no
   /// stop takes anything from them. With γ = 3/2, β = 1 they are gone after two steps.

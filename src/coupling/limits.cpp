@@ -73,7 +73,7 @@ StepLimit CoupledRun::criticalStep() {
   return impl_->criticalStep();
 }
 
-fem::LinearForecast CoupledRun::forecast(std::size_t k) {
+linalg::LinearForecast CoupledRun::forecast(std::size_t k) {
   impl_->requireStarted("forecast");
   return impl_->solids.at(k)->forecast();
 }

@@ -55,7 +55,7 @@ public:
   virtual void stepUnder(const NodalLoad& load) = 0;
 
   /// What the linear systems of its steps are going to take; nothing if there are none.
-  virtual fem::LinearForecast forecast() { return {}; }
+  virtual linalg::LinearForecast forecast() { return {}; }
 
   /// Whether what rings at periods of few steps is to die out; relax() asks for it.
   virtual void damp(bool) {}

@@ -17,7 +17,7 @@ public:
   void addMass(std::span<double> mass) const override {
     for (double& m : mass) m += mass_;
   }
-  void addConsistentMass(NodeMatrix& M) const override {
+  void addConsistentMass(linalg::NodeMatrix& M) const override {
     for (int n = 0; n < static_cast<int>(M.nodes()); ++n) M.add(std::array{n}, std::array{mass_});
   }
 

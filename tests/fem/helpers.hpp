@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "dovetail/core/parallel.hpp"
+#include "../threads.hpp"
 #include "dovetail/fem/model/model.hpp"
 
 namespace dovetail::fem {
@@ -68,21 +68,6 @@ inline Eigen::VectorXd flat(const std::vector<Vec3>& field) {
   for (std::size_t n = 0; n < field.size(); ++n)
     for (int c = 0; c < 3; ++c) result[static_cast<Eigen::Index>(3 * n) + c] = field[n][c];
   return result;
-}
-
-/// compute() on that many threads, whatever the machine has.
-template <class Compute>
-auto onThreads(int count, Compute&& compute) {
-  struct Restore {
-    int threads = dovetail::threads(), processors = dovetail::detail::processors();
-    ~Restore() {
-      dovetail::detail::pretendProcessors(processors);
-      setThreads(threads);
-    }
-  } restore;
-  dovetail::detail::pretendProcessors(count);
-  setThreads(count);
-  return compute();
 }
 
 }  // namespace dovetail::fem

@@ -7,7 +7,7 @@
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/model/model.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
 #include "helpers.hpp"
 
 namespace dovetail::fem {
@@ -120,7 +120,7 @@ inline std::vector<Vec3> forcesOf(Term& term, const Nodes& nodes) {
   return f;
 }
 
-inline Eigen::MatrixXd dense(const BlockMatrix& A) {
+inline Eigen::MatrixXd dense(const linalg::BlockMatrix& A) {
   const auto size = static_cast<Eigen::Index>(3 * A.nodes());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t n = 0; n < A.nodes(); ++n)
@@ -131,7 +131,7 @@ inline Eigen::MatrixXd dense(const BlockMatrix& A) {
   return result;
 }
 
-inline Eigen::MatrixXd dense(const NodeMatrix& A) {
+inline Eigen::MatrixXd dense(const linalg::NodeMatrix& A) {
   const auto size = static_cast<Eigen::Index>(A.nodes());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t n = 0; n < A.nodes(); ++n)
@@ -142,9 +142,9 @@ inline Eigen::MatrixXd dense(const NodeMatrix& A) {
 
 /// The consistent mass of a term, one number per pair of nodes.
 inline Eigen::MatrixXd massMatrixOf(const Term& term, std::size_t nodes) {
-  MatrixPattern pattern(nodes);
+  linalg::MatrixPattern pattern(nodes);
   term.addPattern(pattern);
-  NodeMatrix M(std::move(pattern));
+  linalg::NodeMatrix M(std::move(pattern));
   term.addConsistentMass(M);
   return dense(M);
 }
@@ -160,10 +160,10 @@ inline Eigen::Matrix3d meanFirstStress(const SolidScene& scene) {
   return P / volumeOf(scene);
 }
 
-inline BlockMatrix tangentOf(Term& term, const Nodes& nodes) {
-  MatrixPattern pattern(nodes.u.size());
+inline linalg::BlockMatrix tangentOf(Term& term, const Nodes& nodes) {
+  linalg::MatrixPattern pattern(nodes.u.size());
   term.addPattern(pattern);
-  BlockMatrix K(std::move(pattern));
+  linalg::BlockMatrix K(std::move(pattern));
   term.addTangent(nodes, {}, K);
   return K;
 }

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "dovetail/fem/model/model.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
 #include "helpers.hpp"
 
 namespace dovetail::fem {
@@ -59,13 +59,13 @@ inline void expectForceFromEnergy(Term& term, Nodes& nodes, const Instant& now, 
   }
 }
 
-inline BlockMatrix matrixFor(const Term& term, const Nodes& nodes) {
-  MatrixPattern pattern(nodes.u.size());
+inline linalg::BlockMatrix matrixFor(const Term& term, const Nodes& nodes) {
+  linalg::MatrixPattern pattern(nodes.u.size());
   term.addPattern(pattern);
-  return BlockMatrix(std::move(pattern));
+  return linalg::BlockMatrix(std::move(pattern));
 }
 
-inline void expectProduct(const BlockMatrix& K, const std::vector<Vec3>& d, const std::vector<Vec3>& slope,
+inline void expectProduct(const linalg::BlockMatrix& K, const std::vector<Vec3>& d, const std::vector<Vec3>& slope,
                           double tolerance) {
   std::vector<Vec3> Kd(d.size());
   K.multiply(d, Kd);
@@ -75,7 +75,7 @@ inline void expectProduct(const BlockMatrix& K, const std::vector<Vec3>& d, cons
 
 /// K d = −∂f/∂u d and C d = −∂f/∂v d for random d, relative to the largest entry.
 inline void expectTangents(Term& term, Nodes& nodes, const Instant& now, double tolerance, double h = 1e-5) {
-  BlockMatrix K = matrixFor(term, nodes), C = matrixFor(term, nodes);
+  linalg::BlockMatrix K = matrixFor(term, nodes), C = matrixFor(term, nodes);
   K.setZero();
   C.setZero();
   term.addTangent(nodes, now, K);

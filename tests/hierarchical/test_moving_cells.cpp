@@ -55,7 +55,7 @@ TEST(DynamicCells, RunsGoOnFromBytesOnAnyNumberOfThreads) {
   before.save(archive);
   ByteReader bytes(archive.bytes());
   after.load(bytes);
-  fem::onThreads(3, [&] {
+  onThreads(3, [&] {
     after.run(35);
     return 0;
   });

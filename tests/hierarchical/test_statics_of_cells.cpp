@@ -36,7 +36,7 @@ TEST(StaticsOfCells, PointsOfAnElementAreStandAloneCellsToTheLastBit) {
 
 TEST(StaticsOfCells, ThreadsDoNotChangeADigit) {
   const auto motion = [](int threads) {
-    return fem::onThreads(threads, [] {
+    return onThreads(threads, [] {
       Biaxial body({2, 2}, cellField(threeCells()));
       fem::solveStatics(body.model, 0.5, roughly());
       return std::pair(body.model.nodes.u, body.sample().P);

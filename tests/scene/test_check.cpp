@@ -139,8 +139,8 @@ TEST(SceneLinearSolvers, IterationsDoWhatFactorsDo) {
   const auto tip = [](const std::string& solver) {
     Built built = started(
         sceneFromText(heavyCube(4, R"("stepping": "implicit", "linear_solver": ")" + solver + "\""), "s.json", SCENES));
-    EXPECT_EQ(built.forecasts.at(0).method,
-              solver == "conjugate-gradients" ? fem::LinearMethod::conjugateGradients : fem::LinearMethod::direct);
+    EXPECT_EQ(built.forecasts.at(0).method, solver == "conjugate-gradients" ? linalg::LinearMethod::conjugateGradients
+                                                                            : linalg::LinearMethod::direct);
     built.run->advance(5);
     return built.run->solid(0).nodes().u.back();
   };

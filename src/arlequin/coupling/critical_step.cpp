@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "dovetail/dem/model/loads.hpp"
-#include "dovetail/fem/motion/largest_eigenvalue.hpp"
 #include "dovetail/fem/motion/motion.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
+#include "dovetail/linalg/largest_eigenvalue.hpp"
 
 namespace dovetail::arlequin {
 
@@ -117,7 +117,7 @@ private:
   Scene scene_;
   dem::Model& grains_;
   Parts parts_;
-  fem::BlockMatrix tangent_;
+  linalg::BlockMatrix tangent_;
   static constexpr double touch = 1e-300;  // m: all pairs of the list count, those apart as if they just touched
   dem::ContactDemand demand_;
   std::vector<bool> held_;
@@ -127,10 +127,10 @@ private:
 double limitOf(const Scene& scene, Parts parts) {
   constexpr double accuracy = 1e-4;
   const Operator A(scene, parts);
-  return 2.0 / std::sqrt(fem::largestEigenvalue({A.size(), A.ofFree([&](const Field& q) { return A.stiffness(q); }),
-                                                 A.ofFree([&](const Field& q) { return A.mass(q); }),
-                                                 A.ofFree([&](const Field& q) { return A.inverseMass(q); })},
-                                                accuracy));
+  return 2.0 / std::sqrt(linalg::largestEigenvalue({A.size(), A.ofFree([&](const Field& q) { return A.stiffness(q); }),
+                                                    A.ofFree([&](const Field& q) { return A.mass(q); }),
+                                                    A.ofFree([&](const Field& q) { return A.inverseMass(q); })},
+                                                   accuracy));
 }
 
 }  // namespace

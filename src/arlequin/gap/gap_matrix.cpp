@@ -7,7 +7,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/solve/nested_dissection.hpp"
+#include "dovetail/linalg/nested_dissection.hpp"
 
 namespace dovetail::arlequin {
 
@@ -92,7 +92,7 @@ Column columnOf(std::span<const WeighedMap> maps, std::span<const MetBlocks> blo
 
 }  // namespace
 
-fem::SparseMatrix gapMatrix(std::span<const WeighedMap> maps) {
+linalg::SparseMatrix gapMatrix(std::span<const WeighedMap> maps) {
   const auto size = static_cast<std::size_t>(maps.front().map.rows());
   std::vector<Column> columns(size);
   std::vector<MetBlocks> blocks;
@@ -101,7 +101,7 @@ fem::SparseMatrix gapMatrix(std::span<const WeighedMap> maps) {
     ColumnSums sums(size);
     for (std::size_t c = begin; c < end; ++c) columns[c] = columnOf(maps, blocks, static_cast<int>(c), sums);
   });
-  fem::SparseMatrix A;
+  linalg::SparseMatrix A;
   A.size = static_cast<int>(size);
   for (const Column& column : columns) A.offsets.push_back(A.offsets.back() + static_cast<int>(column.row.size()));
   A.row.resize(static_cast<std::size_t>(A.offsets.back()));
@@ -115,7 +115,7 @@ fem::SparseMatrix gapMatrix(std::span<const WeighedMap> maps) {
   return A;
 }
 
-GapInverse::GapInverse(fem::SparseMatrix A, std::span<const Vec3> X, GapInverse* before)
+GapInverse::GapInverse(linalg::SparseMatrix A, std::span<const Vec3> X, GapInverse* before)
     : size_(static_cast<std::size_t>(A.size)), scale_(size_, 0.0) {
   if (before) factors_ = std::move(before->factors_);
   for (std::size_t c = 0; c < size_; ++c)
@@ -125,14 +125,14 @@ GapInverse::GapInverse(fem::SparseMatrix A, std::span<const Vec3> X, GapInverse*
       const auto r = static_cast<std::size_t>(A.row[k]);
       A.value[k] = r == c ? 1.0 : A.value[k] * (scale_[c] * scale_[r]);
     }
-  const std::vector<int> order = fem::nestedDissection(A, X);
+  const std::vector<int> order = linalg::nestedDissection(A, X);
   // A vector that does not come back tells that rows depend on each other.
   constexpr double accuracy = 1e-6;
   std::mt19937 random(1);
   std::vector<double> probe(size_);
   for (double& value : probe) value = static_cast<double>(random()) / 4294967296.0 - 0.5;
   if (factors_.factor(A, order)) {
-    std::vector<double> back = fem::multiplySymmetric(A, probe);
+    std::vector<double> back = linalg::multiplySymmetric(A, probe);
     factors_.solve(back, 1);
     double error = 0.0;
     for (std::size_t c = 0; c < size_; ++c) error = std::max(error, std::abs(back[c] - probe[c]));

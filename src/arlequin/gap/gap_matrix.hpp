@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dovetail/arlequin/gap_operator.hpp"
-#include "dovetail/fem/solve/sparse.hpp"
+#include "dovetail/linalg/sparse.hpp"
 
 namespace dovetail::arlequin {
 
@@ -15,7 +15,7 @@ struct WeighedMap {
   const cg::Projection& back;  ///< Pᵀ
   std::span<const double> d;   ///< one per column of P
 };
-fem::SparseMatrix gapMatrix(std::span<const WeighedMap> maps);
+linalg::SparseMatrix gapMatrix(std::span<const WeighedMap> maps);
 
 /// Factors of a symmetric, positive semidefinite matrix, scaled to a unit diagonal.
 class GapInverse {
@@ -23,7 +23,7 @@ public:
   /// @param A       lower triangle
   /// @param X       of the rows' nodes, m
   /// @param before  of another matrix: its analysis goes on where the pattern is the same
-  GapInverse(fem::SparseMatrix A, std::span<const Vec3> X, GapInverse* before = nullptr);
+  GapInverse(linalg::SparseMatrix A, std::span<const Vec3> X, GapInverse* before = nullptr);
   /// b ← A⁻¹ b; where rows depend on each other up to round-off, (A + shift diag A)⁻¹ b.
   /// @param columns  of b, one right-hand side after the other
   void solve(std::span<double> b, int columns) const;
@@ -34,7 +34,7 @@ public:
 private:
   std::size_t size_;
   std::vector<double> scale_;
-  mutable fem::SparseCholesky factors_;  // their work space changes
+  mutable linalg::SparseCholesky factors_;  // their work space changes
 };
 
 }  // namespace dovetail::arlequin

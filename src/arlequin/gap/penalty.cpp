@@ -31,7 +31,7 @@ public:
   void applyStiffness(std::span<const Vec3> gap, std::span<Vec3> lambda) const override { apply(gap, lambda); }
 
 private:
-  static fem::SparseMatrix metricOf(const GapOperator& gap, std::span<const double> volume) {
+  static linalg::SparseMatrix metricOf(const GapOperator& gap, std::span<const double> volume) {
     std::vector<double> inverse;
     for (const double v : volume) inverse.push_back(1.0 / v);
     const WeighedMap map{gap.particles, gap.particlesBack, inverse};

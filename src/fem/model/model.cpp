@@ -3,17 +3,17 @@
 #include <algorithm>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
 
 namespace dovetail::fem {
 
-MatrixPattern patternOf(const Model& model) {
-  MatrixPattern pattern(model.nodes.X.size());
+linalg::MatrixPattern patternOf(const Model& model) {
+  linalg::MatrixPattern pattern(model.nodes.X.size());
   for (const auto& term : model.terms) term->addPattern(pattern);
   return pattern;
 }
 
-BlockMatrix zeroTangent(const Model& model) { return BlockMatrix(patternOf(model)); }
+linalg::BlockMatrix zeroTangent(const Model& model) { return linalg::BlockMatrix(patternOf(model)); }
 
 Model makeModel(const SolidMesh& mesh) {
   const std::size_t n = mesh.X.size();

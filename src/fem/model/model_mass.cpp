@@ -25,18 +25,18 @@ double matchedFraction(double spacing, double elementSize) {
 /// Of the free nodes of some components, which are the same for each of these.
 struct ModelMass::Factor {
   std::vector<int> components, free;  // the latter in the order of the unknowns
-  DefiniteSolver solver;
+  linalg::DefiniteSolver solver;
   std::vector<double> work;
 
   Factor(const ModelMass& mass, int component) : components{component}, solver(mass.linear_) {
-    const NodeMatrix& M = mass.matrix_;
+    const linalg::NodeMatrix& M = mass.matrix_;
     std::vector<int> place(M.nodes(), -1);
     for (std::size_t n = 0; n < place.size(); ++n)
       if (mass.isFree(n, component)) {
         place[n] = static_cast<int>(free.size());
         free.push_back(static_cast<int>(n));
       }
-    SparseMatrix lower;
+    linalg::SparseMatrix lower;
     lower.size = static_cast<int>(free.size());
     for (const int n : free) {
       for (int k = M.offsets()[n]; k < M.offsets()[n + 1]; ++k)
@@ -69,7 +69,7 @@ struct ModelMass::Factor {
 ModelMass::~ModelMass() = default;
 ModelMass::ModelMass(ModelMass&&) noexcept = default;
 
-ModelMass::ModelMass(const Model& model, const DofMap& dofs, double fraction, const LinearOptions& linear)
+ModelMass::ModelMass(const Model& model, const DofMap& dofs, double fraction, const linalg::LinearOptions& linear)
     : dofs_(&dofs),
       linear_(linear),
       fraction_(fraction),
@@ -85,7 +85,7 @@ ModelMass::ModelMass(const Model& model, const DofMap& dofs, double fraction, co
     for (std::size_t k = 0; k < 3 * mass_.size(); ++k)
       inverse_.push_back(dofs.freeRow()[k] >= 0 ? 1.0 / mass_[k / 3] : 0.0);
   if (fraction == 0.0) return;
-  matrix_ = NodeMatrix(patternOf(model));
+  matrix_ = linalg::NodeMatrix(patternOf(model));
   for (const auto& term : model.terms) term->addConsistentMass(matrix_);
   for (double& value : matrix_.values()) value *= fraction;
   for (std::size_t n = 0; n < mass_.size(); ++n)
@@ -110,7 +110,7 @@ double ModelMass::kineticEnergy(std::span<const Vec3> v) const {
   });
 }
 
-void ModelMass::addTo(BlockMatrix& S, double factor) const {
+void ModelMass::addTo(linalg::BlockMatrix& S, double factor) const {
   const auto add = [&](std::size_t place, double mass) {
     for (std::size_t c = 0; c < 3; ++c) S.values()[9 * place + 4 * c] += factor * mass;
   };
@@ -145,7 +145,7 @@ void ModelMass::factorOnce() const {
 
 void ModelMass::solveTied(std::span<Vec3> f) const {
   if (!tiedSolver_) {
-    tied_ = fraction_ > 0.0 ? BlockMatrix(matrix_) : BlockMatrix(MatrixPattern(mass_.size()));
+    tied_ = fraction_ > 0.0 ? linalg::BlockMatrix(matrix_) : linalg::BlockMatrix(linalg::MatrixPattern(mass_.size()));
     addTo(tied_, 1.0);
     tiedSolver_ = std::make_unique<LinearSolver>(*dofs_, linear_);
     if (!tiedSolver_->factor(tied_, true))

@@ -165,7 +165,7 @@ void ImplicitIntegrator::use(const Scheme& scheme) {
   impl_->options.scheme = scheme;
   impl_->solver.use(scheme);
 }
-LinearForecast ImplicitIntegrator::forecast() { return impl_->solver.forecast(); }
+linalg::LinearForecast ImplicitIntegrator::forecast() { return impl_->solver.forecast(); }
 const ModelMass& ImplicitIntegrator::mass() const { return impl_->mass; }
 const ImpulseBook& ImplicitIntegrator::impulses() const { return impl_->impulses; }
 const EnergyLedger& ImplicitIntegrator::ledger() const { return impl_->book.ledger(); }

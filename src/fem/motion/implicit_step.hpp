@@ -29,7 +29,7 @@ public:
   /// Makes the end the start of the next step. Call after booking.
   void accept();
   /// What the linear systems of the steps are going to take.
-  LinearForecast forecast() { return solver_.forecast(matrix_, isSymmetric()); }
+  linalg::LinearForecast forecast() { return solver_.forecast(matrix_, isSymmetric()); }
   void use(const Scheme& scheme) {
     options_.scheme = scheme;
     solver_.drop();
@@ -93,7 +93,7 @@ private:
   ImplicitOptions options_;
   Profile& profile_;
   LinearSolver solver_;
-  BlockMatrix matrix_;
+  linalg::BlockMatrix matrix_;
   Nodes mean_;  // state in the middle of a conserving step
   struct Forces : ForceSum {
     using ForceSum::ForceSum;

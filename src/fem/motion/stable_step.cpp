@@ -7,9 +7,9 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/model/model_mass.hpp"
-#include "dovetail/fem/motion/largest_eigenvalue.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
 #include "dovetail/fem/terms/contact_plane.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
+#include "dovetail/linalg/largest_eigenvalue.hpp"
 
 namespace dovetail::fem {
 
@@ -17,7 +17,7 @@ double assembledStableStep(Model& model, double accuracy) {
   requireMass(model.nodes);
   const DofMap dofs(model.constraints, model.nodes);
   ModelMass mass(model, dofs, 0.0);
-  BlockMatrix K = zeroTangent(model);
+  linalg::BlockMatrix K = zeroTangent(model);
   for (const auto& term : model.terms) term->addTangent(model.nodes, {model.t, 0.0}, K);
   std::vector<Vec3> in(model.nodes.X.size()), out(in.size());
   const auto reduced = [&](const auto& product) {
@@ -37,9 +37,9 @@ double assembledStableStep(Model& model, double accuracy) {
     for (std::size_t i = 0; i < y.size(); ++i)
       y[i] = out[static_cast<std::size_t>(dofs.freeDofs()[i] / 3)][dofs.freeDofs()[i] % 3];
   };
-  return 2.0 / std::sqrt(largestEigenvalue({dofs.size(), reduced([&] { K.multiply(in, out); }),
-                                            reduced([&] { mass.multiply(in, out); }), inverseMass},
-                                           accuracy));
+  return 2.0 / std::sqrt(linalg::largestEigenvalue({dofs.size(), reduced([&] { K.multiply(in, out); }),
+                                                    reduced([&] { mass.multiply(in, out); }), inverseMass},
+                                                   accuracy));
 }
 
 namespace {
@@ -59,9 +59,9 @@ std::vector<double> stiffnessOf(Term& term, const Model& model) {
     return k;
   }
   if (!term.hasEnergy()) return k;
-  MatrixPattern pattern(model.nodes.X.size());
+  linalg::MatrixPattern pattern(model.nodes.X.size());
   term.addPattern(pattern);
-  BlockMatrix K(std::move(pattern));
+  linalg::BlockMatrix K(std::move(pattern));
   term.addTangent(model.nodes, {model.t, 0.0}, K);
   for (std::size_t n = 0; n < k.size(); ++n)
     for (std::size_t c = 0; c < 3; ++c) {

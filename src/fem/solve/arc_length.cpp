@@ -169,8 +169,9 @@ void validate(const ArcLengthOptions& options, const Model& model) {
     throw InputError(
         "there is no component " + std::to_string(options.component) + " of node " + std::to_string(options.node),
         "ArcLengthOptions", "give a node of the model and 0, 1 or 2");
-  if (options.newton.linear.method == LinearMethod::conjugateGradients)
-    throw InputError("conjugate gradients cannot pass limit points", "ArcLengthOptions", "use LinearMethod::direct");
+  if (options.newton.linear.method == linalg::LinearMethod::conjugateGradients)
+    throw InputError("conjugate gradients cannot pass limit points", "ArcLengthOptions",
+                     "use linalg::LinearMethod::direct");
 }
 
 /// A trial of the next point of a path: as far as the length says, or at tEnd if that is nearer.
@@ -234,7 +235,7 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
   detail::requireLater(tEnd, model, "followPath");
   const auto start = std::chrono::steady_clock::now();
   NewtonOptions newton = options.newton;
-  newton.linear.method = LinearMethod::direct;  // iterations tell no negative pivots
+  newton.linear.method = linalg::LinearMethod::direct;  // iterations tell no negative pivots
   Equilibrium equilibrium(model, newton);
   if (options.dissipation > 0.0 && equilibrium.dofs().hasMotion())
     throw InputError("dissipation is that of loads alone, but there is prescribed motion", "ArcLengthOptions",

@@ -75,7 +75,7 @@ public:
   /// @return false if that is singular
   bool predict();
   void solve(std::span<const double> r, std::span<double> x);
-  const BlockMatrix& stiffness() const { return K_; }
+  const linalg::BlockMatrix& stiffness() const { return K_; }
 
   void forget() override { solver_.drop(); }
   /// A new step begins.
@@ -87,7 +87,7 @@ public:
 
 private:
   LinearSolver solver_;
-  BlockMatrix K_;
+  linalg::BlockMatrix K_;
   std::vector<Vec3> start_;
   std::vector<double> increment_, part_;
   std::optional<Mixing> mixing_;

@@ -15,8 +15,8 @@ enum class Kind { none, definite, lu };
 
 struct LinearSolver::Impl {
   ReducedMatrix reduced;
-  DefiniteSolver definite;
-  SparseLu lu;
+  linalg::DefiniteSolver definite;
+  linalg::SparseLu lu;
   Kind kind = Kind::none;
   bool wasIndefinite = false;
   int negative = -1;
@@ -25,7 +25,7 @@ struct LinearSolver::Impl {
 
   /// A matrix that follows an indefinite one is taken for indefinite too: a failed Cholesky factorisation may cost as
   /// much as one that succeeds.
-  bool factorSymmetric(const SparseMatrix& A) {
+  bool factorSymmetric(const linalg::SparseMatrix& A) {
     if (!wasIndefinite && definite.factor(A)) {
       kind = Kind::definite;
       negative = definite.iterates() ? -1 : 0;
@@ -35,7 +35,7 @@ struct LinearSolver::Impl {
     wasIndefinite = negative != 0;
     return true;
   }
-  bool factorLu(const SparseMatrix& A, bool symmetric) {
+  bool factorLu(const linalg::SparseMatrix& A, bool symmetric) {
     if (!lu.factor(A, symmetric)) return false;
     kind = Kind::lu;
     negative = lu.negativePivots();
@@ -43,21 +43,21 @@ struct LinearSolver::Impl {
   }
 };
 
-LinearSolver::LinearSolver(const DofMap& dofs, const LinearOptions& options)
-    : impl_(std::make_unique<Impl>(Impl{ReducedMatrix(dofs), DefiniteSolver(options), {}})) {}
+LinearSolver::LinearSolver(const DofMap& dofs, const linalg::LinearOptions& options)
+    : impl_(std::make_unique<Impl>(Impl{ReducedMatrix(dofs), linalg::DefiniteSolver(options), {}})) {}
 LinearSolver::~LinearSolver() = default;
 LinearSolver::LinearSolver(LinearSolver&&) noexcept = default;
 
-LinearForecast LinearSolver::forecast(const BlockMatrix& K, bool symmetric) {
-  const LinearForecast forecast = impl_->definite.analyse(impl_->reduced.update(K, true));
+linalg::LinearForecast LinearSolver::forecast(const linalg::BlockMatrix& K, bool symmetric) {
+  const linalg::LinearForecast forecast = impl_->definite.analyse(impl_->reduced.update(K, true));
   if (symmetric) return forecast;
   // L and U, and fronts that pivoting may widen.
-  return {LinearMethod::direct, 3.0 * forecast.bytes, 2.0 * forecast.operations, forecast.factors};
+  return {linalg::LinearMethod::direct, 3.0 * forecast.bytes, 2.0 * forecast.operations, forecast.factors};
 }
 
-bool LinearSolver::factor(const BlockMatrix& K, bool symmetric) {
+bool LinearSolver::factor(const linalg::BlockMatrix& K, bool symmetric) {
   Impl& m = *impl_;
-  const SparseMatrix& A = m.reduced.update(K, symmetric);
+  const linalg::SparseMatrix& A = m.reduced.update(K, symmetric);
   m.kind = Kind::none;
   ++m.factorisations;
   m.largestDiagonal = 0.0;
@@ -85,7 +85,7 @@ void LinearSolver::save(ByteWriter& archive) const {
   if (m.kind != Kind::none) m.reduced.save(archive);
 }
 
-LinearSolver::Factored LinearSolver::read(ByteReader& archive, const BlockMatrix& K) const {
+LinearSolver::Factored LinearSolver::read(ByteReader& archive, const linalg::BlockMatrix& K) const {
   Factored state{0, false, ReducedMatrix(impl_->reduced.dofs())};
   archive(state.kind, state.wasIndefinite);
   if (state.kind < 0 || state.kind > static_cast<int>(Kind::lu))
@@ -101,7 +101,7 @@ void LinearSolver::adopt(Factored state) {
   m.wasIndefinite = state.wasIndefinite;
   if (state.kind == static_cast<int>(Kind::none)) return;
   m.reduced = std::move(state.matrix);
-  const SparseMatrix& A = m.reduced.matrix();
+  const linalg::SparseMatrix& A = m.reduced.matrix();
   if (A.size == 0)
     m.kind = Kind::definite;
   else if (state.kind == static_cast<int>(Kind::lu))
@@ -118,9 +118,9 @@ double LinearSolver::largestDiagonal() const { return impl_->largestDiagonal; }
 std::int64_t LinearSolver::factorisations() const { return impl_->factorisations; }
 std::int64_t LinearSolver::solves() const { return impl_->solves; }
 std::string LinearSolver::method() const {
-  if (impl_->kind == Kind::lu) return SparseLu::name();
+  if (impl_->kind == Kind::lu) return linalg::SparseLu::name();
   if (impl_->kind == Kind::none) return "none";
-  return impl_->definite.iterates() ? "conjugate gradients" : SparseCholesky::name();
+  return impl_->definite.iterates() ? "conjugate gradients" : linalg::SparseCholesky::name();
 }
 
 }  // namespace dovetail::fem

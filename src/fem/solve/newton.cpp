@@ -6,7 +6,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/fem/solve/sparse.hpp"
+#include "dovetail/linalg/sparse.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -127,7 +127,7 @@ NewtonResult attemptStep(Model& model, const Instant& now, int maxAugmentations,
   } catch (const InputError&) {
     start.restore();
     throw;
-  } catch (const FactorMemoryError&) {  // a shorter step needs as much
+  } catch (const linalg::FactorMemoryError&) {  // a shorter step needs as much
     start.restore();
     throw;
   } catch (const std::bad_alloc&) {

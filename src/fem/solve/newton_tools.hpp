@@ -8,7 +8,7 @@
 
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -34,7 +34,7 @@ class ForceResolution {
 public:
   /// F = 1 + ∂u/∂X is known to ε, however small ∂u/∂X is: as if every node were off by ε times its distance from the
   /// others.
-  void measure(const BlockMatrix& K, std::span<const Vec3> X) {
+  void measure(const linalg::BlockMatrix& K, std::span<const Vec3> X) {
     double squares = 0.0, worstSquares = 0.0;
     stiffest_ = 0.0;
     for (std::size_t n = 0; n < K.nodes(); ++n) {

@@ -29,8 +29,8 @@ std::vector<std::vector<Fraction>> fractionsOf(const DofMap& dofs) {
 
 /// Calls act(row, column, source, factor) for every contribution to TᵀKT; without ties rows ascend within each column.
 template <class Act>
-void visitContributions(const BlockMatrix& K, const std::vector<std::vector<Fraction>>& fractions, bool symmetric,
-                        const Act& act) {
+void visitContributions(const linalg::BlockMatrix& K, const std::vector<std::vector<Fraction>>& fractions,
+                        bool symmetric, const Act& act) {
   for (std::size_t n = 0; n < K.nodes(); ++n)
     for (std::size_t c = 0; c < 3; ++c)
       for (const Fraction& row : fractions[3 * n + c])
@@ -53,7 +53,7 @@ struct Entry {
 
 }  // namespace
 
-void ReducedMatrix::analyse(const BlockMatrix& K, bool symmetric) {
+void ReducedMatrix::analyse(const linalg::BlockMatrix& K, bool symmetric) {
   patternId_ = K.patternId();
   symmetric_ = symmetric;
   const std::vector<std::vector<Fraction>> fractions = fractionsOf(*dofs_);
@@ -105,7 +105,7 @@ void ReducedMatrix::unite() {
   matrix_.row.resize(entries);
 }
 
-const SparseMatrix& ReducedMatrix::update(const BlockMatrix& K, bool symmetric) {
+const linalg::SparseMatrix& ReducedMatrix::update(const linalg::BlockMatrix& K, bool symmetric) {
   if (patternId_ != K.patternId() || symmetric_ != symmetric) analyse(K, symmetric);
   const std::span<const double> values = K.values();
   if (target_.empty()) {
@@ -117,7 +117,7 @@ const SparseMatrix& ReducedMatrix::update(const BlockMatrix& K, bool symmetric) 
   return matrix_;
 }
 
-void ReducedMatrix::load(ByteReader& archive, const BlockMatrix& K) {
+void ReducedMatrix::load(ByteReader& archive, const linalg::BlockMatrix& K) {
   bool symmetric = true;
   std::vector<double> values;
   archive(symmetric, values);

@@ -8,7 +8,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/laws/material_probe.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
 #include "mesh/faces.hpp"
 
 namespace dovetail::fem {
@@ -78,10 +78,10 @@ public:
     });
     return sum;
   }
-  void addPattern(MatrixPattern& pattern) const override {
+  void addPattern(linalg::MatrixPattern& pattern) const override {
     for (const Face& face : faces_) pattern.add(nodesOf(face));
   }
-  void addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) override {
+  void addTangent(const Nodes& nodes, const Instant& now, linalg::BlockMatrix& K) override {
     start(nodes.X, nodes.u, now.t);
     visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
       const ContactAnswer answer = law_.at(d, past_[q], lambda_[q]);
@@ -98,7 +98,8 @@ public:
     });
     return true;
   }
-  void addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now, BlockMatrix& K) override {
+  void addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
+                            linalg::BlockMatrix& K) override {
     visit(nodes, now.t, [&](std::size_t q, const Vec3& d) {
       const double slope = law_.meanPressureSlope(startOf(q, nodes, u0, now), d, lambda_[q]);
       if (slope != 0.0) addBlocks(q, scaledOuterProduct(slope, law_.normal, law_.normal), K);
@@ -216,7 +217,7 @@ private:
     for (std::size_t a = 0; a < spots_[q].nodes; ++a)
       f[static_cast<std::size_t>(spots_[q].node[a])] += spots_[q].N[a] * spots_[q].area * traction;
   }
-  void addBlocks(std::size_t q, const std::array<double, 9>& block, BlockMatrix& K) const {
+  void addBlocks(std::size_t q, const std::array<double, 9>& block, linalg::BlockMatrix& K) const {
     const Spot& spot = spots_[q];
     for (std::size_t a = 0; a < spot.nodes; ++a)
       for (std::size_t b = 0; b < spot.nodes; ++b) {

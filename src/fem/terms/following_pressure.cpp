@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
 #include "dovetail/fem/terms/loads.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
 #include "mesh/faces.hpp"
 
 namespace dovetail::fem {
@@ -46,12 +46,12 @@ public:
     return p_(now.t) * sum / dimensionOf(faces_[0].shape);
   }
 
-  void addPattern(MatrixPattern& pattern) const override {
+  void addPattern(linalg::MatrixPattern& pattern) const override {
     for (const Face& face : faces_) pattern.add(nodesOf(face));
   }
 
   /// K_ab w = p ∫ N_a (∂N_b/∂ξ w × ∂x/∂η + ∂N_b/∂η ∂x/∂ξ × w).
-  void addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) override {
+  void addTangent(const Nodes& nodes, const Instant& now, linalg::BlockMatrix& K) override {
     const double p = p_(now.t);
     for (const Face& face : faces_) {
       const std::span<const int> corners = nodesOf(face);

@@ -57,7 +57,7 @@ private:
   double fraction_;
 };
 
-void addDiagonal(BlockMatrix& matrix, int node, const Vec3& values) {
+void addDiagonal(linalg::BlockMatrix& matrix, int node, const Vec3& values) {
   const std::array<double, 9> block = {values.x, 0, 0, 0, values.y, 0, 0, 0, values.z};
   matrix.addBlock(node, node, block);
 }
@@ -142,7 +142,7 @@ public:
       for (std::size_t n = begin; n < end; ++n) f[n] -= alpha_ * momentum_[n];
     });
   }
-  void addDamping(const Nodes&, const Instant& now, BlockMatrix& C) override {
+  void addDamping(const Nodes&, const Instant& now, linalg::BlockMatrix& C) override {
     if (now.mass != nullptr) now.mass->addTo(C, alpha_);
   }
 
@@ -166,7 +166,7 @@ protected:
       f[n] -= {factor_.x * field[n].x, factor_.y * field[n].y, factor_.z * field[n].z};
     }
   }
-  void addTo(BlockMatrix& matrix, double fraction = 1.0) const {
+  void addTo(linalg::BlockMatrix& matrix, double fraction = 1.0) const {
     for (const int node : nodes_.of(matrix.nodes(), name())) addDiagonal(matrix, node, fraction * factor_);
   }
   double halfSquares(std::span<const Vec3> field) const {
@@ -188,7 +188,7 @@ public:
   using Ground::Ground;
   bool usesVelocity() const override { return false; }
   void addForces(const Nodes& nodes, const Instant&, std::span<Vec3> f) override { addTo(nodes.u, f); }
-  void addTangent(const Nodes&, const Instant&, BlockMatrix& K) override { addTo(K); }
+  void addTangent(const Nodes&, const Instant&, linalg::BlockMatrix& K) override { addTo(K); }
   bool hasEnergy() const override { return true; }
   double energy(const Nodes& nodes, const Instant&) override { return halfSquares(nodes.u); }
   bool addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant&, std::span<Vec3> f) override {
@@ -197,7 +197,7 @@ public:
     addTo(mean, f);
     return true;
   }
-  void addConservingTangent(const Nodes&, std::span<const Vec3>, const Instant&, BlockMatrix& K) override {
+  void addConservingTangent(const Nodes&, std::span<const Vec3>, const Instant&, linalg::BlockMatrix& K) override {
     addTo(K, 0.5);
   }
 };
@@ -208,7 +208,7 @@ public:
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
     if (now.mass != nullptr) addTo(nodes.v, f);
   }
-  void addDamping(const Nodes&, const Instant& now, BlockMatrix& C) override {
+  void addDamping(const Nodes&, const Instant& now, linalg::BlockMatrix& C) override {
     if (now.mass != nullptr) addTo(C);
   }
 };

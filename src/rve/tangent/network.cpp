@@ -27,6 +27,14 @@ Eigen::Matrix<double, Eigen::Dynamic, Matrix::ColsAtCompileTime, 0, 9, Matrix::M
   return result;
 }
 
+/// By columns.
+auto entries(auto& matrix) { return std::span(matrix.data(), static_cast<std::size_t>(matrix.size())); }
+
+[[noreturn]] void failSingular() {
+  throw NumericalError("the network of contacts is singular", "cell of grains",
+                       "bring the cell to rest under pressure");
+}
+
 }  // namespace
 
 Network::Network(const Rve& cell, const Linearisation& what)
@@ -102,7 +110,7 @@ void Network::add(std::size_t i, std::size_t j, const Vec3& branch, ContactMatri
     stressByUnknown_.col(at[c]) += sign[c] * stressed.col(follows[c]);
   }
   const int a = node_[i], b = node_[j];
-  matrix_->add(a < 0 ? b : a, a < 0 ? -1 : b, forces);
+  matrix_->add(a < 0 ? b : a, a < 0 ? -1 : b, entries(forces));
 }
 
 void Network::addMultipliers() {
@@ -120,14 +128,14 @@ void Network::addMultipliers() {
     for (int k = 0; k < 2; ++k)
       for (int n = 0; n < 2; ++n)
         part(perGrain_ + 2 * k + n, k) = part(k, perGrain_ + 2 * k + n) = unit * frame.area[place][n];
-    matrix_->add(node_[static_cast<std::size_t>(frame.grain[place])], nodes_, part);
+    matrix_->add(node_[static_cast<std::size_t>(frame.grain[place])], nodes_, entries(part));
   }
   // Of areas that are all parallel, half of the multipliers have nothing to do, and stay 0.
   const Eigen::Matrix2d idle = Eigen::Matrix2d::Identity() - areas * inverseOfAreas(areas);
   if (idle.norm() < 0.5) return;
   Eigen::MatrixXd held = Eigen::MatrixXd::Zero(4, 4);
   held.topLeftCorner<2, 2>() = held.bottomRightCorner<2, 2>() = stiffest_ * idle;
-  matrix_->add(nodes_, -1, held);
+  matrix_->add(nodes_, -1, entries(held));
 }
 
 void Network::factor() {
@@ -137,27 +145,29 @@ void Network::factor() {
   Eigen::MatrixXd held = Eigen::MatrixXd::Zero(perGrain_, perGrain_);
   for (int k = 0; k < perGrain_; ++k) held(k, k) = componentOf(k) < 3 ? -slight : -slight * r * r;
   for (const int node : node_)
-    if (node >= 0) matrix_->add(node, -1, held);
-  matrix_->factor();
+    if (node >= 0) matrix_->add(node, -1, entries(held));
+  if (!matrix_->factor()) failSingular();
   factored_ = true;
 }
 
-Eigen::MatrixXd Network::relaxedStressByStrain() {
+Eigen::MatrixXd Network::solved(Eigen::MatrixXd b) {
   factor();
-  return stressByStrain_ - stressByUnknown_ * matrix_->solve(forceByStrain_);
+  if (!matrix_->solve(entries(b), static_cast<int>(b.cols()))) failSingular();
+  return b;
 }
 
+Eigen::MatrixXd Network::relaxedStressByStrain() { return stressByStrain_ - stressByUnknown_ * solved(forceByStrain_); }
+
 void Network::solve(Components& w, Components& theta) {
-  factor();
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(size_, 1);
   const auto field = [](Components& displacements, Components& turns, int c) -> std::vector<double>& {
     return c < 3 ? displacements[static_cast<std::size_t>(c)] : turns[static_cast<std::size_t>(c - 3)];
   };
   Components force = cell_.state.force, torque = cell_.state.torque;
   for (std::size_t i = 0; i < cell_.size(); ++i)
     for (int k = 0; k < perGrain_; ++k)
-      if (const int u = unknown(i, k); u >= 0) forces[u] += field(force, torque, componentOf(k))[i];
-  const Eigen::VectorXd motion = -matrix_->solve(forces);
+      if (const int u = unknown(i, k); u >= 0) forces(u, 0) += field(force, torque, componentOf(k))[i];
+  const Eigen::VectorXd motion = -solved(std::move(forces));
   w = force;
   theta = torque;
   for (std::size_t i = 0; i < cell_.size(); ++i)

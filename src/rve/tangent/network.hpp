@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contacts/linear_contact.hpp"
-#include "fronts.hpp"
+#include "dovetail/linalg/multifrontal_lu.hpp"
 
 namespace dovetail::rve {
 
@@ -30,6 +30,8 @@ private:
   void add(std::size_t i, std::size_t j, const Vec3& branch, ContactMatrix m);
   void addMultipliers();
   void factor();
+  /// K⁻¹ b. @throws NumericalError if the network is singular
+  Eigen::MatrixXd solved(Eigen::MatrixXd b);
   int componentOf(int k) const { return perGrain_ == 3 ? discComponents[static_cast<std::size_t>(k)] : k; }
   int unknown(std::size_t grain, int k) const { return node_[grain] < 0 ? -1 : node_[grain] * perGrain_ + k; }
 
@@ -41,7 +43,7 @@ private:
   std::vector<int> node_;  // of a grain; those that move alike have the same, those that are held −1
   int nodes_ = 0, size_ = 0;
   double stiffest_ = 0.0;
-  std::optional<Fronts> matrix_;
+  std::optional<linalg::MultifrontalLu> matrix_;
   bool factored_ = false;
   Eigen::MatrixXd forceByStrain_, stressByUnknown_, stressByStrain_;
 };

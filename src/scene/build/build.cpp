@@ -141,8 +141,8 @@ namespace {
 /// How the linear systems of the solids are going to be solved.
 void foreseeSolvers(Built& built) {
   for (std::size_t s = 0; s < built.run->solids(); ++s) {
-    const fem::LinearForecast& forecast = built.forecasts.emplace_back(built.run->forecast(s));
-    if (forecast.method != fem::LinearMethod::conjugateGradients) continue;
+    const linalg::LinearForecast& forecast = built.forecasts.emplace_back(built.run->forecast(s));
+    if (forecast.method != linalg::LinearMethod::conjugateGradients) continue;
     const auto gibibytes = [](double bytes) { return formatNumber(std::round(10.0 * bytes / 1073741824.0) / 10.0); };
     built.notes.push_back(
         "Solid \"" + built.run->solid(s).name + "\" is solved by conjugate gradients" +

@@ -129,7 +129,7 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
                      "leave it out, or give \"stepping\": \"implicit\"");
   const double fraction = solid.massFraction.value_or(solid.implicitSteps ? 1.0 : 0.0);
   coupling::SolidOptions options{.name = solid.name};
-  options.implicitOptions.linear.method = static_cast<fem::LinearMethod>(solid.linearSolver);
+  options.implicitOptions.linear.method = static_cast<linalg::LinearMethod>(solid.linearSolver);
   options.stepping = solid.implicitSteps ? coupling::Stepping::implicitSteps : coupling::Stepping::explicitSteps;
   options.massFraction = fraction;
   const coupling::SolidSide& side = built.run->addSolid(std::move(model), options);

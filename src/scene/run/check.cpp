@@ -43,15 +43,15 @@ void reportParts(Built& built, const Scene& scene, std::ostream& log) {
 
 double solverMemory(const Built& built) {
   double bytes = 0.0;
-  for (const fem::LinearForecast& forecast : built.forecasts) bytes += forecast.bytes;
+  for (const linalg::LinearForecast& forecast : built.forecasts) bytes += forecast.bytes;
   return bytes;
 }
 
 /// Of a macro step: one factorisation of every solid, or a hundred iterations, at rates of one core. s
 double solverTime(const Built& built) {
   double seconds = 0.0;
-  for (const fem::LinearForecast& forecast : built.forecasts)
-    seconds += forecast.operations / (forecast.method == fem::LinearMethod::direct ? 1e10 : 1e9);
+  for (const linalg::LinearForecast& forecast : built.forecasts)
+    seconds += forecast.operations / (forecast.method == linalg::LinearMethod::direct ? 1e10 : 1e9);
   return seconds;
 }
 

@@ -27,7 +27,7 @@ struct Brick {
   Nodes& nodes() { return model.nodes; }
   std::vector<Vec3> forces() { return forcesOf(*solid, model.nodes); }
   std::vector<double> tangent() {
-    const BlockMatrix K = tangentOf(*solid, model.nodes);
+    const linalg::BlockMatrix K = tangentOf(*solid, model.nodes);
     return {K.values().begin(), K.values().end()};
   }
 };

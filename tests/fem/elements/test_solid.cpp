@@ -233,9 +233,9 @@ TEST(Solid, ConservingTangentIsTheDerivativeWhereTheStepIsSmall) {
     Nodes& nodes = scene.model.nodes;
     setRandom(nodes.u, 0.03, 3);
     const std::vector<Vec3> start = nodes.u;
-    MatrixPattern pattern(nodes.u.size());
+    linalg::MatrixPattern pattern(nodes.u.size());
     scene.solid->addPattern(pattern);
-    BlockMatrix K(std::move(pattern));
+    linalg::BlockMatrix K(std::move(pattern));
     scene.solid->addConservingTangent(nodes, start, {}, K);
     // At u = u₀ it is half the tangent of the force.
     const Eigen::MatrixXd expected = 0.5 * dense(tangentOf(*scene.solid, nodes));
@@ -259,7 +259,7 @@ TEST(Solid, DigitsDoNotDependOnTheNumberOfThreads) {
       const auto solid =
           makeSolid(mesh, std::make_shared<PlainNeoHookean>(2e6, 1e6), {.formulation = kind.formulation});
       setRandom(model.nodes.u, 0.002, 9);
-      const BlockMatrix K = tangentOf(*solid, model.nodes);
+      const linalg::BlockMatrix K = tangentOf(*solid, model.nodes);
       auto f = forcesOf(*solid, model.nodes);
       const double energy = solid->energy(model.nodes, {});
       setThreads(1);
@@ -316,7 +316,7 @@ TEST(Solid, MemoryIsWhatIsTakenFromTheHeap) {
     const bool plane = dimensionOf(kind.shape) == 2;
     const SolidMesh mesh = boxOf(kind.shape, {16, plane ? 32 : 8, plane ? 1 : 8}, {}, {1.0, 1.0, 1.0});
     Model model = makeModel(mesh);
-    BlockMatrix K = zeroTangent(sceneOf(mesh, std::make_shared<PlainNeoHookean>(2e6, 1e6)).model);
+    linalg::BlockMatrix K = zeroTangent(sceneOf(mesh, std::make_shared<PlainNeoHookean>(2e6, 1e6)).model);
     const std::size_t before = inUse();
     const auto solid = makeSolid(mesh, std::make_shared<PlainNeoHookean>(2e6, 1e6), {.formulation = kind.formulation});
     solid->addForces(model.nodes, {}, model.nodes.f);

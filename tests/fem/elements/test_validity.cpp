@@ -94,7 +94,7 @@ TEST(Validity, ForeignNodesAreRefused) {
   const Nodes others = makeModel(testMesh({1, 1, 1}, false)).nodes;
   for (SolidScene& scene : hexScenes(testMesh({2, 3, 3}, false))) {
     std::vector<Vec3> f(others.u.size());
-    BlockMatrix K = zeroTangent(scene.model);
+    linalg::BlockMatrix K = zeroTangent(scene.model);
     EXPECT_THROW(scene.solid->addForces(others, {}, f), InputError);
     EXPECT_THROW(scene.solid->addForcesAndEnergy(others, {}, f), InputError);
     EXPECT_THROW(scene.solid->energy(others, {}), InputError);

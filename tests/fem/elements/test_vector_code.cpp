@@ -49,7 +49,7 @@ TEST(VectorCode, GivesTheDigitsOfPortableCodeForEveryElement) {
       SolidScene scene = solidScene(kind, true);
       setRandom(scene.model.nodes.u, 0.02, 7);
       const std::vector<Vec3> f = forcesOf(*scene.solid, scene.model.nodes);
-      const BlockMatrix K = tangentOf(*scene.solid, scene.model.nodes);
+      const linalg::BlockMatrix K = tangentOf(*scene.solid, scene.model.nodes);
       std::vector<double> numbers(K.values().begin(), K.values().end());
       for (const Vec3& force : f) numbers.insert(numbers.end(), {force.x, force.y, force.z});
       numbers.push_back(scene.solid->energy(scene.model.nodes, {}));

@@ -72,9 +72,9 @@ SolidScene sceneOfField(const SolidMesh& mesh, std::shared_ptr<PointField> field
 }
 
 std::vector<double> tangentOf(SolidScene& scene, const Instant& now) {
-  MatrixPattern pattern(scene.model.nodes.u.size());
+  linalg::MatrixPattern pattern(scene.model.nodes.u.size());
   scene.solid->addPattern(pattern);
-  BlockMatrix K(std::move(pattern));
+  linalg::BlockMatrix K(std::move(pattern));
   scene.solid->addTangent(scene.model.nodes, now, K);
   return {K.values().begin(), K.values().end()};
 }

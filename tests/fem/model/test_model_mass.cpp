@@ -81,7 +81,8 @@ TEST(ModelMass, IterationsFindWhatFactorsFind) {
   for (const Support support : allSupports) {
     const Model model = modelOf(support);
     const DofMap dofs(model.constraints, model.nodes);
-    const ModelMass direct(model, dofs, 1.0), iterative(model, dofs, 1.0, {.method = LinearMethod::conjugateGradients});
+    const ModelMass direct(model, dofs, 1.0),
+        iterative(model, dofs, 1.0, {.method = linalg::LinearMethod::conjugateGradients});
     std::vector<Vec3> f(model.nodes.X.size());
     setRandom(f, 100.0, 7);
     std::vector<Vec3> a = f, b = f;
@@ -159,7 +160,7 @@ TEST(ModelMass, RowSumsAreTheLumpedMassesAndMatricesTakeIt) {
     EXPECT_NEAR(mass.kineticEnergy(ones), 0.5 * total * 14.0, 1e-9 * total);
     std::vector<Vec3> x(ones.size()), y(ones.size());
     setRandom(x, 1.0, 3);
-    BlockMatrix S = zeroTangent(model);
+    linalg::BlockMatrix S = zeroTangent(model);
     mass.addTo(S, -2.0);
     S.multiply(x, y);
     const std::vector<Vec3> expected = multiplied(mass, x);
@@ -228,7 +229,7 @@ TEST(ModelMass, ImpossibleInputIsRefused) {
   const DofMap dofs(model.constraints, model.nodes);
   EXPECT_THROW(ModelMass(model, dofs, -0.1), InputError);
   EXPECT_THROW(ModelMass(model, dofs, 1.1), InputError);
-  BlockMatrix other((MatrixPattern(model.nodes.X.size())));
+  linalg::BlockMatrix other((linalg::MatrixPattern(model.nodes.X.size())));
   EXPECT_THROW(ModelMass(model, dofs, 0.5).addTo(other, 1.0), InputError);
   model.nodes.mass[3] = 0.0;
   EXPECT_THROW(ModelMass(model, dofs, 0.5), InputError);

@@ -105,7 +105,7 @@ TEST(TermCalls, WhatAMaterialThrowsComesOut) {
   const SolidMesh mesh = boxOf(ElementShape::hex8, {16, 16, 16}, {}, {16.0, 16.0, 16.0});
   SolidScene scene = sceneOf(mesh, std::make_shared<const Tearing>());
   Nodes& nodes = scene.model.nodes;
-  BlockMatrix K = zeroTangent(scene.model);
+  linalg::BlockMatrix K = zeroTangent(scene.model);
   std::vector<Vec3> f(nodes.u.size());
   const std::vector<std::function<void()>> questions = {
       [&] { scene.solid->addForces(nodes, {}, f); }, [&] { scene.solid->addForcesAndEnergy(nodes, {}, f); },

@@ -92,11 +92,11 @@ TEST(PeriodicTies, MeansOfAMixedCellAreTheMacroscopicOnes) {
       a_.addForces(nodes, now, f);
       b_.addForces(nodes, now, f);
     }
-    void addPattern(MatrixPattern& c) const override {
+    void addPattern(linalg::MatrixPattern& c) const override {
       a_.addPattern(c);
       b_.addPattern(c);
     }
-    void addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) override {
+    void addTangent(const Nodes& nodes, const Instant& now, linalg::BlockMatrix& K) override {
       a_.addTangent(nodes, now, K);
       b_.addTangent(nodes, now, K);
     }

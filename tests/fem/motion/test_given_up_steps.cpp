@@ -90,7 +90,7 @@ TEST(GivenUpSteps, WrongInputPassesThroughAndLeavesTheModelAsItWas) {
 TEST(GivenUpSteps, ALinearSolverThatStopsIsAReasonToo) {
   Pulled p(Fault::none);
   StaticOptions options{.firstStep = 0.5, .smallestStep = 0.1};
-  options.newton.linear = {.method = LinearMethod::conjugateGradients, .maxIterations = 2};
+  options.newton.linear = {.method = linalg::LinearMethod::conjugateGradients, .maxIterations = 2};
   try {
     solveStatics(p.model, 1.0, options);
     ADD_FAILURE() << "two iterations are enough";

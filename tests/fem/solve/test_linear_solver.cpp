@@ -32,8 +32,8 @@ Eigen::MatrixXd transformation(const DofMap& dofs) {
   return T;
 }
 
-BlockMatrix randomMatrix(const Model& model, unsigned seed) {
-  BlockMatrix K = zeroTangent(model);
+linalg::BlockMatrix randomMatrix(const Model& model, unsigned seed) {
+  linalg::BlockMatrix K = zeroTangent(model);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> value(-1.0, 1.0);
   for (double& entry : K.values()) entry = value(random);
@@ -48,11 +48,11 @@ TEST(ReducedMatrix, IsTheCongruenceWithTheTransformation) {
     ReducedMatrix reduced(dofs);
     for (const unsigned seed : {1u, 2u})
       for (const bool symmetric : {false, true}) {
-        BlockMatrix K = randomMatrix(model, seed);
+        linalg::BlockMatrix K = randomMatrix(model, seed);
         if (symmetric) K.symmetrise();
         Eigen::MatrixXd expected = T.transpose() * dense(K) * T, found = Eigen::MatrixXd::Zero(T.cols(), T.cols());
         if (symmetric) expected = Eigen::MatrixXd(expected.triangularView<Eigen::Lower>());
-        const SparseMatrix& A = reduced.update(K, symmetric);
+        const linalg::SparseMatrix& A = reduced.update(K, symmetric);
         for (std::size_t c = 0; c < dofs.size(); ++c)
           for (auto k = static_cast<std::size_t>(A.offsets[c]); k < static_cast<std::size_t>(A.offsets[c + 1]); ++k) {
             EXPECT_TRUE(k == static_cast<std::size_t>(A.offsets[c]) || A.row[k - 1] < A.row[k]);
@@ -64,8 +64,8 @@ TEST(ReducedMatrix, IsTheCongruenceWithTheTransformation) {
 }
 
 /// K of the solid plus shift times the unit matrix.
-BlockMatrix shifted(Model& model, double shift) {
-  BlockMatrix K = tangentOf(*model.terms[0], model.nodes);
+linalg::BlockMatrix shifted(Model& model, double shift) {
+  linalg::BlockMatrix K = tangentOf(*model.terms[0], model.nodes);
   for (int n = 0; n < static_cast<int>(K.nodes()); ++n)
     K.addBlock(n, n, std::array{shift, 0.0, 0.0, 0.0, shift, 0.0, 0.0, 0.0, shift});
   return K;
@@ -81,12 +81,12 @@ TEST(LinearSolver, CountsNegativePivotsAndSolvesWhateverTheSigns) {
   bool wasNegative = false;
   // Definite, twice indefinite, definite again: found by the analysis for indefinite ones, then by Cholesky.
   for (const double shift : {0.0, -2e5, -4e5, 0.0, 0.0}) {
-    const BlockMatrix K = shifted(model, shift);
+    const linalg::BlockMatrix K = shifted(model, shift);
     const Eigen::MatrixXd A = T.transpose() * dense(K) * T;
     const auto negative = (Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues().array() < 0.0).count();
     ASSERT_TRUE(solver.factor(K, true));
     EXPECT_EQ(solver.negativePivots(), negative) << shift;
-    EXPECT_EQ(solver.method() == SparseCholesky::name(), negative == 0 && !wasNegative) << shift;
+    EXPECT_EQ(solver.method() == linalg::SparseCholesky::name(), negative == 0 && !wasNegative) << shift;
     wasNegative = negative > 0;
     solver.solve(r, x);
     const Eigen::Map<Eigen::VectorXd> right(r.data(), A.rows()), found(x.data(), A.rows());
@@ -101,7 +101,7 @@ TEST(LinearSolver, SolvesWithMatricesThatAreNotSymmetric) {
   LinearSolver solver(dofs);
   std::vector<double> r(dofs.size(), 1.0), x(dofs.size());
   for (const unsigned seed : {3u, 4u}) {
-    const BlockMatrix K = randomMatrix(model, seed);
+    const linalg::BlockMatrix K = randomMatrix(model, seed);
     ASSERT_TRUE(solver.factor(K, false));
     EXPECT_EQ(solver.negativePivots(), -1);
     solver.solve(r, x);
@@ -114,11 +114,11 @@ TEST(LinearSolver, SingularMatricesAreReported) {
   const Model model = tiedModel(false);
   const DofMap dofs(model.constraints, model.nodes);
   LinearSolver solver(dofs);
-  const BlockMatrix zero = zeroTangent(model);
+  const linalg::BlockMatrix zero = zeroTangent(model);
   EXPECT_FALSE(solver.factor(zero, true));
   EXPECT_FALSE(solver.factor(zero, false));
   EXPECT_FALSE(solver.factored());
-  BlockMatrix broken = zero;
+  linalg::BlockMatrix broken = zero;
   broken.values()[9 * broken.place(10, 10)] = std::nan("");
   EXPECT_FALSE(solver.factor(broken, true));
 }
@@ -130,7 +130,7 @@ TEST(LinearSolver, DigitsDoNotDependOnEarlierMatricesOfThePattern) {
   std::vector<double> r(dofs.size(), 1.0), once(dofs.size()), again(dofs.size());
   for (const bool symmetric : {true, false}) {
     LinearSolver fresh(dofs), used(dofs);
-    const BlockMatrix K = symmetric ? shifted(model, -2e5) : randomMatrix(model, 5);
+    const linalg::BlockMatrix K = symmetric ? shifted(model, -2e5) : randomMatrix(model, 5);
     ASSERT_TRUE(fresh.factor(K, symmetric));
     fresh.solve(r, once);
     ASSERT_TRUE(used.factor(symmetric ? shifted(model, -4e5) : randomMatrix(model, 6), symmetric));
@@ -143,28 +143,29 @@ TEST(LinearSolver, DigitsDoNotDependOnEarlierMatricesOfThePattern) {
 TEST(LinearSolver, IteratesWhereFactorsWouldBeLargerThanAllowed) {
   Model model = tiedModel(true);
   const DofMap dofs(model.constraints, model.nodes);
-  const BlockMatrix K = shifted(model, 1e6);
+  const linalg::BlockMatrix K = shifted(model, 1e6);
   std::vector<double> r(dofs.size()), directly(dofs.size()), x(dofs.size());
   for (std::size_t i = 0; i < r.size(); ++i) r[i] = std::sin(1.0 + 3.0 * static_cast<double>(i));
   LinearSolver direct(dofs);
-  const LinearForecast factors = direct.forecast(K, true);
+  const linalg::LinearForecast factors = direct.forecast(K, true);
   ASSERT_TRUE(direct.factor(K, true));
   direct.solve(r, directly);
-  EXPECT_EQ(direct.method(), SparseCholesky::name());
-  EXPECT_EQ(factors.method, LinearMethod::direct);
+  EXPECT_EQ(direct.method(), linalg::SparseCholesky::name());
+  EXPECT_EQ(factors.method, linalg::LinearMethod::direct);
   EXPECT_EQ(factors.bytes, factors.factors);
   for (const double fraction : {0.99, 1.0}) {
     LinearSolver solver(dofs, {.largestFactors = fraction * factors.bytes, .relativeTolerance = 1e-13});
-    const LinearForecast forecast = solver.forecast(K, true);
+    const linalg::LinearForecast forecast = solver.forecast(K, true);
     ASSERT_TRUE(solver.factor(K, true));
     EXPECT_EQ(solver.iterates(), fraction < 1.0);
-    EXPECT_EQ(forecast.method, fraction < 1.0 ? LinearMethod::conjugateGradients : LinearMethod::direct);
+    EXPECT_EQ(forecast.method,
+              fraction < 1.0 ? linalg::LinearMethod::conjugateGradients : linalg::LinearMethod::direct);
     EXPECT_EQ(forecast.factors, factors.bytes);
-    EXPECT_EQ(solver.method(), fraction < 1.0 ? "conjugate gradients" : SparseCholesky::name());
+    EXPECT_EQ(solver.method(), fraction < 1.0 ? "conjugate gradients" : linalg::SparseCholesky::name());
     solver.solve(r, x);
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], directly[i], 1e-11 * std::abs(directly[0]));
   }
-  EXPECT_EQ(direct.forecast(K, false).method, LinearMethod::direct);  // whatever the size
+  EXPECT_EQ(direct.forecast(K, false).method, linalg::LinearMethod::direct);  // whatever the size
 }
 
 }  // namespace

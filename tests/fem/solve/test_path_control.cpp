@@ -20,8 +20,8 @@ public:
     f[0].z += pull - crack;
     f[1].z -= pull;
   }
-  void addPattern(MatrixPattern& pattern) const override { pattern.add(std::array{0, 1}); }
-  void addTangent(const Nodes& nodes, const Instant&, BlockMatrix& K) override {
+  void addPattern(linalg::MatrixPattern& pattern) const override { pattern.add(std::array{0, 1}); }
+  void addTangent(const Nodes& nodes, const Instant&, linalg::BlockMatrix& K) override {
     const double w = nodes.u[0].z;
     const double x = w / peak;
     const double slope = w < past_ ? traction(w) / w : strength / peak * (1.0 - x) * std::exp(1.0 - x);

@@ -118,8 +118,9 @@ TEST(Statics, BendingToALargeAngleGivesTheSameWithEverySolverAndNumberOfThreads)
   EXPECT_GT(full.y, 0.3);
   EXPECT_EQ(full, tip({}, 2));
   EXPECT_LT(norm(full - tip({.reuseContraction = 0.3}, 1)), 1e-7);
-  EXPECT_LT(norm(full - tip({.linear = {.method = LinearMethod::conjugateGradients, .relativeTolerance = 1e-10}}, 1)),
-            1e-7);
+  EXPECT_LT(
+      norm(full - tip({.linear = {.method = linalg::LinearMethod::conjugateGradients, .relativeTolerance = 1e-10}}, 1)),
+      1e-7);
   EXPECT_LT(norm(full - tip({.lineSearch = false}, 1)), 1e-7);
 }
 

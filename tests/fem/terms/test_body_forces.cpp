@@ -94,7 +94,7 @@ TEST(BodyForces, MassDampingIsTheMassMatrixTimesItsRate) {
   const Instant now{0.0, 0.1, &mass};
   std::vector<Vec3> Mv(model.nodes.v.size()), Cv(Mv.size());
   mass.multiply(model.nodes.v, Mv);
-  BlockMatrix C = zeroTangent(model);
+  linalg::BlockMatrix C = zeroTangent(model);
   C.setZero();
   damping->addDamping(model.nodes, now, C);
   C.multiply(model.nodes.v, Cv);

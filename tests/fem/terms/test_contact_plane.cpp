@@ -223,7 +223,7 @@ TEST(ContactPlane, ConservingForcesDoTheWorkThatIsStored) {
     Nodes before = model.nodes;
     before.u = u0;
     EXPECT_NEAR(productOf(force(), du), contact->energy(before, now) - contact->energy(model.nodes, now), 1e-14);
-    BlockMatrix K = matrixFor(*contact, model.nodes);
+    linalg::BlockMatrix K = matrixFor(*contact, model.nodes);
     contact->addConservingTangent(model.nodes, u0, now, K);
     std::vector<Vec3> d(u0.size());
     setRandom(d, 1.0, seed);

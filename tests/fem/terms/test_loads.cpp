@@ -118,7 +118,7 @@ TEST(Loads, PressureWithAClampedRimHasAPotentialAndASymmetricTangent) {
   for (const int n : rim) model.nodes.u[static_cast<std::size_t>(n)] = {};
   const auto pressure = followingPressure(mesh, faceSet(mesh, "z+"), 10.0, rim);
   ASSERT_TRUE(pressure->isSymmetric());
-  BlockMatrix K = matrixFor(*pressure, model.nodes);
+  linalg::BlockMatrix K = matrixFor(*pressure, model.nodes);
   K.setZero();
   pressure->addTangent(model.nodes, now, K);
   std::vector<Vec3> a(model.nodes.u.size()), b = a, Ka = a, Kb = a;
@@ -212,7 +212,7 @@ TEST(Loads, NodesThatTheModelDoesNotHaveAreRefusedAtTheFirstUse) {
     expectRefusal([&] { load->addForces(model.nodes, moving, f); });
     EXPECT_EQ(f, std::vector<Vec3>(f.size()));
     if (load->hasEnergy()) expectRefusal([&] { load->energy(model.nodes, moving); });
-    BlockMatrix K = matrixFor(*load, model.nodes);
+    linalg::BlockMatrix K = matrixFor(*load, model.nodes);
     if (load->name() == "ground springs") expectRefusal([&] { load->addTangent(model.nodes, moving, K); });
     if (load->name() == "ground dashpots") expectRefusal([&] { load->addDamping(model.nodes, moving, K); });
   }

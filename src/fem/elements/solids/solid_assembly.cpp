@@ -61,7 +61,7 @@ void SolidBase::colourBatches() {
   }
 }
 
-void SolidBase::addPattern(MatrixPattern& pattern) const {
+void SolidBase::addPattern(linalg::MatrixPattern& pattern) const {
   std::vector<int> nodes(cells_.nodes);
   for (std::size_t e = 0; e < cells_.size(); ++e) {
     for (std::size_t a = 0; a < nodes.size(); ++a) nodes[a] = cells_.nodeOf(e, a);
@@ -69,7 +69,7 @@ void SolidBase::addPattern(MatrixPattern& pattern) const {
   }
 }
 
-void SolidBase::findPlaces(const BlockMatrix& K) {
+void SolidBase::findPlaces(const linalg::BlockMatrix& K) {
   if (placesOf_ == K.patternId()) return;
   const std::size_t n = cells_.nodes;
   places_.resize(cells_.size() * n * n);
@@ -82,7 +82,7 @@ void SolidBase::findPlaces(const BlockMatrix& K) {
   placesOf_ = K.patternId();
 }
 
-void SolidBase::scatter(std::size_t batch, const Lane* matrix, double fraction, BlockMatrix& K) const {
+void SolidBase::scatter(std::size_t batch, const Lane* matrix, double fraction, linalg::BlockMatrix& K) const {
   const std::size_t n = cells_.nodes;
   const std::span<double> values = K.values();
   for (std::size_t lane = 0; lane < cells_.inUse(batch); ++lane) {
@@ -97,7 +97,8 @@ void SolidBase::scatter(std::size_t batch, const Lane* matrix, double fraction, 
   }
 }
 
-void SolidBase::assemble(const Nodes& nodes, const Instant& now, const Vec3* start, double fraction, BlockMatrix& K) {
+void SolidBase::assemble(const Nodes& nodes, const Instant& now, const Vec3* start, double fraction,
+                         linalg::BlockMatrix& K) {
   requireSameNodes(nodes);
   needGeometry();
   start == nullptr ? ask(nodes, now, true) : openPoints();
@@ -116,11 +117,12 @@ void SolidBase::assemble(const Nodes& nodes, const Instant& now, const Vec3* sta
     });
 }
 
-void SolidBase::addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) {
+void SolidBase::addTangent(const Nodes& nodes, const Instant& now, linalg::BlockMatrix& K) {
   assemble(nodes, now, nullptr, 1.0, K);
 }
 
-void SolidBase::addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now, BlockMatrix& K) {
+void SolidBase::addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
+                                     linalg::BlockMatrix& K) {
   if (conserves()) return assemble(nodes, now, u0.data(), 1.0, K);
   // What the forces between pairs of nodes change by is left out: a fraction |Δu/∂X| of this.
   Nodes mean = nodes;
@@ -128,7 +130,7 @@ void SolidBase::addConservingTangent(const Nodes& nodes, std::span<const Vec3> u
   assemble(mean, now, nullptr, 0.5, K);
 }
 
-void SolidBase::addConsistentMass(NodeMatrix& M) const {
+void SolidBase::addConsistentMass(linalg::NodeMatrix& M) const {
   std::vector<int> nodes(cells_.nodes);
   for (std::size_t e = 0; e < cells_.size(); ++e) {
     for (std::size_t a = 0; a < nodes.size(); ++a) nodes[a] = cells_.nodeOf(e, a);

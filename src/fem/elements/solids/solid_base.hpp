@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dovetail/fem/elements/solid.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
 #include "elements/lanes/lane.hpp"
 #include "solid_cells.hpp"
 #include "solid_points.hpp"
@@ -52,11 +52,12 @@ public:
   bool feelsRates() const override { return points_->feelsRates(); }
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override;
   double addForcesAndEnergy(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override;
-  void addPattern(MatrixPattern& pattern) const override;
-  void addTangent(const Nodes& nodes, const Instant& now, BlockMatrix& K) override;
+  void addPattern(linalg::MatrixPattern& pattern) const override;
+  void addTangent(const Nodes& nodes, const Instant& now, linalg::BlockMatrix& K) override;
   bool addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
                            std::span<Vec3> f) override;
-  void addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now, BlockMatrix& K) override;
+  void addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
+                            linalg::BlockMatrix& K) override;
   bool isSymmetric() const override { return points_->isSymmetric(); }
   bool hasEnergy() const override { return points_->hasEnergy(); }
   double energy(const Nodes& nodes, const Instant& now) override;
@@ -64,7 +65,7 @@ public:
   void revert() override { points_->revert(); }
   void addMass(std::span<double> mass) const override;
   void addBodyMass(std::span<double> mass) const override;
-  void addConsistentMass(NodeMatrix& M) const override;
+  void addConsistentMass(linalg::NodeMatrix& M) const override;
   void save(ByteWriter& archive) const override { points_->save(archive); }
   void load(ByteReader& archive) override;
   void requireValid(const Nodes& nodes, const std::string& when, Scrutiny scrutiny) override;
@@ -155,11 +156,11 @@ private:
                              const std::string& when) const;
   void requireUpright(std::size_t batch, const Nodes& nodes, const std::string& when) const;
 
-  void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, double fraction, BlockMatrix& K);
+  void assemble(const Nodes& nodes, const Instant& now, const Vec3* start, double fraction, linalg::BlockMatrix& K);
   void shareNodes();
   void colourBatches();
-  void findPlaces(const BlockMatrix& K);
-  void scatter(std::size_t batch, const Lane* matrix, double fraction, BlockMatrix& K) const;
+  void findPlaces(const linalg::BlockMatrix& K);
+  void scatter(std::size_t batch, const Lane* matrix, double fraction, linalg::BlockMatrix& K) const;
 
   Evaluation evaluation_;
   std::array<std::vector<Vec3>, 3> path_;  // displacements at the Gauss points of the path of a conserving step

@@ -143,7 +143,7 @@ public:
   /// momentum.
   Reactions reactions(std::size_t k) const;
   /// Forecast of the cost of the linear systems of solid k; empty for explicit steps.
-  fem::LinearForecast forecast(std::size_t k);
+  linalg::LinearForecast forecast(std::size_t k);
   /// The critical step with the present contacts, elements and connectors, and with the first contacts of particles
   /// that have none yet (dem::impactLimit). All connectors of a solid and its own forces share the same nodes; in macro
   /// steps of K steps see dem::criticalStep. A run checks its state now and then, and sets grains.passed when the step

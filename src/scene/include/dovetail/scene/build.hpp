@@ -21,10 +21,10 @@ struct WallParts {
 /// A run, and data on its parts.
 struct Built {
   std::unique_ptr<coupling::CoupledRun> run;
-  std::vector<fem::SolidMesh> meshes;          ///< of the solids, in their order
-  std::vector<WallParts> walls;                ///< of the scene's walls, in their order
-  std::vector<fem::LinearForecast> forecasts;  ///< of the solids of a started run
-  std::vector<std::string> notes;              ///< on decisions that the file leaves open, one sentence each
+  std::vector<fem::SolidMesh> meshes;             ///< of the solids, in their order
+  std::vector<WallParts> walls;                   ///< of the scene's walls, in their order
+  std::vector<linalg::LinearForecast> forecasts;  ///< of the solids of a started run
+  std::vector<std::string> notes;                 ///< on decisions that the file leaves open, one sentence each
 };
 
 /// Fills a closed, welded and oriented surface with elements; sets: "skin".

@@ -105,7 +105,7 @@ struct Solid {
   std::string formulation = "standard";
   bool gravity = true;
   bool implicitSteps = false;
-  int linearSolver = 0;                ///< fem::LinearMethod, of implicit steps
+  int linearSolver = 0;                ///< linalg::LinearMethod, of implicit steps
   std::optional<double> massFraction;  ///< of the consistent mass; not given: 1 for implicit steps, else 0
   std::optional<StateOfSolid> state;   ///< initial state; not given: undeformed and at rest
   Vec3 velocity;                       ///< of all nodes at the start, m/s, added to that of the state

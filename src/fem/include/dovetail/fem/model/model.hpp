@@ -39,9 +39,9 @@ Model makeModel(const SolidMesh& mesh);
 void addMass(Model& model);
 
 /// The groups of nodes that the terms couple.
-MatrixPattern patternOf(const Model& model);
+linalg::MatrixPattern patternOf(const Model& model);
 /// A matrix with a block for every pair of nodes that a term couples; all zero.
-BlockMatrix zeroTangent(const Model& model);
+linalg::BlockMatrix zeroTangent(const Model& model);
 
 /// f = Σ forces of the terms at nodes.u, v.
 void evaluateForces(Model& model, const Instant& now);

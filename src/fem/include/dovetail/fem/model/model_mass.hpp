@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "dovetail/fem/model/model.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
 #include "dovetail/fem/solve/linear_solver.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
 
 namespace dovetail::fem {
 
@@ -28,7 +28,7 @@ public:
   /// @param dofs  must live as long as this
   /// @param linear  how M is solved for where that is no division; conjugate gradients to 1e-14
   /// @throws InputError for a fraction outside 0 … 1 or a node without mass (call addMass first)
-  ModelMass(const Model& model, const DofMap& dofs, double fraction, const LinearOptions& linear = {});
+  ModelMass(const Model& model, const DofMap& dofs, double fraction, const linalg::LinearOptions& linear = {});
   ~ModelMass();
   ModelMass(ModelMass&&) noexcept;
 
@@ -43,7 +43,7 @@ public:
   /// ½ vᵀMv, J.
   double kineticEnergy(std::span<const Vec3> v) const;
   /// S += factor M; the pattern must hold the couplings of all terms of the model.
-  void addTo(BlockMatrix& S, double factor) const;
+  void addTo(linalg::BlockMatrix& S, double factor) const;
   /// f ← M⁻¹ f, accelerations with constraints at rest: T (TᵀMT)⁻¹ Tᵀ f, and 0 at components that are held.
   /// @throws NumericalError if the matrix is not positive definite
   void solve(std::span<Vec3> f) const;
@@ -60,13 +60,13 @@ private:
   }
 
   const DofMap* dofs_;
-  LinearOptions linear_;
+  linalg::LinearOptions linear_;
   double fraction_;
   std::vector<double> mass_;     // lumped, kg per node
   std::vector<double> inverse_;  // empty unless M⁻¹ is a division
-  NodeMatrix matrix_;            // share · consistent + (1 − share) · lumped; empty if lumped
+  linalg::NodeMatrix matrix_;    // share · consistent + (1 − share) · lumped; empty if lumped
   mutable std::vector<Factor> factors_;
-  mutable BlockMatrix tied_;  // with ties
+  mutable linalg::BlockMatrix tied_;  // with ties
   mutable std::unique_ptr<LinearSolver> tiedSolver_;
   mutable std::vector<double> reduced_;
 };

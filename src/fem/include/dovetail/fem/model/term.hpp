@@ -10,12 +10,15 @@
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/fem/model/nodes.hpp"
 
-namespace dovetail::fem {
-
+namespace dovetail::linalg {
 class BlockMatrix;
 class MatrixPattern;
-class ModelMass;
 class NodeMatrix;
+}  // namespace dovetail::linalg
+
+namespace dovetail::fem {
+
+class ModelMass;
 
 /// What an accepted state is looked at for: elements turned inside out, or anything else too for which an answer of a
 /// material cannot be trusted.
@@ -53,11 +56,11 @@ public:
   virtual bool feelsRates() const { return false; }
 
   /// Names the groups of nodes that its tangent couples (a node with itself needs no mention).
-  virtual void addPattern(MatrixPattern&) const {}
+  virtual void addPattern(linalg::MatrixPattern&) const {}
   /// K += −∂f/∂u, N/m.
-  virtual void addTangent(const Nodes&, const Instant&, BlockMatrix&) {}
+  virtual void addTangent(const Nodes&, const Instant&, linalg::BlockMatrix&) {}
   /// C += −∂f/∂v, kg/s.
-  virtual void addDamping(const Nodes&, const Instant&, BlockMatrix&) {}
+  virtual void addDamping(const Nodes&, const Instant&, linalg::BlockMatrix&) {}
   virtual bool isSymmetric() const { return true; }
 
   /// Whether energy() is a function of the state whose negative gradient is the force (up to what commit() books).
@@ -73,7 +76,7 @@ public:
     return false;
   }
   /// K += −∂f/∂u of it, or close to that; not symmetric in general.
-  virtual void addConservingTangent(const Nodes&, std::span<const Vec3> /*u0*/, const Instant&, BlockMatrix&) {}
+  virtual void addConservingTangent(const Nodes&, std::span<const Vec3> /*u0*/, const Instant&, linalg::BlockMatrix&) {}
 
   /// The step is accepted at this state: adopts new history. @return energy dissipated in the step, J
   virtual double commit(const Nodes&, const Instant&) { return 0.0; }
@@ -89,7 +92,7 @@ public:
   /// mass += row sums ∫ρN of its consistent mass, kg: what a uniform field acts on.
   virtual void addBodyMass(std::span<double> mass) const { addMass(mass); }
   /// M += its consistent mass, kg.
-  virtual void addConsistentMass(NodeMatrix&) const {}
+  virtual void addConsistentMass(linalg::NodeMatrix&) const {}
 
   /// Committed state for checkpoints, and back.
   virtual void save(ByteWriter&) const {}

@@ -136,7 +136,7 @@ struct ImplicitOptions {
   int maxCuts = 10;                  ///< halvings of a step that fails
   int maxAugmentations = 30;         ///< per step, for contact by augmented Lagrangian
   int energyEvery = 1;               ///< steps between samples of stored energy; 0 = no ledger
-  LinearOptions linear{};
+  linalg::LinearOptions linear{};
 };
 
 /// Implicit steps by Newton's method that keeps its factors for as long as they serve.
@@ -162,7 +162,7 @@ public:
   const EnergyLedger& ledger() const;
   DynamicsReport report() const;
   /// What the linear systems of the steps are going to take, before the first of them.
-  LinearForecast forecast();
+  linalg::LinearForecast forecast();
   /// Takes another scheme of Newmark's from the next step on. @throws InputError if either is of another family
   void use(const Scheme& scheme);
   const ModelMass& mass() const;

@@ -9,9 +9,9 @@
 
 #include "dovetail/core/archive.hpp"
 #include "dovetail/fem/model/constraints.hpp"
-#include "dovetail/fem/solve/block_matrix.hpp"
-#include "dovetail/fem/solve/definite_solver.hpp"
-#include "dovetail/fem/solve/sparse.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
+#include "dovetail/linalg/definite_solver.hpp"
+#include "dovetail/linalg/sparse.hpp"
 
 namespace dovetail::fem {
 
@@ -20,19 +20,19 @@ class ReducedMatrix {
 public:
   explicit ReducedMatrix(const DofMap& dofs) : dofs_(&dofs) {}
   /// Entries are added in a fixed order.
-  const SparseMatrix& update(const BlockMatrix& K, bool symmetric);
-  const SparseMatrix& matrix() const { return matrix_; }
+  const linalg::SparseMatrix& update(const linalg::BlockMatrix& K, bool symmetric);
+  const linalg::SparseMatrix& matrix() const { return matrix_; }
   const DofMap& dofs() const { return *dofs_; }
   bool symmetric() const { return symmetric_; }
   void save(ByteWriter& archive) const { archive(symmetric_, matrix_.value); }
   /// What save() wrote. @throws InputError if it is not for the pattern of K, or not finite
-  void load(ByteReader& archive, const BlockMatrix& K);
+  void load(ByteReader& archive, const linalg::BlockMatrix& K);
 
 private:
-  void analyse(const BlockMatrix& K, bool symmetric);
+  void analyse(const linalg::BlockMatrix& K, bool symmetric);
   void unite();
   const DofMap* dofs_;
-  SparseMatrix matrix_;
+  linalg::SparseMatrix matrix_;
   std::size_t patternId_ = 0;
   bool symmetric_ = true;
   std::vector<std::uint32_t> source_;  // entries of K in the order of the entries of matrix_
@@ -44,16 +44,16 @@ private:
 class LinearSolver {
 public:
   /// @param dofs  must live as long as the solver
-  explicit LinearSolver(const DofMap& dofs, const LinearOptions& options = {});
+  explicit LinearSolver(const DofMap& dofs, const linalg::LinearOptions& options = {});
   ~LinearSolver();
   LinearSolver(LinearSolver&&) noexcept;
 
   /// What factor() and solve() are going to take; of the values nothing is read.
-  LinearForecast forecast(const BlockMatrix& K, bool symmetric);
+  linalg::LinearForecast forecast(const linalg::BlockMatrix& K, bool symmetric);
   /// Reduces K to the free components and factorises it.
   /// @return false if it is singular (then solve() must not be called)
-  /// @throws FactorMemoryError
-  bool factor(const BlockMatrix& K, bool symmetric);
+  /// @throws linalg::FactorMemoryError
+  bool factor(const linalg::BlockMatrix& K, bool symmetric);
   /// x = (TᵀKT)⁻¹ r; the spans may be the same.
   /// @throws NumericalError if conjugate gradients do not converge
   void solve(std::span<const double> r, std::span<double> x);
@@ -72,8 +72,8 @@ public:
   void save(ByteWriter& archive) const;
   /// What save() wrote, for matrices of the pattern of K; all is left alone.
   /// @throws InputError if it is of another pattern, or damaged
-  Factored read(ByteReader& archive, const BlockMatrix& K) const;
-  /// @throws FactorMemoryError
+  Factored read(ByteReader& archive, const linalg::BlockMatrix& K) const;
+  /// @throws linalg::FactorMemoryError
   void adopt(Factored state);
   /// Negative pivots of the last factorisation: 0 for a stable equilibrium, −1 if not known (not symmetric, iteration).
   int negativePivots() const;

@@ -25,7 +25,7 @@ struct NewtonOptions {
   /// While factors are kept: of how many earlier increments with the same factors each new one is bettered, by the
   /// least squares of Anderson (1965; type II); 0 = none. For solveStatics; needs reuseContraction > 0.
   int mixing = 0;
-  LinearOptions linear{};
+  linalg::LinearOptions linear{};
 };
 
 struct StaticOptions {
@@ -79,8 +79,8 @@ using StaticObserver = std::function<bool(const Model& model, const StaticStep& 
 /// real for laws that creep, relax or depend on rates; velocities mean nothing. tEnd = model.t: to the equilibrium of
 /// that instant, in one step in which no time passes.
 /// @throws NumericalError, with the reason, if the smallest step fails, whatever the terms or the solver threw; what
-///         else is thrown passes through: FactorMemoryError, InputError for tEnd < model.t, options out of range,
-///         constraints at odds. The model is then in its last equilibrium.
+///         else is thrown passes through: linalg::FactorMemoryError, InputError for tEnd < model.t, options out of
+///         range, constraints at odds. The model is then in its last equilibrium.
 StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& options = {},
                           const StaticObserver& observer = {});
 

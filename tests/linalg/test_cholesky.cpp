@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "dovetail/fem/solve/sparse.hpp"
+#include "dovetail/linalg/sparse.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 namespace {
 
 /// Tridiagonal matrix with the given diagonal and −1 beside it.
@@ -102,4 +102,4 @@ TEST(SparseLu, CountsTheNegativeEigenvaluesOfAChain) {
 }
 
 }  // namespace
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

@@ -4,9 +4,9 @@
 #include <cstdlib>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/solve/sparse.hpp"
+#include "dovetail/linalg/sparse.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 namespace {
 
 constexpr std::size_t largest = 10000;  // bytes
@@ -68,4 +68,4 @@ TEST(SparseLu, LackOfMemoryIsNoVerdictOnTheMatrix) {
 }
 
 }  // namespace
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

@@ -7,7 +7,7 @@
 
 #include "dovetail/core/vec3.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 /// Groups of nodes that share a term's tangent.
 class MatrixPattern {
@@ -87,4 +87,4 @@ private:
   std::vector<double> values_;
 };
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

@@ -1,4 +1,4 @@
-#include "dovetail/fem/motion/largest_eigenvalue.hpp"
+#include "dovetail/linalg/largest_eigenvalue.hpp"
 
 #include <Spectra/SymGEigsSolver.h>
 
@@ -9,7 +9,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 namespace {
 
@@ -70,4 +70,4 @@ double largestEigenvalue(const StiffnessAndMass& pair, double accuracy) {
   return solver.eigenvalues()[0] * (1.0 + accuracy);
 }
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

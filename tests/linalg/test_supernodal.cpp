@@ -7,10 +7,10 @@
 #include <set>
 #include <utility>
 
-#include "dovetail/fem/solve/nested_dissection.hpp"
-#include "helpers.hpp"
+#include "../threads.hpp"
+#include "dovetail/linalg/nested_dissection.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 namespace {
 
 struct Lattice {
@@ -156,4 +156,4 @@ TEST(NestedDissection, TakesPointsThatCoincideAndRefusesMissingOnes) {
 }
 
 }  // namespace
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

@@ -2,9 +2,9 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 
-#include "dovetail/fem/solve/sparse.hpp"
+#include "dovetail/linalg/sparse.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 namespace {
 
@@ -61,4 +61,4 @@ void SparseCholesky::solve(std::span<double> b, int columns) {
 
 const char* SparseCholesky::name() { return "Eigen LDLT"; }
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

@@ -6,7 +6,7 @@
 
 #include "dovetail/core/vector_code.hpp"
 
-namespace dovetail::fem::detail {
+namespace dovetail::linalg::detail {
 
 /// Some vectors, `stride` apart.
 template <int count>
@@ -105,4 +105,4 @@ template <int count>
 
 }  // namespace panel
 
-}  // namespace dovetail::fem::detail
+}  // namespace dovetail::linalg::detail

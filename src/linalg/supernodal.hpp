@@ -7,7 +7,7 @@
 
 #include "dense_panel.hpp"
 
-namespace dovetail::fem::detail {
+namespace dovetail::linalg::detail {
 
 /// Pattern of a lower triangular L by supernodes, columns that share their rows. Supernode s has the columns from
 /// firstColumn[s] to firstColumn[s + 1]; its rows, from row[firstRow[s]] on, ascend and begin with those of its
@@ -62,4 +62,4 @@ private:
   std::vector<double> outside_;
 };
 
-}  // namespace dovetail::fem::detail
+}  // namespace dovetail::linalg::detail

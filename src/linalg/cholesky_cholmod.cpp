@@ -8,7 +8,7 @@
 #include "suitesparse.hpp"
 #include "supernodal.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 namespace {
 
@@ -162,4 +162,4 @@ void SparseCholesky::solve(std::span<double> b, int columns) {
 
 const char* SparseCholesky::name() { return package; }
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

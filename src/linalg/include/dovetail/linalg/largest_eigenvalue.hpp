@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 /// Symmetric operators on vectors of `size` entries; y is overwritten.
 struct StiffnessAndMass {
@@ -20,4 +20,4 @@ struct StiffnessAndMass {
 /// @throws NumericalError if K or M are not finite, or if it does not settle
 double largestEigenvalue(const StiffnessAndMass& pair, double accuracy);
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

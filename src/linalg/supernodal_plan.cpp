@@ -4,7 +4,7 @@
 
 #include "supernodal.hpp"
 
-namespace dovetail::fem::detail {
+namespace dovetail::linalg::detail {
 
 namespace {
 
@@ -46,4 +46,4 @@ SupernodalPlan planOf(const SupernodalPattern& L) {
   return plan;
 }
 
-}  // namespace dovetail::fem::detail
+}  // namespace dovetail::linalg::detail

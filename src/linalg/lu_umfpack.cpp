@@ -6,7 +6,7 @@
 
 #include "suitesparse.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 namespace {
 
@@ -140,4 +140,4 @@ void SparseLu::solve(std::span<double> b) {
 int SparseLu::negativePivots() const { return impl_->negative; }
 const char* SparseLu::name() { return package; }
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "dovetail/core/vec3.hpp"
-#include "dovetail/fem/solve/sparse.hpp"
+#include "dovetail/linalg/sparse.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 /// The unknowns of A in an order of elimination: a set is halved across its longest side, and those of one half that
 /// meet the other come last (George, SIAM J. Numer. Anal. 10, 1973). Found in a fraction of the time that orders from
@@ -17,4 +17,4 @@ namespace dovetail::fem {
 /// @throws InputError unless there is one point per unknown
 std::vector<int> nestedDissection(const SparseMatrix& A, std::span<const Vec3> point);
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

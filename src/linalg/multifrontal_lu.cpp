@@ -1,46 +1,85 @@
-#include "fronts.hpp"
+#include "dovetail/linalg/multifrontal_lu.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
-#include "dovetail/core/error.hpp"
-
-namespace dovetail::rve {
+namespace dovetail::linalg {
 
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-[[noreturn]] void failSingular() {
-  throw NumericalError("the network of contacts is singular", "cell of grains",
-                       "bring the cell to rest under pressure");
-}
-
 }  // namespace
 
-void Fronts::add(int a, int b, const Eigen::Ref<const Eigen::MatrixXd>& part) {
-  parts_.push_back({{a, b}, values_.size()});
-  for (Eigen::Index c = 0; c < part.cols(); ++c)
-    for (Eigen::Index r = 0; r < part.rows(); ++r) values_.push_back(part(r, c));
+struct MultifrontalLu::Impl {
+  struct Part {
+    std::array<int, 2> node;
+    std::size_t at;  // in values_, by columns
+  };
+  struct Front {
+    std::vector<int> own, later;  // places in the order of elimination
+    int parent = -1;
+    std::vector<int> unknowns;  // own ones first
+    Eigen::PartialPivLU<Eigen::MatrixXd> pivots;
+    Eigen::MatrixXd lower, upper;  // L₂₁, U₁₂
+    Eigen::MatrixXd left;          // for the parent, until that has it
+  };
+
+  int size() const { return first_.back(); }
+  int sizeOf(int node) const { return node < 0 ? 0 : first_[at(node) + 1] - first_[at(node)]; }
+  Eigen::Map<const Eigen::MatrixXd> matrixOf(const Part& part) const;
+  template <class Visit>
+  void forUnknowns(const Part& part, const Visit& visit) const;
+  bool factor();
+  void chooseOrder();
+  void makeFronts();
+  int frontThatTakes(const std::vector<int>& children, std::size_t later) const;
+  void sortFronts();
+  bool eliminate(Front& front, const std::vector<int>& children, const std::vector<int>& parts);
+  void substitute(Eigen::MatrixXd& x) const;
+
+  std::vector<int> first_;
+  int last_;
+  std::vector<Part> parts_;
+  std::vector<double> values_;
+  std::vector<int> order_, place_;  // node at a place of the order, and back
+  std::vector<Front> fronts_;       // children before parents
+  std::vector<int> local_;          // by unknown: where it is in the front at hand
+};
+
+MultifrontalLu::MultifrontalLu(std::vector<int> first, int last)
+    : impl_(std::make_unique<Impl>(Impl{std::move(first), last, {}, {}, {}, {}, {}, {}})) {}
+MultifrontalLu::~MultifrontalLu() = default;
+MultifrontalLu::MultifrontalLu(MultifrontalLu&&) noexcept = default;
+MultifrontalLu& MultifrontalLu::operator=(MultifrontalLu&&) noexcept = default;
+
+void MultifrontalLu::add(int a, int b, std::span<const double> part) {
+  impl_->parts_.push_back({{a, b}, impl_->values_.size()});
+  impl_->values_.insert(impl_->values_.end(), part.begin(), part.end());
 }
 
-Eigen::Map<const Eigen::MatrixXd> Fronts::matrixOf(const Part& part) const {
+Eigen::Map<const Eigen::MatrixXd> MultifrontalLu::Impl::matrixOf(const Part& part) const {
   const int n = sizeOf(part.node[0]) + sizeOf(part.node[1]);
   return {values_.data() + part.at, n, n};
 }
 
 /// visit(row of the part, unknown).
 template <class Visit>
-void Fronts::forUnknowns(const Part& part, const Visit& visit) const {
+void MultifrontalLu::Impl::forUnknowns(const Part& part, const Visit& visit) const {
   int row = 0;
   for (const int node : part.node)
     for (int k = 0; k < sizeOf(node); ++k) visit(row++, first_[at(node)] + k);
 }
 
-void Fronts::factor() {
+bool MultifrontalLu::factor() { return impl_->factor(); }
+
+bool MultifrontalLu::Impl::factor() {
   chooseOrder();
   makeFronts();
   std::vector<std::vector<int>> children(fronts_.size()), parts(fronts_.size());
@@ -55,10 +94,12 @@ void Fronts::factor() {
     parts[frontOf[at(earlier)]].push_back(static_cast<int>(p));
   }
   local_.assign(at(size()), 0);
-  for (std::size_t f = 0; f < fronts_.size(); ++f) eliminate(fronts_[f], children[f], parts[f]);
+  for (std::size_t f = 0; f < fronts_.size(); ++f)
+    if (!eliminate(fronts_[f], children[f], parts[f])) return false;
+  return true;
 }
 
-void Fronts::chooseOrder() {
+void MultifrontalLu::Impl::chooseOrder() {
   const int nodes = static_cast<int>(first_.size()) - 1;
   std::vector<Eigen::Triplet<double>> pairs;
   for (const Part& part : parts_) {
@@ -80,7 +121,7 @@ void Fronts::chooseOrder() {
   for (int p = 0; p < nodes; ++p) place_[at(order_[at(p)])] = p;
 }
 
-void Fronts::makeFronts() {
+void MultifrontalLu::Impl::makeFronts() {
   const std::size_t nodes = order_.size();
   std::vector<std::vector<int>> later(nodes), children(nodes);
   for (const Part& part : parts_) {
@@ -110,7 +151,7 @@ void Fronts::makeFronts() {
 }
 
 /// The child that takes the next place in, if that adds few zeros; else −1.
-int Fronts::frontThatTakes(const std::vector<int>& children, std::size_t later) const {
+int MultifrontalLu::Impl::frontThatTakes(const std::vector<int>& children, std::size_t later) const {
   for (const int c : children) {
     const Front& front = fronts_[at(c)];
     if ((later + 1 - front.later.size()) * front.own.size() <= 4) return c;
@@ -118,7 +159,7 @@ int Fronts::frontThatTakes(const std::vector<int>& children, std::size_t later) 
   return -1;
 }
 
-void Fronts::sortFronts() {
+void MultifrontalLu::Impl::sortFronts() {
   std::vector<int> sequence(fronts_.size()), rank(fronts_.size());
   std::iota(sequence.begin(), sequence.end(), 0);
   std::sort(sequence.begin(), sequence.end(),
@@ -133,7 +174,7 @@ void Fronts::sortFronts() {
   fronts_ = std::move(sorted);
 }
 
-void Fronts::eliminate(Front& front, const std::vector<int>& children, const std::vector<int>& parts) {
+bool MultifrontalLu::Impl::eliminate(Front& front, const std::vector<int>& children, const std::vector<int>& parts) {
   Eigen::Index own = 0;
   for (const std::vector<int>* places : {&front.own, &front.later}) {
     for (const int place : *places)
@@ -161,17 +202,18 @@ void Fronts::eliminate(Front& front, const std::vector<int>& children, const std
   }
   front.pivots.compute(dense.topLeftCorner(own, own));
   const auto& factors = front.pivots.matrixLU();
-  if (!factors.allFinite() || (factors.diagonal().array() == 0.0).any()) failSingular();
+  if (!factors.allFinite() || (factors.diagonal().array() == 0.0).any()) return false;
   front.upper = front.pivots.permutationP() * dense.topRightCorner(own, rest);
   front.lower = dense.bottomLeftCorner(rest, own);
-  if (rest == 0) return;
+  if (rest == 0) return true;
   factors.triangularView<Eigen::UnitLower>().solveInPlace(front.upper);
   factors.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(front.lower);
   front.left = dense.bottomRightCorner(rest, rest);
   front.left.noalias() -= front.lower * front.upper;
+  return true;
 }
 
-void Fronts::substitute(Eigen::MatrixXd& x) const {
+void MultifrontalLu::Impl::substitute(Eigen::MatrixXd& x) const {
   Eigen::MatrixXd own, later;
   const auto gather = [&x](Eigen::MatrixXd& to, const int* unknown, Eigen::Index rows) {
     to.resize(rows, x.cols());
@@ -200,29 +242,32 @@ void Fronts::substitute(Eigen::MatrixXd& x) const {
   }
 }
 
-Eigen::MatrixXd Fronts::solve(const Eigen::MatrixXd& rightSide) const {
+bool MultifrontalLu::solve(std::span<double> b, int columns) const {
+  const Impl& m = *impl_;
+  Eigen::Map<Eigen::MatrixXd> solution(b.data(), m.size(), columns);
+  const Eigen::MatrixXd rightSide = solution;
   Eigen::MatrixXd x = rightSide;
-  substitute(x);
+  m.substitute(x);
   double error = 0.0;
   for (int refinement = 0; refinement < 4; ++refinement) {
     // Componentwise backward error (Oettli and Prager).
     Eigen::MatrixXd residual = rightSide, size = rightSide.cwiseAbs();
-    for (const Part& part : parts_) {
-      const auto matrix = matrixOf(part);
-      forUnknowns(part, [&](int c, int column) {
-        forUnknowns(part, [&](int r, int row) {
+    for (const Impl::Part& part : m.parts_) {
+      const auto matrix = m.matrixOf(part);
+      m.forUnknowns(part, [&](int c, int column) {
+        m.forUnknowns(part, [&](int r, int row) {
           residual.row(row) -= matrix(r, c) * x.row(column);
           size.row(row) += std::abs(matrix(r, c)) * x.row(column).cwiseAbs();
         });
       });
     }
     error = (residual.array().abs() > 0.0).select(residual.array().abs() / size.array(), 0.0).maxCoeff();
-    if (error < 1e-14) return x;
-    substitute(residual);
+    if (error < 1e-14) break;
+    m.substitute(residual);
     x += residual;
   }
-  if (!(error < 1e-8)) failSingular();
-  return x;
+  solution = x;
+  return error < 1e-8;
 }
 
-}  // namespace dovetail::rve
+}  // namespace dovetail::linalg

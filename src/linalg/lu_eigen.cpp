@@ -3,9 +3,9 @@
 #include <Eigen/SparseLU>
 #include <algorithm>
 
-#include "dovetail/fem/solve/sparse.hpp"
+#include "dovetail/linalg/sparse.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 struct SparseLu::Impl {
   Eigen::SparseLU<Eigen::SparseMatrix<double>> general;
@@ -55,4 +55,4 @@ void SparseLu::solve(std::span<double> b) {
 int SparseLu::negativePivots() const { return impl_->negative; }
 const char* SparseLu::name() { return "Eigen LU"; }
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

@@ -3,7 +3,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "supernodal.hpp"
 
-namespace dovetail::fem::detail {
+namespace dovetail::linalg::detail {
 
 namespace {
 
@@ -150,4 +150,4 @@ void SupernodalSolver::solve(const SupernodalPattern& L, const SupernodalPlan& p
   if (done < columns) solveTogether<1>(L, plan, values, {rest(), size});
 }
 
-}  // namespace dovetail::fem::detail
+}  // namespace dovetail::linalg::detail

@@ -1,4 +1,4 @@
-#include "dovetail/fem/solve/definite_solver.hpp"
+#include "dovetail/linalg/definite_solver.hpp"
 
 #include <Eigen/IterativeLinearSolvers>
 #include <optional>
@@ -7,7 +7,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 namespace {
 
@@ -87,4 +87,4 @@ void DefiniteSolver::solve(std::span<double> b, int columns) {
 
 bool DefiniteSolver::iterates() const { return impl_->gradients != nullptr; }
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

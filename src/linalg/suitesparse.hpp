@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/fem/solve/sparse.hpp"
+#include "dovetail/linalg/sparse.hpp"
 
-namespace dovetail::fem::detail {
+namespace dovetail::linalg::detail {
 
 /// Holds OpenBLAS, if that is the BLAS in use, to one thread: its sums depend on the number of threads.
 class OneBlasThread {
@@ -69,4 +69,4 @@ struct LongPattern {
                        "factorisation", "report this with the mesh that leads to it");
 }
 
-}  // namespace dovetail::fem::detail
+}  // namespace dovetail::linalg::detail

@@ -1,10 +1,10 @@
-#include "dovetail/fem/solve/nested_dissection.hpp"
+#include "dovetail/linalg/nested_dissection.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <string>
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::vector<int> nestedDissection(const SparseMatrix& A, std::span<const Vec3> p
   return order;
 }
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

@@ -7,7 +7,7 @@
 
 #include "dovetail/core/error.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 /// Compressed columns; rows ascend within a column. For nodes, component c of node n is row 3n + c.
 struct SparseMatrix {
@@ -86,4 +86,4 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

@@ -1,4 +1,4 @@
-#include "dovetail/fem/solve/block_matrix.hpp"
+#include "dovetail/linalg/block_matrix.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -6,7 +6,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 namespace {
 
@@ -127,4 +127,4 @@ void BlockMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
   });
 }
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

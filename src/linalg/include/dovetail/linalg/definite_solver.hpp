@@ -4,9 +4,9 @@
 #include <memory>
 #include <span>
 
-#include "dovetail/fem/solve/sparse.hpp"
+#include "dovetail/linalg/sparse.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 enum class LinearMethod {
   /// Direct as long as the factors are no larger than LinearOptions::largestFactors, else conjugate gradients.
@@ -58,4 +58,4 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg

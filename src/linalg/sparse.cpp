@@ -1,6 +1,6 @@
-#include "dovetail/fem/solve/sparse.hpp"
+#include "dovetail/linalg/sparse.hpp"
 
-namespace dovetail::fem {
+namespace dovetail::linalg {
 
 std::vector<double> multiply(const SparseMatrix& A, std::span<const double> x) {
   std::vector<double> y(static_cast<std::size_t>(A.size), 0.0);
@@ -20,4 +20,4 @@ std::vector<double> multiplySymmetric(const SparseMatrix& A, std::span<const dou
   return y;
 }
 
-}  // namespace dovetail::fem
+}  // namespace dovetail::linalg
