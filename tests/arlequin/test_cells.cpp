@@ -70,12 +70,12 @@ TEST(Cells, MidNodesAreLevelledSoThatSharesGoByTheHats) {
   for (const fem::ElementShape shape : {fem::ElementShape::hex20, fem::ElementShape::hex27, fem::ElementShape::tet10}) {
     const fem::SolidMesh mesh = fem::boxOf(shape, {2, 2, 2}, {}, {1, 1, 1});
     std::mt19937 random(2);
-    std::uniform_real_distribution<double> weight(0.0, 1.0);
+    std::uniform_real_distribution<double> drawn(0.0, 1.0);
     std::vector<double> weight;
-    for (std::size_t n = 0; n < mesh.X.size(); ++n) weight.push_back(weight(random));
+    for (std::size_t n = 0; n < mesh.X.size(); ++n) weight.push_back(drawn(random));
     levelMidNodes(mesh, weight);
     for (int k = 0; k < 50; ++k) {
-      const Vec3 xi{0.3 * weight(random), 0.3 * weight(random), 0.3 * weight(random)};
+      const Vec3 xi{0.3 * drawn(random), 0.3 * drawn(random), 0.3 * drawn(random)};
       const int e = k % static_cast<int>(mesh.elementCount());
       const std::vector<double> row = fem::shapeRow(shape, xi);
       double full = 0.0;

@@ -16,7 +16,7 @@ double stressOfElement(const fem::SolidMesh& mesh, const fem::Model& solid, std:
   for (std::size_t a = 0; a < 8; ++a) {
     const auto n = static_cast<std::size_t>(cellOf(mesh, static_cast<int>(element)).node[a]);
     strain += (a == 2 || a == 3 || a == 6 || a == 7 ? 0.25 : -0.25) * solid.nodes.u[n].y / edge;
-    weight += 0.125 * dynamic_cast<const fem::Solid&>(*solid.terms.front()).weight()[n];
+    weight += 0.125 * dynamic_cast<const fem::Solid&>(*solid.terms.front()).fraction()[n];
   }
   return weight * modulus * (strain + 1.5 * strain * strain);
 }

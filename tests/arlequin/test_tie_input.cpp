@@ -221,10 +221,10 @@ TEST(TieInput, WhatCannotBeIsRefused) {
     run.grains.particles = lattice({-0.25, 0, -0.25}, {0.25, 2.5, 0.25}, 2);
     run.grains.laws = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 1.0}});
     run.take(fem::makeModel(mesh));
-    std::vector<double> weight = solidWeights(weight);
-    change(run, weight);
+    std::vector<double> fraction = solidWeights(weight);
+    change(run, fraction);
     const fem::StVenantKirchhoff law3{modulus, 0.0, bulk};
-    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.fraction = weight}));
+    run.solid->add(fem::makeSolid(mesh, fem::pointMaterial(fem::Material(law3)), {.fraction = fraction}));
     run.couple(mesh, weight, coupling);
     dem::check(run.grains);
   };
