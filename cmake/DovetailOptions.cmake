@@ -67,9 +67,6 @@ dovetail_optional(ceres "calibration: grain parameters fitted to measurements" C
 dovetail_optional(json "scenes, and the benchmarks' summaries" nlohmann_json)
 option(DOVETAIL_PROGRAM "Build the program dovetail, which runs scenes" ${PROJECT_IS_TOP_LEVEL})
 option(DOVETAIL_PROGRAM_CGAL "Let dovetail fill surfaces with tetrahedra by CGAL, which puts the program under the GPL" OFF)
-if(DOVETAIL_BENCHMARKS OR DOVETAIL_PROGRAM)
-  dovetail_optional(cli11 "command lines of dovetail and the benchmarks" CLI11)
-endif()
 
 if(DOVETAIL_TESTS)
   find_package(GTest REQUIRED)

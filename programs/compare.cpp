@@ -2,36 +2,27 @@
 #include "dovetail/scene/compare.hpp"
 
 #include <iostream>
-#include <memory>
 
-#include "dovetail/core/finite.hpp"
+#include "program/options.hpp"
 #include "verbs.hpp"
 
 namespace dovetail::program {
 
-namespace {
-struct Options {
+bool compareRuns(int argc, char** argv) {
   std::string first, second;
   double tolerance = 1e-9;
   std::size_t rows = 20;
-};
-}  // namespace
-
-Verb addCompare(CLI::App& app) {
-  CLI::App* const verb =
-      app.add_subcommand("compare", "compares two runs, or two series, frames or states; exit code 1 if they differ");
-  const auto options = std::make_shared<Options>();
-  verb->add_option("A", options->first, "folder of a run, or file")->required();
-  verb->add_option("B", options->second, "of the same kind")->required();
-  verb->add_option("--tolerance", options->tolerance, "of differences over the scale of their quantity")
-      ->capture_default_str();
-  verb->add_option("--rows", options->rows, "of the table, at most")->capture_default_str();
-  return {verb, [options] {
-            requireNonNegative(options->tolerance, "--tolerance");
-            const scene::Comparison comparison = scene::compare(options->first, options->second);
-            scene::print(comparison, options->tolerance, options->rows, std::cout);
-            return comparison.within(options->tolerance) ? 0 : 1;
-          }};
+  Options options("dovetail compare",
+                  "Compares two runs, or two series, frames or states. Exit code 1 if they differ.");
+  options.text("A", first, "folder of a run, or file").require();
+  options.text("B", second, "of the same kind").require();
+  options.number("--tolerance X", tolerance, notNegative("0 or a positive number"),
+                 "of differences over the scale of their quantity");
+  options.integer("--rows N", rows, 0, 1000000, "of the table, at most");
+  if (!options.parse(argc, argv)) return true;
+  const scene::Comparison comparison = scene::compare(first, second);
+  scene::print(comparison, tolerance, rows, std::cout);
+  return comparison.within(tolerance);
 }
 
 }  // namespace dovetail::program

@@ -1,48 +1,46 @@
 // dovetail fields: coarse-grained fields of a saved run.
 #include <iostream>
-#include <map>
-#include <memory>
+#include <sstream>
 
 #include "dovetail/scene/grid_fields.hpp"
+#include "program/options.hpp"
 #include "verbs.hpp"
 
 namespace dovetail::program {
 
 namespace {
-struct Options {
-  std::string run, file;
-  scene::GridOptions settings;
-  std::vector<double> box;
-};
+
+geometry::Box boxIn(const std::string& text) {
+  std::istringstream words(text);
+  geometry::Box box;
+  std::string word;
+  for (Vec3* const corner : {&box.lower, &box.upper})
+    for (int k = 0; k < 3 && words >> word; ++k) (*corner)[k] = numberFrom<double>(word, "--box");
+  return box;
+}
+
 }  // namespace
 
-Verb addFields(CLI::App& app) {
-  CLI::App* const verb =
-      app.add_subcommand("fields", "density, velocity, stress … of a run's last checkpoint on a grid, as a VTI file");
-  const auto options = std::make_shared<Options>();
-  const std::map<std::string, cg::KernelShape> shapes{{"lucy", cg::KernelShape::lucy},
-                                                      {"gauss", cg::KernelShape::gauss}};
-  verb->add_option("RUN", options->run, "folder of a run with a checkpoint")->required();
-  verb->add_option("--out", options->file, "file; RUN/fields.vti if not given");
-  verb->add_option("--kernel", options->settings.shape, "lucy or gauss")->transform(CLI::CheckedTransformer(shapes));
-  CLI::Option* const width =
-      verb->add_option("--width", options->settings.width, "of the kernel, m; 1.5 mean diameters if not given");
-  verb->add_flag("--advise-width", options->settings.advisesWidth,
-                 "take the width on which density and velocity depend least; prints how flat that optimum is")
-      ->excludes(width);
-  verb->add_option("--spacing", options->settings.spacing, "of the points, m; half the width if not given");
-  verb->add_option("--box", options->box,
-                   "x y z of the lower and of the upper corner, m; around all grains if not given")
-      ->expected(6);
-  return {verb, [options] {
-            scene::GridOptions settings = options->settings;
-            const std::vector<double>& b = options->box;
-            if (!b.empty()) settings.box = geometry::Box{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
-            settings.file = options->file.empty() ? std::filesystem::path(options->run) / "fields.vti"
-                                                  : std::filesystem::path(options->file);
-            scene::writeGridFields(options->run, settings, std::cout);
-            return 0;
-          }};
+bool writeFields(int argc, char** argv) {
+  std::string run, file;
+  scene::GridOptions settings;
+  const Range length = positive("a positive length in metres");
+  Options options("dovetail fields",
+                  "Density, velocity, stress … of a run's last checkpoint on a grid, as a VTI file.");
+  options.text("RUN", run, "folder of a run with a checkpoint").require();
+  options.text("--out FILE", file, "RUN/fields.vti if not given");
+  options.choice("--kernel", settings.shape, "lucy|gauss", "its shape");
+  options.number("--width W", settings.width, length, "of the kernel, m; 1.5 mean diameters if not given");
+  options.flag("--advise-width", settings.advisesWidth,
+               "take the width on which density and velocity depend least; prints how flat that optimum is");
+  options.number("--spacing H", settings.spacing, length, "of the points, m; half the width if not given");
+  options.add("--box X Y Z X Y Z", "lower and upper corner, m; around all grains if not given",
+              [&](const std::string& text) { settings.box = boxIn(text); }, {});
+  if (!options.parse(argc, argv)) return true;
+  options.refuseBoth("--width", "--advise-width");
+  settings.file = file.empty() ? std::filesystem::path(run) / "fields.vti" : std::filesystem::path(file);
+  scene::writeGridFields(run, settings, std::cout);
+  return true;
 }
 
 }  // namespace dovetail::program

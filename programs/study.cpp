@@ -185,7 +185,7 @@ bool studyScene(int argc, char** argv) {
   options.texts("--set KEY=VALUE", settings.set, "the same for all runs");
   options.text("--error COLUMN", settings.error,
                "of the series: its magnitude at the end is the error; default: the largest residual");
-  options.number("--exact VALUE", settings.exact, {-1e300, 1e300, true, true, "a number"}, "none",
+  options.number("--exact VALUE", settings.exact, {-1e300, 1e300, true, true, "a number"},
                  "exact value of the column: the error is the difference from it");
   options.flag("--energy", settings.energy,
                "writes energy.html and .csv too: residual of the energy, its order in the step, growth and channels");

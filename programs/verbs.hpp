@@ -1,39 +1,46 @@
-// The verbs of the command line that have files of their own.
+// The verbs of the command line.
 #pragma once
-
-#include <CLI/CLI.hpp>
-#include <functional>
 
 namespace dovetail::program {
 
+/// A verb reads its own command line.
 struct Verb {
-  CLI::App* app;
-  std::function<int()> act;  ///< returns the exit code
-};
-
-/// compare A B: exit code 1 if the two differ by more than the tolerance.
-Verb addCompare(CLI::App& app);
-/// fields RUN: coarse-grained fields of its last checkpoint.
-Verb addFields(CLI::App& app);
-/// calibrate FILE; refused where the build has no Ceres.
-Verb addCalibrate(CLI::App& app);
-
-/// Lets scenes fill surfaces with tetrahedra, where the program is built for it (DOVETAIL_PROGRAM_CGAL).
-void offerTetrahedra();
-
-/// A verb that reads its own command line.
-struct OwnVerb {
   const char *name, *help;
-  /// @param argv  the verb, then its arguments @return whether all was done. @throws InputError
+  /// @param argv  the verb, then its arguments
+  /// @return whether all was done: runProgram makes the exit code of it. @throws InputError
   bool (*act)(int argc, char** argv);
 };
 
+bool runScene(int argc, char** argv);
+bool checkScene(int argc, char** argv);
+bool resumeRun(int argc, char** argv);
+bool inspectFile(int argc, char** argv);
+bool upgradeScene(int argc, char** argv);
+bool writeSchema(int argc, char** argv);
+bool compareRuns(int argc, char** argv);  ///< false if the two differ by more than the tolerance
+bool writeFields(int argc, char** argv);
+bool calibrate(int argc, char** argv);  ///< refused where the build has no Ceres
 bool studyScene(int argc, char** argv);
 bool reportRun(int argc, char** argv);
+bool writeStarter(int argc, char** argv);
 
-inline constexpr OwnVerb ownVerbs[] = {
+inline constexpr Verb verbs[] = {
+    {"run", "runs a scene", runScene},
+    {"check", "builds a scene, and prints sizes, critical steps, memory and run time", checkScene},
+    {"resume", "continues a run from its last checkpoint", resumeRun},
+    {"info", "prints what a file or folder contains", inspectFile},
+    {"upgrade", "updates renamed keys and words of a scene file", upgradeScene},
+    {"schema", "prints the JSON Schema of scenes, or a reference of their keys", writeSchema},
+    {"compare", "compares two runs, or two series, frames or states; exit code 1 if they differ", compareRuns},
+    {"fields", "density, velocity, stress … of a run's last checkpoint on a grid, as a VTI file", writeFields},
+    {"calibrate", "continuum of a packing, grain parameters from measurements, or the best widths and lengths",
+     calibrate},
     {"study", "runs a scene over lists of parameters, in several processes", studyScene},
     {"report", "writes a page (HTML, Markdown) on a run", reportRun},
+    {"new", "prints a commented starter scene, or writes it", writeStarter},
 };
+
+/// Lets scenes fill surfaces with tetrahedra, where the program is built for it (DOVETAIL_PROGRAM_CGAL).
+void offerTetrahedra();
 
 }  // namespace dovetail::program

@@ -19,12 +19,12 @@ void addTimeOptions(program::Options& o, RunOptions& s, const RunWords& words) {
         },
         {});
   o.number("--dt-fraction S", s.fractionOfCritical, program::positive("a positive fraction of the critical step"),
-           "none", "time step over the critical step")
+           "time step over the critical step")
       .key = "";
   o.flag("--insist", s.beyondCritical, "also allows a step above the critical one").key = "";
   o.integer("--fem-every K", s.femEvery, 1, 1000, "DEM steps per FEM step");
-  o.number("--until T", s.until, program::positive("a positive time in seconds, up to 1e6", 1e6), words.endDefault,
-           "end, s; default: " + words.endDefault)
+  o.number("--until T", s.until, program::positive("a positive time in seconds, up to 1e6", 1e6),
+           "end, s; default: " + words.endDefault, words.endDefault)
       .in("s");
   o.integer("--threads N", s.threads, 1, 1024, "results do not depend on it");
 }

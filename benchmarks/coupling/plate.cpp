@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "../common/arguments.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/coupling/run.hpp"
@@ -17,6 +16,7 @@
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/surface/surface_contact.hpp"
+#include "program/run.hpp"
 
 namespace {
 
@@ -89,17 +89,13 @@ void measure(int layers, int steps) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    const std::string usage = "the arguments are [THREADS [STEPS]]";
-    benchmark::requireAtMost(2, argc, argv, usage);
-    setThreads(benchmark::positiveArgument(1, 1, argc, argv, usage));
-    const int steps = benchmark::positiveArgument(2, 400, argc, argv, usage);
+  int threads = 1, steps = 400;
+  program::Options options("coupling_plate", "Times a plate under layers of grains, and the stages of its step.");
+  options.integer("THREADS", threads, 1, 1024, "1 if not given");
+  options.integer("STEPS", steps, 1, 1000000, "of each timing; 400 if not given");
+  return program::runProgram(options, argc, argv, [&] {
+    setThreads(threads);
     for (const int layers : {1, 3, 10}) measure(layers, steps);
-  } catch (const InputError& error) {
-    std::cerr << error.what() << "\n";
-    return 2;
-  } catch (const Error& error) {
-    std::cerr << error.what() << "\n";
-    return 1;
-  }
+    return true;
+  });
 }

@@ -22,6 +22,7 @@
 #include "dovetail/dem/setup/packing.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
+#include "program/run.hpp"
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -190,7 +191,7 @@ Measured measure(int across, const Way& way) {
 
 struct Flow {
   double between = 0.0;   // steps from one list update to the next
-  double cost = 0.0;     // of a list update, in other steps
+  double cost = 0.0;      // of a list update, in other steps
   double fraction = 0.0;  // of the run's time that list updates take
 };
 
@@ -254,38 +255,38 @@ void print(int across, const Way& way, const Measured& m) {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
+int main(int argc, char** argv) {
   std::vector<int> sizes;
   std::string only;
   bool flows = false;
-  for (int k = 1; k < argc; ++k)
-    if (const int across = std::atoi(argv[k]); across > 0)
-      sizes.push_back(across);
-    else if (argv[k] == std::string("flow"))
-      flows = true;
-    else
-      only = argv[k];
-  if (flows) return printFlows(only), 0;
-  if (sizes.empty()) sizes = {17, 30, 54};
-  std::printf("Threads: 2 unless told. List updates in steps by two threads.\n");
-  std::printf("%-22s %4s %7s %7s %6s %7s %8s %9s %9s %6s %9s %6s %8s %8s\n", "coupling", "wide", "grains", "bricks",
-              "rows", "MB", "start s", "1: step", "1: tie", "gain", "2: step", "gain", "few", "all");
-  for (const Way& way : ways) {
-    if (!only.empty() && std::string(way.name).find(only) == std::string::npos) continue;
-    std::vector<Measured> all;
-    for (const int across : sizes) {
-      all.push_back(measure(across, way));
-      print(across, way, all.back());
+  dovetail::program::Options options("coupling_size",
+                                     "Memory and time of overlaps over their size, by one and two threads.");
+  options
+      .add("--wide N", "grains across, one number a time; 17, 30 and 54 if not given",
+           [&](const std::string& text) { sizes.push_back(program::numberFrom<int>(text, "--wide")); }, {})
+      .many = true;
+  options.text("--only TEXT", only, "couplings whose name holds this");
+  options.flag("--flow", flows, "what is in flow instead");
+  return dovetail::program::runProgram(options, argc, argv, [&] {
+    if (flows) return printFlows(only), true;
+    if (sizes.empty()) sizes = {17, 30, 54};
+    std::printf("Threads: 2 unless told. List updates in steps by two threads.\n");
+    std::printf("%-22s %4s %7s %7s %6s %7s %8s %9s %9s %6s %9s %6s %8s %8s\n", "coupling", "wide", "grains", "bricks",
+                "rows", "MB", "start s", "1: step", "1: tie", "gain", "2: step", "gain", "few", "all");
+    for (const Way& way : ways) {
+      if (!only.empty() && std::string(way.name).find(only) == std::string::npos) continue;
+      std::vector<Measured> all;
+      for (const int across : sizes) {
+        all.push_back(measure(across, way));
+        print(across, way, all.back());
+      }
+      if (all.size() < 2) continue;
+      const double decades = std::log(static_cast<double>(all.back().grains) / static_cast<double>(all.front().grains));
+      const auto exponent = [&](double first, double last) { return std::log(last / first) / decades; };
+      std::printf("%-22s exponents: memory %.2f, step %.2f, tie %.2f\n", way.name,
+                  exponent(all.front().memory, all.back().memory), exponent(all.front().stepTwo, all.back().stepTwo),
+                  exponent(all.front().tieTwo, all.back().tieTwo));
     }
-    if (all.size() < 2) continue;
-    const double decades = std::log(static_cast<double>(all.back().grains) / static_cast<double>(all.front().grains));
-    const auto exponent = [&](double first, double last) { return std::log(last / first) / decades; };
-    std::printf("%-22s exponents: memory %.2f, step %.2f, tie %.2f\n", way.name,
-                exponent(all.front().memory, all.back().memory), exponent(all.front().stepTwo, all.back().stepTwo),
-                exponent(all.front().tieTwo, all.back().tieTwo));
-  }
-  return 0;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "%s\n", error.what());
-  return 1;
+    return true;
+  });
 }

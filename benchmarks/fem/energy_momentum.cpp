@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "../common/arguments.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
 #include "dovetail/fem/terms/loads.hpp"
+#include "program/run.hpp"
 
 namespace {
 
@@ -50,7 +50,7 @@ struct Result {
   long long cuts;
 };
 
-Result run(const Nodes& start, double dt, double tolerance, long long steps) {
+Result run(const Nodes& start, double dt, double tolerance, int steps) {
   Model model = makeBar();
   model.nodes.u = start.u;
   model.nodes.v = start.v;
@@ -70,33 +70,31 @@ Result run(const Nodes& start, double dt, double tolerance, long long steps) {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-  setThreads(1);
-  const std::string usage = "energy_momentum [STEPS [MULTIPLE OF THE EXPLICIT STEP]]";
-  benchmark::requireAtMost(2, argc, argv, usage);
-  const auto steps = benchmark::positiveArgument<long long>(1, 100000, argc, argv, usage);
-  const double only = benchmark::positiveArgument<double>(2, 0.0, argc, argv, usage);
-  Model model = makeBar();
-  const double critical = assembledStableStep(model);
-  const Nodes start = afterTheLoad(critical);
-  std::printf("%lld steps, largest explicit step %.3g s\n", steps, critical);
-  std::printf(
-      "| dt / explicit | tolerance | energy | momentum | angular momentum | iterations per step | us per step | cuts "
-      "|\n");
-  std::printf("|---|---|---|---|---|---|---|---|\n");
-  const std::vector<double> multiples = only > 0.0 ? std::vector{only} : std::vector{10.0, 100.0};
-  for (const double multiple : multiples)
-    for (const double tolerance : {1e-5, 1e-7, 1e-9, 1e-11}) {
-      const Result r = run(start, multiple * critical, tolerance, steps);
-      std::printf("| %g | %g | %.1e | %.1e | %.1e | %.1f | %.0f | %lld |\n", multiple, tolerance, r.energy, r.momentum,
-                  r.angularMomentum, r.iterations, r.microseconds, r.cuts);
-      std::fflush(stdout);
-    }
-  return 0;
-} catch (const InputError& error) {
-  std::fprintf(stderr, "energy_momentum: %s\n", error.what());
-  return 2;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "energy_momentum: %s\n", error.what());
-  return 1;
+int main(int argc, char** argv) {
+  int steps = 100000;
+  std::optional<double> only;
+  dovetail::program::Options options(
+      "energy_momentum", "Energy and momenta of a bar in free flight over long times, for steps and tolerances.");
+  options.integer("STEPS", steps, 1, 1000000000, "of each run; 100000 if not given");
+  options.number("MULTIPLE", only, dovetail::program::positive(), "of the explicit step; 10 and 100 if not given");
+  return dovetail::program::runProgram(options, argc, argv, [&] {
+    setThreads(1);
+    Model model = makeBar();
+    const double critical = assembledStableStep(model);
+    const Nodes start = afterTheLoad(critical);
+    std::printf("%d steps, largest explicit step %.3g s\n", steps, critical);
+    std::printf(
+        "| dt / explicit | tolerance | energy | momentum | angular momentum | iterations per step | us per step | cuts "
+        "|\n");
+    std::printf("|---|---|---|---|---|---|---|---|\n");
+    const std::vector<double> multiples = only ? std::vector{*only} : std::vector{10.0, 100.0};
+    for (const double multiple : multiples)
+      for (const double tolerance : {1e-5, 1e-7, 1e-9, 1e-11}) {
+        const Result r = run(start, multiple * critical, tolerance, steps);
+        std::printf("| %g | %g | %.1e | %.1e | %.1e | %.1f | %.0f | %lld |\n", multiple, tolerance, r.energy,
+                    r.momentum, r.angularMomentum, r.iterations, r.microseconds, r.cuts);
+        std::fflush(stdout);
+      }
+    return true;
+  });
 }

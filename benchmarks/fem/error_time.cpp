@@ -14,6 +14,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "plasticity_scenes.hpp"
+#include "program/run.hpp"
 #include "verification_cases.hpp"
 
 namespace {
@@ -111,33 +112,22 @@ void study(const Case& scene, bool quick, std::FILE* csv) {
   }
 }
 
-int usage(const char* word) {
-  std::fprintf(stderr, "fem_error_time: \"%s\" is not known; use --quick, --csv FILE\n", word);
-  return 2;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  setThreads(1);
   bool quick = false;
-  std::FILE* csv = nullptr;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--quick") == 0)
-      quick = true;
-    else if (std::strcmp(argv[i], "--csv") == 0 && i + 1 < argc)
-      csv = std::fopen(argv[++i], "w");
-    else
-      return usage(argv[i]);
-    if (csv == nullptr && !quick) return usage(argv[i]);
-  }
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  if (csv != nullptr) std::fprintf(csv, "case,element,cells,error,seconds\n");
-  try {
+  std::string file;
+  program::Options options("fem_error_time", "Error against time of element kinds and meshes.");
+  options.flag("--quick", quick, "the coarsest meshes");
+  options.text("--csv FILE", file, "rows for other programs");
+  return program::runProgram(options, argc, argv, [&] {
+    setThreads(1);
+    std::FILE* const csv = file.empty() ? nullptr : std::fopen(file.c_str(), "w");
+    if (csv == nullptr && !file.empty()) throw InputError("the file cannot be written", file, "give another name");
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
+    if (csv != nullptr) std::fprintf(csv, "case,element,cells,error,seconds\n");
     for (const Case& scene : cases(quick)) study(scene, quick, csv);
-  } catch (const Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  if (csv != nullptr) std::fclose(csv);
+    if (csv != nullptr) std::fclose(csv);
+    return true;
+  });
 }

@@ -20,6 +20,7 @@
 #include "dovetail/fem/motion/stable_step.hpp"
 #include "dovetail/fem/solve/statics.hpp"
 #include "dovetail/fem/terms/loads.hpp"
+#include "program/run.hpp"
 
 namespace {
 
@@ -430,17 +431,17 @@ void guarded(Table& table, void (*study)(Table&)) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  setThreads(1);
-  const bool quick = argc == 2 && std::strcmp(argv[1], "--quick") == 0;
-  if (argc > 1 && !quick) {
-    std::fprintf(stderr, "fem_extremes: \"%s\" is not known; use --quick or nothing\n", argv[1]);
-    return 2;
-  }
-  Table table;
-  for (const auto& study : {modulusRatio, slenderness, aspectRatio, incompressible, crush, limitPoint, refusedStep,
-                            farAway, crushedInFlight, softened, failingPoint})
-    guarded(table, study);
-  explicitLimit(table, quick ? 20000 : 1000000);
-  std::printf("%d rows are not as they should be\n", table.failures);
-  return table.failures > 0;
+  bool quick = false;
+  program::Options options("fem_extremes", "Extreme cases of the solid engine, beside what is known of them.");
+  options.flag("--quick", quick, "fewer explicit steps");
+  return program::runProgram(options, argc, argv, [&] {
+    setThreads(1);
+    Table table;
+    for (const auto& study : {modulusRatio, slenderness, aspectRatio, incompressible, crush, limitPoint, refusedStep,
+                              farAway, crushedInFlight, softened, failingPoint})
+      guarded(table, study);
+    explicitLimit(table, quick ? 20000 : 1000000);
+    std::printf("%d rows are not as they should be\n", table.failures);
+    return table.failures == 0;
+  });
 }

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "../common/arguments.hpp"
 #include "plasticity_scenes.hpp"
+#include "program/run.hpp"
 
 namespace {
 
@@ -57,11 +57,12 @@ void bars() {
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-  dovetail::benchmark::requireAtMost(0, argc, argv, "plasticity_necking takes no arguments");
-  bars();
-  strips();
-} catch (const dovetail::InputError& error) {
-  std::fprintf(stderr, "plasticity_necking: %s\n", error.what());
-  return 2;
+int main(int argc, char** argv) {
+  dovetail::program::Options options("plasticity_necking",
+                                     "Necking of a round bar and of a strip in plane strain, for meshes.");
+  return dovetail::program::runProgram(options, argc, argv, [&] {
+    bars();
+    strips();
+    return true;
+  });
 }

@@ -24,6 +24,7 @@
 #include "dovetail/fem/solve/statics.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/linalg/block_matrix.hpp"
+#include "program/run.hpp"
 
 namespace {
 
@@ -319,42 +320,29 @@ void timeSolvers() {
 
 int main(int argc, char** argv) {
   int threadCount = 2;
-  int cube = 0;
+  std::optional<int> cube;
   bool beams = false, elements = false, memory = false, leavingOut = false, solvers = false;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--beams") == 0)
-      beams = true;
-    else if (std::strcmp(argv[i], "--elements") == 0)
-      elements = true;
-    else if (std::strcmp(argv[i], "--memory") == 0)
-      memory = true;
-    else if (std::strcmp(argv[i], "--leaving-out") == 0)
-      leavingOut = true;
-    else if (std::strcmp(argv[i], "--solvers") == 0)
-      solvers = true;
-    else if (std::strcmp(argv[i], "--threads") == 0 && i + 1 < argc && std::atoi(argv[i + 1]) >= 1)
-      threadCount = std::atoi(argv[++i]);
-    else if (std::strcmp(argv[i], "--cube") == 0 && i + 1 < argc && std::atoi(argv[i + 1]) >= 1)
-      cube = std::atoi(argv[++i]);
-    else {
-      std::fprintf(
-          stderr,
-          "fem_speed: \"%s\" is not known; use --threads N (1 or more), --beams, --cube N (1 or more), --elements, "
-          "--memory, --leaving-out, --solvers\n",
-          argv[i]);
-      return 2;
+  program::Options options("fem_speed", "Times the solid engine: all parts, or those that are named.");
+  options.integer("--threads N", threadCount, 1, 1024, "of elements and cubes");
+  options.flag("--beams", beams, "statics of beams, one thread");
+  options.integer("--cube N", cube, 1, 1000, "explicit steps of a cube of N elements each way");
+  options.flag("--elements", elements, "internal forces and stiffness, by element");
+  options.flag("--memory", memory, "bytes per element");
+  options.flag("--leaving-out", leavingOut, "what parts of a step cost");
+  options.flag("--solvers", solvers, "factors beside conjugate gradients");
+  return program::runProgram(options, argc, argv, [&] {
+    const bool all = !beams && !cube && !elements && !memory && !leavingOut && !solvers;
+    if (elements || all) timeElements(threadCount);
+    setThreads(threadCount);
+    if (cube) timeCube(*cube);
+    setThreads(1);
+    if (beams || all) {
+      std::printf("one thread, %s\n", linalg::SparseCholesky::name());
+      timeBeams();
     }
-  }
-  const bool all = !beams && cube == 0 && !elements && !memory && !leavingOut && !solvers;
-  if (elements || all) timeElements(threadCount);
-  setThreads(threadCount);
-  if (cube > 0) timeCube(cube);
-  setThreads(1);
-  if (beams || all) {
-    std::printf("one thread, %s\n", linalg::SparseCholesky::name());
-    timeBeams();
-  }
-  if (memory || all) countBytes();
-  if (leavingOut || all) timeLeavingOut();
-  if (solvers || all) timeSolvers();
+    if (memory || all) countBytes();
+    if (leavingOut || all) timeLeavingOut();
+    if (solvers || all) timeSolvers();
+    return true;
+  });
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dovetail/core/parallel.hpp"
+#include "program/run.hpp"
 #include "verification_cases.hpp"
 
 namespace {
@@ -104,26 +105,19 @@ void cantilevers() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  setThreads(1);
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  if (argc > 2 || (argc == 2 && std::string(argv[1]) != "--plane")) {
-    std::fprintf(stderr, "usage: fem_verification [--plane]\n");
-    return 2;
-  }
-  try {
-    if (argc == 2) {
-      planeMembranes();
-      return 0;
-    }
+  bool plane = false;
+  program::Options options("fem_verification", "Elements beside exact solutions of beams, membranes and tubes.");
+  options.flag("--plane", plane, "plane elements instead");
+  return program::runProgram(options, argc, argv, [&] {
+    setThreads(1);
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
+    if (plane) return planeMembranes(), true;
     cantilevers();
     beams();
     membranes(0.3, verification::Sides::free, "free sides");
     membranes(0.3, verification::Sides::held, "plane strain");
     membranes(0.4999, verification::Sides::held, "plane strain");
     pressures();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  return 0;
+    return true;
+  });
 }

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "../common/arguments.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/laws/plasticity.hpp"
 #include "dovetail/fem/laws/point_law.hpp"
 #include "dovetail/fem/laws/viscosity.hpp"
+#include "program/run.hpp"
 
 namespace {
 
@@ -71,26 +71,27 @@ void report(const std::string& name, const std::shared_ptr<const PointMaterial>&
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-  dovetail::benchmark::requireAtMost(0, argc, argv, "bench_point_laws takes no arguments");
-  dovetail::setThreads(1);
-  const NeoHookean rubber = neoHookean(3e6, 0.3, 1000.0);
-  const J2Plasticity steel{200e9, 0.3, 7800.0, saturatingYield(0.4e9, 0.1e9, 0.7e9, 17.0)};
-  J2Plasticity kinematic = steel;
-  kinematic.kinematicModulus = 1e9;
-  std::printf("%-34s %8s %8s   ns per point, one thread\n", "law", "stress", "tangent");
-  report("neo-Hookean", pointMaterial(rubber), 0.1);
-  report("neo-Hookean, differentiated",
-         elasticMaterial("", 1.0, Differentiated{rubber.bulkModulus, rubber.shearModulus}), 0.1);
-  report("St Venant-Kirchhoff", pointMaterial(StVenantKirchhoff{3e6, 0.3, 1000.0}), 0.1);
-  report("axial springs, differentiated", pointMaterial(AxialSprings{3e6, 1000.0}), 0.1);
-  report("Hencky", pointMaterial(Hencky{3e6, 0.3, 1000.0}), 0.1);
-  report("J2, elastic", pointMaterial(steel), 1e-4);
-  report("J2, flowing", pointMaterial(steel), 0.1);
-  report("J2 with back stress, flowing", pointMaterial(kinematic), 0.1);
-  report("Drucker-Prager", pointMaterial(DruckerPrager{50e6, 0.25, 2000.0, 1e4, 0.5, 0.1}), 0.05);
-  report("viscous neo-Hookean", pointMaterial(kelvinVoigt(pointMaterial(rubber), 1e-3, 3e6, 0.3)), 0.1);
-} catch (const dovetail::InputError& error) {
-  std::fprintf(stderr, "bench_point_laws: %s\n", error.what());
-  return 2;
+int main(int argc, char** argv) {
+  dovetail::program::Options options("bench_point_laws",
+                                     "Times stress and tangent of material laws at points, on one thread.");
+  return dovetail::program::runProgram(options, argc, argv, [&] {
+    dovetail::setThreads(1);
+    const NeoHookean rubber = neoHookean(3e6, 0.3, 1000.0);
+    const J2Plasticity steel{200e9, 0.3, 7800.0, saturatingYield(0.4e9, 0.1e9, 0.7e9, 17.0)};
+    J2Plasticity kinematic = steel;
+    kinematic.kinematicModulus = 1e9;
+    std::printf("%-34s %8s %8s   ns per point, one thread\n", "law", "stress", "tangent");
+    report("neo-Hookean", pointMaterial(rubber), 0.1);
+    report("neo-Hookean, differentiated",
+           elasticMaterial("", 1.0, Differentiated{rubber.bulkModulus, rubber.shearModulus}), 0.1);
+    report("St Venant-Kirchhoff", pointMaterial(StVenantKirchhoff{3e6, 0.3, 1000.0}), 0.1);
+    report("axial springs, differentiated", pointMaterial(AxialSprings{3e6, 1000.0}), 0.1);
+    report("Hencky", pointMaterial(Hencky{3e6, 0.3, 1000.0}), 0.1);
+    report("J2, elastic", pointMaterial(steel), 1e-4);
+    report("J2, flowing", pointMaterial(steel), 0.1);
+    report("J2 with back stress, flowing", pointMaterial(kinematic), 0.1);
+    report("Drucker-Prager", pointMaterial(DruckerPrager{50e6, 0.25, 2000.0, 1e4, 0.5, 0.1}), 0.05);
+    report("viscous neo-Hookean", pointMaterial(kelvinVoigt(pointMaterial(rubber), 1e-3, 3e6, 0.3)), 0.1);
+    return true;
+  });
 }

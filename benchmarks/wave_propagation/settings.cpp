@@ -90,10 +90,8 @@ void addSignalOptions(Options& o, Settings& s) {
            "length of a cycle in elements");
   o.add("--omega W", "the same, as an angular frequency, rad/ms",
         [&s](const std::string& text) {
-          double perMillisecond = 0.0;
-          Options one("", "");
-          one.number("--omega", perMillisecond, positive("a positive angular frequency in rad/ms"), "").read(text);
-          one.check();
+          const auto perMillisecond = program::numberFrom<double>(text, "--omega");
+          program::requireIn(positive("a positive angular frequency in rad/ms"), perMillisecond, "--omega");
           s.pulseElements = 2.0 * std::numbers::pi * waveSpeed() / (1e3 * perMillisecond * Case{}.elementSize);
         },
         {});

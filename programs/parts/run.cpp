@@ -25,4 +25,8 @@ int runProgram(const std::string& name, const std::function<bool()>& body) {
   }
 }
 
+int runProgram(Options& options, int argc, char** argv, const std::function<bool()>& body) {
+  return runProgram(options.program(), [&] { return !options.parse(argc, argv) || body(); });
+}
+
 }  // namespace dovetail::program

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "program/options.hpp"
 
 namespace dovetail::program {
@@ -14,19 +16,20 @@ struct Settings {
   std::optional<double> until;
   bool quiet = false;
   std::vector<std::string> over;
-  std::string file;
+  std::string file, corner;
 };
 
 Options tableOf(Settings& s) {
   Options o("test", "");
   o.number("--width W", s.width, between(0.0, 2.0), "").in("m");
-  o.integer("--count N", s.count, 1, 9, "");
+  o.integer("--count N", s.count, 1, 9, "of what is counted, told in so many words that one line cannot hold them all");
   o.choice("--shape", s.shape, "round|square", "");
-  o.number("--until T", s.until, positive(), "end", "").in("s");
+  o.number("--until T", s.until, positive(), "", "end").in("s");
   o.group("Not in files", false);
   o.flag("--quiet", s.quiet, "");
   o.text("FILE", s.file, "");
-  o.texts("--over KEY", s.over, "");
+  o.texts("--over KEY", s.over, "of what");
+  o.text("--corner X Y Z", s.corner, "");
   return o;
 }
 
@@ -64,6 +67,25 @@ TEST(Options, WhatIsWrittenWinsOverWhatIsSetBetween) {
   EXPECT_EQ(s.count, 7);
 }
 
+TEST(Options, ValuesOfSeveralWordsAreTakenTogether) {
+  Settings s;
+  parse(s, {"--corner", "-1", "2", "0.5", "a"});
+  EXPECT_EQ(s.corner, "-1 2 0.5");
+  EXPECT_EQ(s.file, "a");
+}
+
+TEST(Options, HelpHasEveryRowWithItsDefaultInLinesOf100) {
+  Settings s;
+  testing::internal::CaptureStdout();
+  EXPECT_FALSE(parse(s, {"a", "--help"}));
+  const std::string help = testing::internal::GetCapturedStdout();
+  for (const char* part : {"usage: test [FILE] [options]\n", "\n  --width W ", "(default 1)", "--shape round|square ",
+                           "(default round)", "\n\nNot in files:\n", "of what; may be given several times"})
+    EXPECT_NE(help.find(part), std::string::npos) << part << " in\n" << help;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
 TEST(Options, RefuseWhatCannotBeNamingTheOption) {
   EXPECT_EQ(refusal({"--width", "3"}), "the value 3 is not possible [--width]: give a number from 0 to 2");
   EXPECT_EQ(refusal({"--width", "nan"}), "the value nan is not possible [--width]: give a number from 0 to 2");
@@ -71,9 +93,14 @@ TEST(Options, RefuseWhatCannotBeNamingTheOption) {
   EXPECT_EQ(refusal({"--count", "1.5"}), "'1.5' is no whole number [--count]: give a whole number");
   EXPECT_EQ(refusal({"--shape", "0"}), "there is no '0' [--shape]: take one of round|square");
   EXPECT_EQ(refusal({"--width", ""}), "the value is empty [--width]: give one, or leave the option out");
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--widht", "1"}, {"--width"}, {"--width", "1", "--width", "2"}, {"a", "b"}})
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--widht", "1"},
+                                                {"--width"},
+                                                {"--width", "1", "--width", "2"},
+                                                {"a", "b"},
+                                                {"--quiet=1"}})
     EXPECT_NE(refusal(words).find("test --help"), std::string::npos) << refusal(words);
+  EXPECT_EQ(refusal({"--widht", "1"}), "there is no option --widht [command line]: write --width, or see test --help");
+  EXPECT_EQ(refusal({"--shape", "squrae"}), "there is no 'squrae' [--shape]: write square, or another of round|square");
 }
 
 }  // namespace

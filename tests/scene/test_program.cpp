@@ -75,7 +75,9 @@ TEST(Program, ChecksWithoutAFile) {
 TEST(Program, RefusesInOneLine) {
   const ScratchFolder folder;
   const std::string out = (folder / "out").string();
-  expectRefused(runProgram({}), "subcommand");
+  expectRefused(runProgram({}), "a verb is missing");
+  expectRefused(runProgram({"chekc"}), "write \"check\"");
+  expectRefused(runProgram({"run", starter("plate"), "--ste", "a=1"}), "write --set");
   expectRefused(runProgram({"rum"}), "no verb 'rum'");
   expectRefused(runProgram({"run"}), "SCENE");
   expectRefused(runProgram({"run", starter("plate"), "--ot", out}), "--ot");
@@ -262,7 +264,7 @@ TEST(Program, ComparesRunsAndWritesFields) {
   EXPECT_EQ(other.code, 1) << other.out;
   EXPECT_NE(other.out.find("NOT the same"), std::string::npos) << other.out;
   expectRefused(runProgram({"compare", a, (folder / "none").string()}), "no such file");
-  expectRefused(runProgram({"compare", a}), "B is required");
+  expectRefused(runProgram({"compare", a}), "B is missing");
   const Outcome fields = runProgram({"fields", a, "--width", "0.05"});
   EXPECT_EQ(fields.code, WITH_FRAMES ? 0 : 2) << fields.err;
   EXPECT_EQ(std::filesystem::exists(folder / "a/fields.vti"), WITH_FRAMES != 0);

@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "program/options.hpp"
+
 namespace dovetail::program {
 
 /// Calls the body while signals that ask to end are noted (dovetail/io/interruption.hpp), and returns the exit code:
@@ -12,5 +14,7 @@ namespace dovetail::program {
 /// standard error behind the program's name.
 /// @param body returns whether all was done; if not, it has said why
 int runProgram(const std::string& name, const std::function<bool()>& body);
+/// The same of a program that has options, once they are read; --help is all that is asked for where it is written.
+int runProgram(Options& options, int argc, char** argv, const std::function<bool()>& body);
 
 }  // namespace dovetail::program

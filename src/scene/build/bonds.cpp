@@ -7,7 +7,7 @@
 #include <set>
 
 #include "dovetail/dem/model/loads.hpp"
-#include "keys/nearest.hpp"
+#include "keys/advice.hpp"
 #include "parts.hpp"
 #include "time_functions.hpp"
 #include "warnings/warnings.hpp"

@@ -7,8 +7,8 @@
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/scene/read.hpp"
 #include "dovetail/surface/surface_contact.hpp"
+#include "keys/advice.hpp"
 #include "keys/fields.hpp"
-#include "keys/nearest.hpp"
 #include "parts.hpp"
 #include "run/checkpoints.hpp"
 

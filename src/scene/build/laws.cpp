@@ -8,7 +8,7 @@
 #include "dovetail/dem/laws/materials.hpp"
 #include "dovetail/dem/laws/rolling.hpp"
 #include "dovetail/dem/model/model.hpp"
-#include "keys/nearest.hpp"
+#include "keys/advice.hpp"
 #include "parts.hpp"
 
 namespace dovetail::scene {

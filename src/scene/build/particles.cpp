@@ -9,7 +9,7 @@
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/dem/setup/packing.hpp"
 #include "dovetail/io/csv_table.hpp"
-#include "keys/nearest.hpp"
+#include "keys/advice.hpp"
 #include "parts.hpp"
 #include "run/checkpoints.hpp"
 #include "warnings/warnings.hpp"

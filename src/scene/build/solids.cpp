@@ -8,7 +8,7 @@
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/io/names.hpp"
 #include "from_state.hpp"
-#include "keys/nearest.hpp"
+#include "keys/advice.hpp"
 #include "parts.hpp"
 
 namespace dovetail::scene {

@@ -2,8 +2,8 @@
 
 #include <charconv>
 
+#include "advice.hpp"
 #include "dovetail/core/error.hpp"
-#include "nearest.hpp"
 
 namespace dovetail::scene {
 

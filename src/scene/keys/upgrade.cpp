@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "advice.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "known_version.hpp"
@@ -95,6 +96,14 @@ Upgrade upgraded(const std::string& text, const std::string& name) {
   for (const Edit& edit : edits)
     result.text.replace(result.text.find(edit.was, offsetOf(result.text, edit.place)), edit.was.size(), edit.is);
   return result;
+}
+
+std::string adviceFor(const std::string& name, const std::vector<std::string>& candidates) {
+  for (const Renamed& one : renamed)
+    if (one.was == name && std::ranges::find(candidates, one.is) != candidates.end())
+      return "write \"" + std::string(one.is) + "\", its name since version " + std::string(one.since) +
+             (one.kind == Renamed::Kind::column ? "" : " (`dovetail upgrade FILE` does so)");
+  return dovetail::adviceFor(name, candidates);
 }
 
 }  // namespace dovetail::scene

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "advice.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "nearest.hpp"
 
 namespace dovetail::scene {
 

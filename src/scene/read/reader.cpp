@@ -9,9 +9,9 @@
 #include "dovetail/scene/read.hpp"
 #include "include.hpp"
 #include "json_tree.hpp"
+#include "keys/advice.hpp"
 #include "keys/fields.hpp"
 #include "keys/known_version.hpp"
-#include "keys/nearest.hpp"
 #include "keys/settings.hpp"
 #include "keys/values.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace dovetail::scene {
+namespace dovetail {
 
 /// The candidate with the fewest changes of letters (insert, drop, exchange, swap neighbours; case, '_' and '-' do not
 /// count), if they are no more than a third of the longer one's; else empty.
@@ -13,4 +13,4 @@ std::string nearest(const std::string& name, const std::vector<std::string>& can
 /// "write \"radius\"", or "write one of \"a\", \"b\"".
 std::string adviceFor(const std::string& name, const std::vector<std::string>& candidates);
 
-}  // namespace dovetail::scene
+}  // namespace dovetail

@@ -1,11 +1,9 @@
-#include "nearest.hpp"
+#include "dovetail/core/nearest.hpp"
 
 #include <algorithm>
 #include <cctype>
 
-#include "renamed.hpp"
-
-namespace dovetail::scene {
+namespace dovetail {
 
 namespace {
 
@@ -49,10 +47,6 @@ std::string nearest(const std::string& name, const std::vector<std::string>& can
 }
 
 std::string adviceFor(const std::string& name, const std::vector<std::string>& candidates) {
-  for (const Renamed& one : renamed)
-    if (one.was == name && std::ranges::find(candidates, one.is) != candidates.end())
-      return "write \"" + std::string(one.is) + "\", its name since version " + std::string(one.since) +
-             (one.kind == Renamed::Kind::column ? "" : " (`dovetail upgrade FILE` does so)");
   if (const std::string near = nearest(name, candidates); !near.empty()) return "write \"" + near + "\"";
   if (candidates.empty()) return "leave it out";
   std::string list;
@@ -61,4 +55,4 @@ std::string adviceFor(const std::string& name, const std::vector<std::string>& c
   return (candidates.size() == 1 ? "write " : "write one of ") + list;
 }
 
-}  // namespace dovetail::scene
+}  // namespace dovetail
