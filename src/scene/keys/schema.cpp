@@ -1,4 +1,6 @@
 // The JSON Schema of scenes, and the reference of their keys.
+#include <cctype>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -164,14 +166,14 @@ void describeScene(Fields& fields) {
   describe(fields, scene);
 }
 
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text.append(text.empty() ? "`" : ", `").append(word).append("`");
+  return text;
+}
+
 std::string valueText(const Json& key) {
-  if (key.contains("const")) return "`" + key["const"].get<std::string>() + "`";
-  const auto words = [](const Json& list) {
-    std::string text;
-    for (const Json& word : list) text += (text.empty() ? "`" : ", `") + word.get<std::string>() + "`";
-    return text;
-  };
-  if (key.contains("enum")) return words(key["enum"]);
+  if (key.contains("enum")) return listed(key["enum"]);
   if (key.contains("oneOf") || key["type"] == "object") return "object";
   std::string text;
   if (key["type"] == "array") {
@@ -185,36 +187,98 @@ std::string valueText(const Json& key) {
        {std::pair{"minimum", "≥"}, {"exclusiveMinimum", ">"}, {"maximum", "≤"}, {"exclusiveMaximum", "<"}})
     if (key.contains(name) && std::abs(key[name].get<double>()) < 1e9)
       text += ", " + std::string(sign) + " " + formatNumber(key[name].get<double>());
-  if (key.contains("words")) text += ", or " + words(key["words"]);
+  if (key.contains("words")) text += ", or " + listed(key["words"]);
   return text;
 }
 
-/// @param kind  of the file: the title of its outermost table
-void writeTables(const std::string& kind, const std::string& title, const Json& schema, std::ostream& out) {
-  if (schema.contains("oneOf")) {
-    for (const Json& alternative : schema["oneOf"])
-      for (const auto& [name, key] : alternative["properties"].items())
-        if (key.contains("const"))
-          writeTables(kind, title + ", `" + name + "`: `" + key["const"].get<std::string>() + "`", alternative, out);
-    return;
-  }
-  if (!schema.contains("properties")) return;
-  out << "\n## " << title << "\n\n| key | value | default | |\n|---|---|---|---|\n";
-  const Json needed = schema.value("required", Json::array());
-  for (const auto& [name, key] : schema["properties"].items()) {
-    const bool must = std::find(needed.begin(), needed.end(), name) != needed.end();
-    out << "| `" << name << "` | " << valueText(key) << " | "
-        << (must                      ? "**needed**"
-            : key.contains("default") ? "`" + key["default"].dump() + "`"
-                                      : "")
-        << " | " << key["description"].get<std::string>() << " |\n";
-  }
-  for (const auto& [name, key] : schema["properties"].items()) {
-    const std::string inner = title == kind ? "`" + name + "`" : title + " → `" + name + "`";
-    writeTables(kind, inner, key.contains("items") ? key["items"] : key, out);
-  }
+/// A key of a part, and the kinds of the part that have it.
+struct Row {
+  std::string name;
+  Json key;
+  bool needed;
+  std::vector<std::string> kinds;
+};
+
+std::string kindOf(const Json& part) {
+  for (const Json& key : part["properties"])
+    if (key.contains("const")) return key["const"];
+  return {};
 }
 
+Json alternativesOf(const Json& part) { return part.contains("oneOf") ? part["oneOf"] : Json::array({part}); }
+
+/// A row for each key, once where several kinds of the part have it alike.
+std::vector<Row> rowsOf(const Json& part) {
+  std::vector<Row> rows;
+  for (const Json& alternative : alternativesOf(part)) {
+    const Json needed = alternative.value("required", Json::array());
+    auto next = rows.begin();
+    for (const auto& [name, key] : alternative["properties"].items()) {
+      const bool must = std::find(needed.begin(), needed.end(), name) != needed.end();
+      auto row = std::find_if(rows.begin(), rows.end(), [&, &name = name, &key = key](const Row& one) {
+        return one.name == name && one.needed == must &&
+               (one.key == key || (one.key.contains("const") && key.contains("const")));
+      });
+      if (row == rows.end()) {
+        while (next != rows.end() && alternative["properties"].value(next->name, Json()) != next->key) ++next;
+        row = rows.insert(next, {name, key, must, {}});
+      }
+      row->kinds.push_back(kindOf(alternative));
+      next = row + 1;
+    }
+  }
+  return rows;
+}
+
+/// As GitHub makes it of a heading.
+std::string anchorOf(const std::string& title) {
+  std::string anchor;
+  for (const char c : title)
+    if (c == ' ' || c == '-' || c == '_' || (c > 0 && std::isalnum(c)))
+      anchor += c == ' ' ? '-' : static_cast<char>(std::tolower(c));
+  return anchor;
+}
+
+/// Tables of all parts. A part that stands at several places has its table at the first, and the others refer to it.
+class Reference {
+public:
+  Reference(const std::string& kind, std::ostream& out) : kind_(kind), out_(out) {}
+
+  void write(const std::string& title, const Json& part) {
+    const std::size_t kinds = alternativesOf(part).size();
+    std::vector<std::pair<std::string, Json>> inner;
+    out_ << "\n## " << title << "\n\n| key |" << (kinds > 1 ? " of |" : "") << " value | default | |\n"
+         << "|---|---|---|---|" << (kinds > 1 ? "---|\n" : "\n");
+    for (const Row& row : rowsOf(part)) {
+      out_ << "| `" << row.name << "` |";
+      if (kinds > 1) out_ << ' ' << (row.kinds.size() < kinds ? listed(row.kinds) + " |" : "|");
+      out_ << ' ' << (row.key.contains("const") ? listed(row.kinds) : valueText(row.key));
+      if (const Json& content = row.key.contains("items") ? row.key["items"] : row.key; isPart(content)) {
+        const std::string name = title == kind_ ? "`" + row.name + "`" : title + " → `" + row.name + "`";
+        const auto [place, isNew] = titles_.try_emplace(withoutHelp(content), name);
+        if (isNew) inner.emplace_back(name, content);
+        out_ << ": [" << place->second << "](#" << anchorOf(place->second) << ')';
+      }
+      out_ << " | " << defaultText(row) << " | " << row.key["description"].get<std::string>() << " |\n";
+    }
+    for (const auto& [name, content] : inner) write(name, content);
+  }
+
+private:
+  static bool isPart(const Json& schema) { return schema.contains("oneOf") || schema.contains("properties"); }
+  static std::string withoutHelp(Json part) {
+    part.erase("description");
+    return part.dump();
+  }
+  static std::string defaultText(const Row& row) {
+    if (row.needed) return "**needed**";
+    return row.key.contains("default") ? "`" + row.key["default"].dump() + "`" : "";
+  }
+
+  const std::string& kind_;
+  std::ostream& out_;
+  std::map<std::string, std::string> titles_;  ///< by what parts are
+};
 }  // namespace
 
 std::string schemaText(const std::string& kind, const std::function<void(Fields&)>& describeFile) {
@@ -224,11 +288,14 @@ std::string schemaText() { return schemaText("scene", describeScene); }
 
 std::string referenceText(const std::string& kind, const std::function<void(Fields&)>& describeFile) {
   std::ostringstream out;
-  writeTables(kind, kind, wholeSchema(kind, describeFile), out);
+  Reference(kind, out).write(kind, wholeSchema(kind, describeFile));
   return out.str();
 }
 std::string referenceText() {
-  return "# Keys of a scene file\n\nMade by `dovetail schema --markdown`.\n" + referenceText("scene", describeScene);
+  return "# Keys of a scene file\n\nMade by `dovetail schema --markdown`. An object that stands at several places has "
+         "its "
+         "table at the first.\nColumn `of`: kinds of the object that have the key; empty: all of them.\n" +
+         referenceText("scene", describeScene);
 }
 
 }  // namespace dovetail::scene
