@@ -1,7 +1,6 @@
 // Stress and volume of a cell, and its way to a pressure.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -11,6 +10,8 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/snapshot.hpp"
 #include "dovetail/dem/setup/cell.hpp"
+#include "dovetail/dem/setup/packing.hpp"
+#include "dovetail/dem/setup/pressure_secant.hpp"
 #include "dovetail/dem/setup/relax.hpp"
 
 namespace dovetail::calibration {
@@ -33,11 +34,7 @@ double cellDensity(const dem::Model& m) {
   return std::accumulate(m.particles.mass.begin(), m.particles.mass.end(), 0.0) / cellVolume(m);
 }
 
-double cellSolidFraction(const dem::Model& m) {
-  double cubes = 0.0;
-  for (const double r : m.particles.radius) cubes += r * r * r;
-  return 4.0 / 3.0 * std::numbers::pi * cubes / cellVolume(m);
-}
+double cellSolidFraction(const dem::Model& m) { return dem::volumeOf(m.particles.radius) / cellVolume(m); }
 
 namespace {
 
@@ -77,19 +74,12 @@ double compressRve(dem::Model& m, const CompressionOptions& settings) {
   requirePositive(settings.pressure, "pressure");
   requirePositive(settings.tolerance, "tolerance of the pressure");
   dem::findForces(m);
-  // Secant steps, never longer than `longest`, which is halved whenever a step has gone too far.
-  double longest = 0.01, strain = 0.0, pressure = 0.0, bulk = 0.0;
+  dem::PressureSecant secant(settings.pressure, 0.01, 0.0);
+  double pressure = 0.0;
   for (std::int64_t k = 0; k < settings.strains; ++k) {
-    const double before = pressure;
     pressure = pressureAtRest(m, settings);
-    const double missing = settings.pressure - pressure;
-    if (std::abs(missing) <= settings.tolerance * settings.pressure) return bulk;
-    const double slope = strain == 0.0 ? 0.0 : (pressure - before) / strain;
-    if (before > 0.0 && slope > 0.05 * bulk) bulk = slope;
-    if (missing * strain < 0.0) longest *= 0.5;
-    const bool loose = pressure < 0.01 * settings.pressure || bulk == 0.0;
-    strain = loose ? std::copysign(longest, missing) : std::clamp(missing / bulk, -longest, longest);
-    const double each = std::expm1(-strain / 3.0);
+    if (std::abs(settings.pressure - pressure) <= settings.tolerance * settings.pressure) return secant.bulk();
+    const double each = std::expm1(-secant.next(pressure) / 3.0);
     dem::strainCell(m, {each, each, each});
   }
   throw NumericalError(

@@ -141,7 +141,7 @@ TEST(Operators, PeriodicFramesHaveTheOperatorOfCellsThatRepeat) {
 
 /// Sheared until some contacts slip.
 Rve slidingDiscs() {
-  Rve cell = pressedDiscs(100);
+  Rve cell = pressedDiscs(100, 4);
   Springs slippery = cell.springs;
   slippery.friction = 0.2;
   setSprings(cell, slippery);

@@ -15,18 +15,16 @@ void addContact(ContactDemand& demand, const Particles& particles, int particle,
                 const ContactSlopes& slopes, double scale, double effectiveMass) {
   demand.stiffness.resize(particles.size(), 0.0);
   demand.damping.resize(particles.size(), 0.0);
-  const auto strongest = [&](double normal, double tangential, double rolling, double radius) {
-    const double side = particles.rotates() ? 3.5 * tangential + 2.5 * rolling / (radius * radius) : tangential;
-    return scale * std::max(normal, side);
-  };
+  const double roundness = particles.rotates() ? 0.4 : std::numeric_limits<double>::infinity();
   ContactDemand::Link link{particle, partner, StepOwner::contact, scale * slopes.normal.stiffness};
   for (const int k : {particle, partner}) {
     if (k < 0) continue;
     const auto i = static_cast<std::size_t>(k);
-    demand.stiffness[i] +=
-        strongest(slopes.normal.stiffness, slopes.tangential.stiffness, slopes.rolling.stiffness, particles.radius[i]);
-    demand.damping[i] +=
-        strongest(slopes.normal.damping, slopes.tangential.damping, slopes.rolling.damping, particles.radius[i]);
+    const double radius = particles.radius[i];
+    demand.stiffness[i] += scale * detail::strongest(slopes.normal.stiffness, slopes.tangential.stiffness,
+                                                     slopes.rolling.stiffness, radius, roundness);
+    demand.damping[i] += scale * detail::strongest(slopes.normal.damping, slopes.tangential.damping,
+                                                   slopes.rolling.damping, radius, roundness);
   }
   if (partner >= 0) {  // as it is across its normal: see Directions
     link.shiftingDamping = scale * slopes.normal.damping;

@@ -38,6 +38,8 @@ MeanMotion meanMotion(const Model& m, const Step& step);
 
 /// Adds a particle to what was exchanged; its energy, J. Where velocities lag, what its forces will have given counts.
 double bookParticle(const Model& m, std::size_t i, Exchanged& exchanged);
+/// What springs lost as they slid, yielded and broke in a step.
+void bookLosses(Model& m, const ContactWork& work, double dt);
 /// m g·x, J.
 double gravityOf(const Particles& particles, std::size_t i, const Vec3& gravity);
 

@@ -82,15 +82,6 @@ void bookHalf(Model& m, double dt) {
   m.booked.external += 0.5 * dt * m.rate.external;
 }
 
-/// What springs lost as they slid, yielded and broke in this step.
-void bookLosses(Model& m, double dt) {
-  ContactWork& lost = m.booked.lost;
-  lost.frictionPower += dt * m.work.frictionPower;
-  lost.rollingPower += dt * m.work.rollingPower;
-  lost.plasticPower += dt * m.work.plasticPower;
-  lost.fracturePower += dt * m.work.fracturePower;
-}
-
 void setOwners(Model& m) {
   m.particles.owner.clear();
   for (const BodyTerm* term : m.terms.all<BodyTerm>())
@@ -170,6 +161,14 @@ void move(Model& m, double dt) {
   if (!(m.step.moved <= m.smallestRadius)) requireShortMoves(m.particles, dt, when(m));
 }
 
+void bookLosses(Model& m, const ContactWork& work, double dt) {
+  ContactWork& lost = m.booked.lost;
+  lost.frictionPower += dt * work.frictionPower;
+  lost.rollingPower += dt * work.rollingPower;
+  lost.plasticPower += dt * work.plasticPower;
+  lost.fracturePower += dt * work.fracturePower;
+}
+
 void updateNeighbourList(Model& m) {
   timed(m, "find pairs", [&] {
     for (std::size_t k = 0; k < m.terms.size(); ++k)
@@ -208,7 +207,8 @@ void addForces(Model& m) {
   welcome(m);
   m.rate.lost.dissipatedPower += m.work.dissipatedPower;
   if (!m.step.timeless) bookHalf(m, dt);
-  if (m.booking == Booking::on) bookLosses(m, dt);  // those of springs that end or slide where no time passes, too
+  if (m.booking == Booking::on)
+    bookLosses(m, m.work, dt);  // those of springs that end or slide where no time passes, too
   m.knownIds = m.particles.nextId;
   m.forcesOf = m.particles.revision;
   m.forcesOfTerms = m.terms.revision();

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/lane_sum.hpp"
 #include "dovetail/core/vector_code.hpp"
 #include "dovetail/dem/pairs/pair_collide.hpp"
 #include "vectors.hpp"
@@ -264,15 +265,11 @@ void addCrossing(Particles& particles, const PairParts& list, bool spins) {
 }
 
 ContactWork sumWork(const ContactBlock& block, std::size_t n) {
-  constexpr std::size_t lanes = 8;
   std::array<double, channels> total{};
   for (std::size_t c = 0; c < channels; ++c) {
-    std::array<double, lanes> sum{};
-    std::size_t l = 0;
-    for (; l + lanes <= n; l += lanes)
-      for (std::size_t k = 0; k < lanes; ++k) sum[k] += block.work[c][l + k];
-    for (std::size_t k = 0; l + k < n; ++k) sum[k] += block.work[c][l + k];
-    for (const double s : sum) total[c] += s;
+    LaneSum sum;
+    sum.add(block.work[c].data(), n);
+    total[c] = sum.total();
   }
   return {total[0], total[1], total[2], total[3], total[4], total[5], total[6], total[7]};
 }

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <utility>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/dem/setup/pressure_secant.hpp"
 #include "relaxation.hpp"
 
 namespace dovetail::dem {
@@ -107,11 +107,13 @@ double grow(Packing& packing, const std::vector<double>& wanted, const GrowthOpt
 
 }  // namespace
 
-double solidFraction(const Packing& packing) {
+double volumeOf(std::span<const double> radius) {
   double sum = 0.0;
-  for (const double r : packing.radius) sum += sphereVolume(r);
-  return sum / packing.volume();
+  for (const double r : radius) sum += sphereVolume(r);
+  return sum;
 }
+
+double solidFraction(const Packing& packing) { return volumeOf(packing.radius) / packing.volume(); }
 
 int addPacking(Particles& particles, const Packing& packing, Density density, const Vec3& velocity) {
   const int first = static_cast<int>(particles.size());
@@ -152,9 +154,8 @@ PackingReport compressToPressure(Packing& packing, const CompressionOptions& set
   checkFit(widest, packing.space);
   PackingReport report;
   Relaxation relaxation(packing);
-  // Secant steps, with the guess for a packing that does not press yet that it is as stiff as it will be when it does;
-  // never longer than `longest`, which is halved whenever a step has gone too far.
-  double bulk = 0.2 * settings.stiffness / meanRadius(packing), longest = 0.02, strain = 0.0;
+  // The guess for a packing that does not press yet is that it is as stiff as it will be when it does.
+  PressureSecant secant(settings.pressure, 0.02, 0.2 * settings.stiffness / meanRadius(packing));
   const double negligible = 1e-3 * settings.pressure * meanRadius(packing) / settings.stiffness;
   const auto relaxed = [&](double balance) {
     report.iterations +=
@@ -162,18 +163,12 @@ PackingReport compressToPressure(Packing& packing, const CompressionOptions& set
     return settings.stiffness * relaxation.measure().virial / (3.0 * packing.volume());
   };
   while (report.iterations < settings.iterations) {
-    const double before = std::exchange(report.pressure, relaxed(1e-2));
+    report.pressure = relaxed(1e-2);
     // Far from the pressure wanted, rest is not waited for.
     if (std::abs(settings.pressure - report.pressure) < 0.5 * settings.pressure) report.pressure = relaxed(1e-4);
-    const double missing = settings.pressure - report.pressure;
-    report.reached = std::abs(missing) <= settings.tolerance * settings.pressure;
+    report.reached = std::abs(settings.pressure - report.pressure) <= settings.tolerance * settings.pressure;
     if (report.reached) break;
-    if (missing * strain < 0.0) longest *= 0.5;
-    if (before > 0.0 && report.pressure > 0.0 && (report.pressure - before) / strain > 0.05 * bulk)
-      bulk = (report.pressure - before) / strain;
-    const bool loose = report.pressure < 0.01 * settings.pressure;
-    strain = loose ? longest : std::clamp(missing / bulk, -longest, longest);
-    const double factor = std::cbrt(1.0 - strain);
+    const double factor = std::cbrt(1.0 - secant.next(report.pressure));
     if (!fits(factor, widest, packing.space)) break;
     const Vec3 corner = packing.space.box.lower;
     packing.space.box.upper = corner + factor * (packing.space.box.upper - corner);

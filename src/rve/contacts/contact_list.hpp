@@ -1,7 +1,7 @@
 // Who may touch whom.
 #pragma once
 
-#include <span>
+#include <vector>
 
 #include "dovetail/rve/rve.hpp"
 
@@ -12,10 +12,11 @@ namespace dovetail::rve {
 /// @throws NumericalError if faces are closer than two of the largest diameters and skins
 void updateNeighbourList(Rve& cell);
 
-/// 2/ω with ω² ≤ max 2 Σ k/m over the pairs of a grain, k the stiffer of pressing and sliding with turning: the matrix
-/// of a pair is at most twice its blocks of each grain, and in one block normal and tangent are orthogonal.
+/// 2/ω of the pair i, j that is fastest if either grain shares its mass among its pairs by what they ask of it
+/// (dem::criticalStep): ω² = Σ k_i/m_i + Σ k_j/m_j, k the stiffer of pressing and sliding with turning; of elastic
+/// spheres twice the larger of both.
 /// @param stiffness  Σ k_n of each grain, N/m
-double criticalStep(const Rve& cell, std::span<const double> stiffness);
+double criticalStep(const Rve& cell, std::vector<double> stiffness);
 
 /// Largest distance of centres at which pairs are listed, m.
 double listReach(const Rve& cell);

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "dovetail/dem/laws/slider.hpp"
 #include "touching_rows.hpp"
 
 namespace dovetail::rve {
@@ -15,18 +16,17 @@ struct DiscRows {
 };
 
 struct DiscLaw {
-  double ratio, slipFraction, rolling, rollFraction;
+  double ratio, friction, rolling, rollingLimit;
   double dt, xx, xy, yy;  // step, and rates of strain
 };
 
-inline double within(double value, double most) {
-  const double below = value < most ? value : most;
-  return below > -most ? below : -most;
-}
-
+/// The parts are those of dem's laws, along one line and about one axis.
 template <bool slides, bool rolls>
 void applyLaw(const DiscLaw law, const TouchingRows<2>& __restrict at, DiscRows& __restrict r) {
   const int padded = at.padded;
+  dem::Contact contact;
+  contact.dt = law.dt;
+  contact.inverseDt = 1.0;  // losses in J
   for (int m = 0; m < padded; ++m) {
     const double bx = at.branch[0][m], by = at.branch[1][m];
     const double d = std::sqrt(at.squared[m]), inverse = 1.0 / d, nx = bx * inverse, ny = by * inverse;
@@ -35,20 +35,21 @@ void applyLaw(const DiscLaw law, const TouchingRows<2>& __restrict at, DiscRows&
     const double armI = 0.5 * (d + r.radiusI[m] - r.radiusJ[m]), armJ = d - armI;
     if constexpr (slides) {
       const double wx = r.speedX[m] + law.xx * bx + law.xy * by, wy = r.speedY[m] + law.xy * bx + law.yy * by;
-      const double tried = r.stretch[m] + (wy * nx - wx * ny - armI * r.spinI[m] - armJ * r.spinJ[m]) * law.dt;
-      const double u = within(tried, law.slipFraction * overlap);
-      tangentialForce = law.ratio * k * u;
-      slipped = tangentialForce * (tried - u);
-      r.stretch[m] = u;
+      const double kt = law.ratio * k, slip = wy * nx - wx * ny - armI * r.spinI[m] - armJ * r.spinJ[m];
+      const dem::Slider<false, double> now(r.stretch[m], kt * r.stretch[m], slip, kt, 0.0, 1.0,
+                                           law.friction * normalForce, contact);
+      tangentialForce = now.force;
+      slipped = now.lostPower;
+      r.stretch[m] = now.stretch;
     }
     if constexpr (rolls) {
-      const double product = r.radiusI[m] * r.radiusJ[m];
       const double least = r.radiusI[m] < r.radiusJ[m] ? r.radiusI[m] : r.radiusJ[m];
-      const double tried = r.roll[m] + (r.spinI[m] - r.spinJ[m]) * law.dt;
-      const double turn = within(tried, law.rollFraction * overlap * least / product);
-      moment = law.rolling * law.ratio * k * product * turn;
-      slipped += moment * (tried - turn);
-      r.roll[m] = turn;
+      const double kr = law.rolling * law.ratio * k * r.radiusI[m] * r.radiusJ[m];
+      const dem::Slider<false, double> now(r.roll[m], kr * r.roll[m], r.spinI[m] - r.spinJ[m], kr, 0.0, 1.0,
+                                           law.rollingLimit * least * normalForce, contact);
+      moment = now.force;
+      slipped += now.lostPower;
+      r.roll[m] = now.stretch;
     }
     r.force[0][m] = -normalForce * nx - tangentialForce * ny;
     r.force[1][m] = -normalForce * ny + tangentialForce * nx;
@@ -64,14 +65,8 @@ template <bool slides, bool rolls>
 void sweepDiscs(Rve& cell, double dt, const Eigen::Matrix3d& L) {
   CellState& s = cell.state;
   const Springs& springs = cell.springs;
-  const DiscLaw law{springs.tangential,
-                    slides ? slipFractionOf(springs) : 0.0,
-                    springs.rolling,
-                    rolls ? springs.rollingLimit / (springs.tangential * springs.rolling) : 0.0,
-                    dt,
-                    L(0, 0),
-                    0.5 * (L(0, 1) + L(1, 0)),
-                    L(1, 1)};
+  const DiscLaw law{springs.tangential,        springs.friction, springs.rolling, springs.rollingLimit, dt, L(0, 0),
+                    0.5 * (L(0, 1) + L(1, 0)), L(1, 1)};
   const double* const vx = s.v[0].data();
   const double* const vy = s.v[1].data();
   const double* const spin = s.spin[2].data();
@@ -85,43 +80,49 @@ void sweepDiscs(Rve& cell, double dt, const Eigen::Matrix3d& L) {
   double* const memory[] = {stretch, roll};
   ContactSums<2> sums;
   DiscRows r;
-  forTouchingBlocks<2>(cell, {memory, rolls ? 2u : (slides ? 1u : 0u)}, [&](const TouchingRows<2>& at) {
-    for (int m = 0; m < at.padded; ++m) {
-      const int i = at.i[m], j = at.j[m], c = at.contact[m];
-      r.radiusI[m] = radius[i];
-      r.radiusJ[m] = radius[j];
-      r.stiffness[m] = m < at.count ? stiffness[c] : 0.0;
-      if constexpr (slides) {
-        r.stretch[m] = stretch[c];
-        r.speedX[m] = vx[j] - vx[i];
-        r.speedY[m] = vy[j] - vy[i];
-      }
-      if constexpr (slides || rolls) {
-        r.spinI[m] = spin[i];
-        r.spinJ[m] = spin[j];
-      }
-      if constexpr (rolls) r.roll[m] = roll[c];
-    }
-    withVectors([&] {
-      applyLaw<slides, rolls>(law, at, r);
-      sums.add(r.force, at);
-      if constexpr (slides || rolls) sums.slipped.add(r.slipped, at.padded);
-    });
-    for (int m = 0; m < at.count; ++m) {
-      const int i = at.i[m], j = at.j[m], c = at.contact[m];
-      fx[i] += r.force[0][m];
-      fy[i] += r.force[1][m];
-      fx[j] -= r.force[0][m];
-      fy[j] -= r.force[1][m];
-      if constexpr (slides) stretch[c] = r.stretch[m];
-      if constexpr (rolls) roll[c] = r.roll[m];
-      if constexpr (slides || rolls) {
-        torque[i] += r.torqueI[m];
-        torque[j] += r.torqueJ[m];
-      }
-    }
-  });
-  sums.ledger(s);
+  const double ended =
+      forTouchingBlocks<2>(cell, {memory, rolls ? 2u : (slides ? 1u : 0u)}, [&](const TouchingRows<2>& at) {
+        const auto take = [&](int m) {
+          const int i = at.i[m], j = at.j[m], c = at.contact[m];
+          r.radiusI[m] = radius[i];
+          r.radiusJ[m] = radius[j];
+          r.stiffness[m] = stiffness[c];
+          if constexpr (slides) {
+            r.stretch[m] = stretch[c];
+            r.speedX[m] = vx[j] - vx[i];
+            r.speedY[m] = vy[j] - vy[i];
+          }
+          if constexpr (slides || rolls) {
+            r.spinI[m] = spin[i];
+            r.spinJ[m] = spin[j];
+          }
+          if constexpr (rolls) r.roll[m] = roll[c];
+        };
+        for (int m = 0; m < at.count; ++m) take(m);
+        for (int m = at.count; m < at.padded; ++m) {
+          take(m);
+          r.stiffness[m] = 0.0;
+        }
+        withVectors([&] {
+          applyLaw<slides, rolls>(law, at, r);
+          sums.add(r.force, at);
+          if constexpr (slides || rolls) sums.slipped.add(r.slipped, static_cast<std::size_t>(at.padded));
+        });
+        for (int m = 0; m < at.count; ++m) {
+          const int i = at.i[m], j = at.j[m], c = at.contact[m];
+          fx[i] += r.force[0][m];
+          fy[i] += r.force[1][m];
+          fx[j] -= r.force[0][m];
+          fy[j] -= r.force[1][m];
+          if constexpr (slides) stretch[c] = r.stretch[m];
+          if constexpr (rolls) roll[c] = r.roll[m];
+          if constexpr (slides || rolls) {
+            torque[i] += r.torqueI[m];
+            torque[j] += r.torqueJ[m];
+          }
+        }
+      });
+  sums.ledger(s, ended);
 }
 
 template void sweepDiscs<false, false>(Rve&, double, const Eigen::Matrix3d&);

@@ -1,6 +1,8 @@
 #include <cmath>
+#include <utility>
 
 #include "contact_list.hpp"
+#include "dovetail/dem/laws/hertz_mindlin.hpp"
 #include "touching_rows.hpp"
 
 namespace dovetail::rve {
@@ -11,89 +13,62 @@ namespace {
 struct SphereRows {
   Row radiusI, radiusJ, stiffness, tangent;
   Row stretch[3], speed[3], spinI[3], spinJ[3];  // speed of j less i
-  Row force[3], couple[3], armI, armJ;           // on i; n × force
+  Row force[3], torqueI[3], torqueJ[3];          // on i; on each
   Row slope, slipped;
 };
 
 struct SphereLaw {
-  double ratio, slipFraction, dt;
-  double rate[6];  // of strain: xx, yy, zz, xy, yz, xz
-  double spin[3];  // of L
+  double ratio, friction, dt;
+  Vec3 rate[3];  // of strain, by rows
+  Vec3 spin;     // of L
 };
 
-/// A spring whose stiffness changes: while that grows, the force stays and the stretch shrinks; while it falls, the
-/// stretch stays and the force shrinks. Returns what the stretch shrinks to, in fractions of it.
-inline double keptWhileGrowing(double before, double now) { return now > before ? before / now : 1.0; }
-
+/// The parts are those of dem's laws; i looks at j, so n points from i to j and the springs pull i along.
 template <bool slides, bool elastic>
 void applyLaw(const SphereLaw law, const TouchingRows<3>& __restrict at, SphereRows& __restrict r) {
   const int padded = at.padded;
+  dem::Contact contact;
+  contact.dt = law.dt;
+  contact.inverseDt = 1.0;  // losses in J
   for (int m = 0; m < padded; ++m) {
-    const double bx = at.branch[0][m], by = at.branch[1][m], bz = at.branch[2][m];
-    const double d = std::sqrt(at.squared[m]), inverse = 1.0 / d;
-    const double nx = bx * inverse, ny = by * inverse, nz = bz * inverse;
+    const Vec3 b = vectorAt(at.branch, m);
+    const double d = std::sqrt(at.squared[m]);
+    const Vec3 n = (1.0 / d) * b;
     const double overlap = r.radiusI[m] + r.radiusJ[m] - d;
     const double k = elastic ? r.stiffness[m] * std::sqrt(overlap) : r.stiffness[m];
-    const double normalForce = elastic ? 2.0 / 3.0 * k * overlap : k * overlap;
+    const double normalForce = (elastic ? dem::hertzForce : 1.0) * k * overlap;
     if constexpr (elastic) r.slope[m] = k;
     if constexpr (!slides) {
-      r.force[0][m] = -normalForce * nx;
-      r.force[1][m] = -normalForce * ny;
-      r.force[2][m] = -normalForce * nz;
+      setVector(r.force, m, -normalForce * n);
     } else {
       const double armI = 0.5 * (d + r.radiusI[m] - r.radiusJ[m]), armJ = d - armI;
-      const double turnX = armI * r.spinI[0][m] + armJ * r.spinJ[0][m],
-                   turnY = armI * r.spinI[1][m] + armJ * r.spinJ[1][m],
-                   turnZ = armI * r.spinI[2][m] + armJ * r.spinJ[2][m];
-      const double wx =
-          r.speed[0][m] + law.rate[0] * bx + law.rate[3] * by + law.rate[5] * bz - (turnY * nz - turnZ * ny);
-      const double wy =
-          r.speed[1][m] + law.rate[3] * bx + law.rate[1] * by + law.rate[4] * bz - (turnZ * nx - turnX * nz);
-      const double wz =
-          r.speed[2][m] + law.rate[5] * bx + law.rate[4] * by + law.rate[2] * bz - (turnX * ny - turnY * nx);
-      // The spring turns about the normal with the mean spin of both, and tilts with the normal.
-      const double twist = law.dt * ((0.5 * (r.spinI[0][m] + r.spinJ[0][m]) + law.spin[0]) * nx +
-                                     (0.5 * (r.spinI[1][m] + r.spinJ[1][m]) + law.spin[1]) * ny +
-                                     (0.5 * (r.spinI[2][m] + r.spinJ[2][m]) + law.spin[2]) * nz);
-      double ux = r.stretch[0][m], uy = r.stretch[1][m], uz = r.stretch[2][m], lost = 0.0;
-      if constexpr (elastic) {
-        const double before = r.tangent[m], now = law.ratio * k, fraction = keptWhileGrowing(before, now);
-        lost = 0.5 * (before - now * fraction * fraction) * (ux * ux + uy * uy + uz * uz);
-        ux *= fraction;
-        uy *= fraction;
-        uz *= fraction;
-        r.tangent[m] = now;
-      }
-      const double sx = ux + twist * (ny * uz - nz * uy) + law.dt * wx,
-                   sy = uy + twist * (nz * ux - nx * uz) + law.dt * wy,
-                   sz = uz + twist * (nx * uy - ny * ux) + law.dt * wz;
-      const double along = sx * nx + sy * ny + sz * nz;
-      const double tx = sx - along * nx, ty = sy - along * ny, tz = sz - along * nz;
-      const double length = std::sqrt(tx * tx + ty * ty + tz * tz), most = law.slipFraction * overlap;
-      const double kept = length > most ? most / length : 1.0;
-      const double stiff = law.ratio * k * kept, hx = stiff * tx, hy = stiff * ty, hz = stiff * tz;
-      r.slipped[m] = stiff * length * (length - kept * length) + lost;
-      r.stretch[0][m] = kept * tx;
-      r.stretch[1][m] = kept * ty;
-      r.stretch[2][m] = kept * tz;
-      r.force[0][m] = hx - normalForce * nx;
-      r.force[1][m] = hy - normalForce * ny;
-      r.force[2][m] = hz - normalForce * nz;
-      r.couple[0][m] = ny * hz - nz * hy;
-      r.couple[1][m] = nz * hx - nx * hz;
-      r.couple[2][m] = nx * hy - ny * hx;
-      r.armI[m] = armI;
-      r.armJ[m] = armJ;
+      const Vec3 spinI = vectorAt(r.spinI, m), spinJ = vectorAt(r.spinJ, m);
+      const Vec3 w = vectorAt(r.speed, m) + Vec3{dot(law.rate[0], b), dot(law.rate[1], b), dot(law.rate[2], b)} -
+                     cross(armI * spinI + armJ * spinJ, n);
+      const double twist = law.dt * dot(0.5 * (spinI + spinJ) + law.spin, n);
+      const Vec3 old = dem::carried(vectorAt(r.stretch, m), n, twist), slip = w - dot(w, n) * n;
+      const double kt = law.ratio * k, limit = law.friction * normalForce;
+      const dem::Slider<false> now =
+          elastic ? dem::slideGrowing<false>(old, r.tangent[m], slip, kt, 0.0, 1.0, limit, contact)
+                  : dem::Slider<false>(old, kt * old, slip, kt, 0.0, 1.0, limit, contact);
+      if constexpr (elastic) r.tangent[m] = kt;
+      r.slipped[m] = now.lostPower;
+      setVector(r.stretch, m, now.stretch);
+      setVector(r.force, m, now.force - normalForce * n);
+      const Vec3 couple = cross(n, now.force);
+      setVector(r.torqueI, m, armI * couple);
+      setVector(r.torqueJ, m, armJ * couple);
     }
   }
 }
 
 SphereLaw lawOf(const Springs& springs, double dt, const Eigen::Matrix3d& L) {
+  const Eigen::Matrix3d D = 0.5 * (L + L.transpose());
   return {springs.tangential,
-          (springs.slides() ? slipFractionOf(springs) : 0.0) * (springs.elasticSpheres() ? 2.0 / 3.0 : 1.0),
+          springs.friction,
           dt,
-          {L(0, 0), L(1, 1), L(2, 2), 0.5 * (L(0, 1) + L(1, 0)), 0.5 * (L(1, 2) + L(2, 1)), 0.5 * (L(0, 2) + L(2, 0))},
-          {0.5 * (L(2, 1) - L(1, 2)), 0.5 * (L(0, 2) - L(2, 0)), 0.5 * (L(1, 0) - L(0, 1))}};
+          {{D(0, 0), D(0, 1), D(0, 2)}, {D(1, 0), D(1, 1), D(1, 2)}, {D(2, 0), D(2, 1), D(2, 2)}},
+          0.5 * Vec3{L(2, 1) - L(1, 2), L(0, 2) - L(2, 0), L(1, 0) - L(0, 1)}};
 }
 
 }  // namespace
@@ -115,47 +90,53 @@ void sweepSpheres(Rve& cell, double dt, const Eigen::Matrix3d& L) {
   std::vector<double> slope(elastic ? cell.size() : 0, 0.0);
   ContactSums<3> sums;
   SphereRows r;
-  forTouchingBlocks<3>(cell, {memory, slides ? (elastic ? 4u : 3u) : 0u}, [&](const TouchingRows<3>& at) {
-    for (int m = 0; m < at.padded; ++m) {
-      const int i = at.i[m], j = at.j[m], c = at.contact[m];
-      r.radiusI[m] = radius[i];
-      r.radiusJ[m] = radius[j];
-      r.stiffness[m] = m < at.count ? stiffness[c] : 0.0;
-      if constexpr (slides && elastic) r.tangent[m] = m < at.count ? memory[3][c] : 0.0;
-      if constexpr (slides)
-        for (int k = 0; k < 3; ++k) {
-          r.stretch[k][m] = memory[k][c];
-          r.speed[k][m] = v[k][j] - v[k][i];
-          r.spinI[k][m] = spin[k][i];
-          r.spinJ[k][m] = spin[k][j];
+  const double ended =
+      forTouchingBlocks<3>(cell, {memory, slides ? (elastic ? 4u : 3u) : 0u}, [&](const TouchingRows<3>& at) {
+        const auto take = [&](int m) {
+          const int i = at.i[m], j = at.j[m], c = at.contact[m];
+          r.radiusI[m] = radius[i];
+          r.radiusJ[m] = radius[j];
+          r.stiffness[m] = stiffness[c];
+          if constexpr (slides && elastic) r.tangent[m] = memory[3][c];
+          if constexpr (slides)
+            for (int k = 0; k < 3; ++k) {
+              r.stretch[k][m] = memory[k][c];
+              r.speed[k][m] = v[k][j] - v[k][i];
+              r.spinI[k][m] = spin[k][i];
+              r.spinJ[k][m] = spin[k][j];
+            }
+        };
+        for (int m = 0; m < at.count; ++m) take(m);
+        for (int m = at.count; m < at.padded; ++m) {
+          take(m);
+          r.stiffness[m] = r.tangent[m] = 0.0;
         }
-    }
-    withVectors([&] {
-      applyLaw<slides, elastic>(law, at, r);
-      sums.add(r.force, at);
-      if constexpr (slides) sums.slipped.add(r.slipped, at.padded);
-    });
-    for (int m = 0; m < at.count; ++m) {
-      const int i = at.i[m], j = at.j[m], c = at.contact[m];
-      for (int k = 0; k < 3; ++k) {
-        const double f = r.force[k][m];
-        force[k][i] += f;
-        force[k][j] -= f;
-        if constexpr (slides) {
-          memory[k][c] = r.stretch[k][m];
-          torque[k][i] += r.armI[m] * r.couple[k][m];
-          torque[k][j] += r.armJ[m] * r.couple[k][m];
+        withVectors([&] {
+          applyLaw<slides, elastic>(law, at, r);
+          sums.add(r.force, at);
+          if constexpr (slides) sums.slipped.add(r.slipped, static_cast<std::size_t>(at.padded));
+        });
+        for (int m = 0; m < at.count; ++m) {
+          const int i = at.i[m], j = at.j[m], c = at.contact[m];
+          for (int k = 0; k < 3; ++k) {
+            const double f = r.force[k][m];
+            force[k][i] += f;
+            force[k][j] -= f;
+            if constexpr (slides) {
+              memory[k][c] = r.stretch[k][m];
+              torque[k][i] += r.torqueI[k][m];
+              torque[k][j] += r.torqueJ[k][m];
+            }
+          }
+          if constexpr (slides && elastic) memory[3][c] = r.tangent[m];
+          if constexpr (elastic) {
+            slope[at.i[m]] += r.slope[m];
+            slope[at.j[m]] += r.slope[m];
+          }
         }
-      }
-      if constexpr (slides && elastic) memory[3][c] = r.tangent[m];
-      if constexpr (elastic) {
-        slope[at.i[m]] += r.slope[m];
-        slope[at.j[m]] += r.slope[m];
-      }
-    }
-  });
-  sums.ledger(s);
-  if constexpr (elastic) s.criticalStep = criticalStep(cell, slope);
+      });
+  sums.ledger(s, ended);
+  if constexpr (elastic) s.criticalStep = criticalStep(cell, std::move(slope));
 }
 
 template void sweepSpheres<false, false>(Rve&, double, const Eigen::Matrix3d&);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "dovetail/dem/laws/hertz_mindlin.hpp"
 #include "dovetail/rve/rve.hpp"
 #include "sweep.hpp"
 
@@ -41,7 +42,7 @@ void forEachTouch(const Rve& cell, const Visit& visit) {
       const Vec3 u = disc ? contacts.stretch[0][at] * Vec3{-n.y, n.x, 0.0}
                           : Vec3{contacts.stretch[0][at], contacts.stretch[1][at], contacts.stretch[2][at]};
       const double overlap = reach - d, k = slopeAt(cell.springs, contacts.stiffness[at], overlap);
-      const double normalForce = (cell.springs.elasticSpheres() ? 2.0 / 3.0 : 1.0) * k * overlap;
+      const double normalForce = (cell.springs.elasticSpheres() ? dem::hertzForce : 1.0) * k * overlap;
       visit(Touch{at, i, j, b, n, d, overlap, k, normalForce, u, contacts.roll.empty() ? 0.0 : contacts.roll[at]});
     }
 }

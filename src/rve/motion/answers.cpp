@@ -98,7 +98,7 @@ Eigen::Matrix3d fabric(const Rve& cell) {
 double storedEnergy(const Rve& cell) {
   double sum = 0.0;
   const double tangential = cell.springs.slides() ? cell.springs.tangential : 0.0;
-  const double fraction = cell.springs.elasticSpheres() ? 0.4 : 0.5;
+  const double fraction = cell.springs.elasticSpheres() ? dem::hertzEnergy : 0.5;
   forEachTouch(cell, [&](const Touch& touch) {
     sum += fraction * touch.normalForce * touch.overlap +
            0.5 * tangential * touch.stiffness * squaredNorm(touch.stretch) +

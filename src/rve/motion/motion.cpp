@@ -9,6 +9,7 @@
 #include "contacts/sweep.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/lane_sum.hpp"
 #include "dovetail/core/vector_code.hpp"
 #include "dovetail/rve/rve.hpp"
 #include "projection.hpp"
@@ -17,7 +18,6 @@ namespace dovetail::rve {
 
 namespace {
 
-constexpr std::size_t lanes = 8;
 using Lanes = double[lanes];
 
 /// Calls body(first, count) for eight items at a time and then for the rest: loops over count become vectors, and sums
@@ -29,25 +29,23 @@ void inLanes(std::size_t n, const Body& body) {
   if (i < n) body(i, n - i);
 }
 
-double sumOf(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
-
 double kick(std::vector<double>& v, const std::vector<double>& force, const std::vector<double>& mass, double dt,
             double damping) {
   double* const __restrict to = v.data();
   const double* const __restrict f = force.data();
   const double* const __restrict m = mass.data();
-  Lanes taken = {};
+  LaneSum taken;
   inLanes(v.size(), [&](std::size_t i, auto count) {
     for (std::size_t l = 0; l < count; ++l) {
       const double before = to[i + l], push = f[i + l], against = damping * std::abs(push);
       // Without branches: signs are guessed wrong too often.
       const double drag = against * (static_cast<double>(before > 0.0) - static_cast<double>(before < 0.0));
       const double after = before + dt * (push - drag) / m[i + l];
-      taken[l] += 0.5 * dt * drag * (before + after);
+      taken.lane[l] += 0.5 * dt * drag * (before + after);
       to[i + l] = after;
     }
   });
-  return sumOf(taken);
+  return taken.total();
 }
 
 /// x ← G (x + v dt). Returns the largest |v|², NaN if one is not finite.
@@ -61,7 +59,8 @@ double advance(CellState& s, double dt, const Eigen::Matrix3d& G) {
     v[k] = s.v[static_cast<std::size_t>(k)].data();
     for (int l = 0; l < dimension; ++l) g[k][l] = G(k, l);
   }
-  Lanes most = {}, sum2 = {};
+  Lanes most = {};
+  LaneSum sum2;
   inLanes(s.x[0].size(), [&](std::size_t i, auto count) {
     double moved[dimension][lanes];
     Lanes speed2 = {};
@@ -79,11 +78,11 @@ double advance(CellState& s, double dt, const Eigen::Matrix3d& G) {
       }
     for (std::size_t l = 0; l < count; ++l) {
       most[l] = most[l] < speed2[l] ? speed2[l] : most[l];
-      sum2[l] += speed2[l];
+      sum2.lane[l] += speed2[l];
     }
   });
   const double fastest2 = *std::max_element(most, most + lanes);
-  return std::isfinite(sumOf(sum2)) ? fastest2 : std::nan("");
+  return std::isfinite(sum2.total()) ? fastest2 : std::nan("");
 }
 
 Vec3 product(const Eigen::Matrix3d& G, const Vec3& a) {

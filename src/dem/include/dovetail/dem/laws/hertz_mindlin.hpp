@@ -5,6 +5,9 @@
 
 namespace dovetail::dem {
 
+/// Elastic spheres: force over slope and overlap, and energy over force and overlap.
+inline constexpr double hertzForce = 2.0 / 3.0, hertzEnergy = 0.4;
+
 /// Normal part: F = (4/3) E* √(R* δ) δ + c dδ/dt with c = √(10/3) ζ √(m k_n), k_n = 2 E* √(R* δ) being the slope of the
 /// elastic force (Tsuji, Tanaka & Ishida, Powder Technol. 71, 1992). In the phase plane this is a linear damped
 /// oscillator of damping ratio ζ in δ^(5/4) (Antypov & Elliott, EPL 94, 2011), so e is the same for every speed and
@@ -32,7 +35,7 @@ struct HertzDashpot {
     [[gnu::always_inline]] NormalResponse respond(const Contact& contact, double*) const {
       const double stiffness = twiceModulus * std::sqrt(contact.effectiveRadius * contact.overlap);
       const double damping = dampingFactor * contact.rootMass * std::sqrt(stiffness);
-      const double elastic = (2.0 / 3.0) * stiffness * contact.overlap;
+      const double elastic = hertzForce * stiffness * contact.overlap;
       const double whole = elastic - damping * contact.separating;
       const double force = whole < leastForce ? leastForce : whole;
       const double ratio = dampingRatioBefore(contact), squared = ratio * ratio;
@@ -42,7 +45,7 @@ struct HertzDashpot {
       return {.force = force,
               .stiffness = stiffness,
               .damping = damping,
-              .energy = 0.4 * elastic * contact.overlap,
+              .energy = hertzEnergy * elastic * contact.overlap,
               .dampingFraction = 0.75 + 0.25 * ratio,
               .dashpotPower = booked.power,
               .dashpotAfter = booked.after};
@@ -90,9 +93,14 @@ struct MindlinSpring {
     [[gnu::always_inline]] TangentialResponse respond(const Contact& contact, const NormalResponse& normal,
                                                       double* held) const {
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
+      const double stiffness = stiffnessRatio * normal.stiffness;
       const Slider<dashpot> now =
-          slideGrowing<dashpot>(Vec3{held[0], held[1], held[2]}, contact.slip, stiffnessRatio * normal.stiffness,
-                                dampingRatio * normal.damping, normal.dampingFraction, limit, contact, held);
+          slideGrowing<dashpot>(Vec3{held[0], held[1], held[2]}, held[3], contact.slip, stiffness,
+                                dampingRatio * normal.damping, normal.dampingFraction, limit, contact);
+      held[0] = now.stretch.x;
+      held[1] = now.stretch.y;
+      held[2] = now.stretch.z;
+      held[3] = stiffness;
       return {.force = -now.force, .energy = now.energy, .slipPower = now.lostPower};
     }
     Slope slope(const Contact&, const NormalResponse& normal) const {

@@ -21,6 +21,7 @@
 #include <numbers>
 
 #include "dovetail/dem/laws/contact.hpp"
+#include "dovetail/dem/laws/slider.hpp"
 
 namespace dovetail::dem {
 
@@ -134,63 +135,6 @@ struct NoTangential {
   };
   Prepared prepare() const { return {}; }
 };
-
-/// A spring, a dashpot beside it, and a slider before both.
-/// @tparam dashpot  there may be one; without it a root and a quotient are spared
-template <bool dashpot = true>
-struct Slider {
-  Vec3 stretch, force;     ///< of the spring, and of both, along the stretch
-  double energy = 0.0;     ///< J stored
-  double lostPower = 0.0;  ///< W lost to sliding and to the dashpot, average of this step
-
-  /// The spring alone keeps below the limit; the dashpot adds what the limit leaves. (The other way round, a dashpot
-  /// above the limit would stretch the spring backwards, with energy from nowhere.)
-  /// What the dashpot takes is booked as that of the normal one (bookedDashpot); where the limit cuts it off it depends
-  /// on the velocity less, so that the step of the first touch counts nearly as any other.
-  /// @param kept        stretch before this step
-  /// @param forceBefore of the spring, in the last step; sliding is booked with the mean of both, as the work is done
-  /// @param rate        relative velocity
-  [[gnu::always_inline]] Slider(const Vec3& kept, const Vec3& forceBefore, const Vec3& rate, double stiffness,
-                                double damping, double dampingFraction, double limit, const Contact& contact) {
-    const Vec3 stretched = kept + contact.dt * rate;
-    const double size = stiffness * norm(stretched);
-    const bool slides = size > limit;
-    stretch = (slides ? limit / (slides ? size : 1.0) : 1.0) * stretched;
-    const Vec3 spring = stiffness * stretch;
-    force = {spring.x, spring.y, spring.z};  // copied whole, it would stay in memory and the loop would not vectorise
-    energy = 0.5 * dot(spring, stretch);
-    lostPower = 0.5 * dot(spring + forceBefore, stretched - stretch) * contact.inverseDt;
-    if constexpr (dashpot) {
-      const Vec3 both = spring + damping * rate;
-      const double whole = norm(both);
-      const bool cut = damping > 0.0 ? whole > limit : false;
-      force = (cut ? limit / (cut ? whole : 1.0) : 1.0) * both;
-      lostPower += (cut ? 0.5 + 0.5 * dampingFraction : dampingFraction) * dot(force - spring, rate);
-    }
-  }
-};
-
-/// A slider whose spring changes its stiffness with the normal load. No energy appears: while the stiffness grows, the
-/// force stays and the stretch shrinks; while it falls, the stretch stays and the force shrinks. What the spring loses
-/// by that counts as lost.
-/// @param old  stretch before this step, in today's contact plane
-/// @param held takes the new stretch; its fourth number is the stiffness, of the last step and then of this one
-template <bool dashpot = true>
-[[gnu::always_inline]] inline Slider<dashpot> slideGrowing(const Vec3& old, const Vec3& rate, double stiffness,
-                                                           double damping, double dampingFraction, double limit,
-                                                           const Contact& contact, double* held) {
-  const double before = held[3];
-  const bool grows = stiffness > before;
-  const Vec3 kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old, forceBefore = before * old;
-  Slider<dashpot> now(kept, forceBefore, rate, stiffness, damping, dampingFraction, limit, contact);
-  held[0] = now.stretch.x;
-  held[1] = now.stretch.y;
-  held[2] = now.stretch.z;
-  held[3] = stiffness;
-  const double change = 0.5 * (dot(forceBefore, old - kept) + dot(forceBefore - stiffness * kept, now.stretch));
-  now.lostPower += change * contact.inverseDt;
-  return now;
-}
 
 /// Tangential part: spring of stiffness k_t stretched by the relative tangential motion (Cundall & Strack 1979), with a
 /// dashpot if asked for; the force is limited to μ times the repulsion of the normal part (Coulomb).

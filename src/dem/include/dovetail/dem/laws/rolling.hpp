@@ -25,8 +25,12 @@ struct RollingResistance {
       const Slope now = slope(contact, normal);
       const Vec3 rate = contact.spin - dot(contact.spin, contact.normal) * contact.normal;
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
-      const Slider<> slider = slideGrowing(Vec3{held[0], held[1], held[2]}, rate, now.stiffness, now.damping,
-                                           normal.dampingFraction, limit, contact, held);
+      const Slider<> slider = slideGrowing(Vec3{held[0], held[1], held[2]}, held[3], rate, now.stiffness, now.damping,
+                                           normal.dampingFraction, limit, contact);
+      held[0] = slider.stretch.x;
+      held[1] = slider.stretch.y;
+      held[2] = slider.stretch.z;
+      held[3] = now.stiffness;
       return {-slider.force, slider.energy, slider.lostPower};
     }
     Slope slope(const Contact& contact, const NormalResponse& normal) const {
@@ -57,12 +61,11 @@ struct TwistingResistance {
                                                    double* held) const {
       const Slope now = slope(contact, normal);
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
-      double spring[4] = {held[0], 0.0, 0.0, held[1]};
-      const Slider<> slider = slideGrowing({held[0], 0.0, 0.0}, {dot(contact.spin, contact.normal), 0.0, 0.0},
-                                           now.stiffness, now.damping, normal.dampingFraction, limit, contact, spring);
-      held[0] = spring[0];
-      held[1] = spring[3];
-      return {-slider.force.x * contact.normal, slider.energy, slider.lostPower};
+      const auto slider = slideGrowing(held[0], held[1], dot(contact.spin, contact.normal), now.stiffness, now.damping,
+                                       normal.dampingFraction, limit, contact);
+      held[0] = slider.stretch;
+      held[1] = now.stiffness;
+      return {-slider.force * contact.normal, slider.energy, slider.lostPower};
     }
     Slope slope(const Contact& contact, const NormalResponse& normal) const {
       const double squared = contact.effectiveRadius * contact.effectiveRadius;

@@ -97,6 +97,13 @@ namespace detail {
 /// Largest dt with a dt² + 2 b dt ≤ 4; a in 1/s², b in 1/s.
 inline double verletLimit(double a, double b) { return 4.0 / (b + std::sqrt(b * b + 4.0 * a)); }
 
+/// What a contact asks of the mass of a round particle, N/m: along its normal, or across it while the particle turns.
+/// @param roundness  moment of inertia over mass and squared radius; infinite: it does not turn
+inline double strongest(double normal, double tangential, double rolling, double radius, double roundness) {
+  const double perInertia = 1.0 / roundness;
+  return std::max(normal, (1.0 + perInertia) * tangential + perInertia * rolling / (radius * radius));
+}
+
 /// What acts in every step, and what acts or moves once a macro step: ω², 1/s², and 2ζω, 1/s.
 struct LinkRates {
   double stiff = 0.0, damped = 0.0, macroStiff = 0.0, macroDamped = 0.0;

@@ -14,7 +14,7 @@ struct Energies {
   ContactWork lost;       ///< its …Power members hold what has been lost so far, J; its energies are not used
   double damping = 0.0;   ///< taken by viscous and local damping
   double walls = 0.0;     ///< done by moving walls and drives on what they touch
-  double external = 0.0;  ///< done by external forces
+  double external = 0.0;  ///< done by external forces, and by those who strain a periodic cell
   double entered = 0.0;   ///< brought in by particles, and by terms and laws that were exchanged between steps
   double left = 0.0;      ///< taken out with particles that were removed or escaped
   double lifted = 0.0;    ///< gravity work across periodic boundaries

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dovetail/dem/particles/particles.hpp"
@@ -21,7 +22,9 @@ struct Packing {
   double volume() const { return space.length(0) * space.length(1) * space.length(2); }
 };
 
-/// Σ 4/3 π R³ over the volume of the box; overlaps count twice.
+/// Σ 4/3 π R³, m³; overlaps count twice.
+double volumeOf(std::span<const double> radius);
+/// The same over the volume of the box.
 double solidFraction(const Packing& packing);
 
 /// Appends the spheres as particles. Returns the number of the first.
