@@ -27,9 +27,9 @@ void passMatrix(Archive& archive, Matrix& matrix) {
   matrix = rows;
 }
 
-class Resting {
+class QuasiStatic {
 public:
-  explicit Resting(const QuasiStaticCells& settings) : settings_(settings) {}
+  explicit QuasiStatic(const QuasiStaticCells& settings) : settings_(settings) {}
 
   /// A cell that is to stay where it was committed is at rest there already.
   void go(rve::Rve& cell, const Eigen::Matrix3d& F, double, bool stays) const {
@@ -85,7 +85,7 @@ private:
   }
 };
 
-struct Moving {
+struct Dynamic {
   DynamicCells settings;
 
   void go(rve::Rve& cell, const Eigen::Matrix3d& F, double dt, bool stays) const {
@@ -106,10 +106,10 @@ void requirePlane(const rve::Rve& cell, const Eigen::Matrix3d& F) {
 }
 
 /// The committed cell, and what the last answer made of it.
-template <class Manner>
+template <class Update>
 class CellPoint final : public fem::FieldPoint {
 public:
-  CellPoint(const rve::Rve& cell, Manner manner) : cell_(cell), committed_(cell.state), manner_(manner) {}
+  CellPoint(const rve::Rve& cell, Update update) : cell_(cell), committed_(cell.state), update_(update) {}
 
   void evaluate(std::span<const double, 9> F, double dt, bool moved, fem::PointAnswer answer) override {
     const Eigen::Matrix3d wanted = Eigen::Map<const RowMajor>(F.data());
@@ -117,7 +117,7 @@ public:
       known_ = false;
       requirePlane(cell_, wanted);
       rve::restore(cell_, committed_);
-      manner_.go(cell_, wanted, dt, wanted == committedF_);
+      update_.go(cell_, wanted, dt, wanted == committedF_);
       F_ = wanted;
       dt_ = dt;
       known_ = true;
@@ -125,12 +125,12 @@ public:
     if (moved) tell(answer);
     if (!answer.tangent.empty())
       Eigen::Map<Eigen::Matrix<double, 9, 9, Eigen::RowMajor>>(answer.tangent.data()) =
-          manner_.tangent(cell_, committed_);
+          update_.tangent(cell_, committed_);
   }
 
   void commit() override {
     if (!known_) return;
-    manner_.commit(cell_);
+    update_.commit(cell_);
     std::swap(committed_, cell_.state);
     committedF_ = F_;
     known_ = false;
@@ -141,8 +141,8 @@ public:
     rve::writeState(cell_, committed_, archive);
     Eigen::Matrix3d F = committedF_;
     passMatrix(archive, F);
-    Manner manner = manner_;
-    manner.pass(archive);
+    Update update = update_;
+    update.pass(archive);
   }
   void load(ByteReader& archive) override {
     rve::CellState state = rve::readState(cell_, archive);
@@ -150,11 +150,11 @@ public:
     passMatrix(archive, F);
     if (!((F - state.F).norm() <= 1e-9 * state.F.norm()))
       throw InputError("the deformation differs from that of the cell", "cell of grains", "take an older file");
-    Manner manner = manner_;
-    manner.pass(archive);
+    Update update = update_;
+    update.pass(archive);
     committed_ = std::move(state);
     committedF_ = F;
-    manner_ = manner;
+    update_ = update;
     known_ = false;
   }
 
@@ -169,32 +169,32 @@ private:
 
   rve::Rve cell_;
   rve::CellState committed_;
-  Manner manner_;
+  Update update_;
   Eigen::Matrix3d F_, committedF_ = Eigen::Matrix3d::Identity();
   double dt_ = 0.0;
   bool known_ = false;  ///< whether the cell is the answer for F_ and dt_
 };
 
-template <class Manner>
-std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Rve> samples, double unbalanced, Manner manner) {
+template <class Update>
+std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Rve> samples, double unbalanced, Update update) {
   validateSamples(samples, unbalanced);
   rve::Rve tried = samples.front();
-  manner.go(tried, tried.state.F, 1.0, false);  // says what is wrong with the settings
+  update.go(tried, tried.state.F, 1.0, false);  // says what is wrong with the settings
   const fem::FieldTraits traits{.name = nameOf(samples), .density = meanDensity(samples)};
-  return fem::pointField(traits, [samples = std::move(samples), manner](const fem::PointPlace& place) {
+  return fem::pointField(traits, [samples = std::move(samples), update](const fem::PointPlace& place) {
     const auto number = static_cast<std::size_t>(place.element + place.point) % samples.size();
-    return std::make_unique<CellPoint<Manner>>(samples[number], manner);
+    return std::make_unique<CellPoint<Update>>(samples[number], update);
   });
 }
 
 }  // namespace
 
 std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const QuasiStaticCells& settings) {
-  return fieldOf(std::move(samples), settings.unbalanced, Resting{settings});
+  return fieldOf(std::move(samples), settings.unbalanced, QuasiStatic{settings});
 }
 
 std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const DynamicCells& settings) {
-  return fieldOf(std::move(samples), rve::RestOptions{}.unbalanced, Moving{settings});
+  return fieldOf(std::move(samples), rve::RestOptions{}.unbalanced, Dynamic{settings});
 }
 
 }  // namespace dovetail::hierarchical

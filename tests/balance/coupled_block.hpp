@@ -46,12 +46,12 @@ inline dem::Particles droppedParticles() {
   return particles;
 }
 
-inline Coupling makeSeam(const BlockSetup& setup, const fem::SolidMesh& mesh) {
+inline SurfaceCoupler makeSeam(const BlockSetup& setup, const fem::SolidMesh& mesh) {
   const cg::Kernel kernel{cg::KernelShape::lucy, 2, setup.width};
   const auto& faces = mesh.faceSets.at("skin");
   Skin skin = makeSkin(mesh.X, faces);
   if (!setup.spread) coarseGrain(skin, {kernel, cg::KernelCorrection::none});
-  Coupling seam = setup.smooth ? Coupling(makeSmoothSurface(skin)) : Coupling(skin);
+  SurfaceCoupler seam = setup.smooth ? SurfaceCoupler(makeSmoothSurface(skin)) : SurfaceCoupler(skin);
   if (setup.spread) seam.spreadLoad(SpreadLoad({kernel, {}}, mesh.X, skin, faces));
   seam.bookWallWork(setup.booksWork);
   return seam;
@@ -79,7 +79,7 @@ inline std::unique_ptr<CoupledRun> makeRun(const BlockSetup& setup, const fem::S
   return run;
 }
 
-inline const Coupling& seamOf(const CoupledRun& run) {
+inline const SurfaceCoupler& seamOf(const CoupledRun& run) {
   for (const auto& term : run.grains.terms)
     if (const auto* const contact = dynamic_cast<const SurfaceContact*>(term.get())) return contact->coupling();
   throw std::logic_error("there is no seam");

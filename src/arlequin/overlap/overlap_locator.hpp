@@ -1,4 +1,4 @@
-// Where in the mesh of an overlap a particle is, and what weight of it counts there.
+// Where in the mesh of an overlap a particle is, and its weight there.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Particles sorted at every list update of the list: numbers change, physics does not.
+// Particles sorted at every list update: numbers change, physics does not.
 #include <gtest/gtest.h>
 
 #include "bonds/beam_scenes.hpp"

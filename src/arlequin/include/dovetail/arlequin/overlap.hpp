@@ -1,4 +1,4 @@
-// The overlap: which particles lie in which element, and what weight of everything they carry.
+// The overlap: which particles lie in which element, and with what weight.
 #pragma once
 
 #include <span>

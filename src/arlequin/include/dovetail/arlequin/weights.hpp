@@ -1,4 +1,4 @@
-// Weights of the Arlequin framework: which weight of mass and energy each model carries in the overlap.
+// Weights of the Arlequin framework: which fraction of mass and energy each model carries in the overlap.
 //
 // The particles' weight w is held at the nodes of the solid's mesh and interpolated, so it moves with the mesh; the
 // solid carries 1 − w (partition of unity). w = 1 at the mesh's border inside the particles (s = 0), w = 0 at the
