@@ -9,6 +9,7 @@
 
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/report/page.hpp"
+#include "dovetail/report/summary.hpp"
 #include "dovetail/report/text.hpp"
 
 namespace dovetail::program {
@@ -83,7 +84,7 @@ std::vector<Run> readRuns(const fs::path& folder) {
         run.settings.emplace_back(key, value);
     }
     run.series = io::readCsv(place / "series.csv");
-    run.dt = readJson(place / "summary.json")["step"]["dt_s"];
+    run.dt = report::readSummary(place / "summary.json")["step"]["dt_s"];
     runs.push_back(std::move(run));
   }
   return runs;

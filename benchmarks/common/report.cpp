@@ -6,7 +6,7 @@
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/io/interruption.hpp"
-#include "dovetail/io/output_folder.hpp"
+#include "dovetail/report/summary.hpp"
 #include "dovetail/report/text.hpp"
 
 namespace dovetail::benchmark {
@@ -102,13 +102,13 @@ Json figuresAsJson(const Lines& lines) {
 
 void writeSummary(const std::string& file, const Lines& lines, const RunData& data, const io::KeyValues& settings,
                   const std::string& scene) {
-  Json json{{"provenance", report::objectOf(io::provenance())}};
-  json.update(figuresAsJson(lines));
-  json["ledger"] = report::ledgerAsJson(data.ledger);
-  if (!data.profile.rows().empty()) json["profile"] = report::profileAsJson(data.profile);
-  json["settings"] = report::objectOf(settings);
-  json["scene"] = Json::parse(scene);
-  io::writeFileAtomically(file, json.dump(2) + "\n");
+  report::writeSummary(file, io::provenance(),
+                       {{"results", figuresAsJson(lines)},
+                        {"energy", report::energyOf(data.ledger)},
+                        {"figures", report::figuresOf(data.series)},
+                        {"times", report::timesOf(data.profile)},
+                        {"settings", report::objectOf(settings)},
+                        {"scene", Json::parse(scene)}});
 }
 
 }  // namespace dovetail::benchmark

@@ -12,7 +12,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/io/time_series.hpp"
-#include "dovetail/report/table.hpp"
+#include "dovetail/report/summary.hpp"
 
 namespace dovetail::benchmark {
 

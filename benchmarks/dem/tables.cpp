@@ -2,7 +2,7 @@
 
 #include <ostream>
 
-#include "dovetail/io/output_folder.hpp"
+#include "dovetail/report/summary.hpp"
 #include "dovetail/report/text.hpp"
 
 namespace dovetail::dem_benchmark {
@@ -40,9 +40,9 @@ void writeSummary(const Settings& s, const std::vector<Figures>& rows, double tr
 
 void writeSummary(const Settings& s, const report::Json& content) {
   if (s.summary.empty()) return;
-  report::Json json{{"provenance", report::objectOf(io::provenance())}, {"study", s.study}};
-  json.update(content);
-  io::writeFileAtomically(s.summary, json.dump(2) + "\n");
+  report::Json parts{{"study", s.study}};
+  parts.update(content);
+  report::writeSummary(s.summary, io::provenance(), parts);
 }
 
 }  // namespace dovetail::dem_benchmark

@@ -5,8 +5,7 @@
 #include "common/outputs.hpp"
 #include "dem/scenes.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/io/output_folder.hpp"
-#include "dovetail/report/table.hpp"
+#include "dovetail/report/summary.hpp"
 #include "dovetail/report/text.hpp"
 #include "features.hpp"
 #include "hand_loop.hpp"
@@ -99,10 +98,9 @@ int main(int argc, char** argv) {
     if (!parse(argc, argv, s)) return true;
     setThreads(1);
     if (!s.summary.empty()) benchmark::prepareSummary(s.summary);
-    Json json{{"provenance", report::objectOf(io::provenance())}};
-    json["by_hand"] = besideHandLoop(s);
-    json["features"] = besideBare(s);
-    if (!s.summary.empty()) io::writeFileAtomically(s.summary, json.dump(2) + "\n");
+    const Json byHand = besideHandLoop(s), features = besideBare(s);
+    if (!s.summary.empty())
+      report::writeSummary(s.summary, io::provenance(), {{"by_hand", byHand}, {"features", features}});
     return true;
   });
 }

@@ -67,8 +67,8 @@ class Run:
         table = read_table(path)
         self.series = {name: numbers(table, name, path) for name in table}
         try:
-            self.summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-            self.settings = self.summary["settings"]
+            summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+            self.results, self.settings = summary["results"], summary["settings"]
         except (ValueError, KeyError) as error:
             raise DataError(f"{folder / 'summary.json'} is no summary of a run: {error}") from None
 

@@ -124,8 +124,8 @@ def _draw_energy(axes, run, references):
     for width, peak in PUBLISHED_PEAK.items():
         _draw_published(axes, width, peak, curves.get(width), end)
     axes.plot(time, numpy.where(energy > 0, energy, numpy.nan), color=BLUE, linewidth=2.6)
-    low = run.summary.get("energy_min_J") or numpy.nanmin(energy)  # a run that broke down has no finite ones
-    high = run.summary.get("energy_max_J") or numpy.nanmax(energy)
+    low = run.results.get("energy_min_J") or numpy.nanmin(energy)  # a run that broke down has no finite ones
+    high = run.results.get("energy_max_J") or numpy.nanmax(energy)
     axes.text(0.985 * end, 0.62 * max(low, 0.2), f"Dovetail, {run.name}: {low:.5g} … {high:.5g} J", color=BLUE,
               ha="right", va="top", fontsize=10, fontweight="bold")
     axes.set_yscale("log")

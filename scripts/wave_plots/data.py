@@ -21,9 +21,9 @@ class Run:
         self.series = self._columns("series.csv")
         self.profile = self._columns("profile.csv")
         try:
-            self.summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-            self.settings = self.summary["settings"]
-            self.input = float(self.summary["energy_input_J"])
+            summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+            self.results, self.settings = summary["results"], summary["settings"]
+            self.input = float(self.results["energy_input_J"])
         except (ValueError, KeyError, TypeError) as error:
             raise DataError(f"{folder / 'summary.json'} is no summary of a run: {error}") from None
 

@@ -79,8 +79,8 @@ def draw_overview(run, beside, path):
     panels[2].legend(loc="upper left", bbox_to_anchor=(0.0, 1.04))
     panels[0].set_title(f"A pulse goes from particles into an elastic solid: {run.name}")
     _draw_energy(panels[3], run, beside)
-    error = run.summary.get("waveform_error_fem")
-    lost = run.summary.get("energy_lost_fraction") or 0.0
+    error = run.results.get("waveform_error_fem")
+    lost = run.results.get("energy_lost_fraction") or 0.0
     text = f"Energy: {abs(lost):.1e} of the input " + ("lost" if lost > 0 else "gained")
     if error is not None:
         text += f"; the wave in the solid differs by {100 * error:.2g} % from that of particles alone"

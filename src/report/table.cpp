@@ -17,23 +17,6 @@ Json objectOf(const io::KeyValues& rows) {
 
 Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json ledgerAsJson(const EnergyLedger& ledger) {
-  Json json = Json::array();
-  for (const auto& channel : ledger.channels())
-    json.push_back({{"channel", channel.name},
-                    {"kind", channel.kind == EnergyLedger::Kind::booked ? "booked" : "stored"},
-                    {"at_opening_J", channel.joulesAtOpening},
-                    {"at_end_J", channel.joules}});
-  return json;
-}
-
-Json profileAsJson(const Profile& profile) {
-  Json json = Json::array();
-  for (const auto& row : profile.rows())
-    json.push_back({{"stage", row.name}, {"seconds", row.seconds}, {"calls", row.calls}});
-  return json;
-}
-
 namespace {
 
 std::string field(const Json& value) {

@@ -53,10 +53,10 @@ TEST(Interruption, EndsARunInOrder) {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_NE(outcome.err.find(std::string("interrupted by ") + name), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("t = "), std::string::npos) << outcome.err;
-    const auto json = nlohmann::json::parse(readText(scene.summary));
+    const auto summary = nlohmann::json::parse(readText(scene.summary)), json = summary.at("results");
     EXPECT_EQ(json.at("finished"), false);
     EXPECT_EQ("cantilever: " + json.at("failure").get<std::string>() + "\n", outcome.err);
-    EXPECT_EQ(json.at("settings").at("until_s"), "9000");
+    EXPECT_EQ(summary.at("settings").at("until_s"), "9000");
     EXPECT_EQ(scene.endOfSeries(), json.at("end_time_s").get<double>());
     if (TEST_WITH_VTK) {
       EXPECT_EQ(scene.lastFrame(), json.at("end_time_s").get<double>());

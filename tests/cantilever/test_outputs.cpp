@@ -36,7 +36,8 @@ TEST(Program, HelpListsEveryOption) {
 }
 
 void expectSummary(const std::filesystem::path& file) {
-  const auto json = nlohmann::json::parse(readText(file));
+  const auto summary = nlohmann::json::parse(readText(file));
+  const auto& json = summary.at("results");
   for (const char* key : {"steps", "wall_seconds", "seconds_per_step", "energy_initial_J", "energy_min_J",
                           "energy_max_J", "energy_drift_relative", "ledger_residual_relative", "lateral_drift_m",
                           "moment_residual_relative", "time_mean_error_m", "no_contact_fraction"}) {
@@ -47,13 +48,14 @@ void expectSummary(const std::filesystem::path& file) {
   EXPECT_TRUE(json["leave_time_s"].is_null());                  // has not left
   EXPECT_TRUE(json.at("time_mean_error_dynamic_m").is_null());  // and so is not set beside the beam
   EXPECT_EQ(json.at("stable"), true);
-  EXPECT_EQ(json.at("settings").at("cg_width_diameters"), "2");
-  EXPECT_EQ(json.at("settings").at("scheme"), "conservative");
+  EXPECT_EQ(summary.at("settings").at("cg_width_diameters"), "2");
+  EXPECT_EQ(summary.at("settings").at("scheme"), "conservative");
   for (const char* key : {"version", "commit", "compiler", "flags", "processor"})
-    EXPECT_FALSE(json.at("provenance").at(key).get<std::string>().empty()) << key;
+    EXPECT_FALSE(summary.at("provenance").at(key).get<std::string>().empty()) << key;
   EXPECT_NEAR(json.at("energy_initial_J").get<double>(), 0.8716, 1e-3);
-  EXPECT_EQ(json.at("ledger").size(), 7u);
-  EXPECT_FALSE(json.at("profile").empty());
+  EXPECT_EQ(summary.at("energy").at("channels").size(), 7u);
+  EXPECT_FALSE(summary.at("times").at("parts").empty());
+  EXPECT_EQ(summary.at("version"), 1);
 }
 
 /// One line of names below the provenance, then as many numbers in every row; times grow.
@@ -115,7 +117,7 @@ TEST(Program, AContactTooStiffForTheBeamReferenceIsNoReasonToLoseTheRun) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_NE(outcome.out.find("Ledger at the end"), std::string::npos);
-  EXPECT_TRUE(nlohmann::json::parse(readText(summary)).at("time_mean_error_dynamic_m").is_null());
+  EXPECT_TRUE(nlohmann::json::parse(readText(summary)).at("results").at("time_mean_error_dynamic_m").is_null());
 }
 
 TEST(Program, ABreakdownSaysWhereAndWhenAndKeepsWhatThereIs) {
@@ -133,7 +135,7 @@ TEST(Program, ABreakdownSaysWhereAndWhenAndKeepsWhatThereIs) {
                      outcome.err.find("particle ") != std::string::npos;
   EXPECT_TRUE(outcome.err.starts_with("cantilever: ") && names) << outcome.err;
   EXPECT_NE(outcome.err.find("t = "), std::string::npos) << outcome.err;
-  const auto json = nlohmann::json::parse(readText(summary));
+  const auto json = nlohmann::json::parse(readText(summary)).at("results");
   EXPECT_EQ(json.at("finished"), false);
   EXPECT_EQ(json.at("stable"), false);
   EXPECT_EQ("cantilever: " + json.at("failure").get<std::string>() + "\n", outcome.err);

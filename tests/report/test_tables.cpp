@@ -29,19 +29,6 @@ TEST(Tables, OneLinePerObjectBelowProvenanceAndNames) {
             "\"a \"\"b\"\"\",nan,1,nan,3,0.5,\"paper\"\n");
 }
 
-TEST(Tables, LedgerAndStages) {
-  EnergyLedger ledger;
-  ledger.set(ledger.addStored("kinetic"), 2.0);
-  ledger.add(ledger.addBooked("lost"), 1.0);
-  const Json json = ledgerAsJson(ledger);
-  ASSERT_EQ(json.size(), 2u);
-  EXPECT_EQ(json[0].at("kind"), "stored");
-  EXPECT_EQ(json[1].at("at_end_J"), 1.0);
-  Profile profile(true);
-  profile.add("stage", 0.25);
-  EXPECT_EQ(profileAsJson(profile)[0].at("seconds"), 0.25);
-}
-
 TEST(Fronts, HoldWhatNothingBeatsInBoth) {
   struct Row {
     double seconds, error;

@@ -1,32 +1,16 @@
 // What summaries, surfaces and meshes hold.
-#include <fstream>
-#include <iterator>
 #include <ostream>
 
 #include "build/parts.hpp"
-#include "dovetail/core/atomic_file.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
+#include "dovetail/report/summary.hpp"
 #include "inspecting.hpp"
-#include "read/json_tree.hpp"
 
 namespace dovetail::scene {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-void inspectNumber(const Node& root, const char* part, const char* key, const char* unit, std::ostream& out) {
-  const Node* const inner = root.find(part);
-  const Node* const value = inner ? inner->find(key) : nullptr;
-  if (value && value->kind == Node::Kind::number)
-    out << "  " << part << ", " << key << ": " << value->number << unit << '\n';
-}
-
-void inspectTexts(const Node& root, const char* key, std::ostream& out) {
-  const Node* const list = root.find(key);
-  if (!list) return;
-  for (const Node& item : list->items) out << "  " << key << ": " << item.text << '\n';
-}
 
 void inspectBox(const std::vector<Vec3>& places, std::ostream& out) {
   if (places.empty()) return;
@@ -42,19 +26,20 @@ void inspectBox(const std::vector<Vec3>& places, std::ostream& out) {
 
 bool inspectSummary(const fs::path& file, std::ostream& out) {
   if (file.filename() != "summary.json") return false;
-  std::ifstream stream = openFile(file);
-  const Node root = parseJson({std::istreambuf_iterator<char>(stream), {}}, file.string());
-  if (root.kind != Node::Kind::object || !root.find("provenance") || !root.find("times")) return false;
-  out << "summary" << (root.find("title") ? ": " + root.find("title")->text : "") << '\n';
-  for (const Node::Member& entry : root.find("provenance")->members)
-    out << "  " << entry.key << ": " << entry.value[0].text << '\n';
-  for (const char* const key : {"time_s", "particles"})
-    if (const Node* const value = root.find(key)) out << "  " << key << ": " << value->number << '\n';
-  inspectNumber(root, "step", "dt_s", "", out);
-  inspectNumber(root, "step", "limit_s", "", out);
-  inspectNumber(root, "energy", "residual_J", "", out);
-  inspectNumber(root, "energy", "largest_residual_J", "", out);
-  for (const char* const key : {"notes", "warnings"}) inspectTexts(root, key, out);
+  const report::Json summary = report::readSummary(file);
+  const auto print = [&](const std::string& name, const report::Json& value) {
+    if (const std::string text = report::textOf(value); !text.empty()) out << "  " << name << ": " << text << '\n';
+  };
+  out << "summary: " << summary.value("title", "") << '\n';
+  for (const auto& [key, value] : summary.at("provenance").items()) print(key, value);
+  for (const char* const key : {"time_s", "particles"}) print(key, summary.value(key, report::Json()));
+  for (const auto& [part, key] :
+       {std::pair{"step", "dt_s"}, {"step", "limit_s"}, {"energy", "residual_J"}, {"energy", "largest_residual_J"}})
+    if (summary.contains(part)) print(std::string(part) + ", " + key, summary[part].value(key, report::Json()));
+  for (const char* const part : {"notes", "warnings"})
+    for (const report::Json& line : summary.value(part, report::Json::array())) print(part, line);
+  const report::Json results = summary.value("results", report::Json::object());
+  for (const auto& [key, value] : results.items()) print(key, value);
   return true;
 }
 

@@ -22,9 +22,10 @@ struct RunNotes {
   std::vector<std::string> lines, warnings;
 };
 
-/// Writes summary.txt (coupling::report) and summary.json: provenance, sizes, step beside the limit and who sets it,
-/// channels of the ledger, momenta, first, last and extreme values of the series' columns, time per stage and, with a
-/// profile, per part of a step, warnings, and the scene in full. Values that are not finite are null.
+/// Writes summary.txt (coupling::report) and summary.json (report::writeSummary): provenance, sizes, step beside the
+/// limit and who sets it, channels of the ledger, momenta, first, last and extreme values of the series' columns, time
+/// per stage and, with a profile, per part of a step, warnings, and the scene in full. Values that are not finite are
+/// null.
 /// @param table  null without a series
 /// @return the text without its provenance
 std::string writeSummary(const std::filesystem::path& folder, const io::KeyValues& provenance, const Scene& scene,

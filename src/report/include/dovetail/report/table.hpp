@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "dovetail/core/ledger.hpp"
-#include "dovetail/core/profile.hpp"
 #include "dovetail/io/provenance.hpp"
 
 namespace dovetail::report {
@@ -17,11 +15,6 @@ using Json = nlohmann::ordered_json;
 Json objectOf(const io::KeyValues& rows);
 /// The number, or null if it is not finite.
 Json numberOrNull(double value);
-/// [{channel, kind, at_opening_J, at_end_J}, …]
-Json ledgerAsJson(const EnergyLedger& ledger);
-/// [{stage, seconds, calls}, …]
-Json profileAsJson(const Profile& profile);
-
 /// One line per object below the provenance ('#') and a line of names. Fields of an object within are named
 /// outer_inner, those of "settings" by their own names; text is quoted, null is nan, true is 1.
 /// Columns are those of the entry with the most; what another one lacks is nan.
