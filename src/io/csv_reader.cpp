@@ -1,11 +1,9 @@
-#include <charconv>
 #include <optional>
-#include <sstream>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/csv_table.hpp"
 #include "dovetail/io/names.hpp"
-#include "dovetail/io/plain_text.hpp"
+#include "dovetail/io/text_source.hpp"
 
 namespace dovetail::io {
 
@@ -20,12 +18,6 @@ std::vector<std::string> split(const std::string& line) {
   }
   fields.push_back(line.substr(begin));
   return fields;
-}
-
-bool isNumber(std::string_view field, double& value) {
-  if (field.size() > 1 && field.front() == '+' && field[1] != '-') field.remove_prefix(1);
-  const auto result = std::from_chars(field.data(), field.data() + field.size(), value);
-  return result.ec == std::errc{} && result.ptr == field.data() + field.size();
 }
 
 /// "x [m]" and "v (m/s)" as columns are named here; empty if it is no name with a unit in brackets.
@@ -65,20 +57,15 @@ std::vector<std::string> namesIn(std::string comment) {
   return names;
 }
 
-std::string linesOfFile(const std::filesystem::path& path) {
-  const std::string bytes = readWhole(path, "a table");
-  std::string text(withoutEndMark(withoutByteOrderMark(bytes, path.string())));
-  endLinesWithLf(text);
-  return text;
-}
-
 /// The next line that is no comment and not empty; false at the end.
 class Lines {
 public:
-  explicit Lines(const std::filesystem::path& path) : text_(linesOfFile(path)), path_(path.string()) {}
+  explicit Lines(const std::filesystem::path& path)
+      : bytes_(readWhole(path, "a table")), text_(plainText(bytes_, path.string(), room_), path.string()) {}
 
   bool next(std::string& line) {
-    while (std::getline(text_, line)) {
+    while (!text_.atEnd()) {
+      line = text_.line();
       ++number_;
       if (line.find('\0') != std::string::npos)
         throw InputError("the line holds bytes that are zero", where(), "save the table as a text in UTF-8");
@@ -89,12 +76,12 @@ public:
     return false;
   }
   std::size_t number() const { return number_; }
-  std::string where() const { return path_ + ", line " + std::to_string(number_); }
+  std::string where() const { return text_.name() + ", line " + std::to_string(number_); }
   const std::string& lastComment() const { return comment_; }
 
 private:
-  std::istringstream text_;
-  std::string path_, comment_;
+  std::string bytes_, room_, comment_;
+  TextSource text_;
   std::size_t number_ = 0;
 };
 

@@ -7,6 +7,16 @@
 
 namespace dovetail::io {
 
+namespace {
+
+/// The text before the Ctrl-Z with which DOS ended files, if nothing but blanks follows it.
+std::string_view withoutEndMark(std::string_view text) {
+  const std::size_t last = text.find_last_not_of(" \t\r\n\x1A");
+  return text.substr(0, text.find('\x1A', last == std::string_view::npos ? 0 : last));
+}
+
+}  // namespace
+
 std::string readWhole(const std::filesystem::path& path, const std::string& what) {
   std::ifstream file = openFile(path, std::ios::binary);
   if (!file) throw InputError(what + " cannot be read", path.string(), "give a file that exists and may be read");
@@ -27,13 +37,12 @@ std::string_view withoutByteOrderMark(std::string_view text, const std::string& 
   return text;
 }
 
-std::string_view withoutEndMark(std::string_view text) {
-  const std::size_t last = text.find_last_not_of(" \t\r\n\x1A");
-  return text.substr(0, text.find('\x1A', last == std::string_view::npos ? 0 : last));
-}
-
-void endLinesWithLf(std::string& text) {
-  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
+std::string_view plainText(std::string_view bytes, const std::string& where, std::string& room) {
+  const std::string_view text = withoutEndMark(withoutByteOrderMark(bytes, where));
+  if (text.find('\n') != std::string_view::npos) return text;
+  room = text;
+  std::replace(room.begin(), room.end(), '\r', '\n');
+  return room;
 }
 
 std::string shown(std::string_view word) {

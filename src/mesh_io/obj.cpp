@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "dovetail/mesh_io/surface_files.hpp"
-#include "text_scanner.hpp"
+#include "surface_parts.hpp"
 
 namespace dovetail::mesh_io {
 
@@ -13,9 +13,10 @@ constexpr std::string_view passedOver[] = {"vt",     "vn",         "g",         
                                            "maplib", "shadow_obj", "trace_obj", "bevel", "c_interp", "d_interp"};
 
 /// Number of the vertex in "i", "i/t", "i//n" or "i/t/n".
-int corner(const TextScanner& text, std::string_view word, std::size_t vertices) {
-  const long index = text.integer(word.substr(0, word.find('/')));
-  const long count = static_cast<long>(vertices), number = index < 0 ? count + index : index - 1;
+int corner(const TextSource& text, std::string_view word, std::size_t vertices) {
+  const std::int64_t index = text.parseInteger(word.substr(0, word.find('/')));
+  const auto count = static_cast<std::int64_t>(vertices);
+  const std::int64_t number = index < 0 ? count + index : index - 1;
   if (index == 0 || number < 0 || number >= count)
     text.refuse("vertex " + std::to_string(index) + " is used after only " + std::to_string(count) + " vertices",
                 "use 1 to " + std::to_string(count) + ", or -1 to -" + std::to_string(count));
@@ -31,12 +32,12 @@ void requireLastLineWhole(std::string_view bytes, const std::filesystem::path& p
          "the file breaks off in this line", "give the whole file, or end its last line if it is whole");
 }
 
-void readFace(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners) {
+void readFace(TextSource& text, TriangleMesh& mesh, std::vector<int>& corners) {
   corners.clear();
   for (std::string_view word = text.wordOnLine(); !word.empty(); word = text.wordOnLine()) {
     if (word.front() == '#') break;
     if (word == "\\") {
-      text.nextLine();
+      text.endLine();
       continue;
     }
     corners.push_back(corner(text, word, mesh.x.size()));
@@ -48,24 +49,26 @@ void readFace(TextScanner& text, TriangleMesh& mesh, std::vector<int>& corners) 
 }  // namespace
 
 TriangleMesh readObj(const std::filesystem::path& path) {
-  const std::string bytes = plainText(readWhole(path), path);
-  requireLastLineWhole(bytes, path);
-  TextScanner text(bytes, path);
+  const std::string bytes = readWhole(path);
+  std::string room;
+  const std::string_view lines = io::plainText(bytes, path.string(), room);
+  requireLastLineWhole(lines, path);
+  TextSource text(lines, path.string());
   TriangleMesh mesh;
   std::vector<int> corners;
-  do {
+  for (; !text.atEnd(); text.endLine()) {
     const std::string_view word = text.wordOnLine();
     if (word.empty() || word.front() == '#') continue;
     if (word == "v") {
       Vec3 x;
-      for (int k = 0; k < 3; ++k) x[k] = text.number(text.wordOnLine());
+      for (int k = 0; k < 3; ++k) x[k] = text.parseReal(text.wordOnLine());
       mesh.x.push_back(x);
     } else if (word == "f") {
       readFace(text, mesh, corners);
     } else if (std::find(std::begin(passedOver), std::end(passedOver), word) == std::end(passedOver)) {
       text.refuse("a line starts with " + shown(word), "give an OBJ file of vertices (v) and faces (f)");
     }
-  } while (text.nextLine());
+  }
   requireFacets(mesh, path);
   return mesh;
 }

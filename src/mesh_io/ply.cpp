@@ -5,7 +5,7 @@
 
 #include "dovetail/mesh_io/surface_files.hpp"
 #include "little_endian.hpp"
-#include "text_scanner.hpp"
+#include "surface_parts.hpp"
 
 namespace dovetail::mesh_io {
 
@@ -29,22 +29,19 @@ struct Property {
 };
 struct Element {
   std::string name;
-  int items = 0;
+  std::int64_t items = 0;
   std::vector<Property> properties;
 };
-struct Header {
-  bool binary = false;
-  std::vector<Element> elements;
-};
+using Header = std::vector<Element>;
 
-const NumberType* numberType(const TextScanner& text, std::string_view name) {
+const NumberType* numberType(const TextSource& text, std::string_view name) {
   for (const NumberType& type : numberTypes)
     if (name == type.name || name == type.otherName) return &type;
   text.refuse("the number type " + shown(name) + " is not known",
               "use char, uchar, short, ushort, int, uint, float or double");
 }
 
-Property readProperty(TextScanner& text) {
+Property readProperty(TextSource& text) {
   Property property;
   std::string_view word = text.wordOnLine();
   if (word == "list") {
@@ -59,7 +56,7 @@ Property readProperty(TextScanner& text) {
   return property;
 }
 
-bool readFormat(TextScanner& text) {
+bool readFormat(TextSource& text) {
   const std::string_view format = text.wordOnLine(), version = text.wordOnLine();
   if ((format != "ascii" && format != "binary_little_endian") || version != "1.0")
     text.refuse("the format is " + shown(format) + " " + shown(version),
@@ -67,27 +64,27 @@ bool readFormat(TextScanner& text) {
   return format != "ascii";
 }
 
-Header readHeader(TextScanner& text) {
+Header readHeader(TextSource& text) {
   Header header;
   std::optional<bool> binary;
   if (text.wordOnLine() != "ply") text.refuse("the file does not start with 'ply'", "give a PLY file");
-  while (text.nextLine()) {
+  for (text.endLine(); !text.atEnd(); text.endLine()) {
     const std::string_view word = text.wordOnLine();
     if (word == "end_header") {
       if (!binary) text.refuse("the header names no format", "write: format ascii 1.0");
-      header.binary = *binary;
-      text.nextLine();
+      text.endLine();
+      text.binary = *binary;
       return header;
     }
     if (word == "format") {
       binary = readFormat(text);
     } else if (word == "element") {
-      Element& element = header.elements.emplace_back();
+      Element& element = header.emplace_back();
       element.name = text.wordOnLine();
-      element.items = text.integer(text.wordOnLine());
+      element.items = text.parseInteger(text.wordOnLine());
       if (element.items < 0) text.refuse("the count of an element is negative", "give 0 or more");
-    } else if (word == "property" && !header.elements.empty()) {
-      header.elements.back().properties.push_back(readProperty(text));
+    } else if (word == "property" && !header.empty()) {
+      header.back().properties.push_back(readProperty(text));
     } else if (word != "comment" && word != "obj_info") {
       text.refuse("a line of the header starts with " + shown(word), "give a PLY file");
     }
@@ -95,61 +92,35 @@ Header readHeader(TextScanner& text) {
   text.refuse("the header does not end", "give a complete PLY file with the line end_header");
 }
 
-/// The numbers after the header, one after the other.
-class Numbers {
-public:
-  Numbers(std::string_view bytes, const std::filesystem::path& path, TextScanner& text, bool binary)
-      : bytes_(bytes), path_(path), text_(text), binary_(binary), at_(text.offset()) {}
+double binaryNumber(std::string_view bytes, const NumberType& type) {
+  if (type.kind == NumberType::floating) return type.bytes == 4 ? floatAt(bytes, 0) : doubleAt(bytes, 0);
+  const std::uint64_t raw = littleEndian(bytes, 0, type.bytes), half = std::uint64_t{1} << (8 * type.bytes - 1);
+  const double value = static_cast<double>(raw);
+  return type.kind == NumberType::signedWhole && raw >= half ? value - 2.0 * static_cast<double>(half) : value;
+}
 
-  double next(const NumberType& type) {
-    if (!binary_) {
-      const std::string_view word = text_.word();
-      if (word.empty()) text_.refuse("the file breaks off", "give a complete PLY file");
-      return text_.number(word);
-    }
-    if (bytes_.size() - at_ < type.bytes) refuse("the file breaks off", "give a complete PLY file");
-    const double value = binaryNumber(type);
-    if (!std::isfinite(value)) refuse("a number is NaN or infinite", "give finite numbers");
-    at_ += type.bytes;
-    return value;
-  }
-  int whole(const NumberType& type) {
-    const double value = next(type);
-    if (value != std::floor(value) || std::abs(value) > static_cast<double>(std::numeric_limits<int>::max()))
-      refuse("an index or count is no whole number or too large", "give whole numbers");
-    return static_cast<int>(value);
-  }
-  /// Before space is set aside for so many items: each takes a byte or more.
-  void requireRoomFor(std::size_t items) {
-    if (items > bytes_.size() - (binary_ ? at_ : text_.offset()))
-      refuse("the file is too short for " + std::to_string(items) + " items", "give a complete PLY file");
-  }
-  void requireEnd() {
-    if (binary_ ? at_ != bytes_.size() : !text_.word().empty())
-      refuse("the file continues after its last element", "give a PLY file whose header counts all that follows");
-  }
-  [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const {
-    if (binary_) mesh_io::refuse(path_, "byte " + std::to_string(at_), problem, remedy);
-    text_.refuse(problem, remedy);
-  }
+double next(TextSource& text, const NumberType& type) {
+  if (!text.binary) return text.real();
+  const double value = binaryNumber(text.take(type.bytes), type);
+  if (!std::isfinite(value)) text.refuse("a number is NaN or infinite", "give finite numbers");
+  return value;
+}
 
-private:
-  double binaryNumber(const NumberType& type) const {
-    if (type.kind == NumberType::floating) return type.bytes == 4 ? floatAt(bytes_, at_) : doubleAt(bytes_, at_);
-    const std::uint64_t raw = littleEndian(bytes_, at_, type.bytes), half = std::uint64_t{1} << (8 * type.bytes - 1);
-    const double value = static_cast<double>(raw);
-    return type.kind == NumberType::signedWhole && raw >= half ? value - 2.0 * static_cast<double>(half) : value;
-  }
+int whole(TextSource& text, const NumberType& type) {
+  const double value = next(text, type);
+  if (value != std::floor(value) || std::abs(value) > static_cast<double>(std::numeric_limits<int>::max()))
+    text.refuse("an index or count is no whole number or too large", "give whole numbers");
+  return static_cast<int>(value);
+}
 
-  std::string_view bytes_;
-  const std::filesystem::path& path_;
-  TextScanner& text_;
-  bool binary_;
-  std::size_t at_;
-};
+/// Before space is set aside for so many items: each takes a byte or more.
+void requireRoomFor(const TextSource& text, std::int64_t items) {
+  if (items > static_cast<std::int64_t>(text.remaining()))
+    text.refuse("the file is too short for " + std::to_string(items) + " items", "give a complete PLY file");
+}
 
 const Element* find(const Header& header, const char* name) {
-  for (const Element& element : header.elements)
+  for (const Element& element : header)
     if (element.name == name) return &element;
   return nullptr;
 }
@@ -160,31 +131,31 @@ bool has(const Element* element, std::string_view property, bool list) {
                      [&](const Property& p) { return p.name == property && (p.count != nullptr) == list; });
 }
 
-void readCorners(Numbers& numbers, const Property& property, int vertices, TriangleMesh& mesh) {
-  const int count = numbers.whole(*property.count);
-  if (count < 3) numbers.refuse("a face has " + std::to_string(count) + " vertices", "give 3 or more");
-  numbers.requireRoomFor(static_cast<std::size_t>(count));
+void readCorners(TextSource& text, const Property& property, std::int64_t vertices, TriangleMesh& mesh) {
+  const int count = whole(text, *property.count);
+  if (count < 3) text.refuse("a face has " + std::to_string(count) + " vertices", "give 3 or more");
+  requireRoomFor(text, count);
   std::vector<int> corners(static_cast<std::size_t>(count));
   for (int& v : corners) {
-    v = numbers.whole(*property.type);
+    v = whole(text, *property.type);
     if (v < 0 || v >= vertices)
-      numbers.refuse("a face names vertex " + std::to_string(v), "use 0 to " + std::to_string(vertices - 1));
+      text.refuse("a face names vertex " + std::to_string(v), "use 0 to " + std::to_string(vertices - 1));
   }
   addFan(corners, mesh);
 }
 
-void readItem(Numbers& numbers, const Element& element, int vertices, TriangleMesh& mesh) {
+void readItem(TextSource& text, const Element& element, std::int64_t vertices, TriangleMesh& mesh) {
   const bool isVertex = element.name == "vertex", isFace = element.name == "face";
   Vec3 x;
   for (const Property& p : element.properties) {
     if (p.count == nullptr) {
-      const double value = numbers.next(*p.type);
+      const double value = next(text, *p.type);
       for (int k = 0; k < 3; ++k)
         if (p.name.size() == 1 && p.name[0] == "xyz"[k]) x[k] = value;
     } else if (isFace && (p.name == "vertex_indices" || p.name == "vertex_index")) {
-      readCorners(numbers, p, vertices, mesh);
+      readCorners(text, p, vertices, mesh);
     } else {
-      for (int left = numbers.whole(*p.count); left > 0; --left) numbers.next(*p.type);
+      for (int left = whole(text, *p.count); left > 0; --left) next(text, *p.type);
     }
   }
   if (isVertex) mesh.x.push_back(x);
@@ -193,23 +164,25 @@ void readItem(Numbers& numbers, const Element& element, int vertices, TriangleMe
 }  // namespace
 
 TriangleMesh readPly(const std::filesystem::path& path) {
-  std::string bytes = readWhole(path);
-  if (bytes.starts_with("\xEF\xBB\xBF") || bytes.find("format ascii") < 200) bytes = plainText(std::move(bytes), path);
-  TextScanner text(bytes, path);
+  const std::string bytes = readWhole(path);
+  std::string room;
+  const bool isText = bytes.starts_with("\xEF\xBB\xBF") || bytes.find("format ascii") < 200;
+  TextSource text(isText ? io::plainText(bytes, path.string(), room) : bytes, path.string());
   const Header header = readHeader(text);
   const Element *vertex = find(header, "vertex"), *face = find(header, "face");
   if (!has(vertex, "x", false) || !has(vertex, "y", false) || !has(vertex, "z", false))
     refuse(path, "header", "the vertices have no x, y and z", "give a PLY file with an element vertex");
   if (!has(face, "vertex_indices", true) && !has(face, "vertex_index", true))
     refuse(path, "header", "there are no faces with vertex_indices", "give a PLY file with an element face");
-  Numbers numbers(bytes, path, text, header.binary);
   TriangleMesh mesh;
-  for (const Element& element : header.elements) {
+  for (const Element& element : header) {
     if (element.properties.empty()) continue;
-    numbers.requireRoomFor(static_cast<std::size_t>(element.items));
-    for (int i = 0; i < element.items; ++i) readItem(numbers, element, vertex->items, mesh);
+    requireRoomFor(text, element.items);
+    for (std::int64_t i = 0; i < element.items; ++i) readItem(text, element, vertex->items, mesh);
   }
-  numbers.requireEnd();
+  if (text.binary ? !text.atEnd() : !text.word().empty())
+    text.refuseAt(text.offset(), "the file continues after its last element",
+                  "give a PLY file whose header counts all that follows");
   requireFacets(mesh, path);
   return mesh;
 }

@@ -7,7 +7,7 @@
 #include "dovetail/geometry/triangle.hpp"
 #include "dovetail/mesh_io/surface_files.hpp"
 #include "little_endian.hpp"
-#include "text_scanner.hpp"
+#include "surface_parts.hpp"
 
 namespace dovetail::mesh_io {
 
@@ -53,7 +53,7 @@ WithNormals readBinary(std::string_view bytes, const std::filesystem::path& path
   return read;
 }
 
-void expect(TextScanner& text, const char* wanted) {
+void expect(TextSource& text, const char* wanted) {
   const std::string_view word = text.word();
   if (lower(word) != wanted)
     text.refuse("there is " + shown(word) + " where '" + wanted + "' should be",
@@ -61,18 +61,19 @@ void expect(TextScanner& text, const char* wanted) {
 }
 
 /// From after the word "facet" to "endfacet".
-void readFacet(TextScanner& text, WithNormals& read, std::vector<int>& corners) {
+void readFacet(TextSource& text, WithNormals& read, std::vector<int>& corners) {
   TriangleMesh& mesh = read.mesh;
   expect(text, "normal");
   Vec3 normal;
-  for (int k = 0; k < 3; ++k) normal[k] = numberIn(text.word()).value_or(0.0);
+  for (int k = 0; k < 3; ++k)
+    if (!io::isNumber(text.word(), normal[k])) normal[k] = 0.0;
   expect(text, "outer");
   expect(text, "loop");
   corners.clear();
   std::string word = lower(text.word());
   for (; word == "vertex"; word = lower(text.word())) {
     Vec3 x;
-    for (int k = 0; k < 3; ++k) x[k] = text.number(text.word());
+    for (int k = 0; k < 3; ++k) x[k] = text.real();
     corners.push_back(static_cast<int>(mesh.x.size()));
     mesh.x.push_back(x);
   }
@@ -84,54 +85,62 @@ void readFacet(TextScanner& text, WithNormals& read, std::vector<int>& corners) 
   expect(text, "endfacet");
 }
 
-/// Whether "facet normal" and three numbers come next on this line.
-bool facetFollows(TextScanner text) {
-  if (lower(text.wordOnLine()) != "facet" || lower(text.wordOnLine()) != "normal") return false;
-  for (int k = 0; k < 3; ++k)
-    if (!numberIn(text.wordOnLine())) return false;
-  return true;
+/// Whether "facet normal" and three numbers come next on this line; the place stays.
+bool facetFollows(TextSource& text) {
+  const std::size_t place = text.offset();
+  double ignored = 0.0;
+  bool follows = lower(text.wordOnLine()) == "facet" && lower(text.wordOnLine()) == "normal";
+  for (int k = 0; follows && k < 3; ++k) follows = io::isNumber(text.wordOnLine(), ignored);
+  text.goTo(place);
+  return follows;
 }
 
-/// Whether a solid with a facet begins further on in this line, behind the word "solid".
-bool solidFollows(TextScanner text) {
-  for (; !facetFollows(text);)
-    if (text.wordOnLine().empty()) return false;
-  return true;
+/// Whether a solid with a facet begins further on in this line, behind the word "solid"; the place stays.
+bool solidFollows(TextSource& text) {
+  const std::size_t place = text.offset();
+  bool follows = facetFollows(text);
+  while (!follows && !text.wordOnLine().empty()) follows = facetFollows(text);
+  text.goTo(place);
+  return follows;
 }
 
 /// Passes over the name of a solid, which ends with the line, or where a facet or the end of the solid follows on it.
-void skipName(TextScanner& text) {
-  TextScanner next = text;
-  const std::string below = next.nextLine() ? lower(next.word()) : "";
+void skipName(TextSource& text) {
+  const std::size_t begin = text.offset();
+  text.endLine();
+  const std::string below = lower(text.word());
   const bool goesOnBelow = below == "facet" || below == "endsolid";
-  for (TextScanner ahead = text; !facetFollows(text); text = ahead) {
-    const std::string word = lower(ahead.wordOnLine());
-    if (word.empty() || (word == "endsolid" && !goesOnBelow)) return;
+  text.goTo(begin);
+  while (!facetFollows(text)) {
+    const std::size_t place = text.offset();
+    const std::string word = lower(text.wordOnLine());
+    if (word.empty() || (word == "endsolid" && !goesOnBelow)) return text.goTo(place);
   }
 }
 
 /// The same behind "endsolid", where the next solid may follow on the line.
-void skipNameOfEnd(TextScanner& text) {
-  for (TextScanner ahead = text;; text = ahead) {
-    const std::string word = lower(ahead.wordOnLine());
-    if (word == "solid" && solidFollows(ahead)) return;
-    if (word != "solid" && !word.empty()) continue;
-    text.nextLine();  // no solid follows on this line
-    return;
+void skipNameOfEnd(TextSource& text) {
+  for (;;) {
+    const std::size_t place = text.offset();
+    const std::string word = lower(text.wordOnLine());
+    if (word == "solid" && solidFollows(text)) return text.goTo(place);
+    if (word.empty() || word == "solid") return text.endLine();  // no solid follows on this line
   }
 }
 
 /// Passes over lines before the first solid that say that they are comments.
-void skipComments(TextScanner& text) {
-  for (TextScanner ahead = text;; text = ahead) {
-    const std::string_view word = ahead.word();
+void skipComments(TextSource& text) {
+  for (;;) {
+    const std::size_t place = text.offset();
+    const std::string_view word = text.word();
     const bool comment = !word.empty() && (word.front() == '#' || word.front() == ';' || word.starts_with("//"));
-    if (!comment || !ahead.nextLine()) return;
+    text.endLine();
+    if (!comment || text.atEnd()) return text.goTo(place);
   }
 }
 
 WithNormals readAscii(std::string_view bytes, const std::filesystem::path& path) {
-  TextScanner text(bytes, path);
+  TextSource text(bytes, path.string());
   WithNormals read;
   std::vector<int> corners;
   skipComments(text);
@@ -183,10 +192,11 @@ TriangleMesh readStl(const std::filesystem::path& path, double tolerance, std::v
   requireNonNegative(tolerance, "tolerance of the welding");
   const std::string bytes = readWhole(path);
   const std::uint64_t announced = announcedBytes(bytes);
+  std::string room;
   WithNormals read;
   if (announced == bytes.size()) {
     read = readBinary(bytes, path);
-  } else if (const std::string text = plainText(bytes, path); isText(text)) {
+  } else if (const std::string_view text = io::plainText(bytes, path.string(), room); isText(text)) {
     read = readAscii(text, path);
   } else {
     refuse(path, "byte " + std::to_string(std::min(bytes.size(), headerBytes - 4)),

@@ -1,6 +1,6 @@
 #include "dovetail/mesh_io/surface_files.hpp"
 
-#include "text_scanner.hpp"
+#include "surface_parts.hpp"
 
 namespace dovetail::mesh_io {
 

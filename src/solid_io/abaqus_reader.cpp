@@ -205,7 +205,7 @@ void AbaqusReader::addElement(const std::string& name, const AbaqusType& type, s
 
 SolidFile abaqusFromText(std::string_view bytes, const std::string& name) {
   const InpText whole = withIncludes(bytes, name);
-  Source source(whole.text, name);
+  TextSource source(whole.text, name);
   source.setPieces(whole.pieces);
   return AbaqusReader(source).read();
 }

@@ -49,7 +49,7 @@ using LabelSets = std::map<SetName, LabelSet>;
 
 class AbaqusReader {
 public:
-  explicit AbaqusReader(Source& source) : source_(source), cards_(source), builder_(source) {}
+  explicit AbaqusReader(TextSource& source) : source_(source), cards_(source), builder_(source) {}
   SolidFile read();
 
 private:
@@ -101,7 +101,7 @@ private:
   void readSurfaces();
   void readSurface(const SurfaceLine& line, const SetKey& key);
 
-  Source& source_;
+  TextSource& source_;
   InpCards cards_;
   MeshBuilder builder_;
   int parts_ = 0, instances_ = 0;

@@ -4,7 +4,7 @@
 #include "abaqus_types.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "source.hpp"
+#include "dovetail/io/plain_text.hpp"
 #include "writers.hpp"
 
 namespace dovetail::solid_io {
@@ -23,7 +23,7 @@ std::string written(const std::string& name) { return isPlain(name) ? name : '"'
 void requireDifferent(const auto& sets, const char* kind) {
   std::set<std::string> seen;
   for (const auto& entry : sets)
-    if (!seen.insert(lower(entry.first)).second)
+    if (!seen.insert(io::lower(entry.first)).second)
       throw InputError("another name differs in case alone", std::string(kind) + " set \"" + entry.first + "\"",
                        "give names that differ otherwise");
 }

@@ -61,7 +61,7 @@ void GmshReader::readFormat() {
   binary_ = mode == 1;
   if (!binary_) return;
   source_.binary = true;
-  source_.places = Source::Places::bytes;
+  source_.places = io::TextSource::Places::bytes;
   if (source_.integer(4) != 1) source_.refuse("the byte order is not this machine's", "save the mesh as ASCII");
   source_.binary = false;
 }
@@ -89,13 +89,8 @@ const GmshType& GmshReader::requireType(std::int64_t code) {
 }
 
 SolidFile gmshFromText(std::string_view bytes, const std::string& name) {
-  std::string lines;
-  if (bytes.find('\n') == std::string_view::npos) {
-    lines = bytes;
-    io::endLinesWithLf(lines);
-    bytes = lines;
-  }
-  Source source(bytes, name);
+  std::string room;
+  io::TextSource source(io::plainText(bytes, name, room), name);
   return GmshReader(source).read();
 }
 

@@ -14,7 +14,7 @@ namespace dovetail::solid_io {
 /// What the sections of a file tell each other.
 class GmshReader {
 public:
-  explicit GmshReader(Source& source) : source_(source), builder_(source) {}
+  explicit GmshReader(TextSource& source) : source_(source), builder_(source) {}
   SolidFile read();
 
 private:
@@ -51,7 +51,7 @@ private:
   static SetKey keyOfEntity(const Element& element);
   void noteSharedNames(const std::set<Group>& used);
 
-  Source& source_;
+  TextSource& source_;
   MeshBuilder builder_;
   bool version4_ = false, binary_ = false;
   std::map<Group, std::string> names_;

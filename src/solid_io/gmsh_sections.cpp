@@ -5,7 +5,7 @@ namespace dovetail::solid_io {
 
 namespace {
 
-Vec3 readPoint(Source& source) {
+Vec3 readPoint(TextSource& source) {
   Vec3 X;
   for (int i = 0; i < 3; ++i) X[i] = source.real();
   return X;

@@ -5,9 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "source.hpp"
+#include "dovetail/io/text_source.hpp"
 
 namespace dovetail::solid_io {
+
+using io::lower, io::shown, io::TextSource, io::trimmed;
 
 /// A parameter that a card may have.
 struct Parameter {
@@ -17,7 +19,7 @@ struct Parameter {
 
 class InpCards {
 public:
-  explicit InpCards(Source& source) : source_(source) {}
+  explicit InpCards(TextSource& source) : source_(source) {}
 
   /// What the file begins with before its first card, shown; empty if there is nothing.
   /// @throws InputError for what could be a card or its data
@@ -54,7 +56,7 @@ private:
   void requireComma(std::string_view card) const;
   void requireWhole(const std::string& name, const std::string& value, bool quoted) const;
 
-  Source& source_;
+  TextSource& source_;
   std::string keyword_;
   struct Given {
     std::string name, value;

@@ -18,16 +18,11 @@ public:
   explicit Includer(const std::string& deck) : folder_(fs::path(deck).parent_path()) {}
 
   void add(std::string_view bytes, const std::string& name) {
-    bytes = io::withoutEndMark(bytes);
-    std::string lines;
-    if (bytes.find('\n') == std::string_view::npos) {
-      lines = bytes;
-      io::endLinesWithLf(lines);
-      bytes = lines;
-    }
+    std::string room;
+    bytes = io::plainText(bytes, name, room);
     std::error_code error;
     chain_.push_back(fs::weakly_canonical(name, error));
-    Source source(bytes, name);
+    TextSource source(bytes, name);
     InpCards cards(source);
     std::size_t done = source.offset();
     begin(source, name, done);
@@ -55,7 +50,7 @@ private:
     return cards.keyword() == "node" || cards.keyword() == "element" ? cards.parameter("input") : nullptr;
   }
 
-  void begin(const Source& source, const std::string& name, std::size_t at) {
+  void begin(const TextSource& source, const std::string& name, std::size_t at) {
     result.pieces.push_back({result.text.size(), name, source.lineAt(at)});
   }
   void take(std::string_view part) {

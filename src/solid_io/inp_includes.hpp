@@ -5,13 +5,13 @@
 #include <string_view>
 #include <vector>
 
-#include "source.hpp"
+#include "dovetail/io/text_source.hpp"
 
 namespace dovetail::solid_io {
 
 struct InpText {
   std::string text;
-  std::vector<Source::Piece> pieces;
+  std::vector<io::TextSource::Piece> pieces;
 };
 
 /// Files of *INCLUDE, and of INPUT on *NODE and *ELEMENT, stand in place of these cards, or behind them. Names are

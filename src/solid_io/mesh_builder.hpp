@@ -9,10 +9,12 @@
 #include <unordered_map>
 #include <vector>
 
+#include "dovetail/io/text_source.hpp"
 #include "dovetail/solid_io/solid_files.hpp"
-#include "source.hpp"
 
 namespace dovetail::solid_io {
+
+using io::lower, io::shown, io::TextSource, io::trimmed;
 
 using Label = std::int64_t;
 
@@ -43,7 +45,7 @@ struct SetKey {
 /// `place` is always an offset in the source, for errors that only show at the end.
 class MeshBuilder {
 public:
-  explicit MeshBuilder(const Source& source) : source_(source) {}
+  explicit MeshBuilder(const TextSource& source) : source_(source) {}
 
   /// @param X  m; beyond ±1e15 it is refused
   void addNode(Label label, const Vec3& X, std::size_t place);
@@ -135,7 +137,7 @@ private:
   bool placeFace(const FaceFinder& finder, const SurfaceElement& element, fem::Face& face) const;
   void requireSound(const SolidFile& file) const;
 
-  const Source& source_;
+  const TextSource& source_;
   std::vector<Vec3> X_;
   std::vector<Label> nodeLabel_;
   std::vector<int> newNumber_;  ///< of each node of the file, −1 if dropped

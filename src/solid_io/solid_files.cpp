@@ -4,10 +4,11 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
-#include "dovetail/io/plain_text.hpp"
-#include "source.hpp"
+#include "dovetail/io/text_source.hpp"
 
 namespace dovetail::solid_io {
+
+using io::lower, io::shown, io::trimmed;
 
 namespace {
 

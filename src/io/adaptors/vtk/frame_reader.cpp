@@ -102,7 +102,7 @@ std::vector<std::pair<double, fs::path>> readPvd(const fs::path& path) {
   for (std::size_t at = text.find("<DataSet"); at != std::string::npos; at = text.find("<DataSet", at + 1)) {
     const std::string_view tag = std::string_view(text).substr(at, text.find('>', at) - at);
     double time = 0.0;
-    if (!detail::isWholly(detail::attribute(tag, "timestep", ""), time))
+    if (!isNumber(detail::attribute(tag, "timestep", ""), time))
       throw InputError("a frame of the series has no time", path.string(), "give a complete file");
     frames.emplace_back(time, path.parent_path() / detail::attribute(tag, "file", ""));
   }

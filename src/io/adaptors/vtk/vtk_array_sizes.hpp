@@ -63,7 +63,7 @@ public:
     const std::optional<double> tuples = tuplesOf(attribute(tag, "Name", ""));
     const std::optional<double> held = tuples ? numbersIn(tag, content) : std::nullopt;
     double components = section_ == "Points" ? 3.0 : 1.0;
-    isWholly(attribute(tag, "NumberOfComponents", ""), components);
+    isNumber(attribute(tag, "NumberOfComponents", ""), components);
     if (!held || *held <= *tuples * components) return;
     const std::string name(section_ == "Points" ? "Points" : attribute(tag, "Name", ""));
     refuseVtk(path_, "",
@@ -76,7 +76,7 @@ private:
   static std::string whole(double number) { return std::to_string(static_cast<std::int64_t>(number)); }
   std::optional<double> counted(std::string_view name) const {
     double count = 0.0;
-    return isWholly(attribute(piece_, name, ""), count) ? std::optional(count) : std::nullopt;
+    return isNumber(attribute(piece_, name, ""), count) ? std::optional(count) : std::nullopt;
   }
 
   std::optional<double> tuplesOf(std::string_view array) const {
@@ -107,7 +107,7 @@ private:
     const std::size_t begin = std::min(bytes_.find("<AppendedData"), bytes_.size()), end = endOfTag(bytes_, begin);
     const std::size_t mark = bytes_.find('_', end);
     std::size_t offset = 0;
-    if (mark == std::string_view::npos || !isWholly(attribute(tag, "offset", ""), offset)) return "";
+    if (mark == std::string_view::npos || !isNumber(attribute(tag, "offset", ""), offset)) return "";
     if (offset >= bytes_.size() - mark) return "";
     const bool raw = attribute(bytes_.substr(begin, end - begin), "encoding", "") == "raw";
     const std::string_view data = bytes_.substr(mark + 1 + offset);

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/io/text_source.hpp"
 
 namespace dovetail::io {
 
@@ -46,13 +46,6 @@ inline std::string_view attribute(std::string_view tag, std::string_view name, s
     return tag.substr(quote + 1, std::min(tag.find(tag[quote], quote + 1), tag.size()) - quote - 1);
   }
   return otherwise;
-}
-
-template <class Number>
-bool isWholly(std::string_view word, Number& value) {
-  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc{} && end == word.data() + word.size();
 }
 
 }  // namespace detail

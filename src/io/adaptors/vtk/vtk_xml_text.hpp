@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -22,9 +21,9 @@ inline bool isNumberOf(std::string_view type, std::string_view word) {
   double real = 0.0;
   long long whole = 0;
   unsigned long long positive = 0;
-  if (type.starts_with("Float")) return isWholly(word, real) && real - real == 0.0;
-  if (type == "UInt64") return isWholly(word, positive);
-  if (!isWholly(word, whole)) return false;
+  if (type.starts_with("Float")) return isNumber(word, real) && real - real == 0.0;
+  if (type == "UInt64") return isNumber(word, positive);
+  if (!isNumber(word, whole)) return false;
   if (type == "Int64") return true;
   const int bits = type.ends_with("32") ? 32 : type.ends_with("16") ? 16 : 8;
   const long long most = 1ll << (type.starts_with("U") ? bits : bits - 1);
@@ -37,7 +36,7 @@ inline void requirePlausibleCounts(std::string_view tag, std::size_t fileSize, c
     const std::string_view name = tag.substr(at, tag.find_first_of("= \t\r\n", at) - at);
     const std::string_view value = attribute(tag, name, "0");
     std::size_t count = 0;
-    if (!isWholly(value, count) || count > 1032 * fileSize)
+    if (!isNumber(value, count) || count > 1032 * fileSize)
       refuseVtk(path, "", "it has " + std::string(name) + "=\"" + std::string(value.substr(0, 24)) + "\"",
                 "give a complete file");
   }

@@ -74,8 +74,8 @@ void addCell(MeshBuilder& builder, const VtkType& type, Label label, std::span<c
 
 SolidFile readVtu(const std::filesystem::path& path) {
   const auto grid = io::readVtkXml<vtkXMLUnstructuredGridReader>(path, "VTU", "UnstructuredGrid");
-  Source source("", path.string());
-  source.places = Source::Places::none;
+  TextSource source("", path.string());
+  source.places = TextSource::Places::none;
   MeshBuilder builder(source);
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) {
     double p[3];

@@ -16,11 +16,10 @@ std::string readWhole(const std::filesystem::path& path, const std::string& what
 /// @throws InputError, naming `where`, for the marks of UTF-16 and UTF-32
 std::string_view withoutByteOrderMark(std::string_view text, const std::string& where);
 
-/// The text before the Ctrl-Z with which DOS ended files, if nothing but blanks follows it.
-std::string_view withoutEndMark(std::string_view text);
-
-/// In a text without any LF, every CR becomes one: lines of old Macintoshes.
-void endLinesWithLf(std::string& text);
+/// A text without a byte-order mark and an end mark, its lines ending with LF: in one without any LF, every CR becomes
+/// one, as old Macintoshes wrote them. @param room  for the text where it is changed
+/// @throws InputError as withoutByteOrderMark
+std::string_view plainText(std::string_view bytes, const std::string& where, std::string& room);
 
 /// A word for an error message: short, printable, in quotes.
 std::string shown(std::string_view word);

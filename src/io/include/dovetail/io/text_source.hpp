@@ -1,6 +1,7 @@
 // Text and binary numbers of a file, with the place at hand for errors.
 #pragma once
 
+#include <charconv>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -8,17 +9,23 @@
 
 #include "dovetail/io/plain_text.hpp"
 
-namespace dovetail::solid_io {
+namespace dovetail::io {
 
-using io::lower;
-using io::shown;
 std::string_view trimmed(std::string_view text);
 
+/// Whether the whole word is a number of the type; a leading + is taken.
+template <class Number>
+bool isNumber(std::string_view word, Number& value) {
+  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc{} && end == word.data() + word.size();
+}
+
 /// A file's bytes, and a place in them. Numbers are words between blanks, or bytes where `binary` is set.
-class Source {
+class TextSource {
 public:
-  /// @throws InputError for a text in UTF-16
-  Source(std::string_view bytes, std::string name);
+  /// @param bytes  of a plainText, or of a file with binary parts; they must outlive this
+  TextSource(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
 
   /// From `begin` on lines are those of another file.
   struct Piece {
@@ -34,6 +41,7 @@ public:
   Places places = Places::lines;  ///< what errors name
 
   std::size_t offset() const { return at_; }
+  void goTo(std::size_t offset) { at_ = offset; }
   std::size_t remaining() const { return bytes_.size() - at_; }
   bool atEnd() const { return at_ >= bytes_.size(); }
 
@@ -41,11 +49,15 @@ public:
   std::string_view line();
   /// The next word on whatever line; empty at the end.
   std::string_view word();
+  /// The next word of this line; empty at its end.
+  std::string_view wordOnLine();
   /// Passes over the rest of the line.
   void endLine();
   /// A whole number: the next word, or `size` bytes.
   std::int64_t integer(std::size_t size);
   double real();
+  /// So many bytes. @throws InputError if they are not there
+  std::string_view take(std::size_t size);
   /// A count of things that take at least `bytesEach` bytes; one that the file cannot hold is refused.
   std::size_t count(std::size_t size, std::size_t bytesEach);
   /// Goes behind the next line that is `text`; refuses if there is none.
@@ -63,12 +75,10 @@ public:
   const std::string& name() const { return name_; }
 
 private:
-  std::string_view take(std::size_t size);
-
   std::string_view bytes_;
   std::string name_;
   std::size_t at_ = 0, last_ = 0;
   std::vector<Piece> pieces_;
 };
 
-}  // namespace dovetail::solid_io
+}  // namespace dovetail::io
