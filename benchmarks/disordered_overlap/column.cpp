@@ -53,10 +53,10 @@ dem::Packing grown(const ColumnSize& size, double solidFraction, double overlap)
 }
 
 void bringToRest(dem::Model& m) {
-  const dem::RelaxationReport report = dem::relax(m, {.unbalanced = 1e-6, .steps = 100000});
+  const dem::RelaxationReport report = dem::relax(m, {.tolerance = 1e-6, .steps = 100000});
   if (!report.atRest)
     throw NumericalError("the packing does not come to rest: its unbalanced force is " +
-                             std::to_string(report.unbalanced) + " of the mean contact force",
+                             std::to_string(report.residual) + " of the mean contact force",
                          "column of grains", "take another seed");
 }
 
@@ -72,7 +72,7 @@ void shorten(dem::Model& m, double strain) {
   double& lid = dem::primitiveWall(m, lidOfPressed).point.z;
   lid = floor + (1.0 - strain) * (lid - floor);
   for (Vec3& x : m.particles.x) x.z = floor + (1.0 - strain) * (x.z - floor);
-  dem::relax(m, {.unbalanced = 1e-3, .steps = 5000});
+  dem::relax(m, {.tolerance = 1e-3, .steps = 5000});
 }
 
 /// Held at its bottom, the same on opposite sides.

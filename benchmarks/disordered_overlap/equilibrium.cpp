@@ -33,11 +33,11 @@ Corrected runCorrected(const dem::Model& packing, const EquilibriumOptions& s) {
   const auto column = joinSolid(packing, 0, place, elasticOf(packing, s), {});
   coupling::CoupledRun& run = column->run;
   startWith(run, s.weight);
-  const coupling::RestReport rest = coupling::relax(run, {.kinetic = s.rest, .macroSteps = 40000});
+  const RestReport rest = coupling::relax(run, {.tolerance = s.rest, .steps = 40000});
   Corrected result;
   result.atRest = rest.atRest;
   result.rounds = column->rounds;
-  result.macroSteps = rest.macroSteps;
+  result.macroSteps = rest.steps;
   const double stored = elastic(run);
   result.broughtToRest = run.ledger().joules("kinetic damping") / stored;
   result.layers = layersOf(*column, place);

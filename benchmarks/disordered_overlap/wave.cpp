@@ -166,11 +166,11 @@ WaveRun send(coupling::CoupledRun& run, const JoinedColumn* column, const SolidP
 }
 
 void rest(coupling::CoupledRun& run, double kinetic) {
-  const coupling::RestReport report = coupling::relax(run, {.kinetic = kinetic, .macroSteps = 60000});
+  const RestReport report = coupling::relax(run, {.tolerance = kinetic, .steps = 60000});
   if (!report.atRest)
-    throw NumericalError(
-        "the column does not come to rest: kinetic energy is " + std::to_string(report.kinetic) + " of the elastic one",
-        "wave in a column", "take another seed");
+    throw NumericalError("the column does not come to rest: kinetic energy is " + std::to_string(report.residual) +
+                             " of the elastic one",
+                         "wave in a column", "take another seed");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ rve::Rve packing(std::uint64_t seed, bool turns) {
                                    .density = 2000.0,
                                    .seed = seed},
                                   springs);
-  rve::compress(cell, {.pressure = {pressure, pressure, 0.0}, .friction = 0.1, .rest = {.unbalanced = 1e-6}});
+  rve::compress(cell, {.pressure = {pressure, pressure, 0.0}, .friction = 0.1, .rest = {.tolerance = 1e-6}});
   rve::setSprings(cell, springs);
   if (!turns)
     for (double& inertia : cell.inertia) inertia *= 1e12;

@@ -20,7 +20,7 @@ inline void strainTo(rve::Rve& cell, double solidFraction) {
   const double stretch = std::sqrt(rve::solidFraction(cell) / solidFraction);
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F(0, 0) = F(1, 1) = stretch;
-  rve::followPath(cell, F, {.rest = {.unbalanced = 1e-4}});
+  rve::followPath(cell, F, {.rest = {.tolerance = 1e-4}});
   rve::setSprings(cell, springs);
 }
 

@@ -78,7 +78,7 @@ void addCosts(FigureRows& rows) {
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F(1, 1) -= strainOfStep;
   const auto answer = [&](double first) {
-    const QuasiStaticCells settings{.path = {.rest = {.unbalanced = first}}, .unbalanced = 1e-6};
+    const QuasiStaticCells settings{.path = {.rest = {.tolerance = first}}, .unbalanced = 1e-6};
     return secondsOf(5, [&] {
       rve::restore(cell, start.state);
       hierarchical::relax(cell, F, settings);

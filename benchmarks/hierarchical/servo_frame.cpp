@@ -23,7 +23,7 @@ struct Shearing {
   double corrections = 0.0;  ///< of the frame
 };
 
-const rve::RestOptions rest{.unbalanced = 1e-3, .steps = 20000};
+const RestCriterion rest{.tolerance = 1e-3, .steps = 20000};
 
 Eigen::Matrix3d sheared(int k) {
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();

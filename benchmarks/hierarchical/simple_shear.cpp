@@ -31,7 +31,7 @@ void shear(const rve::Rve& packing, std::size_t condition, Answer& answer) {
     Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
     F(0, 1) = 0.5 * k / steps;
     const rve::PathReport report =
-        rve::followPath(cell, F, {.inertialNumber = 3e-3, .rest = {.unbalanced = 1e-2, .steps = 3000}});
+        rve::followPath(cell, F, {.inertialNumber = 3e-3, .rest = {.tolerance = 1e-2, .steps = 3000}});
     answer.restless[condition] += report.rest.atRest ? 0 : 1;
     squares += (cauchyOf(cell) / stiffness).squaredNorm() * 0.5 / steps;
   }

@@ -36,7 +36,7 @@ double secantShear(rve::Rve cell, double gamma) {
     Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
     F(0, 1) = F(1, 0) = 0.5 * gamma * k / parts;
     rve::deform(cell, rve::relativeDeformation(cell, F));
-    rve::relax(cell, {.unbalanced = 1e-4});
+    rve::relax(cell, {.tolerance = 1e-4});
   }
   return (rve::stress(cell).cauchy(0, 1) - before) / gamma;
 }
@@ -51,7 +51,7 @@ rve::Rve elasticSpheres(int count, std::uint64_t seed) {
                                    .density = 2492.0,
                                    .seed = seed},
                                   rve::hertzMindlin(29e9, 0.15, 0.5));
-  rve::compress(cell, {.pressure = {pressure, pressure, pressure}, .friction = 0.0, .rest = {.unbalanced = 1e-4}});
+  rve::compress(cell, {.pressure = {pressure, pressure, pressure}, .friction = 0.0, .rest = {.tolerance = 1e-4}});
   return cell;
 }
 
@@ -60,7 +60,7 @@ Moduli probed(rve::Rve cell) {
   sticking.friction = std::numeric_limits<double>::infinity();
   rve::setSprings(cell, sticking);
   constexpr double strain = 5e-6;
-  const rve::RestOptions rest{.unbalanced = 1e-5};
+  const RestCriterion rest{.tolerance = 1e-5};
   rve::relax(cell, rest);
   const auto stressAt = [&](const Eigen::Matrix3d& E) -> Eigen::Matrix3d {
     rve::Rve strained = cell;

@@ -58,7 +58,7 @@ rve::Rve randomTile(double pressure, std::uint64_t seed) {
                                    .density = 2000.0,
                                    .seed = seed},
                                   {.stiffness = stiffness, .tangential = 0.0, .friction = 0.0});
-  rve::compress(cell, {.pressure = {pressure, pressure, 0.0}, .friction = 0.0, .rest = {.unbalanced = 1e-5}});
+  rve::compress(cell, {.pressure = {pressure, pressure, 0.0}, .friction = 0.0, .rest = {.tolerance = 1e-5}});
   return cell;
 }
 

@@ -13,7 +13,7 @@ constexpr double length = 0.25, shortening = 2e-4;  // m, of a bar, and of the c
 
 rve::Rve sand(std::uint64_t seed) {
   rve::Rve cell = rve::randomCell({.count = 150, .seed = seed}, {.modulus = 6e8, .tangential = 0.8, .friction = 0.5});
-  rve::compress(cell, {.pressure = {1e5, 1e5, 0.0}, .friction = 0.2, .rest = {.unbalanced = 1e-6}});
+  rve::compress(cell, {.pressure = {1e5, 1e5, 0.0}, .friction = 0.2, .rest = {.tolerance = 1e-6}});
   return cell;
 }
 

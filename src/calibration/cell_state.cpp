@@ -53,11 +53,11 @@ void requireCell(const dem::Model& m) {
 double pressureAtRest(dem::Model& m, const CompressionOptions& settings) {
   struct Stage {
     double within;  // relative distance from the pressure wanted
-    dem::RelaxationOptions rest;
+    RestCriterion rest;
   };
-  const Stage stages[] = {{1e300, {.unbalanced = 1e-2, .steps = 1500}},
-                          {0.5, {.unbalanced = 1e-3, .steps = 10000}},
-                          {0.05, {.unbalanced = settings.unbalanced}}};
+  const Stage stages[] = {{1e300, {.tolerance = 1e-2, .steps = 1500}},
+                          {0.5, {.tolerance = 1e-3, .steps = 10000}},
+                          {0.05, {.tolerance = settings.unbalanced}}};
   double pressure = 0.0;
   for (const Stage& stage : stages) {
     if (stage.within < 1e300 && std::abs(settings.pressure - pressure) > stage.within * settings.pressure) break;

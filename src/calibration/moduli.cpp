@@ -18,11 +18,10 @@ Vec3 probed(dem::Model cell, int axis, double strain, const ModuliOptions& setti
   Vec3 strains{};
   strains[axis] = std::expm1(strain);
   dem::strainCell(cell, strains);
-  const dem::RelaxationReport report =
-      dem::relax(cell, {.unbalanced = settings.unbalanced, .steps = settings.steps, .lookEvery = 50});
+  const dem::RelaxationReport report = dem::relax(cell, {settings.unbalanced, settings.steps}, {.lookEvery = 50});
   if (!report.atRest)
     throw NumericalError("a cell strained by " + formatNumber(strain) +
-                             " does not come to rest: unbalanced forces are " + formatNumber(report.unbalanced) +
+                             " does not come to rest: unbalanced forces are " + formatNumber(report.residual) +
                              " of the contacts'",
                          std::string("probe along ") + "xyz"[axis], "take more steps, or allow more unbalanced force");
   return cellPressures(cell);

@@ -68,9 +68,8 @@ private:
     dem::strainCell(cell_, {std::expm1(strain.x), std::expm1(strain.y), std::expm1(strain.z)});
   }
   void look() {
-    const dem::RelaxationReport report =
-        dem::relax(cell_, {.unbalanced = settings_.unbalanced, .steps = settings_.steps});
-    curve.largestUnbalanced = std::max(curve.largestUnbalanced, report.unbalanced);
+    const dem::RelaxationReport report = dem::relax(cell_, {settings_.unbalanced, settings_.steps});
+    curve.largestUnbalanced = std::max(curve.largestUnbalanced, report.residual);
     now_ = cellPressures(cell_);
   }
   double off() const { return std::max(std::abs(now_.x - wanted_), std::abs(now_.y - wanted_)) / wanted_; }

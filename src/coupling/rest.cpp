@@ -61,37 +61,35 @@ static double overElastic(double kinetic, CoupledRun& run) {
   return elastic > 0.0 ? kinetic / elastic : 1.0;
 }
 
-bool relaxOn(CoupledRun& run, const RestOptions& options, RestProgress& progress, std::int64_t macroSteps) {
-  requirePositive(options.kinetic, "kinetic energy at rest");
-  if (options.macroSteps < 1)
-    throw InputError("macro steps is " + std::to_string(options.macroSteps), "RestOptions", "give 1 or more");
+bool relaxOn(CoupledRun& run, const RestCriterion& rest, RestProgress& progress, std::int64_t macroSteps) {
+  validate(rest, "relax", 1);
   RestReport& report = progress.report;
-  if (report.macroSteps == 0) run.stop();
+  if (report.steps == 0) run.stop();
   run.damp(true);
-  const std::int64_t end = std::min(options.macroSteps, report.macroSteps + macroSteps);
-  for (; report.macroSteps < end && progress.quiet < 2; ++report.macroSteps) {
+  const std::int64_t end = std::min(rest.steps, report.steps + macroSteps);
+  for (; report.steps < end && progress.quiet < 2; ++report.steps) {
     run.advance();
     const double kinetic = run.kineticEnergy();
     if (kinetic >= progress.before && kinetic > 0.0) {
       progress.before = kinetic;
       continue;
     }
-    report.kinetic = overElastic(progress.before, run);
-    progress.quiet = report.kinetic <= options.kinetic ? progress.quiet + 1 : 0;
-    ++report.stops;
+    report.residual = overElastic(progress.before, run);
+    progress.quiet = report.residual <= rest.tolerance ? progress.quiet + 1 : 0;
+    ++progress.stops;
     run.stop();
     progress.before = 0.0;
   }
   report.atRest = progress.quiet == 2;
-  const bool givenUp = !report.atRest && report.macroSteps >= options.macroSteps;
-  if (givenUp) report.kinetic = std::max(report.kinetic, overElastic(progress.before, run));
+  const bool givenUp = !report.atRest && report.steps >= rest.steps;
+  if (givenUp) report.residual = std::max(report.residual, overElastic(progress.before, run));
   if (report.atRest || givenUp) run.damp(false);
   return report.atRest || givenUp;
 }
 
-RestReport relax(CoupledRun& run, const RestOptions& options) {
+RestReport relax(CoupledRun& run, const RestCriterion& rest) {
   RestProgress progress;
-  relaxOn(run, options, progress, options.macroSteps);
+  relaxOn(run, rest, progress, rest.steps);
   return progress.report;
 }
 

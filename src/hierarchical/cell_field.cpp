@@ -80,7 +80,7 @@ private:
     rve::Rve start = cell;
     start.state = committed;
     rve::PathOptions path = settings_.path;
-    path.rest.unbalanced = settings_.unbalanced;
+    path.rest.tolerance = settings_.unbalanced;
     return rve::numericalTangent(start, cell.state.F, {.path = path});
   }
 };
@@ -194,7 +194,7 @@ std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const 
 }
 
 std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const DynamicCells& settings) {
-  return fieldOf(std::move(samples), rve::RestOptions{}.unbalanced, Dynamic{settings});
+  return fieldOf(std::move(samples), RestCriterion{}.tolerance, Dynamic{settings});
 }
 
 }  // namespace dovetail::hierarchical

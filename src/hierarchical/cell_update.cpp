@@ -42,16 +42,14 @@ int stepsFor(double strain, const DynamicCells& settings) {
 
 void relax(rve::Rve& cell, const Eigen::Matrix3d& F, const QuasiStaticCells& settings) {
   validate(settings);
-  rve::RestReport rest = rve::followPath(cell, F, settings.path).rest;
-  if (rest.atRest && rest.unbalanced > settings.unbalanced) rest = rve::polish(cell, settings.unbalanced);
+  RestReport rest = rve::followPath(cell, F, settings.path).rest;
+  if (rest.atRest && rest.residual > settings.unbalanced) rest = rve::polish(cell, settings.unbalanced);
   if (!rest.atRest) {  // contacts began or ended to touch or slip, or the first rest was not enough
-    rve::RestOptions further = settings.path.rest;
-    further.unbalanced = settings.unbalanced;
-    rest = rve::relax(cell, further);
+    rest = rve::relax(cell, {settings.unbalanced, settings.path.rest.steps});
   }
   if (!rest.atRest)
     throw NumericalError(
-        "forces on grains are out of balance by " + formatNumber(rest.unbalanced) + " of the mean contact force", where,
+        "forces on grains are out of balance by " + formatNumber(rest.residual) + " of the mean contact force", where,
         "take a smaller step or more steps to rest; past the peak, go on by explicit dynamics");
   if (rve::balance(cell).contacts == 0)
     throw NumericalError("no grains touch", where, "keep it under pressure: there is no cohesion");

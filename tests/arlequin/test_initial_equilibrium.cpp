@@ -47,7 +47,7 @@ dem::Model bed() {
                                       {far, Vec3{0, -1, 0}},
                                       {Vec3{}, Vec3{0, 0, 1}}})
     dem::addWall(grains, dem::makePlane(place, normal));
-  dem::relax(grains, {.unbalanced = 1e-4, .steps = 60000});
+  dem::relax(grains, {.tolerance = 1e-4, .steps = 60000});
   dem::removeWall(grains, dem::primitiveWall(grains, 4));
   return grains;
 }

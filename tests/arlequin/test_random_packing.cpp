@@ -38,7 +38,7 @@ std::unique_ptr<coupling::CoupledRun> makePacking() {
   grains.sortEvery = 0;
   dem::addWall(grains, dem::makePlane({0, 0, 0}, {0, 0, 1}));
   run->start(1e-4);
-  EXPECT_TRUE(coupling::relax(*run, {.kinetic = 1e-10}).atRest);
+  EXPECT_TRUE(coupling::relax(*run, {.tolerance = 1e-10}).atRest);
   return run;
 }
 
@@ -153,7 +153,7 @@ TEST_P(HandedOver, APackingStaysAtRestAndItsWeightGoesThrough) {
     EXPECT_NEAR(load.carried / load.above, 1.0, 1e-3) << "the solid has taken over, layer " << layer;
   }
   // Elements balance the particles' loads together; one by one they find their balance by themselves.
-  EXPECT_TRUE(coupling::relax(scene->run, {.kinetic = 1e-7}).atRest);
+  EXPECT_TRUE(coupling::relax(scene->run, {.tolerance = 1e-7}).atRest);
   scene->run.advance(500);
   const EnergyLedger& ledger = scene->run.ledger();
   const double elastic = ledger.joules("particles: contacts") + ledger.joules("solid: elastic");

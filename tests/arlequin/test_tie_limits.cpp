@@ -67,7 +67,7 @@ Settled settled(const MacroSteps& macroSteps) {
   load(run);
   run.start(1e-7);
   run.start(0.5 * run.run->criticalStep().dt);
-  EXPECT_TRUE(relax(*run.run, {.kinetic = 1e-12}).atRest);
+  EXPECT_TRUE(relax(*run.run, {.tolerance = 1e-12}).atRest);
   run.K = macroSteps.K;
   run.start(1e-7);
   return {run.run->save(), run.run->criticalStep().dt};
@@ -82,8 +82,8 @@ TEST_P(TieLimits, KeepAtRestWhoIsAndRefuseLongerSteps) {
   run.grains.refusesUnstableSteps = true;
   EXPECT_THROW(run.start(1.05 * rest.limit), InputError);
   run.start(0.95 * rest.limit);
-  EXPECT_TRUE(relax(*run.run, {.kinetic = 1e-12}).atRest);  // where impulses of macro steps meet the bar
-  constexpr double time = 0.5;                              // s
+  EXPECT_TRUE(relax(*run.run, {.tolerance = 1e-12}).atRest);  // where impulses of macro steps meet the bar
+  constexpr double time = 0.5;                                // s
   run.run->advance(std::lround(time / run.run->macroStep()));
   EXPECT_FALSE(run.grains.passed);
   const auto& ledger = run.run->ledger();

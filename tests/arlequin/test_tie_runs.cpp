@@ -318,7 +318,7 @@ TEST(TieRunsMore, MultipliersOnImplicitSolidsStandStillAtRestAndNothingIsLost) {
     run.K = K;
     run.start(4e-4 / K);
     EXPECT_LT(changeOfLambda(run), 0.05);  // it begins to oscillation
-    EXPECT_TRUE(relax(*run.run, {.kinetic = K == 1 ? 1e-16 : 1e-9, .macroSteps = 2000}).atRest);
+    EXPECT_TRUE(relax(*run.run, {.tolerance = K == 1 ? 1e-16 : 1e-9, .steps = 2000}).atRest);
     EXPECT_LT(std::abs(run.run->ledger().residual()), 1e-5 * run.energy());
     double booked = run.run->ledger().booked();
     EXPECT_LT(changeOfLambda(run), K == 1 ? 1e-7 : 1e-4);

@@ -23,7 +23,7 @@ rve::Rve pressed(const rve::Springs& springs, double pressure) {
   rve::Rve cell = rve::randomCell(
       {.shape = rve::Shape::sphere, .count = 150, .sizes = dem::UniformSizes{4e-3, 6e-3}, .solidFraction = 0.55},
       springs);
-  rve::compress(cell, {.pressure = {pressure, pressure, pressure}, .friction = 0.1, .rest = {.unbalanced = 1e-6}});
+  rve::compress(cell, {.pressure = {pressure, pressure, pressure}, .friction = 0.1, .rest = {.tolerance = 1e-6}});
   rve::Grains grains{.shape = rve::Shape::sphere, .radius = cell.radius, .density = cell.density};
   for (std::size_t i = 0; i < cell.size(); ++i)
     grains.centre.push_back({cell.state.x[0][i], cell.state.x[1][i], cell.state.x[2][i]});
@@ -117,14 +117,14 @@ TEST(OneEngine, TheCriticalStepIsOne) {
 // those of the states at rest; what is lost follows from them.
 TEST(OneEngine, WorkAndLossesAgreeOnASlidingPath) {
   for (Both both : {linearSpheres(0.3), elasticSpheres(0.3)}) {
-    rve::relax(both.cell, {.unbalanced = 1e-8});
-    dem::relax(both.model, {.unbalanced = 1e-8});
+    rve::relax(both.cell, {.tolerance = 1e-8});
+    dem::relax(both.model, {.tolerance = 1e-8});
     both.cell.state.ledger = {};
     const dem::Energies start = dem::energies(both.model);
     for (int k = 0; k < 40; ++k) {
       both.strain({1e-4, 1e-4, -2e-4});
-      rve::relax(both.cell, {.unbalanced = 1e-6});
-      dem::relax(both.model, {.unbalanced = 1e-6});
+      rve::relax(both.cell, {.tolerance = 1e-6});
+      dem::relax(both.model, {.tolerance = 1e-6});
     }
     const dem::Energies end = dem::energies(both.model);
     const rve::EnergyBook& ledger = both.cell.state.ledger;

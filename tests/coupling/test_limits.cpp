@@ -63,7 +63,7 @@ Settled settled(const Top& top) {
   const auto run = fourGrains(top);
   run->start(1e-5);
   run->start(0.5 * run->criticalStep().dt);
-  EXPECT_TRUE(relax(*run, {.kinetic = 1e-12}).atRest);
+  EXPECT_TRUE(relax(*run, {.tolerance = 1e-12}).atRest);
   run->start(1e-5, {.stepsPerMacroStep = top.K});
   return {run->criticalStep().dt, run->save()};
 }
@@ -76,7 +76,7 @@ double unrest(const Top& top, const Settled& from, double fraction, std::int64_t
   run->grains.refusesUnstableSteps = fraction < 1.0;
   run->start(fraction * from.limit, {.stepsPerMacroStep = top.K});
   try {
-    relax(*run, {.kinetic = 1e-12, .macroSteps = 500});
+    relax(*run, {.tolerance = 1e-12, .steps = 500});
     run->advance(macroSteps);
   } catch (const NumericalError&) {
     return 1e30;

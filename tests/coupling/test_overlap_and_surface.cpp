@@ -125,7 +125,7 @@ TEST_P(SettledOverlapAndSurface, StaysAndKeepsItsBooksNearTheLimit) {
   CoupledRun& run = *bar.run;
   run.start(1e-7);
   run.start(0.5 * run.criticalStep().dt);
-  ASSERT_TRUE(relax(run, {.kinetic = 1e-11}).atRest);
+  ASSERT_TRUE(relax(run, {.tolerance = 1e-11}).atRest);
   const RunOptions options{.stepsPerMacroStep = macroSteps.K};
   run.start(1e-7, options);
   const double limit = run.criticalStep().dt;

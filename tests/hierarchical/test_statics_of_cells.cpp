@@ -23,7 +23,7 @@ TEST(StaticsOfCells, PointsOfAnElementAreStandAloneCellsToTheLastBit) {
     for (std::size_t p = 0; p < 4; ++p) {
       rve::Rve cell = threeCells()[0];
       for (const fem::Solid::Sample& sample : samples) {
-        rve::followPath(cell, matrixAt(sample.F, p), {.rest = {.unbalanced = 1e-6}});
+        rve::followPath(cell, matrixAt(sample.F, p), {.rest = {.tolerance = 1e-6}});
         EXPECT_EQ(matrixAt(sample.P, p), rve::nominalStress(cell));
       }
       side += 0.25 * samples.back().P[9 * p];
@@ -195,7 +195,7 @@ TEST(StaticsOfCells, FrozenMeansFreezeWherePointsSoftenAndGoToBytes) {
 TEST(StaticsOfCells, WhatStagnatesIsNeverAccepted) {
   // Cells that are hardly at rest cannot be balanced to this.
   Biaxial body({1, 1},
-               cellField(threeCells(), QuasiStaticCells{.path = {.rest = {.unbalanced = 1e-2}}, .unbalanced = 1e-2}));
+               cellField(threeCells(), QuasiStaticCells{.path = {.rest = {.tolerance = 1e-2}}, .unbalanced = 1e-2}));
   fem::StaticOptions options = roughly(1e-12);
   options.newton.maxIterations = 6;
   options.smallestStep = 0.1;

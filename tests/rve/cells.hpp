@@ -16,7 +16,7 @@ inline Springs ordinarySprings() { return {.modulus = 6e8, .tangential = 0.8, .f
 /// Random discs at rest under 100 kPa, prepared without friction: dense, no tangential spring stretched.
 inline Rve pressedDiscs(int count, std::uint64_t seed = 1) {
   Rve cell = randomCell({.count = count, .seed = seed}, ordinarySprings());
-  compress(cell, {.pressure = {1e5, 1e5, 1e5}, .friction = 0.0, .rest = {.unbalanced = 1e-6}});
+  compress(cell, {.pressure = {1e5, 1e5, 1e5}, .friction = 0.0, .rest = {.tolerance = 1e-6}});
   polish(cell);
   return cell;
 }
@@ -28,7 +28,7 @@ inline Rve pressedSpheres(int count, std::uint64_t seed = 1) {
                          .solidFraction = 0.55,
                          .seed = seed},
                         ordinarySprings());
-  compress(cell, {.pressure = {1e6, 1e6, 1e6}, .friction = 0.0, .rest = {.unbalanced = 1e-6}});
+  compress(cell, {.pressure = {1e6, 1e6, 1e6}, .friction = 0.0, .rest = {.tolerance = 1e-6}});
   polish(cell);
   return cell;
 }

@@ -20,7 +20,7 @@ const Springs elastic = hertzMindlin(29e7, 0.15, 0.5);
 Rve pressedElasticSpheres() {
   Rve cell = randomCell(
       {.shape = Shape::sphere, .count = 48, .sizes = dem::UniformSizes{4e-3, 6e-3}, .solidFraction = 0.55}, elastic);
-  compress(cell, {.pressure = {4e5, 4e5, 4e5}, .friction = 0.0, .rest = {.unbalanced = 1e-6}});
+  compress(cell, {.pressure = {4e5, 4e5, 4e5}, .friction = 0.0, .rest = {.tolerance = 1e-6}});
   polish(cell);
   return cell;
 }
@@ -81,8 +81,8 @@ TEST(ElasticSpheres, TheLedgerOfAPathClosesAsStepsShrink) {
 TEST(ElasticSpheres, HillAndMandelsConditionHoldsInSlidingStates) {
   std::mt19937 random(4);
   Rve cell = pressedElasticSpheres();
-  for (int k = 1; k <= 4; ++k) followPath(cell, sheared(0.02 * k), {.rest = {.unbalanced = 1e-4}});
-  ASSERT_TRUE(relax(cell, {.unbalanced = 1e-9, .steps = 40000}).atRest);
+  for (int k = 1; k <= 4; ++k) followPath(cell, sheared(0.02 * k), {.rest = {.tolerance = 1e-4}});
+  ASSERT_TRUE(relax(cell, {.tolerance = 1e-9, .steps = 40000}).atRest);
   EXPECT_GT(cell.state.ledger.friction, 0.05 * cell.state.ledger.work);
   const Components w = randomMotion(cell.state.v, 1e-2 * meanDiameter(cell), random),
                    theta = randomMotion(cell.state.spin, 1e-2, random);

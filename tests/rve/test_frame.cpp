@@ -57,7 +57,7 @@ TEST(Frame, PeriodicFramesAnswerAsCellsThatRepeat) {
     for (Rve* cell : {&wrapped, &cut}) {
       deform(*cell, relativeDeformation(*cell, F));
       const RestReport rest = polish(*cell, 1e-11, 30);
-      ASSERT_TRUE(rest.atRest) << rest.unbalanced;
+      ASSERT_TRUE(rest.atRest) << rest.residual;
     }
     EXPECT_LT((nominalStress(cut) - nominalStress(wrapped)).norm(), 1e-9 * nominalStress(wrapped).norm());
     EXPECT_LT((stressOfReactions(cut) - nominalStress(cut)).norm(), 1e-9 * nominalStress(cut).norm());
@@ -70,9 +70,9 @@ TEST(Frame, HillAndMandelsConditionHoldsInEverySpaceInSlidingStates) {
   for (const Conditions& conditions : kindsOfFrames()) {
     Rve cell = framed(start, conditions);
     // A little compression, so that no space lets the grains fall apart.
-    for (int k = 1; k <= 5; ++k) followPath(cell, plane(1, 0.02 * k, 0, 1 - 0.002 * k), {.rest = {.unbalanced = 1e-4}});
-    const RestReport rest = relax(cell, {.unbalanced = 1e-8, .steps = 40000});
-    EXPECT_TRUE(rest.atRest) << rest.unbalanced;
+    for (int k = 1; k <= 5; ++k) followPath(cell, plane(1, 0.02 * k, 0, 1 - 0.002 * k), {.rest = {.tolerance = 1e-4}});
+    const RestReport rest = relax(cell, {.tolerance = 1e-8, .steps = 40000});
+    EXPECT_TRUE(rest.atRest) << rest.residual;
     EXPECT_GT(cell.state.ledger.friction, 0.1 * cell.state.ledger.work);
     for (int k = 0; k < 3; ++k) EXPECT_LT(hillMandelError(cell, random), 1e-6);
   }
@@ -92,7 +92,7 @@ double meanShearStress(Condition condition) {
     Rve cell = framed(pressedDiscs(100, seed), everywhere(condition));
     double most = 0.0;
     for (int k = 1; k <= 4; ++k) {
-      followPath(cell, plane(1, 0.0025 * k, 0, 1 - 0.001 * k), {.rest = {.unbalanced = 1e-3}});
+      followPath(cell, plane(1, 0.0025 * k, 0, 1 - 0.001 * k), {.rest = {.tolerance = 1e-3}});
       most = std::max(most, std::abs(stress(cell).cauchy(0, 1)));
     }
     sum += most / 5.0;
@@ -109,7 +109,7 @@ TEST(Frame, MeansOfPathsAreStifferTheLessTheyLeaveFree) {
 
 TEST(Frame, ConditionsHoldOnTheWay) {
   Rve cell = framed(pressedDiscs(100), everywhere(Condition::traction));
-  followPath(cell, plane(1, 0.01, 0, 1), {.rest = {.unbalanced = 1e-9}});
+  followPath(cell, plane(1, 0.01, 0, 1), {.rest = {.tolerance = 1e-9}});
   const Eigen::Matrix2d F = cell.state.F.topLeftCorner<2, 2>();
   Eigen::Matrix2d mean = Eigen::Matrix2d::Zero();
   double size = 0.0;

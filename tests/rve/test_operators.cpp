@@ -71,7 +71,7 @@ TEST(Operators, ElasticTangentIsTheProbeOfPressedDiscs) { expectElasticTangentIs
 TEST(Operators, ElasticTangentIsTheProbeOfPressedSpheres) { expectElasticTangentIsProbe(pressedSpheres(48)); }
 TEST(Operators, ElasticTangentIsTheProbeOfShearedDiscs) {
   Rve cell = pressedDiscs(80);
-  followPath(cell, plane(1.003, 0.004, 0.0, 0.994), {.rest = {.unbalanced = 1e-7}});
+  followPath(cell, plane(1.003, 0.004, 0.0, 0.994), {.rest = {.tolerance = 1e-7}});
   ASSERT_GT(cell.state.ledger.friction, 0.0);
   expectElasticTangentIsProbe(cell);
 }
@@ -80,7 +80,7 @@ TEST(Operators, ElasticTangentIsTheProbeOfShearedSpheres) {
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F(0, 1) = 2e-3;
   F(2, 2) = 0.999;
-  followPath(cell, F, {.rest = {.unbalanced = 1e-7}});
+  followPath(cell, F, {.rest = {.tolerance = 1e-7}});
   expectElasticTangentIsProbe(cell);
 }
 TEST(Operators, ElasticTangentIsTheProbeOfRollingDiscs) {
@@ -89,7 +89,7 @@ TEST(Operators, ElasticTangentIsTheProbeOfRollingDiscs) {
   rolling.rolling = 0.5;
   rolling.rollingLimit = 1e6;
   setSprings(cell, rolling);
-  followPath(cell, plane(1.001, 0.001, 0.0, 0.998), {.rest = {.unbalanced = 1e-7}});
+  followPath(cell, plane(1.001, 0.001, 0.0, 0.998), {.rest = {.tolerance = 1e-7}});
   expectElasticTangentIsProbe(cell);
 }
 
@@ -145,7 +145,7 @@ Rve slidingDiscs() {
   Springs slippery = cell.springs;
   slippery.friction = 0.2;
   setSprings(cell, slippery);
-  followPath(cell, plane(1.004, 0.0, 0.0, 0.992), {.rest = {.unbalanced = 1e-6}});
+  followPath(cell, plane(1.004, 0.0, 0.0, 0.992), {.rest = {.tolerance = 1e-6}});
   return cell;
 }
 
@@ -217,11 +217,10 @@ TEST(Operators, ThePathProbeIsTheNetworkWhereNothingSlips) {
   setSprings(cell, smooth);
   const Eigen::Matrix3d F = plane(1.0, 1e-5, 0.0, 0.9999);
   Rve after = cell;
-  followPath(after, F, {.rest = {.unbalanced = 1e-7}});
+  followPath(after, F, {.rest = {.tolerance = 1e-7}});
   const Tangent A = elasticTangent(after);
   const auto errorOf = [&](double strain) {
-    return (numericalTangent(cell, F, {.strain = strain, .path = {.rest = {.unbalanced = 1e-7}}}) - A).norm() /
-           A.norm();
+    return (numericalTangent(cell, F, {.strain = strain, .path = {.rest = {.tolerance = 1e-7}}}) - A).norm() / A.norm();
   };
   const double fine = errorOf(1e-6);
   EXPECT_LT(fine, 1e-3);
@@ -232,7 +231,7 @@ TEST(Operators, ThePathProbeSlips) {
   const Rve cell = slidingDiscs();
   const Eigen::Matrix3d F = plane(1.0045, 0.0, 0.0, 0.991);
   Rve after = cell;
-  followPath(after, F, {.rest = {.unbalanced = 1e-6}});
+  followPath(after, F, {.rest = {.tolerance = 1e-6}});
   ASSERT_GT(after.state.ledger.friction, cell.state.ledger.friction);
   // Less shortening: the path ends earlier, on the same branch; the network of what sticks is stiffer.
   EXPECT_LT(component(numericalTangent(cell, F, {.strain = 1e-4}), 1, 1, 1, 1),
@@ -267,7 +266,7 @@ TEST(Operators, BadProbesAreRefused) {
   EXPECT_THROW(elasticProbe(cell, {.strain = 0.0}), InputError);
   EXPECT_THROW(elasticProbe(cell, {.unbalanced = -1.0}), InputError);
   EXPECT_THROW(numericalTangent(cell, cell.state.F, {.strain = 0.0}), InputError);
-  EXPECT_THROW(numericalTangent(cell, cell.state.F, {.path = {.rest = {.unbalanced = 1e-14, .steps = 20}}}),
+  EXPECT_THROW(numericalTangent(cell, cell.state.F, {.path = {.rest = {.tolerance = 1e-14, .steps = 20}}}),
                NumericalError);
 }
 

@@ -81,7 +81,7 @@ TEST(UnusualCells, StretchesStayWhenSpheresBecomeElastic) {
 TEST(UnusualCells, CompressionEndsAtRestWhateverTheFrictionWas) {
   for (const double friction : {0.0, 1.0}) {
     Rve cell = shearedDiscs();
-    compress(cell, {.pressure = {1e5, 1e5, 0.0}, .friction = friction, .rest = {.unbalanced = 1e-5}});
+    compress(cell, {.pressure = {1e5, 1e5, 0.0}, .friction = friction, .rest = {.tolerance = 1e-5}});
     EXPECT_LE(balance(cell).unbalanced, 1e-5);
     for (int k = 0; k < 2; ++k) EXPECT_NEAR(-stress(cell).cauchy(k, k), 1e5, 1e2);
   }
@@ -90,7 +90,7 @@ TEST(UnusualCells, CompressionEndsAtRestWhateverTheFrictionWas) {
 TEST(UnusualCells, TractionOnAFlatSide) {
   const Condition D = Condition::displacement, T = Condition::traction;
   Rve cell = framed(squareArray(5), {.bottom = D, .right = D, .top = T, .left = D});
-  const PathReport path = followPath(cell, plane(1.0, 1e-4, 0.0, 0.9995), {.rest = {.unbalanced = 1e-8}});
+  const PathReport path = followPath(cell, plane(1.0, 1e-4, 0.0, 0.9995), {.rest = {.tolerance = 1e-8}});
   EXPECT_TRUE(path.rest.atRest);
   EXPECT_TRUE(stressOfReactions(cell).allFinite());
   polish(cell);

@@ -49,7 +49,7 @@ TEST_P(ProbesAtRest, CarryTheWeight) {
   const Scene file = sceneFromText(scene(steps, more), "s.json", "/");
   Built built = started(file);
   const Probes probes(built, file.output.probes);
-  coupling::relax(*built.run, {.kinetic = 1e-12, .macroSteps = 40000});
+  coupling::relax(*built.run, {.tolerance = 1e-12, .steps = 40000});
   const double grain = 2500.0 * 4.0 / 3.0 * std::acos(-1.0) * 1e-3 * 9.81;
   auto values = valuesOf(probes, built);
   EXPECT_NEAR(values["foot_z_N"], 500.0 * 9.81 + 2.0 * grain, 1e-3 * grain);

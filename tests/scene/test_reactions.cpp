@@ -121,7 +121,7 @@ TEST(ReactionProbes, OfTwoEndsThatAreHeldApartAreThoseOfTheStretch) {
                                            {"name": "head", "of": "support", "solid": "b", "on": "z+"}]}})",
           "s.json", "/");
       Built built = started(scene);
-      coupling::relax(*built.run, {.kinetic = 1e-20, .macroSteps = 20000});
+      coupling::relax(*built.run, {.tolerance = 1e-20, .steps = 20000});
       const double force = 1e6 * 1.01 * 0.5 * (1.01 * 1.01 - 1.0);
       EXPECT_NEAR(forceAt(built, scene, 5), force, 1e-6 * force) << stepping << head;
       EXPECT_NEAR(forceAt(built, scene, 2), -force, 1e-6 * force) << stepping << head;
@@ -141,7 +141,7 @@ TEST(ReactionProbes, OfNodesThatTiesCarryAreTheForcesOfTies) {
                                          {"name": "coarse", "of": "support", "solid": "b", "on": "coarse"}]}})",
                                     "s.json", folder.path());
   Built built = started(scene);
-  coupling::relax(*built.run, {.kinetic = 1e-20, .macroSteps = 20000});
+  coupling::relax(*built.run, {.tolerance = 1e-20, .steps = 20000});
   EXPECT_NEAR(forceAt(built, scene, 0), -1000.0, 1e-4);
   EXPECT_NEAR(forceAt(built, scene, 3), -1000.0, 1e-4);
 }

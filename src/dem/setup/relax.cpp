@@ -94,14 +94,13 @@ FireSums fireSums(const Model& m) {
   return sums;
 }
 
-void check(const Model& m, const RelaxationOptions& s) {
+void check(const Model& m, const RestCriterion& rest, const RelaxationOptions& s) {
   constexpr const char* beltRemedy = "set its surface velocity to zero until then";
-  requirePositive(s.unbalanced, "unbalanced force at rest");
+  validate(rest, "relaxation");
   if (!(s.stepFraction > 0.0 && s.stepFraction < 1.0))
     throw InputError("the fraction of the critical step is " + formatNumber(s.stepFraction), "relaxation",
                      "give a number between 0 and 1");
-  if (s.lookEvery < 1 || s.steps < 0)
-    throw InputError("a number of steps is not valid", "relaxation", "give lookEvery ≥ 1 and steps ≥ 0");
+  if (s.lookEvery < 1) throw InputError("lookEvery is " + std::to_string(s.lookEvery), "relaxation", "give 1 or more");
   for (const PrimitiveWallTerm* term : m.terms.all<PrimitiveWallTerm>())
     if (const Vec3 along = term->wall.servo ? term->wall.servo->direction : Vec3{};
         term->wall.motion || norm(term->wall.angularVelocity) > 0.0 ||
@@ -207,10 +206,10 @@ RelaxationReport restOf(const Model& m) {
   }
   const auto held = static_cast<double>(counted - report.rattlers);
   if (residual > 0.0)
-    report.unbalanced = contactForce > 0.0 ? residual / held / contactForce : std::numeric_limits<double>::infinity();
+    report.residual = contactForce > 0.0 ? residual / held / contactForce : std::numeric_limits<double>::infinity();
   for (const WallServo* servo : servosOf(m))
     if (const double most = std::max(std::abs(servo->load), std::abs(servo->contact)); most > 0.0)
-      report.unbalanced = std::max(report.unbalanced, std::abs(servo->unbalanced()) / most);
+      report.residual = std::max(report.residual, std::abs(servo->unbalanced()) / most);
   return report;
 }
 
@@ -232,18 +231,17 @@ struct RelaxingModel {
 };
 }  // namespace
 
-RelaxationReport relax(Model& m, const RelaxationOptions& settings) {
-  check(m, settings);
+RelaxationReport relax(Model& m, const RestCriterion& rest, const RelaxationOptions& settings) {
+  check(m, rest, settings);
   findForces(m);
   const RelaxingModel relaxing(m);
   Fire fire(longestStep(m, settings.stepFraction));
   RelaxationReport report;
   for (std::int64_t step = 0;; ++step) {
-    if (step % settings.lookEvery == 0 || step == settings.steps) {
+    if (step % settings.lookEvery == 0 || step == rest.steps) {
       report = restOf(m);
       report.steps = step;
-      report.atRest = report.unbalanced <= settings.unbalanced;
-      if (report.atRest || step == settings.steps || (settings.enough && settings.enough(m))) break;
+      if (report.judge(report.residual, rest) || (settings.enough && settings.enough(m))) break;
       fire.setLongest(longestStep(m, settings.stepFraction));
     }
     const double before = kineticEnergy(m);

@@ -11,17 +11,15 @@ namespace {
 using detail::NewtonResult;
 
 void validate(const RelaxOptions& options) {
-  requirePositive(options.relativeTolerance, "relativeTolerance");
+  dovetail::validate(options.rest, "RelaxOptions", 1);
   requireNonNegative(options.absoluteTolerance, "absoluteTolerance");
   requireNonNegative(options.iterationStep, "iterationStep");
-  if (options.maxIterations < 1)
-    throw InputError("no iterations are allowed", "RelaxOptions", "give maxIterations of 1 or more");
 }
 
 class Relaxation : public detail::Balance {
 public:
   Relaxation(Model& model, const RelaxOptions& options)
-      : Balance(model, options.relativeTolerance, options.absoluteTolerance) {}
+      : Balance(model, options.rest.tolerance, options.absoluteTolerance) {}
 
   void describe(StaticReport& report) const override {
     Balance::describe(report);
@@ -33,7 +31,8 @@ public:
 
 StaticReport relax(Model& model, double tEnd, const RelaxOptions& options, const StaticObserver& observer) {
   validate(options);
-  const detail::LoadSteps steps{options.firstStep, options.largestStep, options.smallestStep, options.maxIterations};
+  const detail::LoadSteps steps{options.firstStep, options.largestStep, options.smallestStep,
+                                static_cast<int>(options.rest.steps)};
   detail::validate(steps);
   detail::requireLater(tEnd, model, "relax");
   Relaxation relaxation(model, options);
@@ -41,7 +40,7 @@ StaticReport relax(Model& model, double tEnd, const RelaxOptions& options, const
   const auto attempt = [&](const Instant& now) {
     bool comesOn = true;
     return detail::attemptStep(model, now, options.maxAugmentations, [&] {
-      const NewtonResult result = swing.settle(now, comesOn, options.maxIterations);
+      const NewtonResult result = swing.settle(now, comesOn, static_cast<int>(options.rest.steps));
       comesOn = false;
       return result;
     });

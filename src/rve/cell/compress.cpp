@@ -5,14 +5,13 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/rve/equilibrium.hpp"
-#include "motion/rest_options.hpp"
 
 namespace dovetail::rve {
 
 namespace {
 
 void check(const Rve& cell, const CompressionOptions& settings) {
-  validate(settings.rest);
+  validate(settings.rest, "rest of a cell");
   if (!cell.frame.empty()) throw InputError("the cell has a frame", "compression of a cell", "give a periodic cell");
   for (int k = 0; k < cell.dimension(); ++k) requirePositive(settings.pressure[k], "pressure");
   requirePositive(settings.tolerance, "tolerance of the pressures");
@@ -67,17 +66,17 @@ void press(Rve& cell, const CompressionOptions& settings, std::int64_t& taken) {
   for (bool there = false; !there;) {
     int quiet = 0;
     for (; quiet < 200 && taken < settings.steps; ++taken) {
-      const double dt = settings.rest.stepFraction * cell.state.criticalStep;
+      const double dt = settings.stepFraction * cell.state.criticalStep;
       step(cell, dt, servoStep(cell, settings, dt), settings.damping);
       quiet = pressureOff(cell, settings.pressure) <= 0.5 * settings.tolerance ? quiet + 1 : 0;
     }
-    const RestReport rest = relax(cell, settings.rest);
+    const RestReport rest = relax(cell, settings.rest, settings.stepFraction);
     taken += std::max<std::int64_t>(rest.steps, 1);
     const double off = pressureOff(cell, settings.pressure);
     there = rest.atRest && off <= settings.tolerance;
     if (!there && taken >= settings.steps)
       throw NumericalError(
-          "pressures are off by " + formatNumber(off) + " of those wanted, forces by " + formatNumber(rest.unbalanced),
+          "pressures are off by " + formatNumber(off) + " of those wanted, forces by " + formatNumber(rest.residual),
           "compression of a cell", "take more steps, or larger tolerances");
   }
 }
@@ -94,7 +93,7 @@ void compress(Rve& cell, const CompressionOptions& settings) {
   press(cell, settings, taken);
   setSprings(cell, own);
   // With less friction contacts may slip now.
-  if (!(balance(cell).unbalanced <= settings.rest.unbalanced &&
+  if (!(balance(cell).unbalanced <= settings.rest.tolerance &&
         pressureOff(cell, settings.pressure) <= settings.tolerance))
     press(cell, settings, taken);
   makeReference(cell);

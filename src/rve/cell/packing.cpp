@@ -55,7 +55,7 @@ Rve randomCell(const CloudOptions& settings, const Springs& springs) {
   Springs loose = springs;
   loose.friction = loose.rolling = 0.0;
   Rve cell = makeRve(grains, lattice, loose);
-  relax(cell, {.unbalanced = 1e-2, .steps = 2000});
+  relax(cell, {.tolerance = 1e-2, .steps = 2000});
   setSprings(cell, springs);
   cell.state.ledger = {};
   return cell;

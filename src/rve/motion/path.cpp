@@ -6,7 +6,6 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/rve/equilibrium.hpp"
-#include "rest_options.hpp"
 
 namespace dovetail::rve {
 
@@ -15,7 +14,7 @@ namespace {
 constexpr const char* where = "path of a cell";
 
 void check(const Rve& cell, const Eigen::Matrix3d& F, const PathOptions& settings) {
-  validate(settings.rest);
+  validate(settings.rest, where);
   if (!(settings.inertialNumber > 0.0 && settings.inertialNumber <= 1e-2))
     throw InputError("the inertial number is " + formatNumber(settings.inertialNumber), where,
                      "give one above 0, of at most 0.01: faster is not quasi-static");

@@ -6,16 +6,8 @@
 #include "dovetail/dem/setup/fire.hpp"
 #include "dovetail/rve/equilibrium.hpp"
 #include "projection.hpp"
-#include "rest_options.hpp"
 
 namespace dovetail::rve {
-
-void validate(const RestOptions& settings) {
-  requirePositive(settings.unbalanced, "unbalanced fraction of forces");
-  if (!(settings.stepFraction > 0.0 && settings.stepFraction < 1.0))
-    throw InputError("the fraction of the critical step is " + formatNumber(settings.stepFraction), "rest of a cell",
-                     "give one above 0 and below 1");
-}
 
 namespace {
 
@@ -34,20 +26,20 @@ void lean(Components& v, const Components& force, const std::vector<double>& mas
 
 }  // namespace
 
-RestReport relax(Rve& cell, const RestOptions& settings) {
-  validate(settings);
+RestReport relax(Rve& cell, const RestCriterion& rest, double stepFraction) {
+  validate(rest, "rest of a cell");
+  if (!(stepFraction > 0.0 && stepFraction < 1.0))
+    throw InputError("the fraction of the critical step is " + formatNumber(stepFraction), "rest of a cell",
+                     "give one above 0 and below 1");
   CellState& s = cell.state;
   stop(cell);
-  dem::Fire fire(settings.stepFraction * s.criticalStep);
+  dem::Fire fire(stepFraction * s.criticalStep);
   Components force, torque;
   RestReport report;
   for (;; ++report.steps) {
-    if (report.steps % lookEvery == 0 || report.steps >= settings.steps) {
-      report.unbalanced = balance(cell).unbalanced;
-      report.atRest = report.unbalanced <= settings.unbalanced;
-      if (report.atRest || report.steps >= settings.steps) break;
-    }
-    fire.setLongest(settings.stepFraction * s.criticalStep);
+    if ((report.steps % lookEvery == 0 || report.steps >= rest.steps) && report.judge(balance(cell).unbalanced, rest))
+      break;
+    fire.setLongest(stepFraction * s.criticalStep);
     freeForces(cell, force, torque);
     dem::FireSums sums;
     addSums(s.v, force, cell.mass, sums);

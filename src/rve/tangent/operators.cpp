@@ -31,11 +31,11 @@ Eigen::Matrix3d probed(Rve cell, const Eigen::Matrix3d& F, const ProbeOptions& s
   deform(cell, relativeDeformation(cell, F));
   RestReport rest = polish(cell, settings.unbalanced);
   if (!rest.atRest) {
-    relax(cell, {.unbalanced = 1e-6});
+    relax(cell, {.tolerance = 1e-6});
     rest = polish(cell, settings.unbalanced);
   }
   if (!rest.atRest)
-    throw NumericalError("forces are out of balance by " + formatNumber(rest.unbalanced), "elastic probe of a cell",
+    throw NumericalError("forces are out of balance by " + formatNumber(rest.residual), "elastic probe of a cell",
                          "relax the cell first, or take a larger tolerance or another strain");
   return nominalStress(cell);
 }
@@ -43,7 +43,7 @@ Eigen::Matrix3d probed(Rve cell, const Eigen::Matrix3d& F, const ProbeOptions& s
 Eigen::Matrix3d answered(Rve cell, const Eigen::Matrix3d& F, const PathOptions& path) {
   const RestReport rest = followPath(cell, F, path).rest;
   if (!rest.atRest)
-    throw NumericalError("forces are out of balance by " + formatNumber(rest.unbalanced), "path probe of a cell",
+    throw NumericalError("forces are out of balance by " + formatNumber(rest.residual), "path probe of a cell",
                          "allow more steps of rest, or a larger tolerance");
   return nominalStress(cell);
 }
@@ -113,13 +113,13 @@ Tangent AveragedTangent::next(const Eigen::Matrix3d& nowF, const Eigen::Matrix3d
   return now;
 }
 
-RestReport polish(Rve& cell, double unbalanced, int iterations) {
-  requirePositive(unbalanced, "unbalanced fraction of forces");
+RestReport polish(Rve& cell, double tolerance, int iterations) {
+  requirePositive(tolerance, "unbalanced fraction of forces");
   stop(cell);
   RestReport report;
-  report.unbalanced = balance(cell).unbalanced;
+  report.residual = balance(cell).unbalanced;
   CellState best;
-  for (int k = 0; k < iterations && report.unbalanced > unbalanced; ++k) {
+  for (int k = 0; k < iterations && report.residual > tolerance; ++k) {
     save(cell, best);
     bool better = false;
     for (const bool slips : {true, false}) {
@@ -127,8 +127,8 @@ RestReport polish(Rve& cell, double unbalanced, int iterations) {
       Network(cell, {.slips = slips}).solve(w, theta);
       displace(cell, w, theta);
       const double now = balance(cell).unbalanced;
-      better = now < report.unbalanced;
-      if (better) report.unbalanced = now;
+      better = now < report.residual;
+      if (better) report.residual = now;
       if (better || balance(cell).sliding == 0) break;
       restore(cell, best);
     }
@@ -138,7 +138,7 @@ RestReport polish(Rve& cell, double unbalanced, int iterations) {
     }
     ++report.steps;
   }
-  report.atRest = report.unbalanced <= unbalanced;
+  report.atRest = report.residual <= tolerance;
   return report;
 }
 

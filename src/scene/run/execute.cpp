@@ -130,11 +130,11 @@ private:
 
   bool comeToRest(const Relax& relax) {
     coupling::RestProgress& rest = progress_.rest;
-    const coupling::RestOptions options{.kinetic = relax.kinetic, .macroSteps = relax.macroSteps};
+    const RestCriterion criterion{relax.kinetic, relax.macroSteps};
     for (bool ended = false; !ended;) {
       const std::int64_t next = nextLook(progress_.macroStep, relax.macroSteps);
-      ended = coupling::relaxOn(*built_.run, options, rest, next - progress_.macroStep);
-      progress_.macroStep = rest.report.macroSteps;
+      ended = coupling::relaxOn(*built_.run, criterion, rest, next - progress_.macroStep);
+      progress_.macroStep = rest.report.steps;
       lookForRoom();
       warn();
       if (ended) break;
@@ -146,8 +146,8 @@ private:
   void endRest() {
     coupling::RestProgress& rest = progress_.rest;
     const std::string line = std::string(rest.report.atRest ? "at rest" : "NOT at rest") + " after " +
-                             std::to_string(rest.report.macroSteps) + " macro steps, kinetic over elastic energy " +
-                             formatNumber(rest.report.kinetic) +
+                             std::to_string(rest.report.steps) + " macro steps, kinetic over elastic energy " +
+                             formatNumber(rest.report.residual) +
                              (rest.report.atRest ? "" : ": give it more macro steps, or run for a time instead");
     remark(line, !rest.report.atRest);
     rest = {};

@@ -59,8 +59,8 @@ protected:
         makeScene({Element::hex8, SolidLaw::neoHookean, joint, ContactKind::rolling, MacroSteps::explicit1}, at);
     std::ranges::fill(run->grains.particles.v, Vec3{});
     startAt(*run, {.joint = joint}, 0.6);
-    const coupling::RestReport rest = relax(*run, {.kinetic = 1e-18, .macroSteps = 8000});
-    EXPECT_TRUE(rest.atRest) << rest.kinetic;
+    const RestReport rest = relax(*run, {.tolerance = 1e-18, .steps = 8000});
+    EXPECT_TRUE(rest.atRest) << rest.residual;
     return places(*run, at);
   }
 };

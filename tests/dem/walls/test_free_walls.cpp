@@ -203,8 +203,8 @@ TEST(FreeWalls, ABoxComesToRestOnGrains) {
     addParticle(model.particles, {0.11 * (i % 3), 0.11 * (i / 3), 0.05 + 0.0005 * (i % 4)}, {}, 0.05, Density{2000.0});
   const MeshWall& box = addFreeWall(model, boxWall({-0.05, -0.04, 0.105}, {0.3, 0.3, 0.1}), Density{600.0});
   const double before = energies(model).balance();
-  const RelaxationReport report = relax(model, {.unbalanced = 1e-4});
-  ASSERT_TRUE(report.atRest) << report.unbalanced << " after " << report.steps;
+  const RelaxationReport report = relax(model, {.tolerance = 1e-4});
+  ASSERT_TRUE(report.atRest) << report.residual << " after " << report.steps;
   EXPECT_NEAR(totalForce(box.wall).z, 9.81 * bodies(model).bodies.mass[0], 1e-2 * 9.81 * bodies(model).bodies.mass[0]);
   EXPECT_EQ(forcePower(box.wall), 0.0);
   EXPECT_NEAR(energies(model).balance(), before, 0.02 * std::abs(before));

@@ -26,7 +26,7 @@ struct Cantilever {
 TEST(Relax, FindsTheEquilibriaOfNewtonsMethod) {
   Cantilever newton, swung;
   solveStatics(newton.model, 1.0);
-  const StaticReport report = relax(swung.model, 1.0, {.relativeTolerance = 1e-7, .firstStep = 0.5});
+  const StaticReport report = relax(swung.model, 1.0, {.rest = {.tolerance = 1e-7}, .firstStep = 0.5});
   EXPECT_GT(newton.moved().y, 0.05);
   EXPECT_LT(largestDifference(newton.model.nodes.u, swung.model.nodes.u), 1e-5 * newton.moved().y);
   EXPECT_EQ(swung.model.t, 1.0);
@@ -39,9 +39,9 @@ TEST(Relax, FindsTheEquilibriaOfNewtonsMethod) {
 
 TEST(Relax, DigitsDoNotDependOnTheNumberOfThreads) {
   Cantilever one, two;
-  relax(one.model, 0.2, {.relativeTolerance = 1e-4});
+  relax(one.model, 0.2, {.rest = {.tolerance = 1e-4}});
   setThreads(2);
-  relax(two.model, 0.2, {.relativeTolerance = 1e-4});
+  relax(two.model, 0.2, {.rest = {.tolerance = 1e-4}});
   setThreads(1);
   EXPECT_EQ(one.model.nodes.u, two.model.nodes.u);
 }
@@ -58,17 +58,17 @@ TEST(Relax, PrescribedMotionAndTiesAreKept) {
   shear(newton, mesh);
   shear(swung, mesh);
   solveStatics(newton, 1.0);
-  relax(swung, 1.0, {.relativeTolerance = 1e-8, .firstStep = 0.5});
+  relax(swung, 1.0, {.rest = {.tolerance = 1e-8}, .firstStep = 0.5});
   EXPECT_LT(largestDifference(newton.nodes.u, swung.nodes.u), 1e-7);
 }
 
 TEST(Relax, AFailureLeavesTheLastEquilibrium) {
   Cantilever c;
-  EXPECT_THROW(relax(c.model, 1.0, {.maxIterations = 30, .smallestStep = 0.01}), NumericalError);
+  EXPECT_THROW(relax(c.model, 1.0, {.rest = {.steps = 30}, .smallestStep = 0.01}), NumericalError);
   EXPECT_EQ(c.model.t, 0.0);
   EXPECT_EQ(c.model.nodes.u, std::vector<Vec3>(c.model.nodes.u.size()));
   EXPECT_THROW(relax(c.model, 0.0), InputError);
-  EXPECT_THROW(relax(c.model, 1.0, {.relativeTolerance = 0.0}), InputError);
+  EXPECT_THROW(relax(c.model, 1.0, {.rest = {.tolerance = 0.0}}), InputError);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ double cellSolidFraction(const dem::Model& m);
 struct CompressionOptions {
   double pressure = 0.0;       ///< wanted, Pa
   double tolerance = 1e-3;     ///< of the pressure, relative
-  double unbalanced = 1e-5;    ///< see dem::RelaxationOptions
+  double unbalanced = 1e-5;    ///< see dem::RelaxationReport
   std::int64_t strains = 400;  ///< given up after so many
 };
 /// Strains a cell isotropically until it rests at the pressure wanted under its own contact law, friction included.
@@ -37,7 +37,7 @@ double compressRve(dem::Model& m, const CompressionOptions& settings);
 
 struct ModuliOptions {
   double strain = 1e-5;      ///< of the probes, to both sides
-  double unbalanced = 1e-8;  ///< at rest; see dem::RelaxationOptions
+  double unbalanced = 1e-8;  ///< at rest; see dem::RelaxationReport
   std::int64_t steps = 200000;
 };
 /// Elastic moduli of a cell about the state that it is in, small strains to both sides. Only strains along the axes are

@@ -19,6 +19,7 @@
 #include "dovetail/core/impulses.hpp"
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/core/profile.hpp"
+#include "dovetail/core/rest.hpp"
 #include "dovetail/coupling/connector.hpp"
 #include "dovetail/coupling/solid_side.hpp"
 #include "dovetail/dem/model/model.hpp"
@@ -168,20 +169,6 @@ private:
 /// if Profile is on.
 void report(CoupledRun& run, std::ostream& out);
 
-struct RestOptions {
-  /// At rest when the peak kinetic energy of two successive oscillations is below this fraction of the elastic energy,
-  /// or when nothing moves at all.
-  double kinetic = 1e-8;
-  std::int64_t macroSteps = 200000;  ///< given up after so many
-};
-
-struct RestReport {
-  bool atRest = false;
-  double kinetic = 0.0;         ///< the largest of the last oscillation, or since, over the elastic energy
-  std::int64_t macroSteps = 0;  ///< taken
-  std::int64_t stops = 0;
-};
-
 /// The bytes of the particles' model (dem::saveState) within those of CoupledRun::save.
 /// @throws InputError if they are cut off
 std::vector<char> particlesOf(const std::vector<char>& state);
@@ -197,8 +184,10 @@ std::vector<SolidOfState> solidsOf(const std::vector<char>& state);
 /// after each peak of the kinetic energy. Contact springs evolve as in any other step, so friction carries load. Time
 /// advances by the macro steps taken, also for loads that are functions of it. Accuracy on the way does not matter:
 /// with a step of half the limit, rest takes a third of the macro steps that a fifth of it needs. Spheres without
-/// rolling resistance may roll on for ever.
-/// @throws InputError for options out of range; NumericalError as advance
-RestReport relax(CoupledRun& run, const RestOptions& options = {});
+/// rolling resistance may roll on for ever. The residual is the largest kinetic energy of the last oscillation, or
+/// since, over the elastic energy, 0 where nothing moves at all; at rest it is within the tolerance in two successive
+/// oscillations. Steps are macro steps.
+/// @throws InputError for a criterion out of range; NumericalError as advance
+RestReport relax(CoupledRun& run, const RestCriterion& rest = {.tolerance = 1e-8});
 
 }  // namespace dovetail::coupling

@@ -22,10 +22,10 @@ enum class Operator {
   averagedTangent  ///< numericalTangent until the point softens, then the mean of those that it had at accepted steps
 };
 
-/// Statics: every answer is a path from the committed cell to F, then rest: by FIRE to path.rest.unbalanced, from there
+/// Statics: every answer is a path from the committed cell to F, then rest: by FIRE to path.rest.tolerance, from there
 /// to `unbalanced`, if that is less, by Newton's method.
 struct QuasiStaticCells {
-  rve::PathOptions path{.rest = {.unbalanced = 1e-6}};
+  rve::PathOptions path{.rest = {.tolerance = 1e-6}};
   double unbalanced = 1e-6;  ///< at rest when Balance::unbalanced is no more than this, > 0
   Operator tangent = Operator::elasticTangent;
 };

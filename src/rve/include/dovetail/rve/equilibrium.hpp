@@ -3,30 +3,19 @@
 
 #include <cstdint>
 
+#include "dovetail/core/rest.hpp"
 #include "dovetail/rve/rve.hpp"
 
 namespace dovetail::rve {
 
-struct RestOptions {
-  double unbalanced = 1e-4;     ///< at rest when Balance::unbalanced is no more than this, > 0
-  std::int64_t steps = 100000;  ///< given up after so many
-  double stepFraction = 0.8;    ///< of the critical step, in (0, 1)
-};
-
-struct RestReport {
-  bool atRest = false;
-  double unbalanced = 0.0;  ///< as Balance::unbalanced
-  std::int64_t steps = 0;   ///< taken
-};
-
 /// Relaxes the grains under constant F by FIRE (dem::Fire); contacts slip and remember as in any step. What that takes
 /// is booked as damping; afterwards velocities are zero.
 /// @throws InputError if a setting is not valid; NumericalError as step
-RestReport relax(Rve& cell, const RestOptions& settings = {});
+RestReport relax(Rve& cell, const RestCriterion& rest = {}, double stepFraction = 0.8);
 
 /// Newton's method on the network of contacts (operators.hpp), from a relaxed state; the cell is left as it was at the
 /// best of the iterations. Converges in a few as long as no contact begins or ends to touch or slip.
-RestReport polish(Rve& cell, double unbalanced = 1e-10, int iterations = 10);
+RestReport polish(Rve& cell, double tolerance = 1e-10, int iterations = 10);
 
 struct PathOptions {
   /// I of the path, in (0, 1e-2]: its duration is γ d / (I √(p/ρ)), with γ the difference of the principal strains (or
@@ -35,7 +24,7 @@ struct PathOptions {
   double inertialNumber = 1e-3;
   double damping = 0.7;  ///< as in step, in [0, 1)
   double stepFraction = 0.8;
-  RestOptions rest = {};  ///< at the end; rest.steps = 0: the cell is left in motion
+  RestCriterion rest = {};  ///< at the end; rest.steps = 0: the cell is left in motion
 };
 
 struct PathReport {
@@ -54,7 +43,8 @@ struct CompressionOptions {
   double tolerance = 1e-3;       ///< of the pressures, relative
   double inertialNumber = 1e-2;  ///< of the fastest strain rate
   double damping = 0.7;
-  RestOptions rest = {};
+  RestCriterion rest = {};
+  double stepFraction = 0.8;
   std::int64_t steps = 1000000;  ///< given up after so many
 };
 

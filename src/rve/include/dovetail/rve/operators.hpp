@@ -37,7 +37,7 @@ Tangent elasticProbe(const Rve& cell, const ProbeOptions& settings = {});
 
 struct NumericalTangentOptions {
   double strain = 1e-5;  ///< > 0
-  PathOptions path{.rest = {.unbalanced = 1e-6}};
+  PathOptions path{.rest = {.tolerance = 1e-6}};
 };
 
 /// Differences of the answers themselves: P of the paths from the committed cell to F and to F with each component a

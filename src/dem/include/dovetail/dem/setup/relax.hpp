@@ -4,25 +4,22 @@
 #include <cstdint>
 #include <functional>
 
+#include "dovetail/core/rest.hpp"
 #include "dovetail/dem/model/model.hpp"
 
 namespace dovetail::dem {
 
+/// Parameters of FIRE.
 struct RelaxationOptions {
-  double unbalanced = 1e-4;                    ///< at rest when RelaxationReport::unbalanced is no more than this
-  std::int64_t steps = 200000;                 ///< given up after so many
   double stepFraction = 0.6;                   ///< of the critical step, which is computed anew now and then; in (0, 1)
   std::int64_t lookEvery = 20;                 ///< steps between two checks of the contacts
   std::function<bool(const Model&)> enough{};  ///< called at every check: whether to stop here, at rest or not
 };
 
-struct RelaxationReport {
-  bool atRest = false;
-  /// Mean force on a particle or body over the mean contact force; rattlers and driven particles left out. A body's
-  /// torque counts as the force that exerts it at the surface of the sphere of the same mass and mean moment of
-  /// inertia. Where a servo's load is further from being carried, relative to it, that counts.
-  double unbalanced = 0.0;
-  std::int64_t steps = 0;     ///< taken
+/// The residual is the mean force on a particle or body over the mean contact force; rattlers and driven particles left
+/// out. A body's torque counts as the force that exerts it at the surface of the sphere of the same mass and mean
+/// moment of inertia. Where a servo's load is further from being carried, relative to it, that counts.
+struct RelaxationReport : RestReport {
   std::int64_t rattlers = 0;  ///< particles and bodies without contacts and forces
 };
 
@@ -34,7 +31,7 @@ struct RelaxationReport {
 /// particles are held where they are, and go on along their path afterwards.
 /// @throws InputError if a setting is not valid, or walls, their surfaces or driven particles move; NumericalError as
 ///   advance
-RelaxationReport relax(Model& m, const RelaxationOptions& settings = {});
+RelaxationReport relax(Model& m, const RestCriterion& rest = {}, const RelaxationOptions& settings = {});
 
 /// ½ Σ m v² + ½ Σ ω·L of particles, bodies and walls with a servo, J.
 double kineticEnergy(const Model& m);
