@@ -4,6 +4,9 @@
 #include <cmath>
 #include <iomanip>
 #include <ostream>
+#include <utility>
+
+#include "dovetail/core/error.hpp"
 
 namespace dovetail {
 
@@ -36,8 +39,55 @@ void EnergyLedger::close() {
 }
 
 double EnergyLedger::joules(std::string_view name) const {
-  const auto found = std::ranges::find_if(channels_, [&](const Channel& channel) { return channel.name == name; });
+  const auto found = std::ranges::find(channels_, name, &Channel::name);
   return found == channels_.end() ? 0.0 : found->joules;
+}
+
+const EnergyLedger::Channel* EnergyLedger::find(std::string_view name, Kind kind) const {
+  const auto found =
+      std::ranges::find_if(channels_, [&](const Channel& one) { return one.kind == kind && one.name == name; });
+  return found == channels_.end() ? nullptr : &*found;
+}
+
+void EnergyLedger::set(std::string_view name, Kind kind, double joules) {
+  const Channel* const known = find(name, kind);
+  if (!known && kind == Kind::booked && joules == 0.0) return;
+  set(known ? static_cast<Id>(known - channels_.data()) : addChannel(std::string(name), kind), joules);
+}
+
+void EnergyLedger::add(std::string_view name, double joules) {
+  if (joules == 0.0) return;
+  const Channel* const known = find(name, Kind::booked);
+  set(name, Kind::booked, known ? known->joules + joules : joules);
+}
+
+void EnergyLedger::save(ByteWriter& archive) const {
+  archive(static_cast<std::int64_t>(channels_.size()));
+  for (const Channel& channel : channels_)
+    archive(std::vector<char>(channel.name.begin(), channel.name.end()), static_cast<std::int64_t>(channel.kind),
+            channel.joules, channel.joulesAtOpening);
+}
+
+void EnergyLedger::load(ByteReader& archive) {
+  EnergyLedger read;
+  std::vector<double> now;
+  std::int64_t count = 0;
+  for (archive(count); static_cast<std::int64_t>(now.size()) < count;) {
+    std::vector<char> name;
+    std::int64_t kind = 0;
+    double joules = 0.0, atOpening = 0.0;
+    archive(name, kind, joules, atOpening);
+    const std::string text(name.begin(), name.end());
+    const bool booked = kind == static_cast<std::int64_t>(Kind::booked);
+    if (!(booked || kind == static_cast<std::int64_t>(Kind::stored)) || !std::isfinite(joules + atOpening) ||
+        (booked && read.find(text, Kind::booked)))
+      throw InputError("the channel \"" + text + "\" is damaged", "ledger", "take an older checkpoint");
+    read.set(read.addChannel(text, booked ? Kind::booked : Kind::stored), atOpening);
+    now.push_back(joules);
+  }
+  read.open();
+  for (Id id = 0; id < now.size(); ++id) read.set(id, now[id]);
+  *this = std::move(read);
 }
 
 double EnergyLedger::residual() const { return (stored() - storedAtOpening_) + (booked() - bookedAtOpening_); }

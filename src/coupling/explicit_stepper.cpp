@@ -17,7 +17,7 @@ public:
   void start(double dt, int K) override {
     dt_ = dt;
     K_ = K;
-    if (solid_) carryOver(solid_->book.ledger());
+    if (solid_) carryOver(solid_->ledger);
     solid_.emplace(*model_, options_.massFraction, macroStep());
     side.mass = &solid_->motion.mass();
     solid_->sample();
@@ -86,8 +86,8 @@ public:
   double kineticEnergy() const override { return solid_->motion.kineticEnergy(); }
 
   void sample(EnergyLedger& ledger) override {
-    copyChannels(solid_->book.ledger(), kineticEnergy(), ledger);
-    if (K_ > 1) setChannel(ledger, side.name + ": time splitting", EnergyLedger::Kind::stored, splitting());
+    copyChannels(solid_->ledger, kineticEnergy(), ledger);
+    if (K_ > 1) ledger.set(side.name + ": time splitting", EnergyLedger::Kind::stored, splitting());
   }
 
   void save(ByteWriter& archive) override {

@@ -1,5 +1,4 @@
 // What a run holds.
-#include <algorithm>
 #include <map>
 #include <ostream>
 
@@ -13,24 +12,20 @@ using enum EnergyLedger::Kind;
 
 void setParticles(const dem::Model& grains, EnergyLedger& ledger) {
   const dem::Energies e = dem::energies(grains);
-  setChannel(ledger, "particles: kinetic", stored, e.kinetic);
-  setChannel(ledger, "particles: contacts", stored, e.contacts);
-  setChannel(ledger, "particles: gravity", stored, e.gravity);
-  setChannel(ledger, "particles: dashpots", booked, e.lost.dissipatedPower);
-  setChannel(ledger, "particles: friction", booked, e.lost.frictionPower);
-  setChannel(ledger, "particles: rolling", booked, e.lost.rollingPower);
-  setChannel(ledger, "particles: plastic contacts", booked, e.lost.plasticPower);
-  setChannel(ledger, "particles: fracture", booked, e.lost.fracturePower);
-  setChannel(ledger, "particles: damping", booked, e.damping);
-  setChannel(ledger, "particles: left", booked, e.left);
-  setChannel(ledger, "particles: entered (minus)", booked, -e.entered);
-  setChannel(ledger, "particles: work of walls and drives (minus)", booked, -e.walls);
-  setChannel(ledger, "particles: work of external forces (minus)", booked, -e.external);
-  setChannel(ledger, "particles: gravity work across periods (minus)", booked, -e.lifted);
-}
-
-bool has(const EnergyLedger& ledger, const std::string& name) {
-  return std::ranges::any_of(ledger.channels(), [&](const auto& channel) { return channel.name == name; });
+  ledger.set("particles: kinetic", stored, e.kinetic);
+  ledger.set("particles: contacts", stored, e.contacts);
+  ledger.set("particles: gravity", stored, e.gravity);
+  ledger.set("particles: dashpots", booked, e.lost.dissipatedPower);
+  ledger.set("particles: friction", booked, e.lost.frictionPower);
+  ledger.set("particles: rolling", booked, e.lost.rollingPower);
+  ledger.set("particles: plastic contacts", booked, e.lost.plasticPower);
+  ledger.set("particles: fracture", booked, e.lost.fracturePower);
+  ledger.set("particles: damping", booked, e.damping);
+  ledger.set("particles: left", booked, e.left);
+  ledger.set("particles: entered (minus)", booked, -e.entered);
+  ledger.set("particles: work of walls and drives (minus)", booked, -e.walls);
+  ledger.set("particles: work of external forces (minus)", booked, -e.external);
+  ledger.set("particles: gravity work across periods (minus)", booked, -e.lifted);
 }
 
 /// Those of one name together.
@@ -41,8 +36,8 @@ void setConnectors(const dem::Model& grains, EnergyLedger& ledger) {
     joules[connector->name()].second += connector->lost();
   }
   for (const auto& [name, sum] : joules) {
-    if (sum.first != 0.0 || has(ledger, name + ": stored")) setChannel(ledger, name + ": stored", stored, sum.first);
-    setChannel(ledger, name + ": lost", booked, sum.second);
+    if (sum.first != 0.0 || ledger.find(name + ": stored", stored)) ledger.set(name + ": stored", stored, sum.first);
+    ledger.set(name + ": lost", booked, sum.second);
   }
 }
 
@@ -55,8 +50,8 @@ const EnergyLedger& CoupledRun::ledger() {
   setParticles(grains, ledger);
   for (const auto& solid : impl_->solids) solid->sample(ledger);
   setConnectors(grains, ledger);
-  setChannel(ledger, "kinetic damping", booked, impl_->broughtToRest);
-  setChannel(ledger, "staggering error (minus what it made)", booked, -impl_->madeByLag);
+  ledger.set("kinetic damping", booked, impl_->broughtToRest);
+  ledger.set("staggering error (minus what it made)", booked, -impl_->madeByLag);
   ledger.close();
   return ledger;
 }

@@ -79,11 +79,10 @@ void SolidStepper::copyChannels(const EnergyLedger& own, double kinetic, EnergyL
   double supports = -side.supportWork;
   for (const EnergyLedger::Channel& channel : own.channels()) {
     if (channel.name == "supports") supports += channel.joules;
-    setChannel(ledger, side.name + ": " + channel.name, channel.kind,
-               channel.name == "kinetic" ? kinetic : channel.joules);
+    ledger.set(side.name + ": " + channel.name, channel.kind, channel.name == "kinetic" ? kinetic : channel.joules);
   }
-  setChannel(ledger, side.name + ": supports", EnergyLedger::Kind::booked, supports);
-  setChannel(ledger, side.name + ": booked with earlier steps", EnergyLedger::Kind::booked, bookedBefore);
+  ledger.set(side.name + ": supports", EnergyLedger::Kind::booked, supports);
+  ledger.set(side.name + ": booked with earlier steps", EnergyLedger::Kind::booked, bookedBefore);
 }
 
 std::unique_ptr<SolidStepper> makeStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options) {
@@ -91,16 +90,6 @@ std::unique_ptr<SolidStepper> makeStepper(std::unique_ptr<fem::Model> model, con
     throw InputError("there is no model", "solid \"" + options.name + "\"", "give a fem::Model with its terms");
   return options.stepping == Stepping::explicitSteps ? makeExplicitStepper(std::move(model), options)
                                                      : makeImplicitStepper(std::move(model), options);
-}
-
-void setChannel(EnergyLedger& ledger, std::string_view name, EnergyLedger::Kind kind, double joules) {
-  const auto& channels = ledger.channels();
-  const auto found = std::ranges::find_if(channels, [&](const auto& channel) { return channel.name == name; });
-  if (found != channels.end()) return ledger.set(static_cast<EnergyLedger::Id>(found - channels.begin()), joules);
-  if (kind == EnergyLedger::Kind::booked && joules == 0.0) return;
-  std::string own(name);
-  ledger.set(kind == EnergyLedger::Kind::stored ? ledger.addStored(std::move(own)) : ledger.addBooked(std::move(own)),
-             joules);
 }
 
 }  // namespace dovetail::coupling

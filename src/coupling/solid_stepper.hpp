@@ -92,7 +92,4 @@ Momenta totalOf(const NodalLoad& load, const fem::Nodes& nodes);
 
 std::unique_ptr<SolidStepper> makeStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options);
 
-/// Sets a channel of a ledger by its name, added when first met; booked ones appear with their first joule.
-void setChannel(EnergyLedger& ledger, std::string_view name, EnergyLedger::Kind kind, double joules);
-
 }  // namespace dovetail::coupling

@@ -22,7 +22,7 @@ bool anySupportMoves(const Model& model, const DofMap& dofs) {
 
 BookedMotion::BookedMotion(Model& model, double massFraction, double h)
     : motion(model, massFraction),
-      book(model),
+      ledger(model),
       guessesVelocity_(std::ranges::any_of(model.terms, [](const auto& term) { return term->usesVelocity(); })),
       moving_(anySupportMoves(model, motion.dofs())),
       worksAreBooked_(std::ranges::any_of(model.terms, [](const auto& term) { return !term->hasEnergy(); })) {
@@ -81,8 +81,8 @@ bool BookedMotion::halfKick(double h, double time, bool books) {
   giveImpulses(h, changes);
   for (std::size_t k = 0; k < model.terms.size(); ++k)
     if (const Term& term = *model.terms[k]; !term.hasEnergy())
-      book.spend("work of " + term.name(), -workInHalfKick(motion.loads()[k], before_, h));
-  if (moving_) book.spend("supports", kinetic - motion.kineticEnergy() + workInHalfKick(model.nodes.f, before_, h));
+      ledger.add("work of " + term.name(), -workInHalfKick(motion.loads()[k], before_, h));
+  if (moving_) ledger.add("supports", kinetic - motion.kineticEnergy() + workInHalfKick(model.nodes.f, before_, h));
   return finite;
 }
 
@@ -104,21 +104,21 @@ void BookedMotion::save(ByteWriter& archive, const std::string& kind) const {
   std::vector<Vec3> a = acceleration_;
   a.resize(model.nodes.u.size());  // where masses are lumped, forces say it all
   detail::writeModel(archive, kind, model);
-  book.save(archive);
+  ledger.save(archive);
   impulses.save(archive);
   detail::writeStart(archive, {a, model.nodes.f, {motion.loads().begin(), motion.loads().end()}});
 }
 
 struct BookedMotion::State {
   detail::ModelState model;
-  EnergyBook book;
+  ModelLedger ledger;
   ImpulseBook impulses;
   detail::StepStart start;
 };
 
 std::shared_ptr<BookedMotion::State> BookedMotion::read(ByteReader& archive, const std::string& kind) const {
   detail::ModelState state = detail::readModel(archive, kind, motion.model());
-  EnergyBook books = book.read(archive);
+  ModelLedger books = ledger.read(archive);
   ImpulseBook given;
   given.load(archive);
   return std::make_shared<State>(
@@ -127,7 +127,7 @@ std::shared_ptr<BookedMotion::State> BookedMotion::read(ByteReader& archive, con
 
 void BookedMotion::adopt(State& state) {
   detail::adopt(std::move(state.model), motion.model());
-  book = std::move(state.book);
+  ledger = std::move(state.ledger);
   impulses = std::move(state.impulses);
   outside_.clear();
   acceleration_ = std::move(state.start.a);

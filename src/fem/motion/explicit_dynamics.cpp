@@ -23,7 +23,7 @@ struct ExplicitIntegrator::Impl {
       : model(m), options(o), control(m, step, o), dt(control.dt()), solid(m, o.massFraction, dt) {
     if (!samples()) return;
     solid.sample();
-    solid.book.open();
+    solid.ledger.open();
   }
 
   /// Marks states: those of steps that follow the solid say more.
@@ -54,7 +54,7 @@ struct ExplicitIntegrator::Impl {
     if (samples()) {
       const Profile::Stage stage(profile, "energies");
       solid.sample();
-      solid.book.close();
+      solid.ledger.close();
     }
     if (options.safety == 0.0) return;
     const Profile::Stage stage(profile, "stable step");
@@ -94,7 +94,7 @@ void ExplicitIntegrator::runUntil(double t) {
   while (impl_->model.t < t) impl_->stepUntil(t);
   if (impl_->options.checkEvery > 0) impl_->check(false);
 }
-const EnergyLedger& ExplicitIntegrator::ledger() const { return impl_->solid.book.ledger(); }
+const EnergyLedger& ExplicitIntegrator::ledger() const { return impl_->solid.ledger; }
 double ExplicitIntegrator::kineticEnergy() const { return impl_->solid.motion.kineticEnergy(); }
 
 DynamicsReport ExplicitIntegrator::report() const {
@@ -107,7 +107,7 @@ DynamicsReport ExplicitIntegrator::report() const {
   report.stepRange = impl_->control.range();
   report.criticalStep = impl_->control.critical();
   report.steps = impl_->steps;
-  report.ledger = impl_->solid.book.ledger();
+  report.ledger = impl_->solid.ledger;
   report.profile = impl_->profile;
   return report;
 }

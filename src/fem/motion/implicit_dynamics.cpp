@@ -1,7 +1,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
-#include "dovetail/fem/motion/energy_book.hpp"
+#include "dovetail/fem/motion/model_ledger.hpp"
 #include "dovetail/fem/motion/support_kick.hpp"
 #include "implicit_advance.hpp"
 #include "run_state.hpp"
@@ -37,14 +37,14 @@ Scheme energyMomentum() { return {"energy-momentum", true}; }
 
 struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
   double dt;
-  EnergyBook book;
+  ModelLedger ledger;
   ImpulseBook impulses;
 
   Impl(Model& m, double step, const ImplicitOptions& o)
-      : ImplicitMotion::Impl(m, o), dt(requirePositive(step, "dt")), book(m) {
+      : ImplicitMotion::Impl(m, o), dt(requirePositive(step, "dt")), ledger(m) {
     begin(dt);
     sample();
-    book.open();
+    ledger.open();
   }
 
   /// Marks states: conserving steps start from other fields.
@@ -55,7 +55,7 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
     std::vector<double> energies;
     for (const auto& term : model.terms)
       energies.push_back(term->hasEnergy() ? term->energy(model.nodes, {model.t, dt, &mass}) : 0.0);
-    book.sample(model, energies, mass.kineticEnergy(model.nodes.v));
+    ledger.sample(model, energies, mass.kineticEnergy(model.nodes.v));
   }
 
   /// Works of loads and supports and the dissipation of the scheme over the step that has just converged.
@@ -71,7 +71,7 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
     }
     for (std::size_t k = 0; k < model.terms.size(); ++k)
       if (const Term& term = *model.terms[k]; !term.hasEnergy())
-        book.spend("work of " + term.name(), -solver.loadWork(k, motion));
+        ledger.add("work of " + term.name(), -solver.loadWork(k, motion));
     mass.multiply(change, rate);
     const std::vector<Vec3> force = solver.meanForce(), follows = following(motion), freeRinging = following(ringing);
     double support = 0.0, lost = 0.0;
@@ -82,8 +82,8 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
       support += dot(reaction, motion[k] - follows[k]) + dot(rate[k], ringing[k] - freeRinging[k]);
       lost -= dot(reaction, follows[k]) + dot(rate[k], freeRinging[k]);
     }
-    book.spend("supports", -support);
-    book.spend("dissipation of the scheme", lost);
+    ledger.add("supports", -support);
+    ledger.add("dissipation of the scheme", lost);
   }
   bool isFree(std::size_t node, int component) const {
     return dofs.freeRow()[3 * node + static_cast<std::size_t>(component)] >= 0;
@@ -138,7 +138,7 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
     if (options.energyEvery > 0) bookWorks(h);
     model.t += h;
     const Profile::Stage stage(profile, "materials accept");
-    book.accept(model, accepted(h), options.energyEvery > 0);
+    ledger.accept(model, accepted(h), options.energyEvery > 0);
   }
 };
 
@@ -150,7 +150,7 @@ ImplicitIntegrator::ImplicitIntegrator(ImplicitIntegrator&&) noexcept = default;
 void ImplicitIntegrator::step() {
   impl_->advance(impl_->dt, [this](double h) { impl_->accept(h); });
   impl_->sample();
-  if (impl_->options.energyEvery > 0 && impl_->steps % impl_->options.energyEvery == 0) impl_->book.close();
+  if (impl_->options.energyEvery > 0 && impl_->steps % impl_->options.energyEvery == 0) impl_->ledger.close();
 }
 void ImplicitIntegrator::run(std::int64_t steps) {
   for (std::int64_t k = 0; k < steps; ++k) step();
@@ -168,7 +168,7 @@ void ImplicitIntegrator::use(const Scheme& scheme) {
 linalg::LinearForecast ImplicitIntegrator::forecast() { return impl_->solver.forecast(); }
 const ModelMass& ImplicitIntegrator::mass() const { return impl_->mass; }
 const ImpulseBook& ImplicitIntegrator::impulses() const { return impl_->impulses; }
-const EnergyLedger& ImplicitIntegrator::ledger() const { return impl_->book.ledger(); }
+const EnergyLedger& ImplicitIntegrator::ledger() const { return impl_->ledger; }
 double ImplicitIntegrator::kineticEnergy() const { return impl_->mass.kineticEnergy(impl_->model.nodes.v); }
 
 Vec3 ImplicitIntegrator::momentum() const {
@@ -201,14 +201,14 @@ DynamicsReport ImplicitIntegrator::report() const {
   report.factorisations = impl_->solver.solver().factorisations();
   report.largestResidual = impl_->largestResidual;
   report.atMeanState = impl_->solver.termsAtMeanState();
-  report.ledger = impl_->book.ledger();
+  report.ledger = impl_->ledger;
   report.profile = impl_->profile;
   return report;
 }
 
 void ImplicitIntegrator::save(ByteWriter& archive) const {
   detail::writeModel(archive, impl_->kind(), impl_->model);
-  impl_->book.save(archive);
+  impl_->ledger.save(archive);
   impl_->impulses.save(archive);
   archive(impl_->steps, impl_->cuts, impl_->iterations, impl_->largestResidual);
   impl_->solver.save(archive);
@@ -216,7 +216,7 @@ void ImplicitIntegrator::save(ByteWriter& archive) const {
 
 void ImplicitIntegrator::load(ByteReader& archive) {
   detail::ModelState state = detail::readModel(archive, impl_->kind(), impl_->model);
-  EnergyBook book = impl_->book.read(archive);
+  ModelLedger ledger = impl_->ledger.read(archive);
   ImpulseBook impulses;
   impulses.load(archive);
   const std::int64_t steps = detail::readCount(archive, "number of steps");
@@ -226,7 +226,7 @@ void ImplicitIntegrator::load(ByteReader& archive) {
   detail::ImplicitStep::State next = impl_->solver.read(archive);
   detail::requireEnd(archive, "ImplicitIntegrator");
   detail::adopt(std::move(state), impl_->model);
-  impl_->book = std::move(book);
+  impl_->ledger = std::move(ledger);
   impl_->impulses = std::move(impulses);
   impl_->steps = steps;
   impl_->cuts = cuts;

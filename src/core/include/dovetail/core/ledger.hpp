@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "dovetail/core/archive.hpp"
+
 namespace dovetail {
 
 /// Books the energy of a run by channel, in joules.
@@ -32,6 +34,9 @@ public:
 
   void set(Id id, double joules) { channels_[id].joules = joules; }
   void add(Id id, double joules) { channels_[id].joules += joules; }
+  /// The same by name, for channels that are added when first met; booked ones appear with their first joule.
+  void set(std::string_view name, Kind kind, double joules);
+  void add(std::string_view name, double joules);
 
   /// Takes the present values as the baseline of residual(), and resets the extremes.
   void open();
@@ -51,8 +56,14 @@ public:
   double largestResidual() const { return largestResidual_; }
 
   const std::vector<Channel>& channels() const { return channels_; }
+  /// Null if there is none of that name and kind.
+  const Channel* find(std::string_view name, Kind kind) const;
   /// Of the channel of that name, J; 0 if there is none: channels of what never happened may be absent.
   double joules(std::string_view name) const;
+
+  void save(ByteWriter& archive) const;
+  /// What save() wrote; the extremes begin anew. @throws InputError if it is damaged; the ledger is then as it was
+  void load(ByteReader& archive);
 
 private:
   Id addChannel(std::string name, Kind kind);

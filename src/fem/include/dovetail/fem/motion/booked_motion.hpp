@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dovetail/core/impulses.hpp"
-#include "dovetail/fem/motion/energy_book.hpp"
+#include "dovetail/fem/motion/model_ledger.hpp"
 #include "dovetail/fem/motion/motion.hpp"
 
 namespace dovetail::fem {
@@ -30,9 +30,9 @@ public:
   /// @return false if a velocity is not finite any more
   bool halfKick(double h, double time, bool books);
   /// The materials accept the step of length h that ends here.
-  void accept(double h, bool books) { book.accept(motion.model(), {motion.model().t, h, &motion.mass()}, books); }
+  void accept(double h, bool books) { ledger.accept(motion.model(), {motion.model().t, h, &motion.mass()}, books); }
   /// Sets the stored channels: energies of the last evaluate with them, and kinetic energy.
-  void sample() { book.sample(motion.model(), motion.energies(), motion.kineticEnergy()); }
+  void sample() { ledger.sample(motion.model(), motion.energies(), motion.kineticEnergy()); }
   /// Work of a force on the nodes in a kick that has changed their velocities from `before`, of half the length h, J.
   double workInHalfKick(std::span<const Vec3> force, std::span<const Vec3> before, double h) const;
 
@@ -46,7 +46,7 @@ public:
   void adopt(State& state);
 
   Motion motion;
-  EnergyBook book;
+  ModelLedger ledger;
   ImpulseBook impulses;  ///< of supports and of the terms but the elements, in kicks that are booked
 
 private:
