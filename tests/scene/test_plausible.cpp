@@ -117,7 +117,7 @@ TEST(ScenePlausible, ElementsThatLock) {
   expectParts(of("0.499", "standard", "tet4"), {"tet4 elements lock", "take tet10"});
   EXPECT_EQ(of("0.499", "enhanced", "hex8"), "");
   expectParts(of(R"(0.3, "yield_stress": 1e3)", "standard", "hex8", "J2"),
-              {"\"b\" flows at constant volume (J2), which hex8"});
+              {"\"b\" flows at constant volume (J2), for which hex8"});
   EXPECT_EQ(of(R"(0.3, "yield_stress": 1e3)", "enhanced", "hex8", "J2"), "");
 }
 

@@ -50,7 +50,7 @@ TEST(SceneReader, UnknownKeysAreToldBeforeValuesAreLookedAt) {
 }
 
 TEST(SceneReader, ControlCharactersAreRefused) {
-  for (const char* text : {"a\0000b", "a\\nb", "\007f"}) {
+  for (const char* text : {"a\\u0000b", "a\\nb", "\\u007f"}) {
     EXPECT_NE(refusal(replaced(smallScene, "linear", text)).find("control character [s.json:4:12]"), std::string::npos);
     EXPECT_NE(refusal(replaced(smallScene, "gravity", text)).find("control character [s.json:2:3]"), std::string::npos);
   }

@@ -41,7 +41,7 @@ TEST(Units, OtherTextIsNoQuantity) {
 }
 
 TEST(Units, BothSignsForMicroAreRead) {
-  for (const char* const text : {"3 us", "3 00b5s", "3 03bcs"}) {
+  for (const char* const text : {"3 us", "3 \u00b5s", "3 \u03bcs"}) {
     const auto found = quantityOf(text);
     ASSERT_TRUE(found) << text;
     EXPECT_NEAR(found->value, 3e-6, 1e-20) << text;
