@@ -161,7 +161,8 @@ void makeOverlap(coupling::CoupledRun& run, const Case& c, const Placement& at) 
   arlequin::CouplingOptions options;
   options.constraint =
       c.joint == Joint::penalty ? arlequin::ConstraintKind::penalty : arlequin::ConstraintKind::multiplier;
-  run.grains.terms.add(std::unique_ptr<dem::Term>(arlequin::makeArlequinCoupling(run.grains, mesh, weight, side, options)));
+  run.grains.terms.add(
+      std::unique_ptr<dem::Term>(arlequin::makeArlequinCoupling(run.grains, mesh, weight, side, options)));
 }
 
 }  // namespace

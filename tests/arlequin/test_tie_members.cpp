@@ -102,8 +102,8 @@ struct Pit {
     for (const Vec3& X : mesh.X) place.push_back(X.z < -1e-9 ? beyondOverlap : std::clamp(1.0 - X.z / top, 0.0, 1.0));
     weight = nodalWeights(place, {});
     auto soil = std::make_unique<fem::Model>(fem::makeModel(mesh));
-    soil->add(
-        fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(2e6, 0.2, 1100.0)), {.fraction = solidWeights(weight)}));
+    soil->add(fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(2e6, 0.2, 1100.0)),
+                             {.fraction = solidWeights(weight)}));
     for (const char* set : {"x-", "x+", "y-", "y+", "z-"}) fem::fix(soil->nodes, mesh.nodeSets.at(set));
     side = &run.addSolid(std::move(soil), {.name = "soil"});
     tie = &g.terms.add(makeArlequinCoupling(g, mesh, weight, *side));

@@ -42,8 +42,8 @@ struct Bed {
     for (const Vec3& X : mesh.X) place.push_back(X.z < -1e-9 ? beyondOverlap : std::clamp(1.0 - X.z / top, 0.0, 1.0));
     weight = nodalWeights(place, {});
     soil = std::make_unique<fem::Model>(fem::makeModel(mesh));
-    soil->add(
-        fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(5e6, 0.25, 1450.0)), {.fraction = solidWeights(weight)}));
+    soil->add(fem::makeSolid(mesh, fem::pointMaterial(fem::neoHookean(5e6, 0.25, 1450.0)),
+                             {.fraction = solidWeights(weight)}));
     soil->add(fem::gravity({0.0, 0.0, -9.81}));
     for (const char* side : {"x-", "x+", "y-", "y+", "z-"}) fem::fix(soil->nodes, mesh.nodeSets.at(side));
   }

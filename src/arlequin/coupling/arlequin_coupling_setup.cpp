@@ -101,8 +101,8 @@ void requireMembers(const Overlap& overlap, const dem::Model& m, double leastWei
 }  // namespace
 
 std::unique_ptr<ArlequinCoupling> makeArlequinCoupling(dem::Model& grains, const fem::SolidMesh& mesh,
-                                                 std::vector<double> nodalWeight, coupling::SolidSide& side,
-                                                 const CouplingOptions& options) {
+                                                       std::vector<double> nodalWeight, coupling::SolidSide& side,
+                                                       const CouplingOptions& options) {
   requireNonNegative(options.penalty, "penalty");
   requireNonNegative(options.absorberRate, "absorber");
   requirePositive(options.leastWeight, "least weight");

@@ -1,6 +1,5 @@
-#include "parameters.hpp"
-
 #include "dovetail/expressions/expressions.hpp"
+#include "parameters.hpp"
 
 namespace dovetail::scene {
 
