@@ -38,7 +38,7 @@ StepLimit criticalStep(const Settings& settings, const Model& model) {
   const double mobility = model.contact->coupling().largestMobility(inverseMass);
   const double contact = std::sqrt(settings.contactStiffness() * (1.0 / particleMass() + mobility));
   if (settings.implicit()) return {2.0 / contact, "contact of a particle with the skin"};
-  const fem::ModelStableStep solid = fem::stableStep(*model.beam->model);
+  const fem::StableStep solid = fem::stableStep(*model.beam->model);
   const std::string name = "element " + std::to_string(solid.element);
   const int K = settings.femEvery;
   if (K == 1) return {2.0 / std::hypot(contact, 2.0 / solid.dt), name + " with a contact on it"};
@@ -54,7 +54,7 @@ double chooseStep(const Settings& settings, const StepLimit& limit) {
   if (dt > limit.dt && !settings.beyondCritical)
     throw InputError(
         "the time step " + formatNumber(dt) + " s is above the critical step " + formatNumber(limit.dt) +
-            " s, set by " + limit.setter,
+            " s, set by " + limit.owner,
         "--dt-factor " + formatNumber(dt / contactTime()),
         "give at most " + formatNumber(std::floor(1e4 * limit.dt / contactTime()) / 1e4) + ", or --dt auto");
   return dt;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "dovetail/core/step_limit.hpp"
 #include "dovetail/scene/build.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 #include "reference/beam_case.hpp"
@@ -23,12 +24,6 @@ struct Model {
 /// beam's axis.
 /// @throws InputError for impossible settings
 Model makeModel(const Settings& settings);
-
-/// The largest stable step and who sets it.
-struct StepLimit {
-  double dt;  ///< critical DEM step, s
-  std::string setter;
-};
 
 /// Wherever on the skin the particles will be. Bounds for the chosen integrators: contacts 2/ω_c with
 /// ω_c² = k (1/m_p + Σ_i S_i²/m_i) at the lightest point; explicit solid 2/ω_e of its worst element, divided by K; both

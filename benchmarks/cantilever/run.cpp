@@ -59,7 +59,7 @@ private:
   void prepareStep() {
     const StepLimit limit = criticalStep(settings(), model_);
     figures().criticalDt = limit.dt;
-    figures().criticalSetter = limit.setter;
+    figures().criticalSetter = limit.owner;
     clock_.dt = figures().dt = chooseStep(settings(), limit);
     requireFeasible(settings(), clock_.dt);
     scene::Scene& scene = model_.scene;

@@ -1,7 +1,6 @@
 // The limit of the step: what all connectors, contacts and solids of a run ask together.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "dovetail/dem/model/impact.hpp"
 #include "dovetail/fem/elements/solid.hpp"
@@ -80,24 +79,24 @@ linalg::LinearForecast CoupledRun::forecast(std::size_t k) {
 
 /// Nodes share their mass among all that pulls at them: contacts of every connector, and the solid's own forces.
 StepLimit CoupledRun::Impl::limitNow(dem::ContactDemand& demand, bool looksAtElements) {
-  StepLimit limit{std::numeric_limits<double>::infinity(), "nothing"};
+  StepLimit limit;
   demand.macroStep = K();
   elements.resize(solids.size());
   for (std::size_t s = 0; s < solids.size(); ++s) {
     const SolidSide& side = solids[s]->side;
     if (side.stepping == Stepping::implicitSteps || !hasElements(*side.model)) continue;
-    if (looksAtElements || elements[s].dt == 0.0) {
-      elements[s] = fem::stableStep(*side.model);
+    if (looksAtElements || std::isinf(elements[s].dt)) {
+      elements[s] = fem::stableStep(*side.model, side.name);
       elements[s].dt /= std::sqrt(lightness(side));
     }
-    if (elements[s].dt / K() < limit.dt) limit = {elements[s].dt / K(), elements[s].owner(side.name)};
+    limit.lower({elements[s].dt / K(), elements[s].owner});
     for (dem::ContactDemand::Side& asked : demand.sides)
       if (asked.of == side.model) asked.ownRate = rateOf(asked.of);
   }
   const dem::ContactStep contacts = dem::criticalStep(demand, grains.particles);
   if (contacts.dt < limit.dt) {
     limit.dt = contacts.dt;
-    if (!contacts.byOwnForces) limit.owner = dem::ownerOf(contacts, grains.particles);
+    if (!contacts.byOwnForces) limit.owner = contacts.owner;
   }
   return limit;
 }
@@ -105,16 +104,16 @@ StepLimit CoupledRun::Impl::limitNow(dem::ContactDemand& demand, bool looksAtEle
 /// ω² of a solid's own forces, 1/s²; 0 if it is stepped implicitly.
 double CoupledRun::Impl::rateOf(const void* model) const {
   for (std::size_t s = 0; s < solids.size() && s < elements.size(); ++s)
-    if (solids[s]->side.model == model && elements[s].dt > 0.0) return 4.0 / (elements[s].dt * elements[s].dt);
+    if (solids[s]->side.model == model) return 4.0 / (elements[s].dt * elements[s].dt);
   return 0.0;
 }
 
 StepLimit CoupledRun::Impl::criticalStep() {
   dem::ContactDemand demand = dem::demandOf(grains);
   StepLimit limit = limitNow(demand, true);
-  const dem::ImpactLimit impact = dem::impactLimit(
-      grains, demand, {.macroStep = K(), .ownRate = [this](const void* model) { return rateOf(model); }});
-  return impact.dt < limit.dt ? StepLimit{impact.dt, impact.owner} : limit;
+  limit.lower(dem::impactLimit(grains, demand,
+                               {.macroStep = K(), .ownRate = [this](const void* model) { return rateOf(model); }}));
+  return limit;
 }
 
 void CoupledRun::Impl::lookAtLimit() {
@@ -122,7 +121,7 @@ void CoupledRun::Impl::lookAtLimit() {
   if (!grains.refusesUnstableSteps || grains.passed) return;
   dem::ContactDemand demand = dem::demandOf(grains);
   const StepLimit limit = limitNow(demand, number % (16 * 2048) == 0);
-  if (dt > limit.dt) grains.passed = {dt, limit.dt, limit.owner, grains.time};
+  if (dt > limit.dt) grains.passed = {dt, limit, grains.time};
 }
 
 }  // namespace dovetail::coupling

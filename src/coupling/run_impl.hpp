@@ -45,7 +45,7 @@ struct CoupledRun::Impl {
   bool ownForcesDue = false;  ///< the macro step ends with it
   bool sampled = true;        ///< energies are wanted
 
-  std::vector<fem::ModelStableStep> elements;  ///< as last looked at, of explicit solids; 0 s: of none
+  std::vector<fem::StableStep> elements;  ///< as last looked at, of explicit solids; infinite: of none
 
   // Of constraints in macro steps of several steps.
   std::vector<Vec3> macroForce;  ///< on particles, N; empty without constraints

@@ -132,7 +132,7 @@ TEST(SceneParts, StepsThatAreAutomaticAreAShareOfTheSmallestLimit) {
   Scene scene = sceneFromText(replaced(smallScene, "1e-4", "\"auto\", \"safety\": 0.1"), "s.json", "/");
   Built built = started(scene);
   double smallest = 1.0;
-  for (const Limit& limit : limits(built, scene)) smallest = std::min(smallest, limit.dt);
+  for (const StepLimit& limit : limits(built, scene)) smallest = std::min(smallest, limit.dt);
   // Two spheres of mass m on a spring: 2/ω = 2 √(m/2k).
   EXPECT_NEAR(smallest, 2.0 * std::sqrt(0.5 * built.run->grains.particles.mass[0] / 5e3), 1e-12);
   EXPECT_EQ(built.run->dt(), 0.1 * smallest);

@@ -288,8 +288,7 @@ TEST(SurfaceContact, NamesTheSurfaceThatSetsTheStep) {
   dem::addParticle(one, {0.3, 0.3, 0.029}, {}, 0.03, dem::Mass{1.0});
   ContactScene scene(mesh, one, rollingLaws());
   scene.start(1e-5);
-  EXPECT_EQ(dem::ownerOf(dem::criticalStep(scene.grains), scene.grains.particles),
-            "the contact of particle 0 with \"contacts\"");
+  EXPECT_EQ(dem::criticalStep(scene.grains).owner, "the contact of particle 0 with \"contacts\"");
 }
 
 TEST(SurfaceContact, RefusesWhatItCannotDo) {

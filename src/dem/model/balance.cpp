@@ -64,12 +64,11 @@ ContactDemand demandOf(const Model& m, double leastOverlap) {
 
 void requireStableStep(const Model& m, double dt, double leastOverlap) {
   const ContactDemand demand = demandOf(m, leastOverlap);
-  const ContactStep contacts = criticalStep(demand, m.particles);
-  const ImpactLimit impact = impactLimit(m, demand);
-  const double limit = std::min(contacts.dt, impact.dt);
-  if (dt <= limit) return;
-  throw InputError("dt = " + formatNumber(dt) + " s exceeds the critical step of " + formatNumber(limit) +
-                       " s, set by " + (impact.dt < contacts.dt ? impact.owner : ownerOf(contacts, m.particles)),
+  StepLimit limit = criticalStep(demand, m.particles);
+  limit.lower(impactLimit(m, demand));
+  if (dt <= limit.dt) return;
+  throw InputError("dt = " + formatNumber(dt) + " s exceeds the critical step of " + formatNumber(limit.dt) +
+                       " s, set by " + limit.owner,
                    "time step",
                    "take a fifth of the limit or less, softer contacts, or scaleMasses for quasi-static scenes");
 }
@@ -78,15 +77,15 @@ bool looksAtLimit(std::int64_t step) { return step == 32 || step == 128 || step 
 
 void lookAtLimit(Model& m) {
   if (m.passed) return;
-  const ContactStep limit = criticalStep(m);
-  if (m.step.dt > limit.dt) m.passed = {m.step.dt, limit.dt, ownerOf(limit, m.particles), m.time};
+  const StepLimit limit = criticalStep(m);
+  if (m.step.dt > limit.dt) m.passed = {m.step.dt, limit, m.time};
 }
 
 void reportOfLimit(const Model& m, const NumericalError& error) {
   if (!m.passed) return;
-  const auto& [dt, limit, owner, time] = *m.passed;
+  const auto& [dt, limit, time] = *m.passed;
   throw NumericalError(std::string(error.what()) + "; its step, " + formatNumber(dt) +
-                           " s, exceeds the critical step of " + formatNumber(limit) + " s, set by " + owner +
+                           " s, exceeds the critical step of " + formatNumber(limit.dt) + " s, set by " + limit.owner +
                            ", at t = " + formatNumber(time) + " s",
                        "", "");
 }

@@ -206,23 +206,39 @@ private:
   Directions directions_;
 };
 
-ContactStep stepWith(const ContactDemand& demand, const LinkReader& ratesOf, double lead) {
+std::string nameOf(const ContactDemand::Link& link, const ContactDemand& demand, const Particles& particles) {
+  const auto name = [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    return "particle " + std::to_string(k < particles.id.size() ? particles.id[k] : std::int64_t{i});
+  };
+  return std::string(link.owner == StepOwner::bond  ? "the bond"
+                     : link.owner == StepOwner::tie ? "the tie"
+                                                    : "the contact") +
+         " of " + name(link.particle) + " with " +
+         (link.partner >= 0  ? name(link.partner)
+          : link.surface < 0 ? "a wall"
+                             : "\"" + demand.surfaces[static_cast<std::size_t>(link.surface)] + "\"");
+}
+
+ContactStep stepWith(const ContactDemand& demand, const Particles& particles, const LinkReader& ratesOf, double lead) {
   ContactStep step;
+  const ContactDemand::Link* setter = nullptr;
   for (std::size_t number = 0; number < demand.links.size(); ++number) {
     const ContactDemand::Link& link = demand.links[number];
     const detail::LinkRates rates = ratesOf(number, lead);
     const double dt = detail::macroLimit(rates, demand.macroStep);
-    if (dt < step.dt) {
-      step.dt = dt;
-      step.particle = link.particle;
-      step.partner = link.partner;
-      step.owner = link.owner;
-      const double own = link.side < 0 ? 0.0 : demand.sides[static_cast<std::size_t>(link.side)].ownRate;
-      const double K = demand.macroStep;
-      step.byOwnForces = K * K * (2.0 * own - rates.macroStiff) > rates.stiff;
-      step.surface = link.surface < 0 ? "" : demand.surfaces[static_cast<std::size_t>(link.surface)];
-    }
+    if (!(dt < step.dt)) continue;
+    step.dt = dt;
+    setter = &link;
+    const double own = link.side < 0 ? 0.0 : demand.sides[static_cast<std::size_t>(link.side)].ownRate;
+    const double K = demand.macroStep;
+    step.byOwnForces = K * K * (2.0 * own - rates.macroStiff) > rates.stiff;
   }
+  if (!setter) return step;
+  step.particle = setter->particle;
+  step.partner = setter->partner;
+  step.kind = setter->owner;
+  step.owner = nameOf(*setter, demand, particles);
   return step;
 }
 
@@ -230,11 +246,11 @@ ContactStep stepWith(const ContactDemand& demand, const LinkReader& ratesOf, dou
 
 ContactStep criticalStep(const ContactDemand& demand, const Particles& particles) {
   const LinkReader ratesOf(demand, particles);
-  ContactStep step = stepWith(demand, ratesOf, 1.0);
+  ContactStep step = stepWith(demand, particles, ratesOf, 1.0);
   // Any fractions are safe. In proportion to what is asked, a weak contact of two members meets the stiff ties of both.
   if (!demand.byTies.empty() || !demand.atMacroSteps.empty())
     for (const double lead : {1.25, 1.5, 2.0})
-      if (ContactStep other = stepWith(demand, ratesOf, lead); other.dt > step.dt) step = std::move(other);
+      if (ContactStep other = stepWith(demand, particles, ratesOf, lead); other.dt > step.dt) step = std::move(other);
   step.twoBody = demand.twoBody;
   return step;
 }
@@ -244,21 +260,6 @@ ContactStep criticalStep(const Particles& particles, const PairList& list, const
   ContactDemand demand;
   laws.addDemand(demand, particles, list, leastOverlap);
   return criticalStep(demand, particles);
-}
-
-std::string ownerOf(const ContactStep& step, const Particles& particles) {
-  const auto name = [&](int i) {
-    const auto k = static_cast<std::size_t>(i);
-    return "particle " + std::to_string(k < particles.id.size() ? particles.id[k] : std::int64_t{i});
-  };
-  if (step.particle < 0) return "nothing";
-  return std::string(step.owner == StepOwner::bond  ? "the bond"
-                     : step.owner == StepOwner::tie ? "the tie"
-                                                    : "the contact") +
-         " of " + name(step.particle) + " with " +
-         (step.partner >= 0      ? name(step.partner)
-          : step.surface.empty() ? "a wall"
-                                 : "\"" + step.surface + "\"");
 }
 
 MassScaling scaleMasses(Particles& particles, const ContactDemand& demand, double dt) {

@@ -174,7 +174,7 @@ private:
 };
 
 void note(ImpactLimit& limit, double dt, double overlap, const std::string& owner) {
-  if (dt < limit.dt) limit.dt = dt, limit.owner = owner;
+  limit.lower({dt, owner});
   if (overlap > limit.overlap) limit.overlap = overlap, limit.deepest = owner;
 }
 

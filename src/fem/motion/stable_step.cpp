@@ -91,24 +91,24 @@ Pull strongestPull(const Model& model) {
 
 }  // namespace
 
-std::string ModelStableStep::owner(const std::string& of) const {
-  return node < 0 ? "element " + std::to_string(element) + " of \"" + of + "\""
-                  : "node " + std::to_string(node) + " of \"" + of + "\", at which \"" + solid + "\" pulls,";
-}
-
-ModelStableStep stableStep(Model& model) {
-  ModelStableStep limit{0.0, -1, {}};
+StableStep stableStep(Model& model, const std::string& of) {
+  StableStep limit;
   for (const auto& term : model.terms)
     if (auto* const solid = dynamic_cast<Solid*>(term.get())) {
-      const StableStep own = solid->stableStep(model.nodes);
-      if (limit.element < 0 || own.dt < limit.dt) limit = {own.dt, own.element, solid->name()};
+      StableStep own = solid->stableStep(model.nodes);
+      if (limit.element < 0 || own.dt < limit.dt) limit = std::move(own);
     }
   if (limit.element < 0)
     throw InputError("the model has no solid", "stableStep", "add one with makeSolid, or ask assembledStableStep");
+  const std::string name = "\"" + (of.empty() ? limit.solid : of) + "\"";
+  limit.owner = "element " + std::to_string(limit.element) + " of " + name;
   const Pull pull = strongestPull(model);
   if (pull.node < 0) return limit;
   const double elements = 4.0 / (limit.dt * limit.dt);
-  if (pull.rate > elements) limit.node = pull.node, limit.solid = pull.term;
+  if (pull.rate > elements) {
+    limit.node = pull.node, limit.solid = pull.term;
+    limit.owner = "node " + std::to_string(pull.node) + " of " + name + ", at which \"" + pull.term + "\" pulls,";
+  }
   limit.dt = 2.0 / std::sqrt(elements + pull.rate);
   return limit;
 }

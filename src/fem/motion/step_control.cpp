@@ -22,8 +22,6 @@ bool hasSolid(const Model& model) {
                              [](const auto& term) { return dynamic_cast<const Solid*>(term.get()) != nullptr; });
 }
 
-std::string setter(const ModelStableStep& stable) { return stable.owner(stable.solid); }
-
 void requireOptions(const ExplicitOptions& options) {
   if (!(options.safety >= 0.0 && options.safety <= 1.0))
     throw InputError("safety is " + formatNumber(options.safety), "ExplicitOptions",
@@ -41,27 +39,27 @@ StepControl::StepControl(Model& model, double dt, const ExplicitOptions& options
   if (follows()) {
     follow(model);
   } else if (options.checkStep && hasSolid(model)) {
-    const ModelStableStep stable = look(model);
+    const StableStep stable = look(model);
     if (dt > critical_)
       throw InputError("dt is " + formatNumber(dt) + " s, the largest stable step is " + formatNumber(critical_) + " s",
-                       setter(stable) + " sets it",
+                       stable.owner + " sets it",
                        "take a smaller step, a coarser mesh there, an implicit scheme, or ExplicitOptions::safety");
   }
 }
 
-ModelStableStep StepControl::look(Model& model) {
-  const ModelStableStep stable = stableStep(model);
+StableStep StepControl::look(Model& model) {
+  const StableStep stable = stableStep(model);
   critical_ = stable.dt * std::sqrt(leastMass(options_.massFraction));
   return stable;
 }
 
 void StepControl::follow(Model& model) {
   const double before = critical_;
-  const ModelStableStep stable = look(model);
+  const StableStep stable = look(model);
   const double dt = std::min(longest_, options_.safety * critical_);
   if (!(dt > 0.0 && dt >= options_.shortest * first_))
     throw NumericalError("the step has fallen to " + formatNumber(dt) + " s",
-                         setter(stable) + ", t = " + formatNumber(model.t) + " s",
+                         stable.owner + ", t = " + formatNumber(model.t) + " s",
                          "the element is crushed: take a law or a mesh that resists, or a smaller "
                          "ExplicitOptions::shortest");
   dt_ = dt;

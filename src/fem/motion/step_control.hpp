@@ -32,7 +32,7 @@ public:
 
 private:
   bool follows() const { return options_.safety > 0.0; }
-  ModelStableStep look(Model& model);
+  StableStep look(Model& model);
   void follow(Model& model);
 
   ExplicitOptions options_;

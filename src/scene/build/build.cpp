@@ -28,16 +28,17 @@ void setLaws(dem::Model& grains, const Scene& scene) {
 }
 
 /// Those that do not depend on how things lie now.
-std::vector<Limit> limitsOfParts(Built& built, const Scene& scene) {
-  std::vector<Limit> found;
+std::vector<StepLimit> limitsOfParts(Built& built, const Scene& scene) {
+  std::vector<StepLimit> found;
   for (std::size_t s = 0; s < built.run->solids(); ++s) {
     coupling::SolidSide& side = built.run->solid(s);
     if (side.stepping == coupling::Stepping::implicitSteps) continue;
-    const fem::ModelStableStep stable = fem::stableStep(*side.model);
-    found.push_back({stable.owner(side.name), stable.dt / scene.steps.stepsPerMacroStep});
+    StepLimit stable = fem::stableStep(*side.model, side.name);
+    stable.dt /= scene.steps.stepsPerMacroStep;
+    found.push_back(std::move(stable));
   }
   const Impact impact = briefestImpact(scene, built.run->grains.particles);
-  found.push_back({"an impact of the smallest grains" + impact.materials, impact.limit});
+  found.push_back({impact.limit, "an impact of the smallest grains" + impact.materials});
   return found;
 }
 
@@ -166,7 +167,7 @@ void start(Built& built, const Scene& scene) {
       return noteCoarseStep(built, scene, scene.steps.dt.number);
     }
     double smallest = built.run->limitAtStart(options).dt;
-    for (const Limit& limit : limitsOfParts(built, scene)) smallest = std::min(smallest, limit.dt);
+    for (const StepLimit& limit : limitsOfParts(built, scene)) smallest = std::min(smallest, limit.dt);
     allLeave = scene.domain && nothingIsThere(built, scene);
     if (allLeave) return;
     if (!std::isfinite(smallest))
@@ -182,10 +183,10 @@ void start(Built& built, const Scene& scene) {
   foreseeSolvers(built);
 }
 
-std::vector<Limit> limits(Built& built, const Scene& scene) {
-  std::vector<Limit> found = limitsOfParts(built, scene);
-  const coupling::StepLimit now = built.run->criticalStep();
-  found.push_back({"the whole as it is now (" + now.owner + ")", now.dt});
+std::vector<StepLimit> limits(Built& built, const Scene& scene) {
+  std::vector<StepLimit> found = limitsOfParts(built, scene);
+  const StepLimit now = built.run->criticalStep();
+  found.push_back({now.dt, "the whole as it is now (" + now.owner + ")"});
   return found;
 }
 

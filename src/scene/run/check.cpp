@@ -36,7 +36,7 @@ void reportParts(Built& built, const Scene& scene, std::ostream& log) {
     log << "solid \"" << run.solid(s).name << "\": " << built.meshes[s].X.size() << " nodes, "
         << built.meshes[s].elementCount() << " elements\n";
   log << "step " << run.dt() << " s\n";
-  for (const Limit& limit : limits(built, scene))
+  for (const StepLimit& limit : limits(built, scene))
     if (std::isfinite(limit.dt))
       log << "  at most " << limit.dt << " s: " << limit.owner << (run.dt() > limit.dt ? "  EXCEEDED" : "") << '\n';
 }

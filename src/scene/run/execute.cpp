@@ -81,8 +81,8 @@ public:
       log_ << lineOf(progress_.stage) << std::endl;
     }
     if (!progress_.toldOfStep) {
-      const coupling::StepLimit limit = built_.run->criticalStep();
-      if (built_.run->dt() > limit.dt) reportOfStep(built_.run->time(), limit.dt, limit.owner);
+      const StepLimit limit = built_.run->criticalStep();
+      if (built_.run->dt() > limit.dt) reportOfStep(built_.run->time(), limit);
     }
     if (const std::string line = scene::lineOf(std::exchange(progress_.deep, {})); !line.empty()) remark(line, true);
     close();
@@ -211,14 +211,13 @@ private:
     if (progress_.macroStep % deepEvery == 0) lookForDeepGrains(built_.run->grains, progress_.deep);
     if (progress_.toldOfStep) return;
     const coupling::CoupledRun& run = *built_.run;
-    if (const auto& passed = run.grains.passed) return reportOfStep(passed->time, passed->limit, passed->owner);
-    if (series_ && series_->limit() && run.dt() > series_->limit()->dt)
-      reportOfStep(run.time(), series_->limit()->dt, series_->limit()->owner);
+    if (const auto& passed = run.grains.passed) return reportOfStep(passed->time, passed->limit);
+    if (series_ && series_->limit() && run.dt() > series_->limit()->dt) reportOfStep(run.time(), *series_->limit());
   }
-  void reportOfStep(double time, double limit, const std::string& owner) {
+  void reportOfStep(double time, const StepLimit& limit) {
     progress_.toldOfStep = true;
-    remark("at t = " + formatNumber(time) + " s the step exceeds the limit of " + formatNumber(limit) + " s set by " +
-               owner + ": take a smaller steps.dt",
+    remark("at t = " + formatNumber(time) + " s the step exceeds the limit of " + formatNumber(limit.dt) + " s set by " +
+               limit.owner + ": take a smaller steps.dt",
            true);
   }
   void frame(std::int64_t every) {

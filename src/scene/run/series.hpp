@@ -44,7 +44,7 @@ public:
   std::uint64_t rows() const { return table_.rows(); }
   const io::TimeSeries& table() const { return table_; }
   /// As last found by this program, if it was.
-  const std::optional<coupling::StepLimit>& limit() const { return limit_; }
+  const std::optional<StepLimit>& limit() const { return limit_; }
   /// Writes what is not written as it grows. @param scene  in full
   void close(const std::string& scene) const;
 
@@ -55,7 +55,7 @@ private:
   SeriesFiles files_;
   std::filesystem::path path_;
   io::GrowingCsv file_;
-  std::optional<coupling::StepLimit> limit_;
+  std::optional<StepLimit> limit_;
 };
 
 /// Does nothing but throw in builds without HDF5. @throws InputError

@@ -26,7 +26,7 @@ Json solidsOf(const Built& built) {
 }
 
 Json stepOf(coupling::CoupledRun& run) {
-  const coupling::StepLimit limit = run.criticalStep();
+  const StepLimit limit = run.criticalStep();
   return {{"dt_s", run.dt()}, {"window_s", run.macroStep()}, {"limit_s", limit.dt}, {"limited_by", limit.owner}};
 }
 

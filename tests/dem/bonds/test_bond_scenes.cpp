@@ -29,8 +29,8 @@ TEST(BondStep, OfAColumnIsFoundBeforeTheFirstStepAndNamesABond) {
   const ContactStep step = criticalStep(model);
   const double k = bonds(model).bonds[0].normal, mass = model.particles.mass[0];
   EXPECT_NEAR(step.dt, 2.0 / std::sqrt(4.0 * k / mass), 1e-12 * step.dt);
-  EXPECT_EQ(step.owner, StepOwner::bond);
-  EXPECT_EQ(ownerOf(step, model.particles).find("the bond of particle "), 0u);
+  EXPECT_EQ(step.kind, StepOwner::bond);
+  EXPECT_EQ(step.owner.find("the bond of particle "), 0u);
   EXPECT_NO_THROW(requireStableStep(model, 0.9 * step.dt));
   EXPECT_THROW(requireStableStep(model, 1.1 * step.dt), InputError);
 }

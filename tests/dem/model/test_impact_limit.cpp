@@ -116,8 +116,8 @@ TEST(RunsThatLook, TellOnceThatTheStateHasPassedTheLimit) {
   run(m, dt, 500);
   ASSERT_TRUE(m.passed);
   EXPECT_EQ(m.passed->dt, dt);
-  EXPECT_LT(m.passed->limit, dt);
-  EXPECT_NE(m.passed->owner.find("particle 0"), std::string::npos);
+  EXPECT_LT(m.passed->limit.dt, dt);
+  EXPECT_NE(m.passed->limit.owner.find("particle 0"), std::string::npos);
   const double time = m.passed->time;
   run(m, dt, 2000);
   EXPECT_EQ(m.passed->time, time);

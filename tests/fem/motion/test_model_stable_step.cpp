@@ -27,20 +27,20 @@ void expectLimits(SolidScene scene) {
   addMass(scene.model);
   setRandomDisplacement(scene.model.nodes, 0.02, 3);
   const double exact = denseLimit(scene.model, *scene.solid);
-  const ModelStableStep bound = stableStep(scene.model);
+  const StableStep bound = stableStep(scene.model);
   EXPECT_LE(bound.dt, exact * (1.0 + 1e-12));
   EXPECT_GT(bound.dt, 0.5 * exact);
   EXPECT_NEAR(assembledStableStep(scene.model, 1e-6), exact, 1e-5 * exact);
 }
 
-TEST(ModelStableStep, TheBoundIsBelowAndLanczosAtTheLimitOfTheSpectrum) {
+TEST(StableStep, TheBoundIsBelowAndLanczosAtTheLimitOfTheSpectrum) {
   for (const SolidKind& kind : allSolidKinds()) {
     SCOPED_TRACE(kind.label());
     expectLimits(solidScene(kind, true));
   }
 }
 
-TEST(ModelStableStep, TheSameForHandWrittenKernelsSharesAndSupports) {
+TEST(StableStep, TheSameForHandWrittenKernelsSharesAndSupports) {
   for (const Formulation formulation : brickFormulations)
     for (const bool distorted : {false, true})
       for (const bool weighted : {false, true}) {
@@ -56,7 +56,7 @@ TEST(ModelStableStep, TheSameForHandWrittenKernelsSharesAndSupports) {
 }
 
 /// One element: the bound is its limit.
-TEST(ModelStableStep, IsExactForOneElement) {
+TEST(StableStep, IsExactForOneElement) {
   for (const Formulation formulation : brickFormulations)
     for (const bool distorted : {false, true}) {
       SolidScene scene = sceneOf(testMesh({1, 1, 1}, distorted), formulation, law);
@@ -66,7 +66,7 @@ TEST(ModelStableStep, IsExactForOneElement) {
     }
 }
 
-TEST(ModelStableStep, IsElementSizeOverWaveSpeedForCubesWithoutPoissonEffect) {
+TEST(StableStep, IsElementSizeOverWaveSpeedForCubesWithoutPoissonEffect) {
   const SolidMesh mesh = boxOf(ElementShape::hex8, {2, 30, 2}, {-0.4, 0.0, -0.4}, {0.4, 12.0, 0.4});
   Model model = sceneOf(mesh, Formulation::standard, StVenantKirchhoff{1.0e8, 0.0, 1309.0}).model;
   addMass(model);
@@ -94,7 +94,7 @@ double growth(Model& model, double dt) {
   return largest / first;
 }
 
-TEST(ModelStableStep, IsWhereExplicitStepsLoseTheirStability) {
+TEST(StableStep, IsWhereExplicitStepsLoseTheirStability) {
   for (const Formulation formulation : brickFormulations)
     for (const bool distorted : {false, true}) {
       Model one = sceneOf(testMesh({1, 1, 1}, distorted), formulation, law).model;
@@ -113,14 +113,14 @@ TEST(ModelStableStep, IsWhereExplicitStepsLoseTheirStability) {
     }
 }
 
-TEST(ModelStableStep, NamesTheSmallestElement) {
+TEST(StableStep, NamesTheSmallestElement) {
   SolidMesh mesh = boxOf(ElementShape::hex8, {4, 1, 1}, {}, {4.0, 1.0, 1.0});
   for (Vec3& X : mesh.X)
     if (X.x > 1.5 && X.x < 2.5) X.x = 2.7;
   for (const auto& material : {pointMaterial(neoHookean(1e6, 0.3, 1000.0)), pointMaterial(Material(law))}) {
     Model model = sceneOf(mesh, material, {.name = "bar"}).model;
     addMass(model);
-    const ModelStableStep limit = stableStep(model);
+    const StableStep limit = stableStep(model);
     EXPECT_EQ(limit.element, 2);
     EXPECT_EQ(limit.solid, "bar");
   }
@@ -128,14 +128,14 @@ TEST(ModelStableStep, NamesTheSmallestElement) {
   EXPECT_THROW(stableStep(empty), InputError);
 }
 
-TEST(ModelStableStep, MissingMassIsRefused) {
+TEST(StableStep, MissingMassIsRefused) {
   Model model = sceneOf(testMesh({1, 1, 1}, false), Formulation::standard, law).model;
   addMass(model);
   model.nodes.mass[3] = 0.0;
   EXPECT_THROW(assembledStableStep(model), InputError);
 }
 
-TEST(ModelStableStep, TiesCountWithTheirWholeMassMatrix) {
+TEST(StableStep, TiesCountWithTheirWholeMassMatrix) {
   SolidScene scene = solidScene({ElementShape::hex8, Formulation::standard}, true);
   Model& model = scene.model;
   addMass(model);

@@ -80,7 +80,7 @@ StableStep SolidBase::stableStep(const Nodes& nodes) {
     }
     if (std::isnan(own)) break;
   }
-  return {2.0 / std::sqrt(largest), cells_.number[worst]};
+  return {{2.0 / std::sqrt(largest), {}}, cells_.number[worst], name()};
 }
 
 }  // namespace dovetail::fem::detail

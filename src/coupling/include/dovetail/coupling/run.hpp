@@ -20,6 +20,7 @@
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/core/profile.hpp"
 #include "dovetail/core/rest.hpp"
+#include "dovetail/core/step_limit.hpp"
 #include "dovetail/coupling/connector.hpp"
 #include "dovetail/coupling/solid_side.hpp"
 #include "dovetail/dem/model/model.hpp"
@@ -52,12 +53,6 @@ struct RunOptions {
   /// solid moves within the middle step.
   int stepsPerMacroStep = 1;
   Lag lag = Lag::none;
-};
-
-/// The largest stable step of the particles, and what sets it.
-struct StepLimit {
-  double dt;  ///< s
-  std::string owner;
 };
 
 /// Momentum and mass now, and their sources since the first start.

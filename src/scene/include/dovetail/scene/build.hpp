@@ -41,12 +41,6 @@ void useVolumeMesher(VolumeMesher mesher);
 /// @throws InputError with the place in the scene file of a part that is impossible, or impossible at its position
 Built build(const Scene& scene);
 
-/// A limit of the time step and what sets it.
-struct Limit {
-  std::string owner;
-  double dt;  ///< s, of the grains; infinite where nothing sets it
-};
-
 /// Starts the run with the scene's step. "auto": the fraction `safety` of the smallest of the critical step at the
 /// start, that of each explicit solid, and the exact one of two of the smallest grains of the scene at an overlap of a
 /// twentieth of their radius; and no more than a fifth of the last, so that an impact takes eight steps, unless springs
@@ -62,6 +56,6 @@ void start(Built& built, const Scene& scene);
 std::vector<std::string> warnings(const Built& built, const Scene& scene, bool starts = true);
 
 /// All limits of the step of the started run in its present state.
-std::vector<Limit> limits(Built& built, const Scene& scene);
+std::vector<StepLimit> limits(Built& built, const Scene& scene);
 
 }  // namespace dovetail::scene

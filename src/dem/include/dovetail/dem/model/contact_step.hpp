@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/core/step_limit.hpp"
 #include "dovetail/dem/laws/law_table.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 
@@ -80,13 +81,11 @@ struct ContactDemand {
   Range add(std::span<const Fraction> some);
 };
 
-/// A step and what sets it.
-struct ContactStep {
-  double dt = std::numeric_limits<double>::infinity();  ///< s, safe; infinite without contacts
-  int particle = -1, partner = -1;                      ///< between which it is set; partner −1: a wall
-  StepOwner owner = StepOwner::contact;                 ///< what sets it
-  std::string surface;                                  ///< what a partner −1 is called; empty: a wall
-  bool byOwnForces = false;                             ///< set mostly by its side's own forces
+/// The owner is "the bond of particle 3 with particle 4", particles by their ids.
+struct ContactStep : StepLimit {
+  int particle = -1, partner = -1;      ///< between which it is set; partner −1: a wall
+  StepOwner kind = StepOwner::contact;  ///< of the owner
+  bool byOwnForces = false;             ///< set mostly by its side's own forces
   /// s; the exact limit 2/ω (√(1 + ζ²) − ζ) of the fastest contact if it were alone and acted along its normal only.
   /// For information: with several contacts per particle it is not safe.
   double twoBody = std::numeric_limits<double>::infinity();
@@ -202,9 +201,6 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
 /// exact motion in between); with K = 1 a and g add up. No implicit scheme lifts it: a connector kicks nodes that are
 /// held fixed.
 ContactStep criticalStep(const ContactDemand& demand, const Particles& particles);
-
-/// For messages: "the bond of particle 3 with particle 4", particles by their ids.
-std::string ownerOf(const ContactStep& step, const Particles& particles);
 
 /// For pairs alone. @param leastOverlap see ContactLaws::addDemand
 ContactStep criticalStep(const Particles& particles, const PairList& list, const ContactLaws& laws,

@@ -22,12 +22,11 @@ struct ImpactPartner {
   bool inMacroSteps = false;
 };
 
-/// The impact with the shortest step, and the deepest one.
-struct ImpactLimit {
-  double dt = std::numeric_limits<double>::infinity();  ///< s; infinite if no impact is possible
-  std::string owner;                                    ///< "an impact of particle 3 with a wall"
-  double overlap = 0.0;                                 ///< over the smaller radius; 2: goes through
-  std::string deepest;                                  ///< its owner
+/// The impact with the shortest step, "an impact of particle 3 with a wall", infinite if none is possible; and the
+/// deepest one.
+struct ImpactLimit : StepLimit {
+  double overlap = 0.0;  ///< over the smaller radius; 2: goes through
+  std::string deepest;   ///< its owner
 };
 
 struct ImpactOptions {

@@ -45,9 +45,9 @@ enum class Rotation {
 
 /// A check of a run that found its step beyond the limit.
 struct PassedLimit {
-  double dt, limit;   ///< s
-  std::string owner;  ///< what sets the limit
-  double time;        ///< s, when it was found
+  double dt;  ///< s
+  StepLimit limit;
+  double time;  ///< s, when it was found
 };
 
 /// Particles, and what acts on them. All parts but particles and laws may be left empty.

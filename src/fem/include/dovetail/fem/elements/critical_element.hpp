@@ -1,11 +1,14 @@
-// The element that limits the explicit step.
+// What limits the explicit step of solids.
 #pragma once
+
+#include "dovetail/core/step_limit.hpp"
 
 namespace dovetail::fem {
 
-struct StableStep {
-  double dt;    ///< s
-  int element;  ///< the one that sets the limit
+struct StableStep : StepLimit {
+  int element = -1;   ///< number in its mesh
+  std::string solid;  ///< name of its term
+  int node = -1;      ///< that springs or planes pull at more than elements do; then `solid` is their term
 };
 
 }  // namespace dovetail::fem
