@@ -36,4 +36,10 @@ double requireNonNegative(double value, const std::string& field) {
   return value;
 }
 
+void requireFraction(double value, const std::string& field, const std::string& where, bool orZero) {
+  if (value < 1.0 && (orZero ? value >= 0.0 : value > 0.0)) return;
+  throw InputError(field + " is " + formatNumber(value), where,
+                   orZero ? "give a fraction of 0 or more, below 1" : "give one above 0 and below 1");
+}
+
 }  // namespace dovetail

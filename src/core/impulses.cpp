@@ -48,8 +48,7 @@ ImpulseBook::Channel ImpulseBook::total() const {
 
 void ImpulseBook::save(ByteWriter& archive) const {
   archive(static_cast<std::uint64_t>(channels_.size()));
-  for (const Channel& one : channels_)
-    archive(std::vector<char>(one.name.begin(), one.name.end()), one.given, one.turnedOver, one.turnedOverAngular);
+  for (const Channel& one : channels_) archive(one.name, one.given, one.turnedOver, one.turnedOverAngular);
 }
 
 void ImpulseBook::load(ByteReader& archive) {
@@ -57,10 +56,8 @@ void ImpulseBook::load(ByteReader& archive) {
   archive(count);
   std::vector<Channel> read;
   for (std::uint64_t k = 0; k < count; ++k) {
-    std::vector<char> name;
     Channel one;
-    archive(name, one.given, one.turnedOver, one.turnedOverAngular);
-    one.name.assign(name.begin(), name.end());
+    archive(one.name, one.given, one.turnedOver, one.turnedOverAngular);
     read.push_back(std::move(one));
   }
   channels_ = std::move(read);

@@ -64,8 +64,7 @@ void EnergyLedger::add(std::string_view name, double joules) {
 void EnergyLedger::save(ByteWriter& archive) const {
   archive(static_cast<std::int64_t>(channels_.size()));
   for (const Channel& channel : channels_)
-    archive(std::vector<char>(channel.name.begin(), channel.name.end()), static_cast<std::int64_t>(channel.kind),
-            channel.joules, channel.joulesAtOpening);
+    archive(channel.name, static_cast<std::int64_t>(channel.kind), channel.joules, channel.joulesAtOpening);
 }
 
 void EnergyLedger::load(ByteReader& archive) {
@@ -73,16 +72,15 @@ void EnergyLedger::load(ByteReader& archive) {
   std::vector<double> now;
   std::int64_t count = 0;
   for (archive(count); static_cast<std::int64_t>(now.size()) < count;) {
-    std::vector<char> name;
+    std::string name;
     std::int64_t kind = 0;
     double joules = 0.0, atOpening = 0.0;
     archive(name, kind, joules, atOpening);
-    const std::string text(name.begin(), name.end());
     const bool booked = kind == static_cast<std::int64_t>(Kind::booked);
     if (!(booked || kind == static_cast<std::int64_t>(Kind::stored)) || !std::isfinite(joules + atOpening) ||
-        (booked && read.find(text, Kind::booked)))
-      throw InputError("the channel \"" + text + "\" is damaged", "ledger", "take an older checkpoint");
-    read.set(read.addChannel(text, booked ? Kind::booked : Kind::stored), atOpening);
+        (booked && read.find(name, Kind::booked)))
+      throw InputError("the channel \"" + name + "\" is damaged", "ledger", "take an older checkpoint");
+    read.set(read.addChannel(name, booked ? Kind::booked : Kind::stored), atOpening);
     now.push_back(joules);
   }
   read.open();

@@ -16,15 +16,10 @@ Momenta kickOf(const dem::Particles& p, std::size_t i, double dt) {
   return kick;
 }
 
-void write(ByteWriter& archive, const std::string& name, const Momenta& value) {
-  archive(std::vector<char>(name.begin(), name.end()), value);
-}
-
 std::pair<std::string, Momenta> read(ByteReader& archive) {
-  std::vector<char> name;
-  Momenta value;
-  archive(name, value);
-  return {{name.begin(), name.end()}, value};
+  std::pair<std::string, Momenta> one;
+  archive(one.first, one.second);
+  return one;
 }
 
 }  // namespace
@@ -89,8 +84,8 @@ void Outside::takeCounted(const dem::Model& m, bool withForces) {
 void Outside::save(ByteWriter& archive) const {
   archive(opening, massAtOpening, entered, gone, static_cast<std::uint64_t>(forces_.size()),
           static_cast<std::uint64_t>(counted_.size()));
-  for (const Source& source : forces_) write(archive, source.name, source.force);
-  for (const auto& [name, impulse] : counted_) write(archive, name, impulse);
+  for (const Source& source : forces_) archive(source.name, source.force);
+  for (const auto& [name, impulse] : counted_) archive(name, impulse);
   given.save(archive);
 }
 

@@ -94,10 +94,11 @@ std::vector<SolidOfState> solidsOf(const std::vector<char>& state) {
   archiveHead(archive, head);
   std::vector<SolidOfState> solids;
   for (std::uint64_t s = 0; s < head.solids; ++s) {
-    std::vector<char> name, own, rest;
+    std::string name;
+    std::vector<char> own, rest;
     bool implicit = false;
     archive(name, implicit, own, rest);
-    solids.push_back({{name.begin(), name.end()}, motionIn(std::move(own), implicit)});
+    solids.push_back({name, motionIn(std::move(own), implicit)});
   }
   return solids;
 }
@@ -123,8 +124,7 @@ std::vector<char> CoupledRun::Impl::save() {
     saveLoad(rest, loadBefore.empty() ? NodalLoad() : loadBefore[s]);
     rest(lagSeen.empty() ? std::vector<Vec3>() : lagSeen[s], side.supportWork);
     side.outside.save(rest);
-    archive(std::vector<char>(side.name.begin(), side.name.end()), side.stepping == Stepping::implicitSteps,
-            own.bytes(), rest.bytes());
+    archive(side.name, side.stepping == Stepping::implicitSteps, own.bytes(), rest.bytes());
   }
   outside.save(archive);
   return archive.bytes();
@@ -141,12 +141,11 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
   requireSame(head.solids == solids.size(), "solids");
   for (const auto& solid : solids) {
     const SolidSide& side = solid->side;
-    std::vector<char> name, own, rest;
+    std::string name;
+    std::vector<char> own, rest;
     bool implicit = false;
     archive(name, implicit, own, rest);
-    requireSame(
-        std::string(name.begin(), name.end()) == side.name && implicit == (side.stepping == Stepping::implicitSteps),
-        "solids");
+    requireSame(name == side.name && implicit == (side.stepping == Stepping::implicitSteps), "solids");
     const std::size_t nodes = side.nodes().X.size();
     ByteReader reader(std::move(own)), others(std::move(rest));
     State::Solid& saved = state.solids.emplace_back();

@@ -21,11 +21,8 @@ void validate(const QuasiStaticCells& settings) {
 
 void validate(const DynamicCells& settings) {
   requirePositive(settings.strainPerStep, "strain of a step");
-  if (!(settings.damping >= 0.0 && settings.damping < 1.0))
-    throw InputError("damping is " + formatNumber(settings.damping), where, "give a fraction of 0 or more, below 1");
-  if (!(settings.stepFraction > 0.0 && settings.stepFraction < 1.0))
-    throw InputError("the fraction of the critical step is " + formatNumber(settings.stepFraction), where,
-                     "give one above 0 and below 1");
+  requireFraction(settings.damping, "damping", where, true);
+  requireFraction(settings.stepFraction, "the fraction of the critical step", where);
 }
 
 /// @throws NumericalError if there are more than a run could want

@@ -21,14 +21,6 @@ SparseMatrix chain(int size, double diagonal) {
   return A;
 }
 
-std::vector<double> productOf(const SparseMatrix& A, const std::vector<double>& x) {
-  std::vector<double> y(x.size());
-  for (std::size_t column = 0; column < x.size(); ++column)
-    for (auto k = static_cast<std::size_t>(A.offsets[column]); k < static_cast<std::size_t>(A.offsets[column + 1]); ++k)
-      y[static_cast<std::size_t>(A.row[k])] += A.value[k] * x[column];
-  return y;
-}
-
 TEST(SparseCholesky, SolvesAndReusesItsAnalysis) {
   SparseCholesky cholesky;
   for (const double diagonal : {2.0, 3.0, 2.5}) {
@@ -37,13 +29,13 @@ TEST(SparseCholesky, SolvesAndReusesItsAnalysis) {
     for (int repeat = 0; repeat < 2; ++repeat) {
       std::vector<double> x(50);
       for (std::size_t i = 0; i < 50; ++i) x[i] = std::sin(static_cast<double>(i + 1));
-      std::vector<double> b = productOf(A, x);
+      std::vector<double> b = multiply(A, x);
       cholesky.solve(b);
       for (std::size_t i = 0; i < 50; ++i) EXPECT_NEAR(b[i], x[i], 1e-12);
     }
   }
   ASSERT_TRUE(cholesky.factor(chain(7, 2.0)));
-  std::vector<double> b = productOf(chain(7, 2.0), std::vector<double>(7, 1.0));
+  std::vector<double> b = multiply(chain(7, 2.0), std::vector<double>(7, 1.0));
   cholesky.solve(b);
   for (const double value : b) EXPECT_NEAR(value, 1.0, 1e-13);
 }

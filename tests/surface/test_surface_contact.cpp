@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "../threads.hpp"
 #include "contact_scene.hpp"
-#include "dovetail/core/parallel.hpp"
 
 namespace dovetail::surface {
 namespace {
@@ -184,19 +184,14 @@ TEST(SurfaceContact, GoesOnBitForBitFromWhatItSaved) {
 }
 
 TEST(SurfaceContact, IsTheSameForAnyNumberOfThreads) {
-  detail::pretendProcessors(3);
   const fem::SolidMesh mesh = softBlock(ElementShape::tet10, {4, 4, 2});
-  std::vector<Vec3> states[2];
-  for (int k = 0; k < 2; ++k) {
-    setThreads(k == 0 ? 1 : 3);
+  const auto states = [&] {
     ContactScene scene(mesh, slantingGrains(100, 9), rollingLaws(0.8), {"lucy", 0.2});
     scene.start(1e-4);
     for (int step = 0; step < 60; ++step) scene.step(1e-4);
-    states[k] = allStates(scene);
-  }
-  setThreads(1);
-  detail::pretendProcessors(0);
-  EXPECT_EQ(states[0], states[1]);
+    return allStates(scene);
+  };
+  EXPECT_EQ(onThreads(1, states), onThreads(3, states));
 }
 
 /// ω² of the stiffest mode of grains and nodes under their contacts alone, by the power method on M⁻¹K, K from

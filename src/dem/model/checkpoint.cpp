@@ -22,9 +22,6 @@ namespace {
 
 constexpr const char* checkpointKind = "dem model 6";
 
-std::vector<char> letters(const std::string& text) { return {text.begin(), text.end()}; }
-std::string word(const std::vector<char>& text) { return {text.begin(), text.end()}; }
-
 std::vector<char> parametersOf(const Model& m) {
   ByteWriter writer;
   if (m.laws) m.laws->saveParameters(writer);
@@ -100,7 +97,7 @@ void saveTerms(ByteWriter& writer, const Model& m) {
   for (const auto& term : m.terms) {
     ByteWriter own;
     term->save(own);
-    writer(letters(term->name()), letters(term->code()), own.bytes());
+    writer(term->name(), term->code(), own.bytes());
   }
 }
 
@@ -109,9 +106,8 @@ std::vector<TermOfState> readTerms(ByteReader& reader) {
   reader(count);
   std::vector<TermOfState> terms;
   for (std::uint64_t k = 0; k < count; ++k) {
-    std::vector<char> name, code, bytes;
-    reader(name, code, bytes);
-    terms.push_back({word(name), word(code), std::move(bytes)});
+    TermOfState& term = terms.emplace_back();
+    reader(term.name, term.code, term.bytes);
   }
   return terms;
 }
@@ -157,11 +153,12 @@ void loadTerms(const std::vector<TermOfState>& saved, const Terms& terms, const 
 }
 
 void requireSameLaws(ByteReader& reader, const Model& m, const std::string& path) {
-  std::vector<char> name, parameters;
+  std::string name;
+  std::vector<char> parameters;
   reader(name, parameters);
   const std::string here = m.laws ? m.laws->name() : "none";
-  if (word(name) != here)
-    refuse("the checkpoint was written under the laws '" + word(name) + "', the model has '" + here + "'", path,
+  if (name != here)
+    refuse("the checkpoint was written under the laws '" + name + "', the model has '" + here + "'", path,
            "set the laws that wrote it");
   if (parameters != parametersOf(m))
     refuse("the parameters of the laws '" + here + "' are not those of the checkpoint", path,
@@ -193,7 +190,7 @@ std::vector<TermOfState> readModel(const std::vector<char>& bytes, const std::st
 
 std::vector<char> saveState(const Model& m) {
   ByteWriter writer;
-  writer(letters(m.laws ? m.laws->name() : "none"), parametersOf(m));
+  writer(m.laws ? m.laws->name() : "none", parametersOf(m));
   archiveScene(writer, m);
   saveDomain(writer, m);
   saveTerms(writer, m);

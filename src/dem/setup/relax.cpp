@@ -97,9 +97,7 @@ FireSums fireSums(const Model& m) {
 void check(const Model& m, const RestCriterion& rest, const RelaxationOptions& s) {
   constexpr const char* beltRemedy = "set its surface velocity to zero until then";
   validate(rest, "relaxation");
-  if (!(s.stepFraction > 0.0 && s.stepFraction < 1.0))
-    throw InputError("the fraction of the critical step is " + formatNumber(s.stepFraction), "relaxation",
-                     "give a number between 0 and 1");
+  requireFraction(s.stepFraction, "the fraction of the critical step", "relaxation");
   if (s.lookEvery < 1) throw InputError("lookEvery is " + std::to_string(s.lookEvery), "relaxation", "give 1 or more");
   for (const PrimitiveWallTerm* term : m.terms.all<PrimitiveWallTerm>())
     if (const Vec3 along = term->wall.servo ? term->wall.servo->direction : Vec3{};

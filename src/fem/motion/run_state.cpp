@@ -44,12 +44,10 @@ void requireSameTerms(ByteReader& archive, const Model& model) {
 
 }  // namespace
 
-void writeText(ByteWriter& archive, const std::string& text) { archive(std::vector<char>(text.begin(), text.end())); }
-
 std::string readText(ByteReader& archive) {
-  std::vector<char> letters;
-  archive(letters);
-  return {letters.begin(), letters.end()};
+  std::string text;
+  archive(text);
+  return text;
 }
 
 double readNumber(ByteReader& archive, const std::string& what) {
@@ -72,9 +70,8 @@ void requireEnd(const ByteReader& archive, const std::string& where) {
 }
 
 void writeModel(ByteWriter& archive, const std::string& run, const Model& model) {
-  writeText(archive, run);
-  archive(static_cast<std::int64_t>(model.terms.size()));
-  for (const auto& term : model.terms) writeText(archive, term->name());
+  archive(run, static_cast<std::int64_t>(model.terms.size()));
+  for (const auto& term : model.terms) archive(term->name());
   archive(model.t, model.nodes.u, model.nodes.v);
   for (const auto& term : model.terms) archive(stateOf(*term));
 }

@@ -36,7 +36,6 @@ void writeStart(ByteWriter& archive, const StepStart& start);
 /// @throws InputError if there are values for other nodes or terms, or a NaN
 StepStart readStart(ByteReader& archive, const Model& model);
 
-void writeText(ByteWriter& archive, const std::string& text);
 std::string readText(ByteReader& archive);
 /// @throws InputError if it is not finite
 double readNumber(ByteReader& archive, const std::string& what);

@@ -80,8 +80,7 @@ void StepControl::accept(Model& model) {
 void StepControl::save(ByteWriter& archive) const {
   if (!follows()) return;
   archive(dt_, first_, critical_, interval_, wait_, range_.shortest, range_.longest,
-          static_cast<std::int64_t>(range_.element));
-  writeText(archive, range_.solid);
+          static_cast<std::int64_t>(range_.element), range_.solid);
 }
 
 StepControl StepControl::read(ByteReader& archive) const {

@@ -16,9 +16,7 @@ void check(const Rve& cell, const CompressionOptions& settings) {
   for (int k = 0; k < cell.dimension(); ++k) requirePositive(settings.pressure[k], "pressure");
   requirePositive(settings.tolerance, "tolerance of the pressures");
   requirePositive(settings.inertialNumber, "inertial number");
-  if (!(settings.damping >= 0.0 && settings.damping < 1.0))
-    throw InputError("damping is " + formatNumber(settings.damping), "compression of a cell",
-                     "give a fraction of 0 or more, below 1");
+  requireFraction(settings.damping, "damping", "compression of a cell", true);
 }
 
 /// Largest relative distance of the pressures from those wanted.

@@ -18,9 +18,7 @@ void check(const CloudOptions& settings) {
   dem::validate(settings.sizes);
   if (settings.count < 1)
     throw InputError("the number of grains is " + std::to_string(settings.count), "cloud of grains", "give 1 or more");
-  if (!(settings.solidFraction > 0.0 && settings.solidFraction < 1.0))
-    throw InputError("the solid fraction is " + formatNumber(settings.solidFraction), "cloud of grains",
-                     "give one above 0 and below 1");
+  requireFraction(settings.solidFraction, "the solid fraction", "cloud of grains");
   requirePositive(settings.thickness, "thickness of the discs");
 }
 

@@ -178,8 +178,7 @@ void step(Rve& cell, double dt, const Eigen::Matrix3d& G, double damping) {
     throw InputError(
         "a step of " + formatNumber(dt) + " s where the critical one is " + formatNumber(s.criticalStep) + " s",
         "cell of grains", "take a fraction below 1 of CellState::criticalStep");
-  if (!(damping >= 0.0 && damping < 1.0))
-    throw InputError("damping is " + formatNumber(damping), "cell of grains", "give a fraction of 0 or more, below 1");
+  requireFraction(damping, "damping", "cell of grains", true);
   s.ledger.damping +=
       cell.frame.empty() ? kickAll(cell, s.force, s.torque, dt, damping) : kickFramed(cell, dt, damping);
   move(cell, dt, G);

@@ -18,11 +18,8 @@ void check(const Rve& cell, const Eigen::Matrix3d& F, const PathOptions& setting
   if (!(settings.inertialNumber > 0.0 && settings.inertialNumber <= 1e-2))
     throw InputError("the inertial number is " + formatNumber(settings.inertialNumber), where,
                      "give one above 0, of at most 0.01: faster is not quasi-static");
-  if (!(settings.damping >= 0.0 && settings.damping < 1.0))
-    throw InputError("damping is " + formatNumber(settings.damping), where, "give a fraction of 0 or more, below 1");
-  if (!(settings.stepFraction > 0.0 && settings.stepFraction < 1.0))
-    throw InputError("the fraction of the critical step is " + formatNumber(settings.stepFraction), where,
-                     "give one above 0 and below 1");
+  requireFraction(settings.damping, "damping", where, true);
+  requireFraction(settings.stepFraction, "the fraction of the critical step", where);
   if (!F.allFinite() || !(F.determinant() > 0.0))
     throw InputError("the determinant of F is " + formatNumber(F.determinant()), where,
                      "give an F that is finite and "

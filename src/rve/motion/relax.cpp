@@ -28,9 +28,7 @@ void lean(Components& v, const Components& force, const std::vector<double>& mas
 
 RestReport relax(Rve& cell, const RestCriterion& rest, double stepFraction) {
   validate(rest, "rest of a cell");
-  if (!(stepFraction > 0.0 && stepFraction < 1.0))
-    throw InputError("the fraction of the critical step is " + formatNumber(stepFraction), "rest of a cell",
-                     "give one above 0 and below 1");
+  requireFraction(stepFraction, "the fraction of the critical step", "rest of a cell");
   CellState& s = cell.state;
   stop(cell);
   dem::Fire fire(stepFraction * s.criticalStep);

@@ -35,11 +35,9 @@ void archiveProgress(Archive& archive, P& p) {
 Checkpoint loadCheckpoint(const fs::path& file) {
   ByteReader archive(readChecked(file, checkpointKind));
   Checkpoint checkpoint;
-  std::vector<char> scene;
-  archive(scene, checkpoint.meshes, checkpoint.time);
+  archive(checkpoint.scene, checkpoint.meshes, checkpoint.time);
   archiveProgress(archive, checkpoint.progress);
   archive(checkpoint.state);
-  checkpoint.scene.assign(scene.begin(), scene.end());
   return checkpoint;
 }
 
@@ -73,7 +71,7 @@ void writeCheckpoint(const fs::path& folder, const std::string& identity, const 
   ByteWriter archive;
   std::vector<std::uint64_t> meshes;
   for (std::size_t s = 0; s < run.solids(); ++s) meshes.push_back(fingerprintOf(run.solid(s).nodes().X));
-  archive(std::vector<char>(identity.begin(), identity.end()), meshes, run.time());
+  archive(identity, meshes, run.time());
   archiveProgress(archive, progress);
   archive(run.save());
   std::error_code none;  // the first one has none before it

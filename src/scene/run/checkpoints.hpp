@@ -20,7 +20,7 @@ namespace dovetail::scene {
 
 /// A sentence on what has happened, without what depends on the machine.
 struct Remark {
-  std::vector<char> text;
+  std::string text;
   bool warns = false;
 };
 template <class Archive, class R>

@@ -33,7 +33,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::int64_t lookEvery = 20;             // macro steps between two looks at signals
 constexpr std::int64_t deepEvery = 5 * lookEvery;  // at contacts: a look costs as much as half a step
 
-std::string textOf(const Remark& remark) { return {remark.text.begin(), remark.text.end()}; }
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// A run under way with its files.
@@ -103,7 +102,7 @@ private:
     counted_ = Clock::now();
   }
   void remark(const std::string& line, bool warns) {
-    progress_.remarks.push_back({{line.begin(), line.end()}, warns});
+    progress_.remarks.push_back({line, warns});
     log_ << (warns ? "WARNING: " : "") << line << std::endl;
   }
 
@@ -216,8 +215,8 @@ private:
   }
   void reportOfStep(double time, const StepLimit& limit) {
     progress_.toldOfStep = true;
-    remark("at t = " + formatNumber(time) + " s the step exceeds the limit of " + formatNumber(limit.dt) + " s set by " +
-               limit.owner + ": take a smaller steps.dt",
+    remark("at t = " + formatNumber(time) + " s the step exceeds the limit of " + formatNumber(limit.dt) +
+               " s set by " + limit.owner + ": take a smaller steps.dt",
            true);
   }
   void frame(std::int64_t every) {
@@ -264,8 +263,8 @@ private:
   void summarise() {
     RunNotes notes;
     for (const Remark& one : progress_.remarks) {
-      notes.lines.push_back((one.warns ? "WARNING: " : "") + textOf(one));
-      if (one.warns) notes.warnings.push_back(textOf(one));
+      notes.lines.push_back((one.warns ? "WARNING: " : "") + one.text);
+      if (one.warns) notes.warnings.push_back(one.text);
     }
     for (const Lines& lines : {strangersIn(built_), hourglassIn(built_)})
       for (const std::string& text : lines) {

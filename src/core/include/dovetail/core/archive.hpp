@@ -11,9 +11,10 @@
 
 namespace dovetail {
 
-/// Collects bytes. `archive(a, b, …)` takes numbers, plain structures of them, and vectors and optionals of such. A
-/// structure with gaps between or behind its members, whose bytes nobody sets, has a function archiveFields(archive,
-/// value) in its namespace that names its members, for both ways: then equal values are equal bytes.
+/// Collects bytes. `archive(a, b, …)` takes numbers, plain structures of them, vectors and optionals of such, and
+/// texts. A structure with gaps between or behind its members, whose bytes nobody sets, has a function
+/// archiveFields(archive, value) in its namespace that names its members, for both ways: then equal values are equal
+/// bytes.
 class ByteWriter {
 public:
   static constexpr bool reads = false;
@@ -49,6 +50,7 @@ private:
       if (count > 0) append(values.data(), count * sizeof(T));
     }
   }
+  void write(const std::string& text) { write(std::vector<char>(text.begin(), text.end())); }
   void append(const void* data, std::size_t size) {
     const char* const from = static_cast<const char*>(data);
     bytes_.insert(bytes_.end(), from, from + size);
@@ -102,6 +104,11 @@ private:
       values.resize(static_cast<std::size_t>(count));
       if (count > 0) extract(values.data(), static_cast<std::size_t>(count) * sizeof(T));
     }
+  }
+  void read(std::string& text) {
+    std::vector<char> letters;
+    read(letters);
+    text.assign(letters.begin(), letters.end());
   }
   void requireLeft(std::uint64_t count, std::size_t size) const;
   void extract(void* data, std::size_t size);

@@ -19,6 +19,8 @@ void requireFinite(std::span<const Vec3> values, const std::string& item, const 
 double requirePositive(double value, const std::string& field);
 /// @throws InputError if value is not finite, or < 0
 double requireNonNegative(double value, const std::string& field);
+/// @throws InputError unless 0 < value < 1, or = 0 where that is allowed
+void requireFraction(double value, const std::string& field, const std::string& where, bool orZero = false);
 
 /// Shortest text that reads back as the same double.
 std::string formatNumber(double value);
