@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr std::size_t grain = 32;
+constexpr std::size_t chunkSize = 32;
 
 Eigen::Vector3d eigen(const Vec3& a) { return {a.x, a.y, a.z}; }
 
@@ -75,7 +75,7 @@ void addParticles(const Kernel& kernel, std::span<const Vec3> points, const Snap
   const ParticleView& particles = snapshot.particles;
   const double peak = kernel.peak();
   const NearItems near(kernel, particles.x, {}, snapshot.space);
-  parallelFor(points.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(points.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     std::vector<Reached> reached;
     for (std::size_t p = begin; p < end; ++p) {
       reached.clear();
@@ -98,7 +98,7 @@ void addBranches(const Kernel& kernel, std::span<const Vec3> points, const Snaps
   }
   const double peak = kernel.peak();
   const NearItems near(kernel, middle, half, snapshot.space);
-  parallelFor(points.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(points.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       Matrix3d sum = Matrix3d::Zero();
       near.forEach(points[p], [&](std::size_t b, const Vec3& place) {

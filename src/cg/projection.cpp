@@ -14,7 +14,7 @@ namespace dovetail::cg {
 
 namespace {
 
-constexpr std::size_t grain = 512, rowGrain = 64;
+constexpr std::size_t chunkSize = 512, rowChunk = 64;
 constexpr std::size_t fewChunks = 16;  // of loops with a work space as long as an input
 
 std::string rowName(int row) { return "projection row " + std::to_string(row); }
@@ -39,7 +39,7 @@ void requireLengths(const Projection& map, std::size_t perRow, std::size_t perCo
 template <class Value>
 void applyRows(const Projection& map, std::span<const Value> in, std::span<Value> out) {
   requireLengths(map, out.size(), in.size(), "apply");
-  parallelFor(out.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(out.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const int r = static_cast<int>(row);
       out[row] = applyRow<Value>(map.rowColumns(r), map.rowWeights(r), in);
@@ -63,7 +63,7 @@ Projection fromRows(int columns, std::span<const ProjectionRow> rows) {
   Projection map;
   map.columns = columns;
   map.offsets.assign(rows.size() + 1, 0);
-  parallelFor(rows.size(), rowGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(rows.size(), rowChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       for (const auto& [column, weight] : rows[row]) requireEntry(static_cast<int>(row), columns, column, weight);
       map.offsets[row + 1] = static_cast<int>(rows[row].size());
@@ -83,7 +83,7 @@ Projection fromRows(int columns, std::span<const ProjectionRow> rows) {
   std::partial_sum(map.offsets.begin(), map.offsets.end(), map.offsets.begin());
   map.column.resize(static_cast<std::size_t>(map.offsets.back()));
   map.weight.resize(map.column.size());
-  parallelFor(rows.size(), rowGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(rows.size(), rowChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       auto place = static_cast<std::size_t>(map.offsets[row]);
       for (const auto& [column, weight] : sorted[row].empty() ? rows[row] : sorted[row]) {
@@ -115,7 +115,7 @@ Projection product(const Projection& a, const Projection& b) {
         "product", "give maps with matching sizes");
   const auto size = static_cast<std::size_t>(a.rows());
   std::vector<ProjectionRow> rows(size);
-  parallelFor(size, std::max(rowGrain, size / fewChunks), [&](std::size_t begin, std::size_t end) {
+  parallelFor(size, std::max(rowChunk, size / fewChunks), [&](std::size_t begin, std::size_t end) {
     std::vector<double> sum(static_cast<std::size_t>(b.columns), 0.0);
     std::vector<char> isSeen(sum.size(), 0);
     std::vector<int> seen;

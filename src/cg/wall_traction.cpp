@@ -44,13 +44,13 @@ VertexTraction wallTraction(const SurfaceKernel& kernel, std::span<const Vec3> v
   requireSameLength(n, contacts.force.size(), "facets and forces of wall contacts");
   requireFiniteItems(contacts.force, "wall contact", "force");
   const Projection toVertices = identityProjection(static_cast<int>(vertices.size()));
-  const std::size_t grain = std::max<std::size_t>(64, (n + 31) / 32);  // each chunk sorts the facets once
-  std::vector<Rows> rows((n + grain - 1) / grain);
+  const std::size_t chunkSize = std::max<std::size_t>(64, (n + 31) / 32);  // each chunk sorts the facets once
+  std::vector<Rows> rows((n + chunkSize - 1) / chunkSize);
   // With no contacts the arguments are checked all the same.
   SurfaceKernelRows checked(kernel, vertices, facets, patchOfFacet, toVertices);
-  parallelFor(n, grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(n, chunkSize, [&](std::size_t begin, std::size_t end) {
     SurfaceKernelRows kernelRows(kernel, vertices, facets, patchOfFacet, toVertices);
-    Rows& part = rows[begin / grain];
+    Rows& part = rows[begin / chunkSize];
     for (std::size_t c = begin; c < end; ++c) {
       kernelRows.row(contacts.facet[c], contacts.barycentric[c], part.column, part.weight);
       part.end.push_back(part.column.size());

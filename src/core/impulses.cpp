@@ -5,28 +5,28 @@
 
 namespace dovetail {
 
-void ImpulseBook::Channel::give(const Momenta& impulse) {
+void ImpulseLedger::Channel::give(const Momenta& impulse) {
   given += impulse;
   turnedOver += norm(impulse.linear);
   turnedOverAngular += norm(impulse.angular);
 }
 
-void ImpulseBook::Channel::add(const Channel& other) {
+void ImpulseLedger::Channel::add(const Channel& other) {
   given += other.given;
   turnedOver += other.turnedOver;
   turnedOverAngular += other.turnedOverAngular;
 }
 
-ImpulseBook::Channel& ImpulseBook::channel(const std::string& name) {
+ImpulseLedger::Channel& ImpulseLedger::channel(const std::string& name) {
   const auto found = std::ranges::find(channels_, name, &Channel::name);
   return found != channels_.end() ? *found : channels_.emplace_back(Channel{name, {}});
 }
 
-void ImpulseBook::give(const std::string& name, const Momenta& impulse) {
+void ImpulseLedger::give(const std::string& name, const Momenta& impulse) {
   if (impulse != Momenta{}) channel(name).give(impulse);
 }
 
-void ImpulseBook::give(const std::string& name, const Momenta& impulse, int& number) {
+void ImpulseLedger::give(const std::string& name, const Momenta& impulse, int& number) {
   if (impulse == Momenta{}) return;
   auto at = static_cast<std::size_t>(number);
   if (number < 0 || at >= channels_.size() || channels_[at].name != name) {
@@ -36,22 +36,22 @@ void ImpulseBook::give(const std::string& name, const Momenta& impulse, int& num
   channels_[at].give(impulse);
 }
 
-void ImpulseBook::add(const std::string& prefix, const ImpulseBook& other) {
+void ImpulseLedger::add(const std::string& prefix, const ImpulseLedger& other) {
   for (const Channel& from : other.channels_) channel(prefix + from.name).add(from);
 }
 
-ImpulseBook::Channel ImpulseBook::total() const {
+ImpulseLedger::Channel ImpulseLedger::total() const {
   Channel sum{"total", {}};
   for (const Channel& one : channels_) sum.add(one);
   return sum;
 }
 
-void ImpulseBook::save(ByteWriter& archive) const {
+void ImpulseLedger::save(ByteWriter& archive) const {
   archive(static_cast<std::uint64_t>(channels_.size()));
   for (const Channel& one : channels_) archive(one.name, one.given, one.turnedOver, one.turnedOverAngular);
 }
 
-void ImpulseBook::load(ByteReader& archive) {
+void ImpulseLedger::load(ByteReader& archive) {
   std::uint64_t count = 0;
   archive(count);
   std::vector<Channel> read;

@@ -108,11 +108,11 @@ public:
   }
 
 protected:
-  const ImpulseBook& ownImpulses() const override { return solid_->impulses; }
+  const ImpulseLedger& ownImpulses() const override { return solid_->impulses; }
 
 private:
   struct Saved final : SavedSolid {
-    ImpulseBook::Channel loads{"connectors", {}};
+    ImpulseLedger::Channel loads{"connectors", {}};
     Momenta added;
     std::shared_ptr<fem::BookedMotion::State> state;
   };

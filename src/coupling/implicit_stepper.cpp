@@ -104,11 +104,11 @@ public:
   }
 
 protected:
-  const ImpulseBook& ownImpulses() const override { return solid_->impulses(); }
+  const ImpulseLedger& ownImpulses() const override { return solid_->impulses(); }
 
 private:
   struct Saved final : SavedSolid {
-    ImpulseBook::Channel loads{"connectors", {}};
+    ImpulseLedger::Channel loads{"connectors", {}};
     std::vector<Vec3> byOwnForces;
     std::vector<char> bytes;
   };

@@ -14,7 +14,7 @@ namespace dovetail::coupling {
 /// half a step with the same forces when the next step begins.
 class Outside {
 public:
-  ImpulseBook given;
+  ImpulseLedger given;
 
   /// The first half kick of a step of dt. Particles that leave before `evaluated` take half a kick of their weight
   /// along.

@@ -61,7 +61,7 @@ struct CoupledRun::Impl::State {
     NodalLoad load, macroStep, before;
     std::vector<Vec3> seen;
     double supportWork = 0.0;
-    ImpulseBook outside;
+    ImpulseLedger outside;
   };
   Outside outside;
   std::vector<Solid> solids;

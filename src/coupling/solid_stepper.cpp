@@ -49,8 +49,8 @@ void SolidStepper::kickTouched(const NodalLoad& load, double dt) {
   side.outside.give("supports", supports);
 }
 
-ImpulseBook SolidStepper::given() const {
-  ImpulseBook sum = side.outside;
+ImpulseLedger SolidStepper::given() const {
+  ImpulseLedger sum = side.outside;
   sum.add("", ownImpulses());
   return sum;
 }

@@ -22,9 +22,9 @@ public:
   virtual ~SolidStepper() = default;
 
   SolidSide side;
-  double bookedBefore = 0.0;                     ///< J, before the last start
-  NodalLoad macroLoad;                           ///< N: what constraints do in both half macro steps around their ends
-  ImpulseBook::Channel loads{"connectors", {}};  ///< what they have given
+  double bookedBefore = 0.0;  ///< J, before the last start
+  NodalLoad macroLoad;        ///< N: what constraints do in both half macro steps around their ends
+  ImpulseLedger::Channel loads{"connectors", {}};  ///< what they have given
 
   /// Forces at the start; the ledger of what was before are kept as one sum. @param dt  of particles, s @param K  steps
   /// per macro step
@@ -63,7 +63,7 @@ public:
   virtual std::vector<Vec3> forces() const = 0;
   virtual double kineticEnergy() const = 0;
   /// What loads of its own and supports have given.
-  ImpulseBook given() const;
+  ImpulseLedger given() const;
   /// Sets its channels, "name: channel".
   virtual void sample(EnergyLedger& ledger) = 0;
 
@@ -72,7 +72,7 @@ public:
   virtual void adopt(SavedSolid& state) = 0;
 
 protected:
-  virtual const ImpulseBook& ownImpulses() const = 0;
+  virtual const ImpulseLedger& ownImpulses() const = 0;
   /// v += dt/m f on the touched nodes, held components apart: these give it to the supports.
   void kickTouched(const NodalLoad& load, double dt);
   void copyChannels(const EnergyLedger& own, double kinetic, EnergyLedger& ledger) const;

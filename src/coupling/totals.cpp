@@ -66,7 +66,7 @@ Totals CoupledRun::totals() const {
   sum.given.give("entered", carried(grains.entered, outside.entered));
   sum.given.give("left", -1.0 * carried(grains.left, outside.gone));
   sum.massGained = (grains.entered.mass - outside.entered.mass) - (grains.left.mass - outside.gone.mass);
-  ImpulseBook::Channel all{"total", {}};
+  ImpulseLedger::Channel all{"total", {}};
   for (const auto& solid : impl_->solids) {
     all.add(solid->loads);
     sum.given.add(solid->side.name + ": ", solid->given());
@@ -95,7 +95,7 @@ void line(std::ostream& out, const std::string& name, const Momenta& m) {
 std::ostream& operator<<(std::ostream& out, const Totals& totals) {
   out << "momentum (kg m/s) and angular momentum about the origin (kg m^2/s)\n";
   line(out, "now", {totals.momentum, totals.angularMomentum});
-  for (const ImpulseBook::Channel& channel : totals.given.channels())
+  for (const ImpulseLedger::Channel& channel : totals.given.channels())
     line(out, "given by " + channel.name, channel.given);
   line(out, "residual", totals.residual);
   const auto fraction = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };

@@ -43,7 +43,7 @@ std::size_t classOf(double inflated, const std::array<double, sizeClasses>& boun
 }
 
 /// Spheres per task.
-constexpr std::size_t grain = 8192;
+constexpr std::size_t chunkSize = 8192;
 
 struct Bounds {
   double smallest = infinity, largest = 0.0;
@@ -92,7 +92,7 @@ HierarchicalGrid::Sizes HierarchicalGrid::checkSpheres(std::span<const Vec3> x, 
     throw InputError("too many particles: " + std::to_string(x.size()), "hierarchical grid",
                      "give at most " + std::to_string(std::numeric_limits<int>::max() / 8));
   requireNonNegative(skin, "skin");
-  const auto [smallest, largest] = parallelSum(x.size(), grain, [&](std::size_t begin, std::size_t end) {
+  const auto [smallest, largest] = parallelSum(x.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     Bounds part;
     for (std::size_t i = begin; i < end; ++i) {
       checkSphere(x[i], radius[i], i);
@@ -132,21 +132,22 @@ void HierarchicalGrid::makeLevels(std::span<const Vec3> x, std::span<const doubl
   const double half = 0.5 * skin_;
   const auto bounds = classBounds(sizes.largest + half);
   const std::size_t count = classOf(sizes.smallest + half, bounds) + 1;
-  const auto classes = distribute<int>((x.size() + grain - 1) / grain, count, [&](std::size_t task, auto&& sink) {
-    for (std::size_t i = task * grain; i < std::min(x.size(), (task + 1) * grain); ++i)
-      sink(count == 1 ? 0 : count - 1 - classOf(radius[i] + half, bounds), static_cast<int>(i));
-  });
+  const auto classes =
+      distribute<int>((x.size() + chunkSize - 1) / chunkSize, count, [&](std::size_t task, auto&& sink) {
+        for (std::size_t i = task * chunkSize; i < std::min(x.size(), (task + 1) * chunkSize); ++i)
+          sink(count == 1 ? 0 : count - 1 - classOf(radius[i] + half, bounds), static_cast<int>(i));
+      });
   for (std::size_t c = 0; c < count; ++c) {
     const auto members = classes[c];
     if (members.empty()) continue;
-    const auto largest = parallelSum(members.size(), grain, [&](std::size_t begin, std::size_t end) {
+    const auto largest = parallelSum(members.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
       Bounds part;
       for (std::size_t s = begin; s < end; ++s) part += Bounds{0.0, radius[static_cast<std::size_t>(members[s])]};
       return part;
     });
     addLevel(members, classes.begin[c], largest.largest + half, x);
   }
-  parallelFor(x.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(x.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       const auto i = static_cast<std::size_t>(id_[s]);
       const Vec3 p = wrapped(x[i]);
@@ -168,7 +169,7 @@ void HierarchicalGrid::addLevel(std::span<const int> members, std::size_t begin,
 /// Chooses the cells of a level: as large as its largest sphere, over the bounding box of its members.
 void HierarchicalGrid::layCells(Level& level, std::span<const int> members, std::span<const Vec3> x) const {
   level.size = 2.0 * level.largest * (1.0 + cellMargin);
-  const Extent extent = parallelSum(members.size(), grain, [&](std::size_t begin, std::size_t end) {
+  const Extent extent = parallelSum(members.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     Extent part;
     for (std::size_t s = begin; s < end; ++s) {
       const Vec3& p = x[static_cast<std::size_t>(members[s])];
@@ -203,12 +204,12 @@ void HierarchicalGrid::sortLevel(Level& level, std::span<const int> members, std
   level.index = index_.size();
   index_.resize(level.index + level.buckets + 2);
   std::fill(index_.end() - 2, index_.end(), static_cast<int>(level.end));
-  const std::size_t tasks = (members.size() + grain - 1) / grain,
+  const std::size_t tasks = (members.size() + chunkSize - 1) / chunkSize,
                     bits = static_cast<std::size_t>(std::bit_width(level.buckets / std::min<std::size_t>(tasks, 512)));
   const std::size_t perRange = std::size_t{1} << bits, ranges = (level.buckets + perRange - 1) >> bits;
   Key* const keys = key_.data() + level.begin;  // of the members as they come; sorted below
   const auto eachOf = [&](std::size_t task, auto&& act) {
-    for (std::size_t s = task * grain; s < std::min(members.size(), (task + 1) * grain); ++s) act(s);
+    for (std::size_t s = task * chunkSize; s < std::min(members.size(), (task + 1) * chunkSize); ++s) act(s);
   };
   const auto rangeOf = [&](Key key) { return static_cast<std::size_t>(key >> level.shift) >> bits; };
   const auto findKeys = [&](std::size_t task, auto&& sink) {
@@ -259,7 +260,7 @@ void HierarchicalGrid::sortBuckets(const Level& level, std::size_t first, std::s
 }
 
 void HierarchicalGrid::renumber(std::span<const int> newNumber) {
-  parallelFor(id_.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(id_.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) id_[s] = newNumber[static_cast<std::size_t>(id_[s])];
   });
 }

@@ -161,7 +161,7 @@ public:
 private:
   void tell(fem::PointAnswer& answer) const {
     Eigen::Map<RowMajor>(answer.P.data()) = rve::nominalStress(cell_);
-    const rve::EnergyBook &now = cell_.state.ledger, &before = committed_.ledger;
+    const rve::RveLedger &now = cell_.state.ledger, &before = committed_.ledger;
     answer.energy = (rve::storedEnergy(cell_) + rve::kineticEnergy(cell_)) / cell_.volume;
     answer.dissipated =
         (now.friction - before.friction + now.damping - before.damping + now.bonds - before.bonds) / cell_.volume;

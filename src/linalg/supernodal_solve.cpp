@@ -11,7 +11,7 @@ constexpr std::size_t worthwhile = 16384;  // entries of L that are worth a thre
 constexpr std::size_t blockColumns = 64, blockRows = 256;
 
 /// Rows of a worthwhile chunk, in whole blocks.
-std::size_t rowGrain(std::size_t columns) {
+std::size_t rowChunk(std::size_t columns) {
   return std::max<std::size_t>(1, worthwhile / (columns * blockRows)) * blockRows;
 }
 /// Columns of one, in fours.
@@ -21,7 +21,7 @@ std::size_t columnGrain(std::size_t rows) { return std::max<std::size_t>(2, wort
 template <class Body>
 void forRows(std::size_t n, std::size_t columns, const Body& body) {
   if (n == 0) return;
-  parallelFor(n, rowGrain(columns), [&](std::size_t begin, std::size_t end) {
+  parallelFor(n, rowChunk(columns), [&](std::size_t begin, std::size_t end) {
     withVectors([&] {
       for (std::size_t r = begin; r < end; r += blockRows) body(r, std::min(r + blockRows, end));
     });

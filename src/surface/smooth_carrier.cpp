@@ -71,9 +71,9 @@ public:
   void findContacts(const dem::Particles& particles, double, dem::WallContacts& contacts) override {
     if (!particle_.empty() && static_cast<std::size_t>(particle_.back()) >= particles.size())
       refuse("a particle that does not exist");
-    constexpr std::size_t grain = 16;
-    std::vector<std::vector<SmoothContact>> parts((particle_.size() + grain - 1) / grain);
-    parallelFor(particle_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t chunkSize = 16;
+    std::vector<std::vector<SmoothContact>> parts((particle_.size() + chunkSize - 1) / chunkSize);
+    parallelFor(particle_.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
       thread_local SmoothScratch scratch;
       for (std::size_t k = begin; k < end; ++k) {
         const std::size_t first = static_cast<std::size_t>(offsets_[k]),
@@ -81,7 +81,7 @@ public:
         const int i = particle_[k];
         appendSmoothContacts(surface_, i, particles.x[i], particles.radius[i],
                              std::span(face_).subspan(first, last - first),
-                             std::span(start_).subspan(first, last - first), scratch, parts[begin / grain]);
+                             std::span(start_).subspan(first, last - first), scratch, parts[begin / chunkSize]);
       }
     });
     clear(contacts);
@@ -151,14 +151,14 @@ private:
 
   /// By face.
   std::vector<Found> findPairs(const dem::Particles& particles, double margin) const {
-    constexpr std::size_t grain = 64;
+    constexpr std::size_t chunkSize = 64;
     geometry::HierarchicalGrid grid;
     grid.build(particles.x, particles.radius);
-    std::vector<Found> parts((surface_.control.size() + grain - 1) / grain);
-    parallelFor(surface_.control.size(), grain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Found> parts((surface_.control.size() + chunkSize - 1) / chunkSize);
+    parallelFor(surface_.control.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
       for (std::size_t face = begin; face < end; ++face)
         grid.query(controlBox(surface_, face, margin), [&](int particle) {
-          parts[begin / grain].push_back({particle, static_cast<int>(face)});
+          parts[begin / chunkSize].push_back({particle, static_cast<int>(face)});
         });
     });
     return parts;

@@ -124,7 +124,7 @@ private:
       if (change <= tolerance * radius_) return;
     }
     if (!(change <= 1e-6 * radius_))
-      throw NumericalError("the shares of patches in its overlap were not found",
+      throw NumericalError("the fractions of patches in its overlap were not found",
                            "particle " + std::to_string(particle_), "take a smaller step, or stiffer contacts");
   }
 

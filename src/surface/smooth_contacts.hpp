@@ -38,7 +38,7 @@ struct SmoothScratch {
 /// Appends the contacts of a particle with the faces near it. Patches that it touches at once share its overlap in the
 /// potential of dem::projectWallContacts, with patches in place of facets.
 /// @param start  per face: where the search for its closest point ended last
-/// @throws NumericalError naming the particle whose closest point or shares were not found
+/// @throws NumericalError naming the particle whose closest point or fractions were not found
 void appendSmoothContacts(const SmoothSurface& surface, int particle, const Vec3& x, double radius,
                           std::span<const int> faces, std::span<std::array<double, 2>> start, SmoothScratch& scratch,
                           std::vector<SmoothContact>& contacts);

@@ -127,7 +127,7 @@ TEST(OneEngine, WorkAndLossesAgreeOnASlidingPath) {
       dem::relax(both.model, {.tolerance = 1e-6});
     }
     const dem::Energies end = dem::energies(both.model);
-    const rve::EnergyBook& ledger = both.cell.state.ledger;
+    const rve::RveLedger& ledger = both.cell.state.ledger;
     const double work = end.external - start.external, friction = end.lost.frictionPower - start.lost.frictionPower,
                  damping = end.damping - start.damping;
     EXPECT_GT(friction, 0.1 * work);

@@ -27,8 +27,8 @@ private:
   int processors_ = detail::processors();
 };
 
-double sumOfRoots(std::size_t n, std::size_t grain) {
-  return parallelSum(n, grain, [](std::size_t begin, std::size_t end) {
+double sumOfRoots(std::size_t n, std::size_t chunkSize) {
+  return parallelSum(n, chunkSize, [](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) sum += 1.0 / std::sqrt(static_cast<double>(i + 1));
     return sum;
@@ -89,12 +89,12 @@ TEST_F(Parallel, ALoopThatEndsBeforeItsThreadsComeIsComplete) {
 }
 
 TEST_F(Parallel, SumsAreBitwiseEqualForAnyNumberOfThreads) {
-  for (std::size_t grain : {64u, 700u, 20000u}) {  // more chunks than fit on the stack, fewer, one
+  for (std::size_t chunkSize : {64u, 700u, 20000u}) {  // more chunks than fit on the stack, fewer, one
     setThreads(1);
-    const double one = sumOfRoots(12345, grain);
+    const double one = sumOfRoots(12345, chunkSize);
     for (int count : {2, 3, 4}) {
       setThreads(count);
-      for (int repeat = 0; repeat < 20; ++repeat) EXPECT_EQ(one, sumOfRoots(12345, grain));
+      for (int repeat = 0; repeat < 20; ++repeat) EXPECT_EQ(one, sumOfRoots(12345, chunkSize));
     }
   }
 }

@@ -12,7 +12,7 @@ namespace dovetail::rve {
 /// What no channel of the book has of the work, over the work; `stored` was the energy in the springs when the book
 /// began.
 inline double ledgerResidual(const Rve& cell, double stored) {
-  const EnergyBook& ledger = cell.state.ledger;
+  const RveLedger& ledger = cell.state.ledger;
   return (ledger.work - (storedEnergy(cell) - stored) - kineticEnergy(cell) - ledger.friction - ledger.damping -
           ledger.bonds) /
          ledger.work;
@@ -25,7 +25,7 @@ void expectLedgerClosesAsStepsShrink(const Rve& start, int parts, const Deformat
   const auto residualOf = [&](double stepFraction) {
     Rve cell = start;
     for (int k = 1; k <= parts; ++k) followPath(cell, F(k), {.stepFraction = stepFraction, .rest = {.steps = 0}});
-    const EnergyBook& ledger = cell.state.ledger;
+    const RveLedger& ledger = cell.state.ledger;
     EXPECT_GT(ledger.friction, 0.05 * ledger.work);
     EXPECT_GT(ledger.damping, 1e-5 * ledger.work);
     return std::abs(ledgerResidual(cell, stored));

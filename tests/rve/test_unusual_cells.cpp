@@ -23,7 +23,7 @@ Rve shearedDiscs() {
 }
 
 double unaccounted(const Rve& cell) {
-  const EnergyBook& ledger = cell.state.ledger;
+  const RveLedger& ledger = cell.state.ledger;
   return ledger.work - ledger.friction - ledger.damping - ledger.bonds - storedEnergy(cell);
 }
 

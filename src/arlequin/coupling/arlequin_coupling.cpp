@@ -14,7 +14,7 @@ namespace dovetail::arlequin {
 
 namespace {
 
-constexpr std::size_t grain = 256;
+constexpr std::size_t chunkSize = 256;
 
 }  // namespace
 
@@ -106,7 +106,7 @@ void ArlequinCoupling::Impl::comply(dem::Model& m, std::span<const Vec3> goal) {
 std::vector<Vec3> ArlequinCoupling::Impl::accelerationUnder(const dem::Model& m, std::vector<Vec3> onNodes) const {
   const std::vector<double> mass = yieldingMasses(m);
   std::vector<Vec3> ofMembers(overlap.size()), acceleration(parts.gap.rows());
-  parallelFor(ofMembers.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(ofMembers.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const auto i = static_cast<std::size_t>(overlap.particle[k]);
       ofMembers[k] = (1.0 / mass[i]) * m.particles.f[i];
@@ -127,7 +127,7 @@ void ArlequinCoupling::Impl::evaluate(dem::Model& m, const dem::Step& step) {
     else
       gapOf(parts.gap, overlap, m.particles.v, nodes().v, velocity);
     std::vector<Vec3> onNodes = side.load.force;
-    parallelFor(side.own.size(), 16 * grain, [&](std::size_t begin, std::size_t end) {
+    parallelFor(side.own.size(), 16 * chunkSize, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n) onNodes[n] += side.own[n];
     });
     acceleration = accelerationUnder(m, std::move(onNodes));
@@ -139,7 +139,7 @@ void ArlequinCoupling::Impl::evaluate(dem::Model& m, const dem::Step& step) {
 void ArlequinCoupling::Impl::loadNodes(std::span<const Vec3> forces, coupling::NodalLoad& load) const {
   const std::vector<int>& node = parts.gap.coupledNode;
   std::vector<Vec3> onNodes(node.size());
-  parallelFor(node.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(node.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
       onNodes[n] = cg::applyRow(parts.gap.nodesBack, static_cast<int>(n), forces);
   });

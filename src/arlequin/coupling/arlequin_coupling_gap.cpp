@@ -9,7 +9,7 @@ namespace dovetail::arlequin {
 
 namespace {
 
-constexpr std::size_t grain = 256;
+constexpr std::size_t chunkSize = 256;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Vec3 ArlequinCoupling::Impl::displacement(const dem::Model& m, std::size_t k) co
 
 std::vector<Vec3> ArlequinCoupling::Impl::displacements(const dem::Model& m) const {
   std::vector<Vec3> q(overlap.size());
-  parallelFor(q.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(q.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) q[k] = displacement(m, k);
   });
   return q;
@@ -55,7 +55,7 @@ void ArlequinCoupling::Impl::turnKept() {
       const auto at = static_cast<std::size_t>(n);
       moved[at] = u[at] - nodesBefore[at];
     }
-    parallelFor(kept.size(), grain, [&](std::size_t begin, std::size_t end) {
+    parallelFor(kept.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
       for (std::size_t r = begin; r < end; ++r)
         if (squaredNorm(kept[r]) > 0.0) kept[r] = turned(kept[r], RowSpin(parts.gap, r, x).of(moved));
     });
@@ -66,7 +66,7 @@ void ArlequinCoupling::Impl::turnKept() {
 void ArlequinCoupling::Impl::updateGap(const dem::Model& m, bool timeless) {
   turnKept();
   std::vector<Vec3> next = freshGap(m);
-  parallelFor(next.size(), 4 * grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(next.size(), 4 * chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
       next[r] += kept[r];
       if (!timeless) increment[r] = next[r] - now[r];
@@ -77,7 +77,7 @@ void ArlequinCoupling::Impl::updateGap(const dem::Model& m, bool timeless) {
 
 std::vector<Vec3> ArlequinCoupling::Impl::motionUnder(std::span<const Vec3> forces) const {
   std::vector<Vec3> moved(overlap.size());
-  parallelFor(moved.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(moved.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       moved[k] = (1.0 / parts.stiffness[k]) * cg::applyRow(parts.gap.particlesBack, static_cast<int>(k), forces);
   });

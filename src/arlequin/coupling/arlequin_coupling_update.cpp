@@ -13,7 +13,7 @@ namespace dovetail::arlequin {
 
 namespace {
 
-constexpr std::size_t grain = 256;
+constexpr std::size_t chunkSize = 256;
 constexpr double shellRadii = 4.0;  // within which particles outside are watched one by one
 
 /// Around all nodes, or those with a weight above 0.
@@ -101,14 +101,14 @@ OverlapUpdate ArlequinCoupling::Impl::lookAgain(const dem::Model& m, const Overl
   const double stays = turnsGap() ? 0.5 : 0.0;     // shorter ones are left as they are
   std::vector<double> slips(overlap.size(), 0.0);  // over their slip lengths
   std::vector<FoundParticle> again(overlap.size()), arrived(near.size());
-  parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(overlap.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (overlap.place[k].element >= 0)
         slips[k] = norm(displacement(m, k) - atMember(k, nodes().u)) / slipLength(m, k);
       if (slips[k] > stays) again[k] = findAgain(overlap.particle[k]);
     }
   });
-  parallelFor(near.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(near.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) arrived[k] = findAgain(near[k]);
   });
   OverlapUpdate update(overlap.nodalWeight, m.particles.size());

@@ -12,7 +12,7 @@ namespace dovetail::arlequin {
 
 namespace {
 
-constexpr std::size_t grain = 256;
+constexpr std::size_t chunkSize = 256;
 constexpr std::size_t largestCell = 27;  // nodes
 
 auto order(const PairWeight& pair) { return std::tuple(pair.i, pair.j); }
@@ -82,7 +82,7 @@ void PairWeights::update(const dem::Particles& particles, dem::PairList& list, c
       place.push_back(p);
   std::vector<PairWeight> now(place.size());
   std::vector<char> isNew(place.size(), 0), isAsked(overlap.size(), 0);
-  parallelFor(place.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(place.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       PairWeight& pair = now[k] = {list.pairs()[place[k]][0], list.pairs()[place[k]][1], 0.0};
       const auto known = std::ranges::lower_bound(pairs, order(pair), {}, order);
@@ -98,12 +98,12 @@ void PairWeights::update(const dem::Particles& particles, dem::PairList& list, c
       if (const int member = memberOf[static_cast<std::size_t>(i)]; isNew[k] && member >= 0)
         isAsked[static_cast<std::size_t>(member)] = overlap.place[static_cast<std::size_t>(member)].element >= 0;
   std::vector<Vec3> gradient(overlap.size());
-  parallelFor(gradient.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(gradient.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       if (isAsked[k]) gradient[k] = weightGradient(mesh, overlap, k, position);
   });
   const std::span<double> factors = list.writeFactors();
-  parallelFor(place.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(place.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (isNew[k]) now[k].weight = weightAt(particles, list, place[k], overlap, gradient, memberOf);
       if (double& factor = factors[place[k]]; factor != 0.0) factor = now[k].weight;

@@ -8,7 +8,7 @@ namespace dovetail::arlequin {
 
 namespace {
 
-constexpr std::size_t grain = 256;
+constexpr std::size_t chunkSize = 256;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ Compliance::Compliance(const GapOperator& gap, const Overlap& overlap, std::span
 
 /// ofNodes ← M_FE⁻¹ Bᵀ in.
 void Compliance::moveNodes(std::span<const Vec3> in) const {
-  parallelFor(ofNodes_.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(ofNodes_.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       ofNodes_[n] = cg::applyRow(nodesBack_, static_cast<int>(n), in);
       if (!nodeYield_.empty())
@@ -51,12 +51,12 @@ void Compliance::moveNodes(std::span<const Vec3> in) const {
 }
 
 void Compliance::apply(std::span<const Vec3> in, std::span<Vec3> out) const {
-  parallelFor(ofParticles_.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(ofParticles_.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       ofParticles_[k] = yield_[k] * cg::applyRow(particlesBack_, static_cast<int>(k), in);
   });
   moveNodes(in);
-  parallelFor(out.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(out.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r)
       out[r] = cg::applyRow(particles_, static_cast<int>(r), ofParticles_) +
                cg::applyRow(nodes_, static_cast<int>(r), ofNodes_);

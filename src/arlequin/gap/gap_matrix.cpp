@@ -13,7 +13,7 @@ namespace dovetail::arlequin {
 
 namespace {
 
-constexpr std::size_t grain = 64, fewChunks = 16;
+constexpr std::size_t chunkSize = 64, fewChunks = 16;
 
 struct Column {
   std::vector<int> row;
@@ -97,7 +97,7 @@ linalg::SparseMatrix gapMatrix(std::span<const WeighedMap> maps) {
   std::vector<Column> columns(size);
   std::vector<MetBlocks> blocks;
   for (const WeighedMap& m : maps) blocks.emplace_back(m.back);
-  parallelFor(size, std::max(grain, size / fewChunks), [&](std::size_t begin, std::size_t end) {
+  parallelFor(size, std::max(chunkSize, size / fewChunks), [&](std::size_t begin, std::size_t end) {
     ColumnSums sums(size);
     for (std::size_t c = begin; c < end; ++c) columns[c] = columnOf(maps, blocks, static_cast<int>(c), sums);
   });
@@ -106,7 +106,7 @@ linalg::SparseMatrix gapMatrix(std::span<const WeighedMap> maps) {
   for (const Column& column : columns) A.offsets.push_back(A.offsets.back() + static_cast<int>(column.row.size()));
   A.row.resize(static_cast<std::size_t>(A.offsets.back()));
   A.value.resize(A.row.size());
-  parallelFor(size, grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(size, chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       std::ranges::copy(columns[c].row, A.row.begin() + A.offsets[c]);
       std::ranges::copy(columns[c].value, A.value.begin() + A.offsets[c]);

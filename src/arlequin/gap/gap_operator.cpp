@@ -11,7 +11,7 @@ namespace dovetail::arlequin {
 
 namespace {
 
-constexpr std::size_t grain = 256;
+constexpr std::size_t chunkSize = 256;
 /// Elements with a weight above 0, with or without particles.
 std::vector<int> weightedElements(const Overlap& overlap, const fem::SolidMesh& mesh) {
   std::vector<int> elements;
@@ -202,7 +202,7 @@ std::vector<double> sumsAtRows(const GapOperator& gap, const Overlap& overlap, c
 
 void gapOfMembers(const GapOperator& gap, std::span<const Vec3> members, std::span<const Vec3> nodes,
                   std::span<Vec3> out) {
-  parallelFor(gap.rows(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(gap.rows(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
       Vec3 sum;
       for (int k = gap.particles.offsets[r]; k < gap.particles.offsets[r + 1]; ++k)
@@ -217,7 +217,7 @@ void gapOfMembers(const GapOperator& gap, std::span<const Vec3> members, std::sp
 void gapOf(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> particles, std::span<const Vec3> nodes,
            std::span<Vec3> out) {
   std::vector<Vec3> members(overlap.size());
-  parallelFor(members.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(members.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) members[k] = particles[overlap.particle[k]];
   });
   gapOfMembers(gap, members, nodes, out);
@@ -225,14 +225,14 @@ void gapOf(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3>
 
 void pullParticles(const GapOperator& gap, const Overlap& overlap, std::span<const Vec3> lambda,
                    std::span<Vec3> particleForce) {
-  parallelFor(overlap.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(overlap.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       particleForce[overlap.particle[k]] -= cg::applyRow(gap.particlesBack, static_cast<int>(k), lambda);
   });
 }
 
 void pullNodes(const GapOperator& gap, std::span<const Vec3> lambda, std::span<Vec3> nodeForce) {
-  parallelFor(gap.coupledNode.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(gap.coupledNode.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
       nodeForce[gap.coupledNode[n]] += cg::applyRow(gap.nodesBack, static_cast<int>(n), lambda);
   });

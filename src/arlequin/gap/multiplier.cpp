@@ -15,10 +15,10 @@ namespace dovetail::arlequin {
 
 namespace {
 
-constexpr std::size_t grain = 1024;
+constexpr std::size_t chunkSize = 1024;
 
 double product(std::span<const Vec3> a, std::span<const Vec3> b) {
-  return parallelSum(a.size(), grain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(a.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t r = begin; r < end; ++r) sum += dot(a[r], b[r]);
     return sum;
@@ -87,7 +87,7 @@ private:
   }
   /// Squared, of a load.
   double sizeOf(std::span<const Vec3> load) const {
-    return parallelSum(load.size(), grain, [&](std::size_t begin, std::size_t end) {
+    return parallelSum(load.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
       double sum = 0.0;
       for (std::size_t r = begin; r < end; ++r)
         for (int c = 0; c < 3; ++c) {

@@ -12,7 +12,7 @@ namespace dovetail::dem {
 
 namespace {
 
-constexpr std::size_t grain = 512;
+constexpr std::size_t chunkSize = 512;
 
 void checkVector(const Vec3& value, const std::string& where) {
   if (!isFinite(value)) throw InputError("not a finite vector", where, "give three finite numbers");
@@ -129,7 +129,7 @@ void applyGravity(Bodies& bodies, const Vec3& g) {
 }
 
 void kickBodies(Bodies& bodies, double dt) {
-  parallelFor(bodies.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(bodies.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       bodies.v[b] += (dt / bodies.mass[b]) * bodies.f[b];
       bodies.angularMomentum[b] += dt * bodies.torque[b];
@@ -138,7 +138,7 @@ void kickBodies(Bodies& bodies, double dt) {
 }
 
 void driftBodies(Bodies& bodies, double dt) {
-  parallelFor(bodies.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(bodies.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       bodies.x[b] += dt * bodies.v[b];
       Quaternion q = bodies.orientation[b];
@@ -207,7 +207,7 @@ void renumber(Bodies& bodies, std::span<const int> newNumber) {
 }
 
 double kineticEnergy(const Bodies& bodies) {
-  return parallelSum(bodies.size(), grain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(bodies.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t b = begin; b < end; ++b) {
       const Vec3 l = rotateBack(bodies.orientation[b], bodies.angularMomentum[b]);

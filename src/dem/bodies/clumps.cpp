@@ -58,11 +58,11 @@ int addClump(Particles& particles, Bodies& bodies, Clumps& clumps, const ClumpSh
 
 double placeMembers(const Bodies& bodies, const Clumps& clumps, const geometry::Periodicity& space,
                     Particles& particles) {
-  constexpr std::size_t grain = 1024;
+  constexpr std::size_t chunkSize = 1024;
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<double> squared((clumps.size() + grain - 1) / grain, 0.0);
-  parallelFor(clumps.size(), grain, [&](std::size_t begin, std::size_t end) {
-    double& largest = squared[begin / grain];
+  std::vector<double> squared((clumps.size() + chunkSize - 1) / chunkSize, 0.0);
+  parallelFor(clumps.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
+    double& largest = squared[begin / chunkSize];
     int last = -1;
     Vec3 omega;
     for (std::size_t m = begin; m < end; ++m) {

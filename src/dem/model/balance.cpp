@@ -13,7 +13,7 @@ namespace dovetail::dem {
 
 namespace {
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t chunkSize = 4096;
 
 void requireClosed(const Model& m, const char* what) {
   if (m.open > 0.0)
@@ -99,7 +99,7 @@ Energies energies(const Model& m) {
   }
   Energies e = m.booked;
   e.kinetic = kineticEnergy(m.particles);
-  e.gravity = parallelSum(m.particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  e.gravity = parallelSum(m.particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) sum += gravityOf(m.particles, i, m.gravity);
     return sum;
@@ -119,7 +119,7 @@ Momenta momenta(const Model& m) {
 Momenta weight(const Model& m) {
   if (m.gravity == Vec3{}) return {};
   const Particles& p = m.particles;
-  Momenta sum = parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+  Momenta sum = parallelSum(p.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double mass = 0.0;
     Vec3 first;
     for (std::size_t i = begin; i < end; ++i) {

@@ -33,11 +33,11 @@ bool inside(const Domain& domain, const geometry::Periodicity& space, const Vec3
 /// Numbers of the particles that `is` picks, ascending.
 template <class Is>
 std::vector<int> thoseOf(std::size_t particles, Is&& is) {
-  constexpr std::size_t grain = 8192;
-  std::vector<std::vector<int>> parts((particles + grain - 1) / grain);
-  parallelFor(particles, grain, [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t chunkSize = 8192;
+  std::vector<std::vector<int>> parts((particles + chunkSize - 1) / chunkSize);
+  parallelFor(particles, chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (is(i)) parts[begin / grain].push_back(static_cast<int>(i));
+      if (is(i)) parts[begin / chunkSize].push_back(static_cast<int>(i));
   });
   std::vector<int> those;
   for (const auto& part : parts) those.insert(those.end(), part.begin(), part.end());
@@ -128,11 +128,11 @@ double smallestRadius(const Particles& particles) {
 }
 
 double largestSpeed(const Particles& particles) {
-  constexpr std::size_t grain = 4096;
+  constexpr std::size_t chunkSize = 4096;
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const auto sum = [](const Vec3& a) { return a.x + a.y + a.z; };
   const bool spins = particles.rotates();
-  const double squared = parallelMax(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  const double squared = parallelMax(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double largest = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
       const double poison = sum(particles.x[i]) + particles.radius[i] + (spins ? sum(particles.omega[i]) : 0.0);

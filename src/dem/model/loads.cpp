@@ -12,7 +12,7 @@
 namespace dovetail::dem {
 
 namespace {
-constexpr std::size_t grain = 4096;
+constexpr std::size_t chunkSize = 4096;
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
@@ -116,7 +116,7 @@ void DampingTerm::addForces(Model& m, const Step&) {
 void DampingTerm::book(Model& m, const Step& step) {
   const Particles& p = m.particles;
   const MeanMotion mean = dem::meanMotion(m, step);
-  m.rate.damping -= parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+  m.rate.damping -= parallelSum(p.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double power = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
       if (p.isMember(i)) continue;
@@ -141,7 +141,7 @@ Momenta DampingTerm::forceOn(const Particles& p, std::size_t i) const {
 
 void DampingTerm::addOutside(const Model& m, Momenta& force, Momenta&) const {
   const Particles& p = m.particles;
-  force += parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+  force += parallelSum(p.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     Momenta sum;
     for (std::size_t i = begin; i < end; ++i) {
       if (p.isMember(i)) continue;
@@ -167,7 +167,7 @@ void ExternalForceTerm::check(const Model&) const {
 void ExternalForceTerm::addForces(Model& m, const Step& step) {
   force_.assign(m.particles.size(), Vec3{});
   function_(m.particles, step.time, force_);
-  parallelFor(m.particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(m.particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!isFinite(force_[i]))
         throw NumericalError("the external force '" + name_ + "' on it is not finite, " + when(m),
@@ -180,7 +180,7 @@ void ExternalForceTerm::addForces(Model& m, const Step& step) {
 /// Over the kick that these forces are part of, with the mean of the velocities before and after it.
 void ExternalForceTerm::book(Model& m, const Step& step) {
   const MeanMotion mean = dem::meanMotion(m, step);
-  m.rate.external += parallelSum(force_.size(), grain, [&](std::size_t begin, std::size_t end) {
+  m.rate.external += parallelSum(force_.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double power = 0.0;
     for (std::size_t i = begin; i < end; ++i) power += dot(force_[i], mean.v[i]);
     return power;
@@ -188,7 +188,7 @@ void ExternalForceTerm::book(Model& m, const Step& step) {
 }
 
 void ExternalForceTerm::addOutside(const Model& m, Momenta& force, Momenta&) const {
-  force += parallelSum(force_.size(), grain, [&](std::size_t begin, std::size_t end) {
+  force += parallelSum(force_.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     Momenta sum;
     for (std::size_t i = begin; i < end; ++i) sum.add(m.particles.x[i], force_[i]);
     return sum;

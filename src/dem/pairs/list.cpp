@@ -12,7 +12,7 @@ namespace {
 
 using detail::PairParts;
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t particleChunk = 4096;
 
 /// Largest squared displacements since the search and since the pruning, m²; NaN if a position is not finite.
 struct Travels {
@@ -29,7 +29,7 @@ struct Travels {
 
 Travels largestTravels(const Particles& particles, const PairParts& list) {
   const bool pruned = list.pruned();
-  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(particles.size(), particleChunk, [&](std::size_t begin, std::size_t end) {
     Travels part;
     for (std::size_t i = begin; i < end && !std::isnan(part.search); ++i) {
       Travels::raise(part.search, squaredNorm(particles.x[i] - list.positionAtBuild[i]));
@@ -40,7 +40,7 @@ Travels largestTravels(const Particles& particles, const PairParts& list) {
 }
 
 void requireFinitePositions(const Particles& particles) {
-  const double worst = parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  const double worst = parallelSum(particles.size(), particleChunk, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i)
       sum += 0.0 * (particles.x[i].x + particles.x[i].y + particles.x[i].z);  // 0, or NaN
@@ -53,7 +53,7 @@ void requireFinitePositions(const Particles& particles) {
 double skinOf(const Particles& particles, PairParts& list) {
   if (list.skin) return *list.skin;
   if (particles.size() == 0) return 0.0;
-  const double sum = parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  const double sum = parallelSum(particles.size(), particleChunk, [&](std::size_t begin, std::size_t end) {
     double part = 0.0;
     for (std::size_t i = begin; i < end; ++i) part += 2.0 * particles.radius[i];
     return part;
@@ -127,7 +127,7 @@ std::vector<int> sortParticles(Particles& particles, PairList& of) {
 
 void wrapPositions(Particles& particles, const geometry::Periodicity& periodicity) {
   if (!periodicity.any()) return;
-  const std::size_t moved = parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  const std::size_t moved = parallelSum(particles.size(), particleChunk, [&](std::size_t begin, std::size_t end) {
     std::size_t count = 0;
     for (std::size_t i = begin; i < end; ++i) {
       Vec3& x = particles.x[i];

@@ -164,22 +164,22 @@ Contact detail::atRest(const EndedPair& pair) {
 
 void renumber(PairList& of, std::span<const int> newNumber, const Particles& before) {
   PairParts& list = detail::partsOf(of);
-  constexpr std::size_t grain = 16384;
+  constexpr std::size_t chunkSize = 16384;
   const Pairs& old = list.pairs;
   const Belongings from(list, old.size());
-  const std::size_t tasks = (old.size() + grain - 1) / grain, particles = newNumber.size();
+  const std::size_t tasks = (old.size() + chunkSize - 1) / chunkSize, particles = newNumber.size();
   const std::size_t rows = std::max<std::size_t>(1024, particles / 512), buckets = particles / rows + 1;
   const auto numbers = [&](std::size_t p) {
     return Pair{newNumber[static_cast<std::size_t>(old[p][0])], newNumber[static_cast<std::size_t>(old[p][1])]};
   };
   std::vector<EndedPairs> ended(tasks);
-  parallelFor(old.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(old.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
       if (const Pair to = numbers(p); to[0] < 0 || to[1] < 0)
-        from.end(asItIs(before, list, p, from.factor(p)), p, ended[begin / grain]);
+        from.end(asItIs(before, list, p, from.factor(p)), p, ended[begin / chunkSize]);
   });
   auto moves = distribute<Move>(tasks, buckets, [&](std::size_t task, auto&& sink) {
-    for (std::size_t p = task * grain; p < std::min(old.size(), (task + 1) * grain); ++p) {
+    for (std::size_t p = task * chunkSize; p < std::min(old.size(), (task + 1) * chunkSize); ++p) {
       const auto [i, j] = numbers(p);
       if (i < 0 || j < 0) continue;
       const Pair pair{std::min(i, j), std::max(i, j)};

@@ -12,12 +12,12 @@ namespace dovetail::dem::detail {
 
 namespace {
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t particleChunk = 4096;
 enum Mark : std::uint8_t { close = 1, repeats = 2 };
 
 void copyPositions(const Particles& particles, std::vector<Vec3>& to) {
   to.resize(particles.size());
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(particles.size(), particleChunk, [&](std::size_t begin, std::size_t end) {
     std::copy(particles.x.begin() + static_cast<std::ptrdiff_t>(begin),
               particles.x.begin() + static_cast<std::ptrdiff_t>(end), to.begin() + static_cast<std::ptrdiff_t>(begin));
   });

@@ -11,7 +11,7 @@ namespace dovetail::dem {
 
 namespace {
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t chunkSize = 4096;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ double resist(Vec3& force, const Vec3& velocity, double alpha) {
 
 double applyViscousDamping(Particles& particles, double rate) {
   requireNonNegative(rate, "damping rate");
-  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double power = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
       if (particles.isMember(i)) continue;
@@ -47,7 +47,7 @@ double applyViscousDamping(Particles& particles, double rate) {
 double applyLocalDamping(Particles& particles, double alpha) {
   if (!(alpha >= 0.0 && alpha < 1.0))
     throw InputError("the local damping is " + formatNumber(alpha), "local damping", "give 0 ≤ α < 1, such as 0.7");
-  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double power = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
       if (particles.isMember(i)) continue;

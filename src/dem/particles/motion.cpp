@@ -14,7 +14,7 @@ namespace dovetail::dem {
 
 namespace {
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t chunkSize = 4096;
 
 double weightedMass(const Particles& particles, std::size_t i) { return particles.weightOf(i) * particles.mass[i]; }
 
@@ -25,7 +25,7 @@ double weightedInertia(const Particles& particles, std::size_t i) {
 }  // namespace
 
 void clearForces(Particles& particles) {
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) particles.f[i] = {};
     if (particles.rotates())
       for (std::size_t i = begin; i < end; ++i) particles.torque[i] = {};
@@ -33,13 +33,13 @@ void clearForces(Particles& particles) {
 }
 
 void applyGravity(Particles& particles, const Vec3& g) {
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) particles.f[i] += weightedMass(particles, i) * g;
   });
 }
 
 void kick(Particles& particles, double dt) {
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) particles.v[i] += (dt / weightedMass(particles, i)) * particles.f[i];
     if (particles.rotates())
       for (std::size_t i = begin; i < end; ++i)
@@ -48,7 +48,7 @@ void kick(Particles& particles, double dt) {
 }
 
 void drift(Particles& particles, double dt) {
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) particles.x[i] += dt * particles.v[i];
   });
 }
@@ -120,7 +120,7 @@ double sweepAll(Particles& particles, const Sweep& sweep) {
     for (; i < end; ++i) take(advance<spins, weighted>(particles, i, sweep));
     return Largest{finite ? largest : infinity};
   };
-  return std::sqrt(parallelSum(particles.size(), grain, part).value);
+  return std::sqrt(parallelSum(particles.size(), chunkSize, part).value);
 }
 
 double sweepAll(Particles& particles, const Sweep& sweep) {
@@ -138,7 +138,7 @@ double startStep(Particles& particles, double dt, const Vec3& g) { return sweepA
 double turnStep(Particles& particles, double dt, const Vec3& g) { return sweepAll(particles, {dt, 2, true, g}); }
 
 void startForces(Particles& particles, const Vec3& g) {
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) particles.f[i] = weightedMass(particles, i) * g;
     if (particles.rotates())
       for (std::size_t i = begin; i < end; ++i) particles.torque[i] = {};
@@ -146,7 +146,7 @@ void startForces(Particles& particles, const Vec3& g) {
 }
 
 double kineticEnergy(const Particles& particles) {
-  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
       sum += 0.5 * weightedMass(particles, i) * squaredNorm(particles.v[i]);
@@ -157,7 +157,7 @@ double kineticEnergy(const Particles& particles) {
 }
 
 Vec3 momentum(const Particles& particles) {
-  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     Vec3 sum;
     for (std::size_t i = begin; i < end; ++i) sum += weightedMass(particles, i) * particles.v[i];
     return sum;
@@ -165,7 +165,7 @@ Vec3 momentum(const Particles& particles) {
 }
 
 Vec3 angularMomentum(const Particles& particles) {
-  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     Vec3 sum;
     for (std::size_t i = begin; i < end; ++i) {
       sum += weightedMass(particles, i) * cross(particles.x[i], particles.v[i]);

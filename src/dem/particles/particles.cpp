@@ -120,16 +120,16 @@ std::vector<int> numbersWithout(const Particles& particles, std::span<const int>
                        "give numbers from 0 to " + std::to_string(static_cast<long>(number.size()) - 1));
     number[static_cast<std::size_t>(i)] = -1;
   }
-  constexpr std::size_t grain = 16384;
-  std::vector<int> next((number.size() + grain - 1) / grain + 1, 0);
-  parallelFor(number.size(), grain, [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t chunkSize = 16384;
+  std::vector<int> next((number.size() + chunkSize - 1) / chunkSize + 1, 0);
+  parallelFor(number.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     int stay = 0;
     for (std::size_t i = begin; i < end; ++i) stay += number[i] == 0 ? 1 : 0;
-    next[begin / grain + 1] = stay;
+    next[begin / chunkSize + 1] = stay;
   });
   for (std::size_t c = 1; c < next.size(); ++c) next[c] += next[c - 1];
-  parallelFor(number.size(), grain, [&](std::size_t begin, std::size_t end) {
-    int& to = next[begin / grain];
+  parallelFor(number.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
+    int& to = next[begin / chunkSize];
     for (std::size_t i = begin; i < end; ++i)
       if (number[i] == 0) number[i] = to++;
   });

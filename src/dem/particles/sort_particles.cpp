@@ -12,7 +12,7 @@ namespace dovetail::dem::detail {
 
 namespace {
 
-constexpr std::size_t grain = 8192;
+constexpr std::size_t chunkSize = 8192;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Extent {
@@ -27,7 +27,7 @@ struct Extent {
 };
 
 Extent extentOf(const Particles& particles) {
-  return parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     Extent part;
     for (std::size_t i = begin; i < end; ++i) part += Extent{particles.x[i], particles.x[i], 2.0 * particles.radius[i]};
     return part;
@@ -92,11 +92,11 @@ struct Placed {
 
 std::vector<int> numbersAlongCurve(const Particles& particles, std::span<const int> order) {
   const Bricks bricks(particles);
-  const std::size_t n = particles.size(), tasks = (n + grain - 1) / grain;
+  const std::size_t n = particles.size(), tasks = (n + chunkSize - 1) / chunkSize;
   const int rangeBits = std::min(9, 3 * bricks.bits), shift = 3 * bricks.bits - rangeBits;
   RawVector<std::uint64_t> places(n);  // in the given order
   const auto eachOf = [&](std::size_t task, auto&& act) {
-    for (std::size_t s = task * grain; s < std::min(n, (task + 1) * grain); ++s) act(s);
+    for (std::size_t s = task * chunkSize; s < std::min(n, (task + 1) * chunkSize); ++s) act(s);
   };
   const auto findPlaces = [&](std::size_t task, auto&& sink) {
     eachOf(task, [&](std::size_t s) {

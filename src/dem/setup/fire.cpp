@@ -8,11 +8,11 @@
 namespace dovetail::dem {
 
 namespace {
-constexpr std::size_t grain = 4096;
+constexpr std::size_t chunkSize = 4096;
 }
 
 FireSums fireSums(const Particles& p) {
-  return parallelSum(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(p.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     FireSums sums;
     for (std::size_t i = begin; i < end; ++i) {
       if (p.ownerOf(i) != Owner::nobody) continue;
@@ -26,7 +26,7 @@ FireSums fireSums(const Particles& p) {
 }
 
 void steer(Particles& p, const FireMix& mix, double dt) {
-  parallelFor(p.size(), grain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(p.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (p.ownerOf(i) != Owner::nobody) continue;
       const Vec3 kick = (0.5 * dt / p.mass[i]) * p.f[i];

@@ -12,7 +12,7 @@ namespace dovetail::dem {
 
 namespace {
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t chunkSize = 4096;
 
 std::size_t sphereOf(const Particles& particles, std::size_t i) { return static_cast<std::size_t>(particles.id[i]); }
 
@@ -101,7 +101,7 @@ void Relaxation::findForces(double moved) {
 Overlaps Relaxation::measure(double gap) const {
   const Particles& p = particles_;
   const geometry::Periodicity& space = packing_.space;
-  Overlaps found = parallelSum(list_.size(), grain, [&](std::size_t begin, std::size_t end) {
+  Overlaps found = parallelSum(list_.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     Overlaps part;
     for (std::size_t k = begin; k < end; ++k) {
       const auto i = static_cast<std::size_t>(list_.pairs()[k][0]), j = static_cast<std::size_t>(list_.pairs()[k][1]);
@@ -123,7 +123,7 @@ Overlaps Relaxation::measure(double gap) const {
 
 double Relaxation::unbalanced(const Overlaps& now) const {
   if (now.touching == 0) return 0.0;
-  const double residual = parallelSum(particles_.size(), grain, [&](std::size_t begin, std::size_t end) {
+  const double residual = parallelSum(particles_.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) sum += norm(particles_.f[i]);
     return sum;

@@ -16,7 +16,7 @@ namespace {
 
 using Shape = PrimitiveWall::Shape;
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t chunkSize = 4096;
 
 /// How many periods x is to be moved by to be next to the wall.
 Image imageNear(const PrimitiveWall& wall, const Vec3& x, const Vec3& period) {
@@ -64,7 +64,7 @@ void search(const Particles& particles, PrimitiveWall& wall, const Moves& moves,
   PrimitiveSearch& s = wall.search;
   s.margin = requireNonNegative(wall.skin ? *wall.skin : defaultSkin(particles), "skin of a wall");
   const Vec3 period = periodsOf(periodicity);
-  Part found = parallelSum(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
+  Part found = parallelSum(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     return lookThrough(particles, wall, s.margin + wall.reach, period, begin, end);
   });
   requireRepeats(wall, periodicity, found.largest + s.margin);

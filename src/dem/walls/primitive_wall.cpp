@@ -154,7 +154,7 @@ void carryPart(const Particles& particles, PrimitiveContacts& contacts, std::siz
 }  // namespace
 
 EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contacts, int memory) {
-  constexpr std::size_t grain = 1024;
+  constexpr std::size_t chunkSize = 1024;
   const auto components = static_cast<std::size_t>(memory);
   const std::size_t old = contacts.oldParticle.size();
   startAnewIfOfAnother(memory, old, contacts.oldMemory);
@@ -164,9 +164,9 @@ EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contact
     std::fill(contacts.memory.begin(), contacts.memory.end(), 0.0);
     return ended;
   }
-  std::vector<EndedMemories> parts((old + grain - 1) / grain);
-  parallelFor(old, grain, [&](std::size_t begin, std::size_t end) {
-    carryPart(particles, contacts, components, begin, end, parts[begin / grain]);
+  std::vector<EndedMemories> parts((old + chunkSize - 1) / chunkSize);
+  parallelFor(old, chunkSize, [&](std::size_t begin, std::size_t end) {
+    carryPart(particles, contacts, components, begin, end, parts[begin / chunkSize]);
   });
   for (const EndedMemories& part : parts) {
     ended.memory.insert(ended.memory.end(), part.memory.begin(), part.memory.end());

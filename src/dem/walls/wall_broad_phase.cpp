@@ -13,7 +13,7 @@ namespace dovetail::dem {
 
 namespace {
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t chunkSize = 4096;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct RadiusRange {
@@ -26,7 +26,7 @@ struct RadiusRange {
 };
 
 RadiusRange rangeOf(const std::vector<double>& radius) {
-  return RadiusRange{} += parallelSum(radius.size(), grain, [&](std::size_t begin, std::size_t end) {
+  return RadiusRange{} += parallelSum(radius.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
            RadiusRange range;
            for (std::size_t i = begin; i < end; ++i) range += {radius[i], radius[i]};
            return range;
@@ -141,13 +141,13 @@ NearWall nearWall(const Particles& particles, const TriangulatedWall& wall, doub
   if (wall.facets.empty()) return all;
   const bool repeats = squaredNorm(period) > 0.0;
   const Cells cells(wall, range.largest + margin, particles.size());
-  std::vector<NearWall> parts((particles.size() + grain - 1) / grain);
+  std::vector<NearWall> parts((particles.size() + chunkSize - 1) / chunkSize);
   std::vector<char> finite(parts.size(), 1);
-  parallelFor(particles.size(), grain, [&](std::size_t begin, std::size_t end) {
-    NearWall& part = parts[begin / grain];
+  parallelFor(particles.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
+    NearWall& part = parts[begin / chunkSize];
     for (std::size_t i = begin; i < end; ++i) {
-      if (!isFinite(particles.x[i])) finite[begin / grain] = 0;
-      if (!finite[begin / grain]) break;
+      if (!isFinite(particles.x[i])) finite[begin / chunkSize] = 0;
+      if (!finite[begin / chunkSize]) break;
       forEachImage(particles.x[i], cells.box(), period, [&](const Image& image, const Vec3& x) {
         if (!cells.marked(x)) return;
         part.particle.push_back(static_cast<int>(i));

@@ -21,11 +21,11 @@ const Vec3& corner(const TriangulatedWall& wall, int facet, std::size_t k) {
 
 /// By facet.
 std::vector<Found> findPairs(const NearWall& near, const TriangulatedWall& wall, double margin) {
-  constexpr std::size_t grain = 128;
+  constexpr std::size_t chunkSize = 128;
   geometry::HierarchicalGrid grid;
   grid.build(near.x, near.radius, 2.0 * margin);
-  std::vector<Found> parts((wall.facets.size() + grain - 1) / grain);
-  parallelFor(wall.facets.size(), grain, [&](std::size_t begin, std::size_t end) {
+  std::vector<Found> parts((wall.facets.size() + chunkSize - 1) / chunkSize);
+  parallelFor(wall.facets.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const auto facet = static_cast<int>(t);
       const Vec3 &a = corner(wall, facet, 0), &b = corner(wall, facet, 1), &c = corner(wall, facet, 2);
@@ -33,7 +33,7 @@ std::vector<Found> findPairs(const NearWall& near, const TriangulatedWall& wall,
         const Vec3& x = near.x[static_cast<std::size_t>(entry)];
         const double reach = near.radius[static_cast<std::size_t>(entry)] + margin;
         if (squaredNorm(x - geometry::closestPointOnTriangle(x, a, b, c).point) <= reach * reach)
-          parts[begin / grain].push_back({entry, facet});
+          parts[begin / chunkSize].push_back({entry, facet});
       });
     }
   });

@@ -84,18 +84,19 @@ void paperWallContacts(const Particles& particles, const TriangulatedWall& wall,
 template <class Rule>
 void sweepParticles(const Particles& particles, const WallCandidates& candidates, const WallClearances* clearances,
                     WallContacts& contacts, Rule&& rule) {
-  constexpr std::size_t grain = 64;
+  constexpr std::size_t chunkSize = 64;
   const std::size_t listed = candidates.particle.size();
   const auto visit = [&](std::size_t begin, std::size_t end, WallContacts& into) {
     for (std::size_t k = begin; k < end; ++k) rule(k, encounter(particles, candidates, clearances, k), into);
   };
   clear(contacts);
   contacts.period = candidates.period;
-  if (threads() == 1 || listed <= grain) {
+  if (threads() == 1 || listed <= chunkSize) {
     visit(0, listed, contacts);
   } else {
-    std::vector<WallContacts> parts((listed + grain - 1) / grain);
-    parallelFor(listed, grain, [&](std::size_t begin, std::size_t end) { visit(begin, end, parts[begin / grain]); });
+    std::vector<WallContacts> parts((listed + chunkSize - 1) / chunkSize);
+    parallelFor(listed, chunkSize,
+                [&](std::size_t begin, std::size_t end) { visit(begin, end, parts[begin / chunkSize]); });
     for (const WallContacts& part : parts)
       forArrays(contacts, part, [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); });
   }

@@ -11,7 +11,7 @@ namespace dovetail::fem {
 
 namespace {
 
-constexpr std::size_t dofGrain = 16384;
+constexpr std::size_t dofChunk = 16384;
 
 std::string label(int node, int component) {
   return std::string("component ") + "xyz"[component] + " of node " + std::to_string(node);
@@ -128,7 +128,7 @@ bool DofMap::hasMotion() const {
 }
 
 void DofMap::reduce(std::span<const Vec3> f, std::span<double> r) const {
-  parallelFor(size(), dofGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(size(), dofChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) r[i] = f[static_cast<std::size_t>(freeDofs_[i] / 3)][freeDofs_[i] % 3];
   });
   for (const Tie& tie : ties_) {
@@ -139,7 +139,7 @@ void DofMap::reduce(std::span<const Vec3> f, std::span<double> r) const {
 }
 
 void DofMap::addIncrement(std::span<const double> dq, std::span<Vec3> u) const {
-  parallelFor(size(), dofGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(size(), dofChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) u[static_cast<std::size_t>(freeDofs_[i] / 3)][freeDofs_[i] % 3] += dq[i];
   });
   for (const Tie& tie : ties_) {

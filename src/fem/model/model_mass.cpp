@@ -9,7 +9,7 @@
 namespace dovetail::fem {
 
 namespace {
-constexpr std::size_t nodeGrain = 4096;
+constexpr std::size_t nodeChunk = 4096;
 }
 
 double matchedFraction(double spacing, double elementSize) {
@@ -94,7 +94,7 @@ ModelMass::ModelMass(const Model& model, const DofMap& dofs, double fraction, co
 
 void ModelMass::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
   if (fraction_ > 0.0) return matrix_.multiply(x, y);
-  parallelFor(x.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(x.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) y[n] = mass_[n] * x[n];
   });
 }
@@ -102,7 +102,7 @@ void ModelMass::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
 double ModelMass::kineticEnergy(std::span<const Vec3> v) const {
   std::vector<Vec3> p(fraction_ > 0.0 ? v.size() : 0);
   if (fraction_ > 0.0) multiply(v, p);
-  return parallelSum(v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(v.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
     std::array<double, 4> sum{};  // side by side, so that no sum waits for the one before
     for (std::size_t n = begin; n < end; ++n)
       sum[n % 4] += fraction_ > 0.0 ? 0.5 * dot(v[n], p[n]) : 0.5 * mass_[n] * squaredNorm(v[n]);
@@ -121,7 +121,7 @@ void ModelMass::addTo(linalg::BlockMatrix& S, double factor) const {
   if (!std::ranges::equal(S.columns(), matrix_.columns()) || !std::ranges::equal(S.offsets(), matrix_.offsets()))
     throw InputError("the matrix has another pattern", "ModelMass::addTo",
                      "make it with zeroTangent of the same model");
-  parallelFor(matrix_.values().size(), 16 * nodeGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(matrix_.values().size(), 16 * nodeChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) add(k, matrix_.values()[k]);
   });
 }
@@ -160,7 +160,7 @@ void ModelMass::solveTied(std::span<Vec3> f) const {
 void ModelMass::solve(std::span<Vec3> f) const {
   if (dofs_->hasTies()) return solveTied(f);
   if (fraction_ == 0.0) {
-    parallelFor(f.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+    parallelFor(f.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n)
         f[n] = {inverse_[3 * n] * f[n].x, inverse_[3 * n + 1] * f[n].y, inverse_[3 * n + 2] * f[n].z};
     });

@@ -8,7 +8,7 @@
 namespace dovetail::fem {
 
 namespace {
-constexpr std::size_t nodeGrain = 4096;
+constexpr std::size_t nodeChunk = 4096;
 }
 
 void fix(Nodes& nodes, std::span<const int> set, unsigned components) {
@@ -30,7 +30,7 @@ void fix(Nodes& nodes, std::span<const int> set, unsigned components) {
 void clearForces(Nodes& nodes) { std::fill(nodes.f.begin(), nodes.f.end(), Vec3{}); }
 
 void kick(Nodes& nodes, double dt) {
-  parallelFor(nodes.v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(nodes.v.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       const std::uint8_t held = nodes.fixed[n];
       if (held == allComponents) continue;
@@ -43,13 +43,13 @@ void kick(Nodes& nodes, double dt) {
 }
 
 void drift(Nodes& nodes, double dt) {
-  parallelFor(nodes.u.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(nodes.u.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) nodes.u[n] += dt * nodes.v[n];
   });
 }
 
 double kineticEnergy(const Nodes& nodes) {
-  return parallelSum(nodes.v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(nodes.v.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t n = begin; n < end; ++n) sum += 0.5 * nodes.mass[n] * squaredNorm(nodes.v[n]);
     return sum;
@@ -57,7 +57,7 @@ double kineticEnergy(const Nodes& nodes) {
 }
 
 Vec3 momentum(const Nodes& nodes) {
-  return parallelSum(nodes.v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(nodes.v.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
     Vec3 sum;
     for (std::size_t n = begin; n < end; ++n) sum += nodes.mass[n] * nodes.v[n];
     return sum;
@@ -65,7 +65,7 @@ Vec3 momentum(const Nodes& nodes) {
 }
 
 Vec3 angularMomentum(const Nodes& nodes) {
-  return parallelSum(nodes.v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(nodes.v.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
     Vec3 sum;
     for (std::size_t n = begin; n < end; ++n) sum += nodes.mass[n] * cross(nodes.X[n] + nodes.u[n], nodes.v[n]);
     return sum;

@@ -112,14 +112,14 @@ void BookedMotion::save(ByteWriter& archive, const std::string& kind) const {
 struct BookedMotion::State {
   detail::ModelState model;
   ModelLedger ledger;
-  ImpulseBook impulses;
+  ImpulseLedger impulses;
   detail::StepStart start;
 };
 
 std::shared_ptr<BookedMotion::State> BookedMotion::read(ByteReader& archive, const std::string& kind) const {
   detail::ModelState state = detail::readModel(archive, kind, motion.model());
   ModelLedger books = ledger.read(archive);
-  ImpulseBook given;
+  ImpulseLedger given;
   given.load(archive);
   return std::make_shared<State>(
       State{std::move(state), std::move(books), std::move(given), detail::readStart(archive, motion.model())});

@@ -38,7 +38,7 @@ Scheme energyMomentum() { return {"energy-momentum", true}; }
 struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
   double dt;
   ModelLedger ledger;
-  ImpulseBook impulses;
+  ImpulseLedger impulses;
 
   Impl(Model& m, double step, const ImplicitOptions& o)
       : ImplicitMotion::Impl(m, o), dt(requirePositive(step, "dt")), ledger(m) {
@@ -167,7 +167,7 @@ void ImplicitIntegrator::use(const Scheme& scheme) {
 }
 linalg::LinearForecast ImplicitIntegrator::forecast() { return impl_->solver.forecast(); }
 const ModelMass& ImplicitIntegrator::mass() const { return impl_->mass; }
-const ImpulseBook& ImplicitIntegrator::impulses() const { return impl_->impulses; }
+const ImpulseLedger& ImplicitIntegrator::impulses() const { return impl_->impulses; }
 const EnergyLedger& ImplicitIntegrator::ledger() const { return impl_->ledger; }
 double ImplicitIntegrator::kineticEnergy() const { return impl_->mass.kineticEnergy(impl_->model.nodes.v); }
 
@@ -217,7 +217,7 @@ void ImplicitIntegrator::save(ByteWriter& archive) const {
 void ImplicitIntegrator::load(ByteReader& archive) {
   detail::ModelState state = detail::readModel(archive, impl_->kind(), impl_->model);
   ModelLedger ledger = impl_->ledger.read(archive);
-  ImpulseBook impulses;
+  ImpulseLedger impulses;
   impulses.load(archive);
   const std::int64_t steps = detail::readCount(archive, "number of steps");
   const std::int64_t cuts = detail::readCount(archive, "number of cuts");

@@ -11,7 +11,7 @@ namespace dovetail::fem {
 
 namespace {
 
-constexpr std::size_t nodeGrain = 4096;
+constexpr std::size_t nodeChunk = 4096;
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
@@ -22,7 +22,7 @@ bool add(std::vector<Vec3>& v, Increment&& increment) {
   constexpr std::size_t lanes = 24;
   if (v.empty()) return true;
   double* const value = &v.front().x;
-  const double sum = parallelSum(v.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+  const double sum = parallelSum(v.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
     std::array<double, lanes> bad{};
     std::size_t k = 3 * begin;
     for (; k + lanes <= 3 * end; k += lanes)

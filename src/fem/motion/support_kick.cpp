@@ -6,7 +6,7 @@ namespace dovetail::fem {
 
 namespace {
 
-constexpr std::size_t nodeGrain = 4096;
+constexpr std::size_t nodeChunk = 4096;
 
 void add(const Nodes& nodes, std::size_t n, const Vec3& impulse, const Vec3& change, SupportKick& sum) {
   sum.impulse.add(nodes.X[n] + nodes.u[n], impulse);
@@ -17,7 +17,7 @@ void add(const Nodes& nodes, std::size_t n, const Vec3& impulse, const Vec3& cha
 SupportKick ofBoundNodes(const Nodes& nodes, const ModelMass& mass, std::span<const Vec3> before,
                          std::span<const Vec3> f, double dt) {
   const std::span<const int> row = mass.dofs().freeRow(), bound = mass.dofs().boundNodes();
-  return parallelSum(bound.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+  return parallelSum(bound.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
     SupportKick sum;
     for (std::size_t k = begin; k < end; ++k) {
       const auto n = static_cast<std::size_t>(bound[k]);

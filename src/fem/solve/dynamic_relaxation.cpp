@@ -15,9 +15,9 @@ namespace {
 constexpr int comingOn = 100;  // iterations: so that moved supports send no shock
 
 /// Work over the way from the state that was booked last to the present one, by the trapezoidal rule, and histories.
-class MotionBook {
+class MotionLedger {
 public:
-  MotionBook(const Balance& balance, StaticReport& report) : balance_(balance), report_(report) {}
+  MotionLedger(const Balance& balance, StaticReport& report) : balance_(balance), report_(report) {}
 
   void take(double kinetic) {
     if (!u_.empty()) book();
@@ -72,7 +72,7 @@ Instant DynamicRelaxation::instantOf(const Instant& end, bool comesOn, int itera
   return {fraction < 1.0 ? from + fraction * end.dt : end.t, (fraction - before) * end.dt};
 }
 
-NewtonResult DynamicRelaxation::settle(const Instant& end, bool comesOn, int maxIterations, const Visitor& visitor) {
+NewtonResult DynamicRelaxation::relax(const Instant& end, bool comesOn, int maxIterations, const Visitor& visitor) {
   if (step_ == 0.0) h_ = 0.9 * stableStep(balance_.model()).dt;
   std::vector<Vec3> f0;
   std::fill(velocity_.begin(), velocity_.end(), Vec3{});
@@ -96,7 +96,7 @@ NewtonResult DynamicRelaxation::settle(const Instant& end, bool comesOn, int max
       reference_ = balance_.model().nodes.u;
     }
     if (whole) findFrequency(f0);
-    swing(whole ? omega_ : 0.0);
+    oscillate(whole ? omega_ : 0.0);
   }
 }
 
@@ -113,7 +113,7 @@ void DynamicRelaxation::findFrequency(std::span<const Vec3> f0) {
 }
 
 /// Half a step on with damping 2 ω, and the displacement a whole one.
-void DynamicRelaxation::swing(double omega) {
+void DynamicRelaxation::oscillate(double omega) {
   std::fill(acceleration_.begin(), acceleration_.end(), Vec3{});
   mass_.accelerate(balance_.forces(), acceleration_);
   const double damping = omega * h_;
@@ -123,18 +123,19 @@ void DynamicRelaxation::swing(double omega) {
   }
 }
 
-NewtonResult moveToRest(Balance& balance, DynamicRelaxation& swing, const Instant& end, int maxIterations,
+NewtonResult moveToRest(Balance& balance, DynamicRelaxation& relaxation, const Instant& end, int maxIterations,
                         int maxAugmentations, StaticReport& report) {
   ByteWriter before;
   save(balance.model(), before);
   StaticReport moved = report;
-  MotionBook book(balance, moved);
+  MotionLedger book(balance, moved);
   bool comesOn = true;
   balance.aim({end.t - end.dt, 0.0});
   balance.findForces();
   book.remember();
   const NewtonResult result = attemptStep(balance.model(), end, maxAugmentations, [&] {
-    const NewtonResult trial = swing.settle(end, comesOn, maxIterations, [&] { book.take(swing.kineticEnergy()); });
+    const NewtonResult trial =
+        relaxation.relax(end, comesOn, maxIterations, [&] { book.take(relaxation.kineticEnergy()); });
     comesOn = false;
     return trial;
   });

@@ -23,7 +23,7 @@ public:
   /// From rest to rest at the instant.
   /// @param comesOn  prescribed motion and loads come on over the first iterations @param visitor  histories go along:
   ///   it accepts them, and instants begin at the state before
-  NewtonResult settle(const Instant& end, bool comesOn, int maxIterations, const Visitor& visitor = {});
+  NewtonResult relax(const Instant& end, bool comesOn, int maxIterations, const Visitor& visitor = {});
 
   /// Of the half step before the present state, J.
   double kineticEnergy() const { return mass_.kineticEnergy(velocity_); }
@@ -31,7 +31,7 @@ public:
 private:
   Instant instantOf(const Instant& end, bool comesOn, int iteration, bool remembers) const;
   void findFrequency(std::span<const Vec3> f0);
-  void swing(double omega);
+  void oscillate(double omega);
 
   Balance& balance_;
   ModelMass mass_;
@@ -41,7 +41,7 @@ private:
 
 /// Motion to rest with histories that go along, from the last equilibrium of a step that Newton's method could not
 /// make; if it does not come to rest, model and report are as before. Balanced to the tolerance of the balance.
-NewtonResult moveToRest(Balance& balance, DynamicRelaxation& swing, const Instant& end, int maxIterations,
+NewtonResult moveToRest(Balance& balance, DynamicRelaxation& relaxation, const Instant& end, int maxIterations,
                         int maxAugmentations, StaticReport& report);
 
 }  // namespace dovetail::fem::detail

@@ -14,7 +14,7 @@ namespace {
 
 /// Where the slope vanishes by the secant, kept between a tenth and eight tenths of the fraction tried; a quarter if
 /// there is no slope.
-double shorterShare(double fraction, double slopeAtStart, double slope) {
+double shorterFraction(double fraction, double slopeAtStart, double slope) {
   if (!std::isfinite(slope) || slope == slopeAtStart) return 0.25 * fraction;
   return std::clamp(-slopeAtStart * fraction / (slope - slopeAtStart), 0.1 * fraction, 0.8 * fraction);
 }
@@ -28,7 +28,7 @@ double search(NewtonProblem& problem, double norm, double slopeAtStart) {
     if (std::isfinite(norm) && (std::abs(slope) <= 0.8 * std::abs(slopeAtStart) || norm <= problem.tolerance()))
       return norm;
     if (std::isfinite(norm) && slope * slopeAtStart > 0.0) return norm;  // still downhill: a full step is as good
-    fraction = shorterShare(fraction, slopeAtStart, slope);
+    fraction = shorterFraction(fraction, slopeAtStart, slope);
     problem.moveTo(fraction);
     norm = problem.evaluate();
   }

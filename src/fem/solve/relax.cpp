@@ -36,11 +36,11 @@ StaticReport relax(Model& model, double tEnd, const RelaxOptions& options, const
   detail::validate(steps);
   detail::requireLater(tEnd, model, "relax");
   Relaxation relaxation(model, options);
-  detail::DynamicRelaxation swing(relaxation, options.iterationStep);
+  detail::DynamicRelaxation oscillation(relaxation, options.iterationStep);
   const auto attempt = [&](const Instant& now) {
     bool comesOn = true;
     return detail::attemptStep(model, now, options.maxAugmentations, [&] {
-      const NewtonResult result = swing.settle(now, comesOn, static_cast<int>(options.rest.steps));
+      const NewtonResult result = oscillation.relax(now, comesOn, static_cast<int>(options.rest.steps));
       comesOn = false;
       return result;
     });

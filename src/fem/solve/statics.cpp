@@ -25,11 +25,12 @@ StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& option
       return detail::newton(equilibrium, detail::policyOf(options.newton));
     });
   };
-  std::optional<detail::DynamicRelaxation> swing;
+  std::optional<detail::DynamicRelaxation> relaxation;
   if (options.motionIterations > 0) {
-    swing.emplace(equilibrium, 0.0);
+    relaxation.emplace(equilibrium, 0.0);
     ways.motion = [&](const Instant& now, StaticReport& report) {
-      return detail::moveToRest(equilibrium, *swing, now, options.motionIterations, options.maxAugmentations, report);
+      return detail::moveToRest(equilibrium, *relaxation, now, options.motionIterations, options.maxAugmentations,
+                                report);
     };
   }
   return detail::takeSteps(equilibrium, tEnd, steps, observer, ways,

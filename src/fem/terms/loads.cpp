@@ -12,7 +12,7 @@ namespace dovetail::fem {
 
 namespace {
 
-constexpr std::size_t nodeGrain = 4096;
+constexpr std::size_t nodeChunk = 4096;
 
 void requireFiniteVector(const Vec3& value, const std::string& name) {
   if (!isFinite(value)) throw InputError("the vector is not finite", name, "give numbers");
@@ -79,7 +79,7 @@ public:
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
     const BodyMass mass(nodes, now, name());
     const Vec3 g = g_(now.t);
-    parallelFor(nodes.X.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+    parallelFor(nodes.X.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n) f[n] += mass[n] * g;
     });
   }
@@ -87,7 +87,7 @@ public:
   double energy(const Nodes& nodes, const Instant& now) override {
     const BodyMass mass(nodes, now, name());
     const Vec3 g = g_(now.t);
-    return parallelSum(nodes.X.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+    return parallelSum(nodes.X.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
       double sum = 0.0;
       for (std::size_t n = begin; n < end; ++n) sum -= mass[n] * dot(g, nodes.X[n] + nodes.u[n]);
       return sum;
@@ -138,7 +138,7 @@ public:
     if (now.mass == nullptr) return;
     momentum_.resize(f.size());
     now.mass->multiply(nodes.v, momentum_);
-    parallelFor(f.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+    parallelFor(f.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n) f[n] -= alpha_ * momentum_[n];
     });
   }

@@ -166,7 +166,7 @@ void setSprings(Rve& cell, const Springs& springs) {
   validate(springs);
   checkShape(cell.shape, springs);
   release(cell, springs);
-  EnergyBook& ledger = cell.state.ledger;
+  RveLedger& ledger = cell.state.ledger;
   const auto accounted = [&] { return storedEnergy(cell) + ledger.friction + ledger.bonds; };
   const double before = accounted();
   cell.springs = cell.state.springs = springs;

@@ -95,7 +95,7 @@ bool fits(const Rve& cell, const Contacts& contacts) {
 bool fits(const Rve& cell, const CellState& state) {
   for (const Vec3& period : state.lattice.period)
     if (!std::isfinite(norm(period))) return false;
-  const EnergyBook& ledger = state.ledger;
+  const RveLedger& ledger = state.ledger;
   return state.F.allFinite() && state.F.determinant() > 0.0 && state.virial.allFinite() &&
          state.lattice.volume() > 0.0 && state.remainingSkin <= cell.skin && std::isfinite(state.remainingSkin) &&
          std::isfinite(state.criticalStep) && state.criticalStep > 0.0 &&

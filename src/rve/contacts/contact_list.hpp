@@ -8,7 +8,7 @@
 namespace dovetail::rve {
 
 /// Reduces the lattice, wraps positions, lists pairs closer than their radii and the skin, and keeps what contacts
-/// remember. Sets the room and the critical step.
+/// remember. Sets the remaining skin and the critical step.
 /// @throws NumericalError if faces are closer than two of the largest diameters and skins
 void updateNeighbourList(Rve& cell);
 

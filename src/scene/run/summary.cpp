@@ -42,7 +42,7 @@ Json insertionsListed(const Built& built) {
 
 Json momentumOf(const coupling::Totals& totals) {
   Json given = Json::object();
-  for (const ImpulseBook::Channel& channel : totals.given.channels()) given[channel.name] = momentaOf(channel.given);
+  for (const ImpulseLedger::Channel& channel : totals.given.channels()) given[channel.name] = momentaOf(channel.given);
   return {{"now", momentaOf({totals.momentum, totals.angularMomentum})},
           {"given_by", given},
           {"residual", momentaOf(totals.residual)},

@@ -19,7 +19,7 @@ void SolidBase::shareNodes() {
   std::vector<std::vector<std::uint32_t>> late(cells_.X.size());
   std::uint32_t count = 0;
   for (std::size_t e = 0; e < cells_.size(); ++e) {
-    const auto chunk = static_cast<std::int32_t>(e / laneCount / grain());
+    const auto chunk = static_cast<std::int32_t>(e / laneCount / chunkSize());
     if (shared_.first.size() == static_cast<std::size_t>(chunk)) shared_.first.push_back(count);
     for (std::size_t a = 0; a < cells_.nodes; ++a) {
       const auto n = static_cast<std::size_t>(cells_.nodeOf(e, a));

@@ -10,8 +10,8 @@ namespace dovetail::fem::detail {
 
 namespace {
 
-constexpr std::size_t batchGrain = 16, cheapGrain = 128;  // of kernels and tet4
-constexpr std::size_t nodeGrain = 1024;
+constexpr std::size_t batchChunk = 16, cheapChunk = 128;  // of kernels and tet4
+constexpr std::size_t nodeChunk = 1024;
 constexpr std::size_t parallelNodes = 4096;  // below this many nodes of batches threads cost more than they bring
 
 double sumOfLanes(const Lane& lane) { return (lane[0] + lane[1]) + (lane[2] + lane[3]); }
@@ -79,7 +79,7 @@ void SolidBase::ask(const Nodes& nodes, const Instant& now, bool withTangent, bo
   FieldPoints* const field = points_->field();
   if (field == nullptr || field->knows(nodes.u, now, withTangent, toRead)) return;
   needGeometry();
-  parallelFor(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(cells_.batches(), batchChunk, [&](std::size_t begin, std::size_t end) {
     LaneVector F(9 * pointCount());
     for (std::size_t b = begin; b < end; ++b) {
       deformation(taskOf(b, nodes, now), F.data());
@@ -129,7 +129,7 @@ void SolidBase::handOut(std::size_t batch, const Lane* forces, Sink&& sink) cons
         batch, forces, [](std::size_t a) { return 3 * a; }, sink);
 }
 
-std::size_t SolidBase::grain() const { return bricks_ || cells_.nodes == 4 ? cheapGrain : batchGrain; }
+std::size_t SolidBase::chunkSize() const { return bricks_ || cells_.nodes == 4 ? cheapChunk : batchChunk; }
 
 /// Subtracts the forces that body(batch, lanes) writes for every batch from f: for each node in the order of the
 /// elements, on any number of threads.
@@ -147,13 +147,13 @@ SolidBase::Totals SolidBase::eachBatch(std::span<Vec3> f, Body&& body) {
   };
   if (threads() == 1 || count * cells_.nodes <= parallelNodes) {
     Totals sum;
-    for (std::size_t begin = 0; begin < count; begin += grain())
-      sum += part(begin, std::min(count, begin + grain()), [&](std::size_t n, const Vec3& own) { f[n] -= own; });
+    for (std::size_t begin = 0; begin < count; begin += chunkSize())
+      sum += part(begin, std::min(count, begin + chunkSize()), [&](std::size_t n, const Vec3& own) { f[n] -= own; });
     return sum;
   }
   shareNodes();
-  const Totals sum = parallelSum(count, grain(), [&](std::size_t begin, std::size_t end) {
-    const auto chunk = static_cast<std::int32_t>(begin / grain());
+  const Totals sum = parallelSum(count, chunkSize(), [&](std::size_t begin, std::size_t end) {
+    const auto chunk = static_cast<std::int32_t>(begin / chunkSize());
     std::size_t next = shared_.first[static_cast<std::size_t>(chunk)];
     return part(begin, end, [&](std::size_t n, const Vec3& own) {
       if (shared_.owner[n] == chunk)
@@ -162,7 +162,7 @@ SolidBase::Totals SolidBase::eachBatch(std::span<Vec3> f, Body&& body) {
         shared_.late[next++] = own;
     });
   });
-  parallelFor(shared_.node.size(), nodeGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(shared_.node.size(), nodeChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       for (std::uint32_t entry = shared_.offsets[k]; entry < shared_.offsets[k + 1]; ++entry)
         f[static_cast<std::size_t>(shared_.node[k])] -= shared_.late[shared_.place[entry]];
@@ -228,7 +228,7 @@ SolidBase::Totals SolidBase::totals(const Nodes& nodes, const Instant& now) {
   if (isKnown(nodes, now)) return evaluation_.totals;
   ask(nodes, now, false, true);
   const bool remembers = points_->remembers();
-  const Totals sum = parallelSum(cells_.batches(), grain(), [&](std::size_t begin, std::size_t end) {
+  const Totals sum = parallelSum(cells_.batches(), chunkSize(), [&](std::size_t begin, std::size_t end) {
     Totals part;
     BatchResult result;
     for (std::size_t b = begin; b < end; ++b) {
@@ -264,7 +264,7 @@ std::vector<double> SolidBase::elementEnergies(const Nodes& nodes, const Instant
   requireSameNodes(nodes);
   ask(nodes, now, false, true);
   std::vector<double> energies(cells_.size());
-  parallelFor(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(cells_.batches(), batchChunk, [&](std::size_t begin, std::size_t end) {
     BatchResult result;
     for (std::size_t b = begin; b < end; ++b) {
       BatchTask task = taskOf(b, nodes, now);
@@ -309,7 +309,7 @@ void SolidBase::requireValid(const Nodes& nodes, const std::string& when, Scruti
   requireSameNodes(nodes);
   const bool byKernels = bricks_ && scrutiny == Scrutiny::inversion;
   if (!byKernels) needGeometry();
-  parallelFor(cells_.batches(), batchGrain, [&](std::size_t begin, std::size_t end) {
+  parallelFor(cells_.batches(), batchChunk, [&](std::size_t begin, std::size_t end) {
     LaneVector F(9 * pointCount());
     for (std::size_t b = begin; b < end; ++b) {
       if (byKernels) {

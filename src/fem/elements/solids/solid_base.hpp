@@ -145,7 +145,7 @@ private:
   void handOut(std::size_t batch, const Lane* forces, Slot&& slotOf, Sink&& sink) const;
   template <class Sink>
   void handOut(std::size_t batch, const Lane* forces, Sink&& sink) const;
-  std::size_t grain() const;
+  std::size_t chunkSize() const;
   void energies(const BatchTask& task, BatchResult& result);
   bool isKnown(const Nodes& nodes, const Instant& now) const;
   Totals totals(const Nodes& nodes, const Instant& now);

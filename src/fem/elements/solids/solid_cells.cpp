@@ -8,7 +8,7 @@ namespace dovetail::fem::detail {
 
 namespace {
 
-/// The share at a point from the nodes' values; exact where they are all the same.
+/// The fraction at a point from the nodes' values; exact where they are all the same.
 template <class NodeOf>
 double fractionAt(const SolidCells& cells, const double* value, NodeOf&& nodeOf) {
   if (cells.fraction.empty()) return 1.0;

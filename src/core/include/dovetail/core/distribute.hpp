@@ -28,13 +28,13 @@ namespace detail {
 /// buckets begin.
 inline std::vector<std::size_t> placesOf(std::vector<std::size_t>& counted, std::size_t tasks, std::size_t buckets) {
   std::vector<std::size_t> begin(buckets + 1, 0);
-  const std::size_t grain = std::max<std::size_t>(1, 8192 / std::max<std::size_t>(1, tasks));
-  parallelFor(buckets, grain, [&](std::size_t first, std::size_t last) {
+  const std::size_t chunkSize = std::max<std::size_t>(1, 8192 / std::max<std::size_t>(1, tasks));
+  parallelFor(buckets, chunkSize, [&](std::size_t first, std::size_t last) {
     for (std::size_t task = 0; task < tasks; ++task)
       for (std::size_t b = first; b < last; ++b) begin[b + 1] += counted[task * buckets + b];
   });
   for (std::size_t b = 0; b < buckets; ++b) begin[b + 1] += begin[b];
-  parallelFor(buckets, grain, [&](std::size_t first, std::size_t last) {
+  parallelFor(buckets, chunkSize, [&](std::size_t first, std::size_t last) {
     std::vector<std::size_t> next(begin.begin() + static_cast<std::ptrdiff_t>(first),
                                   begin.begin() + static_cast<std::ptrdiff_t>(last));
     for (std::size_t task = 0; task < tasks; ++task)

@@ -29,7 +29,7 @@ struct Momenta {
 };
 
 /// What has been given so far, by who gave it.
-class ImpulseBook {
+class ImpulseLedger {
 public:
   struct Channel {
     std::string name;
@@ -47,7 +47,7 @@ public:
   /// is another's by now
   void give(const std::string& name, const Momenta& impulse, int& number);
   /// Adds the channels of another book, each named prefix + its name.
-  void add(const std::string& prefix, const ImpulseBook& other);
+  void add(const std::string& prefix, const ImpulseLedger& other);
   const std::vector<Channel>& channels() const { return channels_; }
   /// Of all channels.
   Channel total() const;

@@ -39,20 +39,20 @@ int processors();
 void pretendProcessors(int count);
 }  // namespace detail
 
-/// Calls body(begin, end) over [0, n) in chunks of `grain` items; the chunks do not depend on the number of threads.
-/// A chunk should be worth 10 µs or more: a loop uses no more threads than it has chunks, and one chunk starts none.
-/// Who does a chunk is left open, so the body must write only to places that belong to its own items. If it throws,
-/// the exception of the lowest throwing chunk comes out, for any number of threads; later chunks may or may not have
-/// run.
+/// Calls body(begin, end) over [0, n) in chunks of `chunkSize` items; the chunks do not depend on the number of
+/// threads. A chunk should be worth 10 µs or more: a loop uses no more threads than it has chunks, and one chunk starts
+/// none. Who does a chunk is left open, so the body must write only to places that belong to its own items. If it
+/// throws, the exception of the lowest throwing chunk comes out, for any number of threads; later chunks may or may not
+/// have run.
 template <class Body>
-void parallelFor(std::size_t n, std::size_t grain, Body&& body) {
-  grain = std::max<std::size_t>(grain, 1);
-  if (n <= grain || threads() == 1) {
-    for (std::size_t begin = 0; begin < n; begin += grain) body(begin, std::min(begin + grain, n));
+void parallelFor(std::size_t n, std::size_t chunkSize, Body&& body) {
+  chunkSize = std::max<std::size_t>(chunkSize, 1);
+  if (n <= chunkSize || threads() == 1) {
+    for (std::size_t begin = 0; begin < n; begin += chunkSize) body(begin, std::min(begin + chunkSize, n));
     return;
   }
-  auto chunk = [&body, n, grain](std::size_t c) { body(c * grain, std::min((c + 1) * grain, n)); };
-  detail::runChunks((n + grain - 1) / grain, false, chunk);
+  auto chunk = [&body, n, chunkSize](std::size_t c) { body(c * chunkSize, std::min((c + 1) * chunkSize, n)); };
+  detail::runChunks((n + chunkSize - 1) / chunkSize, false, chunk);
 }
 
 /// Calls body(task) for task = 0 … n − 1, handed out one by one in this order to whoever is idle: for few costly tasks
@@ -69,38 +69,38 @@ void parallelTasks(std::size_t n, Body&& body) {
 namespace detail {
 /// Calls combine(value) with body(begin, end) of each chunk, in the order of the chunks.
 template <class Body, class Combine>
-void inOrderOfChunks(std::size_t n, std::size_t grain, Body&& body, Combine&& combine) {
+void inOrderOfChunks(std::size_t n, std::size_t chunkSize, Body&& body, Combine&& combine) {
   using Value = decltype(body(std::size_t{}, std::size_t{}));
   static_assert(!std::is_same_v<Value, bool>, "threads cannot write to neighbouring bits: count in an int");
-  grain = std::max<std::size_t>(grain, 1);
-  if (n <= grain || threads() == 1) {
-    for (std::size_t begin = 0; begin < n; begin += grain) combine(body(begin, std::min(begin + grain, n)));
+  chunkSize = std::max<std::size_t>(chunkSize, 1);
+  if (n <= chunkSize || threads() == 1) {
+    for (std::size_t begin = 0; begin < n; begin += chunkSize) combine(body(begin, std::min(begin + chunkSize, n)));
     return;
   }
   constexpr std::size_t few = 32;
-  const std::size_t chunks = (n + grain - 1) / grain;
+  const std::size_t chunks = (n + chunkSize - 1) / chunkSize;
   std::array<Value, few> onStack;
   std::vector<Value> onHeap(chunks > few ? chunks : 0);
   Value* const values = chunks > few ? onHeap.data() : onStack.data();
-  parallelFor(n, grain, [&](std::size_t begin, std::size_t end) { values[begin / grain] = body(begin, end); });
+  parallelFor(n, chunkSize, [&](std::size_t begin, std::size_t end) { values[begin / chunkSize] = body(begin, end); });
   for (std::size_t chunk = 0; chunk < chunks; ++chunk) combine(values[chunk]);
 }
 }  // namespace detail
 
 /// Sum over chunks of body(begin, end), added in the order of the chunks: bitwise the same for any number of threads.
 template <class Body>
-auto parallelSum(std::size_t n, std::size_t grain, Body&& body) {
+auto parallelSum(std::size_t n, std::size_t chunkSize, Body&& body) {
   decltype(body(std::size_t{}, std::size_t{})) total{};
-  detail::inOrderOfChunks(n, grain, body, [&](const auto& value) { total += value; });
+  detail::inOrderOfChunks(n, chunkSize, body, [&](const auto& value) { total += value; });
   return total;
 }
 
 /// Largest body(begin, end) of the chunks, NaN if one of them is; the lowest number of the type if n = 0.
 template <class Body>
-auto parallelMax(std::size_t n, std::size_t grain, Body&& body) {
+auto parallelMax(std::size_t n, std::size_t chunkSize, Body&& body) {
   using Value = decltype(body(std::size_t{}, std::size_t{}));
   Value largest = std::numeric_limits<Value>::lowest();
-  detail::inOrderOfChunks(n, grain, body, [&](Value value) {
+  detail::inOrderOfChunks(n, chunkSize, body, [&](Value value) {
     if (value > largest || value != value) largest = value;
   });
   return largest;

@@ -64,7 +64,7 @@ struct Totals {
 
   /// External contributions by source: gravity, walls and loads of the particles; supports and loads of every solid;
   /// particles that entered and left.
-  ImpulseBook given;
+  ImpulseLedger given;
   double massGained = 0.0;  ///< kg, by what entered and left
   /// Present value less that at the first start and all contributions: round-off for explicit solids and Newmark's
   /// steps to the tolerance of their solver; the angular part of Newmark's steps falls with dt². In periodic space,

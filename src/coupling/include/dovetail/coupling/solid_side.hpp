@@ -33,7 +33,7 @@ struct SolidSide {
   std::span<const Vec3> own;
 
   double supportWork = 0.0;  ///< J, by supports that move, in kicks by connectors
-  ImpulseBook outside;       ///< impulses of supports in kicks by connectors, and other external impulses
+  ImpulseLedger outside;     ///< impulses of supports in kicks by connectors, and other external impulses
 
   /// v += M⁻¹ impulse (kg m/s) of the free components, between the kicks of a step; books what supports take of it.
   /// @return M⁻¹ impulse, m/s

@@ -30,7 +30,7 @@ struct Bond {
 };
 
 /// Bonds all contacts that touch now; each bond carries what its contact carried. What that changes of the stored
-/// energy is booked (EnergyBook::bonds).
+/// energy is booked (RveLedger::bonds).
 /// @throws InputError for spheres, cells that are bonded already, or a law that is not valid
 void bond(Rve& cell, const BondLaw& law);
 

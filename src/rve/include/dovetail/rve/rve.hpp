@@ -39,7 +39,7 @@ struct Contacts {
 };
 
 /// Energies (J) since the cell was made: what the boundary has put in, and where it has gone for good.
-struct EnergyBook {
+struct RveLedger {
   double work = 0.0;      ///< ∫ V σ : sym(L) dt, and what other springs store (setSprings)
   double friction = 0.0;  ///< slipping springs
   double damping = 0.0;   ///< of the fluctuations, and motion that relaxing has taken
@@ -60,7 +60,7 @@ struct CellState {
   Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();  ///< Σ f ⊗ b, J; f acts on i
   double remainingSkin = 0.0;                        ///< m that pairs may still approach before the list is made anew
   double criticalStep = 0.0;                         ///< s, bound that holds until then; elastic spheres: now
-  EnergyBook ledger;
+  RveLedger ledger;
 };
 
 struct Rve {

@@ -149,7 +149,7 @@ struct BondGroup {
   double youngsModulus = required, poissonRatio = required;
   double radiusRatio = 1.0;
   std::optional<double> tensileStrength, shearStrength;  ///< Pa; not given: they do not break
-  double momentContribution = 1.0, dampingTime = 0.0;    ///< share; s
+  double momentContribution = 1.0, dampingTime = 0.0;    ///< fraction; s
   bool contacts = true;                                  ///< whether bonded grains have contact forces as well
   std::string where;
 };

@@ -24,7 +24,7 @@ struct ContactFractions {
   /// Whether contacts of a particle did so in the evaluation before.
   bool acted(int particle) const;
 
-  /// Of the evaluation under way: contacts of a particle with overlaps and shares, one after the other.
+  /// Of the evaluation under way: contacts of a particle with overlaps and fractions, one after the other.
   void begin();
   void add(int particle, double weight, double overlap, double fraction);
   /// @param particle, energy  of the contacts that act, J

@@ -50,10 +50,10 @@ template <class Law>
 ContactSample samplePairs(const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws) {
   requireMemory(list, Law::memory);
   constexpr double noTime = 1e-100;  // so short a step that no memory advances
-  constexpr std::size_t atOnce = 64, grain = 16 * atOnce;
-  std::vector<ContactSample> parts((list.size() + grain - 1) / grain);
-  parallelFor(list.size(), grain, [&](std::size_t begin, std::size_t end) {
-    ContactSample& part = parts[begin / grain];
+  constexpr std::size_t atOnce = 64, chunkSize = 16 * atOnce;
+  std::vector<ContactSample> parts((list.size() + chunkSize - 1) / chunkSize);
+  parallelFor(list.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
+    ContactSample& part = parts[begin / chunkSize];
     reserve(part, end - begin);
     for (std::size_t first = begin; first < end;) {
       const std::size_t left = end - first, rounds = std::max<std::size_t>(left / atOnce, 1);

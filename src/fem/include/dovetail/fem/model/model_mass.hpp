@@ -18,9 +18,9 @@ namespace dovetail::fem {
 /// @throws InputError unless 0 ≤ d ≤ h and h > 0
 double matchedFraction(double spacing, double elementSize);
 
-/// M = share · consistent + (1 − share) · lumped, one number per pair of nodes, and its inverse for the free
+/// M = fraction · consistent + (1 − fraction) · lumped, one number per pair of nodes, and its inverse for the free
 /// components, (TᵀMT)⁻¹: a division for lumped masses that no tie couples, else a solver per distinct set of held nodes
-/// that is made on first use. A share between dissipates nothing and sets the dispersion (matchedFraction).
+/// that is made on first use. A fraction between dissipates nothing and sets the dispersion (matchedFraction).
 ///
 /// The inverse uses work space of its own: one object serves one thread at a time.
 class ModelMass {
@@ -64,7 +64,7 @@ private:
   double fraction_;
   std::vector<double> mass_;     // lumped, kg per node
   std::vector<double> inverse_;  // empty unless M⁻¹ is a division
-  linalg::NodeMatrix matrix_;    // share · consistent + (1 − share) · lumped; empty if lumped
+  linalg::NodeMatrix matrix_;    // fraction · consistent + (1 − fraction) · lumped; empty if lumped
   mutable std::vector<Factor> factors_;
   mutable linalg::BlockMatrix tied_;  // with ties
   mutable std::unique_ptr<LinearSolver> tiedSolver_;

@@ -47,7 +47,7 @@ public:
 
   Motion motion;
   ModelLedger ledger;
-  ImpulseBook impulses;  ///< of supports and of the terms but the elements, in kicks that are booked
+  ImpulseLedger impulses;  ///< of supports and of the terms but the elements, in kicks that are booked
 
 private:
   void findForces(double h, bool withEnergies);

@@ -169,7 +169,7 @@ public:
   double kineticEnergy() const;
   /// What supports and the terms but the elements have given, if there is a ledger: the means of both ends of a step
   /// (conserving: the force of the step) at the mean positions.
-  const ImpulseBook& impulses() const;
+  const ImpulseLedger& impulses() const;
   /// M v in total, kg m/s, and its moment about the origin, kg m²/s, with the mass in use.
   Vec3 momentum() const;
   Vec3 angularMomentum() const;
