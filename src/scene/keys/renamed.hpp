@@ -19,7 +19,7 @@ inline constexpr std::array renamed = {
     Renamed{Renamed::Kind::key, "stages", "windows", "macro_steps", "0.1"},
     Renamed{Renamed::Kind::word, "stages.do", "settle", "relax", "0.1"},
     Renamed{Renamed::Kind::key, "solids", "mass_share", "consistent_mass", "0.1"},
-    Renamed{Renamed::Kind::key, "overlaps", "take_over", "initial_equilibrium", "0.1"},
+    Renamed{Renamed::Kind::key, "couplings", "take_over", "initial_equilibrium", "0.1"},
     Renamed{Renamed::Kind::column, "series", "brought_to_rest_J", "kinetic_damping_J", "0.1"},
     Renamed{Renamed::Kind::column, "series", "particles_lifted_by_periods_minus_J",
             "particles_gravity_work_across_periods_minus_J", "0.1"},
