@@ -1,6 +1,9 @@
 // Scenes with names of earlier versions.
+#include <nlohmann/json.hpp>
+
 #include "../../src/scene/keys/renamed.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/scene/read.hpp"
 #include "dovetail/scene/upgrade.hpp"
 #include "refusal.hpp"
 #include "scene_parts.hpp"
@@ -52,6 +55,17 @@ TEST(SceneUpgrade, KnowsEveryRow) {
     const std::string key = isWord ? std::string(one.within.substr(holder.size() + 1)) : std::string(one.was);
     const std::string text = "{\"" + holder + "\": {\"" + key + "\": \"" + std::string(one.was) + "\"}}";
     EXPECT_EQ(upgraded(text, "s.json").changes.size(), 1U) << text;
+  }
+}
+
+/// New names of keys and words are known where the table says that they are.
+TEST(SceneUpgrade, LeadsToNamesThatScenesHave) {
+  const nlohmann::json schema = nlohmann::json::parse(schemaText());
+  for (const Renamed& one : renamed) {
+    if (one.kind == Renamed::Kind::column) continue;
+    const std::string holder(one.within.substr(0, one.within.find('.')));
+    const std::string known = schema.at("properties").at(holder).dump();
+    EXPECT_NE(known.find('"' + std::string(one.is) + '"'), std::string::npos) << holder << ' ' << one.is;
   }
 }
 
