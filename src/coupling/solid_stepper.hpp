@@ -26,7 +26,7 @@ public:
   NodalLoad macroLoad;        ///< N: what constraints do in both half macro steps around their ends
   ImpulseLedger::Channel loads{"connectors", {}};  ///< what they have given
 
-  /// Forces at the start; the ledger of what was before are kept as one sum. @param dt  of particles, s @param K  steps
+  /// Forces at the start; the ledger of earlier steps is kept as one sum. @param dt  of particles, s @param K  steps
   /// per macro step
   virtual void start(double dt, int K) = 0;
   /// The half macro step's kick by its own forces, at the macro step's begin. @param sampled  energies will be asked

@@ -78,7 +78,7 @@ TEST(EnergyScene, StaysBoundedOverManyBounces) {
 }
 
 /// What a dashpot takes in a kick is booked in equal parts with the velocities before and after, as the evaluations at
-/// its ends see them: while a contact lasts the ledger are half a step behind. Between evaluations implicit solids
+/// its ends see them: while a contact lasts the ledger is half a step behind. Between evaluations implicit solids
 /// jump.
 TEST(EnergyLost, DashpotsCloseTheLedger) {
   for (const int K : {1, 3})

@@ -43,7 +43,7 @@ std::vector<StepLimit> limitsOfParts(Built& built, const Scene& scene) {
 }
 
 /// Stability asks for no more than two steps in an impact, which then knows nothing of its energy. A fifth of its limit
-/// gives it eight, and the ledger are right to a twentieth of what changes hands. Bonded springs last: infinite.
+/// gives it eight, and the ledger is right to a twentieth of what changes hands. Bonded springs last: infinite.
 Impact resolvedImpact(const Built& built, const Scene& scene) {
   constexpr double shareOfImpact = 0.2;
   const dem::Model& grains = built.run->grains;
