@@ -54,6 +54,12 @@ TEST_F(SceneInclude, WhatIsIncludedTwiceCountsOnce) {
   EXPECT_EQ(readScene(folder / "b.json").walls.size(), 1U);
 }
 
+TEST_F(SceneInclude, LaterVersionsAreRefused) {
+  write("later.json", R"({"version": "99.0", "gravity": [0, 0, -1]})");
+  write("mine.json", R"({"include": ["later.json"], "version": "0.1", )" + stages + "}");
+  expectParts(refusal("mine.json"), {"written for Dovetail 99.0", "later.json:1:13"});
+}
+
 TEST_F(SceneInclude, SettingsIncludeToo) {
   write("light.json", R"({"gravity": [0, 0, -1]})");
   write("mine.json", "{" + stages + "}");

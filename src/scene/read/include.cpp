@@ -8,6 +8,7 @@
 #include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/plain_text.hpp"
+#include "keys/known_version.hpp"
 
 namespace dovetail::scene {
 
@@ -80,6 +81,7 @@ private:
     Node scene = parseJson(textOfScene(file, placeName(name_, item.place) + ", include"), file.string());
     if (scene.kind != Node::Kind::object)
       refuse(item, file.string() + " holds " + nameOf(scene) + " where an object is expected", "write { … } there");
+    requireKnownVersion(scene, file.string());
     const auto own = std::make_shared<const fs::path>(file);
     forEachPlace(scene, [&](Place& place) { place.file = own; });
     chain_.push_back(same);
