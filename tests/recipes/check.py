@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""check.py NAME PROGRAM SCENES FOLDER: runs the scene of a recipe and compares it with the calculation by hand of its page."""
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+
+class Run:
+    """What a run has written: its complete scene, and its series by column."""
+
+    def __init__(self, program, scene, folder, changes=()):
+        command = [program, "run", str(scene), "--out", str(folder), "--replace"]
+        for change in changes:
+            command += ["--set", change]
+        said = subprocess.run(command, capture_output=True, text=True)
+        if said.returncode != 0:
+            sys.exit(f"{scene}: exit status {said.returncode}\n{said.stdout}\n{said.stderr}")
+        text = (folder / "scene.json").read_text()
+        self.scene = json.loads("\n".join(line for line in text.splitlines() if not line.startswith("//")))
+        self.summary = json.loads((folder / "summary.json").read_text())
+        with open(folder / "series.csv") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        self.column = {name: [float(row[name]) for row in rows] for name in rows[0]}
+
+    def last(self, name):
+        return self.column[name][-1]
+
+    def time_at(self, values, level):
+        """First instant at which values reach a level, between rows by linear interpolation."""
+        t = self.column["time_s"]
+        i = next(i for i, value in enumerate(values) if value >= level)
+        return t[i - 1] + (level - values[i - 1]) / (values[i] - values[i - 1]) * (t[i] - t[i - 1])
+
+
+failures = []
+
+
+def compare(what, value, by_hand, band):
+    """Prints a line, and notes a failure where |value/by_hand - 1| exceeds the band."""
+    off = value / by_hand - 1.0
+    print(f"{what}: {value:.6g}, by hand {by_hand:.6g}, {100 * off:+.3g} % (band {100 * band:.3g} %)")
+    if not abs(off) <= band:
+        failures.append(what)
+
+
+def beam(run):
+    r = run("beam.json", 'height="36 mm"', "stages.0.kinetic=1e-6")
+    solid = r.scene["solids"][0]
+    (x0, y0, z0), (x1, y1, z1) = solid["box"]
+    length, width, depth, modulus = x1 - x0, y1 - y0, z1 - z0, solid["material"]["youngs_modulus"]
+    of_beam = solid["material"]["density"] * length * width * depth
+    weight = 9.81 * (r.summary["momentum"]["mass_kg"] - of_beam)
+    compare("force on the beam", -r.last("on_beam_z_N"), weight, 1e-3)
+    compare("force of the supports", r.last("left_z_N") + r.last("right_z_N"), weight, 1e-3)
+    bending = 5 * weight * length**3 / (384 * modulus * width * depth**3 / 12)
+    shear = weight * length / 8 / (5 / 6 * width * depth * modulus / 2)
+    compare("sag", -r.last("middle_uz_m"), bending + shear, 0.02)
+
+
+def wave(run):
+    r = run("wave.json")
+    modulus, d, v0 = 1e8, 0.4, 0.05
+    density = 2500 * math.pi / 6
+    c = math.sqrt(modulus / density)
+    period = 8.86 * d / c
+    end = v0 * period
+    start = r.column["grain_y_m"][0]
+    for name, place, values in (
+        ("grain", start, [y - start for y in r.column["grain_y_m"]]),
+        ("near", 13.2, r.column["near_uy_m"]),
+        ("far", 16.0, r.column["far_uy_m"]),
+    ):
+        compare(f"arrival, {name}", r.time_at(values, 0.5 * end), 0.5 * period + (place - 0.2) / c, 0.012)
+        if name != "far":
+            compare(f"displacement, {name}", values[-1], end, 0.003)
+    energy = r.last("bar_kinetic_J") + r.last("bar_elements_J")
+    compare("energy of the pulse", energy, 1.5 * density * 4 * d * d * c * v0**2 * period, 0.03)
+    echo = r.last("particles_kinetic_J") + r.last("particles_contacts_J")
+    print(f"echo: {echo / energy:.3g} of the energy")
+    if not echo < 1e-3 * energy:
+        failures.append("echo")
+
+
+def main():
+    name, program, scenes, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
+    folder.mkdir(parents=True, exist_ok=True)
+    runs = iter(range(100))
+    globals()[name](lambda scene, *changes: Run(program, scenes / scene, folder / str(next(runs)), changes))
+    if failures:
+        sys.exit("beyond the band: " + ", ".join(failures))
+
+
+main()
