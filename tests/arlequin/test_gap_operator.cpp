@@ -144,11 +144,16 @@ TEST(GapOperator, ForcesBalanceAlwaysAndMomentsInTheFormAtTheParticles) {
 
 TEST(GapOperator, NarrowKernelsAreTheLocalMap) {
   const Still s = makeL(1);
-  const GapOperator local = operatorOf(s, GapForm::atParticles, 0.0),
-                    narrow = operatorOf(s, GapForm::atParticles, 1e-3);
-  ASSERT_EQ(local.rows(), narrow.rows());
-  for (std::size_t k = 0; k < local.particles.weight.size(); ++k)
-    EXPECT_NEAR(local.particles.weight[k], narrow.particles.weight[k], 1e-12);
+  const GapOperator local = operatorOf(s, GapForm::atParticles, 0.0);
+  for (const bool normalised : {true, false}) {
+    const GapOperator narrow =
+        makeGapOperator(s.overlap, s.mesh, masses(s), GapForm::atParticles,
+                        {.width = 1e-3, .kernel = cg::KernelShape::lucy, .normaliseKernels = normalised});
+    ASSERT_EQ(local.rows(), narrow.rows());
+    ASSERT_EQ(local.particles.weight.size(), narrow.particles.weight.size());
+    for (std::size_t k = 0; k < local.particles.weight.size(); ++k)
+      EXPECT_NEAR(local.particles.weight[k], narrow.particles.weight[k], 1e-12);
+  }
 }
 
 TEST(GapOperator, NormalisedKernelsSpreadAnEvenLoadEvenly) {

@@ -68,16 +68,16 @@ void addLocalRows(const Overlap& overlap, const fem::SolidMesh& mesh, std::span<
 void addKernelRows(const Overlap& overlap, const fem::SolidMesh& mesh, std::span<const Vec3> position,
                    std::span<const double> mass, const ProjectionOptions& options, const RowNumbers& row, Rows& rows) {
   const Rows integrals = kernelIntegrals(overlap, mesh, position, options, row, rows.size());
-  // What each particle's kernel amounts to within the overlap; 1 if kernels are not normalised there.
-  std::vector<double> whole(overlap.size(), options.normaliseKernels ? 0.0 : 1.0);
-  if (options.normaliseKernels)
-    for (const cg::ProjectionRow& each : integrals)
-      for (const auto& [k, value] : each) whole[static_cast<std::size_t>(k)] += value;
+  // What each particle's kernel amounts to within the overlap.
+  std::vector<double> whole(overlap.size(), 0.0);
+  for (const cg::ProjectionRow& each : integrals)
+    for (const auto& [k, value] : each) whole[static_cast<std::size_t>(k)] += value;
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (const auto& [k, value] : integrals[r]) {
       const auto at = static_cast<std::size_t>(k);
       if (value > 0.0)
-        rows[r].emplace_back(k, mass[static_cast<std::size_t>(overlap.particle[at])] * value / whole[at]);
+        rows[r].emplace_back(k, mass[static_cast<std::size_t>(overlap.particle[at])] * value /
+                                    (options.normaliseKernels ? whole[at] : 1.0));
     }
   // A kernel so narrow that it falls between the points of the quadrature is the local map.
   for (std::size_t k = 0; k < overlap.size(); ++k)
