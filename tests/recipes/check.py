@@ -84,6 +84,17 @@ def wave(run):
         failures.append("echo")
 
 
+def repose(run):
+    r = run("repose.json", "time=2.2")
+    base, d, half = 72, 0.01, 0.12
+    mass = r.summary["momentum"]["mass_kg"] - base * 2500 * math.pi / 6 * d**3
+    q = r.last("inner_particles") / r.last("all_particles")
+    edge = (3 - 4 * q) / (4 * q - 1)
+    height = 3 * (r.last("particles_gravity_J") / mass / 9.81 - 0.5 * d) * (1 + edge) / (1 + edge + edge * edge)
+    compare("angle of repose", math.degrees(math.atan((1 - edge) * height / half)), 28.0, 4 / 28)
+    compare("height at the edges over 1.25 diameters", edge * height, 1.25 * d, 0.6)
+
+
 def main():
     name, program, scenes, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
     folder.mkdir(parents=True, exist_ok=True)
